@@ -1,0 +1,232 @@
+# Triptych's build: `make help` lists the targets.
+#
+# Sources are found, never listed: src/tool/**/*.c is the command; every other src/**/*.c, emu/*.c and
+# asm/**/*.asm is the library; every tests/**/*.c outside tests/support/ is one Unity program with its own main.
+# Everything built goes to $(BUILD). What is fetched or linked in from the system (the Unity sources, the glmark2
+# assets) goes to build/ whatever BUILD is, because draw streams name their assets through build/glmark2.
+# `make test` runs this file again for each variant: plain, clang (CC=clang), sanitize (SANITIZE=1).
+
+VERSION := 0.1.0
+SONAME  := libtriptych.so.$(firstword $(subst ., ,$(VERSION)))
+
+ifeq ($(origin CC),default)
+CC := gcc
+endif
+NASM      ?= nasm
+AR        ?= ar
+PREFIX    ?= /usr/local
+BUILD     ?= build
+UNITY_DIR ?= build/unity
+
+.DEFAULT_GOAL := all
+.DELETE_ON_ERROR:
+.SUFFIXES:
+MAKEFLAGS += --no-builtin-rules --no-print-directory
+
+# --- Sources -------------------------------------------------------------------------------------------------
+
+find = $(sort $(shell find $(1) -name '$(2)' 2>/dev/null))
+
+C_SOURCES       := $(call find,src emu,*.c)
+TOOL_SOURCES    := $(filter src/tool/%,$(C_SOURCES))
+LIBRARY_SOURCES := $(filter-out $(TOOL_SOURCES),$(C_SOURCES)) $(call find,asm,*.asm)
+TEST_SOURCES    := $(call find,tests,*.c)
+SUPPORT_SOURCES := $(filter tests/support/%,$(TEST_SOURCES))
+PROGRAM_SOURCES := $(filter-out $(SUPPORT_SOURCES),$(TEST_SOURCES))
+UNITY_SOURCE    := $(or $(firstword $(wildcard $(UNITY_DIR)/unity.c)),$(UNITY_DIR)/src/unity.c)
+
+object = $(patsubst %,$(BUILD)/object/%.o,$(basename $(1)))
+
+LIBRARY_OBJECTS := $(call object,$(LIBRARY_SOURCES))
+TOOL_OBJECTS    := $(call object,$(TOOL_SOURCES))
+SUPPORT_OBJECTS := $(call object,$(SUPPORT_SOURCES))
+PROGRAM_OBJECTS := $(call object,$(PROGRAM_SOURCES))
+OBJECTS         := $(LIBRARY_OBJECTS) $(TOOL_OBJECTS) $(SUPPORT_OBJECTS) $(PROGRAM_OBJECTS)
+
+# ONLY=text keeps the test programs whose path contains the text.
+PROGRAMS := $(foreach p,$(PROGRAM_SOURCES:%.c=$(BUILD)/%),$(if $(ONLY),$(if $(findstring $(ONLY),$(p)),$(p)),$(p)))
+COMMAND  := $(if $(TOOL_SOURCES),$(BUILD)/triptych)
+
+# --- Flags ---------------------------------------------------------------------------------------------------
+
+# Asked of pkg-config on first use and not before: `make test` installs pkg-config itself.
+LIBRARY_PACKAGES := libpng OpenEXR libxxhash
+TOOL_PACKAGES    := libcjson assimp
+package_includes = $(eval package_includes := $(patsubst -I%,-isystem %,$(filter -I%,\
+  $(shell pkg-config --cflags $(LIBRARY_PACKAGES) $(TOOL_PACKAGES)))))$(package_includes)
+library_packages = $(eval library_packages := $(shell pkg-config --libs $(LIBRARY_PACKAGES)))$(library_packages)
+tool_packages    = $(eval tool_packages := $(shell pkg-config --libs $(TOOL_PACKAGES)))$(tool_packages)
+
+# OpenEXR.pc names the C++ libraries too; only the C core is used. Zydis has no .pc file in Debian.
+library_libraries = $(filter-out -lOpenEXR-% -lOpenEXRUtil% -lIex% -lIlmThread% -lImath%,$(library_packages)) \
+  -lZydis -lZycore -pthread -lm
+tool_libraries = $(tool_packages) $(library_libraries)
+
+ifdef SANITIZE
+# gcc's flow warnings are wrong about instrumented code; the plain and clang builds are the ones that warn.
+CFLAGS    ?= -O1 -g
+SANITIZER := -fsanitize=address,undefined -fno-sanitize-recover=all -fno-omit-frame-pointer -Wno-maybe-uninitialized
+else
+CFLAGS    ?= -O2 -g
+endif
+
+compile = $(CC) -std=gnu17 $(CFLAGS) -Wall -Wextra -Werror -ffp-contract=off -fPIC -fvisibility=hidden -pthread \
+  $(SANITIZER) -Isrc -I. $(package_includes) $(CPPFLAGS)
+link = $(CC) $(CFLAGS) $(SANITIZER) -pthread -Wl,--as-needed,-z,relro,-z,now $(LDFLAGS)
+
+# An object without this note makes the whole program's stack executable; every assembly file gets it from here.
+assemble = $(NASM) -f elf64 -g -F dwarf -Werror -Iasm/ \
+  --before 'section .note.GNU-stack noalloc noexec nowrite progbits' --before 'section .text'
+
+# Unity leaves double-precision assertions out unless asked.
+unity_flags = -isystem $(dir $(UNITY_SOURCE)) -DUNITY_INCLUDE_DOUBLE
+
+# --- What to build -------------------------------------------------------------------------------------------
+
+.PHONY: all programs check test bench dependencies packages install clean format format-check help FORCE
+
+all: $(BUILD)/libtriptych.a $(if $(SANITIZE),,$(BUILD)/libtriptych.so $(BUILD)/triptych.pc) $(COMMAND) build/glmark2
+
+programs: $(PROGRAMS)
+
+# Starts a recipe line: a short note in place of the command, or the command itself with V=1.
+say = $(if $(V),,@printf '  %-4s  %s\n' $(1) $(or $(2),$@);)
+
+$(BUILD)/object/%.o: %.c $(BUILD)/flags
+	@mkdir -p $(@D)
+	$(call say,CC,$<)$(compile) -MMD -MP -c $< -o $@
+
+$(BUILD)/object/%.o: %.asm $(BUILD)/flags
+	@mkdir -p $(@D)
+	$(call say,NASM,$<)$(assemble) -MD $(@:.o=.d) -MP -MT $@ $< -o $@
+
+$(SUPPORT_OBJECTS) $(PROGRAM_OBJECTS): private CPPFLAGS += $(unity_flags)
+$(SUPPORT_OBJECTS) $(PROGRAM_OBJECTS): | $(UNITY_SOURCE)
+
+$(BUILD)/object/unity.o: $(UNITY_SOURCE) $(BUILD)/flags
+	@mkdir -p $(@D)
+	$(call say,CC,$<)$(compile) -w $(unity_flags) -c $< -o $@
+
+# Archives are written anew, so that an object whose source is gone is gone too; the lists notice the removal.
+$(BUILD)/libtriptych.a: $(LIBRARY_OBJECTS) $(BUILD)/library.list
+$(BUILD)/command.a: $(TOOL_OBJECTS) $(BUILD)/command.list
+$(BUILD)/libtriptych.a $(BUILD)/command.a:
+	$(call say,AR)rm -f $@ && $(AR) rcs $@ $(filter %.o,$^)
+
+# The map keeps the assembly's symbols inside; -z,text refuses code that would have to be patched when loaded.
+$(BUILD)/$(SONAME): $(LIBRARY_OBJECTS) $(BUILD)/library.list src/triptych.map
+	$(call say,LD)$(link) -shared -Wl,-soname,$(SONAME),-z,defs,-z,text \
+	  -Wl,--version-script=src/triptych.map $(LIBRARY_OBJECTS) $(library_libraries) -o $@
+
+$(BUILD)/libtriptych.so: $(BUILD)/$(SONAME)
+	@ln -sf $(SONAME) $@
+
+# The archive of the command lets a test link the command's parts without its main.
+$(BUILD)/triptych: $(TOOL_OBJECTS) $(BUILD)/libtriptych.a $(BUILD)/command.list
+	$(call say,LD)$(link) $(TOOL_OBJECTS) $(BUILD)/libtriptych.a $(tool_libraries) -o $@
+
+$(PROGRAMS): $(BUILD)/tests/%: $(BUILD)/object/tests/%.o $(SUPPORT_OBJECTS) $(BUILD)/object/unity.o \
+  $(BUILD)/command.a $(BUILD)/libtriptych.a
+	@mkdir -p $(@D)
+	$(call say,LD)$(link) $(filter %.o,$^) $(filter %.a,$^) $(tool_libraries) -o $@
+
+# Files that hold a text and are rewritten only when it changes.
+$(BUILD)/flags: text = $(compile) $(link) $(assemble)
+$(BUILD)/library.list: text = $(LIBRARY_OBJECTS)
+$(BUILD)/command.list: text = $(TOOL_OBJECTS)
+$(BUILD)/flags $(BUILD)/library.list $(BUILD)/command.list: FORCE
+	@mkdir -p $(@D)
+	@printf '%s\n' "$(text)" | cmp -s - $@ || printf '%s\n' "$(text)" >$@
+
+define pkgconfig
+prefix=$(PREFIX)
+libdir=$${prefix}/lib
+includedir=$${prefix}/include
+
+Name: triptych
+Description: one graphics pipeline run by three execution engines with identical results
+Version: $(VERSION)
+Libs: -L$${libdir} -ltriptych
+Libs.private: $(library_libraries)
+Cflags: -I$${includedir}
+endef
+export pkgconfig
+
+$(BUILD)/triptych.pc: Makefile FORCE
+	@mkdir -p $(@D)
+	@printf '%s\n' "$$pkgconfig" | cmp -s - $@ || printf '%s\n' "$$pkgconfig" >$@
+
+build/glmark2:
+	@mkdir -p build
+	@ln -sfn /usr/share/glmark2 $@
+
+build/unity/src/unity.c:
+	@tests/support/unity.sh build/unity
+
+# --- What to do ----------------------------------------------------------------------------------------------
+
+jobs = $(if $(findstring jobserver,$(MAKEFLAGS)),,-j$(shell nproc))
+
+dependencies:
+	@tests/support/dependencies.sh build test bench format
+
+packages:
+	@tests/support/dependencies.sh --list
+
+check:
+	+@$(MAKE) $(jobs) all programs
+	@tests/support/run.sh '$(ONLY)' $(BUILD)
+
+test:
+	@tests/support/dependencies.sh build test
+	+@$(MAKE) $(jobs) all programs
+	+@$(MAKE) $(jobs) BUILD=$(BUILD)/clang CC=clang all programs
+	+@$(MAKE) $(jobs) BUILD=$(BUILD)/sanitize SANITIZE=1 all programs
+	@tests/support/run.sh '$(ONLY)' $(BUILD) $(BUILD)/sanitize
+
+bench:
+	@tests/support/dependencies.sh build bench
+	+@$(MAKE) $(jobs) all
+	@BUILD=$(BUILD) bench/run.sh
+
+install: all
+	install -d $(DESTDIR)$(PREFIX)/bin $(DESTDIR)$(PREFIX)/include $(DESTDIR)$(PREFIX)/lib/pkgconfig
+	install -m 755 $(COMMAND) $(DESTDIR)$(PREFIX)/bin/
+	install -m 644 src/triptych.h $(DESTDIR)$(PREFIX)/include/
+	install -m 644 $(BUILD)/libtriptych.a $(BUILD)/$(SONAME) $(DESTDIR)$(PREFIX)/lib/
+	ln -sf $(SONAME) $(DESTDIR)$(PREFIX)/lib/libtriptych.so
+	install -m 644 $(BUILD)/triptych.pc $(DESTDIR)$(PREFIX)/lib/pkgconfig/
+
+clean:
+	rm -rf $(BUILD)
+
+FORMATTED = $(call find,src emu tests,*.[ch])
+
+format:
+	@tests/support/dependencies.sh format
+	clang-format -i $(FORMATTED)
+
+format-check:
+	@tests/support/dependencies.sh format
+	clang-format --dry-run --Werror $(FORMATTED)
+
+define help
+make                 the library (static and shared) and the command, in $(BUILD)/
+make test            everything that is tested, from a bare Debian on; ends with "N passed, N failed"
+make check           the same tests on the plain build only
+make bench           the measurements, from a bare Debian on; writes results/
+make install         PREFIX=$(PREFIX) DESTDIR=$(DESTDIR)
+make dependencies    install every Debian package that any target needs
+make packages        what those packages are and what each is for
+make format          clang-format over the C sources; format-check only looks
+make clean           remove $(BUILD)/
+
+BUILD=dir  CC=clang  SANITIZE=1  V=1 (show commands)  ONLY=text (tests whose path contains it)
+CFLAGS=... (optimisation and debugging only)  UNITY_DIR=dir (a Unity checkout instead of the fetched one)
+endef
+export help
+
+help:
+	@printf '%s\n' "$$help"
+
+-include $(OBJECTS:.o=.d)
