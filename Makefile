@@ -44,7 +44,7 @@ PROGRAM_OBJECTS := $(call object,$(PROGRAM_SOURCES))
 OBJECTS         := $(LIBRARY_OBJECTS) $(TOOL_OBJECTS) $(SUPPORT_OBJECTS) $(PROGRAM_OBJECTS)
 
 # ONLY=text keeps the test programs whose path contains the text.
-PROGRAMS := $(foreach p,$(PROGRAM_SOURCES:%.c=$(BUILD)/%),$(if $(ONLY),$(if $(findstring $(ONLY),$(p)),$(p)),$(p)))
+PROGRAMS := $(patsubst %.c,$(BUILD)/%,$(if $(ONLY),$(foreach s,$(PROGRAM_SOURCES),$(if $(findstring $(ONLY),$(s)),$(s))),$(PROGRAM_SOURCES)))
 COMMAND  := $(if $(TOOL_SOURCES),$(BUILD)/triptych)
 
 # --- Flags ---------------------------------------------------------------------------------------------------

@@ -21,7 +21,7 @@ command -v apt-get >/dev/null || stop 'no apt-get to fetch Unity with'
 mkdir -p "$(dirname "$target")"
 work=$(mktemp -d "$(dirname "$(realpath -m "$target")")/unity.XXXXXX")
 trap 'rm -rf "$work"' EXIT
-mkdir -p "$work"/{state/lists/partial,cache/archives/partial,sources,download,unpacked/src}
+mkdir -p "$work"/{state/lists/partial,cache/archives/partial,sources,download,unpacked}
 
 # --- The machine's Debian sources, as deb-src ---------------------------------------------------------------
 # Kept: entries with a component "main" of this release, its updates or its security updates. That leaves out
@@ -97,7 +97,7 @@ fi
 
 archives=("$work"/download/cjson_*.orig.tar.*[!c])
 ((${#archives[@]})) || stop 'the source package of cJSON has no upstream archive'
-tar -xf "${archives[0]}" -C "$work/unpacked" --wildcards --strip-components=3 '*/tests/unity/*'
+tar -xf "${archives[0]}" -C "$work/unpacked" --wildcards --strip-components=3 '*/tests/unity/src/*'
 [[ -f $work/unpacked/src/unity.c ]] || stop "no tests/unity/src/unity.c in ${archives[0]##*/}"
 
 # Renaming is the last step, so that an interrupted fetch leaves nothing that looks complete.
