@@ -99,7 +99,7 @@ enum vector_rounding {
 enum {
     X86_NONE = 0xFF,      /* no base, no index */
     X86_RIP_LABEL = 0xFE, /* base: the address of `label` */
-    ENCODER_SLACK = 32,   /* free bytes an instruction asks for; the longest is 15 */
+    ENCODER_SLACK = 16,   /* free bytes an instruction asks for; the longest is 15 */
     LABEL_UNBOUND = -1,
 };
 
@@ -140,14 +140,14 @@ struct encoder {
     enum encoder_failure failure;
 };
 
-static inline struct address address_at(enum gpr base, int32_t displacement)
+static inline struct address address_at(unsigned base, int32_t displacement)
 {
     return (struct address){
         .base = (uint8_t)base, .index = X86_NONE, .scale = 1, .displacement = displacement};
 }
 
 /* `index` is a gpr, or a vector register's number for a gather. */
-static inline struct address address_indexed(enum gpr base, unsigned index, unsigned scale,
+static inline struct address address_indexed(unsigned base, unsigned index, unsigned scale,
                                              int32_t displacement)
 {
     return (struct address){.base = (uint8_t)base,
