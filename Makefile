@@ -78,8 +78,8 @@ link = $(CC) $(CFLAGS) $(SANITIZER) -pthread -Wl,--as-needed,-z,relro,-z,now $(L
 assemble = $(NASM) -f elf64 -g -F dwarf -Werror -Iasm/ \
   --before 'section .note.GNU-stack noalloc noexec nowrite progbits' --before 'section .text'
 
-# Unity leaves double-precision assertions out unless asked.
-unity_flags = -isystem $(dir $(UNITY_SOURCE)) -DUNITY_INCLUDE_DOUBLE
+# Unity has no double-precision assertions unless asked; flushing after each test keeps a crashing program's passes.
+unity_flags = -isystem $(dir $(UNITY_SOURCE)) -DUNITY_INCLUDE_DOUBLE -DUNITY_USE_FLUSH_STDOUT
 
 # --- What to build -------------------------------------------------------------------------------------------
 
@@ -131,7 +131,7 @@ $(PROGRAMS): $(BUILD)/tests/%: $(BUILD)/object/tests/%.o $(SUPPORT_OBJECTS) $(BU
 	$(call say,LD)$(link) $(filter %.o,$^) $(filter %.a,$^) $(tool_libraries) -o $@
 
 # Files that hold a text and are rewritten only when it changes.
-$(BUILD)/flags: text = $(compile) $(link) $(assemble)
+$(BUILD)/flags: text = $(compile) $(unity_flags) $(link) $(assemble)
 $(BUILD)/library.list: text = $(LIBRARY_OBJECTS)
 $(BUILD)/command.list: text = $(TOOL_OBJECTS)
 $(BUILD)/flags $(BUILD)/library.list $(BUILD)/command.list: FORCE
@@ -150,11 +150,10 @@ Libs: -L$${libdir} -ltriptych
 Libs.private: $(library_libraries)
 Cflags: -I$${includedir}
 endef
-export pkgconfig
 
 $(BUILD)/triptych.pc: Makefile FORCE
 	@mkdir -p $(@D)
-	@printf '%s\n' "$$pkgconfig" | cmp -s - $@ || printf '%s\n' "$$pkgconfig" >$@
+	@$(file >$@.new,$(pkgconfig))cmp -s $@.new $@ && rm $@.new || mv $@.new $@
 
 build/glmark2:
 	@mkdir -p build
@@ -224,9 +223,8 @@ make clean           remove $(BUILD)/
 BUILD=dir  CC=clang  SANITIZE=1  V=1 (show commands)  ONLY=text (tests whose path contains it)
 CFLAGS=... (optimisation and debugging only)  UNITY_DIR=dir (a Unity checkout instead of the fetched one)
 endef
-export help
 
 help:
-	@printf '%s\n' "$$help"
+	@$(info $(help)):
 
 -include $(OBJECTS:.o=.d)

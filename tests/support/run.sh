@@ -28,16 +28,22 @@ run_one() # NUMBER BUILD TEST : reports, and leaves "PASSED FAILED" in the resul
 {
     local output=$results/$1.output build=$2 test=$3 status=0 started=$SECONDS
     local good bad honest trouble=
+    local -a program=("$build/${test%.c}")
+    local limit=300
     if [[ $test == *.sh ]]; then
+        program=("$test") limit=1200
         export BUILD=$(realpath "$build")
         export TRIPTYCH=$BUILD/triptych
         grep -q -e -fsanitize "$build/flags" && export SANITIZE=1
-        timeout -k 10 1200 "$test" >"$output" 2>&1 </dev/null || status=$?
+    fi
+    # The group swallows bash's own notice of a signal.
+    { timeout -k 10 "$limit" "${program[@]}" >"$output" 2>&1 </dev/null || status=$?; } 2>/dev/null
+
+    if [[ $test == *.sh ]]; then
         good=$(grep -ac '^ok ' "$output")
         bad=$(grep -ac '^FAIL ' "$output")
         honest=$(((status != 0) == (bad != 0)))
     else
-        timeout -k 10 300 "$build/${test%.c}" >"$output" 2>&1 </dev/null || status=$?
         good=$(grep -acE '^[^:]+:[0-9]+:[^:]+:PASS' "$output")
         bad=$(grep -acE '^[^:]+:[0-9]+:[^:]+:FAIL' "$output")
         honest=$((status == bad))
@@ -46,6 +52,8 @@ run_one() # NUMBER BUILD TEST : reports, and leaves "PASSED FAILED" in the resul
 
     if ((status == 124 || status == 137)); then
         trouble=", stopped after $((SECONDS - started)) s"
+    elif ((status > 128)); then
+        trouble=", killed by SIG$(kill -l $((status - 128)))"
     elif ((!honest)); then
         trouble=", ended with status $status"
     elif ((good + bad == 0)); then

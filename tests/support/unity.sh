@@ -97,7 +97,7 @@ fi
 
 archives=("$work"/download/cjson_*.orig.tar.*[!c])
 ((${#archives[@]})) || stop 'the source package of cJSON has no upstream archive'
-tar -xf "${archives[0]}" -C "$work/unpacked" --wildcards --strip-components=3 '*/tests/unity/src/*'
+tar -xf "${archives[0]}" -C "$work/unpacked" --wildcards --strip-components=3 '*/tests/unity/*'
 [[ -f $work/unpacked/src/unity.c ]] || stop "no tests/unity/src/unity.c in ${archives[0]##*/}"
 
 # Renaming is the last step, so that an interrupted fetch leaves nothing that looks complete.
