@@ -1,0 +1,202 @@
+/* The emulator's binding: a value is four lanes, an operation computes them at once, and every host decision on the
+ * state is taken again for every group of four. Nothing here knows the key; nothing is slowed down on purpose. */
+#ifndef EMU_BIND_H
+#define EMU_BIND_H
+
+#include "def/binding.h"
+#include "def/lane.h"
+
+enum { EMULATE_WIDTH = 4 };
+
+typedef struct {
+    float lane[EMULATE_WIDTH];
+} flt;
+typedef struct {
+    int32_t lane[EMULATE_WIDTH];
+} itg;
+typedef struct {
+    uint16_t half[2 * EMULATE_WIDTH];
+} fix;
+typedef struct {
+    int32_t lane[EMULATE_WIDTH]; /* 0 or -1 */
+} msk;
+
+struct env {
+    const uint8_t *base[BASE_COUNT];
+};
+
+#define E e
+
+/* Loop bodies of def/op.def's rows: per lane for the 32-bit types, per half for pairs. */
+#define LANES_flt for (int i = 0; i < EMULATE_WIDTH; i++)
+#define LANES_itg for (int i = 0; i < EMULATE_WIDTH; i++)
+#define LANES_msk for (int i = 0; i < EMULATE_WIDTH; i++)
+#define LANES_fix for (int i = 0; i < 2 * EMULATE_WIDTH; i++)
+#define PUT_flt   lane
+#define PUT_itg   lane
+#define PUT_msk   lane
+#define PUT_fix   half
+#define ARGUMENT_flt(n) , flt n##_
+#define ARGUMENT_itg(n) , itg n##_
+#define ARGUMENT_msk(n) , msk n##_
+#define ARGUMENT_fix(n) , fix n##_
+#define ARGUMENT_non(n)
+#define LOAD_flt(n) float n = n##_.lane[i];
+#define LOAD_itg(n) int32_t n = n##_.lane[i];
+#define LOAD_msk(n) int32_t n = n##_.lane[i];
+#define LOAD_fix(n) uint16_t n = n##_.half[i];
+#define LOAD_non(n)
+
+#define OP(name, result, ta, tb, tc, properties, expression)                                                 \
+    static inline result name(struct env *e ARGUMENT_##ta(a) ARGUMENT_##tb(b) ARGUMENT_##tc(c))              \
+    {                                                                                                        \
+        (void)e;                                                                                             \
+        result r;                                                                                            \
+        LANES_##result                                                                                       \
+        {                                                                                                    \
+            LOAD_##ta(a) LOAD_##tb(b) LOAD_##tc(c) r.PUT_##result[i] = (expression);                         \
+        }                                                                                                    \
+        return r;                                                                                            \
+    }
+#define OPK(name, result, ta, tb, tc, properties, expression)                                                \
+    static inline result name(struct env *e ARGUMENT_##ta(a), int k)                                         \
+    {                                                                                                        \
+        (void)e;                                                                                             \
+        result r;                                                                                            \
+        LANES_##result                                                                                       \
+        {                                                                                                    \
+            LOAD_##ta(a) r.PUT_##result[i] = (expression);                                                   \
+        }                                                                                                    \
+        return r;                                                                                            \
+    }
+#define CAST(name, result, from)                                                                             \
+    static inline result name(struct env *e, from a)                                                         \
+    {                                                                                                        \
+        (void)e;                                                                                             \
+        result r;                                                                                            \
+        memcpy(&r, &a, sizeof r);                                                                            \
+        return r;                                                                                            \
+    }
+#include "def/op.def"
+#undef OP
+#undef OPK
+#undef CAST
+
+static inline flt lit_f(struct env *e, float value)
+{
+    (void)e;
+    flt r;
+    for (int i = 0; i < EMULATE_WIDTH; i++)
+        r.lane[i] = value;
+    return r;
+}
+
+static inline itg lit_i(struct env *e, int32_t value)
+{
+    (void)e;
+    itg r;
+    for (int i = 0; i < EMULATE_WIDTH; i++)
+        r.lane[i] = value;
+    return r;
+}
+
+static inline msk lit_m(struct env *e, int32_t value)
+{
+    (void)e;
+    msk r;
+    for (int i = 0; i < EMULATE_WIDTH; i++)
+        r.lane[i] = value;
+    return r;
+}
+
+static inline fix lit_x(struct env *e, uint16_t value)
+{
+    (void)e;
+    fix r;
+    for (int i = 0; i < 2 * EMULATE_WIDTH; i++)
+        r.half[i] = value;
+    return r;
+}
+
+static inline flt load_f(struct env *e, enum base base, int offset)
+{
+    flt r;
+    memcpy(&r, e->base[base] + offset, sizeof r);
+    return r;
+}
+
+static inline itg load_i(struct env *e, enum base base, int offset)
+{
+    itg r;
+    memcpy(&r, e->base[base] + offset, sizeof r);
+    return r;
+}
+
+static inline void store_f(struct env *e, enum base base, int offset, flt value)
+{
+    memcpy((uint8_t *)e->base[base] + offset, &value, sizeof value);
+}
+
+static inline void store_i(struct env *e, enum base base, int offset, itg value)
+{
+    memcpy((uint8_t *)e->base[base] + offset, &value, sizeof value);
+}
+
+static inline flt uniform_f(struct env *e, enum base base, int offset)
+{
+    float value;
+    memcpy(&value, e->base[base] + offset, sizeof value);
+    return lit_f(e, value);
+}
+
+static inline itg uniform_i(struct env *e, enum base base, int offset)
+{
+    int32_t value;
+    memcpy(&value, e->base[base] + offset, sizeof value);
+    return lit_i(e, value);
+}
+
+/* Lane address: start + index * scale + displacement, start being the pointer at base + field, or the base. */
+static inline const uint8_t *gather_start(struct env *e, enum base base, int field)
+{
+    if (field == GATHER_DIRECT)
+        return e->base[base];
+    const uint8_t *start;
+    memcpy(&start, e->base[base] + field, sizeof start);
+    return start;
+}
+
+static inline itg gather_i(struct env *e, enum base base, int field, itg index, int scale, int displacement)
+{
+    const uint8_t *start = gather_start(e, base, field);
+    itg r;
+    for (int i = 0; i < EMULATE_WIDTH; i++)
+        memcpy(&r.lane[i], start + (ptrdiff_t)index.lane[i] * scale + displacement, 4);
+    return r;
+}
+
+static inline flt gather_f(struct env *e, enum base base, int field, itg index, int scale, int displacement)
+{
+    return bits_f(e, gather_i(e, base, field, index, scale, displacement));
+}
+
+static inline void scatter_i(struct env *e, enum base base, int offset, int stride, itg value)
+{
+    for (int i = 0; i < EMULATE_WIDTH; i++)
+        memcpy((uint8_t *)e->base[base] + offset + i * stride, &value.lane[i], 4);
+}
+
+static inline void scatter_f(struct env *e, enum base base, int offset, int stride, flt value)
+{
+    scatter_i(e, base, offset, stride, bits_i(e, value));
+}
+
+static inline int any_lane(msk mask)
+{
+    return (mask.lane[0] | mask.lane[1] | mask.lane[2] | mask.lane[3]) != 0;
+}
+
+/* The body runs when any lane of the mask is set. */
+#define WHEN(e, mask) if (any_lane(mask))
+
+#endif

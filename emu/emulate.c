@@ -1,0 +1,105 @@
+/* The naive emulator's engine: the spec under the lane binding, and the three loops around it.
+ *
+ * "Building" a routine stores the key; every call decides every state again for every four elements, which is what
+ * the thesis calls emulation by switch (section 2.4.1). The compiler cannot specialise: keys arrive at run time. */
+#include "emu/emulate.h"
+
+#include "base/mxcsr.h"
+#include "emu/bind.h"
+#include "spec/spec.h"
+
+#include <stdlib.h>
+
+static void emulate_vertex(const void *arguments, const struct routine *routine)
+{
+    const struct vertex_call *call = arguments;
+    unsigned saved = mxcsr_enter();
+    struct env e = {{0}};
+    e.base[BASE_JOB] = (const uint8_t *)call->job;
+    for (uint32_t i = 0; i < call->count; i += EMULATE_WIDTH) {
+        e.base[BASE_INPUT] = (const uint8_t *)(call->index + i);
+        e.base[BASE_OUTPUT] = (const uint8_t *)(call->out + i);
+        spec_vertex(&e, &routine->key.vertex);
+    }
+    mxcsr_leave(saved);
+}
+
+static void emulate_setup(const void *arguments, const struct routine *routine)
+{
+    const struct setup_call *call = arguments;
+    const struct setup_key *key = &routine->key.setup;
+    unsigned saved = mxcsr_enter();
+    size_t stride = triangle_layout(key->depth, key->varying).stride;
+    struct env e = {{0}};
+    e.base[BASE_JOB] = (const uint8_t *)call->job;
+    e.base[BASE_VERTICES] = (const uint8_t *)call->vertices;
+    for (uint32_t i = 0; i < call->count; i += EMULATE_WIDTH) {
+        e.base[BASE_INPUT] = (const uint8_t *)(call->index + i);
+        e.base[BASE_OUTPUT] = call->out + i * stride;
+        spec_setup(&e, key);
+    }
+    mxcsr_leave(saved);
+}
+
+static void emulate_block(struct env *e, const struct pixel_call *call, const struct entry *entry,
+                          const struct pixel_key *key)
+{
+    e->base[BASE_ENTRY] = (const uint8_t *)entry;
+    e->base[BASE_TRIANGLE] = call->triangles + entry->triangle;
+    for (uint32_t lane = 0; lane < BLOCK_PIXELS; lane += EMULATE_WIDTH) {
+        if (!(entry->coverage >> lane & ((1 << EMULATE_WIDTH) - 1)))
+            continue;
+        size_t word = (size_t)entry->block * BLOCK_PIXELS + lane;
+        e->base[BASE_LANES] = (const uint8_t *)call->lanes + 4 * lane;
+        e->base[BASE_COLOR] = (const uint8_t *)(call->color + word);
+        e->base[BASE_DEPTH] = (const uint8_t *)(call->depth + word);
+        spec_pixel(e, key);
+    }
+}
+
+static void emulate_pixel(const void *arguments, const struct routine *routine)
+{
+    const struct pixel_call *call = arguments;
+    unsigned saved = mxcsr_enter();
+    struct env e = {{0}};
+    e.base[BASE_JOB] = (const uint8_t *)call->job;
+    for (uint32_t i = 0; i < call->count; i++)
+        emulate_block(&e, call, call->entries + i, &routine->key.pixel);
+    mxcsr_leave(saved);
+}
+
+static const char *unavailable(void)
+{
+    return NULL;
+}
+
+static struct routine *build(struct code_arena *arena, enum unit unit, const union key *key, struct error *error)
+{
+    static routine_function *const run[UNIT_COUNT] = {emulate_vertex, emulate_setup, emulate_pixel};
+    (void)arena;
+    struct routine *routine = calloc(1, sizeof *routine);
+    if (!routine) {
+        error_set(error, "out of memory for a routine");
+        return NULL;
+    }
+    routine->run = run[unit];
+    routine->engine = &engine_emulate;
+    routine->unit = unit;
+    routine->key = *key;
+    return routine;
+}
+
+static void free_routine(struct code_arena *arena, struct routine *routine)
+{
+    (void)arena;
+    free(routine);
+}
+
+const struct engine engine_emulate = {
+    .name = "emulate",
+    .description = "naive emulator: the specification performed, every state decided for every four elements",
+    .width = EMULATE_WIDTH,
+    .unavailable = unavailable,
+    .build = build,
+    .free = free_routine,
+};

@@ -1,0 +1,70 @@
+/* One lane's exact arithmetic, where C's own operators leave room: the helpers that def/op.def's expressions use.
+ *
+ * Each is the scalar form of the vector instruction that the generated code uses, through baseline SSE2
+ * intrinsics, so that rounding, NaN selection, denormal flushing (MXCSR) and out-of-range conversion agree on
+ * every compiler and optimisation level. Source: Intel SDM volume 2, MINPS, MAXPS, CVTPS2DQ, CVTTPS2DQ, PMADDWD. */
+#ifndef DEF_LANE_H
+#define DEF_LANE_H
+
+#include <emmintrin.h>
+#include <math.h>
+#include <stdint.h>
+#include <string.h>
+
+static inline float lane_min(float a, float b)
+{
+    return _mm_cvtss_f32(_mm_min_ss(_mm_set_ss(a), _mm_set_ss(b)));
+}
+
+static inline float lane_max(float a, float b)
+{
+    return _mm_cvtss_f32(_mm_max_ss(_mm_set_ss(a), _mm_set_ss(b)));
+}
+
+static inline float lane_sqrt(float a)
+{
+    return _mm_cvtss_f32(_mm_sqrt_ss(_mm_set_ss(a)));
+}
+
+static inline int32_t lane_round(float a)
+{
+    return _mm_cvtss_si32(_mm_set_ss(a));
+}
+
+static inline int32_t lane_truncate(float a)
+{
+    return _mm_cvttss_si32(_mm_set_ss(a));
+}
+
+static inline uint32_t lane_bits(float a)
+{
+    uint32_t bits;
+    memcpy(&bits, &a, sizeof bits);
+    return bits;
+}
+
+static inline float lane_from_bits(uint32_t bits)
+{
+    float a;
+    memcpy(&a, &bits, sizeof a);
+    return a;
+}
+
+/* A denormal counts as a zero of its sign before rounding down, as ROUNDPS does under DAZ; libm's portable floorf
+ * would see the denormal and return -1. */
+static inline float lane_floor(float a)
+{
+    uint32_t bits = lane_bits(a);
+    if (!(bits & 0x7f800000u))
+        return lane_from_bits(bits & 0x80000000u);
+    return floorf(a);
+}
+
+static inline int32_t lane_dot(int32_t a, int32_t b)
+{
+    int32_t low = (int16_t)(a & 0xffff) * (int16_t)(b & 0xffff);
+    int32_t high = (a >> 16) * (b >> 16);
+    return (int32_t)((uint32_t)low + (uint32_t)high);
+}
+
+#endif

@@ -1,0 +1,45 @@
+#include "draw/call.h"
+
+const struct lane_table lane_table = {
+    .x = {.5f, 1.5f, .5f, 1.5f, 2.5f, 3.5f, 2.5f, 3.5f, .5f, 1.5f, .5f, 1.5f, 2.5f, 3.5f, 2.5f, 3.5f},
+    .y = {.5f, .5f, 1.5f, 1.5f, .5f, .5f, 1.5f, 1.5f, 2.5f, 2.5f, 3.5f, 3.5f, 2.5f, 2.5f, 3.5f, 3.5f},
+    .bit = {1, 2, 4, 8, 16, 32, 64, 128, 256, 512, 1024, 2048, 4096, 8192, 16384, 32768},
+};
+
+const uint8_t varying_components[VARYING_COUNT] = {
+#define VARYING(name, components, text) components,
+#include "def/varying.def"
+#undef VARYING
+};
+
+const uint8_t varying_slot[VARYING_COUNT] = {
+#define VARYING(name, components, text) SLOT_##name,
+#include "def/varying.def"
+#undef VARYING
+};
+
+static uint16_t reserve(uint16_t *end, size_t bytes)
+{
+    uint16_t offset = *end;
+    *end = (uint16_t)(offset + bytes);
+    return offset;
+}
+
+struct triangle_layout triangle_layout(int depth, const uint8_t varying[VARYING_COUNT])
+{
+    struct triangle_layout layout = {0};
+    uint16_t end = sizeof(struct triangle_head);
+    for (int v = 0; v < VARYING_COUNT; v++)
+        layout.smooth |= varying[v] == INTERPOLATION_SMOOTH;
+    if (depth)
+        layout.depth = reserve(&end, sizeof(struct plane));
+    if (layout.smooth)
+        layout.reciprocal_w = reserve(&end, sizeof(struct plane));
+    for (int v = 0; v < VARYING_COUNT; v++)
+        if (varying[v] != INTERPOLATION_NONE) {
+            size_t bytes = varying[v] == INTERPOLATION_SMOOTH ? sizeof(struct plane) : sizeof(float);
+            layout.varying[v] = reserve(&end, bytes * varying_components[v]);
+        }
+    layout.stride = (uint16_t)((end + 63) & ~63);
+    return layout;
+}

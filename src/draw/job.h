@@ -1,0 +1,64 @@
+/* The job: the values that a draw's routines read at run time, derived from the state when the draw is recorded.
+ *
+ * Generated code addresses its fields by offset from one register, so the structure is plain words; whatever
+ * would change the code itself is in the key instead. Vectors are rows, as in Direct3D 9: p' = p * M, matrices
+ * are m[row][column]. Camera space is left after world * view. Colours are 0 to 1, unclamped where they may be. */
+#ifndef DRAW_JOB_H
+#define DRAW_JOB_H
+
+#include "draw/key.h"
+
+#include <stdint.h>
+
+/* Where vertex i's attribute begins: data + i * stride. `data` includes the stream's and the element's offsets. */
+struct attribute_job {
+    const uint8_t *data;
+    int32_t stride; /* bytes */
+    int32_t reserved;
+};
+
+/* A light, multiplied by the material. Directional: `direction` points to the light, unit length, camera space,
+ * and its ambient part is in base_color. Point: `position` in camera space. */
+struct light_job {
+    float position[3]; /* or direction */
+    float range;       /* beyond it a point light is off */
+    float diffuse[3];
+    float attenuation0;
+    float ambient[3];
+    float attenuation1;
+    float attenuation2;
+    float reserved[3];
+};
+
+struct texture_job {
+    const uint32_t *texels; /* rows of `width` RGBA8 words, red in the low byte */
+    int32_t width;          /* texels, 1 to 8192 */
+    int32_t height;
+    float width_256; /* width * 256: texture coordinates become 24.8 fixed point */
+    float height_256;
+    int32_t last_u; /* width - 1: the mask of a power of two, the limit of a clamp */
+    int32_t last_v;
+};
+
+struct job {
+    struct attribute_job attribute[ATTRIBUTE_COUNT];
+
+    float world_view_projection[4][4];
+    float world_view[4][4];
+    float normal[3][4]; /* inverse transpose of world * view, 3x3; the fourth column is unused */
+
+    float base_color[4]; /* emissive + material ambient * (scene ambient + directional ambients); w: material alpha */
+    struct light_job light[LIGHT_COUNT];
+
+    /* Guard band: |x| <= guard_x * w keeps projected vertices within +-16383 pixels. */
+    float guard_x, guard_y;
+
+    /* Viewport: window position in 1/256 pixel = ndc * scale + offset; depth = ndc z * depth_scale + depth_offset. */
+    float scale_x, offset_x;
+    float scale_y, offset_y;
+    float depth_scale, depth_offset;
+
+    struct texture_job texture;
+};
+
+#endif

@@ -1,0 +1,138 @@
+/* Keys: the part of the state that generated code depends on, one structure per unit, and their packed form.
+ *
+ * The fields are the rows of def/key.def, each a small integer. Packing is mixed radix (thesis, section 3.6): the
+ * fields in table order are the digits of one big number, least significant first, kept in 64-bit words so that
+ * no digit straddles two words. Two keys are equal exactly when their packed forms are equal byte for byte.
+ * Nothing that is a pointer or data is ever in a key. */
+#ifndef DRAW_KEY_H
+#define DRAW_KEY_H
+
+#include <stddef.h>
+#include <stdint.h>
+
+enum unit { UNIT_VERTEX, UNIT_SETUP, UNIT_PIXEL, UNIT_COUNT };
+
+enum attribute { ATTRIBUTE_POSITION, ATTRIBUTE_NORMAL, ATTRIBUTE_DIFFUSE, ATTRIBUTE_TEXCOORD, ATTRIBUTE_COUNT };
+
+/* How an attribute lies in memory. COLOR is a packed 0xAARRGGBB. Missing components read as (0, 0, 0, 1). */
+enum attribute_format {
+    ATTRIBUTE_FORMAT_NONE,
+    ATTRIBUTE_FORMAT_FLOAT1,
+    ATTRIBUTE_FORMAT_FLOAT2,
+    ATTRIBUTE_FORMAT_FLOAT3,
+    ATTRIBUTE_FORMAT_FLOAT4,
+    ATTRIBUTE_FORMAT_COLOR,
+    ATTRIBUTE_FORMAT_COUNT
+};
+
+enum { LIGHT_COUNT = 8 };
+enum light_type { LIGHT_NONE, LIGHT_DIRECTIONAL, LIGHT_POINT, LIGHT_TYPE_COUNT };
+
+enum varying {
+#define VARYING(name, components, text) VARYING_##name,
+#include "def/varying.def"
+#undef VARYING
+    VARYING_COUNT
+};
+
+enum interpolation { INTERPOLATION_NONE, INTERPOLATION_SMOOTH, INTERPOLATION_FLAT, INTERPOLATION_COUNT };
+
+enum cull { CULL_NONE, CULL_CLOCKWISE, CULL_COUNTERCLOCKWISE, CULL_COUNT };
+
+/* `new COMPARE stored` */
+enum compare {
+    COMPARE_NEVER,
+    COMPARE_LESS,
+    COMPARE_EQUAL,
+    COMPARE_LESS_EQUAL,
+    COMPARE_GREATER,
+    COMPARE_NOT_EQUAL,
+    COMPARE_GREATER_EQUAL,
+    COMPARE_ALWAYS,
+    COMPARE_COUNT
+};
+
+enum filter { FILTER_POINT, FILTER_LINEAR, FILTER_COUNT };
+
+/* WRAP_POWER is wrap on an axis whose size is a power of two: a mask instead of a floor. */
+enum address { ADDRESS_WRAP, ADDRESS_WRAP_POWER, ADDRESS_CLAMP, ADDRESS_COUNT };
+
+enum stage { STAGE_DIFFUSE, STAGE_REPLACE, STAGE_MODULATE, STAGE_ADD, STAGE_COUNT };
+
+/* Source factor, target factor: COPY (1, 0); OVER (a, 1-a); PREMULTIPLIED (1, 1-a); SOURCE (a, 0). */
+enum blend { BLEND_COPY, BLEND_OVER, BLEND_PREMULTIPLIED, BLEND_SOURCE, BLEND_COUNT };
+
+struct vertex_key {
+#define KEY_vertex(field, count)  uint8_t field count;
+#define KEY_setup(field, count)
+#define KEY_pixel(field, count)
+#define KEY(unit, field, radix, meaning)         KEY_##unit(field, )
+#define KEYS(unit, field, count, radix, meaning) KEY_##unit(field, [count])
+#include "def/key.def"
+#undef KEY_vertex
+#undef KEY_setup
+};
+
+struct setup_key {
+#define KEY_vertex(field, count)
+#define KEY_setup(field, count) uint8_t field count;
+#include "def/key.def"
+#undef KEY_setup
+#undef KEY_pixel
+};
+
+struct pixel_key {
+#define KEY_setup(field, count)
+#define KEY_pixel(field, count) uint8_t field count;
+#include "def/key.def"
+#undef KEY_vertex
+#undef KEY_setup
+#undef KEY_pixel
+#undef KEY
+#undef KEYS
+};
+
+union key {
+    struct vertex_key vertex;
+    struct setup_key setup;
+    struct pixel_key pixel;
+};
+
+enum { KEY_PACKED_WORDS = 4, KEY_TEXT_CAPACITY = 1024 };
+
+/* The label of a routine: compared and hashed as bytes, never looked into. Unused words are zero. */
+struct packed_key {
+    uint64_t word[KEY_PACKED_WORDS];
+};
+
+/* One field of one unit's key, as the table describes it. */
+struct key_field {
+    const char *name;
+    const char *meaning;
+    uint16_t offset; /* bytes from the start of the unit's key */
+    uint8_t count;   /* 1, or the length of an array */
+    uint8_t radix;   /* values are 0 to radix - 1 */
+};
+
+extern const char *const unit_name[UNIT_COUNT]; /* "vertex", "setup", "pixel" */
+
+/* The fields of a unit's key in packing order; *count receives how many. */
+const struct key_field *key_fields(enum unit unit, size_t *count);
+
+/* Packs a key whose every field is below its radix; unpacking gives the same fields back. */
+struct packed_key key_pack(enum unit unit, const union key *key);
+void key_unpack(enum unit unit, const struct packed_key *packed, union key *key);
+
+/* 64-bit hash of the unit and the packed words (xxHash). */
+uint64_t key_hash(enum unit unit, const struct packed_key *packed);
+
+/* Writes `field=value field=v,v,v ...`, fields that are zero left out ("default" when all are), and returns text. */
+char *key_print(enum unit unit, const union key *key, char text[KEY_TEXT_CAPACITY]);
+
+/* Reads what key_print writes. Returns 0, or -1 with *where at the offending character. */
+int key_parse(enum unit unit, const char *text, union key *key, const char **where);
+
+/* A key with every field drawn uniformly from its radix; *seed advances (xorshift64*, non-zero). */
+void key_random(enum unit unit, uint64_t *seed, union key *key);
+
+#endif

@@ -1,0 +1,52 @@
+/* The clip code of a vertex: which half-spaces of clip space it lies outside of (enum clip_bit, draw/call.h).
+ *
+ * Every test asks for "inside" and takes the complement, so a NaN is outside. Depth runs from 0 to w as in
+ * Direct3D. CLIP_INVALID: v - v is +0 exactly when v is finite; this is the rewriting y - y = 0 of the thesis turned
+ * round, and the reason why an optimiser must prove finiteness before it applies it. */
+
+/* bit where not (a <= b), else 0 */
+static inline itg clip_outside(struct env *e, flt a, flt b, int bit)
+{
+    msk inside = le_f(E, a, b);
+    itg lanes = mask_i(E, inside);
+    itg outside = xor_i(E, lanes, lit_i(E, -1));
+    return and_i(E, outside, lit_i(E, bit));
+}
+
+static inline itg clip_pair(struct env *e, flt value, flt limit, int low_bit, int high_bit)
+{
+    flt minus = neg_f(E, limit);
+    itg low = clip_outside(E, minus, value, low_bit);
+    itg high = clip_outside(E, value, limit, high_bit);
+    return or_i(E, low, high);
+}
+
+static inline itg clip_invalid(struct env *e, const flt p[4])
+{
+    flt sum = sub_f(E, p[0], p[0]);
+    for (int c = 1; c < 4; c++) {
+        flt zero = sub_f(E, p[c], p[c]);
+        sum = add_f(E, sum, zero);
+    }
+    return clip_outside(E, sum, lit_f(E, 0.0f), CLIP_INVALID);
+}
+
+static inline itg clip_code(struct env *e, const flt p[4])
+{
+    flt guard_x = uniform_f(E, BASE_JOB, (int)offsetof(struct job, guard_x));
+    flt guard_y = uniform_f(E, BASE_JOB, (int)offsetof(struct job, guard_y));
+    flt far_x = mul_f(E, guard_x, p[3]);
+    flt far_y = mul_f(E, guard_y, p[3]);
+    itg part[7];
+    part[0] = clip_pair(E, p[0], p[3], CLIP_LEFT, CLIP_RIGHT);
+    part[1] = clip_pair(E, p[1], p[3], CLIP_BOTTOM, CLIP_TOP);
+    part[2] = clip_outside(E, lit_f(E, 0.0f), p[2], CLIP_NEAR);
+    part[3] = clip_outside(E, p[2], p[3], CLIP_FAR);
+    part[4] = clip_outside(E, lit_f(E, CLIP_EYE_W), p[3], CLIP_EYE);
+    part[5] = clip_pair(E, p[0], far_x, CLIP_GUARD_LEFT, CLIP_GUARD_RIGHT);
+    part[6] = clip_pair(E, p[1], far_y, CLIP_GUARD_BOTTOM, CLIP_GUARD_TOP);
+    itg code = clip_invalid(E, p);
+    for (int i = 0; i < 7; i++)
+        code = or_i(E, code, part[i]);
+    return code;
+}

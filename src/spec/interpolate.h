@@ -1,0 +1,50 @@
+/* Interpolation: plane equations evaluated at the pixel's centre, never accumulated along a span.
+ *
+ * value + (dy * (y - origin_y) then dx * (x - origin_x)) by fused multiply-adds in that order. The distances are
+ * exact: multiples of 1/256 below 2^15. Smooth varyings are planes of a/w; multiplied by w = 1 / (plane of 1/w). */
+
+struct pixel_position {
+    flt x, y; /* distance from the triangle's origin in pixels */
+};
+
+static inline struct pixel_position pixel_position(struct env *e)
+{
+    struct pixel_position at;
+    flt block_x = uniform_f(E, BASE_ENTRY, (int)offsetof(struct entry, x));
+    flt lane_x = load_f(E, BASE_LANES, (int)offsetof(struct lane_table, x));
+    flt origin_x = uniform_f(E, BASE_TRIANGLE, (int)offsetof(struct triangle_head, origin_x));
+    flt corner_x = sub_f(E, block_x, origin_x);
+    at.x = add_f(E, corner_x, lane_x);
+    flt block_y = uniform_f(E, BASE_ENTRY, (int)offsetof(struct entry, y));
+    flt lane_y = load_f(E, BASE_LANES, (int)offsetof(struct lane_table, y));
+    flt origin_y = uniform_f(E, BASE_TRIANGLE, (int)offsetof(struct triangle_head, origin_y));
+    flt corner_y = sub_f(E, block_y, origin_y);
+    at.y = add_f(E, corner_y, lane_y);
+    return at;
+}
+
+static inline flt evaluate_plane(struct env *e, const struct pixel_position *at, int plane)
+{
+    flt value = uniform_f(E, BASE_TRIANGLE, plane + (int)offsetof(struct plane, value));
+    flt dy = uniform_f(E, BASE_TRIANGLE, plane + (int)offsetof(struct plane, dy));
+    flt row = mad_f(E, at->y, dy, value);
+    flt dx = uniform_f(E, BASE_TRIANGLE, plane + (int)offsetof(struct plane, dx));
+    return mad_f(E, at->x, dx, row);
+}
+
+static inline flt pixel_w(struct env *e, const struct pixel_position *at, const struct triangle_layout *layout)
+{
+    flt reciprocal = evaluate_plane(E, at, layout->reciprocal_w);
+    return div_f(E, lit_f(E, 1.0f), reciprocal);
+}
+
+/* Component c of a varying at the pixel; w is used for smooth ones only. */
+static inline flt interpolate(struct env *e, const struct pixel_key *k, const struct triangle_layout *layout,
+                              const struct pixel_position *at, flt w, int varying, int c)
+{
+    int first = layout->varying[varying];
+    if (k->varying[varying] == INTERPOLATION_FLAT)
+        return uniform_f(E, BASE_TRIANGLE, first + (int)sizeof(float) * c);
+    flt over_w = evaluate_plane(E, at, first + (int)sizeof(struct plane) * c);
+    return mul_f(E, over_w, w);
+}

@@ -1,0 +1,48 @@
+/* The vertex routine: fetch, transform, light, clip code; one lane a vertex (draw/call.h, struct vertex_call).
+ *
+ * Bases: JOB; INPUT is the lanes' vertex indices; OUTPUT the lanes' place in the vertex batch. Outputs that the
+ * pixel routine does not read are not in the key's varyings: their whole computation is dead. */
+
+static inline void store_slot(struct env *e, int slot, flt value)
+{
+    store_f(E, BASE_OUTPUT, slot * VERTEX_SLOT_BYTES, value);
+}
+
+static inline flt clamp_unit(struct env *e, flt value)
+{
+    flt low = max_f(E, value, lit_f(E, 0.0f));
+    return min_f(E, low, lit_f(E, 1.0f));
+}
+
+static inline void vertex_diffuse(struct env *e, const struct vertex_key *k, const struct vector4 *position)
+{
+    struct vector4 color;
+    if (k->lighting)
+        color = light_vertex(E, k, position);
+    else
+        color = fetch(E, k, ATTRIBUTE_DIFFUSE, 1.0f);
+    for (int c = 0; c < 4; c++) {
+        flt clamped = clamp_unit(E, color.v[c]);
+        store_slot(E, SLOT_diffuse + c, clamped);
+    }
+}
+
+static void spec_vertex(struct env *e, const struct vertex_key *k)
+{
+    struct vector4 position = fetch(E, k, ATTRIBUTE_POSITION, 0.0f);
+    int one = k->attribute[ATTRIBUTE_POSITION] != ATTRIBUTE_FORMAT_FLOAT4;
+    flt clip[4];
+    for (int c = 0; c < 4; c++) {
+        clip[c] = transform_component(E, &position, one, (int)offsetof(struct job, world_view_projection), c);
+        store_slot(E, SLOT_X + c, clip[c]);
+    }
+    itg code = clip_code(E, clip);
+    store_i(E, BASE_OUTPUT, SLOT_CODE * VERTEX_SLOT_BYTES, code);
+    if (k->varying[VARYING_diffuse])
+        vertex_diffuse(E, k, &position);
+    if (k->varying[VARYING_texcoord]) {
+        struct vector4 uv = fetch(E, k, ATTRIBUTE_TEXCOORD, 0.0f);
+        for (int c = 0; c < 2; c++)
+            store_slot(E, SLOT_texcoord + c, uv.v[c]);
+    }
+}

@@ -1,0 +1,22 @@
+/* Colour write: the new word where the lane is live and the channel is enabled, the stored word elsewhere. */
+
+static inline int32_t write_mask_word(int write_mask)
+{
+    uint32_t word = 0;
+    for (int channel = 0; channel < 4; channel++)
+        if (write_mask >> channel & 1)
+            word |= 255u << 8 * channel;
+    return (int32_t)word;
+}
+
+static inline void write_color(struct env *e, const struct pixel_key *k, msk live, struct color color, itg stored)
+{
+    itg word = color_pack(E, color);
+    if (k->write_mask != 15) {
+        itg new = and_i(E, word, lit_i(E, write_mask_word(k->write_mask)));
+        itg old = and_i(E, stored, lit_i(E, ~write_mask_word(k->write_mask)));
+        word = or_i(E, new, old);
+    }
+    itg merged = select_i(E, live, word, stored);
+    store_i(E, BASE_COLOR, 0, merged);
+}
