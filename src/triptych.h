@@ -1,0 +1,208 @@
+/* Triptych: a software renderer of the Direct3D 9 class whose pipeline runs on interchangeable engines.
+ *
+ * A device records state and draws, and renders them with the engine it was created with. Every engine gives the
+ * same bytes. Calls on one device are made by one thread at a time; rendering itself uses the device's threads.
+ *
+ * Conventions: row vectors (p' = p * M, matrices are m[row][column]); clip depth 0 to w; window y down, pixel centres
+ * at half-integers, top-left fill rule; colours are red, green, blue, alpha from 0 to 1, or packed 0xAARRGGBB where
+ * said; images are rows from the top of RGBA8 words, red in the lowest byte.
+ *
+ * Errors: a call that fails returns something else than TRIPTYCH_OK, changes nothing, and triptych_error() gives one
+ * line that says what was wrong and what was expected. */
+#ifndef TRIPTYCH_H
+#define TRIPTYCH_H
+
+#include <stddef.h>
+#include <stdint.h>
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+#if defined(__GNUC__)
+#define TRIPTYCH_API __attribute__((visibility("default")))
+#else
+#define TRIPTYCH_API
+#endif
+
+#define TRIPTYCH_VERSION "0.1.0"
+
+enum triptych_result {
+    TRIPTYCH_OK = 0,
+    TRIPTYCH_BAD_ARGUMENT,  /* out of range, not finite, unknown */
+    TRIPTYCH_BAD_CALL,      /* not possible in this state: no target, index past the buffer, ... */
+    TRIPTYCH_UNSUPPORTED,   /* a state or value that Direct3D 9 has and this version does not */
+    TRIPTYCH_NO_MEMORY,
+    TRIPTYCH_ENGINE_FAILED  /* the engine cannot run here or could not build a routine */
+};
+
+typedef struct triptych_device triptych_device;
+typedef struct triptych_buffer triptych_buffer;   /* vertices or indices */
+typedef struct triptych_texture triptych_texture; /* RGBA8 image */
+
+enum triptych_state {
+#define STATE(name, kind, initial, units, meaning) TRIPTYCH_STATE_##name,
+#include "def/state.def"
+#undef STATE
+    TRIPTYCH_STATE_COUNT
+};
+
+enum triptych_transform {
+    TRIPTYCH_TRANSFORM_WORLD,
+    TRIPTYCH_TRANSFORM_VIEW,
+    TRIPTYCH_TRANSFORM_PROJECTION,
+    TRIPTYCH_TRANSFORM_COUNT
+};
+
+enum triptych_attribute {
+    TRIPTYCH_POSITION, /* FLOAT1 to FLOAT4 */
+    TRIPTYCH_NORMAL,   /* FLOAT1 to FLOAT4 */
+    TRIPTYCH_DIFFUSE,  /* any format */
+    TRIPTYCH_TEXCOORD, /* FLOAT1 to FLOAT4 */
+    TRIPTYCH_ATTRIBUTE_COUNT
+};
+
+enum triptych_format {
+    TRIPTYCH_FORMAT_NONE, /* attribute not given */
+    TRIPTYCH_FORMAT_FLOAT1,
+    TRIPTYCH_FORMAT_FLOAT2,
+    TRIPTYCH_FORMAT_FLOAT3,
+    TRIPTYCH_FORMAT_FLOAT4,
+    TRIPTYCH_FORMAT_COLOR, /* packed 0xAARRGGBB */
+    TRIPTYCH_FORMAT_COUNT
+};
+
+enum triptych_primitive { TRIPTYCH_TRIANGLE_LIST, TRIPTYCH_TRIANGLE_STRIP, TRIPTYCH_TRIANGLE_FAN };
+
+enum triptych_light_type { TRIPTYCH_LIGHT_DIRECTIONAL, TRIPTYCH_LIGHT_POINT };
+
+enum { TRIPTYCH_LIGHTS = 8, TRIPTYCH_TARGET_MAXIMUM = 8192, TRIPTYCH_TEXTURE_MAXIMUM = 8192 };
+
+struct triptych_options {
+    const char *engine;   /* name as listed by triptych_engine_name(); null: "specialize" */
+    unsigned threads;     /* rendering threads, the caller's included; 0: as many as the process may run on */
+    size_t cache_bytes;   /* budget of the routine cache's code; 0: 16 MiB */
+};
+
+/* Where an attribute lies within a vertex of its buffer. */
+struct triptych_element {
+    enum triptych_format format;
+    triptych_buffer *buffer; /* null with FORMAT_NONE */
+    size_t offset;           /* bytes of vertex 0's attribute from the buffer's start */
+    size_t stride;           /* bytes from a vertex to the next, 0 to 65536 */
+};
+
+struct triptych_viewport {
+    float x, y, width, height;   /* pixels, inside the target */
+    float depth_near, depth_far; /* 0 to 1 */
+};
+
+struct triptych_material {
+    float diffuse[4];
+    float ambient[4];
+    float emissive[4];
+};
+
+/* World space. `direction` is the way the light travels (directional); `position`, `range` and `attenuation` are a
+ * point light's. */
+struct triptych_light {
+    enum triptych_light_type type;
+    float diffuse[4];
+    float ambient[4];
+    float position[3];
+    float direction[3];
+    float range;
+    float attenuation[3];
+};
+
+/* Counters since the device was created. Times are of the process's monotonic clock. */
+struct triptych_statistics {
+    uint64_t draws, triangles, vertices_shaded, triangles_set_up, triangles_visible, pixels_shaded;
+    uint64_t cache_hits, cache_misses, cache_evictions;
+    uint64_t vertex_ns, pixel_ns; /* summed over threads: geometry phase (vertex, clip, setup, bin), tile phase */
+};
+
+/* A routine the device has built, as triptych_routine() reports it. Strings live until the next call. */
+struct triptych_routine_info {
+    uint32_t number;      /* identity in dumps, from 1 */
+    const char *unit;     /* "vertex", "setup", "pixel" */
+    const char *key;      /* key text */
+    uint64_t build_ns;
+    uint64_t hits;
+    uint32_t code_bytes;
+    uint32_t parts;       /* instructions or fragments */
+    uint32_t spills;
+};
+
+/* Creates a device. On failure *device is null and the reason is in `reason` (of `size` bytes, may be null). */
+TRIPTYCH_API enum triptych_result triptych_device_create(const struct triptych_options *options,
+                                                         triptych_device **device, char *reason, size_t size);
+/* Frees the device and everything made with it. Null is allowed. */
+TRIPTYCH_API void triptych_device_destroy(triptych_device *device);
+/* The reason of the last failed call; an empty string when none failed. */
+TRIPTYCH_API const char *triptych_error(const triptych_device *device);
+
+/* The i-th engine's name, description, lanes and why it cannot run here (null: it can); null past the last. */
+TRIPTYCH_API const char *triptych_engine_name(unsigned i);
+TRIPTYCH_API const char *triptych_engine_description(unsigned i);
+TRIPTYCH_API unsigned triptych_engine_width(unsigned i);
+TRIPTYCH_API const char *triptych_engine_unavailable(unsigned i);
+
+/* The render target, colour RGBA8 and depth binary32, 1 to 8192 pixels a side; contents start as zero and depth 1.
+ * Sets the viewport to the whole target with depth 0 to 1. */
+TRIPTYCH_API enum triptych_result triptych_set_target(triptych_device *, unsigned width, unsigned height);
+
+/* Copies `bytes` (1 to 2^31 - 1) of data; the contents never change. */
+TRIPTYCH_API enum triptych_result triptych_buffer_create(triptych_device *, const void *data, size_t bytes,
+                                                         triptych_buffer **buffer);
+/* Copies an image of width x height (1 to 8192) RGBA8 texels. */
+TRIPTYCH_API enum triptych_result triptych_texture_create(triptych_device *, const void *rgba, unsigned width,
+                                                          unsigned height, triptych_texture **texture);
+
+TRIPTYCH_API enum triptych_result triptych_set_state(triptych_device *, enum triptych_state, uint32_t value);
+TRIPTYCH_API enum triptych_result triptych_set_transform(triptych_device *, enum triptych_transform,
+                                                         const float matrix[4][4]);
+TRIPTYCH_API enum triptych_result triptych_set_viewport(triptych_device *, const struct triptych_viewport *);
+TRIPTYCH_API enum triptych_result triptych_set_material(triptych_device *, const struct triptych_material *);
+TRIPTYCH_API enum triptych_result triptych_set_light(triptych_device *, unsigned index,
+                                                     const struct triptych_light *);
+TRIPTYCH_API enum triptych_result triptych_enable_light(triptych_device *, unsigned index, int enable);
+/* Null unbinds: stage 0 then passes the diffuse colour. */
+TRIPTYCH_API enum triptych_result triptych_set_texture(triptych_device *, triptych_texture *);
+TRIPTYCH_API enum triptych_result triptych_set_element(triptych_device *, enum triptych_attribute,
+                                                       const struct triptych_element *);
+/* bits is 16 or 32; null unbinds. */
+TRIPTYCH_API enum triptych_result triptych_set_indices(triptych_device *, triptych_buffer *, unsigned bits);
+
+/* Draws `count` primitives from vertex `first` on. */
+TRIPTYCH_API enum triptych_result triptych_draw(triptych_device *, enum triptych_primitive, uint32_t first,
+                                                uint32_t count);
+/* Draws `count` primitives whose vertices are base + indices from `first` on. */
+TRIPTYCH_API enum triptych_result triptych_draw_indexed(triptych_device *, enum triptych_primitive, int32_t base,
+                                                        uint32_t first, uint32_t count);
+
+/* Clears the viewport's pixels: colour (unless null) and depth (0 to 1, unless negative). */
+TRIPTYCH_API enum triptych_result triptych_clear(triptych_device *, const float color[4], float depth);
+
+/* Renders everything recorded so far. */
+TRIPTYCH_API enum triptych_result triptych_finish(triptych_device *);
+
+/* Finishes and copies the target: width * height RGBA8 words, or depth values. */
+TRIPTYCH_API enum triptych_result triptych_read_color(triptych_device *, uint32_t *rgba);
+TRIPTYCH_API enum triptych_result triptych_read_depth(triptych_device *, float *depth);
+TRIPTYCH_API void triptych_target_size(const triptych_device *, unsigned *width, unsigned *height);
+
+TRIPTYCH_API void triptych_get_statistics(const triptych_device *, struct triptych_statistics *);
+/* The i-th routine in the cache, in order of number; returns 0 past the last. */
+TRIPTYCH_API int triptych_get_routine(triptych_device *, unsigned i, struct triptych_routine_info *);
+
+/* The states by table row: name, the word for a value and back (return null / nonzero when there is none). */
+TRIPTYCH_API const char *triptych_state_name(enum triptych_state);
+TRIPTYCH_API const char *triptych_state_word(enum triptych_state, uint32_t value);
+TRIPTYCH_API int triptych_state_value(enum triptych_state, const char *word, uint32_t *value);
+
+#ifdef __cplusplus
+}
+#endif
+
+#endif
