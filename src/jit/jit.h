@@ -1,0 +1,21 @@
+/* The specializer: records the spec for one key, optimises, allocates registers and encodes x86-64. */
+#ifndef JIT_JIT_H
+#define JIT_JIT_H
+
+#include "draw/engine.h"
+
+#include <stdio.h>
+
+extern const struct engine engine_specialize;   /* W = 8, AVX2 */
+extern const struct engine engine_specialize_4; /* W = 4, the same code on 128-bit registers */
+
+/* Writes the stages of building a routine that `show` names, a comma-separated list of: key, record, a pass's name
+ * (jit_passes), intervals, asm; or all. `width` is 4 or 8. Returns 0, or -1 with the reason. */
+int jit_dump(struct code_arena *arena, enum unit unit, const union key *key, int width, const char *show,
+             FILE *out, struct error *error);
+
+/* The i-th pass's name and one line about it; null past the last. */
+const char *jit_pass_name(unsigned i);
+const char *jit_pass_description(unsigned i);
+
+#endif
