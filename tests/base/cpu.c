@@ -1,0 +1,133 @@
+#include "base/cpu.h"
+
+#include "unity.h"
+
+#include <string.h>
+
+/* A processor made of parts: which leaves it has, what leaf 1 and 7 say, what the system saves. */
+static struct {
+    uint32_t leaves, leaf1_ecx, leaf7_ebx;
+    uint64_t saved;
+    const char *brand;
+    int saved_state_asked;
+} fake;
+
+static struct cpu_registers fake_identify(uint32_t leaf)
+{
+    struct cpu_registers registers = {0};
+    char brand[48] = {0};
+    switch (leaf) {
+    case 0: registers.eax = fake.leaves; break;
+    case 1: registers.ecx = fake.leaf1_ecx; break;
+    case 7: registers.ebx = fake.leaf7_ebx; break;
+    case 0x80000000: registers.eax = fake.brand ? 0x80000004 : 0; break;
+    case 0x80000002:
+    case 0x80000003:
+    case 0x80000004:
+        memcpy(brand, fake.brand, strlen(fake.brand));
+        memcpy(&registers, brand + 16 * (leaf - 0x80000002), sizeof registers);
+        break;
+    }
+    return registers;
+}
+
+static uint64_t fake_saved_state(void)
+{
+    fake.saved_state_asked++;
+    return fake.saved;
+}
+
+static struct cpu detect(void)
+{
+    return cpu_detect(&(struct cpu_system){fake_identify, fake_saved_state});
+}
+
+enum { XSAVE = 1 << 27, AVX = 1 << 28, FMA = 1 << 12, AVX2 = 1 << 5, AVX512F = 1 << 16 };
+
+void setUp(void)
+{
+    memset(&fake, 0, sizeof fake);
+    fake.leaves = 7;
+    fake.leaf1_ecx = XSAVE | AVX | FMA;
+    fake.leaf7_ebx = AVX2 | AVX512F;
+    fake.saved = 0xe7;
+}
+
+void tearDown(void)
+{
+}
+
+static void test_everything_agreed_is_everything_there(void)
+{
+    struct cpu cpu = detect();
+    TEST_ASSERT_TRUE(cpu.has[CPU_avx]);
+    TEST_ASSERT_TRUE(cpu.has[CPU_fma]);
+    TEST_ASSERT_TRUE(cpu.has[CPU_avx2]);
+    TEST_ASSERT_TRUE(cpu.has[CPU_avx512f]);
+    TEST_ASSERT_FALSE(cpu.has[CPU_avx512bw]);
+}
+
+static void test_a_system_that_does_not_save_ymm_hides_avx(void)
+{
+    fake.saved = 0x3;
+    struct cpu cpu = detect();
+    for (int i = 0; i < CPU_FEATURE_COUNT; i++)
+        TEST_ASSERT_FALSE(cpu.has[i]);
+}
+
+static void test_a_system_that_does_not_save_zmm_hides_avx512_only(void)
+{
+    fake.saved = 0x7;
+    struct cpu cpu = detect();
+    TEST_ASSERT_TRUE(cpu.has[CPU_avx2]);
+    TEST_ASSERT_FALSE(cpu.has[CPU_avx512f]);
+}
+
+static void test_xgetbv_is_not_executed_where_it_does_not_exist(void)
+{
+    fake.leaf1_ecx = AVX | FMA;
+    struct cpu cpu = detect();
+    TEST_ASSERT_EQUAL_INT(0, fake.saved_state_asked);
+    TEST_ASSERT_FALSE(cpu.has[CPU_avx]);
+}
+
+static void test_leaves_beyond_the_last_are_not_believed(void)
+{
+    fake.leaves = 6;
+    struct cpu cpu = detect();
+    TEST_ASSERT_TRUE(cpu.has[CPU_fma]);
+    TEST_ASSERT_FALSE(cpu.has[CPU_avx2]);
+}
+
+static void test_the_model_is_trimmed_and_never_empty(void)
+{
+    TEST_ASSERT_EQUAL_STRING("unknown", detect().model);
+    fake.brand = "   Example(R) Processor 9 @ 1 GHz   ";
+    TEST_ASSERT_EQUAL_STRING("Example(R) Processor 9 @ 1 GHz", detect().model);
+    fake.brand = "exactly forty-eight characters of a brand string";
+    TEST_ASSERT_EQUAL_STRING(fake.brand, detect().model);
+}
+
+static void test_this_machine_agrees_with_the_compiler(void)
+{
+    __builtin_cpu_init();
+    const struct cpu *cpu = cpu_native();
+    TEST_ASSERT_EQUAL(!!__builtin_cpu_supports("avx2"), cpu->has[CPU_avx2]);
+    TEST_ASSERT_EQUAL(!!__builtin_cpu_supports("fma"), cpu->has[CPU_fma]);
+    TEST_ASSERT_EQUAL(!!__builtin_cpu_supports("avx512f"), cpu->has[CPU_avx512f]);
+    TEST_ASSERT_EQUAL(!!__builtin_cpu_supports("avx512vl"), cpu->has[CPU_avx512vl]);
+    TEST_ASSERT_EQUAL(cpu->has[CPU_avx2] && cpu->has[CPU_fma], cpu_has_avx2_fma());
+}
+
+int main(void)
+{
+    UNITY_BEGIN();
+    RUN_TEST(test_everything_agreed_is_everything_there);
+    RUN_TEST(test_a_system_that_does_not_save_ymm_hides_avx);
+    RUN_TEST(test_a_system_that_does_not_save_zmm_hides_avx512_only);
+    RUN_TEST(test_xgetbv_is_not_executed_where_it_does_not_exist);
+    RUN_TEST(test_leaves_beyond_the_last_are_not_believed);
+    RUN_TEST(test_the_model_is_trimmed_and_never_empty);
+    RUN_TEST(test_this_machine_agrees_with_the_compiler);
+    return UNITY_END();
+}
