@@ -1,0 +1,40 @@
+/* The clipper: one triangle of a vertex batch against the planes that its vertices' clip codes name
+ * (CLIP_NEEDED in draw/call.h: eye, near, far and guard band; the sides of the frustum are the rasterizer's).
+ */
+#ifndef DRAW_CLIP_H
+#define DRAW_CLIP_H
+
+#include "draw/call.h"
+
+enum {
+    CLIP_PLANES = 7,
+    CLIP_VERTICES_MAXIMUM =
+        3 + CLIP_PLANES, /* of the clipped polygon, and so of new lanes for one triangle */
+    CLIP_TRIANGLES_MAXIMUM = CLIP_VERTICES_MAXIMUM - 2
+};
+
+/* Where the clipper works. Several may be used on one batch in turn if `next` is carried along. */
+struct clipper {
+    float *vertices; /* the batch: SLOT_COUNT * VERTEX_CAPACITY words (draw/call.h) */
+    uint32_t next;   /* first free lane; advances by the lanes that each triangle takes */
+    uint32_t smooth; /* bit s: slot s is interpolated */
+    uint32_t flat;   /* bit s: slot s is copied from the triangle's vertex 0 */
+    float guard_x;   /* of the job */
+    float guard_y;
+};
+
+/* A clipper for the batch of one draw. `varying` holds an enum interpolation for each varying: those of the
+ * setup key. Position and clip code are always written; slots of varyings that are INTERPOLATION_NONE never.
+ */
+struct clipper clipper_create(const struct job *job, const uint8_t varying[VARYING_COUNT], float *vertices,
+                              uint32_t next);
+
+/* Clips the triangle of lanes lane[0], lane[1], lane[2], none of whose codes has CLIP_INVALID. Writes the
+ * lanes of the triangles that are left, a fan with the winding and the flat values of the original, and
+ * returns how many, 0 to CLIP_TRIANGLES_MAXIMUM; all their codes are free of CLIP_NEEDED bits. Lanes below
+ * `next` are never written. Returns -1 when the batch has too few free lanes: nothing has changed then, and
+ * after the batch is set up and `next` taken back, CLIP_VERTICES_MAXIMUM free lanes are always enough. */
+int clip_triangle(struct clipper *clipper, const uint32_t lane[3],
+                  uint32_t triangle[CLIP_TRIANGLES_MAXIMUM][3]);
+
+#endif

@@ -1,0 +1,44 @@
+/* The rasterizer: which pixels a triangle covers, tile by tile.
+ *
+ * Input is the head of a triangle record (draw/call.h). A pixel is covered when its centre is inside, or on
+ * an edge that is a top or a left one; so of triangles that share an edge exactly one covers a centre on it.
+ * Results are exact for all window positions within WINDOW_LIMIT. */
+#ifndef DRAW_RASTER_H
+#define DRAW_RASTER_H
+
+#include "draw/call.h"
+
+#include <stdbool.h>
+
+/* Columns x0 <= x < x1, rows y0 <= y < y1; empty when either range is. */
+struct rectangle {
+    int32_t x0, y0, x1, y1;
+};
+
+/* A triangle prepared for one scissor rectangle. Edge function i of the pixel (x, y) is c[i] + a[i] * x +
+ * b[i] * y, and the pixel is covered when it lies in the scissor and none of the three is negative. */
+struct raster {
+    int64_t c[3];
+    int32_t a[3];
+    int32_t b[3];
+    struct rectangle bounds; /* pixels: the bounding box of the centres inside, cut to the scissor */
+};
+
+/* Returns false when the triangle is not visible or certainly covers no pixel of the scissor rectangle, and
+ * true with *raster filled in and bounds not empty otherwise. Scissor edges are 0 to TARGET_SIZE_MAXIMUM: the
+ * intersection of target, viewport and scissor rectangle. */
+bool raster_prepare(struct raster *raster, const struct triangle_head *head, const struct rectangle *scissor);
+
+/* The tiles that the bounds meet, in units of tiles: never empty. */
+struct rectangle raster_tiles(const struct raster *raster);
+
+/* For a tile of raster_tiles(): whether the triangle may cover a pixel of the tile (column, row). False is
+ * certain. */
+bool raster_touches(const struct raster *raster, int column, int row);
+
+/* The blocks of the tile (column, row) that the triangle covers within the scissor rectangle, in block order;
+ * returns how many. `triangle` goes to the entries unchanged. Up to TILE_BLOCKS entries are written. */
+uint32_t raster_tile(const struct triangle_head *head, const struct rectangle *scissor, int column, int row,
+                     uint32_t triangle, struct entry *entries);
+
+#endif
