@@ -6,7 +6,7 @@
 # assets) goes to build/ whatever BUILD is, because draw streams name their assets through build/glmark2.
 # `make test` runs this file again for each variant: plain, clang (CC=clang), sanitize (SANITIZE=1).
 
-VERSION := 0.1.0
+VERSION := $(shell sed -n 's/^#define TRIPTYCH_VERSION "\(.*\)"/\1/p' src/triptych.h)
 SONAME  := libtriptych.so.$(firstword $(subst ., ,$(VERSION)))
 
 ifeq ($(origin CC),default)
@@ -43,8 +43,11 @@ SUPPORT_OBJECTS := $(call object,$(SUPPORT_SOURCES))
 PROGRAM_OBJECTS := $(call object,$(PROGRAM_SOURCES))
 OBJECTS         := $(LIBRARY_OBJECTS) $(TOOL_OBJECTS) $(SUPPORT_OBJECTS) $(PROGRAM_OBJECTS)
 
-# ONLY=text keeps the test programs whose path contains the text.
-PROGRAMS := $(patsubst %.c,$(BUILD)/%,$(if $(ONLY),$(foreach s,$(PROGRAM_SOURCES),$(if $(findstring $(ONLY),$(s)),$(s))),$(PROGRAM_SOURCES)))
+# ONLY=text keeps the tests whose path contains the text.
+only = $(if $(ONLY),$(foreach t,$(1),$(if $(findstring $(ONLY),$(t)),$(t))),$(1))
+
+PROGRAMS := $(patsubst %.c,$(BUILD)/%,$(call only,$(PROGRAM_SOURCES)))
+SCRIPTS  := $(call only,$(wildcard tests/*.sh))
 COMMAND  := $(if $(TOOL_SOURCES),$(BUILD)/triptych)
 
 # --- Flags ---------------------------------------------------------------------------------------------------
@@ -148,7 +151,7 @@ Description: one graphics pipeline run by three execution engines with identical
 Version: $(VERSION)
 Libs: -L$${libdir} -ltriptych
 Libs.private: $(library_libraries)
-Cflags: -I$${includedir}
+Cflags: -I$${includedir}/triptych
 endef
 
 $(BUILD)/triptych.pc: Makefile FORCE
@@ -172,8 +175,10 @@ dependencies:
 packages:
 	@tests/support/dependencies.sh --list
 
+# The scripts need the command, which a selection without them does without.
 check:
-	+@$(MAKE) $(jobs) all programs
+	@tests/support/dependencies.sh build test
+	+@$(MAKE) $(jobs) programs $(if $(SCRIPTS),all)
 	@tests/support/run.sh '$(ONLY)' $(BUILD)
 
 test:
@@ -188,13 +193,20 @@ bench:
 	+@$(MAKE) $(jobs) all
 	@BUILD=$(BUILD) bench/run.sh
 
+# The public header reads these tables.
+PUBLIC_TABLES = $(addprefix src/,$(shell sed -n 's/^#include "\(.*\)"/\1/p' src/triptych.h))
+
+installed = $(DESTDIR)$(PREFIX)
+
 install: all
-	install -d $(DESTDIR)$(PREFIX)/bin $(DESTDIR)$(PREFIX)/include $(DESTDIR)$(PREFIX)/lib/pkgconfig
-	install -m 755 $(COMMAND) $(DESTDIR)$(PREFIX)/bin/
-	install -m 644 src/triptych.h $(DESTDIR)$(PREFIX)/include/
-	install -m 644 $(BUILD)/libtriptych.a $(BUILD)/$(SONAME) $(DESTDIR)$(PREFIX)/lib/
-	ln -sf $(SONAME) $(DESTDIR)$(PREFIX)/lib/libtriptych.so
-	install -m 644 $(BUILD)/triptych.pc $(DESTDIR)$(PREFIX)/lib/pkgconfig/
+	install -d $(installed)/bin $(installed)/include/triptych/def $(installed)/lib/pkgconfig
+	install -m 755 $(COMMAND) $(installed)/bin/
+	install -m 644 src/triptych.h $(installed)/include/triptych/
+	install -m 644 $(PUBLIC_TABLES) $(installed)/include/triptych/def/
+	install -m 644 $(BUILD)/libtriptych.a $(installed)/lib/
+	install -m 755 $(BUILD)/$(SONAME) $(installed)/lib/
+	ln -sf $(SONAME) $(installed)/lib/libtriptych.so
+	install -m 644 $(BUILD)/triptych.pc $(installed)/lib/pkgconfig/
 
 clean:
 	rm -rf $(BUILD)

@@ -1,0 +1,118 @@
+#!/bin/bash
+# What `make install` leaves behind is usable without this tree: header, libraries, pkg-config file, command.
+# Given BUILD, TRIPTYCH and SANITIZE by tests/support/run.sh.
+set -uo pipefail
+cd "$(dirname "$0")/.."
+
+work=$(mktemp -d)
+trap 'rm -rf "$work"' EXIT
+failures=0
+
+test_case() # NAME COMMAND... : the command's output is shown only if it fails
+{
+    local name=$1
+    shift
+    if "$@" >"$work/said" 2>&1; then
+        echo "ok $name"
+    else
+        echo "FAIL $name"
+        cat "$work/said"
+        failures=1
+    fi
+}
+
+stack_is_not_executable() # FILE...
+{
+    local file
+    for file in "$@"; do
+        readelf -lW "$file" | grep -E 'GNU_STACK +([^ ]+ +){5}RW ' || return 1
+    done
+}
+
+# The sanitizers' build has the command only.
+if [[ ${SANITIZE-} ]]; then
+    test_case 'stack is not executable' stack_is_not_executable "$TRIPTYCH"
+    exit $failures
+fi
+
+installs()
+{
+    make BUILD="$BUILD" PREFIX="$work" DESTDIR= install
+}
+
+header_stands_alone()
+{
+    printf '#include <triptych.h>\n' >"$work/header.c"
+    gcc -std=c17 -Wall -Wextra -Werror -pedantic -fsyntax-only $(pkg-config --cflags triptych) "$work/header.c" &&
+        clang -x c++ -std=c++17 -Wall -Wextra -Werror -fsyntax-only $(pkg-config --cflags triptych) "$work/header.c"
+}
+
+exports_are_the_header()
+{
+    gcc -E -P $(pkg-config --cflags triptych) "$work/include/triptych/triptych.h" | tr '\n' ' ' | tr ';' '\n' |
+        sed -n 's/.*visibility("default").*[ *]\(triptych_[a-z0-9_]*\)(.*/\1/p' | sort >"$work/declared"
+    nm -D --defined-only "$work/lib/libtriptych.so" | awk '{ print $3 }' | sort >"$work/exported"
+    [[ -s $work/declared ]] && diff "$work/declared" "$work/exported"
+}
+
+# The emulator runs on every x86-64, so a device with it must come up.
+cat >"$work/program.c" <<'C'
+#include <stdio.h>
+#include <string.h>
+#include <triptych.h>
+
+int main(void)
+{
+    struct triptych_options options = {.engine = "emulate", .threads = 1};
+    char reason[256] = "";
+    triptych_device *device;
+    uint32_t pixels[4] = {0};
+    const float color[4] = {1, 1, 1, 1};
+    if (triptych_device_create(&options, &device, reason, sizeof reason)) {
+        puts(reason);
+        return 1;
+    }
+    int failed = triptych_set_target(device, 2, 2) || triptych_clear(device, color, -1) ||
+                 triptych_read_color(device, pixels);
+    if (failed)
+        puts(triptych_error(device));
+    triptych_device_destroy(device);
+    return failed || pixels[0] != 0xffffffff || pixels[3] != 0xffffffff;
+}
+C
+
+shared_library_works()
+{
+    gcc "$work/program.c" -o "$work/shared" $(pkg-config --cflags --libs triptych) &&
+        readelf -dW "$work/shared" | grep -q 'NEEDED.*libtriptych.so.[0-9]' &&
+        LD_LIBRARY_PATH=$work/lib "$work/shared"
+}
+
+static_library_works()
+{
+    gcc "$work/program.c" -o "$work/static" $(pkg-config --cflags triptych) "$work/lib/libtriptych.a" \
+        $(pkg-config --static --libs-only-l triptych | sed 's/-ltriptych//') &&
+        "$work/static"
+}
+
+code_needs_no_patching()
+{
+    readelf -dW "$work/lib/libtriptych.so" >"$work/dynamic" && grep -q SONAME "$work/dynamic" &&
+        ! grep TEXTREL "$work/dynamic"
+}
+
+command_runs()
+{
+    "$work/bin/triptych" --version
+}
+
+export PKG_CONFIG_PATH=$work/lib/pkgconfig
+test_case 'make install' installs
+test_case 'header stands alone in C and C++' header_stands_alone
+test_case 'exported symbols are those of the header' exports_are_the_header
+test_case 'program with the shared library' shared_library_works
+test_case 'program with the static library' static_library_works
+test_case 'installed command runs' command_runs
+test_case 'code needs no patching' code_needs_no_patching
+test_case 'stack is not executable' stack_is_not_executable "$work/lib/libtriptych.so" "$work/bin/triptych"
+exit $failures
