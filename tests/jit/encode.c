@@ -84,6 +84,8 @@ static void finish(const char *mnemonic, unsigned operand_count)
     require(at.decoded.length == at.length, "length");
     require(!strcmp(ZydisMnemonicGetString(at.decoded.mnemonic), mnemonic), "mnemonic");
     require(at.decoded.operand_count_visible == operand_count, "operand count");
+    for (unsigned i = 0; i < at.decoded.raw.prefix_count; i++)
+        require(at.decoded.raw.prefixes[i].type != ZYDIS_PREFIX_TYPE_IGNORED, "prefix that says nothing");
 }
 
 /* What an operand must be. */
@@ -294,14 +296,31 @@ static unsigned memory_bits(const char *memory, enum vector_length length)
     return bits;
 }
 
+/* VEX.W costs a byte: where it is set, the same bytes without it must be another instruction. */
+static void require_w_has_meaning(void)
+{
+    ZydisDecodedInstruction other;
+    ZydisDecodedOperand operands[ZYDIS_MAX_OPERAND_COUNT];
+    at.code[HERE + 2] ^= 0x80;
+    bool decodes = ZYAN_SUCCESS(ZydisDecoderDecodeFull(&at.decoder, at.code + HERE, 16, &other, operands));
+    at.code[HERE + 2] ^= 0x80;
+    bool same = decodes && other.mnemonic == at.decoded.mnemonic;
+    for (unsigned i = 0; same && i < other.operand_count_visible; i++)
+        same = operands[i].size == at.operands[i].size &&
+               operands[i].element_count == at.operands[i].element_count;
+    require(!same, "VEX.W that says nothing");
+}
+
 /* Two-byte VEX exactly when nothing needs the third byte. */
-static void require_shortest_vex(const struct vector_choice *c, unsigned map, unsigned w)
+static void require_shortest_vex(const struct vector_choice *c, bool map_0f, bool w)
 {
     bool extended = c->memory ? (c->address.base < 16 && c->address.base >= 8) ||
                                     (c->address.index < 16 && c->address.index >= 8)
                               : c->rm >= 8;
     require(at.decoded.encoding == ZYDIS_INSTRUCTION_ENCODING_VEX, "encoding");
-    require(at.decoded.raw.vex.size == (map == 1 && !w && !extended ? 2 : 3), "VEX size");
+    require(at.decoded.raw.vex.size == (map_0f && !w && !extended ? 2 : 3), "VEX size");
+    if (w)
+        require_w_has_meaning();
 }
 
 /* The letters of the form, in order, are the operands the disassembler must list. */
