@@ -1,0 +1,192 @@
+/* The recorder's binding: a value is the number of an IR instruction, an operation appends one.
+ *
+ * Host control flow over the key has run its course when recording ends: what is recorded is the pipeline for this
+ * one key. E notes the spec's file and line, so that every instruction knows the words that made it. */
+#ifndef JIT_BIND_H
+#define JIT_BIND_H
+
+#include "jit/ir.h"
+
+#include <string.h>
+
+typedef struct {
+    uint16_t id;
+} flt;
+typedef struct {
+    uint16_t id;
+} itg;
+typedef struct {
+    uint16_t id;
+} fix;
+typedef struct {
+    uint16_t id;
+} msk;
+
+struct env {
+    struct ir *ir;
+    const char *path; /* of the current spec file */
+    uint8_t file;
+    uint16_t line;
+};
+
+/* The part of a path that a reader wants: from "spec/" on. */
+static inline const char *spec_path(const char *path)
+{
+    const char *spec = strstr(path, "spec/");
+    return spec ? spec : path;
+}
+
+static inline struct env *record_at(struct env *e, const char *path, int line)
+{
+    e->line = (uint16_t)line;
+    if (path == e->path)
+        return e;
+    e->path = path;
+    path = spec_path(path);
+    struct ir *ir = e->ir;
+    for (e->file = 0; e->file < ir->file_count; e->file++)
+        if (!strcmp(ir->file[e->file], path))
+            return e;
+    if (ir->file_count < IR_FILES)
+        ir->file[ir->file_count++] = path;
+    else
+        e->file = IR_FILES - 1;
+    return e;
+}
+
+#define E record_at(e, __FILE__, __LINE__)
+
+static inline uint16_t record(struct env *e, enum ir_op op, enum ir_type type, uint16_t a, uint16_t b, uint16_t c,
+                              int32_t k)
+{
+    return ir_append(e->ir, (struct ir_instruction){.op = (uint8_t)op,
+                                                    .type = (uint8_t)type,
+                                                    .operand = {a, b, c},
+                                                    .line = e->line,
+                                                    .file = e->file,
+                                                    .k = k});
+}
+
+static inline uint16_t record_memory(struct env *e, enum ir_op op, enum ir_type type, uint16_t a, enum base base,
+                                     int32_t k, int32_t field, int scale)
+{
+    return ir_append(e->ir, (struct ir_instruction){.op = (uint8_t)op,
+                                                    .type = (uint8_t)type,
+                                                    .base = (uint8_t)base,
+                                                    .scale = (uint8_t)scale,
+                                                    .operand = {a},
+                                                    .line = e->line,
+                                                    .file = e->file,
+                                                    .k = k,
+                                                    .field = field});
+}
+
+#define ARGUMENT_flt(n) , flt n
+#define ARGUMENT_itg(n) , itg n
+#define ARGUMENT_msk(n) , msk n
+#define ARGUMENT_fix(n) , fix n
+#define ARGUMENT_non(n)
+#define ID_flt(n) n.id
+#define ID_itg(n) n.id
+#define ID_msk(n) n.id
+#define ID_fix(n) n.id
+#define ID_non(n) 0
+
+#define OP(name, result, ta, tb, tc, properties, expression)                                                 \
+    static inline result name(struct env *e ARGUMENT_##ta(a) ARGUMENT_##tb(b) ARGUMENT_##tc(c))              \
+    {                                                                                                        \
+        return (result){record(e, IR_##name, TYPE_##result, ID_##ta(a), ID_##tb(b), ID_##tc(c), 0)};         \
+    }
+#define OPK(name, result, ta, tb, tc, properties, expression)                                                \
+    static inline result name(struct env *e ARGUMENT_##ta(a), int k)                                         \
+    {                                                                                                        \
+        return (result){record(e, IR_##name, TYPE_##result, ID_##ta(a), 0, 0, k)};                           \
+    }
+#define CAST(name, result, from)                                                                             \
+    static inline result name(struct env *e, from a)                                                         \
+    {                                                                                                        \
+        return (result){record(e, IR_copy, TYPE_##result, a.id, 0, 0, 0)};                                   \
+    }
+#include "def/op.def"
+#undef OP
+#undef OPK
+#undef CAST
+
+static inline flt lit_f(struct env *e, float value)
+{
+    int32_t bits;
+    memcpy(&bits, &value, sizeof bits);
+    return (flt){record(e, IR_literal, TYPE_flt, 0, 0, 0, bits)};
+}
+
+static inline itg lit_i(struct env *e, int32_t value)
+{
+    return (itg){record(e, IR_literal, TYPE_itg, 0, 0, 0, value)};
+}
+
+static inline fix lit_x(struct env *e, uint16_t value)
+{
+    return (fix){record(e, IR_literal, TYPE_fix, 0, 0, 0, (int32_t)(value * 0x10001u))};
+}
+
+static inline msk lit_m(struct env *e, int32_t value)
+{
+    return (msk){record(e, IR_literal, TYPE_msk, 0, 0, 0, value)};
+}
+
+static inline flt load_f(struct env *e, enum base base, int offset)
+{
+    return (flt){record_memory(e, IR_load, TYPE_flt, 0, base, offset, 0, 0)};
+}
+
+static inline itg load_i(struct env *e, enum base base, int offset)
+{
+    return (itg){record_memory(e, IR_load, TYPE_itg, 0, base, offset, 0, 0)};
+}
+
+static inline flt uniform_f(struct env *e, enum base base, int offset)
+{
+    return (flt){record_memory(e, IR_uniform, TYPE_flt, 0, base, offset, 0, 0)};
+}
+
+static inline itg uniform_i(struct env *e, enum base base, int offset)
+{
+    return (itg){record_memory(e, IR_uniform, TYPE_itg, 0, base, offset, 0, 0)};
+}
+
+static inline flt gather_f(struct env *e, enum base base, int field, itg index, int scale, int displacement)
+{
+    return (flt){record_memory(e, IR_gather, TYPE_flt, index.id, base, displacement, field, scale)};
+}
+
+static inline itg gather_i(struct env *e, enum base base, int field, itg index, int scale, int displacement)
+{
+    return (itg){record_memory(e, IR_gather, TYPE_itg, index.id, base, displacement, field, scale)};
+}
+
+static inline void store_f(struct env *e, enum base base, int offset, flt value)
+{
+    record_memory(e, IR_store, TYPE_non, value.id, base, offset, 0, 0);
+}
+
+static inline void store_i(struct env *e, enum base base, int offset, itg value)
+{
+    record_memory(e, IR_store, TYPE_non, value.id, base, offset, 0, 0);
+}
+
+static inline void scatter_f(struct env *e, enum base base, int offset, int stride, flt value)
+{
+    record_memory(e, IR_scatter, TYPE_non, value.id, base, offset, stride, 0);
+}
+
+static inline void scatter_i(struct env *e, enum base base, int offset, int stride, itg value)
+{
+    record_memory(e, IR_scatter, TYPE_non, value.id, base, offset, stride, 0);
+}
+
+/* The region's body is recorded once. */
+#define WHEN(e, mask)                                                                                        \
+    for (int once = (record(e, IR_when, TYPE_non, (mask).id, 0, 0, 0), 1); once;                             \
+         once = (record(e, IR_end, TYPE_non, 0, 0, 0, 0), 0))
+
+#endif

@@ -1,0 +1,188 @@
+#include "jit/ir.h"
+
+#include <string.h>
+
+#define OPERANDS_flt 1
+#define OPERANDS_itg 1
+#define OPERANDS_fix 1
+#define OPERANDS_msk 1
+#define OPERANDS_non 0
+#define COMMUTES     IR_COMMUTES
+#define COUNT(a, b, c) (OPERANDS_##a + OPERANDS_##b + OPERANDS_##c)
+
+const struct ir_op_information ir_op_information[IR_OP_COUNT] = {
+    [IR_nop] = {"nop", TYPE_non, {0}, 0, 0},
+#define OP(name, result, a, b, c, properties, expression)                                                    \
+    [IR_##name] = {#name, TYPE_##result, {TYPE_##a, TYPE_##b, TYPE_##c}, COUNT(a, b, c), properties},
+#define OPK(name, result, a, b, c, properties, expression)                                                   \
+    [IR_##name] = {#name, TYPE_##result, {TYPE_##a}, 1, IR_SHIFTS | (properties)},
+#define CAST(name, ...)
+#include "def/op.def"
+#undef OP
+#undef OPK
+#undef CAST
+    [IR_copy] = {"copy", TYPE_non, {0}, 1, 0},
+    [IR_literal] = {"literal", TYPE_non, {0}, 0, 0},
+    [IR_load] = {"load", TYPE_non, {0}, 0, IR_READS},
+    [IR_uniform] = {"uniform", TYPE_non, {0}, 0, IR_READS},
+    [IR_gather] = {"gather", TYPE_non, {TYPE_itg}, 1, IR_READS},
+    [IR_store] = {"store", TYPE_non, {0}, 1, IR_EFFECT},
+    [IR_scatter] = {"scatter", TYPE_non, {0}, 1, IR_EFFECT},
+    [IR_when] = {"when", TYPE_non, {TYPE_msk}, 1, IR_EFFECT},
+    [IR_end] = {"end", TYPE_non, {0}, 0, IR_EFFECT},
+    [IR_constant] = {"constant", TYPE_non, {0}, 0, 0},
+};
+
+static const char *const type_name[] = {"   ", "flt", "itg", "fix", "msk"};
+
+static const char *const base_name[BASE_COUNT] = {
+#define BASE(name, meaning) #name,
+#include "def/base.def"
+#undef BASE
+};
+
+void ir_start(struct ir *ir)
+{
+    ir->count = 1;
+    ir->file_count = ir->constant_count = 0;
+    ir->overflow = 0;
+    memset(&ir->instruction[0], 0, sizeof ir->instruction[0]);
+}
+
+uint16_t ir_append(struct ir *ir, struct ir_instruction instruction)
+{
+    if (ir->count == IR_CAPACITY) {
+        ir->overflow = 1;
+        return 0;
+    }
+    ir->instruction[ir->count] = instruction;
+    return (uint16_t)ir->count++;
+}
+
+int ir_is_invariant_read(const struct ir_instruction *instruction)
+{
+    return ir_op_information[instruction->op].properties & IR_READS && instruction->base != BASE_COLOR &&
+           instruction->base != BASE_DEPTH && instruction->base != BASE_OUTPUT;
+}
+
+void ir_compact(struct ir *ir, uint16_t *map)
+{
+    uint32_t to = 1;
+    map[0] = 0;
+    for (uint32_t from = 1; from < ir->count; from++) {
+        struct ir_instruction *i = &ir->instruction[from];
+        if (i->op == IR_nop)
+            continue;
+        for (int o = 0; o < 3; o++)
+            i->operand[o] = map[i->operand[o]];
+        map[from] = (uint16_t)to;
+        if (to != from)
+            ir->instruction[to] = *i;
+        to++;
+    }
+    ir->count = to;
+}
+
+/* Innermost open region while walking, and which regions are open. */
+struct walk {
+    uint16_t region[IR_CAPACITY]; /* of each value: the `when` it is inside of */
+    uint16_t parent[IR_CAPACITY];
+    uint8_t open[IR_CAPACITY];
+    uint16_t current;
+};
+
+static const char *verify_operands(const struct ir *ir, uint32_t number, const struct walk *walk, char *text)
+{
+    const struct ir_instruction *i = &ir->instruction[number];
+    const struct ir_op_information *information = &ir_op_information[i->op];
+    for (int o = 0; o < 3; o++) {
+        unsigned operand = i->operand[o];
+        if (o >= information->operands) {
+            if (operand)
+                return snprintf(text, 128, "instruction %u: operand %d is superfluous", number, o), text;
+            continue;
+        }
+        if (!operand || operand >= number)
+            return snprintf(text, 128, "instruction %u: operand %d is not defined before", number, o), text;
+        if (!ir->instruction[operand].type)
+            return snprintf(text, 128, "instruction %u: operand %d is no value", number, o), text;
+        if (!walk->open[walk->region[operand]])
+            return snprintf(text, 128, "instruction %u: operand %d leaves its region", number, o), text;
+    }
+    return NULL;
+}
+
+const char *ir_verify(const struct ir *ir)
+{
+    static _Thread_local struct walk walk;
+    static _Thread_local char text[128];
+    walk.open[0] = 1;
+    walk.current = 0;
+    for (uint32_t number = 1; number < ir->count; number++) {
+        const struct ir_instruction *i = &ir->instruction[number];
+        if (i->op == IR_nop)
+            continue;
+        const char *wrong = verify_operands(ir, number, &walk, text);
+        if (wrong)
+            return wrong;
+        walk.region[number] = walk.current;
+        if (i->op == IR_when) {
+            walk.parent[number] = walk.current;
+            walk.current = (uint16_t)number;
+            walk.open[number] = 1;
+        } else if (i->op == IR_end) {
+            if (!walk.current)
+                return snprintf(text, sizeof text, "instruction %u: end without when", number), text;
+            walk.open[walk.current] = 0;
+            walk.current = walk.parent[walk.current];
+        }
+    }
+    return walk.current ? "a region is not ended" : NULL;
+}
+
+static void print_literal(const struct ir_instruction *i, FILE *out)
+{
+    float value;
+    memcpy(&value, &i->k, sizeof value);
+    if (i->type == TYPE_flt)
+        fprintf(out, " %.9g", (double)value);
+    else
+        fprintf(out, " 0x%x", (unsigned)i->k);
+}
+
+static void print_memory(const struct ir_instruction *i, FILE *out)
+{
+    fprintf(out, " %s", base_name[i->base]);
+    if (i->op == IR_gather && i->field != GATHER_DIRECT)
+        fprintf(out, "[%d]->", (int)i->field);
+    fprintf(out, "+%d", (int)i->k);
+    if (i->op == IR_gather)
+        fprintf(out, " scale %d", i->scale);
+    if (i->op == IR_scatter)
+        fprintf(out, " stride %d", (int)i->field);
+}
+
+void ir_print_instruction(const struct ir *ir, uint32_t number, FILE *out)
+{
+    const struct ir_instruction *i = &ir->instruction[number];
+    const struct ir_op_information *information = &ir_op_information[i->op];
+    fprintf(out, "%5u  %s  %-9s", number, type_name[i->type], information->name);
+    for (int o = 0; o < information->operands; o++)
+        fprintf(out, " %%%u", i->operand[o]);
+    if (i->op == IR_literal)
+        print_literal(i, out);
+    else if (information->properties & IR_READS || i->op == IR_store || i->op == IR_scatter)
+        print_memory(i, out);
+    else if (information->properties & IR_SHIFTS || i->op == IR_constant)
+        fprintf(out, " %d", (int)i->k);
+    if (i->line)
+        fprintf(out, "    ; %s:%u", ir->file[i->file], i->line);
+    fputc('\n', out);
+}
+
+void ir_print(const struct ir *ir, FILE *out)
+{
+    for (uint32_t number = 1; number < ir->count; number++)
+        if (ir->instruction[number].op != IR_nop)
+            ir_print_instruction(ir, number, out);
+}

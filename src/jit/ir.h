@@ -1,0 +1,123 @@
+/* The specializer's intermediate representation: one flat array of instructions in SSA form.
+ *
+ * An instruction's number is its index, and the number of the value it defines; 0 is no value. Operands are defined
+ * before they are used. There is one loop, outside of it all (the frame around the body: frame.c), and forward
+ * regions `when mask ... end` inside, which are skipped when no lane of the mask is set; a value defined in a region
+ * is used in that region only, so no merge is needed. Regions nest.
+ *
+ * Opcodes are the rows of def/op.def, and these:
+ *   copy a                      the same bits (the casts)
+ *   literal k                   the 32 bits k in every lane
+ *   load base k                 the lanes' consecutive words at base + k
+ *   uniform base k              the word at base + k in every lane
+ *   gather a base field k scale words at start + a * scale + k; start is base, or the pointer at base + field
+ *   store a base k              the lanes' consecutive words to base + k
+ *   scatter a base k field      lane l's word to base + k + l * field
+ *   when a, end                 a region
+ *   constant k                  slot k of the frame's constants, filled before the loop (hoist.c)
+ * The number of lanes appears nowhere here: the same recording serves every W. */
+#ifndef JIT_IR_H
+#define JIT_IR_H
+
+#include "def/binding.h"
+
+#include <stdio.h>
+
+enum ir_type { TYPE_non, TYPE_flt, TYPE_itg, TYPE_fix, TYPE_msk };
+
+enum ir_op {
+    IR_nop,
+#define OP(name, ...)  IR_##name,
+#define OPK(name, ...) IR_##name,
+#define CAST(name, ...)
+#include "def/op.def"
+#undef OP
+#undef OPK
+#undef CAST
+    IR_copy,
+    IR_literal,
+    IR_load,
+    IR_uniform,
+    IR_gather,
+    IR_store,
+    IR_scatter,
+    IR_when,
+    IR_end,
+    IR_constant,
+    IR_OP_COUNT
+};
+
+enum ir_property {
+    IR_COMMUTES = 1, /* a and b may change places */
+    IR_EFFECT = 2,   /* not a value: memory or control */
+    IR_READS = 4,    /* reads memory */
+    IR_SHIFTS = 8    /* takes the staged immediate k */
+};
+
+struct ir_op_information {
+    const char *name;
+    uint8_t result; /* enum ir_type; TYPE_non for effects, and for the opcodes whose type the instruction says */
+    uint8_t operand[3];
+    uint8_t operands;
+    uint8_t properties;
+};
+
+extern const struct ir_op_information ir_op_information[IR_OP_COUNT];
+
+struct ir_instruction {
+    uint8_t op;   /* enum ir_op */
+    uint8_t type; /* enum ir_type of the value */
+    uint8_t base; /* enum base */
+    uint8_t scale;
+    uint16_t operand[3];
+    uint16_t line; /* of the spec file that made it */
+    uint8_t file;
+    int32_t k;
+    int32_t field;
+};
+
+enum { IR_CAPACITY = 8192, IR_FILES = 32, IR_CONSTANTS = 256 };
+
+/* A hoisted word: broadcast from base + offset before the loop. */
+struct ir_constant {
+    uint8_t base;
+    int32_t offset;
+};
+
+struct ir {
+    uint32_t count; /* instruction 0 is a nop */
+    uint32_t file_count;
+    uint32_t constant_count;
+    int overflow; /* more than IR_CAPACITY instructions were recorded: the routine cannot be built */
+    const char *file[IR_FILES];
+    struct ir_constant constant[IR_CONSTANTS];
+    struct ir_instruction instruction[IR_CAPACITY];
+};
+
+/* Empties it. */
+void ir_start(struct ir *ir);
+
+/* Appends an instruction and returns its number; past the capacity sets `overflow` and returns 0. */
+uint16_t ir_append(struct ir *ir, struct ir_instruction instruction);
+
+/* Whether the instruction only reads memory that no routine writes (so that it may move). */
+int ir_is_invariant_read(const struct ir_instruction *instruction);
+
+/* Removes nops and renumbers. `map` is scratch of IR_CAPACITY entries. */
+void ir_compact(struct ir *ir, uint16_t *map);
+
+/* Checks that operands are defined before use, in an open region, of the right type, and that regions nest. Returns
+ * null, or one line that says what is wrong (static storage, per thread). */
+const char *ir_verify(const struct ir *ir);
+
+/* One line a instruction: number, type, operation, operands, spec line. */
+void ir_print(const struct ir *ir, FILE *out);
+void ir_print_instruction(const struct ir *ir, uint32_t number, FILE *out);
+
+/* Records the spec of a unit for a key (record.c). */
+void ir_record(struct ir *ir, enum unit unit, const union key *key);
+
+/* Evaluates one operation of def/op.def on one lane's bits (fix: both halves). Runs under the caller's MXCSR. */
+uint32_t ir_evaluate(enum ir_op op, uint32_t a, uint32_t b, uint32_t c, int32_t k);
+
+#endif

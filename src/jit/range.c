@@ -1,0 +1,183 @@
+/* Range analysis: bounds of values, NaN and -0, front to back, for the strength reductions that IEEE arithmetic
+ * allows only under conditions (reduce.c).
+ *
+ * Bounds are computed with the operations themselves in binary32 under the contract's rounding: rounding and flushing
+ * are monotone, so the result of the bounds bounds the results. A flushed tiny negative result is -0, hence any
+ * sum that may be negative may be -0. Integers keep float bounds rounded outward, exact up to 2^24. */
+#include "def/lane.h"
+#include "jit/pass.h"
+
+static const struct range anything = {-INFINITY, INFINITY, 1, 1};
+
+static float least(float a, float b)
+{
+    return a < b ? a : b;
+}
+
+static float greatest(float a, float b)
+{
+    return a > b ? a : b;
+}
+
+static int is_finite(struct range r)
+{
+    return !r.nan && r.low > -INFINITY && r.high < INFINITY;
+}
+
+static int contains_zero(struct range r)
+{
+    return r.low <= 0 && r.high >= 0;
+}
+
+static int is_sign_clear(struct range r)
+{
+    return r.low >= 0 && !r.minus_zero;
+}
+
+/* Bounds that came out as NaN (infinity minus infinity) say nothing. */
+static struct range checked(struct range r)
+{
+    return r.low <= r.high ? r : anything;
+}
+
+static struct range literal_range(const struct ir_instruction *i)
+{
+    if (i->type == TYPE_flt) {
+        float value = lane_from_bits((uint32_t)i->k);
+        if (value != value)
+            return anything;
+        return (struct range){value, value, 0, (uint32_t)i->k == 0x80000000u};
+    }
+    if (i->type == TYPE_itg && i->k > -(1 << 24) && i->k < 1 << 24)
+        return (struct range){(float)i->k, (float)i->k, 0, 0};
+    return anything;
+}
+
+static struct range add_range(struct range a, struct range b)
+{
+    struct range r = {a.low + b.low, a.high + b.high, (uint8_t)!(is_finite(a) || is_finite(b)), 0};
+    r.nan = a.nan || b.nan || r.nan;
+    r.minus_zero = signbit(r.low) || (a.minus_zero && b.minus_zero);
+    return checked(r);
+}
+
+static struct range negate_range(struct range a)
+{
+    return (struct range){-a.high, -a.low, a.nan, (uint8_t)contains_zero(a)};
+}
+
+static struct range multiply_range(struct range a, struct range b)
+{
+    if (!is_finite(a) || !is_finite(b)) {
+        if (a.nan || b.nan || !is_sign_clear(a) || !is_sign_clear(b))
+            return anything;
+        return (struct range){0, INFINITY, 1, 0};
+    }
+    float p[4] = {a.low * b.low, a.low * b.high, a.high * b.low, a.high * b.high};
+    struct range r = {least(least(p[0], p[1]), least(p[2], p[3])),
+                      greatest(greatest(p[0], p[1]), greatest(p[2], p[3])), 0, 0};
+    r.minus_zero = !(is_sign_clear(a) && is_sign_clear(b));
+    return r;
+}
+
+/* One rounding instead of two: the product's bounds go outward by the step that its rounding may have taken. */
+static struct range fused_range(struct range a, struct range b, struct range c)
+{
+    struct range product = multiply_range(a, b);
+    if (product.low != 0 || product.minus_zero)
+        product.low = nextafterf(product.low, -INFINITY);
+    product.high = nextafterf(product.high, INFINITY);
+    return add_range(product, c);
+}
+
+/* a < b ? a : b, which is b when either is NaN. */
+static struct range minimum_range(struct range a, struct range b)
+{
+    return (struct range){least(a.low, b.low), a.nan ? b.high : least(a.high, b.high), b.nan,
+                          a.minus_zero || b.minus_zero};
+}
+
+static struct range maximum_range(struct range a, struct range b)
+{
+    return (struct range){a.nan ? b.low : greatest(a.low, b.low), greatest(a.high, b.high), b.nan,
+                          a.minus_zero || b.minus_zero};
+}
+
+static struct range union_range(struct range a, struct range b)
+{
+    return (struct range){least(a.low, b.low), greatest(a.high, b.high), a.nan || b.nan,
+                          a.minus_zero || b.minus_zero};
+}
+
+static struct range sqrt_range(struct range a)
+{
+    if (!(a.low >= 0))
+        return anything;
+    return (struct range){lane_sqrt(a.low), lane_sqrt(a.high), a.nan, a.minus_zero};
+}
+
+/* Integer results within 2^24 are exact in the bounds; larger ones are given up. */
+static struct range integer_range(float low, float high)
+{
+    if (low > -0x1p24f && high < 0x1p24f)
+        return (struct range){low, high, 0, 0};
+    return anything;
+}
+
+static struct range and_range(struct range a, struct range b)
+{
+    struct range r = anything;
+    if (a.low >= 0 && !a.nan)
+        r = (struct range){0, a.high, 0, 0};
+    if (b.low >= 0 && !b.nan)
+        r = (struct range){0, r.nan ? b.high : least(r.high, b.high), 0, 0};
+    return r;
+}
+
+static struct range shift_right_range(struct range a, int k, int logical)
+{
+    if (!a.nan && (a.low >= 0 || !logical))
+        return integer_range(floorf(ldexpf(a.low, -k)), floorf(ldexpf(a.high, -k)));
+    return logical && k >= 8 ? (struct range){0, ldexpf(1, 32 - k) - 1, 0, 0} : anything;
+}
+
+static struct range rounded_range(struct range a)
+{
+    if (!is_finite(a))
+        return anything;
+    return integer_range(floorf(a.low), ceilf(a.high));
+}
+
+static struct range value_range(const struct ir_instruction *i, const struct range *of)
+{
+    struct range a = of[i->operand[0]], b = of[i->operand[1]], c = of[i->operand[2]];
+    switch (i->op) {
+    case IR_literal: return literal_range(i);
+    case IR_add_f: return add_range(a, b);
+    case IR_sub_f: return add_range(a, negate_range(b));
+    case IR_mul_f: return multiply_range(a, b);
+    case IR_mad_f: return fused_range(a, b, c);
+    case IR_sqrt_f: return sqrt_range(a);
+    case IR_min_f: return minimum_range(a, b);
+    case IR_max_f: return maximum_range(a, b);
+    case IR_neg_f: return negate_range(a);
+    case IR_select_f:
+    case IR_select_i: return union_range(b, c);
+    case IR_float_f: return a.nan ? (struct range){-0x1p31f, 0x1p31f, 0, 0} : a;
+    case IR_round_i:
+    case IR_trunc_i: return rounded_range(a);
+    case IR_and_i: return and_range(a, b);
+    case IR_ushr_i: return shift_right_range(a, i->k, 1);
+    case IR_shr_i: return shift_right_range(a, i->k, 0);
+    case IR_min_i: return a.nan || b.nan ? anything : minimum_range(a, b);
+    case IR_max_i: return a.nan || b.nan ? anything : maximum_range(a, b);
+    default: return anything;
+    }
+}
+
+void range_analyse(const struct ir *ir, struct pass_memory *memory)
+{
+    memory->range[0] = anything;
+    for (uint32_t number = 1; number < ir->count; number++)
+        memory->range[number] = value_range(&ir->instruction[number], memory->range);
+}

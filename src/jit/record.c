@@ -1,0 +1,15 @@
+/* Recording: the spec read with the recorder's binding. */
+#include "jit/bind.h"
+
+#include "spec/spec.h"
+
+void ir_record(struct ir *ir, enum unit unit, const union key *key)
+{
+    struct env e = {.ir = ir};
+    ir_start(ir);
+    switch (unit) {
+    case UNIT_VERTEX: spec_vertex(&e, &key->vertex); break;
+    case UNIT_SETUP: spec_setup(&e, &key->setup); break;
+    default: spec_pixel(&e, &key->pixel); break;
+    }
+}

@@ -1,0 +1,227 @@
+/* Strength reduction (thesis, section 3.4), restated for IEEE arithmetic.
+ *
+ * The thesis' rules are y * 1 = y, y + 0 = y, y * 0 = 0 and y - y = 0. Only the first is an identity of binary32: -0 + 0
+ * is +0, infinity * 0 and infinity - infinity are NaN, and NaN spreads. Each is applied where the operands' ranges
+ * (range.c) prove it; y - 0 and y + -0 need no proof. Likewise a clamp that the range already satisfies goes, and a
+ * selection, a mask or an integer operation with a neutral operand. A rule turns its instruction into a copy of an
+ * operand, a literal, or a cheaper operation; copy propagation does the rest. Requires nothing. */
+#include "jit/pass.h"
+
+#include "def/lane.h"
+
+enum { PLUS_ZERO = 0, ONE = 0x3f800000 };
+#define MINUS_ZERO INT32_MIN
+
+/* What the rules look at. */
+struct view {
+    const struct ir *ir;
+    const struct range *range;
+};
+
+static int is_literal(const struct view *view, unsigned value, int32_t bits)
+{
+    const struct ir_instruction *i = &view->ir->instruction[value];
+    return i->op == IR_literal && i->k == bits;
+}
+
+static int is_finite(const struct range *r)
+{
+    return !r->nan && r->low > -INFINITY && r->high < INFINITY;
+}
+
+static int is_sign_clear(const struct range *r)
+{
+    return r->low >= 0 && !r->minus_zero;
+}
+
+static int become_copy(struct ir_instruction *i, unsigned source)
+{
+    i->op = IR_copy;
+    i->operand[0] = (uint16_t)source;
+    i->operand[1] = i->operand[2] = 0;
+    i->k = 0;
+    return 1;
+}
+
+static int become_literal(struct ir_instruction *i, int32_t bits)
+{
+    i->op = IR_literal;
+    i->operand[0] = i->operand[1] = i->operand[2] = 0;
+    i->k = bits;
+    return 1;
+}
+
+static int become(struct ir_instruction *i, enum ir_op op, unsigned a, unsigned b)
+{
+    i->op = (uint8_t)op;
+    i->operand[0] = (uint16_t)a;
+    i->operand[1] = (uint16_t)b;
+    i->operand[2] = 0;
+    return 1;
+}
+
+/* y + 0 = y unless y is -0; y + -0 = y. */
+static int reduce_add(const struct view *view, struct ir_instruction *i)
+{
+    for (int o = 0; o < 2; o++) {
+        unsigned y = i->operand[o], zero = i->operand[1 - o];
+        if (is_literal(view, zero, MINUS_ZERO) ||
+            (is_literal(view, zero, PLUS_ZERO) && !view->range[y].minus_zero && !view->range[y].nan))
+            return become_copy(i, y);
+    }
+    return 0;
+}
+
+/* y - 0 = y; y - y = 0 when y is finite. */
+static int reduce_sub(const struct view *view, struct ir_instruction *i)
+{
+    unsigned a = i->operand[0], b = i->operand[1];
+    if (is_literal(view, b, PLUS_ZERO))
+        return become_copy(i, a);
+    if (a == b && is_finite(&view->range[a]))
+        return become_literal(i, PLUS_ZERO);
+    return 0;
+}
+
+/* y * 1 = y; y * 0 = 0 when y is finite and its sign clear. */
+static int reduce_mul(const struct view *view, struct ir_instruction *i)
+{
+    for (int o = 0; o < 2; o++) {
+        unsigned y = i->operand[o], x = i->operand[1 - o];
+        if (is_literal(view, x, ONE))
+            return become_copy(i, y);
+        if (is_literal(view, x, PLUS_ZERO) && is_finite(&view->range[y]) && is_sign_clear(&view->range[y]))
+            return become_literal(i, PLUS_ZERO);
+    }
+    return 0;
+}
+
+/* y * 1 + z = y + z; y * z + -0 = y * z; y * 0 + z = z when y is finite and z is not -0. */
+static int reduce_mad(const struct view *view, struct ir_instruction *i)
+{
+    unsigned z = i->operand[2];
+    for (int o = 0; o < 2; o++) {
+        unsigned y = i->operand[o], x = i->operand[1 - o];
+        if (is_literal(view, x, ONE))
+            return become(i, IR_add_f, y, z);
+        if (is_literal(view, x, PLUS_ZERO) && is_finite(&view->range[y]) && !view->range[z].minus_zero &&
+            !view->range[z].nan)
+            return become_copy(i, z);
+    }
+    return is_literal(view, z, MINUS_ZERO) ? become(i, IR_mul_f, i->operand[0], i->operand[1]) : 0;
+}
+
+/* min and max of which one operand always wins. Equal operands give b: harmless unless they are zeros of two signs. */
+static int reduce_extreme(const struct view *view, struct ir_instruction *i, int minimum)
+{
+    const struct range *a = &view->range[i->operand[0]], *b = &view->range[i->operand[1]];
+    if (a->nan || b->nan || ((a->minus_zero || b->minus_zero) && a->low <= 0 && a->high >= 0))
+        return 0;
+    if (minimum ? a->high <= b->low : a->low >= b->high)
+        return become_copy(i, i->operand[0]);
+    if (minimum ? b->high <= a->low : b->low >= a->high)
+        return become_copy(i, i->operand[1]);
+    return 0;
+}
+
+static int reduce_select(const struct view *view, struct ir_instruction *i)
+{
+    if (i->operand[1] == i->operand[2] || is_literal(view, i->operand[0], -1))
+        return become_copy(i, i->operand[1]);
+    return is_literal(view, i->operand[0], 0) ? become_copy(i, i->operand[2]) : 0;
+}
+
+/* y op neutral = y, y op absorbing = absorbing, on either side. */
+static int reduce_neutral(const struct view *view, struct ir_instruction *i, int32_t neutral)
+{
+    for (int o = 0; o < 2; o++)
+        if (is_literal(view, i->operand[1 - o], neutral))
+            return become_copy(i, i->operand[o]);
+    return 0;
+}
+
+static int reduce_absorbing(const struct view *view, struct ir_instruction *i, int32_t absorbing)
+{
+    if (is_literal(view, i->operand[0], absorbing) || is_literal(view, i->operand[1], absorbing))
+        return become_literal(i, absorbing);
+    return 0;
+}
+
+/* not(x) and y is one operation: the mask operation a and not b works on any bits. */
+static int reduce_and(const struct view *view, struct ir_instruction *i)
+{
+    for (int o = 0; o < 2; o++) {
+        const struct ir_instruction *complement = &view->ir->instruction[i->operand[o]];
+        if (complement->op == IR_xor_i && is_literal(view, complement->operand[1], -1))
+            return become(i, IR_andn_m, i->operand[1 - o], complement->operand[0]);
+    }
+    if (i->operand[0] == i->operand[1])
+        return become_copy(i, i->operand[0]);
+    return reduce_neutral(view, i, -1) || reduce_absorbing(view, i, 0);
+}
+
+static int reduce_or(const struct view *view, struct ir_instruction *i)
+{
+    if (i->operand[0] == i->operand[1])
+        return become_copy(i, i->operand[0]);
+    return reduce_neutral(view, i, 0) || reduce_absorbing(view, i, -1);
+}
+
+static int reduce_difference(struct ir_instruction *i)
+{
+    return i->operand[0] == i->operand[1] ? become_literal(i, 0) : 0;
+}
+
+static int reduce_shift(const struct view *view, struct ir_instruction *i)
+{
+    if (!i->k)
+        return become_copy(i, i->operand[0]);
+    return is_literal(view, i->operand[0], 0) ? become_literal(i, 0) : 0;
+}
+
+static int reduce(const struct view *view, struct ir_instruction *i)
+{
+    switch (i->op) {
+    case IR_add_f: return reduce_add(view, i);
+    case IR_sub_f: return reduce_sub(view, i);
+    case IR_mul_f: return reduce_mul(view, i);
+    case IR_mad_f: return reduce_mad(view, i);
+    case IR_div_f: return is_literal(view, i->operand[1], ONE) ? become_copy(i, i->operand[0]) : 0;
+    case IR_min_f:
+    case IR_min_i: return reduce_extreme(view, i, 1);
+    case IR_max_f:
+    case IR_max_i: return reduce_extreme(view, i, 0);
+    case IR_select_f:
+    case IR_select_i: return reduce_select(view, i);
+    case IR_add_i:
+    case IR_add_x: return reduce_neutral(view, i, 0);
+    case IR_mul_i: return reduce_neutral(view, i, 1) || reduce_absorbing(view, i, 0);
+    case IR_mul_x: return reduce_neutral(view, i, 0x10001) || reduce_absorbing(view, i, 0);
+    case IR_and_i:
+    case IR_and_m: return reduce_and(view, i);
+    case IR_or_i:
+    case IR_or_m: return reduce_or(view, i);
+    case IR_xor_i: return reduce_difference(i) || reduce_neutral(view, i, 0);
+    case IR_sub_i:
+    case IR_sub_x:
+        if (is_literal(view, i->operand[1], 0))
+            return become_copy(i, i->operand[0]);
+        return reduce_difference(i);
+    case IR_shl_i:
+    case IR_shr_i:
+    case IR_ushr_i:
+    case IR_shl_x:
+    case IR_ushr_x: return reduce_shift(view, i);
+    default: return 0;
+    }
+}
+
+unsigned pass_reduce(struct ir *ir, struct pass_memory *memory)
+{
+    unsigned changes = 0;
+    range_analyse(ir, memory);
+    struct view view = {ir, memory->range};
+    for (uint32_t number = 1; number < ir->count; number++)
+        changes += (unsigned)reduce(&view, &ir->instruction[number]);
+    return changes;
+}
