@@ -1,5 +1,6 @@
-/* Common subexpressions: hash-consing from front to back. An earlier instruction may stand for a later equal one
- * when its region is still open there; reads count only where no routine writes (ir_is_invariant_read). */
+/* Common subexpressions: hash-consing from front to back. An earlier instruction may stand for a later equal
+ * one when its region is still open there; reads count only where no routine writes (ir_is_invariant_read).
+ */
 #include "jit/pass.h"
 
 #include <string.h>
@@ -42,16 +43,16 @@ static void order_operands(struct ir_instruction *i)
 
 static uint32_t hash(const struct ir_instruction *i)
 {
-    uint64_t h = i->op | (uint64_t)i->base << 8 | (uint64_t)i->operand[0] << 16 | (uint64_t)i->operand[1] << 32 |
-                 (uint64_t)i->operand[2] << 48;
+    uint64_t h = i->op | (uint64_t)i->base << 8 | (uint64_t)i->operand[0] << 16 |
+                 (uint64_t)i->operand[1] << 32 | (uint64_t)i->operand[2] << 48;
     h = (h ^ (uint64_t)(uint32_t)i->k << 7 ^ (uint64_t)(uint32_t)i->field << 29) * 0x9e3779b97f4a7c15ull;
     return (uint32_t)(h >> 40);
 }
 
 static int same(const struct ir_instruction *x, const struct ir_instruction *y)
 {
-    return x->op == y->op && x->base == y->base && x->scale == y->scale && x->k == y->k && x->field == y->field &&
-           !memcmp(x->operand, y->operand, sizeof x->operand);
+    return x->op == y->op && x->base == y->base && x->scale == y->scale && x->k == y->k &&
+           x->field == y->field && !memcmp(x->operand, y->operand, sizeof x->operand);
 }
 
 unsigned pass_common(struct ir *ir, struct pass_memory *memory)
@@ -76,8 +77,11 @@ unsigned pass_common(struct ir *ir, struct pass_memory *memory)
                                         memory->flag[memory->region[memory->table[slot]]]))
             slot = (slot + 1) & mask;
         if (memory->table[slot]) {
-            *i = (struct ir_instruction){
-                .op = IR_copy, .type = i->type, .operand = {memory->table[slot]}, .line = i->line, .file = i->file};
+            *i = (struct ir_instruction){.op = IR_copy,
+                                         .type = i->type,
+                                         .operand = {memory->table[slot]},
+                                         .line = i->line,
+                                         .file = i->file};
             changes++;
         } else {
             memory->table[slot] = (uint16_t)number;

@@ -1,7 +1,8 @@
-/* Dead-code elimination: backward, from the stores. A region in which nothing is left goes with its condition.
+/* Dead-code elimination: backward, from the stores. A region in which nothing is left goes with its
+ * condition.
  *
- * This is where a vertex output that the pixel routine does not read disappears with all that computed it: the key
- * has no store for it. */
+ * This is where a vertex output that the pixel routine does not read disappears with all that computed it:
+ * the key has no store for it. */
 #include "jit/pass.h"
 
 #include <string.h>

@@ -38,10 +38,10 @@ static uint32_t put_fix(uint32_t value)
     return value & 0xffff;
 }
 
-#define get_msk     get_itg
-#define put_msk     put_itg
-#define get_non(x)  0
-#define USE(a)      (void)(a)
+#define get_msk    get_itg
+#define put_msk    put_itg
+#define get_non(x) 0
+#define USE(a)     (void)(a)
 
 /* Each row as a function of three words; for pairs, of their low halves. */
 #define OP(name, result, ta, tb, tc, properties, expression)                                                 \

@@ -2,12 +2,12 @@
 
 #include <string.h>
 
-#define OPERANDS_flt 1
-#define OPERANDS_itg 1
-#define OPERANDS_fix 1
-#define OPERANDS_msk 1
-#define OPERANDS_non 0
-#define COMMUTES     IR_COMMUTES
+#define OPERANDS_flt   1
+#define OPERANDS_itg   1
+#define OPERANDS_fix   1
+#define OPERANDS_msk   1
+#define OPERANDS_non   0
+#define COMMUTES       IR_COMMUTES
 #define COUNT(a, b, c) (OPERANDS_##a + OPERANDS_##b + OPERANDS_##c)
 
 const struct ir_op_information ir_op_information[IR_OP_COUNT] = {

@@ -1,9 +1,9 @@
 /* The specializer's intermediate representation: one flat array of instructions in SSA form.
  *
- * An instruction's number is its index, and the number of the value it defines; 0 is no value. Operands are defined
- * before they are used. There is one loop, outside of it all (the frame around the body: frame.c), and forward
- * regions `when mask ... end` inside, which are skipped when no lane of the mask is set; a value defined in a region
- * is used in that region only, so no merge is needed. Regions nest.
+ * An instruction's number is its index, and the number of the value it defines; 0 is no value. Operands are
+ * defined before they are used. There is one loop, outside of it all (the frame around the body: frame.c),
+ * and forward regions `when mask ... end` inside, which are skipped when no lane of the mask is set; a value
+ * defined in a region is used in that region only, so no merge is needed. Regions nest.
  *
  * Opcodes are the rows of def/op.def, and these:
  *   copy a                      the same bits (the casts)
@@ -56,7 +56,8 @@ enum ir_property {
 
 struct ir_op_information {
     const char *name;
-    uint8_t result; /* enum ir_type; TYPE_non for effects, and for the opcodes whose type the instruction says */
+    uint8_t
+        result; /* enum ir_type; TYPE_non for effects, and for the opcodes whose type the instruction says */
     uint8_t operand[3];
     uint8_t operands;
     uint8_t properties;
@@ -106,8 +107,8 @@ int ir_is_invariant_read(const struct ir_instruction *instruction);
 /* Removes nops and renumbers. `map` is scratch of IR_CAPACITY entries. */
 void ir_compact(struct ir *ir, uint16_t *map);
 
-/* Checks that operands are defined before use, in an open region, of the right type, and that regions nest. Returns
- * null, or one line that says what is wrong (static storage, per thread). */
+/* Checks that operands are defined before use, in an open region, of the right type, and that regions nest.
+ * Returns null, or one line that says what is wrong (static storage, per thread). */
 const char *ir_verify(const struct ir *ir);
 
 /* One line a instruction: number, type, operation, operands, spec line. */
@@ -117,7 +118,8 @@ void ir_print_instruction(const struct ir *ir, uint32_t number, FILE *out);
 /* Records the spec of a unit for a key (record.c). */
 void ir_record(struct ir *ir, enum unit unit, const union key *key);
 
-/* Evaluates one operation of def/op.def on one lane's bits (fix: both halves). Runs under the caller's MXCSR. */
+/* Evaluates one operation of def/op.def on one lane's bits (fix: both halves). Runs under the caller's MXCSR.
+ */
 uint32_t ir_evaluate(enum ir_op op, uint32_t a, uint32_t b, uint32_t c, int32_t k);
 
 #endif

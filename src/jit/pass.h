@@ -1,6 +1,8 @@
-/* The passes over the IR and the list of them. Each file that implements one says what it requires and leaves.
+/* The passes over the IR and the list of them. Each file that implements one says what it requires and
+ * leaves.
  *
- * All keep the IR valid (ir_verify) and its meaning to the bit; each returns how many instructions it changed. */
+ * All keep the IR valid (ir_verify) and its meaning to the bit; each returns how many instructions it
+ * changed. */
 #ifndef JIT_PASS_H
 #define JIT_PASS_H
 
@@ -15,12 +17,13 @@ enum pass {
 
 enum profile { PROFILE_THESIS, PROFILE_FULL };
 
-/* What is known of a value without running it: bounds (of flt and itg; all values when unknown), whether a flt may
- * be NaN or -0. Bounds of a flt are those of its non-NaN values. */
+/* What is known of a value without running it: bounds (of flt and itg; all values when unknown), whether a
+ * flt may be NaN, -0 or a denormal. Bounds of a flt are those of its non-NaN values. */
 struct range {
     float low, high; /* for itg too: rounded outward */
     uint8_t nan;
     uint8_t minus_zero;
+    uint8_t denormal; /* a flt whose bits may be a denormal's */
 };
 
 /* Scratch memory of the passes, one per build. */
@@ -42,7 +45,8 @@ void range_analyse(const struct ir *ir, struct pass_memory *memory);
 /* Called after each pass that changed something. */
 typedef void pass_observer(void *context, enum pass pass, const struct ir *ir);
 
-/* Runs the profile's passes except those whose bit is set in `disabled`; ends compacted. Returns the rounds. */
+/* Runs the profile's passes except those whose bit is set in `disabled`; ends compacted. Returns the rounds.
+ */
 unsigned optimize(struct ir *ir, struct pass_memory *memory, enum profile profile, uint32_t disabled,
                   pass_observer *observer, void *context);
 

@@ -1,13 +1,17 @@
-/* Range analysis: bounds of values, NaN and -0, front to back, for the strength reductions that IEEE arithmetic
- * allows only under conditions (reduce.c).
+/* Range analysis: bounds of values, NaN and -0, front to back, for the strength reductions that IEEE
+ * arithmetic allows only under conditions (reduce.c).
  *
- * Bounds are computed with the operations themselves in binary32 under the contract's rounding: rounding and flushing
- * are monotone, so the result of the bounds bounds the results. A flushed tiny negative result is -0, hence any
- * sum that may be negative may be -0. Integers keep float bounds rounded outward, exact up to 2^24. */
+ * Bounds are computed with the operations themselves in binary32 under the contract's rounding: rounding and
+ * flushing are monotone, so the result of the bounds bounds the results. A flushed tiny negative result is
+ * -0, hence any sum that may be negative may be -0. Arithmetic never gives a denormal; what was loaded, and
+ * what merely chooses among or rewrites bits, may. Integers keep float bounds, exact up to 2^24, and are
+ * given up beyond. */
 #include "def/lane.h"
 #include "jit/pass.h"
 
-static const struct range anything = {-INFINITY, INFINITY, 1, 1};
+#include <float.h>
+
+static const struct range anything = {-INFINITY, INFINITY, 1, 1, 1};
 
 static float least(float a, float b)
 {
@@ -46,16 +50,17 @@ static struct range literal_range(const struct ir_instruction *i)
         float value = lane_from_bits((uint32_t)i->k);
         if (value != value)
             return anything;
-        return (struct range){value, value, 0, (uint32_t)i->k == 0x80000000u};
+        return (struct range){value, value, 0, (uint32_t)i->k == 0x80000000u,
+                              value != 0 && fabsf(value) < FLT_MIN};
     }
     if (i->type == TYPE_itg && i->k > -(1 << 24) && i->k < 1 << 24)
-        return (struct range){(float)i->k, (float)i->k, 0, 0};
+        return (struct range){(float)i->k, (float)i->k, 0, 0, 0};
     return anything;
 }
 
 static struct range add_range(struct range a, struct range b)
 {
-    struct range r = {a.low + b.low, a.high + b.high, (uint8_t)!(is_finite(a) || is_finite(b)), 0};
+    struct range r = {a.low + b.low, a.high + b.high, (uint8_t) !(is_finite(a) || is_finite(b)), 0, 0};
     r.nan = a.nan || b.nan || r.nan;
     r.minus_zero = signbit(r.low) || (a.minus_zero && b.minus_zero);
     return checked(r);
@@ -63,7 +68,7 @@ static struct range add_range(struct range a, struct range b)
 
 static struct range negate_range(struct range a)
 {
-    return (struct range){-a.high, -a.low, a.nan, (uint8_t)contains_zero(a)};
+    return (struct range){-a.high, -a.low, a.nan, (uint8_t)contains_zero(a), a.denormal};
 }
 
 static struct range multiply_range(struct range a, struct range b)
@@ -71,16 +76,17 @@ static struct range multiply_range(struct range a, struct range b)
     if (!is_finite(a) || !is_finite(b)) {
         if (a.nan || b.nan || !is_sign_clear(a) || !is_sign_clear(b))
             return anything;
-        return (struct range){0, INFINITY, 1, 0};
+        return (struct range){0, INFINITY, 1, 0, 0};
     }
     float p[4] = {a.low * b.low, a.low * b.high, a.high * b.low, a.high * b.high};
     struct range r = {least(least(p[0], p[1]), least(p[2], p[3])),
-                      greatest(greatest(p[0], p[1]), greatest(p[2], p[3])), 0, 0};
+                      greatest(greatest(p[0], p[1]), greatest(p[2], p[3])), 0, 0, 0};
     r.minus_zero = !(is_sign_clear(a) && is_sign_clear(b));
     return r;
 }
 
-/* One rounding instead of two: the product's bounds go outward by the step that its rounding may have taken. */
+/* One rounding instead of two: the product's bounds go outward by the step that its rounding may have taken.
+ */
 static struct range fused_range(struct range a, struct range b, struct range c)
 {
     struct range product = multiply_range(a, b);
@@ -94,33 +100,33 @@ static struct range fused_range(struct range a, struct range b, struct range c)
 static struct range minimum_range(struct range a, struct range b)
 {
     return (struct range){least(a.low, b.low), a.nan ? b.high : least(a.high, b.high), b.nan,
-                          a.minus_zero || b.minus_zero};
+                          a.minus_zero || b.minus_zero, a.denormal || b.denormal};
 }
 
 static struct range maximum_range(struct range a, struct range b)
 {
     return (struct range){a.nan ? b.low : greatest(a.low, b.low), greatest(a.high, b.high), b.nan,
-                          a.minus_zero || b.minus_zero};
+                          a.minus_zero || b.minus_zero, a.denormal || b.denormal};
 }
 
 static struct range union_range(struct range a, struct range b)
 {
     return (struct range){least(a.low, b.low), greatest(a.high, b.high), a.nan || b.nan,
-                          a.minus_zero || b.minus_zero};
+                          a.minus_zero || b.minus_zero, a.denormal || b.denormal};
 }
 
 static struct range sqrt_range(struct range a)
 {
     if (!(a.low >= 0))
         return anything;
-    return (struct range){lane_sqrt(a.low), lane_sqrt(a.high), a.nan, a.minus_zero};
+    return (struct range){lane_sqrt(a.low), lane_sqrt(a.high), a.nan, a.minus_zero, 0};
 }
 
 /* Integer results within 2^24 are exact in the bounds; larger ones are given up. */
 static struct range integer_range(float low, float high)
 {
     if (low > -0x1p24f && high < 0x1p24f)
-        return (struct range){low, high, 0, 0};
+        return (struct range){low, high, 0, 0, 0};
     return anything;
 }
 
@@ -128,9 +134,9 @@ static struct range and_range(struct range a, struct range b)
 {
     struct range r = anything;
     if (a.low >= 0 && !a.nan)
-        r = (struct range){0, a.high, 0, 0};
+        r = (struct range){0, a.high, 0, 0, 0};
     if (b.low >= 0 && !b.nan)
-        r = (struct range){0, r.nan ? b.high : least(r.high, b.high), 0, 0};
+        r = (struct range){0, r.nan ? b.high : least(r.high, b.high), 0, 0, 0};
     return r;
 }
 
@@ -138,7 +144,7 @@ static struct range shift_right_range(struct range a, int k, int logical)
 {
     if (!a.nan && (a.low >= 0 || !logical))
         return integer_range(floorf(ldexpf(a.low, -k)), floorf(ldexpf(a.high, -k)));
-    return logical && k >= 8 ? (struct range){0, ldexpf(1, 32 - k) - 1, 0, 0} : anything;
+    return logical && k >= 8 ? (struct range){0, ldexpf(1, 32 - k) - 1, 0, 0, 0} : anything;
 }
 
 static struct range rounded_range(struct range a)
@@ -163,7 +169,7 @@ static struct range value_range(const struct ir_instruction *i, const struct ran
     case IR_neg_f: return negate_range(a);
     case IR_select_f:
     case IR_select_i: return union_range(b, c);
-    case IR_float_f: return a.nan ? (struct range){-0x1p31f, 0x1p31f, 0, 0} : a;
+    case IR_float_f: return a.nan ? (struct range){-0x1p31f, 0x1p31f, 0, 0, 0} : a;
     case IR_round_i:
     case IR_trunc_i: return rounded_range(a);
     case IR_and_i: return and_range(a, b);

@@ -1,10 +1,11 @@
 /* Strength reduction (thesis, section 3.4), restated for IEEE arithmetic.
  *
- * The thesis' rules are y * 1 = y, y + 0 = y, y * 0 = 0 and y - y = 0. Only the first is an identity of binary32: -0 + 0
- * is +0, infinity * 0 and infinity - infinity are NaN, and NaN spreads. Each is applied where the operands' ranges
- * (range.c) prove it; y - 0 and y + -0 need no proof. Likewise a clamp that the range already satisfies goes, and a
- * selection, a mask or an integer operation with a neutral operand. A rule turns its instruction into a copy of an
- * operand, a literal, or a cheaper operation; copy propagation does the rest. Requires nothing. */
+ * The thesis' rules are y * 1 = y, y + 0 = y, y * 0 = 0 and y - y = 0. Only the first is an identity of IEEE
+ * binary32: -0 + 0 is +0, infinity * 0 and infinity - infinity are NaN, and NaN spreads. With denormals
+ * flushed not even the first is: y * 1 of a denormal is a zero, and y keeps its bits. Each rule is applied
+ * where the operands' ranges (range.c) prove it. Likewise a clamp that the range already satisfies goes, and
+ * a selection, a mask or an integer operation with a neutral operand. A rule turns its instruction into a
+ * copy of an operand, a literal, or a cheaper operation; copy propagation does the rest. Requires nothing. */
 #include "jit/pass.h"
 
 #include "def/lane.h"
@@ -60,13 +61,19 @@ static int become(struct ir_instruction *i, enum ir_op op, unsigned a, unsigned 
     return 1;
 }
 
+/* Whether arithmetic that leaves y's value leaves its bits too: it flushes a denormal. */
+static int keeps_bits(const struct view *view, unsigned y)
+{
+    return !view->range[y].denormal;
+}
+
 /* y + 0 = y unless y is -0; y + -0 = y. */
 static int reduce_add(const struct view *view, struct ir_instruction *i)
 {
     for (int o = 0; o < 2; o++) {
         unsigned y = i->operand[o], zero = i->operand[1 - o];
-        if (is_literal(view, zero, MINUS_ZERO) ||
-            (is_literal(view, zero, PLUS_ZERO) && !view->range[y].minus_zero && !view->range[y].nan))
+        int positive = is_literal(view, zero, PLUS_ZERO) && !view->range[y].minus_zero && !view->range[y].nan;
+        if ((positive || is_literal(view, zero, MINUS_ZERO)) && keeps_bits(view, y))
             return become_copy(i, y);
     }
     return 0;
@@ -76,7 +83,7 @@ static int reduce_add(const struct view *view, struct ir_instruction *i)
 static int reduce_sub(const struct view *view, struct ir_instruction *i)
 {
     unsigned a = i->operand[0], b = i->operand[1];
-    if (is_literal(view, b, PLUS_ZERO))
+    if (is_literal(view, b, PLUS_ZERO) && keeps_bits(view, a))
         return become_copy(i, a);
     if (a == b && is_finite(&view->range[a]))
         return become_literal(i, PLUS_ZERO);
@@ -88,7 +95,7 @@ static int reduce_mul(const struct view *view, struct ir_instruction *i)
 {
     for (int o = 0; o < 2; o++) {
         unsigned y = i->operand[o], x = i->operand[1 - o];
-        if (is_literal(view, x, ONE))
+        if (is_literal(view, x, ONE) && keeps_bits(view, y))
             return become_copy(i, y);
         if (is_literal(view, x, PLUS_ZERO) && is_finite(&view->range[y]) && is_sign_clear(&view->range[y]))
             return become_literal(i, PLUS_ZERO);
@@ -105,17 +112,19 @@ static int reduce_mad(const struct view *view, struct ir_instruction *i)
         if (is_literal(view, x, ONE))
             return become(i, IR_add_f, y, z);
         if (is_literal(view, x, PLUS_ZERO) && is_finite(&view->range[y]) && !view->range[z].minus_zero &&
-            !view->range[z].nan)
+            !view->range[z].nan && keeps_bits(view, z))
             return become_copy(i, z);
     }
     return is_literal(view, z, MINUS_ZERO) ? become(i, IR_mul_f, i->operand[0], i->operand[1]) : 0;
 }
 
-/* min and max of which one operand always wins. Equal operands give b: harmless unless they are zeros of two signs. */
+/* min and max of which one operand always wins. Equal operands give b: harmless unless they are zeros of two
+ * signs. */
 static int reduce_extreme(const struct view *view, struct ir_instruction *i, int minimum)
 {
     const struct range *a = &view->range[i->operand[0]], *b = &view->range[i->operand[1]];
-    if (a->nan || b->nan || ((a->minus_zero || b->minus_zero) && a->low <= 0 && a->high >= 0))
+    if (a->nan || b->nan || a->denormal || b->denormal ||
+        ((a->minus_zero || b->minus_zero) && a->low <= 0 && a->high >= 0))
         return 0;
     if (minimum ? a->high <= b->low : a->low >= b->high)
         return become_copy(i, i->operand[0]);
@@ -186,7 +195,10 @@ static int reduce(const struct view *view, struct ir_instruction *i)
     case IR_sub_f: return reduce_sub(view, i);
     case IR_mul_f: return reduce_mul(view, i);
     case IR_mad_f: return reduce_mad(view, i);
-    case IR_div_f: return is_literal(view, i->operand[1], ONE) ? become_copy(i, i->operand[0]) : 0;
+    case IR_div_f:
+        if (is_literal(view, i->operand[1], ONE) && keeps_bits(view, i->operand[0]))
+            return become_copy(i, i->operand[0]);
+        return 0;
     case IR_min_f:
     case IR_min_i: return reduce_extreme(view, i, 1);
     case IR_max_f:
