@@ -1,0 +1,245 @@
+/* Sutherland and Hodgman's polygon clipping in homogeneous coordinates (Reentrant Polygon Clipping, 1974),
+ * against the planes that a vertex of the triangle is outside of, in the fixed order of enum clip_plane.
+ *
+ * No cracks: triangles that share an edge get bit-identical new vertices on it, though each clips its own
+ * copy, in its own direction, against its own set of planes. What happens to an edge depends on its two
+ * vertices alone:
+ *   - a new vertex is interpolated from the inside vertex to the outside one, never by the order of the walk;
+ *   - a vertex counts as outside of a plane only if the edge that it was made on began with a vertex outside
+ * of it. Rounding may put it a little outside of others: another triangle on the edge might not look at
+ * those. The exception is a polygon that rounding has made concave, where a plane finds more than one run of
+ * vertices inside: only the first is kept, the rest is thinner than a rounding error. So one plane adds at
+ * most one vertex.
+ *
+ * Precision: distances, weights and sums are in double, results are rounded to float once per plane. Both
+ * weights are quotients of the distances, so that neither cancels, and the sum is monotone in its operands:
+ * what holds for both ends (0 <= z, z <= w, CLIP_EYE_W <= w, being finite) holds for the new vertex. The
+ * coordinate that the plane is about is then put on the plane exactly. A vertex may be outside by its clip
+ * code, which is computed in float, and inside by its distance; distances are limited to the side that the
+ * code says.
+ *
+ * Flat values: the polygon begins with vertex 0 or, if that is cut off, with a new vertex, by induction over
+ * the planes: the first vertex written is vertex 0 of the plane's input or comes from an edge that enters.
+ * All new vertices get vertex 0's flat values, hence so does the first vertex of each triangle of the fan. */
+#include "draw/clip.h"
+
+#include <float.h>
+#include <string.h>
+
+/* The eye first: the others may then rely on w > 0. */
+enum clip_plane { EYE, NEAR, FAR, GUARD_LEFT, GUARD_RIGHT, GUARD_BOTTOM, GUARD_TOP };
+
+static const uint16_t plane_bit[CLIP_PLANES] = {
+    [EYE] = CLIP_EYE,
+    [NEAR] = CLIP_NEAR,
+    [FAR] = CLIP_FAR,
+    [GUARD_LEFT] = CLIP_GUARD_LEFT,
+    [GUARD_RIGHT] = CLIP_GUARD_RIGHT,
+    [GUARD_BOTTOM] = CLIP_GUARD_BOTTOM,
+    [GUARD_TOP] = CLIP_GUARD_TOP,
+};
+
+enum { NO_LANE = VERTEX_CAPACITY };
+
+struct point {
+    float slot[SLOT_COUNT]; /* position and smooth slots are valid */
+    uint32_t code;          /* CLIP_NEEDED bits of the planes that are still to come */
+    uint32_t lane;          /* in the batch, or NO_LANE if new */
+};
+
+struct polygon {
+    struct point point[CLIP_VERTICES_MAXIMUM];
+    int count;
+};
+
+struct clipper clipper_create(const struct job *job, const uint8_t varying[VARYING_COUNT], float *vertices,
+                              uint32_t next)
+{
+    struct clipper r = {.vertices = vertices, .next = next, .guard_x = job->guard_x, .guard_y = job->guard_y};
+    for (int v = 0; v < VARYING_COUNT; v++) {
+        uint32_t slots = ((1u << varying_components[v]) - 1) << varying_slot[v];
+        if (varying[v] == INTERPOLATION_SMOOTH)
+            r.smooth |= slots;
+        else if (varying[v] == INTERPOLATION_FLAT)
+            r.flat |= slots;
+    }
+    r.smooth |= 1u << SLOT_X | 1u << SLOT_Y | 1u << SLOT_Z | 1u << SLOT_W;
+    return r;
+}
+
+static inline float *batch_word(const struct clipper *c, uint32_t slot, uint32_t lane)
+{
+    return c->vertices + slot * VERTEX_CAPACITY + lane;
+}
+
+static uint32_t needed_code(const struct clipper *c, uint32_t lane)
+{
+    uint32_t code;
+    memcpy(&code, batch_word(c, SLOT_CODE, lane), sizeof code);
+    return code & CLIP_NEEDED;
+}
+
+/* Positive inside, negative outside. */
+static double distance(const struct clipper *c, enum clip_plane plane, const struct point *p)
+{
+    double x = p->slot[SLOT_X], y = p->slot[SLOT_Y], z = p->slot[SLOT_Z], w = p->slot[SLOT_W];
+    switch (plane) {
+    case EYE: return w - CLIP_EYE_W;
+    case NEAR: return z;
+    case FAR: return w - z;
+    case GUARD_LEFT: return c->guard_x * w + x;
+    case GUARD_RIGHT: return c->guard_x * w - x;
+    case GUARD_BOTTOM: return c->guard_y * w + y;
+    case GUARD_TOP: return c->guard_y * w - y;
+    }
+    __builtin_unreachable();
+}
+
+/* The product may round to infinity where the coordinate itself is next to the largest float. */
+static float guard_limit(float guard, float w)
+{
+    float limit = guard * w;
+    return limit < FLT_MAX ? limit : FLT_MAX;
+}
+
+static void put_on_plane(const struct clipper *c, enum clip_plane plane, float slot[SLOT_COUNT])
+{
+    switch (plane) {
+    case EYE: slot[SLOT_W] = CLIP_EYE_W; break;
+    case NEAR: slot[SLOT_Z] = 0; break;
+    case FAR: slot[SLOT_Z] = slot[SLOT_W]; break;
+    case GUARD_LEFT: slot[SLOT_X] = -guard_limit(c->guard_x, slot[SLOT_W]); break;
+    case GUARD_RIGHT: slot[SLOT_X] = guard_limit(c->guard_x, slot[SLOT_W]); break;
+    case GUARD_BOTTOM: slot[SLOT_Y] = -guard_limit(c->guard_y, slot[SLOT_W]); break;
+    case GUARD_TOP: slot[SLOT_Y] = guard_limit(c->guard_y, slot[SLOT_W]); break;
+    }
+}
+
+/* The planes after `plane` that the edge crosses and that the point on it is outside of. */
+static uint32_t remaining_code(const struct clipper *c, enum clip_plane plane, uint32_t edge_code,
+                               const struct point *p)
+{
+    uint32_t code = 0;
+    for (int i = plane + 1; i < CLIP_PLANES; i++)
+        if ((edge_code & plane_bit[i]) && distance(c, i, p) < 0)
+            code |= plane_bit[i];
+    return code;
+}
+
+static struct point cross(const struct clipper *c, enum clip_plane plane, const struct point *in,
+                          const struct point *out)
+{
+    double d_in = distance(c, plane, in);
+    double d_out = distance(c, plane, out);
+    d_in = d_in > 0 ? d_in : 0;
+    d_out = d_out < 0 ? d_out : 0;
+    double length = d_in - d_out;
+    double weight_in = length > 0 ? -d_out / length : 1;
+    double weight_out = length > 0 ? d_in / length : 0;
+    struct point p = {.lane = NO_LANE};
+    for (uint32_t slots = c->smooth; slots; slots &= slots - 1) {
+        int s = __builtin_ctz(slots);
+        p.slot[s] = (float)(in->slot[s] * weight_in + out->slot[s] * weight_out);
+    }
+    put_on_plane(c, plane, p.slot);
+    p.code = remaining_code(c, plane, in->code | out->code, &p);
+    return p;
+}
+
+/* Bit i: point i is inside. One run of points, going round: the first. */
+static uint32_t inside_run(const struct polygon *p, enum clip_plane plane)
+{
+    uint32_t inside = 0;
+    for (int i = 0; i < p->count; i++)
+        if (!(p->point[i].code & plane_bit[plane]))
+            inside |= 1u << i;
+    uint32_t first = inside & ~(inside + (inside & -inside));
+    if (!(inside & 1) || !(inside >> (p->count - 1) & 1))
+        return first;
+    uint32_t outside = ~inside & ((1u << p->count) - 1);
+    uint32_t last = outside ? ~0u << (32 - __builtin_clz(outside)) : 0;
+    return first | (inside & last);
+}
+
+static void clip_polygon(const struct clipper *c, enum clip_plane plane, const struct polygon *from,
+                         struct polygon *to)
+{
+    uint32_t inside = inside_run(from, plane);
+    to->count = 0;
+    for (int i = 0; i < from->count; i++) {
+        int j = i + 1 < from->count ? i + 1 : 0;
+        const struct point *p = &from->point[i];
+        const struct point *q = &from->point[j];
+        int p_inside = inside >> i & 1;
+        int q_inside = inside >> j & 1;
+        if (p_inside)
+            to->point[to->count++] = *p;
+        if (p_inside != q_inside)
+            to->point[to->count++] = p_inside ? cross(c, plane, p, q) : cross(c, plane, q, p);
+    }
+}
+
+static struct point load_point(const struct clipper *c, uint32_t lane)
+{
+    struct point p = {.code = needed_code(c, lane), .lane = lane};
+    for (uint32_t slots = c->smooth; slots; slots &= slots - 1) {
+        int s = __builtin_ctz(slots);
+        p.slot[s] = *batch_word(c, s, lane);
+    }
+    return p;
+}
+
+static uint32_t store_point(struct clipper *c, const struct point *p, uint32_t provoking)
+{
+    uint32_t lane = c->next++;
+    for (uint32_t slots = c->smooth; slots; slots &= slots - 1) {
+        int s = __builtin_ctz(slots);
+        *batch_word(c, s, lane) = p->slot[s];
+    }
+    for (uint32_t slots = c->flat; slots; slots &= slots - 1) {
+        int s = __builtin_ctz(slots);
+        *batch_word(c, s, lane) = *batch_word(c, s, provoking);
+    }
+    memset(batch_word(c, SLOT_CODE, lane), 0, sizeof(uint32_t));
+    return lane;
+}
+
+static int store_fan(struct clipper *c, struct polygon *polygon, uint32_t provoking,
+                     uint32_t triangle[CLIP_TRIANGLES_MAXIMUM][3])
+{
+    uint32_t lanes = 0;
+    for (int i = 0; i < polygon->count; i++)
+        lanes += polygon->point[i].lane == NO_LANE;
+    if (lanes > VERTEX_CAPACITY - c->next)
+        return -1;
+    for (int i = 0; i < polygon->count; i++) {
+        struct point *p = &polygon->point[i];
+        if (p->lane == NO_LANE)
+            p->lane = store_point(c, p, provoking);
+    }
+    for (int i = 0; i < polygon->count - 2; i++) {
+        triangle[i][0] = polygon->point[0].lane;
+        triangle[i][1] = polygon->point[i + 1].lane;
+        triangle[i][2] = polygon->point[i + 2].lane;
+    }
+    return polygon->count - 2;
+}
+
+int clip_triangle(struct clipper *c, const uint32_t lane[3], uint32_t triangle[CLIP_TRIANGLES_MAXIMUM][3])
+{
+    struct polygon polygon[2];
+    struct polygon *from = &polygon[0], *to = &polygon[1];
+    for (int i = 0; i < 3; i++)
+        from->point[i] = load_point(c, lane[i]);
+    from->count = 3;
+    uint32_t code = from->point[0].code | from->point[1].code | from->point[2].code;
+    for (int plane = 0; plane < CLIP_PLANES && from->count; plane++) {
+        if (!(code & plane_bit[plane]))
+            continue;
+        clip_polygon(c, plane, from, to);
+        struct polygon *swap = from;
+        from = to;
+        to = swap;
+    }
+    return from->count < 3 ? 0 : store_fan(c, from, lane[0], triangle);
+}

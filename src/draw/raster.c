@@ -1,0 +1,313 @@
+/* Half-space rasterization (Pineda, A Parallel Algorithm for Polygon Rasterization, 1988) of one triangle
+ * into the 4x4 blocks of one 64x64 tile, with trivial accept and reject of groups of 4x4 blocks and of
+ * blocks.
+ *
+ * Edge function of the edge from vertex p to vertex q, in 1/65536 square pixels, positive inside:
+ *   E(x, y) = (q.x - p.x) * (y - p.y) - (q.y - p.y) * (x - p.x)
+ * A centre on the edge is covered only if the edge is a left one (the inside is to the right: q.y < p.y) or a
+ * top one (horizontal, the inside is below: q.x > p.x). E is an integer, so the others ask for E - 1 >= 0.
+ *
+ * One pixel is 256 units. With a = -(q.y - p.y), b = q.x - p.x and E0 the value, rule included, at the centre
+ * of pixel (0, 0), the pixel (i, j) is inside when E0 + 256 * (a * i + b * j) >= 0, that is, since a * i + b
+ * * j is an integer, exactly when c + a * i + b * j >= 0 with c = floor(E0 / 256): eight bits less at no
+ * loss.
+ *
+ * Inside a tile 32 bits are enough. Window positions are at most 2^22 - 1 either way, so |a|, |b| < 2^23, and
+ * with i, j in 0 to 63 |a * i + b * j| <= 63 * 2 * (2^23 - 1) < 2^30. Let c be the value at the tile's first
+ * pixel, which may need 39 bits, and s = c limited to -2^30 to 2^30. Where c > 2^30 both c + a * i + b * j
+ * and s + a * i + b * j are positive for every pixel of the tile, where c < -2^30 both are negative, and
+ * otherwise they are equal: all signs are right, and |s + a * i + b * j| < 2^31. Corners of groups and blocks
+ * are pixels of the tile, too.
+ *
+ * Signs are taken together: the bitwise or of three edge functions is negative where any of them is. */
+#include "draw/raster.h"
+
+#include <emmintrin.h>
+
+enum {
+    SUBPIXELS = 1 << SUBPIXEL_BITS,
+    CENTRE = SUBPIXELS / 2,
+    SATURATION = 1 << 30,
+    GROUP_SIZE = 16, /* pixels: 4x4 blocks */
+    ROW_BLOCKS = TILE_SIZE / BLOCK_SIZE,
+    DIRECT_BLOCKS = 6, /* bounds up to so many blocks: asking each block is faster than the descent */
+    WHOLE_BLOCK = (1 << BLOCK_PIXELS) - 1
+};
+
+/* Lanes of a block in its columns (rows) k and after, for k from 0 to 4. */
+static const uint16_t columns_from[BLOCK_SIZE + 1] = {0xffff, 0xfafa, 0xf0f0, 0xa0a0, 0};
+static const uint16_t rows_from[BLOCK_SIZE + 1] = {0xffff, 0xffcc, 0xff00, 0xcc00, 0};
+
+static inline int32_t minimum(int32_t a, int32_t b)
+{
+    return a < b ? a : b;
+}
+
+static inline int32_t maximum(int32_t a, int32_t b)
+{
+    return a > b ? a : b;
+}
+
+/* The first pixel whose centre is at the window position or after it. */
+static inline int32_t pixel_from(int32_t position)
+{
+    return (position + CENTRE - 1) >> SUBPIXEL_BITS;
+}
+
+/* Returns whether the bounds are not empty. The largest x and y are exclusive: a centre there could only lie
+ * on an edge that is neither top nor left, or be a vertex that ends one. */
+static inline bool bound(const struct triangle_head *head, const struct rectangle *limit,
+                         struct rectangle *bounds)
+{
+    const int32_t *x = head->x, *y = head->y;
+    bounds->x0 = maximum(limit->x0, pixel_from(minimum(x[0], minimum(x[1], x[2]))));
+    bounds->y0 = maximum(limit->y0, pixel_from(minimum(y[0], minimum(y[1], y[2]))));
+    bounds->x1 = minimum(limit->x1, pixel_from(maximum(x[0], maximum(x[1], x[2]))));
+    bounds->y1 = minimum(limit->y1, pixel_from(maximum(y[0], maximum(y[1], y[2]))));
+    return bounds->x0 < bounds->x1 && bounds->y0 < bounds->y1;
+}
+
+/* Value at the centre of the pixel (x, y), and steps, of the edge from vertex p to vertex q. */
+static inline int64_t edge(const struct triangle_head *head, int p, int q, int32_t x, int32_t y, int32_t *a,
+                           int32_t *b)
+{
+    *a = head->y[p] - head->y[q];
+    *b = head->x[q] - head->x[p];
+    int64_t dx = x * SUBPIXELS + CENTRE - head->x[p];
+    int64_t dy = y * SUBPIXELS + CENTRE - head->y[p];
+    bool top_left = *a > 0 || (*a == 0 && *b > 0);
+    return (*b * dy + *a * dx - !top_left) >> SUBPIXEL_BITS;
+}
+
+bool raster_prepare(struct raster *raster, const struct triangle_head *head, const struct rectangle *scissor)
+{
+    if (!head->visible || !bound(head, scissor, &raster->bounds))
+        return false;
+    for (int i = 0; i < 3; i++)
+        raster->c[i] = edge(head, i, i < 2 ? i + 1 : 0, 0, 0, &raster->a[i], &raster->b[i]);
+    return true;
+}
+
+struct rectangle raster_tiles(const struct raster *raster)
+{
+    const struct rectangle *b = &raster->bounds;
+    return (struct rectangle){b->x0 / TILE_SIZE, b->y0 / TILE_SIZE, (b->x1 + TILE_SIZE - 1) / TILE_SIZE,
+                              (b->y1 + TILE_SIZE - 1) / TILE_SIZE};
+}
+
+bool raster_touches(const struct raster *raster, int column, int row)
+{
+    for (int i = 0; i < 3; i++) {
+        int64_t a = raster->a[i], b = raster->b[i];
+        int64_t x = column * TILE_SIZE + (a > 0 ? TILE_SIZE - 1 : 0);
+        int64_t y = row * TILE_SIZE + (b > 0 ? TILE_SIZE - 1 : 0);
+        if (raster->c[i] + a * x + b * y < 0)
+            return false;
+    }
+    return true;
+}
+
+/* Edge functions of four cells in a row (groups or blocks) less the value at the first cell's first pixel: at
+ * the pixel of each cell where it is largest, and where it is smallest. */
+struct cells {
+    __m128i most[3];
+    __m128i least[3];
+};
+
+/* Which of four cells. */
+struct verdict {
+    uint32_t touched; /* bit i: cell i may have pixels inside */
+    uint32_t whole;   /* bit i: all its pixels are inside */
+};
+
+/* One triangle in one tile. Pixels count from the tile's first. */
+struct walk {
+    __m128i pixel[3][4];      /* edge functions of a block, quad by quad, less the value at its first pixel */
+    int32_t c[3], a[3], b[3]; /* at the tile's first pixel, saturated; steps */
+    struct rectangle bounds;  /* not empty, within the tile */
+    int32_t x, y;             /* of the tile's first pixel in the window */
+    uint32_t triangle;
+    struct entry *next;
+};
+
+static inline int32_t edge_value(const struct walk *w, int i, int32_t x, int32_t y)
+{
+    return w->c[i] + w->a[i] * x + w->b[i] * y;
+}
+
+static inline __m128i four_steps(int32_t step)
+{
+    return _mm_set_epi32(3 * step, 2 * step, step, 0);
+}
+
+static struct cells make_cells(const struct walk *w, int size)
+{
+    struct cells cells;
+    for (int i = 0; i < 3; i++) {
+        int32_t a = w->a[i], b = w->b[i];
+        __m128i steps = four_steps(a * size);
+        int32_t most = (maximum(a, 0) + maximum(b, 0)) * (size - 1);
+        int32_t least = (minimum(a, 0) + minimum(b, 0)) * (size - 1);
+        cells.most[i] = _mm_add_epi32(steps, _mm_set1_epi32(most));
+        cells.least[i] = _mm_add_epi32(steps, _mm_set1_epi32(least));
+    }
+    return cells;
+}
+
+static inline uint32_t not_negative(__m128i v)
+{
+    return ~(uint32_t)_mm_movemask_ps(_mm_castsi128_ps(v)) & 15;
+}
+
+/* The four cells whose first begins at (x, y). */
+static inline struct verdict judge(const struct walk *w, const struct cells *cells, int32_t x, int32_t y)
+{
+    __m128i most = _mm_setzero_si128();
+    __m128i least = _mm_setzero_si128();
+    for (int i = 0; i < 3; i++) {
+        __m128i value = _mm_set1_epi32(edge_value(w, i, x, y));
+        most = _mm_or_si128(most, _mm_add_epi32(value, cells->most[i]));
+        least = _mm_or_si128(least, _mm_add_epi32(value, cells->least[i]));
+    }
+    return (struct verdict){not_negative(most), not_negative(least)};
+}
+
+static inline void make_pixels(struct walk *w)
+{
+    for (int i = 0; i < 3; i++) {
+        int32_t a = w->a[i], b = w->b[i];
+        __m128i right = _mm_set1_epi32(2 * a);
+        __m128i down = _mm_set1_epi32(2 * b);
+        __m128i quad = _mm_set_epi32(a + b, b, a, 0);
+        __m128i lower = _mm_add_epi32(quad, down);
+        w->pixel[i][0] = quad;
+        w->pixel[i][1] = _mm_add_epi32(quad, right);
+        w->pixel[i][2] = lower;
+        w->pixel[i][3] = _mm_add_epi32(lower, right);
+    }
+}
+
+static inline __m128i quad_signs(const struct walk *w, const __m128i value[3], int quad)
+{
+    __m128i e0 = _mm_add_epi32(value[0], w->pixel[0][quad]);
+    __m128i e1 = _mm_add_epi32(value[1], w->pixel[1][quad]);
+    __m128i e2 = _mm_add_epi32(value[2], w->pixel[2][quad]);
+    return _mm_or_si128(_mm_or_si128(e0, e1), e2);
+}
+
+/* Lanes of the block at (x, y) that are inside; packing saturates, so that signs survive it. */
+static inline uint32_t block_coverage(const struct walk *w, int32_t x, int32_t y)
+{
+    __m128i value[3] = {_mm_set1_epi32(edge_value(w, 0, x, y)), _mm_set1_epi32(edge_value(w, 1, x, y)),
+                        _mm_set1_epi32(edge_value(w, 2, x, y))};
+    __m128i upper = _mm_packs_epi32(quad_signs(w, value, 0), quad_signs(w, value, 1));
+    __m128i lower = _mm_packs_epi32(quad_signs(w, value, 2), quad_signs(w, value, 3));
+    return ~(uint32_t)_mm_movemask_epi8(_mm_packs_epi16(upper, lower)) & WHOLE_BLOCK;
+}
+
+/* Lanes of the block from `first` on, along one axis, that the range start <= position < end keeps. */
+static inline uint32_t kept(const uint16_t from[BLOCK_SIZE + 1], int32_t first, int32_t start, int32_t end)
+{
+    return from[maximum(start - first, 0)] & ~from[minimum(end - first, BLOCK_SIZE)];
+}
+
+/* Always writes an entry and keeps it if it covers anything: there is room for one per block. */
+static inline void emit(struct walk *w, int32_t x, int32_t y, uint32_t coverage)
+{
+    struct entry *entry = w->next;
+    entry->x = (float)(w->x + x);
+    entry->y = (float)(w->y + y);
+    entry->coverage = (uint16_t)coverage;
+    entry->block = (uint16_t)(y / BLOCK_SIZE * ROW_BLOCKS + x / BLOCK_SIZE);
+    entry->triangle = w->triangle;
+    w->next += coverage != 0;
+}
+
+/* The row of blocks at y: bit i of `blocks` asks for block i, which lies in the bounds, and bit i of `whole`
+ * says that all of it is inside. */
+static inline void emit_row(struct walk *w, int32_t y, uint32_t blocks, uint32_t whole)
+{
+    const struct rectangle bounds = w->bounds;
+    uint32_t rows = kept(rows_from, y, bounds.y0, bounds.y1);
+    for (; blocks; blocks &= blocks - 1) {
+        int i = __builtin_ctz(blocks);
+        int32_t x = i * BLOCK_SIZE;
+        uint32_t inside = whole >> i & 1 ? WHOLE_BLOCK : block_coverage(w, x, y);
+        emit(w, x, y, inside & rows & kept(columns_from, x, bounds.x0, bounds.x1));
+    }
+}
+
+/* Verdicts on a row of blocks at y, given those on its groups. */
+static inline void emit_groups(struct walk *w, const struct cells *blocks, struct verdict groups, int32_t y,
+                               uint32_t columns)
+{
+    uint32_t touched = 0, whole = 0;
+    for (uint32_t left = groups.touched; left; left &= left - 1) {
+        int g = __builtin_ctz(left);
+        struct verdict v = {15, 15};
+        if (!(groups.whole >> g & 1))
+            v = judge(w, blocks, g * GROUP_SIZE, y);
+        touched |= v.touched << 4 * g;
+        whole |= v.whole << 4 * g;
+    }
+    emit_row(w, y, touched & columns, whole);
+}
+
+static void descend(struct walk *w, int32_t y0, uint32_t columns)
+{
+    struct cells groups = make_cells(w, GROUP_SIZE);
+    struct cells blocks = make_cells(w, BLOCK_SIZE);
+    for (int32_t y = y0; y < w->bounds.y1;) {
+        int32_t group_y = y & -GROUP_SIZE;
+        struct verdict v = judge(w, &groups, 0, group_y);
+        int32_t end = minimum(group_y + GROUP_SIZE, w->bounds.y1);
+        for (; y < end; y += BLOCK_SIZE)
+            emit_groups(w, &blocks, v, y, columns);
+    }
+}
+
+static inline int32_t saturate(int64_t c)
+{
+    c = c > SATURATION ? SATURATION : c;
+    return (int32_t)(c < -SATURATION ? -SATURATION : c);
+}
+
+/* Returns whether the triangle may cover anything of the tile. */
+static inline bool enter_tile(struct walk *w, const struct triangle_head *head,
+                              const struct rectangle *scissor)
+{
+    struct rectangle limit = {maximum(scissor->x0, w->x), maximum(scissor->y0, w->y),
+                              minimum(scissor->x1, w->x + TILE_SIZE), minimum(scissor->y1, w->y + TILE_SIZE)};
+    if (!head->visible || !bound(head, &limit, &w->bounds))
+        return false;
+    w->bounds.x0 -= w->x;
+    w->bounds.y0 -= w->y;
+    w->bounds.x1 -= w->x;
+    w->bounds.y1 -= w->y;
+    w->c[0] = saturate(edge(head, 0, 1, w->x, w->y, &w->a[0], &w->b[0]));
+    w->c[1] = saturate(edge(head, 1, 2, w->x, w->y, &w->a[1], &w->b[1]));
+    w->c[2] = saturate(edge(head, 2, 0, w->x, w->y, &w->a[2], &w->b[2]));
+    return true;
+}
+
+uint32_t raster_tile(const struct triangle_head *head, const struct rectangle *scissor, int column, int row,
+                     uint32_t triangle, struct entry *entries)
+{
+    struct walk w;
+    w.x = column * TILE_SIZE;
+    w.y = row * TILE_SIZE;
+    w.triangle = triangle;
+    w.next = entries;
+    if (!enter_tile(&w, head, scissor))
+        return 0;
+    make_pixels(&w);
+    int32_t first = w.bounds.x0 / BLOCK_SIZE, width = (w.bounds.x1 - 1) / BLOCK_SIZE - first + 1;
+    int32_t y0 = w.bounds.y0 & -BLOCK_SIZE, height = (w.bounds.y1 - y0 + BLOCK_SIZE - 1) / BLOCK_SIZE;
+    uint32_t columns = ((1u << width) - 1) << first;
+    if (width * height > DIRECT_BLOCKS)
+        descend(&w, y0, columns);
+    else
+        for (int32_t y = y0; y < w.bounds.y1; y += BLOCK_SIZE)
+            emit_row(&w, y, columns, 0);
+    return (uint32_t)(w.next - entries);
+}
