@@ -1,0 +1,79 @@
+#include "base/compare.h"
+
+#include <stddef.h>
+#include <string.h>
+
+static bool depths_differ(const struct picture *first, const struct picture *second, size_t i)
+{
+    return first->depth && memcmp(first->depth + i, second->depth + i, sizeof *first->depth);
+}
+
+/* The largest difference of the four channels. */
+static uint32_t distance(uint32_t a, uint32_t b)
+{
+    uint32_t largest = 0;
+    for (int shift = 0; shift < 32; shift += 8) {
+        int channel = (int)(a >> shift & 255) - (int)(b >> shift & 255);
+        uint32_t size = (uint32_t)(channel < 0 ? -channel : channel);
+        largest = size > largest ? size : largest;
+    }
+    return largest;
+}
+
+static void note_first(const struct picture *first, const struct picture *second, size_t i,
+                       struct difference *difference)
+{
+    difference->x = (unsigned)(i % first->width);
+    difference->y = (unsigned)(i / first->width);
+    difference->color[0] = first->color[i];
+    difference->color[1] = second->color[i];
+    if (first->depth) {
+        difference->depth[0] = first->depth[i];
+        difference->depth[1] = second->depth[i];
+    }
+}
+
+bool compare_pictures(const struct picture *first, const struct picture *second,
+                      struct difference *difference)
+{
+    memset(difference, 0, sizeof *difference);
+    size_t count = (size_t)first->width * first->height;
+    if (!memcmp(first->color, second->color, count * sizeof *first->color) &&
+        (!first->depth || !memcmp(first->depth, second->depth, count * sizeof *first->depth)))
+        return false;
+    for (size_t i = 0; i < count; i++) {
+        uint32_t apart = distance(first->color[i], second->color[i]);
+        bool deep = depths_differ(first, second, i);
+        if ((apart || deep) && !difference->color_pixels && !difference->depth_pixels)
+            note_first(first, second, i, difference);
+        difference->color_pixels += apart != 0;
+        difference->depth_pixels += deep;
+        if (apart > difference->color_distance)
+            difference->color_distance = apart;
+    }
+    return true;
+}
+
+enum { DARKENING = 4, FAINTEST_DIFFERENCE = 96 };
+
+static const uint32_t opaque = 0xff000000, pure_blue = 0x00ff0000;
+
+static uint32_t grey(uint32_t rgba)
+{
+    uint32_t brightness = ((rgba & 255) * 2 + (rgba >> 8 & 255) * 5 + (rgba >> 16 & 255)) / 8 / DARKENING;
+    return brightness * 0x010101;
+}
+
+void compare_paint(const struct picture *first, const struct picture *second, uint32_t *painting)
+{
+    size_t count = (size_t)first->width * first->height;
+    for (size_t i = 0; i < count; i++) {
+        uint32_t apart = distance(first->color[i], second->color[i]);
+        uint32_t color = grey(first->color[i]);
+        if (apart)
+            color = FAINTEST_DIFFERENCE + apart * (255 - FAINTEST_DIFFERENCE) / 255;
+        else if (depths_differ(first, second, i))
+            color = pure_blue;
+        painting[i] = color | opaque;
+    }
+}
