@@ -55,7 +55,7 @@ enum compare {
 enum filter { FILTER_POINT, FILTER_LINEAR, FILTER_COUNT };
 
 /* WRAP_POWER is wrap on an axis whose size is a power of two: a mask instead of a floor. */
-enum address { ADDRESS_WRAP, ADDRESS_WRAP_POWER, ADDRESS_CLAMP, ADDRESS_COUNT };
+enum address_mode { ADDRESS_WRAP, ADDRESS_WRAP_POWER, ADDRESS_CLAMP, ADDRESS_COUNT };
 
 enum stage { STAGE_DIFFUSE, STAGE_REPLACE, STAGE_MODULATE, STAGE_ADD, STAGE_COUNT };
 

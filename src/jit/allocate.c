@@ -1,0 +1,239 @@
+#include "jit/allocate.h"
+
+#include <string.h>
+
+/* The scan's state: who is in which register. */
+struct scan {
+    const struct ir *ir;
+    struct allocation *allocation;
+    unsigned registers;
+    uint16_t holder[ALLOCATABLE]; /* 0: free */
+};
+
+int allocate_folds(const struct ir_instruction *instruction, int position)
+{
+    switch (instruction->op) {
+    case IR_round_i:
+    case IR_trunc_i:
+    case IR_float_f:
+    case IR_sqrt_f:
+    case IR_floor_f: return 1;
+    case IR_select_f:
+    case IR_select_i: return position == 1;
+    case IR_mad_f:
+    case IR_lt_f:
+    case IR_le_f: return 1;
+    case IR_andn_m: return position == 0;
+    default: break;
+    }
+    const struct ir_op_information *information = &ir_op_information[instruction->op];
+    if (information->operands != 2 || information->properties & IR_EFFECT)
+        return 0;
+    return position == 1 || information->properties & IR_COMMUTES;
+}
+
+int allocate_rematerializes(const struct ir_instruction *instruction)
+{
+    return (instruction->op == IR_uniform || instruction->op == IR_load) && ir_is_invariant_read(instruction);
+}
+
+static int defines_value(const struct ir_instruction *i)
+{
+    return i->op != IR_nop && !(ir_op_information[i->op].properties & IR_EFFECT);
+}
+
+/* Backward: the chain of uses, their number, and each value's first and last. */
+static void chain_uses(const struct ir *ir, struct allocation *a)
+{
+    memset(a->next_use, 0, ir->count * sizeof a->next_use[0]);
+    memset(a->last, 0, ir->count * sizeof a->last[0]);
+    memset(a->uses, 0, ir->count * sizeof a->uses[0]);
+    for (uint32_t number = ir->count - 1; number > 0; number--) {
+        const struct ir_instruction *i = &ir->instruction[number];
+        uint16_t after[3];
+        for (int o = 0; o < 3; o++)
+            after[o] = a->next_use[i->operand[o]];
+        for (int o = 0; o < 3; o++) {
+            unsigned value = i->operand[o];
+            a->next[number][o] = after[o];
+            if (!value)
+                continue;
+            a->next_use[value] = (uint16_t)number;
+            a->uses[value]++;
+            if (!a->last[value])
+                a->last[value] = (uint16_t)number;
+        }
+    }
+}
+
+/* A load that is used once, by an instruction that can read memory there, stays where it is. */
+static int stays_in_memory(const struct ir *ir, const struct allocation *a, uint32_t number)
+{
+    const struct ir_instruction *i = &ir->instruction[number];
+    if (i->op == IR_literal || i->op == IR_constant)
+        return 1;
+    if (i->op != IR_load || !ir_is_invariant_read(i) || a->uses[number] != 1)
+        return 0;
+    const struct ir_instruction *user = &ir->instruction[a->last[number]];
+    for (int o = 0; o < 3; o++)
+        if (user->operand[o] == number)
+            return allocate_folds(user, o);
+    return 0;
+}
+
+static void classify(const struct ir *ir, struct allocation *a)
+{
+    for (uint32_t number = 0; number < ir->count; number++) {
+        const struct ir_instruction *i = &ir->instruction[number];
+        a->residence[number] = RESIDENCE_NONE;
+        a->reg[number] = NO_REGISTER;
+        a->split[number] = NEVER;
+        a->slot[number] = NO_SLOT;
+        if (defines_value(i) && a->uses[number])
+            a->residence[number] = stays_in_memory(ir, a, number) ? RESIDENCE_MEMORY : RESIDENCE_REGISTER;
+    }
+}
+
+static int is_operand(const struct ir_instruction *i, unsigned value)
+{
+    return i->operand[0] == value || i->operand[1] == value || i->operand[2] == value;
+}
+
+/* Frees the registers of operands whose last use is this instruction; remembers one that suits the result:
+ * the addend of a fused multiply-add first, since it is overwritten in place. */
+static unsigned release(struct scan *scan, uint32_t number)
+{
+    const struct ir_instruction *i = &scan->ir->instruction[number];
+    struct allocation *a = scan->allocation;
+    unsigned preferred = NO_REGISTER;
+    for (int o = 0; o < 3; o++) {
+        unsigned value = i->operand[o];
+        if (!value || a->last[value] != number || a->reg[value] == NO_REGISTER)
+            continue;
+        unsigned reg = a->reg[value];
+        if (a->split[value] != NEVER || scan->holder[reg] != value)
+            continue;
+        scan->holder[reg] = 0;
+        preferred = reg;
+    }
+    return preferred;
+}
+
+static void advance(struct scan *scan, uint32_t number)
+{
+    const struct ir_instruction *i = &scan->ir->instruction[number];
+    for (int o = 0; o < 3; o++)
+        scan->allocation->next_use[i->operand[o]] = scan->allocation->next[number][o];
+}
+
+static unsigned furthest(const struct scan *scan, const struct ir_instruction *i)
+{
+    unsigned victim = NO_REGISTER;
+    for (unsigned reg = 0; reg < scan->registers; reg++) {
+        if (is_operand(i, scan->holder[reg]))
+            continue;
+        if (victim == NO_REGISTER ||
+            scan->allocation->next_use[scan->holder[reg]] > scan->allocation->next_use[scan->holder[victim]])
+            victim = reg;
+    }
+    return victim;
+}
+
+static void spill(struct scan *scan, unsigned value, uint32_t position)
+{
+    scan->allocation->split[value] = (uint16_t)position;
+    scan->allocation->spills++;
+}
+
+/* A register for the result of `number`: the preferred one, a free one, or that of the value used furthest
+ * away, which may be the result itself. */
+static void place(struct scan *scan, uint32_t number, unsigned preferred)
+{
+    struct allocation *a = scan->allocation;
+    unsigned reg = preferred;
+    for (unsigned r = 0; reg == NO_REGISTER && r < scan->registers; r++)
+        if (!scan->holder[r])
+            reg = r;
+    if (reg == NO_REGISTER) {
+        reg = furthest(scan, &scan->ir->instruction[number]);
+        if (reg == NO_REGISTER || a->next_use[scan->holder[reg]] < a->next_use[number]) {
+            a->reg[number] = SCRATCH_RESULT;
+            spill(scan, number, number);
+            return;
+        }
+        spill(scan, scan->holder[reg], number);
+    }
+    scan->holder[reg] = (uint16_t)number;
+    a->reg[number] = (uint8_t)reg;
+}
+
+/* A gather's result must not share a register with its index. */
+static int keeps_operands(const struct ir_instruction *i)
+{
+    return i->op == IR_gather;
+}
+
+static void scan_instruction(struct scan *scan, uint32_t number)
+{
+    const struct ir_instruction *i = &scan->ir->instruction[number];
+    unsigned preferred = NO_REGISTER;
+    advance(scan, number);
+    if (!keeps_operands(i))
+        preferred = release(scan, number);
+    if (scan->allocation->residence[number] == RESIDENCE_REGISTER)
+        place(scan, number, preferred);
+    if (keeps_operands(i))
+        release(scan, number);
+}
+
+/* Slots in order of definition, the lowest that is free again. */
+static void assign_slots(const struct ir *ir, struct allocation *a)
+{
+    uint16_t busy_until[IR_CAPACITY / 4];
+    a->slots = 0;
+    for (uint32_t number = 1; number < ir->count; number++) {
+        if (a->split[number] == NEVER || allocate_rematerializes(&ir->instruction[number]))
+            continue;
+        uint32_t slot = 0;
+        while (slot < a->slots && busy_until[slot] >= number)
+            slot++;
+        if (slot == sizeof busy_until / sizeof busy_until[0])
+            slot--; /* cannot be: more values alive at once than a recording can hold */
+        if (slot == a->slots)
+            a->slots++;
+        busy_until[slot] = a->last[number];
+        a->slot[number] = (uint16_t)slot;
+    }
+}
+
+void allocate(const struct ir *ir, struct allocation *allocation, unsigned registers)
+{
+    struct scan scan = {.ir = ir, .allocation = allocation, .registers = registers};
+    allocation->spills = 0;
+    chain_uses(ir, allocation);
+    classify(ir, allocation);
+    for (uint32_t number = 1; number < ir->count; number++)
+        scan_instruction(&scan, number);
+    assign_slots(ir, allocation);
+}
+
+void allocate_print(const struct ir *ir, const struct allocation *a, FILE *out)
+{
+    for (uint32_t number = 1; number < ir->count; number++) {
+        const struct ir_instruction *i = &ir->instruction[number];
+        if (a->residence[number] != RESIDENCE_REGISTER)
+            continue;
+        fprintf(out, "%5u to %5u  v%-2u ", number, a->last[number], a->reg[number]);
+        if (a->split[number] == NEVER)
+            fprintf(out, "%-22s", "");
+        else if (a->slot[number] == NO_SLOT)
+            fprintf(out, "read again after %-5u", a->split[number]);
+        else
+            fprintf(out, "slot %-3u after %-7u", a->slot[number], a->split[number]);
+        uint32_t scale = ir->count / 96 + 1;
+        fprintf(out, "%*s", (int)(number / scale), "");
+        for (uint32_t at = number / scale; at <= a->last[number] / scale; at++)
+            fputc(at * scale > a->split[number] ? '.' : '=', out);
+        fprintf(out, "  %s\n", ir_op_information[i->op].name);
+    }
+}

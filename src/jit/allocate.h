@@ -1,0 +1,58 @@
+/* Register allocation: linear scan over live intervals (Poletto and Sarkar 1999) in one straight line of
+ * code.
+ *
+ * A value's interval runs from its definition to its last use. A value lives in a register until position
+ * `split` and in memory after it; it is stored where it is defined, so that it does not matter whether the
+ * region in which it was evicted ran. Victims are the values whose next use is furthest away (Belady). Spill
+ * slots are shared by values whose intervals do not meet. Values that memory already holds need no slot:
+ * literals and frame constants are never in registers, a uniform is read again, a load from memory that no
+ * routine writes is addressed where it is. */
+#ifndef JIT_ALLOCATE_H
+#define JIT_ALLOCATE_H
+
+#include "jit/ir.h"
+
+enum {
+    ALLOCATABLE = 13, /* vector registers 0 to 12 */
+    SCRATCH_RESULT = 13,
+    SCRATCH_FIRST = 14, /* two registers for operands that must leave memory */
+    SCRATCH_SECOND = 15,
+    NO_REGISTER = 255,
+    NO_SLOT = 0xffff,
+    NEVER = 0xffff
+};
+
+enum residence {
+    RESIDENCE_NONE,     /* no value, or never used */
+    RESIDENCE_REGISTER, /* up to `split` */
+    RESIDENCE_MEMORY    /* an operand in memory wherever it is used */
+};
+
+struct allocation {
+    uint8_t residence[IR_CAPACITY];
+    uint8_t reg[IR_CAPACITY];
+    uint16_t split[IR_CAPACITY]; /* at positions after this the value is in memory; NEVER */
+    uint16_t
+        slot[IR_CAPACITY]; /* its spill slot, NO_SLOT when memory holds it already or it is not spilled */
+    uint16_t last[IR_CAPACITY]; /* last use; 0 when there is none */
+    uint16_t uses[IR_CAPACITY];
+    uint16_t next[IR_CAPACITY][3]; /* the use after this one of the same value, 0: this is the last */
+    uint16_t next_use[IR_CAPACITY];
+    uint32_t slots;
+    uint32_t spills; /* values that left their register */
+};
+
+/* Whether selection can take operand `position` of this operation from memory. */
+int allocate_folds(const struct ir_instruction *instruction, int position);
+
+/* Fills `allocation` for a verified, compacted IR. `registers` (at most ALLOCATABLE, at least 4) may be fewer
+ * to put the allocator under pressure. */
+void allocate(const struct ir *ir, struct allocation *allocation, unsigned registers);
+
+/* Whether a spilled value can be read again from where it came from. */
+int allocate_rematerializes(const struct ir_instruction *instruction);
+
+/* Prints the live intervals as a chart. */
+void allocate_print(const struct ir *ir, const struct allocation *allocation, FILE *out);
+
+#endif

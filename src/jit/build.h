@@ -1,0 +1,33 @@
+/* Building a routine: the stages in order, and what a caller may vary. */
+#ifndef JIT_BUILD_H
+#define JIT_BUILD_H
+
+#include "jit/emit.h"
+#include "jit/pass.h"
+
+struct build_options {
+    unsigned width; /* 4 or 8 */
+    enum profile profile;
+    uint32_t disabled;  /* bit p: pass p is left out */
+    unsigned registers; /* at most ALLOCATABLE; 0: all */
+};
+
+/* The memory of one build, reused: none is allocated while building. */
+struct builder {
+    struct ir ir;
+    struct pass_memory pass;
+    struct allocation allocation;
+    struct emitter emitter;
+    struct builder *next;
+};
+
+/* A builder of the process's pool, or null with the reason. Give it back. */
+struct builder *builder_take(struct error *error);
+void builder_give(struct builder *builder);
+
+/* Records, optimises, allocates and encodes into builder->emitter.code, under the contract's MXCSR. Returns
+ * the bytes, or 0 with the reason. `observer` may be null. */
+size_t build_code(struct builder *builder, const struct build_options *options, enum unit unit,
+                  const union key *key, pass_observer *observer, void *context, struct error *error);
+
+#endif

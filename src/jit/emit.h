@@ -1,0 +1,65 @@
+/* From allocated IR to machine code: instruction selection with memory operands, peephole rules, and the
+ * frame. */
+#ifndef JIT_EMIT_H
+#define JIT_EMIT_H
+
+#include "jit/allocate.h"
+#include "jit/encode.h"
+
+enum {
+    CODE_CAPACITY = 256 * 1024, /* bytes of one routine, constants included */
+    LABEL_CAPACITY = 2048,
+    FIXUP_CAPACITY = 8192,
+    LITERAL_CAPACITY = 512
+};
+
+/* Labels of the frame; regions and literals follow. */
+enum frame_label { LABEL_LOOP, LABEL_CHUNK, LABEL_SKIP, LABEL_DONE, LABEL_FREE };
+
+/* Where an instruction's code begins. */
+struct code_line {
+    uint32_t offset;
+    uint16_t instruction; /* IR number; 0 for the frame */
+};
+
+/* Everything a build needs to write its code: big, reused from build to build. */
+struct emitter {
+    const struct ir *ir;
+    const struct allocation *allocation;
+    struct encoder encoder;
+    enum vector_length length;
+    unsigned width; /* lanes: 4 or 8 */
+    uint32_t position;
+    uint32_t next_label;
+    uint32_t literals;
+    uint32_t lines;
+    uint32_t instructions;   /* machine instructions written */
+    uint32_t code_bytes;     /* without the constants */
+    int32_t frame_constants; /* rsp-relative place of the frame's constants and spill slots */
+    int32_t frame_slots;
+    int32_t literal_bits[LITERAL_CAPACITY];
+    uint32_t literal_label[LITERAL_CAPACITY];
+    uint32_t region_label[64];
+    uint32_t region_depth;
+    struct code_line line[IR_CAPACITY + 64];
+    int32_t labels[LABEL_CAPACITY];
+    struct fixup fixups[FIXUP_CAPACITY];
+    uint8_t code[CODE_CAPACITY];
+};
+
+/* Writes the whole routine of a unit into emitter->code. Returns its bytes, or 0 with the reason. */
+size_t emit_routine(struct emitter *emitter, enum unit unit, const union key *key, struct error *error);
+
+/* Writes the body: every IR instruction, at emitter->position (select.c). */
+void emit_body(struct emitter *emitter);
+
+/* The general-purpose register that holds a base (frame.c). */
+extern const uint8_t base_register[BASE_COUNT];
+
+/* The address of a literal's lanes in the constant pool. */
+struct address literal_address(struct emitter *emitter, int32_t bits);
+
+/* Notes that the code from here on belongs to an IR instruction (0: the frame). */
+void note_line(struct emitter *emitter, uint32_t instruction);
+
+#endif

@@ -1,0 +1,115 @@
+/* The specializer's engines: the same code generator for 4 and for 8 lanes, with the default profile, and for
+ * 8 lanes with the passes of the thesis alone. */
+#include "base/code.h"
+#include "base/cpu.h"
+#include "jit/build.h"
+#include "jit/jit.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+static const char *unavailable(void)
+{
+    return cpu_has_avx2_fma() ? NULL : "needs AVX2 and FMA, which this processor or system does not offer";
+}
+
+/* Copies the built code into the arena. */
+static int install(struct code_arena *arena, const struct builder *b, size_t bytes, struct routine *routine,
+                   struct error *error)
+{
+    struct code_span span;
+    if (!arena)
+        return error_set(error, "generated code needs executable memory, and there is none");
+    if (code_reserve(arena, bytes, &span, error))
+        return -1;
+    memcpy(span.writable, b->emitter.code, bytes);
+    routine->code = code_commit(arena, &span, bytes);
+    memcpy(&routine->run, &routine->code, sizeof routine->run);
+    routine->code_bytes = (uint32_t)bytes;
+    routine->constant_bytes = (uint32_t)bytes - b->emitter.code_bytes;
+    routine->parts = b->ir.count - 1;
+    routine->spills = b->allocation.spills;
+    return 0;
+}
+
+static struct routine *build_with(const struct engine *engine, const struct build_options *options,
+                                  struct code_arena *arena, enum unit unit, const union key *key,
+                                  struct error *error)
+{
+    struct builder *b = builder_take(error);
+    struct routine *routine = b ? calloc(1, sizeof *routine) : NULL;
+    if (!routine) {
+        error_set(error, "out of memory for a routine");
+        goto failed;
+    }
+    routine->engine = engine;
+    routine->unit = unit;
+    routine->key = *key;
+    size_t bytes = build_code(b, options, unit, key, NULL, NULL, error);
+    if (!bytes || install(arena, b, bytes, routine, error))
+        goto failed;
+    builder_give(b);
+    return routine;
+failed:
+    if (b)
+        builder_give(b);
+    free(routine);
+    return NULL;
+}
+
+static void free_routine(struct code_arena *arena, struct routine *routine)
+{
+    struct code_span span = {.writable = code_writable(arena, routine->code),
+                             .executable = routine->code,
+                             .bytes = routine->code_bytes};
+    code_free(arena, &span);
+    free(routine);
+}
+
+static struct routine *build_8(struct code_arena *arena, enum unit unit, const union key *key,
+                               struct error *error)
+{
+    static const struct build_options options = {.width = 8, .profile = PROFILE_FULL};
+    return build_with(&engine_specialize, &options, arena, unit, key, error);
+}
+
+static struct routine *build_4(struct code_arena *arena, enum unit unit, const union key *key,
+                               struct error *error)
+{
+    static const struct build_options options = {.width = 4, .profile = PROFILE_FULL};
+    return build_with(&engine_specialize_4, &options, arena, unit, key, error);
+}
+
+static struct routine *build_thesis(struct code_arena *arena, enum unit unit, const union key *key,
+                                    struct error *error)
+{
+    static const struct build_options options = {.width = 8, .profile = PROFILE_THESIS};
+    return build_with(&engine_specialize_thesis, &options, arena, unit, key, error);
+}
+
+const struct engine engine_specialize = {
+    .name = "specialize",
+    .description = "dynamic specializer, all passes, 8 lanes (AVX2)",
+    .width = 8,
+    .unavailable = unavailable,
+    .build = build_8,
+    .free = free_routine,
+};
+
+const struct engine engine_specialize_4 = {
+    .name = "specialize-4",
+    .description = "dynamic specializer, all passes, 4 lanes (128-bit registers)",
+    .width = 4,
+    .unavailable = unavailable,
+    .build = build_4,
+    .free = free_routine,
+};
+
+const struct engine engine_specialize_thesis = {
+    .name = "specialize-thesis",
+    .description = "dynamic specializer with the passes of the thesis alone, 8 lanes",
+    .width = 8,
+    .unavailable = unavailable,
+    .build = build_thesis,
+    .free = free_routine,
+};

@@ -1,0 +1,233 @@
+/* The frame around a recorded body: prologue, the loop over what the call lists, epilogue, constant pool.
+ *
+ * rdi keeps the call structure, the bases have fixed registers (below), rax is scratch, rbx counts down a
+ * block's coverage. Stack, upward from rsp, 64-byte aligned: saved MXCSR, the contract's MXCSR, then the
+ * frame's constants and the spill slots, W * 4 bytes each. Only rbp and rbx are callee-saved registers in
+ * use. Constants that the body uses follow the code and are reached relative to rip, so a routine can be
+ * copied anywhere.
+ *
+ * The pixel loop walks entries; within a 4x4 block it walks chunks of W lanes, passing over those without
+ * coverage: rbx holds the coverage still ahead and ends the block when it is empty. */
+#include "base/mxcsr.h"
+#include "jit/emit.h"
+
+#include <stddef.h>
+
+enum { SAVED_MXCSR = 0, CONTRACT_MXCSR = 4, FRAME_HEAD = 64 };
+
+#define CALL     X86_RDI
+#define JOB      X86_R8
+#define INPUT    X86_RSI
+#define OUTPUT   X86_RDX
+#define VERTICES X86_RCX
+#define ENTRY    X86_RSI
+#define TRIANGLE X86_RDX
+#define LANES    X86_RCX
+#define COLOR    X86_R9
+#define DEPTH    X86_R10
+#define LIMIT    X86_R11 /* end of the input */
+#define AHEAD    X86_RBX /* coverage not yet passed */
+
+const uint8_t base_register[BASE_COUNT] = {
+#define BASE(name, meaning) [BASE_##name] = name,
+#include "def/base.def"
+#undef BASE
+};
+
+void note_line(struct emitter *m, uint32_t instruction)
+{
+    if (m->lines < sizeof m->line / sizeof m->line[0])
+        m->line[m->lines++] = (struct code_line){(uint32_t)encoder_size(&m->encoder), (uint16_t)instruction};
+}
+
+struct address literal_address(struct emitter *m, int32_t bits)
+{
+    uint32_t i = 0;
+    while (i < m->literals && m->literal_bits[i] != bits)
+        i++;
+    if (i == m->literals && m->literals < LITERAL_CAPACITY) {
+        m->literal_bits[i] = bits;
+        m->literal_label[i] = m->next_label++;
+        m->literals++;
+    }
+    return address_label(m->literal_label[i], 0);
+}
+
+static void load(struct emitter *m, enum gpr to, size_t field)
+{
+    gpr_rm(&m->encoder, X86_mov, X86_64, to, address_at(CALL, (int32_t)field));
+}
+
+static void broadcast_constants(struct emitter *m)
+{
+    for (uint32_t c = 0; c < m->ir->constant_count; c++) {
+        const struct ir_constant *constant = &m->ir->constant[c];
+        struct address slot = address_at(X86_RSP, m->frame_constants + (int32_t)(c * m->width * 4));
+        vector_rm(&m->encoder, X86_vbroadcastss, m->length, 0,
+                  address_at(base_register[constant->base], constant->offset));
+        vector_mr(&m->encoder, X86_vmovaps_store, m->length, slot, 0);
+    }
+}
+
+static void prologue(struct emitter *m, size_t job_field)
+{
+    struct encoder *e = &m->encoder;
+    m->frame_constants = FRAME_HEAD;
+    m->frame_slots = m->frame_constants + (int32_t)(m->ir->constant_count * m->width * 4);
+    int32_t bytes = m->frame_slots + (int32_t)(m->allocation->slots * m->width * 4);
+    gpr_r(e, X86_push, X86_64, X86_RBP);
+    gpr_rr(e, X86_mov, X86_64, X86_RBP, X86_RSP);
+    gpr_r(e, X86_push, X86_64, AHEAD);
+    gpr_ri(e, X86_sub, X86_64, X86_RSP, bytes);
+    gpr_ri(e, X86_and, X86_64, X86_RSP, -64);
+    vector_m(e, X86_vstmxcsr, address_at(X86_RSP, SAVED_MXCSR));
+    gpr_mi(e, X86_mov, X86_32, address_at(X86_RSP, CONTRACT_MXCSR), MXCSR_CONTRACT);
+    vector_m(e, X86_vldmxcsr, address_at(X86_RSP, CONTRACT_MXCSR));
+    load(m, JOB, job_field);
+    broadcast_constants(m);
+}
+
+static void epilogue(struct emitter *m)
+{
+    struct encoder *e = &m->encoder;
+    vector_m(e, X86_vldmxcsr, address_at(X86_RSP, SAVED_MXCSR));
+    vector_none(e, X86_vzeroupper);
+    gpr_rm(e, X86_mov, X86_64, AHEAD, address_at(X86_RBP, -8));
+    gpr_rr(e, X86_mov, X86_64, X86_RSP, X86_RBP);
+    gpr_r(e, X86_pop, X86_64, X86_RBP);
+    encode_return(e);
+}
+
+/* LIMIT = INPUT + count * bytes of an element (a power of two). */
+static void load_limit(struct emitter *m, size_t count_field, unsigned shift)
+{
+    struct encoder *e = &m->encoder;
+    gpr_rm(e, X86_mov, X86_32, LIMIT, address_at(CALL, (int32_t)count_field));
+    gpr_ri(e, X86_shl, X86_64, LIMIT, (int32_t)shift);
+    gpr_rr(e, X86_add, X86_64, LIMIT, INPUT);
+}
+
+static void begin_loop(struct emitter *m)
+{
+    gpr_rr(&m->encoder, X86_cmp, X86_64, INPUT, LIMIT);
+    encode_jump_if(&m->encoder, X86_IF_nb, LABEL_DONE);
+    encode_align(&m->encoder, 16);
+    encode_label(&m->encoder, LABEL_LOOP);
+}
+
+static void end_loop(struct emitter *m)
+{
+    gpr_rr(&m->encoder, X86_cmp, X86_64, INPUT, LIMIT);
+    encode_jump_if(&m->encoder, X86_IF_b, LABEL_LOOP);
+    encode_label(&m->encoder, LABEL_DONE);
+}
+
+static void vertex_loop(struct emitter *m)
+{
+    int32_t step = (int32_t)m->width * 4;
+    load(m, INPUT, offsetof(struct vertex_call, index));
+    load(m, OUTPUT, offsetof(struct vertex_call, out));
+    load_limit(m, offsetof(struct vertex_call, count), 2);
+    begin_loop(m);
+    emit_body(m);
+    gpr_ri(&m->encoder, X86_add, X86_64, INPUT, step);
+    gpr_ri(&m->encoder, X86_add, X86_64, OUTPUT, step);
+    end_loop(m);
+}
+
+static void setup_loop(struct emitter *m, const struct setup_key *key)
+{
+    int32_t stride = triangle_layout(key->depth, key->varying).stride;
+    load(m, INPUT, offsetof(struct setup_call, index));
+    load(m, OUTPUT, offsetof(struct setup_call, out));
+    load(m, VERTICES, offsetof(struct setup_call, vertices));
+    load_limit(m, offsetof(struct setup_call, count), 2);
+    begin_loop(m);
+    emit_body(m);
+    gpr_ri(&m->encoder, X86_add, X86_64, INPUT, (int32_t)m->width * 4);
+    gpr_ri(&m->encoder, X86_add, X86_64, OUTPUT, (int32_t)m->width * stride);
+    end_loop(m);
+}
+
+/* The bases of an entry's block, and its coverage. */
+static void begin_block(struct emitter *m)
+{
+    struct encoder *e = &m->encoder;
+    gpr_rm(e, X86_mov, X86_32, TRIANGLE, address_at(ENTRY, offsetof(struct entry, triangle)));
+    gpr_rm(e, X86_add, X86_64, TRIANGLE, address_at(CALL, offsetof(struct pixel_call, triangles)));
+    gpr_rm(e, X86_movzx16, X86_32, X86_RAX, address_at(ENTRY, offsetof(struct entry, block)));
+    gpr_ri(e, X86_shl, X86_32, X86_RAX, 6); /* a block is 16 words */
+    load(m, COLOR, offsetof(struct pixel_call, color));
+    gpr_rr(e, X86_add, X86_64, COLOR, X86_RAX);
+    load(m, DEPTH, offsetof(struct pixel_call, depth));
+    gpr_rr(e, X86_add, X86_64, DEPTH, X86_RAX);
+    load(m, LANES, offsetof(struct pixel_call, lanes));
+    gpr_rm(e, X86_movzx16, X86_32, AHEAD, address_at(ENTRY, offsetof(struct entry, coverage)));
+}
+
+static void pixel_loop(struct emitter *m)
+{
+    struct encoder *e = &m->encoder;
+    int32_t step = (int32_t)m->width * 4;
+    load(m, ENTRY, offsetof(struct pixel_call, entries));
+    load_limit(m, offsetof(struct pixel_call, count), 4);
+    begin_loop(m);
+    begin_block(m);
+    encode_label(e, LABEL_CHUNK);
+    gpr_ri(e, X86_test, X86_32, AHEAD, (1 << m->width) - 1);
+    encode_jump_if(e, X86_IF_z, LABEL_SKIP);
+    emit_body(m);
+    encode_label(e, LABEL_SKIP);
+    gpr_ri(e, X86_add, X86_64, COLOR, step);
+    gpr_ri(e, X86_add, X86_64, DEPTH, step);
+    gpr_ri(e, X86_add, X86_64, LANES, step);
+    gpr_ri(e, X86_shr, X86_32, AHEAD, (int32_t)m->width);
+    encode_jump_if(e, X86_IF_nz, LABEL_CHUNK);
+    gpr_ri(e, X86_add, X86_64, ENTRY, sizeof(struct entry));
+    end_loop(m);
+}
+
+static void constant_pool(struct emitter *m)
+{
+    for (uint32_t i = 0; i < m->literals; i++) {
+        int32_t lanes[LANES_MAXIMUM];
+        for (unsigned lane = 0; lane < m->width; lane++)
+            lanes[lane] = m->literal_bits[i];
+        encode_label(&m->encoder, m->literal_label[i]);
+        encode_data(&m->encoder, lanes, m->width * sizeof lanes[0]);
+    }
+}
+
+static size_t job_field(enum unit unit)
+{
+    static const size_t field[UNIT_COUNT] = {offsetof(struct vertex_call, job),
+                                             offsetof(struct setup_call, job),
+                                             offsetof(struct pixel_call, job)};
+    return field[unit];
+}
+
+size_t emit_routine(struct emitter *m, enum unit unit, const union key *key, struct error *error)
+{
+    encoder_start(&m->encoder, m->code, sizeof m->code, m->labels, LABEL_CAPACITY, m->fixups, FIXUP_CAPACITY);
+    m->next_label = LABEL_FREE;
+    m->literals = m->lines = m->region_depth = 0;
+    note_line(m, 0);
+    prologue(m, job_field(unit));
+    switch (unit) {
+    case UNIT_VERTEX: vertex_loop(m); break;
+    case UNIT_SETUP: setup_loop(m, &key->setup); break;
+    default: pixel_loop(m); break;
+    }
+    epilogue(m);
+    m->code_bytes = (uint32_t)encoder_size(&m->encoder);
+    encode_align(&m->encoder, 64);
+    constant_pool(m);
+    if (encoder_finish(&m->encoder, error))
+        return 0;
+    if (m->literals == LITERAL_CAPACITY || m->next_label > LABEL_CAPACITY) {
+        error_set(error, "routine has too many constants: %u literals, at most %d", m->literals,
+                  LITERAL_CAPACITY - 1);
+        return 0;
+    }
+    return encoder_size(&m->encoder);
+}

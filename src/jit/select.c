@@ -1,0 +1,421 @@
+/* Instruction selection: each IR instruction as one or a few machine instructions.
+ *
+ * Operands that live in memory (literals, frame constants, spilled values, loads used once) are memory
+ * operands where the instruction has room for one, and are loaded into a scratch register elsewhere.
+ * Three-operand VEX encodings need no copies; a fused multiply-add overwrites one of its operands, and the
+ * form 132, 213 or 231 is chosen by which one shares the result's register. Peephole rules stand where they
+ * apply: a selection with zero is a bitwise and, zero is made by an exclusive or, comparisons swap sides to
+ * keep memory on the right.
+ *
+ * Lanes are in memory order, so loads and stores are plain moves. Gathers merge by mask: all ones, rebuilt
+ * each time since the instruction clears it; the destination is zeroed first to cut its dependency. */
+#include "jit/emit.h"
+
+enum form {
+    FORM_NONE,
+    FORM_BINARY,   /* D = a op b */
+    FORM_REVERSED, /* D = b op a, for and-not */
+    FORM_COMPARE,  /* predicate */
+    FORM_UNARY,
+    FORM_ROUND, /* rounding mode */
+    FORM_SHIFT,
+    FORM_NEGATE,
+    FORM_MAD,
+    FORM_SELECT
+};
+
+struct rule {
+    uint16_t instruction; /* enum x86_vector */
+    uint8_t form;
+    uint8_t immediate;
+};
+
+static const struct rule rules[IR_OP_COUNT] = {
+    [IR_add_f] = {X86_vaddps, FORM_BINARY, 0},
+    [IR_sub_f] = {X86_vsubps, FORM_BINARY, 0},
+    [IR_mul_f] = {X86_vmulps, FORM_BINARY, 0},
+    [IR_div_f] = {X86_vdivps, FORM_BINARY, 0},
+    [IR_mad_f] = {X86_vfmadd231ps, FORM_MAD, 0},
+    [IR_sqrt_f] = {X86_vsqrtps, FORM_UNARY, 0},
+    [IR_min_f] = {X86_vminps, FORM_BINARY, 0},
+    [IR_max_f] = {X86_vmaxps, FORM_BINARY, 0},
+    [IR_neg_f] = {X86_vxorps, FORM_NEGATE, 0},
+    [IR_floor_f] = {X86_vroundps, FORM_ROUND, X86_ROUND_DOWN},
+    [IR_select_f] = {X86_vblendvps, FORM_SELECT, 0},
+    [IR_lt_f] = {X86_vcmpps, FORM_COMPARE, X86_CMP_LT},
+    [IR_le_f] = {X86_vcmpps, FORM_COMPARE, X86_CMP_LE},
+    [IR_eq_f] = {X86_vcmpps, FORM_COMPARE, X86_CMP_EQ},
+    [IR_ne_f] = {X86_vcmpps, FORM_COMPARE, X86_CMP_NEQ},
+    [IR_round_i] = {X86_vcvtps2dq, FORM_UNARY, 0},
+    [IR_trunc_i] = {X86_vcvttps2dq, FORM_UNARY, 0},
+    [IR_float_f] = {X86_vcvtdq2ps, FORM_UNARY, 0},
+    [IR_add_i] = {X86_vpaddd, FORM_BINARY, 0},
+    [IR_sub_i] = {X86_vpsubd, FORM_BINARY, 0},
+    [IR_mul_i] = {X86_vpmulld, FORM_BINARY, 0},
+    [IR_dot_i] = {X86_vpmaddwd, FORM_BINARY, 0},
+    [IR_and_i] = {X86_vpand, FORM_BINARY, 0},
+    [IR_or_i] = {X86_vpor, FORM_BINARY, 0},
+    [IR_xor_i] = {X86_vpxor, FORM_BINARY, 0},
+    [IR_min_i] = {X86_vpminsd, FORM_BINARY, 0},
+    [IR_max_i] = {X86_vpmaxsd, FORM_BINARY, 0},
+    [IR_eq_i] = {X86_vpcmpeqd, FORM_BINARY, 0},
+    [IR_gt_i] = {X86_vpcmpgtd, FORM_BINARY, 0},
+    [IR_select_i] = {X86_vblendvps, FORM_SELECT, 0},
+    [IR_shl_i] = {X86_vpslld_immediate, FORM_SHIFT, 0},
+    [IR_shr_i] = {X86_vpsrad_immediate, FORM_SHIFT, 0},
+    [IR_ushr_i] = {X86_vpsrld_immediate, FORM_SHIFT, 0},
+    [IR_add_x] = {X86_vpaddw, FORM_BINARY, 0},
+    [IR_sub_x] = {X86_vpsubw, FORM_BINARY, 0},
+    [IR_mul_x] = {X86_vpmullw, FORM_BINARY, 0},
+    [IR_min_x] = {X86_vpminuw, FORM_BINARY, 0},
+    [IR_shl_x] = {X86_vpsllw_immediate, FORM_SHIFT, 0},
+    [IR_ushr_x] = {X86_vpsrlw_immediate, FORM_SHIFT, 0},
+    [IR_and_m] = {X86_vpand, FORM_BINARY, 0},
+    [IR_or_m] = {X86_vpor, FORM_BINARY, 0},
+    [IR_andn_m] = {X86_vpandn, FORM_REVERSED, 0},
+};
+
+/* An operand at the current position. */
+struct place {
+    unsigned value;
+    uint8_t reg;         /* NO_REGISTER: in memory */
+    uint8_t addressable; /* in memory, lanes and all: `address` can be an operand */
+    struct address address;
+};
+
+static struct address frame_address(const struct emitter *m, int32_t start, unsigned slot)
+{
+    return address_at(X86_RSP, start + (int32_t)(slot * m->width * 4));
+}
+
+static struct place memory_place(struct emitter *m, unsigned value)
+{
+    const struct ir_instruction *i = &m->ir->instruction[value];
+    struct place p = {.value = value, .reg = NO_REGISTER, .addressable = 1};
+    if (i->op == IR_literal)
+        p.address = literal_address(m, i->k);
+    else if (i->op == IR_constant)
+        p.address = frame_address(m, m->frame_constants, (unsigned)i->k);
+    else if (allocate_rematerializes(i)) {
+        p.address = address_at(base_register[i->base], i->k);
+        p.addressable = i->op == IR_load;
+    } else
+        p.address = frame_address(m, m->frame_slots, m->allocation->slot[value]);
+    return p;
+}
+
+static struct place place_of(struct emitter *m, unsigned value)
+{
+    const struct allocation *a = m->allocation;
+    if (a->residence[value] == RESIDENCE_REGISTER && m->position <= a->split[value])
+        return (struct place){.value = value, .reg = a->reg[value]};
+    return memory_place(m, value);
+}
+
+static int is_zero(const struct emitter *m, unsigned value)
+{
+    return m->ir->instruction[value].op == IR_literal && !m->ir->instruction[value].k;
+}
+
+/* Brings a value into the register `to`. */
+static void bring(struct emitter *m, unsigned to, const struct place *p)
+{
+    if (p->reg != NO_REGISTER) {
+        if (p->reg != to)
+            vector_copy(&m->encoder, m->length, to, p->reg);
+    } else if (is_zero(m, p->value))
+        vector_rrr(&m->encoder, X86_vxorps, m->length, to, to, to);
+    else
+        vector_rm(&m->encoder, p->addressable ? X86_vmovups : X86_vbroadcastss, m->length, to, p->address);
+}
+
+/* The register of an operand; one in memory is loaded into `scratch`. */
+static unsigned need_register(struct emitter *m, const struct place *p, unsigned scratch)
+{
+    if (p->reg != NO_REGISTER)
+        return p->reg;
+    bring(m, scratch, p);
+    return scratch;
+}
+
+static unsigned result_register(const struct emitter *m)
+{
+    return m->allocation->reg[m->position];
+}
+
+static void select_binary(struct emitter *m, const struct rule *rule, unsigned left, unsigned right,
+                          int commutes)
+{
+    struct place a = place_of(m, left), b = place_of(m, right);
+    if (commutes && a.reg == NO_REGISTER && a.addressable && b.reg != NO_REGISTER) {
+        struct place swapped = a;
+        a = b;
+        b = swapped;
+    }
+    unsigned first = need_register(m, &a, SCRATCH_FIRST);
+    if (b.reg == NO_REGISTER && b.addressable)
+        vector_rrm(&m->encoder, rule->instruction, m->length, result_register(m), first, b.address);
+    else
+        vector_rrr(&m->encoder, rule->instruction, m->length, result_register(m), first,
+                   need_register(m, &b, SCRATCH_SECOND));
+}
+
+static unsigned swapped_predicate(unsigned predicate)
+{
+    switch (predicate) {
+    case X86_CMP_LT: return X86_CMP_GT;
+    case X86_CMP_LE: return X86_CMP_GE;
+    default: return predicate;
+    }
+}
+
+static void select_compare(struct emitter *m, const struct rule *rule, const struct ir_instruction *i)
+{
+    struct place a = place_of(m, i->operand[0]), b = place_of(m, i->operand[1]);
+    unsigned predicate = rule->immediate;
+    if (a.reg == NO_REGISTER && a.addressable && b.reg != NO_REGISTER) {
+        struct place swapped = a;
+        a = b;
+        b = swapped;
+        predicate = swapped_predicate(predicate);
+    }
+    unsigned first = need_register(m, &a, SCRATCH_FIRST);
+    if (b.reg == NO_REGISTER && b.addressable)
+        vector_rrmi(&m->encoder, rule->instruction, m->length, result_register(m), first, b.address,
+                    predicate);
+    else
+        vector_rrri(&m->encoder, rule->instruction, m->length, result_register(m), first,
+                    need_register(m, &b, SCRATCH_SECOND), predicate);
+}
+
+static void select_unary(struct emitter *m, const struct rule *rule, const struct ir_instruction *i)
+{
+    struct place a = place_of(m, i->operand[0]);
+    unsigned to = result_register(m);
+    int folds = a.reg == NO_REGISTER && a.addressable;
+    unsigned from = folds ? 0 : need_register(m, &a, SCRATCH_FIRST);
+    if (rule->form == FORM_ROUND && folds)
+        vector_rmi(&m->encoder, rule->instruction, m->length, to, a.address, rule->immediate);
+    else if (rule->form == FORM_ROUND)
+        vector_rri(&m->encoder, rule->instruction, m->length, to, from, rule->immediate);
+    else if (folds)
+        vector_rm(&m->encoder, rule->instruction, m->length, to, a.address);
+    else
+        vector_rr(&m->encoder, rule->instruction, m->length, to, from);
+}
+
+static void select_shift(struct emitter *m, const struct rule *rule, const struct ir_instruction *i)
+{
+    struct place a = place_of(m, i->operand[0]);
+    unsigned from = need_register(m, &a, SCRATCH_FIRST);
+    vector_rri(&m->encoder, rule->instruction, m->length, result_register(m), from, (unsigned)i->k);
+}
+
+static void select_negate(struct emitter *m, const struct ir_instruction *i)
+{
+    struct place a = place_of(m, i->operand[0]);
+    unsigned from = need_register(m, &a, SCRATCH_FIRST);
+    vector_rrm(&m->encoder, X86_vxorps, m->length, result_register(m), from, literal_address(m, INT32_MIN));
+}
+
+/* mask ? b : c. With a zero on either side it is one bitwise operation. */
+static void select_select(struct emitter *m, const struct ir_instruction *i)
+{
+    struct place mask = place_of(m, i->operand[0]);
+    unsigned to = result_register(m);
+    unsigned test = need_register(m, &mask, SCRATCH_FIRST);
+    int zero_else = is_zero(m, i->operand[2]), zero_then = is_zero(m, i->operand[1]);
+    if (zero_else || zero_then) {
+        struct place other = place_of(m, i->operand[zero_else ? 1 : 2]);
+        enum x86_vector operation = zero_else ? X86_vandps : X86_vandnps;
+        if (other.reg == NO_REGISTER && other.addressable)
+            vector_rrm(&m->encoder, operation, m->length, to, test, other.address);
+        else
+            vector_rrr(&m->encoder, operation, m->length, to, test, need_register(m, &other, SCRATCH_SECOND));
+        return;
+    }
+    struct place then = place_of(m, i->operand[1]), otherwise = place_of(m, i->operand[2]);
+    unsigned base = need_register(m, &otherwise, SCRATCH_SECOND);
+    if (then.reg == NO_REGISTER && then.addressable)
+        vector_rrmr(&m->encoder, X86_vblendvps, m->length, to, base, then.address, test);
+    else
+        vector_rrrr(&m->encoder, X86_vblendvps, m->length, to, base, need_register(m, &then, SCRATCH_RESULT),
+                    test);
+}
+
+/* to = to * x + y, or to = to * [x] + y, or to = to * x + [y]: the result's register holds a factor. */
+static void multiply_in_place(struct emitter *m, unsigned to, const struct place *x, const struct place *y)
+{
+    if (y->reg == NO_REGISTER && y->addressable) {
+        vector_rrm(&m->encoder, X86_vfmadd213ps, m->length, to, need_register(m, x, SCRATCH_FIRST),
+                   y->address);
+        return;
+    }
+    unsigned addend = need_register(m, y, SCRATCH_SECOND);
+    if (x->reg == NO_REGISTER && x->addressable)
+        vector_rrm(&m->encoder, X86_vfmadd132ps, m->length, to, addend, x->address);
+    else
+        vector_rrr(&m->encoder, X86_vfmadd213ps, m->length, to, need_register(m, x, SCRATCH_FIRST), addend);
+}
+
+/* to = a * b + to: the result's register holds the addend. */
+static void add_in_place(struct emitter *m, unsigned to, const struct place *a, const struct place *b)
+{
+    if (a->reg == NO_REGISTER && a->addressable && b->reg != NO_REGISTER) {
+        const struct place *swapped = a;
+        a = b;
+        b = swapped;
+    }
+    unsigned first = need_register(m, a, SCRATCH_FIRST);
+    if (b->reg == NO_REGISTER && b->addressable)
+        vector_rrm(&m->encoder, X86_vfmadd231ps, m->length, to, first, b->address);
+    else
+        vector_rrr(&m->encoder, X86_vfmadd231ps, m->length, to, first, need_register(m, b, SCRATCH_SECOND));
+}
+
+static void select_mad(struct emitter *m, const struct ir_instruction *i)
+{
+    struct place a = place_of(m, i->operand[0]), b = place_of(m, i->operand[1]),
+                 c = place_of(m, i->operand[2]);
+    unsigned to = result_register(m);
+    if (c.reg == to && a.reg != to && b.reg != to)
+        add_in_place(m, to, &a, &b);
+    else if (a.reg == to && c.reg != to)
+        multiply_in_place(m, to, &b, &c);
+    else if (b.reg == to && c.reg != to)
+        multiply_in_place(m, to, &a, &c);
+    else if (a.reg == to || b.reg == to) {
+        /* The addend and a factor are the same value: keep the addend in a scratch register. */
+        struct place addend = {.value = c.value, .reg = SCRATCH_SECOND};
+        vector_copy(&m->encoder, m->length, SCRATCH_SECOND, c.reg);
+        multiply_in_place(m, to, a.reg == to ? &b : &a, &addend);
+    } else if (a.reg == NO_REGISTER && c.reg != NO_REGISTER) {
+        bring(m, to, &a);
+        multiply_in_place(m, to, &b, &c);
+    } else if (b.reg == NO_REGISTER && c.reg != NO_REGISTER) {
+        bring(m, to, &b);
+        multiply_in_place(m, to, &a, &c);
+    } else {
+        bring(m, to, &c);
+        add_in_place(m, to, &a, &b);
+    }
+}
+
+static void select_gather(struct emitter *m, const struct ir_instruction *i)
+{
+    struct place index = place_of(m, i->operand[0]);
+    unsigned to = result_register(m), base = base_register[i->base];
+    unsigned lanes = need_register(m, &index, SCRATCH_FIRST);
+    if (i->field != GATHER_DIRECT) {
+        gpr_rm(&m->encoder, X86_mov, X86_64, X86_RAX, address_at(base, i->field));
+        base = X86_RAX;
+    }
+    vector_rrr(&m->encoder, X86_vpcmpeqd, m->length, SCRATCH_SECOND, SCRATCH_SECOND, SCRATCH_SECOND);
+    vector_rrr(&m->encoder, X86_vxorps, m->length, to, to, to);
+    vector_gather(&m->encoder, X86_vgatherdps, m->length, to, address_indexed(base, lanes, i->scale, i->k),
+                  SCRATCH_SECOND);
+}
+
+static void scatter_four(struct emitter *m, unsigned from, struct address to, int32_t stride)
+{
+    vector_mr(&m->encoder, X86_vmovss_store, X86_128, to, from);
+    for (unsigned lane = 1; lane < 4; lane++) {
+        to.displacement += stride;
+        vector_mri(&m->encoder, X86_vextractps, X86_128, to, from, lane);
+    }
+}
+
+static void select_scatter(struct emitter *m, const struct ir_instruction *i)
+{
+    struct place value = place_of(m, i->operand[0]);
+    unsigned from = need_register(m, &value, SCRATCH_FIRST);
+    struct address to = address_at(base_register[i->base], i->k);
+    scatter_four(m, from, to, i->field);
+    if (m->width == 4)
+        return;
+    to.displacement += 4 * i->field;
+    vector_rri(&m->encoder, X86_vextractf128, X86_256, SCRATCH_SECOND, from, 1);
+    scatter_four(m, SCRATCH_SECOND, to, i->field);
+}
+
+static void select_when(struct emitter *m, const struct ir_instruction *i)
+{
+    struct place mask = place_of(m, i->operand[0]);
+    unsigned test = need_register(m, &mask, SCRATCH_FIRST);
+    uint32_t label = m->next_label++;
+    m->region_label[m->region_depth++] = label;
+    vector_rr(&m->encoder, X86_vtestps, m->length, test, test);
+    encode_jump_if(&m->encoder, X86_IF_z, label);
+}
+
+static void select_memory(struct emitter *m, const struct ir_instruction *i)
+{
+    struct address at = address_at(base_register[i->base], i->k);
+    if (i->op == IR_store) {
+        struct place value = place_of(m, i->operand[0]);
+        vector_mr(&m->encoder, X86_vmovups_store, m->length, at, need_register(m, &value, SCRATCH_FIRST));
+    } else
+        vector_rm(&m->encoder, i->op == IR_load ? X86_vmovups : X86_vbroadcastss, m->length,
+                  result_register(m), at);
+}
+
+static void select_by_rule(struct emitter *m, const struct ir_instruction *i)
+{
+    const struct rule *rule = &rules[i->op];
+    int commutes = ir_op_information[i->op].properties & IR_COMMUTES;
+    switch (rule->form) {
+    case FORM_BINARY: select_binary(m, rule, i->operand[0], i->operand[1], commutes); break;
+    case FORM_REVERSED: select_binary(m, rule, i->operand[1], i->operand[0], 0); break;
+    case FORM_COMPARE: select_compare(m, rule, i); break;
+    case FORM_UNARY:
+    case FORM_ROUND: select_unary(m, rule, i); break;
+    case FORM_SHIFT: select_shift(m, rule, i); break;
+    case FORM_NEGATE: select_negate(m, i); break;
+    case FORM_MAD: select_mad(m, i); break;
+    case FORM_SELECT: select_select(m, i); break;
+    }
+}
+
+static void select_copy(struct emitter *m, const struct ir_instruction *i)
+{
+    struct place source = place_of(m, i->operand[0]);
+    bring(m, result_register(m), &source);
+}
+
+static void select_instruction(struct emitter *m, const struct ir_instruction *i)
+{
+    switch (i->op) {
+    case IR_gather: select_gather(m, i); break;
+    case IR_scatter: select_scatter(m, i); break;
+    case IR_when: select_when(m, i); break;
+    case IR_end: encode_label(&m->encoder, m->region_label[--m->region_depth]); break;
+    case IR_load:
+    case IR_uniform:
+    case IR_store: select_memory(m, i); break;
+    case IR_copy: select_copy(m, i); break;
+    default: select_by_rule(m, i); break;
+    }
+}
+
+/* A value that will be evicted is stored where it is defined. */
+static void store_spilled(struct emitter *m)
+{
+    unsigned slot = m->allocation->slot[m->position];
+    if (slot != NO_SLOT)
+        vector_mr(&m->encoder, X86_vmovaps_store, m->length, frame_address(m, m->frame_slots, slot),
+                  result_register(m));
+}
+
+void emit_body(struct emitter *m)
+{
+    for (m->position = 1; m->position < m->ir->count; m->position++) {
+        const struct ir_instruction *i = &m->ir->instruction[m->position];
+        int effect = ir_op_information[i->op].properties & IR_EFFECT;
+        if (i->op == IR_nop || (!effect && m->allocation->residence[m->position] != RESIDENCE_REGISTER))
+            continue;
+        note_line(m, m->position);
+        select_instruction(m, i);
+        store_spilled(m);
+    }
+    note_line(m, 0);
+}
