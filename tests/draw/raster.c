@@ -1,0 +1,531 @@
+/* The rasterizer against a brute-force oracle: every pixel's exact edge functions in 64 bits.
+ *
+ * The oracle's rule for centres on an edge is not the rasterizer's: the centre is thought to be moved to the
+ * right by an infinitesimal and down by a smaller one, and must then be inside. A third account of the rule
+ * is the test of meshes, which only counts: every centre inside a closed mesh is covered by exactly one
+ * triangle. */
+#include "draw/raster.h"
+
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <unity.h>
+
+enum {
+    WINDOW_MAXIMUM = 4194303,
+    TARGET = TARGET_SIZE_MAXIMUM,
+    TARGET_TILES = TARGET / TILE_SIZE,
+    SEED = 20240117
+};
+
+static uint64_t state;
+
+void setUp(void)
+{
+    state = SEED;
+}
+
+void tearDown(void)
+{
+}
+
+static uint32_t draw(void) /* xorshift64* */
+{
+    state ^= state >> 12;
+    state ^= state << 25;
+    state ^= state >> 27;
+    return (uint32_t)(state * 0x2545F4914F6CDD1DULL >> 32);
+}
+
+static int32_t between(int32_t low, int32_t high) /* both included */
+{
+    return low + (int32_t)(draw() % ((uint32_t)(high - low) + 1));
+}
+
+/* --- Oracle
+ * -------------------------------------------------------------------------------------------------- */
+
+static bool inside_edge(const struct triangle_head *h, int p, int q, int32_t x, int32_t y)
+{
+    int64_t ex = h->x[q] - h->x[p], ey = h->y[q] - h->y[p];
+    int64_t sx = (int64_t)x * 256 + 128 - h->x[p], sy = (int64_t)y * 256 + 128 - h->y[p];
+    int64_t cross = ex * sy - ey * sx;
+    if (cross != 0)
+        return cross > 0;
+    return ey != 0 ? ey < 0 : ex > 0; /* the sign of the change by a step right, then down */
+}
+
+static bool inside_triangle(const struct triangle_head *h, int32_t x, int32_t y)
+{
+    return inside_edge(h, 0, 1, x, y) && inside_edge(h, 1, 2, x, y) && inside_edge(h, 2, 0, x, y);
+}
+
+/* --- Rasterizing as the renderer does
+ * -------------------------------------------------------------------------- */
+
+static bool same_head(const struct triangle_head *a, const struct triangle_head *b)
+{
+    return memcmp(a, b, sizeof *a) == 0;
+}
+
+/* One byte for each pixel of an area of the window, which is the scissor rectangle and some pixels around it.
+ */
+struct area {
+    struct rectangle cut;
+    int32_t width, height;
+    uint8_t *count;
+};
+
+static struct area make_area(struct rectangle cut)
+{
+    struct area a = {cut, cut.x1 - cut.x0, cut.y1 - cut.y0, NULL};
+    a.count = calloc((size_t)a.width * (size_t)a.height + 1, 1);
+    TEST_ASSERT_NOT_NULL(a.count);
+    return a;
+}
+
+static void fail_at(const struct triangle_head *h, const struct rectangle *cut, int x, int y,
+                    const char *what)
+{
+    char text[256];
+    snprintf(text, sizeof text,
+             "%s: pixel (%d, %d), triangle (%d,%d) (%d,%d) (%d,%d), scissor %d,%d to %d,%d", what, x, y,
+             h->x[0], h->y[0], h->x[1], h->y[1], h->x[2], h->y[2], cut->x0, cut->y0, cut->x1, cut->y1);
+    TEST_FAIL_MESSAGE(text);
+}
+
+static void count_entry(struct area *a, const struct triangle_head *h, const struct entry *e, int column,
+                        int row)
+{
+    int x = column * TILE_SIZE + e->block % 16 * 4;
+    int y = row * TILE_SIZE + e->block / 16 * 4;
+    if (e->x != (float)x || e->y != (float)y)
+        fail_at(h, &a->cut, x, y, "the corner is not the block's");
+    for (int lane = 0; lane < BLOCK_PIXELS; lane++)
+        if (e->coverage >> lane & 1) {
+            int px = (int)(lane_table.x[lane] - .5f) + x, py = (int)(lane_table.y[lane] - .5f) + y;
+            if (px < a->cut.x0 || px >= a->cut.x1 || py < a->cut.y0 || py >= a->cut.y1)
+                fail_at(h, &a->cut, px, py, "outside of the scissor rectangle");
+            a->count[(py - a->cut.y0) * a->width + px - a->cut.x0]++;
+        }
+}
+
+static void count_tile(struct area *a, const struct triangle_head *h, int column, int row)
+{
+    struct entry entries[TILE_BLOCKS];
+    uint32_t identity = draw();
+    uint32_t count = raster_tile(h, &a->cut, column, row, identity, entries);
+    TEST_ASSERT_LESS_OR_EQUAL_UINT32(TILE_BLOCKS, count);
+    int last = -1;
+    for (uint32_t i = 0; i < count; i++) {
+        const struct entry *e = &entries[i];
+        if (e->coverage == 0 || e->triangle != identity || e->block <= last || e->block >= TILE_BLOCKS)
+            fail_at(h, &a->cut, (int)e->x, (int)e->y, "an empty, foreign or unordered entry");
+        last = e->block;
+        count_entry(a, h, e, column, row);
+    }
+}
+
+/* As the binner does: only the tiles that are not rejected. */
+static void count_binned(struct area *a, const struct triangle_head *h)
+{
+    struct raster r;
+    if (!raster_prepare(&r, h, &a->cut))
+        return;
+    struct rectangle tiles = raster_tiles(&r);
+    TEST_ASSERT_TRUE(tiles.x0 < tiles.x1 && tiles.y0 < tiles.y1);
+    for (int row = tiles.y0; row < tiles.y1; row++)
+        for (int column = tiles.x0; column < tiles.x1; column++)
+            if (raster_touches(&r, column, row))
+                count_tile(a, h, column, row);
+}
+
+static void expect_oracle(const struct area *a, const struct triangle_head *h)
+{
+    for (int32_t y = 0; y < a->height; y++)
+        for (int32_t x = 0; x < a->width; x++)
+            if (a->count[y * a->width + x] != inside_triangle(h, a->cut.x0 + x, a->cut.y0 + y))
+                fail_at(h, &a->cut, a->cut.x0 + x, a->cut.y0 + y, "coverage is not the oracle's");
+}
+
+/* --- Random triangles
+ * ------------------------------------------------------------------------------------------ */
+
+/* Makes the area positive by an exchange; returns false for triangles without area. */
+static bool orient(struct triangle_head *h)
+{
+    int64_t area = (int64_t)(h->x[1] - h->x[0]) * (h->y[2] - h->y[0]) -
+                   (int64_t)(h->x[2] - h->x[0]) * (h->y[1] - h->y[0]);
+    if (area < 0) {
+        int32_t x = h->x[1], y = h->y[1];
+        h->x[1] = h->x[2];
+        h->y[1] = h->y[2];
+        h->x[2] = x;
+        h->y[2] = y;
+    }
+    return area != 0;
+}
+
+static int32_t limited(int64_t v)
+{
+    return (int32_t)(v < -WINDOW_MAXIMUM ? -WINDOW_MAXIMUM : v > WINDOW_MAXIMUM ? WINDOW_MAXIMUM : v);
+}
+
+/* Vertices within `reach` of (x, y), everything in 1/256 pixel, on multiples of `grid` plus `offset`. */
+static void scatter(struct triangle_head *h, int32_t x, int32_t y, int32_t reach, int32_t grid,
+                    int32_t offset)
+{
+    for (int i = 0; i < 3; i++) {
+        h->x[i] = limited((x + between(-reach, reach)) / grid * grid + offset);
+        h->y[i] = limited((y + between(-reach, reach)) / grid * grid + offset);
+    }
+}
+
+enum shape { TINY, BLOCKS, MIDDLE, TILES, HUGE, SLIVER, GRID, CENTRES, NEEDLE, NEARLY_LINE, CORNERS, SHAPES };
+
+/* A triangle of the shape about the window position (x, y). */
+static void random_head(struct triangle_head *h, enum shape shape, int32_t x, int32_t y)
+{
+    switch (shape) {
+    case TINY: scatter(h, x, y, 300, 1, 0); break;
+    case BLOCKS: scatter(h, x, y, 1500, 1, 0); break;
+    case MIDDLE: scatter(h, x, y, 8000, 1, 0); break;
+    case TILES: scatter(h, x, y, 60000, 1, 0); break;
+    case HUGE: scatter(h, 0, 0, WINDOW_MAXIMUM, 1, 0); break;
+    case GRID: scatter(h, x, y, 6000, 64, 0); break;
+    case CENTRES: scatter(h, x, y, 4000, 256, 128); break;
+    case SLIVER:
+        scatter(h, x, y, 12000, 1, 0);
+        h->x[2] = limited(h->x[1] + between(-40, 40));
+        h->y[2] = limited(h->y[1] + between(-40, 40));
+        break;
+    case NEEDLE: /* across the whole range, about a pixel wide */
+        scatter(h, x, y, 200, 1, 0);
+        h->x[2] = between(-WINDOW_MAXIMUM, WINDOW_MAXIMUM);
+        h->y[2] = between(-WINDOW_MAXIMUM, WINDOW_MAXIMUM);
+        break;
+    case NEARLY_LINE: { /* three points of a line, one of them moved by one unit */
+        int32_t dx = between(-30, 30), dy = between(-30, 30);
+        for (int i = 0; i < 3; i++) {
+            int32_t t = between(-300, 300);
+            h->x[i] = limited((int64_t)x + dx * t);
+            h->y[i] = limited((int64_t)y + dy * t);
+        }
+        h->x[0] = limited(h->x[0] + between(-1, 1));
+        h->y[0] = limited(h->y[0] + between(-1, 1));
+        break;
+    }
+    case CORNERS: /* vertices at the limits: the largest steps there are */
+        for (int i = 0; i < 3; i++) {
+            h->x[i] = draw() & 1 ? WINDOW_MAXIMUM : -WINDOW_MAXIMUM;
+            h->y[i] = draw() & 1 ? WINDOW_MAXIMUM : -WINDOW_MAXIMUM;
+        }
+        h->x[between(0, 2)] = x;
+        h->y[between(0, 2)] = y;
+        break;
+    default: TEST_FAIL();
+    }
+}
+
+/* A rectangle of the target about (x, y) pixels, `size` at most; now and then at the target's edges. */
+static struct rectangle random_cut(int32_t x, int32_t y, int32_t size)
+{
+    struct rectangle r = {x - between(0, size / 2), y - between(0, size / 2), x + between(0, size / 2),
+                          y + between(0, size / 2)};
+    if (draw() % 4 == 0)
+        r = (struct rectangle){r.x0 & -4, r.y0 & -4, r.x1 & -4, r.y1 & -4};
+    r.x0 = r.x0 < 0 ? 0 : r.x0;
+    r.y0 = r.y0 < 0 ? 0 : r.y0;
+    r.x1 = r.x1 > TARGET ? TARGET : r.x1 < r.x0 ? r.x0 : r.x1;
+    r.y1 = r.y1 > TARGET ? TARGET : r.y1 < r.y0 ? r.y0 : r.y1;
+    return r;
+}
+
+static void compare_shape(enum shape shape, int triangles, int32_t cut_size)
+{
+    uint64_t covered = 0;
+    for (int i = 0; i < triangles; i++) {
+        int32_t x = between(0, TARGET), y = between(0, TARGET);
+        struct triangle_head h = {.visible = -1};
+        do
+            random_head(&h, shape, x * 256 + between(-256, 256), y * 256 + between(-256, 256));
+        while (!orient(&h));
+        struct area a = make_area(random_cut(x, y, cut_size));
+        struct triangle_head before = h;
+        count_binned(&a, &h);
+        expect_oracle(&a, &h);
+        TEST_ASSERT_TRUE(same_head(&before, &h));
+        for (int p = 0; p < a.width * a.height; p++)
+            covered += a.count[p];
+        free(a.count);
+    }
+    TEST_ASSERT_GREATER_THAN_UINT64(0, covered); /* the shape is not beside the point */
+}
+
+static void test_tiny_triangles_equal_the_oracle(void)
+{
+    compare_shape(TINY, 30000, 8);
+}
+
+static void test_triangles_of_a_few_blocks_equal_the_oracle(void)
+{
+    compare_shape(BLOCKS, 20000, 24);
+}
+
+static void test_triangles_within_a_tile_equal_the_oracle(void)
+{
+    compare_shape(MIDDLE, 10000, 80);
+}
+
+static void test_triangles_over_tiles_equal_the_oracle(void)
+{
+    compare_shape(TILES, 800, 400);
+}
+
+static void test_huge_triangles_equal_the_oracle(void)
+{
+    compare_shape(HUGE, 8000, 60);
+    compare_shape(CORNERS, 8000, 60);
+}
+
+static void test_slivers_equal_the_oracle(void)
+{
+    compare_shape(SLIVER, 8000, 60);
+    compare_shape(NEEDLE, 8000, 60);
+    compare_shape(NEARLY_LINE, 8000, 60);
+}
+
+static void test_edges_through_centres_equal_the_oracle(void)
+{
+    compare_shape(GRID, 8000, 60);
+    compare_shape(CENTRES, 16000, 40);
+}
+
+/* --- The rule, in single pixels
+ * ---------------------------------------------------------------------------------- */
+
+static uint32_t coverage_of(const struct triangle_head *h, struct rectangle cut)
+{
+    struct area a = make_area(cut);
+    count_binned(&a, h);
+    uint32_t sum = 0;
+    for (int p = 0; p < a.width * a.height; p++)
+        sum += a.count[p];
+    free(a.count);
+    return sum;
+}
+
+static const struct rectangle whole = {0, 0, 64, 64};
+
+static void test_left_and_top_edges_belong_to_the_triangle_right_and_bottom_ones_do_not(void)
+{
+    struct triangle_head upper_left = {
+        -1, {128, 1152, 128}, {128, 128, 1152}, 0, 0}; /* legs through 4 centres */
+    struct triangle_head lower_right = {-1, {1152, 1152, 128}, {128, 1152, 1152}, 0, 0};
+    TEST_ASSERT_EQUAL_UINT32(
+        10, coverage_of(&upper_left, whole)); /* 4 + 3 + 2 + 1: the diagonal is a right edge */
+    TEST_ASSERT_EQUAL_UINT32(6,
+                             coverage_of(&lower_right, whole)); /* 1 + 2 + 3: the diagonal is its left edge */
+}
+
+static void test_what_is_not_visible_or_misses_the_scissor_is_rejected(void)
+{
+    struct triangle_head h = {-1, {0, 4096, 0}, {0, 0, 4096}, 0, 0};
+    struct raster r;
+    TEST_ASSERT_TRUE(raster_prepare(&r, &h, &whole));
+    TEST_ASSERT_FALSE(raster_prepare(&r, &h, &(struct rectangle){16, 0, 64, 64}));
+    TEST_ASSERT_FALSE(raster_prepare(&r, &h, &(struct rectangle){0, 16, 64, 64}));
+    TEST_ASSERT_FALSE(raster_prepare(&r, &h, &(struct rectangle){8, 8, 8, 20}));
+    TEST_ASSERT_FALSE(raster_prepare(&r, &h, &(struct rectangle){8, 20, 20, 8}));
+    struct triangle_head between_centres = {-1, {130, 380, 130}, {130, 130, 380}, 0, 0};
+    TEST_ASSERT_FALSE(raster_prepare(&r, &between_centres, &whole));
+    struct entry entries[TILE_BLOCKS];
+    TEST_ASSERT_EQUAL_UINT32(0, raster_tile(&h, &whole, 1, 0, 0, entries));
+    h.visible = 0;
+    TEST_ASSERT_FALSE(raster_prepare(&r, &h, &whole));
+    TEST_ASSERT_EQUAL_UINT32(0, raster_tile(&h, &whole, 0, 0, 0, entries));
+}
+
+static void test_a_covered_tile_is_256_whole_blocks(void)
+{
+    struct triangle_head h = {-1, {-1000, WINDOW_MAXIMUM, -1000}, {-1000, -1000, WINDOW_MAXIMUM}, 0, 0};
+    struct rectangle target = {0, 0, TARGET, TARGET};
+    struct entry entries[TILE_BLOCKS];
+    TEST_ASSERT_EQUAL_UINT32(TILE_BLOCKS, raster_tile(&h, &target, 3, 5, 7, entries));
+    for (int i = 0; i < TILE_BLOCKS; i++) {
+        TEST_ASSERT_EQUAL_HEX16(0xffff, entries[i].coverage);
+        TEST_ASSERT_EQUAL_UINT16(i, entries[i].block);
+        TEST_ASSERT_EQUAL_FLOAT((float)(3 * 64 + i % 16 * 4), entries[i].x);
+        TEST_ASSERT_EQUAL_FLOAT((float)(5 * 64 + i / 16 * 4), entries[i].y);
+        TEST_ASSERT_EQUAL_UINT32(7, entries[i].triangle);
+    }
+}
+
+/* --- Tiles
+ * ---------------------------------------------------------------------------------------------------------
+ */
+
+/* Tiles that raster_tiles() or raster_touches() leave out have no entries. */
+static void test_rejected_tiles_have_no_pixels(void)
+{
+    static const enum shape shapes[] = {TILES, HUGE, SLIVER, NEEDLE, CENTRES, CORNERS};
+    uint32_t rejected = 0;
+    for (int i = 0; i < 1500; i++) {
+        int32_t x = between(0, TARGET), y = between(0, TARGET);
+        struct triangle_head h = {.visible = -1};
+        do
+            random_head(&h, shapes[i % 6], x * 256, y * 256);
+        while (!orient(&h));
+        struct rectangle cut = random_cut(x, y, 600);
+        struct raster r;
+        bool may = raster_prepare(&r, &h, &cut);
+        struct rectangle tiles = may ? raster_tiles(&r) : (struct rectangle){0, 0, 0, 0};
+        for (int row = cut.y0 / 64; row <= cut.y1 / 64 && row < TARGET_TILES; row++)
+            for (int column = cut.x0 / 64; column <= cut.x1 / 64 && column < TARGET_TILES; column++) {
+                bool in = column >= tiles.x0 && column < tiles.x1 && row >= tiles.y0 && row < tiles.y1;
+                if (in && raster_touches(&r, column, row))
+                    continue;
+                struct entry entries[TILE_BLOCKS];
+                TEST_ASSERT_EQUAL_UINT32(0, raster_tile(&h, &cut, column, row, 0, entries));
+                rejected++;
+            }
+    }
+    TEST_ASSERT_GREATER_THAN_UINT32(1000, rejected);
+}
+
+/* --- Meshes
+ * -------------------------------------------------------------------------------------------------------- */
+
+struct position {
+    int32_t x, y;
+};
+
+static void count_triangle(struct area *a, struct position p, struct position q, struct position r)
+{
+    struct triangle_head h = {-1, {p.x, q.x, r.x}, {p.y, q.y, r.y}, 0, 0};
+    int turn = between(0, 2); /* which vertex comes first must not matter */
+    for (int i = 0; i < 3; i++) {
+        const struct position v[3] = {p, q, r};
+        h.x[i] = v[(i + turn) % 3].x;
+        h.y[i] = v[(i + turn) % 3].y;
+    }
+    if (orient(&h))
+        count_binned(a, &h);
+}
+
+/* Twice the signed area, positive when p, q, r go clockwise on the screen. */
+static int64_t turn_of(struct position p, struct position q, struct position r)
+{
+    return (int64_t)(q.x - p.x) * (r.y - p.y) - (int64_t)(q.y - p.y) * (r.x - p.x);
+}
+
+static void expect_ones(const struct area *a, int32_t border, const char *what)
+{
+    for (int y = border; y < a->height - border; y++)
+        for (int x = border; x < a->width - border; x++)
+            if (a->count[y * a->width + x] != 1) {
+                char text[128];
+                snprintf(text, sizeof text, "%s: pixel (%d, %d) is covered %d times", what, x, y,
+                         a->count[y * a->width + x]);
+                TEST_FAIL_MESSAGE(text);
+            }
+}
+
+/* A grid of vertices moved by less than would fold a cell, each cell cut along either diagonal. */
+static void test_pixels_inside_a_mesh_are_covered_once(void)
+{
+    static const int32_t cell[] = {192, 256, 1024, 5000};
+    enum { SIDE = 24 };
+    for (int round = 0; round < 24; round++) {
+        static struct position p[SIDE + 1][SIDE + 1];
+        int32_t size = cell[round % 4], shake = round / 4 % 3 == 0 ? 0 : size / 4;
+        int32_t origin = round & 1 ? 128 : between(0, 255);
+        for (int j = 0; j <= SIDE; j++)
+            for (int i = 0; i <= SIDE; i++) {
+                p[j][i].x = origin + i * size + between(-shake, shake);
+                p[j][i].y = origin + j * size + between(-shake, shake);
+                if (round / 12) /* on centres: many edges go through them */
+                    p[j][i] = (struct position){p[j][i].x / 64 * 64, p[j][i].y / 64 * 64};
+            }
+        int32_t pixels = SIDE * size / 256;
+        struct area a = make_area((struct rectangle){0, 0, pixels, pixels});
+        for (int j = 0; j < SIDE; j++)
+            for (int i = 0; i < SIDE; i++) {
+                int k = draw() & 1;
+                count_triangle(&a, p[j][i], p[j][i + 1], k ? p[j + 1][i] : p[j + 1][i + 1]);
+                count_triangle(&a, p[j + 1][i], p[j + 1][i + 1], k ? p[j][i + 1] : p[j][i]);
+            }
+        expect_ones(&a, 3 + (size / 4 + 512) / 256, "mesh");
+        free(a.count);
+    }
+}
+
+/* A convex quadrilateral around the area, fanned from a random point in it, corners as far as they go. */
+static void test_pixels_inside_a_fan_are_covered_once(void)
+{
+    enum { SPOKES = 12, EXTENT = 96 };
+    for (int round = 0; round < 600; round++) {
+        int32_t reach = round % 3 == 0 ? WINDOW_MAXIMUM : round % 3 == 1 ? 60000 : 26000;
+        const struct position corner[4] = {
+            {-reach, -reach}, {reach, -reach}, {reach, reach}, {-reach, reach}};
+        struct position rim[SPOKES], hub = {between(0, EXTENT * 256), between(0, EXTENT * 256)};
+        if (round & 1)
+            hub = (struct position){hub.x / 256 * 256 + 128, hub.y / 256 * 256 + 128};
+        for (int i = 0; i < SPOKES; i++) { /* each side: its corner, then points of it in order */
+            struct position from = corner[i / 3], to = corner[(i / 3 + 1) % 4];
+            int64_t t = i % 3 == 0 ? 0 : between(i % 3 * 300, i % 3 * 300 + 200);
+            rim[i].x = (int32_t)(from.x + (to.x - from.x) * t / 1000);
+            rim[i].y = (int32_t)(from.y + (to.y - from.y) * t / 1000);
+        }
+        struct area a = make_area((struct rectangle){0, 0, EXTENT, EXTENT});
+        for (int i = 0; i < SPOKES; i++)
+            count_triangle(&a, hub, rim[i], rim[(i + 1) % SPOKES]);
+        expect_ones(&a, 0, "fan");
+        free(a.count);
+    }
+}
+
+/* A strip between two chains that move to the right; what it covers is once, and nothing is covered twice. */
+static void test_pixels_of_a_strip_are_covered_at_most_once(void)
+{
+    enum { LENGTH = 60 };
+    for (int round = 0; round < 60; round++) {
+        struct position p[LENGTH];
+        int32_t step = between(40, 700);
+        for (int i = 0; i < LENGTH; i++)
+            p[i] = (struct position){i * step / 2, 4000 + (i & 1 ? 1 : -1) * between(0, 3500)};
+        struct area a = make_area((struct rectangle){0, 0, LENGTH * step / 512 + 1, 32});
+        for (int i = 0; i + 2 < LENGTH; i++) {
+            bool forward = turn_of(p[i], p[i + 1], p[i + 2]) > 0;
+            TEST_ASSERT_TRUE(forward == (i % 2 == 1) || turn_of(p[i], p[i + 1], p[i + 2]) == 0);
+            count_triangle(&a, p[i], p[i + 1], p[i + 2]);
+        }
+        uint32_t covered = 0;
+        for (int i = 0; i < a.width * a.height; i++) {
+            TEST_ASSERT_LESS_OR_EQUAL_UINT8(1, a.count[i]);
+            covered += a.count[i];
+        }
+        TEST_ASSERT_GREATER_THAN_UINT32(0, covered);
+        free(a.count);
+    }
+}
+
+int main(void)
+{
+    UNITY_BEGIN();
+    RUN_TEST(test_left_and_top_edges_belong_to_the_triangle_right_and_bottom_ones_do_not);
+    RUN_TEST(test_what_is_not_visible_or_misses_the_scissor_is_rejected);
+    RUN_TEST(test_a_covered_tile_is_256_whole_blocks);
+    RUN_TEST(test_tiny_triangles_equal_the_oracle);
+    RUN_TEST(test_triangles_of_a_few_blocks_equal_the_oracle);
+    RUN_TEST(test_triangles_within_a_tile_equal_the_oracle);
+    RUN_TEST(test_triangles_over_tiles_equal_the_oracle);
+    RUN_TEST(test_huge_triangles_equal_the_oracle);
+    RUN_TEST(test_slivers_equal_the_oracle);
+    RUN_TEST(test_edges_through_centres_equal_the_oracle);
+    RUN_TEST(test_rejected_tiles_have_no_pixels);
+    RUN_TEST(test_pixels_inside_a_mesh_are_covered_once);
+    RUN_TEST(test_pixels_inside_a_fan_are_covered_once);
+    RUN_TEST(test_pixels_of_a_strip_are_covered_at_most_once);
+    return UNITY_END();
+}
