@@ -1,0 +1,129 @@
+; Frames: entry and exit of a routine, and the loops of the three units, for both granularities.
+;
+;       enter                   enter                   enter
+;       vertex_begin            setup_begin             pixel_begin
+;   +-> ...                 +-> ...                 +-> pixel_entry         a block of sixteen lanes
+;   +-- vertex_next         +-- setup_next          |+> pixel_chunk --+     eight of them, if any is covered
+;       leave                   leave               ||  ...           |
+;                                                   ++- pixel_next <--+
+;                                                       leave
+;
+; The frame, from rbp down: five saved registers, the caller's MXCSR, ours, then the routine's slots.
+
+%include "fragment.inc"
+
+%define SAVED_BYTES     (5 * 8)
+%define CALLER_MXCSR    rbp - SAVED_BYTES - 4
+%define ROUTINE_MXCSR   rbp - SAVED_BYTES - 8
+
+; Arguments: minus the bytes of the slots, the contract's MXCSR.
+fragment enter, FRAME | FRAME_END | CALLED, FRAME | FRAME_END | CONSTANTS, NOTHING
+                push            rbp
+                mov             rbp, rsp
+                push            rbx
+                push            r12
+                push            r13
+                push            r14
+                push            r15
+    fill 0,       lea             rsp, [frame - 40]           ; both MXCSR and what aligning may take
+                and             rsp, -32
+                stmxcsr         [CALLER_MXCSR]
+    fill 1,       mov             dword [ROUTINE_MXCSR], strict dword 0
+                ldmxcsr         [ROUTINE_MXCSR]
+                mov             constants, strict qword 0
+.end:           hole            .end - 8, HOLE_CONSTANTS, 0
+end_fragment
+
+fragment leave, FRAME_END, NOTHING, FRAME | FRAME_END | CONSTANTS | COLOR | DEPTH | COVERED | M_TO(0, 15)
+                vzeroupper
+                ldmxcsr         [CALLER_MXCSR]
+                lea             rsp, [rbp - SAVED_BYTES]
+                pop             r15
+                pop             r14
+                pop             r13
+                pop             r12
+                pop             rbx
+                pop             rbp
+                ret
+end_fragment
+
+; ---- vertex: job, index, out and count of struct vertex_call; the part behind the loop
+
+fragment vertex_begin, CALLED, REMAINING | JOB | INPUT | OUTPUT, NOTHING
+    fill 0,       mov             job, [at_call]
+    fill 1,       mov             input, [at_call]
+    fill 2,       mov             output, [at_call]
+    fill 3,       mov             esi, [at_call]
+                test            esi, esi
+    jump 4,     jz
+end_fragment
+
+fragment vertex_next, REMAINING | INPUT | OUTPUT, REMAINING | INPUT | OUTPUT, NOTHING
+                add             input, 32
+                add             output, 32
+                sub             esi, 8
+    jump 0,     jnz
+end_fragment
+
+; ---- setup: job, index, vertices, out and count of struct setup_call; the part behind the loop
+
+fragment setup_begin, CALLED, REMAINING | JOB | INPUT | OUTPUT | VERTICES, NOTHING
+    fill 0,       mov             job, [at_call]
+    fill 1,       mov             input, [at_call]
+    fill 2,       mov             vertices, [at_call]
+    fill 3,       mov             output, [at_call]
+    fill 4,       mov             esi, [at_call]
+                test            esi, esi
+    jump 5,     jz
+end_fragment
+
+; Arguments: bytes of eight records, the loop's first part.
+fragment setup_next, REMAINING | INPUT | OUTPUT, REMAINING | INPUT | OUTPUT, NOTHING
+                add             input, 32
+    fill 0,       lea             output, [at_output]
+                sub             esi, 8
+    jump 1,     jnz
+end_fragment
+
+; ---- pixel: `remaining` is the end of the entries
+
+; Arguments: job, entries and count of struct pixel_call.
+fragment pixel_begin, CALLED, REMAINING | JOB | ENTRY, NOTHING
+    fill 0,       mov             job, [at_call]
+    fill 1,       mov             entry, [at_call]
+    fill 2,       mov             esi, [at_call]
+                shl             remaining, 4
+                add             remaining, entry
+end_fragment
+
+; Arguments: triangle, coverage and block of struct entry; triangles, lanes, color and depth of struct pixel_call.
+fragment pixel_entry, CALLED | ENTRY, TRIANGLE | LANES | COLOR | DEPTH | COVERED, R_AX
+    fill 0,       mov             r10d, [at_entry]
+    fill 1,       movzx           r15d, word [at_entry]
+    fill 2,       movzx           eax, word [at_entry]
+                shl             eax, 6                      ; a block's sixteen words
+    fill 3,       add             triangle, [at_call]
+    fill 4,       mov             lanes, [at_call]
+    fill 5,       mov             color, [at_call]
+    fill 6,       mov             depth, [at_call]
+                add             color, rax
+                add             depth, rax
+end_fragment
+
+; Argument: the part where the chunk ends.
+fragment pixel_chunk, COVERED, NOTHING, NOTHING
+                test            r15b, r15b
+    jump 0,     jz
+end_fragment
+
+; Arguments: the parts pixel_chunk and pixel_entry. A second chunk without coverage ends the block at once.
+fragment pixel_next, REMAINING | ENTRY | LANES | COLOR | DEPTH | COVERED, ENTRY | LANES | COLOR | DEPTH | COVERED, NOTHING
+                add             lanes, 32
+                add             color, 32
+                add             depth, 32
+                shr             r15d, 8
+    jump 0,     jnz
+                add             entry, 16
+                cmp             entry, remaining
+    jump 1,     jne
+end_fragment

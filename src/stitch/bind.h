@@ -1,0 +1,211 @@
+/* The operation stitcher's binding of the spec: a value is a slot of the routine's frame, an operation
+ * appends the fragment of its name to the plan and gives the slot where its result will be.
+ *
+ * One pass without any analysis: slots are numbered upwards and never shared, nothing is remembered. The
+ * host's decisions on the key run here, once a routine; only the operations they lead to remain. */
+#ifndef STITCH_BIND_H
+#define STITCH_BIND_H
+
+#include "def/binding.h"
+#include "stitch/plan.h"
+
+#include <string.h>
+
+enum { SLOT_BYTES = 32 };
+
+typedef struct {
+    int32_t slot; /* bytes from the bottom of the frame */
+} flt;
+typedef struct {
+    int32_t slot;
+} itg;
+typedef struct {
+    int32_t slot;
+} fix;
+typedef struct {
+    int32_t slot;
+} msk;
+
+struct env {
+    struct plan *plan;
+    int32_t frame_bytes;
+    const char *file; /* where in the spec the operation being appended stands */
+    int line;
+};
+
+static inline struct env *env_at(struct env *e, const char *file, int line)
+{
+    e->file = file;
+    e->line = line;
+    return e;
+}
+
+#define E env_at(e, __FILE__, __LINE__)
+
+static inline unsigned append(struct env *e, const struct fragment *fragment, struct arguments arguments)
+{
+    unsigned part = plan_append(e->plan, fragment, arguments);
+    e->plan->part[part].file = e->file;
+    e->plan->part[part].line = e->line;
+    return part;
+}
+
+/* Argument 0 becomes a new slot, which is the result. */
+static inline int32_t append_value(struct env *e, const struct fragment *fragment, struct arguments arguments)
+{
+    arguments.value[0] = e->frame_bytes;
+    e->frame_bytes += SLOT_BYTES;
+    append(e, fragment, arguments);
+    return arguments.value[0];
+}
+
+#define PARAMETER_flt(n) , flt n
+#define PARAMETER_itg(n) , itg n
+#define PARAMETER_fix(n) , fix n
+#define PARAMETER_msk(n) , msk n
+#define PARAMETER_non(n)
+#define SLOT_flt(n) , n.slot
+#define SLOT_itg(n) , n.slot
+#define SLOT_fix(n) , n.slot
+#define SLOT_msk(n) , n.slot
+#define SLOT_non(n)
+
+#define OP(name, result, ta, tb, tc, properties, expression)                                                 \
+    static inline result name(struct env *e PARAMETER_##ta(a) PARAMETER_##tb(b) PARAMETER_##tc(c))           \
+    {                                                                                                        \
+        struct arguments slots = {{0 SLOT_##ta(a) SLOT_##tb(b) SLOT_##tc(c)}};                               \
+        return (result){append_value(e, &fragment_##name, slots)};                                           \
+    }
+#define OPK(name, result, ta, tb, tc, properties, expression)                                                \
+    static inline result name(struct env *e PARAMETER_##ta(a), int k)                                        \
+    {                                                                                                        \
+        return (result){append_value(e, &fragment_##name, (struct arguments){{0 SLOT_##ta(a), k}})};         \
+    }
+#define CAST(name, result, from)                                                                             \
+    static inline result name(struct env *e, from a)                                                         \
+    {                                                                                                        \
+        (void)e;                                                                                             \
+        return (result){a.slot};                                                                             \
+    }
+#include "def/op.def"
+#undef OP
+#undef OPK
+#undef CAST
+
+static inline int32_t literal(struct env *e, uint32_t bits)
+{
+    return append_value(e, &fragment_literal, (struct arguments){{0, (int32_t)bits}});
+}
+
+static inline flt lit_f(struct env *e, float value)
+{
+    uint32_t bits;
+    memcpy(&bits, &value, sizeof bits);
+    return (flt){literal(e, bits)};
+}
+
+static inline itg lit_i(struct env *e, int32_t value)
+{
+    return (itg){literal(e, (uint32_t)value)};
+}
+
+static inline msk lit_m(struct env *e, int32_t value)
+{
+    return (msk){literal(e, (uint32_t)value)};
+}
+
+static inline fix lit_x(struct env *e, uint16_t value)
+{
+    return (fix){literal(e, value * 0x10001u)};
+}
+
+/* The register of each base, counted from r8 (asm/fragment.inc). */
+static inline int32_t base_register(enum base base)
+{
+    static const uint8_t number[BASE_COUNT] = {
+        [BASE_JOB] = 0,      [BASE_INPUT] = 1, [BASE_OUTPUT] = 2, [BASE_VERTICES] = 3, [BASE_ENTRY] = 1,
+        [BASE_TRIANGLE] = 2, [BASE_LANES] = 3, [BASE_COLOR] = 5,  [BASE_DEPTH] = 6};
+    return number[base];
+}
+
+static inline int32_t read_base(struct env *e, const struct fragment *fragment, enum base base, int offset)
+{
+    return append_value(e, fragment, (struct arguments){{0, base_register(base), offset}});
+}
+
+static inline flt load_f(struct env *e, enum base base, int offset)
+{
+    return (flt){read_base(e, &fragment_load, base, offset)};
+}
+
+static inline itg load_i(struct env *e, enum base base, int offset)
+{
+    return (itg){read_base(e, &fragment_load, base, offset)};
+}
+
+static inline flt uniform_f(struct env *e, enum base base, int offset)
+{
+    return (flt){read_base(e, &fragment_uniform, base, offset)};
+}
+
+static inline itg uniform_i(struct env *e, enum base base, int offset)
+{
+    return (itg){read_base(e, &fragment_uniform, base, offset)};
+}
+
+static inline void store_i(struct env *e, enum base base, int offset, itg value)
+{
+    append(e, &fragment_store, (struct arguments){{value.slot, base_register(base), offset}});
+}
+
+static inline void store_f(struct env *e, enum base base, int offset, flt value)
+{
+    store_i(e, base, offset, (itg){value.slot});
+}
+
+/* The scale 1, 2, 4 or 8 as it stands in a SIB byte. */
+static inline int32_t scale_bits(int scale)
+{
+    return __builtin_ctz((unsigned)scale) << 6;
+}
+
+static inline itg gather_i(struct env *e, enum base base, int field, itg index, int scale, int displacement)
+{
+    int32_t from = base_register(base), times = scale_bits(scale);
+    if (field == GATHER_DIRECT)
+        return (itg){append_value(e, &fragment_gather,
+                                  (struct arguments){{0, index.slot, from + times, displacement}})};
+    struct arguments indirect = {{0, index.slot, from, field, times, displacement}};
+    return (itg){append_value(e, &fragment_gather_indirect, indirect)};
+}
+
+static inline flt gather_f(struct env *e, enum base base, int field, itg index, int scale, int displacement)
+{
+    return (flt){gather_i(e, base, field, index, scale, displacement).slot};
+}
+
+static inline void scatter_i(struct env *e, enum base base, int offset, int stride, itg value)
+{
+    append(e, &fragment_scatter, (struct arguments){{value.slot, base_register(base), offset, stride}});
+}
+
+static inline void scatter_f(struct env *e, enum base base, int offset, int stride, flt value)
+{
+    scatter_i(e, base, offset, stride, (itg){value.slot});
+}
+
+static inline int when_begin(struct env *e, msk mask)
+{
+    return (int)append(e, &fragment_when, (struct arguments){{mask.slot}});
+}
+
+/* Ends the loop that WHEN is, so that its body is appended once. */
+static inline int when_end(struct env *e, int part)
+{
+    plan_land(e->plan, (unsigned)part, 1);
+    return -1;
+}
+
+#define WHEN(e, mask) for (int when_ = when_begin(e, mask); when_ >= 0; when_ = when_end(e, when_))
+
+#endif

@@ -1,0 +1,82 @@
+/* The contract check: which registers hold something meaningful where.
+ *
+ * A part needs its inputs valid; behind it the clobbered registers are not, the outputs are. Where control
+ * meets, only what is valid on every way counts. Starting from "everything" and taking away until nothing
+ * changes reaches the greatest solution, loops included. */
+#include "stitch/plan.h"
+
+enum { VALID_AT_CALL = 1 << REGISTER_FRAME | 1 << REGISTER_FRAME_END | 1 << REGISTER_CALL };
+
+static uint32_t after(const struct part *part, uint32_t valid)
+{
+    return (valid & ~part->fragment->clobbered) | part->fragment->out;
+}
+
+/* Takes away at `to` what is not valid on the way there; returns whether that changed anything. */
+static int meet(uint32_t *valid, unsigned to, uint32_t arriving)
+{
+    uint32_t met = valid[to] & arriving;
+    int changed = met != valid[to];
+    valid[to] = met;
+    return changed;
+}
+
+static int pass(const struct plan *plan, uint32_t *valid)
+{
+    int changed = 0;
+    for (unsigned i = 0; i < plan->count; i++) {
+        const struct part *part = plan->part + i;
+        uint32_t leaving = after(part, valid[i]);
+        if (i + 1 < plan->count)
+            changed |= meet(valid, i + 1, leaving);
+        for (unsigned h = 0; h < part->fragment->holes; h++) {
+            const struct hole *hole = part->fragment->hole + h;
+            if (hole->kind == HOLE_JUMP)
+                changed |= meet(valid, (unsigned)part->arguments.value[hole->argument], leaving);
+        }
+    }
+    return changed;
+}
+
+/* The registers, numbered by bit, as an error names them. */
+static const char *register_name(unsigned bit)
+{
+    static const char name[][6] = {"rax",  "rcx",  "rdx",   "rbx",   "rsp",   "rbp",   "rsi",   "rdi",
+                                   "r8",   "r9",   "r10",   "r11",   "r12",   "r13",   "r14",   "r15",
+                                   "ymm0", "ymm1", "ymm2",  "ymm3",  "ymm4",  "ymm5",  "ymm6",  "ymm7",
+                                   "ymm8", "ymm9", "ymm10", "ymm11", "ymm12", "ymm13", "ymm14", "ymm15"};
+    return name[bit];
+}
+
+static int check_jumps(const struct plan *plan, unsigned i, struct error *error)
+{
+    const struct part *part = plan->part + i;
+    for (unsigned h = 0; h < part->fragment->holes; h++) {
+        const struct hole *hole = part->fragment->hole + h;
+        unsigned to = (unsigned)part->arguments.value[hole->argument];
+        if (hole->kind == HOLE_JUMP && to >= plan->count)
+            return error_set(error, "part %u, %s: jumps to part %u of %u", i, part->fragment->name, to,
+                             plan->count);
+    }
+    return 0;
+}
+
+int plan_check(const struct plan *plan, struct error *error)
+{
+    uint32_t valid[PART_CAPACITY];
+    for (unsigned i = 0; i < plan->count; i++) {
+        valid[i] = i ? ~0u : (uint32_t)VALID_AT_CALL;
+        if (check_jumps(plan, i, error))
+            return -1;
+    }
+    while (pass(plan, valid))
+        ;
+    for (unsigned i = 0; i < plan->count; i++) {
+        const struct fragment *fragment = plan->part[i].fragment;
+        uint32_t missing = fragment->in & ~valid[i];
+        if (missing)
+            return error_set(error, "part %u, %s: reads %s, which no earlier part gives", i, fragment->name,
+                             register_name((unsigned)__builtin_ctz(missing)));
+    }
+    return 0;
+}

@@ -1,0 +1,74 @@
+/* Fragments: pieces of machine code written by hand (asm/), with the places where the joiner fills something
+ * in and the registers they read, give and destroy.
+ *
+ * The structures are laid out by asm/fragment.inc, which is also where the registers' roles are. The table of
+ * all fragments is the section `stitch_fragments`; single ones go by name, fragment_<name>, declared below
+ * from def/op.def and def/fragment.def. */
+#ifndef STITCH_FRAGMENT_H
+#define STITCH_FRAGMENT_H
+
+#include <assert.h>
+#include <stddef.h>
+#include <stdint.h>
+
+enum hole_kind {
+    HOLE_WORD,      /* 32 bits: the argument is added to what stands there */
+    HOLE_BYTE,      /* 8 bits, likewise */
+    HOLE_JUMP,      /* 32 bits: distance to the part whose number is the argument */
+    HOLE_CONSTANTS, /* 64 bits: address of the constants */
+    HOLE_KIND_COUNT
+};
+
+struct hole {
+    uint16_t offset; /* bytes from the start of the code */
+    uint8_t kind;
+    uint8_t argument; /* 0 to ARGUMENT_COUNT - 1 */
+};
+
+enum { ARGUMENT_COUNT = 8 };
+
+struct fragment {
+    const char *name;
+    const uint8_t *code;
+    const struct hole *hole;
+    uint32_t in, out, clobbered; /* bit r: general-purpose register r; bit 16 + n: ymm n */
+    uint16_t bytes;
+    uint16_t holes;
+};
+
+static_assert(sizeof(struct hole) == 4, "asm/fragment.inc writes it so");
+static_assert(sizeof(struct fragment) == 40 && offsetof(struct fragment, bytes) == 36,
+              "asm/fragment.inc writes it so");
+
+/* General-purpose registers by their hardware number, as far as C must know them. */
+enum {
+    REGISTER_FRAME = 4,
+    REGISTER_FRAME_END = 5,
+    REGISTER_CALL = 7,
+    REGISTER_BASES = 8,
+    REGISTER_VECTORS = 16
+};
+
+/* All fragments, in no particular order. */
+extern const struct fragment __start_stitch_fragments[] __attribute__((visibility("hidden")));
+extern const struct fragment __stop_stitch_fragments[] __attribute__((visibility("hidden")));
+
+/* Fills HOLE_CONSTANTS; asm/constant.asm. */
+extern const uint8_t stitch_constants[] __attribute__((visibility("hidden")));
+
+#define FRAGMENT(name, arguments, meaning)                                                                   \
+    extern const struct fragment fragment_##name __attribute__((visibility("hidden")));
+#define OP(name, result, a, b, c, properties, expression)  FRAGMENT(name, , )
+#define OPK(name, result, a, b, c, properties, expression) FRAGMENT(name, , )
+#define CAST(name, result, from)
+#include "def/fragment.def"
+#include "def/op.def"
+#undef FRAGMENT
+#undef OP
+#undef OPK
+#undef CAST
+
+/* The names of a fragment's arguments, space-separated; asked only when listing and testing. */
+const char *fragment_arguments(const struct fragment *fragment);
+
+#endif

@@ -1,0 +1,82 @@
+/* Plans: appending parts, and the loops that every routine has around its own. */
+#include "stitch/plan.h"
+
+#include "base/mxcsr.h"
+
+unsigned plan_append(struct plan *plan, const struct fragment *fragment, struct arguments arguments)
+{
+    if (plan->count == PART_CAPACITY) {
+        plan->dropped++;
+        return PART_CAPACITY - 1;
+    }
+    plan->part[plan->count] = (struct part){.fragment = fragment, .arguments = arguments};
+    return plan->count++;
+}
+
+void plan_land(struct plan *plan, unsigned part, unsigned n)
+{
+    plan->part[part].arguments.value[n] = (int32_t)plan->count;
+}
+
+#define CALL(unit, field) (int32_t) offsetof(struct unit##_call, field)
+#define ENTRY(field)      (int32_t) offsetof(struct entry, field)
+
+static struct loop enter_vertex(struct plan *plan)
+{
+    struct arguments fields = {
+        {CALL(vertex, job), CALL(vertex, index), CALL(vertex, out), CALL(vertex, count)}};
+    struct loop loop = {.begin = plan_append(plan, &fragment_vertex_begin, fields)};
+    loop.top = plan->count;
+    return loop;
+}
+
+static struct loop enter_setup(struct plan *plan)
+{
+    struct arguments fields = {
+        {CALL(setup, job), CALL(setup, index), CALL(setup, vertices), CALL(setup, out), CALL(setup, count)}};
+    struct loop loop = {.begin = plan_append(plan, &fragment_setup_begin, fields)};
+    loop.top = plan->count;
+    return loop;
+}
+
+static struct loop enter_pixel(struct plan *plan)
+{
+    struct arguments fields = {{CALL(pixel, job), CALL(pixel, entries), CALL(pixel, count)}};
+    struct arguments block = {{ENTRY(triangle), ENTRY(coverage), ENTRY(block), CALL(pixel, triangles),
+                               CALL(pixel, lanes), CALL(pixel, color), CALL(pixel, depth)}};
+    struct loop loop = {.begin = plan_append(plan, &fragment_pixel_begin, fields)};
+    loop.top = plan_append(plan, &fragment_pixel_entry, block);
+    loop.chunk = plan_append(plan, &fragment_pixel_chunk, (struct arguments){{0}});
+    return loop;
+}
+
+struct loop plan_enter(struct plan *plan, enum unit unit)
+{
+    static struct loop (*const enter[UNIT_COUNT])(struct plan *) = {enter_vertex, enter_setup, enter_pixel};
+    plan->count = plan->dropped = 0;
+    plan_append(plan, &fragment_enter, (struct arguments){{0, MXCSR_CONTRACT}});
+    return enter[unit](plan);
+}
+
+void plan_leave(struct plan *plan, enum unit unit, const union key *key, const struct loop *loop,
+                int frame_bytes)
+{
+    int32_t top = (int32_t)loop->top;
+    plan->part[0].arguments.value[0] = -frame_bytes;
+    switch (unit) {
+    case UNIT_VERTEX:
+        plan_append(plan, &fragment_vertex_next, (struct arguments){{top}});
+        plan_land(plan, loop->begin, 4);
+        break;
+    case UNIT_SETUP: {
+        int32_t stride = triangle_layout(key->setup.depth, key->setup.varying).stride;
+        plan_append(plan, &fragment_setup_next, (struct arguments){{8 * stride, top}});
+        plan_land(plan, loop->begin, 5);
+        break;
+    }
+    default:
+        plan_land(plan, loop->chunk, 0);
+        plan_append(plan, &fragment_pixel_next, (struct arguments){{(int32_t)loop->chunk, top}});
+    }
+    plan_append(plan, &fragment_leave, (struct arguments){{0}});
+}

@@ -1,0 +1,77 @@
+/* The listing of a plan: each part with its arguments by name, then its instructions. */
+#include "stitch/plan.h"
+
+#include "base/disassemble.h"
+
+#include <string.h>
+
+const char *fragment_arguments(const struct fragment *fragment)
+{
+    static const struct {
+        const struct fragment *fragment;
+        const char *arguments;
+    } table[] = {
+#define PARAMETER_flt(n) " " #n
+#define PARAMETER_itg(n) " " #n
+#define PARAMETER_fix(n) " " #n
+#define PARAMETER_msk(n) " " #n
+#define PARAMETER_non(n)
+#define FRAGMENT(name, arguments, meaning) {&fragment_##name, arguments},
+#define OP(name, result, ta, tb, tc, properties, expression)                                                 \
+    {&fragment_##name, "result" PARAMETER_##ta(a) PARAMETER_##tb(b) PARAMETER_##tc(c)},
+#define OPK(name, result, ta, tb, tc, properties, expression) {&fragment_##name, "result a k"},
+#define CAST(name, result, from)
+#include "def/fragment.def"
+#include "def/op.def"
+#undef FRAGMENT
+#undef OP
+#undef OPK
+#undef CAST
+    };
+    for (size_t i = 0; i < sizeof table / sizeof *table; i++)
+        if (table[i].fragment == fragment)
+            return table[i].arguments;
+    return NULL;
+}
+
+/* Some instructions print better without their part's place in the routine, but targets need it. */
+struct listing {
+    FILE *out;
+    const uint8_t *code;
+    uint32_t part_offset;
+};
+
+static void print_instruction(void *context, size_t offset, size_t length, const char *text)
+{
+    const struct listing *listing = context;
+    (void)length;
+    fprintf(listing->out, "    %04zx  %s\n", listing->part_offset + offset, text);
+}
+
+static void print_arguments(const struct part *part, FILE *out)
+{
+    const char *name = fragment_arguments(part->fragment);
+    for (unsigned n = 0; *name; n++) {
+        int length = (int)strcspn(name, " ");
+        int32_t value = part->arguments.value[n];
+        const char *form = !strncmp(name, "value", 5) && length == 5 ? " %.*s=0x%x" : " %.*s=%d";
+        fprintf(out, form, length, name, value);
+        name += length;
+        name += *name == ' ';
+    }
+}
+
+void plan_print(const struct plan *plan, const struct code_span *span, FILE *out)
+{
+    for (unsigned i = 0; i < plan->count; i++) {
+        const struct part *part = plan->part + i;
+        struct listing listing = {out, span->writable, part->offset};
+        fprintf(out, "%u %s", i, part->fragment->name);
+        print_arguments(part, out);
+        if (part->file)
+            fprintf(out, "  ; %s:%d", part->file, part->line);
+        fputc('\n', out);
+        disassemble(span->writable + part->offset, part->fragment->bytes, part->offset, print_instruction,
+                    &listing);
+    }
+}
