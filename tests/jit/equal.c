@@ -1,0 +1,69 @@
+/* Every specializer engine gives the emulator's bytes, for random keys and inputs of every unit. */
+#include "base/code.h"
+#include "emu/emulate.h"
+#include "jit/jit.h"
+#include "support/differential.h"
+#include "unity.h"
+
+static struct code_arena *arena;
+static struct differential *differential;
+
+void setUp(void)
+{
+    struct error error = {{0}};
+    arena = code_create(0, NULL, &error);
+    TEST_ASSERT_NOT_NULL_MESSAGE(arena, error.text);
+    differential = differential_create(arena);
+    TEST_ASSERT_NOT_NULL(differential);
+}
+
+void tearDown(void)
+{
+    differential_destroy(differential);
+    code_destroy(arena);
+}
+
+static void compare_unit(const struct engine *engine, enum unit unit, int cases)
+{
+    uint64_t seed = 1 + unit;
+    if (engine->unavailable())
+        TEST_IGNORE_MESSAGE(engine->unavailable());
+    for (int i = 0; i < cases; i++) {
+        union key key;
+        key_random(unit, &seed, &key);
+        const char *difference =
+            differential_compare(differential, &engine_emulate, engine, unit, &key, seed);
+        if (difference)
+            TEST_FAIL_MESSAGE(difference);
+    }
+}
+
+static void compare_units(const struct engine *engine)
+{
+    for (int unit = 0; unit < UNIT_COUNT; unit++)
+        compare_unit(engine, unit, 1000);
+}
+
+static void test_eight_lanes_equal_the_emulator(void)
+{
+    compare_units(&engine_specialize);
+}
+
+static void test_four_lanes_equal_the_emulator(void)
+{
+    compare_units(&engine_specialize_4);
+}
+
+static void test_thesis_profile_equals_the_emulator(void)
+{
+    compare_units(&engine_specialize_thesis);
+}
+
+int main(void)
+{
+    UNITY_BEGIN();
+    RUN_TEST(test_eight_lanes_equal_the_emulator);
+    RUN_TEST(test_four_lanes_equal_the_emulator);
+    RUN_TEST(test_thesis_profile_equals_the_emulator);
+    return UNITY_END();
+}
