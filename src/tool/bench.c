@@ -1,0 +1,184 @@
+/* `triptych bench`: the engines against each other, on the same streams, in one process.
+ *
+ * A repetition plays the same frames with every engine. The engines take turns, repetition by repetition, so
+ * that whatever the machine does meanwhile (other work, heat, clock frequency) hits all alike. Every engine
+ * has its own device, kept from warm-up to end, as an application would. Pictures are not read back.
+ *
+ * An engine stops early when its next repetition would take it beyond its share of seconds, but not before
+ * REPETITIONS_MINIMUM: the emulator is slow, and a median needs something to be the middle of. */
+#include "tool/bench_report.h"
+#include "tool/choose.h"
+#include "tool/option.h"
+#include "triptych.h"
+
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+enum { REPETITIONS_MINIMUM = 3, FRAMES_MAXIMUM = 65536, SECONDS_MAXIMUM = 86400 };
+
+static const double warm_up_share = 0.1; /* of an engine's seconds */
+
+struct settings {
+    unsigned threads, repetitions, frames; /* frames 0: all */
+    double seconds;
+};
+
+static bool goes_on(const struct bench_run *run, const struct settings *settings)
+{
+    return run->repetitions < settings->repetitions &&
+           (run->repetitions < REPETITIONS_MINIMUM || run->spent + run->last <= settings->seconds);
+}
+
+static int start_runs(const struct command *self, const struct stream *stream, const struct choice *engines,
+                      const struct settings *settings, struct bench_stream *result)
+{
+    result->runs = calloc(engines->count, sizeof *result->runs);
+    if (!result->runs)
+        return fail(self, "no memory for %u engines", engines->count);
+    for (; result->run_count < engines->count; result->run_count++) {
+        const char *name = triptych_engine_name(engines->index[result->run_count]);
+        progress("%s: %s, warming up", result->name, name);
+        if (!strcmp(name, "emulate"))
+            result->baseline = result->run_count;
+        struct bench_run *run = result->runs + result->run_count;
+        if (bench_run_start(self, stream, engines->index[result->run_count], settings->threads,
+                            settings->seconds * warm_up_share, run))
+            return bench_run_free(run), STATUS_BAD;
+    }
+    return STATUS_OK;
+}
+
+static int repeat_all(const struct command *self, const struct settings *settings,
+                      struct bench_stream *result)
+{
+    for (bool going_on = true; going_on;) {
+        going_on = false;
+        for (unsigned i = 0; i < result->run_count; i++) {
+            struct bench_run *run = result->runs + i;
+            if (!goes_on(run, settings))
+                continue;
+            going_on = true;
+            progress("%s: %s, run %u", result->name, triptych_engine_name(run->engine), run->repetitions + 1);
+            if (bench_run_repeat(self, result->frames, run))
+                return STATUS_BAD;
+        }
+    }
+    return STATUS_OK;
+}
+
+static int finish_all(const struct command *self, struct bench_stream *result)
+{
+    triptych_target_size(result->runs->session.device, &result->width, &result->height);
+    for (unsigned i = 0; i < result->run_count; i++)
+        if (bench_run_finish(self, result->runs + i))
+            return STATUS_BAD;
+    for (unsigned i = 0; i < result->run_count; i++)
+        bench_run_rate(result->runs + result->baseline, result->runs + i);
+    return STATUS_OK;
+}
+
+/* The stream's name becomes a field of the CSV: what would end the field is replaced. */
+static void name_stream(const char *path, char name[STREAM_NAME])
+{
+    path_stem(path, name, STREAM_NAME);
+    for (char *at = name; (at = strpbrk(at, ",\"\r\n"));)
+        *at = '_';
+}
+
+static int bench_one(const struct command *self, const char *path, const struct choice *engines,
+                     const struct settings *settings, struct bench_stream *result)
+{
+    result->path = path;
+    name_stream(path, result->name);
+    struct stream *stream = session_load(self, path);
+    if (!stream)
+        return STATUS_BAD;
+    result->frames = session_stream_frames(stream);
+    if (settings->frames && settings->frames < result->frames)
+        result->frames = settings->frames;
+    int status = start_runs(self, stream, engines, settings, result);
+    if (!status)
+        status = repeat_all(self, settings, result);
+    if (!status)
+        status = finish_all(self, result);
+    for (unsigned i = 0; i < result->run_count; i++)
+        session_close(&result->runs[i].session);
+    session_unload(stream);
+    return status;
+}
+
+static int bench_all(const struct command *self, char **paths, const struct choice *engines,
+                     const struct settings *settings, struct bench *bench)
+{
+    for (unsigned i = 0; i < bench->stream_count; i++) {
+        if (bench_one(self, paths[i], engines, settings, bench->streams + i))
+            return STATUS_BAD;
+        progress(NULL);
+        if (!i)
+            bench_print_machine(bench);
+        bench_print_stream(bench, bench->streams + i);
+        fflush(stdout);
+    }
+    bench_print_summary(bench);
+    return STATUS_OK;
+}
+
+static void free_bench(struct bench *bench)
+{
+    for (unsigned i = 0; i < bench->stream_count; i++) {
+        for (unsigned j = 0; j < bench->streams[i].run_count; j++)
+            bench_run_free(bench->streams[i].runs + j);
+        free(bench->streams[i].runs);
+    }
+    free(bench->streams);
+}
+
+static const char notes[] = "Per stream and engine: a warm-up of up to a tenth of the seconds, then runs "
+                            "until the repetitions are done or\n"
+                            "the next one would exceed the seconds, but at least 3. Reported are medians, "
+                            "min, max and the median absolute\n"
+                            "deviation (mad). ns/vertex is geometry time per vertex shaded, ns/pixel tile "
+                            "time per pixel shaded, both\n"
+                            "summed over threads; ms/frame is wall time. \"x\" columns: times the speed of "
+                            "emulate (or, without it, of the\n"
+                            "first engine).";
+
+int command_bench(const struct command *self, int count, char **arguments)
+{
+    struct settings settings = {.threads = 1, .repetitions = 15, .seconds = 10};
+    const char *engine_list = NULL, *json = NULL, *csv = NULL;
+    const struct option options[] = {
+        {"engines", "LIST", "engines, separated by commas; all that can run here", OPTION_TEXT, &engine_list,
+         0, 0},
+        {"threads", "N", "rendering threads of each device; 1", OPTION_NUMBER, &settings.threads, 1, 256},
+        {"repetitions", "N", "runs measured at most; 15", OPTION_NUMBER, &settings.repetitions,
+         REPETITIONS_MINIMUM, REPETITIONS_MAXIMUM},
+        {"seconds", "S", "time of an engine on a stream; 10", OPTION_SECONDS, &settings.seconds, 0,
+         SECONDS_MAXIMUM},
+        {"frames", "N", "frames of a run, spread over the stream; all", OPTION_NUMBER, &settings.frames, 1,
+         FRAMES_MAXIMUM},
+        {"json", "FILE", "write everything, each run included", OPTION_TEXT, &json, 0, 0},
+        {"csv", "FILE", "write a row per stream and engine", OPTION_TEXT, &csv, 0, 0},
+    };
+    struct operands operands = {.least = 1, .most = ANY_NUMBER};
+    enum options_result result =
+        options_read(self, options, sizeof options / sizeof *options, notes, count, arguments, &operands);
+    if (result != OPTIONS_GO)
+        return options_status(result);
+    struct choice engines;
+    if (choose_engines(self, engine_list, &engines))
+        return STATUS_BAD;
+
+    struct bench bench = {machine_describe(), settings.threads, (unsigned)operands.count, NULL};
+    bench.streams = calloc(bench.stream_count, sizeof *bench.streams);
+    if (!bench.streams)
+        return fail(self, "no memory for %u streams", bench.stream_count);
+    int status = bench_all(self, operands.value, &engines, &settings, &bench);
+    if (!status && json)
+        status = bench_write_json(self, &bench, json);
+    if (!status && csv)
+        status = bench_write_csv(self, &bench, csv);
+    free_bench(&bench);
+    return status;
+}

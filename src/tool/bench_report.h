@@ -1,0 +1,36 @@
+/* What `triptych bench` found, as tables, as JSON and as CSV. All three read the columns of bench.def. */
+#ifndef TOOL_BENCH_REPORT_H
+#define TOOL_BENCH_REPORT_H
+
+#include "tool/bench_run.h"
+#include "tool/machine.h"
+
+enum { STREAM_NAME = 64 };
+
+struct bench_stream {
+    char name[STREAM_NAME];
+    const char *path;
+    unsigned width, height; /* of the target at the end */
+    unsigned frames;        /* played in a repetition */
+    unsigned run_count, baseline;
+    struct bench_run *runs;
+};
+
+struct bench {
+    struct machine machine;
+    unsigned threads;
+    unsigned stream_count;
+    struct bench_stream *streams;
+};
+
+void bench_print_machine(const struct bench *bench);
+void bench_print_stream(const struct bench *bench, const struct bench_stream *stream);
+
+/* The speed-ups of all streams side by side, and the routines of all streams by engine and unit. */
+void bench_print_summary(const struct bench *bench);
+
+/* Both write whole files or none, and return 0, or STATUS_BAD after telling why. */
+int bench_write_json(const struct command *self, const struct bench *bench, const char *path);
+int bench_write_csv(const struct command *self, const struct bench *bench, const char *path);
+
+#endif

@@ -1,0 +1,53 @@
+/* One engine measured on one stream. */
+#ifndef TOOL_BENCH_RUN_H
+#define TOOL_BENCH_RUN_H
+
+#include "tool/sample.h"
+#include "tool/session.h"
+
+enum { REPETITIONS_MAXIMUM = 1000 };
+
+enum bench_column {
+#define COLUMN(name, heading, decimals, meaning) COLUMN_##name,
+#include "tool/bench.def"
+#undef COLUMN
+    COLUMN_COUNT
+};
+
+/* What is measured anew in every repetition. */
+enum measure { MEASURE_FRAME_MS, MEASURE_VERTEX_NS, MEASURE_PIXEL_NS, MEASURE_COUNT };
+
+/* A routine the engine built. */
+struct build {
+    unsigned unit;         /* enum unit */
+    double us, code_bytes; /* code_bytes is 0 for engines that generate none */
+};
+
+struct bench_run {
+    unsigned engine; /* number of triptych_engine_name() */
+    struct session session;
+    unsigned repetitions;
+    double *samples[MEASURE_COUNT]; /* REPETITIONS_MAXIMUM each, in order of time */
+    double spent, last;             /* seconds: all measured repetitions, the last one */
+    double value[COLUMN_COUNT];     /* when finished */
+    size_t build_count;
+    struct build *builds; /* when finished */
+};
+
+/* Opens a session and plays the stream's first frames until `seconds` have passed or all are played: builds
+ * routines, fills caches, wakes the processor. Returns 0, or STATUS_BAD after telling why. */
+int bench_run_start(const struct command *self, const struct stream *stream, unsigned engine,
+                    unsigned threads, double seconds, struct bench_run *run);
+
+/* Plays `frames` frames, evenly spread over the stream, and records one sample of each measure. */
+int bench_run_repeat(const struct command *self, unsigned frames, struct bench_run *run);
+
+/* Reads the engine's counters and routines, closes the session and computes the columns; the speed-ups are
+ * against `baseline`, a finished run, which may be this one. */
+int bench_run_finish(const struct command *self, struct bench_run *run);
+void bench_run_rate(const struct bench_run *baseline, struct bench_run *run);
+
+/* Frees all that the run holds, at any time. */
+void bench_run_free(struct bench_run *run);
+
+#endif

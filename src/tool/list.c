@@ -1,0 +1,164 @@
+/* `triptych list`: what this build has and what this machine allows, as tables or as JSON.
+ *
+ * Each subject fills a JSON array of objects; the table for people is made from the same objects, a column
+ * per member, so that both always say the same. */
+#include "base/cpu.h"
+#include "jit/jit.h"
+#include "tool/option.h"
+#include "tool/table.h"
+#include "triptych.h"
+
+#include <cjson/cJSON.h>
+#include <stdlib.h>
+#include <string.h>
+
+static void add_text(cJSON *row, const char *name, const char *text)
+{
+    cJSON_AddStringToObject(row, name, text);
+}
+
+static cJSON *add_row(cJSON *rows)
+{
+    cJSON *row = cJSON_CreateObject();
+    cJSON_AddItemToArray(rows, row);
+    return row;
+}
+
+static void list_engines(cJSON *rows)
+{
+    for (unsigned i = 0; triptych_engine_name(i); i++) {
+        const char *reason = triptych_engine_unavailable(i);
+        cJSON *row = add_row(rows);
+        add_text(row, "engine", triptych_engine_name(i));
+        cJSON_AddNumberToObject(row, "width", triptych_engine_width(i));
+        add_text(row, "here", reason ? reason : "available");
+        add_text(row, "description", triptych_engine_description(i));
+    }
+}
+
+static const struct {
+    const char *kind, *word;
+} words[] = {
+#define VALUE(kind, word, number) {#kind, #word},
+#include "def/value.def"
+#undef VALUE
+};
+
+static void add_words(cJSON *row, const char *kind)
+{
+    char text[TABLE_CELL] = "";
+    for (size_t i = 0; i < sizeof words / sizeof *words; i++)
+        if (!strcmp(words[i].kind, kind))
+            snprintf(text + strlen(text), sizeof text - strlen(text), "%s%s", text[0] ? " " : "",
+                     words[i].word);
+    add_text(row, "words", text[0] ? text : "a number");
+}
+
+static void add_default(cJSON *row, enum triptych_state state, uint32_t value)
+{
+    char number[16];
+    snprintf(number, sizeof number, "0x%08x", value);
+    const char *word = triptych_state_word(state, value);
+    add_text(row, "default", word ? word : number);
+}
+
+static void list_states(cJSON *rows)
+{
+    static const struct {
+        const char *kind, *units, *meaning;
+        uint32_t initial;
+    } states[] = {
+#define STATE(name, kind, initial, units, meaning) {#kind, units, meaning, initial},
+#include "def/state.def"
+#undef STATE
+    };
+    for (unsigned i = 0; i < TRIPTYCH_STATE_COUNT; i++) {
+        cJSON *row = add_row(rows);
+        add_text(row, "state", triptych_state_name(i));
+        add_text(row, "kind", states[i].kind);
+        add_default(row, i, states[i].initial);
+        add_text(row, "keys", states[i].units);
+        add_words(row, states[i].kind);
+        add_text(row, "meaning", states[i].meaning);
+    }
+}
+
+static void list_cpu(cJSON *rows)
+{
+    const struct cpu *cpu = cpu_native();
+    cJSON *row = add_row(rows);
+    add_text(row, "what", "model");
+    add_text(row, "here", cpu->model);
+    add_text(row, "meaning", "brand string of the processor");
+    for (unsigned i = 0; i < CPU_FEATURE_COUNT; i++) {
+        row = add_row(rows);
+        add_text(row, "what", cpu_feature_name(i));
+        add_text(row, "here", cpu->has[i] ? "yes" : "no");
+        add_text(row, "meaning", cpu_feature_meaning(i));
+    }
+}
+
+static void list_passes(cJSON *rows)
+{
+    for (unsigned i = 0; jit_pass_name(i); i++) {
+        cJSON *row = add_row(rows);
+        add_text(row, "pass", jit_pass_name(i));
+        add_text(row, "meaning", jit_pass_description(i));
+    }
+}
+
+static const struct subject {
+    const char *name;
+    void (*list)(cJSON *rows);
+} subjects[] = {
+    {"engines", list_engines},
+    {"states", list_states},
+    {"cpu", list_cpu},
+    {"passes", list_passes},
+};
+
+static void print_table(const cJSON *rows)
+{
+    struct table table = {0};
+    const cJSON *row, *cell;
+    cJSON_ArrayForEach(cell, rows->child)
+        table_column(&table, cell->string, cJSON_IsNumber(cell) ? TABLE_RIGHT : TABLE_LEFT);
+    cJSON_ArrayForEach(row, rows) cJSON_ArrayForEach(cell, row)
+    {
+        if (cJSON_IsNumber(cell))
+            table_cell(&table, "%.0f", cell->valuedouble);
+        else
+            table_cell(&table, "%s", cell->valuestring);
+    }
+    table_print(&table, 0, stdout);
+}
+
+static int print(const struct command *self, const struct subject *subject, bool json)
+{
+    cJSON *rows = cJSON_CreateArray();
+    subject->list(rows);
+    char *text = json ? cJSON_Print(rows) : NULL;
+    if (text)
+        puts(text);
+    else if (!json)
+        print_table(rows);
+    cJSON_Delete(rows);
+    cJSON_free(text);
+    return json && !text ? fail(self, "out of memory") : STATUS_OK;
+}
+
+int command_list(const struct command *self, int count, char **arguments)
+{
+    bool json = false;
+    const struct option options[] = {
+        {"json", NULL, "as JSON, an array of objects", OPTION_FLAG, &json, 0, 0},
+    };
+    struct operands operands = {.least = 1, .most = 1};
+    enum options_result result = options_read(self, options, 1, NULL, count, arguments, &operands);
+    if (result != OPTIONS_GO)
+        return options_status(result);
+    for (size_t i = 0; i < sizeof subjects / sizeof *subjects; i++)
+        if (!strcmp(operands.value[0], subjects[i].name))
+            return print(self, subjects + i, json);
+    return fail(self, "cannot list \"%s\", expected %s", operands.value[0], self->summary);
+}

@@ -1,0 +1,121 @@
+/* `triptych render`: one frame of a stream, by one engine, as a picture. */
+#include "base/exr.h"
+#include "base/png.h"
+#include "tool/choose.h"
+#include "tool/option.h"
+#include "tool/session.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+enum { FRAME_MAXIMUM = 65535, THREADS_MAXIMUM = 256, WIDTH_MAXIMUM = 64, CHANNELS = 4 };
+
+static int save_png(const char *path, const struct capture *capture, struct error *error)
+{
+    return png_save(path, capture->width, capture->height, capture->color, error);
+}
+
+/* Colours are eight bits a channel, which a half holds exactly enough; depth keeps its 32. */
+static int save_exr(const char *path, const struct capture *capture, struct error *error)
+{
+    size_t pixels = (size_t)capture->width * capture->height;
+    float *values = malloc(pixels * CHANNELS * sizeof *values);
+    if (!values)
+        return error_set(error, "%s: no memory for %zu pixels", path, pixels);
+    for (size_t i = 0; i < pixels; i++)
+        for (unsigned channel = 0; channel < CHANNELS; channel++)
+            values[i * CHANNELS + channel] = (float)(capture->color[i] >> 8 * channel & 255) / 255;
+    const struct exr_channel channels[] = {
+        {"R", values, CHANNELS, EXR_HALF},     {"G", values + 1, CHANNELS, EXR_HALF},
+        {"B", values + 2, CHANNELS, EXR_HALF}, {"A", values + 3, CHANNELS, EXR_HALF},
+        {"Z", capture->depth, 1, EXR_FLOAT},
+    };
+    int bad =
+        exr_save(path, capture->width, capture->height, channels, sizeof channels / sizeof *channels, error);
+    free(values);
+    return bad;
+}
+
+static const struct picture_kind {
+    const char *extension;
+    int (*save)(const char *path, const struct capture *capture, struct error *error);
+} kinds[] = {
+    {".png", save_png}, /* colour and alpha */
+    {".exr", save_exr}, /* colour, alpha, depth */
+};
+
+static const struct picture_kind *find_kind(const char *path)
+{
+    const char *dot = strrchr(path, '.');
+    for (size_t i = 0; dot && i < sizeof kinds / sizeof *kinds; i++)
+        if (!strcmp(dot, kinds[i].extension))
+            return kinds + i;
+    return NULL;
+}
+
+struct settings {
+    const char *engine, *out;
+    unsigned frame, threads, width;
+};
+
+static int render_frame(const struct command *self, const struct stream *stream,
+                        const struct settings *settings, unsigned engine, struct capture *capture)
+{
+    struct session session = {0};
+    int status = session_open(self, stream, engine, settings->threads, &session);
+    if (!status)
+        status = session_play(self, &session, settings->frame);
+    if (!status)
+        status = capture_read(self, &session, capture);
+    session_close(&session);
+    return status;
+}
+
+static int render(const struct command *self, const char *path, const struct settings *settings,
+                  unsigned engine, const struct picture_kind *kind)
+{
+    struct stream *stream = session_load(self, path);
+    if (!stream)
+        return STATUS_BAD;
+    struct capture capture = {0};
+    struct error error = {""};
+    int status = STATUS_OK;
+    if (settings->frame >= session_stream_frames(stream))
+        status = fail(self, "%s has no frame %u, its last is %u", path, settings->frame,
+                      session_stream_frames(stream) - 1);
+    if (!status)
+        status = render_frame(self, stream, settings, engine, &capture);
+    if (!status && kind->save(settings->out, &capture, &error))
+        status = fail(self, "%s", error.text);
+    capture_free(&capture);
+    session_unload(stream);
+    return status;
+}
+
+int command_render(const struct command *self, int count, char **arguments)
+{
+    struct settings settings = {.engine = "specialize"};
+    const struct option options[] = {
+        {"engine", "NAME", "which engine (triptych list engines); specialize", OPTION_TEXT, &settings.engine,
+         0, 0},
+        {"width", "LANES", "which of the engine's widths", OPTION_NUMBER, &settings.width, 1, WIDTH_MAXIMUM},
+        {"out", "FILE", "FILE.png: colour; FILE.exr: colour and depth", OPTION_TEXT, &settings.out, 0, 0},
+        {"frame", "N", "which frame, from 0; 0", OPTION_NUMBER, &settings.frame, 0, FRAME_MAXIMUM},
+        {"threads", "N", "rendering threads; as many as there are cores", OPTION_NUMBER, &settings.threads, 1,
+         THREADS_MAXIMUM},
+    };
+    struct operands operands = {.least = 1, .most = 1};
+    enum options_result result =
+        options_read(self, options, sizeof options / sizeof *options, NULL, count, arguments, &operands);
+    if (result != OPTIONS_GO)
+        return options_status(result);
+    if (!settings.out)
+        return fail(self, "--out is missing, expected --out FILE.png or --out FILE.exr");
+    const struct picture_kind *kind = find_kind(settings.out);
+    if (!kind)
+        return fail(self, "%s: unknown kind of picture, expected .png or .exr", settings.out);
+    unsigned engine;
+    if (choose_engine(self, settings.engine, settings.width, &engine))
+        return STATUS_BAD;
+    return render(self, operands.value[0], &settings, engine, kind);
+}

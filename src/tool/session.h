@@ -1,0 +1,51 @@
+/* A device with one stream on it, frame by frame, and what it drew. */
+#ifndef TOOL_SESSION_H
+#define TOOL_SESSION_H
+
+#include "base/compare.h"
+#include "tool/tool.h"
+#include "triptych.h"
+
+#include <stdint.h>
+
+struct stream;
+
+/* Reads and checks a stream. Null after telling what is wrong with it. */
+struct stream *session_load(const struct command *self, const char *path);
+void session_unload(struct stream *stream);
+unsigned session_stream_frames(const struct stream *stream);
+
+/* Zero is a closed session. The stream must outlive it. */
+struct session {
+    const struct stream *stream;
+    triptych_device *device;
+    struct player *player;
+};
+
+/* Opens a session with the engine of that number (triptych_engine_name). The functions that return an int
+ * return 0, or STATUS_BAD after telling why; a session that failed is still to be closed. */
+int session_open(const struct command *self, const struct stream *stream, unsigned engine, unsigned threads,
+                 struct session *session);
+void session_close(struct session *session);
+
+unsigned session_frames(const struct session *session);
+
+/* Plays a frame (from 0) and waits until it is drawn. */
+int session_play(const struct command *self, struct session *session, unsigned frame);
+
+/* The i-th of `count` frames spread evenly over `all`, the first and the last among them. */
+unsigned session_spread(unsigned i, unsigned count, unsigned all);
+
+/* A copy of a device's target. Zero is empty; memory is kept from one reading to the next. */
+struct capture {
+    unsigned width, height;
+    uint32_t *color;
+    float *depth;
+    size_t capacity; /* pixels */
+};
+
+int capture_read(const struct command *self, const struct session *session, struct capture *capture);
+void capture_free(struct capture *capture);
+struct picture capture_picture(const struct capture *capture);
+
+#endif

@@ -1,0 +1,316 @@
+/* `triptych verify`: every engine, width and thread count draws the same bytes.
+ *
+ * The reference is the emulator with one thread. For every frame it draws once and keeps colours and depths;
+ * every other configuration draws the same frame on a device of its own and is compared at once, so that
+ * memory does not grow with the number of frames. A configuration that differed is told with its first
+ * differing frame and leaves the stream's remaining frames alone. */
+#include "tool/choose.h"
+#include "tool/difference.h"
+#include "tool/json.h"
+#include "tool/machine.h"
+#include "tool/option.h"
+#include "tool/session.h"
+#include "triptych.h"
+
+#include <errno.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <sys/stat.h>
+#include <xxhash.h>
+
+enum { STEM_CAPACITY = 64, PATH_CAPACITY = 4096, FRAMES_DEFAULT = 8, FRAMES_MAXIMUM = 65536 };
+
+static const char reference_engine[] = "emulate";
+
+struct configuration {
+    unsigned engine, threads;
+    struct session session;
+    bool differs;
+};
+
+struct settings {
+    struct choice engines, threads;
+    const char *folder; /* for pictures of differences, or null */
+    bool all_frames;
+    unsigned frames; /* spread over a stream that has more */
+    cJSON *report;   /* array of the streams, or null */
+};
+
+/* The verification of one stream. */
+struct verification {
+    char name[STEM_CAPACITY];
+    const char *path;
+    unsigned frames, all; /* drawn, in the stream */
+    struct configuration reference;
+    struct configuration *others;
+    unsigned count, different;
+    struct capture expected, got;
+    XXH3_state_t *digest; /* of the reference's colours and depths, frame by frame */
+    cJSON *differences;   /* or null */
+};
+
+static int open_configuration(const struct command *self, const struct stream *stream, unsigned engine,
+                              unsigned threads, struct configuration *configuration)
+{
+    *configuration = (struct configuration){.engine = engine, .threads = threads};
+    return session_open(self, stream, engine, threads, &configuration->session);
+}
+
+static int open_all(const struct command *self, const struct stream *stream, const struct settings *settings,
+                    struct verification *verification)
+{
+    unsigned engine;
+    verification->others =
+        calloc(settings->engines.count * settings->threads.count, sizeof *verification->others);
+    verification->digest = XXH3_createState();
+    if (!verification->others || !verification->digest)
+        return fail(self, "no memory to verify %s", verification->path);
+    XXH3_64bits_reset(verification->digest);
+    if (choose_engine(self, reference_engine, 0, &engine) ||
+        open_configuration(self, stream, engine, 1, &verification->reference))
+        return STATUS_BAD;
+    for (unsigned i = 0; i < settings->engines.count; i++)
+        for (unsigned j = 0; j < settings->threads.count; j++) {
+            if (settings->engines.index[i] == engine && settings->threads.index[j] == 1)
+                continue;
+            if (open_configuration(self, stream, settings->engines.index[i], settings->threads.index[j],
+                                   verification->others + verification->count++))
+                return STATUS_BAD;
+        }
+    return STATUS_OK;
+}
+
+static void close_all(struct verification *verification)
+{
+    session_close(&verification->reference.session);
+    for (unsigned i = 0; i < verification->count; i++)
+        session_close(&verification->others[i].session);
+    free(verification->others);
+    XXH3_freeState(verification->digest);
+    capture_free(&verification->expected);
+    capture_free(&verification->got);
+}
+
+static void add_difference(cJSON *differences, const struct configuration *configuration, unsigned frame,
+                           const struct difference *difference, const char *text)
+{
+    cJSON *json = cJSON_CreateObject();
+    cJSON_AddStringToObject(json, "engine", triptych_engine_name(configuration->engine));
+    cJSON_AddNumberToObject(json, "threads", configuration->threads);
+    cJSON_AddNumberToObject(json, "frame", frame);
+    cJSON_AddNumberToObject(json, "x", difference->x);
+    cJSON_AddNumberToObject(json, "y", difference->y);
+    cJSON_AddNumberToObject(json, "color_pixels", (double)difference->color_pixels);
+    cJSON_AddNumberToObject(json, "depth_pixels", (double)difference->depth_pixels);
+    cJSON_AddStringToObject(json, "what", text);
+    cJSON_AddItemToArray(differences, json);
+}
+
+static int save_picture(const struct command *self, const struct settings *settings,
+                        const struct verification *verification, const struct configuration *configuration,
+                        unsigned frame)
+{
+    char path[PATH_CAPACITY];
+    if (mkdir(settings->folder, 0777) && errno != EEXIST)
+        return fail(self, "%s: cannot make the folder: %s", settings->folder, strerror(errno));
+    snprintf(path, sizeof path, "%s/%s-%s-%u-frame-%u.png", settings->folder, verification->name,
+             triptych_engine_name(configuration->engine), configuration->threads, frame);
+    struct picture expected = capture_picture(&verification->expected),
+                   got = capture_picture(&verification->got);
+    return difference_save(self, path, &expected, &got);
+}
+
+static int compare_frame(const struct command *self, const struct settings *settings,
+                         struct verification *verification, struct configuration *configuration,
+                         unsigned frame)
+{
+    struct picture expected = capture_picture(&verification->expected),
+                   got = capture_picture(&verification->got);
+    struct difference difference;
+    if (!compare_pictures(&expected, &got, &difference))
+        return STATUS_OK;
+    char text[DIFFERENCE_TEXT];
+    configuration->differs = true;
+    difference_describe(&expected, &difference, text);
+    progress(NULL);
+    printf("%s: frame %u: %s with 1 thread and %s with %u differ: %s\n", verification->name, frame,
+           reference_engine, triptych_engine_name(configuration->engine), configuration->threads, text);
+    if (verification->differences)
+        add_difference(verification->differences, configuration, frame, &difference, text);
+    return settings->folder ? save_picture(self, settings, verification, configuration, frame) : STATUS_OK;
+}
+
+static int draw(const struct command *self, const struct verification *verification,
+                struct configuration *configuration, unsigned frame, struct capture *capture)
+{
+    progress("%s: frame %u of %u: %s with %u threads", verification->name, frame, verification->all,
+             triptych_engine_name(configuration->engine), configuration->threads);
+    return session_play(self, &configuration->session, frame) ||
+                   capture_read(self, &configuration->session, capture)
+               ? STATUS_BAD
+               : STATUS_OK;
+}
+
+static int verify_frame(const struct command *self, const struct settings *settings,
+                        struct verification *verification, unsigned frame)
+{
+    struct capture *expected = &verification->expected;
+    if (draw(self, verification, &verification->reference, frame, expected))
+        return STATUS_BAD;
+    size_t pixels = (size_t)expected->width * expected->height;
+    XXH3_64bits_update(verification->digest, expected->color, pixels * sizeof *expected->color);
+    XXH3_64bits_update(verification->digest, expected->depth, pixels * sizeof *expected->depth);
+    for (unsigned i = 0; i < verification->count; i++) {
+        struct configuration *configuration = verification->others + i;
+        if (configuration->differs)
+            continue;
+        if (draw(self, verification, configuration, frame, &verification->got) ||
+            compare_frame(self, settings, verification, configuration, frame))
+            return STATUS_BAD;
+        verification->different += configuration->differs;
+    }
+    return STATUS_OK;
+}
+
+static void add_stream(const struct settings *settings, struct verification *verification, const char *digest)
+{
+    cJSON *json = cJSON_CreateObject();
+    cJSON_AddStringToObject(json, "stream", verification->name);
+    cJSON_AddStringToObject(json, "path", verification->path);
+    cJSON_AddNumberToObject(json, "frames", verification->frames);
+    cJSON_AddNumberToObject(json, "configurations", verification->count + 1);
+    cJSON_AddStringToObject(json, "xxh3", digest);
+    cJSON_AddBoolToObject(json, "identical", !verification->different);
+    cJSON_AddItemToObject(json, "differences", verification->differences);
+    cJSON_AddItemToArray(settings->report, json);
+}
+
+static void report(const struct settings *settings, struct verification *verification)
+{
+    char digest[24];
+    snprintf(digest, sizeof digest, "%016llx", (unsigned long long)XXH3_64bits_digest(verification->digest));
+    progress(NULL);
+    if (!verification->different)
+        printf("%s: identical, %u of %u frames, %u configurations, %u x %u, xxh3 %s\n", verification->name,
+               verification->frames, verification->all, verification->count + 1, verification->expected.width,
+               verification->expected.height, digest);
+    fflush(stdout);
+    if (settings->report)
+        add_stream(settings, verification, digest);
+}
+
+static int verify_frames(const struct command *self, const struct stream *stream,
+                         const struct settings *settings, struct verification *verification)
+{
+    if (open_all(self, stream, settings, verification))
+        return STATUS_BAD;
+    for (unsigned i = 0; i < verification->frames; i++)
+        if (verify_frame(self, settings, verification,
+                         session_spread(i, verification->frames, verification->all)))
+            return STATUS_BAD;
+    return STATUS_OK;
+}
+
+/* Verifies a stream; *different counts the streams that differ. */
+static int verify_stream(const struct command *self, const char *path, const struct settings *settings,
+                         unsigned *different)
+{
+    struct stream *stream = session_load(self, path);
+    if (!stream)
+        return STATUS_BAD;
+    struct verification verification = {.path = path, .all = session_stream_frames(stream)};
+    path_stem(path, verification.name, sizeof verification.name);
+    verification.frames = verification.all;
+    if (!settings->all_frames && settings->frames < verification.all)
+        verification.frames = settings->frames;
+    if (settings->report)
+        verification.differences = cJSON_CreateArray();
+    int status = verify_frames(self, stream, settings, &verification);
+    if (!status) {
+        report(settings, &verification);
+        *different += verification.different != 0;
+    } else {
+        cJSON_Delete(verification.differences);
+    }
+    close_all(&verification);
+    session_unload(stream);
+    return status;
+}
+
+static void tell_left_out(void)
+{
+    for (unsigned i = 0; triptych_engine_name(i); i++)
+        if (triptych_engine_unavailable(i))
+            printf("left out %s: %s\n", triptych_engine_name(i), triptych_engine_unavailable(i));
+}
+
+static int verify_all(const struct command *self, const struct operands *operands,
+                      const struct settings *settings)
+{
+    unsigned different = 0;
+    for (int i = 0; i < operands->count; i++)
+        if (verify_stream(self, operands->value[i], settings, &different))
+            return STATUS_BAD;
+    tell_left_out();
+    printf("%d streams, %u engines, ", operands->count, settings->engines.count);
+    if (different)
+        printf("%u differ\n", different);
+    else
+        puts("identical");
+    return different ? STATUS_DIFFERENT : STATUS_OK;
+}
+
+static int write_report(const struct command *self, const struct settings *settings, const char *path,
+                        int status)
+{
+    struct machine machine = machine_describe();
+    cJSON *json = cJSON_CreateObject();
+    cJSON_AddItemToObject(json, "machine", machine_json(&machine));
+    cJSON_AddBoolToObject(json, "identical", status == STATUS_OK);
+    cJSON *engines = cJSON_AddArrayToObject(json, "engines");
+    for (unsigned i = 0; i < settings->engines.count; i++)
+        cJSON_AddItemToArray(engines, cJSON_CreateString(triptych_engine_name(settings->engines.index[i])));
+    cJSON_AddItemReferenceToObject(json, "streams", settings->report);
+    int bad = json_write(self, json, path);
+    cJSON_Delete(json);
+    return bad ? STATUS_BAD : status;
+}
+
+static const char notes[] =
+    "The reference is emulate with 1 thread; every colour and depth byte of every other configuration must "
+    "equal\n"
+    "its. Frames count from 0. Last line: \"N streams, N engines, identical\" or how many streams differ.";
+
+int command_verify(const struct command *self, int count, char **arguments)
+{
+    struct settings settings = {.frames = FRAMES_DEFAULT};
+    const char *engine_list = NULL, *thread_list = "1,2", *frames = NULL, *json = NULL;
+    const struct option options[] = {
+        {"engines", "LIST", "engines, separated by commas; all that can run here", OPTION_TEXT, &engine_list,
+         0, 0},
+        {"threads", "LIST", "numbers of threads; 1,2", OPTION_TEXT, &thread_list, 0, 0},
+        {"frames", "N|all", "how many frames, spread over the stream; 8", OPTION_TEXT, &frames, 0, 0},
+        {"difference", "DIR", "where to paint what differs", OPTION_TEXT, &settings.folder, 0, 0},
+        {"json", "FILE", "write the results", OPTION_TEXT, &json, 0, 0},
+    };
+    struct operands operands = {.least = 1, .most = ANY_NUMBER};
+    enum options_result result =
+        options_read(self, options, sizeof options / sizeof *options, notes, count, arguments, &operands);
+    if (result != OPTIONS_GO)
+        return options_status(result);
+    settings.all_frames = frames && !strcmp(frames, "all");
+    if (frames && !settings.all_frames && !number_read(frames, 1, FRAMES_MAXIMUM, &settings.frames))
+        return fail(self, "--frames is \"%s\", expected all or a number from 1 to %d", frames,
+                    FRAMES_MAXIMUM);
+    if (choose_engines(self, engine_list, &settings.engines) ||
+        choose_threads(self, thread_list, &settings.threads))
+        return STATUS_BAD;
+
+    settings.report = json ? cJSON_CreateArray() : NULL;
+    int status = verify_all(self, &operands, &settings);
+    if (json && status != STATUS_BAD)
+        status = write_report(self, &settings, json, status);
+    cJSON_Delete(settings.report);
+    return status;
+}

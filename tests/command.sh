@@ -1,0 +1,271 @@
+#!/bin/bash
+# The command's manners: what it says to bad input and usage, and what it leaves behind.
+# Given BUILD, TRIPTYCH and SANITIZE by tests/support/run.sh.
+set -uo pipefail
+cd "$(dirname "$0")/.."
+
+work=$(mktemp -d)
+trap 'rm -rf "$work"' EXIT
+failures=0
+
+verdict() # NAME PROBLEM : ok when there is none
+{
+    if [[ -z $2 ]]; then
+        printf 'ok %s\n' "$1"
+    else
+        printf 'FAIL %s\n     %s\n' "$1" "$2"
+        sed 's/^/     stderr: /' "$work/err" | head -n 5
+        failures=1
+    fi
+}
+
+# Bad input or usage: exit status 2, nothing on stdout, one line on stderr that holds the pattern, and no new file.
+refuses() # NAME PATTERN ARGUMENT...
+{
+    local name=$1 pattern=$2 status=0 problem=
+    shift 2
+    rm -rf "$work/out" && mkdir "$work/out"
+    timeout 60 "$TRIPTYCH" "$@" >"$work/said" 2>"$work/err" </dev/null || status=$?
+    if ((status != 2)); then
+        problem="exit status $status, expected 2"
+    elif (($(wc -l <"$work/err") != 1)); then
+        problem="$(wc -l <"$work/err") lines on stderr, expected 1"
+    elif ! grep -qE -- "$pattern" "$work/err"; then
+        problem="stderr without \"$pattern\""
+    elif grep -qE 'runtime error|AddressSanitizer' "$work/err"; then
+        problem='a sanitizer complained'
+    elif [[ -s $work/said ]]; then
+        problem='something on stdout'
+    elif [[ $(ls -A "$work/out") ]]; then
+        problem="left behind: $(ls -A "$work/out")"
+    fi
+    verdict "$name" "$problem"
+}
+
+# Good usage: exit status 0, nothing on stderr, stdout holds the pattern.
+answers() # NAME PATTERN ARGUMENT...
+{
+    local name=$1 pattern=$2 status=0 problem=
+    shift 2
+    timeout 300 "$TRIPTYCH" "$@" >"$work/said" 2>"$work/err" </dev/null || status=$?
+    if ((status)); then
+        problem="exit status $status, expected 0"
+    elif [[ -s $work/err ]]; then
+        problem='something on stderr'
+    elif ! grep -qE -- "$pattern" "$work/said"; then
+        problem="stdout without \"$pattern\""
+    fi
+    verdict "$name" "$problem"
+}
+
+# Good usage that has nothing to say.
+does() # NAME ARGUMENT...
+{
+    local name=$1 status=0 problem=
+    shift
+    timeout 300 "$TRIPTYCH" "$@" >"$work/said" 2>"$work/err" </dev/null || status=$?
+    if ((status)); then
+        problem="exit status $status, expected 0"
+    elif [[ -s $work/err || -s $work/said ]]; then
+        problem='something on stdout or stderr'
+    fi
+    verdict "$name" "$problem"
+}
+
+holds() # NAME COMMAND... : the command succeeds
+{
+    local name=$1
+    shift
+    if "$@" >"$work/said" 2>"$work/err"; then verdict "$name" ''; else verdict "$name" "failed: $*"; fi
+}
+
+stream() # FILE : standard input, behind the first line
+{
+    { echo 'triptych 1' && cat; } >"$work/$1"
+}
+
+bad_stream() # NAME PATTERN : standard input is the stream without its first line
+{
+    stream bad.tri
+    refuses "$1" "$2" render "$work/bad.tri" --engine emulate --out "$work/out/picture.png"
+}
+
+stream good.tri <<'END'
+target 40 30
+vertices corner position:float3 diffuse:color {
+    -1 -1 0   0xffff0000
+     0  1 0.5 0xff00ff00
+     1 -1 1   0xff0000ff
+}
+set lighting false
+set cullmode none
+bind vertices corner
+clear color 0.1 0.1 0.2 1 depth 1
+draw triangles 0 1
+frame
+clear color 0 0 0 1 depth 1
+frame
+END
+picture=$work/picture.png
+
+# --- Usage ---------------------------------------------------------------------------------------------------
+
+answers 'help' 'usage: triptych' --help
+answers 'version' '^triptych [0-9]+\.[0-9]+\.[0-9]+$' --version
+for command in $("$TRIPTYCH" --help | sed -nE 's/^  ([a-z]+) .*/\1/p'); do
+    answers "help of $command" "^usage: triptych $command " "$command" --help
+    refuses "unknown option of $command" "triptych $command: unknown option --colour" "$command" --colour x
+done
+refuses 'unknown command' 'unknown command "paint".*render' paint
+refuses 'unknown option in front of the command' 'unknown option "--verbose"' --verbose
+refuses 'no operand' 'expected STREAM' render --out "$work/out/picture.png"
+refuses 'too many operands' 'unexpected "b"' render a b
+refuses 'option without its value' '--out is without its value' render "$work/good.tri" --out
+refuses 'number out of range' '--threads is "0", expected' render "$work/good.tri" --threads 0
+refuses 'number that is none' '--threads is "two", expected' render "$work/good.tri" --threads two
+refuses 'unknown engine' 'unknown engine "turbo".*emulate' \
+    render "$work/good.tri" --engine turbo --out "$work/out/picture.png"
+refuses 'width that the engine has not' 'emulate has no width 5, expected one of: 4' \
+    render "$work/good.tri" --engine emulate --width 5 --out "$work/out/picture.png"
+refuses 'unknown engine in a list' 'unknown engine "turbo"' verify "$work/good.tri" --engines emulate,turbo
+refuses 'engine listed twice' '"emulate" is listed twice' verify "$work/good.tri" --engines emulate,emulate
+refuses 'bad list of threads' '"x" is no number of threads' verify "$work/good.tri" --threads 1,x
+refuses 'bad number of frames' '--frames is "some"' verify "$work/good.tri" --frames some
+refuses 'unknown list' 'cannot list "cats"' list cats
+
+# --- Lists ---------------------------------------------------------------------------------------------------
+
+answers 'list engines' '^emulate ' list engines
+answers 'list states' '^zfunc +COMPARE +lessequal ' list states
+answers 'list cpu' '^avx2 +(yes|no) ' list cpu
+answers 'list passes' '^pass +meaning' list passes
+answers 'list as JSON' '"state":' list states --json
+
+full_disk_is_noticed()
+{
+    local status=0
+    "$TRIPTYCH" list states >/dev/full 2>"$work/full" || status=$?
+    ((status == 2)) && grep -q 'standard output' "$work/full"
+}
+holds 'a full disk is noticed on standard output' full_disk_is_noticed
+
+# --- Rendering -----------------------------------------------------------------------------------------------
+
+does 'render a PNG' render "$work/good.tri" --engine emulate --out "$picture"
+holds 'the PNG has the right size' bash -c "file '$picture' 2>/dev/null | grep -q '40 x 30' ||
+    [[ \$(od -An -tx1 -j16 -N8 '$picture' | tr -d ' \n') == 000000280000001e ]]"
+does 'render an EXR' render "$work/good.tri" --engine emulate --out "$work/picture.exr"
+holds 'the EXR begins as one' bash -c "[[ \$(od -An -tx1 -N4 '$work/picture.exr' | tr -d ' ') == 762f3101 ]]"
+does 'render another frame' render "$work/good.tri" --engine emulate --frame 1 --out "$work/black.png"
+refuses 'frame that the stream has not' 'no frame 2, its last is 1' \
+    render "$work/good.tri" --engine emulate --frame 2 --out "$work/out/picture.png"
+answers 'equal pictures are identical' '^identical$' compare "$picture" "$picture"
+
+different_pictures_differ()
+{
+    local status=0
+    "$TRIPTYCH" compare "$picture" "$work/black.png" --difference "$work/painted.png" >"$work/told" || status=$?
+    ((status == 1)) && grep -qE '^different: pixel \(0, 0\): RGBA [0-9a-f]{8} and 000000ff; of 1200 pixels 1200 ' \
+        "$work/told" && "$TRIPTYCH" compare "$work/painted.png" "$work/painted.png"
+}
+holds 'different pictures differ, and the difference is painted' different_pictures_differ
+
+refuses 'picture of an unknown kind' 'expected .png or .exr' \
+    render "$work/good.tri" --engine emulate --out "$work/out/picture.jpg"
+refuses 'picture not named' '--out is missing' render "$work/good.tri" --engine emulate
+refuses 'output in a missing folder' "$work/out/none/picture.png: .*No such file" \
+    render "$work/good.tri" --engine emulate --out "$work/out/none/picture.png"
+mkdir "$work/folder.png"
+refuses 'output that is a folder' 'folder.png: ' \
+    render "$work/good.tri" --engine emulate --out "$work/folder.png"
+ln -s /dev/full "$work/full.png"
+refuses 'output on a full disk' 'full.png: .*No space left' \
+    render "$work/good.tri" --engine emulate --out "$work/full.png"
+refuses 'picture that is none' 'good.tri' compare "$work/good.tri" "$picture"
+head -c 60 "$picture" >"$work/short.png"
+refuses 'picture cut off' 'short.png' compare "$picture" "$work/short.png"
+
+# --- Bad streams ---------------------------------------------------------------------------------------------
+
+refuses 'stream that is not there' 'none.tri: .*No such file' \
+    render "$work/none.tri" --engine emulate --out "$work/out/picture.png"
+refuses 'stream that is a folder' "$work" render "$work" --engine emulate --out "$work/out/picture.png"
+head -c 100 /dev/urandom >"$work/noise.tri"
+refuses 'stream that is noise' 'noise.tri:1:' render "$work/noise.tri" --engine emulate --out "$work/out/picture.png"
+: >"$work/empty.tri"
+refuses 'stream that is empty' 'empty.tri' render "$work/empty.tri" --engine emulate --out "$work/out/picture.png"
+bad_stream 'unknown call' 'bad.tri:3:1: .*"?tessellate"?' <<'END'
+target 40 30
+tessellate 3
+frame
+END
+head -c 90 "$work/good.tri" >"$work/cut.tri"
+refuses 'stream cut off' 'cut.tri:[0-9]+' render "$work/cut.tri" --engine emulate --out "$work/out/picture.png"
+bad_stream 'missing asset' 'nowhere.ply' <<'END'
+target 40 30
+mesh thing file "nowhere.ply"
+frame
+END
+bad_stream 'target of two gigapixels' 'bad.tri:2:' <<'END'
+target 65536 32768
+frame
+END
+bad_stream 'index past the buffer' 'bad.tri:' <<'END'
+target 40 30
+vertices corner position:float3 {
+    -1 -1 0
+     0  1 0
+     1 -1 0
+}
+indices list 16 { 0 1 2 0 1 3 }
+bind vertices corner
+bind indices list
+clear color 0 0 0 1
+draw-indexed triangles 0 0 2
+frame
+END
+bad_stream 'matrix with a NaN' 'bad.tri:3:' <<'END'
+target 40 30
+transform world matrix nan 0 0 0 0 1 0 0 0 0 1 0 0 0 0 1
+frame
+END
+bad_stream 'matrix beyond binary32' 'bad.tri:3:' <<'END'
+target 40 30
+transform world matrix 1e39 0 0 0 0 1 0 0 0 0 1 0 0 0 0 1
+frame
+END
+bad_stream 'state value that is none' 'bad.tri:3:' <<'END'
+target 40 30
+set zfunc sometimes
+frame
+END
+bad_stream 'draw without a target' 'bad.tri:2:' <<'END'
+clear color 0 0 0 1
+frame
+END
+refuses 'verify of a bad stream' 'bad.tri:2:' verify "$work/bad.tri" --json "$work/out/verify.json"
+refuses 'bench of a bad stream' 'bad.tri:2:' bench "$work/bad.tri" --csv "$work/out/bench.csv"
+
+# --- Verification and measurement ----------------------------------------------------------------------------
+
+answers 'verify ends with its sum' '^1 streams, [0-9]+ engines, identical$' \
+    verify "$work/good.tri" --frames all --json "$work/verify.json"
+holds 'verify writes JSON' grep -q '"identical":' "$work/verify.json"
+answers 'bench prints, and writes JSON and CSV' '^ +geometric mean ' bench "$work/good.tri" --repetitions 3 \
+    --seconds 1 --json "$work/bench.json" --csv "$work/bench.csv"
+holds 'the CSV has one width' awk -F, 'NR == 1 { n = NF } NF != n { exit 1 } END { exit NR < 2 }' "$work/bench.csv"
+holds 'the JSON names the machine' grep -q '"commit":' "$work/bench.json"
+
+# --- Conversion ----------------------------------------------------------------------------------------------
+
+does 'convert' convert "$work/good.tri" "$work/canonical.tri"
+does 'convert what was converted' convert "$work/canonical.tri" "$work/again.tri"
+holds 'canonical text stays as it is' cmp "$work/canonical.tri" "$work/again.tri"
+does 'the converted stream is readable' \
+    render "$work/canonical.tri" --engine emulate --out "$work/canonical.png"
+holds 'and draws the same' "$TRIPTYCH" compare "$picture" "$work/canonical.png"
+refuses 'conversion to an unknown kind' 'expected .tri' convert "$work/good.tri" "$work/out/good.bin"
+refuses 'conversion of a bad stream' 'bad.tri:2:' convert "$work/bad.tri" "$work/out/bad2.tri"
+refuses 'conversion into a missing folder' 'No such file' convert "$work/good.tri" "$work/out/none/good.tri"
+
+exit $failures
