@@ -81,6 +81,9 @@ link = $(CC) $(CFLAGS) $(SANITIZER) -pthread -Wl,--as-needed,-z,relro,-z,now $(L
 assemble = $(NASM) -f elf64 -g -F dwarf -Werror -Iasm/ \
   --before 'section .note.GNU-stack noalloc noexec nowrite progbits' --before 'section .text'
 
+# The command reports measurements with the commit they were made at; only one object depends on it.
+COMMIT := $(or $(shell git describe --always --dirty 2>/dev/null),unknown)
+
 # Unity has no double-precision assertions unless asked; flushing after each test keeps a crashing program's passes.
 unity_flags = -isystem $(dir $(UNITY_SOURCE)) -DUNITY_INCLUDE_DOUBLE -DUNITY_USE_FLUSH_STDOUT
 
@@ -102,6 +105,9 @@ $(BUILD)/object/%.o: %.c $(BUILD)/flags
 $(BUILD)/object/%.o: %.asm $(BUILD)/flags
 	@mkdir -p $(@D)
 	$(call say,NASM,$<)$(assemble) -MD $(@:.o=.d) -MP -MT $@ $< -o $@
+
+$(BUILD)/object/src/tool/machine.o: private CPPFLAGS += -DTRIPTYCH_COMMIT='"$(COMMIT)"'
+$(BUILD)/object/src/tool/machine.o: $(BUILD)/commit
 
 $(SUPPORT_OBJECTS) $(PROGRAM_OBJECTS): private CPPFLAGS += $(unity_flags)
 $(SUPPORT_OBJECTS) $(PROGRAM_OBJECTS): | $(UNITY_SOURCE)
@@ -137,7 +143,8 @@ $(PROGRAMS): $(BUILD)/tests/%: $(BUILD)/object/tests/%.o $(SUPPORT_OBJECTS) $(BU
 $(BUILD)/flags: text = $(compile) $(unity_flags) $(link) $(assemble)
 $(BUILD)/library.list: text = $(LIBRARY_OBJECTS)
 $(BUILD)/command.list: text = $(TOOL_OBJECTS)
-$(BUILD)/flags $(BUILD)/library.list $(BUILD)/command.list: FORCE
+$(BUILD)/commit: text = $(COMMIT)
+$(BUILD)/flags $(BUILD)/library.list $(BUILD)/command.list $(BUILD)/commit: FORCE
 	@mkdir -p $(@D)
 	@printf '%s\n' "$(text)" | cmp -s - $@ || printf '%s\n' "$(text)" >$@
 
