@@ -1,0 +1,22 @@
+/* Whole files: read with a limit, written so that nobody ever sees half of one.
+ *
+ * Errors are one line that begins with the path. Both functions return 0, or -1 with the reason in `error`.
+ */
+#ifndef BASE_FILE_H
+#define BASE_FILE_H
+
+#include "base/error.h"
+
+#include <stddef.h>
+
+/* Reads all of the file into *data, which the caller frees; a zero byte, not counted in *bytes, follows the
+ * contents. A file of more than `limit` bytes is refused. On failure *data is null. */
+int file_read(const char *path, size_t limit, char **data, size_t *bytes, struct error *error);
+
+/* Writes a temporary file in the same folder, syncs it and renames it to `path`: after a failure (a full
+ * disk, a folder that may not be written) or a crash `path` is what it was before, and a failure leaves no
+ * temporary file. An existing file's permission bits are kept. What exists and is no regular file (a device,
+ * a pipe) is written to as it is. */
+int file_write(const char *path, const void *data, size_t bytes, struct error *error);
+
+#endif
