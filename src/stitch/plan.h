@@ -47,9 +47,13 @@ planner plan_stages, plan_operations;
 /* Entry and exit of a routine and the loop of its unit (asm/frame.asm), around the parts appended in between.
  */
 struct loop {
-    unsigned begin, top, chunk, skip;
+    unsigned begin; /* the part that may jump behind the loop */
+    unsigned top;   /* the loop's first part */
+    unsigned chunk; /* pixel: the part that may jump to the chunk's end */
 };
-struct loop plan_enter(struct plan *plan, enum unit unit);
+
+/* `constants`, which may be null, is a fragment without arguments to run once before the loop. */
+struct loop plan_enter(struct plan *plan, enum unit unit, const struct fragment *constants);
 void plan_leave(struct plan *plan, enum unit unit, const union key *key, const struct loop *loop,
                 int frame_bytes);
 

@@ -1,0 +1,155 @@
+; Texture sampling: addressing of each axis, then point or bilinear (src/spec/sample.h).
+;
+; Addressing turns a coordinate in texels-to-be into indices, in place where it can:
+;
+;            in      first   second   weight, in both halves
+;   across   m8      m8      m6       m10
+;   down     m9      m9      m7       m11           scratch m12, m13
+;
+; m6 and m7 are free here: the texture's colour only comes with the sample. Each of the twelve fragments is the same
+; text for the two axes, three modes of addressing and two filters. Arguments: size_256, last, size of the job's axis.
+
+%include "fragment.inc"
+%include "constant.inc"
+
+%define SIZE_256        0
+%define LAST            1
+%define SIZE            2
+
+%macro clamp_index 1 ; index
+                vpxor           m13, m13, m13
+                vpmaxsd         %1, %1, m13
+    fill LAST,  vpbroadcastd    m13, [at_job]
+                vpminsd         %1, %1, m13
+%endmacro
+
+%macro power_index 1 ; index
+    fill LAST,  vpbroadcastd    m13, [at_job]
+                vpand           %1, %1, m13
+%endmacro
+
+; Adding `size` under a mask, then subtracting it under one: the specification's two selects.
+%macro wrap_index 1 ; index
+    fill SIZE,  vpbroadcastd    m13, [at_job]
+                vpsrad          m12, %1, 31
+                vpand           m12, m12, m13
+                vpaddd          %1, %1, m12
+    fill LAST,  vpbroadcastd    m12, [at_job]
+                vpcmpgtd        m12, %1, m12
+                vpand           m12, m12, m13
+                vpsubd          %1, %1, m12
+                clamp_index     %1
+%endmacro
+
+; The coordinate's whole part goes first where the axis is not a power of two.
+%macro axis_position 2 ; register, addressing
+  %ifidn %2, wrap
+                vroundps        m12, %1, 1
+                vsubps          %1, %1, m12
+  %endif
+    fill SIZE_256, vbroadcastss m12, [at_job]
+                vmulps          %1, %1, m12
+                vcvtps2dq       %1, %1
+%endmacro
+
+%macro axis_point 3 ; across or down, register's number, addressing
+fragment %1_%3_point, JOB | M(%2), M(%2), M(12) | M(13)
+                axis_position   m%2, %3
+                vpsrad          m%2, m%2, 8
+                %3_index        m%2
+end_fragment
+%endmacro
+
+%macro axis_linear 5 ; across or down, numbers of first, second and weight, addressing
+fragment %1_%5_linear, JOB | CONSTANTS | M(%2), M(%2) | M(%3) | M(%4), M(12) | M(13)
+                axis_position   m%2, %5
+                vpsubd          m%2, m%2, [constants + HALF_I]
+                vpand           m%4, m%2, [constants + BYTE_I]
+                vpsrad          m%2, m%2, 8
+                vpslld          m12, m%4, 16
+                vpor            m%4, m%4, m12
+                vpaddd          m%3, m%2, [constants + ONE_I]
+                %5_index        m%2
+                %5_index        m%3
+end_fragment
+%endmacro
+
+%macro axes 1 ; addressing
+                axis_point      across, 8, %1
+                axis_point      down, 9, %1
+                axis_linear     across, 8, 6, 10, %1
+                axis_linear     down, 9, 7, 11, %1
+%endmacro
+
+axes wrap
+axes power
+axes clamp
+
+; Arguments: texels and width of the job. The row is a product of numbers below 2^15: vpmaddwd is exact and quick.
+fragment sample_point, JOB | M(8) | M(9) | M(14), M(6) | M(7), R_AX | M(8) | M(9) | M(10)
+    fill 1,     vpbroadcastd    m10, [at_job]
+    fill 0,     mov             rax, [at_job]
+                vpmaddwd        m9, m9, m10
+                vpaddd          m8, m8, m9
+                vpcmpeqd        m10, m10, m10
+                vpgatherdd      m7, [rax + m8 * 4], m10
+                vpand           m6, m7, m14
+                vpsrlw          m7, m7, 8
+end_fragment
+
+; round((a * (256 - f) + b * f) / 256) by halves, as a * 256 + (b - a) * f + 128 modulo 2^16: the same sum, one product.
+%macro lerp 4 ; a and result, a * 256, b and scratch, f
+                vpsubw          %3, %3, %1
+                vpmullw         %3, %3, %4
+                vpaddw          %3, %3, %2
+                vpaddw          %3, %3, m15
+                vpsrlw          %1, %3, 8
+%endmacro
+
+; Two texels, each A B G R in a lane, blended across:  pairs rb = 0 B | 0 R  and  ga = 0 A | 0 G
+; The green and alpha of a word are already 256 times their value.
+%macro blend_texels 7 ; left and rb, right, ga, weight, scratch, scratch, scratch
+                vpand           %5, %1, m14                 ; left rb
+                vpand           %6, %2, m14                 ; right rb
+                vpsrlw          %3, %1, 8                   ; left ga
+                vpsrlw          %2, %2, 8                   ; right ga
+                vpandn          %7, m14, %1                 ; left ga * 256
+                lerp            %3, %7, %2, %4
+                vpsllw          %7, %5, 8
+                lerp            %5, %7, %6, %4
+                vmovdqa         %1, %5
+%endmacro
+
+; Arguments: texels and width of the job.
+;
+;   m8 m6    columns        m10  weight across
+;   m9 m7    rows           m11  weight down
+fragment sample_bilinear, JOB | M_TO(6, 11) | M(14) | M(15), M(6) | M(7), R_AX | M(0) | M(1) | M_TO(8, 13)
+    fill 1,     vpbroadcastd    m12, [at_job]
+    fill 0,     mov             rax, [at_job]
+                vpmaddwd        m9, m9, m12                 ; upper row
+                vpmaddwd        m7, m7, m12                 ; lower row
+                vpaddd          m12, m9, m8
+                vpaddd          m9, m9, m6
+                vpaddd          m8, m7, m8
+                vpaddd          m7, m7, m6
+                vpcmpeqd        m0, m0, m0
+                vpcmpeqd        m1, m1, m1
+                vpgatherdd      m6, [rax + m12 * 4], m0     ; upper left
+                vpgatherdd      m13, [rax + m9 * 4], m1     ; upper right
+                vpcmpeqd        m0, m0, m0
+                vpcmpeqd        m1, m1, m1
+                vpgatherdd      m12, [rax + m8 * 4], m0     ; lower left
+                vpgatherdd      m9, [rax + m7 * 4], m1      ; lower right
+                blend_texels    m6, m13, m7, m10, m0, m1, m8
+                blend_texels    m12, m9, m13, m10, m0, m1, m8
+                vpsllw          m0, m6, 8
+                vpsllw          m1, m7, 8
+                lerp            m6, m0, m12, m11
+                lerp            m7, m1, m13, m11
+end_fragment
+
+fragment texture_white, M(14), M(6) | M(7), NOTHING
+                vmovdqa         m6, m14
+                vmovdqa         m7, m14
+end_fragment
