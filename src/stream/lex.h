@@ -1,0 +1,64 @@
+/* The text of a draw stream as tokens with their places.
+ *
+ * A token is a word (everything up to a space, `{`, `}`, `"` or `#`), a string, a brace, or the end of a line
+ * or of the text. What a word means is for the caller, whose functions below read the current token as
+ * something, complain if it is not that, and go on to the next one. */
+#ifndef STREAM_LEX_H
+#define STREAM_LEX_H
+
+#include "base/error.h"
+
+#include <stddef.h>
+#include <stdint.h>
+
+enum token_type { TOKEN_WORD, TOKEN_STRING, TOKEN_OPEN, TOKEN_CLOSE, TOKEN_LINE_END, TOKEN_END };
+
+struct token {
+    enum token_type type;
+    const char *text; /* strings with their quotes */
+    size_t length;
+    uint32_t line, column; /* from 1; columns are bytes */
+};
+
+struct lexer {
+    const char *path;
+    const char *at, *end, *line_start;
+    uint32_t line;
+    struct token token; /* the current one */
+    struct error *error;
+};
+
+/* Starts at the first token. Fails if the text is not UTF-8, has control characters, or too long a line. The
+ * locale of the thread must write numbers with a point. */
+int lex_start(struct lexer *lexer, const char *path, const char *text, size_t bytes, struct error *error);
+
+/* Goes on to the next token; fails at a string that does not end with its line. */
+int lex_next(struct lexer *lexer);
+
+/* Sets "PATH:LINE:COLUMN: found TOKEN, expected EXPECTED" for the current token. Returns -1. */
+int lex_expected(struct lexer *lexer, const char *expected, ...) __attribute__((format(printf, 2, 3)));
+
+/* Sets "PATH:LINE:COLUMN: REASON" for a place. Returns -1. */
+int lex_fail(struct lexer *lexer, const struct token *place, const char *reason, ...)
+    __attribute__((format(printf, 3, 4)));
+
+int lex_is(const struct lexer *lexer, const char *word);
+
+/* The current token, then the next: a finite number, an integer from `low` to `high`, a colour 0xAARRGGBB.
+ * `what` names it in the reason. */
+int lex_number(struct lexer *lexer, const char *what, float *number);
+int lex_double(struct lexer *lexer, const char *what, double *number);
+int lex_numbers(struct lexer *lexer, const char *what, float *numbers, size_t count);
+int lex_integer(struct lexer *lexer, const char *what, int64_t low, int64_t high, int64_t *integer);
+int lex_color(struct lexer *lexer, const char *what, uint32_t *color);
+
+/* The contents of a string, which the caller frees. */
+int lex_string(struct lexer *lexer, const char *what, char **string);
+
+/* The end of the line. */
+int lex_line_end(struct lexer *lexer);
+
+/* Empty lines, if any. */
+int lex_skip_lines(struct lexer *lexer);
+
+#endif

@@ -1,0 +1,200 @@
+/* Draw streams: calls of the interface (triptych.h) as data, read from text, played on any device, written
+ * back.
+ *
+ *   text --stream_read--> struct stream --stream_prepare--> struct player --player_frame--> pictures
+ *
+ * A stream that has been read is whole and checked: its assets are loaded, its sequences expanded, every draw
+ * lies inside what is bound. Reading has no effect on any device. docs/streams.md is the reference of the
+ * text.
+ *
+ * Layout: `resources` and `calls` stand in the order of the text; a sequence is a CALL_SEQUENCE followed by
+ * its calls. `executed` lists the calls' numbers in the order in which they are executed, with the plays
+ * replaced by what they play and without frames and sequences themselves; frame f is executed[frames[f]] to
+ * executed[frames[f + 1] - 1].
+ *
+ * Functions that return int return 0, or -1 with one line of reason in `error`. */
+#ifndef STREAM_STREAM_H
+#define STREAM_STREAM_H
+
+#include "base/error.h"
+#include "triptych.h"
+
+#include <stddef.h>
+#include <stdint.h>
+
+struct player;
+
+enum stream_limit {
+#define LIMIT(name, value, what) LIMIT_##name = value,
+#include "stream/limit.def"
+#undef LIMIT
+};
+
+enum value_type { VALUE_FLOAT, VALUE_U16, VALUE_U32, VALUE_COLOR };
+enum normals { NORMALS_SMOOTH, NORMALS_FLAT };
+enum texcoords { TEXCOORDS_KEEP, TEXCOORDS_PLANAR, TEXCOORDS_SPHERICAL, TEXCOORDS_CYLINDRICAL };
+enum mesh_source { MESH_FILE, MESH_BEZIER };
+
+/* How a mesh is made of its file. */
+struct mesh_options {
+    enum mesh_source source;
+    enum normals normals;
+    enum texcoords texcoords;
+    unsigned subdivisions; /* MESH_BEZIER */
+    int center;
+    float fit; /* the longest side of the bounding box; 0: as it is */
+};
+
+/* Interleaved vertices: where each attribute lies within `stride` bytes. */
+struct layout {
+    enum triptych_format format[TRIPTYCH_ATTRIBUTE_COUNT];
+    uint32_t offset[TRIPTYCH_ATTRIBUTE_COUNT];
+    uint32_t stride;
+};
+
+enum resource_type {
+    RESOURCE_TEXTURE,
+    RESOURCE_VERTICES,
+    RESOURCE_INDICES,
+    RESOURCE_BUFFER,
+    RESOURCE_MESH,
+    RESOURCE_SEQUENCE
+};
+
+struct resource {
+    enum resource_type type;
+    char *name;
+    char *path;       /* as written; null: the data are in the text */
+    uint32_t *texels; /* texture: rows of RGBA8 words */
+    uint32_t width, height;
+    struct layout layout; /* vertices, mesh */
+    uint8_t *vertices;    /* vertices, mesh: vertex_count * stride bytes; buffer: its values */
+    size_t vertex_bytes;
+    uint32_t vertex_count;
+    enum value_type value_type; /* buffer */
+    void *indices;              /* indices, mesh: index_count words of index_bits */
+    uint32_t index_bits, index_count;
+    struct mesh_options options; /* mesh */
+    uint32_t call;               /* sequence: number of its CALL_SEQUENCE */
+    uint32_t depth;              /* sequence: 1 + that of the deepest sequence it plays */
+};
+
+enum call_type {
+    CALL_TARGET,
+    CALL_VIEWPORT,
+    CALL_SET,
+    CALL_TRANSFORM,
+    CALL_MATERIAL,
+    CALL_LIGHT,
+    CALL_ENABLE_LIGHT,
+    CALL_BIND_TEXTURE,
+    CALL_BIND_VERTICES,
+    CALL_BIND_INDICES,
+    CALL_BIND_ELEMENT,
+    CALL_CLEAR,
+    CALL_DRAW,
+    CALL_DRAW_INDEXED,
+    CALL_DRAW_MESH,
+    CALL_FRAME,
+    CALL_PLAY,
+    CALL_SEQUENCE /* its `count` calls follow; reaching it executes nothing */
+};
+
+#define NO_RESOURCE UINT32_MAX
+
+struct call {
+    enum call_type type;
+    uint32_t line, column; /* of the call's first word */
+    uint32_t resource;     /* its number, or NO_RESOURCE; bind, draw mesh, play, sequence */
+    union {
+        struct {
+            uint32_t width, height;
+        } target;
+        struct triptych_viewport viewport;
+        struct {
+            enum triptych_state state;
+            uint32_t value;
+        } set;
+        struct {
+            enum triptych_transform which;
+            float matrix[4][4];
+        } transform;
+        struct triptych_material material;
+        struct {
+            uint32_t index;
+            int on;                      /* CALL_ENABLE_LIGHT */
+            struct triptych_light value; /* CALL_LIGHT */
+        } light;
+        struct {
+            enum triptych_attribute attribute;
+            enum triptych_format format; /* TRIPTYCH_FORMAT_NONE unbinds */
+            uint32_t offset, stride;
+        } element;
+        struct {
+            int has_color, has_depth;
+            float color[4], depth;
+        } clear;
+        struct {
+            enum triptych_primitive primitive;
+            int32_t base; /* indexed */
+            uint32_t first, count;
+        } draw;
+        struct {
+            uint32_t count;
+        } sequence;
+    };
+};
+
+struct stream {
+    char *path; /* of the file; empty when parsed from memory without one */
+    struct resource *resources;
+    uint32_t resource_count;
+    struct call *calls;
+    uint32_t call_count;
+    uint32_t *executed;
+    uint32_t executed_count;
+    uint32_t *frames; /* frame_count + 1 positions in `executed` */
+    uint32_t frame_count;
+};
+
+/* Reads a stream and the files it names. On failure *stream is null and the reason is FILE:LINE:COLUMN: what
+ * was found, what was expected. */
+int stream_read(const char *path, struct stream **stream, struct error *error);
+
+/* The same of a text in memory; `path` is the name in reasons, and its folder is where asset paths begin. */
+int stream_parse(const char *path, const char *text, size_t bytes, struct stream **stream,
+                 struct error *error);
+
+/* Null is allowed. */
+void stream_free(struct stream *stream);
+
+/* Canonical text, which reads as the same stream; the caller frees *text. `path` is the file it is meant for:
+ * paths of assets are changed to begin at its folder. */
+int stream_write(const struct stream *stream, const char *path, char **text, size_t *bytes,
+                 struct error *error);
+
+/* stream_write to the file, whole or not at all. */
+int stream_save(const struct stream *stream, const char *path, struct error *error);
+
+/* Creates the stream's resources on the device, which then should not be used otherwise until the player is
+ * freed, except to read pictures and counters. The stream and the device must outlive the player. Calls
+ * nothing else. */
+int stream_prepare(const struct stream *stream, triptych_device *device, struct player **player,
+                   struct error *error);
+
+/* Null is allowed. The resources stay on the device until it is destroyed: it has no call to free them. */
+void player_free(struct player *player);
+
+/* Plays frame `frame` (0 to frame_count - 1) and finishes it (triptych_finish). After frame - 1 that executes
+ * the frame's calls; otherwise the states, bindings and targets of all earlier frames are executed first,
+ * from the defaults on, without their draws and clears. */
+int player_frame(struct player *player, uint32_t frame, struct error *error);
+
+/* Called after each frame; a result that is not 0 stops playing, and stream_play returns it. */
+typedef int frame_callback(void *user, uint32_t frame, triptych_device *device, struct error *error);
+
+/* Prepares and plays frames `first` to `last`. `callback` may be null. */
+int stream_play(const struct stream *stream, triptych_device *device, uint32_t first, uint32_t last,
+                frame_callback *callback, void *user, struct error *error);
+
+#endif
