@@ -1,8 +1,10 @@
-/* One lane's exact arithmetic, where C's own operators leave room: the helpers that def/op.def's expressions use.
+/* One lane's exact arithmetic, where C's own operators leave room: the helpers that def/op.def's expressions
+ * use.
  *
- * Each is the scalar form of the vector instruction that the generated code uses, through baseline SSE2
+ * Each is the scalar form of the vector instruction that the generated code uses, in C or baseline SSE2
  * intrinsics, so that rounding, NaN selection, denormal flushing (MXCSR) and out-of-range conversion agree on
- * every compiler and optimisation level. Source: Intel SDM volume 2, MINPS, MAXPS, CVTPS2DQ, CVTTPS2DQ, PMADDWD. */
+ * every compiler and optimisation level. Source: Intel SDM volume 2, MINPS, MAXPS, CVTPS2DQ, CVTTPS2DQ,
+ * PMADDWD. */
 #ifndef DEF_LANE_H
 #define DEF_LANE_H
 
@@ -10,16 +12,6 @@
 #include <math.h>
 #include <stdint.h>
 #include <string.h>
-
-static inline float lane_min(float a, float b)
-{
-    return _mm_cvtss_f32(_mm_min_ss(_mm_set_ss(a), _mm_set_ss(b)));
-}
-
-static inline float lane_max(float a, float b)
-{
-    return _mm_cvtss_f32(_mm_max_ss(_mm_set_ss(a), _mm_set_ss(b)));
-}
 
 static inline float lane_sqrt(float a)
 {
@@ -50,14 +42,29 @@ static inline float lane_from_bits(uint32_t bits)
     return a;
 }
 
-/* A denormal counts as a zero of its sign before rounding down, as ROUNDPS does under DAZ; libm's portable floorf
- * would see the denormal and return -1. */
-static inline float lane_floor(float a)
+/* What DAZ makes of an operand: a denormal is a zero of its sign. */
+static inline float lane_flush(float a)
 {
     uint32_t bits = lane_bits(a);
-    if (!(bits & 0x7f800000u))
-        return lane_from_bits(bits & 0x80000000u);
-    return floorf(a);
+    return lane_from_bits(bits & 0x7f800000u ? bits : bits & 0x80000000u);
+}
+
+/* MINPS and MAXPS: the second operand when either is NaN and when both are zeros. Not by intrinsic: gcc takes
+ * those for commutative when it folds constants. */
+static inline float lane_min(float a, float b)
+{
+    return lane_flush(a < b ? a : b);
+}
+
+static inline float lane_max(float a, float b)
+{
+    return lane_flush(a > b ? a : b);
+}
+
+/* ROUNDPS; libm's portable floorf would see a denormal and return -1. */
+static inline float lane_floor(float a)
+{
+    return floorf(lane_flush(a));
 }
 
 static inline int32_t lane_dot(int32_t a, int32_t b)

@@ -42,6 +42,11 @@ pass_function pass_copy, pass_fold, pass_reduce, pass_common, pass_dead, pass_ho
 /* Fills memory->range for every value (range.c). Rounds as the contract does: run under its MXCSR. */
 void range_analyse(const struct ir *ir, struct pass_memory *memory);
 
+/* The range of an instruction's operand, as the type that the operation takes it for: after copy propagation
+ * through a cast the value may be of another, of which its range says nothing. */
+struct range range_of_operand(const struct ir *ir, const struct pass_memory *memory,
+                              const struct ir_instruction *instruction, int operand);
+
 /* Called after each pass that changed something. */
 typedef void pass_observer(void *context, enum pass pass, const struct ir *ir);
 

@@ -9,8 +9,6 @@
 #include "def/lane.h"
 #include "jit/pass.h"
 
-#include <float.h>
-
 static const struct range anything = {-INFINITY, INFINITY, 1, 1, 1};
 
 static float least(float a, float b)
@@ -50,8 +48,10 @@ static struct range literal_range(const struct ir_instruction *i)
         float value = lane_from_bits((uint32_t)i->k);
         if (value != value)
             return anything;
-        return (struct range){value, value, 0, (uint32_t)i->k == 0x80000000u,
-                              value != 0 && fabsf(value) < FLT_MIN};
+        /* By the bits: under DAZ a denormal compares equal to zero. */
+        int denormal = !(i->k & 0x7f800000) && i->k & 0x007fffff;
+        return (struct range){value, value, 0, (uint8_t)(i->k < 0 && !(i->k & 0x7f800000)),
+                              (uint8_t)denormal};
     }
     if (i->type == TYPE_itg && i->k > -(1 << 24) && i->k < 1 << 24)
         return (struct range){(float)i->k, (float)i->k, 0, 0, 0};
@@ -154,9 +154,21 @@ static struct range rounded_range(struct range a)
     return integer_range(floorf(a.low), ceilf(a.high));
 }
 
-static struct range value_range(const struct ir_instruction *i, const struct range *of)
+struct range range_of_operand(const struct ir *ir, const struct pass_memory *memory,
+                              const struct ir_instruction *i, int operand)
 {
-    struct range a = of[i->operand[0]], b = of[i->operand[1]], c = of[i->operand[2]];
+    unsigned value = i->operand[operand];
+    if (ir->instruction[value].type != ir_op_information[i->op].operand[operand])
+        return anything;
+    return memory->range[value];
+}
+
+static struct range value_range(const struct ir *ir, const struct pass_memory *memory,
+                                const struct ir_instruction *i)
+{
+    struct range a = range_of_operand(ir, memory, i, 0);
+    struct range b = range_of_operand(ir, memory, i, 1);
+    struct range c = range_of_operand(ir, memory, i, 2);
     switch (i->op) {
     case IR_literal: return literal_range(i);
     case IR_add_f: return add_range(a, b);
@@ -185,5 +197,5 @@ void range_analyse(const struct ir *ir, struct pass_memory *memory)
 {
     memory->range[0] = anything;
     for (uint32_t number = 1; number < ir->count; number++)
-        memory->range[number] = value_range(&ir->instruction[number], memory->range);
+        memory->range[number] = value_range(ir, memory, &ir->instruction[number]);
 }

@@ -13,10 +13,10 @@
 enum { PLUS_ZERO = 0, ONE = 0x3f800000 };
 #define MINUS_ZERO INT32_MIN
 
-/* What the rules look at. */
+/* What the rules look at: the program, and the ranges of the instruction's operands. */
 struct view {
     const struct ir *ir;
-    const struct range *range;
+    struct range operand[3];
 };
 
 static int is_literal(const struct view *view, unsigned value, int32_t bits)
@@ -62,19 +62,20 @@ static int become(struct ir_instruction *i, enum ir_op op, unsigned a, unsigned 
 }
 
 /* Whether arithmetic that leaves y's value leaves its bits too: it flushes a denormal. */
-static int keeps_bits(const struct view *view, unsigned y)
+static int keeps_bits(const struct range *y)
 {
-    return !view->range[y].denormal;
+    return !y->denormal;
 }
 
 /* y + 0 = y unless y is -0; y + -0 = y. */
 static int reduce_add(const struct view *view, struct ir_instruction *i)
 {
     for (int o = 0; o < 2; o++) {
-        unsigned y = i->operand[o], zero = i->operand[1 - o];
-        int positive = is_literal(view, zero, PLUS_ZERO) && !view->range[y].minus_zero && !view->range[y].nan;
-        if ((positive || is_literal(view, zero, MINUS_ZERO)) && keeps_bits(view, y))
-            return become_copy(i, y);
+        const struct range *y = &view->operand[o];
+        unsigned zero = i->operand[1 - o];
+        int positive = is_literal(view, zero, PLUS_ZERO) && !y->minus_zero && !y->nan;
+        if ((positive || is_literal(view, zero, MINUS_ZERO)) && keeps_bits(y))
+            return become_copy(i, i->operand[o]);
     }
     return 0;
 }
@@ -83,9 +84,9 @@ static int reduce_add(const struct view *view, struct ir_instruction *i)
 static int reduce_sub(const struct view *view, struct ir_instruction *i)
 {
     unsigned a = i->operand[0], b = i->operand[1];
-    if (is_literal(view, b, PLUS_ZERO) && keeps_bits(view, a))
+    if (is_literal(view, b, PLUS_ZERO) && keeps_bits(&view->operand[0]))
         return become_copy(i, a);
-    if (a == b && is_finite(&view->range[a]))
+    if (a == b && is_finite(&view->operand[0]))
         return become_literal(i, PLUS_ZERO);
     return 0;
 }
@@ -94,10 +95,11 @@ static int reduce_sub(const struct view *view, struct ir_instruction *i)
 static int reduce_mul(const struct view *view, struct ir_instruction *i)
 {
     for (int o = 0; o < 2; o++) {
-        unsigned y = i->operand[o], x = i->operand[1 - o];
-        if (is_literal(view, x, ONE) && keeps_bits(view, y))
-            return become_copy(i, y);
-        if (is_literal(view, x, PLUS_ZERO) && is_finite(&view->range[y]) && is_sign_clear(&view->range[y]))
+        const struct range *y = &view->operand[o];
+        unsigned x = i->operand[1 - o];
+        if (is_literal(view, x, ONE) && keeps_bits(y))
+            return become_copy(i, i->operand[o]);
+        if (is_literal(view, x, PLUS_ZERO) && is_finite(y) && is_sign_clear(y))
             return become_literal(i, PLUS_ZERO);
     }
     return 0;
@@ -107,12 +109,13 @@ static int reduce_mul(const struct view *view, struct ir_instruction *i)
 static int reduce_mad(const struct view *view, struct ir_instruction *i)
 {
     unsigned z = i->operand[2];
+    const struct range *addend = &view->operand[2];
     for (int o = 0; o < 2; o++) {
-        unsigned y = i->operand[o], x = i->operand[1 - o];
+        unsigned x = i->operand[1 - o];
         if (is_literal(view, x, ONE))
-            return become(i, IR_add_f, y, z);
-        if (is_literal(view, x, PLUS_ZERO) && is_finite(&view->range[y]) && !view->range[z].minus_zero &&
-            !view->range[z].nan && keeps_bits(view, z))
+            return become(i, IR_add_f, i->operand[o], z);
+        if (is_literal(view, x, PLUS_ZERO) && is_finite(&view->operand[o]) && !addend->minus_zero &&
+            !addend->nan && keeps_bits(addend))
             return become_copy(i, z);
     }
     return is_literal(view, z, MINUS_ZERO) ? become(i, IR_mul_f, i->operand[0], i->operand[1]) : 0;
@@ -122,7 +125,7 @@ static int reduce_mad(const struct view *view, struct ir_instruction *i)
  * signs. */
 static int reduce_extreme(const struct view *view, struct ir_instruction *i, int minimum)
 {
-    const struct range *a = &view->range[i->operand[0]], *b = &view->range[i->operand[1]];
+    const struct range *a = &view->operand[0], *b = &view->operand[1];
     if (a->nan || b->nan || a->denormal || b->denormal ||
         ((a->minus_zero || b->minus_zero) && a->low <= 0 && a->high >= 0))
         return 0;
@@ -196,7 +199,7 @@ static int reduce(const struct view *view, struct ir_instruction *i)
     case IR_mul_f: return reduce_mul(view, i);
     case IR_mad_f: return reduce_mad(view, i);
     case IR_div_f:
-        if (is_literal(view, i->operand[1], ONE) && keeps_bits(view, i->operand[0]))
+        if (is_literal(view, i->operand[1], ONE) && keeps_bits(&view->operand[0]))
             return become_copy(i, i->operand[0]);
         return 0;
     case IR_min_f:
@@ -232,8 +235,12 @@ unsigned pass_reduce(struct ir *ir, struct pass_memory *memory)
 {
     unsigned changes = 0;
     range_analyse(ir, memory);
-    struct view view = {ir, memory->range};
-    for (uint32_t number = 1; number < ir->count; number++)
-        changes += (unsigned)reduce(&view, &ir->instruction[number]);
+    struct view view = {.ir = ir};
+    for (uint32_t number = 1; number < ir->count; number++) {
+        struct ir_instruction *i = &ir->instruction[number];
+        for (int o = 0; o < 3; o++)
+            view.operand[o] = range_of_operand(ir, memory, i, o);
+        changes += (unsigned)reduce(&view, i);
+    }
     return changes;
 }

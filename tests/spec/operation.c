@@ -1,0 +1,172 @@
+/* The emulator's binding of every row of def/op.def: each lane, and each half of a pair, gets what the row's
+ * expression says of the same lane of the operands. And the exact conversions and extremes that the
+ * expressions rest on. */
+#include "base/mxcsr.h"
+#include "emu/bind.h"
+#include "support/edges.h"
+#include "unity.h"
+
+#include <math.h>
+#include <stdio.h>
+
+uint32_t ir_evaluate(int op, uint32_t a, uint32_t b, uint32_t c,
+                     int32_t k); /* jit/evaluate.c: one lane of a row */
+
+enum row {
+    ROW_nop,
+#define OP(name, ...)  ROW_##name,
+#define OPK(name, ...) ROW_##name,
+#define CAST(name, ...)
+#include "def/op.def"
+#undef OP
+#undef OPK
+#undef CAST
+};
+
+static unsigned saved;
+
+void setUp(void)
+{
+    saved = mxcsr_enter();
+}
+
+void tearDown(void)
+{
+    mxcsr_leave(saved);
+}
+
+/* Words for operand `position` of four lanes in round `round`: all pairs of edges meet. */
+static void take_words(uint32_t words[4], unsigned round, int position, int is_mask)
+{
+    for (unsigned lane = 0; lane < 4; lane++) {
+        unsigned n = 4 * round + lane;
+        unsigned digit = position == 0 ? n : position == 1 ? n / edge_count : n / 3 + 7;
+        words[lane] = edges[digit % edge_count];
+        if (is_mask)
+            words[lane] = words[lane] & 1 ? 0xffffffff : 0;
+    }
+}
+
+static void check_lanes(const char *name, unsigned row, const uint32_t in[3][4], const void *result, int k)
+{
+    char message[128];
+    uint32_t out[4];
+    memcpy(out, result, sizeof out);
+    for (int lane = 0; lane < 4; lane++) {
+        uint32_t expected = ir_evaluate((int)row, in[0][lane], in[1][lane], in[2][lane], k);
+        if (out[lane] == expected)
+            continue;
+        snprintf(message, sizeof message, "%s(%08x, %08x, %08x) in lane %d: expected %08x, got %08x", name,
+                 in[0][lane], in[1][lane], in[2][lane], lane, expected, out[lane]);
+        TEST_FAIL_MESSAGE(message);
+    }
+}
+
+#define IS_MASK_flt 0
+#define IS_MASK_itg 0
+#define IS_MASK_fix 0
+#define IS_MASK_msk 1
+#define IS_MASK_non 0
+#define MAKE_flt(n, i)                                                                                       \
+    flt n;                                                                                                   \
+    take_words(in[i], round, i, 0);                                                                          \
+    memcpy(&n, in[i], 16);
+#define MAKE_itg(n, i)                                                                                       \
+    itg n;                                                                                                   \
+    take_words(in[i], round, i, 0);                                                                          \
+    memcpy(&n, in[i], 16);
+#define MAKE_fix(n, i)                                                                                       \
+    fix n;                                                                                                   \
+    take_words(in[i], round, i, 0);                                                                          \
+    memcpy(&n, in[i], 16);
+#define MAKE_msk(n, i)                                                                                       \
+    msk n;                                                                                                   \
+    take_words(in[i], round, i, 1);                                                                          \
+    memcpy(&n, in[i], 16);
+#define MAKE_non(n, i)
+#define PASS_flt(n) , n
+#define PASS_itg(n) , n
+#define PASS_fix(n) , n
+#define PASS_msk(n) , n
+#define PASS_non(n)
+
+/* One checking function a row. */
+#define OP(name, result, ta, tb, tc, properties, expression)                                                 \
+    static void check_##name(unsigned round)                                                                 \
+    {                                                                                                        \
+        uint32_t in[3][4] = {{0}};                                                                           \
+        MAKE_##ta(a, 0) MAKE_##tb(b, 1) MAKE_##tc(c, 2) result r =                                           \
+            (name)(NULL PASS_##ta(a) PASS_##tb(b) PASS_##tc(c));                                             \
+        check_lanes(#name, ROW_##name, in, &r, 0);                                                           \
+    }
+#define OPK(name, result, ta, tb, tc, properties, expression)                                                \
+    static void check_##name(unsigned round)                                                                 \
+    {                                                                                                        \
+        uint32_t in[3][4] = {{0}};                                                                           \
+        MAKE_##ta(a, 0) int k = (int)(round % (sizeof(result) == sizeof(fix) && #name[5] == 'x' ? 16 : 32)); \
+        result r = (name)(NULL, a, k);                                                                       \
+        check_lanes(#name, ROW_##name, in, &r, k);                                                           \
+    }
+#define CAST(name, ...)
+#include "def/op.def"
+#undef OP
+#undef OPK
+#undef CAST
+
+static void test_every_operation_of_the_emulator_equals_its_expression(void)
+{
+    for (unsigned round = 0; round < edge_count * edge_count / 4 + 1; round++) {
+#define OP(name, ...)  check_##name(round);
+#define OPK(name, ...) check_##name(round);
+#define CAST(name, ...)
+#include "def/op.def"
+#undef OP
+#undef OPK
+#undef CAST
+    }
+}
+
+static void test_round_is_nearest_even_and_saturates_to_the_indefinite_integer(void)
+{
+    TEST_ASSERT_EQUAL_INT32(0, lane_round(0.5f));
+    TEST_ASSERT_EQUAL_INT32(2, lane_round(1.5f));
+    TEST_ASSERT_EQUAL_INT32(2, lane_round(2.5f));
+    TEST_ASSERT_EQUAL_INT32(-2, lane_round(-1.5f));
+    TEST_ASSERT_EQUAL_INT32(INT32_MIN, lane_round(0x1p31f));
+    TEST_ASSERT_EQUAL_INT32(INT32_MIN, lane_round(NAN));
+    TEST_ASSERT_EQUAL_INT32(-1, lane_truncate(-1.9f));
+    TEST_ASSERT_EQUAL_INT32(INT32_MIN, lane_truncate(-INFINITY));
+}
+
+static void test_minimum_and_maximum_give_the_second_operand_on_nan_and_on_equal_zeros(void)
+{
+    TEST_ASSERT_EQUAL_HEX32(0x40000000, lane_bits(lane_min(NAN, 2.0f)));
+    TEST_ASSERT_TRUE(isnan(lane_min(2.0f, NAN)));
+    TEST_ASSERT_EQUAL_HEX32(0x80000000, lane_bits(lane_max(0.0f, -0.0f)));
+    TEST_ASSERT_EQUAL_HEX32(0x00000000, lane_bits(lane_max(-0.0f, 0.0f)));
+}
+
+static void test_floor_takes_a_denormal_for_zero(void)
+{
+    TEST_ASSERT_EQUAL_HEX32(0x80000000, lane_bits(lane_floor(-0x1p-140f)));
+    TEST_ASSERT_EQUAL_FLOAT(-2.0f, lane_floor(-1.25f));
+    TEST_ASSERT_EQUAL_FLOAT(1.0f, lane_floor(1.75f));
+}
+
+static void test_fused_multiply_add_rounds_once(void)
+{
+    float a = 1 + 0x1p-12f;
+    TEST_ASSERT_EQUAL_HEX32(lane_bits(0x1p-24f), ir_evaluate(ROW_mad_f, lane_bits(a), lane_bits(a),
+                                                             lane_bits(-(1 + 0x1p-11f)), 0));
+}
+
+int main(void)
+{
+    UNITY_BEGIN();
+    RUN_TEST(test_every_operation_of_the_emulator_equals_its_expression);
+    RUN_TEST(test_round_is_nearest_even_and_saturates_to_the_indefinite_integer);
+    RUN_TEST(test_minimum_and_maximum_give_the_second_operand_on_nan_and_on_equal_zeros);
+    RUN_TEST(test_floor_takes_a_denormal_for_zero);
+    RUN_TEST(test_fused_multiply_add_rounds_once);
+    return UNITY_END();
+}

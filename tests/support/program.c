@@ -1,0 +1,268 @@
+#include "program.h"
+
+#include "edges.h"
+#include "base/code.h"
+#include "base/mxcsr.h"
+#include "def/lane.h"
+
+#include <string.h>
+
+uint32_t program_random(uint64_t *seed)
+{
+    *seed ^= *seed >> 12;
+    *seed ^= *seed << 25;
+    *seed ^= *seed >> 27;
+    return (uint32_t)(*seed * 0x2545f4914f6cdd1dull >> 32);
+}
+
+static uint32_t any_word(uint64_t *seed)
+{
+    if (program_random(seed) % 3 == 0)
+        return edges[program_random(seed) % edge_count];
+    float value = (float)(int32_t)program_random(seed) * 0x1p-29f;
+    return lane_bits(value);
+}
+
+void program_fill(struct program_data *data, uint64_t *seed)
+{
+    memset(data, 0, sizeof *data);
+    for (unsigned i = 0; i < sizeof data->input / 4; i++)
+        data->input[i] = any_word(seed);
+    uint32_t *job = (uint32_t *)(void *)&data->job;
+    for (unsigned i = 0; i < sizeof data->job / 4; i++)
+        job[i] = any_word(seed);
+}
+
+/* Values made so far, by type, and how many of them belong to open regions. */
+struct maker {
+    struct ir *ir;
+    uint64_t *seed;
+    uint16_t value[TYPE_msk + 1][IR_CAPACITY];
+    unsigned count[TYPE_msk + 1];
+};
+
+static void keep(struct maker *maker, enum ir_type type, uint16_t value)
+{
+    maker->value[type][maker->count[type]++] = value;
+}
+
+static void make_source(struct maker *maker, enum ir_type type)
+{
+    struct ir_instruction i = {.type = (uint8_t)type, .op = IR_literal};
+    switch (program_random(maker->seed) % 3) {
+    case 0:
+        i.op = IR_load;
+        i.base = BASE_INPUT;
+        i.k = (int32_t)(program_random(maker->seed) % PROGRAM_ARRAYS * PROGRAM_LANES * 4);
+        break;
+    case 1:
+        i.op = IR_uniform;
+        i.base = BASE_JOB;
+        i.k = (int32_t)(program_random(maker->seed) % 64 * 4);
+        break;
+    default: i.k = (int32_t)any_word(maker->seed); break;
+    }
+    if (type == TYPE_fix && i.op == IR_literal)
+        i.k = (int32_t)((uint32_t)(i.k & 0xffff) * 0x10001u);
+    keep(maker, type, ir_append(maker->ir, i));
+}
+
+/* A mask's lanes must be all ones or zero: only comparisons and literals make one from nothing. */
+static void make_mask(struct maker *maker)
+{
+    struct ir_instruction i = {.type = TYPE_msk, .op = IR_literal};
+    i.k = -(int32_t)(program_random(maker->seed) & 1);
+    keep(maker, TYPE_msk, ir_append(maker->ir, i));
+}
+
+static uint16_t pick(struct maker *maker, enum ir_type type)
+{
+    unsigned recent = maker->count[type] < 12 ? maker->count[type] : 12;
+    unsigned back =
+        program_random(maker->seed) % (program_random(maker->seed) % 4 ? recent : maker->count[type]);
+    return maker->value[type][maker->count[type] - 1 - back];
+}
+
+static void make_operation(struct maker *maker)
+{
+    unsigned op = 1 + program_random(maker->seed) % (IR_copy - 1);
+    const struct ir_op_information *information = &ir_op_information[op];
+    struct ir_instruction i = {.op = (uint8_t)op, .type = information->result, .line = 1};
+    for (int o = 0; o < information->operands; o++)
+        i.operand[o] = pick(maker, information->operand[o]);
+    if (information->properties & IR_SHIFTS)
+        i.k = (int32_t)(program_random(maker->seed) % (information->result == TYPE_fix ? 16 : 32));
+    keep(maker, information->result, ir_append(maker->ir, i));
+}
+
+/* Not from flt: which NaN an operation gives is not defined (operands may change places), and a cast would
+ * show it. */
+static void make_cast(struct maker *maker)
+{
+    enum ir_type from = TYPE_itg + program_random(maker->seed) % 3;
+    enum ir_type to = TYPE_flt + program_random(maker->seed) % 3;
+    struct ir_instruction i = {.op = IR_copy, .type = (uint8_t)to, .operand = {pick(maker, from)}};
+    keep(maker, to, ir_append(maker->ir, i));
+}
+
+static void make_store(struct maker *maker)
+{
+    enum ir_type type = TYPE_flt + program_random(maker->seed) % 3;
+    ir_append(maker->ir, (struct ir_instruction){.op = IR_store,
+                                                 .base = BASE_OUTPUT,
+                                                 .operand = {pick(maker, type)},
+                                                 .k = (int32_t)(program_random(maker->seed) % PROGRAM_STORES *
+                                                                VERTEX_SLOT_BYTES)});
+}
+
+static void make_region(struct maker *maker, unsigned length)
+{
+    unsigned outside[TYPE_msk + 1];
+    memcpy(outside, maker->count, sizeof outside);
+    ir_append(maker->ir, (struct ir_instruction){.op = IR_when, .operand = {pick(maker, TYPE_msk)}});
+    for (unsigned i = 0; i < length; i++)
+        make_operation(maker);
+    make_store(maker);
+    ir_append(maker->ir, (struct ir_instruction){.op = IR_end});
+    memcpy(maker->count, outside, sizeof outside);
+}
+
+void program_make(struct ir *ir, unsigned length, uint64_t *seed)
+{
+    static struct maker maker;
+    maker.ir = ir;
+    maker.seed = seed;
+    memset(maker.count, 0, sizeof maker.count);
+    ir_start(ir);
+    ir->file[ir->file_count++] = "program";
+    for (int type = TYPE_flt; type <= TYPE_fix; type++)
+        for (int i = 0; i < 4; i++)
+            make_source(&maker, type);
+    make_mask(&maker);
+    for (unsigned i = 0; i < length; i++)
+        switch (program_random(seed) % 16) {
+        case 0: make_store(&maker); break;
+        case 1: make_cast(&maker); break;
+        case 2: make_source(&maker, TYPE_flt + program_random(seed) % 3); break;
+        case 3:
+            if (program_random(seed) % 4 == 0)
+                make_region(&maker, 1 + program_random(seed) % 12);
+            break;
+        default: make_operation(&maker); break;
+        }
+    for (int i = 0; i < 4; i++)
+        make_store(&maker);
+}
+
+struct interpreter {
+    const struct ir *ir;
+    struct program_data *data;
+    uint32_t value[IR_CAPACITY][LANES_MAXIMUM];
+    unsigned first; /* lane */
+    unsigned width;
+};
+
+static uint32_t read_word(const struct interpreter *in, const struct ir_instruction *i, unsigned lane)
+{
+    const uint8_t *base =
+        (const uint8_t *)(i->base == BASE_JOB ? (const void *)&in->data->job
+                                              : (const void *)(in->data->input + in->first));
+    uint32_t word;
+    memcpy(&word, base + i->k + (i->op == IR_load ? 4 * lane : 0), 4);
+    return word;
+}
+
+static void step(struct interpreter *in, uint32_t number, unsigned lane)
+{
+    const struct ir_instruction *i = &in->ir->instruction[number];
+    uint32_t *to = &in->value[number][lane];
+    uint32_t a = in->value[i->operand[0]][lane];
+    switch (i->op) {
+    case IR_literal: *to = (uint32_t)i->k; break;
+    case IR_copy: *to = a; break;
+    case IR_load:
+    case IR_uniform: *to = read_word(in, i, lane); break;
+    case IR_constant: memcpy(to, (const uint8_t *)&in->data->job + in->ir->constant[i->k].offset, 4); break;
+    case IR_store: memcpy((uint8_t *)in->data->output + i->k + 4 * (in->first + lane), &a, 4); break;
+    default:
+        *to = ir_evaluate(i->op, a, in->value[i->operand[1]][lane], in->value[i->operand[2]][lane], i->k);
+        break;
+    }
+}
+
+/* Where execution goes on behind the region that starts at `number`. */
+static uint32_t skip_region(const struct ir *ir, uint32_t number)
+{
+    for (unsigned depth = 0;; number++) {
+        depth += ir->instruction[number].op == IR_when;
+        depth -= ir->instruction[number].op == IR_end;
+        if (!depth)
+            return number;
+    }
+}
+
+static void interpret_group(struct interpreter *in)
+{
+    for (uint32_t number = 1; number < in->ir->count; number++) {
+        const struct ir_instruction *i = &in->ir->instruction[number];
+        if (i->op == IR_nop || i->op == IR_end)
+            continue;
+        if (i->op == IR_when) {
+            uint32_t any = 0;
+            for (unsigned lane = 0; lane < in->width; lane++)
+                any |= in->value[i->operand[0]][lane];
+            if (!any)
+                number = skip_region(in->ir, number);
+            continue;
+        }
+        for (unsigned lane = 0; lane < in->width; lane++)
+            step(in, number, lane);
+    }
+}
+
+void program_interpret(const struct ir *ir, struct program_data *data, unsigned width)
+{
+    static struct interpreter in;
+    unsigned saved = mxcsr_enter();
+    in.ir = ir;
+    in.data = data;
+    in.width = width;
+    memset(in.value[0], 0, sizeof in.value[0]);
+    for (in.first = 0; in.first < PROGRAM_LANES; in.first += width)
+        interpret_group(&in);
+    mxcsr_leave(saved);
+}
+
+int program_compile_and_run(struct builder *b, struct code_arena *arena, unsigned width, unsigned registers,
+                            struct program_data *data, struct error *error)
+{
+    static const union key key;
+    allocate(&b->ir, &b->allocation, registers);
+    b->emitter.ir = &b->ir;
+    b->emitter.allocation = &b->allocation;
+    b->emitter.width = width;
+    b->emitter.length = width == 4 ? X86_128 : X86_256;
+    size_t bytes = emit_routine(&b->emitter, UNIT_VERTEX, &key, error);
+    struct code_span span;
+    if (!bytes || code_reserve(arena, bytes, &span, error))
+        return -1;
+    memcpy(span.writable, b->emitter.code, bytes);
+    const void *code = code_commit(arena, &span, bytes);
+    routine_function *run;
+    memcpy(&run, &code, sizeof run);
+    struct vertex_call call = {&data->job, data->input, data->output, PROGRAM_LANES};
+    run(&call, NULL);
+    code_free(arena, &span);
+    return 0;
+}
+
+int program_difference(const struct program_data *a, const struct program_data *b)
+{
+    for (int i = 0; i < SLOT_COUNT * VERTEX_CAPACITY; i++) {
+        uint32_t x = lane_bits(a->output[i]), y = lane_bits(b->output[i]);
+        int both_nan = (x & 0x7fffffff) > 0x7f800000 && (y & 0x7fffffff) > 0x7f800000;
+        if (x != y && !both_nan)
+            return i;
+    }
+    return -1;
+}

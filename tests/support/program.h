@@ -1,0 +1,37 @@
+/* Small IR programs over arrays: made at random, interpreted straight from the table, compiled and run.
+ *
+ * A program reads words from INPUT (ARRAYS arrays of LANES words) and from the job, and stores to slots of
+ * OUTPUT; it is what a vertex routine is, so the vertex frame runs it. */
+#ifndef TESTS_PROGRAM_H
+#define TESTS_PROGRAM_H
+
+#include "draw/engine.h"
+#include "jit/build.h"
+
+enum { PROGRAM_LANES = 64, PROGRAM_ARRAYS = 4, PROGRAM_STORES = 8 };
+
+struct program_data {
+    struct job job;
+    uint32_t input[PROGRAM_ARRAYS * PROGRAM_LANES];
+    alignas(64) float output[SLOT_COUNT * VERTEX_CAPACITY];
+};
+
+uint32_t program_random(uint64_t *seed);
+
+/* Fills input and job with edges and ordinary values. */
+void program_fill(struct program_data *data, uint64_t *seed);
+
+/* A valid program of about `length` operations, regions included. */
+void program_make(struct ir *ir, unsigned length, uint64_t *seed);
+
+/* Runs every lane through the IR by def/op.def's expressions, under the contract's MXCSR. */
+void program_interpret(const struct ir *ir, struct program_data *data, unsigned width);
+
+/* Allocates with `registers`, encodes for `width` lanes and runs. Returns 0, or -1 with the reason. */
+int program_compile_and_run(struct builder *builder, struct code_arena *arena, unsigned width,
+                            unsigned registers, struct program_data *data, struct error *error);
+
+/* Index of the first output word that differs (two NaN are equal), or -1. */
+int program_difference(const struct program_data *a, const struct program_data *b);
+
+#endif
