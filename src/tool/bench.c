@@ -94,7 +94,7 @@ static int bench_one(const struct command *self, const char *path, const struct 
     struct stream *stream = session_load(self, path);
     if (!stream)
         return STATUS_BAD;
-    result->frames = session_stream_frames(stream);
+    result->frames = stream->frame_count;
     if (settings->frames && settings->frames < result->frames)
         result->frames = settings->frames;
     int status = start_runs(self, stream, engines, settings, result);
@@ -104,7 +104,7 @@ static int bench_one(const struct command *self, const char *path, const struct 
         status = finish_all(self, result);
     for (unsigned i = 0; i < result->run_count; i++)
         session_close(&result->runs[i].session);
-    session_unload(stream);
+    stream_free(stream);
     return status;
 }
 
@@ -134,15 +134,16 @@ static void free_bench(struct bench *bench)
     free(bench->streams);
 }
 
-static const char notes[] = "Per stream and engine: a warm-up of up to a tenth of the seconds, then runs "
-                            "until the repetitions are done or\n"
-                            "the next one would exceed the seconds, but at least 3. Reported are medians, "
-                            "min, max and the median absolute\n"
-                            "deviation (mad). ns/vertex is geometry time per vertex shaded, ns/pixel tile "
-                            "time per pixel shaded, both\n"
-                            "summed over threads; ms/frame is wall time. \"x\" columns: times the speed of "
-                            "emulate (or, without it, of the\n"
-                            "first engine).";
+static const char notes[] =
+    "Per stream and engine: a warm-up of up to a tenth of the seconds, then runs until the repetitions are "
+    "done or\n"
+    "the next one would exceed the seconds, but at least 3. A run plays the frames, again if that took less "
+    "than a\n"
+    "tenth of a second. Reported are medians, min, max and the median absolute deviation (mad). ns/vertex "
+    "is\n"
+    "geometry time per vertex shaded, ns/pixel tile time per pixel shaded, both summed over threads; "
+    "ms/frame is\n"
+    "wall time. \"x\" columns: times the speed of emulate (or, without it, of the first engine).";
 
 int command_bench(const struct command *self, int count, char **arguments)
 {

@@ -39,7 +39,8 @@ struct bench_run {
 int bench_run_start(const struct command *self, const struct stream *stream, unsigned engine,
                     unsigned threads, double seconds, struct bench_run *run);
 
-/* Plays `frames` frames, evenly spread over the stream, and records one sample of each measure. */
+/* Plays `frames` frames, evenly spread over the stream, again and again for a tenth of a second at least, and
+ * records one sample of each measure. */
 int bench_run_repeat(const struct command *self, unsigned frames, struct bench_run *run);
 
 /* Reads the engine's counters and routines, closes the session and computes the columns; the speed-ups are

@@ -80,15 +80,15 @@ static int render(const struct command *self, const char *path, const struct set
     struct capture capture = {0};
     struct error error = {""};
     int status = STATUS_OK;
-    if (settings->frame >= session_stream_frames(stream))
-        status = fail(self, "%s has no frame %u, its last is %u", path, settings->frame,
-                      session_stream_frames(stream) - 1);
+    if (settings->frame >= stream->frame_count)
+        status =
+            fail(self, "%s has no frame %u, its last is %u", path, settings->frame, stream->frame_count - 1);
     if (!status)
         status = render_frame(self, stream, settings, engine, &capture);
     if (!status && kind->save(settings->out, &capture, &error))
         status = fail(self, "%s", error.text);
     capture_free(&capture);
-    session_unload(stream);
+    stream_free(stream);
     return status;
 }
 

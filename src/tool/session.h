@@ -3,17 +3,11 @@
 #define TOOL_SESSION_H
 
 #include "base/compare.h"
+#include "stream/stream.h"
 #include "tool/tool.h"
-#include "triptych.h"
-
-#include <stdint.h>
-
-struct stream;
 
 /* Reads and checks a stream. Null after telling what is wrong with it. */
 struct stream *session_load(const struct command *self, const char *path);
-void session_unload(struct stream *stream);
-unsigned session_stream_frames(const struct stream *stream);
 
 /* Zero is a closed session. The stream must outlive it. */
 struct session {
@@ -27,8 +21,6 @@ struct session {
 int session_open(const struct command *self, const struct stream *stream, unsigned engine, unsigned threads,
                  struct session *session);
 void session_close(struct session *session);
-
-unsigned session_frames(const struct session *session);
 
 /* Plays a frame (from 0) and waits until it is drawn. */
 int session_play(const struct command *self, struct session *session, unsigned frame);

@@ -219,7 +219,7 @@ static int verify_stream(const struct command *self, const char *path, const str
     struct stream *stream = session_load(self, path);
     if (!stream)
         return STATUS_BAD;
-    struct verification verification = {.path = path, .all = session_stream_frames(stream)};
+    struct verification verification = {.path = path, .all = stream->frame_count};
     path_stem(path, verification.name, sizeof verification.name);
     verification.frames = verification.all;
     if (!settings->all_frames && settings->frames < verification.all)
@@ -234,7 +234,7 @@ static int verify_stream(const struct command *self, const char *path, const str
         cJSON_Delete(verification.differences);
     }
     close_all(&verification);
-    session_unload(stream);
+    stream_free(stream);
     return status;
 }
 

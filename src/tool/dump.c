@@ -1,0 +1,204 @@
+/* `triptych dump`: how an engine makes the routine of one draw call.
+ *
+ * The key comes from the renderer itself: a device executes the states that lead to the draw, and the draw
+ * alone; the routines it has built then are the draw's, and tell their keys. */
+#include "base/code.h"
+#include "draw/key.h"
+#include "jit/jit.h"
+#include "stitch/stitch.h"
+#include "tool/choose.h"
+#include "tool/option.h"
+#include "tool/session.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+enum { NUMBER_MAXIMUM = 4194304, WIDTH_MAXIMUM = 64, ARENA_BYTES = 1 << 20 };
+
+struct settings {
+    const char *engine, *unit, *show;
+    unsigned frame, draw, width;
+};
+
+static int dump_jit(const struct engine *engine, struct code_arena *arena, enum unit unit,
+                    const union key *key, const char *show, struct error *error)
+{
+    return jit_dump(arena, unit, key, engine->width, show, stdout, error);
+}
+
+/* A stitched routine has one stage to show: what it is joined from. */
+static int dump_stitch(const struct engine *engine, struct code_arena *arena, enum unit unit,
+                       const union key *key, const char *show, struct error *error)
+{
+    (void)show;
+    return stitch_dump(arena, engine, unit, key, stdout, error);
+}
+
+static const struct dumper {
+    const struct engine *engine;
+    int (*dump)(const struct engine *engine, struct code_arena *arena, enum unit unit, const union key *key,
+                const char *show, struct error *error);
+} dumpers[] = {
+    {&engine_specialize, dump_jit},
+    {&engine_specialize_4, dump_jit},
+    {&engine_stitch, dump_stitch},
+    {&engine_stitch_operation, dump_stitch},
+};
+
+static const struct dumper *find_dumper(const struct command *self, unsigned engine)
+{
+    char names[256] = "";
+    for (size_t i = 0; i < sizeof dumpers / sizeof *dumpers; i++) {
+        if (!strcmp(dumpers[i].engine->name, triptych_engine_name(engine)))
+            return dumpers + i;
+        snprintf(names + strlen(names), sizeof names - strlen(names), "%s%s", i ? ", " : "",
+                 dumpers[i].engine->name);
+    }
+    return fail(self, "engine %s makes no code, expected one of: %s", triptych_engine_name(engine), names),
+           NULL;
+}
+
+static bool is_draw(const struct stream *stream, uint32_t position)
+{
+    enum call_type type = stream->calls[stream->executed[position]].type;
+    return type == CALL_DRAW || type == CALL_DRAW_INDEXED || type == CALL_DRAW_MESH;
+}
+
+static bool is_clear(const struct stream *stream, uint32_t position)
+{
+    return stream->calls[stream->executed[position]].type == CALL_CLEAR;
+}
+
+/* The position in `executed` of the frame's draw of that number. */
+static int find_draw(const struct command *self, const struct stream *stream, const struct settings *settings,
+                     uint32_t *position)
+{
+    if (settings->frame >= stream->frame_count)
+        return fail(self, "%s has no frame %u, its last is %u", stream->path, settings->frame,
+                    stream->frame_count - 1);
+    unsigned draws = 0;
+    for (uint32_t i = stream->frames[settings->frame]; i < stream->frames[settings->frame + 1]; i++)
+        if (is_draw(stream, i) && draws++ == settings->draw)
+            return *position = i, STATUS_OK;
+    return fail(self, "%s: frame %u has no draw %u, it has %u, from 0", stream->path, settings->frame,
+                settings->draw, draws);
+}
+
+/* A view of the stream that has one frame: everything up to the draw but other draws and clears. `executed`
+ * and `frames` are the view's own. */
+static struct stream single_draw(const struct stream *stream, uint32_t draw, uint32_t *executed,
+                                 uint32_t frames[static 2])
+{
+    struct stream view = *stream;
+    view.executed = executed;
+    view.executed_count = 0;
+    for (uint32_t i = 0; i <= draw; i++)
+        if (i == draw || (!is_draw(stream, i) && !is_clear(stream, i)))
+            executed[view.executed_count++] = stream->executed[i];
+    view.frames = frames;
+    view.frame_count = 1;
+    frames[0] = 0;
+    frames[1] = view.executed_count;
+    return view;
+}
+
+/* The key of the unit's routine, of those that the session's device has built. */
+static int find_key(const struct command *self, const struct session *session, enum unit unit, union key *key)
+{
+    struct triptych_routine_info info;
+    for (unsigned i = 0; triptych_get_routine(session->device, i, &info); i++) {
+        const char *where;
+        if (strcmp(info.unit, unit_name[unit]))
+            continue;
+        if (key_parse(unit, info.key, key, &where))
+            return fail(self, "the key of routine %u does not read back at \"%s\"", info.number, where);
+        return STATUS_OK;
+    }
+    return fail(self, "the draw has no %s routine: nothing of it is drawn", unit_name[unit]);
+}
+
+static int read_key(const struct command *self, const struct stream *stream, uint32_t draw, unsigned engine,
+                    enum unit unit, union key *key)
+{
+    uint32_t frames[2], *executed = malloc((draw + 1) * sizeof *executed);
+    if (!executed)
+        return fail(self, "no memory for %u calls", draw + 1);
+    struct stream view = single_draw(stream, draw, executed, frames);
+    struct session session = {0};
+    int status = session_open(self, &view, engine, 1, &session);
+    if (!status)
+        status = session_play(self, &session, 0);
+    if (!status)
+        status = find_key(self, &session, unit, key);
+    session_close(&session);
+    free(executed);
+    return status;
+}
+
+static int dump_key(const struct command *self, const struct dumper *dumper, enum unit unit,
+                    const union key *key, const char *show)
+{
+    struct error error = {""};
+    struct code_arena *arena = code_create(ARENA_BYTES, NULL, &error);
+    progress(NULL);
+    int bad = !arena || dumper->dump(dumper->engine, arena, unit, key, show, &error);
+    code_destroy(arena);
+    return bad ? fail(self, "%s", error.text) : STATUS_OK;
+}
+
+static int dump(const struct command *self, const char *path, const struct settings *settings,
+                unsigned engine, enum unit unit)
+{
+    const struct dumper *dumper = find_dumper(self, engine);
+    struct stream *stream = dumper ? session_load(self, path) : NULL;
+    if (!stream)
+        return STATUS_BAD;
+    uint32_t draw = 0;
+    union key key;
+    int status = find_draw(self, stream, settings, &draw);
+    if (!status)
+        status = read_key(self, stream, draw, engine, unit, &key);
+    if (!status)
+        status = dump_key(self, dumper, unit, &key, settings->show);
+    stream_free(stream);
+    return status;
+}
+
+static int find_unit(const struct command *self, const char *name, enum unit *unit)
+{
+    for (*unit = 0; *unit < UNIT_COUNT; ++*unit)
+        if (!strcmp(name, unit_name[*unit]))
+            return STATUS_OK;
+    return fail(self, "--unit is \"%s\", expected %s, %s or %s", name, unit_name[0], unit_name[1],
+                unit_name[2]);
+}
+
+static const char notes[] = "Stages of specialize: key, record (the operations as recorded), the name of a "
+                            "pass (after it; triptych list\n"
+                            "passes), intervals (registers), asm (the code), all. The stitchers show "
+                            "fragments, holes and code. Draws\n"
+                            "count from 0 within their frame.";
+
+int command_dump(const struct command *self, int count, char **arguments)
+{
+    struct settings settings = {.engine = "specialize", .unit = "pixel", .show = "key,asm"};
+    const struct option options[] = {
+        {"draw", "N", "which draw of the frame, from 0; 0", OPTION_NUMBER, &settings.draw, 0, NUMBER_MAXIMUM},
+        {"frame", "N", "which frame, from 0; 0", OPTION_NUMBER, &settings.frame, 0, NUMBER_MAXIMUM},
+        {"unit", "UNIT", "vertex, setup or pixel; pixel", OPTION_TEXT, &settings.unit, 0, 0},
+        {"show", "LIST", "stages, separated by commas; key,asm", OPTION_TEXT, &settings.show, 0, 0},
+        {"engine", "NAME", "whose routine; specialize", OPTION_TEXT, &settings.engine, 0, 0},
+        {"width", "LANES", "which of the engine's widths", OPTION_NUMBER, &settings.width, 1, WIDTH_MAXIMUM},
+    };
+    struct operands operands = {.least = 1, .most = 1};
+    enum options_result result =
+        options_read(self, options, sizeof options / sizeof *options, notes, count, arguments, &operands);
+    if (result != OPTIONS_GO)
+        return options_status(result);
+    unsigned engine;
+    enum unit unit;
+    if (find_unit(self, settings.unit, &unit) ||
+        choose_engine(self, settings.engine, settings.width, &engine))
+        return STATUS_BAD;
+    return dump(self, operands.value[0], &settings, engine, unit);
+}
