@@ -319,15 +319,15 @@ static void test_vertices_are_finite_and_inside_for_extreme_coordinates(void)
     }
 }
 
-/* A sixth of the way from w = 1 to w = 1 + 3 units is a tie between two floats, and a sixth is not a number:
- * the errors of z and w decide to which side each of them goes. */
+/* A fourteenth of the way from w to w + 7 units is a tie between two floats, and a fourteenth is not a
+ * double: the errors of z and w decide to which side each of them goes. */
 static void test_vertices_on_the_far_plane_have_z_equal_to_w(void)
 {
     for (int round = 1; round <= 4000; round++) {
         static const uint32_t lane[3] = {0, 1, 2};
-        float near_by = (float)round * 0x1p-14f, far_w = 1 + 3 * 0x1p-23f;
-        put(0, 0, 0, 1 - near_by, 1);
-        put(1, 0, 1, far_w + 5 * near_by, far_w);
+        float w = 1.5f + (float)round * 0x1p-14f, far_w = w + 7 * 0x1p-23f, depth = (float)round * 0x1p-20f;
+        put(0, 0, 0, w - depth, w);
+        put(1, 0, 1, far_w + 13 * depth, far_w);
         put(2, 1, 0, 0.5f, 1);
         struct clipper clipper = smooth_clipper();
         uint32_t triangle[CLIP_TRIANGLES_MAXIMUM][3];
