@@ -99,6 +99,7 @@ const struct engine engine_emulate = {
     .name = "emulate",
     .description = "naive emulator: the specification performed, every state decided for every four elements",
     .width = EMULATE_WIDTH,
+    .interprets = 1,
     .unavailable = unavailable,
     .build = build,
     .free = free_routine,

@@ -35,6 +35,7 @@ struct engine {
     const char *name;        /* as in --engine: "emulate", "stitch", "stitch-operation", "specialize" ... */
     const char *description; /* one line */
     int width;               /* lanes W of its routines */
+    int interprets;          /* generates no code: needs no arena */
 
     /* Null when the engine can run here, else one line that says why not. */
     const char *(*unavailable)(void);

@@ -1,0 +1,356 @@
+/* The public functions: null pointers are refused here, everything else by the device; the reason of a
+ * failure is kept for triptych_error(). */
+#include "draw/device.h"
+#include "engines.h"
+
+#include <stdio.h>
+#include <string.h>
+
+static const char default_engine[] = "specialize";
+
+/* --- Devices and engines ----------------------------------------------------------------------------------
+ */
+
+static enum triptych_result create(const struct triptych_options *options, triptych_device **device,
+                                   struct error *error)
+{
+    const char *name = options && options->engine ? options->engine : default_engine;
+    const struct engine *engine = engine_find(name);
+    if (!engine) {
+        error_set(error, "engine %s: there is none of that name", name);
+        return TRIPTYCH_BAD_ARGUMENT;
+    }
+    struct device_options device_options = {0};
+    if (options) {
+        device_options.threads = options->threads;
+        device_options.cache_bytes = options->cache_bytes;
+    }
+    return device_create(engine, &device_options, device, error);
+}
+
+enum triptych_result triptych_device_create(const struct triptych_options *options, triptych_device **device,
+                                            char *reason, size_t size)
+{
+    struct error error = {{0}};
+    enum triptych_result result = TRIPTYCH_BAD_ARGUMENT;
+    if (device) {
+        *device = NULL;
+        result = create(options, device, &error);
+    } else {
+        error_set(&error, "device is null: expected where to put it");
+    }
+    if (reason && size)
+        snprintf(reason, size, "%s", error.text);
+    return result;
+}
+
+void triptych_device_destroy(triptych_device *device)
+{
+    device_destroy(device);
+}
+
+const char *triptych_error(const triptych_device *device)
+{
+    return device ? device->error.text : "device is null";
+}
+
+const char *triptych_engine_name(unsigned i)
+{
+    return engine_at(i) ? engine_at(i)->name : NULL;
+}
+
+const char *triptych_engine_description(unsigned i)
+{
+    return engine_at(i) ? engine_at(i)->description : NULL;
+}
+
+unsigned triptych_engine_width(unsigned i)
+{
+    return engine_at(i) ? (unsigned)engine_at(i)->width : 0;
+}
+
+const char *triptych_engine_unavailable(unsigned i)
+{
+    return engine_at(i) ? engine_at(i)->unavailable() : NULL;
+}
+
+/* --- Arguments and results --------------------------------------------------------------------------------
+ */
+
+/* The reason is kept from the last failed call until the next one. */
+static enum triptych_result finish(triptych_device *device, enum triptych_result result,
+                                   const struct error *error)
+{
+    if (result != TRIPTYCH_OK)
+        device->error = *error;
+    return result;
+}
+
+static enum triptych_result null_argument(triptych_device *device, const char *what)
+{
+    struct error error = {{0}};
+    error_set(&error, "%s is null", what);
+    return finish(device, TRIPTYCH_BAD_ARGUMENT, &error);
+}
+
+/* As finish, after a change of the state. */
+static enum triptych_result changed(triptych_device *device, enum triptych_result result,
+                                    const struct error *error)
+{
+    if (result == TRIPTYCH_OK)
+        device_state_changed(device);
+    return finish(device, result, error);
+}
+
+/* --- Target, buffers, textures ----------------------------------------------------------------------------
+ */
+
+enum triptych_result triptych_set_target(triptych_device *device, unsigned width, unsigned height)
+{
+    if (!device)
+        return TRIPTYCH_BAD_ARGUMENT;
+    struct error error = {{0}};
+    return finish(device, device_set_target(device, width, height, &error), &error);
+}
+
+enum triptych_result triptych_buffer_create(triptych_device *device, const void *data, size_t bytes,
+                                            triptych_buffer **buffer)
+{
+    if (!device)
+        return TRIPTYCH_BAD_ARGUMENT;
+    if (!data || !buffer)
+        return null_argument(device, data ? "buffer" : "data");
+    *buffer = NULL;
+    struct error error = {{0}};
+    if (!bytes || bytes > INT32_MAX) {
+        error_set(&error, "buffer of %zu bytes: expected 1 to 2^31 - 1", bytes);
+        return finish(device, TRIPTYCH_BAD_ARGUMENT, &error);
+    }
+    *buffer = buffer_create(data, bytes);
+    if (!*buffer) {
+        error_set(&error, "out of memory for a buffer of %zu bytes", bytes);
+        return finish(device, TRIPTYCH_NO_MEMORY, &error);
+    }
+    (*buffer)->next = device->buffers;
+    device->buffers = *buffer;
+    return TRIPTYCH_OK;
+}
+
+enum triptych_result triptych_texture_create(triptych_device *device, const void *rgba, unsigned width,
+                                             unsigned height, triptych_texture **texture)
+{
+    if (!device)
+        return TRIPTYCH_BAD_ARGUMENT;
+    if (!rgba || !texture)
+        return null_argument(device, rgba ? "texture" : "image");
+    *texture = NULL;
+    struct error error = {{0}};
+    if (!width || !height || width > TRIPTYCH_TEXTURE_MAXIMUM || height > TRIPTYCH_TEXTURE_MAXIMUM) {
+        error_set(&error, "texture of %ux%u texels: expected 1 to %d a side", width, height,
+                  TRIPTYCH_TEXTURE_MAXIMUM);
+        return finish(device, TRIPTYCH_BAD_ARGUMENT, &error);
+    }
+    *texture = texture_create(rgba, width, height);
+    if (!*texture) {
+        error_set(&error, "out of memory for a texture of %ux%u texels", width, height);
+        return finish(device, TRIPTYCH_NO_MEMORY, &error);
+    }
+    (*texture)->next = device->textures;
+    device->textures = *texture;
+    return TRIPTYCH_OK;
+}
+
+/* --- State ------------------------------------------------------------------------------------------------
+ */
+
+enum triptych_result triptych_set_state(triptych_device *device, enum triptych_state which, uint32_t value)
+{
+    if (!device)
+        return TRIPTYCH_BAD_ARGUMENT;
+    struct error error = {{0}};
+    return changed(device, state_set_value(&device->state, which, value, &error), &error);
+}
+
+enum triptych_result triptych_set_transform(triptych_device *device, enum triptych_transform which,
+                                            const float matrix[4][4])
+{
+    if (!device)
+        return TRIPTYCH_BAD_ARGUMENT;
+    if (!matrix)
+        return null_argument(device, "matrix");
+    struct error error = {{0}};
+    return changed(device, state_set_transform(&device->state, which, matrix, &error), &error);
+}
+
+enum triptych_result triptych_set_viewport(triptych_device *device, const struct triptych_viewport *viewport)
+{
+    if (!device)
+        return TRIPTYCH_BAD_ARGUMENT;
+    if (!viewport)
+        return null_argument(device, "viewport");
+    struct error error = {{0}};
+    if (!device->target.width) {
+        error_set(&error, "no target: expected set_target before a viewport");
+        return finish(device, TRIPTYCH_BAD_CALL, &error);
+    }
+    return changed(
+        device,
+        state_set_viewport(&device->state, viewport, device->target.width, device->target.height, &error),
+        &error);
+}
+
+enum triptych_result triptych_set_material(triptych_device *device, const struct triptych_material *material)
+{
+    if (!device)
+        return TRIPTYCH_BAD_ARGUMENT;
+    if (!material)
+        return null_argument(device, "material");
+    struct error error = {{0}};
+    return changed(device, state_set_material(&device->state, material, &error), &error);
+}
+
+enum triptych_result triptych_set_light(triptych_device *device, unsigned index,
+                                        const struct triptych_light *light)
+{
+    if (!device)
+        return TRIPTYCH_BAD_ARGUMENT;
+    if (!light)
+        return null_argument(device, "light");
+    struct error error = {{0}};
+    return changed(device, state_set_light(&device->state, index, light, &error), &error);
+}
+
+enum triptych_result triptych_enable_light(triptych_device *device, unsigned index, int enable)
+{
+    if (!device)
+        return TRIPTYCH_BAD_ARGUMENT;
+    struct error error = {{0}};
+    if (index >= TRIPTYCH_LIGHTS) {
+        error_set(&error, "light %u: expected 0 to %u", index, TRIPTYCH_LIGHTS - 1);
+        return finish(device, TRIPTYCH_BAD_ARGUMENT, &error);
+    }
+    device->state.light_enabled[index] = enable != 0;
+    return changed(device, TRIPTYCH_OK, &error);
+}
+
+enum triptych_result triptych_set_texture(triptych_device *device, triptych_texture *texture)
+{
+    if (!device)
+        return TRIPTYCH_BAD_ARGUMENT;
+    device->state.texture = texture;
+    device_state_changed(device);
+    return TRIPTYCH_OK;
+}
+
+enum triptych_result triptych_set_element(triptych_device *device, enum triptych_attribute attribute,
+                                          const struct triptych_element *element)
+{
+    if (!device)
+        return TRIPTYCH_BAD_ARGUMENT;
+    if (!element)
+        return null_argument(device, "element");
+    struct error error = {{0}};
+    return changed(device, state_set_element(&device->state, attribute, element, &error), &error);
+}
+
+enum triptych_result triptych_set_indices(triptych_device *device, triptych_buffer *buffer, unsigned bits)
+{
+    if (!device)
+        return TRIPTYCH_BAD_ARGUMENT;
+    struct error error = {{0}};
+    if (buffer && bits != 16 && bits != 32) {
+        error_set(&error, "indices of %u bits: expected 16 or 32", bits);
+        return finish(device, TRIPTYCH_BAD_ARGUMENT, &error);
+    }
+    device->state.indices = buffer;
+    device->state.index_bits = buffer ? bits : 0;
+    return TRIPTYCH_OK;
+}
+
+/* --- Drawing and reading ----------------------------------------------------------------------------------
+ */
+
+enum triptych_result triptych_draw(triptych_device *device, enum triptych_primitive primitive, uint32_t first,
+                                   uint32_t count)
+{
+    if (!device)
+        return TRIPTYCH_BAD_ARGUMENT;
+    struct error error = {{0}};
+    return finish(device, device_draw(device, primitive, first, count, &error), &error);
+}
+
+enum triptych_result triptych_draw_indexed(triptych_device *device, enum triptych_primitive primitive,
+                                           int32_t base, uint32_t first, uint32_t count)
+{
+    if (!device)
+        return TRIPTYCH_BAD_ARGUMENT;
+    struct error error = {{0}};
+    return finish(device, device_draw_indexed(device, primitive, base, first, count, &error), &error);
+}
+
+enum triptych_result triptych_clear(triptych_device *device, const float color[4], float depth)
+{
+    if (!device)
+        return TRIPTYCH_BAD_ARGUMENT;
+    struct error error = {{0}};
+    return finish(device, device_clear(device, color, depth, &error), &error);
+}
+
+enum triptych_result triptych_finish(triptych_device *device)
+{
+    if (!device)
+        return TRIPTYCH_BAD_ARGUMENT;
+    device_finish(device);
+    return TRIPTYCH_OK;
+}
+
+enum triptych_result triptych_read_color(triptych_device *device, uint32_t *rgba)
+{
+    if (!device)
+        return TRIPTYCH_BAD_ARGUMENT;
+    if (!rgba)
+        return null_argument(device, "image");
+    struct error error = {{0}};
+    return finish(device, device_read_color(device, rgba, &error), &error);
+}
+
+enum triptych_result triptych_read_depth(triptych_device *device, float *depth)
+{
+    if (!device)
+        return TRIPTYCH_BAD_ARGUMENT;
+    if (!depth)
+        return null_argument(device, "image");
+    struct error error = {{0}};
+    return finish(device, device_read_depth(device, depth, &error), &error);
+}
+
+void triptych_target_size(const triptych_device *device, unsigned *width, unsigned *height)
+{
+    *width = device ? device->target.width : 0;
+    *height = device ? device->target.height : 0;
+}
+
+void triptych_get_statistics(const triptych_device *device, struct triptych_statistics *statistics)
+{
+    memset(statistics, 0, sizeof *statistics);
+    if (device)
+        device_get_statistics(device, statistics);
+}
+
+int triptych_get_routine(triptych_device *device, unsigned i, struct triptych_routine_info *info)
+{
+    struct routine routine;
+    if (!device || !cache_get(device->cache, i, &routine))
+        return 0;
+    *info = (struct triptych_routine_info){
+        .number = routine.number,
+        .unit = unit_name[routine.unit],
+        .key = key_print(routine.unit, &routine.key, device->key_text),
+        .build_ns = routine.build_ns,
+        .hits = routine.hits,
+        .code_bytes = routine.code_bytes,
+        .parts = routine.parts,
+        .spills = routine.spills,
+    };
+    return 1;
+}

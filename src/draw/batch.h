@@ -1,0 +1,49 @@
+/* Geometry: primitives become batches of unique vertices, batches become triangle records in bins.
+ *
+ * A batch has up to BATCH_VERTICES vertices, each shaded once however many of the batch's triangles share it;
+ * the lanes beyond are the clipper's. What a batch computes for a triangle does not depend on which others
+ * are in it, so primitives may be cut into batches anywhere. */
+#ifndef DRAW_BATCH_H
+#define DRAW_BATCH_H
+
+#include "draw/bin.h"
+#include "draw/clip.h"
+#include "draw/command.h"
+
+enum { BATCH_VERTICES = VERTEX_CAPACITY - 16, BATCH_TRIANGLES = 512, BATCH_MAP = 1024 };
+
+_Static_assert(VERTEX_CAPACITY - BATCH_VERTICES >= CLIP_VERTICES_MAXIMUM, "the clipper has room");
+_Static_assert(BATCH_VERTICES % LANES_MAXIMUM == 0, "padded batches fit");
+
+struct batch_counts {
+    uint64_t vertices_shaded, triangles_set_up, triangles_visible;
+};
+
+/* Where a vertex is in the batch, by the low bits of its index. */
+struct batch_place {
+    uint32_t vertex;
+    uint32_t tag; /* number of the batch << 8 | lane */
+};
+
+/* One thread's workspace. */
+struct batch {
+    alignas(64) float vertices[SLOT_COUNT * VERTEX_CAPACITY];
+    alignas(64) uint32_t setup_index[3][SETUP_CAPACITY];
+    alignas(64) uint32_t vertex[VERTEX_CAPACITY]; /* index of the vertex in each lane */
+    uint8_t lane[BATCH_TRIANGLES][4];             /* of each triangle's corners */
+    struct batch_place map[BATCH_MAP];
+    uint32_t number; /* of the batch, 24 bits */
+    uint32_t vertices_count, triangles_count, setup_count;
+    uint32_t first; /* primitive of triangle 0 */
+    uint32_t done;  /* primitives before this one are binned */
+    const struct draw *draw;
+    struct bin_writer *bins;
+    struct batch_counts counts;
+};
+
+/* Processes primitives first to first + count - 1 of a draw into bins. Returns how many are done: fewer than
+ * count when the arena is full, and then nothing of the others is left in the bins. Adds to batch->counts. */
+uint32_t batch_primitives(struct batch *batch, const struct draw *draw, uint32_t first, uint32_t count,
+                          struct bin_writer *bins);
+
+#endif

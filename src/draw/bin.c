@@ -1,0 +1,163 @@
+#include "draw/bin.h"
+
+#include <string.h>
+#include <sys/mman.h>
+
+_Static_assert(sizeof(struct bin_cell) == ARENA_ALIGNMENT, "a cell is a cache line");
+_Static_assert(TARGET_TILES_MAXIMUM <= UINT16_MAX + 1, "tiles fit the cell's field");
+
+/* The most cells that `pairs` of a triangle and a tile can need, when `tiles` tiles may each have a cell that
+ * is not full. */
+#define CELLS(pairs, tiles) ((pairs) / BIN_CELL_TRIANGLES + (tiles))
+
+/* One group of triangles always fits the empty arena, so every round gets ahead. */
+_Static_assert((size_t)CELLS(SETUP_CAPACITY *TARGET_TILES_MAXIMUM, TARGET_TILES_MAXIMUM) *
+                           sizeof(struct bin_cell) +
+                       2 * ARENA_BLOCK <
+                   ARENA_BYTES,
+               "the arena holds the largest group of triangles");
+
+int arena_create(struct arena *arena, struct error *error)
+{
+    void *base =
+        mmap(NULL, ARENA_BYTES, PROT_READ | PROT_WRITE, MAP_PRIVATE | MAP_ANONYMOUS | MAP_NORESERVE, -1, 0);
+    if (base == MAP_FAILED)
+        return error_set(error, "out of memory for the triangle arena (%d MiB)", ARENA_BYTES >> 20);
+    arena->base = base;
+    arena_reset(arena);
+    return 0;
+}
+
+void arena_destroy(struct arena *arena)
+{
+    if (arena->base)
+        munmap(arena->base, ARENA_BYTES);
+    arena->base = NULL;
+}
+
+void arena_reset(struct arena *arena)
+{
+    atomic_store_explicit(&arena->used, ARENA_ALIGNMENT, memory_order_relaxed);
+}
+
+/* Takes `bytes` off the arena; 0 when there are not as many left. */
+static uint32_t take(struct arena *arena, uint32_t bytes)
+{
+    uint32_t used = atomic_load_explicit(&arena->used, memory_order_relaxed);
+    do
+        if (bytes > ARENA_BYTES - used)
+            return 0;
+    while (!atomic_compare_exchange_weak_explicit(&arena->used, &used, used + bytes, memory_order_relaxed,
+                                                  memory_order_relaxed));
+    return used;
+}
+
+void bin_begin_round(struct bin_writer *writer, struct arena *arena, uint32_t columns, uint32_t rows)
+{
+    writer->arena = arena;
+    writer->at = writer->end = 0;
+    writer->columns = columns;
+    writer->rows = rows;
+}
+
+void bin_begin_chunk(struct bin_writer *writer, uint32_t chunk)
+{
+    writer->chunk = chunk;
+    writer->heads = 0;
+}
+
+uint32_t bin_end_chunk(struct bin_writer *writer)
+{
+    for (uint32_t head = writer->heads; head; head = bin_cell(writer->arena, head)->sibling)
+        writer->open[bin_cell(writer->arena, head)->tile] = 0;
+    return writer->heads;
+}
+
+uint8_t *bin_reserve(struct bin_writer *writer, uint32_t bytes)
+{
+    if (bytes > writer->end - writer->at) {
+        uint32_t block = bytes > ARENA_BLOCK ? bytes : ARENA_BLOCK;
+        uint32_t start = take(writer->arena, block);
+        if (!start)
+            return NULL;
+        writer->at = start;
+        writer->end = start + block;
+    }
+    return writer->arena->base + writer->at;
+}
+
+static struct bin_cell *new_cell(struct bin_writer *writer, uint32_t tile)
+{
+    struct bin_cell *cell = bin_cell(writer->arena, writer->at);
+    cell->next = 0;
+    cell->count = 0;
+    cell->tile = (uint16_t)tile;
+    writer->open[tile] = writer->at;
+    writer->at += sizeof *cell;
+    return cell;
+}
+
+static void append(struct bin_writer *writer, uint32_t tile, uint32_t triangle)
+{
+    uint32_t open = writer->open[tile];
+    struct bin_cell *cell;
+    if (!open) {
+        cell = new_cell(writer, tile);
+        cell->sibling = writer->heads;
+        cell->later = 0;
+        cell->chunk = writer->chunk;
+        writer->heads = writer->open[tile];
+    } else if (bin_cell(writer->arena, open)->count == BIN_CELL_TRIANGLES) {
+        cell = new_cell(writer, tile);
+        bin_cell(writer->arena, open)->next = writer->open[tile];
+    } else {
+        cell = bin_cell(writer->arena, open);
+    }
+    cell->triangle[cell->count++] = triangle;
+}
+
+static void append_to_tiles(struct bin_writer *writer, const struct raster *raster, uint32_t triangle)
+{
+    struct rectangle tiles = raster_tiles(raster);
+    bool one = tiles.x1 - tiles.x0 == 1 && tiles.y1 - tiles.y0 == 1;
+    for (int32_t row = tiles.y0; row < tiles.y1; row++)
+        for (int32_t column = tiles.x0; column < tiles.x1; column++)
+            if (one || raster_touches(raster, column, row))
+                append(writer, (uint32_t)row * writer->columns + (uint32_t)column, triangle);
+}
+
+/* Moves the records that touch a pixel to the front, their rasters to writer->raster; counts the pairs of
+ * such a triangle and a tile. */
+static uint32_t keep_visible(struct bin_writer *writer, uint32_t count, uint32_t stride,
+                             const struct rectangle *scissor, uint32_t *pairs)
+{
+    uint8_t *record = writer->arena->base + writer->at, *kept = record;
+    uint32_t visible = 0;
+    *pairs = 0;
+    for (uint32_t i = 0; i < count; i++, record += stride) {
+        struct raster *raster = writer->raster + visible;
+        if (!raster_prepare(raster, (const struct triangle_head *)(const void *)record, scissor))
+            continue;
+        struct rectangle tiles = raster_tiles(raster);
+        *pairs += (uint32_t)((tiles.x1 - tiles.x0) * (tiles.y1 - tiles.y0));
+        if (kept != record)
+            memcpy(kept, record, stride);
+        kept += stride;
+        visible++;
+    }
+    return visible;
+}
+
+int bin_triangles(struct bin_writer *writer, uint32_t count, uint32_t stride, const struct rectangle *scissor)
+{
+    uint32_t pairs, triangle = writer->at;
+    uint32_t visible = keep_visible(writer, count, stride, scissor, &pairs);
+    writer->at += visible * stride;
+    uint32_t tiles = writer->columns * writer->rows;
+    uint32_t cells = CELLS(pairs, pairs < tiles ? pairs : tiles);
+    if (!bin_reserve(writer, cells * (uint32_t)sizeof(struct bin_cell)))
+        return -1;
+    for (uint32_t i = 0; i < visible; i++, triangle += stride)
+        append_to_tiles(writer, writer->raster + i, triangle);
+    return (int)visible;
+}

@@ -1,0 +1,80 @@
+/* Bins: which triangles touch which tile, in the order they were drawn; and the arena that holds them.
+ *
+ * The arena is one region that triangle records and bins share, addressed by 32-bit byte offsets; 0 is no
+ * offset. Threads take blocks of it and cut them up on their own. Everything in it is forgotten at once,
+ * after the tiles have been rendered. It never grows: when it is full, what is complete is rendered and the
+ * rest starts over.
+ *
+ * Geometry is processed in chunks (draw/frame.h). For each tile that a chunk touches there is a chain of
+ * cells with the offsets of its triangles' records; the chains' head cells are chained too: those of one
+ * chunk while it is written (`sibling`), those of one tile, in the order of chunks, when all are (`later`).
+ */
+#ifndef DRAW_BIN_H
+#define DRAW_BIN_H
+
+#include "base/error.h"
+#include "draw/raster.h"
+
+#include <stdatomic.h>
+
+enum {
+    ARENA_BYTES = 64 << 20,
+    ARENA_BLOCK = 256 << 10,
+    ARENA_ALIGNMENT = 64,
+    BIN_CELL_TRIANGLES = 11,
+    TARGET_TILES_MAXIMUM = (TARGET_SIZE_MAXIMUM / TILE_SIZE) * (TARGET_SIZE_MAXIMUM / TILE_SIZE)
+};
+
+struct arena {
+    uint8_t *base; /* ARENA_BYTES */
+    _Atomic uint32_t used;
+};
+
+struct bin_cell {
+    uint32_t next;    /* the cell with the following triangles */
+    uint32_t sibling; /* of a head: another tile's head of the same chunk */
+    uint32_t later;   /* of a head: the tile's head of a later chunk */
+    uint32_t chunk;   /* of a head */
+    uint16_t tile;
+    uint16_t count;
+    uint32_t triangle[BIN_CELL_TRIANGLES]; /* offsets of records */
+};
+
+/* One thread's way into the arena, and the chunk it is writing. */
+struct bin_writer {
+    struct arena *arena;
+    uint32_t at, end;       /* what is left of its block */
+    uint32_t columns, rows; /* of the target, in tiles */
+    uint32_t chunk;
+    uint32_t heads;                      /* first head cell of the chunk */
+    uint32_t open[TARGET_TILES_MAXIMUM]; /* the tile's last cell of the chunk */
+    struct raster raster[SETUP_CAPACITY];
+};
+
+/* Returns 0, or -1 with the reason when the system refuses the memory. */
+int arena_create(struct arena *arena, struct error *error);
+void arena_destroy(struct arena *arena);
+void arena_reset(struct arena *arena);
+
+static inline struct bin_cell *bin_cell(const struct arena *arena, uint32_t offset)
+{
+    return (struct bin_cell *)(void *)(arena->base + offset);
+}
+
+/* Before a round of chunks: forgets the block, whose arena has been reset. */
+void bin_begin_round(struct bin_writer *writer, struct arena *arena, uint32_t columns, uint32_t rows);
+
+void bin_begin_chunk(struct bin_writer *writer, uint32_t chunk);
+/* Returns the chunk's first head cell, 0 when nothing is visible. */
+uint32_t bin_end_chunk(struct bin_writer *writer);
+
+/* Room for `bytes` at writer->at, aligned; null when the arena is full. */
+uint8_t *bin_reserve(struct bin_writer *writer, uint32_t bytes);
+
+/* Takes the `count` records of `stride` bytes that setup has written at writer->at: drops those that touch no
+ * pixel of the scissor rectangle, keeps and bins the others. Returns how many it kept, or -1 when the arena
+ * is full: then none is binned. */
+int bin_triangles(struct bin_writer *writer, uint32_t count, uint32_t stride,
+                  const struct rectangle *scissor);
+
+#endif

@@ -1,0 +1,297 @@
+/* Four structures over the same entries: hash buckets to find, a list by use to evict, a list by number to
+ * report, and the list of orphans: evicted while in use. Release looks a routine up by its key and, when the
+ * table has another or none for that key, among the orphans, which are few. */
+#include "draw/cache.h"
+
+#include <pthread.h>
+#include <stdlib.h>
+#include <string.h>
+#include <time.h>
+
+struct link {
+    struct link *previous, *next;
+};
+
+struct cache_entry {
+    struct link used;     /* on cache.used, or on cache.orphans */
+    struct link numbered; /* on cache.numbered */
+    struct cache_entry *chain;
+    struct packed_key key;
+    uint64_t hash;
+    size_t price;
+    uint32_t references;
+    enum unit unit;
+    struct routine *routine;
+};
+
+struct cache {
+    pthread_mutex_t lock;
+    const struct engine *engine;
+    struct code_arena *arena;
+    size_t budget;
+    uint32_t next_number;
+    struct link used;     /* most recently used first */
+    struct link numbered; /* oldest first */
+    struct link orphans;
+    struct cache_entry **bucket; /* bucket_count of them, a power of two */
+    size_t bucket_count;
+    struct cache_statistics statistics;
+};
+
+enum { FIRST_BUCKETS = 64 };
+
+#define ENTRY_OF(link, member)                                                                               \
+    ((struct cache_entry *)(void *)((char *)(link)-offsetof(struct cache_entry, member)))
+
+static void list_initialize(struct link *list)
+{
+    list->previous = list->next = list;
+}
+
+static void list_remove(struct link *link)
+{
+    link->previous->next = link->next;
+    link->next->previous = link->previous;
+}
+
+static void list_insert_after(struct link *place, struct link *link)
+{
+    link->previous = place;
+    link->next = place->next;
+    place->next->previous = link;
+    place->next = link;
+}
+
+static uint64_t now_ns(void)
+{
+    struct timespec t;
+    clock_gettime(CLOCK_MONOTONIC, &t);
+    return (uint64_t)t.tv_sec * 1000000000u + (uint64_t)t.tv_nsec;
+}
+
+struct cache *cache_create(const struct engine *engine, struct code_arena *arena, size_t budget,
+                           struct error *error)
+{
+    struct cache *cache = calloc(1, sizeof *cache);
+    struct cache_entry **bucket = calloc(FIRST_BUCKETS, sizeof *bucket);
+    if (!cache || !bucket) {
+        free(cache);
+        free(bucket);
+        error_set(error, "out of memory for the routine cache");
+        return NULL;
+    }
+    pthread_mutex_init(&cache->lock, NULL);
+    cache->engine = engine;
+    cache->arena = arena;
+    cache->budget = budget;
+    cache->bucket = bucket;
+    cache->bucket_count = FIRST_BUCKETS;
+    list_initialize(&cache->used);
+    list_initialize(&cache->numbered);
+    list_initialize(&cache->orphans);
+    return cache;
+}
+
+static void free_entry(struct cache *cache, struct cache_entry *entry)
+{
+    cache->engine->free(cache->arena, entry->routine);
+    free(entry);
+}
+
+static struct cache_entry **bucket_of(struct cache *cache, uint64_t hash)
+{
+    return cache->bucket + (hash & (cache->bucket_count - 1));
+}
+
+/* Where the pointer to the entry is, or would be. */
+static struct cache_entry **find(struct cache *cache, enum unit unit, const struct packed_key *key,
+                                 uint64_t hash)
+{
+    struct cache_entry **at = bucket_of(cache, hash);
+    while (*at && !((*at)->hash == hash && (*at)->unit == unit && !memcmp(&(*at)->key, key, sizeof *key)))
+        at = &(*at)->chain;
+    return at;
+}
+
+static void evict(struct cache *cache, struct cache_entry *entry)
+{
+    struct cache_entry **at = bucket_of(cache, entry->hash);
+    while (*at != entry)
+        at = &(*at)->chain;
+    *at = entry->chain;
+    list_remove(&entry->used);
+    list_remove(&entry->numbered);
+    cache->statistics.bytes -= entry->price;
+    cache->statistics.routines--;
+    cache->statistics.evictions++;
+    if (entry->references)
+        list_insert_after(&cache->orphans, &entry->used);
+    else
+        free_entry(cache, entry);
+}
+
+static void evict_to_budget(struct cache *cache)
+{
+    while (cache->statistics.bytes > cache->budget && cache->statistics.routines > 1)
+        evict(cache, ENTRY_OF(cache->used.previous, used));
+}
+
+static void evict_unused(struct cache *cache)
+{
+    for (struct link *link = cache->used.next, *next; link != &cache->used; link = next) {
+        next = link->next;
+        if (!ENTRY_OF(link, used)->references)
+            evict(cache, ENTRY_OF(link, used));
+    }
+}
+
+void cache_destroy(struct cache *cache)
+{
+    if (!cache)
+        return;
+    evict_unused(cache);
+    pthread_mutex_destroy(&cache->lock);
+    free(cache->bucket);
+    free(cache);
+}
+
+/* Doubles the table; when memory is short chains get longer instead. */
+static void grow(struct cache *cache)
+{
+    size_t count = cache->bucket_count * 2;
+    struct cache_entry **bucket = calloc(count, sizeof *bucket);
+    if (!bucket)
+        return;
+    for (size_t i = 0; i < cache->bucket_count; i++)
+        for (struct cache_entry *entry = cache->bucket[i], *next; entry; entry = next) {
+            next = entry->chain;
+            struct cache_entry **at = bucket + (entry->hash & (count - 1));
+            entry->chain = *at;
+            *at = entry;
+        }
+    free(cache->bucket);
+    cache->bucket = bucket;
+    cache->bucket_count = count;
+}
+
+/* The arena may be full of routines that are not in use: the second try has their room. */
+static struct routine *build(struct cache *cache, enum unit unit, const union key *key, struct error *error)
+{
+    struct error first = {{0}};
+    uint64_t start = now_ns();
+    struct routine *routine = cache->engine->build(cache->arena, unit, key, &first);
+    if (!routine) {
+        evict_unused(cache);
+        start = now_ns();
+        routine = cache->engine->build(cache->arena, unit, key, error);
+    }
+    if (routine)
+        routine->build_ns = now_ns() - start;
+    return routine;
+}
+
+static struct cache_entry *insert(struct cache *cache, enum unit unit, const union key *key,
+                                  const struct packed_key *packed, uint64_t hash, struct error *error)
+{
+    struct cache_entry *entry = calloc(1, sizeof *entry);
+    if (!entry) {
+        error_set(error, "out of memory for a %s routine", unit_name[unit]);
+        return NULL;
+    }
+    entry->routine = build(cache, unit, key, error);
+    if (!entry->routine) {
+        free(entry);
+        return NULL;
+    }
+    entry->routine->number = ++cache->next_number;
+    entry->routine->hits = 0;
+    entry->unit = unit;
+    entry->key = *packed;
+    entry->hash = hash;
+    entry->price = entry->routine->code_bytes + sizeof *entry + sizeof *entry->routine;
+    if (cache->statistics.routines >= cache->bucket_count)
+        grow(cache);
+    struct cache_entry **at = bucket_of(cache, hash);
+    entry->chain = *at;
+    *at = entry;
+    list_insert_after(&cache->used, &entry->used);
+    list_insert_after(cache->numbered.previous, &entry->numbered);
+    cache->statistics.bytes += entry->price;
+    cache->statistics.routines++;
+    return entry;
+}
+
+static struct cache_entry *acquire(struct cache *cache, enum unit unit, const union key *key,
+                                   struct error *error)
+{
+    struct packed_key packed = key_pack(unit, key);
+    uint64_t hash = key_hash(unit, &packed);
+    struct cache_entry *entry = *find(cache, unit, &packed, hash);
+    if (entry) {
+        cache->statistics.hits++;
+        entry->routine->hits++;
+        list_remove(&entry->used);
+        list_insert_after(&cache->used, &entry->used);
+    } else {
+        cache->statistics.misses++;
+        entry = insert(cache, unit, key, &packed, hash, error);
+    }
+    if (entry)
+        entry->references++;
+    evict_to_budget(cache);
+    return entry;
+}
+
+const struct routine *cache_acquire(struct cache *cache, enum unit unit, const union key *key,
+                                    struct error *error)
+{
+    pthread_mutex_lock(&cache->lock);
+    struct cache_entry *entry = acquire(cache, unit, key, error);
+    pthread_mutex_unlock(&cache->lock);
+    return entry ? entry->routine : NULL;
+}
+
+static void release_orphan(struct cache *cache, const struct routine *routine)
+{
+    struct link *link = cache->orphans.next;
+    while (ENTRY_OF(link, used)->routine != routine)
+        link = link->next;
+    struct cache_entry *entry = ENTRY_OF(link, used);
+    if (--entry->references)
+        return;
+    list_remove(&entry->used);
+    free_entry(cache, entry);
+}
+
+void cache_release(struct cache *cache, const struct routine *routine)
+{
+    pthread_mutex_lock(&cache->lock);
+    struct packed_key packed = key_pack(routine->unit, &routine->key);
+    struct cache_entry *entry = *find(cache, routine->unit, &packed, key_hash(routine->unit, &packed));
+    if (entry && entry->routine == routine)
+        entry->references--;
+    else
+        release_orphan(cache, routine);
+    pthread_mutex_unlock(&cache->lock);
+}
+
+struct cache_statistics cache_statistics(struct cache *cache)
+{
+    pthread_mutex_lock(&cache->lock);
+    struct cache_statistics statistics = cache->statistics;
+    pthread_mutex_unlock(&cache->lock);
+    return statistics;
+}
+
+int cache_get(struct cache *cache, size_t i, struct routine *routine)
+{
+    pthread_mutex_lock(&cache->lock);
+    struct link *link = cache->numbered.next;
+    for (; i && link != &cache->numbered; i--)
+        link = link->next;
+    int found = link != &cache->numbered;
+    if (found)
+        *routine = *ENTRY_OF(link, numbered)->routine;
+    pthread_mutex_unlock(&cache->lock);
+    return found;
+}

@@ -1,0 +1,41 @@
+/* The routine cache: one routine per unit and key, the least recently used leave when their code exceeds a
+ * budget.
+ *
+ * Exact: entries are found by hash and compared by unit and packed key, byte for byte. Safe while routines
+ * run: an acquired routine is counted, and eviction takes it out of the table at once but frees it when the
+ * last user has released it. A routine's price is its code and its entry, so that engines without code are
+ * bounded too; the newest routine always stays, whatever its price.
+ *
+ * Thread-safe; building happens under the cache's lock, so a key is built once however many threads ask for
+ * it. */
+#ifndef DRAW_CACHE_H
+#define DRAW_CACHE_H
+
+#include "draw/engine.h"
+
+struct cache;
+
+struct cache_statistics {
+    uint64_t hits, misses, evictions;
+    size_t bytes;    /* of the routines in the table */
+    size_t routines; /* in the table */
+};
+
+/* A cache of `engine`'s routines, whose code lives in `arena` (null when the engine needs none). */
+struct cache *cache_create(const struct engine *engine, struct code_arena *arena, size_t budget,
+                           struct error *error);
+/* Frees all routines; none may be in use. Null is allowed. */
+void cache_destroy(struct cache *cache);
+
+/* The routine for a normalised key, found or built; to be released. Null with the reason when it cannot be
+ * built, even after everything that is not in use has been evicted. */
+const struct routine *cache_acquire(struct cache *cache, enum unit unit, const union key *key,
+                                    struct error *error);
+void cache_release(struct cache *cache, const struct routine *routine);
+
+struct cache_statistics cache_statistics(struct cache *cache);
+
+/* Copies the i-th routine in the table in order of number; returns 0 past the last. */
+int cache_get(struct cache *cache, size_t i, struct routine *routine);
+
+#endif

@@ -1,0 +1,31 @@
+/* What a device has recorded and not rendered yet: draws and clears, self-contained.
+ *
+ * A draw is a snapshot: values are copied, routines are held, and what it points to never changes. */
+#ifndef DRAW_COMMAND_H
+#define DRAW_COMMAND_H
+
+#include "draw/engine.h"
+#include "draw/target.h"
+#include "triptych.h"
+
+struct draw {
+    struct job job;
+    const struct routine *routine[UNIT_COUNT];
+    struct rectangle scissor;
+    enum triptych_primitive primitive;
+    uint32_t count;      /* primitives */
+    const void *indices; /* the first one; null: vertices in order */
+    uint32_t index_bits; /* 16 or 32; 0: vertices in order */
+    uint32_t base;       /* added to each index, modulo 2^32 */
+    uint32_t stride;     /* bytes of a triangle record */
+};
+
+struct command {
+    enum { COMMAND_DRAW, COMMAND_CLEAR } kind;
+    union {
+        struct draw draw;
+        struct clear clear;
+    };
+};
+
+#endif

@@ -1,0 +1,33 @@
+/* From the state to what routines are built for and called with: the keys of the three units, and the job.
+ *
+ * Keys are normalised: states that draw the same thing have the same keys, so that one routine serves them
+ * all and no operation is generated whose result nobody reads. What is normalised and why it is exact, is
+ * said where it happens. The job is filled for these keys: its dead parts are zero. */
+#ifndef DRAW_DERIVE_H
+#define DRAW_DERIVE_H
+
+#include "draw/job.h"
+#include "draw/raster.h"
+#include "draw/state.h"
+
+#include <stdbool.h>
+
+/* Farthest from the window's origin that a projected vertex may lie, in pixels; beyond it the clipper cuts.
+ */
+#define GUARD_BAND_PIXELS 16383.0
+
+/* The keys, indexed by enum unit. */
+void derive_keys(const struct state *state, union key key[UNIT_COUNT]);
+
+/* Whether a draw with this key can change the target at all. */
+bool derive_effective(const struct pixel_key *key);
+
+/* The values for these keys. Attributes' data and stride come from the elements as bound; elements with a
+ * format in the vertex key must have a buffer. */
+void derive_job(const struct state *state, const struct vertex_key *vertex, const struct pixel_key *pixel,
+                struct job *job);
+
+/* The pixels whose centres lie inside the viewport. */
+struct rectangle derive_scissor(const struct triptych_viewport *viewport);
+
+#endif

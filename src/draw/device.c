@@ -1,0 +1,441 @@
+#include "draw/device.h"
+
+#include "base/code.h"
+#include "base/mxcsr.h"
+#include "def/lane.h"
+#include "draw/derive.h"
+
+#include <float.h>
+#include <inttypes.h>
+#include <math.h>
+#include <stdlib.h>
+
+/* --- Making and freeing -----------------------------------------------------------------------------------
+ */
+
+/* Twice the cache's budget: routines that are evicted while recorded draws still need them keep their room.
+ */
+static size_t arena_bytes(size_t cache_bytes)
+{
+    size_t minimum = (size_t)64 << 20, bytes = 2 * cache_bytes;
+    return bytes < minimum ? minimum : bytes;
+}
+
+static enum triptych_result create_parts(struct triptych_device *device, const struct device_options *options,
+                                         struct error *error)
+{
+    size_t cache_bytes = options->cache_bytes ? options->cache_bytes : CACHE_BYTES;
+    if (!device->engine->interprets) {
+        device->arena = code_create(arena_bytes(cache_bytes), NULL, error);
+        if (!device->arena)
+            return TRIPTYCH_ENGINE_FAILED;
+    }
+    device->cache = cache_create(device->engine, device->arena, cache_bytes, error);
+    device->pool = pool_create(options->threads, options->create_thread, error);
+    if (device->cache && device->pool)
+        device->frame = frame_create(device->pool, error);
+    return device->frame ? TRIPTYCH_OK : TRIPTYCH_NO_MEMORY;
+}
+
+enum triptych_result device_create(const struct engine *engine, const struct device_options *options,
+                                   struct triptych_device **result, struct error *error)
+{
+    *result = NULL;
+    if (options->cache_bytes > CACHE_BYTES_MAXIMUM) {
+        error_set(error, "cache of %zu bytes: expected at most %d", options->cache_bytes,
+                  CACHE_BYTES_MAXIMUM);
+        return TRIPTYCH_BAD_ARGUMENT;
+    }
+    if (engine->unavailable()) {
+        error_set(error, "engine %s: %s", engine->name, engine->unavailable());
+        return TRIPTYCH_ENGINE_FAILED;
+    }
+    struct triptych_device *device = calloc(1, sizeof *device);
+    if (!device) {
+        error_set(error, "out of memory for a device");
+        return TRIPTYCH_NO_MEMORY;
+    }
+    device->engine = engine;
+    state_initialize(&device->state);
+    enum triptych_result status = create_parts(device, options, error);
+    if (status == TRIPTYCH_OK)
+        *result = device;
+    else
+        device_destroy(device);
+    return status;
+}
+
+/* Empties the queue; its draws are rendered or not wanted. */
+static void forget_commands(struct triptych_device *device)
+{
+    struct frame *frame = device->frame;
+    for (uint32_t i = 0; i < frame->commands; i++)
+        if (frame->command[i].kind == COMMAND_DRAW)
+            for (int unit = 0; unit < UNIT_COUNT; unit++)
+                cache_release(device->cache, frame->command[i].draw.routine[unit]);
+    frame->commands = 0;
+}
+
+void device_destroy(struct triptych_device *device)
+{
+    if (!device)
+        return;
+    if (device->frame)
+        forget_commands(device);
+    frame_destroy(device->frame);
+    pool_destroy(device->pool);
+    cache_destroy(device->cache);
+    code_destroy(device->arena);
+    target_destroy(&device->target);
+    for (struct triptych_buffer *buffer = device->buffers, *next; buffer; buffer = next) {
+        next = buffer->next;
+        buffer_destroy(buffer);
+    }
+    for (struct triptych_texture *texture = device->textures, *next; texture; texture = next) {
+        next = texture->next;
+        texture_destroy(texture);
+    }
+    free(device);
+}
+
+enum triptych_result device_set_target(struct triptych_device *device, uint32_t width, uint32_t height,
+                                       struct error *error)
+{
+    if (!width || !height || width > TARGET_SIZE_MAXIMUM || height > TARGET_SIZE_MAXIMUM) {
+        error_set(error, "target of %ux%u pixels: expected 1 to %d a side", width, height,
+                  TARGET_SIZE_MAXIMUM);
+        return TRIPTYCH_BAD_ARGUMENT;
+    }
+    struct target target;
+    if (target_create(&target, width, height, error))
+        return TRIPTYCH_NO_MEMORY;
+    device_finish(device);
+    target_destroy(&device->target);
+    device->target = target;
+    device->state.viewport = (struct triptych_viewport){0, 0, (float)width, (float)height, 0, 1};
+    device_state_changed(device);
+    return TRIPTYCH_OK;
+}
+
+/* --- Checking a draw --------------------------------------------------------------------------------------
+ */
+
+static enum triptych_result check_target(const struct triptych_device *device, struct error *error)
+{
+    if (device->target.width)
+        return TRIPTYCH_OK;
+    error_set(error, "no target: expected set_target first");
+    return TRIPTYCH_BAD_CALL;
+}
+
+/* Vertices or indices that `count` primitives take. */
+static uint64_t corner_count(enum triptych_primitive primitive, uint32_t count)
+{
+    return primitive == TRIPTYCH_TRIANGLE_LIST ? 3 * (uint64_t)count : (uint64_t)count + 2;
+}
+
+/* Whether vertex `last` of each attribute that the vertex routine reads lies in its buffer. */
+static enum triptych_result check_vertices(const struct triptych_device *device, uint64_t last,
+                                           struct error *error)
+{
+    for (int i = 0; i < ATTRIBUTE_COUNT; i++) {
+        const struct triptych_element *element = device->state.element + i;
+        if (device->key[UNIT_VERTEX].vertex.attribute[i] == ATTRIBUTE_FORMAT_NONE || !element->stride)
+            continue;
+        uint64_t room = element->buffer->bytes - element->offset - format_bytes[element->format];
+        if (last > room / element->stride) {
+            error_set(error, "vertex %" PRIu64 ": %s lies past its buffer, which ends with vertex %" PRIu64,
+                      last, attribute_name[i], room / element->stride);
+            return TRIPTYCH_BAD_CALL;
+        }
+    }
+    return TRIPTYCH_OK;
+}
+
+static enum triptych_result check_draw(const struct triptych_device *device,
+                                       enum triptych_primitive primitive, struct error *error)
+{
+    if ((unsigned)primitive > TRIPTYCH_TRIANGLE_FAN) {
+        error_set(error, "primitive %u: expected a triangle list (0), strip (1) or fan (2)",
+                  (unsigned)primitive);
+        return TRIPTYCH_BAD_ARGUMENT;
+    }
+    enum triptych_result result = check_target(device, error);
+    if (result == TRIPTYCH_OK && device->state.element[ATTRIBUTE_POSITION].format == TRIPTYCH_FORMAT_NONE) {
+        error_set(error, "no position: expected an element for it");
+        return TRIPTYCH_BAD_CALL;
+    }
+    return result;
+}
+
+static enum triptych_result check_sequence(const struct triptych_device *device, uint64_t first,
+                                           uint64_t corners, struct error *error)
+{
+    if (first + corners - 1 > UINT32_MAX) {
+        error_set(error, "vertices %" PRIu64 " to %" PRIu64 ": expected them below 2^32", first,
+                  first + corners - 1);
+        return TRIPTYCH_BAD_CALL;
+    }
+    return check_vertices(device, first + corners - 1, error);
+}
+
+static enum triptych_result check_indices(const struct triptych_device *device, int32_t base, uint64_t first,
+                                          uint64_t corners, struct error *error)
+{
+    struct triptych_buffer *buffer = device->state.indices;
+    uint32_t bits = device->state.index_bits;
+    uint64_t room = buffer->bytes / (bits / 8);
+    if (first + corners > room) {
+        error_set(error,
+                  "indices %" PRIu64 " to %" PRIu64 ": expected them in the buffer of %" PRIu64 " indices",
+                  first, first + corners - 1, room);
+        return TRIPTYCH_BAD_CALL;
+    }
+    const struct index_range *range = buffer_index_range(buffer, bits, (uint32_t)first, (uint32_t)corners);
+    int64_t lowest = (int64_t)base + range->minimum, highest = (int64_t)base + range->maximum;
+    if (lowest < 0 || highest > UINT32_MAX) {
+        error_set(error, "vertices %" PRId64 " to %" PRId64 ": expected them from 0 to 2^32 - 1", lowest,
+                  highest);
+        return TRIPTYCH_BAD_CALL;
+    }
+    return check_vertices(device, (uint64_t)highest, error);
+}
+
+/* --- Recording --------------------------------------------------------------------------------------------
+ */
+
+static void derive(struct triptych_device *device)
+{
+    if (device->derived)
+        return;
+    derive_keys(&device->state, device->key);
+    derive_job(&device->state, &device->key[UNIT_VERTEX].vertex, &device->key[UNIT_PIXEL].pixel,
+               &device->job);
+    device->derived = true;
+}
+
+static struct command *next_command(struct triptych_device *device)
+{
+    if (!frame_next(device->frame))
+        device_finish(device);
+    return frame_next(device->frame);
+}
+
+static int acquire_all(struct triptych_device *device, const struct routine *routine[UNIT_COUNT],
+                       struct error *error)
+{
+    for (int unit = 0; unit < UNIT_COUNT; unit++) {
+        routine[unit] = cache_acquire(device->cache, unit, &device->key[unit], error);
+        if (routine[unit])
+            continue;
+        while (unit--)
+            cache_release(device->cache, routine[unit]);
+        return -1;
+    }
+    return 0;
+}
+
+/* Routines may not find room because recorded draws hold others: rendering these makes room. */
+static int acquire_routines(struct triptych_device *device, const struct routine *routine[UNIT_COUNT],
+                            struct error *error)
+{
+    struct error first = {{0}};
+    if (!acquire_all(device, routine, device->frame->commands ? &first : error))
+        return 0;
+    if (!device->frame->commands)
+        return -1;
+    device_finish(device);
+    return acquire_all(device, routine, error);
+}
+
+/* Records a checked draw. The source's primitive, count, indices and base are filled in. */
+static enum triptych_result record(struct triptych_device *device, const struct draw *source,
+                                   struct error *error)
+{
+    if (source->count && derive_effective(&device->key[UNIT_PIXEL].pixel)) {
+        const struct setup_key *setup = &device->key[UNIT_SETUP].setup;
+        const struct routine *routine[UNIT_COUNT];
+        if (acquire_routines(device, routine, error))
+            return TRIPTYCH_ENGINE_FAILED;
+        struct command *command = next_command(device);
+        command->kind = COMMAND_DRAW;
+        struct draw *draw = &command->draw;
+        *draw = *source;
+        draw->job = device->job;
+        memcpy(draw->routine, routine, sizeof draw->routine);
+        draw->scissor = derive_scissor(&device->state.viewport);
+        draw->stride = triangle_layout(setup->depth, setup->varying).stride;
+        device->frame->commands++;
+    }
+    if (device->on_draw)
+        device->on_draw(device->on_draw_user, device->draws, device->key);
+    device->draws++;
+    device->triangles += source->count;
+    return TRIPTYCH_OK;
+}
+
+enum triptych_result device_draw(struct triptych_device *device, enum triptych_primitive primitive,
+                                 uint32_t first, uint32_t count, struct error *error)
+{
+    enum triptych_result result = check_draw(device, primitive, error);
+    if (result != TRIPTYCH_OK)
+        return result;
+    derive(device);
+    if (count)
+        result = check_sequence(device, first, corner_count(primitive, count), error);
+    struct draw draw = {.primitive = primitive, .count = count, .base = first};
+    return result == TRIPTYCH_OK ? record(device, &draw, error) : result;
+}
+
+enum triptych_result device_draw_indexed(struct triptych_device *device, enum triptych_primitive primitive,
+                                         int32_t base, uint32_t first, uint32_t count, struct error *error)
+{
+    const struct state *state = &device->state;
+    enum triptych_result result = check_draw(device, primitive, error);
+    if (result == TRIPTYCH_OK && !state->indices) {
+        error_set(error, "no indices: expected set_indices first");
+        result = TRIPTYCH_BAD_CALL;
+    }
+    if (result != TRIPTYCH_OK)
+        return result;
+    derive(device);
+    if (count)
+        result = check_indices(device, base, first, corner_count(primitive, count), error);
+    struct draw draw = {.primitive = primitive, .count = count, .base = (uint32_t)base};
+    draw.index_bits = state->index_bits;
+    draw.indices = count ? state->indices->data + (size_t)first * (state->index_bits / 8) : NULL;
+    return result == TRIPTYCH_OK ? record(device, &draw, error) : result;
+}
+
+/* As the pipeline quantizes a colour (spec/color.h). Called in the contract's floating-point environment. */
+__attribute__((noinline)) static uint32_t pack_color(const float color[4])
+{
+    uint32_t word = 0;
+    for (int c = 0; c < 4; c++)
+        word |= (uint32_t)lane_round(lane_min(lane_max(color[c] * 255.0f, 0.0f), 255.0f)) << 8 * c;
+    return word;
+}
+
+static enum triptych_result check_clear(const float color[4], float depth, struct error *error)
+{
+    for (int c = 0; color && c < 4; c++)
+        if (!isfinite(color[c])) {
+            error_set(error, "clear colour %d is %f, expected a finite number", c, (double)color[c]);
+            return TRIPTYCH_BAD_ARGUMENT;
+        }
+    if (!(depth <= 1)) {
+        error_set(error, "clear depth %g: expected 0 to 1, or less than 0 for none", (double)depth);
+        return TRIPTYCH_BAD_ARGUMENT;
+    }
+    return TRIPTYCH_OK;
+}
+
+enum triptych_result device_clear(struct triptych_device *device, const float color[4], float depth,
+                                  struct error *error)
+{
+    enum triptych_result result = check_target(device, error);
+    if (result == TRIPTYCH_OK)
+        result = check_clear(color, depth, error);
+    if (result != TRIPTYCH_OK || (!color && depth < 0))
+        return result;
+    struct command *command = next_command(device);
+    command->kind = COMMAND_CLEAR;
+    command->clear = (struct clear){
+        .area = derive_scissor(&device->state.viewport), .set_color = color != NULL, .set_depth = depth >= 0};
+    unsigned saved = mxcsr_enter();
+    if (color)
+        command->clear.color = pack_color(color);
+    mxcsr_leave(saved);
+    if (depth >= FLT_MIN)
+        command->clear.depth = depth; /* otherwise 0: the pipeline knows neither denormals nor -0 in depth */
+    device->frame->commands++;
+    return TRIPTYCH_OK;
+}
+
+/* --- Rendering and reading --------------------------------------------------------------------------------
+ */
+
+void device_finish(struct triptych_device *device)
+{
+    if (!device->frame->commands)
+        return;
+    frame_render(device->frame, &device->target);
+    forget_commands(device);
+}
+
+/* Rows of tiles are read by several threads. */
+struct reading {
+    const struct target *target;
+    uint32_t *color;
+    float *depth;
+    _Atomic uint32_t next_row;
+};
+
+static void read_task(void *user, unsigned worker)
+{
+    struct reading *reading = user;
+    uint32_t row;
+    (void)worker;
+    while ((row = atomic_fetch_add(&reading->next_row, 1)) < reading->target->rows)
+        if (reading->color)
+            target_read_color(reading->target, row, reading->color);
+        else
+            target_read_depth(reading->target, row, reading->depth);
+}
+
+static enum triptych_result read_target(struct triptych_device *device, uint32_t *color, float *depth,
+                                        struct error *error)
+{
+    enum triptych_result result = check_target(device, error);
+    if (result != TRIPTYCH_OK)
+        return result;
+    device_finish(device);
+    struct reading reading = {.target = &device->target, .color = color, .depth = depth};
+    pool_run(device->pool, device->target.rows, read_task, &reading);
+    return TRIPTYCH_OK;
+}
+
+enum triptych_result device_read_color(struct triptych_device *device, uint32_t *rgba, struct error *error)
+{
+    return read_target(device, rgba, NULL, error);
+}
+
+enum triptych_result device_read_depth(struct triptych_device *device, float *depth, struct error *error)
+{
+    return read_target(device, NULL, depth, error);
+}
+
+void device_get_statistics(const struct triptych_device *device, struct triptych_statistics *statistics)
+{
+    const struct frame_statistics *frame = &device->frame->statistics;
+    struct cache_statistics cache = cache_statistics(device->cache);
+    *statistics = (struct triptych_statistics){
+        .draws = device->draws,
+        .triangles = device->triangles,
+        .vertices_shaded = frame->vertices_shaded,
+        .triangles_set_up = frame->triangles_set_up,
+        .triangles_visible = frame->triangles_visible,
+        .pixels_shaded = frame->pixels_shaded,
+        .cache_hits = cache.hits,
+        .cache_misses = cache.misses,
+        .cache_evictions = cache.evictions,
+        .vertex_ns = frame->geometry_ns,
+        .pixel_ns = frame->tiles_ns,
+    };
+}
+
+void device_on_draw(struct triptych_device *device, device_draw_callback *callback, void *user)
+{
+    device->on_draw = callback;
+    device->on_draw_user = user;
+}
+
+const struct engine *device_engine(const struct triptych_device *device)
+{
+    return device->engine;
+}
+
+struct code_arena *device_arena(const struct triptych_device *device)
+{
+    return device->arena;
+}

@@ -1,0 +1,83 @@
+/* The device: the state, what the application made, the routine cache, and the frame that records and
+ * renders.
+ *
+ * The functions are those of triptych.h without its checks of null pointers; each gives its result and the
+ * reason, and changes nothing when it fails. The engine is the caller's choice (engines.h). */
+#ifndef DRAW_DEVICE_H
+#define DRAW_DEVICE_H
+
+#include "draw/cache.h"
+#include "draw/frame.h"
+#include "draw/state.h"
+
+/* Called for each draw that is recorded: its number, from 0, and its keys, indexed by enum unit. */
+typedef void device_draw_callback(void *user, uint64_t number, const union key key[UNIT_COUNT]);
+
+struct triptych_device {
+    const struct engine *engine;
+    struct code_arena *arena; /* null when the engine generates no code */
+    struct cache *cache;
+    struct pool *pool;
+    struct frame *frame;
+    struct target target;
+    struct state state;
+    struct triptych_buffer *buffers;
+    struct triptych_texture *textures;
+
+    /* What the state derives to, once somebody has asked since it changed. */
+    bool derived;
+    union key key[UNIT_COUNT];
+    struct job job;
+
+    uint64_t draws, triangles;
+    device_draw_callback *on_draw;
+    void *on_draw_user;
+
+    struct error error;               /* of the last failed public call */
+    char key_text[KEY_TEXT_CAPACITY]; /* of the last routine reported */
+};
+
+struct device_options {
+    unsigned threads;                  /* 0: as many as processors */
+    size_t cache_bytes;                /* 0: CACHE_BYTES */
+    pool_create_thread *create_thread; /* null: pthread_create */
+};
+
+enum { CACHE_BYTES = 16 << 20, CACHE_BYTES_MAXIMUM = 1 << 30 };
+
+enum triptych_result device_create(const struct engine *engine, const struct device_options *options,
+                                   struct triptych_device **device, struct error *error);
+void device_destroy(struct triptych_device *device);
+
+enum triptych_result device_set_target(struct triptych_device *device, uint32_t width, uint32_t height,
+                                       struct error *error);
+/* Direct access to the state is for changes; they must be followed by this. */
+static inline void device_state_changed(struct triptych_device *device)
+{
+    device->derived = false;
+}
+
+/* Records `count` primitives: from vertex `first` on, or with the bound indices from `first` on, plus base.
+ */
+enum triptych_result device_draw(struct triptych_device *device, enum triptych_primitive primitive,
+                                 uint32_t first, uint32_t count, struct error *error);
+enum triptych_result device_draw_indexed(struct triptych_device *device, enum triptych_primitive primitive,
+                                         int32_t base, uint32_t first, uint32_t count, struct error *error);
+enum triptych_result device_clear(struct triptych_device *device, const float color[4], float depth,
+                                  struct error *error);
+
+/* Renders everything recorded. Cannot fail. */
+void device_finish(struct triptych_device *device);
+
+/* Finishes and copies the target, if there is one. */
+enum triptych_result device_read_color(struct triptych_device *device, uint32_t *rgba, struct error *error);
+enum triptych_result device_read_depth(struct triptych_device *device, float *depth, struct error *error);
+
+void device_get_statistics(const struct triptych_device *device, struct triptych_statistics *statistics);
+
+/* For tools: who is told of each draw (null: nobody), and what the device works with. */
+void device_on_draw(struct triptych_device *device, device_draw_callback *callback, void *user);
+const struct engine *device_engine(const struct triptych_device *device);
+struct code_arena *device_arena(const struct triptych_device *device);
+
+#endif

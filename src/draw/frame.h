@@ -1,0 +1,82 @@
+/* The frame: the queue of recorded commands, and the rounds that render it.
+ *
+ * A round takes commands from the queue in order, draws cut into chunks of primitives, and runs two phases on
+ * the pool. Geometry: threads take chunks in any order, each written into its own bins in the arena. Tiles:
+ * each chunk's bins are appended to the tiles' in the order of chunks, then threads take tiles, each rendered
+ * by one thread in that order. So the image does not depend on who did what.
+ *
+ * When the arena fills up, the chunk that ran out of it stops where it is, later ones are given up, and the
+ * next round begins at the first primitive not done: memory is bounded whatever is drawn. */
+#ifndef DRAW_FRAME_H
+#define DRAW_FRAME_H
+
+#include "draw/batch.h"
+#include "draw/pool.h"
+#include "draw/tile.h"
+
+enum {
+    FRAME_COMMANDS = 1024, /* the queue's capacity */
+    FRAME_CHUNKS = 4096,   /* chunks of a round, at most */
+    CHUNK_PRIMITIVES = 2048
+};
+
+/* A run of one draw's primitives, or a clear. */
+struct chunk {
+    uint32_t command;
+    uint32_t first, count; /* primitives */
+    uint32_t done;         /* how many of them are in the bins */
+    uint32_t heads;        /* head cells of its bins */
+    struct batch_counts counts;
+};
+
+struct frame_worker {
+    struct batch batch;
+    struct bin_writer bins;
+    struct tile_worker tile;
+    uint64_t geometry_ns, tiles_ns;
+};
+
+struct frame_statistics {
+    uint64_t vertices_shaded, triangles_set_up, triangles_visible, pixels_shaded;
+    uint64_t geometry_ns, tiles_ns; /* summed over threads */
+    uint64_t rounds;
+};
+
+struct frame {
+    struct pool *pool;
+    struct target *target; /* while rendering */
+    struct arena arena;
+    struct command *command; /* FRAME_COMMANDS of them */
+    uint32_t commands;
+    struct frame_worker *worker; /* one per thread of the pool */
+
+    /* The round. */
+    struct chunk chunk[FRAME_CHUNKS];
+    uint32_t chunks;
+    uint32_t clear_chunk[FRAME_COMMANDS]; /* numbers of the chunks that are clears */
+    uint32_t clears;
+    uint32_t tile_first[TARGET_TILES_MAXIMUM]; /* head cells of each tile's bin */
+    uint32_t tile_last[TARGET_TILES_MAXIMUM];
+    _Atomic uint32_t next_chunk, next_tile;
+    _Atomic uint32_t first_stopped; /* the first chunk that did not fit the arena */
+
+    struct frame_statistics statistics;
+};
+
+/* A frame whose rendering runs on `pool`; null with the reason when memory is short. */
+struct frame *frame_create(struct pool *pool, struct error *error);
+void frame_destroy(struct frame *frame);
+
+/* The place of the next command; null when the queue is full. It counts once frame->commands is increased. */
+struct command *frame_next(struct frame *frame);
+
+/* Renders all commands, in order, into the target. The queue still holds them, for its owner to release and
+ * to empty. */
+void frame_render(struct frame *frame, struct target *target);
+
+static inline const struct command *frame_command(const struct frame *frame, uint32_t chunk)
+{
+    return frame->command + frame->chunk[chunk].command;
+}
+
+#endif

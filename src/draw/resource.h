@@ -1,0 +1,43 @@
+/* Buffers and textures: what the application hands over once and never changes. They live as long as the
+ * device, so a recorded draw may point into them. */
+#ifndef DRAW_RESOURCE_H
+#define DRAW_RESOURCE_H
+
+#include "base/error.h"
+#include "triptych.h"
+
+/* The smallest and largest index of a range of an index buffer, remembered because scanning it for every draw
+ * of the same mesh would cost more than drawing it. */
+struct index_range {
+    uint32_t first, count; /* in indices */
+    uint32_t bits;         /* 16 or 32; 0: nothing remembered here */
+    uint32_t minimum, maximum;
+};
+
+enum { INDEX_RANGES = 64 };
+
+struct triptych_buffer {
+    struct triptych_buffer *next; /* of the device's */
+    uint8_t *data;                /* 64-byte aligned */
+    size_t bytes;
+    struct index_range range[INDEX_RANGES]; /* direct-mapped by a hash of the range */
+};
+
+struct triptych_texture {
+    struct triptych_texture *next;
+    uint32_t *texels; /* rows of RGBA8 words, 64-byte aligned */
+    uint32_t width, height;
+};
+
+/* Copies; null when memory is short. */
+struct triptych_buffer *buffer_create(const void *data, size_t bytes);
+void buffer_destroy(struct triptych_buffer *buffer);
+struct triptych_texture *texture_create(const void *rgba, uint32_t width, uint32_t height);
+void texture_destroy(struct triptych_texture *texture);
+
+/* The extremes of indices first to first + count - 1, which must lie in the buffer; count > 0, bits 16 or 32.
+ */
+const struct index_range *buffer_index_range(struct triptych_buffer *buffer, uint32_t bits, uint32_t first,
+                                             uint32_t count);
+
+#endif

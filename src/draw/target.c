@@ -1,0 +1,201 @@
+#include "draw/target.h"
+
+#include <emmintrin.h>
+#include <stdlib.h>
+#include <string.h>
+
+int target_create(struct target *target, uint32_t width, uint32_t height, struct error *error)
+{
+    struct target t = {.width = width, .height = height};
+    t.columns = (width + TILE_SIZE - 1) / TILE_SIZE;
+    t.rows = (height + TILE_SIZE - 1) / TILE_SIZE;
+    size_t tiles = (size_t)t.columns * t.rows;
+    t.color = aligned_alloc(64, tiles * TILE_PIXELS * sizeof *t.color);
+    t.depth = aligned_alloc(64, tiles * TILE_PIXELS * sizeof *t.depth);
+    t.clear = malloc(tiles * sizeof *t.clear);
+    if (!t.color || !t.depth || !t.clear) {
+        target_destroy(&t);
+        return error_set(error, "out of memory for a target of %ux%u pixels (%zu MiB)", width, height,
+                         tiles * TILE_PIXELS * 8 >> 20);
+    }
+    for (size_t i = 0; i < tiles; i++)
+        t.clear[i] = (struct tile_clear){0, 1, true, true};
+    *target = t;
+    return 0;
+}
+
+void target_destroy(struct target *target)
+{
+    free(target->color);
+    free(target->depth);
+    free(target->clear);
+    memset(target, 0, sizeof *target);
+}
+
+/* The tile's pixels as columns and rows of the target, the last tiles cut. */
+static struct rectangle tile_area(const struct target *target, uint32_t tile)
+{
+    int32_t x = (int32_t)(tile % target->columns) * TILE_SIZE,
+            y = (int32_t)(tile / target->columns) * TILE_SIZE;
+    int32_t right = (int32_t)target->width, bottom = (int32_t)target->height;
+    struct rectangle r = {x, y, x + TILE_SIZE < right ? x + TILE_SIZE : right,
+                          y + TILE_SIZE < bottom ? y + TILE_SIZE : bottom};
+    return r;
+}
+
+static void fill(void *words, uint32_t value)
+{
+    __m128i v = _mm_set1_epi32((int)value);
+    for (int i = 0; i < TILE_PIXELS; i += 4)
+        _mm_store_si128((__m128i *)((uint32_t *)words + i), v);
+}
+
+static uint32_t bits_of(float value)
+{
+    uint32_t bits;
+    memcpy(&bits, &value, sizeof bits);
+    return bits;
+}
+
+uint32_t *target_fill_color(struct target *target, uint32_t tile)
+{
+    uint32_t *words = target->color + (size_t)tile * TILE_PIXELS;
+    if (target->clear[tile].color_pending)
+        fill(words, target->clear[tile].color);
+    target->clear[tile].color_pending = false;
+    return words;
+}
+
+float *target_fill_depth(struct target *target, uint32_t tile)
+{
+    float *words = target->depth + (size_t)tile * TILE_PIXELS;
+    if (target->clear[tile].depth_pending)
+        fill(words, bits_of(target->clear[tile].depth));
+    target->clear[tile].depth_pending = false;
+    return words;
+}
+
+/* The word of a pixel within its tile: the block, then quad order (draw/call.h). */
+static uint32_t pixel_word(uint32_t x, uint32_t y)
+{
+    uint32_t block = y / BLOCK_SIZE * (TILE_SIZE / BLOCK_SIZE) + x / BLOCK_SIZE;
+    uint32_t lane = (x & 1) | (y & 1) << 1 | (x & 2) << 1 | (y & 2) << 2;
+    return block * BLOCK_PIXELS + lane;
+}
+
+static void clear_part(struct target *target, uint32_t tile, const struct clear *clear,
+                       const struct rectangle *part, const struct rectangle *whole)
+{
+    uint32_t *color = clear->set_color ? target_fill_color(target, tile) : NULL;
+    float *depth = clear->set_depth ? target_fill_depth(target, tile) : NULL;
+    for (int32_t y = part->y0; y < part->y1; y++)
+        for (int32_t x = part->x0; x < part->x1; x++) {
+            uint32_t word = pixel_word((uint32_t)(x - whole->x0), (uint32_t)(y - whole->y0));
+            if (color)
+                color[word] = clear->color;
+            if (depth)
+                depth[word] = clear->depth;
+        }
+}
+
+static int32_t larger(int32_t a, int32_t b)
+{
+    return a > b ? a : b;
+}
+
+static int32_t smaller(int32_t a, int32_t b)
+{
+    return a < b ? a : b;
+}
+
+void target_clear_tile(struct target *target, uint32_t tile, const struct clear *clear)
+{
+    struct rectangle whole = tile_area(target, tile);
+    const struct rectangle *area = &clear->area;
+    struct rectangle part = {larger(whole.x0, area->x0), larger(whole.y0, area->y0),
+                             smaller(whole.x1, area->x1), smaller(whole.y1, area->y1)};
+    if (part.x0 >= part.x1 || part.y0 >= part.y1)
+        return;
+    if (memcmp(&part, &whole, sizeof part)) {
+        clear_part(target, tile, clear, &part, &whole);
+        return;
+    }
+    struct tile_clear *pending = target->clear + tile;
+    if (clear->set_color) {
+        pending->color = clear->color;
+        pending->color_pending = true;
+    }
+    if (clear->set_depth) {
+        pending->depth = clear->depth;
+        pending->depth_pending = true;
+    }
+}
+
+/* Quad order to rows:  0 1 4 5 | 2 3 6 7 | 8 9 12 13 | 10 11 14 15 */
+static void block_rows(const uint32_t *block, __m128i row[BLOCK_SIZE])
+{
+    const __m128i *quad = (const __m128i *)block;
+    row[0] = _mm_unpacklo_epi64(quad[0], quad[1]);
+    row[1] = _mm_unpackhi_epi64(quad[0], quad[1]);
+    row[2] = _mm_unpacklo_epi64(quad[2], quad[3]);
+    row[3] = _mm_unpackhi_epi64(quad[2], quad[3]);
+}
+
+/* A block of which `columns` and `rows` (1 to 4) are in the image. */
+static void read_block(const uint32_t *block, uint32_t *image, size_t pitch, uint32_t columns, uint32_t rows)
+{
+    __m128i row[BLOCK_SIZE];
+    block_rows(block, row);
+    for (uint32_t y = 0; y < rows; y++)
+        if (columns == BLOCK_SIZE)
+            _mm_storeu_si128((__m128i *)(image + y * pitch), row[y]);
+        else
+            memcpy(image + y * pitch, &row[y], columns * sizeof *image);
+}
+
+static uint32_t block_part(int32_t edge, int32_t start)
+{
+    return (uint32_t)smaller(edge - start, BLOCK_SIZE);
+}
+
+static void read_tile(const uint32_t *words, const struct rectangle *area, uint32_t *image, size_t pitch)
+{
+    for (int32_t y = area->y0; y < area->y1; y += BLOCK_SIZE)
+        for (int32_t x = area->x0; x < area->x1; x += BLOCK_SIZE) {
+            uint32_t word = pixel_word((uint32_t)(x - area->x0), (uint32_t)(y - area->y0));
+            read_block(words + word, image + (size_t)y * pitch + (size_t)x, pitch, block_part(area->x1, x),
+                       block_part(area->y1, y));
+        }
+}
+
+static void read_cleared(uint32_t value, const struct rectangle *area, uint32_t *image, size_t pitch)
+{
+    for (int32_t y = area->y0; y < area->y1; y++)
+        for (int32_t x = area->x0; x < area->x1; x++)
+            memcpy(image + (size_t)y * pitch + (size_t)x, &value, sizeof value);
+}
+
+void target_read_color(const struct target *target, uint32_t tile_row, uint32_t *image)
+{
+    for (uint32_t i = 0; i < target->columns; i++) {
+        uint32_t tile = tile_row * target->columns + i;
+        struct rectangle area = tile_area(target, tile);
+        if (target->clear[tile].color_pending)
+            read_cleared(target->clear[tile].color, &area, image, target->width);
+        else
+            read_tile(target->color + (size_t)tile * TILE_PIXELS, &area, image, target->width);
+    }
+}
+
+void target_read_depth(const struct target *target, uint32_t tile_row, float *image)
+{
+    for (uint32_t i = 0; i < target->columns; i++) {
+        uint32_t tile = tile_row * target->columns + i;
+        struct rectangle area = tile_area(target, tile);
+        const uint32_t *words = (const uint32_t *)(const void *)(target->depth + (size_t)tile * TILE_PIXELS);
+        if (target->clear[tile].depth_pending)
+            read_cleared(bits_of(target->clear[tile].depth), &area, (uint32_t *)(void *)image, target->width);
+        else
+            read_tile(words, &area, (uint32_t *)(void *)image, target->width);
+    }
+}

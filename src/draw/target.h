@@ -1,0 +1,52 @@
+/* The render target: colour and depth in tiles (draw/call.h), cleared lazily, made linear when read.
+ *
+ * A tile that has been cleared as a whole only remembers the value; its words are written when something else
+ * needs them. So a clear costs nothing where nothing is drawn, and elsewhere it fills a cache that is about
+ * to be used. Each tile is touched by one thread at a time; different tiles by any. */
+#ifndef DRAW_TARGET_H
+#define DRAW_TARGET_H
+
+#include "base/error.h"
+#include "draw/call.h"
+#include "draw/raster.h"
+
+#include <stdbool.h>
+
+struct tile_clear {
+    uint32_t color;
+    float depth;
+    bool color_pending, depth_pending; /* the words are not valid: every one has this value */
+};
+
+struct target {
+    uint32_t width, height; /* pixels, 0 when there is no target */
+    uint32_t columns, rows; /* tiles */
+    uint32_t *color;        /* TILE_PIXELS words per tile, tiles in row order, 64-byte aligned */
+    float *depth;
+    struct tile_clear *clear; /* per tile */
+};
+
+/* What a clear sets, and where. */
+struct clear {
+    struct rectangle area;
+    uint32_t color;
+    float depth;
+    bool set_color, set_depth;
+};
+
+/* A target of 1 to TARGET_SIZE_MAXIMUM pixels a side, zero and depth 1. Returns 0 or -1 with the reason. */
+int target_create(struct target *target, uint32_t width, uint32_t height, struct error *error);
+void target_destroy(struct target *target);
+
+/* Applies the clear's part in one tile. */
+void target_clear_tile(struct target *target, uint32_t tile, const struct clear *clear);
+
+/* Makes the tile's words valid before something reads or changes them; returns them. */
+uint32_t *target_fill_color(struct target *target, uint32_t tile);
+float *target_fill_depth(struct target *target, uint32_t tile);
+
+/* Copies one row of tiles into rows of a linear image of the target's size. */
+void target_read_color(const struct target *target, uint32_t tile_row, uint32_t *image);
+void target_read_depth(const struct target *target, uint32_t tile_row, float *image);
+
+#endif

@@ -1,0 +1,87 @@
+#include "draw/tile.h"
+
+#include "draw/frame.h"
+
+#include <string.h>
+
+/* Set bits of the entries' coverages, four at a time (Warren, Hacker's Delight, 5-1). */
+static uint64_t count_pixels(const struct entry *entry, uint32_t count)
+{
+    uint64_t total = 0;
+    for (uint32_t i = 0; i < count; i += 4) {
+        uint64_t x = 0;
+        for (uint32_t j = i; j < i + 4 && j < count; j++)
+            x = x << 16 | entry[j].coverage;
+        x -= x >> 1 & 0x5555555555555555;
+        x = (x & 0x3333333333333333) + (x >> 2 & 0x3333333333333333);
+        x = (x + (x >> 4)) & 0x0f0f0f0f0f0f0f0f;
+        total += x * 0x0101010101010101 >> 56;
+    }
+    return total;
+}
+
+static void shade(struct tile_worker *worker, const struct frame *frame, uint32_t tile)
+{
+    if (!worker->count)
+        return;
+    const struct routine *routine = worker->draw->routine[UNIT_PIXEL];
+    const struct pixel_key *key = &routine->key.pixel;
+    struct target *target = frame->target;
+    struct pixel_call call = {
+        .job = &worker->draw->job,
+        .entries = worker->entries,
+        .triangles = frame->arena.base,
+        .lanes = &lane_table,
+        .color = target->color + (size_t)tile * TILE_PIXELS,
+        .depth = target->depth + (size_t)tile * TILE_PIXELS,
+        .count = worker->count,
+    };
+    if (key->write_mask)
+        target_fill_color(target, tile);
+    if (key->depth_write || key->depth_function != COMPARE_ALWAYS)
+        target_fill_depth(target, tile);
+    routine->run(&call, routine);
+    worker->pixels_shaded += count_pixels(worker->entries, worker->count);
+    worker->count = 0;
+}
+
+/* Rasterizes the triangles of one cell; the next triangle's head is on its way meanwhile. */
+static void rasterize_cell(struct tile_worker *worker, const struct frame *frame, uint32_t tile,
+                           const struct bin_cell *cell)
+{
+    const uint8_t *base = frame->arena.base;
+    int column = (int)(tile % frame->target->columns), row = (int)(tile / frame->target->columns);
+    for (uint32_t i = 0; i < cell->count; i++) {
+        uint32_t triangle = cell->triangle[i];
+        if (i + 1 < cell->count)
+            __builtin_prefetch(base + cell->triangle[i + 1]);
+        if (worker->count + TILE_BLOCKS > TILE_ENTRIES)
+            shade(worker, frame, tile);
+        worker->count +=
+            raster_tile((const struct triangle_head *)(const void *)(base + triangle), &worker->draw->scissor,
+                        column, row, triangle, worker->entries + worker->count);
+    }
+}
+
+void tile_render(struct tile_worker *worker, const struct frame *frame, uint32_t tile)
+{
+    uint32_t clear = 0;
+    worker->count = 0;
+    worker->draw = NULL;
+    for (uint32_t head = frame->tile_first[tile];; head = bin_cell(&frame->arena, head)->later) {
+        uint32_t chunk = head ? bin_cell(&frame->arena, head)->chunk : UINT32_MAX;
+        for (; clear < frame->clears && frame->clear_chunk[clear] < chunk; clear++) {
+            shade(worker, frame, tile);
+            target_clear_tile(frame->target, tile, &frame_command(frame, frame->clear_chunk[clear])->clear);
+        }
+        if (!head)
+            break;
+        const struct draw *draw = &frame_command(frame, chunk)->draw;
+        if (draw != worker->draw)
+            shade(worker, frame, tile);
+        worker->draw = draw;
+        for (uint32_t cell = head; cell; cell = bin_cell(&frame->arena, cell)->next)
+            rasterize_cell(worker, frame, tile, bin_cell(&frame->arena, cell));
+    }
+    shade(worker, frame, tile);
+}

@@ -1,0 +1,24 @@
+/* One tile: consumes its bin in drawing order, rasterizes, and calls the pixel routines on lists of 4x4
+ * blocks. */
+#ifndef DRAW_TILE_H
+#define DRAW_TILE_H
+
+#include "draw/bin.h"
+#include "draw/command.h"
+
+enum { TILE_ENTRIES = 1024 };
+
+/* One thread's workspace. */
+struct tile_worker {
+    alignas(64) struct entry entries[TILE_ENTRIES];
+    uint32_t count;
+    const struct draw *draw; /* whose entries these are */
+    uint64_t pixels_shaded;
+};
+
+struct frame;
+
+/* Renders the chunks of the frame's round into tile number `tile`. */
+void tile_render(struct tile_worker *worker, const struct frame *frame, uint32_t tile);
+
+#endif

@@ -1,0 +1,22 @@
+#include "engines.h"
+
+#include "emu/emulate.h"
+
+#include <string.h>
+
+static const struct engine *const engines[] = {
+    &engine_emulate,
+};
+
+const struct engine *engine_at(unsigned i)
+{
+    return i < sizeof engines / sizeof *engines ? engines[i] : NULL;
+}
+
+const struct engine *engine_find(const char *name)
+{
+    for (unsigned i = 0; engine_at(i); i++)
+        if (!strcmp(engine_at(i)->name, name))
+            return engine_at(i);
+    return NULL;
+}
