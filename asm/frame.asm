@@ -34,7 +34,7 @@ fragment enter, FRAME | FRAME_END | CALLED, FRAME | FRAME_END | CONSTANTS, NOTHI
 .end:           hole            .end - 8, HOLE_CONSTANTS, 0
 end_fragment
 
-fragment leave, FRAME_END, NOTHING, FRAME | FRAME_END | CONSTANTS | COLOR | DEPTH | COVERED | M_TO(0, 15)
+fragment leave, FRAME_END, NOTHING, FRAME | FRAME_END | CONSTANTS | STRIDE | COLOR | DEPTH | COVERED | M_TO(0, 15)
                 vzeroupper
                 ldmxcsr         [CALLER_MXCSR]
                 lea             rsp, [rbp - SAVED_BYTES]

@@ -5,7 +5,7 @@
 void plan_operations(struct plan *plan, enum unit unit, const union key *key)
 {
     struct env e = {.plan = plan};
-    struct loop loop = plan_enter(plan, unit, NULL);
+    struct loop loop = plan_enter(plan, unit, NULL, 0);
     switch (unit) {
     case UNIT_VERTEX: spec_vertex(&e, &key->vertex); break;
     case UNIT_SETUP: spec_setup(&e, &key->setup); break;

@@ -50,13 +50,13 @@ static struct loop enter_pixel(struct plan *plan)
     return loop;
 }
 
-struct loop plan_enter(struct plan *plan, enum unit unit, const struct fragment *constants)
+struct loop plan_enter(struct plan *plan, enum unit unit, const struct fragment *once, int32_t argument)
 {
     static struct loop (*const enter[UNIT_COUNT])(struct plan *) = {enter_vertex, enter_setup, enter_pixel};
     plan->count = plan->dropped = 0;
     plan_append(plan, &fragment_enter, (struct arguments){{0, MXCSR_CONTRACT}});
-    if (constants)
-        plan_append(plan, constants, (struct arguments){{0}});
+    if (once)
+        plan_append(plan, once, (struct arguments){{argument}});
     return enter[unit](plan);
 }
 

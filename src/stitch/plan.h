@@ -52,8 +52,8 @@ struct loop {
     unsigned chunk; /* pixel: the part that may jump to the chunk's end */
 };
 
-/* `constants`, which may be null, is a fragment without arguments to run once before the loop. */
-struct loop plan_enter(struct plan *plan, enum unit unit, const struct fragment *constants);
+/* `once`, which may be null, is a fragment with one argument or none to run before the loop. */
+struct loop plan_enter(struct plan *plan, enum unit unit, const struct fragment *once, int32_t argument);
 void plan_leave(struct plan *plan, enum unit unit, const union key *key, const struct loop *loop,
                 int frame_bytes);
 

@@ -131,7 +131,7 @@ static void plan_pixel(struct plan *plan, const union key *all)
     const struct pixel_key *key = &all->pixel;
     int reads_depth = key->depth_function != COMPARE_ALWAYS || key->depth_write;
     struct triangle_layout layout = triangle_layout(reads_depth, key->varying);
-    struct loop loop = plan_enter(plan, UNIT_PIXEL, &fragment_pixel_constants);
+    struct loop loop = plan_enter(plan, UNIT_PIXEL, &fragment_pixel_constants, 0);
     plan_position(plan);
     unsigned skip = plan_depth(plan, key, &layout);
     if (key->write_mask) {
@@ -143,10 +143,157 @@ static void plan_pixel(struct plan *plan, const union key *all)
     plan_leave(plan, UNIT_PIXEL, all, &loop, 0);
 }
 
+/* ---- setup */
+
+extern const uint32_t stitch_corner_bytes __attribute__((visibility("hidden"))); /* asm/setup.asm */
+
+static_assert(JOB(offset_x) == JOB(scale_x) + 4 && JOB(scale_y) == JOB(scale_x) + 8 &&
+                  JOB(offset_y) == JOB(scale_x) + 12 && JOB(depth_offset) == JOB(depth_scale) + 4,
+              "the fragments' viewport");
+static_assert(offsetof(struct triangle_head, visible) == 0 && offsetof(struct triangle_head, x) == 4 &&
+                  offsetof(struct triangle_head, y) == 16 && offsetof(struct triangle_head, origin_x) == 28 &&
+                  offsetof(struct triangle_head, origin_y) == 32,
+              "the fragments' triangle head");
+
+#define SLOT(name) (SLOT_##name * VERTEX_SLOT_BYTES)
+
+static void plan_corner(struct plan *plan, const struct setup_key *key, int i)
+{
+    int32_t corner = i * (int32_t)stitch_corner_bytes;
+    plan_append(plan, &fragment_project,
+                ARGUMENTS(i * SETUP_INDEX_BYTES, corner, SLOT(X), SLOT(Y), SLOT(W), JOB(scale_x)));
+    if (key->depth)
+        plan_append(plan, &fragment_project_depth, ARGUMENTS(SLOT(Z), corner, JOB(depth_scale)));
+}
+
+static void plan_planes(struct plan *plan, const struct setup_key *key, const struct triangle_layout *layout)
+{
+    if (key->depth)
+        plan_append(plan, &fragment_depth_plane, ARGUMENTS(layout->depth));
+    if (layout->smooth)
+        plan_append(plan, &fragment_reciprocal_w_plane, ARGUMENTS(layout->reciprocal_w));
+    for (int v = 0; v < VARYING_COUNT; v++)
+        for (int c = 0; c < varying_components[v] && key->varying[v] != INTERPOLATION_NONE; c++) {
+            int flat = key->varying[v] == INTERPOLATION_FLAT;
+            int32_t bytes = flat ? (int32_t)sizeof(float) : (int32_t)sizeof(struct plane);
+            plan_append(plan, flat ? &fragment_flat_word : &fragment_smooth_plane,
+                        ARGUMENTS((varying_slot[v] + c) * VERTEX_SLOT_BYTES, layout->varying[v] + c * bytes));
+        }
+}
+
+static void plan_setup(struct plan *plan, const union key *all)
+{
+    /* VCMPPS predicates of area against 0: not equal, less, greater. */
+    static const uint8_t predicate[CULL_COUNT] = {
+        [CULL_NONE] = 0x04, [CULL_CLOCKWISE] = 0x11, [CULL_COUNTERCLOCKWISE] = 0x1e};
+    const struct setup_key *key = &all->setup;
+    struct triangle_layout layout = triangle_layout(key->depth, key->varying);
+    struct loop loop = plan_enter(plan, UNIT_SETUP, &fragment_record_stride, layout.stride);
+    for (int i = 0; i < 3; i++)
+        plan_corner(plan, key, i);
+    plan_append(plan, &fragment_area, NONE);
+    plan_append(plan, &fragment_visible, ARGUMENTS(predicate[key->cull]));
+    plan_append(plan, &fragment_record_head, NONE);
+    unsigned skip = plan_append(plan, &fragment_visible_skip, NONE);
+    plan_append(plan, &fragment_gradients, NONE);
+    plan_planes(plan, key, &layout);
+    plan_land(plan, skip, 0);
+    plan_leave(plan, UNIT_SETUP, all, &loop, 3 * (int)stitch_corner_bytes);
+}
+
+/* ---- vertex */
+
+static void plan_fetch(struct plan *plan, const struct vertex_key *key, enum attribute attribute)
+{
+#define FORMATS(name)                                                                                        \
+    {                                                                                                        \
+        &fragment_##name##_none, &fragment_##name##_float1, &fragment_##name##_float2,                       \
+            &fragment_##name##_float3, &fragment_##name##_float4, &fragment_##name##_color                   \
+    }
+    static const struct fragment *const fetch[ATTRIBUTE_COUNT][ATTRIBUTE_FORMAT_COUNT] = {
+        [ATTRIBUTE_POSITION] = FORMATS(position),
+        [ATTRIBUTE_NORMAL] = FORMATS(normal),
+        [ATTRIBUTE_DIFFUSE] = FORMATS(diffuse),
+        [ATTRIBUTE_TEXCOORD] = FORMATS(texcoord)};
+#undef FORMATS
+    int32_t job = JOB(attribute) + (int32_t)attribute * (int32_t)sizeof(struct attribute_job);
+    plan_append(plan, fetch[attribute][key->attribute[attribute]],
+                ARGUMENTS(job + (int32_t)offsetof(struct attribute_job, stride),
+                          job + (int32_t)offsetof(struct attribute_job, data)));
+}
+
+static void plan_light(struct plan *plan, enum light_type type, int i)
+{
+#define LIGHT(field) (light + (int32_t)offsetof(struct light_job, field))
+    int32_t light = JOB(light) + i * (int32_t)sizeof(struct light_job);
+    if (type == LIGHT_DIRECTIONAL)
+        plan_append(plan, &fragment_light_directional, ARGUMENTS(LIGHT(position), LIGHT(diffuse)));
+    if (type == LIGHT_POINT)
+        plan_append(plan, &fragment_light_point,
+                    ARGUMENTS(LIGHT(position), LIGHT(diffuse), LIGHT(ambient), LIGHT(attenuation0),
+                              LIGHT(attenuation1), LIGHT(attenuation2), LIGHT(range)));
+#undef LIGHT
+}
+
+static int has_light(const struct vertex_key *key, enum light_type type)
+{
+    for (int i = 0; i < LIGHT_COUNT; i++)
+        if (key->light[i] == type)
+            return 1;
+    return 0;
+}
+
+static void plan_lighting(struct plan *plan, const struct vertex_key *key)
+{
+    int with_w = key->attribute[ATTRIBUTE_POSITION] == ATTRIBUTE_FORMAT_FLOAT4;
+    int point = has_light(key, LIGHT_POINT);
+    if (point)
+        plan_append(plan, with_w ? &fragment_camera_position_w : &fragment_camera_position,
+                    ARGUMENTS(JOB(world_view)));
+    if (point || has_light(key, LIGHT_DIRECTIONAL)) {
+        plan_fetch(plan, key, ATTRIBUTE_NORMAL);
+        plan_append(plan, &fragment_camera_normal, ARGUMENTS(JOB(normal)));
+        if (key->normalize)
+            plan_append(plan, &fragment_normalize, NONE);
+    }
+    plan_append(plan, &fragment_base_color, ARGUMENTS(JOB(base_color)));
+    for (int i = 0; i < LIGHT_COUNT; i++)
+        plan_light(plan, key->light[i], i);
+}
+
+static void plan_transform(struct plan *plan, const struct vertex_key *key)
+{
+    int with_w = key->attribute[ATTRIBUTE_POSITION] == ATTRIBUTE_FORMAT_FLOAT4;
+    plan_fetch(plan, key, ATTRIBUTE_POSITION);
+    plan_append(plan, with_w ? &fragment_clip_position_w : &fragment_clip_position,
+                ARGUMENTS(JOB(world_view_projection), SLOT(X), SLOT(Y), SLOT(Z), SLOT(W)));
+    plan_append(plan, &fragment_clip_code, ARGUMENTS(JOB(guard_x), JOB(guard_y), SLOT(CODE)));
+}
+
+static void plan_vertex(struct plan *plan, const union key *all)
+{
+    const struct vertex_key *key = &all->vertex;
+    const int32_t diffuse = SLOT(diffuse), texcoord = SLOT(texcoord), next = VERTEX_SLOT_BYTES;
+    struct loop loop = plan_enter(plan, UNIT_VERTEX, NULL, 0);
+    plan_transform(plan, key);
+    if (key->varying[VARYING_diffuse]) {
+        if (key->lighting)
+            plan_lighting(plan, key);
+        else
+            plan_fetch(plan, key, ATTRIBUTE_DIFFUSE);
+        plan_append(plan, &fragment_store_diffuse,
+                    ARGUMENTS(diffuse, diffuse + next, diffuse + 2 * next, diffuse + 3 * next));
+    }
+    if (key->varying[VARYING_texcoord]) {
+        plan_fetch(plan, key, ATTRIBUTE_TEXCOORD);
+        plan_append(plan, &fragment_store_texcoord, ARGUMENTS(texcoord, texcoord + next));
+    }
+    plan_leave(plan, UNIT_VERTEX, all, &loop, 0);
+}
+
 void plan_stages(struct plan *plan, enum unit unit, const union key *key)
 {
-    if (unit == UNIT_PIXEL)
-        plan_pixel(plan, key);
-    else
-        plan_operations(plan, unit, key);
+    static void (*const plan_unit[UNIT_COUNT])(struct plan *, const union key *) = {plan_vertex, plan_setup,
+                                                                                    plan_pixel};
+    plan_unit[unit](plan, key);
 }

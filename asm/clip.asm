@@ -1,0 +1,60 @@
+; The clip code (src/spec/clip.h) of the clip-space position in m8 to m11.
+;
+; Bits come from the highest to the lowest: doubling the code and subtracting a mask, -1 where outside, appends one.
+; "Outside" is "not less or equal", unordered, so that a NaN is outside of everything.
+
+%include "fragment.inc"
+%include "constant.inc"
+
+%define x               m8
+%define y               m9
+%define z               m10
+%define w               m11
+%define code            m12
+%define outer           m13
+%define bound           m14
+%define sign            m15
+
+; Appends the bit of: not (a <= b).
+%macro outside 2 ; a, b
+                vcmpnleps       outer, %1, %2
+                vpaddd          code, code, code
+                vpsubd          code, code, outer
+%endmacro
+
+; The upper bound's bit, then the lower's, minus the bound.
+%macro outside_pair 1 ; value
+                outside         %1, bound
+                vxorps          bound, bound, sign
+                outside         bound, %1
+%endmacro
+
+; Arguments: guard_x and guard_y of the job, slot of the code.
+fragment clip_code, JOB | OUTPUT | CONSTANTS | M_TO(8, 11), NOTHING, M(7) | M_TO(12, 15)
+                vmovaps         sign, [constants + SIGN]
+                vsubps          m12, x, x                   ; +0, or NaN where x is not finite
+                vsubps          m13, y, y
+                vsubps          m14, z, z
+                vaddps          m12, m12, m13
+                vsubps          m13, w, w
+                vaddps          m12, m12, m14
+                vaddps          m13, m12, m13
+                vxorps          m7, m7, m7
+                vcmpnleps       outer, m13, m7
+                vpsrld          code, outer, 31             ; CLIP_INVALID
+    fill 1,     vbroadcastss    bound, [at_job]
+                vmulps          bound, bound, w
+                outside_pair    y                           ; CLIP_GUARD_TOP, CLIP_GUARD_BOTTOM
+    fill 0,     vbroadcastss    bound, [at_job]
+                vmulps          bound, bound, w
+                outside_pair    x                           ; CLIP_GUARD_RIGHT, CLIP_GUARD_LEFT
+                vmovaps         bound, [constants + EYE_W_F]
+                outside         bound, w                    ; CLIP_EYE
+                outside         z, w                        ; CLIP_FAR
+                outside         m7, z                       ; CLIP_NEAR
+                vmovaps         bound, w
+                outside_pair    y                           ; CLIP_TOP, CLIP_BOTTOM
+                vmovaps         bound, w
+                outside_pair    x                           ; CLIP_RIGHT, CLIP_LEFT
+    fill 2,     vmovdqa         [at_output], code
+end_fragment

@@ -1,0 +1,275 @@
+; Setup: projection, area and culling, triangle records (src/spec/setup.h); one lane a triangle.
+;
+; What the three corners of the eight triangles leave for later is too much for registers and lives in the frame,
+; corner i at [frame + i * CORNER_BYTES]:
+;
+;   LANE   1/W   WINDOW_X   WINDOW_Y   X   Y   CORNER_DEPTH         32 bytes each
+;
+; In registers from `area` on:        and from `gradients` on:
+;   m0  dx1       m2  dx2                m0  v2        m2  v1
+;   m1  dy1       m3  dy2                m1  u2        m3  u1
+;   m4  area      m5  visible            m5  visible
+; m6 to m15 are scratch. Records are `stride` bytes apart, and stride_3 is three times that: with one step of four
+; records in between, every record has an address without arithmetic.
+
+%include "fragment.inc"
+%include "constant.inc"
+
+LANE            equ 0
+RECIPROCAL_W    equ 32
+WINDOW_X        equ 64
+WINDOW_Y        equ 96
+X               equ 128
+Y               equ 160
+CORNER_DEPTH    equ 192
+CORNER_BYTES    equ 224
+
+section .rodata
+    global stitch_corner_bytes:data hidden
+stitch_corner_bytes:
+    dd CORNER_BYTES
+
+%define corner(i, field) frame + (i) * CORNER_BYTES + field
+
+; Argument: bytes of a record.
+fragment record_stride, NOTHING, STRIDE | STRIDE_3, NOTHING
+    fill 0,     mov             r12d, strict dword 0
+                lea             stride_3, [stride + stride * 2]
+end_fragment
+
+; A component of the eight vertices whose lanes are at the byte offsets `lanes`.
+%macro gather_slot 4 ; result, lanes, scratch, argument
+                vpcmpeqd        %3, %3, %3
+    fill %4,    vgatherdps      %1, [at_vertices + %2 * 1], %3
+%endmacro
+
+; ndc, scaled and limited: max and min in this order send a NaN to the lower limit.
+%macro window_position 3 ; ndc and result, scale, offset
+                vfmadd213ps     %1, %2, %3
+                vmaxps          %1, %1, [constants + WINDOW_LOW_F]
+                vminps          %1, %1, [constants + WINDOW_HIGH_F]
+                vcvtps2dq       %1, %1
+%endmacro
+
+%define ROW             0
+%define CORNER          1
+%define VIEWPORT        5
+; Arguments: row of the indices, corner in the frame, slots of x, y and w, the job's scale_x offset_x scale_y offset_y.
+fragment project, FRAME | CONSTANTS | JOB | INPUT | VERTICES, M(1) | M(2), M(0) | M_TO(3, 9)
+    fill ROW,   vmovdqa         m1, [at_input]
+                gather_slot     m2, m1, m3, 4
+                vmovaps         m0, [constants + ONE_F]
+                gather_slot     m4, m1, m3, 2
+                gather_slot     m5, m1, m3, 3
+                vdivps          m2, m0, m2
+    fill VIEWPORT, vbroadcastss m6, [at_job]
+    fill VIEWPORT, vbroadcastss m7, [at_job + 4]
+    fill VIEWPORT, vbroadcastss m8, [at_job + 8]
+    fill VIEWPORT, vbroadcastss m9, [at_job + 12]
+                vmulps          m4, m4, m2
+                vmulps          m5, m5, m2
+                window_position m4, m6, m7
+                window_position m5, m8, m9
+                vcvtdq2ps       m6, m4
+                vcvtdq2ps       m7, m5
+                vmulps          m6, m6, [constants + SUBPIXEL_F]
+                vmulps          m7, m7, [constants + SUBPIXEL_F]
+    fill CORNER, vmovdqa        [corner(0, LANE)], m1
+    fill CORNER, vmovaps        [corner(0, RECIPROCAL_W)], m2
+    fill CORNER, vmovdqa        [corner(0, WINDOW_X)], m4
+    fill CORNER, vmovdqa        [corner(0, WINDOW_Y)], m5
+    fill CORNER, vmovaps        [corner(0, X)], m6
+    fill CORNER, vmovaps        [corner(0, Y)], m7
+end_fragment
+
+; Behind `project`. Arguments: slot of z, corner in the frame, the job's depth_scale depth_offset.
+fragment project_depth, FRAME | JOB | VERTICES | M(1) | M(2), NOTHING, M(3) | M(4) | M(6) | M(7)
+                gather_slot     m4, m1, m3, 0
+    fill 2,     vbroadcastss    m6, [at_job]
+    fill 2,     vbroadcastss    m7, [at_job + 4]
+                vmulps          m4, m4, m2
+                vfmadd213ps     m4, m6, m7
+    fill 1,     vmovaps         [corner(0, CORNER_DEPTH)], m4
+end_fragment
+
+; Twice the area with Kahan's correction: p = dx2 * dy1 rounded, and what the rounding lost.
+fragment area, FRAME, M_TO(0, 4), M_TO(5, 7)
+                vmovaps         m6, [corner(0, X)]
+                vmovaps         m7, [corner(0, Y)]
+                vmovaps         m0, [corner(1, X)]
+                vmovaps         m1, [corner(1, Y)]
+                vmovaps         m2, [corner(2, X)]
+                vmovaps         m3, [corner(2, Y)]
+                vsubps          m0, m0, m6
+                vsubps          m1, m1, m7
+                vsubps          m2, m2, m6
+                vsubps          m3, m3, m7
+                vmulps          m5, m2, m1                  ; p
+                vmovaps         m4, m0
+                vmovaps         m6, m2
+                vfmsub213ps     m6, m1, m5                  ; dx2 * dy1 - p, the error
+                vfmsub213ps     m4, m3, m5                  ; dx1 * dy2 - p
+                vsubps          m4, m4, m6
+end_fragment
+
+; Argument: VCMPPS predicate of area against 0.
+fragment visible, M(4), M(5), M(6)
+                vxorps          m6, m6, m6
+    fill_byte 0, vcmpps         m5, m4, m6, 0
+end_fragment
+
+; The head: nine words. Eight of them are the rows of an 8x8 matrix whose columns are the heads; the ninth goes alone.
+;
+;   m8  visible 0..7     m12 y0                s0 = visible x0 x1 x2 | of triangle 0, of triangle 4
+;   m9  x0               m13 y1       ->       s4 = y0 y1 y2 origin_x | likewise
+;   m10 x1               m14 y2
+;   m11 x2               m15 origin_x
+%macro transpose_4 6 ; four rows; two scratch. Row i becomes column i of the low, column i + 4 of the high halves
+                vunpcklps       %5, %1, %2
+                vunpckhps       %1, %1, %2
+                vunpcklps       %6, %3, %4
+                vunpckhps       %3, %3, %4
+                vunpckhpd       %2, %5, %6
+                vunpckhpd       %4, %1, %3
+                vunpcklpd       %3, %1, %3
+                vunpcklpd       %1, %5, %6
+%endmacro
+
+fragment record_head, FRAME | OUTPUT | STRIDE | STRIDE_3 | M(4) | M(5), NOTHING, R_AX | M_TO(6, 15)
+                vxorps          m6, m6, m6
+                vcmpltps        m6, m4, m6                  ; turned: corners 1 and 2 change places
+                vmovdqa         m7, [corner(1, WINDOW_X)]
+                vmovdqa         m8, [corner(2, WINDOW_X)]
+                vblendvps       m10, m7, m8, m6
+                vblendvps       m11, m8, m7, m6
+                vmovdqa         m7, [corner(1, WINDOW_Y)]
+                vmovdqa         m8, [corner(2, WINDOW_Y)]
+                vblendvps       m13, m7, m8, m6
+                vblendvps       m14, m8, m7, m6
+                vmovaps         m8, m5
+                vmovdqa         m9, [corner(0, WINDOW_X)]
+                vmovdqa         m12, [corner(0, WINDOW_Y)]
+                vmovaps         m15, [corner(0, X)]
+                transpose_4     m8, m9, m10, m11, m6, m7
+                transpose_4     m12, m13, m14, m15, m6, m7
+                vmovaps         m6, [corner(0, Y)]
+                lea             rax, [output + stride * 4]
+                vextractf128    xm7, m6, 1
+                vmovaps         [output], xm8
+                vmovaps         [output + 16], xm12
+                vmovss          [output + 32], xm6
+                vmovaps         [output + stride], xm9
+                vmovaps         [output + stride + 16], xm13
+                vextractps      [output + stride + 32], xm6, 1
+                vmovaps         [output + stride * 2], xm10
+                vmovaps         [output + stride * 2 + 16], xm14
+                vextractps      [output + stride * 2 + 32], xm6, 2
+                vmovaps         [output + stride_3], xm11
+                vmovaps         [output + stride_3 + 16], xm15
+                vextractps      [output + stride_3 + 32], xm6, 3
+                vextractf128    [rax], m8, 1
+                vextractf128    [rax + 16], m12, 1
+                vmovss          [rax + 32], xm7
+                vextractf128    [rax + stride], m9, 1
+                vextractf128    [rax + stride + 16], m13, 1
+                vextractps      [rax + stride + 32], xm7, 1
+                vextractf128    [rax + stride * 2], m10, 1
+                vextractf128    [rax + stride * 2 + 16], m14, 1
+                vextractps      [rax + stride * 2 + 32], xm7, 2
+                vextractf128    [rax + stride_3], m11, 1
+                vextractf128    [rax + stride_3 + 16], m15, 1
+                vextractps      [rax + stride_3 + 32], xm7, 3
+end_fragment
+
+; Argument: the part where the loop goes on.
+fragment visible_skip, M(5), NOTHING, NOTHING
+                vtestps         m5, m5
+    jump 0,     jz
+end_fragment
+
+fragment gradients, CONSTANTS | M_TO(0, 4), M_TO(0, 3), M(4) | M(6)
+                vmovaps         m6, [constants + ONE_F]
+                vdivps          m4, m6, m4
+                vxorps          m6, m4, [constants + SIGN]
+                vmulps          m3, m3, m4                  ; u1 =  dy2 / area
+                vmulps          m1, m1, m6                  ; u2 = -dy1 / area
+                vmulps          m2, m2, m6                  ; v1 = -dx2 / area
+                vmulps          m0, m0, m4                  ; v2 =  dx1 / area
+end_fragment
+
+; Four planes of three words: value and dx side by side, dy behind.
+;   pairs  v0 x0 v1 x1   v2 x2 v3 x3
+%macro store_planes 3 ; pairs 0 1, pairs 2 3, dy
+                vmovlps         [rax], %1
+                vmovss          [rax + 8], %3
+                vmovhps         [rax + stride], %1
+                vextractps      [rax + stride + 8], %3, 1
+                vmovlps         [rax + stride * 2], %2
+                vextractps      [rax + stride * 2 + 8], %3, 2
+                vmovhps         [rax + stride_3], %2
+                vextractps      [rax + stride_3 + 8], %3, 3
+%endmacro
+
+; m8 m9 m10, the value at the corners, to planes in the records.
+%macro record_plane 1 ; argument
+                vsubps          m9, m9, m8                  ; d1
+                vsubps          m10, m10, m8                ; d2
+                vmulps          m11, m10, m1
+                vmulps          m12, m10, m0
+                vfmadd231ps     m11, m9, m3                 ; dx = d1 * u1 + (d2 * u2)
+                vfmadd231ps     m12, m9, m2                 ; dy = d1 * v1 + (d2 * v2)
+    fill %1,    lea             rax, [at_output]
+                vunpcklps       m9, m8, m11
+                vunpckhps       m10, m8, m11
+                store_planes    xm9, xm10, xm12
+                lea             rax, [rax + stride * 4]
+                vextractf128    xm9, m9, 1
+                vextractf128    xm10, m10, 1
+                vextractf128    xm12, m12, 1
+                store_planes    xm9, xm10, xm12
+%endmacro
+
+%macro corner_plane 2 ; name, what the corners have
+fragment %1, FRAME | OUTPUT | STRIDE | STRIDE_3 | M_TO(0, 3), NOTHING, R_AX | M_TO(8, 12)
+                vmovaps         m8, [corner(0, %2)]
+                vmovaps         m9, [corner(1, %2)]
+                vmovaps         m10, [corner(2, %2)]
+                record_plane    0
+end_fragment
+%endmacro
+
+; Argument: the plane in the record.
+corner_plane depth_plane, CORNER_DEPTH
+corner_plane reciprocal_w_plane, RECIPROCAL_W
+
+; Arguments: slot of the component, the plane in the record.
+fragment smooth_plane, FRAME | VERTICES | OUTPUT | STRIDE | STRIDE_3 | M_TO(0, 3), NOTHING, R_AX | M_TO(6, 12)
+                vmovdqa         m6, [corner(0, LANE)]
+                gather_slot     m8, m6, m7, 0
+                vmovdqa         m6, [corner(1, LANE)]
+                gather_slot     m9, m6, m7, 0
+                vmovdqa         m6, [corner(2, LANE)]
+                gather_slot     m10, m6, m7, 0
+                vmulps          m8, m8, [corner(0, RECIPROCAL_W)]
+                vmulps          m9, m9, [corner(1, RECIPROCAL_W)]
+                vmulps          m10, m10, [corner(2, RECIPROCAL_W)]
+                record_plane    1
+end_fragment
+
+%macro store_words 1 ; four words
+                vmovss          [rax], %1
+                vextractps      [rax + stride], %1, 1
+                vextractps      [rax + stride * 2], %1, 2
+                vextractps      [rax + stride_3], %1, 3
+%endmacro
+
+; The first corner's. Arguments: slot of the component, the word in the record.
+fragment flat_word, FRAME | VERTICES | OUTPUT | STRIDE | STRIDE_3, NOTHING, R_AX | M_TO(6, 8)
+                vmovdqa         m6, [corner(0, LANE)]
+                gather_slot     m8, m6, m7, 0
+    fill 1,     lea             rax, [at_output]
+                store_words     xm8
+                lea             rax, [rax + stride * 4]
+                vextractf128    xm8, m8, 1
+                store_words     xm8
+end_fragment
