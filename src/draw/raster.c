@@ -1,23 +1,24 @@
 /* Half-space rasterization (Pineda, A Parallel Algorithm for Polygon Rasterization, 1988) of one triangle
- * into the 4x4 blocks of one 64x64 tile, with trivial accept and reject of groups of 4x4 blocks and of
- * blocks.
+ * into the 4x4 blocks of one 64x64 tile.
+ *
+ * Groups of 4x4 blocks are accepted or rejected by the pixels where an edge function is smallest or largest.
+ * The blocks of the groups in between are not: asking all 16 pixels of a block costs no more than asking its
+ * corners, and spares a branch that cannot be predicted. Bounds of few blocks skip the groups as well.
  *
  * Edge function of the edge from vertex p to vertex q, in 1/65536 square pixels, positive inside:
  *   E(x, y) = (q.x - p.x) * (y - p.y) - (q.y - p.y) * (x - p.x)
  * A centre on the edge is covered only if the edge is a left one (the inside is to the right: q.y < p.y) or a
  * top one (horizontal, the inside is below: q.x > p.x). E is an integer, so the others ask for E - 1 >= 0.
  *
- * One pixel is 256 units. With a = -(q.y - p.y), b = q.x - p.x and E0 the value, rule included, at the centre
- * of pixel (0, 0), the pixel (i, j) is inside when E0 + 256 * (a * i + b * j) >= 0, that is, since a * i + b
- * * j is an integer, exactly when c + a * i + b * j >= 0 with c = floor(E0 / 256): eight bits less at no
- * loss.
+ * One pixel is 256 units. With a = p.y - q.y, b = q.x - p.x and E0 the value, rule included, at the centre of
+ * pixel (0, 0), the pixel (i, j) is inside when E0 + 256 * (a i + b j) >= 0. As a i + b j is an integer, that
+ * is so exactly when c + a i + b j >= 0 with c = floor(E0 / 256): eight bits less at no loss.
  *
  * Inside a tile 32 bits are enough. Window positions are at most 2^22 - 1 either way, so |a|, |b| < 2^23, and
- * with i, j in 0 to 63 |a * i + b * j| <= 63 * 2 * (2^23 - 1) < 2^30. Let c be the value at the tile's first
- * pixel, which may need 39 bits, and s = c limited to -2^30 to 2^30. Where c > 2^30 both c + a * i + b * j
- * and s + a * i + b * j are positive for every pixel of the tile, where c < -2^30 both are negative, and
- * otherwise they are equal: all signs are right, and |s + a * i + b * j| < 2^31. Corners of groups and blocks
- * are pixels of the tile, too.
+ * |a i + b j| < 63 * 2 * 2^23 < 2^30 with i, j from 0 to 63. Let c be the value at the tile's first pixel,
+ * which may need 40 bits, and s = c limited to -2^30 to 2^30. If c > 2^30, both c + a i + b j and s + a i + b
+ * j are positive for every pixel of the tile; if c < -2^30, both are negative; otherwise they are equal. So
+ * all signs are right, and |s + a i + b j| < 2^31. The corners of groups are pixels of the tile, too.
  *
  * Signs are taken together: the bitwise or of three edge functions is negative where any of them is. */
 #include "draw/raster.h"
