@@ -1,11 +1,14 @@
 #include "engines.h"
 
 #include "emu/emulate.h"
+#include "stitch/stitch.h"
 
 #include <string.h>
 
 static const struct engine *const engines[] = {
     &engine_emulate,
+    &engine_stitch,
+    &engine_stitch_operation,
 };
 
 const struct engine *engine_at(unsigned i)

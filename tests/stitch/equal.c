@@ -118,6 +118,16 @@ static void random_lights(struct job *job, int wild)
     }
 }
 
+/* Every vertex at the camera and every light at exactly its range, where "within" and "below" differ. */
+static void lights_at_their_range(struct job *job)
+{
+    memset(job->world_view, 0, sizeof job->world_view);
+    for (int i = 0; i < LIGHT_COUNT; i++) {
+        memset(job->light[i].position, 0, sizeof job->light[i].position);
+        job->light[i].position[below(3)] = job->light[i].range = (float)(1u << below(4));
+    }
+}
+
 static void random_job(struct job *job, int wild)
 {
     memset(job, 0, sizeof *job);
@@ -125,6 +135,8 @@ static void random_job(struct job *job, int wild)
     random_floats(&job->world_view[0][0], 16, wild, -1.5f, 1.5f);
     random_floats(&job->normal[0][0], 12, wild, -1.5f, 1.5f);
     random_lights(job, wild);
+    if (!below(8))
+        lights_at_their_range(job);
     job->guard_x = between(1.0f, 8.0f);
     job->guard_y = between(1.0f, 8.0f);
     job->scale_x = number(wild, 100.0f, 80000.0f);
