@@ -1,6 +1,7 @@
 #include "engines.h"
 
 #include "emu/emulate.h"
+#include "jit/jit.h"
 #include "stitch/stitch.h"
 
 #include <string.h>
@@ -9,6 +10,9 @@ static const struct engine *const engines[] = {
     &engine_emulate,
     &engine_stitch,
     &engine_stitch_operation,
+    &engine_specialize,
+    &engine_specialize_4,
+    &engine_specialize_thesis,
 };
 
 const struct engine *engine_at(unsigned i)

@@ -2,7 +2,7 @@
 #include "base/code.h"
 #include "emu/emulate.h"
 #include "jit/jit.h"
-#include "support/differential.h"
+#include "tests/support/differential.h"
 #include "unity.h"
 
 static struct code_arena *arena;

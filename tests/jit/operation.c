@@ -2,8 +2,8 @@
  * of values at the edges: operands in registers, in memory and literal, each in every position. */
 #include "base/code.h"
 #include "base/cpu.h"
-#include "support/edges.h"
-#include "support/program.h"
+#include "tests/support/edges.h"
+#include "tests/support/program.h"
 #include "unity.h"
 
 #include <stdio.h>

@@ -5,7 +5,7 @@
 #include "base/cpu.h"
 #include "base/mxcsr.h"
 #include "def/lane.h"
-#include "support/program.h"
+#include "tests/support/program.h"
 #include "unity.h"
 
 #include <math.h>

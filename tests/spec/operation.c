@@ -3,7 +3,7 @@
  * expressions rest on. */
 #include "base/mxcsr.h"
 #include "emu/bind.h"
-#include "support/edges.h"
+#include "tests/support/edges.h"
 #include "unity.h"
 
 #include <math.h>

@@ -1,0 +1,38 @@
+#!/usr/bin/env bash
+# The layers of docs/architecture.md: who may include whom. Engines include nothing of one another, the specification
+# includes nothing at all, and nothing below the command knows it.
+set -u
+cd "$(dirname "$0")/.." || exit 1
+failed=0
+
+# check NAME FOLDER ALLOWED...: every quoted include of FOLDER's files begins with an allowed prefix.
+check() {
+    local name=$1 folder=$2 pattern
+    shift 2
+    pattern=$(printf '|%s' "$@")
+    local found bad
+    found=$(grep -rHoE '^ *#include "[^"]+"' --include='*.[ch]' "$folder")
+    bad=$(printf '%s\n' "$found" | grep -vE "\"(${pattern#|})")
+    if [ -z "$found" ] || [ -n "$bad" ]; then
+        echo "FAIL $name"
+        echo "${bad:-no includes found in $folder}" >&2
+        failed=1
+    else
+        echo "ok $name"
+    fi
+}
+
+check "base includes base and its own table" src/base base/ def/cpu.def triptych.h
+check "tables include tables and layouts" src/def def/ draw/call.h draw/key.h
+check "the renderer includes no engine" src/draw base/ def/ draw/ triptych.h
+check "the emulator includes no other engine" emu emu/ base/ def/ draw/ spec/
+check "the stitcher includes no other engine" src/stitch stitch/ base/ def/ draw/ spec/
+check "the specializer includes no other engine" src/jit jit/ base/ def/ draw/ spec/
+
+if grep -rn '#include' src/spec/*.h | grep -v '^src/spec/spec.h:' >&2; then
+    echo "FAIL the specification includes nothing"
+    failed=1
+else
+    echo "ok the specification includes nothing"
+fi
+exit $failed
