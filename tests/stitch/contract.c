@@ -1,0 +1,471 @@
+/* The register contract of every fragment, tried out: each is run alone with canaries in all it must not
+ * touch.
+ *
+ * A fragment may change only the registers that it lists as given or clobbered; what it gives, writes to
+ * memory and whether it jumps may depend only on the registers that it lists as read (it runs twice, with
+ * other rubbish in the rest); it writes nothing outside the frame and the memory behind the bases; it leaves
+ * MXCSR and the direction flag alone. The second half checks the other side: plans of all keys provide what
+ * their fragments read.
+ *
+ * Memory behind the bases is filled with one word of 64 bits that is at once a valid pointer, the small
+ * integers 0 and 8192, and two tiny floats: whatever a fragment takes from there, it can follow. */
+#define _GNU_SOURCE
+#include "base/code.h"
+#include "base/mxcsr.h"
+#include "stitch/plan.h"
+#include "stitch/stitch.h"
+#include "tests/support/trampoline.h"
+
+#include <stdlib.h>
+#include <string.h>
+#include <sys/mman.h>
+#include <unity.h>
+
+enum {
+    REGION_BYTES = 64 << 10, /* behind one base */
+    REGIONS = 8,
+    MEMORY_BYTES = REGIONS * REGION_BYTES,
+    STACK_BYTES = 16 << 10,
+    FRAME_OFFSET = 8 << 10, /* of rsp in the stack */
+    FRAME_BYTES = 2 << 10,
+    ENTER_BYTES = 1 << 10, /* below rsp, for the one fragment that makes a frame */
+    RECORD_BYTES = 256
+};
+#define MEMORY_ADDRESS  0x200000000000ull
+#define MAPPED_BYTES    (1ull << 30)
+#define DIRECTION_FLAG  0x400u
+#define MXCSR_CONTROL   0xffc0u
+#define MXCSR_SOMETHING 0x7f80u /* the caller's, in these tests */
+
+static struct code_arena *arena;
+static uint8_t *memory;
+static alignas(64) uint8_t stack[STACK_BYTES];
+static const union key no_state;
+static char message[256];
+static uint64_t seed;
+
+static uint64_t random_word(void)
+{
+    seed ^= seed >> 12;
+    seed ^= seed << 25;
+    seed ^= seed >> 27;
+    return seed * 0x2545f4914f6cdd1dull;
+}
+
+static void fill_memory(void)
+{
+    for (size_t i = 0; i < MEMORY_BYTES; i += 8)
+        memcpy(memory + i, &(uint64_t){MEMORY_ADDRESS}, 8);
+    for (size_t i = 0; i < STACK_BYTES; i += 4)
+        memcpy(stack + i, &(uint32_t){(uint32_t)(i % 256 * 4)}, 4);
+}
+
+/* What a saved frame looks like to `leave`, its end at the end of the frame's bytes. */
+static void fill_frame_end(void)
+{
+    uint8_t *end = stack + FRAME_OFFSET + FRAME_BYTES - 16;
+    memcpy(end - 44, &(uint32_t){MXCSR_SOMETHING}, 4);
+    memcpy(end + 8, &(const void *){trampoline_exit}, sizeof(void *));
+}
+
+/* Random everywhere, then what the fragment reads: bases, constants, small integers in vectors. */
+static void fill_registers(struct machine_state *in, uint32_t read)
+{
+    for (size_t i = 0; i < 16 * 32; i += 8)
+        memcpy(&in->ymm[0][0] + i, &(uint64_t){random_word()}, 8);
+    for (int r = 0; r < 16; r++)
+        in->general[r] = random_word();
+    for (int n = 0; n < 16; n++)
+        for (uint32_t lane = 0; lane < 8 && read >> (REGISTER_VECTORS + n) & 1; lane++)
+            memcpy(&in->ymm[n][4 * lane], &(uint32_t){lane * 12 + (uint32_t)n}, 4);
+    uint64_t known[16] = {[3] = (uint64_t)(uintptr_t)stitch_constants, [6] = 16, [7] = MEMORY_ADDRESS};
+    for (int r = REGISTER_BASES; r < 16; r++)
+        known[r] = MEMORY_ADDRESS + (uint64_t)(r - REGISTER_BASES) * REGION_BYTES + 1024;
+    known[12] = read & 1 << 12 ? RECORD_BYTES : known[12];
+    known[15] = read & 1 << 12 ? 3 * RECORD_BYTES : 0x1ff;
+    for (int r = 0; r < 16; r++)
+        if (read >> r & 1)
+            in->general[r] = known[r];
+    in->general[REGISTER_FRAME] = (uint64_t)(uintptr_t)(stack + FRAME_OFFSET);
+    if (read >> REGISTER_FRAME_END & 1)
+        in->general[REGISTER_FRAME_END] = (uint64_t)(uintptr_t)(stack + FRAME_OFFSET + FRAME_BYTES - 16);
+    in->mxcsr = MXCSR_CONTRACT;
+}
+
+/* Arguments that make sense to the holes: by kind, and by name where a number has a meaning of its own. */
+static struct arguments plausible_arguments(const struct fragment *fragment)
+{
+    struct arguments arguments;
+    const char *name = fragment_arguments(fragment);
+    for (int n = 0; n < ARGUMENT_COUNT; n++) {
+        arguments.value[n] = 64 * (n + 1);
+        if (name && !strncmp(name, "mxcsr", 5))
+            arguments.value[n] = MXCSR_CONTRACT;
+        if (name && !strncmp(name, "frame", 5))
+            arguments.value[n] = -640;
+        if (name && (!strncmp(name, "stride", 6) || !strncmp(name, "bytes", 5)))
+            arguments.value[n] = RECORD_BYTES;
+        name = name ? strchr(name, ' ') : NULL;
+        name = name ? name + 1 : NULL;
+    }
+    for (unsigned i = 0; i < fragment->holes; i++)
+        if (fragment->hole[i].kind == HOLE_JUMP)
+            arguments.value[fragment->hole[i].argument] = 2;
+        else if (fragment->hole[i].kind == HOLE_BYTE)
+            arguments.value[fragment->hole[i].argument] = 0;
+    return arguments;
+}
+
+/* jmp [rip + 0], and the address behind it. */
+static struct fragment jump_to(uint8_t code[14], const char *target)
+{
+    static const uint8_t jump[6] = {0xff, 0x25, 0, 0, 0, 0};
+    memcpy(code, jump, sizeof jump);
+    memcpy(code + sizeof jump, &target, sizeof target);
+    return (struct fragment){.name = "jump", .code = code, .bytes = 14};
+}
+
+static void run(const struct fragment *fragment, const struct machine_state *in, struct machine_state *out)
+{
+    static struct plan plan;
+    uint8_t exit_code[14], taken_code[14];
+    struct fragment exit = jump_to(exit_code, trampoline_exit),
+                    taken = jump_to(taken_code, trampoline_exit_taken);
+    struct code_span span;
+    struct error error = {{0}};
+    plan.count = plan.dropped = 0;
+    plan_append(&plan, fragment, plausible_arguments(fragment));
+    plan_append(&plan, &exit, (struct arguments){{0}});
+    plan_append(&plan, &taken, (struct arguments){{0}});
+    if (plan_join(&plan, arena, &span, &error))
+        TEST_FAIL_MESSAGE(error.text);
+    trampoline_run(span.executable, in, out);
+    code_free(arena, &span);
+}
+
+static const char *violation(const struct fragment *fragment, const char *what, int number)
+{
+    snprintf(message, sizeof message, "%s: %s %d", fragment->name, what, number);
+    return message;
+}
+
+static const char *check_registers(const struct fragment *fragment, const struct machine_state *in,
+                                   const struct machine_state *out)
+{
+    uint32_t may_change = fragment->out | fragment->clobbered;
+    for (int r = 0; r < 16; r++)
+        if (!(may_change >> r & 1) && in->general[r] != out->general[r])
+            return violation(fragment, "changes general-purpose register", r);
+    for (int n = 0; n < 16; n++)
+        if (!(may_change >> (REGISTER_VECTORS + n) & 1) && memcmp(in->ymm[n], out->ymm[n], 32))
+            return violation(fragment, "changes ymm", n);
+    if (out->flags & DIRECTION_FLAG)
+        return violation(fragment, "sets the direction flag", 1);
+    return NULL;
+}
+
+static const char *check_mxcsr(const struct fragment *fragment, const struct machine_state *out)
+{
+    uint32_t expected = fragment == &fragment_leave ? MXCSR_SOMETHING : MXCSR_CONTRACT;
+    return (out->mxcsr & MXCSR_CONTROL) == (expected & MXCSR_CONTROL)
+               ? NULL
+               : violation(fragment, "leaves MXCSR at", (int)out->mxcsr);
+}
+
+/* Only `enter` may write below the frame's lowest word. */
+static const char *check_stack(const struct fragment *fragment, const uint8_t *before)
+{
+    size_t low = FRAME_OFFSET - (fragment == &fragment_enter ? ENTER_BYTES : 0);
+    for (size_t i = 0; i < STACK_BYTES; i++)
+        if ((i < low || i >= FRAME_OFFSET + FRAME_BYTES) && stack[i] != before[i])
+            return violation(fragment, "writes outside of its frame, at stack byte", (int)i);
+    return NULL;
+}
+
+static int same_outputs(const struct fragment *fragment, const struct machine_state *a,
+                        const struct machine_state *b)
+{
+    for (int r = 0; r < 16; r++)
+        if (fragment->out >> r & 1 && a->general[r] != b->general[r])
+            return 0;
+    for (int n = 0; n < 16; n++)
+        if (fragment->out >> (REGISTER_VECTORS + n) & 1 && memcmp(a->ymm[n], b->ymm[n], 32))
+            return 0;
+    return a->taken == b->taken;
+}
+
+/* Null, or what the fragment does that its descriptor does not say. */
+static const char *find_violation(const struct fragment *fragment)
+{
+    static uint8_t stack_before[STACK_BYTES], stack_after[STACK_BYTES], memory_after[MEMORY_BYTES];
+    struct machine_state in, out[2];
+    for (int i = 0; i < 2; i++) {
+        fill_memory();
+        fill_frame_end();
+        memcpy(stack_before, stack, sizeof stack);
+        fill_registers(&in, fragment->in);
+        run(fragment, &in, &out[i]);
+        const char *found = check_registers(fragment, &in, &out[i]);
+        found = found ? found : check_mxcsr(fragment, &out[i]);
+        found = found ? found : check_stack(fragment, stack_before);
+        if (found)
+            return found;
+        if (!i) {
+            memcpy(stack_after, stack, sizeof stack);
+            memcpy(memory_after, memory, MEMORY_BYTES);
+        }
+    }
+    /* What `enter` saves and `leave` restores is by its nature whatever was there. */
+    if (fragment == &fragment_enter || fragment == &fragment_leave)
+        return NULL;
+    if (!same_outputs(fragment, &out[0], &out[1]) || memcmp(stack_after, stack, sizeof stack) ||
+        memcmp(memory_after, memory, MEMORY_BYTES))
+        return violation(fragment, "depends on a register that it does not list, run", 2);
+    return NULL;
+}
+
+static void every_fragment_keeps_its_contract(void)
+{
+    for (const struct fragment *f = __start_stitch_fragments; f < __stop_stitch_fragments; f++) {
+        const char *found = find_violation(f);
+        if (found)
+            TEST_FAIL_MESSAGE(found);
+    }
+}
+
+/* Fragments made wrong on purpose: the harness sees each kind of offence. */
+static void offences_are_noticed(void)
+{
+    static const struct {
+        const char *name;
+        uint8_t code[12];
+        uint16_t bytes;
+        uint32_t in, out;
+    } offence[] = {
+        {"changes ymm3", {0xc5, 0xe4, 0x57, 0xdb}, 4, 0, 0}, /* vxorps ymm3, ymm3, ymm3 */
+        {"changes the upper half of ymm9",
+         {0xc4, 0x41, 0x30, 0x57, 0xc9},
+         5,
+         0,
+         0},                                                           /* vxorps xmm9, xmm9, xmm9 */
+        {"changes r12", {0x49, 0xff, 0xc4}, 3, 0, 0},                  /* inc r12 */
+        {"reads ymm1", {0xc5, 0xfc, 0x28, 0xc1}, 4, 0, 1 << 16},       /* vmovaps ymm0, ymm1 */
+        {"reads rcx", {0x48, 0x89, 0xc8}, 3, 0, 1 << 0},               /* mov rax, rcx */
+        {"writes below the frame", {0x89, 0x44, 0x24, 0xfc}, 4, 0, 0}, /* mov [rsp - 4], eax */
+        {"stores a register", {0x89, 0x04, 0x24}, 3, 0, 0},            /* mov [rsp], eax */
+        {"sets the direction flag", {0xfd}, 1, 0, 0},                  /* std */
+        {"changes MXCSR", {0xc7, 0x04, 0x24, 0x80, 0x1f, 0, 0, 0x0f, 0xae, 0x14, 0x24}, 11, 0, 0},
+        /* mov dword [rsp], 0x1f80; ldmxcsr [rsp] */
+    };
+    for (size_t i = 0; i < sizeof offence / sizeof *offence; i++) {
+        struct fragment f = {.name = offence[i].name,
+                             .code = offence[i].code,
+                             .bytes = offence[i].bytes,
+                             .in = offence[i].in,
+                             .out = offence[i].out};
+        TEST_ASSERT_NOT_NULL_MESSAGE(find_violation(&f), offence[i].name);
+    }
+}
+
+static void argument_names_match_the_holes(void)
+{
+    for (const struct fragment *f = __start_stitch_fragments; f < __stop_stitch_fragments; f++) {
+        const char *names = fragment_arguments(f);
+        TEST_ASSERT_NOT_NULL_MESSAGE(names, f->name);
+        unsigned named = 0, used = 0;
+        for (const char *at = names; *at; at += strspn(at, " "), named++)
+            at += strcspn(at, " ");
+        for (unsigned i = 0; i < f->holes; i++) {
+            TEST_ASSERT_LESS_THAN_MESSAGE(HOLE_KIND_COUNT, f->hole[i].kind, f->name);
+            if (f->hole[i].kind != HOLE_CONSTANTS)
+                used |= 1u << f->hole[i].argument;
+        }
+        TEST_ASSERT_EQUAL_HEX_MESSAGE((1u << named) - 1, used, f->name);
+    }
+}
+
+/* ---- plans */
+
+static struct plan plan;
+static uint8_t planned[1024]; /* by number in the section */
+
+static void check_plan(planner *planner, enum unit unit, const union key *key)
+{
+    struct error error = {{0}};
+    planner(&plan, unit, key);
+    TEST_ASSERT_EQUAL_MESSAGE(0, plan.dropped, "the plan is too large");
+    if (plan_check(&plan, &error)) {
+        char text[KEY_TEXT_CAPACITY], both[sizeof text + ERROR_CAPACITY];
+        snprintf(both, sizeof both, "%s [%s]", error.text, key_print(unit, key, text));
+        TEST_FAIL_MESSAGE(both);
+    }
+    for (unsigned i = 0; i < plan.count; i++)
+        planned[plan.part[i].fragment - __start_stitch_fragments] = 1;
+}
+
+/* Counts through the values of the fields from `first` on; 0 when they have all been. */
+static int next_key(enum unit unit, union key *key)
+{
+    size_t count;
+    const struct key_field *field = key_fields(unit, &count);
+    for (size_t i = 0; i < count; i++)
+        for (unsigned j = 0; j < field[i].count; j++) {
+            uint8_t *digit = (uint8_t *)key + field[i].offset + j;
+            if (++*digit < field[i].radix)
+                return 1;
+            *digit = 0;
+        }
+    return 0;
+}
+
+/* Lights are the last but one digits of the key, eight alike: one light of each kind and all of each stand
+ * for all their combinations, since what a light's fragment reads and gives does not depend on which light it
+ * is. */
+static void set_lights(struct vertex_key *key, int pattern)
+{
+    static const uint8_t pair[6][2] = {{0, 0}, {1, 0}, {2, 0}, {1, 2}, {2, 1}, {2, 2}};
+    memset(key->light, 0, sizeof key->light);
+    key->light[0] = pair[pattern][0];
+    key->light[1] = pair[pattern][1];
+}
+
+static void vertex_plans_keep_the_contract(void)
+{
+    for (int pattern = 0; pattern < 6; pattern++)
+        for (int rest = 0; rest < 6 * 6 * 6 * 6 * 16; rest++) {
+            union key key = no_state;
+            int digits = rest;
+            for (int a = 0; a < ATTRIBUTE_COUNT; a++, digits /= ATTRIBUTE_FORMAT_COUNT)
+                key.vertex.attribute[a] = (uint8_t)(digits % ATTRIBUTE_FORMAT_COUNT);
+            key.vertex.lighting = digits & 1;
+            key.vertex.normalize = digits >> 1 & 1;
+            key.vertex.varying[0] = digits >> 2 & 1;
+            key.vertex.varying[1] = digits >> 3 & 1;
+            set_lights(&key.vertex, pattern);
+            check_plan(plan_stages, UNIT_VERTEX, &key);
+        }
+}
+
+static void setup_plans_keep_the_contract(void)
+{
+    union key key = no_state;
+    do
+        check_plan(plan_stages, UNIT_SETUP, &key);
+    while (next_key(UNIT_SETUP, &key));
+}
+
+/* Of the write masks, none, some and all. */
+static void pixel_plans_keep_the_contract(void)
+{
+    union key key = no_state;
+    do {
+        if (key.pixel.write_mask == 0 || key.pixel.write_mask == 7 || key.pixel.write_mask == 15)
+            check_plan(plan_stages, UNIT_PIXEL, &key);
+    } while (next_key(UNIT_PIXEL, &key));
+}
+
+static void operation_plans_keep_the_contract(void)
+{
+    union key most = no_state;
+    most.vertex.lighting = most.vertex.normalize = most.vertex.varying[0] = most.vertex.varying[1] = 1;
+    memset(most.vertex.light, LIGHT_POINT, sizeof most.vertex.light);
+    memset(most.vertex.attribute, ATTRIBUTE_FORMAT_FLOAT4, sizeof most.vertex.attribute);
+    check_plan(plan_operations, UNIT_VERTEX, &most);
+    for (int i = 0; i < 3000; i++) {
+        union key key;
+        key_random((enum unit)(i % UNIT_COUNT), &seed, &key);
+        check_plan(plan_operations, (enum unit)(i % UNIT_COUNT), &key);
+    }
+}
+
+/* Runs after the plans above. Operations that the specification does not use yet are not planned. */
+static void every_fragment_is_planned_by_some_key(void)
+{
+#define FRAGMENT(name, arguments, meaning)                                                                   \
+    TEST_ASSERT_TRUE_MESSAGE(planned[&fragment_##name - __start_stitch_fragments], #name);
+#include "def/fragment.def"
+#undef FRAGMENT
+}
+
+/* A part taken out, or two exchanged, must be noticed. */
+static void broken_plans_are_noticed(void)
+{
+    union key key = no_state;
+    struct error error = {{0}};
+    key.pixel.write_mask = 15;
+    key.pixel.depth_function = COMPARE_LESS;
+    plan_stages(&plan, UNIT_PIXEL, &key);
+    TEST_ASSERT_EQUAL(0, plan_check(&plan, &error));
+    for (unsigned i = 0; i < plan.count; i++)
+        if (plan.part[i].fragment == &fragment_position)
+            plan.part[i].fragment = &fragment_stage_replace;
+    TEST_ASSERT_EQUAL(-1, plan_check(&plan, &error));
+    TEST_ASSERT_NOT_NULL_MESSAGE(strstr(error.text, "stage_replace: reads ymm"), error.text);
+    error_clear(&error);
+    plan_stages(&plan, UNIT_PIXEL, &key);
+    plan.part[plan.count - 2].arguments.value[0] = (int32_t)plan.count;
+    TEST_ASSERT_EQUAL(-1, plan_check(&plan, &error));
+    TEST_ASSERT_NOT_NULL_MESSAGE(strstr(error.text, "jumps to part"), error.text);
+}
+
+static void listings_show_parts_holes_and_instructions(void)
+{
+    union key key = no_state;
+    struct error error = {{0}};
+    char *text = NULL;
+    size_t size;
+    key.pixel.write_mask = 3;
+    FILE *out = open_memstream(&text, &size);
+    TEST_ASSERT_EQUAL_MESSAGE(0, stitch_dump(arena, &engine_stitch, UNIT_PIXEL, &key, out, &error),
+                              error.text);
+    TEST_ASSERT_EQUAL_MESSAGE(0, stitch_dump(arena, &engine_stitch_operation, UNIT_PIXEL, &key, out, &error),
+                              error.text);
+    fclose(out);
+    TEST_ASSERT_NOT_NULL(strstr(text, "write_masked value=0xffff"));
+    TEST_ASSERT_NOT_NULL(strstr(text, "src/spec/write.h:"));
+    TEST_ASSERT_NOT_NULL(strstr(text, "vpblendvb"));
+    TEST_ASSERT_NULL_MESSAGE(strstr(text, "db 0x"), "bytes that are no instruction");
+    free(text);
+}
+
+static void map_memory(void)
+{
+    void *wanted = (void *)(uintptr_t)MEMORY_ADDRESS; /* NOLINT: a fixed address is the point */
+    memory = mmap(wanted, MAPPED_BYTES, PROT_READ | PROT_WRITE,
+                  MAP_PRIVATE | MAP_ANONYMOUS | MAP_NORESERVE | MAP_FIXED_NOREPLACE, -1, 0);
+    TEST_ASSERT_EQUAL_PTR(wanted, memory);
+}
+
+void setUp(void)
+{
+    struct error error = {{0}};
+    if (engine_stitch.unavailable())
+        TEST_IGNORE_MESSAGE(engine_stitch.unavailable());
+    seed = 0xca4a41e5;
+    if (!memory)
+        map_memory();
+    arena = code_create(1 << 20, NULL, &error);
+    TEST_ASSERT_NOT_NULL_MESSAGE(arena, error.text);
+}
+
+void tearDown(void)
+{
+    code_destroy(arena);
+    arena = NULL;
+}
+
+int main(void)
+{
+    UNITY_BEGIN();
+    RUN_TEST(every_fragment_keeps_its_contract);
+    RUN_TEST(offences_are_noticed);
+    RUN_TEST(argument_names_match_the_holes);
+    RUN_TEST(vertex_plans_keep_the_contract);
+    RUN_TEST(setup_plans_keep_the_contract);
+    RUN_TEST(pixel_plans_keep_the_contract);
+    RUN_TEST(operation_plans_keep_the_contract);
+    RUN_TEST(every_fragment_is_planned_by_some_key);
+    RUN_TEST(broken_plans_are_noticed);
+    RUN_TEST(listings_show_parts_holes_and_instructions);
+    return UNITY_END();
+}
