@@ -99,9 +99,11 @@ function at(operations) { world = operations }
 function paint(name, filter, operation) { texture = name; set("texturefilter", filter); set("colorop", operation) }
 function clamp() { set("addressu", "clamp"); set("addressv", "clamp") }
 function unlit() { set("lighting", "false") }
+# The target's alpha stays 1: what has an alpha of its own does not write it.
+function keep_alpha() { set("colorwriteenable", 7) }
 function translucent(source, destination) {
     set("alphablendenable", "true"); set("srcblend", source); set("destblend", destination)
-    set("zwriteenable", "false")
+    set("zwriteenable", "false"); keep_alpha()
 }
 function surface(r, g, b, a) { material = "diffuse " triple(r, g, b) " " number(a) " ambient " triple(r, g, b) " 1" }
 
@@ -335,14 +337,14 @@ function place(s, x, y, z, scale) { return "scale " scale (s > 0 ? " rotate 180 
 
 # One window: what is behind it, then the frame with translucent panes; or, cheaper, one opaque picture of both.
 function window(i, s, x, y, z, style) {
-    want(); if (style == 0) { unlit(); mesh = "panel"; paint("window", "linear", "selectarg1"); clamp() }
+    want(); if (style == 0) { unlit(); mesh = "panel"; paint("window", "linear", "selectarg1"); clamp(); keep_alpha() }
     if (style == 1) { unlit(); mesh = "interior" }
     if (style == 2) { unlit(); mesh = "dark-interior"; set("zfunc", "less") }
-    if (style == 3) { mesh = "panel"; paint("window", "point", "add"); clamp(); surface(0.3, 0.22, 0.1, 1); lights = "0" }
+    if (style == 3) { mesh = "panel"; paint("window", "point", "add"); clamp(); keep_alpha(); surface(0.3, 0.22, 0.1, 1); lights = "0" }
     at(place(s, x, y, z, "1 1.3 1.2")); emit()
     if (style != 1 && style != 2) return
     want(); unlit(); mesh = "panel"; paint("window", i % 2 ? "linear" : "point", "selectarg1"); clamp()
-    translucent("srcalpha", "invsrcalpha"); if (i % 3 == 0) set("colorwriteenable", 7)
+    translucent("srcalpha", "invsrcalpha"); if (i % 3 == 0) set("zfunc", "less")
     if (i % 4 == 1) { set("lighting", "true"); set("colorop", "modulate"); surface(1, 1, 1, 1); lit(x, z, 9, 2) }
     at(place(s, x - s * 0.01, y, z, "1 1.3 1.2")); later(z)
 }
