@@ -1,0 +1,299 @@
+/* The routine cache, over an engine that counts: exactness, order and budget of eviction, safety in flight.
+ */
+#include "draw/cache.h"
+
+#include <pthread.h>
+#include <stdlib.h>
+#include <string.h>
+#include <unity.h>
+
+enum { CODE_BYTES = 100000 };
+
+static struct cache *cache;
+static int built, freed, refuse, capacity;
+static struct error error;
+
+static const char *unavailable(void)
+{
+    return NULL;
+}
+
+static struct routine *build(struct code_arena *arena, enum unit unit, const union key *key,
+                             struct error *reason)
+{
+    (void)arena;
+    if (refuse || built - freed == capacity) {
+        error_set(reason, "no room for the %s routine", unit_name[unit]);
+        return NULL;
+    }
+    struct routine *routine = calloc(1, sizeof *routine);
+    TEST_ASSERT_NOT_NULL(routine);
+    routine->unit = unit;
+    routine->key = *key;
+    routine->code_bytes = CODE_BYTES;
+    built++;
+    return routine;
+}
+
+static void free_routine(struct code_arena *arena, struct routine *routine)
+{
+    (void)arena;
+    freed++;
+    free(routine);
+}
+
+static const struct engine engine = {.name = "count",
+                                     .description = "counts",
+                                     .width = 4,
+                                     .interprets = 1,
+                                     .unavailable = unavailable,
+                                     .build = build,
+                                     .free = free_routine};
+
+/* Keys that differ: `n` is below 16. */
+static union key key_number(int n)
+{
+    union key key;
+    memset(&key, 0, sizeof key);
+    key.pixel.write_mask = (uint8_t)n;
+    return key;
+}
+
+static const struct routine *acquire(int n)
+{
+    union key key = key_number(n);
+    return cache_acquire(cache, UNIT_PIXEL, &key, &error);
+}
+
+static void touch(int n)
+{
+    const struct routine *routine = acquire(n);
+    TEST_ASSERT_NOT_NULL(routine);
+    TEST_ASSERT_EQUAL_INT(n, routine->key.pixel.write_mask);
+    cache_release(cache, routine);
+}
+
+/* Whether asking for it again builds nothing. */
+static int present(int n)
+{
+    struct routine routine;
+    for (size_t i = 0; cache_get(cache, i, &routine); i++)
+        if (routine.key.pixel.write_mask == n)
+            return 1;
+    return 0;
+}
+
+/* A cache with room for `routines` of the counting engine's. */
+static void start(int routines)
+{
+    cache = cache_create(&engine, NULL, (size_t)routines * (CODE_BYTES + 1000), &error);
+    TEST_ASSERT_NOT_NULL(cache);
+}
+
+void setUp(void)
+{
+    built = freed = refuse = 0;
+    capacity = 1000;
+    error_clear(&error);
+}
+
+void tearDown(void)
+{
+    cache_destroy(cache);
+    cache = NULL;
+    TEST_ASSERT_EQUAL_INT(built, freed);
+}
+
+static void a_key_is_built_once(void)
+{
+    start(8);
+    for (int i = 0; i < 3; i++)
+        for (int n = 0; n < 4; n++)
+            touch(n);
+    struct cache_statistics statistics = cache_statistics(cache);
+    TEST_ASSERT_EQUAL_INT(4, built);
+    TEST_ASSERT_EQUAL_UINT64(4, statistics.misses);
+    TEST_ASSERT_EQUAL_UINT64(8, statistics.hits);
+    TEST_ASSERT_EQUAL_UINT64(0, statistics.evictions);
+    TEST_ASSERT_EQUAL_UINT64(4, statistics.routines);
+}
+
+static void units_with_equal_bytes_are_different_routines(void)
+{
+    start(8);
+    union key key;
+    memset(&key, 0, sizeof key);
+    const struct routine *setup = cache_acquire(cache, UNIT_SETUP, &key, &error);
+    const struct routine *pixel = cache_acquire(cache, UNIT_PIXEL, &key, &error);
+    TEST_ASSERT_TRUE(setup != pixel);
+    TEST_ASSERT_EQUAL_INT(UNIT_SETUP, setup->unit);
+    TEST_ASSERT_EQUAL_INT(UNIT_PIXEL, pixel->unit);
+    cache_release(cache, setup);
+    cache_release(cache, pixel);
+}
+
+static void the_least_recently_used_leaves_first(void)
+{
+    start(3);
+    touch(0);
+    touch(1);
+    touch(2);
+    touch(0);
+    touch(3);
+    TEST_ASSERT_TRUE(present(0) && !present(1) && present(2) && present(3));
+    touch(4);
+    TEST_ASSERT_TRUE(present(0) && !present(2) && present(3) && present(4));
+    TEST_ASSERT_EQUAL_UINT64(2, cache_statistics(cache).evictions);
+    TEST_ASSERT_EQUAL_INT(2, freed);
+}
+
+static void an_evicted_routine_lives_until_it_is_released(void)
+{
+    start(2);
+    const struct routine *held = acquire(0);
+    const struct routine *again = acquire(0);
+    TEST_ASSERT_EQUAL_PTR(held, again);
+    touch(1);
+    touch(2);
+    TEST_ASSERT_FALSE(present(0));
+    TEST_ASSERT_EQUAL_INT(0, freed);
+    cache_release(cache, held);
+    TEST_ASSERT_EQUAL_INT(0, freed);
+    TEST_ASSERT_EQUAL_INT(0, again->key.pixel.write_mask);
+    cache_release(cache, again);
+    TEST_ASSERT_EQUAL_INT(1, freed);
+}
+
+static void a_successor_of_an_evicted_routine_is_not_confused_with_it(void)
+{
+    start(2);
+    const struct routine *first = acquire(0);
+    touch(1);
+    touch(2);
+    const struct routine *second = acquire(0);
+    TEST_ASSERT_TRUE(first != second);
+    TEST_ASSERT_TRUE(first->number < second->number);
+    cache_release(cache, second);
+    TEST_ASSERT_EQUAL_INT(1, freed); /* routine 1, by the budget */
+    cache_release(cache, first);
+    TEST_ASSERT_EQUAL_INT(2, freed);
+    TEST_ASSERT_TRUE(present(0));
+}
+
+static void one_routine_larger_than_the_budget_still_works(void)
+{
+    cache = cache_create(&engine, NULL, 10, &error);
+    touch(0);
+    touch(0);
+    TEST_ASSERT_EQUAL_INT(1, built);
+    touch(1);
+    TEST_ASSERT_TRUE(present(1) && !present(0));
+}
+
+static void a_refusal_gives_the_reason_and_leaves_no_trace(void)
+{
+    start(4);
+    refuse = 1;
+    TEST_ASSERT_NULL(acquire(0));
+    TEST_ASSERT_EQUAL_STRING("no room for the pixel routine", error.text);
+    refuse = 0;
+    touch(0);
+    TEST_ASSERT_EQUAL_UINT64(1, cache_statistics(cache).routines);
+}
+
+static void a_full_arena_is_emptied_of_what_nobody_uses(void)
+{
+    start(8);
+    capacity = 3;
+    const struct routine *held = acquire(0);
+    touch(1);
+    touch(2);
+    touch(3);
+    TEST_ASSERT_TRUE(present(0) && !present(1) && !present(2) && present(3));
+    cache_release(cache, held);
+}
+
+static void routines_have_numbers_hits_and_build_times(void)
+{
+    start(8);
+    for (int n = 0; n < 5; n++)
+        touch(n);
+    touch(2);
+    touch(2);
+    struct routine routine;
+    for (int n = 0; n < 5; n++) {
+        TEST_ASSERT_TRUE(cache_get(cache, (size_t)n, &routine));
+        TEST_ASSERT_EQUAL_UINT32(n + 1, routine.number);
+        TEST_ASSERT_EQUAL_INT(n, routine.key.pixel.write_mask);
+        TEST_ASSERT_EQUAL_UINT64(n == 2 ? 2 : 0, routine.hits);
+    }
+    TEST_ASSERT_FALSE(cache_get(cache, 5, &routine));
+}
+
+static void hundreds_of_keys_are_all_found_again(void)
+{
+    start(1000);
+    uint64_t seed = 11;
+    static union key keys[600];
+    for (int i = 0; i < 600; i++) {
+        key_random(UNIT_VERTEX, &seed, &keys[i]);
+        cache_release(cache, cache_acquire(cache, UNIT_VERTEX, &keys[i], &error));
+    }
+    int first_built = built;
+    for (int i = 0; i < 600; i++) {
+        const struct routine *routine = cache_acquire(cache, UNIT_VERTEX, &keys[i], &error);
+        TEST_ASSERT_EQUAL_MEMORY(&keys[i], &routine->key, sizeof keys[i]);
+        cache_release(cache, routine);
+    }
+    TEST_ASSERT_EQUAL_INT(first_built, built);
+}
+
+/* Threads that acquire, use and release while the budget evicts all the time. */
+static void *churn(void *argument)
+{
+    unsigned seed = (unsigned)(uintptr_t)argument;
+    for (int i = 0; i < 3000; i++) {
+        seed = seed * 1664525 + 1013904223;
+        int n = (int)(seed >> 24) % 12;
+        union key key = key_number(n);
+        const struct routine *routine = cache_acquire(cache, UNIT_PIXEL, &key, NULL);
+        if (!routine || routine->key.pixel.write_mask != n)
+            return "wrong routine";
+        cache_release(cache, routine);
+    }
+    return NULL;
+}
+
+static void threads_may_share_it(void)
+{
+    start(3);
+    pthread_t thread[4];
+    for (uintptr_t i = 0; i < 4; i++)
+        TEST_ASSERT_EQUAL_INT(0, pthread_create(&thread[i], NULL, churn, (void *)(i + 1)));
+    for (int i = 0; i < 4; i++) {
+        void *result;
+        pthread_join(thread[i], &result);
+        TEST_ASSERT_NULL(result);
+    }
+    struct cache_statistics statistics = cache_statistics(cache);
+    TEST_ASSERT_EQUAL_UINT64(12000, statistics.hits + statistics.misses);
+    TEST_ASSERT_EQUAL_UINT64(statistics.misses, (uint64_t)built);
+    TEST_ASSERT_TRUE(statistics.bytes <= 3 * (CODE_BYTES + 1000));
+}
+
+int main(void)
+{
+    UNITY_BEGIN();
+    RUN_TEST(a_key_is_built_once);
+    RUN_TEST(units_with_equal_bytes_are_different_routines);
+    RUN_TEST(the_least_recently_used_leaves_first);
+    RUN_TEST(an_evicted_routine_lives_until_it_is_released);
+    RUN_TEST(a_successor_of_an_evicted_routine_is_not_confused_with_it);
+    RUN_TEST(one_routine_larger_than_the_budget_still_works);
+    RUN_TEST(a_refusal_gives_the_reason_and_leaves_no_trace);
+    RUN_TEST(a_full_arena_is_emptied_of_what_nobody_uses);
+    RUN_TEST(routines_have_numbers_hits_and_build_times);
+    RUN_TEST(hundreds_of_keys_are_all_found_again);
+    RUN_TEST(threads_may_share_it);
+    return UNITY_END();
+}

@@ -1,0 +1,421 @@
+/* Derivation: states that draw the same have the same keys, and the job's values are right. */
+#include "draw/derive.h"
+
+#include <math.h>
+#include <string.h>
+#include <unity.h>
+#include <xmmintrin.h>
+
+static struct state state;
+static struct triptych_buffer buffer = {.bytes = 1024};
+static struct triptych_texture texture = {.width = 64, .height = 48};
+static union key key[UNIT_COUNT];
+static struct job job;
+
+static void bind(enum triptych_attribute attribute, enum triptych_format format)
+{
+    struct triptych_element element = {format, &buffer, 16, 32};
+    TEST_ASSERT_EQUAL_INT(TRIPTYCH_OK, state_set_element(&state, attribute, &element, NULL));
+}
+
+#define SET(name, word) set(TRIPTYCH_STATE_##name, word)
+
+static void set(enum triptych_state which, const char *word)
+{
+    uint32_t value;
+    TEST_ASSERT_EQUAL_INT_MESSAGE(0, triptych_state_value(which, word, &value), word);
+    TEST_ASSERT_EQUAL_INT(TRIPTYCH_OK, state_set_value(&state, which, value, NULL));
+}
+
+void setUp(void)
+{
+    static uint8_t bytes[1024];
+    buffer.data = bytes;
+    state_initialize(&state);
+    state_set_viewport(&state, &(struct triptych_viewport){0, 0, 640, 480, 0, 1}, 640, 480, NULL);
+    bind(TRIPTYCH_POSITION, TRIPTYCH_FORMAT_FLOAT3);
+    bind(TRIPTYCH_NORMAL, TRIPTYCH_FORMAT_FLOAT3);
+    bind(TRIPTYCH_DIFFUSE, TRIPTYCH_FORMAT_COLOR);
+    bind(TRIPTYCH_TEXCOORD, TRIPTYCH_FORMAT_FLOAT2);
+}
+
+void tearDown(void)
+{
+}
+
+static void derive(void)
+{
+    derive_keys(&state, key);
+    derive_job(&state, &key[UNIT_VERTEX].vertex, &key[UNIT_PIXEL].pixel, &job);
+}
+
+/* Derives, changes nothing but a state by `change`, and expects the same keys. */
+static void expect_same_keys(void (*change)(void))
+{
+    union key before[UNIT_COUNT];
+    derive_keys(&state, before);
+    change();
+    derive_keys(&state, key);
+    TEST_ASSERT_EQUAL_MEMORY(before, key, sizeof before);
+}
+
+/* --- Keys -------------------------------------------------------------------------------------------------
+ */
+
+static void change_sampler(void)
+{
+    SET(texturefilter, "linear");
+    SET(addressu, "clamp");
+    SET(addressv, "clamp");
+    SET(colorop, "add");
+    bind(TRIPTYCH_TEXCOORD, TRIPTYCH_FORMAT_FLOAT4);
+}
+
+static void without_a_texture_its_states_are_dead(void)
+{
+    expect_same_keys(change_sampler);
+    TEST_ASSERT_EQUAL_INT(0, key[UNIT_PIXEL].pixel.texture);
+    TEST_ASSERT_EQUAL_INT(0, key[UNIT_PIXEL].pixel.filter);
+    TEST_ASSERT_EQUAL_INT(STAGE_DIFFUSE, key[UNIT_PIXEL].pixel.stage);
+    TEST_ASSERT_EQUAL_INT(ATTRIBUTE_FORMAT_NONE, key[UNIT_VERTEX].vertex.attribute[ATTRIBUTE_TEXCOORD]);
+}
+
+static void change_everything_that_colours(void)
+{
+    change_sampler();
+    state.texture = NULL;
+    SET(lighting, "false");
+    SET(shademode, "flat");
+    SET(alphablendenable, "true");
+    SET(destblend, "invsrcalpha");
+    bind(TRIPTYCH_NORMAL, TRIPTYCH_FORMAT_NONE);
+    bind(TRIPTYCH_DIFFUSE, TRIPTYCH_FORMAT_FLOAT4);
+}
+
+static void without_colour_writes_nothing_colours(void)
+{
+    state.texture = &texture;
+    state.light_enabled[0] = 1;
+    state_set_value(&state, TRIPTYCH_STATE_colorwriteenable, 0, NULL);
+    expect_same_keys(change_everything_that_colours);
+    TEST_ASSERT_EQUAL_INT(INTERPOLATION_NONE, key[UNIT_SETUP].setup.varying[VARYING_diffuse]);
+    TEST_ASSERT_EQUAL_INT(0, key[UNIT_VERTEX].vertex.lighting);
+    TEST_ASSERT_EQUAL_INT(1, key[UNIT_PIXEL].pixel.depth_write);
+}
+
+static void change_diffuse(void)
+{
+    SET(lighting, "false");
+    SET(shademode, "flat");
+    bind(TRIPTYCH_DIFFUSE, TRIPTYCH_FORMAT_FLOAT4);
+}
+
+static void replacing_by_the_texture_kills_diffuse(void)
+{
+    state.texture = &texture;
+    state.light_enabled[2] = 1;
+    SET(colorop, "selectarg1");
+    expect_same_keys(change_diffuse);
+    TEST_ASSERT_EQUAL_INT(STAGE_REPLACE, key[UNIT_PIXEL].pixel.stage);
+    TEST_ASSERT_EQUAL_INT(INTERPOLATION_NONE, key[UNIT_PIXEL].pixel.varying[VARYING_diffuse]);
+    TEST_ASSERT_EQUAL_INT(INTERPOLATION_SMOOTH, key[UNIT_PIXEL].pixel.varying[VARYING_texcoord]);
+    TEST_ASSERT_EQUAL_INT(LIGHT_NONE, key[UNIT_VERTEX].vertex.light[0]);
+    TEST_ASSERT_EQUAL_INT(ATTRIBUTE_FORMAT_NONE, key[UNIT_VERTEX].vertex.attribute[ATTRIBUTE_NORMAL]);
+}
+
+static void change_depth(void)
+{
+    SET(zfunc, "greater");
+    SET(zwriteenable, "false");
+}
+
+static void depth_off_is_always_without_write(void)
+{
+    SET(zenable, "false");
+    expect_same_keys(change_depth);
+    TEST_ASSERT_EQUAL_INT(COMPARE_ALWAYS, key[UNIT_PIXEL].pixel.depth_function);
+    TEST_ASSERT_EQUAL_INT(0, key[UNIT_PIXEL].pixel.depth_write);
+    TEST_ASSERT_EQUAL_INT(0, key[UNIT_SETUP].setup.depth);
+}
+
+static void setup_computes_depth_exactly_when_pixels_read_it(void)
+{
+    derive();
+    TEST_ASSERT_EQUAL_INT(1, key[UNIT_SETUP].setup.depth);
+    SET(zfunc, "always");
+    derive();
+    TEST_ASSERT_EQUAL_INT(1, key[UNIT_SETUP].setup.depth);
+    SET(zwriteenable, "false");
+    derive();
+    TEST_ASSERT_EQUAL_INT(0, key[UNIT_SETUP].setup.depth);
+}
+
+static void change_depth_write(void)
+{
+    SET(zwriteenable, "false");
+}
+
+static void equal_depth_needs_no_write(void)
+{
+    SET(zfunc, "equal");
+    expect_same_keys(change_depth_write);
+}
+
+static void draws_without_effect_are_recognised(void)
+{
+    derive();
+    TEST_ASSERT_TRUE(derive_effective(&key[UNIT_PIXEL].pixel));
+    SET(zfunc, "never");
+    derive();
+    TEST_ASSERT_FALSE(derive_effective(&key[UNIT_PIXEL].pixel));
+    SET(zfunc, "less");
+    SET(zwriteenable, "false");
+    state_set_value(&state, TRIPTYCH_STATE_colorwriteenable, 0, NULL);
+    derive();
+    TEST_ASSERT_FALSE(derive_effective(&key[UNIT_PIXEL].pixel));
+}
+
+static void blending_one_and_zero_is_a_copy(void)
+{
+    static const struct {
+        const char *source, *target;
+        int blend;
+    } cases[] = {{"one", "zero", BLEND_COPY},
+                 {"one", "invsrcalpha", BLEND_PREMULTIPLIED},
+                 {"srcalpha", "invsrcalpha", BLEND_OVER},
+                 {"srcalpha", "zero", BLEND_SOURCE}};
+    for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
+        SET(srcblend, cases[i].source);
+        SET(destblend, cases[i].target);
+        SET(alphablendenable, "true");
+        derive();
+        TEST_ASSERT_EQUAL_INT(cases[i].blend, key[UNIT_PIXEL].pixel.blend);
+        SET(alphablendenable, "false");
+        derive();
+        TEST_ASSERT_EQUAL_INT(BLEND_COPY, key[UNIT_PIXEL].pixel.blend);
+    }
+}
+
+static void wrapping_a_power_of_two_is_told_apart(void)
+{
+    state.texture = &texture;
+    derive();
+    TEST_ASSERT_EQUAL_INT(ADDRESS_WRAP_POWER, key[UNIT_PIXEL].pixel.address_u);
+    TEST_ASSERT_EQUAL_INT(ADDRESS_WRAP, key[UNIT_PIXEL].pixel.address_v);
+    SET(addressu, "clamp");
+    derive();
+    TEST_ASSERT_EQUAL_INT(ADDRESS_CLAMP, key[UNIT_PIXEL].pixel.address_u);
+}
+
+static void flat_shading_concerns_diffuse_only(void)
+{
+    state.texture = &texture;
+    SET(shademode, "flat");
+    derive();
+    TEST_ASSERT_EQUAL_INT(INTERPOLATION_FLAT, key[UNIT_PIXEL].pixel.varying[VARYING_diffuse]);
+    TEST_ASSERT_EQUAL_INT(INTERPOLATION_SMOOTH, key[UNIT_PIXEL].pixel.varying[VARYING_texcoord]);
+    TEST_ASSERT_EQUAL_MEMORY(key[UNIT_PIXEL].pixel.varying, key[UNIT_SETUP].setup.varying, VARYING_COUNT);
+}
+
+static void move_light(void)
+{
+    state.light[6] = state.light[3];
+    state.light_enabled[6] = 1;
+    state.light_enabled[3] = 0;
+}
+
+static void lights_are_packed_to_the_front(void)
+{
+    state.light_enabled[1] = state.light_enabled[3] = 1;
+    state.light[3].type = TRIPTYCH_LIGHT_POINT;
+    state.light[3].range = 5;
+    expect_same_keys(move_light);
+    TEST_ASSERT_EQUAL_INT(LIGHT_DIRECTIONAL, key[UNIT_VERTEX].vertex.light[0]);
+    TEST_ASSERT_EQUAL_INT(LIGHT_POINT, key[UNIT_VERTEX].vertex.light[1]);
+    TEST_ASSERT_EQUAL_INT(LIGHT_NONE, key[UNIT_VERTEX].vertex.light[2]);
+    derive();
+    TEST_ASSERT_EQUAL_FLOAT(5, job.light[1].range);
+}
+
+static void change_normals(void)
+{
+    SET(normalizenormals, "true");
+    bind(TRIPTYCH_NORMAL, TRIPTYCH_FORMAT_NONE);
+}
+
+static void without_lights_normals_are_dead(void)
+{
+    expect_same_keys(change_normals);
+    TEST_ASSERT_EQUAL_INT(1, key[UNIT_VERTEX].vertex.lighting);
+    TEST_ASSERT_EQUAL_INT(ATTRIBUTE_FORMAT_NONE, key[UNIT_VERTEX].vertex.attribute[ATTRIBUTE_DIFFUSE]);
+}
+
+static void formats_are_cut_to_what_is_read(void)
+{
+    state.texture = &texture;
+    state.light_enabled[0] = 1;
+    bind(TRIPTYCH_TEXCOORD, TRIPTYCH_FORMAT_FLOAT4);
+    bind(TRIPTYCH_NORMAL, TRIPTYCH_FORMAT_FLOAT4);
+    bind(TRIPTYCH_POSITION, TRIPTYCH_FORMAT_FLOAT4);
+    derive();
+    const uint8_t *format = key[UNIT_VERTEX].vertex.attribute;
+    TEST_ASSERT_EQUAL_INT(ATTRIBUTE_FORMAT_FLOAT2, format[ATTRIBUTE_TEXCOORD]);
+    TEST_ASSERT_EQUAL_INT(ATTRIBUTE_FORMAT_FLOAT3, format[ATTRIBUTE_NORMAL]);
+    TEST_ASSERT_EQUAL_INT(ATTRIBUTE_FORMAT_FLOAT4, format[ATTRIBUTE_POSITION]);
+}
+
+/* --- Job --------------------------------------------------------------------------------------------------
+ */
+
+static void attributes_point_at_the_first_vertex(void)
+{
+    derive();
+    TEST_ASSERT_EQUAL_PTR(buffer.data + 16, job.attribute[ATTRIBUTE_POSITION].data);
+    TEST_ASSERT_EQUAL_INT(32, job.attribute[ATTRIBUTE_POSITION].stride);
+    TEST_ASSERT_NULL(job.attribute[ATTRIBUTE_TEXCOORD].data);
+}
+
+static void the_viewport_maps_ndc_to_subpixels(void)
+{
+    state_set_viewport(&state, &(struct triptych_viewport){100, 20, 300, 200, 0.25f, 0.75f}, 640, 480, NULL);
+    derive();
+    TEST_ASSERT_EQUAL_FLOAT(100 * 256, -job.scale_x + job.offset_x);
+    TEST_ASSERT_EQUAL_FLOAT(400 * 256, job.scale_x + job.offset_x);
+    TEST_ASSERT_EQUAL_FLOAT(20 * 256, job.scale_y + job.offset_y);
+    TEST_ASSERT_EQUAL_FLOAT(220 * 256, -job.scale_y + job.offset_y);
+    TEST_ASSERT_EQUAL_FLOAT(0.25f, job.depth_offset);
+    TEST_ASSERT_EQUAL_FLOAT(0.5f, job.depth_scale);
+}
+
+static void the_guard_band_stays_within_its_limit_and_outside_the_frustum(void)
+{
+    static const struct triptych_viewport cases[] = {
+        {0, 0, 8192, 8192, 0, 1}, {8191, 0, 1, 8192, 0, 1}, {0, 0, 1, 1, 0, 1}, {8191.5f, 3, .5f, 7, 0, 1}};
+    for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
+        TEST_ASSERT_EQUAL_INT(TRIPTYCH_OK, state_set_viewport(&state, &cases[i], 8192, 8192, NULL));
+        derive();
+        double x = (double)job.guard_x * (double)job.scale_x + (double)job.offset_x;
+        double y = (double)job.guard_y * -(double)job.scale_y + (double)job.offset_y;
+        TEST_ASSERT_TRUE(x <= 16383.5 * 256 && y <= 16383.5 * 256);
+        TEST_ASSERT_TRUE(job.guard_x >= 2 && job.guard_y >= 2);
+    }
+}
+
+static void the_scissor_is_the_viewports_pixel_centres(void)
+{
+    struct rectangle r = derive_scissor(&(struct triptych_viewport){1.5f, 0.25f, 2, 1.5f, 0, 1});
+    TEST_ASSERT_EQUAL_INT(1, r.x0);
+    TEST_ASSERT_EQUAL_INT(3, r.x1);
+    TEST_ASSERT_EQUAL_INT(0, r.y0);
+    TEST_ASSERT_EQUAL_INT(2, r.y1);
+}
+
+static void matrices_multiply_in_row_order(void)
+{
+    float(*world)[4] = state.transform[TRIPTYCH_TRANSFORM_WORLD];
+    float(*view)[4] = state.transform[TRIPTYCH_TRANSFORM_VIEW];
+    world[0][0] = 2; /* scale x, then move x */
+    view[3][0] = 10;
+    state.transform[TRIPTYCH_TRANSFORM_PROJECTION][0][0] = 3;
+    derive();
+    TEST_ASSERT_EQUAL_FLOAT(2, job.world_view[0][0]);
+    TEST_ASSERT_EQUAL_FLOAT(10, job.world_view[3][0]);
+    TEST_ASSERT_EQUAL_FLOAT(6, job.world_view_projection[0][0]);
+    TEST_ASSERT_EQUAL_FLOAT(30, job.world_view_projection[3][0]);
+}
+
+/* Normals times the normal matrix stay perpendicular to surfaces times world * view. */
+static void the_normal_matrix_keeps_normals_perpendicular(void)
+{
+    static const float matrix[3][3] = {{1, 2, -1}, {0.5f, -3, 2}, {4, 0, 1.5f}};
+    for (int i = 0; i < 3; i++)
+        memcpy(state.transform[TRIPTYCH_TRANSFORM_WORLD][i], matrix[i], sizeof matrix[i]);
+    derive();
+    const float normal[3] = {1, 1, -2}, tangent[3] = {4, 2, 3};
+    float n[3] = {0}, t[3] = {0};
+    for (int c = 0; c < 3; c++)
+        for (int r = 0; r < 3; r++) {
+            n[c] += normal[r] * job.normal[r][c];
+            t[c] += tangent[r] * job.world_view[r][c];
+        }
+    TEST_ASSERT_FLOAT_WITHIN(1e-5f, 0, n[0] * t[0] + n[1] * t[1] + n[2] * t[2]);
+    TEST_ASSERT_TRUE(fabsf(n[0]) + fabsf(n[1]) + fabsf(n[2]) > 0.1f);
+}
+
+static void directional_lights_point_to_the_light_in_camera_space(void)
+{
+    state.light_enabled[0] = 1;
+    state.light[0].direction[0] = 0;
+    state.light[0].direction[2] = 5; /* travels along +z */
+    float(*view)[4] = state.transform[TRIPTYCH_TRANSFORM_VIEW];
+    view[2][2] = 0;
+    view[2][0] = 1; /* z becomes x */
+    view[0][0] = 0;
+    view[0][2] = -1;
+    derive();
+    TEST_ASSERT_EQUAL_FLOAT(-1, job.light[0].position[0]);
+    TEST_ASSERT_EQUAL_FLOAT(0, job.light[0].position[1]);
+    TEST_ASSERT_EQUAL_FLOAT(0, job.light[0].position[2]);
+}
+
+static void base_colour_collects_what_no_vertex_changes(void)
+{
+    state.value[TRIPTYCH_STATE_ambient] = 0x00ff8000;
+    state.material = (struct triptych_material){{.5f, 1, 1, .25f}, {.5f, .5f, .5f, 1}, {.125f, 0, 0, 1}};
+    state.light_enabled[0] = state.light_enabled[1] = 1;
+    state.light[0].ambient[2] = 1;
+    state.light[1].type = TRIPTYCH_LIGHT_POINT;
+    state.light[1].ambient[0] = 1;
+    derive();
+    TEST_ASSERT_EQUAL_FLOAT(.625f, job.base_color[0]);
+    TEST_ASSERT_FLOAT_WITHIN(1e-6f, .5f * 128 / 255, job.base_color[1]);
+    TEST_ASSERT_EQUAL_FLOAT(.5f, job.base_color[2]);
+    TEST_ASSERT_EQUAL_FLOAT(.25f, job.base_color[3]);
+    TEST_ASSERT_EQUAL_FLOAT(.5f, job.light[0].diffuse[0]);
+    TEST_ASSERT_EQUAL_FLOAT(.5f, job.light[1].ambient[0]);
+}
+
+static void the_job_does_not_depend_on_the_callers_rounding(void)
+{
+    struct job nearest;
+    state.light_enabled[0] = 1;
+    state.light[0].direction[0] = 0.3f;
+    state.transform[TRIPTYCH_TRANSFORM_WORLD][0][1] = 0.1f;
+    state.transform[TRIPTYCH_TRANSFORM_VIEW][1][2] = 0.7f;
+    derive();
+    nearest = job;
+    unsigned saved = _mm_getcsr();
+    _mm_setcsr(saved | _MM_ROUND_UP);
+    derive();
+    TEST_ASSERT_EQUAL_HEX32((saved | _MM_ROUND_UP) & ~0x3fu, _mm_getcsr() & ~0x3fu);
+    _mm_setcsr(saved);
+    TEST_ASSERT_EQUAL_MEMORY(&nearest, &job, sizeof job);
+}
+
+int main(void)
+{
+    UNITY_BEGIN();
+    RUN_TEST(without_a_texture_its_states_are_dead);
+    RUN_TEST(without_colour_writes_nothing_colours);
+    RUN_TEST(replacing_by_the_texture_kills_diffuse);
+    RUN_TEST(depth_off_is_always_without_write);
+    RUN_TEST(setup_computes_depth_exactly_when_pixels_read_it);
+    RUN_TEST(equal_depth_needs_no_write);
+    RUN_TEST(draws_without_effect_are_recognised);
+    RUN_TEST(blending_one_and_zero_is_a_copy);
+    RUN_TEST(wrapping_a_power_of_two_is_told_apart);
+    RUN_TEST(flat_shading_concerns_diffuse_only);
+    RUN_TEST(lights_are_packed_to_the_front);
+    RUN_TEST(without_lights_normals_are_dead);
+    RUN_TEST(formats_are_cut_to_what_is_read);
+    RUN_TEST(attributes_point_at_the_first_vertex);
+    RUN_TEST(the_viewport_maps_ndc_to_subpixels);
+    RUN_TEST(the_guard_band_stays_within_its_limit_and_outside_the_frustum);
+    RUN_TEST(the_scissor_is_the_viewports_pixel_centres);
+    RUN_TEST(matrices_multiply_in_row_order);
+    RUN_TEST(the_normal_matrix_keeps_normals_perpendicular);
+    RUN_TEST(directional_lights_point_to_the_light_in_camera_space);
+    RUN_TEST(base_colour_collects_what_no_vertex_changes);
+    RUN_TEST(the_job_does_not_depend_on_the_callers_rounding);
+    return UNITY_END();
+}
