@@ -35,7 +35,7 @@ end_fragment
 
 ; Arguments: coverage of struct entry, bit of the lane table.
 fragment coverage, ENTRY | LANES, M(2), M(8)
-    fill 1,     vmovdqa         m8, [at_lanes]
+    fill 1,     vmovdqu         m8, [at_lanes]
     fill 0,     vpbroadcastd    live, [at_entry]
                 vpand           live, live, m8
                 vpcmpeqd        live, live, m8

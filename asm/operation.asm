@@ -146,7 +146,7 @@ fragment literal, FRAME, NOTHING, R_AX | M(0)
 end_fragment
 
 fragment load, FRAME | JOB, NOTHING, M(0)
-    fill_base 1, 2, vmovaps       m0, [dword r8]
+    fill_base 1, 2, vmovups       m0, [dword r8]           ; indices and lane tables need not be aligned
     fill 0,       vmovaps         [frame], m0
 end_fragment
 

@@ -56,7 +56,7 @@ end_fragment
 %define VIEWPORT        5
 ; Arguments: row of the indices, corner in the frame, slots of x, y and w, the job's scale_x offset_x scale_y offset_y.
 fragment project, FRAME | CONSTANTS | JOB | INPUT | VERTICES, M(1) | M(2), M(0) | M_TO(3, 9)
-    fill ROW,   vmovdqa         m1, [at_input]
+    fill ROW,   vmovdqu         m1, [at_input]
                 gather_slot     m2, m1, m3, 4
                 vmovaps         m0, [constants + ONE_F]
                 gather_slot     m4, m1, m3, 2

@@ -150,7 +150,8 @@ static void random_job(struct job *job, int wild)
 /* ---- vertex */
 
 static uint8_t attribute_data[ATTRIBUTE_COUNT][ATTRIBUTE_BYTES];
-static uint32_t vertex_index[VERTEX_CAPACITY];
+static _Alignas(64) uint32_t index_words[1 + 3 * SETUP_CAPACITY];
+static uint32_t *const unaligned_index = index_words + 1; /* indices come from anywhere */
 static _Alignas(64) float batch[2][SLOT_COUNT * VERTEX_CAPACITY];
 
 static void random_attributes(struct job *job, const struct vertex_key *key, int wild)
@@ -187,9 +188,9 @@ static void vertex_routines_agree(void)
         random_job(&job, wild);
         random_attributes(&job, &key.vertex, wild);
         for (int i = 0; i < VERTEX_CAPACITY; i++)
-            vertex_index[i] = below(VERTICES - 1);
+            unaligned_index[i] = below(VERTICES - 1);
         uint32_t count = below(8) ? 16 * (1 + below(3)) : 16 * below(VERTEX_CAPACITY / 16 + 1);
-        struct vertex_call call = {&job, vertex_index, batch[0], count};
+        struct vertex_call call = {&job, unaligned_index, batch[0], count};
         memset(batch[0], 0x5a, sizeof batch[0]);
         run(&engine_emulate, UNIT_VERTEX, &key, &call);
         for (int i = 0; i < STITCHERS; i++) {
@@ -203,7 +204,6 @@ static void vertex_routines_agree(void)
 
 /* ---- setup */
 
-static uint32_t triangle_index[3 * SETUP_CAPACITY];
 static _Alignas(64) uint8_t records[2][SETUP_CAPACITY * STRIDE_MAXIMUM];
 
 static void random_batch(int wild)
@@ -213,7 +213,7 @@ static void random_batch(int wild)
             batch[0][slot * VERTEX_CAPACITY + i] =
                 slot == SLOT_W ? number(wild, 0.5f, 4.0f) : number(wild, -2.0f, 2.0f);
     for (int i = 0; i < 3 * SETUP_CAPACITY; i++)
-        triangle_index[i] = 4 * below(VERTEX_CAPACITY);
+        unaligned_index[i] = 4 * below(VERTEX_CAPACITY);
 }
 
 /* The head, the planes of a visible triangle, and nothing behind them. */
@@ -259,7 +259,7 @@ static void setup_routines_agree(void)
         size_t end = record_end(&key.setup, &layout);
         TEST_ASSERT_LESS_OR_EQUAL(STRIDE_MAXIMUM, layout.stride);
         uint32_t count = below(8) ? 16 * (1 + below(3)) : 16 * below(SETUP_CAPACITY / 16 + 1);
-        struct setup_call call = {&job, triangle_index, batch[0], records[0], count};
+        struct setup_call call = {&job, unaligned_index, batch[0], records[0], count};
         memset(records[0], 0x5a, sizeof records[0]);
         run(&engine_emulate, UNIT_SETUP, &key, &call);
         for (int i = 0; i < STITCHERS; i++) {
@@ -378,6 +378,14 @@ static void plant_equal_depths(const struct pixel_key *key, const struct triangl
         depth[2][i] = 0.25f * (float)(1 + below(3));
 }
 
+/* A table's address may be that of any words. */
+static const struct lane_table *unaligned_lanes(void)
+{
+    static _Alignas(64) uint8_t copy[4 + sizeof lane_table];
+    memcpy(copy + 4, &lane_table, sizeof lane_table);
+    return (const struct lane_table *)(copy + 4);
+}
+
 static void compare_tiles(const struct engine *engine, const union key *key)
 {
     for (size_t i = 0; i < TILE_PIXELS; i++) {
@@ -404,7 +412,8 @@ static void pixel_routines_agree(void)
         random_tile(wild);
         if (!below(3))
             plant_equal_depths(&key.pixel, &layout);
-        struct pixel_call call = {&job, entries, records[0], &lane_table, NULL, NULL, 1 + below(ENTRIES)};
+        struct pixel_call call = {&job, entries, records[0],        unaligned_lanes(),
+                                  NULL, NULL,    1 + below(ENTRIES)};
         reset_tile(0, &call);
         run(&engine_emulate, UNIT_PIXEL, &key, &call);
         for (int i = 0; i < STITCHERS; i++) {
