@@ -2,6 +2,7 @@
 #ifndef JIT_BUILD_H
 #define JIT_BUILD_H
 
+#include "draw/engine.h"
 #include "jit/emit.h"
 #include "jit/pass.h"
 
@@ -11,6 +12,9 @@ struct build_options {
     uint32_t disabled;  /* bit p: pass p is left out */
     unsigned registers; /* at most ALLOCATABLE; 0: all */
 };
+
+/* What the engine varies; null when it is none of the specializer's. */
+const struct build_options *engine_options(const struct engine *engine);
 
 /* The memory of one build, reused: none is allocated while building. */
 struct builder {

@@ -115,20 +115,19 @@ static int dump_stages(struct dump *dump, const struct build_options *options, e
     return 0;
 }
 
-int jit_dump(struct code_arena *arena, enum unit unit, const union key *key, int width, const char *show,
-             FILE *out, struct error *error)
+int jit_dump(const struct engine *engine, enum unit unit, const union key *key, const char *show, FILE *out,
+             struct error *error)
 {
-    (void)arena;
-    if (width != 4 && width != 8)
-        return error_set(error, "width is %d: expected 4 or 8", width);
+    const struct build_options *options = engine_options(engine);
+    if (!options)
+        return error_set(error, "engine %s is none of the specializer's", engine->name);
     if (check_words(show, error))
         return -1;
     struct builder *b = builder_take(error);
     if (!b)
         return -1;
     struct dump dump = {.show = show, .out = out, .builder = b};
-    struct build_options options = {.width = (unsigned)width, .profile = PROFILE_FULL};
-    int result = dump_stages(&dump, &options, unit, key, error);
+    int result = dump_stages(&dump, options, unit, key, error);
     builder_give(b);
     return result;
 }

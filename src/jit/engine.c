@@ -66,25 +66,26 @@ static void free_routine(struct code_arena *arena, struct routine *routine)
     free(routine);
 }
 
+static const struct build_options options_8 = {.width = 8, .profile = PROFILE_FULL};
+static const struct build_options options_4 = {.width = 4, .profile = PROFILE_FULL};
+static const struct build_options options_thesis = {.width = 8, .profile = PROFILE_THESIS};
+
 static struct routine *build_8(struct code_arena *arena, enum unit unit, const union key *key,
                                struct error *error)
 {
-    static const struct build_options options = {.width = 8, .profile = PROFILE_FULL};
-    return build_with(&engine_specialize, &options, arena, unit, key, error);
+    return build_with(&engine_specialize, &options_8, arena, unit, key, error);
 }
 
 static struct routine *build_4(struct code_arena *arena, enum unit unit, const union key *key,
                                struct error *error)
 {
-    static const struct build_options options = {.width = 4, .profile = PROFILE_FULL};
-    return build_with(&engine_specialize_4, &options, arena, unit, key, error);
+    return build_with(&engine_specialize_4, &options_4, arena, unit, key, error);
 }
 
 static struct routine *build_thesis(struct code_arena *arena, enum unit unit, const union key *key,
                                     struct error *error)
 {
-    static const struct build_options options = {.width = 8, .profile = PROFILE_THESIS};
-    return build_with(&engine_specialize_thesis, &options, arena, unit, key, error);
+    return build_with(&engine_specialize_thesis, &options_thesis, arena, unit, key, error);
 }
 
 const struct engine engine_specialize = {
@@ -113,3 +114,11 @@ const struct engine engine_specialize_thesis = {
     .build = build_thesis,
     .free = free_routine,
 };
+
+const struct build_options *engine_options(const struct engine *engine)
+{
+    return engine == &engine_specialize          ? &options_8
+           : engine == &engine_specialize_4      ? &options_4
+           : engine == &engine_specialize_thesis ? &options_thesis
+                                                 : NULL;
+}

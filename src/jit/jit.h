@@ -10,10 +10,11 @@ extern const struct engine engine_specialize;        /* W = 8, AVX2 */
 extern const struct engine engine_specialize_4;      /* W = 4, the same code on 128-bit registers */
 extern const struct engine engine_specialize_thesis; /* W = 8, only the passes of the thesis */
 
-/* Writes the stages of building a routine that `show` names, a comma-separated list of: key, record, a pass's
- * name (jit_pass_name), intervals, asm; or all. `width` is 4 or 8. Returns 0, or -1 with the reason. */
-int jit_dump(struct code_arena *arena, enum unit unit, const union key *key, int width, const char *show,
-             FILE *out, struct error *error);
+/* Writes the stages of building a routine with one of the engines above that `show` names, a comma-separated
+ * list of: key, record, a pass's name (jit_pass_name), intervals, asm; or all. Returns 0, or -1 with the
+ * reason. */
+int jit_dump(const struct engine *engine, enum unit unit, const union key *key, const char *show, FILE *out,
+             struct error *error);
 
 /* The i-th pass's name and one line about it; null past the last. */
 const char *jit_pass_name(unsigned i);

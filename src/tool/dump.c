@@ -23,7 +23,8 @@ struct settings {
 static int dump_jit(const struct engine *engine, struct code_arena *arena, enum unit unit,
                     const union key *key, const char *show, struct error *error)
 {
-    return jit_dump(arena, unit, key, engine->width, show, stdout, error);
+    (void)arena;
+    return jit_dump(engine, unit, key, show, stdout, error);
 }
 
 /* A stitched routine has one stage to show: what it is joined from. */
@@ -39,9 +40,8 @@ static const struct dumper {
     int (*dump)(const struct engine *engine, struct code_arena *arena, enum unit unit, const union key *key,
                 const char *show, struct error *error);
 } dumpers[] = {
-    {&engine_specialize, dump_jit},
-    {&engine_specialize_4, dump_jit},
-    {&engine_stitch, dump_stitch},
+    {&engine_specialize, dump_jit},          {&engine_specialize_4, dump_jit},
+    {&engine_specialize_thesis, dump_jit},   {&engine_stitch, dump_stitch},
     {&engine_stitch_operation, dump_stitch},
 };
 
