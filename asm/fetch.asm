@@ -23,21 +23,80 @@
                 vpmulld         m7, m7, [input]
 %endmacro
 
+; A vertex' components in one register, not reading past them: a buffer may end right behind.
+%macro load_vertex 3 ; xmm, components, index
+                mov             ecx, [input + 4 * %3]
+                imul            ecx, edx
+                movsxd          rcx, ecx
+  %if %2 == 4
+                vmovups         %1, [rax + rcx]
+  %elif %2 == 3
+                vmovsd          %1, [rax + rcx]
+                vinsertps       %1, %1, [rax + rcx + 8], 0x20
+  %elif %2 == 2
+                vmovsd          %1, [rax + rcx]
+  %endif
+%endmacro
+
+;   s0  x0 y0 z0 w0 | x4 y4 z4 w4         result 0   x0 x1 x2 x3 | x4 x5 x6 x7
+;   s1  x1 y1 z1 w1 | x5 y5 z5 w5    ->          1   y0 y1 ...
+;   s2  x2 ..       | x6 ..                      2   z0 ...
+;   s3  x3 ..       | x7 ..                      3   w0 ...
+%macro fetch_rows 5 ; attribute, first register, components wanted, components there, first of four scratch registers
+    fill STRIDE_FIELD, mov      edx, [at_job]
+    fill DATA,  mov             rax, [at_job]
+  %assign row 0
+  %rep 4
+    %assign number %5 + row
+    %assign later row + 4
+                load_vertex     xm%[number], %4, row
+                load_vertex     xm7, %4, later
+                vinsertf128     m%[number], m%[number], xm7, 1
+    %assign row row + 1
+  %endrep
+  %assign s0 %5
+  %assign s1 %5 + 1
+  %assign s2 %5 + 2
+  %assign s3 %5 + 3
+  %assign r0 %2
+  %assign r1 %2 + 1
+  %assign r2 %2 + 2
+  %assign r3 %2 + 3
+                vunpcklps       m7, m%[s0], m%[s1]          ; x0 x1 y0 y1
+                vunpcklps       m11, m%[s2], m%[s3]         ; x2 x3 y2 y3
+  %if %3 > 2 && %4 > 2
+                vunpckhps       m%[s0], m%[s0], m%[s1]      ; z0 z1 w0 w1
+                vunpckhps       m%[s2], m%[s2], m%[s3]
+                vunpcklpd       m%[r2], m%[s0], m%[s2]
+  %endif
+  %if %3 > 3 && %4 > 3
+                vunpckhpd       m%[r3], m%[s0], m%[s2]
+  %endif
+                vunpcklpd       m%[r0], m7, m11
+                vunpckhpd       m%[r1], m7, m11
+%endmacro
+
 ; Components beyond the format's are 0, the fourth 1.
-%macro fetch_floats 4 ; attribute, first register, components wanted, components there
+%macro fetch_floats 5 ; attribute, first register, components wanted, components there, scratch
   %assign last %2 + %3 - 1
-fragment %1_float%4, JOB | INPUT | CONSTANTS, M_TO(%2, last), R_AX | M(7) | M(11)
+  %assign component %4
+  %if %4 == 1
+fragment %1_float1, JOB | INPUT | CONSTANTS, M_TO(%2, last), R_AX | M(7) | M(11)
                 vertex_offsets
-  %assign component 0
-  %rep %3
-    %assign number %2 + component
-    %if component < %4
                 vpcmpeqd        m11, m11, m11
-                vgatherdps      m%[number], [rax + m7 + 4 * component], m11
-    %elif component == 3
+                vgatherdps      m%2, [rax + m7], m11
+  %else
+fragment %1_float%4, JOB | INPUT | CONSTANTS, M_TO(%2, last), R_AX | R_CX | R_DX | M(7) | M(11) | M_TO(%5, %5 + 3)
+                fetch_rows      %1, %2, %3, %4, %5
+  %endif
+  %rep %3
+    %if component < %3
+      %assign number %2 + component
+      %if component == 3
                 vmovaps         m%[number], [constants + ONE_F]
-    %else
+      %else
                 vxorps          m%[number], m%[number], m%[number]
+      %endif
     %endif
     %assign component component + 1
   %endrep
@@ -93,20 +152,20 @@ fragment %1_none, CONSTANTS, M_TO(%2, last), NOTHING
 end_fragment
 %endmacro
 
-%macro fetch 4 ; attribute, first register, components wanted, value when there is none
+%macro fetch 5 ; attribute, first register, components wanted, value when there is none, scratch
                 fetch_none      %1, %2, %3, %4
-                fetch_floats    %1, %2, %3, 1
-                fetch_floats    %1, %2, %3, 2
-                fetch_floats    %1, %2, %3, 3
-                fetch_floats    %1, %2, %3, 4
+                fetch_floats    %1, %2, %3, 1, %5
+                fetch_floats    %1, %2, %3, 2, %5
+                fetch_floats    %1, %2, %3, 3, %5
+                fetch_floats    %1, %2, %3, 4, %5
                 fetch_packed    %1, %2, %3
 %endmacro
 
 ; A position's fourth component is 1 unless it has four; then position_float4 gives it.
-fetch position, 0, 4, 0
-fetch normal, 8, 3, 0
-fetch diffuse, 12, 4, 1
-fetch texcoord, 8, 2, 0
+fetch position, 0, 4, 0, 12
+fetch normal, 8, 3, 0, 12
+fetch diffuse, 12, 4, 1, 0
+fetch texcoord, 8, 2, 0, 12
 
 ; Arguments: slots of u and v.
 fragment store_texcoord, OUTPUT | M(8) | M(9), NOTHING, NOTHING
