@@ -64,19 +64,24 @@ enum resource_type {
 struct resource {
     enum resource_type type;
     char *name;
-    char *path;       /* as written; null: the data are in the text */
+    char *path; /* as written; null: the data are in the text */
+
     uint32_t *texels; /* texture: rows of RGBA8 words */
     uint32_t width, height;
-    struct layout layout; /* vertices, mesh */
-    uint8_t *vertices;    /* vertices, mesh: vertex_count * stride bytes; buffer: its values */
+
+    enum value_type value_type; /* buffer */
+    struct layout layout;       /* vertices, mesh */
+    uint8_t *vertices;          /* vertices, mesh; buffer of floats or colours: its values */
     size_t vertex_bytes;
     uint32_t vertex_count;
-    enum value_type value_type; /* buffer */
-    void *indices;              /* indices, mesh: index_count words of index_bits */
+    void *indices; /* indices, mesh, buffer of integers: index_count words of index_bits */
     uint32_t index_bits, index_count;
+    uint32_t index_least, index_most;
     struct mesh_options options; /* mesh */
-    uint32_t call;               /* sequence: number of its CALL_SEQUENCE */
-    uint32_t depth;              /* sequence: 1 + that of the deepest sequence it plays */
+
+    uint32_t call;     /* sequence: the number of its CALL_SEQUENCE */
+    uint32_t depth;    /* sequence: 1 + that of the deepest sequence it plays */
+    uint32_t executed; /* sequence: calls and plays that one play of it executes */
 };
 
 enum call_type {
@@ -100,7 +105,7 @@ enum call_type {
     CALL_SEQUENCE /* its `count` calls follow; reaching it executes nothing */
 };
 
-#define NO_RESOURCE UINT32_MAX
+enum { NO_RESOURCE = 65536 }; /* past the last number: LIMIT_NAMES */
 
 struct call {
     enum call_type type;
@@ -156,6 +161,13 @@ struct stream {
     uint32_t *frames; /* frame_count + 1 positions in `executed` */
     uint32_t frame_count;
 };
+
+/* What a material and lights are before they are set, and what a call leaves out. */
+extern const struct triptych_material stream_default_material;
+extern const struct triptych_light stream_default_light;
+
+/* The bytes that an attribute can lie in: those of the vertices, or of a buffer of any type. */
+const void *resource_data(const struct resource *resource, size_t *bytes);
 
 /* Reads a stream and the files it names. On failure *stream is null and the reason is FILE:LINE:COLUMN: what
  * was found, what was expected. */

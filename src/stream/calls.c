@@ -1,0 +1,353 @@
+/* The calls of the text format: one function reads each, from behind its first word up to where its line
+ * should end. What a call means is not looked at here beyond its own words and numbers; check.c does. */
+#include "stream/parse.h"
+#include "stream/transform.h"
+
+#include <math.h>
+#include <stdio.h>
+#include <string.h>
+
+const struct triptych_material stream_default_material = {.diffuse = {1, 1, 1, 1}};
+const struct triptych_light stream_default_light = {
+    .type = TRIPTYCH_LIGHT_DIRECTIONAL,
+    .diffuse = {1, 1, 1, 1},
+    .direction = {0, 0, 1},
+    .range = 0x1.fffffep+63f, /* the square root of FLT_MAX, rounded down */
+    .attenuation = {1, 0, 0},
+};
+
+/* --- Parts of calls ---------------------------------------------------------------------------------------
+ */
+
+int parse_word(struct parser *parser, enum word_list list, const char *what, unsigned *value)
+{
+    const struct token *token = &parser->lex.token;
+    if (token->type == TOKEN_WORD && !word_value(list, token->text, token->length, value))
+        return lex_next(&parser->lex);
+    char choices[256];
+    word_choices(list, choices, sizeof choices);
+    return lex_expected(&parser->lex, "%s: %s", what, choices);
+}
+
+static int parse_integer(struct parser *parser, const char *what, int64_t high, uint32_t *value)
+{
+    int64_t integer;
+    if (lex_integer(&parser->lex, what, 0, high, &integer))
+        return -1;
+    *value = (uint32_t)integer;
+    return 0;
+}
+
+/* A word followed by numbers, at most once in its call. */
+struct field {
+    const char *word;
+    float *numbers;
+    size_t count;
+    int given;
+};
+
+/* Fields in any order up to the end of the line. */
+static int parse_fields(struct parser *parser, struct field *fields, size_t count)
+{
+    struct lexer *lex = &parser->lex;
+    while (lex->token.type != TOKEN_LINE_END && lex->token.type != TOKEN_END) {
+        char choices[128] = "";
+        size_t at = 0, i = 0;
+        while (i < count && (fields[i].given || !lex_is(lex, fields[i].word)))
+            i++;
+        for (size_t j = 0; i == count && j < count; j++)
+            if (!fields[j].given)
+                at += (size_t)snprintf(choices + at, sizeof choices - at, "%s, ", fields[j].word);
+        if (i == count)
+            return lex_expected(lex, "%sor the end of the line", choices);
+        fields[i].given = 1;
+        if (lex_next(lex) || lex_numbers(lex, fields[i].word, fields[i].numbers, fields[i].count))
+            return -1;
+    }
+    return 0;
+}
+
+/* --- Calls ------------------------------------------------------------------------------------------------
+ */
+
+int parse_target(struct parser *parser, struct call *call)
+{
+    int64_t width, height;
+    if (lex_integer(&parser->lex, "target width", 1, TRIPTYCH_TARGET_MAXIMUM, &width) ||
+        lex_integer(&parser->lex, "target height", 1, TRIPTYCH_TARGET_MAXIMUM, &height))
+        return -1;
+    call->target.width = (uint32_t)width;
+    call->target.height = (uint32_t)height;
+    return 0;
+}
+
+int parse_viewport(struct parser *parser, struct call *call)
+{
+    float v[6];
+    if (lex_numbers(&parser->lex, "viewport X Y WIDTH HEIGHT NEAR FAR", v, 6))
+        return -1;
+    call->viewport = (struct triptych_viewport){v[0], v[1], v[2], v[3], v[4], v[5]};
+    return 0;
+}
+
+static int find_state(const struct lexer *lex, enum triptych_state *state)
+{
+    for (int i = 0; i < TRIPTYCH_STATE_COUNT; i++)
+        if (lex_is(lex, triptych_state_name((enum triptych_state)i))) {
+            *state = (enum triptych_state)i;
+            return 0;
+        }
+    return -1;
+}
+
+/* The words of a state, for a reason; the numbers of Direct3D 9's enumerations are small. */
+static int expect_state_word(struct parser *parser, enum triptych_state state)
+{
+    char choices[256] = "";
+    size_t at = 0;
+    for (uint32_t value = 0; value < 64 && at < sizeof choices; value++) {
+        const char *word = triptych_state_word(state, value);
+        if (word)
+            at += (size_t)snprintf(choices + at, sizeof choices - at, "%s%s", at ? ", " : "", word);
+    }
+    return lex_expected(&parser->lex, "a value of %s: %s", triptych_state_name(state),
+                        at ? choices : "a number");
+}
+
+/* A word of the state, a packed colour, or a number; whether the state takes the number is checked with the
+ * state. */
+static int parse_state_value(struct parser *parser, enum triptych_state state, uint32_t *value)
+{
+    struct lexer *lex = &parser->lex;
+    char word[LIMIT_NAME_BYTES + 1];
+    if (lex->token.type != TOKEN_WORD || lex->token.length > LIMIT_NAME_BYTES)
+        return expect_state_word(parser, state);
+    memcpy(word, lex->token.text, lex->token.length);
+    word[lex->token.length] = 0;
+    if (!triptych_state_value(state, word, value))
+        return lex_next(lex);
+    if (word[0] == '0' && (word[1] | 32) == 'x')
+        return lex_color(lex, triptych_state_name(state), value);
+    if (word[0] >= '0' && word[0] <= '9')
+        return parse_integer(parser, triptych_state_name(state), UINT32_MAX, value);
+    return expect_state_word(parser, state);
+}
+
+int parse_set(struct parser *parser, struct call *call)
+{
+    if (find_state(&parser->lex, &call->set.state))
+        return lex_expected(&parser->lex, "the name of a state");
+    if (lex_next(&parser->lex))
+        return -1;
+    return parse_state_value(parser, call->set.state, &call->set.value);
+}
+
+static int parse_operation(struct parser *parser, double matrix[4][4])
+{
+    struct lexer *lex = &parser->lex;
+    const struct transform_operation *operation;
+    struct token place = lex->token;
+    double arguments[TRANSFORM_ARGUMENTS_MAXIMUM], made[4][4];
+    size_t i = 0;
+    while ((operation = transform_operation(i)) && !lex_is(lex, operation->word))
+        i++;
+    if (!operation)
+        return lex_expected(
+            lex, "identity, matrix, translate, scale, rotate, lookat, perspective or orthographic");
+    if (lex_next(lex))
+        return -1;
+    for (size_t a = 0; a < operation->count; a++)
+        if (lex_double(lex, operation->word, &arguments[a]))
+            return -1;
+    const char *expected = operation->make(arguments, made);
+    if (expected)
+        return lex_fail(lex, &place, "found another '%s', expected %s", operation->word, expected);
+    transform_multiply(matrix, made, matrix);
+    return 0;
+}
+
+static int round_matrix(struct parser *parser, const struct token *place, double matrix[4][4],
+                        float out[4][4])
+{
+    for (int i = 0; i < 4; i++)
+        for (int j = 0; j < 4; j++) {
+            out[i][j] = (float)matrix[i][j];
+            if (!isfinite(out[i][j]))
+                return lex_fail(&parser->lex, place,
+                                "found a matrix with infinite values, expected finite ones");
+        }
+    return 0;
+}
+
+int parse_transform(struct parser *parser, struct call *call)
+{
+    struct lexer *lex = &parser->lex;
+    double matrix[4][4] = {{1, 0, 0, 0}, {0, 1, 0, 0}, {0, 0, 1, 0}, {0, 0, 0, 1}};
+    unsigned which, count = 0;
+    if (parse_word(parser, WORDS_TRANSFORM, "a transform", &which))
+        return -1;
+    struct token place = lex->token;
+    do {
+        if (count++ == LIMIT_OPERATIONS)
+            return lex_expected(lex, "at most %d operations", LIMIT_OPERATIONS);
+        if (parse_operation(parser, matrix))
+            return -1;
+    } while (lex->token.type != TOKEN_LINE_END && lex->token.type != TOKEN_END);
+    call->transform.which = (enum triptych_transform)which;
+    return round_matrix(parser, &place, matrix, call->transform.matrix);
+}
+
+int parse_material(struct parser *parser, struct call *call)
+{
+    call->material = stream_default_material;
+    struct field fields[] = {{"diffuse", call->material.diffuse, 4, 0},
+                             {"ambient", call->material.ambient, 4, 0},
+                             {"emissive", call->material.emissive, 4, 0}};
+    return parse_fields(parser, fields, 3);
+}
+
+int parse_light(struct parser *parser, struct call *call)
+{
+    struct lexer *lex = &parser->lex;
+    struct triptych_light *light = &call->light.value;
+    struct field directional[] = {{"diffuse", light->diffuse, 4, 0},
+                                  {"ambient", light->ambient, 4, 0},
+                                  {"direction", light->direction, 3, 0}};
+    struct field point[] = {{"diffuse", light->diffuse, 4, 0},
+                            {"ambient", light->ambient, 4, 0},
+                            {"position", light->position, 3, 0},
+                            {"range", &light->range, 1, 0},
+                            {"attenuation", light->attenuation, 3, 0}};
+    if (parse_integer(parser, "light", TRIPTYCH_LIGHTS - 1, &call->light.index))
+        return -1;
+    *light = stream_default_light;
+    if (lex_is(lex, "directional"))
+        return lex_next(lex) ? -1 : parse_fields(parser, directional, 3);
+    if (lex_is(lex, "point")) {
+        light->type = TRIPTYCH_LIGHT_POINT;
+        return lex_next(lex) ? -1 : parse_fields(parser, point, 5);
+    }
+    if (!lex_is(lex, "on") && !lex_is(lex, "off"))
+        return lex_expected(lex, "directional, point, on or off");
+    call->type = CALL_ENABLE_LIGHT;
+    call->light.on = lex_is(lex, "on");
+    return lex_next(lex);
+}
+
+enum {
+    TEXTURES = 1 << RESOURCE_TEXTURE,
+    MESHES = 1 << RESOURCE_MESH,
+    DRAWABLES = 1 << RESOURCE_VERTICES | MESHES,
+    INDICES = 1 << RESOURCE_INDICES | 1 << RESOURCE_BUFFER | MESHES,
+    ELEMENTS = 1 << RESOURCE_VERTICES | 1 << RESOURCE_BUFFER | MESHES
+};
+
+static int parse_name_or_none(struct parser *parser, unsigned types, const char *what, struct call *call)
+{
+    if (lex_is(&parser->lex, "none"))
+        return lex_next(&parser->lex);
+    return parse_name(parser, types, what, &call->resource);
+}
+
+static int bind_texture(struct parser *parser, struct call *call)
+{
+    return parse_name_or_none(parser, TEXTURES, "a texture, or none,", call);
+}
+
+static int bind_vertices(struct parser *parser, struct call *call)
+{
+    return parse_name(parser, DRAWABLES, "vertices or a mesh", &call->resource);
+}
+
+static int bind_indices(struct parser *parser, struct call *call)
+{
+    struct token place = parser->lex.token;
+    if (parse_name_or_none(parser, INDICES, "indices, a mesh, a buffer of u16 or u32, or none,", call))
+        return -1;
+    if (call->resource != NO_RESOURCE && !parser->stream->resources[call->resource].indices)
+        return lex_fail(&parser->lex, &place, "found a buffer of other values, expected one of u16 or u32");
+    return 0;
+}
+
+static int bind_element(struct parser *parser, struct call *call)
+{
+    struct lexer *lex = &parser->lex;
+    unsigned attribute, format;
+    int64_t offset, stride;
+    if (parse_word(parser, WORDS_ATTRIBUTE, "an attribute", &attribute))
+        return -1;
+    call->element.attribute = (enum triptych_attribute)attribute;
+    call->element.format = TRIPTYCH_FORMAT_NONE;
+    if (lex_is(lex, "none"))
+        return lex_next(lex);
+    if (parse_word(parser, WORDS_FORMAT, "a format, or none", &format) ||
+        parse_name(parser, ELEMENTS, "a buffer, vertices or a mesh", &call->resource))
+        return -1;
+    for (int i = 0; i < 2; i++) {
+        struct token place = lex->token;
+        int64_t *value = i ? &stride : &offset;
+        if (lex_integer(lex, i ? "stride" : "offset", 0, i ? 65536 : INT32_MAX, value))
+            return -1;
+        if (*value % 4)
+            return lex_fail(lex, &place, "found '%d', expected a multiple of 4", (int)*value);
+    }
+    call->element.format = (enum triptych_format)format;
+    call->element.offset = (uint32_t)offset;
+    call->element.stride = (uint32_t)stride;
+    return 0;
+}
+
+int parse_bind(struct parser *parser, struct call *call)
+{
+    static const struct {
+        const char *word;
+        enum call_type type;
+        int (*parse)(struct parser *parser, struct call *call);
+    } rows[] = {{"texture", CALL_BIND_TEXTURE, bind_texture},
+                {"vertices", CALL_BIND_VERTICES, bind_vertices},
+                {"indices", CALL_BIND_INDICES, bind_indices},
+                {"element", CALL_BIND_ELEMENT, bind_element}};
+    for (size_t i = 0; i < sizeof rows / sizeof rows[0]; i++)
+        if (lex_is(&parser->lex, rows[i].word)) {
+            call->type = rows[i].type;
+            return lex_next(&parser->lex) ? -1 : rows[i].parse(parser, call);
+        }
+    return lex_expected(&parser->lex, "texture, vertices, indices or element");
+}
+
+int parse_clear(struct parser *parser, struct call *call)
+{
+    struct field fields[] = {{"color", call->clear.color, 4, 0}, {"depth", &call->clear.depth, 1, 0}};
+    if (parse_fields(parser, fields, 2))
+        return -1;
+    call->clear.has_color = fields[0].given;
+    call->clear.has_depth = fields[1].given;
+    if (!fields[0].given && !fields[1].given)
+        return lex_expected(&parser->lex, "color R G B A, depth D, or both");
+    return 0;
+}
+
+int parse_primitives(struct parser *parser, struct call *call)
+{
+    unsigned primitive;
+    int64_t base = 0;
+    const char *what = call->type == CALL_DRAW_INDEXED ? "a primitive" : "a primitive, or mesh NAME";
+    if (parse_word(parser, WORDS_PRIMITIVE, what, &primitive))
+        return -1;
+    if (call->type == CALL_DRAW_INDEXED &&
+        lex_integer(&parser->lex, "base vertex", INT32_MIN, INT32_MAX, &base))
+        return -1;
+    call->draw.primitive = (enum triptych_primitive)primitive;
+    call->draw.base = (int32_t)base;
+    if (parse_integer(parser, "first", UINT32_MAX, &call->draw.first))
+        return -1;
+    return parse_integer(parser, "count of primitives", UINT32_MAX, &call->draw.count);
+}
+
+int parse_draw(struct parser *parser, struct call *call)
+{
+    if (!lex_is(&parser->lex, "mesh"))
+        return parse_primitives(parser, call);
+    call->type = CALL_DRAW_MESH;
+    return lex_next(&parser->lex) ? -1 : parse_name(parser, MESHES, "a mesh", &call->resource);
+}

@@ -1,0 +1,272 @@
+/* The stream as a whole: its executed calls and frames, and whether they can be executed.
+ *
+ * The check follows the calls with the device's own state (draw/state.h), so that what a state, a light or a
+ * viewport may be is decided in one place. Draws are checked against everything that is bound, whether the
+ * pipeline would read it or not. A reason stands at the call that cannot be executed, also when it is played
+ * in a sequence. */
+#include "stream/layout.h"
+#include "stream/parse.h"
+
+#include "draw/state.h"
+
+#include <inttypes.h>
+#include <stdlib.h>
+#include <string.h>
+
+static int fail_at(struct parser *parser, const struct call *call, const char *reason)
+{
+    struct token place = {.line = call->line, .column = call->column};
+    return lex_fail(&parser->lex, &place, "%s", reason);
+}
+
+/* --- Expansion --------------------------------------------------------------------------------------------
+ */
+
+struct expansion {
+    struct parser *parser;
+    uint32_t frame_capacity;
+};
+
+static int add_frame(struct expansion *expansion, const struct call *call)
+{
+    struct stream *stream = expansion->parser->stream;
+    if (stream->frame_count == LIMIT_FRAMES) {
+        struct error reason = {{0}};
+        error_set(&reason, "found one more frame, expected at most %d", LIMIT_FRAMES);
+        return fail_at(expansion->parser, call, reason.text);
+    }
+    if (stream->frame_count + 2 > expansion->frame_capacity) {
+        uint32_t capacity = 2 * expansion->frame_capacity + 16;
+        uint32_t *larger = realloc(stream->frames, capacity * sizeof *larger);
+        if (!larger)
+            return fail_at(expansion->parser, call, "not enough memory");
+        stream->frames = larger;
+        expansion->frame_capacity = capacity;
+    }
+    stream->frames[stream->frame_count++] = stream->executed_count;
+    return 0;
+}
+
+/* Executes calls first to last - 1. frames[f] is where frame f ends until all is expanded. */
+static int expand(struct expansion *expansion, uint32_t first, uint32_t last)
+{
+    struct stream *stream = expansion->parser->stream;
+    for (uint32_t i = first; i < last; i++) {
+        const struct call *call = &stream->calls[i];
+        if (call->type == CALL_SEQUENCE) {
+            i += call->sequence.count;
+        } else if (call->type == CALL_FRAME) {
+            if (add_frame(expansion, call))
+                return -1;
+        } else if (call->type == CALL_PLAY) {
+            uint32_t sequence = stream->resources[call->resource].call;
+            if (expand(expansion, sequence + 1, sequence + 1 + stream->calls[sequence].sequence.count))
+                return -1;
+        } else {
+            stream->executed[stream->executed_count++] = i;
+        }
+    }
+    return 0;
+}
+
+int stream_expand(struct parser *parser)
+{
+    struct stream *stream = parser->stream;
+    struct expansion expansion = {.parser = parser};
+    if (!parser->executed)
+        return lex_expected(&parser->lex, "at least one call");
+    /* Counts plays and frames too: at least enough. */
+    stream->executed = malloc(parser->executed * sizeof *stream->executed);
+    if (!stream->executed)
+        return lex_fail(&parser->lex, &parser->lex.token, "not enough memory");
+    if (expand(&expansion, 0, stream->call_count))
+        return -1;
+    uint32_t ended = stream->frame_count ? stream->frames[stream->frame_count - 1] : 0;
+    if (stream->executed_count > ended && add_frame(&expansion, &stream->calls[stream->call_count - 1]))
+        return -1;
+    if (!stream->frame_count)
+        return lex_expected(&parser->lex, "at least one call that is executed");
+    memmove(stream->frames + 1, stream->frames, stream->frame_count * sizeof *stream->frames);
+    stream->frames[0] = 0;
+    return 0;
+}
+
+/* --- Following --------------------------------------------------------------------------------------------
+ */
+
+struct follower {
+    struct parser *parser;
+    const struct stream *stream;
+    struct state state;
+    uint32_t width, height; /* of the target; 0: none yet */
+    uint32_t element_resource[TRIPTYCH_ATTRIBUTE_COUNT];
+    uint32_t indices;
+};
+
+static int bind_element(struct follower *follower, enum triptych_attribute attribute, uint32_t resource,
+                        enum triptych_format format, uint32_t offset, uint32_t stride, struct error *error)
+{
+    struct triptych_buffer *buffer = NULL;
+    struct triptych_element element = {.format = format, .offset = offset, .stride = stride};
+    struct triptych_buffer stand_in = {0}; /* its size is all that is looked at */
+    if (format != TRIPTYCH_FORMAT_NONE) {
+        resource_data(&follower->stream->resources[resource], &stand_in.bytes);
+        buffer = &stand_in;
+    }
+    element.buffer = buffer;
+    if (state_set_element(&follower->state, attribute, &element, error))
+        return -1;
+    follower->state.element[attribute].buffer = NULL;
+    follower->element_resource[attribute] = resource;
+    return 0;
+}
+
+static int bind_vertices(struct follower *follower, uint32_t resource, struct error *error)
+{
+    const struct layout *layout = &follower->stream->resources[resource].layout;
+    for (unsigned a = 0; a < TRIPTYCH_ATTRIBUTE_COUNT; a++)
+        if (bind_element(follower, (enum triptych_attribute)a, resource, layout->format[a], layout->offset[a],
+                         layout->stride, error))
+            return -1;
+    return 0;
+}
+
+/* Whether vertices up to `last` lie in everything that is bound. */
+static int check_vertices(const struct follower *follower, uint64_t last, struct error *error)
+{
+    for (unsigned a = 0; a < TRIPTYCH_ATTRIBUTE_COUNT; a++) {
+        const struct triptych_element *element = &follower->state.element[a];
+        if (element->format == TRIPTYCH_FORMAT_NONE || !element->stride)
+            continue;
+        const struct resource *resource = &follower->stream->resources[follower->element_resource[a]];
+        size_t bytes;
+        resource_data(resource, &bytes);
+        uint64_t most = (bytes - element->offset - 4 * format_words(element->format)) / element->stride;
+        if (last > most)
+            return error_set(
+                error, "found vertex %" PRIu64 " drawn, expected at most %" PRIu64 ", the last %s in %s",
+                last, most, word_text(WORDS_ATTRIBUTE, a), resource->name);
+    }
+    return 0;
+}
+
+static void index_extremes(const struct resource *resource, uint64_t first, uint64_t count, uint32_t *least,
+                           uint32_t *most)
+{
+    const uint16_t *narrow = resource->indices;
+    const uint32_t *wide = resource->indices;
+    *least = UINT32_MAX;
+    *most = 0;
+    for (uint64_t i = first; i < first + count; i++) {
+        uint32_t index = resource->index_bits == 16 ? narrow[i] : wide[i];
+        *least = index < *least ? index : *least;
+        *most = index > *most ? index : *most;
+    }
+}
+
+/* The extremes of all indices do for most draws; only where they would not are those of the range looked at.
+ */
+static int check_indices(const struct follower *follower, int32_t base, uint64_t first, uint64_t count,
+                         struct error *error)
+{
+    if (follower->indices == NO_RESOURCE)
+        return error_set(error, "found no indices bound, expected bind indices before it");
+    const struct resource *resource = &follower->stream->resources[follower->indices];
+    uint32_t least = resource->index_least, most = resource->index_most;
+    if (first + count > resource->index_count)
+        return error_set(error, "found index %" PRIu64 " drawn, expected at most %u, the last in %s",
+                         first + count - 1, resource->index_count - 1, resource->name);
+    struct error ignored = {{0}};
+    if ((int64_t)base + least < 0 || check_vertices(follower, (uint64_t)((int64_t)base + most), &ignored))
+        index_extremes(resource, first, count, &least, &most);
+    if ((int64_t)base + least < 0)
+        return error_set(error, "found vertex %" PRId64 " drawn, expected 0 or more", (int64_t)base + least);
+    if ((int64_t)base + most > UINT32_MAX)
+        return error_set(error, "found vertex %" PRId64 " drawn, expected less than 2^32",
+                         (int64_t)base + most);
+    return check_vertices(follower, (uint64_t)((int64_t)base + most), error);
+}
+
+static int check_draw(struct follower *follower, const struct call *call, struct error *error)
+{
+    uint64_t first = call->draw.first, count = call->draw.count;
+    int indexed = call->type == CALL_DRAW_INDEXED;
+    if (follower->state.element[TRIPTYCH_POSITION].format == TRIPTYCH_FORMAT_NONE)
+        return error_set(error, "found no position bound, expected bind vertices before it");
+    if (indexed && follower->indices == NO_RESOURCE)
+        return error_set(error, "found no indices bound, expected bind indices before it");
+    if (!count)
+        return 0;
+    count = call->draw.primitive == TRIPTYCH_TRIANGLE_LIST ? 3 * count : count + 2;
+    if (indexed)
+        return check_indices(follower, call->draw.base, first, count, error);
+    if (first + count - 1 > UINT32_MAX)
+        return error_set(error, "found vertex %" PRIu64 " drawn, expected less than 2^32", first + count - 1);
+    return check_vertices(follower, first + count - 1, error);
+}
+
+static int check_clear(const struct call *call, struct error *error)
+{
+    if (call->clear.has_depth && !(call->clear.depth >= 0 && call->clear.depth <= 1))
+        return error_set(error, "found depth %g, expected 0 to 1", (double)call->clear.depth);
+    return 0;
+}
+
+static void set_target(struct follower *follower, const struct call *call)
+{
+    follower->width = call->target.width;
+    follower->height = call->target.height;
+}
+
+static int follow(struct follower *follower, const struct call *call, struct error *error)
+{
+    struct state *state = &follower->state;
+    switch (call->type) {
+    case CALL_TARGET: set_target(follower, call); return 0;
+    case CALL_VIEWPORT:
+        return state_set_viewport(state, &call->viewport, follower->width, follower->height, error);
+    case CALL_SET: return state_set_value(state, call->set.state, call->set.value, error);
+    case CALL_TRANSFORM: return 0;
+    case CALL_MATERIAL: return state_set_material(state, &call->material, error);
+    case CALL_LIGHT: return state_set_light(state, call->light.index, &call->light.value, error);
+    case CALL_ENABLE_LIGHT: return 0;
+    case CALL_BIND_TEXTURE: return 0;
+    case CALL_BIND_VERTICES: return bind_vertices(follower, call->resource, error);
+    case CALL_BIND_INDICES: follower->indices = call->resource; return 0;
+    case CALL_BIND_ELEMENT:
+        return bind_element(follower, call->element.attribute, call->resource, call->element.format,
+                            call->element.offset, call->element.stride, error);
+    case CALL_CLEAR: return check_clear(call, error);
+    case CALL_DRAW:
+    case CALL_DRAW_INDEXED: return check_draw(follower, call, error);
+    case CALL_DRAW_MESH:
+        follower->indices = call->resource;
+        return bind_vertices(follower, call->resource, error);
+    case CALL_FRAME:
+    case CALL_PLAY:
+    case CALL_SEQUENCE: return 0;
+    }
+    return 0;
+}
+
+static int needs_target(enum call_type type)
+{
+    return type == CALL_VIEWPORT || type == CALL_CLEAR || type == CALL_DRAW || type == CALL_DRAW_INDEXED ||
+           type == CALL_DRAW_MESH;
+}
+
+int stream_check(struct parser *parser)
+{
+    const struct stream *stream = parser->stream;
+    struct follower follower = {.parser = parser, .stream = stream, .indices = NO_RESOURCE};
+    state_initialize(&follower.state);
+    for (uint32_t i = 0; i < stream->executed_count; i++) {
+        const struct call *call = &stream->calls[stream->executed[i]];
+        struct error reason = {{0}};
+        if (needs_target(call->type) && !follower.width)
+            return fail_at(parser, call, "found no target, expected target WIDTH HEIGHT before it");
+        if (follow(&follower, call, &reason))
+            return fail_at(parser, call, reason.text);
+    }
+    return 0;
+}

@@ -1,0 +1,465 @@
+/* The definitions of the text format: textures, vertices, indices, buffers and meshes, from behind their
+ * first word. */
+#include "stream/layout.h"
+#include "stream/mesh.h"
+#include "stream/parse.h"
+
+#include "base/png.h"
+
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+const void *resource_data(const struct resource *resource, size_t *bytes)
+{
+    if (resource->vertices) {
+        *bytes = resource->vertex_bytes;
+        return resource->vertices;
+    }
+    *bytes = (size_t)resource->index_count * resource->index_bits / 8;
+    return resource->indices;
+}
+
+/* --- Blocks -----------------------------------------------------------------------------------------------
+ */
+
+/* The data of a block while they are read. */
+struct block {
+    uint8_t *data;
+    size_t bytes, capacity;
+    size_t size;  /* bytes of an item */
+    size_t limit; /* items */
+    const char *items;
+};
+
+static int append(struct parser *parser, struct block *block, const void *item)
+{
+    if (block->bytes == block->limit * block->size)
+        return lex_expected(&parser->lex, "at most %zu %s", block->limit, block->items);
+    if (block->bytes + block->size > block->capacity) {
+        size_t capacity = block->capacity ? 2 * block->capacity : 64 * block->size;
+        uint8_t *larger = realloc(block->data, capacity);
+        if (!larger)
+            return lex_fail(&parser->lex, &parser->lex.token, "not enough memory");
+        block->data = larger;
+        block->capacity = capacity;
+    }
+    memcpy(block->data + block->bytes, item, block->size);
+    block->bytes += block->size;
+    return 0;
+}
+
+static int open_block(struct parser *parser)
+{
+    if (parser->lex.token.type != TOKEN_OPEN)
+        return lex_expected(&parser->lex, "{");
+    return lex_next(&parser->lex);
+}
+
+/* Reads the value at the current token in its form in memory. */
+static int parse_value(struct parser *parser, enum value_type type, const char *what, void *value)
+{
+    int64_t integer = 0;
+    uint16_t narrow;
+    uint32_t wide;
+    switch (type) {
+    case VALUE_FLOAT: return lex_number(&parser->lex, what, value);
+    case VALUE_COLOR: return lex_color(&parser->lex, what, value);
+    case VALUE_U16:
+        if (lex_integer(&parser->lex, what, 0, UINT16_MAX, &integer))
+            return -1;
+        narrow = (uint16_t)integer;
+        memcpy(value, &narrow, sizeof narrow);
+        return 0;
+    case VALUE_U32:
+        if (lex_integer(&parser->lex, what, 0, UINT32_MAX, &integer))
+            return -1;
+        wide = (uint32_t)integer;
+        memcpy(value, &wide, sizeof wide);
+        return 0;
+    }
+    return -1;
+}
+
+/* { value... } with line breaks anywhere; at least one. */
+static int parse_values(struct parser *parser, enum value_type type, const char *what, struct block *block)
+{
+    struct lexer *lex = &parser->lex;
+    uint32_t value;
+    if (open_block(parser) || lex_skip_lines(lex))
+        return -1;
+    while (lex->token.type == TOKEN_WORD)
+        if (parse_value(parser, type, what, &value) || append(parser, block, &value) || lex_skip_lines(lex))
+            return -1;
+    if (lex->token.type != TOKEN_CLOSE)
+        return lex_expected(lex, "%s or }", what);
+    if (!block->bytes)
+        return lex_expected(lex, "%s before it", what);
+    return lex_next(lex);
+}
+
+/* --- Assets -----------------------------------------------------------------------------------------------
+ */
+
+/* Counts a resource's bytes against the stream's limit. */
+static int account(struct parser *parser, const struct token *place, size_t bytes)
+{
+    parser->bytes += bytes;
+    if (parser->bytes > LIMIT_STREAM_BYTES)
+        return lex_fail(&parser->lex, place, "found more than %d bytes of resources, expected less",
+                        LIMIT_STREAM_BYTES);
+    return 0;
+}
+
+/* Where a path of the text leads: a relative one starts at the stream's folder. The caller frees it. */
+static char *asset_path(const char *stream_path, const char *path)
+{
+    const char *slash = strrchr(stream_path, '/');
+    size_t folder = slash && path[0] != '/' ? (size_t)(slash - stream_path) + 1 : 0;
+    char *joined = malloc(folder + strlen(path) + 1);
+    if (joined) {
+        memcpy(joined, stream_path, folder);
+        strcpy(joined + folder, path);
+    }
+    return joined;
+}
+
+static int load_texture(struct resource *resource, const char *path, struct error *error)
+{
+    return png_load(path, &resource->width, &resource->height, &resource->texels, error);
+}
+
+/* Loads the resource's file; a failure is reported at the place of its path. */
+static int load(struct parser *parser, struct resource *resource, const struct token *place,
+                int (*loader)(struct resource *resource, const char *path, struct error *error))
+{
+    struct error reason = {{0}};
+    char *path = asset_path(parser->lex.path, resource->path);
+    if (!path)
+        return lex_fail(&parser->lex, place, "not enough memory");
+    int result = loader(resource, path, &reason);
+    free(path);
+    if (result)
+        return lex_fail(&parser->lex, place, "%s", reason.text);
+    return 0;
+}
+
+static int parse_path(struct parser *parser, struct resource *resource)
+{
+    struct token place = parser->lex.token;
+    if (lex_string(&parser->lex, "the path of a file", &resource->path))
+        return -1;
+    size_t length = strlen(resource->path);
+    if (!length || length > LIMIT_PATH_BYTES)
+        return lex_fail(&parser->lex, &place, "found a path of %zu bytes, expected 1 to %d", length,
+                        LIMIT_PATH_BYTES);
+    return 0;
+}
+
+/* --- Textures ---------------------------------------------------------------------------------------------
+ */
+
+/* 0xAARRGGBB of the text to the RGBA8 word with red in the lowest byte. */
+static void swap_red_and_blue(uint32_t *texels, size_t count)
+{
+    for (size_t i = 0; i < count; i++) {
+        uint32_t c = texels[i];
+        texels[i] = (c & 0xff00ff00) | (c >> 16 & 0xff) | (c & 0xff) << 16;
+    }
+}
+
+static int parse_texels(struct parser *parser, struct resource *resource)
+{
+    struct lexer *lex = &parser->lex;
+    int64_t width, height;
+    if (lex_integer(lex, "texture width", 1, TRIPTYCH_TEXTURE_MAXIMUM, &width) ||
+        lex_integer(lex, "texture height", 1, TRIPTYCH_TEXTURE_MAXIMUM, &height))
+        return -1;
+    size_t count = (size_t)(width * height);
+    struct token place = lex->token;
+    if (account(parser, &place, 4 * count))
+        return -1;
+    struct block block = {.size = 4, .limit = count, .items = "texels"};
+    int result = parse_values(parser, VALUE_COLOR, "texel", &block);
+    resource->texels = (uint32_t *)(void *)block.data;
+    resource->width = (uint32_t)width;
+    resource->height = (uint32_t)height;
+    if (result)
+        return -1;
+    if (block.bytes != 4 * count)
+        return lex_fail(lex, &place, "found %zu texels, expected %zu", block.bytes / 4, count);
+    swap_red_and_blue(resource->texels, count);
+    return 0;
+}
+
+int parse_texture(struct parser *parser)
+{
+    struct resource *resource;
+    if (parse_new_name(parser, RESOURCE_TEXTURE, &resource))
+        return -1;
+    if (!lex_is(&parser->lex, "file")) {
+        if (parser->lex.token.type != TOKEN_WORD || parser->lex.token.text[0] > '9')
+            return lex_expected(&parser->lex, "file \"PATH\" or WIDTH HEIGHT { color... }");
+        return parse_texels(parser, resource);
+    }
+    if (lex_next(&parser->lex))
+        return -1;
+    struct token place = parser->lex.token;
+    if (parse_path(parser, resource) || load(parser, resource, &place, load_texture))
+        return -1;
+    return account(parser, &place, 4 * (size_t)resource->width * resource->height);
+}
+
+/* --- Vertices ---------------------------------------------------------------------------------------------
+ */
+
+/* ATTRIBUTE:FORMAT */
+static int parse_element(struct parser *parser, struct resource *resource, enum triptych_attribute *which)
+{
+    struct lexer *lex = &parser->lex;
+    const struct token *token = &lex->token;
+    const char *colon = memchr(token->text, ':', token->length);
+    size_t length = colon ? (size_t)(colon - token->text) : 0;
+    unsigned attribute, format;
+    if (token->type != TOKEN_WORD || !colon || word_value(WORDS_ATTRIBUTE, token->text, length, &attribute) ||
+        word_value(WORDS_FORMAT, colon + 1, token->length - length - 1, &format))
+        return lex_expected(
+            lex, "ATTRIBUTE:FORMAT with position, normal, diffuse or texcoord, and float1 to float4 "
+                 "or color");
+    if (resource->layout.format[attribute])
+        return lex_expected(lex, "each attribute once");
+    if (format == TRIPTYCH_FORMAT_COLOR && attribute != TRIPTYCH_DIFFUSE)
+        return lex_expected(lex, "format color for diffuse only");
+    layout_add(&resource->layout, (enum triptych_attribute)attribute, (enum triptych_format)format);
+    *which = (enum triptych_attribute)attribute;
+    return lex_next(lex);
+}
+
+/* One vertex; its attributes in the order of the text. */
+static int parse_vertex(struct parser *parser, const struct layout *layout,
+                        const enum triptych_attribute *order, struct block *block)
+{
+    uint32_t vertex[4 * TRIPTYCH_ATTRIBUTE_COUNT], word = 0;
+    for (int i = 0; word < layout->stride / 4; i++) {
+        enum triptych_format format = layout->format[order[i]];
+        enum value_type type = format == TRIPTYCH_FORMAT_COLOR ? VALUE_COLOR : VALUE_FLOAT;
+        for (uint32_t c = 0; c < format_words(format); c++)
+            if (parse_value(parser, type, word_text(WORDS_ATTRIBUTE, order[i]), &vertex[word++]))
+                return -1;
+    }
+    if (append(parser, block, vertex))
+        return -1;
+    if (parser->lex.token.type != TOKEN_LINE_END)
+        return lex_expected(&parser->lex, "the end of the line after a vertex of %u values", word);
+    return lex_skip_lines(&parser->lex);
+}
+
+static int parse_vertex_block(struct parser *parser, const struct layout *layout,
+                              const enum triptych_attribute *order, struct block *block)
+{
+    struct lexer *lex = &parser->lex;
+    if (open_block(parser))
+        return -1;
+    if (lex->token.type != TOKEN_LINE_END)
+        return lex_expected(lex, "the end of the line before the first vertex");
+    if (lex_skip_lines(lex))
+        return -1;
+    while (lex->token.type == TOKEN_WORD)
+        if (parse_vertex(parser, layout, order, block))
+            return -1;
+    if (lex->token.type != TOKEN_CLOSE)
+        return lex_expected(lex, "a vertex or }");
+    if (!block->bytes)
+        return lex_expected(lex, "a vertex before it");
+    return lex_next(lex);
+}
+
+int parse_vertices(struct parser *parser)
+{
+    enum triptych_attribute order[TRIPTYCH_ATTRIBUTE_COUNT];
+    struct resource *resource;
+    struct token place;
+    int count = 0;
+    if (parse_new_name(parser, RESOURCE_VERTICES, &resource))
+        return -1;
+    do {
+        if (parse_element(parser, resource, &order[count]))
+            return -1;
+        count++;
+    } while (parser->lex.token.type == TOKEN_WORD && count < TRIPTYCH_ATTRIBUTE_COUNT);
+    const struct layout *layout = &resource->layout;
+    struct block block = {.size = layout->stride, .limit = LIMIT_VERTICES, .items = "vertices"};
+    place = parser->lex.token;
+    int result = parse_vertex_block(parser, layout, order, &block);
+    resource->vertices = block.data;
+    resource->vertex_bytes = block.bytes;
+    resource->vertex_count = (uint32_t)(block.bytes / layout->stride);
+    return result ? -1 : account(parser, &place, block.bytes);
+}
+
+/* --- Indices and values -----------------------------------------------------------------------------------
+ */
+
+static void find_extremes(struct resource *resource)
+{
+    const uint16_t *narrow = resource->indices;
+    const uint32_t *wide = resource->indices;
+    resource->index_least = UINT32_MAX;
+    resource->index_most = 0;
+    for (uint32_t i = 0; i < resource->index_count; i++) {
+        uint32_t index = resource->index_bits == 16 ? narrow[i] : wide[i];
+        resource->index_least = index < resource->index_least ? index : resource->index_least;
+        resource->index_most = index > resource->index_most ? index : resource->index_most;
+    }
+}
+
+/* The block of a resource whose data are all of one type. */
+static int parse_data(struct parser *parser, struct resource *resource, enum value_type type,
+                      const char *what)
+{
+    struct token place = parser->lex.token;
+    struct block block = {.size = value_bytes(type), .limit = LIMIT_VALUES, .items = "values"};
+    int result = parse_values(parser, type, what, &block);
+    if (type == VALUE_U16 || type == VALUE_U32) {
+        resource->indices = block.data;
+        resource->index_bits = 8 * value_bytes(type);
+        resource->index_count = (uint32_t)(block.bytes / value_bytes(type));
+        find_extremes(resource);
+    } else {
+        resource->vertices = block.data;
+        resource->vertex_bytes = block.bytes;
+    }
+    return result ? -1 : account(parser, &place, block.bytes);
+}
+
+int parse_indices(struct parser *parser)
+{
+    struct resource *resource;
+    if (parse_new_name(parser, RESOURCE_INDICES, &resource))
+        return -1;
+    int narrow = lex_is(&parser->lex, "16");
+    if (!narrow && !lex_is(&parser->lex, "32"))
+        return lex_expected(&parser->lex, "16 or 32 bits");
+    if (lex_next(&parser->lex))
+        return -1;
+    return parse_data(parser, resource, narrow ? VALUE_U16 : VALUE_U32, "index");
+}
+
+int parse_buffer(struct parser *parser)
+{
+    struct resource *resource;
+    unsigned type;
+    if (parse_new_name(parser, RESOURCE_BUFFER, &resource) ||
+        parse_word(parser, WORDS_VALUE, "a type of values", &type))
+        return -1;
+    resource->value_type = (enum value_type)type;
+    return parse_data(parser, resource, resource->value_type, "value");
+}
+
+/* --- Meshes -----------------------------------------------------------------------------------------------
+ */
+
+static int parse_fit(struct parser *parser, struct mesh_options *options)
+{
+    struct token place = parser->lex.token;
+    if (lex_number(&parser->lex, "fit", &options->fit))
+        return -1;
+    if (!(options->fit > 0))
+        return lex_fail(&parser->lex, &place, "found a size of %g, expected more than 0",
+                        (double)options->fit);
+    return 0;
+}
+
+static int parse_subdivisions(struct parser *parser, struct mesh_options *options)
+{
+    int64_t subdivisions;
+    if (lex_integer(&parser->lex, "subdivisions", 1, LIMIT_SUBDIVISIONS, &subdivisions))
+        return -1;
+    options->subdivisions = (unsigned)subdivisions;
+    return 0;
+}
+
+static int parse_texcoords(struct parser *parser, struct mesh_options *options)
+{
+    unsigned value;
+    if (parse_word(parser, WORDS_TEXCOORDS, "a projection", &value))
+        return -1;
+    options->texcoords = (enum texcoords)value;
+    return 0;
+}
+
+static int parse_normals(struct parser *parser, struct mesh_options *options)
+{
+    unsigned value;
+    if (parse_word(parser, WORDS_NORMALS, "a kind of normals", &value))
+        return -1;
+    options->normals = (enum normals)value;
+    return 0;
+}
+
+static int parse_center(struct parser *parser, struct mesh_options *options)
+{
+    (void)parser;
+    options->center = 1;
+    return 0;
+}
+
+static const struct option {
+    const char *word;
+    unsigned sources; /* that have it: a mask of 1 << source */
+    int (*parse)(struct parser *parser, struct mesh_options *options);
+} options[] = {
+    {"normals", 1 << MESH_FILE, parse_normals},
+    {"subdivisions", 1 << MESH_BEZIER, parse_subdivisions},
+    {"texcoords", 1 << MESH_FILE | 1 << MESH_BEZIER, parse_texcoords},
+    {"center", 1 << MESH_FILE | 1 << MESH_BEZIER, parse_center},
+    {"fit", 1 << MESH_FILE | 1 << MESH_BEZIER, parse_fit},
+};
+
+enum { OPTIONS = sizeof options / sizeof *options };
+
+static int parse_options(struct parser *parser, struct mesh_options *out)
+{
+    struct lexer *lex = &parser->lex;
+    unsigned left = 0; /* options that may still come */
+    for (int i = 0; i < OPTIONS; i++)
+        left |= (options[i].sources >> out->source & 1) << i;
+    while (lex->token.type != TOKEN_LINE_END && lex->token.type != TOKEN_END) {
+        char choices[128] = "";
+        size_t at = 0;
+        int i = 0;
+        while (i < OPTIONS && !((left >> i & 1) && lex_is(lex, options[i].word)))
+            i++;
+        for (int j = 0; i == OPTIONS && j < OPTIONS; j++)
+            if (left >> j & 1)
+                at += (size_t)snprintf(choices + at, sizeof choices - at, "%s, ", options[j].word);
+        if (i == OPTIONS)
+            return lex_expected(lex, "%sor the end of the line", choices);
+        left &= ~(1u << i);
+        if (lex_next(lex) || options[i].parse(parser, out))
+            return -1;
+    }
+    if (out->source == MESH_BEZIER && !out->subdivisions)
+        return lex_expected(lex, "subdivisions N");
+    return 0;
+}
+
+int parse_mesh(struct parser *parser)
+{
+    struct lexer *lex = &parser->lex;
+    struct resource *resource;
+    if (parse_new_name(parser, RESOURCE_MESH, &resource))
+        return -1;
+    if (!lex_is(lex, "file") && !lex_is(lex, "bezier"))
+        return lex_expected(lex, "file \"PATH\" or bezier \"PATH\"");
+    resource->options.source = lex_is(lex, "bezier") ? MESH_BEZIER : MESH_FILE;
+    if (lex_next(lex))
+        return -1;
+    struct token place = lex->token;
+    if (parse_path(parser, resource) || parse_options(parser, &resource->options) ||
+        load(parser, resource, &place, mesh_load))
+        return -1;
+    find_extremes(resource);
+    return account(parser, &place,
+                   resource->vertex_bytes + (size_t)resource->index_count * resource->index_bits / 8);
+}

@@ -1,0 +1,56 @@
+/* What the parts of the text reader share: the lines (parse.c), the calls (calls.c), the definitions of
+ * resources (define.c), the check of the whole (check.c). Functions return 0, or -1 with the reason set at
+ * the lexer's error. */
+#ifndef STREAM_PARSE_H
+#define STREAM_PARSE_H
+
+#include "stream/lex.h"
+#include "stream/stream.h"
+#include "stream/words.h"
+
+struct parser {
+    struct lexer lex;
+    struct stream *stream;
+    uint32_t resource_capacity, call_capacity;
+    uint32_t *names; /* open addressing: 1 + a resource's number, 0 is free; a power of two of places */
+    uint32_t name_places;
+    size_t bytes;      /* of all resources */
+    uint32_t sequence; /* the one that is being read, or NO_RESOURCE */
+    uint32_t executed; /* by the calls outside sequences */
+};
+
+/* The current token as one of a list's words. `what` names it in the reason. */
+int parse_word(struct parser *parser, enum word_list list, const char *what, unsigned *value);
+
+/* Reads a name that is not in use and adds a resource of that type; *resource is valid until the next one. */
+int parse_new_name(struct parser *parser, enum resource_type type, struct resource **resource);
+
+/* Reads the name of a resource of one of the types (a mask of 1 << type); `what` names them in the reason. */
+int parse_name(struct parser *parser, unsigned types, const char *what, uint32_t *resource);
+
+/* Calls, from behind their first word; what is not mentioned in the text has its default. */
+int parse_target(struct parser *parser, struct call *call);
+int parse_viewport(struct parser *parser, struct call *call);
+int parse_set(struct parser *parser, struct call *call);
+int parse_transform(struct parser *parser, struct call *call);
+int parse_material(struct parser *parser, struct call *call);
+int parse_light(struct parser *parser, struct call *call);
+int parse_bind(struct parser *parser, struct call *call);
+int parse_clear(struct parser *parser, struct call *call);
+int parse_draw(struct parser *parser, struct call *call);
+int parse_primitives(struct parser *parser, struct call *call);
+
+/* Definitions, from behind their first word to the end of the line. */
+int parse_texture(struct parser *parser);
+int parse_vertices(struct parser *parser);
+int parse_indices(struct parser *parser);
+int parse_buffer(struct parser *parser);
+int parse_mesh(struct parser *parser);
+
+/* Fills stream->executed and stream->frames. */
+int stream_expand(struct parser *parser);
+
+/* Follows the state through the executed calls: targets and viewports, what is bound, what draws read. */
+int stream_check(struct parser *parser);
+
+#endif

@@ -1,0 +1,314 @@
+/* Playing: resources are created once by stream_prepare, frames are executed any number of times.
+ *
+ * The player knows which frame the device is ready for. Another one is reached from the beginning: every
+ * state to its default, then the calls of the earlier frames without draws and clears. The states that a
+ * frame can leave to later ones are all set here, so that playing does not depend on what the device's own
+ * defaults are. */
+#include "stream/stream.h"
+
+#include <inttypes.h>
+#include <stdlib.h>
+
+enum { NOWHERE = UINT32_MAX };
+
+struct handles {
+    triptych_buffer *vertices, *indices;
+    triptych_texture *texture;
+};
+
+struct player {
+    const struct stream *stream;
+    triptych_device *device;
+    struct handles *handles; /* one per resource */
+    uint32_t next;           /* the frame that the device's state is right for, or NOWHERE */
+};
+
+/* --- Resources --------------------------------------------------------------------------------------------
+ */
+
+static enum triptych_result create(triptych_device *device, const struct resource *resource,
+                                   struct handles *handles)
+{
+    enum triptych_result result = TRIPTYCH_OK;
+    if (resource->texels)
+        result = triptych_texture_create(device, resource->texels, resource->width, resource->height,
+                                         &handles->texture);
+    if (!result && resource->vertices)
+        result =
+            triptych_buffer_create(device, resource->vertices, resource->vertex_bytes, &handles->vertices);
+    if (!result && resource->indices)
+        result = triptych_buffer_create(device, resource->indices,
+                                        (size_t)resource->index_count * resource->index_bits / 8,
+                                        &handles->indices);
+    return result;
+}
+
+static int create_all(struct player *player, struct error *error)
+{
+    const struct stream *stream = player->stream;
+    for (uint32_t i = 0; i < stream->resource_count; i++)
+        if (create(player->device, &stream->resources[i], &player->handles[i]))
+            return error_set(error, "%s: %s: %s", stream->path, stream->resources[i].name,
+                             triptych_error(player->device));
+    return 0;
+}
+
+int stream_prepare(const struct stream *stream, triptych_device *device, struct player **player,
+                   struct error *error)
+{
+    struct player *made = calloc(1, sizeof *made);
+    *player = NULL;
+    if (made)
+        made->handles = calloc(stream->resource_count + 1, sizeof *made->handles);
+    if (!made || !made->handles) {
+        player_free(made);
+        return error_set(error, "%s: not enough memory", stream->path);
+    }
+    made->stream = stream;
+    made->device = device;
+    made->next = NOWHERE;
+    if (create_all(made, error)) {
+        player_free(made);
+        return -1;
+    }
+    *player = made;
+    return 0;
+}
+
+void player_free(struct player *player)
+{
+    if (!player)
+        return;
+    free(player->handles);
+    free(player);
+}
+
+/* --- Calls ------------------------------------------------------------------------------------------------
+ */
+
+static enum triptych_result bind_element(struct player *player, enum triptych_attribute attribute,
+                                         uint32_t resource, enum triptych_format format, size_t offset,
+                                         size_t stride)
+{
+    struct triptych_element element = {.format = format, .offset = offset, .stride = stride};
+    if (format != TRIPTYCH_FORMAT_NONE) {
+        const struct handles *handles = &player->handles[resource];
+        element.buffer = handles->vertices ? handles->vertices : handles->indices;
+    }
+    return triptych_set_element(player->device, attribute, &element);
+}
+
+static enum triptych_result bind_vertices(struct player *player, uint32_t resource)
+{
+    const struct layout *layout = &player->stream->resources[resource].layout;
+    enum triptych_result result = TRIPTYCH_OK;
+    for (unsigned a = 0; a < TRIPTYCH_ATTRIBUTE_COUNT && !result; a++)
+        result = bind_element(player, (enum triptych_attribute)a, resource, layout->format[a],
+                              layout->offset[a], layout->stride);
+    return result;
+}
+
+static enum triptych_result bind_indices(struct player *player, uint32_t resource)
+{
+    if (resource == NO_RESOURCE)
+        return triptych_set_indices(player->device, NULL, 16);
+    return triptych_set_indices(player->device, player->handles[resource].indices,
+                                player->stream->resources[resource].index_bits);
+}
+
+static enum triptych_result bind_texture(struct player *player, uint32_t resource)
+{
+    return triptych_set_texture(player->device,
+                                resource == NO_RESOURCE ? NULL : player->handles[resource].texture);
+}
+
+static enum triptych_result bind_mesh(struct player *player, uint32_t resource)
+{
+    enum triptych_result result = bind_vertices(player, resource);
+    return result ? result : bind_indices(player, resource);
+}
+
+/* Everything that stays from call to call. */
+static enum triptych_result execute_state(struct player *player, const struct call *call)
+{
+    triptych_device *device = player->device;
+    switch (call->type) {
+    case CALL_TARGET: return triptych_set_target(device, call->target.width, call->target.height);
+    case CALL_VIEWPORT: return triptych_set_viewport(device, &call->viewport);
+    case CALL_SET: return triptych_set_state(device, call->set.state, call->set.value);
+    case CALL_TRANSFORM: return triptych_set_transform(device, call->transform.which, call->transform.matrix);
+    case CALL_MATERIAL: return triptych_set_material(device, &call->material);
+    case CALL_LIGHT: return triptych_set_light(device, call->light.index, &call->light.value);
+    case CALL_ENABLE_LIGHT: return triptych_enable_light(device, call->light.index, call->light.on);
+    case CALL_BIND_TEXTURE: return bind_texture(player, call->resource);
+    case CALL_BIND_VERTICES: return bind_vertices(player, call->resource);
+    case CALL_BIND_INDICES: return bind_indices(player, call->resource);
+    case CALL_BIND_ELEMENT:
+        return bind_element(player, call->element.attribute, call->resource, call->element.format,
+                            call->element.offset, call->element.stride);
+    case CALL_DRAW_MESH: return bind_mesh(player, call->resource);
+    case CALL_CLEAR:
+    case CALL_DRAW:
+    case CALL_DRAW_INDEXED:
+    case CALL_FRAME:
+    case CALL_PLAY:
+    case CALL_SEQUENCE: return TRIPTYCH_OK;
+    }
+    return TRIPTYCH_OK;
+}
+
+static enum triptych_result execute_pixels(struct player *player, const struct call *call)
+{
+    triptych_device *device = player->device;
+    switch (call->type) {
+    case CALL_CLEAR:
+        return triptych_clear(device, call->clear.has_color ? call->clear.color : NULL,
+                              call->clear.has_depth ? call->clear.depth : -1.0f);
+    case CALL_DRAW: return triptych_draw(device, call->draw.primitive, call->draw.first, call->draw.count);
+    case CALL_DRAW_INDEXED:
+        return triptych_draw_indexed(device, call->draw.primitive, call->draw.base, call->draw.first,
+                                     call->draw.count);
+    case CALL_DRAW_MESH:
+        return triptych_draw_indexed(device, TRIPTYCH_TRIANGLE_LIST, 0, 0,
+                                     player->stream->resources[call->resource].index_count / 3);
+    default: return TRIPTYCH_OK;
+    }
+}
+
+/* Whether all pixels of the target that executed[at] sets are cleared within the frame before anything draws
+ * on them, so that nobody can see what was there. */
+static int is_overwritten(const struct stream *stream, uint32_t at, uint32_t end)
+{
+    while (++at < end) {
+        const struct call *call = &stream->calls[stream->executed[at]];
+        switch (call->type) {
+        case CALL_CLEAR: return call->clear.has_color && call->clear.has_depth;
+        case CALL_TARGET:
+        case CALL_VIEWPORT:
+        case CALL_DRAW:
+        case CALL_DRAW_INDEXED:
+        case CALL_DRAW_MESH: return 0;
+        default: break;
+        }
+    }
+    return 0;
+}
+
+/* Replaying a frame that sets its target would measure the making of targets; one of the same size can stay
+ * if its pixels do not matter. */
+static enum triptych_result keep_target(struct player *player, const struct call *call, int *kept)
+{
+    unsigned width, height;
+    triptych_target_size(player->device, &width, &height);
+    *kept = width == call->target.width && height == call->target.height;
+    if (!*kept)
+        return TRIPTYCH_OK;
+    const struct triptych_viewport whole = {0, 0, (float)width, (float)height, 0, 1};
+    return triptych_set_viewport(player->device, &whole);
+}
+
+static enum triptych_result execute(struct player *player, uint32_t at, uint32_t end, int draws)
+{
+    const struct stream *stream = player->stream;
+    const struct call *call = &stream->calls[stream->executed[at]];
+    enum triptych_result result = TRIPTYCH_OK;
+    int kept = 0;
+    if (call->type == CALL_TARGET && draws && is_overwritten(stream, at, end))
+        result = keep_target(player, call, &kept);
+    if (!result && !kept)
+        result = execute_state(player, call);
+    if (!result && draws)
+        result = execute_pixels(player, call);
+    return result;
+}
+
+/* --- Frames -----------------------------------------------------------------------------------------------
+ */
+
+static enum triptych_result reset_lights(triptych_device *device)
+{
+    enum triptych_result result = triptych_set_material(device, &stream_default_material);
+    for (unsigned i = 0; i < TRIPTYCH_LIGHTS && !result; i++) {
+        result = triptych_set_light(device, i, &stream_default_light);
+        if (!result)
+            result = triptych_enable_light(device, i, 0);
+    }
+    return result;
+}
+
+static enum triptych_result reset(struct player *player)
+{
+    static const uint32_t initial[TRIPTYCH_STATE_COUNT] = {
+#define STATE(name, kind, initial, units, meaning) initial,
+#include "def/state.def"
+#undef STATE
+    };
+    static const float identity[4][4] = {{1, 0, 0, 0}, {0, 1, 0, 0}, {0, 0, 1, 0}, {0, 0, 0, 1}};
+    enum triptych_result result = reset_lights(player->device);
+    for (unsigned i = 0; i < TRIPTYCH_STATE_COUNT && !result; i++)
+        result = triptych_set_state(player->device, (enum triptych_state)i, initial[i]);
+    for (unsigned i = 0; i < TRIPTYCH_TRANSFORM_COUNT && !result; i++)
+        result = triptych_set_transform(player->device, (enum triptych_transform)i, identity);
+    for (unsigned a = 0; a < TRIPTYCH_ATTRIBUTE_COUNT && !result; a++)
+        result = bind_element(player, (enum triptych_attribute)a, NO_RESOURCE, TRIPTYCH_FORMAT_NONE, 0, 0);
+    if (!result)
+        result = bind_texture(player, NO_RESOURCE);
+    return result ? result : bind_indices(player, NO_RESOURCE);
+}
+
+/* Executes the calls at first to last - 1 of `executed`; the reason names the call's place in the text. */
+static int execute_range(struct player *player, uint32_t first, uint32_t last, int draws, struct error *error)
+{
+    const struct stream *stream = player->stream;
+    for (uint32_t i = first; i < last; i++)
+        if (execute(player, i, last, draws)) {
+            const struct call *call = &stream->calls[stream->executed[i]];
+            return error_set(error, "%s:%" PRIu32 ":%" PRIu32 ": %s", stream->path, call->line, call->column,
+                             triptych_error(player->device));
+        }
+    return 0;
+}
+
+static int seek(struct player *player, uint32_t frame, struct error *error)
+{
+    if (player->next == frame)
+        return 0;
+    player->next = NOWHERE;
+    if (reset(player))
+        return error_set(error, "%s: %s", player->stream->path, triptych_error(player->device));
+    return execute_range(player, 0, player->stream->frames[frame], 0, error);
+}
+
+int player_frame(struct player *player, uint32_t frame, struct error *error)
+{
+    const struct stream *stream = player->stream;
+    if (frame >= stream->frame_count)
+        return error_set(error, "%s: frame %" PRIu32 ", expected 0 to %" PRIu32, stream->path, frame,
+                         stream->frame_count - 1);
+    if (seek(player, frame, error))
+        return -1;
+    player->next = NOWHERE;
+    if (execute_range(player, stream->frames[frame], stream->frames[frame + 1], 1, error))
+        return -1;
+    if (triptych_finish(player->device))
+        return error_set(error, "%s: frame %" PRIu32 ": %s", stream->path, frame,
+                         triptych_error(player->device));
+    player->next = frame + 1;
+    return 0;
+}
+
+int stream_play(const struct stream *stream, triptych_device *device, uint32_t first, uint32_t last,
+                frame_callback *callback, void *user, struct error *error)
+{
+    struct player *player;
+    if (stream_prepare(stream, device, &player, error))
+        return -1;
+    int result = 0;
+    for (uint32_t frame = first; frame <= last && !result; frame++) {
+        result = player_frame(player, frame, error);
+        if (!result && callback)
+            result = callback(user, frame, device, error);
+    }
+    player_free(player);
+    return result;
+}

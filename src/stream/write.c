@@ -1,0 +1,447 @@
+/* Canonical text: the resources in their order, then the calls in theirs. What a call leaves to its default
+ * is not written, so that the text stays short; numbers have as few digits as read back as the same binary32.
+ */
+#include "base/file.h"
+#include "stream/layout.h"
+#include "stream/stream.h"
+#include "stream/words.h"
+
+#include <inttypes.h>
+#include <locale.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+struct writer {
+    FILE *out;
+    const struct stream *stream;
+    char *prefix; /* from the new text's folder to that of the old, in front of relative paths; "" if they are
+                     one */
+};
+
+enum { VALUES_PER_LINE = 16 };
+
+static void write_number(struct writer *writer, float number)
+{
+    char text[32];
+    for (int digits = 6; digits <= 9; digits++) {
+        snprintf(text, sizeof text, "%.*g", digits, (double)number);
+        if (strtof(text, NULL) == number)
+            break;
+    }
+    fprintf(writer->out, " %s", text);
+}
+
+static void write_numbers(struct writer *writer, const float *numbers, size_t count)
+{
+    for (size_t i = 0; i < count; i++)
+        write_number(writer, numbers[i]);
+}
+
+/* --- Resources --------------------------------------------------------------------------------------------
+ */
+
+static void write_path(struct writer *writer, const char *path)
+{
+    const char *parts[2] = {path[0] == '/' ? "" : writer->prefix, path};
+    fputs(" \"", writer->out);
+    for (int p = 0; p < 2; p++)
+        for (const char *c = parts[p]; *c; c++) {
+            if (*c == '"' || *c == '\\')
+                fputc('\\', writer->out);
+            fputc(*c, writer->out);
+        }
+    fputc('"', writer->out);
+}
+
+static void write_texels(struct writer *writer, const struct resource *resource)
+{
+    size_t count = (size_t)resource->width * resource->height;
+    size_t line = resource->width < VALUES_PER_LINE ? resource->width : VALUES_PER_LINE;
+    fprintf(writer->out, " %" PRIu32 " %" PRIu32 " {", resource->width, resource->height);
+    for (size_t i = 0; i < count; i++) {
+        uint32_t c = resource->texels[i];
+        c = (c & 0xff00ff00) | (c >> 16 & 0xff) | (c & 0xff) << 16;
+        fprintf(writer->out, "%s%08" PRIx32, i % line ? " " : "\n    ", c);
+    }
+    fputs("\n}", writer->out);
+}
+
+/* The attributes in the order in which they lie in a vertex; returns how many. */
+static int sort_attributes(const struct layout *layout, unsigned order[TRIPTYCH_ATTRIBUTE_COUNT])
+{
+    int count = 0;
+    for (uint32_t offset = 0; offset < layout->stride; count++) {
+        unsigned a = 0;
+        while (!layout->format[a] || layout->offset[a] != offset)
+            a++;
+        order[count] = a;
+        offset += 4 * format_words(layout->format[a]);
+    }
+    return count;
+}
+
+static void write_words(struct writer *writer, enum triptych_format format, const uint8_t *data)
+{
+    uint32_t color;
+    float number;
+    memcpy(&color, data, sizeof color);
+    if (format == TRIPTYCH_FORMAT_COLOR) {
+        fprintf(writer->out, " 0x%08" PRIx32, color);
+        return;
+    }
+    for (uint32_t c = 0; c < format_words(format); c++) {
+        memcpy(&number, data + 4 * c, sizeof number);
+        write_number(writer, number);
+    }
+}
+
+static void write_vertices(struct writer *writer, const struct resource *resource)
+{
+    const struct layout *layout = &resource->layout;
+    unsigned order[TRIPTYCH_ATTRIBUTE_COUNT];
+    int count = sort_attributes(layout, order);
+    for (int i = 0; i < count; i++)
+        fprintf(writer->out, " %s:%s", word_text(WORDS_ATTRIBUTE, order[i]),
+                word_text(WORDS_FORMAT, layout->format[order[i]]));
+    fputs(" {\n", writer->out);
+    for (uint32_t v = 0; v < resource->vertex_count; v++) {
+        const uint8_t *vertex = resource->vertices + (size_t)v * layout->stride;
+        fputs("   ", writer->out);
+        for (int i = 0; i < count; i++)
+            write_words(writer, layout->format[order[i]], vertex + layout->offset[order[i]]);
+        fputc('\n', writer->out);
+    }
+    fputc('}', writer->out);
+}
+
+static void write_indices(struct writer *writer, const struct resource *resource)
+{
+    const uint16_t *narrow = resource->indices;
+    const uint32_t *wide = resource->indices;
+    fputs(" {", writer->out);
+    for (uint32_t i = 0; i < resource->index_count; i++)
+        fprintf(writer->out, "%s%" PRIu32, i % VALUES_PER_LINE ? " " : "\n    ",
+                resource->index_bits == 16 ? narrow[i] : wide[i]);
+    fputs("\n}", writer->out);
+}
+
+static void write_values(struct writer *writer, const struct resource *resource)
+{
+    enum triptych_format format =
+        resource->value_type == VALUE_COLOR ? TRIPTYCH_FORMAT_COLOR : TRIPTYCH_FORMAT_FLOAT1;
+    fputs(" {", writer->out);
+    for (size_t i = 0; i < resource->vertex_bytes / 4; i++) {
+        fputs(i % VALUES_PER_LINE ? "" : "\n   ", writer->out);
+        write_words(writer, format, resource->vertices + 4 * i);
+    }
+    fputs("\n}", writer->out);
+}
+
+static void write_mesh(struct writer *writer, const struct resource *resource)
+{
+    const struct mesh_options *options = &resource->options;
+    fputs(options->source == MESH_BEZIER ? " bezier" : " file", writer->out);
+    write_path(writer, resource->path);
+    if (options->source == MESH_BEZIER)
+        fprintf(writer->out, " subdivisions %u", options->subdivisions);
+    if (options->normals != NORMALS_SMOOTH)
+        fprintf(writer->out, " normals %s", word_text(WORDS_NORMALS, options->normals));
+    if (options->texcoords != TEXCOORDS_KEEP)
+        fprintf(writer->out, " texcoords %s", word_text(WORDS_TEXCOORDS, options->texcoords));
+    if (options->center)
+        fputs(" center", writer->out);
+    if (options->fit > 0) {
+        fputs(" fit", writer->out);
+        write_number(writer, options->fit);
+    }
+}
+
+static void write_resource(struct writer *writer, const struct resource *resource)
+{
+    switch (resource->type) {
+    case RESOURCE_TEXTURE:
+        fprintf(writer->out, "texture %s", resource->name);
+        if (!resource->path) {
+            write_texels(writer, resource);
+            break;
+        }
+        fputs(" file", writer->out);
+        write_path(writer, resource->path);
+        break;
+    case RESOURCE_VERTICES:
+        fprintf(writer->out, "vertices %s", resource->name);
+        write_vertices(writer, resource);
+        break;
+    case RESOURCE_INDICES:
+        fprintf(writer->out, "indices %s %" PRIu32, resource->name, resource->index_bits);
+        write_indices(writer, resource);
+        break;
+    case RESOURCE_BUFFER:
+        fprintf(writer->out, "buffer %s %s", resource->name, word_text(WORDS_VALUE, resource->value_type));
+        if (resource->indices)
+            write_indices(writer, resource);
+        else
+            write_values(writer, resource);
+        break;
+    case RESOURCE_MESH:
+        fprintf(writer->out, "mesh %s", resource->name);
+        write_mesh(writer, resource);
+        break;
+    case RESOURCE_SEQUENCE: return;
+    }
+    fputc('\n', writer->out);
+}
+
+/* --- Calls ------------------------------------------------------------------------------------------------
+ */
+
+/* A word and its numbers, unless they are the default's. */
+static void write_field(struct writer *writer, const char *word, const float *numbers, const float *initial,
+                        size_t count)
+{
+    if (initial && !memcmp(numbers, initial, count * sizeof *numbers))
+        return;
+    fprintf(writer->out, " %s", word);
+    write_numbers(writer, numbers, count);
+}
+
+static void write_set(struct writer *writer, const struct call *call)
+{
+    const char *word = triptych_state_word(call->set.state, call->set.value);
+    fprintf(writer->out, "set %s ", triptych_state_name(call->set.state));
+    if (word)
+        fputs(word, writer->out);
+    else
+        fprintf(writer->out, "%" PRIu32, call->set.value);
+}
+
+static void write_material(struct writer *writer, const struct triptych_material *material)
+{
+    const struct triptych_material *initial = &stream_default_material;
+    fputs("material", writer->out);
+    write_field(writer, "diffuse", material->diffuse, initial->diffuse, 4);
+    write_field(writer, "ambient", material->ambient, initial->ambient, 4);
+    write_field(writer, "emissive", material->emissive, initial->emissive, 4);
+}
+
+static void write_light(struct writer *writer, uint32_t index, const struct triptych_light *light)
+{
+    const struct triptych_light *initial = &stream_default_light;
+    int point = light->type == TRIPTYCH_LIGHT_POINT;
+    fprintf(writer->out, "light %" PRIu32 " %s", index, point ? "point" : "directional");
+    write_field(writer, "diffuse", light->diffuse, initial->diffuse, 4);
+    write_field(writer, "ambient", light->ambient, initial->ambient, 4);
+    if (!point) {
+        write_field(writer, "direction", light->direction, initial->direction, 3);
+        return;
+    }
+    write_field(writer, "position", light->position, initial->position, 3);
+    write_field(writer, "range", &light->range, &initial->range, 1);
+    write_field(writer, "attenuation", light->attenuation, initial->attenuation, 3);
+}
+
+static void write_bind_element(struct writer *writer, const struct call *call, const char *name)
+{
+    fprintf(writer->out, "bind element %s", word_text(WORDS_ATTRIBUTE, call->element.attribute));
+    if (call->element.format == TRIPTYCH_FORMAT_NONE)
+        fputs(" none", writer->out);
+    else
+        fprintf(writer->out, " %s %s %" PRIu32 " %" PRIu32, word_text(WORDS_FORMAT, call->element.format),
+                name, call->element.offset, call->element.stride);
+}
+
+static void write_clear(struct writer *writer, const struct call *call)
+{
+    fputs("clear", writer->out);
+    if (call->clear.has_color)
+        write_field(writer, "color", call->clear.color, NULL, 4);
+    if (call->clear.has_depth)
+        write_field(writer, "depth", &call->clear.depth, NULL, 1);
+}
+
+static void write_draw(struct writer *writer, const struct call *call)
+{
+    const char *primitive = word_text(WORDS_PRIMITIVE, call->draw.primitive);
+    if (call->type == CALL_DRAW_INDEXED)
+        fprintf(writer->out, "draw-indexed %s %" PRId32, primitive, call->draw.base);
+    else
+        fprintf(writer->out, "draw %s", primitive);
+    fprintf(writer->out, " %" PRIu32 " %" PRIu32, call->draw.first, call->draw.count);
+}
+
+static void write_call(struct writer *writer, const struct call *call)
+{
+    FILE *out = writer->out;
+    const char *name =
+        call->resource == NO_RESOURCE ? "none" : writer->stream->resources[call->resource].name;
+    switch (call->type) {
+    case CALL_TARGET:
+        fprintf(out, "target %" PRIu32 " %" PRIu32, call->target.width, call->target.height);
+        break;
+    case CALL_VIEWPORT: {
+        const struct triptych_viewport *v = &call->viewport;
+        const float numbers[6] = {v->x, v->y, v->width, v->height, v->depth_near, v->depth_far};
+        write_field(writer, "viewport", numbers, NULL, 6);
+        break;
+    }
+    case CALL_SET: write_set(writer, call); break;
+    case CALL_TRANSFORM:
+        fprintf(out, "transform %s", word_text(WORDS_TRANSFORM, call->transform.which));
+        write_field(writer, "matrix", &call->transform.matrix[0][0], NULL, 16);
+        break;
+    case CALL_MATERIAL: write_material(writer, &call->material); break;
+    case CALL_LIGHT: write_light(writer, call->light.index, &call->light.value); break;
+    case CALL_ENABLE_LIGHT:
+        fprintf(out, "light %" PRIu32 " %s", call->light.index, call->light.on ? "on" : "off");
+        break;
+    case CALL_BIND_TEXTURE: fprintf(out, "bind texture %s", name); break;
+    case CALL_BIND_VERTICES: fprintf(out, "bind vertices %s", name); break;
+    case CALL_BIND_INDICES: fprintf(out, "bind indices %s", name); break;
+    case CALL_BIND_ELEMENT: write_bind_element(writer, call, name); break;
+    case CALL_CLEAR: write_clear(writer, call); break;
+    case CALL_DRAW:
+    case CALL_DRAW_INDEXED: write_draw(writer, call); break;
+    case CALL_DRAW_MESH: fprintf(out, "draw mesh %s", name); break;
+    case CALL_FRAME: fputs("frame", out); break;
+    case CALL_PLAY: fprintf(out, "play %s", name); break;
+    case CALL_SEQUENCE: fprintf(out, "sequence %s", name); break;
+    }
+    fputc('\n', out);
+}
+
+static void write_calls(struct writer *writer)
+{
+    const struct stream *stream = writer->stream;
+    uint32_t end = UINT32_MAX; /* of the sequence that is open */
+    for (uint32_t i = 0; i <= stream->call_count; i++) {
+        if (i == end) {
+            fputs("end\n", writer->out);
+            end = UINT32_MAX;
+        }
+        if (i == stream->call_count)
+            break;
+        const struct call *call = &stream->calls[i];
+        if (end != UINT32_MAX)
+            fputs("    ", writer->out);
+        write_call(writer, call);
+        if (call->type == CALL_SEQUENCE)
+            end = i + 1 + call->sequence.count;
+    }
+}
+
+/* --- Folders ----------------------------------------------------------------------------------------------
+ */
+
+/* The real path of the folder that a file is in, for the caller to free. */
+static char *real_folder(const char *path)
+{
+    const char *slash = strrchr(path, '/');
+    char *folder = slash ? strndup(path, slash == path ? 1 : (size_t)(slash - path)) : strdup(".");
+    char *real = folder ? realpath(folder, NULL) : NULL;
+    free(folder);
+    return real;
+}
+
+/* "../" for each folder of `from` that is not one of `to`, then the rest of `to` and a slash. Both are real
+ * paths. */
+static char *relative_folder(const char *from, const char *to)
+{
+    size_t common = 0, length = 0, up = 0;
+    while (from[length] && from[length] == to[length])
+        if (from[length++] == '/')
+            common = length;
+    if ((!from[length] || from[length] == '/') && (!to[length] || to[length] == '/'))
+        common = length;
+    for (const char *c = from + common; *c; c++)
+        up += *c != '/' && (c == from + common || c[-1] == '/');
+    const char *rest = to + common + (to[common] == '/');
+    char *out = malloc(3 * up + strlen(rest) + 2), *at = out;
+    for (; out && up; up--)
+        at = stpcpy(at, "../");
+    if (out)
+        sprintf(at, "%s%s", rest, *rest ? "/" : "");
+    return out;
+}
+
+static int names_files(const struct stream *stream)
+{
+    for (uint32_t i = 0; i < stream->resource_count; i++)
+        if (stream->resources[i].path && stream->resources[i].path[0] != '/')
+            return 1;
+    return 0;
+}
+
+static int find_prefix(struct writer *writer, const char *path, struct error *error)
+{
+    if (!names_files(writer->stream)) {
+        writer->prefix = strdup("");
+        return writer->prefix ? 0 : error_set(error, "%s: not enough memory", path);
+    }
+    char *from = real_folder(path), *to = real_folder(writer->stream->path);
+    if (from && to)
+        writer->prefix = relative_folder(from, to);
+    int found = from && to;
+    free(from);
+    free(to);
+    if (!found)
+        return error_set(error, "%s: its folder or that of %s is not there, expected both", path,
+                         writer->stream->path);
+    if (!writer->prefix)
+        return error_set(error, "%s: not enough memory", path);
+    for (const char *c = writer->prefix; *c; c++)
+        if ((unsigned char)*c < ' ' || *c == 0x7f)
+            return error_set(error, "%s: a folder's name has control characters, which paths cannot have",
+                             path);
+    return 0;
+}
+
+/* --- Streams ----------------------------------------------------------------------------------------------
+ */
+
+static int write_all(struct writer *writer, char **text, size_t *bytes)
+{
+    writer->out = open_memstream(text, bytes);
+    if (!writer->out)
+        return -1;
+    fputs("triptych 1\n", writer->out);
+    for (uint32_t i = 0; i < writer->stream->resource_count; i++)
+        write_resource(writer, &writer->stream->resources[i]);
+    write_calls(writer);
+    int failed = ferror(writer->out);
+    return fclose(writer->out) || failed ? -1 : 0;
+}
+
+int stream_write(const struct stream *stream, const char *path, char **text, size_t *bytes,
+                 struct error *error)
+{
+    struct writer writer = {.stream = stream};
+    *text = NULL;
+    int result = find_prefix(&writer, path, error);
+    locale_t locale = result ? NULL : newlocale(LC_NUMERIC_MASK, "C", NULL);
+    if (locale) {
+        locale_t before = uselocale(locale);
+        result = write_all(&writer, text, bytes);
+        uselocale(before);
+        freelocale(locale);
+    } else {
+        result = -1;
+    }
+    free(writer.prefix);
+    if (!result)
+        return 0;
+    free(*text);
+    *text = NULL;
+    return error_set(error, "%s: not enough memory", path);
+}
+
+int stream_save(const struct stream *stream, const char *path, struct error *error)
+{
+    char *text;
+    size_t bytes;
+    if (stream_write(stream, path, &text, &bytes, error))
+        return -1;
+    int result = file_write(path, text, bytes, error);
+    free(text);
+    return result;
+}
