@@ -14,6 +14,7 @@
 
 %include "fragment.inc"
 %include "constant.inc"
+%include "gather.inc"
 
 LANE            equ 0
 RECIPROCAL_W    equ 32
@@ -37,10 +38,10 @@ fragment record_stride, NOTHING, STRIDE | STRIDE_3, NOTHING
                 lea             stride_3, [stride + stride * 2]
 end_fragment
 
-; A component of the eight vertices whose lanes are at the byte offsets `lanes`.
-%macro gather_slot 4 ; result, lanes, scratch, argument
-                vpcmpeqd        %3, %3, %3
-    fill %4,    vgatherdps      %1, [at_vertices + %2 * 1], %3
+; A component of eight vertices.
+%macro gather_slot 4 ; numbers of result and scratch register; where the byte offsets of their lanes are; argument
+    fill %4,    lea             rax, [at_vertices]
+                gather_words    %1, %2, %3, rax, 1
 %endmacro
 
 ; ndc, scaled and limited: max and min in this order send a NaN to the lower limit.
@@ -55,12 +56,13 @@ end_fragment
 %define CORNER          1
 %define VIEWPORT        5
 ; Arguments: row of the indices, corner in the frame, slots of x, y and w, the job's scale_x offset_x scale_y offset_y.
-fragment project, FRAME | CONSTANTS | JOB | INPUT | VERTICES, M(1) | M(2), M(0) | M_TO(3, 9)
-    fill ROW,   vmovdqu         m1, [at_input]
-                gather_slot     m2, m1, m3, 4
+fragment project, FRAME | CONSTANTS | JOB | INPUT | VERTICES, M(2), R_AX | R_CX | R_DX | R_13 | M(0) | M(1) | M_TO(3, 9)
+    fill ROW,   lea             r13, [at_input]
+                vmovdqu         m1, [r13]
+                gather_slot     2, 3, r13, 4
                 vmovaps         m0, [constants + ONE_F]
-                gather_slot     m4, m1, m3, 2
-                gather_slot     m5, m1, m3, 3
+                gather_slot     4, 3, r13, 2
+                gather_slot     5, 3, r13, 3
                 vdivps          m2, m0, m2
     fill VIEWPORT, vbroadcastss m6, [at_job]
     fill VIEWPORT, vbroadcastss m7, [at_job + 4]
@@ -83,8 +85,9 @@ fragment project, FRAME | CONSTANTS | JOB | INPUT | VERTICES, M(1) | M(2), M(0) 
 end_fragment
 
 ; Behind `project`. Arguments: slot of z, corner in the frame, the job's depth_scale depth_offset.
-fragment project_depth, FRAME | JOB | VERTICES | M(1) | M(2), NOTHING, M(3) | M(4) | M(6) | M(7)
-                gather_slot     m4, m1, m3, 0
+fragment project_depth, FRAME | JOB | VERTICES | M(2), NOTHING, R_AX | R_CX | R_DX | R_13 | M(3) | M(4) | M(6) | M(7)
+    fill 1,     lea             r13, [corner(0, LANE)]
+                gather_slot     4, 3, r13, 0
     fill 2,     vbroadcastss    m6, [at_job]
     fill 2,     vbroadcastss    m7, [at_job + 4]
                 vmulps          m4, m4, m2
@@ -243,13 +246,10 @@ corner_plane depth_plane, CORNER_DEPTH
 corner_plane reciprocal_w_plane, RECIPROCAL_W
 
 ; Arguments: slot of the component, the plane in the record.
-fragment smooth_plane, FRAME | VERTICES | OUTPUT | STRIDE | STRIDE_3 | M_TO(0, 3), NOTHING, R_AX | M_TO(6, 12)
-                vmovdqa         m6, [corner(0, LANE)]
-                gather_slot     m8, m6, m7, 0
-                vmovdqa         m6, [corner(1, LANE)]
-                gather_slot     m9, m6, m7, 0
-                vmovdqa         m6, [corner(2, LANE)]
-                gather_slot     m10, m6, m7, 0
+fragment smooth_plane, FRAME | VERTICES | OUTPUT | STRIDE | STRIDE_3 | M_TO(0, 3), NOTHING, R_AX | R_CX | R_DX | M_TO(6, 12)
+                gather_slot     8, 6, corner(0, LANE), 0
+                gather_words    9, 7, corner(1, LANE), rax, 1
+                gather_words    10, 6, corner(2, LANE), rax, 1
                 vmulps          m8, m8, [corner(0, RECIPROCAL_W)]
                 vmulps          m9, m9, [corner(1, RECIPROCAL_W)]
                 vmulps          m10, m10, [corner(2, RECIPROCAL_W)]
@@ -264,9 +264,8 @@ end_fragment
 %endmacro
 
 ; The first corner's. Arguments: slot of the component, the word in the record.
-fragment flat_word, FRAME | VERTICES | OUTPUT | STRIDE | STRIDE_3, NOTHING, R_AX | M_TO(6, 8)
-                vmovdqa         m6, [corner(0, LANE)]
-                gather_slot     m8, m6, m7, 0
+fragment flat_word, FRAME | VERTICES | OUTPUT | STRIDE | STRIDE_3, NOTHING, R_AX | R_CX | R_DX | M(6) | M(8)
+                gather_slot     8, 6, corner(0, LANE), 0
     fill 1,     lea             rax, [at_output]
                 store_words     xm8
                 lea             rax, [rax + stride * 4]

@@ -145,7 +145,8 @@ static void plan_pixel(struct plan *plan, const union key *all)
 
 /* ---- setup */
 
-extern const uint32_t stitch_corner_bytes __attribute__((visibility("hidden"))); /* asm/setup.asm */
+/* Bytes of the frame that one corner takes; asm/setup.asm. */
+extern const uint32_t stitch_corner_bytes __attribute__((visibility("hidden")));
 
 static_assert(JOB(offset_x) == JOB(scale_x) + 4 && JOB(scale_y) == JOB(scale_x) + 8 &&
                   JOB(offset_y) == JOB(scale_x) + 12 && JOB(depth_offset) == JOB(depth_scale) + 4,
