@@ -29,8 +29,8 @@ void bench_print_machine(const struct bench *bench)
 void bench_print_stream(const struct bench *bench, const struct bench_stream *stream)
 {
     struct table table = {0};
-    printf("\n%s: %u x %u, %u frames a run, %u thread%s\n", stream->name, stream->width, stream->height,
-           stream->frames, bench->threads, bench->threads == 1 ? "" : "s");
+    printf("\n%s: %u x %u, frames a run: %u, threads: %u\n", stream->name, stream->width, stream->height,
+           stream->frames, bench->threads);
     table_column(&table, "engine", TABLE_LEFT);
     for (int i = 0; i < COLUMN_COUNT; i++)
         if (columns[i].heading[0])
