@@ -34,10 +34,8 @@ const char *fragment_arguments(const struct fragment *fragment)
     return NULL;
 }
 
-/* Some instructions print better without their part's place in the routine, but targets need it. */
 struct listing {
     FILE *out;
-    const uint8_t *code;
     uint32_t part_offset;
 };
 
@@ -65,7 +63,7 @@ void plan_print(const struct plan *plan, const struct code_span *span, FILE *out
 {
     for (unsigned i = 0; i < plan->count; i++) {
         const struct part *part = plan->part + i;
-        struct listing listing = {out, span->writable, part->offset};
+        struct listing listing = {out, part->offset};
         fprintf(out, "%u %s", i, part->fragment->name);
         print_arguments(part, out);
         if (part->file)
