@@ -51,16 +51,17 @@ static void begin_batch(struct batch *batch, uint32_t first)
     }
 }
 
+/* Whether a vertex is in the batch already cannot be predicted: no branch asks. */
 static uint8_t lane_of(struct batch *batch, uint32_t vertex)
 {
     struct batch_place *place = batch->map + vertex % BATCH_MAP;
-    if (place->vertex == vertex && place->tag >> 8 == batch->number)
-        return (uint8_t)place->tag;
-    uint32_t lane = batch->vertices_count++;
-    batch->vertex[lane] = vertex;
-    place->vertex = vertex;
-    place->tag = batch->number << 8 | lane;
-    return (uint8_t)lane;
+    uint32_t next = batch->vertices_count, tag = batch->number << 8 | next;
+    uint32_t known = (place->vertex == vertex) & (place->tag >> 8 == batch->number);
+    tag = known ? place->tag : tag;
+    batch->vertex[next] = vertex;
+    batch->vertices_count = next + !known;
+    *place = (struct batch_place){vertex, tag};
+    return (uint8_t)tag;
 }
 
 static bool has_room(const struct batch *batch)

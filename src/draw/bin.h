@@ -46,9 +46,9 @@ struct bin_writer {
     uint32_t at, end;       /* what is left of its block */
     uint32_t columns, rows; /* of the target, in tiles */
     uint32_t chunk;
-    uint32_t heads;                      /* first head cell of the chunk */
-    uint32_t open[TARGET_TILES_MAXIMUM]; /* the tile's last cell of the chunk */
-    struct raster raster[SETUP_CAPACITY];
+    uint32_t heads;                         /* first head cell of the chunk */
+    uint32_t open[TARGET_TILES_MAXIMUM];    /* the tile's last cell of the chunk */
+    struct rectangle tiles[SETUP_CAPACITY]; /* that the bounds of the group's triangles meet */
 };
 
 /* Returns 0, or -1 with the reason when the system refuses the memory. */

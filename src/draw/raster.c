@@ -80,6 +80,11 @@ static inline int64_t edge(const struct triangle_head *head, int p, int q, int32
     return (*b * dy + *a * dx - !top_left) >> SUBPIXEL_BITS;
 }
 
+bool raster_bounds(const struct triangle_head *head, const struct rectangle *limit, struct rectangle *bounds)
+{
+    return bound(head, limit, bounds);
+}
+
 bool raster_prepare(struct raster *raster, const struct triangle_head *head, const struct rectangle *scissor)
 {
     if (!head->visible || !bound(head, scissor, &raster->bounds))
@@ -89,9 +94,8 @@ bool raster_prepare(struct raster *raster, const struct triangle_head *head, con
     return true;
 }
 
-struct rectangle raster_tiles(const struct raster *raster)
+struct rectangle raster_tiles(const struct rectangle *b)
 {
-    const struct rectangle *b = &raster->bounds;
     return (struct rectangle){b->x0 / TILE_SIZE, b->y0 / TILE_SIZE, (b->x1 + TILE_SIZE - 1) / TILE_SIZE,
                               (b->y1 + TILE_SIZE - 1) / TILE_SIZE};
 }

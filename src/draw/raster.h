@@ -24,15 +24,19 @@ struct raster {
     struct rectangle bounds; /* pixels: the bounding box of the centres inside, cut to the scissor */
 };
 
+/* The bounding box of the centres that a visible triangle may cover, cut to the rectangle. Returns whether anything
+ * is left. */
+bool raster_bounds(const struct triangle_head *head, const struct rectangle *limit, struct rectangle *bounds);
+
 /* Returns false when the triangle is not visible or certainly covers no pixel of the scissor rectangle, and
  * true with *raster filled in and bounds not empty otherwise. Scissor edges are 0 to TARGET_SIZE_MAXIMUM: the
  * intersection of target, viewport and scissor rectangle. */
 bool raster_prepare(struct raster *raster, const struct triangle_head *head, const struct rectangle *scissor);
 
-/* The tiles that the bounds meet, in units of tiles: never empty. */
-struct rectangle raster_tiles(const struct raster *raster);
+/* The tiles that bounds meet, in units of tiles: never empty. */
+struct rectangle raster_tiles(const struct rectangle *bounds);
 
-/* For a tile of raster_tiles(): whether the triangle may cover a pixel of the tile (column, row). False is
+/* For a tile that the bounds meet: whether the triangle may cover a pixel of the tile (column, row). False is
  * certain. */
 bool raster_touches(const struct raster *raster, int column, int row);
 

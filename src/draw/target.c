@@ -141,16 +141,22 @@ static void block_rows(const uint32_t *block, __m128i row[BLOCK_SIZE])
     row[3] = _mm_unpackhi_epi64(quad[2], quad[3]);
 }
 
+/* The first `columns` (1 to 4) words of a block's row. */
+static inline void store_row(uint32_t *image, __m128i row, uint32_t columns)
+{
+    if (columns == BLOCK_SIZE)
+        _mm_storeu_si128((__m128i *)image, row);
+    else
+        memcpy(image, &row, columns * sizeof *image);
+}
+
 /* A block of which `columns` and `rows` (1 to 4) are in the image. */
 static void read_block(const uint32_t *block, uint32_t *image, size_t pitch, uint32_t columns, uint32_t rows)
 {
     __m128i row[BLOCK_SIZE];
     block_rows(block, row);
     for (uint32_t y = 0; y < rows; y++)
-        if (columns == BLOCK_SIZE)
-            _mm_storeu_si128((__m128i *)(image + y * pitch), row[y]);
-        else
-            memcpy(image + y * pitch, &row[y], columns * sizeof *image);
+        store_row(image + y * pitch, row[y], columns);
 }
 
 static uint32_t block_part(int32_t edge, int32_t start)
@@ -170,9 +176,10 @@ static void read_tile(const uint32_t *words, const struct rectangle *area, uint3
 
 static void read_cleared(uint32_t value, const struct rectangle *area, uint32_t *image, size_t pitch)
 {
+    __m128i row = _mm_set1_epi32((int)value);
     for (int32_t y = area->y0; y < area->y1; y++)
-        for (int32_t x = area->x0; x < area->x1; x++)
-            memcpy(image + (size_t)y * pitch + (size_t)x, &value, sizeof value);
+        for (int32_t x = area->x0; x < area->x1; x += BLOCK_SIZE)
+            store_row(image + (size_t)y * pitch + (size_t)x, row, block_part(area->x1, x));
 }
 
 void target_read_color(const struct target *target, uint32_t tile_row, uint32_t *image)

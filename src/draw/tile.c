@@ -45,16 +45,25 @@ static void shade(struct tile_worker *worker, const struct frame *frame, uint32_
     worker->count = 0;
 }
 
-/* Rasterizes the triangles of one cell; the next triangle's head is on its way meanwhile. */
+/* Asks for what is next: the cell behind this one, and this one's records with the planes that begin in them.
+ */
+static void prefetch_cell(const uint8_t *base, const struct bin_cell *cell)
+{
+    __builtin_prefetch(base + cell->next);
+    for (uint32_t i = 0; i < cell->count; i++) {
+        __builtin_prefetch(base + cell->triangle[i]);
+        __builtin_prefetch(base + cell->triangle[i] + 64);
+    }
+}
+
 static void rasterize_cell(struct tile_worker *worker, const struct frame *frame, uint32_t tile,
                            const struct bin_cell *cell)
 {
     const uint8_t *base = frame->arena.base;
     int column = (int)(tile % frame->target->columns), row = (int)(tile / frame->target->columns);
+    prefetch_cell(base, cell);
     for (uint32_t i = 0; i < cell->count; i++) {
         uint32_t triangle = cell->triangle[i];
-        if (i + 1 < cell->count)
-            __builtin_prefetch(base + cell->triangle[i + 1]);
         if (worker->count + TILE_BLOCKS > TILE_ENTRIES)
             shade(worker, frame, tile);
         worker->count +=
@@ -76,6 +85,7 @@ void tile_render(struct tile_worker *worker, const struct frame *frame, uint32_t
         }
         if (!head)
             break;
+        __builtin_prefetch(frame->arena.base + bin_cell(&frame->arena, head)->later);
         const struct draw *draw = &frame_command(frame, chunk)->draw;
         if (draw != worker->draw)
             shade(worker, frame, tile);

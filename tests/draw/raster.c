@@ -132,7 +132,7 @@ static void count_binned(struct area *a, const struct triangle_head *h)
     struct raster r;
     if (!raster_prepare(&r, h, &a->cut))
         return;
-    struct rectangle tiles = raster_tiles(&r);
+    struct rectangle tiles = raster_tiles(&r.bounds);
     TEST_ASSERT_TRUE(tiles.x0 < tiles.x1 && tiles.y0 < tiles.y1);
     for (int row = tiles.y0; row < tiles.y1; row++)
         for (int column = tiles.x0; column < tiles.x1; column++)
@@ -379,7 +379,7 @@ static void test_rejected_tiles_have_no_pixels(void)
         struct rectangle cut = random_cut(x, y, 600);
         struct raster r;
         bool may = raster_prepare(&r, &h, &cut);
-        struct rectangle tiles = may ? raster_tiles(&r) : (struct rectangle){0, 0, 0, 0};
+        struct rectangle tiles = may ? raster_tiles(&r.bounds) : (struct rectangle){0, 0, 0, 0};
         for (int row = cut.y0 / 64; row <= cut.y1 / 64 && row < TARGET_TILES; row++)
             for (int column = cut.x0 / 64; column <= cut.x1 / 64 && column < TARGET_TILES; column++) {
                 bool in = column >= tiles.x0 && column < tiles.x1 && row >= tiles.y0 && row < tiles.y1;
