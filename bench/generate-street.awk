@@ -145,12 +145,13 @@ function grid(ox, oy, oz, ux, uy, uz, vx, vy, vz, nx, ny, nz, columns, rows, s, 
 }
 
 # A side of a solid that runs around the y axis: `sides` faces from radius r0 at y0 to r1 at y1, smooth normals.
-function around(y0, r0, y1, r1, sides,   i, c, s, first) {
-    first = corner
+function around(y0, r0, y1, r1, sides,   i, c, s, k, l, normal, first) {
+    first = corner; k = (r0 - r1) / (y1 - y0); l = sqrt(1 + k * k)
     for (i = 0; i <= sides; i++) {
         c = cos(2 * pi * i / sides); s = sin(2 * pi * i / sides)
-        print "    " triple(r0 * c, y0, -r0 * s) "  " triple(c, (r0 - r1) / (y1 - y0), -s)
-        print "    " triple(r1 * c, y1, -r1 * s) "  " triple(c, (r0 - r1) / (y1 - y0), -s)
+        normal = "  " triple(c / l, k / l, -s / l)
+        print "    " triple(r0 * c, y0, -r0 * s) normal
+        print "    " triple(r1 * c, y1, -r1 * s) normal
         corner += 2
         if (i < sides) four(first + 2 * i, first + 2 * i + 2, first + 2 * i + 3, first + 2 * i + 1)
     }
