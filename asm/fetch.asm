@@ -1,7 +1,7 @@
 ; Vertex fetch (src/spec/fetch.h): an attribute of eight vertices from the application's buffer into registers.
 ;
-; Two components and more are loaded vertex by vertex and transposed, which on Zen 4 took a quarter
-; to a third off the time of a whole vertex routine that gathered each component. A single one, and packed colours, are gathered.
+; Two components and more are loaded vertex by vertex and transposed, which on Zen 4 took a quarter to a third off the
+; time of a whole vertex routine that gathered each component. A single one, and packed colours, are gathered.
 ;
 ; Registers of the vertex unit's stages, from here to clip.asm:
 ;   m0 - m3     position, later the normal in camera space (m0 - m2)

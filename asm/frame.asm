@@ -117,7 +117,8 @@ fragment pixel_chunk, COVERED, NOTHING, NOTHING
 end_fragment
 
 ; Arguments: the parts pixel_chunk and pixel_entry. A second chunk without coverage ends the block at once.
-fragment pixel_next, REMAINING | ENTRY | LANES | COLOR | DEPTH | COVERED, ENTRY | LANES | COLOR | DEPTH | COVERED, NOTHING
+fragment pixel_next, REMAINING | ENTRY | LANES | COLOR | DEPTH | COVERED, \
+                     ENTRY | LANES | COLOR | DEPTH | COVERED, NOTHING
                 add             lanes, 32
                 add             color, 32
                 add             depth, 32

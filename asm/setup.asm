@@ -246,7 +246,8 @@ corner_plane depth_plane, CORNER_DEPTH
 corner_plane reciprocal_w_plane, RECIPROCAL_W
 
 ; Arguments: slot of the component, the plane in the record.
-fragment smooth_plane, FRAME | VERTICES | OUTPUT | STRIDE | STRIDE_3 | M_TO(0, 3), NOTHING, R_AX | R_CX | R_DX | M_TO(6, 12)
+fragment smooth_plane, FRAME | VERTICES | OUTPUT | STRIDE | STRIDE_3 | M_TO(0, 3), NOTHING, \
+                       R_AX | R_CX | R_DX | M_TO(6, 12)
                 gather_slot     8, 6, corner(0, LANE), 0
                 gather_words    9, 7, corner(1, LANE), rax, 1
                 gather_words    10, 6, corner(2, LANE), rax, 1

@@ -68,7 +68,12 @@ extern const uint8_t stitch_constants[] __attribute__((visibility("hidden")));
 #undef OPK
 #undef CAST
 
-/* The names of a fragment's arguments, space-separated; asked only when listing and testing. */
-const char *fragment_arguments(const struct fragment *fragment);
+/* What def/fragment.def or def/op.def says about a fragment: the names of its arguments, separated by spaces,
+ * and what it does. Asked only when listing and testing. */
+struct fragment_text {
+    const char *arguments;
+    const char *meaning;
+};
+struct fragment_text fragment_text(const struct fragment *fragment);
 
 #endif

@@ -1,6 +1,6 @@
 /* A plan: the list of parts, fragments with arguments, that a routine is joined from.
  *
- * A planner makes one from a key (stage.c from hand-tuned whole stages, operation.c from the spec, one
+ * A planner makes one from a key (stages.c from hand-tuned whole stages, operations.c from the spec, one
  * fragment an operation); the joiner turns it into code; the contract check and the listing read it. Parts
  * run in order except where a fragment jumps; a jump's argument is the number of the part it goes to. */
 #ifndef STITCH_PLAN_H

@@ -96,7 +96,7 @@ static void fill_registers(struct machine_state *in, uint32_t read)
 static struct arguments plausible_arguments(const struct fragment *fragment)
 {
     struct arguments arguments;
-    const char *name = fragment_arguments(fragment);
+    const char *name = fragment_text(fragment).arguments;
     for (int n = 0; n < ARGUMENT_COUNT; n++) {
         arguments.value[n] = 64 * (n + 1);
         if (name && !strncmp(name, "mxcsr", 5))
@@ -270,7 +270,7 @@ static void offences_are_noticed(void)
 static void argument_names_match_the_holes(void)
 {
     for (const struct fragment *f = __start_stitch_fragments; f < __stop_stitch_fragments; f++) {
-        const char *names = fragment_arguments(f);
+        const char *names = fragment_text(f).arguments;
         TEST_ASSERT_NOT_NULL_MESSAGE(names, f->name);
         unsigned named = 0, used = 0;
         for (const char *at = names; *at; at += strspn(at, " "), named++)
@@ -428,6 +428,25 @@ static void listings_show_parts_holes_and_instructions(void)
     free(text);
 }
 
+static void what_finds_no_room_is_refused(void)
+{
+    static union key key;
+    struct error error = {{0}};
+    struct code_arena *small = code_create(1, NULL, &error); /* a page */
+    struct code_span rest;
+    size_t room = code_statistics(small).largest_free;
+    TEST_ASSERT_EQUAL(0, code_reserve(small, room - CODE_ALIGNMENT, &rest, &error));
+    TEST_ASSERT_NULL(engine_stitch.build(small, UNIT_PIXEL, &key, &error));
+    TEST_ASSERT_NOT_EQUAL('\0', error.text[0]);
+    error_clear(&error);
+    plan.count = plan.dropped = 0;
+    for (int i = 0; i <= PART_CAPACITY; i++)
+        plan_append(&plan, &fragment_leave, (struct arguments){{0}});
+    TEST_ASSERT_EQUAL(-1, plan_join(&plan, arena, &rest, &error));
+    TEST_ASSERT_EQUAL_STRING("the stitcher's plan of 1025 parts exceeds its room of 1024", error.text);
+    code_destroy(small);
+}
+
 static void map_memory(void)
 {
     void *wanted = (void *)(uintptr_t)MEMORY_ADDRESS; /* NOLINT: a fixed address is the point */
@@ -466,6 +485,7 @@ int main(void)
     RUN_TEST(operation_plans_keep_the_contract);
     RUN_TEST(every_fragment_is_planned_by_some_key);
     RUN_TEST(broken_plans_are_noticed);
+    RUN_TEST(what_finds_no_room_is_refused);
     RUN_TEST(listings_show_parts_holes_and_instructions);
     return UNITY_END();
 }
