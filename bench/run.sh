@@ -1,9 +1,12 @@
 #!/bin/bash
-# The measurements of `make bench`, written to results/:
+# The measurements of `make bench`, written to results/ (RESULTS):
+#
+#   bench/run.sh [OPTION of triptych bench]...
 #
 #   bench.json, bench.csv   every stream with every engine, inside one process (triptych bench)
 #   bench.svg, bench.png    the table as a chart
-#   hyperfine.json          one stream with every engine, as whole processes: start, build, draw, write
+#   hyperfine.json          one stream with every engine, as whole processes: start, read, build, draw, write
+#   verify.json             the last check
 #
 # Last, every engine's pictures are compared: the final line says "N streams, N engines, identical", or the run
 # fails, for a wrong picture drawn fast is worth nothing.
@@ -11,31 +14,33 @@ set -euo pipefail
 cd "$(dirname "$0")/.."
 
 build=${BUILD:-build}
+results=${RESULTS:-results}
 triptych=$build/triptych
-process_stream=bench/streams/bunny.tri
+process_stream=bench/streams/street.tri
 
 shopt -s nullglob
 streams=(bench/streams/*.tri)
 ((${#streams[@]})) || { echo 'bench: no draw streams in bench/streams' >&2 && exit 1; }
-mkdir -p results "$build/bench"
+mkdir -p "$results" "$build/bench"
 
-"$triptych" bench "${streams[@]}" --json results/bench.json --csv results/bench.csv
+"$triptych" bench "${streams[@]}" --json "$results/bench.json" --csv "$results/bench.csv" "$@"
 
 # The engines that could run here are those with a row.
 mapfile -t measured < <(awk -F, '
     NR == 1 { for (i = 1; i <= NF; i++) if ($i == "engine") column = i; next }
-    column && !seen[$column]++ { print $column }' results/bench.csv)
+    column && !seen[$column]++ { print $column }' "$results/bench.csv")
 processes=()
 for engine in emulate stitch specialize; do
     if [[ " ${measured[*]} " == *" $engine "* ]]; then
         processes+=(--command-name "$engine"
-            "$triptych render $process_stream --engine $engine --out $build/bench/$engine.png")
+            "$triptych render $process_stream --engine $engine --threads 1 --out $build/bench/$engine.png")
     fi
 done
-((${#processes[@]})) || { echo 'bench: results/bench.csv names no engine' >&2 && exit 1; }
+((${#processes[@]})) || { echo "bench: $results/bench.csv names no engine" >&2 && exit 1; }
 
-hyperfine --shell=none --style=basic --warmup 1 --min-runs 5 --export-json results/hyperfine.json "${processes[@]}"
+hyperfine --shell=none --style=basic --warmup 1 --min-runs 5 --export-json "$results/hyperfine.json" \
+    "${processes[@]}"
 
-gnuplot -c bench/chart.gnuplot results/bench.csv results/bench.svg results/bench.png
+gnuplot -c bench/chart.gnuplot "$results/bench.csv" "$results/bench.svg" "$results/bench.png"
 
-"$triptych" verify "${streams[@]}"
+"$triptych" verify "${streams[@]}" --json "$results/verify.json"

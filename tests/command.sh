@@ -256,6 +256,23 @@ answers 'bench prints, and writes JSON and CSV' '^ +geometric mean ' bench "$wor
 holds 'the CSV has one width' awk -F, 'NR == 1 { n = NF } NF != n { exit 1 } END { exit NR < 2 }' "$work/bench.csv"
 holds 'the JSON names the machine' grep -q '"commit":' "$work/bench.json"
 
+# --- Dumps ---------------------------------------------------------------------------------------------------
+
+for engine in $("$TRIPTYCH" list engines | awk 'NR > 1 && $1 != "emulate" && $3 == "available" { print $1 }'); do
+    for unit in vertex setup pixel; do
+        answers "dump of $engine, $unit" '[0-9a-f]+ +ret' dump "$work/good.tri" --engine "$engine" --unit "$unit"
+    done
+done
+refuses 'dump of an engine without code' 'emulate makes no code' dump "$work/good.tri" --engine emulate
+if "$TRIPTYCH" list engines | grep -q '^specialize .* available '; then
+    answers 'dump of every stage' '== asm' dump "$work/good.tri" --show all
+    refuses 'dump of a draw that is not there' 'frame 0 has no draw 1, it has 1' dump "$work/good.tri" --draw 1
+    refuses 'dump of a frame that is not there' 'no frame 7, its last is 1' dump "$work/good.tri" --frame 7
+    refuses 'dump of an unknown unit' '--unit is "texel", expected vertex, setup or pixel' \
+        dump "$work/good.tri" --unit texel
+    refuses 'dump of an unknown stage' 'asm2' dump "$work/good.tri" --show asm2
+fi
+
 # --- Conversion ----------------------------------------------------------------------------------------------
 
 does 'convert' convert "$work/good.tri" "$work/canonical.tri"

@@ -1,5 +1,6 @@
 #!/bin/bash
-# The first frame of every stream that has a golden picture, tests/goldens/STREAM.png, equals it pixel for pixel.
+# The first frame of every stream, of bench/streams or tests/streams, that has a golden picture,
+# tests/goldens/STREAM.png, equals it pixel for pixel.
 # Given BUILD, TRIPTYCH and SANITIZE by tests/support/run.sh.
 #
 #   GOLDENS=write TRIPTYCH=build/triptych tests/goldens.sh STREAM...    makes the pictures anew: look at them
@@ -24,7 +25,9 @@ goldens=(tests/goldens/*.png)
 failures=0
 for golden in "${goldens[@]}"; do
     name=${golden##*/} name=${name%.png}
-    if said=$("$TRIPTYCH" render "bench/streams/$name.tri" --engine emulate --out "$work/$name.png" 2>&1 &&
+    stream=bench/streams/$name.tri
+    [[ -f $stream ]] || stream=tests/streams/$name.tri
+    if said=$("$TRIPTYCH" render "$stream" --engine emulate --out "$work/$name.png" 2>&1 &&
         "$TRIPTYCH" compare "$golden" "$work/$name.png" 2>&1); then
         printf 'ok %s\n' "$name"
     else
