@@ -7,12 +7,8 @@
 #include <string.h>
 
 static const struct engine *const engines[] = {
-    &engine_emulate,
-    &engine_stitch,
-    &engine_stitch_operation,
-    &engine_specialize,
-    &engine_specialize_4,
-    &engine_specialize_thesis,
+    &engine_emulate,    &engine_stitch,       &engine_stitch_operation,
+    &engine_specialize, &engine_specialize_4, &engine_specialize_thesis,
 };
 
 const struct engine *engine_at(unsigned i)

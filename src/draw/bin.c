@@ -17,13 +17,14 @@ _Static_assert((size_t)CELLS(SETUP_CAPACITY *TARGET_TILES_MAXIMUM, TARGET_TILES_
                    ARENA_BYTES,
                "the arena holds the largest group of triangles");
 
-int arena_create(struct arena *arena, struct error *error)
+int arena_create(struct arena *arena, uint32_t bytes, struct error *error)
 {
-    void *base =
-        mmap(NULL, ARENA_BYTES, PROT_READ | PROT_WRITE, MAP_PRIVATE | MAP_ANONYMOUS | MAP_NORESERVE, -1, 0);
+    int flags = MAP_PRIVATE | MAP_ANONYMOUS | MAP_NORESERVE;
+    void *base = mmap(NULL, bytes, PROT_READ | PROT_WRITE, flags, -1, 0);
     if (base == MAP_FAILED)
-        return error_set(error, "out of memory for the triangle arena (%d MiB)", ARENA_BYTES >> 20);
+        return error_set(error, "out of memory for the triangle arena (%u KiB)", bytes >> 10);
     arena->base = base;
+    arena->capacity = bytes;
     arena_reset(arena);
     return 0;
 }
@@ -31,7 +32,7 @@ int arena_create(struct arena *arena, struct error *error)
 void arena_destroy(struct arena *arena)
 {
     if (arena->base)
-        munmap(arena->base, ARENA_BYTES);
+        munmap(arena->base, arena->capacity);
     arena->base = NULL;
 }
 
@@ -45,7 +46,7 @@ static uint32_t take(struct arena *arena, uint32_t bytes)
 {
     uint32_t used = atomic_load_explicit(&arena->used, memory_order_relaxed);
     do
-        if (bytes > ARENA_BYTES - used)
+        if (bytes > arena->capacity - used)
             return 0;
     while (!atomic_compare_exchange_weak_explicit(&arena->used, &used, used + bytes, memory_order_relaxed,
                                                   memory_order_relaxed));

@@ -26,7 +26,8 @@ enum {
 };
 
 struct arena {
-    uint8_t *base; /* ARENA_BYTES */
+    uint8_t *base;
+    uint32_t capacity; /* bytes */
     _Atomic uint32_t used;
 };
 
@@ -51,8 +52,9 @@ struct bin_writer {
     struct rectangle tiles[SETUP_CAPACITY]; /* that the bounds of the group's triangles meet */
 };
 
-/* Returns 0, or -1 with the reason when the system refuses the memory. */
-int arena_create(struct arena *arena, struct error *error);
+/* An arena of `bytes`, ARENA_BYTES unless a test wants to see it full: less may be too small for one group of
+ * triangles on a large target. Returns 0, or -1 with the reason when the system refuses the memory. */
+int arena_create(struct arena *arena, uint32_t bytes, struct error *error);
 void arena_destroy(struct arena *arena);
 void arena_reset(struct arena *arena);
 

@@ -33,7 +33,7 @@ static enum triptych_result create_parts(struct triptych_device *device, const s
     device->cache = cache_create(device->engine, device->arena, cache_bytes, error);
     device->pool = pool_create(options->threads, options->create_thread, error);
     if (device->cache && device->pool)
-        device->frame = frame_create(device->pool, error);
+        device->frame = frame_create(device->pool, options->arena_bytes, error);
     return device->frame ? TRIPTYCH_OK : TRIPTYCH_NO_MEMORY;
 }
 

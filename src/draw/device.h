@@ -41,6 +41,7 @@ struct device_options {
     unsigned threads;                  /* 0: as many as processors */
     size_t cache_bytes;                /* 0: CACHE_BYTES */
     pool_create_thread *create_thread; /* null: pthread_create */
+    uint32_t arena_bytes;              /* of the frame's arena; 0: ARENA_BYTES */
 };
 
 enum { CACHE_BYTES = 16 << 20, CACHE_BYTES_MAXIMUM = 1 << 30 };

@@ -23,7 +23,7 @@ static void *allocate_zeroed(size_t bytes)
     return memory ? memset(memory, 0, rounded) : NULL;
 }
 
-struct frame *frame_create(struct pool *pool, struct error *error)
+struct frame *frame_create(struct pool *pool, uint32_t arena_bytes, struct error *error)
 {
     struct frame *frame = allocate_zeroed(sizeof *frame);
     if (frame) {
@@ -31,7 +31,8 @@ struct frame *frame_create(struct pool *pool, struct error *error)
         frame->command = allocate_zeroed(FRAME_COMMANDS * sizeof *frame->command);
         frame->worker = allocate_zeroed(pool_workers(pool) * sizeof *frame->worker);
     }
-    if (!frame || !frame->command || !frame->worker || arena_create(&frame->arena, error)) {
+    if (!frame || !frame->command || !frame->worker ||
+        arena_create(&frame->arena, arena_bytes ? arena_bytes : ARENA_BYTES, error)) {
         error_set(error, "out of memory for the renderer's queue");
         frame_destroy(frame);
         return NULL;

@@ -63,8 +63,9 @@ struct frame {
     struct frame_statistics statistics;
 };
 
-/* A frame whose rendering runs on `pool`; null with the reason when memory is short. */
-struct frame *frame_create(struct pool *pool, struct error *error);
+/* A frame whose rendering runs on `pool` with an arena of `arena_bytes` (draw/bin.h; 0: ARENA_BYTES); null
+ * with the reason when memory is short. */
+struct frame *frame_create(struct pool *pool, uint32_t arena_bytes, struct error *error);
 void frame_destroy(struct frame *frame);
 
 /* The place of the next command; null when the queue is full. It counts once frame->commands is increased. */

@@ -56,7 +56,7 @@ static struct routine setup_routine = {.run = log_triangles, .unit = UNIT_SETUP}
 
 void setUp(void)
 {
-    TEST_ASSERT_EQUAL_INT(0, arena_create(&arena, NULL));
+    TEST_ASSERT_EQUAL_INT(0, arena_create(&arena, ARENA_BYTES, NULL));
     bins = calloc(1, sizeof *bins);
     batch = aligned_alloc(64, (sizeof *batch + 63) / 64 * 64);
     TEST_ASSERT_TRUE(bins && batch);

@@ -19,13 +19,17 @@ static float depth[SIZE * SIZE];
 
 #define OK(call) TEST_ASSERT_EQUAL_INT_MESSAGE(TRIPTYCH_OK, call, triptych_error(device))
 
-static void open_device(unsigned threads, pool_create_thread *create)
+static void open_device_with(const struct device_options *options)
 {
-    struct device_options options = {.threads = threads, .create_thread = create};
-    TEST_ASSERT_EQUAL_INT(TRIPTYCH_OK, device_create(&engine_emulate, &options, &device, NULL));
+    TEST_ASSERT_EQUAL_INT(TRIPTYCH_OK, device_create(&engine_emulate, options, &device, NULL));
     OK(triptych_set_target(device, SIZE, SIZE));
     OK(triptych_set_state(device, TRIPTYCH_STATE_lighting, 0));
     OK(triptych_set_state(device, TRIPTYCH_STATE_cullmode, 1));
+}
+
+static void open_device(unsigned threads)
+{
+    open_device_with(&(struct device_options){.threads = threads});
 }
 
 static void close_device(void)
@@ -36,7 +40,7 @@ static void close_device(void)
 
 void setUp(void)
 {
-    open_device(1, NULL);
+    open_device(1);
 }
 
 void tearDown(void)
@@ -388,7 +392,7 @@ static void the_image_does_not_depend_on_the_number_of_threads(void)
     memcpy(first_depth, depth, sizeof depth);
     for (size_t i = 0; i < sizeof threads / sizeof *threads; i++) {
         close_device();
-        open_device(threads[i], NULL);
+        open_device(threads[i]);
         draw_scene(false);
         read_image();
         TEST_ASSERT_EQUAL_MEMORY(first_image, image, sizeof image);
@@ -404,10 +408,30 @@ static void the_image_does_not_depend_on_when_it_is_rendered(void)
     read_image();
     memcpy(first_image, image, sizeof image);
     close_device();
-    open_device(2, NULL);
+    open_device(2);
     draw_scene(true);
     read_image();
     TEST_ASSERT_EQUAL_MEMORY(first_image, image, sizeof image);
+}
+
+/* An arena of little more than one block: threads take it from one another, and the scene takes many rounds.
+ */
+static void the_image_does_not_depend_on_the_size_of_the_arena(void)
+{
+    static uint32_t first_image[SIZE * SIZE];
+    draw_scene(false);
+    read_image();
+    memcpy(first_image, image, sizeof image);
+    for (unsigned threads = 1; threads <= 4; threads++)
+        for (int repeat = 0; repeat < 5; repeat++) {
+            close_device();
+            open_device_with(
+                &(struct device_options){.threads = threads, .arena_bytes = ARENA_BLOCK * 5 / 4});
+            draw_scene(false);
+            read_image();
+            TEST_ASSERT_EQUAL_MEMORY(first_image, image, sizeof image);
+            TEST_ASSERT_TRUE(device->frame->statistics.rounds > 3);
+        }
 }
 
 static int refuse_thread(pthread_t *thread, const pthread_attr_t *attributes, void *(*run)(void *),
@@ -420,7 +444,7 @@ static int refuse_thread(pthread_t *thread, const pthread_attr_t *attributes, vo
 static void without_more_threads_the_caller_renders_alone(void)
 {
     close_device();
-    open_device(8, refuse_thread);
+    open_device_with(&(struct device_options){.threads = 8, .create_thread = refuse_thread});
     TEST_ASSERT_EQUAL_UINT32(1, pool_workers(device->pool));
     draw_rectangle(10, 10, 90, 90, 0.5f, RED_ARGB);
     read_image();
@@ -450,7 +474,7 @@ static void one_huge_draw_is_rendered_in_rounds(void)
                           {{-1, -3, 0, 1}, GREEN_ARGB}, {{-1, 1, 0, 1}, RED_ARGB},
                           {{3, 1, 0, 1}, RED_ARGB},     {{-1, -3, 0, 1}, RED_ARGB}};
     close_device();
-    open_device(2, NULL);
+    open_device(2);
     OK(triptych_set_viewport(device, &corner));
     OK(triptych_set_state(device, TRIPTYCH_STATE_zenable, 0));
     bind(buffer_of(v, sizeof v));
@@ -670,6 +694,7 @@ int main(void)
     RUN_TEST(later_changes_do_not_reach_a_recorded_draw);
     RUN_TEST(the_image_does_not_depend_on_the_number_of_threads);
     RUN_TEST(the_image_does_not_depend_on_when_it_is_rendered);
+    RUN_TEST(the_image_does_not_depend_on_the_size_of_the_arena);
     RUN_TEST(without_more_threads_the_caller_renders_alone);
     RUN_TEST(one_huge_draw_is_rendered_in_rounds);
     RUN_TEST(more_draws_than_the_queue_holds_are_all_drawn);
