@@ -4,8 +4,7 @@
  * A fragment may change only the registers that it lists as given or clobbered; what it gives, writes to
  * memory and whether it jumps may depend only on the registers that it lists as read (it runs twice, with
  * other rubbish in the rest); it writes nothing outside the frame and the memory behind the bases; it leaves
- * MXCSR and the direction flag alone. The second half checks the other side: plans of all keys provide what
- * their fragments read.
+ * MXCSR and the direction flag alone.
  *
  * Memory behind the bases is filled with one word of 64 bits that is at once a valid pointer, the small
  * integers 0 and 8192, and two tiny floats: whatever a fragment takes from there, it can follow. */
@@ -16,7 +15,6 @@
 #include "stitch/stitch.h"
 #include "tests/support/trampoline.h"
 
-#include <stdlib.h>
 #include <string.h>
 #include <sys/mman.h>
 #include <unity.h>
@@ -284,167 +282,71 @@ static void argument_names_match_the_holes(void)
     }
 }
 
-/* ---- plans */
+/* ---- whole routines */
 
-static struct plan plan;
-static uint8_t planned[1024]; /* by number in the section */
-
-static void check_plan(planner *planner, enum unit unit, const union key *key)
+/* Called as C calls it, from a stack of our own; `call` may be any unit's. */
+static void run_routine(const struct routine *routine, const void *call, struct machine_state *in,
+                        struct machine_state *out)
 {
+    static alignas(64) uint8_t routine_stack[64 << 10];
+    uint8_t *top = routine_stack + sizeof routine_stack - 64;
+    fill_registers(in, 0);
+    memcpy(top - 8, &(const void *){trampoline_exit}, sizeof(void *));
+    in->general[REGISTER_FRAME] = (uint64_t)(uintptr_t)(top - 8);
+    in->general[REGISTER_CALL] = (uint64_t)(uintptr_t)call;
+    in->mxcsr = MXCSR_SOMETHING;
+    trampoline_run(routine->code, in, out);
+}
+
+static void check_convention(const struct engine *engine, enum unit unit, const union key *key,
+                             const void *call)
+{
+    static const uint8_t saved[] = {3, 5, 12, 13, 14, 15}, zero[16];
+    struct machine_state in, out;
     struct error error = {{0}};
-    planner(&plan, unit, key);
-    TEST_ASSERT_EQUAL_MESSAGE(0, plan.dropped, "the plan is too large");
-    if (plan_check(&plan, &error)) {
-        char text[KEY_TEXT_CAPACITY], both[sizeof text + ERROR_CAPACITY];
-        snprintf(both, sizeof both, "%s [%s]", error.text, key_print(unit, key, text));
-        TEST_FAIL_MESSAGE(both);
-    }
-    for (unsigned i = 0; i < plan.count; i++)
-        planned[plan.part[i].fragment - __start_stitch_fragments] = 1;
+    struct routine *routine = engine->build(arena, unit, key, &error);
+    TEST_ASSERT_NOT_NULL_MESSAGE(routine, error.text);
+    run_routine(routine, call, &in, &out);
+    for (size_t i = 0; i < sizeof saved; i++)
+        TEST_ASSERT_EQUAL_HEX64_MESSAGE(in.general[saved[i]], out.general[saved[i]], "callee-saved register");
+    TEST_ASSERT_EQUAL_HEX64_MESSAGE(in.general[REGISTER_FRAME] + 8, out.general[REGISTER_FRAME], "rsp");
+    TEST_ASSERT_EQUAL_HEX32_MESSAGE(MXCSR_SOMETHING, out.mxcsr & MXCSR_CONTROL, "MXCSR");
+    TEST_ASSERT_EQUAL_HEX64_MESSAGE(0, out.flags & DIRECTION_FLAG, "direction flag");
+    for (int n = 0; n < 16; n++)
+        TEST_ASSERT_EQUAL_MEMORY_MESSAGE(zero, out.ymm[n] + 16, 16, "upper half of a vector register");
+    engine->free(arena, routine);
 }
 
-/* Counts through the values of the fields from `first` on; 0 when they have all been. */
-static int next_key(enum unit unit, union key *key)
+/* With nothing to do and with something, on data that are all zero. */
+static void check_conventions(const struct engine *engine, uint32_t count)
 {
-    size_t count;
-    const struct key_field *field = key_fields(unit, &count);
-    for (size_t i = 0; i < count; i++)
-        for (unsigned j = 0; j < field[i].count; j++) {
-            uint8_t *digit = (uint8_t *)key + field[i].offset + j;
-            if (++*digit < field[i].radix)
-                return 1;
-            *digit = 0;
-        }
-    return 0;
-}
-
-/* Lights are the last but one digits of the key, eight alike: one light of each kind and all of each stand
- * for all their combinations, since what a light's fragment reads and gives does not depend on which light it
- * is. */
-static void set_lights(struct vertex_key *key, int pattern)
-{
-    static const uint8_t pair[6][2] = {{0, 0}, {1, 0}, {2, 0}, {1, 2}, {2, 1}, {2, 2}};
-    memset(key->light, 0, sizeof key->light);
-    key->light[0] = pair[pattern][0];
-    key->light[1] = pair[pattern][1];
-}
-
-static void vertex_plans_keep_the_contract(void)
-{
-    for (int pattern = 0; pattern < 6; pattern++)
-        for (int rest = 0; rest < 6 * 6 * 6 * 6 * 16; rest++) {
-            union key key = no_state;
-            int digits = rest;
-            for (int a = 0; a < ATTRIBUTE_COUNT; a++, digits /= ATTRIBUTE_FORMAT_COUNT)
-                key.vertex.attribute[a] = (uint8_t)(digits % ATTRIBUTE_FORMAT_COUNT);
-            key.vertex.lighting = digits & 1;
-            key.vertex.normalize = digits >> 1 & 1;
-            key.vertex.varying[0] = digits >> 2 & 1;
-            key.vertex.varying[1] = digits >> 3 & 1;
-            set_lights(&key.vertex, pattern);
-            check_plan(plan_stages, UNIT_VERTEX, &key);
-        }
-}
-
-static void setup_plans_keep_the_contract(void)
-{
+    static const struct job job;
+    static alignas(64) float batch[SLOT_COUNT * VERTEX_CAPACITY], depth[TILE_PIXELS];
+    static alignas(64) uint32_t color[TILE_PIXELS], index[3 * SETUP_CAPACITY];
+    static alignas(64) uint8_t records[16 * RECORD_BYTES];
+    static const struct entry entry = {.coverage = 0x8001};
+    struct vertex_call vertex = {&job, index, batch, count};
+    struct setup_call setup = {&job, index, batch, records, count};
+    struct pixel_call pixel = {&job, &entry, records, &lane_table, color, depth, 1};
     union key key = no_state;
-    do
-        check_plan(plan_stages, UNIT_SETUP, &key);
-    while (next_key(UNIT_SETUP, &key));
-}
-
-/* Of the write masks, none, some and all. */
-static void pixel_plans_keep_the_contract(void)
-{
-    union key key = no_state;
-    do {
-        if (key.pixel.write_mask == 0 || key.pixel.write_mask == 7 || key.pixel.write_mask == 15)
-            check_plan(plan_stages, UNIT_PIXEL, &key);
-    } while (next_key(UNIT_PIXEL, &key));
-}
-
-static void operation_plans_keep_the_contract(void)
-{
-    union key most = no_state;
-    most.vertex.lighting = most.vertex.normalize = most.vertex.varying[0] = most.vertex.varying[1] = 1;
-    memset(most.vertex.light, LIGHT_POINT, sizeof most.vertex.light);
-    memset(most.vertex.attribute, ATTRIBUTE_FORMAT_FLOAT4, sizeof most.vertex.attribute);
-    check_plan(plan_operations, UNIT_VERTEX, &most);
-    for (int i = 0; i < 3000; i++) {
-        union key key;
-        key_random((enum unit)(i % UNIT_COUNT), &seed, &key);
-        check_plan(plan_operations, (enum unit)(i % UNIT_COUNT), &key);
-    }
-}
-
-/* Runs after the plans above. Operations that the specification does not use yet are not planned. */
-static void every_fragment_is_planned_by_some_key(void)
-{
-#define FRAGMENT(name, arguments, meaning)                                                                   \
-    TEST_ASSERT_TRUE_MESSAGE(planned[&fragment_##name - __start_stitch_fragments], #name);
-#include "def/fragment.def"
-#undef FRAGMENT
-}
-
-/* A part taken out, or two exchanged, must be noticed. */
-static void broken_plans_are_noticed(void)
-{
-    union key key = no_state;
-    struct error error = {{0}};
+    key.vertex.lighting = key.vertex.varying[0] = key.vertex.varying[1] = 1;
+    check_convention(engine, UNIT_VERTEX, &key, &vertex);
+    key = no_state;
+    key.setup.depth = key.setup.varying[0] = 1;
+    check_convention(engine, UNIT_SETUP, &key, &setup);
+    key = no_state;
     key.pixel.write_mask = 15;
-    key.pixel.depth_function = COMPARE_LESS;
-    plan_stages(&plan, UNIT_PIXEL, &key);
-    TEST_ASSERT_EQUAL(0, plan_check(&plan, &error));
-    for (unsigned i = 0; i < plan.count; i++)
-        if (plan.part[i].fragment == &fragment_position)
-            plan.part[i].fragment = &fragment_stage_replace;
-    TEST_ASSERT_EQUAL(-1, plan_check(&plan, &error));
-    TEST_ASSERT_NOT_NULL_MESSAGE(strstr(error.text, "stage_replace: reads ymm"), error.text);
-    error_clear(&error);
-    plan_stages(&plan, UNIT_PIXEL, &key);
-    plan.part[plan.count - 2].arguments.value[0] = (int32_t)plan.count;
-    TEST_ASSERT_EQUAL(-1, plan_check(&plan, &error));
-    TEST_ASSERT_NOT_NULL_MESSAGE(strstr(error.text, "jumps to part"), error.text);
+    key.pixel.depth_function = COMPARE_LESS_EQUAL;
+    key.pixel.varying[0] = 1;
+    check_convention(engine, UNIT_PIXEL, &key, &pixel);
 }
 
-static void listings_show_parts_holes_and_instructions(void)
+static void routines_obey_the_calling_convention(void)
 {
-    union key key = no_state;
-    struct error error = {{0}};
-    char *text = NULL;
-    size_t size;
-    key.pixel.write_mask = 3;
-    FILE *out = open_memstream(&text, &size);
-    TEST_ASSERT_EQUAL_MESSAGE(0, stitch_dump(arena, &engine_stitch, UNIT_PIXEL, &key, out, &error),
-                              error.text);
-    TEST_ASSERT_EQUAL_MESSAGE(0, stitch_dump(arena, &engine_stitch_operation, UNIT_PIXEL, &key, out, &error),
-                              error.text);
-    fclose(out);
-    TEST_ASSERT_NOT_NULL(strstr(text, "write_masked value=0xffff"));
-    TEST_ASSERT_NOT_NULL(strstr(text, "src/spec/write.h:"));
-    TEST_ASSERT_NOT_NULL(strstr(text, "vpblendvb"));
-    TEST_ASSERT_NULL_MESSAGE(strstr(text, "db 0x"), "bytes that are no instruction");
-    free(text);
-}
-
-static void what_finds_no_room_is_refused(void)
-{
-    static union key key;
-    struct error error = {{0}};
-    struct code_arena *small = code_create(1, NULL, &error); /* a page */
-    struct code_span rest;
-    size_t room = code_statistics(small).largest_free;
-    TEST_ASSERT_EQUAL(0, code_reserve(small, room - CODE_ALIGNMENT, &rest, &error));
-    TEST_ASSERT_NULL(engine_stitch.build(small, UNIT_PIXEL, &key, &error));
-    TEST_ASSERT_NOT_EQUAL('\0', error.text[0]);
-    error_clear(&error);
-    plan.count = plan.dropped = 0;
-    for (int i = 0; i <= PART_CAPACITY; i++)
-        plan_append(&plan, &fragment_leave, (struct arguments){{0}});
-    TEST_ASSERT_EQUAL(-1, plan_join(&plan, arena, &rest, &error));
-    TEST_ASSERT_EQUAL_STRING("the stitcher's plan of 1025 parts exceeds its room of 1024", error.text);
-    code_destroy(small);
+    check_conventions(&engine_stitch, 0);
+    check_conventions(&engine_stitch, 16);
+    check_conventions(&engine_stitch_operation, 0);
+    check_conventions(&engine_stitch_operation, 16);
 }
 
 static void map_memory(void)
@@ -478,14 +380,7 @@ int main(void)
     UNITY_BEGIN();
     RUN_TEST(every_fragment_keeps_its_contract);
     RUN_TEST(offences_are_noticed);
+    RUN_TEST(routines_obey_the_calling_convention);
     RUN_TEST(argument_names_match_the_holes);
-    RUN_TEST(vertex_plans_keep_the_contract);
-    RUN_TEST(setup_plans_keep_the_contract);
-    RUN_TEST(pixel_plans_keep_the_contract);
-    RUN_TEST(operation_plans_keep_the_contract);
-    RUN_TEST(every_fragment_is_planned_by_some_key);
-    RUN_TEST(broken_plans_are_noticed);
-    RUN_TEST(what_finds_no_room_is_refused);
-    RUN_TEST(listings_show_parts_holes_and_instructions);
     return UNITY_END();
 }

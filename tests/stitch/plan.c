@@ -1,0 +1,202 @@
+/* Plans of all keys: every part finds in its registers what its fragment reads, every fragment is used, and
+ * what is wrong with a plan is noticed. That fragments do what their contracts say is contract.c's part. */
+#define _GNU_SOURCE
+#include "base/code.h"
+#include "stitch/plan.h"
+#include "stitch/stitch.h"
+
+#include <stdlib.h>
+#include <string.h>
+#include <unity.h>
+
+static struct code_arena *arena;
+static const union key no_state;
+static uint64_t seed = 0x91a45;
+
+static struct plan plan;
+static uint8_t planned[1024]; /* by number in the section */
+
+static void check_plan(planner *planner, enum unit unit, const union key *key)
+{
+    struct error error = {{0}};
+    planner(&plan, unit, key);
+    TEST_ASSERT_EQUAL_MESSAGE(0, plan.dropped, "the plan is too large");
+    if (plan_check(&plan, &error)) {
+        char text[KEY_TEXT_CAPACITY], both[sizeof text + ERROR_CAPACITY];
+        snprintf(both, sizeof both, "%s [%s]", error.text, key_print(unit, key, text));
+        TEST_FAIL_MESSAGE(both);
+    }
+    for (unsigned i = 0; i < plan.count; i++)
+        planned[plan.part[i].fragment - __start_stitch_fragments] = 1;
+}
+
+/* Counts through the values of the fields from `first` on; 0 when they have all been. */
+static int next_key(enum unit unit, union key *key)
+{
+    size_t count;
+    const struct key_field *field = key_fields(unit, &count);
+    for (size_t i = 0; i < count; i++)
+        for (unsigned j = 0; j < field[i].count; j++) {
+            uint8_t *digit = (uint8_t *)key + field[i].offset + j;
+            if (++*digit < field[i].radix)
+                return 1;
+            *digit = 0;
+        }
+    return 0;
+}
+
+/* Lights are the last but one digits of the key, eight alike: one light of each kind and all of each stand
+ * for all their combinations, since what a light's fragment reads and gives does not depend on which light it
+ * is. */
+static void set_lights(struct vertex_key *key, int pattern)
+{
+    static const uint8_t pair[6][2] = {{0, 0}, {1, 0}, {2, 0}, {1, 2}, {2, 1}, {2, 2}};
+    memset(key->light, 0, sizeof key->light);
+    key->light[0] = pair[pattern][0];
+    key->light[1] = pair[pattern][1];
+}
+
+static void vertex_plans_keep_the_contract(void)
+{
+    for (int pattern = 0; pattern < 6; pattern++)
+        for (int rest = 0; rest < 6 * 6 * 6 * 6 * 16; rest++) {
+            union key key = no_state;
+            int digits = rest;
+            for (int a = 0; a < ATTRIBUTE_COUNT; a++, digits /= ATTRIBUTE_FORMAT_COUNT)
+                key.vertex.attribute[a] = (uint8_t)(digits % ATTRIBUTE_FORMAT_COUNT);
+            key.vertex.lighting = digits & 1;
+            key.vertex.normalize = digits >> 1 & 1;
+            key.vertex.varying[0] = digits >> 2 & 1;
+            key.vertex.varying[1] = digits >> 3 & 1;
+            set_lights(&key.vertex, pattern);
+            check_plan(plan_stages, UNIT_VERTEX, &key);
+        }
+}
+
+static void setup_plans_keep_the_contract(void)
+{
+    union key key = no_state;
+    do
+        check_plan(plan_stages, UNIT_SETUP, &key);
+    while (next_key(UNIT_SETUP, &key));
+}
+
+/* Of the write masks, none, some and all. */
+static void pixel_plans_keep_the_contract(void)
+{
+    union key key = no_state;
+    do {
+        if (key.pixel.write_mask == 0 || key.pixel.write_mask == 7 || key.pixel.write_mask == 15)
+            check_plan(plan_stages, UNIT_PIXEL, &key);
+    } while (next_key(UNIT_PIXEL, &key));
+}
+
+static void operation_plans_keep_the_contract(void)
+{
+    union key most = no_state;
+    most.vertex.lighting = most.vertex.normalize = most.vertex.varying[0] = most.vertex.varying[1] = 1;
+    memset(most.vertex.light, LIGHT_POINT, sizeof most.vertex.light);
+    memset(most.vertex.attribute, ATTRIBUTE_FORMAT_FLOAT4, sizeof most.vertex.attribute);
+    check_plan(plan_operations, UNIT_VERTEX, &most);
+    for (int i = 0; i < 3000; i++) {
+        union key key;
+        key_random((enum unit)(i % UNIT_COUNT), &seed, &key);
+        check_plan(plan_operations, (enum unit)(i % UNIT_COUNT), &key);
+    }
+}
+
+/* Runs after the plans above. Operations that the specification does not use yet are not planned. */
+static void every_fragment_is_planned_by_some_key(void)
+{
+#define FRAGMENT(name, arguments, meaning)                                                                   \
+    TEST_ASSERT_TRUE_MESSAGE(planned[&fragment_##name - __start_stitch_fragments], #name);
+#include "def/fragment.def"
+#undef FRAGMENT
+}
+
+/* A part taken out, or two exchanged, must be noticed. */
+static void broken_plans_are_noticed(void)
+{
+    union key key = no_state;
+    struct error error = {{0}};
+    key.pixel.write_mask = 15;
+    key.pixel.depth_function = COMPARE_LESS;
+    plan_stages(&plan, UNIT_PIXEL, &key);
+    TEST_ASSERT_EQUAL(0, plan_check(&plan, &error));
+    for (unsigned i = 0; i < plan.count; i++)
+        if (plan.part[i].fragment == &fragment_position)
+            plan.part[i].fragment = &fragment_stage_replace;
+    TEST_ASSERT_EQUAL(-1, plan_check(&plan, &error));
+    TEST_ASSERT_NOT_NULL_MESSAGE(strstr(error.text, "stage_replace: reads ymm"), error.text);
+    error_clear(&error);
+    plan_stages(&plan, UNIT_PIXEL, &key);
+    plan.part[plan.count - 2].arguments.value[0] = (int32_t)plan.count;
+    TEST_ASSERT_EQUAL(-1, plan_check(&plan, &error));
+    TEST_ASSERT_NOT_NULL_MESSAGE(strstr(error.text, "jumps to part"), error.text);
+}
+
+static void listings_show_parts_holes_and_instructions(void)
+{
+    union key key = no_state;
+    struct error error = {{0}};
+    char *text = NULL;
+    size_t size;
+    key.pixel.write_mask = 3;
+    FILE *out = open_memstream(&text, &size);
+    TEST_ASSERT_EQUAL_MESSAGE(0, stitch_dump(arena, &engine_stitch, UNIT_PIXEL, &key, out, &error),
+                              error.text);
+    TEST_ASSERT_EQUAL_MESSAGE(0, stitch_dump(arena, &engine_stitch_operation, UNIT_PIXEL, &key, out, &error),
+                              error.text);
+    fclose(out);
+    TEST_ASSERT_NOT_NULL(strstr(text, "write_masked value=0xffff"));
+    TEST_ASSERT_NOT_NULL(strstr(text, "src/spec/write.h:"));
+    TEST_ASSERT_NOT_NULL(strstr(text, "vpblendvb"));
+    TEST_ASSERT_NULL_MESSAGE(strstr(text, "db 0x"), "bytes that are no instruction");
+    free(text);
+}
+
+static void what_finds_no_room_is_refused(void)
+{
+    static union key key;
+    struct error error = {{0}};
+    struct code_arena *small = code_create(1, NULL, &error); /* a page */
+    struct code_span rest;
+    size_t room = code_statistics(small).largest_free;
+    TEST_ASSERT_EQUAL(0, code_reserve(small, room - CODE_ALIGNMENT, &rest, &error));
+    TEST_ASSERT_NULL(engine_stitch.build(small, UNIT_PIXEL, &key, &error));
+    TEST_ASSERT_NOT_EQUAL('\0', error.text[0]);
+    error_clear(&error);
+    plan.count = plan.dropped = 0;
+    for (int i = 0; i <= PART_CAPACITY; i++)
+        plan_append(&plan, &fragment_leave, (struct arguments){{0}});
+    TEST_ASSERT_EQUAL(-1, plan_join(&plan, arena, &rest, &error));
+    TEST_ASSERT_EQUAL_STRING("the stitcher's plan of 1025 parts exceeds its room of 1024", error.text);
+    code_destroy(small);
+}
+
+void setUp(void)
+{
+    struct error error = {{0}};
+    arena = code_create(1 << 20, NULL, &error);
+    TEST_ASSERT_NOT_NULL_MESSAGE(arena, error.text);
+}
+
+void tearDown(void)
+{
+    code_destroy(arena);
+    arena = NULL;
+}
+
+int main(void)
+{
+    UNITY_BEGIN();
+    RUN_TEST(vertex_plans_keep_the_contract);
+    RUN_TEST(setup_plans_keep_the_contract);
+    RUN_TEST(pixel_plans_keep_the_contract);
+    RUN_TEST(operation_plans_keep_the_contract);
+    RUN_TEST(every_fragment_is_planned_by_some_key);
+    RUN_TEST(broken_plans_are_noticed);
+    RUN_TEST(what_finds_no_room_is_refused);
+    RUN_TEST(listings_show_parts_holes_and_instructions);
+    return UNITY_END();
+}
