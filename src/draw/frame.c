@@ -204,6 +204,7 @@ void frame_render(struct frame *frame, struct target *target)
         render_round(frame, &at, limit);
         bool ahead = at.command != before.command || at.primitive != before.primitive;
         limit = ahead ? FRAME_CHUNKS : 1;
+        frame->statistics.starved_rounds += !ahead;
     }
     gather_statistics(frame);
 }

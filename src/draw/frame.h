@@ -40,6 +40,7 @@ struct frame_statistics {
     uint64_t vertices_shaded, triangles_set_up, triangles_visible, pixels_shaded;
     uint64_t geometry_ns, tiles_ns; /* summed over threads */
     uint64_t rounds;
+    uint64_t starved_rounds; /* of them, those that got nothing done */
 };
 
 struct frame {

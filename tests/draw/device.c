@@ -9,6 +9,7 @@
 #include <stdlib.h>
 #include <string.h>
 #include <sys/resource.h>
+#include <time.h>
 #include <unity.h>
 
 enum { SIZE = 200 };
@@ -19,12 +20,17 @@ static float depth[SIZE * SIZE];
 
 #define OK(call) TEST_ASSERT_EQUAL_INT_MESSAGE(TRIPTYCH_OK, call, triptych_error(device))
 
-static void open_device_with(const struct device_options *options)
+static void open_engine(const struct engine *engine, const struct device_options *options)
 {
-    TEST_ASSERT_EQUAL_INT(TRIPTYCH_OK, device_create(&engine_emulate, options, &device, NULL));
+    TEST_ASSERT_EQUAL_INT(TRIPTYCH_OK, device_create(engine, options, &device, NULL));
     OK(triptych_set_target(device, SIZE, SIZE));
     OK(triptych_set_state(device, TRIPTYCH_STATE_lighting, 0));
     OK(triptych_set_state(device, TRIPTYCH_STATE_cullmode, 1));
+}
+
+static void open_device_with(const struct device_options *options)
+{
+    open_engine(&engine_emulate, options);
 }
 
 static void open_device(unsigned threads)
@@ -434,6 +440,54 @@ static void the_image_does_not_depend_on_the_size_of_the_arena(void)
         }
 }
 
+/* The emulator, except that the batch with vertex 0 takes its time. */
+static routine_function *emulate_vertices;
+
+static void linger_over_vertex_0(const void *arguments, const struct routine *routine)
+{
+    if (((const struct vertex_call *)arguments)->index[0] == 0)
+        nanosleep(&(struct timespec){.tv_nsec = 50000000}, NULL);
+    emulate_vertices(arguments, routine);
+}
+
+static struct routine *build_lingering(struct code_arena *arena, enum unit unit, const union key *key,
+                                       struct error *error)
+{
+    struct routine *routine = engine_emulate.build(arena, unit, key, error);
+    if (routine && unit == UNIT_VERTEX) {
+        emulate_vertices = routine->run;
+        routine->run = linger_over_vertex_0;
+    }
+    return routine;
+}
+
+/* One thread lingers over the first chunk while the other takes the whole arena for the second. */
+static void a_chunk_that_others_starved_is_rendered_alone(void)
+{
+    enum { TRIANGLES = 2 * CHUNK_PRIMITIVES };
+    static struct engine lingering;
+    struct vertex *vertex = malloc(3 * TRIANGLES * sizeof *vertex);
+    TEST_ASSERT_NOT_NULL(vertex);
+    for (int i = 0; i < 3 * TRIANGLES; i += 3) {
+        float z = 1 - (float)i / (3 * TRIANGLES);
+        vertex[i] = at(0, 0, z, i == 0 ? GREEN_ARGB : RED_ARGB);
+        vertex[i + 1] = at(8, 0, z, i == 0 ? GREEN_ARGB : RED_ARGB);
+        vertex[i + 2] = at(0, 8, z, i == 0 ? GREEN_ARGB : RED_ARGB);
+    }
+    lingering = engine_emulate;
+    lingering.build = build_lingering;
+    close_device();
+    open_engine(&lingering, &(struct device_options){.threads = 2, .arena_bytes = ARENA_BLOCK * 5 / 4});
+    OK(triptych_set_state(device, TRIPTYCH_STATE_zfunc, 8));
+    draw_list(vertex, TRIANGLES);
+    free(vertex);
+    read_image();
+    TEST_ASSERT_EQUAL_UINT32(36, count_color(RED));
+    TEST_ASSERT_TRUE(device->frame->statistics.starved_rounds > 0);
+    TEST_ASSERT_EQUAL_UINT64(TRIANGLES, device->frame->statistics.triangles_visible);
+    TEST_ASSERT_EQUAL_UINT64(36 * TRIANGLES, device->frame->statistics.pixels_shaded);
+}
+
 static int refuse_thread(pthread_t *thread, const pthread_attr_t *attributes, void *(*run)(void *),
                          void *argument)
 {
@@ -695,6 +749,7 @@ int main(void)
     RUN_TEST(the_image_does_not_depend_on_the_number_of_threads);
     RUN_TEST(the_image_does_not_depend_on_when_it_is_rendered);
     RUN_TEST(the_image_does_not_depend_on_the_size_of_the_arena);
+    RUN_TEST(a_chunk_that_others_starved_is_rendered_alone);
     RUN_TEST(without_more_threads_the_caller_renders_alone);
     RUN_TEST(one_huge_draw_is_rendered_in_rounds);
     RUN_TEST(more_draws_than_the_queue_holds_are_all_drawn);
