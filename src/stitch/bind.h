@@ -2,8 +2,8 @@
  * appends the fragment of its name to the plan and gives the slot where its result will be.
  *
  * One pass without any analysis: slots are numbered upwards and never shared, nothing is remembered. The
- * host's decisions on the key run here, once a routine; only the operations they lead to remain. The largest frame, that of eight
- * point lights, has 19 KiB. */
+ * host's decisions on the key run here, once a routine; only the operations they lead to remain. The largest
+ * frame, that of eight point lights, has 19 KiB. */
 #ifndef STITCH_BIND_H
 #define STITCH_BIND_H
 

@@ -33,8 +33,7 @@ struct plan {
     struct part part[PART_CAPACITY];
 };
 
-/* Appends a part and returns its number, which is where a jump to the *next* part to come would not go:
- * that is plan->count. */
+/* Appends a part and returns its number. */
 unsigned plan_append(struct plan *plan, const struct fragment *fragment, struct arguments arguments);
 
 /* Lets the part's argument n, a jump, go to the next part that will be appended. */

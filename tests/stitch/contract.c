@@ -351,7 +351,7 @@ static void routines_obey_the_calling_convention(void)
 
 static void map_memory(void)
 {
-    void *wanted = (void *)(uintptr_t)MEMORY_ADDRESS; /* NOLINT: a fixed address is the point */
+    void *wanted = (void *)(uintptr_t)MEMORY_ADDRESS; /* a fixed address is the point */
     memory = mmap(wanted, MAPPED_BYTES, PROT_READ | PROT_WRITE,
                   MAP_PRIVATE | MAP_ANONYMOUS | MAP_NORESERVE | MAP_FIXED_NOREPLACE, -1, 0);
     TEST_ASSERT_EQUAL_PTR(wanted, memory);
