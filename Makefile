@@ -139,6 +139,9 @@ $(PROGRAMS): $(BUILD)/tests/%: $(BUILD)/object/tests/%.o $(SUPPORT_OBJECTS) $(BU
 	@mkdir -p $(@D)
 	$(call say,LD)$(link) $(filter %.o,$^) $(filter %.a,$^) $(tool_libraries) -o $@
 
+# This test plants differences between the engines' pictures, to see the verification fail.
+$(BUILD)/tests/tool/verify: private override LDFLAGS += -Wl,--wrap=triptych_read_color,--wrap=triptych_read_depth
+
 # Files that hold a text and are rewritten only when it changes.
 $(BUILD)/flags: text = $(compile) $(unity_flags) $(link) $(assemble)
 $(BUILD)/library.list: text = $(LIBRARY_OBJECTS)

@@ -248,6 +248,9 @@ refuses 'bench of a bad stream' 'bad.tri:2:' bench "$work/bad.tri" --csv "$work/
 
 # --- Verification and measurement ----------------------------------------------------------------------------
 
+refuses 'report into a missing folder' 'none/x.json: cannot be written: No such file' \
+    bench "$work/good.tri" --json "$work/out/none/x.json"
+refuses 'report that is a folder' 'folder.png: ' verify "$work/good.tri" --json "$work/folder.png"
 answers 'verify ends with its sum' '^1 streams, [0-9]+ engines, identical$' \
     verify "$work/good.tri" --frames all --json "$work/verify.json"
 holds 'verify writes JSON' grep -q '"identical":' "$work/verify.json"

@@ -168,7 +168,7 @@ int command_bench(const struct command *self, int count, char **arguments)
     if (result != OPTIONS_GO)
         return options_status(result);
     struct choice engines;
-    if (choose_engines(self, engine_list, &engines))
+    if (choose_engines(self, engine_list, &engines) || check_output(self, json) || check_output(self, csv))
         return STATUS_BAD;
 
     struct bench bench = {machine_describe(), settings.threads, (unsigned)operands.count, NULL};

@@ -29,10 +29,9 @@ static void print_help(FILE *out)
 static int unknown_command(const char *name)
 {
     char names[256] = "";
-    for (int i = 0; i < COMMAND_COUNT; i++) {
-        strcat(names, i ? ", " : "");
-        strcat(names, commands[i].name);
-    }
+    for (int i = 0; i < COMMAND_COUNT; i++)
+        snprintf(names + strlen(names), sizeof names - strlen(names), "%s%s", i ? ", " : "",
+                 commands[i].name);
     return fail(&program, "unknown %s \"%s\", expected one of: %s", name[0] == '-' ? "option" : "command",
                 name, names);
 }

@@ -1,9 +1,13 @@
 #include "tool/tool.h"
 
+#include <errno.h>
 #include <stdarg.h>
 #include <stdio.h>
 #include <string.h>
+#include <sys/stat.h>
 #include <unistd.h>
+
+enum { PATH_CAPACITY = 4096 };
 
 int fail(const struct command *self, const char *format, ...)
 {
@@ -31,6 +35,26 @@ void progress(const char *format, ...)
         va_end(arguments);
     }
     fflush(stderr);
+}
+
+int check_output(const struct command *self, const char *path)
+{
+    char folder[PATH_CAPACITY];
+    struct stat found;
+    if (!path)
+        return STATUS_OK;
+    if (!stat(path, &found)) {
+        if (S_ISDIR(found.st_mode))
+            return fail(self, "%s: cannot be written: it is a folder", path);
+        if (!access(path, W_OK))
+            return STATUS_OK;
+    } else if (errno == ENOENT) {
+        const char *slash = strrchr(path, '/');
+        snprintf(folder, sizeof folder, "%.*s", slash ? (int)(slash - path) + 1 : 1, slash ? path : ".");
+        if (!access(folder, W_OK))
+            return STATUS_OK;
+    }
+    return fail(self, "%s: cannot be written: %s", path, strerror(errno));
 }
 
 void path_stem(const char *path, char *stem, unsigned capacity)

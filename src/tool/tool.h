@@ -28,6 +28,10 @@ struct command {
 /* Prints the failure and returns STATUS_BAD. */
 int fail(const struct command *self, const char *format, ...) __attribute__((format(printf, 2, 3)));
 
+/* Whether a file of that path can be made or replaced, asked before hours are spent on its contents. A null
+ * path is fine. Returns 0, or STATUS_BAD after telling why not. */
+int check_output(const struct command *self, const char *path);
+
 /* Shows a line of progress in place of the last; null wipes it. */
 void progress(const char *format, ...) __attribute__((format(printf, 1, 2)));
 

@@ -304,7 +304,7 @@ int command_verify(const struct command *self, int count, char **arguments)
         return fail(self, "--frames is \"%s\", expected all or a number from 1 to %d", frames,
                     FRAMES_MAXIMUM);
     if (choose_engines(self, engine_list, &settings.engines) ||
-        choose_threads(self, thread_list, &settings.threads))
+        choose_threads(self, thread_list, &settings.threads) || check_output(self, json))
         return STATUS_BAD;
 
     settings.report = json ? cJSON_CreateArray() : NULL;
