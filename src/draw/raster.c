@@ -3,7 +3,8 @@
  *
  * Groups of 4x4 blocks are accepted or rejected by the pixels where an edge function is smallest or largest.
  * The blocks of the groups in between are not: asking all 16 pixels of a block costs no more than asking its
- * corners, and spares a branch that cannot be predicted. Bounds of few blocks skip the groups as well.
+ * corners, and spares a branch that cannot be predicted. Bounds of few blocks skip the groups as well, and small
+ * triangles have a way of their own with 16-bit edges.
  *
  * Edge function of the edge from vertex p to vertex q, in 1/65536 square pixels, positive inside:
  *   E(x, y) = (q.x - p.x) * (y - p.y) - (q.y - p.y) * (x - p.x)
@@ -55,16 +56,23 @@ static inline int32_t pixel_from(int32_t position)
     return (position + CENTRE - 1) >> SUBPIXEL_BITS;
 }
 
-/* Returns whether the bounds are not empty. The largest x and y are exclusive: a centre there could only lie
- * on an edge that is neither top nor left, or be a vertex that ends one. */
-static inline bool bound(const struct triangle_head *head, const struct rectangle *limit,
-                         struct rectangle *bounds)
+/* The triangle's own bounds, in 1/256 pixel, inclusive. */
+static inline struct rectangle window_bounds(const struct triangle_head *head)
 {
     const int32_t *x = head->x, *y = head->y;
-    bounds->x0 = maximum(limit->x0, pixel_from(minimum(x[0], minimum(x[1], x[2]))));
-    bounds->y0 = maximum(limit->y0, pixel_from(minimum(y[0], minimum(y[1], y[2]))));
-    bounds->x1 = minimum(limit->x1, pixel_from(maximum(x[0], maximum(x[1], x[2]))));
-    bounds->y1 = minimum(limit->y1, pixel_from(maximum(y[0], maximum(y[1], y[2]))));
+    return (struct rectangle){minimum(x[0], minimum(x[1], x[2])), minimum(y[0], minimum(y[1], y[2])),
+                              maximum(x[0], maximum(x[1], x[2])), maximum(y[0], maximum(y[1], y[2]))};
+}
+
+/* The pixels of `window` within the limit; returns whether there are any. The largest x and y are exclusive:
+ * a centre there could only lie on an edge that is neither top nor left, or be a vertex that ends one. */
+static inline bool bound(const struct rectangle *window, const struct rectangle *limit,
+                         struct rectangle *bounds)
+{
+    bounds->x0 = maximum(limit->x0, pixel_from(window->x0));
+    bounds->y0 = maximum(limit->y0, pixel_from(window->y0));
+    bounds->x1 = minimum(limit->x1, pixel_from(window->x1));
+    bounds->y1 = minimum(limit->y1, pixel_from(window->y1));
     return bounds->x0 < bounds->x1 && bounds->y0 < bounds->y1;
 }
 
@@ -82,12 +90,13 @@ static inline int64_t edge(const struct triangle_head *head, int p, int q, int32
 
 bool raster_bounds(const struct triangle_head *head, const struct rectangle *limit, struct rectangle *bounds)
 {
-    return bound(head, limit, bounds);
+    struct rectangle window = window_bounds(head);
+    return bound(&window, limit, bounds);
 }
 
 bool raster_prepare(struct raster *raster, const struct triangle_head *head, const struct rectangle *scissor)
 {
-    if (!head->visible || !bound(head, scissor, &raster->bounds))
+    if (!head->visible || !raster_bounds(head, scissor, &raster->bounds))
         return false;
     for (int i = 0; i < 3; i++)
         raster->c[i] = edge(head, i, i < 2 ? i + 1 : 0, 0, 0, &raster->a[i], &raster->b[i]);
@@ -303,22 +312,127 @@ static inline int32_t saturate(int64_t c)
     return (int32_t)(c < -SATURATION ? -SATURATION : c);
 }
 
-/* Returns whether the triangle may cover anything of the tile. */
-static inline bool enter_tile(struct walk *w, const struct triangle_head *head,
-                              const struct rectangle *scissor)
+/* --- Small triangles
+ * ------------------------------------------------------------------------------------------
+ *
+ * Where a triangle's extent is below 64 pixels, steps and distances fit 16 bits and pmaddwd gives the three
+ * edge functions at once: a dx + b dy. Most triangles of a detailed mesh take this way. */
+
+enum { SMALL_EXTENT = 1 << 14 }; /* 1/256 pixel; a block's corner adds at most 3 pixels */
+
+/* Edge functions of the block that is looked at, and their steps from pixel to pixel, one vector per edge. */
+struct small {
+    __m128i pixel[3][4];        /* of the block's pixels less the value at its first, quad by quad */
+    __m128i value[3];           /* at the first pixel of the row's first block */
+    __m128i across[3], down[3]; /* steps to the next block */
+};
+
+static inline __m128i pairs(__m128i low, __m128i high)
 {
-    struct rectangle limit = {maximum(scissor->x0, w->x), maximum(scissor->y0, w->y),
-                              minimum(scissor->x1, w->x + TILE_SIZE), minimum(scissor->y1, w->y + TILE_SIZE)};
-    if (!head->visible || !bound(head, &limit, &w->bounds))
-        return false;
-    w->bounds.x0 -= w->x;
-    w->bounds.y0 -= w->y;
-    w->bounds.x1 -= w->x;
-    w->bounds.y1 -= w->y;
+    return _mm_or_si128(_mm_and_si128(low, _mm_set1_epi32(0xffff)), _mm_slli_epi32(high, 16));
+}
+
+/* One edge's share, its value and steps being in all lanes. */
+static inline void make_small_edge(struct small *s, int i, __m128i value, __m128i a, __m128i b)
+{
+    __m128i right = _mm_add_epi32(a, a), below = _mm_add_epi32(b, b);
+    __m128i quad = _mm_add_epi32(_mm_and_si128(a, _mm_set_epi32(-1, 0, -1, 0)),
+                                 _mm_and_si128(b, _mm_set_epi32(-1, -1, 0, 0)));
+    __m128i lower = _mm_add_epi32(quad, below);
+    s->pixel[i][0] = quad;
+    s->pixel[i][1] = _mm_add_epi32(quad, right);
+    s->pixel[i][2] = lower;
+    s->pixel[i][3] = _mm_add_epi32(lower, right);
+    s->value[i] = value;
+    s->across[i] = _mm_add_epi32(right, right);
+    s->down[i] = _mm_add_epi32(below, below);
+}
+
+#define ALL_LANES(v, i) _mm_shuffle_epi32(v, (i)*0x55)
+
+/* `x` and `y`: the first pixel of the first block, in the window. */
+static inline void make_small(struct small *s, const struct triangle_head *head, int32_t x, int32_t y)
+{
+    __m128i px = _mm_loadu_si128((const __m128i *)(const void *)head->x); /* the fourth lane is not used */
+    __m128i py = _mm_loadu_si128((const __m128i *)(const void *)head->y);
+    __m128i a = _mm_sub_epi32(py, _mm_shuffle_epi32(py, _MM_SHUFFLE(3, 0, 2, 1)));
+    __m128i b = _mm_sub_epi32(_mm_shuffle_epi32(px, _MM_SHUFFLE(3, 0, 2, 1)), px);
+    __m128i dx = _mm_sub_epi32(_mm_set1_epi32(x * SUBPIXELS + CENTRE), px);
+    __m128i dy = _mm_sub_epi32(_mm_set1_epi32(y * SUBPIXELS + CENTRE), py);
+    __m128i zero = _mm_setzero_si128();
+    __m128i top = _mm_and_si128(_mm_cmpeq_epi32(a, zero), _mm_cmpgt_epi32(b, zero));
+    __m128i top_left = _mm_or_si128(_mm_cmpgt_epi32(a, zero), top);
+    __m128i rule = _mm_xor_si128(top_left, _mm_set1_epi32(-1));
+    __m128i value = _mm_add_epi32(_mm_madd_epi16(pairs(a, b), pairs(dx, dy)), rule);
+    value = _mm_srai_epi32(value, SUBPIXEL_BITS);
+    make_small_edge(s, 0, ALL_LANES(value, 0), ALL_LANES(a, 0), ALL_LANES(b, 0));
+    make_small_edge(s, 1, ALL_LANES(value, 1), ALL_LANES(a, 1), ALL_LANES(b, 1));
+    make_small_edge(s, 2, ALL_LANES(value, 2), ALL_LANES(a, 2), ALL_LANES(b, 2));
+}
+
+static inline __m128i small_signs(const struct small *s, const __m128i at[3], int quad)
+{
+    __m128i e0 = _mm_add_epi32(at[0], s->pixel[0][quad]);
+    __m128i e1 = _mm_add_epi32(at[1], s->pixel[1][quad]);
+    __m128i e2 = _mm_add_epi32(at[2], s->pixel[2][quad]);
+    return _mm_or_si128(_mm_or_si128(e0, e1), e2);
+}
+
+/* Emits the blocks of `columns` x `rows` from the walk's bounds' first on, which lie within the scissor. */
+static inline void emit_small(struct walk *w, const struct triangle_head *head, int32_t columns, int32_t rows)
+{
+    struct small s;
+    struct entry *next = w->next;
+    int32_t x0 = w->bounds.x0 & -BLOCK_SIZE, y0 = w->bounds.y0 & -BLOCK_SIZE;
+    make_small(&s, head, w->x + x0, w->y + y0);
+    for (int32_t row = 0, y = y0; row < rows; row++, y += BLOCK_SIZE) {
+        __m128i at[3] = {s.value[0], s.value[1], s.value[2]};
+        for (int32_t i = x0 / BLOCK_SIZE; i < x0 / BLOCK_SIZE + columns; i++) {
+            __m128i upper = _mm_packs_epi32(small_signs(&s, at, 0), small_signs(&s, at, 1));
+            __m128i lower = _mm_packs_epi32(small_signs(&s, at, 2), small_signs(&s, at, 3));
+            uint32_t coverage = ~(uint32_t)_mm_movemask_epi8(_mm_packs_epi16(upper, lower)) & WHOLE_BLOCK;
+            *next = make_entry(w, y, i, coverage);
+            next += coverage != 0;
+            for (int e = 0; e < 3; e++)
+                at[e] = _mm_add_epi32(at[e], s.across[e]);
+        }
+        for (int e = 0; e < 3; e++)
+            s.value[e] = _mm_add_epi32(s.value[e], s.down[e]);
+    }
+    w->next = next;
+}
+
+/* --- One triangle in one tile
+ * ---------------------------------------------------------------------------------
+ */
+
+static inline void make_edges(struct walk *w, const struct triangle_head *head)
+{
     w->c[0] = saturate(edge(head, 0, 1, w->x, w->y, &w->a[0], &w->b[0]));
     w->c[1] = saturate(edge(head, 1, 2, w->x, w->y, &w->a[1], &w->b[1]));
     w->c[2] = saturate(edge(head, 2, 0, w->x, w->y, &w->a[2], &w->b[2]));
-    return true;
+}
+
+static void emit_any(struct walk *w, const struct triangle_head *head, int32_t columns, int32_t rows)
+{
+    int32_t y0 = w->bounds.y0 & -BLOCK_SIZE;
+    uint32_t blocks = ((1u << columns) - 1) << w->bounds.x0 / BLOCK_SIZE;
+    make_edges(w, head);
+    make_pixels(w);
+    make_columns(w);
+    if (columns * rows > DIRECT_BLOCKS)
+        descend(w, y0, blocks);
+    else
+        for (int32_t y = y0; y < w->bounds.y1; y += BLOCK_SIZE)
+            emit_partial(w, y, blocks);
+}
+
+/* Whether the scissor takes nothing from the blocks that the bounds touch. */
+static inline bool holds_blocks(const struct rectangle *scissor, const struct rectangle *bounds)
+{
+    return (bounds->x0 & -BLOCK_SIZE) >= scissor->x0 && (bounds->y0 & -BLOCK_SIZE) >= scissor->y0 &&
+           ((bounds->x1 + BLOCK_SIZE - 1) & -BLOCK_SIZE) <= scissor->x1 &&
+           ((bounds->y1 + BLOCK_SIZE - 1) & -BLOCK_SIZE) <= scissor->y1;
 }
 
 uint32_t raster_tile(const struct triangle_head *head, const struct rectangle *scissor, int column, int row,
@@ -329,17 +443,18 @@ uint32_t raster_tile(const struct triangle_head *head, const struct rectangle *s
     w.y = row * TILE_SIZE;
     w.triangle = triangle;
     w.next = entries;
-    if (!enter_tile(&w, head, scissor))
+    struct rectangle limit = {maximum(scissor->x0, w.x), maximum(scissor->y0, w.y),
+                              minimum(scissor->x1, w.x + TILE_SIZE), minimum(scissor->y1, w.y + TILE_SIZE)};
+    struct rectangle window = window_bounds(head), bounds;
+    if (!head->visible || !bound(&window, &limit, &bounds))
         return 0;
-    make_pixels(&w);
-    make_columns(&w);
-    int32_t first = w.bounds.x0 / BLOCK_SIZE, width = (w.bounds.x1 - 1) / BLOCK_SIZE - first + 1;
-    int32_t y0 = w.bounds.y0 & -BLOCK_SIZE, height = (w.bounds.y1 - y0 + BLOCK_SIZE - 1) / BLOCK_SIZE;
-    uint32_t columns = ((1u << width) - 1) << first;
-    if (width * height > DIRECT_BLOCKS)
-        descend(&w, y0, columns);
+    w.bounds = (struct rectangle){bounds.x0 - w.x, bounds.y0 - w.y, bounds.x1 - w.x, bounds.y1 - w.y};
+    int32_t columns = (w.bounds.x1 - 1) / BLOCK_SIZE - w.bounds.x0 / BLOCK_SIZE + 1;
+    int32_t rows = (w.bounds.y1 - 1) / BLOCK_SIZE - w.bounds.y0 / BLOCK_SIZE + 1;
+    bool small = window.x1 - window.x0 < SMALL_EXTENT && window.y1 - window.y0 < SMALL_EXTENT;
+    if (small && columns * rows <= DIRECT_BLOCKS && holds_blocks(scissor, &bounds))
+        emit_small(&w, head, columns, rows);
     else
-        for (int32_t y = y0; y < w.bounds.y1; y += BLOCK_SIZE)
-            emit_partial(&w, y, columns);
+        emit_any(&w, head, columns, rows);
     return (uint32_t)(w.next - entries);
 }

@@ -78,6 +78,8 @@ static void prologue(struct emitter *m, size_t job_field)
     gpr_r(e, X86_push, X86_64, X86_RBP);
     gpr_rr(e, X86_mov, X86_64, X86_RBP, X86_RSP);
     gpr_r(e, X86_push, X86_64, AHEAD);
+    gpr_r(e, X86_push, X86_64, X86_R12);
+    gpr_r(e, X86_push, X86_64, X86_R13);
     gpr_ri(e, X86_sub, X86_64, X86_RSP, bytes);
     gpr_ri(e, X86_and, X86_64, X86_RSP, -64);
     vector_m(e, X86_vstmxcsr, address_at(X86_RSP, SAVED_MXCSR));
@@ -93,6 +95,8 @@ static void epilogue(struct emitter *m)
     vector_m(e, X86_vldmxcsr, address_at(X86_RSP, SAVED_MXCSR));
     vector_none(e, X86_vzeroupper);
     gpr_rm(e, X86_mov, X86_64, AHEAD, address_at(X86_RBP, -8));
+    gpr_rm(e, X86_mov, X86_64, X86_R12, address_at(X86_RBP, -16));
+    gpr_rm(e, X86_mov, X86_64, X86_R13, address_at(X86_RBP, -24));
     gpr_rr(e, X86_mov, X86_64, X86_RSP, X86_RBP);
     gpr_r(e, X86_pop, X86_64, X86_RBP);
     encode_return(e);

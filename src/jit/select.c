@@ -7,8 +7,9 @@
  * apply: a selection with zero is a bitwise and, zero is made by an exclusive or, comparisons swap sides to
  * keep memory on the right.
  *
- * Lanes are in memory order, so loads and stores are plain moves. Gathers merge by mask: all ones, rebuilt
- * each time since the instruction clears it; the destination is zeroed first to cut its dependency. */
+ * Lanes are in memory order, so loads and stores are plain moves. Gather instructions merge by mask: all
+ * ones, rebuilt each time since the instruction clears it; the destination is zeroed first to cut its
+ * dependency. */
 #include "jit/emit.h"
 
 enum form {
@@ -301,10 +302,45 @@ static void select_mad(struct emitter *m, const struct ir_instruction *i)
     }
 }
 
+/* Four words at [base + index * scale + k] into the low half of `to`, the indices being words at `lanes`. */
+static void gather_four(struct emitter *m, unsigned to, struct address lanes, const struct ir_instruction *i,
+                        unsigned base)
+{
+    for (unsigned lane = 0; lane < 4; lane++, lanes.displacement += 4) {
+        unsigned index = lane & 1 ? X86_R13 : X86_R12;
+        gpr_rm(&m->encoder, X86_movsxd, X86_64, index, lanes);
+        struct address word = address_indexed(base, index, i->scale, i->k);
+        if (lane == 0)
+            vector_rm(&m->encoder, X86_vmovss, X86_128, to, word);
+        else
+            vector_rrmi(&m->encoder, X86_vinsertps, X86_128, to, to, word, lane << 4);
+    }
+}
+
+/* Lane by lane, for indices that lie in memory: quicker than the gather instruction, which is microcode on
+ * many processors. Where they would have to be stored first nothing is gained. */
+static void select_gather_words(struct emitter *m, const struct ir_instruction *i, unsigned base)
+{
+    const struct ir_instruction *index = &m->ir->instruction[i->operand[0]];
+    struct address lanes = address_at(base_register[index->base], index->k);
+    unsigned to = result_register(m);
+    gather_four(m, to, lanes, i, base);
+    if (m->width == 4)
+        return;
+    lanes.displacement += 16;
+    gather_four(m, SCRATCH_SECOND, lanes, i, base);
+    vector_rrri(&m->encoder, X86_vinsertf128, X86_256, to, to, SCRATCH_SECOND, 1);
+}
+
 static void select_gather(struct emitter *m, const struct ir_instruction *i)
 {
-    struct place index = place_of(m, i->operand[0]);
+    const struct ir_instruction *source = &m->ir->instruction[i->operand[0]];
     unsigned to = result_register(m), base = base_register[i->base];
+    if (source->op == IR_load && ir_is_invariant_read(source) && i->field == GATHER_DIRECT) {
+        select_gather_words(m, i, base);
+        return;
+    }
+    struct place index = place_of(m, i->operand[0]);
     unsigned lanes = need_register(m, &index, SCRATCH_FIRST);
     if (i->field != GATHER_DIRECT) {
         gpr_rm(&m->encoder, X86_mov, X86_64, X86_RAX, address_at(base, i->field));
