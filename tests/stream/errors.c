@@ -1,0 +1,312 @@
+/* Bad streams: each gives one line that begins with the place, says what was found and what was expected;
+ * none has any effect. The texts' line 1 is the header, so that a case's first line is line 2. */
+#include "stream/stream.h"
+
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <unity.h>
+
+static struct error error;
+
+void setUp(void)
+{
+    error_clear(&error);
+}
+
+void tearDown(void)
+{
+}
+
+struct bad {
+    const char *text;  /* after the header */
+    const char *place; /* LINE:COLUMN */
+    const char *part;  /* of the reason */
+};
+
+/* The whole text is bad from the first line on, or not text at all. */
+static const struct bad whole[] = {
+    {"", "1:1", "found the end of the file, expected the first line: triptych 1"},
+    {"triptych", "1:9", "expected version 1"},
+    {"triptych 2\n", "1:10", "found '2', expected version 1"},
+    {"\ntriptych 1\n", "1:1", "found the end of the line, expected the first line"},
+    {"triptych 1 x\n", "1:12", "found 'x', expected the end of the line"},
+    {"\x89PNG\r\n\x1a\n", "1:1", "found byte 0x89, expected UTF-8"},
+    {"triptych 1\n# \xc3\x28\n", "2:3", "found byte 0xc3, expected UTF-8"},
+    {"triptych 1\n# \xed\xa0\x80\n", "2:3", "found byte 0xed, expected UTF-8"},
+    {"triptych 1\n\tframe\x07\n", "2:7", "found control character 0x07"},
+    {"triptych 1\nframe\rframe\n", "2:6", "found control character 0x0d"},
+    {"triptych 1\n", "2:1", "expected at least one call"},
+    {"triptych 1\nsequence s\nend\nplay s\n", "5:1", "expected at least one call that is executed"},
+};
+
+static const struct bad lines[] = {
+    /* Lines */
+    {"paint it\n", "2:1", "found 'paint', expected a call: target, viewport, set"},
+    {"  # fine\n\n   paint it\n", "4:4", "found 'paint'"},
+    {"\"frame\"\n", "2:1", "found '\"frame\"', expected a call"},
+    {"}\n", "2:1", "found '}', expected a call"},
+    {"frame frame\n", "2:7", "found 'frame', expected the end of the line"},
+    {"texture t file \"no end\n", "2:16", "found a string without an end"},
+    {"texture t file \"no end\\\"\n", "2:16", "found a string without an end"},
+
+    /* Targets and viewports */
+    {"target 0 10\n", "2:8", "found '0', expected an integer (target width) from 1 to 8192"},
+    {"target 10 8193\n", "2:11", "expected an integer (target height) from 1 to 8192"},
+    {"target 10\n", "2:10", "found the end of the line, expected an integer (target height)"},
+    {"target 99999999999999999999 1\n", "2:8", "expected an integer"},
+    {"target 1e1 1\n", "2:8", "found '1e1', expected an integer"},
+    {"viewport 0 0 1 1 0 1\n", "2:1", "found no target, expected target WIDTH HEIGHT before it"},
+    {"target 8 8\nviewport 1 0 8 8 0 1\n", "3:1", "expected a part of the target of 8x8 pixels"},
+    {"target 8 8\nviewport 0 0 8 8 0 2\n", "3:1", "expected values from 0 to 1"},
+    {"target 8 8\nviewport 0 0 8 8 0\n", "3:19", "expected a number (viewport X Y WIDTH HEIGHT NEAR FAR)"},
+    {"target 8 8\nclear depth 2\n", "3:1", "found depth 2, expected 0 to 1"},
+    {"target 8 8\nclear\n", "3:6", "expected color R G B A, depth D, or both"},
+    {"target 8 8\nclear color 1 1 1\n", "3:18", "expected a number (color)"},
+    {"target 8 8\nclear depth 1 depth 1\n", "3:15", "found 'depth', expected color, or the end of the line"},
+    {"clear depth 1\n", "2:1", "found no target"},
+
+    /* States */
+    {"set zfunk less\n", "2:5", "found 'zfunk', expected the name of a state"},
+    {"set zfunc lesser\n", "2:11", "expected a value of zfunc: never, less, equal, lessequal"},
+    {"set zfunc\n", "2:10", "found the end of the line, expected a value of zfunc"},
+    {"set zfunc 9\n", "2:1", "state zfunc: value 9 does not exist"},
+    {"set ambient 0xfff\n", "2:13", "expected a color (ambient)"},
+    {"set ambient red\n", "2:13", "expected a value of ambient: a number"},
+    {"set colorwriteenable 16\n", "2:1", "expected 0 to 15"},
+    {"set addressu mirror\n", "2:14", "expected a value of addressu: wrap, clamp"},
+
+    /* Numbers and transforms */
+    {"transform world scale 1 nan 1\n", "2:25", "found 'nan', expected a number (scale)"},
+    {"transform world scale 1 1e39 1\n", "2:25", "in the range of binary32"},
+    {"transform world scale 1 1x 1\n", "2:25", "found '1x', expected a number"},
+    {"transform world scale 1 -inf 1\n", "2:25", "found '-inf', expected a number"},
+    {"transform world\n", "2:16", "found the end of the line, expected identity, matrix"},
+    {"transform texture identity\n", "2:11", "expected a transform: world, view, projection"},
+    {"transform view skew 1 2 3\n", "2:16", "found 'skew', expected identity"},
+    {"transform world rotate 90 0 0 0\n", "2:17", "expected an axis that is not zero"},
+    {"transform view lookat 1 2 3 1 2 3 0 1 0\n", "2:16", "expected a point to look at that is not the eye"},
+    {"transform view lookat-rh 0 0 0 0 2 0 0 1 0\n", "2:16",
+     "expected an up direction that is not along the view"},
+    {"transform projection perspective 180 1 1 2\n", "2:22", "expected 0 < FOVY < 180"},
+    {"transform projection perspective 90 1 2 2\n", "2:22", "0 < NEAR < FAR"},
+    {"transform projection orthographic 1 1 0 1 0 1\n", "2:22", "LEFT and RIGHT"},
+    {"transform world scale 1e30 1 1 scale 1e30 1 1\n", "2:17", "found a matrix with infinite values"},
+    {"transform world matrix 1 0 0 0 0 1 0 0 0 0 1 0 0 0 0\n", "2:53", "expected a number (matrix)"},
+
+    /* Light */
+    {"light 8 on\n", "2:7", "expected an integer (light) from 0 to 7"},
+    {"light 0 spot\n", "2:9", "expected directional, point, on or off"},
+    {"light 0 directional position 0 0 0\n", "2:21",
+     "found 'position', expected diffuse, ambient, direction"},
+    {"light 0 directional direction 0 0 0\n", "2:1", "expected a direction other than zero"},
+    {"light 0 point range -1\n", "2:1", "expected 0 or more"},
+    {"material shiny 1\n", "2:10",
+     "found 'shiny', expected diffuse, ambient, emissive, or the end of the line"},
+
+    /* Names and resources */
+    {"texture none 1 1 { ffffffff }\n", "2:9", "found 'none', expected a name"},
+    {"texture 1a 1 1 { ffffffff }\n", "2:9", "found '1a', expected a name"},
+    {"texture a 1 1 { ffffffff }\nindices a 16 { 1 }\n", "3:9",
+     "found 'a', expected a name that is not in use"},
+    {"texture a 1 1 { fffffff }\n", "2:17", "found 'fffffff', expected a color (texel)"},
+    {"texture a 1 2 { ffffffff }\n", "2:15", "found 1 texels, expected 2"},
+    {"texture a 1 1 { ffffffff ffffffff }\n", "2:35", "expected at most 1 texels"},
+    {"texture a 1 1 {\n  ffffffff\n", "4:1", "found the end of the file, expected texel or }"},
+    {"texture a 1 1 ffffffff\n", "2:15", "found 'ffffffff', expected {"},
+    {"texture a 0 1 { ffffffff }\n", "2:11", "texture width"},
+    {"texture a file \"\"\n", "2:16", "found a path of 0 bytes"},
+    {"texture a file \"a\\b\"\n", "2:16", "in which \\ is only followed by"},
+    {"texture a file \"missing.png\"\n", "2:16", "missing.png: cannot open: No such file or directory"},
+    {"texture a file missing.png\n", "2:16", "expected the path of a file in double quotes"},
+    {"vertices v position:float5 {\n1\n}\n", "2:12", "expected ATTRIBUTE:FORMAT"},
+    {"vertices v position:color {\n1\n}\n", "2:12", "expected format color for diffuse only"},
+    {"vertices v position:float1 position:float1 {\n1\n}\n", "2:28", "expected each attribute once"},
+    {"vertices v position:float2 { 1 2\n}\n", "2:30", "expected the end of the line before the first vertex"},
+    {"vertices v position:float2 {\n1 2 3\n}\n", "3:5",
+     "expected the end of the line after a vertex of 2 values"},
+    {"vertices v position:float2 {\n1 2\n1\n}\n", "4:2",
+     "found the end of the line, expected a number (position)"},
+    {"vertices v position:float1 diffuse:color {\n1 red\n}\n", "3:3", "expected a color (diffuse)"},
+    {"vertices v position:float1 {\n}\n", "3:1", "expected a vertex before it"},
+    {"vertices v position:float1 {\n1\n", "4:1", "expected a vertex or }"},
+    {"indices i 8 { 1 }\n", "2:11", "expected 16 or 32"},
+    {"indices i 16 { 65536 }\n", "2:16", "from 0 to 65535"},
+    {"indices i 32 { -1 }\n", "2:16", "from 0 to 4294967295"},
+    {"indices i 32 { }\n", "2:16", "expected index before it"},
+    {"buffer b half { 1 }\n", "2:10", "expected a type of values: float, u16, u32, color"},
+    {"mesh m cube\n", "2:8", "expected file \"PATH\" or bezier \"PATH\""},
+    {"mesh m bezier \"a.bez\"\n", "2:22", "expected subdivisions N"},
+    {"mesh m bezier \"a.bez\" subdivisions 65\n", "2:36", "from 1 to 64"},
+    {"mesh m bezier \"a.bez\" subdivisions 4 normals flat\n", "2:38",
+     "found 'normals', expected texcoords, center"},
+    {"mesh m bezier \"a.bez\" subdivisions 4\n", "2:15", "a.bez: cannot open"},
+    {"mesh m file \"a.obj\" fit 0\n", "2:25", "found a size of 0, expected more than 0"},
+    {"mesh m file \"a.obj\" normals hard\n", "2:29", "expected a kind of normals: smooth, flat"},
+    {"mesh m file \"a.obj\"\n", "2:13", "a.obj: cannot open"},
+
+    /* Binding and drawing */
+    {"bind texture t\n", "2:14", "found 't', expected the name of a texture, or none, defined before"},
+    {"indices i 16 { 1 }\nbind texture i\n", "3:14", "expected the name of a texture"},
+    {"bind shader s\n", "2:6", "expected texture, vertices, indices or element"},
+    {"buffer b float { 1 }\nbind indices b\n", "3:14",
+     "found a buffer of other values, expected one of u16 or u32"},
+    {"buffer b float { 1 2 }\nbind element position float2 b 4 4\n", "3:1",
+     "expected them inside the buffer of 8"},
+    {"buffer b float { 1 2 }\nbind element position float1 b 2 4\n", "3:32", "expected a multiple of 4"},
+    {"buffer b float { 1 2 }\nbind element position float1 b 0 65540\n", "3:34",
+     "expected an integer (stride)"},
+    {"buffer b color { ffffffff }\nbind element normal color b 0 4\n", "3:1", "expected float1 to float4"},
+    {"target 8 8\ndraw triangles 0 1\n", "3:1", "found no position bound, expected bind vertices before it"},
+    {"target 8 8\ndraw quads 0 1\n", "3:6", "expected a primitive, or mesh NAME: triangles, strip, fan"},
+    {"target 8 8\nvertices v position:float1 {\n1\n2\n3\n}\nbind vertices v\ndraw triangles 1 1\n", "9:1",
+     "found vertex 3 drawn, expected at most 2, the last position in v"},
+    {"target 8 8\nvertices v position:float1 {\n1\n2\n3\n}\nbind vertices v\ndraw-indexed fan 0 0 1\n", "9:1",
+     "found no indices bound"},
+    {"target 8 8\nvertices v position:float1 {\n1\n}\nindices i 16 { 0 0 0 }\nbind vertices v\nbind indices "
+     "i\n"
+     "draw-indexed triangles 0 1 1\n",
+     "9:1", "found index 3 drawn, expected at most 2, the last in i"},
+    {"target 8 8\nvertices v position:float1 {\n1\n}\nindices i 16 { 0 0 0 }\nbind vertices v\nbind indices "
+     "i\n"
+     "draw-indexed triangles -1 0 1\n",
+     "9:1", "found vertex -1 drawn"},
+    {"target 8 8\nvertices v position:float1 {\n1\n}\nindices i 32 { 0 0 9 0 0 0 }\nbind vertices v\nbind "
+     "indices i\n"
+     "draw-indexed triangles 0 3 1\ndraw-indexed triangles 0 0 1\n",
+     "10:1", "found vertex 9 drawn, expected at most 0"},
+    {"draw mesh m\n", "2:11", "expected the name of a mesh defined before"},
+
+    /* Sequences */
+    {"sequence s\nframe\n", "4:1", "found the end of the file, expected the end of sequence s"},
+    {"end\n", "2:1", "found 'end', expected a call"},
+    {"sequence s\nindices i 16 { 1 }\nend\n", "3:1", "found 'indices', expected a call of a sequence"},
+    {"sequence s\nsequence t\nend\nend\n", "3:1", "found 'sequence', expected a call of a sequence"},
+    {"sequence s\nplay s\nend\n", "3:6", "found 's' playing itself"},
+    {"play s\n", "2:6", "expected the name of a sequence defined before"},
+    {"sequence s\ndraw triangles 0 1\nend\ntarget 8 8\nplay s\n", "3:1", "found no position bound"},
+};
+
+static void expect_bad(const char *text, size_t bytes, const struct bad *bad)
+{
+    struct stream *stream = (struct stream *)&error;
+    char place[64];
+    error_clear(&error);
+    TEST_ASSERT_EQUAL_INT_MESSAGE(-1, stream_parse("dir/a.tri", text, bytes, &stream, &error), text);
+    TEST_ASSERT_NULL(stream);
+    int length = snprintf(place, sizeof place, "dir/a.tri:%s: ", bad->place);
+    TEST_ASSERT_EQUAL_STRING_LEN_MESSAGE(place, error.text, (size_t)length, error.text);
+    TEST_ASSERT_NOT_NULL_MESSAGE(strstr(error.text, bad->part), error.text);
+    TEST_ASSERT_NULL_MESSAGE(strchr(error.text, '\n'), error.text);
+}
+
+static void a_text_that_is_no_stream_is_refused_at_its_place(void)
+{
+    for (size_t i = 0; i < sizeof whole / sizeof *whole; i++)
+        expect_bad(whole[i].text, strlen(whole[i].text), &whole[i]);
+}
+
+static void every_bad_line_is_refused_at_its_place(void)
+{
+    static char text[1024];
+    for (size_t i = 0; i < sizeof lines / sizeof *lines; i++) {
+        int length = snprintf(text, sizeof text, "triptych 1\n%s", lines[i].text);
+        expect_bad(text, (size_t)length, &lines[i]);
+    }
+}
+
+static void a_zero_byte_is_no_text(void)
+{
+    static const struct bad bad = {"", "2:6", "found control character 0x00"};
+    expect_bad("triptych 1\nframe\0\n", 18, &bad);
+}
+
+static void long_words_are_shown_cut_and_long_paths_from_their_end(void)
+{
+    static char path[3000], text[2000];
+    struct stream *stream;
+    memset(path, 'p', sizeof path - 1);
+    strcpy(text, "triptych 1\n");
+    memset(text + strlen(text), 'w', 1500);
+    TEST_ASSERT_EQUAL_INT(-1, stream_parse(path, text, strlen(text), &stream, &error));
+    TEST_ASSERT_EQUAL_STRING_LEN("...ppp", error.text, 6);
+    TEST_ASSERT_NOT_NULL(strstr(error.text, "p:2:1: found 'wwww"));
+    TEST_ASSERT_NOT_NULL(strstr(error.text, "w...', expected a call"));
+}
+
+/* --- Limits -----------------------------------------------------------------------------------------------
+ */
+
+/* Repeats `part` in a text that the caller frees. */
+static char *repeat(const char *before, const char *part, size_t count, const char *after)
+{
+    size_t length = strlen(part);
+    char *text = malloc(strlen(before) + length * count + strlen(after) + 1), *at = stpcpy(text, before);
+    for (size_t i = 0; i < count; i++)
+        at = stpcpy(at, part);
+    strcpy(at, after);
+    return text;
+}
+
+static void expect_limit(char *text, const struct bad *bad)
+{
+    expect_bad(text, strlen(text), bad);
+    free(text);
+}
+
+static void limits_hold(void)
+{
+    expect_limit(repeat("triptych 1\n", " ", LIMIT_LINE_BYTES + 1, "frame\n"),
+                 &(struct bad){"", "2:65537", "found a longer line, expected at most 65536 bytes"});
+    expect_limit(repeat("triptych 1\ntexture ", "n", LIMIT_NAME_BYTES + 1, " 1 1 { ffffffff }\n"),
+                 &(struct bad){"", "2:9", "expected a name"});
+    expect_limit(repeat("triptych 1\ntexture n file \"", "p", LIMIT_PATH_BYTES + 1, "\"\n"),
+                 &(struct bad){"", "2:16", "found a path of 1025 bytes, expected 1 to 1024"});
+    expect_limit(repeat("triptych 1\ntransform world", " identity", LIMIT_OPERATIONS + 1, "\n"),
+                 &(struct bad){"", "2:305", "expected at most 32 operations"});
+    expect_limit(repeat("triptych 1\n", "texture a 1 1 { 00000000 }\n", 2, ""),
+                 &(struct bad){"", "3:9", "not in use"});
+    expect_limit(repeat("triptych 1\ntarget 1 1\n", "frame\n", LIMIT_FRAMES + 1, ""),
+                 &(struct bad){"", "65539:1", "found one more frame, expected at most 65536"});
+}
+
+/* Eight sequences, each playing the one before `plays` times. */
+static char *nest(int sequences, int plays)
+{
+    char *text = malloc(1 << 20), *at = stpcpy(text, "triptych 1\nsequence s0\nset lighting false\nend\n");
+    for (int s = 1; s < sequences; s++) {
+        at += sprintf(at, "sequence s%d\n", s);
+        for (int i = 0; i < plays; i++)
+            at += sprintf(at, "play s%d\n", s - 1);
+        at = stpcpy(at, "end\n");
+    }
+    sprintf(at, "play s%d\n", sequences - 1);
+    return text;
+}
+
+static void sequences_cannot_explode(void)
+{
+    struct stream *stream;
+    char *deepest = nest(LIMIT_DEPTH, 2);
+    TEST_ASSERT_EQUAL_INT_MESSAGE(0, stream_parse("a", deepest, strlen(deepest), &stream, &error),
+                                  error.text);
+    TEST_ASSERT_EQUAL_UINT(128, stream->executed_count);
+    stream_free(stream);
+    free(deepest);
+    expect_limit(nest(LIMIT_DEPTH + 1, 1),
+                 &(struct bad){"", "27:6", "found sequences 9 deep, expected at most 8"});
+    expect_limit(nest(LIMIT_DEPTH, 100),
+                 &(struct bad){"", "314:1", "found more calls with sequences played"});
+}
+
+int main(void)
+{
+    UNITY_BEGIN();
+    RUN_TEST(a_text_that_is_no_stream_is_refused_at_its_place);
+    RUN_TEST(every_bad_line_is_refused_at_its_place);
+    RUN_TEST(a_zero_byte_is_no_text);
+    RUN_TEST(long_words_are_shown_cut_and_long_paths_from_their_end);
+    RUN_TEST(limits_hold);
+    RUN_TEST(sequences_cannot_explode);
+    return UNITY_END();
+}
