@@ -13,6 +13,9 @@ enum {
     LITERAL_CAPACITY = 512
 };
 
+/* The frame's head, upward from rsp: two MXCSR words, and room for the lanes of one value. */
+enum { FRAME_SAVED_MXCSR = 0, FRAME_CONTRACT_MXCSR = 4, FRAME_LANES = 32, FRAME_HEAD = 64 };
+
 /* Labels of the frame; regions and literals follow. */
 enum frame_label { LABEL_LOOP, LABEL_CHUNK, LABEL_SKIP, LABEL_DONE, LABEL_FREE };
 
@@ -28,8 +31,9 @@ struct emitter {
     const struct allocation *allocation;
     struct encoder encoder;
     enum vector_length length;
-    unsigned width; /* lanes: 4 or 8 */
-    uint32_t position;
+    unsigned width;    /* lanes: 4 or 8 */
+    uint32_t position; /* of the IR instruction being selected */
+    uint32_t selected; /* instructions before this one are: a group may be selected together */
     uint32_t next_label;
     uint32_t literals;
     uint32_t lines;
@@ -58,6 +62,24 @@ extern const uint8_t base_register[BASE_COUNT];
 
 /* The address of a literal's lanes in the constant pool. */
 struct address literal_address(struct emitter *emitter, int32_t bits);
+
+/* An operand at the current position. */
+struct place {
+    unsigned value;
+    uint8_t reg;         /* NO_REGISTER: in memory */
+    uint8_t addressable; /* in memory, lanes and all: `address` can be an operand */
+    struct address address;
+};
+
+/* Where a value is at the current position; the register of an operand, loaded into `scratch` if it is in
+ * memory; the register that the current instruction's value was given (select.c). */
+struct place place_of(struct emitter *emitter, unsigned value);
+unsigned need_register(struct emitter *emitter, const struct place *place, unsigned scratch);
+unsigned result_register(const struct emitter *emitter);
+
+/* Writes the gather at the current position, and with it those that follow of the same vertices (gather.c).
+ */
+void select_gather(struct emitter *emitter, const struct ir_instruction *instruction);
 
 /* Notes that the code from here on belongs to an IR instruction (0: the frame). */
 void note_line(struct emitter *emitter, uint32_t instruction);

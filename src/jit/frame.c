@@ -13,8 +13,6 @@
 
 #include <stddef.h>
 
-enum { SAVED_MXCSR = 0, CONTRACT_MXCSR = 4, FRAME_HEAD = 64 };
-
 #define CALL     X86_RDI
 #define JOB      X86_R8
 #define INPUT    X86_RSI
@@ -82,9 +80,9 @@ static void prologue(struct emitter *m, size_t job_field)
     gpr_r(e, X86_push, X86_64, X86_R13);
     gpr_ri(e, X86_sub, X86_64, X86_RSP, bytes);
     gpr_ri(e, X86_and, X86_64, X86_RSP, -64);
-    vector_m(e, X86_vstmxcsr, address_at(X86_RSP, SAVED_MXCSR));
-    gpr_mi(e, X86_mov, X86_32, address_at(X86_RSP, CONTRACT_MXCSR), MXCSR_CONTRACT);
-    vector_m(e, X86_vldmxcsr, address_at(X86_RSP, CONTRACT_MXCSR));
+    vector_m(e, X86_vstmxcsr, address_at(X86_RSP, FRAME_SAVED_MXCSR));
+    gpr_mi(e, X86_mov, X86_32, address_at(X86_RSP, FRAME_CONTRACT_MXCSR), MXCSR_CONTRACT);
+    vector_m(e, X86_vldmxcsr, address_at(X86_RSP, FRAME_CONTRACT_MXCSR));
     load(m, JOB, job_field);
     broadcast_constants(m);
 }
@@ -92,7 +90,7 @@ static void prologue(struct emitter *m, size_t job_field)
 static void epilogue(struct emitter *m)
 {
     struct encoder *e = &m->encoder;
-    vector_m(e, X86_vldmxcsr, address_at(X86_RSP, SAVED_MXCSR));
+    vector_m(e, X86_vldmxcsr, address_at(X86_RSP, FRAME_SAVED_MXCSR));
     vector_none(e, X86_vzeroupper);
     gpr_rm(e, X86_mov, X86_64, AHEAD, address_at(X86_RBP, -8));
     gpr_rm(e, X86_mov, X86_64, X86_R12, address_at(X86_RBP, -16));

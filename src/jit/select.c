@@ -76,14 +76,6 @@ static const struct rule rules[IR_OP_COUNT] = {
     [IR_andn_m] = {X86_vpandn, FORM_REVERSED, 0},
 };
 
-/* An operand at the current position. */
-struct place {
-    unsigned value;
-    uint8_t reg;         /* NO_REGISTER: in memory */
-    uint8_t addressable; /* in memory, lanes and all: `address` can be an operand */
-    struct address address;
-};
-
 static struct address frame_address(const struct emitter *m, int32_t start, unsigned slot)
 {
     return address_at(X86_RSP, start + (int32_t)(slot * m->width * 4));
@@ -105,7 +97,7 @@ static struct place memory_place(struct emitter *m, unsigned value)
     return p;
 }
 
-static struct place place_of(struct emitter *m, unsigned value)
+struct place place_of(struct emitter *m, unsigned value)
 {
     const struct allocation *a = m->allocation;
     if (a->residence[value] == RESIDENCE_REGISTER && m->position <= a->split[value])
@@ -130,8 +122,7 @@ static void bring(struct emitter *m, unsigned to, const struct place *p)
         vector_rm(&m->encoder, p->addressable ? X86_vmovups : X86_vbroadcastss, m->length, to, p->address);
 }
 
-/* The register of an operand; one in memory is loaded into `scratch`. */
-static unsigned need_register(struct emitter *m, const struct place *p, unsigned scratch)
+unsigned need_register(struct emitter *m, const struct place *p, unsigned scratch)
 {
     if (p->reg != NO_REGISTER)
         return p->reg;
@@ -139,7 +130,7 @@ static unsigned need_register(struct emitter *m, const struct place *p, unsigned
     return scratch;
 }
 
-static unsigned result_register(const struct emitter *m)
+unsigned result_register(const struct emitter *m)
 {
     return m->allocation->reg[m->position];
 }
@@ -302,56 +293,6 @@ static void select_mad(struct emitter *m, const struct ir_instruction *i)
     }
 }
 
-/* Four words at [base + index * scale + k] into the low half of `to`, the indices being words at `lanes`. */
-static void gather_four(struct emitter *m, unsigned to, struct address lanes, const struct ir_instruction *i,
-                        unsigned base)
-{
-    for (unsigned lane = 0; lane < 4; lane++, lanes.displacement += 4) {
-        unsigned index = lane & 1 ? X86_R13 : X86_R12;
-        gpr_rm(&m->encoder, X86_movsxd, X86_64, index, lanes);
-        struct address word = address_indexed(base, index, i->scale, i->k);
-        if (lane == 0)
-            vector_rm(&m->encoder, X86_vmovss, X86_128, to, word);
-        else
-            vector_rrmi(&m->encoder, X86_vinsertps, X86_128, to, to, word, lane << 4);
-    }
-}
-
-/* Lane by lane, for indices that lie in memory: quicker than the gather instruction, which is microcode on
- * many processors. Where they would have to be stored first nothing is gained. */
-static void select_gather_words(struct emitter *m, const struct ir_instruction *i, unsigned base)
-{
-    const struct ir_instruction *index = &m->ir->instruction[i->operand[0]];
-    struct address lanes = address_at(base_register[index->base], index->k);
-    unsigned to = result_register(m);
-    gather_four(m, to, lanes, i, base);
-    if (m->width == 4)
-        return;
-    lanes.displacement += 16;
-    gather_four(m, SCRATCH_SECOND, lanes, i, base);
-    vector_rrri(&m->encoder, X86_vinsertf128, X86_256, to, to, SCRATCH_SECOND, 1);
-}
-
-static void select_gather(struct emitter *m, const struct ir_instruction *i)
-{
-    const struct ir_instruction *source = &m->ir->instruction[i->operand[0]];
-    unsigned to = result_register(m), base = base_register[i->base];
-    if (source->op == IR_load && ir_is_invariant_read(source) && i->field == GATHER_DIRECT) {
-        select_gather_words(m, i, base);
-        return;
-    }
-    struct place index = place_of(m, i->operand[0]);
-    unsigned lanes = need_register(m, &index, SCRATCH_FIRST);
-    if (i->field != GATHER_DIRECT) {
-        gpr_rm(&m->encoder, X86_mov, X86_64, X86_RAX, address_at(base, i->field));
-        base = X86_RAX;
-    }
-    vector_rrr(&m->encoder, X86_vpcmpeqd, m->length, SCRATCH_SECOND, SCRATCH_SECOND, SCRATCH_SECOND);
-    vector_rrr(&m->encoder, X86_vxorps, m->length, to, to, to);
-    vector_gather(&m->encoder, X86_vgatherdps, m->length, to, address_indexed(base, lanes, i->scale, i->k),
-                  SCRATCH_SECOND);
-}
-
 static void scatter_four(struct emitter *m, unsigned from, struct address to, int32_t stride)
 {
     vector_mr(&m->encoder, X86_vmovss_store, X86_128, to, from);
@@ -444,13 +385,16 @@ static void store_spilled(struct emitter *m)
 
 void emit_body(struct emitter *m)
 {
+    m->selected = 0;
     for (m->position = 1; m->position < m->ir->count; m->position++) {
         const struct ir_instruction *i = &m->ir->instruction[m->position];
         int effect = ir_op_information[i->op].properties & IR_EFFECT;
         if (i->op == IR_nop || (!effect && m->allocation->residence[m->position] != RESIDENCE_REGISTER))
             continue;
-        note_line(m, m->position);
-        select_instruction(m, i);
+        if (m->position >= m->selected) {
+            note_line(m, m->position);
+            select_instruction(m, i);
+        }
         store_spilled(m);
     }
     note_line(m, 0);
