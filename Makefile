@@ -1,7 +1,8 @@
 # Triptych's build: `make help` lists the targets.
 #
-# Sources are found, never listed: src/tool/**/*.c and src/stream/**/*.c are the command; every other src/**/*.c, emu/*.c and
-# asm/**/*.asm is the library; every tests/**/*.c outside tests/support/ is one Unity program with its own main.
+# Sources are found, never listed: src/tool/**/*.c and src/stream/**/*.c are the command; every other src/**/*.c,
+# emu/*.c and asm/**/*.asm is the library; every tests/**/*.c outside tests/support/ is one Unity program with its
+# own main.
 # Everything built goes to $(BUILD). What is fetched or linked in from the system (the Unity sources, the glmark2
 # assets) goes to build/ whatever BUILD is, because draw streams name their assets through build/glmark2.
 # `make test` runs this file again for each variant: plain, clang (CC=clang), sanitize (SANITIZE=1).
