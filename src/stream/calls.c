@@ -142,12 +142,12 @@ int parse_set(struct parser *parser, struct call *call)
     return parse_state_value(parser, call->set.state, &call->set.value);
 }
 
-static int parse_operation(struct parser *parser, double matrix[4][4])
+static int parse_operation(struct parser *parser, double made[4][4])
 {
     struct lexer *lex = &parser->lex;
     const struct transform_operation *operation;
     struct token place = lex->token;
-    double arguments[TRANSFORM_ARGUMENTS_MAXIMUM], made[4][4];
+    double arguments[TRANSFORM_ARGUMENTS_MAXIMUM];
     size_t i = 0;
     while ((operation = transform_operation(i)) && !lex_is(lex, operation->word))
         i++;
@@ -162,7 +162,6 @@ static int parse_operation(struct parser *parser, double matrix[4][4])
     const char *expected = operation->make(arguments, made);
     if (expected)
         return lex_fail(lex, &place, "found another '%s', expected %s", operation->word, expected);
-    transform_multiply(matrix, made, matrix);
     return 0;
 }
 
@@ -182,17 +181,21 @@ static int round_matrix(struct parser *parser, const struct token *place, double
 int parse_transform(struct parser *parser, struct call *call)
 {
     struct lexer *lex = &parser->lex;
-    double matrix[4][4] = {{1, 0, 0, 0}, {0, 1, 0, 0}, {0, 0, 1, 0}, {0, 0, 0, 1}};
-    unsigned which, count = 0;
+    double matrix[4][4], next[4][4];
+    unsigned which;
     if (parse_word(parser, WORDS_TRANSFORM, "a transform", &which))
         return -1;
     struct token place = lex->token;
-    do {
-        if (count++ == LIMIT_OPERATIONS)
+    /* The first matrix is not multiplied by the identity, which would lose the sign of its zeros. */
+    if (parse_operation(parser, matrix))
+        return -1;
+    for (int count = 1; lex->token.type != TOKEN_LINE_END && lex->token.type != TOKEN_END; count++) {
+        if (count == LIMIT_OPERATIONS)
             return lex_expected(lex, "at most %d operations", LIMIT_OPERATIONS);
-        if (parse_operation(parser, matrix))
+        if (parse_operation(parser, next))
             return -1;
-    } while (lex->token.type != TOKEN_LINE_END && lex->token.type != TOKEN_END);
+        transform_multiply(matrix, next, matrix);
+    }
     call->transform.which = (enum triptych_transform)which;
     return round_matrix(parser, &place, matrix, call->transform.matrix);
 }

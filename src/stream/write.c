@@ -21,12 +21,13 @@ struct writer {
 
 enum { VALUES_PER_LINE = 16 };
 
+/* Numbers of matrices are read as binary64 and rounded later: both ways have to give the number. */
 static void write_number(struct writer *writer, float number)
 {
     char text[32];
     for (int digits = 6; digits <= 9; digits++) {
         snprintf(text, sizeof text, "%.*g", digits, (double)number);
-        if (strtof(text, NULL) == number)
+        if (strtof(text, NULL) == number && (float)strtod(text, NULL) == number)
             break;
     }
     fprintf(writer->out, " %s", text);
@@ -282,7 +283,8 @@ static void write_call(struct writer *writer, const struct call *call)
     case CALL_VIEWPORT: {
         const struct triptych_viewport *v = &call->viewport;
         const float numbers[6] = {v->x, v->y, v->width, v->height, v->depth_near, v->depth_far};
-        write_field(writer, "viewport", numbers, NULL, 6);
+        fputs("viewport", out);
+        write_numbers(writer, numbers, 6);
         break;
     }
     case CALL_SET: write_set(writer, call); break;

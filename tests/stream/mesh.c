@@ -354,8 +354,9 @@ static void the_teapot_has_unit_normals_on_the_front_of_its_triangles(void)
     }
     TEST_ASSERT_EQUAL_UINT(4 * 17, on_top);
     TEST_ASSERT_EQUAL_INT(0, mesh_finish(&mesh, teapot, &options, &error));
-    /* The pole's cells have one triangle instead of two. */
-    TEST_ASSERT_EQUAL_UINT(3 * (28 * 2 * 16 * 16 - 4 * 16), mesh.index_count);
+    /* Four patches meet at the top and four at the bottom; their cells there have one triangle instead of
+     * two. */
+    TEST_ASSERT_EQUAL_UINT(3 * (32 * 2 * 16 * 16 - 8 * 16), mesh.index_count);
     for (uint32_t i = 0; i < mesh.index_count; i += 3) {
         float face[3];
         face_normal(i, face);

@@ -124,7 +124,8 @@ static const char everything[] =
     "buffer s u16 { 0 1 2 65535 }\nbuffer l u32 { 0 1 2 4294967295 }\n"
     "viewport 0.5 0 63.25 32 0.1 0.9\n"
     "set zfunc lessequal\nset ambient 0x12345678\nset colorwriteenable 5\nset lighting 0\n"
-    "transform world identity\ntransform view rotate 30 1 2 3 translate 1 2 3 scale 2 2 2\n"
+    "transform world matrix -0 0 0 0 0 1e-45 0 0 0 0 1 0 0 0 -0 1\ntransform world identity\ntransform view "
+    "rotate 30 1 2 3 translate 1 2 3 scale 2 2 2\n"
     "transform projection perspective 60 1.5 0.1 100\n"
     "material\nmaterial diffuse 1 1 1 0.5 emissive 0.1 0.2 0.3 0\n"
     "light 0 directional\nlight 1 directional diffuse 1 2 3 4 ambient 0 0 0 1 direction -1 0 0\n"
@@ -174,11 +175,12 @@ static void the_streams_of_the_project_come_back(void)
 
 static void numbers_are_as_short_as_they_can_be(void)
 {
-    struct stream *stream =
-        parse("a", "triptych 1\ntarget 8 8\nclear color 0.1 1e-3 100000 0x1p-1 depth 0.333333333\n");
+    struct stream *stream = parse("a", "triptych 1\ntarget 8 8\nviewport 0 0 8 8 0 1\nclear color 0.1 1e-3 "
+                                       "100000 0x1p-1 depth 0.333333333\n");
     char *text = write_text(stream, "a");
-    TEST_ASSERT_EQUAL_STRING("triptych 1\ntarget 8 8\nclear color 0.1 0.001 100000 0.5 depth 0.33333334\n",
-                             text);
+    TEST_ASSERT_EQUAL_STRING(
+        "triptych 1\ntarget 8 8\nviewport 0 0 8 8 0 1\nclear color 0.1 0.001 100000 0.5 depth 0.33333334\n",
+        text);
     free(text);
     stream_free(stream);
 }
