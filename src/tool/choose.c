@@ -86,7 +86,7 @@ int choose_engines(const struct command *self, const char *list, struct choice *
             return STATUS_BAD;
     char name[NAME_CAPACITY];
     while ((list = list_next(list, name, sizeof name))) {
-        unsigned index;
+        unsigned index = 0;
         if (choose_engine(self, name, 0, &index) || add(self, choice, index, name))
             return STATUS_BAD;
     }
