@@ -1,0 +1,524 @@
+/* Pictures whose every pixel follows from the definition, on every engine: texel grids, bilinear weights,
+ * addressing, stages, blending, masks, depth functions, and lighting against double precision. Nothing here
+ * is taken from a render: expected values are worked out below, in integers where the contract is integer. */
+#include "triptych.h"
+
+#include <math.h>
+#include <stdio.h>
+#include <string.h>
+#include <unity.h>
+
+enum { SIZE = 64 };
+
+static triptych_device *device;
+static uint32_t image[SIZE * SIZE];
+static uint64_t seed;
+
+#define OK(call) TEST_ASSERT_EQUAL_INT_MESSAGE(TRIPTYCH_OK, call, triptych_error(device))
+
+static uint32_t random_word(void)
+{
+    seed ^= seed >> 12;
+    seed ^= seed << 25;
+    seed ^= seed >> 27;
+    return (uint32_t)(seed * 0x2545f4914f6cdd1dull >> 32);
+}
+
+static double random_between(double low, double high)
+{
+    return low + (high - low) * random_word() / 4294967296.0;
+}
+
+static void set(enum triptych_state state, const char *word)
+{
+    uint32_t value;
+    TEST_ASSERT_EQUAL_INT_MESSAGE(0, triptych_state_value(state, word, &value), word);
+    OK(triptych_set_state(device, state, value));
+}
+
+static void open_device(const char *engine)
+{
+    struct triptych_options options = {.engine = engine, .threads = 1};
+    char reason[256] = "";
+    seed = 1;
+    TEST_ASSERT_EQUAL_INT_MESSAGE(TRIPTYCH_OK,
+                                  triptych_device_create(&options, &device, reason, sizeof reason), reason);
+    OK(triptych_set_target(device, SIZE, SIZE));
+    set(TRIPTYCH_STATE_lighting, "false");
+    set(TRIPTYCH_STATE_cullmode, "none");
+    set(TRIPTYCH_STATE_zenable, "false");
+}
+
+/* Runs a test once for every engine that can run here. */
+static void on_every_engine(void (*test)(void))
+{
+    unsigned run = 0;
+    for (unsigned i = 0; triptych_engine_name(i); i++) {
+        if (triptych_engine_unavailable(i))
+            continue;
+        open_device(triptych_engine_name(i));
+        test();
+        triptych_device_destroy(device);
+        device = NULL;
+        run++;
+    }
+    TEST_ASSERT_GREATER_THAN(0, run);
+}
+
+void setUp(void)
+{
+}
+
+void tearDown(void)
+{
+    triptych_device_destroy(device);
+    device = NULL;
+}
+
+struct vertex {
+    float x, y, z;
+    float normal[3];
+    uint32_t color; /* 0xAARRGGBB */
+    float u, v;
+};
+
+static void bind_element(enum triptych_attribute attribute, enum triptych_format format,
+                         triptych_buffer *buffer, size_t offset)
+{
+    struct triptych_element element = {format, buffer, offset, sizeof(struct vertex)};
+    OK(triptych_set_element(device, attribute, &element));
+}
+
+static float extent = 1; /* of the square in the world; the projection makes it the whole target */
+
+/* The whole target as a strip at depth z; texture coordinates run from u0, v0 at the upper left to u1, v1. */
+static void draw_square(float z, uint32_t color, const float normal[3], float u0, float v0, float u1,
+                        float v1)
+{
+    static const float up[3] = {0, 0, -1};
+    struct vertex vertex[4] = {{-extent, extent, z, {0}, color, u0, v0},
+                               {extent, extent, z, {0}, color, u1, v0},
+                               {-extent, -extent, z, {0}, color, u0, v1},
+                               {extent, -extent, z, {0}, color, u1, v1}};
+    triptych_buffer *buffer;
+    for (int i = 0; i < 4; i++)
+        memcpy(vertex[i].normal, normal ? normal : up, sizeof up);
+    OK(triptych_buffer_create(device, vertex, sizeof vertex, &buffer));
+    bind_element(TRIPTYCH_POSITION, TRIPTYCH_FORMAT_FLOAT3, buffer, offsetof(struct vertex, x));
+    bind_element(TRIPTYCH_NORMAL, TRIPTYCH_FORMAT_FLOAT3, buffer, offsetof(struct vertex, normal));
+    bind_element(TRIPTYCH_DIFFUSE, TRIPTYCH_FORMAT_COLOR, buffer, offsetof(struct vertex, color));
+    bind_element(TRIPTYCH_TEXCOORD, TRIPTYCH_FORMAT_FLOAT2, buffer, offsetof(struct vertex, u));
+    OK(triptych_draw(device, TRIPTYCH_TRIANGLE_STRIP, 0, 2));
+}
+
+/* A word with red in the low byte, as images have it, from a packed colour with blue there. */
+static uint32_t image_word(uint32_t color)
+{
+    return (color & 0xff00ff00) | (color >> 16 & 255) | (color & 255) << 16;
+}
+
+static unsigned channel(uint32_t word, int c)
+{
+    return word >> 8 * c & 255;
+}
+
+static void clear_to(uint32_t word)
+{
+    float color[4];
+    for (int c = 0; c < 4; c++)
+        color[c] = (float)channel(word, c) / 255.0f;
+    OK(triptych_clear(device, color, 1));
+}
+
+static uint32_t texel[SIZE * SIZE];
+
+static void bind_random_texture(unsigned width, unsigned height)
+{
+    triptych_texture *texture;
+    for (unsigned i = 0; i < width * height; i++)
+        texel[i] = random_word();
+    OK(triptych_texture_create(device, texel, width, height, &texture));
+    OK(triptych_set_texture(device, texture));
+    set(TRIPTYCH_STATE_colorop, "selectarg1");
+}
+
+static void expect_pixel(int x, int y, uint32_t expected, const char *what)
+{
+    char message[160];
+    uint32_t got = image[y * SIZE + x];
+    if (got == expected)
+        return;
+    snprintf(message, sizeof message, "%s: pixel (%d, %d): expected %08x, got %08x", what, x, y, expected,
+             got);
+    TEST_FAIL_MESSAGE(message);
+}
+
+/* --- Textures ----------------------------------------------------------------------------------------------
+ */
+
+enum addressing { WRAP, CLAMP };
+
+static int addressed(int index, int size, enum addressing mode)
+{
+    if (mode == CLAMP)
+        return index < 0 ? 0 : index >= size ? size - 1 : index;
+    return (index % size + size) % size;
+}
+
+/* The position in 1/256 texel of pixel `i` when coordinates run from `low` to `high`; exact for what is drawn
+ * here. */
+static int texel_position(int i, double low, double high, int size)
+{
+    double coordinate = low + (high - low) * (i + 0.5) / SIZE;
+    return (int)nearbyint(coordinate * size * 256);
+}
+
+static uint32_t expected_point(int px, int py, int width, int height, enum addressing mode)
+{
+    return texel[addressed(py >> 8, height, mode) * width + addressed(px >> 8, width, mode)];
+}
+
+static unsigned mix(unsigned a, unsigned b, unsigned weight)
+{
+    return (a * (256 - weight) + b * weight + 128) >> 8;
+}
+
+static uint32_t expected_bilinear(int px, int py, int width, int height, enum addressing mode)
+{
+    uint32_t word = 0;
+    px -= 128;
+    py -= 128;
+    int x[2] = {addressed(px >> 8, width, mode), addressed((px >> 8) + 1, width, mode)};
+    int y[2] = {addressed(py >> 8, height, mode), addressed((py >> 8) + 1, height, mode)};
+    for (int c = 0; c < 4; c++) {
+        unsigned row[2];
+        for (int j = 0; j < 2; j++)
+            row[j] =
+                mix(channel(texel[y[j] * width + x[0]], c), channel(texel[y[j] * width + x[1]], c), px & 255);
+        word |= mix(row[0], row[1], py & 255) << 8 * c;
+    }
+    return word;
+}
+
+static void check_texture(int width, int height, double low, double high, enum addressing mode, int linear)
+{
+    char what[96];
+    snprintf(what, sizeof what, "%dx%d texels from %g to %g, %s, %s", width, height, low, high,
+             mode == WRAP ? "wrap" : "clamp", linear ? "linear" : "point");
+    bind_random_texture((unsigned)width, (unsigned)height);
+    set(TRIPTYCH_STATE_addressu, mode == WRAP ? "wrap" : "clamp");
+    set(TRIPTYCH_STATE_addressv, mode == WRAP ? "wrap" : "clamp");
+    set(TRIPTYCH_STATE_texturefilter, linear ? "linear" : "point");
+    draw_square(0, 0xffffffff, NULL, (float)low, (float)low, (float)high, (float)high);
+    OK(triptych_read_color(device, image));
+    for (int y = 0; y < SIZE; y++)
+        for (int x = 0; x < SIZE; x++) {
+            int px = texel_position(x, low, high, width), py = texel_position(y, low, high, height);
+            expect_pixel(x, y, (linear ? expected_bilinear : expected_point)(px, py, width, height, mode),
+                         what);
+        }
+}
+
+static void check_texel_grid(void)
+{
+    bind_random_texture(SIZE, SIZE);
+    draw_square(0, 0xffffffff, NULL, 0, 0, 1, 1);
+    OK(triptych_read_color(device, image));
+    TEST_ASSERT_EQUAL_HEX32_ARRAY(texel, image, SIZE * SIZE);
+}
+
+static void check_textures(void)
+{
+    static const int sizes[][2] = {{8, 8}, {64, 2}, {1, 1}, {6, 12}, {3, 64}};
+    for (unsigned i = 0; i < sizeof sizes / sizeof sizes[0]; i++)
+        for (int linear = 0; linear < 2; linear++)
+            for (int mode = WRAP; mode <= CLAMP; mode++) {
+                check_texture(sizes[i][0], sizes[i][1], 0, 1, mode, linear);
+                check_texture(sizes[i][0], sizes[i][1], -1, 2, mode, linear);
+                check_texture(sizes[i][0], sizes[i][1], 0.25, 0.5, mode, linear);
+            }
+}
+
+static void test_a_texture_of_the_targets_size_is_copied(void)
+{
+    on_every_engine(check_texel_grid);
+}
+
+static void test_filters_and_addressing_are_as_defined(void)
+{
+    on_every_engine(check_textures);
+}
+
+/* --- Stages and blending -----------------------------------------------------------------------------------
+ */
+
+static unsigned product(unsigned a, unsigned b)
+{
+    return (unsigned)floor(a * b / 255.0 + 0.5);
+}
+
+static unsigned at_most_255(unsigned value)
+{
+    return value > 255 ? 255 : value;
+}
+
+static uint32_t map_channels(uint32_t a, uint32_t b, unsigned (*combine)(unsigned, unsigned))
+{
+    uint32_t word = 0;
+    for (int c = 0; c < 4; c++)
+        word |= combine(channel(a, c), channel(b, c)) << 8 * c;
+    return word;
+}
+
+static unsigned first(unsigned a, unsigned b)
+{
+    (void)b;
+    return a;
+}
+
+static unsigned sum(unsigned a, unsigned b)
+{
+    return at_most_255(a + b);
+}
+
+static void check_stages(void)
+{
+    static const struct {
+        const char *word;
+        unsigned (*combine)(unsigned, unsigned);
+    } stages[] = {{"selectarg1", first}, {"modulate", product}, {"add", sum}};
+    for (int round = 0; round < 24; round++)
+        for (unsigned i = 0; i < 3; i++) {
+            uint32_t color = random_word();
+            bind_random_texture(SIZE, SIZE);
+            set(TRIPTYCH_STATE_colorop, stages[i].word);
+            draw_square(0, color, NULL, 0, 0, 1, 1);
+            OK(triptych_read_color(device, image));
+            for (int p = 0; p < SIZE * SIZE; p++)
+                expect_pixel(p % SIZE, p / SIZE, map_channels(texel[p], image_word(color), stages[i].combine),
+                             stages[i].word);
+        }
+}
+
+static unsigned blended(unsigned s, unsigned d, unsigned alpha, int source_alpha, int inverse)
+{
+    if (source_alpha && inverse)
+        return (unsigned)floor((s * alpha + d * (255 - alpha)) / 255.0 + 0.5);
+    if (inverse)
+        return at_most_255(s + product(d, 255 - alpha));
+    return source_alpha ? product(s, alpha) : s;
+}
+
+static void check_blending(void)
+{
+    set(TRIPTYCH_STATE_alphablendenable, "true");
+    for (int factors = 0; factors < 4; factors++) {
+        int source_alpha = factors & 1, inverse = factors >> 1;
+        set(TRIPTYCH_STATE_srcblend, source_alpha ? "srcalpha" : "one");
+        set(TRIPTYCH_STATE_destblend, inverse ? "invsrcalpha" : "zero");
+        for (int round = 0; round < 24; round++) {
+            uint32_t d = random_word();
+            bind_random_texture(SIZE, SIZE);
+            clear_to(d);
+            draw_square(0, 0xffffffff, NULL, 0, 0, 1, 1);
+            OK(triptych_read_color(device, image));
+            for (int p = 0; p < SIZE * SIZE; p++) {
+                uint32_t word = 0, s = texel[p];
+                for (int c = 0; c < 4; c++)
+                    word |= blended(channel(s, c), channel(d, c), s >> 24, source_alpha, inverse) << 8 * c;
+                expect_pixel(p % SIZE, p / SIZE, word, inverse ? "inverse alpha" : "zero");
+            }
+        }
+    }
+}
+
+static void check_write_masks(void)
+{
+    for (uint32_t mask = 0; mask < 16; mask++) {
+        uint32_t new = random_word(), old = random_word(), kept = 0;
+        for (int c = 0; c < 4; c++)
+            kept |= mask >> c & 1 ? 0 : 255u << 8 * c;
+        OK(triptych_set_state(device, TRIPTYCH_STATE_colorwriteenable, mask));
+        clear_to(old);
+        draw_square(0, new, NULL, 0, 0, 1, 1);
+        OK(triptych_read_color(device, image));
+        for (int p = 0; p < SIZE * SIZE; p++)
+            expect_pixel(p % SIZE, p / SIZE, (old & kept) | (image_word(new) & ~kept), "write mask");
+    }
+}
+
+static void test_stages_combine_channels_as_defined(void)
+{
+    on_every_engine(check_stages);
+}
+
+static void test_blending_is_rounded_as_defined(void)
+{
+    on_every_engine(check_blending);
+}
+
+static void test_write_masks_keep_channels(void)
+{
+    on_every_engine(check_write_masks);
+}
+
+/* --- Depth -------------------------------------------------------------------------------------------------
+ */
+
+static void check_depth(void)
+{
+    static const struct {
+        const char *word;
+        int passes[3]; /* new less than, equal to, greater than stored */
+    } functions[] = {{"never", {0, 0, 0}},        {"less", {1, 0, 0}},    {"equal", {0, 1, 0}},
+                     {"lessequal", {1, 1, 0}},    {"greater", {0, 0, 1}}, {"notequal", {1, 0, 1}},
+                     {"greaterequal", {0, 1, 1}}, {"always", {1, 1, 1}}};
+    static const float stored = 0.5f, new[3] = {0.25f, 0.5f, 0.75f};
+    static const float black[4] = {0, 0, 0, 1};
+    static float depth[SIZE * SIZE];
+    set(TRIPTYCH_STATE_zenable, "true");
+    for (unsigned f = 0; f < 8; f++)
+        for (int i = 0; i < 6; i++) {
+            int writes = i / 3, passes = functions[f].passes[i % 3];
+            set(TRIPTYCH_STATE_zfunc, functions[f].word);
+            set(TRIPTYCH_STATE_zwriteenable, writes ? "true" : "false");
+            OK(triptych_clear(device, black, stored));
+            draw_square(new[i % 3], 0xffffffff, NULL, 0, 0, 1, 1);
+            OK(triptych_read_color(device, image));
+            OK(triptych_read_depth(device, depth));
+            for (int p = 0; p < SIZE * SIZE; p++) {
+                expect_pixel(p % SIZE, p / SIZE, passes ? 0xffffffff : 0xff000000, functions[f].word);
+                TEST_ASSERT_EQUAL_FLOAT(passes && writes ? new[i % 3] : stored, depth[p]);
+            }
+        }
+}
+
+static void test_depth_functions_decide_colour_and_depth(void)
+{
+    on_every_engine(check_depth);
+}
+
+/* --- Lighting ----------------------------------------------------------------------------------------------
+ */
+
+static void random_vector(double v[3])
+{
+    double length = 0;
+    while (length < 0.1) {
+        length = 0;
+        for (int c = 0; c < 3; c++) {
+            v[c] = random_between(-1, 1);
+            length += v[c] * v[c];
+        }
+    }
+    for (int c = 0; c < 3; c++)
+        v[c] /= sqrt(length);
+}
+
+static void random_color(float color[4], double most)
+{
+    for (int c = 0; c < 4; c++)
+        color[c] = (float)random_between(0, most);
+}
+
+static void make_light(struct triptych_light *light, enum triptych_light_type type)
+{
+    double direction[3];
+    memset(light, 0, sizeof *light);
+    light->type = type;
+    random_vector(direction);
+    random_color(light->diffuse, 1);
+    random_color(light->ambient, 0.2);
+    light->range = (float)random_between(1, 6);
+    for (int c = 0; c < 3; c++) {
+        light->direction[c] = (float)direction[c];
+        light->position[c] = (float)random_between(-2, 2);
+        light->attenuation[c] = (float)random_between(0.1, 1);
+    }
+}
+
+/* What a light adds to one channel at a point, by the formulas of the Direct3D 9 documentation. */
+static double light_adds(const struct triptych_light *light, const struct triptych_material *material,
+                         const double point[3], const double normal[3], int c)
+{
+    double to[3], squared = 0, cosine = 0, attenuation = 1;
+    for (int i = 0; i < 3; i++) {
+        to[i] = light->type == TRIPTYCH_LIGHT_POINT ? light->position[i] - point[i] : -light->direction[i];
+        squared += to[i] * to[i];
+    }
+    double distance = sqrt(squared);
+    for (int i = 0; i < 3; i++)
+        cosine += normal[i] * to[i] / distance;
+    if (light->type == TRIPTYCH_LIGHT_POINT) {
+        const float *a = light->attenuation;
+        attenuation = distance > light->range ? 0 : 1 / (a[0] + a[1] * distance + a[2] * squared);
+    }
+    return attenuation * (material->ambient[c] * light->ambient[c] +
+                          material->diffuse[c] * light->diffuse[c] * fmax(0, cosine));
+}
+
+static void check_one_lighting(unsigned lights, int normalize)
+{
+    struct triptych_light light[TRIPTYCH_LIGHTS];
+    struct triptych_material material;
+    double normal[3];
+    float given[3];
+    random_color(material.diffuse, 1);
+    random_color(material.ambient, 1);
+    random_color(material.emissive, 0.2);
+    random_vector(normal);
+    for (int c = 0; c < 3; c++)
+        given[c] = (float)(normal[c] * (normalize ? 7 : 1));
+    OK(triptych_set_material(device, &material));
+    for (unsigned i = 0; i < TRIPTYCH_LIGHTS; i++) {
+        make_light(&light[i], i % 2 ? TRIPTYCH_LIGHT_POINT : TRIPTYCH_LIGHT_DIRECTIONAL);
+        OK(triptych_set_light(device, i, &light[i]));
+        OK(triptych_enable_light(device, i, i < lights));
+    }
+    set(TRIPTYCH_STATE_normalizenormals, normalize ? "true" : "false");
+    OK(triptych_set_state(device, TRIPTYCH_STATE_ambient, 0xff204060));
+    draw_square(0, 0, given, 0, 0, 1, 1);
+    OK(triptych_read_color(device, image));
+    for (int c = 0; c < 4; c++) {
+        static const double origin[3], scene[3] = {0x20 / 255.0, 0x40 / 255.0, 0x60 / 255.0};
+        double expected = material.diffuse[3];
+        if (c < 3)
+            expected = material.emissive[c] + material.ambient[c] * scene[c];
+        for (unsigned i = 0; i < lights && c < 3; i++)
+            expected += light_adds(&light[i], &material, origin, normal, c);
+        expected = 255 * fmin(fmax(expected, 0), 1);
+        for (int p = 0; p < SIZE * SIZE; p += SIZE * SIZE - 1)
+            TEST_ASSERT_DOUBLE_WITHIN_MESSAGE(0.51, expected, channel(image[p], c), "lit channel");
+    }
+}
+
+/* The square is so small in the world that all of it is lit as the origin is. */
+static void check_lighting(void)
+{
+    const float large[4][4] = {{0x1p20f}, {0, 0x1p20f}, {0, 0, 1}, {0, 0, 0.5f, 1}};
+    extent = 0x1p-20f;
+    OK(triptych_set_transform(device, TRIPTYCH_TRANSFORM_PROJECTION, large));
+    set(TRIPTYCH_STATE_lighting, "true");
+    for (int round = 0; round < 40; round++)
+        for (unsigned lights = 0; lights <= TRIPTYCH_LIGHTS; lights++)
+            check_one_lighting(lights, round & 1);
+    extent = 1;
+}
+
+static void test_lights_follow_the_documented_formulas(void)
+{
+    on_every_engine(check_lighting);
+}
+
+int main(void)
+{
+    UNITY_BEGIN();
+    RUN_TEST(test_a_texture_of_the_targets_size_is_copied);
+    RUN_TEST(test_filters_and_addressing_are_as_defined);
+    RUN_TEST(test_stages_combine_channels_as_defined);
+    RUN_TEST(test_blending_is_rounded_as_defined);
+    RUN_TEST(test_write_masks_keep_channels);
+    RUN_TEST(test_depth_functions_decide_colour_and_depth);
+    RUN_TEST(test_lights_follow_the_documented_formulas);
+    return UNITY_END();
+}
