@@ -156,12 +156,13 @@ static void synchronize_folder(char *path)
     }
 }
 
+/* Failures are told by errno. */
 static int write_beside(const char *path, mode_t mode, char *name, size_t size, const void *data,
-                        size_t bytes, struct error *error)
+                        size_t bytes)
 {
     int descriptor = open_temporary(path, name, size);
     if (descriptor < 0)
-        return fail(error, path, "cannot write");
+        return -1;
     int result = mode ? fchmod(descriptor, mode) : 0;
     if (result)
         close(descriptor);
@@ -170,30 +171,46 @@ static int write_beside(const char *path, mode_t mode, char *name, size_t size, 
     if (!result)
         result = rename(name, path);
     if (result) {
-        fail(error, path, "cannot write");
+        int reason = errno;
         unlink(name);
+        errno = reason;
         return -1;
     }
     synchronize_folder(name);
     return 0;
 }
 
+static int replace(const char *path, mode_t mode, const void *data, size_t bytes)
+{
+    size_t size = strlen(path) + 64;
+    char *name = malloc(size);
+    int result = name ? write_beside(path, mode, name, size, data, bytes) : -1;
+    int reason = errno;
+    free(name);
+    errno = reason;
+    return result;
+}
+
+/* Replacing a link would leave the file that it leads to as it was. */
+static int replace_target(const char *path, mode_t mode, const void *data, size_t bytes)
+{
+    char *target = realpath(path, NULL);
+    int result = target ? replace(target, mode, data, bytes) : -1;
+    int reason = errno;
+    free(target);
+    errno = reason;
+    return result;
+}
+
 int file_write(const char *path, const void *data, size_t bytes, struct error *error)
 {
     struct stat status;
-    mode_t mode = 0;
-    if (!stat(path, &status)) {
-        if (S_ISDIR(status.st_mode))
-            return error_set(error, "%s: is a folder, expected a file to write", path);
-        if (!S_ISREG(status.st_mode))
-            return write_through(path, data, bytes, error);
-        mode = status.st_mode & 07777;
-    }
-    size_t size = strlen(path) + 64;
-    char *name = malloc(size);
-    if (!name)
-        return error_set(error, "%s: not enough memory", path);
-    int result = write_beside(path, mode, name, size, data, bytes, error);
-    free(name);
-    return result;
+    int exists = !stat(path, &status);
+    if (exists && S_ISDIR(status.st_mode))
+        return error_set(error, "%s: is a folder, expected a file to write", path);
+    if (exists && !S_ISREG(status.st_mode))
+        return write_through(path, data, bytes, error);
+    int result =
+        exists ? replace_target(path, status.st_mode & 07777, data, bytes) : replace(path, 0, data, bytes);
+    return result ? fail(error, path, "cannot write") : 0;
 }

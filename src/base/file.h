@@ -15,8 +15,8 @@ int file_read(const char *path, size_t limit, char **data, size_t *bytes, struct
 
 /* Writes a temporary file in the same folder, syncs it and renames it to `path`: after a failure (a full
  * disk, a folder that may not be written) or a crash `path` is what it was before, and a failure leaves no
- * temporary file. An existing file's permission bits are kept. What exists and is no regular file (a device,
- * a pipe) is written to as it is. */
+ * temporary file. An existing file's permission bits are kept, and so are symbolic links to it: the file that
+ * they lead to is replaced. What exists and is no regular file (a device, a pipe) is written to as it is. */
 int file_write(const char *path, const void *data, size_t bytes, struct error *error);
 
 #endif

@@ -103,6 +103,22 @@ static void permission_bits_of_an_existing_file_stay(void)
     TEST_ASSERT_EQUAL_INT(0640, status.st_mode & 07777);
 }
 
+/* As /dev/stdout is a link: replacing it would damage the machine. */
+static void a_link_stays_and_the_file_it_leads_to_is_replaced(void)
+{
+    char link[160];
+    struct stat status;
+    snprintf(link, sizeof link, "%s/link", folder);
+    TEST_ASSERT_EQUAL_INT(0, file_write(path, "old", 3, &error));
+    TEST_ASSERT_EQUAL_INT(0, symlink("data", link));
+    TEST_ASSERT_EQUAL_INT(0, file_write(link, "new", 3, &error));
+    TEST_ASSERT_EQUAL_INT(0, lstat(link, &status));
+    unlink(link);
+    TEST_ASSERT_TRUE(S_ISLNK(status.st_mode));
+    expect_contents("new");
+    TEST_ASSERT_EQUAL_UINT64(1, files_in_folder());
+}
+
 /* A limit on file sizes stands for the full disk: write stores a part, then fails. */
 static void a_write_that_fails_half_way_changes_nothing(void)
 {
@@ -152,6 +168,7 @@ int main(void)
     RUN_TEST(an_endless_device_stops_at_the_limit);
     RUN_TEST(a_missing_file_and_a_folder_give_their_reason);
     RUN_TEST(permission_bits_of_an_existing_file_stay);
+    RUN_TEST(a_link_stays_and_the_file_it_leads_to_is_replaced);
     RUN_TEST(a_write_that_fails_half_way_changes_nothing);
     RUN_TEST(a_full_device_is_reported);
     RUN_TEST(a_device_is_written_to_and_not_replaced);
