@@ -23,25 +23,17 @@ void tearDown(void)
     code_destroy(arena);
 }
 
-static void compare_unit(const struct engine *engine, enum unit unit, int cases)
+static void compare_units(const struct engine *engine)
 {
-    uint64_t seed = 1 + unit;
+    enum { ROUNDS = 1000 };
     if (engine->unavailable())
         TEST_IGNORE_MESSAGE(engine->unavailable());
-    for (int i = 0; i < cases; i++) {
-        union key key;
-        key_random(unit, &seed, &key);
+    for (int unit = 0; unit < UNIT_COUNT; unit++) {
         const char *difference =
-            differential_compare(differential, &engine_emulate, engine, unit, &key, seed);
+            differential_rounds(differential, &engine_emulate, engine, unit, 1 + (uint64_t)unit, ROUNDS);
         if (difference)
             TEST_FAIL_MESSAGE(difference);
     }
-}
-
-static void compare_units(const struct engine *engine)
-{
-    for (int unit = 0; unit < UNIT_COUNT; unit++)
-        compare_unit(engine, unit, 1000);
 }
 
 static void test_eight_lanes_equal_the_emulator(void)

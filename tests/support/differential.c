@@ -1,56 +1,80 @@
 #include "differential.h"
 
-#include <math.h>
+#include "fence.h"
+
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+#include <xmmintrin.h>
 
 enum {
-    LANES = 64,
-    STREAM_BYTES = 64 * 1024,
-    TEXELS = 64 * 64,
-    RECORDS = 64,
-    RECORD_BYTES = 512,
+    STRIDE_MAXIMUM = 44, /* bytes between two vertices of a stream */
+    FETCH_MAXIMUM = 16,
+    STREAM_BYTES = VERTEX_CAPACITY * STRIDE_MAXIMUM + FETCH_MAXIMUM + 4,
+    TEXTURE_SIDE = 64,
+    TEXTURE_BYTES = TEXTURE_SIDE * TEXTURE_SIDE * 4,
+    RECORD_MAXIMUM = 256,
+    TRIANGLES = 32,
     ENTRIES = 48,
-    CAPACITY = SLOT_COUNT * VERTEX_SLOT_BYTES
+    UNTOUCHED = 0x5a
 };
 
-/* What one engine writes. */
+/* What a routine may write, and what it must not: all of it is compared. */
 struct outputs {
+    alignas(64) uint8_t before[64];
     alignas(64) float vertices[SLOT_COUNT * VERTEX_CAPACITY];
-    alignas(64) uint8_t records[RECORDS * RECORD_BYTES];
+    alignas(64) uint8_t records[SETUP_CAPACITY * RECORD_MAXIMUM];
     alignas(64) uint32_t color[TILE_PIXELS];
     alignas(64) float depth[TILE_PIXELS];
+    alignas(64) uint8_t behind[64];
 };
 
 struct differential {
     struct code_arena *arena;
     uint64_t seed;
+    int wild;
+    uint32_t count; /* of the call */
+    struct triangle_layout layout;
     struct job job;
-    uint8_t stream[STREAM_BYTES];
-    uint32_t texels[TEXELS];
-    uint32_t index[VERTEX_CAPACITY];
-    uint32_t corner[3 * SETUP_CAPACITY];
+    uint8_t *stream[ATTRIBUTE_COUNT]; /* fenced */
+    uint8_t *texels;                  /* fenced */
+    alignas(64) uint32_t index_words[1 + 3 * SETUP_CAPACITY];
+    alignas(64) uint8_t lanes[4 + sizeof(struct lane_table)];
     struct entry entries[ENTRIES];
-    alignas(64) uint8_t triangles[RECORDS * RECORD_BYTES];
+    alignas(64) uint8_t triangles[TRIANGLES * RECORD_MAXIMUM];
     struct outputs initial, result[2];
-    char message[2048];
+    char message[KEY_TEXT_CAPACITY + 256];
 };
 
 struct differential *differential_create(struct code_arena *arena)
 {
     struct differential *d = aligned_alloc(64, (sizeof *d + 63) / 64 * 64);
-    if (d) {
-        memset(d, 0, sizeof *d);
-        d->arena = arena;
-    }
-    return d;
+    if (!d)
+        return NULL;
+    memset(d, 0, sizeof *d);
+    d->arena = arena;
+    d->texels = fence(TEXTURE_BYTES);
+    int complete = d->texels != NULL;
+    for (int a = 0; a < ATTRIBUTE_COUNT; a++)
+        complete &= (d->stream[a] = fence(STREAM_BYTES)) != NULL;
+    memcpy(d->lanes + 4, &lane_table, sizeof lane_table);
+    if (complete)
+        return d;
+    differential_destroy(d);
+    return NULL;
 }
 
 void differential_destroy(struct differential *d)
 {
+    if (!d)
+        return;
+    for (int a = 0; a < ATTRIBUTE_COUNT; a++)
+        unfence(d->stream[a], STREAM_BYTES);
+    unfence(d->texels, TEXTURE_BYTES);
     free(d);
 }
+
+/* --- Random values --- */
 
 static uint32_t word(struct differential *d)
 {
@@ -60,202 +84,382 @@ static uint32_t word(struct differential *d)
     return (uint32_t)(d->seed * 0x2545f4914f6cdd1dull >> 32);
 }
 
-static float uniform(struct differential *d, float low, float high)
+static uint32_t below(struct differential *d, uint32_t limit)
+{
+    return word(d) % limit;
+}
+
+static float between(struct differential *d, float low, float high)
 {
     return low + (high - low) * (float)(word(d) >> 8) * 0x1p-24f;
 }
 
-/* Mostly ordinary; one in sixteen is a value at the edge of binary32. */
-static float value(struct differential *d, float low, float high)
+static float special(struct differential *d)
 {
     static const uint32_t edges[] = {0x00000000, 0x80000000, 0x00000001, 0x80000001, 0x007fffff, 0x00800000,
-                                     0x7f7fffff, 0xff7fffff, 0x7f800000, 0xff800000, 0x7fc00000, 0x3f800000,
-                                     0xbf800000, 0x4b000000, 0x34000000, 0x7149f2ca};
-    if (word(d) % 16)
-        return uniform(d, low, high);
-    float edge;
-    memcpy(&edge, &edges[word(d) % 16], sizeof edge);
-    return edge;
+                                     0x7f7fffff, 0xff7fffff, 0x7f800000, 0xff800000, 0x7fc00000, 0xffc12345,
+                                     0x7f800001, 0x3f800000, 0xbf800000, 0x3f000000, 0x4b000000, 0x4f000000,
+                                     0xcf000000, 0x5f000000, 0x34000000, 0x2b800000, 0x7149f2ca};
+    uint32_t bits = below(d, 8) ? edges[below(d, sizeof edges / sizeof *edges)] : word(d);
+    float value;
+    memcpy(&value, &bits, sizeof value);
+    return value;
 }
 
-static void fill(struct differential *d, float *values, size_t count, float low, float high)
+/* Plausible, or in the wild mood one time in eight anything. */
+static float number(struct differential *d, float low, float high)
 {
-    for (size_t i = 0; i < count; i++)
-        values[i] = value(d, low, high);
+    return d->wild && !below(d, 8) ? special(d) : between(d, low, high);
+}
+
+static void fill(struct differential *d, void *memory, size_t bytes, float low, float high)
+{
+    for (size_t at = 0; at + 4 <= bytes; at += 4) {
+        float value = number(d, low, high);
+        memcpy((uint8_t *)memory + at, &value, sizeof value);
+    }
+}
+
+static void fill_words(struct differential *d, void *memory, size_t bytes)
+{
+    for (size_t at = 0; at + 4 <= bytes; at += 4) {
+        uint32_t value = word(d);
+        memcpy((uint8_t *)memory + at, &value, sizeof value);
+    }
+}
+
+/* A multiple of 16 lanes: mostly few, sometimes none or as many as there may be. */
+static uint32_t lane_count(struct differential *d, uint32_t capacity)
+{
+    return below(d, 8) ? 16 * (1 + below(d, 4)) : 16 * below(d, capacity / 16 + 1);
+}
+
+/* --- The job --- */
+
+static void make_lights(struct differential *d)
+{
+    fill(d, d->job.base_color, sizeof d->job.base_color, -0.2f, 1);
+    for (int i = 0; i < LIGHT_COUNT; i++) {
+        struct light_job *light = &d->job.light[i];
+        fill(d, light->position, sizeof light->position, -3, 3);
+        fill(d, light->diffuse, sizeof light->diffuse, -0.1f, 1);
+        fill(d, light->ambient, sizeof light->ambient, 0, 0.3f);
+        light->range = number(d, 0, 8);
+        light->attenuation0 = number(d, 0, 1);
+        light->attenuation1 = number(d, 0, 1);
+        light->attenuation2 = number(d, 0, 1);
+    }
+}
+
+/* Every vertex at the camera and every light at exactly its range, where "within" and "below" differ. */
+static void put_lights_at_their_range(struct differential *d)
+{
+    memset(d->job.world_view, 0, sizeof d->job.world_view);
+    for (int i = 0; i < LIGHT_COUNT; i++) {
+        struct light_job *light = &d->job.light[i];
+        memset(light->position, 0, sizeof light->position);
+        light->position[below(d, 3)] = light->range = (float)(1u << below(d, 4));
+    }
 }
 
 static void make_job(struct differential *d)
 {
     struct job *job = &d->job;
     memset(job, 0, sizeof *job);
-    for (int a = 0; a < ATTRIBUTE_COUNT; a++) {
-        job->attribute[a].data = d->stream + word(d) % 256 * 4;
-        job->attribute[a].stride = (int32_t)(word(d) % 12 * 4);
-    }
-    fill(d, &job->world_view_projection[0][0], 16, -2, 2);
-    fill(d, &job->world_view[0][0], 16, -2, 2);
-    fill(d, &job->normal[0][0], 12, -2, 2);
-    fill(d, job->base_color, 4, 0, 1);
-    fill(d, (float *)job->light, sizeof job->light / 4, -1, 3);
-    job->guard_x = uniform(d, 1, 50);
-    job->guard_y = uniform(d, 1, 50);
-    job->scale_x = uniform(d, 1, 100000);
-    job->scale_y = uniform(d, -100000, -1);
-    job->offset_x = uniform(d, 0, 100000);
-    job->offset_y = uniform(d, 0, 100000);
-    job->depth_scale = 1;
-    job->depth_offset = uniform(d, 0, 0.25f);
+    fill(d, job->world_view_projection, sizeof job->world_view_projection, -2, 2);
+    fill(d, job->world_view, sizeof job->world_view, -2, 2);
+    fill(d, job->normal, sizeof job->normal, -2, 2);
+    make_lights(d);
+    if (!below(d, 8))
+        put_lights_at_their_range(d);
+    job->guard_x = between(d, 1, 50);
+    job->guard_y = between(d, 1, 50);
+    job->scale_x = number(d, 1, 100000);
+    job->scale_y = number(d, -100000, -1);
+    job->offset_x = number(d, 0, 100000);
+    job->offset_y = number(d, 0, 100000);
+    job->depth_scale = number(d, 0.1f, 1);
+    job->depth_offset = number(d, -0.1f, 0.5f);
 }
 
-static int32_t texture_size(struct differential *d, int power_of_two)
+/* --- Vertices --- */
+
+/* Indices come from anywhere: of words, but not of vectors. */
+static uint32_t *indices(struct differential *d)
 {
-    return power_of_two ? 1 << word(d) % 7 : (int32_t)(1 + word(d) % 64);
+    return d->index_words + 1;
 }
 
+static uint32_t fetched_bytes(int format)
+{
+    if (format == ATTRIBUTE_FORMAT_NONE)
+        return 0;
+    return format == ATTRIBUTE_FORMAT_COLOR ? 4 : 4 * (uint32_t)(format - ATTRIBUTE_FORMAT_FLOAT1 + 1);
+}
+
+/* The last vertex that is fetched ends at the fence, or up to three bytes before it. */
+static void make_stream(struct differential *d, int attribute, int format, uint32_t last)
+{
+    struct attribute_job *job = &d->job.attribute[attribute];
+    uint8_t *stream = d->stream[attribute];
+    job->stride = 4 * (int32_t)below(d, STRIDE_MAXIMUM / 4 + 1);
+    job->data = stream + STREAM_BYTES - last * (uint32_t)job->stride - fetched_bytes(format);
+    if (!below(d, 4))
+        job->data -= below(d, 4);
+    if (format == ATTRIBUTE_FORMAT_COLOR)
+        fill_words(d, stream, STREAM_BYTES);
+    else
+        fill(d, stream, STREAM_BYTES, -2, 2);
+    if (!below(d, 16)) /* zero vectors, whose length has no reciprocal */
+        memset(stream, 0, STREAM_BYTES);
+}
+
+static void make_vertex_inputs(struct differential *d, const struct vertex_key *key)
+{
+    uint32_t last = 0;
+    d->count = lane_count(d, VERTEX_CAPACITY);
+    for (uint32_t i = 0; i < d->count; i++) {
+        indices(d)[i] = below(d, VERTEX_CAPACITY);
+        last = indices(d)[i] > last ? indices(d)[i] : last;
+    }
+    for (int a = 0; a < ATTRIBUTE_COUNT; a++)
+        make_stream(d, a, key->attribute[a], last);
+}
+
+/* --- Triangles --- */
+
+static void make_setup_inputs(struct differential *d, const struct setup_key *key)
+{
+    d->layout = triangle_layout(key->depth, key->varying);
+    d->count = lane_count(d, SETUP_CAPACITY);
+    for (int slot = 0; slot < SLOT_COUNT; slot++)
+        fill(d, d->initial.vertices + slot * VERTEX_CAPACITY, VERTEX_SLOT_BYTES, slot == SLOT_W ? 0.5f : -2,
+             slot == SLOT_W ? 4 : 2);
+    for (int i = 0; i < 3 * SETUP_CAPACITY; i++)
+        indices(d)[i] = 4 * below(d, VERTEX_CAPACITY);
+    for (int i = 0; i < SETUP_CAPACITY; i++)
+        if (!below(d, 16)) /* without area */
+            indices(d)[i] = indices(d)[i + SETUP_CAPACITY * (1 + (int)below(d, 2))];
+}
+
+/* --- Pixels --- */
+
+static void make_plane(struct differential *d, uint8_t *record, size_t offset, float low, float high)
+{
+    float slope = below(d, 4) ? 0.1f : 1.25f;
+    struct plane plane = {number(d, low, high), number(d, -slope, slope), number(d, -slope, slope)};
+    memcpy(record + offset, &plane, sizeof plane);
+}
+
+static void make_varying(struct differential *d, uint8_t *record, const struct pixel_key *key, int varying)
+{
+    float reach = varying != VARYING_texcoord ? 0.25f : below(d, 4) ? 3 : 300;
+    for (size_t c = 0; c < varying_components[varying]; c++) {
+        float flat = number(d, -reach, 1 + reach);
+        size_t first = d->layout.varying[varying];
+        if (key->varying[varying] == INTERPOLATION_FLAT)
+            memcpy(record + first + sizeof flat * c, &flat, sizeof flat);
+        else if (key->varying[varying] == INTERPOLATION_SMOOTH)
+            make_plane(d, record, first + sizeof(struct plane) * c, -reach, 1 + reach);
+    }
+}
+
+static void make_triangles(struct differential *d, const struct pixel_key *key)
+{
+    for (int i = 0; i < TRIANGLES; i++) {
+        uint8_t *record = d->triangles + i * d->layout.stride;
+        fill(d, record, d->layout.stride, -4, 4);
+        struct triangle_head *head = (void *)record;
+        head->origin_x = between(d, -20, 84);
+        head->origin_y = between(d, -20, 84);
+        if (d->layout.depth)
+            make_plane(d, record, d->layout.depth, -0.25f, 1.25f);
+        if (d->layout.smooth)
+            make_plane(d, record, d->layout.reciprocal_w, 0.2f, 2);
+        for (int v = 0; v < VARYING_COUNT; v++)
+            make_varying(d, record, key, v);
+    }
+}
+
+static uint16_t random_coverage(struct differential *d)
+{
+    static const uint16_t some[] = {0xffff, 0x00ff, 0xff00, 0x8001, 0x0100, 0xf000};
+    uint16_t sparse = (uint16_t)(word(d) & word(d));
+    if (below(d, 2))
+        return some[below(d, sizeof some / sizeof *some)];
+    return sparse ? sparse : 1;
+}
+
+/* Four in five entries begin a new block; the others shade the one before again. */
+static void make_entries(struct differential *d)
+{
+    float left = 64 * (float)below(d, 3), top = 64 * (float)below(d, 3);
+    d->count = 1 + below(d, ENTRIES);
+    for (int i = 0; i < ENTRIES; i++) {
+        uint16_t block = i % 5 ? (uint16_t)below(d, TILE_BLOCKS) : d->entries[i ? i - 1 : 0].block;
+        d->entries[i] = (struct entry){.x = left + (float)(block % 16 * 4),
+                                       .y = top + (float)(block / 16 * 4),
+                                       .coverage = random_coverage(d),
+                                       .block = block,
+                                       .triangle = below(d, TRIANGLES) * d->layout.stride};
+    }
+}
+
+static int32_t texture_side(struct differential *d, int address)
+{
+    return address == ADDRESS_WRAP_POWER ? 1 << below(d, 7) : 1 + (int32_t)below(d, TEXTURE_SIDE);
+}
+
+/* The image's last texel is the last word before the fence. */
 static void make_texture(struct differential *d, const struct pixel_key *key)
 {
     struct texture_job *texture = &d->job.texture;
-    for (int i = 0; i < TEXELS; i++)
-        d->texels[i] = word(d);
-    texture->texels = d->texels;
-    texture->width = texture_size(d, key->address_u == ADDRESS_WRAP_POWER);
-    texture->height = texture_size(d, key->address_v == ADDRESS_WRAP_POWER);
-    texture->width_256 = (float)texture->width * 256;
-    texture->height_256 = (float)texture->height * 256;
-    texture->last_u = texture->width - 1;
-    texture->last_v = texture->height - 1;
+    int32_t width = texture_side(d, key->address_u), height = texture_side(d, key->address_v);
+    fill_words(d, d->texels, TEXTURE_BYTES);
+    texture->texels = (const uint32_t *)(void *)(d->texels + TEXTURE_BYTES - 4 * width * height);
+    texture->width = width;
+    texture->height = height;
+    texture->width_256 = 256 * (float)width;
+    texture->height_256 = 256 * (float)height;
+    texture->last_u = width - 1;
+    texture->last_v = height - 1;
 }
 
-static void make_records(struct differential *d)
+/* Planes that pass exactly through stored depths, so that EQUAL has something to find. */
+static void meet_stored_depths(struct differential *d)
 {
-    for (int i = 0; i < RECORDS; i++) {
-        float *record = (float *)(void *)(d->triangles + i * RECORD_BYTES);
-        fill(d, record, RECORD_BYTES / 4, -0.25f, 1.25f);
-        struct triangle_head *head = (void *)record;
-        head->origin_x = uniform(d, 0, 64);
-        head->origin_y = uniform(d, 0, 64);
-    }
-    for (int i = 0; i < ENTRIES; i++) {
-        uint16_t block = (uint16_t)(word(d) % TILE_BLOCKS);
-        uint32_t coverage = word(d) & word(d) & 0xffff;
-        if (word(d) % 4 == 0)
-            coverage = 0xffff;
-        d->entries[i] = (struct entry){.x = (float)(block % 16 * 4 + 64),
-                                       .y = (float)(block / 16 * 4 + 128),
-                                       .coverage = (uint16_t)(coverage ? coverage : 1),
-                                       .block = block,
-                                       .triangle = word(d) % RECORDS * RECORD_BYTES};
-    }
+    struct plane plane = {0.5f, 0, 0};
+    for (int i = 0; i < TRIANGLES; i++)
+        memcpy(d->triangles + i * d->layout.stride + d->layout.depth, &plane, sizeof plane);
+    for (int i = 0; i < TILE_PIXELS; i++)
+        d->initial.depth[i] = 0.25f * (float)(1 + below(d, 3));
 }
 
-static void make_initial(struct differential *d, enum unit unit)
+static void make_pixel_inputs(struct differential *d, const struct pixel_key *key)
 {
-    struct outputs *o = &d->initial;
-    memset(o, 0, sizeof *o);
-    if (unit == UNIT_SETUP)
-        for (int slot = 0; slot < SLOT_COUNT; slot++)
-            fill(d, o->vertices + slot * VERTEX_CAPACITY, VERTEX_CAPACITY, slot == SLOT_W ? 0.5f : -1, 1.5f);
+    d->layout = triangle_layout(key->depth_function != COMPARE_ALWAYS || key->depth_write, key->varying);
+    make_triangles(d, key);
+    make_entries(d);
+    make_texture(d, key);
     for (int i = 0; i < TILE_PIXELS; i++) {
-        o->color[i] = word(d);
-        o->depth[i] = word(d) % 3 ? uniform(d, 0, 1) : (float)(word(d) & 1);
+        d->initial.color[i] = word(d);
+        d->initial.depth[i] = below(d, 3) ? number(d, 0, 1) : (float)below(d, 2);
     }
+    if (d->layout.depth && !below(d, 3))
+        meet_stored_depths(d);
 }
+
+/* --- Running and comparing --- */
 
 static void make_inputs(struct differential *d, enum unit unit, const union key *key, uint64_t seed)
 {
     d->seed = seed * 0x9e3779b97f4a7c15ull | 1;
-    for (size_t i = 0; i < STREAM_BYTES; i += 4) {
-        float stored = value(d, -1.5f, 1.5f);
-        memcpy(d->stream + i, &stored, sizeof stored);
-    }
-    for (int i = 0; i < VERTEX_CAPACITY; i++)
-        d->index[i] = word(d) % 256;
-    for (int i = 0; i < 3 * SETUP_CAPACITY; i++)
-        d->corner[i] = word(d) % VERTEX_CAPACITY * 4;
+    d->wild = (int)below(d, 2);
+    memset(&d->initial, UNTOUCHED, sizeof d->initial);
     make_job(d);
-    make_initial(d, unit);
-    if (unit == UNIT_PIXEL) {
-        make_texture(d, &key->pixel);
-        make_records(d);
+    switch (unit) {
+    case UNIT_VERTEX: make_vertex_inputs(d, &key->vertex); break;
+    case UNIT_SETUP: make_setup_inputs(d, &key->setup); break;
+    default: make_pixel_inputs(d, &key->pixel); break;
     }
 }
 
-static void run(struct differential *d, const struct routine *routine, struct outputs *o)
+/* Returns whether MXCSR came back as it was: rounding toward zero, nothing flushed or only results. */
+static int run(struct differential *d, const struct routine *routine, struct outputs *o)
 {
-    memcpy(o, &d->initial, sizeof *o);
-    struct vertex_call vertex = {&d->job, d->index, o->vertices, LANES};
-    struct setup_call setup = {&d->job, d->corner, o->vertices, o->records, RECORDS};
-    struct pixel_call pixel = {&d->job, d->entries, d->triangles, &lane_table, o->color, o->depth, ENTRIES};
+    const struct lane_table *lanes = (const void *)(d->lanes + 4);
+    struct vertex_call vertex = {&d->job, indices(d), o->vertices, d->count};
+    struct setup_call setup = {&d->job, indices(d), o->vertices, o->records, d->count};
+    struct pixel_call pixel = {&d->job, d->entries, d->triangles, lanes, o->color, o->depth, d->count};
     const void *calls[UNIT_COUNT] = {&vertex, &setup, &pixel};
+    const unsigned flags = 0x3f, foreign = 0x7f80 ^ below(d, 2) << 15, own = _mm_getcsr();
+    memcpy(o, &d->initial, sizeof *o);
+    _mm_setcsr(foreign);
     routine->run(calls[routine->unit], routine);
+    unsigned after = _mm_getcsr();
+    _mm_setcsr(own);
+    return !((after ^ foreign) & ~flags);
 }
 
-static int same_float(const void *a, const void *b)
+static size_t record_end(const struct setup_key *key, const struct triangle_layout *layout)
 {
-    float x, y;
-    memcpy(&x, a, sizeof x);
-    memcpy(&y, b, sizeof y);
-    return !memcmp(a, b, sizeof x) || (isnan(x) && isnan(y));
+    size_t end = sizeof(struct triangle_head);
+    if (key->depth)
+        end = layout->depth + sizeof(struct plane);
+    if (layout->smooth)
+        end = layout->reciprocal_w + sizeof(struct plane);
+    for (int v = 0; v < VARYING_COUNT; v++)
+        if (key->varying[v] != INTERPOLATION_NONE) {
+            size_t bytes = key->varying[v] == INTERPOLATION_SMOOTH ? sizeof(struct plane) : sizeof(float);
+            end = layout->varying[v] + varying_components[v] * bytes;
+        }
+    return end;
 }
 
-/* The first differing word of two float arrays, or -1. */
-static ptrdiff_t first_difference(const void *a, const void *b, size_t words)
+enum meaning { EXACT, ANY_NAN, OPEN };
+
+/* What the word at a byte of the outputs is to the unit. */
+static enum meaning meaning(const struct differential *d, enum unit unit, const union key *key, size_t at)
 {
-    for (size_t i = 0; i < words; i++)
-        if (!same_float((const char *)a + 4 * i, (const char *)b + 4 * i))
-            return (ptrdiff_t)i;
-    return -1;
+    size_t vertices = at - offsetof(struct outputs, vertices);
+    size_t records = at - offsetof(struct outputs, records);
+    if (unit == UNIT_VERTEX)
+        return vertices < sizeof d->initial.vertices && vertices / VERTEX_SLOT_BYTES != SLOT_CODE ? ANY_NAN
+                                                                                                  : EXACT;
+    if (unit != UNIT_SETUP || records >= (size_t)d->count * d->layout.stride)
+        return EXACT;
+    size_t within = records % d->layout.stride;
+    if (within < sizeof(struct triangle_head) || within >= record_end(&key->setup, &d->layout))
+        return EXACT;
+    struct triangle_head head;
+    memcpy(&head, d->result[0].records + records - within, sizeof head);
+    return head.visible ? ANY_NAN : OPEN;
 }
 
-static const char *report(struct differential *d, const struct engine *a, const struct engine *b,
-                          enum unit unit, const union key *key, const char *where, size_t at, const void *x,
-                          const void *y)
+static int is_nan(uint32_t bits)
 {
-    char text[KEY_TEXT_CAPACITY];
-    uint32_t left, right;
-    memcpy(&left, x, sizeof left);
-    memcpy(&right, y, sizeof right);
-    snprintf(d->message, sizeof d->message, "%s and %s differ in %s, word %zu: %08x and %08x; %s key: %s",
-             a->name, b->name, where, at, (unsigned)left, (unsigned)right, unit_name[unit],
-             key_print(unit, key, text));
-    return d->message;
+    return (bits & 0x7fffffff) > 0x7f800000;
 }
 
-static ptrdiff_t record_difference(const struct outputs *x, const struct outputs *y, size_t stride)
+/* Where a byte of the outputs is. */
+static const char *place(size_t at, size_t *word)
 {
-    for (size_t i = 0; i < RECORDS; i++) {
-        const uint8_t *left = x->records + i * stride, *right = y->records + i * stride;
-        int visible = ((const struct triangle_head *)(const void *)left)->visible;
-        size_t bytes = visible ? stride : sizeof(struct triangle_head);
-        ptrdiff_t at = first_difference(left, right, bytes / 4);
-        if (at >= 0)
-            return (ptrdiff_t)(i * stride / 4) + at;
-    }
-    return -1;
+    static const struct {
+        size_t start;
+        const char *name;
+    } parts[] = {{offsetof(struct outputs, behind), "the memory behind"},
+                 {offsetof(struct outputs, depth), "depth"},
+                 {offsetof(struct outputs, color), "colour"},
+                 {offsetof(struct outputs, records), "records"},
+                 {offsetof(struct outputs, vertices), "vertices"},
+                 {0, "the memory before"}};
+    size_t part = 0;
+    while (at < parts[part].start)
+        part++;
+    *word = (at - parts[part].start) / 4;
+    return parts[part].name;
 }
 
 static const char *compare(struct differential *d, const struct engine *a, const struct engine *b,
                            enum unit unit, const union key *key)
 {
-    struct outputs *x = &d->result[0], *y = &d->result[1];
-    if (unit == UNIT_VERTEX) {
-        ptrdiff_t at = first_difference(x->vertices, y->vertices, sizeof x->vertices / 4);
-        return at < 0
-                   ? NULL
-                   : report(d, a, b, unit, key, "vertices", (size_t)at, x->vertices + at, y->vertices + at);
-    }
-    if (unit == UNIT_SETUP) {
-        size_t stride = triangle_layout(key->setup.depth, key->setup.varying).stride;
-        ptrdiff_t at = record_difference(x, y, stride);
-        return at < 0 ? NULL
-                      : report(d, a, b, unit, key, "records", (size_t)at, x->records + 4 * at,
-                               y->records + 4 * at);
-    }
-    for (int i = 0; i < TILE_PIXELS; i++) {
-        if (x->color[i] != y->color[i])
-            return report(d, a, b, unit, key, "colour", (size_t)i, &x->color[i], &y->color[i]);
-        if (memcmp(&x->depth[i], &y->depth[i], 4))
-            return report(d, a, b, unit, key, "depth", (size_t)i, &x->depth[i], &y->depth[i]);
+    const uint8_t *x = (const uint8_t *)&d->result[0], *y = (const uint8_t *)&d->result[1];
+    if (!memcmp(x, y, sizeof d->result[0]))
+        return NULL;
+    for (size_t at = 0; at < sizeof d->result[0]; at += 4) {
+        uint32_t left, right;
+        memcpy(&left, x + at, sizeof left);
+        memcpy(&right, y + at, sizeof right);
+        enum meaning open = left == right ? OPEN : meaning(d, unit, key, at);
+        if (open == OPEN || (open == ANY_NAN && is_nan(left) && is_nan(right)))
+            continue;
+        char text[KEY_TEXT_CAPACITY];
+        size_t number;
+        const char *where = place(at, &number);
+        snprintf(d->message, sizeof d->message, "%s and %s differ in %s, word %zu: %08x and %08x; %s key: %s",
+                 a->name, b->name, where, number, (unsigned)left, (unsigned)right, unit_name[unit],
+                 key_print(unit, key, text));
+        return d->message;
     }
     return NULL;
 }
@@ -272,8 +476,24 @@ const char *differential_compare(struct differential *d, const struct engine *a,
             snprintf(d->message, sizeof d->message, "%s built nothing: %s", engines[i]->name, error.text);
             return d->message;
         }
-        run(d, routine, &d->result[i]);
+        int restored = run(d, routine, &d->result[i]);
         engines[i]->free(d->arena, routine);
+        if (!restored) {
+            snprintf(d->message, sizeof d->message, "%s does not restore MXCSR", engines[i]->name);
+            return d->message;
+        }
     }
     return compare(d, a, b, unit, key);
+}
+
+const char *differential_rounds(struct differential *d, const struct engine *a, const struct engine *b,
+                                enum unit unit, uint64_t seed, int rounds)
+{
+    const char *difference = NULL;
+    for (int i = 0; i < rounds && !difference; i++) {
+        union key key;
+        key_random(unit, &seed, &key);
+        difference = differential_compare(d, a, b, unit, &key, seed);
+    }
+    return difference;
 }

@@ -1,9 +1,14 @@
 /* Two engines, one unit and key, the same random inputs: are the outputs the same bytes?
  *
- * Inputs mix ordinary values with zeros of both signs, denormals, infinities and NaN, huge and degenerate
- * triangles, and textures of every shape. Compared are whole output buffers: vertex batches, triangle records
- * (planes of culled triangles have no meaning), tiles of colour and depth. Two NaN in a float slot count as
- * equal whatever their payload. */
+ * Inputs come in two moods: plausible, and wild, where any float may be a zero of either sign, a denormal, an
+ * infinity, a NaN, huge, or any bits at all. Both have degenerate triangles, zero vectors, lights at exactly
+ * their range, planes that meet the stored depth, textures of every shape, streams that start at any byte.
+ * Counts vary. Indices and lane tables are aligned to words only. Vertex data and textures end where
+ * unreadable memory begins.
+ *
+ * Compared are all bytes that a routine could write to, those behind and between its outputs included, except
+ * what the specification leaves open: which NaN a float of a vertex or plane is, and the planes of triangles
+ * that setup found invisible. Routines are entered with a foreign MXCSR, and must leave it. */
 #ifndef TESTS_DIFFERENTIAL_H
 #define TESTS_DIFFERENTIAL_H
 
@@ -11,6 +16,7 @@
 
 struct differential;
 
+/* Null when memory is refused. */
 struct differential *differential_create(struct code_arena *arena);
 void differential_destroy(struct differential *differential);
 
@@ -18,5 +24,9 @@ void differential_destroy(struct differential *differential);
  * next call) with the key, the place and both values. */
 const char *differential_compare(struct differential *differential, const struct engine *a,
                                  const struct engine *b, enum unit unit, const union key *key, uint64_t seed);
+
+/* The same for `rounds` random keys, normalised or not, and inputs: the first disagreement, or null. */
+const char *differential_rounds(struct differential *differential, const struct engine *a,
+                                const struct engine *b, enum unit unit, uint64_t seed, int rounds);
 
 #endif
