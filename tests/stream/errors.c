@@ -270,6 +270,15 @@ static void limits_hold(void)
                  &(struct bad){"", "65539:1", "found one more frame, expected at most 65536"});
 }
 
+static void a_line_of_the_limit_is_read(void)
+{
+    struct stream *stream;
+    char *text = repeat("triptych 1\nset lighting false\n#", " ", LIMIT_LINE_BYTES - 1, "\n");
+    TEST_ASSERT_EQUAL_INT_MESSAGE(0, stream_parse("a", text, strlen(text), &stream, &error), error.text);
+    stream_free(stream);
+    free(text);
+}
+
 /* Eight sequences, each playing the one before `plays` times. */
 static char *nest(int sequences, int plays)
 {
@@ -307,6 +316,7 @@ int main(void)
     RUN_TEST(a_zero_byte_is_no_text);
     RUN_TEST(long_words_are_shown_cut_and_long_paths_from_their_end);
     RUN_TEST(limits_hold);
+    RUN_TEST(a_line_of_the_limit_is_read);
     RUN_TEST(sequences_cannot_explode);
     return UNITY_END();
 }
