@@ -59,6 +59,8 @@ int bench_run_repeat(const struct command *self, unsigned frames, struct bench_r
         per(after.vertex_ns - before.vertex_ns, after.vertices_shaded - before.vertices_shaded);
     run->samples[MEASURE_PIXEL_NS][at] =
         per(after.pixel_ns - before.pixel_ns, after.pixels_shaded - before.pixels_shaded);
+    run->hits += after.cache_hits - before.cache_hits;
+    run->misses += after.cache_misses - before.cache_misses;
     return STATUS_OK;
 }
 
@@ -121,15 +123,12 @@ static void summarize_measure(struct bench_run *run, enum measure measure, enum 
 
 int bench_run_finish(const struct command *self, struct bench_run *run)
 {
-    struct triptych_statistics statistics;
-    triptych_get_statistics(run->session.device, &statistics);
     if (read_builds(self, run) || summarize_builds(self, run))
         return STATUS_BAD;
     session_close(&run->session);
 
     run->value[COLUMN_repetitions] = run->repetitions;
-    run->value[COLUMN_hit_rate] =
-        100 * per(statistics.cache_hits, statistics.cache_hits + statistics.cache_misses);
+    run->value[COLUMN_hit_rate] = 100 * per(run->hits, run->hits + run->misses);
     summarize_measure(run, MEASURE_FRAME_MS, COLUMN_frame_ms);
     summarize_measure(run, MEASURE_VERTEX_NS, COLUMN_vertex_ns);
     summarize_measure(run, MEASURE_PIXEL_NS, COLUMN_pixel_ns);

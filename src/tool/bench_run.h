@@ -29,6 +29,7 @@ struct bench_run {
     unsigned repetitions;
     double *samples[MEASURE_COUNT]; /* REPETITIONS_MAXIMUM each, in order of time */
     double spent, last;             /* seconds: all measured repetitions, the last one */
+    uint64_t hits, misses;          /* of the routine cache, in all measured repetitions */
     double value[COLUMN_COUNT];     /* when finished */
     size_t build_count;
     struct build *builds; /* when finished */

@@ -24,14 +24,16 @@ static int dump_jit(const struct engine *engine, struct code_arena *arena, enum 
                     const union key *key, const char *show, struct error *error)
 {
     (void)arena;
-    return jit_dump(engine, unit, key, show, stdout, error);
+    return jit_dump(engine, unit, key, show ? show : "key,asm", stdout, error);
 }
 
-/* A stitched routine has one stage to show: what it is joined from. */
+/* A stitched routine has nothing to choose from: what it is joined from is shown. */
 static int dump_stitch(const struct engine *engine, struct code_arena *arena, enum unit unit,
                        const union key *key, const char *show, struct error *error)
 {
-    (void)show;
+    if (show)
+        return error_set(error, "--show is \"%s\", expected none: a routine of %s has no stages", show,
+                         engine->name);
     return stitch_dump(arena, engine, unit, key, stdout, error);
 }
 
@@ -181,7 +183,7 @@ static const char notes[] = "Stages of specialize: key, record (the operations a
 
 int command_dump(const struct command *self, int count, char **arguments)
 {
-    struct settings settings = {.engine = "specialize", .unit = "pixel", .show = "key,asm"};
+    struct settings settings = {.engine = "specialize", .unit = "pixel"};
     const struct option options[] = {
         {"draw", "N", "which draw of the frame, from 0; 0", OPTION_NUMBER, &settings.draw, 0, NUMBER_MAXIMUM},
         {"frame", "N", "which frame, from 0; 0", OPTION_NUMBER, &settings.frame, 0, NUMBER_MAXIMUM},

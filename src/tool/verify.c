@@ -78,6 +78,10 @@ static int open_all(const struct command *self, const struct stream *stream, con
                                    verification->others + verification->count++))
                 return STATUS_BAD;
         }
+    if (!verification->count)
+        return fail(self,
+                    "%s with 1 thread is the reference itself, expected another engine or number of threads",
+                    reference_engine);
     return STATUS_OK;
 }
 
