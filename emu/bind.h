@@ -1,5 +1,6 @@
-/* The emulator's binding: a value is four lanes, an operation computes them at once, and every host decision on the
- * state is taken again for every group of four. Nothing here knows the key; nothing is slowed down on purpose. */
+/* The emulator's binding: a value is four lanes, an operation computes them at once, and every host decision
+ * on the state is taken again for every group of four. Nothing here knows the key; nothing is slowed down on
+ * purpose. */
 #ifndef EMU_BIND_H
 #define EMU_BIND_H
 
@@ -28,14 +29,14 @@ struct env {
 #define E e
 
 /* Loop bodies of def/op.def's rows: per lane for the 32-bit types, per half for pairs. */
-#define LANES_flt for (int i = 0; i < EMULATE_WIDTH; i++)
-#define LANES_itg for (int i = 0; i < EMULATE_WIDTH; i++)
-#define LANES_msk for (int i = 0; i < EMULATE_WIDTH; i++)
-#define LANES_fix for (int i = 0; i < 2 * EMULATE_WIDTH; i++)
-#define PUT_flt   lane
-#define PUT_itg   lane
-#define PUT_msk   lane
-#define PUT_fix   half
+#define LANES_flt       for (int i = 0; i < EMULATE_WIDTH; i++)
+#define LANES_itg       for (int i = 0; i < EMULATE_WIDTH; i++)
+#define LANES_msk       for (int i = 0; i < EMULATE_WIDTH; i++)
+#define LANES_fix       for (int i = 0; i < 2 * EMULATE_WIDTH; i++)
+#define PUT_flt         lane
+#define PUT_itg         lane
+#define PUT_msk         lane
+#define PUT_fix         half
 #define ARGUMENT_flt(n) , flt n##_
 #define ARGUMENT_itg(n) , itg n##_
 #define ARGUMENT_msk(n) , msk n##_
@@ -156,7 +157,8 @@ static inline itg uniform_i(struct env *e, enum base base, int offset)
     return lit_i(e, value);
 }
 
-/* Lane address: start + index * scale + displacement, start being the pointer at base + field, or the base. */
+/* Lane address: start + index * scale + displacement, start being the pointer at base + field, or the base.
+ */
 static inline const uint8_t *gather_start(struct env *e, enum base base, int field)
 {
     if (field == GATHER_DIRECT)

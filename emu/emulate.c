@@ -1,7 +1,8 @@
 /* The naive emulator's engine: the spec under the lane binding, and the three loops around it.
  *
- * "Building" a routine stores the key; every call decides every state again for every four elements, which is what
- * the thesis calls emulation by switch (section 2.4.1). The compiler cannot specialise: keys arrive at run time. */
+ * "Building" a routine stores the key; every call decides every state again for every four elements, which is
+ * what the thesis calls emulation by switch (section 2.4.1). The compiler cannot specialise: keys arrive at
+ * run time. */
 #include "emu/emulate.h"
 
 #include "base/mxcsr.h"
@@ -73,7 +74,8 @@ static const char *unavailable(void)
     return NULL;
 }
 
-static struct routine *build(struct code_arena *arena, enum unit unit, const union key *key, struct error *error)
+static struct routine *build(struct code_arena *arena, enum unit unit, const union key *key,
+                             struct error *error)
 {
     static routine_function *const run[UNIT_COUNT] = {emulate_vertex, emulate_setup, emulate_pixel};
     (void)arena;

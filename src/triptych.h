@@ -1,14 +1,15 @@
 /* Triptych: a software renderer of the Direct3D 9 class whose pipeline runs on interchangeable engines.
  *
- * A device records state and draws, and renders them with the engine it was created with. Every engine gives the
- * same bytes. Calls on one device are made by one thread at a time; rendering itself uses the device's threads.
+ * A device records state and draws, and renders them with the engine it was created with. Every engine gives
+ * the same bytes. Calls on one device are made by one thread at a time; rendering itself uses the device's
+ * threads.
  *
- * Conventions: row vectors (p' = p * M, matrices are m[row][column]); clip depth 0 to w; window y down, pixel centres
- * at half-integers, top-left fill rule; colours are red, green, blue, alpha from 0 to 1, or packed 0xAARRGGBB where
- * said; images are rows from the top of RGBA8 words, red in the lowest byte.
+ * Conventions: row vectors (p' = p * M, matrices are m[row][column]); clip depth 0 to w; window y down, pixel
+ * centres at half-integers, top-left fill rule; colours are red, green, blue, alpha from 0 to 1, or packed
+ * 0xAARRGGBB where said; images are rows from the top of RGBA8 words, red in the lowest byte.
  *
- * Errors: a call that fails returns something else than TRIPTYCH_OK, changes nothing, and triptych_error() gives one
- * line that says what was wrong and what was expected. */
+ * Errors: a call that fails returns something else than TRIPTYCH_OK, changes nothing, and triptych_error()
+ * gives one line that says what was wrong and what was expected. */
 #ifndef TRIPTYCH_H
 #define TRIPTYCH_H
 
@@ -29,11 +30,11 @@ extern "C" {
 
 enum triptych_result {
     TRIPTYCH_OK = 0,
-    TRIPTYCH_BAD_ARGUMENT,  /* out of range, not finite, unknown */
-    TRIPTYCH_BAD_CALL,      /* not possible in this state: no target, index past the buffer, ... */
-    TRIPTYCH_UNSUPPORTED,   /* a state or value that Direct3D 9 has and this version does not */
+    TRIPTYCH_BAD_ARGUMENT, /* out of range, not finite, unknown */
+    TRIPTYCH_BAD_CALL,     /* not possible in this state: no target, index past the buffer, ... */
+    TRIPTYCH_UNSUPPORTED,  /* a state or value that Direct3D 9 has and this version does not */
     TRIPTYCH_NO_MEMORY,
-    TRIPTYCH_ENGINE_FAILED  /* the engine cannot run here or could not build a routine */
+    TRIPTYCH_ENGINE_FAILED /* the engine cannot run here or could not build a routine */
 };
 
 typedef struct triptych_device triptych_device;
@@ -79,9 +80,9 @@ enum triptych_light_type { TRIPTYCH_LIGHT_DIRECTIONAL, TRIPTYCH_LIGHT_POINT };
 enum { TRIPTYCH_LIGHTS = 8, TRIPTYCH_TARGET_MAXIMUM = 8192, TRIPTYCH_TEXTURE_MAXIMUM = 8192 };
 
 struct triptych_options {
-    const char *engine;   /* name as listed by triptych_engine_name(); null: "specialize" */
-    unsigned threads;     /* rendering threads, the caller's included; 0: as many as the process may run on */
-    size_t cache_bytes;   /* budget of the routine cache's code; 0: 16 MiB */
+    const char *engine; /* name as listed by triptych_engine_name(); null: "specialize" */
+    unsigned threads;   /* rendering threads, the caller's included; 0: as many as the process may run on */
+    size_t cache_bytes; /* budget of the routine cache's code; 0: 16 MiB */
 };
 
 /* Where an attribute lies within a vertex of its buffer. */
@@ -103,8 +104,8 @@ struct triptych_material {
     float emissive[4];
 };
 
-/* World space. `direction` is the way the light travels (directional); `position`, `range` and `attenuation` are a
- * point light's. */
+/* World space. `direction` is the way the light travels (directional); `position`, `range` and `attenuation`
+ * are a point light's. */
 struct triptych_light {
     enum triptych_light_type type;
     float diffuse[4];
@@ -115,26 +116,32 @@ struct triptych_light {
     float attenuation[3];
 };
 
-/* Counters since the device was created. Times are of the process's monotonic clock. */
+/* Counters since the device was created. Draws, their triangles and the cache count when a draw is recorded,
+ * all else when it is rendered. */
 struct triptych_statistics {
-    uint64_t draws, triangles, vertices_shaded, triangles_set_up, triangles_visible, pixels_shaded;
-    uint64_t cache_hits, cache_misses, cache_evictions;
-    uint64_t vertex_ns, pixel_ns; /* summed over threads: geometry phase (vertex, clip, setup, bin), tile phase */
+    uint64_t draws, triangles;
+    uint64_t vertices_shaded, triangles_set_up, triangles_visible;
+    uint64_t pixels_shaded; /* pixels that triangles covered, hidden ones included */
+    uint64_t cache_hits, cache_misses, cache_evictions; /* of vertex, setup and pixel routines */
+    /* Monotonic clock, summed over threads. */
+    uint64_t vertex_ns; /* geometry phase: vertex, clip, setup, bin */
+    uint64_t pixel_ns;  /* tile phase: rasterize, pixel */
 };
 
 /* A routine the device has built, as triptych_routine() reports it. Strings live until the next call. */
 struct triptych_routine_info {
-    uint32_t number;      /* identity in dumps, from 1 */
-    const char *unit;     /* "vertex", "setup", "pixel" */
-    const char *key;      /* key text */
+    uint32_t number;  /* identity in dumps, from 1 */
+    const char *unit; /* "vertex", "setup", "pixel" */
+    const char *key;  /* key text */
     uint64_t build_ns;
     uint64_t hits;
     uint32_t code_bytes;
-    uint32_t parts;       /* instructions or fragments */
+    uint32_t parts; /* instructions or fragments */
     uint32_t spills;
 };
 
-/* Creates a device. On failure *device is null and the reason is in `reason` (of `size` bytes, may be null). */
+/* Creates a device. On failure *device is null and the reason is in `reason` (of `size` bytes, may be null).
+ */
 TRIPTYCH_API enum triptych_result triptych_device_create(const struct triptych_options *options,
                                                          triptych_device **device, char *reason, size_t size);
 /* Frees the device and everything made with it. Null is allowed. */
@@ -142,14 +149,15 @@ TRIPTYCH_API void triptych_device_destroy(triptych_device *device);
 /* The reason of the last failed call; an empty string when none failed. */
 TRIPTYCH_API const char *triptych_error(const triptych_device *device);
 
-/* The i-th engine's name, description, lanes and why it cannot run here (null: it can); null past the last. */
+/* The i-th engine's name, description, lanes and why it cannot run here (null: it can); null past the last.
+ */
 TRIPTYCH_API const char *triptych_engine_name(unsigned i);
 TRIPTYCH_API const char *triptych_engine_description(unsigned i);
 TRIPTYCH_API unsigned triptych_engine_width(unsigned i);
 TRIPTYCH_API const char *triptych_engine_unavailable(unsigned i);
 
-/* The render target, colour RGBA8 and depth binary32, 1 to 8192 pixels a side; contents start as zero and depth 1.
- * Sets the viewport to the whole target with depth 0 to 1. */
+/* The render target, colour RGBA8 and depth binary32, 1 to 8192 pixels a side; contents start as zero and
+ * depth 1. Sets the viewport to the whole target with depth 0 to 1. */
 TRIPTYCH_API enum triptych_result triptych_set_target(triptych_device *, unsigned width, unsigned height);
 
 /* Copies `bytes` (1 to 2^31 - 1) of data; the contents never change. */
@@ -178,8 +186,8 @@ TRIPTYCH_API enum triptych_result triptych_set_indices(triptych_device *, tripty
 TRIPTYCH_API enum triptych_result triptych_draw(triptych_device *, enum triptych_primitive, uint32_t first,
                                                 uint32_t count);
 /* Draws `count` primitives whose vertices are base + indices from `first` on. */
-TRIPTYCH_API enum triptych_result triptych_draw_indexed(triptych_device *, enum triptych_primitive, int32_t base,
-                                                        uint32_t first, uint32_t count);
+TRIPTYCH_API enum triptych_result triptych_draw_indexed(triptych_device *, enum triptych_primitive,
+                                                        int32_t base, uint32_t first, uint32_t count);
 
 /* Clears the viewport's pixels: colour (unless null) and depth (0 to 1, unless negative). */
 TRIPTYCH_API enum triptych_result triptych_clear(triptych_device *, const float color[4], float depth);

@@ -1,7 +1,7 @@
 /* How a failure travels: one line of text in a caller's buffer, and a result that says what kind it is.
  *
- * Library functions return `enum triptych_result` (triptych.h) and write the reason with `error_set`. The line
- * says what was found, where, and what was expected; it carries no trailing newline and no program name.
+ * Library functions return `enum triptych_result` (triptych.h) and write the reason with `error_set`. The
+ * line says what was found, where, and what was expected; it carries no trailing newline and no program name.
  * Only the command prints it and chooses the exit status. */
 #ifndef BASE_ERROR_H
 #define BASE_ERROR_H
@@ -13,8 +13,8 @@ struct error {
 };
 
 /* Writes the formatted reason (truncated to ERROR_CAPACITY - 1 bytes); a null `error` is allowed and ignored.
- * The first reason wins: a later call keeps the text already there. Returns -1, so that `return error_set(...)`
- * reads well in functions whose success is 0. */
+ * The first reason wins: a later call keeps the text already there. Returns -1, so that `return
+ * error_set(...)` reads well in functions whose success is 0. */
 int error_set(struct error *error, const char *format, ...) __attribute__((format(printf, 2, 3)));
 
 /* Forgets the reason. */

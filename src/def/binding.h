@@ -1,4 +1,5 @@
-/* What every binding of the staged language shares: the names of the bases and the headers that the spec reads. */
+/* What every binding of the staged language shares: the names of the bases and the headers that the spec
+ * reads. */
 #ifndef DEF_BINDING_H
 #define DEF_BINDING_H
 

@@ -3,15 +3,16 @@
  * All three kinds of routine are loops around a kernel W lanes wide; every layout is the same for every W and
  * every engine, so that engines can be swapped between any two calls.
  *
- * Vertex batch (structure of arrays): slot s of vertex i is the word s * VERTEX_CAPACITY + i. Slots are clip-space
- * position x y z w, the clip code, then the varyings' components in the order of def/varying.def.
+ * Vertex batch (structure of arrays): slot s of vertex i is the word s * VERTEX_CAPACITY + i. Slots are
+ * clip-space position x y z w, the clip code, then the varyings' components in the order of def/varying.def.
  *
- * Triangle record (array of structures): struct triangle_head, then one `struct plane` for depth if it is read, one
- * for 1/w if any varying is smooth, then per component of each varying read: a plane if smooth, one word if flat.
- * The offsets follow from the key alone: triangle_layout() below, used by setup and pixel alike.
+ * Triangle record (array of structures): struct triangle_head, then one `struct plane` for depth if it is
+ * read, one for 1/w if any varying is smooth, then per component of each varying read: a plane if smooth, one
+ * word if flat. The offsets follow from the key alone: triangle_layout() below, used by setup and pixel
+ * alike.
  *
- * Tile: TILE_SIZE x TILE_SIZE pixels as 4x4 blocks in row order, 16 words each in quad order: lane l of a block is
- * pixel x = (l & 1) + 2 * (l >> 2 & 1), y = (l >> 1 & 1) + 2 * (l >> 3 & 1).
+ * Tile: TILE_SIZE x TILE_SIZE pixels as 4x4 blocks in row order, 16 words each in quad order: lane l of a
+ * block is pixel x = (l & 1) + 2 * (l >> 2 & 1), y = (l >> 1 & 1) + 2 * (l >> 3 & 1).
  *
  *      0  1 |  4  5
  *      2  3 |  6  7
@@ -26,10 +27,10 @@
 #include <stdalign.h>
 
 enum {
-    LANES_MAXIMUM = 16,           /* counts of lanes in calls are padded to this, so that every W divides them */
-    VERTEX_CAPACITY = 256,        /* lanes of a vertex batch, clipper's room included */
+    LANES_MAXIMUM = 16,    /* counts of lanes in calls are padded to this, so that every W divides them */
+    VERTEX_CAPACITY = 256, /* lanes of a vertex batch, clipper's room included */
     VERTEX_SLOT_BYTES = VERTEX_CAPACITY * 4,
-    SETUP_CAPACITY = 256,         /* triangles of one setup call */
+    SETUP_CAPACITY = 256, /* triangles of one setup call */
     SETUP_INDEX_BYTES = SETUP_CAPACITY * 4,
     TILE_SIZE = 64,
     TILE_PIXELS = TILE_SIZE * TILE_SIZE,
@@ -46,27 +47,27 @@ enum vertex_slot {
     SLOT_Z,
     SLOT_W,
     SLOT_CODE,
-#define VARYING(name, components, text) SLOT_##name, SLOT_##name##_last = SLOT_##name + (components) - 1,
+#define VARYING(name, components, text) SLOT_##name, SLOT_##name##_last = SLOT_##name + (components)-1,
 #include "def/varying.def"
 #undef VARYING
     SLOT_COUNT
 };
 
-/* Bits of the clip code, set when the vertex is outside. A triangle is dropped when all three share a CLIP_FRUSTUM
- * bit or any has CLIP_INVALID; it needs the clipper when any has a CLIP_NEEDED bit. */
+/* Bits of the clip code, set when the vertex is outside. A triangle is dropped when all three share a
+ * CLIP_FRUSTUM bit or any has CLIP_INVALID; it needs the clipper when any has a CLIP_NEEDED bit. */
 enum clip_bit {
-    CLIP_LEFT = 1,          /* x < -w */
-    CLIP_RIGHT = 2,         /* x > w */
-    CLIP_BOTTOM = 4,        /* y < -w */
-    CLIP_TOP = 8,           /* y > w */
-    CLIP_NEAR = 16,         /* z < 0 */
-    CLIP_FAR = 32,          /* z > w */
-    CLIP_EYE = 64,          /* w < CLIP_EYE_W */
-    CLIP_GUARD_LEFT = 128,  /* x < -guard_x * w */
+    CLIP_LEFT = 1,         /* x < -w */
+    CLIP_RIGHT = 2,        /* x > w */
+    CLIP_BOTTOM = 4,       /* y < -w */
+    CLIP_TOP = 8,          /* y > w */
+    CLIP_NEAR = 16,        /* z < 0 */
+    CLIP_FAR = 32,         /* z > w */
+    CLIP_EYE = 64,         /* w < CLIP_EYE_W */
+    CLIP_GUARD_LEFT = 128, /* x < -guard_x * w */
     CLIP_GUARD_RIGHT = 256,
     CLIP_GUARD_BOTTOM = 512,
     CLIP_GUARD_TOP = 1024,
-    CLIP_INVALID = 2048,    /* a coordinate is infinite or not a number */
+    CLIP_INVALID = 2048, /* a coordinate is infinite or not a number */
     CLIP_FRUSTUM = 127,
     CLIP_NEEDED = CLIP_NEAR | CLIP_FAR | CLIP_EYE | CLIP_GUARD_LEFT | CLIP_GUARD_RIGHT | CLIP_GUARD_BOTTOM |
                   CLIP_GUARD_TOP
@@ -74,11 +75,13 @@ enum clip_bit {
 
 #define CLIP_EYE_W 0x1p-40f /* vertices nearer to the eye plane are clipped: 1/w stays finite */
 
-/* Window positions are clamped to this many 1/256 pixels either way: beyond the guard band, within 32-bit edges. */
+/* Window positions are clamped to this many 1/256 pixels either way: beyond the guard band, within 32-bit
+ * edges. */
 #define WINDOW_LIMIT 4194303.0f
 
-/* The rasterizer's part of a triangle record, written by setup. Window positions in 1/256 pixel, y down, ordered so
- * that the area is positive (clockwise on the screen): interior points have all three edge functions positive. */
+/* The rasterizer's part of a triangle record, written by setup. Window positions in 1/256 pixel, y down,
+ * ordered so that the area is positive (clockwise on the screen): interior points have all three edge
+ * functions positive. */
 struct triangle_head {
     int32_t visible; /* -1, or 0: culled or without area */
     int32_t x[3];
@@ -104,10 +107,10 @@ struct triangle_layout {
 
 /* One 4x4 block of one triangle for the pixel routine: 16 bytes. */
 struct entry {
-    float x, y;         /* window position of the block's upper left corner in pixels */
-    uint16_t coverage;  /* bit l: lane l is inside; never 0 */
-    uint16_t block;     /* block number in the tile, 0 to 255 */
-    uint32_t triangle;  /* byte offset of the record from pixel_call.triangles */
+    float x, y;        /* window position of the block's upper left corner in pixels */
+    uint16_t coverage; /* bit l: lane l is inside; never 0 */
+    uint16_t block;    /* block number in the tile, 0 to 255 */
+    uint32_t triangle; /* byte offset of the record from pixel_call.triangles */
 };
 
 /* Per-lane constants of the pixel routine, for 16 lanes in quad order; a chunk of W lanes starts at c * W. */
@@ -119,7 +122,8 @@ struct lane_table {
 
 extern const struct lane_table lane_table;
 
-/* For each lane i < count (a multiple of 16, at most VERTEX_CAPACITY): shades vertex index[i] into lane i of out. */
+/* For each lane i < count (a multiple of 16, at most VERTEX_CAPACITY): shades vertex index[i] into lane i of
+ * out. */
 struct vertex_call {
     const struct job *job;
     const uint32_t *index;
@@ -127,8 +131,9 @@ struct vertex_call {
     uint32_t count;
 };
 
-/* For each lane i < count (a multiple of 16, at most SETUP_CAPACITY): the triangle of batch vertices index[0][i],
- * index[1][i], index[2][i], as *byte* offsets of their lanes (4 * lane), into record i of out. */
+/* For each lane i < count (a multiple of 16, at most SETUP_CAPACITY): the triangle of batch vertices
+ * index[0][i], index[1][i], index[2][i], as *byte* offsets of their lanes (4 * lane), into record i of out.
+ */
 struct setup_call {
     const struct job *job;
     const uint32_t *index; /* three rows of SETUP_CAPACITY words */

@@ -1,6 +1,7 @@
 /* The whole interface between the renderer and an engine: build a routine for a unit and a key; free it.
  *
- * Engines know nothing of the renderer but this file, key.h, job.h and call.h; they never include one another. */
+ * Engines know nothing of the renderer but this file, key.h, job.h and call.h; they never include one
+ * another. */
 #ifndef DRAW_ENGINE_H
 #define DRAW_ENGINE_H
 
@@ -11,8 +12,8 @@
 struct routine;
 struct code_arena; /* base/code.h */
 
-/* `call` is the unit's call structure. Routines may run on many threads at once; they set FTZ and DAZ with all
- * exceptions masked and round to nearest on entry, and restore the caller's MXCSR. */
+/* `call` is the unit's call structure. Routines may run on many threads at once; they set FTZ and DAZ with
+ * all exceptions masked and round to nearest on entry, and restore the caller's MXCSR. */
 typedef void routine_function(const void *call, const struct routine *routine);
 
 /* A built routine. The engine that built it fills all but the cache's fields. */
@@ -21,14 +22,14 @@ struct routine {
     const struct engine *engine;
     enum unit unit;
     union key key;
-    const void *code;        /* executable bytes, null when the engine generates none */
+    const void *code; /* executable bytes, null when the engine generates none */
     uint32_t code_bytes;
     uint32_t constant_bytes; /* of code_bytes, how many are data behind the code */
     uint32_t parts;          /* instructions emitted (specialize), fragments joined (stitch) */
     uint32_t spills;
-    uint64_t build_ns;       /* set by the cache around build() */
-    uint32_t number;         /* identity in dumps and reports, from 1, set by the cache */
-    uint64_t hits;           /* set by the cache */
+    uint64_t build_ns; /* set by the cache around build() */
+    uint32_t number;   /* identity in dumps and reports, from 1, set by the cache */
+    uint64_t hits;     /* set by the cache */
 };
 
 struct engine {
@@ -40,9 +41,10 @@ struct engine {
     /* Null when the engine can run here, else one line that says why not. */
     const char *(*unavailable)(void);
 
-    /* Builds the routine for a normalised key; null with the reason in error. `arena` is where code lives; an engine
-     * without generated code ignores it. Thread-safe. */
-    struct routine *(*build)(struct code_arena *arena, enum unit unit, const union key *key, struct error *error);
+    /* Builds the routine for a normalised key; null with the reason in error. `arena` is where code lives; an
+     * engine without generated code ignores it. Thread-safe. */
+    struct routine *(*build)(struct code_arena *arena, enum unit unit, const union key *key,
+                             struct error *error);
 
     /* Frees a routine that no thread runs. */
     void (*free)(struct code_arena *arena, struct routine *routine);

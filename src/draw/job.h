@@ -1,8 +1,10 @@
-/* The job: the values that a draw's routines read at run time, derived from the state when the draw is recorded.
+/* The job: the values that a draw's routines read at run time, derived from the state when the draw is
+ * recorded.
  *
  * Generated code addresses its fields by offset from one register, so the structure is plain words; whatever
- * would change the code itself is in the key instead. Vectors are rows, as in Direct3D 9: p' = p * M, matrices
- * are m[row][column]. Camera space is left after world * view. Colours are 0 to 1, unclamped where they may be. */
+ * would change the code itself is in the key instead. Vectors are rows, as in Direct3D 9: p' = p * M,
+ * matrices are m[row][column]. Camera space is left after world * view. Colours are 0 to 1, unclamped where
+ * they may be. */
 #ifndef DRAW_JOB_H
 #define DRAW_JOB_H
 
@@ -10,15 +12,16 @@
 
 #include <stdint.h>
 
-/* Where vertex i's attribute begins: data + i * stride. `data` includes the stream's and the element's offsets. */
+/* Where vertex i's attribute begins: data + i * stride. `data` includes the stream's and the element's
+ * offsets. */
 struct attribute_job {
     const uint8_t *data;
     int32_t stride; /* bytes */
     int32_t reserved;
 };
 
-/* A light, multiplied by the material. Directional: `direction` points to the light, unit length, camera space,
- * and its ambient part is in base_color. Point: `position` in camera space. */
+/* A light, multiplied by the material. Directional: `direction` points to the light, unit length, camera
+ * space, and its ambient part is in base_color. Point: `position` in camera space. */
 struct light_job {
     float position[3]; /* or direction */
     float range;       /* beyond it a point light is off */
@@ -47,13 +50,15 @@ struct job {
     float world_view[4][4];
     float normal[3][4]; /* inverse transpose of world * view, 3x3; the fourth column is unused */
 
-    float base_color[4]; /* emissive + material ambient * (scene ambient + directional ambients); w: material alpha */
+    float base_color[4]; /* emissive + material ambient * (scene ambient + directional ambients); w: material
+                            alpha */
     struct light_job light[LIGHT_COUNT];
 
     /* Guard band: |x| <= guard_x * w keeps projected vertices within +-16383 pixels. */
     float guard_x, guard_y;
 
-    /* Viewport: window position in 1/256 pixel = ndc * scale + offset; depth = ndc z * depth_scale + depth_offset. */
+    /* Viewport: window position in 1/256 pixel = ndc * scale + offset; depth = ndc z * depth_scale +
+     * depth_offset. */
     float scale_x, offset_x;
     float scale_y, offset_y;
     float depth_scale, depth_offset;

@@ -30,13 +30,15 @@ static const uint8_t field_count[UNIT_COUNT] = {
 #undef KEY_setup
 #define KEY_vertex 0
 #define KEY_setup  1
-    , [UNIT_SETUP] = 0
+    ,
+    [UNIT_SETUP] = 0
 #include "def/key.def"
 #undef KEY_setup
 #undef KEY_pixel
 #define KEY_setup 0
 #define KEY_pixel 1
-    , [UNIT_PIXEL] = 0
+    ,
+    [UNIT_PIXEL] = 0
 #include "def/key.def"
 #undef KEY_vertex
 #undef KEY_setup
@@ -54,7 +56,8 @@ const struct key_field *key_fields(enum unit unit, size_t *count)
     return all_fields + first;
 }
 
-/* Walks the digits of a unit's key; the place value grows until a digit would no longer fit the 64-bit word. */
+/* Walks the digits of a unit's key; the place value grows until a digit would no longer fit the 64-bit word.
+ */
 struct digits {
     unsigned word;
     uint64_t place;

@@ -1,9 +1,9 @@
 /* Keys: the part of the state that generated code depends on, one structure per unit, and their packed form.
  *
- * The fields are the rows of def/key.def, each a small integer. Packing is mixed radix (thesis, section 3.6): the
- * fields in table order are the digits of one big number, least significant first, kept in 64-bit words so that
- * no digit straddles two words. Two keys are equal exactly when their packed forms are equal byte for byte.
- * Nothing that is a pointer or data is ever in a key. */
+ * The fields are the rows of def/key.def, each a small integer. Packing is mixed radix (thesis, section 3.6):
+ * the fields in table order are the digits of one big number, least significant first, kept in 64-bit words
+ * so that no digit straddles two words. Two keys are equal exactly when their packed forms are equal byte for
+ * byte. Nothing that is a pointer or data is ever in a key. */
 #ifndef DRAW_KEY_H
 #define DRAW_KEY_H
 
@@ -12,7 +12,13 @@
 
 enum unit { UNIT_VERTEX, UNIT_SETUP, UNIT_PIXEL, UNIT_COUNT };
 
-enum attribute { ATTRIBUTE_POSITION, ATTRIBUTE_NORMAL, ATTRIBUTE_DIFFUSE, ATTRIBUTE_TEXCOORD, ATTRIBUTE_COUNT };
+enum attribute {
+    ATTRIBUTE_POSITION,
+    ATTRIBUTE_NORMAL,
+    ATTRIBUTE_DIFFUSE,
+    ATTRIBUTE_TEXCOORD,
+    ATTRIBUTE_COUNT
+};
 
 /* How an attribute lies in memory. COLOR is a packed 0xAARRGGBB. Missing components read as (0, 0, 0, 1). */
 enum attribute_format {
@@ -63,7 +69,7 @@ enum stage { STAGE_DIFFUSE, STAGE_REPLACE, STAGE_MODULATE, STAGE_ADD, STAGE_COUN
 enum blend { BLEND_COPY, BLEND_OVER, BLEND_PREMULTIPLIED, BLEND_SOURCE, BLEND_COUNT };
 
 struct vertex_key {
-#define KEY_vertex(field, count)  uint8_t field count;
+#define KEY_vertex(field, count) uint8_t field count;
 #define KEY_setup(field, count)
 #define KEY_pixel(field, count)
 #define KEY(unit, field, radix, meaning)         KEY_##unit(field, )
@@ -126,7 +132,8 @@ void key_unpack(enum unit unit, const struct packed_key *packed, union key *key)
 /* 64-bit hash of the unit and the packed words (xxHash). */
 uint64_t key_hash(enum unit unit, const struct packed_key *packed);
 
-/* Writes `field=value field=v,v,v ...`, fields that are zero left out ("default" when all are), and returns text. */
+/* Writes `field=value field=v,v,v ...`, fields that are zero left out ("default" when all are), and returns
+ * text. */
 char *key_print(enum unit unit, const union key *key, char text[KEY_TEXT_CAPACITY]);
 
 /* Reads what key_print writes. Returns 0, or -1 with *where at the offending character. */

@@ -3,8 +3,8 @@
  *
  * Groups of 4x4 blocks are accepted or rejected by the pixels where an edge function is smallest or largest.
  * The blocks of the groups in between are not: asking all 16 pixels of a block costs no more than asking its
- * corners, and spares a branch that cannot be predicted. Bounds of few blocks skip the groups as well, and small
- * triangles have a way of their own with 16-bit edges.
+ * corners, and spares a branch that cannot be predicted. Bounds of few blocks skip the groups as well, and
+ * small triangles have a way of their own with 16-bit edges.
  *
  * Edge function of the edge from vertex p to vertex q, in 1/65536 square pixels, positive inside:
  *   E(x, y) = (q.x - p.x) * (y - p.y) - (q.y - p.y) * (x - p.x)

@@ -24,8 +24,8 @@ struct raster {
     struct rectangle bounds; /* pixels: the bounding box of the centres inside, cut to the scissor */
 };
 
-/* The bounding box of the centres that a visible triangle may cover, cut to the rectangle. Returns whether anything
- * is left. */
+/* The bounding box of the centres that a visible triangle may cover, cut to the rectangle. Returns whether
+ * anything is left. */
 bool raster_bounds(const struct triangle_head *head, const struct rectangle *limit, struct rectangle *bounds);
 
 /* Returns false when the triangle is not visible or certainly covers no pixel of the scissor rectangle, and

@@ -1,7 +1,7 @@
 /* The recorder's binding: a value is the number of an IR instruction, an operation appends one.
  *
- * Host control flow over the key has run its course when recording ends: what is recorded is the pipeline for this
- * one key. E notes the spec's file and line, so that every instruction knows the words that made it. */
+ * Host control flow over the key has run its course when recording ends: what is recorded is the pipeline for
+ * this one key. E notes the spec's file and line, so that every instruction knows the words that made it. */
 #ifndef JIT_BIND_H
 #define JIT_BIND_H
 
@@ -56,8 +56,8 @@ static inline struct env *record_at(struct env *e, const char *path, int line)
 
 #define E record_at(e, __FILE__, __LINE__)
 
-static inline uint16_t record(struct env *e, enum ir_op op, enum ir_type type, uint16_t a, uint16_t b, uint16_t c,
-                              int32_t k)
+static inline uint16_t record(struct env *e, enum ir_op op, enum ir_type type, uint16_t a, uint16_t b,
+                              uint16_t c, int32_t k)
 {
     return ir_append(e->ir, (struct ir_instruction){.op = (uint8_t)op,
                                                     .type = (uint8_t)type,
@@ -67,8 +67,8 @@ static inline uint16_t record(struct env *e, enum ir_op op, enum ir_type type, u
                                                     .k = k});
 }
 
-static inline uint16_t record_memory(struct env *e, enum ir_op op, enum ir_type type, uint16_t a, enum base base,
-                                     int32_t k, int32_t field, int scale)
+static inline uint16_t record_memory(struct env *e, enum ir_op op, enum ir_type type, uint16_t a,
+                                     enum base base, int32_t k, int32_t field, int scale)
 {
     return ir_append(e->ir, (struct ir_instruction){.op = (uint8_t)op,
                                                     .type = (uint8_t)type,

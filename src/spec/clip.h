@@ -1,8 +1,8 @@
 /* The clip code of a vertex: which half-spaces of clip space it lies outside of (enum clip_bit, draw/call.h).
  *
  * Every test asks for "inside" and takes the complement, so a NaN is outside. Depth runs from 0 to w as in
- * Direct3D. CLIP_INVALID: v - v is +0 exactly when v is finite; this is the rewriting y - y = 0 of the thesis turned
- * round, and the reason why an optimiser must prove finiteness before it applies it. */
+ * Direct3D. CLIP_INVALID: v - v is +0 exactly when v is finite; this is the rewriting y - y = 0 of the thesis
+ * turned round, and the reason why an optimiser must prove finiteness before it applies it. */
 
 /* bit where not (a <= b), else 0 */
 static inline itg clip_outside(struct env *e, flt a, flt b, int bit)

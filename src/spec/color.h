@@ -4,8 +4,8 @@
  *   rb                   0 B | 0 R          blue above red
  *   ga                   0 A | 0 G          alpha above green
  *
- * Every stage takes and gives channels from 0 to 255 meaning 0 to 1, correctly rounded: the contract of Direct3D's
- * fixed-function stages where texture and target have 8 bits. Products stay below 2^16. */
+ * Every stage takes and gives channels from 0 to 255 meaning 0 to 1, correctly rounded: the contract of
+ * Direct3D's fixed-function stages where texture and target have 8 bits. Products stay below 2^16. */
 
 struct color {
     fix rb, ga;

@@ -1,8 +1,8 @@
 /* Vertex fetch: attributes of W vertices from the application's buffers into lanes.
  *
- * A vertex index times the stream's stride gives the byte offset; indices were checked against the buffers when the
- * draw was recorded. Missing components read as (0, 0, 0, 1) (Direct3D 9, vertex declarations); a missing
- * normal is (0, 0, 0), a missing diffuse colour opaque white, missing texture coordinates (0, 0). */
+ * A vertex index times the stream's stride gives the byte offset; indices were checked against the buffers
+ * when the draw was recorded. Missing components read as (0, 0, 0, 1) (Direct3D 9, vertex declarations); a
+ * missing normal is (0, 0, 0), a missing diffuse colour opaque white, missing texture coordinates (0, 0). */
 
 struct vector4 {
     flt v[4];
@@ -10,7 +10,8 @@ struct vector4 {
 
 static inline flt fetch_float(struct env *e, int attribute, itg offset, int component)
 {
-    return gather_f(E, BASE_JOB, (int)offsetof(struct job, attribute[attribute].data), offset, 1, 4 * component);
+    return gather_f(E, BASE_JOB, (int)offsetof(struct job, attribute[attribute].data), offset, 1,
+                    4 * component);
 }
 
 /* One channel of a packed 0xAARRGGBB as 0 to 1; shift is its lowest bit. */
@@ -26,8 +27,7 @@ static inline struct vector4 fetch_color(struct env *e, int attribute, itg offse
 {
     static const uint8_t shift[4] = {16, 8, 0, 24};
     struct vector4 r;
-    itg packed =
-        gather_i(E, BASE_JOB, (int)offsetof(struct job, attribute[attribute].data), offset, 1, 0);
+    itg packed = gather_i(E, BASE_JOB, (int)offsetof(struct job, attribute[attribute].data), offset, 1, 0);
     for (int c = 0; c < 4; c++)
         r.v[c] = fetch_channel(E, packed, shift[c]);
     return r;

@@ -1,7 +1,8 @@
 /* Interpolation: plane equations evaluated at the pixel's centre, never accumulated along a span.
  *
- * value + (dy * (y - origin_y) then dx * (x - origin_x)) by fused multiply-adds in that order. The distances are
- * exact: multiples of 1/256 below 2^15. Smooth varyings are planes of a/w; multiplied by w = 1 / (plane of 1/w). */
+ * value + (dy * (y - origin_y) then dx * (x - origin_x)) by fused multiply-adds in that order. The distances
+ * are exact: multiples of 1/256 below 2^15. Smooth varyings are planes of a/w; multiplied by w = 1 / (plane
+ * of 1/w). */
 
 struct pixel_position {
     flt x, y; /* distance from the triangle's origin in pixels */
@@ -32,7 +33,8 @@ static inline flt evaluate_plane(struct env *e, const struct pixel_position *at,
     return mad_f(E, at->x, dx, row);
 }
 
-static inline flt pixel_w(struct env *e, const struct pixel_position *at, const struct triangle_layout *layout)
+static inline flt pixel_w(struct env *e, const struct pixel_position *at,
+                          const struct triangle_layout *layout)
 {
     flt reciprocal = evaluate_plane(E, at, layout->reciprocal_w);
     return div_f(E, lit_f(E, 1.0f), reciprocal);

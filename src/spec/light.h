@@ -2,8 +2,8 @@
  *
  *   colour = base + sum over lights of attenuation * (ambient + diffuse * max(0, normal . to_light))
  *
- * base, ambient and diffuse have the material multiplied in already (draw/job.h); alpha is the material's. A point
- * light's attenuation is 1 / (a0 + d * (a1 + d * a2)), and 0 beyond its range. */
+ * base, ambient and diffuse have the material multiplied in already (draw/job.h); alpha is the material's. A
+ * point light's attenuation is 1 / (a0 + d * (a1 + d * a2)), and 0 beyond its range. */
 
 static inline int light_field(int light, size_t field)
 {
@@ -46,7 +46,8 @@ static inline flt light_attenuation(struct env *e, int light, flt distance)
     return select_f(E, reached, attenuation, lit_f(E, 0.0f));
 }
 
-static inline void light_point(struct env *e, int light, const flt position[3], const flt normal[3], flt color[3])
+static inline void light_point(struct env *e, int light, const flt position[3], const flt normal[3],
+                               flt color[3])
 {
     flt to_light[3];
     for (int c = 0; c < 3; c++) {
@@ -81,7 +82,8 @@ static inline void camera_normal(struct env *e, const struct vertex_key *k, flt 
         normal[c] = mul_f(E, normal[c], inverse);
 }
 
-static inline struct vector4 light_vertex(struct env *e, const struct vertex_key *k, const struct vector4 *position)
+static inline struct vector4 light_vertex(struct env *e, const struct vertex_key *k,
+                                          const struct vector4 *position)
 {
     flt camera[3], normal[3];
     struct vector4 color;

@@ -2,8 +2,8 @@
  * (draw/call.h, struct pixel_call).
  *
  * Bases: JOB; ENTRY the block's entry; TRIANGLE its record; LANES the per-lane constants of this chunk of the
- * block; COLOR and DEPTH the chunk's pixels in the tile. The slice's states cannot discard a pixel after shading,
- * so depth is always tested first and shading is skipped when no lane is left. */
+ * block; COLOR and DEPTH the chunk's pixels in the tile. The slice's states cannot discard a pixel after
+ * shading, so depth is always tested first and shading is skipped when no lane is left. */
 
 /* Lanes of this chunk that the triangle covers. */
 static inline msk coverage(struct env *e)
@@ -14,8 +14,8 @@ static inline msk coverage(struct env *e)
     return eq_i(E, hit, bit);
 }
 
-static inline struct color shade(struct env *e, const struct pixel_key *k, const struct triangle_layout *layout,
-                                 const struct pixel_position *at)
+static inline struct color shade(struct env *e, const struct pixel_key *k,
+                                 const struct triangle_layout *layout, const struct pixel_position *at)
 {
     struct color diffuse, texture;
     flt w = lit_f(E, 1.0f);

@@ -1,9 +1,9 @@
 /* Texture sampling of an RGBA8 image: addressing, point and bilinear filtering, in integers.
  *
- * A coordinate becomes texels in 24.8 fixed point, round(u * width * 256), so positions and bilinear weights have
- * 8 bits. Point takes the texel that contains the position; bilinear blends the four texels whose centres surround
- * it, horizontally then vertically, each step round((a * (256 - f) + b * f) / 256). Every texel index ends within
- * the image whatever the coordinate (NaN and infinity too): gathers need no mask.
+ * A coordinate becomes texels in 24.8 fixed point, round(u * width * 256), so positions and bilinear weights
+ * have 8 bits. Point takes the texel that contains the position; bilinear blends the four texels whose
+ * centres surround it, horizontally then vertically, each step round((a * (256 - f) + b * f) / 256). Every
+ * texel index ends within the image whatever the coordinate (NaN and infinity too): gathers need no mask.
  *
  * Wrap on a power of two masks the index. Otherwise u - floor(u) comes first and an index that steps over an
  * edge is brought back by one width. */
@@ -110,7 +110,8 @@ static inline struct color lerp_color(struct env *e, itg a, itg b, fix inverse, 
     return r;
 }
 
-static inline struct color sample_bilinear(struct env *e, const struct axis *u, const struct axis *v, itg width)
+static inline struct color sample_bilinear(struct env *e, const struct axis *u, const struct axis *v,
+                                           itg width)
 {
     itg upper_row = dot_i(E, v->first, width);
     itg upper_left = texel(E, upper_row, u->first);

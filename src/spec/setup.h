@@ -1,13 +1,13 @@
 /* The setup routine: projection, snapping, area and culling, plane equations; one lane a triangle
  * (draw/call.h, struct setup_call).
  *
- * Bases: JOB; INPUT is the lanes' vertex offsets, three rows; VERTICES the vertex batch; OUTPUT the lanes' triangle
- * records. Window positions are snapped to 1/256 pixel first, and everything after uses the snapped ones, so
- * coverage and interpolation agree about where the triangle is.
+ * Bases: JOB; INPUT is the lanes' vertex offsets, three rows; VERTICES the vertex batch; OUTPUT the lanes'
+ * triangle records. Window positions are snapped to 1/256 pixel first, and everything after uses the snapped
+ * ones, so coverage and interpolation agree about where the triangle is.
  *
- * Twice the area is a difference of two products that may nearly cancel. With p = dx2 * dy1 rounded and its error
- * e = fma(dx2, dy1, -p), the value fma(dx1, dy2, -p) - e is within 1.5 ulp of the exact one (Kahan; Jeannerod, Louvet,
- * Muller 2013), so its sign is exact and it is 0 only for triangles without area.
+ * Twice the area is a difference of two products that may nearly cancel. With p = dx2 * dy1 rounded and its
+ * error e = fma(dx2, dy1, -p), the value fma(dx1, dy2, -p) - e is within 1.5 ulp of the exact one (Kahan;
+ * Jeannerod, Louvet, Muller 2013), so its sign is exact and it is 0 only for triangles without area.
  *
  * A plane through (0, a0), (p1, a1), (p2, a2) relative to vertex 0 has the gradients
  *   dx = (a1 - a0) * u1 + (a2 - a0) * u2,  dy = (a1 - a0) * v1 + (a2 - a0) * v2
@@ -127,8 +127,9 @@ static inline void record_head(struct env *e, const struct triangle_layout *layo
     record_f(E, layout, offsetof(struct triangle_head, origin_y), p[0].y);
 }
 
-static inline void record_varying(struct env *e, const struct setup_key *k, const struct triangle_layout *layout,
-                                  const struct gradients *g, const struct corner p[3], int varying)
+static inline void record_varying(struct env *e, const struct setup_key *k,
+                                  const struct triangle_layout *layout, const struct gradients *g,
+                                  const struct corner p[3], int varying)
 {
     for (int c = 0; c < varying_components[varying]; c++) {
         int slot = varying_slot[varying] + c;

@@ -1,6 +1,7 @@
 /* Texture stage 0: combines diffuse and texture, all four channels alike. */
 
-static inline struct color stage(struct env *e, const struct pixel_key *k, struct color diffuse, struct color texture)
+static inline struct color stage(struct env *e, const struct pixel_key *k, struct color diffuse,
+                                 struct color texture)
 {
     struct color r = diffuse;
     switch (k->stage) {

@@ -1,7 +1,7 @@
 /* Fixed-function transformation: row vector times matrix, rows summed last to first with fused multiply-adds.
  *
- * The order is part of the contract: x * m0 + (y * m1 + (z * m2 + w * m3)), each step one rounding. Matrices are the
- * job's, row-major, m[row][column]; `rows` of them are used and a position without w has w = 1. */
+ * The order is part of the contract: x * m0 + (y * m1 + (z * m2 + w * m3)), each step one rounding. Matrices
+ * are the job's, row-major, m[row][column]; `rows` of them are used and a position without w has w = 1. */
 
 static inline flt matrix_element(struct env *e, int matrix, int row, int column)
 {
@@ -39,7 +39,8 @@ static inline flt dot3(struct env *e, const flt a[3], const flt b[3])
     return mad_f(E, a[0], b[0], sum);
 }
 
-/* 1 / sqrt(x) by two rounded operations, FLT_MAX for 0 (so that normalising the zero vector gives it back). */
+/* 1 / sqrt(x) by two rounded operations, FLT_MAX for 0 (so that normalising the zero vector gives it back).
+ */
 static inline flt reciprocal_length(struct env *e, flt squared)
 {
     flt length = sqrt_f(E, squared);

@@ -1,7 +1,8 @@
-/* The vertex routine: fetch, transform, light, clip code; one lane a vertex (draw/call.h, struct vertex_call).
+/* The vertex routine: fetch, transform, light, clip code; one lane a vertex (draw/call.h, struct
+ * vertex_call).
  *
- * Bases: JOB; INPUT is the lanes' vertex indices; OUTPUT the lanes' place in the vertex batch. Outputs that the
- * pixel routine does not read are not in the key's varyings: their whole computation is dead. */
+ * Bases: JOB; INPUT is the lanes' vertex indices; OUTPUT the lanes' place in the vertex batch. Outputs that
+ * the pixel routine does not read are not in the key's varyings: their whole computation is dead. */
 
 static inline void store_slot(struct env *e, int slot, flt value)
 {

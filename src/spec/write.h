@@ -9,7 +9,8 @@ static inline int32_t write_mask_word(int write_mask)
     return (int32_t)word;
 }
 
-static inline void write_color(struct env *e, const struct pixel_key *k, msk live, struct color color, itg stored)
+static inline void write_color(struct env *e, const struct pixel_key *k, msk live, struct color color,
+                               itg stored)
 {
     itg word = color_pack(E, color);
     if (k->write_mask != 15) {
