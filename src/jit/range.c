@@ -9,6 +9,8 @@
 #include "def/lane.h"
 #include "jit/pass.h"
 
+#include <float.h>
+
 static const struct range anything = {-INFINITY, INFINITY, 1, 1, 1};
 
 static float least(float a, float b)
@@ -85,14 +87,16 @@ static struct range multiply_range(struct range a, struct range b)
     return r;
 }
 
-/* One rounding instead of two: the product's bounds go outward by the step that its rounding may have taken.
- */
+/* One rounding instead of two: the product's bounds go outward by the step that its rounding may have taken,
+ * which from zero is the whole way that flushing takes. */
 static struct range fused_range(struct range a, struct range b, struct range c)
 {
     struct range product = multiply_range(a, b);
-    if (product.low != 0 || product.minus_zero)
+    if (product.low != 0)
         product.low = nextafterf(product.low, -INFINITY);
-    product.high = nextafterf(product.high, INFINITY);
+    else if (product.minus_zero)
+        product.low = -FLT_MIN;
+    product.high = product.high != 0 ? nextafterf(product.high, INFINITY) : FLT_MIN;
     return add_range(product, c);
 }
 

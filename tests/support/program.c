@@ -160,6 +160,8 @@ struct interpreter {
     uint32_t value[IR_CAPACITY][LANES_MAXIMUM];
     unsigned first; /* lane */
     unsigned width;
+    program_observer *observer; /* may be null */
+    void *context;
 };
 
 static uint32_t read_word(const struct interpreter *in, const struct ir_instruction *i, unsigned lane)
@@ -215,22 +217,33 @@ static void interpret_group(struct interpreter *in)
                 number = skip_region(in->ir, number);
             continue;
         }
-        for (unsigned lane = 0; lane < in->width; lane++)
+        for (unsigned lane = 0; lane < in->width; lane++) {
             step(in, number, lane);
+            if (in->observer)
+                in->observer(in->context, number, in->value[number][lane]);
+        }
     }
 }
 
-void program_interpret(const struct ir *ir, struct program_data *data, unsigned width)
+void program_observe(const struct ir *ir, struct program_data *data, unsigned width,
+                     program_observer *observer, void *context)
 {
     static struct interpreter in;
     unsigned saved = mxcsr_enter();
     in.ir = ir;
     in.data = data;
     in.width = width;
+    in.observer = observer;
+    in.context = context;
     memset(in.value[0], 0, sizeof in.value[0]);
     for (in.first = 0; in.first < PROGRAM_LANES; in.first += width)
         interpret_group(&in);
     mxcsr_leave(saved);
+}
+
+void program_interpret(const struct ir *ir, struct program_data *data, unsigned width)
+{
+    program_observe(ir, data, width, NULL, NULL);
 }
 
 int program_compile_and_run(struct builder *b, struct code_arena *arena, unsigned width, unsigned registers,

@@ -27,6 +27,11 @@ void program_make(struct ir *ir, unsigned length, uint64_t *seed);
 /* Runs every lane through the IR by def/op.def's expressions, under the contract's MXCSR. */
 void program_interpret(const struct ir *ir, struct program_data *data, unsigned width);
 
+/* The same, telling the observer of every value of every lane. */
+typedef void program_observer(void *context, uint32_t number, uint32_t value);
+void program_observe(const struct ir *ir, struct program_data *data, unsigned width,
+                     program_observer *observer, void *context);
+
 /* Allocates with `registers`, encodes for `width` lanes and runs. Returns 0, or -1 with the reason. */
 int program_compile_and_run(struct builder *builder, struct code_arena *arena, unsigned width,
                             unsigned registers, struct program_data *data, struct error *error);

@@ -1,0 +1,161 @@
+/* Range analysis on random programs: every value that a program computes lies in the range that was said of
+ * it.
+ *
+ * The programs are of the operations that have a rule, on literals at the ends of binary32: around the least
+ * normal number, where flushing makes steps as large as the numbers, around one, and beyond the largest. */
+#include "base/mxcsr.h"
+#include "def/lane.h"
+#include "tests/support/program.h"
+#include "unity.h"
+
+#include <stdio.h>
+#include <string.h>
+
+enum { PROGRAMS = 20000, SOURCES = 4, LENGTH = 40, RECENT = 8 };
+
+static struct ir ir;
+static struct pass_memory memory;
+static struct program_data data;
+static uint64_t seed;
+static char wrong[256];
+
+/* The values made so far, by type. */
+static uint16_t made[TYPE_msk + 1][IR_CAPACITY];
+static unsigned count[TYPE_msk + 1];
+
+void setUp(void)
+{
+}
+
+void tearDown(void)
+{
+}
+
+static uint32_t below(uint32_t limit)
+{
+    return program_random(&seed) % limit;
+}
+
+static uint16_t pick(enum ir_type type)
+{
+    unsigned back = below(3) ? below(count[type] < RECENT ? count[type] : RECENT) : below(count[type]);
+    return made[type][count[type] - 1 - back];
+}
+
+static void make(struct ir_instruction i)
+{
+    made[i.type][count[i.type]++] = ir_append(&ir, i);
+}
+
+static void make_literal(enum ir_type type)
+{
+    static const uint32_t ends[] = {0x00000000, 0x80000000, 0x00800000, 0x80800000, 0x00800001, 0x00ffffff,
+                                    0x01000000, 0x00000001, 0x80000001, 0x007fffff, 0x1f800000, 0x20000000,
+                                    0xa0000000, 0x3f000000, 0xbf000000, 0x3f7fffff, 0x3f800000, 0x3f800001,
+                                    0xbf800000, 0x40400000, 0x437f0000, 0x7f7fffff, 0xff7fffff, 0x7f800000,
+                                    0xff800000, 0x7fc00000};
+    uint32_t small = below(300) - 20, word = below(2) ? small : program_random(&seed);
+    if (type == TYPE_flt)
+        word = ends[below(sizeof ends / sizeof *ends)];
+    make((struct ir_instruction){.op = IR_literal, .type = (uint8_t)type, .k = (int32_t)word});
+}
+
+static void make_load(enum ir_type type, int array)
+{
+    make((struct ir_instruction){
+        .op = IR_load, .type = (uint8_t)type, .base = BASE_INPUT, .k = array * PROGRAM_LANES * 4});
+}
+
+static void make_operation(void)
+{
+    static const uint8_t operations[] = {IR_add_f,    IR_sub_f, IR_mul_f,   IR_mul_f,   IR_mad_f,   IR_mad_f,
+                                         IR_min_f,    IR_min_f, IR_max_f,   IR_max_f,   IR_neg_f,   IR_sqrt_f,
+                                         IR_select_f, IR_lt_f,  IR_float_f, IR_round_i, IR_trunc_i, IR_and_i,
+                                         IR_ushr_i,   IR_shr_i, IR_min_i,   IR_max_i,   IR_select_i};
+    unsigned op = operations[below(sizeof operations)];
+    const struct ir_op_information *information = &ir_op_information[op];
+    struct ir_instruction i = {.op = (uint8_t)op, .type = information->result};
+    for (int o = 0; o < information->operands; o++)
+        i.operand[o] = pick(information->operand[o]);
+    if (information->properties & IR_SHIFTS)
+        i.k = (int32_t)below(32);
+    make(i);
+}
+
+static void make_program(void)
+{
+    memset(count, 0, sizeof count);
+    ir_start(&ir);
+    for (int array = 0; array < PROGRAM_ARRAYS; array++)
+        make_load(array % 2 ? TYPE_flt : TYPE_itg, array);
+    for (int i = 0; i < SOURCES; i++) {
+        make_literal(TYPE_flt);
+        make_literal(TYPE_itg);
+    }
+    make((struct ir_instruction){
+        .op = IR_lt_f, .type = TYPE_msk, .operand = {pick(TYPE_flt), pick(TYPE_flt)}});
+    for (unsigned length = below(LENGTH); length; length--)
+        if (below(6))
+            make_operation();
+        else
+            make_literal(below(3) ? TYPE_flt : TYPE_itg);
+}
+
+/* What the range denies of a float with these bits; null when it allows them. */
+static const char *denied_float(const struct range *r, uint32_t bits)
+{
+    float value = lane_flush(lane_from_bits(bits));
+    if (value != value)
+        return r->nan ? NULL : "NaN";
+    if (lane_bits(value) != bits && !r->denormal)
+        return "a denormal";
+    if (value < lane_flush(r->low) || value > lane_flush(r->high))
+        return "its magnitude";
+    return lane_bits(value) == 0x80000000 && !r->minus_zero ? "-0" : NULL;
+}
+
+/* Integers of unknown bounds are marked as NaN is. */
+static const char *denied(const struct range *r, enum ir_type type, uint32_t bits)
+{
+    double value = (int32_t)bits;
+    if (type == TYPE_flt)
+        return denied_float(r, bits);
+    if (type != TYPE_itg || r->nan)
+        return NULL;
+    return value < (double)r->low || value > (double)r->high ? "its magnitude" : NULL;
+}
+
+static void check_value(void *program, uint32_t number, uint32_t bits)
+{
+    const struct ir_instruction *i = &ir.instruction[number];
+    const struct range *r = &memory.range[number];
+    const char *what = denied(r, i->type, bits);
+    if (what && !wrong[0])
+        snprintf(wrong, sizeof wrong,
+                 "program %d, instruction %u, %s: %08x, but its range, %a to %a, denies %s", *(int *)program,
+                 (unsigned)number, ir_op_information[i->op].name, (unsigned)bits, (double)r->low,
+                 (double)r->high, what);
+}
+
+static void test_values_lie_in_their_ranges(void)
+{
+    for (int program = 1; program <= PROGRAMS; program++) {
+        seed = (uint64_t)program * 0x9e3779b97f4a7c15ull | 1;
+        make_program();
+        TEST_ASSERT_NULL(ir_verify(&ir));
+        program_fill(&data, &seed);
+        unsigned saved = mxcsr_enter();
+        range_analyse(&ir, &memory);
+        mxcsr_leave(saved);
+        program_observe(&ir, &data, 8, check_value, &program);
+        if (wrong[0])
+            TEST_FAIL_MESSAGE(wrong);
+    }
+}
+
+int main(void)
+{
+    UNITY_BEGIN();
+    RUN_TEST(test_values_lie_in_their_ranges);
+    return UNITY_END();
+}
