@@ -165,9 +165,9 @@ Libs.private: $(library_libraries)
 Cflags: -I$${includedir}/triptych
 endef
 
+# Make writes the file before it runs any of the recipe's lines.
 $(BUILD)/triptych.pc: Makefile FORCE
-	@mkdir -p $(@D)
-	@$(file >$@.new,$(pkgconfig))cmp -s $@.new $@ && rm $@.new || mv $@.new $@
+	@$(shell mkdir -p $(@D))$(file >$@.new,$(pkgconfig))cmp -s $@.new $@ && rm $@.new || mv $@.new $@
 
 build/glmark2:
 	@mkdir -p build

@@ -40,6 +40,11 @@ installs()
     make BUILD="$BUILD" PREFIX="$work" DESTDIR= install
 }
 
+pkgconfig_needs_no_build()
+{
+    make BUILD="$work/new" "$work/new/triptych.pc" && grep '^Version: [0-9]' "$work/new/triptych.pc"
+}
+
 header_stands_alone()
 {
     printf '#include <triptych.h>\n' >"$work/header.c"
@@ -108,6 +113,7 @@ command_runs()
 
 export PKG_CONFIG_PATH=$work/lib/pkgconfig
 test_case 'make install' installs
+test_case 'pkg-config file is the first thing made' pkgconfig_needs_no_build
 test_case 'header stands alone in C and C++' header_stands_alone
 test_case 'exported symbols are those of the header' exports_are_the_header
 test_case 'program with the shared library' shared_library_works
