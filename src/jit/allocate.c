@@ -189,7 +189,7 @@ static void scan_instruction(struct scan *scan, uint32_t number)
 /* Slots in order of definition, the lowest that is free again. */
 static void assign_slots(const struct ir *ir, struct allocation *a)
 {
-    uint16_t busy_until[IR_CAPACITY / 4];
+    uint16_t busy_until[IR_CAPACITY];
     a->slots = 0;
     for (uint32_t number = 1; number < ir->count; number++) {
         if (a->split[number] == NEVER || allocate_rematerializes(&ir->instruction[number]))
@@ -197,8 +197,6 @@ static void assign_slots(const struct ir *ir, struct allocation *a)
         uint32_t slot = 0;
         while (slot < a->slots && busy_until[slot] >= number)
             slot++;
-        if (slot == sizeof busy_until / sizeof busy_until[0])
-            slot--; /* cannot be: more values alive at once than a recording can hold */
         if (slot == a->slots)
             a->slots++;
         busy_until[slot] = a->last[number];

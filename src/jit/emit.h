@@ -6,11 +6,15 @@
 #include "jit/allocate.h"
 #include "jit/encode.h"
 
+#include <assert.h>
+
 enum {
     CODE_CAPACITY = 256 * 1024, /* bytes of one routine, constants included */
     LABEL_CAPACITY = 2048,
     FIXUP_CAPACITY = 8192,
-    LITERAL_CAPACITY = 512
+    LITERAL_CAPACITY = 512,
+    REGION_CAPACITY = LABEL_CAPACITY / 2,
+    REGION_DEPTH = 64
 };
 
 /* The frame's head, upward from rsp: two MXCSR words, and room for the lanes of one value. */
@@ -18,6 +22,9 @@ enum { FRAME_SAVED_MXCSR = 0, FRAME_CONTRACT_MXCSR = 4, FRAME_LANES = 32, FRAME_
 
 /* Labels of the frame; regions and literals follow. */
 enum frame_label { LABEL_LOOP, LABEL_CHUNK, LABEL_SKIP, LABEL_DONE, LABEL_FREE };
+
+static_assert((int)LABEL_FREE + (int)LITERAL_CAPACITY + (int)REGION_CAPACITY <= (int)LABEL_CAPACITY,
+              "a label for each");
 
 /* Where an instruction's code begins. */
 struct code_line {
@@ -36,6 +43,9 @@ struct emitter {
     uint32_t selected; /* instructions before this one are: a group may be selected together */
     uint32_t next_label;
     uint32_t literals;
+    uint32_t regions;
+    const char *exceeded; /* what there are too many of, and how many there may be; null */
+    int exceeded_limit;
     uint32_t lines;
     uint32_t instructions;   /* machine instructions written */
     uint32_t code_bytes;     /* without the constants */
@@ -43,7 +53,7 @@ struct emitter {
     int32_t frame_slots;
     int32_t literal_bits[LITERAL_CAPACITY];
     uint32_t literal_label[LITERAL_CAPACITY];
-    uint32_t region_label[64];
+    uint32_t region_label[REGION_DEPTH];
     uint32_t region_depth;
     struct code_line line[IR_CAPACITY + 64];
     int32_t labels[LABEL_CAPACITY];
@@ -53,6 +63,13 @@ struct emitter {
 
 /* Writes the whole routine of a unit into emitter->code. Returns its bytes, or 0 with the reason. */
 size_t emit_routine(struct emitter *emitter, enum unit unit, const union key *key, struct error *error);
+
+/* Notes that there is no room for another of something; the routine will be refused. */
+static inline void note_exceeded(struct emitter *emitter, const char *what, int limit)
+{
+    emitter->exceeded = what;
+    emitter->exceeded_limit = limit;
+}
 
 /* Writes the body: every IR instruction, at emitter->position (select.c). */
 void emit_body(struct emitter *emitter);

@@ -43,7 +43,10 @@ struct address literal_address(struct emitter *m, int32_t bits)
     uint32_t i = 0;
     while (i < m->literals && m->literal_bits[i] != bits)
         i++;
-    if (i == m->literals && m->literals < LITERAL_CAPACITY) {
+    if (i == LITERAL_CAPACITY) {
+        note_exceeded(m, "literals", LITERAL_CAPACITY);
+        i = 0;
+    } else if (i == m->literals) {
         m->literal_bits[i] = bits;
         m->literal_label[i] = m->next_label++;
         m->literals++;
@@ -212,7 +215,8 @@ size_t emit_routine(struct emitter *m, enum unit unit, const union key *key, str
 {
     encoder_start(&m->encoder, m->code, sizeof m->code, m->labels, LABEL_CAPACITY, m->fixups, FIXUP_CAPACITY);
     m->next_label = LABEL_FREE;
-    m->literals = m->lines = m->region_depth = 0;
+    m->literals = m->lines = m->regions = m->region_depth = 0;
+    m->exceeded = NULL;
     note_line(m, 0);
     prologue(m, job_field(unit));
     switch (unit) {
@@ -224,12 +228,12 @@ size_t emit_routine(struct emitter *m, enum unit unit, const union key *key, str
     m->code_bytes = (uint32_t)encoder_size(&m->encoder);
     encode_align(&m->encoder, 64);
     constant_pool(m);
-    if (encoder_finish(&m->encoder, error))
-        return 0;
-    if (m->literals == LITERAL_CAPACITY || m->next_label > LABEL_CAPACITY) {
-        error_set(error, "routine has too many constants: %u literals, at most %d", m->literals,
-                  LITERAL_CAPACITY - 1);
+    if (m->exceeded) {
+        error_set(error, "the %s routine has too many %s, expected at most %d", unit_name[unit], m->exceeded,
+                  m->exceeded_limit);
         return 0;
     }
+    if (encoder_finish(&m->encoder, error))
+        return 0;
     return encoder_size(&m->encoder);
 }

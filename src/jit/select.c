@@ -319,6 +319,14 @@ static void select_when(struct emitter *m, const struct ir_instruction *i)
 {
     struct place mask = place_of(m, i->operand[0]);
     unsigned test = need_register(m, &mask, SCRATCH_FIRST);
+    if (m->region_depth == REGION_DEPTH) {
+        note_exceeded(m, "nested regions", REGION_DEPTH);
+        return;
+    }
+    if (m->regions++ == REGION_CAPACITY) {
+        note_exceeded(m, "regions", REGION_CAPACITY);
+        return;
+    }
     uint32_t label = m->next_label++;
     m->region_label[m->region_depth++] = label;
     vector_rr(&m->encoder, X86_vtestps, m->length, test, test);
@@ -386,7 +394,7 @@ static void store_spilled(struct emitter *m)
 void emit_body(struct emitter *m)
 {
     m->selected = 0;
-    for (m->position = 1; m->position < m->ir->count; m->position++) {
+    for (m->position = 1; m->position < m->ir->count && !m->exceeded; m->position++) {
         const struct ir_instruction *i = &m->ir->instruction[m->position];
         int effect = ir_op_information[i->op].properties & IR_EFFECT;
         if (i->op == IR_nop || (!effect && m->allocation->residence[m->position] != RESIDENCE_REGISTER))

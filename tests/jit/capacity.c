@@ -1,0 +1,173 @@
+/* Programs at the ends of the specializer's room: what fits runs as it is written, what does not is refused
+ * with a reason. */
+#include "base/code.h"
+#include "base/cpu.h"
+#include "tests/support/program.h"
+#include "unity.h"
+
+#include <string.h>
+
+static struct code_arena *arena;
+static struct builder *builder;
+static struct program_data expected, got;
+static struct error error;
+
+void setUp(void)
+{
+    memset(&error, 0, sizeof error);
+    arena = code_create(0, NULL, &error);
+    builder = builder_take(&error);
+    TEST_ASSERT_NOT_NULL_MESSAGE(arena, error.text);
+    TEST_ASSERT_NOT_NULL_MESSAGE(builder, error.text);
+    if (!cpu_has_avx2_fma())
+        TEST_IGNORE_MESSAGE("needs AVX2 and FMA");
+    ir_start(&builder->ir);
+}
+
+void tearDown(void)
+{
+    builder_give(builder);
+    code_destroy(arena);
+}
+
+static uint16_t literal(uint32_t bits)
+{
+    return ir_append(&builder->ir,
+                     (struct ir_instruction){.op = IR_literal, .type = TYPE_itg, .k = (int32_t)bits});
+}
+
+static uint16_t load(int array)
+{
+    return ir_append(&builder->ir, (struct ir_instruction){.op = IR_load,
+                                                           .type = TYPE_itg,
+                                                           .base = BASE_INPUT,
+                                                           .k = array * PROGRAM_LANES * 4});
+}
+
+static uint16_t binary(enum ir_op op, uint16_t a, uint16_t b)
+{
+    return ir_append(
+        &builder->ir,
+        (struct ir_instruction){.op = (uint8_t)op, .type = ir_op_information[op].result, .operand = {a, b}});
+}
+
+static void store(uint16_t value)
+{
+    ir_append(&builder->ir, (struct ir_instruction){.op = IR_store, .base = BASE_OUTPUT, .operand = {value}});
+}
+
+static int compile_and_run(void)
+{
+    uint64_t seed = 1;
+    TEST_ASSERT_FALSE(builder->ir.overflow);
+    TEST_ASSERT_NULL(ir_verify(&builder->ir));
+    program_fill(&expected, &seed);
+    got = expected;
+    program_interpret(&builder->ir, &expected, 8);
+    return program_compile_and_run(builder, arena, 8, ALLOCATABLE, &got, &error);
+}
+
+static void expect_equal(void)
+{
+    TEST_ASSERT_EQUAL_MESSAGE(0, compile_and_run(), error.text);
+    TEST_ASSERT_EQUAL(-1, program_difference(&expected, &got));
+}
+
+static void expect_refusal(const char *reason)
+{
+    TEST_ASSERT_EQUAL(-1, compile_and_run());
+    TEST_ASSERT_NOT_NULL_MESSAGE(strstr(error.text, reason), error.text);
+}
+
+/* Each value differs from all others, and all are used after the last was made. */
+static void test_thousands_of_values_alive_at_once_keep_apart(void)
+{
+    enum { ALIVE = 3000 };
+    static uint16_t alive[ALIVE];
+    alive[0] = binary(IR_add_i, load(0), load(1));
+    uint16_t step = literal(0x9e3779b9);
+    for (int i = 1; i < ALIVE; i++)
+        alive[i] = binary(IR_add_i, alive[i - 1], step);
+    uint16_t sum = alive[0];
+    for (int i = 1; i < ALIVE; i++)
+        sum = binary(i % 2 ? IR_xor_i : IR_add_i, sum, alive[i]);
+    store(sum);
+    expect_equal();
+    TEST_ASSERT_GREATER_THAN(ALIVE - ALLOCATABLE - 10, builder->allocation.slots);
+}
+
+static void add_literals(int count)
+{
+    uint16_t sum = load(0);
+    for (int i = 0; i < count; i++)
+        sum = binary(IR_xor_i, sum, literal(0x1000u + (uint32_t)i));
+    store(sum);
+}
+
+static void test_as_many_literals_as_there_is_room_for(void)
+{
+    add_literals(LITERAL_CAPACITY);
+    expect_equal();
+}
+
+static void test_too_many_literals_are_refused(void)
+{
+    add_literals(LITERAL_CAPACITY + 100);
+    expect_refusal("literals");
+}
+
+static void nest(int depth)
+{
+    uint16_t value = load(0), mask = binary(IR_gt_i, value, load(1));
+    for (int i = 0; i < depth; i++)
+        ir_append(&builder->ir, (struct ir_instruction){.op = IR_when, .operand = {mask}});
+    store(value);
+    for (int i = 0; i < depth; i++)
+        ir_append(&builder->ir, (struct ir_instruction){.op = IR_end});
+}
+
+static void test_deep_regions(void)
+{
+    nest(REGION_DEPTH);
+    expect_equal();
+}
+
+static void test_regions_too_deep_are_refused(void)
+{
+    nest(REGION_DEPTH + 1);
+    expect_refusal("regions");
+}
+
+static void test_too_many_regions_are_refused(void)
+{
+    uint16_t value = load(0), mask = binary(IR_gt_i, value, load(1));
+    for (int i = 0; i < LABEL_CAPACITY; i++) {
+        ir_append(&builder->ir, (struct ir_instruction){.op = IR_when, .operand = {mask}});
+        store(value);
+        ir_append(&builder->ir, (struct ir_instruction){.op = IR_end});
+    }
+    expect_refusal("regions");
+}
+
+static void test_recording_beyond_the_room_is_noticed(void)
+{
+    while (builder->ir.count < IR_CAPACITY)
+        TEST_ASSERT_NOT_EQUAL(0, literal(1));
+    TEST_ASSERT_FALSE(builder->ir.overflow);
+    TEST_ASSERT_EQUAL(0, literal(1));
+    TEST_ASSERT_TRUE(builder->ir.overflow);
+    TEST_ASSERT_EQUAL(IR_CAPACITY, builder->ir.count);
+}
+
+int main(void)
+{
+    UNITY_BEGIN();
+    RUN_TEST(test_thousands_of_values_alive_at_once_keep_apart);
+    RUN_TEST(test_as_many_literals_as_there_is_room_for);
+    RUN_TEST(test_too_many_literals_are_refused);
+    RUN_TEST(test_deep_regions);
+    RUN_TEST(test_regions_too_deep_are_refused);
+    RUN_TEST(test_too_many_regions_are_refused);
+    RUN_TEST(test_recording_beyond_the_room_is_noticed);
+    return UNITY_END();
+}
