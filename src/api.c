@@ -326,12 +326,16 @@ enum triptych_result triptych_read_depth(triptych_device *device, float *depth)
 
 void triptych_target_size(const triptych_device *device, unsigned *width, unsigned *height)
 {
-    *width = device ? device->target.width : 0;
-    *height = device ? device->target.height : 0;
+    if (width)
+        *width = device ? device->target.width : 0;
+    if (height)
+        *height = device ? device->target.height : 0;
 }
 
 void triptych_get_statistics(const triptych_device *device, struct triptych_statistics *statistics)
 {
+    if (!statistics)
+        return;
     memset(statistics, 0, sizeof *statistics);
     if (device)
         device_get_statistics(device, statistics);
@@ -340,7 +344,7 @@ void triptych_get_statistics(const triptych_device *device, struct triptych_stat
 int triptych_get_routine(triptych_device *device, unsigned i, struct triptych_routine_info *info)
 {
     struct routine routine;
-    if (!device || !cache_get(device->cache, i, &routine))
+    if (!device || !info || !cache_get(device->cache, i, &routine))
         return 0;
     *info = (struct triptych_routine_info){
         .number = routine.number,

@@ -133,19 +133,36 @@ static int fail_import(const char *path, struct error *error)
     return error_set(error, "%s: %s", path, *reason ? reason : "Assimp cannot read it");
 }
 
+/* Assimp reserves memory for whatever a PLY header claims, and walks it: a count that the file cannot hold,
+ * at a byte an entry, is refused before. */
+static int check_ply(const char *path, FILE *file, long long bytes, struct error *error)
+{
+    char line[256], name[64];
+    unsigned long long count;
+    if (!fgets(line, sizeof line, file) || strncmp(line, "ply", 3) || (unsigned char)line[3] > ' ')
+        return 0;
+    for (int number = 2; fgets(line, sizeof line, file) && strncmp(line, "end_header", 10); number++)
+        if (sscanf(line, " element %63s %llu", name, &count) == 2 && count > (unsigned long long)bytes)
+            return error_set(error, "%s:%d: %llu entries of %s in a file of %lld bytes", path, number, count,
+                             name, bytes);
+    return 0;
+}
+
 /* Assimp opens the file itself, and those beside it that the file names. */
-static int check_size(const char *path, struct error *error)
+static int check_file(const char *path, struct error *error)
 {
     FILE *file = fopen(path, "rb");
     struct stat status;
     if (!file)
         return error_set(error, "%s: cannot open, expected a model file", path);
     int result = fstat(fileno(file), &status);
-    fclose(file);
     if (result || !S_ISREG(status.st_mode) || status.st_size > LIMIT_FILE_BYTES)
-        return error_set(error, "%s: is no file of at most %d bytes, expected a model", path,
-                         LIMIT_FILE_BYTES);
-    return 0;
+        result =
+            error_set(error, "%s: is no file of at most %d bytes, expected a model", path, LIMIT_FILE_BYTES);
+    else
+        result = check_ply(path, file, status.st_size, error);
+    fclose(file);
+    return result;
 }
 
 int mesh_read_model(struct mesh *mesh, const char *path, struct error *error)
@@ -154,7 +171,7 @@ int mesh_read_model(struct mesh *mesh, const char *path, struct error *error)
                                   aiProcess_SortByPType | aiProcess_FlipUVs | aiProcess_ImproveCacheLocality |
                                   aiProcess_FindInvalidData;
     struct aiMatrix4x4 identity;
-    if (check_size(path, error))
+    if (check_file(path, error))
         return -1;
     struct aiPropertyStore *properties = aiCreatePropertyStore();
     if (!properties)

@@ -644,6 +644,9 @@ static void null_arguments_are_refused(void)
                    "buffer of 0 bytes: expected 1 to 2^31 - 1");
     TEST_ASSERT_NULL(buffer);
     TEST_ASSERT_EQUAL_INT(TRIPTYCH_BAD_ARGUMENT, triptych_finish(NULL));
+    triptych_target_size(device, NULL, NULL);
+    triptych_get_statistics(device, NULL);
+    TEST_ASSERT_EQUAL_INT(0, triptych_get_routine(device, 0, NULL));
     triptych_device_destroy(NULL);
 }
 

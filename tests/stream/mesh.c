@@ -235,6 +235,22 @@ static void models_without_triangles_and_damaged_ones_are_refused(void)
     }
 }
 
+/* Assimp would reserve what the header claims, and walk it for minutes. */
+static void a_ply_header_that_claims_more_than_the_file_is_refused_at_once(void)
+{
+    char expected[256];
+    static const char ply[] = "ply\nformat ascii 1.0\nelement vertex 100000000000\nproperty float x\n"
+                              "element face 1\nproperty list uchar int vertex_indices\nend_header\n";
+    unlink(path);
+    strcpy(path, "/tmp/triptych-mesh.XXXXXX.ply");
+    close(mkstemps(path, 4));
+    write_file(ply);
+    TEST_ASSERT_EQUAL_INT(-1, mesh_read_model(&mesh, path, &error));
+    snprintf(expected, sizeof expected, "%s:3: 100000000000 entries of vertex in a file of %zu bytes", path,
+             sizeof ply - 1);
+    TEST_ASSERT_EQUAL_STRING(expected, error.text);
+}
+
 /* --- Bézier patches ---------------------------------------------------------------------------------------
  */
 
@@ -413,6 +429,7 @@ int main(void)
     RUN_TEST(projected_texture_coordinates_go_round_without_turning_back);
     RUN_TEST(node_transforms_are_applied_and_mirrors_keep_fronts);
     RUN_TEST(models_without_triangles_and_damaged_ones_are_refused);
+    RUN_TEST(a_ply_header_that_claims_more_than_the_file_is_refused_at_once);
     RUN_TEST(a_flat_patch_is_its_grid);
     RUN_TEST(texture_coordinates_and_colors_are_those_of_the_corners);
     RUN_TEST(normals_are_the_slope_of_the_surface);
