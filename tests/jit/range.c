@@ -1,5 +1,5 @@
 /* Range analysis on random programs: every value that a program computes lies in the range that was said of
- * it.
+ * it, and what the ranges allow strength reduction to do changes no bit.
  *
  * The programs are of the operations that have a rule, on literals at the ends of binary32: around the least
  * normal number, where flushing makes steps as large as the numbers, around one, and beyond the largest. */
@@ -82,6 +82,19 @@ static void make_operation(void)
     make(i);
 }
 
+/* Stores what was computed last. */
+static void make_stores(void)
+{
+    for (unsigned n = 0; n < PROGRAM_STORES; n++) {
+        enum ir_type type = n % 2 ? TYPE_itg : TYPE_flt;
+        unsigned back = n / 2 < count[type] ? n / 2 : 0;
+        ir_append(&ir, (struct ir_instruction){.op = IR_store,
+                                               .base = BASE_OUTPUT,
+                                               .operand = {made[type][count[type] - 1 - back]},
+                                               .k = (int32_t)n * VERTEX_SLOT_BYTES});
+    }
+}
+
 static void make_program(void)
 {
     memset(count, 0, sizeof count);
@@ -153,9 +166,29 @@ static void test_values_lie_in_their_ranges(void)
     }
 }
 
+static void test_reductions_keep_every_bit(void)
+{
+    static struct program_data reduced;
+    for (int program = 1; program <= PROGRAMS; program++) {
+        seed = (uint64_t)program * 0x9e3779b97f4a7c15ull | 1;
+        make_program();
+        make_stores();
+        program_fill(&data, &seed);
+        reduced = data;
+        program_interpret(&ir, &data, 8);
+        unsigned saved = mxcsr_enter();
+        optimize(&ir, &memory, PROFILE_THESIS, 0, NULL, NULL);
+        mxcsr_leave(saved);
+        program_interpret(&ir, &reduced, 8);
+        snprintf(wrong, sizeof wrong, "program %d", program);
+        TEST_ASSERT_EQUAL_MESSAGE(-1, program_difference(&data, &reduced), wrong);
+    }
+}
+
 int main(void)
 {
     UNITY_BEGIN();
     RUN_TEST(test_values_lie_in_their_ranges);
+    RUN_TEST(test_reductions_keep_every_bit);
     return UNITY_END();
 }

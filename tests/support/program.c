@@ -31,6 +31,10 @@ void program_fill(struct program_data *data, uint64_t *seed)
     uint32_t *job = (uint32_t *)(void *)&data->job;
     for (unsigned i = 0; i < sizeof data->job / 4; i++)
         job[i] = any_word(seed);
+    for (unsigned i = 0; i < PROGRAM_TABLE; i++)
+        data->table[i] = any_word(seed);
+    for (int a = 0; a < ATTRIBUTE_COUNT; a++)
+        data->job.attribute[a].data = (const uint8_t *)(data->table + a);
 }
 
 /* Values made so far, by type, and how many of them belong to open regions. */
@@ -58,7 +62,7 @@ static void make_source(struct maker *maker, enum ir_type type)
     case 1:
         i.op = IR_uniform;
         i.base = BASE_JOB;
-        i.k = (int32_t)(program_random(maker->seed) % 64 * 4);
+        i.k = (int32_t)(offsetof(struct job, world_view_projection) + program_random(maker->seed) % 64 * 4);
         break;
     default: i.k = (int32_t)any_word(maker->seed); break;
     }
@@ -95,6 +99,33 @@ static void make_operation(struct maker *maker)
     keep(maker, information->result, ir_append(maker->ir, i));
 }
 
+/* One to five gathers of neighbouring words: by rows, when registers allow. */
+static void make_row(struct maker *maker, uint16_t index)
+{
+    unsigned attribute = program_random(maker->seed) % 2, count = 1 + program_random(maker->seed) % 5;
+    struct ir_instruction i = {.op = IR_gather,
+                               .type = (uint8_t)(TYPE_flt + program_random(maker->seed) % 2),
+                               .base = BASE_JOB,
+                               .scale = 1,
+                               .operand = {index},
+                               .field = (int32_t)offsetof(struct job, attribute[attribute].data)};
+    for (; count; count--, i.k += 4)
+        keep(maker, i.type, ir_append(maker->ir, i));
+}
+
+/* From one place of one table, or of two. */
+static void make_gathers(struct maker *maker)
+{
+    enum { LAST_PLACE = 0x3fc };
+    struct ir_instruction i = {.op = IR_literal, .type = TYPE_itg, .k = LAST_PLACE};
+    uint16_t last = ir_append(maker->ir, i);
+    i = (struct ir_instruction){.op = IR_and_i, .type = TYPE_itg, .operand = {pick(maker, TYPE_itg), last}};
+    uint16_t index = ir_append(maker->ir, i);
+    make_row(maker, index);
+    if (program_random(maker->seed) % 2)
+        make_row(maker, index);
+}
+
 /* Not from flt: which NaN an operation gives is not defined (operands may change places), and a cast would
  * show it. */
 static void make_cast(struct maker *maker)
@@ -121,7 +152,10 @@ static void make_region(struct maker *maker, unsigned length)
     memcpy(outside, maker->count, sizeof outside);
     ir_append(maker->ir, (struct ir_instruction){.op = IR_when, .operand = {pick(maker, TYPE_msk)}});
     for (unsigned i = 0; i < length; i++)
-        make_operation(maker);
+        if (program_random(maker->seed) % 8)
+            make_operation(maker);
+        else
+            make_gathers(maker);
     make_store(maker);
     ir_append(maker->ir, (struct ir_instruction){.op = IR_end});
     memcpy(maker->count, outside, sizeof outside);
@@ -148,6 +182,7 @@ void program_make(struct ir *ir, unsigned length, uint64_t *seed)
             if (program_random(seed) % 4 == 0)
                 make_region(&maker, 1 + program_random(seed) % 12);
             break;
+        case 4: make_gathers(&maker); break;
         default: make_operation(&maker); break;
         }
     for (int i = 0; i < 4; i++)
@@ -174,6 +209,15 @@ static uint32_t read_word(const struct interpreter *in, const struct ir_instruct
     return word;
 }
 
+static uint32_t gather_word(const struct interpreter *in, const struct ir_instruction *i, uint32_t index)
+{
+    const uint8_t *start;
+    uint32_t word;
+    memcpy(&start, (const uint8_t *)&in->data->job + i->field, sizeof start);
+    memcpy(&word, start + (int32_t)index * i->scale + i->k, 4);
+    return word;
+}
+
 static void step(struct interpreter *in, uint32_t number, unsigned lane)
 {
     const struct ir_instruction *i = &in->ir->instruction[number];
@@ -184,6 +228,7 @@ static void step(struct interpreter *in, uint32_t number, unsigned lane)
     case IR_copy: *to = a; break;
     case IR_load:
     case IR_uniform: *to = read_word(in, i, lane); break;
+    case IR_gather: *to = gather_word(in, i, a); break;
     case IR_constant: memcpy(to, (const uint8_t *)&in->data->job + in->ir->constant[i->k].offset, 4); break;
     case IR_store: memcpy((uint8_t *)in->data->output + i->k + 4 * (in->first + lane), &a, 4); break;
     default:

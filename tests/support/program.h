@@ -1,24 +1,26 @@
 /* Small IR programs over arrays: made at random, interpreted straight from the table, compiled and run.
  *
- * A program reads words from INPUT (ARRAYS arrays of LANES words) and from the job, and stores to slots of
- * OUTPUT; it is what a vertex routine is, so the vertex frame runs it. */
+ * A program reads words from INPUT (ARRAYS arrays of LANES words) and from the job, gathers from tables, and
+ * stores to slots of OUTPUT; it is what a vertex routine is, so the vertex frame runs it. */
 #ifndef TESTS_PROGRAM_H
 #define TESTS_PROGRAM_H
 
 #include "draw/engine.h"
 #include "jit/build.h"
 
-enum { PROGRAM_LANES = 64, PROGRAM_ARRAYS = 4, PROGRAM_STORES = 8 };
+enum { PROGRAM_LANES = 64, PROGRAM_ARRAYS = 4, PROGRAM_STORES = 8, PROGRAM_TABLE = 264 };
 
 struct program_data {
     struct job job;
     uint32_t input[PROGRAM_ARRAYS * PROGRAM_LANES];
+    uint32_t table[PROGRAM_TABLE]; /* what is gathered from, by pointers in the job's attributes */
     alignas(64) float output[SLOT_COUNT * VERTEX_CAPACITY];
 };
 
 uint32_t program_random(uint64_t *seed);
 
-/* Fills input and job with edges and ordinary values. */
+/* Fills input, job and table with edges and ordinary values. `data`, or a copy of it made while it stands,
+ * can be run. */
 void program_fill(struct program_data *data, uint64_t *seed);
 
 /* A valid program of about `length` operations, regions included. */
