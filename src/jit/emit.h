@@ -47,7 +47,6 @@ struct emitter {
     const char *exceeded; /* what there are too many of, and how many there may be; null */
     int exceeded_limit;
     uint32_t lines;
-    uint32_t instructions;   /* machine instructions written */
     uint32_t code_bytes;     /* without the constants */
     int32_t frame_constants; /* rsp-relative place of the frame's constants and spill slots */
     int32_t frame_slots;

@@ -1,5 +1,5 @@
 /* Constant folding: an operation whose operands are all literals is evaluated now, by the table's own
- * expression, and a selection by a literal mask becomes a copy. Runs under the contract's MXCSR. */
+ * expression. Runs under the contract's MXCSR. */
 #include "jit/pass.h"
 
 static const struct ir_instruction *literal(const struct ir *ir, unsigned value)

@@ -7,9 +7,8 @@
  * apply: a selection with zero is a bitwise and, zero is made by an exclusive or, comparisons swap sides to
  * keep memory on the right.
  *
- * Lanes are in memory order, so loads and stores are plain moves. Gather instructions merge by mask: all
- * ones, rebuilt each time since the instruction clears it; the destination is zeroed first to cut its
- * dependency. */
+ * Lanes are in memory order, so loads and stores are plain moves. Gathers have a file of their own
+ * (gather.c). */
 #include "jit/emit.h"
 
 enum form {
