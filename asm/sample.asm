@@ -6,8 +6,10 @@
 ;   across   m8      m8      m6       m10
 ;   down     m9      m9      m7       m11           scratch m12, m13
 ;
-; m6 and m7 are free here: the texture's colour only comes with the sample. Each of the twelve fragments is the same
-; text for the two axes, three modes of addressing and two filters. Arguments: size_256, last, size of the job's axis.
+; m6 and m7 are free here: the texture's colour only comes with the sample. Each of these fragments is the same text for
+; the two axes, the modes of addressing and two filters. Arguments: size_256, last, size of the job's axis.
+;
+; With a border indices stay as they are: the samples for borders find out themselves which taps lie in the image.
 
 %include "fragment.inc"
 %include "constant.inc"
@@ -41,10 +43,51 @@
                 clamp_index     %1
 %endmacro
 
-; The coordinate's whole part goes first where the axis is not a power of two.
+; The index or its complement, the one that is not negative.
+%macro fold_index 1 ; index
+                vpcmpeqd        m13, m13, m13
+                vpxor           m13, %1, m13
+                vpmaxsd         %1, %1, m13
+%endmacro
+
+%macro mirror_once_index 1 ; index
+                fold_index      %1
+    fill LAST,  vpbroadcastd    m13, [at_job]
+                vpminsd         %1, %1, m13
+%endmacro
+
+%macro mirror_index 1 ; index
+                fold_index      %1
+    fill SIZE,  vpbroadcastd    m12, [at_job]
+    fill LAST,  vpbroadcastd    m13, [at_job]
+                vpaddd          m12, m12, m13
+                vpsubd          m12, m12, %1
+                vpminsd         %1, %1, m12
+                vpxor           m13, m13, m13
+                vpmaxsd         %1, %1, m13
+%endmacro
+
+%macro mirror_power_index 1 ; index
+    fill SIZE,  vpbroadcastd    m13, [at_job]
+                vpand           m12, %1, m13
+                vpcmpeqd        m12, m12, m13
+                vpxor           %1, %1, m12
+    fill LAST,  vpbroadcastd    m13, [at_job]
+                vpand           %1, %1, m13
+%endmacro
+
+%macro border_index 1 ; index
+%endmacro
+
+; The coordinate's whole periods go first where they are not a power of two of texels.
 %macro axis_position 2 ; register, addressing
   %ifidn %2, wrap
                 vroundps        m12, %1, 1
+                vsubps          %1, %1, m12
+  %elifidn %2, mirror
+                vmulps          m12, %1, [constants + HALF_F]
+                vroundps        m12, m12, 1
+                vaddps          m12, m12, m12
                 vsubps          %1, %1, m12
   %endif
     fill SIZE_256, vbroadcastss m12, [at_job]
@@ -53,7 +96,7 @@
 %endmacro
 
 %macro axis_point 3 ; across or down, register's number, addressing
-fragment %1_%3_point, JOB | M(%2), M(%2), M(12) | M(13)
+fragment %1_%3_point, JOB | CONSTANTS | M(%2), M(%2), M(12) | M(13)
                 axis_position   m%2, %3
                 vpsrad          m%2, m%2, 8
                 %3_index        m%2
@@ -84,6 +127,10 @@ end_fragment
 axes wrap
 axes power
 axes clamp
+axes mirror
+axes mirror_power
+axes mirror_once
+axes border
 
 ; Arguments: texels and width of the job. The row is a product of numbers below 2^15: vpmaddwd is exact and quick.
 fragment sample_point, JOB | M(8) | M(9) | M(14), M(6) | M(7), R_AX | M(8) | M(9) | M(10)
@@ -120,6 +167,16 @@ end_fragment
                 vmovdqa         %1, %5
 %endmacro
 
+; Four texels, upper m6 m13, lower m12 m9, blended by the weights across m10 and down m11 into m6, m7.
+%macro blend_four 0
+                blend_texels    m6, m13, m7, m10, m0, m1, m8
+                blend_texels    m12, m9, m13, m10, m0, m1, m8
+                vpsllw          m0, m6, 8
+                vpsllw          m1, m7, 8
+                lerp            m6, m0, m12, m11
+                lerp            m7, m1, m13, m11
+%endmacro
+
 ; Arguments: texels and width of the job.
 ;
 ;   m8 m6    columns        m10  weight across
@@ -141,12 +198,69 @@ fragment sample_bilinear, JOB | M_TO(6, 11) | M(14) | M(15), M(6) | M(7), R_AX |
                 vpcmpeqd        m1, m1, m1
                 vpgatherdd      m12, [rax + m8 * 4], m0     ; lower left
                 vpgatherdd      m9, [rax + m7 * 4], m1      ; lower right
-                blend_texels    m6, m13, m7, m10, m0, m1, m8
-                blend_texels    m12, m9, m13, m10, m0, m1, m8
-                vpsllw          m0, m6, 8
-                vpsllw          m1, m7, 8
-                lerp            m6, m0, m12, m11
-                lerp            m7, m1, m13, m11
+                blend_four
+end_fragment
+
+; ---- with a border
+;
+; Taps inside the image are gathered over the border colour, by mask: for the others nothing is read. Indices on an axis
+; without a border are inside anyway. Arguments: texels, width, last_u, last_v, border of the job.
+
+%define LAST_U          2
+%define LAST_V          3
+%define BORDER          4
+
+%macro inside 3 ; mask, index, last: 0 <= index <= last
+                vpminud         %1, %2, %3
+                vpcmpeqd        %1, %1, %2
+%endmacro
+
+fragment sample_point_border, JOB | M(8) | M(9) | M(14), M(6) | M(7), R_AX | M_TO(8, 12)
+    fill LAST_U, vpbroadcastd   m10, [at_job]
+                inside          m11, m8, m10
+    fill LAST_V, vpbroadcastd   m10, [at_job]
+                inside          m12, m9, m10
+                vpand           m11, m11, m12
+    fill 1,     vpbroadcastd    m10, [at_job]
+    fill 0,     mov             rax, [at_job]
+                vpmaddwd        m9, m9, m10
+                vpaddd          m8, m8, m9
+    fill BORDER, vpbroadcastd   m7, [at_job]
+                vpgatherdd      m7, [rax + m8 * 4], m11
+                vpand           m6, m7, m14
+                vpsrlw          m7, m7, 8
+end_fragment
+
+%macro gather_tap 3 ; result, index, mask
+    fill BORDER, vpbroadcastd   %1, [at_job]
+                vpgatherdd      %1, [rax + %2 * 4], %3
+%endmacro
+
+; Registers as for sample_bilinear.
+fragment sample_bilinear_border, JOB | M_TO(6, 11) | M(14) | M(15), M(6) | M(7), R_AX | M(0) | M(1) | M(3) | M_TO(8, 13)
+    fill LAST_U, vpbroadcastd   m12, [at_job]
+                inside          m0, m8, m12                 ; left
+                inside          m1, m6, m12                 ; right
+    fill LAST_V, vpbroadcastd   m12, [at_job]
+                inside          m3, m9, m12                 ; upper
+                inside          m13, m7, m12                ; lower
+    fill 1,     vpbroadcastd    m12, [at_job]
+    fill 0,     mov             rax, [at_job]
+                vpmaddwd        m9, m9, m12
+                vpmaddwd        m7, m7, m12
+                vpaddd          m12, m9, m8
+                vpaddd          m9, m9, m6
+                vpaddd          m8, m7, m8
+                vpaddd          m7, m7, m6
+                vpand           m6, m1, m3
+                vpand           m3, m0, m3
+                vpand           m1, m1, m13
+                vpand           m0, m0, m13
+                gather_tap      m13, m9, m6                 ; upper right
+                gather_tap      m6, m12, m3                 ; upper left
+                gather_tap      m12, m8, m0                 ; lower left
+                gather_tap      m9, m7, m1                  ; lower right
+                blend_four
 end_fragment
 
 fragment texture_white, M(14), M(6) | M(7), NOTHING

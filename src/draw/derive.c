@@ -53,9 +53,14 @@ static uint8_t derive_blend(const struct state *state)
 
 static uint8_t derive_address(uint32_t address, uint32_t size)
 {
-    if (address == ADDRESS_clamp)
-        return ADDRESS_CLAMP;
-    return size & (size - 1) ? ADDRESS_WRAP : ADDRESS_WRAP_POWER;
+    int power = !(size & (size - 1));
+    switch (address) {
+    case ADDRESS_mirror: return power ? ADDRESS_MIRROR_POWER : ADDRESS_MIRROR;
+    case ADDRESS_clamp: return ADDRESS_CLAMP;
+    case ADDRESS_border: return ADDRESS_BORDER;
+    case ADDRESS_mirroronce: return ADDRESS_MIRROR_ONCE;
+    default: return power ? ADDRESS_WRAP_POWER : ADDRESS_WRAP;
+    }
 }
 
 static void derive_texture(const struct state *state, struct pixel_key *key)
@@ -291,8 +296,15 @@ static void fill_viewport(const struct triptych_viewport *viewport, struct job *
     job->depth_offset = viewport->depth_near;
 }
 
-static void fill_texture(const struct triptych_texture *texture, struct texture_job *job)
+/* 0xAARRGGBB with red and blue exchanged. */
+static uint32_t rgba_word(uint32_t color)
 {
+    return (color & 0xff00ff00) | (color >> 16 & 255) | (color & 255) << 16;
+}
+
+static void fill_texture(const struct state *state, const struct pixel_key *key, struct texture_job *job)
+{
+    const struct triptych_texture *texture = state->texture;
     job->texels = texture->texels;
     job->width = (int32_t)texture->width;
     job->height = (int32_t)texture->height;
@@ -300,6 +312,8 @@ static void fill_texture(const struct triptych_texture *texture, struct texture_
     job->height_256 = (float)texture->height * 256;
     job->last_u = job->width - 1;
     job->last_v = job->height - 1;
+    if (key->address_u == ADDRESS_BORDER || key->address_v == ADDRESS_BORDER)
+        job->border = rgba_word(GET(bordercolor));
 }
 
 static void fill_attributes(const struct state *state, const struct vertex_key *key, struct job *job)
@@ -330,7 +344,7 @@ __attribute__((noinline)) static void fill_job(const struct state *state, const 
     }
     fill_viewport(&state->viewport, job);
     if (pixel->texture)
-        fill_texture(state->texture, &job->texture);
+        fill_texture(state, pixel, &job->texture);
 }
 
 void derive_job(const struct state *state, const struct vertex_key *vertex, const struct pixel_key *pixel,

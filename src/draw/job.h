@@ -41,6 +41,8 @@ struct texture_job {
     float height_256;
     int32_t last_u; /* width - 1: the mask of a power of two, the limit of a clamp */
     int32_t last_v;
+    uint32_t border; /* RGBA8, red in the low byte */
+    uint32_t reserved;
 };
 
 struct job {

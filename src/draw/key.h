@@ -60,8 +60,17 @@ enum compare {
 
 enum filter { FILTER_POINT, FILTER_LINEAR, FILTER_COUNT };
 
-/* WRAP_POWER is wrap on an axis whose size is a power of two: a mask instead of a floor. */
-enum address_mode { ADDRESS_WRAP, ADDRESS_WRAP_POWER, ADDRESS_CLAMP, ADDRESS_COUNT };
+/* WRAP_POWER and MIRROR_POWER are for an axis whose size is a power of two: a mask instead of a floor. */
+enum address_mode {
+    ADDRESS_WRAP,
+    ADDRESS_WRAP_POWER,
+    ADDRESS_CLAMP,
+    ADDRESS_MIRROR,
+    ADDRESS_MIRROR_POWER,
+    ADDRESS_MIRROR_ONCE,
+    ADDRESS_BORDER,
+    ADDRESS_COUNT
+};
 
 enum stage { STAGE_DIFFUSE, STAGE_REPLACE, STAGE_MODULATE, STAGE_ADD, STAGE_COUNT };
 

@@ -59,21 +59,32 @@ static void plan_diffuse(struct plan *plan, const struct pixel_key *key, const s
 
 static void plan_sample(struct plan *plan, const struct pixel_key *key)
 {
-    static const struct fragment *const across[ADDRESS_COUNT][FILTER_COUNT] = {
-        {&fragment_across_wrap_point, &fragment_across_wrap_linear},
-        {&fragment_across_power_point, &fragment_across_power_linear},
-        {&fragment_across_clamp_point, &fragment_across_clamp_linear}};
-    static const struct fragment *const down[ADDRESS_COUNT][FILTER_COUNT] = {
-        {&fragment_down_wrap_point, &fragment_down_wrap_linear},
-        {&fragment_down_power_point, &fragment_down_power_linear},
-        {&fragment_down_clamp_point, &fragment_down_clamp_linear}};
-    static const struct fragment *const sample[FILTER_COUNT] = {&fragment_sample_point,
-                                                                &fragment_sample_bilinear};
+#define MODES(axis)                                                                                          \
+    {                                                                                                        \
+        [ADDRESS_WRAP] = {&fragment_##axis##_wrap_point, &fragment_##axis##_wrap_linear},                    \
+        [ADDRESS_WRAP_POWER] = {&fragment_##axis##_power_point, &fragment_##axis##_power_linear},            \
+        [ADDRESS_CLAMP] = {&fragment_##axis##_clamp_point, &fragment_##axis##_clamp_linear},                 \
+        [ADDRESS_MIRROR] = {&fragment_##axis##_mirror_point, &fragment_##axis##_mirror_linear},              \
+        [ADDRESS_MIRROR_POWER] = {&fragment_##axis##_mirror_power_point,                                     \
+                                  &fragment_##axis##_mirror_power_linear},                                   \
+        [ADDRESS_MIRROR_ONCE] = {&fragment_##axis##_mirror_once_point,                                       \
+                                 &fragment_##axis##_mirror_once_linear},                                     \
+        [ADDRESS_BORDER] = {&fragment_##axis##_border_point, &fragment_##axis##_border_linear},              \
+    }
+    static const struct fragment *const across[ADDRESS_COUNT][FILTER_COUNT] = MODES(across);
+    static const struct fragment *const down[ADDRESS_COUNT][FILTER_COUNT] = MODES(down);
+#undef MODES
+    static const struct fragment *const sample[2][FILTER_COUNT] = {
+        {&fragment_sample_point, &fragment_sample_bilinear},
+        {&fragment_sample_point_border, &fragment_sample_bilinear_border}};
+    int border = key->address_u == ADDRESS_BORDER || key->address_v == ADDRESS_BORDER;
     plan_append(plan, across[key->address_u][key->filter],
                 ARGUMENTS(JOB(texture.width_256), JOB(texture.last_u), JOB(texture.width)));
     plan_append(plan, down[key->address_v][key->filter],
                 ARGUMENTS(JOB(texture.height_256), JOB(texture.last_v), JOB(texture.height)));
-    plan_append(plan, sample[key->filter], ARGUMENTS(JOB(texture.texels), JOB(texture.width)));
+    plan_append(plan, sample[border][key->filter],
+                ARGUMENTS(JOB(texture.texels), JOB(texture.width), JOB(texture.last_u), JOB(texture.last_v),
+                          JOB(texture.border)));
 }
 
 /* Texture coordinates that no setup routine provides are read as planes at the record's start, as the spec

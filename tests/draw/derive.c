@@ -207,6 +207,43 @@ static void wrapping_a_power_of_two_is_told_apart(void)
     TEST_ASSERT_EQUAL_INT(ADDRESS_CLAMP, key[UNIT_PIXEL].pixel.address_u);
 }
 
+static void addressing_follows_the_axis(void)
+{
+    static const struct {
+        const char *word;
+        int u, v; /* 64 and 48 texels */
+    } modes[] = {{"wrap", ADDRESS_WRAP_POWER, ADDRESS_WRAP},
+                 {"mirror", ADDRESS_MIRROR_POWER, ADDRESS_MIRROR},
+                 {"clamp", ADDRESS_CLAMP, ADDRESS_CLAMP},
+                 {"border", ADDRESS_BORDER, ADDRESS_BORDER},
+                 {"mirroronce", ADDRESS_MIRROR_ONCE, ADDRESS_MIRROR_ONCE}};
+    state.texture = &texture;
+    for (size_t i = 0; i < sizeof modes / sizeof *modes; i++) {
+        SET(addressu, modes[i].word);
+        SET(addressv, modes[i].word);
+        derive();
+        TEST_ASSERT_EQUAL_INT(modes[i].u, key[UNIT_PIXEL].pixel.address_u);
+        TEST_ASSERT_EQUAL_INT(modes[i].v, key[UNIT_PIXEL].pixel.address_v);
+    }
+}
+
+static void change_border_colour(void)
+{
+    state_set_value(&state, TRIPTYCH_STATE_bordercolor, 0x11223344, NULL);
+}
+
+static void the_border_colour_is_the_jobs(void)
+{
+    state.texture = &texture;
+    SET(addressv, "border");
+    expect_same_keys(change_border_colour);
+    derive();
+    TEST_ASSERT_EQUAL_HEX32(0x11443322, job.texture.border);
+    SET(addressv, "wrap");
+    derive();
+    TEST_ASSERT_EQUAL_HEX32(0, job.texture.border);
+}
+
 static void flat_shading_concerns_diffuse_only(void)
 {
     state.texture = &texture;
@@ -404,6 +441,8 @@ int main(void)
     RUN_TEST(draws_without_effect_are_recognised);
     RUN_TEST(blending_one_and_zero_is_a_copy);
     RUN_TEST(wrapping_a_power_of_two_is_told_apart);
+    RUN_TEST(addressing_follows_the_axis);
+    RUN_TEST(the_border_colour_is_the_jobs);
     RUN_TEST(flat_shading_concerns_diffuse_only);
     RUN_TEST(lights_are_packed_to_the_front);
     RUN_TEST(without_lights_normals_are_dead);

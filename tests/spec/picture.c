@@ -156,13 +156,44 @@ static void expect_pixel(int x, int y, uint32_t expected, const char *what)
 /* --- Textures ----------------------------------------------------------------------------------------------
  */
 
-enum addressing { WRAP, CLAMP };
+enum addressing { WRAP, MIRROR, CLAMP, BORDER, MIRROR_ONCE, ADDRESSINGS };
 
+static const char *const addressing_word[ADDRESSINGS] = {"wrap", "mirror", "clamp", "border", "mirroronce"};
+static uint32_t border; /* an image's word */
+
+static int modulo(int index, int size)
+{
+    return (index % size + size) % size;
+}
+
+static int clamped(int index, int size)
+{
+    return index < 0 ? 0 : index >= size ? size - 1 : index;
+}
+
+/* The index in the image, or -1 for the border. */
 static int addressed(int index, int size, enum addressing mode)
 {
-    if (mode == CLAMP)
-        return index < 0 ? 0 : index >= size ? size - 1 : index;
-    return (index % size + size) % size;
+    int within_two = modulo(index, 2 * size);
+    switch (mode) {
+    case WRAP: return modulo(index, size);
+    case MIRROR: return within_two < size ? within_two : 2 * size - 1 - within_two;
+    case CLAMP: return clamped(index, size);
+    case BORDER: return index < 0 || index >= size ? -1 : index;
+    default: return clamped(index < 0 ? -1 - index : index, size);
+    }
+}
+
+/* A texture as it was drawn: its size, and how each axis is addressed. */
+struct sampled {
+    int width, height;
+    enum addressing u, v;
+};
+
+static uint32_t texel_at(const struct sampled *s, int column, int row)
+{
+    int x = addressed(column, s->width, s->u), y = addressed(row, s->height, s->v);
+    return x < 0 || y < 0 ? border : texel[y * s->width + x];
 }
 
 /* The position in 1/256 texel of pixel `i` when coordinates run from `low` to `high`; exact for what is drawn
@@ -173,9 +204,9 @@ static int texel_position(int i, double low, double high, int size)
     return (int)nearbyint(coordinate * size * 256);
 }
 
-static uint32_t expected_point(int px, int py, int width, int height, enum addressing mode)
+static uint32_t expected_point(const struct sampled *s, int px, int py)
 {
-    return texel[addressed(py >> 8, height, mode) * width + addressed(px >> 8, width, mode)];
+    return texel_at(s, px >> 8, py >> 8);
 }
 
 static unsigned mix(unsigned a, unsigned b, unsigned weight)
@@ -183,41 +214,43 @@ static unsigned mix(unsigned a, unsigned b, unsigned weight)
     return (a * (256 - weight) + b * weight + 128) >> 8;
 }
 
-static uint32_t expected_bilinear(int px, int py, int width, int height, enum addressing mode)
+static uint32_t expected_bilinear(const struct sampled *s, int px, int py)
 {
     uint32_t word = 0;
     px -= 128;
     py -= 128;
-    int x[2] = {addressed(px >> 8, width, mode), addressed((px >> 8) + 1, width, mode)};
-    int y[2] = {addressed(py >> 8, height, mode), addressed((py >> 8) + 1, height, mode)};
+    int x = px >> 8, y = py >> 8;
     for (int c = 0; c < 4; c++) {
         unsigned row[2];
         for (int j = 0; j < 2; j++)
-            row[j] =
-                mix(channel(texel[y[j] * width + x[0]], c), channel(texel[y[j] * width + x[1]], c), px & 255);
+            row[j] = mix(channel(texel_at(s, x, y + j), c), channel(texel_at(s, x + 1, y + j), c), px & 255);
         word |= mix(row[0], row[1], py & 255) << 8 * c;
     }
     return word;
 }
 
-static void check_texture(int width, int height, double low, double high, enum addressing mode, int linear)
+static void check_texture(const struct sampled *s, double low, double high, int linear)
 {
     char what[96];
-    snprintf(what, sizeof what, "%dx%d texels from %g to %g, %s, %s", width, height, low, high,
-             mode == WRAP ? "wrap" : "clamp", linear ? "linear" : "point");
-    bind_random_texture((unsigned)width, (unsigned)height);
-    set(TRIPTYCH_STATE_addressu, mode == WRAP ? "wrap" : "clamp");
-    set(TRIPTYCH_STATE_addressv, mode == WRAP ? "wrap" : "clamp");
+    snprintf(what, sizeof what, "%dx%d texels from %g to %g, %s %s, %s", s->width, s->height, low, high,
+             addressing_word[s->u], addressing_word[s->v], linear ? "linear" : "point");
+    bind_random_texture((unsigned)s->width, (unsigned)s->height);
+    set(TRIPTYCH_STATE_addressu, addressing_word[s->u]);
+    set(TRIPTYCH_STATE_addressv, addressing_word[s->v]);
     set(TRIPTYCH_STATE_texturefilter, linear ? "linear" : "point");
+    uint32_t color = random_word();
+    border = image_word(color);
+    OK(triptych_set_state(device, TRIPTYCH_STATE_bordercolor, color));
     draw_square(0, 0xffffffff, NULL, (float)low, (float)low, (float)high, (float)high);
     OK(triptych_read_color(device, image));
     for (int y = 0; y < SIZE; y++)
         for (int x = 0; x < SIZE; x++) {
-            int px = texel_position(x, low, high, width), py = texel_position(y, low, high, height);
-            expect_pixel(x, y, (linear ? expected_bilinear : expected_point)(px, py, width, height, mode),
-                         what);
+            int px = texel_position(x, low, high, s->width), py = texel_position(y, low, high, s->height);
+            expect_pixel(x, y, (linear ? expected_bilinear : expected_point)(s, px, py), what);
         }
 }
+
+static int extremes_seen;
 
 static void check_texel_grid(void)
 {
@@ -231,12 +264,42 @@ static void check_textures(void)
 {
     static const int sizes[][2] = {{8, 8}, {64, 2}, {1, 1}, {6, 12}, {3, 64}};
     for (unsigned i = 0; i < sizeof sizes / sizeof sizes[0]; i++)
-        for (int linear = 0; linear < 2; linear++)
-            for (int mode = WRAP; mode <= CLAMP; mode++) {
-                check_texture(sizes[i][0], sizes[i][1], 0, 1, mode, linear);
-                check_texture(sizes[i][0], sizes[i][1], -1, 2, mode, linear);
-                check_texture(sizes[i][0], sizes[i][1], 0.25, 0.5, mode, linear);
+        for (int both = 0; both < ADDRESSINGS * ADDRESSINGS; both++)
+            for (int linear = 0; linear < 2; linear++) {
+                struct sampled s = {sizes[i][0], sizes[i][1], both % ADDRESSINGS, both / ADDRESSINGS};
+                check_texture(&s, -1, 2, linear);
+                if (s.u != s.v)
+                    continue;
+                check_texture(&s, 0, 1, linear);
+                check_texture(&s, -5, 3, linear);
+                check_texture(&s, 0.25, 0.5, linear);
             }
+}
+
+/* Coordinates too large for the fixed point lose their place in the image; they still give a texel of it, the
+ * same on every engine, and the border colour with a border. */
+static void check_extreme_coordinates(void)
+{
+    static const float extremes[] = {3e9f, -3e9f, 1e38f, -1e38f};
+    static uint32_t first[ADDRESSINGS][2][4][2];
+    OK(triptych_set_state(device, TRIPTYCH_STATE_bordercolor, 0x80604020));
+    for (int mode = 0; mode < ADDRESSINGS; mode++)
+        for (int linear = 0; linear < 2; linear++)
+            for (int i = 0; i < 4; i++)
+                for (int odd = 0; odd < 2; odd++) {
+                    uint32_t *expected = &first[mode][linear][i][odd];
+                    float at = extremes[i];
+                    bind_random_texture(odd ? 6 : 8, 1);
+                    set(TRIPTYCH_STATE_addressu, addressing_word[mode]);
+                    set(TRIPTYCH_STATE_texturefilter, linear ? "linear" : "point");
+                    draw_square(0, 0xffffffff, NULL, at, 0.5f, at, 0.5f);
+                    OK(triptych_read_color(device, image));
+                    if (!extremes_seen)
+                        *expected = mode == BORDER ? image_word(0x80604020) : image[0];
+                    for (int p = 0; p < SIZE * SIZE; p++)
+                        expect_pixel(p % SIZE, p / SIZE, *expected, addressing_word[mode]);
+                }
+    extremes_seen = 1;
 }
 
 static void test_a_texture_of_the_targets_size_is_copied(void)
@@ -247,6 +310,12 @@ static void test_a_texture_of_the_targets_size_is_copied(void)
 static void test_filters_and_addressing_are_as_defined(void)
 {
     on_every_engine(check_textures);
+}
+
+static void test_extreme_coordinates_are_alike_on_every_engine(void)
+{
+    extremes_seen = 0;
+    on_every_engine(check_extreme_coordinates);
 }
 
 /* --- Stages and blending -----------------------------------------------------------------------------------
@@ -515,6 +584,7 @@ int main(void)
     UNITY_BEGIN();
     RUN_TEST(test_a_texture_of_the_targets_size_is_copied);
     RUN_TEST(test_filters_and_addressing_are_as_defined);
+    RUN_TEST(test_extreme_coordinates_are_alike_on_every_engine);
     RUN_TEST(test_stages_combine_channels_as_defined);
     RUN_TEST(test_blending_is_rounded_as_defined);
     RUN_TEST(test_write_masks_keep_channels);

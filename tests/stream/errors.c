@@ -74,7 +74,7 @@ static const struct bad lines[] = {
     {"set ambient 0xfff\n", "2:13", "expected a color (ambient)"},
     {"set ambient red\n", "2:13", "expected a value of ambient: a number"},
     {"set colorwriteenable 16\n", "2:1", "expected 0 to 15"},
-    {"set addressu mirror\n", "2:14", "expected a value of addressu: wrap, clamp"},
+    {"set addressu once\n", "2:14", "expected a value of addressu: wrap, mirror, clamp, border, mirroronce"},
 
     /* Numbers and transforms */
     {"transform world scale 1 nan 1\n", "2:25", "found 'nan', expected a number (scale)"},

@@ -307,7 +307,8 @@ static void make_entries(struct differential *d)
 
 static int32_t texture_side(struct differential *d, int address)
 {
-    return address == ADDRESS_WRAP_POWER ? 1 << below(d, 7) : 1 + (int32_t)below(d, TEXTURE_SIDE);
+    int power = address == ADDRESS_WRAP_POWER || address == ADDRESS_MIRROR_POWER;
+    return power ? 1 << below(d, 7) : 1 + (int32_t)below(d, TEXTURE_SIDE);
 }
 
 /* The image's last texel is the last word before the fence. */
@@ -323,6 +324,7 @@ static void make_texture(struct differential *d, const struct pixel_key *key)
     texture->height_256 = 256 * (float)height;
     texture->last_u = width - 1;
     texture->last_v = height - 1;
+    texture->border = word(d);
 }
 
 /* Planes that pass exactly through stored depths, so that EQUAL has something to find. */
