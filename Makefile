@@ -103,9 +103,10 @@ $(BUILD)/object/%.o: %.c $(BUILD)/flags
 	@mkdir -p $(@D)
 	$(call say,CC,$<)$(compile) -MMD -MP -c $< -o $@
 
+# Dependencies by a run of their own: -MD of nasm 2.16 leaves out what is included.
 $(BUILD)/object/%.o: %.asm $(BUILD)/flags
 	@mkdir -p $(@D)
-	$(call say,NASM,$<)$(assemble) -MD $(@:.o=.d) -MP -MT $@ $< -o $@
+	$(call say,NASM,$<)$(assemble) -M -MP -MT $@ -MF $(@:.o=.d) $< && $(assemble) $< -o $@
 
 $(BUILD)/object/src/tool/machine.o: private CPPFLAGS += -DTRIPTYCH_COMMIT='"$(COMMIT)"'
 $(BUILD)/object/src/tool/machine.o: $(BUILD)/commit

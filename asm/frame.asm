@@ -16,8 +16,9 @@
 %define CALLER_MXCSR    rbp - SAVED_BYTES - 4
 %define ROUTINE_MXCSR   rbp - SAVED_BYTES - 8
 
-; Arguments: minus the bytes of the slots, the contract's MXCSR.
-fragment enter, FRAME | FRAME_END | CALLED, FRAME | FRAME_END | CONSTANTS, NOTHING
+; Arguments: minus the bytes of the slots, the contract's MXCSR. A large frame is touched page by page from above: a
+; stack grows by its guard page only.
+fragment enter, FRAME | FRAME_END | CALLED, FRAME | FRAME_END | CONSTANTS, R_AX | R_CX
                 push            rbp
                 mov             rbp, rsp
                 push            rbx
@@ -25,7 +26,14 @@ fragment enter, FRAME | FRAME_END | CALLED, FRAME | FRAME_END | CONSTANTS, NOTHI
                 push            r13
                 push            r14
                 push            r15
-    fill 0,       lea             rsp, [frame - 40]           ; both MXCSR and what aligning may take
+    fill 0,       lea             rax, [frame - 40]           ; both MXCSR and what aligning may take
+                jmp             .reached
+.page:          sub             rsp, 4096
+                mov             dword [rsp], 0
+.reached:       lea             rcx, [rsp - 4096]
+                cmp             rcx, rax
+                ja              .page
+                mov             rsp, rax
                 and             rsp, -32
                 stmxcsr         [CALLER_MXCSR]
     fill 1,       mov             dword [ROUTINE_MXCSR], strict dword 0

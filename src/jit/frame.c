@@ -70,6 +70,14 @@ static void broadcast_constants(struct emitter *m)
     }
 }
 
+/* Touches every page of the frame from above: a stack grows by its guard page only. */
+static void probe_stack(struct emitter *m, int32_t bytes)
+{
+    enum { PAGE = 4096 };
+    for (int32_t page = PAGE; page < bytes; page += PAGE)
+        gpr_mi(&m->encoder, X86_mov, X86_32, address_at(X86_RSP, -page), 0);
+}
+
 static void prologue(struct emitter *m, size_t job_field)
 {
     struct encoder *e = &m->encoder;
@@ -81,6 +89,7 @@ static void prologue(struct emitter *m, size_t job_field)
     gpr_r(e, X86_push, X86_64, AHEAD);
     gpr_r(e, X86_push, X86_64, X86_R12);
     gpr_r(e, X86_push, X86_64, X86_R13);
+    probe_stack(m, bytes);
     gpr_ri(e, X86_sub, X86_64, X86_RSP, bytes);
     gpr_ri(e, X86_and, X86_64, X86_RSP, -64);
     vector_m(e, X86_vstmxcsr, address_at(X86_RSP, FRAME_SAVED_MXCSR));
