@@ -23,7 +23,7 @@ function want(   i) {
 
 function relevant(name) {
     if (name ~ /^(srcblend|destblend)$/) return wanted["alphablendenable"] == "true"
-    if (name ~ /^(colorop|texturefilter|addressu|addressv)$/) return texture != "none"
+    if (name ~ /^(colorop|alphaop|texturefilter|addressu|addressv)$/) return texture != "none"
     if (name ~ /^(ambient|normalizenormals)$/) return wanted["lighting"] == "true"
     if (name ~ /^(zfunc|zwriteenable)$/) return wanted["zenable"] == "true"
     return 1
@@ -96,7 +96,7 @@ function emit_late(   i, k, part) {
 
 function set(name, value) { wanted[name] = value }
 function at(operations) { world = operations }
-function paint(name, filter, operation) { texture = name; set("texturefilter", filter); set("colorop", operation) }
+function paint(name, filter, operation) { texture = name; set("texturefilter", filter); set("colorop", operation); set("alphaop", operation) }
 function clamp() { set("addressu", "clamp"); set("addressv", "clamp") }
 function unlit() { set("lighting", "false") }
 # The target's alpha stays 1: what has an alpha of its own does not write it.
@@ -346,7 +346,7 @@ function window(i, s, x, y, z, style) {
     if (style != 1 && style != 2) return
     want(); unlit(); mesh = "panel"; paint("window", i % 2 ? "linear" : "point", "selectarg1"); clamp()
     translucent("srcalpha", "invsrcalpha"); if (i % 3 == 0) set("zfunc", "less")
-    if (i % 4 == 1) { set("lighting", "true"); set("colorop", "modulate"); surface(1, 1, 1, 1); lit(x, z, 9, 2) }
+    if (i % 4 == 1) { set("lighting", "true"); set("colorop", "modulate"); set("alphaop", "modulate"); surface(1, 1, 1, 1); lit(x, z, 9, 2) }
     at(place(s, x - s * 0.01, y, z, "1 1.3 1.2")); later(z)
 }
 
@@ -566,8 +566,8 @@ function prologue(   i) {
 BEGIN {
     seed = 2007; pi = atan2(0, -1); lamps = 6
     for (i = 0; i < lamps; i++) { lamp_x[i] = i % 2 ? 4.4 : -4.4; lamp_z[i] = -1 - 12 * i }
-    state_count = split("cullmode shademode lighting normalizenormals ambient zenable zwriteenable zfunc alphablendenable srcblend destblend colorwriteenable colorop texturefilter addressu addressv", state_name, " ")
-    split("cw gouraud true false 0xff62667c true true lessequal false one zero 15 modulate linear wrap wrap", state_default, " ")
+    state_count = split("cullmode shademode lighting normalizenormals ambient zenable zwriteenable zfunc alphablendenable srcblend destblend colorwriteenable colorop alphaop texturefilter addressu addressv", state_name, " ")
+    split("cw gouraud true false 0xff62667c true true lessequal false one zero 15 modulate selectarg1 linear wrap wrap", state_default, " ")
     prologue()
     print "sequence street"
     for (i = 0; i < 8; i++) { call("light " i " off"); light_is[i] = 0 }

@@ -65,17 +65,100 @@ static uint8_t derive_address(uint32_t address, uint32_t size)
 
 static void derive_texture(const struct state *state, struct pixel_key *key)
 {
-    if (!state->texture)
+    if (!stage_reads(key, SOURCE_TEXTURE))
         return;
     key->texture = 1;
     key->filter = GET(texturefilter) == FILTER_linear ? FILTER_LINEAR : FILTER_POINT;
     key->address_u = derive_address(GET(addressu), state->texture->width);
     key->address_v = derive_address(GET(addressv), state->texture->height);
-    switch (GET(colorop)) {
-    case TEXTUREOP_selectarg1: key->stage = STAGE_REPLACE; break;
-    case TEXTUREOP_modulate: key->stage = STAGE_MODULATE; break;
-    default: key->stage = STAGE_ADD;
+}
+
+/* One half of stage 0 as the state has it: an operation of Direct3D 9 and arguments 1, 2 and 0. */
+struct half_stage {
+    uint32_t operation;
+    uint32_t argument[STAGE_ARGUMENTS];
+};
+
+enum { COMPLEMENT = ARGUMENT_diffuse_complement, REPLICATE = ARGUMENT_diffuse_alphareplicate };
+
+/* What current is in the first stage: diffuse. */
+static uint8_t derive_argument(uint32_t argument)
+{
+    static const uint8_t source[4] = {[ARGUMENT_diffuse] = SOURCE_DIFFUSE,
+                                      [ARGUMENT_current] = SOURCE_DIFFUSE,
+                                      [ARGUMENT_texture] = SOURCE_TEXTURE,
+                                      [ARGUMENT_tfactor] = SOURCE_FACTOR};
+    unsigned flags =
+        (argument & COMPLEMENT ? ARGUMENT_COMPLEMENT : 0) + (argument & REPLICATE ? ARGUMENT_REPLICATE : 0);
+    return (uint8_t)(source[argument & 3] + flags);
+}
+
+/* Operations that are others with particular arguments: blends are interpolations by an alpha, and all that
+ * end in an addition of a product are one. ADDSMOOTH, a + b - a * b, is a + (1 - a) * b, and rounds alike. */
+static uint8_t reduce_stage(const struct half_stage *half, uint32_t r[STAGE_ARGUMENTS])
+{
+    uint32_t a = half->argument[0], b = half->argument[1], c = half->argument[2];
+    uint32_t three[STAGE_ARGUMENTS] = {a, b, c};
+    uint8_t stage = STAGE_MULTIPLY_ADD;
+#define AS(operation, first, second, third)                                                                  \
+    stage = operation, three[0] = (first), three[1] = (second), three[2] = (third)
+    switch (half->operation) {
+    case TEXTUREOP_disable: AS(STAGE_SELECT, ARGUMENT_current, b, c); break;
+    case TEXTUREOP_selectarg1: stage = STAGE_SELECT; break;
+    case TEXTUREOP_selectarg2: AS(STAGE_SELECT, b, a, c); break;
+    case TEXTUREOP_modulate: stage = STAGE_MODULATE; break;
+    case TEXTUREOP_modulate2x: stage = STAGE_MODULATE_2X; break;
+    case TEXTUREOP_modulate4x: stage = STAGE_MODULATE_4X; break;
+    case TEXTUREOP_add: stage = STAGE_ADD; break;
+    case TEXTUREOP_addsigned: stage = STAGE_ADD_SIGNED; break;
+    case TEXTUREOP_addsigned2x: stage = STAGE_ADD_SIGNED_2X; break;
+    case TEXTUREOP_subtract: stage = STAGE_SUBTRACT; break;
+    case TEXTUREOP_addsmooth: AS(STAGE_MULTIPLY_ADD, a ^ COMPLEMENT, b, a); break;
+    case TEXTUREOP_blenddiffusealpha: AS(STAGE_LERP, a, b, ARGUMENT_diffuse | REPLICATE); break;
+    case TEXTUREOP_blendtexturealpha: AS(STAGE_LERP, a, b, ARGUMENT_texture | REPLICATE); break;
+    case TEXTUREOP_blendfactoralpha: AS(STAGE_LERP, a, b, ARGUMENT_tfactor | REPLICATE); break;
+    case TEXTUREOP_blendcurrentalpha: AS(STAGE_LERP, a, b, ARGUMENT_current | REPLICATE); break;
+    case TEXTUREOP_blendtexturealphapm:
+        AS(STAGE_MULTIPLY_ADD, ARGUMENT_texture | COMPLEMENT | REPLICATE, b, a);
+        break;
+    case TEXTUREOP_modulatealpha_addcolor: AS(STAGE_MULTIPLY_ADD, a | REPLICATE, b, a); break;
+    case TEXTUREOP_modulatecolor_addalpha: AS(STAGE_MULTIPLY_ADD, a, b, a | REPLICATE); break;
+    case TEXTUREOP_modulateinvalpha_addcolor:
+        AS(STAGE_MULTIPLY_ADD, (a | REPLICATE) ^ COMPLEMENT, b, a);
+        break;
+    case TEXTUREOP_modulateinvcolor_addalpha: AS(STAGE_MULTIPLY_ADD, a ^ COMPLEMENT, b, a | REPLICATE); break;
+    case TEXTUREOP_dotproduct3: stage = STAGE_DOT; break;
+    case TEXTUREOP_lerp: stage = STAGE_LERP; break;
     }
+#undef AS
+    memcpy(r, three, sizeof three);
+    return stage;
+}
+
+/* `flags` are those that mean something: alpha replicated is alpha. */
+static uint8_t derive_half(const struct half_stage *half, uint32_t flags, uint8_t argument[STAGE_ARGUMENTS])
+{
+    uint32_t reduced[STAGE_ARGUMENTS];
+    uint8_t stage = reduce_stage(half, reduced);
+    for (int i = 0; i < stage_arguments[stage]; i++)
+        argument[i] = derive_argument(reduced[i] & (3 | flags));
+    return stage;
+}
+
+static void derive_stage(const struct state *state, struct pixel_key *key)
+{
+    struct half_stage color = {GET(colorop), {GET(colorarg1), GET(colorarg2), GET(colorarg0)}};
+    struct half_stage alpha = {GET(alphaop), {GET(alphaarg1), GET(alphaarg2), GET(alphaarg0)}};
+    if (color.operation == TEXTUREOP_disable)
+        return;
+    key->color_stage = derive_half(&color, COMPLEMENT | REPLICATE, key->color_argument);
+    if (key->color_stage != STAGE_DOT)
+        key->alpha_stage = derive_half(&alpha, COMPLEMENT, key->alpha_argument);
+    if (state->texture || !stage_reads(key, SOURCE_TEXTURE))
+        return;
+    key->color_stage = key->alpha_stage = STAGE_SELECT; /* without its texture the stage is off */
+    memset(key->color_argument, 0, sizeof key->color_argument);
+    memset(key->alpha_argument, 0, sizeof key->alpha_argument);
 }
 
 static void derive_pixel(const struct state *state, struct pixel_key *key)
@@ -88,11 +171,12 @@ static void derive_pixel(const struct state *state, struct pixel_key *key)
         key->depth_function = COMPARE_ALWAYS; /* one key for all that draw nothing */
     if (!key->write_mask)
         return;
+    derive_stage(state, key);
     derive_texture(state, key);
     key->blend = derive_blend(state);
     if (key->texture)
         key->varying[VARYING_texcoord] = INTERPOLATION_SMOOTH;
-    if (key->stage != STAGE_REPLACE)
+    if (stage_reads(key, SOURCE_DIFFUSE))
         key->varying[VARYING_diffuse] =
             GET(shademode) == SHADEMODE_flat ? INTERPOLATION_FLAT : INTERPOLATION_SMOOTH;
 }
@@ -345,6 +429,8 @@ __attribute__((noinline)) static void fill_job(const struct state *state, const 
     fill_viewport(&state->viewport, job);
     if (pixel->texture)
         fill_texture(state, pixel, &job->texture);
+    if (stage_reads(pixel, SOURCE_FACTOR))
+        job->texture_factor = rgba_word(GET(texturefactor));
 }
 
 void derive_job(const struct state *state, const struct vertex_key *vertex, const struct pixel_key *pixel,

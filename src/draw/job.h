@@ -66,6 +66,8 @@ struct job {
     float depth_scale, depth_offset;
 
     struct texture_job texture;
+    uint32_t texture_factor; /* RGBA8, red in the low byte */
+    uint32_t reserved;
 };
 
 #endif

@@ -8,6 +8,42 @@
 
 const char *const unit_name[UNIT_COUNT] = {"vertex", "setup", "pixel"};
 
+const uint8_t stage_arguments[STAGE_COUNT] = {
+    [STAGE_SELECT] = 1,        [STAGE_MODULATE] = 2, [STAGE_MODULATE_2X] = 2,
+    [STAGE_MODULATE_4X] = 2,   [STAGE_ADD] = 2,      [STAGE_ADD_SIGNED] = 2,
+    [STAGE_ADD_SIGNED_2X] = 2, [STAGE_SUBTRACT] = 2, [STAGE_MULTIPLY_ADD] = 3,
+    [STAGE_LERP] = 3,          [STAGE_DOT] = 2};
+
+/* Alpha's own argument is the same with its alpha replicated. */
+static int same_argument(unsigned color, unsigned alpha)
+{
+    int replicated = alpha / ARGUMENT_REPLICATE & 1;
+    return color == alpha || (!replicated && color == alpha + ARGUMENT_REPLICATE);
+}
+
+int stage_is_joint(const struct pixel_key *key)
+{
+    if (key->color_stage == STAGE_DOT)
+        return 1;
+    if (key->color_stage != key->alpha_stage)
+        return 0;
+    for (int i = 0; i < stage_arguments[key->color_stage]; i++)
+        if (!same_argument(key->color_argument[i], key->alpha_argument[i]))
+            return 0;
+    return 1;
+}
+
+int stage_reads(const struct pixel_key *key, enum source source)
+{
+    for (int i = 0; i < stage_arguments[key->color_stage]; i++)
+        if (key->color_argument[i] % SOURCE_COUNT == source)
+            return 1;
+    for (int i = 0; i < stage_arguments[key->alpha_stage] && !stage_is_joint(key); i++)
+        if (key->alpha_argument[i] % SOURCE_COUNT == source)
+            return 1;
+    return 0;
+}
+
 static const struct key_field all_fields[] = {
 #define KEY(unit, field, radix, meaning) {#field, meaning, offsetof(struct unit##_key, field), 1, radix},
 #define KEYS(unit, field, count, radix, meaning)                                                             \

@@ -72,7 +72,32 @@ enum address_mode {
     ADDRESS_COUNT
 };
 
-enum stage { STAGE_DIFFUSE, STAGE_REPLACE, STAGE_MODULATE, STAGE_ADD, STAGE_COUNT };
+/* Operations of a texture stage, the ones that Direct3D 9's reduce to (draw/derive.c); spec/stage.h defines
+ * them. DOT gives all four channels. */
+enum stage {
+    STAGE_SELECT,
+    STAGE_MODULATE,
+    STAGE_MODULATE_2X,
+    STAGE_MODULATE_4X,
+    STAGE_ADD,
+    STAGE_ADD_SIGNED,
+    STAGE_ADD_SIGNED_2X,
+    STAGE_SUBTRACT,
+    STAGE_MULTIPLY_ADD,
+    STAGE_LERP,
+    STAGE_DOT,
+    STAGE_COUNT
+};
+
+/* Arguments of a stage: a source, whether its alpha replaces its colour, and whether it is subtracted from 1.
+ */
+enum source { SOURCE_DIFFUSE, SOURCE_TEXTURE, SOURCE_FACTOR, SOURCE_COUNT };
+enum {
+    ARGUMENT_REPLICATE = SOURCE_COUNT,
+    ARGUMENT_COMPLEMENT = 2 * SOURCE_COUNT,
+    STAGE_ARGUMENT_RADIX = 4 * SOURCE_COUNT,
+    STAGE_ARGUMENTS = 3
+};
 
 /* Source factor, target factor: COPY (1, 0); OVER (a, 1-a); PREMULTIPLIED (1, 1-a); SOURCE (a, 0). */
 enum blend { BLEND_COPY, BLEND_OVER, BLEND_PREMULTIPLIED, BLEND_SOURCE, BLEND_COUNT };
@@ -128,6 +153,13 @@ struct key_field {
     uint8_t count;   /* 1, or the length of an array */
     uint8_t radix;   /* values are 0 to radix - 1 */
 };
+
+/* How many of its arguments an operation reads, from the first on. */
+extern const uint8_t stage_arguments[STAGE_COUNT];
+
+/* Whether stage 0 treats alpha like a fourth channel of colour, and whether it reads a source at all. */
+int stage_is_joint(const struct pixel_key *key);
+int stage_reads(const struct pixel_key *key, enum source source);
 
 extern const char *const unit_name[UNIT_COUNT]; /* "vertex", "setup", "pixel" */
 

@@ -105,7 +105,7 @@ enum triptych_result state_set_value(struct state *state, enum triptych_state wh
         return TRIPTYCH_BAD_ARGUMENT;
     }
     if (!is_numeric(kind) && !triptych_state_word(which, value)) {
-        char words[256] = "";
+        char words[512] = "";
         list_words(kind, words, sizeof words);
         error_set(error, "state %s: value %u %s, expected %s", state_rows[which].name, value,
                   in_range ? "is not supported yet" : "does not exist", words);

@@ -101,21 +101,87 @@ static void plan_texture(struct plan *plan, const struct pixel_key *key, const s
     plan_sample(plan, key);
 }
 
+static void plan_argument(struct plan *plan, int which, unsigned argument)
+{
+#define FORMS(which)                                                                                         \
+    {                                                                                                        \
+        &fragment_##which##_diffuse, &fragment_##which##_texture, &fragment_##which##_factor,                \
+            &fragment_##which##_replicate, &fragment_##which##_complement                                    \
+    }
+    static const struct fragment *const form[STAGE_ARGUMENTS][SOURCE_COUNT + 2] = {
+        FORMS(first), FORMS(second), FORMS(third)};
+#undef FORMS
+    plan_append(plan, form[which][argument % SOURCE_COUNT], ARGUMENTS(JOB(texture_factor)));
+    if (argument / ARGUMENT_REPLICATE & 1)
+        plan_append(plan, form[which][SOURCE_COUNT], NONE);
+    if (argument / ARGUMENT_COMPLEMENT)
+        plan_append(plan, form[which][SOURCE_COUNT + 1], NONE);
+}
+
+static void plan_half_stage(struct plan *plan, enum stage operation, const uint8_t argument[STAGE_ARGUMENTS])
+{
+    static const struct fragment *const combine[STAGE_COUNT] = {
+        [STAGE_MODULATE] = &fragment_stage_two_modulate,
+        [STAGE_MODULATE_2X] = &fragment_stage_two_modulate_2x,
+        [STAGE_MODULATE_4X] = &fragment_stage_two_modulate_4x,
+        [STAGE_ADD] = &fragment_stage_two_add,
+        [STAGE_ADD_SIGNED] = &fragment_stage_two_add_signed,
+        [STAGE_ADD_SIGNED_2X] = &fragment_stage_two_add_signed_2x,
+        [STAGE_SUBTRACT] = &fragment_stage_two_subtract,
+        [STAGE_MULTIPLY_ADD] = &fragment_stage_multiply_add,
+        [STAGE_LERP] = &fragment_stage_lerp,
+        [STAGE_DOT] = &fragment_stage_dot};
+    for (int i = 0; i < stage_arguments[operation]; i++)
+        plan_argument(plan, i, argument[i]);
+    if (operation != STAGE_SELECT)
+        plan_append(plan, combine[operation], NONE);
+}
+
+/* The fragment for all four channels at once of what most draws do; null if there is none. */
+static const struct fragment *common_stage(const struct pixel_key *key)
+{
+    const uint8_t *argument = key->color_argument;
+    int both = (argument[0] == SOURCE_TEXTURE && argument[1] == SOURCE_DIFFUSE) ||
+               (argument[0] == SOURCE_DIFFUSE && argument[1] == SOURCE_TEXTURE);
+    if (key->color_stage == STAGE_SELECT && argument[0] == SOURCE_TEXTURE)
+        return &fragment_stage_replace;
+    if (key->color_stage == STAGE_MODULATE && both)
+        return &fragment_stage_modulate;
+    return key->color_stage == STAGE_ADD && both ? &fragment_stage_add : NULL;
+}
+
+static void plan_stage(struct plan *plan, const struct pixel_key *key)
+{
+    int joint = stage_is_joint(key);
+    const struct fragment *common = joint ? common_stage(key) : NULL;
+    if (common) {
+        plan_append(plan, common, NONE);
+        return;
+    }
+    if (joint && key->color_stage == STAGE_SELECT && key->color_argument[0] == SOURCE_DIFFUSE)
+        return;
+    plan_half_stage(plan, key->color_stage, key->color_argument);
+    if (joint) {
+        plan_append(plan, &fragment_stage_result, NONE);
+        return;
+    }
+    plan_append(plan, &fragment_stage_keep_color, NONE);
+    plan_half_stage(plan, key->alpha_stage, key->alpha_argument);
+    plan_append(plan, &fragment_stage_join_alpha, NONE);
+}
+
 static void plan_shade(struct plan *plan, const struct pixel_key *key, const struct triangle_layout *layout)
 {
-    static const struct fragment *const stage[STAGE_COUNT] = {[STAGE_REPLACE] = &fragment_stage_replace,
-                                                              [STAGE_MODULATE] = &fragment_stage_modulate,
-                                                              [STAGE_ADD] = &fragment_stage_add};
+    int textured = stage_reads(key, SOURCE_TEXTURE);
     if (layout->smooth)
         plan_append(plan, &fragment_pixel_w, ARGUMENTS(layout->reciprocal_w));
-    else if (key->texture && key->varying[VARYING_texcoord] == INTERPOLATION_NONE)
+    else if (textured && key->texture && key->varying[VARYING_texcoord] == INTERPOLATION_NONE)
         plan_append(plan, &fragment_pixel_w_one, NONE);
-    if (key->stage != STAGE_REPLACE)
+    if (stage_reads(key, SOURCE_DIFFUSE))
         plan_diffuse(plan, key, layout);
-    if (key->stage == STAGE_DIFFUSE)
-        return;
-    plan_texture(plan, key, layout);
-    plan_append(plan, stage[key->stage], NONE);
+    if (textured)
+        plan_texture(plan, key, layout);
+    plan_stage(plan, key);
 }
 
 static void plan_target(struct plan *plan, const struct pixel_key *key)

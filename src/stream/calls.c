@@ -103,7 +103,7 @@ static int find_state(const struct lexer *lex, enum triptych_state *state)
 /* The words of a state, for a reason; the numbers of Direct3D 9's enumerations are small. */
 static int expect_state_word(struct parser *parser, enum triptych_state state)
 {
-    char choices[256] = "";
+    char choices[512] = "";
     size_t at = 0;
     for (uint32_t value = 0; value < 64 && at < sizeof choices; value++) {
         const char *word = triptych_state_word(state, value);

@@ -46,7 +46,7 @@ static const struct {
 
 static void add_words(cJSON *row, const char *kind)
 {
-    char text[TABLE_CELL] = "";
+    char text[512] = "";
     for (size_t i = 0; i < sizeof words / sizeof *words; i++)
         if (!strcmp(words[i].kind, kind))
             snprintf(text + strlen(text), sizeof text - strlen(text), "%s%s", text[0] ? " " : "",

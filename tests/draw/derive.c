@@ -76,7 +76,8 @@ static void without_a_texture_its_states_are_dead(void)
     expect_same_keys(change_sampler);
     TEST_ASSERT_EQUAL_INT(0, key[UNIT_PIXEL].pixel.texture);
     TEST_ASSERT_EQUAL_INT(0, key[UNIT_PIXEL].pixel.filter);
-    TEST_ASSERT_EQUAL_INT(STAGE_DIFFUSE, key[UNIT_PIXEL].pixel.stage);
+    TEST_ASSERT_EQUAL_INT(STAGE_SELECT, key[UNIT_PIXEL].pixel.color_stage);
+    TEST_ASSERT_EQUAL_INT(SOURCE_DIFFUSE, key[UNIT_PIXEL].pixel.color_argument[0]);
     TEST_ASSERT_EQUAL_INT(ATTRIBUTE_FORMAT_NONE, key[UNIT_VERTEX].vertex.attribute[ATTRIBUTE_TEXCOORD]);
 }
 
@@ -116,7 +117,9 @@ static void replacing_by_the_texture_kills_diffuse(void)
     state.light_enabled[2] = 1;
     SET(colorop, "selectarg1");
     expect_same_keys(change_diffuse);
-    TEST_ASSERT_EQUAL_INT(STAGE_REPLACE, key[UNIT_PIXEL].pixel.stage);
+    TEST_ASSERT_EQUAL_INT(STAGE_SELECT, key[UNIT_PIXEL].pixel.color_stage);
+    TEST_ASSERT_EQUAL_INT(SOURCE_TEXTURE, key[UNIT_PIXEL].pixel.color_argument[0]);
+    TEST_ASSERT_EQUAL_INT(SOURCE_TEXTURE, key[UNIT_PIXEL].pixel.alpha_argument[0]);
     TEST_ASSERT_EQUAL_INT(INTERPOLATION_NONE, key[UNIT_PIXEL].pixel.varying[VARYING_diffuse]);
     TEST_ASSERT_EQUAL_INT(INTERPOLATION_SMOOTH, key[UNIT_PIXEL].pixel.varying[VARYING_texcoord]);
     TEST_ASSERT_EQUAL_INT(LIGHT_NONE, key[UNIT_VERTEX].vertex.light[0]);
@@ -225,6 +228,78 @@ static void addressing_follows_the_axis(void)
         TEST_ASSERT_EQUAL_INT(modes[i].u, key[UNIT_PIXEL].pixel.address_u);
         TEST_ASSERT_EQUAL_INT(modes[i].v, key[UNIT_PIXEL].pixel.address_v);
     }
+}
+
+static void change_unread_arguments(void)
+{
+    SET(colorarg0, "tfactor_complement");
+    SET(colorarg2, "tfactor");
+    SET(alphaarg0, "tfactor");
+    SET(alphaarg1, "texture_alphareplicate");
+    state_set_value(&state, TRIPTYCH_STATE_texturefactor, 0x12345678, NULL);
+}
+
+static void arguments_that_are_not_read_are_dead(void)
+{
+    state.texture = &texture;
+    SET(colorop, "selectarg1");
+    expect_same_keys(change_unread_arguments);
+    derive();
+    TEST_ASSERT_EQUAL_HEX32(0, job.texture_factor);
+    SET(colorop, "addsmooth");
+    derive();
+    TEST_ASSERT_EQUAL_HEX32(0x12785634, job.texture_factor);
+}
+
+static void use_the_general_operation(void)
+{
+    SET(colorop, "lerp");
+    SET(colorarg0, "texture_alphareplicate");
+}
+
+static void blends_are_interpolations(void)
+{
+    state.texture = &texture;
+    SET(colorop, "blendtexturealpha");
+    expect_same_keys(use_the_general_operation);
+}
+
+static void unbind_what_is_not_read(void)
+{
+    state.texture = NULL;
+    bind(TRIPTYCH_TEXCOORD, TRIPTYCH_FORMAT_NONE);
+}
+
+static void a_stage_without_texture_arguments_needs_no_texture(void)
+{
+    state.texture = &texture;
+    SET(colorarg1, "tfactor");
+    SET(alphaarg1, "diffuse");
+    expect_same_keys(unbind_what_is_not_read);
+    TEST_ASSERT_EQUAL_INT(STAGE_MODULATE, key[UNIT_PIXEL].pixel.color_stage);
+    TEST_ASSERT_EQUAL_INT(INTERPOLATION_NONE, key[UNIT_PIXEL].pixel.varying[VARYING_texcoord]);
+}
+
+static void change_alpha_stage(void)
+{
+    SET(alphaop, "add");
+    SET(alphaarg1, "tfactor");
+}
+
+static void a_dot_product_is_alpha_too(void)
+{
+    state.texture = &texture;
+    SET(colorop, "dotproduct3");
+    expect_same_keys(change_alpha_stage);
+}
+
+static void a_disabled_stage_passes_diffuse(void)
+{
+    state.texture = &texture;
+    SET(colorop, "disable");
+    expect_same_keys(change_alpha_stage);
+    TEST_ASSERT_EQUAL_INT(0, key[UNIT_PIXEL].pixel.texture);
+    TEST_ASSERT_EQUAL_INT(INTERPOLATION_SMOOTH, key[UNIT_PIXEL].pixel.varying[VARYING_diffuse]);
 }
 
 static void change_border_colour(void)
@@ -443,6 +518,11 @@ int main(void)
     RUN_TEST(wrapping_a_power_of_two_is_told_apart);
     RUN_TEST(addressing_follows_the_axis);
     RUN_TEST(the_border_colour_is_the_jobs);
+    RUN_TEST(arguments_that_are_not_read_are_dead);
+    RUN_TEST(blends_are_interpolations);
+    RUN_TEST(a_stage_without_texture_arguments_needs_no_texture);
+    RUN_TEST(a_dot_product_is_alpha_too);
+    RUN_TEST(a_disabled_stage_passes_diffuse);
     RUN_TEST(flat_shading_concerns_diffuse_only);
     RUN_TEST(lights_are_packed_to_the_front);
     RUN_TEST(without_lights_normals_are_dead);

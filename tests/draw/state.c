@@ -68,6 +68,26 @@ static void a_value_that_direct3d_has_and_we_do_not_is_unsupported(void)
                    "state srcblend: value 9 is not supported yet, expected one (2), srcalpha (5)");
 }
 
+static void arguments_and_operations_not_here_are_unsupported(void)
+{
+    static const struct {
+        enum triptych_state state;
+        uint32_t value;
+    } unsupported[] = {{TRIPTYCH_STATE_colorarg1, 4},
+                       {TRIPTYCH_STATE_colorarg2, 5},
+                       {TRIPTYCH_STATE_alphaarg0, 6},
+                       {TRIPTYCH_STATE_colorop, 22},
+                       {TRIPTYCH_STATE_alphaop, 24}};
+    uint32_t value;
+    for (size_t i = 0; i < sizeof unsupported / sizeof *unsupported; i++)
+        TEST_ASSERT_EQUAL_INT(TRIPTYCH_UNSUPPORTED,
+                              state_set_value(&state, unsupported[i].state, unsupported[i].value, NULL));
+    TEST_ASSERT_EQUAL_MEMORY(&before, &state, sizeof state);
+    TEST_ASSERT_EQUAL_INT(
+        0, triptych_state_value(TRIPTYCH_STATE_alphaarg2, "tfactor_complement_alphareplicate", &value));
+    TEST_ASSERT_EQUAL_HEX32(0x33, value);
+}
+
 static void a_value_that_nobody_has_is_a_bad_argument(void)
 {
     expect_refused(TRIPTYCH_BAD_ARGUMENT, state_set_value(&state, TRIPTYCH_STATE_shademode, 9, &error),
@@ -156,6 +176,7 @@ int main(void)
     RUN_TEST(every_word_leads_to_its_value_and_back);
     RUN_TEST(names_are_direct3ds);
     RUN_TEST(a_value_that_direct3d_has_and_we_do_not_is_unsupported);
+    RUN_TEST(arguments_and_operations_not_here_are_unsupported);
     RUN_TEST(a_value_that_nobody_has_is_a_bad_argument);
     RUN_TEST(a_matrix_that_is_not_finite_is_refused);
     RUN_TEST(a_viewport_must_lie_in_the_target);

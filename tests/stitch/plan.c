@@ -30,13 +30,19 @@ static void check_plan(planner *planner, enum unit unit, const union key *key)
         planned[plan.part[i].fragment - __start_stitch_fragments] = 1;
 }
 
-/* Counts through the values of the fields from `first` on; 0 when they have all been. */
+/* The stage's operations and arguments are too many to count through with everything else. */
+static int is_stage(const char *field)
+{
+    return !strncmp(field, "color_", 6) || !strncmp(field, "alpha_", 6);
+}
+
+/* Counts through the values of the fields, the stage's excepted; 0 when they have all been. */
 static int next_key(enum unit unit, union key *key)
 {
     size_t count;
     const struct key_field *field = key_fields(unit, &count);
     for (size_t i = 0; i < count; i++)
-        for (unsigned j = 0; j < field[i].count; j++) {
+        for (unsigned j = 0; j < field[i].count && !is_stage(field[i].name); j++) {
             uint8_t *digit = (uint8_t *)key + field[i].offset + j;
             if (++*digit < field[i].radix)
                 return 1;
@@ -82,13 +88,51 @@ static void setup_plans_keep_the_contract(void)
 }
 
 /* Of the write masks, none, some and all. */
-static void pixel_plans_keep_the_contract(void)
+static void check_pixel_plans(union key key)
 {
-    union key key = no_state;
     do {
         if (key.pixel.write_mask == 0 || key.pixel.write_mask == 7 || key.pixel.write_mask == 15)
             check_plan(plan_stages, UNIT_PIXEL, &key);
     } while (next_key(UNIT_PIXEL, &key));
+}
+
+/* The operation in colour alone, in both halves, and in alpha alone. */
+static void check_stage_plans(union key key, enum stage stage, unsigned first, unsigned second,
+                              unsigned third)
+{
+    const uint8_t argument[STAGE_ARGUMENTS] = {(uint8_t)first, (uint8_t)second, (uint8_t)third};
+    key.pixel.color_stage = (uint8_t)stage;
+    memcpy(key.pixel.color_argument, argument, sizeof argument);
+    check_plan(plan_stages, UNIT_PIXEL, &key);
+    if (stage == STAGE_DOT)
+        return;
+    key.pixel.alpha_stage = (uint8_t)stage;
+    memcpy(key.pixel.alpha_argument, argument, sizeof argument);
+    check_plan(plan_stages, UNIT_PIXEL, &key);
+    key.pixel.color_stage = STAGE_LERP;
+    check_plan(plan_stages, UNIT_PIXEL, &key);
+}
+
+static void pixel_plans_keep_the_contract(void)
+{
+    union key key = no_state;
+    check_pixel_plans(key);
+    key.pixel.color_argument[0] = key.pixel.alpha_argument[0] = SOURCE_TEXTURE;
+    check_pixel_plans(key);
+    key.pixel.color_stage = STAGE_LERP;
+    key.pixel.color_argument[2] = SOURCE_FACTOR;
+    check_pixel_plans(key);
+}
+
+static void stage_plans_keep_the_contract(void)
+{
+    const unsigned radix = STAGE_ARGUMENT_RADIX;
+    union key key = no_state;
+    key.pixel.texture = 1;
+    key.pixel.write_mask = 15;
+    for (int stage = 0; stage < STAGE_COUNT; stage++)
+        for (unsigned digits = 0; digits < radix * radix * radix; digits++)
+            check_stage_plans(key, stage, digits % radix, digits / radix % radix, digits / radix / radix);
 }
 
 static void operation_plans_keep_the_contract(void)
@@ -193,6 +237,7 @@ int main(void)
     RUN_TEST(vertex_plans_keep_the_contract);
     RUN_TEST(setup_plans_keep_the_contract);
     RUN_TEST(pixel_plans_keep_the_contract);
+    RUN_TEST(stage_plans_keep_the_contract);
     RUN_TEST(operation_plans_keep_the_contract);
     RUN_TEST(every_fragment_is_planned_by_some_key);
     RUN_TEST(broken_plans_are_noticed);

@@ -325,6 +325,7 @@ static void make_texture(struct differential *d, const struct pixel_key *key)
     texture->last_u = width - 1;
     texture->last_v = height - 1;
     texture->border = word(d);
+    d->job.texture_factor = word(d);
 }
 
 /* Planes that pass exactly through stored depths, so that EQUAL has something to find. */
