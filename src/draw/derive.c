@@ -90,59 +90,62 @@ static uint8_t derive_argument(uint32_t argument)
                                       [ARGUMENT_tfactor] = SOURCE_FACTOR};
     unsigned flags =
         (argument & COMPLEMENT ? ARGUMENT_COMPLEMENT : 0) + (argument & REPLICATE ? ARGUMENT_REPLICATE : 0);
-    return (uint8_t)(source[argument & 3] + flags);
+    return (uint8_t)(source[argument & ARGUMENT_tfactor] + flags);
 }
+
+/* Where an argument of a reduced operation comes from: argument 1, 2 or 0 of the state, or a source; with
+ * REPLICATE to be set, COMPLEMENT to be turned. */
+enum { FIRST, SECOND, THIRD, DIFFUSE, CURRENT, TEXTURE, FACTOR, ORIGIN = 7 };
 
 /* Operations that are others with particular arguments: blends are interpolations by an alpha, and all that
  * end in an addition of a product are one. ADDSMOOTH, a + b - a * b, is a + (1 - a) * b, and rounds alike. */
-static uint8_t reduce_stage(const struct half_stage *half, uint32_t r[STAGE_ARGUMENTS])
+static const struct reduction {
+    uint8_t stage;
+    uint8_t argument[STAGE_ARGUMENTS];
+} reductions[] = {
+    [TEXTUREOP_disable] = {STAGE_SELECT, {CURRENT}},
+    [TEXTUREOP_selectarg1] = {STAGE_SELECT, {FIRST}},
+    [TEXTUREOP_selectarg2] = {STAGE_SELECT, {SECOND}},
+    [TEXTUREOP_modulate] = {STAGE_MODULATE, {FIRST, SECOND}},
+    [TEXTUREOP_modulate2x] = {STAGE_MODULATE_2X, {FIRST, SECOND}},
+    [TEXTUREOP_modulate4x] = {STAGE_MODULATE_4X, {FIRST, SECOND}},
+    [TEXTUREOP_add] = {STAGE_ADD, {FIRST, SECOND}},
+    [TEXTUREOP_addsigned] = {STAGE_ADD_SIGNED, {FIRST, SECOND}},
+    [TEXTUREOP_addsigned2x] = {STAGE_ADD_SIGNED_2X, {FIRST, SECOND}},
+    [TEXTUREOP_subtract] = {STAGE_SUBTRACT, {FIRST, SECOND}},
+    [TEXTUREOP_addsmooth] = {STAGE_MULTIPLY_ADD, {FIRST | COMPLEMENT, SECOND, FIRST}},
+    [TEXTUREOP_blenddiffusealpha] = {STAGE_LERP, {FIRST, SECOND, DIFFUSE | REPLICATE}},
+    [TEXTUREOP_blendtexturealpha] = {STAGE_LERP, {FIRST, SECOND, TEXTURE | REPLICATE}},
+    [TEXTUREOP_blendfactoralpha] = {STAGE_LERP, {FIRST, SECOND, FACTOR | REPLICATE}},
+    [TEXTUREOP_blendcurrentalpha] = {STAGE_LERP, {FIRST, SECOND, CURRENT | REPLICATE}},
+    [TEXTUREOP_blendtexturealphapm] = {STAGE_MULTIPLY_ADD, {TEXTURE | COMPLEMENT | REPLICATE, SECOND, FIRST}},
+    [TEXTUREOP_modulatealpha_addcolor] = {STAGE_MULTIPLY_ADD, {FIRST | REPLICATE, SECOND, FIRST}},
+    [TEXTUREOP_modulatecolor_addalpha] = {STAGE_MULTIPLY_ADD, {FIRST, SECOND, FIRST | REPLICATE}},
+    [TEXTUREOP_modulateinvalpha_addcolor] = {STAGE_MULTIPLY_ADD,
+                                             {FIRST | COMPLEMENT | REPLICATE, SECOND, FIRST}},
+    [TEXTUREOP_modulateinvcolor_addalpha] = {STAGE_MULTIPLY_ADD,
+                                             {FIRST | COMPLEMENT, SECOND, FIRST | REPLICATE}},
+    [TEXTUREOP_dotproduct3] = {STAGE_DOT, {FIRST, SECOND}},
+    [TEXTUREOP_multiplyadd] = {STAGE_MULTIPLY_ADD, {FIRST, SECOND, THIRD}},
+    [TEXTUREOP_lerp] = {STAGE_LERP, {FIRST, SECOND, THIRD}},
+};
+
+static uint32_t reduced_argument(const struct half_stage *half, unsigned which)
 {
-    uint32_t a = half->argument[0], b = half->argument[1], c = half->argument[2];
-    uint32_t three[STAGE_ARGUMENTS] = {a, b, c};
-    uint8_t stage = STAGE_MULTIPLY_ADD;
-#define AS(operation, first, second, third)                                                                  \
-    stage = operation, three[0] = (first), three[1] = (second), three[2] = (third)
-    switch (half->operation) {
-    case TEXTUREOP_disable: AS(STAGE_SELECT, ARGUMENT_current, b, c); break;
-    case TEXTUREOP_selectarg1: stage = STAGE_SELECT; break;
-    case TEXTUREOP_selectarg2: AS(STAGE_SELECT, b, a, c); break;
-    case TEXTUREOP_modulate: stage = STAGE_MODULATE; break;
-    case TEXTUREOP_modulate2x: stage = STAGE_MODULATE_2X; break;
-    case TEXTUREOP_modulate4x: stage = STAGE_MODULATE_4X; break;
-    case TEXTUREOP_add: stage = STAGE_ADD; break;
-    case TEXTUREOP_addsigned: stage = STAGE_ADD_SIGNED; break;
-    case TEXTUREOP_addsigned2x: stage = STAGE_ADD_SIGNED_2X; break;
-    case TEXTUREOP_subtract: stage = STAGE_SUBTRACT; break;
-    case TEXTUREOP_addsmooth: AS(STAGE_MULTIPLY_ADD, a ^ COMPLEMENT, b, a); break;
-    case TEXTUREOP_blenddiffusealpha: AS(STAGE_LERP, a, b, ARGUMENT_diffuse | REPLICATE); break;
-    case TEXTUREOP_blendtexturealpha: AS(STAGE_LERP, a, b, ARGUMENT_texture | REPLICATE); break;
-    case TEXTUREOP_blendfactoralpha: AS(STAGE_LERP, a, b, ARGUMENT_tfactor | REPLICATE); break;
-    case TEXTUREOP_blendcurrentalpha: AS(STAGE_LERP, a, b, ARGUMENT_current | REPLICATE); break;
-    case TEXTUREOP_blendtexturealphapm:
-        AS(STAGE_MULTIPLY_ADD, ARGUMENT_texture | COMPLEMENT | REPLICATE, b, a);
-        break;
-    case TEXTUREOP_modulatealpha_addcolor: AS(STAGE_MULTIPLY_ADD, a | REPLICATE, b, a); break;
-    case TEXTUREOP_modulatecolor_addalpha: AS(STAGE_MULTIPLY_ADD, a, b, a | REPLICATE); break;
-    case TEXTUREOP_modulateinvalpha_addcolor:
-        AS(STAGE_MULTIPLY_ADD, (a | REPLICATE) ^ COMPLEMENT, b, a);
-        break;
-    case TEXTUREOP_modulateinvcolor_addalpha: AS(STAGE_MULTIPLY_ADD, a ^ COMPLEMENT, b, a | REPLICATE); break;
-    case TEXTUREOP_dotproduct3: stage = STAGE_DOT; break;
-    case TEXTUREOP_lerp: stage = STAGE_LERP; break;
-    }
-#undef AS
-    memcpy(r, three, sizeof three);
-    return stage;
+    unsigned origin = which & ORIGIN;
+    uint32_t argument = origin < DIFFUSE ? half->argument[origin] : ARGUMENT_diffuse + origin - DIFFUSE;
+    return (argument | (which & REPLICATE)) ^ (which & COMPLEMENT);
 }
 
 /* `flags` are those that mean something: alpha replicated is alpha. */
 static uint8_t derive_half(const struct half_stage *half, uint32_t flags, uint8_t argument[STAGE_ARGUMENTS])
 {
-    uint32_t reduced[STAGE_ARGUMENTS];
-    uint8_t stage = reduce_stage(half, reduced);
-    for (int i = 0; i < stage_arguments[stage]; i++)
-        argument[i] = derive_argument(reduced[i] & (3 | flags));
-    return stage;
+    const struct reduction *reduction = &reductions[half->operation];
+    for (int i = 0; i < stage_arguments[reduction->stage]; i++) {
+        uint32_t reduced = reduced_argument(half, reduction->argument[i]);
+        argument[i] = derive_argument(reduced & (ARGUMENT_tfactor | flags));
+    }
+    return reduction->stage;
 }
 
 static void derive_stage(const struct state *state, struct pixel_key *key)
