@@ -199,6 +199,22 @@ enum triptych_result triptych_set_viewport(triptych_device *device, const struct
         &error);
 }
 
+enum triptych_result triptych_set_scissor(triptych_device *device, unsigned x, unsigned y, unsigned width,
+                                          unsigned height)
+{
+    if (!device)
+        return TRIPTYCH_BAD_ARGUMENT;
+    struct error error = {{0}};
+    if (!device->target.width) {
+        error_set(&error, "no target: expected set_target before a scissor rectangle");
+        return finish(device, TRIPTYCH_BAD_CALL, &error);
+    }
+    return changed(device,
+                   state_set_scissor(&device->state, (struct scissor){x, y, width, height},
+                                     device->target.width, device->target.height, &error),
+                   &error);
+}
+
 enum triptych_result triptych_set_material(triptych_device *device, const struct triptych_material *material)
 {
     if (!device)

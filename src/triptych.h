@@ -157,7 +157,8 @@ TRIPTYCH_API unsigned triptych_engine_width(unsigned i);
 TRIPTYCH_API const char *triptych_engine_unavailable(unsigned i);
 
 /* The render target, colour RGBA8 and depth binary32, 1 to 8192 pixels a side; contents start as zero and
- * depth 1. Sets the viewport to the whole target with depth 0 to 1. */
+ * depth 1. Sets the viewport to the whole target with depth 0 to 1, and the scissor rectangle to the whole
+ * target. */
 TRIPTYCH_API enum triptych_result triptych_set_target(triptych_device *, unsigned width, unsigned height);
 
 /* Copies `bytes` (1 to 2^31 - 1) of data; the contents never change. */
@@ -171,6 +172,10 @@ TRIPTYCH_API enum triptych_result triptych_set_state(triptych_device *, enum tri
 TRIPTYCH_API enum triptych_result triptych_set_transform(triptych_device *, enum triptych_transform,
                                                          const float matrix[4][4]);
 TRIPTYCH_API enum triptych_result triptych_set_viewport(triptych_device *, const struct triptych_viewport *);
+/* The rectangle, in pixels inside the target, that draws and clears stay in while the state scissortestenable
+ * is on; an empty one lets nothing through. The whole target after set_target. */
+TRIPTYCH_API enum triptych_result triptych_set_scissor(triptych_device *, unsigned x, unsigned y,
+                                                       unsigned width, unsigned height);
 TRIPTYCH_API enum triptych_result triptych_set_material(triptych_device *, const struct triptych_material *);
 TRIPTYCH_API enum triptych_result triptych_set_light(triptych_device *, unsigned index,
                                                      const struct triptych_light *);
@@ -189,7 +194,8 @@ TRIPTYCH_API enum triptych_result triptych_draw(triptych_device *, enum triptych
 TRIPTYCH_API enum triptych_result triptych_draw_indexed(triptych_device *, enum triptych_primitive,
                                                         int32_t base, uint32_t first, uint32_t count);
 
-/* Clears the viewport's pixels: colour (unless null) and depth (0 to 1, unless negative). */
+/* Clears the viewport's pixels, within the scissor rectangle if its test is on: colour (unless null) and
+ * depth (0 to 1, unless negative). */
 TRIPTYCH_API enum triptych_result triptych_clear(triptych_device *, const float color[4], float depth);
 
 /* Renders everything recorded so far. */

@@ -42,13 +42,113 @@ static void derive_depth(const struct state *state, struct pixel_key *key)
     key->depth_write = GET(zwriteenable) && key->depth_function != COMPARE_EQUAL;
 }
 
-static uint8_t derive_blend(const struct state *state)
+/* One channel's blending, as the key has it. */
+struct blending {
+    uint8_t blend, source, target;
+};
+
+/* Direct3D's numbers up to INVDESTCOLOR are ours and 1; the later ones are in another order. */
+static uint8_t derive_factor(uint32_t factor)
 {
-    if (!GET(alphablendenable))
-        return BLEND_COPY;
-    if (GET(srcblend) == SRCBLEND_one)
-        return GET(destblend) == DESTBLEND_zero ? BLEND_COPY : BLEND_PREMULTIPLIED;
-    return GET(destblend) == DESTBLEND_zero ? BLEND_SOURCE : BLEND_OVER;
+    if (factor <= SRCBLEND_invdestcolor)
+        return (uint8_t)(factor - SRCBLEND_zero);
+    if (factor == SRCBLEND_srcalphasat)
+        return FACTOR_SATURATED_ALPHA;
+    return (uint8_t)(factor - SRCBLEND_blendfactor + FACTOR_CONSTANT);
+}
+
+/* A difference with a term that is zero is a sum or zero, and a sum of the new colour alone a copy. */
+static struct blending reduce_blending(struct blending b)
+{
+    if (b.blend == BLEND_MINIMUM || b.blend == BLEND_MAXIMUM)
+        return (struct blending){.blend = b.blend};
+    if (b.blend == BLEND_SUBTRACT && b.source == FACTOR_ZERO)
+        b.target = FACTOR_ZERO;
+    if (b.blend == BLEND_REVERSE_SUBTRACT && b.target == FACTOR_ZERO)
+        b.source = FACTOR_ZERO;
+    if ((b.blend == BLEND_SUBTRACT && b.target == FACTOR_ZERO) ||
+        (b.blend == BLEND_REVERSE_SUBTRACT && b.source == FACTOR_ZERO))
+        b.blend = BLEND_ADD;
+    if (b.blend == BLEND_ADD && b.source == FACTOR_ONE && b.target == FACTOR_ZERO)
+        return (struct blending){BLEND_COPY, 0, 0};
+    return b;
+}
+
+/* The BOTH factors override the target's (Direct3D 9, D3DBLEND). */
+static struct blending make_blending(uint32_t operation, uint32_t source, uint32_t target)
+{
+    if (source == SRCBLEND_bothsrcalpha || source == SRCBLEND_bothinvsrcalpha) {
+        int inverse = source == SRCBLEND_bothinvsrcalpha;
+        source = inverse ? SRCBLEND_invsrcalpha : SRCBLEND_srcalpha;
+        target = inverse ? SRCBLEND_srcalpha : SRCBLEND_invsrcalpha;
+    }
+    return reduce_blending((struct blending){(uint8_t)(operation - BLENDOP_add + BLEND_ADD),
+                                             derive_factor(source), derive_factor(target)});
+}
+
+/* The factor that is the same for alpha: its colour is itself. */
+static uint8_t alpha_factor(uint8_t factor)
+{
+    if (factor == FACTOR_SOURCE_COLOR || factor == FACTOR_INVERSE_SOURCE_COLOR)
+        return factor - FACTOR_SOURCE_COLOR + FACTOR_SOURCE_ALPHA;
+    if (factor == FACTOR_TARGET_COLOR || factor == FACTOR_INVERSE_TARGET_COLOR)
+        return factor - FACTOR_TARGET_COLOR + FACTOR_TARGET_ALPHA;
+    return factor == FACTOR_SATURATED_ALPHA ? FACTOR_ONE : factor;
+}
+
+/* The blending that is the same for alpha, unless it would be rounded otherwise. */
+static struct blending alpha_blending(struct blending b)
+{
+    struct blending r = {b.blend, alpha_factor(b.source), alpha_factor(b.target)};
+    int same = blend_is_lerp(r.blend, r.source, r.target) == blend_is_lerp(b.blend, b.source, b.target);
+    return b.blend == BLEND_COPY || !same ? b : reduce_blending(r);
+}
+
+static bool same_blending(struct blending a, struct blending b)
+{
+    return a.blend == b.blend && a.source == b.source && a.target == b.target;
+}
+
+static bool keeps_target(struct blending b)
+{
+    return b.blend == BLEND_ADD && b.source == FACTOR_ZERO && b.target == FACTOR_ONE;
+}
+
+static void store_blending(struct pixel_key *key, int channel, struct blending b)
+{
+    key->blend[channel] = b.blend;
+    key->source_factor[channel] = b.source;
+    key->target_factor[channel] = b.target;
+}
+
+enum { MASK_COLOR = 7, MASK_ALPHA = 8 };
+
+/* Channels that stay as they are need not be written; those that are not written are blended like the others.
+ */
+static void derive_blend(const struct state *state, struct pixel_key *key)
+{
+    struct blending color = {BLEND_COPY, 0, 0}, alpha;
+    if (GET(alphablendenable))
+        color = make_blending(GET(blendop), GET(srcblend), GET(destblend));
+    alpha = color;
+    if (GET(alphablendenable) && GET(separatealphablendenable))
+        alpha = alpha_blending(make_blending(GET(blendopalpha), GET(srcblendalpha), GET(destblendalpha)));
+    if (keeps_target(color))
+        key->write_mask &= MASK_ALPHA;
+    if (keeps_target(alpha))
+        key->write_mask &= MASK_COLOR;
+    if (!(key->write_mask & MASK_ALPHA) || same_blending(alpha, alpha_blending(color)))
+        alpha = color;
+    if (!(key->write_mask & MASK_COLOR))
+        color = alpha;
+    store_blending(key, BLEND_COLOR, color);
+    store_blending(key, BLEND_ALPHA, alpha);
+}
+
+/* What the test discards is the opposite of what it keeps. */
+static uint8_t derive_alpha_discard(const struct state *state)
+{
+    return GET(alphatestenable) ? (uint8_t)(COMPARE_always - GET(alphafunc)) : COMPARE_NEVER;
 }
 
 static uint8_t derive_address(uint32_t address, uint32_t size)
@@ -168,15 +268,26 @@ static void derive_pixel(const struct state *state, struct pixel_key *key)
 {
     derive_depth(state, key);
     key->write_mask = (uint8_t)GET(colorwriteenable);
-    if (key->depth_function == COMPARE_NEVER)
+    key->alpha_discard = derive_alpha_discard(state);
+    derive_blend(state, key);
+    if (key->depth_function == COMPARE_NEVER || key->alpha_discard == COMPARE_ALWAYS)
         key->depth_write = key->write_mask = 0;
-    if (!derive_effective(key))
-        key->depth_function = COMPARE_ALWAYS; /* one key for all that draw nothing */
-    if (!key->write_mask)
+    if (!derive_effective(key)) { /* one key for all that draw nothing */
+        key->depth_function = COMPARE_ALWAYS;
+        key->alpha_discard = COMPARE_NEVER;
+    }
+    if (!key->write_mask) {
+        store_blending(key, BLEND_COLOR, (struct blending){BLEND_COPY, 0, 0});
+        store_blending(key, BLEND_ALPHA, (struct blending){BLEND_COPY, 0, 0});
+    }
+    if (!pixel_shades(key))
         return;
     derive_stage(state, key);
+    if (!key->write_mask && key->color_stage != STAGE_DOT) { /* alpha alone is looked at */
+        key->color_stage = key->alpha_stage;
+        memcpy(key->color_argument, key->alpha_argument, sizeof key->color_argument);
+    }
     derive_texture(state, key);
-    key->blend = derive_blend(state);
     if (key->texture)
         key->varying[VARYING_texcoord] = INTERPOLATION_SMOOTH;
     if (stage_reads(key, SOURCE_DIFFUSE))
@@ -434,6 +545,9 @@ __attribute__((noinline)) static void fill_job(const struct state *state, const 
         fill_texture(state, pixel, &job->texture);
     if (stage_reads(pixel, SOURCE_FACTOR))
         job->texture_factor = rgba_word(GET(texturefactor));
+    if (pixel->alpha_discard)
+        job->alpha_reference = (int32_t)GET(alpharef);
+    job->blend_constant = rgba_word(GET(blendfactor));
 }
 
 void derive_job(const struct state *state, const struct vertex_key *vertex, const struct pixel_key *pixel,
@@ -451,10 +565,27 @@ static int32_t first_centre(double edge)
     return (int32_t)ceil(edge - 0.5);
 }
 
-struct rectangle derive_scissor(const struct triptych_viewport *viewport)
+static int32_t at_least(int32_t low, int32_t value)
 {
-    double x = (double)viewport->x, y = (double)viewport->y;
-    struct rectangle r = {first_centre(x), first_centre(y), first_centre(x + (double)viewport->width),
-                          first_centre(y + (double)viewport->height)};
+    return value < low ? low : value;
+}
+
+static int32_t at_most(int32_t high, int32_t value)
+{
+    return value > high ? high : value;
+}
+
+struct rectangle derive_scissor(const struct state *state)
+{
+    double x = (double)state->viewport.x, y = (double)state->viewport.y;
+    struct rectangle r = {first_centre(x), first_centre(y), first_centre(x + (double)state->viewport.width),
+                          first_centre(y + (double)state->viewport.height)};
+    if (!GET(scissortestenable))
+        return r;
+    const struct scissor *s = &state->scissor;
+    r.x0 = at_least((int32_t)s->x, r.x0);
+    r.y0 = at_least((int32_t)s->y, r.y0);
+    r.x1 = at_least(r.x0, at_most((int32_t)(s->x + s->width), r.x1));
+    r.y1 = at_least(r.y0, at_most((int32_t)(s->y + s->height), r.y1));
     return r;
 }

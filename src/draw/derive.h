@@ -27,7 +27,7 @@ bool derive_effective(const struct pixel_key *key);
 void derive_job(const struct state *state, const struct vertex_key *vertex, const struct pixel_key *pixel,
                 struct job *job);
 
-/* The pixels whose centres lie inside the viewport. */
-struct rectangle derive_scissor(const struct triptych_viewport *viewport);
+/* The pixels whose centres lie inside the viewport and, if its test is on, the scissor rectangle. */
+struct rectangle derive_scissor(const struct state *state);
 
 #endif

@@ -113,6 +113,7 @@ enum triptych_result device_set_target(struct triptych_device *device, uint32_t 
     target_destroy(&device->target);
     device->target = target;
     device->state.viewport = (struct triptych_viewport){0, 0, (float)width, (float)height, 0, 1};
+    device->state.scissor = (struct scissor){0, 0, width, height};
     device_state_changed(device);
     return TRIPTYCH_OK;
 }
@@ -263,7 +264,7 @@ static enum triptych_result record(struct triptych_device *device, const struct 
         *draw = *source;
         draw->job = device->job;
         memcpy(draw->routine, routine, sizeof draw->routine);
-        draw->scissor = derive_scissor(&device->state.viewport);
+        draw->scissor = derive_scissor(&device->state);
         draw->stride = triangle_layout(setup->depth, setup->varying).stride;
         device->frame->commands++;
     }
@@ -341,7 +342,7 @@ enum triptych_result device_clear(struct triptych_device *device, const float co
     struct command *command = next_command(device);
     command->kind = COMMAND_CLEAR;
     command->clear = (struct clear){
-        .area = derive_scissor(&device->state.viewport), .set_color = color != NULL, .set_depth = depth >= 0};
+        .area = derive_scissor(&device->state), .set_color = color != NULL, .set_depth = depth >= 0};
     unsigned saved = mxcsr_enter();
     if (color)
         command->clear.color = pack_color(color);

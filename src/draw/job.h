@@ -67,7 +67,8 @@ struct job {
 
     struct texture_job texture;
     uint32_t texture_factor; /* RGBA8, red in the low byte */
-    uint32_t reserved;
+    int32_t alpha_reference; /* 0 to 255 */
+    uint32_t blend_constant; /* RGBA8, red in the low byte */
 };
 
 #endif

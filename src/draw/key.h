@@ -45,7 +45,7 @@ enum interpolation { INTERPOLATION_NONE, INTERPOLATION_SMOOTH, INTERPOLATION_FLA
 
 enum cull { CULL_NONE, CULL_CLOCKWISE, CULL_COUNTERCLOCKWISE, CULL_COUNT };
 
-/* `new COMPARE stored` */
+/* `new COMPARE stored`, `alpha COMPARE reference`. A comparison and its opposite add up to ALWAYS. */
 enum compare {
     COMPARE_NEVER,
     COMPARE_LESS,
@@ -99,8 +99,37 @@ enum {
     STAGE_ARGUMENTS = 3
 };
 
-/* Source factor, target factor: COPY (1, 0); OVER (a, 1-a); PREMULTIPLIED (1, 1-a); SOURCE (a, 0). */
-enum blend { BLEND_COPY, BLEND_OVER, BLEND_PREMULTIPLIED, BLEND_SOURCE, BLEND_COUNT };
+/* Colour and alpha are blended alike when their operations and factors are the same. */
+enum { BLEND_COLOR, BLEND_ALPHA, BLEND_CHANNELS };
+
+/* COPY, MINIMUM and MAXIMUM have no factors. */
+enum blend {
+    BLEND_COPY,
+    BLEND_ADD,
+    BLEND_SUBTRACT, /* new - stored */
+    BLEND_REVERSE_SUBTRACT,
+    BLEND_MINIMUM,
+    BLEND_MAXIMUM,
+    BLEND_COUNT
+};
+
+/* An odd one is 1 minus the even one before it. */
+enum factor {
+    FACTOR_ZERO,
+    FACTOR_ONE,
+    FACTOR_SOURCE_COLOR,
+    FACTOR_INVERSE_SOURCE_COLOR,
+    FACTOR_SOURCE_ALPHA,
+    FACTOR_INVERSE_SOURCE_ALPHA,
+    FACTOR_TARGET_ALPHA,
+    FACTOR_INVERSE_TARGET_ALPHA,
+    FACTOR_TARGET_COLOR,
+    FACTOR_INVERSE_TARGET_COLOR,
+    FACTOR_CONSTANT,
+    FACTOR_INVERSE_CONSTANT,
+    FACTOR_SATURATED_ALPHA, /* min(new alpha, 1 - stored alpha), 1 for alpha */
+    FACTOR_COUNT
+};
 
 struct vertex_key {
 #define KEY_vertex(field, count) uint8_t field count;
@@ -172,6 +201,28 @@ void key_unpack(enum unit unit, const struct packed_key *packed, union key *key)
 
 /* 64-bit hash of the unit and the packed words (xxHash). */
 uint64_t key_hash(enum unit unit, const struct packed_key *packed);
+
+/* Whether the pixel routine computes colours: to write them, or to find whose depth the alpha test keeps. */
+static inline int pixel_shades(const struct pixel_key *key)
+{
+    return key->write_mask || (key->alpha_discard && key->depth_write);
+}
+
+/* Whether alpha is blended otherwise than colour. */
+static inline int blend_is_separate(const struct pixel_key *key)
+{
+    return key->blend[BLEND_COLOR] != key->blend[BLEND_ALPHA] ||
+           key->source_factor[BLEND_COLOR] != key->source_factor[BLEND_ALPHA] ||
+           key->target_factor[BLEND_COLOR] != key->target_factor[BLEND_ALPHA];
+}
+
+/* Whether the factors are f and 1 - f for some f other than 0 and 1: the sum of both products is then rounded
+ * once. */
+static inline int blend_is_lerp(int blend, int source_factor, int target_factor)
+{
+    return blend == BLEND_ADD && source_factor > FACTOR_ONE && source_factor < FACTOR_SATURATED_ALPHA &&
+           (source_factor ^ 1) == target_factor;
+}
 
 /* Writes `field=value field=v,v,v ...`, fields that are zero left out ("default" when all are), and returns
  * text. */

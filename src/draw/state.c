@@ -75,10 +75,10 @@ int triptych_state_value(enum triptych_state which, const char *word, uint32_t *
     return -1;
 }
 
-/* Numbers without words: colours and masks. */
+/* Numbers without words. */
 static int is_numeric(enum kind kind)
 {
-    return kind == KIND_COLOR || kind == KIND_MASK;
+    return kind == KIND_COLOR || kind == KIND_MASK || kind == KIND_BYTE;
 }
 
 static void list_words(enum kind kind, char *text, size_t size)
@@ -180,6 +180,19 @@ enum triptych_result state_set_viewport(struct state *state, const struct tripty
         return TRIPTYCH_BAD_ARGUMENT;
     }
     state->viewport = *viewport;
+    return TRIPTYCH_OK;
+}
+
+enum triptych_result state_set_scissor(struct state *state, struct scissor scissor, uint32_t target_width,
+                                       uint32_t target_height, struct error *error)
+{
+    const struct scissor *s = &scissor;
+    if ((uint64_t)s->x + s->width > target_width || (uint64_t)s->y + s->height > target_height) {
+        error_set(error, "scissor rectangle %ux%u at %u, %u: expected a part of the target of %ux%u pixels",
+                  s->width, s->height, s->x, s->y, target_width, target_height);
+        return TRIPTYCH_BAD_ARGUMENT;
+    }
+    state->scissor = scissor;
     return TRIPTYCH_OK;
 }
 

@@ -11,6 +11,9 @@ struct state {
     uint32_t value[TRIPTYCH_STATE_COUNT];
     float transform[TRIPTYCH_TRANSFORM_COUNT][4][4];
     struct triptych_viewport viewport;
+    struct scissor {
+        uint32_t x, y, width, height; /* pixels */
+    } scissor;
     struct triptych_material material;
     struct triptych_light light[TRIPTYCH_LIGHTS];
     uint8_t light_enabled[TRIPTYCH_LIGHTS];
@@ -24,7 +27,7 @@ struct state {
 extern const uint8_t format_bytes[TRIPTYCH_FORMAT_COUNT];
 extern const char *const attribute_name[TRIPTYCH_ATTRIBUTE_COUNT];
 
-/* Direct3D 9's defaults; identity transforms, nothing bound, an empty viewport. */
+/* Direct3D 9's defaults; identity transforms, nothing bound, an empty viewport and scissor rectangle. */
 void state_initialize(struct state *state);
 
 /* Each checks its argument and sets it, or leaves the state alone and gives the reason. */
@@ -34,6 +37,8 @@ enum triptych_result state_set_transform(struct state *state, enum triptych_tran
                                          const float matrix[4][4], struct error *error);
 enum triptych_result state_set_viewport(struct state *state, const struct triptych_viewport *viewport,
                                         uint32_t target_width, uint32_t target_height, struct error *error);
+enum triptych_result state_set_scissor(struct state *state, struct scissor scissor, uint32_t target_width,
+                                       uint32_t target_height, struct error *error);
 enum triptych_result state_set_material(struct state *state, const struct triptych_material *material,
                                         struct error *error);
 enum triptych_result state_set_light(struct state *state, unsigned index, const struct triptych_light *light,

@@ -50,6 +50,13 @@ static inline fix add_saturated(struct env *e, fix a, fix b)
     return min_x(E, sum, lit_x(E, 255));
 }
 
+/* max(0, a - b) */
+static inline fix subtract_saturated(struct env *e, fix a, fix b)
+{
+    fix common = min_x(E, a, b);
+    return sub_x(E, a, common);
+}
+
 /* The low half of each lane in both halves. */
 static inline fix both_halves(struct env *e, itg low)
 {

@@ -1,4 +1,6 @@
-/* Depth: clamped to 0..1 (NaN gives 0), compared with the stored value, written where the test passes. */
+/* Depth: clamped to 0..1 (NaN gives 0), compared with the stored value, written where the test passes.
+ *
+ * The comparison comes first of all. The write follows at once, or behind the alpha test when that is on. */
 
 static inline msk depth_compare(struct env *e, int function, flt new, flt stored)
 {
@@ -14,23 +16,52 @@ static inline msk depth_compare(struct env *e, int function, flt new, flt stored
     }
 }
 
-/* Tests and writes depth; returns the lanes that are still live. */
+struct depth {
+    flt new, stored;
+};
+
+/* The pixel's depth and the tile's. */
+static inline struct depth depth_pair(struct env *e, const struct pixel_position *at,
+                                      const struct triangle_layout *layout)
+{
+    struct depth r;
+    flt plane = evaluate_plane(E, at, layout->depth);
+    flt low = max_f(E, plane, lit_f(E, 0.0f));
+    r.new = min_f(E, low, lit_f(E, 1.0f));
+    r.stored = load_f(E, BASE_DEPTH, 0);
+    return r;
+}
+
+static inline void depth_write(struct env *e, struct depth depth, msk live)
+{
+    flt merged = select_f(E, live, depth.new, depth.stored);
+    store_f(E, BASE_DEPTH, 0, merged);
+}
+
+/* Tests depth, and writes it unless the alpha test has a say in that; returns the lanes that are still live.
+ */
 static inline msk depth_test(struct env *e, const struct pixel_key *k, const struct pixel_position *at,
                              const struct triangle_layout *layout, msk live)
 {
-    if (k->depth_function == COMPARE_ALWAYS && !k->depth_write)
+    int writes = k->depth_write && !k->alpha_discard;
+    if (k->depth_function == COMPARE_ALWAYS && !writes)
         return live;
-    flt plane = evaluate_plane(E, at, layout->depth);
-    flt low = max_f(E, plane, lit_f(E, 0.0f));
-    flt depth = min_f(E, low, lit_f(E, 1.0f));
-    flt stored = load_f(E, BASE_DEPTH, 0);
+    struct depth depth = depth_pair(E, at, layout);
     if (k->depth_function != COMPARE_ALWAYS) {
-        msk passed = depth_compare(E, k->depth_function, depth, stored);
+        msk passed = depth_compare(E, k->depth_function, depth.new, depth.stored);
         live = and_m(E, live, passed);
     }
-    if (k->depth_write) {
-        flt merged = select_f(E, live, depth, stored);
-        store_f(E, BASE_DEPTH, 0, merged);
-    }
+    if (writes)
+        depth_write(E, depth, live);
     return live;
+}
+
+/* Behind the alpha test: the same depth again, which costs less than keeping it through shading. */
+static inline void depth_write_late(struct env *e, const struct pixel_key *k, const struct pixel_position *at,
+                                    const struct triangle_layout *layout, msk live)
+{
+    if (!k->depth_write || !k->alpha_discard)
+        return;
+    struct depth depth = depth_pair(E, at, layout);
+    depth_write(E, depth, live);
 }

@@ -1,9 +1,9 @@
-/* The pixel routine: depth, interpolation, texture, stage, blending, write; one lane a pixel of a 4x4 block
- * (draw/call.h, struct pixel_call).
+/* The pixel routine: depth, interpolation, texture, stage, alpha test, blending, write; one lane a pixel of a
+ * 4x4 block (draw/call.h, struct pixel_call).
  *
  * Bases: JOB; ENTRY the block's entry; TRIANGLE its record; LANES the per-lane constants of this chunk of the
- * block; COLOR and DEPTH the chunk's pixels in the tile. The slice's states cannot discard a pixel after
- * shading, so depth is always tested first and shading is skipped when no lane is left. */
+ * block; COLOR and DEPTH the chunk's pixels in the tile. Depth is always tested first, and shading is skipped
+ * when no lane is left; what is written waits for the alpha test. */
 
 /* Lanes of this chunk that the triangle covers. */
 static inline msk coverage(struct env *e)
@@ -43,12 +43,18 @@ static void spec_pixel(struct env *e, const struct pixel_key *k)
     struct pixel_position at = pixel_position(E);
     msk covered = coverage(E);
     msk live = depth_test(E, k, &at, &layout, covered);
-    if (!k->write_mask)
+    if (!pixel_shades(k))
         return;
     WHEN (E, live) {
         struct color color = shade(E, k, &layout, &at);
-        itg stored = load_i(E, BASE_COLOR, 0);
-        color = blend(E, k, color, stored);
-        write_color(E, k, live, color, stored);
+        msk kept = live;
+        if (k->alpha_discard)
+            kept = alpha_test(E, k->alpha_discard, color, live);
+        depth_write_late(E, k, &at, &layout, kept);
+        if (k->write_mask) {
+            itg stored = load_i(E, BASE_COLOR, 0);
+            color = blend(E, k, color, stored);
+            write_color(E, k, kept, color, stored);
+        }
     }
 }

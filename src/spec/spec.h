@@ -15,6 +15,7 @@
 #include "spec/sample.h"
 #include "spec/stage.h"
 #include "spec/depth.h"
+#include "spec/alpha.h"
 #include "spec/blend.h"
 #include "spec/write.h"
 #include "spec/pixel.h"

@@ -39,12 +39,6 @@ static inline struct color stage_argument(struct env *e, int argument, struct co
     return r;
 }
 
-static inline fix subtract_saturated(struct env *e, fix a, fix b)
-{
-    fix common = min_x(E, a, b);
-    return sub_x(E, a, common);
-}
-
 static inline fix double_saturated(struct env *e, fix a)
 {
     return add_saturated(E, a, a);

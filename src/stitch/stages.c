@@ -24,6 +24,10 @@ static void plan_position(struct plan *plan)
                 ARGUMENTS(offsetof(struct entry, x), offsetof(struct entry, y),
                           offsetof(struct triangle_head, origin_x), offsetof(struct triangle_head, origin_y),
                           offsetof(struct lane_table, x), offsetof(struct lane_table, y)));
+}
+
+static void plan_coverage(struct plan *plan)
+{
     plan_append(plan, &fragment_coverage,
                 ARGUMENTS(offsetof(struct entry, coverage), offsetof(struct lane_table, bit)));
 }
@@ -38,15 +42,38 @@ static unsigned plan_depth(struct plan *plan, const struct pixel_key *key,
         [COMPARE_LESS_EQUAL] = 0x12,   [COMPARE_GREATER] = 0x1e, [COMPARE_NOT_EQUAL] = 0x04,
         [COMPARE_GREATER_EQUAL] = 0x1d};
     unsigned skip = 0;
-    if (key->depth_function == COMPARE_ALWAYS && !key->depth_write)
+    int writes = key->depth_write && !key->alpha_discard;
+    if (key->depth_function == COMPARE_ALWAYS && !writes)
         return 0;
     plan_append(plan, &fragment_depth_new, ARGUMENTS(layout->depth));
     if (key->depth_function != COMPARE_ALWAYS) {
         plan_append(plan, &fragment_depth_compare, ARGUMENTS(predicate[key->depth_function]));
         skip = plan_append(plan, &fragment_live_skip, NONE);
     }
-    if (key->depth_write)
+    if (writes)
         plan_append(plan, &fragment_depth_write, NONE);
+    return skip;
+}
+
+/* The test, and the depth write that waited for it; returns as plan_depth does. Position and
+ * depth are computed again: no register keeps them through shading. */
+static unsigned plan_alpha_test(struct plan *plan, const struct pixel_key *key,
+                                const struct triangle_layout *layout)
+{
+    static const struct fragment *const discard[COMPARE_COUNT] = {
+        [COMPARE_LESS] = &fragment_alpha_greater_equal, [COMPARE_EQUAL] = &fragment_alpha_not_equal,
+        [COMPARE_LESS_EQUAL] = &fragment_alpha_greater, [COMPARE_GREATER] = &fragment_alpha_less_equal,
+        [COMPARE_NOT_EQUAL] = &fragment_alpha_equal,    [COMPARE_GREATER_EQUAL] = &fragment_alpha_less,
+        [COMPARE_ALWAYS] = &fragment_alpha_never};
+    if (!key->alpha_discard)
+        return 0;
+    plan_append(plan, discard[key->alpha_discard], ARGUMENTS(JOB(alpha_reference)));
+    unsigned skip = plan_append(plan, &fragment_live_skip, NONE);
+    if (key->depth_write) {
+        plan_position(plan);
+        plan_append(plan, &fragment_depth_new, ARGUMENTS(layout->depth));
+        plan_append(plan, &fragment_depth_write, NONE);
+    }
     return skip;
 }
 
@@ -184,15 +211,106 @@ static void plan_shade(struct plan *plan, const struct pixel_key *key, const str
     plan_stage(plan, key);
 }
 
+/* The blending that has a fragment of its own; null if it has none. */
+static const struct fragment *special_blend(const struct pixel_key *key)
+{
+    static const struct {
+        uint8_t source, target;
+        const struct fragment *fragment;
+    } special[] = {
+        {FACTOR_SOURCE_ALPHA, FACTOR_INVERSE_SOURCE_ALPHA, &fragment_blend_over},
+        {FACTOR_ONE, FACTOR_INVERSE_SOURCE_ALPHA, &fragment_blend_premultiplied},
+        {FACTOR_SOURCE_ALPHA, FACTOR_ZERO, &fragment_blend_source},
+    };
+    if (key->blend[BLEND_COLOR] != BLEND_ADD || blend_is_separate(key))
+        return NULL;
+    for (size_t i = 0; i < sizeof special / sizeof *special; i++)
+        if (special[i].source == key->source_factor[BLEND_COLOR] &&
+            special[i].target == key->target_factor[BLEND_COLOR])
+            return special[i].fragment;
+    return NULL;
+}
+
+static void plan_factors(struct plan *plan, int source, int target)
+{
+#define FACTORS(side)                                                                                        \
+    {                                                                                                        \
+        [FACTOR_ZERO] = &fragment_##side##_zero, [FACTOR_SOURCE_COLOR] = &fragment_##side##_source_color,    \
+        [FACTOR_INVERSE_SOURCE_COLOR] = &fragment_##side##_inverse_source_color,                             \
+        [FACTOR_SOURCE_ALPHA] = &fragment_##side##_source_alpha,                                             \
+        [FACTOR_INVERSE_SOURCE_ALPHA] = &fragment_##side##_inverse_source_alpha,                             \
+        [FACTOR_TARGET_ALPHA] = &fragment_##side##_target_alpha,                                             \
+        [FACTOR_INVERSE_TARGET_ALPHA] = &fragment_##side##_inverse_target_alpha,                             \
+        [FACTOR_TARGET_COLOR] = &fragment_##side##_target_color,                                             \
+        [FACTOR_INVERSE_TARGET_COLOR] = &fragment_##side##_inverse_target_color,                             \
+        [FACTOR_CONSTANT] = &fragment_##side##_constant,                                                     \
+        [FACTOR_INVERSE_CONSTANT] = &fragment_##side##_inverse_constant,                                     \
+        [FACTOR_SATURATED_ALPHA] = &fragment_##side##_saturated_alpha                                        \
+    }
+    static const struct fragment *const sources[FACTOR_COUNT] = FACTORS(source),
+                                        *const targets[FACTOR_COUNT] = FACTORS(target);
+#undef FACTORS
+    if (source > FACTOR_ONE)
+        plan_append(plan, sources[source], ARGUMENTS(JOB(blend_constant)));
+    if (target > FACTOR_ONE)
+        plan_append(plan, targets[target], ARGUMENTS(JOB(blend_constant)));
+    if (source == FACTOR_ZERO)
+        plan_append(plan, sources[source], NONE);
+    if (target == FACTOR_ZERO)
+        plan_append(plan, targets[target], NONE);
+}
+
+/* All channels by the factors and the operation that the key has for one kind. */
+static void plan_blend_channels(struct plan *plan, const struct pixel_key *key, int kind)
+{
+    static const struct fragment *const operation[BLEND_COUNT] = {[BLEND_ADD] = &fragment_blend_add,
+                                                                  [BLEND_SUBTRACT] = &fragment_blend_subtract,
+                                                                  [BLEND_REVERSE_SUBTRACT] =
+                                                                      &fragment_blend_reverse_subtract,
+                                                                  [BLEND_MINIMUM] = &fragment_blend_minimum,
+                                                                  [BLEND_MAXIMUM] = &fragment_blend_maximum};
+    int blend = key->blend[kind], source = key->source_factor[kind], target = key->target_factor[kind];
+    if (blend == BLEND_COPY)
+        return;
+    if (blend == BLEND_MINIMUM || blend == BLEND_MAXIMUM)
+        source = target = FACTOR_ONE;
+    plan_factors(plan, source, target);
+    if (blend_is_lerp(blend, source, target)) {
+        plan_append(plan, &fragment_blend_lerp, NONE);
+        return;
+    }
+    if (source > FACTOR_ONE)
+        plan_append(plan, &fragment_source_product, NONE);
+    if (target > FACTOR_ONE)
+        plan_append(plan, &fragment_target_product, NONE);
+    plan_append(plan, operation[blend], NONE);
+}
+
+static void plan_blend(struct plan *plan, const struct pixel_key *key)
+{
+    const struct fragment *special = special_blend(key);
+    int separate = blend_is_separate(key);
+    if (special) {
+        plan_append(plan, special, NONE);
+        return;
+    }
+    if (key->blend[BLEND_COLOR] == BLEND_COPY && !separate)
+        return;
+    plan_append(plan, &fragment_blend_stored, NONE);
+    if (separate)
+        plan_append(plan, &fragment_alpha_keep, NONE);
+    plan_blend_channels(plan, key, BLEND_COLOR);
+    if (!separate)
+        return;
+    plan_append(plan, &fragment_alpha_again, NONE);
+    plan_blend_channels(plan, key, BLEND_ALPHA);
+    plan_append(plan, &fragment_alpha_merge, NONE);
+}
+
 static void plan_target(struct plan *plan, const struct pixel_key *key)
 {
-    static const struct fragment *const blend[BLEND_COUNT] = {[BLEND_OVER] = &fragment_blend_over,
-                                                              [BLEND_PREMULTIPLIED] =
-                                                                  &fragment_blend_premultiplied,
-                                                              [BLEND_SOURCE] = &fragment_blend_source};
     plan_append(plan, &fragment_stored_color, NONE);
-    if (key->blend != BLEND_COPY)
-        plan_append(plan, blend[key->blend], NONE);
+    plan_blend(plan, key);
     if (key->write_mask == 15) {
         plan_append(plan, &fragment_write_all, NONE);
         return;
@@ -210,13 +328,17 @@ static void plan_pixel(struct plan *plan, const union key *all)
     struct triangle_layout layout = triangle_layout(reads_depth, key->varying);
     struct loop loop = plan_enter(plan, UNIT_PIXEL, &fragment_pixel_constants, 0);
     plan_position(plan);
-    unsigned skip = plan_depth(plan, key, &layout);
-    if (key->write_mask) {
+    plan_coverage(plan);
+    unsigned skip[2] = {plan_depth(plan, key, &layout)};
+    if (pixel_shades(key)) {
         plan_shade(plan, key, &layout);
-        plan_target(plan, key);
+        skip[1] = plan_alpha_test(plan, key, &layout);
     }
-    if (skip)
-        plan_land(plan, skip, 0);
+    if (key->write_mask)
+        plan_target(plan, key);
+    for (int i = 0; i < 2; i++)
+        if (skip[i])
+            plan_land(plan, skip[i], 0);
     plan_leave(plan, UNIT_PIXEL, all, &loop, 0);
 }
 

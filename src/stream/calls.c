@@ -90,6 +90,16 @@ int parse_viewport(struct parser *parser, struct call *call)
     return 0;
 }
 
+int parse_scissor(struct parser *parser, struct call *call)
+{
+    return parse_integer(parser, "scissor x", TRIPTYCH_TARGET_MAXIMUM, &call->scissor.x) ||
+                   parse_integer(parser, "scissor y", TRIPTYCH_TARGET_MAXIMUM, &call->scissor.y) ||
+                   parse_integer(parser, "scissor width", TRIPTYCH_TARGET_MAXIMUM, &call->scissor.width) ||
+                   parse_integer(parser, "scissor height", TRIPTYCH_TARGET_MAXIMUM, &call->scissor.height)
+               ? -1
+               : 0;
+}
+
 static int find_state(const struct lexer *lex, enum triptych_state *state)
 {
     for (int i = 0; i < TRIPTYCH_STATE_COUNT; i++)

@@ -225,6 +225,11 @@ static int follow(struct follower *follower, const struct call *call, struct err
     case CALL_TARGET: set_target(follower, call); return 0;
     case CALL_VIEWPORT:
         return state_set_viewport(state, &call->viewport, follower->width, follower->height, error);
+    case CALL_SCISSOR: {
+        struct scissor scissor = {call->scissor.x, call->scissor.y, call->scissor.width,
+                                  call->scissor.height};
+        return state_set_scissor(state, scissor, follower->width, follower->height, error);
+    }
     case CALL_SET: return state_set_value(state, call->set.state, call->set.value, error);
     case CALL_TRANSFORM: return 0;
     case CALL_MATERIAL: return state_set_material(state, &call->material, error);
@@ -251,8 +256,8 @@ static int follow(struct follower *follower, const struct call *call, struct err
 
 static int needs_target(enum call_type type)
 {
-    return type == CALL_VIEWPORT || type == CALL_CLEAR || type == CALL_DRAW || type == CALL_DRAW_INDEXED ||
-           type == CALL_DRAW_MESH;
+    return type == CALL_VIEWPORT || type == CALL_SCISSOR || type == CALL_CLEAR || type == CALL_DRAW ||
+           type == CALL_DRAW_INDEXED || type == CALL_DRAW_MESH;
 }
 
 int stream_check(struct parser *parser)

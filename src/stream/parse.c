@@ -188,6 +188,7 @@ static const struct command {
 } commands[] = {
     {"target", ANYWHERE, CALL_TARGET, parse_target, NULL},
     {"viewport", ANYWHERE, CALL_VIEWPORT, parse_viewport, NULL},
+    {"scissor", ANYWHERE, CALL_SCISSOR, parse_scissor, NULL},
     {"set", ANYWHERE, CALL_SET, parse_set, NULL},
     {"transform", ANYWHERE, CALL_TRANSFORM, parse_transform, NULL},
     {"material", ANYWHERE, CALL_MATERIAL, parse_material, NULL},

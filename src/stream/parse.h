@@ -31,6 +31,7 @@ int parse_name(struct parser *parser, unsigned types, const char *what, uint32_t
 /* Calls, from behind their first word; what is not mentioned in the text has its default. */
 int parse_target(struct parser *parser, struct call *call);
 int parse_viewport(struct parser *parser, struct call *call);
+int parse_scissor(struct parser *parser, struct call *call);
 int parse_set(struct parser *parser, struct call *call);
 int parse_transform(struct parser *parser, struct call *call);
 int parse_material(struct parser *parser, struct call *call);

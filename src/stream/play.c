@@ -135,6 +135,9 @@ static enum triptych_result execute_state(struct player *player, const struct ca
     switch (call->type) {
     case CALL_TARGET: return triptych_set_target(device, call->target.width, call->target.height);
     case CALL_VIEWPORT: return triptych_set_viewport(device, &call->viewport);
+    case CALL_SCISSOR:
+        return triptych_set_scissor(device, call->scissor.x, call->scissor.y, call->scissor.width,
+                                    call->scissor.height);
     case CALL_SET: return triptych_set_state(device, call->set.state, call->set.value);
     case CALL_TRANSFORM: return triptych_set_transform(device, call->transform.which, call->transform.matrix);
     case CALL_MATERIAL: return triptych_set_material(device, &call->material);
@@ -185,6 +188,7 @@ static int is_overwritten(const struct stream *stream, uint32_t at, uint32_t end
         case CALL_CLEAR: return call->clear.has_color && call->clear.has_depth;
         case CALL_TARGET:
         case CALL_VIEWPORT:
+        case CALL_SCISSOR:
         case CALL_DRAW:
         case CALL_DRAW_INDEXED:
         case CALL_DRAW_MESH: return 0;
@@ -204,7 +208,8 @@ static enum triptych_result keep_target(struct player *player, const struct call
     if (!*kept)
         return TRIPTYCH_OK;
     const struct triptych_viewport whole = {0, 0, (float)width, (float)height, 0, 1};
-    return triptych_set_viewport(player->device, &whole);
+    enum triptych_result result = triptych_set_scissor(player->device, 0, 0, width, height);
+    return result ? result : triptych_set_viewport(player->device, &whole);
 }
 
 static enum triptych_result execute(struct player *player, uint32_t at, uint32_t end, int draws)

@@ -87,6 +87,7 @@ struct resource {
 enum call_type {
     CALL_TARGET,
     CALL_VIEWPORT,
+    CALL_SCISSOR,
     CALL_SET,
     CALL_TRANSFORM,
     CALL_MATERIAL,
@@ -116,6 +117,9 @@ struct call {
             uint32_t width, height;
         } target;
         struct triptych_viewport viewport;
+        struct {
+            uint32_t x, y, width, height;
+        } scissor;
         struct {
             enum triptych_state state;
             uint32_t value;

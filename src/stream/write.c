@@ -287,6 +287,10 @@ static void write_call(struct writer *writer, const struct call *call)
         write_numbers(writer, numbers, 6);
         break;
     }
+    case CALL_SCISSOR:
+        fprintf(out, "scissor %" PRIu32 " %" PRIu32 " %" PRIu32 " %" PRIu32, call->scissor.x, call->scissor.y,
+                call->scissor.width, call->scissor.height);
+        break;
     case CALL_SET: write_set(writer, call); break;
     case CALL_TRANSFORM:
         fprintf(out, "transform %s", word_text(WORDS_TRANSFORM, call->transform.which));

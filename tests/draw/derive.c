@@ -178,25 +178,238 @@ static void draws_without_effect_are_recognised(void)
     TEST_ASSERT_FALSE(derive_effective(&key[UNIT_PIXEL].pixel));
 }
 
-static void blending_one_and_zero_is_a_copy(void)
+static void set_number(enum triptych_state which, uint32_t value)
+{
+    TEST_ASSERT_EQUAL_INT(TRIPTYCH_OK, state_set_value(&state, which, value, NULL));
+}
+
+static void change_alpha_test(void)
+{
+    SET(alphafunc, "less");
+    set_number(TRIPTYCH_STATE_alpharef, 77);
+}
+
+static void an_alpha_test_that_is_off_has_no_function(void)
+{
+    expect_same_keys(change_alpha_test);
+    TEST_ASSERT_EQUAL_INT(COMPARE_NEVER, key[UNIT_PIXEL].pixel.alpha_discard);
+}
+
+static void change_alpha_test_to_always(void)
+{
+    SET(alphatestenable, "true");
+    SET(alphafunc, "always");
+}
+
+static void an_alpha_test_that_always_passes_is_off(void)
+{
+    expect_same_keys(change_alpha_test_to_always);
+}
+
+static void change_alpha_reference(void)
+{
+    set_number(TRIPTYCH_STATE_alpharef, 200);
+}
+
+static void the_alpha_reference_is_in_the_job_alone(void)
+{
+    SET(alphatestenable, "true");
+    SET(alphafunc, "greaterequal");
+    expect_same_keys(change_alpha_reference);
+    derive();
+    TEST_ASSERT_EQUAL_INT(COMPARE_LESS, key[UNIT_PIXEL].pixel.alpha_discard);
+    TEST_ASSERT_EQUAL_INT(200, job.alpha_reference);
+    SET(alphafunc, "notequal");
+    derive();
+    TEST_ASSERT_EQUAL_INT(COMPARE_EQUAL, key[UNIT_PIXEL].pixel.alpha_discard);
+}
+
+static void an_alpha_test_that_never_passes_draws_nothing(void)
+{
+    union key nothing[UNIT_COUNT];
+    SET(zfunc, "never");
+    derive_keys(&state, nothing);
+    SET(zfunc, "less");
+    SET(alphatestenable, "true");
+    SET(alphafunc, "never");
+    derive();
+    TEST_ASSERT_FALSE(derive_effective(&key[UNIT_PIXEL].pixel));
+    TEST_ASSERT_EQUAL_MEMORY(nothing, key, sizeof nothing);
+}
+
+/* Depth alone is written, and alpha decides where: its varyings are needed, its blending is not. */
+static void depth_behind_an_alpha_test_needs_colours(void)
+{
+    state.texture = &texture;
+    SET(alphablendenable, "true");
+    set_number(TRIPTYCH_STATE_colorwriteenable, 0);
+    derive();
+    TEST_ASSERT_EQUAL_INT(0, key[UNIT_PIXEL].pixel.texture);
+    SET(alphatestenable, "true");
+    SET(alphafunc, "greater");
+    derive();
+    TEST_ASSERT_EQUAL_INT(1, key[UNIT_PIXEL].pixel.texture);
+    TEST_ASSERT_EQUAL_INT(INTERPOLATION_SMOOTH, key[UNIT_SETUP].setup.varying[VARYING_texcoord]);
+    TEST_ASSERT_EQUAL_INT(BLEND_COPY, key[UNIT_PIXEL].pixel.blend[BLEND_COLOR]);
+    SET(zwriteenable, "false");
+    derive();
+    TEST_ASSERT_EQUAL_INT(0, key[UNIT_PIXEL].pixel.texture);
+    TEST_ASSERT_EQUAL_INT(COMPARE_NEVER, key[UNIT_PIXEL].pixel.alpha_discard);
+}
+
+static void change_colour_stage(void)
+{
+    SET(colorop, "add");
+    SET(colorarg2, "tfactor");
+}
+
+static void where_alpha_alone_is_looked_at_the_colour_stage_is_dead(void)
+{
+    state.texture = &texture;
+    set_number(TRIPTYCH_STATE_colorwriteenable, 0);
+    SET(alphatestenable, "true");
+    SET(alphafunc, "greater");
+    expect_same_keys(change_colour_stage);
+    TEST_ASSERT_EQUAL_INT(SOURCE_TEXTURE, key[UNIT_PIXEL].pixel.color_argument[0]);
+    TEST_ASSERT_EQUAL_INT(INTERPOLATION_NONE, key[UNIT_PIXEL].pixel.varying[VARYING_diffuse]);
+}
+
+static void set_blending(const char *operation, const char *source, const char *target)
+{
+    SET(alphablendenable, "true");
+    SET(blendop, operation);
+    SET(srcblend, source);
+    SET(destblend, target);
+}
+
+static void set_alpha_blending(const char *operation, const char *source, const char *target)
+{
+    SET(separatealphablendenable, "true");
+    SET(blendopalpha, operation);
+    SET(srcblendalpha, source);
+    SET(destblendalpha, target);
+}
+
+static void expect_blending(int channel, int blend, int source, int target)
+{
+    const struct pixel_key *pixel = &key[UNIT_PIXEL].pixel;
+    derive();
+    TEST_ASSERT_EQUAL_INT(blend, pixel->blend[channel]);
+    TEST_ASSERT_EQUAL_INT(source, pixel->source_factor[channel]);
+    TEST_ASSERT_EQUAL_INT(target, pixel->target_factor[channel]);
+}
+
+static void blending_is_reduced_to_what_it_does(void)
 {
     static const struct {
-        const char *source, *target;
-        int blend;
-    } cases[] = {{"one", "zero", BLEND_COPY},
-                 {"one", "invsrcalpha", BLEND_PREMULTIPLIED},
-                 {"srcalpha", "invsrcalpha", BLEND_OVER},
-                 {"srcalpha", "zero", BLEND_SOURCE}};
+        const char *operation, *source, *target;
+        int blend, source_factor, target_factor;
+    } cases[] = {
+        {"add", "one", "zero", BLEND_COPY, 0, 0},
+        {"subtract", "one", "zero", BLEND_COPY, 0, 0},
+        {"add", "one", "invsrcalpha", BLEND_ADD, FACTOR_ONE, FACTOR_INVERSE_SOURCE_ALPHA},
+        {"add", "srcalpha", "invsrcalpha", BLEND_ADD, FACTOR_SOURCE_ALPHA, FACTOR_INVERSE_SOURCE_ALPHA},
+        {"add", "bothsrcalpha", "one", BLEND_ADD, FACTOR_SOURCE_ALPHA, FACTOR_INVERSE_SOURCE_ALPHA},
+        {"add", "bothinvsrcalpha", "one", BLEND_ADD, FACTOR_INVERSE_SOURCE_ALPHA, FACTOR_SOURCE_ALPHA},
+        {"add", "srcalphasat", "invblendfactor", BLEND_ADD, FACTOR_SATURATED_ALPHA, FACTOR_INVERSE_CONSTANT},
+        {"add", "blendfactor", "invdestcolor", BLEND_ADD, FACTOR_CONSTANT, FACTOR_INVERSE_TARGET_COLOR},
+        {"subtract", "destcolor", "zero", BLEND_ADD, FACTOR_TARGET_COLOR, FACTOR_ZERO},
+        {"subtract", "zero", "destcolor", BLEND_ADD, FACTOR_ZERO, FACTOR_ZERO},
+        {"revsubtract", "zero", "srccolor", BLEND_ADD, FACTOR_ZERO, FACTOR_SOURCE_COLOR},
+        {"revsubtract", "srccolor", "zero", BLEND_ADD, FACTOR_ZERO, FACTOR_ZERO},
+        {"subtract", "one", "one", BLEND_SUBTRACT, FACTOR_ONE, FACTOR_ONE},
+        {"min", "srcalpha", "invdestalpha", BLEND_MINIMUM, 0, 0},
+        {"max", "zero", "zero", BLEND_MAXIMUM, 0, 0},
+    };
     for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
-        SET(srcblend, cases[i].source);
-        SET(destblend, cases[i].target);
-        SET(alphablendenable, "true");
-        derive();
-        TEST_ASSERT_EQUAL_INT(cases[i].blend, key[UNIT_PIXEL].pixel.blend);
+        set_blending(cases[i].operation, cases[i].source, cases[i].target);
+        for (int c = 0; c < BLEND_CHANNELS; c++)
+            expect_blending(c, cases[i].blend, cases[i].source_factor, cases[i].target_factor);
         SET(alphablendenable, "false");
-        derive();
-        TEST_ASSERT_EQUAL_INT(BLEND_COPY, key[UNIT_PIXEL].pixel.blend);
+        expect_blending(BLEND_COLOR, BLEND_COPY, 0, 0);
+        expect_blending(BLEND_ALPHA, BLEND_COPY, 0, 0);
     }
+}
+
+static void separate_same_alpha(void)
+{
+    set_alpha_blending("add", "srcalpha", "invsrcalpha");
+}
+
+static void separate_own_colour(void)
+{
+    set_alpha_blending("add", "srccolor", "invsrccolor");
+}
+
+static void alpha_that_is_blended_like_colour_is_not_apart(void)
+{
+    set_blending("add", "srcalpha", "invsrcalpha");
+    expect_same_keys(separate_same_alpha);
+    expect_same_keys(separate_own_colour);
+    set_alpha_blending("add", "one", "invsrcalpha");
+    expect_blending(BLEND_COLOR, BLEND_ADD, FACTOR_SOURCE_ALPHA, FACTOR_INVERSE_SOURCE_ALPHA);
+    expect_blending(BLEND_ALPHA, BLEND_ADD, FACTOR_ONE, FACTOR_INVERSE_SOURCE_ALPHA);
+    SET(separatealphablendenable, "false");
+    expect_blending(BLEND_ALPHA, BLEND_ADD, FACTOR_SOURCE_ALPHA, FACTOR_INVERSE_SOURCE_ALPHA);
+}
+
+/* The two products of (srccolor, invsrcalpha) are rounded each, those of (srcalpha, invsrcalpha) together. */
+static void alpha_that_is_rounded_otherwise_is_apart(void)
+{
+    set_blending("add", "srccolor", "invsrcalpha");
+    set_alpha_blending("add", "srcalpha", "invsrcalpha");
+    expect_blending(BLEND_COLOR, BLEND_ADD, FACTOR_SOURCE_COLOR, FACTOR_INVERSE_SOURCE_ALPHA);
+    expect_blending(BLEND_ALPHA, BLEND_ADD, FACTOR_SOURCE_ALPHA, FACTOR_INVERSE_SOURCE_ALPHA);
+    set_alpha_blending("add", "srccolor", "invsrcalpha");
+    expect_blending(BLEND_ALPHA, BLEND_ADD, FACTOR_SOURCE_COLOR, FACTOR_INVERSE_SOURCE_ALPHA);
+}
+
+static void change_alpha_blending(void)
+{
+    set_alpha_blending("max", "one", "one");
+}
+
+static void change_colour_blending(void)
+{
+    set_blending("revsubtract", "destcolor", "one");
+}
+
+static void channels_that_are_not_written_are_blended_like_the_others(void)
+{
+    set_blending("add", "srcalpha", "one");
+    set_number(TRIPTYCH_STATE_colorwriteenable, 7);
+    expect_same_keys(change_alpha_blending);
+    set_number(TRIPTYCH_STATE_colorwriteenable, 8);
+    expect_same_keys(change_colour_blending);
+    set_number(TRIPTYCH_STATE_colorwriteenable, 0);
+    expect_same_keys(separate_own_colour);
+}
+
+static void channels_that_keep_what_is_stored_are_not_written(void)
+{
+    set_blending("add", "zero", "one");
+    derive();
+    TEST_ASSERT_EQUAL_INT(0, key[UNIT_PIXEL].pixel.write_mask);
+    set_alpha_blending("add", "one", "one");
+    derive();
+    TEST_ASSERT_EQUAL_INT(8, key[UNIT_PIXEL].pixel.write_mask);
+    set_blending("add", "one", "one");
+    set_alpha_blending("revsubtract", "zero", "one");
+    derive();
+    TEST_ASSERT_EQUAL_INT(7, key[UNIT_PIXEL].pixel.write_mask);
+}
+
+static void change_blend_factor(void)
+{
+    set_number(TRIPTYCH_STATE_blendfactor, 0x80402010);
+}
+
+static void the_blend_factor_is_in_the_job_alone(void)
+{
+    set_blending("add", "blendfactor", "one");
+    expect_same_keys(change_blend_factor);
+    derive();
+    TEST_ASSERT_EQUAL_HEX32(0x80102040, job.blend_constant);
 }
 
 static void wrapping_a_power_of_two_is_told_apart(void)
@@ -413,9 +626,46 @@ static void the_guard_band_stays_within_its_limit_and_outside_the_frustum(void)
     }
 }
 
+static void expect_rectangle(int x0, int y0, int x1, int y1)
+{
+    struct rectangle r = derive_scissor(&state);
+    TEST_ASSERT_EQUAL_INT(x0, r.x0);
+    TEST_ASSERT_EQUAL_INT(y0, r.y0);
+    TEST_ASSERT_EQUAL_INT(x1, r.x1);
+    TEST_ASSERT_EQUAL_INT(y1, r.y1);
+}
+
+static void set_scissor(uint32_t x, uint32_t y, uint32_t width, uint32_t height)
+{
+    TEST_ASSERT_EQUAL_INT(TRIPTYCH_OK,
+                          state_set_scissor(&state, (struct scissor){x, y, width, height}, 640, 480, NULL));
+}
+
+static void the_scissor_rectangle_cuts_the_viewport_while_its_test_is_on(void)
+{
+    state.viewport = (struct triptych_viewport){10, 20, 30, 40, 0, 1};
+    set_scissor(15, 0, 100, 30);
+    expect_rectangle(10, 20, 40, 60);
+    SET(scissortestenable, "true");
+    expect_rectangle(15, 20, 40, 30);
+    set_scissor(12, 25, 3, 200);
+    expect_rectangle(12, 25, 15, 60);
+}
+
+static void a_rectangle_beside_the_viewport_leaves_nothing(void)
+{
+    state.viewport = (struct triptych_viewport){10, 20, 30, 40, 0, 1};
+    SET(scissortestenable, "true");
+    set_scissor(0, 0, 5, 480);
+    expect_rectangle(10, 20, 10, 60);
+    set_scissor(100, 25, 0, 10);
+    expect_rectangle(100, 25, 100, 35);
+}
+
 static void the_scissor_is_the_viewports_pixel_centres(void)
 {
-    struct rectangle r = derive_scissor(&(struct triptych_viewport){1.5f, 0.25f, 2, 1.5f, 0, 1});
+    state.viewport = (struct triptych_viewport){1.5f, 0.25f, 2, 1.5f, 0, 1};
+    struct rectangle r = derive_scissor(&state);
     TEST_ASSERT_EQUAL_INT(1, r.x0);
     TEST_ASSERT_EQUAL_INT(3, r.x1);
     TEST_ASSERT_EQUAL_INT(0, r.y0);
@@ -514,7 +764,18 @@ int main(void)
     RUN_TEST(setup_computes_depth_exactly_when_pixels_read_it);
     RUN_TEST(equal_depth_needs_no_write);
     RUN_TEST(draws_without_effect_are_recognised);
-    RUN_TEST(blending_one_and_zero_is_a_copy);
+    RUN_TEST(an_alpha_test_that_is_off_has_no_function);
+    RUN_TEST(an_alpha_test_that_always_passes_is_off);
+    RUN_TEST(the_alpha_reference_is_in_the_job_alone);
+    RUN_TEST(an_alpha_test_that_never_passes_draws_nothing);
+    RUN_TEST(depth_behind_an_alpha_test_needs_colours);
+    RUN_TEST(where_alpha_alone_is_looked_at_the_colour_stage_is_dead);
+    RUN_TEST(blending_is_reduced_to_what_it_does);
+    RUN_TEST(alpha_that_is_blended_like_colour_is_not_apart);
+    RUN_TEST(alpha_that_is_rounded_otherwise_is_apart);
+    RUN_TEST(channels_that_are_not_written_are_blended_like_the_others);
+    RUN_TEST(channels_that_keep_what_is_stored_are_not_written);
+    RUN_TEST(the_blend_factor_is_in_the_job_alone);
     RUN_TEST(wrapping_a_power_of_two_is_told_apart);
     RUN_TEST(addressing_follows_the_axis);
     RUN_TEST(the_border_colour_is_the_jobs);
@@ -530,6 +791,8 @@ int main(void)
     RUN_TEST(attributes_point_at_the_first_vertex);
     RUN_TEST(the_viewport_maps_ndc_to_subpixels);
     RUN_TEST(the_guard_band_stays_within_its_limit_and_outside_the_frustum);
+    RUN_TEST(the_scissor_rectangle_cuts_the_viewport_while_its_test_is_on);
+    RUN_TEST(a_rectangle_beside_the_viewport_leaves_nothing);
     RUN_TEST(the_scissor_is_the_viewports_pixel_centres);
     RUN_TEST(matrices_multiply_in_row_order);
     RUN_TEST(the_normal_matrix_keeps_normals_perpendicular);

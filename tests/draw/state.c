@@ -64,8 +64,14 @@ static void names_are_direct3ds(void)
 
 static void a_value_that_direct3d_has_and_we_do_not_is_unsupported(void)
 {
-    expect_refused(TRIPTYCH_UNSUPPORTED, state_set_value(&state, TRIPTYCH_STATE_srcblend, 9, &error),
-                   "state srcblend: value 9 is not supported yet, expected one (2), srcalpha (5)");
+    expect_refused(TRIPTYCH_UNSUPPORTED, state_set_value(&state, TRIPTYCH_STATE_srcblend, 16, &error),
+                   "state srcblend: value 16 is not supported yet, expected zero (1), one (2), srccolor (3), "
+                   "invsrccolor (4), srcalpha (5), invsrcalpha (6), destalpha (7), invdestalpha (8), "
+                   "destcolor (9), invdestcolor (10), srcalphasat (11), bothsrcalpha (12), "
+                   "bothinvsrcalpha (13), blendfactor (14), invblendfactor (15)");
+    error_clear(&error);
+    TEST_ASSERT_EQUAL_INT(TRIPTYCH_UNSUPPORTED,
+                          state_set_value(&state, TRIPTYCH_STATE_destblend, 12, &error));
 }
 
 static void arguments_and_operations_not_here_are_unsupported(void)
@@ -127,6 +133,19 @@ static void a_viewport_must_lie_in_the_target(void)
         state_set_viewport(&state, &(struct triptych_viewport){90, 40, 10, 10, 1, 0}, 100, 50, NULL));
 }
 
+static void a_scissor_rectangle_must_lie_in_the_target(void)
+{
+    static const struct scissor bad[] = {
+        {0, 0, 101, 50}, {1, 0, 100, 50}, {0, 1, 1, 50}, {UINT32_MAX, 0, 2, 1}};
+    for (size_t i = 0; i < sizeof bad / sizeof *bad; i++) {
+        TEST_ASSERT_EQUAL_INT(TRIPTYCH_BAD_ARGUMENT, state_set_scissor(&state, bad[i], 100, 50, &error));
+        TEST_ASSERT_EQUAL_MEMORY(&before, &state, sizeof state);
+    }
+    TEST_ASSERT_EQUAL_INT(TRIPTYCH_OK,
+                          state_set_scissor(&state, (struct scissor){100, 50, 0, 0}, 100, 50, NULL));
+    TEST_ASSERT_EQUAL_UINT32(100, state.scissor.x);
+}
+
 static void lights_are_checked_by_their_type(void)
 {
     struct triptych_light light = {.type = TRIPTYCH_LIGHT_DIRECTIONAL};
@@ -180,6 +199,7 @@ int main(void)
     RUN_TEST(a_value_that_nobody_has_is_a_bad_argument);
     RUN_TEST(a_matrix_that_is_not_finite_is_refused);
     RUN_TEST(a_viewport_must_lie_in_the_target);
+    RUN_TEST(a_scissor_rectangle_must_lie_in_the_target);
     RUN_TEST(lights_are_checked_by_their_type);
     RUN_TEST(an_element_must_start_inside_its_buffer);
     return UNITY_END();

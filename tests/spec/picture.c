@@ -1,69 +1,11 @@
 /* Pictures whose every pixel follows from the definition, on every engine: texel grids, bilinear weights,
  * addressing, stages, blending, masks, depth functions, and lighting against double precision. Nothing here
  * is taken from a render: expected values are worked out below, in integers where the contract is integer. */
-#include "triptych.h"
+#include "tests/support/canvas.h"
 
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
-#include <unity.h>
-
-enum { SIZE = 64 };
-
-static triptych_device *device;
-static uint32_t image[SIZE * SIZE];
-static uint64_t seed;
-
-#define OK(call) TEST_ASSERT_EQUAL_INT_MESSAGE(TRIPTYCH_OK, call, triptych_error(device))
-
-static uint32_t random_word(void)
-{
-    seed ^= seed >> 12;
-    seed ^= seed << 25;
-    seed ^= seed >> 27;
-    return (uint32_t)(seed * 0x2545f4914f6cdd1dull >> 32);
-}
-
-static double random_between(double low, double high)
-{
-    return low + (high - low) * random_word() / 4294967296.0;
-}
-
-static void set(enum triptych_state state, const char *word)
-{
-    uint32_t value;
-    TEST_ASSERT_EQUAL_INT_MESSAGE(0, triptych_state_value(state, word, &value), word);
-    OK(triptych_set_state(device, state, value));
-}
-
-static void open_device(const char *engine)
-{
-    struct triptych_options options = {.engine = engine, .threads = 1};
-    char reason[256] = "";
-    seed = 1;
-    TEST_ASSERT_EQUAL_INT_MESSAGE(TRIPTYCH_OK,
-                                  triptych_device_create(&options, &device, reason, sizeof reason), reason);
-    OK(triptych_set_target(device, SIZE, SIZE));
-    set(TRIPTYCH_STATE_lighting, "false");
-    set(TRIPTYCH_STATE_cullmode, "none");
-    set(TRIPTYCH_STATE_zenable, "false");
-}
-
-/* Runs a test once for every engine that can run here. */
-static void on_every_engine(void (*test)(void))
-{
-    unsigned run = 0;
-    for (unsigned i = 0; triptych_engine_name(i); i++) {
-        if (triptych_engine_unavailable(i))
-            continue;
-        open_device(triptych_engine_name(i));
-        test();
-        triptych_device_destroy(device);
-        device = NULL;
-        run++;
-    }
-    TEST_ASSERT_GREATER_THAN(0, run);
-}
 
 void setUp(void)
 {
@@ -71,87 +13,7 @@ void setUp(void)
 
 void tearDown(void)
 {
-    triptych_device_destroy(device);
-    device = NULL;
-}
-
-struct vertex {
-    float x, y, z;
-    float normal[3];
-    uint32_t color; /* 0xAARRGGBB */
-    float u, v;
-};
-
-static void bind_element(enum triptych_attribute attribute, enum triptych_format format,
-                         triptych_buffer *buffer, size_t offset)
-{
-    struct triptych_element element = {format, buffer, offset, sizeof(struct vertex)};
-    OK(triptych_set_element(device, attribute, &element));
-}
-
-static float extent = 1; /* of the square in the world; the projection makes it the whole target */
-
-/* The whole target as a strip at depth z; texture coordinates run from u0, v0 at the upper left to u1, v1. */
-static void draw_square(float z, uint32_t color, const float normal[3], float u0, float v0, float u1,
-                        float v1)
-{
-    static const float up[3] = {0, 0, -1};
-    struct vertex vertex[4] = {{-extent, extent, z, {0}, color, u0, v0},
-                               {extent, extent, z, {0}, color, u1, v0},
-                               {-extent, -extent, z, {0}, color, u0, v1},
-                               {extent, -extent, z, {0}, color, u1, v1}};
-    triptych_buffer *buffer;
-    for (int i = 0; i < 4; i++)
-        memcpy(vertex[i].normal, normal ? normal : up, sizeof up);
-    OK(triptych_buffer_create(device, vertex, sizeof vertex, &buffer));
-    bind_element(TRIPTYCH_POSITION, TRIPTYCH_FORMAT_FLOAT3, buffer, offsetof(struct vertex, x));
-    bind_element(TRIPTYCH_NORMAL, TRIPTYCH_FORMAT_FLOAT3, buffer, offsetof(struct vertex, normal));
-    bind_element(TRIPTYCH_DIFFUSE, TRIPTYCH_FORMAT_COLOR, buffer, offsetof(struct vertex, color));
-    bind_element(TRIPTYCH_TEXCOORD, TRIPTYCH_FORMAT_FLOAT2, buffer, offsetof(struct vertex, u));
-    OK(triptych_draw(device, TRIPTYCH_TRIANGLE_STRIP, 0, 2));
-}
-
-/* A word with red in the low byte, as images have it, from a packed colour with blue there. */
-static uint32_t image_word(uint32_t color)
-{
-    return (color & 0xff00ff00) | (color >> 16 & 255) | (color & 255) << 16;
-}
-
-static unsigned channel(uint32_t word, int c)
-{
-    return word >> 8 * c & 255;
-}
-
-static void clear_to(uint32_t word)
-{
-    float color[4];
-    for (int c = 0; c < 4; c++)
-        color[c] = (float)channel(word, c) / 255.0f;
-    OK(triptych_clear(device, color, 1));
-}
-
-static uint32_t texel[SIZE * SIZE];
-
-static void bind_random_texture(unsigned width, unsigned height)
-{
-    triptych_texture *texture;
-    for (unsigned i = 0; i < width * height; i++)
-        texel[i] = random_word();
-    OK(triptych_texture_create(device, texel, width, height, &texture));
-    OK(triptych_set_texture(device, texture));
-    set(TRIPTYCH_STATE_colorop, "selectarg1");
-    set(TRIPTYCH_STATE_alphaop, "selectarg1");
-}
-
-static void expect_pixel(int x, int y, uint32_t expected, const char *what)
-{
-    char message[160];
-    uint32_t got = image[y * SIZE + x];
-    if (got == expected)
-        return;
-    snprintf(message, sizeof message, "%s: pixel (%d, %d): expected %08x, got %08x", what, x, y, expected,
-             got);
-    TEST_FAIL_MESSAGE(message);
+    close_canvas();
 }
 
 /* --- Textures ----------------------------------------------------------------------------------------------

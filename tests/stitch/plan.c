@@ -30,19 +30,30 @@ static void check_plan(planner *planner, enum unit unit, const union key *key)
         planned[plan.part[i].fragment - __start_stitch_fragments] = 1;
 }
 
-/* The stage's operations and arguments are too many to count through with everything else. */
-static int is_stage(const char *field)
+static size_t field_number(enum unit unit, const char *name)
 {
-    return !strncmp(field, "color_", 6) || !strncmp(field, "alpha_", 6);
+    size_t count, i = 0;
+    const struct key_field *field = key_fields(unit, &count);
+    while (i < count && strcmp(field[i].name, name))
+        i++;
+    TEST_ASSERT_LESS_THAN_MESSAGE(count, i, name);
+    return i;
 }
 
-/* Counts through the values of the fields, the stage's excepted; 0 when they have all been. */
-static int next_key(enum unit unit, union key *key)
+static size_t field_end(enum unit unit)
+{
+    size_t count;
+    key_fields(unit, &count);
+    return count;
+}
+
+/* Counts through the values of the fields from `first` to before `end`; 0 when they have all been. */
+static int next_key(enum unit unit, size_t first, size_t end, union key *key)
 {
     size_t count;
     const struct key_field *field = key_fields(unit, &count);
-    for (size_t i = 0; i < count; i++)
-        for (unsigned j = 0; j < field[i].count && !is_stage(field[i].name); j++) {
+    for (size_t i = first; i < end; i++)
+        for (unsigned j = 0; j < field[i].count; j++) {
             uint8_t *digit = (uint8_t *)key + field[i].offset + j;
             if (++*digit < field[i].radix)
                 return 1;
@@ -84,16 +95,70 @@ static void setup_plans_keep_the_contract(void)
     union key key = no_state;
     do
         check_plan(plan_stages, UNIT_SETUP, &key);
-    while (next_key(UNIT_SETUP, &key));
+    while (next_key(UNIT_SETUP, 0, field_end(UNIT_SETUP), &key));
 }
 
-/* Of the write masks, none, some and all. */
-static void check_pixel_plans(union key key)
+/* All that precedes the stage; its operations and arguments are too many to count through with everything
+ * else. */
+static void check_beginnings(union key key)
 {
-    do {
-        if (key.pixel.write_mask == 0 || key.pixel.write_mask == 7 || key.pixel.write_mask == 15)
-            check_plan(plan_stages, UNIT_PIXEL, &key);
-    } while (next_key(UNIT_PIXEL, &key));
+    do
+        check_plan(plan_stages, UNIT_PIXEL, &key);
+    while (next_key(UNIT_PIXEL, 0, field_number(UNIT_PIXEL, "color_stage"), &key));
+}
+
+static void check_ends(union key *key)
+{
+    static const uint8_t masks[] = {0, 7, 15};
+    for (int discard = 0; discard < COMPARE_COUNT; discard++)
+        for (size_t m = 0; m < sizeof masks; m++) {
+            key->pixel.alpha_discard = (uint8_t)discard;
+            key->pixel.write_mask = masks[m];
+            check_plan(plan_stages, UNIT_PIXEL, key);
+        }
+}
+
+/* Alpha is blended from a state of the registers that does not depend on how colour was: each blending for
+ * both, and each for alpha behind one for colour, stand for all pairs. */
+static void check_blendings(union key *key)
+{
+    for (int i = 0; i < BLEND_COUNT * FACTOR_COUNT * FACTOR_COUNT; i++) {
+        struct pixel_key *pixel = &key->pixel;
+        for (int c = 0; c < BLEND_CHANNELS; c++) {
+            pixel->blend[c] = (uint8_t)(i / (FACTOR_COUNT * FACTOR_COUNT));
+            pixel->source_factor[c] = (uint8_t)(i / FACTOR_COUNT % FACTOR_COUNT);
+            pixel->target_factor[c] = (uint8_t)(i % FACTOR_COUNT);
+        }
+        check_ends(key);
+        pixel->blend[BLEND_COLOR] = BLEND_SUBTRACT;
+        pixel->source_factor[BLEND_COLOR] = FACTOR_TARGET_COLOR;
+        pixel->target_factor[BLEND_COLOR] = FACTOR_SATURATED_ALPHA;
+        check_plan(plan_stages, UNIT_PIXEL, key);
+    }
+}
+
+/* What follows the stage meets what precedes it in the colour, the live lanes and the position alone: all
+ * that precedes with few that follow, and the other way round, stand for all. */
+static void pixel_plans_keep_the_contract(void)
+{
+    static const struct pixel_key ends[] = {{.write_mask = 0},
+                                            {.write_mask = 15},
+                                            {.write_mask = 7, .blend = {BLEND_MINIMUM, BLEND_MINIMUM}},
+                                            {.write_mask = 0, .alpha_discard = COMPARE_LESS},
+                                            {.write_mask = 15, .alpha_discard = COMPARE_LESS}};
+    for (size_t i = 0; i < sizeof ends / sizeof *ends; i++) {
+        union key key = {.pixel = ends[i]};
+        check_beginnings(key);
+        key.pixel.color_argument[0] = key.pixel.alpha_argument[0] = SOURCE_TEXTURE;
+        check_beginnings(key);
+        key.pixel.color_stage = STAGE_LERP;
+        key.pixel.color_argument[2] = SOURCE_FACTOR;
+        check_beginnings(key);
+    }
+    for (int depth_write = 0; depth_write < 2; depth_write++) {
+        union key key = {.pixel = {.depth_function = COMPARE_ALWAYS, .depth_write = (uint8_t)depth_write}};
+        check_blendings(&key);
+    }
 }
 
 /* The operation in colour alone, in both halves, and in alpha alone. */
@@ -111,17 +176,6 @@ static void check_stage_plans(union key key, enum stage stage, unsigned first, u
     check_plan(plan_stages, UNIT_PIXEL, &key);
     key.pixel.color_stage = STAGE_LERP;
     check_plan(plan_stages, UNIT_PIXEL, &key);
-}
-
-static void pixel_plans_keep_the_contract(void)
-{
-    union key key = no_state;
-    check_pixel_plans(key);
-    key.pixel.color_argument[0] = key.pixel.alpha_argument[0] = SOURCE_TEXTURE;
-    check_pixel_plans(key);
-    key.pixel.color_stage = STAGE_LERP;
-    key.pixel.color_argument[2] = SOURCE_FACTOR;
-    check_pixel_plans(key);
 }
 
 static void stage_plans_keep_the_contract(void)

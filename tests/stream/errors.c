@@ -42,7 +42,7 @@ static const struct bad whole[] = {
 
 static const struct bad lines[] = {
     /* Lines */
-    {"paint it\n", "2:1", "found 'paint', expected a call: target, viewport, set"},
+    {"paint it\n", "2:1", "found 'paint', expected a call: target, viewport, scissor, set"},
     {"  # fine\n\n   paint it\n", "4:4", "found 'paint'"},
     {"\"frame\"\n", "2:1", "found '\"frame\"', expected a call"},
     {"}\n", "2:1", "found '}', expected a call"},
@@ -59,6 +59,9 @@ static const struct bad lines[] = {
     {"viewport 0 0 1 1 0 1\n", "2:1", "found no target, expected target WIDTH HEIGHT before it"},
     {"target 8 8\nviewport 1 0 8 8 0 1\n", "3:1", "expected a part of the target of 8x8 pixels"},
     {"target 8 8\nviewport 0 0 8 8 0 2\n", "3:1", "expected values from 0 to 1"},
+    {"scissor 0 0 1 1\n", "2:1", "found no target, expected target WIDTH HEIGHT before it"},
+    {"target 8 8\nscissor 1 0 8 8\n", "3:1", "expected a part of the target of 8x8 pixels"},
+    {"target 8 8\nscissor 0 0 8\n", "3:14", "expected an integer (scissor height) from 0 to 8192"},
     {"target 8 8\nviewport 0 0 8 8 0\n", "3:19", "expected a number (viewport X Y WIDTH HEIGHT NEAR FAR)"},
     {"target 8 8\nclear depth 2\n", "3:1", "found depth 2, expected 0 to 1"},
     {"target 8 8\nclear\n", "3:6", "expected color R G B A, depth D, or both"},

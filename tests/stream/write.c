@@ -122,7 +122,7 @@ static const char everything[] =
     "indices i 16 { 0 1 2\n 2 1 0 }\nindices j 32 { 4294967295 0 1 2 }\n"
     "buffer f float { 0 .5 0 0.25 1 -1 }\nbuffer c color { 00000001 ffffffff }\n"
     "buffer s u16 { 0 1 2 65535 }\nbuffer l u32 { 0 1 2 4294967295 }\n"
-    "viewport 0.5 0 63.25 32 0.1 0.9\n"
+    "viewport 0.5 0 63.25 32 0.1 0.9\nscissor 1 0 7 0\n"
     "set zfunc lessequal\nset ambient 0x12345678\nset colorwriteenable 5\nset lighting 0\n"
     "transform world matrix -0 0 0 0 0 1e-45 0 0 0 0 1 0 0 0 -0 1\ntransform world identity\ntransform view "
     "rotate 30 1 2 3 translate 1 2 3 scale 2 2 2\n"

@@ -338,8 +338,17 @@ static void meet_stored_depths(struct differential *d)
         d->initial.depth[i] = 0.25f * (float)(1 + below(d, 3));
 }
 
+/* Often an alpha that saturated colours have, or its neighbour. */
+static int32_t alpha_reference(struct differential *d)
+{
+    static const uint8_t some[] = {0, 1, 127, 128, 254, 255};
+    return below(d, 2) ? some[below(d, sizeof some)] : (int32_t)below(d, 256);
+}
+
 static void make_pixel_inputs(struct differential *d, const struct pixel_key *key)
 {
+    d->job.alpha_reference = alpha_reference(d);
+    d->job.blend_constant = word(d);
     d->layout = triangle_layout(key->depth_function != COMPARE_ALWAYS || key->depth_write, key->varying);
     make_triangles(d, key);
     make_entries(d);
@@ -489,6 +498,30 @@ const char *differential_compare(struct differential *d, const struct engine *a,
     return compare(d, a, b, unit, key);
 }
 
+/* Among all pairs of blendings, those that a renderer meets are rare: alpha blended like colour,
+ * complementary factors, and what stitchers have special code for. */
+static void blend_usually(uint64_t chance, struct pixel_key *key)
+{
+    static const uint8_t usual[][2] = {{FACTOR_SOURCE_ALPHA, FACTOR_INVERSE_SOURCE_ALPHA},
+                                       {FACTOR_ONE, FACTOR_INVERSE_SOURCE_ALPHA},
+                                       {FACTOR_SOURCE_ALPHA, FACTOR_ZERO}};
+    unsigned choice = chance >> 33 & 7;
+    if (choice < 4) {
+        key->blend[BLEND_ALPHA] = key->blend[BLEND_COLOR];
+        key->source_factor[BLEND_ALPHA] = key->source_factor[BLEND_COLOR];
+        key->target_factor[BLEND_ALPHA] = key->target_factor[BLEND_COLOR];
+    }
+    for (int c = 0; c < BLEND_CHANNELS; c++)
+        if (choice < 2) {
+            key->blend[c] = BLEND_ADD;
+            key->source_factor[c] = usual[(chance >> 36) % 3][0];
+            key->target_factor[c] = usual[(chance >> 36) % 3][1];
+        } else if ((choice == 2 || choice == 7) && key->source_factor[c] < FACTOR_SATURATED_ALPHA) {
+            key->blend[c] = BLEND_ADD;
+            key->target_factor[c] = key->source_factor[c] ^ 1;
+        }
+}
+
 const char *differential_rounds(struct differential *d, const struct engine *a, const struct engine *b,
                                 enum unit unit, uint64_t seed, int rounds)
 {
@@ -496,6 +529,8 @@ const char *differential_rounds(struct differential *d, const struct engine *a, 
     for (int i = 0; i < rounds && !difference; i++) {
         union key key;
         key_random(unit, &seed, &key);
+        if (unit == UNIT_PIXEL)
+            blend_usually(seed, &key.pixel);
         difference = differential_compare(d, a, b, unit, &key, seed);
     }
     return difference;

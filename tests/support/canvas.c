@@ -1,0 +1,138 @@
+#include "tests/support/canvas.h"
+
+#include <stdio.h>
+#include <string.h>
+
+triptych_device *device;
+uint32_t image[SIZE * SIZE];
+static uint64_t seed;
+
+uint32_t random_word(void)
+{
+    seed ^= seed >> 12;
+    seed ^= seed << 25;
+    seed ^= seed >> 27;
+    return (uint32_t)(seed * 0x2545f4914f6cdd1dull >> 32);
+}
+
+double random_between(double low, double high)
+{
+    return low + (high - low) * random_word() / 4294967296.0;
+}
+
+void set(enum triptych_state state, const char *word)
+{
+    uint32_t value;
+    TEST_ASSERT_EQUAL_INT_MESSAGE(0, triptych_state_value(state, word, &value), word);
+    OK(triptych_set_state(device, state, value));
+}
+
+static void open_device(const char *engine)
+{
+    struct triptych_options options = {.engine = engine, .threads = 1};
+    char reason[256] = "";
+    seed = 1;
+    TEST_ASSERT_EQUAL_INT_MESSAGE(TRIPTYCH_OK,
+                                  triptych_device_create(&options, &device, reason, sizeof reason), reason);
+    OK(triptych_set_target(device, SIZE, SIZE));
+    set(TRIPTYCH_STATE_lighting, "false");
+    set(TRIPTYCH_STATE_cullmode, "none");
+    set(TRIPTYCH_STATE_zenable, "false");
+}
+
+void on_every_engine(void (*test)(void))
+{
+    unsigned run = 0;
+    for (unsigned i = 0; triptych_engine_name(i); i++) {
+        if (triptych_engine_unavailable(i))
+            continue;
+        open_device(triptych_engine_name(i));
+        test();
+        triptych_device_destroy(device);
+        device = NULL;
+        run++;
+    }
+    TEST_ASSERT_GREATER_THAN(0, run);
+}
+
+void close_canvas(void)
+{
+    triptych_device_destroy(device);
+    device = NULL;
+}
+
+struct vertex {
+    float x, y, z;
+    float normal[3];
+    uint32_t color; /* 0xAARRGGBB */
+    float u, v;
+};
+
+static void bind_element(enum triptych_attribute attribute, enum triptych_format format,
+                         triptych_buffer *buffer, size_t offset)
+{
+    struct triptych_element element = {format, buffer, offset, sizeof(struct vertex)};
+    OK(triptych_set_element(device, attribute, &element));
+}
+
+float extent = 1;
+
+void draw_square(float z, uint32_t color, const float normal[3], float u0, float v0, float u1, float v1)
+{
+    static const float up[3] = {0, 0, -1};
+    struct vertex vertex[4] = {{-extent, extent, z, {0}, color, u0, v0},
+                               {extent, extent, z, {0}, color, u1, v0},
+                               {-extent, -extent, z, {0}, color, u0, v1},
+                               {extent, -extent, z, {0}, color, u1, v1}};
+    triptych_buffer *buffer;
+    for (int i = 0; i < 4; i++)
+        memcpy(vertex[i].normal, normal ? normal : up, sizeof up);
+    OK(triptych_buffer_create(device, vertex, sizeof vertex, &buffer));
+    bind_element(TRIPTYCH_POSITION, TRIPTYCH_FORMAT_FLOAT3, buffer, offsetof(struct vertex, x));
+    bind_element(TRIPTYCH_NORMAL, TRIPTYCH_FORMAT_FLOAT3, buffer, offsetof(struct vertex, normal));
+    bind_element(TRIPTYCH_DIFFUSE, TRIPTYCH_FORMAT_COLOR, buffer, offsetof(struct vertex, color));
+    bind_element(TRIPTYCH_TEXCOORD, TRIPTYCH_FORMAT_FLOAT2, buffer, offsetof(struct vertex, u));
+    OK(triptych_draw(device, TRIPTYCH_TRIANGLE_STRIP, 0, 2));
+}
+
+uint32_t image_word(uint32_t color)
+{
+    return (color & 0xff00ff00) | (color >> 16 & 255) | (color & 255) << 16;
+}
+
+unsigned channel(uint32_t word, int c)
+{
+    return word >> 8 * c & 255;
+}
+
+void clear_to(uint32_t word)
+{
+    float color[4];
+    for (int c = 0; c < 4; c++)
+        color[c] = (float)channel(word, c) / 255.0f;
+    OK(triptych_clear(device, color, 1));
+}
+
+uint32_t texel[SIZE * SIZE];
+
+void bind_random_texture(unsigned width, unsigned height)
+{
+    triptych_texture *texture;
+    for (unsigned i = 0; i < width * height; i++)
+        texel[i] = random_word();
+    OK(triptych_texture_create(device, texel, width, height, &texture));
+    OK(triptych_set_texture(device, texture));
+    set(TRIPTYCH_STATE_colorop, "selectarg1");
+    set(TRIPTYCH_STATE_alphaop, "selectarg1");
+}
+
+void expect_pixel(int x, int y, uint32_t expected, const char *what)
+{
+    char message[160];
+    uint32_t got = image[y * SIZE + x];
+    if (got == expected)
+        return;
+    snprintf(message, sizeof message, "%s: pixel (%d, %d): expected %08x, got %08x", what, x, y, expected,
+             got);
+    TEST_FAIL_MESSAGE(message);
+}
