@@ -144,10 +144,11 @@ $(PROGRAMS): $(BUILD)/tests/%: $(BUILD)/object/tests/%.o $(SUPPORT_OBJECTS) $(BU
 # This test plants differences between the engines' pictures, to see the verification fail.
 $(BUILD)/tests/tool/verify: private override LDFLAGS += -Wl,--wrap=triptych_read_color,--wrap=triptych_read_depth
 
-# Files that hold a text and are rewritten only when it changes.
+# Files that hold a text and are rewritten only when it changes: the same one however BUILD is spelled, for a test
+# installs from the build that others run at the same time.
 $(BUILD)/flags: text = $(compile) $(unity_flags) $(link) $(assemble)
-$(BUILD)/library.list: text = $(LIBRARY_OBJECTS)
-$(BUILD)/command.list: text = $(TOOL_OBJECTS)
+$(BUILD)/library.list: text = $(LIBRARY_OBJECTS:$(BUILD)/%=%)
+$(BUILD)/command.list: text = $(TOOL_OBJECTS:$(BUILD)/%=%)
 $(BUILD)/commit: text = $(COMMIT)
 $(BUILD)/flags $(BUILD)/library.list $(BUILD)/command.list $(BUILD)/commit: FORCE
 	@mkdir -p $(@D)
