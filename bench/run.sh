@@ -43,4 +43,4 @@ hyperfine --shell=none --style=basic --warmup 1 --min-runs 5 --export-json "$res
 
 gnuplot -c bench/chart.gnuplot "$results/bench.csv" "$results/bench.svg" "$results/bench.png"
 
-"$triptych" verify "${streams[@]}" --json "$results/verify.json"
+"$triptych" verify "${streams[@]}" --frames all --json "$results/verify.json"

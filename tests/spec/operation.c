@@ -3,25 +3,12 @@
  * expressions rest on. */
 #include "base/mxcsr.h"
 #include "emu/bind.h"
+#include "jit/ir.h"
 #include "tests/support/edges.h"
 #include "unity.h"
 
 #include <math.h>
 #include <stdio.h>
-
-uint32_t ir_evaluate(int op, uint32_t a, uint32_t b, uint32_t c,
-                     int32_t k); /* jit/evaluate.c: one lane of a row */
-
-enum row {
-    ROW_nop,
-#define OP(name, ...)  ROW_##name,
-#define OPK(name, ...) ROW_##name,
-#define CAST(name, ...)
-#include "def/op.def"
-#undef OP
-#undef OPK
-#undef CAST
-};
 
 static unsigned saved;
 
@@ -53,14 +40,14 @@ static int same(uint32_t a, uint32_t b, int is_float)
     return a == b || (is_float && isnan(lane_from_bits(a)) && isnan(lane_from_bits(b)));
 }
 
-static void check_lanes(const char *name, unsigned row, const uint32_t in[3][4], const void *result,
+static void check_lanes(const char *name, enum ir_op row, const uint32_t in[3][4], const void *result,
                         int is_float, int k)
 {
     char message[128];
     uint32_t out[4];
     memcpy(out, result, sizeof out);
     for (int lane = 0; lane < 4; lane++) {
-        uint32_t expected = ir_evaluate((int)row, in[0][lane], in[1][lane], in[2][lane], k);
+        uint32_t expected = ir_evaluate(row, in[0][lane], in[1][lane], in[2][lane], k);
         if (same(out[lane], expected, is_float))
             continue;
         snprintf(message, sizeof message, "%s(%08x, %08x, %08x) in lane %d: expected %08x, got %08x", name,
@@ -103,7 +90,7 @@ static void check_lanes(const char *name, unsigned row, const uint32_t in[3][4],
         uint32_t in[3][4] = {{0}};                                                                           \
         MAKE_##ta(a, 0) MAKE_##tb(b, 1) MAKE_##tc(c, 2) result r =                                           \
             (name)(NULL PASS_##ta(a) PASS_##tb(b) PASS_##tc(c));                                             \
-        check_lanes(#name, ROW_##name, in, &r, IS_FLOAT_##result, 0);                                        \
+        check_lanes(#name, IR_##name, in, &r, IS_FLOAT_##result, 0);                                         \
     }
 #define OPK(name, result, ta, tb, tc, properties, expression)                                                \
     static void check_##name(unsigned round)                                                                 \
@@ -111,7 +98,7 @@ static void check_lanes(const char *name, unsigned row, const uint32_t in[3][4],
         uint32_t in[3][4] = {{0}};                                                                           \
         MAKE_##ta(a, 0) int k = (int)(round % (sizeof(result) == sizeof(fix) && #name[5] == 'x' ? 16 : 32)); \
         result r = (name)(NULL, a, k);                                                                       \
-        check_lanes(#name, ROW_##name, in, &r, IS_FLOAT_##result, k);                                        \
+        check_lanes(#name, IR_##name, in, &r, IS_FLOAT_##result, k);                                         \
     }
 #define CAST(name, ...)
 #include "def/op.def"
@@ -162,8 +149,8 @@ static void test_floor_takes_a_denormal_for_zero(void)
 static void test_fused_multiply_add_rounds_once(void)
 {
     float a = 1 + 0x1p-12f;
-    TEST_ASSERT_EQUAL_HEX32(lane_bits(0x1p-24f), ir_evaluate(ROW_mad_f, lane_bits(a), lane_bits(a),
-                                                             lane_bits(-(1 + 0x1p-11f)), 0));
+    TEST_ASSERT_EQUAL_HEX32(lane_bits(0x1p-24f),
+                            ir_evaluate(IR_mad_f, lane_bits(a), lane_bits(a), lane_bits(-(1 + 0x1p-11f)), 0));
 }
 
 int main(void)
