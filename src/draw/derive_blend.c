@@ -1,0 +1,111 @@
+/* Blending: factors and operations reduced to the fewest that draw the same. */
+#include "draw/derive_part.h"
+
+/* One channel's blending, as the key has it. */
+struct blending {
+    uint8_t blend, source, target;
+};
+
+/* Direct3D's numbers up to INVDESTCOLOR are ours and 1; the later ones are in another order. */
+static uint8_t derive_factor(uint32_t factor)
+{
+    if (factor <= SRCBLEND_invdestcolor)
+        return (uint8_t)(factor - SRCBLEND_zero);
+    if (factor == SRCBLEND_srcalphasat)
+        return FACTOR_SATURATED_ALPHA;
+    return (uint8_t)(factor - SRCBLEND_blendfactor + FACTOR_CONSTANT);
+}
+
+/* A difference with a term that is zero is a sum or zero, and a sum of the new colour alone a copy. */
+static struct blending reduce_blending(struct blending b)
+{
+    if (b.blend == BLEND_MINIMUM || b.blend == BLEND_MAXIMUM)
+        return (struct blending){.blend = b.blend};
+    if (b.blend == BLEND_SUBTRACT && b.source == FACTOR_ZERO)
+        b.target = FACTOR_ZERO;
+    if (b.blend == BLEND_REVERSE_SUBTRACT && b.target == FACTOR_ZERO)
+        b.source = FACTOR_ZERO;
+    if ((b.blend == BLEND_SUBTRACT && b.target == FACTOR_ZERO) ||
+        (b.blend == BLEND_REVERSE_SUBTRACT && b.source == FACTOR_ZERO))
+        b.blend = BLEND_ADD;
+    if (b.blend == BLEND_ADD && b.source == FACTOR_ONE && b.target == FACTOR_ZERO)
+        return (struct blending){BLEND_COPY, 0, 0};
+    return b;
+}
+
+/* The BOTH factors override the target's (Direct3D 9, D3DBLEND). */
+static struct blending make_blending(uint32_t operation, uint32_t source, uint32_t target)
+{
+    if (source == SRCBLEND_bothsrcalpha || source == SRCBLEND_bothinvsrcalpha) {
+        int inverse = source == SRCBLEND_bothinvsrcalpha;
+        source = inverse ? SRCBLEND_invsrcalpha : SRCBLEND_srcalpha;
+        target = inverse ? SRCBLEND_srcalpha : SRCBLEND_invsrcalpha;
+    }
+    return reduce_blending((struct blending){(uint8_t)(operation - BLENDOP_add + BLEND_ADD),
+                                             derive_factor(source), derive_factor(target)});
+}
+
+/* The factor that is the same for alpha: its colour is itself. */
+static uint8_t alpha_factor(uint8_t factor)
+{
+    if (factor == FACTOR_SOURCE_COLOR || factor == FACTOR_INVERSE_SOURCE_COLOR)
+        return factor - FACTOR_SOURCE_COLOR + FACTOR_SOURCE_ALPHA;
+    if (factor == FACTOR_TARGET_COLOR || factor == FACTOR_INVERSE_TARGET_COLOR)
+        return factor - FACTOR_TARGET_COLOR + FACTOR_TARGET_ALPHA;
+    return factor == FACTOR_SATURATED_ALPHA ? FACTOR_ONE : factor;
+}
+
+/* The blending that is the same for alpha, unless it would be rounded otherwise. */
+static struct blending alpha_blending(struct blending b)
+{
+    struct blending r = {b.blend, alpha_factor(b.source), alpha_factor(b.target)};
+    int same = blend_is_lerp(r.blend, r.source, r.target) == blend_is_lerp(b.blend, b.source, b.target);
+    return b.blend == BLEND_COPY || !same ? b : reduce_blending(r);
+}
+
+static bool same_blending(struct blending a, struct blending b)
+{
+    return a.blend == b.blend && a.source == b.source && a.target == b.target;
+}
+
+static bool keeps_target(struct blending b)
+{
+    return b.blend == BLEND_ADD && b.source == FACTOR_ZERO && b.target == FACTOR_ONE;
+}
+
+static void store_blending(struct pixel_key *key, int channel, struct blending b)
+{
+    key->blend[channel] = b.blend;
+    key->source_factor[channel] = b.source;
+    key->target_factor[channel] = b.target;
+}
+
+enum { MASK_COLOR = 7, MASK_ALPHA = 8 };
+
+/* Channels that stay as they are need not be written; those that are not written are blended like the others.
+ */
+void derive_blend(const struct state *state, struct pixel_key *key)
+{
+    struct blending color = {BLEND_COPY, 0, 0}, alpha;
+    if (GET(alphablendenable))
+        color = make_blending(GET(blendop), GET(srcblend), GET(destblend));
+    alpha = color;
+    if (GET(alphablendenable) && GET(separatealphablendenable))
+        alpha = alpha_blending(make_blending(GET(blendopalpha), GET(srcblendalpha), GET(destblendalpha)));
+    if (keeps_target(color))
+        key->write_mask &= MASK_ALPHA;
+    if (keeps_target(alpha))
+        key->write_mask &= MASK_COLOR;
+    if (!(key->write_mask & MASK_ALPHA) || same_blending(alpha, alpha_blending(color)))
+        alpha = color;
+    if (!(key->write_mask & MASK_COLOR))
+        color = alpha;
+    store_blending(key, BLEND_COLOR, color);
+    store_blending(key, BLEND_ALPHA, alpha);
+}
+
+void derive_no_blend(struct pixel_key *key)
+{
+    store_blending(key, BLEND_COLOR, (struct blending){BLEND_COPY, 0, 0});
+    store_blending(key, BLEND_ALPHA, (struct blending){BLEND_COPY, 0, 0});
+}

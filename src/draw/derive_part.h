@@ -1,0 +1,40 @@
+/* Shared by the files that derive keys and jobs: the states' values by name, and the words they are compared
+ * with.
+ *
+ * Every file derives one group: derive_depth.c, derive_blend.c ... fill fields of the pixel key,
+ * derive_vertex.c the vertex key, derive_setup.c the setup key, derive_job.c and derive_light.c the job.
+ * derive.c is what runs them. */
+#ifndef DRAW_DERIVE_PART_H
+#define DRAW_DERIVE_PART_H
+
+#include "draw/call.h"
+#include "draw/derive.h"
+
+/* Words of def/value.def that the code names. */
+enum {
+#define VALUE(kind, word, number) kind##_##word = number,
+#include "def/value.def"
+#undef VALUE
+};
+
+static inline uint32_t state_get(const struct state *state, enum triptych_state which)
+{
+    return state->value[which];
+}
+
+#define GET(name) state_get(state, TRIPTYCH_STATE_##name)
+
+/* Each fills its fields of a key that is zero; derive_blend takes the write mask from the state, and clears
+ * the channels that keep the target. */
+void derive_depth(const struct state *state, struct pixel_key *key);
+void derive_blend(const struct state *state, struct pixel_key *key);
+void derive_stage(const struct state *state, struct pixel_key *key);
+void derive_texture(const struct state *state, struct pixel_key *key);
+void derive_pixel(const struct state *state, struct pixel_key *key);
+void derive_setup(const struct state *state, const struct pixel_key *pixel, struct setup_key *key);
+void derive_vertex(const struct state *state, const struct pixel_key *pixel, struct vertex_key *key);
+
+/* No blending: what is not written is a copy. */
+void derive_no_blend(struct pixel_key *key);
+
+#endif

@@ -1,0 +1,38 @@
+/* The vertex key: what of the vertex declaration and of lighting the pixel key's varyings need. */
+#include "draw/derive_part.h"
+
+/* The bound format, cut to the components that the vertex routine can read. */
+static uint8_t derive_format(const struct state *state, enum attribute attribute, int components)
+{
+    int format = (int)state->element[attribute].format;
+    int last = ATTRIBUTE_FORMAT_FLOAT1 + components - 1;
+    return (uint8_t)(format != ATTRIBUTE_FORMAT_COLOR && format > last ? last : format);
+}
+
+/* Without lights nobody reads the normal. Without a normal it is zero, of length one or not: a cosine of a
+ * zero vector is a zero or a NaN, and either gives no light. */
+static void derive_lighting(const struct state *state, struct vertex_key *key)
+{
+    int count = 0;
+    key->lighting = 1;
+    for (int i = 0; i < LIGHT_COUNT; i++)
+        if (state->light_enabled[i])
+            key->light[count++] = (uint8_t)(state->light[i].type + LIGHT_DIRECTIONAL);
+    if (!count)
+        return;
+    key->attribute[ATTRIBUTE_NORMAL] = derive_format(state, ATTRIBUTE_NORMAL, 3);
+    key->normalize = key->attribute[ATTRIBUTE_NORMAL] && GET(normalizenormals);
+}
+
+void derive_vertex(const struct state *state, const struct pixel_key *pixel, struct vertex_key *key)
+{
+    for (int v = 0; v < VARYING_COUNT; v++)
+        key->varying[v] = pixel->varying[v] != INTERPOLATION_NONE;
+    key->attribute[ATTRIBUTE_POSITION] = derive_format(state, ATTRIBUTE_POSITION, 4);
+    if (key->varying[VARYING_texcoord])
+        key->attribute[ATTRIBUTE_TEXCOORD] = derive_format(state, ATTRIBUTE_TEXCOORD, 2);
+    if (key->varying[VARYING_diffuse] && GET(lighting))
+        derive_lighting(state, key);
+    else if (key->varying[VARYING_diffuse])
+        key->attribute[ATTRIBUTE_DIFFUSE] = derive_format(state, ATTRIBUTE_DIFFUSE, 4);
+}
