@@ -371,6 +371,7 @@ int triptych_get_routine(triptych_device *device, unsigned i, struct triptych_ro
         .code_bytes = routine.code_bytes,
         .parts = routine.parts,
         .spills = routine.spills,
+        .granularity = routine.granularity,
     };
     return 1;
 }

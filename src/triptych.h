@@ -138,6 +138,7 @@ struct triptych_routine_info {
     uint32_t code_bytes;
     uint32_t parts; /* instructions or fragments */
     uint32_t spills;
+    const char *granularity; /* of a stitched routine's fragments: "stage" or "operation"; null of others */
 };
 
 /* Creates a device. On failure *device is null and the reason is in `reason` (of `size` bytes, may be null).

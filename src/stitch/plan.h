@@ -39,7 +39,8 @@ unsigned plan_append(struct plan *plan, const struct fragment *fragment, struct 
 /* Lets the part's argument n, a jump, go to the next part that will be appended. */
 void plan_land(struct plan *plan, unsigned part, unsigned n);
 
-/* The two planners. They cover every key whose fields are below their radix. */
+/* The two planners. Operations cover every key whose fields are below their radix, stages those of
+ * stages_cover() (stitch/cover.h). */
 typedef void planner(struct plan *plan, enum unit unit, const union key *key);
 planner plan_stages, plan_operations;
 

@@ -1,7 +1,8 @@
-/* The stitcher's two engines: plan, join, hand out. They differ in the planner only. */
+/* The stitcher's two engines: plan, join, hand out. They differ in what decides the granularity only. */
 #include "stitch/stitch.h"
 
 #include "base/cpu.h"
+#include "stitch/cover.h"
 #include "stitch/plan.h"
 
 #include <stdlib.h>
@@ -16,7 +17,26 @@ static const char *unavailable(void)
     return cpu_has_avx2_fma() ? NULL : "the stitcher's fragments need a CPU and a system with AVX2 and FMA";
 }
 
-static struct routine *build(planner *planner, const struct engine *engine, struct code_arena *arena,
+static const char *want_operations(enum unit unit, const union key *key)
+{
+    (void)unit;
+    (void)key;
+    return "";
+}
+
+/* Plans with the granularity that the key is to have; returns why not by stages, null when it is by stages.
+ */
+static const char *make_plan(struct plan *plan, stitch_coverage *lack, enum unit unit, const union key *key)
+{
+    const char *reason = lack(unit, key);
+    if (reason)
+        plan_operations(plan, unit, key);
+    else
+        plan_stages(plan, unit, key);
+    return reason;
+}
+
+struct routine *stitch_build(const struct engine *engine, stitch_coverage *lack, struct code_arena *arena,
                              enum unit unit, const union key *key, struct error *error)
 {
     struct plan plan;
@@ -25,12 +45,12 @@ static struct routine *build(planner *planner, const struct engine *engine, stru
         error_set(error, "out of memory for a routine");
         return NULL;
     }
-    planner(&plan, unit, key);
+    struct routine *routine = &stitched->routine;
+    routine->granularity = make_plan(&plan, lack, unit, key) ? "operation" : "stage";
     if (plan_join(&plan, arena, &stitched->span, error)) {
         free(stitched);
         return NULL;
     }
-    struct routine *routine = &stitched->routine;
     const struct part *last = &plan.part[plan.count - 1];
     routine->run = (routine_function *)(uintptr_t)stitched->span.executable;
     routine->engine = engine;
@@ -45,13 +65,13 @@ static struct routine *build(planner *planner, const struct engine *engine, stru
 static struct routine *build_stages(struct code_arena *arena, enum unit unit, const union key *key,
                                     struct error *error)
 {
-    return build(plan_stages, &engine_stitch, arena, unit, key, error);
+    return stitch_build(&engine_stitch, stages_lack, arena, unit, key, error);
 }
 
 static struct routine *build_operations(struct code_arena *arena, enum unit unit, const union key *key,
                                         struct error *error)
 {
-    return build(plan_operations, &engine_stitch_operation, arena, unit, key, error);
+    return stitch_build(&engine_stitch_operation, want_operations, arena, unit, key, error);
 }
 
 static void free_routine(struct code_arena *arena, struct routine *routine)
@@ -64,7 +84,8 @@ static void free_routine(struct code_arena *arena, struct routine *routine)
 
 const struct engine engine_stitch = {
     .name = "stitch",
-    .description = "stitcher: hand-written fragments, a whole stage each, joined by copying",
+    .description =
+        "stitcher: hand-written stage fragments joined by copying; by operations where a key has none",
     .width = 8,
     .unavailable = unavailable,
     .build = build_stages,
@@ -80,22 +101,31 @@ const struct engine engine_stitch_operation = {
     .free = free_routine,
 };
 
-int stitch_dump(struct code_arena *arena, const struct engine *engine, enum unit unit, const union key *key,
-                FILE *out, struct error *error)
+int stitch_list(const struct engine *engine, stitch_coverage *lack, struct code_arena *arena, enum unit unit,
+                const union key *key, FILE *out, struct error *error)
 {
     struct plan plan;
     struct code_span span;
     char text[KEY_TEXT_CAPACITY];
-    if (engine != &engine_stitch && engine != &engine_stitch_operation)
-        return error_set(error, "engine %s does not stitch", engine->name);
-    if (engine == &engine_stitch)
-        plan_stages(&plan, unit, key);
-    else
-        plan_operations(&plan, unit, key);
+    const char *reason = make_plan(&plan, lack, unit, key);
     if (plan_check(&plan, error) || plan_join(&plan, arena, &span, error))
         return -1;
     fprintf(out, "%s %s %s\n", engine->name, unit_name[unit], key_print(unit, key, text));
+    fprintf(out, "granularity: %s", reason ? "operation" : "stage");
+    if (reason && *reason)
+        fprintf(out, ", since stage fragments do not cover %s", reason);
+    fputc('\n', out);
     plan_print(&plan, &span, out);
     code_free(arena, &span);
     return 0;
+}
+
+int stitch_dump(struct code_arena *arena, const struct engine *engine, enum unit unit, const union key *key,
+                FILE *out, struct error *error)
+{
+    if (engine == &engine_stitch)
+        return stitch_list(engine, stages_lack, arena, unit, key, out, error);
+    if (engine == &engine_stitch_operation)
+        return stitch_list(engine, want_operations, arena, unit, key, out, error);
+    return error_set(error, "engine %s does not stitch", engine->name);
 }

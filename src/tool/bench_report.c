@@ -71,6 +71,7 @@ static void print_speedups(const struct bench *bench)
 /* Build times and sizes of one engine's routines for one unit, over all streams. */
 struct unit_summary {
     struct summary us, bytes;
+    size_t by_operation; /* how many were stitched from operation fragments */
 };
 
 static size_t count_builds(const struct bench *bench, unsigned run)
@@ -84,7 +85,7 @@ static size_t count_builds(const struct bench *bench, unsigned run)
 /* All zero when memory runs out, as for an engine that built nothing. */
 static struct unit_summary summarize_unit(const struct bench *bench, unsigned run, unsigned unit)
 {
-    size_t all = count_builds(bench, run), count = 0, coded = 0;
+    size_t all = count_builds(bench, run), count = 0, coded = 0, by_operation = 0;
     double *us = calloc(all + 1, sizeof *us), *bytes = calloc(all + 1, sizeof *bytes);
     for (unsigned i = 0; i < bench->stream_count && us && bytes; i++)
         for (size_t j = 0; j < bench->streams[i].runs[run].build_count; j++) {
@@ -92,10 +93,11 @@ static struct unit_summary summarize_unit(const struct bench *bench, unsigned ru
             if (build->unit != unit)
                 continue;
             us[count++] = build->us;
+            by_operation += build->by_operation;
             if (build->code_bytes > 0)
                 bytes[coded++] = build->code_bytes;
         }
-    struct unit_summary summary = {summarize(us, count), summarize(bytes, coded)};
+    struct unit_summary summary = {summarize(us, count), summarize(bytes, coded), by_operation};
     free(us);
     free(bytes);
     return summary;
@@ -107,8 +109,8 @@ static void print_builds(const struct bench *bench)
     puts("\nbuilding routines, all streams");
     table_column(&table, "engine", TABLE_LEFT);
     table_column(&table, "unit", TABLE_LEFT);
-    static const char *const headings[] = {"routines", "build us", "min", "max",
-                                           "p99",      "bytes",    "min", "max"};
+    static const char *const headings[] = {"routines", "by operation", "build us", "min", "max",
+                                           "p99",      "bytes",        "min",      "max"};
     for (size_t i = 0; i < sizeof headings / sizeof *headings; i++)
         table_column(&table, headings[i], TABLE_RIGHT);
     for (unsigned run = 0; run < bench->streams->run_count; run++)
@@ -117,6 +119,7 @@ static void print_builds(const struct bench *bench)
             table_cell(&table, "%s", triptych_engine_name(bench->streams->runs[run].engine));
             table_cell(&table, "%s", unit_name[unit]);
             table_cell(&table, "%zu", summary.us.count);
+            table_cell(&table, "%zu", summary.by_operation);
             table_cell(&table, "%.1f", summary.us.median);
             table_cell(&table, "%.1f", summary.us.least);
             table_cell(&table, "%.1f", summary.us.most);
@@ -182,6 +185,7 @@ static void add_builds(cJSON *builds, const struct bench *bench, unsigned run, u
     cJSON_AddStringToObject(json, "engine", triptych_engine_name(bench->streams->runs[run].engine));
     cJSON_AddStringToObject(json, "unit", unit_name[unit]);
     cJSON_AddNumberToObject(json, "routines", (double)summary.us.count);
+    cJSON_AddNumberToObject(json, "by_operation", (double)summary.by_operation);
     cJSON_AddItemToObject(json, "build_us", json_summary(&summary.us));
     cJSON_AddItemToObject(json, "code_bytes", json_summary(&summary.bytes));
     cJSON_AddItemToArray(builds, json);

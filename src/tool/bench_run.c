@@ -84,7 +84,8 @@ static int read_builds(const struct command *self, struct bench_run *run)
     for (; run->build_count < count && triptych_get_routine(run->session.device, run->build_count, &info);
          run->build_count++)
         run->builds[run->build_count] =
-            (struct build){unit_of(info.unit), (double)info.build_ns / 1e3, info.code_bytes};
+            (struct build){unit_of(info.unit), (double)info.build_ns / 1e3, info.code_bytes,
+                           info.granularity && !strcmp(info.granularity, "operation")};
     return STATUS_OK;
 }
 

@@ -21,6 +21,7 @@ enum measure { MEASURE_FRAME_MS, MEASURE_VERTEX_NS, MEASURE_PIXEL_NS, MEASURE_CO
 struct build {
     unsigned unit;         /* enum unit */
     double us, code_bytes; /* code_bytes is 0 for engines that generate none */
+    bool by_operation;     /* stitched from operation fragments */
 };
 
 struct bench_run {

@@ -29,8 +29,8 @@ static void compare_units(const struct engine *engine)
     if (engine->unavailable())
         TEST_IGNORE_MESSAGE(engine->unavailable());
     for (int unit = 0; unit < UNIT_COUNT; unit++) {
-        const char *difference =
-            differential_rounds(differential, &engine_emulate, engine, unit, 1 + (uint64_t)unit, ROUNDS);
+        const char *difference = differential_rounds(differential, &engine_emulate, engine, unit, NULL,
+                                                     1 + (uint64_t)unit, ROUNDS);
         if (difference)
             TEST_FAIL_MESSAGE(difference);
     }

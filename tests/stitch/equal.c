@@ -1,6 +1,7 @@
 /* Both stitchers give the emulator's bytes, for random keys and inputs of every unit. */
 #include "base/code.h"
 #include "emu/emulate.h"
+#include "stitch/cover.h"
 #include "stitch/stitch.h"
 #include "tests/support/differential.h"
 #include "unity.h"
@@ -28,13 +29,19 @@ void tearDown(void)
     arena = NULL;
 }
 
+/* The stage stitcher twice: with keys that stage fragments cover, and with any, most of which may have
+ * something that they do not. */
 static void compare(enum unit unit)
 {
-    static const struct engine *const stitchers[] = {&engine_stitch, &engine_stitch_operation};
+    static const struct {
+        const struct engine *engine;
+        differential_shape *shape;
+    } stitchers[] = {
+        {&engine_stitch, stages_reduce}, {&engine_stitch, NULL}, {&engine_stitch_operation, NULL}};
     enum { ROUNDS = 3000 };
     for (size_t i = 0; i < sizeof stitchers / sizeof *stitchers; i++) {
-        const char *difference =
-            differential_rounds(differential, &engine_emulate, stitchers[i], unit, 0x5eed, ROUNDS);
+        const char *difference = differential_rounds(differential, &engine_emulate, stitchers[i].engine, unit,
+                                                     stitchers[i].shape, 0x5eed + i, ROUNDS);
         if (difference)
             TEST_FAIL_MESSAGE(difference);
     }

@@ -523,7 +523,7 @@ static void blend_usually(uint64_t chance, struct pixel_key *key)
 }
 
 const char *differential_rounds(struct differential *d, const struct engine *a, const struct engine *b,
-                                enum unit unit, uint64_t seed, int rounds)
+                                enum unit unit, differential_shape *shape, uint64_t seed, int rounds)
 {
     const char *difference = NULL;
     for (int i = 0; i < rounds && !difference; i++) {
@@ -531,6 +531,8 @@ const char *differential_rounds(struct differential *d, const struct engine *a, 
         key_random(unit, &seed, &key);
         if (unit == UNIT_PIXEL)
             blend_usually(seed, &key.pixel);
+        if (shape)
+            shape(unit, &key);
         difference = differential_compare(d, a, b, unit, &key, seed);
     }
     return difference;

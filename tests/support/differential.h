@@ -25,8 +25,13 @@ void differential_destroy(struct differential *differential);
 const char *differential_compare(struct differential *differential, const struct engine *a,
                                  const struct engine *b, enum unit unit, const union key *key, uint64_t seed);
 
-/* The same for `rounds` random keys, normalised or not, and inputs: the first disagreement, or null. */
+/* Changes a random key into one of those that are wanted. */
+typedef void differential_shape(enum unit unit, union key *key);
+
+/* The same for `rounds` random keys, normalised or not, and inputs: the first disagreement, or null. `shape`
+ * may be null. */
 const char *differential_rounds(struct differential *differential, const struct engine *a,
-                                const struct engine *b, enum unit unit, uint64_t seed, int rounds);
+                                const struct engine *b, enum unit unit, differential_shape *shape,
+                                uint64_t seed, int rounds);
 
 #endif
