@@ -28,9 +28,9 @@ struct routine {
     uint32_t parts;          /* instructions emitted (specialize), fragments joined (stitch) */
     uint32_t spills;
     const char *granularity; /* stitch: "stage" or "operation", what its fragments are; null elsewhere */
-    uint64_t build_ns; /* set by the cache around build() */
-    uint32_t number;   /* identity in dumps and reports, from 1, set by the cache */
-    uint64_t hits;     /* set by the cache */
+    uint64_t build_ns;       /* set by the cache around build() */
+    uint32_t number;         /* identity in dumps and reports, from 1, set by the cache */
+    uint64_t hits;           /* set by the cache */
 };
 
 struct engine {
