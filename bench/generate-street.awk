@@ -23,7 +23,7 @@ function want(   i) {
 
 function relevant(name) {
     if (name ~ /^(srcblend|destblend)$/) return wanted["alphablendenable"] == "true"
-    if (name ~ /^(colorop|alphaop|texturefilter|addressu|addressv)$/) return texture != "none"
+    if (table[name] != "state") return texture != "none"
     if (name ~ /^(ambient|normalizenormals)$/) return wanted["lighting"] == "true"
     if (name ~ /^(zfunc|zwriteenable)$/) return wanted["zenable"] == "true"
     return 1
@@ -41,7 +41,7 @@ function emit_state(   i, name) {
     for (i = 1; i <= state_count; i++) {
         name = state_name[i]
         if (!relevant(name) || wanted[name] == state_is[name]) continue
-        call("set " name " " wanted[name])
+        call(table[name] " " name " " wanted[name])
         state_is[name] = wanted[name]
     }
     if (wanted["lighting"] == "true") {
@@ -96,7 +96,7 @@ function emit_late(   i, k, part) {
 
 function set(name, value) { wanted[name] = value }
 function at(operations) { world = operations }
-function paint(name, filter, operation) { texture = name; set("texturefilter", filter); set("colorop", operation); set("alphaop", operation) }
+function paint(name, filter, operation) { texture = name; set("magfilter", filter); set("minfilter", filter); set("colorop", operation); set("alphaop", operation) }
 function clamp() { set("addressu", "clamp"); set("addressv", "clamp") }
 function unlit() { set("lighting", "false") }
 # The target's alpha stays 1: what has an alpha of its own does not write it.
@@ -566,8 +566,9 @@ function prologue(   i) {
 BEGIN {
     seed = 2007; pi = atan2(0, -1); lamps = 6
     for (i = 0; i < lamps; i++) { lamp_x[i] = i % 2 ? 4.4 : -4.4; lamp_z[i] = -1 - 12 * i }
-    state_count = split("cullmode shademode lighting normalizenormals ambient zenable zwriteenable zfunc alphablendenable srcblend destblend colorwriteenable colorop alphaop texturefilter addressu addressv", state_name, " ")
-    split("cw gouraud true false 0xff62667c true true lessequal false one zero 15 modulate selectarg1 linear wrap wrap", state_default, " ")
+    state_count = split("cullmode shademode lighting normalizenormals ambient zenable zwriteenable zfunc alphablendenable srcblend destblend colorwriteenable colorop alphaop magfilter minfilter addressu addressv", state_name, " ")
+    split("cw gouraud true false 0xff62667c true true lessequal false one zero 15 modulate selectarg1 linear linear wrap wrap", state_default, " ")
+    for (i = 1; i <= state_count; i++) table[state_name[i]] = i <= 12 ? "state" : i <= 14 ? "stage 0" : "sampler 0"
     prologue()
     print "sequence street"
     for (i = 0; i < 8; i++) { call("light " i " off"); light_is[i] = 0 }

@@ -163,12 +163,30 @@ enum triptych_result triptych_texture_create(triptych_device *device, const void
 /* --- State ------------------------------------------------------------------------------------------------
  */
 
-enum triptych_result triptych_set_state(triptych_device *device, enum triptych_state which, uint32_t value)
+static enum triptych_result set_value(triptych_device *device, enum triptych_state_table table, unsigned i,
+                                      unsigned row, uint32_t value)
 {
     if (!device)
         return TRIPTYCH_BAD_ARGUMENT;
     struct error error = {{0}};
-    return changed(device, state_set_value(&device->state, which, value, &error), &error);
+    return changed(device, state_set_value(&device->state, table, i, row, value, &error), &error);
+}
+
+enum triptych_result triptych_set_state(triptych_device *device, enum triptych_state which, uint32_t value)
+{
+    return set_value(device, TRIPTYCH_RENDER_STATES, 0, which, value);
+}
+
+enum triptych_result triptych_set_sampler_state(triptych_device *device, unsigned sampler,
+                                                enum triptych_sampler_state which, uint32_t value)
+{
+    return set_value(device, TRIPTYCH_SAMPLER_STATES, sampler, which, value);
+}
+
+enum triptych_result triptych_set_stage_state(triptych_device *device, unsigned stage,
+                                              enum triptych_stage_state which, uint32_t value)
+{
+    return set_value(device, TRIPTYCH_STAGE_STATES, stage, which, value);
 }
 
 enum triptych_result triptych_set_transform(triptych_device *device, enum triptych_transform which,

@@ -41,12 +41,36 @@ typedef struct triptych_device triptych_device;
 typedef struct triptych_buffer triptych_buffer;   /* vertices or indices */
 typedef struct triptych_texture triptych_texture; /* RGBA8 image */
 
+/* States, in three tables: of the device, of each sampler, of each texture stage. */
 enum triptych_state {
-#define STATE(name, kind, initial, units, meaning) TRIPTYCH_STATE_##name,
+#define STATE(number, name, kind, initial, units, support, test, meaning) TRIPTYCH_STATE_##name,
 #include "def/state.def"
 #undef STATE
     TRIPTYCH_STATE_COUNT
 };
+
+enum triptych_sampler_state {
+#define SAMPLER_STATE(number, name, kind, initial, units, support, test, meaning) TRIPTYCH_SAMPLER_##name,
+#include "def/sampler_state.def"
+#undef SAMPLER_STATE
+    TRIPTYCH_SAMPLER_STATE_COUNT
+};
+
+enum triptych_stage_state {
+#define STAGE_STATE(number, name, kind, initial, units, support, test, meaning) TRIPTYCH_STAGE_##name,
+#include "def/stage_state.def"
+#undef STAGE_STATE
+    TRIPTYCH_STAGE_STATE_COUNT
+};
+
+enum triptych_state_table {
+    TRIPTYCH_RENDER_STATES,
+    TRIPTYCH_SAMPLER_STATES,
+    TRIPTYCH_STAGE_STATES,
+    TRIPTYCH_STATE_TABLE_COUNT
+};
+
+enum { TRIPTYCH_SAMPLERS = 16, TRIPTYCH_STAGES = 8 };
 
 enum triptych_transform {
     TRIPTYCH_TRANSFORM_WORLD,
@@ -116,6 +140,45 @@ struct triptych_light {
     float attenuation[3];
 };
 
+enum triptych_support {
+    TRIPTYCH_SUPPORT_YES,
+    TRIPTYCH_SUPPORT_LATER, /* Direct3D 9 has it and this version does not */
+    TRIPTYCH_SUPPORT_NEVER  /* nor will any other */
+};
+
+enum triptych_notation {
+    TRIPTYCH_NOTATION_WORDS,       /* the values that triptych_value_at() gives, and no others */
+    TRIPTYCH_NOTATION_NUMBER,      /* decimal */
+    TRIPTYCH_NOTATION_HEXADECIMAL, /* colours 0xAARRGGBB, bits */
+    TRIPTYCH_NOTATION_REAL         /* the bits of a finite float: triptych_float_bits() */
+};
+
+/* What values a state can have. */
+struct triptych_kind {
+    const char *name;
+    enum triptych_notation notation;
+    double first, last; /* unless WORDS: the range */
+};
+
+struct triptych_value {
+    const struct triptych_kind *kind;
+    const char *word;
+    uint32_t number; /* Direct3D 9's */
+    enum triptych_support support;
+};
+
+/* A row of a table of states. States that are not supported can only be set to their default. */
+struct triptych_state_row {
+    unsigned number; /* Direct3D 9's */
+    const char *name;
+    const struct triptych_kind *kind;
+    const char
+        *units; /* keys it enters: letters of V vertex, S setup, P pixel; "job" if none, "-" if ignored */
+    enum triptych_support support;
+    const char *test; /* file that shows that it works, from the folder tests; "" if none does */
+    const char *meaning;
+};
+
 /* Counters since the device was created. Draws, their triangles and the cache count when a draw is recorded,
  * all else when it is rendered. */
 struct triptych_statistics {
@@ -170,6 +233,19 @@ TRIPTYCH_API enum triptych_result triptych_texture_create(triptych_device *, con
                                                           unsigned height, triptych_texture **texture);
 
 TRIPTYCH_API enum triptych_result triptych_set_state(triptych_device *, enum triptych_state, uint32_t value);
+TRIPTYCH_API enum triptych_result triptych_set_sampler_state(triptych_device *, unsigned sampler,
+                                                             enum triptych_sampler_state, uint32_t value);
+TRIPTYCH_API enum triptych_result triptych_set_stage_state(triptych_device *, unsigned stage,
+                                                           enum triptych_stage_state, uint32_t value);
+/* The value that states of notation REAL take for a number. */
+static inline uint32_t triptych_float_bits(float number)
+{
+    union {
+        float number;
+        uint32_t bits;
+    } both = {number};
+    return both.bits;
+}
 TRIPTYCH_API enum triptych_result triptych_set_transform(triptych_device *, enum triptych_transform,
                                                          const float matrix[4][4]);
 TRIPTYCH_API enum triptych_result triptych_set_viewport(triptych_device *, const struct triptych_viewport *);
@@ -211,10 +287,20 @@ TRIPTYCH_API void triptych_get_statistics(const triptych_device *, struct tripty
 /* The i-th routine in the cache, in order of number; returns 0 past the last. */
 TRIPTYCH_API int triptych_get_routine(triptych_device *, unsigned i, struct triptych_routine_info *);
 
-/* The states by table row: name, the word for a value and back (return null / nonzero when there is none). */
-TRIPTYCH_API const char *triptych_state_name(enum triptych_state);
-TRIPTYCH_API const char *triptych_state_word(enum triptych_state, uint32_t value);
-TRIPTYCH_API int triptych_state_value(enum triptych_state, const char *word, uint32_t *value);
+/* The tables of states: a table's name ("state", "sampler", "stage") and how many of each of its states a
+ * device has (1, TRIPTYCH_SAMPLERS, TRIPTYCH_STAGES); a table's rows, whose numbers are the enumerators of
+ * the table's states (null past the last); the default of row `row` of sampler or stage `i`. */
+TRIPTYCH_API const char *triptych_table_name(enum triptych_state_table);
+TRIPTYCH_API unsigned triptych_table_size(enum triptych_state_table);
+TRIPTYCH_API const struct triptych_state_row *triptych_state_at(enum triptych_state_table, unsigned row);
+TRIPTYCH_API uint32_t triptych_state_default(enum triptych_state_table, unsigned row, unsigned i);
+
+/* Kinds, and the values of a kind with words, null past the last; a number's word (null if none); a word's
+ * number (returns nonzero if none). */
+TRIPTYCH_API const struct triptych_kind *triptych_kind_at(unsigned i);
+TRIPTYCH_API const struct triptych_value *triptych_value_at(const struct triptych_kind *, unsigned i);
+TRIPTYCH_API const char *triptych_value_word(const struct triptych_kind *, uint32_t number);
+TRIPTYCH_API int triptych_value_number(const struct triptych_kind *, const char *word, uint32_t *number);
 
 #ifdef __cplusplus
 }

@@ -97,8 +97,8 @@ vertices corner position:float3 diffuse:color {
      0  1 0.5 0xff00ff00
      1 -1 1   0xff0000ff
 }
-set lighting false
-set cullmode none
+state lighting false
+state cullmode none
 bind vertices corner
 clear color 0.1 0.1 0.2 1 depth 1
 draw triangles 0 1
@@ -136,7 +136,7 @@ refuses 'unknown list' 'cannot list "cats"' list cats
 # --- Lists ---------------------------------------------------------------------------------------------------
 
 answers 'list engines' '^emulate ' list engines
-answers 'list states' '^zfunc +COMPARE +lessequal ' list states
+answers 'list states' '^zfunc +state +COMPARE +lessequal ' list states
 answers 'list cpu' '^avx2 +(yes|no) ' list cpu
 answers 'list passes' '^pass +meaning' list passes
 answers 'list as JSON' '"state":' list states --json
@@ -236,7 +236,7 @@ frame
 END
 bad_stream 'state value that is none' 'bad.tri:3:' <<'END'
 target 40 30
-set zfunc sometimes
+state zfunc sometimes
 frame
 END
 bad_stream 'draw without a target' 'bad.tri:2:' <<'END'

@@ -162,7 +162,7 @@ static void fill_texture(const struct state *state, const struct pixel_key *key,
     job->last_u = job->width - 1;
     job->last_v = job->height - 1;
     if (key->address_u == ADDRESS_BORDER || key->address_v == ADDRESS_BORDER)
-        job->border = rgba_word(GET(bordercolor));
+        job->border = rgba_word(SAMPLER(0, bordercolor));
 }
 
 static void fill_attributes(const struct state *state, const struct vertex_key *key, struct job *job)

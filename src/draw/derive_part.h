@@ -12,17 +12,15 @@
 
 /* Words of def/value.def that the code names. */
 enum {
-#define VALUE(kind, word, number) kind##_##word = number,
+#define VALUE(kind, word, number, support) kind##_##word = number,
 #include "def/value.def"
 #undef VALUE
 };
 
-static inline uint32_t state_get(const struct state *state, enum triptych_state which)
-{
-    return state->value[which];
-}
-
-#define GET(name) state_get(state, TRIPTYCH_STATE_##name)
+/* Values of `state`: a render state's, sampler i's, stage i's. */
+#define GET(name)        (state->value[TRIPTYCH_STATE_##name])
+#define SAMPLER(i, name) (state->sampler[i][TRIPTYCH_SAMPLER_##name])
+#define STAGE(i, name)   (state->stage[i][TRIPTYCH_STAGE_##name])
 
 /* Each fills its fields of a key that is zero; derive_blend takes the write mask from the state, and clears
  * the channels that keep the target. */

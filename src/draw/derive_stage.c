@@ -80,8 +80,10 @@ static uint8_t derive_half(const struct half_stage *half, uint32_t flags, uint8_
 
 void derive_stage(const struct state *state, struct pixel_key *key)
 {
-    struct half_stage color = {GET(colorop), {GET(colorarg1), GET(colorarg2), GET(colorarg0)}};
-    struct half_stage alpha = {GET(alphaop), {GET(alphaarg1), GET(alphaarg2), GET(alphaarg0)}};
+    struct half_stage color = {STAGE(0, colorop),
+                               {STAGE(0, colorarg1), STAGE(0, colorarg2), STAGE(0, colorarg0)}};
+    struct half_stage alpha = {STAGE(0, alphaop),
+                               {STAGE(0, alphaarg1), STAGE(0, alphaarg2), STAGE(0, alphaarg0)}};
     if (color.operation == TEXTUREOP_disable)
         return;
     key->color_stage = derive_half(&color, COMPLEMENT | REPLICATE, key->color_argument);

@@ -18,7 +18,7 @@ void derive_texture(const struct state *state, struct pixel_key *key)
     if (!stage_reads(key, SOURCE_TEXTURE))
         return;
     key->texture = 1;
-    key->filter = GET(texturefilter) == FILTER_linear ? FILTER_LINEAR : FILTER_POINT;
-    key->address_u = derive_address(GET(addressu), state->texture->width);
-    key->address_v = derive_address(GET(addressv), state->texture->height);
+    key->filter = SAMPLER(0, magfilter) == FILTER_linear ? FILTER_LINEAR : FILTER_POINT;
+    key->address_u = derive_address(SAMPLER(0, addressu), state->texture->width);
+    key->address_v = derive_address(SAMPLER(0, addressv), state->texture->height);
 }

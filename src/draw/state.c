@@ -7,112 +7,165 @@
 const uint8_t format_bytes[TRIPTYCH_FORMAT_COUNT] = {0, 4, 8, 12, 16, 4};
 const char *const attribute_name[TRIPTYCH_ATTRIBUTE_COUNT] = {"position", "normal", "diffuse", "texcoord"};
 
-enum kind {
-#define KIND(name, first, last) KIND_##name,
-#include "def/kind.def"
-#undef KIND
+/* How many samplers and stages work; the others can only keep their defaults. */
+static const unsigned working[TRIPTYCH_STATE_TABLE_COUNT] = {1, 1, 1};
+
+/* Where a value is in its table; the row exists. */
+struct place {
+    enum triptych_state_table table;
+    unsigned i, row;
+    const struct triptych_state_row *state;
 };
 
-static const struct {
-    uint32_t first, last;
-} kind_range[] = {
-#define KIND(name, first, last) {first, last},
-#include "def/kind.def"
-#undef KIND
-};
-
-static const struct {
-    const char *name;
-    enum kind kind;
-    uint32_t initial;
-} state_rows[TRIPTYCH_STATE_COUNT] = {
-#define STATE(name, kind, initial, units, meaning) {#name, KIND_##kind, initial},
-#include "def/state.def"
-#undef STATE
-};
-
-static const struct value_row {
-    enum kind kind;
-    const char *word;
-    uint32_t number;
-} value_rows[] = {
-#define VALUE(kind, word, number) {KIND_##kind, #word, number},
-#include "def/value.def"
-#undef VALUE
-};
-
-enum { VALUE_ROWS = sizeof value_rows / sizeof *value_rows };
-
-static int known_state(enum triptych_state which)
+static void print_place(const struct place *place, char *text, size_t size)
 {
-    return (unsigned)which < TRIPTYCH_STATE_COUNT;
+    const char *table = triptych_table_name(place->table);
+    if (place->table == TRIPTYCH_RENDER_STATES)
+        snprintf(text, size, "%s %s", table, place->state->name);
+    else
+        snprintf(text, size, "%s %u %s", table, place->i, place->state->name);
 }
 
-const char *triptych_state_name(enum triptych_state which)
+static float real(uint32_t bits)
 {
-    return known_state(which) ? state_rows[which].name : NULL;
+    float number;
+    memcpy(&number, &bits, sizeof number);
+    return number;
 }
 
-const char *triptych_state_word(enum triptych_state which, uint32_t value)
+static void print_value(const struct triptych_kind *kind, uint32_t value, char *text, size_t size)
 {
-    if (!known_state(which))
-        return NULL;
-    for (int i = 0; i < VALUE_ROWS; i++)
-        if (value_rows[i].kind == state_rows[which].kind && value_rows[i].number == value)
-            return value_rows[i].word;
-    return NULL;
+    const char *word = triptych_value_word(kind, value);
+    if (word)
+        snprintf(text, size, "%s (%u)", word, value);
+    else if (kind->notation == TRIPTYCH_NOTATION_REAL)
+        snprintf(text, size, "%g", (double)real(value));
+    else
+        snprintf(text, size, kind->notation == TRIPTYCH_NOTATION_HEXADECIMAL ? "0x%08x" : "%u", value);
 }
 
-int triptych_state_value(enum triptych_state which, const char *word, uint32_t *value)
+/* Written so that a NaN fails. */
+static int within(double low, double value, double high)
 {
-    if (!known_state(which) || !word)
-        return -1;
-    for (int i = 0; i < VALUE_ROWS; i++)
-        if (value_rows[i].kind == state_rows[which].kind && !strcmp(value_rows[i].word, word)) {
-            *value = value_rows[i].number;
-            return 0;
-        }
-    return -1;
+    return value >= low && value <= high;
 }
 
-/* Numbers without words. */
-static int is_numeric(enum kind kind)
+static int exists(const struct triptych_kind *kind, uint32_t value)
 {
-    return kind == KIND_COLOR || kind == KIND_MASK || kind == KIND_BYTE;
+    if (kind->notation == TRIPTYCH_NOTATION_WORDS)
+        return triptych_value_word(kind, value) != NULL;
+    int is_real = kind->notation == TRIPTYCH_NOTATION_REAL;
+    return within(kind->first, is_real ? (double)real(value) : value, kind->last);
 }
 
-static void list_words(enum kind kind, char *text, size_t size)
+/* Of values that exist; the default needs nothing to work. */
+static int is_supported(const struct place *place, uint32_t value)
 {
+    const struct triptych_value *v;
+    if (value == triptych_state_default(place->table, place->row, place->i))
+        return 1;
+    if (place->state->support != TRIPTYCH_SUPPORT_YES || place->i >= working[place->table])
+        return 0;
+    for (unsigned i = 0; (v = triptych_value_at(place->state->kind, i)); i++)
+        if (v->number == value)
+            return v->support == TRIPTYCH_SUPPORT_YES;
+    return 1;
+}
+
+/* Whether it is of no use to wait for the value. */
+static int is_never(const struct place *place, uint32_t value)
+{
+    const struct triptych_value *v;
+    for (unsigned i = 0; (v = triptych_value_at(place->state->kind, i)); i++)
+        if (v->number == value)
+            return v->support == TRIPTYCH_SUPPORT_NEVER || place->state->support == TRIPTYCH_SUPPORT_NEVER;
+    return place->state->support == TRIPTYCH_SUPPORT_NEVER;
+}
+
+/* What the state can be set to: "none (1), cw (2)", "0 to 15"; cut after as many words as fit. */
+static void print_expected(const struct place *place, char *text, size_t size)
+{
+    const struct triptych_kind *kind = place->state->kind;
+    const struct triptych_value *v;
+    char value[64];
     size_t at = 0;
-    for (int i = 0; i < VALUE_ROWS; i++)
-        if (value_rows[i].kind == kind && at < size)
-            at += (size_t)snprintf(text + at, size - at, "%s%s (%u)", at ? ", " : "", value_rows[i].word,
-                                   value_rows[i].number);
+    for (unsigned i = 0; (v = triptych_value_at(kind, i)); i++) {
+        if (!is_supported(place, v->number))
+            continue;
+        print_value(kind, v->number, value, sizeof value);
+        if (at + strlen(value) + 8 > size) {
+            snprintf(text + at, size - at, ", ...");
+            return;
+        }
+        at += (size_t)snprintf(text + at, size - at, "%s%s", at ? ", " : "", value);
+    }
+    if (at)
+        return;
+    if (place->state->support != TRIPTYCH_SUPPORT_YES || place->i >= working[place->table])
+        print_value(kind, triptych_state_default(place->table, place->row, place->i), text, size);
+    else if (kind->first < -0x1p64)
+        snprintf(text, size, "a finite number");
+    else if (kind->last > 0x1p64)
+        snprintf(text, size, "a finite number from %g up", kind->first);
+    else
+        snprintf(text, size, "%.0f to %.0f", kind->first, kind->last);
 }
 
-enum triptych_result state_set_value(struct state *state, enum triptych_state which, uint32_t value,
-                                     struct error *error)
+static enum triptych_result refuse_value(const struct place *place, uint32_t value, struct error *error)
 {
-    if (!known_state(which)) {
-        error_set(error, "state %u: expected 0 to %u", (unsigned)which, TRIPTYCH_STATE_COUNT - 1);
+    const struct triptych_kind *kind = place->state->kind;
+    char name[96], text[64], expected[320];
+    print_place(place, name, sizeof name);
+    print_expected(place, expected, sizeof expected);
+    if (exists(kind, value)) {
+        print_value(kind, value, text, sizeof text);
+        error_set(error, "%s: value %s is not supported%s, expected %s", name, text,
+                  is_never(place, value) ? "" : " yet", expected);
+        return TRIPTYCH_UNSUPPORTED;
+    }
+    if (kind->notation == TRIPTYCH_NOTATION_WORDS)
+        error_set(error, "%s: value %u does not exist, expected %s", name, value, expected);
+    else {
+        print_value(kind, value, text, sizeof text);
+        error_set(error, "%s: value %s, expected %s", name, text, expected);
+    }
+    return TRIPTYCH_BAD_ARGUMENT;
+}
+
+static uint32_t *value_at(struct state *state, const struct place *place)
+{
+    if (place->table == TRIPTYCH_SAMPLER_STATES)
+        return &state->sampler[place->i][place->row];
+    return place->table == TRIPTYCH_STAGE_STATES ? &state->stage[place->i][place->row]
+                                                 : &state->value[place->row];
+}
+
+enum triptych_result state_set_value(struct state *state, enum triptych_state_table table, unsigned i,
+                                     unsigned row, uint32_t value, struct error *error)
+{
+    struct place place = {table, i, row, triptych_state_at(table, row)};
+    const char *name = triptych_table_name(table);
+    if (i >= triptych_table_size(table)) {
+        error_set(error, "%s %u: expected 0 to %u", name, i, triptych_table_size(table) - 1);
         return TRIPTYCH_BAD_ARGUMENT;
     }
-    enum kind kind = state_rows[which].kind;
-    int in_range = value >= kind_range[kind].first && value <= kind_range[kind].last;
-    if (is_numeric(kind) && !in_range) {
-        error_set(error, "state %s: value %u, expected %u to %u", state_rows[which].name, value,
-                  kind_range[kind].first, kind_range[kind].last);
+    if (!place.state) {
+        error_set(error, "table of %ss without a row %u", name, row);
         return TRIPTYCH_BAD_ARGUMENT;
     }
-    if (!is_numeric(kind) && !triptych_state_word(which, value)) {
-        char words[512] = "";
-        list_words(kind, words, sizeof words);
-        error_set(error, "state %s: value %u %s, expected %s", state_rows[which].name, value,
-                  in_range ? "is not supported yet" : "does not exist", words);
-        return in_range ? TRIPTYCH_UNSUPPORTED : TRIPTYCH_BAD_ARGUMENT;
-    }
-    state->value[which] = value;
+    if (!exists(place.state->kind, value) || !is_supported(&place, value))
+        return refuse_value(&place, value, error);
+    *value_at(state, &place) = value;
     return TRIPTYCH_OK;
+}
+
+static void initialize_values(struct state *state)
+{
+    struct place place;
+    for (place.table = 0; place.table < TRIPTYCH_STATE_TABLE_COUNT; place.table++)
+        for (place.i = 0; place.i < triptych_table_size(place.table); place.i++)
+            for (place.row = 0; triptych_state_at(place.table, place.row); place.row++)
+                *value_at(state, &place) = triptych_state_default(place.table, place.row, place.i);
 }
 
 void state_initialize(struct state *state)
@@ -120,8 +173,7 @@ void state_initialize(struct state *state)
     static const struct triptych_light light = {
         .type = TRIPTYCH_LIGHT_DIRECTIONAL, .diffuse = {1, 1, 1, 0}, .direction = {0, 0, 1}};
     memset(state, 0, sizeof *state);
-    for (int i = 0; i < TRIPTYCH_STATE_COUNT; i++)
-        state->value[i] = state_rows[i].initial;
+    initialize_values(state);
     for (int t = 0; t < TRIPTYCH_TRANSFORM_COUNT; t++)
         for (int i = 0; i < 4; i++)
             state->transform[t][i][i] = 1;
@@ -155,12 +207,6 @@ enum triptych_result state_set_transform(struct state *state, enum triptych_tran
     if (result == TRIPTYCH_OK)
         memcpy(state->transform[which], matrix, sizeof state->transform[which]);
     return result;
-}
-
-/* Written so that a NaN fails. */
-static int within(double low, double value, double high)
-{
-    return value >= low && value <= high;
 }
 
 enum triptych_result state_set_viewport(struct state *state, const struct triptych_viewport *viewport,

@@ -1,7 +1,7 @@
 /* The state: everything the application sets, as it set it, and what may be set.
  *
- * The states by number are the rows of def/state.def, their words and numbers those of def/value.def. Nothing
- * here derives anything: draw/derive.h does, when a draw is recorded. */
+ * The states by number are the rows of def/state.def, def/sampler_state.def and def/stage_state.def
+ * (state_table.c). Nothing here derives anything: draw/derive.h does, when a draw is recorded. */
 #ifndef DRAW_STATE_H
 #define DRAW_STATE_H
 
@@ -9,6 +9,8 @@
 
 struct state {
     uint32_t value[TRIPTYCH_STATE_COUNT];
+    uint32_t sampler[TRIPTYCH_SAMPLERS][TRIPTYCH_SAMPLER_STATE_COUNT];
+    uint32_t stage[TRIPTYCH_STAGES][TRIPTYCH_STAGE_STATE_COUNT];
     float transform[TRIPTYCH_TRANSFORM_COUNT][4][4];
     struct triptych_viewport viewport;
     struct scissor {
@@ -30,9 +32,10 @@ extern const char *const attribute_name[TRIPTYCH_ATTRIBUTE_COUNT];
 /* Direct3D 9's defaults; identity transforms, nothing bound, an empty viewport and scissor rectangle. */
 void state_initialize(struct state *state);
 
-/* Each checks its argument and sets it, or leaves the state alone and gives the reason. */
-enum triptych_result state_set_value(struct state *state, enum triptych_state which, uint32_t value,
-                                     struct error *error);
+/* Each checks its argument and sets it, or leaves the state alone and gives the reason. state_set_value takes
+ * sampler or stage `i` (0 for render states) and the row's number in the table. */
+enum triptych_result state_set_value(struct state *state, enum triptych_state_table table, unsigned i,
+                                     unsigned row, uint32_t value, struct error *error);
 enum triptych_result state_set_transform(struct state *state, enum triptych_transform which,
                                          const float matrix[4][4], struct error *error);
 enum triptych_result state_set_viewport(struct state *state, const struct triptych_viewport *viewport,

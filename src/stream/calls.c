@@ -100,56 +100,84 @@ int parse_scissor(struct parser *parser, struct call *call)
                : 0;
 }
 
-static int find_state(const struct lexer *lex, enum triptych_state *state)
+static int parse_row(struct parser *parser, enum triptych_state_table table, uint32_t *row)
 {
-    for (int i = 0; i < TRIPTYCH_STATE_COUNT; i++)
-        if (lex_is(lex, triptych_state_name((enum triptych_state)i))) {
-            *state = (enum triptych_state)i;
-            return 0;
-        }
-    return -1;
+    const struct triptych_state_row *state;
+    for (*row = 0; (state = triptych_state_at(table, *row)); ++*row)
+        if (lex_is(&parser->lex, state->name))
+            return lex_next(&parser->lex);
+    if (table == TRIPTYCH_RENDER_STATES)
+        return lex_expected(&parser->lex, "the name of a state");
+    return lex_expected(&parser->lex, "the name of a %s state", triptych_table_name(table));
 }
 
-/* The words of a state, for a reason; the numbers of Direct3D 9's enumerations are small. */
-static int expect_state_word(struct parser *parser, enum triptych_state state)
+/* The words of a state, as many as fit. */
+static int expect_state_word(struct parser *parser, const struct triptych_state_row *state)
 {
-    char choices[512] = "";
+    const struct triptych_value *value;
+    char choices[384] = "";
     size_t at = 0;
-    for (uint32_t value = 0; value < 64 && at < sizeof choices; value++) {
-        const char *word = triptych_state_word(state, value);
-        if (word)
-            at += (size_t)snprintf(choices + at, sizeof choices - at, "%s%s", at ? ", " : "", word);
-    }
-    return lex_expected(&parser->lex, "a value of %s: %s", triptych_state_name(state),
-                        at ? choices : "a number");
+    for (unsigned i = 0; (value = triptych_value_at(state->kind, i)) && at < sizeof choices; i++)
+        if (value->support == TRIPTYCH_SUPPORT_YES)
+            at += (size_t)snprintf(choices + at, sizeof choices - at, "%s%s", at ? ", " : "", value->word);
+    return lex_expected(&parser->lex, "a value of %s: %s", state->name, at ? choices : "a number");
 }
 
-/* A word of the state, a packed colour, or a number; whether the state takes the number is checked with the
- * state. */
-static int parse_state_value(struct parser *parser, enum triptych_state state, uint32_t *value)
+static int parse_real(struct parser *parser, const char *what, uint32_t *value)
+{
+    float number;
+    if (lex_number(&parser->lex, what, &number))
+        return -1;
+    *value = triptych_float_bits(number);
+    return 0;
+}
+
+/* A word of the state, eight hexadecimal digits, or a number; whether the state takes the number is checked
+ * with the state. */
+static int parse_value(struct parser *parser, const struct triptych_state_row *state, uint32_t *value)
 {
     struct lexer *lex = &parser->lex;
     char word[LIMIT_NAME_BYTES + 1];
+    if (state->kind->notation == TRIPTYCH_NOTATION_REAL)
+        return parse_real(parser, state->name, value);
     if (lex->token.type != TOKEN_WORD || lex->token.length > LIMIT_NAME_BYTES)
         return expect_state_word(parser, state);
     memcpy(word, lex->token.text, lex->token.length);
     word[lex->token.length] = 0;
-    if (!triptych_state_value(state, word, value))
+    if (!triptych_value_number(state->kind, word, value))
         return lex_next(lex);
     if (word[0] == '0' && (word[1] | 32) == 'x')
-        return lex_color(lex, triptych_state_name(state), value);
+        return lex_color(lex, state->name, value);
     if (word[0] >= '0' && word[0] <= '9')
-        return parse_integer(parser, triptych_state_name(state), UINT32_MAX, value);
+        return parse_integer(parser, state->name, UINT32_MAX, value);
     return expect_state_word(parser, state);
 }
 
-int parse_set(struct parser *parser, struct call *call)
+static int parse_table(struct parser *parser, enum triptych_state_table table, struct call *call)
 {
-    if (find_state(&parser->lex, &call->set.state))
-        return lex_expected(&parser->lex, "the name of a state");
-    if (lex_next(&parser->lex))
+    call->set.table = table;
+    call->set.i = 0;
+    if (table != TRIPTYCH_RENDER_STATES &&
+        parse_integer(parser, triptych_table_name(table), triptych_table_size(table) - 1, &call->set.i))
         return -1;
-    return parse_state_value(parser, call->set.state, &call->set.value);
+    if (parse_row(parser, table, &call->set.row))
+        return -1;
+    return parse_value(parser, triptych_state_at(table, call->set.row), &call->set.value);
+}
+
+int parse_state(struct parser *parser, struct call *call)
+{
+    return parse_table(parser, TRIPTYCH_RENDER_STATES, call);
+}
+
+int parse_sampler(struct parser *parser, struct call *call)
+{
+    return parse_table(parser, TRIPTYCH_SAMPLER_STATES, call);
+}
+
+int parse_stage(struct parser *parser, struct call *call)
+{
+    return parse_table(parser, TRIPTYCH_STAGE_STATES, call);
 }
 
 static int parse_operation(struct parser *parser, double made[4][4])

@@ -230,7 +230,8 @@ static int follow(struct follower *follower, const struct call *call, struct err
                                   call->scissor.height};
         return state_set_scissor(state, scissor, follower->width, follower->height, error);
     }
-    case CALL_SET: return state_set_value(state, call->set.state, call->set.value, error);
+    case CALL_SET:
+        return state_set_value(state, call->set.table, call->set.i, call->set.row, call->set.value, error);
     case CALL_TRANSFORM: return 0;
     case CALL_MATERIAL: return state_set_material(state, &call->material, error);
     case CALL_LIGHT: return state_set_light(state, call->light.index, &call->light.value, error);

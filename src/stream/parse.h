@@ -32,7 +32,9 @@ int parse_name(struct parser *parser, unsigned types, const char *what, uint32_t
 int parse_target(struct parser *parser, struct call *call);
 int parse_viewport(struct parser *parser, struct call *call);
 int parse_scissor(struct parser *parser, struct call *call);
-int parse_set(struct parser *parser, struct call *call);
+int parse_state(struct parser *parser, struct call *call);
+int parse_sampler(struct parser *parser, struct call *call);
+int parse_stage(struct parser *parser, struct call *call);
 int parse_transform(struct parser *parser, struct call *call);
 int parse_material(struct parser *parser, struct call *call);
 int parse_light(struct parser *parser, struct call *call);

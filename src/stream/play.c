@@ -128,6 +128,16 @@ static enum triptych_result bind_mesh(struct player *player, uint32_t resource)
     return result ? result : bind_indices(player, resource);
 }
 
+static enum triptych_result set_value(triptych_device *device, enum triptych_state_table table, uint32_t i,
+                                      uint32_t row, uint32_t value)
+{
+    if (table == TRIPTYCH_SAMPLER_STATES)
+        return triptych_set_sampler_state(device, i, (enum triptych_sampler_state)row, value);
+    if (table == TRIPTYCH_STAGE_STATES)
+        return triptych_set_stage_state(device, i, (enum triptych_stage_state)row, value);
+    return triptych_set_state(device, (enum triptych_state)row, value);
+}
+
 /* Everything that stays from call to call. */
 static enum triptych_result execute_state(struct player *player, const struct call *call)
 {
@@ -138,7 +148,7 @@ static enum triptych_result execute_state(struct player *player, const struct ca
     case CALL_SCISSOR:
         return triptych_set_scissor(device, call->scissor.x, call->scissor.y, call->scissor.width,
                                     call->scissor.height);
-    case CALL_SET: return triptych_set_state(device, call->set.state, call->set.value);
+    case CALL_SET: return set_value(device, call->set.table, call->set.i, call->set.row, call->set.value);
     case CALL_TRANSFORM: return triptych_set_transform(device, call->transform.which, call->transform.matrix);
     case CALL_MATERIAL: return triptych_set_material(device, &call->material);
     case CALL_LIGHT: return triptych_set_light(device, call->light.index, &call->light.value);
@@ -241,17 +251,21 @@ static enum triptych_result reset_lights(triptych_device *device)
     return result;
 }
 
+static enum triptych_result reset_table(triptych_device *device, enum triptych_state_table table)
+{
+    enum triptych_result result = TRIPTYCH_OK;
+    for (unsigned i = 0; i < triptych_table_size(table); i++)
+        for (unsigned row = 0; triptych_state_at(table, row) && !result; row++)
+            result = set_value(device, table, i, row, triptych_state_default(table, row, i));
+    return result;
+}
+
 static enum triptych_result reset(struct player *player)
 {
-    static const uint32_t initial[TRIPTYCH_STATE_COUNT] = {
-#define STATE(name, kind, initial, units, meaning) initial,
-#include "def/state.def"
-#undef STATE
-    };
     static const float identity[4][4] = {{1, 0, 0, 0}, {0, 1, 0, 0}, {0, 0, 1, 0}, {0, 0, 0, 1}};
     enum triptych_result result = reset_lights(player->device);
-    for (unsigned i = 0; i < TRIPTYCH_STATE_COUNT && !result; i++)
-        result = triptych_set_state(player->device, (enum triptych_state)i, initial[i]);
+    for (unsigned t = 0; t < TRIPTYCH_STATE_TABLE_COUNT && !result; t++)
+        result = reset_table(player->device, (enum triptych_state_table)t);
     for (unsigned i = 0; i < TRIPTYCH_TRANSFORM_COUNT && !result; i++)
         result = triptych_set_transform(player->device, (enum triptych_transform)i, identity);
     for (unsigned a = 0; a < TRIPTYCH_ATTRIBUTE_COUNT && !result; a++)

@@ -121,7 +121,8 @@ struct call {
             uint32_t x, y, width, height;
         } scissor;
         struct {
-            enum triptych_state state;
+            enum triptych_state_table table;
+            uint32_t i, row; /* of the sampler or stage (0 for render states), of the table */
             uint32_t value;
         } set;
         struct {

@@ -207,14 +207,30 @@ static void write_field(struct writer *writer, const char *word, const float *nu
     write_numbers(writer, numbers, count);
 }
 
+static void write_value(struct writer *writer, const struct triptych_kind *kind, uint32_t value)
+{
+    const char *word = triptych_value_word(kind, value);
+    float number;
+    if (word)
+        fprintf(writer->out, " %s", word);
+    else if (kind->notation == TRIPTYCH_NOTATION_HEXADECIMAL)
+        fprintf(writer->out, " 0x%08" PRIx32, value);
+    else if (kind->notation == TRIPTYCH_NOTATION_NUMBER)
+        fprintf(writer->out, " %" PRIu32, value);
+    else {
+        memcpy(&number, &value, sizeof number);
+        write_number(writer, number);
+    }
+}
+
 static void write_set(struct writer *writer, const struct call *call)
 {
-    const char *word = triptych_state_word(call->set.state, call->set.value);
-    fprintf(writer->out, "set %s ", triptych_state_name(call->set.state));
-    if (word)
-        fputs(word, writer->out);
-    else
-        fprintf(writer->out, "%" PRIu32, call->set.value);
+    const struct triptych_state_row *state = triptych_state_at(call->set.table, call->set.row);
+    fputs(triptych_table_name(call->set.table), writer->out);
+    if (call->set.table != TRIPTYCH_RENDER_STATES)
+        fprintf(writer->out, " %" PRIu32, call->set.i);
+    fprintf(writer->out, " %s", state->name);
+    write_value(writer, state->kind, call->set.value);
 }
 
 static void write_material(struct writer *writer, const struct triptych_material *material)

@@ -36,51 +36,41 @@ static void list_engines(cJSON *rows)
     }
 }
 
-static const struct {
-    const char *kind, *word;
-} words[] = {
-#define VALUE(kind, word, number) {#kind, #word},
-#include "def/value.def"
-#undef VALUE
-};
-
-static void add_words(cJSON *row, const char *kind)
+/* A value as streams write it. */
+static void print_value(const struct triptych_kind *kind, uint32_t value, char *text, size_t size)
 {
-    char text[512] = "";
-    for (size_t i = 0; i < sizeof words / sizeof *words; i++)
-        if (!strcmp(words[i].kind, kind))
-            snprintf(text + strlen(text), sizeof text - strlen(text), "%s%s", text[0] ? " " : "",
-                     words[i].word);
-    add_text(row, "words", text[0] ? text : "a number");
+    const char *word = triptych_value_word(kind, value);
+    float number;
+    memcpy(&number, &value, sizeof number);
+    if (word)
+        snprintf(text, size, "%s", word);
+    else if (kind->notation == TRIPTYCH_NOTATION_REAL)
+        snprintf(text, size, "%g", (double)number);
+    else
+        snprintf(text, size, kind->notation == TRIPTYCH_NOTATION_HEXADECIMAL ? "0x%08x" : "%u", value);
 }
 
-static void add_default(cJSON *row, enum triptych_state state, uint32_t value)
+static void list_state(cJSON *rows, enum triptych_state_table table, unsigned i)
 {
-    char number[16];
-    snprintf(number, sizeof number, "0x%08x", value);
-    const char *word = triptych_state_word(state, value);
-    add_text(row, "default", word ? word : number);
+    static const char *const support[] = {"yes", "not yet", "no"};
+    const struct triptych_state_row *state = triptych_state_at(table, i);
+    char text[64];
+    cJSON *row = add_row(rows);
+    add_text(row, "state", state->name);
+    add_text(row, "of", triptych_table_name(table));
+    add_text(row, "kind", state->kind->name);
+    print_value(state->kind, triptych_state_default(table, i, 0), text, sizeof text);
+    add_text(row, "default", text);
+    add_text(row, "keys", state->units);
+    add_text(row, "supported", support[state->support]);
+    add_text(row, "meaning", state->meaning);
 }
 
 static void list_states(cJSON *rows)
 {
-    static const struct {
-        const char *kind, *units, *meaning;
-        uint32_t initial;
-    } states[] = {
-#define STATE(name, kind, initial, units, meaning) {#kind, units, meaning, initial},
-#include "def/state.def"
-#undef STATE
-    };
-    for (unsigned i = 0; i < TRIPTYCH_STATE_COUNT; i++) {
-        cJSON *row = add_row(rows);
-        add_text(row, "state", triptych_state_name(i));
-        add_text(row, "kind", states[i].kind);
-        add_default(row, i, states[i].initial);
-        add_text(row, "keys", states[i].units);
-        add_words(row, states[i].kind);
-        add_text(row, "meaning", states[i].meaning);
-    }
+    for (unsigned t = 0; t < TRIPTYCH_STATE_TABLE_COUNT; t++)
+        for (unsigned i = 0; triptych_state_at(t, i); i++)
+            list_state(rows, t, i);
 }
 
 static void list_cpu(cJSON *rows)

@@ -18,13 +18,22 @@ static void bind(enum triptych_attribute attribute, enum triptych_format format)
     TEST_ASSERT_EQUAL_INT(TRIPTYCH_OK, state_set_element(&state, attribute, &element, NULL));
 }
 
-#define SET(name, word) set(TRIPTYCH_STATE_##name, word)
+#define SET(name, word)            set(TRIPTYCH_RENDER_STATES, 0, TRIPTYCH_STATE_##name, word)
+#define SET_SAMPLER(i, name, word) set(TRIPTYCH_SAMPLER_STATES, i, TRIPTYCH_SAMPLER_##name, word)
+#define SET_STAGE(i, name, word)   set(TRIPTYCH_STAGE_STATES, i, TRIPTYCH_STAGE_##name, word)
 
-static void set(enum triptych_state which, const char *word)
+static void set_number(enum triptych_state which, uint32_t value)
+{
+    TEST_ASSERT_EQUAL_INT(TRIPTYCH_OK,
+                          state_set_value(&state, TRIPTYCH_RENDER_STATES, 0, which, value, NULL));
+}
+
+static void set(enum triptych_state_table table, unsigned i, unsigned row, const char *word)
 {
     uint32_t value;
-    TEST_ASSERT_EQUAL_INT_MESSAGE(0, triptych_state_value(which, word, &value), word);
-    TEST_ASSERT_EQUAL_INT(TRIPTYCH_OK, state_set_value(&state, which, value, NULL));
+    TEST_ASSERT_EQUAL_INT_MESSAGE(0, triptych_value_number(triptych_state_at(table, row)->kind, word, &value),
+                                  word);
+    TEST_ASSERT_EQUAL_INT_MESSAGE(TRIPTYCH_OK, state_set_value(&state, table, i, row, value, NULL), word);
 }
 
 void setUp(void)
@@ -64,10 +73,10 @@ static void expect_same_keys(void (*change)(void))
 
 static void change_sampler(void)
 {
-    SET(texturefilter, "linear");
-    SET(addressu, "clamp");
-    SET(addressv, "clamp");
-    SET(colorop, "add");
+    SET_SAMPLER(0, magfilter, "linear");
+    SET_SAMPLER(0, addressu, "clamp");
+    SET_SAMPLER(0, addressv, "clamp");
+    SET_STAGE(0, colorop, "add");
     bind(TRIPTYCH_TEXCOORD, TRIPTYCH_FORMAT_FLOAT4);
 }
 
@@ -97,7 +106,7 @@ static void without_colour_writes_nothing_colours(void)
 {
     state.texture = &texture;
     state.light_enabled[0] = 1;
-    state_set_value(&state, TRIPTYCH_STATE_colorwriteenable, 0, NULL);
+    set_number(TRIPTYCH_STATE_colorwriteenable, 0);
     expect_same_keys(change_everything_that_colours);
     TEST_ASSERT_EQUAL_INT(INTERPOLATION_NONE, key[UNIT_SETUP].setup.varying[VARYING_diffuse]);
     TEST_ASSERT_EQUAL_INT(0, key[UNIT_VERTEX].vertex.lighting);
@@ -115,7 +124,7 @@ static void replacing_by_the_texture_kills_diffuse(void)
 {
     state.texture = &texture;
     state.light_enabled[2] = 1;
-    SET(colorop, "selectarg1");
+    SET_STAGE(0, colorop, "selectarg1");
     expect_same_keys(change_diffuse);
     TEST_ASSERT_EQUAL_INT(STAGE_SELECT, key[UNIT_PIXEL].pixel.color_stage);
     TEST_ASSERT_EQUAL_INT(SOURCE_TEXTURE, key[UNIT_PIXEL].pixel.color_argument[0]);
@@ -173,14 +182,9 @@ static void draws_without_effect_are_recognised(void)
     TEST_ASSERT_FALSE(derive_effective(&key[UNIT_PIXEL].pixel));
     SET(zfunc, "less");
     SET(zwriteenable, "false");
-    state_set_value(&state, TRIPTYCH_STATE_colorwriteenable, 0, NULL);
+    set_number(TRIPTYCH_STATE_colorwriteenable, 0);
     derive();
     TEST_ASSERT_FALSE(derive_effective(&key[UNIT_PIXEL].pixel));
-}
-
-static void set_number(enum triptych_state which, uint32_t value)
-{
-    TEST_ASSERT_EQUAL_INT(TRIPTYCH_OK, state_set_value(&state, which, value, NULL));
 }
 
 static void change_alpha_test(void)
@@ -259,8 +263,8 @@ static void depth_behind_an_alpha_test_needs_colours(void)
 
 static void change_colour_stage(void)
 {
-    SET(colorop, "add");
-    SET(colorarg2, "tfactor");
+    SET_STAGE(0, colorop, "add");
+    SET_STAGE(0, colorarg2, "tfactor");
 }
 
 static void where_alpha_alone_is_looked_at_the_colour_stage_is_dead(void)
@@ -418,7 +422,7 @@ static void wrapping_a_power_of_two_is_told_apart(void)
     derive();
     TEST_ASSERT_EQUAL_INT(ADDRESS_WRAP_POWER, key[UNIT_PIXEL].pixel.address_u);
     TEST_ASSERT_EQUAL_INT(ADDRESS_WRAP, key[UNIT_PIXEL].pixel.address_v);
-    SET(addressu, "clamp");
+    SET_SAMPLER(0, addressu, "clamp");
     derive();
     TEST_ASSERT_EQUAL_INT(ADDRESS_CLAMP, key[UNIT_PIXEL].pixel.address_u);
 }
@@ -435,8 +439,8 @@ static void addressing_follows_the_axis(void)
                  {"mirroronce", ADDRESS_MIRROR_ONCE, ADDRESS_MIRROR_ONCE}};
     state.texture = &texture;
     for (size_t i = 0; i < sizeof modes / sizeof *modes; i++) {
-        SET(addressu, modes[i].word);
-        SET(addressv, modes[i].word);
+        SET_SAMPLER(0, addressu, modes[i].word);
+        SET_SAMPLER(0, addressv, modes[i].word);
         derive();
         TEST_ASSERT_EQUAL_INT(modes[i].u, key[UNIT_PIXEL].pixel.address_u);
         TEST_ASSERT_EQUAL_INT(modes[i].v, key[UNIT_PIXEL].pixel.address_v);
@@ -445,35 +449,35 @@ static void addressing_follows_the_axis(void)
 
 static void change_unread_arguments(void)
 {
-    SET(colorarg0, "tfactor_complement");
-    SET(colorarg2, "tfactor");
-    SET(alphaarg0, "tfactor");
-    SET(alphaarg1, "texture_alphareplicate");
-    state_set_value(&state, TRIPTYCH_STATE_texturefactor, 0x12345678, NULL);
+    SET_STAGE(0, colorarg0, "tfactor_complement");
+    SET_STAGE(0, colorarg2, "tfactor");
+    SET_STAGE(0, alphaarg0, "tfactor");
+    SET_STAGE(0, alphaarg1, "texture_alphareplicate");
+    set_number(TRIPTYCH_STATE_texturefactor, 0x12345678);
 }
 
 static void arguments_that_are_not_read_are_dead(void)
 {
     state.texture = &texture;
-    SET(colorop, "selectarg1");
+    SET_STAGE(0, colorop, "selectarg1");
     expect_same_keys(change_unread_arguments);
     derive();
     TEST_ASSERT_EQUAL_HEX32(0, job.texture_factor);
-    SET(colorop, "addsmooth");
+    SET_STAGE(0, colorop, "addsmooth");
     derive();
     TEST_ASSERT_EQUAL_HEX32(0x12785634, job.texture_factor);
 }
 
 static void use_the_general_operation(void)
 {
-    SET(colorop, "lerp");
-    SET(colorarg0, "texture_alphareplicate");
+    SET_STAGE(0, colorop, "lerp");
+    SET_STAGE(0, colorarg0, "texture_alphareplicate");
 }
 
 static void blends_are_interpolations(void)
 {
     state.texture = &texture;
-    SET(colorop, "blendtexturealpha");
+    SET_STAGE(0, colorop, "blendtexturealpha");
     expect_same_keys(use_the_general_operation);
 }
 
@@ -486,8 +490,8 @@ static void unbind_what_is_not_read(void)
 static void a_stage_without_texture_arguments_needs_no_texture(void)
 {
     state.texture = &texture;
-    SET(colorarg1, "tfactor");
-    SET(alphaarg1, "diffuse");
+    SET_STAGE(0, colorarg1, "tfactor");
+    SET_STAGE(0, alphaarg1, "diffuse");
     expect_same_keys(unbind_what_is_not_read);
     TEST_ASSERT_EQUAL_INT(STAGE_MODULATE, key[UNIT_PIXEL].pixel.color_stage);
     TEST_ASSERT_EQUAL_INT(INTERPOLATION_NONE, key[UNIT_PIXEL].pixel.varying[VARYING_texcoord]);
@@ -495,21 +499,21 @@ static void a_stage_without_texture_arguments_needs_no_texture(void)
 
 static void change_alpha_stage(void)
 {
-    SET(alphaop, "add");
-    SET(alphaarg1, "tfactor");
+    SET_STAGE(0, alphaop, "add");
+    SET_STAGE(0, alphaarg1, "tfactor");
 }
 
 static void a_dot_product_is_alpha_too(void)
 {
     state.texture = &texture;
-    SET(colorop, "dotproduct3");
+    SET_STAGE(0, colorop, "dotproduct3");
     expect_same_keys(change_alpha_stage);
 }
 
 static void a_disabled_stage_passes_diffuse(void)
 {
     state.texture = &texture;
-    SET(colorop, "disable");
+    SET_STAGE(0, colorop, "disable");
     expect_same_keys(change_alpha_stage);
     TEST_ASSERT_EQUAL_INT(0, key[UNIT_PIXEL].pixel.texture);
     TEST_ASSERT_EQUAL_INT(INTERPOLATION_SMOOTH, key[UNIT_PIXEL].pixel.varying[VARYING_diffuse]);
@@ -517,17 +521,17 @@ static void a_disabled_stage_passes_diffuse(void)
 
 static void change_border_colour(void)
 {
-    state_set_value(&state, TRIPTYCH_STATE_bordercolor, 0x11223344, NULL);
+    state_set_value(&state, TRIPTYCH_SAMPLER_STATES, 0, TRIPTYCH_SAMPLER_bordercolor, 0x11223344, NULL);
 }
 
 static void the_border_colour_is_the_jobs(void)
 {
     state.texture = &texture;
-    SET(addressv, "border");
+    SET_SAMPLER(0, addressv, "border");
     expect_same_keys(change_border_colour);
     derive();
     TEST_ASSERT_EQUAL_HEX32(0x11443322, job.texture.border);
-    SET(addressv, "wrap");
+    SET_SAMPLER(0, addressv, "wrap");
     derive();
     TEST_ASSERT_EQUAL_HEX32(0, job.texture.border);
 }

@@ -30,8 +30,8 @@ static void bind_every_alpha(void)
         texel[i] = (i % 256) << 24 | (random_word() & 0xffffff);
     OK(triptych_texture_create(device, texel, SIZE, SIZE, &texture));
     OK(triptych_set_texture(device, texture));
-    set(TRIPTYCH_STATE_colorop, "selectarg1");
-    set(TRIPTYCH_STATE_alphaop, "selectarg1");
+    set_stage(0, TRIPTYCH_STAGE_colorop, "selectarg1");
+    set_stage(0, TRIPTYCH_STAGE_alphaop, "selectarg1");
 }
 
 static void expect_alpha_tested(uint32_t function, unsigned reference, uint32_t background, int writes_color,
@@ -81,7 +81,8 @@ static void check_depth_with_alpha_test(void)
     bind_every_alpha();
     set(TRIPTYCH_STATE_zenable, "true");
     clear_to(0);
-    set(TRIPTYCH_STATE_texturefilter, "linear");
+    set_sampler(0, TRIPTYCH_SAMPLER_magfilter, "linear");
+    set_sampler(0, TRIPTYCH_SAMPLER_minfilter, "linear");
     draw_square(0.5f, 0xffffffff, NULL, 0, 0, 1, 1);
     OK(triptych_read_color(device, texel));
     set(TRIPTYCH_STATE_alphatestenable, "true");
@@ -282,8 +283,8 @@ static void check_blending(int separate)
     triptych_texture *under, *over;
     make_texture(stored, &under);
     make_texture(texel, &over);
-    set(TRIPTYCH_STATE_colorop, "selectarg1");
-    set(TRIPTYCH_STATE_alphaop, "selectarg1");
+    set_stage(0, TRIPTYCH_STAGE_colorop, "selectarg1");
+    set_stage(0, TRIPTYCH_STAGE_alphaop, "selectarg1");
     set(TRIPTYCH_STATE_separatealphablendenable, separate ? "true" : "false");
     for (unsigned i = 0; i < BLENDINGS; i++) {
         struct blending color, alpha;

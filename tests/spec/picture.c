@@ -92,18 +92,24 @@ static uint32_t expected_bilinear(const struct sampled *s, int px, int py)
     return word;
 }
 
+static void set_filter(const char *word)
+{
+    set_sampler(0, TRIPTYCH_SAMPLER_magfilter, word);
+    set_sampler(0, TRIPTYCH_SAMPLER_minfilter, word);
+}
+
 static void check_texture(const struct sampled *s, double low, double high, int linear)
 {
     char what[96];
     snprintf(what, sizeof what, "%dx%d texels from %g to %g, %s %s, %s", s->width, s->height, low, high,
              addressing_word[s->u], addressing_word[s->v], linear ? "linear" : "point");
     bind_random_texture((unsigned)s->width, (unsigned)s->height);
-    set(TRIPTYCH_STATE_addressu, addressing_word[s->u]);
-    set(TRIPTYCH_STATE_addressv, addressing_word[s->v]);
-    set(TRIPTYCH_STATE_texturefilter, linear ? "linear" : "point");
+    set_sampler(0, TRIPTYCH_SAMPLER_addressu, addressing_word[s->u]);
+    set_sampler(0, TRIPTYCH_SAMPLER_addressv, addressing_word[s->v]);
+    set_filter(linear ? "linear" : "point");
     uint32_t color = random_word();
     border = image_word(color);
-    OK(triptych_set_state(device, TRIPTYCH_STATE_bordercolor, color));
+    OK(triptych_set_sampler_state(device, 0, TRIPTYCH_SAMPLER_bordercolor, color));
     draw_square(0, 0xffffffff, NULL, (float)low, (float)low, (float)high, (float)high);
     OK(triptych_read_color(device, image));
     for (int y = 0; y < SIZE; y++)
@@ -145,7 +151,7 @@ static void check_extreme_coordinates(void)
 {
     static const float extremes[] = {3e9f, -3e9f, 1e38f, -1e38f};
     static uint32_t first[ADDRESSINGS][2][4][2];
-    OK(triptych_set_state(device, TRIPTYCH_STATE_bordercolor, 0x80604020));
+    OK(triptych_set_sampler_state(device, 0, TRIPTYCH_SAMPLER_bordercolor, 0x80604020));
     for (int mode = 0; mode < ADDRESSINGS; mode++)
         for (int linear = 0; linear < 2; linear++)
             for (int i = 0; i < 4; i++)
@@ -153,8 +159,8 @@ static void check_extreme_coordinates(void)
                     uint32_t *expected = &first[mode][linear][i][odd];
                     float at = extremes[i];
                     bind_random_texture(odd ? 6 : 8, 1);
-                    set(TRIPTYCH_STATE_addressu, addressing_word[mode]);
-                    set(TRIPTYCH_STATE_texturefilter, linear ? "linear" : "point");
+                    set_sampler(0, TRIPTYCH_SAMPLER_addressu, addressing_word[mode]);
+                    set_filter(linear ? "linear" : "point");
                     draw_square(0, 0xffffffff, NULL, at, 0.5f, at, 0.5f);
                     OK(triptych_read_color(device, image));
                     if (!extremes_seen)
@@ -293,29 +299,29 @@ static void random_half(struct half_stage *h, const char *word)
             (struct argument){(int)(random_word() & 3), (int)(random_word() & 1), (int)(random_word() & 1)};
 }
 
-static void set_half(const struct half_stage *h, enum triptych_state operation,
-                     const enum triptych_state argument[3])
+static void set_half(const struct half_stage *h, enum triptych_stage_state operation,
+                     const enum triptych_stage_state argument[3])
 {
-    set(operation, h->word);
+    set_stage(0, operation, h->word);
     for (int i = 0; i < 3; i++) {
         const struct argument *a = &h->argument[i];
         uint32_t value = (uint32_t)(a->source + 0x10 * a->complement + 0x20 * a->replicate);
-        OK(triptych_set_state(device, argument[i], value));
+        OK(triptych_set_stage_state(device, 0, argument[i], value));
     }
 }
 
 static void check_stage(const struct half_stage *color, const struct half_stage *alpha)
 {
-    static const enum triptych_state color_arguments[3] = {TRIPTYCH_STATE_colorarg0, TRIPTYCH_STATE_colorarg1,
-                                                           TRIPTYCH_STATE_colorarg2};
-    static const enum triptych_state alpha_arguments[3] = {TRIPTYCH_STATE_alphaarg0, TRIPTYCH_STATE_alphaarg1,
-                                                           TRIPTYCH_STATE_alphaarg2};
+    static const enum triptych_stage_state color_arguments[3] = {
+        TRIPTYCH_STAGE_colorarg0, TRIPTYCH_STAGE_colorarg1, TRIPTYCH_STAGE_colorarg2};
+    static const enum triptych_stage_state alpha_arguments[3] = {
+        TRIPTYCH_STAGE_alphaarg0, TRIPTYCH_STAGE_alphaarg1, TRIPTYCH_STAGE_alphaarg2};
     uint32_t diffuse = random_word(), factor = random_word();
     char what[96];
     snprintf(what, sizeof what, "%s and %s", color->word, alpha->word);
     bind_random_texture(SIZE, SIZE);
-    set_half(color, TRIPTYCH_STATE_colorop, color_arguments);
-    set_half(alpha, TRIPTYCH_STATE_alphaop, alpha_arguments);
+    set_half(color, TRIPTYCH_STAGE_colorop, color_arguments);
+    set_half(alpha, TRIPTYCH_STAGE_alphaop, alpha_arguments);
     OK(triptych_set_state(device, TRIPTYCH_STATE_texturefactor, factor));
     draw_square(0, diffuse, NULL, 0, 0, 1, 1);
     OK(triptych_read_color(device, image));
@@ -379,11 +385,11 @@ static void check_stages_without_texture(void)
                  {"selectarg1", "tfactor", 0x80706050},
                  {"add", "tfactor", 0xc0a08060}};
     OK(triptych_set_state(device, TRIPTYCH_STATE_texturefactor, 0x80706050));
-    set(TRIPTYCH_STATE_alphaarg1, "tfactor");
+    set_stage(0, TRIPTYCH_STAGE_alphaarg1, "tfactor");
     for (unsigned i = 0; i < sizeof cases / sizeof cases[0]; i++) {
-        set(TRIPTYCH_STATE_colorop, cases[i].operation);
-        set(TRIPTYCH_STATE_alphaop, cases[i].operation);
-        set(TRIPTYCH_STATE_colorarg1, cases[i].argument);
+        set_stage(0, TRIPTYCH_STAGE_colorop, cases[i].operation);
+        set_stage(0, TRIPTYCH_STAGE_alphaop, cases[i].operation);
+        set_stage(0, TRIPTYCH_STAGE_colorarg1, cases[i].argument);
         draw_square(0, 0x40302010, NULL, 0, 0, 1, 1);
         OK(triptych_read_color(device, image));
         for (int p = 0; p < SIZE * SIZE; p++)

@@ -42,7 +42,7 @@ static const struct bad whole[] = {
 
 static const struct bad lines[] = {
     /* Lines */
-    {"paint it\n", "2:1", "found 'paint', expected a call: target, viewport, scissor, set"},
+    {"paint it\n", "2:1", "found 'paint', expected a call: target, viewport, scissor, state, sampler"},
     {"  # fine\n\n   paint it\n", "4:4", "found 'paint'"},
     {"\"frame\"\n", "2:1", "found '\"frame\"', expected a call"},
     {"}\n", "2:1", "found '}', expected a call"},
@@ -70,14 +70,23 @@ static const struct bad lines[] = {
     {"clear depth 1\n", "2:1", "found no target"},
 
     /* States */
-    {"set zfunk less\n", "2:5", "found 'zfunk', expected the name of a state"},
-    {"set zfunc lesser\n", "2:11", "expected a value of zfunc: never, less, equal, lessequal"},
-    {"set zfunc\n", "2:10", "found the end of the line, expected a value of zfunc"},
-    {"set zfunc 9\n", "2:1", "state zfunc: value 9 does not exist"},
-    {"set ambient 0xfff\n", "2:13", "expected a color (ambient)"},
-    {"set ambient red\n", "2:13", "expected a value of ambient: a number"},
-    {"set colorwriteenable 16\n", "2:1", "expected 0 to 15"},
-    {"set addressu once\n", "2:14", "expected a value of addressu: wrap, mirror, clamp, border, mirroronce"},
+    {"state zfunk less\n", "2:7", "found 'zfunk', expected the name of a state"},
+    {"state zfunc lesser\n", "2:13", "expected a value of zfunc: never, less, equal, lessequal"},
+    {"state zfunc\n", "2:12", "found the end of the line, expected a value of zfunc"},
+    {"state zfunc 9\n", "2:1", "state zfunc: value 9 does not exist"},
+    {"state ambient 0xfff\n", "2:15", "expected a color (ambient)"},
+    {"state ambient red\n", "2:15", "expected a value of ambient: a number"},
+    {"state colorwriteenable 16\n", "2:1", "expected 0 to 15"},
+    {"sampler 0 addressu once\n", "2:20",
+     "expected a value of addressu: wrap, mirror, clamp, border, mirroronce"},
+    {"sampler 16 addressu wrap\n", "2:9", "expected an integer (sampler) from 0 to 15"},
+    {"sampler addressu wrap\n", "2:9", "found 'addressu', expected an integer (sampler)"},
+    {"sampler 0 colorop add\n", "2:11", "found 'colorop', expected the name of a sampler state"},
+    {"stage 8 colorop add\n", "2:7", "expected an integer (stage) from 0 to 7"},
+    {"stage 0 zfunc less\n", "2:9", "found 'zfunc', expected the name of a stage state"},
+    {"stage 0 colorop always\n", "2:17", "expected a value of colorop: disable, selectarg1"},
+    {"state depthbias inf\n", "2:17", "found 'inf', expected a number (depthbias)"},
+    {"state adaptivetess_x 0.5\n", "2:1", "state adaptivetess_x: value 0.5 is not supported, expected 0"},
 
     /* Numbers and transforms */
     {"transform world scale 1 nan 1\n", "2:25", "found 'nan', expected a number (scale)"},
@@ -276,7 +285,7 @@ static void limits_hold(void)
 static void a_line_of_the_limit_is_read(void)
 {
     struct stream *stream;
-    char *text = repeat("triptych 1\nset lighting false\n#", " ", LIMIT_LINE_BYTES - 1, "\n");
+    char *text = repeat("triptych 1\nstate lighting false\n#", " ", LIMIT_LINE_BYTES - 1, "\n");
     TEST_ASSERT_EQUAL_INT_MESSAGE(0, stream_parse("a", text, strlen(text), &stream, &error), error.text);
     stream_free(stream);
     free(text);
@@ -285,7 +294,7 @@ static void a_line_of_the_limit_is_read(void)
 /* Eight sequences, each playing the one before `plays` times. */
 static char *nest(int sequences, int plays)
 {
-    char *text = malloc(1 << 20), *at = stpcpy(text, "triptych 1\nsequence s0\nset lighting false\nend\n");
+    char *text = malloc(1 << 20), *at = stpcpy(text, "triptych 1\nsequence s0\nstate lighting false\nend\n");
     for (int s = 1; s < sequences; s++) {
         at += sprintf(at, "sequence s%d\n", s);
         for (int i = 0; i < plays; i++)

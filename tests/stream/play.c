@@ -74,12 +74,12 @@ static const char standing[] =
     "-1 -1 ffff0000 0 0\n-1 1 ff00ff00 0 1\n1 1 ff0000ff 1 1\n1 -1 ffffffff 1 0\n}\n"
     "indices i 16 { 0 1 2 0 2 3 }\n"
     "sequence quad\n clear color 0 0 0 1 depth 1\n draw-indexed triangles 0 0 2\nend\n"
-    "set lighting false\nbind vertices v\nbind indices i\n"
+    "state lighting false\nbind vertices v\nbind indices i\n"
     "play quad\nframe\n"
     "transform world scale 0.5 0.5 1\nplay quad\nframe\n"
     "bind texture t\nplay quad\nframe\n"
-    "set cullmode cw\nplay quad\nframe\n"
-    "set cullmode none\nclear color 0 0 1 1\nviewport 4 4 8 8 0 1\nplay quad\nframe\n"
+    "state cullmode cw\nplay quad\nframe\n"
+    "state cullmode none\nclear color 0 0 1 1\nviewport 4 4 8 8 0 1\nplay quad\nframe\n"
     "target 16 24\nplay quad\n";
 
 static void frames_in_any_order_are_the_frames_in_order(void)
@@ -137,7 +137,8 @@ static void a_replayed_target_is_empty_unless_it_is_cleared_as_a_whole(void)
         }
         unload();
     }
-    load("triptych 1\ntarget 24 16\nset zfunc less\nclear color 0 0 1 1 depth 0.25\nviewport 1 1 2 2 0 1\n");
+    load(
+        "triptych 1\ntarget 24 16\nstate zfunc less\nclear color 0 0 1 1 depth 0.25\nviewport 1 1 2 2 0 1\n");
     for (int round = 0; round < 3; round++) {
         play(0, picture);
         TEST_ASSERT_EQUAL_INT(PIXELS, holds(picture, 0xffff0000));
@@ -191,12 +192,12 @@ static void a_material_and_lights_start_as_documented(void)
 static void elements_in_buffers_draw_what_vertices_draw(void)
 {
     static uint32_t expected[PIXELS], picture[PIXELS];
-    load("triptych 1\ntarget 24 16\nset lighting false\nclear color 0 0 0 1\n"
+    load("triptych 1\ntarget 24 16\nstate lighting false\nclear color 0 0 0 1\n"
          "vertices v position:float2 diffuse:color {\n-1 -1 ffff8000\n-1 1 ffff8000\n1 1 ffff8000\n}\n"
          "bind vertices v\ndraw triangles 0 1\n");
     play(0, expected);
     unload();
-    load("triptych 1\ntarget 24 16\nset lighting false\nclear color 0 0 0 1\n"
+    load("triptych 1\ntarget 24 16\nstate lighting false\nclear color 0 0 0 1\n"
          "buffer p float { 9 -1 -1 -1 1 1 1 }\nbuffer c color { 00000000 ffff8000 }\nbuffer i u32 { 7 0 1 2 "
          "}\n"
          "bind element position float2 p 4 8\nbind element diffuse color c 4 0\nbind indices i\n"

@@ -20,11 +20,28 @@ double random_between(double low, double high)
     return low + (high - low) * random_word() / 4294967296.0;
 }
 
+static uint32_t value_of(enum triptych_state_table table, unsigned row, const char *word)
+{
+    const struct triptych_state_row *state = triptych_state_at(table, row);
+    uint32_t value = 0;
+    TEST_ASSERT_NOT_NULL_MESSAGE(state, word);
+    TEST_ASSERT_EQUAL_INT_MESSAGE(0, triptych_value_number(state->kind, word, &value), word);
+    return value;
+}
+
 void set(enum triptych_state state, const char *word)
 {
-    uint32_t value;
-    TEST_ASSERT_EQUAL_INT_MESSAGE(0, triptych_state_value(state, word, &value), word);
-    OK(triptych_set_state(device, state, value));
+    OK(triptych_set_state(device, state, value_of(TRIPTYCH_RENDER_STATES, state, word)));
+}
+
+void set_sampler(unsigned sampler, enum triptych_sampler_state state, const char *word)
+{
+    OK(triptych_set_sampler_state(device, sampler, state, value_of(TRIPTYCH_SAMPLER_STATES, state, word)));
+}
+
+void set_stage(unsigned stage, enum triptych_stage_state state, const char *word)
+{
+    OK(triptych_set_stage_state(device, stage, state, value_of(TRIPTYCH_STAGE_STATES, state, word)));
 }
 
 static void open_device(const char *engine)
@@ -122,8 +139,8 @@ void bind_random_texture(unsigned width, unsigned height)
         texel[i] = random_word();
     OK(triptych_texture_create(device, texel, width, height, &texture));
     OK(triptych_set_texture(device, texture));
-    set(TRIPTYCH_STATE_colorop, "selectarg1");
-    set(TRIPTYCH_STATE_alphaop, "selectarg1");
+    set_stage(0, TRIPTYCH_STAGE_colorop, "selectarg1");
+    set_stage(0, TRIPTYCH_STAGE_alphaop, "selectarg1");
 }
 
 void expect_pixel(int x, int y, uint32_t expected, const char *what)

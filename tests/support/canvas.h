@@ -28,6 +28,8 @@ uint32_t random_word(void);
 double random_between(double low, double high);
 
 void set(enum triptych_state state, const char *word);
+void set_sampler(unsigned sampler, enum triptych_sampler_state state, const char *word);
+void set_stage(unsigned stage, enum triptych_stage_state state, const char *word);
 
 /* The whole target as a strip at depth z; texture coordinates run from u0, v0 at the upper left to u1, v1. */
 void draw_square(float z, uint32_t color, const float normal[3], float u0, float v0, float u1, float v1);
