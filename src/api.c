@@ -143,20 +143,49 @@ enum triptych_result triptych_texture_create(triptych_device *device, const void
         return TRIPTYCH_BAD_ARGUMENT;
     if (!rgba || !texture)
         return null_argument(device, rgba ? "texture" : "image");
-    *texture = NULL;
+    const struct triptych_texture_description description = {
+        TRIPTYCH_TEXTURE_2D, TRIPTYCH_SURFACE_A8B8G8R8, width, height, 1, 1};
     struct error error = {{0}};
-    if (!width || !height || width > TRIPTYCH_TEXTURE_MAXIMUM || height > TRIPTYCH_TEXTURE_MAXIMUM) {
-        error_set(&error, "texture of %ux%u texels: expected 1 to %d a side", width, height,
-                  TRIPTYCH_TEXTURE_MAXIMUM);
-        return finish(device, TRIPTYCH_BAD_ARGUMENT, &error);
-    }
-    *texture = texture_create(rgba, width, height);
-    if (!*texture) {
-        error_set(&error, "out of memory for a texture of %ux%u texels", width, height);
-        return finish(device, TRIPTYCH_NO_MEMORY, &error);
-    }
-    (*texture)->next = device->textures;
-    device->textures = *texture;
+    enum triptych_result result = device_texture_create(device, &description, texture, &error);
+    if (result == TRIPTYCH_OK)
+        result = device_texture_update(device, *texture, 0, 0, NULL, rgba, 4 * (size_t)width, 0, &error);
+    return finish(device, result, &error);
+}
+
+enum triptych_result triptych_texture_define(triptych_device *device,
+                                             const struct triptych_texture_description *description,
+                                             triptych_texture **texture)
+{
+    if (!device)
+        return TRIPTYCH_BAD_ARGUMENT;
+    if (!description || !texture)
+        return null_argument(device, description ? "texture" : "description");
+    struct error error = {{0}};
+    return finish(device, device_texture_create(device, description, texture, &error), &error);
+}
+
+enum triptych_result triptych_texture_update(triptych_device *device, triptych_texture *texture,
+                                             unsigned face, unsigned level, const struct triptych_box *box,
+                                             const void *data, size_t row_pitch, size_t slice_pitch)
+{
+    if (!device)
+        return TRIPTYCH_BAD_ARGUMENT;
+    if (!texture || !data)
+        return null_argument(device, texture ? "data" : "texture");
+    struct error error = {{0}};
+    return finish(
+        device,
+        device_texture_update(device, texture, face, level, box, data, row_pitch, slice_pitch, &error),
+        &error);
+}
+
+enum triptych_result triptych_texture_generate_mips(triptych_device *device, triptych_texture *texture)
+{
+    if (!device)
+        return TRIPTYCH_BAD_ARGUMENT;
+    if (!texture)
+        return null_argument(device, "texture");
+    device_texture_generate_mips(device, texture);
     return TRIPTYCH_OK;
 }
 
@@ -271,9 +300,8 @@ enum triptych_result triptych_set_texture(triptych_device *device, triptych_text
 {
     if (!device)
         return TRIPTYCH_BAD_ARGUMENT;
-    device->state.texture = texture;
-    device_state_changed(device);
-    return TRIPTYCH_OK;
+    struct error error = {{0}};
+    return changed(device, state_set_texture(&device->state, texture, &error), &error);
 }
 
 enum triptych_result triptych_set_element(triptych_device *device, enum triptych_attribute attribute,

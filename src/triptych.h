@@ -39,7 +39,7 @@ enum triptych_result {
 
 typedef struct triptych_device triptych_device;
 typedef struct triptych_buffer triptych_buffer;   /* vertices or indices */
-typedef struct triptych_texture triptych_texture; /* RGBA8 image */
+typedef struct triptych_texture triptych_texture; /* 2D, cube or volume, with levels */
 
 /* States, in three tables: of the device, of each sampler, of each texture stage. */
 enum triptych_state {
@@ -97,11 +97,41 @@ enum triptych_format {
     TRIPTYCH_FORMAT_COUNT
 };
 
+/* Formats of textures and targets, by Direct3D 9's numbers; def/format.def says what each is. */
+enum triptych_surface_format {
+#define FORMAT(name, number, bytes, side, storage, roles, coding, red, green, blue, alpha)                   \
+    TRIPTYCH_SURFACE_##name = number,
+#include "def/format.def"
+#undef FORMAT
+};
+
+enum triptych_texture_type {
+    TRIPTYCH_TEXTURE_2D,
+    TRIPTYCH_TEXTURE_CUBE,
+    TRIPTYCH_TEXTURE_VOLUME,
+    TRIPTYCH_TEXTURE_TYPE_COUNT
+};
+
+/* Faces of a cube texture, in Direct3D 9's order. */
+enum triptych_face {
+    TRIPTYCH_FACE_POSITIVE_X,
+    TRIPTYCH_FACE_NEGATIVE_X,
+    TRIPTYCH_FACE_POSITIVE_Y,
+    TRIPTYCH_FACE_NEGATIVE_Y,
+    TRIPTYCH_FACE_POSITIVE_Z,
+    TRIPTYCH_FACE_NEGATIVE_Z
+};
+
 enum triptych_primitive { TRIPTYCH_TRIANGLE_LIST, TRIPTYCH_TRIANGLE_STRIP, TRIPTYCH_TRIANGLE_FAN };
 
 enum triptych_light_type { TRIPTYCH_LIGHT_DIRECTIONAL, TRIPTYCH_LIGHT_POINT };
 
-enum { TRIPTYCH_LIGHTS = 8, TRIPTYCH_TARGET_MAXIMUM = 8192, TRIPTYCH_TEXTURE_MAXIMUM = 8192 };
+enum {
+    TRIPTYCH_LIGHTS = 8,
+    TRIPTYCH_TARGET_MAXIMUM = 8192,
+    TRIPTYCH_TEXTURE_MAXIMUM = 8192,
+    TRIPTYCH_VOLUME_MAXIMUM = 2048
+};
 
 struct triptych_options {
     const char *engine; /* name as listed by triptych_engine_name(); null: "specialize" */
@@ -115,6 +145,21 @@ struct triptych_element {
     triptych_buffer *buffer; /* null with FORMAT_NONE */
     size_t offset;           /* bytes of vertex 0's attribute from the buffer's start */
     size_t stride;           /* bytes from a vertex to the next, 0 to 65536 */
+};
+
+/* A texture to be created. Sides are 1 to 8192 texels, of a volume 1 to 2048; a cube is square. */
+struct triptych_texture_description {
+    enum triptych_texture_type type;
+    enum triptych_surface_format format;
+    unsigned width, height;
+    unsigned depth;  /* of a volume; 1 otherwise */
+    unsigned levels; /* each half the size of the one before; 0: down to a single texel */
+};
+
+/* Texels of a level: a rectangle of depth 1, or a box of a volume. */
+struct triptych_box {
+    unsigned x, y, z;
+    unsigned width, height, depth;
 };
 
 struct triptych_viewport {
@@ -231,6 +276,22 @@ TRIPTYCH_API enum triptych_result triptych_buffer_create(triptych_device *, cons
 /* Copies an image of width x height (1 to 8192) RGBA8 texels. */
 TRIPTYCH_API enum triptych_result triptych_texture_create(triptych_device *, const void *rgba, unsigned width,
                                                           unsigned height, triptych_texture **texture);
+
+/* A texture whose texels are all what zeros in its format mean. */
+TRIPTYCH_API enum triptych_result
+triptych_texture_define(triptych_device *, const struct triptych_texture_description *description,
+                        triptych_texture **texture);
+/* Copies texels in the texture's format to a part of a level (null: all of it). `face` is 0 but for cubes. A
+ * compressed format's part begins at multiples of 4 texels and ends at them or with the level. Rows of texels
+ * or blocks lie `row_pitch` bytes apart, slices of a volume `slice_pitch`. Draws recorded before read what
+ * was there before; that may mean rendering them first. */
+TRIPTYCH_API enum triptych_result triptych_texture_update(triptych_device *, triptych_texture *texture,
+                                                          unsigned face, unsigned level,
+                                                          const struct triptych_box *box, const void *data,
+                                                          size_t row_pitch, size_t slice_pitch);
+/* Makes every level but the first from the one before it: a texel is the mean of those it covers. */
+TRIPTYCH_API enum triptych_result triptych_texture_generate_mips(triptych_device *,
+                                                                 triptych_texture *texture);
 
 TRIPTYCH_API enum triptych_result triptych_set_state(triptych_device *, enum triptych_state, uint32_t value);
 TRIPTYCH_API enum triptych_result triptych_set_sampler_state(triptych_device *, unsigned sampler,

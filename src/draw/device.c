@@ -74,6 +74,7 @@ static void forget_commands(struct triptych_device *device)
             for (int unit = 0; unit < UNIT_COUNT; unit++)
                 cache_release(device->cache, frame->command[i].draw.routine[unit]);
     frame->commands = 0;
+    device->recording++;
 }
 
 void device_destroy(struct triptych_device *device)
@@ -116,6 +117,48 @@ enum triptych_result device_set_target(struct triptych_device *device, uint32_t 
     device->state.scissor = (struct scissor){0, 0, width, height};
     device_state_changed(device);
     return TRIPTYCH_OK;
+}
+
+/* --- Textures ---------------------------------------------------------------------------------------------
+ */
+
+enum triptych_result device_texture_create(struct triptych_device *device,
+                                           const struct triptych_texture_description *description,
+                                           struct triptych_texture **texture, struct error *error)
+{
+    enum triptych_result result = texture_create(description, texture, error);
+    if (result != TRIPTYCH_OK)
+        return result;
+    (*texture)->recording = UINT64_MAX;
+    (*texture)->next = device->textures;
+    device->textures = *texture;
+    return TRIPTYCH_OK;
+}
+
+static void before_change(struct triptych_device *device, const struct triptych_texture *texture)
+{
+    if (texture->recording == device->recording)
+        device_finish(device);
+}
+
+enum triptych_result device_texture_update(struct triptych_device *device, struct triptych_texture *texture,
+                                           unsigned face, unsigned level, const struct triptych_box *box,
+                                           const void *data, size_t row_pitch, size_t slice_pitch,
+                                           struct error *error)
+{
+    enum triptych_result result =
+        texture_check_update(texture, face, level, box, row_pitch, slice_pitch, error);
+    if (result != TRIPTYCH_OK)
+        return result;
+    before_change(device, texture);
+    texture_update(texture, face, level, box, data, row_pitch, slice_pitch);
+    return TRIPTYCH_OK;
+}
+
+void device_texture_generate_mips(struct triptych_device *device, struct triptych_texture *texture)
+{
+    before_change(device, texture);
+    texture_generate_mips(texture);
 }
 
 /* --- Checking a draw --------------------------------------------------------------------------------------
@@ -267,6 +310,8 @@ static enum triptych_result record(struct triptych_device *device, const struct 
         draw->scissor = derive_scissor(&device->state);
         draw->stride = triangle_layout(setup->depth, setup->varying).stride;
         device->frame->commands++;
+        if (device->state.texture)
+            device->state.texture->recording = device->recording;
     }
     if (device->on_draw)
         device->on_draw(device->on_draw_user, device->draws, device->key);

@@ -30,6 +30,7 @@ struct triptych_device {
     struct job job;
 
     uint64_t draws, triangles;
+    uint64_t recording; /* counts how often the queue was emptied */
     device_draw_callback *on_draw;
     void *on_draw_user;
 
@@ -73,6 +74,17 @@ void device_finish(struct triptych_device *device);
 /* Finishes and copies the target, if there is one. */
 enum triptych_result device_read_color(struct triptych_device *device, uint32_t *rgba, struct error *error);
 enum triptych_result device_read_depth(struct triptych_device *device, float *depth, struct error *error);
+
+/* Changes a texture, after rendering what is recorded if some of that reads it. Arguments are not null, but
+ * for the box. */
+enum triptych_result device_texture_create(struct triptych_device *device,
+                                           const struct triptych_texture_description *description,
+                                           struct triptych_texture **texture, struct error *error);
+enum triptych_result device_texture_update(struct triptych_device *device, struct triptych_texture *texture,
+                                           unsigned face, unsigned level, const struct triptych_box *box,
+                                           const void *data, size_t row_pitch, size_t slice_pitch,
+                                           struct error *error);
+void device_texture_generate_mips(struct triptych_device *device, struct triptych_texture *texture);
 
 void device_get_statistics(const struct triptych_device *device, struct triptych_statistics *statistics);
 

@@ -33,6 +33,15 @@ struct light_job {
     float reserved[3];
 };
 
+/* One level of a texture's faces (draw/texture.h), as the generated code finds it: texels are counted, not
+ * bytes. */
+struct texture_level {
+    int32_t offset; /* of its first texel from the face's */
+    int32_t width, height, depth;
+    float width_256, height_256, depth_256; /* * 256: texture coordinates become 24.8 fixed point */
+    int32_t slice_texels;
+};
+
 struct texture_job {
     const uint32_t *texels; /* rows of `width` RGBA8 words, red in the low byte */
     int32_t width;          /* texels, 1 to 8192 */

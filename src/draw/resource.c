@@ -34,27 +34,6 @@ void buffer_destroy(struct triptych_buffer *buffer)
     free(buffer);
 }
 
-struct triptych_texture *texture_create(const void *rgba, uint32_t width, uint32_t height)
-{
-    struct triptych_texture *texture = calloc(1, sizeof *texture);
-    if (!texture)
-        return NULL;
-    texture->width = width;
-    texture->height = height;
-    texture->texels = copy_aligned(rgba, (size_t)width * height * sizeof *texture->texels);
-    if (!texture->texels) {
-        free(texture);
-        return NULL;
-    }
-    return texture;
-}
-
-void texture_destroy(struct triptych_texture *texture)
-{
-    free(texture->texels);
-    free(texture);
-}
-
 static void scan_16(struct index_range *range, const uint16_t *index)
 {
     for (uint32_t i = 0; i < range->count; i++) {

@@ -1,5 +1,5 @@
-/* Buffers and textures: what the application hands over once and never changes. They live as long as the
- * device, so a recorded draw may point into them. */
+/* Buffers: what the application hands over once and never changes. They live as long as the device, so a
+ * recorded draw may point into them. */
 #ifndef DRAW_RESOURCE_H
 #define DRAW_RESOURCE_H
 
@@ -23,17 +23,9 @@ struct triptych_buffer {
     struct index_range range[INDEX_RANGES]; /* direct-mapped by a hash of the range */
 };
 
-struct triptych_texture {
-    struct triptych_texture *next;
-    uint32_t *texels; /* rows of RGBA8 words, 64-byte aligned */
-    uint32_t width, height;
-};
-
 /* Copies; null when memory is short. */
 struct triptych_buffer *buffer_create(const void *data, size_t bytes);
 void buffer_destroy(struct triptych_buffer *buffer);
-struct triptych_texture *texture_create(const void *rgba, uint32_t width, uint32_t height);
-void texture_destroy(struct triptych_texture *texture);
 
 /* The extremes of indices first to first + count - 1, which must lie in the buffer; count > 0, bits 16 or 32.
  */

@@ -330,6 +330,19 @@ static enum triptych_result bind_element(struct state *state, enum triptych_attr
     return TRIPTYCH_OK;
 }
 
+enum triptych_result state_set_texture(struct state *state, struct triptych_texture *texture,
+                                       struct error *error)
+{
+    if (texture && (texture->type != TRIPTYCH_TEXTURE_2D || texture->format->storage != STORAGE_RGBA8)) {
+        error_set(error,
+                  "a %s texture of format %s cannot be sampled: expected a 2d texture of 8-bit channels",
+                  texture_type_name[texture->type], texture->format->name);
+        return TRIPTYCH_UNSUPPORTED;
+    }
+    state->texture = texture;
+    return TRIPTYCH_OK;
+}
+
 enum triptych_result state_set_element(struct state *state, enum triptych_attribute attribute,
                                        const struct triptych_element *element, struct error *error)
 {

@@ -6,6 +6,7 @@
 #define DRAW_STATE_H
 
 #include "draw/resource.h"
+#include "draw/texture.h"
 
 struct state {
     uint32_t value[TRIPTYCH_STATE_COUNT];
@@ -46,6 +47,8 @@ enum triptych_result state_set_material(struct state *state, const struct tripty
                                         struct error *error);
 enum triptych_result state_set_light(struct state *state, unsigned index, const struct triptych_light *light,
                                      struct error *error);
+enum triptych_result state_set_texture(struct state *state, struct triptych_texture *texture,
+                                       struct error *error);
 enum triptych_result state_set_element(struct state *state, enum triptych_attribute attribute,
                                        const struct triptych_element *element, struct error *error);
 

@@ -3,6 +3,7 @@
  * Each subject fills a JSON array of objects; the table for people is made from the same objects, a column
  * per member, so that both always say the same. */
 #include "base/cpu.h"
+#include "draw/format.h"
 #include "jit/jit.h"
 #include "tool/option.h"
 #include "tool/table.h"
@@ -97,14 +98,36 @@ static void list_passes(cJSON *rows)
     }
 }
 
+static void list_formats(cJSON *rows)
+{
+    static const struct {
+        unsigned role;
+        const char *word;
+    } roles[] = {
+        {ROLE_TEXTURE, "texture"}, {ROLE_TARGET, "target"}, {ROLE_DEPTH, "depth"}, {ROLE_COMPARE, "compare"}};
+    const struct format *format;
+    for (unsigned i = 0; (format = format_at(i)); i++) {
+        char text[64] = "";
+        for (unsigned r = 0; r < sizeof roles / sizeof *roles; r++)
+            if (format->roles & roles[r].role)
+                snprintf(text + strlen(text), sizeof text - strlen(text), "%s%s", text[0] ? " " : "",
+                         roles[r].word);
+        cJSON *row = add_row(rows);
+        add_text(row, "format", format->name);
+        cJSON_AddNumberToObject(row, "number", format->number);
+        cJSON_AddNumberToObject(row, "bytes", format->bytes);
+        cJSON_AddNumberToObject(row, "texels", format->side * format->side);
+        add_text(row, "stored", format->storage == STORAGE_RGBA8 ? "rgba8" : "float4");
+        add_text(row, "roles", text[0] ? text : "not supported");
+    }
+}
+
 static const struct subject {
     const char *name;
     void (*list)(cJSON *rows);
 } subjects[] = {
-    {"engines", list_engines},
-    {"states", list_states},
-    {"cpu", list_cpu},
-    {"passes", list_passes},
+    {"engines", list_engines}, {"states", list_states}, {"formats", list_formats},
+    {"cpu", list_cpu},         {"passes", list_passes},
 };
 
 static void print_table(const cJSON *rows)

@@ -1,0 +1,63 @@
+/* Textures: chains of levels in one allocation, in the storage of their format (draw/format.h).
+ *
+ *   face 0: level 0, level 1, ... | face 1: ... | ...        a cube has six faces, others one
+ *   level:  slice 0, slice 1, ...                            a volume has its depth of them, others one
+ *   slice:  rows of texels from the top, without gaps
+ *
+ * The size of level l is that of level 0 divided by 2^l, rounded down, at least 1. Every texel's index within
+ * the allocation is below 2^30, so that generated code addresses words with 32 bits.
+ *
+ * Contents change only while no recorded draw reads them: see draw/device.h. */
+#ifndef DRAW_TEXTURE_H
+#define DRAW_TEXTURE_H
+
+#include "base/error.h"
+#include "draw/format.h"
+#include "draw/job.h"
+#include "triptych.h"
+
+enum { TEXTURE_LEVELS = 14, CUBE_FACES = 6 };
+
+struct triptych_texture {
+    struct triptych_texture *next;
+    const struct format *format;
+    enum triptych_texture_type type;
+    uint32_t width, height, depth; /* of level 0 */
+    uint32_t levels, faces;
+    uint32_t face_texels; /* from a face to the next */
+    uint32_t *texels;     /* 64-byte aligned */
+    struct texture_level level[TEXTURE_LEVELS];
+    uint64_t recording; /* the device's, when a draw was last recorded that may read it */
+};
+
+extern const char *const texture_type_name[TRIPTYCH_TEXTURE_TYPE_COUNT]; /* "2d", "cube", "volume" */
+
+/* A texture as described, every texel what zeros in its format mean. Refused, with the reason: what Direct3D
+ * 9 does not allow, and storage of more than 4 GiB. */
+enum triptych_result texture_create(const struct triptych_texture_description *description,
+                                    struct triptych_texture **texture, struct error *error);
+void texture_destroy(struct triptych_texture *texture);
+
+/* Bytes of texels in the format's form, for the smallest pitches: of a row of blocks of `width` texels, and
+ * of `rows` of it. */
+size_t texture_row_bytes(const struct format *format, uint32_t width);
+
+/* Checks a change of `box` (null: all of the level), and makes it. */
+enum triptych_result texture_check_update(const struct triptych_texture *texture, unsigned face,
+                                          unsigned level, const struct triptych_box *box, size_t row_pitch,
+                                          size_t slice_pitch, struct error *error);
+void texture_update(struct triptych_texture *texture, unsigned face, unsigned level,
+                    const struct triptych_box *box, const void *data, size_t row_pitch, size_t slice_pitch);
+
+/* Makes every level but the first from the one above it (draw/mip.c). */
+void texture_generate_mips(struct triptych_texture *texture);
+
+/* The first texel of a face's level. */
+static inline void *texture_level_texels(const struct triptych_texture *texture, unsigned face,
+                                         unsigned level)
+{
+    size_t index = (size_t)face * texture->face_texels + (size_t)texture->level[level].offset;
+    return (uint8_t *)texture->texels + index * format_texel_bytes(texture->format);
+}
+
+#endif
