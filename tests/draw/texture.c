@@ -265,8 +265,8 @@ static void check_order(void)
     OK(triptych_texture_create(device, &before, 1, 1, &drawn));
     OK(triptych_texture_create(device, &before, 1, 1, &other));
     OK(triptych_set_texture(device, drawn));
-    set(TRIPTYCH_STATE_colorop, "selectarg1");
-    set(TRIPTYCH_STATE_alphaop, "selectarg1");
+    set_stage(0, TRIPTYCH_STAGE_colorop, "selectarg1");
+    set_stage(0, TRIPTYCH_STAGE_alphaop, "selectarg1");
     clear_to(0);
     draw_square(0, 0xffffffff, NULL, 0, 0, 1, 1);
     OK(triptych_set_texture(device, other)); /* unbound when it changes */
