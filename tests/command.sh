@@ -136,10 +136,23 @@ refuses 'unknown list' 'cannot list "cats"' list cats
 # --- Lists ---------------------------------------------------------------------------------------------------
 
 answers 'list engines' '^emulate ' list engines
-answers 'list states' '^zfunc +state +COMPARE +lessequal ' list states
+answers 'list states' '^zfunc +COMPARE +lessequal +SP +yes +the comparison' list states
+answers 'list states of stages' '^texcoordindex +TEXCOORDINDEX +0, 1, 2, ... +V ' list states
+answers 'list words of states' '^CULLMODE +none cw ccw$' list states
+answers 'list states counts them' '^103 render states, [0-9]+ supported' list states
 answers 'list cpu' '^avx2 +(yes|no) ' list cpu
 answers 'list passes' '^pass +meaning' list passes
 answers 'list as JSON' '"state":' list states --json
+refuses 'list in two forms' 'expected one of them' list states --json --markdown
+refuses 'list that is no page' '[-]-markdown is for states only' list cpu --markdown
+
+page_is_the_tables()
+{
+    "$TRIPTYCH" list states --markdown | diff docs/states.md - && return
+    echo 'docs/states.md is old: triptych list states --markdown > docs/states.md' >&2
+    return 1
+}
+holds 'docs/states.md is what the command writes' page_is_the_tables
 
 full_disk_is_noticed()
 {

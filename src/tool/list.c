@@ -1,11 +1,13 @@
 /* `triptych list`: what this build has and what this machine allows, as tables or as JSON.
  *
  * Each subject fills a JSON array of objects; the table for people is made from the same objects, a column
- * per member, so that both always say the same. */
+ * per member, so that both always say the same. States have more to say than a table holds (tool/states.h).
+ */
 #include "base/cpu.h"
 #include "draw/format.h"
 #include "jit/jit.h"
 #include "tool/option.h"
+#include "tool/states.h"
 #include "tool/table.h"
 #include "triptych.h"
 
@@ -35,43 +37,6 @@ static void list_engines(cJSON *rows)
         add_text(row, "here", reason ? reason : "available");
         add_text(row, "description", triptych_engine_description(i));
     }
-}
-
-/* A value as streams write it. */
-static void print_value(const struct triptych_kind *kind, uint32_t value, char *text, size_t size)
-{
-    const char *word = triptych_value_word(kind, value);
-    float number;
-    memcpy(&number, &value, sizeof number);
-    if (word)
-        snprintf(text, size, "%s", word);
-    else if (kind->notation == TRIPTYCH_NOTATION_REAL)
-        snprintf(text, size, "%g", (double)number);
-    else
-        snprintf(text, size, kind->notation == TRIPTYCH_NOTATION_HEXADECIMAL ? "0x%08x" : "%u", value);
-}
-
-static void list_state(cJSON *rows, enum triptych_state_table table, unsigned i)
-{
-    static const char *const support[] = {"yes", "not yet", "no"};
-    const struct triptych_state_row *state = triptych_state_at(table, i);
-    char text[64];
-    cJSON *row = add_row(rows);
-    add_text(row, "state", state->name);
-    add_text(row, "of", triptych_table_name(table));
-    add_text(row, "kind", state->kind->name);
-    print_value(state->kind, triptych_state_default(table, i, 0), text, sizeof text);
-    add_text(row, "default", text);
-    add_text(row, "keys", state->units);
-    add_text(row, "supported", support[state->support]);
-    add_text(row, "meaning", state->meaning);
-}
-
-static void list_states(cJSON *rows)
-{
-    for (unsigned t = 0; t < TRIPTYCH_STATE_TABLE_COUNT; t++)
-        for (unsigned i = 0; triptych_state_at(t, i); i++)
-            list_state(rows, t, i);
 }
 
 static void list_cpu(cJSON *rows)
@@ -122,12 +87,16 @@ static void list_formats(cJSON *rows)
     }
 }
 
+/* A subject prints itself if one table of its objects will not do. */
 static const struct subject {
     const char *name;
     void (*list)(cJSON *rows);
+    void (*print)(FILE *out);
+    void (*print_markdown)(FILE *out);
 } subjects[] = {
-    {"engines", list_engines}, {"states", list_states}, {"formats", list_formats},
-    {"cpu", list_cpu},         {"passes", list_passes},
+    {"engines", list_engines, NULL, NULL}, {"states", states_list, states_print, states_print_markdown},
+    {"formats", list_formats, NULL, NULL}, {"cpu", list_cpu, NULL, NULL},
+    {"passes", list_passes, NULL, NULL},
 };
 
 static void print_table(const cJSON *rows)
@@ -146,7 +115,7 @@ static void print_table(const cJSON *rows)
     table_print(&table, 0, stdout);
 }
 
-static int print(const struct command *self, const struct subject *subject, bool json)
+static int print_rows(const struct command *self, const struct subject *subject, bool json)
 {
     cJSON *rows = cJSON_CreateArray();
     subject->list(rows);
@@ -160,18 +129,33 @@ static int print(const struct command *self, const struct subject *subject, bool
     return json && !text ? fail(self, "out of memory") : STATUS_OK;
 }
 
+static int print(const struct command *self, const struct subject *subject, bool json, bool markdown)
+{
+    if (markdown && (json || !subject->print_markdown))
+        return fail(self, json ? "--markdown and --json are both given, expected one of them"
+                               : "--markdown is for states only");
+    if (markdown)
+        subject->print_markdown(stdout);
+    else if (!json && subject->print)
+        subject->print(stdout);
+    else
+        return print_rows(self, subject, json);
+    return STATUS_OK;
+}
+
 int command_list(const struct command *self, int count, char **arguments)
 {
-    bool json = false;
+    bool json = false, markdown = false;
     const struct option options[] = {
         {"json", NULL, "as JSON, an array of objects", OPTION_FLAG, &json, 0, 0},
+        {"markdown", NULL, "states as a page of documentation", OPTION_FLAG, &markdown, 0, 0},
     };
     struct operands operands = {.least = 1, .most = 1};
-    enum options_result result = options_read(self, options, 1, NULL, count, arguments, &operands);
+    enum options_result result = options_read(self, options, 2, NULL, count, arguments, &operands);
     if (result != OPTIONS_GO)
         return options_status(result);
     for (size_t i = 0; i < sizeof subjects / sizeof *subjects; i++)
         if (!strcmp(operands.value[0], subjects[i].name))
-            return print(self, subjects + i, json);
+            return print(self, subjects + i, json, markdown);
     return fail(self, "cannot list \"%s\", expected %s", operands.value[0], self->summary);
 }

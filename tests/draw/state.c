@@ -1,7 +1,10 @@
 /* The state: defaults, words, and what is refused with which reason. */
+#include "base/file.h"
 #include "draw/state.h"
 
 #include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
 #include <string.h>
 #include <unity.h>
 
@@ -194,6 +197,44 @@ static void reals_are_finite(void)
     TEST_ASSERT_EQUAL_MEMORY(&before, &state, sizeof state);
 }
 
+static int is_word(int c)
+{
+    return (c >= 'a' && c <= 'z') || (c >= '0' && c <= '9') || c == '_';
+}
+
+/* Whether the name stands in the text, not as a part of a longer one but for the capitals that the interface
+ * puts in front. */
+static int mentions(const char *text, const char *name)
+{
+    for (const char *at = text; (at = strstr(at, name)); at++)
+        if (!is_word(at[strlen(name)]) &&
+            (at == text || !is_word(at[-1]) || (at[-1] == '_' && at - text > 1 && !is_word(at[-2]))))
+            return 1;
+    return 0;
+}
+
+static void check_test(enum triptych_state_table table, unsigned row, const struct triptych_state_row *r)
+{
+    char path[256], what[320], *text;
+    size_t bytes;
+    (void)table;
+    (void)row;
+    TEST_ASSERT_EQUAL_INT_MESSAGE(r->support == TRIPTYCH_SUPPORT_YES, r->test[0] != 0, r->name);
+    if (!r->test[0])
+        return;
+    snprintf(path, sizeof path, "tests/%s", r->test);
+    TEST_ASSERT_EQUAL_INT_MESSAGE(0, file_read(path, 1 << 24, &text, &bytes, &error), error.text);
+    snprintf(what, sizeof what, "%s does not mention %s", path, r->name);
+    int found = mentions(text, r->name);
+    free(text);
+    TEST_ASSERT_TRUE_MESSAGE(found, what);
+}
+
+static void what_is_supported_has_a_test_that_mentions_it(void)
+{
+    for_each_row(check_test);
+}
+
 static void a_matrix_that_is_not_finite_is_refused(void)
 {
     float matrix[4][4] = {{1, 0, 0, 0}, {0, 1, NAN, 0}, {0, 0, 1, 0}, {0, 0, 0, 1}};
@@ -289,6 +330,7 @@ int main(void)
     RUN_TEST(long_lists_of_words_are_cut);
     RUN_TEST(a_value_that_nobody_has_is_a_bad_argument);
     RUN_TEST(reals_are_finite);
+    RUN_TEST(what_is_supported_has_a_test_that_mentions_it);
     RUN_TEST(a_matrix_that_is_not_finite_is_refused);
     RUN_TEST(a_viewport_must_lie_in_the_target);
     RUN_TEST(a_scissor_rectangle_must_lie_in_the_target);
