@@ -108,7 +108,7 @@ static struct cache_entry **find(struct cache *cache, enum unit unit, const stru
                                  uint64_t hash)
 {
     struct cache_entry **at = bucket_of(cache, hash);
-    while (*at && !((*at)->hash == hash && (*at)->unit == unit && !memcmp(&(*at)->key, key, sizeof *key)))
+    while (*at && !((*at)->hash == hash && (*at)->unit == unit && key_equal(&(*at)->key, key)))
         at = &(*at)->chain;
     return at;
 }

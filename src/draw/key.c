@@ -1,6 +1,8 @@
 #include "draw/key.h"
 #include "draw/call.h"
 
+#include <assert.h>
+#include <pthread.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -54,7 +56,7 @@ static const struct key_field all_fields[] = {
 };
 
 /* How many rows of the table each unit has; its rows stand together, in the order of enum unit. */
-static const uint8_t field_count[UNIT_COUNT] = {
+static const uint16_t field_count[UNIT_COUNT] = {
 #define KEY(unit, field, radix, meaning)         +KEY_##unit
 #define KEYS(unit, field, count, radix, meaning) +KEY_##unit
 #define KEY_vertex                               1
@@ -92,53 +94,109 @@ const struct key_field *key_fields(enum unit unit, size_t *count)
     return all_fields + first;
 }
 
-/* Walks the digits of a unit's key; the place value grows until a digit would no longer fit the 64-bit word.
- */
-struct digits {
-    unsigned word;
-    uint64_t place;
+/* The bits of a digit when it has them to itself; a word holds at least 56 of them, since no digit has more
+ * than eight and none straddles. */
+#define DIGIT_BITS(radix)  ((radix) > 1 ? 32 - __builtin_clz((radix)-1u) : 1)
+#define BITS(count, radix) (count) * DIGIT_BITS(radix)
+#define TEXT(field, count) sizeof #field + 1 + (count) * sizeof "255"
+
+enum {
+    LEAST_BITS_A_WORD = 56,
+#define KEY(unit, field, radix, meaning)         unit##_##field##_bits = BITS(1, radix),
+#define KEYS(unit, field, count, radix, meaning) unit##_##field##_bits = BITS(count, radix),
+#include "def/key.def"
+#undef KEY
+#undef KEYS
 };
 
-static void next_digit(struct digits *digits, unsigned radix)
-{
-    if (digits->place > UINT64_MAX / radix) {
-        digits->word++;
-        digits->place = 1;
-    }
-}
+/* All units together: no unit has more. */
+#define KEY(unit, field, radix, meaning)         +unit##_##field##_bits
+#define KEYS(unit, field, count, radix, meaning) +unit##_##field##_bits
+static_assert((0
+#include "def/key.def"
+               ) / LEAST_BITS_A_WORD <
+                  KEY_PACKED_WORDS,
+              "the words of a packed key hold every digit");
+#undef KEY
+#undef KEYS
+#define KEY(unit, field, radix, meaning)         +TEXT(field, 1)
+#define KEYS(unit, field, count, radix, meaning) +TEXT(field, count)
+static_assert(0
+#include "def/key.def"
+                  < KEY_TEXT_CAPACITY,
+              "the text of a key holds every field");
+#undef KEY
+#undef KEYS
 
-struct packed_key key_pack(enum unit unit, const union key *key)
+/* Where a digit stands: the place value grows until the next digit would no longer fit the word. */
+struct digit {
+    uint64_t place;
+    uint16_t word;
+    uint8_t radix;
+};
+
+/* The digits of each unit, by their offset in its key: every byte of a key is one. */
+static struct digit digits[UNIT_COUNT][sizeof(union key)];
+static uint16_t digit_count[UNIT_COUNT];
+static pthread_once_t digits_are_placed = PTHREAD_ONCE_INIT;
+
+static void place_unit(enum unit unit)
 {
-    struct packed_key packed = {{0}};
-    struct digits digits = {0, 1};
+    struct digit next = {.place = 1};
     size_t count;
     const struct key_field *field = key_fields(unit, &count);
     for (size_t i = 0; i < count; i++)
         for (unsigned j = 0; j < field[i].count; j++) {
-            next_digit(&digits, field[i].radix);
-            packed.word[digits.word] += digits.place * ((const uint8_t *)key)[field[i].offset + j];
-            digits.place *= field[i].radix;
+            next.radix = field[i].radix;
+            if (next.place > UINT64_MAX / next.radix) {
+                next.word++;
+                next.place = 1;
+            }
+            digits[unit][digit_count[unit]++] = next;
+            next.place *= next.radix;
         }
+}
+
+static void place_digits(void)
+{
+    for (int unit = 0; unit < UNIT_COUNT; unit++)
+        place_unit(unit);
+}
+
+static const struct digit *digits_of(enum unit unit)
+{
+    pthread_once(&digits_are_placed, place_digits);
+    return digits[unit];
+}
+
+struct packed_key key_pack(enum unit unit, const union key *key)
+{
+    const struct digit *digit = digits_of(unit);
+    const uint8_t *value = (const uint8_t *)key;
+    struct packed_key packed;
+    packed.words = digit[digit_count[unit] - 1].word + 1u;
+    memset(packed.word, 0, packed.words * sizeof packed.word[0]);
+    for (unsigned i = 0; i < digit_count[unit]; i++)
+        packed.word[digit[i].word] += digit[i].place * value[i];
     return packed;
 }
 
 void key_unpack(enum unit unit, const struct packed_key *packed, union key *key)
 {
+    const struct digit *digit = digits_of(unit);
     memset(key, 0, sizeof *key);
-    struct digits digits = {0, 1};
-    size_t count;
-    const struct key_field *field = key_fields(unit, &count);
-    for (size_t i = 0; i < count; i++)
-        for (unsigned j = 0; j < field[i].count; j++) {
-            next_digit(&digits, field[i].radix);
-            ((uint8_t *)key)[field[i].offset + j] = packed->word[digits.word] / digits.place % field[i].radix;
-            digits.place *= field[i].radix;
-        }
+    for (unsigned i = 0; i < digit_count[unit]; i++)
+        ((uint8_t *)key)[i] = (uint8_t)(packed->word[digit[i].word] / digit[i].place % digit[i].radix);
 }
 
 uint64_t key_hash(enum unit unit, const struct packed_key *packed)
 {
-    return XXH3_64bits_withSeed(packed, sizeof *packed, unit);
+    return XXH3_64bits_withSeed(packed->word, packed->words * sizeof packed->word[0], unit);
+}
+
+int key_equal(const struct packed_key *a, const struct packed_key *b)
+{
+    return a->words == b->words && !memcmp(a->word, b->word, a->words * sizeof a->word[0]);
 }
 
 static int is_zero(const uint8_t *values, unsigned count)

@@ -2,7 +2,7 @@
  *
  * The fields are the rows of def/key.def, each a small integer. Packing is mixed radix (thesis, section 3.6):
  * the fields in table order are the digits of one big number, least significant first, kept in 64-bit words
- * so that no digit straddles two words. Two keys are equal exactly when their packed forms are equal byte for
+ * so that no digit straddles two words. Two keys are equal exactly when their packed words are equal byte for
  * byte. Nothing that is a pointer or data is ever in a key. */
 #ifndef DRAW_KEY_H
 #define DRAW_KEY_H
@@ -167,10 +167,13 @@ union key {
     struct pixel_key pixel;
 };
 
-enum { KEY_PACKED_WORDS = 4, KEY_TEXT_CAPACITY = 1024 };
+/* Both are checked against def/key.def when key.c is compiled. */
+enum { KEY_PACKED_WORDS = 40, KEY_TEXT_CAPACITY = 16384 };
 
-/* The label of a routine: compared and hashed as bytes, never looked into. Unused words are zero. */
+/* The label of a routine: compared (key_equal) and hashed as bytes, never looked into. A unit's keys all have
+ * the same number of words, those that its fields need; nothing is said of the words behind. */
 struct packed_key {
+    uint32_t words;
     uint64_t word[KEY_PACKED_WORDS];
 };
 
@@ -201,6 +204,9 @@ void key_unpack(enum unit unit, const struct packed_key *packed, union key *key)
 
 /* 64-bit hash of the unit and the packed words (xxHash). */
 uint64_t key_hash(enum unit unit, const struct packed_key *packed);
+
+/* Whether two packed keys of one unit are the same. */
+int key_equal(const struct packed_key *a, const struct packed_key *b);
 
 /* Whether the pixel routine computes colours: to write them, or to find whose depth the alpha test keeps. */
 static inline int pixel_shades(const struct pixel_key *key)

@@ -186,21 +186,48 @@ static void scan_instruction(struct scan *scan, uint32_t number)
         release(scan, number);
 }
 
+/* The slots whose value was used last at `position` are free from now on. */
+static void free_slots(struct allocation *a, uint32_t position, uint32_t *lowest)
+{
+    for (unsigned value = a->expiring[position]; value; value = a->expiring_next[value]) {
+        uint32_t word = a->slot[value] / 64;
+        a->free_slot[word] |= 1ull << a->slot[value] % 64;
+        if (*lowest > word)
+            *lowest = word;
+    }
+}
+
+/* The lowest free slot, or a new one. No word of free_slot below *lowest has a bit. */
+static uint32_t take_slot(struct allocation *a, uint32_t *lowest)
+{
+    uint32_t words = (a->slots + 63) / 64;
+    while (*lowest < words && !a->free_slot[*lowest])
+        ++*lowest;
+    if (*lowest == words) {
+        if (a->slots % 64 == 0)
+            a->free_slot[words] = 0;
+        return a->slots++;
+    }
+    uint32_t slot = *lowest * 64 + (uint32_t)__builtin_ctzll(a->free_slot[*lowest]);
+    a->free_slot[*lowest] &= a->free_slot[*lowest] - 1;
+    return slot;
+}
+
 /* Slots in order of definition, the lowest that is free again. */
 static void assign_slots(const struct ir *ir, struct allocation *a)
 {
-    uint16_t busy_until[IR_CAPACITY];
+    uint32_t lowest = 0;
     a->slots = 0;
+    if (!a->spills)
+        return;
+    memset(a->expiring, 0, ir->count * sizeof a->expiring[0]);
     for (uint32_t number = 1; number < ir->count; number++) {
+        free_slots(a, number - 1, &lowest);
         if (a->split[number] == NEVER || allocate_rematerializes(&ir->instruction[number]))
             continue;
-        uint32_t slot = 0;
-        while (slot < a->slots && busy_until[slot] >= number)
-            slot++;
-        if (slot == a->slots)
-            a->slots++;
-        busy_until[slot] = a->last[number];
-        a->slot[number] = (uint16_t)slot;
+        a->slot[number] = (uint16_t)take_slot(a, &lowest);
+        a->expiring_next[number] = a->expiring[a->last[number]];
+        a->expiring[a->last[number]] = (uint16_t)number;
     }
 }
 

@@ -19,7 +19,8 @@ enum {
     SCRATCH_SECOND = 15,
     NO_REGISTER = 255,
     NO_SLOT = 0xffff,
-    NEVER = 0xffff
+    NEVER = 0xffff,
+    SLOT_WORDS = IR_CAPACITY / 64 + 1
 };
 
 enum residence {
@@ -35,9 +36,13 @@ struct allocation {
     uint16_t
         slot[IR_CAPACITY]; /* its spill slot, NO_SLOT when memory holds it already or it is not spilled */
     uint16_t last[IR_CAPACITY]; /* last use; 0 when there is none */
-    uint16_t uses[IR_CAPACITY];
+    uint32_t uses[IR_CAPACITY];
     uint16_t next[IR_CAPACITY][3]; /* the use after this one of the same value, 0: this is the last */
     uint16_t next_use[IR_CAPACITY];
+    uint16_t expiring[IR_CAPACITY]; /* the value whose slot is free behind a position, 0: none; then the next
+                                       such */
+    uint16_t expiring_next[IR_CAPACITY];
+    uint64_t free_slot[SLOT_WORDS]; /* a bit for each slot that is free */
     uint32_t slots;
     uint32_t spills; /* values that left their register */
 };

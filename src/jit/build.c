@@ -16,7 +16,7 @@ struct builder *builder_take(struct error *error)
         pool = builder->next;
     pthread_mutex_unlock(&pool_lock);
     if (!builder)
-        builder = malloc(sizeof *builder);
+        builder = calloc(1, sizeof *builder);
     if (!builder)
         error_set(error, "out of memory for building a routine (%zu bytes)", sizeof *builder);
     return builder;

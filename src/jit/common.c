@@ -5,7 +5,7 @@
 
 #include <string.h>
 
-enum { TABLE_MASK = 2 * IR_CAPACITY - 1 };
+enum { TABLE_MASK = PASS_TABLE - 1 };
 
 struct scope {
     struct pass_memory *memory; /* region[number], flag[region]: open; map: parent region of a `when` */
@@ -73,10 +73,10 @@ unsigned pass_common(struct ir *ir, struct pass_memory *memory)
             continue;
         order_operands(i);
         uint32_t slot = hash(i) & mask;
-        while (memory->table[slot] && !(same(&ir->instruction[memory->table[slot]], i) &&
-                                        memory->flag[memory->region[memory->table[slot]]]))
+        while (memory->table[slot] && !same(&ir->instruction[memory->table[slot]], i))
             slot = (slot + 1) & mask;
-        if (memory->table[slot]) {
+        /* One whose region is closed gives up its place: regions do not open again. */
+        if (memory->table[slot] && memory->flag[memory->region[memory->table[slot]]]) {
             *i = (struct ir_instruction){.op = IR_copy,
                                          .type = i->type,
                                          .operand = {memory->table[slot]},

@@ -6,14 +6,14 @@
 #include "jit/allocate.h"
 #include "jit/encode.h"
 
-#include <assert.h>
-
+/* Like the arrays of the IR, large but untouched: a routine of IR_CAPACITY instructions of ordinary length
+ * fits. */
 enum {
-    CODE_CAPACITY = 256 * 1024, /* bytes of one routine, constants included */
-    LABEL_CAPACITY = 2048,
-    FIXUP_CAPACITY = 8192,
-    LITERAL_CAPACITY = 512,
-    REGION_CAPACITY = LABEL_CAPACITY / 2,
+    CODE_CAPACITY = 4 << 20, /* bytes of one routine, constants included */
+    FIXUP_CAPACITY = 2 * IR_CAPACITY,
+    LITERAL_CAPACITY = 8192,
+    LITERAL_TABLE = 2 * LITERAL_CAPACITY, /* a power of two */
+    REGION_CAPACITY = 16384,
     REGION_DEPTH = 64
 };
 
@@ -21,10 +21,9 @@ enum {
 enum { FRAME_SAVED_MXCSR = 0, FRAME_CONTRACT_MXCSR = 4, FRAME_LANES = 32, FRAME_HEAD = 64 };
 
 /* Labels of the frame; regions and literals follow. */
-enum frame_label { LABEL_LOOP, LABEL_CHUNK, LABEL_SKIP, LABEL_DONE, LABEL_FREE };
+enum frame_label { LABEL_LOOP, LABEL_CHUNK, LABEL_SKIP, LABEL_DONE, LABEL_PAGE, LABEL_FREE };
 
-static_assert((int)LABEL_FREE + (int)LITERAL_CAPACITY + (int)REGION_CAPACITY <= (int)LABEL_CAPACITY,
-              "a label for each");
+enum { LABEL_CAPACITY = LABEL_FREE + LITERAL_CAPACITY + REGION_CAPACITY };
 
 /* Where an instruction's code begins. */
 struct code_line {
@@ -41,7 +40,6 @@ struct emitter {
     unsigned width;    /* lanes: 4 or 8 */
     uint32_t position; /* of the IR instruction being selected */
     uint32_t selected; /* instructions before this one are: a group may be selected together */
-    uint32_t next_label;
     uint32_t literals;
     uint32_t regions;
     const char *exceeded; /* what there are too many of, and how many there may be; null */
@@ -52,6 +50,8 @@ struct emitter {
     int32_t frame_slots;
     int32_t literal_bits[LITERAL_CAPACITY];
     uint32_t literal_label[LITERAL_CAPACITY];
+    uint16_t
+        literal_table[LITERAL_TABLE]; /* by hash: 1 + the literal's number, 0: none; all 0 between builds */
     uint32_t region_label[REGION_DEPTH];
     uint32_t region_depth;
     struct code_line line[IR_CAPACITY + 64];

@@ -648,6 +648,12 @@ void encoder_start(struct encoder *encoder, void *code, size_t bytes, int32_t *l
         labels[label] = LABEL_UNBOUND;
 }
 
+uint32_t encoder_add_label(struct encoder *encoder)
+{
+    encoder->labels[encoder->label_count] = LABEL_UNBOUND;
+    return encoder->label_count++;
+}
+
 int encoder_finish(struct encoder *encoder, struct error *error)
 {
     if (encoder->failure == ENCODER_OUT_OF_CODE)

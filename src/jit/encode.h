@@ -169,6 +169,9 @@ static inline struct address address_label(uint32_t label, int32_t displacement)
 void encoder_start(struct encoder *encoder, void *code, size_t bytes, int32_t *labels, uint32_t label_count,
                    struct fixup *fixups, uint32_t fixup_capacity);
 
+/* A label more, unbound: its number is the label_count there was. The caller's array must have room. */
+uint32_t encoder_add_label(struct encoder *encoder);
+
 /* Patches all forward references. Returns 0, or -1 with the reason; `failure` then tells which. */
 int encoder_finish(struct encoder *encoder, struct error *error);
 

@@ -38,20 +38,37 @@ void note_line(struct emitter *m, uint32_t instruction)
         m->line[m->lines++] = (struct code_line){(uint32_t)encoder_size(&m->encoder), (uint16_t)instruction};
 }
 
+static uint32_t literal_slot(int32_t bits)
+{
+    return ((uint32_t)bits * 0x9e3779b1u) >> (32 - __builtin_ctz(LITERAL_TABLE));
+}
+
 struct address literal_address(struct emitter *m, int32_t bits)
 {
-    uint32_t i = 0;
-    while (i < m->literals && m->literal_bits[i] != bits)
-        i++;
-    if (i == LITERAL_CAPACITY) {
+    uint32_t slot = literal_slot(bits), i;
+    while ((i = m->literal_table[slot]) && m->literal_bits[i - 1] != bits)
+        slot = (slot + 1) % LITERAL_TABLE;
+    if (i)
+        return address_label(m->literal_label[i - 1], 0);
+    if (m->literals == LITERAL_CAPACITY) {
         note_exceeded(m, "literals", LITERAL_CAPACITY);
-        i = 0;
-    } else if (i == m->literals) {
-        m->literal_bits[i] = bits;
-        m->literal_label[i] = m->next_label++;
-        m->literals++;
+        return address_label(m->literal_label[0], 0);
     }
-    return address_label(m->literal_label[i], 0);
+    m->literal_bits[m->literals] = bits;
+    m->literal_label[m->literals] = encoder_add_label(&m->encoder);
+    m->literal_table[slot] = (uint16_t)++m->literals;
+    return address_label(m->encoder.label_count - 1, 0);
+}
+
+/* In the order opposite to entering: each is found before what it was put behind is gone. */
+static void forget_literals(struct emitter *m)
+{
+    for (uint32_t i = m->literals; i > 0; i--) {
+        uint32_t slot = literal_slot(m->literal_bits[i - 1]);
+        while (m->literal_table[slot] != i)
+            slot = (slot + 1) % LITERAL_TABLE;
+        m->literal_table[slot] = 0;
+    }
 }
 
 static void load(struct emitter *m, enum gpr to, size_t field)
@@ -70,12 +87,37 @@ static void broadcast_constants(struct emitter *m)
     }
 }
 
+enum { PAGE = 4096, UNROLLED_PAGES = 16 };
+
 /* Touches every page of the frame from above: a stack grows by its guard page only. */
 static void probe_stack(struct emitter *m, int32_t bytes)
 {
-    enum { PAGE = 4096 };
     for (int32_t page = PAGE; page < bytes; page += PAGE)
         gpr_mi(&m->encoder, X86_mov, X86_32, address_at(X86_RSP, -page), 0);
+}
+
+/* The same in a loop, which leaves rsp where the frame ends: a system may refuse to grow the stack for an
+ * access far below it. */
+static void descend_stack(struct emitter *m, int32_t bytes)
+{
+    struct encoder *e = &m->encoder;
+    gpr_rm(e, X86_lea, X86_64, X86_RAX, address_at(X86_RSP, -bytes));
+    encode_label(e, LABEL_PAGE);
+    gpr_ri(e, X86_sub, X86_64, X86_RSP, PAGE);
+    gpr_mi(e, X86_mov, X86_32, address_at(X86_RSP, 0), 0);
+    gpr_rr(e, X86_cmp, X86_64, X86_RSP, X86_RAX);
+    encode_jump_if(e, X86_IF_nbe, LABEL_PAGE);
+    gpr_rr(e, X86_mov, X86_64, X86_RSP, X86_RAX);
+}
+
+static void reserve_frame(struct emitter *m, int32_t bytes)
+{
+    if (bytes > UNROLLED_PAGES * PAGE) {
+        descend_stack(m, bytes);
+        return;
+    }
+    probe_stack(m, bytes);
+    gpr_ri(&m->encoder, X86_sub, X86_64, X86_RSP, bytes);
 }
 
 static void prologue(struct emitter *m, size_t job_field)
@@ -89,8 +131,7 @@ static void prologue(struct emitter *m, size_t job_field)
     gpr_r(e, X86_push, X86_64, AHEAD);
     gpr_r(e, X86_push, X86_64, X86_R12);
     gpr_r(e, X86_push, X86_64, X86_R13);
-    probe_stack(m, bytes);
-    gpr_ri(e, X86_sub, X86_64, X86_RSP, bytes);
+    reserve_frame(m, bytes);
     gpr_ri(e, X86_and, X86_64, X86_RSP, -64);
     vector_m(e, X86_vstmxcsr, address_at(X86_RSP, FRAME_SAVED_MXCSR));
     gpr_mi(e, X86_mov, X86_32, address_at(X86_RSP, FRAME_CONTRACT_MXCSR), MXCSR_CONTRACT);
@@ -222,8 +263,7 @@ static size_t job_field(enum unit unit)
 
 size_t emit_routine(struct emitter *m, enum unit unit, const union key *key, struct error *error)
 {
-    encoder_start(&m->encoder, m->code, sizeof m->code, m->labels, LABEL_CAPACITY, m->fixups, FIXUP_CAPACITY);
-    m->next_label = LABEL_FREE;
+    encoder_start(&m->encoder, m->code, sizeof m->code, m->labels, LABEL_FREE, m->fixups, FIXUP_CAPACITY);
     m->literals = m->lines = m->regions = m->region_depth = 0;
     m->exceeded = NULL;
     note_line(m, 0);
@@ -237,6 +277,7 @@ size_t emit_routine(struct emitter *m, enum unit unit, const union key *key, str
     m->code_bytes = (uint32_t)encoder_size(&m->encoder);
     encode_align(&m->encoder, 64);
     constant_pool(m);
+    forget_literals(m);
     if (m->exceeded) {
         error_set(error, "the %s routine has too many %s, expected at most %d", unit_name[unit], m->exceeded,
                   m->exceeded_limit);

@@ -114,8 +114,8 @@ static const char *verify_operands(const struct ir *ir, uint32_t number, const s
 
 const char *ir_verify(const struct ir *ir)
 {
-    static _Thread_local struct walk walk;
-    static _Thread_local char text[128];
+    static struct walk walk;
+    static char text[128];
     walk.open[0] = 1;
     walk.current = 0;
     for (uint32_t number = 1; number < ir->count; number++) {

@@ -77,7 +77,9 @@ struct ir_instruction {
     int32_t field;
 };
 
-enum { IR_CAPACITY = 8192, IR_FILES = 32, IR_CONSTANTS = 256 };
+/* Numbers are 16 bits wide, and 0xffff is none. The arrays of a build are this long, which costs address
+ * space: only what a routine uses of them is ever touched. */
+enum { IR_CAPACITY = 65535, IR_FILES = 64, IR_CONSTANTS = 512 };
 
 /* A hoisted word: broadcast from base + offset before the loop. */
 struct ir_constant {
@@ -108,7 +110,7 @@ int ir_is_invariant_read(const struct ir_instruction *instruction);
 void ir_compact(struct ir *ir, uint16_t *map);
 
 /* Checks that operands are defined before use, in an open region, of the right type, and that regions nest.
- * Returns null, or one line that says what is wrong (static storage, per thread). */
+ * Returns null, or one line that says what is wrong (static storage: for one thread at a time). */
 const char *ir_verify(const struct ir *ir);
 
 /* One line a instruction: number, type, operation, operands, spec line. */

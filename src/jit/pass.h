@@ -26,13 +26,15 @@ struct range {
     uint8_t denormal; /* a flt whose bits may be a denormal's */
 };
 
+enum { PASS_TABLE = 2 * (IR_CAPACITY + 1) }; /* a power of two */
+
 /* Scratch memory of the passes, one per build. */
 struct pass_memory {
     struct range range[IR_CAPACITY];
     uint16_t map[IR_CAPACITY];
     uint16_t region[IR_CAPACITY];
     uint8_t flag[IR_CAPACITY];
-    uint16_t table[2 * IR_CAPACITY];
+    uint16_t table[PASS_TABLE];
 };
 
 typedef unsigned pass_function(struct ir *ir, struct pass_memory *memory);

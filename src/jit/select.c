@@ -326,7 +326,7 @@ static void select_when(struct emitter *m, const struct ir_instruction *i)
         note_exceeded(m, "regions", REGION_CAPACITY);
         return;
     }
-    uint32_t label = m->next_label++;
+    uint32_t label = encoder_add_label(&m->encoder);
     m->region_label[m->region_depth++] = label;
     vector_rr(&m->encoder, X86_vtestps, m->length, test, test);
     encode_jump_if(&m->encoder, X86_IF_z, label);

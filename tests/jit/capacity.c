@@ -141,7 +141,7 @@ static void test_regions_too_deep_are_refused(void)
 static void test_too_many_regions_are_refused(void)
 {
     uint16_t value = load(0), mask = binary(IR_gt_i, value, load(1));
-    for (int i = 0; i < LABEL_CAPACITY; i++) {
+    for (int i = 0; i <= REGION_CAPACITY; i++) {
         ir_append(&builder->ir, (struct ir_instruction){.op = IR_when, .operand = {mask}});
         store(value);
         ir_append(&builder->ir, (struct ir_instruction){.op = IR_end});
