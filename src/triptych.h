@@ -356,10 +356,11 @@ TRIPTYCH_API unsigned triptych_table_size(enum triptych_state_table);
 TRIPTYCH_API const struct triptych_state_row *triptych_state_at(enum triptych_state_table, unsigned row);
 TRIPTYCH_API uint32_t triptych_state_default(enum triptych_state_table, unsigned row, unsigned i);
 
-/* Kinds, and the values of a kind with words, null past the last; a number's word (null if none); a word's
- * number (returns nonzero if none). */
+/* Kinds, and the values of a kind with words, null past the last; the value with a number and its word (null
+ * if there is none); a word's number (returns nonzero if there is none). */
 TRIPTYCH_API const struct triptych_kind *triptych_kind_at(unsigned i);
 TRIPTYCH_API const struct triptych_value *triptych_value_at(const struct triptych_kind *, unsigned i);
+TRIPTYCH_API const struct triptych_value *triptych_value_find(const struct triptych_kind *, uint32_t number);
 TRIPTYCH_API const char *triptych_value_word(const struct triptych_kind *, uint32_t number);
 TRIPTYCH_API int triptych_value_number(const struct triptych_kind *, const char *word, uint32_t *number);
 

@@ -53,7 +53,7 @@ static int within(double low, double value, double high)
 static int exists(const struct triptych_kind *kind, uint32_t value)
 {
     if (kind->notation == TRIPTYCH_NOTATION_WORDS)
-        return triptych_value_word(kind, value) != NULL;
+        return triptych_value_find(kind, value) != NULL;
     int is_real = kind->notation == TRIPTYCH_NOTATION_REAL;
     return within(kind->first, is_real ? (double)real(value) : value, kind->last);
 }
@@ -61,25 +61,19 @@ static int exists(const struct triptych_kind *kind, uint32_t value)
 /* Of values that exist; the default needs nothing to work. */
 static int is_supported(const struct place *place, uint32_t value)
 {
-    const struct triptych_value *v;
     if (value == triptych_state_default(place->table, place->row, place->i))
         return 1;
     if (place->state->support != TRIPTYCH_SUPPORT_YES || place->i >= working[place->table])
         return 0;
-    for (unsigned i = 0; (v = triptych_value_at(place->state->kind, i)); i++)
-        if (v->number == value)
-            return v->support == TRIPTYCH_SUPPORT_YES;
-    return 1;
+    const struct triptych_value *row = triptych_value_find(place->state->kind, value);
+    return !row || row->support == TRIPTYCH_SUPPORT_YES;
 }
 
 /* Whether it is of no use to wait for the value. */
 static int is_never(const struct place *place, uint32_t value)
 {
-    const struct triptych_value *v;
-    for (unsigned i = 0; (v = triptych_value_at(place->state->kind, i)); i++)
-        if (v->number == value)
-            return v->support == TRIPTYCH_SUPPORT_NEVER || place->state->support == TRIPTYCH_SUPPORT_NEVER;
-    return place->state->support == TRIPTYCH_SUPPORT_NEVER;
+    const struct triptych_value *row = triptych_value_find(place->state->kind, value);
+    return place->state->support == TRIPTYCH_SUPPORT_NEVER || (row && row->support == TRIPTYCH_SUPPORT_NEVER);
 }
 
 /* What the state can be set to: "none (1), cw (2)", "0 to 15"; cut after as many words as fit. */

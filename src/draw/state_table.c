@@ -134,12 +134,18 @@ const struct triptych_value *triptych_value_at(const struct triptych_kind *kind,
     return i < VALUE_COUNT - first && values[first + i].kind == kind ? &values[first + i] : NULL;
 }
 
-const char *triptych_value_word(const struct triptych_kind *kind, uint32_t number)
+const struct triptych_value *triptych_value_find(const struct triptych_kind *kind, uint32_t number)
 {
     for (unsigned i = 0; i < VALUE_COUNT; i++)
         if (values[i].kind == kind && values[i].number == number)
-            return values[i].word;
+            return &values[i];
     return NULL;
+}
+
+const char *triptych_value_word(const struct triptych_kind *kind, uint32_t number)
+{
+    const struct triptych_value *value = triptych_value_find(kind, number);
+    return value ? value->word : NULL;
 }
 
 int triptych_value_number(const struct triptych_kind *kind, const char *word, uint32_t *number)

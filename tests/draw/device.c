@@ -730,6 +730,25 @@ static void draws_without_effect_build_nothing(void)
     TEST_ASSERT_EQUAL_UINT32(0, count_color(RED));
 }
 
+static void states_are_set_by_table(void)
+{
+    OK(triptych_set_sampler_state(device, 0, TRIPTYCH_SAMPLER_addressv, 3));
+    OK(triptych_set_stage_state(device, 0, TRIPTYCH_STAGE_colorop, 7));
+    OK(triptych_set_state(device, TRIPTYCH_STATE_fogend, triptych_float_bits(1)));
+    TEST_ASSERT_EQUAL_UINT32(3, device->state.sampler[0][TRIPTYCH_SAMPLER_addressv]);
+    TEST_ASSERT_EQUAL_UINT32(7, device->state.stage[0][TRIPTYCH_STAGE_colorop]);
+    expect_refused(TRIPTYCH_BAD_ARGUMENT, triptych_set_sampler_state(device, 0, TRIPTYCH_SAMPLER_addressv, 6),
+                   "sampler 0 addressv: value 6 does not exist, expected wrap (1), mirror (2), clamp (3), "
+                   "border (4), mirroronce (5)");
+    expect_refused(TRIPTYCH_BAD_ARGUMENT, triptych_set_stage_state(device, 8, TRIPTYCH_STAGE_colorop, 1),
+                   "stage 8: expected 0 to 7");
+    TEST_ASSERT_EQUAL_INT(TRIPTYCH_BAD_ARGUMENT,
+                          triptych_set_sampler_state(NULL, 0, TRIPTYCH_SAMPLER_addressv, 3));
+    TEST_ASSERT_EQUAL_INT(TRIPTYCH_BAD_ARGUMENT,
+                          triptych_set_stage_state(NULL, 0, TRIPTYCH_STAGE_colorop, 1));
+    TEST_ASSERT_EQUAL_UINT32(3, device->state.sampler[0][TRIPTYCH_SAMPLER_addressv]);
+}
+
 int main(void)
 {
     UNITY_BEGIN();
@@ -766,5 +785,6 @@ int main(void)
     RUN_TEST(tools_hear_of_each_draw_and_its_keys);
     RUN_TEST(routines_report_their_identity);
     RUN_TEST(draws_without_effect_build_nothing);
+    RUN_TEST(states_are_set_by_table);
     return UNITY_END();
 }
