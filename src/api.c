@@ -315,6 +315,44 @@ enum triptych_result triptych_set_element(triptych_device *device, enum triptych
     return changed(device, state_set_element(&device->state, attribute, element, &error), &error);
 }
 
+enum triptych_result triptych_set_declaration(triptych_device *device,
+                                              const struct triptych_declaration_element *elements,
+                                              unsigned count)
+{
+    if (!device)
+        return TRIPTYCH_BAD_ARGUMENT;
+    if (!elements && count)
+        return null_argument(device, "elements");
+    struct error error = {{0}};
+    return changed(device, state_set_declaration(&device->state, elements, count, &error), &error);
+}
+
+enum triptych_result triptych_set_fvf(triptych_device *device, uint32_t fvf)
+{
+    if (!device)
+        return TRIPTYCH_BAD_ARGUMENT;
+    struct error error = {{0}};
+    return changed(device, state_set_fvf(&device->state, fvf, &error), &error);
+}
+
+enum triptych_result triptych_set_stream(triptych_device *device, unsigned stream, triptych_buffer *buffer,
+                                         size_t offset, size_t stride)
+{
+    if (!device)
+        return TRIPTYCH_BAD_ARGUMENT;
+    struct error error = {{0}};
+    return changed(device, state_set_stream(&device->state, stream, buffer, offset, stride, &error), &error);
+}
+
+enum triptych_result triptych_set_stream_frequency(triptych_device *device, unsigned stream,
+                                                   enum triptych_frequency frequency, uint32_t count)
+{
+    if (!device)
+        return TRIPTYCH_BAD_ARGUMENT;
+    struct error error = {{0}};
+    return changed(device, state_set_frequency(&device->state, stream, frequency, count, &error), &error);
+}
+
 enum triptych_result triptych_set_indices(triptych_device *device, triptych_buffer *buffer, unsigned bits)
 {
     if (!device)

@@ -79,22 +79,48 @@ enum triptych_transform {
     TRIPTYCH_TRANSFORM_COUNT
 };
 
+/* What the fixed-function pipeline reads of a vertex. */
 enum triptych_attribute {
-    TRIPTYCH_POSITION, /* FLOAT1 to FLOAT4 */
-    TRIPTYCH_NORMAL,   /* FLOAT1 to FLOAT4 */
-    TRIPTYCH_DIFFUSE,  /* any format */
-    TRIPTYCH_TEXCOORD, /* FLOAT1 to FLOAT4 */
+#define ATTRIBUTE(name, word, usage, index, meaning) TRIPTYCH_##name,
+#include "def/attribute.def"
+#undef ATTRIBUTE
     TRIPTYCH_ATTRIBUTE_COUNT
 };
 
+/* How an attribute lies in memory: Direct3D 9's D3DDECLTYPE, plus 1. */
 enum triptych_format {
     TRIPTYCH_FORMAT_NONE, /* attribute not given */
-    TRIPTYCH_FORMAT_FLOAT1,
-    TRIPTYCH_FORMAT_FLOAT2,
-    TRIPTYCH_FORMAT_FLOAT3,
-    TRIPTYCH_FORMAT_FLOAT4,
-    TRIPTYCH_FORMAT_COLOR, /* packed 0xAARRGGBB */
+#define VERTEX_TYPE(name, word, components, encoding, bits, divisor, meaning) TRIPTYCH_FORMAT_##name,
+#include "def/vertex_type.def"
+#undef VERTEX_TYPE
     TRIPTYCH_FORMAT_COUNT
+};
+
+/* Direct3D 9's D3DDECLUSAGE. */
+enum triptych_usage {
+    TRIPTYCH_USAGE_POSITION,
+    TRIPTYCH_USAGE_BLENDWEIGHT,
+    TRIPTYCH_USAGE_BLENDINDICES,
+    TRIPTYCH_USAGE_NORMAL,
+    TRIPTYCH_USAGE_PSIZE,
+    TRIPTYCH_USAGE_TEXCOORD,
+    TRIPTYCH_USAGE_TANGENT,
+    TRIPTYCH_USAGE_BINORMAL,
+    TRIPTYCH_USAGE_TESSFACTOR,
+    TRIPTYCH_USAGE_POSITIONT,
+    TRIPTYCH_USAGE_COLOR,
+    TRIPTYCH_USAGE_FOG,
+    TRIPTYCH_USAGE_DEPTH,
+    TRIPTYCH_USAGE_SAMPLE,
+    TRIPTYCH_USAGE_COUNT
+};
+
+/* How indexed draws step through a stream (Direct3D 9's stream frequency). */
+enum triptych_frequency {
+    TRIPTYCH_FREQUENCY_VERTEX,   /* with the vertex */
+    TRIPTYCH_FREQUENCY_INDEXED,  /* with the vertex; stream 0: everything is drawn `count` times */
+    TRIPTYCH_FREQUENCY_INSTANCE, /* with the instance: the next vertex after each `count` instances */
+    TRIPTYCH_FREQUENCY_COUNT
 };
 
 /* Formats of textures and targets, by Direct3D 9's numbers; def/format.def says what each is. */
@@ -132,6 +158,7 @@ enum {
     TRIPTYCH_TEXTURE_MAXIMUM = 8192,
     TRIPTYCH_VOLUME_MAXIMUM = 2048
 };
+enum { TRIPTYCH_STREAMS = 16, TRIPTYCH_DECLARATION_ELEMENTS = 64, TRIPTYCH_USAGE_INDICES = 16 };
 
 struct triptych_options {
     const char *engine; /* name as listed by triptych_engine_name(); null: "specialize" */
@@ -139,7 +166,16 @@ struct triptych_options {
     size_t cache_bytes; /* budget of the routine cache's code; 0: 16 MiB */
 };
 
-/* Where an attribute lies within a vertex of its buffer. */
+/* One element of a vertex declaration. */
+struct triptych_declaration_element {
+    unsigned stream; /* 0 to 15 */
+    size_t offset;   /* bytes from the vertex's start in its stream, a multiple of 4, at most 65532 */
+    enum triptych_format format;
+    enum triptych_usage usage;
+    unsigned usage_index; /* 0 to 15 */
+};
+
+/* An attribute in a place of its own: where it lies within a vertex of its buffer. */
 struct triptych_element {
     enum triptych_format format;
     triptych_buffer *buffer; /* null with FORMAT_NONE */
@@ -320,6 +356,21 @@ TRIPTYCH_API enum triptych_result triptych_set_light(triptych_device *, unsigned
 TRIPTYCH_API enum triptych_result triptych_enable_light(triptych_device *, unsigned index, int enable);
 /* Null unbinds: stage 0 then passes the diffuse colour. */
 TRIPTYCH_API enum triptych_result triptych_set_texture(triptych_device *, triptych_texture *);
+
+/* Says where in its stream each attribute lies: count (0 to 64) elements, none of them twice the same usage and index.
+ * Attributes that it does not mention are not given. A vertex with POSITIONT is drawn where it says. */
+TRIPTYCH_API enum triptych_result
+triptych_set_declaration(triptych_device *, const struct triptych_declaration_element *elements, unsigned count);
+/* Sets the declaration that a code of Direct3D 9's D3DFVF values means: all of it in stream 0. */
+TRIPTYCH_API enum triptych_result triptych_set_fvf(triptych_device *, uint32_t fvf);
+/* Stream 0 to 15: vertices of `stride` bytes (0 to 65536; 0: all the same) from `offset` on, multiples of 4. Null
+ * unbinds. */
+TRIPTYCH_API enum triptych_result triptych_set_stream(triptych_device *, unsigned stream, triptych_buffer *,
+                                                      size_t offset, size_t stride);
+/* count is 1 with FREQUENCY_VERTEX, else 1 to 2^30 - 1. Stream 0 cannot have FREQUENCY_INSTANCE. */
+TRIPTYCH_API enum triptych_result triptych_set_stream_frequency(triptych_device *, unsigned stream,
+                                                                enum triptych_frequency, uint32_t count);
+/* Declares one attribute and gives it a stream that no other has. */
 TRIPTYCH_API enum triptych_result triptych_set_element(triptych_device *, enum triptych_attribute,
                                                        const struct triptych_element *);
 /* bits is 16 or 32; null unbinds. */

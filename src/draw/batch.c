@@ -173,6 +173,7 @@ static bool end_batch(struct batch *batch)
     struct clipper clipper =
         clipper_create(&batch->draw->job, batch->draw->routine[UNIT_SETUP]->key.setup.varying,
                        batch->vertices, batch->vertices_count);
+    clipper.window = batch->draw->routine[UNIT_SETUP]->key.setup.window;
     batch->setup_count = 0;
     for (uint32_t i = 0; i < batch->triangles_count; i++)
         if (!add_triangle(batch, &clipper, batch->lane[i], batch->first + i))

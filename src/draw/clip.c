@@ -79,10 +79,16 @@ static uint32_t needed_code(const struct clipper *c, uint32_t lane)
     return code & CLIP_NEEDED;
 }
 
-/* Positive inside, negative outside. */
+/* What the guard band is multiplied by: in the window it is a number of pixels. */
+static float guard_scale(const struct clipper *c, const float slot[SLOT_COUNT])
+{
+    return c->window ? 1 : slot[SLOT_W];
+}
+
+/* Positive inside, negative outside. In the window only the guard band's planes are asked for. */
 static double distance(const struct clipper *c, enum clip_plane plane, const struct point *p)
 {
-    double x = p->slot[SLOT_X], y = p->slot[SLOT_Y], z = p->slot[SLOT_Z], w = p->slot[SLOT_W];
+    double x = p->slot[SLOT_X], y = p->slot[SLOT_Y], z = p->slot[SLOT_Z], w = guard_scale(c, p->slot);
     switch (plane) {
     case EYE: return w - CLIP_EYE_W;
     case NEAR: return z;
@@ -104,14 +110,15 @@ static float guard_limit(float guard, float w)
 
 static void put_on_plane(const struct clipper *c, enum clip_plane plane, float slot[SLOT_COUNT])
 {
+    float w = guard_scale(c, slot);
     switch (plane) {
     case EYE: slot[SLOT_W] = CLIP_EYE_W; break;
     case NEAR: slot[SLOT_Z] = 0; break;
     case FAR: slot[SLOT_Z] = slot[SLOT_W]; break;
-    case GUARD_LEFT: slot[SLOT_X] = -guard_limit(c->guard_x, slot[SLOT_W]); break;
-    case GUARD_RIGHT: slot[SLOT_X] = guard_limit(c->guard_x, slot[SLOT_W]); break;
-    case GUARD_BOTTOM: slot[SLOT_Y] = -guard_limit(c->guard_y, slot[SLOT_W]); break;
-    case GUARD_TOP: slot[SLOT_Y] = guard_limit(c->guard_y, slot[SLOT_W]); break;
+    case GUARD_LEFT: slot[SLOT_X] = -guard_limit(c->guard_x, w); break;
+    case GUARD_RIGHT: slot[SLOT_X] = guard_limit(c->guard_x, w); break;
+    case GUARD_BOTTOM: slot[SLOT_Y] = -guard_limit(c->guard_y, w); break;
+    case GUARD_TOP: slot[SLOT_Y] = guard_limit(c->guard_y, w); break;
     }
 }
 
@@ -124,6 +131,16 @@ static uint32_t remaining_code(const struct clipper *c, enum clip_plane plane, u
         if ((edge_code & plane_bit[i]) && distance(c, i, p) < 0)
             code |= plane_bit[i];
     return code;
+}
+
+/* From position to what lies behind it: in the window not a varying but its product with 1/w is linear. */
+static void divide_weights(const struct point *in, const struct point *out, float reciprocal_w,
+                           double *weight_in, double *weight_out)
+{
+    if (reciprocal_w == 0)
+        return;
+    *weight_in *= (double)in->slot[SLOT_W] / (double)reciprocal_w;
+    *weight_out *= (double)out->slot[SLOT_W] / (double)reciprocal_w;
 }
 
 static struct point cross(const struct clipper *c, enum clip_plane plane, const struct point *in,
@@ -140,6 +157,8 @@ static struct point cross(const struct clipper *c, enum clip_plane plane, const 
     for (uint32_t slots = c->smooth; slots; slots &= slots - 1) {
         int s = __builtin_ctz(slots);
         p.slot[s] = (float)(in->slot[s] * weight_in + out->slot[s] * weight_out);
+        if (c->window && s == SLOT_W)
+            divide_weights(in, out, p.slot[SLOT_W], &weight_in, &weight_out);
     }
     put_on_plane(c, plane, p.slot);
     p.code = remaining_code(c, plane, in->code | out->code, &p);

@@ -21,11 +21,12 @@ struct clipper {
     uint32_t flat;   /* bit s: slot s is copied from the triangle's vertex 0 */
     float guard_x;   /* of the job */
     float guard_y;
+    int window; /* vertices are in the window: x, y, depth, 1/w */
 };
 
 /* A clipper for the batch of one draw. `varying` holds an enum interpolation for each varying: those of the
  * setup key. Position and clip code are always written; slots of varyings that are INTERPOLATION_NONE never.
- */
+ * The caller sets `window` from the same key. */
 struct clipper clipper_create(const struct job *job, const uint8_t varying[VARYING_COUNT], float *vertices,
                               uint32_t next);
 

@@ -15,6 +15,7 @@ _Static_assert((int)TARGET_SIZE_MAXIMUM == (int)TRIPTYCH_TARGET_MAXIMUM, "one li
 void derive_setup(const struct state *state, const struct pixel_key *pixel, struct setup_key *key)
 {
     key->cull = (uint8_t)(GET(cullmode) - CULLMODE_none);
+    key->window = state->element[ATTRIBUTE_POSITIONT].format != TRIPTYCH_FORMAT_NONE;
     key->depth = pixel->depth_function != COMPARE_ALWAYS || pixel->depth_write;
     memcpy(key->varying, pixel->varying, sizeof key->varying);
 }

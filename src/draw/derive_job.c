@@ -145,6 +145,13 @@ static void fill_viewport(const struct triptych_viewport *viewport, struct job *
     job->depth_offset = viewport->depth_near;
 }
 
+/* Vertices in the window: only the grid of 1/256 pixel is left to find, and depth is as it is. */
+static void fill_window(struct job *job)
+{
+    job->guard_x = job->guard_y = (float)GUARD_BAND_PIXELS;
+    job->scale_x = job->scale_y = 1 << SUBPIXEL_BITS;
+}
+
 /* 0xAARRGGBB with red and blue exchanged. */
 static uint32_t rgba_word(uint32_t color)
 {
@@ -169,9 +176,12 @@ static void fill_attributes(const struct state *state, const struct vertex_key *
 {
     for (int i = 0; i < ATTRIBUTE_COUNT; i++)
         if (key->attribute[i] != ATTRIBUTE_FORMAT_NONE) {
-            const struct triptych_element *element = state->element + i;
-            job->attribute[i].data = element->buffer->data + element->offset;
-            job->attribute[i].stride = (int32_t)element->stride;
+            const struct state_stream *stream = state_stream_of(state, i);
+            if (!stream->buffer)
+                continue;
+            job->attribute[i].data = stream->buffer->data + stream->offset + state->element[i].offset;
+            if (stream->frequency != TRIPTYCH_FREQUENCY_INSTANCE)
+                job->attribute[i].stride = (int32_t)stream->stride;
         }
 }
 
@@ -191,7 +201,10 @@ __attribute__((noinline)) static void fill_job(const struct state *state, const 
         store_normal_matrix(&world_view, job->normal);
         fill_lighting(state, &view, job);
     }
-    fill_viewport(&state->viewport, job);
+    if (vertex->attribute[ATTRIBUTE_POSITIONT] != ATTRIBUTE_FORMAT_NONE)
+        fill_window(job);
+    else
+        fill_viewport(&state->viewport, job);
     if (pixel->texture)
         fill_texture(state, pixel, &job->texture);
     if (stage_reads(pixel, SOURCE_FACTOR))

@@ -6,7 +6,8 @@ static uint8_t derive_format(const struct state *state, enum attribute attribute
 {
     int format = (int)state->element[attribute].format;
     int last = ATTRIBUTE_FORMAT_FLOAT1 + components - 1;
-    return (uint8_t)(format != ATTRIBUTE_FORMAT_COLOR && format > last ? last : format);
+    int floats = vertex_types[format].encoding == ENCODING_FLOAT;
+    return (uint8_t)(floats && format > last ? last : format);
 }
 
 /* Without lights nobody reads the normal. Without a normal it is zero, of length one or not: a cosine of a
@@ -28,10 +29,12 @@ void derive_vertex(const struct state *state, const struct pixel_key *pixel, str
 {
     for (int v = 0; v < VARYING_COUNT; v++)
         key->varying[v] = pixel->varying[v] != INTERPOLATION_NONE;
-    key->attribute[ATTRIBUTE_POSITION] = derive_format(state, ATTRIBUTE_POSITION, 4);
+    int window = state->element[ATTRIBUTE_POSITIONT].format != TRIPTYCH_FORMAT_NONE;
+    enum attribute position = window ? ATTRIBUTE_POSITIONT : ATTRIBUTE_POSITION;
+    key->attribute[position] = derive_format(state, position, 4);
     if (key->varying[VARYING_texcoord])
         key->attribute[ATTRIBUTE_TEXCOORD] = derive_format(state, ATTRIBUTE_TEXCOORD, 2);
-    if (key->varying[VARYING_diffuse] && GET(lighting))
+    if (key->varying[VARYING_diffuse] && GET(lighting) && !window)
         derive_lighting(state, key);
     else if (key->varying[VARYING_diffuse])
         key->attribute[ATTRIBUTE_DIFFUSE] = derive_format(state, ATTRIBUTE_DIFFUSE, 4);

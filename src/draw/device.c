@@ -178,22 +178,47 @@ static uint64_t corner_count(enum triptych_primitive primitive, uint32_t count)
     return primitive == TRIPTYCH_TRIANGLE_LIST ? 3 * (uint64_t)count : (uint64_t)count + 2;
 }
 
-/* Whether vertex `last` of each attribute that the vertex routine reads lies in its buffer. */
+/* Whether vertex `last` of an attribute lies in its buffer. */
+static enum triptych_result check_attribute(const struct state *state, enum attribute attribute,
+                                            uint64_t last, struct error *error)
+{
+    const struct state_element *element = state->element + attribute;
+    const struct state_stream *stream = state_stream_of(state, (enum triptych_attribute)attribute);
+    const char *name = attribute_name[attribute];
+    if (!stream->buffer) {
+        error_set(error, "%s: no buffer in stream %u, expected set_stream first", name, element->stream);
+        return TRIPTYCH_BAD_CALL;
+    }
+    size_t begin = stream->offset + element->offset, bytes = vertex_types[element->format].bytes;
+    if (begin + bytes > stream->buffer->bytes) {
+        error_set(error, "%s: lies at byte %zu past its buffer of %zu bytes", name, begin,
+                  stream->buffer->bytes);
+        return TRIPTYCH_BAD_CALL;
+    }
+    uint64_t most = state_last_vertex(state, (enum triptych_attribute)attribute);
+    if (last > most) {
+        error_set(error, "vertex %" PRIu64 ": %s lies past its buffer, which ends with vertex %" PRIu64, last,
+                  name, most);
+        return TRIPTYCH_BAD_CALL;
+    }
+    return TRIPTYCH_OK;
+}
+
+/* The same of each attribute that the vertex routine reads; those by instance have as many as are needed. */
 static enum triptych_result check_vertices(const struct triptych_device *device, uint64_t last,
                                            struct error *error)
 {
-    for (int i = 0; i < ATTRIBUTE_COUNT; i++) {
-        const struct triptych_element *element = device->state.element + i;
-        if (device->key[UNIT_VERTEX].vertex.attribute[i] == ATTRIBUTE_FORMAT_NONE || !element->stride)
+    const struct state *state = &device->state;
+    enum triptych_result result = TRIPTYCH_OK;
+    for (int i = 0; i < ATTRIBUTE_COUNT && result == TRIPTYCH_OK; i++) {
+        const struct state_stream *stream = state_stream_of(state, i);
+        if (device->key[UNIT_VERTEX].vertex.attribute[i] == ATTRIBUTE_FORMAT_NONE)
             continue;
-        uint64_t room = element->buffer->bytes - element->offset - format_bytes[element->format];
-        if (last > room / element->stride) {
-            error_set(error, "vertex %" PRIu64 ": %s lies past its buffer, which ends with vertex %" PRIu64,
-                      last, attribute_name[i], room / element->stride);
-            return TRIPTYCH_BAD_CALL;
-        }
+        int instanced = stream->frequency == TRIPTYCH_FREQUENCY_INSTANCE;
+        uint64_t most = instanced ? (state_instances(state) - 1) / stream->count : last;
+        result = check_attribute(state, i, most, error);
     }
-    return TRIPTYCH_OK;
+    return result;
 }
 
 static enum triptych_result check_draw(const struct triptych_device *device,
@@ -205,11 +230,23 @@ static enum triptych_result check_draw(const struct triptych_device *device,
         return TRIPTYCH_BAD_ARGUMENT;
     }
     enum triptych_result result = check_target(device, error);
-    if (result == TRIPTYCH_OK && device->state.element[ATTRIBUTE_POSITION].format == TRIPTYCH_FORMAT_NONE) {
+    if (result == TRIPTYCH_OK && !device->state.element[ATTRIBUTE_POSITION].format &&
+        !device->state.element[ATTRIBUTE_POSITIONT].format) {
         error_set(error, "no position: expected an element for it");
         return TRIPTYCH_BAD_CALL;
     }
     return result;
+}
+
+/* Direct3D 9 steps by instances in indexed draws only. */
+static enum triptych_result check_no_instances(const struct triptych_device *device, struct error *error)
+{
+    for (unsigned i = 0; i < TRIPTYCH_STREAMS; i++)
+        if (device->state.stream[i].frequency != TRIPTYCH_FREQUENCY_VERTEX) {
+            error_set(error, "stream %u: its frequency is by instance, expected an indexed draw", i);
+            return TRIPTYCH_BAD_CALL;
+        }
+    return TRIPTYCH_OK;
 }
 
 static enum triptych_result check_sequence(const struct triptych_device *device, uint64_t first,
@@ -292,31 +329,53 @@ static int acquire_routines(struct triptych_device *device, const struct routine
     return acquire_all(device, routine, error);
 }
 
-/* Records a checked draw. The source's primitive, count, indices and base are filled in. */
+/* Attributes of streams that step with the instance: the same vertex for the whole of it. */
+static void step_instance(const struct triptych_device *device, uint32_t instance, struct job *job)
+{
+    const struct state *state = &device->state;
+    for (int i = 0; i < ATTRIBUTE_COUNT; i++) {
+        const struct state_stream *stream = state_stream_of(state, i);
+        if (job->attribute[i].data && stream->frequency == TRIPTYCH_FREQUENCY_INSTANCE)
+            job->attribute[i].data += (size_t)(instance / stream->count) * stream->stride;
+    }
+}
+
+static enum triptych_result record_instance(struct triptych_device *device, const struct draw *source,
+                                            uint32_t instance, struct error *error)
+{
+    const struct setup_key *setup = &device->key[UNIT_SETUP].setup;
+    const struct routine *routine[UNIT_COUNT];
+    if (acquire_routines(device, routine, error))
+        return TRIPTYCH_ENGINE_FAILED;
+    struct command *command = next_command(device);
+    command->kind = COMMAND_DRAW;
+    struct draw *draw = &command->draw;
+    *draw = *source;
+    draw->job = device->job;
+    step_instance(device, instance, &draw->job);
+    memcpy(draw->routine, routine, sizeof draw->routine);
+    draw->scissor = derive_scissor(&device->state);
+    draw->stride = triangle_layout(setup->depth, setup->varying).stride;
+    device->frame->commands++;
+    if (device->state.texture)
+        device->state.texture->recording = device->recording;
+    return TRIPTYCH_OK;
+}
+
+/* Records a checked draw, all its instances one after the other. The source's primitive, count, indices and base are
+ * filled in. Only the first instance can fail: the others find its routines in use. */
 static enum triptych_result record(struct triptych_device *device, const struct draw *source,
                                    struct error *error)
 {
-    if (source->count && derive_effective(&device->key[UNIT_PIXEL].pixel)) {
-        const struct setup_key *setup = &device->key[UNIT_SETUP].setup;
-        const struct routine *routine[UNIT_COUNT];
-        if (acquire_routines(device, routine, error))
-            return TRIPTYCH_ENGINE_FAILED;
-        struct command *command = next_command(device);
-        command->kind = COMMAND_DRAW;
-        struct draw *draw = &command->draw;
-        *draw = *source;
-        draw->job = device->job;
-        memcpy(draw->routine, routine, sizeof draw->routine);
-        draw->scissor = derive_scissor(&device->state);
-        draw->stride = triangle_layout(setup->depth, setup->varying).stride;
-        device->frame->commands++;
-        if (device->state.texture)
-            device->state.texture->recording = device->recording;
-    }
+    uint32_t instances = source->indices ? state_instances(&device->state) : 1;
+    if (source->count && derive_effective(&device->key[UNIT_PIXEL].pixel))
+        for (uint32_t i = 0; i < instances; i++)
+            if (record_instance(device, source, i, error) != TRIPTYCH_OK)
+                return TRIPTYCH_ENGINE_FAILED;
     if (device->on_draw)
         device->on_draw(device->on_draw_user, device->draws, device->key);
     device->draws++;
-    device->triangles += source->count;
+    device->triangles += (uint64_t)source->count * instances;
     return TRIPTYCH_OK;
 }
 
@@ -327,7 +386,8 @@ enum triptych_result device_draw(struct triptych_device *device, enum triptych_p
     if (result != TRIPTYCH_OK)
         return result;
     derive(device);
-    if (count)
+    result = check_no_instances(device, error);
+    if (count && result == TRIPTYCH_OK)
         result = check_sequence(device, first, corner_count(primitive, count), error);
     struct draw draw = {.primitive = primitive, .count = count, .base = first};
     return result == TRIPTYCH_OK ? record(device, &draw, error) : result;

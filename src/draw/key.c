@@ -46,6 +46,14 @@ int stage_reads(const struct pixel_key *key, enum source source)
     return 0;
 }
 
+const struct vertex_type vertex_types[ATTRIBUTE_FORMAT_COUNT] = {
+    {NULL, 0, ENCODING_NONE, 0, 0, 0},
+#define VERTEX_TYPE(name, word, components, encoding, bits, divisor, meaning)                                \
+    {#word, components, ENCODING_##encoding, bits, ((components) * (bits) + 31) / 32 * 4, 1.0f / (divisor)},
+#include "def/vertex_type.def"
+#undef VERTEX_TYPE
+};
+
 static const struct key_field all_fields[] = {
 #define KEY(unit, field, radix, meaning) {#field, meaning, offsetof(struct unit##_key, field), 1, radix},
 #define KEYS(unit, field, count, radix, meaning)                                                             \

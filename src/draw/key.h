@@ -13,23 +13,42 @@
 enum unit { UNIT_VERTEX, UNIT_SETUP, UNIT_PIXEL, UNIT_COUNT };
 
 enum attribute {
-    ATTRIBUTE_POSITION,
-    ATTRIBUTE_NORMAL,
-    ATTRIBUTE_DIFFUSE,
-    ATTRIBUTE_TEXCOORD,
+#define ATTRIBUTE(name, word, usage, index, meaning) ATTRIBUTE_##name,
+#include "def/attribute.def"
+#undef ATTRIBUTE
     ATTRIBUTE_COUNT
 };
 
-/* How an attribute lies in memory. COLOR is a packed 0xAARRGGBB. Missing components read as (0, 0, 0, 1). */
+/* How an attribute lies in memory: the rows of def/vertex_type.def. */
 enum attribute_format {
     ATTRIBUTE_FORMAT_NONE,
-    ATTRIBUTE_FORMAT_FLOAT1,
-    ATTRIBUTE_FORMAT_FLOAT2,
-    ATTRIBUTE_FORMAT_FLOAT3,
-    ATTRIBUTE_FORMAT_FLOAT4,
-    ATTRIBUTE_FORMAT_COLOR,
+#define VERTEX_TYPE(name, word, components, encoding, bits, divisor, meaning) ATTRIBUTE_FORMAT_##name,
+#include "def/vertex_type.def"
+#undef VERTEX_TYPE
     ATTRIBUTE_FORMAT_COUNT
 };
+
+enum vertex_encoding {
+    ENCODING_NONE,
+    ENCODING_FLOAT,
+    ENCODING_COLOR,
+    ENCODING_UNSIGNED,
+    ENCODING_SIGNED,
+    ENCODING_HALF
+};
+
+/* A row of def/vertex_type.def. */
+struct vertex_type {
+    const char *word;
+    uint8_t components;
+    uint8_t encoding; /* enum vertex_encoding */
+    uint8_t bits;     /* of a component */
+    uint8_t bytes;    /* of all, in whole 32-bit words */
+    float scale;      /* what an integer is multiplied by */
+};
+
+/* By enum attribute_format; all zero for NONE. */
+extern const struct vertex_type vertex_types[ATTRIBUTE_FORMAT_COUNT];
 
 enum { LIGHT_COUNT = 8 };
 enum light_type { LIGHT_NONE, LIGHT_DIRECTIONAL, LIGHT_POINT, LIGHT_TYPE_COUNT };

@@ -4,8 +4,6 @@
 #include <stdio.h>
 #include <string.h>
 
-const uint8_t format_bytes[TRIPTYCH_FORMAT_COUNT] = {0, 4, 8, 12, 16, 4};
-const char *const attribute_name[TRIPTYCH_ATTRIBUTE_COUNT] = {"position", "normal", "diffuse", "texcoord"};
 
 /* How many samplers and stages work; the others can only keep their defaults. */
 static const unsigned working[TRIPTYCH_STATE_TABLE_COUNT] = {1, 1, 1};
@@ -298,32 +296,6 @@ enum triptych_result state_set_light(struct state *state, unsigned index, const 
     return result;
 }
 
-static enum triptych_result bind_element(struct state *state, enum triptych_attribute attribute,
-                                         const struct triptych_element *element, struct error *error)
-{
-    const char *name = attribute_name[attribute];
-    if (element->format == TRIPTYCH_FORMAT_COLOR && attribute != TRIPTYCH_DIFFUSE) {
-        error_set(error, "element %s: format color, expected float1 to float4", name);
-        return TRIPTYCH_BAD_ARGUMENT;
-    }
-    if (!element->buffer) {
-        error_set(error, "element %s: no buffer, expected one with this format", name);
-        return TRIPTYCH_BAD_ARGUMENT;
-    }
-    if (element->stride > 65536) {
-        error_set(error, "element %s: stride %zu, expected 0 to 65536", name, element->stride);
-        return TRIPTYCH_BAD_ARGUMENT;
-    }
-    size_t bytes = format_bytes[element->format];
-    if (element->buffer->bytes < bytes || element->offset > element->buffer->bytes - bytes) {
-        error_set(error, "element %s: %zu bytes at offset %zu, expected them inside the buffer of %zu bytes",
-                  name, bytes, element->offset, element->buffer->bytes);
-        return TRIPTYCH_BAD_ARGUMENT;
-    }
-    state->element[attribute] = *element;
-    return TRIPTYCH_OK;
-}
-
 enum triptych_result state_set_texture(struct state *state, struct triptych_texture *texture,
                                        struct error *error)
 {
@@ -334,23 +306,5 @@ enum triptych_result state_set_texture(struct state *state, struct triptych_text
         return TRIPTYCH_UNSUPPORTED;
     }
     state->texture = texture;
-    return TRIPTYCH_OK;
-}
-
-enum triptych_result state_set_element(struct state *state, enum triptych_attribute attribute,
-                                       const struct triptych_element *element, struct error *error)
-{
-    if ((unsigned)attribute >= TRIPTYCH_ATTRIBUTE_COUNT) {
-        error_set(error, "attribute %u: expected 0 to %u", (unsigned)attribute, TRIPTYCH_ATTRIBUTE_COUNT - 1);
-        return TRIPTYCH_BAD_ARGUMENT;
-    }
-    if ((unsigned)element->format >= TRIPTYCH_FORMAT_COUNT) {
-        error_set(error, "element %s: format %u, expected 0 to %u", attribute_name[attribute],
-                  (unsigned)element->format, TRIPTYCH_FORMAT_COUNT - 1);
-        return TRIPTYCH_BAD_ARGUMENT;
-    }
-    if (element->format != TRIPTYCH_FORMAT_NONE)
-        return bind_element(state, attribute, element, error);
-    state->element[attribute] = (struct triptych_element){.format = TRIPTYCH_FORMAT_NONE};
     return TRIPTYCH_OK;
 }

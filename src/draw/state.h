@@ -8,6 +8,24 @@
 #include "draw/resource.h"
 #include "draw/texture.h"
 
+/* The streams of a declaration, then one for each attribute that is set by itself. */
+enum { STREAM_COUNT = TRIPTYCH_STREAMS + TRIPTYCH_ATTRIBUTE_COUNT };
+
+/* Where an attribute lies: in vertex i of a stream, `offset` bytes from its start. */
+struct state_element {
+    enum triptych_format format; /* NONE: not declared */
+    unsigned stream;
+    size_t offset;
+};
+
+/* Vertex i begins at offset + i * stride of the buffer. */
+struct state_stream {
+    struct triptych_buffer *buffer; /* null: not bound */
+    size_t offset, stride;
+    enum triptych_frequency frequency;
+    uint32_t count; /* of the frequency; 0 is 1 */
+};
+
 struct state {
     uint32_t value[TRIPTYCH_STATE_COUNT];
     uint32_t sampler[TRIPTYCH_SAMPLERS][TRIPTYCH_SAMPLER_STATE_COUNT];
@@ -21,13 +39,12 @@ struct state {
     struct triptych_light light[TRIPTYCH_LIGHTS];
     uint8_t light_enabled[TRIPTYCH_LIGHTS];
     struct triptych_texture *texture;
-    struct triptych_element element[TRIPTYCH_ATTRIBUTE_COUNT];
+    struct state_element element[TRIPTYCH_ATTRIBUTE_COUNT];
+    struct state_stream stream[STREAM_COUNT];
     struct triptych_buffer *indices;
     uint32_t index_bits; /* 16 or 32 while indices are bound */
 };
 
-/* Bytes of an attribute in memory, by format. */
-extern const uint8_t format_bytes[TRIPTYCH_FORMAT_COUNT];
 extern const char *const attribute_name[TRIPTYCH_ATTRIBUTE_COUNT];
 
 /* Direct3D 9's defaults; identity transforms, nothing bound, an empty viewport and scissor rectangle. */
@@ -49,7 +66,35 @@ enum triptych_result state_set_light(struct state *state, unsigned index, const 
                                      struct error *error);
 enum triptych_result state_set_texture(struct state *state, struct triptych_texture *texture,
                                        struct error *error);
+
+/* In draw/declare.c. */
+enum triptych_result state_set_declaration(struct state *state,
+                                           const struct triptych_declaration_element *elements,
+                                           unsigned count, struct error *error);
+enum triptych_result state_set_fvf(struct state *state, uint32_t fvf, struct error *error);
+enum triptych_result state_set_stream(struct state *state, unsigned stream, struct triptych_buffer *buffer,
+                                      size_t offset, size_t stride, struct error *error);
+enum triptych_result state_set_frequency(struct state *state, unsigned stream,
+                                         enum triptych_frequency frequency, uint32_t count,
+                                         struct error *error);
 enum triptych_result state_set_element(struct state *state, enum triptych_attribute attribute,
                                        const struct triptych_element *element, struct error *error);
+
+/* The stream that an attribute comes from. */
+static inline const struct state_stream *state_stream_of(const struct state *state,
+                                                         enum triptych_attribute attribute)
+{
+    return state->stream + state->element[attribute].stream;
+}
+
+/* How often an indexed draw is drawn. */
+static inline uint32_t state_instances(const struct state *state)
+{
+    const struct state_stream *first = state->stream;
+    return first->frequency == TRIPTYCH_FREQUENCY_INDEXED ? first->count : 1;
+}
+
+/* The last vertex of its stream that an attribute has, or UINT64_MAX where the stride is 0. The stream is bound. */
+uint64_t state_last_vertex(const struct state *state, enum triptych_attribute attribute);
 
 #endif

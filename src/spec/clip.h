@@ -50,3 +50,15 @@ static inline itg clip_code(struct env *e, const flt p[4])
         code = or_i(E, code, part[i]);
     return code;
 }
+
+/* The same of a vertex in the window, x, y, depth and 1/w: cut at the guard band only. */
+static inline itg clip_code_window(struct env *e, const flt p[4])
+{
+    flt guard_x = uniform_f(E, BASE_JOB, (int)offsetof(struct job, guard_x));
+    flt guard_y = uniform_f(E, BASE_JOB, (int)offsetof(struct job, guard_y));
+    itg x = clip_pair(E, p[0], guard_x, CLIP_GUARD_LEFT, CLIP_GUARD_RIGHT);
+    itg y = clip_pair(E, p[1], guard_y, CLIP_GUARD_BOTTOM, CLIP_GUARD_TOP);
+    itg invalid = clip_invalid(E, p);
+    itg outside = or_i(E, x, y);
+    return or_i(E, invalid, outside);
+}

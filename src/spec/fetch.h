@@ -1,8 +1,10 @@
 /* Vertex fetch: attributes of W vertices from the application's buffers into lanes.
  *
  * A vertex index times the stream's stride gives the byte offset; indices were checked against the buffers
- * when the draw was recorded. Missing components read as (0, 0, 0, 1) (Direct3D 9, vertex declarations); a
- * missing normal is (0, 0, 0), a missing diffuse colour opaque white, missing texture coordinates (0, 0). */
+ * when the draw was recorded. What types mean is in def/vertex_type.def; components that a type does not have read as
+ * those of (0, 0, 0, 1) (Direct3D 9, vertex declarations). An attribute that is not there is `absent` in every
+ * component: a missing normal is (0, 0, 0), a missing diffuse colour opaque white, missing texture coordinates (0, 0).
+ */
 
 struct vector4 {
     flt v[4];
@@ -14,29 +16,85 @@ static inline flt fetch_float(struct env *e, int attribute, itg offset, int comp
                     4 * component);
 }
 
-/* One channel of a packed 0xAARRGGBB as 0 to 1; shift is its lowest bit. */
-static inline flt fetch_channel(struct env *e, itg packed, int shift)
+static inline itg fetch_word(struct env *e, int attribute, itg offset, int word)
+{
+    return gather_i(E, BASE_JOB, (int)offsetof(struct job, attribute[attribute].data), offset, 1, 4 * word);
+}
+
+/* `bits` bits of a word, of which `shift` is the lowest. */
+static inline itg fetch_unsigned(struct env *e, itg packed, int shift, int bits)
 {
     itg down = shift ? ushr_i(E, packed, shift) : packed;
-    itg byte = shift < 24 ? and_i(E, down, lit_i(E, 255)) : down;
-    flt value = float_f(E, byte);
-    return mul_f(E, value, lit_f(E, 1.0f / 255.0f));
+    return shift + bits < 32 ? and_i(E, down, lit_i(E, (1 << bits) - 1)) : down;
+}
+
+static inline itg fetch_signed(struct env *e, itg packed, int shift, int bits)
+{
+    int above = 32 - bits - shift;
+    itg up = above ? shl_i(E, packed, above) : packed;
+    return shr_i(E, up, 32 - bits);
+}
+
+/* The binary32 that a binary16 is, exactly; denormals are numbers like others, a NaN stays one. Its exponent is 112
+ * less than that of a binary32; 31, that of infinities and NaNs, becomes 255. */
+static inline flt half_to_float(struct env *e, itg half)
+{
+    itg magnitude = and_i(E, half, lit_i(E, 0x7fff));
+    itg shifted = shl_i(E, magnitude, 13);
+    itg normal = add_i(E, shifted, lit_i(E, 112 << 23));
+    itg extreme = add_i(E, shifted, lit_i(E, 224 << 23));
+    flt count = float_f(E, magnitude);
+    flt denormal = mul_f(E, count, lit_f(E, 0x1p-24f));
+    msk infinite = gt_i(E, magnitude, lit_i(E, 0x7bff));
+    itg large = select_i(E, infinite, extreme, normal);
+    msk small = gt_i(E, lit_i(E, 0x0400), magnitude);
+    itg small_bits = bits_i(E, denormal);
+    itg bits = select_i(E, small, small_bits, large);
+    itg sign_bit = and_i(E, half, lit_i(E, 0x8000));
+    itg sign = shl_i(E, sign_bit, 16);
+    itg signed_bits = or_i(E, bits, sign);
+    return bits_f(E, signed_bits);
+}
+
+/* The component of a packed type whose lowest bit in its word is `shift`. */
+static inline flt fetch_field(struct env *e, const struct vertex_type *type, itg packed, int shift)
+{
+    itg field = type->encoding == ENCODING_SIGNED ? fetch_signed(E, packed, shift, type->bits)
+                                                  : fetch_unsigned(E, packed, shift, type->bits);
+    if (type->encoding == ENCODING_HALF)
+        return half_to_float(E, field);
+    flt value = float_f(E, field);
+    return type->scale != 1 ? mul_f(E, value, lit_f(E, type->scale)) : value;
 }
 
 static inline struct vector4 fetch_color(struct env *e, int attribute, itg offset)
 {
     static const uint8_t shift[4] = {16, 8, 0, 24};
     struct vector4 r;
-    itg packed = gather_i(E, BASE_JOB, (int)offsetof(struct job, attribute[attribute].data), offset, 1, 0);
+    itg packed = fetch_word(E, attribute, offset, 0);
     for (int c = 0; c < 4; c++)
-        r.v[c] = fetch_channel(E, packed, shift[c]);
+        r.v[c] = fetch_field(E, &vertex_types[ATTRIBUTE_FORMAT_COLOR], packed, shift[c]);
     return r;
+}
+
+/* The first components, as many as the type has. */
+static inline void fetch_packed(struct env *e, const struct vertex_type *type, int attribute, itg offset,
+                                struct vector4 *r)
+{
+    itg packed = fetch_word(E, attribute, offset, 0);
+    for (int c = 0; c < type->components; c++) {
+        int bit = type->bits * c;
+        if (bit == 32)
+            packed = fetch_word(E, attribute, offset, 1);
+        r->v[c] = fetch_field(E, type, packed, bit % 32);
+    }
 }
 
 static inline struct vector4 fetch(struct env *e, const struct vertex_key *k, int attribute, float absent)
 {
     struct vector4 r;
     int format = k->attribute[attribute];
+    const struct vertex_type *type = &vertex_types[format];
     for (int c = 0; c < 4; c++)
         r.v[c] = lit_f(E, absent);
     if (format == ATTRIBUTE_FORMAT_NONE)
@@ -44,13 +102,20 @@ static inline struct vector4 fetch(struct env *e, const struct vertex_key *k, in
     itg index = load_i(E, BASE_INPUT, 0);
     itg stride = uniform_i(E, BASE_JOB, (int)offsetof(struct job, attribute[attribute].stride));
     itg offset = mul_i(E, index, stride);
-    if (format == ATTRIBUTE_FORMAT_COLOR)
+    if (type->encoding == ENCODING_COLOR)
         return fetch_color(E, attribute, offset);
-    int components = format - ATTRIBUTE_FORMAT_FLOAT1 + 1;
-    for (int c = 0; c < 4; c++)
-        if (c < components)
+    for (int c = type->components; c < 4; c++)
+        r.v[c] = lit_f(E, c == 3 ? 1.0f : 0.0f);
+    if (type->encoding != ENCODING_FLOAT)
+        fetch_packed(E, type, attribute, offset, &r);
+    else
+        for (int c = 0; c < type->components; c++)
             r.v[c] = fetch_float(E, attribute, offset, c);
-        else
-            r.v[c] = lit_f(E, c == 3 ? 1.0f : 0.0f);
     return r;
+}
+
+/* Whether the fourth component of a position can be other than 1. */
+static inline int has_fourth(const struct vertex_key *k, int attribute)
+{
+    return vertex_types[k->attribute[attribute]].components == 4;
 }

@@ -89,7 +89,7 @@ static inline struct vector4 light_vertex(struct env *e, const struct vertex_key
     struct vector4 color;
     for (int c = 0; c < 4; c++)
         color.v[c] = uniform_f(E, BASE_JOB, (int)offsetof(struct job, base_color) + 4 * c);
-    int one = k->attribute[ATTRIBUTE_POSITION] != ATTRIBUTE_FORMAT_FLOAT4;
+    int one = !has_fourth(k, ATTRIBUTE_POSITION);
     for (int c = 0; c < 3; c++)
         camera[c] = transform_component(E, position, one, (int)offsetof(struct job, world_view), c);
     camera_normal(E, k, normal);

@@ -51,11 +51,11 @@ static inline struct corner project(struct env *e, const struct setup_key *k, in
     struct corner r;
     r.lane = load_i(E, BASE_INPUT, vertex * SETUP_INDEX_BYTES);
     flt w = corner_slot(E, &r, SLOT_W);
-    r.reciprocal_w = div_f(E, lit_f(E, 1.0f), w);
+    r.reciprocal_w = k->window ? w : div_f(E, lit_f(E, 1.0f), w);
     flt clip_x = corner_slot(E, &r, SLOT_X);
     flt clip_y = corner_slot(E, &r, SLOT_Y);
-    flt x = mul_f(E, clip_x, r.reciprocal_w);
-    flt y = mul_f(E, clip_y, r.reciprocal_w);
+    flt x = k->window ? clip_x : mul_f(E, clip_x, r.reciprocal_w);
+    flt y = k->window ? clip_y : mul_f(E, clip_y, r.reciprocal_w);
     r.window_x =
         window_position(E, x, (int)offsetof(struct job, scale_x), (int)offsetof(struct job, offset_x));
     r.window_y =
@@ -65,7 +65,7 @@ static inline struct corner project(struct env *e, const struct setup_key *k, in
     r.depth = lit_f(E, 0.0f);
     if (k->depth) {
         flt clip_z = corner_slot(E, &r, SLOT_Z);
-        flt z = mul_f(E, clip_z, r.reciprocal_w);
+        flt z = k->window ? clip_z : mul_f(E, clip_z, r.reciprocal_w);
         flt s = uniform_f(E, BASE_JOB, (int)offsetof(struct job, depth_scale));
         flt o = uniform_f(E, BASE_JOB, (int)offsetof(struct job, depth_offset));
         r.depth = mad_f(E, z, s, o);

@@ -28,17 +28,27 @@ static inline void vertex_diffuse(struct env *e, const struct vertex_key *k, con
     }
 }
 
+/* Where the vertex is: in clip space, or in the window if it was transformed before. */
+static inline void vertex_position(struct env *e, const struct vertex_key *k, struct vector4 *position)
+{
+    int window = k->attribute[ATTRIBUTE_POSITIONT] != ATTRIBUTE_FORMAT_NONE;
+    *position = fetch(E, k, window ? ATTRIBUTE_POSITIONT : ATTRIBUTE_POSITION, 0.0f);
+    int one = !has_fourth(k, ATTRIBUTE_POSITION);
+    flt to[4];
+    for (int c = 0; c < 4; c++) {
+        to[c] = window ? position->v[c]
+                       : transform_component(E, position, one,
+                                             (int)offsetof(struct job, world_view_projection), c);
+        store_slot(E, SLOT_X + c, to[c]);
+    }
+    itg code = window ? clip_code_window(E, to) : clip_code(E, to);
+    store_i(E, BASE_OUTPUT, SLOT_CODE * VERTEX_SLOT_BYTES, code);
+}
+
 static void spec_vertex(struct env *e, const struct vertex_key *k)
 {
-    struct vector4 position = fetch(E, k, ATTRIBUTE_POSITION, 0.0f);
-    int one = k->attribute[ATTRIBUTE_POSITION] != ATTRIBUTE_FORMAT_FLOAT4;
-    flt clip[4];
-    for (int c = 0; c < 4; c++) {
-        clip[c] = transform_component(E, &position, one, (int)offsetof(struct job, world_view_projection), c);
-        store_slot(E, SLOT_X + c, clip[c]);
-    }
-    itg code = clip_code(E, clip);
-    store_i(E, BASE_OUTPUT, SLOT_CODE * VERTEX_SLOT_BYTES, code);
+    struct vector4 position;
+    vertex_position(E, k, &position);
     if (k->varying[VARYING_diffuse])
         vertex_diffuse(E, k, &position);
     if (k->varying[VARYING_texcoord]) {

@@ -29,7 +29,7 @@ int parse_word(struct parser *parser, enum word_list list, const char *what, uns
     return lex_expected(&parser->lex, "%s: %s", what, choices);
 }
 
-static int parse_integer(struct parser *parser, const char *what, int64_t high, uint32_t *value)
+int parse_integer(struct parser *parser, const char *what, int64_t high, uint32_t *value)
 {
     int64_t integer;
     if (lex_integer(&parser->lex, what, 0, high, &integer))
@@ -310,11 +310,35 @@ static int bind_indices(struct parser *parser, struct call *call)
     return 0;
 }
 
+/* OFFSET STRIDE */
+static int parse_place(struct parser *parser, uint32_t *offset, uint32_t *stride)
+{
+    struct lexer *lex = &parser->lex;
+    for (int i = 0; i < 2; i++) {
+        struct token place = lex->token;
+        uint32_t *value = i ? stride : offset;
+        if (parse_integer(parser, i ? "stride" : "offset", i ? 65536 : INT32_MAX, value))
+            return -1;
+        if (*value % 4)
+            return lex_fail(lex, &place, "found '%u', expected a multiple of 4", *value);
+    }
+    return 0;
+}
+
+static int bind_stream(struct parser *parser, struct call *call)
+{
+    if (parse_integer(parser, "stream", TRIPTYCH_STREAMS - 1, &call->bind_stream.number) ||
+        parse_name_or_none(parser, ELEMENTS, "a buffer, vertices or a mesh, or none,", call))
+        return -1;
+    if (call->resource == NO_RESOURCE)
+        return 0;
+    return parse_place(parser, &call->bind_stream.offset, &call->bind_stream.stride);
+}
+
 static int bind_element(struct parser *parser, struct call *call)
 {
     struct lexer *lex = &parser->lex;
     unsigned attribute, format;
-    int64_t offset, stride;
     if (parse_word(parser, WORDS_ATTRIBUTE, "an attribute", &attribute))
         return -1;
     call->element.attribute = (enum triptych_attribute)attribute;
@@ -324,18 +348,8 @@ static int bind_element(struct parser *parser, struct call *call)
     if (parse_word(parser, WORDS_FORMAT, "a format, or none", &format) ||
         parse_name(parser, ELEMENTS, "a buffer, vertices or a mesh", &call->resource))
         return -1;
-    for (int i = 0; i < 2; i++) {
-        struct token place = lex->token;
-        int64_t *value = i ? &stride : &offset;
-        if (lex_integer(lex, i ? "stride" : "offset", 0, i ? 65536 : INT32_MAX, value))
-            return -1;
-        if (*value % 4)
-            return lex_fail(lex, &place, "found '%d', expected a multiple of 4", (int)*value);
-    }
     call->element.format = (enum triptych_format)format;
-    call->element.offset = (uint32_t)offset;
-    call->element.stride = (uint32_t)stride;
-    return 0;
+    return parse_place(parser, &call->element.offset, &call->element.stride);
 }
 
 int parse_bind(struct parser *parser, struct call *call)
@@ -347,13 +361,14 @@ int parse_bind(struct parser *parser, struct call *call)
     } rows[] = {{"texture", CALL_BIND_TEXTURE, bind_texture},
                 {"vertices", CALL_BIND_VERTICES, bind_vertices},
                 {"indices", CALL_BIND_INDICES, bind_indices},
-                {"element", CALL_BIND_ELEMENT, bind_element}};
+                {"element", CALL_BIND_ELEMENT, bind_element},
+                {"stream", CALL_BIND_STREAM, bind_stream}};
     for (size_t i = 0; i < sizeof rows / sizeof rows[0]; i++)
         if (lex_is(&parser->lex, rows[i].word)) {
             call->type = rows[i].type;
             return lex_next(&parser->lex) ? -1 : rows[i].parse(parser, call);
         }
-    return lex_expected(&parser->lex, "texture, vertices, indices or element");
+    return lex_expected(&parser->lex, "texture, vertices, indices, element or stream");
 }
 
 int parse_clear(struct parser *parser, struct call *call)

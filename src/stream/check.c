@@ -98,27 +98,40 @@ struct follower {
     struct parser *parser;
     const struct stream *stream;
     struct state state;
-    uint32_t width, height; /* of the target; 0: none yet */
-    uint32_t element_resource[TRIPTYCH_ATTRIBUTE_COUNT];
+    uint32_t width, height;            /* of the target; 0: none yet */
+    struct triptych_buffer *stand_ins; /* one per resource: their sizes are all that is looked at */
     uint32_t indices;
 };
+
+static struct triptych_buffer *stand_in(struct follower *follower, uint32_t resource)
+{
+    struct triptych_buffer *buffer = &follower->stand_ins[resource];
+    resource_data(&follower->stream->resources[resource], &buffer->bytes);
+    return buffer;
+}
 
 static int bind_element(struct follower *follower, enum triptych_attribute attribute, uint32_t resource,
                         enum triptych_format format, uint32_t offset, uint32_t stride, struct error *error)
 {
-    struct triptych_buffer *buffer = NULL;
     struct triptych_element element = {.format = format, .offset = offset, .stride = stride};
-    struct triptych_buffer stand_in = {0}; /* its size is all that is looked at */
-    if (format != TRIPTYCH_FORMAT_NONE) {
-        resource_data(&follower->stream->resources[resource], &stand_in.bytes);
-        buffer = &stand_in;
-    }
-    element.buffer = buffer;
-    if (state_set_element(&follower->state, attribute, &element, error))
-        return -1;
-    follower->state.element[attribute].buffer = NULL;
-    follower->element_resource[attribute] = resource;
-    return 0;
+    if (format != TRIPTYCH_FORMAT_NONE)
+        element.buffer = stand_in(follower, resource);
+    return state_set_element(&follower->state, attribute, &element, error) ? -1 : 0;
+}
+
+static int bind_stream(struct follower *follower, const struct call *call, struct error *error)
+{
+    struct triptych_buffer *buffer =
+        call->resource == NO_RESOURCE ? NULL : stand_in(follower, call->resource);
+    return state_set_stream(&follower->state, call->bind_stream.number, buffer, call->bind_stream.offset,
+                            call->bind_stream.stride, error);
+}
+
+static int declare(struct follower *follower, const struct call *call, struct error *error)
+{
+    struct triptych_declaration_element elements[TRIPTYCH_ATTRIBUTE_COUNT];
+    unsigned count = stream_declaration(call, elements);
+    return state_set_declaration(&follower->state, elements, count, error);
 }
 
 static int bind_vertices(struct follower *follower, uint32_t resource, struct error *error)
@@ -131,22 +144,51 @@ static int bind_vertices(struct follower *follower, uint32_t resource, struct er
     return 0;
 }
 
+static int check_attribute(const struct follower *follower, unsigned attribute, uint64_t last,
+                           struct error *error)
+{
+    const struct state_element *element = &follower->state.element[attribute];
+    const struct state_stream *stream = state_stream_of(&follower->state, attribute);
+    const char *word = word_text(WORDS_ATTRIBUTE, attribute);
+    if (!stream->buffer)
+        return error_set(error, "found %s in stream %u with nothing bound, expected bind stream before it",
+                         word, element->stream);
+    const char *name = follower->stream->resources[stream->buffer - follower->stand_ins].name;
+    size_t end = stream->offset + element->offset + vertex_types[element->format].bytes;
+    if (end > stream->buffer->bytes)
+        return error_set(error, "found %s at bytes up to %zu, expected at most %zu, those of %s", word, end,
+                         stream->buffer->bytes, name);
+    uint64_t most = state_last_vertex(&follower->state, attribute);
+    if (last > most)
+        return error_set(error,
+                         "found vertex %" PRIu64 " drawn, expected at most %" PRIu64 ", the last %s in %s",
+                         last, most, word, name);
+    return 0;
+}
+
 /* Whether vertices up to `last` lie in everything that is bound. */
 static int check_vertices(const struct follower *follower, uint64_t last, struct error *error)
 {
+    const struct state *state = &follower->state;
     for (unsigned a = 0; a < TRIPTYCH_ATTRIBUTE_COUNT; a++) {
-        const struct triptych_element *element = &follower->state.element[a];
-        if (element->format == TRIPTYCH_FORMAT_NONE || !element->stride)
+        const struct state_stream *stream = state_stream_of(state, a);
+        if (state->element[a].format == TRIPTYCH_FORMAT_NONE)
             continue;
-        const struct resource *resource = &follower->stream->resources[follower->element_resource[a]];
-        size_t bytes;
-        resource_data(resource, &bytes);
-        uint64_t most = (bytes - element->offset - 4 * format_words(element->format)) / element->stride;
-        if (last > most)
-            return error_set(
-                error, "found vertex %" PRIu64 " drawn, expected at most %" PRIu64 ", the last %s in %s",
-                last, most, word_text(WORDS_ATTRIBUTE, a), resource->name);
+        int instanced = stream->frequency == TRIPTYCH_FREQUENCY_INSTANCE;
+        uint64_t most = instanced ? (state_instances(state) - 1) / stream->count : last;
+        if (check_attribute(follower, a, most, error))
+            return -1;
     }
+    return 0;
+}
+
+static int check_no_instances(const struct follower *follower, struct error *error)
+{
+    for (unsigned i = 0; i < TRIPTYCH_STREAMS; i++)
+        if (follower->state.stream[i].frequency != TRIPTYCH_FREQUENCY_VERTEX)
+            return error_set(error, "found stream %u stepping by instance, expected frequency %u vertex 1 "
+                                    "or an indexed draw",
+                             i, i);
     return 0;
 }
 
@@ -191,10 +233,13 @@ static int check_draw(struct follower *follower, const struct call *call, struct
 {
     uint64_t first = call->draw.first, count = call->draw.count;
     int indexed = call->type == CALL_DRAW_INDEXED;
-    if (follower->state.element[TRIPTYCH_POSITION].format == TRIPTYCH_FORMAT_NONE)
+    if (!follower->state.element[TRIPTYCH_POSITION].format &&
+        !follower->state.element[TRIPTYCH_POSITIONT].format)
         return error_set(error, "found no position bound, expected bind vertices before it");
     if (indexed && follower->indices == NO_RESOURCE)
         return error_set(error, "found no indices bound, expected bind indices before it");
+    if (!indexed && check_no_instances(follower, error))
+        return -1;
     if (!count)
         return 0;
     count = call->draw.primitive == TRIPTYCH_TRIANGLE_LIST ? 3 * count : count + 2;
@@ -242,6 +287,12 @@ static int follow(struct follower *follower, const struct call *call, struct err
     case CALL_BIND_ELEMENT:
         return bind_element(follower, call->element.attribute, call->resource, call->element.format,
                             call->element.offset, call->element.stride, error);
+    case CALL_BIND_STREAM: return bind_stream(follower, call, error);
+    case CALL_DECLARE: return declare(follower, call, error);
+    case CALL_FVF: return state_set_fvf(state, call->fvf, error);
+    case CALL_FREQUENCY:
+        return state_set_frequency(state, call->frequency.stream, call->frequency.frequency,
+                                   call->frequency.count, error);
     case CALL_CLEAR: return check_clear(call, error);
     case CALL_DRAW:
     case CALL_DRAW_INDEXED: return check_draw(follower, call, error);
@@ -261,18 +312,29 @@ static int needs_target(enum call_type type)
            type == CALL_DRAW_INDEXED || type == CALL_DRAW_MESH;
 }
 
+static int follow_all(struct follower *follower)
+{
+    const struct stream *stream = follower->stream;
+    for (uint32_t i = 0; i < stream->executed_count; i++) {
+        const struct call *call = &stream->calls[stream->executed[i]];
+        struct error reason = {{0}};
+        if (needs_target(call->type) && !follower->width)
+            return fail_at(follower->parser, call, "found no target, expected target WIDTH HEIGHT before it");
+        if (follow(follower, call, &reason))
+            return fail_at(follower->parser, call, reason.text);
+    }
+    return 0;
+}
+
 int stream_check(struct parser *parser)
 {
     const struct stream *stream = parser->stream;
     struct follower follower = {.parser = parser, .stream = stream, .indices = NO_RESOURCE};
+    follower.stand_ins = calloc(stream->resource_count + 1, sizeof *follower.stand_ins);
+    if (!follower.stand_ins)
+        return lex_fail(&parser->lex, &parser->lex.token, "not enough memory");
     state_initialize(&follower.state);
-    for (uint32_t i = 0; i < stream->executed_count; i++) {
-        const struct call *call = &stream->calls[stream->executed[i]];
-        struct error reason = {{0}};
-        if (needs_target(call->type) && !follower.width)
-            return fail_at(parser, call, "found no target, expected target WIDTH HEIGHT before it");
-        if (follow(&follower, call, &reason))
-            return fail_at(parser, call, reason.text);
-    }
-    return 0;
+    int result = follow_all(&follower);
+    free(follower.stand_ins);
+    return result;
 }

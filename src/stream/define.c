@@ -4,6 +4,7 @@
 #include "stream/mesh.h"
 #include "stream/parse.h"
 
+#include "base/half.h"
 #include "base/png.h"
 
 #include <stdio.h>
@@ -213,44 +214,71 @@ int parse_texture(struct parser *parser)
 /* --- Vertices ---------------------------------------------------------------------------------------------
  */
 
-/* ATTRIBUTE:FORMAT */
 static int parse_element(struct parser *parser, struct resource *resource, enum triptych_attribute *which)
 {
-    struct lexer *lex = &parser->lex;
-    const struct token *token = &lex->token;
-    const char *colon = memchr(token->text, ':', token->length);
-    size_t length = colon ? (size_t)(colon - token->text) : 0;
-    unsigned attribute, format;
-    if (token->type != TOKEN_WORD || !colon || word_value(WORDS_ATTRIBUTE, token->text, length, &attribute) ||
-        word_value(WORDS_FORMAT, colon + 1, token->length - length - 1, &format))
-        return lex_expected(
-            lex, "ATTRIBUTE:FORMAT with position, normal, diffuse or texcoord, and float1 to float4 "
-                 "or color");
-    if (resource->layout.format[attribute])
-        return lex_expected(lex, "each attribute once");
-    if (format == TRIPTYCH_FORMAT_COLOR && attribute != TRIPTYCH_DIFFUSE)
-        return lex_expected(lex, "format color for diffuse only");
-    layout_add(&resource->layout, (enum triptych_attribute)attribute, (enum triptych_format)format);
-    *which = (enum triptych_attribute)attribute;
-    return lex_next(lex);
+    enum triptych_format format;
+    if (parse_attribute(parser, parser->lex.token.length, which, &format))
+        return -1;
+    if (resource->layout.format[*which])
+        return lex_expected(&parser->lex, "each attribute once");
+    layout_add(&resource->layout, *which, format);
+    return lex_next(&parser->lex);
+}
+
+/* Component c of a packed type into its bits. */
+static int parse_field(struct parser *parser, const struct vertex_type *type, const char *what, unsigned c,
+                       uint32_t *words)
+{
+    int64_t integer = 0, range = (int64_t)1 << type->bits, low = 0;
+    float number;
+    if (type->encoding == ENCODING_SIGNED)
+        low = -range / 2;
+    if (type->encoding != ENCODING_HALF) {
+        if (lex_integer(&parser->lex, what, low, low + range - 1, &integer))
+            return -1;
+    } else {
+        struct token place = parser->lex.token;
+        if (lex_number(&parser->lex, what, &number))
+            return -1;
+        integer = float_to_half(number);
+        if ((integer & 0x7fff) == 0x7c00)
+            return lex_fail(&parser->lex, &place, "found %g, expected a number in the range of binary16",
+                            (double)number);
+    }
+    unsigned bit = c * type->bits;
+    words[bit / 32] |= (uint32_t)(integer & (range - 1)) << bit % 32;
+    return 0;
+}
+
+/* An attribute's values in their form in memory. */
+static int parse_typed(struct parser *parser, enum triptych_format format, const char *what, uint32_t *words)
+{
+    const struct vertex_type *type = &vertex_types[format];
+    if (type->encoding == ENCODING_COLOR)
+        return parse_value(parser, VALUE_COLOR, what, words);
+    for (unsigned c = 0; c < type->components; c++)
+        if (type->encoding == ENCODING_FLOAT ? parse_value(parser, VALUE_FLOAT, what, words + c)
+                                             : parse_field(parser, type, what, c, words))
+            return -1;
+    return 0;
 }
 
 /* One vertex; its attributes in the order of the text. */
 static int parse_vertex(struct parser *parser, const struct layout *layout,
                         const enum triptych_attribute *order, struct block *block)
 {
-    uint32_t vertex[4 * TRIPTYCH_ATTRIBUTE_COUNT], word = 0;
+    uint32_t vertex[4 * TRIPTYCH_ATTRIBUTE_COUNT] = {0}, word = 0, values = 0;
     for (int i = 0; word < layout->stride / 4; i++) {
         enum triptych_format format = layout->format[order[i]];
-        enum value_type type = format == TRIPTYCH_FORMAT_COLOR ? VALUE_COLOR : VALUE_FLOAT;
-        for (uint32_t c = 0; c < format_words(format); c++)
-            if (parse_value(parser, type, word_text(WORDS_ATTRIBUTE, order[i]), &vertex[word++]))
-                return -1;
+        if (parse_typed(parser, format, word_text(WORDS_ATTRIBUTE, order[i]), &vertex[word]))
+            return -1;
+        word += vertex_types[format].bytes / 4;
+        values += format_values(format);
     }
     if (append(parser, block, vertex))
         return -1;
     if (parser->lex.token.type != TOKEN_LINE_END)
-        return lex_expected(&parser->lex, "the end of the line after a vertex of %u values", word);
+        return lex_expected(&parser->lex, "the end of the line after a vertex of %u values", values);
     return lex_skip_lines(&parser->lex);
 }
 

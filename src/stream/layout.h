@@ -2,14 +2,13 @@
 #ifndef STREAM_LAYOUT_H
 #define STREAM_LAYOUT_H
 
+#include "draw/key.h"
 #include "stream/stream.h"
 
-/* Words of four bytes that an attribute of this format takes. */
-static inline uint32_t format_words(enum triptych_format format)
+/* Values that a format has in the text: its components, or one colour. */
+static inline uint32_t format_values(enum triptych_format format)
 {
-    if (format == TRIPTYCH_FORMAT_COLOR)
-        return 1;
-    return (uint32_t)(format - TRIPTYCH_FORMAT_NONE);
+    return format == TRIPTYCH_FORMAT_COLOR ? 1 : vertex_types[format].components;
 }
 
 static inline uint32_t value_bytes(enum value_type type)
@@ -22,7 +21,7 @@ static inline void layout_add(struct layout *layout, enum triptych_attribute att
 {
     layout->format[attribute] = format;
     layout->offset[attribute] = layout->stride;
-    layout->stride += 4 * format_words(format);
+    layout->stride += vertex_types[format].bytes;
 }
 
 #endif

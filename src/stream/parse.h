@@ -28,6 +28,13 @@ int parse_new_name(struct parser *parser, enum resource_type type, struct resour
 /* Reads the name of a resource of one of the types (a mask of 1 << type); `what` names them in the reason. */
 int parse_name(struct parser *parser, unsigned types, const char *what, uint32_t *resource);
 
+/* ATTRIBUTE:FORMAT, as much of the current token as `length` says. */
+int parse_attribute(struct parser *parser, size_t length, enum triptych_attribute *attribute,
+                    enum triptych_format *format);
+
+/* An integer from 0 to `high`. */
+int parse_integer(struct parser *parser, const char *what, int64_t high, uint32_t *value);
+
 /* Calls, from behind their first word; what is not mentioned in the text has its default. */
 int parse_target(struct parser *parser, struct call *call);
 int parse_viewport(struct parser *parser, struct call *call);
@@ -39,6 +46,9 @@ int parse_transform(struct parser *parser, struct call *call);
 int parse_material(struct parser *parser, struct call *call);
 int parse_light(struct parser *parser, struct call *call);
 int parse_bind(struct parser *parser, struct call *call);
+int parse_declare(struct parser *parser, struct call *call);
+int parse_fvf(struct parser *parser, struct call *call);
+int parse_frequency(struct parser *parser, struct call *call);
 int parse_clear(struct parser *parser, struct call *call);
 int parse_draw(struct parser *parser, struct call *call);
 int parse_primitives(struct parser *parser, struct call *call);

@@ -86,16 +86,34 @@ void player_free(struct player *player)
 /* --- Calls ------------------------------------------------------------------------------------------------
  */
 
+static triptych_buffer *buffer_of(const struct player *player, uint32_t resource)
+{
+    const struct handles *handles = &player->handles[resource];
+    return handles->vertices ? handles->vertices : handles->indices;
+}
+
 static enum triptych_result bind_element(struct player *player, enum triptych_attribute attribute,
                                          uint32_t resource, enum triptych_format format, size_t offset,
                                          size_t stride)
 {
     struct triptych_element element = {.format = format, .offset = offset, .stride = stride};
-    if (format != TRIPTYCH_FORMAT_NONE) {
-        const struct handles *handles = &player->handles[resource];
-        element.buffer = handles->vertices ? handles->vertices : handles->indices;
-    }
+    if (format != TRIPTYCH_FORMAT_NONE)
+        element.buffer = buffer_of(player, resource);
     return triptych_set_element(player->device, attribute, &element);
+}
+
+static enum triptych_result bind_stream(struct player *player, const struct call *call)
+{
+    triptych_buffer *buffer = call->resource == NO_RESOURCE ? NULL : buffer_of(player, call->resource);
+    return triptych_set_stream(player->device, call->bind_stream.number, buffer, call->bind_stream.offset,
+                               call->bind_stream.stride);
+}
+
+static enum triptych_result declare(struct player *player, const struct call *call)
+{
+    struct triptych_declaration_element elements[TRIPTYCH_ATTRIBUTE_COUNT];
+    unsigned count = stream_declaration(call, elements);
+    return triptych_set_declaration(player->device, elements, count);
 }
 
 static enum triptych_result bind_vertices(struct player *player, uint32_t resource)
@@ -159,6 +177,12 @@ static enum triptych_result execute_state(struct player *player, const struct ca
     case CALL_BIND_ELEMENT:
         return bind_element(player, call->element.attribute, call->resource, call->element.format,
                             call->element.offset, call->element.stride);
+    case CALL_BIND_STREAM: return bind_stream(player, call);
+    case CALL_DECLARE: return declare(player, call);
+    case CALL_FVF: return triptych_set_fvf(device, call->fvf);
+    case CALL_FREQUENCY:
+        return triptych_set_stream_frequency(device, call->frequency.stream, call->frequency.frequency,
+                                             call->frequency.count);
     case CALL_DRAW_MESH: return bind_mesh(player, call->resource);
     case CALL_CLEAR:
     case CALL_DRAW:
@@ -260,6 +284,17 @@ static enum triptych_result reset_table(triptych_device *device, enum triptych_s
     return result;
 }
 
+static enum triptych_result reset_vertices(triptych_device *device)
+{
+    enum triptych_result result = triptych_set_declaration(device, NULL, 0);
+    for (unsigned i = 0; i < TRIPTYCH_STREAMS && !result; i++) {
+        result = triptych_set_stream(device, i, NULL, 0, 0);
+        if (!result)
+            result = triptych_set_stream_frequency(device, i, TRIPTYCH_FREQUENCY_VERTEX, 1);
+    }
+    return result;
+}
+
 static enum triptych_result reset(struct player *player)
 {
     static const float identity[4][4] = {{1, 0, 0, 0}, {0, 1, 0, 0}, {0, 0, 1, 0}, {0, 0, 0, 1}};
@@ -268,8 +303,8 @@ static enum triptych_result reset(struct player *player)
         result = reset_table(player->device, (enum triptych_state_table)t);
     for (unsigned i = 0; i < TRIPTYCH_TRANSFORM_COUNT && !result; i++)
         result = triptych_set_transform(player->device, (enum triptych_transform)i, identity);
-    for (unsigned a = 0; a < TRIPTYCH_ATTRIBUTE_COUNT && !result; a++)
-        result = bind_element(player, (enum triptych_attribute)a, NO_RESOURCE, TRIPTYCH_FORMAT_NONE, 0, 0);
+    if (!result)
+        result = reset_vertices(player->device);
     if (!result)
         result = bind_texture(player, NO_RESOURCE);
     return result ? result : bind_indices(player, NO_RESOURCE);

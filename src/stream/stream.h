@@ -97,6 +97,10 @@ enum call_type {
     CALL_BIND_VERTICES,
     CALL_BIND_INDICES,
     CALL_BIND_ELEMENT,
+    CALL_BIND_STREAM,
+    CALL_DECLARE,
+    CALL_FVF,
+    CALL_FREQUENCY,
     CALL_CLEAR,
     CALL_DRAW,
     CALL_DRAW_INDEXED,
@@ -141,6 +145,22 @@ struct call {
             uint32_t offset, stride;
         } element;
         struct {
+            uint32_t number, offset, stride;
+        } bind_stream; /* no resource: unbinds */
+        struct {
+            uint32_t count;
+            struct declared {
+                uint8_t attribute, format, stream;
+                uint32_t offset;
+            } element[TRIPTYCH_ATTRIBUTE_COUNT];
+        } declare;
+        uint32_t fvf;
+        struct {
+            uint32_t stream;
+            enum triptych_frequency frequency;
+            uint32_t count;
+        } frequency;
+        struct {
             int has_color, has_depth;
             float color[4], depth;
         } clear;
@@ -170,6 +190,10 @@ struct stream {
 /* What a material and lights are before they are set, and what a call leaves out. */
 extern const struct triptych_material stream_default_material;
 extern const struct triptych_light stream_default_light;
+
+/* The declaration that a CALL_DECLARE makes; returns how many elements. */
+unsigned stream_declaration(const struct call *call,
+                            struct triptych_declaration_element elements[TRIPTYCH_ATTRIBUTE_COUNT]);
 
 /* The bytes that an attribute can lie in: those of the vertices, or of a buffer of any type. */
 const void *resource_data(const struct resource *resource, size_t *bytes);

@@ -13,6 +13,13 @@ static const struct row {
 #define WORD(list, word, value) {WORDS_##list, #word, value},
 #include "stream/word.def"
 #undef WORD
+#define ATTRIBUTE(name, word, usage, index, meaning) {WORDS_ATTRIBUTE, #word, TRIPTYCH_##name},
+#include "def/attribute.def"
+#undef ATTRIBUTE
+#define VERTEX_TYPE(name, word, components, encoding, bits, divisor, meaning)                                \
+    {WORDS_FORMAT, #word, TRIPTYCH_FORMAT_##name},
+#include "def/vertex_type.def"
+#undef VERTEX_TYPE
 };
 
 enum { ROWS = sizeof rows / sizeof *rows };

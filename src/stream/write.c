@@ -2,6 +2,7 @@
  * is not written, so that the text stays short; numbers have as few digits as read back as the same binary32.
  */
 #include "base/file.h"
+#include "base/half.h"
 #include "stream/layout.h"
 #include "stream/stream.h"
 #include "stream/words.h"
@@ -77,24 +78,41 @@ static int sort_attributes(const struct layout *layout, unsigned order[TRIPTYCH_
         while (!layout->format[a] || layout->offset[a] != offset)
             a++;
         order[count] = a;
-        offset += 4 * format_words(layout->format[a]);
+        offset += vertex_types[layout->format[a]].bytes;
     }
     return count;
 }
 
-static void write_words(struct writer *writer, enum triptych_format format, const uint8_t *data)
+/* Component c of a packed type. */
+static void write_packed(struct writer *writer, const struct vertex_type *type, const uint8_t *data, unsigned c)
 {
+    uint32_t word, bit = c * type->bits;
+    memcpy(&word, data + bit / 32 * 4, sizeof word);
+    uint32_t field = word >> bit % 32 & ((1u << type->bits) - 1), sign = 1u << (type->bits - 1);
+    if (type->encoding == ENCODING_HALF)
+        write_number(writer, half_to_float((uint16_t)field));
+    else if (type->encoding == ENCODING_SIGNED)
+        fprintf(writer->out, " %" PRId32, (int32_t)((field ^ sign) - sign));
+    else
+        fprintf(writer->out, " %" PRIu32, field);
+}
+
+static void write_typed(struct writer *writer, enum triptych_format format, const uint8_t *data)
+{
+    const struct vertex_type *type = &vertex_types[format];
     uint32_t color;
     float number;
     memcpy(&color, data, sizeof color);
-    if (format == TRIPTYCH_FORMAT_COLOR) {
+    if (type->encoding == ENCODING_COLOR)
         fprintf(writer->out, " 0x%08" PRIx32, color);
-        return;
-    }
-    for (uint32_t c = 0; c < format_words(format); c++) {
-        memcpy(&number, data + 4 * c, sizeof number);
-        write_number(writer, number);
-    }
+    else if (type->encoding != ENCODING_FLOAT)
+        for (unsigned c = 0; c < type->components; c++)
+            write_packed(writer, type, data, c);
+    else
+        for (unsigned c = 0; c < type->components; c++) {
+            memcpy(&number, data + 4 * c, sizeof number);
+            write_number(writer, number);
+        }
 }
 
 static void write_vertices(struct writer *writer, const struct resource *resource)
@@ -110,7 +128,7 @@ static void write_vertices(struct writer *writer, const struct resource *resourc
         const uint8_t *vertex = resource->vertices + (size_t)v * layout->stride;
         fputs("   ", writer->out);
         for (int i = 0; i < count; i++)
-            write_words(writer, layout->format[order[i]], vertex + layout->offset[order[i]]);
+            write_typed(writer, layout->format[order[i]], vertex + layout->offset[order[i]]);
         fputc('\n', writer->out);
     }
     fputc('}', writer->out);
@@ -134,7 +152,7 @@ static void write_values(struct writer *writer, const struct resource *resource)
     fputs(" {", writer->out);
     for (size_t i = 0; i < resource->vertex_bytes / 4; i++) {
         fputs(i % VALUES_PER_LINE ? "" : "\n   ", writer->out);
-        write_words(writer, format, resource->vertices + 4 * i);
+        write_typed(writer, format, resource->vertices + 4 * i);
     }
     fputs("\n}", writer->out);
 }
@@ -268,6 +286,41 @@ static void write_bind_element(struct writer *writer, const struct call *call, c
                 name, call->element.offset, call->element.stride);
 }
 
+static void write_bind_stream(struct writer *writer, const struct call *call, const char *name)
+{
+    fprintf(writer->out, "bind stream %" PRIu32 " %s", call->bind_stream.number, name);
+    if (call->resource != NO_RESOURCE)
+        fprintf(writer->out, " %" PRIu32 " %" PRIu32, call->bind_stream.offset, call->bind_stream.stride);
+}
+
+static void write_declare(struct writer *writer, const struct call *call)
+{
+    fputs("declare", writer->out);
+    for (uint32_t i = 0; i < call->declare.count; i++) {
+        const struct declared *element = &call->declare.element[i];
+        if (!i || element->stream != element[-1].stream)
+            fprintf(writer->out, " %u", element->stream);
+        fprintf(writer->out, " %s:%s@%" PRIu32, word_text(WORDS_ATTRIBUTE, element->attribute),
+                word_text(WORDS_FORMAT, element->format), element->offset);
+    }
+}
+
+static void write_fvf(struct writer *writer, uint32_t fvf)
+{
+    static const struct {
+        const char *word;
+        uint32_t mask, value;
+    } rows[] = {
+#define FVF(word, mask, value, meaning) {#word, mask, value},
+#include "def/fvf.def"
+#undef FVF
+    };
+    fputs("fvf", writer->out);
+    for (size_t i = 0; i < sizeof rows / sizeof rows[0]; i++)
+        if ((fvf & rows[i].mask) == rows[i].value)
+            fprintf(writer->out, " %s", rows[i].word);
+}
+
 static void write_clear(struct writer *writer, const struct call *call)
 {
     fputs("clear", writer->out);
@@ -321,6 +374,13 @@ static void write_call(struct writer *writer, const struct call *call)
     case CALL_BIND_VERTICES: fprintf(out, "bind vertices %s", name); break;
     case CALL_BIND_INDICES: fprintf(out, "bind indices %s", name); break;
     case CALL_BIND_ELEMENT: write_bind_element(writer, call, name); break;
+    case CALL_BIND_STREAM: write_bind_stream(writer, call, name); break;
+    case CALL_DECLARE: write_declare(writer, call); break;
+    case CALL_FVF: write_fvf(writer, call->fvf); break;
+    case CALL_FREQUENCY:
+        fprintf(out, "frequency %" PRIu32 " %s %" PRIu32, call->frequency.stream,
+                word_text(WORDS_FREQUENCY, call->frequency.frequency), call->frequency.count);
+        break;
     case CALL_CLEAR: write_clear(writer, call); break;
     case CALL_DRAW:
     case CALL_DRAW_INDEXED: write_draw(writer, call); break;
