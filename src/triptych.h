@@ -357,14 +357,16 @@ TRIPTYCH_API enum triptych_result triptych_enable_light(triptych_device *, unsig
 /* Null unbinds: stage 0 then passes the diffuse colour. */
 TRIPTYCH_API enum triptych_result triptych_set_texture(triptych_device *, triptych_texture *);
 
-/* Says where in its stream each attribute lies: count (0 to 64) elements, none of them twice the same usage and index.
- * Attributes that it does not mention are not given. A vertex with POSITIONT is drawn where it says. */
+/* Says where in its stream each attribute lies: count (0 to 64) elements, none of them twice the same usage
+ * and index. Attributes that it does not mention are not given. A vertex with POSITIONT is drawn where it
+ * says. */
 TRIPTYCH_API enum triptych_result
-triptych_set_declaration(triptych_device *, const struct triptych_declaration_element *elements, unsigned count);
+triptych_set_declaration(triptych_device *, const struct triptych_declaration_element *elements,
+                         unsigned count);
 /* Sets the declaration that a code of Direct3D 9's D3DFVF values means: all of it in stream 0. */
 TRIPTYCH_API enum triptych_result triptych_set_fvf(triptych_device *, uint32_t fvf);
-/* Stream 0 to 15: vertices of `stride` bytes (0 to 65536; 0: all the same) from `offset` on, multiples of 4. Null
- * unbinds. */
+/* Stream 0 to 15: vertices of `stride` bytes (0 to 65536; 0: all the same) from `offset` on, multiples of 4.
+ * Null unbinds. */
 TRIPTYCH_API enum triptych_result triptych_set_stream(triptych_device *, unsigned stream, triptych_buffer *,
                                                       size_t offset, size_t stride);
 /* count is 1 with FREQUENCY_VERTEX, else 1 to 2^30 - 1. Stream 0 cannot have FREQUENCY_INSTANCE. */

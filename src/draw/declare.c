@@ -1,8 +1,9 @@
 /* The vertex declaration and its streams: what may be declared, and where each attribute then lies.
  *
- * The state keeps one element per attribute and one binding per stream. A declaration sets all elements; an attribute
- * that is set by itself has a stream of its own, behind those that declarations name, so that both ways mean the same
- * to everything that follows. Buffers are compared with what is drawn when it is drawn (draw/device.c). */
+ * The state keeps one element per attribute and one binding per stream. A declaration sets all elements; an
+ * attribute that is set by itself has a stream of its own, behind those that declarations name, so that both
+ * ways mean the same to everything that follows. Buffers are compared with what is drawn when it is drawn
+ * (draw/device.c). */
 #include "draw/key.h"
 #include "draw/state.h"
 
@@ -150,7 +151,8 @@ static enum triptych_format floats(uint32_t count)
     return (enum triptych_format)(TRIPTYCH_FORMAT_FLOAT1 + count - 1);
 }
 
-/* With indices the last of the weights is theirs; XYZB5 has them always, as one float if nothing else is said. */
+/* With indices the last of the weights is theirs; XYZB5 has them always, as one float if nothing else is
+ * said. */
 static void add_position(struct sequence *s, uint32_t fvf)
 {
     uint32_t position = fvf & FVF_POSITION, weights = 0;
@@ -298,7 +300,8 @@ enum triptych_result state_set_element(struct state *state, enum triptych_attrib
     unsigned own = TRIPTYCH_STREAMS + attribute;
     if (element->format && check_place(element, attribute_name[attribute], error))
         return TRIPTYCH_BAD_ARGUMENT;
-    struct state_stream stream = {.buffer = element->buffer, .offset = element->offset, .stride = element->stride};
+    struct state_stream stream = {
+        .buffer = element->buffer, .offset = element->offset, .stride = element->stride};
     state->stream[own] = element->format ? stream : (struct state_stream){.buffer = NULL};
     state->element[attribute] = (struct state_element){element->format, element->format ? own : 0, 0};
     return TRIPTYCH_OK;

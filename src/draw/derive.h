@@ -22,8 +22,8 @@ void derive_keys(const struct state *state, union key key[UNIT_COUNT]);
 /* Whether a draw with this key can change the target at all. */
 bool derive_effective(const struct pixel_key *key);
 
-/* The values for these keys. Attributes' data and stride come from the streams as bound; those of a stream that steps
- * with the instance are instance 0's, with stride 0, those of a stream without buffer null. */
+/* The values for these keys. Attributes' data and stride come from the streams as bound; those of a stream
+ * that steps with the instance are instance 0's, with stride 0, those of a stream without buffer null. */
 void derive_job(const struct state *state, const struct vertex_key *vertex, const struct pixel_key *pixel,
                 struct job *job);
 

@@ -150,6 +150,7 @@ static void fill_window(struct job *job)
 {
     job->guard_x = job->guard_y = (float)GUARD_BAND_PIXELS;
     job->scale_x = job->scale_y = 1 << SUBPIXEL_BITS;
+    job->depth_scale = 1;
 }
 
 /* 0xAARRGGBB with red and blue exchanged. */

@@ -362,8 +362,8 @@ static enum triptych_result record_instance(struct triptych_device *device, cons
     return TRIPTYCH_OK;
 }
 
-/* Records a checked draw, all its instances one after the other. The source's primitive, count, indices and base are
- * filled in. Only the first instance can fail: the others find its routines in use. */
+/* Records a checked draw, all its instances one after the other. The source's primitive, count, indices and
+ * base are filled in. Only the first instance can fail: the others find its routines in use. */
 static enum triptych_result record(struct triptych_device *device, const struct draw *source,
                                    struct error *error)
 {

@@ -94,7 +94,8 @@ static inline uint32_t state_instances(const struct state *state)
     return first->frequency == TRIPTYCH_FREQUENCY_INDEXED ? first->count : 1;
 }
 
-/* The last vertex of its stream that an attribute has, or UINT64_MAX where the stride is 0. The stream is bound. */
+/* The last vertex of its stream that an attribute has, or UINT64_MAX where the stride is 0. The stream is
+ * bound. */
 uint64_t state_last_vertex(const struct state *state, enum triptych_attribute attribute);
 
 #endif

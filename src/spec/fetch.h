@@ -1,9 +1,10 @@
 /* Vertex fetch: attributes of W vertices from the application's buffers into lanes.
  *
  * A vertex index times the stream's stride gives the byte offset; indices were checked against the buffers
- * when the draw was recorded. What types mean is in def/vertex_type.def; components that a type does not have read as
- * those of (0, 0, 0, 1) (Direct3D 9, vertex declarations). An attribute that is not there is `absent` in every
- * component: a missing normal is (0, 0, 0), a missing diffuse colour opaque white, missing texture coordinates (0, 0).
+ * when the draw was recorded. What types mean is in def/vertex_type.def; components that a type does not have
+ * read as those of (0, 0, 0, 1) (Direct3D 9, vertex declarations). An attribute that is not there is `absent`
+ * in every component: a missing normal is (0, 0, 0), a missing diffuse colour opaque white, missing texture
+ * coordinates (0, 0).
  */
 
 struct vector4 {
@@ -35,8 +36,8 @@ static inline itg fetch_signed(struct env *e, itg packed, int shift, int bits)
     return shr_i(E, up, 32 - bits);
 }
 
-/* The binary32 that a binary16 is, exactly; denormals are numbers like others, a NaN stays one. Its exponent is 112
- * less than that of a binary32; 31, that of infinities and NaNs, becomes 255. */
+/* The binary32 that a binary16 is, exactly; denormals are numbers like others, a NaN stays one. Its exponent
+ * is 112 less than that of a binary32; 31, that of infinities and NaNs, becomes 255. */
 static inline flt half_to_float(struct env *e, itg half)
 {
     itg magnitude = and_i(E, half, lit_i(E, 0x7fff));

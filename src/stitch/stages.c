@@ -445,7 +445,7 @@ static int has_light(const struct vertex_key *key, enum light_type type)
 
 static void plan_lighting(struct plan *plan, const struct vertex_key *key)
 {
-    int with_w = key->attribute[ATTRIBUTE_POSITION] == ATTRIBUTE_FORMAT_FLOAT4;
+    int with_w = vertex_types[key->attribute[ATTRIBUTE_POSITION]].components == 4;
     int point = has_light(key, LIGHT_POINT);
     if (point)
         plan_append(plan, with_w ? &fragment_camera_position_w : &fragment_camera_position,
@@ -463,7 +463,7 @@ static void plan_lighting(struct plan *plan, const struct vertex_key *key)
 
 static void plan_transform(struct plan *plan, const struct vertex_key *key)
 {
-    int with_w = key->attribute[ATTRIBUTE_POSITION] == ATTRIBUTE_FORMAT_FLOAT4;
+    int with_w = vertex_types[key->attribute[ATTRIBUTE_POSITION]].components == 4;
     plan_fetch(plan, key, ATTRIBUTE_POSITION);
     plan_append(plan, with_w ? &fragment_clip_position_w : &fragment_clip_position,
                 ARGUMENTS(JOB(world_view_projection), SLOT(X), SLOT(Y), SLOT(Z), SLOT(W)));

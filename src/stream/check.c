@@ -186,8 +186,9 @@ static int check_no_instances(const struct follower *follower, struct error *err
 {
     for (unsigned i = 0; i < TRIPTYCH_STREAMS; i++)
         if (follower->state.stream[i].frequency != TRIPTYCH_FREQUENCY_VERTEX)
-            return error_set(error, "found stream %u stepping by instance, expected frequency %u vertex 1 "
-                                    "or an indexed draw",
+            return error_set(error,
+                             "found stream %u stepping by instance, expected frequency %u vertex 1 "
+                             "or an indexed draw",
                              i, i);
     return 0;
 }

@@ -1,4 +1,5 @@
-/* The calls of the text format that say what vertices are: declarations, flexible vertex formats, frequencies. */
+/* The calls of the text format that say what vertices are: declarations, flexible vertex formats,
+ * frequencies. */
 #include "stream/layout.h"
 #include "stream/parse.h"
 

@@ -84,7 +84,8 @@ static int sort_attributes(const struct layout *layout, unsigned order[TRIPTYCH_
 }
 
 /* Component c of a packed type. */
-static void write_packed(struct writer *writer, const struct vertex_type *type, const uint8_t *data, unsigned c)
+static void write_packed(struct writer *writer, const struct vertex_type *type, const uint8_t *data,
+                         unsigned c)
 {
     uint32_t word, bit = c * type->bits;
     memcpy(&word, data + bit / 32 * 4, sizeof word);

@@ -310,11 +310,14 @@ static void an_element_must_start_inside_its_buffer(void)
     TEST_ASSERT_EQUAL_INT(TRIPTYCH_BAD_ARGUMENT, state_set_element(&state, TRIPTYCH_NORMAL, &element, NULL));
     element.stride = 0;
     element.format = TRIPTYCH_FORMAT_COLOR;
-    TEST_ASSERT_EQUAL_INT(TRIPTYCH_BAD_ARGUMENT, state_set_element(&state, TRIPTYCH_NORMAL, &element, NULL));
     TEST_ASSERT_EQUAL_INT(TRIPTYCH_OK, state_set_element(&state, TRIPTYCH_DIFFUSE, &element, NULL));
+    TEST_ASSERT_EQUAL_PTR(&buffer, state_stream_of(&state, TRIPTYCH_DIFFUSE)->buffer);
+    element.format = TRIPTYCH_FORMAT_COUNT;
+    TEST_ASSERT_EQUAL_INT(TRIPTYCH_BAD_ARGUMENT, state_set_element(&state, TRIPTYCH_DIFFUSE, &element, NULL));
     element.format = TRIPTYCH_FORMAT_NONE;
     TEST_ASSERT_EQUAL_INT(TRIPTYCH_OK, state_set_element(&state, TRIPTYCH_DIFFUSE, &element, NULL));
-    TEST_ASSERT_NULL(state.element[TRIPTYCH_DIFFUSE].buffer);
+    TEST_ASSERT_EQUAL_INT(TRIPTYCH_FORMAT_NONE, state.element[TRIPTYCH_DIFFUSE].format);
+    TEST_ASSERT_NULL(state_stream_of(&state, TRIPTYCH_DIFFUSE)->buffer);
 }
 
 int main(void)

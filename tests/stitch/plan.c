@@ -82,10 +82,11 @@ static void vertex_plans_keep_the_contract(void)
 {
     for (int pattern = 0; pattern < 6; pattern++)
         for (int rest = 0; rest < 6 * 6 * 6 * 6 * 16; rest++) {
+            enum { FORMATS = ATTRIBUTE_FORMAT_COLOR + 1 }; /* those that stages have */
             union key key = no_state;
             int digits = rest;
-            for (int a = 0; a < ATTRIBUTE_COUNT; a++, digits /= ATTRIBUTE_FORMAT_COUNT)
-                key.vertex.attribute[a] = (uint8_t)(digits % ATTRIBUTE_FORMAT_COUNT);
+            for (int a = 0; a <= ATTRIBUTE_TEXCOORD; a++, digits /= FORMATS)
+                key.vertex.attribute[a] = (uint8_t)(digits % FORMATS);
             key.vertex.lighting = digits & 1;
             key.vertex.normalize = digits >> 1 & 1;
             key.vertex.varying[0] = digits >> 2 & 1;
@@ -199,7 +200,7 @@ static void operation_plans_keep_the_contract(void)
     union key most = no_state;
     most.vertex.lighting = most.vertex.normalize = most.vertex.varying[0] = most.vertex.varying[1] = 1;
     memset(most.vertex.light, LIGHT_POINT, sizeof most.vertex.light);
-    memset(most.vertex.attribute, ATTRIBUTE_FORMAT_FLOAT4, sizeof most.vertex.attribute);
+    memset(most.vertex.attribute, ATTRIBUTE_FORMAT_FLOAT4, ATTRIBUTE_TEXCOORD + 1);
     check_plan(plan_operations, UNIT_VERTEX, &most);
     for (int i = 0; i < 3000; i++) {
         union key key;

@@ -190,23 +190,16 @@ static uint32_t *indices(struct differential *d)
     return d->index_words + 1;
 }
 
-static uint32_t fetched_bytes(int format)
-{
-    if (format == ATTRIBUTE_FORMAT_NONE)
-        return 0;
-    return format == ATTRIBUTE_FORMAT_COLOR ? 4 : 4 * (uint32_t)(format - ATTRIBUTE_FORMAT_FLOAT1 + 1);
-}
-
 /* The last vertex that is fetched ends at the fence, or up to three bytes before it. */
 static void make_stream(struct differential *d, int attribute, int format, uint32_t last)
 {
     struct attribute_job *job = &d->job.attribute[attribute];
     uint8_t *stream = d->stream[attribute];
     job->stride = 4 * (int32_t)below(d, STRIDE_MAXIMUM / 4 + 1);
-    job->data = stream + STREAM_BYTES - last * (uint32_t)job->stride - fetched_bytes(format);
+    job->data = stream + STREAM_BYTES - last * (uint32_t)job->stride - vertex_types[format].bytes;
     if (!below(d, 4))
         job->data -= below(d, 4);
-    if (format == ATTRIBUTE_FORMAT_COLOR)
+    if (vertex_types[format].encoding != ENCODING_FLOAT)
         fill_words(d, stream, STREAM_BYTES);
     else
         fill(d, stream, STREAM_BYTES, -2, 2);
@@ -522,6 +515,16 @@ static void blend_usually(uint64_t chance, struct pixel_key *key)
         }
 }
 
+/* Among all keys few have positions that are transformed, of types that are usual. */
+static void declare_usually(uint64_t chance, struct vertex_key *key)
+{
+    if (chance >> 33 & 3)
+        key->attribute[ATTRIBUTE_POSITIONT] = ATTRIBUTE_FORMAT_NONE;
+    if (chance >> 35 & 1)
+        for (int a = 0; a < ATTRIBUTE_COUNT; a++)
+            key->attribute[a] %= ATTRIBUTE_FORMAT_COLOR + 1;
+}
+
 const char *differential_rounds(struct differential *d, const struct engine *a, const struct engine *b,
                                 enum unit unit, differential_shape *shape, uint64_t seed, int rounds)
 {
@@ -531,6 +534,8 @@ const char *differential_rounds(struct differential *d, const struct engine *a, 
         key_random(unit, &seed, &key);
         if (unit == UNIT_PIXEL)
             blend_usually(seed, &key.pixel);
+        if (unit == UNIT_VERTEX)
+            declare_usually(seed, &key.vertex);
         if (shape)
             shape(unit, &key);
         difference = differential_compare(d, a, b, unit, &key, seed);

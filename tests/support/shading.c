@@ -1,0 +1,84 @@
+#include "tests/support/shading.h"
+
+#include "base/code.h"
+#include "draw/derive.h"
+#include "engines.h"
+
+#include <string.h>
+
+struct state shading_state;
+alignas(64) float shaded[SLOT_COUNT * VERTEX_CAPACITY];
+union key shading_key[UNIT_COUNT];
+struct job shading_job;
+
+static const struct engine *engine;
+static struct code_arena *arena;
+static struct triptych_buffer buffers[TRIPTYCH_ATTRIBUTE_COUNT];
+
+void shading_set(enum triptych_state which, const char *word)
+{
+    uint32_t value;
+    TEST_ASSERT_EQUAL_INT_MESSAGE(0, triptych_state_value(which, word, &value), word);
+    shading_number(which, value);
+}
+
+void shading_number(enum triptych_state which, uint32_t value)
+{
+    struct error error = {{0}};
+    TEST_ASSERT_EQUAL_INT_MESSAGE(TRIPTYCH_OK, state_set_value(&shading_state, which, value, &error),
+                                  error.text);
+}
+
+void shading_bind(enum triptych_attribute attribute, enum triptych_format format, const void *data,
+                  size_t stride)
+{
+    struct error error = {{0}};
+    struct triptych_element element = {format, &buffers[attribute], 0, stride};
+    buffers[attribute].data = (uint8_t *)(uintptr_t)data;
+    buffers[attribute].bytes = SIZE_MAX / 2;
+    TEST_ASSERT_EQUAL_INT_MESSAGE(TRIPTYCH_OK, state_set_element(&shading_state, attribute, &element, &error),
+                                  error.text);
+}
+
+void shade(uint32_t count)
+{
+    alignas(64) uint32_t index[VERTEX_CAPACITY];
+    struct error error = {{0}};
+    uint32_t padded = (count + LANES_MAXIMUM - 1) / LANES_MAXIMUM * LANES_MAXIMUM;
+    for (uint32_t i = 0; i < padded; i++)
+        index[i] = i < count ? i : count - 1;
+    derive_keys(&shading_state, shading_key);
+    derive_job(&shading_state, &shading_key[UNIT_VERTEX].vertex, &shading_key[UNIT_PIXEL].pixel,
+               &shading_job);
+    struct routine *routine = engine->build(arena, UNIT_VERTEX, &shading_key[UNIT_VERTEX], &error);
+    TEST_ASSERT_NOT_NULL_MESSAGE(routine, error.text);
+    struct vertex_call call = {&shading_job, index, shaded, padded};
+    memset(shaded, 0, sizeof shaded);
+    routine->run(&call, routine);
+    engine->free(arena, routine);
+}
+
+void shading_close(void)
+{
+    code_destroy(arena);
+    arena = NULL;
+}
+
+void shading_on_every_engine(void (*test)(void))
+{
+    unsigned run = 0;
+    for (unsigned i = 0; engine_at(i); i++) {
+        struct error error = {{0}};
+        engine = engine_at(i);
+        if (engine->unavailable())
+            continue;
+        arena = engine->interprets ? NULL : code_create(1 << 22, NULL, &error);
+        state_initialize(&shading_state);
+        struct triptych_viewport viewport = {0, 0, 64, 64, 0, 1};
+        TEST_ASSERT_EQUAL_INT(TRIPTYCH_OK, state_set_viewport(&shading_state, &viewport, 64, 64, &error));
+        test();
+        shading_close();
+        run++;
+    }
+    TEST_ASSERT_GREATER_THAN(0, run);
+}
