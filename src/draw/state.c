@@ -4,7 +4,6 @@
 #include <stdio.h>
 #include <string.h>
 
-
 /* How many samplers and stages work; the others can only keep their defaults. */
 static const unsigned working[TRIPTYCH_STATE_TABLE_COUNT] = {1, 1, 1};
 

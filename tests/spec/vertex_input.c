@@ -142,7 +142,7 @@ static void check_halves(void)
             double exact = binary16(half[i]);
             TEST_ASSERT_EQUAL_HEX32_MESSAGE(0, memcmp(&got, &expected, sizeof got), "binary16");
             TEST_ASSERT_TRUE(isnan(exact) ? isnan(got) : exact == (double)got);
-            TEST_ASSERT_TRUE(isnan(exact) || half_from_float(got) == half[i]);
+            TEST_ASSERT_TRUE(isnan(exact) || float_to_half(got) == half[i]);
         }
     }
 }

@@ -15,18 +15,26 @@ static const struct engine *engine;
 static struct code_arena *arena;
 static struct triptych_buffer buffers[TRIPTYCH_ATTRIBUTE_COUNT];
 
-void shading_set(enum triptych_state which, const char *word)
+void shading_set(enum triptych_state_table table, unsigned i, unsigned row, const char *word)
 {
     uint32_t value;
-    TEST_ASSERT_EQUAL_INT_MESSAGE(0, triptych_state_value(which, word, &value), word);
-    shading_number(which, value);
+    TEST_ASSERT_EQUAL_INT_MESSAGE(0, triptych_value_number(triptych_state_at(table, row)->kind, word, &value),
+                                  word);
+    shading_number(table, i, row, value);
 }
 
-void shading_number(enum triptych_state which, uint32_t value)
+void shading_number(enum triptych_state_table table, unsigned i, unsigned row, uint32_t value)
 {
     struct error error = {{0}};
-    TEST_ASSERT_EQUAL_INT_MESSAGE(TRIPTYCH_OK, state_set_value(&shading_state, which, value, &error),
+    TEST_ASSERT_EQUAL_INT_MESSAGE(TRIPTYCH_OK, state_set_value(&shading_state, table, i, row, value, &error),
                                   error.text);
+}
+
+uint32_t real_bits(float value)
+{
+    uint32_t bits;
+    memcpy(&bits, &value, sizeof bits);
+    return bits;
 }
 
 void shading_bind(enum triptych_attribute attribute, enum triptych_format format, const void *data,

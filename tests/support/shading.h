@@ -29,11 +29,14 @@ static inline float shaded_slot(int slot, uint32_t vertex)
 void shading_bind(enum triptych_attribute attribute, enum triptych_format format, const void *data,
                   size_t stride);
 
-/* A state by its name and word, and by its number. */
-#define SHADING_SET(name, word)     shading_set(TRIPTYCH_STATE_##name, word)
-#define SHADING_NUMBER(name, value) shading_number(TRIPTYCH_STATE_##name, value)
-void shading_set(enum triptych_state state, const char *word);
-void shading_number(enum triptych_state state, uint32_t value);
+/* A state by its name and word, number or real number. */
+#define SHADING_SET(name, word)     shading_set(TRIPTYCH_RENDER_STATES, 0, TRIPTYCH_STATE_##name, word)
+#define SHADING_NUMBER(name, value) shading_number(TRIPTYCH_RENDER_STATES, 0, TRIPTYCH_STATE_##name, value)
+#define SHADING_REAL(name, value)                                                                            \
+    shading_number(TRIPTYCH_RENDER_STATES, 0, TRIPTYCH_STATE_##name, real_bits(value))
+void shading_set(enum triptych_state_table table, unsigned i, unsigned row, const char *word);
+void shading_number(enum triptych_state_table table, unsigned i, unsigned row, uint32_t value);
+uint32_t real_bits(float value);
 
 /* Frees what a test that failed has left: for tearDown. */
 void shading_close(void);
