@@ -110,21 +110,40 @@ static void clear_texels(struct triptych_texture *texture, size_t bytes)
 
 static enum triptych_result allocate(struct triptych_texture *texture, struct error *error)
 {
-    uint64_t texels = lay_out(texture) * texture->faces;
-    uint64_t bytes = texels * format_texel_bytes(texture->format);
-    if (bytes > STORAGE_MAXIMUM) {
-        error_set(error, "texture of %" PRIu64 " bytes when decoded: expected at most %" PRIu64, bytes,
-                  STORAGE_MAXIMUM);
-        return TRIPTYCH_BAD_ARGUMENT;
-    }
-    texture->face_texels = (uint32_t)(texels / texture->faces);
-    size_t rounded = ((size_t)bytes + TEXTURE_ALIGNMENT - 1) & ~(size_t)(TEXTURE_ALIGNMENT - 1);
+    size_t bytes = (size_t)texture->face_texels * texture->faces * format_texel_bytes(texture->format);
+    size_t rounded = (bytes + TEXTURE_ALIGNMENT - 1) & ~(size_t)(TEXTURE_ALIGNMENT - 1);
     texture->texels = aligned_alloc(TEXTURE_ALIGNMENT, rounded);
     if (!texture->texels) {
         error_set(error, "out of memory for a texture of %ux%u texels", texture->width, texture->height);
         return TRIPTYCH_NO_MEMORY;
     }
-    clear_texels(texture, (size_t)bytes);
+    clear_texels(texture, bytes);
+    return TRIPTYCH_OK;
+}
+
+enum triptych_result texture_describe(const struct triptych_texture_description *description,
+                                      struct triptych_texture *texture, struct error *error)
+{
+    enum triptych_result result = check(description, error);
+    if (result != TRIPTYCH_OK)
+        return result;
+    *texture = (struct triptych_texture){
+        .format = format_find(description->format),
+        .type = description->type,
+        .width = description->width,
+        .height = description->height,
+        .depth = description->depth,
+        .levels = description->levels ? description->levels : full_chain(description),
+        .faces = description->type == TRIPTYCH_TEXTURE_CUBE ? CUBE_FACES : 1,
+    };
+    uint64_t texels = lay_out(texture);
+    uint64_t bytes = texels * texture->faces * format_texel_bytes(texture->format);
+    if (bytes > STORAGE_MAXIMUM) {
+        error_set(error, "texture of %" PRIu64 " bytes when decoded: expected at most %" PRIu64, bytes,
+                  STORAGE_MAXIMUM);
+        return TRIPTYCH_BAD_ARGUMENT;
+    }
+    texture->face_texels = (uint32_t)texels;
     return TRIPTYCH_OK;
 }
 
@@ -132,22 +151,14 @@ enum triptych_result texture_create(const struct triptych_texture_description *d
                                     struct triptych_texture **texture, struct error *error)
 {
     *texture = NULL;
-    enum triptych_result result = check(description, error);
-    if (result != TRIPTYCH_OK)
-        return result;
-    struct triptych_texture *made = calloc(1, sizeof *made);
+    struct triptych_texture *made = malloc(sizeof *made);
     if (!made) {
         error_set(error, "out of memory for a texture");
         return TRIPTYCH_NO_MEMORY;
     }
-    made->format = format_find(description->format);
-    made->type = description->type;
-    made->width = description->width;
-    made->height = description->height;
-    made->depth = description->depth;
-    made->levels = description->levels ? description->levels : full_chain(description);
-    made->faces = description->type == TRIPTYCH_TEXTURE_CUBE ? CUBE_FACES : 1;
-    result = allocate(made, error);
+    enum triptych_result result = texture_describe(description, made, error);
+    if (result == TRIPTYCH_OK)
+        result = allocate(made, error);
     if (result == TRIPTYCH_OK)
         *texture = made;
     else
@@ -167,6 +178,13 @@ void texture_destroy(struct triptych_texture *texture)
 size_t texture_row_bytes(const struct format *format, uint32_t width)
 {
     return format_blocks(format, width) * format->bytes;
+}
+
+size_t texture_level_bytes(const struct triptych_texture *texture, unsigned level)
+{
+    const struct texture_level *l = &texture->level[level];
+    return texture_row_bytes(texture->format, (uint32_t)l->width) *
+           format_blocks(texture->format, (uint32_t)l->height) * (size_t)l->depth;
 }
 
 static struct triptych_box whole_level(const struct triptych_texture *texture, unsigned level)

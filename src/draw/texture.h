@@ -32,6 +32,10 @@ struct triptych_texture {
 
 extern const char *const texture_type_name[TRIPTYCH_TEXTURE_TYPE_COUNT]; /* "2d", "cube", "volume" */
 
+/* Everything of a texture but its texels: what a description means, without the memory. */
+enum triptych_result texture_describe(const struct triptych_texture_description *description,
+                                      struct triptych_texture *texture, struct error *error);
+
 /* A texture as described, every texel what zeros in its format mean. Refused, with the reason: what Direct3D
  * 9 does not allow, and storage of more than 4 GiB. */
 enum triptych_result texture_create(const struct triptych_texture_description *description,
@@ -41,6 +45,9 @@ void texture_destroy(struct triptych_texture *texture);
 /* Bytes of texels in the format's form, for the smallest pitches: of a row of blocks of `width` texels, and
  * of `rows` of it. */
 size_t texture_row_bytes(const struct format *format, uint32_t width);
+
+/* Bytes of a level of one face in the format's form, without gaps. */
+size_t texture_level_bytes(const struct triptych_texture *texture, unsigned level);
 
 /* Checks a change of `box` (null: all of the level), and makes it. */
 enum triptych_result texture_check_update(const struct triptych_texture *texture, unsigned face,

@@ -294,6 +294,8 @@ static int follow(struct follower *follower, const struct call *call, struct err
     case CALL_FREQUENCY:
         return state_set_frequency(state, call->frequency.stream, call->frequency.frequency,
                                    call->frequency.count, error);
+    case CALL_UPDATE:
+    case CALL_MIPS: return 0;
     case CALL_CLEAR: return check_clear(call, error);
     case CALL_DRAW:
     case CALL_DRAW_INDEXED: return check_draw(follower, call, error);

@@ -1,11 +1,10 @@
-/* The definitions of the text format: textures, vertices, indices, buffers and meshes, from behind their
+/* The definitions of the text format but textures: vertices, indices, buffers and meshes, from behind their
  * first word. */
 #include "stream/layout.h"
 #include "stream/mesh.h"
 #include "stream/parse.h"
 
 #include "base/half.h"
-#include "base/png.h"
 
 #include <stdio.h>
 #include <stdlib.h>
@@ -102,8 +101,7 @@ static int parse_values(struct parser *parser, enum value_type type, const char 
 /* --- Assets -----------------------------------------------------------------------------------------------
  */
 
-/* Counts a resource's bytes against the stream's limit. */
-static int account(struct parser *parser, const struct token *place, size_t bytes)
+int parse_account(struct parser *parser, const struct token *place, size_t bytes)
 {
     parser->bytes += bytes;
     if (parser->bytes > LIMIT_STREAM_BYTES)
@@ -125,90 +123,30 @@ static char *asset_path(const char *stream_path, const char *path)
     return joined;
 }
 
-static int load_texture(struct resource *resource, const char *path, struct error *error)
-{
-    return png_load(path, &resource->width, &resource->height, &resource->texels, error);
-}
-
-/* Loads the resource's file; a failure is reported at the place of its path. */
-static int load(struct parser *parser, struct resource *resource, const struct token *place,
-                int (*loader)(struct resource *resource, const char *path, struct error *error))
+int parse_load(struct parser *parser, struct resource *resource, const char *path, const struct token *place,
+               resource_loader *loader)
 {
     struct error reason = {{0}};
-    char *path = asset_path(parser->lex.path, resource->path);
-    if (!path)
+    char *joined = asset_path(parser->lex.path, path);
+    if (!joined)
         return lex_fail(&parser->lex, place, "not enough memory");
-    int result = loader(resource, path, &reason);
-    free(path);
+    int result = loader(resource, joined, &reason);
+    free(joined);
     if (result)
         return lex_fail(&parser->lex, place, "%s", reason.text);
     return 0;
 }
 
-static int parse_path(struct parser *parser, struct resource *resource)
+int parse_path(struct parser *parser, char **path)
 {
     struct token place = parser->lex.token;
-    if (lex_string(&parser->lex, "the path of a file", &resource->path))
+    if (lex_string(&parser->lex, "the path of a file", path))
         return -1;
-    size_t length = strlen(resource->path);
+    size_t length = strlen(*path);
     if (!length || length > LIMIT_PATH_BYTES)
         return lex_fail(&parser->lex, &place, "found a path of %zu bytes, expected 1 to %d", length,
                         LIMIT_PATH_BYTES);
     return 0;
-}
-
-/* --- Textures ---------------------------------------------------------------------------------------------
- */
-
-/* 0xAARRGGBB of the text to the RGBA8 word with red in the lowest byte. */
-static void swap_red_and_blue(uint32_t *texels, size_t count)
-{
-    for (size_t i = 0; i < count; i++) {
-        uint32_t c = texels[i];
-        texels[i] = (c & 0xff00ff00) | (c >> 16 & 0xff) | (c & 0xff) << 16;
-    }
-}
-
-static int parse_texels(struct parser *parser, struct resource *resource)
-{
-    struct lexer *lex = &parser->lex;
-    int64_t width, height;
-    if (lex_integer(lex, "texture width", 1, TRIPTYCH_TEXTURE_MAXIMUM, &width) ||
-        lex_integer(lex, "texture height", 1, TRIPTYCH_TEXTURE_MAXIMUM, &height))
-        return -1;
-    size_t count = (size_t)(width * height);
-    struct token place = lex->token;
-    if (account(parser, &place, 4 * count))
-        return -1;
-    struct block block = {.size = 4, .limit = count, .items = "texels"};
-    int result = parse_values(parser, VALUE_COLOR, "texel", &block);
-    resource->texels = (uint32_t *)(void *)block.data;
-    resource->width = (uint32_t)width;
-    resource->height = (uint32_t)height;
-    if (result)
-        return -1;
-    if (block.bytes != 4 * count)
-        return lex_fail(lex, &place, "found %zu texels, expected %zu", block.bytes / 4, count);
-    swap_red_and_blue(resource->texels, count);
-    return 0;
-}
-
-int parse_texture(struct parser *parser)
-{
-    struct resource *resource;
-    if (parse_new_name(parser, RESOURCE_TEXTURE, &resource))
-        return -1;
-    if (!lex_is(&parser->lex, "file")) {
-        if (parser->lex.token.type != TOKEN_WORD || parser->lex.token.text[0] > '9')
-            return lex_expected(&parser->lex, "file \"PATH\" or WIDTH HEIGHT { color... }");
-        return parse_texels(parser, resource);
-    }
-    if (lex_next(&parser->lex))
-        return -1;
-    struct token place = parser->lex.token;
-    if (parse_path(parser, resource) || load(parser, resource, &place, load_texture))
-        return -1;
-    return account(parser, &place, 4 * (size_t)resource->width * resource->height);
 }
 
 /* --- Vertices ---------------------------------------------------------------------------------------------
@@ -322,7 +260,7 @@ int parse_vertices(struct parser *parser)
     resource->vertices = block.data;
     resource->vertex_bytes = block.bytes;
     resource->vertex_count = (uint32_t)(block.bytes / layout->stride);
-    return result ? -1 : account(parser, &place, block.bytes);
+    return result ? -1 : parse_account(parser, &place, block.bytes);
 }
 
 /* --- Indices and values -----------------------------------------------------------------------------------
@@ -357,7 +295,7 @@ static int parse_data(struct parser *parser, struct resource *resource, enum val
         resource->vertices = block.data;
         resource->vertex_bytes = block.bytes;
     }
-    return result ? -1 : account(parser, &place, block.bytes);
+    return result ? -1 : parse_account(parser, &place, block.bytes);
 }
 
 int parse_indices(struct parser *parser)
@@ -484,10 +422,10 @@ int parse_mesh(struct parser *parser)
     if (lex_next(lex))
         return -1;
     struct token place = lex->token;
-    if (parse_path(parser, resource) || parse_options(parser, &resource->options) ||
-        load(parser, resource, &place, mesh_load))
+    if (parse_path(parser, &resource->path) || parse_options(parser, &resource->options) ||
+        parse_load(parser, resource, resource->path, &place, mesh_load))
         return -1;
     find_extremes(resource);
-    return account(parser, &place,
-                   resource->vertex_bytes + (size_t)resource->index_count * resource->index_bits / 8);
+    return parse_account(parser, &place,
+                         resource->vertex_bytes + (size_t)resource->index_count * resource->index_bits / 8);
 }

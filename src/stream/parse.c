@@ -199,6 +199,8 @@ static const struct command {
     {"declare", ANYWHERE, CALL_DECLARE, parse_declare, NULL},
     {"fvf", ANYWHERE, CALL_FVF, parse_fvf, NULL},
     {"frequency", ANYWHERE, CALL_FREQUENCY, parse_frequency, NULL},
+    {"update", ANYWHERE, CALL_UPDATE, parse_update, NULL},
+    {"mips", ANYWHERE, CALL_MIPS, parse_mips, NULL},
     {"clear", ANYWHERE, CALL_CLEAR, parse_clear, NULL},
     {"draw", ANYWHERE, CALL_DRAW, parse_draw, NULL},
     {"draw-indexed", ANYWHERE, CALL_DRAW_INDEXED, parse_primitives, NULL},
@@ -306,6 +308,9 @@ void stream_free(struct stream *stream)
         free(resource->name);
         free(resource->path);
         free(resource->texels);
+        free(resource->colors);
+        for (unsigned face = 0; face < sizeof resource->face_path / sizeof *resource->face_path; face++)
+            free(resource->face_path[face]);
         free(resource->vertices);
         free(resource->indices);
     }

@@ -34,6 +34,16 @@ int parse_attribute(struct parser *parser, size_t length, enum triptych_attribut
 
 /* An integer from 0 to `high`. */
 int parse_integer(struct parser *parser, const char *what, int64_t high, uint32_t *value);
+/* Counts a resource's bytes against the stream's limit. */
+int parse_account(struct parser *parser, const struct token *place, size_t bytes);
+
+/* Reads the path of a file, which the caller frees. */
+int parse_path(struct parser *parser, char **path);
+
+/* Calls the loader with where the path leads; a failure is reported at `place`. */
+typedef int resource_loader(struct resource *resource, const char *path, struct error *error);
+int parse_load(struct parser *parser, struct resource *resource, const char *path, const struct token *place,
+               resource_loader *loader);
 
 /* Calls, from behind their first word; what is not mentioned in the text has its default. */
 int parse_target(struct parser *parser, struct call *call);
@@ -49,6 +59,8 @@ int parse_bind(struct parser *parser, struct call *call);
 int parse_declare(struct parser *parser, struct call *call);
 int parse_fvf(struct parser *parser, struct call *call);
 int parse_frequency(struct parser *parser, struct call *call);
+int parse_update(struct parser *parser, struct call *call);
+int parse_mips(struct parser *parser, struct call *call);
 int parse_clear(struct parser *parser, struct call *call);
 int parse_draw(struct parser *parser, struct call *call);
 int parse_primitives(struct parser *parser, struct call *call);

@@ -4,6 +4,7 @@
  * state to its default, then the calls of the earlier frames without draws and clears. The states that a
  * frame can leave to later ones are all set here, so that playing does not depend on what the device's own
  * defaults are. */
+#include "draw/texture.h"
 #include "stream/stream.h"
 
 #include <inttypes.h>
@@ -26,13 +27,37 @@ struct player {
 /* --- Resources --------------------------------------------------------------------------------------------
  */
 
+/* The texture's contents as the stream defines them. */
+static enum triptych_result fill_texture(triptych_device *device, const struct resource *resource,
+                                         triptych_texture *texture)
+{
+    struct triptych_texture shape;
+    const uint8_t *data = resource->texels;
+    enum triptych_result result = texture_describe(&resource->texture, &shape, NULL);
+    for (unsigned face = 0; face < shape.faces && !result; face++)
+        for (unsigned level = 0; level < (resource->mips ? 1 : shape.levels) && !result; level++) {
+            size_t row = texture_row_bytes(shape.format, (uint32_t)shape.level[level].width);
+            size_t bytes = texture_level_bytes(&shape, level);
+            size_t slice = bytes / (size_t)shape.level[level].depth;
+            result = triptych_texture_update(device, texture, face, level, NULL, data, row, slice);
+            data += bytes;
+        }
+    return !result && resource->mips ? triptych_texture_generate_mips(device, texture) : result;
+}
+
+static enum triptych_result create_texture(triptych_device *device, const struct resource *resource,
+                                           triptych_texture **texture)
+{
+    enum triptych_result result = triptych_texture_define(device, &resource->texture, texture);
+    return result ? result : fill_texture(device, resource, *texture);
+}
+
 static enum triptych_result create(triptych_device *device, const struct resource *resource,
                                    struct handles *handles)
 {
     enum triptych_result result = TRIPTYCH_OK;
     if (resource->texels)
-        result = triptych_texture_create(device, resource->texels, resource->width, resource->height,
-                                         &handles->texture);
+        result = create_texture(device, resource, &handles->texture);
     if (!result && resource->vertices)
         result =
             triptych_buffer_create(device, resource->vertices, resource->vertex_bytes, &handles->vertices);
@@ -156,6 +181,21 @@ static enum triptych_result set_value(triptych_device *device, enum triptych_sta
     return triptych_set_state(device, (enum triptych_state)row, value);
 }
 
+static enum triptych_result update_texture(struct player *player, const struct call *call)
+{
+    const struct resource *resources = player->stream->resources;
+    triptych_texture *texture = player->handles[call->resource].texture;
+    struct triptych_texture shape;
+    texture_describe(&resources[call->resource].texture, &shape, NULL);
+    const struct texture_level *level = &shape.level[call->update.level];
+    const struct triptych_box *box = call->update.box.width ? &call->update.box : NULL;
+    size_t row = texture_row_bytes(shape.format, box ? box->width : (unsigned)level->width);
+    size_t rows = format_blocks(shape.format, box ? box->height : (unsigned)level->height), bytes;
+    const void *data = resource_data(&resources[call->update.source], &bytes);
+    return triptych_texture_update(player->device, texture, call->update.face, call->update.level, box, data,
+                                   row, row * rows);
+}
+
 /* Everything that stays from call to call. */
 static enum triptych_result execute_state(struct player *player, const struct call *call)
 {
@@ -184,6 +224,8 @@ static enum triptych_result execute_state(struct player *player, const struct ca
         return triptych_set_stream_frequency(device, call->frequency.stream, call->frequency.frequency,
                                              call->frequency.count);
     case CALL_DRAW_MESH: return bind_mesh(player, call->resource);
+    case CALL_UPDATE: return update_texture(player, call);
+    case CALL_MIPS: return triptych_texture_generate_mips(device, player->handles[call->resource].texture);
     case CALL_CLEAR:
     case CALL_DRAW:
     case CALL_DRAW_INDEXED:
@@ -295,10 +337,23 @@ static enum triptych_result reset_vertices(triptych_device *device)
     return result;
 }
 
+/* Textures that calls have changed, or will, as they were defined. */
+static enum triptych_result reset_textures(struct player *player)
+{
+    const struct stream *stream = player->stream;
+    enum triptych_result result = TRIPTYCH_OK;
+    for (uint32_t i = 0; i < stream->resource_count && !result; i++)
+        if (stream->resources[i].changes)
+            result = fill_texture(player->device, &stream->resources[i], player->handles[i].texture);
+    return result;
+}
+
 static enum triptych_result reset(struct player *player)
 {
     static const float identity[4][4] = {{1, 0, 0, 0}, {0, 1, 0, 0}, {0, 0, 1, 0}, {0, 0, 0, 1}};
     enum triptych_result result = reset_lights(player->device);
+    if (!result)
+        result = reset_textures(player);
     for (unsigned t = 0; t < TRIPTYCH_STATE_TABLE_COUNT && !result; t++)
         result = reset_table(player->device, (enum triptych_state_table)t);
     for (unsigned i = 0; i < TRIPTYCH_TRANSFORM_COUNT && !result; i++)

@@ -45,6 +45,20 @@ struct mesh_options {
     float fit; /* the longest side of the bounding box; 0: as it is */
 };
 
+/* Where a texture's texels come from. Those of files and blocks are in the text or its files; the others are
+ * made. */
+enum texture_source {
+    TEXTURE_IMAGE,    /* WIDTH HEIGHT { color... }, or a PNG */
+    TEXTURE_DDS,      /* a DDS file, which says what texture it is */
+    TEXTURE_EMPTY,    /* what zeros in the format mean */
+    TEXTURE_BYTES,    /* bytes as they lie in memory */
+    TEXTURE_COLORS,   /* a color a texel */
+    TEXTURE_FILL,     /* a color a level */
+    TEXTURE_CHECKER,  /* squares of two colors */
+    TEXTURE_GRADIENT, /* red across, green down, blue through slices or faces */
+    TEXTURE_FILES     /* a PNG a face */
+};
+
 /* Interleaved vertices: where each attribute lies within `stride` bytes. */
 struct layout {
     enum triptych_format format[TRIPTYCH_ATTRIBUTE_COUNT];
@@ -66,8 +80,17 @@ struct resource {
     char *name;
     char *path; /* as written; null: the data are in the text */
 
-    uint32_t *texels; /* texture: rows of RGBA8 words */
-    uint32_t width, height;
+    /* Texture: its contents in its format, face by face, each with all its levels, or with `mips` the first
+     * one. */
+    struct triptych_texture_description texture;
+    enum texture_source source;
+    uint8_t *texels;
+    size_t texel_bytes;
+    int mips;         /* the levels below the first are made of it */
+    int changes;      /* some call of the stream changes it */
+    uint32_t *colors; /* of the source, as it was written */
+    uint32_t color_count, cell;
+    char *face_path[6]; /* TEXTURE_FILES */
 
     enum value_type value_type; /* buffer */
     struct layout layout;       /* vertices, mesh */
@@ -101,6 +124,8 @@ enum call_type {
     CALL_DECLARE,
     CALL_FVF,
     CALL_FREQUENCY,
+    CALL_UPDATE,
+    CALL_MIPS,
     CALL_CLEAR,
     CALL_DRAW,
     CALL_DRAW_INDEXED,
@@ -160,6 +185,11 @@ struct call {
             enum triptych_frequency frequency;
             uint32_t count;
         } frequency;
+        struct {
+            uint32_t face, level;
+            struct triptych_box box; /* of width 0: the whole level */
+            uint32_t source;         /* the number of the resource whose bytes these are */
+        } update;
         struct {
             int has_color, has_depth;
             float color[4], depth;

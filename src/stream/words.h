@@ -12,7 +12,8 @@ enum word_list {
     WORDS_TRANSFORM,
     WORDS_VALUE,
     WORDS_NORMALS,
-    WORDS_TEXCOORDS
+    WORDS_TEXCOORDS,
+    WORDS_TEXTURETYPE
 };
 
 /* The number's word; null if it has none. */

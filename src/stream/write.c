@@ -3,6 +3,7 @@
  */
 #include "base/file.h"
 #include "base/half.h"
+#include "draw/format.h"
 #include "stream/layout.h"
 #include "stream/stream.h"
 #include "stream/words.h"
@@ -56,17 +57,88 @@ static void write_path(struct writer *writer, const char *path)
     fputc('"', writer->out);
 }
 
-static void write_texels(struct writer *writer, const struct resource *resource)
+/* { color... } */
+static void write_colors(struct writer *writer, const uint32_t *colors, size_t count, size_t line)
 {
-    size_t count = (size_t)resource->width * resource->height;
-    size_t line = resource->width < VALUES_PER_LINE ? resource->width : VALUES_PER_LINE;
-    fprintf(writer->out, " %" PRIu32 " %" PRIu32 " {", resource->width, resource->height);
+    fputs(" {", writer->out);
+    for (size_t i = 0; i < count; i++)
+        fprintf(writer->out, "%s0x%08" PRIx32, i % line ? " " : "\n    ", colors[i]);
+    fputs("\n}", writer->out);
+}
+
+static void write_image(struct writer *writer, const struct resource *resource)
+{
+    size_t count = resource->texel_bytes / 4, width = resource->texture.width;
+    size_t line = width < VALUES_PER_LINE ? width : VALUES_PER_LINE;
+    fprintf(writer->out, " %u %u {", resource->texture.width, resource->texture.height);
     for (size_t i = 0; i < count; i++) {
-        uint32_t c = resource->texels[i];
-        c = (c & 0xff00ff00) | (c >> 16 & 0xff) | (c & 0xff) << 16;
-        fprintf(writer->out, "%s%08" PRIx32, i % line ? " " : "\n    ", c);
+        const uint8_t *c = resource->texels + 4 * i;
+        fprintf(writer->out, "%s%02x%02x%02x%02x", i % line ? " " : "\n    ", c[3], c[0], c[1], c[2]);
     }
     fputs("\n}", writer->out);
+}
+
+static void write_bytes(struct writer *writer, const struct resource *resource)
+{
+    fputs(" bytes {", writer->out);
+    for (size_t i = 0; i < resource->texel_bytes; i++)
+        fprintf(writer->out, "%s%02x", i % 32 ? i % 4 ? "" : " " : "\n    ", resource->texels[i]);
+    fputs("\n}", writer->out);
+}
+
+static void write_texture_type(struct writer *writer, const struct resource *resource)
+{
+    const struct triptych_texture_description *texture = &resource->texture;
+    fprintf(writer->out, " %s %s %u", word_text(WORDS_TEXTURETYPE, texture->type),
+            format_find(texture->format)->name, texture->width);
+    if (texture->type != TRIPTYCH_TEXTURE_CUBE)
+        fprintf(writer->out, " %u", texture->height);
+    if (texture->type == TRIPTYCH_TEXTURE_VOLUME)
+        fprintf(writer->out, " %u", texture->depth);
+    if (texture->levels != (resource->mips ? 0 : 1))
+        fprintf(writer->out, " levels %u", texture->levels);
+    if (resource->mips)
+        fputs(" mips", writer->out);
+}
+
+/* What follows the type, the sides and the levels. */
+static void write_contents(struct writer *writer, const struct resource *resource)
+{
+    switch (resource->source) {
+    case TEXTURE_EMPTY: fputs(" empty", writer->out); break;
+    case TEXTURE_BYTES: write_bytes(writer, resource); break;
+    case TEXTURE_GRADIENT: fputs(" gradient", writer->out); break;
+    case TEXTURE_CHECKER:
+        fprintf(writer->out, " checker %" PRIu32 " 0x%08" PRIx32 " 0x%08" PRIx32, resource->cell,
+                resource->colors[0], resource->colors[1]);
+        break;
+    case TEXTURE_COLORS:
+    case TEXTURE_FILL:
+        fputs(resource->source == TEXTURE_FILL ? " fill" : " colors", writer->out);
+        write_colors(writer, resource->colors, resource->color_count, VALUES_PER_LINE / 2);
+        break;
+    case TEXTURE_FILES:
+        fputs(" files", writer->out);
+        for (int face = 0; face < 6 && resource->face_path[face]; face++)
+            write_path(writer, resource->face_path[face]);
+        break;
+    case TEXTURE_IMAGE:
+    case TEXTURE_DDS: break;
+    }
+}
+
+static void write_texture(struct writer *writer, const struct resource *resource)
+{
+    fprintf(writer->out, "texture %s", resource->name);
+    if (resource->path) {
+        fputs(" file", writer->out);
+        write_path(writer, resource->path);
+    } else if (resource->source == TEXTURE_IMAGE) {
+        write_image(writer, resource);
+    } else {
+        write_texture_type(writer, resource);
+        write_contents(writer, resource);
+    }
 }
 
 /* The attributes in the order in which they lie in a vertex; returns how many. */
@@ -180,15 +252,7 @@ static void write_mesh(struct writer *writer, const struct resource *resource)
 static void write_resource(struct writer *writer, const struct resource *resource)
 {
     switch (resource->type) {
-    case RESOURCE_TEXTURE:
-        fprintf(writer->out, "texture %s", resource->name);
-        if (!resource->path) {
-            write_texels(writer, resource);
-            break;
-        }
-        fputs(" file", writer->out);
-        write_path(writer, resource->path);
-        break;
+    case RESOURCE_TEXTURE: write_texture(writer, resource); break;
     case RESOURCE_VERTICES:
         fprintf(writer->out, "vertices %s", resource->name);
         write_vertices(writer, resource);
@@ -322,6 +386,20 @@ static void write_fvf(struct writer *writer, uint32_t fvf)
             fprintf(writer->out, " %s", rows[i].word);
 }
 
+static void write_update(struct writer *writer, const struct call *call, const char *name)
+{
+    const struct triptych_box *box = &call->update.box;
+    fprintf(writer->out, "update %s", name);
+    if (call->update.face)
+        fprintf(writer->out, " face %" PRIu32, call->update.face);
+    if (call->update.level)
+        fprintf(writer->out, " level %" PRIu32, call->update.level);
+    if (box->width)
+        fprintf(writer->out, " box %u %u %u %u %u %u", box->x, box->y, box->z, box->width, box->height,
+                box->depth);
+    fprintf(writer->out, " %s", writer->stream->resources[call->update.source].name);
+}
+
 static void write_clear(struct writer *writer, const struct call *call)
 {
     fputs("clear", writer->out);
@@ -382,6 +460,8 @@ static void write_call(struct writer *writer, const struct call *call)
         fprintf(out, "frequency %" PRIu32 " %s %" PRIu32, call->frequency.stream,
                 word_text(WORDS_FREQUENCY, call->frequency.frequency), call->frequency.count);
         break;
+    case CALL_UPDATE: write_update(writer, call, name); break;
+    case CALL_MIPS: fprintf(out, "mips %s", name); break;
     case CALL_CLEAR: write_clear(writer, call); break;
     case CALL_DRAW:
     case CALL_DRAW_INDEXED: write_draw(writer, call); break;
@@ -447,10 +527,23 @@ static char *relative_folder(const char *from, const char *to)
     return out;
 }
 
+static int is_relative(const char *path)
+{
+    return path && path[0] != '/';
+}
+
+static int has_relative_face(const struct resource *resource)
+{
+    for (int face = 0; face < 6; face++)
+        if (is_relative(resource->face_path[face]))
+            return 1;
+    return 0;
+}
+
 static int names_files(const struct stream *stream)
 {
     for (uint32_t i = 0; i < stream->resource_count; i++)
-        if (stream->resources[i].path && stream->resources[i].path[0] != '/')
+        if (is_relative(stream->resources[i].path) || has_relative_face(&stream->resources[i]))
             return 1;
     return 0;
 }

@@ -207,6 +207,28 @@ static void elements_in_buffers_draw_what_vertices_draw(void)
     TEST_ASSERT_EQUAL_HEX32_ARRAY(expected, picture, PIXELS);
 }
 
+/* What calls change is what it was defined as when an earlier frame is played again. */
+static void changed_textures_are_themselves_again_when_a_frame_is_replayed(void)
+{
+    static uint32_t picture[PIXELS];
+    load("triptych 1\ntarget 24 16\nstate lighting false\nstate cullmode none\n"
+         "stage 0 colorop selectarg1\nstage 0 alphaop selectarg1\n"
+         "texture t 2d A8R8G8B8 1 1 colors { ff102030 }\nbuffer later color { ff405060 }\n"
+         "vertices v position:float2 {\n-1 -1\n-1 3\n3 -1\n}\nbind vertices v\nbind texture t\n"
+         "sequence change\nupdate t later\nend\n"
+         "draw triangles 0 1\nframe\nplay change\ndraw triangles 0 1\nframe\ndraw triangles 0 1\n");
+    for (int again = 0; again < 2; again++) {
+        play(0, picture);
+        TEST_ASSERT_EQUAL_INT(PIXELS, holds(picture, 0xff302010));
+        play(1, picture);
+        TEST_ASSERT_EQUAL_INT(PIXELS, holds(picture, 0xff605040));
+        play(2, picture);
+        TEST_ASSERT_EQUAL_INT(PIXELS, holds(picture, 0xff605040));
+    }
+    play(2, picture); /* alone: the change of the frame before it counts */
+    TEST_ASSERT_EQUAL_INT(PIXELS, holds(picture, 0xff605040));
+}
+
 static void a_frame_past_the_last_is_refused(void)
 {
     load(standing);
@@ -250,6 +272,7 @@ int main(void)
     RUN_TEST(a_stream_starts_from_the_defaults);
     RUN_TEST(a_material_and_lights_start_as_documented);
     RUN_TEST(elements_in_buffers_draw_what_vertices_draw);
+    RUN_TEST(changed_textures_are_themselves_again_when_a_frame_is_replayed);
     RUN_TEST(a_frame_past_the_last_is_refused);
     RUN_TEST(the_callback_sees_every_frame_and_can_stop);
     return UNITY_END();

@@ -44,10 +44,13 @@ static void expect_same_resource(const struct resource *a, const struct resource
     size_t bytes_a, bytes_b;
     TEST_ASSERT_EQUAL_INT(a->type, b->type);
     TEST_ASSERT_EQUAL_STRING(a->name, b->name);
-    TEST_ASSERT_EQUAL_UINT(a->width, b->width);
-    TEST_ASSERT_EQUAL_UINT(a->height, b->height);
+    TEST_ASSERT_EQUAL_MEMORY(&a->texture, &b->texture, sizeof a->texture);
+    TEST_ASSERT_EQUAL_INT(a->source, b->source);
+    TEST_ASSERT_EQUAL_INT(a->mips, b->mips);
+    TEST_ASSERT_EQUAL_INT(a->changes, b->changes);
+    TEST_ASSERT_EQUAL_UINT64(a->texel_bytes, b->texel_bytes);
     if (a->texels)
-        TEST_ASSERT_EQUAL_MEMORY(a->texels, b->texels, 4 * (size_t)a->width * a->height);
+        TEST_ASSERT_EQUAL_MEMORY(a->texels, b->texels, a->texel_bytes);
     TEST_ASSERT_EQUAL_MEMORY(&a->layout, &b->layout, sizeof a->layout);
     TEST_ASSERT_EQUAL_MEMORY(&a->options, &b->options, sizeof a->options);
     TEST_ASSERT_EQUAL_UINT(a->vertex_count, b->vertex_count);
@@ -115,13 +118,24 @@ static const char everything[] =
     "texture wide 20 1 { 00000000 00000001 00000002 00000003 00000004 00000005 00000006 00000007 00000008 "
     "00000009\n"
     "00000010 00000011 00000012 00000013 00000014 00000015 00000016 00000017 00000018 00000019 }\n"
+    "texture e 2d A8R8G8B8 3 5 levels 0 empty\ntexture u 2d DXT1 6 3 bytes { 0011223344556677 89abCDEF\n"
+    "01 2345 67 }\n"
+    "texture k cube L8 2 levels 2 colors { 00000000 00000001 00000002 00000003 00000004 00000005 00000006 "
+    "00000007 00000008 00000009 00000010 00000011 00000012 00000013 00000014 00000015 00000016 00000017 "
+    "00000018 00000019 00000020 00000021 00000022 00000023 00000024 00000025 00000026 00000027 00000028 "
+    "00000029 }\n"
+    "texture n volume R5G6B5 3 4 5 mips fill { ff8040ff }\ntexture o cube V8U8 4 levels 2 mips gradient\n"
+    "texture p volume G16R16 4 4 2 levels 1 checker 2 0xff0000ff ff00ff00\n"
     "vertices v texcoord:float2 position:float4 diffuse:color normal:float1 {\n"
     "  0.1 -0 1e-45 3.4028234e38 0x1.fffffep-126 +.5 0x80ff00ff 1\n\n"
     "  0.3 1e10 16777217 0.333333343 2 -7 12345678 2 # second\n"
     "  0 0 0 0 0 0 00000000 0\n}\n"
     "indices i 16 { 0 1 2\n 2 1 0 }\nindices j 32 { 4294967295 0 1 2 }\n"
     "buffer f float { 0 .5 0 0.25 1 -1 }\nbuffer c color { 00000001 ffffffff }\n"
+    "buffer o1 u32 { 77 }\nbuffer o4 color { 00000001 00000002 00000003 00000004 }\n"
+    "buffer o5 u16 { 3 }\n"
     "buffer s u16 { 0 1 2 65535 }\nbuffer l u32 { 0 1 2 4294967295 }\n"
+    "update e level 1 box 0 1 0 1 1 1 o1\nupdate u o4\nmips e\nmips k\nupdate k face 5 level 1 o5\n"
     "viewport 0.5 0 63.25 32 0.1 0.9\nscissor 1 0 7 0\n"
     "state zfunc lessequal\nstate ambient 0x12345678\nstate colorwriteenable 5\nstate lighting 0\n"
     "state depthbias 0\nstate fogend 1\nstate stencilmask 0xffffffff\n"
@@ -236,7 +250,7 @@ static void paths_are_those_of_the_new_place(void)
     free(text);
     TEST_ASSERT_EQUAL_INT_MESSAGE(0, stream_save(stream, out, &error), error.text);
     TEST_ASSERT_EQUAL_INT_MESSAGE(0, stream_read(out, &again, &error), error.text);
-    TEST_ASSERT_EQUAL_HEX32(0xff0000ff, again->resources[0].texels[0]);
+    TEST_ASSERT_EQUAL_HEX8_ARRAY(((uint8_t[]){0xff, 0, 0, 0xff}), again->resources[0].texels, 4);
     stream_free(again);
     stream_free(stream);
     remove_folders();

@@ -1,0 +1,578 @@
+/* Textures of the text format: their definitions, and the calls that change them.
+ *
+ * A definition ends up as one array of bytes in the texture's format, in the order of DDS files: face by
+ * face, each with all its levels, each slice by slice, rows of texels or blocks without gaps. Contents that
+ * are made (fill, checker, gradient) and colors are encoded into it, so that formats with fewer bits show
+ * what is left of them. */
+#include "draw/texture.h"
+#include "base/file.h"
+#include "base/png.h"
+#include "stream/dds.h"
+#include "stream/parse.h"
+
+#include <inttypes.h>
+#include <stdlib.h>
+#include <string.h>
+
+/* --- Images -----------------------------------------------------------------------------------------------
+ */
+
+static void describe_image(struct resource *resource, uint32_t width, uint32_t height)
+{
+    resource->texture = (struct triptych_texture_description){
+        TRIPTYCH_TEXTURE_2D, TRIPTYCH_SURFACE_A8B8G8R8, width, height, 1, 1};
+    resource->texel_bytes = 4 * (size_t)width * height;
+}
+
+static int load_png(struct resource *resource, const char *path, struct error *error)
+{
+    unsigned width, height;
+    uint32_t *rgba;
+    if (png_load(path, &width, &height, &rgba, error))
+        return -1;
+    resource->source = TEXTURE_IMAGE;
+    resource->texels = (uint8_t *)rgba;
+    describe_image(resource, width, height);
+    return 0;
+}
+
+static int load_dds(struct resource *resource, const char *path, char *data, size_t bytes,
+                    struct error *error)
+{
+    size_t offset;
+    resource->source = TEXTURE_DDS;
+    resource->texels = (uint8_t *)data;
+    if (dds_read(path, data, bytes, &resource->texture, &offset, error))
+        return -1;
+    resource->texel_bytes = bytes - offset;
+    memmove(data, data + offset, resource->texel_bytes);
+    return 0;
+}
+
+static int load_image(struct resource *resource, const char *path, struct error *error)
+{
+    char *data;
+    size_t bytes;
+    if (file_read(path, LIMIT_FILE_BYTES, &data, &bytes, error))
+        return -1;
+    if (dds_is(data, bytes))
+        return load_dds(resource, path, data, bytes, error);
+    free(data);
+    return load_png(resource, path, error);
+}
+
+/* 0xAARRGGBB of the text to the RGBA8 word with red in the lowest byte. */
+static uint32_t swap_red_and_blue(uint32_t c)
+{
+    return (c & 0xff00ff00) | (c >> 16 & 0xff) | (c & 0xff) << 16;
+}
+
+/* { color... } with line breaks anywhere: as many as expected, into an array for the caller to free. */
+static int parse_colors(struct parser *parser, size_t count, const char *item, uint32_t **colors)
+{
+    struct lexer *lex = &parser->lex;
+    struct token place = lex->token;
+    size_t at = 0;
+    if (place.type != TOKEN_OPEN)
+        return lex_expected(lex, "{");
+    *colors = malloc(count * sizeof **colors);
+    if (!*colors)
+        return lex_fail(lex, &place, "not enough memory");
+    if (lex_next(lex) || lex_skip_lines(lex))
+        return -1;
+    while (lex->token.type == TOKEN_WORD) {
+        if (at == count)
+            return lex_expected(lex, "at most %zu %ss", count, item);
+        if (lex_color(lex, item, &(*colors)[at++]) || lex_skip_lines(lex))
+            return -1;
+    }
+    if (lex->token.type != TOKEN_CLOSE)
+        return lex_expected(lex, "%s or }", item);
+    if (at != count)
+        return lex_fail(lex, &place, "found %zu %ss, expected %zu", at, item, count);
+    return lex_next(lex);
+}
+
+static int parse_image(struct parser *parser, struct resource *resource)
+{
+    struct lexer *lex = &parser->lex;
+    int64_t width, height;
+    uint32_t *colors = NULL;
+    if (lex_integer(lex, "texture width", 1, TRIPTYCH_TEXTURE_MAXIMUM, &width) ||
+        lex_integer(lex, "texture height", 1, TRIPTYCH_TEXTURE_MAXIMUM, &height))
+        return -1;
+    describe_image(resource, (uint32_t)width, (uint32_t)height);
+    if (parse_account(parser, &lex->token, resource->texel_bytes))
+        return -1;
+    int result = parse_colors(parser, (size_t)(width * height), "texel", &colors);
+    resource->texels = (uint8_t *)colors;
+    for (size_t i = 0; !result && i < resource->texel_bytes / 4; i++)
+        colors[i] = swap_red_and_blue(colors[i]);
+    return result;
+}
+
+static int parse_file(struct parser *parser, struct resource *resource)
+{
+    struct token place = parser->lex.token;
+    if (parse_path(parser, &resource->path) ||
+        parse_load(parser, resource, resource->path, &place, load_image))
+        return -1;
+    return parse_account(parser, &place, resource->texel_bytes);
+}
+
+/* --- Made contents ----------------------------------------------------------------------------------------
+ */
+
+/* A level of a face while its contents are made: rows of RGBA8 words, slice after slice. */
+struct canvas {
+    const struct triptych_texture *shape;
+    const struct texture_level *level;
+    unsigned face;
+    uint32_t *texels;
+};
+
+typedef void painter(struct resource *resource, const struct canvas *canvas);
+
+static void paint_fill(struct resource *resource, const struct canvas *canvas)
+{
+    unsigned levels = resource->color_count / canvas->shape->faces;
+    unsigned number = (unsigned)(canvas->level - canvas->shape->level) + canvas->face * levels;
+    uint32_t color = swap_red_and_blue(resource->colors[number]);
+    for (int i = 0; i < canvas->level->slice_texels * canvas->level->depth; i++)
+        canvas->texels[i] = color;
+}
+
+static void paint_checker(struct resource *resource, const struct canvas *canvas)
+{
+    uint32_t *texel = canvas->texels, cell = resource->cell;
+    for (uint32_t z = 0; z < (uint32_t)canvas->level->depth; z++)
+        for (uint32_t y = 0; y < (uint32_t)canvas->level->height; y++)
+            for (uint32_t x = 0; x < (uint32_t)canvas->level->width; x++)
+                *texel++ = swap_red_and_blue(resource->colors[(x / cell + y / cell + z / cell) % 2]);
+}
+
+/* 0 to 255 from the first to the last of a side. */
+static uint32_t ramp(int at, int size)
+{
+    return size > 1 ? (uint32_t)((510 * at + size - 1) / (2 * (size - 1))) : 0;
+}
+
+static void paint_gradient(struct resource *resource, const struct canvas *canvas)
+{
+    const struct texture_level *level = canvas->level;
+    uint32_t *texel = canvas->texels;
+    (void)resource;
+    for (int z = 0; z < level->depth; z++)
+        for (int y = 0; y < level->height; y++)
+            for (int x = 0; x < level->width; x++) {
+                uint32_t blue = canvas->shape->faces > 1 ? canvas->face * 51 : ramp(z, level->depth);
+                *texel++ = 0xff000000 | blue << 16 | ramp(y, level->height) << 8 | ramp(x, level->width);
+            }
+}
+
+/* As floats, which is what formats with more than 8 bits are encoded from. */
+static void widen(const uint32_t *texels, size_t count, float *numbers)
+{
+    for (size_t i = 0; i < 4 * count; i++)
+        numbers[i] = (float)(texels[i / 4] >> 8 * (i % 4) & 255) / 255.0f;
+}
+
+/* The canvas has room for the level's floats behind its words. */
+static void encode_level(const struct canvas *canvas, uint8_t *data)
+{
+    const struct format *format = canvas->shape->format;
+    uint32_t width = (uint32_t)canvas->level->width;
+    uint32_t rows = (uint32_t)(canvas->level->height * canvas->level->depth);
+    const void *texels = canvas->texels;
+    if (format->storage == STORAGE_FLOAT4) {
+        float *numbers = (float *)(void *)(canvas->texels + (size_t)width * rows);
+        widen(canvas->texels, (size_t)width * rows, numbers);
+        texels = numbers;
+    }
+    format_encode(format, texels, width, width, rows, data, texture_row_bytes(format, width));
+}
+
+static unsigned given_levels(const struct resource *resource, const struct triptych_texture *shape)
+{
+    return resource->mips ? 1 : shape->levels;
+}
+
+static int paint(struct parser *parser, struct resource *resource, const struct triptych_texture *shape,
+                 painter *painter)
+{
+    size_t texels = (size_t)shape->level[0].slice_texels * (size_t)shape->level[0].depth;
+    uint8_t *data = resource->texels;
+    struct canvas canvas = {.shape = shape, .texels = malloc(texels * (4 + 16))};
+    if (!canvas.texels)
+        return lex_fail(&parser->lex, &parser->lex.token, "not enough memory");
+    for (canvas.face = 0; canvas.face < shape->faces; canvas.face++)
+        for (unsigned level = 0; level < given_levels(resource, shape); level++) {
+            canvas.level = &shape->level[level];
+            painter(resource, &canvas);
+            encode_level(&canvas, data);
+            data += texture_level_bytes(shape, level);
+        }
+    free(canvas.texels);
+    return 0;
+}
+
+/* --- Sources ----------------------------------------------------------------------------------------------
+ */
+
+static int parse_empty(struct parser *parser, struct resource *resource, const struct triptych_texture *shape)
+{
+    (void)parser;
+    (void)resource;
+    (void)shape;
+    return 0;
+}
+
+static int nibble(char c)
+{
+    if (c >= '0' && c <= '9')
+        return c - '0';
+    c |= 32;
+    return c >= 'a' && c <= 'f' ? c - 'a' + 10 : -1;
+}
+
+/* A word of pairs of hexadecimal digits. */
+static int parse_hex(struct parser *parser, struct resource *resource, size_t *at)
+{
+    const struct token *token = &parser->lex.token;
+    if (token->length % 2)
+        return lex_expected(&parser->lex, "bytes: pairs of hexadecimal digits");
+    if (token->length / 2 > resource->texel_bytes - *at)
+        return lex_expected(&parser->lex, "at most %zu bytes", resource->texel_bytes);
+    for (size_t i = 0; i < token->length; i += 2) {
+        int high = nibble(token->text[i]), low = nibble(token->text[i + 1]);
+        if (high < 0 || low < 0)
+            return lex_expected(&parser->lex, "bytes: pairs of hexadecimal digits");
+        resource->texels[(*at)++] = (uint8_t)(high << 4 | low);
+    }
+    return lex_next(&parser->lex) || lex_skip_lines(&parser->lex) ? -1 : 0;
+}
+
+static int parse_bytes(struct parser *parser, struct resource *resource, const struct triptych_texture *shape)
+{
+    struct lexer *lex = &parser->lex;
+    struct token place = lex->token;
+    size_t at = 0;
+    (void)shape;
+    if (place.type != TOKEN_OPEN)
+        return lex_expected(lex, "{");
+    if (lex_next(lex) || lex_skip_lines(lex))
+        return -1;
+    while (lex->token.type == TOKEN_WORD)
+        if (parse_hex(parser, resource, &at))
+            return -1;
+    if (lex->token.type != TOKEN_CLOSE)
+        return lex_expected(lex, "bytes or }");
+    if (at != resource->texel_bytes)
+        return lex_fail(lex, &place, "found %zu bytes, expected %zu", at, resource->texel_bytes);
+    return lex_next(lex);
+}
+
+/* The colors stand in the order of the texels of a texture whose faces have the levels that are given. */
+static void paint_colors(struct resource *resource, const struct canvas *canvas)
+{
+    size_t count = (size_t)canvas->level->slice_texels * (size_t)canvas->level->depth;
+    size_t first =
+        canvas->face * (resource->color_count / canvas->shape->faces) + (size_t)canvas->level->offset;
+    for (size_t i = 0; i < count; i++)
+        canvas->texels[i] = swap_red_and_blue(resource->colors[first + i]);
+}
+
+static int parse_texels(struct parser *parser, struct resource *resource,
+                        const struct triptych_texture *shape)
+{
+    size_t count = 0;
+    for (unsigned level = 0; level < given_levels(resource, shape); level++)
+        count += (size_t)shape->level[level].slice_texels * (size_t)shape->level[level].depth;
+    resource->color_count = (uint32_t)(count * shape->faces);
+    if (parse_colors(parser, resource->color_count, "texel", &resource->colors))
+        return -1;
+    return paint(parser, resource, shape, paint_colors);
+}
+
+static int parse_fill(struct parser *parser, struct resource *resource, const struct triptych_texture *shape)
+{
+    resource->color_count = shape->faces * given_levels(resource, shape);
+    if (parse_colors(parser, resource->color_count, "color", &resource->colors))
+        return -1;
+    return paint(parser, resource, shape, paint_fill);
+}
+
+static int parse_checker(struct parser *parser, struct resource *resource,
+                         const struct triptych_texture *shape)
+{
+    int64_t cell;
+    if (lex_integer(&parser->lex, "side of a square", 1, TRIPTYCH_TEXTURE_MAXIMUM, &cell))
+        return -1;
+    resource->cell = (uint32_t)cell;
+    resource->color_count = 2;
+    resource->colors = calloc(2, sizeof *resource->colors);
+    if (!resource->colors)
+        return lex_fail(&parser->lex, &parser->lex.token, "not enough memory");
+    if (lex_color(&parser->lex, "color", &resource->colors[0]) ||
+        lex_color(&parser->lex, "color", &resource->colors[1]))
+        return -1;
+    return paint(parser, resource, shape, paint_checker);
+}
+
+static int parse_gradient(struct parser *parser, struct resource *resource,
+                          const struct triptych_texture *shape)
+{
+    return paint(parser, resource, shape, paint_gradient);
+}
+
+/* A PNG for the level that is given of each face. */
+static int load_face(struct resource *face, const char *path, struct error *error)
+{
+    const struct triptych_texture_description *whole = &face->texture;
+    unsigned width, height;
+    uint32_t *rgba;
+    if (png_load(path, &width, &height, &rgba, error))
+        return -1;
+    face->texels = (uint8_t *)rgba;
+    if (width == whole->width && height == whole->height)
+        return 0;
+    return error_set(error, "%s: %ux%u pixels, expected %ux%u", path, width, height, whole->width,
+                     whole->height);
+}
+
+static void paint_image(struct resource *resource, const struct canvas *canvas)
+{
+    memcpy(canvas->texels, resource->colors, 4 * (size_t)canvas->level->slice_texels);
+}
+
+/* Each picture stands in `colors` while it is encoded into its face. */
+static int parse_face(struct parser *parser, struct resource *resource, const struct triptych_texture *shape,
+                      unsigned number)
+{
+    struct token place = parser->lex.token;
+    struct resource face = {.texture = resource->texture, .mips = 1};
+    struct triptych_texture alone = *shape;
+    size_t bytes = texture_level_bytes(shape, 0);
+    int result = parse_path(parser, &resource->face_path[number]) ||
+                 parse_load(parser, &face, resource->face_path[number], &place, load_face);
+    face.colors = (uint32_t *)(void *)face.texels;
+    face.texels = resource->texels + number * bytes;
+    alone.faces = 1;
+    if (!result)
+        result = paint(parser, &face, &alone, paint_image);
+    free(face.colors);
+    return result ? -1 : 0;
+}
+
+static int parse_files(struct parser *parser, struct resource *resource, const struct triptych_texture *shape)
+{
+    if (given_levels(resource, shape) > 1 || shape->depth > 1)
+        return lex_expected(&parser->lex, "one level and one slice, or mips, for files");
+    for (unsigned face = 0; face < shape->faces; face++)
+        if (parse_face(parser, resource, shape, face))
+            return -1;
+    return 0;
+}
+
+static const struct maker {
+    const char *word;
+    enum texture_source source;
+    int encodes; /* into the format, which must not be a compressed one */
+    int (*parse)(struct parser *parser, struct resource *resource, const struct triptych_texture *shape);
+} sources[] = {
+    {"empty", TEXTURE_EMPTY, 0, parse_empty},       {"bytes", TEXTURE_BYTES, 0, parse_bytes},
+    {"colors", TEXTURE_COLORS, 1, parse_texels},    {"fill", TEXTURE_FILL, 1, parse_fill},
+    {"checker", TEXTURE_CHECKER, 1, parse_checker}, {"gradient", TEXTURE_GRADIENT, 1, parse_gradient},
+    {"files", TEXTURE_FILES, 1, parse_files},
+};
+
+enum { SOURCES = sizeof sources / sizeof *sources };
+
+static const char source_words[] = "empty, bytes, colors, fill, checker, gradient or files";
+
+static int parse_source(struct parser *parser, struct resource *resource,
+                        const struct triptych_texture *shape)
+{
+    const struct maker *source = NULL;
+    struct token place = parser->lex.token;
+    for (int i = 0; i < SOURCES && !source; i++)
+        if (lex_is(&parser->lex, sources[i].word))
+            source = &sources[i];
+    if (!source)
+        return lex_expected(&parser->lex, "the contents: %s", source_words);
+    if (source->encodes && shape->format->coding != CODING_PACKED)
+        return lex_fail(&parser->lex, &place, "found '%s', expected empty or bytes for format %s",
+                        source->word, shape->format->name);
+    resource->source = source->source;
+    return lex_next(&parser->lex) || source->parse(parser, resource, shape) ? -1 : 0;
+}
+
+/* --- Definitions ------------------------------------------------------------------------------------------
+ */
+
+static int parse_side(struct parser *parser, const char *what, unsigned *side)
+{
+    int64_t value;
+    if (lex_integer(&parser->lex, what, 1, TRIPTYCH_TEXTURE_MAXIMUM, &value))
+        return -1;
+    *side = (unsigned)value;
+    return 0;
+}
+
+static int parse_sides(struct parser *parser, struct triptych_texture_description *texture)
+{
+    texture->depth = 1;
+    if (parse_side(parser, "texture width", &texture->width))
+        return -1;
+    texture->height = texture->width;
+    if (texture->type != TRIPTYCH_TEXTURE_CUBE && parse_side(parser, "texture height", &texture->height))
+        return -1;
+    return texture->type == TRIPTYCH_TEXTURE_VOLUME ? parse_side(parser, "texture depth", &texture->depth)
+                                                    : 0;
+}
+
+/* [levels N] [mips], after the sides; with neither there is one level. */
+static int parse_levels(struct parser *parser, struct resource *resource)
+{
+    int64_t levels = 1;
+    int given = lex_is(&parser->lex, "levels");
+    if (given && (lex_next(&parser->lex) || lex_integer(&parser->lex, "levels", 0, TEXTURE_LEVELS, &levels)))
+        return -1;
+    resource->mips = lex_is(&parser->lex, "mips");
+    if (resource->mips && lex_next(&parser->lex))
+        return -1;
+    resource->texture.levels = resource->mips && !given ? 0 : (unsigned)levels;
+    return 0;
+}
+
+static int allocate_texels(struct parser *parser, struct resource *resource,
+                           const struct triptych_texture *shape, const struct token *place)
+{
+    size_t decoded = (size_t)shape->face_texels * shape->faces * format_texel_bytes(shape->format);
+    for (unsigned level = 0; level < given_levels(resource, shape); level++)
+        resource->texel_bytes += shape->faces * texture_level_bytes(shape, level);
+    if (parse_account(parser, place, decoded))
+        return -1;
+    resource->texels = calloc(resource->texel_bytes, 1);
+    return resource->texels ? 0 : lex_fail(&parser->lex, place, "not enough memory");
+}
+
+static int parse_typed(struct parser *parser, struct resource *resource)
+{
+    struct lexer *lex = &parser->lex;
+    struct triptych_texture shape;
+    struct error reason = {{0}};
+    struct token place = lex->token;
+    unsigned type;
+    if (parse_word(parser, WORDS_TEXTURETYPE, "a type of texture", &type))
+        return -1;
+    const struct format *format =
+        lex->token.type == TOKEN_WORD ? format_named(lex->token.text, lex->token.length) : NULL;
+    if (!format)
+        return lex_expected(lex, "the name of a format of Direct3D 9, without D3DFMT_");
+    resource->texture.type = (enum triptych_texture_type)type;
+    resource->texture.format = (enum triptych_surface_format)format->number;
+    if (lex_next(lex) || parse_sides(parser, &resource->texture) || parse_levels(parser, resource))
+        return -1;
+    if (texture_describe(&resource->texture, &shape, &reason))
+        return lex_fail(lex, &place, "%s", reason.text);
+    if (allocate_texels(parser, resource, &shape, &place))
+        return -1;
+    return parse_source(parser, resource, &shape);
+}
+
+int parse_texture(struct parser *parser)
+{
+    struct lexer *lex = &parser->lex;
+    struct resource *resource;
+    unsigned type;
+    if (parse_new_name(parser, RESOURCE_TEXTURE, &resource))
+        return -1;
+    if (lex_is(lex, "file"))
+        return lex_next(lex) ? -1 : parse_file(parser, resource);
+    if (lex->token.type == TOKEN_WORD &&
+        !word_value(WORDS_TEXTURETYPE, lex->token.text, lex->token.length, &type))
+        return parse_typed(parser, resource);
+    if (lex->token.type != TOKEN_WORD || lex->token.text[0] > '9')
+        return lex_expected(lex, "file \"PATH\", WIDTH HEIGHT { color... }, 2d, cube or volume");
+    return parse_image(parser, resource);
+}
+
+/* --- Calls ------------------------------------------------------------------------------------------------
+ */
+
+static int parse_changed(struct parser *parser, struct call *call)
+{
+    if (parse_name(parser, 1 << RESOURCE_TEXTURE, "a texture", &call->resource))
+        return -1;
+    parser->stream->resources[call->resource].changes = 1;
+    return 0;
+}
+
+int parse_mips(struct parser *parser, struct call *call)
+{
+    return parse_changed(parser, call);
+}
+
+static int parse_number(struct parser *parser, const char *what, uint32_t *number)
+{
+    int64_t value;
+    if (lex_integer(&parser->lex, what, 0, TRIPTYCH_TEXTURE_MAXIMUM, &value))
+        return -1;
+    *number = (uint32_t)value;
+    return 0;
+}
+
+static int parse_box(struct parser *parser, struct triptych_box *box)
+{
+    return parse_number(parser, "box x", &box->x) || parse_number(parser, "box y", &box->y) ||
+                   parse_number(parser, "box z", &box->z) || parse_number(parser, "box width", &box->width) ||
+                   parse_number(parser, "box height", &box->height) ||
+                   parse_number(parser, "box depth", &box->depth)
+               ? -1
+               : 0;
+}
+
+/* Whether the box is a part of the texture, and the source as many bytes as it takes. */
+static int check_update(struct parser *parser, const struct call *call, const struct token *place)
+{
+    struct resource *resources = parser->stream->resources;
+    const struct triptych_box *box = call->update.box.width ? &call->update.box : NULL;
+    struct triptych_texture shape;
+    struct error reason = {{0}};
+    texture_describe(&resources[call->resource].texture, &shape, NULL);
+    size_t pitch = (size_t)1 << 20, bytes;
+    if (texture_check_update(&shape, call->update.face, call->update.level, box, pitch, pitch * pitch,
+                             &reason))
+        return lex_fail(&parser->lex, place, "%s", reason.text);
+    resource_data(&resources[call->update.source], &bytes);
+    size_t expected = texture_level_bytes(&shape, call->update.level);
+    if (box)
+        expected = texture_row_bytes(shape.format, box->width) * format_blocks(shape.format, box->height) *
+                   box->depth;
+    if (bytes < expected || bytes >= expected + 4) /* a value's bytes cannot always be divided */
+        return lex_fail(&parser->lex, place, "found %zu bytes in %s, expected %zu", bytes,
+                        resources[call->update.source].name, expected);
+    return 0;
+}
+
+int parse_update(struct parser *parser, struct call *call)
+{
+    struct lexer *lex = &parser->lex;
+    struct token place = lex->token;
+    if (parse_changed(parser, call))
+        return -1;
+    if (lex_is(lex, "face") && (lex_next(lex) || parse_number(parser, "face", &call->update.face)))
+        return -1;
+    if (lex_is(lex, "level") && (lex_next(lex) || parse_number(parser, "level", &call->update.level)))
+        return -1;
+    if (lex_is(lex, "box")) {
+        if (lex_next(lex) || parse_box(parser, &call->update.box))
+            return -1;
+        if (!call->update.box.width)
+            return lex_fail(lex, &place, "found a box without texels, expected at least one");
+    }
+    if (parse_name(parser, 1 << RESOURCE_BUFFER, "face, level, box, or a buffer", &call->update.source))
+        return -1;
+    return check_update(parser, call, &place);
+}
