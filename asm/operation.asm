@@ -1,8 +1,9 @@
 ; Operation fragments: one operation of src/def/op.def each, under its name.
 ;
 ; A value is a 32-byte slot of the routine's frame: eight lanes, [frame + slot]. Every fragment loads its operands,
-; computes, stores; nothing stays in a vector register from one fragment to the next. Arguments: the result's slot,
-; then the operands in the order of the table, then the staged immediate.
+; computes, stores; nothing stays in a vector register from one fragment to the next. The result's slot may be an
+; operand's: operands are read before the result is written. Arguments: the result's slot, then the operands in the
+; order of the table, then the staged immediate.
 
 %include "fragment.inc"
 

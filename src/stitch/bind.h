@@ -1,9 +1,9 @@
 /* The operation stitcher's binding of the spec: a value is a slot of the routine's frame, an operation
  * appends the fragment of its name to the plan and gives the slot where its result will be.
  *
- * One pass without any analysis: slots are numbered upwards and never shared, nothing is remembered. The
- * host's decisions on the key run here, once a routine; only the operations they lead to remain. The largest
- * frame, that of eight point lights, has 19 KiB. */
+ * One pass without any analysis: slots are numbered upwards, nothing is remembered but which arguments are
+ * slots. Only where that makes a large frame are they shared afterwards (plan_share_slots). The host's
+ * decisions on the key run here, once a routine; only the operations they lead to remain. */
 #ifndef STITCH_BIND_H
 #define STITCH_BIND_H
 
@@ -11,8 +11,6 @@
 #include "stitch/plan.h"
 
 #include <string.h>
-
-enum { SLOT_BYTES = 32 };
 
 typedef struct {
     int32_t slot; /* bytes from the bottom of the frame */
@@ -43,20 +41,24 @@ static inline struct env *env_at(struct env *e, const char *file, int line)
 
 #define E env_at(e, __FILE__, __LINE__)
 
-static inline unsigned append(struct env *e, const struct fragment *fragment, struct arguments arguments)
+static inline unsigned append(struct env *e, const struct fragment *fragment, struct arguments arguments,
+                              unsigned slots)
 {
-    unsigned part = plan_append(e->plan, fragment, arguments);
-    e->plan->part[part].file = e->file;
-    e->plan->part[part].line = e->line;
-    return part;
+    unsigned number = plan_append(e->plan, fragment, arguments);
+    struct part *part = &e->plan->part[number];
+    part->slots = (uint8_t)slots;
+    part->file = e->file;
+    part->line = (uint16_t)e->line;
+    return number;
 }
 
-/* Argument 0 becomes a new slot, which is the result. */
-static inline int32_t append_value(struct env *e, const struct fragment *fragment, struct arguments arguments)
+/* Argument 0 becomes a new slot, which is the result; the next `operands` arguments are slots too. */
+static inline int32_t append_value(struct env *e, const struct fragment *fragment, struct arguments arguments,
+                                   unsigned operands)
 {
     arguments.value[0] = e->frame_bytes;
     e->frame_bytes += SLOT_BYTES;
-    append(e, fragment, arguments);
+    append(e, fragment, arguments, SLOTS_RESULT | ((2u << operands) - 1));
     return arguments.value[0];
 }
 
@@ -70,17 +72,23 @@ static inline int32_t append_value(struct env *e, const struct fragment *fragmen
 #define SLOT_fix(n) , n.slot
 #define SLOT_msk(n) , n.slot
 #define SLOT_non(n)
+#define OPERANDS_flt 1
+#define OPERANDS_itg 1
+#define OPERANDS_fix 1
+#define OPERANDS_msk 1
+#define OPERANDS_non 0
 
 #define OP(name, result, ta, tb, tc, properties, expression)                                                 \
     static inline result name(struct env *e PARAMETER_##ta(a) PARAMETER_##tb(b) PARAMETER_##tc(c))           \
     {                                                                                                        \
         struct arguments slots = {{0 SLOT_##ta(a) SLOT_##tb(b) SLOT_##tc(c)}};                               \
-        return (result){append_value(e, &fragment_##name, slots)};                                           \
+        return (result){                                                                                     \
+            append_value(e, &fragment_##name, slots, OPERANDS_##ta + OPERANDS_##tb + OPERANDS_##tc)};        \
     }
 #define OPK(name, result, ta, tb, tc, properties, expression)                                                \
     static inline result name(struct env *e PARAMETER_##ta(a), int k)                                        \
     {                                                                                                        \
-        return (result){append_value(e, &fragment_##name, (struct arguments){{0 SLOT_##ta(a), k}})};         \
+        return (result){append_value(e, &fragment_##name, (struct arguments){{0 SLOT_##ta(a), k}}, 1)};      \
     }
 #define CAST(name, result, from)                                                                             \
     static inline result name(struct env *e, from a)                                                         \
@@ -95,7 +103,7 @@ static inline int32_t append_value(struct env *e, const struct fragment *fragmen
 
 static inline int32_t literal(struct env *e, uint32_t bits)
 {
-    return append_value(e, &fragment_literal, (struct arguments){{0, (int32_t)bits}});
+    return append_value(e, &fragment_literal, (struct arguments){{0, (int32_t)bits}}, 0);
 }
 
 static inline flt lit_f(struct env *e, float value)
@@ -121,7 +129,7 @@ static inline fix lit_x(struct env *e, uint16_t value)
 }
 
 /* The register of each base, counted from r8 (asm/fragment.inc). */
-static inline int32_t base_register(enum base base)
+static inline int32_t base_number(enum base base)
 {
     static const uint8_t number[BASE_COUNT] = {
         [BASE_JOB] = 0,      [BASE_INPUT] = 1, [BASE_OUTPUT] = 2, [BASE_VERTICES] = 3, [BASE_ENTRY] = 1,
@@ -131,7 +139,7 @@ static inline int32_t base_register(enum base base)
 
 static inline int32_t read_base(struct env *e, const struct fragment *fragment, enum base base, int offset)
 {
-    return append_value(e, fragment, (struct arguments){{0, base_register(base), offset}});
+    return append_value(e, fragment, (struct arguments){{0, base_number(base), offset}}, 0);
 }
 
 static inline flt load_f(struct env *e, enum base base, int offset)
@@ -156,7 +164,7 @@ static inline itg uniform_i(struct env *e, enum base base, int offset)
 
 static inline void store_i(struct env *e, enum base base, int offset, itg value)
 {
-    append(e, &fragment_store, (struct arguments){{value.slot, base_register(base), offset}});
+    append(e, &fragment_store, (struct arguments){{value.slot, base_number(base), offset}}, SLOTS_STORED);
 }
 
 static inline void store_f(struct env *e, enum base base, int offset, flt value)
@@ -172,12 +180,12 @@ static inline int32_t scale_bits(int scale)
 
 static inline itg gather_i(struct env *e, enum base base, int field, itg index, int scale, int displacement)
 {
-    int32_t from = base_register(base), times = scale_bits(scale);
+    int32_t from = base_number(base), times = scale_bits(scale);
     if (field == GATHER_DIRECT)
         return (itg){append_value(e, &fragment_gather,
-                                  (struct arguments){{0, index.slot, from + times, displacement}})};
+                                  (struct arguments){{0, index.slot, from + times, displacement}}, 1)};
     struct arguments indirect = {{0, index.slot, from, field, times, displacement}};
-    return (itg){append_value(e, &fragment_gather_indirect, indirect)};
+    return (itg){append_value(e, &fragment_gather_indirect, indirect, 1)};
 }
 
 static inline flt gather_f(struct env *e, enum base base, int field, itg index, int scale, int displacement)
@@ -187,7 +195,8 @@ static inline flt gather_f(struct env *e, enum base base, int field, itg index, 
 
 static inline void scatter_i(struct env *e, enum base base, int offset, int stride, itg value)
 {
-    append(e, &fragment_scatter, (struct arguments){{value.slot, base_register(base), offset, stride}});
+    append(e, &fragment_scatter, (struct arguments){{value.slot, base_number(base), offset, stride}},
+           SLOTS_STORED);
 }
 
 static inline void scatter_f(struct env *e, enum base base, int offset, int stride, flt value)
@@ -197,7 +206,7 @@ static inline void scatter_f(struct env *e, enum base base, int offset, int stri
 
 static inline int when_begin(struct env *e, msk mask)
 {
-    return (int)append(e, &fragment_when, (struct arguments){{mask.slot}});
+    return (int)append(e, &fragment_when, (struct arguments){{mask.slot}}, SLOTS_STORED);
 }
 
 /* Ends the loop that WHEN is, so that its body is appended once. */

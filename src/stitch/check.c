@@ -5,6 +5,8 @@
  * changes reaches the greatest solution, loops included. */
 #include "stitch/plan.h"
 
+#include <stdlib.h>
+
 enum { VALID_AT_CALL = 1 << REGISTER_FRAME | 1 << REGISTER_FRAME_END | 1 << REGISTER_CALL };
 
 static uint32_t after(const struct part *part, uint32_t valid)
@@ -61,9 +63,8 @@ static int check_jumps(const struct plan *plan, unsigned i, struct error *error)
     return 0;
 }
 
-int plan_check(const struct plan *plan, struct error *error)
+static int check_inputs(const struct plan *plan, uint32_t *valid, struct error *error)
 {
-    uint32_t valid[PART_CAPACITY];
     for (unsigned i = 0; i < plan->count; i++) {
         valid[i] = i ? ~0u : (uint32_t)VALID_AT_CALL;
         if (check_jumps(plan, i, error))
@@ -79,4 +80,16 @@ int plan_check(const struct plan *plan, struct error *error)
                              register_name((unsigned)__builtin_ctz(missing)));
     }
     return 0;
+}
+
+int plan_check(const struct plan *plan, struct error *error)
+{
+    if (plan_complete(plan, error))
+        return -1;
+    uint32_t *valid = malloc(plan->count * sizeof *valid);
+    if (!valid)
+        return error_set(error, "out of memory for checking a plan of %u parts", plan->count);
+    int result = check_inputs(plan, valid, error);
+    free(valid);
+    return result;
 }

@@ -41,9 +41,8 @@ static void copy_part(uint8_t *code, const struct plan *plan, const struct part 
 int plan_join(struct plan *plan, struct code_arena *arena, struct code_span *span, struct error *error)
 {
     uint32_t bytes = 0;
-    if (plan->dropped)
-        return error_set(error, "the stitcher's plan of %u parts exceeds its room of %d",
-                         plan->count + plan->dropped, PART_CAPACITY);
+    if (plan_complete(plan, error))
+        return -1;
     for (unsigned i = 0; i < plan->count; i++) {
         plan->part[i].offset = bytes;
         bytes += plan->part[i].fragment->bytes;

@@ -3,6 +3,27 @@
 
 #include "base/mxcsr.h"
 
+#include <stdatomic.h>
+#include <stdlib.h>
+
+/* One plan that nobody uses, or none. Builds at the same time, which are rare, make their own. */
+static _Atomic(struct plan *) spare;
+
+struct plan *plan_take(struct error *error)
+{
+    struct plan *plan = atomic_exchange(&spare, NULL);
+    if (!plan)
+        plan = malloc(sizeof *plan);
+    if (!plan)
+        error_set(error, "out of memory for a plan (%zu bytes)", sizeof *plan);
+    return plan;
+}
+
+void plan_give(struct plan *plan)
+{
+    free(atomic_exchange(&spare, plan));
+}
+
 unsigned plan_append(struct plan *plan, const struct fragment *fragment, struct arguments arguments)
 {
     if (plan->count == PART_CAPACITY) {
@@ -11,6 +32,14 @@ unsigned plan_append(struct plan *plan, const struct fragment *fragment, struct 
     }
     plan->part[plan->count] = (struct part){.fragment = fragment, .arguments = arguments};
     return plan->count++;
+}
+
+int plan_complete(const struct plan *plan, struct error *error)
+{
+    if (!plan->dropped)
+        return 0;
+    return error_set(error, "the stitcher's plan of %u parts exceeds its room of %d",
+                     plan->count + plan->dropped, PART_CAPACITY);
 }
 
 void plan_land(struct plan *plan, unsigned part, unsigned n)

@@ -12,8 +12,8 @@
 
 #include <stdio.h>
 
-/* The largest operation plan, eight point lights, has some six hundred parts; a test watches it. */
-enum { PART_CAPACITY = 1024 };
+/* Far above any routine; what is not used of a plan is never touched. */
+enum { PART_CAPACITY = 65536, SLOT_BYTES = 32 };
 
 struct arguments {
     int32_t value[ARGUMENT_COUNT];
@@ -23,21 +23,48 @@ struct part {
     const struct fragment *fragment;
     struct arguments arguments;
     uint32_t offset;  /* of its code in the routine, known when joining */
-    const char *file; /* the line of the spec that appended it; null in stage plans */
-    int line;
+    uint16_t line;    /* the line of the spec that appended it */
+    uint8_t slots;    /* bit n: argument n is a slot of the frame; SLOTS_RESULT */
+    const char *file; /* null in stage plans */
+};
+
+/* Argument 0 is a slot that the part gives a value; it is one whose value the part reads. */
+enum { SLOTS_RESULT = 1 << 7, SLOTS_STORED = 1 };
+
+/* A slot while it has the only value that it is ever given: the last part that reads it, the one it becomes,
+ * and the next free one (slots.c). */
+struct slot {
+    uint32_t last_reader;
+    int32_t place;
+    uint32_t next_free;
 };
 
 struct plan {
     unsigned count;
     unsigned dropped; /* parts that found no room: the plan is unusable */
     struct part part[PART_CAPACITY];
+    struct slot slot[PART_CAPACITY];
 };
+
+/* A plan to use, kept between uses since plans are large, or null with the reason. Give it back. */
+struct plan *plan_take(struct error *error);
+void plan_give(struct plan *plan);
 
 /* Appends a part and returns its number. */
 unsigned plan_append(struct plan *plan, const struct fragment *fragment, struct arguments arguments);
 
 /* Lets the part's argument n, a jump, go to the next part that will be appended. */
 void plan_land(struct plan *plan, unsigned part, unsigned n);
+
+/* Returns 0, or -1 with the reason when parts found no room. */
+int plan_complete(const struct plan *plan, struct error *error);
+
+/* Lets values that are not alive together share slots. Until then each of the `bytes / SLOT_BYTES` slots is
+ * the result of one part. Returns the bytes of the slots that are left. */
+int32_t plan_share_slots(struct plan *plan, int32_t bytes);
+
+/* Where a frame is too large for the first-level cache otherwise; sharing takes a fifth of a plan's time. */
+enum { UNSHARED_BYTES = 24 * 1024 };
 
 /* The two planners. Operations cover every key whose fields are below their radix, stages those of
  * stages_cover() (stitch/cover.h). */

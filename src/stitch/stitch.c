@@ -36,30 +36,41 @@ static const char *make_plan(struct plan *plan, stitch_coverage *lack, enum unit
     return reason;
 }
 
+static void describe(struct stitched *stitched, const struct plan *plan)
+{
+    struct routine *routine = &stitched->routine;
+    const struct part *last = &plan->part[plan->count - 1];
+    routine->run = (routine_function *)(uintptr_t)stitched->span.executable;
+    routine->code = stitched->span.executable;
+    routine->code_bytes = last->offset + last->fragment->bytes;
+    routine->parts = plan->count;
+}
+
 struct routine *stitch_build(const struct engine *engine, stitch_coverage *lack, struct code_arena *arena,
                              enum unit unit, const union key *key, struct error *error)
 {
-    struct plan plan;
+    struct plan *plan = plan_take(error);
+    if (!plan)
+        return NULL;
     struct stitched *stitched = calloc(1, sizeof *stitched);
     if (!stitched) {
         error_set(error, "out of memory for a routine");
-        return NULL;
+        goto failed;
     }
     struct routine *routine = &stitched->routine;
-    routine->granularity = make_plan(&plan, lack, unit, key) ? "operation" : "stage";
-    if (plan_join(&plan, arena, &stitched->span, error)) {
-        free(stitched);
-        return NULL;
-    }
-    const struct part *last = &plan.part[plan.count - 1];
-    routine->run = (routine_function *)(uintptr_t)stitched->span.executable;
+    routine->granularity = make_plan(plan, lack, unit, key) ? "operation" : "stage";
     routine->engine = engine;
     routine->unit = unit;
     routine->key = *key;
-    routine->code = stitched->span.executable;
-    routine->code_bytes = last->offset + last->fragment->bytes;
-    routine->parts = plan.count;
+    if (plan_join(plan, arena, &stitched->span, error))
+        goto failed;
+    describe(stitched, plan);
+    plan_give(plan);
     return routine;
+failed:
+    free(stitched);
+    plan_give(plan);
+    return NULL;
 }
 
 static struct routine *build_stages(struct code_arena *arena, enum unit unit, const union key *key,
@@ -101,23 +112,32 @@ const struct engine engine_stitch_operation = {
     .free = free_routine,
 };
 
+static int print_plan(struct plan *plan, struct code_arena *arena, FILE *out, struct error *error)
+{
+    struct code_span span;
+    if (plan_check(plan, error) || plan_join(plan, arena, &span, error))
+        return -1;
+    plan_print(plan, &span, out);
+    code_free(arena, &span);
+    return 0;
+}
+
 int stitch_list(const struct engine *engine, stitch_coverage *lack, struct code_arena *arena, enum unit unit,
                 const union key *key, FILE *out, struct error *error)
 {
-    struct plan plan;
-    struct code_span span;
     char text[KEY_TEXT_CAPACITY];
-    const char *reason = make_plan(&plan, lack, unit, key);
-    if (plan_check(&plan, error) || plan_join(&plan, arena, &span, error))
+    struct plan *plan = plan_take(error);
+    if (!plan)
         return -1;
+    const char *reason = make_plan(plan, lack, unit, key);
     fprintf(out, "%s %s %s\n", engine->name, unit_name[unit], key_print(unit, key, text));
     fprintf(out, "granularity: %s", reason ? "operation" : "stage");
     if (reason && *reason)
         fprintf(out, ", since stage fragments do not cover %s", reason);
     fputc('\n', out);
-    plan_print(&plan, &span, out);
-    code_free(arena, &span);
-    return 0;
+    int result = print_plan(plan, arena, out, error);
+    plan_give(plan);
+    return result;
 }
 
 int stitch_dump(struct code_arena *arena, const struct engine *engine, enum unit unit, const union key *key,

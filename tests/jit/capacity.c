@@ -2,6 +2,7 @@
  * with a reason. */
 #include "base/code.h"
 #include "base/cpu.h"
+#include "base/mxcsr.h"
 #include "tests/support/program.h"
 #include "unity.h"
 
@@ -80,20 +81,47 @@ static void expect_refusal(const char *reason)
 }
 
 /* Each value differs from all others, and all are used after the last was made. */
-static void test_thousands_of_values_alive_at_once_keep_apart(void)
+static void keep_alive(int count)
 {
-    enum { ALIVE = 3000 };
-    static uint16_t alive[ALIVE];
+    static uint16_t alive[IR_CAPACITY];
     alive[0] = binary(IR_add_i, load(0), load(1));
     uint16_t step = literal(0x9e3779b9);
-    for (int i = 1; i < ALIVE; i++)
+    for (int i = 1; i < count; i++)
         alive[i] = binary(IR_add_i, alive[i - 1], step);
     uint16_t sum = alive[0];
-    for (int i = 1; i < ALIVE; i++)
+    for (int i = 1; i < count; i++)
         sum = binary(i % 2 ? IR_xor_i : IR_add_i, sum, alive[i]);
     store(sum);
     expect_equal();
-    TEST_ASSERT_GREATER_THAN(ALIVE - ALLOCATABLE - 10, builder->allocation.slots);
+    TEST_ASSERT_GREATER_THAN(count - ALLOCATABLE - 10, builder->allocation.slots);
+}
+
+/* A frame whose pages are touched one by one in straight code. */
+static void test_a_thousand_values_alive_at_once_keep_apart(void)
+{
+    keep_alive(1000);
+}
+
+/* One of 640 KiB, touched in a loop. */
+static void test_twenty_thousand_values_alive_at_once_keep_apart(void)
+{
+    keep_alive(20000);
+}
+
+static void test_a_program_of_twenty_thousand_operations(void)
+{
+    uint64_t seed = 0x20000;
+    program_make(&builder->ir, 20000, &seed);
+    TEST_ASSERT_GREATER_THAN(20000, builder->ir.count);
+    program_fill(&expected, &seed);
+    got = expected;
+    program_interpret(&builder->ir, &expected, 8);
+    unsigned saved = mxcsr_enter();
+    optimize(&builder->ir, &builder->pass, PROFILE_FULL, 0, NULL, NULL);
+    mxcsr_leave(saved);
+    int result = program_compile_and_run(builder, arena, 8, ALLOCATABLE, &got, &error);
+    TEST_ASSERT_EQUAL_MESSAGE(0, result, error.text);
+    TEST_ASSERT_EQUAL(-1, program_difference(&expected, &got));
 }
 
 static void add_literals(int count)
@@ -162,7 +190,9 @@ static void test_recording_beyond_the_room_is_noticed(void)
 int main(void)
 {
     UNITY_BEGIN();
-    RUN_TEST(test_thousands_of_values_alive_at_once_keep_apart);
+    RUN_TEST(test_a_thousand_values_alive_at_once_keep_apart);
+    RUN_TEST(test_twenty_thousand_values_alive_at_once_keep_apart);
+    RUN_TEST(test_a_program_of_twenty_thousand_operations);
     RUN_TEST(test_as_many_literals_as_there_is_room_for);
     RUN_TEST(test_too_many_literals_are_refused);
     RUN_TEST(test_deep_regions);

@@ -1,6 +1,7 @@
 /* Every operation fragment computes what its row of def/op.def says: compared with the emulator's binding,
- * which is that row's expression, on random bits and on the values at the edges of each type. This covers
- * operations that the specification does not use. NaN payloads are left open. */
+ * which is that row's expression, on random bits and on the values at the edges of each type, with the result
+ * in a slot of its own and in each operand's. This covers operations that the specification does not use. NaN
+ * payloads are left open. */
 #include "base/code.h"
 #include "base/mxcsr.h"
 #include "emu/bind.h"
@@ -74,7 +75,8 @@ static void run_fragment(const void *code)
     trampoline_run(code, &in, &out);
 }
 
-static const void *join(const struct fragment *fragment, int32_t k, int has_k, struct code_span *span)
+static const void *join(const struct fragment *fragment, int result, int32_t k, int has_k,
+                        struct code_span *span)
 {
     static struct plan plan;
     uint8_t exit_code[14] = {0xff, 0x25}; /* jmp [rip + 0] */
@@ -82,7 +84,7 @@ static const void *join(const struct fragment *fragment, int32_t k, int has_k, s
     struct error error = {{0}};
     memcpy(exit_code + 6, &(const char *){trampoline_exit}, 8);
     plan.count = plan.dropped = 0;
-    plan_append(&plan, fragment, (struct arguments){{0, SLOT, has_k ? k : 2 * SLOT, 3 * SLOT}});
+    plan_append(&plan, fragment, (struct arguments){{result * SLOT, SLOT, has_k ? k : 2 * SLOT, 3 * SLOT}});
     plan_append(&plan, &exit, (struct arguments){{0}});
     if (plan_join(&plan, arena, span, &error))
         TEST_FAIL_MESSAGE(error.text);
@@ -150,25 +152,27 @@ static const struct operation operations[] = {
 #undef OPK
 #undef CAST
 
-static void compare_lanes(const struct operation *operation)
+/* The operands as they were are in `before`. */
+static void compare_lanes(const struct operation *operation, int result, const uint32_t *before)
 {
     for (int lane = 0; lane < WIDTH; lane++) {
-        uint32_t got = frame[lane], wanted = expected[lane];
+        uint32_t got = frame[result * WIDTH + lane], wanted = expected[lane];
         if (got == wanted || (operation->gives_flt && nan_bits(got) && nan_bits(wanted)))
             continue;
         char text[200];
         snprintf(text, sizeof text, "%s(%08x, %08x, %08x) is %08x, expected %08x", operation->name,
-                 frame[WIDTH + lane], frame[2 * WIDTH + lane], frame[3 * WIDTH + lane], got, wanted);
+                 before[WIDTH + lane], before[2 * WIDTH + lane], before[3 * WIDTH + lane], got, wanted);
         TEST_FAIL_MESSAGE(text);
     }
 }
 
-static void try_operation(const struct operation *operation)
+static void try_operation(const struct operation *operation, int result)
 {
     struct env e = {{0}};
+    uint32_t before[OPERANDS * WIDTH];
     struct code_span span;
     int k = operation->shifts ? (int)(random_word() % (uint32_t)operation->shifts) : 0;
-    const void *code = join(operation->fragment, k, operation->shifts != 0, &span);
+    const void *code = join(operation->fragment, result, k, operation->shifts != 0, &span);
     for (int i = 0; i < WIDTH; i++)
         for (int n = 0; n < 3; n++)
             frame[(n + 1) * WIDTH + i] = operation->operand[n]();
@@ -176,16 +180,17 @@ static void try_operation(const struct operation *operation)
     for (int half = 0; half < HALVES; half++)
         operation->evaluate(&e, half, k);
     mxcsr_leave(saved);
+    memcpy(before, frame, sizeof before);
     run_fragment(code);
     code_free(arena, &span);
-    compare_lanes(operation);
+    compare_lanes(operation, result, before);
 }
 
 static void operation_fragments_compute_their_rows(void)
 {
     for (size_t i = 0; i < sizeof operations / sizeof *operations; i++)
         for (int round = 0; round < ROUNDS; round++)
-            try_operation(operations + i);
+            try_operation(operations + i, round % OPERANDS);
 }
 
 void setUp(void)

@@ -276,7 +276,7 @@ static void what_finds_no_room_is_refused(void)
     for (int i = 0; i <= PART_CAPACITY; i++)
         plan_append(&plan, &fragment_leave, (struct arguments){{0}});
     TEST_ASSERT_EQUAL(-1, plan_join(&plan, arena, &rest, &error));
-    TEST_ASSERT_EQUAL_STRING("the stitcher's plan of 1025 parts exceeds its room of 1024", error.text);
+    TEST_ASSERT_EQUAL_STRING("the stitcher's plan of 65537 parts exceeds its room of 65536", error.text);
     code_destroy(small);
 }
 

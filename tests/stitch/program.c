@@ -1,0 +1,160 @@
+/* Programs joined from operation fragments: random ones compute what def/op.def says, values that are not
+ * alive together share their slots, and large ones fit. */
+#include "base/code.h"
+#include "stitch/stitch.h"
+#include "tests/support/stitched.h"
+
+#include <string.h>
+#include <unity.h>
+
+enum { WIDTH = 8 };
+
+static struct code_arena *arena;
+static struct plan *plan;
+static struct ir ir;
+static struct program_data expected, got;
+
+static void expect_equal(const char *what)
+{
+    struct error error = {{0}};
+    struct program_data given = expected;
+    TEST_ASSERT_NULL(ir_verify(&ir));
+    program_interpret(&ir, &expected, WIDTH);
+    for (int share = 0; share < 2; share++) {
+        got = given;
+        TEST_ASSERT_EQUAL_MESSAGE(0, stitched_run(plan, &ir, share, arena, &got, &error), error.text);
+        TEST_ASSERT_EQUAL_MESSAGE(-1, program_difference(&expected, &got), what);
+    }
+}
+
+static void random_programs_agree(void)
+{
+    uint64_t seed = 0x57175;
+    for (int round = 0; round < 1500; round++) {
+        char what[64];
+        snprintf(what, sizeof what, "program %d", round);
+        program_make(&ir, 1 + program_random(&seed) % 120, &seed);
+        program_fill(&expected, &seed);
+        expect_equal(what);
+    }
+}
+
+static void a_program_of_twenty_thousand_operations_agrees(void)
+{
+    uint64_t seed = 0x20000;
+    program_make(&ir, 20000, &seed);
+    TEST_ASSERT_GREATER_THAN(20000, ir.count);
+    program_fill(&expected, &seed);
+    expect_equal("20000 operations");
+}
+
+static uint16_t append_ir(enum ir_op op, uint16_t a, uint16_t b)
+{
+    return ir_append(&ir, (struct ir_instruction){
+                              .op = (uint8_t)op, .type = ir_op_information[op].result, .operand = {a, b}});
+}
+
+static uint16_t load(int array)
+{
+    return ir_append(
+        &ir, (struct ir_instruction){
+                 .op = IR_load, .type = TYPE_itg, .base = BASE_INPUT, .k = array * PROGRAM_LANES * 4});
+}
+
+static void store(uint16_t value)
+{
+    ir_append(&ir, (struct ir_instruction){.op = IR_store, .base = BASE_OUTPUT, .operand = {value}});
+}
+
+static int shared_slots(void)
+{
+    return stitched_plan(plan, &ir, 1) / SLOT_BYTES;
+}
+
+/* An operand that is read twice, one that stays alive to the end, and results that are never read. */
+static void values_that_are_not_alive_together_share_slots(void)
+{
+    uint64_t seed = 3;
+    ir_start(&ir);
+    uint16_t step = load(0), sum = load(1);
+    for (int i = 0; i < 10000; i++) {
+        sum = append_ir(IR_add_i, sum, sum);
+        append_ir(IR_sub_i, sum, step);
+        sum = append_ir(IR_xor_i, sum, step);
+    }
+    store(sum);
+    program_fill(&expected, &seed);
+    expect_equal("chain");
+    TEST_ASSERT_EQUAL(3, shared_slots());
+}
+
+static void values_that_are_alive_together_keep_apart(void)
+{
+    enum { ALIVE = 20000 };
+    static uint16_t alive[ALIVE];
+    uint64_t seed = 4;
+    ir_start(&ir);
+    uint16_t step = load(1), sum;
+    alive[0] = load(0);
+    for (int i = 1; i < ALIVE; i++)
+        alive[i] = append_ir(IR_add_i, alive[i - 1], step);
+    sum = alive[0];
+    for (int i = 1; i < ALIVE; i++)
+        sum = append_ir(i % 2 ? IR_xor_i : IR_add_i, sum, alive[i]);
+    store(sum);
+    program_fill(&expected, &seed);
+    expect_equal("all alive");
+    TEST_ASSERT_EQUAL(ALIVE, shared_slots());
+}
+
+static void what_does_not_fit_is_refused(void)
+{
+    struct error error = {{0}};
+    struct code_span span;
+    ir_start(&ir);
+    uint16_t value = load(0);
+    for (int i = 0; i < IR_CAPACITY - 4; i++)
+        value = append_ir(IR_add_i, value, value);
+    store(value);
+    TEST_ASSERT_FALSE(ir.overflow);
+    int bytes = stitched_plan(plan, &ir, 0);
+    while (!plan->dropped)
+        plan_append(plan, &fragment_leave, (struct arguments){{0}});
+    TEST_ASSERT_EQUAL(-1, plan_join(plan, arena, &span, &error));
+    TEST_ASSERT_NOT_NULL_MESSAGE(strstr(error.text, "exceeds its room of 65536"), error.text);
+    error_clear(&error);
+    TEST_ASSERT_EQUAL(-1, plan_check(plan, &error));
+    TEST_ASSERT_NOT_NULL_MESSAGE(strstr(error.text, "exceeds its room of 65536"), error.text);
+    TEST_ASSERT_EQUAL(bytes, plan_share_slots(plan, bytes));
+}
+
+void setUp(void)
+{
+    struct error error = {{0}};
+    if (engine_stitch_operation.unavailable())
+        TEST_IGNORE_MESSAGE(engine_stitch_operation.unavailable());
+    arena = code_create(0, NULL, &error);
+    TEST_ASSERT_NOT_NULL_MESSAGE(arena, error.text);
+    plan = plan_take(&error);
+    TEST_ASSERT_NOT_NULL_MESSAGE(plan, error.text);
+}
+
+void tearDown(void)
+{
+    if (plan)
+        plan_give(plan);
+    code_destroy(arena);
+    plan = NULL;
+    arena = NULL;
+}
+
+int main(void)
+{
+    UNITY_BEGIN();
+    RUN_TEST(random_programs_agree);
+    RUN_TEST(a_program_of_twenty_thousand_operations_agrees);
+    RUN_TEST(values_that_are_not_alive_together_share_slots);
+    RUN_TEST(values_that_are_alive_together_keep_apart);
+    RUN_TEST(what_does_not_fit_is_refused);
+    return UNITY_END();
+}
