@@ -14,7 +14,8 @@ enum {
     LITERAL_CAPACITY = 8192,
     LITERAL_TABLE = 2 * LITERAL_CAPACITY, /* a power of two */
     REGION_CAPACITY = 16384,
-    REGION_DEPTH = 64
+    REGION_DEPTH = 64,
+    SPILL_CAPACITY = 32768 /* slots; their frame, 1 MiB, fits any thread's stack */
 };
 
 /* The frame's head, upward from rsp: two MXCSR words, and room for the lanes of one value. */

@@ -266,6 +266,8 @@ size_t emit_routine(struct emitter *m, enum unit unit, const union key *key, str
     encoder_start(&m->encoder, m->code, sizeof m->code, m->labels, LABEL_FREE, m->fixups, FIXUP_CAPACITY);
     m->literals = m->lines = m->regions = m->region_depth = 0;
     m->exceeded = NULL;
+    if (m->allocation->slots > SPILL_CAPACITY)
+        note_exceeded(m, "values in memory at once", SPILL_CAPACITY);
     note_line(m, 0);
     prologue(m, job_field(unit));
     switch (unit) {

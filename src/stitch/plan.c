@@ -24,22 +24,15 @@ void plan_give(struct plan *plan)
     free(atomic_exchange(&spare, plan));
 }
 
-unsigned plan_append(struct plan *plan, const struct fragment *fragment, struct arguments arguments)
-{
-    if (plan->count == PART_CAPACITY) {
-        plan->dropped++;
-        return PART_CAPACITY - 1;
-    }
-    plan->part[plan->count] = (struct part){.fragment = fragment, .arguments = arguments};
-    return plan->count++;
-}
-
 int plan_complete(const struct plan *plan, struct error *error)
 {
-    if (!plan->dropped)
-        return 0;
-    return error_set(error, "the stitcher's plan of %u parts exceeds its room of %d",
-                     plan->count + plan->dropped, PART_CAPACITY);
+    if (plan->dropped)
+        return error_set(error, "the stitcher's plan of %u parts exceeds its room of %d",
+                         plan->count + plan->dropped, PART_CAPACITY);
+    if (plan->frame_bytes > FRAME_BYTES_MAXIMUM)
+        return error_set(error, "the stitcher's frame of %d bytes exceeds its room of %d",
+                         (int)plan->frame_bytes, FRAME_BYTES_MAXIMUM);
+    return 0;
 }
 
 void plan_land(struct plan *plan, unsigned part, unsigned n)
@@ -83,6 +76,7 @@ struct loop plan_enter(struct plan *plan, enum unit unit, const struct fragment 
 {
     static struct loop (*const enter[UNIT_COUNT])(struct plan *) = {enter_vertex, enter_setup, enter_pixel};
     plan->count = plan->dropped = 0;
+    plan->frame_bytes = 0;
     plan_append(plan, &fragment_enter, (struct arguments){{0, MXCSR_CONTRACT}});
     if (once)
         plan_append(plan, once, (struct arguments){{argument}});
@@ -93,6 +87,7 @@ void plan_leave(struct plan *plan, enum unit unit, const union key *key, const s
                 int frame_bytes)
 {
     int32_t top = (int32_t)loop->top;
+    plan->frame_bytes = frame_bytes;
     plan->part[0].arguments.value[0] = -frame_bytes;
     switch (unit) {
     case UNIT_VERTEX:

@@ -15,6 +15,9 @@
 /* Far above any routine; what is not used of a plan is never touched. */
 enum { PART_CAPACITY = 65536, SLOT_BYTES = 32 };
 
+/* A thread's stack may have no more than 2 MiB. */
+enum { FRAME_BYTES_MAXIMUM = 1024 * 1024 };
+
 struct arguments {
     int32_t value[ARGUMENT_COUNT];
 };
@@ -41,7 +44,8 @@ struct slot {
 
 struct plan {
     unsigned count;
-    unsigned dropped; /* parts that found no room: the plan is unusable */
+    unsigned dropped;    /* parts that found no room: the plan is unusable */
+    int32_t frame_bytes; /* of the slots */
     struct part part[PART_CAPACITY];
     struct slot slot[PART_CAPACITY];
 };
@@ -50,13 +54,22 @@ struct plan {
 struct plan *plan_take(struct error *error);
 void plan_give(struct plan *plan);
 
-/* Appends a part and returns its number. */
-unsigned plan_append(struct plan *plan, const struct fragment *fragment, struct arguments arguments);
+/* Appends a part and returns its number; when there is no room, the last part's. */
+static inline unsigned plan_append(struct plan *plan, const struct fragment *fragment,
+                                   struct arguments arguments)
+{
+    if (plan->count == PART_CAPACITY) {
+        plan->dropped++;
+        return PART_CAPACITY - 1;
+    }
+    plan->part[plan->count] = (struct part){.fragment = fragment, .arguments = arguments};
+    return plan->count++;
+}
 
 /* Lets the part's argument n, a jump, go to the next part that will be appended. */
 void plan_land(struct plan *plan, unsigned part, unsigned n);
 
-/* Returns 0, or -1 with the reason when parts found no room. */
+/* Returns 0, or -1 with the reason when parts found no room or the frame is too large. */
 int plan_complete(const struct plan *plan, struct error *error);
 
 /* Lets values that are not alive together share slots. Until then each of the `bytes / SLOT_BYTES` slots is

@@ -108,6 +108,24 @@ static void test_twenty_thousand_values_alive_at_once_keep_apart(void)
     keep_alive(20000);
 }
 
+/* Two are read in each operation: there is no room for more. */
+static void test_more_values_in_memory_than_a_stack_may_hold_are_refused(void)
+{
+    enum { ALIVE = SPILL_CAPACITY + 2 * ALLOCATABLE + 1 };
+    static uint16_t alive[ALIVE];
+    uint16_t sum = load(0), step = load(1);
+    builder->ir.instruction[sum].type = builder->ir.instruction[step].type = TYPE_flt;
+    alive[0] = sum;
+    for (int i = 1; i < ALIVE; i++)
+        alive[i] = binary(IR_add_f, alive[i - 1], step);
+    for (int i = 1; i + 1 < ALIVE; i += 2)
+        sum = ir_append(&builder->ir, (struct ir_instruction){.op = IR_mad_f,
+                                                              .type = TYPE_flt,
+                                                              .operand = {alive[i], alive[i + 1], sum}});
+    store(sum);
+    expect_refusal("values in memory");
+}
+
 static void test_a_program_of_twenty_thousand_operations(void)
 {
     uint64_t seed = 0x20000;
@@ -192,6 +210,7 @@ int main(void)
     UNITY_BEGIN();
     RUN_TEST(test_a_thousand_values_alive_at_once_keep_apart);
     RUN_TEST(test_twenty_thousand_values_alive_at_once_keep_apart);
+    RUN_TEST(test_more_values_in_memory_than_a_stack_may_hold_are_refused);
     RUN_TEST(test_a_program_of_twenty_thousand_operations);
     RUN_TEST(test_as_many_literals_as_there_is_room_for);
     RUN_TEST(test_too_many_literals_are_refused);

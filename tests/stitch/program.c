@@ -20,7 +20,7 @@ static void expect_equal(const char *what)
     struct program_data given = expected;
     TEST_ASSERT_NULL(ir_verify(&ir));
     program_interpret(&ir, &expected, WIDTH);
-    for (int share = 0; share < 2; share++) {
+    for (int share = stitched_plan(plan, &ir, 0) > FRAME_BYTES_MAXIMUM; share < 2; share++) {
         got = given;
         TEST_ASSERT_EQUAL_MESSAGE(0, stitched_run(plan, &ir, share, arena, &got, &error), error.text);
         TEST_ASSERT_EQUAL_MESSAGE(-1, program_difference(&expected, &got), what);
@@ -88,23 +88,41 @@ static void values_that_are_not_alive_together_share_slots(void)
     TEST_ASSERT_EQUAL(3, shared_slots());
 }
 
+/* Gives `count` values, an odd number, before any but the first is read, then reads two in each operation. */
+static void keep_alive(int count)
+{
+    static uint16_t alive[IR_CAPACITY];
+    ir_start(&ir);
+    uint16_t step = load(1), sum = load(0);
+    ir.instruction[step].type = ir.instruction[sum].type = TYPE_flt;
+    alive[0] = sum;
+    for (int i = 1; i < count; i++)
+        alive[i] = append_ir(IR_add_f, alive[i - 1], step);
+    for (int i = 1; i + 1 < count; i += 2) {
+        uint16_t operands[] = {alive[i], alive[i + 1], sum};
+        sum = append_ir(IR_mad_f, 0, 0);
+        memcpy(ir.instruction[sum].operand, operands, sizeof operands);
+    }
+    store(sum);
+}
+
 static void values_that_are_alive_together_keep_apart(void)
 {
-    enum { ALIVE = 20000 };
-    static uint16_t alive[ALIVE];
+    enum { ALIVE = 20001 };
     uint64_t seed = 4;
-    ir_start(&ir);
-    uint16_t step = load(1), sum;
-    alive[0] = load(0);
-    for (int i = 1; i < ALIVE; i++)
-        alive[i] = append_ir(IR_add_i, alive[i - 1], step);
-    sum = alive[0];
-    for (int i = 1; i < ALIVE; i++)
-        sum = append_ir(i % 2 ? IR_xor_i : IR_add_i, sum, alive[i]);
-    store(sum);
+    keep_alive(ALIVE);
     program_fill(&expected, &seed);
     expect_equal("all alive");
     TEST_ASSERT_EQUAL(ALIVE, shared_slots());
+}
+
+static void frames_that_a_stack_may_not_hold_are_refused(void)
+{
+    struct error error = {{0}};
+    keep_alive(FRAME_BYTES_MAXIMUM / SLOT_BYTES + 1);
+    TEST_ASSERT_FALSE(ir.overflow);
+    TEST_ASSERT_EQUAL(-1, stitched_run(plan, &ir, 1, arena, &got, &error));
+    TEST_ASSERT_NOT_NULL_MESSAGE(strstr(error.text, "exceeds its room of 1048576"), error.text);
 }
 
 static void what_does_not_fit_is_refused(void)
@@ -155,6 +173,7 @@ int main(void)
     RUN_TEST(a_program_of_twenty_thousand_operations_agrees);
     RUN_TEST(values_that_are_not_alive_together_share_slots);
     RUN_TEST(values_that_are_alive_together_keep_apart);
+    RUN_TEST(frames_that_a_stack_may_not_hold_are_refused);
     RUN_TEST(what_does_not_fit_is_refused);
     return UNITY_END();
 }
