@@ -30,7 +30,7 @@ static void emulate_setup(const void *arguments, const struct routine *routine)
     const struct setup_call *call = arguments;
     const struct setup_key *key = &routine->key.setup;
     unsigned saved = mxcsr_enter();
-    size_t stride = triangle_layout(key->depth, key->varying).stride;
+    size_t stride = setup_layout(key).stride;
     struct env e = {{0}};
     e.base[BASE_JOB] = (const uint8_t *)call->job;
     e.base[BASE_VERTICES] = (const uint8_t *)call->vertices;

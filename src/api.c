@@ -296,12 +296,17 @@ enum triptych_result triptych_enable_light(triptych_device *device, unsigned ind
     return changed(device, TRIPTYCH_OK, &error);
 }
 
-enum triptych_result triptych_set_texture(triptych_device *device, triptych_texture *texture)
+enum triptych_result triptych_set_texture(triptych_device *device, unsigned sampler,
+                                          triptych_texture *texture)
 {
     if (!device)
         return TRIPTYCH_BAD_ARGUMENT;
     struct error error = {{0}};
-    return changed(device, state_set_texture(&device->state, texture, &error), &error);
+    if (sampler >= TRIPTYCH_SAMPLERS) {
+        error_set(&error, "sampler %u: expected 0 to %u", sampler, TRIPTYCH_SAMPLERS - 1);
+        return finish(device, TRIPTYCH_BAD_ARGUMENT, &error);
+    }
+    return changed(device, state_set_texture(&device->state, sampler, texture, &error), &error);
 }
 
 enum triptych_result triptych_set_element(triptych_device *device, enum triptych_attribute attribute,

@@ -25,9 +25,9 @@ static uint16_t reserve(uint16_t *end, size_t bytes)
     return offset;
 }
 
-struct triangle_layout triangle_layout(int depth, const uint8_t varying[VARYING_COUNT])
+static struct triangle_layout triangle_layout(int depth, int w, const uint8_t varying[VARYING_COUNT])
 {
-    struct triangle_layout layout = {0};
+    struct triangle_layout layout = {.smooth = (uint16_t)w};
     uint16_t end = sizeof(struct triangle_head);
     for (int v = 0; v < VARYING_COUNT; v++)
         layout.smooth |= varying[v] == INTERPOLATION_SMOOTH;
@@ -42,4 +42,14 @@ struct triangle_layout triangle_layout(int depth, const uint8_t varying[VARYING_
         }
     layout.stride = (uint16_t)((end + 63) & ~63);
     return layout;
+}
+
+struct triangle_layout setup_layout(const struct setup_key *key)
+{
+    return triangle_layout(key->depth, key->w, key->varying);
+}
+
+struct triangle_layout pixel_layout(const struct pixel_key *key)
+{
+    return triangle_layout(pixel_reads_depth(key), pixel_reads_w(key), key->varying);
 }

@@ -7,8 +7,8 @@
  * clip-space position x y z w, the clip code, then the varyings' components in the order of def/varying.def.
  *
  * Triangle record (array of structures): struct triangle_head, then one `struct plane` for depth if it is
- * read, one for 1/w if any varying is smooth, then per component of each varying read: a plane if smooth, one
- * word if flat. The offsets follow from the key alone: triangle_layout() below, used by setup and pixel
+ * read, one for 1/w if any varying is smooth or w itself is read, then per component of each varying read: a plane if smooth, one
+ * word if flat. The offsets follow from the key alone: setup_layout() and pixel_layout() below, used by setup and pixel
  * alike.
  *
  * Tile: TILE_SIZE x TILE_SIZE pixels as 4x4 blocks in row order, 16 words each in quad order: lane l of a
@@ -101,7 +101,7 @@ struct triangle_layout {
     uint16_t depth;                  /* byte offset of depth's plane */
     uint16_t reciprocal_w;           /* byte offset of 1/w's plane */
     uint16_t varying[VARYING_COUNT]; /* byte offset of each varying's first component */
-    uint16_t smooth;                 /* whether any varying is smooth */
+    uint16_t smooth;                 /* whether 1/w is there: a varying is smooth, or w itself is read */
     uint16_t stride;                 /* bytes of a record, a multiple of 64 */
 };
 
@@ -158,6 +158,7 @@ extern const uint8_t varying_components[VARYING_COUNT];
 extern const uint8_t varying_slot[VARYING_COUNT];
 
 /* The record layout that a setup key and a pixel key of one draw agree on. */
-struct triangle_layout triangle_layout(int depth, const uint8_t varying[VARYING_COUNT]);
+struct triangle_layout setup_layout(const struct setup_key *key);
+struct triangle_layout pixel_layout(const struct pixel_key *key);
 
 #endif

@@ -57,13 +57,13 @@ struct clipper clipper_create(const struct job *job, const uint8_t varying[VARYI
 {
     struct clipper r = {.vertices = vertices, .next = next, .guard_x = job->guard_x, .guard_y = job->guard_y};
     for (int v = 0; v < VARYING_COUNT; v++) {
-        uint32_t slots = ((1u << varying_components[v]) - 1) << varying_slot[v];
+        uint64_t slots = ((UINT64_C(1) << varying_components[v]) - 1) << varying_slot[v];
         if (varying[v] == INTERPOLATION_SMOOTH)
             r.smooth |= slots;
         else if (varying[v] == INTERPOLATION_FLAT)
             r.flat |= slots;
     }
-    r.smooth |= 1u << SLOT_X | 1u << SLOT_Y | 1u << SLOT_Z | 1u << SLOT_W;
+    r.smooth |= 1 << SLOT_X | 1 << SLOT_Y | 1 << SLOT_Z | 1 << SLOT_W;
     return r;
 }
 
@@ -154,8 +154,8 @@ static struct point cross(const struct clipper *c, enum clip_plane plane, const 
     double weight_in = length > 0 ? -d_out / length : 1;
     double weight_out = length > 0 ? d_in / length : 0;
     struct point p = {.lane = NO_LANE};
-    for (uint32_t slots = c->smooth; slots; slots &= slots - 1) {
-        int s = __builtin_ctz(slots);
+    for (uint64_t slots = c->smooth; slots; slots &= slots - 1) {
+        int s = __builtin_ctzll(slots);
         p.slot[s] = (float)(in->slot[s] * weight_in + out->slot[s] * weight_out);
         if (c->window && s == SLOT_W)
             divide_weights(in, out, p.slot[SLOT_W], &weight_in, &weight_out);
@@ -201,8 +201,8 @@ static void clip_polygon(const struct clipper *c, enum clip_plane plane, const s
 static struct point load_point(const struct clipper *c, uint32_t lane)
 {
     struct point p = {.code = needed_code(c, lane), .lane = lane};
-    for (uint32_t slots = c->smooth; slots; slots &= slots - 1) {
-        int s = __builtin_ctz(slots);
+    for (uint64_t slots = c->smooth; slots; slots &= slots - 1) {
+        int s = __builtin_ctzll(slots);
         p.slot[s] = *batch_word(c, s, lane);
     }
     return p;
@@ -211,12 +211,12 @@ static struct point load_point(const struct clipper *c, uint32_t lane)
 static uint32_t store_point(struct clipper *c, const struct point *p, uint32_t provoking)
 {
     uint32_t lane = c->next++;
-    for (uint32_t slots = c->smooth; slots; slots &= slots - 1) {
-        int s = __builtin_ctz(slots);
+    for (uint64_t slots = c->smooth; slots; slots &= slots - 1) {
+        int s = __builtin_ctzll(slots);
         *batch_word(c, s, lane) = p->slot[s];
     }
-    for (uint32_t slots = c->flat; slots; slots &= slots - 1) {
-        int s = __builtin_ctz(slots);
+    for (uint64_t slots = c->flat; slots; slots &= slots - 1) {
+        int s = __builtin_ctzll(slots);
         *batch_word(c, s, lane) = *batch_word(c, s, provoking);
     }
     memset(batch_word(c, SLOT_CODE, lane), 0, sizeof(uint32_t));

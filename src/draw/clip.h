@@ -17,8 +17,8 @@ enum {
 struct clipper {
     float *vertices; /* the batch: SLOT_COUNT * VERTEX_CAPACITY words (draw/call.h) */
     uint32_t next;   /* first free lane; advances by the lanes that each triangle takes */
-    uint32_t smooth; /* bit s: slot s is interpolated */
-    uint32_t flat;   /* bit s: slot s is copied from the triangle's vertex 0 */
+    uint64_t smooth; /* bit s: slot s is interpolated */
+    uint64_t flat;   /* bit s: slot s is copied from the triangle's vertex 0 */
     float guard_x;   /* of the job */
     float guard_y;
     int window; /* vertices are in the window: x, y, depth, 1/w */

@@ -12,11 +12,20 @@ _Static_assert((int)LIGHT_COUNT == (int)TRIPTYCH_LIGHTS, "as many lights as the 
 _Static_assert((int)LIGHT_POINT == TRIPTYCH_LIGHT_POINT + 1, "light types follow the public ones");
 _Static_assert((int)TARGET_SIZE_MAXIMUM == (int)TRIPTYCH_TARGET_MAXIMUM, "one limit of the target");
 
+static bool smooth_varyings(const struct pixel_key *key)
+{
+    for (int v = 0; v < VARYING_COUNT; v++)
+        if (key->varying[v] == INTERPOLATION_SMOOTH)
+            return true;
+    return false;
+}
+
 void derive_setup(const struct state *state, const struct pixel_key *pixel, struct setup_key *key)
 {
     key->cull = (uint8_t)(GET(cullmode) - CULLMODE_none);
     key->window = state->element[ATTRIBUTE_POSITIONT].format != TRIPTYCH_FORMAT_NONE;
-    key->depth = pixel->depth_function != COMPARE_ALWAYS || pixel->depth_write;
+    key->depth = (uint8_t)pixel_reads_depth(pixel);
+    key->w = pixel_reads_w(pixel) && !smooth_varyings(pixel);
     memcpy(key->varying, pixel->varying, sizeof key->varying);
 }
 

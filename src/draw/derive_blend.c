@@ -80,8 +80,6 @@ static void store_blending(struct pixel_key *key, int channel, struct blending b
     key->target_factor[channel] = b.target;
 }
 
-enum { MASK_COLOR = 7, MASK_ALPHA = 8 };
-
 /* Channels that stay as they are need not be written; those that are not written are blended like the others.
  */
 void derive_blend(const struct state *state, struct pixel_key *key)

@@ -29,8 +29,7 @@ static struct matrix multiply(const struct matrix *a, const struct matrix *b)
     return r;
 }
 
-/* The nearest finite float: a matrix element that overflowed must not turn zeros into NaNs. */
-static float narrow(double value)
+float derive_narrow(double value)
 {
     return (float)fmax(-(double)__FLT_MAX__, fmin(value, (double)__FLT_MAX__));
 }
@@ -39,7 +38,7 @@ static void store_matrix(const struct matrix *source, float target[4][4])
 {
     for (int i = 0; i < 4; i++)
         for (int j = 0; j < 4; j++)
-            target[i][j] = narrow(source->m[i][j]);
+            target[i][j] = derive_narrow(source->m[i][j]);
 }
 
 static double cofactor(const struct matrix *m, int row, int column)
@@ -58,7 +57,7 @@ static void store_normal_matrix(const struct matrix *world_view, float target[3]
     double scale = determinant != 0 ? 1 / determinant : 1;
     for (int i = 0; i < 3; i++)
         for (int j = 0; j < 3; j++)
-            target[i][j] = narrow(cofactor(world_view, i, j) * scale);
+            target[i][j] = derive_narrow(cofactor(world_view, i, j) * scale);
 }
 
 /* A point (w = 1) or a direction (w = 0) times the matrix. */
@@ -85,8 +84,8 @@ static void fill_point(const struct triptych_light *light, const struct triptych
     double p[3];
     transform(light->position, 1, view, p);
     for (int c = 0; c < 3; c++) {
-        job->position[c] = narrow(p[c]);
-        job->ambient[c] = narrow((double)light->ambient[c] * (double)material->ambient[c]);
+        job->position[c] = derive_narrow(p[c]);
+        job->ambient[c] = derive_narrow((double)light->ambient[c] * (double)material->ambient[c]);
     }
     job->range = light->range;
     job->attenuation0 = light->attenuation[0];
@@ -108,7 +107,7 @@ static void fill_lighting(const struct state *state, const struct matrix *view, 
         if (!state->light_enabled[i])
             continue;
         for (int c = 0; c < 3; c++)
-            to->diffuse[c] = narrow((double)light->diffuse[c] * (double)material->diffuse[c]);
+            to->diffuse[c] = derive_narrow((double)light->diffuse[c] * (double)material->diffuse[c]);
         if (light->type == TRIPTYCH_LIGHT_POINT)
             fill_point(light, material, view, to);
         else
@@ -119,7 +118,7 @@ static void fill_lighting(const struct state *state, const struct matrix *view, 
     }
     for (int c = 0; c < 3; c++)
         job->base_color[c] =
-            narrow((double)material->emissive[c] + (double)material->ambient[c] * ambient[c]);
+            derive_narrow((double)material->emissive[c] + (double)material->ambient[c] * ambient[c]);
     job->base_color[3] = material->diffuse[3];
 }
 
@@ -159,9 +158,10 @@ static uint32_t rgba_word(uint32_t color)
     return (color & 0xff00ff00) | (color >> 16 & 255) | (color & 255) << 16;
 }
 
-static void fill_texture(const struct state *state, const struct pixel_key *key, struct texture_job *job)
+static void fill_texture(const struct state *state, const struct pixel_key *key, int stage,
+                         struct texture_job *job)
 {
-    const struct triptych_texture *texture = state->texture;
+    const struct triptych_texture *texture = state->texture[stage];
     job->texels = texture->texels;
     job->width = (int32_t)texture->width;
     job->height = (int32_t)texture->height;
@@ -169,8 +169,29 @@ static void fill_texture(const struct state *state, const struct pixel_key *key,
     job->height_256 = (float)texture->height * 256;
     job->last_u = job->width - 1;
     job->last_v = job->height - 1;
-    if (key->address_u == ADDRESS_BORDER || key->address_v == ADDRESS_BORDER)
-        job->border = rgba_word(SAMPLER(0, bordercolor));
+    if (key->address_u[stage] == ADDRESS_BORDER || key->address_v[stage] == ADDRESS_BORDER)
+        job->border = rgba_word(SAMPLER(stage, bordercolor));
+}
+
+static void fill_stages(const struct state *state, const struct pixel_key *key, struct job *job)
+{
+    for (int i = 0; i < key->stages; i++) {
+        if (key->texture[i])
+            fill_texture(state, key, i, &job->texture[i]);
+        if (stage_reads(key, i, SOURCE_CONSTANT))
+            job->stage_constant[i] = rgba_word(STAGE(i, constant));
+        if (stage_reads(key, i, SOURCE_FACTOR))
+            job->texture_factor = rgba_word(GET(texturefactor));
+    }
+}
+
+static void fill_fog(const struct state *state, const struct pixel_key *key, struct job *job)
+{
+    if (!key->fog)
+        return;
+    job->fog_color = rgba_word(GET(fogcolor));
+    if (key->fog != FOG_VARYING)
+        derive_fog_formula(state, GET(fogtablemode), &job->fog_scale, &job->fog_offset);
 }
 
 static void fill_attributes(const struct state *state, const struct vertex_key *key, struct job *job)
@@ -206,10 +227,8 @@ __attribute__((noinline)) static void fill_job(const struct state *state, const 
         fill_window(job);
     else
         fill_viewport(&state->viewport, job);
-    if (pixel->texture)
-        fill_texture(state, pixel, &job->texture);
-    if (stage_reads(pixel, SOURCE_FACTOR))
-        job->texture_factor = rgba_word(GET(texturefactor));
+    fill_stages(state, pixel, job);
+    fill_fog(state, pixel, job);
     if (pixel->alpha_discard)
         job->alpha_reference = (int32_t)GET(alpharef);
     job->blend_constant = rgba_word(GET(blendfactor));

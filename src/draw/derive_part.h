@@ -10,6 +10,8 @@
 #include "draw/call.h"
 #include "draw/derive.h"
 
+#include <string.h>
+
 /* Words of def/value.def that the code names. */
 enum {
 #define VALUE(kind, word, number, support) kind##_##word = number,
@@ -22,15 +24,40 @@ enum {
 #define SAMPLER(i, name) (state->sampler[i][TRIPTYCH_SAMPLER_##name])
 #define STAGE(i, name)   (state->stage[i][TRIPTYCH_STAGE_##name])
 
+/* A state whose value is a binary32. */
+static inline float state_float(uint32_t bits)
+{
+    float value;
+    memcpy(&value, &bits, sizeof value);
+    return value;
+}
+
+#define GET_FLOAT(name) state_float(GET(name))
+
+enum { MASK_COLOR = 7, MASK_ALPHA = 8 }; /* of a write mask */
+
 /* Each fills its fields of a key that is zero; derive_blend takes the write mask from the state, and clears
  * the channels that keep the target. */
 void derive_depth(const struct state *state, struct pixel_key *key);
 void derive_blend(const struct state *state, struct pixel_key *key);
 void derive_stage(const struct state *state, struct pixel_key *key);
 void derive_texture(const struct state *state, struct pixel_key *key);
+void derive_fog(const struct state *state, struct pixel_key *key);
 void derive_pixel(const struct state *state, struct pixel_key *key);
 void derive_setup(const struct state *state, const struct pixel_key *pixel, struct setup_key *key);
 void derive_vertex(const struct state *state, const struct pixel_key *pixel, struct vertex_key *key);
+
+/* The first stage whose coordinates come in a channel; -1 when none do. */
+int derive_channel_stage(const struct pixel_key *key, int channel);
+
+/* Whether a stage of a derived key leaves everything as it is. */
+bool derive_stage_passes(const struct pixel_key *key, int i);
+
+/* Scale and offset of a fog formula for its mode, a value of kind FOGMODE. */
+void derive_fog_formula(const struct state *state, uint32_t mode, float *scale, float *offset);
+
+/* The nearest finite float: an element that overflowed must not turn zeros into NaNs. */
+float derive_narrow(double value);
 
 /* No blending: what is not written is a copy. */
 void derive_no_blend(struct pixel_key *key);

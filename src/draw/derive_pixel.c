@@ -21,6 +21,27 @@ static uint8_t derive_alpha_discard(const struct state *state)
     return GET(alphatestenable) ? (uint8_t)(COMPARE_always - GET(alphafunc)) : COMPARE_NEVER;
 }
 
+/* Diffuse is read as such, as the current colour that no stage has written yet, or as the result. */
+static bool reads_diffuse(const struct pixel_key *key)
+{
+    bool written = false;
+    for (int i = 0; i < key->stages; i++) {
+        if (stage_reads(key, i, SOURCE_DIFFUSE) ||
+            (!written && !derive_stage_passes(key, i) && stage_reads(key, i, SOURCE_CURRENT)))
+            return true;
+        written |= !key->temporary[i] && !derive_stage_passes(key, i);
+    }
+    return !written;
+}
+
+static bool reads_specular(const struct pixel_key *key)
+{
+    for (int i = 0; i < key->stages; i++)
+        if (stage_reads(key, i, SOURCE_SPECULAR))
+            return true;
+    return key->specular;
+}
+
 void derive_pixel(const struct state *state, struct pixel_key *key)
 {
     derive_depth(state, key);
@@ -38,14 +59,14 @@ void derive_pixel(const struct state *state, struct pixel_key *key)
     if (!pixel_shades(key))
         return;
     derive_stage(state, key);
-    if (!key->write_mask && key->color_stage != STAGE_DOT) { /* alpha alone is looked at */
-        key->color_stage = key->alpha_stage;
-        memcpy(key->color_argument, key->alpha_argument, sizeof key->color_argument);
-    }
     derive_texture(state, key);
-    if (key->texture)
-        key->varying[VARYING_texcoord] = INTERPOLATION_SMOOTH;
-    if (stage_reads(key, SOURCE_DIFFUSE))
-        key->varying[VARYING_diffuse] =
-            GET(shademode) == SHADEMODE_flat ? INTERPOLATION_FLAT : INTERPOLATION_SMOOTH;
+    if (key->write_mask & MASK_COLOR) {
+        key->specular = GET(specularenable) != 0;
+        derive_fog(state, key);
+    }
+    uint8_t shading = GET(shademode) == SHADEMODE_flat ? INTERPOLATION_FLAT : INTERPOLATION_SMOOTH;
+    if (reads_diffuse(key))
+        key->varying[VARYING_diffuse] = shading;
+    if (reads_specular(key))
+        key->varying[VARYING_specular] = shading;
 }

@@ -1,26 +1,31 @@
-/* Texture stages: Direct3D 9's 26 operations reduced to the 11 of spec/stage.h. */
+/* Texture stages: Direct3D 9's 26 operations reduced to the 11 of spec/stage.h, and the stages to those that have a
+ * say in the result. */
 #include "draw/derive_part.h"
 
 #include <string.h>
 
-/* One half of stage 0 as the state has it: an operation of Direct3D 9 and arguments 1, 2 and 0. */
+/* One half of a stage as the state has it: an operation of Direct3D 9 and arguments 1, 2 and 0. */
 struct half_stage {
     uint32_t operation;
     uint32_t argument[STAGE_ARGUMENTS];
 };
 
-enum { COMPLEMENT = ARGUMENT_diffuse_complement, REPLICATE = ARGUMENT_diffuse_alphareplicate };
+enum {
+    COMPLEMENT = ARGUMENT_diffuse_complement,
+    REPLICATE = ARGUMENT_diffuse_alphareplicate,
+    SELECTED = COMPLEMENT - 1 /* the bits that name the source */
+};
 
-/* What current is in the first stage: diffuse. */
 static uint8_t derive_argument(uint32_t argument)
 {
-    static const uint8_t source[4] = {[ARGUMENT_diffuse] = SOURCE_DIFFUSE,
-                                      [ARGUMENT_current] = SOURCE_DIFFUSE,
-                                      [ARGUMENT_texture] = SOURCE_TEXTURE,
-                                      [ARGUMENT_tfactor] = SOURCE_FACTOR};
+    static const uint8_t source[] = {
+        [ARGUMENT_diffuse] = SOURCE_DIFFUSE,   [ARGUMENT_current] = SOURCE_CURRENT,
+        [ARGUMENT_texture] = SOURCE_TEXTURE,   [ARGUMENT_tfactor] = SOURCE_FACTOR,
+        [ARGUMENT_specular] = SOURCE_SPECULAR, [ARGUMENT_temp] = SOURCE_TEMPORARY,
+        [ARGUMENT_constant] = SOURCE_CONSTANT};
     unsigned flags =
         (argument & COMPLEMENT ? ARGUMENT_COMPLEMENT : 0) + (argument & REPLICATE ? ARGUMENT_REPLICATE : 0);
-    return (uint8_t)(source[argument & ARGUMENT_tfactor] + flags);
+    return (uint8_t)(source[argument & SELECTED] + flags);
 }
 
 /* Where an argument of a reduced operation comes from: argument 1, 2 or 0 of the state, or a source; with
@@ -36,6 +41,7 @@ static const struct reduction {
     [TEXTUREOP_disable] = {STAGE_SELECT, {CURRENT}},
     [TEXTUREOP_selectarg1] = {STAGE_SELECT, {FIRST}},
     [TEXTUREOP_selectarg2] = {STAGE_SELECT, {SECOND}},
+    [TEXTUREOP_premodulate] = {STAGE_SELECT, {FIRST}},
     [TEXTUREOP_modulate] = {STAGE_MODULATE, {FIRST, SECOND}},
     [TEXTUREOP_modulate2x] = {STAGE_MODULATE_2X, {FIRST, SECOND}},
     [TEXTUREOP_modulate4x] = {STAGE_MODULATE_4X, {FIRST, SECOND}},
@@ -67,31 +73,140 @@ static uint32_t reduced_argument(const struct half_stage *half, unsigned which)
     return (argument | (which & REPLICATE)) ^ (which & COMPLEMENT);
 }
 
+/* Whether the operation reads the texture that is not there: such a half passes the current colour (as drivers do;
+ * Direct3D 9 leaves it open). */
+static bool lacks_texture(const struct half_stage *half, bool bound)
+{
+    const struct reduction *reduction = &reductions[half->operation];
+    for (int i = 0; i < stage_arguments[reduction->stage] && !bound; i++)
+        if ((reduced_argument(half, reduction->argument[i]) & SELECTED) == ARGUMENT_texture)
+            return true;
+    return false;
+}
+
 /* `flags` are those that mean something: alpha replicated is alpha. */
 static uint8_t derive_half(const struct half_stage *half, uint32_t flags, uint8_t argument[STAGE_ARGUMENTS])
 {
     const struct reduction *reduction = &reductions[half->operation];
     for (int i = 0; i < stage_arguments[reduction->stage]; i++) {
         uint32_t reduced = reduced_argument(half, reduction->argument[i]);
-        argument[i] = derive_argument(reduced & (ARGUMENT_tfactor | flags));
+        argument[i] = derive_argument(reduced & (SELECTED | flags));
     }
     return reduction->stage;
 }
 
+/* The two halves of a stage. */
+struct whole_stage {
+    struct half_stage color, alpha;
+};
+
+static struct whole_stage stage_states(const struct state *state, int i)
+{
+    struct whole_stage r = {
+        {STAGE(i, colorop), {STAGE(i, colorarg1), STAGE(i, colorarg2), STAGE(i, colorarg0)}},
+        {STAGE(i, alphaop), {STAGE(i, alphaarg1), STAGE(i, alphaarg2), STAGE(i, alphaarg0)}}};
+    bool bound = state->texture[i] != NULL;
+    if (lacks_texture(&r.color, bound))
+        r.color.operation = TEXTUREOP_disable;
+    if (lacks_texture(&r.alpha, bound))
+        r.alpha.operation = TEXTUREOP_disable;
+    return r;
+}
+
+static void derive_one(const struct state *state, int i, struct pixel_key *key)
+{
+    struct whole_stage stage = stage_states(state, i);
+    uint8_t *color = key->color_argument + STAGE_ARGUMENTS * i, *alpha = key->alpha_argument + STAGE_ARGUMENTS * i;
+    key->color_stage[i] = derive_half(&stage.color, COMPLEMENT | REPLICATE, color);
+    if (key->color_stage[i] != STAGE_DOT)
+        key->alpha_stage[i] = derive_half(&stage.alpha, COMPLEMENT, alpha);
+    key->temporary[i] = STAGE(i, resultarg) == ARGUMENT_temp;
+    if (i + 1 == TEXTURE_STAGES || !state->texture[i + 1])
+        return;
+    if (stage.color.operation == TEXTUREOP_premodulate)
+        key->premodulate[i + 1] |= PREMODULATE_COLOR;
+    if (stage.alpha.operation == TEXTUREOP_premodulate && key->color_stage[i] != STAGE_DOT)
+        key->premodulate[i + 1] |= PREMODULATE_ALPHA;
+}
+
+static void clear_stage(struct pixel_key *key, int i)
+{
+    key->color_stage[i] = key->alpha_stage[i] = STAGE_SELECT;
+    memset(key->color_argument + STAGE_ARGUMENTS * i, 0, STAGE_ARGUMENTS);
+    memset(key->alpha_argument + STAGE_ARGUMENTS * i, 0, STAGE_ARGUMENTS);
+    key->temporary[i] = key->premodulate[i] = 0;
+}
+
+/* Makes a stage one that leaves everything as it is. */
+static void pass_stage(struct pixel_key *key, int i)
+{
+    clear_stage(key, i);
+    key->color_argument[STAGE_ARGUMENTS * i] = key->alpha_argument[STAGE_ARGUMENTS * i] = SOURCE_CURRENT;
+}
+
+bool derive_stage_passes(const struct pixel_key *key, int i)
+{
+    return key->color_stage[i] == STAGE_SELECT && stage_is_joint(key, i) && !key->temporary[i] &&
+           !key->premodulate[i] && key->color_argument[STAGE_ARGUMENTS * i] == SOURCE_CURRENT;
+}
+
+/* Stages whose results nobody reads pass. */
+static void drop_dead_stages(struct pixel_key *key)
+{
+    bool current = true, temporary = false;
+    for (int i = key->stages - 1; i >= 0; i--) {
+        bool *result = key->temporary[i] ? &temporary : &current;
+        if (!*result) {
+            pass_stage(key, i);
+            continue;
+        }
+        *result = false;
+        current |= stage_reads(key, i, SOURCE_CURRENT);
+        temporary |= stage_reads(key, i, SOURCE_TEMPORARY);
+    }
+}
+
+/* Before a stage has written the current colour it is diffuse. A premodulated one that nobody reads as such is none. */
+static void name_diffuse(struct pixel_key *key)
+{
+    bool written = false;
+    for (int i = 0; i < key->stages; i++) {
+        if (!stage_reads(key, i, SOURCE_CURRENT))
+            key->premodulate[i] = 0;
+        if (derive_stage_passes(key, i))
+            continue;
+        for (int j = 0; j < STAGE_ARGUMENTS && !written && !key->premodulate[i]; j++) {
+            uint8_t *color = key->color_argument + STAGE_ARGUMENTS * i + j, *alpha = key->alpha_argument + STAGE_ARGUMENTS * i + j;
+            *color -= *color % SOURCE_COUNT == SOURCE_CURRENT ? SOURCE_CURRENT - SOURCE_DIFFUSE : 0;
+            *alpha -= *alpha % SOURCE_COUNT == SOURCE_CURRENT ? SOURCE_CURRENT - SOURCE_DIFFUSE : 0;
+        }
+        written |= !key->temporary[i];
+    }
+}
+
+/* Where alpha alone is looked at, colour may be anything: what alpha is. */
+static void keep_alpha_only(struct pixel_key *key)
+{
+    for (int i = 0; i < key->stages; i++)
+        if (key->color_stage[i] == STAGE_DOT)
+            return;
+    memcpy(key->color_stage, key->alpha_stage, sizeof key->color_stage);
+    memcpy(key->color_argument, key->alpha_argument, sizeof key->color_argument);
+    for (int i = 0; i < key->stages; i++)
+        if (key->premodulate[i])
+            key->premodulate[i] = key->premodulate[i] & PREMODULATE_ALPHA ? PREMODULATE_COLOR | PREMODULATE_ALPHA : 0;
+}
+
 void derive_stage(const struct state *state, struct pixel_key *key)
 {
-    struct half_stage color = {STAGE(0, colorop),
-                               {STAGE(0, colorarg1), STAGE(0, colorarg2), STAGE(0, colorarg0)}};
-    struct half_stage alpha = {STAGE(0, alphaop),
-                               {STAGE(0, alphaarg1), STAGE(0, alphaarg2), STAGE(0, alphaarg0)}};
-    if (color.operation == TEXTUREOP_disable)
-        return;
-    key->color_stage = derive_half(&color, COMPLEMENT | REPLICATE, key->color_argument);
-    if (key->color_stage != STAGE_DOT)
-        key->alpha_stage = derive_half(&alpha, COMPLEMENT, key->alpha_argument);
-    if (state->texture || !stage_reads(key, SOURCE_TEXTURE))
-        return;
-    key->color_stage = key->alpha_stage = STAGE_SELECT; /* without its texture the stage is off */
-    memset(key->color_argument, 0, sizeof key->color_argument);
-    memset(key->alpha_argument, 0, sizeof key->alpha_argument);
+    while (key->stages < TEXTURE_STAGES && STAGE(key->stages, colorop) != TEXTUREOP_disable)
+        derive_one(state, key->stages++, key);
+    if (key->stages < TEXTURE_STAGES)
+        key->premodulate[key->stages] = 0;
+    if (!key->write_mask)
+        keep_alpha_only(key);
+    drop_dead_stages(key);
+    name_diffuse(key);
+    while (key->stages && derive_stage_passes(key, key->stages - 1))
+        clear_stage(key, --key->stages);
 }

@@ -25,6 +25,14 @@ static void derive_lighting(const struct state *state, struct vertex_key *key)
     key->normalize = key->attribute[ATTRIBUTE_NORMAL] && GET(normalizenormals);
 }
 
+/* The set of coordinates that a stage takes. */
+static void derive_texcoord(const struct state *state, int stage, uint8_t *set, struct vertex_key *key)
+{
+    *set = (uint8_t)STAGE(stage, texcoordindex);
+    enum attribute attribute = ATTRIBUTE_TEXCOORD + *set;
+    key->attribute[attribute] = derive_format(state, attribute, 2);
+}
+
 void derive_vertex(const struct state *state, const struct pixel_key *pixel, struct vertex_key *key)
 {
     for (int v = 0; v < VARYING_COUNT; v++)
@@ -32,8 +40,9 @@ void derive_vertex(const struct state *state, const struct pixel_key *pixel, str
     int window = state->element[ATTRIBUTE_POSITIONT].format != TRIPTYCH_FORMAT_NONE;
     enum attribute position = window ? ATTRIBUTE_POSITIONT : ATTRIBUTE_POSITION;
     key->attribute[position] = derive_format(state, position, 4);
-    if (key->varying[VARYING_texcoord])
-        key->attribute[ATTRIBUTE_TEXCOORD] = derive_format(state, ATTRIBUTE_TEXCOORD, 2);
+    for (int channel = 0; channel < TEXTURE_STAGES; channel++)
+        if (key->varying[varying_texcoord(channel)])
+            derive_texcoord(state, derive_channel_stage(pixel, channel), &key->texcoord[channel], key);
     if (key->varying[VARYING_diffuse] && GET(lighting) && !window)
         derive_lighting(state, key);
     else if (key->varying[VARYING_diffuse])

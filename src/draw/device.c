@@ -329,6 +329,15 @@ static int acquire_routines(struct triptych_device *device, const struct routine
     return acquire_all(device, routine, error);
 }
 
+/* The textures that the draw samples: they must not change before it is rendered. */
+static void mark_textures(struct triptych_device *device)
+{
+    const struct pixel_key *key = &device->key[UNIT_PIXEL].pixel;
+    for (int i = 0; i < key->stages; i++)
+        if (key->texture[i])
+            device->state.texture[i]->recording = device->recording;
+}
+
 /* Attributes of streams that step with the instance: the same vertex for the whole of it. */
 static void step_instance(const struct triptych_device *device, uint32_t instance, struct job *job)
 {
@@ -355,10 +364,9 @@ static enum triptych_result record_instance(struct triptych_device *device, cons
     step_instance(device, instance, &draw->job);
     memcpy(draw->routine, routine, sizeof draw->routine);
     draw->scissor = derive_scissor(&device->state);
-    draw->stride = triangle_layout(setup->depth, setup->varying).stride;
+    draw->stride = setup_layout(setup).stride;
     device->frame->commands++;
-    if (device->state.texture)
-        device->state.texture->recording = device->recording;
+    mark_textures(device);
     return TRIPTYCH_OK;
 }
 

@@ -50,7 +50,7 @@ struct texture_job {
     float height_256;
     int32_t last_u; /* width - 1: the mask of a power of two, the limit of a clamp */
     int32_t last_v;
-    uint32_t border; /* RGBA8, red in the low byte */
+    uint32_t border;
     uint32_t reserved;
 };
 
@@ -74,10 +74,14 @@ struct job {
     float scale_y, offset_y;
     float depth_scale, depth_offset;
 
-    struct texture_job texture;
-    uint32_t texture_factor; /* RGBA8, red in the low byte */
+    struct texture_job texture[TEXTURE_STAGES];
+    uint32_t stage_constant[TEXTURE_STAGES]; /* RGBA8, red in the low byte, like all packed colours here */
+    uint32_t texture_factor;
+    uint32_t fog_color;
+    float fog_scale; /* of the fog's distance: see spec/fog.h */
+    float fog_offset;
     int32_t alpha_reference; /* 0 to 255 */
-    uint32_t blend_constant; /* RGBA8, red in the low byte */
+    uint32_t blend_constant;
 };
 
 #endif

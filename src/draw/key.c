@@ -23,25 +23,25 @@ static int same_argument(unsigned color, unsigned alpha)
     return color == alpha || (!replicated && color == alpha + ARGUMENT_REPLICATE);
 }
 
-int stage_is_joint(const struct pixel_key *key)
+int stage_is_joint(const struct pixel_key *key, int stage)
 {
-    if (key->color_stage == STAGE_DOT)
+    if (key->color_stage[stage] == STAGE_DOT)
         return 1;
-    if (key->color_stage != key->alpha_stage)
+    if (key->color_stage[stage] != key->alpha_stage[stage])
         return 0;
-    for (int i = 0; i < stage_arguments[key->color_stage]; i++)
-        if (!same_argument(key->color_argument[i], key->alpha_argument[i]))
+    for (int i = 0; i < stage_arguments[key->color_stage[stage]]; i++)
+        if (!same_argument(color_arguments(key, stage)[i], alpha_arguments(key, stage)[i]))
             return 0;
     return 1;
 }
 
-int stage_reads(const struct pixel_key *key, enum source source)
+int stage_reads(const struct pixel_key *key, int stage, enum source source)
 {
-    for (int i = 0; i < stage_arguments[key->color_stage]; i++)
-        if (key->color_argument[i] % SOURCE_COUNT == source)
+    for (int i = 0; i < stage_arguments[key->color_stage[stage]]; i++)
+        if (color_arguments(key, stage)[i] % SOURCE_COUNT == source)
             return 1;
-    for (int i = 0; i < stage_arguments[key->alpha_stage] && !stage_is_joint(key); i++)
-        if (key->alpha_argument[i] % SOURCE_COUNT == source)
+    for (int i = 0; i < stage_arguments[key->alpha_stage[stage]] && !stage_is_joint(key, stage); i++)
+        if (alpha_arguments(key, stage)[i] % SOURCE_COUNT == source)
             return 1;
     return 0;
 }
@@ -207,12 +207,12 @@ int key_equal(const struct packed_key *a, const struct packed_key *b)
     return a->words == b->words && !memcmp(a->word, b->word, a->words * sizeof a->word[0]);
 }
 
-static int is_zero(const uint8_t *values, unsigned count)
+/* How many values there are up to the last that is not zero. */
+static unsigned significant(const uint8_t *values, unsigned count)
 {
-    for (unsigned i = 0; i < count; i++)
-        if (values[i])
-            return 0;
-    return 1;
+    while (count && !values[count - 1])
+        count--;
+    return count;
 }
 
 char *key_print(enum unit unit, const union key *key, char text[KEY_TEXT_CAPACITY])
@@ -221,10 +221,10 @@ char *key_print(enum unit unit, const union key *key, char text[KEY_TEXT_CAPACIT
     const struct key_field *field = key_fields(unit, &count);
     for (size_t i = 0; i < count; i++) {
         const uint8_t *values = (const uint8_t *)key + field[i].offset;
-        if (is_zero(values, field[i].count))
+        if (!significant(values, field[i].count))
             continue;
         at += (size_t)snprintf(text + at, KEY_TEXT_CAPACITY - at, "%s%s=", at ? " " : "", field[i].name);
-        for (unsigned j = 0; j < field[i].count; j++)
+        for (unsigned j = 0; j < significant(values, field[i].count); j++)
             at += (size_t)snprintf(text + at, KEY_TEXT_CAPACITY - at, "%s%u", j ? "," : "", values[j]);
     }
     if (!at)
@@ -242,12 +242,14 @@ static const struct key_field *find_field(enum unit unit, const char *name, size
     return NULL;
 }
 
-/* Reads `v,v,v`; leaves *at behind the last digit, or at the offending one. */
+/* Reads `v,v,v`, as many as there are; leaves *at behind the last digit, or at the offending one. */
 static int parse_values(const struct key_field *field, const char **at, uint8_t *values)
 {
     for (unsigned j = 0; j < field->count; j++) {
-        if (j && *(*at)++ != ',')
-            return -1;
+        if (j && **at != ',')
+            return 0;
+        if (j)
+            ++*at;
         char *end;
         if (**at < '0' || **at > '9')
             return -1;

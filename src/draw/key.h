@@ -51,6 +51,9 @@ struct vertex_type {
 extern const struct vertex_type vertex_types[ATTRIBUTE_FORMAT_COUNT];
 
 enum { LIGHT_COUNT = 8 };
+/* Stages, channels of texture coordinates that travel to the pixel, and sets of them that vertices have. */
+enum { TEXTURE_STAGES = 8, TEXCOORD_SETS = 8 };
+
 enum light_type { LIGHT_NONE, LIGHT_DIRECTIONAL, LIGHT_POINT, LIGHT_TYPE_COUNT };
 
 enum varying {
@@ -59,6 +62,32 @@ enum varying {
 #undef VARYING
     VARYING_COUNT
 };
+
+/* The varyings of a channel of texture coordinates. */
+enum { VARYING_CHANNEL = VARYING_texcoord1 - VARYING_texcoord0 };
+static inline int varying_texcoord(int channel)
+{
+    return VARYING_texcoord0 + VARYING_CHANNEL * channel;
+}
+static inline int varying_third(int channel)
+{
+    return VARYING_third0 + VARYING_CHANNEL * channel;
+}
+static inline int varying_divisor(int channel)
+{
+    return VARYING_divisor0 + VARYING_CHANNEL * channel;
+}
+
+static inline int varying_is_texcoord(int varying)
+{
+    return varying >= VARYING_texcoord0 && varying < VARYING_specular &&
+           !((varying - VARYING_texcoord0) % VARYING_CHANNEL);
+}
+static inline int varying_is_divisor(int varying)
+{
+    return varying >= VARYING_divisor0 && varying < VARYING_specular &&
+           !((varying - VARYING_divisor0) % VARYING_CHANNEL);
+}
 
 enum interpolation { INTERPOLATION_NONE, INTERPOLATION_SMOOTH, INTERPOLATION_FLAT, INTERPOLATION_COUNT };
 
@@ -109,13 +138,38 @@ enum stage {
 };
 
 /* Arguments of a stage: a source, whether its alpha replaces its colour, and whether it is subtracted from 1.
- */
-enum source { SOURCE_DIFFUSE, SOURCE_TEXTURE, SOURCE_FACTOR, SOURCE_COUNT };
+ * CURRENT and TEMPORARY are what earlier stages left, at first diffuse and 0. */
+enum source {
+    SOURCE_DIFFUSE,
+    SOURCE_TEXTURE,
+    SOURCE_FACTOR,
+    SOURCE_CURRENT,
+    SOURCE_SPECULAR,
+    SOURCE_TEMPORARY,
+    SOURCE_CONSTANT,
+    SOURCE_COUNT
+};
 enum {
     ARGUMENT_REPLICATE = SOURCE_COUNT,
     ARGUMENT_COMPLEMENT = 2 * SOURCE_COUNT,
     STAGE_ARGUMENT_RADIX = 4 * SOURCE_COUNT,
     STAGE_ARGUMENTS = 3
+};
+
+/* Bits: which channels of `current` are multiplied by the stage's texture before the stage reads them. */
+enum { PREMODULATE_COLOR = 1, PREMODULATE_ALPHA = 2, PREMODULATE_COUNT = 4 };
+
+/* Where the fog factor comes from: the vertex routine, or the pixel's depth z or its distance w (spec/fog.h). */
+enum fog {
+    FOG_NONE,
+    FOG_VARYING,
+    FOG_LINEAR_Z,
+    FOG_EXP_Z,
+    FOG_EXP2_Z,
+    FOG_LINEAR_W,
+    FOG_EXP_W,
+    FOG_EXP2_W,
+    FOG_COUNT
 };
 
 /* Colour and alpha are blended alike when their operations and factors are the same. */
@@ -208,9 +262,19 @@ struct key_field {
 /* How many of its arguments an operation reads, from the first on. */
 extern const uint8_t stage_arguments[STAGE_COUNT];
 
-/* Whether stage 0 treats alpha like a fourth channel of colour, and whether it reads a source at all. */
-int stage_is_joint(const struct pixel_key *key);
-int stage_reads(const struct pixel_key *key, enum source source);
+/* A stage's arguments: 1, 2 and 0. */
+static inline const uint8_t *color_arguments(const struct pixel_key *key, int stage)
+{
+    return key->color_argument + STAGE_ARGUMENTS * stage;
+}
+static inline const uint8_t *alpha_arguments(const struct pixel_key *key, int stage)
+{
+    return key->alpha_argument + STAGE_ARGUMENTS * stage;
+}
+
+/* Whether a stage treats alpha like a fourth channel of colour, and whether it reads a source at all. */
+int stage_is_joint(const struct pixel_key *key, int stage);
+int stage_reads(const struct pixel_key *key, int stage, enum source source);
 
 extern const char *const unit_name[UNIT_COUNT]; /* "vertex", "setup", "pixel" */
 
@@ -233,6 +297,23 @@ static inline int pixel_shades(const struct pixel_key *key)
     return key->write_mask || (key->alpha_discard && key->depth_write);
 }
 
+static inline int fog_reads_depth(int fog)
+{
+    return fog >= FOG_LINEAR_Z && fog <= FOG_EXP2_Z;
+}
+
+/* Whether the pixel routine looks at the triangle's depth, and at w other than to interpolate. */
+static inline int pixel_reads_depth(const struct pixel_key *key)
+{
+    return key->depth_function != COMPARE_ALWAYS || key->depth_write ||
+           (pixel_shades(key) && fog_reads_depth(key->fog));
+}
+
+static inline int pixel_reads_w(const struct pixel_key *key)
+{
+    return pixel_shades(key) && key->fog >= FOG_LINEAR_W;
+}
+
 /* Whether alpha is blended otherwise than colour. */
 static inline int blend_is_separate(const struct pixel_key *key)
 {
@@ -249,8 +330,8 @@ static inline int blend_is_lerp(int blend, int source_factor, int target_factor)
            (source_factor ^ 1) == target_factor;
 }
 
-/* Writes `field=value field=v,v,v ...`, fields that are zero left out ("default" when all are), and returns
- * text. */
+/* Writes `field=value field=v,v,v ...`, fields that are zero and zeros that end an array left out ("default" when all
+ * are zero), and returns text. */
 char *key_print(enum unit unit, const union key *key, char text[KEY_TEXT_CAPACITY]);
 
 /* Reads what key_print writes. Returns 0, or -1 with *where at the offending character. */

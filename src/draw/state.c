@@ -4,9 +4,6 @@
 #include <stdio.h>
 #include <string.h>
 
-/* How many samplers and stages work; the others can only keep their defaults. */
-static const unsigned working[TRIPTYCH_STATE_TABLE_COUNT] = {1, 1, 1};
-
 /* Where a value is in its table; the row exists. */
 struct place {
     enum triptych_state_table table;
@@ -60,7 +57,7 @@ static int is_supported(const struct place *place, uint32_t value)
 {
     if (value == triptych_state_default(place->table, place->row, place->i))
         return 1;
-    if (place->state->support != TRIPTYCH_SUPPORT_YES || place->i >= working[place->table])
+    if (place->state->support != TRIPTYCH_SUPPORT_YES)
         return 0;
     const struct triptych_value *row = triptych_value_find(place->state->kind, value);
     return !row || row->support == TRIPTYCH_SUPPORT_YES;
@@ -92,7 +89,7 @@ static void print_expected(const struct place *place, char *text, size_t size)
     }
     if (at)
         return;
-    if (place->state->support != TRIPTYCH_SUPPORT_YES || place->i >= working[place->table])
+    if (place->state->support != TRIPTYCH_SUPPORT_YES)
         print_value(kind, triptych_state_default(place->table, place->row, place->i), text, size);
     else if (kind->first < -0x1p64)
         snprintf(text, size, "a finite number");
@@ -295,7 +292,7 @@ enum triptych_result state_set_light(struct state *state, unsigned index, const 
     return result;
 }
 
-enum triptych_result state_set_texture(struct state *state, struct triptych_texture *texture,
+enum triptych_result state_set_texture(struct state *state, unsigned sampler, struct triptych_texture *texture,
                                        struct error *error)
 {
     if (texture && (texture->type != TRIPTYCH_TEXTURE_2D || texture->format->storage != STORAGE_RGBA8)) {
@@ -304,6 +301,6 @@ enum triptych_result state_set_texture(struct state *state, struct triptych_text
                   texture_type_name[texture->type], texture->format->name);
         return TRIPTYCH_UNSUPPORTED;
     }
-    state->texture = texture;
+    state->texture[sampler] = texture;
     return TRIPTYCH_OK;
 }

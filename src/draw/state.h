@@ -38,7 +38,7 @@ struct state {
     struct triptych_material material;
     struct triptych_light light[TRIPTYCH_LIGHTS];
     uint8_t light_enabled[TRIPTYCH_LIGHTS];
-    struct triptych_texture *texture;
+    struct triptych_texture *texture[TRIPTYCH_SAMPLERS];
     struct state_element element[TRIPTYCH_ATTRIBUTE_COUNT];
     struct state_stream stream[STREAM_COUNT];
     struct triptych_buffer *indices;
@@ -64,7 +64,7 @@ enum triptych_result state_set_material(struct state *state, const struct tripty
                                         struct error *error);
 enum triptych_result state_set_light(struct state *state, unsigned index, const struct triptych_light *light,
                                      struct error *error);
-enum triptych_result state_set_texture(struct state *state, struct triptych_texture *texture,
+enum triptych_result state_set_texture(struct state *state, unsigned sampler, struct triptych_texture *texture,
                                        struct error *error);
 
 /* In draw/declare.c. */

@@ -192,7 +192,7 @@ static void vertex_loop(struct emitter *m)
 
 static void setup_loop(struct emitter *m, const struct setup_key *key)
 {
-    int32_t stride = triangle_layout(key->depth, key->varying).stride;
+    int32_t stride = setup_layout(key).stride;
     load(m, INPUT, offsetof(struct setup_call, index));
     load(m, OUTPUT, offsetof(struct setup_call, out));
     load(m, VERTICES, offsetof(struct setup_call, vertices));

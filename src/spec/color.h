@@ -21,6 +21,25 @@ static inline struct color color_unpack(struct env *e, itg word)
     return r;
 }
 
+/* A packed colour of the job. */
+static inline struct color packed_color(struct env *e, size_t field)
+{
+    itg word = uniform_i(E, BASE_JOB, (int)field);
+    return color_unpack(E, word);
+}
+
+/* Red, green and blue of one colour, alpha of another. */
+static inline struct color color_join(struct env *e, struct color color, struct color alpha)
+{
+    itg color_ga = int_of(E, color.ga);
+    itg alpha_ga = int_of(E, alpha.ga);
+    itg green = and_i(E, color_ga, lit_i(E, 0x0000ffff));
+    itg top = and_i(E, alpha_ga, lit_i(E, -0x10000));
+    itg both = or_i(E, green, top);
+    color.ga = fix_of(E, both);
+    return color;
+}
+
 static inline itg color_pack(struct env *e, struct color color)
 {
     fix high = shl_x(E, color.ga, 8);
@@ -42,6 +61,16 @@ static inline fix modulate(struct env *e, fix a, fix b)
 {
     fix product = mul_x(E, a, b);
     return divide_255(E, product);
+}
+
+/* round((a * weight + b * (255 - weight)) / 255) */
+static inline fix lerp_255(struct env *e, fix a, fix b, fix weight)
+{
+    fix inverse = sub_x(E, lit_x(E, 255), weight);
+    fix first = mul_x(E, a, weight);
+    fix second = mul_x(E, b, inverse);
+    fix sum = add_x(E, first, second);
+    return divide_255(E, sum);
 }
 
 static inline fix add_saturated(struct env *e, fix a, fix b)
@@ -95,4 +124,13 @@ static inline struct color color_quantize(struct env *e, const flt channel[4])
     r.rb = fix_of(E, rb);
     r.ga = fix_of(E, ga);
     return r;
+}
+
+/* Adds red, green and blue, at most to 255; alpha stays. */
+static inline struct color add_specular(struct env *e, struct color color, struct color specular)
+{
+    struct color sum;
+    sum.rb = add_saturated(E, color.rb, specular.rb);
+    sum.ga = add_saturated(E, color.ga, specular.ga);
+    return color_join(E, sum, color);
 }

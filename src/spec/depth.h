@@ -20,14 +20,20 @@ struct depth {
     flt new, stored;
 };
 
+/* The pixel's own depth. */
+static inline flt pixel_depth(struct env *e, const struct pixel_position *at, const struct triangle_layout *layout)
+{
+    flt plane = evaluate_plane(E, at, layout->depth);
+    flt low = max_f(E, plane, lit_f(E, 0.0f));
+    return min_f(E, low, lit_f(E, 1.0f));
+}
+
 /* The pixel's depth and the tile's. */
 static inline struct depth depth_pair(struct env *e, const struct pixel_position *at,
                                       const struct triangle_layout *layout)
 {
     struct depth r;
-    flt plane = evaluate_plane(E, at, layout->depth);
-    flt low = max_f(E, plane, lit_f(E, 0.0f));
-    r.new = min_f(E, low, lit_f(E, 1.0f));
+    r.new = pixel_depth(E, at, layout);
     r.stored = load_f(E, BASE_DEPTH, 0);
     return r;
 }

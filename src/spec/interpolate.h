@@ -40,13 +40,21 @@ static inline flt pixel_w(struct env *e, const struct pixel_position *at,
     return div_f(E, lit_f(E, 1.0f), reciprocal);
 }
 
-/* Component c of a varying at the pixel; w is used for smooth ones only. */
-static inline flt interpolate(struct env *e, const struct pixel_key *k, const struct triangle_layout *layout,
-                              const struct pixel_position *at, flt w, int varying, int c)
+/* Component c of a varying as it comes from the triangle: over w if it is smooth. */
+static inline flt interpolate_over_w(struct env *e, const struct pixel_key *k,
+                                     const struct triangle_layout *layout, const struct pixel_position *at,
+                                     int varying, int c)
 {
     int first = layout->varying[varying];
     if (k->varying[varying] == INTERPOLATION_FLAT)
         return uniform_f(E, BASE_TRIANGLE, first + (int)sizeof(float) * c);
-    flt over_w = evaluate_plane(E, at, first + (int)sizeof(struct plane) * c);
-    return mul_f(E, over_w, w);
+    return evaluate_plane(E, at, first + (int)sizeof(struct plane) * c);
+}
+
+/* Component c of a varying at the pixel; w is used for smooth ones only. */
+static inline flt interpolate(struct env *e, const struct pixel_key *k, const struct triangle_layout *layout,
+                              const struct pixel_position *at, flt w, int varying, int c)
+{
+    flt value = interpolate_over_w(E, k, layout, at, varying, c);
+    return k->varying[varying] == INTERPOLATION_FLAT ? value : mul_f(E, value, w);
 }

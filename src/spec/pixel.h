@@ -1,4 +1,4 @@
-/* The pixel routine: depth, interpolation, texture, stage, alpha test, blending, write; one lane a pixel of a
+/* The pixel routine: depth, interpolation, textures and stages, specular, fog, alpha test, blending, write; one lane a pixel of a
  * 4x4 block (draw/call.h, struct pixel_call).
  *
  * Bases: JOB; ENTRY the block's entry; TRIANGLE its record; LANES the per-lane constants of this chunk of the
@@ -14,32 +14,77 @@ static inline msk coverage(struct env *e)
     return eq_i(E, hit, bit);
 }
 
+/* What all colours of a pixel are interpolated with. */
+struct pixel_source {
+    const struct pixel_key *k;
+    const struct triangle_layout *layout;
+    const struct pixel_position *at;
+    flt w;
+};
+
+/* An interpolated colour; white where none is. */
+static inline struct color interpolated_color(struct env *e, const struct pixel_source *s, int varying)
+{
+    struct color r;
+    flt channel[4];
+    r.rb = r.ga = lit_x(E, 255);
+    if (!s->k->varying[varying])
+        return r;
+    for (int c = 0; c < 4; c++)
+        channel[c] = interpolate(E, s->k, s->layout, s->at, s->w, varying, c);
+    return color_quantize(E, channel);
+}
+
+/* The texture of a stage. A divisor takes the place of 1/w: (u/w) / (q/w) is u/q. */
+static inline struct color stage_texture(struct env *e, const struct pixel_source *s, int stage)
+{
+    int channel = s->k->coordinates[stage];
+    flt w = s->w;
+    if (s->k->varying[varying_divisor(channel)]) {
+        flt divisor = interpolate_over_w(E, s->k, s->layout, s->at, varying_divisor(channel), 0);
+        w = div_f(E, lit_f(E, 1.0f), divisor);
+    }
+    flt u = interpolate(E, s->k, s->layout, s->at, w, varying_texcoord(channel), 0);
+    flt v = interpolate(E, s->k, s->layout, s->at, w, varying_texcoord(channel), 1);
+    return sample(E, s->k, stage, u, v);
+}
+
+static inline struct color shade_stages(struct env *e, const struct pixel_source *s)
+{
+    struct stage_values v;
+    v.diffuse = interpolated_color(E, s, VARYING_diffuse);
+    v.specular = interpolated_color(E, s, VARYING_specular);
+    v.current = v.diffuse;
+    v.temporary.rb = v.temporary.ga = lit_x(E, 0);
+    for (int i = 0; i < s->k->stages; i++) {
+        v.texture.rb = v.texture.ga = lit_x(E, 255);
+        if (s->k->texture[i])
+            v.texture = stage_texture(E, s, i);
+        stage(E, s->k, i, &v);
+    }
+    if (s->k->specular)
+        v.current = add_specular(E, v.current, v.specular);
+    return v.current;
+}
+
 static inline struct color shade(struct env *e, const struct pixel_key *k,
                                  const struct triangle_layout *layout, const struct pixel_position *at)
 {
-    struct color diffuse, texture;
-    flt w = lit_f(E, 1.0f);
+    struct pixel_source s = {k, layout, at, lit_f(E, 1.0f)};
     if (layout->smooth)
-        w = pixel_w(E, at, layout);
-    diffuse.rb = diffuse.ga = texture.rb = texture.ga = lit_x(E, 255);
-    if (k->varying[VARYING_diffuse]) {
-        flt channel[4];
-        for (int c = 0; c < 4; c++)
-            channel[c] = interpolate(E, k, layout, at, w, VARYING_diffuse, c);
-        diffuse = color_quantize(E, channel);
+        s.w = pixel_w(E, at, layout);
+    struct color color = shade_stages(E, &s);
+    if (k->fog) {
+        flt distance = fog_distance(E, k, layout, at, s.w);
+        fix factor = fog_factor(E, k->fog, distance);
+        color = fog_blend(E, color, factor);
     }
-    if (k->texture) {
-        flt u = interpolate(E, k, layout, at, w, VARYING_texcoord, 0);
-        flt v = interpolate(E, k, layout, at, w, VARYING_texcoord, 1);
-        texture = sample(E, k, u, v);
-    }
-    return stage(E, k, diffuse, texture);
+    return color;
 }
 
 static void spec_pixel(struct env *e, const struct pixel_key *k)
 {
-    int reads_depth = k->depth_function != COMPARE_ALWAYS || k->depth_write;
-    struct triangle_layout layout = triangle_layout(reads_depth, k->varying);
+    struct triangle_layout layout = pixel_layout(k);
     struct pixel_position at = pixel_position(E);
     msk covered = coverage(E);
     msk live = depth_test(E, k, &at, &layout, covered);

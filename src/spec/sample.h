@@ -28,14 +28,21 @@ struct axis_fields {
     int size, size_256, last;
 };
 
-static inline struct axis_fields axis_fields(int vertical)
+/* A field of the texture's description in the job. */
+static inline int texture_field(int stage, size_t field)
 {
-    static const struct axis_fields fields[2] = {
-        {offsetof(struct job, texture.width), offsetof(struct job, texture.width_256),
-         offsetof(struct job, texture.last_u)},
-        {offsetof(struct job, texture.height), offsetof(struct job, texture.height_256),
-         offsetof(struct job, texture.last_v)}};
-    return fields[vertical];
+    return (int)(offsetof(struct job, texture) + (size_t)stage * sizeof(struct texture_job) + field);
+}
+
+#define TEXTURE_FIELD(stage, field) texture_field(stage, offsetof(struct texture_job, field))
+
+static inline struct axis_fields axis_fields(int stage, int vertical)
+{
+    struct axis_fields across = {TEXTURE_FIELD(stage, width), TEXTURE_FIELD(stage, width_256),
+                                 TEXTURE_FIELD(stage, last_u)};
+    struct axis_fields down = {TEXTURE_FIELD(stage, height), TEXTURE_FIELD(stage, height_256),
+                               TEXTURE_FIELD(stage, last_v)};
+    return vertical ? down : across;
 }
 
 static inline itg clamp_index(struct env *e, itg index, itg last)
@@ -118,23 +125,23 @@ static inline flt address_period(struct env *e, int address, flt coordinate)
     return coordinate;
 }
 
-static inline struct axis address_axis(struct env *e, const struct pixel_key *k, int address, flt coordinate,
-                                       int vertical)
+static inline struct axis address_axis(struct env *e, const struct pixel_key *k, int stage, int address,
+                                       flt coordinate, int vertical)
 {
     struct axis r;
-    struct axis_fields fields = axis_fields(vertical);
+    struct axis_fields fields = axis_fields(stage, vertical);
     flt inner = address_period(E, address, coordinate);
     flt size_256 = uniform_f(E, BASE_JOB, fields.size_256);
     flt scaled = mul_f(E, inner, size_256);
     itg position = round_i(E, scaled);
-    if (k->filter == FILTER_LINEAR)
+    if (k->filter[stage] == FILTER_LINEAR)
         position = sub_i(E, position, lit_i(E, 128));
     itg index = shr_i(E, position, 8);
     r.index[0] = address_index(E, address, index, &fields);
     r.index[1] = r.index[0];
     r.wanted[0] = r.wanted[1] = index;
     r.weight = lit_x(E, 0);
-    if (k->filter == FILTER_LINEAR) {
+    if (k->filter[stage] == FILTER_LINEAR) {
         itg next = add_i(E, index, lit_i(E, 1));
         r.index[1] = address_index(E, address, next, &fields);
         r.wanted[1] = next;
@@ -146,23 +153,23 @@ static inline struct axis address_axis(struct env *e, const struct pixel_key *k,
 
 /* The texel, or the border colour where one of the axes has a border and its index is not the one that was
  * wanted. */
-static inline itg border_texel(struct env *e, const struct axis *axis, int tap, itg texel)
+static inline itg border_texel(struct env *e, int stage, const struct axis *axis, int tap, itg texel)
 {
     msk inside = eq_i(E, axis->wanted[tap], axis->index[tap]);
-    itg border = uniform_i(E, BASE_JOB, (int)offsetof(struct job, texture.border));
+    itg border = uniform_i(E, BASE_JOB, TEXTURE_FIELD(stage, border));
     return select_i(E, inside, texel, border);
 }
 
 /* The texel of column tap `i` and row tap `j`, whose row starts at texel number `row`. */
-static inline itg texel(struct env *e, const struct pixel_key *k, const struct axis *u, int i,
+static inline itg texel(struct env *e, const struct pixel_key *k, int stage, const struct axis *u, int i,
                         const struct axis *v, int j, itg row)
 {
     itg index = add_i(E, row, u->index[i]);
-    itg word = gather_i(E, BASE_JOB, (int)offsetof(struct job, texture.texels), index, 4, 0);
-    if (k->address_u == ADDRESS_BORDER)
-        word = border_texel(E, u, i, word);
-    if (k->address_v == ADDRESS_BORDER)
-        word = border_texel(E, v, j, word);
+    itg word = gather_i(E, BASE_JOB, TEXTURE_FIELD(stage, texels), index, 4, 0);
+    if (k->address_u[stage] == ADDRESS_BORDER)
+        word = border_texel(E, stage, u, i, word);
+    if (k->address_v[stage] == ADDRESS_BORDER)
+        word = border_texel(E, stage, v, j, word);
     return word;
 }
 
@@ -185,15 +192,15 @@ static inline struct color lerp_color(struct env *e, itg a, itg b, fix inverse, 
     return r;
 }
 
-static inline struct color sample_bilinear(struct env *e, const struct pixel_key *k, const struct axis *u,
-                                           const struct axis *v, itg width)
+static inline struct color sample_bilinear(struct env *e, const struct pixel_key *k, int stage,
+                                           const struct axis *u, const struct axis *v, itg width)
 {
     itg upper_row = dot_i(E, v->index[0], width);
-    itg upper_left = texel(E, k, u, 0, v, 0, upper_row);
-    itg upper_right = texel(E, k, u, 1, v, 0, upper_row);
+    itg upper_left = texel(E, k, stage, u, 0, v, 0, upper_row);
+    itg upper_right = texel(E, k, stage, u, 1, v, 0, upper_row);
     itg lower_row = dot_i(E, v->index[1], width);
-    itg lower_left = texel(E, k, u, 0, v, 1, lower_row);
-    itg lower_right = texel(E, k, u, 1, v, 1, lower_row);
+    itg lower_left = texel(E, k, stage, u, 0, v, 1, lower_row);
+    itg lower_right = texel(E, k, stage, u, 1, v, 1, lower_row);
     fix inverse_u = sub_x(E, lit_x(E, 256), u->weight);
     fix inverse_v = sub_x(E, lit_x(E, 256), v->weight);
     struct color upper = lerp_color(E, upper_left, upper_right, inverse_u, u->weight);
@@ -204,14 +211,15 @@ static inline struct color sample_bilinear(struct env *e, const struct pixel_key
     return r;
 }
 
-static inline struct color sample(struct env *e, const struct pixel_key *k, flt u, flt v)
+/* The texture of a stage at u, v. */
+static inline struct color sample(struct env *e, const struct pixel_key *k, int stage, flt u, flt v)
 {
-    struct axis across = address_axis(E, k, k->address_u, u, 0);
-    struct axis down = address_axis(E, k, k->address_v, v, 1);
-    itg width = uniform_i(E, BASE_JOB, (int)offsetof(struct job, texture.width));
-    if (k->filter == FILTER_LINEAR)
-        return sample_bilinear(E, k, &across, &down, width);
+    struct axis across = address_axis(E, k, stage, k->address_u[stage], u, 0);
+    struct axis down = address_axis(E, k, stage, k->address_v[stage], v, 1);
+    itg width = uniform_i(E, BASE_JOB, TEXTURE_FIELD(stage, width));
+    if (k->filter[stage] == FILTER_LINEAR)
+        return sample_bilinear(E, k, stage, &across, &down, width);
     itg row = dot_i(E, down.index[0], width);
-    itg word = texel(E, k, &across, 0, &down, 0, row);
+    itg word = texel(E, k, stage, &across, 0, &down, 0, row);
     return color_unpack(E, word);
 }

@@ -161,7 +161,7 @@ static inline struct gradients plane_gradients(struct env *e, flt area, flt dx1,
 
 static void spec_setup(struct env *e, const struct setup_key *k)
 {
-    struct triangle_layout layout = triangle_layout(k->depth, k->varying);
+    struct triangle_layout layout = setup_layout(k);
     struct corner p[3];
     for (int i = 0; i < 3; i++)
         p[i] = project(E, k, i);

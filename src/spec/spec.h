@@ -5,6 +5,7 @@
  * scatter_ for _f and _i; WHEN. None of these files has an include guard and none includes anything: they are
  * read once per engine, each time in another sense. */
 #include "spec/fetch.h"
+#include "spec/transcendental.h"
 #include "spec/transform.h"
 #include "spec/light.h"
 #include "spec/clip.h"
@@ -15,6 +16,7 @@
 #include "spec/sample.h"
 #include "spec/stage.h"
 #include "spec/depth.h"
+#include "spec/fog.h"
 #include "spec/alpha.h"
 #include "spec/blend.h"
 #include "spec/write.h"

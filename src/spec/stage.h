@@ -1,4 +1,8 @@
-/* Texture stage 0: combines diffuse, texture and the texture factor.
+/* A texture stage: combines the interpolated colours, its texture, constants and what earlier stages left.
+ *
+ * The stages run in order; each result becomes the current colour or the temporary one. At first the current
+ * colour is diffuse and the temporary one 0. A stage that follows one which premodulates reads the current
+ * colour multiplied by its own texture, round(a * b / 255).
  *
  * Colour and alpha each have an operation and up to three arguments. All channels are 0 to 255; a, b, c are
  * the arguments that Direct3D 9 calls 1, 2 and 0, and every result is clamped to 0..255:
@@ -16,20 +20,27 @@
  * changes nothing and its dot product is 0. An argument's complement is 255 minus it, after its alpha was
  * replicated. */
 
-static inline struct color stage_source(struct env *e, int source, struct color diffuse, struct color texture)
+struct stage_values {
+    struct color diffuse, specular, texture, current, temporary;
+};
+
+static inline struct color stage_source(struct env *e, int stage, int source, const struct stage_values *v)
 {
     switch (source) {
-    case SOURCE_DIFFUSE: return diffuse;
-    case SOURCE_TEXTURE: return texture;
+    case SOURCE_DIFFUSE: return v->diffuse;
+    case SOURCE_TEXTURE: return v->texture;
+    case SOURCE_CURRENT: return v->current;
+    case SOURCE_SPECULAR: return v->specular;
+    case SOURCE_TEMPORARY: return v->temporary;
+    case SOURCE_CONSTANT:
+        return packed_color(E, offsetof(struct job, stage_constant) + sizeof(uint32_t) * (size_t)stage);
     }
-    itg factor = uniform_i(E, BASE_JOB, (int)offsetof(struct job, texture_factor));
-    return color_unpack(E, factor);
+    return packed_color(E, offsetof(struct job, texture_factor));
 }
 
-static inline struct color stage_argument(struct env *e, int argument, struct color diffuse,
-                                          struct color texture)
+static inline struct color stage_argument(struct env *e, int stage, int argument, const struct stage_values *v)
 {
-    struct color r = stage_source(E, argument % SOURCE_COUNT, diffuse, texture);
+    struct color r = stage_source(E, stage, argument % SOURCE_COUNT, v);
     if (argument / ARGUMENT_REPLICATE & 1)
         r.rb = r.ga = color_alpha(E, r);
     if (argument / ARGUMENT_COMPLEMENT) {
@@ -42,15 +53,6 @@ static inline struct color stage_argument(struct env *e, int argument, struct co
 static inline fix double_saturated(struct env *e, fix a)
 {
     return add_saturated(E, a, a);
-}
-
-static inline fix stage_lerp(struct env *e, fix a, fix b, fix weight)
-{
-    fix inverse = sub_x(E, lit_x(E, 255), weight);
-    fix first = mul_x(E, a, weight);
-    fix second = mul_x(E, b, inverse);
-    fix sum = add_x(E, first, second);
-    return divide_255(E, sum);
 }
 
 static inline fix add_signed(struct env *e, fix a, fix b)
@@ -90,7 +92,7 @@ static inline fix stage_combine(struct env *e, int operation, fix a, fix b, fix 
     }
     case STAGE_SUBTRACT: return subtract_saturated(E, a, b);
     case STAGE_MULTIPLY_ADD: return stage_multiply_add(E, a, b, c);
-    case STAGE_LERP: return stage_lerp(E, a, b, c);
+    case STAGE_LERP: return lerp_255(E, a, b, c);
     case STAGE_SELECT: return a;
     default: return stage_modulate(E, operation, a, b);
     }
@@ -121,12 +123,12 @@ static inline struct color stage_dot(struct env *e, struct color a, struct color
     return r;
 }
 
-static inline struct color stage_half(struct env *e, int operation, const uint8_t argument[STAGE_ARGUMENTS],
-                                      struct color diffuse, struct color texture)
+static inline struct color stage_half(struct env *e, int stage, int operation,
+                                      const uint8_t argument[STAGE_ARGUMENTS], const struct stage_values *values)
 {
     struct color v[STAGE_ARGUMENTS], r;
     for (int i = 0; i < STAGE_ARGUMENTS; i++)
-        v[i] = i < stage_arguments[operation] ? stage_argument(E, argument[i], diffuse, texture) : v[0];
+        v[i] = i < stage_arguments[operation] ? stage_argument(E, stage, argument[i], values) : v[0];
     if (operation == STAGE_DOT)
         return stage_dot(E, v[0], v[1]);
     r.rb = stage_combine(E, operation, v[0].rb, v[1].rb, v[2].rb);
@@ -134,18 +136,31 @@ static inline struct color stage_half(struct env *e, int operation, const uint8_
     return r;
 }
 
-static inline struct color stage(struct env *e, const struct pixel_key *k, struct color diffuse,
-                                 struct color texture)
+static inline struct color stage_premodulated(struct env *e, int channels, struct color current,
+                                              struct color texture)
 {
-    struct color color = stage_half(E, k->color_stage, k->color_argument, diffuse, texture);
-    if (stage_is_joint(k))
-        return color;
-    struct color alpha = stage_half(E, k->alpha_stage, k->alpha_argument, diffuse, texture);
-    itg color_ga = int_of(E, color.ga);
-    itg alpha_ga = int_of(E, alpha.ga);
-    itg green = and_i(E, color_ga, lit_i(E, 0x0000ffff));
-    itg top = and_i(E, alpha_ga, lit_i(E, -0x10000));
-    itg both = or_i(E, green, top);
-    color.ga = fix_of(E, both);
-    return color;
+    struct color product;
+    product.rb = modulate(E, current.rb, texture.rb);
+    product.ga = modulate(E, current.ga, texture.ga);
+    switch (channels) {
+    case PREMODULATE_COLOR: return color_join(E, product, current);
+    case PREMODULATE_ALPHA: return color_join(E, current, product);
+    default: return product;
+    }
+}
+
+static inline void stage(struct env *e, const struct pixel_key *k, int stage, struct stage_values *v)
+{
+    struct stage_values read = *v;
+    if (k->premodulate[stage])
+        read.current = stage_premodulated(E, k->premodulate[stage], v->current, v->texture);
+    struct color result = stage_half(E, stage, k->color_stage[stage], color_arguments(k, stage), &read);
+    if (!stage_is_joint(k, stage)) {
+        struct color alpha = stage_half(E, stage, k->alpha_stage[stage], alpha_arguments(k, stage), &read);
+        result = color_join(E, result, alpha);
+    }
+    if (k->temporary[stage])
+        v->temporary = result;
+    else
+        v->current = result;
 }

@@ -45,15 +45,35 @@ static inline void vertex_position(struct env *e, const struct vertex_key *k, st
     store_i(E, BASE_OUTPUT, SLOT_CODE * VERTEX_SLOT_BYTES, code);
 }
 
+/* The two coordinates of a channel, from its set. */
+static inline void vertex_texcoord(struct env *e, const struct vertex_key *k, int channel)
+{
+    int varying = varying_texcoord(channel);
+    if (!k->varying[varying])
+        return;
+    struct vector4 uv = fetch(E, k, ATTRIBUTE_TEXCOORD + k->texcoord[channel], 0.0f);
+    for (int c = 0; c < 2; c++)
+        store_slot(E, varying_slot[varying] + c, uv.v[c]);
+}
+
+/* What nothing computes yet: no highlights, no fog, coordinates of two components. */
+static inline void vertex_constants(struct env *e, const struct vertex_key *k)
+{
+    for (int v = 0; v < VARYING_COUNT; v++) {
+        int third = v >= VARYING_texcoord0 && v < VARYING_specular && varying_components[v] == 1;
+        for (int c = 0; c < varying_components[v]; c++)
+            if (k->varying[v] && (third || v >= VARYING_specular))
+                store_slot(E, varying_slot[v] + c, lit_f(E, v == VARYING_specular ? 0.0f : 1.0f));
+    }
+}
+
 static void spec_vertex(struct env *e, const struct vertex_key *k)
 {
     struct vector4 position;
     vertex_position(E, k, &position);
     if (k->varying[VARYING_diffuse])
         vertex_diffuse(E, k, &position);
-    if (k->varying[VARYING_texcoord]) {
-        struct vector4 uv = fetch(E, k, ATTRIBUTE_TEXCOORD, 0.0f);
-        for (int c = 0; c < 2; c++)
-            store_slot(E, SLOT_texcoord + c, uv.v[c]);
-    }
+    for (int channel = 0; channel < TEXTURE_STAGES; channel++)
+        vertex_texcoord(E, k, channel);
+    vertex_constants(E, k);
 }

@@ -2,6 +2,20 @@
  * most keys are. */
 #include "stitch/cover.h"
 
+static int source_has_fragments(unsigned source)
+{
+    return source != SOURCE_SPECULAR && source != SOURCE_TEMPORARY;
+}
+
+/* Its registers hold the current colour then. */
+static int later_stage_reads_diffuse(const struct pixel_key *key)
+{
+    for (int i = 1; i < key->stages; i++)
+        if (stage_reads(key, i, SOURCE_DIFFUSE))
+            return 1;
+    return 0;
+}
+
 typedef int covers_function(const union key *keys, unsigned element, unsigned value);
 
 #define COVER(unit, field, condition, reason)                                                                \

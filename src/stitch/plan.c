@@ -95,7 +95,7 @@ void plan_leave(struct plan *plan, enum unit unit, const union key *key, const s
         plan_land(plan, loop->begin, 4);
         break;
     case UNIT_SETUP: {
-        int32_t stride = triangle_layout(key->setup.depth, key->setup.varying).stride;
+        int32_t stride = setup_layout(&key->setup).stride;
         plan_append(plan, &fragment_setup_next, (struct arguments){{8 * stride, top}});
         plan_land(plan, loop->begin, 5);
         break;

@@ -84,8 +84,10 @@ static void plan_diffuse(struct plan *plan, const struct pixel_key *key, const s
     plan_append(plan, diffuse[key->varying[VARYING_diffuse]], ARGUMENTS(layout->varying[VARYING_diffuse]));
 }
 
-static void plan_sample(struct plan *plan, const struct pixel_key *key)
+static void plan_sample(struct plan *plan, const struct pixel_key *key, int stage)
 {
+#define TEXTURE(field)                                                                                       \
+    (JOB(texture) + stage * (int32_t)sizeof(struct texture_job) + (int32_t)offsetof(struct texture_job, field))
 #define MODES(axis)                                                                                          \
     {                                                                                                        \
         [ADDRESS_WRAP] = {&fragment_##axis##_wrap_point, &fragment_##axis##_wrap_linear},                    \
@@ -104,48 +106,68 @@ static void plan_sample(struct plan *plan, const struct pixel_key *key)
     static const struct fragment *const sample[2][FILTER_COUNT] = {
         {&fragment_sample_point, &fragment_sample_bilinear},
         {&fragment_sample_point_border, &fragment_sample_bilinear_border}};
-    int border = key->address_u == ADDRESS_BORDER || key->address_v == ADDRESS_BORDER;
-    plan_append(plan, across[key->address_u][key->filter],
-                ARGUMENTS(JOB(texture.width_256), JOB(texture.last_u), JOB(texture.width)));
-    plan_append(plan, down[key->address_v][key->filter],
-                ARGUMENTS(JOB(texture.height_256), JOB(texture.last_v), JOB(texture.height)));
-    plan_append(plan, sample[border][key->filter],
-                ARGUMENTS(JOB(texture.texels), JOB(texture.width), JOB(texture.last_u), JOB(texture.last_v),
-                          JOB(texture.border)));
+    int border = key->address_u[stage] == ADDRESS_BORDER || key->address_v[stage] == ADDRESS_BORDER;
+    plan_append(plan, across[key->address_u[stage]][key->filter[stage]],
+                ARGUMENTS(TEXTURE(width_256), TEXTURE(last_u), TEXTURE(width)));
+    plan_append(plan, down[key->address_v[stage]][key->filter[stage]],
+                ARGUMENTS(TEXTURE(height_256), TEXTURE(last_v), TEXTURE(height)));
+    plan_append(plan, sample[border][key->filter[stage]],
+                ARGUMENTS(TEXTURE(texels), TEXTURE(width), TEXTURE(last_u), TEXTURE(last_v),
+                          TEXTURE(border)));
+#undef TEXTURE
 }
 
 /* Texture coordinates that no setup routine provides are read as planes at the record's start, as the spec
  * does. */
-static void plan_texture(struct plan *plan, const struct pixel_key *key, const struct triangle_layout *layout)
+static void plan_texture(struct plan *plan, const struct pixel_key *key, int stage,
+                         const struct triangle_layout *layout)
 {
-    if (!key->texture) {
+    int texcoord = varying_texcoord(key->coordinates[stage]);
+    if (!key->texture[stage]) {
         plan_append(plan, &fragment_texture_white, NONE);
         return;
     }
-    int flat = key->varying[VARYING_texcoord] == INTERPOLATION_FLAT;
+    int flat = key->varying[texcoord] == INTERPOLATION_FLAT;
     plan_append(plan, flat ? &fragment_texcoord_flat : &fragment_texcoord_smooth,
-                ARGUMENTS(layout->varying[VARYING_texcoord]));
-    plan_sample(plan, key);
+                ARGUMENTS(layout->varying[texcoord]));
+    plan_sample(plan, key, stage);
 }
 
-static void plan_argument(struct plan *plan, int which, unsigned argument)
+/* The registers or the job's field that a source is read from: diffuse and current share theirs, for only the first
+ * stage may read diffuse. */
+enum place { PLACE_CURRENT, PLACE_TEXTURE, PLACE_FIELD, PLACE_COUNT };
+
+static enum place place_of(unsigned argument)
+{
+    switch (argument % SOURCE_COUNT) {
+    case SOURCE_DIFFUSE:
+    case SOURCE_CURRENT: return PLACE_CURRENT;
+    case SOURCE_TEXTURE: return PLACE_TEXTURE;
+    default: return PLACE_FIELD;
+    }
+}
+
+static void plan_argument(struct plan *plan, int stage, int which, unsigned argument)
 {
 #define FORMS(which)                                                                                         \
     {                                                                                                        \
         &fragment_##which##_diffuse, &fragment_##which##_texture, &fragment_##which##_factor,                \
             &fragment_##which##_replicate, &fragment_##which##_complement                                    \
     }
-    static const struct fragment *const form[STAGE_ARGUMENTS][SOURCE_COUNT + 2] = {
+    static const struct fragment *const form[STAGE_ARGUMENTS][PLACE_COUNT + 2] = {
         FORMS(first), FORMS(second), FORMS(third)};
 #undef FORMS
-    plan_append(plan, form[which][argument % SOURCE_COUNT], ARGUMENTS(JOB(texture_factor)));
+    int32_t constant = JOB(stage_constant) + stage * (int32_t)sizeof(uint32_t);
+    plan_append(plan, form[which][place_of(argument)],
+                ARGUMENTS(argument % SOURCE_COUNT == SOURCE_CONSTANT ? constant : JOB(texture_factor)));
     if (argument / ARGUMENT_REPLICATE & 1)
-        plan_append(plan, form[which][SOURCE_COUNT], NONE);
+        plan_append(plan, form[which][PLACE_COUNT], NONE);
     if (argument / ARGUMENT_COMPLEMENT)
-        plan_append(plan, form[which][SOURCE_COUNT + 1], NONE);
+        plan_append(plan, form[which][PLACE_COUNT + 1], NONE);
 }
 
-static void plan_half_stage(struct plan *plan, enum stage operation, const uint8_t argument[STAGE_ARGUMENTS])
+static void plan_half_stage(struct plan *plan, int stage, enum stage operation,
+                            const uint8_t argument[STAGE_ARGUMENTS])
 {
     static const struct fragment *const combine[STAGE_COUNT] = {
         [STAGE_MODULATE] = &fragment_stage_two_modulate,
@@ -159,56 +181,76 @@ static void plan_half_stage(struct plan *plan, enum stage operation, const uint8
         [STAGE_LERP] = &fragment_stage_lerp,
         [STAGE_DOT] = &fragment_stage_dot};
     for (int i = 0; i < stage_arguments[operation]; i++)
-        plan_argument(plan, i, argument[i]);
+        plan_argument(plan, stage, i, argument[i]);
     if (operation != STAGE_SELECT)
         plan_append(plan, combine[operation], NONE);
 }
 
-/* The fragment for all four channels at once of what most draws do; null if there is none. */
-static const struct fragment *common_stage(const struct pixel_key *key)
+static int argument_is(unsigned argument, enum place place)
 {
-    const uint8_t *argument = key->color_argument;
-    int both = (argument[0] == SOURCE_TEXTURE && argument[1] == SOURCE_DIFFUSE) ||
-               (argument[0] == SOURCE_DIFFUSE && argument[1] == SOURCE_TEXTURE);
-    if (key->color_stage == STAGE_SELECT && argument[0] == SOURCE_TEXTURE)
-        return &fragment_stage_replace;
-    if (key->color_stage == STAGE_MODULATE && both)
-        return &fragment_stage_modulate;
-    return key->color_stage == STAGE_ADD && both ? &fragment_stage_add : NULL;
+    return argument < ARGUMENT_REPLICATE && place_of(argument) == place;
 }
 
-static void plan_stage(struct plan *plan, const struct pixel_key *key)
+/* The fragment for all four channels at once of what most draws do; null if there is none. */
+static const struct fragment *common_stage(const struct pixel_key *key, int stage)
 {
-    int joint = stage_is_joint(key);
-    const struct fragment *common = joint ? common_stage(key) : NULL;
+    const uint8_t *argument = color_arguments(key, stage);
+    int both = (argument_is(argument[0], PLACE_TEXTURE) && argument_is(argument[1], PLACE_CURRENT)) ||
+               (argument_is(argument[0], PLACE_CURRENT) && argument_is(argument[1], PLACE_TEXTURE));
+    if (key->color_stage[stage] == STAGE_SELECT && argument_is(argument[0], PLACE_TEXTURE))
+        return &fragment_stage_replace;
+    if (key->color_stage[stage] == STAGE_MODULATE && both)
+        return &fragment_stage_modulate;
+    return key->color_stage[stage] == STAGE_ADD && both ? &fragment_stage_add : NULL;
+}
+
+static void plan_stage(struct plan *plan, const struct pixel_key *key, int stage)
+{
+    int joint = stage_is_joint(key, stage);
+    const uint8_t *color = color_arguments(key, stage), *alpha = alpha_arguments(key, stage);
+    const struct fragment *common = joint ? common_stage(key, stage) : NULL;
     if (common) {
         plan_append(plan, common, NONE);
         return;
     }
-    if (joint && key->color_stage == STAGE_SELECT && key->color_argument[0] == SOURCE_DIFFUSE)
+    if (joint && key->color_stage[stage] == STAGE_SELECT && argument_is(color[0], PLACE_CURRENT))
         return;
-    plan_half_stage(plan, key->color_stage, key->color_argument);
+    plan_half_stage(plan, stage, key->color_stage[stage], color);
     if (joint) {
         plan_append(plan, &fragment_stage_result, NONE);
         return;
     }
     plan_append(plan, &fragment_stage_keep_color, NONE);
-    plan_half_stage(plan, key->alpha_stage, key->alpha_argument);
+    plan_half_stage(plan, stage, key->alpha_stage[stage], alpha);
     plan_append(plan, &fragment_stage_join_alpha, NONE);
+}
+
+/* Position and w for the second texture and later ones: the stage before has used their registers. */
+static void plan_stage_texture(struct plan *plan, const struct pixel_key *key, int stage,
+                               const struct triangle_layout *layout)
+{
+    int texcoord = varying_texcoord(key->coordinates[stage]);
+    if (stage && key->texture[stage]) {
+        plan_position(plan);
+        if (layout->smooth)
+            plan_append(plan, &fragment_pixel_w, ARGUMENTS(layout->reciprocal_w));
+    }
+    if (!layout->smooth && key->texture[stage] && key->varying[texcoord] == INTERPOLATION_NONE)
+        plan_append(plan, &fragment_pixel_w_one, NONE);
+    plan_texture(plan, key, stage, layout);
 }
 
 static void plan_shade(struct plan *plan, const struct pixel_key *key, const struct triangle_layout *layout)
 {
-    int textured = stage_reads(key, SOURCE_TEXTURE);
     if (layout->smooth)
         plan_append(plan, &fragment_pixel_w, ARGUMENTS(layout->reciprocal_w));
-    else if (textured && key->texture && key->varying[VARYING_texcoord] == INTERPOLATION_NONE)
-        plan_append(plan, &fragment_pixel_w_one, NONE);
-    if (stage_reads(key, SOURCE_DIFFUSE))
+    if (!key->stages || stage_reads(key, 0, SOURCE_DIFFUSE) || stage_reads(key, 0, SOURCE_CURRENT))
         plan_diffuse(plan, key, layout);
-    if (textured)
-        plan_texture(plan, key, layout);
-    plan_stage(plan, key);
+    for (int i = 0; i < key->stages; i++) {
+        if (stage_reads(key, i, SOURCE_TEXTURE))
+            plan_stage_texture(plan, key, i, layout);
+        plan_stage(plan, key, i);
+    }
 }
 
 /* The blending that has a fragment of its own; null if it has none. */
@@ -324,8 +366,7 @@ static void plan_target(struct plan *plan, const struct pixel_key *key)
 static void plan_pixel(struct plan *plan, const union key *all)
 {
     const struct pixel_key *key = &all->pixel;
-    int reads_depth = key->depth_function != COMPARE_ALWAYS || key->depth_write;
-    struct triangle_layout layout = triangle_layout(reads_depth, key->varying);
+    struct triangle_layout layout = pixel_layout(key);
     struct loop loop = plan_enter(plan, UNIT_PIXEL, &fragment_pixel_constants, 0);
     plan_position(plan);
     plan_coverage(plan);
@@ -387,7 +428,7 @@ static void plan_setup(struct plan *plan, const union key *all)
     static const uint8_t predicate[CULL_COUNT] = {
         [CULL_NONE] = 0x04, [CULL_CLOCKWISE] = 0x11, [CULL_COUNTERCLOCKWISE] = 0x1e};
     const struct setup_key *key = &all->setup;
-    struct triangle_layout layout = triangle_layout(key->depth, key->varying);
+    struct triangle_layout layout = setup_layout(key);
     struct loop loop = plan_enter(plan, UNIT_SETUP, &fragment_record_stride, layout.stride);
     for (int i = 0; i < 3; i++)
         plan_corner(plan, key, i);
@@ -473,7 +514,7 @@ static void plan_transform(struct plan *plan, const struct vertex_key *key)
 static void plan_vertex(struct plan *plan, const union key *all)
 {
     const struct vertex_key *key = &all->vertex;
-    const int32_t diffuse = SLOT(diffuse), texcoord = SLOT(texcoord), next = VERTEX_SLOT_BYTES;
+    const int32_t diffuse = SLOT(diffuse), next = VERTEX_SLOT_BYTES;
     struct loop loop = plan_enter(plan, UNIT_VERTEX, NULL, 0);
     plan_transform(plan, key);
     if (key->varying[VARYING_diffuse]) {
@@ -484,10 +525,12 @@ static void plan_vertex(struct plan *plan, const union key *all)
         plan_append(plan, &fragment_store_diffuse,
                     ARGUMENTS(diffuse, diffuse + next, diffuse + 2 * next, diffuse + 3 * next));
     }
-    if (key->varying[VARYING_texcoord]) {
-        plan_fetch(plan, key, ATTRIBUTE_TEXCOORD);
-        plan_append(plan, &fragment_store_texcoord, ARGUMENTS(texcoord, texcoord + next));
-    }
+    for (int channel = 0; channel < TEXTURE_STAGES; channel++)
+        if (key->varying[varying_texcoord(channel)]) {
+            int32_t texcoord = varying_slot[varying_texcoord(channel)] * VERTEX_SLOT_BYTES;
+            plan_fetch(plan, key, ATTRIBUTE_TEXCOORD);
+            plan_append(plan, &fragment_store_texcoord, ARGUMENTS(texcoord, texcoord + next));
+        }
     plan_leave(plan, UNIT_VERTEX, all, &loop, 0);
 }
 

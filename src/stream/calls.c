@@ -3,6 +3,7 @@
 #include "stream/parse.h"
 #include "stream/transform.h"
 
+#include <ctype.h>
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
@@ -290,8 +291,15 @@ static int parse_name_or_none(struct parser *parser, unsigned types, const char 
     return parse_name(parser, types, what, &call->resource);
 }
 
+/* The first sampler's number may be left out. */
 static int bind_texture(struct parser *parser, struct call *call)
 {
+    struct lexer *lex = &parser->lex;
+    int64_t sampler = 0;
+    if (lex->token.type == TOKEN_WORD && isdigit((unsigned char)*lex->token.text) &&
+        lex_integer(lex, "sampler", 0, TRIPTYCH_SAMPLERS - 1, &sampler))
+        return -1;
+    call->sampler = (uint32_t)sampler;
     return parse_name_or_none(parser, TEXTURES, "a texture, or none,", call);
 }
 

@@ -159,9 +159,9 @@ static enum triptych_result bind_indices(struct player *player, uint32_t resourc
                                 player->stream->resources[resource].index_bits);
 }
 
-static enum triptych_result bind_texture(struct player *player, uint32_t resource)
+static enum triptych_result bind_texture(struct player *player, unsigned sampler, uint32_t resource)
 {
-    return triptych_set_texture(player->device,
+    return triptych_set_texture(player->device, sampler,
                                 resource == NO_RESOURCE ? NULL : player->handles[resource].texture);
 }
 
@@ -211,7 +211,7 @@ static enum triptych_result execute_state(struct player *player, const struct ca
     case CALL_MATERIAL: return triptych_set_material(device, &call->material);
     case CALL_LIGHT: return triptych_set_light(device, call->light.index, &call->light.value);
     case CALL_ENABLE_LIGHT: return triptych_enable_light(device, call->light.index, call->light.on);
-    case CALL_BIND_TEXTURE: return bind_texture(player, call->resource);
+    case CALL_BIND_TEXTURE: return bind_texture(player, call->sampler, call->resource);
     case CALL_BIND_VERTICES: return bind_vertices(player, call->resource);
     case CALL_BIND_INDICES: return bind_indices(player, call->resource);
     case CALL_BIND_ELEMENT:
@@ -360,8 +360,8 @@ static enum triptych_result reset(struct player *player)
         result = triptych_set_transform(player->device, (enum triptych_transform)i, identity);
     if (!result)
         result = reset_vertices(player->device);
-    if (!result)
-        result = bind_texture(player, NO_RESOURCE);
+    for (unsigned i = 0; i < TRIPTYCH_SAMPLERS && !result; i++)
+        result = bind_texture(player, i, NO_RESOURCE);
     return result ? result : bind_indices(player, NO_RESOURCE);
 }
 

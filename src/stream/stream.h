@@ -159,6 +159,7 @@ struct call {
             float matrix[4][4];
         } transform;
         struct triptych_material material;
+        uint32_t sampler; /* CALL_BIND_TEXTURE */
         struct {
             uint32_t index;
             int on;                      /* CALL_ENABLE_LIGHT */

@@ -449,7 +449,12 @@ static void write_call(struct writer *writer, const struct call *call)
     case CALL_ENABLE_LIGHT:
         fprintf(out, "light %" PRIu32 " %s", call->light.index, call->light.on ? "on" : "off");
         break;
-    case CALL_BIND_TEXTURE: fprintf(out, "bind texture %s", name); break;
+    case CALL_BIND_TEXTURE:
+        fprintf(out, "bind texture ");
+        if (call->sampler)
+            fprintf(out, "%" PRIu32 " ", call->sampler);
+        fprintf(out, "%s", name);
+        break;
     case CALL_BIND_VERTICES: fprintf(out, "bind vertices %s", name); break;
     case CALL_BIND_INDICES: fprintf(out, "bind indices %s", name); break;
     case CALL_BIND_ELEMENT: write_bind_element(writer, call, name); break;

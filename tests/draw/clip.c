@@ -124,8 +124,9 @@ static void put_random(uint32_t lane, enum spread spread)
     }
 }
 
-static const uint8_t all_smooth[VARYING_COUNT] = {INTERPOLATION_SMOOTH, INTERPOLATION_SMOOTH};
-static const uint8_t flat_diffuse[VARYING_COUNT] = {INTERPOLATION_FLAT, INTERPOLATION_SMOOTH};
+static const uint8_t all_smooth[VARYING_COUNT] = {[0 ... VARYING_COUNT - 1] = INTERPOLATION_SMOOTH};
+static const uint8_t flat_diffuse[VARYING_COUNT] = {INTERPOLATION_FLAT,
+                                                    [1 ... VARYING_COUNT - 1] = INTERPOLATION_SMOOTH};
 
 static struct clipper smooth_clipper(void)
 {
@@ -356,8 +357,8 @@ static void test_the_near_plane_cuts_where_it_should(void)
     put(0, -0.5f, 0, -0.25f, 1); /* outside: a quarter of the way to the others */
     put(1, 0.5f, 0, 0.75f, 1);
     put(2, -0.5f, 0.5f, 0.75f, 1);
-    *word(SLOT_texcoord, 0) = 8;
-    *word(SLOT_texcoord, 1) = 16;
+    *word(SLOT_texcoord0, 0) = 8;
+    *word(SLOT_texcoord0, 1) = 16;
     struct clipper clipper = smooth_clipper();
     uint32_t triangle[CLIP_TRIANGLES_MAXIMUM][3];
     TEST_ASSERT_EQUAL_INT(2, clip_triangle(&clipper, lane, triangle));
@@ -367,7 +368,7 @@ static void test_the_near_plane_cuts_where_it_should(void)
     TEST_ASSERT_EQUAL_UINT32_ARRAY(expected[1], triangle[1], 3);
     TEST_ASSERT_EQUAL_FLOAT(-0.25f, *word(SLOT_X, FIRST_FREE));
     TEST_ASSERT_EQUAL_FLOAT(0, *word(SLOT_Z, FIRST_FREE));
-    TEST_ASSERT_EQUAL_FLOAT(10, *word(SLOT_texcoord, FIRST_FREE));
+    TEST_ASSERT_EQUAL_FLOAT(10, *word(SLOT_texcoord0, FIRST_FREE));
     TEST_ASSERT_EQUAL_FLOAT(0.125f, *word(SLOT_Y, FIRST_FREE + 1));
 }
 
@@ -383,7 +384,7 @@ static bool same_vertex(uint32_t a, uint32_t b)
 }
 
 /* New vertices of the shared edge are told by a varying that is 0 at both its ends and 1 elsewhere. */
-enum { MARK = SLOT_texcoord };
+enum { MARK = SLOT_texcoord0 };
 
 /* The new lanes from `first` to `last` that lie on the edge; returns how many. */
 static int lanes_on_edge(uint32_t first, uint32_t last, uint32_t found[LANES])

@@ -83,9 +83,9 @@ static void change_sampler(void)
 static void without_a_texture_its_states_are_dead(void)
 {
     expect_same_keys(change_sampler);
-    TEST_ASSERT_EQUAL_INT(0, key[UNIT_PIXEL].pixel.texture);
-    TEST_ASSERT_EQUAL_INT(0, key[UNIT_PIXEL].pixel.filter);
-    TEST_ASSERT_EQUAL_INT(STAGE_SELECT, key[UNIT_PIXEL].pixel.color_stage);
+    TEST_ASSERT_EQUAL_INT(0, key[UNIT_PIXEL].pixel.texture[0]);
+    TEST_ASSERT_EQUAL_INT(0, key[UNIT_PIXEL].pixel.filter[0]);
+    TEST_ASSERT_EQUAL_INT(STAGE_SELECT, key[UNIT_PIXEL].pixel.color_stage[0]);
     TEST_ASSERT_EQUAL_INT(SOURCE_DIFFUSE, key[UNIT_PIXEL].pixel.color_argument[0]);
     TEST_ASSERT_EQUAL_INT(ATTRIBUTE_FORMAT_NONE, key[UNIT_VERTEX].vertex.attribute[ATTRIBUTE_TEXCOORD]);
 }
@@ -93,7 +93,7 @@ static void without_a_texture_its_states_are_dead(void)
 static void change_everything_that_colours(void)
 {
     change_sampler();
-    state.texture = NULL;
+    state.texture[0] = NULL;
     SET(lighting, "false");
     SET(shademode, "flat");
     SET(alphablendenable, "true");
@@ -104,7 +104,7 @@ static void change_everything_that_colours(void)
 
 static void without_colour_writes_nothing_colours(void)
 {
-    state.texture = &texture;
+    state.texture[0] = &texture;
     state.light_enabled[0] = 1;
     set_number(TRIPTYCH_STATE_colorwriteenable, 0);
     expect_same_keys(change_everything_that_colours);
@@ -122,15 +122,15 @@ static void change_diffuse(void)
 
 static void replacing_by_the_texture_kills_diffuse(void)
 {
-    state.texture = &texture;
+    state.texture[0] = &texture;
     state.light_enabled[2] = 1;
     SET_STAGE(0, colorop, "selectarg1");
     expect_same_keys(change_diffuse);
-    TEST_ASSERT_EQUAL_INT(STAGE_SELECT, key[UNIT_PIXEL].pixel.color_stage);
+    TEST_ASSERT_EQUAL_INT(STAGE_SELECT, key[UNIT_PIXEL].pixel.color_stage[0]);
     TEST_ASSERT_EQUAL_INT(SOURCE_TEXTURE, key[UNIT_PIXEL].pixel.color_argument[0]);
     TEST_ASSERT_EQUAL_INT(SOURCE_TEXTURE, key[UNIT_PIXEL].pixel.alpha_argument[0]);
     TEST_ASSERT_EQUAL_INT(INTERPOLATION_NONE, key[UNIT_PIXEL].pixel.varying[VARYING_diffuse]);
-    TEST_ASSERT_EQUAL_INT(INTERPOLATION_SMOOTH, key[UNIT_PIXEL].pixel.varying[VARYING_texcoord]);
+    TEST_ASSERT_EQUAL_INT(INTERPOLATION_SMOOTH, key[UNIT_PIXEL].pixel.varying[VARYING_texcoord0]);
     TEST_ASSERT_EQUAL_INT(LIGHT_NONE, key[UNIT_VERTEX].vertex.light[0]);
     TEST_ASSERT_EQUAL_INT(ATTRIBUTE_FORMAT_NONE, key[UNIT_VERTEX].vertex.attribute[ATTRIBUTE_NORMAL]);
 }
@@ -244,20 +244,20 @@ static void an_alpha_test_that_never_passes_draws_nothing(void)
 /* Depth alone is written, and alpha decides where: its varyings are needed, its blending is not. */
 static void depth_behind_an_alpha_test_needs_colours(void)
 {
-    state.texture = &texture;
+    state.texture[0] = &texture;
     SET(alphablendenable, "true");
     set_number(TRIPTYCH_STATE_colorwriteenable, 0);
     derive();
-    TEST_ASSERT_EQUAL_INT(0, key[UNIT_PIXEL].pixel.texture);
+    TEST_ASSERT_EQUAL_INT(0, key[UNIT_PIXEL].pixel.texture[0]);
     SET(alphatestenable, "true");
     SET(alphafunc, "greater");
     derive();
-    TEST_ASSERT_EQUAL_INT(1, key[UNIT_PIXEL].pixel.texture);
-    TEST_ASSERT_EQUAL_INT(INTERPOLATION_SMOOTH, key[UNIT_SETUP].setup.varying[VARYING_texcoord]);
+    TEST_ASSERT_EQUAL_INT(1, key[UNIT_PIXEL].pixel.texture[0]);
+    TEST_ASSERT_EQUAL_INT(INTERPOLATION_SMOOTH, key[UNIT_SETUP].setup.varying[VARYING_texcoord0]);
     TEST_ASSERT_EQUAL_INT(BLEND_COPY, key[UNIT_PIXEL].pixel.blend[BLEND_COLOR]);
     SET(zwriteenable, "false");
     derive();
-    TEST_ASSERT_EQUAL_INT(0, key[UNIT_PIXEL].pixel.texture);
+    TEST_ASSERT_EQUAL_INT(0, key[UNIT_PIXEL].pixel.texture[0]);
     TEST_ASSERT_EQUAL_INT(COMPARE_NEVER, key[UNIT_PIXEL].pixel.alpha_discard);
 }
 
@@ -269,7 +269,7 @@ static void change_colour_stage(void)
 
 static void where_alpha_alone_is_looked_at_the_colour_stage_is_dead(void)
 {
-    state.texture = &texture;
+    state.texture[0] = &texture;
     set_number(TRIPTYCH_STATE_colorwriteenable, 0);
     SET(alphatestenable, "true");
     SET(alphafunc, "greater");
@@ -418,13 +418,13 @@ static void the_blend_factor_is_in_the_job_alone(void)
 
 static void wrapping_a_power_of_two_is_told_apart(void)
 {
-    state.texture = &texture;
+    state.texture[0] = &texture;
     derive();
-    TEST_ASSERT_EQUAL_INT(ADDRESS_WRAP_POWER, key[UNIT_PIXEL].pixel.address_u);
-    TEST_ASSERT_EQUAL_INT(ADDRESS_WRAP, key[UNIT_PIXEL].pixel.address_v);
+    TEST_ASSERT_EQUAL_INT(ADDRESS_WRAP_POWER, key[UNIT_PIXEL].pixel.address_u[0]);
+    TEST_ASSERT_EQUAL_INT(ADDRESS_WRAP, key[UNIT_PIXEL].pixel.address_v[0]);
     SET_SAMPLER(0, addressu, "clamp");
     derive();
-    TEST_ASSERT_EQUAL_INT(ADDRESS_CLAMP, key[UNIT_PIXEL].pixel.address_u);
+    TEST_ASSERT_EQUAL_INT(ADDRESS_CLAMP, key[UNIT_PIXEL].pixel.address_u[0]);
 }
 
 static void addressing_follows_the_axis(void)
@@ -437,13 +437,13 @@ static void addressing_follows_the_axis(void)
                  {"clamp", ADDRESS_CLAMP, ADDRESS_CLAMP},
                  {"border", ADDRESS_BORDER, ADDRESS_BORDER},
                  {"mirroronce", ADDRESS_MIRROR_ONCE, ADDRESS_MIRROR_ONCE}};
-    state.texture = &texture;
+    state.texture[0] = &texture;
     for (size_t i = 0; i < sizeof modes / sizeof *modes; i++) {
         SET_SAMPLER(0, addressu, modes[i].word);
         SET_SAMPLER(0, addressv, modes[i].word);
         derive();
-        TEST_ASSERT_EQUAL_INT(modes[i].u, key[UNIT_PIXEL].pixel.address_u);
-        TEST_ASSERT_EQUAL_INT(modes[i].v, key[UNIT_PIXEL].pixel.address_v);
+        TEST_ASSERT_EQUAL_INT(modes[i].u, key[UNIT_PIXEL].pixel.address_u[0]);
+        TEST_ASSERT_EQUAL_INT(modes[i].v, key[UNIT_PIXEL].pixel.address_v[0]);
     }
 }
 
@@ -458,7 +458,7 @@ static void change_unread_arguments(void)
 
 static void arguments_that_are_not_read_are_dead(void)
 {
-    state.texture = &texture;
+    state.texture[0] = &texture;
     SET_STAGE(0, colorop, "selectarg1");
     expect_same_keys(change_unread_arguments);
     derive();
@@ -476,25 +476,25 @@ static void use_the_general_operation(void)
 
 static void blends_are_interpolations(void)
 {
-    state.texture = &texture;
+    state.texture[0] = &texture;
     SET_STAGE(0, colorop, "blendtexturealpha");
     expect_same_keys(use_the_general_operation);
 }
 
 static void unbind_what_is_not_read(void)
 {
-    state.texture = NULL;
+    state.texture[0] = NULL;
     bind(TRIPTYCH_TEXCOORD, TRIPTYCH_FORMAT_NONE);
 }
 
 static void a_stage_without_texture_arguments_needs_no_texture(void)
 {
-    state.texture = &texture;
+    state.texture[0] = &texture;
     SET_STAGE(0, colorarg1, "tfactor");
     SET_STAGE(0, alphaarg1, "diffuse");
     expect_same_keys(unbind_what_is_not_read);
-    TEST_ASSERT_EQUAL_INT(STAGE_MODULATE, key[UNIT_PIXEL].pixel.color_stage);
-    TEST_ASSERT_EQUAL_INT(INTERPOLATION_NONE, key[UNIT_PIXEL].pixel.varying[VARYING_texcoord]);
+    TEST_ASSERT_EQUAL_INT(STAGE_MODULATE, key[UNIT_PIXEL].pixel.color_stage[0]);
+    TEST_ASSERT_EQUAL_INT(INTERPOLATION_NONE, key[UNIT_PIXEL].pixel.varying[VARYING_texcoord0]);
 }
 
 static void change_alpha_stage(void)
@@ -505,17 +505,17 @@ static void change_alpha_stage(void)
 
 static void a_dot_product_is_alpha_too(void)
 {
-    state.texture = &texture;
+    state.texture[0] = &texture;
     SET_STAGE(0, colorop, "dotproduct3");
     expect_same_keys(change_alpha_stage);
 }
 
 static void a_disabled_stage_passes_diffuse(void)
 {
-    state.texture = &texture;
+    state.texture[0] = &texture;
     SET_STAGE(0, colorop, "disable");
     expect_same_keys(change_alpha_stage);
-    TEST_ASSERT_EQUAL_INT(0, key[UNIT_PIXEL].pixel.texture);
+    TEST_ASSERT_EQUAL_INT(0, key[UNIT_PIXEL].pixel.texture[0]);
     TEST_ASSERT_EQUAL_INT(INTERPOLATION_SMOOTH, key[UNIT_PIXEL].pixel.varying[VARYING_diffuse]);
 }
 
@@ -526,23 +526,23 @@ static void change_border_colour(void)
 
 static void the_border_colour_is_the_jobs(void)
 {
-    state.texture = &texture;
+    state.texture[0] = &texture;
     SET_SAMPLER(0, addressv, "border");
     expect_same_keys(change_border_colour);
     derive();
-    TEST_ASSERT_EQUAL_HEX32(0x11443322, job.texture.border);
+    TEST_ASSERT_EQUAL_HEX32(0x11443322, job.texture[0].border);
     SET_SAMPLER(0, addressv, "wrap");
     derive();
-    TEST_ASSERT_EQUAL_HEX32(0, job.texture.border);
+    TEST_ASSERT_EQUAL_HEX32(0, job.texture[0].border);
 }
 
 static void flat_shading_concerns_diffuse_only(void)
 {
-    state.texture = &texture;
+    state.texture[0] = &texture;
     SET(shademode, "flat");
     derive();
     TEST_ASSERT_EQUAL_INT(INTERPOLATION_FLAT, key[UNIT_PIXEL].pixel.varying[VARYING_diffuse]);
-    TEST_ASSERT_EQUAL_INT(INTERPOLATION_SMOOTH, key[UNIT_PIXEL].pixel.varying[VARYING_texcoord]);
+    TEST_ASSERT_EQUAL_INT(INTERPOLATION_SMOOTH, key[UNIT_PIXEL].pixel.varying[VARYING_texcoord0]);
     TEST_ASSERT_EQUAL_MEMORY(key[UNIT_PIXEL].pixel.varying, key[UNIT_SETUP].setup.varying, VARYING_COUNT);
 }
 
@@ -581,7 +581,7 @@ static void without_lights_normals_are_dead(void)
 
 static void formats_are_cut_to_what_is_read(void)
 {
-    state.texture = &texture;
+    state.texture[0] = &texture;
     state.light_enabled[0] = 1;
     bind(TRIPTYCH_TEXCOORD, TRIPTYCH_FORMAT_FLOAT4);
     bind(TRIPTYCH_NORMAL, TRIPTYCH_FORMAT_FLOAT4);

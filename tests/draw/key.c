@@ -101,7 +101,7 @@ static void fields_print_by_name(void)
     char text[KEY_TEXT_CAPACITY];
     memset(&key, 0, sizeof key);
     key.pixel.depth_function = COMPARE_LESS_EQUAL;
-    key.pixel.varying[VARYING_texcoord] = INTERPOLATION_SMOOTH;
+    key.pixel.varying[VARYING_texcoord0] = INTERPOLATION_SMOOTH;
     TEST_ASSERT_EQUAL_STRING("depth_function=3 varying=0,1", key_print(UNIT_PIXEL, &key, text));
 }
 
@@ -117,8 +117,9 @@ static void bad_text_is_refused_where_it_is_bad(void)
         {"cull=3", 5},
         {"cull=x", 5},
         {"cull=1,2", 6},
-        {"varying=1", 10},
         {"varying=1,9", 10},
+        {"varying=1,", 10},
+        {"cull=1,", 6},
         {"cull=1 depth=2", 13},
         {"cull=-1", 5},
         {"cull=99999999999", 5},

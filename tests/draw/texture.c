@@ -264,14 +264,14 @@ static void check_order(void)
     triptych_texture *drawn, *other;
     OK(triptych_texture_create(device, &before, 1, 1, &drawn));
     OK(triptych_texture_create(device, &before, 1, 1, &other));
-    OK(triptych_set_texture(device, drawn));
+    OK(triptych_set_texture(device, 0, drawn));
     set_stage(0, TRIPTYCH_STAGE_colorop, "selectarg1");
     set_stage(0, TRIPTYCH_STAGE_alphaop, "selectarg1");
     clear_to(0);
     draw_square(0, 0xffffffff, NULL, 0, 0, 1, 1);
-    OK(triptych_set_texture(device, other)); /* unbound when it changes */
+    OK(triptych_set_texture(device, 0, other)); /* unbound when it changes */
     OK(triptych_texture_update(device, drawn, 0, 0, NULL, &after, 4, 0));
-    OK(triptych_set_texture(device, drawn));
+    OK(triptych_set_texture(device, 0, drawn));
     extent = 0.5f;
     draw_square(0, 0xffffffff, NULL, 0, 0, 1, 1);
     extent = 1;

@@ -29,7 +29,7 @@ static void bind_every_alpha(void)
     for (uint32_t i = 0; i < SIZE * SIZE; i++)
         texel[i] = (i % 256) << 24 | (random_word() & 0xffffff);
     OK(triptych_texture_create(device, texel, SIZE, SIZE, &texture));
-    OK(triptych_set_texture(device, texture));
+    OK(triptych_set_texture(device, 0, texture));
     set_stage(0, TRIPTYCH_STAGE_colorop, "selectarg1");
     set_stage(0, TRIPTYCH_STAGE_alphaop, "selectarg1");
 }
@@ -271,10 +271,10 @@ static void make_texture(uint32_t *words, triptych_texture **texture)
 static void draw_over_stored(triptych_texture *under, triptych_texture *over)
 {
     set(TRIPTYCH_STATE_alphablendenable, "false");
-    OK(triptych_set_texture(device, under));
+    OK(triptych_set_texture(device, 0, under));
     draw_square(0, 0xffffffff, NULL, 0, 0, 1, 1);
     set(TRIPTYCH_STATE_alphablendenable, "true");
-    OK(triptych_set_texture(device, over));
+    OK(triptych_set_texture(device, 0, over));
     draw_square(0, 0xffffffff, NULL, 0, 0, 1, 1);
 }
 

@@ -374,13 +374,13 @@ static void check_stages(void)
     }
 }
 
-/* Without a texture a stage that reads it is off, and one that does not is on. */
+/* Without a texture what of a stage reads it is off, and what does not is on. */
 static void check_stages_without_texture(void)
 {
     static const struct {
         const char *operation, *argument;
         uint32_t expected;
-    } cases[] = {{"modulate", "texture", 0x40302010},
+    } cases[] = {{"modulate", "texture", 0x20302010},
                  {"disable", "tfactor", 0x40302010},
                  {"selectarg1", "tfactor", 0x80706050},
                  {"add", "tfactor", 0xc0a08060}};

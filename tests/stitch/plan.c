@@ -50,6 +50,25 @@ static size_t field_end(enum unit unit)
     return count;
 }
 
+/* How many values of how many elements of a field stand for all: one stage, one channel. */
+struct digits {
+    unsigned count, radix;
+};
+
+static struct digits field_digits(const struct key_field *field)
+{
+    struct digits r = {field->count, field->radix};
+    if (!strcmp(field->name, "varying"))
+        r.count = 2;
+    else if (!strcmp(field->name, "stages"))
+        r.radix = 2;
+    else if (!strcmp(field->name, "coordinates"))
+        r.count = 0;
+    else if (field->count == TEXTURE_STAGES)
+        r.count = 1;
+    return r;
+}
+
 /* Counts through the values of the fields from `first` to before `end` that stage fragments cover; 0 when
  * they have all been. */
 static int next_key(enum unit unit, size_t first, size_t end, union key *key)
@@ -57,9 +76,9 @@ static int next_key(enum unit unit, size_t first, size_t end, union key *key)
     size_t count;
     const struct key_field *field = key_fields(unit, &count);
     for (size_t i = first; i < end; i++)
-        for (unsigned j = 0; j < field[i].count; j++) {
+        for (unsigned j = 0; j < field_digits(field + i).count; j++) {
             uint8_t *digit = (uint8_t *)key + field[i].offset + j;
-            while (++*digit < field[i].radix)
+            while (++*digit < field_digits(field + i).radix)
                 if (stages_cover(unit, key))
                     return 1;
             *digit = 0;
@@ -157,7 +176,7 @@ static void pixel_plans_keep_the_contract(void)
         check_beginnings(key);
         key.pixel.color_argument[0] = key.pixel.alpha_argument[0] = SOURCE_TEXTURE;
         check_beginnings(key);
-        key.pixel.color_stage = STAGE_LERP;
+        key.pixel.color_stage[0] = STAGE_LERP;
         key.pixel.color_argument[2] = SOURCE_FACTOR;
         check_beginnings(key);
     }
@@ -172,15 +191,15 @@ static void check_stage_plans(union key key, enum stage stage, unsigned first, u
                               unsigned third)
 {
     const uint8_t argument[STAGE_ARGUMENTS] = {(uint8_t)first, (uint8_t)second, (uint8_t)third};
-    key.pixel.color_stage = (uint8_t)stage;
+    key.pixel.color_stage[0] = (uint8_t)stage;
     memcpy(key.pixel.color_argument, argument, sizeof argument);
     check_plan(plan_stages, UNIT_PIXEL, &key);
     if (stage == STAGE_DOT)
         return;
-    key.pixel.alpha_stage = (uint8_t)stage;
+    key.pixel.alpha_stage[0] = (uint8_t)stage;
     memcpy(key.pixel.alpha_argument, argument, sizeof argument);
     check_plan(plan_stages, UNIT_PIXEL, &key);
-    key.pixel.color_stage = STAGE_LERP;
+    key.pixel.color_stage[0] = STAGE_LERP;
     check_plan(plan_stages, UNIT_PIXEL, &key);
 }
 
@@ -188,11 +207,28 @@ static void stage_plans_keep_the_contract(void)
 {
     const unsigned radix = STAGE_ARGUMENT_RADIX;
     union key key = no_state;
-    key.pixel.texture = 1;
+    key.pixel.texture[0] = 1;
     key.pixel.write_mask = 15;
+    key.pixel.stages = 1;
     for (int stage = 0; stage < STAGE_COUNT; stage++)
         for (unsigned digits = 0; digits < radix * radix * radix; digits++)
             check_stage_plans(key, stage, digits % radix, digits / radix % radix, digits / radix / radix);
+}
+
+/* Random keys of several stages. */
+static void plans_of_many_stages_keep_the_contract(void)
+{
+    for (int i = 0; i < 3000; i++) {
+        union key key;
+        key_random(UNIT_PIXEL, &seed, &key);
+        for (int j = 0; j < TEXTURE_STAGES * STAGE_ARGUMENTS; j++) {
+            uint8_t *argument[2] = {key.pixel.color_argument + j, key.pixel.alpha_argument + j};
+            for (int half = 0; half < 2; half++)
+                *argument[half] = (uint8_t)(*argument[half] / SOURCE_COUNT * SOURCE_COUNT + SOURCE_TEXTURE + i % 3);
+        }
+        stages_reduce(UNIT_PIXEL, &key);
+        check_plan(plan_stages, UNIT_PIXEL, &key);
+    }
 }
 
 static void operation_plans_keep_the_contract(void)
@@ -300,6 +336,7 @@ int main(void)
     RUN_TEST(setup_plans_keep_the_contract);
     RUN_TEST(pixel_plans_keep_the_contract);
     RUN_TEST(stage_plans_keep_the_contract);
+    RUN_TEST(plans_of_many_stages_keep_the_contract);
     RUN_TEST(operation_plans_keep_the_contract);
     RUN_TEST(every_fragment_is_planned_by_some_key);
     RUN_TEST(broken_plans_are_noticed);

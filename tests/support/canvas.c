@@ -138,7 +138,7 @@ void bind_random_texture(unsigned width, unsigned height)
     for (unsigned i = 0; i < width * height; i++)
         texel[i] = random_word();
     OK(triptych_texture_create(device, texel, width, height, &texture));
-    OK(triptych_set_texture(device, texture));
+    OK(triptych_set_texture(device, 0, texture));
     set_stage(0, TRIPTYCH_STAGE_colorop, "selectarg1");
     set_stage(0, TRIPTYCH_STAGE_alphaop, "selectarg1");
 }

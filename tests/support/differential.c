@@ -223,7 +223,7 @@ static void make_vertex_inputs(struct differential *d, const struct vertex_key *
 
 static void make_setup_inputs(struct differential *d, const struct setup_key *key)
 {
-    d->layout = triangle_layout(key->depth, key->varying);
+    d->layout = setup_layout(key);
     d->count = lane_count(d, SETUP_CAPACITY);
     for (int slot = 0; slot < SLOT_COUNT; slot++)
         fill(d, d->initial.vertices + slot * VERTEX_CAPACITY, VERTEX_SLOT_BYTES, slot == SLOT_W ? 0.5f : -2,
@@ -246,7 +246,7 @@ static void make_plane(struct differential *d, uint8_t *record, size_t offset, f
 
 static void make_varying(struct differential *d, uint8_t *record, const struct pixel_key *key, int varying)
 {
-    float reach = varying != VARYING_texcoord ? 0.25f : below(d, 4) ? 3 : 300;
+    float reach = !varying_is_texcoord(varying) ? 0.25f : below(d, 4) ? 3 : 300;
     for (size_t c = 0; c < varying_components[varying]; c++) {
         float flat = number(d, -reach, 1 + reach);
         size_t first = d->layout.varying[varying];
@@ -305,11 +305,10 @@ static int32_t texture_side(struct differential *d, int address)
 }
 
 /* The image's last texel is the last word before the fence. */
-static void make_texture(struct differential *d, const struct pixel_key *key)
+static void make_texture(struct differential *d, const struct pixel_key *key, int stage)
 {
-    struct texture_job *texture = &d->job.texture;
-    int32_t width = texture_side(d, key->address_u), height = texture_side(d, key->address_v);
-    fill_words(d, d->texels, TEXTURE_BYTES);
+    struct texture_job *texture = &d->job.texture[stage];
+    int32_t width = texture_side(d, key->address_u[stage]), height = texture_side(d, key->address_v[stage]);
     texture->texels = (const uint32_t *)(void *)(d->texels + TEXTURE_BYTES - 4 * width * height);
     texture->width = width;
     texture->height = height;
@@ -318,7 +317,24 @@ static void make_texture(struct differential *d, const struct pixel_key *key)
     texture->last_u = width - 1;
     texture->last_v = height - 1;
     texture->border = word(d);
+}
+
+static void make_textures(struct differential *d, const struct pixel_key *key)
+{
+    fill_words(d, d->texels, TEXTURE_BYTES);
+    for (int i = 0; i < TEXTURE_STAGES; i++) {
+        make_texture(d, key, i);
+        d->job.stage_constant[i] = word(d);
+    }
     d->job.texture_factor = word(d);
+}
+
+static void make_fog(struct differential *d, const struct pixel_key *key)
+{
+    int linear = key->fog == FOG_LINEAR_Z || key->fog == FOG_LINEAR_W;
+    d->job.fog_color = word(d);
+    d->job.fog_scale = number(d, -2, linear ? 2 : 0);
+    d->job.fog_offset = number(d, -1, 2);
 }
 
 /* Planes that pass exactly through stored depths, so that EQUAL has something to find. */
@@ -342,10 +358,11 @@ static void make_pixel_inputs(struct differential *d, const struct pixel_key *ke
 {
     d->job.alpha_reference = alpha_reference(d);
     d->job.blend_constant = word(d);
-    d->layout = triangle_layout(key->depth_function != COMPARE_ALWAYS || key->depth_write, key->varying);
+    d->layout = pixel_layout(key);
     make_triangles(d, key);
     make_entries(d);
-    make_texture(d, key);
+    make_textures(d, key);
+    make_fog(d, key);
     for (int i = 0; i < TILE_PIXELS; i++) {
         d->initial.color[i] = word(d);
         d->initial.depth[i] = below(d, 3) ? number(d, 0, 1) : (float)below(d, 2);
@@ -525,6 +542,20 @@ static void declare_usually(uint64_t chance, struct vertex_key *key)
             key->attribute[a] %= ATTRIBUTE_FORMAT_COLOR + 1;
 }
 
+/* Few stages, in half of the cases with the sources that draws use; all of them now and then. */
+static void stage_usually(uint64_t chance, struct pixel_key *key)
+{
+    static const uint8_t usual[] = {SOURCE_TEXTURE, SOURCE_CURRENT, SOURCE_FACTOR, SOURCE_CONSTANT};
+    if (chance >> 20 & 15)
+        key->stages = (uint8_t)((chance >> 24) % 4);
+    for (int i = 0; i < TEXTURE_STAGES * STAGE_ARGUMENTS && chance >> 40 & 1; i++) {
+        key->color_argument[i] = usual[key->color_argument[i] % 4];
+        key->alpha_argument[i] = usual[key->alpha_argument[i] % 4];
+    }
+    for (int i = 0; i < TEXTURE_STAGES && chance >> 41 & 1; i++)
+        key->alpha_stage[i] = key->color_stage[i] == STAGE_DOT ? STAGE_SELECT : key->color_stage[i];
+}
+
 const char *differential_rounds(struct differential *d, const struct engine *a, const struct engine *b,
                                 enum unit unit, differential_shape *shape, uint64_t seed, int rounds)
 {
@@ -533,7 +564,7 @@ const char *differential_rounds(struct differential *d, const struct engine *a, 
         union key key;
         key_random(unit, &seed, &key);
         if (unit == UNIT_PIXEL)
-            blend_usually(seed, &key.pixel);
+            blend_usually(seed, &key.pixel), stage_usually(seed, &key.pixel);
         if (unit == UNIT_VERTEX)
             declare_usually(seed, &key.vertex);
         if (shape)
