@@ -354,9 +354,10 @@ TRIPTYCH_API enum triptych_result triptych_set_material(triptych_device *, const
 TRIPTYCH_API enum triptych_result triptych_set_light(triptych_device *, unsigned index,
                                                      const struct triptych_light *);
 TRIPTYCH_API enum triptych_result triptych_enable_light(triptych_device *, unsigned index, int enable);
-/* Sampler i (0 to TRIPTYCH_SAMPLERS - 1) is texture stage i's. Null unbinds: what of the stage reads the texture then
- * passes the current colour. */
-TRIPTYCH_API enum triptych_result triptych_set_texture(triptych_device *, unsigned sampler, triptych_texture *);
+/* Sampler i (0 to TRIPTYCH_SAMPLERS - 1) is texture stage i's. Null unbinds: what of the stage reads the
+ * texture then passes the current colour. */
+TRIPTYCH_API enum triptych_result triptych_set_texture(triptych_device *, unsigned sampler,
+                                                       triptych_texture *);
 
 /* Says where in its stream each attribute lies: count (0 to 64) elements, none of them twice the same usage
  * and index. Attributes that it does not mention are not given. A vertex with POSITIONT is drawn where it

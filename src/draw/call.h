@@ -7,9 +7,9 @@
  * clip-space position x y z w, the clip code, then the varyings' components in the order of def/varying.def.
  *
  * Triangle record (array of structures): struct triangle_head, then one `struct plane` for depth if it is
- * read, one for 1/w if any varying is smooth or w itself is read, then per component of each varying read: a plane if smooth, one
- * word if flat. The offsets follow from the key alone: setup_layout() and pixel_layout() below, used by setup and pixel
- * alike.
+ * read, one for 1/w if any varying is smooth or w itself is read, then per component of each varying read: a
+ * plane if smooth, one word if flat. The offsets follow from the key alone: setup_layout() and pixel_layout()
+ * below, used by setup and pixel alike.
  *
  * Tile: TILE_SIZE x TILE_SIZE pixels as 4x4 blocks in row order, 16 words each in quad order: lane l of a
  * block is pixel x = (l & 1) + 2 * (l >> 2 & 1), y = (l >> 1 & 1) + 2 * (l >> 3 & 1).

@@ -29,7 +29,8 @@ void derive_fog(const struct state *state, struct pixel_key *key)
 /* Distances at which fog starts and ends; the same for both ends: all beyond is fog. */
 void derive_fog_formula(const struct state *state, uint32_t mode, float *scale, float *offset)
 {
-    double start = (double)GET_FLOAT(fogstart), end = (double)GET_FLOAT(fogend), density = (double)GET_FLOAT(fogdensity);
+    double start = (double)GET_FLOAT(fogstart), end = (double)GET_FLOAT(fogend),
+           density = (double)GET_FLOAT(fogdensity);
     double log2_e = 1.4426950408889634;
     *offset = 0;
     switch (mode) {

@@ -1,5 +1,5 @@
-/* Texture stages: Direct3D 9's 26 operations reduced to the 11 of spec/stage.h, and the stages to those that have a
- * say in the result. */
+/* Texture stages: Direct3D 9's 26 operations reduced to the 11 of spec/stage.h, and the stages to those that
+ * have a say in the result. */
 #include "draw/derive_part.h"
 
 #include <string.h>
@@ -73,8 +73,8 @@ static uint32_t reduced_argument(const struct half_stage *half, unsigned which)
     return (argument | (which & REPLICATE)) ^ (which & COMPLEMENT);
 }
 
-/* Whether the operation reads the texture that is not there: such a half passes the current colour (as drivers do;
- * Direct3D 9 leaves it open). */
+/* Whether the operation reads the texture that is not there: such a half passes the current colour (as
+ * drivers do; Direct3D 9 leaves it open). */
 static bool lacks_texture(const struct half_stage *half, bool bound)
 {
     const struct reduction *reduction = &reductions[half->operation];
@@ -116,7 +116,8 @@ static struct whole_stage stage_states(const struct state *state, int i)
 static void derive_one(const struct state *state, int i, struct pixel_key *key)
 {
     struct whole_stage stage = stage_states(state, i);
-    uint8_t *color = key->color_argument + STAGE_ARGUMENTS * i, *alpha = key->alpha_argument + STAGE_ARGUMENTS * i;
+    uint8_t *color = key->color_argument + STAGE_ARGUMENTS * i,
+            *alpha = key->alpha_argument + STAGE_ARGUMENTS * i;
     key->color_stage[i] = derive_half(&stage.color, COMPLEMENT | REPLICATE, color);
     if (key->color_stage[i] != STAGE_DOT)
         key->alpha_stage[i] = derive_half(&stage.alpha, COMPLEMENT, alpha);
@@ -166,7 +167,8 @@ static void drop_dead_stages(struct pixel_key *key)
     }
 }
 
-/* Before a stage has written the current colour it is diffuse. A premodulated one that nobody reads as such is none. */
+/* Before a stage has written the current colour it is diffuse. A premodulated one that nobody reads as such
+ * is none. */
 static void name_diffuse(struct pixel_key *key)
 {
     bool written = false;
@@ -176,7 +178,8 @@ static void name_diffuse(struct pixel_key *key)
         if (derive_stage_passes(key, i))
             continue;
         for (int j = 0; j < STAGE_ARGUMENTS && !written && !key->premodulate[i]; j++) {
-            uint8_t *color = key->color_argument + STAGE_ARGUMENTS * i + j, *alpha = key->alpha_argument + STAGE_ARGUMENTS * i + j;
+            uint8_t *color = key->color_argument + STAGE_ARGUMENTS * i + j,
+                    *alpha = key->alpha_argument + STAGE_ARGUMENTS * i + j;
             *color -= *color % SOURCE_COUNT == SOURCE_CURRENT ? SOURCE_CURRENT - SOURCE_DIFFUSE : 0;
             *alpha -= *alpha % SOURCE_COUNT == SOURCE_CURRENT ? SOURCE_CURRENT - SOURCE_DIFFUSE : 0;
         }
@@ -194,7 +197,8 @@ static void keep_alpha_only(struct pixel_key *key)
     memcpy(key->color_argument, key->alpha_argument, sizeof key->color_argument);
     for (int i = 0; i < key->stages; i++)
         if (key->premodulate[i])
-            key->premodulate[i] = key->premodulate[i] & PREMODULATE_ALPHA ? PREMODULATE_COLOR | PREMODULATE_ALPHA : 0;
+            key->premodulate[i] =
+                key->premodulate[i] & PREMODULATE_ALPHA ? PREMODULATE_COLOR | PREMODULATE_ALPHA : 0;
 }
 
 void derive_stage(const struct state *state, struct pixel_key *key)

@@ -1,4 +1,5 @@
-/* Samplers: addressing and filters as the textures bound need them, and the channels that coordinates come in. */
+/* Samplers: addressing and filters as the textures bound need them, and the channels that coordinates come
+ * in. */
 #include "draw/derive_part.h"
 
 static uint8_t derive_address(uint32_t address, uint32_t size)
@@ -26,7 +27,8 @@ static bool same_coordinates(const struct state *state, int a, int b)
     return STAGE(a, texcoordindex) == STAGE(b, texcoordindex);
 }
 
-/* Stages with the same coordinates share a channel; channels are numbered in the order of their first stages. */
+/* Stages with the same coordinates share a channel; channels are numbered in the order of their first stages.
+ */
 static void derive_channel(const struct state *state, int stage, struct pixel_key *key)
 {
     uint8_t next = 0;

@@ -159,7 +159,8 @@ enum {
 /* Bits: which channels of `current` are multiplied by the stage's texture before the stage reads them. */
 enum { PREMODULATE_COLOR = 1, PREMODULATE_ALPHA = 2, PREMODULATE_COUNT = 4 };
 
-/* Where the fog factor comes from: the vertex routine, or the pixel's depth z or its distance w (spec/fog.h). */
+/* Where the fog factor comes from: the vertex routine, or the pixel's depth z or its distance w (spec/fog.h).
+ */
 enum fog {
     FOG_NONE,
     FOG_VARYING,
@@ -330,8 +331,8 @@ static inline int blend_is_lerp(int blend, int source_factor, int target_factor)
            (source_factor ^ 1) == target_factor;
 }
 
-/* Writes `field=value field=v,v,v ...`, fields that are zero and zeros that end an array left out ("default" when all
- * are zero), and returns text. */
+/* Writes `field=value field=v,v,v ...`, fields that are zero and zeros that end an array left out ("default"
+ * when all are zero), and returns text. */
 char *key_print(enum unit unit, const union key *key, char text[KEY_TEXT_CAPACITY]);
 
 /* Reads what key_print writes. Returns 0, or -1 with *where at the offending character. */

@@ -292,8 +292,8 @@ enum triptych_result state_set_light(struct state *state, unsigned index, const 
     return result;
 }
 
-enum triptych_result state_set_texture(struct state *state, unsigned sampler, struct triptych_texture *texture,
-                                       struct error *error)
+enum triptych_result state_set_texture(struct state *state, unsigned sampler,
+                                       struct triptych_texture *texture, struct error *error)
 {
     if (texture && (texture->type != TRIPTYCH_TEXTURE_2D || texture->format->storage != STORAGE_RGBA8)) {
         error_set(error,

@@ -21,7 +21,8 @@ struct depth {
 };
 
 /* The pixel's own depth. */
-static inline flt pixel_depth(struct env *e, const struct pixel_position *at, const struct triangle_layout *layout)
+static inline flt pixel_depth(struct env *e, const struct pixel_position *at,
+                              const struct triangle_layout *layout)
 {
     flt plane = evaluate_plane(E, at, layout->depth);
     flt low = max_f(E, plane, lit_f(E, 0.0f));

@@ -2,9 +2,9 @@
  *
  *   colour' = round((factor * colour + (255 - factor) * fog colour) / 255), factor quantized to 0..255
  *
- * The factor, 1 without fog and 0 where nothing else is seen, is the vertex routine's, interpolated, or is computed
- * at the pixel (table fog) from its distance d: depth, 0 to 1, or w, which is the distance along the view in units of
- * the scene:
+ * The factor, 1 without fog and 0 where nothing else is seen, is the vertex routine's, interpolated, or is
+ * computed at the pixel (table fog) from its distance d: depth, 0 to 1, or w, which is the distance along the
+ * view in units of the scene:
  *
  *   LINEAR   (end - d) / (end - start)          as d * scale + offset
  *   EXP      2 ^ (d * scale)                    scale = -density * log2(e)

@@ -1,5 +1,5 @@
-/* The pixel routine: depth, interpolation, textures and stages, specular, fog, alpha test, blending, write; one lane a pixel of a
- * 4x4 block (draw/call.h, struct pixel_call).
+/* The pixel routine: depth, interpolation, textures and stages, specular, fog, alpha test, blending, write;
+ * one lane a pixel of a 4x4 block (draw/call.h, struct pixel_call).
  *
  * Bases: JOB; ENTRY the block's entry; TRIANGLE its record; LANES the per-lane constants of this chunk of the
  * block; COLOR and DEPTH the chunk's pixels in the tile. Depth is always tested first, and shading is skipped

@@ -38,7 +38,8 @@ static inline struct color stage_source(struct env *e, int stage, int source, co
     return packed_color(E, offsetof(struct job, texture_factor));
 }
 
-static inline struct color stage_argument(struct env *e, int stage, int argument, const struct stage_values *v)
+static inline struct color stage_argument(struct env *e, int stage, int argument,
+                                          const struct stage_values *v)
 {
     struct color r = stage_source(E, stage, argument % SOURCE_COUNT, v);
     if (argument / ARGUMENT_REPLICATE & 1)
@@ -124,7 +125,8 @@ static inline struct color stage_dot(struct env *e, struct color a, struct color
 }
 
 static inline struct color stage_half(struct env *e, int stage, int operation,
-                                      const uint8_t argument[STAGE_ARGUMENTS], const struct stage_values *values)
+                                      const uint8_t argument[STAGE_ARGUMENTS],
+                                      const struct stage_values *values)
 {
     struct color v[STAGE_ARGUMENTS], r;
     for (int i = 0; i < STAGE_ARGUMENTS; i++)

@@ -1,19 +1,19 @@
 /* Powers of two and logarithms, out of other operations: the same bits everywhere.
  *
- * exponential2: 2^x. With n = floor(x) and f = x - n, 2^f = 1 + f * q(f) on [0, 1), q of degree 5 with a relative error
- * below 2.1e-9 (least maximum by Lawson's algorithm), and n goes into the exponent. Below -126 the result is 0 (it would
- * be a denormal), from 128 on infinite; NaN gives 0. Relative error below 1.2e-7 (one unit in the last place and a
- * little), exact for whole x.
+ * exponential2: 2^x. With n = floor(x) and f = x - n, 2^f = 1 + f * q(f) on [0, 1), q of degree 5 with a
+ * relative error below 2.1e-9 (least maximum by Lawson's algorithm), and n goes into the exponent. Below -126
+ * the result is 0 (it would be a denormal), from 128 on infinite; NaN gives 0. Relative error below 1.2e-7
+ * (one unit in the last place and a little), exact for whole x.
  *
- * logarithm2: log2(x) for x > 0. x = 2^n * m with m in [sqrt(1/2), sqrt(2)), s = (m - 1) / (m + 1), and log2(m) = s * r(s^2),
- * r of degree 3 with an error below 7e-10. Error below 1.5e-7 absolute for |log2(x)| < 1, 1.2e-7 relative beyond; exact for
- * powers of two. Zero gives a value of about -127, the sign is ignored.
+ * logarithm2: log2(x) for x > 0. x = 2^n * m with m in [sqrt(1/2), sqrt(2)), s = (m - 1) / (m + 1), and
+ * log2(m) = s * r(s^2), r of degree 3 with an error below 7e-10. Error below 1.5e-7 absolute for |log2(x)| <
+ * 1, 1.2e-7 relative beyond; exact for powers of two. Zero gives a value of about -127, the sign is ignored.
  *
  * tests/spec/transcendental.c measures these bounds. */
 
 static inline flt exponential2(struct env *e, flt x)
 {
-    static const float q[6] = {0x1.62e42cp-1f,  0x1.ebfd58p-3f,  0x1.c68912p-5f,
+    static const float q[6] = {0x1.62e42cp-1f, 0x1.ebfd58p-3f,  0x1.c68912p-5f,
                                0x1.3d0b92p-7f, 0x1.46d64ep-10f, 0x1.c54174p-13f};
     flt raised = max_f(E, x, lit_f(E, -127.0f));
     flt limited = min_f(E, raised, lit_f(E, 128.0f));

@@ -87,7 +87,8 @@ static void plan_diffuse(struct plan *plan, const struct pixel_key *key, const s
 static void plan_sample(struct plan *plan, const struct pixel_key *key, int stage)
 {
 #define TEXTURE(field)                                                                                       \
-    (JOB(texture) + stage * (int32_t)sizeof(struct texture_job) + (int32_t)offsetof(struct texture_job, field))
+    (JOB(texture) + stage * (int32_t)sizeof(struct texture_job) +                                            \
+     (int32_t)offsetof(struct texture_job, field))
 #define MODES(axis)                                                                                          \
     {                                                                                                        \
         [ADDRESS_WRAP] = {&fragment_##axis##_wrap_point, &fragment_##axis##_wrap_linear},                    \
@@ -111,9 +112,9 @@ static void plan_sample(struct plan *plan, const struct pixel_key *key, int stag
                 ARGUMENTS(TEXTURE(width_256), TEXTURE(last_u), TEXTURE(width)));
     plan_append(plan, down[key->address_v[stage]][key->filter[stage]],
                 ARGUMENTS(TEXTURE(height_256), TEXTURE(last_v), TEXTURE(height)));
-    plan_append(plan, sample[border][key->filter[stage]],
-                ARGUMENTS(TEXTURE(texels), TEXTURE(width), TEXTURE(last_u), TEXTURE(last_v),
-                          TEXTURE(border)));
+    plan_append(
+        plan, sample[border][key->filter[stage]],
+        ARGUMENTS(TEXTURE(texels), TEXTURE(width), TEXTURE(last_u), TEXTURE(last_v), TEXTURE(border)));
 #undef TEXTURE
 }
 
@@ -133,8 +134,8 @@ static void plan_texture(struct plan *plan, const struct pixel_key *key, int sta
     plan_sample(plan, key, stage);
 }
 
-/* The registers or the job's field that a source is read from: diffuse and current share theirs, for only the first
- * stage may read diffuse. */
+/* The registers or the job's field that a source is read from: diffuse and current share theirs, for only the
+ * first stage may read diffuse. */
 enum place { PLACE_CURRENT, PLACE_TEXTURE, PLACE_FIELD, PLACE_COUNT };
 
 static enum place place_of(unsigned argument)
@@ -154,8 +155,8 @@ static void plan_argument(struct plan *plan, int stage, int which, unsigned argu
         &fragment_##which##_diffuse, &fragment_##which##_texture, &fragment_##which##_factor,                \
             &fragment_##which##_replicate, &fragment_##which##_complement                                    \
     }
-    static const struct fragment *const form[STAGE_ARGUMENTS][PLACE_COUNT + 2] = {
-        FORMS(first), FORMS(second), FORMS(third)};
+    static const struct fragment *const form[STAGE_ARGUMENTS][PLACE_COUNT + 2] = {FORMS(first), FORMS(second),
+                                                                                  FORMS(third)};
 #undef FORMS
     int32_t constant = JOB(stage_constant) + stage * (int32_t)sizeof(uint32_t);
     plan_append(plan, form[which][place_of(argument)],

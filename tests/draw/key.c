@@ -111,18 +111,10 @@ static void bad_text_is_refused_where_it_is_bad(void)
         const char *text;
         int offset;
     } bad[] = {
-        {"nonsense=1", 0},
-        {"cull", 0},
-        {"cull=", 5},
-        {"cull=3", 5},
-        {"cull=x", 5},
-        {"cull=1,2", 6},
-        {"varying=1,9", 10},
-        {"varying=1,", 10},
-        {"cull=1,", 6},
-        {"cull=1 depth=2", 13},
-        {"cull=-1", 5},
-        {"cull=99999999999", 5},
+        {"nonsense=1", 0},      {"cull", 0},        {"cull=", 5},
+        {"cull=3", 5},          {"cull=x", 5},      {"cull=1,2", 6},
+        {"varying=1,9", 10},    {"varying=1,", 10}, {"cull=1,", 6},
+        {"cull=1 depth=2", 13}, {"cull=-1", 5},     {"cull=99999999999", 5},
         {"default=1", 0},
     };
     for (size_t i = 0; i < sizeof bad / sizeof *bad; i++) {

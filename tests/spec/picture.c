@@ -187,7 +187,7 @@ static void test_extreme_coordinates_are_alike_on_every_engine(void)
     on_every_engine(check_extreme_coordinates);
 }
 
-/* --- Stages and blending -----------------------------------------------------------------------------------
+/* --- Blending -----------------------------------------------------------------------------------
  */
 
 static unsigned product(unsigned a, unsigned b)
@@ -198,203 +198,6 @@ static unsigned product(unsigned a, unsigned b)
 static unsigned at_most_255(unsigned value)
 {
     return value > 255 ? 255 : value;
-}
-
-static unsigned limited(int value)
-{
-    return value < 0 ? 0 : value > 255 ? 255 : (unsigned)value;
-}
-
-/* What arguments are: sources with what happens to them. */
-struct argument {
-    int source; /* D3DTA_: 0 and 1 diffuse, 2 texture, 3 factor */
-    int complement, replicate;
-};
-
-struct half_stage {
-    const char *word;
-    struct argument argument[3]; /* 0, 1, 2 */
-};
-
-/* The four words that a pixel's arguments come from, by source. */
-typedef const uint32_t sources[4];
-
-static int argument_value(const struct argument *a, sources from, int c)
-{
-    int value = (int)channel(from[a->source], a->replicate ? 3 : c);
-    return a->complement ? 255 - value : value;
-}
-
-static int rounded(int numerator)
-{
-    return (int)floor(numerator / 255.0 + 0.5);
-}
-
-static int dot(const struct half_stage *h, sources from)
-{
-    int s = 0;
-    for (int c = 0; c < 3; c++)
-        s += (argument_value(&h->argument[1], from, c) - 128) *
-             (argument_value(&h->argument[2], from, c) - 128);
-    return (int)floor(s / 64.0);
-}
-
-static int blend_by(int a, int b, int weight)
-{
-    return rounded(a * weight + b * (255 - weight));
-}
-
-/* Direct3D 9's formulas, one by one. */
-static unsigned combined(const struct half_stage *h, sources from, int c)
-{
-    int z = argument_value(&h->argument[0], from, c), a = argument_value(&h->argument[1], from, c);
-    int b = argument_value(&h->argument[2], from, c), p = rounded(a * b);
-    int alpha = argument_value(&h->argument[1], from, 3), texture = (int)channel(from[2], 3);
-    const struct {
-        const char *word;
-        int value;
-    } results[] = {{"selectarg1", a},
-                   {"selectarg2", b},
-                   {"modulate", p},
-                   {"modulate2x", 2 * p},
-                   {"modulate4x", 4 * p},
-                   {"add", a + b},
-                   {"addsigned", a + b - 128},
-                   {"addsigned2x", 2 * (a + b - 128)},
-                   {"subtract", a - b},
-                   {"addsmooth", a + b - p},
-                   {"blenddiffusealpha", blend_by(a, b, (int)channel(from[0], 3))},
-                   {"blendtexturealpha", blend_by(a, b, texture)},
-                   {"blendfactoralpha", blend_by(a, b, (int)channel(from[3], 3))},
-                   {"blendtexturealphapm", a + rounded(b * (255 - texture))},
-                   {"blendcurrentalpha", blend_by(a, b, (int)channel(from[1], 3))},
-                   {"multiplyadd", z + p},
-                   {"lerp", blend_by(a, b, z)},
-                   {"modulatealpha_addcolor", a + rounded(alpha * b)},
-                   {"modulatecolor_addalpha", p + alpha},
-                   {"modulateinvalpha_addcolor", a + rounded((255 - alpha) * b)},
-                   {"modulateinvcolor_addalpha", rounded((255 - a) * b) + alpha},
-                   {"dotproduct3", dot(h, from)}};
-    for (unsigned i = 0; i < sizeof results / sizeof results[0]; i++)
-        if (!strcmp(results[i].word, h->word))
-            return limited(results[i].value);
-    TEST_FAIL_MESSAGE(h->word);
-    return 0;
-}
-
-static uint32_t expected_stage(const struct half_stage *color, const struct half_stage *alpha, sources from)
-{
-    uint32_t word = 0;
-    int all = !strcmp(color->word, "dotproduct3");
-    for (int c = 0; c < 4; c++)
-        word |= combined(c < 3 || all ? color : alpha, from, c) << 8 * c;
-    return word;
-}
-
-static void random_half(struct half_stage *h, const char *word)
-{
-    h->word = word;
-    for (int i = 0; i < 3; i++)
-        h->argument[i] =
-            (struct argument){(int)(random_word() & 3), (int)(random_word() & 1), (int)(random_word() & 1)};
-}
-
-static void set_half(const struct half_stage *h, enum triptych_stage_state operation,
-                     const enum triptych_stage_state argument[3])
-{
-    set_stage(0, operation, h->word);
-    for (int i = 0; i < 3; i++) {
-        const struct argument *a = &h->argument[i];
-        uint32_t value = (uint32_t)(a->source + 0x10 * a->complement + 0x20 * a->replicate);
-        OK(triptych_set_stage_state(device, 0, argument[i], value));
-    }
-}
-
-static void check_stage(const struct half_stage *color, const struct half_stage *alpha)
-{
-    static const enum triptych_stage_state color_arguments[3] = {
-        TRIPTYCH_STAGE_colorarg0, TRIPTYCH_STAGE_colorarg1, TRIPTYCH_STAGE_colorarg2};
-    static const enum triptych_stage_state alpha_arguments[3] = {
-        TRIPTYCH_STAGE_alphaarg0, TRIPTYCH_STAGE_alphaarg1, TRIPTYCH_STAGE_alphaarg2};
-    uint32_t diffuse = random_word(), factor = random_word();
-    char what[96];
-    snprintf(what, sizeof what, "%s and %s", color->word, alpha->word);
-    bind_random_texture(SIZE, SIZE);
-    set_half(color, TRIPTYCH_STAGE_colorop, color_arguments);
-    set_half(alpha, TRIPTYCH_STAGE_alphaop, alpha_arguments);
-    OK(triptych_set_state(device, TRIPTYCH_STATE_texturefactor, factor));
-    draw_square(0, diffuse, NULL, 0, 0, 1, 1);
-    OK(triptych_read_color(device, image));
-    for (int p = 0; p < SIZE * SIZE; p++) {
-        sources from = {image_word(diffuse), image_word(diffuse), texel[p], image_word(factor)};
-        expect_pixel(p % SIZE, p / SIZE, expected_stage(color, alpha, from), what);
-    }
-}
-
-/* The last five are for colour only. */
-static const char *const operation_words[] = {"selectarg1",
-                                              "selectarg2",
-                                              "modulate",
-                                              "modulate2x",
-                                              "modulate4x",
-                                              "add",
-                                              "addsigned",
-                                              "addsigned2x",
-                                              "subtract",
-                                              "addsmooth",
-                                              "blenddiffusealpha",
-                                              "blendtexturealpha",
-                                              "blendfactoralpha",
-                                              "blendtexturealphapm",
-                                              "blendcurrentalpha",
-                                              "multiplyadd",
-                                              "lerp",
-                                              "modulatealpha_addcolor",
-                                              "modulatecolor_addalpha",
-                                              "modulateinvalpha_addcolor",
-                                              "modulateinvcolor_addalpha",
-                                              "dotproduct3"};
-enum { OPERATIONS = sizeof operation_words / sizeof operation_words[0], ALPHA_OPERATIONS = OPERATIONS - 5 };
-
-static void check_stages(void)
-{
-    struct half_stage color, alpha;
-    for (int i = 0; i < OPERATIONS; i++)
-        for (int round = 0; round < 12; round++) {
-            random_half(&color, operation_words[i]);
-            random_half(&alpha, operation_words[random_word() % ALPHA_OPERATIONS]);
-            if (round % 3 == 0 && i < ALPHA_OPERATIONS)
-                alpha = color; /* all channels alike */
-            check_stage(&color, &alpha);
-        }
-    for (int i = 0; i < ALPHA_OPERATIONS; i++) {
-        random_half(&color, operation_words[random_word() % OPERATIONS]);
-        random_half(&alpha, operation_words[i]);
-        check_stage(&color, &alpha);
-    }
-}
-
-/* Without a texture what of a stage reads it is off, and what does not is on. */
-static void check_stages_without_texture(void)
-{
-    static const struct {
-        const char *operation, *argument;
-        uint32_t expected;
-    } cases[] = {{"modulate", "texture", 0x20302010},
-                 {"disable", "tfactor", 0x40302010},
-                 {"selectarg1", "tfactor", 0x80706050},
-                 {"add", "tfactor", 0xc0a08060}};
-    OK(triptych_set_state(device, TRIPTYCH_STATE_texturefactor, 0x80706050));
-    set_stage(0, TRIPTYCH_STAGE_alphaarg1, "tfactor");
-    for (unsigned i = 0; i < sizeof cases / sizeof cases[0]; i++) {
-        set_stage(0, TRIPTYCH_STAGE_colorop, cases[i].operation);
-        set_stage(0, TRIPTYCH_STAGE_alphaop, cases[i].operation);
-        set_stage(0, TRIPTYCH_STAGE_colorarg1, cases[i].argument);
-        draw_square(0, 0x40302010, NULL, 0, 0, 1, 1);
-        OK(triptych_read_color(device, image));
-        for (int p = 0; p < SIZE * SIZE; p++)
-            expect_pixel(p % SIZE, p / SIZE, image_word(cases[i].expected), cases[i].operation);
-    }
 }
 
 static unsigned blended(unsigned s, unsigned d, unsigned alpha, int source_alpha, int inverse)
@@ -442,16 +245,6 @@ static void check_write_masks(void)
         for (int p = 0; p < SIZE * SIZE; p++)
             expect_pixel(p % SIZE, p / SIZE, (old & kept) | (image_word(new) & ~kept), "write mask");
     }
-}
-
-static void test_stages_combine_channels_as_defined(void)
-{
-    on_every_engine(check_stages);
-}
-
-static void test_stages_without_a_texture(void)
-{
-    on_every_engine(check_stages_without_texture);
 }
 
 static void test_blending_is_rounded_as_defined(void)
@@ -618,8 +411,6 @@ int main(void)
     RUN_TEST(test_a_texture_of_the_targets_size_is_copied);
     RUN_TEST(test_filters_and_addressing_are_as_defined);
     RUN_TEST(test_extreme_coordinates_are_alike_on_every_engine);
-    RUN_TEST(test_stages_combine_channels_as_defined);
-    RUN_TEST(test_stages_without_a_texture);
     RUN_TEST(test_blending_is_rounded_as_defined);
     RUN_TEST(test_write_masks_keep_channels);
     RUN_TEST(test_depth_functions_decide_colour_and_depth);

@@ -224,7 +224,8 @@ static void plans_of_many_stages_keep_the_contract(void)
         for (int j = 0; j < TEXTURE_STAGES * STAGE_ARGUMENTS; j++) {
             uint8_t *argument[2] = {key.pixel.color_argument + j, key.pixel.alpha_argument + j};
             for (int half = 0; half < 2; half++)
-                *argument[half] = (uint8_t)(*argument[half] / SOURCE_COUNT * SOURCE_COUNT + SOURCE_TEXTURE + i % 3);
+                *argument[half] =
+                    (uint8_t)(*argument[half] / SOURCE_COUNT * SOURCE_COUNT + SOURCE_TEXTURE + i % 3);
         }
         stages_reduce(UNIT_PIXEL, &key);
         check_plan(plan_stages, UNIT_PIXEL, &key);
