@@ -161,7 +161,7 @@ void setUp(void)
     struct error error = {{0}};
     if (engine_stitch.unavailable())
         TEST_IGNORE_MESSAGE(engine_stitch.unavailable());
-    arena = code_create(1 << 22, NULL, &error);
+    arena = code_create(1 << 24, NULL, &error);
     TEST_ASSERT_NOT_NULL_MESSAGE(arena, error.text);
 }
 

@@ -15,7 +15,7 @@ void setUp(void)
     const char *reason = engine_stitch.unavailable();
     if (reason)
         TEST_IGNORE_MESSAGE(reason);
-    arena = code_create(1 << 20, NULL, &error);
+    arena = code_create(1 << 24, NULL, &error);
     TEST_ASSERT_NOT_NULL_MESSAGE(arena, error.text);
     differential = differential_create(arena);
     TEST_ASSERT_NOT_NULL(differential);

@@ -320,7 +320,7 @@ static void what_finds_no_room_is_refused(void)
 void setUp(void)
 {
     struct error error = {{0}};
-    arena = code_create(1 << 20, NULL, &error);
+    arena = code_create(1 << 24, NULL, &error);
     TEST_ASSERT_NOT_NULL_MESSAGE(arena, error.text);
 }
 
