@@ -90,6 +90,13 @@ fragment floor_f, FRAME, NOTHING, M(0)
     fill RESULT,  vmovaps         [frame], m0
 end_fragment
 
+fragment half_f, FRAME, NOTHING, M(0)
+    fill A,       vmovaps         m0, [frame]
+                vcvtps2ph       xm0, m0, 0              ; to nearest even
+                vcvtph2ps       m0, xm0
+    fill RESULT,  vmovaps         [frame], m0
+end_fragment
+
 ; ---- conversions
 
 unary round_i, vcvtps2dq

@@ -92,7 +92,7 @@ const struct cpu *cpu_native(void)
 bool cpu_has_avx2_fma(void)
 {
     const struct cpu *cpu = cpu_native();
-    return cpu->has[CPU_avx] && cpu->has[CPU_avx2] && cpu->has[CPU_fma];
+    return cpu->has[CPU_avx] && cpu->has[CPU_avx2] && cpu->has[CPU_fma] && cpu->has[CPU_f16c];
 }
 
 const char *cpu_feature_name(enum cpu_feature feature)

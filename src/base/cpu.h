@@ -38,7 +38,8 @@ struct cpu cpu_detect(const struct cpu_system *system);
 /* This machine, asked once (CPUID is slow in virtual machines). Thread-safe. */
 const struct cpu *cpu_native(void);
 
-/* Whether code that needs x86-64-v3's vector part runs here: AVX, AVX2 and FMA. */
+/* Whether code that needs x86-64-v3's vector part runs here: AVX, AVX2, FMA and F16C, which no
+ * processor with AVX2 lacks. */
 bool cpu_has_avx2_fma(void);
 
 /* The feature's name as in /proc/cpuinfo, and what it is, for lists. */

@@ -4,7 +4,7 @@
  * Each is the scalar form of the vector instruction that the generated code uses, in C or baseline SSE2
  * intrinsics, so that rounding, NaN selection, denormal flushing (MXCSR) and out-of-range conversion agree on
  * every compiler and optimisation level. Source: Intel SDM volume 2, MINPS, MAXPS, CVTPS2DQ, CVTTPS2DQ,
- * PMADDWD. */
+ * VCVTPS2PH, PMADDWD. */
 #ifndef DEF_LANE_H
 #define DEF_LANE_H
 
@@ -65,6 +65,24 @@ static inline float lane_max(float a, float b)
 static inline float lane_floor(float a)
 {
     return floorf(lane_flush(a));
+}
+
+/* VCVTPS2PH to nearest even, then VCVTPH2PS. Below 2^-14 binary16 has multiples of 2^-24, whatever MXCSR says
+ * of denormals; from 65520 on it is infinite; a NaN stays one with the upper bits of its payload. */
+static inline float lane_half(float a)
+{
+    uint32_t bits = lane_bits(a), sign = bits & 0x80000000u, magnitude = bits & 0x7fffffffu;
+    if (magnitude > 0x7f800000u)
+        return lane_from_bits((bits | 0x00400000u) & 0xffffe000u);
+    if (magnitude >= 0x477ff000u)
+        return lane_from_bits(sign | 0x7f800000u);
+    if (magnitude >= 0x38800000u)
+        return lane_from_bits(sign | ((magnitude + 0xfffu + (magnitude >> 13 & 1)) & 0xffffe000u));
+    if (magnitude < 0x33000000u)
+        return lane_from_bits(sign);
+    uint32_t drop = 126 - (magnitude >> 23), fraction = (magnitude & 0x7fffffu) | 0x800000u;
+    uint32_t units = (fraction + (1u << (drop - 1)) - 1 + (fraction >> drop & 1)) >> drop;
+    return lane_from_bits(sign | lane_bits((float)units * 0x1p-24f));
 }
 
 static inline int32_t lane_dot(int32_t a, int32_t b)

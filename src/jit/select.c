@@ -20,6 +20,7 @@ enum form {
     FORM_ROUND, /* rounding mode */
     FORM_SHIFT,
     FORM_NEGATE,
+    FORM_HALF, /* there and back */
     FORM_MAD,
     FORM_SELECT
 };
@@ -41,6 +42,7 @@ static const struct rule rules[IR_OP_COUNT] = {
     [IR_max_f] = {X86_vmaxps, FORM_BINARY, 0},
     [IR_neg_f] = {X86_vxorps, FORM_NEGATE, 0},
     [IR_floor_f] = {X86_vroundps, FORM_ROUND, X86_ROUND_DOWN},
+    [IR_half_f] = {X86_vcvtps2ph, FORM_HALF, 0 /* nearest even */},
     [IR_select_f] = {X86_vblendvps, FORM_SELECT, 0},
     [IR_lt_f] = {X86_vcmpps, FORM_COMPARE, X86_CMP_LT},
     [IR_le_f] = {X86_vcmpps, FORM_COMPARE, X86_CMP_LE},
@@ -209,6 +211,14 @@ static void select_negate(struct emitter *m, const struct ir_instruction *i)
     vector_rrm(&m->encoder, X86_vxorps, m->length, result_register(m), from, literal_address(m, INT32_MIN));
 }
 
+static void select_half(struct emitter *m, const struct rule *rule, const struct ir_instruction *i)
+{
+    struct place a = place_of(m, i->operand[0]);
+    unsigned from = need_register(m, &a, SCRATCH_FIRST);
+    vector_rri(&m->encoder, rule->instruction, m->length, SCRATCH_SECOND, from, rule->immediate);
+    vector_rr(&m->encoder, X86_vcvtph2ps, m->length, result_register(m), SCRATCH_SECOND);
+}
+
 /* mask ? b : c. With a zero on either side it is one bitwise operation. */
 static void select_select(struct emitter *m, const struct ir_instruction *i)
 {
@@ -355,6 +365,7 @@ static void select_by_rule(struct emitter *m, const struct ir_instruction *i)
     case FORM_ROUND: select_unary(m, rule, i); break;
     case FORM_SHIFT: select_shift(m, rule, i); break;
     case FORM_NEGATE: select_negate(m, i); break;
+    case FORM_HALF: select_half(m, rule, i); break;
     case FORM_MAD: select_mad(m, i); break;
     case FORM_SELECT: select_select(m, i); break;
     }

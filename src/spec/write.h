@@ -9,15 +9,13 @@ static inline int32_t write_mask_word(int write_mask)
     return (int32_t)word;
 }
 
-static inline void write_color(struct env *e, const struct pixel_key *k, msk live, struct color color,
-                               itg stored)
+static inline void write_word(struct env *e, int write_mask, int offset, msk live, itg word, itg stored)
 {
-    itg word = color_pack(E, color);
-    if (k->write_mask != 15) {
-        itg new = and_i(E, word, lit_i(E, write_mask_word(k->write_mask)));
-        itg old = and_i(E, stored, lit_i(E, ~write_mask_word(k->write_mask)));
+    if (write_mask != 15) {
+        itg new = and_i(E, word, lit_i(E, write_mask_word(write_mask)));
+        itg old = and_i(E, stored, lit_i(E, ~write_mask_word(write_mask)));
         word = or_i(E, new, old);
     }
     itg merged = select_i(E, live, word, stored);
-    store_i(E, BASE_COLOR, 0, merged);
+    store_i(E, BASE_COLOR, offset, merged);
 }

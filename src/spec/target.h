@@ -1,0 +1,107 @@
+/* What targets keep of a colour (def/target.def), and what is read of them again.
+ *
+ *   n bits, packed path   q = round(c * (2^n - 1) / 255), c being 0 to 255
+ *   n bits, float path    q = round(c * (2^n - 1)), nearest even, c clamped to 0..1
+ *   word                  the byte round(q * 255 / (2^n - 1))
+ *   plane                 q / (2^n - 1), correctly rounded; for floating point c, or c rounded to binary16
+ *
+ * Dithered, red, green and blue of targets with less than 8 bits are rounded down after adding t / 255 to c *
+ * (2^n - 1), t = round(255 * (2 * b + 1) / 32), b being 0 to 15 in the order of the 4x4 Bayer matrix at the
+ * pixel's place in its block (struct lane_table). NaN becomes 0 where there is no room for it, elsewhere one
+ * NaN. */
+
+/* Target t's planes begin so many bytes after the pixel's first word. */
+static inline int target_offset(const struct pixel_key *k, int t)
+{
+    int planes = 0;
+    for (int i = 0; i < t; i++)
+        planes += target_planes[k->target[i]];
+    return planes * TILE_PLANE_BYTES;
+}
+
+/* (q * scale + bias) >> 6 is round(q * 255 / (2^bits - 1)). */
+static inline int expansion_scale(int bits)
+{
+    switch (bits) {
+    case 1: return 255 * 64;
+    case 4: return 17 * 64;
+    case 5: return 527;
+    case 6: return 259;
+    default: return 64;
+    }
+}
+
+static inline int expansion_bias(int bits)
+{
+    return bits == 5 ? 23 : bits == 6 ? 33 : 0;
+}
+
+static inline fix constant_pair(struct env *e, int low, int high)
+{
+    itg both = lit_i(E, low | high << 16);
+    return fix_of(E, both);
+}
+
+/* floor(sum / 255) for sums below 65535. */
+static inline fix floor_255(struct env *e, fix sum)
+{
+    fix next = add_x(E, sum, lit_x(E, 1));
+    fix part = ushr_x(E, sum, 8);
+    fix both = add_x(E, next, part);
+    return ushr_x(E, both, 8);
+}
+
+/* Thresholds of a pair: alpha, where it is the upper one, is rounded. */
+static inline fix dither_pair(struct env *e, int high_is_alpha)
+{
+    itg both = load_i(E, BASE_LANES, (int)offsetof(struct lane_table, dither));
+    if (high_is_alpha) {
+        itg low = and_i(E, both, lit_i(E, 0xffff));
+        both = or_i(E, low, lit_i(E, 127 << 16));
+    }
+    return fix_of(E, both);
+}
+
+/* The low channel with so many bits, the high one with its own. */
+static inline fix narrow_pair(struct env *e, const struct pixel_key *k, fix pair, int low, int high,
+                              int high_is_alpha)
+{
+    fix levels = constant_pair(E, (1 << low) - 1, (1 << high) - 1);
+    fix product = mul_x(E, pair, levels), q;
+    if (k->dither) {
+        fix thresholds = dither_pair(E, high_is_alpha);
+        fix sum = add_x(E, product, thresholds);
+        q = floor_255(E, sum);
+    } else
+        q = divide_255(E, product);
+    fix scale = constant_pair(E, expansion_scale(low), expansion_scale(high));
+    fix scaled = mul_x(E, q, scale);
+    fix bias = constant_pair(E, expansion_bias(low), expansion_bias(high));
+    fix biased = add_x(E, scaled, bias);
+    return ushr_x(E, biased, 6);
+}
+
+static inline struct color narrow_color(struct env *e, const struct pixel_key *k, int target,
+                                        struct color color)
+{
+    const uint8_t *bits = target_bits[target];
+    if (!target_is_narrow(target))
+        return color;
+    color.rb = narrow_pair(E, k, color.rb, bits[0], bits[2], 0);
+    color.ga = narrow_pair(E, k, color.ga, bits[1], bits[3], 1);
+    return color;
+}
+
+/* Blends the colour into every target that is written. */
+static inline void write_targets(struct env *e, const struct pixel_key *k, msk live, struct color color)
+{
+    for (int t = 0; t < TARGETS; t++) {
+        if (!k->write_mask[t])
+            continue;
+        itg stored = load_i(E, BASE_COLOR, target_offset(k, t));
+        struct color blended = blend(E, k, color, stored);
+        blended = narrow_color(E, k, k->target[t], blended);
+        itg word = color_pack(E, blended);
+        write_word(E, k->write_mask[t], target_offset(k, t), live, word, stored);
+    }
+}
