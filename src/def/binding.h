@@ -3,6 +3,7 @@
 #ifndef DEF_BINDING_H
 #define DEF_BINDING_H
 
+#include "base/srgb.h"
 #include "draw/call.h"
 #include "draw/key.h"
 

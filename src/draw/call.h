@@ -37,6 +37,7 @@ enum {
     BLOCK_SIZE = 4,
     BLOCK_PIXELS = 16,
     TILE_BLOCKS = TILE_PIXELS / BLOCK_PIXELS,
+    TILE_PLANE_BYTES = TILE_PIXELS * 4,
     SUBPIXEL_BITS = 8,
     TARGET_SIZE_MAXIMUM = 8192
 };
@@ -117,7 +118,8 @@ struct entry {
 struct lane_table {
     float x[LANES_MAXIMUM]; /* pixel centre from the block's corner */
     float y[LANES_MAXIMUM];
-    int32_t bit[LANES_MAXIMUM]; /* 1 << lane */
+    int32_t bit[LANES_MAXIMUM];    /* 1 << lane */
+    int32_t dither[LANES_MAXIMUM]; /* the pixel's threshold in both halves: spec/target.h */
 };
 
 extern const struct lane_table lane_table;
@@ -148,7 +150,7 @@ struct pixel_call {
     const struct entry *entries;
     const uint8_t *triangles;
     const struct lane_table *lanes;
-    uint32_t *color; /* TILE_PIXELS words RGBA8, red in the low byte, 64-byte aligned */
+    uint32_t *color; /* planes of TILE_PIXELS words, those of each target in turn (def/target.def), 64-byte aligned */
     float *depth;    /* TILE_PIXELS words, 64-byte aligned */
     uint32_t count;
 };

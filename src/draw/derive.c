@@ -31,7 +31,7 @@ void derive_setup(const struct state *state, const struct pixel_key *pixel, stru
 
 bool derive_effective(const struct pixel_key *key)
 {
-    return key->write_mask || key->depth_write;
+    return pixel_write_mask(key) || key->depth_write;
 }
 
 void derive_keys(const struct state *state, union key key[UNIT_COUNT])

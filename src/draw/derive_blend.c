@@ -80,6 +80,12 @@ static void store_blending(struct pixel_key *key, int channel, struct blending b
     key->target_factor[channel] = b.target;
 }
 
+static void keep_channels(struct pixel_key *key, int channels)
+{
+    for (int t = 0; t < TARGETS; t++)
+        key->write_mask[t] &= channels;
+}
+
 /* Channels that stay as they are need not be written; those that are not written are blended like the others.
  */
 void derive_blend(const struct state *state, struct pixel_key *key)
@@ -91,12 +97,13 @@ void derive_blend(const struct state *state, struct pixel_key *key)
     if (GET(alphablendenable) && GET(separatealphablendenable))
         alpha = alpha_blending(make_blending(GET(blendopalpha), GET(srcblendalpha), GET(destblendalpha)));
     if (keeps_target(color))
-        key->write_mask &= MASK_ALPHA;
+        keep_channels(key, MASK_ALPHA);
     if (keeps_target(alpha))
-        key->write_mask &= MASK_COLOR;
-    if (!(key->write_mask & MASK_ALPHA) || same_blending(alpha, alpha_blending(color)))
+        keep_channels(key, MASK_COLOR);
+    int written = pixel_write_mask(key);
+    if (!(written & MASK_ALPHA) || same_blending(alpha, alpha_blending(color)))
         alpha = color;
-    if (!(key->write_mask & MASK_COLOR))
+    if (!(written & MASK_COLOR))
         color = alpha;
     store_blending(key, BLEND_COLOR, color);
     store_blending(key, BLEND_ALPHA, alpha);

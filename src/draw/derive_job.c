@@ -1,5 +1,6 @@
 /* The job: the values of a draw, for keys that are derived already. */
 #include "base/mxcsr.h"
+#include "base/srgb.h"
 #include "draw/derive_part.h"
 
 #include <math.h>
@@ -232,6 +233,7 @@ __attribute__((noinline)) static void fill_job(const struct state *state, const 
     if (pixel->alpha_discard)
         job->alpha_reference = (int32_t)GET(alpharef);
     job->blend_constant = rgba_word(GET(blendfactor));
+    job->srgb = &srgb_tables;
 }
 
 void derive_job(const struct state *state, const struct vertex_key *vertex, const struct pixel_key *pixel,

@@ -39,6 +39,10 @@ enum { MASK_COLOR = 7, MASK_ALPHA = 8 }; /* of a write mask */
 /* Each fills its fields of a key that is zero; derive_blend takes the write mask from the state, and clears
  * the channels that keep the target. */
 void derive_depth(const struct state *state, struct pixel_key *key);
+/* Write masks and storage as the targets have them, then, when it is known which of them are written, what of
+ * their storage matters. */
+void derive_targets(const struct state *state, struct pixel_key *key);
+void derive_storage(const struct state *state, struct pixel_key *key);
 void derive_blend(const struct state *state, struct pixel_key *key);
 void derive_stage(const struct state *state, struct pixel_key *key);
 void derive_texture(const struct state *state, struct pixel_key *key);

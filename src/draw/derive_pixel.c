@@ -45,22 +45,25 @@ static bool reads_specular(const struct pixel_key *key)
 void derive_pixel(const struct state *state, struct pixel_key *key)
 {
     derive_depth(state, key);
-    key->write_mask = (uint8_t)GET(colorwriteenable);
+    derive_targets(state, key);
     key->alpha_discard = derive_alpha_discard(state);
     derive_blend(state, key);
-    if (key->depth_function == COMPARE_NEVER || key->alpha_discard == COMPARE_ALWAYS)
-        key->depth_write = key->write_mask = 0;
+    if (key->depth_function == COMPARE_NEVER || key->alpha_discard == COMPARE_ALWAYS) {
+        key->depth_write = 0;
+        memset(key->write_mask, 0, sizeof key->write_mask);
+    }
     if (!derive_effective(key)) { /* one key for all that draw nothing */
         key->depth_function = COMPARE_ALWAYS;
         key->alpha_discard = COMPARE_NEVER;
     }
-    if (!key->write_mask)
+    derive_storage(state, key);
+    if (!pixel_write_mask(key))
         derive_no_blend(key);
     if (!pixel_shades(key))
         return;
     derive_stage(state, key);
     derive_texture(state, key);
-    if (key->write_mask & MASK_COLOR) {
+    if (pixel_write_mask(key) & MASK_COLOR) {
         key->specular = GET(specularenable) != 0;
         derive_fog(state, key);
     }

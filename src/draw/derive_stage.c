@@ -207,7 +207,7 @@ void derive_stage(const struct state *state, struct pixel_key *key)
         derive_one(state, key->stages++, key);
     if (key->stages < TEXTURE_STAGES)
         key->premodulate[key->stages] = 0;
-    if (!key->write_mask)
+    if (!pixel_write_mask(key))
         keep_alpha_only(key);
     drop_dead_stages(key);
     name_diffuse(key);

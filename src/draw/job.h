@@ -54,6 +54,8 @@ struct texture_job {
     uint32_t reserved;
 };
 
+struct srgb_tables; /* base/srgb.h */
+
 struct job {
     struct attribute_job attribute[ATTRIBUTE_COUNT];
 
@@ -82,6 +84,7 @@ struct job {
     float fog_offset;
     int32_t alpha_reference; /* 0 to 255 */
     uint32_t blend_constant;
+    const struct srgb_tables *srgb;
 };
 
 #endif

@@ -54,6 +54,18 @@ const struct vertex_type vertex_types[ATTRIBUTE_FORMAT_COUNT] = {
 #undef VERTEX_TYPE
 };
 
+const uint8_t target_planes[TARGET_COUNT] = {
+#define TARGET(name, planes, red, green, blue, alpha, meaning) planes,
+#include "def/target.def"
+#undef TARGET
+};
+
+const uint8_t target_bits[TARGET_COUNT][4] = {
+#define TARGET(name, planes, red, green, blue, alpha, meaning) {red, green, blue, alpha},
+#include "def/target.def"
+#undef TARGET
+};
+
 static const struct key_field all_fields[] = {
 #define KEY(unit, field, radix, meaning) {#field, meaning, offsetof(struct unit##_key, field), 1, radix},
 #define KEYS(unit, field, count, radix, meaning)                                                             \

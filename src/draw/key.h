@@ -205,6 +205,26 @@ enum factor {
     FACTOR_COUNT
 };
 
+/* How a target stores colours; def/target.def. */
+enum target_storage {
+#define TARGET(name, planes, red, green, blue, alpha, meaning) TARGET_##name,
+#include "def/target.def"
+#undef TARGET
+    TARGET_COUNT
+};
+
+enum { TARGETS = 4 };
+
+/* Planes of a tile that a target takes, and bits of its channels; 0: floating point. */
+extern const uint8_t target_planes[TARGET_COUNT];
+extern const uint8_t target_bits[TARGET_COUNT][4];
+
+/* Whether red, green and blue have less than 8 bits. */
+static inline int target_is_narrow(int target)
+{
+    return target_bits[target][0] && target_bits[target][0] < 8;
+}
+
 struct vertex_key {
 #define KEY_vertex(field, count) uint8_t field count;
 #define KEY_setup(field, count)
@@ -292,10 +312,19 @@ uint64_t key_hash(enum unit unit, const struct packed_key *packed);
 /* Whether two packed keys of one unit are the same. */
 int key_equal(const struct packed_key *a, const struct packed_key *b);
 
+/* The channels that reach any target. */
+static inline int pixel_write_mask(const struct pixel_key *key)
+{
+    int mask = 0;
+    for (int t = 0; t < TARGETS; t++)
+        mask |= key->write_mask[t];
+    return mask;
+}
+
 /* Whether the pixel routine computes colours: to write them, or to find whose depth the alpha test keeps. */
 static inline int pixel_shades(const struct pixel_key *key)
 {
-    return key->write_mask || (key->alpha_discard && key->depth_write);
+    return pixel_write_mask(key) || (key->alpha_discard && key->depth_write);
 }
 
 static inline int fog_reads_depth(int fog)

@@ -169,6 +169,7 @@ void state_initialize(struct state *state)
         state->material.diffuse[c] = 1;
     for (int i = 0; i < TRIPTYCH_LIGHTS; i++)
         state->light[i] = light;
+    state->target[0] = (struct target_channels){TARGET_8888, 15};
 }
 
 /* Refuses what is not a number or infinite; says which of the values. */

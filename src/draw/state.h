@@ -5,6 +5,7 @@
 #ifndef DRAW_STATE_H
 #define DRAW_STATE_H
 
+#include "draw/key.h"
 #include "draw/resource.h"
 #include "draw/texture.h"
 
@@ -26,6 +27,13 @@ struct state_stream {
     uint32_t count; /* of the frequency; 0 is 1 */
 };
 
+/* What the state's owner has for a colour target: how it stores its pixels, and which channels it has (bits as
+ * in a write mask; none: no target). */
+struct target_channels {
+    uint8_t storage; /* enum target_storage */
+    uint8_t channels;
+};
+
 struct state {
     uint32_t value[TRIPTYCH_STATE_COUNT];
     uint32_t sampler[TRIPTYCH_SAMPLERS][TRIPTYCH_SAMPLER_STATE_COUNT];
@@ -43,6 +51,7 @@ struct state {
     struct state_stream stream[STREAM_COUNT];
     struct triptych_buffer *indices;
     uint32_t index_bits; /* 16 or 32 while indices are bound */
+    struct target_channels target[TARGETS];
 };
 
 extern const char *const attribute_name[TRIPTYCH_ATTRIBUTE_COUNT];

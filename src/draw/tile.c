@@ -36,7 +36,7 @@ static void shade(struct tile_worker *worker, const struct frame *frame, uint32_
         .depth = target->depth + (size_t)tile * TILE_PIXELS,
         .count = worker->count,
     };
-    if (key->write_mask)
+    if (pixel_write_mask(key))
         target_fill_color(target, tile);
     if (key->depth_write || key->depth_function != COMPARE_ALWAYS)
         target_fill_depth(target, tile);

@@ -1,12 +1,11 @@
-/* The alpha test: the colour's alpha and the draw's reference, both 0 to 255, compared as integers.
+/* The alpha test: the colour's alpha and the draw's reference, both 0 to 255, compared as integers. Alpha in binary32
+ * is rounded to them for this.
  *
  * The key has the comparison that discards, so lanes are taken away and a test that is off takes away none.
  */
 
-static inline msk alpha_test(struct env *e, int discard, struct color color, msk live)
+static inline msk alpha_test(struct env *e, int discard, itg alpha, msk live)
 {
-    itg ga = int_of(E, color.ga);
-    itg alpha = ushr_i(E, ga, 16);
     itg reference = uniform_i(E, BASE_JOB, (int)offsetof(struct job, alpha_reference));
     msk found;
     switch (discard) {

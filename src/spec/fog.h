@@ -10,7 +10,9 @@
  *   EXP      2 ^ (d * scale)                    scale = -density * log2(e)
  *   EXP2     2 ^ -(d * scale) ^ 2               scale = density * sqrt(log2(e))
  *
- * each clamped to 0..1 by the quantization. */
+ * each clamped to 0..1 by the quantization. In binary32 it is clamped and not quantized:
+ *
+ *   colour' = colour * factor + fog colour * (1 - factor) */
 
 static inline flt fog_distance(struct env *e, const struct pixel_key *k, const struct triangle_layout *layout,
                                const struct pixel_position *at, flt w)
@@ -22,7 +24,8 @@ static inline flt fog_distance(struct env *e, const struct pixel_key *k, const s
     return pixel_depth(E, at, layout);
 }
 
-static inline fix fog_factor(struct env *e, int fog, flt distance)
+/* Not clamped yet. */
+static inline flt fog_share(struct env *e, int fog, flt distance)
 {
     flt factor = distance;
     if (fog == FOG_LINEAR_Z || fog == FOG_LINEAR_W) {
@@ -38,7 +41,13 @@ static inline fix fog_factor(struct env *e, int fog, flt distance)
         }
         factor = exponential2(E, power);
     }
-    itg byte = quantize(E, factor);
+    return factor;
+}
+
+static inline fix fog_factor(struct env *e, int fog, flt distance)
+{
+    flt share = fog_share(E, fog, distance);
+    itg byte = quantize(E, share);
     return both_halves(E, byte);
 }
 

@@ -67,19 +67,41 @@ static inline struct color shade_stages(struct env *e, const struct pixel_source
     return v.current;
 }
 
-static inline struct color shade(struct env *e, const struct pixel_key *k,
-                                 const struct triangle_layout *layout, const struct pixel_position *at)
+static inline struct color shade(struct env *e, const struct pixel_source *s)
 {
-    struct pixel_source s = {k, layout, at, lit_f(E, 1.0f)};
-    if (layout->smooth)
-        s.w = pixel_w(E, at, layout);
-    struct color color = shade_stages(E, &s);
-    if (k->fog) {
-        flt distance = fog_distance(E, k, layout, at, s.w);
-        fix factor = fog_factor(E, k->fog, distance);
+    struct color color = shade_stages(E, s);
+    if (s->k->fog) {
+        flt distance = fog_distance(E, s->k, s->layout, s->at, s->w);
+        fix factor = fog_factor(E, s->k->fog, distance);
         color = fog_blend(E, color, factor);
     }
     return color;
+}
+
+/* One of them is there: k->float_color says which. */
+struct pixel_color {
+    struct color packed;
+    struct float_color wide;
+};
+
+static inline struct float_color float_shade(struct env *e, const struct pixel_source *s);
+
+static inline struct pixel_color pixel_color(struct env *e, const struct pixel_source *s)
+{
+    struct pixel_color r;
+    if (s->k->float_color)
+        r.wide = float_shade(E, s);
+    else
+        r.packed = shade(E, s);
+    return r;
+}
+
+static inline itg pixel_alpha(struct env *e, const struct pixel_key *k, const struct pixel_color *color)
+{
+    if (k->float_color)
+        return quantize(E, color->wide.channel[3]);
+    itg ga = int_of(E, color->packed.ga);
+    return ushr_i(E, ga, 16);
 }
 
 static void spec_pixel(struct env *e, const struct pixel_key *k)
@@ -91,15 +113,19 @@ static void spec_pixel(struct env *e, const struct pixel_key *k)
     if (!pixel_shades(k))
         return;
     WHEN (E, live) {
-        struct color color = shade(E, k, &layout, &at);
+        struct pixel_source source = {k, &layout, &at, lit_f(E, 1.0f)};
+        if (layout.smooth)
+            source.w = pixel_w(E, &at, &layout);
+        struct pixel_color color = pixel_color(E, &source);
         msk kept = live;
-        if (k->alpha_discard)
-            kept = alpha_test(E, k->alpha_discard, color, live);
-        depth_write_late(E, k, &at, &layout, kept);
-        if (k->write_mask) {
-            itg stored = load_i(E, BASE_COLOR, 0);
-            color = blend(E, k, color, stored);
-            write_color(E, k, kept, color, stored);
+        if (k->alpha_discard) {
+            itg alpha = pixel_alpha(E, k, &color);
+            kept = alpha_test(E, k->alpha_discard, alpha, live);
         }
+        depth_write_late(E, k, &at, &layout, kept);
+        if (k->float_color)
+            write_float_targets(E, k, kept, color.wide);
+        else
+            write_targets(E, k, kept, color.packed);
     }
 }

@@ -354,13 +354,13 @@ static void plan_target(struct plan *plan, const struct pixel_key *key)
 {
     plan_append(plan, &fragment_stored_color, NONE);
     plan_blend(plan, key);
-    if (key->write_mask == 15) {
+    if (key->write_mask[0] == 15) {
         plan_append(plan, &fragment_write_all, NONE);
         return;
     }
     uint32_t word = 0;
     for (int channel = 0; channel < 4; channel++)
-        word |= (key->write_mask >> channel & 1) * (255u << 8 * channel);
+        word |= (key->write_mask[0] >> channel & 1) * (255u << 8 * channel);
     plan_append(plan, &fragment_write_masked, ARGUMENTS((int32_t)word));
 }
 
@@ -376,7 +376,7 @@ static void plan_pixel(struct plan *plan, const union key *all)
         plan_shade(plan, key, &layout);
         skip[1] = plan_alpha_test(plan, key, &layout);
     }
-    if (key->write_mask)
+    if (key->write_mask[0])
         plan_target(plan, key);
     for (int i = 0; i < 2; i++)
         if (skip[i])

@@ -55,7 +55,7 @@ static union key key_number(int n)
 {
     union key key;
     memset(&key, 0, sizeof key);
-    key.pixel.write_mask = (uint8_t)n;
+    key.pixel.write_mask[0] = (uint8_t)n;
     return key;
 }
 
@@ -69,7 +69,7 @@ static void touch(int n)
 {
     const struct routine *routine = acquire(n);
     TEST_ASSERT_NOT_NULL(routine);
-    TEST_ASSERT_EQUAL_INT(n, routine->key.pixel.write_mask);
+    TEST_ASSERT_EQUAL_INT(n, routine->key.pixel.write_mask[0]);
     cache_release(cache, routine);
 }
 
@@ -78,7 +78,7 @@ static int present(int n)
 {
     struct routine routine;
     for (size_t i = 0; cache_get(cache, i, &routine); i++)
-        if (routine.key.pixel.write_mask == n)
+        if (routine.key.pixel.write_mask[0] == n)
             return 1;
     return 0;
 }
@@ -159,7 +159,7 @@ static void an_evicted_routine_lives_until_it_is_released(void)
     TEST_ASSERT_EQUAL_INT(0, freed);
     cache_release(cache, held);
     TEST_ASSERT_EQUAL_INT(0, freed);
-    TEST_ASSERT_EQUAL_INT(0, again->key.pixel.write_mask);
+    TEST_ASSERT_EQUAL_INT(0, again->key.pixel.write_mask[0]);
     cache_release(cache, again);
     TEST_ASSERT_EQUAL_INT(1, freed);
 }
@@ -224,7 +224,7 @@ static void routines_have_numbers_hits_and_build_times(void)
     for (int n = 0; n < 5; n++) {
         TEST_ASSERT_TRUE(cache_get(cache, (size_t)n, &routine));
         TEST_ASSERT_EQUAL_UINT32(n + 1, routine.number);
-        TEST_ASSERT_EQUAL_INT(n, routine.key.pixel.write_mask);
+        TEST_ASSERT_EQUAL_INT(n, routine.key.pixel.write_mask[0]);
         TEST_ASSERT_EQUAL_UINT64(n == 2 ? 2 : 0, routine.hits);
     }
     TEST_ASSERT_FALSE(cache_get(cache, 5, &routine));
@@ -257,7 +257,7 @@ static void *churn(void *argument)
         int n = (int)(seed >> 24) % 12;
         union key key = key_number(n);
         const struct routine *routine = cache_acquire(cache, UNIT_PIXEL, &key, NULL);
-        if (!routine || routine->key.pixel.write_mask != n)
+        if (!routine || routine->key.pixel.write_mask[0] != n)
             return "wrong routine";
         cache_release(cache, routine);
     }

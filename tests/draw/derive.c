@@ -393,14 +393,14 @@ static void channels_that_keep_what_is_stored_are_not_written(void)
 {
     set_blending("add", "zero", "one");
     derive();
-    TEST_ASSERT_EQUAL_INT(0, key[UNIT_PIXEL].pixel.write_mask);
+    TEST_ASSERT_EQUAL_INT(0, key[UNIT_PIXEL].pixel.write_mask[0]);
     set_alpha_blending("add", "one", "one");
     derive();
-    TEST_ASSERT_EQUAL_INT(8, key[UNIT_PIXEL].pixel.write_mask);
+    TEST_ASSERT_EQUAL_INT(8, key[UNIT_PIXEL].pixel.write_mask[0]);
     set_blending("add", "one", "one");
     set_alpha_blending("revsubtract", "zero", "one");
     derive();
-    TEST_ASSERT_EQUAL_INT(7, key[UNIT_PIXEL].pixel.write_mask);
+    TEST_ASSERT_EQUAL_INT(7, key[UNIT_PIXEL].pixel.write_mask[0]);
 }
 
 static void change_blend_factor(void)

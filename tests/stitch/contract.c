@@ -335,7 +335,7 @@ static void check_conventions(const struct engine *engine, uint32_t count)
     key.setup.depth = key.setup.varying[0] = 1;
     check_convention(engine, UNIT_SETUP, &key, &setup);
     key = no_state;
-    key.pixel.write_mask = 15;
+    key.pixel.write_mask[0] = 15;
     key.pixel.depth_function = COMPARE_LESS_EQUAL;
     key.pixel.varying[0] = 1;
     check_convention(engine, UNIT_PIXEL, &key, &pixel);

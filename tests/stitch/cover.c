@@ -105,7 +105,7 @@ static void covered_keys_are_joined_from_stages(void)
         TEST_ASSERT_EQUAL_STRING("stage", routine->granularity);
         engine_stitch.free(arena, routine);
     }
-    union key key = {.pixel = {.write_mask = 15}};
+    union key key = {.pixel = {.write_mask = {15}}};
     struct routine *emulated = build_by(&engine_emulate, UNIT_PIXEL, &key);
     TEST_ASSERT_NULL(emulated->granularity);
     engine_emulate.free(NULL, emulated);

@@ -138,7 +138,7 @@ static void check_ends(union key *key)
     for (int discard = 0; discard < COMPARE_COUNT; discard++)
         for (size_t m = 0; m < sizeof masks; m++) {
             key->pixel.alpha_discard = (uint8_t)discard;
-            key->pixel.write_mask = masks[m];
+            key->pixel.write_mask[0] = masks[m];
             check_plan(plan_stages, UNIT_PIXEL, key);
         }
 }
@@ -166,11 +166,11 @@ static void check_blendings(union key *key)
  * that precedes with few that follow, and the other way round, stand for all. */
 static void pixel_plans_keep_the_contract(void)
 {
-    static const struct pixel_key ends[] = {{.write_mask = 0},
-                                            {.write_mask = 15},
-                                            {.write_mask = 7, .blend = {BLEND_MINIMUM, BLEND_MINIMUM}},
-                                            {.write_mask = 0, .alpha_discard = COMPARE_LESS},
-                                            {.write_mask = 15, .alpha_discard = COMPARE_LESS}};
+    static const struct pixel_key ends[] = {{.write_mask = {0}},
+                                            {.write_mask = {15}},
+                                            {.write_mask = {7}, .blend = {BLEND_MINIMUM, BLEND_MINIMUM}},
+                                            {.write_mask = {0}, .alpha_discard = COMPARE_LESS},
+                                            {.write_mask = {15}, .alpha_discard = COMPARE_LESS}};
     for (size_t i = 0; i < sizeof ends / sizeof *ends; i++) {
         union key key = {.pixel = ends[i]};
         check_beginnings(key);
@@ -208,8 +208,8 @@ static void stage_plans_keep_the_contract(void)
     const unsigned radix = STAGE_ARGUMENT_RADIX;
     union key key = no_state;
     key.pixel.texture[0] = 1;
-    key.pixel.write_mask = 15;
     key.pixel.stages = 1;
+    key.pixel.write_mask[0] = 15;
     for (int stage = 0; stage < STAGE_COUNT; stage++)
         for (unsigned digits = 0; digits < radix * radix * radix; digits++)
             check_stage_plans(key, stage, digits % radix, digits / radix % radix, digits / radix / radix);
@@ -260,7 +260,7 @@ static void broken_plans_are_noticed(void)
 {
     union key key = no_state;
     struct error error = {{0}};
-    key.pixel.write_mask = 15;
+    key.pixel.write_mask[0] = 15;
     key.pixel.depth_function = COMPARE_LESS;
     plan_stages(&plan, UNIT_PIXEL, &key);
     TEST_ASSERT_EQUAL(0, plan_check(&plan, &error));
@@ -282,7 +282,7 @@ static void listings_show_parts_holes_and_instructions(void)
     struct error error = {{0}};
     char *text = NULL;
     size_t size;
-    key.pixel.write_mask = 3;
+    key.pixel.write_mask[0] = 3;
     FILE *out = open_memstream(&text, &size);
     TEST_ASSERT_EQUAL_MESSAGE(0, stitch_dump(arena, &engine_stitch, UNIT_PIXEL, &key, out, &error),
                               error.text);

@@ -1,0 +1,52 @@
+/* Targets: which are written, how they store what is written, and whether that takes colours in binary32. */
+#include "draw/derive_part.h"
+
+void derive_targets(const struct state *state, struct pixel_key *key)
+{
+    const uint32_t enabled[TARGETS] = {GET(colorwriteenable), GET(colorwriteenable1), GET(colorwriteenable2),
+                                       GET(colorwriteenable3)};
+    for (int t = 0; t < TARGETS; t++) {
+        key->target[t] = state->target[t].storage;
+        key->write_mask[t] = (uint8_t)(enabled[t] & state->target[t].channels);
+    }
+}
+
+static int last_written(const struct pixel_key *key)
+{
+    int last = -1;
+    for (int t = 0; t < TARGETS; t++)
+        if (key->write_mask[t])
+            last = t;
+    return last;
+}
+
+/* The first storage with as many planes: the place is all that matters of a target that is not written. */
+static uint8_t place_holder(int storage)
+{
+    uint8_t r = 0;
+    while (target_planes[r] != target_planes[storage])
+        r++;
+    return r;
+}
+
+/* Alpha is never encoded, so a target of which only that is written needs no sRGB. */
+static uint8_t written_storage(const struct state *state, int storage, int mask)
+{
+    return storage == TARGET_8888 && mask & MASK_COLOR && GET(srgbwriteenable) ? TARGET_SRGB : (uint8_t)storage;
+}
+
+void derive_storage(const struct state *state, struct pixel_key *key)
+{
+    int last = last_written(key);
+    for (int t = 0; t < TARGETS; t++) {
+        if (t > last)
+            key->target[t] = 0;
+        else if (!key->write_mask[t])
+            key->target[t] = place_holder(key->target[t]);
+        else {
+            key->target[t] = written_storage(state, key->target[t], key->write_mask[t]);
+            key->float_color |= target_planes[key->target[t]] > 1 || key->target[t] == TARGET_SRGB;
+            key->dither |= target_is_narrow(key->target[t]) && key->write_mask[t] & MASK_COLOR && GET(ditherenable);
+        }
+    }
+}

@@ -1,0 +1,53 @@
+/* Shading in binary32: what pixel.h does to packed colours, over channels that are not quantized in between. */
+
+static inline struct float_color float_interpolated(struct env *e, const struct pixel_source *s, int varying)
+{
+    struct float_color r = float_replicate(lit_f(E, 1.0f));
+    if (!s->k->varying[varying])
+        return r;
+    for (int c = 0; c < 4; c++) {
+        flt value = interpolate(E, s->k, s->layout, s->at, s->w, varying, c);
+        r.channel[c] = saturate(E, value);
+    }
+    return r;
+}
+
+/* A texture of bytes is filtered as such. */
+static inline struct float_color float_texture(struct env *e, const struct pixel_source *s, int stage)
+{
+    struct color packed = stage_texture(E, s, stage);
+    itg word = color_pack(E, packed);
+    return float_unpack(E, word);
+}
+
+static inline struct float_color float_stages(struct env *e, const struct pixel_source *s)
+{
+    struct float_values v;
+    v.diffuse = float_interpolated(E, s, VARYING_diffuse);
+    v.specular = float_interpolated(E, s, VARYING_specular);
+    v.current = v.diffuse;
+    v.temporary = float_replicate(lit_f(E, 0.0f));
+    for (int i = 0; i < s->k->stages; i++) {
+        v.texture = float_replicate(lit_f(E, 1.0f));
+        if (s->k->texture[i])
+            v.texture = float_texture(E, s, i);
+        float_stage(E, s->k, i, &v);
+    }
+    if (s->k->specular)
+        v.current = float_specular(E, v.current, &v.specular);
+    return v.current;
+}
+
+static inline struct float_color float_shade(struct env *e, const struct pixel_source *s)
+{
+    struct float_color color = float_stages(E, s);
+    if (!s->k->fog)
+        return color;
+    flt distance = fog_distance(E, s->k, s->layout, s->at, s->w);
+    flt share = fog_share(E, s->k->fog, distance);
+    flt factor = saturate(E, share);
+    struct float_color fog = float_packed(E, offsetof(struct job, fog_color));
+    for (int c = 0; c < 3; c++)
+        color.channel[c] = float_lerp(E, color.channel[c], fog.channel[c], factor);
+    return color;
+}
