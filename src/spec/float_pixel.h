@@ -51,3 +51,13 @@ static inline struct float_color float_shade(struct env *e, const struct pixel_s
         color.channel[c] = float_lerp(E, color.channel[c], fog.channel[c], factor);
     return color;
 }
+
+static inline void shade_float(struct env *e, const struct pixel_source *s, msk live)
+{
+    struct float_color color = float_shade(E, s);
+    if (s->k->alpha_discard) {
+        itg alpha = quantize(E, color.channel[3]);
+        live = test_alpha(E, s, alpha, live);
+    }
+    write_float_targets(E, s->k, live, color);
+}

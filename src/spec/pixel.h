@@ -78,31 +78,26 @@ static inline struct color shade(struct env *e, const struct pixel_source *s)
     return color;
 }
 
-/* One of them is there: k->float_color says which. */
-struct pixel_color {
-    struct color packed;
-    struct float_color wide;
-};
-
-static inline struct float_color float_shade(struct env *e, const struct pixel_source *s);
-
-static inline struct pixel_color pixel_color(struct env *e, const struct pixel_source *s)
+/* The lanes that the alpha test keeps; what waits for it is done. */
+static inline msk test_alpha(struct env *e, const struct pixel_source *s, itg alpha, msk live)
 {
-    struct pixel_color r;
-    if (s->k->float_color)
-        r.wide = float_shade(E, s);
-    else
-        r.packed = shade(E, s);
-    return r;
+    msk kept = alpha_test(E, s->k->alpha_discard, alpha, live);
+    depth_write_late(E, s->k, s->at, s->layout, kept);
+    return kept;
 }
 
-static inline itg pixel_alpha(struct env *e, const struct pixel_key *k, const struct pixel_color *color)
+static inline void shade_packed(struct env *e, const struct pixel_source *s, msk live)
 {
-    if (k->float_color)
-        return quantize(E, color->wide.channel[3]);
-    itg ga = int_of(E, color->packed.ga);
-    return ushr_i(E, ga, 16);
+    struct color color = shade(E, s);
+    if (s->k->alpha_discard) {
+        itg ga = int_of(E, color.ga);
+        itg alpha = ushr_i(E, ga, 16);
+        live = test_alpha(E, s, alpha, live);
+    }
+    write_targets(E, s->k, live, color);
 }
+
+static inline void shade_float(struct env *e, const struct pixel_source *s, msk live); /* float_pixel.h */
 
 static void spec_pixel(struct env *e, const struct pixel_key *k)
 {
@@ -116,16 +111,9 @@ static void spec_pixel(struct env *e, const struct pixel_key *k)
         struct pixel_source source = {k, &layout, &at, lit_f(E, 1.0f)};
         if (layout.smooth)
             source.w = pixel_w(E, &at, &layout);
-        struct pixel_color color = pixel_color(E, &source);
-        msk kept = live;
-        if (k->alpha_discard) {
-            itg alpha = pixel_alpha(E, k, &color);
-            kept = alpha_test(E, k->alpha_discard, alpha, live);
-        }
-        depth_write_late(E, k, &at, &layout, kept);
         if (k->float_color)
-            write_float_targets(E, k, kept, color.wide);
+            shade_float(E, &source, live);
         else
-            write_targets(E, k, kept, color.packed);
+            shade_packed(E, &source, live);
     }
 }

@@ -1,5 +1,6 @@
 #include "differential.h"
 
+#include "base/srgb.h"
 #include "fence.h"
 
 #include <stdio.h>
@@ -16,6 +17,7 @@ enum {
     RECORD_MAXIMUM = 256,
     TRIANGLES = 32,
     ENTRIES = 48,
+    TARGET_PLANES = 4 * TARGETS,
     UNTOUCHED = 0x5a
 };
 
@@ -24,7 +26,7 @@ struct outputs {
     alignas(64) uint8_t before[64];
     alignas(64) float vertices[SLOT_COUNT * VERTEX_CAPACITY];
     alignas(64) uint8_t records[SETUP_CAPACITY * RECORD_MAXIMUM];
-    alignas(64) uint32_t color[TILE_PIXELS];
+    alignas(64) uint32_t color[TARGET_PLANES * TILE_PIXELS];
     alignas(64) float depth[TILE_PIXELS];
     alignas(64) uint8_t behind[64];
 };
@@ -354,6 +356,19 @@ static int32_t alpha_reference(struct differential *d)
     return below(d, 2) ? some[below(d, sizeof some)] : (int32_t)below(d, 256);
 }
 
+/* Words, or planes of numbers. */
+static void make_targets(struct differential *d, const struct pixel_key *key)
+{
+    uint32_t *plane = d->initial.color;
+    d->job.srgb = &srgb_tables;
+    for (int t = 0; t < TARGETS; t++)
+        for (int p = 0; p < target_planes[key->target[t]]; p++, plane += TILE_PIXELS)
+            if (target_planes[key->target[t]] > 1)
+                fill(d, plane, TILE_PLANE_BYTES, -0.5f, 1.5f);
+            else
+                fill_words(d, plane, TILE_PLANE_BYTES);
+}
+
 static void make_pixel_inputs(struct differential *d, const struct pixel_key *key)
 {
     d->job.alpha_reference = alpha_reference(d);
@@ -363,8 +378,8 @@ static void make_pixel_inputs(struct differential *d, const struct pixel_key *ke
     make_entries(d);
     make_textures(d, key);
     make_fog(d, key);
+    make_targets(d, key);
     for (int i = 0; i < TILE_PIXELS; i++) {
-        d->initial.color[i] = word(d);
         d->initial.depth[i] = below(d, 3) ? number(d, 0, 1) : (float)below(d, 2);
     }
     if (d->layout.depth && !below(d, 3))
