@@ -7,7 +7,8 @@ const struct lane_table lane_table = {
     .x = {.5f, 1.5f, .5f, 1.5f, 2.5f, 3.5f, 2.5f, 3.5f, .5f, 1.5f, .5f, 1.5f, 2.5f, 3.5f, 2.5f, 3.5f},
     .y = {.5f, .5f, 1.5f, 1.5f, .5f, .5f, 1.5f, 1.5f, 2.5f, 2.5f, 3.5f, 3.5f, 2.5f, 2.5f, 3.5f, 3.5f},
     .bit = {1, 2, 4, 8, 16, 32, 64, 128, 256, 512, 1024, 2048, 4096, 8192, 16384, 32768},
-    .dither = {DITHER(0), DITHER(8), DITHER(12), DITHER(4), DITHER(2), DITHER(10), DITHER(14), DITHER(6), DITHER(3), DITHER(11), DITHER(15), DITHER(7), DITHER(1), DITHER(9), DITHER(13), DITHER(5)},
+    .dither = {DITHER(0), DITHER(8), DITHER(12), DITHER(4), DITHER(2), DITHER(10), DITHER(14), DITHER(6),
+               DITHER(3), DITHER(11), DITHER(15), DITHER(7), DITHER(1), DITHER(9), DITHER(13), DITHER(5)},
 };
 
 const uint8_t varying_components[VARYING_COUNT] = {

@@ -150,7 +150,8 @@ struct pixel_call {
     const struct entry *entries;
     const uint8_t *triangles;
     const struct lane_table *lanes;
-    uint32_t *color; /* planes of TILE_PIXELS words, those of each target in turn (def/target.def), 64-byte aligned */
+    uint32_t *color; /* planes of TILE_PIXELS words, those of each target in turn (def/target.def), 64-byte
+                        aligned */
     float *depth;    /* TILE_PIXELS words, 64-byte aligned */
     uint32_t count;
 };

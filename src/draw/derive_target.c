@@ -32,7 +32,8 @@ static uint8_t place_holder(int storage)
 /* Alpha is never encoded, so a target of which only that is written needs no sRGB. */
 static uint8_t written_storage(const struct state *state, int storage, int mask)
 {
-    return storage == TARGET_8888 && mask & MASK_COLOR && GET(srgbwriteenable) ? TARGET_SRGB : (uint8_t)storage;
+    return storage == TARGET_8888 && mask & MASK_COLOR && GET(srgbwriteenable) ? TARGET_SRGB
+                                                                               : (uint8_t)storage;
 }
 
 void derive_storage(const struct state *state, struct pixel_key *key)
@@ -46,7 +47,8 @@ void derive_storage(const struct state *state, struct pixel_key *key)
         else {
             key->target[t] = written_storage(state, key->target[t], key->write_mask[t]);
             key->float_color |= target_planes[key->target[t]] > 1 || key->target[t] == TARGET_SRGB;
-            key->dither |= target_is_narrow(key->target[t]) && key->write_mask[t] & MASK_COLOR && GET(ditherenable);
+            key->dither |=
+                target_is_narrow(key->target[t]) && key->write_mask[t] & MASK_COLOR && GET(ditherenable);
         }
     }
 }

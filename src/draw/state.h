@@ -27,8 +27,8 @@ struct state_stream {
     uint32_t count; /* of the frequency; 0 is 1 */
 };
 
-/* What the state's owner has for a colour target: how it stores its pixels, and which channels it has (bits as
- * in a write mask; none: no target). */
+/* What the state's owner has for a colour target: how it stores its pixels, and which channels it has (bits
+ * as in a write mask; none: no target). */
 struct target_channels {
     uint8_t storage; /* enum target_storage */
     uint8_t channels;

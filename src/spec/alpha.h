@@ -1,5 +1,5 @@
-/* The alpha test: the colour's alpha and the draw's reference, both 0 to 255, compared as integers. Alpha in binary32
- * is rounded to them for this.
+/* The alpha test: the colour's alpha and the draw's reference, both 0 to 255, compared as integers. Alpha in
+ * binary32 is rounded to them for this.
  *
  * The key has the comparison that discards, so lanes are taken away and a test that is off takes away none.
  */

@@ -1,4 +1,5 @@
-/* Shading in binary32: what pixel.h does to packed colours, over channels that are not quantized in between. */
+/* Shading in binary32: what pixel.h does to packed colours, over channels that are not quantized in between.
+ */
 
 static inline struct float_color float_interpolated(struct env *e, const struct pixel_source *s, int varying)
 {
