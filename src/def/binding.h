@@ -3,7 +3,6 @@
 #ifndef DEF_BINDING_H
 #define DEF_BINDING_H
 
-#include "base/srgb.h"
 #include "draw/call.h"
 #include "draw/key.h"
 

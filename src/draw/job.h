@@ -8,6 +8,7 @@
 #ifndef DRAW_JOB_H
 #define DRAW_JOB_H
 
+#include "base/srgb.h"
 #include "draw/key.h"
 
 #include <stdint.h>
@@ -53,8 +54,6 @@ struct texture_job {
     uint32_t border;
     uint32_t reserved;
 };
-
-struct srgb_tables; /* base/srgb.h */
 
 struct job {
     struct attribute_job attribute[ATTRIBUTE_COUNT];
