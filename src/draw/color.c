@@ -5,8 +5,7 @@
 static int has_bits(const struct format *format, int storage)
 {
     for (int c = 0; c < 4; c++)
-        if (format->channel[c].type == CHANNEL_UNSIGNED &&
-            format->channel[c].bits != target_bits[storage][c])
+        if (format->channel[c].type == CHANNEL_UNSIGNED && format->channel[c].bits != target_bits[storage][c])
             return 0;
     return 1;
 }
