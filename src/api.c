@@ -262,6 +262,25 @@ enum triptych_result triptych_set_scissor(triptych_device *device, unsigned x, u
                    &error);
 }
 
+enum triptych_result triptych_set_clip_plane(triptych_device *device, unsigned i, const float plane[4])
+{
+    if (!device)
+        return TRIPTYCH_BAD_ARGUMENT;
+    if (!plane)
+        return null_argument(device, "plane");
+    struct error error = {{0}};
+    return changed(device, state_set_clip_plane(&device->state, i, plane, &error), &error);
+}
+
+enum triptych_result triptych_set_convention(triptych_device *device, enum triptych_convention which,
+                                             unsigned value)
+{
+    if (!device)
+        return TRIPTYCH_BAD_ARGUMENT;
+    struct error error = {{0}};
+    return changed(device, state_set_convention(&device->state, which, value, &error), &error);
+}
+
 enum triptych_result triptych_set_material(triptych_device *device, const struct triptych_material *material)
 {
     if (!device)

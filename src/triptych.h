@@ -5,8 +5,9 @@
  * threads.
  *
  * Conventions: row vectors (p' = p * M, matrices are m[row][column]); clip depth 0 to w; window y down, pixel
- * centres at half-integers, top-left fill rule; colours are red, green, blue, alpha from 0 to 1, or packed
- * 0xAARRGGBB where said; images are rows from the top of RGBA8 words, red in the lowest byte.
+ * centres at half-integers (both unless triptych_set_convention says otherwise), top-left fill rule; colours
+ * are red, green, blue, alpha from 0 to 1, or packed 0xAARRGGBB where said; images are rows from the top of
+ * RGBA8 words, red in the lowest byte.
  *
  * Errors: a call that fails returns something else than TRIPTYCH_OK, changes nothing, and triptych_error()
  * gives one line that says what was wrong and what was expected. */
@@ -148,12 +149,32 @@ enum triptych_face {
     TRIPTYCH_FACE_NEGATIVE_Z
 };
 
-enum triptych_primitive { TRIPTYCH_TRIANGLE_LIST, TRIPTYCH_TRIANGLE_STRIP, TRIPTYCH_TRIANGLE_FAN };
+enum triptych_primitive {
+    TRIPTYCH_TRIANGLE_LIST,
+    TRIPTYCH_TRIANGLE_STRIP,
+    TRIPTYCH_TRIANGLE_FAN,
+    TRIPTYCH_POINT_LIST,
+    TRIPTYCH_LINE_LIST,
+    TRIPTYCH_LINE_STRIP,
+    TRIPTYCH_PRIMITIVE_COUNT
+};
+
+/* Where interfaces differ: the first value of each is what a device begins with. */
+enum triptych_convention { TRIPTYCH_PIXEL_CENTER, TRIPTYCH_DEPTH_RANGE, TRIPTYCH_CONVENTION_COUNT };
+enum triptych_pixel_center {
+    TRIPTYCH_PIXEL_CENTER_HALF,   /* pixel 0's centre is at 0.5, as in Direct3D 10 and OpenGL */
+    TRIPTYCH_PIXEL_CENTER_INTEGER /* at 0, as in Direct3D 9 */
+};
+enum triptych_depth_range {
+    TRIPTYCH_DEPTH_RANGE_ZERO, /* clip depth from 0 to w, as in Direct3D */
+    TRIPTYCH_DEPTH_RANGE_MINUS /* from -w to w, as in OpenGL */
+};
 
 enum triptych_light_type { TRIPTYCH_LIGHT_DIRECTIONAL, TRIPTYCH_LIGHT_POINT };
 
 enum {
     TRIPTYCH_LIGHTS = 8,
+    TRIPTYCH_CLIP_PLANES = 6,
     TRIPTYCH_TARGET_MAXIMUM = 8192,
     TRIPTYCH_TEXTURE_MAXIMUM = 8192,
     TRIPTYCH_VOLUME_MAXIMUM = 2048
@@ -350,6 +371,13 @@ TRIPTYCH_API enum triptych_result triptych_set_viewport(triptych_device *, const
  * is on; an empty one lets nothing through. The whole target after set_target. */
 TRIPTYCH_API enum triptych_result triptych_set_scissor(triptych_device *, unsigned x, unsigned y,
                                                        unsigned width, unsigned height);
+/* Plane `i` (0 to 5) of world space: with bit i of the state clipplaneenable on, what is drawn is cut to
+ * x a + y b + z c + d >= 0. Zero at first: everything is inside. */
+TRIPTYCH_API enum triptych_result triptych_set_clip_plane(triptych_device *, unsigned i,
+                                                          const float plane[4]);
+/* Value: a number of enum triptych_pixel_center, or triptych_depth_range. */
+TRIPTYCH_API enum triptych_result triptych_set_convention(triptych_device *, enum triptych_convention,
+                                                          unsigned value);
 TRIPTYCH_API enum triptych_result triptych_set_material(triptych_device *, const struct triptych_material *);
 TRIPTYCH_API enum triptych_result triptych_set_light(triptych_device *, unsigned index,
                                                      const struct triptych_light *);
@@ -380,7 +408,7 @@ TRIPTYCH_API enum triptych_result triptych_set_element(triptych_device *, enum t
 /* bits is 16 or 32; null unbinds. */
 TRIPTYCH_API enum triptych_result triptych_set_indices(triptych_device *, triptych_buffer *, unsigned bits);
 
-/* Draws `count` primitives from vertex `first` on. */
+/* Draws `count` primitives (triangles, lines, points) from vertex `first` on. */
 TRIPTYCH_API enum triptych_result triptych_draw(triptych_device *, enum triptych_primitive, uint32_t first,
                                                 uint32_t count);
 /* Draws `count` primitives whose vertices are base + indices from `first` on. */

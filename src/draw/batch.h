@@ -1,8 +1,9 @@
-/* Geometry: primitives become batches of unique vertices, batches become triangle records in bins.
+/* Geometry: primitives become batches of unique vertices, batches become records in bins.
  *
  * A batch has up to BATCH_VERTICES vertices, each shaded once however many of the batch's triangles share it;
  * the lanes beyond are the clipper's. What a batch computes for a triangle does not depend on which others
- * are in it, so primitives may be cut into batches anywhere. */
+ * are in it, so primitives may be cut into batches anywhere. Lines and points go the same way: a line counts
+ * as a triangle whose third corner is its second, a point as one whose corners are all the same. */
 #ifndef DRAW_BATCH_H
 #define DRAW_BATCH_H
 
@@ -28,7 +29,7 @@ struct batch_place {
 /* One thread's workspace. */
 struct batch {
     alignas(64) float vertices[SLOT_COUNT * VERTEX_CAPACITY];
-    alignas(64) uint32_t setup_index[3][SETUP_CAPACITY];
+    alignas(64) uint32_t setup_index[SETUP_INDEX_ROWS][SETUP_CAPACITY];
     alignas(64) uint32_t vertex[VERTEX_CAPACITY]; /* index of the vertex in each lane */
     uint8_t lane[BATCH_TRIANGLES][4];             /* of each triangle's corners */
     struct batch_place map[BATCH_MAP];

@@ -76,7 +76,7 @@ uint8_t *bin_reserve(struct bin_writer *writer, uint32_t bytes);
 /* Takes the `count` records of `stride` bytes that setup has written at writer->at: drops those that touch no
  * pixel of the scissor rectangle, keeps and bins the others. Returns how many it kept, or -1 when the arena
  * is full: then none is binned. */
-int bin_triangles(struct bin_writer *writer, uint32_t count, uint32_t stride,
-                  const struct rectangle *scissor);
+int bin_records(struct bin_writer *writer, uint32_t count, uint32_t stride, enum raster_shape shape,
+                const struct rectangle *scissor);
 
 #endif

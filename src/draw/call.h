@@ -32,6 +32,7 @@ enum {
     VERTEX_SLOT_BYTES = VERTEX_CAPACITY * 4,
     SETUP_CAPACITY = 256, /* triangles of one setup call */
     SETUP_INDEX_BYTES = SETUP_CAPACITY * 4,
+    SETUP_INDEX_ROWS = 5,
     TILE_SIZE = 64,
     TILE_PIXELS = TILE_SIZE * TILE_SIZE,
     BLOCK_SIZE = 4,
@@ -39,7 +40,8 @@ enum {
     TILE_BLOCKS = TILE_PIXELS / BLOCK_PIXELS,
     TILE_PLANE_BYTES = TILE_PIXELS * 4,
     SUBPIXEL_BITS = 8,
-    TARGET_SIZE_MAXIMUM = 8192
+    TARGET_SIZE_MAXIMUM = 8192,
+    POINT_SIZE_MAXIMUM = 8192 /* pixels: half of it from beyond the guard band touches no target */
 };
 
 enum vertex_slot {
@@ -69,9 +71,12 @@ enum clip_bit {
     CLIP_GUARD_BOTTOM = 512,
     CLIP_GUARD_TOP = 1024,
     CLIP_INVALID = 2048, /* a coordinate is infinite or not a number */
-    CLIP_FRUSTUM = 127,
-    CLIP_NEEDED = CLIP_NEAR | CLIP_FAR | CLIP_EYE | CLIP_GUARD_LEFT | CLIP_GUARD_RIGHT | CLIP_GUARD_BOTTOM |
-                  CLIP_GUARD_TOP
+    CLIP_USER = 4096,    /* outside of user clip plane 0; the others' bits follow */
+    CLIP_USER_ALL = ((1 << CLIP_PLANES_USER) - 1) * CLIP_USER,
+    CLIP_DEPTH = CLIP_NEAR | CLIP_FAR,
+    CLIP_GUARD = CLIP_GUARD_LEFT | CLIP_GUARD_RIGHT | CLIP_GUARD_BOTTOM | CLIP_GUARD_TOP,
+    CLIP_FRUSTUM = 127 | CLIP_USER_ALL,
+    CLIP_NEEDED = CLIP_DEPTH | CLIP_EYE | CLIP_GUARD | CLIP_USER_ALL
 };
 
 #define CLIP_EYE_W 0x1p-40f /* vertices nearer to the eye plane are clipped: 1/w stays finite */
@@ -80,14 +85,17 @@ enum clip_bit {
  * edges. */
 #define WINDOW_LIMIT 4194303.0f
 
-/* The rasterizer's part of a triangle record, written by setup. Window positions in 1/256 pixel, y down,
- * ordered so that the area is positive (clockwise on the screen): interior points have all three edge
- * functions positive. */
+/* The rasterizer's part of a record, written by setup. Window positions in 1/256 pixel, y down.
+ *
+ * Triangles: ordered so that the area is positive (clockwise on the screen): interior points have all three
+ * edge functions positive. Lines: start and end in 0 and 1; x[2] is -1 if the last pixel is drawn, else 0.
+ * Points: left and top in 0, right and bottom in 1. What is not mentioned is not written. */
 struct triangle_head {
     int32_t visible; /* -1, or 0: culled or without area */
     int32_t x[3];
     int32_t y[3];
-    float origin_x; /* window position of vertex 0 in pixels: where the planes have their value */
+    float origin_x; /* window position of vertex 0 (points: the centre) in pixels: where the planes have their
+                       value */
     float origin_y;
 };
 
@@ -135,10 +143,13 @@ struct vertex_call {
 
 /* For each lane i < count (a multiple of 16, at most SETUP_CAPACITY): the triangle of batch vertices
  * index[0][i], index[1][i], index[2][i], as *byte* offsets of their lanes (4 * lane), into record i of out.
- */
+ *
+ * Lines and edges go from vertex 0 to vertex 1, points and corners are at vertex 0; edges and corners belong
+ * to the triangle of all three. These four have flat colours from vertex index[3][i]; index[4][i] is whether
+ * a line's last pixel is drawn (-1 or 0). Rows that a primitive does not have are not read. */
 struct setup_call {
     const struct job *job;
-    const uint32_t *index; /* three rows of SETUP_CAPACITY words */
+    const uint32_t *index; /* SETUP_INDEX_ROWS rows of SETUP_CAPACITY words */
     const float *vertices;
     uint8_t *out; /* count records of the key's stride, 64-byte aligned */
     uint32_t count;

@@ -24,12 +24,13 @@
 #include "draw/clip.h"
 
 #include <float.h>
+#include <stdbool.h>
 #include <string.h>
 
-/* The eye first: the others may then rely on w > 0. */
-enum clip_plane { EYE, NEAR, FAR, GUARD_LEFT, GUARD_RIGHT, GUARD_BOTTOM, GUARD_TOP };
+/* The eye first: the others may then rely on w > 0. Other user planes follow the first. */
+enum clip_plane { EYE, NEAR, FAR, GUARD_LEFT, GUARD_RIGHT, GUARD_BOTTOM, GUARD_TOP, USER };
 
-static const uint16_t plane_bit[CLIP_PLANES] = {
+static const uint32_t plane_bit[CLIP_PLANES] = {
     [EYE] = CLIP_EYE,
     [NEAR] = CLIP_NEAR,
     [FAR] = CLIP_FAR,
@@ -37,6 +38,12 @@ static const uint16_t plane_bit[CLIP_PLANES] = {
     [GUARD_RIGHT] = CLIP_GUARD_RIGHT,
     [GUARD_BOTTOM] = CLIP_GUARD_BOTTOM,
     [GUARD_TOP] = CLIP_GUARD_TOP,
+    [USER] = CLIP_USER,
+    [USER + 1] = CLIP_USER << 1,
+    [USER + 2] = CLIP_USER << 2,
+    [USER + 3] = CLIP_USER << 3,
+    [USER + 4] = CLIP_USER << 4,
+    [USER + 5] = CLIP_USER << 5,
 };
 
 enum { NO_LANE = VERTEX_CAPACITY };
@@ -45,6 +52,7 @@ struct point {
     float slot[SLOT_COUNT]; /* position and smooth slots are valid */
     uint32_t code;          /* CLIP_NEEDED bits of the planes that are still to come */
     uint32_t lane;          /* in the batch, or NO_LANE if new */
+    bool edge;              /* the polygon's edge from here to the next point lies on one of the triangle's */
 };
 
 struct polygon {
@@ -55,7 +63,7 @@ struct polygon {
 struct clipper clipper_create(const struct job *job, const uint8_t varying[VARYING_COUNT], float *vertices,
                               uint32_t next)
 {
-    struct clipper r = {.vertices = vertices, .next = next, .guard_x = job->guard_x, .guard_y = job->guard_y};
+    struct clipper r = {.vertices = vertices, .next = next, .job = job};
     for (int v = 0; v < VARYING_COUNT; v++) {
         uint64_t slots = ((UINT64_C(1) << varying_components[v]) - 1) << varying_slot[v];
         if (varying[v] == INTERPOLATION_SMOOTH)
@@ -76,7 +84,7 @@ static uint32_t needed_code(const struct clipper *c, uint32_t lane)
 {
     uint32_t code;
     memcpy(&code, batch_word(c, SLOT_CODE, lane), sizeof code);
-    return code & CLIP_NEEDED;
+    return code & CLIP_NEEDED & ~c->ignored;
 }
 
 /* What the guard band is multiplied by: in the window it is a number of pixels. */
@@ -89,16 +97,20 @@ static float guard_scale(const struct clipper *c, const float slot[SLOT_COUNT])
 static double distance(const struct clipper *c, enum clip_plane plane, const struct point *p)
 {
     double x = p->slot[SLOT_X], y = p->slot[SLOT_Y], z = p->slot[SLOT_Z], w = guard_scale(c, p->slot);
+    if (plane >= USER) {
+        const float *user = c->job->clip_plane[plane - USER];
+        return (double)user[0] * x + (double)user[1] * y + (double)user[2] * z + (double)user[3] * w;
+    }
     switch (plane) {
     case EYE: return w - CLIP_EYE_W;
     case NEAR: return z;
     case FAR: return w - z;
-    case GUARD_LEFT: return c->guard_x * w + x;
-    case GUARD_RIGHT: return c->guard_x * w - x;
-    case GUARD_BOTTOM: return c->guard_y * w + y;
-    case GUARD_TOP: return c->guard_y * w - y;
+    case GUARD_LEFT: return c->job->guard_x * w + x;
+    case GUARD_RIGHT: return c->job->guard_x * w - x;
+    case GUARD_BOTTOM: return c->job->guard_y * w + y;
+    case GUARD_TOP: return c->job->guard_y * w - y;
+    default: __builtin_unreachable();
     }
-    __builtin_unreachable();
 }
 
 /* The product may round to infinity where the coordinate itself is next to the largest float. */
@@ -115,10 +127,11 @@ static void put_on_plane(const struct clipper *c, enum clip_plane plane, float s
     case EYE: slot[SLOT_W] = CLIP_EYE_W; break;
     case NEAR: slot[SLOT_Z] = 0; break;
     case FAR: slot[SLOT_Z] = slot[SLOT_W]; break;
-    case GUARD_LEFT: slot[SLOT_X] = -guard_limit(c->guard_x, w); break;
-    case GUARD_RIGHT: slot[SLOT_X] = guard_limit(c->guard_x, w); break;
-    case GUARD_BOTTOM: slot[SLOT_Y] = -guard_limit(c->guard_y, w); break;
-    case GUARD_TOP: slot[SLOT_Y] = guard_limit(c->guard_y, w); break;
+    case GUARD_LEFT: slot[SLOT_X] = -guard_limit(c->job->guard_x, w); break;
+    case GUARD_RIGHT: slot[SLOT_X] = guard_limit(c->job->guard_x, w); break;
+    case GUARD_BOTTOM: slot[SLOT_Y] = -guard_limit(c->job->guard_y, w); break;
+    case GUARD_TOP: slot[SLOT_Y] = guard_limit(c->job->guard_y, w); break;
+    default:; /* no coordinate is a user plane's own */
     }
 }
 
@@ -180,8 +193,8 @@ static uint32_t inside_run(const struct polygon *p, enum clip_plane plane)
     return first | (inside & last);
 }
 
-static void clip_polygon(const struct clipper *c, enum clip_plane plane, const struct polygon *from,
-                         struct polygon *to)
+static void cut(const struct clipper *c, enum clip_plane plane, const struct polygon *from,
+                struct polygon *to)
 {
     uint32_t inside = inside_run(from, plane);
     to->count = 0;
@@ -193,14 +206,17 @@ static void clip_polygon(const struct clipper *c, enum clip_plane plane, const s
         int q_inside = inside >> j & 1;
         if (p_inside)
             to->point[to->count++] = *p;
-        if (p_inside != q_inside)
-            to->point[to->count++] = p_inside ? cross(c, plane, p, q) : cross(c, plane, q, p);
+        if (p_inside != q_inside) {
+            struct point *new = &to->point[to->count++];
+            *new = p_inside ? cross(c, plane, p, q) : cross(c, plane, q, p);
+            new->edge = q_inside && p->edge;
+        }
     }
 }
 
 static struct point load_point(const struct clipper *c, uint32_t lane)
 {
-    struct point p = {.code = needed_code(c, lane), .lane = lane};
+    struct point p = {.code = needed_code(c, lane), .lane = lane, .edge = true};
     for (uint64_t slots = c->smooth; slots; slots &= slots - 1) {
         int s = __builtin_ctzll(slots);
         p.slot[s] = *batch_word(c, s, lane);
@@ -223,28 +239,21 @@ static uint32_t store_point(struct clipper *c, const struct point *p, uint32_t p
     return lane;
 }
 
-static int store_fan(struct clipper *c, struct polygon *polygon, uint32_t provoking,
-                     uint32_t triangle[CLIP_TRIANGLES_MAXIMUM][3])
+/* Gives the new points lanes. Returns 0, or -1 when there are too few. */
+static int store_points(struct clipper *c, struct point *point, int count, uint32_t provoking)
 {
     uint32_t lanes = 0;
-    for (int i = 0; i < polygon->count; i++)
-        lanes += polygon->point[i].lane == NO_LANE;
+    for (int i = 0; i < count; i++)
+        lanes += point[i].lane == NO_LANE;
     if (lanes > VERTEX_CAPACITY - c->next)
         return -1;
-    for (int i = 0; i < polygon->count; i++) {
-        struct point *p = &polygon->point[i];
-        if (p->lane == NO_LANE)
-            p->lane = store_point(c, p, provoking);
-    }
-    for (int i = 0; i < polygon->count - 2; i++) {
-        triangle[i][0] = polygon->point[0].lane;
-        triangle[i][1] = polygon->point[i + 1].lane;
-        triangle[i][2] = polygon->point[i + 2].lane;
-    }
-    return polygon->count - 2;
+    for (int i = 0; i < count; i++)
+        if (point[i].lane == NO_LANE)
+            point[i].lane = store_point(c, &point[i], provoking);
+    return 0;
 }
 
-int clip_triangle(struct clipper *c, const uint32_t lane[3], uint32_t triangle[CLIP_TRIANGLES_MAXIMUM][3])
+int clip_polygon(struct clipper *c, const uint32_t lane[3], struct clipped *clipped)
 {
     struct polygon polygon[2];
     struct polygon *from = &polygon[0], *to = &polygon[1];
@@ -255,10 +264,49 @@ int clip_triangle(struct clipper *c, const uint32_t lane[3], uint32_t triangle[C
     for (int plane = 0; plane < CLIP_PLANES && from->count; plane++) {
         if (!(code & plane_bit[plane]))
             continue;
-        clip_polygon(c, plane, from, to);
+        cut(c, plane, from, to);
         struct polygon *swap = from;
         from = to;
         to = swap;
     }
-    return from->count < 3 ? 0 : store_fan(c, from, lane[0], triangle);
+    *clipped = (struct clipped){.count = from->count < 3 ? 0 : from->count};
+    for (int i = 0; i < clipped->count; i++) {
+        clipped->corners |= (uint32_t)(from->point[i].lane != NO_LANE) << i;
+        clipped->edges |= (uint32_t)from->point[i].edge << i;
+    }
+    if (store_points(c, from->point, clipped->count, lane[0]))
+        return -1;
+    for (int i = 0; i < clipped->count; i++)
+        clipped->lane[i] = from->point[i].lane;
+    return 0;
+}
+
+int clip_triangle(struct clipper *c, const uint32_t lane[3], uint32_t triangle[CLIP_TRIANGLES_MAXIMUM][3])
+{
+    struct clipped clipped;
+    if (clip_polygon(c, lane, &clipped))
+        return -1;
+    for (int i = 0; i < clipped.count - 2; i++) {
+        triangle[i][0] = clipped.lane[0];
+        triangle[i][1] = clipped.lane[i + 1];
+        triangle[i][2] = clipped.lane[i + 2];
+    }
+    return clipped.count ? clipped.count - 2 : 0;
+}
+
+int clip_line(struct clipper *c, const uint32_t lane[2], uint32_t left[2])
+{
+    struct point end[2] = {load_point(c, lane[0]), load_point(c, lane[1])};
+    for (int plane = 0; plane < CLIP_PLANES; plane++) {
+        bool outside[2] = {end[0].code & plane_bit[plane], end[1].code & plane_bit[plane]};
+        if (outside[0] && outside[1])
+            return 0;
+        if (outside[0] || outside[1])
+            end[outside[1]] = cross(c, plane, &end[outside[0]], &end[outside[1]]);
+    }
+    if (store_points(c, end, 2, lane[0]))
+        return -1;
+    left[0] = end[0].lane;
+    left[1] = end[1].lane;
+    return 1;
 }

@@ -1,13 +1,13 @@
-/* The clipper: one triangle of a vertex batch against the planes that its vertices' clip codes name
- * (CLIP_NEEDED in draw/call.h: eye, near, far and guard band; the sides of the frustum are the rasterizer's).
- */
+/* The clipper: one triangle or line of a vertex batch against the planes that its vertices' clip codes name
+ * (CLIP_NEEDED in draw/call.h: eye, near, far, guard band and user planes; the sides of the frustum are the
+ * rasterizer's). */
 #ifndef DRAW_CLIP_H
 #define DRAW_CLIP_H
 
 #include "draw/call.h"
 
 enum {
-    CLIP_PLANES = 7,
+    CLIP_PLANES = 7 + CLIP_PLANES_USER,
     CLIP_VERTICES_MAXIMUM =
         3 + CLIP_PLANES, /* of the clipped polygon, and so of new lanes for one triangle */
     CLIP_TRIANGLES_MAXIMUM = CLIP_VERTICES_MAXIMUM - 2
@@ -15,18 +15,26 @@ enum {
 
 /* Where the clipper works. Several may be used on one batch in turn if `next` is carried along. */
 struct clipper {
-    float *vertices; /* the batch: SLOT_COUNT * VERTEX_CAPACITY words (draw/call.h) */
-    uint32_t next;   /* first free lane; advances by the lanes that each triangle takes */
-    uint64_t smooth; /* bit s: slot s is interpolated */
-    uint64_t flat;   /* bit s: slot s is copied from the triangle's vertex 0 */
-    float guard_x;   /* of the job */
-    float guard_y;
+    float *vertices;  /* the batch: SLOT_COUNT * VERTEX_CAPACITY words (draw/call.h) */
+    uint32_t next;    /* first free lane; advances by the lanes that each triangle takes */
+    uint64_t smooth;  /* bit s: slot s is interpolated */
+    uint64_t flat;    /* bit s: slot s is copied from the triangle's vertex 0 */
+    uint32_t ignored; /* bits of clip codes whose planes do not clip */
+    const struct job *job;
     int window; /* vertices are in the window: x, y, depth, 1/w */
 };
 
-/* A clipper for the batch of one draw. `varying` holds an enum interpolation for each varying: those of the
- * setup key. Position and clip code are always written; slots of varyings that are INTERPOLATION_NONE never.
- * The caller sets `window` from the same key. */
+/* What is left of a triangle: a convex polygon with the triangle's winding. */
+struct clipped {
+    int count; /* of vertices: 0, or 3 to CLIP_VERTICES_MAXIMUM */
+    uint32_t lane[CLIP_VERTICES_MAXIMUM];
+    uint32_t corners; /* bit i: vertex i is one of the triangle's */
+    uint32_t edges;   /* bit i: the edge from vertex i to the next lies on one of the triangle's */
+};
+
+/* A clipper for the batch of one draw, whose job it keeps. `varying` holds an enum interpolation for each
+ * varying: those of the setup key. Position and clip code are always written; slots of varyings that are
+ * INTERPOLATION_NONE never. The caller sets `window` and `ignored`. */
 struct clipper clipper_create(const struct job *job, const uint8_t varying[VARYING_COUNT], float *vertices,
                               uint32_t next);
 
@@ -37,5 +45,12 @@ struct clipper clipper_create(const struct job *job, const uint8_t varying[VARYI
  * after the batch is set up and `next` taken back, CLIP_VERTICES_MAXIMUM free lanes are always enough. */
 int clip_triangle(struct clipper *clipper, const uint32_t lane[3],
                   uint32_t triangle[CLIP_TRIANGLES_MAXIMUM][3]);
+
+/* The same, but gives the polygon. Returns 0 with *clipped filled in, or -1. */
+int clip_polygon(struct clipper *clipper, const uint32_t lane[3], struct clipped *clipped);
+
+/* Clips the line from lane[0] to lane[1]. Returns 1 with the lanes of what is left, which has the flat values
+ * of the original, in `left`; 0 when nothing is; -1 as clip_triangle does. */
+int clip_line(struct clipper *clipper, const uint32_t lane[2], uint32_t left[2]);
 
 #endif

@@ -17,7 +17,11 @@ struct draw {
     const void *indices; /* the first one; null: vertices in order */
     uint32_t index_bits; /* 16 or 32; 0: vertices in order */
     uint32_t base;       /* added to each index, modulo 2^32 */
-    uint32_t stride;     /* bytes of a triangle record */
+    uint32_t stride;     /* bytes of a record */
+    enum raster_shape shape;
+    uint32_t clip_ignored; /* bits of clip codes that do not count */
+    bool last_pixel;       /* lines draw their last */
+    bool flat;             /* of edges and corners: colours are the triangle's first vertex' */
 };
 
 struct command {

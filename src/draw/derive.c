@@ -12,40 +12,23 @@ _Static_assert((int)LIGHT_COUNT == (int)TRIPTYCH_LIGHTS, "as many lights as the 
 _Static_assert((int)LIGHT_POINT == TRIPTYCH_LIGHT_POINT + 1, "light types follow the public ones");
 _Static_assert((int)TARGET_SIZE_MAXIMUM == (int)TRIPTYCH_TARGET_MAXIMUM, "one limit of the target");
 
-static bool smooth_varyings(const struct pixel_key *key)
-{
-    for (int v = 0; v < VARYING_COUNT; v++)
-        if (key->varying[v] == INTERPOLATION_SMOOTH)
-            return true;
-    return false;
-}
-
-void derive_setup(const struct state *state, const struct pixel_key *pixel, struct setup_key *key)
-{
-    key->cull = (uint8_t)(GET(cullmode) - CULLMODE_none);
-    key->window = state->element[ATTRIBUTE_POSITIONT].format != TRIPTYCH_FORMAT_NONE;
-    key->depth = (uint8_t)pixel_reads_depth(pixel);
-    key->w = pixel_reads_w(pixel) && !smooth_varyings(pixel);
-    memcpy(key->varying, pixel->varying, sizeof key->varying);
-}
-
 bool derive_effective(const struct pixel_key *key)
 {
     return pixel_write_mask(key) || key->depth_write;
 }
 
-void derive_keys(const struct state *state, union key key[UNIT_COUNT])
+void derive_keys(const struct state *state, enum primitive primitive, union key key[UNIT_COUNT])
 {
     memset(key, 0, UNIT_COUNT * sizeof *key);
-    derive_pixel(state, &key[UNIT_PIXEL].pixel);
-    derive_setup(state, &key[UNIT_PIXEL].pixel, &key[UNIT_SETUP].setup);
-    derive_vertex(state, &key[UNIT_PIXEL].pixel, &key[UNIT_VERTEX].vertex);
+    derive_pixel(state, primitive, &key[UNIT_PIXEL].pixel);
+    derive_setup(state, primitive, &key[UNIT_PIXEL].pixel, &key[UNIT_SETUP].setup);
+    derive_vertex(state, &key[UNIT_PIXEL].pixel, &key[UNIT_SETUP].setup, &key[UNIT_VERTEX].vertex);
 }
 
-/* Column i's centre is at i + 1/2. */
-static int32_t first_centre(double edge)
+/* The first column whose centre is at `edge` or behind it. */
+static int32_t first_centre(const struct state *state, double edge)
 {
-    return (int32_t)ceil(edge - 0.5);
+    return (int32_t)ceil(edge - pixel_centre(state));
 }
 
 static int32_t at_least(int32_t low, int32_t value)
@@ -61,8 +44,9 @@ static int32_t at_most(int32_t high, int32_t value)
 struct rectangle derive_scissor(const struct state *state)
 {
     double x = (double)state->viewport.x, y = (double)state->viewport.y;
-    struct rectangle r = {first_centre(x), first_centre(y), first_centre(x + (double)state->viewport.width),
-                          first_centre(y + (double)state->viewport.height)};
+    struct rectangle r = {first_centre(state, x), first_centre(state, y),
+                          first_centre(state, x + (double)state->viewport.width),
+                          first_centre(state, y + (double)state->viewport.height)};
     if (!GET(scissortestenable))
         return r;
     const struct scissor *s = &state->scissor;

@@ -16,8 +16,20 @@
  */
 #define GUARD_BAND_PIXELS 16383.0
 
-/* The keys, indexed by enum unit. */
-void derive_keys(const struct state *state, union key key[UNIT_COUNT]);
+/* The keys of draws of a primitive, indexed by enum unit. */
+void derive_keys(const struct state *state, enum primitive primitive, union key key[UNIT_COUNT]);
+
+/* What a draw of these is for setup, with the fill mode of triangles. */
+enum primitive derive_primitive(const struct state *state, enum triptych_primitive primitive);
+
+/* How the rasterizer covers them, and the bits of clip codes that count for nothing: all but those that keep
+ * positions finite and in reach while clipping is off. */
+enum raster_shape derive_shape(enum primitive primitive);
+uint32_t derive_clip_ignored(const struct state *state);
+
+/* Whether lines draw their last pixel, and whether triangles have one colour. */
+bool derive_last_pixel(const struct state *state);
+bool derive_flat(const struct state *state);
 
 /* Whether a draw with this key can change the target at all. */
 bool derive_effective(const struct pixel_key *key);

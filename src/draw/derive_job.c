@@ -42,6 +42,14 @@ static void store_matrix(const struct matrix *source, float target[4][4])
             target[i][j] = derive_narrow(source->m[i][j]);
 }
 
+/* Clip depth from -w to w becomes 0 to w: z' = z / 2 + w / 2. */
+static void fold_depth_range(const struct state *state, struct matrix *projection)
+{
+    if (state->convention[TRIPTYCH_DEPTH_RANGE] == TRIPTYCH_DEPTH_RANGE_MINUS)
+        for (int i = 0; i < 4; i++)
+            projection->m[i][2] = projection->m[i][2] / 2 + projection->m[i][3] / 2;
+}
+
 static double cofactor(const struct matrix *m, int row, int column)
 {
     int r1 = (row + 1) % 3, r2 = (row + 2) % 3, c1 = (column + 1) % 3, c2 = (column + 2) % 3;
@@ -130,10 +138,13 @@ static float guard_band(double half, double centre)
     return (float)fmin((GUARD_BAND_PIXELS - centre) / half, 0x1p20);
 }
 
-static void fill_viewport(const struct triptych_viewport *viewport, struct job *job)
+static void fill_viewport(const struct state *state, struct job *job)
 {
+    const struct triptych_viewport *viewport = &state->viewport;
     double half_width = (double)viewport->width / 2, half_height = (double)viewport->height / 2;
-    double centre_x = (double)viewport->x + half_width, centre_y = (double)viewport->y + half_height;
+    double shift = 0.5 - pixel_centre(state); /* the rasterizer's pixel 0 has its centre at 0.5 */
+    double centre_x = (double)viewport->x + half_width + shift;
+    double centre_y = (double)viewport->y + half_height + shift;
     double subpixels = 1 << SUBPIXEL_BITS;
     job->guard_x = guard_band(half_width, centre_x);
     job->guard_y = guard_band(half_height, centre_y);
@@ -146,8 +157,9 @@ static void fill_viewport(const struct triptych_viewport *viewport, struct job *
 }
 
 /* Vertices in the window: only the grid of 1/256 pixel is left to find, and depth is as it is. */
-static void fill_window(struct job *job)
+static void fill_window(const struct state *state, struct job *job)
 {
+    job->offset_x = job->offset_y = (float)((0.5 - pixel_centre(state)) * (1 << SUBPIXEL_BITS));
     job->guard_x = job->guard_y = (float)GUARD_BAND_PIXELS;
     job->scale_x = job->scale_y = 1 << SUBPIXEL_BITS;
     job->depth_scale = 1;
@@ -215,6 +227,8 @@ __attribute__((noinline)) static void fill_job(const struct state *state, const 
     struct matrix world = matrix_of((const float(*)[4])state->transform[TRIPTYCH_TRANSFORM_WORLD]);
     struct matrix view = matrix_of((const float(*)[4])state->transform[TRIPTYCH_TRANSFORM_VIEW]);
     struct matrix projection = matrix_of((const float(*)[4])state->transform[TRIPTYCH_TRANSFORM_PROJECTION]);
+    fold_depth_range(state, &projection);
+    struct matrix view_projection = multiply(&view, &projection);
     struct matrix world_view = multiply(&world, &view);
     struct matrix world_view_projection = multiply(&world_view, &projection);
     fill_attributes(state, vertex, job);
@@ -225,9 +239,10 @@ __attribute__((noinline)) static void fill_job(const struct state *state, const 
         fill_lighting(state, &view, job);
     }
     if (vertex->attribute[ATTRIBUTE_POSITIONT] != ATTRIBUTE_FORMAT_NONE)
-        fill_window(job);
+        fill_window(state, job);
     else
-        fill_viewport(&state->viewport, job);
+        fill_viewport(state, job);
+    derive_setup_job(state, vertex, (const double(*)[4])view_projection.m, job);
     fill_stages(state, pixel, job);
     fill_fog(state, pixel, job);
     if (pixel->alpha_discard)

@@ -47,9 +47,21 @@ void derive_blend(const struct state *state, struct pixel_key *key);
 void derive_stage(const struct state *state, struct pixel_key *key);
 void derive_texture(const struct state *state, struct pixel_key *key);
 void derive_fog(const struct state *state, struct pixel_key *key);
-void derive_pixel(const struct state *state, struct pixel_key *key);
-void derive_setup(const struct state *state, const struct pixel_key *pixel, struct setup_key *key);
-void derive_vertex(const struct state *state, const struct pixel_key *pixel, struct vertex_key *key);
+void derive_pixel(const struct state *state, enum primitive primitive, struct pixel_key *key);
+void derive_setup(const struct state *state, enum primitive primitive, const struct pixel_key *pixel,
+                  struct setup_key *key);
+void derive_vertex(const struct state *state, const struct pixel_key *pixel, const struct setup_key *setup,
+                   struct vertex_key *key);
+
+/* Where pixel 0's centre is in the window of the viewport. */
+static inline double pixel_centre(const struct state *state)
+{
+    return state->convention[TRIPTYCH_PIXEL_CENTER] == TRIPTYCH_PIXEL_CENTER_INTEGER ? 0 : 0.5;
+}
+
+/* Depth bias, point size and user clip planes; `view_projection` as the vertex routine applies it. */
+void derive_setup_job(const struct state *state, const struct vertex_key *vertex,
+                      const double view_projection[4][4], struct job *job);
 
 /* The first stage whose coordinates come in a channel; -1 when none do. */
 int derive_channel_stage(const struct pixel_key *key, int channel);

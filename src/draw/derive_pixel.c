@@ -42,7 +42,15 @@ static bool reads_specular(const struct pixel_key *key)
     return key->specular;
 }
 
-void derive_pixel(const struct state *state, struct pixel_key *key)
+/* Nothing varies over a point but a sprite's texture coordinates: what is flat is exact, and costs less. */
+static void flatten(const struct state *state, struct pixel_key *key)
+{
+    for (int v = 0; v < VARYING_COUNT; v++)
+        if (key->varying[v] && !(varying_is_coordinate(v) && GET(pointspriteenable)))
+            key->varying[v] = INTERPOLATION_FLAT;
+}
+
+void derive_pixel(const struct state *state, enum primitive primitive, struct pixel_key *key)
 {
     derive_depth(state, key);
     derive_targets(state, key);
@@ -67,9 +75,11 @@ void derive_pixel(const struct state *state, struct pixel_key *key)
         key->specular = GET(specularenable) != 0;
         derive_fog(state, key);
     }
-    uint8_t shading = GET(shademode) == SHADEMODE_flat ? INTERPOLATION_FLAT : INTERPOLATION_SMOOTH;
+    uint8_t shading = derive_flat(state) ? INTERPOLATION_FLAT : INTERPOLATION_SMOOTH;
     if (reads_diffuse(key))
         key->varying[VARYING_diffuse] = shading;
     if (reads_specular(key))
         key->varying[VARYING_specular] = shading;
+    if (primitive_is_point(primitive))
+        flatten(state, key);
 }

@@ -1,4 +1,4 @@
-/* The vertex key: what of the vertex declaration and of lighting the pixel key's varyings need. */
+/* The vertex key: what of the vertex declaration and of lighting the setup key's varyings need. */
 #include "draw/derive_part.h"
 
 /* The bound format, cut to the components that the vertex routine can read. */
@@ -33,13 +33,23 @@ static void derive_texcoord(const struct state *state, int stage, uint8_t *set, 
     key->attribute[attribute] = derive_format(state, attribute, 2);
 }
 
-void derive_vertex(const struct state *state, const struct pixel_key *pixel, struct vertex_key *key)
+/* A point sprite's texture coordinates are setup's. */
+static int is_read(const struct setup_key *setup, int varying)
+{
+    int smooth = setup->varying[varying] == INTERPOLATION_SMOOTH;
+    return setup->varying[varying] != INTERPOLATION_NONE && !(smooth && primitive_is_point(setup->primitive));
+}
+
+void derive_vertex(const struct state *state, const struct pixel_key *pixel, const struct setup_key *setup,
+                   struct vertex_key *key)
 {
     for (int v = 0; v < VARYING_COUNT; v++)
-        key->varying[v] = pixel->varying[v] != INTERPOLATION_NONE;
-    int window = state->element[ATTRIBUTE_POSITIONT].format != TRIPTYCH_FORMAT_NONE;
+        key->varying[v] = (uint8_t)is_read(setup, v);
+    int window = setup->window;
     enum attribute position = window ? ATTRIBUTE_POSITIONT : ATTRIBUTE_POSITION;
     key->attribute[position] = derive_format(state, position, 4);
+    if (GET(clipping) && !window)
+        key->clip_planes = (uint8_t)__builtin_popcount(GET(clipplaneenable));
     for (int channel = 0; channel < TEXTURE_STAGES; channel++)
         if (key->varying[varying_texcoord(channel)])
             derive_texcoord(state, derive_channel_stage(pixel, channel), &key->texcoord[channel], key);

@@ -172,10 +172,15 @@ static enum triptych_result check_target(const struct triptych_device *device, s
     return TRIPTYCH_BAD_CALL;
 }
 
-/* Vertices or indices that `count` primitives take. */
-static uint64_t corner_count(enum triptych_primitive primitive, uint32_t count)
+uint64_t primitive_corners(enum triptych_primitive primitive, uint32_t count)
 {
-    return primitive == TRIPTYCH_TRIANGLE_LIST ? 3 * (uint64_t)count : (uint64_t)count + 2;
+    switch (primitive) {
+    case TRIPTYCH_TRIANGLE_LIST: return 3 * (uint64_t)count;
+    case TRIPTYCH_LINE_LIST: return 2 * (uint64_t)count;
+    case TRIPTYCH_LINE_STRIP: return (uint64_t)count + 1;
+    case TRIPTYCH_POINT_LIST: return count;
+    default: return (uint64_t)count + 2;
+    }
 }
 
 /* Whether vertex `last` of an attribute lies in its buffer. */
@@ -224,9 +229,12 @@ static enum triptych_result check_vertices(const struct triptych_device *device,
 static enum triptych_result check_draw(const struct triptych_device *device,
                                        enum triptych_primitive primitive, struct error *error)
 {
-    if ((unsigned)primitive > TRIPTYCH_TRIANGLE_FAN) {
-        error_set(error, "primitive %u: expected a triangle list (0), strip (1) or fan (2)",
-                  (unsigned)primitive);
+    if ((unsigned)primitive >= TRIPTYCH_PRIMITIVE_COUNT) {
+        error_set(
+            error,
+            "primitive %u: expected a triangle list (0), strip (1) or fan (2), a point list (3), a line "
+            "list (4) or strip (5)",
+            (unsigned)primitive);
         return TRIPTYCH_BAD_ARGUMENT;
     }
     enum triptych_result result = check_target(device, error);
@@ -285,11 +293,12 @@ static enum triptych_result check_indices(const struct triptych_device *device, 
 /* --- Recording --------------------------------------------------------------------------------------------
  */
 
-static void derive(struct triptych_device *device)
+static void derive(struct triptych_device *device, enum triptych_primitive drawn)
 {
-    if (device->derived)
+    enum primitive primitive = derive_primitive(&device->state, drawn);
+    if (device->derived && device->key[UNIT_SETUP].setup.primitive == primitive)
         return;
-    derive_keys(&device->state, device->key);
+    derive_keys(&device->state, primitive, device->key);
     derive_job(&device->state, &device->key[UNIT_VERTEX].vertex, &device->key[UNIT_PIXEL].pixel,
                &device->job);
     device->derived = true;
@@ -365,6 +374,10 @@ static enum triptych_result record_instance(struct triptych_device *device, cons
     memcpy(draw->routine, routine, sizeof draw->routine);
     draw->scissor = derive_scissor(&device->state);
     draw->stride = setup_layout(setup).stride;
+    draw->shape = derive_shape(setup->primitive);
+    draw->clip_ignored = derive_clip_ignored(&device->state);
+    draw->last_pixel = derive_last_pixel(&device->state);
+    draw->flat = derive_flat(&device->state);
     device->frame->commands++;
     mark_textures(device);
     return TRIPTYCH_OK;
@@ -393,10 +406,10 @@ enum triptych_result device_draw(struct triptych_device *device, enum triptych_p
     enum triptych_result result = check_draw(device, primitive, error);
     if (result != TRIPTYCH_OK)
         return result;
-    derive(device);
+    derive(device, primitive);
     result = check_no_instances(device, error);
     if (count && result == TRIPTYCH_OK)
-        result = check_sequence(device, first, corner_count(primitive, count), error);
+        result = check_sequence(device, first, primitive_corners(primitive, count), error);
     struct draw draw = {.primitive = primitive, .count = count, .base = first};
     return result == TRIPTYCH_OK ? record(device, &draw, error) : result;
 }
@@ -412,9 +425,9 @@ enum triptych_result device_draw_indexed(struct triptych_device *device, enum tr
     }
     if (result != TRIPTYCH_OK)
         return result;
-    derive(device);
+    derive(device, primitive);
     if (count)
-        result = check_indices(device, base, first, corner_count(primitive, count), error);
+        result = check_indices(device, base, first, primitive_corners(primitive, count), error);
     struct draw draw = {.primitive = primitive, .count = count, .base = (uint32_t)base};
     draw.index_bits = state->index_bits;
     draw.indices = count ? state->indices->data + (size_t)first * (state->index_bits / 8) : NULL;

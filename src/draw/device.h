@@ -59,6 +59,9 @@ static inline void device_state_changed(struct triptych_device *device)
     device->derived = false;
 }
 
+/* Vertices or indices that `count` primitives take; count is not 0. */
+uint64_t primitive_corners(enum triptych_primitive primitive, uint32_t count);
+
 /* Records `count` primitives: from vertex `first` on, or with the bound indices from `first` on, plus base.
  */
 enum triptych_result device_draw(struct triptych_device *device, enum triptych_primitive primitive,

@@ -84,6 +84,11 @@ struct job {
     int32_t alpha_reference; /* 0 to 255 */
     uint32_t blend_constant;
     const struct srgb_tables *srgb;
+
+    float depth_bias;                      /* added to the depth of triangles */
+    float depth_bias_slope;                /* the same, times the triangle's greatest slope */
+    float point_size;                      /* pixels */
+    float clip_plane[CLIP_PLANES_USER][4]; /* in clip space: inside where the product with x y z w is >= 0 */
 };
 
 #endif

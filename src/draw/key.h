@@ -83,6 +83,12 @@ static inline int varying_is_texcoord(int varying)
     return varying >= VARYING_texcoord0 && varying < VARYING_specular &&
            !((varying - VARYING_texcoord0) % VARYING_CHANNEL);
 }
+/* Whether it is one of a channel's three. */
+static inline int varying_is_coordinate(int varying)
+{
+    return varying >= VARYING_texcoord0 && varying < VARYING_specular;
+}
+
 static inline int varying_is_divisor(int varying)
 {
     return varying >= VARYING_divisor0 && varying < VARYING_specular &&
@@ -90,6 +96,22 @@ static inline int varying_is_divisor(int varying)
 }
 
 enum interpolation { INTERPOLATION_NONE, INTERPOLATION_SMOOTH, INTERPOLATION_FLAT, INTERPOLATION_COUNT };
+
+/* What setup makes of its vertices: a record for each triangle, line or point drawn, or for each edge or
+ * corner of a triangle that is drawn in wireframe or as points, which then decides about culling and depth
+ * bias. */
+enum primitive {
+    PRIMITIVE_TRIANGLE,
+    PRIMITIVE_LINE,
+    PRIMITIVE_POINT,
+    PRIMITIVE_EDGE,
+    PRIMITIVE_CORNER,
+    PRIMITIVE_COUNT
+};
+
+enum depth_bias { DEPTH_BIAS_NONE, DEPTH_BIAS_CONSTANT, DEPTH_BIAS_SLOPE, DEPTH_BIAS_COUNT };
+
+enum { CLIP_PLANES_USER = 6 };
 
 enum cull { CULL_NONE, CULL_CLOCKWISE, CULL_COUNTERCLOCKWISE, CULL_COUNT };
 
@@ -319,6 +341,19 @@ static inline int pixel_write_mask(const struct pixel_key *key)
     for (int t = 0; t < TARGETS; t++)
         mask |= key->write_mask[t];
     return mask;
+}
+
+/* Whether records of the primitive are squares, on which nothing but a point sprite's texture coordinates
+ * varies. */
+static inline int primitive_is_point(int primitive)
+{
+    return primitive == PRIMITIVE_POINT || primitive == PRIMITIVE_CORNER;
+}
+
+/* Whether it is part of a triangle, which has a winding and a slope. */
+static inline int primitive_has_area(int primitive)
+{
+    return primitive != PRIMITIVE_LINE && primitive != PRIMITIVE_POINT;
 }
 
 /* Whether the pixel routine computes colours: to write them, or to find whose depth the alpha test keeps. */

@@ -22,39 +22,15 @@
  * all signs are right, and |s + a i + b j| < 2^31. The corners of groups are pixels of the tile, too.
  *
  * Signs are taken together: the bitwise or of three edge functions is negative where any of them is. */
-#include "draw/raster.h"
+#include "draw/raster_part.h"
 
 #include <emmintrin.h>
 
 enum {
-    SUBPIXELS = 1 << SUBPIXEL_BITS,
-    CENTRE = SUBPIXELS / 2,
     SATURATION = 1 << 30,
-    GROUP_SIZE = 16, /* pixels: 4x4 blocks */
-    ROW_BLOCKS = TILE_SIZE / BLOCK_SIZE,
-    DIRECT_BLOCKS = 32, /* bounds of up to so many: measured, from 16 to 64 it makes no difference */
-    WHOLE_BLOCK = (1 << BLOCK_PIXELS) - 1
+    GROUP_SIZE = 16,   /* pixels: 4x4 blocks */
+    DIRECT_BLOCKS = 32 /* bounds of up to so many: measured, from 16 to 64 it makes no difference */
 };
-
-/* Lanes of a block in its columns (rows) k and after, for k from 0 to 4. */
-static const uint16_t columns_from[BLOCK_SIZE + 1] = {0xffff, 0xfafa, 0xf0f0, 0xa0a0, 0};
-static const uint16_t rows_from[BLOCK_SIZE + 1] = {0xffff, 0xffcc, 0xff00, 0xcc00, 0};
-
-static inline int32_t minimum(int32_t a, int32_t b)
-{
-    return a < b ? a : b;
-}
-
-static inline int32_t maximum(int32_t a, int32_t b)
-{
-    return a > b ? a : b;
-}
-
-/* The first pixel whose centre is at the window position or after it. */
-static inline int32_t pixel_from(int32_t position)
-{
-    return (position + CENTRE - 1) >> SUBPIXEL_BITS;
-}
 
 /* The triangle's own bounds, in 1/256 pixel, inclusive. */
 static inline struct rectangle window_bounds(const struct triangle_head *head)
@@ -212,12 +188,6 @@ static inline uint32_t block_coverage(const struct walk *w, const __m128i value[
     __m128i upper = _mm_packs_epi32(quad_signs(w, value, 0), quad_signs(w, value, 1));
     __m128i lower = _mm_packs_epi32(quad_signs(w, value, 2), quad_signs(w, value, 3));
     return ~(uint32_t)_mm_movemask_epi8(_mm_packs_epi16(upper, lower)) & WHOLE_BLOCK;
-}
-
-/* Lanes of the block from `first` on, along one axis, that the range start <= position < end keeps. */
-static inline uint32_t kept(const uint16_t from[BLOCK_SIZE + 1], int32_t first, int32_t start, int32_t end)
-{
-    return from[maximum(start - first, 0)] & ~from[minimum(end - first, BLOCK_SIZE)];
 }
 
 /* Which lanes of each column's blocks the bounds keep. */
@@ -458,3 +428,9 @@ uint32_t raster_tile(const struct triangle_head *head, const struct rectangle *s
         emit_any(&w, head, columns, rows);
     return (uint32_t)(w.next - entries);
 }
+
+const struct rasterizer rasterizer[SHAPE_COUNT] = {
+    [SHAPE_TRIANGLE] = {raster_bounds, raster_prepare, raster_tile},
+    [SHAPE_LINE] = {line_bounds, line_prepare, line_tile},
+    [SHAPE_POINT] = {point_bounds, point_prepare, point_tile},
+};

@@ -1,8 +1,9 @@
-/* The rasterizer: which pixels a triangle covers, tile by tile.
+/* The rasterizer: which pixels a triangle, a line or a point covers, tile by tile.
  *
- * Input is the head of a triangle record (draw/call.h). A pixel is covered when its centre is inside, or on
- * an edge that is a top or a left one; so of triangles that share an edge exactly one covers a centre on it.
- * Results are exact for all window positions within WINDOW_LIMIT. */
+ * Input is the head of a record (draw/call.h). A pixel is covered by a triangle when its centre is inside, or
+ * on an edge that is a top or a left one; so of triangles that share an edge exactly one covers a centre on
+ * it. Lines follow the diamond rule (draw/raster_line.c), points the rule of the squares that they are
+ * (draw/raster_point.c). Results are exact for all window positions within WINDOW_LIMIT. */
 #ifndef DRAW_RASTER_H
 #define DRAW_RASTER_H
 
@@ -24,6 +25,9 @@ struct raster {
     struct rectangle bounds; /* pixels: the bounding box of the centres inside, cut to the scissor */
 };
 
+/* What a record is to be drawn as. */
+enum raster_shape { SHAPE_TRIANGLE, SHAPE_LINE, SHAPE_POINT, SHAPE_COUNT };
+
 /* The bounding box of the centres that a visible triangle may cover, cut to the rectangle. Returns whether
  * anything is left. */
 bool raster_bounds(const struct triangle_head *head, const struct rectangle *limit, struct rectangle *bounds);
@@ -44,5 +48,26 @@ bool raster_touches(const struct raster *raster, int column, int row);
  * returns how many. `triangle` goes to the entries unchanged. Up to TILE_BLOCKS entries are written. */
 uint32_t raster_tile(const struct triangle_head *head, const struct rectangle *scissor, int column, int row,
                      uint32_t triangle, struct entry *entries);
+
+typedef uint32_t raster_function(const struct triangle_head *head, const struct rectangle *scissor,
+                                 int column, int row, uint32_t record, struct entry *entries);
+
+/* The same three functions for each shape: bounds, prepare and tile. */
+struct rasterizer {
+    bool (*bounds)(const struct triangle_head *head, const struct rectangle *limit, struct rectangle *bounds);
+    bool (*prepare)(struct raster *raster, const struct triangle_head *head, const struct rectangle *scissor);
+    raster_function *tile;
+};
+
+extern const struct rasterizer rasterizer[SHAPE_COUNT];
+
+bool line_bounds(const struct triangle_head *head, const struct rectangle *limit, struct rectangle *bounds);
+bool line_prepare(struct raster *raster, const struct triangle_head *head, const struct rectangle *scissor);
+uint32_t line_tile(const struct triangle_head *head, const struct rectangle *scissor, int column, int row,
+                   uint32_t record, struct entry *entries);
+bool point_bounds(const struct triangle_head *head, const struct rectangle *limit, struct rectangle *bounds);
+bool point_prepare(struct raster *raster, const struct triangle_head *head, const struct rectangle *scissor);
+uint32_t point_tile(const struct triangle_head *head, const struct rectangle *scissor, int column, int row,
+                    uint32_t record, struct entry *entries);
 
 #endif

@@ -231,6 +231,36 @@ enum triptych_result state_set_scissor(struct state *state, struct scissor sciss
     return TRIPTYCH_OK;
 }
 
+enum triptych_result state_set_clip_plane(struct state *state, unsigned i, const float plane[4],
+                                          struct error *error)
+{
+    if (i >= TRIPTYCH_CLIP_PLANES) {
+        error_set(error, "clip plane %u: expected 0 to %u", i, TRIPTYCH_CLIP_PLANES - 1);
+        return TRIPTYCH_BAD_ARGUMENT;
+    }
+    enum triptych_result result = check_finite(plane, 4, "clip plane", error);
+    if (result == TRIPTYCH_OK)
+        memcpy(state->clip_plane[i], plane, sizeof state->clip_plane[i]);
+    return result;
+}
+
+enum triptych_result state_set_convention(struct state *state, enum triptych_convention which, unsigned value,
+                                          struct error *error)
+{
+    if ((unsigned)which >= TRIPTYCH_CONVENTION_COUNT) {
+        error_set(error, "convention %u: expected pixel center (0) or depth range (1)", (unsigned)which);
+        return TRIPTYCH_BAD_ARGUMENT;
+    }
+    if (value > 1) {
+        error_set(error, "convention %s: value %u, expected %s",
+                  which == TRIPTYCH_PIXEL_CENTER ? "pixel center" : "depth range", value,
+                  which == TRIPTYCH_PIXEL_CENTER ? "half (0) or integer (1)" : "zero (0) or minus (1)");
+        return TRIPTYCH_BAD_ARGUMENT;
+    }
+    state->convention[which] = (uint8_t)value;
+    return TRIPTYCH_OK;
+}
+
 enum triptych_result state_set_material(struct state *state, const struct triptych_material *material,
                                         struct error *error)
 {

@@ -43,6 +43,8 @@ struct state {
     struct scissor {
         uint32_t x, y, width, height; /* pixels */
     } scissor;
+    float clip_plane[TRIPTYCH_CLIP_PLANES][4];
+    uint8_t convention[TRIPTYCH_CONVENTION_COUNT];
     struct triptych_material material;
     struct triptych_light light[TRIPTYCH_LIGHTS];
     uint8_t light_enabled[TRIPTYCH_LIGHTS];
@@ -69,6 +71,10 @@ enum triptych_result state_set_viewport(struct state *state, const struct tripty
                                         uint32_t target_width, uint32_t target_height, struct error *error);
 enum triptych_result state_set_scissor(struct state *state, struct scissor scissor, uint32_t target_width,
                                        uint32_t target_height, struct error *error);
+enum triptych_result state_set_clip_plane(struct state *state, unsigned i, const float plane[4],
+                                          struct error *error);
+enum triptych_result state_set_convention(struct state *state, enum triptych_convention which, unsigned value,
+                                          struct error *error);
 enum triptych_result state_set_material(struct state *state, const struct triptych_material *material,
                                         struct error *error);
 enum triptych_result state_set_light(struct state *state, unsigned index, const struct triptych_light *light,

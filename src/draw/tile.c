@@ -60,6 +60,7 @@ static void rasterize_cell(struct tile_worker *worker, const struct frame *frame
                            const struct bin_cell *cell)
 {
     const uint8_t *base = frame->arena.base;
+    raster_function *rasterize = rasterizer[worker->draw->shape].tile;
     int column = (int)(tile % frame->target->columns), row = (int)(tile / frame->target->columns);
     prefetch_cell(base, cell);
     for (uint32_t i = 0; i < cell->count; i++) {
@@ -67,8 +68,8 @@ static void rasterize_cell(struct tile_worker *worker, const struct frame *frame
         if (worker->count + TILE_BLOCKS > TILE_ENTRIES)
             shade(worker, frame, tile);
         worker->count +=
-            raster_tile((const struct triangle_head *)(const void *)(base + triangle), &worker->draw->scissor,
-                        column, row, triangle, worker->entries + worker->count);
+            rasterize((const struct triangle_head *)(const void *)(base + triangle), &worker->draw->scissor,
+                      column, row, triangle, worker->entries + worker->count);
     }
 }
 

@@ -2,7 +2,9 @@
  *
  * Every test asks for "inside" and takes the complement, so a NaN is outside. Depth runs from 0 to w as in
  * Direct3D. CLIP_INVALID: v - v is +0 exactly when v is finite; this is the rewriting y - y = 0 of the thesis
- * turned round, and the reason why an optimiser must prove finiteness before it applies it. */
+ * turned round, and the reason why an optimiser must prove finiteness before it applies it.
+ *
+ * User clip planes are in clip space, whatever space the application gave them in. */
 
 /* bit where not (a <= b), else 0 */
 static inline itg clip_outside(struct env *e, flt a, flt b, int bit)
@@ -31,7 +33,20 @@ static inline itg clip_invalid(struct env *e, const flt p[4])
     return clip_outside(E, sum, lit_f(E, 0.0f), CLIP_INVALID);
 }
 
-static inline itg clip_code(struct env *e, const flt p[4])
+/* x a + (y b + (z c + w d)), by fused multiply-adds: not negative inside. */
+static inline itg clip_user(struct env *e, const flt p[4], int plane)
+{
+    int at = (int)offsetof(struct job, clip_plane) + (int)sizeof(float[4]) * plane;
+    flt d = uniform_f(E, BASE_JOB, at + 12);
+    flt distance = mul_f(E, p[3], d);
+    for (int c = 2; c >= 0; c--) {
+        flt coefficient = uniform_f(E, BASE_JOB, at + 4 * c);
+        distance = mad_f(E, p[c], coefficient, distance);
+    }
+    return clip_outside(E, lit_f(E, 0.0f), distance, CLIP_USER << plane);
+}
+
+static inline itg clip_code(struct env *e, const struct vertex_key *k, const flt p[4])
 {
     flt guard_x = uniform_f(E, BASE_JOB, (int)offsetof(struct job, guard_x));
     flt guard_y = uniform_f(E, BASE_JOB, (int)offsetof(struct job, guard_y));
@@ -48,6 +63,10 @@ static inline itg clip_code(struct env *e, const flt p[4])
     itg code = clip_invalid(E, p);
     for (int i = 0; i < 7; i++)
         code = or_i(E, code, part[i]);
+    for (int i = 0; i < k->clip_planes; i++) {
+        itg user = clip_user(E, p, i);
+        code = or_i(E, code, user);
+    }
     return code;
 }
 

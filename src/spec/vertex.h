@@ -41,7 +41,7 @@ static inline void vertex_position(struct env *e, const struct vertex_key *k, st
                                              (int)offsetof(struct job, world_view_projection), c);
         store_slot(E, SLOT_X + c, to[c]);
     }
-    itg code = window ? clip_code_window(E, to) : clip_code(E, to);
+    itg code = window ? clip_code_window(E, to) : clip_code(E, k, to);
     store_i(E, BASE_OUTPUT, SLOT_CODE * VERTEX_SLOT_BYTES, code);
 }
 

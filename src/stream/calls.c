@@ -166,6 +166,24 @@ static int parse_table(struct parser *parser, enum triptych_state_table table, s
     return parse_value(parser, triptych_state_at(table, call->set.row), &call->set.value);
 }
 
+int parse_clip_plane(struct parser *parser, struct call *call)
+{
+    if (parse_integer(parser, "clip plane", TRIPTYCH_CLIP_PLANES - 1, &call->clip_plane.index))
+        return -1;
+    return lex_numbers(&parser->lex, "clipplane I A B C D", call->clip_plane.plane, 4);
+}
+
+int parse_convention(struct parser *parser, struct call *call)
+{
+    unsigned which, value;
+    if (parse_word(parser, WORDS_CONVENTION, "a convention", &which) ||
+        parse_word(parser, WORDS_PIXEL_CENTER + which, "its value", &value))
+        return -1;
+    call->convention.which = (enum triptych_convention)which;
+    call->convention.value = value;
+    return 0;
+}
+
 int parse_state(struct parser *parser, struct call *call)
 {
     return parse_table(parser, TRIPTYCH_RENDER_STATES, call);

@@ -7,7 +7,7 @@
 #include "stream/layout.h"
 #include "stream/parse.h"
 
-#include "draw/state.h"
+#include "draw/device.h"
 
 #include <inttypes.h>
 #include <stdlib.h>
@@ -243,7 +243,7 @@ static int check_draw(struct follower *follower, const struct call *call, struct
         return -1;
     if (!count)
         return 0;
-    count = call->draw.primitive == TRIPTYCH_TRIANGLE_LIST ? 3 * count : count + 2;
+    count = primitive_corners(call->draw.primitive, call->draw.count);
     if (indexed)
         return check_indices(follower, call->draw.base, first, count, error);
     if (first + count - 1 > UINT32_MAX)
@@ -278,6 +278,8 @@ static int follow(struct follower *follower, const struct call *call, struct err
     }
     case CALL_SET:
         return state_set_value(state, call->set.table, call->set.i, call->set.row, call->set.value, error);
+    case CALL_CONVENTION:
+    case CALL_CLIP_PLANE:
     case CALL_TRANSFORM: return 0;
     case CALL_MATERIAL: return state_set_material(state, &call->material, error);
     case CALL_LIGHT: return state_set_light(state, call->light.index, &call->light.value, error);

@@ -192,6 +192,8 @@ static const struct command {
     {"state", ANYWHERE, CALL_SET, parse_state, NULL},
     {"sampler", ANYWHERE, CALL_SET, parse_sampler, NULL},
     {"stage", ANYWHERE, CALL_SET, parse_stage, NULL},
+    {"convention", ANYWHERE, CALL_CONVENTION, parse_convention, NULL},
+    {"clipplane", ANYWHERE, CALL_CLIP_PLANE, parse_clip_plane, NULL},
     {"transform", ANYWHERE, CALL_TRANSFORM, parse_transform, NULL},
     {"material", ANYWHERE, CALL_MATERIAL, parse_material, NULL},
     {"light", ANYWHERE, CALL_LIGHT, parse_light, NULL},

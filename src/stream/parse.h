@@ -49,6 +49,8 @@ int parse_load(struct parser *parser, struct resource *resource, const char *pat
 int parse_target(struct parser *parser, struct call *call);
 int parse_viewport(struct parser *parser, struct call *call);
 int parse_scissor(struct parser *parser, struct call *call);
+int parse_clip_plane(struct parser *parser, struct call *call);
+int parse_convention(struct parser *parser, struct call *call);
 int parse_state(struct parser *parser, struct call *call);
 int parse_sampler(struct parser *parser, struct call *call);
 int parse_stage(struct parser *parser, struct call *call);

@@ -207,6 +207,10 @@ static enum triptych_result execute_state(struct player *player, const struct ca
         return triptych_set_scissor(device, call->scissor.x, call->scissor.y, call->scissor.width,
                                     call->scissor.height);
     case CALL_SET: return set_value(device, call->set.table, call->set.i, call->set.row, call->set.value);
+    case CALL_CONVENTION:
+        return triptych_set_convention(device, call->convention.which, call->convention.value);
+    case CALL_CLIP_PLANE:
+        return triptych_set_clip_plane(device, call->clip_plane.index, call->clip_plane.plane);
     case CALL_TRANSFORM: return triptych_set_transform(device, call->transform.which, call->transform.matrix);
     case CALL_MATERIAL: return triptych_set_material(device, &call->material);
     case CALL_LIGHT: return triptych_set_light(device, call->light.index, &call->light.value);
@@ -358,6 +362,10 @@ static enum triptych_result reset(struct player *player)
         result = reset_table(player->device, (enum triptych_state_table)t);
     for (unsigned i = 0; i < TRIPTYCH_TRANSFORM_COUNT && !result; i++)
         result = triptych_set_transform(player->device, (enum triptych_transform)i, identity);
+    for (unsigned i = 0; i < TRIPTYCH_CLIP_PLANES && !result; i++)
+        result = triptych_set_clip_plane(player->device, i, (const float[4]){0});
+    for (unsigned i = 0; i < TRIPTYCH_CONVENTION_COUNT && !result; i++)
+        result = triptych_set_convention(player->device, (enum triptych_convention)i, 0);
     if (!result)
         result = reset_vertices(player->device);
     for (unsigned i = 0; i < TRIPTYCH_SAMPLERS && !result; i++)

@@ -112,6 +112,8 @@ enum call_type {
     CALL_VIEWPORT,
     CALL_SCISSOR,
     CALL_SET,
+    CALL_CONVENTION,
+    CALL_CLIP_PLANE,
     CALL_TRANSFORM,
     CALL_MATERIAL,
     CALL_LIGHT,
@@ -146,6 +148,14 @@ struct call {
             uint32_t width, height;
         } target;
         struct triptych_viewport viewport;
+        struct {
+            enum triptych_convention which;
+            uint32_t value;
+        } convention;
+        struct {
+            uint32_t index;
+            float plane[4];
+        } clip_plane;
         struct {
             uint32_t x, y, width, height;
         } scissor;

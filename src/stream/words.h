@@ -9,6 +9,9 @@ enum word_list {
     WORDS_FORMAT,
     WORDS_FREQUENCY,
     WORDS_PRIMITIVE,
+    WORDS_CONVENTION,
+    WORDS_PIXEL_CENTER, /* the values of each convention, in their order */
+    WORDS_DEPTH_RANGE,
     WORDS_TRANSFORM,
     WORDS_VALUE,
     WORDS_NORMALS,

@@ -440,6 +440,14 @@ static void write_call(struct writer *writer, const struct call *call)
                 call->scissor.width, call->scissor.height);
         break;
     case CALL_SET: write_set(writer, call); break;
+    case CALL_CONVENTION:
+        fprintf(out, "convention %s %s", word_text(WORDS_CONVENTION, call->convention.which),
+                word_text(WORDS_PIXEL_CENTER + call->convention.which, call->convention.value));
+        break;
+    case CALL_CLIP_PLANE:
+        fprintf(out, "clipplane %" PRIu32, call->clip_plane.index);
+        write_numbers(writer, call->clip_plane.plane, 4);
+        break;
     case CALL_TRANSFORM:
         fprintf(out, "transform %s", word_text(WORDS_TRANSFORM, call->transform.which));
         write_field(writer, "matrix", &call->transform.matrix[0][0], NULL, 16);

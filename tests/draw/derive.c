@@ -54,7 +54,7 @@ void tearDown(void)
 
 static void derive(void)
 {
-    derive_keys(&state, key);
+    derive_keys(&state, PRIMITIVE_TRIANGLE, key);
     derive_job(&state, &key[UNIT_VERTEX].vertex, &key[UNIT_PIXEL].pixel, &job);
 }
 
@@ -62,9 +62,9 @@ static void derive(void)
 static void expect_same_keys(void (*change)(void))
 {
     union key before[UNIT_COUNT];
-    derive_keys(&state, before);
+    derive_keys(&state, PRIMITIVE_TRIANGLE, before);
     change();
-    derive_keys(&state, key);
+    derive_keys(&state, PRIMITIVE_TRIANGLE, key);
     TEST_ASSERT_EQUAL_MEMORY(before, key, sizeof before);
 }
 
@@ -232,7 +232,7 @@ static void an_alpha_test_that_never_passes_draws_nothing(void)
 {
     union key nothing[UNIT_COUNT];
     SET(zfunc, "never");
-    derive_keys(&state, nothing);
+    derive_keys(&state, PRIMITIVE_TRIANGLE, nothing);
     SET(zfunc, "less");
     SET(alphatestenable, "true");
     SET(alphafunc, "never");

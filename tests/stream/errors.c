@@ -69,6 +69,16 @@ static const struct bad lines[] = {
     {"target 8 8\nclear depth 1 depth 1\n", "3:15", "found 'depth', expected color, or the end of the line"},
     {"clear depth 1\n", "2:1", "found no target"},
 
+    /* Conventions and clip planes */
+    {"convention pixelcentre half\n", "2:12", "expected a convention: pixelcenter, depthrange"},
+    {"convention pixelcenter zero\n", "2:24", "expected its value: half, integer"},
+    {"convention depthrange\n", "2:22", "expected its value: zero, minus"},
+    {"clipplane 6 0 0 0 0\n", "2:11", "expected an integer (clip plane) from 0 to 5"},
+    {"clipplane 0 1 2 3\n", "2:18", "expected a number (clipplane I A B C D)"},
+    {"clipplane 0 1 2 3 inf\n", "2:19", "expected a number"},
+    {"state clipplaneenable 64\n", "2:1", "expected 0 to 63"},
+    {"state pointsize -1\n", "2:1", "expected a finite number from 0 up"},
+
     /* States */
     {"state zfunk less\n", "2:7", "found 'zfunk', expected the name of a state"},
     {"state zfunc lesser\n", "2:13", "expected a value of zfunc: never, less, equal, lessequal"},

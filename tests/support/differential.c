@@ -40,7 +40,7 @@ struct differential {
     struct job job;
     uint8_t *stream[ATTRIBUTE_COUNT]; /* fenced */
     uint8_t *texels;                  /* fenced */
-    alignas(64) uint32_t index_words[1 + 3 * SETUP_CAPACITY];
+    alignas(64) uint32_t index_words[1 + SETUP_INDEX_ROWS * SETUP_CAPACITY];
     alignas(64) uint8_t lanes[4 + sizeof(struct lane_table)];
     struct entry entries[ENTRIES];
     alignas(64) uint8_t triangles[TRIANGLES * RECORD_MAXIMUM];
@@ -182,6 +182,10 @@ static void make_job(struct differential *d)
     job->offset_y = number(d, 0, 100000);
     job->depth_scale = number(d, 0.1f, 1);
     job->depth_offset = number(d, -0.1f, 0.5f);
+    job->depth_bias = number(d, -0.1f, 0.1f);
+    job->depth_bias_slope = number(d, -2, 2);
+    job->point_size = number(d, 0, 64);
+    fill(d, job->clip_plane, sizeof job->clip_plane, -2, 2);
 }
 
 /* --- Vertices --- */
@@ -230,8 +234,10 @@ static void make_setup_inputs(struct differential *d, const struct setup_key *ke
     for (int slot = 0; slot < SLOT_COUNT; slot++)
         fill(d, d->initial.vertices + slot * VERTEX_CAPACITY, VERTEX_SLOT_BYTES, slot == SLOT_W ? 0.5f : -2,
              slot == SLOT_W ? 4 : 2);
-    for (int i = 0; i < 3 * SETUP_CAPACITY; i++)
+    for (int i = 0; i < 4 * SETUP_CAPACITY; i++)
         indices(d)[i] = 4 * below(d, VERTEX_CAPACITY);
+    for (int i = 4 * SETUP_CAPACITY; i < SETUP_INDEX_ROWS * SETUP_CAPACITY; i++)
+        indices(d)[i] = -below(d, 2);
     for (int i = 0; i < SETUP_CAPACITY; i++)
         if (!below(d, 16)) /* without area */
             indices(d)[i] = indices(d)[i + SETUP_CAPACITY * (1 + (int)below(d, 2))];

@@ -55,7 +55,7 @@ void shade(uint32_t count)
     uint32_t padded = (count + LANES_MAXIMUM - 1) / LANES_MAXIMUM * LANES_MAXIMUM;
     for (uint32_t i = 0; i < padded; i++)
         index[i] = i < count ? i : count - 1;
-    derive_keys(&shading_state, shading_key);
+    derive_keys(&shading_state, PRIMITIVE_TRIANGLE, shading_key);
     derive_job(&shading_state, &shading_key[UNIT_VERTEX].vertex, &shading_key[UNIT_PIXEL].pixel,
                &shading_job);
     struct routine *routine = engine->build(arena, UNIT_VERTEX, &shading_key[UNIT_VERTEX], &error);
