@@ -165,7 +165,7 @@ end_fragment
 
 fragment store, FRAME | JOB, NOTHING, M(0)
     fill 0,       vmovaps         m0, [frame]
-    fill_base 1, 2, vmovaps       [dword r8], m0
+    fill_base 1, 2, vmovups       [dword r8], m0           ; nor need a lane table's counters be
 end_fragment
 
 ; Lane i from base + index[i] * scale + displacement; the scale comes with the base.

@@ -1,5 +1,6 @@
 /* The public functions: null pointers are refused here, everything else by the device; the reason of a
  * failure is kept for triptych_error(). */
+#include "draw/depth.h"
 #include "draw/device.h"
 #include "engines.h"
 
@@ -109,8 +110,20 @@ enum triptych_result triptych_set_target(triptych_device *device, unsigned width
 {
     if (!device)
         return TRIPTYCH_BAD_ARGUMENT;
+    struct triptych_target_description description = {.width = width, .height = height};
     struct error error = {{0}};
-    return finish(device, device_set_target(device, width, height, &error), &error);
+    return finish(device, device_set_target(device, &description, &error), &error);
+}
+
+enum triptych_result triptych_set_target_description(triptych_device *device,
+                                                     const struct triptych_target_description *description)
+{
+    if (!device)
+        return TRIPTYCH_BAD_ARGUMENT;
+    if (!description)
+        return null_argument(device, "description");
+    struct error error = {{0}};
+    return finish(device, device_set_target(device, description, &error), &error);
 }
 
 enum triptych_result triptych_buffer_create(triptych_device *device, const void *data, size_t bytes,
@@ -416,8 +429,75 @@ enum triptych_result triptych_clear(triptych_device *device, const float color[4
 {
     if (!device)
         return TRIPTYCH_BAD_ARGUMENT;
+    struct clear_values values = {(color ? TRIPTYCH_CLEAR_COLOR : 0) | (depth < 0 ? 0 : TRIPTYCH_CLEAR_DEPTH),
+                                  color, depth, 0};
     struct error error = {{0}};
-    return finish(device, device_clear(device, color, depth, &error), &error);
+    return finish(device, device_clear(device, &values, &error), &error);
+}
+
+enum triptych_result triptych_clear_buffers(triptych_device *device, unsigned flags, const float color[4],
+                                            float depth, unsigned stencil)
+{
+    if (!device)
+        return TRIPTYCH_BAD_ARGUMENT;
+    if (flags & TRIPTYCH_CLEAR_COLOR && !color)
+        return null_argument(device, "color");
+    struct clear_values values = {flags, color, depth, stencil};
+    struct error error = {{0}};
+    return finish(device, device_clear(device, &values, &error), &error);
+}
+
+/* --- Queries ----------------------------------------------------------------------------------------------
+ */
+
+enum triptych_result triptych_query_create(triptych_device *device, enum triptych_query_type type,
+                                           triptych_query **query)
+{
+    if (!device)
+        return TRIPTYCH_BAD_ARGUMENT;
+    if (!query)
+        return null_argument(device, "query");
+    *query = NULL;
+    struct error error = {{0}};
+    if ((unsigned)type >= TRIPTYCH_QUERY_COUNT) {
+        error_set(&error, "query type %u: expected 0 to %u", (unsigned)type, TRIPTYCH_QUERY_COUNT - 1);
+        return finish(device, TRIPTYCH_BAD_ARGUMENT, &error);
+    }
+    *query = query_create(&device->queries, type);
+    if (*query)
+        return TRIPTYCH_OK;
+    error_set(&error, "out of memory for a query");
+    return finish(device, TRIPTYCH_NO_MEMORY, &error);
+}
+
+enum triptych_result triptych_query_begin(triptych_device *device, triptych_query *query)
+{
+    if (!device)
+        return TRIPTYCH_BAD_ARGUMENT;
+    if (!query)
+        return null_argument(device, "query");
+    struct error error = {{0}};
+    return finish(device, device_query_begin(device, query, &error), &error);
+}
+
+enum triptych_result triptych_query_end(triptych_device *device, triptych_query *query)
+{
+    if (!device)
+        return TRIPTYCH_BAD_ARGUMENT;
+    if (!query)
+        return null_argument(device, "query");
+    struct error error = {{0}};
+    return finish(device, device_query_end(device, query, &error), &error);
+}
+
+enum triptych_result triptych_query_result(triptych_device *device, triptych_query *query, uint64_t *result)
+{
+    if (!device)
+        return TRIPTYCH_BAD_ARGUMENT;
+    if (!query || !result)
+        return null_argument(device, query ? "result" : "query");
+    struct error error = {{0}};
+    return finish(device, device_query_result(device, query, result, &error), &error);
 }
 
 enum triptych_result triptych_finish(triptych_device *device)
@@ -446,6 +526,46 @@ enum triptych_result triptych_read_depth(triptych_device *device, float *depth)
         return null_argument(device, "image");
     struct error error = {{0}};
     return finish(device, device_read_depth(device, depth, &error), &error);
+}
+
+enum triptych_result triptych_read_stencil(triptych_device *device, uint8_t *stencil)
+{
+    if (!device)
+        return TRIPTYCH_BAD_ARGUMENT;
+    if (!stencil)
+        return null_argument(device, "image");
+    struct error error = {{0}};
+    return finish(device, device_read_stencil(device, stencil, &error), &error);
+}
+
+void triptych_get_target(const triptych_device *device, struct triptych_target_description *description)
+{
+    if (!description)
+        return;
+    *description = (struct triptych_target_description){0};
+    if (device && device->target.width)
+        *description = (struct triptych_target_description){device->target.width, device->target.height,
+                                                            device->target.depth_format};
+}
+
+static int known_format(enum triptych_depth_format format)
+{
+    return (unsigned)format < TRIPTYCH_DEPTH_COUNT;
+}
+
+unsigned triptych_depth_bits(enum triptych_depth_format format)
+{
+    return known_format(format) ? depth_formats[format].depth_bits : 0;
+}
+
+unsigned triptych_stencil_bits(enum triptych_depth_format format)
+{
+    return known_format(format) ? depth_formats[format].stencil_bits : 0;
+}
+
+const char *triptych_depth_format_name(enum triptych_depth_format format)
+{
+    return known_format(format) ? depth_formats[format].name : NULL;
 }
 
 void triptych_target_size(const triptych_device *device, unsigned *width, unsigned *height)

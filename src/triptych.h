@@ -41,6 +41,7 @@ enum triptych_result {
 typedef struct triptych_device triptych_device;
 typedef struct triptych_buffer triptych_buffer;   /* vertices or indices */
 typedef struct triptych_texture triptych_texture; /* 2D, cube or volume, with levels */
+typedef struct triptych_query triptych_query;     /* what the device finds out while it renders */
 
 /* States, in three tables: of the device, of each sampler, of each texture stage. */
 enum triptych_state {
@@ -149,6 +150,25 @@ enum triptych_face {
     TRIPTYCH_FACE_NEGATIVE_Z
 };
 
+/* Formats of the depth surface (def/depth_format.def); TRIPTYCH_DEPTH_none is no surface. */
+enum triptych_depth_format {
+#define DEPTH_FORMAT(name, storage, depth_bits, stencil_bits, meaning) TRIPTYCH_DEPTH_##name,
+#include "def/depth_format.def"
+#undef DEPTH_FORMAT
+    TRIPTYCH_DEPTH_COUNT
+};
+
+/* What triptych_clear_buffers sets. */
+enum { TRIPTYCH_CLEAR_COLOR = 1, TRIPTYCH_CLEAR_DEPTH = 2, TRIPTYCH_CLEAR_STENCIL = 4 };
+
+enum triptych_query_type {
+    TRIPTYCH_QUERY_OCCLUSION, /* samples that passed alpha, stencil and depth test between begin and end */
+    TRIPTYCH_QUERY_EVENT,     /* 1 once everything before its end is rendered */
+    TRIPTYCH_QUERY_TIMESTAMP, /* nanoseconds of a monotonic clock when everything before its end was rendered
+                               */
+    TRIPTYCH_QUERY_COUNT
+};
+
 enum triptych_primitive {
     TRIPTYCH_TRIANGLE_LIST,
     TRIPTYCH_TRIANGLE_STRIP,
@@ -185,6 +205,12 @@ struct triptych_options {
     const char *engine; /* name as listed by triptych_engine_name(); null: "specialize" */
     unsigned threads;   /* rendering threads, the caller's included; 0: as many as the process may run on */
     size_t cache_bytes; /* budget of the routine cache's code; 0: 16 MiB */
+};
+
+/* A render target. Zero in a field means what triptych_set_target gives. */
+struct triptych_target_description {
+    unsigned width, height; /* pixels, 1 to 8192 */
+    enum triptych_depth_format depth_format;
 };
 
 /* One element of a vertex declaration. */
@@ -326,6 +352,9 @@ TRIPTYCH_API const char *triptych_engine_unavailable(unsigned i);
  * depth 1. Sets the viewport to the whole target with depth 0 to 1, and the scissor rectangle to the whole
  * target. */
 TRIPTYCH_API enum triptych_result triptych_set_target(triptych_device *, unsigned width, unsigned height);
+/* The same with formats of choice. */
+TRIPTYCH_API enum triptych_result triptych_set_target_description(triptych_device *,
+                                                                  const struct triptych_target_description *);
 
 /* Copies `bytes` (1 to 2^31 - 1) of data; the contents never change. */
 TRIPTYCH_API enum triptych_result triptych_buffer_create(triptych_device *, const void *data, size_t bytes,
@@ -419,12 +448,34 @@ TRIPTYCH_API enum triptych_result triptych_draw_indexed(triptych_device *, enum 
  * depth (0 to 1, unless negative). */
 TRIPTYCH_API enum triptych_result triptych_clear(triptych_device *, const float color[4], float depth);
 
+/* The same for any of the three surfaces (a sum of TRIPTYCH_CLEAR_...). The stencil's value is cut to its
+ * bits; colour, depth and stencil are looked at only if they are cleared. Depth and stencil must exist. */
+TRIPTYCH_API enum triptych_result triptych_clear_buffers(triptych_device *, unsigned flags,
+                                                         const float color[4], float depth, unsigned stencil);
+
+/* Queries. Begin and end may come again; an end without a begin fails, but for an event and a timestamp,
+ * which have none. */
+TRIPTYCH_API enum triptych_result triptych_query_create(triptych_device *, enum triptych_query_type,
+                                                        triptych_query **query);
+TRIPTYCH_API enum triptych_result triptych_query_begin(triptych_device *, triptych_query *);
+TRIPTYCH_API enum triptych_result triptych_query_end(triptych_device *, triptych_query *);
+/* The result of a query that has ended, after finishing. */
+TRIPTYCH_API enum triptych_result triptych_query_result(triptych_device *, triptych_query *,
+                                                        uint64_t *result);
+
 /* Renders everything recorded so far. */
 TRIPTYCH_API enum triptych_result triptych_finish(triptych_device *);
 
-/* Finishes and copies the target: width * height RGBA8 words, or depth values. */
+/* Finishes and copies the target: width * height RGBA8 words, depth values from 0 to 1, or stencil values. */
 TRIPTYCH_API enum triptych_result triptych_read_color(triptych_device *, uint32_t *rgba);
 TRIPTYCH_API enum triptych_result triptych_read_depth(triptych_device *, float *depth);
+TRIPTYCH_API enum triptych_result triptych_read_stencil(triptych_device *, uint8_t *stencil);
+/* The target's description; all zero without one. */
+TRIPTYCH_API void triptych_get_target(const triptych_device *, struct triptych_target_description *);
+/* The bits of depth and of stencil of a format; its name, null when there is none. */
+TRIPTYCH_API unsigned triptych_depth_bits(enum triptych_depth_format);
+TRIPTYCH_API unsigned triptych_stencil_bits(enum triptych_depth_format);
+TRIPTYCH_API const char *triptych_depth_format_name(enum triptych_depth_format);
 TRIPTYCH_API void triptych_target_size(const triptych_device *, unsigned *width, unsigned *height);
 
 TRIPTYCH_API void triptych_get_statistics(const triptych_device *, struct triptych_statistics *);

@@ -8,6 +8,11 @@ static bool depths_differ(const struct picture *first, const struct picture *sec
     return first->depth && memcmp(first->depth + i, second->depth + i, sizeof *first->depth);
 }
 
+static bool stencils_differ(const struct picture *first, const struct picture *second, size_t i)
+{
+    return first->stencil && first->stencil[i] != second->stencil[i];
+}
+
 /* The largest difference of the four channels. */
 static uint32_t distance(uint32_t a, uint32_t b)
 {
@@ -31,6 +36,10 @@ static void note_first(const struct picture *first, const struct picture *second
         difference->depth[0] = first->depth[i];
         difference->depth[1] = second->depth[i];
     }
+    if (first->stencil) {
+        difference->stencil[0] = first->stencil[i];
+        difference->stencil[1] = second->stencil[i];
+    }
 }
 
 bool compare_pictures(const struct picture *first, const struct picture *second,
@@ -39,13 +48,16 @@ bool compare_pictures(const struct picture *first, const struct picture *second,
     memset(difference, 0, sizeof *difference);
     size_t count = (size_t)first->width * first->height;
     if (!memcmp(first->color, second->color, count * sizeof *first->color) &&
-        (!first->depth || !memcmp(first->depth, second->depth, count * sizeof *first->depth)))
+        (!first->depth || !memcmp(first->depth, second->depth, count * sizeof *first->depth)) &&
+        (!first->stencil || !memcmp(first->stencil, second->stencil, count)))
         return false;
     for (size_t i = 0; i < count; i++) {
         uint32_t apart = distance(first->color[i], second->color[i]);
-        bool deep = depths_differ(first, second, i);
-        if ((apart || deep) && !difference->color_pixels && !difference->depth_pixels)
+        bool deep = depths_differ(first, second, i), marked = stencils_differ(first, second, i);
+        if ((apart || deep || marked) && !difference->color_pixels && !difference->depth_pixels &&
+            !difference->stencil_pixels)
             note_first(first, second, i, difference);
+        difference->stencil_pixels += marked;
         difference->color_pixels += apart != 0;
         difference->depth_pixels += deep;
         if (apart > difference->color_distance)
@@ -72,7 +84,7 @@ void compare_paint(const struct picture *first, const struct picture *second, ui
         uint32_t color = grey(first->color[i]);
         if (apart)
             color = FAINTEST_DIFFERENCE + apart * (255 - FAINTEST_DIFFERENCE) / 255;
-        else if (depths_differ(first, second, i))
+        else if (depths_differ(first, second, i) || stencils_differ(first, second, i))
             color = pure_blue;
         painting[i] = color | opaque;
     }

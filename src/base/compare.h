@@ -11,15 +11,17 @@
 /* Rows from the top, without gaps; two pictures that are compared have one size. */
 struct picture {
     unsigned width, height;
-    const uint32_t *color; /* RGBA8, red in the low byte */
-    const float *depth;    /* null in both pictures: only colours are compared */
+    const uint32_t *color;  /* RGBA8, red in the low byte */
+    const float *depth;     /* null in both pictures: not compared */
+    const uint8_t *stencil; /* likewise */
 };
 
 struct difference {
-    uint64_t color_pixels, depth_pixels; /* how many pixels differ in each */
-    unsigned x, y;                       /* the first pixel, in row order, that differs in either */
-    uint32_t color[2];                   /* its values in the two pictures */
+    uint64_t color_pixels, depth_pixels, stencil_pixels; /* how many pixels differ in each */
+    unsigned x, y;     /* the first pixel, in row order, that differs in any */
+    uint32_t color[2]; /* its values in the two pictures */
     float depth[2];
+    uint8_t stencil[2];
     uint32_t color_distance; /* the largest difference of one channel of any pixel, 0 to 255 */
 };
 
@@ -28,7 +30,7 @@ bool compare_pictures(const struct picture *first, const struct picture *second,
                       struct difference *difference);
 
 /* Paints width * height words: the first picture's brightness, darkened, where both agree; red where the
- * colours differ, brighter the larger the distance; blue where only the depths differ. Opaque. */
+ * colours differ, brighter the larger the distance; blue where only depth or stencil differ. Opaque. */
 void compare_paint(const struct picture *first, const struct picture *second, uint32_t *painting);
 
 #endif

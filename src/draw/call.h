@@ -91,7 +91,8 @@ enum clip_bit {
  * edge functions positive. Lines: start and end in 0 and 1; x[2] is -1 if the last pixel is drawn, else 0.
  * Points: left and top in 0, right and bottom in 1. What is not mentioned is not written. */
 struct triangle_head {
-    int32_t visible; /* -1, or 0: culled or without area */
+    int32_t
+        visible; /* 0: culled or without area; else -1, or 1 with the key's `facing` if counterclockwise */
     int32_t x[3];
     int32_t y[3];
     float origin_x; /* window position of vertex 0 (points: the centre) in pixels: where the planes have their
@@ -122,12 +123,14 @@ struct entry {
     uint32_t triangle; /* byte offset of the record from pixel_call.triangles */
 };
 
-/* Per-lane constants of the pixel routine, for 16 lanes in quad order; a chunk of W lanes starts at c * W. */
+/* Per-lane constants of the pixel routine, and its counters, for 16 lanes in quad order; a chunk of W lanes
+ * starts at c * W. */
 struct lane_table {
     float x[LANES_MAXIMUM]; /* pixel centre from the block's corner */
     float y[LANES_MAXIMUM];
     int32_t bit[LANES_MAXIMUM];    /* 1 << lane */
     int32_t dither[LANES_MAXIMUM]; /* the pixel's threshold in both halves: spec/target.h */
+    int32_t passed[LANES_MAXIMUM]; /* a key that counts adds up here; each chunk reads and writes it once */
 };
 
 extern const struct lane_table lane_table;
@@ -160,10 +163,10 @@ struct pixel_call {
     const struct job *job;
     const struct entry *entries;
     const uint8_t *triangles;
-    const struct lane_table *lanes;
+    struct lane_table *lanes;
     uint32_t *color; /* planes of TILE_PIXELS words, those of each target in turn (def/target.def), 64-byte
                         aligned */
-    float *depth;    /* TILE_PIXELS words, 64-byte aligned */
+    uint32_t *depth; /* TILE_PIXELS words (draw/depth.h), 64-byte aligned */
     uint32_t count;
 };
 

@@ -12,9 +12,18 @@ _Static_assert((int)LIGHT_COUNT == (int)TRIPTYCH_LIGHTS, "as many lights as the 
 _Static_assert((int)LIGHT_POINT == TRIPTYCH_LIGHT_POINT + 1, "light types follow the public ones");
 _Static_assert((int)TARGET_SIZE_MAXIMUM == (int)TRIPTYCH_TARGET_MAXIMUM, "one limit of the target");
 
+/* As pixel_writes_stencil, before the format is in the key. */
+static bool key_changes_stencil(const struct pixel_key *key)
+{
+    bool changes = false;
+    for (int i = 0; i < key->stencil; i++)
+        changes |= key->stencil_fail[i] || key->stencil_depth_fail[i] || key->stencil_pass[i];
+    return changes;
+}
+
 bool derive_effective(const struct pixel_key *key)
 {
-    return pixel_write_mask(key) || key->depth_write;
+    return pixel_write_mask(key) || key->depth_write || key->count || key_changes_stencil(key);
 }
 
 void derive_keys(const struct state *state, enum primitive primitive, union key key[UNIT_COUNT])

@@ -220,6 +220,37 @@ static void fill_attributes(const struct state *state, const struct vertex_key *
         }
 }
 
+/* Where the projection's near and far plane have w: z' = z m33 + m43 and w = z m34 + m44 of camera space's z
+ * give z' = 0 and z' = w there. A w-buffer's depth runs from 0 to 1 between them, then over the viewport's
+ * range; where a projection has no such planes, depth is w. */
+static void fill_w_range(const struct state *state, struct job *job)
+{
+    struct matrix m = matrix_of((const float(*)[4])state->transform[TRIPTYCH_TRANSFORM_PROJECTION]);
+    const struct triptych_viewport *v = &state->viewport;
+    double low = (double)v->depth_near, range = (double)v->depth_far - low;
+    double near = m.m[3][3] - m.m[3][2] / m.m[2][2] * m.m[2][3];
+    double far = (m.m[3][3] - m.m[3][2]) / (m.m[2][2] - m.m[2][3]) * m.m[2][3] + m.m[3][3];
+    double scale = isfinite(near) && isfinite(far) && near != far ? range / (far - near) : range;
+    double offset = isfinite(near) && isfinite(far) && near != far ? low - near * scale : low;
+    job->w_scale = derive_narrow(scale);
+    job->w_offset = derive_narrow(offset);
+}
+
+static void fill_depth(const struct state *state, const struct pixel_key *key, struct job *job)
+{
+    uint32_t bits = stencil_mask(state->depth_format);
+    if (key->depth_format == DEPTH_UNORM)
+        job->depth_maximum = depth_maximum(state->depth_format);
+    if (key->depth_w)
+        fill_w_range(state, job);
+    if (!key->stencil)
+        return;
+    job->stencil_maximum = (int32_t)bits;
+    job->stencil_reference = (int32_t)(GET(stencilref) & bits);
+    job->stencil_mask = (int32_t)(GET(stencilmask) & bits);
+    job->stencil_write_mask = (int32_t)(GET(stencilwritemask) & bits);
+}
+
 /* Not inlined: the compiler may move arithmetic over a change of MXCSR, but not a call. */
 __attribute__((noinline)) static void fill_job(const struct state *state, const struct vertex_key *vertex,
                                                const struct pixel_key *pixel, struct job *job)
@@ -243,6 +274,7 @@ __attribute__((noinline)) static void fill_job(const struct state *state, const 
     else
         fill_viewport(state, job);
     derive_setup_job(state, vertex, (const double(*)[4])view_projection.m, job);
+    fill_depth(state, pixel, job);
     fill_stages(state, pixel, job);
     fill_fog(state, pixel, job);
     if (pixel->alpha_discard)

@@ -8,6 +8,7 @@
 #define DRAW_DERIVE_PART_H
 
 #include "draw/call.h"
+#include "draw/depth.h"
 #include "draw/derive.h"
 
 #include <string.h>
@@ -38,7 +39,7 @@ enum { MASK_COLOR = 7, MASK_ALPHA = 8 }; /* of a write mask */
 
 /* Each fills its fields of a key that is zero; derive_blend takes the write mask from the state, and clears
  * the channels that keep the target. */
-void derive_depth(const struct state *state, struct pixel_key *key);
+void derive_depth(const struct state *state, enum primitive primitive, struct pixel_key *key);
 /* Write masks and storage as the targets have them, then, when it is known which of them are written, what of
  * their storage matters. */
 void derive_targets(const struct state *state, struct pixel_key *key);
@@ -74,6 +75,11 @@ void derive_fog_formula(const struct state *state, uint32_t mode, float *scale, 
 
 /* The nearest finite float: an element that overflowed must not turn zeros into NaNs. */
 float derive_narrow(double value);
+
+/* Behind derive_depth: whether any pixel passes; no stencil; the word's format, when the rest is known. */
+bool derive_passes(const struct pixel_key *key);
+void derive_no_stencil(struct pixel_key *key);
+void derive_depth_format(const struct state *state, struct pixel_key *key);
 
 /* No blending: what is not written is a copy. */
 void derive_no_blend(struct pixel_key *key);

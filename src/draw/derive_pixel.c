@@ -4,17 +4,6 @@
 
 #include <string.h>
 
-/* EQUAL never changes the stored depth: both are clamped to 0..1 without denormals or -0, so equal means the
- * same bits. NEVER changes nothing at all. */
-void derive_depth(const struct state *state, struct pixel_key *key)
-{
-    key->depth_function = COMPARE_ALWAYS;
-    if (!GET(zenable))
-        return;
-    key->depth_function = (uint8_t)(GET(zfunc) - COMPARE_never);
-    key->depth_write = GET(zwriteenable) && key->depth_function != COMPARE_EQUAL;
-}
-
 /* What the test discards is the opposite of what it keeps. */
 static uint8_t derive_alpha_discard(const struct state *state)
 {
@@ -52,18 +41,23 @@ static void flatten(const struct state *state, struct pixel_key *key)
 
 void derive_pixel(const struct state *state, enum primitive primitive, struct pixel_key *key)
 {
-    derive_depth(state, key);
+    derive_depth(state, primitive, key);
     derive_targets(state, key);
     key->alpha_discard = derive_alpha_discard(state);
+    key->count = state->counting;
     derive_blend(state, key);
-    if (key->depth_function == COMPARE_NEVER || key->alpha_discard == COMPARE_ALWAYS) {
-        key->depth_write = 0;
+    if (!derive_passes(key)) {
+        key->depth_write = key->count = 0;
         memset(key->write_mask, 0, sizeof key->write_mask);
     }
+    if (key->alpha_discard == COMPARE_ALWAYS)
+        derive_no_stencil(key);
     if (!derive_effective(key)) { /* one key for all that draw nothing */
+        derive_no_stencil(key);
         key->depth_function = COMPARE_ALWAYS;
         key->alpha_discard = COMPARE_NEVER;
     }
+    derive_depth_format(state, key);
     derive_storage(state, key);
     if (!pixel_write_mask(key))
         derive_no_blend(key);

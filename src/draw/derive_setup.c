@@ -74,6 +74,7 @@ void derive_setup(const struct state *state, enum primitive primitive, const str
     if (!primitive_has_area(primitive))
         return;
     key->cull = (uint8_t)(GET(cullmode) - CULLMODE_none);
+    key->facing = pixel->stencil == STENCIL_TWO;
     if (key->depth)
         key->depth_bias = derive_depth_bias(state);
 }

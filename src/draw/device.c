@@ -88,6 +88,7 @@ void device_destroy(struct triptych_device *device)
     cache_destroy(device->cache);
     code_destroy(device->arena);
     target_destroy(&device->target);
+    queries_destroy(&device->queries);
     for (struct triptych_buffer *buffer = device->buffers, *next; buffer; buffer = next) {
         next = buffer->next;
         buffer_destroy(buffer);
@@ -99,22 +100,37 @@ void device_destroy(struct triptych_device *device)
     free(device);
 }
 
-enum triptych_result device_set_target(struct triptych_device *device, uint32_t width, uint32_t height,
-                                       struct error *error)
+static enum triptych_result check_description(const struct triptych_target_description *description,
+                                              struct error *error)
 {
+    unsigned width = description->width, height = description->height;
     if (!width || !height || width > TARGET_SIZE_MAXIMUM || height > TARGET_SIZE_MAXIMUM) {
         error_set(error, "target of %ux%u pixels: expected 1 to %d a side", width, height,
                   TARGET_SIZE_MAXIMUM);
         return TRIPTYCH_BAD_ARGUMENT;
     }
+    if ((unsigned)description->depth_format >= TRIPTYCH_DEPTH_COUNT) {
+        error_set(error, "depth format %u: expected 0 to %u", (unsigned)description->depth_format,
+                  TRIPTYCH_DEPTH_COUNT - 1);
+        return TRIPTYCH_BAD_ARGUMENT;
+    }
+    return TRIPTYCH_OK;
+}
+
+enum triptych_result device_set_target(struct triptych_device *device,
+                                       const struct triptych_target_description *description,
+                                       struct error *error)
+{
     struct target target;
-    if (target_create(&target, width, height, error))
+    enum triptych_result result = check_description(description, error);
+    if (result != TRIPTYCH_OK)
+        return result;
+    if (target_create(&target, description, error))
         return TRIPTYCH_NO_MEMORY;
     device_finish(device);
     target_destroy(&device->target);
     device->target = target;
-    device->state.viewport = (struct triptych_viewport){0, 0, (float)width, (float)height, 0, 1};
-    device->state.scissor = (struct scissor){0, 0, width, height};
+    state_set_target(&device->state, description);
     device_state_changed(device);
     return TRIPTYCH_OK;
 }
@@ -443,39 +459,74 @@ __attribute__((noinline)) static uint32_t pack_color(const float color[4])
     return word;
 }
 
-static enum triptych_result check_clear(const float color[4], float depth, struct error *error)
+enum triptych_result device_clear(struct triptych_device *device, const struct clear_values *values,
+                                  struct error *error)
 {
-    for (int c = 0; color && c < 4; c++)
-        if (!isfinite(color[c])) {
-            error_set(error, "clear colour %d is %f, expected a finite number", c, (double)color[c]);
-            return TRIPTYCH_BAD_ARGUMENT;
-        }
-    if (!(depth <= 1)) {
-        error_set(error, "clear depth %g: expected 0 to 1, or less than 0 for none", (double)depth);
-        return TRIPTYCH_BAD_ARGUMENT;
+    enum triptych_depth_format format = device->target.depth_format;
+    enum triptych_result result = check_target(device, error);
+    if (result == TRIPTYCH_OK)
+        result = state_check_clear(format, values->flags, values->color, values->depth, error);
+    if (result != TRIPTYCH_OK || !values->flags)
+        return result;
+    struct command *command = next_command(device);
+    struct clear *clear = &command->clear;
+    command->kind = COMMAND_CLEAR;
+    *clear = (struct clear){.area = derive_scissor(&device->state),
+                            .set_color = values->flags & TRIPTYCH_CLEAR_COLOR};
+    unsigned saved = mxcsr_enter();
+    if (clear->set_color)
+        clear->color = pack_color(values->color);
+    if (values->flags & TRIPTYCH_CLEAR_DEPTH) {
+        /* The pipeline knows neither denormals nor -0 in depth. */
+        clear->depth = depth_encode(format, values->depth >= FLT_MIN ? values->depth : 0);
+        clear->depth_mask = depth_mask(format);
     }
+    mxcsr_leave(saved);
+    if (values->flags & TRIPTYCH_CLEAR_STENCIL) {
+        clear->depth |= values->stencil & stencil_mask(format);
+        clear->depth_mask |= stencil_mask(format);
+    }
+    device->frame->commands++;
     return TRIPTYCH_OK;
 }
 
-enum triptych_result device_clear(struct triptych_device *device, const float color[4], float depth,
-                                  struct error *error)
+/* --- Queries ----------------------------------------------------------------------------------------------
+ */
+
+/* Draws count while any query wants it. */
+static void count_while_asked(struct triptych_device *device)
 {
-    enum triptych_result result = check_target(device, error);
-    if (result == TRIPTYCH_OK)
-        result = check_clear(color, depth, error);
-    if (result != TRIPTYCH_OK || (!color && depth < 0))
-        return result;
-    struct command *command = next_command(device);
-    command->kind = COMMAND_CLEAR;
-    command->clear = (struct clear){
-        .area = derive_scissor(&device->state), .set_color = color != NULL, .set_depth = depth >= 0};
-    unsigned saved = mxcsr_enter();
-    if (color)
-        command->clear.color = pack_color(color);
-    mxcsr_leave(saved);
-    if (depth >= FLT_MIN)
-        command->clear.depth = depth; /* otherwise 0: the pipeline knows neither denormals nor -0 in depth */
-    device->frame->commands++;
+    bool counting = device->queries.counting;
+    if (device->state.counting != counting)
+        device_state_changed(device);
+    device->state.counting = counting;
+}
+
+enum triptych_result device_query_begin(struct triptych_device *device, struct triptych_query *query,
+                                        struct error *error)
+{
+    enum triptych_result result = query_begin(&device->queries, query, device->frame->commands, error);
+    count_while_asked(device);
+    return result;
+}
+
+enum triptych_result device_query_end(struct triptych_device *device, struct triptych_query *query,
+                                      struct error *error)
+{
+    enum triptych_result result = query_end(&device->queries, query, device->frame->commands, error);
+    count_while_asked(device);
+    return result;
+}
+
+enum triptych_result device_query_result(struct triptych_device *device, struct triptych_query *query,
+                                         uint64_t *result, struct error *error)
+{
+    if (query->phase == QUERY_IDLE || query->phase == QUERY_BEGUN) {
+        error_set(error, "result of a query that has not ended: expected its end first");
+        return TRIPTYCH_BAD_CALL;
+    }
+    device_finish(device);
+    *result = query->result;
     return TRIPTYCH_OK;
 }
 
@@ -484,17 +535,19 @@ enum triptych_result device_clear(struct triptych_device *device, const float co
 
 void device_finish(struct triptych_device *device)
 {
-    if (!device->frame->commands)
-        return;
-    frame_render(device->frame, &device->target);
+    struct frame *frame = device->frame;
+    if (frame->commands)
+        frame_render(frame, &device->target);
+    queries_rendered(&device->queries, frame->passed, frame->commands);
     forget_commands(device);
 }
 
-/* Rows of tiles are read by several threads. */
+/* Rows of tiles are read by several threads, into the one of the images that is not null. */
 struct reading {
     const struct target *target;
     uint32_t *color;
     float *depth;
+    uint8_t *stencil;
     _Atomic uint32_t next_row;
 };
 
@@ -506,30 +559,56 @@ static void read_task(void *user, unsigned worker)
     while ((row = atomic_fetch_add(&reading->next_row, 1)) < reading->target->rows)
         if (reading->color)
             target_read_color(reading->target, row, reading->color);
-        else
+        else if (reading->depth)
             target_read_depth(reading->target, row, reading->depth);
+        else
+            target_read_stencil(reading->target, row, reading->stencil);
 }
 
-static enum triptych_result read_target(struct triptych_device *device, uint32_t *color, float *depth,
-                                        struct error *error)
+static void read_target(struct triptych_device *device, struct reading *reading)
 {
-    enum triptych_result result = check_target(device, error);
-    if (result != TRIPTYCH_OK)
-        return result;
     device_finish(device);
-    struct reading reading = {.target = &device->target, .color = color, .depth = depth};
-    pool_run(device->pool, device->target.rows, read_task, &reading);
-    return TRIPTYCH_OK;
+    reading->target = &device->target;
+    pool_run(device->pool, device->target.rows, read_task, reading);
 }
 
 enum triptych_result device_read_color(struct triptych_device *device, uint32_t *rgba, struct error *error)
 {
-    return read_target(device, rgba, NULL, error);
+    struct reading reading = {.color = rgba};
+    enum triptych_result result = check_target(device, error);
+    if (result == TRIPTYCH_OK)
+        read_target(device, &reading);
+    return result;
+}
+
+static enum triptych_result lacks(const struct triptych_device *device, const char *what, struct error *error)
+{
+    error_set(error, "the target's depth format is %s: expected one with %s",
+              depth_formats[device->target.depth_format].name, what);
+    return TRIPTYCH_BAD_CALL;
 }
 
 enum triptych_result device_read_depth(struct triptych_device *device, float *depth, struct error *error)
 {
-    return read_target(device, NULL, depth, error);
+    struct reading reading = {.depth = depth};
+    enum triptych_result result = check_target(device, error);
+    if (result == TRIPTYCH_OK && !device->target.depth)
+        return lacks(device, "depth", error);
+    if (result == TRIPTYCH_OK)
+        read_target(device, &reading);
+    return result;
+}
+
+enum triptych_result device_read_stencil(struct triptych_device *device, uint8_t *stencil,
+                                         struct error *error)
+{
+    struct reading reading = {.stencil = stencil};
+    enum triptych_result result = check_target(device, error);
+    if (result == TRIPTYCH_OK && !stencil_mask(device->target.depth_format))
+        return lacks(device, "stencil", error);
+    if (result == TRIPTYCH_OK)
+        read_target(device, &reading);
+    return result;
 }
 
 void device_get_statistics(const struct triptych_device *device, struct triptych_statistics *statistics)

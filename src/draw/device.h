@@ -8,6 +8,7 @@
 
 #include "draw/cache.h"
 #include "draw/frame.h"
+#include "draw/query.h"
 #include "draw/state.h"
 
 /* Called for each draw that is recorded: its number, from 0, and its keys, indexed by enum unit. */
@@ -23,6 +24,7 @@ struct triptych_device {
     struct state state;
     struct triptych_buffer *buffers;
     struct triptych_texture *textures;
+    struct queries queries;
 
     /* What the state derives to, once somebody has asked since it changed. */
     bool derived;
@@ -51,7 +53,8 @@ enum triptych_result device_create(const struct engine *engine, const struct dev
                                    struct triptych_device **device, struct error *error);
 void device_destroy(struct triptych_device *device);
 
-enum triptych_result device_set_target(struct triptych_device *device, uint32_t width, uint32_t height,
+enum triptych_result device_set_target(struct triptych_device *device,
+                                       const struct triptych_target_description *description,
                                        struct error *error);
 /* Direct access to the state is for changes; they must be followed by this. */
 static inline void device_state_changed(struct triptych_device *device)
@@ -68,8 +71,22 @@ enum triptych_result device_draw(struct triptych_device *device, enum triptych_p
                                  uint32_t first, uint32_t count, struct error *error);
 enum triptych_result device_draw_indexed(struct triptych_device *device, enum triptych_primitive primitive,
                                          int32_t base, uint32_t first, uint32_t count, struct error *error);
-enum triptych_result device_clear(struct triptych_device *device, const float color[4], float depth,
+/* What a clear sets: flags as in triptych.h, and the values that they name. */
+struct clear_values {
+    unsigned flags;
+    const float *color; /* four */
+    float depth;
+    unsigned stencil;
+};
+enum triptych_result device_clear(struct triptych_device *device, const struct clear_values *values,
                                   struct error *error);
+
+enum triptych_result device_query_begin(struct triptych_device *device, struct triptych_query *query,
+                                        struct error *error);
+enum triptych_result device_query_end(struct triptych_device *device, struct triptych_query *query,
+                                      struct error *error);
+enum triptych_result device_query_result(struct triptych_device *device, struct triptych_query *query,
+                                         uint64_t *result, struct error *error);
 
 /* Renders everything recorded. Cannot fail. */
 void device_finish(struct triptych_device *device);
@@ -77,6 +94,8 @@ void device_finish(struct triptych_device *device);
 /* Finishes and copies the target, if there is one. */
 enum triptych_result device_read_color(struct triptych_device *device, uint32_t *rgba, struct error *error);
 enum triptych_result device_read_depth(struct triptych_device *device, float *depth, struct error *error);
+enum triptych_result device_read_stencil(struct triptych_device *device, uint8_t *stencil,
+                                         struct error *error);
 
 /* Changes a texture, after rendering what is recorded if some of that reads it. Arguments are not null, but
  * for the box. */

@@ -29,9 +29,10 @@ struct frame *frame_create(struct pool *pool, uint32_t arena_bytes, struct error
     if (frame) {
         frame->pool = pool;
         frame->command = allocate_zeroed(FRAME_COMMANDS * sizeof *frame->command);
+        frame->passed = allocate_zeroed(FRAME_COMMANDS * sizeof *frame->passed);
         frame->worker = allocate_zeroed(pool_workers(pool) * sizeof *frame->worker);
     }
-    if (!frame || !frame->command || !frame->worker ||
+    if (!frame || !frame->command || !frame->passed || !frame->worker ||
         arena_create(&frame->arena, arena_bytes ? arena_bytes : ARENA_BYTES, error)) {
         error_set(error, "out of memory for the renderer's queue");
         frame_destroy(frame);
@@ -46,6 +47,7 @@ void frame_destroy(struct frame *frame)
         return;
     arena_destroy(&frame->arena);
     free(frame->command);
+    free(frame->passed);
     free(frame->worker);
     free(frame);
 }
@@ -199,6 +201,7 @@ void frame_render(struct frame *frame, struct target *target)
     struct cursor at = {0, 0};
     uint32_t limit = FRAME_CHUNKS;
     frame->target = target;
+    memset(frame->passed, 0, frame->commands * sizeof *frame->passed);
     while (at.command < frame->commands) {
         struct cursor before = at;
         render_round(frame, &at, limit);

@@ -49,6 +49,7 @@ struct frame {
     struct arena arena;
     struct command *command; /* FRAME_COMMANDS of them */
     uint32_t commands;
+    _Atomic uint64_t *passed;    /* samples that passed the tests of each draw whose key counts */
     struct frame_worker *worker; /* one per thread of the pool */
 
     /* The round. */
@@ -72,8 +73,8 @@ void frame_destroy(struct frame *frame);
 /* The place of the next command; null when the queue is full. It counts once frame->commands is increased. */
 struct command *frame_next(struct frame *frame);
 
-/* Renders all commands, in order, into the target. The queue still holds them, for its owner to release and
- * to empty. */
+/* Renders all commands, in order, into the target. The queue still holds them and `passed` their counts, for
+ * its owner to release and to empty. */
 void frame_render(struct frame *frame, struct target *target);
 
 static inline const struct command *frame_command(const struct frame *frame, uint32_t chunk)

@@ -75,6 +75,14 @@ struct job {
     float scale_y, offset_y;
     float depth_scale, depth_offset;
 
+    /* Depth as integer: depth_maximum is 2^bits - 1. A w-buffer's depth is w * w_scale + w_offset. */
+    float depth_maximum;
+    float w_scale, w_offset;
+    int32_t stencil_maximum;   /* 2^bits - 1 */
+    int32_t stencil_reference; /* 0 to stencil_maximum, like the masks */
+    int32_t stencil_mask;      /* of reference and stored value when they are compared */
+    int32_t stencil_write_mask;
+
     struct texture_job texture[TEXTURE_STAGES];
     uint32_t stage_constant[TEXTURE_STAGES]; /* RGBA8, red in the low byte, like all packed colours here */
     uint32_t texture_factor;

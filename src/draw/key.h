@@ -128,6 +128,33 @@ enum compare {
     COMPARE_COUNT
 };
 
+/* How a pixel's word holds depth and stencil (draw/depth.h). */
+enum depth_storage { DEPTH_FLOAT, DEPTH_UNORM, DEPTH_FLOAT24, DEPTH_UNORM32, DEPTH_STORAGE_COUNT };
+
+/* DEPTH_FLOAT24 has 20 bits of fraction and 4 of exponent, whose bias is 15, so that 1 is 0xf00000. Below
+ * NORMAL, 2^-14, depth is a multiple of 2^-34; above, it is binary32 less BIAS, cut to 20 bits of fraction.
+ */
+#define DEPTH_FLOAT24_NORMAL 0x1p-14f
+#define DEPTH_FLOAT24_UNITS  0x1p34f
+enum { DEPTH_FLOAT24_BIAS = (127 - 15) << 23 };
+
+/* How many stencil tests there are: one for all triangles, or one for each winding. */
+enum stencil { STENCIL_OFF, STENCIL_ONE, STENCIL_TWO, STENCIL_COUNT };
+enum { SIDE_CLOCKWISE, SIDE_COUNTERCLOCKWISE, STENCIL_SIDES };
+
+/* What becomes of the stored stencil, in Direct3D's order. */
+enum stencil_operation {
+    STENCIL_KEEP,
+    STENCIL_ZERO,
+    STENCIL_REPLACE,
+    STENCIL_INCREMENT_SATURATED,
+    STENCIL_DECREMENT_SATURATED,
+    STENCIL_INVERT,
+    STENCIL_INCREMENT,
+    STENCIL_DECREMENT,
+    STENCIL_OPERATION_COUNT
+};
+
 enum filter { FILTER_POINT, FILTER_LINEAR, FILTER_COUNT };
 
 /* WRAP_POWER and MIRROR_POWER are for an axis whose size is a power of two: a mask instead of a floor. */
@@ -356,10 +383,37 @@ static inline int primitive_has_area(int primitive)
     return primitive != PRIMITIVE_LINE && primitive != PRIMITIVE_POINT;
 }
 
-/* Whether the pixel routine computes colours: to write them, or to find whose depth the alpha test keeps. */
+/* Whether the pixel routine compares or writes depth. */
+static inline int pixel_tests_depth(const struct pixel_key *key)
+{
+    return key->depth_function != COMPARE_ALWAYS || key->depth_write;
+}
+
+/* The stencil tests that the word has room for. */
+static inline int pixel_stencil(const struct pixel_key *key)
+{
+    int room = key->depth_format == DEPTH_UNORM || key->depth_format == DEPTH_FLOAT24;
+    return room ? key->stencil : STENCIL_OFF;
+}
+
+static inline int pixel_writes_stencil(const struct pixel_key *key)
+{
+    int writes = 0;
+    for (int i = 0; i < pixel_stencil(key); i++)
+        writes |= key->stencil_fail[i] | key->stencil_depth_fail[i] | key->stencil_pass[i];
+    return writes;
+}
+
+/* Whether anything remains of what the pixel routine finds, other than colour. */
+static inline int pixel_leaves_traces(const struct pixel_key *key)
+{
+    return key->depth_write || key->count || pixel_writes_stencil(key);
+}
+
+/* Whether the pixel routine computes colours: to write them, or to find what the alpha test keeps. */
 static inline int pixel_shades(const struct pixel_key *key)
 {
-    return pixel_write_mask(key) || (key->alpha_discard && key->depth_write);
+    return pixel_write_mask(key) || (key->alpha_discard && pixel_leaves_traces(key));
 }
 
 static inline int fog_reads_depth(int fog)
@@ -370,13 +424,12 @@ static inline int fog_reads_depth(int fog)
 /* Whether the pixel routine looks at the triangle's depth, and at w other than to interpolate. */
 static inline int pixel_reads_depth(const struct pixel_key *key)
 {
-    return key->depth_function != COMPARE_ALWAYS || key->depth_write ||
-           (pixel_shades(key) && fog_reads_depth(key->fog));
+    return (pixel_tests_depth(key) && !key->depth_w) || (pixel_shades(key) && fog_reads_depth(key->fog));
 }
 
 static inline int pixel_reads_w(const struct pixel_key *key)
 {
-    return pixel_shades(key) && key->fog >= FOG_LINEAR_W;
+    return (pixel_tests_depth(key) && key->depth_w) || (pixel_shades(key) && key->fog >= FOG_LINEAR_W);
 }
 
 /* Whether alpha is blended otherwise than colour. */

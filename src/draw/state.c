@@ -1,5 +1,7 @@
 #include "draw/state.h"
 
+#include "draw/depth.h"
+
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
@@ -333,5 +335,41 @@ enum triptych_result state_set_texture(struct state *state, unsigned sampler,
         return TRIPTYCH_UNSUPPORTED;
     }
     state->texture[sampler] = texture;
+    return TRIPTYCH_OK;
+}
+
+void state_set_target(struct state *state, const struct triptych_target_description *description)
+{
+    uint32_t width = description->width, height = description->height;
+    state->viewport = (struct triptych_viewport){0, 0, (float)width, (float)height, 0, 1};
+    state->scissor = (struct scissor){0, 0, width, height};
+    state->depth_format = description->depth_format;
+}
+
+enum triptych_result state_check_clear(enum triptych_depth_format format, unsigned flags,
+                                       const float color[4], float depth, struct error *error)
+{
+    unsigned all = TRIPTYCH_CLEAR_COLOR | TRIPTYCH_CLEAR_DEPTH | TRIPTYCH_CLEAR_STENCIL;
+    if (flags & ~all) {
+        error_set(error, "clear flags 0x%x: expected a sum of 1, 2 and 4", flags);
+        return TRIPTYCH_BAD_ARGUMENT;
+    }
+    for (int c = 0; c < 4 && flags & TRIPTYCH_CLEAR_COLOR; c++)
+        if (!isfinite(color[c])) {
+            error_set(error, "clear colour %d is %f, expected a finite number", c, (double)color[c]);
+            return TRIPTYCH_BAD_ARGUMENT;
+        }
+    if (flags & TRIPTYCH_CLEAR_DEPTH && !(depth >= 0 && depth <= 1)) {
+        error_set(error, "clear depth %g: expected 0 to 1", (double)depth);
+        return TRIPTYCH_BAD_ARGUMENT;
+    }
+    int lacks_depth = flags & TRIPTYCH_CLEAR_DEPTH && !depth_mask(format);
+    int lacks_stencil = flags & TRIPTYCH_CLEAR_STENCIL && !stencil_mask(format);
+    if (lacks_depth || lacks_stencil) {
+        error_set(error, "clear of %s: the target's depth format is %s, expected one with %s",
+                  lacks_depth ? "depth" : "stencil", depth_formats[format].name,
+                  lacks_depth ? "depth" : "stencil");
+        return TRIPTYCH_BAD_CALL;
+    }
     return TRIPTYCH_OK;
 }

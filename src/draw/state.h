@@ -54,12 +54,21 @@ struct state {
     struct triptych_buffer *indices;
     uint32_t index_bits; /* 16 or 32 while indices are bound */
     struct target_channels target[TARGETS];
+    enum triptych_depth_format depth_format; /* of the target */
+    uint8_t counting;                        /* an occlusion query wants to know what passes */
 };
 
 extern const char *const attribute_name[TRIPTYCH_ATTRIBUTE_COUNT];
 
 /* Direct3D 9's defaults; identity transforms, nothing bound, an empty viewport and scissor rectangle. */
 void state_initialize(struct state *state);
+
+/* What a new target brings: its formats, and viewport and scissor rectangle that are all of it. */
+void state_set_target(struct state *state, const struct triptych_target_description *description);
+
+/* Whether a target with that depth format can be cleared to these values (triptych_clear_buffers). */
+enum triptych_result state_check_clear(enum triptych_depth_format format, unsigned flags,
+                                       const float color[4], float depth, struct error *error);
 
 /* Each checks its argument and sets it, or leaves the state alone and gives the reason. state_set_value takes
  * sampler or stage `i` (0 for render states) and the row's number in the table. */

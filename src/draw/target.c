@@ -4,22 +4,26 @@
 #include <stdlib.h>
 #include <string.h>
 
-int target_create(struct target *target, uint32_t width, uint32_t height, struct error *error)
+int target_create(struct target *target, const struct triptych_target_description *description,
+                  struct error *error)
 {
-    struct target t = {.width = width, .height = height};
-    t.columns = (width + TILE_SIZE - 1) / TILE_SIZE;
-    t.rows = (height + TILE_SIZE - 1) / TILE_SIZE;
+    struct target t = {.width = description->width,
+                       .height = description->height,
+                       .depth_format = description->depth_format};
+    bool has_depth = depth_formats[t.depth_format].depth_bits;
+    t.columns = (t.width + TILE_SIZE - 1) / TILE_SIZE;
+    t.rows = (t.height + TILE_SIZE - 1) / TILE_SIZE;
     size_t tiles = (size_t)t.columns * t.rows;
     t.color = aligned_alloc(64, tiles * TILE_PIXELS * sizeof *t.color);
-    t.depth = aligned_alloc(64, tiles * TILE_PIXELS * sizeof *t.depth);
+    t.depth = has_depth ? aligned_alloc(64, tiles * TILE_PIXELS * sizeof *t.depth) : NULL;
     t.clear = malloc(tiles * sizeof *t.clear);
-    if (!t.color || !t.depth || !t.clear) {
+    if (!t.color || (has_depth && !t.depth) || !t.clear) {
         target_destroy(&t);
-        return error_set(error, "out of memory for a target of %ux%u pixels (%zu MiB)", width, height,
-                         tiles * TILE_PIXELS * 8 >> 20);
+        return error_set(error, "out of memory for a target of %ux%u pixels (%zu MiB)", description->width,
+                         description->height, tiles * TILE_PIXELS * 4 * (1 + has_depth) >> 20);
     }
     for (size_t i = 0; i < tiles; i++)
-        t.clear[i] = (struct tile_clear){0, 1, true, true};
+        t.clear[i] = (struct tile_clear){0, depth_encode(t.depth_format, 1), true, true};
     *target = t;
     return 0;
 }
@@ -50,13 +54,6 @@ static void fill(void *words, uint32_t value)
         _mm_store_si128((__m128i *)((uint32_t *)words + i), v);
 }
 
-static uint32_t bits_of(float value)
-{
-    uint32_t bits;
-    memcpy(&bits, &value, sizeof bits);
-    return bits;
-}
-
 uint32_t *target_fill_color(struct target *target, uint32_t tile)
 {
     uint32_t *words = target->color + (size_t)tile * TILE_PIXELS;
@@ -66,11 +63,11 @@ uint32_t *target_fill_color(struct target *target, uint32_t tile)
     return words;
 }
 
-float *target_fill_depth(struct target *target, uint32_t tile)
+uint32_t *target_fill_depth(struct target *target, uint32_t tile)
 {
-    float *words = target->depth + (size_t)tile * TILE_PIXELS;
+    uint32_t *words = target->depth + (size_t)tile * TILE_PIXELS;
     if (target->clear[tile].depth_pending)
-        fill(words, bits_of(target->clear[tile].depth));
+        fill(words, target->clear[tile].depth);
     target->clear[tile].depth_pending = false;
     return words;
 }
@@ -87,14 +84,14 @@ static void clear_part(struct target *target, uint32_t tile, const struct clear 
                        const struct rectangle *part, const struct rectangle *whole)
 {
     uint32_t *color = clear->set_color ? target_fill_color(target, tile) : NULL;
-    float *depth = clear->set_depth ? target_fill_depth(target, tile) : NULL;
+    uint32_t *depth = clear->depth_mask ? target_fill_depth(target, tile) : NULL;
     for (int32_t y = part->y0; y < part->y1; y++)
         for (int32_t x = part->x0; x < part->x1; x++) {
             uint32_t word = pixel_word((uint32_t)(x - whole->x0), (uint32_t)(y - whole->y0));
             if (color)
                 color[word] = clear->color;
             if (depth)
-                depth[word] = clear->depth;
+                depth[word] = (depth[word] & ~clear->depth_mask) | clear->depth;
         }
 }
 
@@ -108,27 +105,37 @@ static int32_t smaller(int32_t a, int32_t b)
     return a < b ? a : b;
 }
 
+/* Whether every bit of the words that means something is set: what they were does not matter. */
+static bool sets_whole_word(const struct target *target, const struct clear *clear)
+{
+    enum triptych_depth_format format = target->depth_format;
+    return clear->depth_mask == (depth_mask(format) | stencil_mask(format));
+}
+
 void target_clear_tile(struct target *target, uint32_t tile, const struct clear *clear)
 {
     struct rectangle whole = tile_area(target, tile);
     const struct rectangle *area = &clear->area;
     struct rectangle part = {larger(whole.x0, area->x0), larger(whole.y0, area->y0),
                              smaller(whole.x1, area->x1), smaller(whole.y1, area->y1)};
+    struct tile_clear *pending = target->clear + tile;
+    struct clear rest = *clear;
     if (part.x0 >= part.x1 || part.y0 >= part.y1)
         return;
-    if (memcmp(&part, &whole, sizeof part)) {
-        clear_part(target, tile, clear, &part, &whole);
-        return;
+    if (!memcmp(&part, &whole, sizeof part)) {
+        if (clear->set_color) {
+            pending->color = clear->color;
+            pending->color_pending = true;
+            rest.set_color = false;
+        }
+        if (clear->depth_mask && (pending->depth_pending || sets_whole_word(target, clear))) {
+            pending->depth = (pending->depth & ~clear->depth_mask) | clear->depth;
+            pending->depth_pending = true;
+            rest.depth_mask = 0;
+        }
     }
-    struct tile_clear *pending = target->clear + tile;
-    if (clear->set_color) {
-        pending->color = clear->color;
-        pending->color_pending = true;
-    }
-    if (clear->set_depth) {
-        pending->depth = clear->depth;
-        pending->depth_pending = true;
-    }
+    if (rest.set_color || rest.depth_mask)
+        clear_part(target, tile, &rest, &part, &whole);
 }
 
 /* Quad order to rows:  0 1 4 5 | 2 3 6 7 | 8 9 12 13 | 10 11 14 15 */
@@ -196,13 +203,36 @@ void target_read_color(const struct target *target, uint32_t tile_row, uint32_t 
 
 void target_read_depth(const struct target *target, uint32_t tile_row, float *image)
 {
+    uint32_t *words = (uint32_t *)(void *)image;
     for (uint32_t i = 0; i < target->columns; i++) {
         uint32_t tile = tile_row * target->columns + i;
         struct rectangle area = tile_area(target, tile);
-        const uint32_t *words = (const uint32_t *)(const void *)(target->depth + (size_t)tile * TILE_PIXELS);
         if (target->clear[tile].depth_pending)
-            read_cleared(bits_of(target->clear[tile].depth), &area, (uint32_t *)(void *)image, target->width);
+            read_cleared(target->clear[tile].depth, &area, words, target->width);
         else
-            read_tile(words, &area, (uint32_t *)(void *)image, target->width);
+            read_tile(target->depth + (size_t)tile * TILE_PIXELS, &area, words, target->width);
+    }
+    if (depth_formats[target->depth_format].storage == DEPTH_FLOAT)
+        return;
+    size_t first = (size_t)tile_row * TILE_SIZE * target->width;
+    size_t all = (size_t)target->height * target->width, end = first + (size_t)TILE_SIZE * target->width;
+    for (size_t p = first; p < (end < all ? end : all); p++)
+        image[p] = depth_decode(target->depth_format, words[p]);
+}
+
+void target_read_stencil(const struct target *target, uint32_t tile_row, uint8_t *image)
+{
+    uint32_t mask = stencil_mask(target->depth_format);
+    for (uint32_t i = 0; i < target->columns; i++) {
+        uint32_t tile = tile_row * target->columns + i;
+        struct rectangle area = tile_area(target, tile);
+        const uint32_t *words = target->depth + (size_t)tile * TILE_PIXELS;
+        const struct tile_clear *clear = target->clear + tile;
+        for (int32_t y = area.y0; y < area.y1; y++)
+            for (int32_t x = area.x0; x < area.x1; x++) {
+                uint32_t at = pixel_word((uint32_t)(x - area.x0), (uint32_t)(y - area.y0));
+                uint32_t word = clear->depth_pending ? clear->depth : words[at];
+                image[(size_t)y * target->width + (size_t)x] = (uint8_t)(word & mask);
+            }
     }
 }

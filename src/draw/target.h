@@ -8,13 +8,14 @@
 
 #include "base/error.h"
 #include "draw/call.h"
+#include "draw/depth.h"
 #include "draw/raster.h"
 
 #include <stdbool.h>
 
 struct tile_clear {
     uint32_t color;
-    float depth;
+    uint32_t depth;                    /* the word, stencil included */
     bool color_pending, depth_pending; /* the words are not valid: every one has this value */
 };
 
@@ -22,7 +23,8 @@ struct target {
     uint32_t width, height; /* pixels, 0 when there is no target */
     uint32_t columns, rows; /* tiles */
     uint32_t *color;        /* TILE_PIXELS words per tile, tiles in row order, 64-byte aligned */
-    float *depth;
+    uint32_t *depth;        /* likewise (draw/depth.h); null in a target without */
+    enum triptych_depth_format depth_format;
     struct tile_clear *clear; /* per tile */
 };
 
@@ -30,12 +32,15 @@ struct target {
 struct clear {
     struct rectangle area;
     uint32_t color;
-    float depth;
-    bool set_color, set_depth;
+    uint32_t depth;      /* new bits of the word */
+    uint32_t depth_mask; /* which of them are set: depth's, stencil's, both or none */
+    bool set_color;
 };
 
-/* A target of 1 to TARGET_SIZE_MAXIMUM pixels a side, zero and depth 1. Returns 0 or -1 with the reason. */
-int target_create(struct target *target, uint32_t width, uint32_t height, struct error *error);
+/* A target of 1 to TARGET_SIZE_MAXIMUM pixels a side: colour and stencil zero, depth 1. Returns 0 or -1 with
+ * the reason. */
+int target_create(struct target *target, const struct triptych_target_description *description,
+                  struct error *error);
 void target_destroy(struct target *target);
 
 /* Applies the clear's part in one tile. */
@@ -43,10 +48,11 @@ void target_clear_tile(struct target *target, uint32_t tile, const struct clear 
 
 /* Makes the tile's words valid before something reads or changes them; returns them. */
 uint32_t *target_fill_color(struct target *target, uint32_t tile);
-float *target_fill_depth(struct target *target, uint32_t tile);
+uint32_t *target_fill_depth(struct target *target, uint32_t tile);
 
 /* Copies one row of tiles into rows of a linear image of the target's size. */
 void target_read_color(const struct target *target, uint32_t tile_row, uint32_t *image);
 void target_read_depth(const struct target *target, uint32_t tile_row, float *image);
+void target_read_stencil(const struct target *target, uint32_t tile_row, uint8_t *image);
 
 #endif

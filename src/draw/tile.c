@@ -20,6 +20,16 @@ static uint64_t count_pixels(const struct entry *entry, uint32_t count)
     return total;
 }
 
+/* What the call has counted, to the draw's sum: any order of threads gives the same. */
+static void take_count(struct tile_worker *worker, const struct frame *frame)
+{
+    uint64_t sum = 0;
+    for (int lane = 0; lane < LANES_MAXIMUM; lane++)
+        sum += (uint32_t)worker->lanes.passed[lane];
+    memset(worker->lanes.passed, 0, sizeof worker->lanes.passed);
+    atomic_fetch_add_explicit(frame->passed + worker->command, sum, memory_order_relaxed);
+}
+
 static void shade(struct tile_worker *worker, const struct frame *frame, uint32_t tile)
 {
     if (!worker->count)
@@ -31,16 +41,19 @@ static void shade(struct tile_worker *worker, const struct frame *frame, uint32_
         .job = &worker->draw->job,
         .entries = worker->entries,
         .triangles = frame->arena.base,
-        .lanes = &lane_table,
+        .lanes = &worker->lanes,
         .color = target->color + (size_t)tile * TILE_PIXELS,
-        .depth = target->depth + (size_t)tile * TILE_PIXELS,
         .count = worker->count,
     };
+    /* Nobody reads what is not there; an address it has all the same. */
+    call.depth = target->depth ? target->depth + (size_t)tile * TILE_PIXELS : call.color;
     if (pixel_write_mask(key))
         target_fill_color(target, tile);
-    if (key->depth_write || key->depth_function != COMPARE_ALWAYS)
+    if (pixel_tests_depth(key) || pixel_stencil(key))
         target_fill_depth(target, tile);
     routine->run(&call, routine);
+    if (key->count)
+        take_count(worker, frame);
     worker->pixels_shaded += count_pixels(worker->entries, worker->count);
     worker->count = 0;
 }
@@ -78,6 +91,7 @@ void tile_render(struct tile_worker *worker, const struct frame *frame, uint32_t
     uint32_t clear = 0;
     worker->count = 0;
     worker->draw = NULL;
+    worker->lanes = lane_table;
     for (uint32_t head = frame->tile_first[tile];; head = bin_cell(&frame->arena, head)->later) {
         uint32_t chunk = head ? bin_cell(&frame->arena, head)->chunk : UINT32_MAX;
         for (; clear < frame->clears && frame->clear_chunk[clear] < chunk; clear++) {
@@ -91,6 +105,7 @@ void tile_render(struct tile_worker *worker, const struct frame *frame, uint32_t
         if (draw != worker->draw)
             shade(worker, frame, tile);
         worker->draw = draw;
+        worker->command = frame->chunk[chunk].command;
         for (uint32_t cell = head; cell; cell = bin_cell(&frame->arena, cell)->next)
             rasterize_cell(worker, frame, tile, bin_cell(&frame->arena, cell));
     }

@@ -11,8 +11,10 @@ enum { TILE_ENTRIES = 1024 };
 /* One thread's workspace. */
 struct tile_worker {
     alignas(64) struct entry entries[TILE_ENTRIES];
+    struct lane_table lanes; /* its counters are zero between calls */
     uint32_t count;
     const struct draw *draw; /* whose entries these are */
+    uint32_t command;        /* its number */
     uint64_t pixels_shaded;
 };
 

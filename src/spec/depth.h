@@ -1,6 +1,12 @@
 /* Depth: clamped to 0..1 (NaN gives 0), compared with the stored value, written where the test passes.
  *
- * The comparison comes first of all. The write follows at once, or behind the alpha test when that is on. */
+ * It is z / w interpolated linearly, or in a w-buffer w * w_scale + w_offset with w at the pixel. As an
+ * integer of n bits it is z * (2^n - 1), in binary32, rounded to nearest even; of 32 bits, z * 2^32 rounded
+ * so, less 1 above one half. As 24-bit floating point it is the nearest value, ties to even, of those that
+ * draw/key.h describes. Stored and new depth are compared as they are stored.
+ *
+ * The comparison comes first of all but the stencil's (spec/stencil.h). The write follows at once, or behind
+ * the alpha test when that is on. */
 
 static inline msk depth_compare(struct env *e, int function, flt new, flt stored)
 {
@@ -16,8 +22,10 @@ static inline msk depth_compare(struct env *e, int function, flt new, flt stored
     }
 }
 
+/* The new depth and the stored one: as binary32, or as integers in depth's order. */
 struct depth {
     flt new, stored;
+    itg code, stored_code;
 };
 
 /* The pixel's own depth. */
@@ -29,37 +37,128 @@ static inline flt pixel_depth(struct env *e, const struct pixel_position *at,
     return min_f(E, low, lit_f(E, 1.0f));
 }
 
+/* The same of w, in a w-buffer. */
+static inline flt pixel_w_depth(struct env *e, const struct pixel_position *at,
+                                const struct triangle_layout *layout)
+{
+    flt w = pixel_w(E, at, layout);
+    flt scale = uniform_f(E, BASE_JOB, (int)offsetof(struct job, w_scale));
+    flt offset = uniform_f(E, BASE_JOB, (int)offsetof(struct job, w_offset));
+    flt value = mad_f(E, w, scale, offset);
+    flt low = max_f(E, value, lit_f(E, 0.0f));
+    return min_f(E, low, lit_f(E, 1.0f));
+}
+
+/* Two halves of 16 bits, each exact until it is rounded; above 2^31 modulo 2^32. */
+static inline itg depth_unorm32(struct env *e, flt depth)
+{
+    flt scaled = mul_f(E, depth, lit_f(E, 65536.0f));
+    itg high = trunc_i(E, scaled);
+    flt whole = float_f(E, high);
+    flt fraction = sub_f(E, scaled, whole);
+    flt rest = mul_f(E, fraction, lit_f(E, 65536.0f));
+    itg low = round_i(E, rest);
+    itg upper = shl_i(E, high, 16);
+    itg sum = add_i(E, upper, low);
+    msk above = lt_f(E, lit_f(E, 0.5f), depth);
+    itg less = mask_i(E, above);
+    return add_i(E, sum, less);
+}
+
+static inline itg depth_float24(struct env *e, flt depth)
+{
+    flt units = mul_f(E, depth, lit_f(E, DEPTH_FLOAT24_UNITS));
+    itg small = round_i(E, units);
+    itg bits = bits_i(E, depth);
+    itg last = ushr_i(E, bits, 3);
+    itg odd = and_i(E, last, lit_i(E, 1));
+    itg half = add_i(E, bits, lit_i(E, 3 - DEPTH_FLOAT24_BIAS));
+    itg rounded = add_i(E, half, odd);
+    itg normal = ushr_i(E, rounded, 3);
+    msk is_small = lt_f(E, depth, lit_f(E, DEPTH_FLOAT24_NORMAL));
+    return select_i(E, is_small, small, normal);
+}
+
+/* Depth as an integer whose signed order is depth's: a 32-bit one has its upper bit turned. */
+static inline itg depth_code(struct env *e, const struct pixel_key *k, flt depth)
+{
+    switch (k->depth_format) {
+    case DEPTH_UNORM: {
+        flt maximum = uniform_f(E, BASE_JOB, (int)offsetof(struct job, depth_maximum));
+        flt scaled = mul_f(E, depth, maximum);
+        return round_i(E, scaled);
+    }
+    case DEPTH_FLOAT24: return depth_float24(E, depth);
+    default: {
+        itg integer = depth_unorm32(E, depth);
+        return xor_i(E, integer, lit_i(E, INT32_MIN));
+    }
+    }
+}
+
 /* The pixel's depth and the tile's. */
-static inline struct depth depth_pair(struct env *e, const struct pixel_position *at,
-                                      const struct triangle_layout *layout)
+static inline struct depth depth_pair(struct env *e, const struct pixel_key *k,
+                                      const struct pixel_position *at, const struct triangle_layout *layout)
 {
     struct depth r;
-    r.new = pixel_depth(E, at, layout);
-    r.stored = load_f(E, BASE_DEPTH, 0);
+    r.new = k->depth_w ? pixel_w_depth(E, at, layout) : pixel_depth(E, at, layout);
+    if (k->depth_format == DEPTH_FLOAT) {
+        r.stored = load_f(E, BASE_DEPTH, 0);
+        r.code = r.stored_code = bits_i(E, r.stored);
+        return r;
+    }
+    itg word = load_i(E, BASE_DEPTH, 0);
+    r.stored = bits_f(E, word);
+    r.code = depth_code(E, k, r.new);
+    if (k->depth_format == DEPTH_UNORM32)
+        r.stored_code = xor_i(E, word, lit_i(E, INT32_MIN));
+    else
+        r.stored_code = ushr_i(E, word, 8);
     return r;
 }
 
-static inline void depth_write(struct env *e, struct depth depth, msk live)
+/* The lanes of `live` that pass. */
+static inline msk depth_pass(struct env *e, const struct pixel_key *k, const struct depth *depth, msk live)
 {
-    flt merged = select_f(E, live, depth.new, depth.stored);
-    store_f(E, BASE_DEPTH, 0, merged);
+    if (k->depth_function == COMPARE_ALWAYS)
+        return live;
+    if (k->depth_format != DEPTH_FLOAT)
+        return keep_compared(E, k->depth_function, depth->code, depth->stored_code, live);
+    msk passed = depth_compare(E, k->depth_function, depth->new, depth->stored);
+    return and_m(E, live, passed);
+}
+
+/* Formats with an integer keep the stencil below it. */
+static inline void depth_write(struct env *e, const struct pixel_key *k, const struct depth *depth, msk live)
+{
+    if (k->depth_format == DEPTH_FLOAT) {
+        flt merged = select_f(E, live, depth->new, depth->stored);
+        store_f(E, BASE_DEPTH, 0, merged);
+        return;
+    }
+    itg stored = bits_i(E, depth->stored), word;
+    if (k->depth_format == DEPTH_UNORM32) {
+        word = xor_i(E, depth->code, lit_i(E, INT32_MIN));
+    } else {
+        itg high = shl_i(E, depth->code, 8);
+        itg low = and_i(E, stored, lit_i(E, 255));
+        word = or_i(E, high, low);
+    }
+    itg merged = select_i(E, live, word, stored);
+    store_i(E, BASE_DEPTH, 0, merged);
 }
 
 /* Tests depth, and writes it unless the alpha test has a say in that; returns the lanes that are still live.
  */
 static inline msk depth_test(struct env *e, const struct pixel_key *k, const struct pixel_position *at,
-                             const struct triangle_layout *layout, msk live)
+                             const struct triangle_layout *layout, int writes, msk live)
 {
-    int writes = k->depth_write && !k->alpha_discard;
     if (k->depth_function == COMPARE_ALWAYS && !writes)
         return live;
-    struct depth depth = depth_pair(E, at, layout);
-    if (k->depth_function != COMPARE_ALWAYS) {
-        msk passed = depth_compare(E, k->depth_function, depth.new, depth.stored);
-        live = and_m(E, live, passed);
-    }
+    struct depth depth = depth_pair(E, k, at, layout);
+    live = depth_pass(E, k, &depth, live);
     if (writes)
-        depth_write(E, depth, live);
+        depth_write(E, k, &depth, live);
     return live;
 }
 
@@ -67,8 +166,6 @@ static inline msk depth_test(struct env *e, const struct pixel_key *k, const str
 static inline void depth_write_late(struct env *e, const struct pixel_key *k, const struct pixel_position *at,
                                     const struct triangle_layout *layout, msk live)
 {
-    if (!k->depth_write || !k->alpha_discard)
-        return;
-    struct depth depth = depth_pair(E, at, layout);
-    depth_write(E, depth, live);
+    struct depth depth = depth_pair(E, k, at, layout);
+    depth_write(E, k, &depth, live);
 }

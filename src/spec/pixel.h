@@ -1,9 +1,11 @@
-/* The pixel routine: depth, interpolation, textures and stages, specular, fog, alpha test, blending, write;
- * one lane a pixel of a 4x4 block (draw/call.h, struct pixel_call).
+/* The pixel routine: stencil, depth, interpolation, textures and stages, specular, fog, alpha test, blending,
+ * write; one lane a pixel of a 4x4 block (draw/call.h, struct pixel_call).
  *
  * Bases: JOB; ENTRY the block's entry; TRIANGLE its record; LANES the per-lane constants of this chunk of the
- * block; COLOR and DEPTH the chunk's pixels in the tile. Depth is always tested first, and shading is skipped
- * when no lane is left; what is written waits for the alpha test. */
+ * block; COLOR and DEPTH the chunk's pixels in the tile. The alpha test comes before stencil and depth by
+ * definition. These are tested first all the same where that makes no difference, and shading is skipped when
+ * no lane is left; what is written waits for the alpha test. A query counts the lanes that pass everything.
+ */
 
 /* Lanes of this chunk that the triangle covers. */
 static inline msk coverage(struct env *e)
@@ -78,11 +80,23 @@ static inline struct color shade(struct env *e, const struct pixel_source *s)
     return color;
 }
 
+/* Counts the lanes of an occlusion query. */
+static inline void count_passed(struct env *e, const struct pixel_key *k, msk live)
+{
+    if (!k->count)
+        return;
+    itg before = load_i(E, BASE_LANES, (int)offsetof(struct lane_table, passed));
+    itg lanes = mask_i(E, live);
+    itg after = sub_i(E, before, lanes);
+    store_i(E, BASE_LANES, (int)offsetof(struct lane_table, passed), after);
+}
+
 /* The lanes that the alpha test keeps; what waits for it is done. */
 static inline msk test_alpha(struct env *e, const struct pixel_source *s, itg alpha, msk live)
 {
     msk kept = alpha_test(E, s->k->alpha_discard, alpha, live);
-    depth_write_late(E, s->k, s->at, s->layout, kept);
+    kept = late_tests(E, s->k, s->at, s->layout, kept);
+    count_passed(E, s->k, kept);
     return kept;
 }
 
@@ -104,7 +118,9 @@ static void spec_pixel(struct env *e, const struct pixel_key *k)
     struct triangle_layout layout = pixel_layout(k);
     struct pixel_position at = pixel_position(E);
     msk covered = coverage(E);
-    msk live = depth_test(E, k, &at, &layout, covered);
+    msk live = early_tests(E, k, &at, &layout, covered);
+    if (!k->alpha_discard)
+        count_passed(E, k, live);
     if (!pixel_shades(k))
         return;
     WHEN (E, live) {

@@ -152,16 +152,27 @@ static inline msk visible_winding(struct env *e, const struct setup_key *k, flt 
     }
 }
 
+/* What the head says of visibility and, with `facing`, of the winding. */
+static inline itg visible_flag(struct env *e, const struct setup_key *k, msk visible, flt area)
+{
+    itg flag = mask_i(E, visible);
+    if (!k->facing)
+        return flag;
+    msk turned = lt_f(E, area, lit_f(E, 0.0f));
+    itg winding = select_i(E, turned, lit_i(E, 1), lit_i(E, -1));
+    return and_i(E, flag, winding);
+}
+
 /* The head; vertices 1 and 2 change places where the area is negative. */
-static inline void record_head(struct env *e, const struct triangle_layout *layout, const struct corner p[3],
-                               msk visible, flt area)
+static inline void record_head(struct env *e, const struct setup_key *k, const struct triangle_layout *layout,
+                               const struct corner p[3], msk visible, flt area)
 {
     msk turned = lt_f(E, area, lit_f(E, 0.0f));
     itg x1 = select_i(E, turned, p[2].window_x, p[1].window_x);
     itg x2 = select_i(E, turned, p[1].window_x, p[2].window_x);
     itg y1 = select_i(E, turned, p[2].window_y, p[1].window_y);
     itg y2 = select_i(E, turned, p[1].window_y, p[2].window_y);
-    itg flag = mask_i(E, visible);
+    itg flag = visible_flag(E, k, visible, area);
     record_i(E, layout, offsetof(struct triangle_head, visible), flag);
     record_i(E, layout, offsetof(struct triangle_head, x[0]), p[0].window_x);
     record_i(E, layout, offsetof(struct triangle_head, x[1]), x1);
@@ -254,7 +265,7 @@ static inline void setup_triangle(struct env *e, const struct setup_key *k,
         p[i] = project(E, k, i);
     struct face face = face_of(E, p);
     msk visible = visible_winding(E, k, face.area);
-    record_head(E, layout, p, visible, face.area);
+    record_head(E, k, layout, p, visible, face.area);
     WHEN (E, visible) {
         struct gradients g = face_gradients(E, &face);
         if (k->depth) {
@@ -281,7 +292,7 @@ static inline void setup_triangle(struct env *e, const struct setup_key *k,
 
 /* What the triangle of an edge or a corner says; all true and nothing for lines and points. */
 struct owner {
-    msk visible;
+    itg visible;      /* as the head has it */
     flt depth_offset; /* if the key has a depth bias */
 };
 
@@ -290,11 +301,12 @@ static inline struct owner owner_of(struct env *e, const struct setup_key *k, co
     struct owner r;
     r.depth_offset = lit_f(E, 0.0f);
     if (!primitive_has_area(k->primitive)) {
-        r.visible = lit_m(E, -1);
+        r.visible = lit_i(E, -1);
         return r;
     }
     struct face face = face_of(E, p);
-    r.visible = visible_winding(E, k, face.area);
+    msk visible = visible_winding(E, k, face.area);
+    r.visible = visible_flag(E, k, visible, face.area);
     if (k->depth && k->depth_bias) {
         struct gradients g = face_gradients(E, &face);
         flt depth[3] = {p[0].depth, p[1].depth, p[2].depth};
@@ -319,9 +331,8 @@ static inline void setup_line(struct env *e, const struct setup_key *k, const st
     for (int i = 0; i < (primitive_has_area(k->primitive) ? 3 : 2); i++)
         p[i] = project(E, k, i);
     struct owner owner = owner_of(E, k, p);
-    itg flag = mask_i(E, owner.visible);
     itg last = load_i(E, BASE_INPUT, 4 * SETUP_INDEX_BYTES);
-    record_i(E, layout, offsetof(struct triangle_head, visible), flag);
+    record_i(E, layout, offsetof(struct triangle_head, visible), owner.visible);
     record_i(E, layout, offsetof(struct triangle_head, x[0]), p[0].window_x);
     record_i(E, layout, offsetof(struct triangle_head, x[1]), p[1].window_x);
     record_i(E, layout, offsetof(struct triangle_head, x[2]), last);
@@ -372,9 +383,8 @@ static inline itg point_reach(struct env *e)
 }
 
 static inline void record_square(struct env *e, const struct triangle_layout *layout, const struct corner *p,
-                                 msk visible, itg reach)
+                                 itg visible, itg reach)
 {
-    itg flag = mask_i(E, visible);
     itg left = sub_i(E, p->window_x, reach);
     itg right = add_i(E, p->window_x, reach);
     itg top = sub_i(E, p->window_y, reach);
@@ -383,7 +393,7 @@ static inline void record_square(struct env *e, const struct triangle_layout *la
     itg x1 = point_side(E, right);
     itg y0 = point_side(E, top);
     itg y1 = point_side(E, bottom);
-    record_i(E, layout, offsetof(struct triangle_head, visible), flag);
+    record_i(E, layout, offsetof(struct triangle_head, visible), visible);
     record_i(E, layout, offsetof(struct triangle_head, x[0]), x0);
     record_i(E, layout, offsetof(struct triangle_head, x[1]), x1);
     record_i(E, layout, offsetof(struct triangle_head, y[0]), y0);

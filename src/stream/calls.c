@@ -77,8 +77,14 @@ int parse_target(struct parser *parser, struct call *call)
     if (lex_integer(&parser->lex, "target width", 1, TRIPTYCH_TARGET_MAXIMUM, &width) ||
         lex_integer(&parser->lex, "target height", 1, TRIPTYCH_TARGET_MAXIMUM, &height))
         return -1;
-    call->target.width = (uint32_t)width;
-    call->target.height = (uint32_t)height;
+    call->target.width = (unsigned)width;
+    call->target.height = (unsigned)height;
+    if (!lex_is(&parser->lex, "depth"))
+        return 0;
+    unsigned format;
+    if (lex_next(&parser->lex) || parse_word(parser, WORDS_DEPTH, "a depth format", &format))
+        return -1;
+    call->target.depth_format = (enum triptych_depth_format)format;
     return 0;
 }
 
@@ -397,15 +403,24 @@ int parse_bind(struct parser *parser, struct call *call)
     return lex_expected(&parser->lex, "texture, vertices, indices, element or stream");
 }
 
+/* Numbers all; the stencil's value is a whole one, whatever its bits keep of it. */
 int parse_clear(struct parser *parser, struct call *call)
 {
-    struct field fields[] = {{"color", call->clear.color, 4, 0}, {"depth", &call->clear.depth, 1, 0}};
-    if (parse_fields(parser, fields, 2))
+    float stencil = 0;
+    struct token place = parser->lex.token;
+    struct field fields[] = {
+        {"color", call->clear.color, 4, 0}, {"depth", &call->clear.depth, 1, 0}, {"stencil", &stencil, 1, 0}};
+    if (parse_fields(parser, fields, 3))
         return -1;
-    call->clear.has_color = fields[0].given;
-    call->clear.has_depth = fields[1].given;
-    if (!fields[0].given && !fields[1].given)
-        return lex_expected(&parser->lex, "color R G B A, depth D, or both");
+    call->clear.flags = (fields[0].given ? TRIPTYCH_CLEAR_COLOR : 0) |
+                        (fields[1].given ? TRIPTYCH_CLEAR_DEPTH : 0) |
+                        (fields[2].given ? TRIPTYCH_CLEAR_STENCIL : 0);
+    if (!call->clear.flags)
+        return lex_expected(&parser->lex, "color R G B A, depth D, stencil S, or several of them");
+    if (!(stencil >= 0 && stencil <= 255 && stencil == floorf(stencil)))
+        return lex_fail(&parser->lex, &place, "found stencil %g, expected an integer from 0 to 255",
+                        (double)stencil);
+    call->clear.stencil = (uint32_t)stencil;
     return 0;
 }
 

@@ -251,17 +251,11 @@ static int check_draw(struct follower *follower, const struct call *call, struct
     return check_vertices(follower, first + count - 1, error);
 }
 
-static int check_clear(const struct call *call, struct error *error)
-{
-    if (call->clear.has_depth && !(call->clear.depth >= 0 && call->clear.depth <= 1))
-        return error_set(error, "found depth %g, expected 0 to 1", (double)call->clear.depth);
-    return 0;
-}
-
 static void set_target(struct follower *follower, const struct call *call)
 {
     follower->width = call->target.width;
     follower->height = call->target.height;
+    state_set_target(&follower->state, &call->target);
 }
 
 static int follow(struct follower *follower, const struct call *call, struct error *error)
@@ -298,7 +292,9 @@ static int follow(struct follower *follower, const struct call *call, struct err
                                    call->frequency.count, error);
     case CALL_UPDATE:
     case CALL_MIPS: return 0;
-    case CALL_CLEAR: return check_clear(call, error);
+    case CALL_CLEAR:
+        return state_check_clear(state->depth_format, call->clear.flags, call->clear.color, call->clear.depth,
+                                 error);
     case CALL_DRAW:
     case CALL_DRAW_INDEXED: return check_draw(follower, call, error);
     case CALL_DRAW_MESH:

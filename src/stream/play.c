@@ -201,7 +201,7 @@ static enum triptych_result execute_state(struct player *player, const struct ca
 {
     triptych_device *device = player->device;
     switch (call->type) {
-    case CALL_TARGET: return triptych_set_target(device, call->target.width, call->target.height);
+    case CALL_TARGET: return triptych_set_target_description(device, &call->target);
     case CALL_VIEWPORT: return triptych_set_viewport(device, &call->viewport);
     case CALL_SCISSOR:
         return triptych_set_scissor(device, call->scissor.x, call->scissor.y, call->scissor.width,
@@ -245,8 +245,8 @@ static enum triptych_result execute_pixels(struct player *player, const struct c
     triptych_device *device = player->device;
     switch (call->type) {
     case CALL_CLEAR:
-        return triptych_clear(device, call->clear.has_color ? call->clear.color : NULL,
-                              call->clear.has_depth ? call->clear.depth : -1.0f);
+        return triptych_clear_buffers(device, call->clear.flags, call->clear.color, call->clear.depth,
+                                      call->clear.stencil);
     case CALL_DRAW: return triptych_draw(device, call->draw.primitive, call->draw.first, call->draw.count);
     case CALL_DRAW_INDEXED:
         return triptych_draw_indexed(device, call->draw.primitive, call->draw.base, call->draw.first,
@@ -262,10 +262,13 @@ static enum triptych_result execute_pixels(struct player *player, const struct c
  * on them, so that nobody can see what was there. */
 static int is_overwritten(const struct stream *stream, uint32_t at, uint32_t end)
 {
+    enum triptych_depth_format format = stream->calls[stream->executed[at]].target.depth_format;
+    unsigned all = TRIPTYCH_CLEAR_COLOR | (triptych_depth_bits(format) ? TRIPTYCH_CLEAR_DEPTH : 0) |
+                   (triptych_stencil_bits(format) ? TRIPTYCH_CLEAR_STENCIL : 0);
     while (++at < end) {
         const struct call *call = &stream->calls[stream->executed[at]];
         switch (call->type) {
-        case CALL_CLEAR: return call->clear.has_color && call->clear.has_depth;
+        case CALL_CLEAR: return call->clear.flags == all;
         case CALL_TARGET:
         case CALL_VIEWPORT:
         case CALL_SCISSOR:
@@ -278,17 +281,18 @@ static int is_overwritten(const struct stream *stream, uint32_t at, uint32_t end
     return 0;
 }
 
-/* Replaying a frame that sets its target would measure the making of targets; one of the same size can stay
+/* Replaying a frame that sets its target would measure the making of targets; one of the same kind can stay
  * if its pixels do not matter. */
 static enum triptych_result keep_target(struct player *player, const struct call *call, int *kept)
 {
-    unsigned width, height;
-    triptych_target_size(player->device, &width, &height);
-    *kept = width == call->target.width && height == call->target.height;
+    struct triptych_target_description target;
+    triptych_get_target(player->device, &target);
+    *kept = target.width == call->target.width && target.height == call->target.height &&
+            target.depth_format == call->target.depth_format;
     if (!*kept)
         return TRIPTYCH_OK;
-    const struct triptych_viewport whole = {0, 0, (float)width, (float)height, 0, 1};
-    enum triptych_result result = triptych_set_scissor(player->device, 0, 0, width, height);
+    const struct triptych_viewport whole = {0, 0, (float)target.width, (float)target.height, 0, 1};
+    enum triptych_result result = triptych_set_scissor(player->device, 0, 0, target.width, target.height);
     return result ? result : triptych_set_viewport(player->device, &whole);
 }
 

@@ -144,9 +144,7 @@ struct call {
     uint32_t line, column; /* of the call's first word */
     uint32_t resource;     /* its number, or NO_RESOURCE; bind, draw mesh, play, sequence */
     union {
-        struct {
-            uint32_t width, height;
-        } target;
+        struct triptych_target_description target;
         struct triptych_viewport viewport;
         struct {
             enum triptych_convention which;
@@ -202,8 +200,9 @@ struct call {
             uint32_t source;         /* the number of the resource whose bytes these are */
         } update;
         struct {
-            int has_color, has_depth;
+            unsigned flags; /* TRIPTYCH_CLEAR_... */
             float color[4], depth;
+            uint32_t stencil;
         } clear;
         struct {
             enum triptych_primitive primitive;

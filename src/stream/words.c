@@ -20,6 +20,10 @@ static const struct row {
     {WORDS_FORMAT, #word, TRIPTYCH_FORMAT_##name},
 #include "def/vertex_type.def"
 #undef VERTEX_TYPE
+#define DEPTH_FORMAT(name, storage, depth_bits, stencil_bits, meaning)                                       \
+    {WORDS_DEPTH, #name, TRIPTYCH_DEPTH_##name},
+#include "def/depth_format.def"
+#undef DEPTH_FORMAT
 };
 
 enum { ROWS = sizeof rows / sizeof *rows };

@@ -1,4 +1,5 @@
-/* The words of stream/word.def, and those of attributes and their types, and the numbers they stand for. */
+/* The words of stream/word.def, and those of attributes, their types and depth formats, and the numbers they
+ * stand for. */
 #ifndef STREAM_WORDS_H
 #define STREAM_WORDS_H
 
@@ -6,6 +7,7 @@
 
 enum word_list {
     WORDS_ATTRIBUTE,
+    WORDS_DEPTH,
     WORDS_FORMAT,
     WORDS_FREQUENCY,
     WORDS_PRIMITIVE,

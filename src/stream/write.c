@@ -403,10 +403,12 @@ static void write_update(struct writer *writer, const struct call *call, const c
 static void write_clear(struct writer *writer, const struct call *call)
 {
     fputs("clear", writer->out);
-    if (call->clear.has_color)
+    if (call->clear.flags & TRIPTYCH_CLEAR_COLOR)
         write_field(writer, "color", call->clear.color, NULL, 4);
-    if (call->clear.has_depth)
+    if (call->clear.flags & TRIPTYCH_CLEAR_DEPTH)
         write_field(writer, "depth", &call->clear.depth, NULL, 1);
+    if (call->clear.flags & TRIPTYCH_CLEAR_STENCIL)
+        fprintf(writer->out, " stencil %" PRIu32, call->clear.stencil);
 }
 
 static void write_draw(struct writer *writer, const struct call *call)
@@ -426,7 +428,9 @@ static void write_call(struct writer *writer, const struct call *call)
         call->resource == NO_RESOURCE ? "none" : writer->stream->resources[call->resource].name;
     switch (call->type) {
     case CALL_TARGET:
-        fprintf(out, "target %" PRIu32 " %" PRIu32, call->target.width, call->target.height);
+        fprintf(out, "target %u %u", call->target.width, call->target.height);
+        if (call->target.depth_format)
+            fprintf(out, " depth %s", word_text(WORDS_DEPTH, call->target.depth_format));
         break;
     case CALL_VIEWPORT: {
         const struct triptych_viewport *v = &call->viewport;

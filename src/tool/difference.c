@@ -19,13 +19,19 @@ char *difference_describe(const struct picture *picture, const struct difference
         length +=
             snprintf(text + length, DIFFERENCE_TEXT - (size_t)length, ", depth %a (%.9g) and %a (%.9g)",
                      difference->depth[0], difference->depth[0], difference->depth[1], difference->depth[1]);
+    if (picture->stencil)
+        length += snprintf(text + length, DIFFERENCE_TEXT - (size_t)length, ", stencil %u and %u",
+                           difference->stencil[0], difference->stencil[1]);
     unsigned long long pixels = (unsigned long long)picture->width * picture->height;
     length += snprintf(text + length, DIFFERENCE_TEXT - (size_t)length,
                        "; of %llu pixels %llu differ in colour, by at most %u of 255", pixels,
                        (unsigned long long)difference->color_pixels, difference->color_distance);
     if (picture->depth)
-        snprintf(text + length, DIFFERENCE_TEXT - (size_t)length, ", %llu in depth",
-                 (unsigned long long)difference->depth_pixels);
+        length += snprintf(text + length, DIFFERENCE_TEXT - (size_t)length, ", %llu in depth",
+                           (unsigned long long)difference->depth_pixels);
+    if (picture->stencil)
+        snprintf(text + length, DIFFERENCE_TEXT - (size_t)length, ", %llu in stencil",
+                 (unsigned long long)difference->stencil_pixels);
     return text;
 }
 

@@ -15,23 +15,30 @@ static int save_png(const char *path, const struct capture *capture, struct erro
     return png_save(path, capture->width, capture->height, capture->color, error);
 }
 
-/* Colours are eight bits a channel, which a half holds exactly enough; depth keeps its 32. */
+/* Colours are eight bits a channel, which a half holds exactly enough; depth keeps its 32. Stencil is a
+ * number from 0 to 255. */
 static int save_exr(const char *path, const struct capture *capture, struct error *error)
 {
     size_t pixels = (size_t)capture->width * capture->height;
-    float *values = malloc(pixels * CHANNELS * sizeof *values);
+    float *values = malloc(pixels * (CHANNELS + 1) * sizeof *values);
     if (!values)
         return error_set(error, "%s: no memory for %zu pixels", path, pixels);
     for (size_t i = 0; i < pixels; i++)
         for (unsigned channel = 0; channel < CHANNELS; channel++)
             values[i * CHANNELS + channel] = (float)(capture->color[i] >> 8 * channel & 255) / 255;
-    const struct exr_channel channels[] = {
-        {"R", values, CHANNELS, EXR_HALF},     {"G", values + 1, CHANNELS, EXR_HALF},
-        {"B", values + 2, CHANNELS, EXR_HALF}, {"A", values + 3, CHANNELS, EXR_HALF},
-        {"Z", capture->depth, 1, EXR_FLOAT},
-    };
-    int bad =
-        exr_save(path, capture->width, capture->height, channels, sizeof channels / sizeof *channels, error);
+    struct exr_channel channels[CHANNELS + 2] = {{"R", values, CHANNELS, EXR_HALF},
+                                                 {"G", values + 1, CHANNELS, EXR_HALF},
+                                                 {"B", values + 2, CHANNELS, EXR_HALF},
+                                                 {"A", values + 3, CHANNELS, EXR_HALF}};
+    size_t count = CHANNELS;
+    if (capture->has_depth)
+        channels[count++] = (struct exr_channel){"Z", capture->depth, 1, EXR_FLOAT};
+    float *stencil = values + pixels * CHANNELS;
+    for (size_t i = 0; i < pixels && capture->has_stencil; i++)
+        stencil[i] = capture->stencil[i];
+    if (capture->has_stencil)
+        channels[count++] = (struct exr_channel){"stencil", stencil, 1, EXR_HALF};
+    int bad = exr_save(path, capture->width, capture->height, channels, count, error);
     free(values);
     return bad;
 }
@@ -41,7 +48,7 @@ static const struct picture_kind {
     int (*save)(const char *path, const struct capture *capture, struct error *error);
 } kinds[] = {
     {".png", save_png}, /* colour and alpha */
-    {".exr", save_exr}, /* colour, alpha, depth */
+    {".exr", save_exr}, /* colour, alpha, depth, stencil */
 };
 
 static const struct picture_kind *find_kind(const char *path)
@@ -99,7 +106,8 @@ int command_render(const struct command *self, int count, char **arguments)
         {"engine", "NAME", "which engine (triptych list engines); specialize", OPTION_TEXT, &settings.engine,
          0, 0},
         {"width", "LANES", "which of the engine's widths", OPTION_NUMBER, &settings.width, 1, WIDTH_MAXIMUM},
-        {"out", "FILE", "FILE.png: colour; FILE.exr: colour and depth", OPTION_TEXT, &settings.out, 0, 0},
+        {"out", "FILE", "FILE.png: colour; FILE.exr: colour, depth and stencil", OPTION_TEXT, &settings.out,
+         0, 0},
         {"frame", "N", "which frame, from 0; 0", OPTION_NUMBER, &settings.frame, 0, FRAME_MAXIMUM},
         {"threads", "N", "rendering threads; as many as there are cores", OPTION_NUMBER, &settings.threads, 1,
          THREADS_MAXIMUM},

@@ -51,7 +51,8 @@ static int reserve(const struct command *self, struct capture *capture, size_t p
     capture_free(capture);
     capture->color = malloc(pixels * sizeof *capture->color);
     capture->depth = malloc(pixels * sizeof *capture->depth);
-    if (!capture->color || !capture->depth)
+    capture->stencil = malloc(pixels);
+    if (!capture->color || !capture->depth || !capture->stencil)
         return fail(self, "no memory for a picture of %zu pixels", pixels);
     capture->capacity = pixels;
     return STATUS_OK;
@@ -59,16 +60,19 @@ static int reserve(const struct command *self, struct capture *capture, size_t p
 
 int capture_read(const struct command *self, const struct session *session, struct capture *capture)
 {
-    unsigned width, height;
-    triptych_target_size(session->device, &width, &height);
-    if (!width || !height)
+    struct triptych_target_description target;
+    triptych_get_target(session->device, &target);
+    if (!target.width)
         return fail(self, "%s: the frame has no target, expected a call of target", session->stream->path);
-    if (reserve(self, capture, (size_t)width * height))
+    if (reserve(self, capture, (size_t)target.width * target.height))
         return STATUS_BAD;
-    capture->width = width;
-    capture->height = height;
+    capture->width = target.width;
+    capture->height = target.height;
+    capture->has_depth = triptych_depth_bits(target.depth_format);
+    capture->has_stencil = triptych_stencil_bits(target.depth_format);
     if (triptych_read_color(session->device, capture->color) ||
-        triptych_read_depth(session->device, capture->depth))
+        (capture->has_depth && triptych_read_depth(session->device, capture->depth)) ||
+        (capture->has_stencil && triptych_read_stencil(session->device, capture->stencil)))
         return fail(self, "%s: %s", session->stream->path, triptych_error(session->device));
     return STATUS_OK;
 }
@@ -77,10 +81,15 @@ void capture_free(struct capture *capture)
 {
     free(capture->color);
     free(capture->depth);
+    free(capture->stencil);
     *capture = (struct capture){0};
 }
 
 struct picture capture_picture(const struct capture *capture)
 {
-    return (struct picture){capture->width, capture->height, capture->color, capture->depth};
+    return (struct picture){.width = capture->width,
+                            .height = capture->height,
+                            .color = capture->color,
+                            .depth = capture->has_depth ? capture->depth : NULL,
+                            .stencil = capture->has_stencil ? capture->stencil : NULL};
 }

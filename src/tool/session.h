@@ -6,6 +6,8 @@
 #include "stream/stream.h"
 #include "tool/tool.h"
 
+#include <stdbool.h>
+
 /* Reads and checks a stream. Null after telling what is wrong with it. */
 struct stream *session_load(const struct command *self, const char *path);
 
@@ -31,8 +33,10 @@ unsigned session_spread(unsigned i, unsigned count, unsigned all);
 /* A copy of a device's target. Zero is empty; memory is kept from one reading to the next. */
 struct capture {
     unsigned width, height;
+    bool has_depth, has_stencil;
     uint32_t *color;
     float *depth;
+    uint8_t *stencil;
     size_t capacity; /* pixels */
 };
 

@@ -1,8 +1,8 @@
 /* `triptych verify`: every engine, width and thread count draws the same bytes.
  *
- * The reference is the emulator with one thread. For every frame it draws once and keeps colours and depths;
- * every other configuration draws the same frame on a device of its own and is compared at once, so that
- * memory does not grow with the number of frames. A configuration that differed is told with its first
+ * The reference is the emulator with one thread. For every frame it draws once and keeps colours, depths and
+ * stencils; every other configuration draws the same frame on a device of its own and is compared at once, so
+ * that memory does not grow with the number of frames. A configuration that differed is told with its first
  * differing frame and leaves the stream's remaining frames alone. */
 #include "tool/choose.h"
 #include "tool/difference.h"
@@ -46,7 +46,7 @@ struct verification {
     struct configuration *others;
     unsigned count, different;
     struct capture expected, got;
-    XXH3_state_t *digest; /* of the reference's colours and depths, frame by frame */
+    XXH3_state_t *digest; /* of the reference's surfaces, frame by frame */
     cJSON *differences;   /* or null */
 };
 
@@ -107,6 +107,7 @@ static void add_difference(cJSON *differences, const struct configuration *confi
     cJSON_AddNumberToObject(json, "y", difference->y);
     cJSON_AddNumberToObject(json, "color_pixels", (double)difference->color_pixels);
     cJSON_AddNumberToObject(json, "depth_pixels", (double)difference->depth_pixels);
+    cJSON_AddNumberToObject(json, "stencil_pixels", (double)difference->stencil_pixels);
     cJSON_AddStringToObject(json, "what", text);
     cJSON_AddItemToArray(differences, json);
 }
@@ -164,7 +165,10 @@ static int verify_frame(const struct command *self, const struct settings *setti
         return STATUS_BAD;
     size_t pixels = (size_t)expected->width * expected->height;
     XXH3_64bits_update(verification->digest, expected->color, pixels * sizeof *expected->color);
-    XXH3_64bits_update(verification->digest, expected->depth, pixels * sizeof *expected->depth);
+    if (expected->has_depth)
+        XXH3_64bits_update(verification->digest, expected->depth, pixels * sizeof *expected->depth);
+    if (expected->has_stencil)
+        XXH3_64bits_update(verification->digest, expected->stencil, pixels);
     for (unsigned i = 0; i < verification->count; i++) {
         struct configuration *configuration = verification->others + i;
         if (configuration->differs)

@@ -9,8 +9,9 @@ enum { WIDTH = 7, HEIGHT = 5, PIXELS = WIDTH * HEIGHT };
 
 static uint32_t color[2][PIXELS], painting[PIXELS];
 static float depth[2][PIXELS];
-static struct picture first = {WIDTH, HEIGHT, color[0], depth[0]},
-                      second = {WIDTH, HEIGHT, color[1], depth[1]};
+static uint8_t stencil[2][PIXELS];
+static struct picture first = {WIDTH, HEIGHT, color[0], depth[0], stencil[0]},
+                      second = {WIDTH, HEIGHT, color[1], depth[1], stencil[1]};
 static struct difference found;
 
 void setUp(void)
@@ -18,6 +19,7 @@ void setUp(void)
     for (unsigned i = 0; i < PIXELS; i++) {
         color[0][i] = color[1][i] = 0xff000000 | i * 0x030507;
         depth[0][i] = depth[1][i] = (float)i / PIXELS;
+        stencil[0][i] = stencil[1][i] = (uint8_t)(i * 7);
     }
 }
 
@@ -30,6 +32,23 @@ static void test_equal_pictures_are_equal(void)
     memset(&found, 1, sizeof found);
     TEST_ASSERT_FALSE(compare_pictures(&first, &second, &found));
     TEST_ASSERT_EACH_EQUAL_UINT8(0, &found, sizeof found);
+}
+
+/* One bit, planted at every pixel and every bit of a stencil in turn, is found where it is. */
+static void test_every_planted_stencil_bit_is_found(void)
+{
+    for (unsigned i = 0; i < PIXELS; i++)
+        for (unsigned bit = 0; bit < 8; bit++) {
+            stencil[1][i] ^= (uint8_t)(1u << bit);
+            TEST_ASSERT_TRUE(compare_pictures(&first, &second, &found));
+            TEST_ASSERT_EQUAL_UINT(1, found.stencil_pixels);
+            TEST_ASSERT_EQUAL_UINT(0, found.color_pixels + found.depth_pixels);
+            TEST_ASSERT_EQUAL_UINT(i, found.y * WIDTH + found.x);
+            TEST_ASSERT_EQUAL_UINT8(stencil[1][i], found.stencil[1]);
+            compare_paint(&first, &second, painting);
+            TEST_ASSERT_EQUAL_HEX32(0xffff0000, painting[i]);
+            stencil[1][i] = stencil[0][i];
+        }
 }
 
 /* One bit, planted at every pixel and every bit of a colour in turn, is found where it is. */
@@ -75,7 +94,8 @@ static void test_depths_are_compared_as_bytes(void)
 
 static void test_without_depths_only_colours_count(void)
 {
-    const struct picture flat[2] = {{WIDTH, HEIGHT, color[0], NULL}, {WIDTH, HEIGHT, color[1], NULL}};
+    const struct picture flat[2] = {{WIDTH, HEIGHT, color[0], NULL, NULL},
+                                    {WIDTH, HEIGHT, color[1], NULL, NULL}};
     depth[1][3] = 9;
     TEST_ASSERT_FALSE(compare_pictures(flat, flat + 1, &found));
     color[1][3]++;
@@ -122,6 +142,7 @@ int main(void)
     UNITY_BEGIN();
     RUN_TEST(test_equal_pictures_are_equal);
     RUN_TEST(test_every_planted_colour_bit_is_found);
+    RUN_TEST(test_every_planted_stencil_bit_is_found);
     RUN_TEST(test_one_ulp_of_depth_is_found);
     RUN_TEST(test_depths_are_compared_as_bytes);
     RUN_TEST(test_without_depths_only_colours_count);

@@ -321,13 +321,14 @@ static void check_convention(const struct engine *engine, enum unit unit, const 
 static void check_conventions(const struct engine *engine, uint32_t count)
 {
     static const struct job job;
-    static alignas(64) float batch[SLOT_COUNT * VERTEX_CAPACITY], depth[TILE_PIXELS];
-    static alignas(64) uint32_t color[TILE_PIXELS], index[3 * SETUP_CAPACITY];
+    static alignas(64) float batch[SLOT_COUNT * VERTEX_CAPACITY];
+    static alignas(64) uint32_t color[TILE_PIXELS], depth[TILE_PIXELS], index[3 * SETUP_CAPACITY];
     static alignas(64) uint8_t records[16 * RECORD_BYTES];
     static const struct entry entry = {.coverage = 0x8001};
+    struct lane_table lanes = lane_table;
     struct vertex_call vertex = {&job, index, batch, count};
     struct setup_call setup = {&job, index, batch, records, count};
-    struct pixel_call pixel = {&job, &entry, records, &lane_table, color, depth, 1};
+    struct pixel_call pixel = {&job, &entry, records, &lanes, color, depth, 1};
     union key key = no_state;
     key.vertex.lighting = key.vertex.varying[0] = key.vertex.varying[1] = 1;
     check_convention(engine, UNIT_VERTEX, &key, &vertex);

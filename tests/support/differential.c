@@ -3,6 +3,8 @@
 #include "base/srgb.h"
 #include "fence.h"
 
+#include "draw/depth.h"
+
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -27,7 +29,8 @@ struct outputs {
     alignas(64) float vertices[SLOT_COUNT * VERTEX_CAPACITY];
     alignas(64) uint8_t records[SETUP_CAPACITY * RECORD_MAXIMUM];
     alignas(64) uint32_t color[TARGET_PLANES * TILE_PIXELS];
-    alignas(64) float depth[TILE_PIXELS];
+    alignas(64) uint32_t depth[TILE_PIXELS];
+    alignas(64) uint8_t lanes[4 + sizeof(struct lane_table)];
     alignas(64) uint8_t behind[64];
 };
 
@@ -41,7 +44,6 @@ struct differential {
     uint8_t *stream[ATTRIBUTE_COUNT]; /* fenced */
     uint8_t *texels;                  /* fenced */
     alignas(64) uint32_t index_words[1 + SETUP_INDEX_ROWS * SETUP_CAPACITY];
-    alignas(64) uint8_t lanes[4 + sizeof(struct lane_table)];
     struct entry entries[ENTRIES];
     alignas(64) uint8_t triangles[TRIANGLES * RECORD_MAXIMUM];
     struct outputs initial, result[2];
@@ -59,7 +61,6 @@ struct differential *differential_create(struct code_arena *arena)
     int complete = d->texels != NULL;
     for (int a = 0; a < ATTRIBUTE_COUNT; a++)
         complete &= (d->stream[a] = fence(STREAM_BYTES)) != NULL;
-    memcpy(d->lanes + 4, &lane_table, sizeof lane_table);
     if (complete)
         return d;
     differential_destroy(d);
@@ -271,6 +272,7 @@ static void make_triangles(struct differential *d, const struct pixel_key *key)
         uint8_t *record = d->triangles + i * d->layout.stride;
         fill(d, record, d->layout.stride, -4, 4);
         struct triangle_head *head = (void *)record;
+        head->visible = below(d, 2) ? 1 : -1;
         head->origin_x = between(d, -20, 84);
         head->origin_y = between(d, -20, 84);
         if (d->layout.depth)
@@ -345,14 +347,42 @@ static void make_fog(struct differential *d, const struct pixel_key *key)
     d->job.fog_offset = number(d, -1, 2);
 }
 
+/* What a depth is stored as in the format that the key's storage class stands for. */
+static uint32_t depth_word(struct differential *d, const struct pixel_key *key, float depth)
+{
+    static const enum triptych_depth_format format[DEPTH_STORAGE_COUNT] = {
+        TRIPTYCH_DEPTH_d32f_lockable, TRIPTYCH_DEPTH_d24s8, TRIPTYCH_DEPTH_d24fs8, TRIPTYCH_DEPTH_d32};
+    int limited = depth >= 0 && depth <= 1;
+    uint32_t stencil =
+        key->depth_format == DEPTH_UNORM || key->depth_format == DEPTH_FLOAT24 ? below(d, 256) : 0;
+    if (key->depth_format != DEPTH_FLOAT)
+        return depth_encode(format[key->depth_format], limited ? depth : 0) | stencil;
+    uint32_t bits;
+    memcpy(&bits, &depth, sizeof bits);
+    return bits;
+}
+
 /* Planes that pass exactly through stored depths, so that EQUAL has something to find. */
-static void meet_stored_depths(struct differential *d)
+static void meet_stored_depths(struct differential *d, const struct pixel_key *key)
 {
     struct plane plane = {0.5f, 0, 0};
     for (int i = 0; i < TRIANGLES; i++)
         memcpy(d->triangles + i * d->layout.stride + d->layout.depth, &plane, sizeof plane);
     for (int i = 0; i < TILE_PIXELS; i++)
-        d->initial.depth[i] = 0.25f * (float)(1 + below(d, 3));
+        d->initial.depth[i] = depth_word(d, key, 0.25f * (float)(1 + below(d, 3)));
+}
+
+/* Few bits and many: often the reference is met. */
+static void make_stencil_job(struct differential *d)
+{
+    struct job *job = &d->job;
+    job->depth_maximum = 16777215;
+    job->w_scale = number(d, -0.1f, 1.5f);
+    job->w_offset = number(d, -0.5f, 0.5f);
+    job->stencil_maximum = below(d, 4) ? 255 : 15;
+    job->stencil_reference = (int32_t)below(d, 256) & job->stencil_maximum;
+    job->stencil_mask = (int32_t)(below(d, 2) ? 255 : below(d, 8)) & job->stencil_maximum;
+    job->stencil_write_mask = (int32_t)(below(d, 2) ? 255 : below(d, 256)) & job->stencil_maximum;
 }
 
 /* Often an alpha that saturated colours have, or its neighbour. */
@@ -379,6 +409,7 @@ static void make_pixel_inputs(struct differential *d, const struct pixel_key *ke
 {
     d->job.alpha_reference = alpha_reference(d);
     d->job.blend_constant = word(d);
+    make_stencil_job(d);
     d->layout = pixel_layout(key);
     make_triangles(d, key);
     make_entries(d);
@@ -386,10 +417,14 @@ static void make_pixel_inputs(struct differential *d, const struct pixel_key *ke
     make_fog(d, key);
     make_targets(d, key);
     for (int i = 0; i < TILE_PIXELS; i++) {
-        d->initial.depth[i] = below(d, 3) ? number(d, 0, 1) : (float)below(d, 2);
+        d->initial.depth[i] = depth_word(d, key, below(d, 3) ? number(d, 0, 1) : (float)below(d, 2));
     }
+    struct lane_table lanes = lane_table;
+    for (int lane = 0; lane < LANES_MAXIMUM; lane++)
+        lanes.passed[lane] = (int32_t)below(d, 1000);
+    memcpy(d->initial.lanes + 4, &lanes, sizeof lanes);
     if (d->layout.depth && !below(d, 3))
-        meet_stored_depths(d);
+        meet_stored_depths(d, key);
 }
 
 /* --- Running and comparing --- */
@@ -410,7 +445,7 @@ static void make_inputs(struct differential *d, enum unit unit, const union key 
 /* Returns whether MXCSR came back as it was: rounding toward zero, nothing flushed or only results. */
 static int run(struct differential *d, const struct routine *routine, struct outputs *o)
 {
-    const struct lane_table *lanes = (const void *)(d->lanes + 4);
+    struct lane_table *lanes = (void *)(o->lanes + 4);
     struct vertex_call vertex = {&d->job, indices(d), o->vertices, d->count};
     struct setup_call setup = {&d->job, indices(d), o->vertices, o->records, d->count};
     struct pixel_call pixel = {&d->job, d->entries, d->triangles, lanes, o->color, o->depth, d->count};
@@ -471,6 +506,7 @@ static const char *place(size_t at, size_t *word)
         size_t start;
         const char *name;
     } parts[] = {{offsetof(struct outputs, behind), "the memory behind"},
+                 {offsetof(struct outputs, lanes), "the lane table"},
                  {offsetof(struct outputs, depth), "depth"},
                  {offsetof(struct outputs, color), "colour"},
                  {offsetof(struct outputs, records), "records"},
