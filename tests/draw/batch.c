@@ -9,6 +9,9 @@ enum { LOG_CAPACITY = 20000 };
 
 /* What the setup routine was asked for: vertex numbers of each triangle, in order. */
 static uint32_t triangle_log[LOG_CAPACITY][3];
+static struct {
+    uint32_t provoking, last_pixel;
+} other_log[LOG_CAPACITY]; /* and of what is no triangle */
 static uint32_t vertex_calls, vertices_padded;
 static uint32_t *clip_codes; /* of each vertex number; null: all inside */
 static struct arena arena;
@@ -37,17 +40,21 @@ static void log_vertices(const void *arguments, const struct routine *routine)
 static void log_triangles(const void *arguments, const struct routine *routine)
 {
     const struct setup_call *call = arguments;
-    (void)routine;
     TEST_ASSERT_EQUAL_UINT32(0, call->count % LANES_MAXIMUM);
     TEST_ASSERT_TRUE(call->count <= SETUP_CAPACITY);
     uint32_t first =
         (uint32_t)batch->counts.triangles_set_up; /* the padding of earlier groups is overwritten */
     for (uint32_t i = 0; i < call->count; i++) {
-        struct triangle_head head = {.visible = -1, .x = {0, 2560, 0}, .y = {0, 0, 2560}};
+        struct triangle_head head = {.visible = -1, .x = {0, 2560, 0}, .y = {128, 128, 2560}};
         memcpy(call->out + (size_t)i * draw.stride, &head, sizeof head);
         for (int v = 0; v < 3 && first + i < LOG_CAPACITY; v++)
             triangle_log[first + i][v] =
                 (uint32_t)call->vertices[SLOT_X * VERTEX_CAPACITY + call->index[v * SETUP_CAPACITY + i] / 4];
+        if (routine->key.setup.primitive != PRIMITIVE_TRIANGLE && first + i < LOG_CAPACITY) {
+            uint32_t provoking = call->index[3 * SETUP_CAPACITY + i] / 4;
+            other_log[first + i].provoking = (uint32_t)call->vertices[SLOT_X * VERTEX_CAPACITY + provoking];
+            other_log[first + i].last_pixel = call->index[4 * SETUP_CAPACITY + i];
+        }
     }
 }
 
@@ -67,6 +74,7 @@ void setUp(void)
     draw.routine[UNIT_SETUP] = &setup_routine;
     draw.scissor = (struct rectangle){0, 0, 128, 64};
     draw.stride = 64;
+    setup_routine.key.setup.primitive = PRIMITIVE_TRIANGLE;
     clip_codes = NULL;
     vertex_calls = vertices_padded = 0;
 }
@@ -123,6 +131,108 @@ static void fans_share_their_first_vertex(void)
     expect_triangle(0, 1, 2, 0);
     expect_triangle(1, 2, 3, 0);
     expect_triangle(2, 3, 4, 0);
+}
+
+static void draw_as(enum triptych_primitive primitive, enum primitive kind, enum raster_shape shape)
+{
+    draw.primitive = primitive;
+    draw.shape = shape;
+    setup_routine.key.setup.primitive = (uint8_t)kind;
+}
+
+static void expect_line(uint32_t i, uint32_t a, uint32_t b, bool last_pixel)
+{
+    TEST_ASSERT_EQUAL_UINT32(a, triangle_log[i][0]);
+    TEST_ASSERT_EQUAL_UINT32(b, triangle_log[i][1]);
+    TEST_ASSERT_EQUAL_HEX32(last_pixel ? UINT32_MAX : 0, other_log[i].last_pixel);
+}
+
+static void lines_and_points_take_two_vertices_and_one(void)
+{
+    draw.last_pixel = true;
+    draw.count = 4;
+    draw_as(TRIPTYCH_LINE_LIST, PRIMITIVE_LINE, SHAPE_LINE);
+    TEST_ASSERT_EQUAL_UINT32(4, run(0, 4));
+    TEST_ASSERT_EQUAL_UINT64(8, batch->counts.vertices_shaded);
+    for (uint32_t i = 0; i < 4; i++) {
+        expect_line(i, 2 * i, 2 * i + 1, true);
+        TEST_ASSERT_EQUAL_UINT32(2 * i, other_log[i].provoking);
+    }
+    batch->counts = (struct batch_counts){0};
+    draw_as(TRIPTYCH_LINE_STRIP, PRIMITIVE_LINE, SHAPE_LINE);
+    TEST_ASSERT_EQUAL_UINT32(4, run(0, 4));
+    TEST_ASSERT_EQUAL_UINT64(5, batch->counts.vertices_shaded);
+    for (uint32_t i = 0; i < 4; i++)
+        expect_line(i, i, i + 1, i == 3);
+    batch->counts = (struct batch_counts){0};
+    draw_as(TRIPTYCH_POINT_LIST, PRIMITIVE_POINT, SHAPE_POINT);
+    TEST_ASSERT_EQUAL_UINT32(4, run(0, 4));
+    TEST_ASSERT_EQUAL_UINT64(4, batch->counts.triangles_set_up);
+    for (uint32_t i = 0; i < 4; i++) {
+        TEST_ASSERT_EQUAL_UINT32(i, triangle_log[i][0]);
+        TEST_ASSERT_EQUAL_UINT32(i, other_log[i].provoking);
+    }
+}
+
+/* Three edges, or corners, each with the triangle's other vertices for setup to ask for the winding. */
+static void parts_of_triangles_come_with_their_triangle(void)
+{
+    draw_as(TRIPTYCH_TRIANGLE_STRIP, PRIMITIVE_EDGE, SHAPE_LINE);
+    for (int corners = 0; corners < 3; corners++) {
+        batch->counts = (struct batch_counts){0};
+        draw.flat = corners == 2;
+        if (corners)
+            draw_as(TRIPTYCH_TRIANGLE_STRIP, PRIMITIVE_CORNER, SHAPE_POINT);
+        TEST_ASSERT_EQUAL_UINT32(2, run(0, 2));
+        TEST_ASSERT_EQUAL_UINT64(6, batch->counts.triangles_set_up);
+        expect_triangle(0, 0, 1, 2);
+        expect_triangle(1, 1, 2, 0);
+        expect_triangle(2, 2, 0, 1);
+        expect_triangle(3, 1, 3, 2);
+        expect_triangle(4, 3, 2, 1);
+        expect_triangle(5, 2, 1, 3);
+        for (int i = 0; i < 6; i++)
+            TEST_ASSERT_EQUAL_UINT32(corners == 1 ? triangle_log[i][0] : (uint32_t)i / 3,
+                                     other_log[i].provoking);
+    }
+}
+
+/* More parts than a group for setup has room for: none is missing, none comes twice. */
+static void many_parts_are_cut_into_groups(void)
+{
+    draw_as(TRIPTYCH_TRIANGLE_LIST, PRIMITIVE_EDGE, SHAPE_LINE);
+    TEST_ASSERT_EQUAL_UINT32(1000, run(0, 1000));
+    TEST_ASSERT_EQUAL_UINT64(3000, batch->counts.triangles_set_up);
+    for (uint32_t i = 0; i < 1000; i++)
+        for (uint32_t k = 0; k < 3; k++)
+            expect_triangle(3 * i + k, 3 * i + k, 3 * i + (k + 1) % 3, 3 * i + (k + 2) % 3);
+}
+
+/* The sides of the frustum drop no line or point, depth and user planes do; ignored bits do nothing. */
+static void clip_codes_drop_lines_and_points(void)
+{
+    uint32_t codes[14] = {CLIP_LEFT, CLIP_LEFT, CLIP_NEAR, CLIP_NEAR, CLIP_USER, CLIP_USER, CLIP_INVALID,
+                          0,         CLIP_EYE,  CLIP_EYE,  CLIP_FAR,  CLIP_FAR,  0,         0};
+    clip_codes = codes;
+    draw_as(TRIPTYCH_LINE_LIST, PRIMITIVE_LINE, SHAPE_LINE);
+    TEST_ASSERT_EQUAL_UINT32(7, run(0, 7));
+    TEST_ASSERT_EQUAL_UINT64(2, batch->counts.triangles_set_up);
+    expect_line(0, 0, 1, false);
+    expect_line(1, 12, 13, false);
+    batch->counts = (struct batch_counts){0};
+    draw_as(TRIPTYCH_POINT_LIST, PRIMITIVE_POINT, SHAPE_POINT);
+    TEST_ASSERT_EQUAL_UINT32(14, run(0, 14));
+    TEST_ASSERT_EQUAL_UINT64(5, batch->counts.triangles_set_up);
+    TEST_ASSERT_EQUAL_UINT32(7, triangle_log[2][0]);
+    batch->counts = (struct batch_counts){0};
+    draw.clip_ignored = CLIP_DEPTH | CLIP_USER_ALL;
+    TEST_ASSERT_EQUAL_UINT32(14, run(0, 14));
+    TEST_ASSERT_EQUAL_UINT64(11, batch->counts.triangles_set_up);
+    batch->counts = (struct batch_counts){0};
+    draw_as(TRIPTYCH_TRIANGLE_LIST, PRIMITIVE_TRIANGLE, SHAPE_TRIANGLE);
+    codes[0] = codes[1] = codes[2] = CLIP_NEAR | CLIP_USER;
+    TEST_ASSERT_EQUAL_UINT32(1, run(0, 1));
+    TEST_ASSERT_EQUAL_UINT64(1, batch->counts.triangles_set_up);
 }
 
 static void a_run_may_begin_anywhere(void)
@@ -273,12 +383,33 @@ static void a_full_arena_stops_at_a_primitive_and_goes_on_from_it(void)
     TEST_ASSERT_EQUAL_UINT32(total - done, binned(0));
 }
 
+/* The same of edges, three records to a primitive: it never stops between them. */
+static void a_full_arena_never_stops_within_a_triangle(void)
+{
+    uint32_t total = 4000, first = 0, edges = 0, stops = 0;
+    draw_as(TRIPTYCH_TRIANGLE_LIST, PRIMITIVE_EDGE, SHAPE_LINE);
+    while (first < total) {
+        atomic_store(&arena.used, ARENA_BYTES - ARENA_BLOCK);
+        uint32_t done = run(first, total - first);
+        TEST_ASSERT_TRUE(done > 0);
+        edges += binned(0);
+        first += done;
+        TEST_ASSERT_EQUAL_UINT32(3 * first, edges);
+        stops += first < total;
+    }
+    TEST_ASSERT_GREATER_THAN_UINT32(0, stops);
+}
+
 int main(void)
 {
     UNITY_BEGIN();
     RUN_TEST(lists_take_three_vertices_each);
     RUN_TEST(strips_keep_the_winding_and_begin_with_their_own_vertex);
     RUN_TEST(fans_share_their_first_vertex);
+    RUN_TEST(lines_and_points_take_two_vertices_and_one);
+    RUN_TEST(parts_of_triangles_come_with_their_triangle);
+    RUN_TEST(many_parts_are_cut_into_groups);
+    RUN_TEST(clip_codes_drop_lines_and_points);
     RUN_TEST(a_run_may_begin_anywhere);
     RUN_TEST(indices_of_16_and_32_bits_are_moved_by_the_base);
     RUN_TEST(shared_vertices_are_shaded_once_a_batch);
@@ -288,5 +419,6 @@ int main(void)
     RUN_TEST(bins_hold_each_visible_triangle_once_in_order);
     RUN_TEST(what_misses_the_scissor_rectangle_is_not_kept);
     RUN_TEST(a_full_arena_stops_at_a_primitive_and_goes_on_from_it);
+    RUN_TEST(a_full_arena_never_stops_within_a_triangle);
     return UNITY_END();
 }

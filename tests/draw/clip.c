@@ -11,10 +11,16 @@
 #include <string.h>
 #include <unity.h>
 
-enum { SEED = 20240118, LANES = VERTEX_CAPACITY, FIRST_FREE = 16 };
+enum {
+    SEED = 20240118,
+    LANES = VERTEX_CAPACITY,
+    FIRST_FREE = 16,
+    FIRST_USER = CLIP_PLANES - CLIP_PLANES_USER
+};
 
 static _Alignas(64) float batch[SLOT_COUNT * LANES];
 static struct job job;
+static int user_planes;
 static uint64_t state;
 static unsigned saved;
 
@@ -25,6 +31,8 @@ void setUp(void)
     memset(batch, 0xff, sizeof batch); /* no lane is what it should be by chance */
     job.guard_x = 16.0f;
     job.guard_y = 12.5f;
+    memset(job.clip_plane, 0, sizeof job.clip_plane);
+    user_planes = 0;
 }
 
 void tearDown(void)
@@ -76,6 +84,10 @@ static uint32_t code_of(float x, float y, float z, float w)
     code |= x <= gx ? 0 : CLIP_GUARD_RIGHT;
     code |= -gy <= y ? 0 : CLIP_GUARD_BOTTOM;
     code |= y <= gy ? 0 : CLIP_GUARD_TOP;
+    for (int i = 0; i < user_planes; i++) {
+        const float *p = job.clip_plane[i];
+        code |= fmaf(x, p[0], fmaf(y, p[1], fmaf(z, p[2], w * p[3]))) >= 0 ? 0 : CLIP_USER << i;
+    }
     return code;
 }
 
@@ -146,9 +158,12 @@ struct reference {
 static double reference_distance(int plane, const double p[SLOT_COUNT])
 {
     double w = p[SLOT_W], gx = job.guard_x * w, gy = job.guard_y * w;
-    const double d[CLIP_PLANES] = {w - CLIP_EYE_W, p[SLOT_Z],      w - p[SLOT_Z], gx + p[SLOT_X],
-                                   gx - p[SLOT_X], gy + p[SLOT_Y], gy - p[SLOT_Y]};
-    return d[plane];
+    const double d[] = {w - CLIP_EYE_W, p[SLOT_Z],      w - p[SLOT_Z], gx + p[SLOT_X],
+                        gx - p[SLOT_X], gy + p[SLOT_Y], gy - p[SLOT_Y]};
+    if (plane < FIRST_USER)
+        return d[plane];
+    const float *u = job.clip_plane[plane - FIRST_USER];
+    return (double)u[0] * p[SLOT_X] + (double)u[1] * p[SLOT_Y] + (double)u[2] * p[SLOT_Z] + (double)u[3] * w;
 }
 
 /* All planes, whatever the codes say, last plane first. */
@@ -258,6 +273,181 @@ static void test_area_and_varyings_are_those_of_a_double_precision_reference(voi
     TEST_ASSERT_GREATER_THAN_INT(10000, clipped);
     TEST_ASSERT_GREATER_THAN_INT(1000, empty);
     TEST_ASSERT_GREATER_THAN_INT(4, largest);
+}
+
+static void set_user_planes(int count)
+{
+    user_planes = count;
+    for (int i = 0; i < count; i++)
+        for (int c = 0; c < 4; c++)
+            job.clip_plane[i][c] = uniform(c < 3 ? -1 : 0, 1);
+}
+
+static void test_user_planes_cut_like_the_reference(void)
+{
+    int clipped = 0, largest = 0;
+    for (int round = 0; round < 30000; round++) {
+        static const uint32_t lane[3] = {3, 0, 7};
+        set_user_planes(1 + round % CLIP_PLANES_USER);
+        for (int i = 0; i < 3; i++)
+            put_random(lane[i], round & 8 ? WIDE : MODERATE);
+        struct clipper clipper = smooth_clipper();
+        uint32_t triangle[CLIP_TRIANGLES_MAXIMUM][3];
+        int count = clip_triangle(&clipper, lane, triangle);
+        struct reference reference = reference_clip(lane);
+        struct moments expected = reference_moments(&reference), actual = clipped_moments(count, triangle);
+        expect_close(lane, &expected, &actual);
+        clipped += (codes_of(lane) & CLIP_USER_ALL) && count > 0;
+        largest = count > largest ? count : largest;
+        memset(job.clip_plane, 0, sizeof job.clip_plane);
+    }
+    TEST_ASSERT_GREATER_THAN_INT(3000, clipped);
+    TEST_ASSERT_GREATER_THAN_INT(5, largest);
+}
+
+static void test_ignored_planes_do_not_cut(void)
+{
+    static const uint32_t lane[3] = {3, 0, 7};
+    put(3, 0, 0, -0.5f, 1);
+    put(0, 1, 0, 0.5f, 1);
+    put(7, 0, 1, 1.5f, 1);
+    struct clipper clipper = smooth_clipper();
+    uint32_t triangle[CLIP_TRIANGLES_MAXIMUM][3];
+    clipper.ignored = CLIP_DEPTH;
+    TEST_ASSERT_EQUAL_INT(1, clip_triangle(&clipper, lane, triangle));
+    TEST_ASSERT_EQUAL_UINT32(FIRST_FREE, clipper.next);
+    TEST_ASSERT_EQUAL_UINT32_ARRAY(lane, triangle[0], 3);
+}
+
+/* Red, green and blue hold how much of each corner a vertex is: on an edge of the triangle one of them is
+ * exactly zero. */
+static bool on_edge(uint32_t a, uint32_t b)
+{
+    for (int c = 0; c < 3; c++)
+        if (*word(SLOT_diffuse + c, a) == 0 && *word(SLOT_diffuse + c, b) == 0)
+            return true;
+    return false;
+}
+
+static void test_polygons_know_their_corners_and_edges(void)
+{
+    int cut = 0;
+    for (int round = 0; round < 20000; round++) {
+        static const uint32_t lane[3] = {3, 0, 7};
+        set_user_planes(round % 3);
+        for (int i = 0; i < 3; i++) {
+            put_random(lane[i], round & 8 ? WIDE : MODERATE);
+            for (int c = 0; c < 3; c++)
+                *word(SLOT_diffuse + c, lane[i]) = c == i;
+        }
+        struct clipper clipper = smooth_clipper();
+        struct clipped clipped;
+        TEST_ASSERT_EQUAL_INT(0, clip_polygon(&clipper, lane, &clipped));
+        for (int i = 0; i < clipped.count; i++) {
+            uint32_t a = clipped.lane[i], b = clipped.lane[(i + 1) % clipped.count];
+            TEST_ASSERT_EQUAL_INT(a < FIRST_FREE, clipped.corners >> i & 1);
+            bool edge = clipped.edges >> i & 1;
+            TEST_ASSERT_TRUE(!edge || on_edge(a, b));
+            cut += !edge;
+        }
+    }
+    TEST_ASSERT_GREATER_THAN_INT(2000, cut);
+}
+
+/* --- Lines
+ * ------------------------------------------------------------------------------------------------------- */
+
+/* From which t to which t of the way from lane 0 to lane 1 all planes have it inside. */
+static bool line_interval(const uint32_t lane[2], double interval[2])
+{
+    interval[0] = 0;
+    interval[1] = 1;
+    for (int plane = 0; plane < CLIP_PLANES; plane++) {
+        double end[2][SLOT_COUNT] = {{0}}, d[2];
+        for (int i = 0; i < 2; i++) {
+            for (int s = 0; s < SLOT_CODE; s++)
+                end[i][s] = *word(s, lane[i]);
+            d[i] = reference_distance(plane, end[i]);
+        }
+        if (d[0] < 0 && d[1] < 0)
+            return false;
+        if (d[0] < 0)
+            interval[0] = fmax(interval[0], d[0] / (d[0] - d[1]));
+        if (d[1] < 0)
+            interval[1] = fmin(interval[1], d[0] / (d[0] - d[1]));
+    }
+    return interval[0] < interval[1];
+}
+
+static void expect_at(const uint32_t lane[2], double t, uint32_t got)
+{
+    double size = 1;
+    for (int s = 0; s < SLOT_CODE; s++)
+        size = fmax(size, fmax(fabs((double)*word(s, lane[0])), fabs((double)*word(s, lane[1]))));
+    for (int s = 0; s < SLOT_COUNT; s++)
+        if (s != SLOT_CODE) {
+            double a = *word(s, lane[0]), b = *word(s, lane[1]);
+            TEST_ASSERT_DOUBLE_WITHIN(size * 4e-6, a + t * (b - a), *word(s, got));
+        }
+}
+
+static void test_lines_keep_what_is_inside_of_all_planes(void)
+{
+    int kept = 0, dropped = 0;
+    for (int round = 0; round < 40000; round++) {
+        static const uint32_t lane[2] = {5, 2};
+        uint32_t left[2];
+        double interval[2];
+        set_user_planes(round % (CLIP_PLANES_USER + 1));
+        put_random(lane[0], round & 8 ? WIDE : MODERATE);
+        put_random(lane[1], round & 8 ? WIDE : MODERATE);
+        struct clipper clipper = smooth_clipper();
+        int count = clip_line(&clipper, lane, left);
+        bool any = line_interval(lane, interval);
+        if (any && interval[1] - interval[0] < 1e-5)
+            continue; /* rounding may decide */
+        TEST_ASSERT_EQUAL_INT(any, count);
+        for (int i = 0; i < 2 && any; i++)
+            expect_at(lane, interval[i], left[i]);
+        kept += any && clipper.next > FIRST_FREE;
+        dropped += !any;
+        memset(job.clip_plane, 0, sizeof job.clip_plane);
+    }
+    TEST_ASSERT_GREATER_THAN_INT(5000, kept);
+    TEST_ASSERT_GREATER_THAN_INT(5000, dropped);
+}
+
+static void test_lines_that_find_no_lanes_change_nothing(void)
+{
+    static const uint32_t lane[2] = {5, 2};
+    static float before[SLOT_COUNT * LANES];
+    uint32_t left[2];
+    put(5, 0, 0, -1, 1);
+    put(2, 0, 0, 3, 2);
+    struct clipper clipper = smooth_clipper();
+    clipper.next = LANES - 1;
+    memcpy(before, batch, sizeof batch);
+    TEST_ASSERT_EQUAL_INT(-1, clip_line(&clipper, lane, left));
+    TEST_ASSERT_EQUAL_UINT32(LANES - 1, clipper.next);
+    TEST_ASSERT_EQUAL_MEMORY(before, batch, sizeof batch);
+    clipper.next = LANES - 2;
+    TEST_ASSERT_EQUAL_INT(1, clip_line(&clipper, lane, left));
+    TEST_ASSERT_EQUAL_FLOAT(0, *word(SLOT_Z, left[0]));
+    TEST_ASSERT_EQUAL_FLOAT(*word(SLOT_W, left[1]), *word(SLOT_Z, left[1]));
+}
+
+static void test_cut_lines_have_the_flat_values_of_their_first_vertex(void)
+{
+    static const uint32_t lane[2] = {5, 2};
+    uint32_t left[2];
+    put(5, 0, 0, -1, 1);
+    put(2, 0, 0, 1, 2);
+    struct clipper clipper = clipper_create(&job, flat_diffuse, batch, FIRST_FREE);
+    TEST_ASSERT_EQUAL_INT(1, clip_line(&clipper, lane, left));
+    TEST_ASSERT_EQUAL_UINT32(FIRST_FREE, left[0]);
+    TEST_ASSERT_EQUAL_UINT32(2, left[1]);
+    for (int c = 0; c < 4; c++)
+        TEST_ASSERT_EQUAL_FLOAT(*word(SLOT_diffuse + c, 5), *word(SLOT_diffuse + c, left[0]));
 }
 
 /* --- Properties of the vertices
@@ -564,6 +754,12 @@ int main(void)
     RUN_TEST(test_a_triangle_inside_comes_back_as_it_is);
     RUN_TEST(test_the_near_plane_cuts_where_it_should);
     RUN_TEST(test_area_and_varyings_are_those_of_a_double_precision_reference);
+    RUN_TEST(test_user_planes_cut_like_the_reference);
+    RUN_TEST(test_ignored_planes_do_not_cut);
+    RUN_TEST(test_polygons_know_their_corners_and_edges);
+    RUN_TEST(test_lines_keep_what_is_inside_of_all_planes);
+    RUN_TEST(test_lines_that_find_no_lanes_change_nothing);
+    RUN_TEST(test_cut_lines_have_the_flat_values_of_their_first_vertex);
     RUN_TEST(test_vertices_are_inside_of_all_planes);
     RUN_TEST(test_vertices_are_finite_and_inside_for_extreme_coordinates);
     RUN_TEST(test_vertices_on_the_far_plane_have_z_equal_to_w);
