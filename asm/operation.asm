@@ -153,6 +153,8 @@ fragment literal, FRAME, NOTHING, R_AX | M(0)
     fill 0,       vmovdqa         [frame], m0
 end_fragment
 
+shift permute, vpermilps
+
 fragment load, FRAME | JOB, NOTHING, M(0)
     fill_base 1, 2, vmovups       m0, [dword r8]           ; indices and lane tables need not be aligned
     fill 0,       vmovaps         [frame], m0

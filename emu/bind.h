@@ -119,6 +119,15 @@ static inline fix lit_x(struct env *e, uint16_t value)
     return r;
 }
 
+static inline flt permute_f(struct env *e, flt a, int lanes)
+{
+    (void)e;
+    flt r;
+    for (int i = 0; i < EMULATE_WIDTH; i++)
+        r.lane[i] = a.lane[(i & ~3) | (lanes >> 2 * (i & 3) & 3)];
+    return r;
+}
+
 static inline flt load_f(struct env *e, enum base base, int offset)
 {
     flt r;

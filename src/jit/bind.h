@@ -134,6 +134,11 @@ static inline msk lit_m(struct env *e, int32_t value)
     return (msk){record(e, IR_literal, TYPE_msk, 0, 0, 0, value)};
 }
 
+static inline flt permute_f(struct env *e, flt a, int lanes)
+{
+    return (flt){record(e, IR_permute, TYPE_flt, a.id, 0, 0, lanes)};
+}
+
 static inline flt load_f(struct env *e, enum base base, int offset)
 {
     return (flt){record_memory(e, IR_load, TYPE_flt, 0, base, offset, 0, 0)};

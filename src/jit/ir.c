@@ -31,6 +31,7 @@ const struct ir_op_information ir_op_information[IR_OP_COUNT] = {
     [IR_when] = {"when", TYPE_non, {TYPE_msk}, 1, IR_EFFECT},
     [IR_end] = {"end", TYPE_non, {0}, 0, IR_EFFECT},
     [IR_constant] = {"constant", TYPE_non, {0}, 0, 0},
+    [IR_permute] = {"permute", TYPE_flt, {TYPE_flt}, 1, IR_SHIFTS},
 };
 
 static const char *const type_name[] = {"   ", "flt", "itg", "fix", "msk"};

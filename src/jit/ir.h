@@ -15,6 +15,7 @@
  *   scatter a base k field      lane l's word to base + k + l * field
  *   when a, end                 a region
  *   constant k                  slot k of the frame's constants, filled before the loop (hoist.c)
+ *   permute a k                 lanes change places within each four: lane l takes lane (k >> 2 * l) & 3
  * The number of lanes appears nowhere here: the same recording serves every W. */
 #ifndef JIT_IR_H
 #define JIT_IR_H
@@ -44,6 +45,7 @@ enum ir_op {
     IR_when,
     IR_end,
     IR_constant,
+    IR_permute,
     IR_OP_COUNT
 };
 

@@ -75,6 +75,7 @@ static const struct rule rules[IR_OP_COUNT] = {
     [IR_and_m] = {X86_vpand, FORM_BINARY, 0},
     [IR_or_m] = {X86_vpor, FORM_BINARY, 0},
     [IR_andn_m] = {X86_vpandn, FORM_REVERSED, 0},
+    [IR_permute] = {X86_vpermilps_immediate, FORM_SHIFT, 0},
 };
 
 static struct address frame_address(const struct emitter *m, int32_t start, unsigned slot)

@@ -128,6 +128,11 @@ static inline fix lit_x(struct env *e, uint16_t value)
     return (fix){literal(e, value * 0x10001u)};
 }
 
+static inline flt permute_f(struct env *e, flt a, int lanes)
+{
+    return (flt){append_value(e, &fragment_permute, (struct arguments){{0, a.slot, lanes}})};
+}
+
 /* The register of each base, counted from r8 (asm/fragment.inc). */
 static inline int32_t base_number(enum base base)
 {

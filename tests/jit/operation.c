@@ -136,6 +136,18 @@ static void test_every_operation_equals_its_expression(void)
     }
 }
 
+static void test_a_permutation_takes_the_lanes_it_names(void)
+{
+    if (!cpu_has_avx2_fma())
+        TEST_IGNORE_MESSAGE("needs AVX2 and FMA");
+    for (int lanes = 0; lanes < 256; lanes++)
+        for (enum operand_form from = 0; from < FORMS; from++) {
+            const enum operand_form form[3] = {from};
+            check_values(IR_permute, form, lanes, 4);
+            check_values(IR_permute, form, lanes, 8);
+        }
+}
+
 /* The same register twice or thrice: the forms of the fused multiply-add depend on it. */
 static void test_operands_may_be_one_value(void)
 {
@@ -158,6 +170,7 @@ int main(void)
 {
     UNITY_BEGIN();
     RUN_TEST(test_every_operation_equals_its_expression);
+    RUN_TEST(test_a_permutation_takes_the_lanes_it_names);
     RUN_TEST(test_operands_may_be_one_value);
     return UNITY_END();
 }

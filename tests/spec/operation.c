@@ -119,6 +119,23 @@ static void test_every_operation_of_the_emulator_equals_its_expression(void)
     }
 }
 
+static void test_permutations_of_quads_are_those_their_names_say(void)
+{
+    const flt value = {{10, 11, 12, 13}};
+    static const struct {
+        int lanes;
+        float expected[4];
+    } cases[] = {{QUAD_LEFT, {10, 10, 12, 12}},
+                 {QUAD_RIGHT, {11, 11, 13, 13}},
+                 {QUAD_UPPER, {10, 11, 10, 11}},
+                 {QUAD_LOWER, {12, 13, 12, 13}}};
+    for (int i = 0; i < 4; i++) {
+        flt r = permute_f(NULL, value, cases[i].lanes);
+        for (int lane = 0; lane < 4; lane++)
+            TEST_ASSERT_TRUE(r.lane[lane] == cases[i].expected[lane]);
+    }
+}
+
 static void test_round_is_nearest_even_and_saturates_to_the_indefinite_integer(void)
 {
     TEST_ASSERT_EQUAL_INT32(0, lane_round(0.5f));
@@ -157,6 +174,7 @@ int main(void)
 {
     UNITY_BEGIN();
     RUN_TEST(test_every_operation_of_the_emulator_equals_its_expression);
+    RUN_TEST(test_permutations_of_quads_are_those_their_names_say);
     RUN_TEST(test_round_is_nearest_even_and_saturates_to_the_indefinite_integer);
     RUN_TEST(test_minimum_and_maximum_give_the_second_operand_on_nan_and_on_equal_zeros);
     RUN_TEST(test_floor_takes_a_denormal_for_zero);

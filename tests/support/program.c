@@ -99,6 +99,13 @@ static void make_operation(struct maker *maker)
     keep(maker, information->result, ir_append(maker->ir, i));
 }
 
+static void make_permutation(struct maker *maker)
+{
+    struct ir_instruction i = {.op = IR_permute, .type = TYPE_flt, .operand = {pick(maker, TYPE_flt)}};
+    i.k = (int32_t)(program_random(maker->seed) & 255);
+    keep(maker, TYPE_flt, ir_append(maker->ir, i));
+}
+
 /* One to five gathers of neighbouring words: by rows, when registers allow. */
 static void make_row(struct maker *maker, uint16_t index)
 {
@@ -183,6 +190,7 @@ void program_make(struct ir *ir, unsigned length, uint64_t *seed)
                 make_region(&maker, 1 + program_random(seed) % 12);
             break;
         case 4: make_gathers(&maker); break;
+        case 5: make_permutation(&maker); break;
         default: make_operation(&maker); break;
         }
     for (int i = 0; i < 4; i++)
@@ -226,6 +234,9 @@ static void step(struct interpreter *in, uint32_t number, unsigned lane)
     switch (i->op) {
     case IR_literal: *to = (uint32_t)i->k; break;
     case IR_copy: *to = a; break;
+    case IR_permute:
+        *to = in->value[i->operand[0]][(lane & ~3u) | ((unsigned)i->k >> 2 * (lane & 3) & 3)];
+        break;
     case IR_load:
     case IR_uniform: *to = read_word(in, i, lane); break;
     case IR_gather: *to = gather_word(in, i, a); break;
