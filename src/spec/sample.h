@@ -1,155 +1,49 @@
-/* Texture sampling of an RGBA8 image: addressing, point and bilinear filtering, in integers.
+/* Texture sampling: coordinates to a colour. The parts are addressing (address.h), levels of detail
+ * (detail.h) and the faces of cubes (cube.h); here are the filters, for textures of bytes in integers, and in
+ * sample_float.h for all others.
  *
- * A coordinate becomes texels in 24.8 fixed point, round(u * width * 256), so positions and bilinear weights
- * have 8 bits. Point takes the texel that contains the position; bilinear blends the four texels whose
- * centres surround it, horizontally then vertically, each step round((a * (256 - f) + b * f) / 256). Every
- * texel index ends within the image whatever the coordinate (NaN and infinity too): gathers need no mask.
- *
- * Addressing turns each tap's index i into one from 0 to size - 1:
- *
- *   WRAP         i modulo size
- *   MIRROR       j = i modulo 2 * size; j, or 2 * size - 1 - j where j >= size
- *   MIRROR_ONCE  i or -1 - i, whichever is not negative, at most size - 1
- *   CLAMP        the nearest of 0 to size - 1
- *   BORDER       as CLAMP; a texel whose index had to change, on this axis, is the border colour instead,
- * each of the four of bilinear filtering by itself
- *
- * On a power of two WRAP and MIRROR take bits of the index. Otherwise the coordinate's whole periods go
- * first, u - floor(u) or u - 2 * floor(u / 2), and an index that steps over an edge is brought back. */
+ * Linear filtering blends the two texels of each axis by the position's fraction of 256, along u first, then
+ * v, then w, then between two levels; each step is round((a * (256 - f) + b * f) / 256) of each channel. The
+ * mean of N anisotropic taps is floor((2 * sum + N) / 2N), halves up. */
 
-struct axis {
-    itg index[2];  /* of the texel and, bilinear only, its right or lower neighbour */
-    itg wanted[2]; /* the same before addressing */
-    fix weight;    /* of the neighbour, 0 to 255, in both halves; bilinear only */
+/* What a stage samples with. */
+struct sampler {
+    const struct pixel_key *k;
+    int stage;
+    int axes; /* of its images: 2 or 3 */
+    struct tap tap;
+    struct detail detail;
+    itg face; /* cube: its number */
+    flt coordinate[3];
+    flt reference; /* what texels of depth are compared with */
 };
 
-/* The job's fields of one axis. */
-struct axis_fields {
-    int size, size_256, last;
-};
-
-/* A field of the texture's description in the job. */
-static inline int texture_field(int stage, size_t field)
+static inline int sampler_address(const struct pixel_key *k, int stage, int axis)
 {
-    return (int)(offsetof(struct job, texture) + (size_t)stage * sizeof(struct texture_job) + field);
+    return axis == 0 ? k->address_u[stage] : axis == 1 ? k->address_v[stage] : k->address_w[stage];
 }
 
-#define TEXTURE_FIELD(stage, field) texture_field(stage, offsetof(struct texture_job, field))
-
-static inline struct axis_fields axis_fields(int stage, int vertical)
+static inline int has_border(const struct sampler *s, int axis)
 {
-    struct axis_fields across = {TEXTURE_FIELD(stage, width), TEXTURE_FIELD(stage, width_256),
-                                 TEXTURE_FIELD(stage, last_u)};
-    struct axis_fields down = {TEXTURE_FIELD(stage, height), TEXTURE_FIELD(stage, height_256),
-                               TEXTURE_FIELD(stage, last_v)};
-    return vertical ? down : across;
+    return sampler_address(s->k, s->stage, axis) == ADDRESS_BORDER;
 }
 
-static inline itg clamp_index(struct env *e, itg index, itg last)
+/* The number of the first texel of a row, by taps down and through the slices. */
+static inline itg texel_row(struct env *e, const struct sampler *s, const struct level *l,
+                            const struct axis *axis, int j, int k, itg width)
 {
-    itg low = max_i(E, index, lit_i(E, 0));
-    return min_i(E, low, last);
-}
-
-/* Brings index from [-size, 2 * size) into [0, size), and anything else to an edge. */
-static inline itg wrap_index(struct env *e, itg index, itg size, itg last)
-{
-    msk below = gt_i(E, lit_i(E, 0), index);
-    itg raised = add_i(E, index, size);
-    itg r = select_i(E, below, raised, index);
-    msk above = gt_i(E, r, last);
-    itg lowered = sub_i(E, r, size);
-    r = select_i(E, above, lowered, r);
-    return clamp_index(E, r, last);
-}
-
-/* The index reflected at the image's lower edge: -1 is 0. */
-static inline itg fold_index(struct env *e, itg index)
-{
-    itg reflected = xor_i(E, index, lit_i(E, -1));
-    return max_i(E, index, reflected);
-}
-
-/* From [-2 * size, 2 * size) as defined; 2 * size, which is 0 again, and anything else to 0. */
-static inline itg mirror_index(struct env *e, itg index, itg size, itg last)
-{
-    itg folded = fold_index(E, index);
-    itg end = add_i(E, size, last);
-    itg reflected = sub_i(E, end, folded);
-    itg r = min_i(E, folded, reflected);
-    return max_i(E, r, lit_i(E, 0));
-}
-
-/* The bit `size` of the index tells the images that are reflected. */
-static inline itg mirror_power_index(struct env *e, itg index, itg size, itg last)
-{
-    itg bit = and_i(E, index, size);
-    msk odd = eq_i(E, bit, size);
-    itg flip = mask_i(E, odd);
-    itg turned = xor_i(E, index, flip);
-    return and_i(E, turned, last);
-}
-
-static inline itg address_index(struct env *e, int address, itg index, const struct axis_fields *fields)
-{
-    itg last = uniform_i(E, BASE_JOB, fields->last);
-    if (address == ADDRESS_WRAP_POWER)
-        return and_i(E, index, last);
-    if (address == ADDRESS_CLAMP || address == ADDRESS_BORDER)
-        return clamp_index(E, index, last);
-    if (address == ADDRESS_MIRROR_ONCE) {
-        itg folded = fold_index(E, index);
-        return min_i(E, folded, last);
+    itg row = dot_i(E, axis[1].index[j], width);
+    if (s->axes == 3) {
+        itg slice_texels =
+            l->each ? l->slice_texels : uniform_i(E, BASE_JOB, TEXTURE_FIELD(l->stage, slice_texels));
+        itg slice = mul_i(E, axis[2].index[k], slice_texels);
+        row = add_i(E, row, slice);
     }
-    itg size = uniform_i(E, BASE_JOB, fields->size);
-    switch (address) {
-    case ADDRESS_MIRROR: return mirror_index(E, index, size, last);
-    case ADDRESS_MIRROR_POWER: return mirror_power_index(E, index, size, last);
-    default: return wrap_index(E, index, size, last);
-    }
+    return l->placed ? add_i(E, row, l->offset) : row;
 }
 
-/* The coordinate without its whole periods, where they are not a power of two of texels. */
-static inline flt address_period(struct env *e, int address, flt coordinate)
-{
-    if (address == ADDRESS_WRAP) {
-        flt whole = floor_f(E, coordinate);
-        return sub_f(E, coordinate, whole);
-    }
-    if (address == ADDRESS_MIRROR) {
-        flt half = mul_f(E, coordinate, lit_f(E, 0.5f));
-        flt whole = floor_f(E, half);
-        flt even = add_f(E, whole, whole);
-        return sub_f(E, coordinate, even);
-    }
-    return coordinate;
-}
-
-static inline struct axis address_axis(struct env *e, const struct pixel_key *k, int stage, int address,
-                                       flt coordinate, int vertical)
-{
-    struct axis r;
-    struct axis_fields fields = axis_fields(stage, vertical);
-    flt inner = address_period(E, address, coordinate);
-    flt size_256 = uniform_f(E, BASE_JOB, fields.size_256);
-    flt scaled = mul_f(E, inner, size_256);
-    itg position = round_i(E, scaled);
-    if (k->filter[stage] == FILTER_LINEAR)
-        position = sub_i(E, position, lit_i(E, 128));
-    itg index = shr_i(E, position, 8);
-    r.index[0] = address_index(E, address, index, &fields);
-    r.index[1] = r.index[0];
-    r.wanted[0] = r.wanted[1] = index;
-    r.weight = lit_x(E, 0);
-    if (k->filter[stage] == FILTER_LINEAR) {
-        itg next = add_i(E, index, lit_i(E, 1));
-        r.index[1] = address_index(E, address, next, &fields);
-        r.wanted[1] = next;
-        itg fraction = and_i(E, position, lit_i(E, 255));
-        r.weight = both_halves(E, fraction);
-    }
-    return r;
-}
+/* --- Bytes ------------------------------------------------------------------------------------------------
+ */
 
 /* The texel, or the border colour where one of the axes has a border and its index is not the one that was
  * wanted. */
@@ -160,16 +54,16 @@ static inline itg border_texel(struct env *e, int stage, const struct axis *axis
     return select_i(E, inside, texel, border);
 }
 
-/* The texel of column tap `i` and row tap `j`, whose row starts at texel number `row`. */
-static inline itg texel(struct env *e, const struct pixel_key *k, int stage, const struct axis *u, int i,
-                        const struct axis *v, int j, itg row)
+/* The texel of column tap `i`, row tap `j` and slice tap `k`, whose row starts at texel number `row`. */
+static inline itg texel(struct env *e, const struct sampler *s, const struct axis *axis, int i, int j, int k,
+                        itg row)
 {
-    itg index = add_i(E, row, u->index[i]);
-    itg word = gather_i(E, BASE_JOB, TEXTURE_FIELD(stage, texels), index, 4, 0);
-    if (k->address_u[stage] == ADDRESS_BORDER)
-        word = border_texel(E, stage, u, i, word);
-    if (k->address_v[stage] == ADDRESS_BORDER)
-        word = border_texel(E, stage, v, j, word);
+    const int tap[3] = {i, j, k};
+    itg index = add_i(E, row, axis[0].index[i]);
+    itg word = gather_i(E, BASE_JOB, TEXTURE_FIELD(s->stage, texels), index, 4, 0);
+    for (int a = 0; a < s->axes; a++)
+        if (has_border(s, a))
+            word = border_texel(E, s->stage, &axis[a], tap[a], word);
     return word;
 }
 
@@ -182,44 +76,220 @@ static inline fix lerp_256(struct env *e, fix a, fix b, fix inverse, fix weight)
     return ushr_x(E, rounded, 8);
 }
 
-static inline struct color lerp_color(struct env *e, itg a, itg b, fix inverse, fix weight)
+static inline struct color lerp_colors(struct env *e, struct color a, struct color b, fix inverse, fix weight)
+{
+    struct color r;
+    r.rb = lerp_256(E, a.rb, b.rb, inverse, weight);
+    r.ga = lerp_256(E, a.ga, b.ga, inverse, weight);
+    return r;
+}
+
+static inline struct color lerp_texels(struct env *e, itg a, itg b, fix inverse, fix weight)
 {
     struct color left = color_unpack(E, a);
     struct color right = color_unpack(E, b);
-    struct color r;
-    r.rb = lerp_256(E, left.rb, right.rb, inverse, weight);
-    r.ga = lerp_256(E, left.ga, right.ga, inverse, weight);
+    return lerp_colors(E, left, right, inverse, weight);
+}
+
+/* Four texels of the slice of tap `k`. */
+static inline struct color sample_slice(struct env *e, const struct sampler *s, const struct level *l,
+                                        const struct axis *axis, int k, itg width)
+{
+    itg upper_row = texel_row(E, s, l, axis, 0, k, width);
+    itg upper_left = texel(E, s, axis, 0, 0, k, upper_row);
+    itg upper_right = texel(E, s, axis, 1, 0, k, upper_row);
+    itg lower_row = texel_row(E, s, l, axis, 1, k, width);
+    itg lower_left = texel(E, s, axis, 0, 1, k, lower_row);
+    itg lower_right = texel(E, s, axis, 1, 1, k, lower_row);
+    fix inverse_u = sub_x(E, lit_x(E, 256), axis[0].weight);
+    fix inverse_v = sub_x(E, lit_x(E, 256), axis[1].weight);
+    struct color upper = lerp_texels(E, upper_left, upper_right, inverse_u, axis[0].weight);
+    struct color lower = lerp_texels(E, lower_left, lower_right, inverse_u, axis[0].weight);
+    return lerp_colors(E, upper, lower, inverse_v, axis[1].weight);
+}
+
+static inline struct color sample_image(struct env *e, const struct sampler *s, const struct level *l)
+{
+    struct axis axis[3];
+    for (int a = 0; a < s->axes; a++)
+        axis[a] = address_axis(E, l, &s->tap, sampler_address(s->k, s->stage, a), a, s->coordinate[a]);
+    itg width = level_size(E, l, 0);
+    if (!s->tap.linear) {
+        itg row = texel_row(E, s, l, axis, 0, 0, width);
+        itg word = texel(E, s, axis, 0, 0, 0, row);
+        return color_unpack(E, word);
+    }
+    struct color near = sample_slice(E, s, l, axis, 0, width);
+    if (s->axes == 2)
+        return near;
+    struct color far = sample_slice(E, s, l, axis, 1, width);
+    fix inverse = sub_x(E, lit_x(E, 256), axis[2].weight);
+    return lerp_colors(E, near, far, inverse, axis[2].weight);
+}
+
+/* --- Levels -----------------------------------------------------------------------------------------------
+ */
+
+/* Image number `i` of those that are blended: in the job, or each lane's own; on a cube, of its face. */
+static inline struct level sampler_level(struct env *e, const struct sampler *s, int i)
+{
+    struct level r = {.stage = s->stage};
+    if (s->k->mip[s->stage])
+        r = gather_level(E, s->stage, s->detail.level[i], s->axes);
+    if (s->k->texture[s->stage] != TEXTURE_CUBE)
+        return r;
+    itg face_texels = uniform_i(E, BASE_JOB, TEXTURE_FIELD(s->stage, face_texels));
+    itg face = mul_i(E, s->face, face_texels);
+    r.offset = r.placed ? add_i(E, r.offset, face) : face;
+    r.placed = 1;
     return r;
 }
 
-static inline struct color sample_bilinear(struct env *e, const struct pixel_key *k, int stage,
-                                           const struct axis *u, const struct axis *v, itg width)
+static inline struct color sample_levels(struct env *e, const struct sampler *s)
 {
-    itg upper_row = dot_i(E, v->index[0], width);
-    itg upper_left = texel(E, k, stage, u, 0, v, 0, upper_row);
-    itg upper_right = texel(E, k, stage, u, 1, v, 0, upper_row);
-    itg lower_row = dot_i(E, v->index[1], width);
-    itg lower_left = texel(E, k, stage, u, 0, v, 1, lower_row);
-    itg lower_right = texel(E, k, stage, u, 1, v, 1, lower_row);
-    fix inverse_u = sub_x(E, lit_x(E, 256), u->weight);
-    fix inverse_v = sub_x(E, lit_x(E, 256), v->weight);
-    struct color upper = lerp_color(E, upper_left, upper_right, inverse_u, u->weight);
-    struct color lower = lerp_color(E, lower_left, lower_right, inverse_u, u->weight);
-    struct color r;
-    r.rb = lerp_256(E, upper.rb, lower.rb, inverse_v, v->weight);
-    r.ga = lerp_256(E, upper.ga, lower.ga, inverse_v, v->weight);
+    struct level first = sampler_level(E, s, 0);
+    struct color color = sample_image(E, s, &first);
+    if (!s->k->mip[s->stage] || s->detail.images == 1)
+        return color;
+    struct level second = sampler_level(E, s, 1);
+    struct color further = sample_image(E, s, &second);
+    fix weight = both_halves(E, s->detail.fraction);
+    fix inverse = sub_x(E, lit_x(E, 256), weight);
+    return lerp_colors(E, color, further, inverse, weight);
+}
+
+/* --- Coordinates ------------------------------------------------------------------------------------------
+ */
+
+/* Which lanes filter linearly: by magfilter, or by the other filter where texels are smaller than pixels. */
+static inline void choose_filter(struct env *e, struct sampler *s)
+{
+    int mag = s->k->filter[s->stage] == FILTER_LINEAR, minify = s->k->minify[s->stage];
+    int min = minify == MINIFY_SAME ? mag : minify == MINIFY_ANISOTROPIC || !mag;
+    s->tap.linear = mag || min;
+    s->tap.mixed = mag != min;
+    if (s->tap.mixed && min)
+        s->tap.smooth = s->detail.minified;
+    else if (s->tap.mixed)
+        s->tap.smooth = andn_m(E, lit_m(E, -1), s->detail.minified);
+}
+
+static inline void project_cube(struct env *e, struct sampler *s, const flt v[3], struct changes *changes)
+{
+    struct cube_face face = cube_face(E, v);
+    struct cube_vector at = cube_turn(E, &face, v);
+    flt s_ratio = div_f(E, at.s, at.m);
+    flt t_ratio = div_f(E, at.t, at.m);
+    s->face = face.number;
+    s->coordinate[0] = cube_coordinate(E, s_ratio);
+    s->coordinate[1] = cube_coordinate(E, t_ratio);
+    if (!changes)
+        return;
+    flt *const change[2] = {changes->across, changes->down};
+    for (int i = 0; i < 2; i++) {
+        struct cube_vector d = cube_turn(E, &face, change[i]);
+        change[i][0] = cube_difference(E, s_ratio, d.s, d.m, at.m);
+        change[i][1] = cube_difference(E, t_ratio, d.t, d.m, at.m);
+    }
+}
+
+/* Coordinates u, v and, where the texture needs it, a third: w, z of a cube's vector, or the reference depth.
+ */
+static inline struct sampler sampler(struct env *e, const struct pixel_key *k, int stage, const flt v[3])
+{
+    struct sampler s = {.k = k, .stage = stage, .axes = k->texture[stage] == TEXTURE_VOLUME ? 3 : 2};
+    struct changes changes;
+    int cube = k->texture[stage] == TEXTURE_CUBE;
+    if (needs_detail(k, stage))
+        quad_changes(E, v, cube ? 3 : s.axes, &changes);
+    if (cube)
+        project_cube(E, &s, v, needs_detail(k, stage) ? &changes : NULL);
+    else
+        for (int a = 0; a < s.axes; a++)
+            s.coordinate[a] = v[a];
+    if (needs_detail(k, stage)) {
+        measure_changes(E, stage, s.axes, &changes);
+        s.detail = detail(E, k, stage, s.axes, &changes);
+    }
+    choose_filter(E, &s);
+    s.reference = v[2];
+    return s;
+}
+
+/* Moves the coordinates to tap i of 1 to N; `apart` is 1 / (N + 1). */
+static inline struct sampler tap_sampler(struct env *e, const struct sampler *s, int i, flt apart)
+{
+    struct sampler r = *s;
+    flt along = mad_f(E, lit_f(E, (float)i), apart, lit_f(E, -0.5f));
+    for (int a = 0; a < s->axes; a++)
+        r.coordinate[a] = mad_f(E, s->detail.step[a], along, s->coordinate[a]);
     return r;
 }
 
-/* The texture of a stage at u, v. */
-static inline struct color sample(struct env *e, const struct pixel_key *k, int stage, flt u, flt v)
+static inline flt taps_apart(struct env *e, const struct sampler *s)
 {
-    struct axis across = address_axis(E, k, stage, k->address_u[stage], u, 0);
-    struct axis down = address_axis(E, k, stage, k->address_v[stage], v, 1);
-    itg width = uniform_i(E, BASE_JOB, TEXTURE_FIELD(stage, width));
-    if (k->filter[stage] == FILTER_LINEAR)
-        return sample_bilinear(E, k, stage, &across, &down, width);
-    itg row = dot_i(E, down.index[0], width);
-    itg word = texel(E, k, stage, &across, 0, &down, 0, row);
-    return color_unpack(E, word);
+    flt spaces = add_f(E, s->detail.taps, lit_f(E, 1.0f));
+    return div_f(E, lit_f(E, 1.0f), spaces);
+}
+
+/* Lanes that have an i-th tap. */
+static inline msk tap_counts(struct env *e, const struct sampler *s, int i)
+{
+    return le_f(E, lit_f(E, (float)i), s->detail.taps);
+}
+
+static inline fix fix_where(struct env *e, msk mask, fix value)
+{
+    itg kept = mask_i(E, mask);
+    itg bits = int_of(E, value);
+    itg r = and_i(E, bits, kept);
+    return fix_of(E, r);
+}
+
+/* floor((2 * sum + N) / 2N) of both halves: the quotient of such small numbers cannot round up to a whole. */
+static inline fix divide_taps(struct env *e, fix sum, itg taps)
+{
+    itg both = int_of(E, sum);
+    itg half[2], result[2];
+    half[0] = and_i(E, both, lit_i(E, 0xffff));
+    half[1] = ushr_i(E, both, 16);
+    itg doubled = add_i(E, taps, taps);
+    flt divisor = float_f(E, doubled);
+    for (int i = 0; i < 2; i++) {
+        itg twice = add_i(E, half[i], half[i]);
+        itg numerator = add_i(E, twice, taps);
+        flt dividend = float_f(E, numerator);
+        flt quotient = div_f(E, dividend, divisor);
+        result[i] = trunc_i(E, quotient);
+    }
+    itg high = shl_i(E, result[1], 16);
+    itg joined = or_i(E, result[0], high);
+    return fix_of(E, joined);
+}
+
+static inline struct color sample_anisotropic(struct env *e, const struct sampler *s)
+{
+    flt apart = taps_apart(E, s);
+    struct color sum;
+    sum.rb = sum.ga = lit_x(E, 0);
+    for (int i = 1; i <= s->k->anisotropy[s->stage]; i++) {
+        struct sampler tap = tap_sampler(E, s, i, apart);
+        struct color color = sample_levels(E, &tap);
+        msk counts = tap_counts(E, s, i);
+        fix rb = fix_where(E, counts, color.rb);
+        fix ga = fix_where(E, counts, color.ga);
+        sum.rb = add_x(E, sum.rb, rb);
+        sum.ga = add_x(E, sum.ga, ga);
+    }
+    itg taps = round_i(E, s->detail.taps);
+    sum.rb = divide_taps(E, sum.rb, taps);
+    sum.ga = divide_taps(E, sum.ga, taps);
+    return sum;
+}
+
+/* The texture of a stage, of bytes. */
+static inline struct color sample(struct env *e, const struct pixel_key *k, int stage, const flt v[3])
+{
+    struct sampler s = sampler(E, k, stage, v);
+    return k->minify[stage] == MINIFY_ANISOTROPIC ? sample_anisotropic(E, &s) : sample_levels(E, &s);
 }

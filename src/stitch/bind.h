@@ -130,7 +130,7 @@ static inline fix lit_x(struct env *e, uint16_t value)
 
 static inline flt permute_f(struct env *e, flt a, int lanes)
 {
-    return (flt){append_value(e, &fragment_permute, (struct arguments){{0, a.slot, lanes}})};
+    return (flt){append_value(e, &fragment_permute, (struct arguments){{0, a.slot, lanes}}, 1)};
 }
 
 /* The register of each base, counted from r8 (asm/fragment.inc). */

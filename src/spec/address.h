@@ -1,0 +1,200 @@
+/* Addressing: from a texture coordinate to the texels of an image along one axis.
+ *
+ * A coordinate becomes texels in 24.8 fixed point, round(u * width * 256), so positions and the weights of
+ * linear filtering have 8 bits. Point takes the texel that contains the position; linear blends the two whose
+ * centres lie around it. Every texel index ends within the image whatever the coordinate (NaN and infinity
+ * too): gathers need no mask.
+ *
+ * Addressing turns each tap's index i into one from 0 to size - 1:
+ *
+ *   WRAP         i modulo size
+ *   MIRROR       j = i modulo 2 * size; j, or 2 * size - 1 - j where j >= size
+ *   MIRROR_ONCE  i or -1 - i, whichever is not negative, at most size - 1
+ *   CLAMP        the nearest of 0 to size - 1
+ *   BORDER       as CLAMP; a texel whose index had to change, on this axis, is the border colour instead,
+ *                each of those that are blended by itself
+ *
+ * On a power of two WRAP and MIRROR take bits of the index. Otherwise the coordinate's whole periods go
+ * first, u - floor(u) or u - 2 * floor(u / 2), and an index that steps over an edge is brought back. */
+
+struct axis {
+    itg index[2];  /* of the texel and, linear only, its neighbour */
+    itg wanted[2]; /* the same before addressing */
+    itg fraction;  /* of the way to the neighbour, 0 to 255; linear only */
+    fix weight;    /* the same in both halves */
+};
+
+/* How the lanes filter: linear if any of them does, mixed if not all of them do but those of `smooth`. */
+struct tap {
+    int linear, mixed;
+    msk smooth;
+};
+
+/* The image that is sampled. Where all lanes sample the same, it is in the job; where each has a level of its
+ * own, in the fields here. Axes are those of u, v and w. */
+struct level {
+    int stage;
+    int each;   /* the fields of this structure count */
+    int placed; /* the image does not begin where the texture does, but `offset` texels from there */
+    itg offset;
+    itg size[3], last[3];
+    flt size_256[3];
+    itg slice_texels;
+};
+
+/* A field of the texture's description in the job. */
+static inline int texture_field(int stage, size_t field)
+{
+    return (int)(offsetof(struct job, texture) + (size_t)stage * sizeof(struct texture_job) + field);
+}
+
+#define TEXTURE_FIELD(stage, field) texture_field(stage, offsetof(struct texture_job, field))
+
+static inline itg level_size(struct env *e, const struct level *l, int axis)
+{
+    static const size_t field[3] = {offsetof(struct texture_job, width), offsetof(struct texture_job, height),
+                                    offsetof(struct texture_job, depth)};
+    return l->each ? l->size[axis] : uniform_i(E, BASE_JOB, texture_field(l->stage, field[axis]));
+}
+
+static inline itg level_last(struct env *e, const struct level *l, int axis)
+{
+    static const size_t field[3] = {offsetof(struct texture_job, last_u),
+                                    offsetof(struct texture_job, last_v),
+                                    offsetof(struct texture_job, last_w)};
+    return l->each ? l->last[axis] : uniform_i(E, BASE_JOB, texture_field(l->stage, field[axis]));
+}
+
+static inline flt job_size_256(struct env *e, int stage, int axis)
+{
+    static const size_t field[3] = {offsetof(struct texture_job, width_256),
+                                    offsetof(struct texture_job, height_256),
+                                    offsetof(struct texture_job, depth_256)};
+    return uniform_f(E, BASE_JOB, texture_field(stage, field[axis]));
+}
+
+static inline flt level_size_256(struct env *e, const struct level *l, int axis)
+{
+    return l->each ? l->size_256[axis] : job_size_256(E, l->stage, axis);
+}
+
+static inline itg clamp_index(struct env *e, itg index, itg last)
+{
+    itg low = max_i(E, index, lit_i(E, 0));
+    return min_i(E, low, last);
+}
+
+/* Brings index from [-size, 2 * size) into [0, size), and anything else to an edge. */
+static inline itg wrap_index(struct env *e, itg index, itg size, itg last)
+{
+    msk below = gt_i(E, lit_i(E, 0), index);
+    itg raised = add_i(E, index, size);
+    itg r = select_i(E, below, raised, index);
+    msk above = gt_i(E, r, last);
+    itg lowered = sub_i(E, r, size);
+    r = select_i(E, above, lowered, r);
+    return clamp_index(E, r, last);
+}
+
+/* The index reflected at the image's lower edge: -1 is 0. */
+static inline itg fold_index(struct env *e, itg index)
+{
+    itg reflected = xor_i(E, index, lit_i(E, -1));
+    return max_i(E, index, reflected);
+}
+
+/* From [-2 * size, 2 * size) as defined; 2 * size, which is 0 again, and anything else to 0. */
+static inline itg mirror_index(struct env *e, itg index, itg size, itg last)
+{
+    itg folded = fold_index(E, index);
+    itg end = add_i(E, size, last);
+    itg reflected = sub_i(E, end, folded);
+    itg r = min_i(E, folded, reflected);
+    return max_i(E, r, lit_i(E, 0));
+}
+
+/* The bit `size` of the index tells the images that are reflected. */
+static inline itg mirror_power_index(struct env *e, itg index, itg size, itg last)
+{
+    itg bit = and_i(E, index, size);
+    msk odd = eq_i(E, bit, size);
+    itg flip = mask_i(E, odd);
+    itg turned = xor_i(E, index, flip);
+    return and_i(E, turned, last);
+}
+
+static inline itg address_index(struct env *e, int address, itg index, const struct level *l, int axis)
+{
+    itg last = level_last(E, l, axis);
+    if (address == ADDRESS_WRAP_POWER)
+        return and_i(E, index, last);
+    if (address == ADDRESS_CLAMP || address == ADDRESS_BORDER)
+        return clamp_index(E, index, last);
+    if (address == ADDRESS_MIRROR_ONCE) {
+        itg folded = fold_index(E, index);
+        return min_i(E, folded, last);
+    }
+    itg size = level_size(E, l, axis);
+    switch (address) {
+    case ADDRESS_MIRROR: return mirror_index(E, index, size, last);
+    case ADDRESS_MIRROR_POWER: return mirror_power_index(E, index, size, last);
+    default: return wrap_index(E, index, size, last);
+    }
+}
+
+/* The coordinate without its whole periods, where they are not a power of two of texels. */
+static inline flt address_period(struct env *e, int address, flt coordinate)
+{
+    if (address == ADDRESS_WRAP) {
+        flt whole = floor_f(E, coordinate);
+        return sub_f(E, coordinate, whole);
+    }
+    if (address == ADDRESS_MIRROR) {
+        flt half = mul_f(E, coordinate, lit_f(E, 0.5f));
+        flt whole = floor_f(E, half);
+        flt even = add_f(E, whole, whole);
+        return sub_f(E, coordinate, even);
+    }
+    return coordinate;
+}
+
+/* From the position to the centre of the texel that is the first of two: half a texel, nothing in lanes that
+ * take the texel of the position alone. */
+static inline itg tap_offset(struct env *e, const struct tap *tap)
+{
+    itg half = lit_i(E, 128);
+    return tap->mixed ? select_i(E, tap->smooth, half, lit_i(E, 0)) : half;
+}
+
+static inline itg tap_fraction(struct env *e, const struct tap *tap, itg position)
+{
+    itg fraction = and_i(E, position, lit_i(E, 255));
+    return tap->mixed ? select_i(E, tap->smooth, fraction, lit_i(E, 0)) : fraction;
+}
+
+static inline struct axis address_axis(struct env *e, const struct level *l, const struct tap *tap,
+                                       int address, int axis, flt coordinate)
+{
+    struct axis r;
+    flt inner = address_period(E, address, coordinate);
+    flt size_256 = level_size_256(E, l, axis);
+    flt scaled = mul_f(E, inner, size_256);
+    itg position = round_i(E, scaled);
+    if (tap->linear) {
+        itg offset = tap_offset(E, tap);
+        position = sub_i(E, position, offset);
+    }
+    itg index = shr_i(E, position, 8);
+    r.index[0] = address_index(E, address, index, l, axis);
+    r.index[1] = r.index[0];
+    r.wanted[0] = r.wanted[1] = r.fraction = index;
+    r.weight = lit_x(E, 0);
+    if (tap->linear) {
+        itg next = add_i(E, index, lit_i(E, 1));
+        r.index[1] = address_index(E, address, next, l, axis);
+        r.wanted[1] = next;
+        r.fraction = tap_fraction(E, tap, position);
+        r.weight = both_halves(E, r.fraction);
+    }
+    return r;
+}

@@ -1,0 +1,163 @@
+/* Level of detail: which levels of a texture a pixel samples, and in how many places.
+ *
+ * The change of the coordinates to the next pixel, across and down, is the difference within the quad of 2x2
+ * pixels, right minus left in each row, lower minus upper in each column. In texels of the first level (of
+ * the one that maxmiplevel allows, if there are no others) the longer of the two changes is
+ *
+ *   rho = max(|across|, |down|),   lambda = round(256 * (log2(rho) + mipmaplodbias)) / 256
+ *
+ * computed from rho^2 by logarithm2 (transcendental.h), which is exact to about one in a million. lambda <= 0
+ * is magnification, filtered by magfilter, everything else minification, filtered by minfilter. What is not a
+ * number is minification.
+ *
+ *   mipfilter point    level floor(lambda + 1/2), linear: levels floor(lambda) and the next, blended by the
+ * fraction of 256; both after lambda was clamped to maxmiplevel and the last level.
+ *
+ * Anisotropic minification takes N taps along the longer change (EXT_texture_filter_anisotropic), each
+ * filtered linearly, and gives their mean:
+ *
+ *   N = ceil(rho / min(|across|, |down|)), less 1/256, from 1 to maxanisotropy
+ *   tap i of 1 to N lies at the coordinate + (i / (N + 1) - 1/2) * change
+ *
+ * with the levels of lambda for rho / N. Magnification takes one. */
+
+/* Changes of the coordinates, across and down, and the squares of their lengths in 1/256 texels. */
+struct changes {
+    flt across[3], down[3];
+    flt across_square, down_square;
+};
+
+struct detail {
+    int images;   /* levels that are blended: 1 or 2 */
+    itg level[2]; /* used if each lane has its own */
+    itg fraction; /* of the second, 0 to 255 */
+    msk minified; /* used if the filters differ */
+    flt taps;     /* 1 to maxanisotropy, whole; anisotropic only */
+    flt step[3];  /* the longer change */
+};
+
+static inline void quad_changes(struct env *e, const flt v[3], int axes, struct changes *r)
+{
+    for (int i = 0; i < axes; i++) {
+        flt right = permute_f(E, v[i], QUAD_RIGHT);
+        flt left = permute_f(E, v[i], QUAD_LEFT);
+        r->across[i] = sub_f(E, right, left);
+        flt lower = permute_f(E, v[i], QUAD_LOWER);
+        flt upper = permute_f(E, v[i], QUAD_UPPER);
+        r->down[i] = sub_f(E, lower, upper);
+    }
+}
+
+static inline flt square_length(struct env *e, int stage, const flt change[3], int axes)
+{
+    flt sum = lit_f(E, 0.0f);
+    for (int i = 0; i < axes; i++) {
+        flt size = job_size_256(E, stage, i);
+        flt texels = mul_f(E, change[i], size);
+        sum = mad_f(E, texels, texels, sum);
+    }
+    return sum;
+}
+
+static inline void measure_changes(struct env *e, int stage, int axes, struct changes *r)
+{
+    r->across_square = square_length(E, stage, r->across, axes);
+    r->down_square = square_length(E, stage, r->down, axes);
+}
+
+/* lambda in 1/256 from the square of rho in 1/256 texels. */
+static inline itg lambda_256(struct env *e, int stage, flt square)
+{
+    flt doubled = logarithm2(E, square);
+    flt offset = uniform_f(E, BASE_JOB, TEXTURE_FIELD(stage, lod_offset));
+    flt lambda = mad_f(E, doubled, lit_f(E, 128.0f), offset);
+    return round_i(E, lambda);
+}
+
+/* The square of rho for one tap of N. */
+static inline flt detail_taps(struct env *e, int taps, int axes, const struct changes *c, flt square,
+                              struct detail *d)
+{
+    msk across = le_f(E, c->down_square, c->across_square);
+    for (int i = 0; i < axes; i++)
+        d->step[i] = select_f(E, across, c->across[i], c->down[i]);
+    flt shorter = min_f(E, c->across_square, c->down_square);
+    flt ratio_square = div_f(E, square, shorter);
+    flt ratio = sqrt_f(E, ratio_square);
+    flt raised = add_f(E, ratio, lit_f(E, 255.0f / 256.0f));
+    flt whole = floor_f(E, raised);
+    flt limited = min_f(E, whole, lit_f(E, (float)taps));
+    flt counted = max_f(E, limited, lit_f(E, 1.0f));
+    d->taps = select_f(E, d->minified, counted, lit_f(E, 1.0f));
+    flt taps_square = mul_f(E, d->taps, d->taps);
+    return div_f(E, square, taps_square);
+}
+
+static inline void detail_levels(struct env *e, int stage, int mip, itg lambda, struct detail *d)
+{
+    itg first = uniform_i(E, BASE_JOB, TEXTURE_FIELD(stage, first_level_256));
+    itg last = uniform_i(E, BASE_JOB, TEXTURE_FIELD(stage, last_level_256));
+    itg low = max_i(E, lambda, first);
+    itg clamped = min_i(E, low, last);
+    if (mip == MIP_POINT) {
+        itg nearest = add_i(E, clamped, lit_i(E, 128));
+        d->level[0] = shr_i(E, nearest, 8);
+        return;
+    }
+    d->images = 2;
+    d->level[0] = shr_i(E, clamped, 8);
+    d->fraction = and_i(E, clamped, lit_i(E, 255));
+    itg last_level = shr_i(E, last, 8);
+    itg next = add_i(E, d->level[0], lit_i(E, 1));
+    d->level[1] = min_i(E, next, last_level);
+}
+
+static inline int needs_detail(const struct pixel_key *k, int stage)
+{
+    return k->mip[stage] || k->minify[stage];
+}
+
+static inline struct detail detail(struct env *e, const struct pixel_key *k, int stage, int axes,
+                                   const struct changes *changes)
+{
+    struct detail r;
+    r.images = 1;
+    flt longer = max_f(E, changes->across_square, changes->down_square);
+    flt square = min_f(E, longer, lit_f(E, 0x1p100f)); /* NaN too */
+    itg lambda = lambda_256(E, stage, square);
+    r.level[0] = r.level[1] = r.fraction = lambda;
+    r.minified = gt_i(E, lambda, lit_i(E, 0));
+    r.taps = r.step[0] = r.step[1] = r.step[2] = square;
+    if (k->minify[stage] == MINIFY_ANISOTROPIC) {
+        flt share = detail_taps(E, k->anisotropy[stage], axes, changes, square, &r);
+        lambda = lambda_256(E, stage, share);
+    }
+    if (k->mip[stage])
+        detail_levels(E, stage, k->mip[stage], lambda, &r);
+    return r;
+}
+
+/* The image of each lane's level. */
+static inline struct level gather_level(struct env *e, int stage, itg number, int axes)
+{
+    static const size_t size[3] = {offsetof(struct texture_level, width),
+                                   offsetof(struct texture_level, height),
+                                   offsetof(struct texture_level, depth)};
+    static const size_t size_256[3] = {offsetof(struct texture_level, width_256),
+                                       offsetof(struct texture_level, height_256),
+                                       offsetof(struct texture_level, depth_256)};
+    struct level r = {.stage = stage, .each = 1, .placed = 1};
+    int levels = TEXTURE_FIELD(stage, levels);
+    itg row = shl_i(E, number, 3); /* of 8 words */
+    r.offset = gather_i(E, BASE_JOB, levels, row, 4, (int)offsetof(struct texture_level, offset));
+    r.slice_texels = r.offset;
+    for (int i = 0; i < axes; i++) {
+        r.size[i] = gather_i(E, BASE_JOB, levels, row, 4, (int)size[i]);
+        r.size_256[i] = gather_f(E, BASE_JOB, levels, row, 4, (int)size_256[i]);
+        r.last[i] = sub_i(E, r.size[i], lit_i(E, 1));
+    }
+    if (axes == 3)
+        r.slice_texels =
+            gather_i(E, BASE_JOB, levels, row, 4, (int)offsetof(struct texture_level, slice_texels));
+    return r;
+}
