@@ -1,6 +1,7 @@
 /* The job: the values of a draw, for keys that are derived already. */
 #include "base/mxcsr.h"
 #include "base/srgb.h"
+#include "def/lane.h"
 #include "draw/derive_part.h"
 
 #include <math.h>
@@ -171,19 +172,49 @@ static uint32_t rgba_word(uint32_t color)
     return (color & 0xff00ff00) | (color >> 16 & 255) | (color & 255) << 16;
 }
 
+/* Positions are measured in 1/256 texels of the level whose size is in the job: 8 levels more than texels of
+ * it, and that level's number more than those of the first. */
+static void fill_detail(const struct state *state, const struct pixel_key *key, int stage,
+                        struct texture_job *job)
+{
+    const struct triptych_texture *texture = state->texture[stage];
+    uint32_t first = derive_first_level(state, stage);
+    float bias = lane_from_bits(SAMPLER(stage, mipmaplodbias));
+    bias = fminf(fmaxf(bias, -LOD_BIAS_MAXIMUM), LOD_BIAS_MAXIMUM);
+    job->lod_offset = 256 * bias - 256 * 8 + (key->mip[stage] ? 0 : 256 * (float)first);
+    if (!key->mip[stage])
+        return;
+    job->levels = texture->level;
+    job->first_level_256 = 256 * (int32_t)first;
+    job->last_level_256 = 256 * (int32_t)(texture->levels - 1);
+}
+
 static void fill_texture(const struct state *state, const struct pixel_key *key, int stage,
                          struct texture_job *job)
 {
     const struct triptych_texture *texture = state->texture[stage];
-    job->texels = texture->texels;
-    job->width = (int32_t)texture->width;
-    job->height = (int32_t)texture->height;
-    job->width_256 = (float)texture->width * 256;
-    job->height_256 = (float)texture->height * 256;
+    uint32_t first = derive_first_level(state, stage);
+    const struct texture_level *level = &texture->level[key->mip[stage] ? 0 : first];
+    job->texels = key->mip[stage] ? texture->texels : texture_level_texels(texture, 0, first);
+    job->width = level->width;
+    job->height = level->height;
+    job->width_256 = level->width_256;
+    job->height_256 = level->height_256;
     job->last_u = job->width - 1;
     job->last_v = job->height - 1;
-    if (key->address_u[stage] == ADDRESS_BORDER || key->address_v[stage] == ADDRESS_BORDER)
+    if (key->address_u[stage] == ADDRESS_BORDER || key->address_v[stage] == ADDRESS_BORDER ||
+        key->address_w[stage] == ADDRESS_BORDER)
         job->border = rgba_word(SAMPLER(stage, bordercolor));
+    if (key->texture[stage] == TEXTURE_CUBE)
+        job->face_texels = (int32_t)texture->face_texels;
+    if (key->texture[stage] == TEXTURE_VOLUME) {
+        job->depth = level->depth;
+        job->depth_256 = level->depth_256;
+        job->last_w = job->depth - 1;
+        job->slice_texels = level->slice_texels;
+    }
+    if (key->mip[stage] || key->minify[stage])
+        fill_detail(state, key, stage, job);
 }
 
 static void fill_stages(const struct state *state, const struct pixel_key *key, struct job *job)

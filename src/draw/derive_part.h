@@ -47,6 +47,7 @@ void derive_storage(const struct state *state, struct pixel_key *key);
 void derive_blend(const struct state *state, struct pixel_key *key);
 void derive_stage(const struct state *state, struct pixel_key *key);
 void derive_texture(const struct state *state, struct pixel_key *key);
+uint32_t derive_first_level(const struct state *state, int stage); /* that the stage's sampler may sample */
 void derive_fog(const struct state *state, struct pixel_key *key);
 void derive_pixel(const struct state *state, enum primitive primitive, struct pixel_key *key);
 void derive_setup(const struct state *state, enum primitive primitive, const struct pixel_key *pixel,

@@ -14,12 +14,62 @@ static uint8_t derive_address(uint32_t address, uint32_t size)
     }
 }
 
-static void derive_sampler(const struct state *state, int stage, struct pixel_key *key)
+/* Anisotropic magnification is linear. */
+static uint8_t derive_filter(uint32_t filter)
+{
+    return filter == FILTER_linear || filter == FILTER_anisotropic ? FILTER_LINEAR : FILTER_POINT;
+}
+
+static void derive_minify(const struct state *state, int stage, struct pixel_key *key)
+{
+    uint32_t taps = SAMPLER(stage, maxanisotropy);
+    if (SAMPLER(stage, minfilter) == FILTER_anisotropic && taps > 1) {
+        key->minify[stage] = MINIFY_ANISOTROPIC;
+        key->anisotropy[stage] = (uint8_t)taps;
+    } else if (derive_filter(SAMPLER(stage, minfilter)) != key->filter[stage])
+        key->minify[stage] = MINIFY_OTHER;
+}
+
+/* Without a second level that may be sampled there is nothing to choose from. */
+static uint8_t derive_mip(const struct state *state, int stage)
+{
+    if (derive_first_level(state, stage) + 1 == state->texture[stage]->levels)
+        return MIP_NONE;
+    return (uint8_t)(MIP_NONE + SAMPLER(stage, mipfilter) - MIPFILTER_none);
+}
+
+static void derive_addresses(const struct state *state, int stage, struct pixel_key *key)
 {
     const struct triptych_texture *texture = state->texture[stage];
-    key->filter[stage] = SAMPLER(stage, magfilter) == FILTER_linear ? FILTER_LINEAR : FILTER_POINT;
-    key->address_u[stage] = derive_address(SAMPLER(stage, addressu), texture->width);
-    key->address_v[stage] = derive_address(SAMPLER(stage, addressv), texture->height);
+    const struct texture_level *level = &texture->level[0];
+    if (texture->type == TRIPTYCH_TEXTURE_CUBE) {
+        key->address_u[stage] = key->address_v[stage] = ADDRESS_CLAMP;
+        return;
+    }
+    if (!key->mip[stage])
+        level = &texture->level[derive_first_level(state, stage)];
+    key->address_u[stage] = derive_address(SAMPLER(stage, addressu), (uint32_t)level->width);
+    key->address_v[stage] = derive_address(SAMPLER(stage, addressv), (uint32_t)level->height);
+    if (texture->type == TRIPTYCH_TEXTURE_VOLUME)
+        key->address_w[stage] = derive_address(SAMPLER(stage, addressw), (uint32_t)level->depth);
+}
+
+static void derive_sampler(const struct state *state, int stage, struct pixel_key *key)
+{
+    key->texture[stage] = (uint8_t)(TEXTURE_2D + state->texture[stage]->type);
+    key->filter[stage] = derive_filter(SAMPLER(stage, magfilter));
+    derive_minify(state, stage, key);
+    key->mip[stage] = derive_mip(state, stage);
+    derive_addresses(state, stage, key);
+}
+
+/* maxmiplevel is that of mip filters: without one the first level is sampled. */
+uint32_t derive_first_level(const struct state *state, int stage)
+{
+    uint32_t last = state->texture[stage]->levels - 1, first = SAMPLER(stage, maxmiplevel);
+    if (SAMPLER(stage, mipfilter) == MIPFILTER_none)
+        return 0;
+    return first < last ? first : last;
 }
 
 static bool same_coordinates(const struct state *state, int a, int b)
@@ -51,9 +101,10 @@ void derive_texture(const struct state *state, struct pixel_key *key)
     for (int i = 0; i < key->stages; i++) {
         if (!stage_reads(key, i, SOURCE_TEXTURE) && !key->premodulate[i])
             continue;
-        key->texture[i] = 1;
         derive_sampler(state, i, key);
         derive_channel(state, i, key);
+        if (key->texture[i] != TEXTURE_2D)
+            key->varying[varying_third(key->coordinates[i])] = INTERPOLATION_SMOOTH;
     }
 }
 

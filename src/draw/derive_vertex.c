@@ -25,12 +25,14 @@ static void derive_lighting(const struct state *state, struct vertex_key *key)
     key->normalize = key->attribute[ATTRIBUTE_NORMAL] && GET(normalizenormals);
 }
 
-/* The set of coordinates that a stage takes. */
-static void derive_texcoord(const struct state *state, int stage, uint8_t *set, struct vertex_key *key)
+/* The set of coordinates that a channel takes, which is that of each of its stages. */
+static void derive_texcoord(const struct state *state, const struct pixel_key *pixel, int channel,
+                            struct vertex_key *key)
 {
-    *set = (uint8_t)STAGE(stage, texcoordindex);
-    enum attribute attribute = ATTRIBUTE_TEXCOORD + *set;
-    key->attribute[attribute] = derive_format(state, attribute, 2);
+    uint8_t set = (uint8_t)STAGE(derive_channel_stage(pixel, channel), texcoordindex);
+    enum attribute attribute = ATTRIBUTE_TEXCOORD + set;
+    key->texcoord[channel] = set;
+    key->attribute[attribute] = derive_format(state, attribute, key->varying[varying_third(channel)] ? 3 : 2);
 }
 
 /* A point sprite's texture coordinates are setup's. */
@@ -52,7 +54,7 @@ void derive_vertex(const struct state *state, const struct pixel_key *pixel, con
         key->clip_planes = (uint8_t)__builtin_popcount(GET(clipplaneenable));
     for (int channel = 0; channel < TEXTURE_STAGES; channel++)
         if (key->varying[varying_texcoord(channel)])
-            derive_texcoord(state, derive_channel_stage(pixel, channel), &key->texcoord[channel], key);
+            derive_texcoord(state, pixel, channel, key);
     if (key->varying[VARYING_diffuse] && GET(lighting) && !window)
         derive_lighting(state, key);
     else if (key->varying[VARYING_diffuse])

@@ -43,14 +43,24 @@ struct texture_level {
     int32_t slice_texels;
 };
 
+/* Levels further away than this are further than any texture has. */
+#define LOD_BIAS_MAXIMUM 64.0f
+
 struct texture_job {
     const uint32_t *texels; /* rows of `width` RGBA8 words, red in the low byte */
-    int32_t width;          /* texels, 1 to 8192 */
+    int32_t width;          /* texels, 1 to 8192; of the level that is sampled when no other is */
     int32_t height;
     float width_256; /* width * 256: texture coordinates become 24.8 fixed point */
     float height_256;
     int32_t last_u; /* width - 1: the mask of a power of two, the limit of a clamp */
     int32_t last_v;
+    /* Read only for volumes, cubes and levels of detail. */
+    int32_t depth, last_w;
+    float depth_256;
+    int32_t slice_texels, face_texels;       /* texels from a slice, a face to the next */
+    float lod_offset;                        /* 256 times mipmaplodbias and what makes pixels of texels */
+    int32_t first_level_256, last_level_256; /* levels that may be sampled, times 256 */
+    const struct texture_level *levels;
     uint32_t border;
     uint32_t reserved;
 };

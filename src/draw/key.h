@@ -155,7 +155,11 @@ enum stencil_operation {
     STENCIL_OPERATION_COUNT
 };
 
+enum texture_kind { TEXTURE_NONE, TEXTURE_2D, TEXTURE_CUBE, TEXTURE_VOLUME, TEXTURE_KINDS };
 enum filter { FILTER_POINT, FILTER_LINEAR, FILTER_COUNT };
+enum minify { MINIFY_SAME, MINIFY_OTHER, MINIFY_ANISOTROPIC, MINIFY_COUNT };
+enum mip { MIP_NONE, MIP_POINT, MIP_LINEAR, MIP_COUNT };
+enum { ANISOTROPY_MAXIMUM = 16 };
 
 /* WRAP_POWER and MIRROR_POWER are for an axis whose size is a power of two: a mask instead of a floor. */
 enum address_mode {

@@ -328,10 +328,9 @@ enum triptych_result state_set_light(struct state *state, unsigned index, const 
 enum triptych_result state_set_texture(struct state *state, unsigned sampler,
                                        struct triptych_texture *texture, struct error *error)
 {
-    if (texture && (texture->type != TRIPTYCH_TEXTURE_2D || texture->format->storage != STORAGE_RGBA8)) {
-        error_set(error,
-                  "a %s texture of format %s cannot be sampled: expected a 2d texture of 8-bit channels",
-                  texture_type_name[texture->type], texture->format->name);
+    if (texture && texture->format->storage != STORAGE_RGBA8) {
+        error_set(error, "a texture of format %s cannot be sampled: expected one of 8-bit channels",
+                  texture->format->name);
         return TRIPTYCH_UNSUPPORTED;
     }
     state->texture[sampler] = texture;

@@ -46,9 +46,12 @@ static inline struct color stage_texture(struct env *e, const struct pixel_sourc
         flt divisor = interpolate_over_w(E, s->k, s->layout, s->at, varying_divisor(channel), 0);
         w = div_f(E, lit_f(E, 1.0f), divisor);
     }
-    flt u = interpolate(E, s->k, s->layout, s->at, w, varying_texcoord(channel), 0);
-    flt v = interpolate(E, s->k, s->layout, s->at, w, varying_texcoord(channel), 1);
-    return sample(E, s->k, stage, u, v);
+    flt v[3];
+    v[0] = v[2] = interpolate(E, s->k, s->layout, s->at, w, varying_texcoord(channel), 0);
+    v[1] = interpolate(E, s->k, s->layout, s->at, w, varying_texcoord(channel), 1);
+    if (s->k->varying[varying_third(channel)])
+        v[2] = interpolate(E, s->k, s->layout, s->at, w, varying_third(channel), 0);
+    return sample(E, s->k, stage, v);
 }
 
 static inline struct color shade_stages(struct env *e, const struct pixel_source *s)

@@ -45,7 +45,7 @@ static inline void vertex_position(struct env *e, const struct vertex_key *k, st
     store_i(E, BASE_OUTPUT, SLOT_CODE * VERTEX_SLOT_BYTES, code);
 }
 
-/* The two coordinates of a channel, from its set. */
+/* The coordinates of a channel, from its set: two, and a third where it is read. */
 static inline void vertex_texcoord(struct env *e, const struct vertex_key *k, int channel)
 {
     int varying = varying_texcoord(channel);
@@ -54,15 +54,16 @@ static inline void vertex_texcoord(struct env *e, const struct vertex_key *k, in
     struct vector4 uv = fetch(E, k, ATTRIBUTE_TEXCOORD + k->texcoord[channel], 0.0f);
     for (int c = 0; c < 2; c++)
         store_slot(E, varying_slot[varying] + c, uv.v[c]);
+    if (k->varying[varying_third(channel)])
+        store_slot(E, varying_slot[varying_third(channel)], uv.v[2]);
 }
 
-/* What nothing computes yet: no highlights, no fog, coordinates of two components. */
+/* What nothing computes yet: no highlights, no fog, no division. */
 static inline void vertex_constants(struct env *e, const struct vertex_key *k)
 {
     for (int v = 0; v < VARYING_COUNT; v++) {
-        int third = v >= VARYING_texcoord0 && v < VARYING_specular && varying_components[v] == 1;
         for (int c = 0; c < varying_components[v]; c++)
-            if (k->varying[v] && (third || v >= VARYING_specular))
+            if (k->varying[v] && (varying_is_divisor(v) || v >= VARYING_specular))
                 store_slot(E, varying_slot[v] + c, lit_f(E, v == VARYING_specular ? 0.0f : 1.0f));
     }
 }

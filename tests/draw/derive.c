@@ -8,7 +8,7 @@
 
 static struct state state;
 static struct triptych_buffer buffer = {.bytes = 1024};
-static struct triptych_texture texture = {.width = 64, .height = 48};
+static struct triptych_texture texture; /* 64 x 48, one level */
 static union key key[UNIT_COUNT];
 static struct job job;
 
@@ -36,9 +36,18 @@ static void set(enum triptych_state_table table, unsigned i, unsigned row, const
     TEST_ASSERT_EQUAL_INT_MESSAGE(TRIPTYCH_OK, state_set_value(&state, table, i, row, value, NULL), word);
 }
 
+static void describe(enum triptych_texture_type type, unsigned width, unsigned height, unsigned depth,
+                     unsigned levels)
+{
+    const struct triptych_texture_description description = {
+        type, TRIPTYCH_SURFACE_A8R8G8B8, width, height, depth, levels};
+    TEST_ASSERT_EQUAL_INT(TRIPTYCH_OK, texture_describe(&description, &texture, NULL));
+}
+
 void setUp(void)
 {
     static uint8_t bytes[1024];
+    describe(TRIPTYCH_TEXTURE_2D, 64, 48, 1, 1);
     buffer.data = bytes;
     state_initialize(&state);
     state_set_viewport(&state, &(struct triptych_viewport){0, 0, 640, 480, 0, 1}, 640, 480, NULL);

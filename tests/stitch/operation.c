@@ -198,7 +198,7 @@ static void the_permutation_takes_the_lanes_it_names(void)
 {
     for (int lanes = 0; lanes < 256; lanes++) {
         struct code_span span;
-        const void *code = join(&fragment_permute, lanes, 1, &span);
+        const void *code = join(&fragment_permute, 0, lanes, 1, &span);
         for (int i = 0; i < WIDTH; i++)
             frame[WIDTH + i] = random_word();
         run_fragment(code);

@@ -15,7 +15,9 @@ enum {
     FETCH_MAXIMUM = 16,
     STREAM_BYTES = VERTEX_CAPACITY * STRIDE_MAXIMUM + FETCH_MAXIMUM + 4,
     TEXTURE_SIDE = 64,
-    TEXTURE_BYTES = TEXTURE_SIDE * TEXTURE_SIDE * 4,
+    VOLUME_SIDE = 16,
+    LEVELS = 7,
+    TEXTURE_BYTES = TEXTURE_SIDE * TEXTURE_SIDE * 4 * 6 * 2, /* a cube with its levels */
     RECORD_MAXIMUM = 256,
     TRIANGLES = 32,
     ENTRIES = 48,
@@ -43,6 +45,7 @@ struct differential {
     struct job job;
     uint8_t *stream[ATTRIBUTE_COUNT]; /* fenced */
     uint8_t *texels;                  /* fenced */
+    struct texture_level levels[TEXTURE_STAGES][LEVELS];
     alignas(64) uint32_t index_words[1 + SETUP_INDEX_ROWS * SETUP_CAPACITY];
     struct entry entries[ENTRIES];
     alignas(64) uint8_t triangles[TRIANGLES * RECORD_MAXIMUM];
@@ -308,25 +311,70 @@ static void make_entries(struct differential *d)
     }
 }
 
-static int32_t texture_side(struct differential *d, int address)
+static int32_t texture_side(struct differential *d, int kind, int address)
 {
     int power = address == ADDRESS_WRAP_POWER || address == ADDRESS_MIRROR_POWER;
-    return power ? 1 << below(d, 7) : 1 + (int32_t)below(d, TEXTURE_SIDE);
+    int volume = kind == TEXTURE_VOLUME;
+    return power ? 1 << below(d, volume ? 5 : 7) : 1 + (int32_t)below(d, volume ? VOLUME_SIDE : TEXTURE_SIDE);
+}
+
+static int32_t half(int32_t side, int level)
+{
+    return side >> level ? side >> level : 1;
+}
+
+/* Fills in the levels of one face; returns its texels. */
+static int32_t make_levels(const int32_t side[3], struct texture_level levels[LEVELS])
+{
+    int32_t offset = 0;
+    for (int l = 0; l < LEVELS; l++) {
+        struct texture_level *level = &levels[l];
+        *level =
+            (struct texture_level){offset, half(side[0], l), half(side[1], l), half(side[2], l), 0, 0, 0, 0};
+        level->width_256 = 256 * (float)level->width;
+        level->height_256 = 256 * (float)level->height;
+        level->depth_256 = 256 * (float)level->depth;
+        level->slice_texels = level->width * level->height;
+        offset += level->slice_texels * level->depth;
+    }
+    return offset;
+}
+
+/* Which levels may be sampled: any range of them. Without levels the first is all there is. */
+static void make_detail(struct differential *d, int stage)
+{
+    struct texture_job *texture = &d->job.texture[stage];
+    uint32_t last = below(d, LEVELS);
+    texture->levels = d->levels[stage];
+    texture->first_level_256 = 256 * (int32_t)below(d, last + 1);
+    texture->last_level_256 = 256 * (int32_t)last;
+    texture->lod_offset = number(d, -256 * 14, 256);
 }
 
 /* The image's last texel is the last word before the fence. */
 static void make_texture(struct differential *d, const struct pixel_key *key, int stage)
 {
     struct texture_job *texture = &d->job.texture[stage];
-    int32_t width = texture_side(d, key->address_u[stage]), height = texture_side(d, key->address_v[stage]);
-    texture->texels = (const uint32_t *)(void *)(d->texels + TEXTURE_BYTES - 4 * width * height);
-    texture->width = width;
-    texture->height = height;
-    texture->width_256 = 256 * (float)width;
-    texture->height_256 = 256 * (float)height;
-    texture->last_u = width - 1;
-    texture->last_v = height - 1;
+    int kind = key->texture[stage];
+    const int32_t side[3] = {texture_side(d, kind, key->address_u[stage]),
+                             texture_side(d, kind, key->address_v[stage]),
+                             kind == TEXTURE_VOLUME ? texture_side(d, kind, key->address_w[stage]) : 1};
+    int32_t chain = make_levels(side, d->levels[stage]), image = side[0] * side[1] * side[2];
+    texture->face_texels = key->mip[stage] ? chain : image;
+    int32_t texels = kind == TEXTURE_CUBE ? 6 * texture->face_texels : texture->face_texels;
+    texture->texels = (const uint32_t *)(void *)(d->texels + TEXTURE_BYTES) - texels;
+    texture->width = side[0];
+    texture->height = side[1];
+    texture->depth = side[2];
+    texture->width_256 = 256 * (float)side[0];
+    texture->height_256 = 256 * (float)side[1];
+    texture->depth_256 = 256 * (float)side[2];
+    texture->last_u = side[0] - 1;
+    texture->last_v = side[1] - 1;
+    texture->last_w = side[2] - 1;
+    texture->slice_texels = side[0] * side[1];
     texture->border = word(d);
+    make_detail(d, stage);
 }
 
 static void make_textures(struct differential *d, const struct pixel_key *key)
@@ -609,6 +657,10 @@ static void stage_usually(uint64_t chance, struct pixel_key *key)
         key->color_argument[i] = usual[key->color_argument[i] % 4];
         key->alpha_argument[i] = usual[key->alpha_argument[i] % 4];
     }
+    for (int i = 0; i < TEXTURE_STAGES && chance >> 42 & 7; i++)
+        key->texture[i] = key->texture[i] != TEXTURE_NONE, key->mip[i] = key->minify[i] = 0;
+    for (int i = 0; i < TEXTURE_STAGES; i++) /* a stage of many taps takes longer than all else */
+        key->anisotropy[i] %= 4;
     for (int i = 0; i < TEXTURE_STAGES && chance >> 41 & 1; i++)
         key->alpha_stage[i] = key->color_stage[i] == STAGE_DOT ? STAGE_SELECT : key->color_stage[i];
 }
