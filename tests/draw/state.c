@@ -183,7 +183,7 @@ static void a_value_that_nobody_has_is_a_bad_argument(void)
     expect_refused(TRIPTYCH_BAD_ARGUMENT, set(TRIPTYCH_STAGE_STATES, 8, TRIPTYCH_STAGE_colorop, 1),
                    "stage 8: expected 0 to 7");
     expect_refused(TRIPTYCH_BAD_ARGUMENT, set(TRIPTYCH_SAMPLER_STATES, 0, TRIPTYCH_SAMPLER_maxanisotropy, 17),
-                   "sampler 0 maxanisotropy: value 17, expected 1");
+                   "sampler 0 maxanisotropy: value 17, expected 1 to 16");
 }
 
 static void reals_are_finite(void)

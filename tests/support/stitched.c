@@ -32,6 +32,7 @@ static int32_t translate(struct translation *t, const struct ir_instruction *i)
     int32_t a = t->slot[i->operand[0]];
     switch (i->op) {
     case IR_copy: return a;
+    case IR_permute: return permute_f(&t->env, (flt){a}, i->k).slot;
     case IR_literal: return literal(&t->env, (uint32_t)i->k);
     case IR_load: return load_i(&t->env, i->base, i->k).slot;
     case IR_uniform: return uniform_i(&t->env, i->base, i->k).slot;
