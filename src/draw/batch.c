@@ -163,7 +163,7 @@ static bool add_triangle(struct batch *batch, struct clipper *clipper, const uin
     uint32_t c = clip_code_of(batch, corner[2]), counts = ~batch->draw->clip_ignored;
     if ((a & b & c & CLIP_FRUSTUM & counts) || ((a | b | c) & CLIP_INVALID))
         return true;
-    if ((a | b | c) & CLIP_NEEDED & counts)
+    if (((a | b | c) & CLIP_NEEDED & counts) || batch->draw->wrapped)
         return clip_and_add(batch, clipper, corner, primitive);
     if (batch->setup_count == SETUP_CAPACITY) {
         if (!set_up(batch, primitive))
@@ -214,14 +214,14 @@ static bool add_line(struct batch *batch, struct clipper *clipper, const uint8_t
         return true;
     if (!make_room(batch, clipper, primitive, false))
         return false;
-    int count = (a | b) & CLIP_NEEDED ? clip_line(clipper, lane, left) : 1;
+    int count = ((a | b) & CLIP_NEEDED) || draw->wrapped ? clip_line(clipper, lane, left) : 1;
     if (count < 0) {
         if (!make_room(batch, clipper, primitive, true))
             return false;
         count = clip_line(clipper, lane, left);
     }
     bool last = draw->primitive == TRIPTYCH_LINE_LIST || primitive + 1 == draw->count;
-    bool cut = left[1] != lane[1]; /* the line goes on behind it */
+    bool cut = b & CLIP_NEEDED; /* the line goes on behind its end */
     if (count)
         add_record(batch,
                    &(struct record){{left[0], left[1], left[1]}, left[0], (last && draw->last_pixel) || cut});
@@ -273,7 +273,7 @@ static bool add_parts(struct batch *batch, struct clipper *clipper, const uint8_
     if (!make_room(batch, clipper, primitive, false))
         return false;
     struct clipped clipped = {.count = 3, .lane = {lane[0], lane[1], lane[2]}, .corners = 7, .edges = 7};
-    if ((any & CLIP_NEEDED) && clip_polygon(clipper, lane, &clipped)) {
+    if (((any & CLIP_NEEDED) || draw->wrapped) && clip_polygon(clipper, lane, &clipped)) {
         if (!make_room(batch, clipper, primitive, true))
             return false;
         clip_polygon(clipper, lane, &clipped);
@@ -315,6 +315,7 @@ static bool end_batch(struct batch *batch)
         clipper_create(&batch->draw->job, key->varying, batch->vertices, batch->vertices_count);
     clipper.window = key->window;
     clipper.ignored = batch->draw->clip_ignored;
+    clipper.wrapped = batch->draw->wrapped;
     batch->setup_count = 0;
     return add_all(batch, &clipper, key->primitive) && set_up(batch, batch->first + batch->triangles_count);
 }

@@ -24,6 +24,7 @@
 #include "draw/clip.h"
 
 #include <float.h>
+#include <math.h>
 #include <stdbool.h>
 #include <string.h>
 
@@ -52,6 +53,7 @@ struct point {
     float slot[SLOT_COUNT]; /* position and smooth slots are valid */
     uint32_t code;          /* CLIP_NEEDED bits of the planes that are still to come */
     uint32_t lane;          /* in the batch, or NO_LANE if new */
+    bool corner;            /* it is one of the triangle's */
     bool edge;              /* the polygon's edge from here to the next point lies on one of the triangle's */
 };
 
@@ -216,12 +218,26 @@ static void cut(const struct clipper *c, enum clip_plane plane, const struct pol
 
 static struct point load_point(const struct clipper *c, uint32_t lane)
 {
-    struct point p = {.code = needed_code(c, lane), .lane = lane, .edge = true};
+    struct point p = {.code = needed_code(c, lane), .lane = lane, .corner = true, .edge = true};
     for (uint64_t slots = c->smooth; slots; slots &= slots - 1) {
         int s = __builtin_ctzll(slots);
         p.slot[s] = *batch_word(c, s, lane);
     }
     return p;
+}
+
+/* Whole turns that the point's wrapped slots are away from the first one's are taken back; a point that has
+ * any needs a lane of its own. */
+static void wrap_point(const struct clipper *c, const struct point *first, struct point *p)
+{
+    for (uint64_t slots = c->wrapped & c->smooth; slots; slots &= slots - 1) {
+        int s = __builtin_ctzll(slots);
+        float turns = rintf(p->slot[s] - first->slot[s]);
+        if (turns == 0 || !isfinite(turns))
+            continue;
+        p->slot[s] -= turns;
+        p->lane = NO_LANE;
+    }
 }
 
 static uint32_t store_point(struct clipper *c, const struct point *p, uint32_t provoking)
@@ -259,6 +275,8 @@ int clip_polygon(struct clipper *c, const uint32_t lane[3], struct clipped *clip
     struct polygon *from = &polygon[0], *to = &polygon[1];
     for (int i = 0; i < 3; i++)
         from->point[i] = load_point(c, lane[i]);
+    wrap_point(c, &from->point[0], &from->point[1]);
+    wrap_point(c, &from->point[0], &from->point[2]);
     from->count = 3;
     uint32_t code = from->point[0].code | from->point[1].code | from->point[2].code;
     for (int plane = 0; plane < CLIP_PLANES && from->count; plane++) {
@@ -271,7 +289,7 @@ int clip_polygon(struct clipper *c, const uint32_t lane[3], struct clipped *clip
     }
     *clipped = (struct clipped){.count = from->count < 3 ? 0 : from->count};
     for (int i = 0; i < clipped->count; i++) {
-        clipped->corners |= (uint32_t)(from->point[i].lane != NO_LANE) << i;
+        clipped->corners |= (uint32_t)from->point[i].corner << i;
         clipped->edges |= (uint32_t)from->point[i].edge << i;
     }
     if (store_points(c, from->point, clipped->count, lane[0]))
@@ -297,6 +315,7 @@ int clip_triangle(struct clipper *c, const uint32_t lane[3], uint32_t triangle[C
 int clip_line(struct clipper *c, const uint32_t lane[2], uint32_t left[2])
 {
     struct point end[2] = {load_point(c, lane[0]), load_point(c, lane[1])};
+    wrap_point(c, &end[0], &end[1]);
     for (int plane = 0; plane < CLIP_PLANES; plane++) {
         bool outside[2] = {end[0].code & plane_bit[plane], end[1].code & plane_bit[plane]};
         if (outside[0] && outside[1])

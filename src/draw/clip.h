@@ -19,6 +19,7 @@ struct clipper {
     uint32_t next;    /* first free lane; advances by the lanes that each triangle takes */
     uint64_t smooth;  /* bit s: slot s is interpolated */
     uint64_t flat;    /* bit s: slot s is copied from the triangle's vertex 0 */
+    uint64_t wrapped; /* bit s: slot s takes the shorter way around (draw/command.h) */
     uint32_t ignored; /* bits of clip codes whose planes do not clip */
     const struct job *job;
     int window; /* vertices are in the window: x, y, depth, 1/w */
@@ -34,7 +35,8 @@ struct clipped {
 
 /* A clipper for the batch of one draw, whose job it keeps. `varying` holds an enum interpolation for each
  * varying: those of the setup key. Position and clip code are always written; slots of varyings that are
- * INTERPOLATION_NONE never. The caller sets `window` and `ignored`. */
+ * INTERPOLATION_NONE never. The caller sets `window`, `ignored` and `wrapped`: with wrapped slots every
+ * triangle and line has to come here, be it cut or not. */
 struct clipper clipper_create(const struct job *job, const uint8_t varying[VARYING_COUNT], float *vertices,
                               uint32_t next);
 

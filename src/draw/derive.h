@@ -29,6 +29,9 @@ uint32_t derive_clip_ignored(const struct state *state);
 
 /* Whether lines draw their last pixel, and whether triangles have one colour. */
 bool derive_last_pixel(const struct state *state);
+
+/* The slots of texture coordinates that take the shorter way around (struct draw). */
+uint64_t derive_wrapped(const struct state *state, const struct pixel_key *pixel);
 bool derive_flat(const struct state *state);
 
 /* Whether a draw with this key can change the target at all. */

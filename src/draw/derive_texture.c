@@ -115,3 +115,27 @@ int derive_channel_stage(const struct pixel_key *key, int channel)
             return i;
     return -1;
 }
+
+/* Direct3D 9's WRAP states by set of coordinates; sets from 8 on are vertex shaders' alone. */
+static uint32_t wrapped_coordinates(const struct state *state, uint32_t set)
+{
+    static const uint8_t row[TEXCOORD_SETS] = {
+        TRIPTYCH_STATE_wrap0, TRIPTYCH_STATE_wrap1, TRIPTYCH_STATE_wrap2, TRIPTYCH_STATE_wrap3,
+        TRIPTYCH_STATE_wrap4, TRIPTYCH_STATE_wrap5, TRIPTYCH_STATE_wrap6, TRIPTYCH_STATE_wrap7};
+    return state->value[row[set % TEXCOORD_SETS]];
+}
+
+/* The fourth coordinate is a divisor, and what is divided does not turn around. */
+uint64_t derive_wrapped(const struct state *state, const struct pixel_key *pixel)
+{
+    uint64_t slots = 0;
+    for (int channel = 0; channel < TEXTURE_STAGES; channel++) {
+        int stage = derive_channel_stage(pixel, channel);
+        if (stage < 0 || pixel->varying[varying_divisor(channel)])
+            continue;
+        uint64_t bits = wrapped_coordinates(state, STAGE(stage, texcoordindex));
+        slots |= (bits & 3) << varying_slot[varying_texcoord(channel)];
+        slots |= (bits >> 2 & 1) << varying_slot[varying_third(channel)];
+    }
+    return slots;
+}

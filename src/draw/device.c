@@ -393,6 +393,7 @@ static enum triptych_result record_instance(struct triptych_device *device, cons
     draw->shape = derive_shape(setup->primitive);
     draw->clip_ignored = derive_clip_ignored(&device->state);
     draw->last_pixel = derive_last_pixel(&device->state);
+    draw->wrapped = derive_wrapped(&device->state, &device->key[UNIT_PIXEL].pixel);
     draw->flat = derive_flat(&device->state);
     device->frame->commands++;
     mark_textures(device);
