@@ -90,12 +90,47 @@ static void check_cut_triangles(void)
     expect_columns(SIZE / 4, SIZE / 2, 1, "a triangle that is cut");
 }
 
+static const enum triptych_state wraps[16] = {
+    TRIPTYCH_STATE_wrap0,  TRIPTYCH_STATE_wrap1,  TRIPTYCH_STATE_wrap2,  TRIPTYCH_STATE_wrap3,
+    TRIPTYCH_STATE_wrap4,  TRIPTYCH_STATE_wrap5,  TRIPTYCH_STATE_wrap6,  TRIPTYCH_STATE_wrap7,
+    TRIPTYCH_STATE_wrap8,  TRIPTYCH_STATE_wrap9,  TRIPTYCH_STATE_wrap10, TRIPTYCH_STATE_wrap11,
+    TRIPTYCH_STATE_wrap12, TRIPTYCH_STATE_wrap13, TRIPTYCH_STATE_wrap14, TRIPTYCH_STATE_wrap15};
+
+/* The whole target with the coordinates in another set. */
+static void draw_with_set(unsigned set)
+{
+    static const float vertex[4][4] = {
+        {-1, 1, 0.875f, 0}, {1, 1, 0.125f, 0}, {-1, -1, 0.875f, 0}, {1, -1, 0.125f, 0}};
+    triptych_buffer *buffer;
+    OK(triptych_buffer_create(device, vertex, sizeof vertex, &buffer));
+    struct triptych_element element = {TRIPTYCH_FORMAT_FLOAT2, buffer, 0, sizeof vertex[0]};
+    OK(triptych_set_element(device, TRIPTYCH_POSITION, &element));
+    element.offset = 2 * sizeof(float);
+    OK(triptych_set_element(device, (enum triptych_attribute)(TRIPTYCH_TEXCOORD + set), &element));
+    OK(triptych_draw(device, TRIPTYCH_TRIANGLE_STRIP, 0, 2));
+}
+
+/* Each set has its state. */
+static void check_sets(void)
+{
+    for (unsigned set = 0; set < 8; set++) {
+        bind_row(set);
+        for (unsigned i = 0; i < 8; i++) {
+            clear_to(0);
+            OK(triptych_set_state(device, wraps[i], 1));
+            draw_with_set(set);
+            OK(triptych_set_state(device, wraps[i], 0));
+            expect_columns(0, SIZE, i == set, "a set");
+        }
+    }
+}
+
 /* Sets that vertices do not have change nothing. */
 static void check_further_sets(void)
 {
     bind_row(0);
-    for (int i = 0; i < 8; i++)
-        OK(triptych_set_state(device, (enum triptych_state)(TRIPTYCH_STATE_wrap8 + i), 15));
+    for (int i = 8; i < 16; i++)
+        OK(triptych_set_state(device, wraps[i], 15));
     clear_to(0);
     draw_square(0.5f, 0, NULL, 0.875f, 0, 0.125f, 0);
     expect_columns(0, SIZE, 0, "wrap8 to wrap15");
@@ -158,6 +193,11 @@ static void test_triangles_that_are_cut(void)
     on_every_engine(check_cut_triangles);
 }
 
+static void test_each_set(void)
+{
+    on_every_engine(check_sets);
+}
+
 static void test_sets_that_vertices_do_not_have(void)
 {
     on_every_engine(check_further_sets);
@@ -179,6 +219,7 @@ int main(void)
     RUN_TEST(test_triangles);
     RUN_TEST(test_the_second_coordinate);
     RUN_TEST(test_triangles_that_are_cut);
+    RUN_TEST(test_each_set);
     RUN_TEST(test_sets_that_vertices_do_not_have);
     RUN_TEST(test_edges);
     RUN_TEST(test_lines);
