@@ -515,7 +515,27 @@ enum triptych_result triptych_read_color(triptych_device *device, uint32_t *rgba
     if (!rgba)
         return null_argument(device, "image");
     struct error error = {{0}};
-    return finish(device, device_read_color(device, rgba, &error), &error);
+    return finish(device, device_read_target(device, 0, rgba, &error), &error);
+}
+
+enum triptych_result triptych_read_target(triptych_device *device, unsigned t, uint32_t *rgba)
+{
+    if (!device)
+        return TRIPTYCH_BAD_ARGUMENT;
+    if (!rgba)
+        return null_argument(device, "image");
+    struct error error = {{0}};
+    return finish(device, device_read_target(device, t, rgba, &error), &error);
+}
+
+enum triptych_result triptych_read_target_numbers(triptych_device *device, unsigned t, float *rgba)
+{
+    if (!device)
+        return TRIPTYCH_BAD_ARGUMENT;
+    if (!rgba)
+        return null_argument(device, "image");
+    struct error error = {{0}};
+    return finish(device, device_read_target_numbers(device, t, rgba, &error), &error);
 }
 
 enum triptych_result triptych_read_depth(triptych_device *device, float *depth)
@@ -544,8 +564,7 @@ void triptych_get_target(const triptych_device *device, struct triptych_target_d
         return;
     *description = (struct triptych_target_description){0};
     if (device && device->target.width)
-        *description = (struct triptych_target_description){device->target.width, device->target.height,
-                                                            device->target.depth_format};
+        target_describe(&device->target, description);
 }
 
 static int known_format(enum triptych_depth_format format)

@@ -16,14 +16,15 @@ static uint8_t derive_factor(uint32_t factor)
     return (uint8_t)(factor - SRCBLEND_blendfactor + FACTOR_CONSTANT);
 }
 
-/* A difference with a term that is zero is a sum or zero, and a sum of the new colour alone a copy. */
-static struct blending reduce_blending(struct blending b)
+/* A difference with a term that is zero is a sum or, where targets have no room for less, zero, and a sum of
+ * the new colour alone a copy. */
+static struct blending reduce_blending(struct blending b, bool below_zero)
 {
     if (b.blend == BLEND_MINIMUM || b.blend == BLEND_MAXIMUM)
         return (struct blending){.blend = b.blend};
-    if (b.blend == BLEND_SUBTRACT && b.source == FACTOR_ZERO)
+    if (b.blend == BLEND_SUBTRACT && b.source == FACTOR_ZERO && !below_zero)
         b.target = FACTOR_ZERO;
-    if (b.blend == BLEND_REVERSE_SUBTRACT && b.target == FACTOR_ZERO)
+    if (b.blend == BLEND_REVERSE_SUBTRACT && b.target == FACTOR_ZERO && !below_zero)
         b.source = FACTOR_ZERO;
     if ((b.blend == BLEND_SUBTRACT && b.target == FACTOR_ZERO) ||
         (b.blend == BLEND_REVERSE_SUBTRACT && b.source == FACTOR_ZERO))
@@ -34,7 +35,7 @@ static struct blending reduce_blending(struct blending b)
 }
 
 /* The BOTH factors override the target's (Direct3D 9, D3DBLEND). */
-static struct blending make_blending(uint32_t operation, uint32_t source, uint32_t target)
+static struct blending make_blending(uint32_t operation, uint32_t source, uint32_t target, bool below_zero)
 {
     if (source == SRCBLEND_bothsrcalpha || source == SRCBLEND_bothinvsrcalpha) {
         int inverse = source == SRCBLEND_bothinvsrcalpha;
@@ -42,7 +43,7 @@ static struct blending make_blending(uint32_t operation, uint32_t source, uint32
         target = inverse ? SRCBLEND_srcalpha : SRCBLEND_invsrcalpha;
     }
     return reduce_blending((struct blending){(uint8_t)(operation - BLENDOP_add + BLEND_ADD),
-                                             derive_factor(source), derive_factor(target)});
+                                             derive_factor(source), derive_factor(target)}, below_zero);
 }
 
 /* The factor that is the same for alpha: its colour is itself. */
@@ -56,11 +57,11 @@ static uint8_t alpha_factor(uint8_t factor)
 }
 
 /* The blending that is the same for alpha, unless it would be rounded otherwise. */
-static struct blending alpha_blending(struct blending b)
+static struct blending alpha_blending(struct blending b, bool below_zero)
 {
     struct blending r = {b.blend, alpha_factor(b.source), alpha_factor(b.target)};
     int same = blend_is_lerp(r.blend, r.source, r.target) == blend_is_lerp(b.blend, b.source, b.target);
-    return b.blend == BLEND_COPY || !same ? b : reduce_blending(r);
+    return b.blend == BLEND_COPY || !same ? b : reduce_blending(r, below_zero);
 }
 
 static bool same_blending(struct blending a, struct blending b)
@@ -80,6 +81,15 @@ static void store_blending(struct pixel_key *key, int channel, struct blending b
     key->target_factor[channel] = b.target;
 }
 
+/* Of the targets that the masks, as they are, have. */
+static bool has_floating_point(const struct pixel_key *key)
+{
+    for (int t = 0; t < TARGETS; t++)
+        if (key->write_mask[t] && !target_bits[key->target[t]][0])
+            return true;
+    return false;
+}
+
 static void keep_channels(struct pixel_key *key, int channels)
 {
     for (int t = 0; t < TARGETS; t++)
@@ -91,17 +101,19 @@ static void keep_channels(struct pixel_key *key, int channels)
 void derive_blend(const struct state *state, struct pixel_key *key)
 {
     struct blending color = {BLEND_COPY, 0, 0}, alpha;
+    bool below_zero = has_floating_point(key);
     if (GET(alphablendenable))
-        color = make_blending(GET(blendop), GET(srcblend), GET(destblend));
+        color = make_blending(GET(blendop), GET(srcblend), GET(destblend), below_zero);
     alpha = color;
     if (GET(alphablendenable) && GET(separatealphablendenable))
-        alpha = alpha_blending(make_blending(GET(blendopalpha), GET(srcblendalpha), GET(destblendalpha)));
+        alpha = alpha_blending(make_blending(GET(blendopalpha), GET(srcblendalpha), GET(destblendalpha), below_zero),
+                               below_zero);
     if (keeps_target(color))
         keep_channels(key, MASK_ALPHA);
     if (keeps_target(alpha))
         keep_channels(key, MASK_COLOR);
     int written = pixel_write_mask(key);
-    if (!(written & MASK_ALPHA) || same_blending(alpha, alpha_blending(color)))
+    if (!(written & MASK_ALPHA) || same_blending(alpha, alpha_blending(color, below_zero)))
         alpha = color;
     if (!(written & MASK_COLOR))
         color = alpha;

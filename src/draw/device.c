@@ -100,6 +100,24 @@ void device_destroy(struct triptych_device *device)
     free(device);
 }
 
+static enum triptych_result check_color_formats(const struct triptych_target_description *description,
+                                                struct error *error)
+{
+    for (unsigned t = 0; t < TARGETS; t++) {
+        const struct format *format = target_format(description, t);
+        if (format && !(format->roles & ROLE_TARGET)) {
+            error_set(error, "format %s of colour target %u: expected one that can be a target", format->name, t);
+            return TRIPTYCH_UNSUPPORTED;
+        }
+        if (!format && description->color_format[t]) {
+            error_set(error, "format %u of colour target %u: expected one of Direct3D 9's",
+                      (unsigned)description->color_format[t], t);
+            return TRIPTYCH_BAD_ARGUMENT;
+        }
+    }
+    return TRIPTYCH_OK;
+}
+
 static enum triptych_result check_description(const struct triptych_target_description *description,
                                               struct error *error)
 {
@@ -114,7 +132,7 @@ static enum triptych_result check_description(const struct triptych_target_descr
                   TRIPTYCH_DEPTH_COUNT - 1);
         return TRIPTYCH_BAD_ARGUMENT;
     }
-    return TRIPTYCH_OK;
+    return check_color_formats(description, error);
 }
 
 enum triptych_result device_set_target(struct triptych_device *device,
@@ -451,15 +469,6 @@ enum triptych_result device_draw_indexed(struct triptych_device *device, enum tr
     return result == TRIPTYCH_OK ? record(device, &draw, error) : result;
 }
 
-/* As the pipeline quantizes a colour (spec/color.h). Called in the contract's floating-point environment. */
-__attribute__((noinline)) static uint32_t pack_color(const float color[4])
-{
-    uint32_t word = 0;
-    for (int c = 0; c < 4; c++)
-        word |= (uint32_t)lane_round(lane_min(lane_max(color[c] * 255.0f, 0.0f), 255.0f)) << 8 * c;
-    return word;
-}
-
 enum triptych_result device_clear(struct triptych_device *device, const struct clear_values *values,
                                   struct error *error)
 {
@@ -476,7 +485,7 @@ enum triptych_result device_clear(struct triptych_device *device, const struct c
                             .set_color = values->flags & TRIPTYCH_CLEAR_COLOR};
     unsigned saved = mxcsr_enter();
     if (clear->set_color)
-        clear->color = pack_color(values->color);
+        target_clear_words(&device->target, values->color, clear->color);
     if (values->flags & TRIPTYCH_CLEAR_DEPTH) {
         /* The pipeline knows neither denormals nor -0 in depth. */
         clear->depth = depth_encode(format, values->depth >= FLT_MIN ? values->depth : 0);
@@ -546,7 +555,9 @@ void device_finish(struct triptych_device *device)
 /* Rows of tiles are read by several threads, into the one of the images that is not null. */
 struct reading {
     const struct target *target;
+    unsigned t; /* which colour */
     uint32_t *color;
+    float *numbers;
     float *depth;
     uint8_t *stencil;
     _Atomic uint32_t next_row;
@@ -559,7 +570,9 @@ static void read_task(void *user, unsigned worker)
     (void)worker;
     while ((row = atomic_fetch_add(&reading->next_row, 1)) < reading->target->rows)
         if (reading->color)
-            target_read_color(reading->target, row, reading->color);
+            target_read_color(reading->target, reading->t, row, reading->color);
+        else if (reading->numbers)
+            target_read_numbers(reading->target, reading->t, row, reading->numbers);
         else if (reading->depth)
             target_read_depth(reading->target, row, reading->depth);
         else
@@ -573,13 +586,31 @@ static void read_target(struct triptych_device *device, struct reading *reading)
     pool_run(device->pool, device->target.rows, read_task, reading);
 }
 
-enum triptych_result device_read_color(struct triptych_device *device, uint32_t *rgba, struct error *error)
+static enum triptych_result read_color(struct triptych_device *device, struct reading *reading,
+                                       struct error *error)
 {
-    struct reading reading = {.color = rgba};
     enum triptych_result result = check_target(device, error);
+    if (result == TRIPTYCH_OK && (reading->t >= TARGETS || !device->target.colors[reading->t].format)) {
+        error_set(error, "colour target %u: the target has none of that number", reading->t);
+        result = TRIPTYCH_BAD_ARGUMENT;
+    }
     if (result == TRIPTYCH_OK)
-        read_target(device, &reading);
+        read_target(device, reading);
     return result;
+}
+
+enum triptych_result device_read_target(struct triptych_device *device, unsigned t, uint32_t *rgba,
+                                        struct error *error)
+{
+    struct reading reading = {.t = t, .color = rgba};
+    return read_color(device, &reading, error);
+}
+
+enum triptych_result device_read_target_numbers(struct triptych_device *device, unsigned t, float *numbers,
+                                                struct error *error)
+{
+    struct reading reading = {.t = t, .numbers = numbers};
+    return read_color(device, &reading, error);
 }
 
 static enum triptych_result lacks(const struct triptych_device *device, const char *what, struct error *error)

@@ -92,7 +92,10 @@ enum triptych_result device_query_result(struct triptych_device *device, struct 
 void device_finish(struct triptych_device *device);
 
 /* Finishes and copies the target, if there is one. */
-enum triptych_result device_read_color(struct triptych_device *device, uint32_t *rgba, struct error *error);
+enum triptych_result device_read_target(struct triptych_device *device, unsigned t, uint32_t *rgba,
+                                        struct error *error);
+enum triptych_result device_read_target_numbers(struct triptych_device *device, unsigned t, float *numbers,
+                                                struct error *error);
 enum triptych_result device_read_depth(struct triptych_device *device, float *depth, struct error *error);
 enum triptych_result device_read_stencil(struct triptych_device *device, uint8_t *stencil,
                                          struct error *error);

@@ -1,6 +1,7 @@
 #include "draw/state.h"
 
 #include "draw/depth.h"
+#include "draw/target.h"
 
 #include <math.h>
 #include <stdio.h>
@@ -343,6 +344,13 @@ void state_set_target(struct state *state, const struct triptych_target_descript
     state->viewport = (struct triptych_viewport){0, 0, (float)width, (float)height, 0, 1};
     state->scissor = (struct scissor){0, 0, width, height};
     state->depth_format = description->depth_format;
+    for (unsigned t = 0; t < TARGETS; t++) {
+        const struct format *format = target_format(description, t);
+        state->target[t] = (struct target_channels){0, 0};
+        if (format)
+            state->target[t] =
+                (struct target_channels){(uint8_t)color_storage(format), color_channels(format)};
+    }
 }
 
 enum triptych_result state_check_clear(enum triptych_depth_format format, unsigned flags,

@@ -4,6 +4,23 @@
 #include <stdlib.h>
 #include <string.h>
 
+const struct format *target_format(const struct triptych_target_description *description, unsigned t)
+{
+    enum triptych_surface_format number = description->color_format[t];
+    return format_find(number || t ? number : TRIPTYCH_SURFACE_A8R8G8B8);
+}
+
+static void place_colors(struct target *target, const struct triptych_target_description *description)
+{
+    for (unsigned t = 0; t < TARGETS; t++) {
+        const struct format *format = target_format(description, t);
+        if (!format)
+            continue;
+        target->colors[t] = (struct target_color){format, color_storage(format), target->planes};
+        target->planes += target_planes[target->colors[t].storage];
+    }
+}
+
 int target_create(struct target *target, const struct triptych_target_description *description,
                   struct error *error)
 {
@@ -14,16 +31,20 @@ int target_create(struct target *target, const struct triptych_target_descriptio
     t.columns = (t.width + TILE_SIZE - 1) / TILE_SIZE;
     t.rows = (t.height + TILE_SIZE - 1) / TILE_SIZE;
     size_t tiles = (size_t)t.columns * t.rows;
-    t.color = aligned_alloc(64, tiles * TILE_PIXELS * sizeof *t.color);
+    place_colors(&t, description);
+    t.color = aligned_alloc(64, tiles * t.planes * TILE_PLANE_BYTES);
     t.depth = has_depth ? aligned_alloc(64, tiles * TILE_PIXELS * sizeof *t.depth) : NULL;
     t.clear = malloc(tiles * sizeof *t.clear);
     if (!t.color || (has_depth && !t.depth) || !t.clear) {
         target_destroy(&t);
         return error_set(error, "out of memory for a target of %ux%u pixels (%zu MiB)", description->width,
-                         description->height, tiles * TILE_PIXELS * 4 * (1 + has_depth) >> 20);
+                         description->height, tiles * TILE_PIXELS * 4 * (t.planes + has_depth) >> 20);
     }
+    struct tile_clear clear = {
+        .depth = depth_encode(t.depth_format, 1), .color_pending = true, .depth_pending = true};
+    target_clear_words(&t, (const float[4]){0}, clear.color);
     for (size_t i = 0; i < tiles; i++)
-        t.clear[i] = (struct tile_clear){0, depth_encode(t.depth_format, 1), true, true};
+        t.clear[i] = clear;
     *target = t;
     return 0;
 }
@@ -34,6 +55,27 @@ void target_destroy(struct target *target)
     free(target->depth);
     free(target->clear);
     memset(target, 0, sizeof *target);
+}
+
+void target_describe(const struct target *target, struct triptych_target_description *description)
+{
+    *description = (struct triptych_target_description){
+        .width = target->width, .height = target->height, .depth_format = target->depth_format};
+    for (unsigned t = 0; t < TARGETS; t++)
+        if (target->colors[t].format)
+            description->color_format[t] = (enum triptych_surface_format)target->colors[t].format->number;
+}
+
+void target_clear_words(const struct target *target, const float color[4], uint32_t words[TARGET_PLANES])
+{
+    memset(words, 0, TARGET_PLANES * sizeof *words);
+    for (unsigned t = 0; t < TARGETS; t++)
+        if (target->colors[t].format) {
+            uint32_t encoded[4];
+            color_encode(target->colors[t].format, color, encoded);
+            memcpy(words + target->colors[t].plane, encoded,
+                   target_planes[target->colors[t].storage] * sizeof *words);
+        }
 }
 
 /* The tile's pixels as columns and rows of the target, the last tiles cut. */
@@ -56,9 +98,9 @@ static void fill(void *words, uint32_t value)
 
 uint32_t *target_fill_color(struct target *target, uint32_t tile)
 {
-    uint32_t *words = target->color + (size_t)tile * TILE_PIXELS;
-    if (target->clear[tile].color_pending)
-        fill(words, target->clear[tile].color);
+    uint32_t *words = target_tile_color(target, tile);
+    for (uint32_t p = 0; p < target->planes && target->clear[tile].color_pending; p++)
+        fill(words + p * TILE_PIXELS, target->clear[tile].color[p]);
     target->clear[tile].color_pending = false;
     return words;
 }
@@ -88,8 +130,8 @@ static void clear_part(struct target *target, uint32_t tile, const struct clear 
     for (int32_t y = part->y0; y < part->y1; y++)
         for (int32_t x = part->x0; x < part->x1; x++) {
             uint32_t word = pixel_word((uint32_t)(x - whole->x0), (uint32_t)(y - whole->y0));
-            if (color)
-                color[word] = clear->color;
+            for (uint32_t p = 0; color && p < target->planes; p++)
+                color[p * TILE_PIXELS + word] = clear->color[p];
             if (depth)
                 depth[word] = (depth[word] & ~clear->depth_mask) | clear->depth;
         }
@@ -124,7 +166,7 @@ void target_clear_tile(struct target *target, uint32_t tile, const struct clear 
         return;
     if (!memcmp(&part, &whole, sizeof part)) {
         if (clear->set_color) {
-            pending->color = clear->color;
+            memcpy(pending->color, clear->color, sizeof pending->color);
             pending->color_pending = true;
             rest.set_color = false;
         }
@@ -189,16 +231,62 @@ static void read_cleared(uint32_t value, const struct rectangle *area, uint32_t 
             store_row(image + (size_t)y * pitch + (size_t)x, row, block_part(area->x1, x));
 }
 
-void target_read_color(const struct target *target, uint32_t tile_row, uint32_t *image)
+/* One plane of a row of tiles. */
+static void read_plane(const struct target *target, uint32_t plane, uint32_t tile_row, uint32_t *image)
 {
     for (uint32_t i = 0; i < target->columns; i++) {
         uint32_t tile = tile_row * target->columns + i;
         struct rectangle area = tile_area(target, tile);
+        const uint32_t *words = target_tile_color(target, tile) + plane * TILE_PIXELS;
         if (target->clear[tile].color_pending)
-            read_cleared(target->clear[tile].color, &area, image, target->width);
+            read_cleared(target->clear[tile].color[plane], &area, image, target->width);
         else
-            read_tile(target->color + (size_t)tile * TILE_PIXELS, &area, image, target->width);
+            read_tile(words, &area, image, target->width);
     }
+}
+
+/* The words of pixel x, y of a colour, one for each of its planes. */
+static void pixel_words(const struct target *target, const struct target_color *color, uint32_t x, uint32_t y,
+                        uint32_t words[4])
+{
+    uint32_t tile = y / TILE_SIZE * target->columns + x / TILE_SIZE;
+    const struct tile_clear *clear = target->clear + tile;
+    const uint32_t *place = target_tile_color(target, tile) + pixel_word(x % TILE_SIZE, y % TILE_SIZE);
+    for (int p = 0; p < target_planes[color->storage]; p++)
+        words[p] = clear->color_pending ? clear->color[color->plane + (uint32_t)p]
+                                        : place[(color->plane + (uint32_t)p) * TILE_PIXELS];
+}
+
+static uint32_t row_end(const struct target *target, uint32_t tile_row)
+{
+    uint32_t end = (tile_row + 1) * TILE_SIZE;
+    return end < target->height ? end : target->height;
+}
+
+void target_read_color(const struct target *target, unsigned t, uint32_t tile_row, uint32_t *image)
+{
+    const struct target_color *color = target->colors + t;
+    if (target_planes[color->storage] == 1) {
+        read_plane(target, color->plane, tile_row, image);
+        return;
+    }
+    for (uint32_t y = tile_row * TILE_SIZE; y < row_end(target, tile_row); y++)
+        for (uint32_t x = 0; x < target->width; x++) {
+            uint32_t words[4];
+            pixel_words(target, color, x, y, words);
+            image[(size_t)y * target->width + x] = color_bytes(color->storage, words);
+        }
+}
+
+void target_read_numbers(const struct target *target, unsigned t, uint32_t tile_row, float *image)
+{
+    const struct target_color *color = target->colors + t;
+    for (uint32_t y = tile_row * TILE_SIZE; y < row_end(target, tile_row); y++)
+        for (uint32_t x = 0; x < target->width; x++) {
+            uint32_t words[4];
+            pixel_words(target, color, x, y, words);
+            color_numbers(color->storage, words, image + ((size_t)y * target->width + x) * 4);
+        }
 }
 
 void target_read_depth(const struct target *target, uint32_t tile_row, float *image)

@@ -1,4 +1,5 @@
-/* The render target: colour and depth in tiles (draw/call.h), cleared lazily, made linear when read.
+/* The render target: up to four colours and depth in tiles (draw/call.h), cleared lazily, made linear when
+ * read.
  *
  * A tile that has been cleared as a whole only remembers the value; its words are written when something else
  * needs them. So a clear costs nothing where nothing is drawn, and elsewhere it fills a cache that is about
@@ -8,22 +9,34 @@
 
 #include "base/error.h"
 #include "draw/call.h"
+#include "draw/color.h"
 #include "draw/depth.h"
 #include "draw/raster.h"
 
 #include <stdbool.h>
 
+enum { TARGET_PLANES = 4 * TARGETS };
+
 struct tile_clear {
-    uint32_t color;
+    uint32_t color[TARGET_PLANES];     /* each plane's word */
     uint32_t depth;                    /* the word, stencil included */
     bool color_pending, depth_pending; /* the words are not valid: every one has this value */
+};
+
+/* One of the colours, of which a tile has one plane or four (def/target.def). */
+struct target_color {
+    const struct format *format; /* null: there is none */
+    enum target_storage storage;
+    uint32_t plane; /* its first */
 };
 
 struct target {
     uint32_t width, height; /* pixels, 0 when there is no target */
     uint32_t columns, rows; /* tiles */
-    uint32_t *color;        /* TILE_PIXELS words per tile, tiles in row order, 64-byte aligned */
-    uint32_t *depth;        /* likewise (draw/depth.h); null in a target without */
+    uint32_t *color;        /* `planes` planes of TILE_PIXELS words per tile, tiles in row order, 64-byte aligned */
+    uint32_t planes;
+    struct target_color colors[TARGETS];
+    uint32_t *depth; /* a plane per tile (draw/depth.h); null in a target without */
     enum triptych_depth_format depth_format;
     struct tile_clear *clear; /* per tile */
 };
@@ -31,7 +44,7 @@ struct target {
 /* What a clear sets, and where. */
 struct clear {
     struct rectangle area;
-    uint32_t color;
+    uint32_t color[TARGET_PLANES];
     uint32_t depth;      /* new bits of the word */
     uint32_t depth_mask; /* which of them are set: depth's, stencil's, both or none */
     bool set_color;
@@ -43,6 +56,21 @@ int target_create(struct target *target, const struct triptych_target_descriptio
                   struct error *error);
 void target_destroy(struct target *target);
 
+/* The format that a description has for colour target t; null: none. Its number is a format's. */
+const struct format *target_format(const struct triptych_target_description *description, unsigned t);
+
+/* The target's own description. */
+void target_describe(const struct target *target, struct triptych_target_description *description);
+
+/* The words of a clear to a colour. Called in the contract's floating-point environment. */
+void target_clear_words(const struct target *target, const float color[4], uint32_t words[TARGET_PLANES]);
+
+/* The first of a tile's planes. */
+static inline uint32_t *target_tile_color(const struct target *target, uint32_t tile)
+{
+    return target->color + (size_t)tile * target->planes * TILE_PIXELS;
+}
+
 /* Applies the clear's part in one tile. */
 void target_clear_tile(struct target *target, uint32_t tile, const struct clear *clear);
 
@@ -50,8 +78,10 @@ void target_clear_tile(struct target *target, uint32_t tile, const struct clear 
 uint32_t *target_fill_color(struct target *target, uint32_t tile);
 uint32_t *target_fill_depth(struct target *target, uint32_t tile);
 
-/* Copies one row of tiles into rows of a linear image of the target's size. */
-void target_read_color(const struct target *target, uint32_t tile_row, uint32_t *image);
+/* Copies one row of tiles into rows of a linear image of the target's size: colour target t as RGBA8 (what has
+ * more is clamped to 0..1 and rounded) or as four numbers a pixel. */
+void target_read_color(const struct target *target, unsigned t, uint32_t tile_row, uint32_t *image);
+void target_read_numbers(const struct target *target, unsigned t, uint32_t tile_row, float *image);
 void target_read_depth(const struct target *target, uint32_t tile_row, float *image);
 void target_read_stencil(const struct target *target, uint32_t tile_row, uint8_t *image);
 

@@ -42,7 +42,7 @@ static void shade(struct tile_worker *worker, const struct frame *frame, uint32_
         .entries = worker->entries,
         .triangles = frame->arena.base,
         .lanes = &worker->lanes,
-        .color = target->color + (size_t)tile * TILE_PIXELS,
+        .color = target_tile_color(target, tile),
         .count = worker->count,
     };
     /* Nobody reads what is not there; an address it has all the same. */

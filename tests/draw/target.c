@@ -55,7 +55,7 @@ void tearDown(void)
 static void read_all(void)
 {
     for (uint32_t row = 0; row < target.rows; row++) {
-        target_read_color(&target, row, image);
+        target_read_color(&target, 0, row, image);
         target_read_depth(&target, row, depth);
     }
 }
@@ -116,7 +116,7 @@ static void clears_set_their_pixels_and_no_others(void)
                 edge[i] = (int32_t)((seed >> 8) % ((i & 1 ? target.height : target.width) + 1));
             }
             struct clear clear = {.area = {edge[0], edge[1], edge[2], edge[3]},
-                                  .color = seed,
+                                  .color = {seed},
                                   .depth = n % 3 != 1 ? bits_of((float)n) : 0,
                                   .set_color = n % 3 != 0,
                                   .depth_mask = n % 3 != 1 ? 0xffffffff : 0};
@@ -126,7 +126,7 @@ static void clears_set_their_pixels_and_no_others(void)
             for (int32_t y = clear.area.y0; y < clear.area.y1; y++)
                 for (int32_t x = clear.area.x0; x < clear.area.x1; x++) {
                     uint32_t i = (uint32_t)y * target.width + (uint32_t)x;
-                    color[i] = clear.set_color ? clear.color : color[i];
+                    color[i] = clear.set_color ? clear.color[0] : color[i];
                     z[i] = clear.depth_mask ? (float)n : z[i];
                 }
             read_all();
@@ -219,7 +219,7 @@ static void whole_clears_touch_no_pixel_until_somebody_needs_them(void)
 {
     open_target((uint32_t[2]){128, 64});
     target_fill_color(&target, 0)[5] = 77;
-    apply(&(struct clear){.area = {0, 0, 128, 64}, .color = 3, .set_color = true});
+    apply(&(struct clear){.area = {0, 0, 128, 64}, .color = {3}, .set_color = true});
     TEST_ASSERT_EQUAL_UINT32(77, target.color[5]);
     TEST_ASSERT_EQUAL_UINT32(3, target_fill_color(&target, 0)[5]);
     TEST_ASSERT_EQUAL_UINT32(3, target.color[5]);
