@@ -567,6 +567,12 @@ void triptych_get_target(const triptych_device *device, struct triptych_target_d
         target_describe(&device->target, description);
 }
 
+int triptych_format_is_bytes(enum triptych_surface_format number)
+{
+    const struct format *format = format_find(number);
+    return format && format->storage == STORAGE_RGBA8;
+}
+
 static int known_format(enum triptych_depth_format format)
 {
     return (unsigned)format < TRIPTYCH_DEPTH_COUNT;

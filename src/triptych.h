@@ -208,8 +208,9 @@ struct triptych_options {
     size_t cache_bytes; /* budget of the routine cache's code; 0: 16 MiB */
 };
 
-/* A render target: one to four colours, each of a format that can be a target (def/format.def), and depth. Zero
- * in a field means what triptych_set_target gives: one colour, A8R8G8B8. What is drawn goes to all of them. */
+/* A render target: one to four colours, each of a format that can be a target (def/format.def), and depth.
+ * Zero in a field means what triptych_set_target gives: one colour, A8R8G8B8. What is drawn goes to all of
+ * them. */
 struct triptych_target_description {
     unsigned width, height; /* pixels, 1 to 8192 */
     enum triptych_depth_format depth_format;
@@ -473,12 +474,14 @@ TRIPTYCH_API enum triptych_result triptych_finish(triptych_device *);
 TRIPTYCH_API enum triptych_result triptych_read_color(triptych_device *, uint32_t *rgba);
 TRIPTYCH_API enum triptych_result triptych_read_depth(triptych_device *, float *depth);
 TRIPTYCH_API enum triptych_result triptych_read_stencil(triptych_device *, uint8_t *stencil);
-/* Colour target t, from 0, as RGBA8 words (what has more than that is clamped to 0..1 and rounded), or as four
- * numbers a pixel, exactly. */
+/* Colour target t, from 0, as RGBA8 words (what has more than that is clamped to 0..1 and rounded), or as
+ * four numbers a pixel, exactly. */
 TRIPTYCH_API enum triptych_result triptych_read_target(triptych_device *, unsigned t, uint32_t *rgba);
 TRIPTYCH_API enum triptych_result triptych_read_target_numbers(triptych_device *, unsigned t, float *rgba);
 /* The target's description, its first colour's format included; all zero without one. */
 TRIPTYCH_API void triptych_get_target(const triptych_device *, struct triptych_target_description *);
+/* Whether 8 unsigned bits a channel hold all that a surface of the format can. */
+TRIPTYCH_API int triptych_format_is_bytes(enum triptych_surface_format);
 /* The bits of depth and of stencil of a format; its name, null when there is none. */
 TRIPTYCH_API unsigned triptych_depth_bits(enum triptych_depth_format);
 TRIPTYCH_API unsigned triptych_stencil_bits(enum triptych_depth_format);

@@ -13,6 +13,25 @@ static bool stencils_differ(const struct picture *first, const struct picture *s
     return first->stencil && first->stencil[i] != second->stencil[i];
 }
 
+static bool numbers_differ(const struct picture *first, const struct picture *second, size_t i)
+{
+    size_t each = first->numbers_each;
+    return first->numbers &&
+           memcmp(first->numbers + i * each, second->numbers + i * each, each * sizeof *first->numbers);
+}
+
+static void note_number(const struct picture *first, const struct picture *second, size_t i,
+                        struct difference *difference)
+{
+    const float *a = first->numbers + i * first->numbers_each, *b = second->numbers + i * first->numbers_each;
+    unsigned place = 0;
+    while (!memcmp(a + place, b + place, sizeof *a))
+        place++;
+    difference->number_place = place;
+    difference->number[0] = a[place];
+    difference->number[1] = b[place];
+}
+
 /* The largest difference of the four channels. */
 static uint32_t distance(uint32_t a, uint32_t b)
 {
@@ -40,6 +59,8 @@ static void note_first(const struct picture *first, const struct picture *second
         difference->stencil[0] = first->stencil[i];
         difference->stencil[1] = second->stencil[i];
     }
+    if (numbers_differ(first, second, i))
+        note_number(first, second, i, difference);
 }
 
 bool compare_pictures(const struct picture *first, const struct picture *second,
@@ -49,14 +70,19 @@ bool compare_pictures(const struct picture *first, const struct picture *second,
     size_t count = (size_t)first->width * first->height;
     if (!memcmp(first->color, second->color, count * sizeof *first->color) &&
         (!first->depth || !memcmp(first->depth, second->depth, count * sizeof *first->depth)) &&
-        (!first->stencil || !memcmp(first->stencil, second->stencil, count)))
+        (!first->stencil || !memcmp(first->stencil, second->stencil, count)) &&
+        (!first->numbers ||
+         !memcmp(first->numbers, second->numbers, count * first->numbers_each * sizeof *first->numbers)))
         return false;
+    bool noted = false;
     for (size_t i = 0; i < count; i++) {
         uint32_t apart = distance(first->color[i], second->color[i]);
         bool deep = depths_differ(first, second, i), marked = stencils_differ(first, second, i);
-        if ((apart || deep || marked) && !difference->color_pixels && !difference->depth_pixels &&
-            !difference->stencil_pixels)
+        bool numbered = numbers_differ(first, second, i);
+        if ((apart || deep || marked || numbered) && !noted)
             note_first(first, second, i, difference);
+        noted |= apart || deep || marked || numbered;
+        difference->number_pixels += numbered;
         difference->stencil_pixels += marked;
         difference->color_pixels += apart != 0;
         difference->depth_pixels += deep;
@@ -84,7 +110,8 @@ void compare_paint(const struct picture *first, const struct picture *second, ui
         uint32_t color = grey(first->color[i]);
         if (apart)
             color = FAINTEST_DIFFERENCE + apart * (255 - FAINTEST_DIFFERENCE) / 255;
-        else if (depths_differ(first, second, i) || stencils_differ(first, second, i))
+        else if (depths_differ(first, second, i) || stencils_differ(first, second, i) ||
+                 numbers_differ(first, second, i))
             color = pure_blue;
         painting[i] = color | opaque;
     }

@@ -10,7 +10,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-enum { EXR_SIDE_MAXIMUM = 8192, EXR_CHANNEL_MAXIMUM = 16 };
+enum { EXR_SIDE_MAXIMUM = 8192, EXR_CHANNEL_MAXIMUM = 24 };
 
 struct job {
     const char *path;

@@ -43,7 +43,8 @@ static struct blending make_blending(uint32_t operation, uint32_t source, uint32
         target = inverse ? SRCBLEND_srcalpha : SRCBLEND_invsrcalpha;
     }
     return reduce_blending((struct blending){(uint8_t)(operation - BLENDOP_add + BLEND_ADD),
-                                             derive_factor(source), derive_factor(target)}, below_zero);
+                                             derive_factor(source), derive_factor(target)},
+                           below_zero);
 }
 
 /* The factor that is the same for alpha: its colour is itself. */
@@ -106,8 +107,9 @@ void derive_blend(const struct state *state, struct pixel_key *key)
         color = make_blending(GET(blendop), GET(srcblend), GET(destblend), below_zero);
     alpha = color;
     if (GET(alphablendenable) && GET(separatealphablendenable))
-        alpha = alpha_blending(make_blending(GET(blendopalpha), GET(srcblendalpha), GET(destblendalpha), below_zero),
-                               below_zero);
+        alpha = alpha_blending(
+            make_blending(GET(blendopalpha), GET(srcblendalpha), GET(destblendalpha), below_zero),
+            below_zero);
     if (keeps_target(color))
         keep_channels(key, MASK_ALPHA);
     if (keeps_target(alpha))

@@ -106,7 +106,8 @@ static enum triptych_result check_color_formats(const struct triptych_target_des
     for (unsigned t = 0; t < TARGETS; t++) {
         const struct format *format = target_format(description, t);
         if (format && !(format->roles & ROLE_TARGET)) {
-            error_set(error, "format %s of colour target %u: expected one that can be a target", format->name, t);
+            error_set(error, "format %s of colour target %u: expected one that can be a target", format->name,
+                      t);
             return TRIPTYCH_UNSUPPORTED;
         }
         if (!format && description->color_format[t]) {

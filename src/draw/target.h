@@ -33,7 +33,7 @@ struct target_color {
 struct target {
     uint32_t width, height; /* pixels, 0 when there is no target */
     uint32_t columns, rows; /* tiles */
-    uint32_t *color;        /* `planes` planes of TILE_PIXELS words per tile, tiles in row order, 64-byte aligned */
+    uint32_t *color; /* `planes` planes of TILE_PIXELS words per tile, tiles in row order, 64-byte aligned */
     uint32_t planes;
     struct target_color colors[TARGETS];
     uint32_t *depth; /* a plane per tile (draw/depth.h); null in a target without */
@@ -78,8 +78,8 @@ void target_clear_tile(struct target *target, uint32_t tile, const struct clear 
 uint32_t *target_fill_color(struct target *target, uint32_t tile);
 uint32_t *target_fill_depth(struct target *target, uint32_t tile);
 
-/* Copies one row of tiles into rows of a linear image of the target's size: colour target t as RGBA8 (what has
- * more is clamped to 0..1 and rounded) or as four numbers a pixel. */
+/* Copies one row of tiles into rows of a linear image of the target's size: colour target t as RGBA8 (what
+ * has more is clamped to 0..1 and rounded) or as four numbers a pixel. */
 void target_read_color(const struct target *target, unsigned t, uint32_t tile_row, uint32_t *image);
 void target_read_numbers(const struct target *target, unsigned t, uint32_t tile_row, float *image);
 void target_read_depth(const struct target *target, uint32_t tile_row, float *image);

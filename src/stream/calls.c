@@ -1,5 +1,6 @@
 /* The calls of the text format: one function reads each, from behind its first word up to where its line
  * should end. What a call means is not looked at here beyond its own words and numbers; check.c does. */
+#include "draw/format.h"
 #include "stream/parse.h"
 #include "stream/transform.h"
 
@@ -71,6 +72,42 @@ static int parse_fields(struct parser *parser, struct field *fields, size_t coun
 /* --- Calls ------------------------------------------------------------------------------------------------
  */
 
+static int parse_depth_format(struct parser *parser, struct triptych_target_description *target)
+{
+    unsigned format;
+    if (lex_next(&parser->lex) || parse_word(parser, WORDS_DEPTH, "a depth format", &format))
+        return -1;
+    target->depth_format = (enum triptych_depth_format)format;
+    return 0;
+}
+
+/* One to four. */
+static int parse_color_formats(struct parser *parser, struct triptych_target_description *target)
+{
+    struct lexer *lex = &parser->lex;
+    if (lex_next(lex))
+        return -1;
+    for (unsigned t = 0; t < TRIPTYCH_TARGETS; t++) {
+        const struct format *format =
+            lex->token.type == TOKEN_WORD ? format_named(lex->token.text, lex->token.length) : NULL;
+        if (!format && t)
+            return 0;
+        if (!format || !(format->roles & ROLE_TARGET))
+            return lex_expected(lex, "the name of a format that can be a target");
+        target->color_format[t] = (enum triptych_surface_format)format->number;
+        if (lex_next(lex))
+            return -1;
+    }
+    return 0;
+}
+
+static int parse_target_formats(struct parser *parser, struct triptych_target_description *target)
+{
+    if (lex_is(&parser->lex, "depth") && parse_depth_format(parser, target))
+        return -1;
+    return lex_is(&parser->lex, "color") ? parse_color_formats(parser, target) : 0;
+}
+
 int parse_target(struct parser *parser, struct call *call)
 {
     int64_t width, height;
@@ -79,13 +116,7 @@ int parse_target(struct parser *parser, struct call *call)
         return -1;
     call->target.width = (unsigned)width;
     call->target.height = (unsigned)height;
-    if (!lex_is(&parser->lex, "depth"))
-        return 0;
-    unsigned format;
-    if (lex_next(&parser->lex) || parse_word(parser, WORDS_DEPTH, "a depth format", &format))
-        return -1;
-    call->target.depth_format = (enum triptych_depth_format)format;
-    return 0;
+    return parse_target_formats(parser, &call->target);
 }
 
 int parse_viewport(struct parser *parser, struct call *call)

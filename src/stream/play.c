@@ -281,6 +281,17 @@ static int is_overwritten(const struct stream *stream, uint32_t at, uint32_t end
     return 0;
 }
 
+/* The first format may be left out of what is wanted. */
+static int same_colors(const struct triptych_target_description *got,
+                       const struct triptych_target_description *wanted)
+{
+    int same = got->color_format[0] ==
+               (wanted->color_format[0] ? wanted->color_format[0] : TRIPTYCH_SURFACE_A8R8G8B8);
+    for (unsigned t = 1; t < TRIPTYCH_TARGETS; t++)
+        same &= got->color_format[t] == wanted->color_format[t];
+    return same;
+}
+
 /* Replaying a frame that sets its target would measure the making of targets; one of the same kind can stay
  * if its pixels do not matter. */
 static enum triptych_result keep_target(struct player *player, const struct call *call, int *kept)
@@ -288,7 +299,7 @@ static enum triptych_result keep_target(struct player *player, const struct call
     struct triptych_target_description target;
     triptych_get_target(player->device, &target);
     *kept = target.width == call->target.width && target.height == call->target.height &&
-            target.depth_format == call->target.depth_format;
+            target.depth_format == call->target.depth_format && same_colors(&target, &call->target);
     if (!*kept)
         return TRIPTYCH_OK;
     const struct triptych_viewport whole = {0, 0, (float)target.width, (float)target.height, 0, 1};

@@ -421,6 +421,12 @@ static void write_draw(struct writer *writer, const struct call *call)
     fprintf(writer->out, " %" PRIu32 " %" PRIu32, call->draw.first, call->draw.count);
 }
 
+static void write_color_formats(struct writer *writer, const struct triptych_target_description *target)
+{
+    for (unsigned t = 0; t < TRIPTYCH_TARGETS && target->color_format[t]; t++)
+        fprintf(writer->out, "%s %s", t ? "" : " color", format_find(target->color_format[t])->name);
+}
+
 static void write_call(struct writer *writer, const struct call *call)
 {
     FILE *out = writer->out;
@@ -431,6 +437,7 @@ static void write_call(struct writer *writer, const struct call *call)
         fprintf(out, "target %u %u", call->target.width, call->target.height);
         if (call->target.depth_format)
             fprintf(out, " depth %s", word_text(WORDS_DEPTH, call->target.depth_format));
+        write_color_formats(writer, &call->target);
         break;
     case CALL_VIEWPORT: {
         const struct triptych_viewport *v = &call->viewport;

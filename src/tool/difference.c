@@ -22,6 +22,12 @@ char *difference_describe(const struct picture *picture, const struct difference
     if (picture->stencil)
         length += snprintf(text + length, DIFFERENCE_TEXT - (size_t)length, ", stencil %u and %u",
                            difference->stencil[0], difference->stencil[1]);
+    if (difference->number_pixels)
+        length += snprintf(text + length, DIFFERENCE_TEXT - (size_t)length,
+                           ", channel %u of target %u %a (%.9g) and %a (%.9g)", difference->number_place % 4,
+                           difference->number_place / 4, (double)difference->number[0],
+                           (double)difference->number[0], (double)difference->number[1],
+                           (double)difference->number[1]);
     unsigned long long pixels = (unsigned long long)picture->width * picture->height;
     length += snprintf(text + length, DIFFERENCE_TEXT - (size_t)length,
                        "; of %llu pixels %llu differ in colour, by at most %u of 255", pixels,
@@ -30,8 +36,11 @@ char *difference_describe(const struct picture *picture, const struct difference
         length += snprintf(text + length, DIFFERENCE_TEXT - (size_t)length, ", %llu in depth",
                            (unsigned long long)difference->depth_pixels);
     if (picture->stencil)
-        snprintf(text + length, DIFFERENCE_TEXT - (size_t)length, ", %llu in stencil",
-                 (unsigned long long)difference->stencil_pixels);
+        length += snprintf(text + length, DIFFERENCE_TEXT - (size_t)length, ", %llu in stencil",
+                           (unsigned long long)difference->stencil_pixels);
+    if (picture->numbers)
+        snprintf(text + length, DIFFERENCE_TEXT - (size_t)length, ", %llu in the targets' numbers",
+                 (unsigned long long)difference->number_pixels);
     return text;
 }
 

@@ -5,6 +5,7 @@
 #include "tool/option.h"
 #include "tool/session.h"
 
+#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -15,8 +16,27 @@ static int save_png(const char *path, const struct capture *capture, struct erro
     return png_save(path, capture->width, capture->height, capture->color, error);
 }
 
-/* Colours are eight bits a channel, which a half holds exactly enough; depth keeps its 32. Stencil is a
- * number from 0 to 255. */
+enum { COLORS = CHANNELS * TRIPTYCH_TARGETS, NAME_CAPACITY = 24 };
+
+/* Bytes are 0 to 1 in halves, which hold them exactly enough, and numbers keep their 32 bits, like depth.
+ * The channels of targets behind the first have its number in front. */
+static size_t color_channels(const struct capture *capture, const float *values,
+                             struct exr_channel channels[COLORS], char names[COLORS][NAME_CAPACITY])
+{
+    static const char letters[] = "RGBA";
+    unsigned targets = capture->numbers ? capture->targets : 1, count = targets * CHANNELS;
+    for (unsigned i = 0; i < count; i++) {
+        if (i < CHANNELS)
+            snprintf(names[i], NAME_CAPACITY, "%c", letters[i]);
+        else
+            snprintf(names[i], NAME_CAPACITY, "target%u.%c", i / CHANNELS, letters[i % CHANNELS]);
+        channels[i] =
+            (struct exr_channel){names[i], values + i, count, capture->numbers ? EXR_FLOAT : EXR_HALF};
+    }
+    return count;
+}
+
+/* Stencil is a number from 0 to 255. */
 static int save_exr(const char *path, const struct capture *capture, struct error *error)
 {
     size_t pixels = (size_t)capture->width * capture->height;
@@ -26,11 +46,9 @@ static int save_exr(const char *path, const struct capture *capture, struct erro
     for (size_t i = 0; i < pixels; i++)
         for (unsigned channel = 0; channel < CHANNELS; channel++)
             values[i * CHANNELS + channel] = (float)(capture->color[i] >> 8 * channel & 255) / 255;
-    struct exr_channel channels[CHANNELS + 2] = {{"R", values, CHANNELS, EXR_HALF},
-                                                 {"G", values + 1, CHANNELS, EXR_HALF},
-                                                 {"B", values + 2, CHANNELS, EXR_HALF},
-                                                 {"A", values + 3, CHANNELS, EXR_HALF}};
-    size_t count = CHANNELS;
+    struct exr_channel channels[COLORS + 2];
+    char names[COLORS][NAME_CAPACITY];
+    size_t count = color_channels(capture, capture->numbers ? capture->numbers : values, channels, names);
     if (capture->has_depth)
         channels[count++] = (struct exr_channel){"Z", capture->depth, 1, EXR_FLOAT};
     float *stencil = values + pixels * CHANNELS;

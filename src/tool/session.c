@@ -2,6 +2,7 @@
 #include "stream/stream.h"
 
 #include <stdlib.h>
+#include <string.h>
 
 struct stream *session_load(const struct command *self, const char *path)
 {
@@ -58,6 +59,34 @@ static int reserve(const struct command *self, struct capture *capture, size_t p
     return STATUS_OK;
 }
 
+/* Whether the first target's bytes are all there is. */
+static bool is_bytes(const struct triptych_target_description *target)
+{
+    return !target->color_format[1] && triptych_format_is_bytes(target->color_format[0]);
+}
+
+/* Each pixel's numbers, target after target. */
+static int read_numbers(const struct command *self, const struct session *session, struct capture *capture,
+                        const struct triptych_target_description *target)
+{
+    size_t pixels = (size_t)target->width * target->height;
+    unsigned targets = 1;
+    while (targets < TRIPTYCH_TARGETS && target->color_format[targets])
+        targets++;
+    float *one = malloc(pixels * 4 * sizeof *one);
+    capture->numbers = malloc(pixels * targets * 4 * sizeof *capture->numbers);
+    capture->targets = targets;
+    int status = one && capture->numbers ? STATUS_OK : fail(self, "no memory for %zu pixels", pixels);
+    for (unsigned t = 0; t < targets && !status; t++) {
+        if (triptych_read_target_numbers(session->device, t, one))
+            status = fail(self, "%s: %s", session->stream->path, triptych_error(session->device));
+        for (size_t i = 0; i < pixels && !status; i++)
+            memcpy(capture->numbers + (i * targets + t) * 4, one + i * 4, 4 * sizeof *one);
+    }
+    free(one);
+    return status;
+}
+
 int capture_read(const struct command *self, const struct session *session, struct capture *capture)
 {
     struct triptych_target_description target;
@@ -74,7 +103,9 @@ int capture_read(const struct command *self, const struct session *session, stru
         (capture->has_depth && triptych_read_depth(session->device, capture->depth)) ||
         (capture->has_stencil && triptych_read_stencil(session->device, capture->stencil)))
         return fail(self, "%s: %s", session->stream->path, triptych_error(session->device));
-    return STATUS_OK;
+    free(capture->numbers);
+    capture->numbers = NULL;
+    return is_bytes(&target) ? STATUS_OK : read_numbers(self, session, capture, &target);
 }
 
 void capture_free(struct capture *capture)
@@ -82,6 +113,7 @@ void capture_free(struct capture *capture)
     free(capture->color);
     free(capture->depth);
     free(capture->stencil);
+    free(capture->numbers);
     *capture = (struct capture){0};
 }
 
@@ -91,5 +123,7 @@ struct picture capture_picture(const struct capture *capture)
                             .height = capture->height,
                             .color = capture->color,
                             .depth = capture->has_depth ? capture->depth : NULL,
-                            .stencil = capture->has_stencil ? capture->stencil : NULL};
+                            .stencil = capture->has_stencil ? capture->stencil : NULL,
+                            .numbers = capture->numbers,
+                            .numbers_each = 4 * capture->targets};
 }

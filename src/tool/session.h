@@ -37,7 +37,9 @@ struct capture {
     uint32_t *color;
     float *depth;
     uint8_t *stencil;
-    size_t capacity; /* pixels */
+    float *numbers;   /* four a pixel and target where RGBA8 does not say it all; else null */
+    unsigned targets; /* of those numbers */
+    size_t capacity;  /* pixels, of all but the numbers */
 };
 
 int capture_read(const struct command *self, const struct session *session, struct capture *capture);

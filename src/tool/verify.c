@@ -108,6 +108,7 @@ static void add_difference(cJSON *differences, const struct configuration *confi
     cJSON_AddNumberToObject(json, "color_pixels", (double)difference->color_pixels);
     cJSON_AddNumberToObject(json, "depth_pixels", (double)difference->depth_pixels);
     cJSON_AddNumberToObject(json, "stencil_pixels", (double)difference->stencil_pixels);
+    cJSON_AddNumberToObject(json, "number_pixels", (double)difference->number_pixels);
     cJSON_AddStringToObject(json, "what", text);
     cJSON_AddItemToArray(differences, json);
 }
@@ -169,6 +170,9 @@ static int verify_frame(const struct command *self, const struct settings *setti
         XXH3_64bits_update(verification->digest, expected->depth, pixels * sizeof *expected->depth);
     if (expected->has_stencil)
         XXH3_64bits_update(verification->digest, expected->stencil, pixels);
+    if (expected->numbers)
+        XXH3_64bits_update(verification->digest, expected->numbers,
+                           pixels * expected->targets * 4 * sizeof *expected->numbers);
     for (unsigned i = 0; i < verification->count; i++) {
         struct configuration *configuration = verification->others + i;
         if (configuration->differs)

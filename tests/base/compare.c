@@ -10,8 +10,8 @@ enum { WIDTH = 7, HEIGHT = 5, PIXELS = WIDTH * HEIGHT };
 static uint32_t color[2][PIXELS], painting[PIXELS];
 static float depth[2][PIXELS];
 static uint8_t stencil[2][PIXELS];
-static struct picture first = {WIDTH, HEIGHT, color[0], depth[0], stencil[0]},
-                      second = {WIDTH, HEIGHT, color[1], depth[1], stencil[1]};
+static struct picture first = {WIDTH, HEIGHT, color[0], depth[0], stencil[0], NULL, 0},
+                      second = {WIDTH, HEIGHT, color[1], depth[1], stencil[1], NULL, 0};
 static struct difference found;
 
 void setUp(void)
@@ -81,6 +81,32 @@ static void test_one_ulp_of_depth_is_found(void)
     TEST_ASSERT_TRUE(found.depth[0] != found.depth[1]);
 }
 
+/* One ulp of every number of every pixel in turn is found where it is. */
+static void test_every_number_is_compared(void)
+{
+    enum { EACH = 8 };
+    static float numbers[2][PIXELS * EACH];
+    struct picture exact[2] = {first, second};
+    for (int i = 0; i < PIXELS * EACH; i++)
+        numbers[0][i] = numbers[1][i] = (float)i - 20;
+    for (int i = 0; i < 2; i++) {
+        exact[i].numbers = numbers[i];
+        exact[i].numbers_each = EACH;
+    }
+    TEST_ASSERT_FALSE(compare_pictures(exact, exact + 1, &found));
+    for (unsigned i = 0; i < PIXELS * EACH; i++) {
+        numbers[1][i] = nextafterf(numbers[0][i], 1000);
+        TEST_ASSERT_TRUE(compare_pictures(exact, exact + 1, &found));
+        TEST_ASSERT_EQUAL_UINT(i / EACH % WIDTH, found.x);
+        TEST_ASSERT_EQUAL_UINT(i / EACH / WIDTH, found.y);
+        TEST_ASSERT_EQUAL_UINT64(1, found.number_pixels);
+        TEST_ASSERT_EQUAL_UINT64(0, found.color_pixels);
+        TEST_ASSERT_EQUAL_UINT(i % EACH, found.number_place);
+        TEST_ASSERT_TRUE(found.number[0] == numbers[0][i] && found.number[1] == numbers[1][i]);
+        numbers[1][i] = numbers[0][i];
+    }
+}
+
 static void test_depths_are_compared_as_bytes(void)
 {
     depth[0][0] = depth[1][0] = NAN;
@@ -94,8 +120,8 @@ static void test_depths_are_compared_as_bytes(void)
 
 static void test_without_depths_only_colours_count(void)
 {
-    const struct picture flat[2] = {{WIDTH, HEIGHT, color[0], NULL, NULL},
-                                    {WIDTH, HEIGHT, color[1], NULL, NULL}};
+    const struct picture flat[2] = {{.width = WIDTH, .height = HEIGHT, .color = color[0]},
+                                    {.width = WIDTH, .height = HEIGHT, .color = color[1]}};
     depth[1][3] = 9;
     TEST_ASSERT_FALSE(compare_pictures(flat, flat + 1, &found));
     color[1][3]++;
@@ -143,6 +169,7 @@ int main(void)
     RUN_TEST(test_equal_pictures_are_equal);
     RUN_TEST(test_every_planted_colour_bit_is_found);
     RUN_TEST(test_every_planted_stencil_bit_is_found);
+    RUN_TEST(test_every_number_is_compared);
     RUN_TEST(test_one_ulp_of_depth_is_found);
     RUN_TEST(test_depths_are_compared_as_bytes);
     RUN_TEST(test_without_depths_only_colours_count);

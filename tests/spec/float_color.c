@@ -111,10 +111,10 @@ static void expect_operation(const char *word)
 
 static void check_operations(void)
 {
-    static const char *const words[] = {"modulate",  "modulate2x",  "modulate4x", "add",
-                                        "addsigned", "addsigned2x", "subtract",   "addsmooth",
-                                        "lerp",      "multiplyadd", "dotproduct3", "blendfactoralpha",
-                                        "blendtexturealphapm"};
+    static const char *const words[] = {
+        "modulate",    "modulate2x",       "modulate4x",         "add",  "addsigned",
+        "addsigned2x", "subtract",         "addsmooth",          "lerp", "multiplyadd",
+        "dotproduct3", "blendfactoralpha", "blendtexturealphapm"};
     open_target(TRIPTYCH_SURFACE_A32B32G32R32F);
     bind_random_texture(SIZE, SIZE);
     set_stage(0, TRIPTYCH_STAGE_colorarg1, "texture");

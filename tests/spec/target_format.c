@@ -1,5 +1,5 @@
-/* Formats of colour targets, several targets at once, and dithering, on every engine. What is kept of a colour
- * is worked out here from the formats' bits. */
+/* Formats of colour targets, several targets at once, and dithering, on every engine. What is kept of a
+ * colour is worked out here from the formats' bits. */
 #include "base/half.h"
 #include "tests/support/canvas.h"
 
