@@ -338,7 +338,8 @@ enum triptych_result triptych_set_texture(triptych_device *device, unsigned samp
         error_set(&error, "sampler %u: expected 0 to %u", sampler, TRIPTYCH_SAMPLERS - 1);
         return finish(device, TRIPTYCH_BAD_ARGUMENT, &error);
     }
-    return changed(device, state_set_texture(&device->state, sampler, texture, &error), &error);
+    device->state.texture[sampler] = texture;
+    return changed(device, TRIPTYCH_OK, &error);
 }
 
 enum triptych_result triptych_set_element(triptych_device *device, enum triptych_attribute attribute,

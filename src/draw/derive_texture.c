@@ -54,9 +54,20 @@ static void derive_addresses(const struct state *state, int stage, struct pixel_
         key->address_w[stage] = derive_address(SAMPLER(stage, addressw), (uint32_t)level->depth);
 }
 
+/* sRGB is for texels of bytes; others are linear. */
+static uint8_t derive_texel(const struct state *state, int stage)
+{
+    const struct format *format = state->texture[stage]->format;
+    if (format->storage == STORAGE_RGBA8)
+        return SAMPLER(stage, srgbtexture) ? TEXEL_SRGB : TEXEL_BYTES;
+    return format->roles & ROLE_COMPARE ? TEXEL_COMPARE : TEXEL_FLOATS;
+}
+
 static void derive_sampler(const struct state *state, int stage, struct pixel_key *key)
 {
     key->texture[stage] = (uint8_t)(TEXTURE_2D + state->texture[stage]->type);
+    key->texel[stage] = derive_texel(state, stage);
+    key->float_color |= key->texel[stage] != TEXEL_BYTES;
     key->filter[stage] = derive_filter(SAMPLER(stage, magfilter));
     derive_minify(state, stage, key);
     key->mip[stage] = derive_mip(state, stage);
@@ -103,7 +114,7 @@ void derive_texture(const struct state *state, struct pixel_key *key)
             continue;
         derive_sampler(state, i, key);
         derive_channel(state, i, key);
-        if (key->texture[i] != TEXTURE_2D)
+        if (key->texture[i] != TEXTURE_2D || key->texel[i] == TEXEL_COMPARE)
             key->varying[varying_third(key->coordinates[i])] = INTERPOLATION_SMOOTH;
     }
 }

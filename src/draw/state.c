@@ -326,18 +326,6 @@ enum triptych_result state_set_light(struct state *state, unsigned index, const 
     return result;
 }
 
-enum triptych_result state_set_texture(struct state *state, unsigned sampler,
-                                       struct triptych_texture *texture, struct error *error)
-{
-    if (texture && texture->format->storage != STORAGE_RGBA8) {
-        error_set(error, "a texture of format %s cannot be sampled: expected one of 8-bit channels",
-                  texture->format->name);
-        return TRIPTYCH_UNSUPPORTED;
-    }
-    state->texture[sampler] = texture;
-    return TRIPTYCH_OK;
-}
-
 void state_set_target(struct state *state, const struct triptych_target_description *description)
 {
     uint32_t width = description->width, height = description->height;

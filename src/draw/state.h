@@ -88,8 +88,6 @@ enum triptych_result state_set_material(struct state *state, const struct tripty
                                         struct error *error);
 enum triptych_result state_set_light(struct state *state, unsigned index, const struct triptych_light *light,
                                      struct error *error);
-enum triptych_result state_set_texture(struct state *state, unsigned sampler,
-                                       struct triptych_texture *texture, struct error *error);
 
 /* In draw/declare.c. */
 enum triptych_result state_set_declaration(struct state *state,

@@ -16,6 +16,11 @@ static inline struct float_color float_interpolated(struct env *e, const struct 
 /* A texture of bytes is filtered as such. */
 static inline struct float_color float_texture(struct env *e, const struct pixel_source *s, int stage)
 {
+    if (s->k->texel[stage] != TEXEL_BYTES) {
+        flt v[3];
+        stage_coordinates(E, s, stage, v);
+        return float_sample(E, s->k, stage, v);
+    }
     struct color packed = stage_texture(E, s, stage);
     itg word = color_pack(E, packed);
     return float_unpack(E, word);

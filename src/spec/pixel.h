@@ -37,8 +37,9 @@ static inline struct color interpolated_color(struct env *e, const struct pixel_
     return color_quantize(E, channel);
 }
 
-/* The texture of a stage. A divisor takes the place of 1/w: (u/w) / (q/w) is u/q. */
-static inline struct color stage_texture(struct env *e, const struct pixel_source *s, int stage)
+/* The texture coordinates of a stage: u, v, and a third where it is read. A divisor takes the place of 1/w:
+ * (u/w) / (q/w) is u/q. */
+static inline void stage_coordinates(struct env *e, const struct pixel_source *s, int stage, flt v[3])
 {
     int channel = s->k->coordinates[stage];
     flt w = s->w;
@@ -46,11 +47,16 @@ static inline struct color stage_texture(struct env *e, const struct pixel_sourc
         flt divisor = interpolate_over_w(E, s->k, s->layout, s->at, varying_divisor(channel), 0);
         w = div_f(E, lit_f(E, 1.0f), divisor);
     }
-    flt v[3];
     v[0] = v[2] = interpolate(E, s->k, s->layout, s->at, w, varying_texcoord(channel), 0);
     v[1] = interpolate(E, s->k, s->layout, s->at, w, varying_texcoord(channel), 1);
     if (s->k->varying[varying_third(channel)])
         v[2] = interpolate(E, s->k, s->layout, s->at, w, varying_third(channel), 0);
+}
+
+static inline struct color stage_texture(struct env *e, const struct pixel_source *s, int stage)
+{
+    flt v[3];
+    stage_coordinates(E, s, stage, v);
     return sample(E, s->k, stage, v);
 }
 

@@ -15,7 +15,7 @@ enum {
     FETCH_MAXIMUM = 16,
     STREAM_BYTES = VERTEX_CAPACITY * STRIDE_MAXIMUM + FETCH_MAXIMUM + 4,
     TEXTURE_SIDE = 64,
-    VOLUME_SIDE = 16,
+    SMALL_SIDE = 16,
     LEVELS = 7,
     TEXTURE_BYTES = TEXTURE_SIDE * TEXTURE_SIDE * 4 * 6 * 2, /* a cube with its levels */
     RECORD_MAXIMUM = 256,
@@ -311,11 +311,10 @@ static void make_entries(struct differential *d)
     }
 }
 
-static int32_t texture_side(struct differential *d, int kind, int address)
+static int32_t texture_side(struct differential *d, int small, int address)
 {
     int power = address == ADDRESS_WRAP_POWER || address == ADDRESS_MIRROR_POWER;
-    int volume = kind == TEXTURE_VOLUME;
-    return power ? 1 << below(d, volume ? 5 : 7) : 1 + (int32_t)below(d, volume ? VOLUME_SIDE : TEXTURE_SIDE);
+    return power ? 1 << below(d, small ? 5 : 7) : 1 + (int32_t)below(d, small ? SMALL_SIDE : TEXTURE_SIDE);
 }
 
 static int32_t half(int32_t side, int level)
@@ -355,14 +354,15 @@ static void make_detail(struct differential *d, int stage)
 static void make_texture(struct differential *d, const struct pixel_key *key, int stage)
 {
     struct texture_job *texture = &d->job.texture[stage];
-    int kind = key->texture[stage];
-    const int32_t side[3] = {texture_side(d, kind, key->address_u[stage]),
-                             texture_side(d, kind, key->address_v[stage]),
-                             kind == TEXTURE_VOLUME ? texture_side(d, kind, key->address_w[stage]) : 1};
+    int kind = key->texture[stage], words = key->texel[stage] >= TEXEL_FLOATS ? 4 : 1;
+    int small = kind == TEXTURE_VOLUME || words > 1;
+    const int32_t side[3] = {texture_side(d, small, key->address_u[stage]),
+                             texture_side(d, small, key->address_v[stage]),
+                             kind == TEXTURE_VOLUME ? texture_side(d, small, key->address_w[stage]) : 1};
     int32_t chain = make_levels(side, d->levels[stage]), image = side[0] * side[1] * side[2];
     texture->face_texels = key->mip[stage] ? chain : image;
     int32_t texels = kind == TEXTURE_CUBE ? 6 * texture->face_texels : texture->face_texels;
-    texture->texels = (const uint32_t *)(void *)(d->texels + TEXTURE_BYTES) - texels;
+    texture->texels = (const uint32_t *)(void *)(d->texels + TEXTURE_BYTES) - words * texels;
     texture->width = side[0];
     texture->height = side[1];
     texture->depth = side[2];
@@ -658,7 +658,7 @@ static void stage_usually(uint64_t chance, struct pixel_key *key)
         key->alpha_argument[i] = usual[key->alpha_argument[i] % 4];
     }
     for (int i = 0; i < TEXTURE_STAGES && chance >> 42 & 7; i++)
-        key->texture[i] = key->texture[i] != TEXTURE_NONE, key->mip[i] = key->minify[i] = 0;
+        key->texture[i] = key->texture[i] != TEXTURE_NONE, key->mip[i] = key->minify[i] = key->texel[i] = 0;
     for (int i = 0; i < TEXTURE_STAGES; i++) /* a stage of many taps takes longer than all else */
         key->anisotropy[i] %= 4;
     for (int i = 0; i < TEXTURE_STAGES && chance >> 41 & 1; i++)
