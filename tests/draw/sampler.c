@@ -22,16 +22,21 @@ static void describe(enum triptych_texture_type type, enum triptych_surface_form
     state.texture[0] = &texture;
 }
 
+static void set_number(unsigned row, uint32_t value)
+{
+    TEST_ASSERT_EQUAL_INT(TRIPTYCH_OK, state_set_value(&state, TRIPTYCH_SAMPLER_STATES, 0, row, value, NULL));
+}
+
 static void set_sampler(unsigned row, const char *word)
 {
     uint32_t value;
     TEST_ASSERT_EQUAL_INT_MESSAGE(
         0, triptych_value_number(triptych_state_at(TRIPTYCH_SAMPLER_STATES, row)->kind, word, &value), word);
-    TEST_ASSERT_EQUAL_INT_MESSAGE(
-        TRIPTYCH_OK, state_set_value(&state, TRIPTYCH_SAMPLER_STATES, 0, row, value, NULL), word);
+    set_number(row, value);
 }
 
-#define SET(name, word) set_sampler(TRIPTYCH_SAMPLER_##name, word)
+#define SET_NUMBER(name, value) set_number(TRIPTYCH_SAMPLER_##name, value)
+#define SET(name, word)         set_sampler(TRIPTYCH_SAMPLER_##name, word)
 
 static const struct pixel_key *derive(void)
 {
@@ -86,12 +91,12 @@ static void a_texture_of_one_level_has_no_filter_between_levels(void)
 
 static void leave_only_the_last(void)
 {
-    SET(maxmiplevel, "6");
+    SET_NUMBER(maxmiplevel, 6);
 }
 
 static void leave_more_than_there_are(void)
 {
-    SET(maxmiplevel, "4000000000");
+    SET_NUMBER(maxmiplevel, 4000000000u);
 }
 
 static void where_one_level_is_left_it_is_the_only_one(void)
@@ -107,9 +112,7 @@ static void where_one_level_is_left_it_is_the_only_one(void)
 
 static void bias_levels(void)
 {
-    uint32_t half = 0x3f000000;
-    TEST_ASSERT_EQUAL_INT(TRIPTYCH_OK, state_set_value(&state, TRIPTYCH_SAMPLER_STATES, 0,
-                                                       TRIPTYCH_SAMPLER_mipmaplodbias, half, NULL));
+    SET_NUMBER(mipmaplodbias, 0x3f000000); /* 0.5 */
 }
 
 static void without_a_filter_between_levels_the_first_is_sampled(void)
@@ -124,7 +127,7 @@ static void bias_and_the_first_level_are_the_jobs_alone(void)
     SET(mipfilter, "linear");
     expect_same(bias_levels);
     TEST_ASSERT_TRUE(job.texture[0].lod_offset == 128 - 2048);
-    SET(maxmiplevel, "2");
+    SET_NUMBER(maxmiplevel, 2);
     derive();
     TEST_ASSERT_EQUAL_INT(512, job.texture[0].first_level_256);
     TEST_ASSERT_EQUAL_INT(6 * 256, job.texture[0].last_level_256);
@@ -144,7 +147,7 @@ static void anisotropy_of_one_is_linear(void)
     SET(minfilter, "linear");
     SET(magfilter, "linear");
     expect_same(anisotropic);
-    SET(maxanisotropy, "8");
+    SET_NUMBER(maxanisotropy, 8);
     derive();
     TEST_ASSERT_EQUAL_INT(MINIFY_ANISOTROPIC, key[UNIT_PIXEL].pixel.minify[0]);
     TEST_ASSERT_EQUAL_INT(8, key[UNIT_PIXEL].pixel.anisotropy[0]);
@@ -152,7 +155,7 @@ static void anisotropy_of_one_is_linear(void)
 
 static void more_anisotropy(void)
 {
-    SET(maxanisotropy, "16");
+    SET_NUMBER(maxanisotropy, 16);
 }
 
 static void anisotropy_that_is_not_used_is_dead(void)

@@ -11,8 +11,8 @@
 enum {
     JOB_BYTES = 64 * 1024,
     TEXELS = 64, /* of 16 bytes, around the start */
-    TEXEL_BYTES = 16,
-    CHANNELS = TEXEL_BYTES / 4,
+    BYTES_A_TEXEL = 16,
+    CHANNELS = BYTES_A_TEXEL / 4,
     LANES = LANES_MAXIMUM
 };
 
@@ -40,7 +40,7 @@ static void fill(const struct addressing *how)
     memcpy(job + how->field, &start, sizeof start);
     for (int lane = 0; lane < LANES; lane++) {
         int texel = (int)(program_random(&seed) % (TEXELS / 2)) - TEXELS / 4;
-        index_of[lane] = texel * (TEXEL_BYTES / how->scale);
+        index_of[lane] = texel * (BYTES_A_TEXEL / how->scale);
     }
 }
 
