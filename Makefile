@@ -90,7 +90,7 @@ unity_flags = -isystem $(dir $(UNITY_SOURCE)) -DUNITY_INCLUDE_DOUBLE -DUNITY_USE
 
 # --- What to build -------------------------------------------------------------------------------------------
 
-.PHONY: all programs check test bench dependencies packages install clean format format-check help FORCE
+.PHONY: all programs check test bench gallery dependencies packages install clean format format-check help FORCE
 
 all: $(BUILD)/libtriptych.a $(if $(SANITIZE),,$(BUILD)/libtriptych.so $(BUILD)/triptych.pc) $(COMMAND) build/glmark2
 
@@ -206,6 +206,10 @@ bench:
 	+@$(MAKE) $(jobs) all
 	@BUILD=$(BUILD) bench/run.sh
 
+# The pictures of docs/gallery.md, which are goldens: look at them before they are committed.
+gallery: all
+	@GOLDENS=write TRIPTYCH=$(COMMAND) tests/goldens.sh $(wildcard tests/scenes/*.tri)
+
 # The public header reads these tables.
 PUBLIC_TABLES = $(addprefix src/,$(shell sed -n 's/^#include "\(.*\)"/\1/p' src/triptych.h))
 
@@ -239,6 +243,7 @@ make                 the library (static and shared) and the command, in $(BUILD
 make test            everything that is tested, from a bare Debian on; ends with "N passed, N failed"
 make check           the same tests on the plain build only
 make bench           the measurements, from a bare Debian on; writes results/
+make gallery         the pictures of docs/gallery.md anew
 make install         PREFIX=$(PREFIX) DESTDIR=$(DESTDIR)
 make dependencies    install every Debian package that any target needs
 make packages        what those packages are and what each is for

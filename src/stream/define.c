@@ -1,12 +1,10 @@
-/* The definitions of the text format but textures: vertices, indices, buffers and meshes, from behind their
- * first word. */
+/* The definitions of the text format but textures and meshes: vertices, indices and buffers, from behind
+ * their first word. */
 #include "stream/layout.h"
-#include "stream/mesh.h"
 #include "stream/parse.h"
 
 #include "base/half.h"
 
-#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -266,7 +264,7 @@ int parse_vertices(struct parser *parser)
 /* --- Indices and values -----------------------------------------------------------------------------------
  */
 
-static void find_extremes(struct resource *resource)
+void parse_extremes(struct resource *resource)
 {
     const uint16_t *narrow = resource->indices;
     const uint32_t *wide = resource->indices;
@@ -290,7 +288,7 @@ static int parse_data(struct parser *parser, struct resource *resource, enum val
         resource->indices = block.data;
         resource->index_bits = 8 * value_bytes(type);
         resource->index_count = (uint32_t)(block.bytes / value_bytes(type));
-        find_extremes(resource);
+        parse_extremes(resource);
     } else {
         resource->vertices = block.data;
         resource->vertex_bytes = block.bytes;
@@ -320,112 +318,4 @@ int parse_buffer(struct parser *parser)
         return -1;
     resource->value_type = (enum value_type)type;
     return parse_data(parser, resource, resource->value_type, "value");
-}
-
-/* --- Meshes -----------------------------------------------------------------------------------------------
- */
-
-static int parse_fit(struct parser *parser, struct mesh_options *options)
-{
-    struct token place = parser->lex.token;
-    if (lex_number(&parser->lex, "fit", &options->fit))
-        return -1;
-    if (!(options->fit > 0))
-        return lex_fail(&parser->lex, &place, "found a size of %g, expected more than 0",
-                        (double)options->fit);
-    return 0;
-}
-
-static int parse_subdivisions(struct parser *parser, struct mesh_options *options)
-{
-    int64_t subdivisions;
-    if (lex_integer(&parser->lex, "subdivisions", 1, LIMIT_SUBDIVISIONS, &subdivisions))
-        return -1;
-    options->subdivisions = (unsigned)subdivisions;
-    return 0;
-}
-
-static int parse_texcoords(struct parser *parser, struct mesh_options *options)
-{
-    unsigned value;
-    if (parse_word(parser, WORDS_TEXCOORDS, "a projection", &value))
-        return -1;
-    options->texcoords = (enum texcoords)value;
-    return 0;
-}
-
-static int parse_normals(struct parser *parser, struct mesh_options *options)
-{
-    unsigned value;
-    if (parse_word(parser, WORDS_NORMALS, "a kind of normals", &value))
-        return -1;
-    options->normals = (enum normals)value;
-    return 0;
-}
-
-static int parse_center(struct parser *parser, struct mesh_options *options)
-{
-    (void)parser;
-    options->center = 1;
-    return 0;
-}
-
-static const struct option {
-    const char *word;
-    unsigned sources; /* that have it: a mask of 1 << source */
-    int (*parse)(struct parser *parser, struct mesh_options *options);
-} options[] = {
-    {"normals", 1 << MESH_FILE, parse_normals},
-    {"subdivisions", 1 << MESH_BEZIER, parse_subdivisions},
-    {"texcoords", 1 << MESH_FILE | 1 << MESH_BEZIER, parse_texcoords},
-    {"center", 1 << MESH_FILE | 1 << MESH_BEZIER, parse_center},
-    {"fit", 1 << MESH_FILE | 1 << MESH_BEZIER, parse_fit},
-};
-
-enum { OPTIONS = sizeof options / sizeof *options };
-
-static int parse_options(struct parser *parser, struct mesh_options *out)
-{
-    struct lexer *lex = &parser->lex;
-    unsigned left = 0; /* options that may still come */
-    for (int i = 0; i < OPTIONS; i++)
-        left |= (options[i].sources >> out->source & 1) << i;
-    while (lex->token.type != TOKEN_LINE_END && lex->token.type != TOKEN_END) {
-        char choices[128] = "";
-        size_t at = 0;
-        int i = 0;
-        while (i < OPTIONS && !((left >> i & 1) && lex_is(lex, options[i].word)))
-            i++;
-        for (int j = 0; i == OPTIONS && j < OPTIONS; j++)
-            if (left >> j & 1)
-                at += (size_t)snprintf(choices + at, sizeof choices - at, "%s, ", options[j].word);
-        if (i == OPTIONS)
-            return lex_expected(lex, "%sor the end of the line", choices);
-        left &= ~(1u << i);
-        if (lex_next(lex) || options[i].parse(parser, out))
-            return -1;
-    }
-    if (out->source == MESH_BEZIER && !out->subdivisions)
-        return lex_expected(lex, "subdivisions N");
-    return 0;
-}
-
-int parse_mesh(struct parser *parser)
-{
-    struct lexer *lex = &parser->lex;
-    struct resource *resource;
-    if (parse_new_name(parser, RESOURCE_MESH, &resource))
-        return -1;
-    if (!lex_is(lex, "file") && !lex_is(lex, "bezier"))
-        return lex_expected(lex, "file \"PATH\" or bezier \"PATH\"");
-    resource->options.source = lex_is(lex, "bezier") ? MESH_BEZIER : MESH_FILE;
-    if (lex_next(lex))
-        return -1;
-    struct token place = lex->token;
-    if (parse_path(parser, &resource->path) || parse_options(parser, &resource->options) ||
-        parse_load(parser, resource, resource->path, &place, mesh_load))
-        return -1;
-    find_extremes(resource);
-    return parse_account(parser, &place,
-                         resource->vertex_bytes + (size_t)resource->index_count * resource->index_bits / 8);
 }

@@ -292,6 +292,13 @@ static int make_texcoords(struct mesh *mesh, const char *path, enum texcoords ki
     return kind == TEXCOORDS_PLANAR ? 0 : cut_seam(mesh, path, error);
 }
 
+static void repeat_texcoords(struct mesh *mesh, const float repeat[2])
+{
+    for (uint32_t v = 0; v < mesh->vertex_count; v++)
+        for (int i = 0; i < 2; i++)
+            mesh->vertices[v].texcoord[i] *= repeat[i];
+}
+
 static void place(struct mesh *mesh, const struct mesh_options *options)
 {
     double low[3], high[3], center[3] = {0}, scale = 1;
@@ -318,6 +325,8 @@ int mesh_finish(struct mesh *mesh, const char *path, const struct mesh_options *
     }
     if (options->texcoords != TEXCOORDS_KEEP && make_texcoords(mesh, path, options->texcoords, error))
         return -1;
+    if (options->repeat[0] != 0)
+        repeat_texcoords(mesh, options->repeat);
     place(mesh, options);
     for (uint32_t v = 0; v < mesh->vertex_count; v++)
         for (int i = 0; i < 3; i++)
@@ -373,16 +382,32 @@ static int pack(struct resource *resource, const struct mesh *mesh)
     return 0;
 }
 
+static int finish(struct resource *resource, struct mesh *mesh, const char *path, int result,
+                  struct error *error)
+{
+    if (!result)
+        result = mesh_finish(mesh, path, &resource->options, error);
+    if (!result && pack(resource, mesh))
+        result = no_memory(path, error);
+    mesh_free(mesh);
+    return result;
+}
+
 int mesh_load(struct resource *resource, const char *path, struct error *error)
 {
     const struct mesh_options *options = &resource->options;
     struct mesh mesh = {0};
     int result = options->source == MESH_BEZIER ? mesh_read_bezier(&mesh, path, options->subdivisions, error)
                                                 : mesh_read_model(&mesh, path, error);
-    if (!result)
-        result = mesh_finish(&mesh, path, options, error);
-    if (!result && pack(resource, &mesh))
-        result = no_memory(path, error);
-    mesh_free(&mesh);
-    return result;
+    return finish(resource, &mesh, path, result, error);
+}
+
+int mesh_make(struct resource *resource, const struct resource *caster, struct error *error)
+{
+    const struct mesh_options *options = &resource->options;
+    const char *name = resource->name;
+    struct mesh mesh = {0};
+    int result = options->source == MESH_SHADOW ? mesh_make_shadow(&mesh, name, options, caster, error)
+                                                : mesh_make_shape(&mesh, name, options, error);
+    return finish(resource, &mesh, name, result, error);
 }

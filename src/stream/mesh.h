@@ -34,10 +34,20 @@ int mesh_add_triangle(struct mesh *mesh, const char *path, uint32_t a, uint32_t 
 int mesh_read_model(struct mesh *mesh, const char *path, struct error *error);
 int mesh_read_bezier(struct mesh *mesh, const char *path, unsigned subdivisions, struct error *error);
 
+/* Those without a file: the shapes of shape.c; the volume that a mesh keeps from a light. `name` begins
+ * reasons. */
+int mesh_make_shape(struct mesh *mesh, const char *name, const struct mesh_options *options,
+                    struct error *error);
+int mesh_make_shadow(struct mesh *mesh, const char *name, const struct mesh_options *options,
+                     const struct resource *of, struct error *error);
+
 /* Missing normals, texture coordinates, centre, size: what the options ask for. */
 int mesh_finish(struct mesh *mesh, const char *path, const struct mesh_options *options, struct error *error);
 
 /* All of it: reads the file at `path` and fills the resource's vertices, layout and indices. */
 int mesh_load(struct resource *resource, const char *path, struct error *error);
+
+/* The same without a file; `caster` is the mesh of a shadow. */
+int mesh_make(struct resource *resource, const struct resource *caster, struct error *error);
 
 #endif

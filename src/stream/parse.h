@@ -37,6 +37,9 @@ int parse_integer(struct parser *parser, const char *what, int64_t high, uint32_
 /* Counts a resource's bytes against the stream's limit. */
 int parse_account(struct parser *parser, const struct token *place, size_t bytes);
 
+/* Finds the least and the largest of a resource's indices. */
+void parse_extremes(struct resource *resource);
+
 /* Reads the path of a file, which the caller frees. */
 int parse_path(struct parser *parser, char **path);
 

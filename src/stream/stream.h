@@ -33,7 +33,16 @@ enum stream_limit {
 enum value_type { VALUE_FLOAT, VALUE_U16, VALUE_U32, VALUE_COLOR };
 enum normals { NORMALS_SMOOTH, NORMALS_FLAT };
 enum texcoords { TEXCOORDS_KEEP, TEXCOORDS_PLANAR, TEXCOORDS_SPHERICAL, TEXCOORDS_CYLINDRICAL };
-enum mesh_source { MESH_FILE, MESH_BEZIER };
+enum mesh_source {
+    MESH_FILE,
+    MESH_BEZIER,
+    MESH_BOX,
+    MESH_GRID,
+    MESH_SPHERE,
+    MESH_CYLINDER,
+    MESH_TORUS,
+    MESH_SHADOW
+};
 
 /* How a mesh is made of its file. */
 struct mesh_options {
@@ -42,7 +51,13 @@ struct mesh_options {
     enum texcoords texcoords;
     unsigned subdivisions; /* MESH_BEZIER */
     int center;
-    float fit; /* the longest side of the bounding box; 0: as it is */
+    float fit;         /* the longest side of the bounding box; 0: as it is */
+    float repeat[2];   /* texture coordinates are multiplied by it */
+    uint32_t cells[2]; /* MESH_GRID to MESH_TORUS: across, down */
+    float tube;        /* MESH_TORUS: its radius */
+    uint32_t caster;   /* MESH_SHADOW: the number of the mesh whose shadow it is */
+    int light_is_point;
+    float light[3], length; /* its position, or the direction of light; how far the shadow reaches */
 };
 
 /* Where a texture's texels come from. Those of files and blocks are in the text or its files; the others are

@@ -233,14 +233,29 @@ static void write_values(struct writer *writer, const struct resource *resource)
 static void write_mesh(struct writer *writer, const struct resource *resource)
 {
     const struct mesh_options *options = &resource->options;
-    fputs(options->source == MESH_BEZIER ? " bezier" : " file", writer->out);
-    write_path(writer, resource->path);
+    fprintf(writer->out, " %s", word_text(WORDS_MESH, options->source));
+    if (resource->path)
+        write_path(writer, resource->path);
     if (options->source == MESH_BEZIER)
         fprintf(writer->out, " subdivisions %u", options->subdivisions);
+    if (options->source == MESH_TORUS)
+        write_numbers(writer, &options->tube, 1);
+    if (options->cells[0])
+        fprintf(writer->out, " %" PRIu32 " %" PRIu32, options->cells[0], options->cells[1]);
+    if (options->source == MESH_SHADOW) {
+        fprintf(writer->out, " %s %s", writer->stream->resources[options->caster].name,
+                options->light_is_point ? "point" : "directional");
+        write_numbers(writer, options->light, 3);
+        write_numbers(writer, &options->length, 1);
+    }
     if (options->normals != NORMALS_SMOOTH)
         fprintf(writer->out, " normals %s", word_text(WORDS_NORMALS, options->normals));
     if (options->texcoords != TEXCOORDS_KEEP)
         fprintf(writer->out, " texcoords %s", word_text(WORDS_TEXCOORDS, options->texcoords));
+    if (options->repeat[0] != 0) {
+        fputs(" repeat", writer->out);
+        write_numbers(writer, options->repeat, 2);
+    }
     if (options->center)
         fputs(" center", writer->out);
     if (options->fit > 0) {
