@@ -78,7 +78,9 @@ enum triptych_transform {
     TRIPTYCH_TRANSFORM_WORLD,
     TRIPTYCH_TRANSFORM_VIEW,
     TRIPTYCH_TRANSFORM_PROJECTION,
-    TRIPTYCH_TRANSFORM_COUNT
+    TRIPTYCH_TRANSFORM_TEXTURE0,                                 /* and 7 more */
+    TRIPTYCH_TRANSFORM_WORLD1 = TRIPTYCH_TRANSFORM_TEXTURE0 + 8, /* the second of 256 world matrices */
+    TRIPTYCH_TRANSFORM_COUNT = TRIPTYCH_TRANSFORM_WORLD1 + 255
 };
 
 /* What the fixed-function pipeline reads of a vertex. */
@@ -190,7 +192,7 @@ enum triptych_depth_range {
     TRIPTYCH_DEPTH_RANGE_MINUS /* from -w to w, as in OpenGL */
 };
 
-enum triptych_light_type { TRIPTYCH_LIGHT_DIRECTIONAL, TRIPTYCH_LIGHT_POINT };
+enum triptych_light_type { TRIPTYCH_LIGHT_DIRECTIONAL, TRIPTYCH_LIGHT_POINT, TRIPTYCH_LIGHT_SPOT };
 
 enum {
     TRIPTYCH_LIGHTS = 8,
@@ -258,10 +260,14 @@ struct triptych_material {
     float diffuse[4];
     float ambient[4];
     float emissive[4];
+    float specular[4];
+    float power; /* of highlights, 0 or more */
 };
 
-/* World space. `direction` is the way the light travels (directional); `position`, `range` and `attenuation`
- * are a point light's. */
+/* World space. `direction` is the way the light travels (directional, spot); `position`, `range` and
+ * `attenuation` are those of lights that have a place. A spot is full within the cone of angle `theta` (0 to
+ * phi) and dark outside of that of `phi` (up to pi, radians, whole angles); between them the falloff-th
+ * power. */
 struct triptych_light {
     enum triptych_light_type type;
     float diffuse[4];
@@ -270,6 +276,9 @@ struct triptych_light {
     float direction[3];
     float range;
     float attenuation[3];
+    float specular[4];
+    float theta, phi;
+    float falloff;
 };
 
 enum triptych_support {

@@ -42,6 +42,9 @@ bool derive_effective(const struct pixel_key *key);
 void derive_job(const struct state *state, const struct vertex_key *vertex, const struct pixel_key *pixel,
                 struct job *job);
 
+/* The palette of indexed vertex blending, which the caller keeps for as long as the job is used. */
+void derive_palette(const struct state *state, struct palette_entry palette[WORLD_MATRICES]);
+
 /* The pixels whose centres lie inside the viewport and, if its test is on, the scissor rectangle. */
 struct rectangle derive_scissor(const struct state *state);
 

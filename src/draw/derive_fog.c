@@ -37,8 +37,8 @@ void derive_fog_formula(const struct state *state, uint32_t mode, float *scale, 
     case FOGMODE_exp: *scale = derive_narrow(-density * log2_e); return;
     case FOGMODE_exp2: *scale = derive_narrow(density * sqrt(log2_e)); return;
     case FOGMODE_linear:
-        *scale = derive_narrow(end != start ? -1 / (end - start) : -(double)__FLT_MAX__);
-        *offset = derive_narrow(end != start ? end / (end - start) : end * (double)__FLT_MAX__);
+        *scale = derive_narrow(end != start ? -1 / (end - start) : -0x1p64);
+        *offset = derive_narrow(end != start ? end / (end - start) : end * 0x1p64);
         return;
     default: *scale = 0;
     }

@@ -3,45 +3,10 @@
 #include "base/srgb.h"
 #include "def/lane.h"
 #include "draw/derive_part.h"
+#include "draw/matrix.h"
 
 #include <math.h>
 #include <string.h>
-
-/* Products are summed in double precision, first row first, and rounded once when stored in the job. */
-struct matrix {
-    double m[4][4];
-};
-
-static struct matrix matrix_of(const float source[4][4])
-{
-    struct matrix r;
-    for (int i = 0; i < 4; i++)
-        for (int j = 0; j < 4; j++)
-            r.m[i][j] = (double)source[i][j];
-    return r;
-}
-
-static struct matrix multiply(const struct matrix *a, const struct matrix *b)
-{
-    struct matrix r;
-    for (int i = 0; i < 4; i++)
-        for (int j = 0; j < 4; j++)
-            r.m[i][j] = a->m[i][0] * b->m[0][j] + a->m[i][1] * b->m[1][j] + a->m[i][2] * b->m[2][j] +
-                        a->m[i][3] * b->m[3][j];
-    return r;
-}
-
-float derive_narrow(double value)
-{
-    return (float)fmax(-(double)__FLT_MAX__, fmin(value, (double)__FLT_MAX__));
-}
-
-static void store_matrix(const struct matrix *source, float target[4][4])
-{
-    for (int i = 0; i < 4; i++)
-        for (int j = 0; j < 4; j++)
-            target[i][j] = derive_narrow(source->m[i][j]);
-}
 
 /* Clip depth from -w to w becomes 0 to w: z' = z / 2 + w / 2. */
 static void fold_depth_range(const struct state *state, struct matrix *projection)
@@ -49,87 +14,6 @@ static void fold_depth_range(const struct state *state, struct matrix *projectio
     if (state->convention[TRIPTYCH_DEPTH_RANGE] == TRIPTYCH_DEPTH_RANGE_MINUS)
         for (int i = 0; i < 4; i++)
             projection->m[i][2] = projection->m[i][2] / 2 + projection->m[i][3] / 2;
-}
-
-static double cofactor(const struct matrix *m, int row, int column)
-{
-    int r1 = (row + 1) % 3, r2 = (row + 2) % 3, c1 = (column + 1) % 3, c2 = (column + 2) % 3;
-    return m->m[r1][c1] * m->m[r2][c2] - m->m[r1][c2] * m->m[r2][c1];
-}
-
-/* Inverse transpose of the upper left 3x3: cofactors over the determinant; the cofactors alone, which have
- * the right directions as far as there are any, when there is no inverse. */
-static void store_normal_matrix(const struct matrix *world_view, float target[3][4])
-{
-    double determinant = 0;
-    for (int c = 0; c < 3; c++)
-        determinant += world_view->m[0][c] * cofactor(world_view, 0, c);
-    double scale = determinant != 0 ? 1 / determinant : 1;
-    for (int i = 0; i < 3; i++)
-        for (int j = 0; j < 3; j++)
-            target[i][j] = derive_narrow(cofactor(world_view, i, j) * scale);
-}
-
-/* A point (w = 1) or a direction (w = 0) times the matrix. */
-static void transform(const float source[3], double w, const struct matrix *matrix, double target[3])
-{
-    for (int c = 0; c < 3; c++)
-        target[c] = (double)source[0] * matrix->m[0][c] + (double)source[1] * matrix->m[1][c] +
-                    (double)source[2] * matrix->m[2][c] + w * matrix->m[3][c];
-}
-
-static void fill_direction(const struct triptych_light *light, const struct matrix *view,
-                           struct light_job *job)
-{
-    double d[3];
-    transform(light->direction, 0, view, d);
-    double length = sqrt(d[0] * d[0] + d[1] * d[1] + d[2] * d[2]);
-    for (int c = 0; c < 3; c++)
-        job->position[c] = length > 0 ? (float)(-d[c] / length) : 0;
-}
-
-static void fill_point(const struct triptych_light *light, const struct triptych_material *material,
-                       const struct matrix *view, struct light_job *job)
-{
-    double p[3];
-    transform(light->position, 1, view, p);
-    for (int c = 0; c < 3; c++) {
-        job->position[c] = derive_narrow(p[c]);
-        job->ambient[c] = derive_narrow((double)light->ambient[c] * (double)material->ambient[c]);
-    }
-    job->range = light->range;
-    job->attenuation0 = light->attenuation[0];
-    job->attenuation1 = light->attenuation[1];
-    job->attenuation2 = light->attenuation[2];
-}
-
-/* The lights, packed to the front like the key's, and the base colour with the directional ones' ambient
- * part. */
-static void fill_lighting(const struct state *state, const struct matrix *view, struct job *job)
-{
-    const struct triptych_material *material = &state->material;
-    double ambient[3];
-    for (int c = 0; c < 3; c++)
-        ambient[c] = (GET(ambient) >> (16 - 8 * c) & 255) / 255.0;
-    struct light_job *to = job->light;
-    for (int i = 0; i < LIGHT_COUNT; i++) {
-        const struct triptych_light *light = state->light + i;
-        if (!state->light_enabled[i])
-            continue;
-        for (int c = 0; c < 3; c++)
-            to->diffuse[c] = derive_narrow((double)light->diffuse[c] * (double)material->diffuse[c]);
-        if (light->type == TRIPTYCH_LIGHT_POINT)
-            fill_point(light, material, view, to);
-        else
-            fill_direction(light, view, to);
-        for (int c = 0; c < 3 && light->type == TRIPTYCH_LIGHT_DIRECTIONAL; c++)
-            ambient[c] += (double)light->ambient[c];
-        to++;
-    }
-    for (int c = 0; c < 3; c++)
-        job->base_color[c] =
-            derive_narrow((double)material->emissive[c] + (double)material->ambient[c] * ambient[c]);
-    job->base_color[3] = material->diffuse[3];
 }
 
 /* |x| <= guard * w keeps |x / w * half + centre| <= GUARD_BAND_PIXELS. The bound on guard only matters for
@@ -234,8 +118,8 @@ static void fill_fog(const struct state *state, const struct pixel_key *key, str
     if (!key->fog)
         return;
     job->fog_color = rgba_word(GET(fogcolor));
-    if (key->fog != FOG_VARYING)
-        derive_fog_formula(state, GET(fogtablemode), &job->fog_scale, &job->fog_offset);
+    uint32_t mode = key->fog == FOG_VARYING ? GET(fogvertexmode) : GET(fogtablemode);
+    derive_fog_formula(state, mode, &job->fog_scale, &job->fog_offset);
 }
 
 static void fill_attributes(const struct state *state, const struct vertex_key *key, struct job *job)
@@ -282,6 +166,51 @@ static void fill_depth(const struct state *state, const struct pixel_key *key, s
     job->stencil_write_mask = (int32_t)(GET(stencilwritemask) & bits);
 }
 
+static void fill_entry(const struct state *state, unsigned world, const struct matrix *view,
+                       struct palette_entry *entry)
+{
+    unsigned which = world ? TRIPTYCH_TRANSFORM_WORLD1 + world - 1 : TRIPTYCH_TRANSFORM_WORLD;
+    struct matrix matrix = matrix_of((const float(*)[4])state->transform[which]);
+    struct matrix world_view = matrix_multiply(&matrix, view);
+    matrix_store(&world_view, entry->world_view);
+    matrix_store_normal(&world_view, entry->normal);
+}
+
+static void fill_blend(const struct state *state, const struct vertex_key *key, const struct matrix *view,
+                       const struct matrix *projection, struct job *job)
+{
+    matrix_store(projection, job->projection);
+    for (unsigned i = 0; i < key->matrices && !key->indexed_matrices; i++)
+        fill_entry(state, i, view, &job->blend[i]);
+}
+
+/* Channels have the matrices of the stages that read them. */
+static void fill_texture_matrices(const struct state *state, const struct vertex_key *vertex,
+                                  const struct pixel_key *pixel, struct job *job)
+{
+    for (int channel = 0; channel < TEXTURE_STAGES; channel++)
+        if (vertex->texture_matrix[channel]) {
+            int stage = derive_channel_stage(pixel, channel);
+            memcpy(job->texture_matrix[channel], state->transform[TRIPTYCH_TRANSFORM_TEXTURE0 + stage],
+                   sizeof job->texture_matrix[channel]);
+        }
+}
+
+__attribute__((noinline)) static void fill_palette(const struct state *state, struct palette_entry *palette)
+{
+    struct matrix view = matrix_of((const float(*)[4])state->transform[TRIPTYCH_TRANSFORM_VIEW]);
+    for (unsigned i = 0; i < WORLD_MATRICES; i++)
+        fill_entry(state, i, &view, &palette[i]);
+}
+
+void derive_palette(const struct state *state, struct palette_entry palette[WORLD_MATRICES])
+{
+    unsigned saved = mxcsr_enter();
+    memset(palette, 0, WORLD_MATRICES * sizeof *palette);
+    fill_palette(state, palette);
+    mxcsr_leave(saved);
+}
+
 /* Not inlined: the compiler may move arithmetic over a change of MXCSR, but not a call. */
 __attribute__((noinline)) static void fill_job(const struct state *state, const struct vertex_key *vertex,
                                                const struct pixel_key *pixel, struct job *job)
@@ -290,16 +219,21 @@ __attribute__((noinline)) static void fill_job(const struct state *state, const 
     struct matrix view = matrix_of((const float(*)[4])state->transform[TRIPTYCH_TRANSFORM_VIEW]);
     struct matrix projection = matrix_of((const float(*)[4])state->transform[TRIPTYCH_TRANSFORM_PROJECTION]);
     fold_depth_range(state, &projection);
-    struct matrix view_projection = multiply(&view, &projection);
-    struct matrix world_view = multiply(&world, &view);
-    struct matrix world_view_projection = multiply(&world_view, &projection);
+    struct matrix view_projection = matrix_multiply(&view, &projection);
+    struct matrix world_view = matrix_multiply(&world, &view);
+    struct matrix world_view_projection = matrix_multiply(&world_view, &projection);
     fill_attributes(state, vertex, job);
-    store_matrix(&world_view_projection, job->world_view_projection);
-    if (vertex->lighting) {
-        store_matrix(&world_view, job->world_view);
-        store_normal_matrix(&world_view, job->normal);
-        fill_lighting(state, &view, job);
-    }
+    matrix_store(&world_view_projection, job->world_view_projection);
+    matrix_store(&world_view, job->world_view);
+    if (vertex->attribute[ATTRIBUTE_NORMAL] || vertex->attribute[ATTRIBUTE_NORMAL1])
+        matrix_store_normal(&world_view, job->normal);
+    if (vertex->lighting)
+        derive_lights(state, vertex, &view, job);
+    if (vertex->matrices)
+        fill_blend(state, vertex, &view, &projection, job);
+    if (vertex->tween)
+        job->tween_factor = GET_FLOAT(tweenfactor);
+    fill_texture_matrices(state, vertex, pixel, job);
     if (vertex->attribute[ATTRIBUTE_POSITIONT] != ATTRIBUTE_FORMAT_NONE)
         fill_window(state, job);
     else

@@ -35,6 +35,9 @@ static inline float state_float(uint32_t bits)
 
 #define GET_FLOAT(name) state_float(GET(name))
 
+/* The bits of texturetransformflags that count. */
+enum { TEXTURETRANSFORM_COUNT_MASK = 7 };
+
 enum { MASK_COLOR = 7, MASK_ALPHA = 8 }; /* of a write mask */
 
 /* Each fills its fields of a key that is zero; derive_blend takes the write mask from the state, and clears
@@ -76,6 +79,9 @@ void derive_fog_formula(const struct state *state, uint32_t mode, float *scale, 
 
 /* The nearest finite float: an element that overflowed must not turn zeros into NaNs. */
 float derive_narrow(double value);
+struct matrix;
+void derive_lights(const struct state *state, const struct vertex_key *key, const struct matrix *view,
+                   struct job *job);
 
 /* Behind derive_depth: whether any pixel passes; no stencil; the word's format, when the rest is known. */
 bool derive_passes(const struct pixel_key *key);

@@ -83,9 +83,20 @@ uint32_t derive_first_level(const struct state *state, int stage)
     return first < last ? first : last;
 }
 
+/* With a matrix a stage has coordinates of its own. */
 static bool same_coordinates(const struct state *state, int a, int b)
 {
-    return STAGE(a, texcoordindex) == STAGE(b, texcoordindex);
+    uint32_t flags = STAGE(a, texturetransformflags);
+    return STAGE(a, texcoordindex) == STAGE(b, texcoordindex) && flags == STAGE(b, texturetransformflags) &&
+           !(flags & TEXTURETRANSFORM_COUNT_MASK);
+}
+
+/* The last of three or four coordinates divides the others (Direct3D 9, D3DTTFF_PROJECTED); without a count
+ * it is the fourth, and with one or two coordinates nothing is left to be divided. */
+static bool is_projected(const struct state *state, int stage)
+{
+    uint32_t flags = STAGE(stage, texturetransformflags), count = flags & TEXTURETRANSFORM_COUNT_MASK;
+    return (flags & TEXTURETRANSFORM_disable_projected) && (!count || count >= 3);
 }
 
 /* Stages with the same coordinates share a channel; channels are numbered in the order of their first stages.
@@ -105,6 +116,8 @@ static void derive_channel(const struct state *state, int stage, struct pixel_ke
     }
     key->coordinates[stage] = next;
     key->varying[varying_texcoord(next)] = INTERPOLATION_SMOOTH;
+    if (is_projected(state, stage))
+        key->varying[varying_divisor(next)] = INTERPOLATION_SMOOTH;
 }
 
 void derive_texture(const struct state *state, struct pixel_key *key)

@@ -1,4 +1,5 @@
-/* The vertex key: what of the vertex declaration and of lighting the setup key's varyings need. */
+/* The vertex key: what of the vertex declaration, of lighting, fog and blending the setup key's varyings
+ * need. */
 #include "draw/derive_part.h"
 
 /* The bound format, cut to the components that the vertex routine can read. */
@@ -10,29 +11,192 @@ static uint8_t derive_format(const struct state *state, enum attribute attribute
     return (uint8_t)(floats && format > last ? last : format);
 }
 
-/* Without lights nobody reads the normal. Without a normal it is zero, of length one or not: a cosine of a
- * zero vector is a zero or a NaN, and either gives no light. */
+static void need(const struct state *state, struct vertex_key *key, enum attribute attribute, int components)
+{
+    key->attribute[attribute] = derive_format(state, attribute, components);
+}
+
+static int is_declared(const struct state *state, enum attribute attribute)
+{
+    return state->element[attribute].format != TRIPTYCH_FORMAT_NONE;
+}
+
+static int in_window(const struct vertex_key *key)
+{
+    return key->attribute[ATTRIBUTE_POSITIONT] != ATTRIBUTE_FORMAT_NONE;
+}
+
+/* --- Positions --------------------------------------------------------------------------------------------
+ */
+
+/* One matrix with weight 1 is the first world matrix, unless vertices say which. */
+static void derive_blending(const struct state *state, struct vertex_key *key)
+{
+    uint32_t blend = GET(vertexblend);
+    if (blend == VERTEXBLEND_disable)
+        return;
+    if (blend == VERTEXBLEND_tweening) {
+        key->tween = 1;
+        need(state, key, ATTRIBUTE_POSITION1, 4);
+        return;
+    }
+    int weights = blend == VERTEXBLEND_0weights ? 0 : (int)blend;
+    key->indexed_matrices = GET(indexedvertexblendenable) != 0;
+    if (!weights && !key->indexed_matrices)
+        return;
+    key->matrices = (uint8_t)(weights + 1);
+    if (weights)
+        need(state, key, ATTRIBUTE_WEIGHTS, weights);
+    if (key->indexed_matrices)
+        need(state, key, ATTRIBUTE_INDICES, weights + 1);
+}
+
+static void derive_position(const struct state *state, struct vertex_key *key)
+{
+    if (is_declared(state, ATTRIBUTE_POSITIONT)) {
+        need(state, key, ATTRIBUTE_POSITIONT, 4);
+        return;
+    }
+    need(state, key, ATTRIBUTE_POSITION, 4);
+    derive_blending(state, key);
+}
+
+/* --- Colours ----------------------------------------------------------------------------------------------
+ */
+
+/* A colour that the vertex does not have is the material's (Direct3D 9, D3DRS_DIFFUSEMATERIALSOURCE). */
+static uint8_t derive_source(const struct state *state, uint32_t source)
+{
+    static const enum attribute attribute[] = {
+        [MATERIALSOURCE_color1] = ATTRIBUTE_DIFFUSE, [MATERIALSOURCE_color2] = ATTRIBUTE_SPECULAR};
+    if (!GET(colorvertex) || source == MATERIALSOURCE_material || !is_declared(state, attribute[source]))
+        return REFLECTANCE_MATERIAL;
+    return (uint8_t)(source - MATERIALSOURCE_color1 + REFLECTANCE_DIFFUSE_COLOR);
+}
+
+static void derive_reflectances(const struct state *state, struct vertex_key *key)
+{
+    if (key->varying[VARYING_diffuse]) {
+        key->reflectance[REFLECTANCE_DIFFUSE] = derive_source(state, GET(diffusematerialsource));
+        key->reflectance[REFLECTANCE_AMBIENT] = derive_source(state, GET(ambientmaterialsource));
+        key->reflectance[REFLECTANCE_EMISSIVE] = derive_source(state, GET(emissivematerialsource));
+    }
+    if (key->highlight != HIGHLIGHT_NONE)
+        key->reflectance[REFLECTANCE_SPECULAR] = derive_source(state, GET(specularmaterialsource));
+    for (int i = 0; i < REFLECTANCE_COUNT; i++)
+        if (key->reflectance[i] == REFLECTANCE_DIFFUSE_COLOR)
+            need(state, key, ATTRIBUTE_DIFFUSE, 4);
+        else if (key->reflectance[i] == REFLECTANCE_SPECULAR_COLOR)
+            need(state, key, ATTRIBUTE_SPECULAR, 4);
+}
+
+static uint8_t derive_light(const struct triptych_light *light)
+{
+    if (light->type == TRIPTYCH_LIGHT_SPOT)
+        return light->falloff == 1 ? LIGHT_SPOT : LIGHT_SPOT_POWER;
+    return (uint8_t)(light->type + LIGHT_DIRECTIONAL);
+}
+
+static void derive_highlight(const struct state *state, struct vertex_key *key)
+{
+    float power = state->material.power;
+    if (!key->varying[VARYING_specular] || !GET(specularenable))
+        return;
+    key->highlight = power == 0 ? HIGHLIGHT_FLAT : power == 1 ? HIGHLIGHT_LINEAR : HIGHLIGHT_POWER;
+    key->local_viewer = GET(localviewer) != 0;
+}
+
+/* Without a normal it is zero, of length one or not: a cosine of a zero vector is a zero or a NaN, and either
+ * gives no light. */
+static void derive_normal(const struct state *state, struct vertex_key *key)
+{
+    need(state, key, ATTRIBUTE_NORMAL, 3);
+    if (key->tween)
+        need(state, key, ATTRIBUTE_NORMAL1, 3);
+    int any = key->attribute[ATTRIBUTE_NORMAL] || key->attribute[ATTRIBUTE_NORMAL1];
+    key->normalize = any && GET(normalizenormals);
+}
+
+/* Without lights nobody reads the normal. */
 static void derive_lighting(const struct state *state, struct vertex_key *key)
 {
     int count = 0;
     key->lighting = 1;
     for (int i = 0; i < LIGHT_COUNT; i++)
         if (state->light_enabled[i])
-            key->light[count++] = (uint8_t)(state->light[i].type + LIGHT_DIRECTIONAL);
-    if (!count)
-        return;
-    key->attribute[ATTRIBUTE_NORMAL] = derive_format(state, ATTRIBUTE_NORMAL, 3);
-    key->normalize = key->attribute[ATTRIBUTE_NORMAL] && GET(normalizenormals);
+            key->light[count++] = derive_light(&state->light[i]);
+    if (count) {
+        derive_normal(state, key);
+        derive_highlight(state, key);
+    }
+    derive_reflectances(state, key);
 }
 
-/* The set of coordinates that a channel takes, which is that of each of its stages. */
-static void derive_texcoord(const struct state *state, const struct pixel_key *pixel, int channel,
-                            struct vertex_key *key)
+static void derive_colors(const struct state *state, struct vertex_key *key)
 {
-    uint8_t set = (uint8_t)STAGE(derive_channel_stage(pixel, channel), texcoordindex);
-    enum attribute attribute = ATTRIBUTE_TEXCOORD + set;
-    key->texcoord[channel] = set;
-    key->attribute[attribute] = derive_format(state, attribute, key->varying[varying_third(channel)] ? 3 : 2);
+    int diffuse = key->varying[VARYING_diffuse], specular = key->varying[VARYING_specular];
+    if ((diffuse || specular) && GET(lighting) && !in_window(key)) {
+        derive_lighting(state, key);
+        return;
+    }
+    if (diffuse)
+        need(state, key, ATTRIBUTE_DIFFUSE, 4);
+    if (specular)
+        need(state, key, ATTRIBUTE_SPECULAR, 4);
+}
+
+/* --- Fog --------------------------------------------------------------------------------------------------
+ */
+
+static void derive_vertex_fog(const struct state *state, struct vertex_key *key)
+{
+    static const uint8_t mode[] = {[FOGMODE_none] = VERTEX_FOG_SPECULAR_ALPHA,
+                                   [FOGMODE_exp] = VERTEX_FOG_EXP,
+                                   [FOGMODE_exp2] = VERTEX_FOG_EXP2,
+                                   [FOGMODE_linear] = VERTEX_FOG_LINEAR};
+    if (!key->varying[VARYING_fog])
+        return;
+    key->fog = in_window(key) ? VERTEX_FOG_SPECULAR_ALPHA : mode[GET(fogvertexmode)];
+    if (key->fog == VERTEX_FOG_SPECULAR_ALPHA)
+        need(state, key, ATTRIBUTE_SPECULAR, 4);
+    else
+        key->fog_range = GET(rangefogenable) != 0;
+}
+
+/* --- Texture coordinates ----------------------------------------------------------------------------------
+ */
+
+static int reads_channel(const struct vertex_key *key, int channel)
+{
+    return key->varying[varying_texcoord(channel)] || key->varying[varying_third(channel)] ||
+           key->varying[varying_divisor(channel)];
+}
+
+/* How many components of the set reach the pixel, or the matrix. */
+static int coordinates_needed(const struct vertex_key *key, int channel)
+{
+    if (key->texture_matrix[channel] || key->varying[varying_divisor(channel)])
+        return 4;
+    return key->varying[varying_third(channel)] ? 3 : 2;
+}
+
+/* The numbers of Direct3D 9's generators are the high half of the state, from 1. */
+static void derive_coordinates(const struct state *state, int stage, int channel, struct vertex_key *key)
+{
+    uint32_t index = STAGE(stage, texcoordindex), generator = index >> 16;
+    key->texture_matrix[channel] = STAGE(stage, texturetransformflags) & TEXTURETRANSFORM_COUNT_MASK;
+    if (generator && !in_window(key)) {
+        key->texcoord[channel] = (uint8_t)(COORDINATE_NORMAL + generator - 1);
+        if (key->texcoord[channel] != COORDINATE_POSITION)
+            derive_normal(state, key);
+        return;
+    }
+    key->texcoord[channel] = index & (TEXCOORD_SETS - 1);
+    enum attribute attribute = ATTRIBUTE_TEXCOORD + key->texcoord[channel];
+    uint8_t format = key->attribute[attribute];
+    need(state, key, attribute, coordinates_needed(key, channel));
+    if (format > key->attribute[attribute]) /* another channel needs more of it */
+        key->attribute[attribute] = format;
 }
 
 /* A point sprite's texture coordinates are setup's. */
@@ -47,16 +211,12 @@ void derive_vertex(const struct state *state, const struct pixel_key *pixel, con
 {
     for (int v = 0; v < VARYING_COUNT; v++)
         key->varying[v] = (uint8_t)is_read(setup, v);
-    int window = setup->window;
-    enum attribute position = window ? ATTRIBUTE_POSITIONT : ATTRIBUTE_POSITION;
-    key->attribute[position] = derive_format(state, position, 4);
-    if (GET(clipping) && !window)
+    derive_position(state, key);
+    if (GET(clipping) && !in_window(key))
         key->clip_planes = (uint8_t)__builtin_popcount(GET(clipplaneenable));
+    derive_colors(state, key);
+    derive_vertex_fog(state, key);
     for (int channel = 0; channel < TEXTURE_STAGES; channel++)
-        if (key->varying[varying_texcoord(channel)])
-            derive_texcoord(state, pixel, channel, key);
-    if (key->varying[VARYING_diffuse] && GET(lighting) && !window)
-        derive_lighting(state, key);
-    else if (key->varying[VARYING_diffuse])
-        key->attribute[ATTRIBUTE_DIFFUSE] = derive_format(state, ATTRIBUTE_DIFFUSE, 4);
+        if (reads_channel(key, channel))
+            derive_coordinates(state, derive_channel_stage(pixel, channel), channel, key);
 }

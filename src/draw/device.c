@@ -66,6 +66,14 @@ enum triptych_result device_create(const struct engine *engine, const struct dev
 }
 
 /* Empties the queue; its draws are rendered or not wanted. */
+static void free_palettes(struct palette *palette)
+{
+    for (struct palette *next; palette; palette = next) {
+        next = palette->next;
+        free(palette);
+    }
+}
+
 static void forget_commands(struct triptych_device *device)
 {
     struct frame *frame = device->frame;
@@ -74,6 +82,10 @@ static void forget_commands(struct triptych_device *device)
             for (int unit = 0; unit < UNIT_COUNT; unit++)
                 cache_release(device->cache, frame->command[i].draw.routine[unit]);
     frame->commands = 0;
+    if (device->palettes) {
+        free_palettes(device->palettes->next);
+        device->palettes->next = NULL;
+    }
     device->recording++;
 }
 
@@ -83,6 +95,7 @@ void device_destroy(struct triptych_device *device)
         return;
     if (device->frame)
         forget_commands(device);
+    free_palettes(device->palettes);
     frame_destroy(device->frame);
     pool_destroy(device->pool);
     cache_destroy(device->cache);
@@ -328,15 +341,35 @@ static enum triptych_result check_indices(const struct triptych_device *device, 
 /* --- Recording --------------------------------------------------------------------------------------------
  */
 
-static void derive(struct triptych_device *device, enum triptych_primitive drawn)
+/* The newest palette is that of the job; recorded draws may use the others. */
+static enum triptych_result make_palette(struct triptych_device *device, struct error *error)
 {
+    struct palette *palette = malloc(sizeof *palette);
+    if (!palette) {
+        error_set(error, "out of memory for a palette of world matrices");
+        return TRIPTYCH_NO_MEMORY;
+    }
+    derive_palette(&device->state, palette->entry);
+    palette->next = device->palettes;
+    device->palettes = palette;
+    device->job.palette = palette->entry;
+    return TRIPTYCH_OK;
+}
+
+static enum triptych_result derive(struct triptych_device *device, enum triptych_primitive drawn,
+                                   struct error *error)
+{
+    enum triptych_result result = TRIPTYCH_OK;
     enum primitive primitive = derive_primitive(&device->state, drawn);
     if (device->derived && device->key[UNIT_SETUP].setup.primitive == primitive)
-        return;
+        return result;
     derive_keys(&device->state, primitive, device->key);
     derive_job(&device->state, &device->key[UNIT_VERTEX].vertex, &device->key[UNIT_PIXEL].pixel,
                &device->job);
-    device->derived = true;
+    if (device->key[UNIT_VERTEX].vertex.indexed_matrices)
+        result = make_palette(device, error);
+    device->derived = result == TRIPTYCH_OK;
+    return result;
 }
 
 static struct command *next_command(struct triptych_device *device)
@@ -442,8 +475,9 @@ enum triptych_result device_draw(struct triptych_device *device, enum triptych_p
     enum triptych_result result = check_draw(device, primitive, error);
     if (result != TRIPTYCH_OK)
         return result;
-    derive(device, primitive);
-    result = check_no_instances(device, error);
+    result = derive(device, primitive, error);
+    if (result == TRIPTYCH_OK)
+        result = check_no_instances(device, error);
     if (count && result == TRIPTYCH_OK)
         result = check_sequence(device, first, primitive_corners(primitive, count), error);
     struct draw draw = {.primitive = primitive, .count = count, .base = first};
@@ -461,8 +495,8 @@ enum triptych_result device_draw_indexed(struct triptych_device *device, enum tr
     }
     if (result != TRIPTYCH_OK)
         return result;
-    derive(device, primitive);
-    if (count)
+    result = derive(device, primitive, error);
+    if (count && result == TRIPTYCH_OK)
         result = check_indices(device, base, first, primitive_corners(primitive, count), error);
     struct draw draw = {.primitive = primitive, .count = count, .base = (uint32_t)base};
     draw.index_bits = state->index_bits;

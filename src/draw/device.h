@@ -14,6 +14,12 @@
 /* Called for each draw that is recorded: its number, from 0, and its keys, indexed by enum unit. */
 typedef void device_draw_callback(void *user, uint64_t number, const union key key[UNIT_COUNT]);
 
+/* World matrices of indexed vertex blending, as draws have them. */
+struct palette {
+    struct palette *next;
+    struct palette_entry entry[WORLD_MATRICES];
+};
+
 struct triptych_device {
     const struct engine *engine;
     struct code_arena *arena; /* null when the engine generates no code */
@@ -30,6 +36,7 @@ struct triptych_device {
     bool derived;
     union key key[UNIT_COUNT];
     struct job job;
+    struct palette *palettes; /* the job's, then those of recorded draws */
 
     uint64_t draws, triangles;
     uint64_t recording; /* counts how often the queue was emptied */

@@ -21,17 +21,29 @@ struct attribute_job {
     int32_t reserved;
 };
 
-/* A light, multiplied by the material. Directional: `direction` points to the light, unit length, camera
- * space, and its ambient part is in base_color. Point: `position` in camera space. */
+/* A light, multiplied by those reflectances that are the material's. Directional: `position` is the direction
+ * to the light, unit length, camera space, and its ambient part is in base_color or ambient_light. Others:
+ * `position` in camera space. Spots: `axis` points from where it shines to the light. */
 struct light_job {
     float position[3]; /* or direction */
-    float range;       /* beyond it a point light is off */
+    float range;       /* beyond it a light with a position is off */
     float diffuse[3];
     float attenuation0;
     float ambient[3];
     float attenuation1;
     float attenuation2;
-    float reserved[3];
+    float specular[3];
+    float axis[3];
+    float outer_cosine; /* of half the outer cone's angle */
+    float cone_scale;   /* 1 / (inner cosine - outer cosine) */
+    float falloff;
+    float reserved[2];
+};
+
+/* A world matrix for vertex blending. */
+struct palette_entry {
+    float world_view[4][4];
+    float normal[3][4]; /* as in struct job */
 };
 
 /* One level of a texture's faces (draw/texture.h), as the generated code finds it: texels are counted, not
@@ -73,8 +85,18 @@ struct job {
     float normal[3][4]; /* inverse transpose of world * view, 3x3; the fourth column is unused */
 
     float base_color[4]; /* emissive + material ambient * (scene ambient + directional ambients); w: material
-                            alpha */
+                            alpha. With reflectances from the vertex emissive alone, 0 if it is from there too
+                          */
     struct light_job light[LIGHT_COUNT];
+    float ambient_light[3]; /* scene ambient + directional ambients, when it is not in base_color */
+    float power;            /* the material's */
+    float specular_alpha;   /* the material's */
+
+    float projection[4][4]; /* when matrices are blended */
+    float tween_factor;
+    float texture_matrix[TEXTURE_STAGES][4][4]; /* by channel */
+    struct palette_entry blend[BLEND_MATRICES]; /* world matrices 0 to 3 */
+    const struct palette_entry *palette;        /* all of them, when vertices say which */
 
     /* Guard band: |x| <= guard_x * w keeps projected vertices within +-16383 pixels. */
     float guard_x, guard_y;

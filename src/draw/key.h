@@ -54,7 +54,52 @@ enum { LIGHT_COUNT = 8 };
 /* Stages, channels of texture coordinates that travel to the pixel, and sets of them that vertices have. */
 enum { TEXTURE_STAGES = 8, TEXCOORD_SETS = 8 };
 
-enum light_type { LIGHT_NONE, LIGHT_DIRECTIONAL, LIGHT_POINT, LIGHT_TYPE_COUNT };
+/* LIGHT_SPOT has a falloff of 1, LIGHT_SPOT_POWER any. */
+enum light_type {
+    LIGHT_NONE,
+    LIGHT_DIRECTIONAL,
+    LIGHT_POINT,
+    LIGHT_SPOT,
+    LIGHT_SPOT_POWER,
+    LIGHT_TYPE_COUNT
+};
+
+/* The material's power: any, 1, or 0. */
+enum highlight { HIGHLIGHT_NONE, HIGHLIGHT_POWER, HIGHLIGHT_LINEAR, HIGHLIGHT_FLAT, HIGHLIGHT_COUNT };
+
+/* What a material says, and where else it can come from: the vertex's first or second colour. */
+enum reflectance {
+    REFLECTANCE_DIFFUSE,
+    REFLECTANCE_AMBIENT,
+    REFLECTANCE_SPECULAR,
+    REFLECTANCE_EMISSIVE,
+    REFLECTANCE_COUNT
+};
+enum reflectance_source {
+    REFLECTANCE_MATERIAL,
+    REFLECTANCE_DIFFUSE_COLOR,
+    REFLECTANCE_SPECULAR_COLOR,
+    REFLECTANCE_SOURCE_COUNT
+};
+
+enum vertex_fog {
+    VERTEX_FOG_SPECULAR_ALPHA,
+    VERTEX_FOG_EXP,
+    VERTEX_FOG_EXP2,
+    VERTEX_FOG_LINEAR,
+    VERTEX_FOG_COUNT
+};
+
+/* Texture coordinates: one of the vertex's sets, or what is generated from camera space. */
+enum coordinate {
+    COORDINATE_NORMAL = TEXCOORD_SETS,
+    COORDINATE_POSITION,
+    COORDINATE_REFLECTION,
+    COORDINATE_SPHERE,
+    COORDINATE_COUNT
+};
+
+enum { BLEND_MATRICES = 4, WORLD_MATRICES = 256 };
 
 enum varying {
 #define VARYING(name, components, text) VARYING_##name,

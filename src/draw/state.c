@@ -187,15 +187,27 @@ static enum triptych_result check_finite(const float *values, size_t count, cons
     return TRIPTYCH_OK;
 }
 
+static void name_transform(unsigned which, char *name, size_t size)
+{
+    static const char *const single[] = {"world matrix", "view matrix", "projection matrix"};
+    if (which >= TRIPTYCH_TRANSFORM_WORLD1)
+        snprintf(name, size, "world matrix %u", which - TRIPTYCH_TRANSFORM_WORLD1 + 1);
+    else if (which >= TRIPTYCH_TRANSFORM_TEXTURE0)
+        snprintf(name, size, "texture matrix %u", which - TRIPTYCH_TRANSFORM_TEXTURE0);
+    else
+        snprintf(name, size, "%s", single[which]);
+}
+
 enum triptych_result state_set_transform(struct state *state, enum triptych_transform which,
                                          const float matrix[4][4], struct error *error)
 {
-    static const char *const name[] = {"world matrix", "view matrix", "projection matrix"};
+    char name[32];
     if ((unsigned)which >= TRIPTYCH_TRANSFORM_COUNT) {
         error_set(error, "transform %u: expected 0 to %u", (unsigned)which, TRIPTYCH_TRANSFORM_COUNT - 1);
         return TRIPTYCH_BAD_ARGUMENT;
     }
-    enum triptych_result result = check_finite(&matrix[0][0], 16, name[which], error);
+    name_transform(which, name, sizeof name);
+    enum triptych_result result = check_finite(&matrix[0][0], 16, name, error);
     if (result == TRIPTYCH_OK)
         memcpy(state->transform[which], matrix, sizeof state->transform[which]);
     return result;
@@ -264,6 +276,15 @@ enum triptych_result state_set_convention(struct state *state, enum triptych_con
     return TRIPTYCH_OK;
 }
 
+/* Finite, and 0 or more. */
+static enum triptych_result check_positive(float value, const char *what, struct error *error)
+{
+    if (value >= 0 && isfinite(value))
+        return TRIPTYCH_OK;
+    error_set(error, "%s %g: expected 0 or more", what, (double)value);
+    return TRIPTYCH_BAD_ARGUMENT;
+}
+
 enum triptych_result state_set_material(struct state *state, const struct triptych_material *material,
                                         struct error *error)
 {
@@ -273,8 +294,45 @@ enum triptych_result state_set_material(struct state *state, const struct tripty
     if (result == TRIPTYCH_OK)
         result = check_finite(material->emissive, 4, "material emissive", error);
     if (result == TRIPTYCH_OK)
+        result = check_finite(material->specular, 4, "material specular", error);
+    if (result == TRIPTYCH_OK)
+        result = check_positive(material->power, "material power", error);
+    if (result == TRIPTYCH_OK)
         state->material = *material;
     return result;
+}
+
+static enum triptych_result check_direction(const struct triptych_light *light, struct error *error)
+{
+    const float *d = light->direction;
+    if (d[0] == 0 && d[1] == 0 && d[2] == 0) {
+        error_set(error, "light direction 0, 0, 0: expected a direction other than zero");
+        return TRIPTYCH_BAD_ARGUMENT;
+    }
+    return check_finite(d, 3, "light direction", error);
+}
+
+static enum triptych_result check_place(const struct triptych_light *light, struct error *error)
+{
+    static const char *const name[] = {"light attenuation 0", "light attenuation 1", "light attenuation 2"};
+    enum triptych_result result = check_positive(light->range, "light range", error);
+    for (int i = 0; i < 3 && result == TRIPTYCH_OK; i++)
+        result = check_positive(light->attenuation[i], name[i], error);
+    return result == TRIPTYCH_OK ? check_finite(light->position, 3, "light position", error) : result;
+}
+
+static enum triptych_result check_cones(const struct triptych_light *light, struct error *error)
+{
+    if (!within(0, light->phi, (double)(float)M_PI)) {
+        error_set(error, "light phi %g: expected an angle from 0 to pi", (double)light->phi);
+        return TRIPTYCH_BAD_ARGUMENT;
+    }
+    if (!within(0, light->theta, light->phi)) {
+        error_set(error, "light theta %g: expected an angle from 0 to phi, %g", (double)light->theta,
+                  (double)light->phi);
+        return TRIPTYCH_BAD_ARGUMENT;
+    }
+    return check_positive(light->falloff, "light falloff", error);
 }
 
 /* What the light's type uses is checked; the rest is kept as it is. */
@@ -283,30 +341,15 @@ static enum triptych_result check_light(const struct triptych_light *light, stru
     enum triptych_result result = check_finite(light->diffuse, 4, "light diffuse", error);
     if (result == TRIPTYCH_OK)
         result = check_finite(light->ambient, 4, "light ambient", error);
-    if (result != TRIPTYCH_OK)
-        return result;
-    if (light->type == TRIPTYCH_LIGHT_DIRECTIONAL) {
-        const float *d = light->direction;
-        if (d[0] == 0 && d[1] == 0 && d[2] == 0) {
-            error_set(error, "light direction 0, 0, 0: expected a direction other than zero");
-            return TRIPTYCH_BAD_ARGUMENT;
-        }
-        return check_finite(d, 3, "light direction", error);
-    }
-    for (int i = 0; i < 3; i++)
-        if (!(light->attenuation[i] >= 0)) {
-            error_set(error, "light attenuation %d is %g: expected 0 or more", i,
-                      (double)light->attenuation[i]);
-            return TRIPTYCH_BAD_ARGUMENT;
-        }
-    if (!(light->range >= 0)) {
-        error_set(error, "light range %g: expected 0 or more", (double)light->range);
-        return TRIPTYCH_BAD_ARGUMENT;
-    }
-    result = check_finite(light->attenuation, 3, "light attenuation", error);
     if (result == TRIPTYCH_OK)
-        result = check_finite(&light->range, 1, "light range", error);
-    return result == TRIPTYCH_OK ? check_finite(light->position, 3, "light position", error) : result;
+        result = check_finite(light->specular, 4, "light specular", error);
+    if (result == TRIPTYCH_OK && light->type != TRIPTYCH_LIGHT_POINT)
+        result = check_direction(light, error);
+    if (result == TRIPTYCH_OK && light->type != TRIPTYCH_LIGHT_DIRECTIONAL)
+        result = check_place(light, error);
+    if (result == TRIPTYCH_OK && light->type == TRIPTYCH_LIGHT_SPOT)
+        result = check_cones(light, error);
+    return result;
 }
 
 enum triptych_result state_set_light(struct state *state, unsigned index, const struct triptych_light *light,
@@ -316,8 +359,9 @@ enum triptych_result state_set_light(struct state *state, unsigned index, const 
         error_set(error, "light %u: expected 0 to %u", index, TRIPTYCH_LIGHTS - 1);
         return TRIPTYCH_BAD_ARGUMENT;
     }
-    if (light->type != TRIPTYCH_LIGHT_DIRECTIONAL && light->type != TRIPTYCH_LIGHT_POINT) {
-        error_set(error, "light type %u: expected directional (0) or point (1)", (unsigned)light->type);
+    if ((unsigned)light->type > TRIPTYCH_LIGHT_SPOT) {
+        error_set(error, "light type %u: expected directional (0), point (1) or spot (2)",
+                  (unsigned)light->type);
         return TRIPTYCH_BAD_ARGUMENT;
     }
     enum triptych_result result = check_light(light, error);

@@ -9,6 +9,9 @@
  * log2(m) = s * r(s^2), r of degree 3 with an error below 7e-10. Error below 1.5e-7 absolute for |log2(x)| <
  * 1, 1.2e-7 relative beyond; exact for powers of two. Zero gives a value of about -127, the sign is ignored.
  *
+ * power: x^y = 2^(y * log2(x)) for x > 0. Relative error below 2e-7 + 1.5e-7 * |y| + 2e-7 * |y * log2(x)|;
+ * exact for x = 1 and y = 0.
+ *
  * tests/spec/transcendental.c measures these bounds. */
 
 static inline flt exponential2(struct env *e, flt x)
@@ -50,4 +53,11 @@ static inline flt logarithm2(struct env *e, flt x)
         sum = mad_f(E, sum, square, lit_f(E, r[i]));
     flt whole = float_f(E, exponent);
     return mad_f(E, s, sum, whole);
+}
+
+static inline flt power(struct env *e, flt x, flt y)
+{
+    flt log = logarithm2(E, x);
+    flt exponent = mul_f(E, log, y);
+    return exponential2(E, exponent);
 }

@@ -1,8 +1,9 @@
-/* The vertex routine: fetch, transform, light, clip code; one lane a vertex (draw/call.h, struct
+/* The vertex routine: fetch, blend, transform, clip code, light, fog; one lane a vertex (draw/call.h, struct
  * vertex_call).
  *
  * Bases: JOB; INPUT is the lanes' vertex indices; OUTPUT the lanes' place in the vertex batch. Outputs that
- * the pixel routine does not read are not in the key's varyings: their whole computation is dead. */
+ * the pixel routine does not read are not in the key's varyings: their whole computation is dead. A vertex
+ * that is in the window already has neither camera space nor lighting. */
 
 static inline void store_slot(struct env *e, int slot, flt value)
 {
@@ -15,66 +16,101 @@ static inline flt clamp_unit(struct env *e, flt value)
     return min_f(E, low, lit_f(E, 1.0f));
 }
 
-static inline void vertex_diffuse(struct env *e, const struct vertex_key *k, const struct vector4 *position)
+static inline void store_color(struct env *e, int slot, const struct vector4 *color)
 {
-    struct vector4 color;
-    if (k->lighting)
-        color = light_vertex(E, k, position);
-    else
-        color = fetch(E, k, ATTRIBUTE_DIFFUSE, 1.0f);
     for (int c = 0; c < 4; c++) {
-        flt clamped = clamp_unit(E, color.v[c]);
-        store_slot(E, SLOT_diffuse + c, clamped);
+        flt clamped = clamp_unit(E, color->v[c]);
+        store_slot(E, slot + c, clamped);
     }
 }
 
-/* Where the vertex is: in clip space, or in the window if it was transformed before. */
-static inline void vertex_position(struct env *e, const struct vertex_key *k, struct vector4 *position)
+static inline int in_window(const struct vertex_key *k)
 {
-    int window = k->attribute[ATTRIBUTE_POSITIONT] != ATTRIBUTE_FORMAT_NONE;
-    *position = fetch(E, k, window ? ATTRIBUTE_POSITIONT : ATTRIBUTE_POSITION, 0.0f);
-    int one = !has_fourth(k, ATTRIBUTE_POSITION);
-    flt to[4];
-    for (int c = 0; c < 4; c++) {
-        to[c] = window ? position->v[c]
-                       : transform_component(E, position, one,
-                                             (int)offsetof(struct job, world_view_projection), c);
-        store_slot(E, SLOT_X + c, to[c]);
-    }
-    itg code = window ? clip_code_window(E, to) : clip_code(E, k, to);
+    return k->attribute[ATTRIBUTE_POSITIONT] != ATTRIBUTE_FORMAT_NONE;
+}
+
+static inline void store_position(struct env *e, const struct vertex_key *k, const flt p[4])
+{
+    itg code = in_window(k) ? clip_code_window(E, p) : clip_code(E, k, p);
     store_i(E, BASE_OUTPUT, SLOT_CODE * VERTEX_SLOT_BYTES, code);
 }
 
-/* The coordinates of a channel, from its set: two, and a third where it is read. */
-static inline void vertex_texcoord(struct env *e, const struct vertex_key *k, int channel)
+static inline void window_position_of(struct env *e, const struct vertex_key *k)
 {
-    int varying = varying_texcoord(channel);
-    if (!k->varying[varying])
-        return;
-    struct vector4 uv = fetch(E, k, ATTRIBUTE_TEXCOORD + k->texcoord[channel], 0.0f);
-    for (int c = 0; c < 2; c++)
-        store_slot(E, varying_slot[varying] + c, uv.v[c]);
-    if (k->varying[varying_third(channel)])
-        store_slot(E, varying_slot[varying_third(channel)], uv.v[2]);
+    struct vector4 position = fetch(E, k, ATTRIBUTE_POSITIONT, 0.0f);
+    for (int c = 0; c < 4; c++)
+        store_slot(E, SLOT_X + c, position.v[c]);
+    store_position(E, k, position.v);
 }
 
-/* What nothing computes yet: no highlights, no fog, no division. */
-static inline void vertex_constants(struct env *e, const struct vertex_key *k)
+/* Clip space, at once or by way of the blended camera space. */
+static inline void clip_position_of(struct env *e, const struct vertex_key *k, struct body *body)
 {
-    for (int v = 0; v < VARYING_COUNT; v++) {
-        for (int c = 0; c < varying_components[v]; c++)
-            if (k->varying[v] && (varying_is_divisor(v) || v >= VARYING_specular))
-                store_slot(E, varying_slot[v] + c, lit_f(E, v == VARYING_specular ? 0.0f : 1.0f));
+    flt clip[4];
+    struct vector4 blended;
+    body->position = tween(E, k, ATTRIBUTE_POSITION, ATTRIBUTE_POSITION1, 4);
+    body->one = !has_fourth(k, ATTRIBUTE_POSITION) && !(k->tween && has_fourth(k, ATTRIBUTE_POSITION1));
+    if (k->matrices) {
+        body->skin = skin_begin(E, k);
+        for (int c = 0; c < 4; c++)
+            blended.v[c] = body->blended[c] = skin_position(E, k, &body->skin, &body->position, body->one, c);
     }
+    for (int c = 0; c < 4; c++) {
+        clip[c] = k->matrices ? transform_component(E, &blended, 0, (int)offsetof(struct job, projection), c)
+                              : transform_component(E, &body->position, body->one,
+                                                    (int)offsetof(struct job, world_view_projection), c);
+        store_slot(E, SLOT_X + c, clip[c]);
+    }
+    store_position(E, k, clip);
+}
+
+static inline void vertex_colors(struct env *e, const struct vertex_key *k, const struct camera *camera)
+{
+    struct vector4 diffuse, specular;
+    if (k->lighting && !in_window(k))
+        light_vertex(E, k, camera, &diffuse, &specular);
+    else {
+        diffuse = fetch(E, k, ATTRIBUTE_DIFFUSE, 1.0f);
+        specular = fetch(E, k, ATTRIBUTE_SPECULAR, 0.0f);
+    }
+    if (k->varying[VARYING_diffuse])
+        store_color(E, SLOT_diffuse, &diffuse);
+    if (k->varying[VARYING_specular])
+        store_color(E, SLOT_specular, &specular);
+}
+
+static inline void vertex_coordinates(struct env *e, const struct vertex_key *k, int channel,
+                                      const struct camera *camera)
+{
+    struct vector4 coordinates = texgen(E, k, channel, camera);
+    int divisor = k->texture_matrix[channel] == 3 ? 2 : 3;
+    for (int c = 0; c < 2; c++)
+        if (k->varying[varying_texcoord(channel)])
+            store_slot(E, varying_slot[varying_texcoord(channel)] + c, coordinates.v[c]);
+    if (k->varying[varying_third(channel)])
+        store_slot(E, varying_slot[varying_third(channel)], coordinates.v[2]);
+    if (k->varying[varying_divisor(channel)])
+        store_slot(E, varying_slot[varying_divisor(channel)], coordinates.v[divisor]);
 }
 
 static void spec_vertex(struct env *e, const struct vertex_key *k)
 {
-    struct vector4 position;
-    vertex_position(E, k, &position);
-    if (k->varying[VARYING_diffuse])
-        vertex_diffuse(E, k, &position);
+    struct body body;
+    struct camera camera;
+    if (in_window(k))
+        window_position_of(E, k);
+    else {
+        clip_position_of(E, k, &body);
+        camera_space(E, k, &body, &camera);
+    }
+    if (k->varying[VARYING_diffuse] || k->varying[VARYING_specular])
+        vertex_colors(E, k, &camera);
+    if (k->varying[VARYING_fog]) {
+        flt fog = vertex_fog(E, k, &camera);
+        flt clamped = clamp_unit(E, fog);
+        store_slot(E, SLOT_fog, clamped);
+    }
     for (int channel = 0; channel < TEXTURE_STAGES; channel++)
-        vertex_texcoord(E, k, channel);
-    vertex_constants(E, k);
+        if (reads_channel(k, channel))
+            vertex_coordinates(E, k, channel, &camera);
 }

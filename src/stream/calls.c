@@ -11,6 +11,9 @@
 
 const struct triptych_material stream_default_material = {.diffuse = {1, 1, 1, 1}};
 const struct triptych_light stream_default_light = {
+    .theta = 0.5f,
+    .phi = 1,
+    .falloff = 1,
     .type = TRIPTYCH_LIGHT_DIRECTIONAL,
     .diffuse = {1, 1, 1, 1},
     .direction = {0, 0, 1},
@@ -272,12 +275,31 @@ static int round_matrix(struct parser *parser, const struct token *place, double
     return 0;
 }
 
+/* The number of a texture's matrix, and of a world matrix other than the first: what is added to the
+ * transform. */
+static int parse_transform_number(struct parser *parser, unsigned which, uint32_t *number)
+{
+    const struct token *token = &parser->lex.token;
+    int given = token->type == TOKEN_WORD && token->text[0] >= '0' && token->text[0] <= '9';
+    if (which == TRIPTYCH_TRANSFORM_TEXTURE0)
+        return parse_integer(parser, "texture matrix", 7, number);
+    if (which != TRIPTYCH_TRANSFORM_WORLD || !given)
+        return 0;
+    if (parse_integer(parser, "world matrix", 255, number))
+        return -1;
+    if (*number)
+        *number += TRIPTYCH_TRANSFORM_WORLD1 - 1;
+    return 0;
+}
+
 int parse_transform(struct parser *parser, struct call *call)
 {
     struct lexer *lex = &parser->lex;
     double matrix[4][4], next[4][4];
     unsigned which;
-    if (parse_word(parser, WORDS_TRANSFORM, "a transform", &which))
+    uint32_t number = 0;
+    if (parse_word(parser, WORDS_TRANSFORM, "a transform", &which) ||
+        parse_transform_number(parser, which, &number))
         return -1;
     struct token place = lex->token;
     /* The first matrix is not multiplied by the identity, which would lose the sign of its zeros. */
@@ -290,7 +312,7 @@ int parse_transform(struct parser *parser, struct call *call)
             return -1;
         transform_multiply(matrix, next, matrix);
     }
-    call->transform.which = (enum triptych_transform)which;
+    call->transform.which = (enum triptych_transform)(which + number);
     return round_matrix(parser, &place, matrix, call->transform.matrix);
 }
 
@@ -299,33 +321,51 @@ int parse_material(struct parser *parser, struct call *call)
     call->material = stream_default_material;
     struct field fields[] = {{"diffuse", call->material.diffuse, 4, 0},
                              {"ambient", call->material.ambient, 4, 0},
-                             {"emissive", call->material.emissive, 4, 0}};
-    return parse_fields(parser, fields, 3);
+                             {"emissive", call->material.emissive, 4, 0},
+                             {"specular", call->material.specular, 4, 0},
+                             {"power", &call->material.power, 1, 0}};
+    return parse_fields(parser, fields, 5);
+}
+
+/* Those of the fields whose bit is set; there are no more than a light has. */
+static int parse_chosen_fields(struct parser *parser, const struct field *fields, unsigned chosen)
+{
+    struct field left[16];
+    size_t count = 0;
+    for (unsigned i = 0; chosen >> i; i++)
+        if (chosen >> i & 1)
+            left[count++] = fields[i];
+    return parse_fields(parser, left, count);
 }
 
 int parse_light(struct parser *parser, struct call *call)
 {
     struct lexer *lex = &parser->lex;
     struct triptych_light *light = &call->light.value;
-    struct field directional[] = {{"diffuse", light->diffuse, 4, 0},
-                                  {"ambient", light->ambient, 4, 0},
-                                  {"direction", light->direction, 3, 0}};
-    struct field point[] = {{"diffuse", light->diffuse, 4, 0},
-                            {"ambient", light->ambient, 4, 0},
-                            {"position", light->position, 3, 0},
-                            {"range", &light->range, 1, 0},
-                            {"attenuation", light->attenuation, 3, 0}};
+    struct field fields[] = {{"diffuse", light->diffuse, 4, 0},
+                             {"ambient", light->ambient, 4, 0},
+                             {"specular", light->specular, 4, 0},
+                             {"direction", light->direction, 3, 0},
+                             {"position", light->position, 3, 0},
+                             {"range", &light->range, 1, 0},
+                             {"attenuation", light->attenuation, 3, 0},
+                             {"theta", &light->theta, 1, 0},
+                             {"phi", &light->phi, 1, 0},
+                             {"falloff", &light->falloff, 1, 0}};
+    static const struct {
+        const char *word;
+        unsigned fields; /* that it has */
+    } types[] = {{"directional", 0x00f}, {"point", 0x077}, {"spot", 0x3ff}};
     if (parse_integer(parser, "light", TRIPTYCH_LIGHTS - 1, &call->light.index))
         return -1;
     *light = stream_default_light;
-    if (lex_is(lex, "directional"))
-        return lex_next(lex) ? -1 : parse_fields(parser, directional, 3);
-    if (lex_is(lex, "point")) {
-        light->type = TRIPTYCH_LIGHT_POINT;
-        return lex_next(lex) ? -1 : parse_fields(parser, point, 5);
-    }
+    for (unsigned type = 0; type < sizeof types / sizeof *types; type++)
+        if (lex_is(lex, types[type].word)) {
+            light->type = (enum triptych_light_type)type;
+            return lex_next(lex) ? -1 : parse_chosen_fields(parser, fields, types[type].fields);
+        }
     if (!lex_is(lex, "on") && !lex_is(lex, "off"))
-        return lex_expected(lex, "directional, point, on or off");
+        return lex_expected(lex, "directional, point, spot, on or off");
     call->type = CALL_ENABLE_LIGHT;
     call->light.on = lex_is(lex, "on");
     return lex_next(lex);

@@ -331,6 +331,16 @@ static void write_set(struct writer *writer, const struct call *call)
     write_value(writer, state->kind, call->set.value);
 }
 
+static void write_transform_name(struct writer *writer, unsigned which)
+{
+    if (which >= TRIPTYCH_TRANSFORM_WORLD1)
+        fprintf(writer->out, "transform world %u", which - TRIPTYCH_TRANSFORM_WORLD1 + 1);
+    else if (which >= TRIPTYCH_TRANSFORM_TEXTURE0)
+        fprintf(writer->out, "transform texture %u", which - TRIPTYCH_TRANSFORM_TEXTURE0);
+    else
+        fprintf(writer->out, "transform %s", word_text(WORDS_TRANSFORM, which));
+}
+
 static void write_material(struct writer *writer, const struct triptych_material *material)
 {
     const struct triptych_material *initial = &stream_default_material;
@@ -338,22 +348,30 @@ static void write_material(struct writer *writer, const struct triptych_material
     write_field(writer, "diffuse", material->diffuse, initial->diffuse, 4);
     write_field(writer, "ambient", material->ambient, initial->ambient, 4);
     write_field(writer, "emissive", material->emissive, initial->emissive, 4);
+    write_field(writer, "specular", material->specular, initial->specular, 4);
+    write_field(writer, "power", &material->power, &initial->power, 1);
 }
 
 static void write_light(struct writer *writer, uint32_t index, const struct triptych_light *light)
 {
     const struct triptych_light *initial = &stream_default_light;
-    int point = light->type == TRIPTYCH_LIGHT_POINT;
-    fprintf(writer->out, "light %" PRIu32 " %s", index, point ? "point" : "directional");
+    static const char *const type[] = {"directional", "point", "spot"};
+    fprintf(writer->out, "light %" PRIu32 " %s", index, type[light->type]);
     write_field(writer, "diffuse", light->diffuse, initial->diffuse, 4);
     write_field(writer, "ambient", light->ambient, initial->ambient, 4);
-    if (!point) {
+    write_field(writer, "specular", light->specular, initial->specular, 4);
+    if (light->type != TRIPTYCH_LIGHT_POINT)
         write_field(writer, "direction", light->direction, initial->direction, 3);
+    if (light->type == TRIPTYCH_LIGHT_DIRECTIONAL)
         return;
-    }
     write_field(writer, "position", light->position, initial->position, 3);
     write_field(writer, "range", &light->range, &initial->range, 1);
     write_field(writer, "attenuation", light->attenuation, initial->attenuation, 3);
+    if (light->type == TRIPTYCH_LIGHT_POINT)
+        return;
+    write_field(writer, "theta", &light->theta, &initial->theta, 1);
+    write_field(writer, "phi", &light->phi, &initial->phi, 1);
+    write_field(writer, "falloff", &light->falloff, &initial->falloff, 1);
 }
 
 static void write_bind_element(struct writer *writer, const struct call *call, const char *name)
@@ -475,7 +493,7 @@ static void write_call(struct writer *writer, const struct call *call)
         write_numbers(writer, call->clip_plane.plane, 4);
         break;
     case CALL_TRANSFORM:
-        fprintf(out, "transform %s", word_text(WORDS_TRANSFORM, call->transform.which));
+        write_transform_name(writer, call->transform.which);
         write_field(writer, "matrix", &call->transform.matrix[0][0], NULL, 16);
         break;
     case CALL_MATERIAL: write_material(writer, &call->material); break;

@@ -583,6 +583,7 @@ static void change_normals(void)
 
 static void without_lights_normals_are_dead(void)
 {
+    SET(colorvertex, "false");
     expect_same_keys(change_normals);
     TEST_ASSERT_EQUAL_INT(1, key[UNIT_VERTEX].vertex.lighting);
     TEST_ASSERT_EQUAL_INT(ATTRIBUTE_FORMAT_NONE, key[UNIT_VERTEX].vertex.attribute[ATTRIBUTE_DIFFUSE]);
@@ -705,6 +706,7 @@ static void the_normal_matrix_keeps_normals_perpendicular(void)
     static const float matrix[3][3] = {{1, 2, -1}, {0.5f, -3, 2}, {4, 0, 1.5f}};
     for (int i = 0; i < 3; i++)
         memcpy(state.transform[TRIPTYCH_TRANSFORM_WORLD][i], matrix[i], sizeof matrix[i]);
+    state.light_enabled[0] = 1;
     derive();
     const float normal[3] = {1, 1, -2}, tangent[3] = {4, 2, 3};
     float n[3] = {0}, t[3] = {0};
@@ -736,7 +738,9 @@ static void directional_lights_point_to_the_light_in_camera_space(void)
 static void base_colour_collects_what_no_vertex_changes(void)
 {
     state.value[TRIPTYCH_STATE_ambient] = 0x00ff8000;
-    state.material = (struct triptych_material){{.5f, 1, 1, .25f}, {.5f, .5f, .5f, 1}, {.125f, 0, 0, 1}};
+    SET(colorvertex, "false");
+    state.material = (struct triptych_material){
+        .diffuse = {.5f, 1, 1, .25f}, .ambient = {.5f, .5f, .5f, 1}, .emissive = {.125f, 0, 0, 1}};
     state.light_enabled[0] = state.light_enabled[1] = 1;
     state.light[0].ambient[2] = 1;
     state.light[1].type = TRIPTYCH_LIGHT_POINT;

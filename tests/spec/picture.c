@@ -354,8 +354,8 @@ static double light_adds(const struct triptych_light *light, const struct tripty
 
 static void check_one_lighting(unsigned lights, int normalize)
 {
-    struct triptych_light light[TRIPTYCH_LIGHTS];
-    struct triptych_material material;
+    struct triptych_light light[TRIPTYCH_LIGHTS] = {{0}};
+    struct triptych_material material = {.power = 1};
     double normal[3];
     float given[3];
     random_color(material.diffuse, 1);
@@ -371,6 +371,7 @@ static void check_one_lighting(unsigned lights, int normalize)
         OK(triptych_enable_light(device, i, i < lights));
     }
     set(TRIPTYCH_STATE_normalizenormals, normalize ? "true" : "false");
+    set(TRIPTYCH_STATE_colorvertex, "false");
     OK(triptych_set_state(device, TRIPTYCH_STATE_ambient, 0xff204060));
     draw_square(0, 0, given, 0, 0, 1, 1);
     OK(triptych_read_color(device, image));

@@ -79,6 +79,22 @@ static void logarithms_of_powers_are_exact(void)
     TEST_ASSERT_EQUAL_FLOAT(3, evaluate(logarithm2, -8));
 }
 
+static void powers_are_within_their_bound(void)
+{
+    struct env e = {{0}};
+    for (int i = 1; i <= 1000; i++)
+        for (int j = 0; j <= 400; j++) {
+            float x = (float)i / 1000, y = (float)(j * j) / 300;
+            double exact = pow((double)x, (double)y), exponent = fabs((double)y * log2((double)x));
+            if (exponent > 124)
+                continue;
+            float got = power(&e, lit_f(&e, x), lit_f(&e, y)).lane[0];
+            TEST_ASSERT_TRUE(relative_error(got, exact) <= 2e-7 + 1.5e-7 * (double)y + 2e-7 * exponent);
+        }
+    TEST_ASSERT_EQUAL_FLOAT(1, power(&e, lit_f(&e, 1), lit_f(&e, 1000)).lane[0]);
+    TEST_ASSERT_EQUAL_FLOAT(1, power(&e, lit_f(&e, 0.3f), lit_f(&e, 0)).lane[0]);
+}
+
 int main(void)
 {
     UNITY_BEGIN();
@@ -87,5 +103,6 @@ int main(void)
     RUN_TEST(beyond_the_range_powers_are_zero_and_infinite);
     RUN_TEST(a_logarithm_is_within_its_bounds);
     RUN_TEST(logarithms_of_powers_are_exact);
+    RUN_TEST(powers_are_within_their_bound);
     return UNITY_END();
 }

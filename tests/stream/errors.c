@@ -116,7 +116,15 @@ static const struct bad lines[] = {
     {"transform world scale 1 1x 1\n", "2:25", "found '1x', expected a number"},
     {"transform world scale 1 -inf 1\n", "2:25", "found '-inf', expected a number"},
     {"transform world\n", "2:16", "found the end of the line, expected identity, matrix"},
-    {"transform texture identity\n", "2:11", "expected a transform: world, view, projection"},
+    {"transform model identity\n", "2:11", "expected a transform: world, view, projection, texture"},
+    {"transform texture identity\n", "2:19", "expected an integer (texture matrix) from 0 to 7"},
+    {"transform texture 8 identity\n", "2:19", "expected an integer (texture matrix) from 0 to 7"},
+    {"transform world 256 identity\n", "2:17", "expected an integer (world matrix) from 0 to 255"},
+    {"light 0 spot theta 2 phi 1\n", "2:1", "light theta 2: expected an angle from 0 to phi, 1"},
+    {"light 0 spot phi 4\n", "2:1", "light phi 4: expected an angle from 0 to pi"},
+    {"light 0 spot falloff -1\n", "2:1", "light falloff -1: expected 0 or more"},
+    {"light 0 point theta 1\n", "2:15", "found 'theta', expected diffuse, ambient, specular, position"},
+    {"material power -1\n", "2:1", "material power -1: expected 0 or more"},
     {"transform view skew 1 2 3\n", "2:16", "found 'skew', expected identity"},
     {"transform world rotate 90 0 0 0\n", "2:17", "expected an axis that is not zero"},
     {"transform view lookat 1 2 3 1 2 3 0 1 0\n", "2:16", "expected a point to look at that is not the eye"},
@@ -130,13 +138,13 @@ static const struct bad lines[] = {
 
     /* Light */
     {"light 8 on\n", "2:7", "expected an integer (light) from 0 to 7"},
-    {"light 0 spot\n", "2:9", "expected directional, point, on or off"},
+    {"light 0 area\n", "2:9", "expected directional, point, spot, on or off"},
     {"light 0 directional position 0 0 0\n", "2:21",
-     "found 'position', expected diffuse, ambient, direction"},
+     "found 'position', expected diffuse, ambient, specular, direction"},
     {"light 0 directional direction 0 0 0\n", "2:1", "expected a direction other than zero"},
     {"light 0 point range -1\n", "2:1", "expected 0 or more"},
     {"material shiny 1\n", "2:10",
-     "found 'shiny', expected diffuse, ambient, emissive, or the end of the line"},
+     "found 'shiny', expected diffuse, ambient, emissive, specular, power, or the end of the line"},
 
     /* Names and resources */
     {"texture none 1 1 { ffffffff }\n", "2:9", "found 'none', expected a name"},

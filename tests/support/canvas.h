@@ -23,7 +23,8 @@ void on_every_engine(void (*test)(void));
 /* Destroys the device of a test that failed: for tearDown. */
 void close_canvas(void);
 
-/* The same sequence on every engine. */
+/* The same sequence on every engine; from its beginning with random_begin. */
+void random_begin(void);
 uint32_t random_word(void);
 double random_between(double low, double high);
 

@@ -18,6 +18,7 @@ enum {
     SMALL_SIDE = 16,
     LEVELS = 7,
     TEXTURE_BYTES = TEXTURE_SIDE * TEXTURE_SIDE * 4 * 6 * 2, /* a cube with its levels */
+    PALETTE_BYTES = WORLD_MATRICES * sizeof(struct palette_entry),
     RECORD_MAXIMUM = 256,
     TRIANGLES = 32,
     ENTRIES = 48,
@@ -46,6 +47,7 @@ struct differential {
     uint8_t *stream[ATTRIBUTE_COUNT]; /* fenced */
     uint8_t *texels;                  /* fenced */
     struct texture_level levels[TEXTURE_STAGES][LEVELS];
+    uint8_t *palette; /* fenced */
     alignas(64) uint32_t index_words[1 + SETUP_INDEX_ROWS * SETUP_CAPACITY];
     struct entry entries[ENTRIES];
     alignas(64) uint8_t triangles[TRIANGLES * RECORD_MAXIMUM];
@@ -61,7 +63,8 @@ struct differential *differential_create(struct code_arena *arena)
     memset(d, 0, sizeof *d);
     d->arena = arena;
     d->texels = fence(TEXTURE_BYTES);
-    int complete = d->texels != NULL;
+    d->palette = fence(PALETTE_BYTES);
+    int complete = d->texels && d->palette;
     for (int a = 0; a < ATTRIBUTE_COUNT; a++)
         complete &= (d->stream[a] = fence(STREAM_BYTES)) != NULL;
     if (complete)
@@ -77,6 +80,7 @@ void differential_destroy(struct differential *d)
     for (int a = 0; a < ATTRIBUTE_COUNT; a++)
         unfence(d->stream[a], STREAM_BYTES);
     unfence(d->texels, TEXTURE_BYTES);
+    unfence(d->palette, PALETTE_BYTES);
     free(d);
 }
 
@@ -154,7 +158,26 @@ static void make_lights(struct differential *d)
         light->attenuation0 = number(d, 0, 1);
         light->attenuation1 = number(d, 0, 1);
         light->attenuation2 = number(d, 0, 1);
+        fill(d, light->specular, sizeof light->specular, 0, 1);
+        fill(d, light->axis, sizeof light->axis, -1, 1);
+        light->outer_cosine = number(d, -0.5f, 0.5f);
+        light->cone_scale = number(d, 0.5f, 4);
+        light->falloff = below(d, 4) ? number(d, 0, 4) : 1;
     }
+    fill(d, d->job.ambient_light, sizeof d->job.ambient_light, 0, 1);
+    d->job.power = below(d, 4) ? number(d, 0, 30) : 0;
+    d->job.specular_alpha = number(d, 0, 1);
+}
+
+/* What blends positions; the palette ends at a fence. */
+static void make_skin(struct differential *d)
+{
+    fill(d, d->job.projection, sizeof d->job.projection, -2, 2);
+    fill(d, d->job.blend, sizeof d->job.blend, -1, 1);
+    fill(d, d->job.texture_matrix, sizeof d->job.texture_matrix, -1, 1);
+    fill(d, d->palette, PALETTE_BYTES, -1, 1);
+    d->job.palette = (const void *)d->palette;
+    d->job.tween_factor = number(d, -0.5f, 1.5f);
 }
 
 /* Every vertex at the camera and every light at exactly its range, where "within" and "below" differ. */
@@ -176,6 +199,7 @@ static void make_job(struct differential *d)
     fill(d, job->world_view, sizeof job->world_view, -2, 2);
     fill(d, job->normal, sizeof job->normal, -2, 2);
     make_lights(d);
+    make_skin(d);
     if (!below(d, 8))
         put_lights_at_their_range(d);
     job->guard_x = between(d, 1, 50);
@@ -637,11 +661,13 @@ static void blend_usually(uint64_t chance, struct pixel_key *key)
         }
 }
 
-/* Among all keys few have positions that are transformed, of types that are usual. */
+/* Among all keys few have positions that are transformed, of types that are usual, or one matrix. */
 static void declare_usually(uint64_t chance, struct vertex_key *key)
 {
     if (chance >> 33 & 3)
         key->attribute[ATTRIBUTE_POSITIONT] = ATTRIBUTE_FORMAT_NONE;
+    if (chance >> 36 & 1)
+        key->matrices = key->tween = 0;
     if (chance >> 35 & 1)
         for (int a = 0; a < ATTRIBUTE_COUNT; a++)
             key->attribute[a] %= ATTRIBUTE_FORMAT_COLOR + 1;

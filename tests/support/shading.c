@@ -1,7 +1,9 @@
 #include "tests/support/shading.h"
 
+#include "tests/support/canvas.h"
+
 #include "base/code.h"
-#include "draw/derive.h"
+#include "draw/derive_part.h"
 #include "engines.h"
 
 #include <string.h>
@@ -10,6 +12,8 @@ struct state shading_state;
 alignas(64) float shaded[SLOT_COUNT * VERTEX_CAPACITY];
 union key shading_key[UNIT_COUNT];
 struct job shading_job;
+uint8_t shading_varying[VARYING_COUNT];
+const struct palette_entry *shading_palette;
 
 static const struct engine *engine;
 static struct code_arena *arena;
@@ -56,8 +60,19 @@ void shade(uint32_t count)
     for (uint32_t i = 0; i < padded; i++)
         index[i] = i < count ? i : count - 1;
     derive_keys(&shading_state, PRIMITIVE_TRIANGLE, shading_key);
+    struct pixel_key *pixel = &shading_key[UNIT_PIXEL].pixel;
+    for (int v = 0; v < VARYING_COUNT; v++)
+        if (shading_varying[v])
+            pixel->varying[v] = shading_varying[v];
+    if (shading_varying[VARYING_fog])
+        pixel->fog = FOG_VARYING;
+    memset(&shading_key[UNIT_VERTEX], 0, sizeof shading_key[UNIT_VERTEX]);
+    struct setup_key *setup = &shading_key[UNIT_SETUP].setup;
+    memcpy(setup->varying, pixel->varying, sizeof setup->varying);
+    derive_vertex(&shading_state, pixel, setup, &shading_key[UNIT_VERTEX].vertex);
     derive_job(&shading_state, &shading_key[UNIT_VERTEX].vertex, &shading_key[UNIT_PIXEL].pixel,
                &shading_job);
+    shading_job.palette = shading_palette;
     struct routine *routine = engine->build(arena, UNIT_VERTEX, &shading_key[UNIT_VERTEX], &error);
     TEST_ASSERT_NOT_NULL_MESSAGE(routine, error.text);
     struct vertex_call call = {&shading_job, index, shaded, padded};
@@ -81,7 +96,10 @@ void shading_on_every_engine(void (*test)(void))
         if (engine->unavailable())
             continue;
         arena = engine->interprets ? NULL : code_create(1 << 22, NULL, &error);
+        shading_palette = NULL;
+        random_begin();
         state_initialize(&shading_state);
+        memset(shading_varying, 0, sizeof shading_varying);
         struct triptych_viewport viewport = {0, 0, 64, 64, 0, 1};
         TEST_ASSERT_EQUAL_INT(TRIPTYCH_OK, state_set_viewport(&shading_state, &viewport, 64, 64, &error));
         test();

@@ -13,6 +13,12 @@ extern float shaded[SLOT_COUNT * VERTEX_CAPACITY]; /* what the last run made: th
 extern union key shading_key[UNIT_COUNT];          /* what the last run was derived to */
 extern struct job shading_job;
 
+/* Varyings that are read whatever the state says; all 0 when a test begins. */
+extern uint8_t shading_varying[VARYING_COUNT];
+
+/* The palette of indexed vertex blending; null when a test begins. */
+extern const struct palette_entry *shading_palette;
+
 /* Runs a test once for every engine that can run here, each time from the default state. */
 void shading_on_every_engine(void (*test)(void));
 
