@@ -58,3 +58,21 @@ fragment clip_code, JOB | OUTPUT | CONSTANTS | M_TO(8, 11), NOTHING, M(7) | M_TO
                 outside_pair    x                           ; CLIP_RIGHT, CLIP_LEFT
     fill 2,     vmovdqa         [at_output], code
 end_fragment
+
+; A user clip plane, behind `clip_code`. Arguments: the plane in the job, number of its bit, slot of the code.
+fragment clip_plane, JOB | OUTPUT | M_TO(8, 11), NOTHING, M(12) | M(13)
+    fill 0,     vbroadcastss    m12, [at_job + 12]
+    fill 0,     vbroadcastss    m13, [at_job + 8]
+                vmulps          m12, m12, w
+                vfmadd231ps     m12, z, m13
+    fill 0,     vbroadcastss    m13, [at_job + 4]
+                vfmadd231ps     m12, y, m13
+    fill 0,     vbroadcastss    m13, [at_job]
+                vfmadd231ps     m12, x, m13
+                vxorps          m13, m13, m13
+                vcmpnleps       m13, m13, m12
+                vpsrld          m13, m13, 31
+    fill_byte 1, vpslld         m13, m13, 0
+    fill 2,     vpor            m13, m13, [at_output]
+    fill 2,     vmovdqa         [at_output], m13
+end_fragment

@@ -213,14 +213,17 @@ end_fragment
                 vextractps      [rax + stride_3 + 8], %3, 3
 %endmacro
 
-; m8 m9 m10, the value at the corners, to planes in the records.
-%macro record_plane 1 ; argument
+; m8 m9 m10, the value at the corners, to the planes m8 + m11 x + m12 y.
+%macro make_plane 0
                 vsubps          m9, m9, m8                  ; d1
                 vsubps          m10, m10, m8                ; d2
                 vmulps          m11, m10, m1
                 vmulps          m12, m10, m0
                 vfmadd231ps     m11, m9, m3                 ; dx = d1 * u1 + (d2 * u2)
                 vfmadd231ps     m12, m9, m2                 ; dy = d1 * v1 + (d2 * v2)
+%endmacro
+
+%macro store_plane 1 ; argument
     fill %1,    lea             rax, [at_output]
                 vunpcklps       m9, m8, m11
                 vunpckhps       m10, m8, m11
@@ -230,6 +233,11 @@ end_fragment
                 vextractf128    xm10, m10, 1
                 vextractf128    xm12, m12, 1
                 store_planes    xm9, xm10, xm12
+%endmacro
+
+%macro record_plane 1 ; argument
+                make_plane
+                store_plane     %1
 %endmacro
 
 %macro corner_plane 2 ; name, what the corners have
@@ -244,6 +252,33 @@ end_fragment
 ; Argument: the plane in the record.
 corner_plane depth_plane, CORNER_DEPTH
 corner_plane reciprocal_w_plane, RECIPROCAL_W
+
+; With an offset. Arguments: the plane in the record, the job's bias, the job's factor of the slope.
+%macro biased_plane 2 ; name, 1 if there is a factor
+fragment %1, FRAME | JOB | CONSTANTS | OUTPUT | STRIDE | STRIDE_3 | M_TO(0, 3), NOTHING, \
+             R_AX | M(6) | M(7) | M_TO(8, 12)
+                vmovaps         m8, [corner(0, CORNER_DEPTH)]
+                vmovaps         m9, [corner(1, CORNER_DEPTH)]
+                vmovaps         m10, [corner(2, CORNER_DEPTH)]
+                make_plane
+    fill 1,     vbroadcastss    m10, [at_job]
+  %if %2
+                vmovaps         m9, [constants + SIGN]
+                vxorps          m6, m11, m9
+                vxorps          m7, m12, m9
+                vmaxps          m6, m11, m6
+                vmaxps          m7, m12, m7
+                vmaxps          m6, m6, m7                  ; the greatest slope
+    fill 2,     vbroadcastss    m7, [at_job]
+                vfmadd231ps     m10, m6, m7
+  %endif
+                vaddps          m8, m8, m10
+                store_plane     0
+end_fragment
+%endmacro
+
+biased_plane depth_plane_bias, 0
+biased_plane depth_plane_slope, 1
 
 ; Arguments: slot of the component, the plane in the record.
 fragment smooth_plane, FRAME | VERTICES | OUTPUT | STRIDE | STRIDE_3 | M_TO(0, 3), NOTHING, \

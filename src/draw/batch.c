@@ -273,7 +273,7 @@ static bool add_parts(struct batch *batch, struct clipper *clipper, const uint8_
     if (!make_room(batch, clipper, primitive, false))
         return false;
     struct clipped clipped = {.count = 3, .lane = {lane[0], lane[1], lane[2]}, .corners = 7, .edges = 7};
-    if (((any & CLIP_NEEDED) || draw->wrapped) && clip_polygon(clipper, lane, &clipped)) {
+    if (((any & CLIP_NEEDED) || clipper->wrapped) && clip_polygon(clipper, lane, &clipped)) {
         if (!make_room(batch, clipper, primitive, true))
             return false;
         clip_polygon(clipper, lane, &clipped);
@@ -315,7 +315,7 @@ static bool end_batch(struct batch *batch)
         clipper_create(&batch->draw->job, key->varying, batch->vertices, batch->vertices_count);
     clipper.window = key->window;
     clipper.ignored = batch->draw->clip_ignored;
-    clipper.wrapped = batch->draw->wrapped;
+    clipper.wrapped = primitive_is_point(key->primitive) ? 0 : batch->draw->wrapped;
     batch->setup_count = 0;
     return add_all(batch, &clipper, key->primitive) && set_up(batch, batch->first + batch->triangles_count);
 }

@@ -410,8 +410,11 @@ static void plan_corner(struct plan *plan, const struct setup_key *key, int i)
 
 static void plan_planes(struct plan *plan, const struct setup_key *key, const struct triangle_layout *layout)
 {
+    static const struct fragment *const depth_plane[DEPTH_BIAS_COUNT] = {
+        &fragment_depth_plane, &fragment_depth_plane_bias, &fragment_depth_plane_slope};
     if (key->depth)
-        plan_append(plan, &fragment_depth_plane, ARGUMENTS(layout->depth));
+        plan_append(plan, depth_plane[key->depth_bias],
+                    ARGUMENTS(layout->depth, JOB(depth_bias), JOB(depth_bias_slope)));
     if (layout->smooth)
         plan_append(plan, &fragment_reciprocal_w_plane, ARGUMENTS(layout->reciprocal_w));
     for (int v = 0; v < VARYING_COUNT; v++)
@@ -510,6 +513,10 @@ static void plan_transform(struct plan *plan, const struct vertex_key *key)
     plan_append(plan, with_w ? &fragment_clip_position_w : &fragment_clip_position,
                 ARGUMENTS(JOB(world_view_projection), SLOT(X), SLOT(Y), SLOT(Z), SLOT(W)));
     plan_append(plan, &fragment_clip_code, ARGUMENTS(JOB(guard_x), JOB(guard_y), SLOT(CODE)));
+    for (int i = 0; i < key->clip_planes; i++)
+        plan_append(plan, &fragment_clip_plane,
+                    ARGUMENTS(JOB(clip_plane) + i * (int32_t)sizeof(float[4]), __builtin_ctz(CLIP_USER) + i,
+                              SLOT(CODE)));
 }
 
 static void plan_vertex(struct plan *plan, const union key *all)

@@ -108,6 +108,7 @@ static void vertex_plans_keep_the_contract(void)
                 key.vertex.attribute[a] = (uint8_t)(digits % FORMATS);
             key.vertex.lighting = digits & 1;
             key.vertex.normalize = digits >> 1 & 1;
+            key.vertex.clip_planes = (uint8_t)(rest % 3);
             key.vertex.varying[0] = digits >> 2 & 1;
             key.vertex.varying[1] = digits >> 3 & 1;
             set_lights(&key.vertex, pattern);
