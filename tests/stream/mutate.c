@@ -72,6 +72,14 @@ static const char *const pieces[] = {
     "position:float3",
     "target 1 1\n",
     "strip",
+    "texture m 2d A8R8G8B8 4 4 mips gradient\n",
+    "cube",
+    "volume",
+    "DXT1",
+    "levels",
+    "mips",
+    "update m",
+    "fill",
     "on",
 };
 
