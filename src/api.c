@@ -539,6 +539,52 @@ enum triptych_result triptych_read_target_numbers(triptych_device *device, unsig
     return finish(device, device_read_target_numbers(device, t, rgba, &error), &error);
 }
 
+enum triptych_result triptych_set_target_textures(triptych_device *device,
+                                                  const struct triptych_target_textures *textures)
+{
+    if (!device)
+        return TRIPTYCH_BAD_ARGUMENT;
+    struct error error = {{0}};
+    return finish(device, device_set_target_textures(device, textures, &error), &error);
+}
+
+enum triptych_result triptych_copy(triptych_device *device, const struct triptych_surface *source,
+                                   const struct triptych_rectangle *source_part,
+                                   const struct triptych_surface *target,
+                                   const struct triptych_rectangle *target_part,
+                                   enum triptych_copy_filter filter)
+{
+    if (!device)
+        return TRIPTYCH_BAD_ARGUMENT;
+    if (!source || !target)
+        return null_argument(device, source ? "target" : "source");
+    const struct device_copy_ends ends = {{source, target}, {source_part, target_part}};
+    struct error error = {{0}};
+    return finish(device, device_copy(device, &ends, filter, &error), &error);
+}
+
+enum triptych_result triptych_read_surface(triptych_device *device, const struct triptych_surface *surface,
+                                           uint32_t *rgba)
+{
+    if (!device)
+        return TRIPTYCH_BAD_ARGUMENT;
+    if (!surface || !rgba)
+        return null_argument(device, surface ? "image" : "surface");
+    struct error error = {{0}};
+    return finish(device, device_read_surface(device, surface, rgba, &error), &error);
+}
+
+enum triptych_result triptych_read_surface_numbers(triptych_device *device,
+                                                   const struct triptych_surface *surface, float *rgba)
+{
+    if (!device)
+        return TRIPTYCH_BAD_ARGUMENT;
+    if (!surface || !rgba)
+        return null_argument(device, surface ? "image" : "surface");
+    struct error error = {{0}};
+    return finish(device, device_read_surface_numbers(device, surface, rgba, &error), &error);
+}
+
 enum triptych_result triptych_read_depth(triptych_device *device, float *depth)
 {
     if (!device)

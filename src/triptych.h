@@ -219,6 +219,29 @@ struct triptych_target_description {
     enum triptych_surface_format color_format[TRIPTYCH_TARGETS];
 };
 
+/* One image of a texture: a level, of the face of a cube or the slice of a volume that `slice` numbers. Without
+ * a texture it is colour target number `slice` of the target that triptych_set_target made, where that is
+ * allowed, and no surface elsewhere. */
+struct triptych_surface {
+    triptych_texture *texture;
+    unsigned level, slice;
+};
+
+/* Surfaces to draw to, all of one size. Without a depth texture the target has depth of its own, which begins
+ * anew; a texture of a depth format brings its contents, stencil 0. */
+struct triptych_target_textures {
+    struct triptych_surface color[TRIPTYCH_TARGETS];
+    struct triptych_surface depth;
+    enum triptych_depth_format depth_format; /* without a depth texture */
+};
+
+/* Part of an image, in pixels. */
+struct triptych_rectangle {
+    unsigned x, y, width, height;
+};
+
+enum triptych_copy_filter { TRIPTYCH_COPY_POINT, TRIPTYCH_COPY_LINEAR, TRIPTYCH_COPY_COUNT };
+
 /* One element of a vertex declaration. */
 struct triptych_declaration_element {
     unsigned stream; /* 0 to 15 */
@@ -368,6 +391,26 @@ TRIPTYCH_API enum triptych_result triptych_set_target(triptych_device *, unsigne
 /* The same with formats of choice. */
 TRIPTYCH_API enum triptych_result triptych_set_target_description(triptych_device *,
                                                                   const struct triptych_target_description *);
+
+/* Draws to textures from here on, and back to the target that was set before, contents unchanged, when it is
+ * null. Either sets viewport and scissor rectangle as triptych_set_target does, which ends it too. A texture
+ * that is drawn to cannot be sampled at the same time. */
+TRIPTYCH_API enum triptych_result triptych_set_target_textures(triptych_device *,
+                                                               const struct triptych_target_textures *);
+
+/* Copies a part of a surface to a part of another one (null: all of it), scaled if their sizes differ, and
+ * converted to the other's format, which must be one that can be drawn to; formats of depth cannot be copied. */
+TRIPTYCH_API enum triptych_result triptych_copy(triptych_device *, const struct triptych_surface *source,
+                                                const struct triptych_rectangle *source_part,
+                                                const struct triptych_surface *target,
+                                                const struct triptych_rectangle *target_part,
+                                                enum triptych_copy_filter filter);
+
+/* A surface's texels, as RGBA8 words or as four numbers each, like triptych_read_target. */
+TRIPTYCH_API enum triptych_result triptych_read_surface(triptych_device *, const struct triptych_surface *,
+                                                        uint32_t *rgba);
+TRIPTYCH_API enum triptych_result triptych_read_surface_numbers(triptych_device *,
+                                                                const struct triptych_surface *, float *rgba);
 
 /* Copies `bytes` (1 to 2^31 - 1) of data; the contents never change. */
 TRIPTYCH_API enum triptych_result triptych_buffer_create(triptych_device *, const void *data, size_t bytes,

@@ -101,6 +101,7 @@ void device_destroy(struct triptych_device *device)
     cache_destroy(device->cache);
     code_destroy(device->arena);
     target_destroy(&device->target);
+    target_destroy(&device->parked);
     queries_destroy(&device->queries);
     for (struct triptych_buffer *buffer = device->buffers, *next; buffer; buffer = next) {
         next = buffer->next;
@@ -132,8 +133,8 @@ static enum triptych_result check_color_formats(const struct triptych_target_des
     return TRIPTYCH_OK;
 }
 
-static enum triptych_result check_description(const struct triptych_target_description *description,
-                                              struct error *error)
+enum triptych_result device_check_target(const struct triptych_target_description *description,
+                                         struct error *error)
 {
     unsigned width = description->width, height = description->height;
     if (!width || !height || width > TARGET_SIZE_MAXIMUM || height > TARGET_SIZE_MAXIMUM) {
@@ -154,12 +155,13 @@ enum triptych_result device_set_target(struct triptych_device *device,
                                        struct error *error)
 {
     struct target target;
-    enum triptych_result result = check_description(description, error);
+    enum triptych_result result = device_check_target(description, error);
     if (result != TRIPTYCH_OK)
         return result;
     if (target_create(&target, description, error))
         return TRIPTYCH_NO_MEMORY;
     device_finish(device);
+    device_leave_textures(device);
     target_destroy(&device->target);
     device->target = target;
     state_set_target(&device->state, description);
@@ -183,12 +185,6 @@ enum triptych_result device_texture_create(struct triptych_device *device,
     return TRIPTYCH_OK;
 }
 
-static void before_change(struct triptych_device *device, const struct triptych_texture *texture)
-{
-    if (texture->recording == device->recording)
-        device_finish(device);
-}
-
 enum triptych_result device_texture_update(struct triptych_device *device, struct triptych_texture *texture,
                                            unsigned face, unsigned level, const struct triptych_box *box,
                                            const void *data, size_t row_pitch, size_t slice_pitch,
@@ -198,15 +194,17 @@ enum triptych_result device_texture_update(struct triptych_device *device, struc
         texture_check_update(texture, face, level, box, row_pitch, slice_pitch, error);
     if (result != TRIPTYCH_OK)
         return result;
-    before_change(device, texture);
+    device_store_texture(device, texture);
     texture_update(texture, face, level, box, data, row_pitch, slice_pitch);
+    device_load_texture(device, texture);
     return TRIPTYCH_OK;
 }
 
 void device_texture_generate_mips(struct triptych_device *device, struct triptych_texture *texture)
 {
-    before_change(device, texture);
+    device_store_texture(device, texture);
     texture_generate_mips(texture);
+    device_load_texture(device, texture);
 }
 
 /* --- Checking a draw --------------------------------------------------------------------------------------
@@ -452,12 +450,26 @@ static enum triptych_result record_instance(struct triptych_device *device, cons
     return TRIPTYCH_OK;
 }
 
+/* What is drawn to cannot be sampled: its texels are not those of the tiles. */
+static enum triptych_result check_feedback(const struct triptych_device *device, struct error *error)
+{
+    const struct pixel_key *key = &device->key[UNIT_PIXEL].pixel;
+    for (int i = 0; i < key->stages; i++)
+        if (key->texture[i] && device_draws_to(device, device->state.texture[i])) {
+            error_set(error, "texture of sampler %d is drawn to: expected another one, or none", i);
+            return TRIPTYCH_BAD_CALL;
+        }
+    return TRIPTYCH_OK;
+}
+
 /* Records a checked draw, all its instances one after the other. The source's primitive, count, indices and
  * base are filled in. Only the first instance can fail: the others find its routines in use. */
 static enum triptych_result record(struct triptych_device *device, const struct draw *source,
                                    struct error *error)
 {
     uint32_t instances = source->indices ? state_instances(&device->state) : 1;
+    if (check_feedback(device, error) != TRIPTYCH_OK)
+        return TRIPTYCH_BAD_CALL;
     if (source->count && derive_effective(&device->key[UNIT_PIXEL].pixel))
         for (uint32_t i = 0; i < instances; i++)
             if (record_instance(device, source, i, error) != TRIPTYCH_OK)

@@ -27,6 +27,9 @@ struct triptych_device {
     struct pool *pool;
     struct frame *frame;
     struct target target;
+    struct target parked; /* what was the target before textures are drawn to */
+    struct triptych_target_textures drawn; /* these, while */
+    bool draws_to_textures;
     struct state state;
     struct triptych_buffer *buffers;
     struct triptych_texture *textures;
@@ -63,6 +66,37 @@ void device_destroy(struct triptych_device *device);
 enum triptych_result device_set_target(struct triptych_device *device,
                                        const struct triptych_target_description *description,
                                        struct error *error);
+/* Whether a description is one of a target. */
+enum triptych_result device_check_target(const struct triptych_target_description *description,
+                                         struct error *error);
+
+/* Drawing to textures (device_surface.c); null goes back. */
+enum triptych_result device_set_target_textures(struct triptych_device *device,
+                                                const struct triptych_target_textures *textures,
+                                                struct error *error);
+void device_leave_textures(struct triptych_device *device);
+bool device_draws_to(const struct triptych_device *device, const struct triptych_texture *texture);
+
+/* Before texels are read or changed by others than draws: renders what is recorded if it may use or draw the
+ * texture, and stores what was drawn. After a change: what is drawn to begins with it. */
+void device_store_texture(struct triptych_device *device, const struct triptych_texture *texture);
+void device_load_texture(struct triptych_device *device, const struct triptych_texture *texture);
+
+/* From the first to the second; a part may be null. */
+struct device_copy_ends {
+    const struct triptych_surface *surface[2];
+    const struct triptych_rectangle *part[2];
+};
+
+enum triptych_result device_copy(struct triptych_device *device, const struct device_copy_ends *ends,
+                                 enum triptych_copy_filter filter, struct error *error);
+enum triptych_result device_read_surface(struct triptych_device *device,
+                                         const struct triptych_surface *surface, uint32_t *rgba,
+                                         struct error *error);
+enum triptych_result device_read_surface_numbers(struct triptych_device *device,
+                                                 const struct triptych_surface *surface, float *numbers,
+                                                 struct error *error);
+
 /* Direct access to the state is for changes; they must be followed by this. */
 static inline void device_state_changed(struct triptych_device *device)
 {

@@ -324,3 +324,58 @@ void target_read_stencil(const struct target *target, uint32_t tile_row, uint8_t
             }
     }
 }
+
+/* Sets a pixel's words of one colour. */
+static void write_words(struct target *target, const struct target_color *color, uint32_t x, uint32_t y,
+                        const uint32_t words[4])
+{
+    uint32_t tile = y / TILE_SIZE * target->columns + x / TILE_SIZE;
+    uint32_t *place = target_fill_color(target, tile) + pixel_word(x % TILE_SIZE, y % TILE_SIZE);
+    for (int p = 0; p < target_planes[color->storage]; p++)
+        place[(color->plane + (uint32_t)p) * TILE_PIXELS] = words[p];
+}
+
+void target_write_texels(struct target *target, unsigned t, const void *texels)
+{
+    const struct target_color *color = target->colors + t;
+    size_t bytes = target_planes[color->storage] * sizeof(uint32_t);
+    const uint8_t *texel = texels;
+    for (uint32_t y = 0; y < target->height; y++)
+        for (uint32_t x = 0; x < target->width; x++, texel += bytes) {
+            uint32_t words[4];
+            memcpy(words, texel, bytes);
+            write_words(target, color, x, y, words);
+        }
+}
+
+void target_write_numbers(struct target *target, unsigned t, const struct rectangle *part, const float *image)
+{
+    const struct target_color *color = target->colors + t;
+    for (int32_t y = part->y0; y < part->y1; y++)
+        for (int32_t x = part->x0; x < part->x1; x++, image += 4) {
+            uint32_t words[4];
+            color_encode(color->format, image, words);
+            write_words(target, color, (uint32_t)x, (uint32_t)y, words);
+        }
+}
+
+static size_t depth_place(const struct target *target, uint32_t x, uint32_t y, uint32_t *tile)
+{
+    *tile = y / TILE_SIZE * target->columns + x / TILE_SIZE;
+    return pixel_word(x % TILE_SIZE, y % TILE_SIZE);
+}
+
+uint32_t *target_depth_word(struct target *target, uint32_t x, uint32_t y)
+{
+    uint32_t tile;
+    size_t place = depth_place(target, x, y, &tile);
+    return target_fill_depth(target, tile) + place;
+}
+
+uint32_t target_depth_at(const struct target *target, uint32_t x, uint32_t y)
+{
+    uint32_t tile;
+    size_t place = depth_place(target, x, y, &tile);
+    const struct tile_clear *clear = target->clear + tile;
+    return clear->depth_pending ? clear->depth : target->depth[(size_t)tile * TILE_PIXELS + place];
+}

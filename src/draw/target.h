@@ -78,6 +78,17 @@ void target_clear_tile(struct target *target, uint32_t tile, const struct clear 
 uint32_t *target_fill_color(struct target *target, uint32_t tile);
 uint32_t *target_fill_depth(struct target *target, uint32_t tile);
 
+/* All pixels of colour target t from texels: words, or four numbers each, rows without gaps. */
+void target_write_texels(struct target *target, unsigned t, const void *texels);
+
+/* The place of a pixel's depth, made valid, and its word. */
+uint32_t *target_depth_word(struct target *target, uint32_t x, uint32_t y);
+uint32_t target_depth_at(const struct target *target, uint32_t x, uint32_t y);
+
+/* Sets the pixels of a part from four numbers each, converted to the format. Called in the contract's
+ * floating-point environment. */
+void target_write_numbers(struct target *target, unsigned t, const struct rectangle *part, const float *image);
+
 /* Copies one row of tiles into rows of a linear image of the target's size: colour target t as RGBA8 (what
  * has more is clamped to 0..1 and rounded) or as four numbers a pixel. */
 void target_read_color(const struct target *target, unsigned t, uint32_t tile_row, uint32_t *image);

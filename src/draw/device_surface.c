@@ -1,0 +1,285 @@
+/* The device's surfaces: drawing to textures, copies, reading.
+ *
+ * While textures are drawn to, their target takes the place of the one that was set, which is parked. Texels
+ * are valid again once the surfaces are stored: when the textures are left, or when somebody asks for them
+ * before. */
+#include "base/mxcsr.h"
+#include "draw/copy.h"
+#include "draw/device.h"
+#include "draw/surface.h"
+
+#include <inttypes.h>
+#include <stdlib.h>
+#include <string.h>
+
+/* Not inlined: the compiler may move arithmetic over a change of MXCSR, but not a call. */
+__attribute__((noinline)) static void load(struct triptych_device *device)
+{
+    unsigned saved = mxcsr_enter();
+    surfaces_load(&device->drawn, &device->target);
+    mxcsr_leave(saved);
+}
+
+__attribute__((noinline)) static void write_to_target(struct target *target, unsigned t,
+                                                      const struct triptych_rectangle *part,
+                                                      const float *image)
+{
+    struct rectangle area = {(int32_t)part->x, (int32_t)part->y, (int32_t)(part->x + part->width),
+                             (int32_t)(part->y + part->height)};
+    unsigned saved = mxcsr_enter();
+    target_write_numbers(target, t, &area, image);
+    mxcsr_leave(saved);
+}
+
+__attribute__((noinline)) static void write_to_surface(const struct triptych_surface *surface,
+                                                       const struct triptych_rectangle *part,
+                                                       const float *image)
+{
+    unsigned saved = mxcsr_enter();
+    surface_write_numbers(surface, part, image);
+    mxcsr_leave(saved);
+}
+
+/* --- Drawing to textures -----------------------------------------------------------------------------------
+ */
+
+bool device_draws_to(const struct triptych_device *device, const struct triptych_texture *texture)
+{
+    return device->draws_to_textures && surfaces_include(&device->drawn, texture);
+}
+
+void device_store_texture(struct triptych_device *device, const struct triptych_texture *texture)
+{
+    if (texture->recording == device->recording || device_draws_to(device, texture))
+        device_finish(device);
+    if (device_draws_to(device, texture))
+        surfaces_store(&device->drawn, &device->target);
+}
+
+void device_load_texture(struct triptych_device *device, const struct triptych_texture *texture)
+{
+    if (device_draws_to(device, texture))
+        load(device);
+}
+
+void device_leave_textures(struct triptych_device *device)
+{
+    if (!device->draws_to_textures)
+        return;
+    device_finish(device);
+    surfaces_store(&device->drawn, &device->target);
+    target_destroy(&device->target);
+    device->target = device->parked;
+    device->parked = (struct target){0};
+    device->draws_to_textures = false;
+}
+
+static void target_changed(struct triptych_device *device)
+{
+    struct triptych_target_description description;
+    target_describe(&device->target, &description);
+    state_set_target(&device->state, &description);
+    device_state_changed(device);
+}
+
+enum triptych_result device_set_target_textures(struct triptych_device *device,
+                                                const struct triptych_target_textures *textures,
+                                                struct error *error)
+{
+    struct triptych_target_description description;
+    struct target target;
+    if (!textures) {
+        device_leave_textures(device);
+        target_changed(device);
+        return TRIPTYCH_OK;
+    }
+    enum triptych_result result = surfaces_describe(textures, &description, error);
+    if (result == TRIPTYCH_OK)
+        result = device_check_target(&description, error);
+    if (result != TRIPTYCH_OK)
+        return result;
+    if (target_create(&target, &description, error))
+        return TRIPTYCH_NO_MEMORY;
+    device_finish(device);
+    device_leave_textures(device);
+    device->parked = device->target;
+    device->target = target;
+    device->drawn = *textures;
+    device->draws_to_textures = true;
+    load(device);
+    target_changed(device);
+    return TRIPTYCH_OK;
+}
+
+/* --- Images of four numbers a pixel ------------------------------------------------------------------------
+ */
+
+static struct target *main_target(struct triptych_device *device)
+{
+    return device->draws_to_textures ? &device->parked : &device->target;
+}
+
+/* A surface of a texture, or a colour of the target. */
+struct image {
+    const struct triptych_surface *surface;
+    uint32_t width, height;
+};
+
+static enum triptych_result find_image(struct triptych_device *device, const struct triptych_surface *surface,
+                                       const char *what, struct image *image, struct error *error)
+{
+    const struct target *target = main_target(device);
+    *image = (struct image){surface, target->width, target->height};
+    if (surface->texture) {
+        enum triptych_result result = surface_check(surface, what, error);
+        if (result != TRIPTYCH_OK)
+            return result;
+        image->width = (uint32_t)surface_level(surface)->width;
+        image->height = (uint32_t)surface_level(surface)->height;
+        return TRIPTYCH_OK;
+    }
+    if (surface->slice < TARGETS && target->colors[surface->slice].format)
+        return TRIPTYCH_OK;
+    error_set(error, "%s: colour target %u: the target has none of that number", what, surface->slice);
+    return TRIPTYCH_BAD_ARGUMENT;
+}
+
+static void read_image(struct triptych_device *device, const struct image *image, float *numbers)
+{
+    const struct target *target = main_target(device);
+    device_finish(device);
+    if (image->surface->texture) {
+        device_store_texture(device, image->surface->texture);
+        surface_read_numbers(image->surface, numbers);
+        return;
+    }
+    for (uint32_t row = 0; row < target->rows; row++)
+        target_read_numbers(target, image->surface->slice, row, numbers);
+}
+
+static void write_image(struct triptych_device *device, const struct image *image,
+                        const struct triptych_rectangle *part, const float *numbers)
+{
+    if (!image->surface->texture) {
+        write_to_target(main_target(device), image->surface->slice, part, numbers);
+        return;
+    }
+    device_store_texture(device, image->surface->texture);
+    write_to_surface(image->surface, part, numbers);
+    device_load_texture(device, image->surface->texture);
+}
+
+static float *allocate_numbers(uint64_t pixels, struct error *error)
+{
+    float *numbers = malloc((size_t)pixels * 4 * sizeof *numbers);
+    if (!numbers)
+        error_set(error, "out of memory for %" PRIu64 " pixels", pixels);
+    return numbers;
+}
+
+/* --- Copies and reading ------------------------------------------------------------------------------------
+ */
+
+static enum triptych_result check_part(const struct image *image, const char *what,
+                                       const struct triptych_rectangle *part, struct error *error)
+{
+    if (part->width && part->height && part->x < image->width && part->y < image->height &&
+        part->width <= image->width - part->x && part->height <= image->height - part->y)
+        return TRIPTYCH_OK;
+    error_set(error, "%s: %ux%u pixels at %u, %u: expected a part of %ux%u", what, part->width, part->height,
+              part->x, part->y, image->width, image->height);
+    return TRIPTYCH_BAD_ARGUMENT;
+}
+
+static struct triptych_rectangle part_of(const struct image *image, const struct triptych_rectangle *part)
+{
+    return part ? *part : (struct triptych_rectangle){0, 0, image->width, image->height};
+}
+
+/* What is copied is colour, to where it can be drawn. */
+static enum triptych_result check_formats(const struct triptych_surface *source,
+                                          const struct triptych_surface *target, struct error *error)
+{
+    const struct format *from = source->texture ? source->texture->format : NULL;
+    const struct format *to = target->texture ? target->texture->format : NULL;
+    if (from && from->roles & ROLE_DEPTH)
+        error_set(error, "source of a copy: format %s is one of depth", from->name);
+    else if (to && !(to->roles & ROLE_TARGET))
+        error_set(error, "target of a copy: format %s cannot be drawn to", to->name);
+    else
+        return TRIPTYCH_OK;
+    return TRIPTYCH_UNSUPPORTED;
+}
+
+static enum triptych_result copy(struct triptych_device *device, const struct image image[2],
+                                 const struct triptych_rectangle part[2], enum triptych_copy_filter filter,
+                                 struct error *error)
+{
+    float *whole = allocate_numbers((uint64_t)image[0].width * image[0].height, error);
+    float *rows = whole ? allocate_numbers((uint64_t)part[1].width * part[1].height, error) : NULL;
+    if (rows) {
+        read_image(device, &image[0], whole);
+        copy_scaled(whole, image[0].width, &part[0], &part[1], filter, rows);
+        write_image(device, &image[1], &part[1], rows);
+    }
+    enum triptych_result result = rows ? TRIPTYCH_OK : TRIPTYCH_NO_MEMORY;
+    free(whole);
+    free(rows);
+    return result;
+}
+
+enum triptych_result device_copy(struct triptych_device *device, const struct device_copy_ends *ends,
+                                 enum triptych_copy_filter filter, struct error *error)
+{
+    static const char *const what[2] = {"source of a copy", "target of a copy"};
+    struct triptych_rectangle part[2];
+    struct image image[2];
+    if ((unsigned)filter >= TRIPTYCH_COPY_COUNT) {
+        error_set(error, "filter %u of a copy: expected point (0) or linear (1)", (unsigned)filter);
+        return TRIPTYCH_BAD_ARGUMENT;
+    }
+    for (int i = 0; i < 2; i++) {
+        enum triptych_result result = find_image(device, ends->surface[i], what[i], &image[i], error);
+        if (result != TRIPTYCH_OK)
+            return result;
+        part[i] = part_of(&image[i], ends->part[i]);
+        result = check_part(&image[i], what[i], &part[i], error);
+        if (result != TRIPTYCH_OK)
+            return result;
+    }
+    enum triptych_result result = check_formats(ends->surface[0], ends->surface[1], error);
+    return result == TRIPTYCH_OK ? copy(device, image, part, filter, error) : result;
+}
+
+enum triptych_result device_read_surface_numbers(struct triptych_device *device,
+                                                 const struct triptych_surface *surface, float *numbers,
+                                                 struct error *error)
+{
+    struct image image;
+    enum triptych_result result = find_image(device, surface, "surface", &image, error);
+    if (result == TRIPTYCH_OK)
+        read_image(device, &image, numbers);
+    return result;
+}
+
+enum triptych_result device_read_surface(struct triptych_device *device,
+                                         const struct triptych_surface *surface, uint32_t *rgba,
+                                         struct error *error)
+{
+    struct image image;
+    enum triptych_result result = find_image(device, surface, "surface", &image, error);
+    if (result != TRIPTYCH_OK)
+        return result;
+    size_t pixels = (size_t)image.width * image.height;
+    float *numbers = allocate_numbers(pixels, error);
+    if (!numbers)
+        return TRIPTYCH_NO_MEMORY;
+    read_image(device, &image, numbers);
+    for (size_t i = 0; i < pixels; i++) {
+        uint32_t words[4];
+        memcpy(words, numbers + 4 * i, sizeof words);
+        rgba[i] = color_bytes(TARGET_FLOAT, words);
+    }
+    free(numbers);
+    return TRIPTYCH_OK;
+}

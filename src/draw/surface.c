@@ -1,0 +1,208 @@
+#include "draw/surface.h"
+
+#include <stdio.h>
+#include <string.h>
+#include <strings.h>
+
+static unsigned slices(const struct triptych_surface *surface)
+{
+    return surface->texture->type == TRIPTYCH_TEXTURE_CUBE ? CUBE_FACES
+                                                           : (unsigned)surface_level(surface)->depth;
+}
+
+enum triptych_result surface_check(const struct triptych_surface *surface, const char *what,
+                                   struct error *error)
+{
+    if (surface->level >= surface->texture->levels)
+        error_set(error, "%s: level %u of a texture with %u", what, surface->level, surface->texture->levels);
+    else if (surface->slice >= slices(surface))
+        error_set(error, "%s: slice %u of a level with %u", what, surface->slice, slices(surface));
+    else
+        return TRIPTYCH_OK;
+    return TRIPTYCH_BAD_ARGUMENT;
+}
+
+const struct texture_level *surface_level(const struct triptych_surface *surface)
+{
+    return surface->texture->level + surface->level;
+}
+
+void *surface_texels(const struct triptych_surface *surface)
+{
+    const struct triptych_texture *texture = surface->texture;
+    int cube = texture->type == TRIPTYCH_TEXTURE_CUBE;
+    uint8_t *first = texture_level_texels(texture, cube ? surface->slice : 0, surface->level);
+    size_t slice = cube ? 0 : (size_t)surface->slice * (size_t)surface_level(surface)->slice_texels;
+    return first + slice * format_texel_bytes(texture->format);
+}
+
+/* The formats that were made for reading are others by their bits. */
+enum triptych_depth_format surface_depth_format(const struct format *format)
+{
+    static const struct {
+        const char *name;
+        enum triptych_depth_format format;
+    } made_for_reading[] = {{"INTZ", TRIPTYCH_DEPTH_d24s8},
+                            {"DF24", TRIPTYCH_DEPTH_d24x8},
+                            {"DF16", TRIPTYCH_DEPTH_d16}};
+    for (unsigned i = 0; i < sizeof made_for_reading / sizeof *made_for_reading; i++)
+        if (!strcmp(format->name, made_for_reading[i].name))
+            return made_for_reading[i].format;
+    for (unsigned i = 0; i < TRIPTYCH_DEPTH_COUNT; i++)
+        if (!strcasecmp(format->name, depth_formats[i].name))
+            return (enum triptych_depth_format)i;
+    return TRIPTYCH_DEPTH_none;
+}
+
+/* --- A target's description --------------------------------------------------------------------------------
+ */
+
+static enum triptych_result match_size(const struct triptych_surface *surface, const char *what,
+                                       struct triptych_target_description *description, struct error *error)
+{
+    const struct texture_level *level = surface_level(surface);
+    if (!description->width) {
+        description->width = (unsigned)level->width;
+        description->height = (unsigned)level->height;
+    }
+    if ((unsigned)level->width == description->width && (unsigned)level->height == description->height)
+        return TRIPTYCH_OK;
+    error_set(error, "%s of %dx%d texels: expected %ux%u, the size of the others", what, level->width,
+              level->height, description->width, description->height);
+    return TRIPTYCH_BAD_ARGUMENT;
+}
+
+static enum triptych_result describe_one(const struct triptych_surface *surface, const char *what, int role,
+                                         struct triptych_target_description *description, struct error *error)
+{
+    enum triptych_result result = surface_check(surface, what, error);
+    if (result != TRIPTYCH_OK)
+        return result;
+    if (!(surface->texture->format->roles & role)) {
+        error_set(error, "%s: format %s cannot be drawn to", what, surface->texture->format->name);
+        return TRIPTYCH_UNSUPPORTED;
+    }
+    return match_size(surface, what, description, error);
+}
+
+static enum triptych_result describe_colors(const struct triptych_target_textures *textures,
+                                            struct triptych_target_description *description,
+                                            struct error *error)
+{
+    enum triptych_result result = TRIPTYCH_OK;
+    for (unsigned t = 0; t < TARGETS && result == TRIPTYCH_OK; t++) {
+        const struct triptych_surface *surface = textures->color + t;
+        char what[32];
+        snprintf(what, sizeof what, "colour target %u", t);
+        if (!surface->texture)
+            continue;
+        result = describe_one(surface, what, ROLE_TARGET, description, error);
+        description->color_format[t] = (enum triptych_surface_format)surface->texture->format->number;
+    }
+    if (!textures->color[0].texture)
+        description->color_format[0] = TRIPTYCH_SURFACE_NULL;
+    return result;
+}
+
+enum triptych_result surfaces_describe(const struct triptych_target_textures *textures,
+                                       struct triptych_target_description *description, struct error *error)
+{
+    *description = (struct triptych_target_description){.depth_format = textures->depth_format};
+    enum triptych_result result = describe_colors(textures, description, error);
+    if (result == TRIPTYCH_OK && textures->depth.texture) {
+        result = describe_one(&textures->depth, "depth target", ROLE_DEPTH, description, error);
+        description->depth_format = surface_depth_format(textures->depth.texture->format);
+    }
+    if (result == TRIPTYCH_OK && !description->width) {
+        error_set(error, "no texture to draw to: expected at least one");
+        return TRIPTYCH_BAD_ARGUMENT;
+    }
+    return result;
+}
+
+bool surfaces_include(const struct triptych_target_textures *textures, const struct triptych_texture *texture)
+{
+    bool includes = textures->depth.texture == texture;
+    for (unsigned t = 0; t < TARGETS; t++)
+        includes |= textures->color[t].texture == texture;
+    return texture && includes;
+}
+
+/* --- Texels and tiles --------------------------------------------------------------------------------------
+ */
+
+static void load_depth(const struct triptych_surface *surface, struct target *target)
+{
+    const float *texel = surface_texels(surface);
+    for (uint32_t y = 0; y < target->height; y++)
+        for (uint32_t x = 0; x < target->width; x++, texel += 4)
+            *target_depth_word(target, x, y) = depth_encode(target->depth_format, *texel);
+}
+
+static void store_depth(const struct triptych_surface *surface, const struct target *target)
+{
+    float *texel = surface_texels(surface);
+    for (uint32_t y = 0; y < target->height; y++)
+        for (uint32_t x = 0; x < target->width; x++, texel += 4) {
+            float depth = depth_decode(target->depth_format, target_depth_at(target, x, y));
+            texel[0] = texel[1] = texel[2] = texel[3] = depth;
+        }
+}
+
+void surfaces_load(const struct triptych_target_textures *textures, struct target *target)
+{
+    for (unsigned t = 0; t < TARGETS; t++)
+        if (textures->color[t].texture)
+            target_write_texels(target, t, surface_texels(&textures->color[t]));
+    if (textures->depth.texture)
+        load_depth(&textures->depth, target);
+}
+
+static void store_color(const struct triptych_surface *surface, const struct target *target, unsigned t)
+{
+    void *texels = surface_texels(surface);
+    for (uint32_t row = 0; row < target->rows; row++)
+        if (surface->texture->format->storage == STORAGE_RGBA8)
+            target_read_color(target, t, row, texels);
+        else
+            target_read_numbers(target, t, row, texels);
+}
+
+void surfaces_store(const struct triptych_target_textures *textures, const struct target *target)
+{
+    for (unsigned t = 0; t < TARGETS; t++)
+        if (textures->color[t].texture)
+            store_color(&textures->color[t], target, t);
+    if (textures->depth.texture)
+        store_depth(&textures->depth, target);
+}
+
+/* --- Numbers -----------------------------------------------------------------------------------------------
+ */
+
+void surface_read_numbers(const struct triptych_surface *surface, float *image)
+{
+    const struct texture_level *level = surface_level(surface);
+    size_t texels = (size_t)level->width * (size_t)level->height;
+    if (surface->texture->format->storage == STORAGE_FLOAT4) {
+        memcpy(image, surface_texels(surface), texels * 4 * sizeof *image);
+        return;
+    }
+    const uint32_t *word = surface_texels(surface);
+    for (size_t i = 0; i < texels; i++)
+        color_numbers(TARGET_8888, word + i, image + 4 * i);
+}
+
+void surface_write_numbers(const struct triptych_surface *surface, const struct triptych_rectangle *part,
+                           const float *image)
+{
+    const struct format *format = surface->texture->format;
+    size_t bytes = format_texel_bytes(format), width = (size_t)surface_level(surface)->width;
+    uint8_t *texels = surface_texels(surface);
+    for (size_t y = part->y; y < (size_t)part->y + part->height; y++)
+        for (size_t x = part->x; x < (size_t)part->x + part->width; x++, image += 4) {
+            uint32_t words[4];
+            color_encode(format, image, words);
+            memcpy(texels + (y * width + x) * bytes, words, bytes);
+        }
+}

@@ -1,0 +1,41 @@
+/* Surfaces: single images of textures that are drawn to, read and copied.
+ *
+ * A texture's texels and a target's pixels hold the same values: words where the format has 8 bits a channel,
+ * four numbers otherwise (draw/format.h, def/target.def). So drawing to a texture is drawing to tiles that
+ * begin with its texels and end as them. Depth is the same number in all four channels of a texel; stencil
+ * has no place there and begins as zero. */
+#ifndef DRAW_SURFACE_H
+#define DRAW_SURFACE_H
+
+#include "draw/target.h"
+#include "draw/texture.h"
+
+/* Whether the surface is one: its level and slice are the texture's. The reason names it `what`. */
+enum triptych_result surface_check(const struct triptych_surface *surface, const char *what,
+                                   struct error *error);
+
+/* Its level, and its first texel. */
+const struct texture_level *surface_level(const struct triptych_surface *surface);
+void *surface_texels(const struct triptych_surface *surface);
+
+/* The depth format that tiles of a depth texture have. */
+enum triptych_depth_format surface_depth_format(const struct format *format);
+
+/* What a target that draws to the surfaces is like. Checks that it can: formats, sizes, at least one. */
+enum triptych_result surfaces_describe(const struct triptych_target_textures *textures,
+                                       struct triptych_target_description *description, struct error *error);
+
+/* Whether one of the surfaces is of the texture. */
+bool surfaces_include(const struct triptych_target_textures *textures, const struct triptych_texture *texture);
+
+/* All texels of the surfaces to the target's tiles, and back. */
+void surfaces_load(const struct triptych_target_textures *textures, struct target *target);
+void surfaces_store(const struct triptych_target_textures *textures, const struct target *target);
+
+/* Numbers of texels: all of a surface read; a part written, converted to the format. The writer is called in
+ * the contract's floating-point environment. */
+void surface_read_numbers(const struct triptych_surface *surface, float *image);
+void surface_write_numbers(const struct triptych_surface *surface, const struct triptych_rectangle *part,
+                           const float *image);
+
+#endif
