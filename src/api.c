@@ -558,9 +558,13 @@ enum triptych_result triptych_copy(triptych_device *device, const struct triptyc
         return TRIPTYCH_BAD_ARGUMENT;
     if (!source || !target)
         return null_argument(device, source ? "target" : "source");
-    const struct device_copy_ends ends = {{source, target}, {source_part, target_part}};
+    struct surface_copy copy = {.surface = {source, target}, .filter = filter};
     struct error error = {{0}};
-    return finish(device, device_copy(device, &ends, filter, &error), &error);
+    if (source_part)
+        copy.part[0] = *source_part;
+    if (target_part)
+        copy.part[1] = *target_part;
+    return finish(device, device_copy(device, &copy, &error), &error);
 }
 
 enum triptych_result triptych_read_surface(triptych_device *device, const struct triptych_surface *surface,

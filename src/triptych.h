@@ -219,9 +219,9 @@ struct triptych_target_description {
     enum triptych_surface_format color_format[TRIPTYCH_TARGETS];
 };
 
-/* One image of a texture: a level, of the face of a cube or the slice of a volume that `slice` numbers. Without
- * a texture it is colour target number `slice` of the target that triptych_set_target made, where that is
- * allowed, and no surface elsewhere. */
+/* One image of a texture: a level, of the face of a cube or the slice of a volume that `slice` numbers.
+ * Without a texture it is colour target number `slice` of the target that triptych_set_target made, where
+ * that is allowed, and no surface elsewhere. */
 struct triptych_surface {
     triptych_texture *texture;
     unsigned level, slice;
@@ -393,13 +393,14 @@ TRIPTYCH_API enum triptych_result triptych_set_target_description(triptych_devic
                                                                   const struct triptych_target_description *);
 
 /* Draws to textures from here on, and back to the target that was set before, contents unchanged, when it is
- * null. Either sets viewport and scissor rectangle as triptych_set_target does, which ends it too. A texture
- * that is drawn to cannot be sampled at the same time. */
+ * null. Either sets viewport and scissor rectangle as triptych_set_target does, which ends drawing to
+ * textures too. A texture that is drawn to cannot be sampled at the same time. */
 TRIPTYCH_API enum triptych_result triptych_set_target_textures(triptych_device *,
                                                                const struct triptych_target_textures *);
 
-/* Copies a part of a surface to a part of another one (null: all of it), scaled if their sizes differ, and
- * converted to the other's format, which must be one that can be drawn to; formats of depth cannot be copied. */
+/* Copies a part of a surface to a part of another one (null, or of width 0: all of it), scaled if their sizes
+ * differ, and converted to the other's format, which must be one that can be drawn to; formats of depth
+ * cannot be copied. */
 TRIPTYCH_API enum triptych_result triptych_copy(triptych_device *, const struct triptych_surface *source,
                                                 const struct triptych_rectangle *source_part,
                                                 const struct triptych_surface *target,

@@ -1,8 +1,8 @@
 /* Copies between images of four numbers a pixel, scaled to another size.
  *
- * A pixel's centre lies in the source where its own lies in the part that is copied to: at ((x + 1/2) * source
- * width / width, ...). Point takes the pixel around that place; linear blends the four around it, none from
- * outside of the part, weighted in binary32 by their distances, horizontally then vertically. */
+ * A pixel's centre lies in the source where its own lies in the part that is copied to: at ((x + 1/2) *
+ * source width / width, ...). Point takes the pixel around that place; linear blends the four around it, none
+ * from outside of the part, weighted in binary32 by their distances, horizontally then vertically. */
 #ifndef DRAW_COPY_H
 #define DRAW_COPY_H
 

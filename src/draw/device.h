@@ -10,6 +10,7 @@
 #include "draw/frame.h"
 #include "draw/query.h"
 #include "draw/state.h"
+#include "draw/surface.h"
 
 /* Called for each draw that is recorded: its number, from 0, and its keys, indexed by enum unit. */
 typedef void device_draw_callback(void *user, uint64_t number, const union key key[UNIT_COUNT]);
@@ -27,7 +28,7 @@ struct triptych_device {
     struct pool *pool;
     struct frame *frame;
     struct target target;
-    struct target parked; /* what was the target before textures are drawn to */
+    struct target parked;                  /* what was the target before textures are drawn to */
     struct triptych_target_textures drawn; /* these, while */
     bool draws_to_textures;
     struct state state;
@@ -82,14 +83,8 @@ bool device_draws_to(const struct triptych_device *device, const struct triptych
 void device_store_texture(struct triptych_device *device, const struct triptych_texture *texture);
 void device_load_texture(struct triptych_device *device, const struct triptych_texture *texture);
 
-/* From the first to the second; a part may be null. */
-struct device_copy_ends {
-    const struct triptych_surface *surface[2];
-    const struct triptych_rectangle *part[2];
-};
-
-enum triptych_result device_copy(struct triptych_device *device, const struct device_copy_ends *ends,
-                                 enum triptych_copy_filter filter, struct error *error);
+enum triptych_result device_copy(struct triptych_device *device, const struct surface_copy *copy,
+                                 struct error *error);
 enum triptych_result device_read_surface(struct triptych_device *device,
                                          const struct triptych_surface *surface, uint32_t *rgba,
                                          struct error *error);

@@ -20,9 +20,8 @@ __attribute__((noinline)) static void load(struct triptych_device *device)
     mxcsr_leave(saved);
 }
 
-__attribute__((noinline)) static void write_to_target(struct target *target, unsigned t,
-                                                      const struct triptych_rectangle *part,
-                                                      const float *image)
+__attribute__((noinline)) static void
+write_to_target(struct target *target, unsigned t, const struct triptych_rectangle *part, const float *image)
 {
     struct rectangle area = {(int32_t)part->x, (int32_t)part->y, (int32_t)(part->x + part->width),
                              (int32_t)(part->y + part->height)};
@@ -88,6 +87,8 @@ enum triptych_result device_set_target_textures(struct triptych_device *device,
 {
     struct triptych_target_description description;
     struct target target;
+    if (!textures && !device->draws_to_textures)
+        return TRIPTYCH_OK;
     if (!textures) {
         device_leave_textures(device);
         target_changed(device);
@@ -126,22 +127,14 @@ struct image {
 };
 
 static enum triptych_result find_image(struct triptych_device *device, const struct triptych_surface *surface,
-                                       const char *what, struct image *image, struct error *error)
+                                       struct image *image, struct error *error)
 {
-    const struct target *target = main_target(device);
-    *image = (struct image){surface, target->width, target->height};
-    if (surface->texture) {
-        enum triptych_result result = surface_check(surface, what, error);
-        if (result != TRIPTYCH_OK)
-            return result;
-        image->width = (uint32_t)surface_level(surface)->width;
-        image->height = (uint32_t)surface_level(surface)->height;
-        return TRIPTYCH_OK;
-    }
-    if (surface->slice < TARGETS && target->colors[surface->slice].format)
-        return TRIPTYCH_OK;
-    error_set(error, "%s: colour target %u: the target has none of that number", what, surface->slice);
-    return TRIPTYCH_BAD_ARGUMENT;
+    struct triptych_target_description target;
+    uint32_t size[2];
+    target_describe(main_target(device), &target);
+    enum triptych_result result = surface_size(surface, "surface", &target, size, error);
+    *image = (struct image){surface, size[0], size[1]};
+    return result;
 }
 
 static void read_image(struct triptych_device *device, const struct image *image, float *numbers)
@@ -180,37 +173,6 @@ static float *allocate_numbers(uint64_t pixels, struct error *error)
 /* --- Copies and reading ------------------------------------------------------------------------------------
  */
 
-static enum triptych_result check_part(const struct image *image, const char *what,
-                                       const struct triptych_rectangle *part, struct error *error)
-{
-    if (part->width && part->height && part->x < image->width && part->y < image->height &&
-        part->width <= image->width - part->x && part->height <= image->height - part->y)
-        return TRIPTYCH_OK;
-    error_set(error, "%s: %ux%u pixels at %u, %u: expected a part of %ux%u", what, part->width, part->height,
-              part->x, part->y, image->width, image->height);
-    return TRIPTYCH_BAD_ARGUMENT;
-}
-
-static struct triptych_rectangle part_of(const struct image *image, const struct triptych_rectangle *part)
-{
-    return part ? *part : (struct triptych_rectangle){0, 0, image->width, image->height};
-}
-
-/* What is copied is colour, to where it can be drawn. */
-static enum triptych_result check_formats(const struct triptych_surface *source,
-                                          const struct triptych_surface *target, struct error *error)
-{
-    const struct format *from = source->texture ? source->texture->format : NULL;
-    const struct format *to = target->texture ? target->texture->format : NULL;
-    if (from && from->roles & ROLE_DEPTH)
-        error_set(error, "source of a copy: format %s is one of depth", from->name);
-    else if (to && !(to->roles & ROLE_TARGET))
-        error_set(error, "target of a copy: format %s cannot be drawn to", to->name);
-    else
-        return TRIPTYCH_OK;
-    return TRIPTYCH_UNSUPPORTED;
-}
-
 static enum triptych_result copy(struct triptych_device *device, const struct image image[2],
                                  const struct triptych_rectangle part[2], enum triptych_copy_filter filter,
                                  struct error *error)
@@ -228,27 +190,21 @@ static enum triptych_result copy(struct triptych_device *device, const struct im
     return result;
 }
 
-enum triptych_result device_copy(struct triptych_device *device, const struct device_copy_ends *ends,
-                                 enum triptych_copy_filter filter, struct error *error)
+enum triptych_result device_copy(struct triptych_device *device, const struct surface_copy *asked,
+                                 struct error *error)
 {
-    static const char *const what[2] = {"source of a copy", "target of a copy"};
+    struct triptych_target_description target;
     struct triptych_rectangle part[2];
     struct image image[2];
-    if ((unsigned)filter >= TRIPTYCH_COPY_COUNT) {
-        error_set(error, "filter %u of a copy: expected point (0) or linear (1)", (unsigned)filter);
-        return TRIPTYCH_BAD_ARGUMENT;
+    target_describe(main_target(device), &target);
+    enum triptych_result result = surface_check_copy(asked, &target, error);
+    for (int i = 0; i < 2 && result == TRIPTYCH_OK; i++) {
+        result = find_image(device, asked->surface[i], &image[i], error);
+        part[i] = asked->part[i];
+        if (!part[i].width)
+            part[i] = (struct triptych_rectangle){0, 0, image[i].width, image[i].height};
     }
-    for (int i = 0; i < 2; i++) {
-        enum triptych_result result = find_image(device, ends->surface[i], what[i], &image[i], error);
-        if (result != TRIPTYCH_OK)
-            return result;
-        part[i] = part_of(&image[i], ends->part[i]);
-        result = check_part(&image[i], what[i], &part[i], error);
-        if (result != TRIPTYCH_OK)
-            return result;
-    }
-    enum triptych_result result = check_formats(ends->surface[0], ends->surface[1], error);
-    return result == TRIPTYCH_OK ? copy(device, image, part, filter, error) : result;
+    return result == TRIPTYCH_OK ? copy(device, image, part, asked->filter, error) : result;
 }
 
 enum triptych_result device_read_surface_numbers(struct triptych_device *device,
@@ -256,7 +212,7 @@ enum triptych_result device_read_surface_numbers(struct triptych_device *device,
                                                  struct error *error)
 {
     struct image image;
-    enum triptych_result result = find_image(device, surface, "surface", &image, error);
+    enum triptych_result result = find_image(device, surface, &image, error);
     if (result == TRIPTYCH_OK)
         read_image(device, &image, numbers);
     return result;
@@ -267,7 +223,7 @@ enum triptych_result device_read_surface(struct triptych_device *device,
                                          struct error *error)
 {
     struct image image;
-    enum triptych_result result = find_image(device, surface, "surface", &image, error);
+    enum triptych_result result = find_image(device, surface, &image, error);
     if (result != TRIPTYCH_OK)
         return result;
     size_t pixels = (size_t)image.width * image.height;

@@ -42,9 +42,8 @@ enum triptych_depth_format surface_depth_format(const struct format *format)
     static const struct {
         const char *name;
         enum triptych_depth_format format;
-    } made_for_reading[] = {{"INTZ", TRIPTYCH_DEPTH_d24s8},
-                            {"DF24", TRIPTYCH_DEPTH_d24x8},
-                            {"DF16", TRIPTYCH_DEPTH_d16}};
+    } made_for_reading[] = {
+        {"INTZ", TRIPTYCH_DEPTH_d24s8}, {"DF24", TRIPTYCH_DEPTH_d24x8}, {"DF16", TRIPTYCH_DEPTH_d16}};
     for (unsigned i = 0; i < sizeof made_for_reading / sizeof *made_for_reading; i++)
         if (!strcmp(format->name, made_for_reading[i].name))
             return made_for_reading[i].format;
@@ -126,6 +125,72 @@ bool surfaces_include(const struct triptych_target_textures *textures, const str
     for (unsigned t = 0; t < TARGETS; t++)
         includes |= textures->color[t].texture == texture;
     return texture && includes;
+}
+
+/* --- Copies ------------------------------------------------------------------------------------------------
+ */
+
+enum triptych_result surface_size(const struct triptych_surface *surface, const char *what,
+                                  const struct triptych_target_description *target, uint32_t size[2],
+                                  struct error *error)
+{
+    size[0] = target->width;
+    size[1] = target->height;
+    if (surface->texture) {
+        enum triptych_result result = surface_check(surface, what, error);
+        if (result != TRIPTYCH_OK)
+            return result;
+        size[0] = (uint32_t)surface_level(surface)->width;
+        size[1] = (uint32_t)surface_level(surface)->height;
+        return TRIPTYCH_OK;
+    }
+    if (target->width && surface->slice < TARGETS && target_format(target, surface->slice))
+        return TRIPTYCH_OK;
+    error_set(error, "%s: colour target %u: the target has none of that number", what, surface->slice);
+    return TRIPTYCH_BAD_ARGUMENT;
+}
+
+static enum triptych_result check_part(const char *what, const uint32_t size[2],
+                                       const struct triptych_rectangle *part, struct error *error)
+{
+    if (!part->width || (part->height && part->x < size[0] && part->y < size[1] &&
+                         part->width <= size[0] - part->x && part->height <= size[1] - part->y))
+        return TRIPTYCH_OK;
+    error_set(error, "%s: %ux%u pixels at %u, %u: expected a part of %ux%u", what, part->width, part->height,
+              part->x, part->y, size[0], size[1]);
+    return TRIPTYCH_BAD_ARGUMENT;
+}
+
+/* What is copied is colour, to where it can be drawn. */
+static enum triptych_result check_copied_formats(const struct surface_copy *copy, struct error *error)
+{
+    const struct triptych_texture *from = copy->surface[0]->texture, *to = copy->surface[1]->texture;
+    if (from && from->format->roles & ROLE_DEPTH)
+        error_set(error, "source of a copy: format %s is one of depth", from->format->name);
+    else if (to && !(to->format->roles & ROLE_TARGET))
+        error_set(error, "target of a copy: format %s cannot be drawn to", to->format->name);
+    else
+        return TRIPTYCH_OK;
+    return TRIPTYCH_UNSUPPORTED;
+}
+
+enum triptych_result surface_check_copy(const struct surface_copy *copy,
+                                        const struct triptych_target_description *target, struct error *error)
+{
+    static const char *const what[2] = {"source of a copy", "target of a copy"};
+    if ((unsigned)copy->filter >= TRIPTYCH_COPY_COUNT) {
+        error_set(error, "filter %u of a copy: expected point (0) or linear (1)", (unsigned)copy->filter);
+        return TRIPTYCH_BAD_ARGUMENT;
+    }
+    for (int i = 0; i < 2; i++) {
+        uint32_t size[2];
+        enum triptych_result result = surface_size(copy->surface[i], what[i], target, size, error);
+        if (result == TRIPTYCH_OK)
+            result = check_part(what[i], size, &copy->part[i], error);
+        if (result != TRIPTYCH_OK)
+            return result;
+    }
+    return check_copied_formats(copy, error);
 }
 
 /* --- Texels and tiles --------------------------------------------------------------------------------------

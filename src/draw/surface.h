@@ -26,11 +26,27 @@ enum triptych_result surfaces_describe(const struct triptych_target_textures *te
                                        struct triptych_target_description *description, struct error *error);
 
 /* Whether one of the surfaces is of the texture. */
-bool surfaces_include(const struct triptych_target_textures *textures, const struct triptych_texture *texture);
+bool surfaces_include(const struct triptych_target_textures *textures,
+                      const struct triptych_texture *texture);
 
 /* All texels of the surfaces to the target's tiles, and back. */
 void surfaces_load(const struct triptych_target_textures *textures, struct target *target);
 void surfaces_store(const struct triptych_target_textures *textures, const struct target *target);
+
+/* A copy from the first surface to the second one; parts of width 0 are all of them. */
+struct surface_copy {
+    const struct triptych_surface *surface[2];
+    struct triptych_rectangle part[2];
+    enum triptych_copy_filter filter;
+};
+
+/* The size of a surface, be it of a texture or a colour of the target. */
+enum triptych_result surface_size(const struct triptych_surface *surface, const char *what,
+                                  const struct triptych_target_description *target, uint32_t size[2],
+                                  struct error *error);
+enum triptych_result surface_check_copy(const struct surface_copy *copy,
+                                        const struct triptych_target_description *target,
+                                        struct error *error);
 
 /* Numbers of texels: all of a surface read; a part written, converted to the format. The writer is called in
  * the contract's floating-point environment. */

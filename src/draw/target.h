@@ -87,7 +87,8 @@ uint32_t target_depth_at(const struct target *target, uint32_t x, uint32_t y);
 
 /* Sets the pixels of a part from four numbers each, converted to the format. Called in the contract's
  * floating-point environment. */
-void target_write_numbers(struct target *target, unsigned t, const struct rectangle *part, const float *image);
+void target_write_numbers(struct target *target, unsigned t, const struct rectangle *part,
+                          const float *image);
 
 /* Copies one row of tiles into rows of a linear image of the target's size: colour target t as RGBA8 (what
  * has more is clamped to 0..1 and rounded) or as four numbers a pixel. */

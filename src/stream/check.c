@@ -98,8 +98,9 @@ struct follower {
     struct parser *parser;
     const struct stream *stream;
     struct state state;
-    uint32_t width, height;            /* of the target; 0: none yet */
-    struct triptych_buffer *stand_ins; /* one per resource: their sizes are all that is looked at */
+    uint32_t width, height;                    /* of what is drawn to; 0: none yet */
+    struct triptych_target_description target; /* set last */
+    struct triptych_buffer *stand_ins;         /* one per resource: their sizes are all that is looked at */
     uint32_t indices;
 };
 
@@ -251,18 +252,32 @@ static int check_draw(struct follower *follower, const struct call *call, struct
     return check_vertices(follower, first + count - 1, error);
 }
 
-static void set_target(struct follower *follower, const struct call *call)
+static void draw_to(struct follower *follower, const struct triptych_target_description *target)
 {
-    follower->width = call->target.width;
-    follower->height = call->target.height;
-    state_set_target(&follower->state, &call->target);
+    follower->width = target->width;
+    follower->height = target->height;
+    state_set_target(&follower->state, target);
+}
+
+static int attach(struct follower *follower, const struct call *call, struct error *error)
+{
+    struct triptych_target_description description = follower->target;
+    if (call->attach.some && check_attach(follower->stream, call, &description, error))
+        return -1;
+    draw_to(follower, &description);
+    return 0;
 }
 
 static int follow(struct follower *follower, const struct call *call, struct error *error)
 {
     struct state *state = &follower->state;
     switch (call->type) {
-    case CALL_TARGET: set_target(follower, call); return 0;
+    case CALL_TARGET:
+        follower->target = call->target;
+        draw_to(follower, &call->target);
+        return 0;
+    case CALL_ATTACH: return attach(follower, call, error);
+    case CALL_COPY: return check_copy(follower->stream, call, &follower->target, error);
     case CALL_VIEWPORT:
         return state_set_viewport(state, &call->viewport, follower->width, follower->height, error);
     case CALL_SCISSOR: {

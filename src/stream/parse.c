@@ -203,6 +203,8 @@ static const struct command {
     {"frequency", ANYWHERE, CALL_FREQUENCY, parse_frequency, NULL},
     {"update", ANYWHERE, CALL_UPDATE, parse_update, NULL},
     {"mips", ANYWHERE, CALL_MIPS, parse_mips, NULL},
+    {"attach", ANYWHERE, CALL_ATTACH, parse_attach, NULL},
+    {"copy", ANYWHERE, CALL_COPY, parse_copy, NULL},
     {"clear", ANYWHERE, CALL_CLEAR, parse_clear, NULL},
     {"draw", ANYWHERE, CALL_DRAW, parse_draw, NULL},
     {"draw-indexed", ANYWHERE, CALL_DRAW_INDEXED, parse_primitives, NULL},
@@ -227,7 +229,7 @@ static int is_allowed(const struct parser *parser, const struct command *command
 
 static int expect_command(struct parser *parser)
 {
-    char words[256] = "";
+    char words[320] = "";
     size_t at = 0;
     for (int i = 0; i < COMMANDS; i++)
         if (is_allowed(parser, &commands[i]))

@@ -66,6 +66,8 @@ int parse_fvf(struct parser *parser, struct call *call);
 int parse_frequency(struct parser *parser, struct call *call);
 int parse_update(struct parser *parser, struct call *call);
 int parse_mips(struct parser *parser, struct call *call);
+int parse_attach(struct parser *parser, struct call *call);
+int parse_copy(struct parser *parser, struct call *call);
 int parse_clear(struct parser *parser, struct call *call);
 int parse_draw(struct parser *parser, struct call *call);
 int parse_primitives(struct parser *parser, struct call *call);
@@ -82,5 +84,12 @@ int stream_expand(struct parser *parser);
 
 /* Follows the state through the executed calls: targets and viewports, what is bound, what draws read. */
 int stream_check(struct parser *parser);
+
+/* Whether surfaces can be drawn to, and what target they make; whether a copy can be made (stream/surface.c).
+ */
+int check_attach(const struct stream *stream, const struct call *call,
+                 struct triptych_target_description *description, struct error *error);
+int check_copy(const struct stream *stream, const struct call *call,
+               const struct triptych_target_description *target, struct error *error);
 
 #endif

@@ -196,6 +196,35 @@ static enum triptych_result update_texture(struct player *player, const struct c
                                    row, row * rows);
 }
 
+static struct triptych_surface surface_of(const struct player *player, const struct stream_surface *surface)
+{
+    triptych_texture *texture =
+        surface->resource == NO_RESOURCE ? NULL : player->handles[surface->resource].texture;
+    return (struct triptych_surface){texture, surface->level, surface->slice};
+}
+
+static enum triptych_result attach(struct player *player, const struct call *call)
+{
+    struct triptych_target_textures textures = {.depth_format = call->attach.depth_format};
+    if (!call->attach.some)
+        return triptych_set_target_textures(player->device, NULL);
+    for (int t = 0; t < TRIPTYCH_TARGETS; t++)
+        textures.color[t] = surface_of(player, &call->attach.color[t]);
+    textures.depth = surface_of(player, &call->attach.depth);
+    return triptych_set_target_textures(player->device, &textures);
+}
+
+static enum triptych_result copy(struct player *player, const struct call *call)
+{
+    struct triptych_surface surface[2];
+    const struct triptych_rectangle *part[2];
+    for (int i = 0; i < 2; i++) {
+        surface[i] = surface_of(player, &call->copy.surface[i]);
+        part[i] = call->copy.part[i].width ? &call->copy.part[i] : NULL;
+    }
+    return triptych_copy(player->device, &surface[0], part[0], &surface[1], part[1], call->copy.filter);
+}
+
 /* Everything that stays from call to call. */
 static enum triptych_result execute_state(struct player *player, const struct call *call)
 {
@@ -230,6 +259,8 @@ static enum triptych_result execute_state(struct player *player, const struct ca
     case CALL_DRAW_MESH: return bind_mesh(player, call->resource);
     case CALL_UPDATE: return update_texture(player, call);
     case CALL_MIPS: return triptych_texture_generate_mips(device, player->handles[call->resource].texture);
+    case CALL_ATTACH: return attach(player, call);
+    case CALL_COPY:
     case CALL_CLEAR:
     case CALL_DRAW:
     case CALL_DRAW_INDEXED:
@@ -244,6 +275,7 @@ static enum triptych_result execute_pixels(struct player *player, const struct c
 {
     triptych_device *device = player->device;
     switch (call->type) {
+    case CALL_COPY: return copy(player, call);
     case CALL_CLEAR:
         return triptych_clear_buffers(device, call->clear.flags, call->clear.color, call->clear.depth,
                                       call->clear.stencil);
@@ -270,6 +302,8 @@ static int is_overwritten(const struct stream *stream, uint32_t at, uint32_t end
         switch (call->type) {
         case CALL_CLEAR: return call->clear.flags == all;
         case CALL_TARGET:
+        case CALL_ATTACH:
+        case CALL_COPY:
         case CALL_VIEWPORT:
         case CALL_SCISSOR:
         case CALL_DRAW:
@@ -297,13 +331,14 @@ static int same_colors(const struct triptych_target_description *got,
 static enum triptych_result keep_target(struct player *player, const struct call *call, int *kept)
 {
     struct triptych_target_description target;
+    enum triptych_result result = triptych_set_target_textures(player->device, NULL);
     triptych_get_target(player->device, &target);
     *kept = target.width == call->target.width && target.height == call->target.height &&
             target.depth_format == call->target.depth_format && same_colors(&target, &call->target);
-    if (!*kept)
-        return TRIPTYCH_OK;
+    if (!*kept || result)
+        return result;
     const struct triptych_viewport whole = {0, 0, (float)target.width, (float)target.height, 0, 1};
-    enum triptych_result result = triptych_set_scissor(player->device, 0, 0, target.width, target.height);
+    result = triptych_set_scissor(player->device, 0, 0, target.width, target.height);
     return result ? result : triptych_set_viewport(player->device, &whole);
 }
 
@@ -370,7 +405,9 @@ static enum triptych_result reset_textures(struct player *player)
 static enum triptych_result reset(struct player *player)
 {
     static const float identity[4][4] = {{1, 0, 0, 0}, {0, 1, 0, 0}, {0, 0, 1, 0}, {0, 0, 0, 1}};
-    enum triptych_result result = reset_lights(player->device);
+    enum triptych_result result = triptych_set_target_textures(player->device, NULL);
+    if (!result)
+        result = reset_lights(player->device);
     if (!result)
         result = reset_textures(player);
     for (unsigned t = 0; t < TRIPTYCH_STATE_TABLE_COUNT && !result; t++)

@@ -143,6 +143,8 @@ enum call_type {
     CALL_FREQUENCY,
     CALL_UPDATE,
     CALL_MIPS,
+    CALL_ATTACH,
+    CALL_COPY,
     CALL_CLEAR,
     CALL_DRAW,
     CALL_DRAW_INDEXED,
@@ -153,6 +155,12 @@ enum call_type {
 };
 
 enum { NO_RESOURCE = 65536 }; /* past the last number: LIMIT_NAMES */
+
+/* A surface of a texture, or of the target. */
+struct stream_surface {
+    uint32_t resource; /* NO_RESOURCE: the target; none where it may be missing */
+    uint32_t level, slice;
+};
 
 struct call {
     enum call_type type;
@@ -204,6 +212,16 @@ struct call {
             } element[TRIPTYCH_ATTRIBUTE_COUNT];
         } declare;
         uint32_t fvf;
+        struct {
+            int some; /* 0: back to the target */
+            struct stream_surface color[TRIPTYCH_TARGETS], depth;
+            enum triptych_depth_format depth_format;
+        } attach;
+        struct {
+            struct stream_surface surface[2];
+            struct triptych_rectangle part[2]; /* of width 0: all */
+            enum triptych_copy_filter filter;
+        } copy;
         struct {
             uint32_t stream;
             enum triptych_frequency frequency;

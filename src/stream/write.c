@@ -460,6 +460,40 @@ static void write_color_formats(struct writer *writer, const struct triptych_tar
         fprintf(writer->out, "%s %s", t ? "" : " color", format_find(target->color_format[t])->name);
 }
 
+static void write_surface(struct writer *writer, const char *word, const struct stream_surface *surface)
+{
+    fprintf(writer->out, " %s%s", word,
+            surface->resource == NO_RESOURCE ? "target" : writer->stream->resources[surface->resource].name);
+    if (surface->level)
+        fprintf(writer->out, " level %" PRIu32, surface->level);
+    if (surface->slice)
+        fprintf(writer->out, " slice %" PRIu32, surface->slice);
+}
+
+static void write_attach(struct writer *writer, const struct call *call)
+{
+    fputs(call->attach.some ? "attach" : "attach none", writer->out);
+    for (int t = 0; t < TRIPTYCH_TARGETS; t++)
+        if (call->attach.color[t].resource != NO_RESOURCE)
+            write_surface(writer, "color ", &call->attach.color[t]);
+    if (call->attach.depth.resource != NO_RESOURCE)
+        write_surface(writer, "depth ", &call->attach.depth);
+    if (call->attach.depth_format)
+        fprintf(writer->out, " depthformat %s", word_text(WORDS_DEPTH, call->attach.depth_format));
+}
+
+static void write_copy(struct writer *writer, const struct call *call)
+{
+    fputs("copy", writer->out);
+    for (int i = 0; i < 2; i++) {
+        const struct triptych_rectangle *part = &call->copy.part[i];
+        write_surface(writer, i ? "to " : "", &call->copy.surface[i]);
+        if (part->width)
+            fprintf(writer->out, " part %u %u %u %u", part->x, part->y, part->width, part->height);
+    }
+    fputs(call->copy.filter == TRIPTYCH_COPY_LINEAR ? " linear" : "", writer->out);
+}
+
 static void write_call(struct writer *writer, const struct call *call)
 {
     FILE *out = writer->out;
@@ -472,6 +506,8 @@ static void write_call(struct writer *writer, const struct call *call)
             fprintf(out, " depth %s", word_text(WORDS_DEPTH, call->target.depth_format));
         write_color_formats(writer, &call->target);
         break;
+    case CALL_ATTACH: write_attach(writer, call); break;
+    case CALL_COPY: write_copy(writer, call); break;
     case CALL_VIEWPORT: {
         const struct triptych_viewport *v = &call->viewport;
         const float numbers[6] = {v->x, v->y, v->width, v->height, v->depth_near, v->depth_far};

@@ -84,7 +84,8 @@ static void test_what_was_drawn_is_sampled(void)
     on_every_engine(check_chain);
 }
 
-/* Draws to a texture keep what is there, and a draw recorded before one is drawn to samples what was there. */
+/* Draws to a texture keep what is there, and a draw recorded before one is drawn to samples what was there.
+ */
 static void check_order(void)
 {
     triptych_texture *texture = make_flat(TRIPTYCH_SURFACE_A8R8G8B8);
@@ -256,7 +257,8 @@ static void check_copies(void)
     for (unsigned y = 0; y < SIZE; y++)
         for (unsigned x = 0; x < SIZE; x++) {
             int inside = x >= 30 && x < 50 && y >= 40 && y < 50;
-            expect_pixel((int)x, (int)y, inside ? texel[(y - 34) * SIZE + x - 25] : texel[y * SIZE + x], "part");
+            expect_pixel((int)x, (int)y, inside ? texel[(y - 34) * SIZE + x - 25] : texel[y * SIZE + x],
+                         "part");
         }
 }
 
