@@ -162,6 +162,25 @@ full_disk_is_noticed()
 }
 holds 'a full disk is noticed on standard output' full_disk_is_noticed
 
+# --- Shaders -------------------------------------------------------------------------------------------------
+
+printf 'ps_1_4\n+MAD_x2 r0.rgb, -t1_bx2, c2.a, 1 - r3 ; comment\n' >"$work/good.shader"
+answers 'assemble a shader' '^0xffff0104 0x40000004 0x81070000 0xb5e40001 0xa0ff0002 0x86e40003$' \
+    shader assemble "$work/good.shader"
+does 'assemble a shader to a file' shader assemble "$work/good.shader" --out "$work/good.code"
+answers 'disassemble a shader' '^\+mad_x2 r0.xyz, -t1_bx2, c2.w, 1-r3$' shader disassemble "$work/good.code"
+answers 'tokens as JSON' '"0x40000004"' shader assemble "$work/good.code" --json
+answers 'text as JSON' '"model":.*"ps_1_4"' shader disassemble "$work/good.code" --json
+refuses 'unknown action' 'unknown action "compile", expected one of: assemble' shader compile "$work/good.shader"
+refuses 'no shader' 'expected ACTION' shader assemble
+refuses 'shader that is not there' 'none.shader: .*No such file' shader assemble "$work/none.shader"
+printf 'vs_1_1\nmov r0\n' >"$work/bad.shader"
+refuses 'bad text of a shader' 'bad.shader:2:7: found the end of the line, expected' \
+    shader assemble "$work/bad.shader" --out "$work/out/code"
+head -c 20 "$work/good.code" >"$work/bad.code"
+refuses 'bytecode cut off' 'bad.code: token 5: found the end of the data' \
+    shader disassemble "$work/bad.code" --out "$work/out/text"
+
 # --- Rendering -----------------------------------------------------------------------------------------------
 
 does 'render a PNG' render "$work/good.tri" --engine emulate --out "$picture"

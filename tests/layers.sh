@@ -24,6 +24,7 @@ check() {
 
 check "base includes base and its own table" src/base base/ def/cpu.def triptych.h
 check "tables include tables and layouts" src/def def/ draw/call.h draw/key.h
+check "shaders know tables and the base" src/shader base/ def/ shader/
 check "the renderer includes no engine" src/draw base/ def/ draw/ triptych.h
 check "the emulator includes no other engine" emu emu/ base/ def/ draw/ spec/
 check "the stitcher includes no other engine" src/stitch stitch/ base/ def/ draw/ spec/

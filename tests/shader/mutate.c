@@ -1,0 +1,196 @@
+/* Shaders damaged at random: text and tokens. Each is refused with one line at a place, or is a shader, which
+ * then goes to tokens and text and back. The sanitizers watch. The seed is fixed. */
+#include "shader/shader.h"
+#include "tests/support/shaders.h"
+
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <unity.h>
+
+enum { INSTRUCTIONS = 25, MUTATIONS = 400, CAPACITY = 1 << 16 };
+
+static struct error error;
+static uint64_t seed;
+
+void setUp(void)
+{
+    error_clear(&error);
+    seed = 0x9e3779b97f4a7c15;
+}
+
+void tearDown(void)
+{
+}
+
+static struct shader *random_shader(const struct shader_model *model)
+{
+    struct shader *shader = shader_blank(model);
+    for (int i = 0; i < INSTRUCTIONS;) {
+        enum shader_opcode opcode = shader_random(&seed, SHADER_COUNT);
+        if (shader_slots(&shader_operations[opcode], model) < 0)
+            continue;
+        shader_add_random(shader, opcode, &seed);
+        i++;
+    }
+    return shader;
+}
+
+static void expect_one_line(const char *path)
+{
+    TEST_ASSERT_EQUAL_STRING_LEN_MESSAGE(path, error.text, strlen(path), error.text);
+    TEST_ASSERT_NULL_MESSAGE(strchr(error.text, '\n'), error.text);
+}
+
+/* What a reader let through is a shader in every respect. */
+static void expect_sound(const struct shader *shader)
+{
+    struct shader *again;
+    uint32_t *tokens, *tokens_again;
+    size_t count, count_again, bytes;
+    char *text;
+    TEST_ASSERT_EQUAL_INT(0, shader_encode(shader, &tokens, &count, &error));
+    TEST_ASSERT_EQUAL_INT(0, shader_print(shader, &text, &bytes, &error));
+    int bad = shader_assemble("again", text, bytes, &again, &error);
+    TEST_ASSERT_EQUAL_INT_MESSAGE(0, bad, error.text);
+    TEST_ASSERT_EQUAL_INT(0, shader_encode(again, &tokens_again, &count_again, &error));
+    TEST_ASSERT_EQUAL_UINT64(count, count_again);
+    TEST_ASSERT_EQUAL_HEX32_ARRAY(tokens, tokens_again, count);
+    shader_free(again);
+    free(tokens);
+    free(tokens_again);
+    free(text);
+}
+
+static const char *const pieces[] = {
+    "r0",   "c[a0.x + 5]", "aL",          "[",     "]",          ".",     ",",     "-",
+    "1-",   "!",           "(p0)",        "(",     "+",          "\n",    " ",     "_sat",
+    "_x2",  "_bx2",        "_abs",        ".xyz",  ".wzyx",      "if b0", "endif", "mov",
+    "99",   "8191",        "2147483648",  "1e38",  "0x7fc00000", "/*",    "*/",    "dcl_2d s0",
+    "\xff", "vs_3_0\n",    "loop aL, i0", "texld", "\"",         "o[aL",  "oPos",  "true",
+};
+
+static size_t mutate_text(char *text, size_t bytes)
+{
+    size_t at = shader_random(&seed, (uint32_t)bytes + 1), count = 1 + shader_random(&seed, 6);
+    const char *piece = pieces[shader_random(&seed, sizeof pieces / sizeof *pieces)];
+    switch (shader_random(&seed, 4)) {
+    case 0:
+        memmove(text + at + strlen(piece), text + at, bytes - at);
+        memcpy(text + at, piece, strlen(piece));
+        return bytes + strlen(piece);
+    case 1:
+        count = count > bytes - at ? bytes - at : count;
+        memmove(text + at, text + at + count, bytes - at - count);
+        return bytes - count;
+    case 2:
+        if (at < bytes)
+            text[at] ^= (char)(1 << shader_random(&seed, 8));
+        return bytes;
+    default: return shader_random(&seed, 4) ? bytes : at;
+    }
+}
+
+static void damaged_text_survives(void)
+{
+    char *changed = malloc(CAPACITY);
+    unsigned good = 0, bad = 0;
+    for (unsigned m = 0; m < MODEL_COUNT; m++) {
+        struct shader *shader = random_shader(&shader_models[m]);
+        char *text;
+        size_t original;
+        TEST_ASSERT_EQUAL_INT(0, shader_print(shader, &text, &original, &error));
+        shader_free(shader);
+        for (int i = 0; i < MUTATIONS; i++) {
+            size_t bytes = original;
+            memcpy(changed, text, bytes);
+            for (uint32_t changes = 1 + shader_random(&seed, 2); changes; changes--)
+                bytes = mutate_text(changed, bytes);
+            error_clear(&error);
+            if (shader_assemble("text", changed, bytes, &shader, &error)) {
+                expect_one_line("text:");
+                bad++;
+                continue;
+            }
+            good++;
+            expect_sound(shader);
+            shader_free(shader);
+        }
+        free(text);
+    }
+    free(changed);
+    TEST_ASSERT_TRUE(good > MUTATIONS && bad > MUTATIONS);
+}
+
+/* Bits, whole tokens, tokens gone or twice, and cut off. */
+static size_t mutate_tokens(uint32_t *tokens, size_t count)
+{
+    size_t at = shader_random(&seed, (uint32_t)count);
+    switch (shader_random(&seed, 6)) {
+    case 0: tokens[at] = shader_random(&seed, 0xffffffff); return count;
+    case 1: tokens[at] = tokens[shader_random(&seed, (uint32_t)count)]; return count;
+    case 2: memmove(tokens + at, tokens + at + 1, (count - at - 1) * 4); return count - 1;
+    case 3: memmove(tokens + at + 1, tokens + at, (count - at) * 4); return count + 1;
+    case 4: return shader_random(&seed, 3) ? count : at + 1;
+    default: tokens[at] ^= 1u << shader_random(&seed, 32); return count;
+    }
+}
+
+static void damaged_tokens_survive(void)
+{
+    unsigned good = 0, bad = 0;
+    for (unsigned m = 0; m < MODEL_COUNT; m++) {
+        struct shader *shader = random_shader(&shader_models[m]);
+        uint32_t *tokens;
+        size_t original;
+        TEST_ASSERT_EQUAL_INT(0, shader_encode(shader, &tokens, &original, &error));
+        shader_free(shader);
+        for (int i = 0; i < MUTATIONS; i++) {
+            size_t count = original;
+            uint32_t *changed = malloc((count + 4) * 4);
+            memcpy(changed, tokens, count * 4);
+            for (uint32_t changes = 1 + shader_random(&seed, 2); changes; changes--)
+                count = mutate_tokens(changed, count);
+            /* No larger than it is, for the sanitizer. */
+            changed = realloc(changed, count * 4);
+            error_clear(&error);
+            if (shader_read("tokens", changed, count * 4, &shader, &error)) {
+                expect_one_line("tokens: ");
+                bad++;
+            } else {
+                good++;
+                expect_sound(shader);
+                shader_free(shader);
+            }
+            free(changed);
+        }
+        free(tokens);
+    }
+    TEST_ASSERT_TRUE(good > MUTATIONS && bad > MUTATIONS);
+}
+
+static void noise_survives(void)
+{
+    for (int i = 0; i < 4000; i++) {
+        uint32_t noise[40];
+        struct shader *shader;
+        for (size_t j = 0; j < sizeof noise / sizeof *noise; j++)
+            noise[j] = shader_random(&seed, 0xffffffff);
+        if (i % 2)
+            noise[0] = shader_models[i / 2 % MODEL_COUNT].version |
+                       (shader_models[i / 2 % MODEL_COUNT].stage ? 0xffff0000 : 0xfffe0000);
+        error_clear(&error);
+        TEST_ASSERT_EQUAL_INT(-1, shader_read("noise", noise, sizeof noise, &shader, &error));
+        error_clear(&error);
+        TEST_ASSERT_EQUAL_INT(-1, shader_assemble("noise", (char *)noise, sizeof noise, &shader, &error));
+    }
+}
+
+int main(void)
+{
+    UNITY_BEGIN();
+    RUN_TEST(damaged_text_survives);
+    RUN_TEST(damaged_tokens_survive);
+    RUN_TEST(noise_survives);
+    return UNITY_END();
+}
