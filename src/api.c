@@ -609,6 +609,15 @@ enum triptych_result triptych_read_stencil(triptych_device *device, uint8_t *ste
     return finish(device, device_read_stencil(device, stencil, &error), &error);
 }
 
+enum triptych_result triptych_read_sample(triptych_device *device, unsigned sample, uint32_t *rgba,
+                                          float *depth, uint8_t *stencil)
+{
+    if (!device)
+        return TRIPTYCH_BAD_ARGUMENT;
+    struct error error = {{0}};
+    return finish(device, device_read_sample(device, sample, rgba, depth, stencil, &error), &error);
+}
+
 void triptych_get_target(const triptych_device *device, struct triptych_target_description *description)
 {
     if (!description)

@@ -217,6 +217,7 @@ struct triptych_target_description {
     unsigned width, height; /* pixels, 1 to 8192 */
     enum triptych_depth_format depth_format;
     enum triptych_surface_format color_format[TRIPTYCH_TARGETS];
+    unsigned samples; /* per pixel: 1 (or 0), or with one colour target 2, 4 or 8 */
 };
 
 /* One image of a texture: a level, of the face of a cube or the slice of a volume that `slice` numbers.
@@ -531,6 +532,11 @@ TRIPTYCH_API enum triptych_result triptych_read_stencil(triptych_device *, uint8
  * four numbers a pixel, exactly. */
 TRIPTYCH_API enum triptych_result triptych_read_target(triptych_device *, unsigned t, uint32_t *rgba);
 TRIPTYCH_API enum triptych_result triptych_read_target_numbers(triptych_device *, unsigned t, float *rgba);
+/* The same of one sample of each pixel, as it is, of colour target 0; what is null is not copied. The calls
+ * above give the average of all samples' colours (of bytes rounded to nearest, halves up) and sample 0's
+ * depth and stencil. */
+TRIPTYCH_API enum triptych_result triptych_read_sample(triptych_device *, unsigned sample, uint32_t *rgba,
+                                                       float *depth, uint8_t *stencil);
 /* The target's description, its first colour's format included; all zero without one. */
 TRIPTYCH_API void triptych_get_target(const triptych_device *, struct triptych_target_description *);
 /* Whether 8 unsigned bits a channel hold all that a surface of the format can. */

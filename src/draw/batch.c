@@ -126,7 +126,8 @@ static bool set_up(struct batch *batch, uint32_t next)
             return false;
         struct setup_call call = {&draw->job, batch->setup_index[0], batch->vertices, out, padded};
         routine->run(&call, routine);
-        int visible = bin_records(batch->bins, count, draw->stride, draw->shape, &draw->scissor);
+        int visible =
+            bin_records(batch->bins, count, draw->stride, draw->shape, &draw->sampling, &draw->scissor);
         if (visible < 0)
             return false;
         batch->counts.triangles_set_up += count;

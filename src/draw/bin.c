@@ -118,15 +118,15 @@ static void append(struct bin_writer *writer, uint32_t tile, uint32_t triangle)
 }
 
 static void append_to_tiles(struct bin_writer *writer, const struct rectangle *tiles,
-                            const struct rectangle *scissor, enum raster_shape shape, uint32_t triangle)
+                            const struct rectangle *scissor, enum raster_shape shape,
+                            const struct sampling *sampling, uint32_t triangle)
 {
     const uint8_t *record = writer->arena->base + triangle;
-    struct raster raster;
-    if (!rasterizer[shape].prepare(&raster, (const struct triangle_head *)(const void *)record, scissor))
-        return;
+    struct sampled_raster raster;
+    sampled_prepare(&raster, sampling, shape, (const struct triangle_head *)(const void *)record, scissor);
     for (int32_t row = tiles->y0; row < tiles->y1; row++)
         for (int32_t column = tiles->x0; column < tiles->x1; column++)
-            if (raster_touches(&raster, column, row))
+            if (sampled_touches(&raster, column, row))
                 append(writer, (uint32_t)row * writer->columns + (uint32_t)column, triangle);
 }
 
@@ -150,7 +150,8 @@ static uint32_t tile_count(const struct rectangle *tiles)
 /* Moves the records that may touch a pixel to the front, their tiles to writer->tiles; counts the pairs of
  * such a triangle and a tile. */
 static uint32_t keep_visible(struct bin_writer *writer, uint32_t count, uint32_t stride,
-                             enum raster_shape shape, const struct rectangle *scissor, uint32_t *pairs)
+                             enum raster_shape shape, const struct sampling *sampling,
+                             const struct rectangle *scissor, uint32_t *pairs)
 {
     uint16_t list[SETUP_CAPACITY];
     uint8_t *start = writer->arena->base + writer->at, *kept = start;
@@ -159,7 +160,8 @@ static uint32_t keep_visible(struct bin_writer *writer, uint32_t count, uint32_t
     for (uint32_t i = 0; i < candidates; i++) {
         const uint8_t *record = start + list[i] * stride;
         struct rectangle bounds;
-        if (!rasterizer[shape].bounds((const struct triangle_head *)(const void *)record, scissor, &bounds))
+        if (!sampled_bounds(sampling, shape, (const struct triangle_head *)(const void *)record, scissor,
+                            &bounds))
             continue;
         writer->tiles[visible] = raster_tiles(&bounds);
         *pairs += tile_count(&writer->tiles[visible]);
@@ -172,10 +174,10 @@ static uint32_t keep_visible(struct bin_writer *writer, uint32_t count, uint32_t
 }
 
 int bin_records(struct bin_writer *writer, uint32_t count, uint32_t stride, enum raster_shape shape,
-                const struct rectangle *scissor)
+                const struct sampling *sampling, const struct rectangle *scissor)
 {
     uint32_t pairs, triangle = writer->at;
-    uint32_t visible = keep_visible(writer, count, stride, shape, scissor, &pairs);
+    uint32_t visible = keep_visible(writer, count, stride, shape, sampling, scissor, &pairs);
     writer->at += visible * stride;
     uint32_t tiles = writer->columns * writer->rows;
     uint32_t cells = CELLS(pairs, pairs < tiles ? pairs : tiles);
@@ -186,7 +188,7 @@ int bin_records(struct bin_writer *writer, uint32_t count, uint32_t stride, enum
         if (tile_count(in) == 1)
             append(writer, (uint32_t)in->y0 * writer->columns + (uint32_t)in->x0, triangle);
         else
-            append_to_tiles(writer, in, scissor, shape, triangle);
+            append_to_tiles(writer, in, scissor, shape, sampling, triangle);
     }
     return (int)visible;
 }

@@ -13,7 +13,7 @@
 #define DRAW_BIN_H
 
 #include "base/error.h"
-#include "draw/raster.h"
+#include "draw/raster_sample.h"
 
 #include <stdatomic.h>
 
@@ -77,6 +77,6 @@ uint8_t *bin_reserve(struct bin_writer *writer, uint32_t bytes);
  * pixel of the scissor rectangle, keeps and bins the others. Returns how many it kept, or -1 when the arena
  * is full: then none is binned. */
 int bin_records(struct bin_writer *writer, uint32_t count, uint32_t stride, enum raster_shape shape,
-                const struct rectangle *scissor);
+                const struct sampling *sampling, const struct rectangle *scissor);
 
 #endif

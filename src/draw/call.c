@@ -11,6 +11,13 @@ const struct lane_table lane_table = {
                DITHER(3), DITHER(11), DITHER(15), DITHER(7), DITHER(1), DITHER(9), DITHER(13), DITHER(5)},
 };
 
+const struct sample_position sample_position[SAMPLES_RADIX][SAMPLES_MAXIMUM] = {
+    {{0, 0}},
+    {{4, 4}, {-4, -4}},
+    {{-2, -6}, {6, -2}, {-6, 2}, {2, 6}},
+    {{1, -3}, {-1, 3}, {5, 1}, {-3, -5}, {-5, 5}, {-7, -1}, {3, 7}, {7, -7}},
+};
+
 const uint8_t varying_components[VARYING_COUNT] = {
 #define VARYING(name, components, text) components,
 #include "def/varying.def"

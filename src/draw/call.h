@@ -123,6 +123,32 @@ struct entry {
     uint32_t triangle; /* byte offset of the record from pixel_call.triangles */
 };
 
+/* With several samples per pixel, an entry's coverage is that of any sample, and the coverage of each lies
+ * SAMPLE_COVERAGE bytes behind the entry: calls have their entries in the first of two arrays of
+ * PIXEL_ENTRIES. */
+enum { PIXEL_ENTRIES = 1024, SAMPLE_COVERAGE = PIXEL_ENTRIES * 16 };
+
+struct sample_coverage {
+    uint16_t sample[SAMPLES_MAXIMUM];
+};
+
+struct entry_list {
+    struct entry entry[PIXEL_ENTRIES];
+    struct sample_coverage coverage[PIXEL_ENTRIES];
+    uint32_t reserved; /* coverage is read by the word */
+};
+
+_Static_assert(offsetof(struct entry_list, coverage) == SAMPLE_COVERAGE &&
+                   sizeof(struct entry) == sizeof(struct sample_coverage),
+               "an entry's samples are at a constant distance");
+
+/* Where sample i of 2^n is, in 1/16 pixel from the centre, y down: the standard patterns of Direct3D 10.1. */
+struct sample_position {
+    int8_t x, y;
+};
+
+extern const struct sample_position sample_position[SAMPLES_RADIX][SAMPLES_MAXIMUM];
+
 /* Per-lane constants of the pixel routine, and its counters, for 16 lanes in quad order; a chunk of W lanes
  * starts at c * W. */
 struct lane_table {
@@ -164,9 +190,9 @@ struct pixel_call {
     const struct entry *entries;
     const uint8_t *triangles;
     struct lane_table *lanes;
-    uint32_t *color; /* planes of TILE_PIXELS words, those of each target in turn (def/target.def), 64-byte
-                        aligned */
-    uint32_t *depth; /* TILE_PIXELS words (draw/depth.h), 64-byte aligned */
+    uint32_t *color; /* planes of TILE_PIXELS words, those of each target in turn (def/target.def), or of each
+                        sample; 64-byte aligned */
+    uint32_t *depth; /* TILE_PIXELS words (draw/depth.h) of each sample in turn, 64-byte aligned */
     uint32_t count;
 };
 

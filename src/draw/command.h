@@ -5,6 +5,7 @@
 #define DRAW_COMMAND_H
 
 #include "draw/engine.h"
+#include "draw/raster_sample.h"
 #include "draw/target.h"
 #include "triptych.h"
 
@@ -19,6 +20,7 @@ struct draw {
     uint32_t base;       /* added to each index, modulo 2^32 */
     uint32_t stride;     /* bytes of a record */
     enum raster_shape shape;
+    struct sampling sampling;
     uint32_t clip_ignored; /* bits of clip codes that do not count */
     uint64_t
         wrapped; /* bit s: the values of slot s (enum vertex_slot) at a triangle's second and third corner are

@@ -32,6 +32,15 @@ float depth_maximum(enum triptych_depth_format format);
 /* The word of a depth from 0 to 1 with stencil 0. Called in the contract's floating-point environment. */
 uint32_t depth_encode(enum triptych_depth_format format, float depth);
 
+/* n of 2^n samples per pixel, 0 for none asked; -1 when there is no such number of samples. */
+static inline int samples_exponent(unsigned samples)
+{
+    for (int n = 0; n < SAMPLES_RADIX; n++)
+        if (samples == 1u << n)
+            return n;
+    return samples ? -1 : 0;
+}
+
 /* A word's depth, rounded to nearest. */
 float depth_decode(enum triptych_depth_format format, uint32_t word);
 

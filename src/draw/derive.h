@@ -7,7 +7,7 @@
 #define DRAW_DERIVE_H
 
 #include "draw/job.h"
-#include "draw/raster.h"
+#include "draw/raster_sample.h"
 #include "draw/state.h"
 
 #include <stdbool.h>
@@ -44,6 +44,9 @@ void derive_job(const struct state *state, const struct vertex_key *vertex, cons
 
 /* The palette of indexed vertex blending, which the caller keeps for as long as the job is used. */
 void derive_palette(const struct state *state, struct palette_entry palette[WORLD_MATRICES]);
+
+/* How draws take samples. */
+struct sampling derive_sampling(const struct state *state);
 
 /* The pixels whose centres lie inside the viewport and, if its test is on, the scissor rectangle. */
 struct rectangle derive_scissor(const struct state *state);

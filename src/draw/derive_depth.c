@@ -1,4 +1,4 @@
-/* Depth and stencil: which tests there are, and what can come of them. */
+/* Depth, stencil and samples: which tests there are, and what can come of them. */
 #include "draw/derive_part.h"
 
 #include <string.h>
@@ -114,9 +114,21 @@ static bool depth_matters(const struct pixel_key *key)
     return matters;
 }
 
+struct sampling derive_sampling(const struct state *state)
+{
+    if (!state->samples)
+        return (struct sampling){.mask = 1};
+    return (struct sampling){.samples = state->samples,
+                             .centers = !GET(multisampleantialias),
+                             .mask = (uint8_t)(GET(multisamplemask) & ((1u << (1 << state->samples)) - 1))};
+}
+
 /* When it is known what is tested and written. */
 void derive_depth_format(const struct state *state, struct pixel_key *key)
 {
+    struct sampling sampling = derive_sampling(state);
+    key->samples = sampling.samples;
+    key->sample_centers = sampling.centers;
     if (!depth_matters(key))
         key->depth_function = COMPARE_ALWAYS;
     key->depth_w = pixel_tests_depth(key) && GET(zenable) == ZBUFFER_usew;

@@ -147,6 +147,15 @@ enum triptych_result device_check_target(const struct triptych_target_descriptio
                   TRIPTYCH_DEPTH_COUNT - 1);
         return TRIPTYCH_BAD_ARGUMENT;
     }
+    if (samples_exponent(description->samples) < 0) {
+        error_set(error, "%u samples per pixel: expected 1, 2, 4 or 8", description->samples);
+        return TRIPTYCH_BAD_ARGUMENT;
+    }
+    for (unsigned t = 1; t < TARGETS && description->samples > 1; t++)
+        if (description->color_format[t]) {
+            error_set(error, "colour target %u: expected only one with several samples per pixel", t);
+            return TRIPTYCH_BAD_ARGUMENT;
+        }
     return check_color_formats(description, error);
 }
 
@@ -441,6 +450,7 @@ static enum triptych_result record_instance(struct triptych_device *device, cons
     draw->scissor = derive_scissor(&device->state);
     draw->stride = setup_layout(setup).stride;
     draw->shape = derive_shape(setup->primitive);
+    draw->sampling = derive_sampling(&device->state);
     draw->clip_ignored = derive_clip_ignored(&device->state);
     draw->last_pixel = derive_last_pixel(&device->state);
     draw->wrapped = derive_wrapped(&device->state, &device->key[UNIT_PIXEL].pixel);
@@ -603,6 +613,7 @@ void device_finish(struct triptych_device *device)
 struct reading {
     const struct target *target;
     unsigned t; /* which colour */
+    int sample; /* or SAMPLE_RESOLVED */
     uint32_t *color;
     float *numbers;
     float *depth;
@@ -617,13 +628,13 @@ static void read_task(void *user, unsigned worker)
     (void)worker;
     while ((row = atomic_fetch_add(&reading->next_row, 1)) < reading->target->rows)
         if (reading->color)
-            target_read_color(reading->target, reading->t, row, reading->color);
+            target_read_color(reading->target, reading->t, reading->sample, row, reading->color);
         else if (reading->numbers)
-            target_read_numbers(reading->target, reading->t, row, reading->numbers);
+            target_read_numbers(reading->target, reading->t, reading->sample, row, reading->numbers);
         else if (reading->depth)
-            target_read_depth(reading->target, row, reading->depth);
+            target_read_depth(reading->target, reading->sample, row, reading->depth);
         else
-            target_read_stencil(reading->target, row, reading->stencil);
+            target_read_stencil(reading->target, reading->sample, row, reading->stencil);
 }
 
 static void read_target(struct triptych_device *device, struct reading *reading)
@@ -649,14 +660,14 @@ static enum triptych_result read_color(struct triptych_device *device, struct re
 enum triptych_result device_read_target(struct triptych_device *device, unsigned t, uint32_t *rgba,
                                         struct error *error)
 {
-    struct reading reading = {.t = t, .color = rgba};
+    struct reading reading = {.t = t, .sample = SAMPLE_RESOLVED, .color = rgba};
     return read_color(device, &reading, error);
 }
 
 enum triptych_result device_read_target_numbers(struct triptych_device *device, unsigned t, float *numbers,
                                                 struct error *error)
 {
-    struct reading reading = {.t = t, .numbers = numbers};
+    struct reading reading = {.t = t, .sample = SAMPLE_RESOLVED, .numbers = numbers};
     return read_color(device, &reading, error);
 }
 
@@ -667,26 +678,58 @@ static enum triptych_result lacks(const struct triptych_device *device, const ch
     return TRIPTYCH_BAD_CALL;
 }
 
-enum triptych_result device_read_depth(struct triptych_device *device, float *depth, struct error *error)
+static enum triptych_result read_depth(struct triptych_device *device, struct reading *reading,
+                                       struct error *error)
 {
-    struct reading reading = {.depth = depth};
     enum triptych_result result = check_target(device, error);
     if (result == TRIPTYCH_OK && !device->target.depth)
         return lacks(device, "depth", error);
     if (result == TRIPTYCH_OK)
-        read_target(device, &reading);
+        read_target(device, reading);
     return result;
+}
+
+static enum triptych_result read_stencil(struct triptych_device *device, struct reading *reading,
+                                         struct error *error)
+{
+    enum triptych_result result = check_target(device, error);
+    if (result == TRIPTYCH_OK && !stencil_mask(device->target.depth_format))
+        return lacks(device, "stencil", error);
+    if (result == TRIPTYCH_OK)
+        read_target(device, reading);
+    return result;
+}
+
+enum triptych_result device_read_depth(struct triptych_device *device, float *depth, struct error *error)
+{
+    struct reading reading = {.sample = SAMPLE_RESOLVED, .depth = depth};
+    return read_depth(device, &reading, error);
 }
 
 enum triptych_result device_read_stencil(struct triptych_device *device, uint8_t *stencil,
                                          struct error *error)
 {
-    struct reading reading = {.stencil = stencil};
+    struct reading reading = {.sample = SAMPLE_RESOLVED, .stencil = stencil};
+    return read_stencil(device, &reading, error);
+}
+
+enum triptych_result device_read_sample(struct triptych_device *device, unsigned sample, uint32_t *rgba,
+                                        float *depth, uint8_t *stencil, struct error *error)
+{
+    struct reading colors = {.sample = (int)sample, .color = rgba};
+    struct reading depths = {.sample = (int)sample, .depth = depth};
+    struct reading stencils = {.sample = (int)sample, .stencil = stencil};
     enum triptych_result result = check_target(device, error);
-    if (result == TRIPTYCH_OK && !stencil_mask(device->target.depth_format))
-        return lacks(device, "stencil", error);
-    if (result == TRIPTYCH_OK)
-        read_target(device, &reading);
+    if (result == TRIPTYCH_OK && sample >= device->target.samples) {
+        error_set(error, "sample %u: the target has %u per pixel", sample, device->target.samples);
+        return TRIPTYCH_BAD_ARGUMENT;
+    }
+    if (result == TRIPTYCH_OK && depth)
+        result = read_depth(device, &depths, error);
+    if (result == TRIPTYCH_OK && stencil)
+        result = read_stencil(device, &stencils, error);
+    if (result == TRIPTYCH_OK && rgba)
+        result = read_color(device, &colors, error);
     return result;
 }
 

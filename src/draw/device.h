@@ -147,6 +147,10 @@ enum triptych_result device_texture_update(struct triptych_device *device, struc
                                            struct error *error);
 void device_texture_generate_mips(struct triptych_device *device, struct triptych_texture *texture);
 
+/* One sample's of colour target 0 and of depth and stencil; what is null is not read. */
+enum triptych_result device_read_sample(struct triptych_device *device, unsigned sample, uint32_t *rgba,
+                                        float *depth, uint8_t *stencil, struct error *error);
+
 void device_get_statistics(const struct triptych_device *device, struct triptych_statistics *statistics);
 
 /* For tools: who is told of each draw (null: nobody), and what the device works with. */

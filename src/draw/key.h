@@ -204,6 +204,9 @@ enum texture_kind { TEXTURE_NONE, TEXTURE_2D, TEXTURE_CUBE, TEXTURE_VOLUME, TEXT
 /* What texels are: bytes, bytes whose colours are sRGB, binary32, or depth that coordinates are compared
  * with. */
 enum texel { TEXEL_BYTES, TEXEL_SRGB, TEXEL_FLOATS, TEXEL_COMPARE, TEXEL_COUNT };
+/* Samples per pixel are a power of two; the key has its exponent. */
+enum { SAMPLES_RADIX = 4, SAMPLES_MAXIMUM = 1 << (SAMPLES_RADIX - 1) };
+
 enum filter { FILTER_POINT, FILTER_LINEAR, FILTER_COUNT };
 enum minify { MINIFY_SAME, MINIFY_OTHER, MINIFY_ANISOTROPIC, MINIFY_COUNT };
 enum mip { MIP_NONE, MIP_POINT, MIP_LINEAR, MIP_COUNT };

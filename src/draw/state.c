@@ -376,6 +376,7 @@ void state_set_target(struct state *state, const struct triptych_target_descript
     state->viewport = (struct triptych_viewport){0, 0, (float)width, (float)height, 0, 1};
     state->scissor = (struct scissor){0, 0, width, height};
     state->depth_format = description->depth_format;
+    state->samples = (uint8_t)samples_exponent(description->samples);
     for (unsigned t = 0; t < TARGETS; t++) {
         const struct format *format = target_format(description, t);
         state->target[t] = (struct target_channels){0, 0};

@@ -55,6 +55,7 @@ struct state {
     uint32_t index_bits; /* 16 or 32 while indices are bound */
     struct target_channels target[TARGETS];
     enum triptych_depth_format depth_format; /* of the target */
+    uint8_t samples;                         /* 2^samples per pixel of the target */
     uint8_t counting;                        /* an occlusion query wants to know what passes */
 };
 

@@ -1,5 +1,7 @@
 #include "draw/target.h"
 
+#include "def/lane.h"
+
 #include <emmintrin.h>
 #include <stdlib.h>
 #include <string.h>
@@ -26,19 +28,21 @@ int target_create(struct target *target, const struct triptych_target_descriptio
 {
     struct target t = {.width = description->width,
                        .height = description->height,
+                       .samples = 1u << samples_exponent(description->samples),
                        .depth_format = description->depth_format};
     bool has_depth = depth_formats[t.depth_format].depth_bits;
     t.columns = (t.width + TILE_SIZE - 1) / TILE_SIZE;
     t.rows = (t.height + TILE_SIZE - 1) / TILE_SIZE;
     size_t tiles = (size_t)t.columns * t.rows;
     place_colors(&t, description);
-    t.color = aligned_alloc(64, tiles * t.planes * TILE_PLANE_BYTES);
-    t.depth = has_depth ? aligned_alloc(64, tiles * TILE_PIXELS * sizeof *t.depth) : NULL;
+    size_t planes = tiles * t.samples;
+    t.color = aligned_alloc(64, planes * t.planes * TILE_PLANE_BYTES);
+    t.depth = has_depth ? aligned_alloc(64, planes * TILE_PLANE_BYTES) : NULL;
     t.clear = malloc(tiles * sizeof *t.clear);
     if (!t.color || (has_depth && !t.depth) || !t.clear) {
         target_destroy(&t);
         return error_set(error, "out of memory for a target of %ux%u pixels (%zu MiB)", description->width,
-                         description->height, tiles * TILE_PIXELS * 4 * (t.planes + has_depth) >> 20);
+                         description->height, planes * TILE_PLANE_BYTES * (t.planes + has_depth) >> 20);
     }
     struct tile_clear clear = {
         .depth = depth_encode(t.depth_format, 1), .color_pending = true, .depth_pending = true};
@@ -59,8 +63,10 @@ void target_destroy(struct target *target)
 
 void target_describe(const struct target *target, struct triptych_target_description *description)
 {
-    *description = (struct triptych_target_description){
-        .width = target->width, .height = target->height, .depth_format = target->depth_format};
+    *description = (struct triptych_target_description){.width = target->width,
+                                                        .height = target->height,
+                                                        .samples = target->samples,
+                                                        .depth_format = target->depth_format};
     for (unsigned t = 0; t < TARGETS; t++)
         if (target->colors[t].format)
             description->color_format[t] = (enum triptych_surface_format)target->colors[t].format->number;
@@ -99,17 +105,19 @@ static void fill(void *words, uint32_t value)
 uint32_t *target_fill_color(struct target *target, uint32_t tile)
 {
     uint32_t *words = target_tile_color(target, tile);
-    for (uint32_t p = 0; p < target->planes && target->clear[tile].color_pending; p++)
-        fill(words + p * TILE_PIXELS, target->clear[tile].color[p]);
+    uint32_t planes = target->clear[tile].color_pending ? target->samples * target->planes : 0;
+    for (uint32_t p = 0; p < planes; p++)
+        fill(words + p * TILE_PIXELS, target->clear[tile].color[p % target->planes]);
     target->clear[tile].color_pending = false;
     return words;
 }
 
 uint32_t *target_fill_depth(struct target *target, uint32_t tile)
 {
-    uint32_t *words = target->depth + (size_t)tile * TILE_PIXELS;
-    if (target->clear[tile].depth_pending)
-        fill(words, target->clear[tile].depth);
+    uint32_t *words = target_tile_depth(target, tile);
+    uint32_t planes = target->clear[tile].depth_pending ? target->samples : 0;
+    for (uint32_t p = 0; p < planes; p++)
+        fill(words + p * TILE_PIXELS, target->clear[tile].depth);
     target->clear[tile].depth_pending = false;
     return words;
 }
@@ -130,10 +138,12 @@ static void clear_part(struct target *target, uint32_t tile, const struct clear 
     for (int32_t y = part->y0; y < part->y1; y++)
         for (int32_t x = part->x0; x < part->x1; x++) {
             uint32_t word = pixel_word((uint32_t)(x - whole->x0), (uint32_t)(y - whole->y0));
-            for (uint32_t p = 0; color && p < target->planes; p++)
-                color[p * TILE_PIXELS + word] = clear->color[p];
-            if (depth)
-                depth[word] = (depth[word] & ~clear->depth_mask) | clear->depth;
+            for (uint32_t p = 0; color && p < target->samples * target->planes; p++)
+                color[p * TILE_PIXELS + word] = clear->color[p % target->planes];
+            for (uint32_t p = 0; depth && p < target->samples; p++) {
+                uint32_t *at = depth + p * TILE_PIXELS + word;
+                *at = (*at & ~clear->depth_mask) | clear->depth;
+            }
         }
 }
 
@@ -231,13 +241,15 @@ static void read_cleared(uint32_t value, const struct rectangle *area, uint32_t 
             store_row(image + (size_t)y * pitch + (size_t)x, row, block_part(area->x1, x));
 }
 
-/* One plane of a row of tiles. */
-static void read_plane(const struct target *target, uint32_t plane, uint32_t tile_row, uint32_t *image)
+/* A sample's plane of a row of tiles. */
+static void read_plane(const struct target *target, uint32_t sample, uint32_t plane, uint32_t tile_row,
+                       uint32_t *image)
 {
     for (uint32_t i = 0; i < target->columns; i++) {
         uint32_t tile = tile_row * target->columns + i;
         struct rectangle area = tile_area(target, tile);
-        const uint32_t *words = target_tile_color(target, tile) + plane * TILE_PIXELS;
+        const uint32_t *words =
+            target_tile_color(target, tile) + (sample * target->planes + plane) * TILE_PIXELS;
         if (target->clear[tile].color_pending)
             read_cleared(target->clear[tile].color[plane], &area, image, target->width);
         else
@@ -245,16 +257,56 @@ static void read_plane(const struct target *target, uint32_t plane, uint32_t til
     }
 }
 
-/* The words of pixel x, y of a colour, one for each of its planes. */
-static void pixel_words(const struct target *target, const struct target_color *color, uint32_t x, uint32_t y,
-                        uint32_t words[4])
+/* The words of a sample of pixel x, y of a colour, one for each of its planes. */
+static void pixel_words(const struct target *target, const struct target_color *color, uint32_t sample,
+                        uint32_t x, uint32_t y, uint32_t words[4])
 {
     uint32_t tile = y / TILE_SIZE * target->columns + x / TILE_SIZE;
     const struct tile_clear *clear = target->clear + tile;
-    const uint32_t *place = target_tile_color(target, tile) + pixel_word(x % TILE_SIZE, y % TILE_SIZE);
+    const uint32_t *place = target_tile_color(target, tile) + pixel_word(x % TILE_SIZE, y % TILE_SIZE) +
+                            sample * target->planes * TILE_PIXELS;
     for (int p = 0; p < target_planes[color->storage]; p++)
         words[p] = clear->color_pending ? clear->color[color->plane + (uint32_t)p]
                                         : place[(color->plane + (uint32_t)p) * TILE_PIXELS];
+}
+
+static void resolve_bytes(const struct target *target, const struct target_color *color, uint32_t x,
+                          uint32_t y, uint32_t *word)
+{
+    uint32_t sum[4] = {0};
+    for (uint32_t sample = 0; sample < target->samples; sample++) {
+        pixel_words(target, color, sample, x, y, word);
+        for (int c = 0; c < 4; c++)
+            sum[c] += *word >> 8 * c & 255;
+    }
+    *word = 0;
+    for (int c = 0; c < 4; c++)
+        *word |= (sum[c] + target->samples / 2) / target->samples << 8 * c;
+}
+
+static void resolve_numbers(const struct target *target, const struct target_color *color, uint32_t x,
+                            uint32_t y, uint32_t words[4])
+{
+    float sum[4] = {0};
+    for (uint32_t sample = 0; sample < target->samples; sample++) {
+        pixel_words(target, color, sample, x, y, words);
+        for (int c = 0; c < 4; c++)
+            sum[c] += lane_from_bits(words[c]);
+    }
+    for (int c = 0; c < 4; c++)
+        words[c] = lane_bits(sum[c] / (float)target->samples);
+}
+
+/* What is read of a pixel. */
+static void read_words(const struct target *target, const struct target_color *color, int sample, uint32_t x,
+                       uint32_t y, uint32_t words[4])
+{
+    if (sample != SAMPLE_RESOLVED || target->samples == 1)
+        pixel_words(target, color, sample < 0 ? 0 : (uint32_t)sample, x, y, words);
+    else if (target_planes[color->storage] == 1)
+        resolve_bytes(target, color, x, y, words);
+    else
+        resolve_numbers(target, color, x, y, words);
 }
 
 static uint32_t row_end(const struct target *target, uint32_t tile_row)
@@ -263,33 +315,40 @@ static uint32_t row_end(const struct target *target, uint32_t tile_row)
     return end < target->height ? end : target->height;
 }
 
-void target_read_color(const struct target *target, unsigned t, uint32_t tile_row, uint32_t *image)
+void target_read_color(const struct target *target, unsigned t, int sample, uint32_t tile_row,
+                       uint32_t *image)
 {
     const struct target_color *color = target->colors + t;
-    if (target_planes[color->storage] == 1) {
-        read_plane(target, color->plane, tile_row, image);
+    bool single = sample != SAMPLE_RESOLVED || target->samples == 1;
+    if (target_planes[color->storage] == 1 && single) {
+        read_plane(target, sample < 0 ? 0 : (uint32_t)sample, color->plane, tile_row, image);
         return;
     }
     for (uint32_t y = tile_row * TILE_SIZE; y < row_end(target, tile_row); y++)
         for (uint32_t x = 0; x < target->width; x++) {
             uint32_t words[4];
-            pixel_words(target, color, x, y, words);
+            read_words(target, color, sample, x, y, words);
             image[(size_t)y * target->width + x] = color_bytes(color->storage, words);
         }
 }
 
-void target_read_numbers(const struct target *target, unsigned t, uint32_t tile_row, float *image)
+void target_read_numbers(const struct target *target, unsigned t, int sample, uint32_t tile_row, float *image)
 {
     const struct target_color *color = target->colors + t;
     for (uint32_t y = tile_row * TILE_SIZE; y < row_end(target, tile_row); y++)
         for (uint32_t x = 0; x < target->width; x++) {
             uint32_t words[4];
-            pixel_words(target, color, x, y, words);
+            read_words(target, color, sample, x, y, words);
             color_numbers(color->storage, words, image + ((size_t)y * target->width + x) * 4);
         }
 }
 
-void target_read_depth(const struct target *target, uint32_t tile_row, float *image)
+static const uint32_t *depth_plane(const struct target *target, uint32_t tile, int sample)
+{
+    return target_tile_depth(target, tile) + (sample < 0 ? 0 : sample) * TILE_PIXELS;
+}
+
+void target_read_depth(const struct target *target, int sample, uint32_t tile_row, float *image)
 {
     uint32_t *words = (uint32_t *)(void *)image;
     for (uint32_t i = 0; i < target->columns; i++) {
@@ -298,23 +357,22 @@ void target_read_depth(const struct target *target, uint32_t tile_row, float *im
         if (target->clear[tile].depth_pending)
             read_cleared(target->clear[tile].depth, &area, words, target->width);
         else
-            read_tile(target->depth + (size_t)tile * TILE_PIXELS, &area, words, target->width);
+            read_tile(depth_plane(target, tile, sample), &area, words, target->width);
     }
     if (depth_formats[target->depth_format].storage == DEPTH_FLOAT)
         return;
     size_t first = (size_t)tile_row * TILE_SIZE * target->width;
-    size_t all = (size_t)target->height * target->width, end = first + (size_t)TILE_SIZE * target->width;
-    for (size_t p = first; p < (end < all ? end : all); p++)
+    for (size_t p = first; p < (size_t)row_end(target, tile_row) * target->width; p++)
         image[p] = depth_decode(target->depth_format, words[p]);
 }
 
-void target_read_stencil(const struct target *target, uint32_t tile_row, uint8_t *image)
+void target_read_stencil(const struct target *target, int sample, uint32_t tile_row, uint8_t *image)
 {
     uint32_t mask = stencil_mask(target->depth_format);
     for (uint32_t i = 0; i < target->columns; i++) {
         uint32_t tile = tile_row * target->columns + i;
         struct rectangle area = tile_area(target, tile);
-        const uint32_t *words = target->depth + (size_t)tile * TILE_PIXELS;
+        const uint32_t *words = depth_plane(target, tile, sample);
         const struct tile_clear *clear = target->clear + tile;
         for (int32_t y = area.y0; y < area.y1; y++)
             for (int32_t x = area.x0; x < area.x1; x++) {
@@ -325,14 +383,15 @@ void target_read_stencil(const struct target *target, uint32_t tile_row, uint8_t
     }
 }
 
-/* Sets a pixel's words of one colour. */
+/* Sets the words of all of a pixel's samples of one colour. */
 static void write_words(struct target *target, const struct target_color *color, uint32_t x, uint32_t y,
                         const uint32_t words[4])
 {
     uint32_t tile = y / TILE_SIZE * target->columns + x / TILE_SIZE;
     uint32_t *place = target_fill_color(target, tile) + pixel_word(x % TILE_SIZE, y % TILE_SIZE);
-    for (int p = 0; p < target_planes[color->storage]; p++)
-        place[(color->plane + (uint32_t)p) * TILE_PIXELS] = words[p];
+    for (uint32_t sample = 0; sample < target->samples; sample++)
+        for (int p = 0; p < target_planes[color->storage]; p++)
+            place[(sample * target->planes + color->plane + (uint32_t)p) * TILE_PIXELS] = words[p];
 }
 
 void target_write_texels(struct target *target, unsigned t, const void *texels)
@@ -377,5 +436,5 @@ uint32_t target_depth_at(const struct target *target, uint32_t x, uint32_t y)
     uint32_t tile;
     size_t place = depth_place(target, x, y, &tile);
     const struct tile_clear *clear = target->clear + tile;
-    return clear->depth_pending ? clear->depth : target->depth[(size_t)tile * TILE_PIXELS + place];
+    return clear->depth_pending ? clear->depth : target_tile_depth(target, tile)[place];
 }

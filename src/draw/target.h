@@ -33,10 +33,12 @@ struct target_color {
 struct target {
     uint32_t width, height; /* pixels, 0 when there is no target */
     uint32_t columns, rows; /* tiles */
-    uint32_t *color; /* `planes` planes of TILE_PIXELS words per tile, tiles in row order, 64-byte aligned */
-    uint32_t planes;
+    uint32_t samples;       /* per pixel */
+    uint32_t *color; /* `planes` planes of TILE_PIXELS words per tile and sample, in turn, tiles in row order,
+                        64-byte aligned */
+    uint32_t planes; /* of all colours */
     struct target_color colors[TARGETS];
-    uint32_t *depth; /* a plane per tile (draw/depth.h); null in a target without */
+    uint32_t *depth; /* a plane per tile and sample (draw/depth.h); null in a target without */
     enum triptych_depth_format depth_format;
     struct tile_clear *clear; /* per tile */
 };
@@ -68,7 +70,12 @@ void target_clear_words(const struct target *target, const float color[4], uint3
 /* The first of a tile's planes. */
 static inline uint32_t *target_tile_color(const struct target *target, uint32_t tile)
 {
-    return target->color + (size_t)tile * target->planes * TILE_PIXELS;
+    return target->color + (size_t)tile * target->samples * target->planes * TILE_PIXELS;
+}
+
+static inline uint32_t *target_tile_depth(const struct target *target, uint32_t tile)
+{
+    return target->depth + (size_t)tile * target->samples * TILE_PIXELS;
 }
 
 /* Applies the clear's part in one tile. */
@@ -90,11 +97,17 @@ uint32_t target_depth_at(const struct target *target, uint32_t x, uint32_t y);
 void target_write_numbers(struct target *target, unsigned t, const struct rectangle *part,
                           const float *image);
 
+/* Which of a pixel's samples is read; resolved is the average of all colours, channel by channel of bytes to
+ * nearest and halves up, of numbers in binary32, summed in order; and sample 0 of depth and stencil. */
+enum { SAMPLE_RESOLVED = -1 };
+
 /* Copies one row of tiles into rows of a linear image of the target's size: colour target t as RGBA8 (what
  * has more is clamped to 0..1 and rounded) or as four numbers a pixel. */
-void target_read_color(const struct target *target, unsigned t, uint32_t tile_row, uint32_t *image);
-void target_read_numbers(const struct target *target, unsigned t, uint32_t tile_row, float *image);
-void target_read_depth(const struct target *target, uint32_t tile_row, float *image);
-void target_read_stencil(const struct target *target, uint32_t tile_row, uint8_t *image);
+void target_read_color(const struct target *target, unsigned t, int sample, uint32_t tile_row,
+                       uint32_t *image);
+void target_read_numbers(const struct target *target, unsigned t, int sample, uint32_t tile_row,
+                         float *image);
+void target_read_depth(const struct target *target, int sample, uint32_t tile_row, float *image);
+void target_read_stencil(const struct target *target, int sample, uint32_t tile_row, uint8_t *image);
 
 #endif

@@ -39,14 +39,14 @@ static void shade(struct tile_worker *worker, const struct frame *frame, uint32_
     struct target *target = frame->target;
     struct pixel_call call = {
         .job = &worker->draw->job,
-        .entries = worker->entries,
+        .entries = worker->entries.entry,
         .triangles = frame->arena.base,
         .lanes = &worker->lanes,
         .color = target_tile_color(target, tile),
         .count = worker->count,
     };
     /* Nobody reads what is not there; an address it has all the same. */
-    call.depth = target->depth ? target->depth + (size_t)tile * TILE_PIXELS : call.color;
+    call.depth = target->depth ? target_tile_depth(target, tile) : call.color;
     if (pixel_write_mask(key))
         target_fill_color(target, tile);
     if (pixel_tests_depth(key) || pixel_stencil(key))
@@ -54,7 +54,7 @@ static void shade(struct tile_worker *worker, const struct frame *frame, uint32_
     routine->run(&call, routine);
     if (key->count)
         take_count(worker, frame);
-    worker->pixels_shaded += count_pixels(worker->entries, worker->count);
+    worker->pixels_shaded += count_pixels(worker->entries.entry, worker->count);
     worker->count = 0;
 }
 
@@ -73,16 +73,16 @@ static void rasterize_cell(struct tile_worker *worker, const struct frame *frame
                            const struct bin_cell *cell)
 {
     const uint8_t *base = frame->arena.base;
-    raster_function *rasterize = rasterizer[worker->draw->shape].tile;
+    const struct draw *draw = worker->draw;
     int column = (int)(tile % frame->target->columns), row = (int)(tile / frame->target->columns);
     prefetch_cell(base, cell);
     for (uint32_t i = 0; i < cell->count; i++) {
         uint32_t triangle = cell->triangle[i];
-        if (worker->count + TILE_BLOCKS > TILE_ENTRIES)
+        if (worker->count + TILE_BLOCKS > PIXEL_ENTRIES)
             shade(worker, frame, tile);
-        worker->count +=
-            rasterize((const struct triangle_head *)(const void *)(base + triangle), &worker->draw->scissor,
-                      column, row, triangle, worker->entries + worker->count);
+        worker->count += sampled_tile(&draw->sampling, draw->shape,
+                                      (const struct triangle_head *)(const void *)(base + triangle),
+                                      &draw->scissor, column, row, triangle, &worker->entries, worker->count);
     }
 }
 

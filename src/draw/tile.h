@@ -6,11 +6,9 @@
 #include "draw/bin.h"
 #include "draw/command.h"
 
-enum { TILE_ENTRIES = 1024 };
-
 /* One thread's workspace. */
 struct tile_worker {
-    alignas(64) struct entry entries[TILE_ENTRIES];
+    alignas(64) struct entry_list entries;
     struct lane_table lanes; /* its counters are zero between calls */
     uint32_t count;
     const struct draw *draw; /* whose entries these are */

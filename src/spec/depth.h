@@ -22,6 +22,12 @@ static inline msk depth_compare(struct env *e, int function, flt new, flt stored
     }
 }
 
+/* Where a sample's word is from its pixel's first. */
+static inline int sample_word(const struct pixel_position *at)
+{
+    return at->sample * TILE_PLANE_BYTES;
+}
+
 /* The new depth and the stored one: as binary32, or as integers in depth's order. */
 struct depth {
     flt new, stored;
@@ -103,11 +109,11 @@ static inline struct depth depth_pair(struct env *e, const struct pixel_key *k,
     struct depth r;
     r.new = k->depth_w ? pixel_w_depth(E, at, layout) : pixel_depth(E, at, layout);
     if (k->depth_format == DEPTH_FLOAT) {
-        r.stored = load_f(E, BASE_DEPTH, 0);
+        r.stored = load_f(E, BASE_DEPTH, sample_word(at));
         r.code = r.stored_code = bits_i(E, r.stored);
         return r;
     }
-    itg word = load_i(E, BASE_DEPTH, 0);
+    itg word = load_i(E, BASE_DEPTH, sample_word(at));
     r.stored = bits_f(E, word);
     r.code = depth_code(E, k, r.new);
     if (k->depth_format == DEPTH_UNORM32)
@@ -129,11 +135,12 @@ static inline msk depth_pass(struct env *e, const struct pixel_key *k, const str
 }
 
 /* Formats with an integer keep the stencil below it. */
-static inline void depth_write(struct env *e, const struct pixel_key *k, const struct depth *depth, msk live)
+static inline void depth_write(struct env *e, const struct pixel_key *k, const struct pixel_position *at,
+                               const struct depth *depth, msk live)
 {
     if (k->depth_format == DEPTH_FLOAT) {
         flt merged = select_f(E, live, depth->new, depth->stored);
-        store_f(E, BASE_DEPTH, 0, merged);
+        store_f(E, BASE_DEPTH, sample_word(at), merged);
         return;
     }
     itg stored = bits_i(E, depth->stored), word;
@@ -145,7 +152,7 @@ static inline void depth_write(struct env *e, const struct pixel_key *k, const s
         word = or_i(E, high, low);
     }
     itg merged = select_i(E, live, word, stored);
-    store_i(E, BASE_DEPTH, 0, merged);
+    store_i(E, BASE_DEPTH, sample_word(at), merged);
 }
 
 /* Tests depth, and writes it unless the alpha test has a say in that; returns the lanes that are still live.
@@ -158,7 +165,7 @@ static inline msk depth_test(struct env *e, const struct pixel_key *k, const str
     struct depth depth = depth_pair(E, k, at, layout);
     live = depth_pass(E, k, &depth, live);
     if (writes)
-        depth_write(E, k, &depth, live);
+        depth_write(E, k, at, &depth, live);
     return live;
 }
 
@@ -167,5 +174,5 @@ static inline void depth_write_late(struct env *e, const struct pixel_key *k, co
                                     const struct triangle_layout *layout, msk live)
 {
     struct depth depth = depth_pair(E, k, at, layout);
-    depth_write(E, k, &depth, live);
+    depth_write(E, k, at, &depth, live);
 }

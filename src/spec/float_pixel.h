@@ -7,7 +7,7 @@ static inline struct float_color float_interpolated(struct env *e, const struct 
     if (!s->k->varying[varying])
         return r;
     for (int c = 0; c < 4; c++) {
-        flt value = interpolate(E, s->k, s->layout, s->at, s->w, varying, c);
+        flt value = interpolate(E, s->k, s->layout, &s->color_at, s->color_w, varying, c);
         r.channel[c] = saturate(E, value);
     }
     return r;
@@ -63,7 +63,8 @@ static inline void shade_float(struct env *e, const struct pixel_source *s, msk 
     struct float_color color = float_shade(E, s);
     if (s->k->alpha_discard) {
         itg alpha = quantize(E, color.channel[3]);
-        live = test_alpha(E, s, alpha, live);
+        test_alpha(E, s, alpha, live);
     }
-    write_float_targets(E, s->k, live, color);
+    for (int i = 0; i < s->samples->count; i++)
+        write_float_targets(E, s->k, i, s->samples->live[i], color);
 }

@@ -85,10 +85,10 @@ static inline struct float_color float_blend_clamped(struct env *e, const struct
     return float_blend(E, k, &color, old);
 }
 
-static inline void write_float_word(struct env *e, const struct pixel_key *k, int t, msk live,
+static inline void write_float_word(struct env *e, const struct pixel_key *k, int t, int sample, msk live,
                                     struct float_color color)
 {
-    int target = k->target[t], offset = target_offset(k, t);
+    int target = k->target[t], offset = target_offset(k, t, sample);
     itg stored = load_i(E, BASE_COLOR, offset);
     struct float_color old = target_unpack(E, target, stored);
     struct float_color blended = float_blend_clamped(E, k, target, color, &old);
@@ -96,10 +96,10 @@ static inline void write_float_word(struct env *e, const struct pixel_key *k, in
     write_word(E, k->write_mask[t], offset, live, word, stored);
 }
 
-static inline void write_float_planes(struct env *e, const struct pixel_key *k, int t, msk live,
+static inline void write_float_planes(struct env *e, const struct pixel_key *k, int t, int sample, msk live,
                                       struct float_color color)
 {
-    int target = k->target[t], offset = target_offset(k, t);
+    int target = k->target[t], offset = target_offset(k, t, sample);
     struct float_color old = load_planes(E, offset);
     struct float_color blended = float_blend_clamped(E, k, target, color, &old);
     for (int c = 0; c < 4; c++) {
@@ -111,13 +111,13 @@ static inline void write_float_planes(struct env *e, const struct pixel_key *k, 
     }
 }
 
-static inline void write_float_targets(struct env *e, const struct pixel_key *k, msk live,
+static inline void write_float_targets(struct env *e, const struct pixel_key *k, int sample, msk live,
                                        struct float_color color)
 {
     for (int t = 0; t < TARGETS; t++) {
         if (k->write_mask[t] && target_planes[k->target[t]] == 1)
-            write_float_word(E, k, t, live, color);
+            write_float_word(E, k, t, sample, live, color);
         else if (k->write_mask[t])
-            write_float_planes(E, k, t, live, color);
+            write_float_planes(E, k, t, sample, live, color);
     }
 }

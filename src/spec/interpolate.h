@@ -5,12 +5,14 @@
  * of 1/w). */
 
 struct pixel_position {
-    flt x, y; /* distance from the triangle's origin in pixels */
+    flt x, y;   /* distance from the triangle's origin in pixels */
+    int sample; /* whose place this is; 0 at the centre */
 };
 
 static inline struct pixel_position pixel_position(struct env *e)
 {
     struct pixel_position at;
+    at.sample = 0;
     flt block_x = uniform_f(E, BASE_ENTRY, (int)offsetof(struct entry, x));
     flt lane_x = load_f(E, BASE_LANES, (int)offsetof(struct lane_table, x));
     flt origin_x = uniform_f(E, BASE_TRIANGLE, (int)offsetof(struct triangle_head, origin_x));

@@ -7,21 +7,15 @@
  * no lane is left; what is written waits for the alpha test. A query counts the lanes that pass everything.
  */
 
-/* Lanes of this chunk that the triangle covers. */
-static inline msk coverage(struct env *e)
-{
-    itg bits = uniform_i(E, BASE_ENTRY, (int)offsetof(struct entry, coverage));
-    itg bit = load_i(E, BASE_LANES, (int)offsetof(struct lane_table, bit));
-    itg hit = and_i(E, bits, bit);
-    return eq_i(E, hit, bit);
-}
-
 /* What all colours of a pixel are interpolated with. */
 struct pixel_source {
     const struct pixel_key *k;
     const struct triangle_layout *layout;
     const struct pixel_position *at;
     flt w;
+    struct pixel_position color_at; /* of the diffuse and the specular colour */
+    flt color_w;
+    struct samples *samples;
 };
 
 /* An interpolated colour; white where none is. */
@@ -33,7 +27,7 @@ static inline struct color interpolated_color(struct env *e, const struct pixel_
     if (!s->k->varying[varying])
         return r;
     for (int c = 0; c < 4; c++)
-        channel[c] = interpolate(E, s->k, s->layout, s->at, s->w, varying, c);
+        channel[c] = interpolate(E, s->k, s->layout, &s->color_at, s->color_w, varying, c);
     return color_quantize(E, channel);
 }
 
@@ -89,24 +83,19 @@ static inline struct color shade(struct env *e, const struct pixel_source *s)
     return color;
 }
 
-/* Counts the lanes of an occlusion query. */
-static inline void count_passed(struct env *e, const struct pixel_key *k, msk live)
+/* Takes away what the alpha test discards; what waits for it is done. */
+static inline void test_alpha(struct env *e, const struct pixel_source *s, itg alpha, msk live)
 {
-    if (!k->count)
-        return;
-    itg before = load_i(E, BASE_LANES, (int)offsetof(struct lane_table, passed));
-    itg lanes = mask_i(E, live);
-    itg after = sub_i(E, before, lanes);
-    store_i(E, BASE_LANES, (int)offsetof(struct lane_table, passed), after);
-}
-
-/* The lanes that the alpha test keeps; what waits for it is done. */
-static inline msk test_alpha(struct env *e, const struct pixel_source *s, itg alpha, msk live)
-{
+    struct samples *samples = s->samples;
     msk kept = alpha_test(E, s->k->alpha_discard, alpha, live);
-    kept = late_tests(E, s->k, s->at, s->layout, kept);
-    count_passed(E, s->k, kept);
-    return kept;
+    for (int i = 0; i < samples->count; i++) {
+        if (samples->count > 1)
+            samples->live[i] = and_m(E, samples->live[i], kept);
+        else
+            samples->live[i] = kept;
+        samples->live[i] = late_tests(E, s->k, &samples->at[i], s->layout, samples->live[i]);
+    }
+    count_passed(E, s->k, samples);
 }
 
 static inline void shade_packed(struct env *e, const struct pixel_source *s, msk live)
@@ -115,27 +104,44 @@ static inline void shade_packed(struct env *e, const struct pixel_source *s, msk
     if (s->k->alpha_discard) {
         itg ga = int_of(E, color.ga);
         itg alpha = ushr_i(E, ga, 16);
-        live = test_alpha(E, s, alpha, live);
+        test_alpha(E, s, alpha, live);
     }
-    write_targets(E, s->k, live, color);
+    for (int i = 0; i < s->samples->count; i++)
+        write_targets(E, s->k, i, s->samples->live[i], color);
 }
 
 static inline void shade_float(struct env *e, const struct pixel_source *s, msk live); /* float_pixel.h */
+
+static inline struct pixel_source pixel_source(struct env *e, const struct pixel_key *k,
+                                               const struct triangle_layout *layout,
+                                               const struct pixel_position *at, struct samples *samples)
+{
+    struct pixel_source r = {.k = k, .layout = layout, .at = at, .samples = samples};
+    r.w = lit_f(E, 1.0f);
+    if (layout->smooth)
+        r.w = pixel_w(E, at, layout);
+    r.color_at = centroid(E, k, at, samples);
+    r.color_w = r.w;
+    if (k->samples && layout->smooth)
+        r.color_w = pixel_w(E, &r.color_at, layout);
+    return r;
+}
 
 static void spec_pixel(struct env *e, const struct pixel_key *k)
 {
     struct triangle_layout layout = pixel_layout(k);
     struct pixel_position at = pixel_position(E);
-    msk covered = coverage(E);
-    msk live = early_tests(E, k, &at, &layout, covered);
+    struct samples samples;
+    pixel_samples(E, k, &at, &samples);
+    for (int i = 0; i < samples.count; i++)
+        samples.live[i] = early_tests(E, k, &samples.at[i], &layout, samples.covered[i]);
     if (!k->alpha_discard)
-        count_passed(E, k, live);
+        count_passed(E, k, &samples);
     if (!pixel_shades(k))
         return;
+    msk live = any_sample(E, &samples);
     WHEN (E, live) {
-        struct pixel_source source = {k, &layout, &at, lit_f(E, 1.0f)};
-        if (layout.smooth)
-            source.w = pixel_w(E, &at, &layout);
+        struct pixel_source source = pixel_source(E, k, &layout, &at, &samples);
         if (k->float_color)
             shade_float(E, &source, live);
         else

@@ -33,6 +33,7 @@
 #include "spec/depth.h"
 #include "spec/fog.h"
 #include "spec/stencil.h"
+#include "spec/multisample.h"
 #include "spec/alpha.h"
 #include "spec/blend.h"
 #include "spec/float_blend.h"

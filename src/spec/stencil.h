@@ -91,7 +91,7 @@ static inline msk stencil_depth_write(struct env *e, const struct pixel_key *k,
                                       msk live)
 {
     struct depth depth;
-    itg word = load_i(E, BASE_DEPTH, 0);
+    itg word = load_i(E, BASE_DEPTH, sample_word(at));
     itg stored = and_i(E, word, lit_i(E, 255));
     msk passed = stencil_test(E, k, stored, live);
     msk both = passed;
@@ -107,7 +107,7 @@ static inline msk stencil_depth_write(struct env *e, const struct pixel_key *k,
     }
     itg changed = or_i(E, high, new);
     itg merged = select_i(E, live, changed, word);
-    store_i(E, BASE_DEPTH, 0, merged);
+    store_i(E, BASE_DEPTH, sample_word(at), merged);
     return both;
 }
 
@@ -119,7 +119,7 @@ static inline msk early_tests(struct env *e, const struct pixel_key *k, const st
     if (pixel_writes_stencil(k))
         return k->alpha_discard ? live : stencil_depth_write(E, k, at, layout, live);
     if (pixel_stencil(k)) {
-        itg word = load_i(E, BASE_DEPTH, 0);
+        itg word = load_i(E, BASE_DEPTH, sample_word(at));
         itg stored = and_i(E, word, lit_i(E, 255));
         live = stencil_test(E, k, stored, live);
     }

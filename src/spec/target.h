@@ -10,10 +10,11 @@
  * pixel's place in its block (struct lane_table). NaN becomes 0 where there is no room for it, elsewhere one
  * NaN. */
 
-/* Target t's planes begin so many bytes after the pixel's first word. */
-static inline int target_offset(const struct pixel_key *k, int t)
+/* Target t's planes of a sample begin so many bytes after the pixel's first word. Several samples are of the
+ * first target alone, one after the other. */
+static inline int target_offset(const struct pixel_key *k, int t, int sample)
 {
-    int planes = 0;
+    int planes = sample * target_planes[k->target[0]];
     for (int i = 0; i < t; i++)
         planes += target_planes[k->target[i]];
     return planes * TILE_PLANE_BYTES;
@@ -93,15 +94,16 @@ static inline struct color narrow_color(struct env *e, const struct pixel_key *k
 }
 
 /* Blends the colour into every target that is written. */
-static inline void write_targets(struct env *e, const struct pixel_key *k, msk live, struct color color)
+static inline void write_targets(struct env *e, const struct pixel_key *k, int sample, msk live,
+                                 struct color color)
 {
     for (int t = 0; t < TARGETS; t++) {
         if (!k->write_mask[t])
             continue;
-        itg stored = load_i(E, BASE_COLOR, target_offset(k, t));
+        itg stored = load_i(E, BASE_COLOR, target_offset(k, t, sample));
         struct color blended = blend(E, k, color, stored);
         blended = narrow_color(E, k, k->target[t], blended);
         itg word = color_pack(E, blended);
-        write_word(E, k->write_mask[t], target_offset(k, t), live, word, stored);
+        write_word(E, k->write_mask[t], target_offset(k, t, sample), live, word, stored);
     }
 }

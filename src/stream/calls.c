@@ -104,11 +104,31 @@ static int parse_color_formats(struct parser *parser, struct triptych_target_des
     return 0;
 }
 
+static int parse_samples(struct parser *parser, struct triptych_target_description *target)
+{
+    int64_t samples;
+    struct token place = parser->lex.token;
+    if (lex_next(&parser->lex) || lex_integer(&parser->lex, "samples per pixel", 1, 8, &samples))
+        return -1;
+    if (samples & (samples - 1))
+        return lex_fail(&parser->lex, &place, "found %d samples, expected 1, 2, 4 or 8", (int)samples);
+    target->samples = (unsigned)samples;
+    return 0;
+}
+
 static int parse_target_formats(struct parser *parser, struct triptych_target_description *target)
 {
+    struct token place = parser->lex.token;
     if (lex_is(&parser->lex, "depth") && parse_depth_format(parser, target))
         return -1;
-    return lex_is(&parser->lex, "color") ? parse_color_formats(parser, target) : 0;
+    if (lex_is(&parser->lex, "samples") && parse_samples(parser, target))
+        return -1;
+    if (lex_is(&parser->lex, "color") && parse_color_formats(parser, target))
+        return -1;
+    if (target->samples > 1 && target->color_format[1])
+        return lex_fail(&parser->lex, &place, "found several colours, expected one with %u samples",
+                        target->samples);
+    return 0;
 }
 
 int parse_target(struct parser *parser, struct call *call)

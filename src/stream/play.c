@@ -334,7 +334,9 @@ static enum triptych_result keep_target(struct player *player, const struct call
     enum triptych_result result = triptych_set_target_textures(player->device, NULL);
     triptych_get_target(player->device, &target);
     *kept = target.width == call->target.width && target.height == call->target.height &&
-            target.depth_format == call->target.depth_format && same_colors(&target, &call->target);
+            target.depth_format == call->target.depth_format &&
+            target.samples == (call->target.samples ? call->target.samples : 1) &&
+            same_colors(&target, &call->target);
     if (!*kept || result)
         return result;
     const struct triptych_viewport whole = {0, 0, (float)target.width, (float)target.height, 0, 1};

@@ -504,6 +504,8 @@ static void write_call(struct writer *writer, const struct call *call)
         fprintf(out, "target %u %u", call->target.width, call->target.height);
         if (call->target.depth_format)
             fprintf(out, " depth %s", word_text(WORDS_DEPTH, call->target.depth_format));
+        if (call->target.samples)
+            fprintf(out, " samples %u", call->target.samples);
         write_color_formats(writer, &call->target);
         break;
     case CALL_ATTACH: write_attach(writer, call); break;

@@ -91,7 +91,7 @@ static int render_frame(const struct command *self, const struct stream *stream,
     if (!status)
         status = session_play(self, &session, settings->frame);
     if (!status)
-        status = capture_read(self, &session, capture);
+        status = capture_read(self, &session, CAPTURE_PIXELS, capture);
     session_close(&session);
     return status;
 }

@@ -65,43 +65,62 @@ static bool is_bytes(const struct triptych_target_description *target)
     return !target->color_format[1] && triptych_format_is_bytes(target->color_format[0]);
 }
 
-/* Each pixel's numbers, target after target. */
+/* Each pixel's numbers, target after target; those of the average in the place of every sample. */
 static int read_numbers(const struct command *self, const struct session *session, struct capture *capture,
                         const struct triptych_target_description *target)
 {
+    size_t all = (size_t)capture->width * capture->height;
     size_t pixels = (size_t)target->width * target->height;
     unsigned targets = 1;
     while (targets < TRIPTYCH_TARGETS && target->color_format[targets])
         targets++;
     float *one = malloc(pixels * 4 * sizeof *one);
-    capture->numbers = malloc(pixels * targets * 4 * sizeof *capture->numbers);
+    capture->numbers = malloc(all * targets * 4 * sizeof *capture->numbers);
     capture->targets = targets;
     int status = one && capture->numbers ? STATUS_OK : fail(self, "no memory for %zu pixels", pixels);
     for (unsigned t = 0; t < targets && !status; t++) {
         if (triptych_read_target_numbers(session->device, t, one))
             status = fail(self, "%s: %s", session->stream->path, triptych_error(session->device));
-        for (size_t i = 0; i < pixels && !status; i++)
-            memcpy(capture->numbers + (i * targets + t) * 4, one + i * 4, 4 * sizeof *one);
+        for (size_t i = 0; i < all && !status; i++)
+            memcpy(capture->numbers + (i * targets + t) * 4, one + i % pixels * 4, 4 * sizeof *one);
     }
     free(one);
     return status;
 }
 
-int capture_read(const struct command *self, const struct session *session, struct capture *capture)
+static int read_pixels(triptych_device *device, struct capture *capture)
+{
+    return triptych_read_color(device, capture->color) ||
+           (capture->has_depth && triptych_read_depth(device, capture->depth)) ||
+           (capture->has_stencil && triptych_read_stencil(device, capture->stencil));
+}
+
+static int read_samples(triptych_device *device, unsigned samples, struct capture *capture)
+{
+    size_t pixels = (size_t)capture->width * capture->height / samples;
+    int bad = 0;
+    for (unsigned i = 0; i < samples && !bad; i++)
+        bad = triptych_read_sample(device, i, capture->color + i * pixels,
+                                   capture->has_depth ? capture->depth + i * pixels : NULL,
+                                   capture->has_stencil ? capture->stencil + i * pixels : NULL);
+    return bad;
+}
+
+int capture_read(const struct command *self, const struct session *session, enum capture_what what,
+                 struct capture *capture)
 {
     struct triptych_target_description target;
     triptych_get_target(session->device, &target);
     if (!target.width)
         return fail(self, "%s: the frame has no target, expected a call of target", session->stream->path);
-    if (reserve(self, capture, (size_t)target.width * target.height))
+    unsigned samples = what == CAPTURE_SAMPLES ? target.samples : 1;
+    if (reserve(self, capture, (size_t)target.width * target.height * samples))
         return STATUS_BAD;
     capture->width = target.width;
-    capture->height = target.height;
+    capture->height = target.height * samples;
     capture->has_depth = triptych_depth_bits(target.depth_format);
     capture->has_stencil = triptych_stencil_bits(target.depth_format);
-    if (triptych_read_color(session->device, capture->color) ||
-        (capture->has_depth && triptych_read_depth(session->device, capture->depth)) ||
-        (capture->has_stencil && triptych_read_stencil(session->device, capture->stencil)))
+    if (samples > 1 ? read_samples(session->device, samples, capture) : read_pixels(session->device, capture))
         return fail(self, "%s: %s", session->stream->path, triptych_error(session->device));
     free(capture->numbers);
     capture->numbers = NULL;

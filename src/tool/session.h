@@ -30,7 +30,8 @@ int session_play(const struct command *self, struct session *session, unsigned f
 /* The i-th of `count` frames spread evenly over `all`, the first and the last among them. */
 unsigned session_spread(unsigned i, unsigned count, unsigned all);
 
-/* A copy of a device's target. Zero is empty; memory is kept from one reading to the next. */
+/* A copy of a device's target, or of all its samples one below the other. Zero is empty; memory is kept from
+ * one reading to the next. */
 struct capture {
     unsigned width, height;
     bool has_depth, has_stencil;
@@ -42,7 +43,9 @@ struct capture {
     size_t capacity;  /* pixels, of all but the numbers */
 };
 
-int capture_read(const struct command *self, const struct session *session, struct capture *capture);
+enum capture_what { CAPTURE_PIXELS, CAPTURE_SAMPLES };
+int capture_read(const struct command *self, const struct session *session, enum capture_what what,
+                 struct capture *capture);
 void capture_free(struct capture *capture);
 struct picture capture_picture(const struct capture *capture);
 

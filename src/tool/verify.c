@@ -153,7 +153,7 @@ static int draw(const struct command *self, const struct verification *verificat
     progress("%s: frame %u of %u: %s with %u threads", verification->name, frame, verification->all,
              triptych_engine_name(configuration->engine), configuration->threads);
     return session_play(self, &configuration->session, frame) ||
-                   capture_read(self, &configuration->session, capture)
+                   capture_read(self, &configuration->session, CAPTURE_SAMPLES, capture)
                ? STATUS_BAD
                : STATUS_OK;
 }

@@ -55,8 +55,8 @@ void tearDown(void)
 static void read_all(void)
 {
     for (uint32_t row = 0; row < target.rows; row++) {
-        target_read_color(&target, 0, row, image);
-        target_read_depth(&target, row, depth);
+        target_read_color(&target, 0, SAMPLE_RESOLVED, row, image);
+        target_read_depth(&target, SAMPLE_RESOLVED, row, depth);
     }
 }
 
@@ -171,8 +171,8 @@ static void depth_and_stencil_are_cleared_apart(void)
                 stencil[i] = which & 2 ? (uint8_t)value : stencil[i];
             }
         for (uint32_t row = 0; row < target.rows; row++) {
-            target_read_depth(&target, row, depth);
-            target_read_stencil(&target, row, got);
+            target_read_depth(&target, SAMPLE_RESOLVED, row, depth);
+            target_read_stencil(&target, SAMPLE_RESOLVED, row, got);
         }
         TEST_ASSERT_EQUAL_MEMORY(z, depth, pixels * sizeof *z);
         TEST_ASSERT_EQUAL_MEMORY(stencil, got, pixels);

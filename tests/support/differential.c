@@ -22,7 +22,7 @@ enum {
     RECORD_MAXIMUM = 256,
     TRIANGLES = 32,
     ENTRIES = 48,
-    TARGET_PLANES = 4 * TARGETS,
+    TARGET_PLANES = 4 * SAMPLES_MAXIMUM, /* of one target with samples, or of all without */
     UNTOUCHED = 0x5a
 };
 
@@ -32,7 +32,7 @@ struct outputs {
     alignas(64) float vertices[SLOT_COUNT * VERTEX_CAPACITY];
     alignas(64) uint8_t records[SETUP_CAPACITY * RECORD_MAXIMUM];
     alignas(64) uint32_t color[TARGET_PLANES * TILE_PIXELS];
-    alignas(64) uint32_t depth[TILE_PIXELS];
+    alignas(64) uint32_t depth[SAMPLES_MAXIMUM * TILE_PIXELS];
     alignas(64) uint8_t lanes[4 + sizeof(struct lane_table)];
     alignas(64) uint8_t behind[64];
 };
@@ -49,7 +49,7 @@ struct differential {
     struct texture_level levels[TEXTURE_STAGES][LEVELS];
     uint8_t *palette; /* fenced */
     alignas(64) uint32_t index_words[1 + SETUP_INDEX_ROWS * SETUP_CAPACITY];
-    struct entry entries[ENTRIES];
+    struct entry_list entries;
     alignas(64) uint8_t triangles[TRIANGLES * RECORD_MAXIMUM];
     struct outputs initial, result[2];
     char message[KEY_TEXT_CAPACITY + 256];
@@ -320,18 +320,33 @@ static uint16_t random_coverage(struct differential *d)
     return sparse ? sparse : 1;
 }
 
+/* Samples of a covered pixel: often all, else some, never none. */
+static void make_samples(struct differential *d, const struct pixel_key *key, int i)
+{
+    struct sample_coverage *coverage = &d->entries.coverage[i];
+    uint16_t any = d->entries.entry[i].coverage, left = any;
+    int samples = 1 << key->samples, whole = !below(d, 3);
+    memset(coverage, 0, sizeof *coverage);
+    for (int s = 0; s < samples; s++) {
+        coverage->sample[s] = whole ? any : any & (uint16_t)word(d);
+        left &= (uint16_t)~coverage->sample[s];
+    }
+    coverage->sample[below(d, (uint32_t)samples)] |= left;
+}
+
 /* Four in five entries begin a new block; the others shade the one before again. */
-static void make_entries(struct differential *d)
+static void make_entries(struct differential *d, const struct pixel_key *key)
 {
     float left = 64 * (float)below(d, 3), top = 64 * (float)below(d, 3);
     d->count = 1 + below(d, ENTRIES);
     for (int i = 0; i < ENTRIES; i++) {
-        uint16_t block = i % 5 ? (uint16_t)below(d, TILE_BLOCKS) : d->entries[i ? i - 1 : 0].block;
-        d->entries[i] = (struct entry){.x = left + (float)(block % 16 * 4),
-                                       .y = top + (float)(block / 16 * 4),
-                                       .coverage = random_coverage(d),
-                                       .block = block,
-                                       .triangle = below(d, TRIANGLES) * d->layout.stride};
+        uint16_t block = i % 5 ? (uint16_t)below(d, TILE_BLOCKS) : d->entries.entry[i ? i - 1 : 0].block;
+        d->entries.entry[i] = (struct entry){.x = left + (float)(block % 16 * 4),
+                                             .y = top + (float)(block / 16 * 4),
+                                             .coverage = random_coverage(d),
+                                             .block = block,
+                                             .triangle = below(d, TRIANGLES) * d->layout.stride};
+        make_samples(d, key, i);
     }
 }
 
@@ -440,7 +455,7 @@ static void meet_stored_depths(struct differential *d, const struct pixel_key *k
     struct plane plane = {0.5f, 0, 0};
     for (int i = 0; i < TRIANGLES; i++)
         memcpy(d->triangles + i * d->layout.stride + d->layout.depth, &plane, sizeof plane);
-    for (int i = 0; i < TILE_PIXELS; i++)
+    for (int i = 0; i < TILE_PIXELS << key->samples; i++)
         d->initial.depth[i] = depth_word(d, key, 0.25f * (float)(1 + below(d, 3)));
 }
 
@@ -469,8 +484,8 @@ static void make_targets(struct differential *d, const struct pixel_key *key)
 {
     uint32_t *plane = d->initial.color;
     d->job.srgb = &srgb_tables;
-    for (int t = 0; t < TARGETS; t++)
-        for (int p = 0; p < target_planes[key->target[t]]; p++, plane += TILE_PIXELS)
+    for (int t = 0; t < (key->samples ? 1 : TARGETS); t++)
+        for (int p = 0; p < target_planes[key->target[t]] << key->samples; p++, plane += TILE_PIXELS)
             if (target_planes[key->target[t]] > 1)
                 fill(d, plane, TILE_PLANE_BYTES, -0.5f, 1.5f);
             else
@@ -484,13 +499,12 @@ static void make_pixel_inputs(struct differential *d, const struct pixel_key *ke
     make_stencil_job(d);
     d->layout = pixel_layout(key);
     make_triangles(d, key);
-    make_entries(d);
+    make_entries(d, key);
     make_textures(d, key);
     make_fog(d, key);
     make_targets(d, key);
-    for (int i = 0; i < TILE_PIXELS; i++) {
+    for (int i = 0; i < TILE_PIXELS << key->samples; i++)
         d->initial.depth[i] = depth_word(d, key, below(d, 3) ? number(d, 0, 1) : (float)below(d, 2));
-    }
     struct lane_table lanes = lane_table;
     for (int lane = 0; lane < LANES_MAXIMUM; lane++)
         lanes.passed[lane] = (int32_t)below(d, 1000);
@@ -520,7 +534,7 @@ static int run(struct differential *d, const struct routine *routine, struct out
     struct lane_table *lanes = (void *)(o->lanes + 4);
     struct vertex_call vertex = {&d->job, indices(d), o->vertices, d->count};
     struct setup_call setup = {&d->job, indices(d), o->vertices, o->records, d->count};
-    struct pixel_call pixel = {&d->job, d->entries, d->triangles, lanes, o->color, o->depth, d->count};
+    struct pixel_call pixel = {&d->job, d->entries.entry, d->triangles, lanes, o->color, o->depth, d->count};
     const void *calls[UNIT_COUNT] = {&vertex, &setup, &pixel};
     const unsigned flags = 0x3f, foreign = 0x7f80 ^ below(d, 2) << 15, own = _mm_getcsr();
     memcpy(o, &d->initial, sizeof *o);
@@ -691,6 +705,15 @@ static void stage_usually(uint64_t chance, struct pixel_key *key)
         key->alpha_stage[i] = key->color_stage[i] == STAGE_DOT ? STAGE_SELECT : key->color_stage[i];
 }
 
+/* Most targets have one sample; several are of one target. */
+static void sample_usually(uint64_t chance, struct pixel_key *key)
+{
+    if (chance >> 40 & 3)
+        key->samples = key->sample_centers = 0;
+    for (int t = 1; t < TARGETS && key->samples; t++)
+        key->write_mask[t] = key->target[t] = 0;
+}
+
 const char *differential_rounds(struct differential *d, const struct engine *a, const struct engine *b,
                                 enum unit unit, differential_shape *shape, uint64_t seed, int rounds)
 {
@@ -699,7 +722,8 @@ const char *differential_rounds(struct differential *d, const struct engine *a, 
         union key key;
         key_random(unit, &seed, &key);
         if (unit == UNIT_PIXEL)
-            blend_usually(seed, &key.pixel), stage_usually(seed, &key.pixel);
+            blend_usually(seed, &key.pixel), stage_usually(seed, &key.pixel),
+                sample_usually(seed, &key.pixel);
         if (unit == UNIT_VERTEX)
             declare_usually(seed, &key.vertex);
         if (shape)
