@@ -515,6 +515,11 @@ int parse_clear(struct parser *parser, struct call *call)
     return 0;
 }
 
+int parse_query_part(struct parser *parser, struct call *call)
+{
+    return parse_name(parser, 1 << RESOURCE_QUERY, "a query", &call->resource);
+}
+
 int parse_primitives(struct parser *parser, struct call *call)
 {
     unsigned primitive;

@@ -102,6 +102,7 @@ struct follower {
     struct triptych_target_description target; /* set last */
     struct triptych_buffer *stand_ins;         /* one per resource: their sizes are all that is looked at */
     uint32_t indices;
+    const struct call **begun; /* by resource: the call that began the query, null outside */
 };
 
 static struct triptych_buffer *stand_in(struct follower *follower, uint32_t resource)
@@ -268,6 +269,32 @@ static int attach(struct follower *follower, const struct call *call, struct err
     return 0;
 }
 
+/* Queries begin and end within one frame, so that each frame has results of its own. */
+static int follow_query(struct follower *follower, const struct call *call, struct error *error)
+{
+    const char *name = follower->stream->resources[call->resource].name;
+    const struct call **begun = &follower->begun[call->resource];
+    if (call->type == CALL_BEGIN_QUERY && *begun)
+        return error_set(error, "found query %s begun again, expected end-query %s before it", name, name);
+    if (call->type == CALL_END_QUERY && !*begun)
+        return error_set(error, "found query %s not begun, expected begin-query %s before it", name, name);
+    *begun = call->type == CALL_BEGIN_QUERY ? call : NULL;
+    return 0;
+}
+
+static int check_queries_ended(const struct follower *follower)
+{
+    for (uint32_t i = 0; i < follower->stream->resource_count; i++)
+        if (follower->begun[i]) {
+            struct error reason = {{0}};
+            const char *name = follower->stream->resources[i].name;
+            error_set(&reason, "found query %s begun and not ended, expected end-query %s in its frame", name,
+                      name);
+            return fail_at(follower->parser, follower->begun[i], reason.text);
+        }
+    return 0;
+}
+
 static int follow(struct follower *follower, const struct call *call, struct error *error)
 {
     struct state *state = &follower->state;
@@ -315,6 +342,8 @@ static int follow(struct follower *follower, const struct call *call, struct err
     case CALL_DRAW_MESH:
         follower->indices = call->resource;
         return bind_vertices(follower, call->resource, error);
+    case CALL_BEGIN_QUERY:
+    case CALL_END_QUERY: return follow_query(follower, call, error);
     case CALL_FRAME:
     case CALL_PLAY:
     case CALL_SEQUENCE: return 0;
@@ -331,7 +360,11 @@ static int needs_target(enum call_type type)
 static int follow_all(struct follower *follower)
 {
     const struct stream *stream = follower->stream;
+    uint32_t frame = 0;
     for (uint32_t i = 0; i < stream->executed_count; i++) {
+        for (; frame < stream->frame_count && stream->frames[frame + 1] <= i; frame++)
+            if (check_queries_ended(follower))
+                return -1;
         const struct call *call = &stream->calls[stream->executed[i]];
         struct error reason = {{0}};
         if (needs_target(call->type) && !follower->width)
@@ -339,7 +372,7 @@ static int follow_all(struct follower *follower)
         if (follow(follower, call, &reason))
             return fail_at(follower->parser, call, reason.text);
     }
-    return 0;
+    return check_queries_ended(follower);
 }
 
 int stream_check(struct parser *parser)
@@ -347,10 +380,15 @@ int stream_check(struct parser *parser)
     const struct stream *stream = parser->stream;
     struct follower follower = {.parser = parser, .stream = stream, .indices = NO_RESOURCE};
     follower.stand_ins = calloc(stream->resource_count + 1, sizeof *follower.stand_ins);
-    if (!follower.stand_ins)
-        return lex_fail(&parser->lex, &parser->lex.token, "not enough memory");
-    state_initialize(&follower.state);
-    int result = follow_all(&follower);
+    follower.begun = calloc(stream->resource_count + 1, sizeof *follower.begun);
+    int result = -1;
+    if (follower.stand_ins && follower.begun) {
+        state_initialize(&follower.state);
+        result = follow_all(&follower);
+    } else {
+        lex_fail(&parser->lex, &parser->lex.token, "not enough memory");
+    }
     free(follower.stand_ins);
+    free(follower.begun);
     return result;
 }

@@ -319,3 +319,12 @@ int parse_buffer(struct parser *parser)
     resource->value_type = (enum value_type)type;
     return parse_data(parser, resource, resource->value_type, "value");
 }
+
+/* --- Queries ----------------------------------------------------------------------------------------------
+ */
+
+int parse_query(struct parser *parser)
+{
+    struct resource *resource;
+    return parse_new_name(parser, RESOURCE_QUERY, &resource);
+}

@@ -208,6 +208,8 @@ static const struct command {
     {"clear", ANYWHERE, CALL_CLEAR, parse_clear, NULL},
     {"draw", ANYWHERE, CALL_DRAW, parse_draw, NULL},
     {"draw-indexed", ANYWHERE, CALL_DRAW_INDEXED, parse_primitives, NULL},
+    {"begin-query", ANYWHERE, CALL_BEGIN_QUERY, parse_query_part, NULL},
+    {"end-query", ANYWHERE, CALL_END_QUERY, parse_query_part, NULL},
     {"frame", ANYWHERE, CALL_FRAME, parse_frame, NULL},
     {"play", ANYWHERE, CALL_PLAY, parse_play, NULL},
     {"sequence", OUTSIDE, CALL_SEQUENCE, parse_sequence, NULL},
@@ -216,6 +218,7 @@ static const struct command {
     {"indices", OUTSIDE, 0, NULL, parse_indices},
     {"buffer", OUTSIDE, 0, NULL, parse_buffer},
     {"mesh", OUTSIDE, 0, NULL, parse_mesh},
+    {"query", OUTSIDE, 0, NULL, parse_query},
     {"end", END, 0, NULL, parse_end},
 };
 

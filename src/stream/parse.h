@@ -69,6 +69,7 @@ int parse_mips(struct parser *parser, struct call *call);
 int parse_attach(struct parser *parser, struct call *call);
 int parse_copy(struct parser *parser, struct call *call);
 int parse_clear(struct parser *parser, struct call *call);
+int parse_query_part(struct parser *parser, struct call *call);
 int parse_draw(struct parser *parser, struct call *call);
 int parse_primitives(struct parser *parser, struct call *call);
 
@@ -77,6 +78,7 @@ int parse_texture(struct parser *parser);
 int parse_vertices(struct parser *parser);
 int parse_indices(struct parser *parser);
 int parse_buffer(struct parser *parser);
+int parse_query(struct parser *parser);
 int parse_mesh(struct parser *parser);
 
 /* Fills stream->executed and stream->frames. */

@@ -15,12 +15,15 @@ enum { NOWHERE = UINT32_MAX };
 struct handles {
     triptych_buffer *vertices, *indices;
     triptych_texture *texture;
+    triptych_query *query;
+    uint32_t frame; /* that the query ended in last, or NOWHERE */
 };
 
 struct player {
     const struct stream *stream;
     triptych_device *device;
     struct handles *handles; /* one per resource */
+    uint32_t frame;          /* being played, or played last */
     uint32_t next;           /* the frame that the device's state is right for, or NOWHERE */
 };
 
@@ -65,6 +68,9 @@ static enum triptych_result create(triptych_device *device, const struct resourc
         result = triptych_buffer_create(device, resource->indices,
                                         (size_t)resource->index_count * resource->index_bits / 8,
                                         &handles->indices);
+    handles->frame = NOWHERE;
+    if (!result && resource->type == RESOURCE_QUERY)
+        result = triptych_query_create(device, TRIPTYCH_QUERY_OCCLUSION, &handles->query);
     return result;
 }
 
@@ -264,6 +270,8 @@ static enum triptych_result execute_state(struct player *player, const struct ca
     case CALL_CLEAR:
     case CALL_DRAW:
     case CALL_DRAW_INDEXED:
+    case CALL_BEGIN_QUERY:
+    case CALL_END_QUERY:
     case CALL_FRAME:
     case CALL_PLAY:
     case CALL_SEQUENCE: return TRIPTYCH_OK;
@@ -279,6 +287,10 @@ static enum triptych_result execute_pixels(struct player *player, const struct c
     case CALL_CLEAR:
         return triptych_clear_buffers(device, call->clear.flags, call->clear.color, call->clear.depth,
                                       call->clear.stencil);
+    case CALL_BEGIN_QUERY: return triptych_query_begin(device, player->handles[call->resource].query);
+    case CALL_END_QUERY:
+        player->handles[call->resource].frame = player->frame;
+        return triptych_query_end(device, player->handles[call->resource].query);
     case CALL_DRAW: return triptych_draw(device, call->draw.primitive, call->draw.first, call->draw.count);
     case CALL_DRAW_INDEXED:
         return triptych_draw_indexed(device, call->draw.primitive, call->draw.base, call->draw.first,
@@ -459,12 +471,28 @@ int player_frame(struct player *player, uint32_t frame, struct error *error)
     if (seek(player, frame, error))
         return -1;
     player->next = NOWHERE;
+    player->frame = frame;
+    for (uint32_t i = 0; i < stream->resource_count; i++)
+        player->handles[i].frame = NOWHERE;
     if (execute_range(player, stream->frames[frame], stream->frames[frame + 1], 1, error))
         return -1;
     if (triptych_finish(player->device))
         return error_set(error, "%s: frame %" PRIu32 ": %s", stream->path, frame,
                          triptych_error(player->device));
     player->next = frame + 1;
+    return 0;
+}
+
+int player_query(struct player *player, uint32_t i, struct query_count *count)
+{
+    const struct stream *stream = player->stream;
+    for (uint32_t r = 0; r < stream->resource_count; r++) {
+        const struct handles *handles = &player->handles[r];
+        if (!handles->query || handles->frame != player->frame || i--)
+            continue;
+        count->name = stream->resources[r].name;
+        return !triptych_query_result(player->device, handles->query, &count->passed);
+    }
     return 0;
 }
 

@@ -87,6 +87,7 @@ enum resource_type {
     RESOURCE_INDICES,
     RESOURCE_BUFFER,
     RESOURCE_MESH,
+    RESOURCE_QUERY,
     RESOURCE_SEQUENCE
 };
 
@@ -149,6 +150,8 @@ enum call_type {
     CALL_DRAW,
     CALL_DRAW_INDEXED,
     CALL_DRAW_MESH,
+    CALL_BEGIN_QUERY,
+    CALL_END_QUERY,
     CALL_FRAME,
     CALL_PLAY,
     CALL_SEQUENCE /* its `count` calls follow; reaching it executes nothing */
@@ -165,7 +168,7 @@ struct stream_surface {
 struct call {
     enum call_type type;
     uint32_t line, column; /* of the call's first word */
-    uint32_t resource;     /* its number, or NO_RESOURCE; bind, draw mesh, play, sequence */
+    uint32_t resource;     /* its number, or NO_RESOURCE; bind, draw mesh, queries, play, sequence */
     union {
         struct triptych_target_description target;
         struct triptych_viewport viewport;
@@ -303,6 +306,16 @@ void player_free(struct player *player);
  * the frame's calls; otherwise the states, bindings and targets of all earlier frames are executed first,
  * from the defaults on, without their draws and clears. */
 int player_frame(struct player *player, uint32_t frame, struct error *error);
+
+/* What a query counted in the frame that was played last. */
+struct query_count {
+    const char *name; /* the stream's */
+    uint64_t passed;
+};
+
+/* The i-th of the queries that ended in that frame, in the order of their definitions. Returns 0 past the
+ * last. */
+int player_query(struct player *player, uint32_t i, struct query_count *count);
 
 /* Called after each frame; a result that is not 0 stops playing, and stream_play returns it. */
 typedef int frame_callback(void *user, uint32_t frame, triptych_device *device, struct error *error);

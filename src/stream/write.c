@@ -287,6 +287,7 @@ static void write_resource(struct writer *writer, const struct resource *resourc
         fprintf(writer->out, "mesh %s", resource->name);
         write_mesh(writer, resource);
         break;
+    case RESOURCE_QUERY: fprintf(writer->out, "query %s", resource->name); break;
     case RESOURCE_SEQUENCE: return;
     }
     fputc('\n', writer->out);
@@ -561,6 +562,8 @@ static void write_call(struct writer *writer, const struct call *call)
     case CALL_DRAW:
     case CALL_DRAW_INDEXED: write_draw(writer, call); break;
     case CALL_DRAW_MESH: fprintf(out, "draw mesh %s", name); break;
+    case CALL_BEGIN_QUERY: fprintf(out, "begin-query %s", name); break;
+    case CALL_END_QUERY: fprintf(out, "end-query %s", name); break;
     case CALL_FRAME: fputs("frame", out); break;
     case CALL_PLAY: fprintf(out, "play %s", name); break;
     case CALL_SEQUENCE: fprintf(out, "sequence %s", name); break;

@@ -6,6 +6,8 @@
 #include "tool/session.h"
 
 #include <stdio.h>
+#include <inttypes.h>
+#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -112,6 +114,8 @@ static int render(const struct command *self, const char *path, const struct set
         status = render_frame(self, stream, settings, engine, &capture);
     if (!status && kind->save(settings->out, &capture, &error))
         status = fail(self, "%s", error.text);
+    for (unsigned i = 0; i < capture.query_count && !status; i++)
+        printf("%s: %" PRIu64 " samples passed\n", capture.queries[i].name, capture.queries[i].passed);
     capture_free(&capture);
     stream_free(stream);
     return status;

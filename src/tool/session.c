@@ -106,6 +106,21 @@ static int read_samples(triptych_device *device, unsigned samples, struct captur
     return bad;
 }
 
+static int read_queries(const struct command *self, const struct session *session, struct capture *capture)
+{
+    struct query_count count;
+    capture->query_count = 0;
+    while (player_query(session->player, capture->query_count, &count)) {
+        struct query_count *larger =
+            realloc(capture->queries, (capture->query_count + 1) * sizeof *capture->queries);
+        if (!larger)
+            return fail(self, "no memory for %u queries", capture->query_count + 1);
+        capture->queries = larger;
+        capture->queries[capture->query_count++] = count;
+    }
+    return STATUS_OK;
+}
+
 int capture_read(const struct command *self, const struct session *session, enum capture_what what,
                  struct capture *capture)
 {
@@ -115,6 +130,8 @@ int capture_read(const struct command *self, const struct session *session, enum
         return fail(self, "%s: the frame has no target, expected a call of target", session->stream->path);
     unsigned samples = what == CAPTURE_SAMPLES ? target.samples : 1;
     if (reserve(self, capture, (size_t)target.width * target.height * samples))
+        return STATUS_BAD;
+    if (read_queries(self, session, capture))
         return STATUS_BAD;
     capture->width = target.width;
     capture->height = target.height * samples;
@@ -132,6 +149,7 @@ void capture_free(struct capture *capture)
     free(capture->color);
     free(capture->depth);
     free(capture->stencil);
+    free(capture->queries);
     free(capture->numbers);
     *capture = (struct capture){0};
 }

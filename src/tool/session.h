@@ -41,6 +41,8 @@ struct capture {
     float *numbers;   /* four a pixel and target where RGBA8 does not say it all; else null */
     unsigned targets; /* of those numbers */
     size_t capacity;  /* pixels, of all but the numbers */
+    struct query_count *queries;
+    unsigned query_count;
 };
 
 enum capture_what { CAPTURE_PIXELS, CAPTURE_SAMPLES };

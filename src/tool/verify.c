@@ -127,6 +127,20 @@ static int save_picture(const struct command *self, const struct settings *setti
     return difference_save(self, path, &expected, &got);
 }
 
+/* The first query whose count differs, in words. */
+static bool compare_queries(const struct capture *expected, const struct capture *got,
+                            char text[DIFFERENCE_TEXT])
+{
+    for (unsigned i = 0; i < expected->query_count; i++)
+        if (i >= got->query_count || expected->queries[i].passed != got->queries[i].passed) {
+            snprintf(text, DIFFERENCE_TEXT, "query %s: %llu and %llu samples passed",
+                     expected->queries[i].name, (unsigned long long)expected->queries[i].passed,
+                     (unsigned long long)(i < got->query_count ? got->queries[i].passed : 0));
+            return true;
+        }
+    return false;
+}
+
 static int compare_frame(const struct command *self, const struct settings *settings,
                          struct verification *verification, struct configuration *configuration,
                          unsigned frame)
@@ -134,11 +148,12 @@ static int compare_frame(const struct command *self, const struct settings *sett
     struct picture expected = capture_picture(&verification->expected),
                    got = capture_picture(&verification->got);
     struct difference difference;
-    if (!compare_pictures(&expected, &got, &difference))
-        return STATUS_OK;
     char text[DIFFERENCE_TEXT];
+    if (compare_pictures(&expected, &got, &difference))
+        difference_describe(&expected, &difference, text);
+    else if (!compare_queries(&verification->expected, &verification->got, text))
+        return STATUS_OK;
     configuration->differs = true;
-    difference_describe(&expected, &difference, text);
     progress(NULL);
     printf("%s: frame %u: %s with 1 thread and %s with %u differ: %s\n", verification->name, frame,
            reference_engine, triptych_engine_name(configuration->engine), configuration->threads, text);
@@ -173,6 +188,9 @@ static int verify_frame(const struct command *self, const struct settings *setti
     if (expected->numbers)
         XXH3_64bits_update(verification->digest, expected->numbers,
                            pixels * expected->targets * 4 * sizeof *expected->numbers);
+    for (unsigned i = 0; i < expected->query_count; i++)
+        XXH3_64bits_update(verification->digest, &expected->queries[i].passed,
+                           sizeof expected->queries[i].passed);
     for (unsigned i = 0; i < verification->count; i++) {
         struct configuration *configuration = verification->others + i;
         if (configuration->differs)

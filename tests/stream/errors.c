@@ -97,6 +97,15 @@ static const struct bad lines[] = {
      "found 'depth', expected color, stencil, or the end of the line"},
     {"clear depth 1\n", "2:1", "found no target"},
 
+    /* Queries */
+    {"query q\nbegin-query r\n", "3:13", "expected the name of a query defined before"},
+    {"query q\nquery q\n", "3:7", "expected a name that is not in use"},
+    {"query q\nend-query q\n", "3:1", "found query q not begun, expected begin-query q before it"},
+    {"query q\nbegin-query q\nbegin-query q\n", "4:1", "found query q begun again"},
+    {"query q\nbegin-query q\nframe\nend-query q\n", "3:1", "expected end-query q in its frame"},
+    {"query q\nbegin-query q\n", "3:1", "found query q begun and not ended"},
+    {"sequence s\nquery q\nend\n", "3:1", "found 'query'"},
+
     /* Conventions and clip planes */
     {"convention pixelcentre half\n", "2:12", "expected a convention: pixelcenter, depthrange"},
     {"convention pixelcenter zero\n", "2:24", "expected its value: half, integer"},
