@@ -32,26 +32,57 @@ static void plan_coverage(struct plan *plan)
                 ARGUMENTS(offsetof(struct entry, coverage), offsetof(struct lane_table, bit)));
 }
 
-/* Returns the part that skips to the chunk's end, 0 if there is none. */
-static unsigned plan_depth(struct plan *plan, const struct pixel_key *key,
+static void plan_new_depth(struct plan *plan, const struct pixel_key *key,
                            const struct triangle_layout *layout)
+{
+    if (key->depth_format == DEPTH_UNORM)
+        plan_append(plan, &fragment_depth_new_unorm, ARGUMENTS(layout->depth, JOB(depth_maximum)));
+    else
+        plan_append(plan, &fragment_depth_new, ARGUMENTS(layout->depth));
+}
+
+static void plan_depth_compare(struct plan *plan, const struct pixel_key *key)
 {
     /* VCMPPS predicates, quiet; ordered but for the complement of equal. */
     static const uint8_t predicate[COMPARE_COUNT] = {
         [COMPARE_NEVER] = 0x0b,        [COMPARE_LESS] = 0x11,    [COMPARE_EQUAL] = 0x00,
         [COMPARE_LESS_EQUAL] = 0x12,   [COMPARE_GREATER] = 0x1e, [COMPARE_NOT_EQUAL] = 0x04,
         [COMPARE_GREATER_EQUAL] = 0x1d};
+    static const struct fragment *const integer[COMPARE_COUNT] = {
+        [COMPARE_NEVER] = &fragment_alpha_never,
+        [COMPARE_LESS] = &fragment_depth_less_unorm,
+        [COMPARE_EQUAL] = &fragment_depth_equal_unorm,
+        [COMPARE_LESS_EQUAL] = &fragment_depth_less_equal_unorm,
+        [COMPARE_GREATER] = &fragment_depth_greater_unorm,
+        [COMPARE_NOT_EQUAL] = &fragment_depth_not_equal_unorm,
+        [COMPARE_GREATER_EQUAL] = &fragment_depth_greater_equal_unorm};
+    if (key->depth_format == DEPTH_UNORM)
+        plan_append(plan, integer[key->depth_function], NONE);
+    else
+        plan_append(plan, &fragment_depth_compare, ARGUMENTS(predicate[key->depth_function]));
+}
+
+static void plan_depth_write(struct plan *plan, const struct pixel_key *key)
+{
+    int integer = key->depth_format == DEPTH_UNORM;
+    plan_append(plan, integer ? &fragment_depth_write_unorm : &fragment_depth_write, NONE);
+}
+
+/* Returns the part that skips to the chunk's end, 0 if there is none. */
+static unsigned plan_depth(struct plan *plan, const struct pixel_key *key,
+                           const struct triangle_layout *layout)
+{
     unsigned skip = 0;
     int writes = key->depth_write && !key->alpha_discard;
     if (key->depth_function == COMPARE_ALWAYS && !writes)
         return 0;
-    plan_append(plan, &fragment_depth_new, ARGUMENTS(layout->depth));
+    plan_new_depth(plan, key, layout);
     if (key->depth_function != COMPARE_ALWAYS) {
-        plan_append(plan, &fragment_depth_compare, ARGUMENTS(predicate[key->depth_function]));
+        plan_depth_compare(plan, key);
         skip = plan_append(plan, &fragment_live_skip, NONE);
     }
     if (writes)
-        plan_append(plan, &fragment_depth_write, NONE);
+        plan_depth_write(plan, key);
     return skip;
 }
 
@@ -71,8 +102,8 @@ static unsigned plan_alpha_test(struct plan *plan, const struct pixel_key *key,
     unsigned skip = plan_append(plan, &fragment_live_skip, NONE);
     if (key->depth_write) {
         plan_position(plan);
-        plan_append(plan, &fragment_depth_new, ARGUMENTS(layout->depth));
-        plan_append(plan, &fragment_depth_write, NONE);
+        plan_new_depth(plan, key, layout);
+        plan_depth_write(plan, key);
     }
     return skip;
 }
