@@ -228,9 +228,9 @@ static void store_color(const struct triptych_surface *surface, const struct tar
     void *texels = surface_texels(surface);
     for (uint32_t row = 0; row < target->rows; row++)
         if (surface->texture->format->storage == STORAGE_RGBA8)
-            target_read_color(target, t, row, texels);
+            target_read_color(target, t, SAMPLE_RESOLVED, row, texels);
         else
-            target_read_numbers(target, t, row, texels);
+            target_read_numbers(target, t, SAMPLE_RESOLVED, row, texels);
 }
 
 void surfaces_store(const struct triptych_target_textures *textures, const struct target *target)
