@@ -50,23 +50,41 @@ static size_t field_end(enum unit unit)
     return count;
 }
 
-/* How many values of how many elements of a field stand for all: one stage, one channel. */
+/* How many values of how many elements of a field stand for all: one stage, one channel; of the values those
+ * up to the last that stage fragments cover. */
 struct digits {
     unsigned count, radix;
 };
 
-static struct digits field_digits(const struct key_field *field)
+static struct digits field_digits(enum unit unit, const struct key_field *field)
 {
-    struct digits r = {field->count, field->radix};
+    struct digits r = {field->count, 1};
     if (!strcmp(field->name, "varying"))
         r.count = 2;
-    else if (!strcmp(field->name, "stages"))
-        r.radix = 2;
-    else if (!strcmp(field->name, "coordinates"))
+    else if (!strcmp(field->name, "coordinates") || !strcmp(field->name, "anisotropy") ||
+             !strcmp(field->name, "address_w"))
         r.count = 0;
     else if (field->count == TEXTURE_STAGES)
         r.count = 1;
+    unsigned most = strcmp(field->name, "stages") ? field->radix : 2;
+    for (unsigned value = 1; value < most; value++) {
+        union key key = no_state;
+        ((uint8_t *)&key)[field->offset] = (uint8_t)value;
+        if (stages_cover(unit, &key))
+            r.radix = value + 1;
+    }
     return r;
+}
+
+static const struct digits *unit_digits(enum unit unit)
+{
+    static struct digits digits[UNIT_COUNT][256];
+    size_t count;
+    const struct key_field *field = key_fields(unit, &count);
+    TEST_ASSERT_LESS_OR_EQUAL(256, count);
+    for (size_t i = 0; i < count && !digits[unit][count - 1].radix; i++)
+        digits[unit][i] = field_digits(unit, field + i);
+    return digits[unit];
 }
 
 /* Counts through the values of the fields from `first` to before `end` that stage fragments cover; 0 when
@@ -75,10 +93,11 @@ static int next_key(enum unit unit, size_t first, size_t end, union key *key)
 {
     size_t count;
     const struct key_field *field = key_fields(unit, &count);
+    const struct digits *digits = unit_digits(unit);
     for (size_t i = first; i < end; i++)
-        for (unsigned j = 0; j < field_digits(field + i).count; j++) {
+        for (unsigned j = 0; j < digits[i].count; j++) {
             uint8_t *digit = (uint8_t *)key + field[i].offset + j;
-            while (++*digit < field_digits(field + i).radix)
+            while (++*digit < digits[i].radix)
                 if (stages_cover(unit, key))
                     return 1;
             *digit = 0;
