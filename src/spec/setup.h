@@ -15,7 +15,7 @@
  *
  * Depth bias: value += m * slope + bias (one fused multiply-add, then the sum), where m = max(|dx|, |dy|) of
  * the triangle's depth plane. Edges and corners, which are parts of triangles, take it from the whole
- * triangle.
+ * triangle. In a w-buffer there is none.
  *
  * A line from (0, a0) to ((dx, dy), a1) has the gradients (a1 - a0) * dx / l and (a1 - a0) * dy / l with
  * l = dx dx + dy dy: constant across the line. Without length l counts as 2^-16, the least length there is.

@@ -107,6 +107,33 @@ static void test_sprites_show_the_whole_texture_and_points_one_place(void)
     on_every_engine(check_sprites);
 }
 
+/* The same seen through a projection that makes w of z, with fog by w: coordinates do not change by it. The
+ * point is at w = 2, half way into the fog, and (28, 16) is seen at (30, 24). */
+static void check_sprites_in_fog(void)
+{
+    static const float projection[4][4] = {{1, 0, 0, 0}, {0, 1, 0, 0}, {0, 0, 1, 1}, {0, 0, 0, 0}};
+    bind_random_texture(8, 8);
+    OK(triptych_set_transform(device, TRIPTYCH_TRANSFORM_PROJECTION, projection));
+    set(TRIPTYCH_STATE_pointspriteenable, "true");
+    set(TRIPTYCH_STATE_fogenable, "true");
+    set(TRIPTYCH_STATE_fogtablemode, "linear");
+    set_number(TRIPTYCH_STATE_fogcolor, 0xff40c020);
+    set_real(TRIPTYCH_STATE_fogend, 4);
+    set_real(TRIPTYCH_STATE_pointsize, 8);
+    draw_point(28, 16, 2, ~0u, 0, 0);
+    for (int y = 0; y < 8; y++)
+        for (int x = 0; x < 8; x++)
+            for (int c = 0; c < 3; c++) {
+                unsigned fog = channel(image_word(0xff40c020), c), own = channel(texel[y * 8 + x], c);
+                TEST_ASSERT_UINT8_WITHIN(1, (fog + own) / 2, channel(image[(20 + y) * SIZE + 26 + x], c));
+            }
+}
+
+static void test_sprites_keep_their_coordinates_in_perspective(void)
+{
+    on_every_engine(check_sprites_in_fog);
+}
+
 /* By its centre's depth a point is drawn or not; beside the viewport it is drawn as far as it reaches into
  * it.
  */
@@ -178,6 +205,7 @@ int main(void)
     RUN_TEST(test_points_are_squares_of_their_colour_and_depth);
     RUN_TEST(test_sizes_are_limited);
     RUN_TEST(test_sprites_show_the_whole_texture_and_points_one_place);
+    RUN_TEST(test_sprites_keep_their_coordinates_in_perspective);
     RUN_TEST(test_points_are_clipped_by_depth_and_cut_by_the_viewport);
     RUN_TEST(test_every_point_of_a_list_is_drawn);
     RUN_TEST(test_triangles_states_change_no_point);
