@@ -141,6 +141,7 @@ static void fill_attributes(const struct state *state, const struct vertex_key *
 static void fill_w_range(const struct state *state, struct job *job)
 {
     struct matrix m = matrix_of((const float(*)[4])state->transform[TRIPTYCH_TRANSFORM_PROJECTION]);
+    fold_depth_range(state, &m);
     const struct triptych_viewport *v = &state->viewport;
     double low = (double)v->depth_near, range = (double)v->depth_far - low;
     double near = m.m[3][3] - m.m[3][2] / m.m[2][2] * m.m[2][3];

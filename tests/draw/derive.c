@@ -880,6 +880,21 @@ static void clip_planes_are_packed_and_in_clip_space(void)
     TEST_ASSERT_EQUAL_HEX32(CLIP_DEPTH | CLIP_USER_ALL, derive_clip_ignored(&state));
 }
 
+/* Near at 1 and far at 11, with clip depth from 0 and from -w. */
+static void w_buffers_know_the_depth_range(void)
+{
+    static const float direct3d[4][4] = {{1, 0, 0, 0}, {0, 1, 0, 0}, {0, 0, 1.1f, 1}, {0, 0, -1.1f, 0}};
+    static const float opengl[4][4] = {{1, 0, 0, 0}, {0, 1, 0, 0}, {0, 0, 1.2f, 1}, {0, 0, -2.2f, 0}};
+    for (unsigned minus = 0; minus < 2; minus++) {
+        state_set_convention(&state, TRIPTYCH_DEPTH_RANGE, minus, NULL);
+        state_set_transform(&state, TRIPTYCH_TRANSFORM_PROJECTION, minus ? opengl : direct3d, NULL);
+        SET(zenable, "usew");
+        derive_as(PRIMITIVE_TRIANGLE);
+        TEST_ASSERT_FLOAT_WITHIN(1e-5f, 0.1f, job.w_scale);
+        TEST_ASSERT_FLOAT_WITHIN(1e-5f, -0.1f, job.w_offset);
+    }
+}
+
 static void conventions_move_the_window_and_the_depth(void)
 {
     derive_as(PRIMITIVE_TRIANGLE);
@@ -947,5 +962,6 @@ int main(void)
     RUN_TEST(points_are_flat_but_for_a_sprites_coordinates);
     RUN_TEST(clip_planes_are_packed_and_in_clip_space);
     RUN_TEST(conventions_move_the_window_and_the_depth);
+    RUN_TEST(w_buffers_know_the_depth_range);
     return UNITY_END();
 }
