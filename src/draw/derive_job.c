@@ -101,11 +101,23 @@ static void fill_texture(const struct state *state, const struct pixel_key *key,
         fill_detail(state, key, stage, job);
 }
 
+static void fill_bump(const struct state *state, int stage, struct bump_job *job)
+{
+    job->matrix[0][0] = STAGE_FLOAT(stage, bumpenvmat00);
+    job->matrix[0][1] = STAGE_FLOAT(stage, bumpenvmat01);
+    job->matrix[1][0] = STAGE_FLOAT(stage, bumpenvmat10);
+    job->matrix[1][1] = STAGE_FLOAT(stage, bumpenvmat11);
+    job->luminance_scale = STAGE_FLOAT(stage, bumpenvlscale);
+    job->luminance_offset = STAGE_FLOAT(stage, bumpenvloffset);
+}
+
 static void fill_stages(const struct state *state, const struct pixel_key *key, struct job *job)
 {
     for (int i = 0; i < key->stages; i++) {
         if (key->texture[i])
             fill_texture(state, key, i, &job->texture[i]);
+        if (key->bump[i])
+            fill_bump(state, i - 1, &job->bump[i]);
         if (stage_reads(key, i, SOURCE_CONSTANT))
             job->stage_constant[i] = rgba_word(STAGE(i, constant));
         if (stage_reads(key, i, SOURCE_FACTOR))

@@ -33,7 +33,8 @@ static inline float state_float(uint32_t bits)
     return value;
 }
 
-#define GET_FLOAT(name) state_float(GET(name))
+#define GET_FLOAT(name)      state_float(GET(name))
+#define STAGE_FLOAT(i, name) state_float(STAGE(i, name))
 
 /* The bits of texturetransformflags that count. */
 enum { TEXTURETRANSFORM_COUNT_MASK = 7 };

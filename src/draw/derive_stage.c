@@ -61,6 +61,8 @@ static const struct reduction {
                                              {FIRST | COMPLEMENT | REPLICATE, SECOND, FIRST}},
     [TEXTUREOP_modulateinvcolor_addalpha] = {STAGE_MULTIPLY_ADD,
                                              {FIRST | COMPLEMENT, SECOND, FIRST | REPLICATE}},
+    [TEXTUREOP_bumpenvmap] = {STAGE_SELECT, {CURRENT}}, /* what it does it does to the next stage */
+    [TEXTUREOP_bumpenvmapluminance] = {STAGE_SELECT, {CURRENT}},
     [TEXTUREOP_dotproduct3] = {STAGE_DOT, {FIRST, SECOND}},
     [TEXTUREOP_multiplyadd] = {STAGE_MULTIPLY_ADD, {FIRST, SECOND, THIRD}},
     [TEXTUREOP_lerp] = {STAGE_LERP, {FIRST, SECOND, THIRD}},
@@ -113,17 +115,37 @@ static struct whole_stage stage_states(const struct state *state, int i)
     return r;
 }
 
+/* What a stage does to the next one's texture. */
+static uint8_t derive_bump(const struct state *state, int i)
+{
+    uint32_t operation = STAGE(i, colorop);
+    if (!state->texture[i])
+        return BUMP_NONE;
+    return operation == TEXTUREOP_bumpenvmap            ? BUMP_DISPLACED
+           : operation == TEXTUREOP_bumpenvmapluminance ? BUMP_LUMINANCE
+                                                        : BUMP_NONE;
+}
+
+static bool is_bump(const struct whole_stage *stage)
+{
+    return stage->color.operation == TEXTUREOP_bumpenvmap ||
+           stage->color.operation == TEXTUREOP_bumpenvmapluminance;
+}
+
 static void derive_one(const struct state *state, int i, struct pixel_key *key)
 {
     struct whole_stage stage = stage_states(state, i);
+    if (is_bump(&stage))
+        stage.alpha.operation = TEXTUREOP_disable;
     uint8_t *color = key->color_argument + STAGE_ARGUMENTS * i,
             *alpha = key->alpha_argument + STAGE_ARGUMENTS * i;
     key->color_stage[i] = derive_half(&stage.color, COMPLEMENT | REPLICATE, color);
     if (key->color_stage[i] != STAGE_DOT)
         key->alpha_stage[i] = derive_half(&stage.alpha, COMPLEMENT, alpha);
-    key->temporary[i] = STAGE(i, resultarg) == ARGUMENT_temp;
+    key->temporary[i] = STAGE(i, resultarg) == ARGUMENT_temp && !is_bump(&stage);
     if (i + 1 == TEXTURE_STAGES || !state->texture[i + 1])
         return;
+    key->bump[i + 1] = derive_bump(state, i);
     if (stage.color.operation == TEXTUREOP_premodulate)
         key->premodulate[i + 1] |= PREMODULATE_COLOR;
     if (stage.alpha.operation == TEXTUREOP_premodulate && key->color_stage[i] != STAGE_DOT)
@@ -135,7 +157,7 @@ static void clear_stage(struct pixel_key *key, int i)
     key->color_stage[i] = key->alpha_stage[i] = STAGE_SELECT;
     memset(key->color_argument + STAGE_ARGUMENTS * i, 0, STAGE_ARGUMENTS);
     memset(key->alpha_argument + STAGE_ARGUMENTS * i, 0, STAGE_ARGUMENTS);
-    key->temporary[i] = key->premodulate[i] = 0;
+    key->temporary[i] = key->premodulate[i] = key->bump[i] = 0;
 }
 
 /* Makes a stage one that leaves everything as it is. */
@@ -206,7 +228,7 @@ void derive_stage(const struct state *state, struct pixel_key *key)
     while (key->stages < TEXTURE_STAGES && STAGE(key->stages, colorop) != TEXTUREOP_disable)
         derive_one(state, key->stages++, key);
     if (key->stages < TEXTURE_STAGES)
-        key->premodulate[key->stages] = 0;
+        key->premodulate[key->stages] = key->bump[key->stages] = 0;
     if (!pixel_write_mask(key))
         keep_alpha_only(key);
     drop_dead_stages(key);

@@ -120,10 +120,21 @@ static void derive_channel(const struct state *state, int stage, struct pixel_ke
         key->varying[varying_divisor(next)] = INTERPOLATION_SMOOTH;
 }
 
+/* For itself, or for the stage behind it. */
+static bool needs_texture(const struct pixel_key *key, int i)
+{
+    return stage_reads(key, i, SOURCE_TEXTURE) || key->premodulate[i] ||
+           (i + 1 < key->stages && key->bump[i + 1]);
+}
+
 void derive_texture(const struct state *state, struct pixel_key *key)
 {
+    for (int i = key->stages - 1; i >= 0; i--)
+        if (!needs_texture(key, i))
+            key->bump[i] = BUMP_NONE;
     for (int i = 0; i < key->stages; i++) {
-        if (!stage_reads(key, i, SOURCE_TEXTURE) && !key->premodulate[i])
+        key->float_color |= key->bump[i] != BUMP_NONE;
+        if (!needs_texture(key, i))
             continue;
         derive_sampler(state, i, key);
         derive_channel(state, i, key);

@@ -77,6 +77,12 @@ struct texture_job {
     uint32_t reserved;
 };
 
+/* How a stage is displaced; rows of the matrix are du and dv. */
+struct bump_job {
+    float matrix[2][2];
+    float luminance_scale, luminance_offset;
+};
+
 struct job {
     struct attribute_job attribute[ATTRIBUTE_COUNT];
 
@@ -117,6 +123,7 @@ struct job {
 
     struct texture_job texture[TEXTURE_STAGES];
     uint32_t stage_constant[TEXTURE_STAGES]; /* RGBA8, red in the low byte, like all packed colours here */
+    struct bump_job bump[TEXTURE_STAGES];    /* by the stage that is displaced */
     uint32_t texture_factor;
     uint32_t fog_color;
     float fog_scale; /* of the fog's distance: see spec/fog.h */

@@ -263,6 +263,9 @@ enum {
 /* Bits: which channels of `current` are multiplied by the stage's texture before the stage reads them. */
 enum { PREMODULATE_COLOR = 1, PREMODULATE_ALPHA = 2, PREMODULATE_COUNT = 4 };
 
+/* What the texture of the stage before does to a stage's: nothing, displace it, darken it as well. */
+enum { BUMP_NONE, BUMP_DISPLACED, BUMP_LUMINANCE, BUMP_COUNT };
+
 /* Where the fog factor comes from: the vertex routine, or the pixel's depth z or its distance w (spec/fog.h).
  */
 enum fog {

@@ -13,17 +13,23 @@ static inline struct float_color float_interpolated(struct env *e, const struct 
     return r;
 }
 
-/* A texture of bytes is filtered as such. */
-static inline struct float_color float_texture(struct env *e, const struct pixel_source *s, int stage)
+/* The texture of a stage, where the one before may have a say. A texture of bytes is filtered as such. */
+static inline struct float_color float_texture(struct env *e, const struct pixel_source *s, int stage,
+                                               const struct float_color *before)
 {
+    struct float_color r;
+    flt v[3];
+    stage_coordinates(E, s, stage, v);
+    if (s->k->bump[stage])
+        bump_displace(E, stage, before, v);
     if (s->k->texel[stage] != TEXEL_BYTES) {
-        flt v[3];
-        stage_coordinates(E, s, stage, v);
-        return float_sample(E, s->k, stage, v);
+        r = float_sample(E, s->k, stage, v);
+    } else {
+        struct color packed = sample(E, s->k, stage, v);
+        itg word = color_pack(E, packed);
+        r = float_unpack(E, word);
     }
-    struct color packed = stage_texture(E, s, stage);
-    itg word = color_pack(E, packed);
-    return float_unpack(E, word);
+    return s->k->bump[stage] == BUMP_LUMINANCE ? bump_luminance(E, stage, before, r) : r;
 }
 
 static inline struct float_color float_stages(struct env *e, const struct pixel_source *s)
@@ -33,10 +39,12 @@ static inline struct float_color float_stages(struct env *e, const struct pixel_
     v.specular = float_interpolated(E, s, VARYING_specular);
     v.current = v.diffuse;
     v.temporary = float_replicate(lit_f(E, 0.0f));
+    v.texture = float_replicate(lit_f(E, 1.0f));
     for (int i = 0; i < s->k->stages; i++) {
+        struct float_color before = v.texture;
         v.texture = float_replicate(lit_f(E, 1.0f));
         if (s->k->texture[i])
-            v.texture = float_texture(E, s, i);
+            v.texture = float_texture(E, s, i, &before);
         float_stage(E, s->k, i, &v);
     }
     if (s->k->specular)

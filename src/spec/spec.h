@@ -40,5 +40,6 @@
 #include "spec/write.h"
 #include "spec/target.h"
 #include "spec/float_target.h"
+#include "spec/bump.h"
 #include "spec/pixel.h"
 #include "spec/float_pixel.h"

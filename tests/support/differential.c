@@ -422,6 +422,7 @@ static void make_textures(struct differential *d, const struct pixel_key *key)
     for (int i = 0; i < TEXTURE_STAGES; i++) {
         make_texture(d, key, i);
         d->job.stage_constant[i] = word(d);
+        fill(d, &d->job.bump[i], sizeof d->job.bump[i], -0.5f, 0.5f);
     }
     d->job.texture_factor = word(d);
 }
