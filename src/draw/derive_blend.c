@@ -6,6 +6,11 @@ struct blending {
     uint8_t blend, source, target;
 };
 
+/* What the targets that are written have room for: less than zero, an alpha. */
+struct room {
+    bool below_zero, alpha;
+};
+
 /* Direct3D's numbers up to INVDESTCOLOR are ours and 1; the later ones are in another order. */
 static uint8_t derive_factor(uint32_t factor)
 {
@@ -18,13 +23,13 @@ static uint8_t derive_factor(uint32_t factor)
 
 /* A difference with a term that is zero is a sum or, where targets have no room for less, zero, and a sum of
  * the new colour alone a copy. */
-static struct blending reduce_blending(struct blending b, bool below_zero)
+static struct blending reduce_blending(struct blending b, struct room room)
 {
     if (b.blend == BLEND_MINIMUM || b.blend == BLEND_MAXIMUM)
         return (struct blending){.blend = b.blend};
-    if (b.blend == BLEND_SUBTRACT && b.source == FACTOR_ZERO && !below_zero)
+    if (b.blend == BLEND_SUBTRACT && b.source == FACTOR_ZERO && !room.below_zero)
         b.target = FACTOR_ZERO;
-    if (b.blend == BLEND_REVERSE_SUBTRACT && b.target == FACTOR_ZERO && !below_zero)
+    if (b.blend == BLEND_REVERSE_SUBTRACT && b.target == FACTOR_ZERO && !room.below_zero)
         b.source = FACTOR_ZERO;
     if ((b.blend == BLEND_SUBTRACT && b.target == FACTOR_ZERO) ||
         (b.blend == BLEND_REVERSE_SUBTRACT && b.source == FACTOR_ZERO))
@@ -34,17 +39,31 @@ static struct blending reduce_blending(struct blending b, bool below_zero)
     return b;
 }
 
+/* The target's alpha is 1 where there is none. */
+static uint8_t known_factor(uint8_t factor, struct room room)
+{
+    if (room.alpha)
+        return factor;
+    switch (factor) {
+    case FACTOR_TARGET_ALPHA: return FACTOR_ONE;
+    case FACTOR_INVERSE_TARGET_ALPHA: return FACTOR_ZERO;
+    case FACTOR_SATURATED_ALPHA: return room.below_zero ? factor : FACTOR_ZERO;
+    default: return factor;
+    }
+}
+
 /* The BOTH factors override the target's (Direct3D 9, D3DBLEND). */
-static struct blending make_blending(uint32_t operation, uint32_t source, uint32_t target, bool below_zero)
+static struct blending make_blending(uint32_t operation, uint32_t source, uint32_t target, struct room room)
 {
     if (source == SRCBLEND_bothsrcalpha || source == SRCBLEND_bothinvsrcalpha) {
         int inverse = source == SRCBLEND_bothinvsrcalpha;
         source = inverse ? SRCBLEND_invsrcalpha : SRCBLEND_srcalpha;
         target = inverse ? SRCBLEND_srcalpha : SRCBLEND_invsrcalpha;
     }
-    return reduce_blending((struct blending){(uint8_t)(operation - BLENDOP_add + BLEND_ADD),
-                                             derive_factor(source), derive_factor(target)},
-                           below_zero);
+    struct blending b = {(uint8_t)(operation - BLENDOP_add + BLEND_ADD),
+                         known_factor(derive_factor(source), room),
+                         known_factor(derive_factor(target), room)};
+    return reduce_blending(b, room);
 }
 
 /* The factor that is the same for alpha: its colour is itself. */
@@ -58,11 +77,11 @@ static uint8_t alpha_factor(uint8_t factor)
 }
 
 /* The blending that is the same for alpha, unless it would be rounded otherwise. */
-static struct blending alpha_blending(struct blending b, bool below_zero)
+static struct blending alpha_blending(struct blending b, struct room room)
 {
     struct blending r = {b.blend, alpha_factor(b.source), alpha_factor(b.target)};
     int same = blend_is_lerp(r.blend, r.source, r.target) == blend_is_lerp(b.blend, b.source, b.target);
-    return b.blend == BLEND_COPY || !same ? b : reduce_blending(r, below_zero);
+    return b.blend == BLEND_COPY || !same ? b : reduce_blending(r, room);
 }
 
 static bool same_blending(struct blending a, struct blending b)
@@ -83,12 +102,15 @@ static void store_blending(struct pixel_key *key, int channel, struct blending b
 }
 
 /* Of the targets that the masks, as they are, have. */
-static bool has_floating_point(const struct pixel_key *key)
+static struct room targets_room(const struct state *state, const struct pixel_key *key)
 {
+    struct room room = {false, false};
     for (int t = 0; t < TARGETS; t++)
-        if (key->write_mask[t] && !target_bits[key->target[t]][0])
-            return true;
-    return false;
+        if (key->write_mask[t]) {
+            room.below_zero |= !target_bits[key->target[t]][0];
+            room.alpha |= (state->target[t].channels & MASK_ALPHA) != 0;
+        }
+    return room;
 }
 
 static void keep_channels(struct pixel_key *key, int channels)
@@ -102,20 +124,19 @@ static void keep_channels(struct pixel_key *key, int channels)
 void derive_blend(const struct state *state, struct pixel_key *key)
 {
     struct blending color = {BLEND_COPY, 0, 0}, alpha;
-    bool below_zero = has_floating_point(key);
+    struct room room = targets_room(state, key);
     if (GET(alphablendenable))
-        color = make_blending(GET(blendop), GET(srcblend), GET(destblend), below_zero);
+        color = make_blending(GET(blendop), GET(srcblend), GET(destblend), room);
     alpha = color;
     if (GET(alphablendenable) && GET(separatealphablendenable))
         alpha = alpha_blending(
-            make_blending(GET(blendopalpha), GET(srcblendalpha), GET(destblendalpha), below_zero),
-            below_zero);
+            make_blending(GET(blendopalpha), GET(srcblendalpha), GET(destblendalpha), room), room);
     if (keeps_target(color))
         keep_channels(key, MASK_ALPHA);
     if (keeps_target(alpha))
         keep_channels(key, MASK_COLOR);
     int written = pixel_write_mask(key);
-    if (!(written & MASK_ALPHA) || same_blending(alpha, alpha_blending(color, below_zero)))
+    if (!(written & MASK_ALPHA) || same_blending(alpha, alpha_blending(color, room)))
         alpha = color;
     if (!(written & MASK_COLOR))
         color = alpha;

@@ -425,6 +425,95 @@ static void the_blend_factor_is_in_the_job_alone(void)
     TEST_ASSERT_EQUAL_HEX32(0x80102040, job.blend_constant);
 }
 
+/* --- Targets --- */
+
+static void set_targets(enum triptych_surface_format first, enum triptych_surface_format second)
+{
+    const struct triptych_target_description description = {
+        .width = 640, .height = 480, .color_format = {first, second}};
+    state_set_target(&state, &description);
+}
+
+static void alpha_of_targets_without_one_is_known(void)
+{
+    set_targets(TRIPTYCH_SURFACE_X8R8G8B8, TRIPTYCH_SURFACE_R5G6B5);
+    set_blending("add", "destalpha", "invdestalpha");
+    expect_blending(BLEND_COLOR, BLEND_COPY, 0, 0);
+    TEST_ASSERT_EQUAL_INT(7, key[UNIT_PIXEL].pixel.write_mask[0]);
+    set_blending("add", "srcalphasat", "one");
+    derive();
+    TEST_ASSERT_EQUAL_INT(0, pixel_write_mask(&key[UNIT_PIXEL].pixel));
+    set_targets(TRIPTYCH_SURFACE_X8R8G8B8, TRIPTYCH_SURFACE_A1R5G5B5);
+    set_blending("add", "destalpha", "invdestalpha");
+    expect_blending(BLEND_COLOR, BLEND_ADD, FACTOR_TARGET_ALPHA, FACTOR_INVERSE_TARGET_ALPHA);
+}
+
+/* 0 - s * f is not 0 where there is room for it. */
+static void differences_below_zero_stay_where_there_is_room(void)
+{
+    set_blending("subtract", "zero", "one");
+    set_targets(TRIPTYCH_SURFACE_A8R8G8B8, 0);
+    expect_blending(BLEND_COLOR, BLEND_ADD, FACTOR_ZERO, FACTOR_ZERO);
+    set_targets(TRIPTYCH_SURFACE_A8R8G8B8, TRIPTYCH_SURFACE_A16B16G16R16F);
+    expect_blending(BLEND_COLOR, BLEND_SUBTRACT, FACTOR_ZERO, FACTOR_ONE);
+    set_number(TRIPTYCH_STATE_colorwriteenable1, 0);
+    expect_blending(BLEND_COLOR, BLEND_ADD, FACTOR_ZERO, FACTOR_ZERO);
+}
+
+/* Of a target that is not written only the place it takes matters, and nothing of those behind the last. */
+static void targets_that_are_not_written_are_places(void)
+{
+    const struct pixel_key *pixel = &key[UNIT_PIXEL].pixel;
+    set_targets(TRIPTYCH_SURFACE_R5G6B5, TRIPTYCH_SURFACE_A16B16G16R16F);
+    SET(ditherenable, "true");
+    derive();
+    TEST_ASSERT_EQUAL_INT(TARGET_565, pixel->target[0]);
+    TEST_ASSERT_EQUAL_INT(TARGET_HALF, pixel->target[1]);
+    TEST_ASSERT_EQUAL_INT(7, pixel->write_mask[0]);
+    TEST_ASSERT_TRUE(pixel->float_color && pixel->dither);
+    set_number(TRIPTYCH_STATE_colorwriteenable, 8);
+    derive();
+    TEST_ASSERT_EQUAL_INT(TARGET_8888, pixel->target[0]);
+    TEST_ASSERT_EQUAL_INT(0, pixel->write_mask[0]);
+    TEST_ASSERT_TRUE(pixel->float_color && !pixel->dither);
+    set_number(TRIPTYCH_STATE_colorwriteenable, 1);
+    set_number(TRIPTYCH_STATE_colorwriteenable1, 0);
+    derive();
+    TEST_ASSERT_EQUAL_INT(TARGET_565, pixel->target[0]);
+    TEST_ASSERT_EQUAL_INT(0, pixel->target[1]);
+    TEST_ASSERT_TRUE(!pixel->float_color && pixel->dither);
+}
+
+static void alpha_alone_is_not_encoded(void)
+{
+    const struct pixel_key *pixel = &key[UNIT_PIXEL].pixel;
+    SET(srgbwriteenable, "true");
+    derive();
+    TEST_ASSERT_EQUAL_INT(TARGET_SRGB, pixel->target[0]);
+    TEST_ASSERT_TRUE(pixel->float_color);
+    set_number(TRIPTYCH_STATE_colorwriteenable, 8);
+    derive();
+    TEST_ASSERT_EQUAL_INT(TARGET_8888, pixel->target[0]);
+    TEST_ASSERT_FALSE(pixel->float_color);
+}
+
+/* A stage that only displaces is sampled for the next one, which must need it. */
+static void bump_maps_are_sampled_for_the_stage_behind_them(void)
+{
+    const struct pixel_key *pixel = &key[UNIT_PIXEL].pixel;
+    state.texture[0] = state.texture[1] = &texture;
+    SET_STAGE(0, colorop, "bumpenvmap");
+    SET_STAGE(1, colorop, "modulate");
+    derive();
+    TEST_ASSERT_TRUE(pixel->texture[0] && pixel->texture[1] && pixel->bump[1] == BUMP_DISPLACED);
+    TEST_ASSERT_TRUE(pixel->float_color);
+    SET_STAGE(1, colorop, "selectarg2");
+    derive();
+    TEST_ASSERT_FALSE(pixel->stages || pixel->texture[0] || pixel->bump[1] || pixel->float_color);
+}
+
+/* --- Samplers --- */
+
 static void wrapping_a_power_of_two_is_told_apart(void)
 {
     state.texture[0] = &texture;
@@ -933,6 +1022,11 @@ int main(void)
     RUN_TEST(channels_that_are_not_written_are_blended_like_the_others);
     RUN_TEST(channels_that_keep_what_is_stored_are_not_written);
     RUN_TEST(the_blend_factor_is_in_the_job_alone);
+    RUN_TEST(alpha_of_targets_without_one_is_known);
+    RUN_TEST(differences_below_zero_stay_where_there_is_room);
+    RUN_TEST(targets_that_are_not_written_are_places);
+    RUN_TEST(alpha_alone_is_not_encoded);
+    RUN_TEST(bump_maps_are_sampled_for_the_stage_behind_them);
     RUN_TEST(wrapping_a_power_of_two_is_told_apart);
     RUN_TEST(addressing_follows_the_axis);
     RUN_TEST(the_border_colour_is_the_jobs);
