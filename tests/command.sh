@@ -187,6 +187,8 @@ does 'render a PNG' render "$work/good.tri" --engine emulate --out "$picture"
 holds 'the PNG has the right size' bash -c "file '$picture' 2>/dev/null | grep -q '40 x 30' ||
     [[ \$(od -An -tx1 -j16 -N8 '$picture' | tr -d ' \n') == 000000280000001e ]]"
 does 'render an EXR' render "$work/good.tri" --engine emulate --out "$work/picture.exr"
+does 'render four targets as an EXR' render tests/streams/targets.tri --out "$work/targets.exr"
+holds 'it has the channels of the fourth' grep -q 'target3\.R' "$work/targets.exr"
 holds 'the EXR begins as one' bash -c "[[ \$(od -An -tx1 -N4 '$work/picture.exr' | tr -d ' ') == 762f3101 ]]"
 does 'render another frame' render "$work/good.tri" --engine emulate --frame 1 --out "$work/black.png"
 refuses 'frame that the stream has not' 'no frame 2, its last is 1' \

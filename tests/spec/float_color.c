@@ -135,6 +135,33 @@ static void test_stages_are_not_rounded(void)
     on_every_engine(check_operations);
 }
 
+/* Specular is added behind the stages, at most to 1; alpha stays. */
+static void check_specular(void)
+{
+    static const float specular[4][4] = {{0.25f, 0.5f, 0.125f, 1},
+                                         {0.25f, 0.5f, 0.125f, 1},
+                                         {0.25f, 0.5f, 0.125f, 1},
+                                         {0.25f, 0.5f, 0.125f, 1}};
+    struct triptych_element element = {TRIPTYCH_FORMAT_FLOAT4, NULL, 0, sizeof *specular};
+    open_target(TRIPTYCH_SURFACE_A16B16G16R16F);
+    bind_random_texture(SIZE, SIZE);
+    OK(triptych_buffer_create(device, specular, sizeof specular, &element.buffer));
+    OK(triptych_set_element(device, TRIPTYCH_SPECULAR, &element));
+    set(TRIPTYCH_STATE_specularenable, "true");
+    draw_square(0, 0xffffffff, NULL, 0, 0, 1, 1);
+    read_numbers();
+    for (int p = 0; p < SIZE * SIZE; p++)
+        for (int c = 0; c < 4; c++) {
+            float color = fraction(texel[p], c), sum = c < 3 ? saturated(color + specular[0][c]) : color;
+            expect_number(p, c, half_to_float(float_to_half(sum)), "specular");
+        }
+}
+
+static void test_specular_is_added_behind_the_stages(void)
+{
+    on_every_engine(check_specular);
+}
+
 /* --- Alpha test, fog --------------------------------------------------------------------------------------
  */
 
@@ -331,6 +358,7 @@ int main(void)
 {
     UNITY_BEGIN();
     RUN_TEST(test_stages_are_not_rounded);
+    RUN_TEST(test_specular_is_added_behind_the_stages);
     RUN_TEST(test_alpha_is_tested_as_a_byte);
     RUN_TEST(test_fog_blends_what_is_not_rounded);
     RUN_TEST(test_blending_is_as_defined);
