@@ -4,7 +4,7 @@
 # emu/*.c and asm/**/*.asm is the library; every tests/**/*.c outside tests/support/ is one Unity program with its
 # own main.
 # Everything built goes to $(BUILD). What is fetched or linked in from the system (the Unity sources, the glmark2
-# assets) goes to build/ whatever BUILD is, because draw streams name their assets through build/glmark2.
+# and Assimp assets) goes to build/ whatever BUILD is, because draw streams name their assets through build/glmark2.
 # `make test` runs this file again for each variant: plain, clang (CC=clang), sanitize (SANITIZE=1).
 
 VERSION := $(shell sed -n 's/^#define TRIPTYCH_VERSION "\(.*\)"/\1/p' src/triptych.h)
@@ -92,7 +92,8 @@ unity_flags = -isystem $(dir $(UNITY_SOURCE)) -DUNITY_INCLUDE_DOUBLE -DUNITY_USE
 
 .PHONY: all programs check test bench gallery dependencies packages install clean format format-check help FORCE
 
-all: $(BUILD)/libtriptych.a $(if $(SANITIZE),,$(BUILD)/libtriptych.so $(BUILD)/triptych.pc) $(COMMAND) build/glmark2
+all: $(BUILD)/libtriptych.a $(if $(SANITIZE),,$(BUILD)/libtriptych.so $(BUILD)/triptych.pc) $(COMMAND) build/glmark2 \
+  build/assimp
 
 programs: $(PROGRAMS)
 
@@ -171,9 +172,10 @@ endef
 $(BUILD)/triptych.pc: Makefile FORCE
 	@$(shell mkdir -p $(@D))$(file >$@.new,$(pkgconfig))cmp -s $@.new $@ && rm $@.new || mv $@.new $@
 
-build/glmark2:
+# Models that draw streams name.
+build/glmark2 build/assimp:
 	@mkdir -p build
-	@ln -sfn /usr/share/glmark2 $@
+	@ln -sfn /usr/share/$(@F) $@
 
 build/unity/src/unity.c:
 	@tests/support/unity.sh build/unity

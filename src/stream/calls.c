@@ -2,11 +2,13 @@
  * should end. What a call means is not looked at here beyond its own words and numbers; check.c does. */
 #include "draw/format.h"
 #include "stream/parse.h"
+#include "stream/skeleton.h"
 #include "stream/transform.h"
 
 #include <ctype.h>
 #include <math.h>
 #include <stdio.h>
+#include <stdlib.h>
 #include <string.h>
 
 const struct triptych_material stream_default_material = {.diffuse = {1, 1, 1, 1}};
@@ -312,17 +314,12 @@ static int parse_transform_number(struct parser *parser, unsigned which, uint32_
     return 0;
 }
 
-int parse_transform(struct parser *parser, struct call *call)
+/* The product of the operations up to the end of the line. The first matrix is not multiplied by the
+ * identity, which would lose the sign of its zeros. */
+static int parse_operations(struct parser *parser, double matrix[4][4])
 {
     struct lexer *lex = &parser->lex;
-    double matrix[4][4], next[4][4];
-    unsigned which;
-    uint32_t number = 0;
-    if (parse_word(parser, WORDS_TRANSFORM, "a transform", &which) ||
-        parse_transform_number(parser, which, &number))
-        return -1;
-    struct token place = lex->token;
-    /* The first matrix is not multiplied by the identity, which would lose the sign of its zeros. */
+    double next[4][4];
     if (parse_operation(parser, matrix))
         return -1;
     for (int count = 1; lex->token.type != TOKEN_LINE_END && lex->token.type != TOKEN_END; count++) {
@@ -332,8 +329,82 @@ int parse_transform(struct parser *parser, struct call *call)
             return -1;
         transform_multiply(matrix, next, matrix);
     }
+    return 0;
+}
+
+int parse_transform(struct parser *parser, struct call *call)
+{
+    double matrix[4][4];
+    unsigned which;
+    uint32_t number = 0;
+    if (parse_word(parser, WORDS_TRANSFORM, "a transform", &which) ||
+        parse_transform_number(parser, which, &number))
+        return -1;
+    struct token place = parser->lex.token;
+    if (parse_operations(parser, matrix))
+        return -1;
     call->transform.which = (enum triptych_transform)(which + number);
     return round_matrix(parser, &place, matrix, call->transform.matrix);
+}
+
+/* As many transforms as the mesh has bones; the last is left in `call`. */
+static int add_pose(struct parser *parser, const struct skeleton *skeleton, double (*matrices)[4][4],
+                    double world[4][4], const struct token *place, struct call *call)
+{
+    for (uint32_t b = 0; b < skeleton->bone_count; b++) {
+        transform_multiply(matrices[b], world, matrices[b]);
+        call->transform.which =
+            (enum triptych_transform)(b ? TRIPTYCH_TRANSFORM_WORLD1 + b - 1 : TRIPTYCH_TRANSFORM_WORLD);
+        if (round_matrix(parser, place, matrices[b], call->transform.matrix) ||
+            (b + 1 < skeleton->bone_count && parse_add_call(parser, call, place)))
+            return -1;
+    }
+    return 0;
+}
+
+static int parse_animation(struct parser *parser, const struct skeleton *skeleton, int *animation)
+{
+    struct token place = parser->lex.token;
+    char *name;
+    if (lex_string(&parser->lex, "the name of an animation", &name))
+        return -1;
+    *animation = skeleton_find(skeleton, name);
+    free(name);
+    if (*animation < 0)
+        return lex_fail(&parser->lex, &place,
+                        "found an animation that the mesh does not have, expected %s%s%s",
+                        skeleton->animation_count ? "\"" : "one with animations",
+                        skeleton->animation_count ? skeleton->animations[0].name : "",
+                        skeleton->animation_count ? "\"" : "");
+    return 0;
+}
+
+int parse_pose(struct parser *parser, struct call *call)
+{
+    struct lexer *lex = &parser->lex;
+    struct token place = lex->token;
+    double time, world[4][4];
+    uint32_t mesh;
+    int animation;
+    if (parse_name(parser, 1 << RESOURCE_MESH, "a mesh", &mesh))
+        return -1;
+    const struct skeleton *skeleton = parser->stream->resources[mesh].skeleton;
+    if (!skeleton)
+        return lex_fail(lex, &place, "found a mesh without bones, expected one with");
+    if (parse_animation(parser, skeleton, &animation) || lex_double(lex, "time", &time))
+        return -1;
+    if (lex->token.type == TOKEN_LINE_END || lex->token.type == TOKEN_END)
+        transform_operation(0)->make(NULL, world);
+    else if (parse_operations(parser, world))
+        return -1;
+    double(*matrices)[4][4] = malloc(skeleton->bone_count * sizeof *matrices);
+    if (!matrices || skeleton_pose(skeleton, (uint32_t)animation, time, matrices)) {
+        free(matrices);
+        return lex_fail(lex, &place, "not enough memory");
+    }
+    int result = add_pose(parser, skeleton, matrices, world, &place, call);
+    free(matrices);
+    return result;
 }
 
 int parse_material(struct parser *parser, struct call *call)

@@ -54,6 +54,13 @@ static int parse_center(struct parser *parser, struct mesh_options *options)
     return 0;
 }
 
+static int parse_bones(struct parser *parser, struct mesh_options *options)
+{
+    (void)parser;
+    options->bones = 1;
+    return 0;
+}
+
 static int parse_repeat(struct parser *parser, struct mesh_options *options)
 {
     for (int i = 0; i < 2; i++)
@@ -76,6 +83,7 @@ static const struct option {
     {"subdivisions", 1 << MESH_BEZIER, parse_subdivisions},
     {"texcoords", FILES, parse_texcoords},
     {"repeat", FILES | SHAPES, parse_repeat},
+    {"bones", 1 << MESH_FILE, parse_bones},
     {"center", FILES, parse_center},
     {"fit", FILES, parse_fit},
 };

@@ -20,6 +20,7 @@ void mesh_free(struct mesh *mesh)
 {
     free(mesh->vertices);
     free(mesh->indices);
+    skeleton_free(mesh->skeleton);
     *mesh = (struct mesh){0};
 }
 
@@ -202,6 +203,8 @@ static int make_flat_normals(struct mesh *mesh, const char *path, struct error *
             result = mesh_add_triangle(&made, path, corner[0], corner[1], corner[2], error);
     }
     free(moved);
+    made.skeleton = mesh->skeleton;
+    mesh->skeleton = NULL;
     mesh_free(mesh);
     *mesh = made;
     return result;
@@ -308,6 +311,10 @@ static void place(struct mesh *mesh, const struct mesh_options *options)
         scale = options->fit / side;
     for (int i = 0; options->center && i < 3; i++)
         center[i] = (low[i] + high[i]) / 2;
+    if (mesh->skeleton) {
+        memcpy(mesh->skeleton->center, center, sizeof center);
+        mesh->skeleton->scale = scale;
+    }
     for (uint32_t v = 0; v < mesh->vertex_count; v++)
         for (int i = 0; i < 3; i++)
             mesh->vertices[v].position[i] = (float)((mesh->vertices[v].position[i] - center[i]) * scale);
@@ -346,6 +353,10 @@ static void pack_vertex(uint8_t *out, const struct layout *layout, const struct 
         memcpy(out + layout->offset[TRIPTYCH_DIFFUSE], &vertex->color, sizeof vertex->color);
     if (layout->format[TRIPTYCH_TEXCOORD])
         memcpy(out + layout->offset[TRIPTYCH_TEXCOORD], vertex->texcoord, sizeof vertex->texcoord);
+    if (layout->format[TRIPTYCH_WEIGHTS]) { /* the last weight is what the others leave */
+        memcpy(out + layout->offset[TRIPTYCH_WEIGHTS], vertex->weight, 3 * sizeof *vertex->weight);
+        memcpy(out + layout->offset[TRIPTYCH_INDICES], vertex->bone, sizeof vertex->bone);
+    }
 }
 
 static void pack_indices(struct resource *resource, const struct mesh *mesh)
@@ -368,6 +379,10 @@ static int pack(struct resource *resource, const struct mesh *mesh)
         layout_add(layout, TRIPTYCH_DIFFUSE, TRIPTYCH_FORMAT_COLOR);
     if (mesh->has_texcoord)
         layout_add(layout, TRIPTYCH_TEXCOORD, TRIPTYCH_FORMAT_FLOAT2);
+    if (mesh->skeleton) {
+        layout_add(layout, TRIPTYCH_WEIGHTS, TRIPTYCH_FORMAT_FLOAT3);
+        layout_add(layout, TRIPTYCH_INDICES, TRIPTYCH_FORMAT_UBYTE4);
+    }
     resource->vertex_count = mesh->vertex_count;
     resource->vertex_bytes = (size_t)mesh->vertex_count * layout->stride;
     resource->index_bits = mesh->vertex_count <= 65536 ? 16 : 32;
@@ -379,6 +394,7 @@ static int pack(struct resource *resource, const struct mesh *mesh)
     for (uint32_t v = 0; v < mesh->vertex_count; v++)
         pack_vertex(resource->vertices + (size_t)v * layout->stride, layout, &mesh->vertices[v]);
     pack_indices(resource, mesh);
+    resource->skeleton = mesh->skeleton;
     return 0;
 }
 
@@ -389,6 +405,8 @@ static int finish(struct resource *resource, struct mesh *mesh, const char *path
         result = mesh_finish(mesh, path, &resource->options, error);
     if (!result && pack(resource, mesh))
         result = no_memory(path, error);
+    if (resource->skeleton)
+        mesh->skeleton = NULL;
     mesh_free(mesh);
     return result;
 }
@@ -398,7 +416,7 @@ int mesh_load(struct resource *resource, const char *path, struct error *error)
     const struct mesh_options *options = &resource->options;
     struct mesh mesh = {0};
     int result = options->source == MESH_BEZIER ? mesh_read_bezier(&mesh, path, options->subdivisions, error)
-                                                : mesh_read_model(&mesh, path, error);
+                                                : mesh_read_model(&mesh, path, options->bones, error);
     return finish(resource, &mesh, path, result, error);
 }
 

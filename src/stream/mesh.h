@@ -7,11 +7,14 @@
 #ifndef STREAM_MESH_H
 #define STREAM_MESH_H
 
+#include "stream/skeleton.h"
 #include "stream/stream.h"
 
 struct mesh_vertex {
     float position[3], normal[3], texcoord[2];
-    uint32_t color; /* 0xAARRGGBB */
+    uint32_t color;  /* 0xAARRGGBB */
+    float weight[4]; /* of the bones, together 1; all 0 in a mesh without */
+    uint8_t bone[4];
 };
 
 struct mesh {
@@ -20,6 +23,7 @@ struct mesh {
     uint32_t vertex_count, vertex_capacity;
     uint32_t index_count, index_capacity;
     int has_color, has_texcoord;
+    struct skeleton *skeleton; /* or null */
 };
 
 void mesh_free(struct mesh *mesh);
@@ -30,8 +34,9 @@ int mesh_add_vertex(struct mesh *mesh, const char *path, const struct mesh_verte
 int mesh_add_triangle(struct mesh *mesh, const char *path, uint32_t a, uint32_t b, uint32_t c,
                       struct error *error);
 
-/* The importers: all triangles of a model file that Assimp reads; the cells of a BEZ file's patches. */
-int mesh_read_model(struct mesh *mesh, const char *path, struct error *error);
+/* The importers: all triangles of a model file that Assimp reads, with `bones` also its skeleton; the cells
+ * of a BEZ file's patches. */
+int mesh_read_model(struct mesh *mesh, const char *path, int bones, struct error *error);
 int mesh_read_bezier(struct mesh *mesh, const char *path, unsigned subdivisions, struct error *error);
 
 /* Those without a file: the shapes of shape.c; the volume that a mesh keeps from a light. `name` begins

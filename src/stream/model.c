@@ -4,6 +4,7 @@
  * Assimp matrices are for column vectors. Normals are transformed by the cofactors of the upper 3x3 (the
  * inverse transpose up to a positive factor, defined for singular matrices too); a mirroring node turns its
  * triangles round. */
+#include "stream/bones.h"
 #include "stream/mesh.h"
 
 #include <assimp/cimport.h>
@@ -78,7 +79,7 @@ static struct mesh_vertex make_vertex(const struct aiMesh *source, unsigned i, c
 }
 
 static int add_mesh(struct mesh *mesh, const char *path, const struct aiMesh *source,
-                    const struct placement *p, struct error *error)
+                    const struct aiNode *node, const struct placement *p, struct error *error)
 {
     uint32_t first = mesh->vertex_count;
     int mirrored = p->determinant < 0;
@@ -87,6 +88,8 @@ static int add_mesh(struct mesh *mesh, const char *path, const struct aiMesh *so
         if (mesh_add_vertex(mesh, path, &vertex, error))
             return -1;
     }
+    if (mesh->skeleton && bones_add(mesh, path, source, node, &p->matrix, first, error))
+        return -1;
     for (unsigned i = 0; i < source->mNumFaces; i++) {
         const struct aiFace *face = &source->mFaces[i];
         if (face->mNumIndices != 3)
@@ -104,20 +107,17 @@ static int add_mesh(struct mesh *mesh, const char *path, const struct aiMesh *so
 }
 
 static int add_node(struct mesh *mesh, const char *path, const struct aiScene *scene,
-                    const struct aiNode *node, const struct aiMatrix4x4 *parent, int depth,
-                    struct error *error)
+                    const struct aiNode *node, const struct aiMatrix4x4 *parent, struct error *error)
 {
     struct aiMatrix4x4 matrix = *parent;
-    if (depth == NODE_DEPTH_MAXIMUM)
-        return error_set(error, "%s: nodes nested more than %d deep", path, NODE_DEPTH_MAXIMUM);
     aiMultiplyMatrix4(&matrix, &node->mTransformation);
     struct placement placement = make_placement(&matrix);
     for (unsigned i = 0; i < node->mNumMeshes; i++)
         if (node->mMeshes[i] < scene->mNumMeshes &&
-            add_mesh(mesh, path, scene->mMeshes[node->mMeshes[i]], &placement, error))
+            add_mesh(mesh, path, scene->mMeshes[node->mMeshes[i]], node, &placement, error))
             return -1;
     for (unsigned i = 0; i < node->mNumChildren; i++)
-        if (add_node(mesh, path, scene, node->mChildren[i], &matrix, depth + 1, error))
+        if (add_node(mesh, path, scene, node->mChildren[i], &matrix, error))
             return -1;
     return 0;
 }
@@ -165,12 +165,36 @@ static int check_file(const char *path, struct error *error)
     return result;
 }
 
-int mesh_read_model(struct mesh *mesh, const char *path, struct error *error)
+static int check_depth(const struct aiNode *node, int depth)
+{
+    if (depth == NODE_DEPTH_MAXIMUM)
+        return -1;
+    for (unsigned i = 0; i < node->mNumChildren; i++)
+        if (check_depth(node->mChildren[i], depth + 1))
+            return -1;
+    return 0;
+}
+
+/* All meshes of all nodes. */
+static int add_scene(struct mesh *mesh, const char *path, const struct aiScene *scene, int bones,
+                     struct error *error)
+{
+    struct aiMatrix4x4 identity;
+    aiIdentityMatrix4(&identity);
+    if (!scene->mRootNode)
+        return error_set(error, "%s: no meshes", path);
+    if (check_depth(scene->mRootNode, 0))
+        return error_set(error, "%s: nodes nested more than %d deep", path, NODE_DEPTH_MAXIMUM);
+    if (bones && !(mesh->skeleton = bones_read(scene, path, error)))
+        return -1;
+    return add_node(mesh, path, scene, scene->mRootNode, &identity, error);
+}
+
+int mesh_read_model(struct mesh *mesh, const char *path, int bones, struct error *error)
 {
     static const unsigned steps = aiProcess_Triangulate | aiProcess_JoinIdenticalVertices |
                                   aiProcess_SortByPType | aiProcess_FlipUVs | aiProcess_ImproveCacheLocality |
                                   aiProcess_FindInvalidData;
-    struct aiMatrix4x4 identity;
     if (check_file(path, error))
         return -1;
     struct aiPropertyStore *properties = aiCreatePropertyStore();
@@ -182,9 +206,7 @@ int mesh_read_model(struct mesh *mesh, const char *path, struct error *error)
     aiReleasePropertyStore(properties);
     if (!scene)
         return fail_import(path, error);
-    aiIdentityMatrix4(&identity);
-    int result = scene->mRootNode ? add_node(mesh, path, scene, scene->mRootNode, &identity, 0, error)
-                                  : error_set(error, "%s: no meshes", path);
+    int result = add_scene(mesh, path, scene, bones, error);
     aiReleaseImport(scene);
     return result;
 }

@@ -1,6 +1,7 @@
 /* The calls of the text format: one function reads each, from behind its first word, and the table at the end
  * lists them. A call is appended to the stream when its line has ended well. */
 #include "stream/parse.h"
+#include "stream/skeleton.h"
 
 #include "base/file.h"
 
@@ -195,6 +196,7 @@ static const struct command {
     {"convention", ANYWHERE, CALL_CONVENTION, parse_convention, NULL},
     {"clipplane", ANYWHERE, CALL_CLIP_PLANE, parse_clip_plane, NULL},
     {"transform", ANYWHERE, CALL_TRANSFORM, parse_transform, NULL},
+    {"pose", ANYWHERE, CALL_TRANSFORM, parse_pose, NULL},
     {"material", ANYWHERE, CALL_MATERIAL, parse_material, NULL},
     {"light", ANYWHERE, CALL_LIGHT, parse_light, NULL},
     {"bind", ANYWHERE, CALL_BIND_TEXTURE, parse_bind, NULL},
@@ -241,7 +243,7 @@ static int expect_command(struct parser *parser)
                         words);
 }
 
-static int add_call(struct parser *parser, const struct call *call, const struct token *place)
+int parse_add_call(struct parser *parser, const struct call *call, const struct token *place)
 {
     struct stream *stream = parser->stream;
     if (stream->call_count == LIMIT_CALLS)
@@ -275,7 +277,7 @@ static int parse_line(struct parser *parser)
     int result = command->define ? command->define(parser) : command->parse(parser, &call);
     if (result || lex_line_end(lex))
         return -1;
-    return command->define ? 0 : add_call(parser, &call, &place);
+    return command->define ? 0 : parse_add_call(parser, &call, &place);
 }
 
 static int parse_header(struct parser *parser)
@@ -320,6 +322,7 @@ void stream_free(struct stream *stream)
             free(resource->face_path[face]);
         free(resource->vertices);
         free(resource->indices);
+        skeleton_free(resource->skeleton);
     }
     free(stream->path);
     free(stream->resources);

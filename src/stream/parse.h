@@ -48,6 +48,9 @@ typedef int resource_loader(struct resource *resource, const char *path, struct 
 int parse_load(struct parser *parser, struct resource *resource, const char *path, const struct token *place,
                resource_loader *loader);
 
+/* Appends a call. */
+int parse_add_call(struct parser *parser, const struct call *call, const struct token *place);
+
 /* Calls, from behind their first word; what is not mentioned in the text has its default. */
 int parse_target(struct parser *parser, struct call *call);
 int parse_viewport(struct parser *parser, struct call *call);
@@ -58,6 +61,7 @@ int parse_state(struct parser *parser, struct call *call);
 int parse_sampler(struct parser *parser, struct call *call);
 int parse_stage(struct parser *parser, struct call *call);
 int parse_transform(struct parser *parser, struct call *call);
+int parse_pose(struct parser *parser, struct call *call);
 int parse_material(struct parser *parser, struct call *call);
 int parse_light(struct parser *parser, struct call *call);
 int parse_bind(struct parser *parser, struct call *call);

@@ -23,6 +23,7 @@
 #include <stdint.h>
 
 struct player;
+struct skeleton;
 
 enum stream_limit {
 #define LIMIT(name, value, what) LIMIT_##name = value,
@@ -55,6 +56,7 @@ struct mesh_options {
     float repeat[2];   /* texture coordinates are multiplied by it */
     uint32_t cells[2]; /* MESH_GRID to MESH_TORUS: across, down */
     float tube;        /* MESH_TORUS: its radius */
+    int bones;         /* MESH_FILE: vertices have weights and indices, and the mesh a skeleton */
     uint32_t caster;   /* MESH_SHADOW: the number of the mesh whose shadow it is */
     int light_is_point;
     float light[3], length; /* its position, or the direction of light; how far the shadow reaches */
@@ -117,6 +119,7 @@ struct resource {
     uint32_t index_bits, index_count;
     uint32_t index_least, index_most;
     struct mesh_options options; /* mesh */
+    struct skeleton *skeleton;   /* of a mesh with bones */
 
     uint32_t call;     /* sequence: the number of its CALL_SEQUENCE */
     uint32_t depth;    /* sequence: 1 + that of the deepest sequence it plays */

@@ -252,6 +252,8 @@ static void write_mesh(struct writer *writer, const struct resource *resource)
         fprintf(writer->out, " normals %s", word_text(WORDS_NORMALS, options->normals));
     if (options->texcoords != TEXCOORDS_KEEP)
         fprintf(writer->out, " texcoords %s", word_text(WORDS_TEXCOORDS, options->texcoords));
+    if (options->bones)
+        fputs(" bones", writer->out);
     if (options->repeat[0] != 0) {
         fputs(" repeat", writer->out);
         write_numbers(writer, options->repeat, 2);

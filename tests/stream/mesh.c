@@ -38,7 +38,7 @@ static void read_model(const char *text, const struct mesh_options *options)
 {
     mesh_free(&mesh);
     write_file(text);
-    TEST_ASSERT_EQUAL_INT_MESSAGE(0, mesh_read_model(&mesh, path, &error), error.text);
+    TEST_ASSERT_EQUAL_INT_MESSAGE(0, mesh_read_model(&mesh, path, 0, &error), error.text);
     TEST_ASSERT_EQUAL_INT_MESSAGE(0, mesh_finish(&mesh, path, options, &error), error.text);
 }
 
@@ -226,7 +226,7 @@ static void models_without_triangles_and_damaged_ones_are_refused(void)
         mesh_free(&mesh);
         error_clear(&error);
         write_file(bad[i]);
-        int result = mesh_read_model(&mesh, path, &error);
+        int result = mesh_read_model(&mesh, path, 0, &error);
         if (!result)
             result = mesh_finish(&mesh, path, &options, &error);
         TEST_ASSERT_EQUAL_INT_MESSAGE(-1, result, bad[i]);
@@ -245,7 +245,7 @@ static void a_ply_header_that_claims_more_than_the_file_is_refused_at_once(void)
     strcpy(path, "/tmp/triptych-mesh.XXXXXX.ply");
     close(mkstemps(path, 4));
     write_file(ply);
-    TEST_ASSERT_EQUAL_INT(-1, mesh_read_model(&mesh, path, &error));
+    TEST_ASSERT_EQUAL_INT(-1, mesh_read_model(&mesh, path, 0, &error));
     snprintf(expected, sizeof expected, "%s:3: 100000000000 entries of vertex in a file of %zu bytes", path,
              sizeof ply - 1);
     TEST_ASSERT_EQUAL_STRING(expected, error.text);

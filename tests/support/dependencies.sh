@@ -9,28 +9,29 @@
 set -euo pipefail
 
 packages='
-gcc             build   compiles the project (and the external engine, at run time)
-libc6-dev       build   the C library, the mathematics library and threads
-nasm            build   assembles the fragments and kernels in asm/
-pkg-config      build   finds the compiler flags of the libraries below
-libpng-dev      build   reads and writes PNG pictures
-libopenexr-dev  build   reads and writes EXR pictures (the C core, OpenEXRCore)
-libzydis-dev    build   disassembles generated code, and checks its encoding independently
-libxxhash-dev   build   hashes keys, chunks and pictures
-libcjson-dev    build   writes and reads JSON reports
-libassimp-dev   build   imports 3D models into draw streams
-glmark2-data    build   the models and textures of the draw streams
-clang           test    compiles everything a second time, for its warnings
-hyperfine       bench   measures whole processes
-gnuplot-nox     bench   draws the charts
-clang-format    format  formats the C sources
+gcc                build   compiles the project (and the external engine, at run time)
+libc6-dev          build   the C library, the mathematics library and threads
+nasm               build   assembles the fragments and kernels in asm/
+pkg-config         build   finds the compiler flags of the libraries below
+libpng-dev         build   reads and writes PNG pictures
+libopenexr-dev     build   reads and writes EXR pictures (the C core, OpenEXRCore)
+libzydis-dev       build   disassembles generated code, and checks its encoding independently
+libxxhash-dev      build   hashes keys, chunks and pictures
+libcjson-dev       build   writes and reads JSON reports
+libassimp-dev      build   imports 3D models into draw streams
+glmark2-data       build   the models and textures of the draw streams
+assimp-testmodels  test    the animated model of a scene
+clang              test    compiles everything a second time, for its warnings
+hyperfine          bench   measures whole processes
+gnuplot-nox        bench   draws the charts
+clang-format       format  formats the C sources
 '
 
 describe() # PACKAGE... : their rows of the table, without the group
 {
     local package group reason
     while read -r package group reason; do
-        [[ " $* " == *" $package "* ]] && printf '  %-15s %s\n' "$package" "$reason"
+        [[ " $* " == *" $package "* ]] && printf '  %-17s %s\n' "$package" "$reason"
     done <<<"$packages"
     return 0
 }
@@ -43,7 +44,7 @@ stop() # REASON
 
 if [[ ${1-} == --list ]]; then
     while read -r package group reason; do
-        [[ -z $package ]] || printf '%-15s %-7s %s\n' "$package" "$group" "$reason"
+        [[ -z $package ]] || printf '%-17s %-7s %s\n' "$package" "$group" "$reason"
     done <<<"$packages"
     exit 0
 fi
