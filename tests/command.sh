@@ -171,6 +171,11 @@ does 'assemble a shader to a file' shader assemble "$work/good.shader" --out "$w
 answers 'disassemble a shader' '^\+mad_x2 r0.xyz, -t1_bx2, c2.w, 1-r3$' shader disassemble "$work/good.code"
 answers 'tokens as JSON' '"0x40000004"' shader assemble "$work/good.code" --json
 answers 'text as JSON' '"model":.*"ps_1_4"' shader disassemble "$work/good.code" --json
+printf 'ps_2_0\ndcl t0.xy\ndcl_2d s0\ntexld r0, t0, s0\nmov oC0, r0\n' >"$work/valid.shader"
+answers 'validate a shader' '^valid ps_2_0: 4 instructions, 2 slots$' shader validate "$work/valid.shader"
+answers 'validate as JSON' '"slots":.*2' shader validate "$work/valid.shader" --json
+refuses 'shader that breaks a rule' 'good.code: token 1: found \+ behind nothing to pair with' \
+    shader validate "$work/good.code" --json --out "$work/out/report"
 refuses 'unknown action' 'unknown action "compile", expected one of: assemble' shader compile "$work/good.shader"
 refuses 'no shader' 'expected ACTION' shader assemble
 refuses 'shader that is not there' 'none.shader: .*No such file' shader assemble "$work/none.shader"

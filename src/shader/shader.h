@@ -126,7 +126,8 @@ enum {
     IS_PREDICATES = 32,
     IS_STATIC = 64,
     IS_DYNAMIC = 128,
-    IS_UNSATURATED = 256
+    IS_UNSATURATED = 256,
+    IS_APART = 512
 };
 
 /* A row of def/shader.def. */
@@ -282,8 +283,14 @@ int shader_encode(const struct shader *shader, uint32_t **tokens, size_t *count,
 /* Canonical text, zero-terminated, which the caller frees. */
 int shader_print(const struct shader *shader, char **text, size_t *bytes, struct error *error);
 
-/* Whether a device could run the shader. */
-int shader_validate(const struct shader *shader, struct error *error);
+/* What a valid shader takes of its model's limits. */
+struct shader_counts {
+    unsigned slots; /* in all; of ps_1_4 both phases together */
+    unsigned flow;  /* instructions of static flow control */
+};
+
+/* Whether a device could run the shader; `counts` may be null. */
+int shader_validate(const struct shader *shader, struct shader_counts *counts, struct error *error);
 
 void shader_free(struct shader *shader);
 

@@ -28,6 +28,7 @@ const struct shader_model shader_models[MODEL_COUNT] = {
 #define STATIC      IS_STATIC
 #define DYNAMIC     IS_DYNAMIC
 #define UNSATURATED IS_UNSATURATED
+#define APART       IS_APART
 
 const struct shader_operation shader_operations[SHADER_COUNT] = {
 #define INSTRUCTION(id, name, opcode, control, vs, ps, cube, destination, source0, source1, source2,         \

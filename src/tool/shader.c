@@ -103,12 +103,34 @@ static int disassemble(const struct command *self, const struct settings *settin
     return status;
 }
 
+static int validate(const struct command *self, const struct settings *settings, const struct shader *shader)
+{
+    struct error error = {""};
+    struct shader_counts counts;
+    if (shader_validate(shader, &counts, &error))
+        return fail(self, "%s", error.text);
+    if (settings->json) {
+        cJSON *report = describe(settings, shader);
+        cJSON_AddNumberToObject(report, "slots", counts.slots);
+        cJSON_AddNumberToObject(report, "flow", counts.flow);
+        return send_json(self, settings, report);
+    }
+    char text[128];
+    int length = snprintf(text, sizeof text, "valid %s: %" PRIu32 " instructions, %u slots\n",
+                          shader->model->name, shader->count, counts.slots);
+    if (settings->output)
+        return send_file(self, settings, text, (size_t)length);
+    fputs(text, stdout);
+    return STATUS_OK;
+}
+
 static const struct action {
     const char *name;
     int (*run)(const struct command *self, const struct settings *settings, const struct shader *shader);
 } actions[] = {
     {"assemble", assemble},
     {"disassemble", disassemble},
+    {"validate", validate},
 };
 
 static const struct action *find_action(const struct command *self, const char *name)
@@ -122,9 +144,11 @@ static const struct action *find_action(const struct command *self, const char *
     return fail(self, "unknown action \"%s\", expected one of: %s", name, names), NULL;
 }
 
-static const char notes[] = "A file is a shader's text or its bytecode.\n"
-                            "assemble      its tokens: little-endian in --out's file, or printed\n"
-                            "disassemble   its text";
+static const char notes[] =
+    "A file is a shader's text or its bytecode.\n"
+    "assemble      its tokens: little-endian in --out's file, or printed\n"
+    "disassemble   its text\n"
+    "validate      whether a device could run it, and what it takes of the model's limits";
 
 int command_shader(const struct command *self, int count, char **arguments)
 {

@@ -1,5 +1,6 @@
 /* Shaders damaged at random: text and tokens. Each is refused with one line at a place, or is a shader, which
- * then goes to tokens and text and back. The sanitizers watch. The seed is fixed. */
+ * then goes to tokens and text and back, and the validator has an opinion on it. The sanitizers watch. The
+ * seed is fixed. */
 #include "shader/shader.h"
 #include "tests/support/shaders.h"
 
@@ -42,6 +43,16 @@ static void expect_one_line(const char *path)
     TEST_ASSERT_NULL_MESSAGE(strchr(error.text, '\n'), error.text);
 }
 
+/* The validator has an opinion on everything, and says where. */
+static void expect_opinion(const struct shader *shader)
+{
+    error_clear(&error);
+    if (shader_validate(shader, NULL, &error))
+        expect_one_line(shader->path);
+    else
+        TEST_ASSERT_EQUAL_STRING("", error.text);
+}
+
 /* What a reader let through is a shader in every respect. */
 static void expect_sound(const struct shader *shader)
 {
@@ -49,6 +60,7 @@ static void expect_sound(const struct shader *shader)
     uint32_t *tokens, *tokens_again;
     size_t count, count_again, bytes;
     char *text;
+    expect_opinion(shader);
     TEST_ASSERT_EQUAL_INT(0, shader_encode(shader, &tokens, &count, &error));
     TEST_ASSERT_EQUAL_INT(0, shader_print(shader, &text, &bytes, &error));
     int bad = shader_assemble("again", text, bytes, &again, &error);
@@ -169,6 +181,59 @@ static void damaged_tokens_survive(void)
     TEST_ASSERT_TRUE(good > MUTATIONS && bad > MUTATIONS);
 }
 
+/* Valid shaders, an operand or two of them changed: most rules are one step away. */
+static void damaged_valid_shaders_survive(void)
+{
+    static const char *const texts[] = {
+        "vs_2_x\ndcl_position v0\nmova a0, v0\nmov r0, c1[a0.x]\nsetp_gt p0, r0, v0\n(p0) add r0, r0, c0\nif "
+        "p0.x\nelse\n"
+        "endif\nloop aL, i0\nmov r1, c[aL]\nbreak_gt r0.x, r1.x\nendloop\ncall l0\nmov oPos, r0\nret\nlabel "
+        "l0\nret\n",
+        "vs_3_0\ndcl_position v0\ndcl_position o0\ndcl_2d s0\ntexldl r0, v0, s0\nloop aL, i0\nmov o[aL], "
+        "v[aL]\nendloop\n"
+        "m4x4 r1, r0, c0\nmov o0, r1\n",
+        "ps_1_3\ntex t0\ntexm3x2pad t1, t0\ntexm3x2depth t2, t0\nmul_x2 r0.xyz, t0, v0\n+mov r0.w, c0\n",
+        "ps_1_4\ntexld r0, t0\ntexcrd r1.xyz, t1\nmov r0, r0\nphase\ntexld r2, r0_dz\ntexdepth r5\nmov r0, "
+        "r2\n",
+        "ps_3_0\ndcl_texcoord v0\ndcl vFace\ndcl_cube s0\nrep i0\ntexld r0, v0, s0\nif_gt r0.x, "
+        "c0.x\nbreak\nendif\nendrep\n"
+        "dsx r1, r0\ncmp oC0, vFace, r0, r1\n",
+    };
+    unsigned valid = 0, refused = 0;
+    for (int i = 0; i < 20000; i++) {
+        const char *text = texts[i % 5];
+        struct shader *shader;
+        TEST_ASSERT_EQUAL_INT_MESSAGE(0, shader_assemble("t", text, strlen(text), &shader, &error),
+                                      error.text);
+        for (uint32_t changes = 1 + shader_random(&seed, 2); changes; changes--) {
+            struct shader_instruction *at = &shader->instructions[shader_random(&seed, shader->count)];
+            struct shader_operand *operand =
+                shader_random(&seed, 2) ? &at->source[shader_random(&seed, 3)] : &at->destination;
+            switch (shader_random(&seed, 6)) {
+            case 0:
+                operand->index = (uint16_t)shader_random(&seed, shader_random(&seed, 2) ? 8 : 2048);
+                break;
+            case 1:
+                operand->swizzle =
+                    (uint8_t)(1 + shader_random(&seed, operand == &at->destination ? 15 : 255));
+                break;
+            case 2: operand->modifier = (uint8_t)shader_random(&seed, 8); break;
+            case 3: *at = shader->instructions[shader_random(&seed, shader->count)]; break;
+            case 4:
+                if (operand->file)
+                    operand->file = (uint8_t)(1 + shader_random(&seed, FILE_COUNT - 1));
+                break;
+            default: shader->count = 1 + shader_random(&seed, shader->count); break;
+            }
+        }
+        error_clear(&error);
+        shader_validate(shader, NULL, &error) ? refused++ : valid++;
+        error_clear(&error);
+        shader_free(shader);
+    }
+    TEST_ASSERT_TRUE(valid > 500 && refused > 500);
+}
+
 static void noise_survives(void)
 {
     for (int i = 0; i < 4000; i++) {
@@ -191,6 +256,7 @@ int main(void)
     UNITY_BEGIN();
     RUN_TEST(damaged_text_survives);
     RUN_TEST(damaged_tokens_survive);
+    RUN_TEST(damaged_valid_shaders_survive);
     RUN_TEST(noise_survives);
     return UNITY_END();
 }
