@@ -140,19 +140,22 @@ answers 'list states' '^zfunc +COMPARE +lessequal +SP +yes +the comparison' list
 answers 'list states of stages' '^texcoordindex +TEXCOORDINDEX +0, 1, 2, ... +V ' list states
 answers 'list words of states' '^CULLMODE +none cw ccw$' list states
 answers 'list states counts them' '^103 render states, [0-9]+ supported' list states
+answers 'list shaders' '^mad dst, a, b, c +1 +1 +1 +1 +1 +1 +1 +1 +1 +1 +1 *$' list shaders
+answers 'list shaders as JSON' '"ps_1_4":.*2' list shaders --json
 answers 'list cpu' '^avx2 +(yes|no) ' list cpu
 answers 'list passes' '^pass +meaning' list passes
 answers 'list as JSON' '"state":' list states --json
 refuses 'list in two forms' 'expected one of them' list states --json --markdown
-refuses 'list that is no page' '[-]-markdown is for states only' list cpu --markdown
+refuses 'list that is no page' '[-]-markdown is for states and shaders only' list cpu --markdown
 
-page_is_the_tables()
+page_is_the_tables() # WHAT
 {
-    "$TRIPTYCH" list states --markdown | diff docs/states.md - && return
-    echo 'docs/states.md is old: triptych list states --markdown > docs/states.md' >&2
+    "$TRIPTYCH" list "$1" --markdown | diff "docs/$1.md" - && return
+    echo "docs/$1.md is old: triptych list $1 --markdown > docs/$1.md" >&2
     return 1
 }
-holds 'docs/states.md is what the command writes' page_is_the_tables
+holds 'docs/states.md is what the command writes' page_is_the_tables states
+holds 'docs/shaders.md is what the command writes' page_is_the_tables shaders
 
 full_disk_is_noticed()
 {

@@ -236,7 +236,6 @@ static int check_modifier(struct check *check, const struct shader_operand *oper
     case OPERAND_PREDICATE: good = good || operand->modifier == MODIFIER_NOT; break;
     default: break;
     }
-    /* A constant is what it is in ps_1_x's modifiers but the sign. */
     return good ? 0
                 : REFUSE(check, operand, "found the modifier '%s%s', expected none of that kind here",
                          modifier->before, modifier->behind);
@@ -393,6 +392,8 @@ int check_sources(struct check *check)
         const struct shader_operand *source = &check->at->source[i];
         if (check_source(check, i))
             return -1;
+        if (check->at->opcode == SHADER_CRS && source->swizzle != SWIZZLE_NONE)
+            return REFUSE(check, source, "found a swizzle, expected none of crs");
         if (check->row->flags & IS_APART && check->at->destination.file == source->file &&
             check->at->destination.index == source->index)
             return REFUSE(check, source, "found %s%u as source and destination, expected another source",

@@ -7,6 +7,7 @@
 #include "draw/format.h"
 #include "jit/jit.h"
 #include "tool/option.h"
+#include "tool/shaders.h"
 #include "tool/states.h"
 #include "tool/table.h"
 #include "triptych.h"
@@ -94,8 +95,11 @@ static const struct subject {
     void (*print)(FILE *out);
     void (*print_markdown)(FILE *out);
 } subjects[] = {
-    {"engines", list_engines, NULL, NULL}, {"states", states_list, states_print, states_print_markdown},
-    {"formats", list_formats, NULL, NULL}, {"cpu", list_cpu, NULL, NULL},
+    {"engines", list_engines, NULL, NULL},
+    {"states", states_list, states_print, states_print_markdown},
+    {"shaders", shaders_list, shaders_print, shaders_print_markdown},
+    {"formats", list_formats, NULL, NULL},
+    {"cpu", list_cpu, NULL, NULL},
     {"passes", list_passes, NULL, NULL},
 };
 
@@ -133,7 +137,7 @@ static int print(const struct command *self, const struct subject *subject, bool
 {
     if (markdown && (json || !subject->print_markdown))
         return fail(self, json ? "--markdown and --json are both given, expected one of them"
-                               : "--markdown is for states only");
+                               : "--markdown is for states and shaders only");
     if (markdown)
         subject->print_markdown(stdout);
     else if (!json && subject->print)
@@ -148,7 +152,7 @@ int command_list(const struct command *self, int count, char **arguments)
     bool json = false, markdown = false;
     const struct option options[] = {
         {"json", NULL, "as JSON, an array of objects", OPTION_FLAG, &json, 0, 0},
-        {"markdown", NULL, "states as a page of documentation", OPTION_FLAG, &markdown, 0, 0},
+        {"markdown", NULL, "states or shaders as a page of documentation", OPTION_FLAG, &markdown, 0, 0},
     };
     struct operands operands = {.least = 1, .most = 1};
     enum options_result result = options_read(self, options, 2, NULL, count, arguments, &operands);

@@ -145,7 +145,7 @@ static const struct action *find_action(const struct command *self, const char *
 }
 
 static const char notes[] =
-    "A file is a shader's text or its bytecode.\n"
+    "A file is a shader's text or its bytecode (docs/shaders.md).\n"
     "assemble      its tokens: little-endian in --out's file, or printed\n"
     "disassemble   its text\n"
     "validate      whether a device could run it, and what it takes of the model's limits";

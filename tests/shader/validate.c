@@ -183,6 +183,7 @@ static const struct {
     {ps3, "tex t0.xyz", "t:2:5: found another mask, expected no mask of tex"},
     {ps4, "texcrd r2, t0", "t:5:8: found another mask, expected .xy or .xyz of texcrd"},
     {ps20, "texld r0.xyz, t0, s0", "t:5:7: found another mask, expected no mask of texld"},
+    {vs2, "crs r0.xyz, v0.yzxw, c0", "t:4:13: found a swizzle, expected none of crs"},
     /* the destination is no source */
     {vs2, "mov r0, v0\ncrs r0.xyz, r0, v0",
      "t:5:13: found r0 as source and destination, expected another source"},

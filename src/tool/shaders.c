@@ -1,0 +1,406 @@
+#include "tool/shaders.h"
+#include "shader/shader.h"
+#include "tool/table.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+enum { TEXT = 160 };
+
+/* A name for each column: the model that it is called after. */
+static const char *column_name(unsigned column)
+{
+    for (unsigned i = 0; i < MODEL_COUNT; i++)
+        if (shader_models[i].column == column)
+            return shader_models[i].name;
+    return "";
+}
+
+static void append(char text[TEXT], const char *more)
+{
+    snprintf(text + strlen(text), TEXT - strlen(text), "%s%s", text[0] ? " " : "", more);
+}
+
+/* An instruction as it is written, with letters for its operands. */
+static const char *syntax(const struct shader_operation *row, char text[TEXT])
+{
+    static const char *const destinations[] = {
+        [OPERAND_RESULT] = "dst",
+        [OPERAND_ADDRESS] = "a0",
+        [OPERAND_FLAGS] = "p0",
+        [OPERAND_STAGE] = "t#",
+        [OPERAND_TEMPORARY] = "r#",
+        [OPERAND_KILL] = "dst",
+        [OPERAND_DECLARED] = "register",
+        [OPERAND_CONSTANT] = "c#, x, y, z, w",
+        [OPERAND_CONSTANT_INTEGER] = "i#, x, y, z, w",
+        [OPERAND_CONSTANT_BOOLEAN] = "b#, true",
+    };
+    static const char *const sources[] = {
+        [OPERAND_SAMPLER] = "s#",  [OPERAND_INTEGER] = "i#",     [OPERAND_COUNTER] = "aL",
+        [OPERAND_LABEL] = "l#",    [OPERAND_PREDICATE] = "p0.x", [OPERAND_CONDITION] = "b# | p0.x",
+        [OPERAND_SCRATCH] = "r#",  [OPERAND_SERIES] = "c#",      [OPERAND_SAMPLED] = "t#",
+        [OPERAND_SET] = "t# | r#",
+    };
+    static const char *const letters[] = {"a", "b", "c", "d"};
+    int length =
+        snprintf(text, TEXT, "%s%s%s%s", row->name, row->control == COMPARISON ? "_cmp" : "",
+                 row->destination ? " " : "", row->destination ? destinations[row->destination] : "");
+    for (unsigned i = 0; i < SHADER_SOURCES && row->source[i]; i++) {
+        unsigned kind = row->source[i];
+        bool named = kind < sizeof sources / sizeof *sources && sources[kind];
+        length += snprintf(text + length, TEXT - (size_t)length, "%s %s%s", i || row->destination ? "," : "",
+                           named ? sources[kind] : letters[i], kind == OPERAND_SCALAR ? ".x" : "");
+    }
+    return text;
+}
+
+/* The slots of one column; empty where the instruction is not. */
+static const char *slots_text(const struct shader_operation *row, unsigned column, char text[TEXT])
+{
+    text[0] = 0;
+    for (unsigned i = 0; i < MODEL_COUNT; i++)
+        if (shader_models[i].column == column && shader_slots(row, &shader_models[i]) >= 0)
+            snprintf(text, TEXT, "%d", shader_slots(row, &shader_models[i]));
+    if (text[0] && row->cube && strstr(column_name(column), "3_0"))
+        snprintf(text + strlen(text), TEXT - strlen(text), " (%d)", atoi(text) + row->cube);
+    return text;
+}
+
+static const char *limit_text(unsigned limit, char text[TEXT])
+{
+    snprintf(text, TEXT, limit ? "%u" : "-", limit);
+    return text;
+}
+
+static const char *capabilities_text(const struct shader_model *model, char text[TEXT])
+{
+    static const struct {
+        uint8_t capability;
+        const char *name;
+    } rows[] = {
+        {CAN_PREDICATION, "predication"}, {CAN_SWIZZLE, "swizzles"},  {CAN_DIFFERENCE, "gradients"},
+        {CAN_DEPENDENT, "dependent"},     {CAN_SOFTWARE, "software"},
+    };
+    text[0] = 0;
+    for (size_t i = 0; i < sizeof rows / sizeof *rows; i++)
+        if (model->capabilities & rows[i].capability)
+            append(text, rows[i].name);
+    return text;
+}
+
+/* --- For programs
+ * -------------------------------------------------------------------------------------------
+ */
+
+void shaders_list(cJSON *rows)
+{
+    char text[TEXT];
+    for (unsigned i = 0; i < SHADER_COUNT; i++) {
+        const struct shader_operation *operation = &shader_operations[i];
+        cJSON *row = cJSON_CreateObject(), *slots;
+        cJSON_AddItemToArray(rows, row);
+        cJSON_AddStringToObject(row, "instruction", operation->name);
+        cJSON_AddStringToObject(row, "syntax", syntax(operation, text));
+        cJSON_AddNumberToObject(row, "opcode", operation->opcode);
+        slots = cJSON_AddObjectToObject(row, "slots");
+        for (unsigned m = 0; m < MODEL_COUNT; m++)
+            if (shader_slots(operation, &shader_models[m]) >= 0)
+                cJSON_AddNumberToObject(slots, shader_models[m].name,
+                                        shader_slots(operation, &shader_models[m]));
+        cJSON_AddStringToObject(row, "meaning", operation->meaning);
+    }
+}
+
+/* --- For people
+ * ---------------------------------------------------------------------------------------------
+ */
+
+static void print_models(FILE *out)
+{
+    static const char *const headings[] = {"model",    "slots",   "arithmetic", "texture", "r",   "flow",
+                                           "branches", "dynamic", "loops",      "calls",   "also"};
+    char text[TEXT];
+    struct table table = {0};
+    for (unsigned i = 0; i < sizeof headings / sizeof *headings; i++)
+        table_column(&table, headings[i], i && i < 10 ? TABLE_RIGHT : TABLE_LEFT);
+    for (unsigned i = 0; i < MODEL_COUNT; i++) {
+        const struct shader_model *model = &shader_models[i];
+        const unsigned limits[] = {model->slots,       model->arithmetic, model->texture,
+                                   model->temporaries, model->flow,       model->branches,
+                                   model->dynamic,     model->loops,      model->calls};
+        table_cell(&table, "%s", model->name);
+        for (unsigned j = 0; j < sizeof limits / sizeof *limits; j++)
+            table_cell(&table, "%s", limit_text(limits[j], text));
+        table_cell(&table, "%s", capabilities_text(model, text));
+    }
+    table_print(&table, 0, out);
+    fputc('\n', out);
+}
+
+/* A table with a column of the model's columns: their heading, then what `cell` says of each row. */
+static void print_columns(const char *heading, unsigned count,
+                          const char *(*name)(unsigned row, char text[TEXT]),
+                          const char *(*cell)(unsigned row, unsigned column, char text[TEXT]), FILE *out)
+{
+    char text[TEXT];
+    struct table table = {0};
+    table_column(&table, heading, TABLE_LEFT);
+    for (unsigned column = 0; column < COLUMN_COUNT; column++)
+        table_column(&table, column_name(column), TABLE_RIGHT);
+    for (unsigned row = 0; row < count; row++) {
+        table_cell(&table, "%s", name(row, text));
+        for (unsigned column = 0; column < COLUMN_COUNT; column++)
+            table_cell(&table, "%s", cell(row, column, text));
+    }
+    table_print(&table, 0, out);
+    fputc('\n', out);
+}
+
+static const char *operation_syntax(unsigned row, char text[TEXT])
+{
+    return syntax(&shader_operations[row], text);
+}
+
+static const char *operation_slots(unsigned row, unsigned column, char text[TEXT])
+{
+    return slots_text(&shader_operations[row], column, text);
+}
+
+static const char *register_name(unsigned row, char text[TEXT])
+{
+    const struct shader_register *file = &shader_registers[row + 1];
+    snprintf(text, TEXT, "%s%s", file->name, file->index == NUMBERED ? "#" : "");
+    return text;
+}
+
+/* How many, and of how many of them one instruction can read: 12/3. */
+static const char *register_count(unsigned row, unsigned column, char text[TEXT])
+{
+    const struct shader_register *file = &shader_registers[row + 1];
+    if (!file->count[column])
+        return "";
+    int length = snprintf(text, TEXT, "%u", file->count[column]);
+    if (file->ports[column] != '0')
+        snprintf(text + length, TEXT - (size_t)length, "/%c", file->ports[column]);
+    return text;
+}
+
+void shaders_print(FILE *out)
+{
+    print_models(out);
+    print_columns("registers/ports", FILE_COUNT - 1, register_name, register_count, out);
+    print_columns("instruction (slots)", SHADER_COUNT, operation_syntax, operation_slots, out);
+}
+
+/* --- The page
+ * -----------------------------------------------------------------------------------------------
+ */
+
+static const char introduction[] =
+    "# Shaders\n"
+    "\n"
+    "Shader models 1.1 to 3.0 of Direct3D 9, vertex and pixel: their text, their bytecode, and the rules "
+    "that a\n"
+    "shader must follow. `triptych shader assemble`, `disassemble` and `validate` read both forms and know "
+    "them "
+    "apart.\n"
+    "`triptych list shaders --markdown` writes this page from the tables `src/def/shader*.def`, which the "
+    "assembler,\n"
+    "the reader, the disassembler and the validator read too. No routine executes shaders yet.\n"
+    "\n"
+    "## Text\n"
+    "\n"
+    "```\n"
+    "ps_2_0                      ; the model comes first: ps_2_0 or ps.2.0\n"
+    "def c0, 1, 0.5, -2, 1e-3    // constants: def, defi i0, 1, 2, 3, 4, defb b0, true\n"
+    "dcl t0.xy                   /* declarations: dcl_position v0, dcl_texcoord3 o1.xy */\n"
+    "dcl_2d s0\n"
+    "texld_pp r0, t0, s0\n"
+    "mad_sat r0.xyz, r0, c0.x, -c0.w\n"
+    "mov oC0, r0\n"
+    "```\n"
+    "\n"
+    "- One instruction a line; comments go from `;` or `//` to the line's end, or between `/*` and `*/`. "
+    "Letters "
+    "may be\n"
+    "  small or large.\n"
+    "- Behind an instruction's name: a comparison (`if_lt`, `break_ge`, `setp_ne`), then what happens to the "
+    "result: `_sat`,\n"
+    "  `_pp`, `_centroid` (of dcl), `_x2`, `_x4`, `_x8`, `_d2`, `_d4`, `_d8`.\n"
+    "- A destination can have a mask, `r0.xz`. A source can have modifiers and a swizzle, `-r0_bx2.wzyx`; a "
+    "swizzle's last\n"
+    "  letter is repeated. `r`, `g`, `b`, `a` are `x`, `y`, `z`, `w`.\n"
+    "- `c[a0.x + 5]`, `c5[a0.x]`, `v[aL]`, `o[aL + 1]`: relative addressing; numbers in brackets are added "
+    "up.\n"
+    "- `(p0.x) mov ...` and `(!p0) mov ...` are predicated; `+mov ...` is issued together with the "
+    "instruction "
+    "before (models\n"
+    "  ps_1_x).\n"
+    "- Numbers of def may be bits, `0x7fc00000`.\n"
+    "\n"
+    "Canonical text, which the disassembler writes, assembles to the tokens it came from: small letters, `x` "
+    "to "
+    "`w`, no\n"
+    "mask or swizzle that says nothing, one letter for a repeated component and else four, indices as "
+    "`c5[a0.x]`, "
+    "numbers\n"
+    "as the shortest decimals with the same bits. Names in a compiler's constant table become comments. "
+    "vs_2_a, "
+    "ps_2_a and\n"
+    "ps_2_b are vs_2_x and ps_2_x in bytecode.\n"
+    "\n"
+    "## Bytecode\n"
+    "\n"
+    "Little-endian words of 32 bits, as Direct3D 9 has them: a version token, instructions with their "
+    "operands, the "
+    "end\n"
+    "token; `src/shader/token.h` has the fields. Reserved bits must be zero, lengths must be right, and "
+    "nothing "
+    "follows the\n"
+    "end. A shader has at most 65536 instructions, a file 16777216 bytes.\n"
+    "\n"
+    "## Rules\n"
+    "\n"
+    "A reason tells the place, `FILE:LINE:COLUMN` or `FILE: token N`, what was found there and what was "
+    "expected. "
+    "The first\n"
+    "broken rule is told. Beyond the tables below:\n"
+    "\n"
+    "- dcl and def come first; inputs, samplers and outputs are declared before they are used, except in "
+    "ps_1_x.\n"
+    "- Nothing is read that nothing before it in the text can have written, component by component.\n"
+    "- Blocks end where they should; calls go forward; subroutines follow the main program's ret.\n"
+    "- Gradients of computed values (texld, texldb, texldp, dsx, dsy of r#) are not taken where neighbouring "
+    "pixels may part.\n"
+    "- vs_1_1 to vs_2_x write all of oPos, vs_3_0 all of the output declared as position, ps_1_x all of r0, "
+    "ps_2_x "
+    "oC0.\n"
+    "- Models ps_2_x write oC# and oDepth whole, by mov, once; ps_1_1 to ps_1_3 use texture stages in order, "
+    "before "
+    "arithmetic;\n"
+    "  ps_1_4 does so in each of its two phases.\n";
+
+static void markdown_head(const char *first, FILE *out)
+{
+    fprintf(out, "\n| %s |", first);
+    for (unsigned column = 0; column < COLUMN_COUNT; column++)
+        fprintf(out, " %s |", column_name(column));
+    fputs(" Meaning |\n| --- |", out);
+    for (unsigned column = 0; column < COLUMN_COUNT; column++)
+        fputs(" --- |", out);
+    fputs(" --- |\n", out);
+}
+
+static void markdown_models(FILE *out)
+{
+    char text[TEXT];
+    fputs("\n## Models\n"
+          "\n"
+          "Slots in all, of arithmetic, of texture instructions (in ps_1_4 in each phase); temporaries; "
+          "instructions of\n"
+          "static flow control in all; how deeply if by constants, if by values, loops and calls nest.\n"
+          "\n"
+          "| Model | Slots | Arithmetic | Texture | r# | Flow | Branches | Dynamic | Loops | Calls | Also |\n"
+          "| --- | --- | --- | --- | --- | --- | --- | --- | --- | --- | --- |\n",
+          out);
+    for (unsigned i = 0; i < MODEL_COUNT; i++) {
+        const struct shader_model *model = &shader_models[i];
+        const unsigned limits[] = {model->slots,       model->arithmetic, model->texture,
+                                   model->temporaries, model->flow,       model->branches,
+                                   model->dynamic,     model->loops,      model->calls};
+        fprintf(out, "| %s |", model->name);
+        for (unsigned j = 0; j < sizeof limits / sizeof *limits; j++)
+            fprintf(out, " %s |", limit_text(limits[j], text));
+        fprintf(out, " %s |\n", capabilities_text(model, text));
+    }
+}
+
+static void markdown_registers(FILE *out)
+{
+    char text[TEXT];
+    fputs("\n## Registers\n"
+          "\n"
+          "How many there are, and behind the stroke how many different ones an instruction can read. Models "
+          "_sw have no\n"
+          "limit of the latter and more registers: ",
+          out);
+    const char *between = "";
+    for (unsigned file = 1; file < FILE_COUNT; file++)
+        if (shader_registers[file].software) {
+            fprintf(out, "%s%u %s", between, shader_registers[file].software, register_name(file - 1, text));
+            between = ", ";
+        }
+    fputs(".\n", out);
+    markdown_head("Register", out);
+    for (unsigned file = 1; file < FILE_COUNT; file++) {
+        fprintf(out, "| `%s` |", register_name(file - 1, text));
+        for (unsigned column = 0; column < COLUMN_COUNT; column++)
+            fprintf(out, " %s |", register_count(file - 1, column, text));
+        fprintf(out, " %s |\n", shader_registers[file].meaning);
+    }
+}
+
+/* Text in a table's cell, where a stroke would end the cell. */
+static void print_cell(const char *text, FILE *out)
+{
+    for (; *text; text++)
+        fprintf(out, *text == '|' ? "\\|" : "%c", *text);
+}
+
+static void markdown_instructions(FILE *out)
+{
+    char text[TEXT];
+    fputs("\n## Instructions\n"
+          "\n"
+          "The slots that each takes, in brackets when it samples a cube. `_cmp` is ",
+          out);
+    for (unsigned i = 0; shader_comparisons[i].name; i++)
+        fprintf(out, "%s`_%s`", i ? ", " : "", shader_comparisons[i].name);
+    fputs(". A predicate takes one slot more, the second of a pair none.\n", out);
+    markdown_head("Instruction", out);
+    for (unsigned i = 0; i < SHADER_COUNT; i++) {
+        fputs("| `", out);
+        print_cell(operation_syntax(i, text), out);
+        fputs("` |", out);
+        for (unsigned column = 0; column < COLUMN_COUNT; column++)
+            fprintf(out, " %s |", operation_slots(i, column, text));
+        fputc(' ', out);
+        print_cell(shader_operations[i].meaning, out);
+        fputs(" |\n", out);
+    }
+}
+
+static void markdown_modifiers(FILE *out)
+{
+    fputs("\n## Source modifiers\n", out);
+    markdown_head("Modifier", out);
+    for (unsigned i = 1; i < MODIFIER_COUNT; i++) {
+        fprintf(out, "| `%sa%s` |", shader_modifiers[i].before, shader_modifiers[i].behind);
+        for (unsigned column = 0; column < COLUMN_COUNT; column++)
+            fputs(shader_modifiers[i].columns[column] == '.' ? "  |" : " yes |", out);
+        fputc(' ', out);
+        print_cell(shader_modifiers[i].meaning, out);
+        fputs(" |\n", out);
+    }
+}
+
+static void markdown_words(const char *title, const struct shader_word *words, FILE *out)
+{
+    fprintf(out, "\n%s: ", title);
+    for (unsigned i = 0; words[i].name; i++)
+        fprintf(out, "%s`%s`", i ? ", " : "", words[i].name);
+    fputs(".\n", out);
+}
+
+void shaders_print_markdown(FILE *out)
+{
+    fputs(introduction, out);
+    markdown_models(out);
+    markdown_registers(out);
+    markdown_instructions(out);
+    markdown_modifiers(out);
+    fputs("\n## Words of dcl\n", out);
+    markdown_words("Usages, with a number from 0 to 15 behind", shader_usages, out);
+    markdown_words("Textures of samplers", shader_kinds, out);
+}
