@@ -118,6 +118,10 @@ static int check_set(struct check *check, const struct shader_operand *source)
     if (temporary && (check->phase < 2 || check->at->opcode == SHADER_TEXCRD))
         return REFUSE(check, source, "found r%u, expected t%s", source->index,
                       check->at->opcode == SHADER_TEXCRD ? "" : ": r can be sampled at in the second phase");
+    if (temporary && check->stage_used >> source->index & 1)
+        return REFUSE(check, source,
+                      "found r%u, which this phase has sampled to, expected a value of the first phase",
+                      source->index);
     if (source->modifier == MODIFIER_DIVIDE_Z && !temporary)
         return REFUSE(check, source, "found the modifier '_dz' of t%u, expected it of r", source->index);
     if (source->modifier == MODIFIER_DIVIDE_W && (temporary || third != 4))
@@ -155,11 +159,13 @@ static int check_phased(struct check *check)
     }
     if (check->stage_used >> result->index & 1)
         return REFUSE(check, result, "found r%u again, expected each once a phase", result->index);
-    check->stage_used |= (uint8_t)(1 << result->index);
     bool divided = check->at->source[0].modifier == MODIFIER_DIVIDE_W;
     if (opcode == SHADER_TEXCRD && (result->swizzle == XYZ) == divided)
         return REFUSE(check, result, "found another mask, expected %s", divided ? ".xy with _dw" : ".xyz");
-    return check_set(check, &check->at->source[0]);
+    if (check_set(check, &check->at->source[0]))
+        return -1;
+    check->stage_used |= (uint8_t)(1 << result->index);
+    return 0;
 }
 
 static int check_phase_arithmetic(struct check *check)

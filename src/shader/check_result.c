@@ -180,8 +180,8 @@ static int check_target(struct check *check, const struct shader_operand *result
     const struct shader_operand *source = &check->at->source[0];
     if (shader_major(check->model) != 2)
         return 0;
-    if (check->at->opcode != SHADER_MOV || result->modifier)
-        return refuse_file(check, result, "mov without modifiers");
+    if (check->at->opcode != SHADER_MOV || result->modifier & ~RESULT_PARTIAL)
+        return refuse_file(check, result, "mov, without _sat");
     if (result->file == FILE_DEPTH) {
         if (check->depth)
             return REFUSE(check, result, "found oDepth written again, expected it once");

@@ -77,6 +77,19 @@ static const char *const good[] = {
     "cmp r0, vFace, r0, vPos.xyxy\nloop aL, i0\nadd r0, r0, v[aL]\nendloop\nif_ne r0.x, r0.y\ntexld r1, v0, "
     "s3\n"
     "texldl r1, r0, s3\nendif\nadd_sat oC0, r0, r1\nmul oC3.x, r0, r1\nmov oDepth, r0.x\n",
+    /* as compilers write them: skinning and fog, normal mapping with reflection */
+    "vs_2_0\ndef c40, 765.005859, 0, 1, -0.5\ndcl_position v0\ndcl_blendweight v1\ndcl_blendindices v2\n"
+    "dcl_normal v3\ndcl_texcoord v4\nmul r0, v2.zyxw, c40.x\nmova a0, r0\nmul r1, v1.x, c10[a0.z]\n"
+    "mad r1, c10[a0.y], v1.y, r1\ndp4 r2.x, v0, r1\ndp4 r2.y, v0, c11\ndp4 r2.z, v0, c12\n"
+    "mov r2.w, c40.z\ndp4 oPos.x, r2, c0\ndp4 oPos.y, r2, c1\ndp4 oPos.z, r2, c2\ndp4 r3.w, r2, c3\n"
+    "mov oPos.w, r3.w\nmov oFog, r3.w\ndp3 r4.x, v3, v3\nrsq r4.x, r4.x\nmul r4.xyz, v3, r4.x\n"
+    "dp3 r4.w, r4, c20\nmax r4.w, r4.w, c40.y\nmin oD0, r4.w, c40.z\nmad oT0.xy, v4, c21.xy, c21.zw\n",
+    "ps_2_0\ndef c8, 2, -1, 0.0625, 0\ndcl t0.xy\ndcl t1.xyz\ndcl t2.xyz\ndcl_2d s0\ndcl_2d s1\n"
+    "dcl_cube s2\ntexld r0, t0, s0\ntexld_pp r1, t0, s1\nmad_pp r1.xyz, r1, c8.x, c8.y\n"
+    "nrm_pp r2.xyz, t1\ndp3_sat_pp r2.w, r2, r1\nadd r3.xyz, r2, r2\ndp3 r3.w, r1, t2\n"
+    "mad r3.xyz, r1, r3.w, -t2\ntexld r3, r3, s2\nlog r4.w, r2.w\nmul r4.w, r4.w, c0.w\n"
+    "exp_sat r4.w, r4.w\nmul r0.xyz, r0, r2.w\nmad r0.xyz, r4.w, c1, r0\ncmp r0.w, -r2.w, c8.w, c8.z\n"
+    "mov_pp oC0, r0\n",
     "ps_3_sw\ndef c8000, 1, 2, 3, 4\nmad oC0, c8000, c0, c1\n",
     "ps_3_0\nmov oDepth, c0.x\n",
 };
@@ -320,6 +333,8 @@ static const struct {
     {ps4, "texld r3, t0_dw", "t:5:11: found the modifier '_dw', expected it of t with .xyw"},
     {ps4, "texld r3, t0.xyw", "t:5:11: found .xyz and .xyw of t0, expected the same every time"},
     {ps4, "texcrd r3.xyz, r1", "t:5:16: found r1, expected t"},
+    {ps4, "texld r2, t0\ntexld r3, r2",
+     "t:6:11: found r2, which this phase has sampled to, expected a value of the first phase"},
     {ps4, "texdepth r4", "t:5:10: found r4, expected r5 of texdepth"},
     {bare, "ps_1_4\ntexcrd r0.xyz, t0\ntexld r1, r0\nphase\nmov r0, c0\n",
      "t:3:11: found r0, expected t: r can be sampled at in the second phase"},
@@ -338,7 +353,7 @@ static const struct {
     {bare, "ps_2_0\nmov oDepth, c0.x\n", "t:2:1: found the end of the shader and oC0 never written"},
     {bare, "ps_2_0\nmov oC0, c0\nmov oC2, c0\n",
      "t:3:1: found the end of the shader and a target written but not"},
-    {ps20, "add oC1, r0, r0", "t:5:5: found oC as the destination of add, expected mov without modifiers"},
+    {ps20, "add oC1, r0, r0", "t:5:5: found oC as the destination of add, expected mov, without _sat"},
     {ps20, "mov oC1.xyz, r0", "t:5:5: found a mask, a swizzle or a modifier on the way to oC1"},
     {ps20, "mov oC1, -r0", "t:5:5: found a mask, a swizzle or a modifier on the way to oC1"},
     {ps20, "mov oC1, r0\nmov oC1, r0", "t:6:5: found oC1 written again, expected it once"},
