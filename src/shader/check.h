@@ -68,8 +68,8 @@ struct check {
 
     /* check_pixel.c */
     unsigned stages_done; /* ps_1_1 to ps_1_3: one more than the last stage that was used */
-    unsigned pads, pad_opcode,
-        pad_stage;                    /* rows of a matrix so far, and the last one's instruction and stage */
+    unsigned pads;        /* rows of a matrix so far, and the last one's instruction and stage */
+    unsigned pad_opcode, pad_stage;
     unsigned phase, divides;          /* ps_1_4: 1 or 2, 0 before the first instruction; uses of _dz */
     bool arithmetic_begun, bumped;    /* in this phase; bem has been seen */
     uint8_t selected[CHECK_STAGES];   /* ps_1_4: how t# has been read, as the third component plus one */

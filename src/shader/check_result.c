@@ -174,24 +174,22 @@ static int check_modifiers(struct check *check, const struct shader_operand *res
  * -------------------------------------------------------------------------------
  */
 
-/* Models 2 move whole values to the targets, once each. */
+/* Models 2 move whole values to the targets, and one component to the depth, once each. */
+static int check_depth(struct check *check, const struct shader_operand *result)
+{
+    const struct shader_operand *source = &check->at->source[0];
+    if (check->depth)
+        return REFUSE(check, result, "found oDepth written again, expected it once");
+    if (result->swizzle != MASK_FULL)
+        return REFUSE(check, result, "found a mask of oDepth, expected none");
+    if (!swizzle_replicates(source->swizzle))
+        return REFUSE(check, source, "found several components for oDepth, expected one, like r0.x");
+    return 0;
+}
+
 static int check_target(struct check *check, const struct shader_operand *result)
 {
     const struct shader_operand *source = &check->at->source[0];
-    if (shader_major(check->model) != 2)
-        return 0;
-    if (check->at->opcode != SHADER_MOV || result->modifier & ~RESULT_PARTIAL)
-        return refuse_file(check, result, "mov, without _sat");
-    if (result->file == FILE_DEPTH) {
-        if (check->depth)
-            return REFUSE(check, result, "found oDepth written again, expected it once");
-        return swizzle_replicates(source->swizzle) || result->swizzle == MASK_FULL
-                   ? swizzle_replicates(source->swizzle)
-                         ? 0
-                         : REFUSE(check, source,
-                                  "found several components for oDepth, expected one, like r0.x")
-                   : REFUSE(check, result, "found a mask of oDepth, expected none");
-    }
     if (result->swizzle != MASK_FULL || source->swizzle != SWIZZLE_NONE || source->modifier)
         return REFUSE(check, result,
                       "found a mask, a swizzle or a modifier on the way to oC%u, expected none",
@@ -208,7 +206,11 @@ static int check_output(struct check *check, const struct shader_operand *result
     if (is_divergent(check) || check->at->predicate.file)
         return REFUSE(check, result, "found %s written under a computed condition, expected it unconditional",
                       file_name(result));
-    return check_target(check, result);
+    if (shader_major(check->model) != 2)
+        return 0;
+    if (check->at->opcode != SHADER_MOV || result->modifier & ~RESULT_PARTIAL)
+        return refuse_file(check, result, "mov, without _sat");
+    return result->file == FILE_DEPTH ? check_depth(check, result) : check_target(check, result);
 }
 
 static void note_output(struct check *check, const struct shader_operand *result)
