@@ -53,6 +53,7 @@ enum vertex_slot {
 #define VARYING(name, components, text) SLOT_##name, SLOT_##name##_last = SLOT_##name + (components)-1,
 #include "def/varying.def"
 #undef VARYING
+    SLOT_POINT_SIZE, /* pixels; written and read where points have sizes of their own */
     SLOT_COUNT
 };
 

@@ -65,6 +65,9 @@ static inline double pixel_centre(const struct state *state)
     return state->convention[TRIPTYCH_PIXEL_CENTER] == TRIPTYCH_PIXEL_CENTER_INTEGER ? 0 : 0.5;
 }
 
+/* Where the primitive's points have their size from. */
+enum point_size derive_point_size(const struct state *state, enum primitive primitive);
+
 /* Depth bias, point size and user clip planes; `view_projection` as the vertex routine applies it. */
 void derive_setup_job(const struct state *state, const struct vertex_key *vertex,
                       const double view_projection[4][4], struct job *job);

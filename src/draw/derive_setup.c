@@ -63,6 +63,16 @@ static bool smooth_varyings(const struct pixel_key *key)
     return false;
 }
 
+enum point_size derive_point_size(const struct state *state, enum primitive primitive)
+{
+    int window = state->element[ATTRIBUTE_POSITIONT].format != TRIPTYCH_FORMAT_NONE;
+    if (!primitive_is_point(primitive))
+        return POINT_SIZE_CONSTANT;
+    if (GET(pointscaleenable) && !window)
+        return POINT_SIZE_SCALED;
+    return state->element[ATTRIBUTE_POINT_SIZE].format ? POINT_SIZE_VERTEX : POINT_SIZE_CONSTANT;
+}
+
 void derive_setup(const struct state *state, enum primitive primitive, const struct pixel_key *pixel,
                   struct setup_key *key)
 {
@@ -71,6 +81,7 @@ void derive_setup(const struct state *state, enum primitive primitive, const str
     key->depth = (uint8_t)pixel_reads_depth(pixel);
     key->w = pixel_reads_w(pixel) && (primitive_is_point(primitive) || !smooth_varyings(pixel));
     memcpy(key->varying, pixel->varying, sizeof key->varying);
+    key->point_size = derive_point_size(state, primitive) != POINT_SIZE_CONSTANT;
     if (!primitive_has_area(primitive))
         return;
     key->cull = (uint8_t)(GET(cullmode) - CULLMODE_none);
@@ -132,12 +143,24 @@ static float point_size(const struct state *state)
     return size < GET_FLOAT(pointsize_min) ? fminf(GET_FLOAT(pointsize_min), POINT_SIZE_MAXIMUM) : size;
 }
 
+static void fill_point_sizes(const struct state *state, struct job *job)
+{
+    job->point_least = fminf(GET_FLOAT(pointsize_min), POINT_SIZE_MAXIMUM);
+    job->point_most = fminf(GET_FLOAT(pointsize_max), POINT_SIZE_MAXIMUM);
+    job->point_scale[0] = GET_FLOAT(pointscale_a);
+    job->point_scale[1] = GET_FLOAT(pointscale_b);
+    job->point_scale[2] = GET_FLOAT(pointscale_c);
+    job->viewport_height = state->viewport.height;
+}
+
 void derive_setup_job(const struct state *state, const struct vertex_key *vertex,
                       const double view_projection[4][4], struct job *job)
 {
     job->depth_bias = GET_FLOAT(depthbias);
     job->depth_bias_slope = GET_FLOAT(slopescaledepthbias);
-    job->point_size = point_size(state);
+    job->point_size = vertex->point_size ? GET_FLOAT(pointsize) : point_size(state);
+    if (vertex->point_size)
+        fill_point_sizes(state, job);
     for (int i = 0, n = 0; n < vertex->clip_planes; i++)
         if (GET(clipplaneenable) >> i & 1)
             transform_plane(state->clip_plane[i], view_projection, job->clip_plane[n++]);

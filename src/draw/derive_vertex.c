@@ -216,6 +216,9 @@ void derive_vertex(const struct state *state, const struct pixel_key *pixel, con
         key->clip_planes = (uint8_t)__builtin_popcount(GET(clipplaneenable));
     derive_colors(state, key);
     derive_vertex_fog(state, key);
+    key->point_size = (uint8_t)derive_point_size(state, setup->primitive);
+    if (key->point_size != POINT_SIZE_CONSTANT)
+        need(state, key, ATTRIBUTE_POINT_SIZE, 1);
     for (int channel = 0; channel < TEXTURE_STAGES; channel++)
         if (reads_channel(key, channel))
             derive_coordinates(state, derive_channel_stage(pixel, channel), channel, key);

@@ -132,9 +132,12 @@ struct job {
     uint32_t blend_constant;
     const struct srgb_tables *srgb;
 
-    float depth_bias;                      /* added to the depth of triangles */
-    float depth_bias_slope;                /* the same, times the triangle's greatest slope */
-    float point_size;                      /* pixels */
+    float depth_bias;              /* added to the depth of triangles */
+    float depth_bias_slope;        /* the same, times the triangle's greatest slope */
+    float point_size;              /* pixels; or before the limits, where points have sizes of their own */
+    float point_least, point_most; /* the limits, then */
+    float point_scale[3];          /* constant, linear and quadratic term of the shrinking */
+    float viewport_height;         /* what a size of 1 is at a distance where they add up to 1 */
     float clip_plane[CLIP_PLANES_USER][4]; /* in clip space: inside where the product with x y z w is >= 0 */
 };
 

@@ -90,6 +90,10 @@ enum vertex_fog {
     VERTEX_FOG_COUNT
 };
 
+/* The size of points: the job's; the vertex's, or its state; that in the camera's units, shrunk by distance.
+ */
+enum point_size { POINT_SIZE_CONSTANT, POINT_SIZE_VERTEX, POINT_SIZE_SCALED, POINT_SIZE_COUNT };
+
 /* Texture coordinates: one of the vertex's sets, or what is generated from camera space. */
 enum coordinate {
     COORDINATE_NORMAL = TEXCOORD_SETS,

@@ -42,7 +42,7 @@ static inline int reads_camera_position(const struct vertex_key *k)
     int highlights = k->highlight != HIGHLIGHT_NONE && k->local_viewer;
     return (k->lighting && (highlights || lights_read(k, 1))) ||
            (k->varying[VARYING_fog] && k->fog != VERTEX_FOG_SPECULAR_ALPHA) ||
-           channels_generate(k, COORDINATE_POSITION, COORDINATE_SPHERE);
+           k->point_size == POINT_SIZE_SCALED || channels_generate(k, COORDINATE_POSITION, COORDINATE_SPHERE);
 }
 
 static inline int reads_camera_normal(const struct vertex_key *k)

@@ -16,10 +16,11 @@ static inline itg point_side(struct env *e, itg side)
     return min_i(E, low, lit_i(E, (int32_t)WINDOW_LIMIT));
 }
 
-/* Half the size in 1/256 pixel. */
-static inline itg point_reach(struct env *e)
+/* Half the size in 1/256 pixel: the vertex's, if vertices have any. */
+static inline itg point_reach(struct env *e, const struct setup_key *k, const struct corner *p)
 {
-    flt size = uniform_f(E, BASE_JOB, (int)offsetof(struct job, point_size));
+    flt size = k->point_size ? corner_slot(E, p, SLOT_POINT_SIZE)
+                             : uniform_f(E, BASE_JOB, (int)offsetof(struct job, point_size));
     flt reach = mul_f(E, size, lit_f(E, 1 << (SUBPIXEL_BITS - 1)));
     return round_i(E, reach);
 }
@@ -83,7 +84,7 @@ static inline void setup_point(struct env *e, const struct setup_key *k, const s
     for (int i = 0; i < (primitive_has_area(k->primitive) ? 3 : 1); i++)
         p[i] = project(E, k, i);
     struct owner owner = owner_of(E, k, p);
-    itg reach = point_reach(E);
+    itg reach = point_reach(E, k, &p[0]);
     record_square(E, layout, &p[0], owner.visible, reach);
     if (k->depth) {
         flt depth = p[0].depth;

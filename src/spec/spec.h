@@ -12,6 +12,7 @@
 #include "spec/light.h"
 #include "spec/vertex_fog.h"
 #include "spec/texgen.h"
+#include "spec/point_size.h"
 #include "spec/clip.h"
 #include "spec/vertex.h"
 #include "spec/setup_plane.h"

@@ -110,6 +110,10 @@ static void spec_vertex(struct env *e, const struct vertex_key *k)
         flt clamped = clamp_unit(E, fog);
         store_slot(E, SLOT_fog, clamped);
     }
+    if (k->point_size != POINT_SIZE_CONSTANT) {
+        flt size = point_size(E, k, &camera);
+        store_slot(E, SLOT_POINT_SIZE, size);
+    }
     for (int channel = 0; channel < TEXTURE_STAGES; channel++)
         if (reads_channel(k, channel))
             vertex_coordinates(E, k, channel, &camera);

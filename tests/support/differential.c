@@ -213,6 +213,10 @@ static void make_job(struct differential *d)
     job->depth_bias = number(d, -0.1f, 0.1f);
     job->depth_bias_slope = number(d, -2, 2);
     job->point_size = number(d, 0, 64);
+    job->point_least = number(d, 0, 4);
+    job->point_most = number(d, 2, 40);
+    fill(d, job->point_scale, sizeof job->point_scale, 0, 1);
+    job->viewport_height = number(d, 1, 100);
     fill(d, job->clip_plane, sizeof job->clip_plane, -2, 2);
 }
 

@@ -14,6 +14,7 @@ union key shading_key[UNIT_COUNT];
 struct job shading_job;
 uint8_t shading_varying[VARYING_COUNT];
 const struct palette_entry *shading_palette;
+enum primitive shading_primitive;
 
 static const struct engine *engine;
 static struct code_arena *arena;
@@ -59,7 +60,7 @@ void shade(uint32_t count)
     uint32_t padded = (count + LANES_MAXIMUM - 1) / LANES_MAXIMUM * LANES_MAXIMUM;
     for (uint32_t i = 0; i < padded; i++)
         index[i] = i < count ? i : count - 1;
-    derive_keys(&shading_state, PRIMITIVE_TRIANGLE, shading_key);
+    derive_keys(&shading_state, shading_primitive, shading_key);
     struct pixel_key *pixel = &shading_key[UNIT_PIXEL].pixel;
     for (int v = 0; v < VARYING_COUNT; v++)
         if (shading_varying[v])
@@ -97,6 +98,7 @@ void shading_on_every_engine(void (*test)(void))
             continue;
         arena = engine->interprets ? NULL : code_create(1 << 22, NULL, &error);
         shading_palette = NULL;
+        shading_primitive = PRIMITIVE_TRIANGLE;
         random_begin();
         state_initialize(&shading_state);
         memset(shading_varying, 0, sizeof shading_varying);

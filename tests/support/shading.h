@@ -19,6 +19,9 @@ extern uint8_t shading_varying[VARYING_COUNT];
 /* The palette of indexed vertex blending; null when a test begins. */
 extern const struct palette_entry *shading_palette;
 
+/* What the vertices are of; triangles when a test begins. */
+extern enum primitive shading_primitive;
+
 /* Runs a test once for every engine that can run here, each time from the default state. */
 void shading_on_every_engine(void (*test)(void));
 
