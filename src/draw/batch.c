@@ -315,6 +315,8 @@ static bool end_batch(struct batch *batch)
     struct clipper clipper =
         clipper_create(&batch->draw->job, key->varying, batch->vertices, batch->vertices_count);
     clipper.window = key->window;
+    if (key->point_size)
+        clipper.smooth |= 1ull << SLOT_POINT_SIZE;
     clipper.ignored = batch->draw->clip_ignored;
     clipper.wrapped = primitive_is_point(key->primitive) ? 0 : batch->draw->wrapped;
     batch->setup_count = 0;

@@ -142,7 +142,9 @@ static const uint8_t flat_diffuse[VARYING_COUNT] = {INTERPOLATION_FLAT,
 
 static struct clipper smooth_clipper(void)
 {
-    return clipper_create(&job, all_smooth, batch, FIRST_FREE);
+    struct clipper clipper = clipper_create(&job, all_smooth, batch, FIRST_FREE);
+    clipper.smooth |= 1ull << SLOT_POINT_SIZE;
+    return clipper;
 }
 
 /* --- Reference
