@@ -38,6 +38,12 @@ done
 ((${#streams[@]})) || { echo 'FAIL there are golden pictures' && exit 1; }
 
 failures=0
+for stream in tests/scenes/*.tri; do
+    if ! grep -qF "($(golden_of "$stream" | cut -d/ -f2-))" docs/gallery.md; then
+        printf 'FAIL docs/gallery.md shows %s\n' "$stream"
+        failures=1
+    fi
+done
 for stream in "${streams[@]}"; do
     if said=$("$TRIPTYCH" render "$stream" --engine emulate --out "$work/picture.png" 2>&1 &&
         "$TRIPTYCH" compare "$(golden_of "$stream")" "$work/picture.png" 2>&1); then
