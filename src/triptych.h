@@ -228,8 +228,8 @@ struct triptych_surface {
     unsigned level, slice;
 };
 
-/* Surfaces to draw to, all of one size. Without a depth texture the target has depth of its own, which begins
- * anew; a texture of a depth format brings its contents, stencil 0. */
+/* Surfaces to draw to, all of one size, none of them twice. Without a depth texture the target has depth of
+ * its own, which begins anew; a texture of a depth format brings its contents, stencil 0. */
 struct triptych_target_textures {
     struct triptych_surface color[TRIPTYCH_TARGETS];
     struct triptych_surface depth;

@@ -26,6 +26,8 @@ static void fill_direction(const struct triptych_light *light, const struct matr
         target[c] = length > 0 ? (float)(-d[c] / length) : 0;
 }
 
+/* The first attenuation is more than zero, so that no light is infinite: infinity times an unlit side is not
+ * a number, and would take the other lights with it. */
 static void fill_position(const struct triptych_light *light, const struct matrix *view,
                           struct light_job *job)
 {
@@ -34,7 +36,7 @@ static void fill_position(const struct triptych_light *light, const struct matri
     for (int c = 0; c < 3; c++)
         job->position[c] = derive_narrow(p[c]);
     job->range = light->range;
-    job->attenuation0 = light->attenuation[0];
+    job->attenuation0 = fmaxf(light->attenuation[0], FLT_MIN);
     job->attenuation1 = light->attenuation[1];
     job->attenuation2 = light->attenuation[2];
 }

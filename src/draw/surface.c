@@ -103,11 +103,28 @@ static enum triptych_result describe_colors(const struct triptych_target_texture
     return result;
 }
 
+/* A texel that is drawn to in two tiles would keep what one of them has. */
+static enum triptych_result check_distinct(const struct triptych_target_textures *textures,
+                                           struct error *error)
+{
+    const struct triptych_surface *color = textures->color;
+    for (unsigned b = 1; b < TARGETS; b++)
+        for (unsigned a = 0; a < b; a++)
+            if (color[b].texture && color[a].texture == color[b].texture &&
+                color[a].level == color[b].level && color[a].slice == color[b].slice) {
+                error_set(error, "colour targets %u and %u: the same surface, expected another one", a, b);
+                return TRIPTYCH_BAD_ARGUMENT;
+            }
+    return TRIPTYCH_OK;
+}
+
 enum triptych_result surfaces_describe(const struct triptych_target_textures *textures,
                                        struct triptych_target_description *description, struct error *error)
 {
     *description = (struct triptych_target_description){.depth_format = textures->depth_format};
     enum triptych_result result = describe_colors(textures, description, error);
+    if (result == TRIPTYCH_OK)
+        result = check_distinct(textures, error);
     if (result == TRIPTYCH_OK && textures->depth.texture) {
         result = describe_one(&textures->depth, "depth target", ROLE_DEPTH, description, error);
         description->depth_format = surface_depth_format(textures->depth.texture->format);

@@ -5,8 +5,8 @@
  *
  * over the lights, with N the normal, L the unit vector to the light, H the unit vector half way between L
  * and that to the camera (LOCALVIEWER: from the vertex; else 0 0 -1). A is 1 for a directional light; for the
- * others 0 beyond the range, else 1 / (a0 + d * (a1 + d * a2)), times for a spot the falloff-th power of the
- * cosine between its axis and -L, from 0 at the outer cone's to 1 at the inner's.
+ * others 0 beyond the range, else 1 / (a0 + d * (a1 + d * a2)) with a0 at least 2^-126, times for a spot the
+ * falloff-th power of the cosine between its axis and -L, from 0 at the outer cone's to 1 at the inner's.
  *
  * Reflectances M are the material's or one of the vertex's colours. The material's are multiplied into the
  * job's lights beforehand (draw/derive_light.c); when diffuse, ambient and emissive all are, there is but one

@@ -331,7 +331,8 @@ static void check_refusals(void)
                      *luminance = make_flat(TRIPTYCH_SURFACE_L8), *depth = make_flat(TRIPTYCH_SURFACE_D16);
     struct triptych_target_textures none = {0}, uneven = {.color = {{flat, 0, 0}, {small, 0, 0}}},
                                     level = {.color = {{flat, 1, 0}}}, slice = {.color = {{flat, 0, 1}}},
-                                    format = {.color = {{luminance, 0, 0}}};
+                                    format = {.color = {{luminance, 0, 0}}},
+                                    twice = {.color = {{flat, 0, 0}, {NULL, 0, 0}, {flat, 0, 0}}};
     expect_refused(TRIPTYCH_BAD_ARGUMENT, triptych_set_target_textures(device, &none),
                    "no texture to draw to: expected at least one");
     expect_refused(TRIPTYCH_BAD_ARGUMENT, triptych_set_target_textures(device, &uneven),
@@ -342,6 +343,8 @@ static void check_refusals(void)
                    "colour target 0: slice 1 of a level with 1");
     expect_refused(TRIPTYCH_UNSUPPORTED, triptych_set_target_textures(device, &format),
                    "colour target 0: format L8 cannot be drawn to");
+    expect_refused(TRIPTYCH_BAD_ARGUMENT, triptych_set_target_textures(device, &twice),
+                   "colour targets 0 and 2: the same surface, expected another one");
     const struct triptych_surface surface = {flat, 0, 0}, deep = {depth, 0, 0}, grey = {luminance, 0, 0};
     const struct triptych_rectangle outside = {60, 0, 5, 1};
     expect_refused(TRIPTYCH_BAD_ARGUMENT,

@@ -415,11 +415,50 @@ static void test_vertices_in_the_window_bring_their_fog(void)
     shading_on_every_engine(check_window_fog);
 }
 
+/* Where 1 / (a0 + d (a1 + d a2)) divides by zero, a light is as bright as it can be: it saturates what faces
+ * it and takes nothing from other lights. */
+static void check_lights_without_attenuation(float a1, float x, float y, float z)
+{
+    struct triptych_light *sun = &shading_state.light[0], *lamp = &shading_state.light[1];
+    bind_vertices();
+    *sun = (struct triptych_light){.type = TRIPTYCH_LIGHT_DIRECTIONAL, .diffuse = {0.5f, 0.25f, 0.125f, 0}};
+    *lamp = (struct triptych_light){
+        .type = TRIPTYCH_LIGHT_POINT, .diffuse = {1, 0, 0, 0}, .specular = {1, 0, 0, 0}, .range = 100};
+    sun->direction[2] = 1;
+    lamp->attenuation[1] = a1;
+    shading_state.light_enabled[0] = shading_state.light_enabled[1] = 1;
+    vertex[0] = (struct vertex){{0, 0, 4}, {0, 0, -1}, {1, 1, 1, 1}, {1, 1, 1, 1}};
+    lamp->position[0] = x;
+    lamp->position[1] = y;
+    lamp->position[2] = z;
+    SHADING_SET(specularenable, "true");
+    shade(1);
+    float red = z < 4 ? 1 : 0.5f, glint = z < 4 ? 1 : 0;
+    TEST_ASSERT_EQUAL_FLOAT(red, shaded_slot(SLOT_diffuse, 0));
+    TEST_ASSERT_EQUAL_FLOAT(0.25f, shaded_slot(SLOT_diffuse + 1, 0));
+    TEST_ASSERT_EQUAL_FLOAT(0.125f, shaded_slot(SLOT_diffuse + 2, 0));
+    TEST_ASSERT_EQUAL_FLOAT(glint, shaded_slot(SLOT_specular, 0));
+    TEST_ASSERT_EQUAL_FLOAT(0, shaded_slot(SLOT_specular + 1, 0));
+}
+
+static void check_attenuation_of_zero(void)
+{
+    check_lights_without_attenuation(0, 1, 2, 0); /* in front of the vertex */
+    check_lights_without_attenuation(0, 1, 2, 8); /* behind it */
+    check_lights_without_attenuation(1, 0, 0, 4); /* where it is */
+}
+
+static void test_lights_without_attenuation_leave_others_alone(void)
+{
+    shading_on_every_engine(check_attenuation_of_zero);
+}
+
 int main(void)
 {
     UNITY_BEGIN();
     RUN_TEST(test_scenes_are_lit_by_the_formulas);
     RUN_TEST(test_a_colour_that_is_missing_is_the_materials);
+    RUN_TEST(test_lights_without_attenuation_leave_others_alone);
     RUN_TEST(test_fog_follows_its_formulas);
     RUN_TEST(test_vertices_in_the_window_bring_their_fog);
     return UNITY_END();
