@@ -67,6 +67,8 @@ void device_destroy(struct triptych_device *device);
 enum triptych_result device_set_target(struct triptych_device *device,
                                        const struct triptych_target_description *description,
                                        struct error *error);
+/* Whether set_target was called: fails without a target. */
+enum triptych_result device_has_target(const struct triptych_device *device, struct error *error);
 /* Whether a description is one of a target. */
 enum triptych_result device_check_target(const struct triptych_target_description *description,
                                          struct error *error);

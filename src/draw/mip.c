@@ -4,8 +4,9 @@
  * weighted with how much of it is covered. Along an axis of n texels that becomes m = max(1, n / 2):
  *
  *   n even   texels 2i and 2i + 1, weights 1 and 1
- *   n odd    texels 2i, 2i + 1 and 2i + 2, weights m - i, m and i + 1 (Non-Power-of-Two Mipmap Creation,
- * NVIDIA 2005) n = 1    the texel itself
+ *   n odd    texels 2i, 2i + 1 and 2i + 2, weights m - i, m and i + 1
+ *            (Non-Power-of-Two Mipmap Creation, NVIDIA 2005)
+ *   n = 1    the texel itself
  *
  * and a texel's weight is the product of the axes'. Stored texels are averaged as they are, whatever curve
  * their values mean. Means of 8-bit channels are exact and rounded to nearest, halves up; those of binary32

@@ -12,11 +12,11 @@
  * parts at its own points covers what the whole does.
  *
  * What follows from this for a line with |dx| >= |dy|, steep ones with x and y exchanged:
- *   - Where it crosses the middle of a column between its ends, at the height y, it is in the diamond of the
- * pixel with top < y <= bottom: the boundary's lower corner belongs to the diamond, the upper does not. It
- * has not left that diamond in the end only if the end is in it.
- *   - Anywhere else it can only leave a diamond that it started in: no line of at most 45 degrees crosses the
- * half of a diamond beside the middle without crossing the middle.
+ *   - Where it crosses the middle of a column between its ends, at the height y, it is in the diamond of
+ *     the pixel with top < y <= bottom: the boundary's lower corner belongs to the diamond, the upper does
+ *     not. It has not left that diamond in the end only if the end is in it.
+ *   - Anywhere else it can only leave a diamond that it started in: no line of at most 45 degrees crosses
+ *     the half of a diamond beside the middle without crossing the middle.
  * Hence: the pixel at each middle strictly between the ends, and the one whose diamond the start is in, and
  * with or without the one whose diamond the end is in.
  *

@@ -1,10 +1,17 @@
 /* The constant table that compilers leave in a shader's comment: which constants have which names.
  *
  * Behind the letters CTAB, offsets counted from there (the layout of D3DXSHADER_CONSTANTTABLE):
- *   0  size of this header, 28       4  offset of the creator's name    8  version token
- *   12 number of constants           16 offset of the constants         20 flags   24 offset of the target's
- * name and per constant, 20 bytes (D3DXSHADER_CONSTANTINFO): 0  offset of the name   4 register set: b, i, c,
- * s   6 first register   8 registers   10 reserved 12 offset of the type   16 offset of the default value
+ *
+ *   0  size of this header, 28    4  offset of the creator's name    8  version token
+ *   12 number of constants        16 offset of the constants         20 flags
+ *   24 offset of the target's name
+ *
+ * and per constant, 20 bytes (D3DXSHADER_CONSTANTINFO):
+ *
+ *   0  offset of the name         4  register set: b, i, c, s        6  first register
+ *   8  registers                  10 reserved                        12 offset of the type
+ *   16 offset of the default value
+ *
  * Types and defaults are not read. Names become printable text of at most SHADER_NAME_BYTES - 1 bytes. */
 #include "shader/read.h"
 

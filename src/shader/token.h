@@ -3,9 +3,11 @@
  *   version      0xfffe (vertex) or 0xffff (pixel), then the model
  *   instruction  15:0 opcode  23:16 control  27:24 tokens behind this one (models 2.0 and higher, else 0)
  *                28 predicated  30 issued together with the one before (ps_1_x)
- *   destination  10:0 register  12:11, 30:28 file  13 relative  19:16 mask  23:20 modifiers  27:24 shift,
- * signed 31 set source       10:0 register  12:11, 30:28 file  13 relative  23:16 swizzle  27:24 modifier  31
- * set comment      0xfffe  30:16 tokens behind this one end          0x0000ffff
+ *   destination  10:0 register  12:11, 30:28 file  13 relative  19:16 mask  23:20 modifiers
+ *                27:24 shift, signed  31 set
+ *   source       10:0 register  12:11, 30:28 file  13 relative  23:16 swizzle  27:24 modifier  31 set
+ *   comment      0xfffe  30:16 tokens behind this one
+ *   end          0x0000ffff
  *
  * An instruction's tokens: itself, the destination, the predicate (as a source), the sources. A relative
  * operand is followed by a source token for its index register, except in vs_1_1, where that is always a0.x.

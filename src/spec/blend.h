@@ -1,9 +1,9 @@
 /* Blending of the new colour s with the stored colour d, in integers from 0 to 255 (Direct3D 9, "Alpha
  * Blending State").
  *
- *   factor f          ZERO 0, ONE 255, COLOR the channel's own, ALPHA alpha's, CONSTANT the draw's, INVERSE
- * 255 - f, SATURATED_ALPHA min(s alpha, 255 - d alpha), 255 for the alpha channel product x * f     round(x *
- * f / 255)
+ *   factor f          ZERO 0, ONE 255, COLOR the channel's own, ALPHA alpha's, CONSTANT the draw's,
+ *                     INVERSE 255 - f, SATURATED_ALPHA min(s alpha, 255 - d alpha), 255 for alpha itself
+ *   product x * f     round(x * f / 255)
  *
  *   ADD               min(255, s * f + d * g)
  *   ADD, g = 255 - f  round((s * f + d * g) / 255): one rounding for both products

@@ -10,8 +10,10 @@
  * is magnification, filtered by magfilter, everything else minification, filtered by minfilter. What is not a
  * number is minification.
  *
- *   mipfilter point    level floor(lambda + 1/2), linear: levels floor(lambda) and the next, blended by the
- * fraction of 256; both after lambda was clamped to maxmiplevel and the last level.
+ *   mipfilter point    level floor(lambda + 1/2)
+ *   mipfilter linear   levels floor(lambda) and the next, blended by the fraction of 256
+ *
+ * both after lambda was clamped to maxmiplevel and the last level.
  *
  * Anisotropic minification takes N taps along the longer change (EXT_texture_filter_anisotropic), each
  * filtered linearly, and gives their mean:

@@ -1,11 +1,13 @@
 /* Sampling of textures that are not bytes: binary32, sRGB and depth to compare with. As sample.h, with
  * filters in binary32:
  *
- *   weights    w = f / 256 of the position's fraction f; a and b are blended to a * (1 - w), rounded, then b
- * * w added in one rounding; where w is 0 it is a, whatever b sRGB       each texel's colour is decoded
- * (srgb.h) before it is blended; alpha and the border colour are byte / 255 depth      each texel is 1 where
- * the third coordinate, clamped to 0..1, is at most the texel, else 0; these are blended (percentage-closer
- * filtering), and the result is in all four channels N taps     summed in order, then divided by N */
+ *   weights    w = f / 256 of the position's fraction f; a and b are blended to a * (1 - w), rounded, then
+ *              b * w added in one rounding; where w is 0 it is a, whatever b
+ *   sRGB       each texel's colour is decoded (srgb.h) before it is blended; alpha and the border colour are
+ *              byte / 255
+ *   depth      each texel is 1 where the third coordinate, clamped to 0..1, is at most the texel, else 0;
+ *              these are blended (percentage-closer filtering), and the result is in all four channels
+ *   N taps     summed in order, then divided by N */
 
 static inline int texel_channels(const struct sampler *s)
 {

@@ -1,8 +1,9 @@
 /* Bicubic Bézier patches in Geomview's BEZ format (its manual, "Bezier Surfaces"):
  *
- *   [ST]BBP or [C]BEZ333[_ST], then patches of 16 points x y z, u running fastest, then for ST four pairs of
- * texture coordinates and for C four colours R G B A, at the corners (u, v) = (0,0) (1,0) (0,1) (1,1). #
- * starts a comment.
+ *   [ST]BBP or [C]BEZ333[_ST], then patches of 16 points x y z, u running fastest, then for ST four pairs
+ *   of texture coordinates and for C four colours R G B A, at the corners (u, v) = (0,0) (1,0) (0,1) (1,1)
+ *
+ * # starts a comment.
  *
  * A patch becomes a grid of subdivisions + 1 vertices each way. Positions, derivatives and normals are
  * evaluated in binary64 from Bernstein polynomials. Fronts are where v runs clockwise to u, as the teapot has

@@ -5,8 +5,8 @@
  *   box        -1 to 1 in x, y and z; the whole texture on each side
  *   sphere     radius 1; u around y, v from the north pole down
  *   cylinder   radius 1, y from -1 to 1, open; u around, v from the top down
- *   torus      around y; the tube's centre runs at radius 1; u around y, v around the tube from outside over
- * the top */
+ *   torus      around y; the tube's centre runs at radius 1; u around y, v around the tube from outside
+ *              over the top */
 #include "stream/mesh.h"
 
 #include <math.h>

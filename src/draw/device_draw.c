@@ -1,0 +1,382 @@
+/* The device's draws and clears: what they need is checked, then they are recorded as they are, with the
+ * routines and the job that the state derives to. Queries count what lies between. */
+#include "base/mxcsr.h"
+#include "def/lane.h"
+#include "draw/derive.h"
+#include "draw/device.h"
+
+#include <float.h>
+#include <inttypes.h>
+#include <stdlib.h>
+#include <string.h>
+
+/* --- Checking a draw --------------------------------------------------------------------------------------
+ */
+
+uint64_t primitive_corners(enum triptych_primitive primitive, uint32_t count)
+{
+    switch (primitive) {
+    case TRIPTYCH_TRIANGLE_LIST: return 3 * (uint64_t)count;
+    case TRIPTYCH_LINE_LIST: return 2 * (uint64_t)count;
+    case TRIPTYCH_LINE_STRIP: return (uint64_t)count + 1;
+    case TRIPTYCH_POINT_LIST: return count;
+    default: return (uint64_t)count + 2;
+    }
+}
+
+/* Whether vertex `last` of an attribute lies in its buffer. */
+static enum triptych_result check_attribute(const struct state *state, enum attribute attribute,
+                                            uint64_t last, struct error *error)
+{
+    const struct state_element *element = state->element + attribute;
+    const struct state_stream *stream = state_stream_of(state, (enum triptych_attribute)attribute);
+    const char *name = attribute_name[attribute];
+    if (!stream->buffer) {
+        error_set(error, "%s: no buffer in stream %u, expected set_stream first", name, element->stream);
+        return TRIPTYCH_BAD_CALL;
+    }
+    size_t begin = stream->offset + element->offset, bytes = vertex_types[element->format].bytes;
+    if (begin + bytes > stream->buffer->bytes) {
+        error_set(error, "%s: lies at byte %zu past its buffer of %zu bytes", name, begin,
+                  stream->buffer->bytes);
+        return TRIPTYCH_BAD_CALL;
+    }
+    uint64_t most = state_last_vertex(state, (enum triptych_attribute)attribute);
+    if (last > most) {
+        error_set(error, "vertex %" PRIu64 ": %s lies past its buffer, which ends with vertex %" PRIu64, last,
+                  name, most);
+        return TRIPTYCH_BAD_CALL;
+    }
+    return TRIPTYCH_OK;
+}
+
+/* The same of each attribute that the vertex routine reads; those by instance have as many as are needed. */
+static enum triptych_result check_vertices(const struct triptych_device *device, uint64_t last,
+                                           struct error *error)
+{
+    const struct state *state = &device->state;
+    enum triptych_result result = TRIPTYCH_OK;
+    for (int i = 0; i < ATTRIBUTE_COUNT && result == TRIPTYCH_OK; i++) {
+        const struct state_stream *stream = state_stream_of(state, i);
+        if (device->key[UNIT_VERTEX].vertex.attribute[i] == ATTRIBUTE_FORMAT_NONE)
+            continue;
+        int instanced = stream->frequency == TRIPTYCH_FREQUENCY_INSTANCE;
+        uint64_t most = instanced ? (state_instances(state) - 1) / stream->count : last;
+        result = check_attribute(state, i, most, error);
+    }
+    return result;
+}
+
+static enum triptych_result check_draw(const struct triptych_device *device,
+                                       enum triptych_primitive primitive, struct error *error)
+{
+    if ((unsigned)primitive >= TRIPTYCH_PRIMITIVE_COUNT) {
+        error_set(
+            error,
+            "primitive %u: expected a triangle list (0), strip (1) or fan (2), a point list (3), a line "
+            "list (4) or strip (5)",
+            (unsigned)primitive);
+        return TRIPTYCH_BAD_ARGUMENT;
+    }
+    enum triptych_result result = device_has_target(device, error);
+    if (result == TRIPTYCH_OK && !device->state.element[ATTRIBUTE_POSITION].format &&
+        !device->state.element[ATTRIBUTE_POSITIONT].format) {
+        error_set(error, "no position: expected an element for it");
+        return TRIPTYCH_BAD_CALL;
+    }
+    return result;
+}
+
+/* Direct3D 9 steps by instances in indexed draws only. */
+static enum triptych_result check_no_instances(const struct triptych_device *device, struct error *error)
+{
+    for (unsigned i = 0; i < TRIPTYCH_STREAMS; i++)
+        if (device->state.stream[i].frequency != TRIPTYCH_FREQUENCY_VERTEX) {
+            error_set(error, "stream %u: its frequency is by instance, expected an indexed draw", i);
+            return TRIPTYCH_BAD_CALL;
+        }
+    return TRIPTYCH_OK;
+}
+
+static enum triptych_result check_sequence(const struct triptych_device *device, uint64_t first,
+                                           uint64_t corners, struct error *error)
+{
+    if (first + corners - 1 > UINT32_MAX) {
+        error_set(error, "vertices %" PRIu64 " to %" PRIu64 ": expected them below 2^32", first,
+                  first + corners - 1);
+        return TRIPTYCH_BAD_CALL;
+    }
+    return check_vertices(device, first + corners - 1, error);
+}
+
+static enum triptych_result check_indices(const struct triptych_device *device, int32_t base, uint64_t first,
+                                          uint64_t corners, struct error *error)
+{
+    struct triptych_buffer *buffer = device->state.indices;
+    uint32_t bits = device->state.index_bits;
+    uint64_t room = buffer->bytes / (bits / 8);
+    if (first + corners > room) {
+        error_set(error,
+                  "indices %" PRIu64 " to %" PRIu64 ": expected them in the buffer of %" PRIu64 " indices",
+                  first, first + corners - 1, room);
+        return TRIPTYCH_BAD_CALL;
+    }
+    const struct index_range *range = buffer_index_range(buffer, bits, (uint32_t)first, (uint32_t)corners);
+    int64_t lowest = (int64_t)base + range->minimum, highest = (int64_t)base + range->maximum;
+    if (lowest < 0 || highest > UINT32_MAX) {
+        error_set(error, "vertices %" PRId64 " to %" PRId64 ": expected them from 0 to 2^32 - 1", lowest,
+                  highest);
+        return TRIPTYCH_BAD_CALL;
+    }
+    return check_vertices(device, (uint64_t)highest, error);
+}
+/* --- Recording --------------------------------------------------------------------------------------------
+ */
+
+/* The newest palette is that of the job; recorded draws may use the others. */
+static enum triptych_result make_palette(struct triptych_device *device, struct error *error)
+{
+    struct palette *palette = malloc(sizeof *palette);
+    if (!palette) {
+        error_set(error, "out of memory for a palette of world matrices");
+        return TRIPTYCH_NO_MEMORY;
+    }
+    derive_palette(&device->state, palette->entry);
+    palette->next = device->palettes;
+    device->palettes = palette;
+    device->job.palette = palette->entry;
+    return TRIPTYCH_OK;
+}
+
+static enum triptych_result derive(struct triptych_device *device, enum triptych_primitive drawn,
+                                   struct error *error)
+{
+    enum triptych_result result = TRIPTYCH_OK;
+    enum primitive primitive = derive_primitive(&device->state, drawn);
+    if (device->derived && device->key[UNIT_SETUP].setup.primitive == primitive)
+        return result;
+    derive_keys(&device->state, primitive, device->key);
+    derive_job(&device->state, &device->key[UNIT_VERTEX].vertex, &device->key[UNIT_PIXEL].pixel,
+               &device->job);
+    if (device->key[UNIT_VERTEX].vertex.indexed_matrices)
+        result = make_palette(device, error);
+    device->derived = result == TRIPTYCH_OK;
+    return result;
+}
+
+static struct command *next_command(struct triptych_device *device)
+{
+    if (!frame_next(device->frame))
+        device_finish(device);
+    return frame_next(device->frame);
+}
+
+static int acquire_all(struct triptych_device *device, const struct routine *routine[UNIT_COUNT],
+                       struct error *error)
+{
+    for (int unit = 0; unit < UNIT_COUNT; unit++) {
+        routine[unit] = cache_acquire(device->cache, unit, &device->key[unit], error);
+        if (routine[unit])
+            continue;
+        while (unit--)
+            cache_release(device->cache, routine[unit]);
+        return -1;
+    }
+    return 0;
+}
+
+/* Routines may not find room because recorded draws hold others: rendering these makes room. */
+static int acquire_routines(struct triptych_device *device, const struct routine *routine[UNIT_COUNT],
+                            struct error *error)
+{
+    struct error first = {{0}};
+    if (!acquire_all(device, routine, device->frame->commands ? &first : error))
+        return 0;
+    if (!device->frame->commands)
+        return -1;
+    device_finish(device);
+    return acquire_all(device, routine, error);
+}
+
+/* The textures that the draw samples: they must not change before it is rendered. */
+static void mark_textures(struct triptych_device *device)
+{
+    const struct pixel_key *key = &device->key[UNIT_PIXEL].pixel;
+    for (int i = 0; i < key->stages; i++)
+        if (key->texture[i])
+            device->state.texture[i]->recording = device->recording;
+}
+
+/* Attributes of streams that step with the instance: the same vertex for the whole of it. */
+static void step_instance(const struct triptych_device *device, uint32_t instance, struct job *job)
+{
+    const struct state *state = &device->state;
+    for (int i = 0; i < ATTRIBUTE_COUNT; i++) {
+        const struct state_stream *stream = state_stream_of(state, i);
+        if (job->attribute[i].data && stream->frequency == TRIPTYCH_FREQUENCY_INSTANCE)
+            job->attribute[i].data += (size_t)(instance / stream->count) * stream->stride;
+    }
+}
+
+static enum triptych_result record_instance(struct triptych_device *device, const struct draw *source,
+                                            uint32_t instance, struct error *error)
+{
+    const struct setup_key *setup = &device->key[UNIT_SETUP].setup;
+    const struct routine *routine[UNIT_COUNT];
+    if (acquire_routines(device, routine, error))
+        return TRIPTYCH_ENGINE_FAILED;
+    struct command *command = next_command(device);
+    command->kind = COMMAND_DRAW;
+    struct draw *draw = &command->draw;
+    *draw = *source;
+    draw->job = device->job;
+    step_instance(device, instance, &draw->job);
+    memcpy(draw->routine, routine, sizeof draw->routine);
+    draw->scissor = derive_scissor(&device->state);
+    draw->stride = setup_layout(setup).stride;
+    draw->shape = derive_shape(setup->primitive);
+    draw->sampling = derive_sampling(&device->state);
+    draw->clip_ignored = derive_clip_ignored(&device->state);
+    draw->last_pixel = derive_last_pixel(&device->state);
+    draw->wrapped = derive_wrapped(&device->state, &device->key[UNIT_PIXEL].pixel);
+    draw->flat = derive_flat(&device->state);
+    device->frame->commands++;
+    mark_textures(device);
+    return TRIPTYCH_OK;
+}
+
+/* What is drawn to cannot be sampled: its texels are not those of the tiles. */
+static enum triptych_result check_feedback(const struct triptych_device *device, struct error *error)
+{
+    const struct pixel_key *key = &device->key[UNIT_PIXEL].pixel;
+    for (int i = 0; i < key->stages; i++)
+        if (key->texture[i] && device_draws_to(device, device->state.texture[i])) {
+            error_set(error, "texture of sampler %d is drawn to: expected another one, or none", i);
+            return TRIPTYCH_BAD_CALL;
+        }
+    return TRIPTYCH_OK;
+}
+
+/* Records a checked draw, all its instances one after the other. The source's primitive, count, indices and
+ * base are filled in. Only the first instance can fail: the others find its routines in use. */
+static enum triptych_result record(struct triptych_device *device, const struct draw *source,
+                                   struct error *error)
+{
+    uint32_t instances = source->indices ? state_instances(&device->state) : 1;
+    if (check_feedback(device, error) != TRIPTYCH_OK)
+        return TRIPTYCH_BAD_CALL;
+    if (source->count && derive_effective(&device->key[UNIT_PIXEL].pixel))
+        for (uint32_t i = 0; i < instances; i++)
+            if (record_instance(device, source, i, error) != TRIPTYCH_OK)
+                return TRIPTYCH_ENGINE_FAILED;
+    if (device->on_draw)
+        device->on_draw(device->on_draw_user, device->draws, device->key);
+    device->draws++;
+    device->triangles += (uint64_t)source->count * instances;
+    return TRIPTYCH_OK;
+}
+
+enum triptych_result device_draw(struct triptych_device *device, enum triptych_primitive primitive,
+                                 uint32_t first, uint32_t count, struct error *error)
+{
+    enum triptych_result result = check_draw(device, primitive, error);
+    if (result != TRIPTYCH_OK)
+        return result;
+    result = derive(device, primitive, error);
+    if (result == TRIPTYCH_OK)
+        result = check_no_instances(device, error);
+    if (count && result == TRIPTYCH_OK)
+        result = check_sequence(device, first, primitive_corners(primitive, count), error);
+    struct draw draw = {.primitive = primitive, .count = count, .base = first};
+    return result == TRIPTYCH_OK ? record(device, &draw, error) : result;
+}
+
+enum triptych_result device_draw_indexed(struct triptych_device *device, enum triptych_primitive primitive,
+                                         int32_t base, uint32_t first, uint32_t count, struct error *error)
+{
+    const struct state *state = &device->state;
+    enum triptych_result result = check_draw(device, primitive, error);
+    if (result == TRIPTYCH_OK && !state->indices) {
+        error_set(error, "no indices: expected set_indices first");
+        result = TRIPTYCH_BAD_CALL;
+    }
+    if (result != TRIPTYCH_OK)
+        return result;
+    result = derive(device, primitive, error);
+    if (count && result == TRIPTYCH_OK)
+        result = check_indices(device, base, first, primitive_corners(primitive, count), error);
+    struct draw draw = {.primitive = primitive, .count = count, .base = (uint32_t)base};
+    draw.index_bits = state->index_bits;
+    draw.indices = count ? state->indices->data + (size_t)first * (state->index_bits / 8) : NULL;
+    return result == TRIPTYCH_OK ? record(device, &draw, error) : result;
+}
+
+enum triptych_result device_clear(struct triptych_device *device, const struct clear_values *values,
+                                  struct error *error)
+{
+    enum triptych_depth_format format = device->target.depth_format;
+    enum triptych_result result = device_has_target(device, error);
+    if (result == TRIPTYCH_OK)
+        result = state_check_clear(format, values->flags, values->color, values->depth, error);
+    if (result != TRIPTYCH_OK || !values->flags)
+        return result;
+    struct command *command = next_command(device);
+    struct clear *clear = &command->clear;
+    command->kind = COMMAND_CLEAR;
+    *clear = (struct clear){.area = derive_scissor(&device->state),
+                            .set_color = values->flags & TRIPTYCH_CLEAR_COLOR};
+    unsigned saved = mxcsr_enter();
+    if (clear->set_color)
+        target_clear_words(&device->target, values->color, clear->color);
+    if (values->flags & TRIPTYCH_CLEAR_DEPTH) {
+        /* The pipeline knows neither denormals nor -0 in depth. */
+        clear->depth = depth_encode(format, values->depth >= FLT_MIN ? values->depth : 0);
+        clear->depth_mask = depth_mask(format);
+    }
+    mxcsr_leave(saved);
+    if (values->flags & TRIPTYCH_CLEAR_STENCIL) {
+        clear->depth |= values->stencil & stencil_mask(format);
+        clear->depth_mask |= stencil_mask(format);
+    }
+    device->frame->commands++;
+    return TRIPTYCH_OK;
+}
+/* --- Queries ----------------------------------------------------------------------------------------------
+ */
+
+/* Draws count while any query wants it. */
+static void count_while_asked(struct triptych_device *device)
+{
+    bool counting = device->queries.counting;
+    if (device->state.counting != counting)
+        device_state_changed(device);
+    device->state.counting = counting;
+}
+
+enum triptych_result device_query_begin(struct triptych_device *device, struct triptych_query *query,
+                                        struct error *error)
+{
+    enum triptych_result result = query_begin(&device->queries, query, device->frame->commands, error);
+    count_while_asked(device);
+    return result;
+}
+
+enum triptych_result device_query_end(struct triptych_device *device, struct triptych_query *query,
+                                      struct error *error)
+{
+    enum triptych_result result = query_end(&device->queries, query, device->frame->commands, error);
+    count_while_asked(device);
+    return result;
+}
+
+enum triptych_result device_query_result(struct triptych_device *device, struct triptych_query *query,
+                                         uint64_t *result, struct error *error)
+{
+    if (query->phase == QUERY_IDLE || query->phase == QUERY_BEGUN) {
+        error_set(error, "result of a query that has not ended: expected its end first");
+        return TRIPTYCH_BAD_CALL;
+    }
+    device_finish(device);
+    *result = query->result;
+    return TRIPTYCH_OK;
+}
