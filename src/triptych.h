@@ -344,12 +344,12 @@ struct triptych_state_row {
     const char *meaning;
 };
 
-/* Counters since the device was created. Draws, their triangles and the cache count when a draw is recorded,
- * all else when it is rendered. */
+/* Counters since the device was created. Draws, their primitives and the cache count when a draw is recorded,
+ * all else when it is rendered. Lines and points count as triangles. */
 struct triptych_statistics {
     uint64_t draws, triangles;
     uint64_t vertices_shaded, triangles_set_up, triangles_visible;
-    uint64_t pixels_shaded; /* pixels that triangles covered, hidden ones included */
+    uint64_t pixels_shaded;                             /* pixels covered, hidden ones included */
     uint64_t cache_hits, cache_misses, cache_evictions; /* of vertex, setup and pixel routines */
     /* Monotonic clock, summed over threads. */
     uint64_t vertex_ns; /* geometry phase: vertex, clip, setup, bin */
@@ -433,7 +433,8 @@ TRIPTYCH_API enum triptych_result triptych_texture_update(triptych_device *, tri
                                                           unsigned face, unsigned level,
                                                           const struct triptych_box *box, const void *data,
                                                           size_t row_pitch, size_t slice_pitch);
-/* Makes every level but the first from the one before it: a texel is the mean of those it covers. */
+/* Makes every level but the first from the one before it: a texel is the mean of those it covers, in formats of
+ * more than 8 bits a channel to the precision of binary32. */
 TRIPTYCH_API enum triptych_result triptych_texture_generate_mips(triptych_device *,
                                                                  triptych_texture *texture);
 

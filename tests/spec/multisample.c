@@ -3,6 +3,7 @@
  * sixteenths of a pixel, so that nothing here is rounded. */
 #include "tests/support/canvas.h"
 
+#include <limits.h>
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
@@ -422,6 +423,16 @@ static void check_refusals(void)
     use_samples(0);
     TEST_ASSERT_EQUAL_INT(TRIPTYCH_BAD_ARGUMENT, triptych_read_sample(device, 2, color[0], NULL, NULL));
     TEST_ASSERT_EQUAL_STRING("sample 2: the target has 2 per pixel", triptych_error(device));
+    TEST_ASSERT_EQUAL_INT(TRIPTYCH_BAD_ARGUMENT,
+                          triptych_read_sample(device, UINT_MAX, color[0], NULL, NULL));
+    OK(triptych_set_target_description(
+        device, &(struct triptych_target_description){
+                    .width = 1, .height = 1, .samples = 2, .depth_format = TRIPTYCH_DEPTH_d16}));
+    depth[0][0] = 7;
+    TEST_ASSERT_EQUAL_INT(TRIPTYCH_BAD_CALL, triptych_read_sample(device, 0, NULL, depth[0], stencil[0]));
+    TEST_ASSERT_EQUAL_STRING("the target's depth format is d16: expected one with stencil",
+                             triptych_error(device));
+    TEST_ASSERT_EQUAL_FLOAT(7, depth[0][0]);
 }
 
 static void test_what_cannot_be_is_refused(void)
