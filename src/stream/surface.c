@@ -128,8 +128,13 @@ int check_attach(const struct stream *stream, const struct call *call,
 {
     struct triptych_texture shape[TRIPTYCH_TARGETS + 1];
     struct triptych_target_textures textures = {.depth_format = call->attach.depth_format};
-    for (int t = 0; t < TRIPTYCH_TARGETS; t++)
-        textures.color[t] = shape_of(stream, &call->attach.color[t], &shape[t]);
+    for (int t = 0; t < TRIPTYCH_TARGETS; t++) {
+        const struct stream_surface *color = call->attach.color;
+        int first = 0; /* of the same texture */
+        while (color[first].resource != color[t].resource)
+            first++;
+        textures.color[t] = shape_of(stream, &color[t], &shape[first]);
+    }
     textures.depth = shape_of(stream, &call->attach.depth, &shape[TRIPTYCH_TARGETS]);
     return surfaces_describe(&textures, description, error) ? -1 : 0;
 }

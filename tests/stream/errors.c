@@ -78,6 +78,8 @@ static const struct bad lines[] = {
     {"target 8 8 depth d23\n", "2:18", "found 'd23', expected a depth format: d32f_lockable, d16, "},
     {"attach\n", "2:7", "found the end of the line, expected none, color TEXTURE or depth TEXTURE"},
     {"texture t 2d L8 4 4 empty\nattach color t\n", "3:1", "colour target 0: format L8 cannot be drawn to"},
+    {"texture t 2d R32F 4 4 levels 2 empty\nattach color t level 1 color t level 1\n", "3:1",
+     "colour targets 0 and 1: the same surface, expected another one"},
     {"texture t 2d R32F 4 4 empty\nattach color t level 3\n", "3:1",
      "colour target 0: level 3 of a texture with 1"},
     {"texture t 2d R32F 4 4 empty\nattach color t depthformat d17\n", "3:28",
