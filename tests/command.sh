@@ -137,7 +137,7 @@ refuses 'unknown list' 'cannot list "cats"' list cats
 
 answers 'list engines' '^emulate ' list engines
 answers 'list states' '^zfunc +COMPARE +lessequal +SP +yes +the comparison' list states
-answers 'list states of stages' '^texcoordindex +TEXCOORDINDEX +0, 1, 2, ... +V ' list states
+answers 'list states of stages' '^texcoordindex +TEXCOORDINDEX +0, 1, 2, ... +VP ' list states
 answers 'list words of states' '^CULLMODE +none cw ccw$' list states
 answers 'list states counts them' '^103 render states, [0-9]+ supported' list states
 answers 'list shaders' '^mad dst, a, b, c +1 +1 +1 +1 +1 +1 +1 +1 +1 +1 +1 *$' list shaders

@@ -41,17 +41,18 @@ static struct triangle_layout triangle_layout(int depth, int w, const uint8_t va
 {
     struct triangle_layout layout = {.smooth = (uint16_t)w};
     uint16_t end = sizeof(struct triangle_head);
-    for (int v = 0; v < VARYING_COUNT; v++)
+    for (unsigned v = key_next(varying, 0, VARYING_COUNT); v < VARYING_COUNT;
+         v = key_next(varying, v + 1, VARYING_COUNT))
         layout.smooth |= varying[v] == INTERPOLATION_SMOOTH;
     if (depth)
         layout.depth = reserve(&end, sizeof(struct plane));
     if (layout.smooth)
         layout.reciprocal_w = reserve(&end, sizeof(struct plane));
-    for (int v = 0; v < VARYING_COUNT; v++)
-        if (varying[v] != INTERPOLATION_NONE) {
-            size_t bytes = varying[v] == INTERPOLATION_SMOOTH ? sizeof(struct plane) : sizeof(float);
-            layout.varying[v] = reserve(&end, bytes * varying_components[v]);
-        }
+    for (unsigned v = key_next(varying, 0, VARYING_COUNT); v < VARYING_COUNT;
+         v = key_next(varying, v + 1, VARYING_COUNT)) {
+        size_t bytes = varying[v] == INTERPOLATION_SMOOTH ? sizeof(struct plane) : sizeof(float);
+        layout.varying[v] = reserve(&end, bytes * varying_components[v]);
+    }
     layout.stride = (uint16_t)((end + 63) & ~63);
     return layout;
 }

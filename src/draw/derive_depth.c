@@ -127,8 +127,10 @@ struct sampling derive_sampling(const struct state *state)
 void derive_depth_format(const struct state *state, struct pixel_key *key)
 {
     struct sampling sampling = derive_sampling(state);
-    key->samples = sampling.samples;
-    key->sample_centers = sampling.centers;
+    if (derive_effective(key)) {
+        key->samples = sampling.samples;
+        key->sample_centers = sampling.centers;
+    }
     if (!depth_matters(key))
         key->depth_function = COMPARE_ALWAYS;
     key->depth_w = pixel_tests_depth(key) && GET(zenable) == ZBUFFER_usew;

@@ -125,12 +125,15 @@ static void fill_stages(const struct state *state, const struct pixel_key *key, 
     }
 }
 
-static void fill_fog(const struct state *state, const struct pixel_key *key, struct job *job)
+static void fill_fog(const struct state *state, const struct vertex_key *vertex, const struct pixel_key *key,
+                     struct job *job)
 {
     if (!key->fog)
         return;
     job->fog_color = rgba_word(GET(fogcolor));
-    uint32_t mode = key->fog == FOG_VARYING ? GET(fogvertexmode) : GET(fogtablemode);
+    uint32_t mode = key->fog != FOG_VARYING                    ? GET(fogtablemode)
+                    : vertex->fog == VERTEX_FOG_SPECULAR_ALPHA ? FOGMODE_none
+                                                               : GET(fogvertexmode);
     derive_fog_formula(state, mode, &job->fog_scale, &job->fog_offset);
 }
 
@@ -224,6 +227,15 @@ void derive_palette(const struct state *state, struct palette_entry palette[WORL
     mxcsr_leave(saved);
 }
 
+static bool blends_by_constant(const struct pixel_key *key)
+{
+    bool r = false;
+    for (int c = 0; c < BLEND_CHANNELS; c++)
+        r |= (key->source_factor[c] | 1) == FACTOR_INVERSE_CONSTANT ||
+             (key->target_factor[c] | 1) == FACTOR_INVERSE_CONSTANT;
+    return r;
+}
+
 /* Not inlined: the compiler may move arithmetic over a change of MXCSR, but not a call. */
 __attribute__((noinline)) static void fill_job(const struct state *state, const struct vertex_key *vertex,
                                                const struct pixel_key *pixel, struct job *job)
@@ -254,10 +266,11 @@ __attribute__((noinline)) static void fill_job(const struct state *state, const 
     derive_setup_job(state, vertex, (const double(*)[4])view_projection.m, job);
     fill_depth(state, pixel, job);
     fill_stages(state, pixel, job);
-    fill_fog(state, pixel, job);
+    fill_fog(state, vertex, pixel, job);
     if (pixel->alpha_discard)
         job->alpha_reference = (int32_t)GET(alpharef);
-    job->blend_constant = rgba_word(GET(blendfactor));
+    if (blends_by_constant(pixel))
+        job->blend_constant = rgba_word(GET(blendfactor));
     job->srgb = &srgb_tables;
 }
 

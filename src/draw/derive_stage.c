@@ -223,6 +223,13 @@ static void keep_alpha_only(struct pixel_key *key)
                 key->premodulate[i] & PREMODULATE_ALPHA ? PREMODULATE_COLOR | PREMODULATE_ALPHA : 0;
 }
 
+/* What comes out of no stages at all. */
+static bool selects_diffuse(const struct pixel_key *key)
+{
+    return key->stages == 1 && key->color_stage[0] == STAGE_SELECT && stage_is_joint(key, 0) &&
+           !key->temporary[0] && key->color_argument[0] == SOURCE_DIFFUSE;
+}
+
 void derive_stage(const struct state *state, struct pixel_key *key)
 {
     while (key->stages < TEXTURE_STAGES && STAGE(key->stages, colorop) != TEXTUREOP_disable)
@@ -233,6 +240,6 @@ void derive_stage(const struct state *state, struct pixel_key *key)
         keep_alpha_only(key);
     drop_dead_stages(key);
     name_diffuse(key);
-    while (key->stages && derive_stage_passes(key, key->stages - 1))
+    while (key->stages && (derive_stage_passes(key, key->stages - 1) || selects_diffuse(key)))
         clear_stage(key, --key->stages);
 }

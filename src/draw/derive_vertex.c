@@ -117,12 +117,18 @@ static void derive_normal(const struct state *state, struct vertex_key *key)
     key->normalize = any && GET(normalizenormals);
 }
 
+/* Without highlights the specular colour is black whatever the lights are. */
+static bool lights_matter(const struct state *state, const struct vertex_key *key)
+{
+    return key->varying[VARYING_diffuse] || GET(specularenable);
+}
+
 /* Without lights nobody reads the normal. */
 static void derive_lighting(const struct state *state, struct vertex_key *key)
 {
     int count = 0;
     key->lighting = 1;
-    for (int i = 0; i < LIGHT_COUNT; i++)
+    for (int i = 0; i < LIGHT_COUNT && lights_matter(state, key); i++)
         if (state->light_enabled[i])
             key->light[count++] = derive_light(&state->light[i]);
     if (count) {
@@ -180,11 +186,23 @@ static int coordinates_needed(const struct vertex_key *key, int channel)
     return key->varying[varying_third(channel)] ? 3 : 2;
 }
 
+/* Columns of the matrix, as far as they are read. In the window there is no transformation, but three of them
+ * say that the third coordinate divides. */
+static uint8_t derive_columns(const struct state *state, int stage, int channel, const struct vertex_key *key)
+{
+    uint32_t columns = STAGE(stage, texturetransformflags) & TEXTURETRANSFORM_COUNT_MASK;
+    int divides = key->varying[varying_divisor(channel)];
+    uint32_t most = divides ? 4 : key->varying[varying_third(channel)] ? 3 : 2;
+    if (in_window(key))
+        return divides && columns == 3 ? 3 : 0;
+    return (uint8_t)(columns < most ? columns : most);
+}
+
 /* The numbers of Direct3D 9's generators are the high half of the state, from 1. */
 static void derive_coordinates(const struct state *state, int stage, int channel, struct vertex_key *key)
 {
     uint32_t index = STAGE(stage, texcoordindex), generator = index >> 16;
-    key->texture_matrix[channel] = STAGE(stage, texturetransformflags) & TEXTURETRANSFORM_COUNT_MASK;
+    key->texture_matrix[channel] = derive_columns(state, stage, channel, key);
     if (generator && !in_window(key)) {
         key->texcoord[channel] = (uint8_t)(COORDINATE_NORMAL + generator - 1);
         if (key->texcoord[channel] != COORDINATE_POSITION)

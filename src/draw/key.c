@@ -196,7 +196,8 @@ struct packed_key key_pack(enum unit unit, const union key *key)
     struct packed_key packed;
     packed.words = digit[digit_count[unit] - 1].word + 1u;
     memset(packed.word, 0, packed.words * sizeof packed.word[0]);
-    for (unsigned i = 0; i < digit_count[unit]; i++)
+    unsigned count = digit_count[unit];
+    for (unsigned i = key_next(value, 0, count); i < count; i = key_next(value, i + 1, count))
         packed.word[digit[i].word] += digit[i].place * value[i];
     return packed;
 }

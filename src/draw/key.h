@@ -9,6 +9,7 @@
 
 #include <stddef.h>
 #include <stdint.h>
+#include <string.h>
 
 enum unit { UNIT_VERTEX, UNIT_SETUP, UNIT_PIXEL, UNIT_COUNT };
 
@@ -416,6 +417,20 @@ const struct key_field *key_fields(enum unit unit, size_t *count);
 /* Packs a key whose every field is below its radix; unpacking gives the same fields back. */
 struct packed_key key_pack(enum unit unit, const union key *key);
 void key_unpack(enum unit unit, const struct packed_key *packed, union key *key);
+
+/* The first of `count` bytes of a key, or of an array in one, that is not 0, from number `at` on; `count` if
+ * there is none. Most bytes of most keys are 0. */
+static inline unsigned key_next(const uint8_t *bytes, unsigned at, unsigned count)
+{
+    for (uint64_t word; at + sizeof word <= count; at += sizeof word) {
+        memcpy(&word, bytes + at, sizeof word);
+        if (word)
+            return at + (unsigned)__builtin_ctzll(word) / 8;
+    }
+    while (at < count && !bytes[at])
+        at++;
+    return at;
+}
 
 /* 64-bit hash of the unit and the packed words (xxHash). */
 uint64_t key_hash(enum unit unit, const struct packed_key *packed);

@@ -109,8 +109,9 @@ static void print_builds(const struct bench *bench)
     puts("\nbuilding routines, all streams");
     table_column(&table, "engine", TABLE_LEFT);
     table_column(&table, "unit", TABLE_LEFT);
-    static const char *const headings[] = {"routines", "by operation", "build us", "min", "max",
-                                           "p99",      "bytes",        "min",      "max"};
+    static const char *const headings[] = {
+        "routines", "by operation", "build us: min", "p10", "median", "p90",
+        "p99",      "max",          "bytes: median", "min", "max"};
     for (size_t i = 0; i < sizeof headings / sizeof *headings; i++)
         table_column(&table, headings[i], TABLE_RIGHT);
     for (unsigned run = 0; run < bench->streams->run_count; run++)
@@ -120,10 +121,12 @@ static void print_builds(const struct bench *bench)
             table_cell(&table, "%s", unit_name[unit]);
             table_cell(&table, "%zu", summary.us.count);
             table_cell(&table, "%zu", summary.by_operation);
-            table_cell(&table, "%.1f", summary.us.median);
             table_cell(&table, "%.1f", summary.us.least);
-            table_cell(&table, "%.1f", summary.us.most);
+            table_cell(&table, "%.1f", summary.us.p10);
+            table_cell(&table, "%.1f", summary.us.median);
+            table_cell(&table, "%.1f", summary.us.p90);
             table_cell(&table, "%.1f", summary.us.p99);
+            table_cell(&table, "%.1f", summary.us.most);
             table_cell(&table, "%.0f", summary.bytes.median);
             table_cell(&table, "%.0f", summary.bytes.least);
             table_cell(&table, "%.0f", summary.bytes.most);
@@ -174,6 +177,8 @@ static cJSON *json_summary(const struct summary *summary)
     cJSON_AddNumberToObject(json, "min", summary->least);
     cJSON_AddNumberToObject(json, "max", summary->most);
     cJSON_AddNumberToObject(json, "deviation", summary->deviation);
+    cJSON_AddNumberToObject(json, "p10", summary->p10);
+    cJSON_AddNumberToObject(json, "p90", summary->p90);
     cJSON_AddNumberToObject(json, "p99", summary->p99);
     return json;
 }

@@ -36,6 +36,12 @@ static double median_distance(const double *sorted, size_t count, double median)
     return count % 2 ? last : (before_last + last) / 2;
 }
 
+/* The nearest rank. */
+static double percentile(const double *sorted, size_t count, size_t percent)
+{
+    return sorted[(count * percent + 99) / 100 - 1];
+}
+
 struct summary summarize(double *values, size_t count)
 {
     if (!count)
@@ -48,6 +54,8 @@ struct summary summarize(double *values, size_t count)
         .least = values[0],
         .most = values[count - 1],
         .deviation = median_distance(values, count, median),
-        .p99 = values[(count * 99 + 99) / 100 - 1],
+        .p10 = percentile(values, count, 10),
+        .p90 = percentile(values, count, 90),
+        .p99 = percentile(values, count, 99),
     };
 }

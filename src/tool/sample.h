@@ -9,11 +9,12 @@
 
 struct summary {
     size_t count; /* 0: all others are 0 */
-    double median, least, most, deviation, p99;
+    double median, least, most, deviation, p10, p90, p99;
 };
 
 /* Sorts `values`. The median of an even number is the mean of the middle two; p99 is the smallest value that
- * at least 99 of 100 do not exceed (nearest rank); deviation is the median of |value - median|. */
+ * at least 99 of 100 do not exceed (nearest rank), p10 and p90 likewise; deviation is the median of |value -
+ * median|. */
 struct summary summarize(double *values, size_t count);
 
 #endif

@@ -42,6 +42,19 @@ static void test_odd_and_even_counts(void)
     TEST_ASSERT_EQUAL_DOUBLE(1.5, summary.deviation); /* of 1 1 2 6 */
 }
 
+static void test_p10_and_p90_are_the_nearest_ranks(void)
+{
+    double values[25];
+    for (int i = 0; i < 25; i++)
+        values[i] = 25 - i;
+    struct summary summary = summarize(values, 25);
+    TEST_ASSERT_EQUAL_DOUBLE(3, summary.p10);
+    TEST_ASSERT_EQUAL_DOUBLE(23, summary.p90);
+    summary = summarize(values, 1);
+    TEST_ASSERT_EQUAL_DOUBLE(1, summary.p10);
+    TEST_ASSERT_EQUAL_DOUBLE(1, summary.p90);
+}
+
 static void test_p99_is_the_nearest_rank(void)
 {
     double values[200];
@@ -75,6 +88,7 @@ int main(void)
     RUN_TEST(test_one_value_is_its_own_summary);
     RUN_TEST(test_odd_and_even_counts);
     RUN_TEST(test_p99_is_the_nearest_rank);
+    RUN_TEST(test_p10_and_p90_are_the_nearest_ranks);
     RUN_TEST(test_deviation_is_the_median_of_the_distances);
     return UNITY_END();
 }
