@@ -1,6 +1,7 @@
 #include "stream/mesh.h"
 
 #include "stream/layout.h"
+#include "stream/place.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -100,30 +101,8 @@ static void set_normal(struct mesh_vertex *vertex, const double normal[3])
         vertex->normal[i] = length > 0 ? (float)(normal[i] / length) : (float)(i == 2);
 }
 
-struct place {
-    float position[3];
-    uint32_t vertex;
-};
-
-static int compare_positions(const struct place *a, const struct place *b)
-{
-    for (int i = 0; i < 3; i++)
-        if (a->position[i] != b->position[i])
-            return a->position[i] < b->position[i] ? -1 : 1;
-    return 0;
-}
-
-static int compare_places(const void *left, const void *right)
-{
-    const struct place *a = left, *b = right;
-    int order = compare_positions(a, b);
-    if (order)
-        return order;
-    return a->vertex < b->vertex ? -1 : a->vertex > b->vertex;
-}
-
-/* The vertices without a normal, sorted by position. Returns how many. */
-static uint32_t sort_places(const struct mesh *mesh, struct place *places)
+/* The vertices without a normal. Returns how many. */
+static uint32_t collect_places(const struct mesh *mesh, struct place *places)
 {
     uint32_t count = 0;
     for (uint32_t v = 0; v < mesh->vertex_count; v++)
@@ -131,18 +110,15 @@ static uint32_t sort_places(const struct mesh *mesh, struct place *places)
             memcpy(places[count].position, mesh->vertices[v].position, sizeof places->position);
             places[count++].vertex = v;
         }
-    qsort(places, count, sizeof *places, compare_places);
     return count;
 }
 
 /* group[v]: the first vertex at the position of v, for those without a normal; v itself for the others. */
-static void group_places(const struct mesh *mesh, const struct place *places, uint32_t count, uint32_t *group)
+static void group_vertices(const struct mesh *mesh, struct place *places, uint32_t count, uint32_t *group)
 {
     for (uint32_t v = 0; v < mesh->vertex_count; v++)
         group[v] = v;
-    for (uint32_t i = 1; i < count; i++)
-        if (!compare_positions(&places[i], &places[i - 1]))
-            group[places[i].vertex] = group[places[i - 1].vertex];
+    place_group(places, count, group);
 }
 
 static int make_smooth_normals(struct mesh *mesh)
@@ -151,9 +127,9 @@ static int make_smooth_normals(struct mesh *mesh)
     uint32_t *group = malloc(mesh->vertex_count * sizeof *group);
     double(*sum)[3] = calloc(mesh->vertex_count, sizeof *sum);
     int good = places && group && sum;
-    uint32_t count = good ? sort_places(mesh, places) : 0;
+    uint32_t count = good ? collect_places(mesh, places) : 0;
     if (count)
-        group_places(mesh, places, count, group);
+        group_vertices(mesh, places, count, group);
     for (uint32_t i = 0; count && i < mesh->index_count; i += 3) {
         double normal[3];
         face_normal(mesh, mesh->indices + i, normal);

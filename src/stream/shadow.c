@@ -6,6 +6,7 @@
  * ones included. Corners count as one where their positions are equal, for texture seams and creases split
  * them. */
 #include "stream/mesh.h"
+#include "stream/place.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -37,26 +38,6 @@ static uint32_t index_of(const struct caster *caster, uint32_t i)
                                                  : ((const uint32_t *)mesh->indices)[i]];
 }
 
-struct place {
-    float position[3];
-    uint32_t vertex;
-};
-
-static int compare_positions(const struct place *a, const struct place *b)
-{
-    for (int i = 0; i < 3; i++)
-        if (a->position[i] != b->position[i])
-            return a->position[i] < b->position[i] ? -1 : 1;
-    return 0;
-}
-
-static int compare_places(const void *left, const void *right)
-{
-    const struct place *a = left, *b = right;
-    int order = compare_positions(a, b);
-    return order ? order : (a->vertex > b->vertex) - (a->vertex < b->vertex);
-}
-
 static int join_corners(struct caster *caster)
 {
     uint32_t count = caster->mesh->vertex_count;
@@ -67,11 +48,7 @@ static int join_corners(struct caster *caster)
         memcpy(places[v].position, position_of(caster, v), sizeof places->position);
         places[v].vertex = v;
     }
-    qsort(places, count, sizeof *places, compare_places);
-    for (uint32_t i = 0; i < count; i++)
-        caster->corner[places[i].vertex] = i && !compare_positions(&places[i], &places[i - 1])
-                                               ? caster->corner[places[i - 1].vertex]
-                                               : places[i].vertex;
+    place_group(places, count, caster->corner);
     free(places);
     return 0;
 }
