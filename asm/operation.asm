@@ -202,6 +202,16 @@ fragment scatter, FRAME | JOB, NOTHING, R_AX | R_CX | R_DX
     %endrep
 end_fragment
 
+; One slot to another.
+unary copy, vmovaps
+
+; Jumps back as long as a lane of the mask is set.
+fragment again, FRAME, NOTHING, M(0)
+    fill 0,       vmovaps         m0, [frame]
+                vtestps         m0, m0
+    jump 1,     jnz
+end_fragment
+
 ; Jumps when no lane of the mask is set.
 fragment when, FRAME, NOTHING, M(0)
     fill 0,       vmovaps         m0, [frame]

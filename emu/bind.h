@@ -22,8 +22,16 @@ typedef struct {
     int32_t lane[EMULATE_WIDTH]; /* 0 or -1 */
 } msk;
 
+union variable {
+    flt f;
+    itg i;
+    msk m;
+};
+
 struct env {
     const uint8_t *base[BASE_COUNT];
+    const struct program *program; /* of the shader, if the key has one */
+    union variable variable[VARIABLES];
 };
 
 #define E e
@@ -202,6 +210,36 @@ static inline void scatter_f(struct env *e, enum base base, int offset, int stri
     scatter_i(e, base, offset, stride, bits_i(e, value));
 }
 
+static inline flt get_f(struct env *e, int variable)
+{
+    return e->variable[variable].f;
+}
+
+static inline itg get_i(struct env *e, int variable)
+{
+    return e->variable[variable].i;
+}
+
+static inline msk get_m(struct env *e, int variable)
+{
+    return e->variable[variable].m;
+}
+
+static inline void set_f(struct env *e, int variable, flt value)
+{
+    e->variable[variable].f = value;
+}
+
+static inline void set_i(struct env *e, int variable, itg value)
+{
+    e->variable[variable].i = value;
+}
+
+static inline void set_m(struct env *e, int variable, msk value)
+{
+    e->variable[variable].m = value;
+}
+
 static inline int any_lane(msk mask)
 {
     return (mask.lane[0] | mask.lane[1] | mask.lane[2] | mask.lane[3]) != 0;
@@ -209,5 +247,8 @@ static inline int any_lane(msk mask)
 
 /* The body runs when any lane of the mask is set. */
 #define WHEN(e, mask) if (any_lane(mask))
+
+/* The body runs once, and again while any lane of the variable, a mask, is set. */
+#define LOOP(e, variable) for (int again_ = 1; again_; again_ = any_lane(get_m(e, variable)))
 
 #endif

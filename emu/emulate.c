@@ -15,7 +15,7 @@ static void emulate_vertex(const void *arguments, const struct routine *routine)
 {
     const struct vertex_call *call = arguments;
     unsigned saved = mxcsr_enter();
-    struct env e = {{0}};
+    struct env e;
     e.base[BASE_JOB] = (const uint8_t *)call->job;
     for (uint32_t i = 0; i < call->count; i += EMULATE_WIDTH) {
         e.base[BASE_INPUT] = (const uint8_t *)(call->index + i);
@@ -31,7 +31,7 @@ static void emulate_setup(const void *arguments, const struct routine *routine)
     const struct setup_key *key = &routine->key.setup;
     unsigned saved = mxcsr_enter();
     size_t stride = setup_layout(key).stride;
-    struct env e = {{0}};
+    struct env e;
     e.base[BASE_JOB] = (const uint8_t *)call->job;
     e.base[BASE_VERTICES] = (const uint8_t *)call->vertices;
     for (uint32_t i = 0; i < call->count; i += EMULATE_WIDTH) {
@@ -62,7 +62,7 @@ static void emulate_pixel(const void *arguments, const struct routine *routine)
 {
     const struct pixel_call *call = arguments;
     unsigned saved = mxcsr_enter();
-    struct env e = {{0}};
+    struct env e;
     e.base[BASE_JOB] = (const uint8_t *)call->job;
     for (uint32_t i = 0; i < call->count; i++)
         emulate_block(&e, call, call->entries + i, &routine->key.pixel);

@@ -26,6 +26,9 @@ enum {
     QUAD_LOWER = 2 | 3 << 2 | 2 << 4 | 3 << 6
 };
 
+/* Variables of the language, for what leaves a WHEN or goes around a LOOP: numbers below this. */
+enum { VARIABLES = 512 };
+
 /* In place of a pointer field: the gather starts from the base itself. */
 enum { GATHER_DIRECT = -1 };
 

@@ -10,7 +10,7 @@
 #ifndef JIT_ALLOCATE_H
 #define JIT_ALLOCATE_H
 
-#include "jit/ir.h"
+#include "ir/ir.h"
 
 enum {
     ALLOCATABLE = 13, /* vector registers 0 to 12 */

@@ -6,7 +6,7 @@
 #ifndef JIT_PASS_H
 #define JIT_PASS_H
 
-#include "jit/ir.h"
+#include "ir/ir.h"
 
 enum pass {
 #define PASS(name, profile, meaning) PASS_##name,

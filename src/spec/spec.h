@@ -2,7 +2,8 @@
  *
  * A binding provides: the lane types flt, itg, fix and msk; struct env; E, which is the env at the current
  * source line; every operation of def/op.def; lit_f lit_i lit_x lit_m; load_, store_, uniform_, gather_ and
- * scatter_ for _f and _i; WHEN. None of these files has an include guard and none includes anything: they are
+ * scatter_ for _f and _i; WHEN and LOOP; get_ and set_ for _f, _i and _m, of the variables that values leave
+ * regions by. None of these files has an include guard and none includes anything: they are
  * read once per engine, each time in another sense. */
 #include "spec/fetch.h"
 #include "spec/transcendental.h"

@@ -27,6 +27,9 @@ typedef struct {
 
 struct env {
     struct plan *plan;
+    const struct program *program; /* of the shader, if the key has one */
+    int32_t variable[VARIABLES];   /* the slot of each variable that is used, plus 1 */
+    int variables;                 /* how many are used */
     int32_t frame_bytes;
     const char *file; /* where in the spec the operation being appended stands */
     int line;
@@ -220,6 +223,69 @@ static inline int when_end(struct env *e, int part)
     plan_land(e->plan, (unsigned)part, 1);
     return -1;
 }
+
+/* --- Variables: slots that many parts write ---------------------------------------------------------------
+ */
+
+static inline int32_t variable_slot(struct env *e, int variable)
+{
+    if (!e->variable[variable]) {
+        e->variable[variable] = e->frame_bytes + 1;
+        e->frame_bytes += SLOT_BYTES;
+        e->variables++;
+    }
+    return e->variable[variable] - 1;
+}
+
+static inline int32_t variable_get(struct env *e, int variable)
+{
+    return append_value(e, &fragment_copy, (struct arguments){{0, variable_slot(e, variable)}}, 0);
+}
+
+static inline void variable_set(struct env *e, int variable, int32_t slot)
+{
+    append(e, &fragment_copy, (struct arguments){{variable_slot(e, variable), slot}}, 0);
+}
+
+static inline flt get_f(struct env *e, int variable)
+{
+    return (flt){variable_get(e, variable)};
+}
+
+static inline itg get_i(struct env *e, int variable)
+{
+    return (itg){variable_get(e, variable)};
+}
+
+static inline msk get_m(struct env *e, int variable)
+{
+    return (msk){variable_get(e, variable)};
+}
+
+static inline void set_f(struct env *e, int variable, flt value)
+{
+    variable_set(e, variable, value.slot);
+}
+
+static inline void set_i(struct env *e, int variable, itg value)
+{
+    variable_set(e, variable, value.slot);
+}
+
+static inline void set_m(struct env *e, int variable, msk value)
+{
+    variable_set(e, variable, value.slot);
+}
+
+static inline int loop_end(struct env *e, int variable, int first)
+{
+    append(e, &fragment_again, (struct arguments){{variable_slot(e, variable), first}}, 0);
+    return -1;
+}
+
+/* The body is appended once; behind it stands the jump back to its first part. */
+#define LOOP(e, variable)                                                                                    \
+    for (int loop_ = (int)(e)->plan->count; loop_ >= 0; loop_ = loop_end(e, variable, loop_))
 
 #define WHEN(e, mask) for (int when_ = when_begin(e, mask); when_ >= 0; when_ = when_end(e, when_))
 

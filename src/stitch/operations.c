@@ -11,7 +11,7 @@ void plan_operations(struct plan *plan, enum unit unit, const union key *key)
     case UNIT_SETUP: spec_setup(&e, &key->setup); break;
     default: spec_pixel(&e, &key->pixel);
     }
-    if (e.frame_bytes > UNSHARED_BYTES)
+    if (e.frame_bytes > UNSHARED_BYTES && !e.variables)
         e.frame_bytes = plan_share_slots(plan, e.frame_bytes);
     plan_leave(plan, unit, key, &loop, e.frame_bytes);
 }

@@ -3,7 +3,7 @@
  * expressions rest on. */
 #include "base/mxcsr.h"
 #include "emu/bind.h"
-#include "jit/ir.h"
+#include "ir/ir.h"
 #include "tests/support/edges.h"
 #include "unity.h"
 

@@ -2,10 +2,10 @@
  *
  * Host control flow over the key has run its course when recording ends: what is recorded is the pipeline for
  * this one key. E notes the spec's file and line, so that every instruction knows the words that made it. */
-#ifndef JIT_BIND_H
-#define JIT_BIND_H
+#ifndef IR_BIND_H
+#define IR_BIND_H
 
-#include "jit/ir.h"
+#include "ir/ir.h"
 
 #include <string.h>
 
@@ -24,7 +24,8 @@ typedef struct {
 
 struct env {
     struct ir *ir;
-    const char *path; /* of the current spec file */
+    const struct program *program; /* of the shader, if the key has one */
+    const char *path;              /* of the current spec file */
     uint8_t file;
     uint16_t line;
 };
@@ -188,6 +189,57 @@ static inline void scatter_i(struct env *e, enum base base, int offset, int stri
 {
     record_memory(e, IR_scatter, TYPE_non, value.id, base, offset, stride, 0);
 }
+
+static inline uint16_t record_get(struct env *e, enum ir_type type, int variable)
+{
+    return record(e, IR_get, type, 0, 0, 0, variable);
+}
+
+static inline void record_set(struct env *e, int variable, uint16_t value)
+{
+    record(e, IR_set, TYPE_non, value, 0, 0, variable);
+}
+
+static inline flt get_f(struct env *e, int variable)
+{
+    return (flt){record_get(e, TYPE_flt, variable)};
+}
+
+static inline itg get_i(struct env *e, int variable)
+{
+    return (itg){record_get(e, TYPE_itg, variable)};
+}
+
+static inline msk get_m(struct env *e, int variable)
+{
+    return (msk){record_get(e, TYPE_msk, variable)};
+}
+
+static inline void set_f(struct env *e, int variable, flt value)
+{
+    record_set(e, variable, value.id);
+}
+
+static inline void set_i(struct env *e, int variable, itg value)
+{
+    record_set(e, variable, value.id);
+}
+
+static inline void set_m(struct env *e, int variable, msk value)
+{
+    record_set(e, variable, value.id);
+}
+
+/* Ends the loop that LOOP is here, so that its body is recorded once. */
+static inline int record_again(struct env *e, int variable)
+{
+    msk mask = get_m(e, variable);
+    record(e, IR_again, TYPE_non, mask.id, 0, 0, 0);
+    return 0;
+}
+
+#define LOOP(e, variable)                                                                                    \
+    for (int once_ = (record(e, IR_loop, TYPE_non, 0, 0, 0, 0), 1); once_; once_ = record_again(e, variable))
 
 /* The region's body is recorded once. */
 #define WHEN(e, mask)                                                                                        \

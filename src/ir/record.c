@@ -1,5 +1,5 @@
 /* Recording: the spec read with the recorder's binding. */
-#include "jit/bind.h"
+#include "ir/bind.h"
 
 #include "spec/spec.h"
 

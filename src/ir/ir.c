@@ -1,4 +1,4 @@
-#include "jit/ir.h"
+#include "ir/ir.h"
 
 #include <string.h>
 
@@ -28,8 +28,12 @@ const struct ir_op_information ir_op_information[IR_OP_COUNT] = {
     [IR_gather] = {"gather", TYPE_non, {TYPE_itg}, 1, IR_READS},
     [IR_store] = {"store", TYPE_non, {0}, 1, IR_EFFECT},
     [IR_scatter] = {"scatter", TYPE_non, {0}, 1, IR_EFFECT},
-    [IR_when] = {"when", TYPE_non, {TYPE_msk}, 1, IR_EFFECT},
-    [IR_end] = {"end", TYPE_non, {0}, 0, IR_EFFECT},
+    [IR_when] = {"when", TYPE_non, {TYPE_msk}, 1, IR_EFFECT | IR_OPENS},
+    [IR_end] = {"end", TYPE_non, {0}, 0, IR_EFFECT | IR_CLOSES},
+    [IR_loop] = {"loop", TYPE_non, {0}, 0, IR_EFFECT | IR_OPENS},
+    [IR_again] = {"again", TYPE_non, {TYPE_msk}, 1, IR_EFFECT | IR_CLOSES},
+    [IR_set] = {"set", TYPE_non, {0}, 1, IR_EFFECT},
+    [IR_get] = {"get", TYPE_non, {0}, 0, 0},
     [IR_constant] = {"constant", TYPE_non, {0}, 0, 0},
     [IR_permute] = {"permute", TYPE_flt, {TYPE_flt}, 1, IR_SHIFTS},
 };
@@ -86,7 +90,7 @@ void ir_compact(struct ir *ir, uint16_t *map)
 
 /* Innermost open region while walking, and which regions are open. */
 struct walk {
-    uint16_t region[IR_CAPACITY]; /* of each value: the `when` it is inside of */
+    uint16_t region[IR_CAPACITY]; /* of each value: the `when` or `loop` it is inside of */
     uint16_t parent[IR_CAPACITY];
     uint8_t open[IR_CAPACITY];
     uint16_t current;
@@ -127,13 +131,14 @@ const char *ir_verify(const struct ir *ir)
         if (wrong)
             return wrong;
         walk.region[number] = walk.current;
-        if (i->op == IR_when) {
+        if (ir_op_information[i->op].properties & IR_OPENS) {
             walk.parent[number] = walk.current;
             walk.current = (uint16_t)number;
             walk.open[number] = 1;
-        } else if (i->op == IR_end) {
-            if (!walk.current)
-                return snprintf(text, sizeof text, "instruction %u: end without when", number), text;
+        } else if (ir_op_information[i->op].properties & IR_CLOSES) {
+            if (ir->instruction[walk.current].op != (i->op == IR_end ? IR_when : IR_loop))
+                return snprintf(text, sizeof text, "instruction %u: ends no region of its kind", number),
+                       text;
             walk.open[walk.current] = 0;
             walk.current = walk.parent[walk.current];
         }
@@ -176,6 +181,8 @@ void ir_print_instruction(const struct ir *ir, uint32_t number, FILE *out)
         print_memory(i, out);
     else if (information->properties & IR_SHIFTS || i->op == IR_constant)
         fprintf(out, " %d", (int)i->k);
+    else if (i->op == IR_set || i->op == IR_get)
+        fprintf(out, " variable %d", (int)i->k);
     if (i->line)
         fprintf(out, "    ; %s:%u", ir->file[i->file], i->line);
     fputc('\n', out);

@@ -1,9 +1,13 @@
-/* The specializer's intermediate representation: one flat array of instructions in SSA form.
+/* The intermediate representation that the specializer compiles, the batch interpreter runs and the external
+ * engine prints: one flat array of instructions in SSA form, and variables where control flow joins.
  *
  * An instruction's number is its index, and the number of the value it defines; 0 is no value. Operands are
- * defined before they are used. There is one loop, outside of it all (the frame around the body: frame.c),
- * and forward regions `when mask ... end` inside, which are skipped when no lane of the mask is set; a value
- * defined in a region is used in that region only, so no merge is needed. Regions nest.
+ * defined before they are used. The loop over what a call lists is outside of it all. Inside are regions:
+ * `when mask ... end`, skipped when no lane of the mask is set, and `loop ... again mask`, run once and again
+ * as long as a lane of the mask is set. Regions nest. A value defined in a region is used in that region
+ * only, inner regions included; what leaves one, or goes from one pass of a loop to the next, goes through a
+ * variable: `set` gives it all lanes of a value, `get` is a value of its own, what the variable holds at that
+ * place. A variable holds nothing until it is set, and nothing from one chunk of lanes to the next.
  *
  * Opcodes are the rows of def/op.def, and these:
  *   copy a                      the same bits (the casts)
@@ -14,11 +18,13 @@
  *   store a base k              the lanes' consecutive words to base + k
  *   scatter a base k field      lane l's word to base + k + l * field
  *   when a, end                 a region
+ *   loop, again a               a loop; `a` is defined before or in it
+ *   set a k, get k              variable k, below VARIABLES; all its sets and gets have one type
  *   constant k                  slot k of the frame's constants, filled before the loop (hoist.c)
  *   permute a k                 lanes change places within each four: lane l takes lane (k >> 2 * l) & 3
  * The number of lanes appears nowhere here: the same recording serves every W. */
-#ifndef JIT_IR_H
-#define JIT_IR_H
+#ifndef IR_IR_H
+#define IR_IR_H
 
 #include "def/binding.h"
 
@@ -44,6 +50,10 @@ enum ir_op {
     IR_scatter,
     IR_when,
     IR_end,
+    IR_loop,
+    IR_again,
+    IR_set,
+    IR_get,
     IR_constant,
     IR_permute,
     IR_OP_COUNT
@@ -53,7 +63,9 @@ enum ir_property {
     IR_COMMUTES = 1, /* a and b may change places */
     IR_EFFECT = 2,   /* not a value: memory or control */
     IR_READS = 4,    /* reads memory */
-    IR_SHIFTS = 8    /* takes the staged immediate k */
+    IR_SHIFTS = 8,   /* takes the staged immediate k */
+    IR_OPENS = 16,   /* begins a region */
+    IR_CLOSES = 32   /* ends one */
 };
 
 struct ir_op_information {

@@ -1,6 +1,6 @@
 /* One lane of one operation, straight from the table's expressions: constant folding and the tests use it. */
 #include "def/lane.h"
-#include "jit/ir.h"
+#include "ir/ir.h"
 
 typedef float value_flt;
 typedef int32_t value_itg;
