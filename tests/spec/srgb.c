@@ -43,7 +43,7 @@ static void expect_code(struct env *e, float value, int code)
 static void test_encoding_is_correctly_rounded(void)
 {
     struct job job = {.srgb = &srgb_tables};
-    struct env e = {{0}};
+    static struct env e;
     unsigned saved = mxcsr_enter();
     e.base[BASE_JOB] = (const uint8_t *)&job;
     for (int code = 1; code < 256; code++) {

@@ -21,7 +21,7 @@ void tearDown(void)
 
 static float evaluate(flt function(struct env *, flt), float x)
 {
-    struct env e = {{0}};
+    static struct env e;
     return function(&e, lit_f(&e, x)).lane[EMULATE_WIDTH - 1];
 }
 
@@ -81,7 +81,7 @@ static void logarithms_of_powers_are_exact(void)
 
 static void powers_are_within_their_bound(void)
 {
-    struct env e = {{0}};
+    static struct env e;
     for (int i = 1; i <= 1000; i++)
         for (int j = 0; j <= 400; j++) {
             float x = (float)i / 1000, y = (float)(j * j) / 300;

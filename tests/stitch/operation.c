@@ -168,7 +168,7 @@ static void compare_lanes(const struct operation *operation, int result, const u
 
 static void try_operation(const struct operation *operation, int result)
 {
-    struct env e = {{0}};
+    static struct env e;
     uint32_t before[OPERANDS * WIDTH];
     struct code_span span;
     int k = operation->shifts ? (int)(random_word() % (uint32_t)operation->shifts) : 0;
