@@ -28,7 +28,6 @@ check "shaders know tables and the base" src/shader base/ def/ shader/
 check "the renderer includes no engine" src/draw base/ def/ draw/ shader/ triptych.h
 check "the recording includes no engine" src/ir ir/ base/ def/ draw/ shader/program.h spec/
 check "the emulator and the batch interpreter include no other engine" emu emu/ ir/ base/ def/ draw/ shader/program.h spec/
-check "the external engine includes no other engine" src/external external/ ir/ base/ def/ draw/ shader/program.h spec/
 check "the stitcher includes no other engine" src/stitch stitch/ base/ def/ draw/ shader/program.h spec/
 check "the specializer includes no other engine" src/jit jit/ ir/ base/ def/ draw/ shader/program.h spec/
 
