@@ -195,9 +195,9 @@ static inline uint16_t record_get(struct env *e, enum ir_type type, int variable
     return record(e, IR_get, type, 0, 0, 0, variable);
 }
 
-static inline void record_set(struct env *e, int variable, uint16_t value)
+static inline void record_set(struct env *e, enum ir_type type, int variable, uint16_t value)
 {
-    record(e, IR_set, TYPE_non, value, 0, 0, variable);
+    record(e, IR_set, type, value, 0, 0, variable);
 }
 
 static inline flt get_f(struct env *e, int variable)
@@ -217,17 +217,17 @@ static inline msk get_m(struct env *e, int variable)
 
 static inline void set_f(struct env *e, int variable, flt value)
 {
-    record_set(e, variable, value.id);
+    record_set(e, TYPE_flt, variable, value.id);
 }
 
 static inline void set_i(struct env *e, int variable, itg value)
 {
-    record_set(e, variable, value.id);
+    record_set(e, TYPE_itg, variable, value.id);
 }
 
 static inline void set_m(struct env *e, int variable, msk value)
 {
-    record_set(e, variable, value.id);
+    record_set(e, TYPE_msk, variable, value.id);
 }
 
 /* Ends the loop that LOOP is here, so that its body is recorded once. */

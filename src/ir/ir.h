@@ -19,7 +19,7 @@
  *   scatter a base k field      lane l's word to base + k + l * field
  *   when a, end                 a region
  *   loop, again a               a loop; `a` is defined before or in it
- *   set a k, get k              variable k, below VARIABLES; all its sets and gets have one type
+ *   set a k, get k              variable k, below VARIABLES; all its sets and gets have its type
  *   constant k                  slot k of the frame's constants, filled before the loop (hoist.c)
  *   permute a k                 lanes change places within each four: lane l takes lane (k >> 2 * l) & 3
  * The number of lanes appears nowhere here: the same recording serves every W. */
@@ -81,7 +81,7 @@ extern const struct ir_op_information ir_op_information[IR_OP_COUNT];
 
 struct ir_instruction {
     uint8_t op;   /* enum ir_op */
-    uint8_t type; /* enum ir_type of the value */
+    uint8_t type; /* enum ir_type of the value; of a set, the variable's */
     uint8_t base; /* enum base */
     uint8_t scale;
     uint16_t operand[3];
@@ -102,7 +102,9 @@ struct ir_constant {
 };
 
 struct ir {
-    uint32_t count; /* instruction 0 is a nop */
+    uint32_t count;     /* instruction 0 is a nop */
+    uint32_t loops;     /* so many were recorded */
+    uint32_t variables; /* those set or got are below this */
     uint32_t file_count;
     uint32_t constant_count;
     int overflow; /* more than IR_CAPACITY instructions were recorded: the routine cannot be built */
@@ -123,7 +125,8 @@ int ir_is_invariant_read(const struct ir_instruction *instruction);
 /* Removes nops and renumbers. `map` is scratch of IR_CAPACITY entries. */
 void ir_compact(struct ir *ir, uint16_t *map);
 
-/* Checks that operands are defined before use, in an open region, of the right type, and that regions nest.
+/* Checks that operands are defined before use, in an open region, that regions nest, that all sets and gets
+ * of a variable have one type, and that every get is reached by a set whichever way control takes.
  * Returns null, or one line that says what is wrong (static storage: for one thread at a time). */
 const char *ir_verify(const struct ir *ir);
 

@@ -7,6 +7,7 @@ struct scan {
     const struct ir *ir;
     struct allocation *allocation;
     unsigned registers;
+    unsigned loop;                /* the innermost around the position */
     uint16_t holder[ALLOCATABLE]; /* 0: free */
 };
 
@@ -37,9 +38,50 @@ int allocate_rematerializes(const struct ir_instruction *instruction)
     return (instruction->op == IR_uniform || instruction->op == IR_load) && ir_is_invariant_read(instruction);
 }
 
+/* Numbers the loops from 1 in the order of their heads. */
+static void find_loops(const struct ir *ir, struct allocation *a)
+{
+    uint16_t count = 0, current = 0;
+    for (uint32_t number = 1; number < ir->count; number++) {
+        unsigned op = ir->instruction[number].op;
+        if (op == IR_loop) {
+            a->loop[++count] = (struct loop_extent){.head = (uint16_t)number, .outer = current};
+            a->loop_at[number] = current = count;
+        } else if (op == IR_again) {
+            a->loop_at[number] = current;
+            a->loop[current].again = (uint16_t)number;
+            current = a->loop[current].outer;
+        }
+    }
+}
+
+/* The outermost of the loops around loop `inner`, itself included, that a value is defined before; 0: none. */
+static unsigned loop_entered_with(const struct allocation *a, unsigned value, unsigned inner)
+{
+    unsigned entered = 0;
+    for (unsigned loop = inner; loop && a->loop[loop].head > value; loop = a->loop[loop].outer)
+        entered = loop;
+    return entered;
+}
+
 static int defines_value(const struct ir_instruction *i)
 {
     return i->op != IR_nop && !(ir_op_information[i->op].properties & IR_EFFECT);
+}
+
+/* What the next pass of a loop reads again lives to the loop's end. */
+static uint16_t end_of_life(const struct allocation *a, unsigned value, uint32_t use, unsigned loop)
+{
+    unsigned entered = loop_entered_with(a, value, loop);
+    return entered ? a->loop[entered].again : (uint16_t)use;
+}
+
+static unsigned follow_loop_back(const struct allocation *a, const struct ir_instruction *i, uint32_t number,
+                                 unsigned loop)
+{
+    if (i->op == IR_again)
+        return a->loop_at[number];
+    return i->op == IR_loop ? a->loop[loop].outer : loop;
 }
 
 /* Backward: the chain of uses, their number, and each value's first and last. */
@@ -48,9 +90,11 @@ static void chain_uses(const struct ir *ir, struct allocation *a)
     memset(a->next_use, 0, ir->count * sizeof a->next_use[0]);
     memset(a->last, 0, ir->count * sizeof a->last[0]);
     memset(a->uses, 0, ir->count * sizeof a->uses[0]);
+    unsigned loop = 0;
     for (uint32_t number = ir->count - 1; number > 0; number--) {
         const struct ir_instruction *i = &ir->instruction[number];
         uint16_t after[3];
+        loop = follow_loop_back(a, i, number, loop);
         for (int o = 0; o < 3; o++)
             after[o] = a->next_use[i->operand[o]];
         for (int o = 0; o < 3; o++) {
@@ -61,7 +105,7 @@ static void chain_uses(const struct ir *ir, struct allocation *a)
             a->next_use[value] = (uint16_t)number;
             a->uses[value]++;
             if (!a->last[value])
-                a->last[value] = (uint16_t)number;
+                a->last[value] = end_of_life(a, value, number, loop);
         }
     }
 }
@@ -74,7 +118,7 @@ static int stays_in_memory(const struct ir *ir, const struct allocation *a, uint
         return 1;
     if (i->op != IR_load || !ir_is_invariant_read(i) || a->uses[number] != 1)
         return 0;
-    const struct ir_instruction *user = &ir->instruction[a->last[number]];
+    const struct ir_instruction *user = &ir->instruction[a->next_use[number]];
     for (int o = 0; o < 3; o++)
         if (user->operand[o] == number)
             return allocate_folds(user, o);
@@ -124,6 +168,21 @@ static void advance(struct scan *scan, uint32_t number)
     const struct ir_instruction *i = &scan->ir->instruction[number];
     for (int o = 0; o < 3; o++)
         scan->allocation->next_use[i->operand[o]] = scan->allocation->next[number][o];
+    if (scan->loop)
+        for (int o = 0; o < 3; o++)
+            scan->allocation->recent[i->operand[o]] = (uint16_t)number;
+}
+
+/* The position at which a value is used next. The uses that it had in this pass of a loop, it has again in the
+ * next: they are at the loop's end, seen from here. */
+static unsigned next_use(const struct scan *scan, unsigned value)
+{
+    const struct allocation *a = scan->allocation;
+    unsigned next = a->next_use[value];
+    for (unsigned l = scan->loop; l && a->loop[l].head > value; l = a->loop[l].outer)
+        if (a->recent[value] > a->loop[l].head)
+            return next && next < a->loop[l].again ? next : a->loop[l].again;
+    return next;
 }
 
 static unsigned furthest(const struct scan *scan, const struct ir_instruction *i)
@@ -132,17 +191,20 @@ static unsigned furthest(const struct scan *scan, const struct ir_instruction *i
     for (unsigned reg = 0; reg < scan->registers; reg++) {
         if (is_operand(i, scan->holder[reg]))
             continue;
-        if (victim == NO_REGISTER ||
-            scan->allocation->next_use[scan->holder[reg]] > scan->allocation->next_use[scan->holder[victim]])
+        if (victim == NO_REGISTER || next_use(scan, scan->holder[reg]) > next_use(scan, scan->holder[victim]))
             victim = reg;
     }
     return victim;
 }
 
+/* A value that came into a loop and leaves its register there is in memory in the whole loop: the next pass
+ * comes to what stands before this position, too. */
 static void spill(struct scan *scan, unsigned value, uint32_t position)
 {
-    scan->allocation->split[value] = (uint16_t)position;
-    scan->allocation->spills++;
+    struct allocation *a = scan->allocation;
+    unsigned entered = loop_entered_with(a, value, scan->loop);
+    a->split[value] = entered ? a->loop[entered].head : (uint16_t)position;
+    a->spills++;
 }
 
 /* A register for the result of `number`: the preferred one, a free one, or that of the value used furthest
@@ -156,7 +218,7 @@ static void place(struct scan *scan, uint32_t number, unsigned preferred)
             reg = r;
     if (reg == NO_REGISTER) {
         reg = furthest(scan, &scan->ir->instruction[number]);
-        if (reg == NO_REGISTER || a->next_use[scan->holder[reg]] < a->next_use[number]) {
+        if (reg == NO_REGISTER || next_use(scan, scan->holder[reg]) < a->next_use[number]) {
             a->reg[number] = SCRATCH_RESULT;
             spill(scan, number, number);
             return;
@@ -165,6 +227,20 @@ static void place(struct scan *scan, uint32_t number, unsigned preferred)
     }
     scan->holder[reg] = (uint16_t)number;
     a->reg[number] = (uint8_t)reg;
+}
+
+/* At a loop's end, what only its next pass could have used is not needed any more. */
+static void cross_loop(struct scan *scan, const struct ir_instruction *i, uint32_t number)
+{
+    const struct allocation *a = scan->allocation;
+    if (i->op == IR_loop)
+        scan->loop = a->loop_at[number];
+    if (i->op != IR_again)
+        return;
+    scan->loop = a->loop[scan->loop].outer;
+    for (unsigned reg = 0; reg < scan->registers; reg++)
+        if (a->last[scan->holder[reg]] == number)
+            scan->holder[reg] = 0;
 }
 
 /* A gather's result must not share a register with its index. */
@@ -184,6 +260,7 @@ static void scan_instruction(struct scan *scan, uint32_t number)
         place(scan, number, preferred);
     if (keeps_operands(i))
         release(scan, number);
+    cross_loop(scan, i, number);
 }
 
 /* The slots whose value was used last at `position` are free from now on. */
@@ -235,6 +312,10 @@ void allocate(const struct ir *ir, struct allocation *allocation, unsigned regis
 {
     struct scan scan = {.ir = ir, .allocation = allocation, .registers = registers};
     allocation->spills = 0;
+    if (ir->loops) {
+        find_loops(ir, allocation);
+        memset(allocation->recent, 0, ir->count * sizeof allocation->recent[0]);
+    }
     chain_uses(ir, allocation);
     classify(ir, allocation);
     for (uint32_t number = 1; number < ir->count; number++)

@@ -20,7 +20,13 @@ enum {
     NO_REGISTER = 255,
     NO_SLOT = 0xffff,
     NEVER = 0xffff,
-    SLOT_WORDS = IR_CAPACITY / 64 + 1
+    SLOT_WORDS = IR_CAPACITY / 64 + 1,
+    LOOP_CAPACITY = IR_CAPACITY / 2 + 1 /* any routine's */
+};
+
+/* A loop of the routine: where it begins and ends, and the loop around it, 0: none. Outer ones come first. */
+struct loop_extent {
+    uint16_t head, again, outer;
 };
 
 enum residence {
@@ -35,13 +41,16 @@ struct allocation {
     uint16_t split[IR_CAPACITY]; /* at positions after this the value is in memory; NEVER */
     uint16_t
         slot[IR_CAPACITY]; /* its spill slot, NO_SLOT when memory holds it already or it is not spilled */
-    uint16_t last[IR_CAPACITY]; /* last use; 0 when there is none */
+    uint16_t last[IR_CAPACITY]; /* last position at which it is alive; 0 when it is not used */
     uint32_t uses[IR_CAPACITY];
     uint16_t next[IR_CAPACITY][3]; /* the use after this one of the same value, 0: this is the last */
     uint16_t next_use[IR_CAPACITY];
     uint16_t expiring[IR_CAPACITY]; /* the value whose slot is free behind a position, 0: none; then the next
                                        such */
     uint16_t expiring_next[IR_CAPACITY];
+    uint16_t recent[IR_CAPACITY];  /* if there are loops: the use passed last */
+    uint16_t loop_at[IR_CAPACITY]; /* the loop that begins or ends at a position */
+    struct loop_extent loop[LOOP_CAPACITY];
     uint64_t free_slot[SLOT_WORDS]; /* a bit for each slot that is free */
     uint32_t slots;
     uint32_t spills; /* values that left their register */

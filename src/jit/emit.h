@@ -14,8 +14,8 @@ enum {
     LITERAL_CAPACITY = 8192,
     LITERAL_TABLE = 2 * LITERAL_CAPACITY, /* a power of two */
     REGION_CAPACITY = 16384,
-    REGION_DEPTH = 64,
-    SPILL_CAPACITY = 32768 /* slots; their frame, 1 MiB, fits any thread's stack */
+    REGION_DEPTH = 1024,
+    SPILL_CAPACITY = 32768 /* slots; their frame, 1 MiB and 16 KiB of variables, fits any thread's stack */
 };
 
 /* The frame's head, upward from rsp: two MXCSR words, and room for the lanes of one value. */
@@ -49,6 +49,7 @@ struct emitter {
     uint32_t code_bytes;     /* without the constants */
     int32_t frame_constants; /* rsp-relative place of the frame's constants and spill slots */
     int32_t frame_slots;
+    int32_t frame_variables;
     int32_t literal_bits[LITERAL_CAPACITY];
     uint32_t literal_label[LITERAL_CAPACITY];
     uint16_t

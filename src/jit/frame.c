@@ -2,7 +2,7 @@
  *
  * rdi keeps the call structure, the bases have fixed registers (below), rax is scratch, rbx counts down a
  * block's coverage. Stack, upward from rsp, 64-byte aligned: saved MXCSR, the contract's MXCSR, then the
- * frame's constants and the spill slots, W * 4 bytes each. Only rbp and rbx are callee-saved registers in
+ * frame's constants, the spill slots and the variables, W * 4 bytes each. Only rbp and rbx are callee-saved registers in
  * use. Constants that the body uses follow the code and are reached relative to rip, so a routine can be
  * copied anywhere.
  *
@@ -125,7 +125,8 @@ static void prologue(struct emitter *m, size_t job_field)
     struct encoder *e = &m->encoder;
     m->frame_constants = FRAME_HEAD;
     m->frame_slots = m->frame_constants + (int32_t)(m->ir->constant_count * m->width * 4);
-    int32_t bytes = m->frame_slots + (int32_t)(m->allocation->slots * m->width * 4);
+    m->frame_variables = m->frame_slots + (int32_t)(m->allocation->slots * m->width * 4);
+    int32_t bytes = m->frame_variables + (int32_t)(m->ir->variables * m->width * 4);
     gpr_r(e, X86_push, X86_64, X86_RBP);
     gpr_rr(e, X86_mov, X86_64, X86_RBP, X86_RSP);
     gpr_r(e, X86_push, X86_64, AHEAD);

@@ -34,6 +34,7 @@ struct pass_memory {
     uint16_t map[IR_CAPACITY];
     uint16_t region[IR_CAPACITY];
     uint8_t flag[IR_CAPACITY];
+    uint8_t read[VARIABLES];
     uint16_t table[PASS_TABLE];
 };
 

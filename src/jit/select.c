@@ -325,22 +325,53 @@ static void select_scatter(struct emitter *m, const struct ir_instruction *i)
     scatter_four(m, SCRATCH_SECOND, to, i->field);
 }
 
+/* A label for a region's other end, remembered until that end comes; 0 when there is no room. */
+static int open_region(struct emitter *m)
+{
+    if (m->region_depth == REGION_DEPTH)
+        return note_exceeded(m, "nested regions", REGION_DEPTH), 0;
+    if (m->regions++ == REGION_CAPACITY)
+        return note_exceeded(m, "regions", REGION_CAPACITY), 0;
+    m->region_label[m->region_depth++] = encoder_add_label(&m->encoder);
+    return 1;
+}
+
+static void test_lanes(struct emitter *m, unsigned mask)
+{
+    struct place place = place_of(m, mask);
+    unsigned test = need_register(m, &place, SCRATCH_FIRST);
+    vector_rr(&m->encoder, X86_vtestps, m->length, test, test);
+}
+
 static void select_when(struct emitter *m, const struct ir_instruction *i)
 {
-    struct place mask = place_of(m, i->operand[0]);
-    unsigned test = need_register(m, &mask, SCRATCH_FIRST);
-    if (m->region_depth == REGION_DEPTH) {
-        note_exceeded(m, "nested regions", REGION_DEPTH);
-        return;
+    test_lanes(m, i->operand[0]);
+    if (open_region(m))
+        encode_jump_if(&m->encoder, X86_IF_z, m->region_label[m->region_depth - 1]);
+}
+
+static void select_loop(struct emitter *m)
+{
+    if (open_region(m))
+        encode_label(&m->encoder, m->region_label[m->region_depth - 1]);
+}
+
+static void select_again(struct emitter *m, const struct ir_instruction *i)
+{
+    test_lanes(m, i->operand[0]);
+    encode_jump_if(&m->encoder, X86_IF_nz, m->region_label[--m->region_depth]);
+}
+
+static void select_variable(struct emitter *m, const struct ir_instruction *i)
+{
+    struct address variable = frame_address(m, m->frame_variables, (unsigned)i->k);
+    if (i->op == IR_get)
+        vector_rm(&m->encoder, X86_vmovaps, m->length, result_register(m), variable);
+    else {
+        struct place value = place_of(m, i->operand[0]);
+        vector_mr(&m->encoder, X86_vmovaps_store, m->length, variable,
+                  need_register(m, &value, SCRATCH_FIRST));
     }
-    if (m->regions++ == REGION_CAPACITY) {
-        note_exceeded(m, "regions", REGION_CAPACITY);
-        return;
-    }
-    uint32_t label = encoder_add_label(&m->encoder);
-    m->region_label[m->region_depth++] = label;
-    vector_rr(&m->encoder, X86_vtestps, m->length, test, test);
-    encode_jump_if(&m->encoder, X86_IF_z, label);
 }
 
 static void select_memory(struct emitter *m, const struct ir_instruction *i)
@@ -385,6 +416,10 @@ static void select_instruction(struct emitter *m, const struct ir_instruction *i
     case IR_scatter: select_scatter(m, i); break;
     case IR_when: select_when(m, i); break;
     case IR_end: encode_label(&m->encoder, m->region_label[--m->region_depth]); break;
+    case IR_loop: select_loop(m); break;
+    case IR_again: select_again(m, i); break;
+    case IR_set:
+    case IR_get: select_variable(m, i); break;
     case IR_load:
     case IR_uniform:
     case IR_store: select_memory(m, i); break;

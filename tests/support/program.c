@@ -197,10 +197,145 @@ void program_make(struct ir *ir, unsigned length, uint64_t *seed)
         make_store(&maker);
 }
 
+/* --- With control flow ------------------------------------------------------------------------------------- */
+
+/* Of each type that variables have, some, numbered in turn; then a counter for each depth of loops. */
+enum { SHARED_VARIABLES = 12, LOOP_DEPTH = 3, REGION_DEPTHS = 5, COUNTERS = SHARED_VARIABLES };
+
+static enum ir_type variable_type(unsigned variable)
+{
+    static const uint8_t types[] = {TYPE_flt, TYPE_itg, TYPE_msk, TYPE_flt};
+    return types[variable % 4];
+}
+
+static void make_set(struct maker *maker, unsigned variable, uint16_t value)
+{
+    struct ir_instruction i = {.op = IR_set, .operand = {value}, .k = (int32_t)variable};
+    i.type = variable < COUNTERS ? variable_type(variable) : TYPE_itg;
+    ir_append(maker->ir, i);
+}
+
+static uint16_t make_get(struct maker *maker, unsigned variable, enum ir_type type)
+{
+    struct ir_instruction i = {.op = IR_get, .type = (uint8_t)type, .k = (int32_t)variable};
+    uint16_t value = ir_append(maker->ir, i);
+    keep(maker, type, value);
+    return value;
+}
+
+/* Reads a variable, sets it, copies one to another, or updates it. */
+static void make_access(struct maker *maker)
+{
+    unsigned variable = program_random(maker->seed) % SHARED_VARIABLES;
+    enum ir_type type = variable_type(variable);
+    switch (program_random(maker->seed) % 4) {
+    case 0: make_get(maker, variable, type); break;
+    case 1: make_set(maker, variable, pick(maker, type)); break;
+    case 2: make_set(maker, (variable + 4) % SHARED_VARIABLES, make_get(maker, variable, type)); break;
+    default:
+        make_get(maker, variable, type);
+        for (unsigned n = program_random(maker->seed) % 3; n; n--)
+            make_operation(maker);
+        make_set(maker, variable, pick(maker, type));
+        break;
+    }
+}
+
+static void make_body(struct maker *maker, unsigned length, unsigned depth, unsigned loops);
+
+/* counter = bound & 3 or so; loop ... counter -= 1; again 0 < counter [and some mask]. */
+static void make_loop(struct maker *maker, unsigned length, unsigned depth, unsigned loops)
+{
+    struct ir_instruction three = {.op = IR_literal, .type = TYPE_itg, .k = 3};
+    struct ir_instruction one = {.op = IR_literal, .type = TYPE_itg, .k = 1};
+    struct ir_instruction zero = {.op = IR_literal, .type = TYPE_itg, .k = 0};
+    struct ir_instruction mask = {.op = IR_and_i, .type = TYPE_itg};
+    mask.operand[0] = pick(maker, TYPE_itg);
+    mask.operand[1] = ir_append(maker->ir, three);
+    make_set(maker, COUNTERS + loops, ir_append(maker->ir, mask));
+    ir_append(maker->ir, (struct ir_instruction){.op = IR_loop});
+    make_body(maker, length, depth + 1, loops + 1);
+    struct ir_instruction less = {.op = IR_sub_i, .type = TYPE_itg};
+    less.operand[0] = make_get(maker, COUNTERS + loops, TYPE_itg);
+    less.operand[1] = ir_append(maker->ir, one);
+    struct ir_instruction more = {.op = IR_gt_i, .type = TYPE_msk};
+    more.operand[0] = ir_append(maker->ir, less);
+    make_set(maker, COUNTERS + loops, more.operand[0]);
+    more.operand[1] = ir_append(maker->ir, zero);
+    uint16_t again = ir_append(maker->ir, more);
+    if (program_random(maker->seed) % 2)
+        again = ir_append(maker->ir, (struct ir_instruction){.op = IR_and_m,
+                                                             .type = TYPE_msk,
+                                                             .operand = {again, pick(maker, TYPE_msk)}});
+    if (program_random(maker->seed) % 4 == 0)
+        make_body(maker, 3, REGION_DEPTHS, LOOP_DEPTH);
+    ir_append(maker->ir, (struct ir_instruction){.op = IR_again, .operand = {again}});
+}
+
+static void make_inner(struct maker *maker, unsigned length, unsigned depth, unsigned loops)
+{
+    unsigned outside[TYPE_msk + 1];
+    memcpy(outside, maker->count, sizeof outside);
+    if (loops < LOOP_DEPTH && program_random(maker->seed) % 2)
+        make_loop(maker, length, depth, loops);
+    else {
+        ir_append(maker->ir, (struct ir_instruction){.op = IR_when, .operand = {pick(maker, TYPE_msk)}});
+        make_body(maker, length, depth + 1, loops);
+        ir_append(maker->ir, (struct ir_instruction){.op = IR_end});
+    }
+    memcpy(maker->count, outside, sizeof outside);
+}
+
+static void make_body(struct maker *maker, unsigned length, unsigned depth, unsigned loops)
+{
+    for (unsigned i = 0; i < length; i++)
+        switch (program_random(maker->seed) % 16) {
+        case 0: make_store(maker); break;
+        case 1: make_cast(maker); break;
+        case 2: make_source(maker, TYPE_flt + program_random(maker->seed) % 3); break;
+        case 3:
+            if (depth < REGION_DEPTHS)
+                make_inner(maker, length / 2, depth, loops);
+            break;
+        case 4:
+            if (program_random(maker->seed) % 4 == 0)
+                make_gathers(maker);
+            break;
+        case 5:
+        case 6:
+        case 7:
+        case 8: make_access(maker); break;
+        default: make_operation(maker); break;
+        }
+}
+
+void program_make_loops(struct ir *ir, unsigned length, uint64_t *seed)
+{
+    static struct maker maker;
+    maker.ir = ir;
+    maker.seed = seed;
+    memset(maker.count, 0, sizeof maker.count);
+    ir_start(ir);
+    ir->file[ir->file_count++] = "program";
+    for (int type = TYPE_flt; type <= TYPE_fix; type++)
+        for (int i = 0; i < 4; i++)
+            make_source(&maker, type);
+    make_mask(&maker);
+    for (int i = 0; i < 8; i++)
+        make_operation(&maker);
+    for (unsigned variable = 0; variable < SHARED_VARIABLES; variable++)
+        make_set(&maker, variable, pick(&maker, variable_type(variable)));
+    make_body(&maker, length, 0, 0);
+    for (unsigned variable = 0; variable < SHARED_VARIABLES; variable++)
+        if (variable_type(variable) != TYPE_msk)
+            make_get(&maker, variable, variable_type(variable)), make_store(&maker);
+}
+
 struct interpreter {
     const struct ir *ir;
     struct program_data *data;
     uint32_t value[IR_CAPACITY][LANES_MAXIMUM];
+    uint32_t variable[VARIABLES][LANES_MAXIMUM];
     unsigned first; /* lane */
     unsigned width;
     program_observer *observer; /* may be null */
@@ -241,6 +376,8 @@ static void step(struct interpreter *in, uint32_t number, unsigned lane)
     case IR_uniform: *to = read_word(in, i, lane); break;
     case IR_gather: *to = gather_word(in, i, a); break;
     case IR_constant: memcpy(to, (const uint8_t *)&in->data->job + in->ir->constant[i->k].offset, 4); break;
+    case IR_set: in->variable[i->k][lane] = a; break;
+    case IR_get: *to = in->variable[i->k][lane]; break;
     case IR_store: memcpy((uint8_t *)in->data->output + i->k + 4 * (in->first + lane), &a, 4); break;
     default:
         *to = ir_evaluate(i->op, a, in->value[i->operand[1]][lane], in->value[i->operand[2]][lane], i->k);
@@ -248,31 +385,36 @@ static void step(struct interpreter *in, uint32_t number, unsigned lane)
     }
 }
 
-/* Where execution goes on behind the region that starts at `number`. */
-static uint32_t skip_region(const struct ir *ir, uint32_t number)
+/* The other end of the region that begins (step 1) or ends (-1) at `number`. */
+static uint32_t other_end(const struct ir *ir, uint32_t number, int step)
 {
-    for (unsigned depth = 0;; number++) {
-        depth += ir->instruction[number].op == IR_when;
-        depth -= ir->instruction[number].op == IR_end;
+    for (int depth = 0;; number += (uint32_t)step) {
+        unsigned properties = ir_op_information[ir->instruction[number].op].properties;
+        depth += (properties & IR_OPENS) != 0;
+        depth -= (properties & IR_CLOSES) != 0;
         if (!depth)
             return number;
     }
+}
+
+static int any_lane(const struct interpreter *in, unsigned mask)
+{
+    uint32_t any = 0;
+    for (unsigned lane = 0; lane < in->width; lane++)
+        any |= in->value[mask][lane];
+    return any != 0;
 }
 
 static void interpret_group(struct interpreter *in)
 {
     for (uint32_t number = 1; number < in->ir->count; number++) {
         const struct ir_instruction *i = &in->ir->instruction[number];
-        if (i->op == IR_nop || i->op == IR_end)
+        if (i->op == IR_when && !any_lane(in, i->operand[0]))
+            number = other_end(in->ir, number, 1);
+        else if (i->op == IR_again && any_lane(in, i->operand[0]))
+            number = other_end(in->ir, number, -1);
+        if (i->op == IR_nop || ir_op_information[i->op].properties & (IR_OPENS | IR_CLOSES))
             continue;
-        if (i->op == IR_when) {
-            uint32_t any = 0;
-            for (unsigned lane = 0; lane < in->width; lane++)
-                any |= in->value[i->operand[0]][lane];
-            if (!any)
-                number = skip_region(in->ir, number);
-            continue;
-        }
         for (unsigned lane = 0; lane < in->width; lane++) {
             step(in, number, lane);
             if (in->observer)

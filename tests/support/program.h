@@ -26,6 +26,9 @@ void program_fill(struct program_data *data, uint64_t *seed);
 /* A valid program of about `length` operations, regions included. */
 void program_make(struct ir *ir, unsigned length, uint64_t *seed);
 
+/* The same with nested regions, loops of up to three passes that end lane by lane, and variables. */
+void program_make_loops(struct ir *ir, unsigned length, uint64_t *seed);
+
 /* Runs every lane through the IR by def/op.def's expressions, under the contract's MXCSR. */
 void program_interpret(const struct ir *ir, struct program_data *data, unsigned width);
 
