@@ -165,6 +165,13 @@ fragment uniform, FRAME | JOB, NOTHING, M(0)
     fill 0,       vmovaps         [frame], m0
 end_fragment
 
+; The same from a pointer at base + field.
+fragment uniform_indirect, FRAME | JOB, NOTHING, R_AX | M(0)
+    fill_base 1, 2, mov           rax, [dword r8]
+    fill 3,       vbroadcastss    m0, [dword rax]
+    fill 0,       vmovaps         [frame], m0
+end_fragment
+
 fragment store, FRAME | JOB, NOTHING, M(0)
     fill 0,       vmovaps         m0, [frame]
     fill_base 1, 2, vmovups       [dword r8], m0           ; nor need a lane table's counters be

@@ -11,12 +11,21 @@
 
 #include <stdlib.h>
 
+/* An env for the calls of a routine with this job. */
+static void begin(struct env *e, const struct routine *routine, const struct job *job)
+{
+    e->program = key_shader(routine->unit, &routine->key);
+    e->base[BASE_JOB] = (const uint8_t *)job;
+    if (e->program)
+        e->base[BASE_CONSTANT] = (const uint8_t *)job->constants[e->program->model->stage];
+}
+
 static void emulate_vertex(const void *arguments, const struct routine *routine)
 {
     const struct vertex_call *call = arguments;
     unsigned saved = mxcsr_enter();
     struct env e;
-    e.base[BASE_JOB] = (const uint8_t *)call->job;
+    begin(&e, routine, call->job);
     for (uint32_t i = 0; i < call->count; i += EMULATE_WIDTH) {
         e.base[BASE_INPUT] = (const uint8_t *)(call->index + i);
         e.base[BASE_OUTPUT] = (const uint8_t *)(call->out + i);
@@ -32,7 +41,7 @@ static void emulate_setup(const void *arguments, const struct routine *routine)
     unsigned saved = mxcsr_enter();
     size_t stride = setup_layout(key).stride;
     struct env e;
-    e.base[BASE_JOB] = (const uint8_t *)call->job;
+    begin(&e, routine, call->job);
     e.base[BASE_VERTICES] = (const uint8_t *)call->vertices;
     for (uint32_t i = 0; i < call->count; i += EMULATE_WIDTH) {
         e.base[BASE_INPUT] = (const uint8_t *)(call->index + i);
@@ -63,7 +72,7 @@ static void emulate_pixel(const void *arguments, const struct routine *routine)
     const struct pixel_call *call = arguments;
     unsigned saved = mxcsr_enter();
     struct env e;
-    e.base[BASE_JOB] = (const uint8_t *)call->job;
+    begin(&e, routine, call->job);
     for (uint32_t i = 0; i < call->count; i++)
         emulate_block(&e, call, call->entries + i, &routine->key.pixel);
     mxcsr_leave(saved);

@@ -5,6 +5,7 @@
 
 #include "draw/call.h"
 #include "draw/key.h"
+#include "shader/program.h"
 
 #include <float.h>
 #include <stddef.h>

@@ -139,6 +139,8 @@ struct job {
     float point_scale[3];          /* constant, linear and quadratic term of the shrinking */
     float viewport_height;         /* what a size of 1 is at a distance where they add up to 1 */
     float clip_plane[CLIP_PLANES_USER][4]; /* in clip space: inside where the product with x y z w is >= 0 */
+
+    const float *constants[2]; /* of the vertex and the pixel shader: program_write_constants */
 };
 
 #endif

@@ -1,5 +1,6 @@
 #include "draw/key.h"
 #include "draw/call.h"
+#include "shader/program.h"
 
 #include <assert.h>
 #include <pthread.h>
@@ -15,6 +16,14 @@ const uint8_t stage_arguments[STAGE_COUNT] = {
     [STAGE_MODULATE_4X] = 2,   [STAGE_ADD] = 2,      [STAGE_ADD_SIGNED] = 2,
     [STAGE_ADD_SIGNED_2X] = 2, [STAGE_SUBTRACT] = 2, [STAGE_MULTIPLY_ADD] = 3,
     [STAGE_LERP] = 3,          [STAGE_DOT] = 2};
+
+const struct program *key_shader(enum unit unit, const union key *key)
+{
+    uint32_t number = unit == UNIT_VERTEX  ? key_program(key->vertex.shader)
+                      : unit == UNIT_PIXEL ? key_program(key->pixel.shader)
+                                           : 0;
+    return number ? program_find(number) : NULL;
+}
 
 /* Alpha's own argument is the same with its alpha replicated. */
 static int same_argument(unsigned color, unsigned alpha)
@@ -152,7 +161,7 @@ static_assert(0
 struct digit {
     uint64_t place;
     uint16_t word;
-    uint8_t radix;
+    uint16_t radix;
 };
 
 /* The digits of each unit, by their offset in its key: every byte of a key is one. */

@@ -389,8 +389,17 @@ struct key_field {
     const char *meaning;
     uint16_t offset; /* bytes from the start of the unit's key */
     uint8_t count;   /* 1, or the length of an array */
-    uint8_t radix;   /* values are 0 to radix - 1 */
+    uint16_t radix;  /* values are 0 to radix - 1 */
 };
+
+/* The number of the program that a key's field says; 0: no shader. */
+static inline uint32_t key_program(const uint8_t shader[4])
+{
+    return shader[0] | (uint32_t)shader[1] << 8 | (uint32_t)shader[2] << 16 | (uint32_t)shader[3] << 24;
+}
+
+/* The program of a unit's key, or null if it has none. */
+const struct program *key_shader(enum unit unit, const union key *key);
 
 /* How many of its arguments an operation reads, from the first on. */
 extern const uint8_t stage_arguments[STAGE_COUNT];

@@ -5,7 +5,7 @@
 
 void ir_record(struct ir *ir, enum unit unit, const union key *key)
 {
-    struct env e = {.ir = ir};
+    struct env e = {.ir = ir, .program = key_shader(unit, key)};
     ir_start(ir);
     switch (unit) {
     case UNIT_VERTEX: spec_vertex(&e, &key->vertex); break;

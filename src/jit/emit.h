@@ -50,6 +50,7 @@ struct emitter {
     int32_t frame_constants; /* rsp-relative place of the frame's constants and spill slots */
     int32_t frame_slots;
     int32_t frame_variables;
+    int32_t constants; /* where in the job the address of the shader's constants is; 0: no shader */
     int32_t literal_bits[LITERAL_CAPACITY];
     uint32_t literal_label[LITERAL_CAPACITY];
     uint16_t

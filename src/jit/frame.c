@@ -2,14 +2,15 @@
  *
  * rdi keeps the call structure, the bases have fixed registers (below), rax is scratch, rbx counts down a
  * block's coverage. Stack, upward from rsp, 64-byte aligned: saved MXCSR, the contract's MXCSR, then the
- * frame's constants, the spill slots and the variables, W * 4 bytes each. Only rbp and rbx are callee-saved registers in
- * use. Constants that the body uses follow the code and are reached relative to rip, so a routine can be
- * copied anywhere.
+ * frame's constants, the spill slots and the variables, W * 4 bytes each. Of callee-saved registers rbp, rbx,
+ * r12 and r13 are in use, and r14 for a shader's constants. Constants that the body uses follow the code and
+ * are reached relative to rip, so a routine can be copied anywhere.
  *
  * The pixel loop walks entries; within a 4x4 block it walks chunks of W lanes, passing over those without
  * coverage: rbx holds the coverage still ahead and ends the block when it is empty. */
 #include "base/mxcsr.h"
 #include "jit/emit.h"
+#include "shader/program.h"
 
 #include <stddef.h>
 
@@ -23,6 +24,7 @@
 #define LANES    X86_RCX
 #define COLOR    X86_R9
 #define DEPTH    X86_R10
+#define CONSTANT X86_R14
 #define LIMIT    X86_R11 /* end of the input */
 #define AHEAD    X86_RBX /* coverage not yet passed */
 
@@ -132,12 +134,16 @@ static void prologue(struct emitter *m, size_t job_field)
     gpr_r(e, X86_push, X86_64, AHEAD);
     gpr_r(e, X86_push, X86_64, X86_R12);
     gpr_r(e, X86_push, X86_64, X86_R13);
+    if (m->constants)
+        gpr_r(e, X86_push, X86_64, CONSTANT);
     reserve_frame(m, bytes);
     gpr_ri(e, X86_and, X86_64, X86_RSP, -64);
     vector_m(e, X86_vstmxcsr, address_at(X86_RSP, FRAME_SAVED_MXCSR));
     gpr_mi(e, X86_mov, X86_32, address_at(X86_RSP, FRAME_CONTRACT_MXCSR), MXCSR_CONTRACT);
     vector_m(e, X86_vldmxcsr, address_at(X86_RSP, FRAME_CONTRACT_MXCSR));
     load(m, JOB, job_field);
+    if (m->constants)
+        gpr_rm(e, X86_mov, X86_64, CONSTANT, address_at(JOB, m->constants));
     broadcast_constants(m);
 }
 
@@ -149,6 +155,8 @@ static void epilogue(struct emitter *m)
     gpr_rm(e, X86_mov, X86_64, AHEAD, address_at(X86_RBP, -8));
     gpr_rm(e, X86_mov, X86_64, X86_R12, address_at(X86_RBP, -16));
     gpr_rm(e, X86_mov, X86_64, X86_R13, address_at(X86_RBP, -24));
+    if (m->constants)
+        gpr_rm(e, X86_mov, X86_64, CONSTANT, address_at(X86_RBP, -32));
     gpr_rr(e, X86_mov, X86_64, X86_RSP, X86_RBP);
     gpr_r(e, X86_pop, X86_64, X86_RBP);
     encode_return(e);
@@ -262,6 +270,13 @@ static size_t job_field(enum unit unit)
     return field[unit];
 }
 
+/* Where in the job the address of the shader's constants is; 0 if the key has no shader. */
+static int32_t constants_field(enum unit unit, const union key *key)
+{
+    const struct program *program = key_shader(unit, key);
+    return program ? (int32_t)(offsetof(struct job, constants) + program->model->stage * sizeof(float *)) : 0;
+}
+
 size_t emit_routine(struct emitter *m, enum unit unit, const union key *key, struct error *error)
 {
     encoder_start(&m->encoder, m->code, sizeof m->code, m->labels, LABEL_FREE, m->fixups, FIXUP_CAPACITY);
@@ -269,6 +284,7 @@ size_t emit_routine(struct emitter *m, enum unit unit, const union key *key, str
     m->exceeded = NULL;
     if (m->allocation->slots > SPILL_CAPACITY)
         note_exceeded(m, "values in memory at once", SPILL_CAPACITY);
+    m->constants = constants_field(unit, key);
     note_line(m, 0);
     prologue(m, job_field(unit));
     switch (unit) {

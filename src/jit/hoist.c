@@ -22,7 +22,7 @@ unsigned pass_hoist(struct ir *ir, struct pass_memory *memory)
     (void)memory;
     for (uint32_t number = 1; number < ir->count; number++) {
         struct ir_instruction *i = &ir->instruction[number];
-        if (i->op != IR_uniform || i->base != BASE_JOB)
+        if (i->op != IR_uniform || (i->base != BASE_JOB && i->base != BASE_CONSTANT))
             continue;
         int slot = find_constant(ir, i);
         if (slot < 0)

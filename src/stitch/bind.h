@@ -160,14 +160,28 @@ static inline itg load_i(struct env *e, enum base base, int offset)
     return (itg){read_base(e, &fragment_load, base, offset)};
 }
 
+/* A shader's constants have no register: the job points at them. */
+static inline int constants_field(const struct env *e)
+{
+    return (int)(offsetof(struct job, constants) + e->program->model->stage * sizeof(float *));
+}
+
+static inline int32_t read_uniform(struct env *e, enum base base, int offset)
+{
+    if (base != BASE_CONSTANT)
+        return read_base(e, &fragment_uniform, base, offset);
+    struct arguments indirect = {{0, base_number(BASE_JOB), constants_field(e), offset}};
+    return append_value(e, &fragment_uniform_indirect, indirect, 0);
+}
+
 static inline flt uniform_f(struct env *e, enum base base, int offset)
 {
-    return (flt){read_base(e, &fragment_uniform, base, offset)};
+    return (flt){read_uniform(e, base, offset)};
 }
 
 static inline itg uniform_i(struct env *e, enum base base, int offset)
 {
-    return (itg){read_base(e, &fragment_uniform, base, offset)};
+    return (itg){read_uniform(e, base, offset)};
 }
 
 static inline void store_i(struct env *e, enum base base, int offset, itg value)
@@ -188,6 +202,10 @@ static inline int32_t scale_bits(int scale)
 
 static inline itg gather_i(struct env *e, enum base base, int field, itg index, int scale, int displacement)
 {
+    if (base == BASE_CONSTANT) {
+        base = BASE_JOB;
+        field = constants_field(e);
+    }
     int32_t from = base_number(base), times = scale_bits(scale);
     if (field == GATHER_DIRECT)
         return (itg){append_value(e, &fragment_gather,

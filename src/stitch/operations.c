@@ -4,7 +4,7 @@
 
 void plan_operations(struct plan *plan, enum unit unit, const union key *key)
 {
-    struct env e = {.plan = plan};
+    struct env e = {.plan = plan, .program = key_shader(unit, key)};
     struct loop loop = plan_enter(plan, unit, NULL, 0);
     switch (unit) {
     case UNIT_VERTEX: spec_vertex(&e, &key->vertex); break;

@@ -1,0 +1,280 @@
+/* Making programs of shaders, and the registry that gives each its number. */
+#include "shader/program.h"
+
+#include <pthread.h>
+#include <stdlib.h>
+#include <string.h>
+#include <xxhash.h>
+
+static pthread_mutex_t registry_lock = PTHREAD_MUTEX_INITIALIZER;
+static struct program *registry;
+static uint32_t last_number;
+
+/* --- What is read -----------------------------------------------------------------------------------------
+ */
+
+unsigned program_source_mask(const struct shader_instruction *i, unsigned source)
+{
+    const struct shader_operation *row = &shader_operations[i->opcode];
+    if (row->source[source] == OPERAND_SCALAR || row->source[source] == OPERAND_PREDICATE)
+        return 1;
+    switch (i->opcode) {
+    case SHADER_DP3:
+    case SHADER_M3X4:
+    case SHADER_M3X3:
+    case SHADER_M3X2:
+    case SHADER_CRS: return 7;
+    case SHADER_NRM: return 7 | i->destination.swizzle;
+    case SHADER_DP2ADD: return 3;
+    case SHADER_BEM: return 3;
+    case SHADER_LIT: return 11;
+    case SHADER_DST: return source ? 10 : 6;
+    case SHADER_DP4:
+    case SHADER_M4X4:
+    case SHADER_M4X3: return 15;
+    default: return row->flags & IS_TEXTURE ? 15 : i->destination.file ? i->destination.swizzle : 15;
+    }
+}
+
+static void note_read(struct program *program, const struct shader_operand *source, unsigned places)
+{
+    uint8_t *mask = source->file == FILE_INPUT     ? program->input_mask
+                    : source->file == FILE_TEXTURE ? program->texture_mask
+                                                   : NULL;
+    if (!mask)
+        return;
+    if (source->relative) {
+        program->input_indexed = true;
+        memset(program->input_mask, MASK_FULL, sizeof program->input_mask);
+        return;
+    }
+    for (unsigned place = 0; place < 4; place++)
+        if (places >> place & 1)
+            mask[source->index] |= (uint8_t)(1 << swizzle_component(source->swizzle, place));
+    if (source->modifier == MODIFIER_DIVIDE_Z || source->modifier == MODIFIER_DIVIDE_W)
+        mask[source->index] = MASK_FULL;
+}
+
+static void note_constant(struct program *program, const struct shader_operand *source, unsigned rows)
+{
+    uint32_t index = source->index;
+    if (source->file == FILE_CONSTANT && source->relative)
+        program->constants = shader_register_count(FILE_CONSTANT, program->model);
+    else if (source->file == FILE_CONSTANT && index + rows > program->constants)
+        program->constants = index + rows;
+    else if (source->file == FILE_INTEGER && index >= program->integers)
+        program->integers = index + 1;
+    else if (source->file == FILE_BOOLEAN && !program_defined(program, FILE_BOOLEAN, index))
+        program->booleans |= (uint16_t)(1 << index);
+}
+
+/* ps_1_x's texture instructions read the coordinates of the stage that they name; texkill reads its operand. */
+static void note_stage(struct program *program, const struct shader_instruction *i)
+{
+    const struct shader_operand *to = &i->destination;
+    if (i->opcode == SHADER_TEXKILL) {
+        note_read(program,
+                  &(struct shader_operand){.file = to->file, .index = to->index, .swizzle = SWIZZLE_NONE},
+                  MASK_FULL);
+        return;
+    }
+    if (shader_major(program->model) == 1 && to->file == FILE_TEXTURE)
+        program->texture_mask[to->index] = MASK_FULL;
+}
+
+static int note_instruction(struct program *program, const struct shader_instruction *i, struct error *error)
+{
+    const struct shader_operation *row = &shader_operations[i->opcode];
+    if (row->flags & IS_TEXTURE)
+        note_stage(program, i);
+    program->output_indexed |= i->destination.relative != 0;
+    for (unsigned s = 0; s < SHADER_SOURCES && row->source[s]; s++) {
+        const struct shader_operand *source = &i->source[s];
+        if (source->file == FILE_BOOLEAN && source->index >= 16)
+            return error_set(error, "%s shader: found b%u, expected Boolean constants below 16",
+                             program->model->name, source->index);
+        note_read(program, source, program_source_mask(i, s));
+        note_constant(program, source, row->source[s] == OPERAND_MATRIX ? row->rows : 1);
+    }
+    return 0;
+}
+
+/* --- Making -----------------------------------------------------------------------------------------------
+ */
+
+static void define(struct program *program, const struct shader_instruction *i)
+{
+    struct program_constant *constant = &program->defined[program->defined_count++];
+    constant->file = i->destination.file;
+    constant->index = i->destination.index;
+    memcpy(constant->value, i->literal, sizeof constant->value);
+}
+
+static int fill(struct program *program, const struct shader *shader, struct error *error)
+{
+    for (uint32_t n = 0; n < shader->count; n++) {
+        const struct shader_instruction *i = &shader->instructions[n];
+        if (i->opcode == SHADER_DEF || i->opcode == SHADER_DEFI || i->opcode == SHADER_DEFB)
+            define(program, i);
+    }
+    for (uint32_t n = 0; n < shader->count; n++) {
+        const struct shader_instruction *i = &shader->instructions[n];
+        if (i->opcode != SHADER_PHASE && shader_operations[i->opcode].flags & IS_SETUP)
+            continue;
+        program->step[program->steps++].instruction = *i;
+        if (note_instruction(program, i, error))
+            return -1;
+    }
+    return program_connect(program, error);
+}
+
+static void destroy(struct program *program)
+{
+    free(program->step);
+    free(program->defined);
+    free(program->tokens);
+    free(program);
+}
+
+static struct program *create(const struct shader *shader, struct error *error)
+{
+    struct shader_counts counts;
+    if (shader_validate(shader, &counts, error))
+        return NULL;
+    struct program *program = calloc(1, sizeof *program);
+    if (!program) {
+        error_set(error, "out of memory for a shader");
+        return NULL;
+    }
+    program->model = shader->model;
+    program->slots = counts.slots;
+    shader_describe(shader, &program->interface);
+    program->step = calloc(shader->count + 1, sizeof *program->step);
+    program->defined = calloc(shader->count + 1, sizeof *program->defined);
+    if (!program->step || !program->defined)
+        error_set(error, "out of memory for a shader of %u instructions", shader->count);
+    else if (!shader_encode(shader, &program->tokens, &program->token_count, error) &&
+             !fill(program, shader, error))
+        return program;
+    destroy(program);
+    return NULL;
+}
+
+/* --- The registry -----------------------------------------------------------------------------------------
+ */
+
+static bool same(const struct program *a, const struct program *b)
+{
+    return a->hash == b->hash && a->model == b->model && a->token_count == b->token_count &&
+           !memcmp(a->tokens, b->tokens, a->token_count * sizeof *a->tokens);
+}
+
+static struct program *intern(struct program *program)
+{
+    pthread_mutex_lock(&registry_lock);
+    struct program *found = registry;
+    while (found && !same(found, program))
+        found = found->next;
+    if (!found) {
+        program->number = ++last_number;
+        program->next = registry;
+        registry = found = program;
+    }
+    found->users++;
+    pthread_mutex_unlock(&registry_lock);
+    return found;
+}
+
+const struct program *program_acquire(const struct shader *shader, struct error *error)
+{
+    struct program *program = create(shader, error);
+    if (!program)
+        return NULL;
+    program->hash = XXH3_64bits(program->tokens, program->token_count * sizeof *program->tokens);
+    struct program *interned = intern(program);
+    if (interned != program)
+        destroy(program);
+    return interned;
+}
+
+void program_release(const struct program *released)
+{
+    struct program **at = &registry, *program = NULL;
+    pthread_mutex_lock(&registry_lock);
+    while (*at && *at != released)
+        at = &(*at)->next;
+    if (*at && --(*at)->users == 0) {
+        program = *at;
+        *at = program->next;
+    }
+    pthread_mutex_unlock(&registry_lock);
+    if (program)
+        destroy(program);
+}
+
+const struct program *program_find(uint32_t number)
+{
+    pthread_mutex_lock(&registry_lock);
+    const struct program *found = registry;
+    while (found && found->number != number)
+        found = found->next;
+    pthread_mutex_unlock(&registry_lock);
+    return found;
+}
+
+/* --- Asking -----------------------------------------------------------------------------------------------
+ */
+
+const struct program_constant *program_defined(const struct program *program, enum shader_file file,
+                                               unsigned index)
+{
+    for (uint32_t i = program->defined_count; i-- > 0;) /* the last one counts */
+        if (program->defined[i].file == file && program->defined[i].index == index)
+            return &program->defined[i];
+    return NULL;
+}
+
+int program_output(const struct program *program, unsigned usage, unsigned usage_index, unsigned *mask)
+{
+    for (unsigned i = 0; i < program->interface.output_count; i++) {
+        const struct shader_port *port = &program->interface.outputs[i];
+        if (port->usage != usage || port->usage_index != usage_index)
+            continue;
+        struct shader_operand operand = {.file = port->file, .index = port->index};
+        *mask = port->mask;
+        return (int)(program_cell(&operand, program->model) - CELL_OUTPUT) / 4;
+    }
+    return -1;
+}
+
+size_t program_constant_bytes(const struct program *program)
+{
+    return 16 * (size_t)(program->constants + 1 + program->integers);
+}
+
+static bool is_narrow(const struct program *program)
+{
+    return program->model->stage == STAGE_PIXEL && shader_major(program->model) == 1;
+}
+
+static float clamped(float value)
+{
+    return value < -1 ? -1 : value > 1 ? 1 : value;
+}
+
+void program_write_constants(const struct program *program, const float (*floats)[4],
+                             const int32_t (*integers)[4], void *to)
+{
+    float(*row)[4] = to;
+    memcpy(row, floats, 16 * (size_t)program->constants);
+    if (is_narrow(program))
+        for (uint32_t i = 0; i < 4 * program->constants; i++)
+            row[i / 4][i % 4] = clamped(row[i / 4][i % 4]);
+    for (uint32_t i = 0; i < program->defined_count; i++) {
+        const struct program_constant *constant = &program->defined[i];
+        if (constant->file == FILE_CONSTANT && constant->index < program->constants)
+            memcpy(row[constant->index], constant->value, 16);
+    }
+    memset(row[program->constants], 0, 16);
+    memcpy(row[program->constants + 1], integers, 16 * (size_t)program->integers);
+}

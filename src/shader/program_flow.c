@@ -1,0 +1,284 @@
+/* Flow control of a program: where it goes, and what each region of it writes.
+ *
+ * Validated shaders nest properly, calls go forward only, and ret stands at the end of the main program and of
+ * subroutines, outside of all blocks. So two walks do: from back to front regions find their ends, and since a
+ * subroutine lies behind all calls of it, what it writes is known before what calls it. */
+#include "shader/program.h"
+
+#include <string.h>
+
+static bool is_if(unsigned opcode)
+{
+    return opcode == SHADER_IF || opcode == SHADER_IF_COMPARE;
+}
+
+static bool is_loop(unsigned opcode)
+{
+    return opcode == SHADER_LOOP || opcode == SHADER_REP;
+}
+
+static bool is_call(unsigned opcode)
+{
+    return opcode == SHADER_CALL || opcode == SHADER_CALLNZ;
+}
+
+static bool is_break(unsigned opcode)
+{
+    return opcode == SHADER_BREAK || opcode == SHADER_BREAK_COMPARE || opcode == SHADER_BREAKP;
+}
+
+static bool begins(unsigned opcode)
+{
+    return is_if(opcode) || opcode == SHADER_ELSE || is_loop(opcode);
+}
+
+static bool ends(unsigned opcode)
+{
+    return opcode == SHADER_ELSE || opcode == SHADER_ENDIF || opcode == SHADER_ENDLOOP ||
+           opcode == SHADER_ENDREP;
+}
+
+/* --- Matching ---------------------------------------------------------------------------------------------
+ */
+
+static void match_blocks(struct program *program)
+{
+    uint32_t open[256], depth = 0;
+    for (uint32_t i = 0; i < program->steps; i++) {
+        unsigned opcode = program->step[i].instruction.opcode;
+        if (ends(opcode) && depth)
+            program->step[open[--depth]].match = i;
+        if (begins(opcode) && depth < sizeof open / sizeof *open)
+            open[depth++] = i;
+    }
+    for (uint32_t i = 0; i < program->steps; i++) {
+        struct program_step *step = &program->step[i];
+        if (is_if(step->instruction.opcode) || step->instruction.opcode == SHADER_ELSE) {
+            const struct program_step *match = &program->step[step->match];
+            step->end = match->instruction.opcode == SHADER_ELSE ? match->match : step->match;
+        }
+    }
+}
+
+static uint32_t find_return(const struct program *program, uint32_t from)
+{
+    uint32_t i = from;
+    while (i < program->steps && program->step[i].instruction.opcode != SHADER_RET &&
+           program->step[i].instruction.opcode != SHADER_LABEL)
+        i++;
+    return i;
+}
+
+/* Bodies of subroutines by label, and the end of the main program. */
+static void match_calls(struct program *program)
+{
+    program->main = find_return(program, 0);
+    for (uint32_t i = 0; i < program->steps; i++) {
+        struct program_step *step = &program->step[i];
+        if (!is_call(step->instruction.opcode))
+            continue;
+        for (uint32_t label = i + 1; label < program->steps; label++) {
+            const struct shader_instruction *at = &program->step[label].instruction;
+            if (at->opcode == SHADER_LABEL && at->source[0].index == step->instruction.source[0].index)
+                step->match = label + 1;
+        }
+        step->end = find_return(program, step->match);
+    }
+}
+
+/* --- What is written --------------------------------------------------------------------------------------
+ */
+
+unsigned program_cell(const struct shader_operand *destination, const struct shader_model *model)
+{
+    unsigned index = destination->index;
+    switch (destination->file) {
+    case FILE_TEMPORARY: return CELL_TEMPORARY + 4 * index;
+    case FILE_TEXTURE: return CELL_TEXTURE + 4 * index;
+    case FILE_ADDRESS: return model->stage == STAGE_VERTEX ? CELL_ADDRESS : CELL_TEXTURE + 4 * index;
+    case FILE_POSITION: return CELL_OUTPUT + 4 * OUTPUT_POSITION;
+    case FILE_FOG: return CELL_OUTPUT + 4 * OUTPUT_FOG;
+    case FILE_POINT: return CELL_OUTPUT + 4 * OUTPUT_POINT;
+    case FILE_COLOR: return CELL_OUTPUT + 4 * (OUTPUT_COLOR + index);
+    case FILE_COORDINATE: return CELL_OUTPUT + 4 * (OUTPUT_COORDINATE + index);
+    case FILE_OUTPUT:
+    case FILE_TARGET: return CELL_OUTPUT + 4 * index;
+    case FILE_DEPTH: return CELL_DEPTH;
+    case FILE_PREDICATE: return CELL_PREDICATE;
+    default: return CELL_COUNT;
+    }
+}
+
+static void add_cells(struct cell_set *set, unsigned cell, unsigned mask)
+{
+    for (unsigned c = 0; c < 4; c++)
+        if (mask >> c & 1 && cell + c < CELL_COUNT)
+            cell_add(set, cell + c);
+}
+
+static void add_set(struct cell_set *to, const struct cell_set *from)
+{
+    for (unsigned i = 0; i < sizeof to->word / sizeof *to->word; i++)
+        to->word[i] |= from->word[i];
+}
+
+static void add_written(const struct program *program, const struct shader_instruction *i,
+                        struct cell_set *set)
+{
+    const struct shader_operation *row = &shader_operations[i->opcode];
+    const struct shader_operand *to = &i->destination;
+    if (i->opcode == SHADER_TEXKILL) {
+        cell_add(set, CELL_KILLED);
+        return;
+    }
+    if (i->opcode == SHADER_TEXM3X2DEPTH || i->opcode == SHADER_TEXDEPTH)
+        cell_add(set, CELL_DEPTH);
+    if (!row->destination || to->file == FILE_NONE)
+        return;
+    if (to->relative)
+        for (unsigned o = 0; o < OUTPUT_COUNT; o++)
+            add_cells(set, CELL_OUTPUT + 4 * o, to->swizzle);
+    else
+        add_cells(set, program_cell(to, program->model), to->swizzle);
+}
+
+/* What steps from `from` to before `to` write, blocks and calls inside included. */
+static void sum_up(const struct program *program, uint32_t from, uint32_t to, struct cell_set *set)
+{
+    for (uint32_t i = from; i < to; i++) {
+        const struct program_step *step = &program->step[i];
+        add_written(program, &step->instruction, set);
+        if (is_call(step->instruction.opcode))
+            add_set(set, &step->written);
+    }
+}
+
+/* Whether a break among them leaves a loop that began before them. */
+static bool leaves(const struct program *program, uint32_t from, uint32_t to)
+{
+    for (uint32_t i = from; i < to; i++) {
+        const struct program_step *step = &program->step[i];
+        if (is_loop(step->instruction.opcode))
+            i = step->match;
+        else if (is_break(step->instruction.opcode))
+            return true;
+    }
+    return false;
+}
+
+static void find_written(struct program *program)
+{
+    for (uint32_t i = program->steps; i-- > 0;) {
+        struct program_step *step = &program->step[i];
+        unsigned opcode = step->instruction.opcode;
+        if (begins(opcode)) {
+            sum_up(program, i + 1, step->match, &step->written);
+            step->leaves = leaves(program, i + 1, step->match);
+            add_set(&program->initial, &step->written);
+        } else if (is_call(opcode)) {
+            sum_up(program, step->match, step->end, &step->written);
+            if (opcode == SHADER_CALLNZ)
+                add_set(&program->initial, &step->written);
+        }
+        if (step->instruction.predicate.file)
+            add_written(program, &step->instruction, &program->initial);
+    }
+    sum_up(program, 0, program->steps, &program->written);
+}
+
+/* --- Bounds -----------------------------------------------------------------------------------------------
+ */
+
+/* Most loops around any step of a subroutine or of the main program, calls followed. `cost` of subroutines behind is
+ * known: they are summed up from back to front. */
+struct bound {
+    const struct program *program;
+    const int32_t (*integers)[4];
+    uint64_t executed; /* saturates */
+    unsigned loops;
+};
+
+static uint64_t loop_count(const struct bound *bound, const struct shader_instruction *i)
+{
+    const struct shader_operand *integer = &i->source[i->opcode == SHADER_LOOP];
+    const struct program_constant *defined = program_defined(bound->program, FILE_INTEGER, integer->index);
+    if (defined)
+        return defined->value[0];
+    return bound->integers ? (uint64_t)bound->integers[integer->index][0] : 1;
+}
+
+/* Adds up steps `from` to `to`, each `times`, with `loops` around them; `depth` of calls is bounded by the model. */
+static void count_steps(struct bound *bound, uint32_t from, uint32_t to, uint64_t times, unsigned loops)
+{
+    uint64_t outer[64];
+    unsigned depth = 0;
+    for (uint32_t i = from; i < to; i++) {
+        const struct program_step *step = &bound->program->step[i];
+        unsigned opcode = step->instruction.opcode;
+        bound->executed += times;
+        if (bound->executed > PROGRAM_EXECUTED)
+            return;
+        if (is_loop(opcode) && depth < sizeof outer / sizeof *outer) {
+            outer[depth++] = times;
+            times *= loop_count(bound, &step->instruction);
+            if (loops + depth > bound->loops)
+                bound->loops = loops + depth;
+        } else if ((opcode == SHADER_ENDLOOP || opcode == SHADER_ENDREP) && depth)
+            times = outer[--depth];
+        else if (is_call(opcode) && times)
+            count_steps(bound, step->match, step->end, times, loops + depth);
+    }
+}
+
+static int check_numbers(const struct program *program, const int32_t (*integers)[4], struct error *error)
+{
+    bool software = program->model->capabilities & CAN_SOFTWARE;
+    for (uint32_t i = 0; i < program->steps; i++) {
+        const struct shader_instruction *at = &program->step[i].instruction;
+        if (!is_loop(at->opcode))
+            continue;
+        unsigned index = at->source[at->opcode == SHADER_LOOP].index;
+        if (program_defined(program, FILE_INTEGER, index))
+            continue;
+        const int32_t *n = integers[index];
+        bool bad = n[0] < 0 || n[0] > 255;
+        if (at->opcode == SHADER_LOOP && !software)
+            bad |= n[1] < 0 || n[1] > 255 || n[2] < -128 || n[2] > 127;
+        if (bad)
+            return error_set(
+                error,
+                "integer constant i%u: found %d %d %d, expected a count and a start from 0 to 255 and a "
+                "step from -128 to 127",
+                index, n[0], n[1], n[2]);
+    }
+    return 0;
+}
+
+static int check_executed(const struct program *program, const int32_t (*integers)[4], struct error *error)
+{
+    struct bound bound = {.program = program, .integers = integers};
+    count_steps(&bound, 0, program->main, 1, 0);
+    if (bound.executed > PROGRAM_EXECUTED)
+        return error_set(
+            error, "%s shader: loops and calls make it more than %d instructions, expected at most that",
+            program->model->name, PROGRAM_EXECUTED);
+    if (bound.loops > PROGRAM_LOOPS)
+        return error_set(error, "%s shader: found loops %u deep, through calls, expected at most %d",
+                         program->model->name, bound.loops, PROGRAM_LOOPS);
+    return 0;
+}
+
+int program_check_integers(const struct program *program, const int32_t (*integers)[4], struct error *error)
+{
+    if (check_numbers(program, integers, error))
+        return -1;
+    return check_executed(program, integers, error);
+}
+
+int program_connect(struct program *program, struct error *error)
+{
+    match_blocks(program);
+    match_calls(program);
+    find_written(program);
+    return check_executed(program, NULL, error);
+}
