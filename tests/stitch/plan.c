@@ -272,6 +272,7 @@ static void every_fragment_is_planned_by_some_key(void)
 {
     planned[&fragment_copy - __start_stitch_fragments] = 1;
     planned[&fragment_again - __start_stitch_fragments] = 1;
+    planned[&fragment_uniform_indirect - __start_stitch_fragments] = 1;
 #define FRAGMENT(name, arguments, meaning)                                                                   \
     TEST_ASSERT_TRUE_MESSAGE(planned[&fragment_##name - __start_stitch_fragments], #name);
 #include "def/fragment.def"
