@@ -182,7 +182,12 @@ enum triptych_primitive {
 };
 
 /* Where interfaces differ: the first value of each is what a device begins with. */
-enum triptych_convention { TRIPTYCH_PIXEL_CENTER, TRIPTYCH_DEPTH_RANGE, TRIPTYCH_CONVENTION_COUNT };
+enum triptych_convention {
+    TRIPTYCH_PIXEL_CENTER,
+    TRIPTYCH_DEPTH_RANGE,
+    TRIPTYCH_MULTIPLY,
+    TRIPTYCH_CONVENTION_COUNT
+};
 enum triptych_pixel_center {
     TRIPTYCH_PIXEL_CENTER_HALF,   /* pixel 0's centre is at 0.5, as in Direct3D 10 and OpenGL */
     TRIPTYCH_PIXEL_CENTER_INTEGER /* at 0, as in Direct3D 9 */
@@ -190,6 +195,10 @@ enum triptych_pixel_center {
 enum triptych_depth_range {
     TRIPTYCH_DEPTH_RANGE_ZERO, /* clip depth from 0 to w, as in Direct3D */
     TRIPTYCH_DEPTH_RANGE_MINUS /* from -w to w, as in OpenGL */
+};
+enum triptych_multiply {
+    TRIPTYCH_MULTIPLY_IEEE,  /* shaders multiply as IEEE 754 says */
+    TRIPTYCH_MULTIPLY_LEGACY /* 0 times anything is 0 in shaders, also infinity and NaN */
 };
 
 enum triptych_light_type { TRIPTYCH_LIGHT_DIRECTIONAL, TRIPTYCH_LIGHT_POINT, TRIPTYCH_LIGHT_SPOT };
@@ -203,6 +212,16 @@ enum {
     TRIPTYCH_VOLUME_MAXIMUM = 2048
 };
 enum { TRIPTYCH_STREAMS = 16, TRIPTYCH_DECLARATION_ELEMENTS = 64, TRIPTYCH_USAGE_INDICES = 16 };
+
+/* Registers of shader constants. Vertex shaders can read the first 256 floats and 16 integers, those of the
+ * models for software (vs_2_sw, vs_3_sw) all of them. */
+enum {
+    TRIPTYCH_VERTEX_FLOATS = 8192,
+    TRIPTYCH_VERTEX_INTEGERS = 2048,
+    TRIPTYCH_PIXEL_FLOATS = 224,
+    TRIPTYCH_PIXEL_INTEGERS = 16,
+    TRIPTYCH_BOOLEANS = 16
+};
 
 struct triptych_options {
     const char *engine; /* name as listed by triptych_engine_name(); null: "specialize" */
@@ -463,7 +482,7 @@ TRIPTYCH_API enum triptych_result triptych_set_scissor(triptych_device *, unsign
  * x a + y b + z c + d >= 0. Zero at first: everything is inside. */
 TRIPTYCH_API enum triptych_result triptych_set_clip_plane(triptych_device *, unsigned i,
                                                           const float plane[4]);
-/* Value: a number of enum triptych_pixel_center, or triptych_depth_range. */
+/* Value: a number of enum triptych_pixel_center, triptych_depth_range or triptych_multiply. */
 TRIPTYCH_API enum triptych_result triptych_set_convention(triptych_device *, enum triptych_convention,
                                                           unsigned value);
 TRIPTYCH_API enum triptych_result triptych_set_material(triptych_device *, const struct triptych_material *);

@@ -51,6 +51,8 @@ enum triptych_result device_create(const struct engine *engine, const struct dev
     }
     device->engine = engine;
     state_initialize(&device->state);
+    for (int stage = 0; stage < SHADER_STAGES; stage++)
+        device->state.registers[stage] = &device->registers[stage];
     enum triptych_result status = create_parts(device, options, error);
     if (status == TRIPTYCH_OK)
         *result = device;

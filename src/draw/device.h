@@ -32,6 +32,7 @@ struct triptych_device {
     struct triptych_target_textures drawn; /* these, while */
     bool draws_to_textures;
     struct state state;
+    struct shader_registers registers[SHADER_STAGES]; /* the state's */
     struct triptych_buffer *buffers;
     struct triptych_texture *textures;
     struct queries queries;

@@ -262,14 +262,19 @@ enum triptych_result state_set_clip_plane(struct state *state, unsigned i, const
 enum triptych_result state_set_convention(struct state *state, enum triptych_convention which, unsigned value,
                                           struct error *error)
 {
+    static const struct {
+        const char *name, *values;
+    } conventions[] = {[TRIPTYCH_PIXEL_CENTER] = {"pixel center", "half (0) or integer (1)"},
+                       [TRIPTYCH_DEPTH_RANGE] = {"depth range", "zero (0) or minus (1)"},
+                       [TRIPTYCH_MULTIPLY] = {"multiply", "ieee (0) or legacy (1)"}};
     if ((unsigned)which >= TRIPTYCH_CONVENTION_COUNT) {
-        error_set(error, "convention %u: expected pixel center (0) or depth range (1)", (unsigned)which);
+        error_set(error, "convention %u: expected pixel center (0), depth range (1) or multiply (2)",
+                  (unsigned)which);
         return TRIPTYCH_BAD_ARGUMENT;
     }
     if (value > 1) {
-        error_set(error, "convention %s: value %u, expected %s",
-                  which == TRIPTYCH_PIXEL_CENTER ? "pixel center" : "depth range", value,
-                  which == TRIPTYCH_PIXEL_CENTER ? "half (0) or integer (1)" : "zero (0) or minus (1)");
+        error_set(error, "convention %s: value %u, expected %s", conventions[which].name, value,
+                  conventions[which].values);
         return TRIPTYCH_BAD_ARGUMENT;
     }
     state->convention[which] = (uint8_t)value;

@@ -9,6 +9,8 @@
 #include "draw/resource.h"
 #include "draw/texture.h"
 
+struct program;
+
 /* The streams of a declaration, then one for each attribute that is set by itself. */
 enum { STREAM_COUNT = TRIPTYCH_STREAMS + TRIPTYCH_ATTRIBUTE_COUNT };
 
@@ -34,6 +36,14 @@ struct target_channels {
     uint8_t channels;
 };
 
+/* What shaders of a stage read besides their inputs. Those that a pixel shader cannot read are not used. */
+struct shader_registers {
+    float floats[TRIPTYCH_VERTEX_FLOATS][4];
+    int32_t integers[TRIPTYCH_VERTEX_INTEGERS][4];
+};
+
+enum { SHADER_STAGES = 2 }; /* arrays over stages are indexed by enum shader_stage */
+
 struct state {
     uint32_t value[TRIPTYCH_STATE_COUNT];
     uint32_t sampler[TRIPTYCH_SAMPLERS][TRIPTYCH_SAMPLER_STATE_COUNT];
@@ -54,9 +64,12 @@ struct state {
     struct triptych_buffer *indices;
     uint32_t index_bits; /* 16 or 32 while indices are bound */
     struct target_channels target[TARGETS];
-    enum triptych_depth_format depth_format; /* of the target */
-    uint8_t samples;                         /* 2^samples per pixel of the target */
-    uint8_t counting;                        /* an occlusion query wants to know what passes */
+    enum triptych_depth_format depth_format;           /* of the target */
+    uint8_t samples;                                   /* 2^samples per pixel of the target */
+    uint8_t counting;                                  /* an occlusion query wants to know what passes */
+    const struct program *program[SHADER_STAGES];      /* null: fixed function */
+    struct shader_registers *registers[SHADER_STAGES]; /* the state's owner's */
+    uint16_t booleans[SHADER_STAGES];                  /* constants: a bit each */
 };
 
 extern const char *const attribute_name[TRIPTYCH_ATTRIBUTE_COUNT];

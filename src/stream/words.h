@@ -14,6 +14,7 @@ enum word_list {
     WORDS_CONVENTION,
     WORDS_PIXEL_CENTER, /* the values of each convention, in their order */
     WORDS_DEPTH_RANGE,
+    WORDS_MULTIPLY,
     WORDS_TRANSFORM,
     WORDS_VALUE,
     WORDS_MESH,

@@ -109,9 +109,10 @@ static const struct bad lines[] = {
     {"sequence s\nquery q\nend\n", "3:1", "found 'query'"},
 
     /* Conventions and clip planes */
-    {"convention pixelcentre half\n", "2:12", "expected a convention: pixelcenter, depthrange"},
+    {"convention pixelcentre half\n", "2:12", "expected a convention: pixelcenter, depthrange, multiply"},
     {"convention pixelcenter zero\n", "2:24", "expected its value: half, integer"},
     {"convention depthrange\n", "2:22", "expected its value: zero, minus"},
+    {"convention multiply zero\n", "2:21", "expected its value: ieee, legacy"},
     {"clipplane 6 0 0 0 0\n", "2:11", "expected an integer (clip plane) from 0 to 5"},
     {"clipplane 0 1 2 3\n", "2:18", "expected a number (clipplane I A B C D)"},
     {"clipplane 0 1 2 3 inf\n", "2:19", "expected a number"},
