@@ -45,6 +45,7 @@
 #include "spec/bump.h"
 #include "spec/shader.h"
 #include "spec/shader_flow.h"
+#include "spec/shader_function.h"
 #include "spec/shader_arithmetic.h"
 #include "spec/shader_texture.h"
 #include "spec/shader_execute.h"

@@ -95,6 +95,70 @@ static void powers_are_within_their_bound(void)
     TEST_ASSERT_EQUAL_FLOAT(1, power(&e, lit_f(&e, 0.3f), lit_f(&e, 0)).lane[0]);
 }
 
+struct circle {
+    float sine, cosine;
+};
+
+static struct circle circle(float x)
+{
+    static struct env e;
+    flt sine, cosine, alone;
+    sine_cosine(&e, lit_f(&e, x), &sine, &cosine);
+    sine_cosine(&e, lit_f(&e, x), &alone, NULL);
+    TEST_ASSERT_EQUAL_MEMORY(&sine, &alone, sizeof sine);
+    sine_cosine(&e, lit_f(&e, x), NULL, &alone);
+    TEST_ASSERT_EQUAL_MEMORY(&cosine, &alone, sizeof cosine);
+    return (struct circle){sine.lane[0], cosine.lane[0]};
+}
+
+/* The larger error of the two. */
+static double circle_error(struct circle got, double x)
+{
+    return fmax(fabs(got.sine - sin(x)), fabs(got.cosine - cos(x)));
+}
+
+static void sine_and_cosine_are_within_their_bounds(void)
+{
+    double worst = 0;
+    for (double x = -3.141592654; x <= 3.141592654; x += 0.0000211)
+        worst = fmax(worst, circle_error(circle((float)x), (double)(float)x));
+    TEST_ASSERT_TRUE_MESSAGE(worst < 3e-7, "error of sine_cosine within a turn");
+    for (double x = 3; x < 1e6; x *= 1.000171) {
+        double at = (double)(float)x;
+        TEST_ASSERT_TRUE(circle_error(circle((float)at), at) < 1.2e-7 + 1.1e-7 * at);
+        TEST_ASSERT_TRUE(circle_error(circle((float)-at), -at) < 1.2e-7 + 1.1e-7 * at);
+    }
+}
+
+static void sines_of_small_angles_are_accurate_relatively(void)
+{
+    double worst = 0;
+    for (double x = 0.5; x > 1e-30; x *= 0.99931)
+        worst = fmax(worst, relative_error(circle((float)x).sine, sin((double)(float)x)));
+    TEST_ASSERT_TRUE_MESSAGE(worst < 1.8e-7, "relative error of sine_cosine");
+}
+
+static void sine_and_cosine_never_leave_the_unit(void)
+{
+    for (uint64_t bits = 0; bits < 0x7f800000; bits += 2777) {
+        struct circle up = circle(lane_from_bits((uint32_t)bits));
+        struct circle down = circle(lane_from_bits((uint32_t)bits | 0x80000000u));
+        TEST_ASSERT_TRUE(fabsf(up.sine) <= 1 && fabsf(up.cosine) <= 1);
+        TEST_ASSERT_TRUE(fabsf(down.sine) <= 1 && fabsf(down.cosine) <= 1);
+    }
+}
+
+static void sine_and_cosine_at_the_edges(void)
+{
+    TEST_ASSERT_EQUAL_HEX32(0x00000000, lane_bits(circle(0.0f).sine));
+    TEST_ASSERT_EQUAL_HEX32(0x80000000, lane_bits(circle(-0.0f).sine));
+    TEST_ASSERT_TRUE(circle(0).cosine == 1 && circle(-0.0f).cosine == 1);
+    TEST_ASSERT_TRUE(circle(0x1.921fb6p+0f).sine == 1 && circle(0x1.921fb6p+1f).cosine == -1);
+    TEST_ASSERT_TRUE(circle(0x1p26f).sine == 0 && fabsf(circle(FLT_MAX).cosine) == 1);
+    TEST_ASSERT_TRUE(isnan(circle(INFINITY).sine) && isnan(circle(-INFINITY).cosine));
+    TEST_ASSERT_TRUE(isnan(circle(NAN).sine) && isnan(circle(NAN).cosine));
+}
+
 int main(void)
 {
     UNITY_BEGIN();
@@ -104,5 +168,9 @@ int main(void)
     RUN_TEST(a_logarithm_is_within_its_bounds);
     RUN_TEST(logarithms_of_powers_are_exact);
     RUN_TEST(powers_are_within_their_bound);
+    RUN_TEST(sine_and_cosine_are_within_their_bounds);
+    RUN_TEST(sines_of_small_angles_are_accurate_relatively);
+    RUN_TEST(sine_and_cosine_never_leave_the_unit);
+    RUN_TEST(sine_and_cosine_at_the_edges);
     return UNITY_END();
 }
