@@ -1,0 +1,269 @@
+#include "tests/support/trial.h"
+
+#include "def/lane.h"
+#include "shader/program.h"
+
+#include <float.h>
+#include <stdio.h>
+#include <stdlib.h>
+
+enum { TEXT = 1 << 16, MESSAGE = 4096, INTEGERS = 16, CONSTANTS = 256 };
+
+static const float edge[] = {
+    0.0f,    -0.0f,         1.0f,           -1.0f,           0.5f,        -0.5f,        2.0f,
+    -3.0f,   0.4999999702f, 0.50000006f,    1e-39f,          -1e-39f,     FLT_MIN,      -FLT_MIN,
+    FLT_MAX, -FLT_MAX,      INFINITY,       -INFINITY,       NAN,         1e-20f,       1e20f,
+    -7.75f,  0x1p23f,       0x1.000002p+0f, -0x1.fffffep-1f, 3.14159274f, -1.57079637f, 127.5f,
+    -126.5f, 1e9f,          255.0f};
+enum { EDGES = sizeof edge / sizeof *edge, EDGE_SETS = (EDGES * EDGES + 3) / 4, ORDINARY_SETS = 100 };
+
+static struct trial_operands sets[EDGE_SETS + ORDINARY_SETS];
+const struct trial_operands *trial_edges = sets;
+const unsigned trial_edge_sets = EDGE_SETS + ORDINARY_SETS;
+const struct trial_operands *trial_ordinary = sets + EDGE_SETS;
+const unsigned trial_ordinary_sets = ORDINARY_SETS;
+
+static double between(double low, double high)
+{
+    static uint64_t seed = 88172645463325252ull;
+    seed ^= seed << 13;
+    seed ^= seed >> 7;
+    seed ^= seed << 17;
+    return low + (high - low) * (double)(seed >> 40) / 16777216.0;
+}
+
+static void __attribute__((constructor)) make_sets(void)
+{
+    for (unsigned s = 0; s < EDGE_SETS; s++)
+        for (unsigned c = 0; c < 4; c++) {
+            unsigned pair = 4 * s + c;
+            sets[s].v[0][c] = edge[pair / EDGES % EDGES];
+            sets[s].v[1][c] = edge[pair % EDGES];
+            sets[s].v[2][c] = edge[(pair * 7 + pair / EDGES) % EDGES];
+        }
+    for (unsigned s = EDGE_SETS; s < EDGE_SETS + ORDINARY_SETS; s++)
+        for (unsigned o = 0; o < TRIAL_OPERANDS; o++)
+            for (unsigned c = 0; c < 4; c++)
+                sets[s].v[o][c] = (float)between(-4, 4);
+}
+
+/* --- Numbers ----------------------------------------------------------------------------------------------
+ */
+
+float trial_round(double value)
+{
+    /* Tiny is what would be below FLT_MIN if rounded to 24 bits all the same. */
+    if (fabs(value) < 1 && fabsf((float)(value * 0x1p64)) < FLT_MIN * 0x1p64f)
+        return copysignf(0, (float)value);
+    return (float)value;
+}
+
+double trial_flush(float value)
+{
+    return (double)lane_flush(value);
+}
+
+double trial_fused(double a, double b, double c)
+{
+    double product = a * b, sum = product + c, virtual = sum - product;
+    double error = (product - (sum - virtual)) + (c - virtual);
+    uint64_t bits;
+    if (!isfinite(sum) || error == 0)
+        return sum;
+    memcpy(&bits, &sum, sizeof bits);
+    if (!(bits & 1))
+        return nextafter(sum, error > 0 ? INFINITY : -INFINITY);
+    return sum;
+}
+
+/* --- The shader -------------------------------------------------------------------------------------------
+ */
+
+static void append(char *text, const char *line)
+{
+    TEST_ASSERT_TRUE(strlen(text) + strlen(line) < TEXT);
+    strcat(text, line);
+}
+
+static void append_number(char *text, const char *format, unsigned number)
+{
+    char line[80];
+    snprintf(line, sizeof line, format, number, number);
+    append(text, line);
+}
+
+/* Names by model: where operands come from, where results go. */
+static void make_text(const struct trial *trial, const struct shader_model *model, char *text)
+{
+    int pixel = model->stage == STAGE_PIXEL, third = shader_major(model) == 3;
+    const char *declare = !pixel || third ? "dcl_texcoord%u v%u\n" : "dcl t%u\n";
+    const char *give = pixel && !third ? "mov r%u, t%u\n" : "mov r%u, v%u\n";
+    const char *take = pixel ? "mov oC%u, r%u\n" : third ? "mov o%u, r%u\n" : "mov oT%u, r%u\n";
+    snprintf(text, TEXT, "%s\n", model->name);
+    if (pixel && shader_major(model) == 1) {
+        append(text, trial->setup ? trial->setup : "");
+        append(text, trial->body);
+        append(text, "\n");
+        return;
+    }
+    for (unsigned o = 1; o <= TRIAL_OPERANDS; o++)
+        append_number(text, declare, o);
+    if (!pixel && third) {
+        append(text, "dcl_position o0\n");
+        for (unsigned r = 0; r < trial->results; r++)
+            append_number(text, "dcl_texcoord%u o", r), append_number(text, "%u\n", r + 1);
+    }
+    append(text, trial->setup ? trial->setup : "");
+    for (unsigned o = 1; o <= TRIAL_OPERANDS; o++)
+        append_number(text, give, o);
+    append(text, trial->body);
+    append(text, "\n");
+    for (unsigned r = 0; r < trial->results; r++) {
+        char line[80];
+        snprintf(line, sizeof line, take, r + (!pixel && third), r ? r + 3 : 0);
+        append(text, line);
+    }
+    if (!pixel)
+        append(text, third ? "mov o0, r1\n" : "mov oPos, r1\n");
+    if (trial->behind)
+        append(text, trial->behind);
+}
+
+static const struct shader_model *find_model(const char *name)
+{
+    for (int m = 0; m < MODEL_COUNT; m++)
+        if (!strcmp(shader_models[m].name, name))
+            return &shader_models[m];
+    TEST_FAIL_MESSAGE(name);
+    return NULL;
+}
+
+static const struct program *make_program(const char *text)
+{
+    static char message[TEXT + MESSAGE];
+    struct error error = {{0}};
+    struct shader *shader;
+    const struct program *program = NULL;
+    if (!shader_assemble("trial", text, strlen(text), &shader, &error) &&
+        !shader_validate(shader, NULL, &error))
+        program = program_acquire(shader, &error);
+    shader_free(shader);
+    snprintf(message, sizeof message, "%s\n%s", error.text, text);
+    TEST_ASSERT_NOT_NULL_MESSAGE(program, message);
+    return program;
+}
+
+/* --- Comparison -------------------------------------------------------------------------------------------
+ */
+
+/* How far results may be from what is expected. */
+struct tolerance {
+    double relative, absolute;
+};
+
+static int agrees(float got, double expected, const struct tolerance *tolerance)
+{
+    float rounded = trial_round(expected);
+    if (isnan(expected))
+        return isnan(got);
+    if (lane_bits(lane_flush(got)) == lane_bits(rounded))
+        return 1;
+    return isfinite(got) && isfinite(rounded) &&
+           fabs((double)got - expected) <= tolerance->relative * fabs(expected) + tolerance->absolute;
+}
+
+static void print_operands(const struct trial_operands *operands, char *text, size_t bytes)
+{
+    size_t used = 0;
+    for (unsigned o = 0; o < TRIAL_OPERANDS; o++)
+        used += (size_t)snprintf(text + used, bytes - used, "  r%u = %.9g, %.9g, %.9g, %.9g\n", o + 1,
+                                 (double)operands->v[o][0], (double)operands->v[o][1],
+                                 (double)operands->v[o][2], (double)operands->v[o][3]);
+}
+
+static void compare(const struct trial *trial, const char *way, const char *text, unsigned set,
+                    const struct trial_results *got, trial_reference *reference,
+                    const struct tolerance *tolerance)
+{
+    static char message[TEXT + 2 * MESSAGE], operands[MESSAGE];
+    double expected[TRIAL_RESULTS][4] = {{0}};
+    reference(trial, &trial->operands[set], expected);
+    for (unsigned r = 0; r < trial->results; r++)
+        for (unsigned c = 0; c < 4; c++) {
+            float value = got->v[r][c];
+            if (agrees(value, expected[r][c], tolerance))
+                continue;
+            print_operands(&trial->operands[set], operands, sizeof operands);
+            snprintf(message, sizeof message, "%s, result %u.%c: expected %.9g (%08x), got %.9g (%08x)\n%s%s",
+                     way, r, "xyzw"[c], expected[r][c], lane_bits(trial_round(expected[r][c])), (double)value,
+                     lane_bits(value), operands, text);
+            TEST_FAIL_MESSAGE(message);
+        }
+}
+
+typedef void machine_way(const struct trial_memory *memory, const float *input, float *output);
+
+/* Four sets at once; the last ones again where their number is no multiple. */
+static void run_machine(const struct trial_memory *memory, machine_way *way, unsigned first,
+                        struct trial_results got[TRIAL_LANES])
+{
+    float input[TRIAL_OPERANDS][4][TRIAL_LANES], output[TRIAL_RESULTS][4][TRIAL_LANES];
+    const struct trial *trial = memory->trial;
+    for (unsigned l = 0; l < TRIAL_LANES; l++) {
+        unsigned set = first + l < trial->sets ? first + l : trial->sets - 1;
+        for (unsigned o = 0; o < TRIAL_OPERANDS; o++)
+            for (unsigned c = 0; c < 4; c++)
+                input[o][c][l] = trial->operands[set].v[o][c];
+    }
+    way(memory, &input[0][0][0], &output[0][0][0]);
+    for (unsigned l = 0; l < TRIAL_LANES; l++)
+        for (unsigned r = 0; r < trial->results; r++)
+            for (unsigned c = 0; c < 4; c++)
+                got[l].v[r][c] = output[r][c][l];
+}
+
+static uint8_t *make_constants(const struct trial *trial, const struct program *program)
+{
+    static float floats[CONSTANTS][4];
+    static int32_t integers[INTEGERS][4];
+    memset(floats, 0, sizeof floats);
+    memset(integers, 0, sizeof integers);
+    if (trial->constants)
+        memcpy(floats, trial->constant, trial->constants * sizeof *floats);
+    if (trial->integers)
+        memcpy(integers, trial->integer, trial->integers * sizeof *integers);
+    uint8_t *constants = malloc(program_constant_bytes(program));
+    TEST_ASSERT_NOT_NULL(constants);
+    program_write_constants(program, (const float(*)[4])floats, (const int32_t(*)[4])integers, constants);
+    return constants;
+}
+
+void trial_expect(const struct trial *trial, trial_reference *reference)
+{
+    trial_expect_within(trial, reference, 0, 0);
+}
+
+void trial_expect_within(const struct trial *trial, trial_reference *reference, double relative,
+                         double absolute)
+{
+    static unsigned number;
+    const struct tolerance tolerance = {relative, absolute};
+    static const struct {
+        const char *name;
+        machine_way *way;
+    } ways[] = {{"emulated", trial_emulate}, {"recorded", trial_interpret}};
+    static char text[TEXT];
+    make_text(trial, find_model(trial->model), text);
+    const struct program *program = make_program(text);
+    uint8_t *constants = make_constants(trial, program);
+    const struct trial_memory memory = {program, trial, constants, ++number};
+    for (unsigned w = 0; w < sizeof ways / sizeof *ways; w++)
+        for (unsigned set = 0; set < trial->sets; set += TRIAL_LANES) {
+            struct trial_results got[TRIAL_LANES];
+            run_machine(&memory, ways[w].way, set, got);
+            for (unsigned l = 0; l < TRIAL_LANES && set + l < trial->sets; l++)
+                compare(trial, ways[w].name, text, set + l, &got[l], reference, &tolerance);
+        }
+    free(constants);
+    program_release(program);
+}

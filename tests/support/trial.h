@@ -1,0 +1,91 @@
+/* Trials of shaders: a few instructions, run for many sets of operands in every way there is, and what came out as
+ * numbers.
+ *
+ * The body of a trial finds its operands in r1, r2 and r3 and leaves results in r0, then r4, r5 and so on; a trial makes
+ * a whole shader of the model around it. In ps_1_x there are two operands, v0 and v1, and one result. The ways are:
+ *   emulated    the specification's machine alone, under the emulator's binding, four lanes at once
+ *   recorded    the same recorded, verified, and evaluated lane by lane by the table of operations
+ *   engines     routines of each engine that can run here
+ * A failing comparison names the shader, the way, the operands and both values. */
+#ifndef TESTS_TRIAL_H
+#define TESTS_TRIAL_H
+
+#include "shader/shader.h"
+
+#include <unity.h>
+
+enum { TRIAL_OPERANDS = 3, TRIAL_RESULTS = 4 };
+
+struct trial_operands {
+    float v[TRIAL_OPERANDS][4];
+};
+
+struct trial_results {
+    float v[TRIAL_RESULTS][4];
+};
+
+struct trial {
+    const char *model;  /* any but ps_1_1 to ps_1_4 */
+    const char *setup;  /* further declarations and definitions, or null */
+    const char *body;   /* lines, the last without its end */
+    const char *behind; /* subroutines behind the main program's end, or null */
+    unsigned results;   /* 1 to TRIAL_RESULTS */
+    unsigned sets;
+    const struct trial_operands *operands;
+    const float (*constant)[4]; /* from c0 on */
+    unsigned constants;
+    const int32_t (*integer)[4]; /* from i0 on */
+    unsigned integers;
+    unsigned booleans; /* bit i: b# */
+    int legacy;        /* how multiplication goes */
+};
+
+/* What a set's results must be; values need not be rounded. */
+typedef void trial_reference(const struct trial *trial, const struct trial_operands *operands,
+                             double results[TRIAL_RESULTS][4]);
+
+/* Runs the trial in every way, and fails unless each component of each result is the binary32 nearest to what the
+ * reference says, a NaN where that is one, or no further from it than `relative` times it plus `absolute`. Denormals
+ * are zeros of their sign. */
+void trial_expect_within(const struct trial *trial, trial_reference *reference, double relative,
+                         double absolute);
+void trial_expect(const struct trial *trial, trial_reference *reference);
+
+/* The nearest binary32, as arithmetic under the contract gives it: to zero below FLT_MIN. */
+float trial_round(double value);
+
+/* Of an operand: a denormal is a zero of its sign. */
+double trial_flush(float value);
+
+/* a * b + c with the last bit of binary64 odd if the sum is inexact: rounding that once more is one rounding. */
+double trial_fused(double a, double b, double c);
+
+/* Sets of operands in which all pairs of the edges of arithmetic meet in each component of the first two, and numbers
+ * of ordinary size; the same ones each time. */
+extern const struct trial_operands *trial_edges;
+extern const unsigned trial_edge_sets;
+
+/* The ordinary ones of them. */
+extern const struct trial_operands *trial_ordinary;
+extern const unsigned trial_ordinary_sets;
+
+/* --- The ways ---------------------------------------------------------------------------------------------
+ */
+
+struct program;
+
+/* What the two that need no engine get: memory as the machine reads it. */
+struct trial_memory {
+    const struct program *program;
+    const struct trial *trial;
+    const uint8_t *constants;
+    unsigned number; /* of the trial */
+};
+
+/* Where the specification has the values of an operand and a result: four lanes each, one behind the other. */
+enum { TRIAL_LANES = 4 };
+
+void trial_emulate(const struct trial_memory *memory, const float *input, float *output);
+void trial_interpret(const struct trial_memory *memory, const float *input, float *output);
+
+#endif

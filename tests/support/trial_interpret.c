@@ -1,0 +1,100 @@
+#include "tests/support/trial.h"
+
+#include "base/mxcsr.h"
+#include "ir/bind.h"
+/* The routines are read along and not used. */
+#pragma GCC diagnostic ignored "-Wunused-function"
+#include "spec/spec.h"
+
+#include "tests/support/trial_spec.h"
+
+static struct ir ir;
+static uint32_t value[IR_CAPACITY], variable[VARIABLES];
+static const uint8_t *base[BASE_COUNT];
+static unsigned recorded;
+
+/* Records a trial unless it was the last one. */
+static void record_trial(const struct trial_memory *memory)
+{
+    static struct env e;
+    if (memory->number == recorded)
+        return;
+    ir_start(&ir);
+    e = (struct env){.ir = &ir, .program = memory->program};
+    trial_run(&e, memory);
+    TEST_ASSERT_FALSE_MESSAGE(ir.overflow, "too long a recording");
+    const char *wrong = ir_verify(&ir);
+    TEST_ASSERT_NULL_MESSAGE(wrong, wrong);
+    recorded = memory->number;
+}
+
+/* The end of the region that the instruction opens. */
+static uint32_t region_end(uint32_t number)
+{
+    for (unsigned depth = 0;; number++) {
+        uint8_t properties = ir_op_information[ir.instruction[number].op].properties;
+        depth += (properties & IR_OPENS) != 0;
+        depth -= (properties & IR_CLOSES) != 0;
+        if (!depth)
+            return number;
+    }
+}
+
+static uint32_t region_start(uint32_t number)
+{
+    for (unsigned depth = 0;; number--) {
+        uint8_t properties = ir_op_information[ir.instruction[number].op].properties;
+        depth += (properties & IR_CLOSES) != 0;
+        depth -= (properties & IR_OPENS) != 0;
+        if (!depth)
+            return number;
+    }
+}
+
+static uint32_t word_at(const uint8_t *address)
+{
+    uint32_t word;
+    memcpy(&word, address, sizeof word);
+    return word;
+}
+
+/* One instruction in one lane; the number of the next one. */
+static uint32_t interpret(uint32_t number, unsigned lane)
+{
+    const struct ir_instruction *i = &ir.instruction[number];
+    uint32_t a = value[i->operand[0]], *to = &value[number];
+    const uint8_t *at = base[i->base] + i->k;
+    switch (i->op) {
+    case IR_nop:
+    case IR_end:
+    case IR_loop: break;
+    case IR_literal: *to = (uint32_t)i->k; break;
+    case IR_copy: *to = a; break;
+    case IR_load: *to = word_at(at + 4 * lane); break;
+    case IR_uniform: *to = word_at(at); break;
+    case IR_gather:
+        TEST_ASSERT_EQUAL_INT(GATHER_DIRECT, i->field);
+        *to = word_at(at + (ptrdiff_t)(int32_t)a * i->scale);
+        break;
+    case IR_store: memcpy((uint8_t *)(uintptr_t)at + 4 * lane, &a, sizeof a); break;
+    case IR_set: variable[i->k] = a; break;
+    case IR_get: *to = variable[i->k]; break;
+    case IR_when: return a ? number + 1 : region_end(number) + 1;
+    case IR_again: return a ? region_start(number) + 1 : number + 1;
+    default: *to = ir_evaluate(i->op, a, value[i->operand[1]], value[i->operand[2]], i->k);
+    }
+    return number + 1;
+}
+
+void trial_interpret(const struct trial_memory *memory, const float *input, float *output)
+{
+    record_trial(memory);
+    base[BASE_CONSTANT] = memory->constants;
+    base[BASE_INPUT] = (const uint8_t *)input;
+    base[BASE_OUTPUT] = (const uint8_t *)output;
+    unsigned saved = mxcsr_enter();
+    for (unsigned lane = 0; lane < TRIAL_LANES; lane++)
+        for (uint32_t number = 1; number < ir.count;)
+            number = interpret(number, lane);
+    mxcsr_leave(saved);
+}
