@@ -19,13 +19,14 @@ static inline struct float_color float_texture(struct env *e, const struct pixel
 {
     struct float_color r;
     flt v[3];
+    struct sampler_key k = pixel_sampler(s->k, stage);
     stage_coordinates(E, s, stage, v);
     if (s->k->bump[stage])
         bump_displace(E, stage, before, v);
-    if (s->k->texel[stage] != TEXEL_BYTES) {
-        r = float_sample(E, s->k, stage, v);
+    if (k.texel != TEXEL_BYTES) {
+        r = float_sample(E, &k, v);
     } else {
-        struct color packed = sample(E, s->k, stage, v);
+        struct color packed = sample(E, &k, v);
         itg word = color_pack(E, packed);
         r = float_unpack(E, word);
     }

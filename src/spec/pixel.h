@@ -50,8 +50,9 @@ static inline void stage_coordinates(struct env *e, const struct pixel_source *s
 static inline struct color stage_texture(struct env *e, const struct pixel_source *s, int stage)
 {
     flt v[3];
+    struct sampler_key k = pixel_sampler(s->k, stage);
     stage_coordinates(E, s, stage, v);
-    return sample(E, s->k, stage, v);
+    return sample(E, &k, v);
 }
 
 static inline struct color shade_stages(struct env *e, const struct pixel_source *s)

@@ -6,10 +6,9 @@
  * v, then w, then between two levels; each step is round((a * (256 - f) + b * f) / 256) of each channel. The
  * mean of N anisotropic taps is floor((2 * sum + N) / 2N), halves up. */
 
-/* What a stage samples with. */
+/* What is sampled with. */
 struct sampler {
-    const struct pixel_key *k;
-    int stage;
+    const struct sampler_key *k;
     int axes; /* of its images: 2 or 3 */
     struct tap tap;
     struct detail detail;
@@ -18,14 +17,9 @@ struct sampler {
     flt reference; /* what texels of depth are compared with */
 };
 
-static inline int sampler_address(const struct pixel_key *k, int stage, int axis)
-{
-    return axis == 0 ? k->address_u[stage] : axis == 1 ? k->address_v[stage] : k->address_w[stage];
-}
-
 static inline int has_border(const struct sampler *s, int axis)
 {
-    return sampler_address(s->k, s->stage, axis) == ADDRESS_BORDER;
+    return s->k->address[axis] == ADDRESS_BORDER;
 }
 
 /* The number of the first texel of a row, by taps down and through the slices. */
@@ -35,7 +29,7 @@ static inline itg texel_row(struct env *e, const struct sampler *s, const struct
     itg row = dot_i(E, axis[1].index[j], width);
     if (s->axes == 3) {
         itg slice_texels =
-            l->each ? l->slice_texels : uniform_i(E, BASE_JOB, TEXTURE_FIELD(l->stage, slice_texels));
+            l->each ? l->slice_texels : uniform_i(E, BASE_JOB, TEXTURE_FIELD(l->job, slice_texels));
         itg slice = mul_i(E, axis[2].index[k], slice_texels);
         row = add_i(E, row, slice);
     }
@@ -47,10 +41,10 @@ static inline itg texel_row(struct env *e, const struct sampler *s, const struct
 
 /* The texel, or the border colour where one of the axes has a border and its index is not the one that was
  * wanted. */
-static inline itg border_texel(struct env *e, int stage, const struct axis *axis, int tap, itg texel)
+static inline itg border_texel(struct env *e, int job, const struct axis *axis, int tap, itg texel)
 {
     msk inside = eq_i(E, axis->wanted[tap], axis->index[tap]);
-    itg border = uniform_i(E, BASE_JOB, TEXTURE_FIELD(stage, border));
+    itg border = uniform_i(E, BASE_JOB, TEXTURE_FIELD(job, border));
     return select_i(E, inside, texel, border);
 }
 
@@ -60,10 +54,10 @@ static inline itg texel(struct env *e, const struct sampler *s, const struct axi
 {
     const int tap[3] = {i, j, k};
     itg index = add_i(E, row, axis[0].index[i]);
-    itg word = gather_i(E, BASE_JOB, TEXTURE_FIELD(s->stage, texels), index, 4, 0);
+    itg word = gather_i(E, BASE_JOB, TEXTURE_FIELD(s->k->job, texels), index, 4, 0);
     for (int a = 0; a < s->axes; a++)
         if (has_border(s, a))
-            word = border_texel(E, s->stage, &axis[a], tap[a], word);
+            word = border_texel(E, s->k->job, &axis[a], tap[a], word);
     return word;
 }
 
@@ -112,7 +106,7 @@ static inline struct color sample_image(struct env *e, const struct sampler *s, 
 {
     struct axis axis[3];
     for (int a = 0; a < s->axes; a++)
-        axis[a] = address_axis(E, l, &s->tap, sampler_address(s->k, s->stage, a), a, s->coordinate[a]);
+        axis[a] = address_axis(E, l, &s->tap, s->k->address[a], a, s->coordinate[a]);
     itg width = level_size(E, l, 0);
     if (!s->tap.linear) {
         itg row = texel_row(E, s, l, axis, 0, 0, width);
@@ -133,12 +127,12 @@ static inline struct color sample_image(struct env *e, const struct sampler *s, 
 /* Image number `i` of those that are blended: in the job, or each lane's own; on a cube, of its face. */
 static inline struct level sampler_level(struct env *e, const struct sampler *s, int i)
 {
-    struct level r = {.stage = s->stage};
-    if (s->k->mip[s->stage])
-        r = gather_level(E, s->stage, s->detail.level[i], s->axes);
-    if (s->k->texture[s->stage] != TEXTURE_CUBE)
+    struct level r = {.job = s->k->job};
+    if (s->k->mip)
+        r = gather_level(E, s->k->job, s->detail.level[i], s->axes);
+    if (s->k->kind != TEXTURE_CUBE)
         return r;
-    itg face_texels = uniform_i(E, BASE_JOB, TEXTURE_FIELD(s->stage, face_texels));
+    itg face_texels = uniform_i(E, BASE_JOB, TEXTURE_FIELD(s->k->job, face_texels));
     itg face = mul_i(E, s->face, face_texels);
     r.offset = r.placed ? add_i(E, r.offset, face) : face;
     r.placed = 1;
@@ -149,7 +143,7 @@ static inline struct color sample_levels(struct env *e, const struct sampler *s)
 {
     struct level first = sampler_level(E, s, 0);
     struct color color = sample_image(E, s, &first);
-    if (!s->k->mip[s->stage] || s->detail.images == 1)
+    if (!s->k->mip || s->detail.images == 1)
         return color;
     struct level second = sampler_level(E, s, 1);
     struct color further = sample_image(E, s, &second);
@@ -164,7 +158,7 @@ static inline struct color sample_levels(struct env *e, const struct sampler *s)
 /* Which lanes filter linearly: by magfilter, or by the other filter where texels are smaller than pixels. */
 static inline void choose_filter(struct env *e, struct sampler *s)
 {
-    int mag = s->k->filter[s->stage] == FILTER_LINEAR, minify = s->k->minify[s->stage];
+    int mag = s->k->filter == FILTER_LINEAR, minify = s->k->minify;
     int min = minify == MINIFY_SAME ? mag : minify == MINIFY_ANISOTROPIC || !mag;
     s->tap.linear = mag || min;
     s->tap.mixed = mag != min;
@@ -195,21 +189,21 @@ static inline void project_cube(struct env *e, struct sampler *s, const flt v[3]
 
 /* Coordinates u, v and, where the texture needs it, a third: w, z of a cube's vector, or the reference depth.
  */
-static inline struct sampler sampler(struct env *e, const struct pixel_key *k, int stage, const flt v[3])
+static inline struct sampler sampler(struct env *e, const struct sampler_key *k, const flt v[3])
 {
-    struct sampler s = {.k = k, .stage = stage, .axes = k->texture[stage] == TEXTURE_VOLUME ? 3 : 2};
+    struct sampler s = {.k = k, .axes = k->kind == TEXTURE_VOLUME ? 3 : 2};
     struct changes changes;
-    int cube = k->texture[stage] == TEXTURE_CUBE;
-    if (needs_detail(k, stage))
+    int cube = k->kind == TEXTURE_CUBE;
+    if (needs_detail(k))
         quad_changes(E, v, cube ? 3 : s.axes, &changes);
     if (cube)
-        project_cube(E, &s, v, needs_detail(k, stage) ? &changes : NULL);
+        project_cube(E, &s, v, needs_detail(k) ? &changes : NULL);
     else
         for (int a = 0; a < s.axes; a++)
             s.coordinate[a] = v[a];
-    if (needs_detail(k, stage)) {
-        measure_changes(E, stage, s.axes, &changes);
-        s.detail = detail(E, k, stage, s.axes, &changes);
+    if (needs_detail(k)) {
+        measure_changes(E, k->job, s.axes, &changes);
+        s.detail = detail(E, k, s.axes, &changes);
     }
     choose_filter(E, &s);
     s.reference = v[2];
@@ -272,7 +266,7 @@ static inline struct color sample_anisotropic(struct env *e, const struct sample
     flt apart = taps_apart(E, s);
     struct color sum;
     sum.rb = sum.ga = lit_x(E, 0);
-    for (int i = 1; i <= s->k->anisotropy[s->stage]; i++) {
+    for (int i = 1; i <= s->k->anisotropy; i++) {
         struct sampler tap = tap_sampler(E, s, i, apart);
         struct color color = sample_levels(E, &tap);
         msk counts = tap_counts(E, s, i);
@@ -287,9 +281,9 @@ static inline struct color sample_anisotropic(struct env *e, const struct sample
     return sum;
 }
 
-/* The texture of a stage, of bytes. */
-static inline struct color sample(struct env *e, const struct pixel_key *k, int stage, const flt v[3])
+/* A texture of bytes. */
+static inline struct color sample(struct env *e, const struct sampler_key *k, const flt v[3])
 {
-    struct sampler s = sampler(E, k, stage, v);
-    return k->minify[stage] == MINIFY_ANISOTROPIC ? sample_anisotropic(E, &s) : sample_levels(E, &s);
+    struct sampler s = sampler(E, k, v);
+    return k->minify == MINIFY_ANISOTROPIC ? sample_anisotropic(E, &s) : sample_levels(E, &s);
 }

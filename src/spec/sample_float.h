@@ -11,12 +11,12 @@
 
 static inline int texel_channels(const struct sampler *s)
 {
-    return s->k->texel[s->stage] == TEXEL_COMPARE ? 1 : 4;
+    return s->k->texel == TEXEL_COMPARE ? 1 : 4;
 }
 
-static inline struct float_color fetch_srgb(struct env *e, int stage, itg index)
+static inline struct float_color fetch_srgb(struct env *e, int job, itg index)
 {
-    itg word = gather_i(E, BASE_JOB, TEXTURE_FIELD(stage, texels), index, 4, 0);
+    itg word = gather_i(E, BASE_JOB, TEXTURE_FIELD(job, texels), index, 4, 0);
     struct float_color r;
     for (int c = 0; c < 3; c++) {
         itg code = word_byte(E, word, c);
@@ -33,7 +33,7 @@ static inline struct float_color fetch_floats(struct env *e, const struct sample
     struct float_color r = {0};
     itg word = shl_i(E, index, 2);
     for (int c = 0; c < texel_channels(s); c++)
-        r.channel[c] = gather_f(E, BASE_JOB, TEXTURE_FIELD(s->stage, texels), word, 4, 4 * c);
+        r.channel[c] = gather_f(E, BASE_JOB, TEXTURE_FIELD(s->k->job, texels), word, 4, 4 * c);
     return r;
 }
 
@@ -56,14 +56,14 @@ static inline struct float_color float_texel(struct env *e, const struct sampler
     const int tap[3] = {i, j, k};
     itg index = add_i(E, row, axis[0].index[i]);
     struct float_color r =
-        s->k->texel[s->stage] == TEXEL_SRGB ? fetch_srgb(E, s->stage, index) : fetch_floats(E, s, index);
+        s->k->texel == TEXEL_SRGB ? fetch_srgb(E, s->k->job, index) : fetch_floats(E, s, index);
     if (has_border(s, 0) || has_border(s, 1) || (s->axes == 3 && has_border(s, 2))) {
         msk inside = tap_inside(E, s, axis, tap);
-        struct float_color border = float_packed(E, (size_t)TEXTURE_FIELD(s->stage, border));
+        struct float_color border = float_packed(E, (size_t)TEXTURE_FIELD(s->k->job, border));
         for (int c = 0; c < texel_channels(s); c++)
             r.channel[c] = select_f(E, inside, r.channel[c], border.channel[c]);
     }
-    if (s->k->texel[s->stage] == TEXEL_COMPARE) {
+    if (s->k->texel == TEXEL_COMPARE) {
         msk lit = le_f(E, s->reference, r.channel[0]);
         r.channel[0] = select_f(E, lit, lit_f(E, 1.0f), lit_f(E, 0.0f));
     }
@@ -118,7 +118,7 @@ static inline struct float_color float_image(struct env *e, const struct sampler
     struct axis axis[3];
     struct float_weight weight[3];
     for (int a = 0; a < s->axes; a++)
-        axis[a] = address_axis(E, l, &s->tap, sampler_address(s->k, s->stage, a), a, s->coordinate[a]);
+        axis[a] = address_axis(E, l, &s->tap, s->k->address[a], a, s->coordinate[a]);
     itg width = level_size(E, l, 0);
     if (!s->tap.linear) {
         itg row = texel_row(E, s, l, axis, 0, 0, width);
@@ -137,7 +137,7 @@ static inline struct float_color float_levels(struct env *e, const struct sample
 {
     struct level first = sampler_level(E, s, 0);
     struct float_color color = float_image(E, s, &first);
-    if (!s->k->mip[s->stage] || s->detail.images == 1)
+    if (!s->k->mip || s->detail.images == 1)
         return color;
     struct level second = sampler_level(E, s, 1);
     struct float_color further = float_image(E, s, &second);
@@ -149,7 +149,7 @@ static inline struct float_color float_anisotropic(struct env *e, const struct s
 {
     flt apart = taps_apart(E, s);
     struct float_color sum = float_replicate(lit_f(E, 0.0f));
-    for (int i = 1; i <= s->k->anisotropy[s->stage]; i++) {
+    for (int i = 1; i <= s->k->anisotropy; i++) {
         struct sampler tap = tap_sampler(E, s, i, apart);
         struct float_color color = float_levels(E, &tap);
         msk counts = tap_counts(E, s, i);
@@ -163,14 +163,13 @@ static inline struct float_color float_anisotropic(struct env *e, const struct s
     return sum;
 }
 
-/* The texture of a stage, of anything but bytes. */
-static inline struct float_color float_sample(struct env *e, const struct pixel_key *k, int stage,
-                                              const flt v[3])
+/* A texture of anything but bytes. */
+static inline struct float_color float_sample(struct env *e, const struct sampler_key *k, const flt v[3])
 {
-    struct sampler s = sampler(E, k, stage, v);
-    if (k->texel[stage] == TEXEL_COMPARE)
+    struct sampler s = sampler(E, k, v);
+    if (k->texel == TEXEL_COMPARE)
         s.reference = saturate(E, s.reference);
     struct float_color color =
-        k->minify[stage] == MINIFY_ANISOTROPIC ? float_anisotropic(E, &s) : float_levels(E, &s);
-    return k->texel[stage] == TEXEL_COMPARE ? float_replicate(color.channel[0]) : color;
+        k->minify == MINIFY_ANISOTROPIC ? float_anisotropic(E, &s) : float_levels(E, &s);
+    return k->texel == TEXEL_COMPARE ? float_replicate(color.channel[0]) : color;
 }
