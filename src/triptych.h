@@ -72,7 +72,8 @@ enum triptych_state_table {
     TRIPTYCH_STATE_TABLE_COUNT
 };
 
-enum { TRIPTYCH_SAMPLERS = 16, TRIPTYCH_STAGES = 8 };
+/* Samplers 0 to 15 are those of pixels, the last four of vertex shaders (s0 to s3). */
+enum { TRIPTYCH_VERTEX_SAMPLER = 16, TRIPTYCH_SAMPLERS = 20, TRIPTYCH_STAGES = 8 };
 
 enum triptych_transform {
     TRIPTYCH_TRANSFORM_WORLD,
@@ -489,8 +490,9 @@ TRIPTYCH_API enum triptych_result triptych_set_material(triptych_device *, const
 TRIPTYCH_API enum triptych_result triptych_set_light(triptych_device *, unsigned index,
                                                      const struct triptych_light *);
 TRIPTYCH_API enum triptych_result triptych_enable_light(triptych_device *, unsigned index, int enable);
-/* Sampler i (0 to TRIPTYCH_SAMPLERS - 1) is texture stage i's. Null unbinds: what of the stage reads the
- * texture then passes the current colour. */
+/* Sampler i is texture stage i's and s# of a pixel shader; TRIPTYCH_VERTEX_SAMPLER + i is s# of a vertex
+ * shader. Null unbinds: what of a stage reads the texture then passes the current colour, and shaders sample
+ * (0, 0, 0, 1). */
 TRIPTYCH_API enum triptych_result triptych_set_texture(triptych_device *, unsigned sampler,
                                                        triptych_texture *);
 

@@ -58,47 +58,57 @@ static uint32_t rgba_word(uint32_t color)
 
 /* Positions are measured in 1/256 texels of the level whose size is in the job: 8 levels more than texels of
  * it, and that level's number more than those of the first. */
-static void fill_detail(const struct state *state, const struct pixel_key *key, int stage,
-                        struct texture_job *job)
+static void fill_detail(const struct state *state, const struct sampler_key *key, struct texture_job *job)
 {
-    const struct triptych_texture *texture = state->texture[stage];
-    uint32_t first = derive_first_level(state, stage);
-    float bias = lane_from_bits(SAMPLER(stage, mipmaplodbias));
+    const struct triptych_texture *texture = state->texture[key->number];
+    uint32_t first = derive_first_level(state, key->number);
+    float bias = lane_from_bits(SAMPLER(key->number, mipmaplodbias));
     bias = fminf(fmaxf(bias, -LOD_BIAS_MAXIMUM), LOD_BIAS_MAXIMUM);
-    job->lod_offset = 256 * bias - 256 * 8 + (key->mip[stage] ? 0 : 256 * (float)first);
-    if (!key->mip[stage])
+    job->lod_bias_256 = 256 * bias;
+    job->lod_offset = 256 * bias - 256 * 8 + (key->mip ? 0 : 256 * (float)first);
+    if (!key->mip)
         return;
     job->levels = texture->level;
     job->first_level_256 = 256 * (int32_t)first;
     job->last_level_256 = 256 * (int32_t)(texture->levels - 1);
 }
 
-static void fill_texture(const struct state *state, const struct pixel_key *key, int stage,
-                         struct texture_job *job)
+static void fill_texture(const struct state *state, struct sampler_key key, struct texture_job *job)
 {
-    const struct triptych_texture *texture = state->texture[stage];
-    uint32_t first = derive_first_level(state, stage);
-    const struct texture_level *level = &texture->level[key->mip[stage] ? 0 : first];
-    job->texels = key->mip[stage] ? texture->texels : texture_level_texels(texture, 0, first);
+    const struct triptych_texture *texture = state->texture[key.number];
+    uint32_t first = derive_first_level(state, key.number);
+    const struct texture_level *level = &texture->level[key.mip ? 0 : first];
+    job->texels = key.mip ? texture->texels : texture_level_texels(texture, 0, first);
     job->width = level->width;
     job->height = level->height;
     job->width_256 = level->width_256;
     job->height_256 = level->height_256;
     job->last_u = job->width - 1;
     job->last_v = job->height - 1;
-    if (key->address_u[stage] == ADDRESS_BORDER || key->address_v[stage] == ADDRESS_BORDER ||
-        key->address_w[stage] == ADDRESS_BORDER)
-        job->border = rgba_word(SAMPLER(stage, bordercolor));
-    if (key->texture[stage] == TEXTURE_CUBE)
+    if (memchr(key.address, ADDRESS_BORDER, sizeof key.address))
+        job->border = rgba_word(SAMPLER(key.number, bordercolor));
+    if (key.kind == TEXTURE_CUBE)
         job->face_texels = (int32_t)texture->face_texels;
-    if (key->texture[stage] == TEXTURE_VOLUME) {
+    if (key.kind == TEXTURE_VOLUME) {
         job->depth = level->depth;
         job->depth_256 = level->depth_256;
         job->last_w = job->depth - 1;
         job->slice_texels = level->slice_texels;
     }
-    if (key->mip[stage] || key->minify[stage])
-        fill_detail(state, key, stage, job);
+    if (key.mip || key.minify)
+        fill_detail(state, &key, job);
+}
+
+/* A sampler that the key says nothing of is not looked at. */
+static void fill_textures(const struct state *state, const struct vertex_key *vertex,
+                          const struct pixel_key *pixel, struct job *job)
+{
+    for (int i = 0; i < PIXEL_SAMPLERS; i++)
+        if (pixel->texture[i])
+            fill_texture(state, pixel_sampler(pixel, i), &job->texture[i]);
+    for (int i = 0; i < VERTEX_SAMPLERS; i++)
+        if (vertex->texture[i])
+            fill_texture(state, vertex_sampler(vertex, i), &job->texture[PIXEL_SAMPLERS + i]);
 }
 
 static void fill_bump(const struct state *state, int stage, struct bump_job *job)
@@ -114,8 +124,6 @@ static void fill_bump(const struct state *state, int stage, struct bump_job *job
 static void fill_stages(const struct state *state, const struct pixel_key *key, struct job *job)
 {
     for (int i = 0; i < key->stages; i++) {
-        if (key->texture[i])
-            fill_texture(state, key, i, &job->texture[i]);
         if (key->bump[i])
             fill_bump(state, i - 1, &job->bump[i]);
         if (stage_reads(key, i, SOURCE_CONSTANT))
@@ -265,6 +273,7 @@ __attribute__((noinline)) static void fill_job(const struct state *state, const 
         fill_viewport(state, job);
     derive_setup_job(state, vertex, (const double(*)[4])view_projection.m, job);
     fill_depth(state, pixel, job);
+    fill_textures(state, vertex, pixel, job);
     fill_stages(state, pixel, job);
     fill_fog(state, vertex, pixel, job);
     if (pixel->alpha_discard)

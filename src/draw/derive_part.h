@@ -51,7 +51,10 @@ void derive_storage(const struct state *state, struct pixel_key *key);
 void derive_blend(const struct state *state, struct pixel_key *key);
 void derive_stage(const struct state *state, struct pixel_key *key);
 void derive_texture(const struct state *state, struct pixel_key *key);
-uint32_t derive_first_level(const struct state *state, int stage); /* that the stage's sampler may sample */
+/* Fills the fields of one sampler of a shader or a stage; they stay 0 where no texture is bound. */
+void derive_pixel_sampler(const struct state *state, int i, struct pixel_key *key);
+void derive_vertex_sampler(const struct state *state, int i, struct vertex_key *key);
+uint32_t derive_first_level(const struct state *state, int number); /* that the sampler may sample */
 void derive_fog(const struct state *state, struct pixel_key *key);
 void derive_pixel(const struct state *state, enum primitive primitive, struct pixel_key *key);
 void derive_setup(const struct state *state, enum primitive primitive, const struct pixel_key *pixel,

@@ -20,65 +20,98 @@ static uint8_t derive_filter(uint32_t filter)
     return filter == FILTER_linear || filter == FILTER_anisotropic ? FILTER_LINEAR : FILTER_POINT;
 }
 
-static void derive_minify(const struct state *state, int stage, struct pixel_key *key)
+static void derive_minify(const struct state *state, struct sampler_key *key)
 {
-    uint32_t taps = SAMPLER(stage, maxanisotropy);
-    if (SAMPLER(stage, minfilter) == FILTER_anisotropic && taps > 1) {
-        key->minify[stage] = MINIFY_ANISOTROPIC;
-        key->anisotropy[stage] = (uint8_t)taps;
-    } else if (derive_filter(SAMPLER(stage, minfilter)) != key->filter[stage])
-        key->minify[stage] = MINIFY_OTHER;
+    uint32_t taps = SAMPLER(key->number, maxanisotropy);
+    uint32_t filter = SAMPLER(key->number, minfilter);
+    if (filter == FILTER_anisotropic && taps > 1 && key->number < PIXEL_SAMPLERS) {
+        key->minify = MINIFY_ANISOTROPIC;
+        key->anisotropy = (uint8_t)taps;
+    } else if (derive_filter(filter) != key->filter)
+        key->minify = MINIFY_OTHER;
 }
 
 /* Without a second level that may be sampled there is nothing to choose from. */
-static uint8_t derive_mip(const struct state *state, int stage)
+static uint8_t derive_mip(const struct state *state, int number)
 {
-    if (derive_first_level(state, stage) + 1 == state->texture[stage]->levels)
+    if (derive_first_level(state, number) + 1 == state->texture[number]->levels)
         return MIP_NONE;
-    return (uint8_t)(MIP_NONE + SAMPLER(stage, mipfilter) - MIPFILTER_none);
+    return (uint8_t)(MIP_NONE + SAMPLER(number, mipfilter) - MIPFILTER_none);
 }
 
-static void derive_addresses(const struct state *state, int stage, struct pixel_key *key)
+static void derive_addresses(const struct state *state, struct sampler_key *key)
 {
-    const struct triptych_texture *texture = state->texture[stage];
+    int number = key->number;
+    const struct triptych_texture *texture = state->texture[number];
     const struct texture_level *level = &texture->level[0];
     if (texture->type == TRIPTYCH_TEXTURE_CUBE) {
-        key->address_u[stage] = key->address_v[stage] = ADDRESS_CLAMP;
+        key->address[0] = key->address[1] = ADDRESS_CLAMP;
         return;
     }
-    if (!key->mip[stage])
-        level = &texture->level[derive_first_level(state, stage)];
-    key->address_u[stage] = derive_address(SAMPLER(stage, addressu), (uint32_t)level->width);
-    key->address_v[stage] = derive_address(SAMPLER(stage, addressv), (uint32_t)level->height);
+    if (!key->mip)
+        level = &texture->level[derive_first_level(state, number)];
+    key->address[0] = derive_address(SAMPLER(number, addressu), (uint32_t)level->width);
+    key->address[1] = derive_address(SAMPLER(number, addressv), (uint32_t)level->height);
     if (texture->type == TRIPTYCH_TEXTURE_VOLUME)
-        key->address_w[stage] = derive_address(SAMPLER(stage, addressw), (uint32_t)level->depth);
+        key->address[2] = derive_address(SAMPLER(number, addressw), (uint32_t)level->depth);
 }
 
 /* sRGB is for texels of bytes; others are linear. */
-static uint8_t derive_texel(const struct state *state, int stage)
+static uint8_t derive_texel(const struct state *state, int number)
 {
-    const struct format *format = state->texture[stage]->format;
+    const struct format *format = state->texture[number]->format;
     if (format->storage == STORAGE_RGBA8)
-        return SAMPLER(stage, srgbtexture) ? TEXEL_SRGB : TEXEL_BYTES;
+        return SAMPLER(number, srgbtexture) ? TEXEL_SRGB : TEXEL_BYTES;
     return format->roles & ROLE_COMPARE ? TEXEL_COMPARE : TEXEL_FLOATS;
 }
 
-static void derive_sampler(const struct state *state, int stage, struct pixel_key *key)
+/* All zero but for the number where nothing is bound. */
+static struct sampler_key derive_sampler(const struct state *state, int number)
 {
-    key->texture[stage] = (uint8_t)(TEXTURE_2D + state->texture[stage]->type);
-    key->texel[stage] = derive_texel(state, stage);
-    key->float_color |= key->texel[stage] != TEXEL_BYTES;
-    key->filter[stage] = derive_filter(SAMPLER(stage, magfilter));
-    derive_minify(state, stage, key);
-    key->mip[stage] = derive_mip(state, stage);
-    derive_addresses(state, stage, key);
+    struct sampler_key key = {.number = (uint8_t)number};
+    if (!state->texture[number])
+        return key;
+    key.kind = (uint8_t)(TEXTURE_2D + state->texture[number]->type);
+    key.texel = derive_texel(state, number);
+    key.filter = derive_filter(SAMPLER(number, magfilter));
+    derive_minify(state, &key);
+    key.mip = derive_mip(state, number);
+    derive_addresses(state, &key);
+    return key;
+}
+
+void derive_pixel_sampler(const struct state *state, int i, struct pixel_key *key)
+{
+    struct sampler_key sampler = derive_sampler(state, i);
+    key->texture[i] = sampler.kind;
+    key->texel[i] = sampler.texel;
+    key->filter[i] = sampler.filter;
+    key->minify[i] = sampler.minify;
+    key->mip[i] = sampler.mip;
+    key->anisotropy[i] = sampler.anisotropy;
+    key->address_u[i] = sampler.address[0];
+    key->address_v[i] = sampler.address[1];
+    key->address_w[i] = sampler.address[2];
+}
+
+void derive_vertex_sampler(const struct state *state, int i, struct vertex_key *key)
+{
+    struct sampler_key sampler = derive_sampler(state, PIXEL_SAMPLERS + i);
+    key->texture[i] = sampler.kind;
+    key->texel[i] = sampler.texel;
+    key->filter[i] = sampler.filter;
+    key->minify[i] = sampler.minify;
+    key->mip[i] = sampler.mip;
+    key->address_u[i] = sampler.address[0];
+    key->address_v[i] = sampler.address[1];
+    key->address_w[i] = sampler.address[2];
 }
 
 /* maxmiplevel is that of mip filters: without one the first level is sampled. */
-uint32_t derive_first_level(const struct state *state, int stage)
+uint32_t derive_first_level(const struct state *state, int number)
 {
-    uint32_t last = state->texture[stage]->levels - 1, first = SAMPLER(stage, maxmiplevel);
-    if (SAMPLER(stage, mipfilter) == MIPFILTER_none)
+    uint32_t last = state->texture[number]->levels - 1, first = SAMPLER(number, maxmiplevel);
+    if (SAMPLER(number, mipfilter) == MIPFILTER_none)
         return 0;
     return first < last ? first : last;
 }
@@ -136,7 +169,8 @@ void derive_texture(const struct state *state, struct pixel_key *key)
         key->float_color |= key->bump[i] != BUMP_NONE;
         if (!needs_texture(key, i))
             continue;
-        derive_sampler(state, i, key);
+        derive_pixel_sampler(state, i, key);
+        key->float_color |= key->texel[i] != TEXEL_BYTES;
         derive_channel(state, i, key);
         if (key->texture[i] != TEXTURE_2D || key->texel[i] == TEXEL_COMPARE)
             key->varying[varying_third(key->coordinates[i])] = INTERPOLATION_SMOOTH;

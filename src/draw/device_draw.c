@@ -198,12 +198,19 @@ static int acquire_routines(struct triptych_device *device, const struct routine
     return acquire_all(device, routine, error);
 }
 
+/* Whether the draw samples the texture of sampler number i. */
+static bool samples(const struct triptych_device *device, int i)
+{
+    const struct pixel_key *pixel = &device->key[UNIT_PIXEL].pixel;
+    const struct vertex_key *vertex = &device->key[UNIT_VERTEX].vertex;
+    return i < PIXEL_SAMPLERS ? pixel->texture[i] : vertex->texture[i - PIXEL_SAMPLERS];
+}
+
 /* The textures that the draw samples: they must not change before it is rendered. */
 static void mark_textures(struct triptych_device *device)
 {
-    const struct pixel_key *key = &device->key[UNIT_PIXEL].pixel;
-    for (int i = 0; i < key->stages; i++)
-        if (key->texture[i])
+    for (int i = 0; i < SAMPLERS; i++)
+        if (samples(device, i))
             device->state.texture[i]->recording = device->recording;
 }
 
@@ -248,9 +255,8 @@ static enum triptych_result record_instance(struct triptych_device *device, cons
 /* What is drawn to cannot be sampled: its texels are not those of the tiles. */
 static enum triptych_result check_feedback(const struct triptych_device *device, struct error *error)
 {
-    const struct pixel_key *key = &device->key[UNIT_PIXEL].pixel;
-    for (int i = 0; i < key->stages; i++)
-        if (key->texture[i] && device_draws_to(device, device->state.texture[i])) {
+    for (int i = 0; i < SAMPLERS; i++)
+        if (samples(device, i) && device_draws_to(device, device->state.texture[i])) {
             error_set(error, "texture of sampler %d is drawn to: expected another one, or none", i);
             return TRIPTYCH_BAD_CALL;
         }

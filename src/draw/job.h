@@ -74,7 +74,7 @@ struct texture_job {
     int32_t first_level_256, last_level_256; /* levels that may be sampled, times 256 */
     const struct texture_level *levels;
     uint32_t border;
-    uint32_t reserved;
+    float lod_bias_256; /* 256 times mipmaplodbias alone */
 };
 
 /* How a stage is displaced; rows of the matrix are du and dv. */
@@ -121,7 +121,7 @@ struct job {
     int32_t stencil_mask;      /* of reference and stored value when they are compared */
     int32_t stencil_write_mask;
 
-    struct texture_job texture[TEXTURE_STAGES];
+    struct texture_job texture[SAMPLERS];
     uint32_t stage_constant[TEXTURE_STAGES]; /* RGBA8, red in the low byte, like all packed colours here */
     struct bump_job bump[TEXTURE_STAGES];    /* by the stage that is displaced */
     uint32_t texture_factor;

@@ -54,6 +54,8 @@ extern const struct vertex_type vertex_types[ATTRIBUTE_FORMAT_COUNT];
 enum { LIGHT_COUNT = 8 };
 /* Stages, channels of texture coordinates that travel to the pixel, and sets of them that vertices have. */
 enum { TEXTURE_STAGES = 8, TEXCOORD_SETS = 8 };
+/* Of pixels, the first of them the texture stages', and behind them those of vertices. */
+enum { PIXEL_SAMPLERS = 16, VERTEX_SAMPLERS = 4, SAMPLERS = PIXEL_SAMPLERS + VERTEX_SAMPLERS };
 
 /* LIGHT_SPOT has a falloff of 1, LIGHT_SPOT_POWER any. */
 enum light_type {
@@ -367,6 +369,15 @@ struct pixel_key {
 #undef KEYS
 };
 
+/* What a key says of one sampler. */
+struct sampler_key {
+    uint8_t number;              /* 0 to SAMPLERS - 1 */
+    uint8_t kind, texel;         /* enum texture_kind, enum texel */
+    uint8_t filter, minify, mip; /* enum filter, enum minify, enum mip */
+    uint8_t anisotropy;          /* the most taps; 0 if there is but one */
+    uint8_t address[3];          /* enum address_mode, of u, v and w */
+};
+
 union key {
     struct vertex_key vertex;
     struct setup_key setup;
@@ -467,6 +478,35 @@ static inline int primitive_is_point(int primitive)
 static inline int primitive_has_area(int primitive)
 {
     return primitive != PRIMITIVE_LINE && primitive != PRIMITIVE_POINT;
+}
+
+/* Sampler i of pixels: texture stage i's, or s# of a pixel shader. */
+static inline struct sampler_key pixel_sampler(const struct pixel_key *key, int i)
+{
+    return (struct sampler_key){
+        .number = (uint8_t)i,
+        .kind = key->texture[i],
+        .texel = key->texel[i],
+        .filter = key->filter[i],
+        .minify = key->minify[i],
+        .mip = key->mip[i],
+        .anisotropy = key->anisotropy[i],
+        .address = {key->address_u[i], key->address_v[i], key->address_w[i]},
+    };
+}
+
+/* Sampler i of vertices: s# of a vertex shader. Vertices have no neighbours, so nothing is anisotropic. */
+static inline struct sampler_key vertex_sampler(const struct vertex_key *key, int i)
+{
+    return (struct sampler_key){
+        .number = (uint8_t)(PIXEL_SAMPLERS + i),
+        .kind = key->texture[i],
+        .texel = key->texel[i],
+        .filter = key->filter[i],
+        .minify = key->minify[i],
+        .mip = key->mip[i],
+        .address = {key->address_u[i], key->address_v[i], key->address_w[i]},
+    };
 }
 
 /* Whether the pixel routine compares or writes depth. */

@@ -33,7 +33,7 @@ struct tap {
 /* The image that is sampled. Where all lanes sample the same, it is in the job; where each has a level of its
  * own, in the fields here. Axes are those of u, v and w. */
 struct level {
-    int job;    /* where the texture is described: bytes from the job's start */
+    int number; /* the sampler's */
     int each;   /* the fields of this structure count */
     int placed; /* the image does not begin where the texture does, but `offset` texels from there */
     itg offset;
@@ -42,11 +42,19 @@ struct level {
     itg slice_texels;
 };
 
+/* A field of the texture's description in the job. */
+static inline int texture_field(int number, size_t field)
+{
+    return (int)(offsetof(struct job, texture) + (size_t)number * sizeof(struct texture_job) + field);
+}
+
+#define TEXTURE_FIELD(number, field) texture_field(number, offsetof(struct texture_job, field))
+
 static inline itg level_size(struct env *e, const struct level *l, int axis)
 {
     static const size_t field[3] = {offsetof(struct texture_job, width), offsetof(struct texture_job, height),
                                     offsetof(struct texture_job, depth)};
-    return l->each ? l->size[axis] : uniform_i(E, BASE_JOB, l->job + (int)field[axis]);
+    return l->each ? l->size[axis] : uniform_i(E, BASE_JOB, texture_field(l->number, field[axis]));
 }
 
 static inline itg level_last(struct env *e, const struct level *l, int axis)
@@ -54,20 +62,20 @@ static inline itg level_last(struct env *e, const struct level *l, int axis)
     static const size_t field[3] = {offsetof(struct texture_job, last_u),
                                     offsetof(struct texture_job, last_v),
                                     offsetof(struct texture_job, last_w)};
-    return l->each ? l->last[axis] : uniform_i(E, BASE_JOB, l->job + (int)field[axis]);
+    return l->each ? l->last[axis] : uniform_i(E, BASE_JOB, texture_field(l->number, field[axis]));
 }
 
-static inline flt job_size_256(struct env *e, int job, int axis)
+static inline flt job_size_256(struct env *e, int number, int axis)
 {
     static const size_t field[3] = {offsetof(struct texture_job, width_256),
                                     offsetof(struct texture_job, height_256),
                                     offsetof(struct texture_job, depth_256)};
-    return uniform_f(E, BASE_JOB, job + (int)field[axis]);
+    return uniform_f(E, BASE_JOB, texture_field(number, field[axis]));
 }
 
 static inline flt level_size_256(struct env *e, const struct level *l, int axis)
 {
-    return l->each ? l->size_256[axis] : job_size_256(E, l->job, axis);
+    return l->each ? l->size_256[axis] : job_size_256(E, l->number, axis);
 }
 
 static inline itg clamp_index(struct env *e, itg index, itg last)

@@ -50,28 +50,28 @@ static inline void quad_changes(struct env *e, const flt v[3], int axes, struct 
     }
 }
 
-static inline flt square_length(struct env *e, int job, const flt change[3], int axes)
+static inline flt square_length(struct env *e, int number, const flt change[3], int axes)
 {
     flt sum = lit_f(E, 0.0f);
     for (int i = 0; i < axes; i++) {
-        flt size = job_size_256(E, job, i);
+        flt size = job_size_256(E, number, i);
         flt texels = mul_f(E, change[i], size);
         sum = mad_f(E, texels, texels, sum);
     }
     return sum;
 }
 
-static inline void measure_changes(struct env *e, int job, int axes, struct changes *r)
+static inline void measure_changes(struct env *e, int number, int axes, struct changes *r)
 {
-    r->across_square = square_length(E, job, r->across, axes);
-    r->down_square = square_length(E, job, r->down, axes);
+    r->across_square = square_length(E, number, r->across, axes);
+    r->down_square = square_length(E, number, r->down, axes);
 }
 
 /* lambda in 1/256 from the square of rho in 1/256 texels. */
-static inline itg lambda_256(struct env *e, int job, flt square)
+static inline itg lambda_256(struct env *e, int number, flt square)
 {
     flt doubled = logarithm2(E, square);
-    flt offset = uniform_f(E, BASE_JOB, TEXTURE_FIELD(job, lod_offset));
+    flt offset = uniform_f(E, BASE_JOB, TEXTURE_FIELD(number, lod_offset));
     flt lambda = mad_f(E, doubled, lit_f(E, 128.0f), offset);
     return round_i(E, lambda);
 }
@@ -95,10 +95,10 @@ static inline flt detail_taps(struct env *e, int taps, int axes, const struct ch
     return div_f(E, square, taps_square);
 }
 
-static inline void detail_levels(struct env *e, int job, int mip, itg lambda, struct detail *d)
+static inline void detail_levels(struct env *e, int number, int mip, itg lambda, struct detail *d)
 {
-    itg first = uniform_i(E, BASE_JOB, TEXTURE_FIELD(job, first_level_256));
-    itg last = uniform_i(E, BASE_JOB, TEXTURE_FIELD(job, last_level_256));
+    itg first = uniform_i(E, BASE_JOB, TEXTURE_FIELD(number, first_level_256));
+    itg last = uniform_i(E, BASE_JOB, TEXTURE_FIELD(number, last_level_256));
     itg low = max_i(E, lambda, first);
     itg clamped = min_i(E, low, last);
     if (mip == MIP_POINT) {
@@ -126,21 +126,21 @@ static inline struct detail detail(struct env *e, const struct sampler_key *k, i
     r.images = 1;
     flt longer = max_f(E, changes->across_square, changes->down_square);
     flt square = min_f(E, longer, lit_f(E, 0x1p100f)); /* NaN too */
-    itg lambda = lambda_256(E, k->job, square);
+    itg lambda = lambda_256(E, k->number, square);
     r.level[0] = r.level[1] = r.fraction = lambda;
     r.minified = gt_i(E, lambda, lit_i(E, 0));
     r.taps = r.step[0] = r.step[1] = r.step[2] = square;
     if (k->minify == MINIFY_ANISOTROPIC) {
         flt share = detail_taps(E, k->anisotropy, axes, changes, square, &r);
-        lambda = lambda_256(E, k->job, share);
+        lambda = lambda_256(E, k->number, share);
     }
     if (k->mip)
-        detail_levels(E, k->job, k->mip, lambda, &r);
+        detail_levels(E, k->number, k->mip, lambda, &r);
     return r;
 }
 
 /* The image of each lane's level. */
-static inline struct level gather_level(struct env *e, int job, itg number, int axes)
+static inline struct level gather_level(struct env *e, int number, itg level, int axes)
 {
     static const size_t size[3] = {offsetof(struct texture_level, width),
                                    offsetof(struct texture_level, height),
@@ -148,9 +148,9 @@ static inline struct level gather_level(struct env *e, int job, itg number, int 
     static const size_t size_256[3] = {offsetof(struct texture_level, width_256),
                                        offsetof(struct texture_level, height_256),
                                        offsetof(struct texture_level, depth_256)};
-    struct level r = {.job = job, .each = 1, .placed = 1};
-    int levels = TEXTURE_FIELD(job, levels);
-    itg row = shl_i(E, number, 3); /* of 8 words */
+    struct level r = {.number = number, .each = 1, .placed = 1};
+    int levels = TEXTURE_FIELD(number, levels);
+    itg row = shl_i(E, level, 3); /* of 8 words */
     r.offset = gather_i(E, BASE_JOB, levels, row, 4, (int)offsetof(struct texture_level, offset));
     r.slice_texels = r.offset;
     for (int i = 0; i < axes; i++) {

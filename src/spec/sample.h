@@ -29,7 +29,7 @@ static inline itg texel_row(struct env *e, const struct sampler *s, const struct
     itg row = dot_i(E, axis[1].index[j], width);
     if (s->axes == 3) {
         itg slice_texels =
-            l->each ? l->slice_texels : uniform_i(E, BASE_JOB, TEXTURE_FIELD(l->job, slice_texels));
+            l->each ? l->slice_texels : uniform_i(E, BASE_JOB, TEXTURE_FIELD(l->number, slice_texels));
         itg slice = mul_i(E, axis[2].index[k], slice_texels);
         row = add_i(E, row, slice);
     }
@@ -41,10 +41,10 @@ static inline itg texel_row(struct env *e, const struct sampler *s, const struct
 
 /* The texel, or the border colour where one of the axes has a border and its index is not the one that was
  * wanted. */
-static inline itg border_texel(struct env *e, int job, const struct axis *axis, int tap, itg texel)
+static inline itg border_texel(struct env *e, int number, const struct axis *axis, int tap, itg texel)
 {
     msk inside = eq_i(E, axis->wanted[tap], axis->index[tap]);
-    itg border = uniform_i(E, BASE_JOB, TEXTURE_FIELD(job, border));
+    itg border = uniform_i(E, BASE_JOB, TEXTURE_FIELD(number, border));
     return select_i(E, inside, texel, border);
 }
 
@@ -54,10 +54,10 @@ static inline itg texel(struct env *e, const struct sampler *s, const struct axi
 {
     const int tap[3] = {i, j, k};
     itg index = add_i(E, row, axis[0].index[i]);
-    itg word = gather_i(E, BASE_JOB, TEXTURE_FIELD(s->k->job, texels), index, 4, 0);
+    itg word = gather_i(E, BASE_JOB, TEXTURE_FIELD(s->k->number, texels), index, 4, 0);
     for (int a = 0; a < s->axes; a++)
         if (has_border(s, a))
-            word = border_texel(E, s->k->job, &axis[a], tap[a], word);
+            word = border_texel(E, s->k->number, &axis[a], tap[a], word);
     return word;
 }
 
@@ -127,12 +127,12 @@ static inline struct color sample_image(struct env *e, const struct sampler *s, 
 /* Image number `i` of those that are blended: in the job, or each lane's own; on a cube, of its face. */
 static inline struct level sampler_level(struct env *e, const struct sampler *s, int i)
 {
-    struct level r = {.job = s->k->job};
+    struct level r = {.number = s->k->number};
     if (s->k->mip)
-        r = gather_level(E, s->k->job, s->detail.level[i], s->axes);
+        r = gather_level(E, s->k->number, s->detail.level[i], s->axes);
     if (s->k->kind != TEXTURE_CUBE)
         return r;
-    itg face_texels = uniform_i(E, BASE_JOB, TEXTURE_FIELD(s->k->job, face_texels));
+    itg face_texels = uniform_i(E, BASE_JOB, TEXTURE_FIELD(s->k->number, face_texels));
     itg face = mul_i(E, s->face, face_texels);
     r.offset = r.placed ? add_i(E, r.offset, face) : face;
     r.placed = 1;
@@ -202,7 +202,7 @@ static inline struct sampler sampler(struct env *e, const struct sampler_key *k,
         for (int a = 0; a < s.axes; a++)
             s.coordinate[a] = v[a];
     if (needs_detail(k)) {
-        measure_changes(E, k->job, s.axes, &changes);
+        measure_changes(E, k->number, s.axes, &changes);
         s.detail = detail(E, k, s.axes, &changes);
     }
     choose_filter(E, &s);

@@ -14,17 +14,17 @@ static inline int texel_channels(const struct sampler *s)
     return s->k->texel == TEXEL_COMPARE ? 1 : 4;
 }
 
-static inline struct float_color fetch_srgb(struct env *e, int job, itg index)
+static inline struct float_color fetch_srgb(struct env *e, int number, itg index)
 {
-    itg word = gather_i(E, BASE_JOB, TEXTURE_FIELD(job, texels), index, 4, 0);
+    itg word = gather_i(E, BASE_JOB, TEXTURE_FIELD(number, texels), index, 4, 0);
     struct float_color r;
     for (int c = 0; c < 3; c++) {
         itg code = word_byte(E, word, c);
         r.channel[c] = srgb_decode(E, code);
     }
     itg alpha = word_byte(E, word, 3);
-    flt number = float_f(E, alpha);
-    r.channel[3] = div_f(E, number, lit_f(E, 255.0f));
+    flt byte = float_f(E, alpha);
+    r.channel[3] = div_f(E, byte, lit_f(E, 255.0f));
     return r;
 }
 
@@ -33,7 +33,7 @@ static inline struct float_color fetch_floats(struct env *e, const struct sample
     struct float_color r = {0};
     itg word = shl_i(E, index, 2);
     for (int c = 0; c < texel_channels(s); c++)
-        r.channel[c] = gather_f(E, BASE_JOB, TEXTURE_FIELD(s->k->job, texels), word, 4, 4 * c);
+        r.channel[c] = gather_f(E, BASE_JOB, TEXTURE_FIELD(s->k->number, texels), word, 4, 4 * c);
     return r;
 }
 
@@ -56,10 +56,10 @@ static inline struct float_color float_texel(struct env *e, const struct sampler
     const int tap[3] = {i, j, k};
     itg index = add_i(E, row, axis[0].index[i]);
     struct float_color r =
-        s->k->texel == TEXEL_SRGB ? fetch_srgb(E, s->k->job, index) : fetch_floats(E, s, index);
+        s->k->texel == TEXEL_SRGB ? fetch_srgb(E, s->k->number, index) : fetch_floats(E, s, index);
     if (has_border(s, 0) || has_border(s, 1) || (s->axes == 3 && has_border(s, 2))) {
         msk inside = tap_inside(E, s, axis, tap);
-        struct float_color border = float_packed(E, (size_t)TEXTURE_FIELD(s->k->job, border));
+        struct float_color border = float_packed(E, (size_t)TEXTURE_FIELD(s->k->number, border));
         for (int c = 0; c < texel_channels(s); c++)
             r.channel[c] = select_f(E, inside, r.channel[c], border.channel[c]);
     }

@@ -23,7 +23,6 @@
 #include "spec/color.h"
 #include "spec/float_color.h"
 #include "spec/interpolate.h"
-#include "spec/sampler.h"
 #include "spec/address.h"
 #include "spec/detail.h"
 #include "spec/cube.h"

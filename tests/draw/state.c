@@ -178,8 +178,8 @@ static void a_value_that_nobody_has_is_a_bad_argument(void)
     expect_refused(TRIPTYCH_BAD_ARGUMENT, set_state(TRIPTYCH_STATE_colorwriteenable, 16),
                    "state colorwriteenable: value 16, expected 0 to 15");
     expect_refused(TRIPTYCH_BAD_ARGUMENT, set_state(1000, 0), "table of states without a row 1000");
-    expect_refused(TRIPTYCH_BAD_ARGUMENT, set(TRIPTYCH_SAMPLER_STATES, 16, TRIPTYCH_SAMPLER_addressu, 1),
-                   "sampler 16: expected 0 to 15");
+    expect_refused(TRIPTYCH_BAD_ARGUMENT, set(TRIPTYCH_SAMPLER_STATES, 20, TRIPTYCH_SAMPLER_addressu, 1),
+                   "sampler 20: expected 0 to 19");
     expect_refused(TRIPTYCH_BAD_ARGUMENT, set(TRIPTYCH_STAGE_STATES, 8, TRIPTYCH_STAGE_colorop, 1),
                    "stage 8: expected 0 to 7");
     expect_refused(TRIPTYCH_BAD_ARGUMENT, set(TRIPTYCH_SAMPLER_STATES, 0, TRIPTYCH_SAMPLER_maxanisotropy, 17),

@@ -637,7 +637,7 @@ static bool other_specular(const struct pixel_key *a, const struct pixel_key *b)
 static bool one_compares(const struct pixel_key *a, const struct pixel_key *b)
 {
     bool result = false;
-    for (int i = 0; i < TEXTURE_STAGES; i++)
+    for (int i = 0; i < PIXEL_SAMPLERS; i++)
         result |= a->texel[i] == TEXEL_COMPARE || b->texel[i] == TEXEL_COMPARE;
     return result;
 }

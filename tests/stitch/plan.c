@@ -64,7 +64,7 @@ static struct digits field_digits(enum unit unit, const struct key_field *field)
     else if (!strcmp(field->name, "coordinates") || !strcmp(field->name, "anisotropy") ||
              !strcmp(field->name, "address_w"))
         r.count = 0;
-    else if (field->count == TEXTURE_STAGES)
+    else if (field->count == TEXTURE_STAGES || field->count == PIXEL_SAMPLERS)
         r.count = 1;
     unsigned most = strcmp(field->name, "stages") ? field->radix : 2;
     for (unsigned value = 1; value < most; value++) {

@@ -129,7 +129,7 @@ static const struct bad lines[] = {
     {"state colorwriteenable 16\n", "2:1", "expected 0 to 15"},
     {"sampler 0 addressu once\n", "2:20",
      "expected a value of addressu: wrap, mirror, clamp, border, mirroronce"},
-    {"sampler 16 addressu wrap\n", "2:9", "expected an integer (sampler) from 0 to 15"},
+    {"sampler 20 addressu wrap\n", "2:9", "expected an integer (sampler) from 0 to 19"},
     {"sampler addressu wrap\n", "2:9", "found 'addressu', expected an integer (sampler)"},
     {"sampler 0 colorop add\n", "2:11", "found 'colorop', expected the name of a sampler state"},
     {"stage 8 colorop add\n", "2:7", "expected an integer (stage) from 0 to 7"},

@@ -46,7 +46,7 @@ struct differential {
     struct job job;
     uint8_t *stream[ATTRIBUTE_COUNT]; /* fenced */
     uint8_t *texels;                  /* fenced */
-    struct texture_level levels[TEXTURE_STAGES][LEVELS];
+    struct texture_level levels[SAMPLERS][LEVELS];
     uint8_t *palette; /* fenced */
     alignas(64) uint32_t index_words[1 + SETUP_INDEX_ROWS * SETUP_CAPACITY];
     struct entry_list entries;
@@ -383,27 +383,27 @@ static int32_t make_levels(const int32_t side[3], struct texture_level levels[LE
 }
 
 /* Which levels may be sampled: any range of them. Without levels the first is all there is. */
-static void make_detail(struct differential *d, int stage)
+static void make_detail(struct differential *d, int sampler)
 {
-    struct texture_job *texture = &d->job.texture[stage];
+    struct texture_job *texture = &d->job.texture[sampler];
     uint32_t last = below(d, LEVELS);
-    texture->levels = d->levels[stage];
+    texture->levels = d->levels[sampler];
     texture->first_level_256 = 256 * (int32_t)below(d, last + 1);
     texture->last_level_256 = 256 * (int32_t)last;
+    texture->lod_bias_256 = number(d, -256 * 4, 256 * 4);
     texture->lod_offset = number(d, -256 * 14, 256);
 }
 
 /* The image's last texel is the last word before the fence. */
-static void make_texture(struct differential *d, const struct pixel_key *key, int stage)
+static void make_texture(struct differential *d, struct sampler_key key)
 {
-    struct texture_job *texture = &d->job.texture[stage];
-    int kind = key->texture[stage], words = key->texel[stage] >= TEXEL_FLOATS ? 4 : 1;
+    struct texture_job *texture = &d->job.texture[key.number];
+    int kind = key.kind, words = key.texel >= TEXEL_FLOATS ? 4 : 1;
     int small = kind == TEXTURE_VOLUME || words > 1;
-    const int32_t side[3] = {texture_side(d, small, key->address_u[stage]),
-                             texture_side(d, small, key->address_v[stage]),
-                             kind == TEXTURE_VOLUME ? texture_side(d, small, key->address_w[stage]) : 1};
-    int32_t chain = make_levels(side, d->levels[stage]), image = side[0] * side[1] * side[2];
-    texture->face_texels = key->mip[stage] ? chain : image;
+    const int32_t side[3] = {texture_side(d, small, key.address[0]), texture_side(d, small, key.address[1]),
+                             kind == TEXTURE_VOLUME ? texture_side(d, small, key.address[2]) : 1};
+    int32_t chain = make_levels(side, d->levels[key.number]), image = side[0] * side[1] * side[2];
+    texture->face_texels = key.mip ? chain : image;
     int32_t texels = kind == TEXTURE_CUBE ? 6 * texture->face_texels : texture->face_texels;
     texture->texels = (const uint32_t *)(void *)(d->texels + TEXTURE_BYTES) - words * texels;
     texture->width = side[0];
@@ -417,18 +417,28 @@ static void make_texture(struct differential *d, const struct pixel_key *key, in
     texture->last_w = side[2] - 1;
     texture->slice_texels = side[0] * side[1];
     texture->border = word(d);
-    make_detail(d, stage);
+    make_detail(d, key.number);
 }
 
 static void make_textures(struct differential *d, const struct pixel_key *key)
 {
     fill_words(d, d->texels, TEXTURE_BYTES);
+    for (int i = 0; i < PIXEL_SAMPLERS; i++)
+        make_texture(d, pixel_sampler(key, i));
     for (int i = 0; i < TEXTURE_STAGES; i++) {
-        make_texture(d, key, i);
         d->job.stage_constant[i] = word(d);
         fill(d, &d->job.bump[i], sizeof d->job.bump[i], -0.5f, 0.5f);
     }
     d->job.texture_factor = word(d);
+}
+
+static void make_vertex_textures(struct differential *d, const struct vertex_key *key)
+{
+    if (key_next(key->texture, 0, VERTEX_SAMPLERS) == VERTEX_SAMPLERS)
+        return;
+    fill_words(d, d->texels, TEXTURE_BYTES);
+    for (int i = 0; i < VERTEX_SAMPLERS; i++)
+        make_texture(d, vertex_sampler(key, i));
 }
 
 static void make_fog(struct differential *d, const struct pixel_key *key)
@@ -527,7 +537,10 @@ static void make_inputs(struct differential *d, enum unit unit, const union key 
     memset(&d->initial, UNTOUCHED, sizeof d->initial);
     make_job(d);
     switch (unit) {
-    case UNIT_VERTEX: make_vertex_inputs(d, &key->vertex); break;
+    case UNIT_VERTEX:
+        make_vertex_inputs(d, &key->vertex);
+        make_vertex_textures(d, &key->vertex);
+        break;
     case UNIT_SETUP: make_setup_inputs(d, &key->setup); break;
     default: make_pixel_inputs(d, &key->pixel); break;
     }
@@ -702,9 +715,9 @@ static void stage_usually(uint64_t chance, struct pixel_key *key)
         key->color_argument[i] = usual[key->color_argument[i] % 4];
         key->alpha_argument[i] = usual[key->alpha_argument[i] % 4];
     }
-    for (int i = 0; i < TEXTURE_STAGES && chance >> 42 & 7; i++)
+    for (int i = 0; i < PIXEL_SAMPLERS && chance >> 42 & 7; i++)
         key->texture[i] = key->texture[i] != TEXTURE_NONE, key->mip[i] = key->minify[i] = key->texel[i] = 0;
-    for (int i = 0; i < TEXTURE_STAGES; i++) /* a stage of many taps takes longer than all else */
+    for (int i = 0; i < PIXEL_SAMPLERS; i++) /* a stage of many taps takes longer than all else */
         key->anisotropy[i] %= 4;
     for (int i = 0; i < TEXTURE_STAGES && chance >> 41 & 1; i++)
         key->alpha_stage[i] = key->color_stage[i] == STAGE_DOT ? STAGE_SELECT : key->color_stage[i];
