@@ -25,6 +25,7 @@ static enum triptych_result create(const struct triptych_options *options, tript
     if (options) {
         device_options.threads = options->threads;
         device_options.cache_bytes = options->cache_bytes;
+        device_options.measure = options->measure != 0;
     }
     return device_create(engine, &device_options, device, error);
 }
@@ -684,6 +685,11 @@ int triptych_get_routine(triptych_device *device, unsigned i, struct triptych_ro
         .code_bytes = routine.code_bytes,
         .parts = routine.parts,
         .spills = routine.spills,
+        .run_ns = routine.time ? __atomic_load_n(&routine.time->ns, __ATOMIC_RELAXED) : 0,
+        .elements = routine.time ? __atomic_load_n(&routine.time->elements, __ATOMIC_RELAXED) : 0,
+        .shader = routine.unit == UNIT_VERTEX  ? key_program(routine.key.vertex.shader)
+                  : routine.unit == UNIT_PIXEL ? key_program(routine.key.pixel.shader)
+                                               : 0,
         .granularity = routine.granularity,
     };
     return 1;

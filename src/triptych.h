@@ -228,6 +228,7 @@ struct triptych_options {
     const char *engine; /* name as listed by triptych_engine_name(); null: "specialize" */
     unsigned threads;   /* rendering threads, the caller's included; 0: as many as the process may run on */
     size_t cache_bytes; /* budget of the routine cache's code; 0: 16 MiB */
+    int measure;        /* nonzero: time the calls of each routine (triptych_get_routine) */
 };
 
 /* A render target: one to four colours, each of a format that can be a target (def/format.def), and depth.
@@ -386,6 +387,9 @@ struct triptych_routine_info {
     uint32_t code_bytes;
     uint32_t parts; /* instructions or fragments */
     uint32_t spills;
+    uint64_t run_ns;   /* of all calls, and the vertices, triangles or covered pixels that they were for, */
+    uint64_t elements; /* if the device measures them */
+    uint32_t shader;   /* number of the shader that it runs; 0: none */
     const char *granularity; /* of a stitched routine's fragments: "stage" or "operation"; null of others */
 };
 

@@ -87,7 +87,7 @@ static void shade_vertices(struct batch *batch)
     for (; count % LANES_MAXIMUM; count++)
         batch->vertex[count] = batch->vertex[count - 1];
     struct vertex_call call = {&batch->draw->job, batch->vertex, batch->vertices, count};
-    routine->run(&call, routine);
+    routine_run(routine, &call, batch->vertices_count);
     batch->counts.vertices_shaded += batch->vertices_count;
 }
 
@@ -125,7 +125,7 @@ static bool set_up(struct batch *batch, uint32_t next)
         if (!out)
             return false;
         struct setup_call call = {&draw->job, batch->setup_index[0], batch->vertices, out, padded};
-        routine->run(&call, routine);
+        routine_run(routine, &call, count);
         int visible =
             bin_records(batch->bins, count, draw->stride, draw->shape, &draw->sampling, &draw->scissor);
         if (visible < 0)

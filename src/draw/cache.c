@@ -4,6 +4,7 @@
 #include "draw/cache.h"
 
 #include <pthread.h>
+#include <stdbool.h>
 #include <stdlib.h>
 #include <string.h>
 #include <time.h>
@@ -22,6 +23,7 @@ struct cache_entry {
     uint32_t references;
     enum unit unit;
     struct routine *routine;
+    struct routine_time time;
 };
 
 struct cache {
@@ -29,6 +31,7 @@ struct cache {
     const struct engine *engine;
     struct code_arena *arena;
     size_t budget;
+    bool measures;
     uint32_t next_number;
     struct link used;     /* most recently used first */
     struct link numbered; /* oldest first */
@@ -90,6 +93,11 @@ struct cache *cache_create(const struct engine *engine, struct code_arena *arena
     list_initialize(&cache->numbered);
     list_initialize(&cache->orphans);
     return cache;
+}
+
+void cache_measure(struct cache *cache)
+{
+    cache->measures = true;
 }
 
 static void free_entry(struct cache *cache, struct cache_entry *entry)
@@ -205,6 +213,7 @@ static struct cache_entry *insert(struct cache *cache, enum unit unit, const uni
     }
     entry->routine->number = ++cache->next_number;
     entry->routine->hits = 0;
+    entry->routine->time = cache->measures ? &entry->time : NULL;
     entry->unit = unit;
     entry->key = *packed;
     entry->hash = hash;

@@ -24,6 +24,9 @@ struct cache_statistics {
 /* A cache of `engine`'s routines, whose code lives in `arena` (null when the engine needs none). */
 struct cache *cache_create(const struct engine *engine, struct code_arena *arena, size_t budget,
                            struct error *error);
+/* From now on the calls of routines that are built are measured. */
+void cache_measure(struct cache *cache);
+
 /* Frees all routines; none may be in use. Null is allowed. */
 void cache_destroy(struct cache *cache);
 

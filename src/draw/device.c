@@ -25,6 +25,8 @@ static enum triptych_result create_parts(struct triptych_device *device, const s
             return TRIPTYCH_ENGINE_FAILED;
     }
     device->cache = cache_create(device->engine, device->arena, cache_bytes, error);
+    if (device->cache && options->measure)
+        cache_measure(device->cache);
     device->pool = pool_create(options->threads, options->create_thread, error);
     if (device->cache && device->pool)
         device->frame = frame_create(device->pool, options->arena_bytes, error);

@@ -9,12 +9,20 @@
 #include "draw/call.h"
 #include "draw/key.h"
 
+#include <time.h>
+
 struct routine;
 struct code_arena; /* base/code.h */
 
 /* `call` is the unit's call structure. Routines may run on many threads at once; they set FTZ and DAZ with
  * all exceptions masked and round to nearest on entry, and restore the caller's MXCSR. */
 typedef void routine_function(const void *call, const struct routine *routine);
+
+/* What the calls of a routine took, where that is asked for; added to by any thread. */
+struct routine_time {
+    uint64_t ns;
+    uint64_t elements; /* vertices, triangles or covered pixels */
+};
 
 /* A built routine. The engine that built it fills all but the cache's fields. */
 struct routine {
@@ -27,11 +35,28 @@ struct routine {
     uint32_t constant_bytes; /* of code_bytes, how many are data behind the code */
     uint32_t parts;          /* instructions emitted (specialize), fragments joined (stitch) */
     uint32_t spills;
-    const char *granularity; /* stitch: "stage" or "operation", what its fragments are; null elsewhere */
-    uint64_t build_ns;       /* set by the cache around build() */
-    uint32_t number;         /* identity in dumps and reports, from 1, set by the cache */
-    uint64_t hits;           /* set by the cache */
+    const char *granularity;   /* stitch: "stage" or "operation", what its fragments are; null elsewhere */
+    uint64_t build_ns;         /* set by the cache around build() */
+    uint32_t number;           /* identity in dumps and reports, from 1, set by the cache */
+    uint64_t hits;             /* set by the cache */
+    struct routine_time *time; /* set by the cache; null: not measured */
 };
+
+/* Runs the routine; `elements` are counted if it is measured. */
+static inline void routine_run(const struct routine *routine, const void *call, uint64_t elements)
+{
+    struct timespec begin, end;
+    if (!routine->time) {
+        routine->run(call, routine);
+        return;
+    }
+    clock_gettime(CLOCK_MONOTONIC, &begin);
+    routine->run(call, routine);
+    clock_gettime(CLOCK_MONOTONIC, &end);
+    int64_t ns = (end.tv_sec - begin.tv_sec) * 1000000000ll + end.tv_nsec - begin.tv_nsec;
+    __atomic_fetch_add(&routine->time->ns, (uint64_t)ns, __ATOMIC_RELAXED);
+    __atomic_fetch_add(&routine->time->elements, elements, __ATOMIC_RELAXED);
+}
 
 struct engine {
     const char *name;        /* as in --engine: "emulate", "stitch", "stitch-operation", "specialize" ... */

@@ -51,10 +51,11 @@ static void shade(struct tile_worker *worker, const struct frame *frame, uint32_
         target_fill_color(target, tile);
     if (pixel_tests_depth(key) || pixel_stencil(key))
         target_fill_depth(target, tile);
-    routine->run(&call, routine);
+    uint64_t pixels = count_pixels(worker->entries.entry, worker->count);
+    routine_run(routine, &call, pixels);
     if (key->count)
         take_count(worker, frame);
-    worker->pixels_shaded += count_pixels(worker->entries.entry, worker->count);
+    worker->pixels_shaded += pixels;
     worker->count = 0;
 }
 

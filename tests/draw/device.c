@@ -726,6 +726,26 @@ static void routines_report_their_identity(void)
     TEST_ASSERT_EQUAL_INT(0, triptych_get_routine(device, 3, &info));
 }
 
+/* Twice 10 x 10 pixels, two triangles and four vertices. */
+static void calls_are_measured_where_asked_for(void)
+{
+    struct triptych_routine_info info;
+    draw_rectangle(0, 0, 10, 10, 0, RED_ARGB);
+    read_image();
+    TEST_ASSERT_EQUAL_INT(1, triptych_get_routine(device, 2, &info));
+    TEST_ASSERT_EQUAL_UINT64(0, info.run_ns + info.elements);
+    close_device();
+    open_device_with(&(struct device_options){.threads = 1, .measure = true});
+    draw_rectangle(0, 0, 10, 10, 0, RED_ARGB);
+    draw_rectangle(0, 0, 10, 10, 0, RED_ARGB);
+    read_image();
+    TEST_ASSERT_EQUAL_INT(1, triptych_get_routine(device, 2, &info));
+    TEST_ASSERT_EQUAL_UINT64(200, info.elements);
+    TEST_ASSERT_GREATER_THAN_UINT64(0, info.run_ns);
+    TEST_ASSERT_EQUAL_INT(1, triptych_get_routine(device, 1, &info));
+    TEST_ASSERT_EQUAL_UINT64(4, info.elements);
+}
+
 static void draws_without_effect_build_nothing(void)
 {
     OK(triptych_set_state(device, TRIPTYCH_STATE_zfunc, 1));
@@ -790,6 +810,7 @@ int main(void)
     RUN_TEST(engines_are_chosen_by_name);
     RUN_TEST(tools_hear_of_each_draw_and_its_keys);
     RUN_TEST(routines_report_their_identity);
+    RUN_TEST(calls_are_measured_where_asked_for);
     RUN_TEST(draws_without_effect_build_nothing);
     RUN_TEST(states_are_set_by_table);
     return UNITY_END();
