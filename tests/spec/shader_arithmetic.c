@@ -321,6 +321,72 @@ static void try_all(int legacy)
             try_row(&rows[i], &shader_models[models[m]], legacy);
 }
 
+/* --- Masks ------------------------------------------------------------------------------------------------
+ */
+
+static const struct row *masked_row;
+static unsigned mask;
+
+/* What is not in the mask is the third operand; where four lines made one component each, one of x makes all. */
+static void masked_reference(const struct trial *t, operands o, double r[TRIAL_RESULTS][4])
+{
+    double whole[TRIAL_RESULTS][4];
+    int scalar = strchr(masked_row->body, '@') != NULL;
+    masked_row->reference(t, o, whole);
+    for (int c = 0; c < 4; c++)
+        r[0][c] = mask >> c & 1 ? whole[0][scalar ? 0 : c] : C(c);
+}
+
+static void mask_body(char *text, size_t bytes)
+{
+    const char *body = masked_row->body, *end = strrchr(body, '\n');
+    const char *result = strstr(end ? end : body, " r0") + 3, *rest = strchr(result, ',');
+    size_t used = (size_t)snprintf(text, bytes, "mov r0, r3\n%.*s.", (int)(result - body), body);
+    for (int c = 0; c < 4; c++)
+        if (mask >> c & 1)
+            text[used++] = "xyzw"[c];
+    for (; *rest && used + 1 < bytes; rest++)
+        text[used++] = *rest == '@' ? 'x' : *rest;
+    text[used] = 0;
+}
+
+static int is_allowed(uint8_t masks, const struct shader_model *model)
+{
+    switch (masks) {
+    case MASKS_ANY: return 1;
+    case MASKS_WITHIN_XYZ: return mask < 8;
+    case MASKS_WITHIN_XY: return mask < 4;
+    case MASKS_NORMAL: return mask == 7 || mask == 15;
+    case MASKS_FRACTION: return shader_major(model) > 1 || mask == 2 || mask == 3;
+    default: return 0; /* they have one, which the row has */
+    }
+}
+
+static void try_masks(const struct row *row, const struct shader_model *model)
+{
+    char body[512];
+    const struct shader_operation *operation = &shader_operations[row->opcode];
+    if (shader_slots(operation, model) < 0 || row->flags & (shader_major(model) == 1 ? NOT_1 : ONLY_1))
+        return;
+    masked_row = row;
+    for (mask = 1; mask < 16; mask++) {
+        if (!is_allowed(operation->masks, model))
+            continue;
+        mask_body(body, sizeof body);
+        struct trial trial = {.model = model->name, .setup = row->setup, .body = body, .results = 1};
+        trial.operands = trial_ordinary;
+        trial.sets = 12;
+        trial_expect_within(&trial, masked_reference, row->relative, row->absolute);
+    }
+}
+
+static void masks_leave_the_other_components_alone(void)
+{
+    for (unsigned m = 0; m < sizeof models / sizeof *models; m++)
+        for (unsigned i = 0; i < sizeof rows / sizeof *rows; i++)
+            try_masks(&rows[i], &shader_models[models[m]]);
+}
+
 static void instructions_compute_what_their_definitions_say(void)
 {
     try_all(0);
@@ -350,6 +416,7 @@ int main(void)
     UNITY_BEGIN();
     RUN_TEST(no_instruction_is_without_a_row);
     RUN_TEST(instructions_compute_what_their_definitions_say);
+    RUN_TEST(masks_leave_the_other_components_alone);
     RUN_TEST(with_legacy_multiplication_zeros_give_zero);
     return UNITY_END();
 }

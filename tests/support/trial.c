@@ -118,7 +118,7 @@ static void make_text(const struct trial *trial, const struct shader_model *mode
         append_number(text, give, o);
     append(text, trial->body);
     append(text, "\n");
-    for (unsigned r = 0; r < trial->results; r++) {
+    for (unsigned r = 0; r < trial->results && !trial->gives; r++) {
         char line[80];
         snprintf(line, sizeof line, take, r + (!pixel && third), r ? r + 3 : 0);
         append(text, line);

@@ -38,6 +38,7 @@ struct trial {
     unsigned integers;
     unsigned booleans; /* bit i: b# */
     int legacy;        /* how multiplication goes */
+    int gives;         /* the body writes its results to o1 and so on itself */
 };
 
 /* What a set's results must be; values need not be rounded. */
