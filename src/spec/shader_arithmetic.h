@@ -2,7 +2,7 @@
  *
  * A function gets the step with its sources read and returns the result before masks, shifts and saturation; only
  * the components of the step's mask are computed, the others are those of some source. Scalar results are computed
- * once. The definitions, with what speaks for each, are in docs/shaders.md ("What instructions compute"):
+ * once. The definitions, with what speaks for each, are in docs/shader-semantics.md:
  *
  *   products    binary32; `mad` and dot products are fused, in the order of the components. Legacy multiplication
  *               makes a product +0 if a factor is a zero, and adds what it multiplied unfused

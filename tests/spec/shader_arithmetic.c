@@ -1,5 +1,5 @@
 /* What the arithmetic instructions of shaders compute: each of them over all pairs of the edges of binary32 and over
- * ordinary numbers, in models of every generation, against the definitions of docs/shaders.md in double precision. */
+ * ordinary numbers, in models of every generation, against the definitions of docs/shader-semantics.md in double precision. */
 #include "tests/support/trial.h"
 
 #include <float.h>
