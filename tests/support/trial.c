@@ -201,6 +201,14 @@ static void compare(const struct trial *trial, const char *way, const char *text
         }
 }
 
+unsigned trial_cell(const struct program *program, unsigned result)
+{
+    int first = shader_major(program->model) == 1, third = shader_major(program->model) == 3;
+    if (program->model->stage == STAGE_PIXEL)
+        return first ? CELL_TEMPORARY : CELL_OUTPUT + 4 * result;
+    return CELL_OUTPUT + 4 * (result + (third ? 1 : OUTPUT_COORDINATE));
+}
+
 typedef void machine_way(const struct trial_memory *memory, const float *input, float *output);
 
 /* Four sets at once; the last ones again where their number is no multiple. */
@@ -251,7 +259,7 @@ void trial_expect_within(const struct trial *trial, trial_reference *reference, 
     static const struct {
         const char *name;
         machine_way *way;
-    } ways[] = {{"emulated", trial_emulate}, {"recorded", trial_interpret}};
+    } ways[] = {{"emulated", trial_emulate}, {"recorded", trial_interpret}, {"optimized", trial_optimize}};
     static char text[TEXT];
     make_text(trial, find_model(trial->model), text);
     const struct program *program = make_program(text);

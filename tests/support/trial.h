@@ -5,7 +5,7 @@
  * a whole shader of the model around it. In ps_1_x there are two operands, v0 and v1, and one result. The ways are:
  *   emulated    the specification's machine alone, under the emulator's binding, four lanes at once
  *   recorded    the same recorded, verified, and evaluated lane by lane by the table of operations
- *   engines     routines of each engine that can run here
+ *   optimized   the same after the specializer's passes
  * A failing comparison names the shader, the way, the operands and both values. */
 #ifndef TESTS_TRIAL_H
 #define TESTS_TRIAL_H
@@ -86,7 +86,11 @@ struct trial_memory {
 /* Where the specification has the values of an operand and a result: four lanes each, one behind the other. */
 enum { TRIAL_LANES = 4 };
 
+/* The number of the cell that has component x of a result. */
+unsigned trial_cell(const struct program *program, unsigned result);
+
 void trial_emulate(const struct trial_memory *memory, const float *input, float *output);
 void trial_interpret(const struct trial_memory *memory, const float *input, float *output);
+void trial_optimize(const struct trial_memory *memory, const float *input, float *output);
 
 #endif

@@ -2,37 +2,59 @@
 
 #include "base/mxcsr.h"
 #include "ir/bind.h"
+#include "jit/build.h"
 /* The routines are read along and not used. */
 #pragma GCC diagnostic ignored "-Wunused-function"
 #include "spec/spec.h"
 
 #include "tests/support/trial_spec.h"
 
-static struct ir ir;
+static struct builder *builder; /* kept: it goes with the process */
 static uint32_t value[IR_CAPACITY], variable[VARIABLES];
 static const uint8_t *base[BASE_COUNT];
 static unsigned recorded;
+static int optimized;
+
+static void verify(const struct ir *ir)
+{
+    const char *wrong = ir_verify(ir);
+    TEST_ASSERT_NULL_MESSAGE(wrong, wrong);
+}
+
+static void verify_after(void *context, enum pass pass, const struct ir *ir)
+{
+    (void)context, (void)pass;
+    verify(ir);
+}
 
 /* Records a trial unless it was the last one. */
-static void record_trial(const struct trial_memory *memory)
+static const struct ir *record_trial(const struct trial_memory *memory, int optimizes)
 {
     static struct env e;
-    if (memory->number == recorded)
-        return;
-    ir_start(&ir);
-    e = (struct env){.ir = &ir, .program = memory->program};
+    struct error error = {{0}};
+    if (!builder)
+        builder = builder_take(&error);
+    TEST_ASSERT_NOT_NULL_MESSAGE(builder, error.text);
+    struct ir *ir = &builder->ir;
+    if (memory->number == recorded && optimizes == optimized)
+        return ir;
+    ir_start(ir);
+    e = (struct env){.ir = ir, .program = memory->program};
     trial_run(&e, memory);
-    TEST_ASSERT_FALSE_MESSAGE(ir.overflow, "too long a recording");
-    const char *wrong = ir_verify(&ir);
-    TEST_ASSERT_NULL_MESSAGE(wrong, wrong);
+    TEST_ASSERT_FALSE_MESSAGE(ir->overflow, "too long a recording");
+    verify(ir);
+    if (optimizes)
+        optimize(ir, &builder->pass, PROFILE_FULL, 0, verify_after, NULL);
     recorded = memory->number;
+    optimized = optimizes;
+    return ir;
 }
 
 /* The end of the region that the instruction opens. */
-static uint32_t region_end(uint32_t number)
+static uint32_t region_end(const struct ir *ir, uint32_t number)
 {
     for (unsigned depth = 0;; number++) {
-        uint8_t properties = ir_op_information[ir.instruction[number].op].properties;
+        uint8_t properties = ir_op_information[ir->instruction[number].op].properties;
         depth += (properties & IR_OPENS) != 0;
         depth -= (properties & IR_CLOSES) != 0;
         if (!depth)
@@ -40,10 +62,10 @@ static uint32_t region_end(uint32_t number)
     }
 }
 
-static uint32_t region_start(uint32_t number)
+static uint32_t region_start(const struct ir *ir, uint32_t number)
 {
     for (unsigned depth = 0;; number--) {
-        uint8_t properties = ir_op_information[ir.instruction[number].op].properties;
+        uint8_t properties = ir_op_information[ir->instruction[number].op].properties;
         depth += (properties & IR_CLOSES) != 0;
         depth -= (properties & IR_OPENS) != 0;
         if (!depth)
@@ -59,9 +81,9 @@ static uint32_t word_at(const uint8_t *address)
 }
 
 /* One instruction in one lane; the number of the next one. */
-static uint32_t interpret(uint32_t number, unsigned lane)
+static uint32_t interpret(const struct ir *ir, uint32_t number, unsigned lane)
 {
-    const struct ir_instruction *i = &ir.instruction[number];
+    const struct ir_instruction *i = &ir->instruction[number];
     uint32_t a = value[i->operand[0]], *to = &value[number];
     const uint8_t *at = base[i->base] + i->k;
     switch (i->op) {
@@ -72,6 +94,7 @@ static uint32_t interpret(uint32_t number, unsigned lane)
     case IR_copy: *to = a; break;
     case IR_load: *to = word_at(at + 4 * lane); break;
     case IR_uniform: *to = word_at(at); break;
+    case IR_constant: *to = word_at(base[ir->constant[i->k].base] + ir->constant[i->k].offset); break;
     case IR_gather:
         TEST_ASSERT_EQUAL_INT(GATHER_DIRECT, i->field);
         *to = word_at(at + (ptrdiff_t)(int32_t)a * i->scale);
@@ -79,22 +102,33 @@ static uint32_t interpret(uint32_t number, unsigned lane)
     case IR_store: memcpy((uint8_t *)(uintptr_t)at + 4 * lane, &a, sizeof a); break;
     case IR_set: variable[i->k] = a; break;
     case IR_get: *to = variable[i->k]; break;
-    case IR_when: return a ? number + 1 : region_end(number) + 1;
-    case IR_again: return a ? region_start(number) + 1 : number + 1;
+    case IR_when: return a ? number + 1 : region_end(ir, number) + 1;
+    case IR_again: return a ? region_start(ir, number) + 1 : number + 1;
     default: *to = ir_evaluate(i->op, a, value[i->operand[1]], value[i->operand[2]], i->k);
     }
     return number + 1;
 }
 
-void trial_interpret(const struct trial_memory *memory, const float *input, float *output)
+static void interpret_lanes(const struct trial_memory *memory, int optimizes, const float *input,
+                            float *output)
 {
-    record_trial(memory);
+    unsigned saved = mxcsr_enter();
+    const struct ir *ir = record_trial(memory, optimizes);
     base[BASE_CONSTANT] = memory->constants;
     base[BASE_INPUT] = (const uint8_t *)input;
     base[BASE_OUTPUT] = (const uint8_t *)output;
-    unsigned saved = mxcsr_enter();
     for (unsigned lane = 0; lane < TRIAL_LANES; lane++)
-        for (uint32_t number = 1; number < ir.count;)
-            number = interpret(number, lane);
+        for (uint32_t number = 1; number < ir->count;)
+            number = interpret(ir, number, lane);
     mxcsr_leave(saved);
+}
+
+void trial_interpret(const struct trial_memory *memory, const float *input, float *output)
+{
+    interpret_lanes(memory, 0, input, output);
+}
+
+void trial_optimize(const struct trial_memory *memory, const float *input, float *output)
+{
+    interpret_lanes(memory, 1, input, output);
 }

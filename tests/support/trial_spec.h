@@ -1,13 +1,5 @@
 /* A trial in the specification's words: include it behind a binding and spec/spec.h. */
 
-/* The cell of component x of a result. */
-static inline unsigned trial_cell(const struct program *program, unsigned result)
-{
-    if (program->model->stage == STAGE_PIXEL)
-        return shader_major(program->model) == 1 ? CELL_TEMPORARY : CELL_OUTPUT + 4 * result;
-    return CELL_OUTPUT + 4 * (result + (shader_major(program->model) < 3 ? OUTPUT_COORDINATE : 1));
-}
-
 static void trial_run(struct env *e, const struct trial_memory *memory)
 {
     static const struct pixel_key pixel;
