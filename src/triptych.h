@@ -41,6 +41,7 @@ enum triptych_result {
 typedef struct triptych_device triptych_device;
 typedef struct triptych_buffer triptych_buffer;   /* vertices or indices */
 typedef struct triptych_texture triptych_texture; /* 2D, cube or volume, with levels */
+typedef struct triptych_shader triptych_shader;   /* of vertices or pixels */
 typedef struct triptych_query triptych_query;     /* what the device finds out while it renders */
 
 /* States, in three tables: of the device, of each sampler, of each texture stage. */
@@ -214,15 +215,12 @@ enum {
 };
 enum { TRIPTYCH_STREAMS = 16, TRIPTYCH_DECLARATION_ELEMENTS = 64, TRIPTYCH_USAGE_INDICES = 16 };
 
-/* Registers of shader constants. Vertex shaders can read the first 256 floats and 16 integers, those of the
- * models for software (vs_2_sw, vs_3_sw) all of them. */
-enum {
-    TRIPTYCH_VERTEX_FLOATS = 8192,
-    TRIPTYCH_VERTEX_INTEGERS = 2048,
-    TRIPTYCH_PIXEL_FLOATS = 224,
-    TRIPTYCH_PIXEL_INTEGERS = 16,
-    TRIPTYCH_BOOLEANS = 16
-};
+/* What a shader shades. */
+enum triptych_shader_stage { TRIPTYCH_SHADER_VERTEX, TRIPTYCH_SHADER_PIXEL, TRIPTYCH_SHADER_STAGE_COUNT };
+
+/* Registers of shader constants, of each stage. Shaders can read the first 256 floats (pixel shaders 224, in models
+ * below 3.0 fewer) and 16 integers, those of the models for software (vs_2_sw, ps_3_sw) all of them. */
+enum { TRIPTYCH_SHADER_FLOATS = 8192, TRIPTYCH_SHADER_INTEGERS = 2048, TRIPTYCH_SHADER_BOOLEANS = 16 };
 
 struct triptych_options {
     const char *engine; /* name as listed by triptych_engine_name(); null: "specialize" */
@@ -462,6 +460,22 @@ TRIPTYCH_API enum triptych_result triptych_texture_update(triptych_device *, tri
 TRIPTYCH_API enum triptych_result triptych_texture_generate_mips(triptych_device *,
                                                                  triptych_texture *texture);
 
+/* Shaders, of the models 1.1 to 3.0 (docs/shaders.md). From bytecode: tokens as they lie in memory, from the version
+ * token to the end token, or from assembly text. Either is copied. `name` begins the reasons of a shader that is
+ * refused: "NAME: token N: ...", "NAME:LINE:COLUMN: ..."; null: "shader". */
+TRIPTYCH_API enum triptych_result triptych_shader_create(triptych_device *, const char *name,
+                                                         const void *code, size_t bytes,
+                                                         triptych_shader **shader);
+TRIPTYCH_API enum triptych_result triptych_shader_assemble(triptych_device *, const char *name,
+                                                           const char *text, size_t bytes,
+                                                           triptych_shader **shader);
+/* Frees a shader, after rendering what is recorded; where it was set the pipeline becomes the fixed one. Null is
+ * allowed. */
+TRIPTYCH_API enum triptych_result triptych_shader_destroy(triptych_device *, triptych_shader *);
+/* Which of them it is, and the name of its model ("vs_2_0"). */
+TRIPTYCH_API enum triptych_shader_stage triptych_shader_get_stage(const triptych_shader *);
+TRIPTYCH_API const char *triptych_shader_get_model(const triptych_shader *);
+
 TRIPTYCH_API enum triptych_result triptych_set_state(triptych_device *, enum triptych_state, uint32_t value);
 TRIPTYCH_API enum triptych_result triptych_set_sampler_state(triptych_device *, unsigned sampler,
                                                              enum triptych_sampler_state, uint32_t value);
@@ -499,6 +513,24 @@ TRIPTYCH_API enum triptych_result triptych_enable_light(triptych_device *, unsig
  * (0, 0, 0, 1). */
 TRIPTYCH_API enum triptych_result triptych_set_texture(triptych_device *, unsigned sampler,
                                                        triptych_texture *);
+
+/* What draws are shaded by; null: the fixed-function pipeline. */
+TRIPTYCH_API enum triptych_result triptych_set_vertex_shader(triptych_device *, triptych_shader *);
+TRIPTYCH_API enum triptych_result triptych_set_pixel_shader(triptych_device *, triptych_shader *);
+
+/* Constants of a stage's shaders: `count` registers from `first` on, of four floats, four integers (those of a loop:
+ * count, start, step, unused; of a rep: count) or one Boolean each. All are zero at first, and stay when another
+ * shader is set. What a shader defines itself goes before them, in that shader. Draws recorded before keep what was
+ * set then. */
+TRIPTYCH_API enum triptych_result triptych_set_shader_floats(triptych_device *, enum triptych_shader_stage,
+                                                             unsigned first, const float *values,
+                                                             unsigned count);
+TRIPTYCH_API enum triptych_result triptych_set_shader_integers(triptych_device *, enum triptych_shader_stage,
+                                                               unsigned first, const int32_t *values,
+                                                               unsigned count);
+TRIPTYCH_API enum triptych_result triptych_set_shader_booleans(triptych_device *, enum triptych_shader_stage,
+                                                               unsigned first, const int32_t *values,
+                                                               unsigned count);
 
 /* Says where in its stream each attribute lies: count (0 to 64) elements, none of them twice the same usage
  * and index. Attributes that it does not mention are not given. A vertex with POSITIONT is drawn where it

@@ -80,6 +80,7 @@ static void forget_commands(struct triptych_device *device)
             for (int unit = 0; unit < UNIT_COUNT; unit++)
                 cache_release(device->cache, frame->command[i].draw.routine[unit]);
     frame->commands = 0;
+    constants_reset(&device->constants);
     if (device->palettes) {
         free_palettes(device->palettes->next);
         device->palettes->next = NULL;
@@ -109,6 +110,7 @@ void device_destroy(struct triptych_device *device)
         next = texture->next;
         texture_destroy(texture);
     }
+    device_free_shaders(device);
     free(device);
 }
 

@@ -7,10 +7,12 @@
 #define DRAW_DEVICE_H
 
 #include "draw/cache.h"
+#include "draw/constant.h"
 #include "draw/frame.h"
 #include "draw/query.h"
 #include "draw/state.h"
 #include "draw/surface.h"
+#include "shader/shader.h"
 
 /* Called for each draw that is recorded: its number, from 0, and its keys, indexed by enum unit. */
 typedef void device_draw_callback(void *user, uint64_t number, const union key key[UNIT_COUNT]);
@@ -19,6 +21,12 @@ typedef void device_draw_callback(void *user, uint64_t number, const union key k
 struct palette {
     struct palette *next;
     struct palette_entry entry[WORLD_MATRICES];
+};
+
+struct triptych_shader {
+    struct triptych_device *device;
+    struct triptych_shader *next; /* of the device's */
+    const struct program *program;
 };
 
 struct triptych_device {
@@ -35,6 +43,9 @@ struct triptych_device {
     struct shader_registers registers[SHADER_STAGES]; /* the state's */
     struct triptych_buffer *buffers;
     struct triptych_texture *textures;
+    struct triptych_shader *shaders, *shader[SHADER_STAGES]; /* all, those that are set */
+    struct constants constants;                              /* of recorded draws */
+    bool integers_checked;                                   /* state_check_integers found nothing */
     struct queries queries;
 
     /* What the state derives to, once somebody has asked since it changed. */
@@ -150,6 +161,26 @@ enum triptych_result device_texture_update(struct triptych_device *device, struc
                                            const void *data, size_t row_pitch, size_t slice_pitch,
                                            struct error *error);
 void device_texture_generate_mips(struct triptych_device *device, struct triptych_texture *texture);
+
+/* Shaders (device_shader.c): from a decoded one, which is validated and may be freed; null sets none. */
+enum triptych_result device_shader_create(struct triptych_device *device, const struct shader *shader,
+                                          struct triptych_shader **result, struct error *error);
+enum triptych_result device_shader_destroy(struct triptych_device *device, struct triptych_shader *shader,
+                                           struct error *error);
+void device_free_shaders(struct triptych_device *device);
+enum triptych_result device_set_shader(struct triptych_device *device, enum shader_stage stage,
+                                       struct triptych_shader *shader, struct error *error);
+enum triptych_result device_set_floats(struct triptych_device *device, enum triptych_shader_stage stage,
+                                       unsigned first, const float *values, unsigned count,
+                                       struct error *error);
+enum triptych_result device_set_integers(struct triptych_device *device, enum triptych_shader_stage stage,
+                                         unsigned first, const int32_t *values, unsigned count,
+                                         struct error *error);
+enum triptych_result device_set_booleans(struct triptych_device *device, enum triptych_shader_stage stage,
+                                         unsigned first, const int32_t *values, unsigned count,
+                                         struct error *error);
+/* Whether draws may run with the integer constants as they are. */
+enum triptych_result device_check_integers(struct triptych_device *device, struct error *error);
 
 /* One sample's of colour target 0 and of depth and stencil; what is null is not read. */
 enum triptych_result device_read_sample(struct triptych_device *device, unsigned sample, uint32_t *rgba,

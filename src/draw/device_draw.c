@@ -67,8 +67,8 @@ static enum triptych_result check_vertices(const struct triptych_device *device,
     return result;
 }
 
-static enum triptych_result check_draw(const struct triptych_device *device,
-                                       enum triptych_primitive primitive, struct error *error)
+static enum triptych_result check_draw(struct triptych_device *device, enum triptych_primitive primitive,
+                                       struct error *error)
 {
     if ((unsigned)primitive >= TRIPTYCH_PRIMITIVE_COUNT) {
         error_set(
@@ -79,12 +79,13 @@ static enum triptych_result check_draw(const struct triptych_device *device,
         return TRIPTYCH_BAD_ARGUMENT;
     }
     enum triptych_result result = device_has_target(device, error);
-    if (result == TRIPTYCH_OK && !device->state.element[ATTRIBUTE_POSITION].format &&
+    if (result == TRIPTYCH_OK && !device->state.program[STAGE_VERTEX] &&
+        !device->state.element[ATTRIBUTE_POSITION].format &&
         !device->state.element[ATTRIBUTE_POSITIONT].format) {
         error_set(error, "no position: expected an element for it");
         return TRIPTYCH_BAD_CALL;
     }
-    return result;
+    return result == TRIPTYCH_OK ? device_check_integers(device, error) : result;
 }
 
 /* Direct3D 9 steps by instances in indexed draws only. */
@@ -171,6 +172,13 @@ static struct command *next_command(struct triptych_device *device)
     return frame_next(device->frame);
 }
 
+static struct command *next_draw(struct triptych_device *device)
+{
+    if (!constants_fit(&device->constants, &device->state))
+        device_finish(device);
+    return next_command(device);
+}
+
 static int acquire_all(struct triptych_device *device, const struct routine *routine[UNIT_COUNT],
                        struct error *error)
 {
@@ -232,11 +240,12 @@ static enum triptych_result record_instance(struct triptych_device *device, cons
     const struct routine *routine[UNIT_COUNT];
     if (acquire_routines(device, routine, error))
         return TRIPTYCH_ENGINE_FAILED;
-    struct command *command = next_command(device);
+    struct command *command = next_draw(device);
     command->kind = COMMAND_DRAW;
     struct draw *draw = &command->draw;
     *draw = *source;
     draw->job = device->job;
+    constants_write(&device->constants, &device->state, &draw->job);
     step_instance(device, instance, &draw->job);
     memcpy(draw->routine, routine, sizeof draw->routine);
     draw->scissor = derive_scissor(&device->state);

@@ -3,6 +3,9 @@
 #include "draw/depth.h"
 #include "draw/target.h"
 
+#include "shader/program.h"
+
+#include <inttypes.h>
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
@@ -278,6 +281,36 @@ enum triptych_result state_set_convention(struct state *state, enum triptych_con
         return TRIPTYCH_BAD_ARGUMENT;
     }
     state->convention[which] = (uint8_t)value;
+    return TRIPTYCH_OK;
+}
+
+enum triptych_result state_check_constants(enum constant_file file, enum triptych_shader_stage stage,
+                                           unsigned first, unsigned count, struct error *error)
+{
+    static const struct {
+        const char *name;
+        unsigned count;
+    } files[] = {[CONSTANT_FLOAT] = {"float", TRIPTYCH_SHADER_FLOATS},
+                 [CONSTANT_INTEGER] = {"integer", TRIPTYCH_SHADER_INTEGERS},
+                 [CONSTANT_BOOLEAN] = {"Boolean", TRIPTYCH_SHADER_BOOLEANS}};
+    if ((unsigned)stage >= SHADER_STAGES) {
+        error_set(error, "shader stage %u: expected vertex (0) or pixel (1)", (unsigned)stage);
+        return TRIPTYCH_BAD_ARGUMENT;
+    }
+    if (count <= files[file].count && first <= files[file].count - count)
+        return TRIPTYCH_OK;
+    error_set(error, "%s constants %u to %" PRIu64 ": expected them below %u", files[file].name, first,
+              (uint64_t)first + count - 1, files[file].count);
+    return TRIPTYCH_BAD_ARGUMENT;
+}
+
+enum triptych_result state_check_integers(const struct state *state, struct error *error)
+{
+    for (int stage = 0; stage < SHADER_STAGES; stage++)
+        if (state->program[stage] &&
+            program_check_integers(state->program[stage],
+                                   (const int32_t(*)[4])state->registers[stage]->integers, error))
+            return TRIPTYCH_BAD_CALL;
     return TRIPTYCH_OK;
 }
 

@@ -36,13 +36,15 @@ struct target_channels {
     uint8_t channels;
 };
 
-/* What shaders of a stage read besides their inputs. Those that a pixel shader cannot read are not used. */
+/* What shaders of a stage read besides their inputs. */
 struct shader_registers {
-    float floats[TRIPTYCH_VERTEX_FLOATS][4];
-    int32_t integers[TRIPTYCH_VERTEX_INTEGERS][4];
+    float floats[TRIPTYCH_SHADER_FLOATS][4];
+    int32_t integers[TRIPTYCH_SHADER_INTEGERS][4];
 };
 
 enum { SHADER_STAGES = 2 }; /* arrays over stages are indexed by enum shader_stage */
+
+enum constant_file { CONSTANT_FLOAT, CONSTANT_INTEGER, CONSTANT_BOOLEAN };
 
 struct state {
     uint32_t value[TRIPTYCH_STATE_COUNT];
@@ -102,6 +104,12 @@ enum triptych_result state_set_material(struct state *state, const struct tripty
                                         struct error *error);
 enum triptych_result state_set_light(struct state *state, unsigned index, const struct triptych_light *light,
                                      struct error *error);
+
+/* Whether a stage has these constants (triptych_set_shader_floats and so on), and whether the integers that the
+ * shaders read let them run: draws are refused otherwise. */
+enum triptych_result state_check_constants(enum constant_file file, enum triptych_shader_stage stage,
+                                           unsigned first, unsigned count, struct error *error);
+enum triptych_result state_check_integers(const struct state *state, struct error *error);
 
 /* In draw/declare.c. */
 enum triptych_result state_set_declaration(struct state *state,

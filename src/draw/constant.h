@@ -1,0 +1,41 @@
+/* Constants of shaders as recorded draws have them: blocks in memory that lasts until the draws are rendered.
+ *
+ * A block is what program_write_constants makes of the state's registers. It never changes; draws share it until
+ * their shader, or a constant that it reads, is another. The memory is bounded: when blocks do not fit any more,
+ * what is recorded must be rendered first. */
+#ifndef DRAW_CONSTANT_H
+#define DRAW_CONSTANT_H
+
+#include "draw/job.h"
+#include "draw/state.h"
+
+#include <stdbool.h>
+
+/* Enough for a full queue of shaders of a hardware's models, which read 4 KiB of constants at most, and for the
+ * largest blocks of both stages. */
+enum { CONSTANT_BYTES = 8 << 20 };
+
+struct constants {
+    uint8_t *memory; /* CONSTANT_BYTES; null before the first shader */
+    size_t used;
+    const struct program *program[SHADER_STAGES]; /* whose block is the newest one; null: there is none */
+    const float *block[SHADER_STAGES];
+};
+
+/* Memory, if there is none yet. Returns 0, or -1 with the reason. */
+int constants_create(struct constants *constants, struct error *error);
+void constants_destroy(struct constants *constants);
+
+/* Whether the blocks of a draw with this state fit; they do after constants_reset. */
+bool constants_fit(const struct constants *constants, const struct state *state);
+
+/* Blocks for a draw with this state, which fit, into the job: the newest ones where they are right. */
+void constants_write(struct constants *constants, const struct state *state, struct job *job);
+
+/* A constant of that stage has changed: its newest block is not that of later draws. */
+void constants_changed(struct constants *constants, unsigned stage);
+
+/* Nobody needs the blocks any more. */
+void constants_reset(struct constants *constants);
+
+#endif
