@@ -1,5 +1,6 @@
 #include "engines.h"
 
+#include "emu/batch.h"
 #include "emu/emulate.h"
 #include "jit/jit.h"
 #include "stitch/stitch.h"
@@ -7,8 +8,16 @@
 #include <string.h>
 
 static const struct engine *const engines[] = {
-    &engine_emulate,    &engine_stitch,       &engine_stitch_operation,
-    &engine_specialize, &engine_specialize_4, &engine_specialize_thesis,
+    &engine_emulate,
+    &engine_batch,
+#define BATCH(lanes) &engine_batch_##lanes,
+#include "def/batch.def"
+#undef BATCH
+    &engine_stitch,
+    &engine_stitch_operation,
+    &engine_specialize,
+    &engine_specialize_4,
+    &engine_specialize_thesis,
 };
 
 const struct engine *engine_at(unsigned i)

@@ -217,7 +217,8 @@ static struct cache_entry *insert(struct cache *cache, enum unit unit, const uni
     entry->unit = unit;
     entry->key = *packed;
     entry->hash = hash;
-    entry->price = entry->routine->code_bytes + sizeof *entry + sizeof *entry->routine;
+    entry->price =
+        entry->routine->code_bytes + entry->routine->data_bytes + sizeof *entry + sizeof *entry->routine;
     if (cache->statistics.routines >= cache->bucket_count)
         grow(cache);
     struct cache_entry **at = bucket_of(cache, hash);

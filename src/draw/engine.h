@@ -35,6 +35,7 @@ struct routine {
     uint32_t constant_bytes; /* of code_bytes, how many are data behind the code */
     uint32_t parts;          /* instructions emitted (specialize), fragments joined (stitch) */
     uint32_t spills;
+    uint32_t data_bytes;       /* held besides the code: what an interpreter works from */
     const char *granularity;   /* stitch: "stage" or "operation", what its fragments are; null elsewhere */
     uint64_t build_ns;         /* set by the cache around build() */
     uint32_t number;           /* identity in dumps and reports, from 1, set by the cache */
@@ -63,6 +64,7 @@ struct engine {
     const char *description; /* one line */
     int width;               /* lanes W of its routines */
     int interprets;          /* generates no code: needs no arena */
+    int on_request;          /* runs where it is named; left out of what is done with every engine */
 
     /* Null when the engine can run here, else one line that says why not. */
     const char *(*unavailable)(void);

@@ -26,6 +26,7 @@
 #ifndef IR_IR_H
 #define IR_IR_H
 
+#include "base/error.h"
 #include "def/binding.h"
 
 #include <stdio.h>
@@ -136,6 +137,11 @@ void ir_print_instruction(const struct ir *ir, uint32_t number, FILE *out);
 
 /* Records the spec of a unit for a key (record.c). */
 void ir_record(struct ir *ir, enum unit unit, const union key *key);
+
+/* A recording in memory of a pool of the process (pool.c), for those who have none of their own; null with
+ * the reason. Give it back. */
+struct ir *ir_take(enum unit unit, const union key *key, struct error *error);
+void ir_give(struct ir *ir);
 
 /* Evaluates one operation of def/op.def on one lane's bits (fix: both halves). Runs under the caller's MXCSR.
  */

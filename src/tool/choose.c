@@ -1,4 +1,5 @@
 #include "tool/choose.h"
+#include "engines.h"
 #include "tool/option.h"
 #include "triptych.h"
 
@@ -82,7 +83,8 @@ int choose_engines(const struct command *self, const char *list, struct choice *
 {
     choice->count = 0;
     for (unsigned i = 0; !list && triptych_engine_name(i); i++)
-        if (!triptych_engine_unavailable(i) && add(self, choice, i, triptych_engine_name(i)))
+        if (!engine_at(i)->on_request && !triptych_engine_unavailable(i) &&
+            add(self, choice, i, triptych_engine_name(i)))
             return STATUS_BAD;
     char name[NAME_CAPACITY];
     while ((list = list_next(list, name, sizeof name))) {

@@ -17,7 +17,7 @@ struct choice {
 int choose_engine(const struct command *self, const char *name, unsigned width, unsigned *index);
 
 /* Reads a comma-separated list of engines, each once and able to run here. Null: every engine that can run
- * here. */
+ * here and does not wait to be named (engine.on_request). */
 int choose_engines(const struct command *self, const char *list, struct choice *choice);
 
 /* Reads a comma-separated list of thread counts. */
