@@ -8,6 +8,7 @@
 #include "emu/batch.h"
 
 #include "base/mxcsr.h"
+#include "shader/program.h"
 
 #include <stdlib.h>
 #include <string.h>
@@ -19,7 +20,7 @@ struct batch_routine {
     struct plan *plan;
 };
 
-static const struct plan *plan_of(const struct routine *routine)
+const struct plan *batch_plan(const struct routine *routine)
 {
     return ((const struct batch_routine *)(const void *)routine)->plan;
 }
@@ -47,6 +48,7 @@ static unsigned add_group(struct batch *batch, const struct plan *plan)
 static void run_vertices(struct batch *batch, const struct plan *plan, const struct vertex_call *call)
 {
     set_common(batch, BASE_JOB, call->job);
+    set_common(batch, BASE_CONSTANT, call->job->constants[STAGE_VERTEX]);
     for (uint32_t i = 0; i < call->count; i += GROUP_LANES) {
         unsigned group = add_group(batch, plan);
         batch->base[BASE_INPUT][group] = (const uint8_t *)(call->index + i);
@@ -98,6 +100,7 @@ static void run_pixels(struct batch *batch, const struct plan *plan, const struc
 {
     struct held held = {0};
     set_common(batch, BASE_JOB, call->job);
+    set_common(batch, BASE_CONSTANT, call->job->constants[STAGE_PIXEL]);
     for (uint32_t i = 0; i < call->count; i++)
         for (unsigned quad = 0; quad < BLOCK_QUADS; quad++)
             if (call->entries[i].coverage >> quad * GROUP_LANES & ((1 << GROUP_LANES) - 1))
@@ -107,7 +110,7 @@ static void run_pixels(struct batch *batch, const struct plan *plan, const struc
 
 static void run(const void *call, const struct routine *routine)
 {
-    const struct plan *plan = plan_of(routine);
+    const struct plan *plan = batch_plan(routine);
     uint8_t stack[plan->frame_bytes + FRAME_ALIGNMENT];
     struct batch batch;
     unsigned saved = mxcsr_enter();

@@ -20,4 +20,7 @@ extern const struct engine engine_batch; /* BATCH_LANES */
 struct routine *batch_routine(const struct ir *ir, unsigned lanes, enum unit unit, const union key *key,
                               struct error *error);
 
+/* What such a routine executes. */
+const struct plan *batch_plan(const struct routine *routine);
+
 #endif

@@ -46,7 +46,12 @@ struct planner {
 /* The bases that are one address in all groups of any batch. */
 static int is_common(enum base base)
 {
-    return base == BASE_JOB || base == BASE_VERTICES;
+    return base == BASE_JOB || base == BASE_VERTICES || base == BASE_CONSTANT;
+}
+
+static int is_value(const struct ir_instruction *i)
+{
+    return i->type && i->op != IR_set;
 }
 
 static int has_step(const struct ir_instruction *i)
@@ -210,7 +215,7 @@ static void place_values(struct planner *p)
     }
     for (uint32_t number = 1; number < p->ir->count; number++) {
         release_values(p, (uint16_t)number);
-        if (p->note[number].live && p->ir->instruction[number].type && p->note[number].root == number)
+        if (p->note[number].live && is_value(&p->ir->instruction[number]) && p->note[number].root == number)
             place_value(p, (uint16_t)number);
     }
 }
@@ -256,7 +261,7 @@ static struct step make_step(const struct planner *p, const struct layout *layou
         step.operand[o] = value_offset(p, layout, i->operand[o]);
         step.stride[o] = p->note[p->note[i->operand[o]].root].place == PLACE_ROW ? GROUP_BYTES : 0;
     }
-    if (i->type) {
+    if (is_value(i)) {
         step.to = value_offset(p, layout, number);
         step.once = p->note[number].place == PLACE_GROUP;
     }

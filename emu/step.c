@@ -1,7 +1,10 @@
 /* The steps of the batch interpreter: each row of def/op.def as a loop over the groups of a batch, around the
  * emulator's own four-lane operation; then memory, variables and control. */
+#include "base/cpu.h"
 #include "emu/bind.h"
 #include "emu/plan.h"
+
+#include <immintrin.h>
 
 _Static_assert(sizeof(flt) == GROUP_BYTES && sizeof(itg) == GROUP_BYTES && sizeof(fix) == GROUP_BYTES &&
                    sizeof(msk) == GROUP_BYTES,
@@ -11,6 +14,8 @@ _Static_assert(sizeof(flt) == GROUP_BYTES && sizeof(itg) == GROUP_BYTES && sizeo
 #define ORDER_b 1
 #define ORDER_c 2
 
+/* A row of the table, taken apart by the types of its operands: where an operand's groups begin and how far
+ * they are apart, the next of them, and it as an argument. */
 #define OPERAND(n)                                                                                           \
     const uint8_t *n##_at = batch->frame + step->operand[ORDER_##n];                                         \
     const size_t n##_stride = step->stride[ORDER_##n];
@@ -60,6 +65,47 @@ _Static_assert(sizeof(flt) == GROUP_BYTES && sizeof(itg) == GROUP_BYTES && sizeo
     }
 #define CAST(name, ...)
 #include "def/op.def"
+
+/* The same where the processor has an instruction for four lanes but C has nothing that compilers would make
+ * it of. */
+static inline itg vector_round_i(struct env *e, flt a)
+{
+    (void)e;
+    itg r;
+    _mm_storeu_si128((__m128i *)(void *)r.lane, _mm_cvtps_epi32(_mm_loadu_ps(a.lane)));
+    return r;
+}
+
+static inline itg vector_trunc_i(struct env *e, flt a)
+{
+    (void)e;
+    itg r;
+    _mm_storeu_si128((__m128i *)(void *)r.lane, _mm_cvttps_epi32(_mm_loadu_ps(a.lane)));
+    return r;
+}
+
+static inline flt vector_sqrt_f(struct env *e, flt a)
+{
+    (void)e;
+    flt r;
+    _mm_storeu_ps(r.lane, _mm_sqrt_ps(_mm_loadu_ps(a.lane)));
+    return r;
+}
+
+#define NEEDS_FMA __attribute__((target("fma")))
+
+NEEDS_FMA static inline flt vector_mad_f(struct env *e, flt a, flt b, flt c)
+{
+    (void)e;
+    flt r;
+    _mm_storeu_ps(r.lane, _mm_fmadd_ps(_mm_loadu_ps(a.lane), _mm_loadu_ps(b.lane), _mm_loadu_ps(c.lane)));
+    return r;
+}
+
+OP(vector_round_i, itg, flt, non, non, 0, )
+OP(vector_trunc_i, itg, flt, non, non, 0, )
+OP(vector_sqrt_f, flt, flt, non, non, 0, )
+NEEDS_FMA OP(vector_mad_f, flt, flt, flt, flt, 0, )
 #undef OP
 #undef OPK
 #undef CAST
@@ -199,7 +245,13 @@ static step_function *const steps[IR_OP_COUNT] = {
 
 step_function *step_of(enum ir_op op)
 {
-    return steps[op];
+    switch (op) {
+    case IR_round_i: return step_vector_round_i;
+    case IR_trunc_i: return step_vector_trunc_i;
+    case IR_sqrt_f: return step_vector_sqrt_f;
+    case IR_mad_f: return cpu_has_avx2_fma() ? step_vector_mad_f : step_mad_f;
+    default: return steps[op];
+    }
 }
 
 void plan_run(const struct plan *plan, struct batch *batch)

@@ -310,7 +310,7 @@ holds 'the JSON names the machine' grep -q '"commit":' "$work/bench.json"
 
 # --- Dumps ---------------------------------------------------------------------------------------------------
 
-for engine in $("$TRIPTYCH" list engines | awk 'NR > 1 && $1 != "emulate" && $3 == "available" { print $1 }'); do
+for engine in $("$TRIPTYCH" list engines | awk 'NR > 1 && $1 !~ /^(emulate|batch)/ && $3 == "available" { print $1 }'); do
     for unit in vertex setup pixel; do
         answers "dump of $engine, $unit" '[0-9a-f]+ +ret' dump "$work/good.tri" --engine "$engine" --unit "$unit"
     done

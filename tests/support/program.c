@@ -334,8 +334,8 @@ void program_make_loops(struct ir *ir, unsigned length, uint64_t *seed)
 struct interpreter {
     const struct ir *ir;
     struct program_data *data;
-    uint32_t value[IR_CAPACITY][LANES_MAXIMUM];
-    uint32_t variable[VARIABLES][LANES_MAXIMUM];
+    uint32_t value[IR_CAPACITY][PROGRAM_LANES];
+    uint32_t variable[VARIABLES][PROGRAM_LANES];
     unsigned first; /* lane */
     unsigned width;
     program_observer *observer; /* may be null */

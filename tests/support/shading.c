@@ -94,7 +94,7 @@ void shading_on_every_engine(void (*test)(void))
     for (unsigned i = 0; engine_at(i); i++) {
         struct error error = {{0}};
         engine = engine_at(i);
-        if (engine->unavailable())
+        if (engine->unavailable() || engine->on_request)
             continue;
         arena = engine->interprets ? NULL : code_create(1 << 22, NULL, &error);
         shading_palette = NULL;
