@@ -21,12 +21,25 @@
  *   N = ceil(rho / min(|across|, |down|)), less 1/256, from 1 to maxanisotropy
  *   tap i of 1 to N lies at the coordinate + (i / (N + 1) - 1/2) * change
  *
- * with the levels of lambda for rho / N. Magnification takes one. */
+ * with the levels of lambda for rho / N. Magnification takes one.
+ *
+ * Shaders can add a bias of their own to lambda, bring the changes themselves, or lambda without its
+ * mipmaplodbias, which they get too; then nothing is anisotropic. What is not a number is far away there too. */
+
+/* Where the level of detail comes from. */
+enum { DETAIL_QUAD, DETAIL_BIASED, DETAIL_CHANGES, DETAIL_GIVEN };
 
 /* Changes of the coordinates, across and down, and the squares of their lengths in 1/256 texels. */
 struct changes {
     flt across[3], down[3];
     flt across_square, down_square;
+};
+
+/* How a texture is looked up. */
+struct lookup {
+    int from;               /* DETAIL_* */
+    flt amount;             /* BIASED: the bias; GIVEN: the level */
+    struct changes changes; /* CHANGES: of each coordinate, across and down */
 };
 
 struct detail {
@@ -68,10 +81,12 @@ static inline void measure_changes(struct env *e, int number, int axes, struct c
 }
 
 /* lambda in 1/256 from the square of rho in 1/256 texels. */
-static inline itg lambda_256(struct env *e, int number, flt square)
+static inline itg lambda_256(struct env *e, int number, const struct lookup *how, flt square)
 {
     flt doubled = logarithm2(E, square);
     flt offset = uniform_f(E, BASE_JOB, TEXTURE_FIELD(number, lod_offset));
+    if (how->from == DETAIL_BIASED)
+        offset = mad_f(E, how->amount, lit_f(E, 256.0f), offset);
     flt lambda = mad_f(E, doubled, lit_f(E, 128.0f), offset);
     return round_i(E, lambda);
 }
@@ -120,20 +135,38 @@ static inline int needs_detail(const struct sampler_key *k)
 }
 
 static inline struct detail detail(struct env *e, const struct sampler_key *k, int axes,
-                                   const struct changes *changes)
+                                   const struct lookup *how, const struct changes *changes)
 {
     struct detail r;
     r.images = 1;
     flt longer = max_f(E, changes->across_square, changes->down_square);
     flt square = min_f(E, longer, lit_f(E, 0x1p100f)); /* NaN too */
-    itg lambda = lambda_256(E, k->number, square);
+    itg lambda = lambda_256(E, k->number, how, square);
     r.level[0] = r.level[1] = r.fraction = lambda;
     r.minified = gt_i(E, lambda, lit_i(E, 0));
     r.taps = r.step[0] = r.step[1] = r.step[2] = square;
     if (k->minify == MINIFY_ANISOTROPIC) {
         flt share = detail_taps(E, k->anisotropy, axes, changes, square, &r);
-        lambda = lambda_256(E, k->number, share);
+        lambda = lambda_256(E, k->number, how, share);
     }
+    if (k->mip)
+        detail_levels(E, k->number, k->mip, lambda, &r);
+    return r;
+}
+
+/* A level further away than any texture's is as good as one. */
+static inline struct detail given_detail(struct env *e, const struct sampler_key *k, flt level)
+{
+    struct detail r;
+    flt bias = uniform_f(E, BASE_JOB, TEXTURE_FIELD(k->number, lod_bias_256));
+    flt low = min_f(E, level, lit_f(E, 1024.0f)); /* NaN too */
+    flt limited = max_f(E, low, lit_f(E, -1024.0f));
+    flt sum = mad_f(E, limited, lit_f(E, 256.0f), bias);
+    itg lambda = round_i(E, sum);
+    r.images = 1;
+    r.level[0] = r.level[1] = r.fraction = lambda;
+    r.minified = gt_i(E, lambda, lit_i(E, 0));
+    r.taps = r.step[0] = r.step[1] = r.step[2] = sum;
     if (k->mip)
         detail_levels(E, k->number, k->mip, lambda, &r);
     return r;

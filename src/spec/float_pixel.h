@@ -13,23 +13,17 @@ static inline struct float_color float_interpolated(struct env *e, const struct 
     return r;
 }
 
-/* The texture of a stage, where the one before may have a say. A texture of bytes is filtered as such. */
+/* The texture of a stage, where the one before may have a say. */
 static inline struct float_color float_texture(struct env *e, const struct pixel_source *s, int stage,
                                                const struct float_color *before)
 {
-    struct float_color r;
     flt v[3];
+    struct lookup how = {.from = DETAIL_QUAD};
     struct sampler_key k = pixel_sampler(s->k, stage);
     stage_coordinates(E, s, stage, v);
     if (s->k->bump[stage])
         bump_displace(E, stage, before, v);
-    if (k.texel != TEXEL_BYTES) {
-        r = float_sample(E, &k, v);
-    } else {
-        struct color packed = sample(E, &k, v);
-        itg word = color_pack(E, packed);
-        r = float_unpack(E, word);
-    }
+    struct float_color r = sample_as_float(E, &k, v, &how);
     return s->k->bump[stage] == BUMP_LUMINANCE ? bump_luminance(E, stage, before, r) : r;
 }
 

@@ -51,8 +51,9 @@ static inline struct color stage_texture(struct env *e, const struct pixel_sourc
 {
     flt v[3];
     struct sampler_key k = pixel_sampler(s->k, stage);
+    struct lookup how = {.from = DETAIL_QUAD};
     stage_coordinates(E, s, stage, v);
-    return sample(E, &k, v);
+    return sample(E, &k, v, &how);
 }
 
 static inline struct color shade_stages(struct env *e, const struct pixel_source *s)

@@ -189,22 +189,27 @@ static inline void project_cube(struct env *e, struct sampler *s, const flt v[3]
 
 /* Coordinates u, v and, where the texture needs it, a third: w, z of a cube's vector, or the reference depth.
  */
-static inline struct sampler sampler(struct env *e, const struct sampler_key *k, const flt v[3])
+static inline struct sampler sampler(struct env *e, const struct sampler_key *k, const flt v[3],
+                                     const struct lookup *how)
 {
     struct sampler s = {.k = k, .axes = k->kind == TEXTURE_VOLUME ? 3 : 2};
     struct changes changes;
     int cube = k->kind == TEXTURE_CUBE;
-    if (needs_detail(k))
+    int measured = needs_detail(k) && how->from != DETAIL_GIVEN;
+    if (measured && how->from == DETAIL_CHANGES)
+        changes = how->changes;
+    else if (measured)
         quad_changes(E, v, cube ? 3 : s.axes, &changes);
     if (cube)
-        project_cube(E, &s, v, needs_detail(k) ? &changes : NULL);
+        project_cube(E, &s, v, measured ? &changes : NULL);
     else
         for (int a = 0; a < s.axes; a++)
             s.coordinate[a] = v[a];
-    if (needs_detail(k)) {
+    if (measured) {
         measure_changes(E, k->number, s.axes, &changes);
-        s.detail = detail(E, k, s.axes, &changes);
-    }
+        s.detail = detail(E, k, s.axes, how, &changes);
+    } else if (needs_detail(k))
+        s.detail = given_detail(E, k, how->amount);
     choose_filter(E, &s);
     s.reference = v[2];
     return s;
@@ -281,9 +286,20 @@ static inline struct color sample_anisotropic(struct env *e, const struct sample
     return sum;
 }
 
-/* A texture of bytes. */
-static inline struct color sample(struct env *e, const struct sampler_key *k, const flt v[3])
+/* Without changes there is no longer one; what would take several taps along it takes one, filtered linearly. */
+static inline struct sampler_key lookup_sampler(const struct sampler_key *k, const struct lookup *how)
 {
-    struct sampler s = sampler(E, k, v);
-    return k->minify == MINIFY_ANISOTROPIC ? sample_anisotropic(E, &s) : sample_levels(E, &s);
+    struct sampler_key r = *k;
+    if (how->from == DETAIL_GIVEN && k->minify == MINIFY_ANISOTROPIC)
+        r.minify = k->filter == FILTER_LINEAR ? MINIFY_SAME : MINIFY_OTHER;
+    return r;
+}
+
+/* A texture of bytes. */
+static inline struct color sample(struct env *e, const struct sampler_key *key, const flt v[3],
+                                  const struct lookup *how)
+{
+    struct sampler_key k = lookup_sampler(key, how);
+    struct sampler s = sampler(E, &k, v, how);
+    return k.minify == MINIFY_ANISOTROPIC ? sample_anisotropic(E, &s) : sample_levels(E, &s);
 }

@@ -164,12 +164,25 @@ static inline struct float_color float_anisotropic(struct env *e, const struct s
 }
 
 /* A texture of anything but bytes. */
-static inline struct float_color float_sample(struct env *e, const struct sampler_key *k, const flt v[3])
+static inline struct float_color float_sample(struct env *e, const struct sampler_key *key, const flt v[3],
+                                              const struct lookup *how)
 {
-    struct sampler s = sampler(E, k, v);
-    if (k->texel == TEXEL_COMPARE)
+    struct sampler_key k = lookup_sampler(key, how);
+    struct sampler s = sampler(E, &k, v, how);
+    if (k.texel == TEXEL_COMPARE)
         s.reference = saturate(E, s.reference);
     struct float_color color =
-        k->minify == MINIFY_ANISOTROPIC ? float_anisotropic(E, &s) : float_levels(E, &s);
-    return k->texel == TEXEL_COMPARE ? float_replicate(color.channel[0]) : color;
+        k.minify == MINIFY_ANISOTROPIC ? float_anisotropic(E, &s) : float_levels(E, &s);
+    return k.texel == TEXEL_COMPARE ? float_replicate(color.channel[0]) : color;
+}
+
+/* A texture of anything. One of bytes is filtered as such. */
+static inline struct float_color sample_as_float(struct env *e, const struct sampler_key *k, const flt v[3],
+                                                 const struct lookup *how)
+{
+    if (k->texel != TEXEL_BYTES)
+        return float_sample(E, k, v, how);
+    struct color packed = sample(E, k, v, how);
+    itg word = color_pack(E, packed);
+    return float_unpack(E, word);
 }
