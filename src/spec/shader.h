@@ -27,6 +27,7 @@ struct machine {
     itg address[4];
     msk predicate[4];
     msk killed;
+    flt product[8]; /* by stage: a row of a matrix times a vector, of ps_1_1 to ps_1_3 */
 
     /* The lanes that execute, unless all do, and what the others have in the cells that changed. */
     int masked;

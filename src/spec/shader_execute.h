@@ -119,6 +119,8 @@ static inline void machine_begin(struct env *e, struct machine *m, const uint8_t
     m->legacy = legacy;
     for (unsigned c = 0; c < CELL_FLOATS; c++)
         m->cell[c] = m->before[c] = zero;
+    for (unsigned s = 0; s < 8; s++)
+        m->product[s] = zero;
     for (unsigned c = 0; c < 4; c++) {
         m->address[c] = m->address_before[c] = none;
         m->predicate[c] = m->predicate_before[c] = never;
