@@ -4,6 +4,7 @@
 #include "def/lane.h"
 #include "draw/derive_part.h"
 #include "draw/matrix.h"
+#include "shader/program.h"
 
 #include <math.h>
 #include <string.h>
@@ -119,6 +120,20 @@ static void fill_bump(const struct state *state, int stage, struct bump_job *job
     job->matrix[1][1] = STAGE_FLOAT(stage, bumpenvmat11);
     job->luminance_scale = STAGE_FLOAT(stage, bumpenvlscale);
     job->luminance_offset = STAGE_FLOAT(stage, bumpenvloffset);
+}
+
+/* The stage whose matrix displaces is the one that ps_1_x writes. */
+static void fill_shader_bumps(const struct state *state, const struct program *program, struct job *job)
+{
+    if (!program || shader_major(program->model) > 1)
+        return;
+    for (uint32_t i = 0; i < program->steps; i++) {
+        const struct shader_instruction *instruction = &program->step[i].instruction;
+        int stage = instruction->destination.index;
+        if (instruction->opcode == SHADER_TEXBEM || instruction->opcode == SHADER_TEXBEML ||
+            instruction->opcode == SHADER_BEM)
+            fill_bump(state, stage, &job->bump[stage]);
+    }
 }
 
 static void fill_stages(const struct state *state, const struct pixel_key *key, struct job *job)
@@ -275,6 +290,7 @@ __attribute__((noinline)) static void fill_job(const struct state *state, const 
     fill_depth(state, pixel, job);
     fill_textures(state, vertex, pixel, job);
     fill_stages(state, pixel, job);
+    fill_shader_bumps(state, program_find(key_program(pixel->shader)), job);
     fill_fog(state, vertex, pixel, job);
     if (pixel->alpha_discard)
         job->alpha_reference = (int32_t)GET(alpharef);

@@ -147,6 +147,10 @@ static inline int varying_is_divisor(int varying)
            !((varying - VARYING_divisor0) % VARYING_CHANNEL);
 }
 
+/* Stages of ps_1_1 to ps_1_3, and which of their coordinates divides the others. */
+enum { PROJECTED_STAGES = 4 };
+enum { PROJECTED_NONE, PROJECTED_THIRD, PROJECTED_FOURTH, PROJECTED_COUNT };
+
 enum interpolation { INTERPOLATION_NONE, INTERPOLATION_SMOOTH, INTERPOLATION_FLAT, INTERPOLATION_COUNT };
 
 /* What setup makes of its vertices: a record for each triangle, line or point drawn, or for each edge or
@@ -272,9 +276,6 @@ enum { PREMODULATE_COLOR = 1, PREMODULATE_ALPHA = 2, PREMODULATE_COUNT = 4 };
 
 /* What the texture of the stage before does to a stage's: nothing, displace it, darken it as well. */
 enum { BUMP_NONE, BUMP_DISPLACED, BUMP_LUMINANCE, BUMP_COUNT };
-
-/* Which coordinate divides the others where a shader of ps_1_1 to ps_1_3 samples a stage. */
-enum { PROJECTED_NONE, PROJECTED_THIRD, PROJECTED_FOURTH, PROJECTED_COUNT };
 
 /* Where the fog factor comes from: the vertex routine, or the pixel's depth z or its distance w (spec/fog.h).
  */
