@@ -1,0 +1,36 @@
+#!/bin/bash
+# Every shader of tests/shaders follows the rules of its model, says in its head what it shows and what it needs, and
+# its bytecode disassembles to text that assembles to the same bytecode.
+# Given BUILD, TRIPTYCH and SANITIZE by tests/support/run.sh.
+set -uo pipefail
+cd "$(dirname "$0")/.."
+
+work=$(mktemp -d)
+trap 'rm -rf "$work"' EXIT
+shopt -s nullglob globstar
+shaders=(tests/shaders/**/*.[vp]sa)
+((${#shaders[@]} >= 60)) || { echo 'FAIL there are sixty shaders' && exit 1; }
+
+examine() # SHADER : fails, or says what is wrong
+{
+    local stage=${1##*.}
+    head -n 1 "$1" | grep -q '^; [[:alpha:]]' || { echo 'no comment at its head' && return; }
+    grep -q '^; .*Inputs: ' "$1" || { echo 'no word of its inputs' && return; }
+    grep -qE "^${stage%a}_[123]_[0-4x]$" "$1" || { echo "no model of ${stage%a}" && return; }
+    "$TRIPTYCH" shader validate "$1" >/dev/null &&
+        "$TRIPTYCH" shader assemble "$1" --out "$work/first" &&
+        "$TRIPTYCH" shader disassemble "$work/first" >"$work/text" &&
+        "$TRIPTYCH" shader assemble "$work/text" --out "$work/second" &&
+        cmp "$work/first" "$work/second"
+}
+
+failures=0
+for shader in "${shaders[@]}"; do
+    if said=$(examine "$shader" 2>&1) && [[ -z $said ]]; then
+        printf 'ok %s\n' "$shader"
+    else
+        printf 'FAIL %s\n     %s\n' "$shader" "$said"
+        failures=1
+    fi
+done
+exit $failures
