@@ -55,6 +55,12 @@ fragment leave, FRAME_END, NOTHING, FRAME | FRAME_END | CONSTANTS | STRIDE | COL
                 ret
 end_fragment
 
+; Once, of a shader's routine: job of the call; constants of struct job.
+fragment shader_constants, CALLED, SHADER_CONSTANTS, NOTHING
+    fill 0,       mov             r12, [at_call]
+    fill 1,       mov             r12, [dword r12]
+end_fragment
+
 ; ---- vertex: job, index, out and count of struct vertex_call; the part behind the loop
 
 fragment vertex_begin, CALLED, REMAINING | JOB | INPUT | OUTPUT, NOTHING

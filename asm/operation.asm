@@ -1,9 +1,13 @@
 ; Operation fragments: one operation of src/def/op.def each, under its name.
 ;
-; A value is a 32-byte slot of the routine's frame: eight lanes, [frame + slot]. Every fragment loads its operands,
-; computes, stores; nothing stays in a vector register from one fragment to the next. The result's slot may be an
-; operand's: operands are read before the result is written. Arguments: the result's slot, then the operands in the
-; order of the table, then the staged immediate.
+; A value is in a vector register, eight lanes; which one is a hole, as the operands' registers are. Where an operand
+; can be in memory instead, a second fragment of the same name with `_memory` behind it takes it from there: a slot of
+; the frame, a literal behind the code, or what the lanes read from a base. Arguments: the result's register, then the
+; operands in the order of the table, then the staged immediate; an operand in memory is a displacement, its base the
+; last of all arguments. The result's register may be an operand's unless the fragment keeps them apart. m15 belongs to
+; the fragments, none is given it.
+;
+; Literals begin with one that is always there: the sign bit.
 
 %include "fragment.inc"
 
@@ -11,47 +15,52 @@
 %define A      1
 %define B      2
 %define C      3
+%define IS(n)  (1 << (n))
 
 %macro unary 2 ; name, instruction
-fragment %1, FRAME, NOTHING, M(0)
-    fill A,       %2              m0, [frame]
-    fill RESULT,  vmovaps         [frame], m0
+fragment %1, NOTHING, NOTHING, NOTHING
+    vectors IS(RESULT), IS(A)
+    folds   A
+    vector        RESULT, NO_FIELD, A,  %2 m0, m0
+end_fragment
+fragment %1_memory, FRAME, NOTHING, NOTHING
+    vectors IS(RESULT), 0
+    vector_memory RESULT, NO_FIELD, A,  %2 m0, [frame]
 end_fragment
 %endmacro
 
 %macro binary 2 ; name, instruction
-fragment %1, FRAME, NOTHING, M(0)
-    fill A,       vmovaps         m0, [frame]
-    fill B,       %2              m0, m0, [frame]
-    fill RESULT,  vmovaps         [frame], m0
+fragment %1, NOTHING, NOTHING, NOTHING
+    vectors IS(RESULT), IS(A) | IS(B)
+    folds   B
+    vector        RESULT, A, B,  %2 m0, m0, m0
+end_fragment
+fragment %1_memory, FRAME, NOTHING, NOTHING
+    vectors IS(RESULT), IS(A)
+    vector_memory RESULT, A, B,  %2 m0, m0, [frame]
 end_fragment
 %endmacro
 
-; The comparison's predicate lies behind the displacement, so the operand is loaded first.
-%macro compare 2 ; name, instruction
-fragment %1, FRAME, NOTHING, M(0) | M(1)
-    fill A,       vmovaps         m0, [frame]
-    fill B,       vmovaps         m1, [frame]
-                %2              m0, m0, m1
-    fill RESULT,  vmovaps         [frame], m0
-end_fragment
-%endmacro
-
+; The mask's number lies behind ModRM or the displacement.
 %macro select 1 ; name
-fragment %1, FRAME, NOTHING, M(0) | M(1) | M(2)
-    fill A,       vmovaps         m0, [frame]
-    fill B,       vmovaps         m1, [frame]
-    fill C,       vmovaps         m2, [frame]
-                vblendvps       m0, m2, m1, m0
-    fill RESULT,  vmovaps         [frame], m0
+fragment %1, NOTHING, NOTHING, NOTHING
+    vectors IS(RESULT), IS(A) | IS(B) | IS(C)
+    folds   B
+    vector        RESULT, C, B,  vblendvps m0, m0, m0, m0
+.end:           hole            .end - 1, HOLE_MASK, A
+end_fragment
+fragment %1_memory, FRAME, NOTHING, NOTHING
+    vectors IS(RESULT), IS(A) | IS(C)
+    vector_memory RESULT, C, B,  vblendvps m0, m0, [frame], m0
+.end:           hole            .end - 1, HOLE_MASK, A
 end_fragment
 %endmacro
 
 %macro shift 2 ; name, instruction
-fragment %1, FRAME, NOTHING, M(0)
-    fill A,       vmovdqa         m0, [frame]
-    fill_byte B,  %2              m0, m0, 0
-    fill RESULT,  vmovdqa         [frame], m0
+fragment %1, NOTHING, NOTHING, NOTHING
+    vectors IS(RESULT), IS(A)
+    vector        NO_REG, RESULT, A,  %2 m0, m0, 0
+.end:           hole            .end - 1, HOLE_BYTE, B
 end_fragment
 %endmacro
 
@@ -65,36 +74,62 @@ binary min_f, vminps
 binary max_f, vmaxps
 unary  sqrt_f, vsqrtps
 select select_f
-compare lt_f, vcmpltps
-compare le_f, vcmpleps
-compare eq_f, vcmpeqps
-compare ne_f, vcmpneqps
+binary lt_f, vcmpltps
+binary le_f, vcmpleps
+binary eq_f, vcmpeqps
+binary ne_f, vcmpneqps
 
-fragment mad_f, FRAME, NOTHING, M(0) | M(1)
-    fill A,       vmovaps         m0, [frame]
-    fill B,       vmovaps         m1, [frame]
-    fill C,       vfmadd213ps     m0, m1, [frame]
-    fill RESULT,  vmovaps         [frame], m0
+fragment mad_f, NOTHING, NOTHING, NOTHING
+    vectors IS(RESULT), IS(A) | IS(B) | IS(C)
+    folds   C
+    apart
+    vector        RESULT, NO_FIELD, A,  vmovaps m0, m0
+    vector        RESULT, B, C,  vfmadd213ps m0, m0, m0
+end_fragment
+fragment mad_f_memory, FRAME, NOTHING, NOTHING
+    vectors IS(RESULT), IS(A) | IS(B)
+    apart
+    vector        RESULT, NO_FIELD, A,  vmovaps m0, m0
+    vector_memory RESULT, B, C,  vfmadd213ps m0, m0, [frame]
 end_fragment
 
-fragment neg_f, FRAME, NOTHING, M(0)
-                vpcmpeqd        m0, m0, m0
-                vpslld          m0, m0, 31
-    fill A,       vxorps          m0, m0, [frame]
-    fill RESULT,  vmovaps         [frame], m0
+; The same where nobody reads a factor any more: its register becomes the result's. Arguments: result, the other
+; factor, the summand.
+fragment mad_factor, NOTHING, NOTHING, NOTHING
+    vectors IS(RESULT), IS(RESULT) | IS(1) | IS(2)
+    folds   2
+    vector        RESULT, 1, 2,  vfmadd213ps m0, m0, m0
+end_fragment
+fragment mad_factor_memory, FRAME, NOTHING, NOTHING
+    vectors IS(RESULT), IS(RESULT) | IS(1)
+    vector_memory RESULT, 1, 2,  vfmadd213ps m0, m0, [frame]
 end_fragment
 
-fragment floor_f, FRAME, NOTHING, M(0)
-    fill A,       vmovaps         m0, [frame]
-                vroundps        m0, m0, 1
-    fill RESULT,  vmovaps         [frame], m0
+; Where nobody reads the summand any more. Arguments: result, both factors.
+fragment mad_sum, NOTHING, NOTHING, NOTHING
+    vectors IS(RESULT), IS(RESULT) | IS(1) | IS(2)
+    folds   2
+    vector        RESULT, 1, 2,  vfmadd231ps m0, m0, m0
+end_fragment
+fragment mad_sum_memory, FRAME, NOTHING, NOTHING
+    vectors IS(RESULT), IS(RESULT) | IS(1)
+    vector_memory RESULT, 1, 2,  vfmadd231ps m0, m0, [frame]
 end_fragment
 
-fragment half_f, FRAME, NOTHING, M(0)
-    fill A,       vmovaps         m0, [frame]
-                vcvtps2ph       xm0, m0, 0              ; to nearest even
-                vcvtph2ps       m0, xm0
-    fill RESULT,  vmovaps         [frame], m0
+fragment neg_f, CONSTANTS, NOTHING, NOTHING
+    vectors IS(RESULT), IS(A)
+    vector        RESULT, A, NO_FIELD,  vxorps m0, m0, [constants]
+end_fragment
+
+fragment floor_f, NOTHING, NOTHING, NOTHING
+    vectors IS(RESULT), IS(A)
+    vector        RESULT, NO_FIELD, A,  vroundps m0, m0, 1
+end_fragment
+
+fragment half_f, NOTHING, NOTHING, NOTHING
+    vectors IS(RESULT), IS(A)
+    vector        A, NO_FIELD, RESULT,  vcvtps2ph xm0, m0, 0    ; to nearest even
+    vector        RESULT, NO_FIELD, RESULT,  vcvtph2ps m0, xm0
 end_fragment
 
 ; ---- conversions
@@ -135,66 +170,71 @@ shift ushr_x, vpsrlw
 binary and_m, vpand
 binary or_m,  vpor
 
-fragment andn_m, FRAME, NOTHING, M(0)
-    fill B,       vmovaps         m0, [frame]
-    fill A,       vandnps         m0, m0, [frame]
-    fill RESULT,  vmovaps         [frame], m0
+fragment andn_m, NOTHING, NOTHING, NOTHING
+    vectors IS(RESULT), IS(A) | IS(B)
+    folds   A
+    vector        RESULT, B, A,  vandnps m0, m0, m0
+end_fragment
+fragment andn_m_memory, FRAME, NOTHING, NOTHING
+    vectors IS(RESULT), IS(B)
+    vector_memory RESULT, B, A,  vandnps m0, m0, [frame]
 end_fragment
 
 ; ---- literals and memory: not rows of op.def, listed in src/def/fragment.def
-;
-; Memory operations name their base by a hole, so any of r8 to r14 serves; the contract lists r8, which is what the
-; bytes say before the hole is filled.
 
-fragment literal, FRAME, NOTHING, R_AX | M(0)
-    fill 1,       mov             eax, strict dword 0
-                vmovd           xm0, eax
-                vpbroadcastd    m0, xm0
-    fill 0,       vmovdqa         [frame], m0
+; Once, before the loop: where the literals are.
+fragment literals, NOTHING, CONSTANTS, NOTHING
+                lea             constants, [rel .end]
+.end:           hole            .end - 4, HOLE_LITERALS, 0
 end_fragment
 
-shift permute, vpermilps
-
-fragment load, FRAME | JOB, NOTHING, M(0)
-    fill_base 1, 2, vmovups       m0, [dword r8]           ; indices and lane tables need not be aligned
-    fill 0,       vmovaps         [frame], m0
+fragment permute, NOTHING, NOTHING, NOTHING
+    vectors IS(RESULT), IS(A)
+    vector        RESULT, NO_FIELD, A,  vpermilps m0, m0, 0
+.end:           hole            .end - 1, HOLE_BYTE, B
 end_fragment
 
-fragment uniform, FRAME | JOB, NOTHING, M(0)
-    fill_base 1, 2, vbroadcastss  m0, [dword r8]
-    fill 0,       vmovaps         [frame], m0
+; What is not of the frame need not be aligned.
+fragment load, FRAME, NOTHING, NOTHING
+    vectors IS(RESULT), 0
+    vector_memory RESULT, NO_FIELD, 1,  vmovups m0, [frame]
+end_fragment
+
+fragment uniform, FRAME, NOTHING, NOTHING
+    vectors IS(RESULT), 0
+    vector_memory RESULT, NO_FIELD, 1,  vbroadcastss m0, [frame]
+end_fragment
+
+fragment store, FRAME, NOTHING, NOTHING
+    vectors 0, IS(0)
+    vector_memory 0, NO_FIELD, 1,  vmovups [frame], m0
+end_fragment
+
+; Lane i from base + index[i] * scale + displacement. The base is one of r8 to r14, counted from r8, and the scale comes
+; with it; the contract lists r8, which is what the bytes say before the hole is filled.
+fragment gather, JOB, NOTHING, M(15)
+    vectors IS(RESULT), IS(A)
+    apart
+                vpcmpeqd        m15, m15, m15
+.at:
+    fill_base 2, 3, vpgatherdd m0, [dword r8 + m0 * 1], m15
+                hole            .at + 1, HOLE_VECTOR, RESULT | NO_FIELD << 2 | NO_FIELD << 5
+                hole            .at + 1, HOLE_INDEX, A
 end_fragment
 
 ; The same from a pointer at base + field.
-fragment uniform_indirect, FRAME | JOB, NOTHING, R_AX | M(0)
-    fill_base 1, 2, mov           rax, [dword r8]
-    fill 3,       vbroadcastss    m0, [dword rax]
-    fill 0,       vmovaps         [frame], m0
-end_fragment
-
-fragment store, FRAME | JOB, NOTHING, M(0)
-    fill 0,       vmovaps         m0, [frame]
-    fill_base 1, 2, vmovups       [dword r8], m0           ; nor need a lane table's counters be
-end_fragment
-
-; Lane i from base + index[i] * scale + displacement; the scale comes with the base.
-fragment gather, FRAME | JOB, NOTHING, M(0) | M(1) | M(2)
-    fill 1,       vmovdqa         m1, [frame]
-                vpcmpeqd        m2, m2, m2
-    fill_base 2, 3, vpgatherdd    m0, [dword r8 + m1 * 1], m2
-    fill 0,       vmovdqa         [frame], m0
-end_fragment
-
-; The same from a pointer at base + field.
-fragment gather_indirect, FRAME | JOB, NOTHING, R_AX | M(0) | M(1) | M(2)
-    fill 1,       vmovdqa         m1, [frame]
+fragment gather_indirect, JOB, NOTHING, R_AX | M(15)
+    vectors IS(RESULT), IS(A)
+    apart
     fill_base 2, 3, mov           rax, [dword r8]
-                vpcmpeqd        m2, m2, m2
-    fill_base 4, 5, vpgatherdd    m0, [dword rax + m1 * 1], m2
-    fill 0,       vmovdqa         [frame], m0
+                vpcmpeqd        m15, m15, m15
+.at:
+    fill_base 4, 5, vpgatherdd m0, [dword rax + m0 * 1], m15
+                hole            .at + 1, HOLE_VECTOR, RESULT | NO_FIELD << 2 | NO_FIELD << 5
+                hole            .at + 1, HOLE_INDEX, A
 end_fragment
 
-; Lane i to base + offset + i * stride.
+; Lane i, from the frame, to base + offset + i * stride.
 fragment scatter, FRAME | JOB, NOTHING, R_AX | R_CX | R_DX
     fill_base 1, 2, lea           rax, [dword r8]
     fill 3,       mov             ecx, strict dword 0
@@ -209,19 +249,18 @@ fragment scatter, FRAME | JOB, NOTHING, R_AX | R_CX | R_DX
     %endrep
 end_fragment
 
-; One slot to another.
-unary copy, vmovaps
+; ---- control
 
 ; Jumps back as long as a lane of the mask is set.
-fragment again, FRAME, NOTHING, M(0)
-    fill 0,       vmovaps         m0, [frame]
-                vtestps         m0, m0
+fragment again, NOTHING, NOTHING, NOTHING
+    vectors 0, IS(0)
+    vector        0, NO_FIELD, 0,  vtestps m0, m0
     jump 1,     jnz
 end_fragment
 
 ; Jumps when no lane of the mask is set.
-fragment when, FRAME, NOTHING, M(0)
-    fill 0,       vmovaps         m0, [frame]
-                vtestps         m0, m0
+fragment when, NOTHING, NOTHING, NOTHING
+    vectors 0, IS(0)
+    vector        0, NO_FIELD, 0,  vtestps m0, m0
     jump 1,     jz
 end_fragment

@@ -1,38 +1,40 @@
-/* The operation stitcher's binding of the spec: a value is a slot of the routine's frame, an operation
- * appends the fragment of its name to the plan and gives the slot where its result will be.
+/* The operation stitcher's binding of the spec: a value is the number of the operation that gives it, and
+ * each appends one. What parts they become is decided when all are known (readers.c, place.c).
  *
- * One pass without any analysis: slots are numbered upwards, nothing is remembered but which arguments are
- * slots. Only where that makes a large frame are they shared afterwards (plan_share_slots). The host's
- * decisions on the key run here, once a routine; only the operations they lead to remain. */
+ * The host's decisions on the key run here, once a routine; only the operations they lead to remain. What
+ * costs nothing to notice is noticed on the way: the same literal or word of the job again is the same value,
+ * and a variable whose value is known where it is got gives that value. */
 #ifndef STITCH_BIND_H
 #define STITCH_BIND_H
 
-#include "def/binding.h"
 #include "stitch/plan.h"
 
 #include <string.h>
 
 typedef struct {
-    int32_t slot; /* bytes from the bottom of the frame */
+    uint32_t id;
 } flt;
 typedef struct {
-    int32_t slot;
+    uint32_t id;
 } itg;
 typedef struct {
-    int32_t slot;
+    uint32_t id;
 } fix;
 typedef struct {
-    int32_t slot;
+    uint32_t id;
 } msk;
+
+enum { RECENT = 64 };
 
 struct env {
     struct plan *plan;
     const struct program *program; /* of the shader, if the key has one */
-    int32_t variable[VARIABLES];   /* the slot of each variable that is used, plus 1 */
-    int variables;                 /* how many are used */
-    int32_t frame_bytes;
-    const char *file; /* where in the spec the operation being appended stands */
+    const char *file;              /* where in the spec the operation being appended stands */
     int line;
+    unsigned depth;                       /* of the open regions */
+    uint32_t recent[RECENT];              /* literals and uniform words, by a hash of their bits or place */
+    uint32_t region[NESTING_MAXIMUM + 1]; /* the operation that each open region begins with */
+    uint32_t loop[NESTING_MAXIMUM + 1];   /* the innermost loop's begin at each depth, 0: none */
 };
 
 static inline struct env *env_at(struct env *e, const char *file, int line)
@@ -44,37 +46,40 @@ static inline struct env *env_at(struct env *e, const char *file, int line)
 
 #define E env_at(e, __FILE__, __LINE__)
 
-static inline unsigned append(struct env *e, const struct fragment *fragment, struct arguments arguments,
-                              unsigned slots)
+/* Returns the operation's number; 0, which is none, when there is no room. */
+static inline uint32_t append(struct env *e, struct operation operation)
 {
-    unsigned number = plan_append(e->plan, fragment, arguments);
-    struct part *part = &e->plan->part[number];
-    part->slots = (uint8_t)slots;
-    part->file = e->file;
-    part->line = (uint16_t)e->line;
-    return number;
+    struct plan *plan = e->plan;
+    if (plan->operations == OPERATION_CAPACITY) {
+        plan->unrecorded++;
+        return 0;
+    }
+    operation.file = e->file;
+    operation.line = (uint16_t)e->line;
+    plan->operation[plan->operations] = operation;
+    plan->value[plan->operations] = (struct value){.slot = SLOT_NONE, .vector = VECTOR_NONE};
+    return plan->operations++;
 }
 
-/* Argument 0 becomes a new slot, which is the result; the next `operands` arguments are slots too. */
-static inline int32_t append_value(struct env *e, const struct fragment *fragment, struct arguments arguments,
-                                   unsigned operands)
+static inline uint32_t append_immediate(struct env *e, const struct fragment *fragment, uint32_t a, int k)
 {
-    arguments.value[0] = e->frame_bytes;
-    e->frame_bytes += SLOT_BYTES;
-    append(e, fragment, arguments, SLOTS_RESULT | ((2u << operands) - 1));
-    return arguments.value[0];
+    return append(
+        e, (struct operation){
+               .kind = OPERATION_COMPUTE, .fragment = fragment, .operand = {a}, .operands = 1, .k = {k}});
 }
+
+enum { COMMUTES = 1 };
 
 #define PARAMETER_flt(n) , flt n
 #define PARAMETER_itg(n) , itg n
 #define PARAMETER_fix(n) , fix n
 #define PARAMETER_msk(n) , msk n
 #define PARAMETER_non(n)
-#define SLOT_flt(n) , n.slot
-#define SLOT_itg(n) , n.slot
-#define SLOT_fix(n) , n.slot
-#define SLOT_msk(n) , n.slot
-#define SLOT_non(n)
+#define ID_flt(n)    n.id
+#define ID_itg(n)    n.id
+#define ID_fix(n)    n.id
+#define ID_msk(n)    n.id
+#define ID_non(n)    0
 #define OPERANDS_flt 1
 #define OPERANDS_itg 1
 #define OPERANDS_fix 1
@@ -84,29 +89,45 @@ static inline int32_t append_value(struct env *e, const struct fragment *fragmen
 #define OP(name, result, ta, tb, tc, properties, expression)                                                 \
     static inline result name(struct env *e PARAMETER_##ta(a) PARAMETER_##tb(b) PARAMETER_##tc(c))           \
     {                                                                                                        \
-        struct arguments slots = {{0 SLOT_##ta(a) SLOT_##tb(b) SLOT_##tc(c)}};                               \
         return (result){                                                                                     \
-            append_value(e, &fragment_##name, slots, OPERANDS_##ta + OPERANDS_##tb + OPERANDS_##tc)};        \
+            append(e, (struct operation){.kind = OPERATION_COMPUTE,                                          \
+                                         .fragment = &fragment_##name,                                       \
+                                         .operand = {ID_##ta(a), ID_##tb(b), ID_##tc(c)},                    \
+                                         .operands = OPERANDS_##ta + OPERANDS_##tb + OPERANDS_##tc,          \
+                                         .commutes = (properties)})};                                        \
     }
 #define OPK(name, result, ta, tb, tc, properties, expression)                                                \
     static inline result name(struct env *e PARAMETER_##ta(a), int k)                                        \
     {                                                                                                        \
-        return (result){append_value(e, &fragment_##name, (struct arguments){{0 SLOT_##ta(a), k}}, 1)};      \
+        return (result){append_immediate(e, &fragment_##name, a.id, k)};                                     \
     }
 #define CAST(name, result, from)                                                                             \
     static inline result name(struct env *e, from a)                                                         \
     {                                                                                                        \
         (void)e;                                                                                             \
-        return (result){a.slot};                                                                             \
+        return (result){a.id};                                                                               \
     }
 #include "def/op.def"
 #undef OP
 #undef OPK
 #undef CAST
 
-static inline int32_t literal(struct env *e, uint32_t bits)
+/* The operation itself, or the same one if it is remembered. Only what may be done anywhere is. */
+static inline uint32_t append_once(struct env *e, struct operation operation)
 {
-    return append_value(e, &fragment_literal, (struct arguments){{0, (int32_t)bits}}, 0);
+    uint32_t hash = ((uint32_t)operation.k[0] * 0x9e3779b1u ^ (uint32_t)operation.k[1] << 26) >> 26;
+    uint32_t *recent = &e->recent[hash % RECENT];
+    const struct operation *same = &e->plan->operation[*recent];
+    if (*recent && same->k[0] == operation.k[0] && same->kind == operation.kind &&
+        same->fragment == operation.fragment &&
+        (same->kind == OPERATION_LITERAL || same->k[1] == operation.k[1]))
+        return *recent;
+    return *recent = append(e, operation);
+}
+
+static inline uint32_t literal(struct env *e, uint32_t bits)
+{
+    return append_once(e, (struct operation){.kind = OPERATION_LITERAL, .k = {(int32_t)bits}});
 }
 
 static inline flt lit_f(struct env *e, float value)
@@ -133,7 +154,7 @@ static inline fix lit_x(struct env *e, uint16_t value)
 
 static inline flt permute_f(struct env *e, flt a, int lanes)
 {
-    return (flt){append_value(e, &fragment_permute, (struct arguments){{0, a.slot, lanes}}, 1)};
+    return (flt){append_immediate(e, &fragment_permute, a.id, lanes)};
 }
 
 /* The register of each base, counted from r8 (asm/fragment.inc). */
@@ -141,57 +162,49 @@ static inline int32_t base_number(enum base base)
 {
     static const uint8_t number[BASE_COUNT] = {
         [BASE_JOB] = 0,      [BASE_INPUT] = 1, [BASE_OUTPUT] = 2, [BASE_VERTICES] = 3, [BASE_ENTRY] = 1,
-        [BASE_TRIANGLE] = 2, [BASE_LANES] = 3, [BASE_COLOR] = 5,  [BASE_DEPTH] = 6};
+        [BASE_TRIANGLE] = 2, [BASE_LANES] = 3, [BASE_COLOR] = 5,  [BASE_DEPTH] = 6,    [BASE_CONSTANT] = 4};
     return number[base];
 }
 
-static inline int32_t read_base(struct env *e, const struct fragment *fragment, enum base base, int offset)
+static inline struct operation read_operation(const struct fragment *fragment, enum base base, int offset)
 {
-    return append_value(e, fragment, (struct arguments){{0, base_number(base), offset}}, 0);
+    return (struct operation){.kind = OPERATION_READ, .fragment = fragment, .k = {offset, base_number(base)}};
 }
 
 static inline flt load_f(struct env *e, enum base base, int offset)
 {
-    return (flt){read_base(e, &fragment_load, base, offset)};
+    return (flt){append(e, read_operation(&fragment_load, base, offset))};
 }
 
 static inline itg load_i(struct env *e, enum base base, int offset)
 {
-    return (itg){read_base(e, &fragment_load, base, offset)};
+    return (itg){append(e, read_operation(&fragment_load, base, offset))};
 }
 
-/* A shader's constants have no register: the job points at them. */
-static inline int constants_field(const struct env *e)
-{
-    return (int)(offsetof(struct job, constants) + e->program->model->stage * sizeof(float *));
-}
-
-static inline int32_t read_uniform(struct env *e, enum base base, int offset)
-{
-    if (base != BASE_CONSTANT)
-        return read_base(e, &fragment_uniform, base, offset);
-    struct arguments indirect = {{0, base_number(BASE_JOB), constants_field(e), offset}};
-    return append_value(e, &fragment_uniform_indirect, indirect, 0);
-}
-
+/* Routines store to none of the bases that they read single words from. */
 static inline flt uniform_f(struct env *e, enum base base, int offset)
 {
-    return (flt){read_uniform(e, base, offset)};
+    return (flt){append_once(e, read_operation(&fragment_uniform, base, offset))};
 }
 
 static inline itg uniform_i(struct env *e, enum base base, int offset)
 {
-    return (itg){read_uniform(e, base, offset)};
+    return (itg){append_once(e, read_operation(&fragment_uniform, base, offset))};
 }
 
 static inline void store_i(struct env *e, enum base base, int offset, itg value)
 {
-    append(e, &fragment_store, (struct arguments){{value.slot, base_number(base), offset}}, SLOTS_STORED);
+    append(e, (struct operation){.kind = OPERATION_STORE,
+                                 .fragment = &fragment_store,
+                                 .operand = {value.id},
+                                 .operands = 1,
+                                 .k = {offset, base_number(base)}});
+    e->plan->stored |= 1u << base_number(base);
 }
 
 static inline void store_f(struct env *e, enum base base, int offset, flt value)
 {
-    store_i(e, base, offset, (itg){value.slot});
+    store_i(e, base, offset, (itg){value.id});
 }
 
 /* The scale 1, 2, 4 or 8 as it stands in a SIB byte. */
@@ -202,67 +215,133 @@ static inline int32_t scale_bits(int scale)
 
 static inline itg gather_i(struct env *e, enum base base, int field, itg index, int scale, int displacement)
 {
-    if (base == BASE_CONSTANT) {
-        base = BASE_JOB;
-        field = constants_field(e);
-    }
     int32_t from = base_number(base), times = scale_bits(scale);
-    if (field == GATHER_DIRECT)
-        return (itg){append_value(e, &fragment_gather,
-                                  (struct arguments){{0, index.slot, from + times, displacement}}, 1)};
-    struct arguments indirect = {{0, index.slot, from, field, times, displacement}};
-    return (itg){append_value(e, &fragment_gather_indirect, indirect, 1)};
+    struct operation gather = {.kind = OPERATION_COMPUTE, .operand = {index.id}, .operands = 1};
+    if (field == GATHER_DIRECT) {
+        gather.fragment = &fragment_gather;
+        memcpy(gather.k, (int32_t[]){from + times, displacement, 0, 0}, sizeof gather.k);
+    } else {
+        gather.fragment = &fragment_gather_indirect;
+        memcpy(gather.k, (int32_t[]){from, field, times, displacement}, sizeof gather.k);
+    }
+    return (itg){append(e, gather)};
 }
 
 static inline flt gather_f(struct env *e, enum base base, int field, itg index, int scale, int displacement)
 {
-    return (flt){gather_i(e, base, field, index, scale, displacement).slot};
+    return (flt){gather_i(e, base, field, index, scale, displacement).id};
 }
 
 static inline void scatter_i(struct env *e, enum base base, int offset, int stride, itg value)
 {
-    append(e, &fragment_scatter, (struct arguments){{value.slot, base_number(base), offset, stride}},
-           SLOTS_STORED);
+    append(e, (struct operation){.kind = OPERATION_SCATTER,
+                                 .fragment = &fragment_scatter,
+                                 .operand = {value.id},
+                                 .operands = 1,
+                                 .k = {base_number(base), offset, stride}});
+    e->plan->stored |= 1u << base_number(base);
 }
 
 static inline void scatter_f(struct env *e, enum base base, int offset, int stride, flt value)
 {
-    scatter_i(e, base, offset, stride, (itg){value.slot});
+    scatter_i(e, base, offset, stride, (itg){value.id});
+}
+
+/* --- Control ------------------------------------------------------------------------------------------- */
+
+/* Opens the region that the operation begins. Deeper than NESTING_MAXIMUM, the plan is unusable. */
+static inline int region_begin(struct env *e, struct operation begin)
+{
+    uint32_t number = append(e, begin), loop = e->loop[e->depth];
+    if (e->depth == NESTING_MAXIMUM) {
+        e->plan->depth++;
+        return (int)number;
+    }
+    e->depth++;
+    e->region[e->depth] = number;
+    e->loop[e->depth] = begin.kind == OPERATION_LOOP ? number : loop;
+    if (e->plan->depth < e->depth)
+        e->plan->depth = e->depth;
+    return (int)number;
+}
+
+static inline int region_end(struct env *e, struct operation end)
+{
+    uint32_t number = append(e, end);
+    e->plan->operation[end.k[0]].k[0] = (int32_t)number;
+    if (e->plan->depth <= NESTING_MAXIMUM)
+        e->depth--;
+    return -1;
 }
 
 static inline int when_begin(struct env *e, msk mask)
 {
-    return (int)append(e, &fragment_when, (struct arguments){{mask.slot}}, SLOTS_STORED);
+    return region_begin(
+        e, (struct operation){
+               .kind = OPERATION_WHEN, .fragment = &fragment_when, .operand = {mask.id}, .operands = 1});
 }
 
 /* Ends the loop that WHEN is, so that its body is appended once. */
-static inline int when_end(struct env *e, int part)
+static inline int when_end(struct env *e, int begin)
 {
-    plan_land(e->plan, (unsigned)part, 1);
-    return -1;
+    return region_end(e, (struct operation){.kind = OPERATION_END, .k = {begin}});
 }
 
-/* --- Variables: slots that many parts write ---------------------------------------------------------------
- */
-
-static inline int32_t variable_slot(struct env *e, int variable)
+static inline int loop_begin(struct env *e)
 {
-    if (!e->variable[variable]) {
-        e->variable[variable] = e->frame_bytes + 1;
-        e->frame_bytes += SLOT_BYTES;
-        e->variables++;
+    return region_begin(e, (struct operation){.kind = OPERATION_LOOP});
+}
+
+static inline int loop_again(struct env *e, msk mask, int begin)
+{
+    return region_end(e, (struct operation){.kind = OPERATION_AGAIN,
+                                            .fragment = &fragment_again,
+                                            .operand = {mask.id},
+                                            .operands = 1,
+                                            .k = {begin}});
+}
+
+/* --- Variables ------------------------------------------------------------------------------------------
+ *
+ * What was set or got last is known to be a variable's value until control joins: as long as the region in
+ * which that was is open, and no loop has begun since. */
+
+static inline struct variable_state *variable_at(struct env *e, int number)
+{
+    struct plan *plan = e->plan;
+    for (; plan->variables <= (unsigned)number; plan->variables++)
+        plan->variable[plan->variables] = (struct variable_state){.slot = SLOT_NONE};
+    return &plan->variable[number];
+}
+
+static inline void variable_known(struct env *e, struct variable_state *variable, uint32_t value)
+{
+    variable->value = value;
+    variable->depth = e->depth;
+    variable->region = e->region[e->depth];
+    variable->known_at = e->plan->operations;
+}
+
+static inline int variable_is_known(const struct env *e, const struct variable_state *variable)
+{
+    return variable->value && variable->depth <= e->depth && e->region[variable->depth] == variable->region &&
+           variable->known_at > e->loop[e->depth];
+}
+
+static inline uint32_t variable_get(struct env *e, int number)
+{
+    struct variable_state *variable = variable_at(e, number);
+    if (!variable_is_known(e, variable)) {
+        variable->gets++;
+        variable_known(e, variable, append(e, (struct operation){.kind = OPERATION_GET, .k = {number}}));
     }
-    return e->variable[variable] - 1;
+    return variable->value;
 }
 
-static inline int32_t variable_get(struct env *e, int variable)
+static inline void variable_set(struct env *e, int number, uint32_t value)
 {
-    return append_value(e, &fragment_copy, (struct arguments){{0, variable_slot(e, variable)}}, 0);
-}
-
-static inline void variable_set(struct env *e, int variable, int32_t slot)
-{
-    append(e, &fragment_copy, (struct arguments){{variable_slot(e, variable), slot}}, 0);
+    append(e, (struct operation){.kind = OPERATION_SET, .operand = {value}, .operands = 1, .k = {number}});
+    variable_known(e, variable_at(e, number), value);
 }
 
 static inline flt get_f(struct env *e, int variable)
@@ -282,28 +361,26 @@ static inline msk get_m(struct env *e, int variable)
 
 static inline void set_f(struct env *e, int variable, flt value)
 {
-    variable_set(e, variable, value.slot);
+    variable_set(e, variable, value.id);
 }
 
 static inline void set_i(struct env *e, int variable, itg value)
 {
-    variable_set(e, variable, value.slot);
+    variable_set(e, variable, value.id);
 }
 
 static inline void set_m(struct env *e, int variable, msk value)
 {
-    variable_set(e, variable, value.slot);
+    variable_set(e, variable, value.id);
 }
 
-static inline int loop_end(struct env *e, int variable, int first)
+static inline int loop_end(struct env *e, int variable, int begin)
 {
-    append(e, &fragment_again, (struct arguments){{variable_slot(e, variable), first}}, 0);
-    return -1;
+    return loop_again(e, get_m(e, variable), begin);
 }
 
 /* The body is appended once; behind it stands the jump back to its first part. */
-#define LOOP(e, variable)                                                                                    \
-    for (int loop_ = (int)(e)->plan->count; loop_ >= 0; loop_ = loop_end(e, variable, loop_))
+#define LOOP(e, variable) for (int loop_ = loop_begin(e); loop_ >= 0; loop_ = loop_end(e, variable, loop_))
 
 #define WHEN(e, mask) for (int when_ = when_begin(e, mask); when_ >= 0; when_ = when_end(e, when_))
 

@@ -11,7 +11,7 @@ enum { VALID_AT_CALL = 1 << REGISTER_FRAME | 1 << REGISTER_FRAME_END | 1 << REGI
 
 static uint32_t after(const struct part *part, uint32_t valid)
 {
-    return (valid & ~part->fragment->clobbered) | part->fragment->out;
+    return (valid & ~part_changes(part)) | part_gives(part);
 }
 
 /* Takes away at `to` what is not valid on the way there; returns whether that changed anything. */
@@ -40,8 +40,7 @@ static int pass(const struct plan *plan, uint32_t *valid)
     return changed;
 }
 
-/* The registers, numbered by bit, as an error names them. */
-static const char *register_name(unsigned bit)
+const char *register_name(unsigned bit)
 {
     static const char name[][6] = {"rax",  "rcx",  "rdx",   "rbx",   "rsp",   "rbp",   "rsi",   "rdi",
                                    "r8",   "r9",   "r10",   "r11",   "r12",   "r13",   "r14",   "r15",
@@ -74,7 +73,7 @@ static int check_inputs(const struct plan *plan, uint32_t *valid, struct error *
         ;
     for (unsigned i = 0; i < plan->count; i++) {
         const struct fragment *fragment = plan->part[i].fragment;
-        uint32_t missing = fragment->in & ~valid[i];
+        uint32_t missing = part_reads(&plan->part[i]) & ~valid[i];
         if (missing)
             return error_set(error, "part %u, %s: reads %s, which no earlier part gives", i, fragment->name,
                              register_name((unsigned)__builtin_ctz(missing)));

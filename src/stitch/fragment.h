@@ -16,16 +16,22 @@ enum hole_kind {
     HOLE_BYTE,      /* 8 bits, likewise */
     HOLE_JUMP,      /* 32 bits: distance to the part whose number is the argument */
     HOLE_CONSTANTS, /* 64 bits: address of the constants */
+    HOLE_LITERALS,  /* 32 bits: distance to the literals behind the code */
+    HOLE_VECTOR,    /* 32 bits, VEX's second byte to ModRM: numbers of vector registers, flipped in */
+    HOLE_INDEX,     /* the same place: a gather's index, a vector register too */
+    HOLE_MASK,      /* 8 bits: a vector register's number in the upper four */
+    HOLE_ADDRESS,   /* 32 bits: a displacement; ARGUMENT_BASE has the base register's number */
     HOLE_KIND_COUNT
 };
 
 struct hole {
     uint16_t offset; /* bytes from the start of the code */
     uint8_t kind;
-    uint8_t argument; /* 0 to ARGUMENT_COUNT - 1 */
+    uint8_t
+        argument; /* 0 to ARGUMENT_COUNT - 1; of a HOLE_VECTOR, the roles of arguments: see vector_bits() */
 };
 
-enum { ARGUMENT_COUNT = 8 };
+enum { ARGUMENT_COUNT = 8, ARGUMENT_BASE = 7 };
 
 struct fragment {
     const char *name;
@@ -34,14 +40,19 @@ struct fragment {
     uint32_t in, out, clobbered; /* bit r: general-purpose register r; bit 16 + n: ymm n */
     uint16_t bytes;
     uint16_t holes;
+    uint8_t given, read; /* bit n: argument n is the number of a vector register, given or read */
+    uint8_t folded;      /* the argument that the next fragment takes from memory; 0: there is no such */
+    uint8_t based;       /* has a HOLE_ADDRESS */
+    uint8_t apart;       /* argument 0 is none of the registers read */
 };
 
 static_assert(sizeof(struct hole) == 4, "asm/fragment.inc writes it so");
-static_assert(sizeof(struct fragment) == 40 && offsetof(struct fragment, bytes) == 36,
+static_assert(sizeof(struct fragment) == 48 && offsetof(struct fragment, bytes) == 36,
               "asm/fragment.inc writes it so");
 
 /* General-purpose registers by their hardware number, as far as C must know them. */
 enum {
+    REGISTER_CONSTANTS = 3,
     REGISTER_FRAME = 4,
     REGISTER_FRAME_END = 5,
     REGISTER_CALL = 7,

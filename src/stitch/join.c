@@ -6,10 +6,33 @@
 
 #include <string.h>
 
+enum { LITERAL_BYTES = SLOT_BYTES, INT3 = 0xcc };
+
+/* Roles: bits 0-1 the argument of ModRM.reg (3: none), 2-4 of VEX.vvvv, 5-7 of ModRM.rm (4 to 7: none). The
+ * prefix holds its bits inverted, so flipping is right for both of a number's halves. */
+static uint32_t vector_bits(const struct arguments *arguments, unsigned roles)
+{
+    const int32_t *value = arguments->value;
+    unsigned first = roles & 3, second = roles >> 2 & 7, third = roles >> 5;
+    uint32_t reg = first == 3 ? 0 : (uint32_t)value[first];
+    uint32_t vvvv = second > 3 ? 0 : (uint32_t)value[second];
+    uint32_t rm = third > 3 ? 0 : (uint32_t)value[third];
+    return (reg & 7) << 27 | (reg & 8) << 4 | vvvv << 11 | (rm & 7) << 24 | (rm & 8) << 2;
+}
+
+/* A number among the general-purpose registers replaces that of rsp, in SIB and inverted in the prefix. */
+static void fill_address(uint8_t *at, int32_t displacement, uint32_t base)
+{
+    memcpy(at, &displacement, sizeof displacement);
+    base ^= REGISTER_FRAME;
+    at[-1] ^= (uint8_t)(base & 7);
+    at[-5] ^= (uint8_t)((base & 8) << 2);
+}
+
 static void fill(uint8_t *code, const struct plan *plan, const struct part *part, const struct hole *hole)
 {
     uint32_t at = part->offset + hole->offset;
-    int32_t value = part->arguments.value[hole->argument];
+    int32_t value = part->arguments.value[hole->argument % ARGUMENT_COUNT];
     int32_t word;
     switch (hole->kind) {
     case HOLE_WORD:
@@ -20,6 +43,21 @@ static void fill(uint8_t *code, const struct plan *plan, const struct part *part
     case HOLE_BYTE: code[at] = (uint8_t)(code[at] + value); break;
     case HOLE_JUMP:
         word = (int32_t)(plan->part[value].offset - (at + (uint32_t)sizeof word));
+        memcpy(code + at, &word, sizeof word);
+        break;
+    case HOLE_VECTOR:
+        memcpy(&word, code + at, sizeof word);
+        word ^= (int32_t)vector_bits(&part->arguments, hole->argument);
+        memcpy(code + at, &word, sizeof word);
+        break;
+    case HOLE_ADDRESS: fill_address(code + at, value, (uint32_t)part->arguments.value[ARGUMENT_BASE]); break;
+    case HOLE_INDEX:
+        code[at] ^= (uint8_t)((value & 8) << 3);
+        code[at + 4] ^= (uint8_t)((value & 7) << 3);
+        break;
+    case HOLE_MASK: code[at] ^= (uint8_t)(value << 4); break;
+    case HOLE_LITERALS:
+        word = (int32_t)(plan->literals_offset - (at + (uint32_t)sizeof word));
         memcpy(code + at, &word, sizeof word);
         break;
     case HOLE_CONSTANTS: {
@@ -38,19 +76,39 @@ static void copy_part(uint8_t *code, const struct plan *plan, const struct part 
         fill(code, plan, part, fragment->hole + i);
 }
 
-int plan_join(struct plan *plan, struct code_arena *arena, struct code_span *span, struct error *error)
+static void write_literals(uint8_t *to, const struct plan *plan)
+{
+    for (unsigned i = 0; i < plan->literals; i++)
+        for (unsigned lane = 0; lane < LITERAL_BYTES / 4; lane++, to += 4)
+            memcpy(to, &plan->literal[i], 4);
+}
+
+/* Where each part is, then the literals, in cache lines of their own. */
+static void lay_out(struct plan *plan)
 {
     uint32_t bytes = 0;
-    if (plan_complete(plan, error))
-        return -1;
     for (unsigned i = 0; i < plan->count; i++) {
         plan->part[i].offset = bytes;
         bytes += plan->part[i].fragment->bytes;
     }
-    if (code_reserve(arena, bytes, span, error))
+    plan->code_bytes = bytes;
+    plan->literals_offset = (bytes + CODE_ALIGNMENT - 1) & ~(CODE_ALIGNMENT - 1u);
+    plan->bytes = plan->literals ? plan->literals_offset + plan->literals * LITERAL_BYTES : bytes;
+}
+
+int plan_join(struct plan *plan, struct code_arena *arena, struct code_span *span, struct error *error)
+{
+    if (plan_complete(plan, error))
+        return -1;
+    lay_out(plan);
+    if (code_reserve(arena, plan->bytes, span, error))
         return -1;
     for (unsigned i = 0; i < plan->count; i++)
         copy_part(span->writable, plan, plan->part + i);
-    code_commit(arena, span, bytes);
+    if (plan->literals) {
+        memset(span->writable + plan->code_bytes, INT3, plan->literals_offset - plan->code_bytes);
+        write_literals(span->writable + plan->literals_offset, plan);
+    }
+    code_commit(arena, span, plan->bytes);
     return 0;
 }

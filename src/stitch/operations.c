@@ -1,17 +1,36 @@
-/* The planner of operation granularity: reads the spec under the binding that appends fragments. */
+/* The planner of operation granularity: reads the spec under the binding that appends operations, and lets
+ * them be placed. */
 #include "stitch/bind.h"
 #include "spec/spec.h"
+
+#define SIGN_BIT 0x80000000u
+
+static_assert(offsetof(struct vertex_call, job) == offsetof(struct pixel_call, job), "shader_constants");
+
+void plan_place_operations(struct plan *plan, enum unit unit, const union key *key,
+                           const struct program *program)
+{
+    plan->literal[plan->literals++] = SIGN_BIT;
+    plan_find_readers(plan);
+    plan_append(plan, &fragment_literals, (struct arguments){{0}});
+    if (program) {
+        int32_t constants =
+            (int32_t)(offsetof(struct job, constants) + program->model->stage * sizeof(float *));
+        plan_append(plan, &fragment_shader_constants,
+                    (struct arguments){{(int32_t)offsetof(struct vertex_call, job), constants}});
+    }
+    struct loop loop = plan_begin(plan, unit);
+    plan_leave(plan, unit, key, &loop, plan_place(plan));
+}
 
 void plan_operations(struct plan *plan, enum unit unit, const union key *key)
 {
     struct env e = {.plan = plan, .program = key_shader(unit, key)};
-    struct loop loop = plan_enter(plan, unit, NULL, 0);
+    plan_enter(plan);
     switch (unit) {
     case UNIT_VERTEX: spec_vertex(&e, &key->vertex); break;
     case UNIT_SETUP: spec_setup(&e, &key->setup); break;
     default: spec_pixel(&e, &key->pixel);
     }
-    if (e.frame_bytes > UNSHARED_BYTES && !e.variables)
-        e.frame_bytes = plan_share_slots(plan, e.frame_bytes);
-    plan_leave(plan, unit, key, &loop, e.frame_bytes);
+    plan_place_operations(plan, unit, key, e.program);
 }

@@ -24,15 +24,51 @@ void plan_give(struct plan *plan)
     free(atomic_exchange(&spare, plan));
 }
 
+static int exceeds(struct error *error, const char *what, unsigned more, unsigned room)
+{
+    return error_set(error, "the stitcher's plan of %u %s exceeds its room of %u", room + more, what, room);
+}
+
 int plan_complete(const struct plan *plan, struct error *error)
 {
     if (plan->dropped)
-        return error_set(error, "the stitcher's plan of %u parts exceeds its room of %d",
-                         plan->count + plan->dropped, PART_CAPACITY);
+        return exceeds(error, "parts", plan->dropped, PART_CAPACITY);
+    if (plan->unrecorded)
+        return exceeds(error, "operations", plan->unrecorded, OPERATION_CAPACITY);
+    if (plan->unpooled)
+        return exceeds(error, "literals", plan->unpooled, POOL_CAPACITY);
+    if (plan->depth > NESTING_MAXIMUM)
+        return exceeds(error, "regions in one another", plan->depth - NESTING_MAXIMUM, NESTING_MAXIMUM);
+    if (plan->lost)
+        return error_set(error, "the stitcher's plan reads %u values outside of their region", plan->lost);
     if (plan->frame_bytes > FRAME_BYTES_MAXIMUM)
         return error_set(error, "the stitcher's frame of %d bytes exceeds its room of %d",
                          (int)plan->frame_bytes, FRAME_BYTES_MAXIMUM);
     return 0;
+}
+
+static uint32_t vectors(const struct part *part, unsigned arguments)
+{
+    uint32_t mask = 0;
+    for (; arguments; arguments &= arguments - 1)
+        mask |= 1u << (REGISTER_VECTORS + part->arguments.value[__builtin_ctz(arguments)]);
+    return mask;
+}
+
+uint32_t part_reads(const struct part *part)
+{
+    uint32_t base = part->fragment->based ? 1u << part->arguments.value[ARGUMENT_BASE] : 0;
+    return part->fragment->in | base | vectors(part, part->fragment->read);
+}
+
+uint32_t part_gives(const struct part *part)
+{
+    return part->fragment->out | vectors(part, part->fragment->given);
+}
+
+uint32_t part_changes(const struct part *part)
+{
+    return part->fragment->clobbered | part_gives(part);
 }
 
 void plan_land(struct plan *plan, unsigned part, unsigned n)
@@ -43,7 +79,7 @@ void plan_land(struct plan *plan, unsigned part, unsigned n)
 #define CALL(unit, field) (int32_t) offsetof(struct unit##_call, field)
 #define ENTRY(field)      (int32_t) offsetof(struct entry, field)
 
-static struct loop enter_vertex(struct plan *plan)
+static struct loop begin_vertex(struct plan *plan)
 {
     struct arguments fields = {
         {CALL(vertex, job), CALL(vertex, index), CALL(vertex, out), CALL(vertex, count)}};
@@ -52,7 +88,7 @@ static struct loop enter_vertex(struct plan *plan)
     return loop;
 }
 
-static struct loop enter_setup(struct plan *plan)
+static struct loop begin_setup(struct plan *plan)
 {
     struct arguments fields = {
         {CALL(setup, job), CALL(setup, index), CALL(setup, vertices), CALL(setup, out), CALL(setup, count)}};
@@ -61,7 +97,7 @@ static struct loop enter_setup(struct plan *plan)
     return loop;
 }
 
-static struct loop enter_pixel(struct plan *plan)
+static struct loop begin_pixel(struct plan *plan)
 {
     struct arguments fields = {{CALL(pixel, job), CALL(pixel, entries), CALL(pixel, count)}};
     struct arguments block = {{ENTRY(triangle), ENTRY(coverage), ENTRY(block), CALL(pixel, triangles),
@@ -72,15 +108,22 @@ static struct loop enter_pixel(struct plan *plan)
     return loop;
 }
 
-struct loop plan_enter(struct plan *plan, enum unit unit, const struct fragment *once, int32_t argument)
+void plan_enter(struct plan *plan)
 {
-    static struct loop (*const enter[UNIT_COUNT])(struct plan *) = {enter_vertex, enter_setup, enter_pixel};
-    plan->count = plan->dropped = 0;
+    plan->count = plan->dropped = plan->unrecorded = plan->unpooled = plan->depth = plan->lost = 0;
+    plan->literals = plan->variables = 0;
+    plan->operations = 1;
+    plan->stored = 0;
     plan->frame_bytes = 0;
+    plan->counts = (struct plan_counts){0};
+    plan->operation[0] = (struct operation){0};
     plan_append(plan, &fragment_enter, (struct arguments){{0, MXCSR_CONTRACT}});
-    if (once)
-        plan_append(plan, once, (struct arguments){{argument}});
-    return enter[unit](plan);
+}
+
+struct loop plan_begin(struct plan *plan, enum unit unit)
+{
+    static struct loop (*const begin[UNIT_COUNT])(struct plan *) = {begin_vertex, begin_setup, begin_pixel};
+    return begin[unit](plan);
 }
 
 void plan_leave(struct plan *plan, enum unit unit, const union key *key, const struct loop *loop,

@@ -8,12 +8,20 @@
 
 #include "base/code.h"
 #include "draw/engine.h"
-#include "stitch/fragment.h"
+#include "stitch/operation.h"
 
 #include <stdio.h>
 
 /* Far above any routine; what is not used of a plan is never touched. */
-enum { PART_CAPACITY = 65536, SLOT_BYTES = 32 };
+enum {
+    OPERATION_CAPACITY = 65536,
+    PART_CAPACITY = 2 * OPERATION_CAPACITY,
+    POOL_CAPACITY = 8192,
+    SLOT_BYTES = 32
+};
+
+/* Regions inside one another. */
+enum { NESTING_MAXIMUM = 256 };
 
 /* A thread's stack may have no more than 2 MiB. */
 enum { FRAME_BYTES_MAXIMUM = 1024 * 1024 };
@@ -27,27 +35,38 @@ struct part {
     struct arguments arguments;
     uint32_t offset;  /* of its code in the routine, known when joining */
     uint16_t line;    /* the line of the spec that appended it */
-    uint8_t slots;    /* bit n: argument n is a slot of the frame; SLOTS_RESULT */
     const char *file; /* null in stage plans */
 };
 
-/* Argument 0 is a slot that the part gives a value; it is one whose value the part reads. */
-enum { SLOTS_RESULT = 1 << 7, SLOTS_STORED = 1 };
-
-/* A slot while it has the only value that it is ever given: the last part that reads it, the one it becomes,
- * and the next free one (slots.c). */
-struct slot {
-    uint32_t last_reader;
-    int32_t place;
-    uint32_t next_free;
+/* What became of an operation plan's operands and results. */
+struct plan_counts {
+    unsigned operations; /* whose results are read, literals and reads of memory included */
+    unsigned carried;    /* operands that were in a register */
+    unsigned folded;     /* operands that a fragment takes from memory itself */
+    unsigned loaded;     /* parts that bring a value from memory */
+    unsigned stored;     /* parts that keep one in the frame */
 };
 
 struct plan {
     unsigned count;
     unsigned dropped;    /* parts that found no room: the plan is unusable */
+    unsigned unrecorded; /* operations, likewise */
+    unsigned unpooled;   /* literals, likewise */
+    unsigned depth;      /* of the regions inside one another */
+    unsigned lost;       /* values that are read where control may have avoided them */
     int32_t frame_bytes; /* of the slots */
+    unsigned literals;   /* behind the code, eight times 32 bits each */
+    uint32_t code_bytes, literals_offset, bytes; /* joined: of the parts; of the first literal; of both */
+    unsigned operations;                         /* operation 0 is none */
+    unsigned variables;                          /* those used are below this */
+    uint32_t stored;                             /* bit n: something is stored to base n */
+    struct plan_counts counts;
     struct part part[PART_CAPACITY];
-    struct slot slot[PART_CAPACITY];
+    struct operation operation[OPERATION_CAPACITY];
+    struct value value[OPERATION_CAPACITY];
+    int32_t free_slot[OPERATION_CAPACITY];
+    uint32_t literal[POOL_CAPACITY];
+    struct variable_state variable[VARIABLES];
 };
 
 /* A plan to use, kept between uses since plans are large, or null with the reason. Give it back. */
@@ -72,12 +91,17 @@ void plan_land(struct plan *plan, unsigned part, unsigned n);
 /* Returns 0, or -1 with the reason when parts found no room or the frame is too large. */
 int plan_complete(const struct plan *plan, struct error *error);
 
-/* Lets values that are not alive together share slots. Until then each of the `bytes / SLOT_BYTES` slots is
- * the result of one part. Returns the bytes of the slots that are left. */
-int32_t plan_share_slots(struct plan *plan, int32_t bytes);
+/* Finds the readers of each value, and what nobody reads. */
+void plan_find_readers(struct plan *plan);
 
-/* Where a frame is too large for the first-level cache otherwise; sharing takes a fifth of a plan's time. */
-enum { UNSHARED_BYTES = 24 * 1024 };
+/* Appends the operations' parts: finds registers for values, and slots of the frame for what finds no
+ * register. Readers have been found. Returns the bytes of the slots. */
+int32_t plan_place(struct plan *plan);
+
+/* Makes a routine of a plan that has been entered and has operations. `program` is the unit's shader or null.
+ */
+void plan_place_operations(struct plan *plan, enum unit unit, const union key *key,
+                           const struct program *program);
 
 /* The two planners. Operations cover every key whose fields are below their radix, stages those of
  * stages_cover() (stitch/cover.h). */
@@ -92,10 +116,19 @@ struct loop {
     unsigned chunk; /* pixel: the part that may jump to the chunk's end */
 };
 
-/* `once`, which may be null, is a fragment with one argument or none to run before the loop. */
-struct loop plan_enter(struct plan *plan, enum unit unit, const struct fragment *once, int32_t argument);
+/* Empties the plan and enters; parts to run once may follow. */
+void plan_enter(struct plan *plan);
+struct loop plan_begin(struct plan *plan, enum unit unit);
 void plan_leave(struct plan *plan, enum unit unit, const union key *key, const struct loop *loop,
                 int frame_bytes);
+
+/* The registers that a part reads, gives, and gives or destroys, as masks of struct fragment. */
+uint32_t part_reads(const struct part *part);
+uint32_t part_gives(const struct part *part);
+uint32_t part_changes(const struct part *part);
+
+/* The register of a bit of those masks. */
+const char *register_name(unsigned bit);
 
 /* Checks the register contract: whatever way control takes, each part's inputs were given by an earlier part
  * and not destroyed since. Returns 0, or -1 naming the part and the register. */

@@ -29,7 +29,7 @@ struct fragment_text fragment_text(const struct fragment *fragment)
 #undef CAST
     };
     for (size_t i = 0; i < sizeof table / sizeof *table; i++)
-        if (table[i].fragment == fragment)
+        if (table[i].fragment == fragment || (table[i].fragment->folded && table[i].fragment + 1 == fragment))
             return table[i].text;
     return (struct fragment_text){NULL, NULL};
 }
@@ -46,20 +46,51 @@ static void print_instruction(void *context, size_t offset, size_t length, const
     fprintf(listing->out, "    %04zx  %s\n", listing->part_offset + offset, text);
 }
 
+static int is_address(const struct fragment *fragment, unsigned n)
+{
+    for (unsigned i = 0; i < fragment->holes; i++)
+        if (fragment->hole[i].kind == HOLE_ADDRESS && fragment->hole[i].argument == n)
+            return 1;
+    return 0;
+}
+
+static void print_argument(const struct part *part, unsigned n, const char *name, int length, FILE *out)
+{
+    const struct fragment *fragment = part->fragment;
+    int32_t value = part->arguments.value[n];
+    fprintf(out, " %.*s=", length, name);
+    if ((fragment->given | fragment->read) >> n & 1)
+        fprintf(out, "%s", register_name(REGISTER_VECTORS + (unsigned)value));
+    else if (is_address(fragment, n))
+        fprintf(out, "[%s%+d]", register_name((unsigned)part->arguments.value[ARGUMENT_BASE]), value);
+    else
+        fprintf(out, !strncmp(name, "value", 5) && length == 5 ? "0x%x" : "%d", value);
+}
+
 static void print_arguments(const struct part *part, const char *name, FILE *out)
 {
     for (unsigned n = 0; *name; n++) {
         int length = (int)strcspn(name, " ");
-        int32_t value = part->arguments.value[n];
-        const char *form = !strncmp(name, "value", 5) && length == 5 ? " %.*s=0x%x" : " %.*s=%d";
-        fprintf(out, form, length, name, value);
+        print_argument(part, n, name, length, out);
         name += length;
         name += *name == ' ';
     }
 }
 
+static void print_counts(const struct plan *plan, FILE *out)
+{
+    const struct plan_counts *counts = &plan->counts;
+    if (counts->operations)
+        fprintf(
+            out,
+            "%u operations: %u operands carried in registers, %u folded, %u loads, %u stores, %u literals\n",
+            counts->operations, counts->carried, counts->folded, counts->loaded, counts->stored,
+            plan->literals);
+}
+
 void plan_print(const struct plan *plan, const struct code_span *span, FILE *out)
 {
+    print_counts(plan, out);
     for (unsigned i = 0; i < plan->count; i++) {
         const struct part *part = plan->part + i;
         struct listing listing = {out, part->offset};

@@ -399,7 +399,9 @@ static void plan_pixel(struct plan *plan, const union key *all)
 {
     const struct pixel_key *key = &all->pixel;
     struct triangle_layout layout = pixel_layout(key);
-    struct loop loop = plan_enter(plan, UNIT_PIXEL, &fragment_pixel_constants, 0);
+    plan_enter(plan);
+    plan_append(plan, &fragment_pixel_constants, NONE);
+    struct loop loop = plan_begin(plan, UNIT_PIXEL);
     plan_position(plan);
     plan_coverage(plan);
     unsigned skip[2] = {plan_depth(plan, key, &layout)};
@@ -464,7 +466,9 @@ static void plan_setup(struct plan *plan, const union key *all)
         [CULL_NONE] = 0x04, [CULL_CLOCKWISE] = 0x11, [CULL_COUNTERCLOCKWISE] = 0x1e};
     const struct setup_key *key = &all->setup;
     struct triangle_layout layout = setup_layout(key);
-    struct loop loop = plan_enter(plan, UNIT_SETUP, &fragment_record_stride, layout.stride);
+    plan_enter(plan);
+    plan_append(plan, &fragment_record_stride, ARGUMENTS(layout.stride));
+    struct loop loop = plan_begin(plan, UNIT_SETUP);
     for (int i = 0; i < 3; i++)
         plan_corner(plan, key, i);
     plan_append(plan, &fragment_area, NONE);
@@ -554,7 +558,8 @@ static void plan_vertex(struct plan *plan, const union key *all)
 {
     const struct vertex_key *key = &all->vertex;
     const int32_t diffuse = SLOT(diffuse), next = VERTEX_SLOT_BYTES;
-    struct loop loop = plan_enter(plan, UNIT_VERTEX, NULL, 0);
+    plan_enter(plan);
+    struct loop loop = plan_begin(plan, UNIT_VERTEX);
     plan_transform(plan, key);
     if (key->varying[VARYING_diffuse]) {
         if (key->lighting)

@@ -39,11 +39,12 @@ static const char *make_plan(struct plan *plan, stitch_coverage *lack, enum unit
 static void describe(struct stitched *stitched, const struct plan *plan)
 {
     struct routine *routine = &stitched->routine;
-    const struct part *last = &plan->part[plan->count - 1];
     routine->run = (routine_function *)(uintptr_t)stitched->span.executable;
     routine->code = stitched->span.executable;
-    routine->code_bytes = last->offset + last->fragment->bytes;
+    routine->code_bytes = plan->bytes;
+    routine->constant_bytes = plan->bytes - plan->code_bytes;
     routine->parts = plan->count;
+    routine->spills = plan->counts.stored;
 }
 
 struct routine *stitch_build(const struct engine *engine, stitch_coverage *lack, struct code_arena *arena,

@@ -558,7 +558,7 @@ static uint64_t hash_plan(struct plan *plan, enum unit unit, const union key *ke
         hash = XXH3_64bits_withSeed(plan->part[i].fragment->name, strlen(plan->part[i].fragment->name), hash);
         hash = XXH3_64bits_withSeed(&plan->part[i].arguments, sizeof plan->part[i].arguments, hash);
     }
-    return hash;
+    return XXH3_64bits_withSeed(plan->literal, plan->literals * sizeof *plan->literal, hash);
 }
 
 static uint64_t hash_code(struct builder *builder, const struct known *k)

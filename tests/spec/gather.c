@@ -139,7 +139,7 @@ static void stitch(const struct addressing *how)
     struct error error = {{0}};
     struct code_span span;
     record(&builder->ir, how, 0);
-    stitched_plan(plan, &builder->ir, 0);
+    stitched_plan(plan, &builder->ir);
     TEST_ASSERT_EQUAL_MESSAGE(0, plan_join(plan, arena, &span, &error), error.text);
     run(span.executable);
     code_free(arena, &span);

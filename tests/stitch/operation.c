@@ -1,7 +1,7 @@
 /* Every operation fragment computes what its row of def/op.def says: compared with the emulator's binding,
- * which is that row's expression, on random bits and on the values at the edges of each type, with the result
- * in a slot of its own and in each operand's. This covers operations that the specification does not use. NaN
- * payloads are left open. */
+ * which is that row's expression, on random bits and on the values at the edges of each type, with values in
+ * random registers, the result in one of its own or in an operand's, and with the operand that can be in
+ * memory there. This covers operations that the specification does not use. NaN payloads are left open. */
 #include "base/code.h"
 #include "base/mxcsr.h"
 #include "emu/bind.h"
@@ -11,7 +11,14 @@
 
 #include <unity.h>
 
-enum { WIDTH = 8, HALVES = WIDTH / EMULATE_WIDTH, ROUNDS = 2000, OPERANDS = 4, SLOT = 4 * WIDTH };
+enum {
+    WIDTH = 8,
+    HALVES = WIDTH / EMULATE_WIDTH,
+    ROUNDS = 2000,
+    OPERANDS = 4,
+    SLOT = 4 * WIDTH,
+    VECTORS = 15
+};
 
 static struct code_arena *arena;
 static alignas(64) uint32_t frame[OPERANDS * WIDTH]; /* result, a, b, c */
@@ -67,37 +74,77 @@ static int nan_bits(uint32_t bits)
     return (bits & 0x7fffffff) > 0x7f800000;
 }
 
-static void run_fragment(const void *code)
-{
-    static struct machine_state in, out;
-    in.mxcsr = MXCSR_CONTRACT;
-    in.general[REGISTER_FRAME] = (uint64_t)(uintptr_t)frame;
-    trampoline_run(code, &in, &out);
-}
+/* A fragment's arguments: the registers that its values are in, and k behind them. */
+struct call {
+    const struct fragment *fragment;
+    int vector[OPERANDS]; /* of the result and of each operand; -1: in memory, in its slot of `frame` */
+    int operands;
+    int32_t k;
+};
 
-static const void *join(const struct fragment *fragment, int result, int32_t k, int has_k,
-                        struct code_span *span)
+static const void *join(const struct call *call, struct code_span *span)
 {
     static struct plan plan;
     uint8_t exit_code[14] = {0xff, 0x25}; /* jmp [rip + 0] */
     struct fragment exit = {.name = "exit", .code = exit_code, .bytes = sizeof exit_code};
     struct error error = {{0}};
+    struct arguments arguments = {{0}};
     memcpy(exit_code + 6, &(const char *){trampoline_exit}, 8);
-    plan.count = plan.dropped = 0;
-    plan_append(&plan, fragment, (struct arguments){{result * SLOT, SLOT, has_k ? k : 2 * SLOT, 3 * SLOT}});
+    for (int i = 0; i <= call->operands; i++)
+        arguments.value[i] = call->vector[i] < 0 ? i * SLOT : call->vector[i];
+    if (call->operands < OPERANDS - 1)
+        arguments.value[call->operands + 1] = call->k;
+    arguments.value[ARGUMENT_BASE] = REGISTER_FRAME;
+    plan_enter(&plan);
+    plan.count = 0;
+    plan_append(&plan, call->fragment, arguments);
     plan_append(&plan, &exit, (struct arguments){{0}});
     if (plan_join(&plan, arena, span, &error))
         TEST_FAIL_MESSAGE(error.text);
     return span->executable;
 }
 
+/* The operands are in `frame`, where the result will be. */
+static void run_fragment(const struct call *call)
+{
+    static struct machine_state in, out;
+    static alignas(32) uint32_t sign[WIDTH];
+    struct code_span span;
+    const void *code = join(call, &span);
+    for (int i = 0; i < WIDTH; i++)
+        sign[i] = 0x80000000u;
+    in.mxcsr = MXCSR_CONTRACT;
+    in.general[REGISTER_FRAME] = (uint64_t)(uintptr_t)frame;
+    in.general[REGISTER_CONSTANTS] = (uint64_t)(uintptr_t)sign;
+    for (int i = 1; i <= call->operands; i++)
+        if (call->vector[i] >= 0)
+            memcpy(in.ymm[call->vector[i]], frame + i * WIDTH, SLOT);
+    if (call->fragment->read & 1)
+        memcpy(in.ymm[call->vector[0]], frame, SLOT);
+    trampoline_run(code, &in, &out);
+    memcpy(frame, out.ymm[call->vector[0]], SLOT);
+    code_free(arena, &span);
+}
+
+/* Distinct registers. */
+static void choose_vectors(struct call *call)
+{
+    for (int i = 0; i <= call->operands; i++) {
+        call->vector[i] = (int)(random_word() % VECTORS);
+        for (int before = 0; before < i; before++)
+            if (call->vector[before] == call->vector[i])
+                before = -1, call->vector[i] = (call->vector[i] + 1) % VECTORS;
+    }
+}
+
 typedef void evaluate(struct env *e, int half, int k);
 
-struct operation {
+struct operation_row {
     const char *name;
     const struct fragment *fragment;
     evaluate *evaluate;
     uint32_t (*operand[3])(void);
+    int operands;
     int gives_flt;
     int shifts; /* immediates are 0 to this - 1; 0: no immediate */
 };
@@ -138,71 +185,118 @@ struct operation {
 #define GIVES_itg 0
 #define GIVES_fix 0
 #define GIVES_msk 0
+#define COUNT_flt 1
+#define COUNT_itg 1
+#define COUNT_fix 1
+#define COUNT_msk 1
+#define COUNT_non 0
 #define BITS_itg  32
 #define BITS_fix  16
 #define OP(name, result, ta, tb, tc, properties, expression)                                                 \
-    {#name, &fragment_##name, evaluate_##name, {random_##ta, random_##tb, random_##tc}, GIVES_##result, 0},
+    {#name,                                                                                                  \
+     &fragment_##name,                                                                                       \
+     evaluate_##name,                                                                                        \
+     {random_##ta, random_##tb, random_##tc},                                                                \
+     COUNT_##ta + COUNT_##tb + COUNT_##tc,                                                                   \
+     GIVES_##result,                                                                                         \
+     0},
 #define OPK(name, result, ta, tb, tc, properties, expression)                                                \
-    {#name,          &fragment_##name, evaluate_##name, {random_##ta, random_##tb, random_##tc},             \
-     GIVES_##result, BITS_##ta},
-static const struct operation operations[] = {
+    {#name, &fragment_##name, evaluate_##name, {random_##ta}, 1, GIVES_##result, BITS_##ta},
+static const struct operation_row operations[] = {
 #include "def/op.def"
 };
 #undef OP
 #undef OPK
 #undef CAST
 
-/* The operands as they were are in `before`. */
-static void compare_lanes(const struct operation *operation, int result, const uint32_t *before)
+static void compare_lanes(const struct operation_row *operation, const struct call *call)
 {
     for (int lane = 0; lane < WIDTH; lane++) {
-        uint32_t got = frame[result * WIDTH + lane], wanted = expected[lane];
+        uint32_t got = frame[lane], wanted = expected[lane];
         if (got == wanted || (operation->gives_flt && nan_bits(got) && nan_bits(wanted)))
             continue;
         char text[200];
-        snprintf(text, sizeof text, "%s(%08x, %08x, %08x) is %08x, expected %08x", operation->name,
-                 before[WIDTH + lane], before[2 * WIDTH + lane], before[3 * WIDTH + lane], got, wanted);
+        snprintf(text, sizeof text, "%s(%08x, %08x, %08x) is %08x, expected %08x", call->fragment->name,
+                 frame[WIDTH + lane], frame[2 * WIDTH + lane], frame[3 * WIDTH + lane], got, wanted);
         TEST_FAIL_MESSAGE(text);
     }
 }
 
-static void try_operation(const struct operation *operation, int result)
+static void evaluate_row(const struct operation_row *operation, int k)
 {
     static struct env e;
-    uint32_t before[OPERANDS * WIDTH];
-    struct code_span span;
-    int k = operation->shifts ? (int)(random_word() % (uint32_t)operation->shifts) : 0;
-    const void *code = join(operation->fragment, result, k, operation->shifts != 0, &span);
     for (int i = 0; i < WIDTH; i++)
         for (int n = 0; n < 3; n++)
-            frame[(n + 1) * WIDTH + i] = operation->operand[n]();
+            frame[(n + 1) * WIDTH + i] = operation->operand[n] ? operation->operand[n]() : random_word();
     unsigned saved = mxcsr_enter();
     for (int half = 0; half < HALVES; half++)
         operation->evaluate(&e, half, k);
     mxcsr_leave(saved);
-    memcpy(before, frame, sizeof before);
-    run_fragment(code);
-    code_free(arena, &span);
-    compare_lanes(operation, result, before);
+}
+
+/* In registers of their own; the result in an operand's; an operand in memory, if it can be. */
+static void try_operation(const struct operation_row *operation, int round)
+{
+    struct call call = {operation->fragment, {0}, operation->operands, 0};
+    choose_vectors(&call);
+    int shared = round % OPERANDS;
+    if (shared && shared <= call.operands && !call.fragment->apart)
+        call.vector[0] = call.vector[shared];
+    if (operation->shifts)
+        call.k = (int32_t)(random_word() % (uint32_t)operation->shifts);
+    evaluate_row(operation, call.k);
+    run_fragment(&call);
+    compare_lanes(operation, &call);
+    if (!call.fragment->folded)
+        return;
+    call.vector[call.fragment++->folded] = -1;
+    run_fragment(&call);
+    compare_lanes(operation, &call);
 }
 
 static void operation_fragments_compute_their_rows(void)
 {
     for (size_t i = 0; i < sizeof operations / sizeof *operations; i++)
         for (int round = 0; round < ROUNDS; round++)
-            try_operation(operations + i, round % OPERANDS);
+            try_operation(operations + i, round);
+}
+
+/* a * b + c where the result takes the place of one of them: rows of fragment.def, not of op.def. */
+static void multiplying_and_adding_in_place_is_the_same(void)
+{
+    static const struct {
+        const struct fragment *fragment;
+        uint8_t place[3]; /* the argument that a, b and c are: 0 the result */
+    } form[] = {{&fragment_mad_factor, {0, 1, 2}}, {&fragment_mad_sum, {1, 2, 0}}};
+    const struct operation_row *row = operations;
+    while (row->fragment != &fragment_mad_f)
+        row++;
+    for (int round = 0; round < ROUNDS; round++)
+        for (int memory = 0; memory < 2; memory++) {
+            size_t f = (size_t)round % 2;
+            uint32_t operand[3][WIDTH];
+            struct call call = {form[f].fragment + memory, {0}, 2, 0};
+            choose_vectors(&call);
+            evaluate_row(row, 0);
+            memcpy(operand, frame + WIDTH, sizeof operand);
+            for (int i = 0; i < 3; i++)
+                memcpy(frame + form[f].place[i] * WIDTH, operand[i], SLOT);
+            if (memory)
+                call.vector[2] = -1;
+            run_fragment(&call);
+            memcpy(frame + WIDTH, operand, sizeof operand);
+            compare_lanes(row, &call);
+        }
 }
 
 /* Not a row of the table: lanes change places within each four. */
 static void the_permutation_takes_the_lanes_it_names(void)
 {
     for (int lanes = 0; lanes < 256; lanes++) {
-        struct code_span span;
-        const void *code = join(&fragment_permute, 0, lanes, 1, &span);
+        struct call call = {&fragment_permute, {lanes % VECTORS, (lanes + 1) / 2 % VECTORS}, 1, lanes};
         for (int i = 0; i < WIDTH; i++)
             frame[WIDTH + i] = random_word();
-        run_fragment(code);
-        code_free(arena, &span);
+        run_fragment(&call);
         for (int i = 0; i < WIDTH; i++)
             TEST_ASSERT_EQUAL_HEX32(frame[WIDTH + (i & ~3) + (lanes >> 2 * (i & 3) & 3)], frame[i]);
     }
@@ -229,5 +323,6 @@ int main(void)
     UNITY_BEGIN();
     RUN_TEST(the_permutation_takes_the_lanes_it_names);
     RUN_TEST(operation_fragments_compute_their_rows);
+    RUN_TEST(multiplying_and_adding_in_place_is_the_same);
     return UNITY_END();
 }

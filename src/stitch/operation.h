@@ -1,0 +1,64 @@
+/* Operations: what the stitcher's reading of the specification appends (bind.h), before it is known where
+ * values are.
+ *
+ * An operation's number is that of the value it gives; 0 is none. Two walks make parts of them: one from
+ * back to front finds who reads each value (readers.c), one from front to back decides which register or
+ * slot of the frame it is in and appends the fragments (place.c).
+ *
+ * Control nests, and a value is read only where control cannot have avoided it: in the region that it is
+ * given in, inner regions included. What leaves a region is a variable, which has a slot of its own. */
+#ifndef STITCH_OPERATION_H
+#define STITCH_OPERATION_H
+
+#include "def/binding.h"
+#include "stitch/fragment.h"
+
+enum operation_kind {
+    OPERATION_NONE,    /* nobody reads what it gives */
+    OPERATION_COMPUTE, /* `fragment`: k are the arguments behind the operands */
+    OPERATION_LITERAL, /* k[0] in all lanes; k[1] is its place among the literals once it has one */
+    OPERATION_READ,    /* `fragment`, load or uniform, from base k[1] + k[0] */
+    OPERATION_GET,     /* variable k[0] */
+    OPERATION_SET,
+    OPERATION_STORE, /* to base k[1] + k[0] */
+    OPERATION_SCATTER,
+    OPERATION_WHEN, /* k[0]: the end */
+    OPERATION_END,
+    OPERATION_LOOP, /* k[0]: the end */
+    OPERATION_AGAIN /* k[0]: the begin */
+};
+
+struct operation {
+    const struct fragment *fragment;
+    uint32_t operand[3];
+    uint32_t next[3]; /* of each operand, its next reader; 0: this is the last */
+    int32_t k[4];     /* bases are counted from r8 */
+    uint8_t kind;     /* enum operation_kind */
+    uint8_t operands;
+    uint8_t commutes;
+    uint16_t line; /* of the specification */
+    const char *file;
+};
+
+/* A value, and where it is while it is alive. */
+struct value {
+    uint32_t last;   /* its last reader; of what is read in a loop but given before, the loop's end */
+    uint32_t next;   /* its next reader */
+    uint32_t dying;  /* at the end of a loop, the next value that dies there as well */
+    int32_t slot;    /* of the frame, or SLOT_NONE */
+    uint8_t vector;  /* register, or VECTOR_NONE */
+    uint8_t foreign; /* its slot is a variable's */
+};
+
+enum { SLOT_NONE = -1, VECTOR_NONE = 255 };
+
+/* A variable: its slot, or SLOT_NONE, and how many operations get it. */
+struct variable_state {
+    int32_t slot;
+    uint32_t gets;
+    uint32_t value; /* that it is known to have, 0: none; where that was learned: */
+    uint32_t known_at, region;
+    uint32_t depth;
+};
+
+#endif
