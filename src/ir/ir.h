@@ -1,13 +1,15 @@
 /* The intermediate representation that the specializer compiles, the batch interpreter runs and the external
- * engine prints: one flat array of instructions in SSA form, and variables where control flow joins.
+ * engine prints: one flat array of instructions in SSA form. Where control flow joins, recordings have variables;
+ * the specializer replaces them by phis and joins.
  *
  * An instruction's number is its index, and the number of the value it defines; 0 is no value. Operands are
  * defined before they are used. The loop over what a call lists is outside of it all. Inside are regions:
  * `when mask ... end`, skipped when no lane of the mask is set, and `loop ... again mask`, run once and again
- * as long as a lane of the mask is set. Regions nest. A value defined in a region is used in that region
- * only, inner regions included; what leaves one, or goes from one pass of a loop to the next, goes through a
- * variable: `set` gives it all lanes of a value, `get` is a value of its own, what the variable holds at that
- * place. A variable holds nothing until it is set, and nothing from one chunk of lanes to the next.
+ * as long as a lane of the mask is set. Regions nest. A value defined in a `when` is used in that region only,
+ * inner regions included; a value defined in a loop may be used behind it, too, since the loop has run by then
+ * (recordings make no use of this). What else leaves a region, or goes from one pass of a loop to the next, goes
+ * through a variable: `set` gives it all lanes of a value, `get` is a value of its own, what the variable holds
+ * at that place. A variable holds nothing until it is set, and nothing from one chunk of lanes to the next.
  *
  * Opcodes are the rows of def/op.def, and these:
  *   copy a                      the same bits (the casts)
@@ -20,6 +22,10 @@
  *   when a, end                 a region
  *   loop, again a               a loop; `a` is defined before or in it
  *   set a k, get k              variable k, below VARIABLES; all its sets and gets have its type
+ *   phi a, next p b             directly before a loop and before its end: p is a in the loop's first pass, and
+ *                               from one pass to the next becomes b, all phis of a loop at once; behind the loop
+ *                               it is what it was in the last pass. Each phi has one `next`
+ *   join a b                    directly behind an `end`: b if the region ran, else a; b may be of the region
  *   constant k                  slot k of the frame's constants, filled before the loop (hoist.c)
  *   permute a k                 lanes change places within each four: lane l takes lane (k >> 2 * l) & 3
  * The number of lanes appears nowhere here: the same recording serves every W. */
@@ -57,6 +63,9 @@ enum ir_op {
     IR_get,
     IR_constant,
     IR_permute,
+    IR_phi,
+    IR_next,
+    IR_join,
     IR_OP_COUNT
 };
 
@@ -106,6 +115,7 @@ struct ir {
     uint32_t count;     /* instruction 0 is a nop */
     uint32_t loops;     /* so many were recorded */
     uint32_t variables; /* those set or got are below this */
+    uint32_t phis;      /* and joins: there are no more than so many */
     uint32_t file_count;
     uint32_t constant_count;
     int overflow; /* more than IR_CAPACITY instructions were recorded: the routine cannot be built */
@@ -127,7 +137,8 @@ int ir_is_invariant_read(const struct ir_instruction *instruction);
 void ir_compact(struct ir *ir, uint16_t *map);
 
 /* Checks that operands are defined before use, in an open region, that regions nest, that all sets and gets
- * of a variable have one type, and that every get is reached by a set whichever way control takes.
+ * of a variable have one type, that every get is reached by a set whichever way control takes, and that phis, next
+ * values and joins stand where they belong (verify.c).
  * Returns null, or one line that says what is wrong (static storage: for one thread at a time). */
 const char *ir_verify(const struct ir *ir);
 

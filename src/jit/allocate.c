@@ -21,6 +21,9 @@ int allocate_folds(const struct ir_instruction *instruction, int position)
     case IR_floor_f: return 1;
     case IR_select_f:
     case IR_select_i: return position == 1;
+    case IR_phi:
+    case IR_next:
+    case IR_join: return 1; /* moved by a load */
     case IR_mad_f:
     case IR_lt_f:
     case IR_le_f: return 1;
@@ -33,33 +36,57 @@ int allocate_folds(const struct ir_instruction *instruction, int position)
     return position == 1 || information->properties & IR_COMMUTES;
 }
 
-int allocate_rematerializes(const struct ir_instruction *instruction)
+/* Whether a spilled value can be read again from where it came from. */
+static int rematerializes(const struct ir_instruction *instruction)
 {
     return (instruction->op == IR_uniform || instruction->op == IR_load) && ir_is_invariant_read(instruction);
 }
 
-/* Numbers the loops from 1 in the order of their heads. */
-static void find_loops(const struct ir *ir, struct allocation *a)
+static void begin_loop(const struct ir *ir, struct allocation *a, uint32_t number, uint16_t loop)
 {
-    uint16_t count = 0, current = 0;
-    for (uint32_t number = 1; number < ir->count; number++) {
-        unsigned op = ir->instruction[number].op;
-        if (op == IR_loop) {
-            a->loop[++count] = (struct loop_extent){.head = (uint16_t)number, .outer = current};
-            a->loop_at[number] = current = count;
-        } else if (op == IR_again) {
-            a->loop_at[number] = current;
-            a->loop[current].again = (uint16_t)number;
-            current = a->loop[current].outer;
-        }
-    }
+    a->loop_at[number] = loop;
+    while (ir->instruction[--number].op == IR_phi)
+        a->loop_at[number] = loop;
 }
 
-/* The outermost of the loops around loop `inner`, itself included, that a value is defined before; 0: none. */
-static unsigned loop_entered_with(const struct allocation *a, unsigned value, unsigned inner)
+/* Numbers the loops from 1 in the order of their heads, and finds both ends of every `when`. */
+static void find_regions(const struct ir *ir, struct allocation *a)
+{
+    uint16_t count = 0, loop = 0, when = 0;
+    for (uint32_t number = 1; number < ir->count; number++)
+        switch (ir->instruction[number].op) {
+        case IR_loop:
+            a->loop[++count] = (struct loop_extent){.head = (uint16_t)number, .outer = loop};
+            begin_loop(ir, a, number, loop = count);
+            break;
+        case IR_again:
+            a->loop_at[number] = loop;
+            a->loop[loop].again = (uint16_t)number;
+            loop = a->loop[loop].outer;
+            break;
+        case IR_when:
+            a->region_at[number] = when; /* the one around it, until the end is found */
+            when = (uint16_t)number;
+            break;
+        case IR_end:
+            a->region_at[number] = when;
+            when = a->region_at[when];
+            a->region_at[a->region_at[number]] = (uint16_t)number;
+            break;
+        }
+}
+
+uint32_t allocate_joined_end(const struct ir *ir, uint32_t join)
+{
+    while (ir->instruction[join].op != IR_end)
+        join--;
+    return join;
+}
+
+unsigned allocate_entered_loop(const struct allocation *a, unsigned birth, unsigned inner)
 {
     unsigned entered = 0;
-    for (unsigned loop = inner; loop && a->loop[loop].head > value; loop = a->loop[loop].outer)
+    for (unsigned loop = inner; loop && a->loop[loop].head > birth; loop = a->loop[loop].outer)
         entered = loop;
     return entered;
 }
@@ -72,7 +99,7 @@ static int defines_value(const struct ir_instruction *i)
 /* What the next pass of a loop reads again lives to the loop's end. */
 static uint16_t end_of_life(const struct allocation *a, unsigned value, uint32_t use, unsigned loop)
 {
-    unsigned entered = loop_entered_with(a, value, loop);
+    unsigned entered = allocate_entered_loop(a, value, loop);
     return entered ? a->loop[entered].again : (uint16_t)use;
 }
 
@@ -96,9 +123,9 @@ static void chain_uses(const struct ir *ir, struct allocation *a)
         uint16_t after[3];
         loop = follow_loop_back(a, i, number, loop);
         for (int o = 0; o < 3; o++)
-            after[o] = a->next_use[i->operand[o]];
+            after[o] = a->next_use[allocate_web(a, i->operand[o])];
         for (int o = 0; o < 3; o++) {
-            unsigned value = i->operand[o];
+            unsigned value = allocate_web(a, i->operand[o]);
             a->next[number][o] = after[o];
             if (!value)
                 continue;
@@ -133,14 +160,15 @@ static void classify(const struct ir *ir, struct allocation *a)
         a->reg[number] = NO_REGISTER;
         a->split[number] = NEVER;
         a->slot[number] = NO_SLOT;
-        if (defines_value(i) && a->uses[number])
+        if (defines_value(i) && a->uses[allocate_web(a, number)])
             a->residence[number] = stays_in_memory(ir, a, number) ? RESIDENCE_MEMORY : RESIDENCE_REGISTER;
     }
 }
 
-static int is_operand(const struct ir_instruction *i, unsigned value)
+static int is_operand(const struct allocation *a, const struct ir_instruction *i, unsigned web)
 {
-    return i->operand[0] == value || i->operand[1] == value || i->operand[2] == value;
+    return allocate_web(a, i->operand[0]) == web || allocate_web(a, i->operand[1]) == web ||
+           allocate_web(a, i->operand[2]) == web;
 }
 
 /* Frees the registers of operands whose last use is this instruction; remembers one that suits the result:
@@ -151,7 +179,7 @@ static unsigned release(struct scan *scan, uint32_t number)
     struct allocation *a = scan->allocation;
     unsigned preferred = NO_REGISTER;
     for (int o = 0; o < 3; o++) {
-        unsigned value = i->operand[o];
+        unsigned value = allocate_web(a, i->operand[o]);
         if (!value || a->last[value] != number || a->reg[value] == NO_REGISTER)
             continue;
         unsigned reg = a->reg[value];
@@ -166,11 +194,12 @@ static unsigned release(struct scan *scan, uint32_t number)
 static void advance(struct scan *scan, uint32_t number)
 {
     const struct ir_instruction *i = &scan->ir->instruction[number];
+    struct allocation *a = scan->allocation;
     for (int o = 0; o < 3; o++)
-        scan->allocation->next_use[i->operand[o]] = scan->allocation->next[number][o];
+        a->next_use[allocate_web(a, i->operand[o])] = a->next[number][o];
     if (scan->loop)
         for (int o = 0; o < 3; o++)
-            scan->allocation->recent[i->operand[o]] = (uint16_t)number;
+            a->recent[allocate_web(a, i->operand[o])] = (uint16_t)number;
 }
 
 /* The position at which a value is used next. The uses that it had in this pass of a loop, it has again in the
@@ -189,7 +218,7 @@ static unsigned furthest(const struct scan *scan, const struct ir_instruction *i
 {
     unsigned victim = NO_REGISTER;
     for (unsigned reg = 0; reg < scan->registers; reg++) {
-        if (is_operand(i, scan->holder[reg]))
+        if (is_operand(scan->allocation, i, scan->holder[reg]))
             continue;
         if (victim == NO_REGISTER || next_use(scan, scan->holder[reg]) > next_use(scan, scan->holder[victim]))
             victim = reg;
@@ -202,17 +231,21 @@ static unsigned furthest(const struct scan *scan, const struct ir_instruction *i
 static void spill(struct scan *scan, unsigned value, uint32_t position)
 {
     struct allocation *a = scan->allocation;
-    unsigned entered = loop_entered_with(a, value, scan->loop);
+    unsigned entered = allocate_entered_loop(a, value, scan->loop);
     a->split[value] = entered ? a->loop[entered].head : (uint16_t)position;
     a->spills++;
 }
 
-/* A register for the result of `number`: the preferred one, a free one, or that of the value used furthest
+/* A register for the result of `number`: its web's if that has one already; the preferred one, a free one, or that of the value used furthest
  * away, which may be the result itself. */
 static void place(struct scan *scan, uint32_t number, unsigned preferred)
 {
     struct allocation *a = scan->allocation;
-    unsigned reg = preferred;
+    unsigned web = allocate_web(a, number), reg = preferred;
+    if (web != number) {
+        a->reg[number] = a->split[web] == NEVER ? a->reg[web] : SCRATCH_RESULT;
+        return;
+    }
     for (unsigned r = 0; reg == NO_REGISTER && r < scan->registers; r++)
         if (!scan->holder[r])
             reg = r;
@@ -290,6 +323,11 @@ static uint32_t take_slot(struct allocation *a, uint32_t *lowest)
     return slot;
 }
 
+static int reads_again(const struct ir *ir, const struct allocation *a, unsigned web)
+{
+    return rematerializes(&ir->instruction[web]) && !(a->webs && a->member[web]);
+}
+
 /* Slots in order of definition, the lowest that is free again. */
 static void assign_slots(const struct ir *ir, struct allocation *a)
 {
@@ -298,10 +336,13 @@ static void assign_slots(const struct ir *ir, struct allocation *a)
     if (!a->spills)
         return;
     memset(a->expiring, 0, ir->count * sizeof a->expiring[0]);
-    for (uint32_t number = 1; number < ir->count; number++) {
-        free_slots(a, number - 1, &lowest);
-        if (a->split[number] == NEVER || allocate_rematerializes(&ir->instruction[number]))
+    for (uint32_t number = 1, freed = 0; number < ir->count; number++) {
+        if (allocate_web(a, number) != number || a->split[number] == NEVER || reads_again(ir, a, number))
             continue;
+        /* Joins of one place are moved to at once: none takes the slot of another's operand. */
+        uint32_t before = ir->instruction[number].op == IR_join ? allocate_joined_end(ir, number) : number;
+        for (; freed < before; freed++)
+            free_slots(a, freed, &lowest);
         a->slot[number] = (uint16_t)take_slot(a, &lowest);
         a->expiring_next[number] = a->expiring[a->last[number]];
         a->expiring[a->last[number]] = (uint16_t)number;
@@ -312,10 +353,13 @@ void allocate(const struct ir *ir, struct allocation *allocation, unsigned regis
 {
     struct scan scan = {.ir = ir, .allocation = allocation, .registers = registers};
     allocation->spills = 0;
-    if (ir->loops) {
-        find_loops(ir, allocation);
+    allocation->webs = ir->phis != 0;
+    if (ir->loops || ir->phis) {
+        find_regions(ir, allocation);
         memset(allocation->recent, 0, ir->count * sizeof allocation->recent[0]);
     }
+    if (ir->phis)
+        allocate_coalesce(ir, allocation);
     chain_uses(ir, allocation);
     classify(ir, allocation);
     for (uint32_t number = 1; number < ir->count; number++)
@@ -327,7 +371,7 @@ void allocate_print(const struct ir *ir, const struct allocation *a, FILE *out)
 {
     for (uint32_t number = 1; number < ir->count; number++) {
         const struct ir_instruction *i = &ir->instruction[number];
-        if (a->residence[number] != RESIDENCE_REGISTER)
+        if (a->residence[number] != RESIDENCE_REGISTER || allocate_web(a, number) != number)
             continue;
         fprintf(out, "%5u to %5u  v%-2u ", number, a->last[number], a->reg[number]);
         if (a->split[number] == NEVER)

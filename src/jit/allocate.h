@@ -48,8 +48,14 @@ struct allocation {
     uint16_t expiring[IR_CAPACITY]; /* the value whose slot is free behind a position, 0: none; then the next
                                        such */
     uint16_t expiring_next[IR_CAPACITY];
-    uint16_t recent[IR_CAPACITY];  /* if there are loops: the use passed last */
-    uint16_t loop_at[IR_CAPACITY]; /* the loop that begins or ends at a position */
+    uint16_t recent[IR_CAPACITY];    /* if there are loops: the use passed last */
+    uint16_t loop_at[IR_CAPACITY];   /* the loop that begins or ends at a position, or that a phi is of */
+    uint16_t region_at[IR_CAPACITY]; /* if there are joins: of a `when` its end, and of an `end` its `when` */
+    int webs;                        /* whether there are any: else each value is one */
+    uint16_t web[IR_CAPACITY];       /* the first value of each value's web */
+    uint16_t member[IR_CAPACITY];    /* the next of the web, 0: the last */
+    uint16_t tail[IR_CAPACITY];      /* of a web: its last value */
+    uint16_t death[IR_CAPACITY];     /* where a value is alive last */
     struct loop_extent loop[LOOP_CAPACITY];
     uint64_t free_slot[SLOT_WORDS]; /* a bit for each slot that is free */
     uint32_t slots;
@@ -63,8 +69,22 @@ int allocate_folds(const struct ir_instruction *instruction, int position);
  * to put the allocator under pressure. */
 void allocate(const struct ir *ir, struct allocation *allocation, unsigned registers);
 
-/* Whether a spilled value can be read again from where it came from. */
-int allocate_rematerializes(const struct ir_instruction *instruction);
+/* The web of a value. What is said of a value's register, uses and slot stands at its web; of each definition,
+ * `reg` is where its instruction puts it. */
+static inline unsigned allocate_web(const struct allocation *allocation, unsigned value)
+{
+    return allocation->webs ? allocation->web[value] : value;
+}
+
+/* The outermost of the loops around loop `inner`, itself included, that what is defined at `birth` is older than; 0:
+ * none. */
+unsigned allocate_entered_loop(const struct allocation *allocation, unsigned birth, unsigned inner);
+
+/* The end of the region behind which a join stands. */
+uint32_t allocate_joined_end(const struct ir *ir, uint32_t join);
+
+/* Fills web, member and tail, with loops and regions found (coalesce.c). */
+void allocate_coalesce(const struct ir *ir, struct allocation *allocation);
 
 /* Prints the live intervals as a chart. */
 void allocate_print(const struct ir *ir, const struct allocation *allocation, FILE *out);

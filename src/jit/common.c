@@ -1,6 +1,6 @@
 /* Common subexpressions: hash-consing from front to back. An earlier instruction may stand for a later equal
  * one when its region is still open there; reads count only where no routine writes (ir_is_invariant_read).
- * What a variable holds changes, so that gets are not shared. */
+ * What a variable or a phi is changes, so that they are not shared. */
 #include "jit/pass.h"
 
 #include <string.h>
@@ -8,17 +8,17 @@
 enum { TABLE_MASK = PASS_TABLE - 1 };
 
 struct scope {
-    struct pass_memory *memory; /* region[number], flag[region]: open; map: parent region */
+    struct pass_memory *memory; /* region[number], flag[region]: open; map: parent region of a `when` */
     uint16_t current;
 };
 
 static void enter_or_leave(struct scope *scope, const struct ir_instruction *i, uint32_t number)
 {
-    if (ir_op_information[i->op].properties & IR_OPENS) {
+    if (i->op == IR_when) {
         scope->memory->map[number] = scope->current;
         scope->memory->flag[number] = 1;
         scope->current = (uint16_t)number;
-    } else if (ir_op_information[i->op].properties & IR_CLOSES) {
+    } else if (i->op == IR_end) {
         scope->memory->flag[scope->current] = 0;
         scope->current = scope->memory->map[scope->current];
     }
@@ -27,7 +27,9 @@ static void enter_or_leave(struct scope *scope, const struct ir_instruction *i, 
 static int may_share(const struct ir_instruction *i)
 {
     unsigned properties = ir_op_information[i->op].properties;
-    if (i->op == IR_nop || i->op == IR_copy || i->op == IR_get || properties & IR_EFFECT)
+    if (i->op == IR_nop || i->op == IR_copy || properties & IR_EFFECT)
+        return 0;
+    if (i->op == IR_get || i->op == IR_phi || i->op == IR_join)
         return 0;
     return !(properties & IR_READS) || ir_is_invariant_read(i);
 }

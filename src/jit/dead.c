@@ -18,21 +18,25 @@ struct sweep {
     uint16_t *closing; /* stack of open regions' ends, seen from behind */
     uint16_t *kept;    /* per level: whether something live was seen since */
     unsigned depth;
+    unsigned joined;  /* a live join was seen, whose region decides its value */
     unsigned removes; /* this time */
     unsigned changes;
     unsigned found; /* marks that what was passed already has not seen */
 };
 
+enum { LIVE = 1, FED = 2 /* a phi whose next value was seen to be live */ };
+
 static void mark_operands(struct sweep *s, const struct ir_instruction *i)
 {
     for (int o = 0; o < 3; o++)
-        s->live[i->operand[o]] = 1;
+        s->live[i->operand[o]] |= LIVE;
 }
 
 static void enter(struct sweep *s, uint32_t number)
 {
     s->closing[++s->depth] = (uint16_t)number;
-    s->kept[s->depth] = s->live[number];
+    s->kept[s->depth] = s->live[number] || s->joined;
+    s->joined = 0;
     if (s->live[number])
         mark_operands(s, &s->ir->instruction[number]);
 }
@@ -69,13 +73,19 @@ static int is_live(struct sweep *s, uint32_t number)
         if (s->live[number] && !s->read[i->k])
             s->found += s->read[i->k] = 1;
         break;
+    case IR_next:
+        if (s->live[i->operand[0]])
+            s->live[i->operand[0]] |= FED;
+        return s->live[i->operand[0]];
+    case IR_phi: s->found += s->live[number] == LIVE; break;
+    case IR_join: s->joined |= s->live[number]; break;
     }
     return s->live[number];
 }
 
 static void sweep(struct sweep *s)
 {
-    s->found = s->depth = 0;
+    s->found = s->depth = s->joined = 0;
     s->kept[0] = 0;
     for (uint32_t number = s->ir->count - 1; number > 0; number--) {
         const struct ir_instruction *i = &s->ir->instruction[number];

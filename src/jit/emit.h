@@ -24,12 +24,27 @@ enum { FRAME_SAVED_MXCSR = 0, FRAME_CONTRACT_MXCSR = 4, FRAME_LANES = 32, FRAME_
 /* Labels of the frame; regions and literals follow. */
 enum frame_label { LABEL_LOOP, LABEL_CHUNK, LABEL_SKIP, LABEL_DONE, LABEL_PAGE, LABEL_FREE };
 
-enum { LABEL_CAPACITY = LABEL_FREE + LITERAL_CAPACITY + REGION_CAPACITY };
+enum { LABEL_CAPACITY = LABEL_FREE + LITERAL_CAPACITY + 2 * REGION_CAPACITY };
 
 /* Where an instruction's code begins. */
 struct code_line {
     uint32_t offset;
     uint16_t instruction; /* IR number; 0 for the frame */
+};
+
+/* An operand at the current position. */
+struct place {
+    unsigned value;
+    uint8_t reg;         /* NO_REGISTER: in memory */
+    uint8_t addressable; /* in memory, lanes and all: `address` can be an operand */
+    struct address address;
+};
+
+/* A value becomes a phi or a join: to a register, to a slot, or to both. */
+struct move {
+    struct place from;
+    uint8_t to;    /* NO_REGISTER: the slot alone */
+    uint16_t slot; /* NO_SLOT: the register alone */
 };
 
 /* Everything a build needs to write its code: big, reused from build to build. */
@@ -57,6 +72,8 @@ struct emitter {
         literal_table[LITERAL_TABLE]; /* by hash: 1 + the literal's number, 0: none; all 0 between builds */
     uint32_t region_label[REGION_DEPTH];
     uint32_t region_depth;
+    uint32_t moves; /* noted, not yet written */
+    struct move move[VARIABLES];
     struct code_line line[IR_CAPACITY + 64];
     int32_t labels[LABEL_CAPACITY];
     struct fixup fixups[FIXUP_CAPACITY];
@@ -82,19 +99,25 @@ extern const uint8_t base_register[BASE_COUNT];
 /* The address of a literal's lanes in the constant pool. */
 struct address literal_address(struct emitter *emitter, int32_t bits);
 
-/* An operand at the current position. */
-struct place {
-    unsigned value;
-    uint8_t reg;         /* NO_REGISTER: in memory */
-    uint8_t addressable; /* in memory, lanes and all: `address` can be an operand */
-    struct address address;
-};
-
 /* Where a value is at the current position; the register of an operand, loaded into `scratch` if it is in
  * memory; the register that the current instruction's value was given (select.c). */
 struct place place_of(struct emitter *emitter, unsigned value);
 unsigned need_register(struct emitter *emitter, const struct place *place, unsigned scratch);
 unsigned result_register(const struct emitter *emitter);
+
+/* Brings a value into the register `to`; flags stay (select.c). */
+void bring(struct emitter *emitter, unsigned to, const struct place *place);
+
+/* A spill slot in the frame. */
+struct address slot_address(const struct emitter *emitter, unsigned slot);
+
+/* Notes what moves from a loop's end at the current position to its next pass; or, at the current position, to the
+ * joins behind a region's `end`: their operand 0 at its `when`, operand 1 at the end (move.c). */
+void note_next_moves(struct emitter *emitter);
+void note_join_moves(struct emitter *emitter, uint32_t end, int operand);
+
+/* Writes them; flags stay. */
+void write_moves(struct emitter *emitter);
 
 /* Writes the gather at the current position, and with it those that follow of the same vertices (gather.c).
  */

@@ -28,6 +28,29 @@ struct range {
 
 enum { PASS_TABLE = 2 * (IR_CAPACITY + 1) }; /* a power of two */
 
+enum { PHI_CHANGES = 2 * IR_CAPACITY, PHI_LOOPS = IR_CAPACITY / 2 + 1 };
+
+/* A variable that an open region has changed, and the value it held before; the phi, if that was the change. */
+struct phi_change {
+    uint16_t variable, value, phi;
+};
+
+struct phi_region {
+    uint32_t changes; /* there were when it began */
+};
+
+/* Of the construction of phis (phi.c): the new program, and what the walk over the old one remembers. */
+struct phi_memory {
+    uint64_t sets[PHI_LOOPS][VARIABLES / 64]; /* a bit for each variable that a loop sets */
+    uint16_t outer[PHI_LOOPS];                /* the loop around a loop, 0: none */
+    uint16_t held[VARIABLES];                 /* by each variable now, 0: nothing */
+    uint8_t type[VARIABLES];
+    uint8_t seen[VARIABLES];
+    struct phi_region region[IR_CAPACITY];
+    struct phi_change change[PHI_CHANGES];
+    struct ir_instruction instruction[IR_CAPACITY];
+};
+
 /* Scratch memory of the passes, one per build. */
 struct pass_memory {
     struct range range[IR_CAPACITY];
@@ -35,12 +58,13 @@ struct pass_memory {
     uint16_t region[IR_CAPACITY];
     uint8_t flag[IR_CAPACITY];
     uint8_t read[VARIABLES];
+    struct phi_memory phi;
     uint16_t table[PASS_TABLE];
 };
 
 typedef unsigned pass_function(struct ir *ir, struct pass_memory *memory);
 
-pass_function pass_copy, pass_fold, pass_reduce, pass_common, pass_dead, pass_hoist;
+pass_function pass_phi, pass_copy, pass_fold, pass_reduce, pass_common, pass_dead, pass_hoist;
 
 /* Fills memory->range for every value (range.c). Rounds as the contract does: run under its MXCSR. */
 void range_analyse(const struct ir *ir, struct pass_memory *memory);

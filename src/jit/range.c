@@ -158,6 +158,13 @@ static struct range rounded_range(struct range a)
     return integer_range(floorf(a.low), ceilf(a.high));
 }
 
+/* Of a value under a type that it may not have. */
+static struct range range_as(const struct ir *ir, const struct pass_memory *memory, unsigned value,
+                             unsigned type)
+{
+    return ir->instruction[value].type == type ? memory->range[value] : anything;
+}
+
 struct range range_of_operand(const struct ir *ir, const struct pass_memory *memory,
                               const struct ir_instruction *i, int operand)
 {
@@ -193,13 +200,78 @@ static struct range value_range(const struct ir *ir, const struct pass_memory *m
     case IR_shr_i: return shift_right_range(a, i->k, 0);
     case IR_min_i: return a.nan || b.nan ? anything : minimum_range(a, b);
     case IR_max_i: return a.nan || b.nan ? anything : maximum_range(a, b);
+    case IR_join:
+        return union_range(range_as(ir, memory, i->operand[0], i->type),
+                           range_as(ir, memory, i->operand[1], i->type));
     default: return anything;
+    }
+}
+
+static void analyse(const struct ir *ir, struct pass_memory *memory)
+{
+    memory->range[0] = anything;
+    for (uint32_t number = 1; number < ir->count; number++)
+        memory->range[number] = value_range(ir, memory, &ir->instruction[number]);
+}
+
+static int contains(struct range outer, struct range inner)
+{
+    return outer.low <= inner.low && outer.high >= inner.high && outer.nan >= inner.nan &&
+           outer.minus_zero >= inner.minus_zero && outer.denormal >= inner.denormal;
+}
+
+/* A bound that moved goes on to where it likely comes to rest: zero, one, infinity. */
+static struct range widened(struct range old, struct range r)
+{
+    if (r.low < old.low)
+        r.low = r.low >= 0 ? 0 : r.low >= -1 ? -1 : -INFINITY;
+    if (r.high > old.high)
+        r.high = r.high <= 0 ? 0 : r.high <= 1 ? 1 : INFINITY;
+    return r;
+}
+
+/* What a phi may be, given another of its values; in the later rounds generously, in the last without asking. */
+static int extend_phi(struct range *phi, struct range value, unsigned round)
+{
+    enum { ROUNDS_EXACT = 1, ROUNDS = 6 };
+    if (contains(*phi, value))
+        return 0;
+    struct range both = checked(union_range(*phi, value));
+    *phi = round < ROUNDS_EXACT ? both : round < ROUNDS ? widened(*phi, both) : anything;
+    return 1;
+}
+
+/* Each phi begins as its first value; what is then found to come around the loop is added until nothing is. Each
+ * round holds for phis within the ranges that it begins with: what the last one finds holds for all. */
+static void analyse_loops(const struct ir *ir, struct pass_memory *memory)
+{
+    int extended = 1;
+    memory->range[0] = anything;
+    for (unsigned round = 0; extended; round++) {
+        extended = 0;
+        for (uint32_t number = 1; number < ir->count; number++) {
+            const struct ir_instruction *i = &ir->instruction[number];
+            struct range *range = &memory->range[number];
+            if (i->op == IR_phi) {
+                struct range start = range_as(ir, memory, i->operand[0], i->type);
+                if (!round)
+                    *range = start;
+                else
+                    extended |= extend_phi(range, start, round);
+            } else if (i->op == IR_next) {
+                unsigned phi = i->operand[0];
+                extended |= extend_phi(&memory->range[phi],
+                                       range_as(ir, memory, i->operand[1], ir->instruction[phi].type), round);
+            } else
+                *range = value_range(ir, memory, i);
+        }
     }
 }
 
 void range_analyse(const struct ir *ir, struct pass_memory *memory)
 {
-    memory->range[0] = anything;
-    for (uint32_t number = 1; number < ir->count; number++)
-        memory->range[number] = value_range(ir, memory, &ir->instruction[number]);
+    if (ir->phis)
+        analyse_loops(ir, memory);
+    else
+        analyse(ir, memory);
 }

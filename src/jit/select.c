@@ -83,27 +83,35 @@ static struct address frame_address(const struct emitter *m, int32_t start, unsi
     return address_at(X86_RSP, start + (int32_t)(slot * m->width * 4));
 }
 
+struct address slot_address(const struct emitter *m, unsigned slot)
+{
+    return frame_address(m, m->frame_slots, slot);
+}
+
 static struct place memory_place(struct emitter *m, unsigned value)
 {
     const struct ir_instruction *i = &m->ir->instruction[value];
+    unsigned slot = m->allocation->slot[allocate_web(m->allocation, value)];
     struct place p = {.value = value, .reg = NO_REGISTER, .addressable = 1};
     if (i->op == IR_literal)
         p.address = literal_address(m, i->k);
     else if (i->op == IR_constant)
         p.address = frame_address(m, m->frame_constants, (unsigned)i->k);
-    else if (allocate_rematerializes(i)) {
+    else if (slot != NO_SLOT)
+        p.address = slot_address(m, slot);
+    else {
         p.address = address_at(base_register[i->base], i->k);
         p.addressable = i->op == IR_load;
-    } else
-        p.address = frame_address(m, m->frame_slots, m->allocation->slot[value]);
+    }
     return p;
 }
 
 struct place place_of(struct emitter *m, unsigned value)
 {
     const struct allocation *a = m->allocation;
-    if (a->residence[value] == RESIDENCE_REGISTER && m->position <= a->split[value])
-        return (struct place){.value = value, .reg = a->reg[value]};
+    unsigned web = allocate_web(a, value);
+    if (a->residence[value] == RESIDENCE_REGISTER && m->position <= a->split[web])
+        return (struct place){.value = value, .reg = a->reg[web]};
     return memory_place(m, value);
 }
 
@@ -112,8 +120,7 @@ static int is_zero(const struct emitter *m, unsigned value)
     return m->ir->instruction[value].op == IR_literal && !m->ir->instruction[value].k;
 }
 
-/* Brings a value into the register `to`. */
-static void bring(struct emitter *m, unsigned to, const struct place *p)
+void bring(struct emitter *m, unsigned to, const struct place *p)
 {
     if (p->reg != NO_REGISTER) {
         if (p->reg != to)
@@ -343,11 +350,34 @@ static void test_lanes(struct emitter *m, unsigned mask)
     vector_rr(&m->encoder, X86_vtestps, m->length, test, test);
 }
 
+/* When the region does not run, what the joins behind it take from before moves on the way around it. */
 static void select_when(struct emitter *m, const struct ir_instruction *i)
 {
     test_lanes(m, i->operand[0]);
-    if (open_region(m))
-        encode_jump_if(&m->encoder, X86_IF_z, m->region_label[m->region_depth - 1]);
+    if (!open_region(m))
+        return;
+    uint32_t end = m->region_label[m->region_depth - 1];
+    m->moves = 0;
+    if (m->ir->phis)
+        note_join_moves(m, m->allocation->region_at[m->position], 0);
+    if (!m->moves) {
+        encode_jump_if(&m->encoder, X86_IF_z, end);
+        return;
+    }
+    uint32_t begin = encoder_add_label(&m->encoder);
+    encode_jump_if(&m->encoder, X86_IF_nz, begin);
+    write_moves(m);
+    encode_jump(&m->encoder, end);
+    encode_label(&m->encoder, begin);
+}
+
+static void select_end(struct emitter *m)
+{
+    if (m->ir->phis) {
+        note_join_moves(m, m->position, 1);
+        write_moves(m);
+    }
+    encode_label(&m->encoder, m->region_label[--m->region_depth]);
 }
 
 static void select_loop(struct emitter *m)
@@ -358,8 +388,18 @@ static void select_loop(struct emitter *m)
 
 static void select_again(struct emitter *m, const struct ir_instruction *i)
 {
+    uint32_t head = m->region_label[--m->region_depth];
     test_lanes(m, i->operand[0]);
-    encode_jump_if(&m->encoder, X86_IF_nz, m->region_label[--m->region_depth]);
+    note_next_moves(m);
+    if (!m->moves) {
+        encode_jump_if(&m->encoder, X86_IF_nz, head);
+        return;
+    }
+    uint32_t done = encoder_add_label(&m->encoder);
+    encode_jump_if(&m->encoder, X86_IF_z, done);
+    write_moves(m);
+    encode_jump(&m->encoder, head);
+    encode_label(&m->encoder, done);
 }
 
 static void select_variable(struct emitter *m, const struct ir_instruction *i)
@@ -415,7 +455,7 @@ static void select_instruction(struct emitter *m, const struct ir_instruction *i
     case IR_gather: select_gather(m, i); break;
     case IR_scatter: select_scatter(m, i); break;
     case IR_when: select_when(m, i); break;
-    case IR_end: encode_label(&m->encoder, m->region_label[--m->region_depth]); break;
+    case IR_end: select_end(m); break;
     case IR_loop: select_loop(m); break;
     case IR_again: select_again(m, i); break;
     case IR_set:
@@ -423,15 +463,27 @@ static void select_instruction(struct emitter *m, const struct ir_instruction *i
     case IR_load:
     case IR_uniform:
     case IR_store: select_memory(m, i); break;
-    case IR_copy: select_copy(m, i); break;
+    case IR_copy:
+    case IR_phi: select_copy(m, i); break;
+    case IR_next:
+    case IR_join: break; /* written with the region's end */
     default: select_by_rule(m, i); break;
     }
+}
+
+/* Whether the instruction is where its value is put: not so for joins, nor for a phi that begins as a value of its
+ * own web. */
+static int writes_result(const struct emitter *m, const struct ir_instruction *i)
+{
+    const struct allocation *a = m->allocation;
+    return i->op != IR_join &&
+           (i->op != IR_phi || allocate_web(a, m->position) != allocate_web(a, i->operand[0]));
 }
 
 /* A value that will be evicted is stored where it is defined. */
 static void store_spilled(struct emitter *m)
 {
-    unsigned slot = m->allocation->slot[m->position];
+    unsigned slot = m->allocation->slot[allocate_web(m->allocation, m->position)];
     if (slot != NO_SLOT)
         vector_mr(&m->encoder, X86_vmovaps_store, m->length, frame_address(m, m->frame_slots, slot),
                   result_register(m));
@@ -443,13 +495,14 @@ void emit_body(struct emitter *m)
     for (m->position = 1; m->position < m->ir->count && !m->exceeded; m->position++) {
         const struct ir_instruction *i = &m->ir->instruction[m->position];
         int effect = ir_op_information[i->op].properties & IR_EFFECT;
-        if (i->op == IR_nop || (!effect && m->allocation->residence[m->position] != RESIDENCE_REGISTER))
+        if (!effect && (m->allocation->residence[m->position] != RESIDENCE_REGISTER || !writes_result(m, i)))
             continue;
         if (m->position >= m->selected) {
             note_line(m, m->position);
             select_instruction(m, i);
         }
-        store_spilled(m);
+        if (!effect)
+            store_spilled(m);
     }
     note_line(m, 0);
 }

@@ -11,7 +11,7 @@
 #include <stdio.h>
 #include <string.h>
 
-enum { PROGRAMS = 600 };
+enum { PROGRAMS = 1000 };
 
 static struct code_arena *arena;
 static struct builder *builder;
@@ -57,7 +57,7 @@ static void fail_if_different(const char *what, unsigned number)
 static void make(unsigned number, unsigned width)
 {
     uint64_t seed = number * 0x9e3779b97f4a7c15ull | 1;
-    program_make_loops(&builder->ir, 5 + program_random(&seed) % 40, &seed);
+    program_make_loops(&builder->ir, 5 + program_random(&seed) % 50, &seed);
     TEST_ASSERT_NULL(ir_verify(&builder->ir));
     program_fill(&expected, &seed);
     got = expected;

@@ -223,13 +223,27 @@ static uint16_t make_get(struct maker *maker, unsigned variable, enum ir_type ty
     return value;
 }
 
-/* Reads a variable, sets it, copies one to another, or updates it. */
+/* Two or three variables of one type change places. */
+static void make_exchange(struct maker *maker, unsigned variable, enum ir_type type)
+{
+    unsigned second = (variable + 4) % SHARED_VARIABLES, third = (variable + 8) % SHARED_VARIABLES;
+    uint16_t a = make_get(maker, variable, type), b = make_get(maker, second, type);
+    if (program_random(maker->seed) % 2) {
+        make_set(maker, variable, make_get(maker, third, type));
+        make_set(maker, third, b);
+    } else
+        make_set(maker, variable, b);
+    make_set(maker, second, a);
+}
+
+/* Reads a variable, sets it, copies one to another, exchanges some, or updates it. */
 static void make_access(struct maker *maker)
 {
     unsigned variable = program_random(maker->seed) % SHARED_VARIABLES;
     enum ir_type type = variable_type(variable);
-    switch (program_random(maker->seed) % 4) {
+    switch (program_random(maker->seed) % 6) {
     case 0: make_get(maker, variable, type); break;
+    case 3: make_exchange(maker, variable, type); break;
     case 1: make_set(maker, variable, pick(maker, type)); break;
     case 2: make_set(maker, (variable + 4) % SHARED_VARIABLES, make_get(maker, variable, type)); break;
     default:
@@ -336,7 +350,9 @@ struct interpreter {
     struct program_data *data;
     uint32_t value[IR_CAPACITY][PROGRAM_LANES];
     uint32_t variable[VARIABLES][PROGRAM_LANES];
-    unsigned first; /* lane */
+    uint32_t next[IR_CAPACITY][PROGRAM_LANES]; /* of each phi */
+    uint8_t ran[IR_CAPACITY];                  /* of each `end`: whether its region ran the last time */
+    unsigned first;                            /* lane */
     unsigned width;
     program_observer *observer; /* may be null */
     void *context;
@@ -361,6 +377,14 @@ static uint32_t gather_word(const struct interpreter *in, const struct ir_instru
     return word;
 }
 
+/* The end of the region behind which a join stands. */
+static uint32_t joined_end(const struct ir *ir, uint32_t number)
+{
+    while (ir->instruction[number].op != IR_end)
+        number--;
+    return number;
+}
+
 static void step(struct interpreter *in, uint32_t number, unsigned lane)
 {
     const struct ir_instruction *i = &in->ir->instruction[number];
@@ -376,6 +400,9 @@ static void step(struct interpreter *in, uint32_t number, unsigned lane)
     case IR_uniform: *to = read_word(in, i, lane); break;
     case IR_gather: *to = gather_word(in, i, a); break;
     case IR_constant: memcpy(to, (const uint8_t *)&in->data->job + in->ir->constant[i->k].offset, 4); break;
+    case IR_phi: *to = a; break;
+    case IR_next: in->next[i->operand[0]][lane] = in->value[i->operand[1]][lane]; break;
+    case IR_join: *to = in->ran[joined_end(in->ir, number)] ? in->value[i->operand[1]][lane] : a; break;
     case IR_set: in->variable[i->k][lane] = a; break;
     case IR_get: *to = in->variable[i->k][lane]; break;
     case IR_store: memcpy((uint8_t *)in->data->output + i->k + 4 * (in->first + lane), &a, 4); break;
@@ -405,21 +432,52 @@ static int any_lane(const struct interpreter *in, unsigned mask)
     return any != 0;
 }
 
+/* All phis of the loop that ends at `again` become their next values. */
+static void give_next(struct interpreter *in, uint32_t again)
+{
+    for (uint32_t n = again - 1; in->ir->instruction[n].op == IR_next || in->ir->instruction[n].op == IR_nop;
+         n--) {
+        unsigned phi = in->ir->instruction[n].operand[0];
+        memcpy(in->value[phi], in->next[phi], sizeof in->value[phi]);
+        for (unsigned lane = 0; in->observer && phi && lane < in->width; lane++)
+            in->observer(in->context, phi, in->value[phi][lane]);
+    }
+}
+
+/* Where control goes on from a region's beginning or end. */
+static uint32_t follow(struct interpreter *in, uint32_t number)
+{
+    const struct ir_instruction *i = &in->ir->instruction[number];
+    uint32_t other = number;
+    if (i->op == IR_when) {
+        other = other_end(in->ir, number, 1);
+        in->ran[other] = (uint8_t)any_lane(in, i->operand[0]);
+        return in->ran[other] ? number : other;
+    }
+    if (i->op == IR_again && any_lane(in, i->operand[0])) {
+        give_next(in, number);
+        return other_end(in->ir, number, -1);
+    }
+    return number;
+}
+
+static void run(struct interpreter *in, uint32_t number)
+{
+    for (unsigned lane = 0; lane < in->width; lane++) {
+        step(in, number, lane);
+        if (in->observer)
+            in->observer(in->context, number, in->value[number][lane]);
+    }
+}
+
 static void interpret_group(struct interpreter *in)
 {
     for (uint32_t number = 1; number < in->ir->count; number++) {
         const struct ir_instruction *i = &in->ir->instruction[number];
-        if (i->op == IR_when && !any_lane(in, i->operand[0]))
-            number = other_end(in->ir, number, 1);
-        else if (i->op == IR_again && any_lane(in, i->operand[0]))
-            number = other_end(in->ir, number, -1);
-        if (i->op == IR_nop || ir_op_information[i->op].properties & (IR_OPENS | IR_CLOSES))
-            continue;
-        for (unsigned lane = 0; lane < in->width; lane++) {
-            step(in, number, lane);
-            if (in->observer)
-                in->observer(in->context, number, in->value[number][lane]);
-        }
+        if (ir_op_information[i->op].properties & (IR_OPENS | IR_CLOSES))
+            number = follow(in, number);
+        else if (i->op != IR_nop)
+            run(in, number);
     }
 }
 

@@ -1,0 +1,168 @@
+/* Coalescing: which phis, joins and their operands share a place, so that nothing moves where control joins.
+ *
+ * A web is a set of values that are never alive at the same time, joined by phis; allocation treats it as one value
+ * with several definitions. Every value begins as a web of its own. Then each phi is united with its next value,
+ * inner loops first since they run most; each join with its operands; each phi with the value that it begins as;
+ * unless two values of the united web would be alive at once. What is not united is moved where control passes
+ * from one to the other (move.c).
+ *
+ * A value is alive from its definition to its last use, and if it comes from outside of a loop and is used inside,
+ * to the loop's end. A join reads its operands where control splits: the first at its region's `when`, the second
+ * at the region's end. So a value that a region replaces dies there. A phi's next value is read at its loop's
+ * `again`, and the phi itself is defined anew by it: its last use in the loop is the end of its life, not the loop's
+ * end.
+ *
+ * The members of a web stand in a list by definition; since their lives do not meet, by death as well. */
+#include "jit/allocate.h"
+
+/* --- Lives of values --------------------------------------------------------------------------------------- */
+
+/* Where a value is defined, as loops see it: a phi belongs to its loop. */
+static unsigned birth(const struct ir *ir, const struct allocation *a, unsigned value)
+{
+    return ir->instruction[value].op == IR_phi ? a->loop[a->loop_at[value]].head : value;
+}
+
+static void note_use(const struct ir *ir, struct allocation *a, unsigned value, uint32_t use, unsigned loop)
+{
+    unsigned entered = allocate_entered_loop(a, birth(ir, a, value), loop);
+    uint16_t end = entered ? a->loop[entered].again : (uint16_t)use;
+    if (a->death[value] < end)
+        a->death[value] = end;
+}
+
+static void note_uses(const struct ir *ir, struct allocation *a, uint32_t number, unsigned loop)
+{
+    const struct ir_instruction *i = &ir->instruction[number];
+    switch (i->op) {
+    case IR_next: note_use(ir, a, i->operand[1], a->loop[loop].again, loop); break;
+    case IR_join: {
+        uint32_t end = allocate_joined_end(ir, number);
+        note_use(ir, a, i->operand[0], a->region_at[end], loop);
+        note_use(ir, a, i->operand[1], end, loop);
+        break;
+    }
+    default:
+        for (int o = 0; o < 3; o++)
+            if (i->operand[o])
+                note_use(ir, a, i->operand[o], number, loop);
+    }
+}
+
+static void find_lives(const struct ir *ir, struct allocation *a)
+{
+    unsigned loop = 0;
+    for (uint32_t number = 0; number < ir->count; number++) {
+        a->web[number] = a->tail[number] = (uint16_t)number;
+        a->member[number] = 0;
+        a->death[number] = (uint16_t)number;
+    }
+    for (uint32_t number = 1; number < ir->count; number++) {
+        unsigned op = ir->instruction[number].op;
+        if (op == IR_loop)
+            loop = a->loop_at[number];
+        note_uses(ir, a, number, loop);
+        if (op == IR_again)
+            loop = a->loop[loop].outer;
+    }
+}
+
+/* --- Uniting ----------------------------------------------------------------------------------------------- */
+
+static unsigned find(struct allocation *a, unsigned value)
+{
+    while (a->web[value] != value)
+        value = a->web[value] = a->web[a->web[value]];
+    return value;
+}
+
+/* Whether a value is dead when another, defined later, is made. A gather's index and result are both alive. */
+static int dies_before(const struct ir *ir, const struct allocation *a, unsigned value, unsigned later)
+{
+    return a->death[value] < later || (a->death[value] == later && ir->instruction[later].op != IR_gather);
+}
+
+/* Both lists merged into one by definition, unless lives meet. `x` is the web whose first value is earlier. */
+static int meet(const struct ir *ir, const struct allocation *a, unsigned x, unsigned y)
+{
+    if (dies_before(ir, a, a->tail[x], y))
+        return 0;
+    while (x && y) {
+        if (x > y) {
+            unsigned swapped = x;
+            x = y;
+            y = swapped;
+        }
+        if (!dies_before(ir, a, x, y))
+            return 1;
+        x = a->member[x];
+    }
+    return 0;
+}
+
+static void unite_lists(struct allocation *a, unsigned x, unsigned y)
+{
+    unsigned last = a->tail[x] < a->tail[y] ? a->tail[y] : a->tail[x];
+    unsigned web = x, at = a->tail[x] < y ? a->tail[x] : x;
+    a->web[y] = (uint16_t)x;
+    for (x = a->member[at]; y; at = a->member[at]) {
+        if (x && x < y) {
+            a->member[at] = (uint16_t)x;
+            x = a->member[x];
+        } else {
+            a->member[at] = (uint16_t)y;
+            y = a->member[y];
+            if (x) {
+                unsigned swapped = x;
+                x = y;
+                y = swapped;
+            }
+        }
+    }
+    a->tail[web] = (uint16_t)last;
+}
+
+/* Values that stay in memory have no place to share. */
+static int has_place(const struct ir *ir, unsigned value)
+{
+    unsigned op = ir->instruction[value].op;
+    return op != IR_literal && op != IR_constant && op != IR_load;
+}
+
+static void unite(const struct ir *ir, struct allocation *a, unsigned value, unsigned other)
+{
+    unsigned x = find(a, value), y = find(a, other);
+    if (x > y) {
+        unsigned swapped = x;
+        x = y;
+        y = swapped;
+    }
+    if (x != y && has_place(ir, other) && !meet(ir, a, x, y))
+        unite_lists(a, x, y);
+}
+
+static void unite_all(const struct ir *ir, struct allocation *a, enum ir_op op)
+{
+    for (uint32_t number = 1; number < ir->count; number++) {
+        const struct ir_instruction *i = &ir->instruction[number];
+        if (i->op != op)
+            continue;
+        if (op == IR_next)
+            unite(ir, a, i->operand[0], i->operand[1]);
+        else if (a->death[number] > number) {
+            if (op == IR_join)
+                unite(ir, a, number, i->operand[1]);
+            unite(ir, a, number, i->operand[0]);
+        }
+    }
+}
+
+void allocate_coalesce(const struct ir *ir, struct allocation *a)
+{
+    find_lives(ir, a);
+    unite_all(ir, a, IR_next);
+    unite_all(ir, a, IR_join);
+    unite_all(ir, a, IR_phi);
+    for (uint32_t number = 1; number < ir->count; number++)
+        a->web[number] = (uint16_t)find(a, number);
+}
