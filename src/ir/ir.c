@@ -33,11 +33,11 @@ const struct ir_op_information ir_op_information[IR_OP_COUNT] = {
     [IR_loop] = {"loop", TYPE_non, {0}, 0, IR_EFFECT | IR_OPENS},
     [IR_again] = {"again", TYPE_non, {TYPE_msk}, 1, IR_EFFECT | IR_CLOSES},
     [IR_set] = {"set", TYPE_non, {0}, 1, IR_EFFECT},
-    [IR_get] = {"get", TYPE_non, {0}, 0, 0},
+    [IR_get] = {"get", TYPE_non, {0}, 0, IR_PLACED},
     [IR_constant] = {"constant", TYPE_non, {0}, 0, 0},
-    [IR_phi] = {"phi", TYPE_non, {0}, 1, 0},
+    [IR_phi] = {"phi", TYPE_non, {0}, 1, IR_PLACED},
     [IR_next] = {"next", TYPE_non, {0}, 2, IR_EFFECT},
-    [IR_join] = {"join", TYPE_non, {0}, 2, 0},
+    [IR_join] = {"join", TYPE_non, {0}, 2, IR_PLACED},
     [IR_permute] = {"permute", TYPE_flt, {TYPE_flt}, 1, IR_SHIFTS},
 };
 

@@ -75,7 +75,8 @@ enum ir_property {
     IR_READS = 4,    /* reads memory */
     IR_SHIFTS = 8,   /* takes the staged immediate k */
     IR_OPENS = 16,   /* begins a region */
-    IR_CLOSES = 32   /* ends one */
+    IR_CLOSES = 32,  /* ends one */
+    IR_PLACED = 64   /* depends on where it stands, not on its operands alone */
 };
 
 struct ir_op_information {

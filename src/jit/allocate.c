@@ -117,11 +117,12 @@ static void chain_uses(const struct ir *ir, struct allocation *a)
     memset(a->next_use, 0, ir->count * sizeof a->next_use[0]);
     memset(a->last, 0, ir->count * sizeof a->last[0]);
     memset(a->uses, 0, ir->count * sizeof a->uses[0]);
-    unsigned loop = 0;
+    unsigned loop = 0, loops = ir->loops;
     for (uint32_t number = ir->count - 1; number > 0; number--) {
         const struct ir_instruction *i = &ir->instruction[number];
         uint16_t after[3];
-        loop = follow_loop_back(a, i, number, loop);
+        if (loops)
+            loop = follow_loop_back(a, i, number, loop);
         for (int o = 0; o < 3; o++)
             after[o] = a->next_use[allocate_web(a, i->operand[o])];
         for (int o = 0; o < 3; o++) {
@@ -132,7 +133,7 @@ static void chain_uses(const struct ir *ir, struct allocation *a)
             a->next_use[value] = (uint16_t)number;
             a->uses[value]++;
             if (!a->last[value])
-                a->last[value] = end_of_life(a, value, number, loop);
+                a->last[value] = loop ? end_of_life(a, value, number, loop) : (uint16_t)number;
         }
     }
 }
@@ -266,10 +267,10 @@ static void place(struct scan *scan, uint32_t number, unsigned preferred)
 static void cross_loop(struct scan *scan, const struct ir_instruction *i, uint32_t number)
 {
     const struct allocation *a = scan->allocation;
-    if (i->op == IR_loop)
+    if (i->op == IR_loop) {
         scan->loop = a->loop_at[number];
-    if (i->op != IR_again)
         return;
+    }
     scan->loop = a->loop[scan->loop].outer;
     for (unsigned reg = 0; reg < scan->registers; reg++)
         if (a->last[scan->holder[reg]] == number)
@@ -293,7 +294,8 @@ static void scan_instruction(struct scan *scan, uint32_t number)
         place(scan, number, preferred);
     if (keeps_operands(i))
         release(scan, number);
-    cross_loop(scan, i, number);
+    if (i->op == IR_loop || i->op == IR_again)
+        cross_loop(scan, i, number);
 }
 
 /* The slots whose value was used last at `position` are free from now on. */

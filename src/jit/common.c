@@ -27,9 +27,7 @@ static void enter_or_leave(struct scope *scope, const struct ir_instruction *i, 
 static int may_share(const struct ir_instruction *i)
 {
     unsigned properties = ir_op_information[i->op].properties;
-    if (i->op == IR_nop || i->op == IR_copy || properties & IR_EFFECT)
-        return 0;
-    if (i->op == IR_get || i->op == IR_phi || i->op == IR_join)
+    if (i->op == IR_nop || i->op == IR_copy || properties & (IR_EFFECT | IR_PLACED))
         return 0;
     return !(properties & IR_READS) || ir_is_invariant_read(i);
 }

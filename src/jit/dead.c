@@ -15,6 +15,7 @@ struct sweep {
     struct ir *ir;
     uint8_t *live;     /* values, and the `again` of each loop that is kept */
     uint8_t *read;     /* variables */
+    uint16_t *fed;     /* phis whose next value was seen to be live */
     uint16_t *closing; /* stack of open regions' ends, seen from behind */
     uint16_t *kept;    /* per level: whether something live was seen since */
     unsigned depth;
@@ -24,12 +25,10 @@ struct sweep {
     unsigned found; /* marks that what was passed already has not seen */
 };
 
-enum { LIVE = 1, FED = 2 /* a phi whose next value was seen to be live */ };
-
-static void mark_operands(struct sweep *s, const struct ir_instruction *i)
+static void mark_operands(uint8_t *live, const struct ir_instruction *i)
 {
     for (int o = 0; o < 3; o++)
-        s->live[i->operand[o]] |= LIVE;
+        live[i->operand[o]] = 1;
 }
 
 static void enter(struct sweep *s, uint32_t number)
@@ -38,7 +37,7 @@ static void enter(struct sweep *s, uint32_t number)
     s->kept[s->depth] = s->live[number] || s->joined;
     s->joined = 0;
     if (s->live[number])
-        mark_operands(s, &s->ir->instruction[number]);
+        mark_operands(s->live, &s->ir->instruction[number]);
 }
 
 static void remove_instruction(struct sweep *s, uint32_t number)
@@ -60,6 +59,7 @@ static int leave(struct sweep *s, const struct ir_instruction *i)
     return (int)keep;
 }
 
+/* Of what is not an ordinary value. */
 static int is_live(struct sweep *s, uint32_t number)
 {
     const struct ir_instruction *i = &s->ir->instruction[number];
@@ -73,11 +73,8 @@ static int is_live(struct sweep *s, uint32_t number)
         if (s->live[number] && !s->read[i->k])
             s->found += s->read[i->k] = 1;
         break;
-    case IR_next:
-        if (s->live[i->operand[0]])
-            s->live[i->operand[0]] |= FED;
-        return s->live[i->operand[0]];
-    case IR_phi: s->found += s->live[number] == LIVE; break;
+    case IR_next: s->fed[i->operand[0]] = s->live[i->operand[0]]; return s->live[i->operand[0]];
+    case IR_phi: s->found += s->live[number] != s->fed[number]; break;
     case IR_join: s->joined |= s->live[number]; break;
     }
     return s->live[number];
@@ -87,14 +84,15 @@ static void sweep(struct sweep *s)
 {
     s->found = s->depth = s->joined = 0;
     s->kept[0] = 0;
+    uint8_t *live = s->live;
     for (uint32_t number = s->ir->count - 1; number > 0; number--) {
         const struct ir_instruction *i = &s->ir->instruction[number];
         if (i->op == IR_nop)
             continue;
         if (ir_op_information[i->op].properties & IR_CLOSES)
             enter(s, number);
-        else if (is_live(s, number)) {
-            mark_operands(s, i);
+        else if (i->op < IR_store ? live[number] : is_live(s, number)) {
+            mark_operands(live, i);
             s->kept[s->depth] = 1;
         } else
             remove_instruction(s, number);
@@ -103,10 +101,16 @@ static void sweep(struct sweep *s)
 
 unsigned pass_dead(struct ir *ir, struct pass_memory *memory)
 {
-    struct sweep s = {
-        .ir = ir, .live = memory->flag, .read = memory->read, .closing = memory->table, .kept = memory->map};
+    struct sweep s = {.ir = ir,
+                      .live = memory->flag,
+                      .read = memory->read,
+                      .fed = memory->region,
+                      .closing = memory->table,
+                      .kept = memory->map};
     memset(s.live, 0, ir->count);
     memset(s.read, 0, ir->variables);
+    if (ir->phis)
+        memset(s.fed, 0, ir->count * sizeof s.fed[0]);
     if (ir->loops)
         do
             sweep(&s);

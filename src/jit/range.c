@@ -174,14 +174,28 @@ struct range range_of_operand(const struct ir *ir, const struct pass_memory *mem
     return memory->range[value];
 }
 
+/* Of what is no operation of the table. */
+static struct range other_range(const struct ir *ir, const struct pass_memory *memory,
+                                const struct ir_instruction *i)
+{
+    switch (i->op) {
+    case IR_literal: return literal_range(i);
+    case IR_join:
+        return union_range(range_as(ir, memory, i->operand[0], i->type),
+                           range_as(ir, memory, i->operand[1], i->type));
+    default: return anything;
+    }
+}
+
 static struct range value_range(const struct ir *ir, const struct pass_memory *memory,
                                 const struct ir_instruction *i)
 {
+    if (i->op >= IR_copy)
+        return other_range(ir, memory, i);
     struct range a = range_of_operand(ir, memory, i, 0);
     struct range b = range_of_operand(ir, memory, i, 1);
     struct range c = range_of_operand(ir, memory, i, 2);
     switch (i->op) {
-    case IR_literal: return literal_range(i);
     case IR_add_f: return add_range(a, b);
     case IR_sub_f: return add_range(a, negate_range(b));
     case IR_mul_f: return multiply_range(a, b);
@@ -200,18 +214,8 @@ static struct range value_range(const struct ir *ir, const struct pass_memory *m
     case IR_shr_i: return shift_right_range(a, i->k, 0);
     case IR_min_i: return a.nan || b.nan ? anything : minimum_range(a, b);
     case IR_max_i: return a.nan || b.nan ? anything : maximum_range(a, b);
-    case IR_join:
-        return union_range(range_as(ir, memory, i->operand[0], i->type),
-                           range_as(ir, memory, i->operand[1], i->type));
     default: return anything;
     }
-}
-
-static void analyse(const struct ir *ir, struct pass_memory *memory)
-{
-    memory->range[0] = anything;
-    for (uint32_t number = 1; number < ir->count; number++)
-        memory->range[number] = value_range(ir, memory, &ir->instruction[number]);
 }
 
 static int contains(struct range outer, struct range inner)
@@ -241,9 +245,25 @@ static int extend_phi(struct range *phi, struct range value, unsigned round)
     return 1;
 }
 
+/* The range of a phi's first or next value, which the phi's includes from now on. */
+static int analyse_phi(const struct ir *ir, struct pass_memory *memory, uint32_t number, unsigned round)
+{
+    const struct ir_instruction *i = &ir->instruction[number];
+    if (i->op == IR_next) {
+        unsigned phi = i->operand[0];
+        return extend_phi(&memory->range[phi], range_as(ir, memory, i->operand[1], ir->instruction[phi].type),
+                          round);
+    }
+    struct range start = range_as(ir, memory, i->operand[0], i->type);
+    if (round)
+        return extend_phi(&memory->range[number], start, round);
+    memory->range[number] = start;
+    return 0;
+}
+
 /* Each phi begins as its first value; what is then found to come around the loop is added until nothing is. Each
  * round holds for phis within the ranges that it begins with: what the last one finds holds for all. */
-static void analyse_loops(const struct ir *ir, struct pass_memory *memory)
+void range_analyse(const struct ir *ir, struct pass_memory *memory)
 {
     int extended = 1;
     memory->range[0] = anything;
@@ -251,27 +271,10 @@ static void analyse_loops(const struct ir *ir, struct pass_memory *memory)
         extended = 0;
         for (uint32_t number = 1; number < ir->count; number++) {
             const struct ir_instruction *i = &ir->instruction[number];
-            struct range *range = &memory->range[number];
-            if (i->op == IR_phi) {
-                struct range start = range_as(ir, memory, i->operand[0], i->type);
-                if (!round)
-                    *range = start;
-                else
-                    extended |= extend_phi(range, start, round);
-            } else if (i->op == IR_next) {
-                unsigned phi = i->operand[0];
-                extended |= extend_phi(&memory->range[phi],
-                                       range_as(ir, memory, i->operand[1], ir->instruction[phi].type), round);
-            } else
-                *range = value_range(ir, memory, i);
+            if (i->op == IR_phi || i->op == IR_next)
+                extended |= analyse_phi(ir, memory, number, round);
+            else
+                memory->range[number] = value_range(ir, memory, i);
         }
     }
-}
-
-void range_analyse(const struct ir *ir, struct pass_memory *memory)
-{
-    if (ir->phis)
-        analyse_loops(ir, memory);
-    else
-        analyse(ir, memory);
 }

@@ -238,6 +238,8 @@ unsigned pass_reduce(struct ir *ir, struct pass_memory *memory)
     struct view view = {.ir = ir};
     for (uint32_t number = 1; number < ir->count; number++) {
         struct ir_instruction *i = &ir->instruction[number];
+        if (i->op == IR_nop || i->op >= IR_copy)
+            continue;
         for (int o = 0; o < 3; o++)
             view.operand[o] = range_of_operand(ir, memory, i, o);
         changes += (unsigned)reduce(&view, i);
