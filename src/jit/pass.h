@@ -28,7 +28,7 @@ struct range {
 
 enum { PASS_TABLE = 2 * (IR_CAPACITY + 1) }; /* a power of two */
 
-enum { PHI_CHANGES = 2 * IR_CAPACITY, PHI_LOOPS = IR_CAPACITY / 2 + 1 };
+enum { PHI_CHANGES = 2 * IR_CAPACITY, PASS_LOOPS = IR_CAPACITY / 2 + 1 };
 
 /* A variable that an open region has changed, and the value it held before; the phi, if that was the change. */
 struct phi_change {
@@ -39,16 +39,27 @@ struct phi_region {
     uint32_t changes; /* there were when it began */
 };
 
-/* Of the construction of phis (phi.c): the new program, and what the walk over the old one remembers. */
+/* Of the construction of phis (phi.c): what the walk over the program remembers. */
 struct phi_memory {
-    uint64_t sets[PHI_LOOPS][VARIABLES / 64]; /* a bit for each variable that a loop sets */
-    uint16_t outer[PHI_LOOPS];                /* the loop around a loop, 0: none */
-    uint16_t held[VARIABLES];                 /* by each variable now, 0: nothing */
+    uint64_t sets[PASS_LOOPS][VARIABLES / 64]; /* a bit for each variable that a loop sets */
+    uint16_t outer[PASS_LOOPS];                /* the loop around a loop, 0: none */
+    uint16_t held[VARIABLES];                  /* by each variable now, 0: nothing */
     uint8_t type[VARIABLES];
     uint8_t seen[VARIABLES];
     struct phi_region region[IR_CAPACITY];
     struct phi_change change[PHI_CHANGES];
-    struct ir_instruction instruction[IR_CAPACITY];
+};
+
+/* Of loop-invariant motion (invariant.c), by instruction and by loop. */
+struct invariant_memory {
+    uint16_t home[IR_CAPACITY];      /* the innermost loop that a value changes with */
+    uint16_t following[IR_CAPACITY]; /* what is moved to the same place after it, 0: nothing */
+    uint16_t around[IR_CAPACITY];    /* the `when` around a `when` */
+    uint8_t moves[IR_CAPACITY];
+    uint16_t outer[PASS_LOOPS]; /* the loop around a loop */
+    uint16_t first[PASS_LOOPS]; /* and last of what is moved before it, 0: none */
+    uint16_t last[PASS_LOOPS];
+    uint8_t open[PASS_LOOPS];
 };
 
 /* Scratch memory of the passes, one per build. */
@@ -59,12 +70,14 @@ struct pass_memory {
     uint8_t flag[IR_CAPACITY];
     uint8_t read[VARIABLES];
     struct phi_memory phi;
+    struct invariant_memory invariant;
+    struct ir_instruction rebuilt[IR_CAPACITY]; /* of the passes that add or move */
     uint16_t table[PASS_TABLE];
 };
 
 typedef unsigned pass_function(struct ir *ir, struct pass_memory *memory);
 
-pass_function pass_phi, pass_copy, pass_fold, pass_reduce, pass_common, pass_dead, pass_hoist;
+pass_function pass_phi, pass_copy, pass_fold, pass_reduce, pass_common, pass_dead, pass_invariant, pass_hoist;
 
 /* Fills memory->range for every value (range.c). Rounds as the contract does: run under its MXCSR. */
 void range_analyse(const struct ir *ir, struct pass_memory *memory);

@@ -15,6 +15,7 @@
 struct construction {
     const struct ir *ir;
     struct phi_memory *memory;
+    struct ir_instruction *to;
     uint16_t *map; /* old number to new */
     uint32_t count, changes, loops, regions, phis;
     int full;
@@ -26,7 +27,7 @@ static uint16_t append(struct construction *c, struct ir_instruction instruction
         c->full = 1;
         return 0;
     }
-    c->memory->instruction[c->count] = instruction;
+    c->to[c->count] = instruction;
     return (uint16_t)c->count++;
 }
 
@@ -186,17 +187,18 @@ static void construct_instruction(struct construction *c, uint32_t number)
 
 static unsigned construct(struct ir *ir, struct pass_memory *memory)
 {
-    struct construction c = {.ir = ir, .memory = &memory->phi, .map = memory->map, .count = 1};
+    struct construction c = {
+        .ir = ir, .memory = &memory->phi, .to = memory->rebuilt, .map = memory->map, .count = 1};
     find_sets(ir, c.memory);
     memset(c.memory->held, 0, sizeof c.memory->held);
     memset(c.memory->seen, 0, sizeof c.memory->seen);
-    memset(c.memory->instruction, 0, sizeof c.memory->instruction[0]);
+    c.to[0] = ir->instruction[0];
     c.map[0] = 0;
     for (uint32_t number = 1; number < ir->count && !c.full; number++)
         construct_instruction(&c, number);
     if (c.full)
         return 0;
-    memcpy(ir->instruction, c.memory->instruction, c.count * sizeof ir->instruction[0]);
+    memcpy(ir->instruction, c.to, c.count * sizeof ir->instruction[0]);
     ir->count = c.count;
     ir->phis = c.phis;
     ir->variables = 0;

@@ -11,7 +11,7 @@
 #include <stdio.h>
 #include <string.h>
 
-enum { PROGRAMS = 1000 };
+enum { PROGRAMS = 700 };
 
 static struct code_arena *arena;
 static struct builder *builder;
