@@ -57,6 +57,30 @@ static void store(uint16_t value)
     ir_append(&builder->ir, (struct ir_instruction){.op = IR_store, .base = BASE_OUTPUT, .operand = {value}});
 }
 
+static void effect(enum ir_op op, uint16_t a)
+{
+    ir_append(&builder->ir, (struct ir_instruction){.op = (uint8_t)op, .operand = {a}});
+}
+
+static void set(int variable, uint16_t value)
+{
+    ir_append(&builder->ir,
+              (struct ir_instruction){.op = IR_set, .type = TYPE_itg, .operand = {value}, .k = variable});
+}
+
+static uint16_t get(int variable)
+{
+    return ir_append(&builder->ir, (struct ir_instruction){.op = IR_get, .type = TYPE_itg, .k = variable});
+}
+
+/* Ends a loop that variable `counter` counts down. */
+static void again(int counter)
+{
+    uint16_t less = binary(IR_sub_i, get(counter), literal(1));
+    set(counter, less);
+    effect(IR_again, binary(IR_gt_i, less, literal(0)));
+}
+
 static int compile_and_run(void)
 {
     uint64_t seed = 1;
@@ -71,6 +95,24 @@ static int compile_and_run(void)
 static void expect_equal(void)
 {
     TEST_ASSERT_EQUAL_MESSAGE(0, compile_and_run(), error.text);
+    TEST_ASSERT_EQUAL(-1, program_difference(&expected, &got));
+}
+
+/* The same after all passes. */
+static void expect_equal_optimized(void)
+{
+    uint64_t seed = 1;
+    TEST_ASSERT_FALSE(builder->ir.overflow);
+    TEST_ASSERT_NULL(ir_verify(&builder->ir));
+    program_fill(&expected, &seed);
+    got = expected;
+    program_interpret(&builder->ir, &expected, 8);
+    unsigned saved = mxcsr_enter();
+    optimize(&builder->ir, &builder->pass, PROFILE_FULL, 0, NULL, NULL);
+    mxcsr_leave(saved);
+    TEST_ASSERT_NULL(ir_verify(&builder->ir));
+    int result = program_compile_and_run(builder, arena, 8, ALLOCATABLE, &got, &error);
+    TEST_ASSERT_EQUAL_MESSAGE(0, result, error.text);
     TEST_ASSERT_EQUAL(-1, program_difference(&expected, &got));
 }
 
@@ -195,6 +237,69 @@ static void test_too_many_regions_are_refused(void)
     expect_refusal("regions");
 }
 
+/* In each pass of a loop every variable takes the place of the next: five passes. */
+static void rotate_variables(void)
+{
+    enum { COUNTER = VARIABLES - 1 };
+    static uint16_t value[VARIABLES];
+    uint16_t step = literal(0x9e3779b9), sum = load(0);
+    for (int v = 0; v < COUNTER; v++)
+        set(v, sum = binary(IR_add_i, sum, step));
+    set(COUNTER, literal(5));
+    effect(IR_loop, 0);
+    for (int v = 0; v < COUNTER; v++)
+        value[v] = get(v);
+    for (int v = 0; v < COUNTER; v++)
+        set(v, value[(v + 1) % COUNTER]);
+    again(COUNTER);
+    for (int v = 0; v < COUNTER; v++)
+        sum = binary(v % 2 ? IR_xor_i : IR_add_i, sum, get(v));
+    store(sum);
+}
+
+static void test_as_many_variables_as_there_are_change_places(void)
+{
+    rotate_variables();
+    expect_equal();
+    ir_start(&builder->ir);
+    rotate_variables();
+    expect_equal_optimized();
+}
+
+static void test_deep_loops(void)
+{
+    uint16_t never = binary(IR_gt_i, literal(0), literal(0));
+    set(0, load(0));
+    for (int i = 0; i < REGION_DEPTH; i++)
+        effect(IR_loop, 0);
+    set(0, binary(IR_add_i, get(0), load(1)));
+    for (int i = 0; i < REGION_DEPTH; i++)
+        effect(IR_again, never);
+    store(get(0));
+    expect_equal_optimized();
+}
+
+/* As long as a recording can be: loops, regions and sets all the way. */
+static void test_the_longest_recording_of_loops(void)
+{
+    uint16_t mask = binary(IR_gt_i, load(0), load(1));
+    for (int v = 0; v < 64; v++)
+        set(v, load(v % PROGRAM_ARRAYS));
+    for (int n = 0; builder->ir.count + 40 < IR_CAPACITY; n++) {
+        set(64, literal(2));
+        effect(IR_loop, 0);
+        for (int inner = 0; inner < 2; inner++) {
+            effect(IR_when, mask);
+            set((n + inner) % 64, binary(IR_add_i, get(n % 64), get((n + 7) % 64)));
+            effect(IR_end, 0);
+        }
+        again(64);
+    }
+    for (int v = 0; v < 8; v++)
+        store(get(v));
+    expect_equal_optimized();
+}
+
 static void test_recording_beyond_the_room_is_noticed(void)
 {
     while (builder->ir.count < IR_CAPACITY)
@@ -217,6 +322,9 @@ int main(void)
     RUN_TEST(test_deep_regions);
     RUN_TEST(test_regions_too_deep_are_refused);
     RUN_TEST(test_too_many_regions_are_refused);
+    RUN_TEST(test_as_many_variables_as_there_are_change_places);
+    RUN_TEST(test_deep_loops);
+    RUN_TEST(test_the_longest_recording_of_loops);
     RUN_TEST(test_recording_beyond_the_room_is_noticed);
     return UNITY_END();
 }

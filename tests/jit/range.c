@@ -8,6 +8,7 @@
 #include "tests/support/program.h"
 #include "unity.h"
 
+#include <math.h>
 #include <stdio.h>
 #include <string.h>
 
@@ -114,6 +115,66 @@ static void make_program(void)
             make_literal(below(3) ? TYPE_flt : TYPE_itg);
 }
 
+static uint16_t append(enum ir_op op, enum ir_type type, uint16_t a, uint16_t b, int32_t k)
+{
+    return ir_append(
+        &ir, (struct ir_instruction){.op = (uint8_t)op, .type = (uint8_t)type, .operand = {a, b}, .k = k});
+}
+
+enum { LOOP_VARIABLES = 6, COUNTER = LOOP_VARIABLES };
+
+static enum ir_type variable_type(int variable)
+{
+    return variable % 3 ? TYPE_flt : TYPE_itg;
+}
+
+/* Some variables become something of what was made last. */
+static void make_sets(unsigned chance)
+{
+    for (int variable = 0; variable < LOOP_VARIABLES; variable++)
+        if (!below(chance))
+            append(IR_set, variable_type(variable), pick(variable_type(variable)), 0, variable);
+}
+
+static void make_gets(void)
+{
+    for (int variable = 0; variable < LOOP_VARIABLES; variable++)
+        make((struct ir_instruction){.op = IR_get, .type = (uint8_t)variable_type(variable), .k = variable});
+}
+
+static void make_some(unsigned limit)
+{
+    for (unsigned length = 1 + below(limit); length; length--)
+        make_operation();
+}
+
+/* A program, then a loop of three passes over variables, some of them set in a region: as phis and joins. */
+static void make_loop_program(void)
+{
+    unsigned outside[TYPE_msk + 1];
+    make_program();
+    make_sets(1);
+    append(IR_set, TYPE_itg, append(IR_literal, TYPE_itg, 0, 0, 3), 0, COUNTER);
+    append(IR_loop, TYPE_non, 0, 0, 0);
+    make_gets();
+    make_some(6);
+    memcpy(outside, count, sizeof outside);
+    append(IR_when, TYPE_non, pick(TYPE_msk), 0, 0);
+    make_some(4);
+    make_sets(2);
+    append(IR_end, TYPE_non, 0, 0, 0);
+    memcpy(count, outside, sizeof outside);
+    make_some(4);
+    make_sets(3);
+    uint16_t less = append(IR_sub_i, TYPE_itg, append(IR_get, TYPE_itg, 0, 0, COUNTER),
+                           append(IR_literal, TYPE_itg, 0, 0, 1), 0);
+    append(IR_set, TYPE_itg, less, 0, COUNTER);
+    append(IR_again, TYPE_non, append(IR_gt_i, TYPE_msk, less, append(IR_literal, TYPE_itg, 0, 0, 0), 0), 0,
+           0);
+    make_gets();
+    make_some(4);
+}
+
 /* What the range denies of a float with these bits; null when it allows them. */
 static const char *denied_float(const struct range *r, uint32_t bits)
 {
@@ -166,6 +227,31 @@ static void test_values_lie_in_their_ranges(void)
     }
 }
 
+static void test_values_of_loops_lie_in_their_ranges(void)
+{
+    unsigned phis = 0, bounded = 0;
+    for (int program = 1; program <= PROGRAMS / 4; program++) {
+        seed = (uint64_t)program * 0x9e3779b97f4a7c15ull | 1;
+        make_loop_program();
+        program_fill(&data, &seed);
+        pass_phi(&ir, &memory);
+        pass_copy(&ir, &memory);
+        TEST_ASSERT_NULL(ir_verify(&ir));
+        unsigned saved = mxcsr_enter();
+        range_analyse(&ir, &memory);
+        mxcsr_leave(saved);
+        program_observe(&ir, &data, 8, check_value, &program);
+        if (wrong[0])
+            TEST_FAIL_MESSAGE(wrong);
+        for (uint32_t n = 1; n < ir.count; n++)
+            if (ir.instruction[n].op == IR_phi) {
+                phis++;
+                bounded += memory.range[n].low > -INFINITY || memory.range[n].high < INFINITY;
+            }
+    }
+    TEST_ASSERT_GREATER_THAN(phis / 8, bounded);
+}
+
 static void test_reductions_keep_every_bit(void)
 {
     static struct program_data reduced;
@@ -189,6 +275,7 @@ int main(void)
 {
     UNITY_BEGIN();
     RUN_TEST(test_values_lie_in_their_ranges);
+    RUN_TEST(test_values_of_loops_lie_in_their_ranges);
     RUN_TEST(test_reductions_keep_every_bit);
     return UNITY_END();
 }
