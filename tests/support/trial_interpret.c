@@ -11,6 +11,8 @@
 
 static struct builder *builder; /* kept: it goes with the process */
 static uint32_t value[IR_CAPACITY], variable[VARIABLES];
+static uint32_t next[IR_CAPACITY]; /* of each phi */
+static uint8_t ran[IR_CAPACITY];   /* of each `end`: whether its region ran the last time */
 static const uint8_t *base[BASE_COUNT];
 static unsigned recorded;
 static int optimized;
@@ -80,6 +82,30 @@ static uint32_t word_at(const uint8_t *address)
     return word;
 }
 
+/* Behind a region that ran, or was skipped. */
+static uint32_t skip(const struct ir *ir, uint32_t when, int runs)
+{
+    uint32_t end = region_end(ir, when);
+    ran[end] = (uint8_t)runs;
+    return runs ? when + 1 : end + 1;
+}
+
+/* The loop's next pass: its phis become their next values at once. */
+static uint32_t repeat(const struct ir *ir, uint32_t again)
+{
+    for (uint32_t n = again - 1; ir->instruction[n].op == IR_next || ir->instruction[n].op == IR_nop; n--)
+        value[ir->instruction[n].operand[0]] = next[ir->instruction[n].operand[0]];
+    return region_start(ir, again) + 1;
+}
+
+static uint32_t join(const struct ir *ir, uint32_t number)
+{
+    uint32_t end = number;
+    while (ir->instruction[end].op != IR_end)
+        end--;
+    return value[ir->instruction[number].operand[ran[end]]];
+}
+
 /* One instruction in one lane; the number of the next one. */
 static uint32_t interpret(const struct ir *ir, uint32_t number, unsigned lane)
 {
@@ -102,8 +128,11 @@ static uint32_t interpret(const struct ir *ir, uint32_t number, unsigned lane)
     case IR_store: memcpy((uint8_t *)(uintptr_t)at + 4 * lane, &a, sizeof a); break;
     case IR_set: variable[i->k] = a; break;
     case IR_get: *to = variable[i->k]; break;
-    case IR_when: return a ? number + 1 : region_end(ir, number) + 1;
-    case IR_again: return a ? region_start(ir, number) + 1 : number + 1;
+    case IR_phi: *to = a; break;
+    case IR_next: next[i->operand[0]] = value[i->operand[1]]; break;
+    case IR_join: *to = join(ir, number); break;
+    case IR_when: return skip(ir, number, a != 0);
+    case IR_again: return a ? repeat(ir, number) : number + 1;
     default: *to = ir_evaluate(i->op, a, value[i->operand[1]], value[i->operand[2]], i->k);
     }
     return number + 1;
