@@ -261,7 +261,7 @@ int parse_stage(struct parser *parser, struct call *call)
     return parse_table(parser, TRIPTYCH_STAGE_STATES, call);
 }
 
-static int parse_operation(struct parser *parser, double made[4][4])
+int parse_operation(struct parser *parser, double made[4][4])
 {
     struct lexer *lex = &parser->lex;
     const struct transform_operation *operation;
@@ -284,8 +284,7 @@ static int parse_operation(struct parser *parser, double made[4][4])
     return 0;
 }
 
-static int round_matrix(struct parser *parser, const struct token *place, double matrix[4][4],
-                        float out[4][4])
+int parse_round(struct parser *parser, const struct token *place, double matrix[4][4], float out[4][4])
 {
     for (int i = 0; i < 4; i++)
         for (int j = 0; j < 4; j++) {
@@ -332,19 +331,26 @@ static int parse_operations(struct parser *parser, double matrix[4][4])
     return 0;
 }
 
+int parse_transform_name(struct parser *parser, enum triptych_transform *which)
+{
+    unsigned word;
+    uint32_t number = 0;
+    if (parse_word(parser, WORDS_TRANSFORM, "a transform", &word) ||
+        parse_transform_number(parser, word, &number))
+        return -1;
+    *which = (enum triptych_transform)(word + number);
+    return 0;
+}
+
 int parse_transform(struct parser *parser, struct call *call)
 {
     double matrix[4][4];
-    unsigned which;
-    uint32_t number = 0;
-    if (parse_word(parser, WORDS_TRANSFORM, "a transform", &which) ||
-        parse_transform_number(parser, which, &number))
+    if (parse_transform_name(parser, &call->transform.which))
         return -1;
     struct token place = parser->lex.token;
     if (parse_operations(parser, matrix))
         return -1;
-    call->transform.which = (enum triptych_transform)(which + number);
-    return round_matrix(parser, &place, matrix, call->transform.matrix);
+    return parse_round(parser, &place, matrix, call->transform.matrix);
 }
 
 /* As many transforms as the mesh has bones; the last is left in `call`. */
@@ -355,7 +361,7 @@ static int add_pose(struct parser *parser, const struct skeleton *skeleton, doub
         transform_multiply(matrices[b], world, matrices[b]);
         call->transform.which =
             (enum triptych_transform)(b ? TRIPTYCH_TRANSFORM_WORLD1 + b - 1 : TRIPTYCH_TRANSFORM_WORLD);
-        if (round_matrix(parser, place, matrices[b], call->transform.matrix) ||
+        if (parse_round(parser, place, matrices[b], call->transform.matrix) ||
             (b + 1 < skeleton->bone_count && parse_add_call(parser, call, place)))
             return -1;
     }
@@ -470,11 +476,11 @@ enum {
     ELEMENTS = 1 << RESOURCE_VERTICES | 1 << RESOURCE_BUFFER | MESHES
 };
 
-static int parse_name_or_none(struct parser *parser, unsigned types, const char *what, struct call *call)
+int parse_name_or_none(struct parser *parser, unsigned types, const char *what, uint32_t *resource)
 {
     if (lex_is(&parser->lex, "none"))
         return lex_next(&parser->lex);
-    return parse_name(parser, types, what, &call->resource);
+    return parse_name(parser, types, what, resource);
 }
 
 /* The first sampler's number may be left out. */
@@ -486,7 +492,7 @@ static int bind_texture(struct parser *parser, struct call *call)
         lex_integer(lex, "sampler", 0, TRIPTYCH_SAMPLERS - 1, &sampler))
         return -1;
     call->sampler = (uint32_t)sampler;
-    return parse_name_or_none(parser, TEXTURES, "a texture, or none,", call);
+    return parse_name_or_none(parser, TEXTURES, "a texture, or none,", &call->resource);
 }
 
 static int bind_vertices(struct parser *parser, struct call *call)
@@ -497,7 +503,8 @@ static int bind_vertices(struct parser *parser, struct call *call)
 static int bind_indices(struct parser *parser, struct call *call)
 {
     struct token place = parser->lex.token;
-    if (parse_name_or_none(parser, INDICES, "indices, a mesh, a buffer of u16 or u32, or none,", call))
+    if (parse_name_or_none(parser, INDICES, "indices, a mesh, a buffer of u16 or u32, or none,",
+                           &call->resource))
         return -1;
     if (call->resource != NO_RESOURCE && !parser->stream->resources[call->resource].indices)
         return lex_fail(&parser->lex, &place, "found a buffer of other values, expected one of u16 or u32");
@@ -522,7 +529,7 @@ static int parse_place(struct parser *parser, uint32_t *offset, uint32_t *stride
 static int bind_stream(struct parser *parser, struct call *call)
 {
     if (parse_integer(parser, "stream", TRIPTYCH_STREAMS - 1, &call->bind_stream.number) ||
-        parse_name_or_none(parser, ELEMENTS, "a buffer, vertices or a mesh, or none,", call))
+        parse_name_or_none(parser, ELEMENTS, "a buffer, vertices or a mesh, or none,", &call->resource))
         return -1;
     if (call->resource == NO_RESOURCE)
         return 0;

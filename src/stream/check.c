@@ -236,7 +236,9 @@ static int check_draw(struct follower *follower, const struct call *call, struct
 {
     uint64_t first = call->draw.first, count = call->draw.count;
     int indexed = call->type == CALL_DRAW_INDEXED;
-    if (!follower->state.element[TRIPTYCH_POSITION].format &&
+    if (state_check_integers(&follower->state, error))
+        return -1;
+    if (!follower->state.program[STAGE_VERTEX] && !follower->state.element[TRIPTYCH_POSITION].format &&
         !follower->state.element[TRIPTYCH_POSITIONT].format)
         return error_set(error, "found no position bound, expected bind vertices before it");
     if (indexed && follower->indices == NO_RESOURCE)
@@ -295,6 +297,25 @@ static int check_queries_ended(const struct follower *follower)
     return 0;
 }
 
+/* Floats can be anything. */
+static void set_constants(struct follower *follower, const struct call *call)
+{
+    struct shader_registers *registers = follower->state.registers[call->constants.stage];
+    if (call->constants.type == CONSTANTS_INTEGER)
+        memcpy(registers->integers[call->constants.first], call->constants.integers,
+               call->constants.count * sizeof *registers->integers);
+}
+
+static int check_constant_matrix(const struct follower *follower, const struct call *call,
+                                 struct error *error)
+{
+    float constants[CONSTANTS_PER_CALL][4];
+    if (stream_constants(call, (const float(*)[4][4])follower->state.transform, constants))
+        return error_set(error, "found constants that are not finite, expected transforms%s",
+                         call->constant_matrix.inverse ? " with an inverse" : " with finite values");
+    return 0;
+}
+
 static int follow(struct follower *follower, const struct call *call, struct error *error)
 {
     struct state *state = &follower->state;
@@ -315,8 +336,9 @@ static int follow(struct follower *follower, const struct call *call, struct err
     case CALL_SET:
         return state_set_value(state, call->set.table, call->set.i, call->set.row, call->set.value, error);
     case CALL_CONVENTION:
-    case CALL_CLIP_PLANE:
-    case CALL_TRANSFORM: return 0;
+    case CALL_CLIP_PLANE: return 0;
+    case CALL_TRANSFORM:
+        return state_set_transform(state, call->transform.which, call->transform.matrix, error);
     case CALL_MATERIAL: return state_set_material(state, &call->material, error);
     case CALL_LIGHT: return state_set_light(state, call->light.index, &call->light.value, error);
     case CALL_ENABLE_LIGHT: return 0;
@@ -332,6 +354,12 @@ static int follow(struct follower *follower, const struct call *call, struct err
     case CALL_FREQUENCY:
         return state_set_frequency(state, call->frequency.stream, call->frequency.frequency,
                                    call->frequency.count, error);
+    case CALL_SHADER:
+        state->program[call->shader] =
+            call->resource == NO_RESOURCE ? NULL : follower->stream->resources[call->resource].program;
+        return 0;
+    case CALL_CONSTANTS: set_constants(follower, call); return 0;
+    case CALL_CONSTANT_MATRIX: return check_constant_matrix(follower, call, error);
     case CALL_UPDATE:
     case CALL_MIPS: return 0;
     case CALL_CLEAR:
@@ -381,14 +409,18 @@ int stream_check(struct parser *parser)
     struct follower follower = {.parser = parser, .stream = stream, .indices = NO_RESOURCE};
     follower.stand_ins = calloc(stream->resource_count + 1, sizeof *follower.stand_ins);
     follower.begun = calloc(stream->resource_count + 1, sizeof *follower.begun);
+    struct shader_registers *registers = calloc(SHADER_STAGES, sizeof *registers);
     int result = -1;
-    if (follower.stand_ins && follower.begun) {
+    if (follower.stand_ins && follower.begun && registers) {
         state_initialize(&follower.state);
+        for (int stage = 0; stage < SHADER_STAGES; stage++)
+            follower.state.registers[stage] = &registers[stage];
         result = follow_all(&follower);
     } else {
         lex_fail(&parser->lex, &parser->lex.token, "not enough memory");
     }
     free(follower.stand_ins);
     free(follower.begun);
+    free(registers);
     return result;
 }

@@ -197,6 +197,27 @@ int lex_line_end(struct lexer *lexer)
     return lex_next(lexer);
 }
 
+int lex_lines(struct lexer *lexer, const char **text, size_t *bytes)
+{
+    const char *at = lexer->at, *first;
+    uint32_t line = lexer->line + 1;
+    for (*text = at; at < lexer->end; line++) {
+        for (first = at; first < lexer->end && is_space(*first); first++)
+            ;
+        if (first < lexer->end && *first == '}') {
+            *bytes = (size_t)(at - *text);
+            lexer->token.type = TOKEN_CLOSE;
+            lexer->line = line;
+            lexer->line_start = at;
+            lexer->at = first;
+            return lex_next(lexer);
+        }
+        while (at < lexer->end && *at++ != '\n')
+            ;
+    }
+    return lex_fail(lexer, &lexer->token, "found a block without an end, expected a line that begins with }");
+}
+
 int lex_skip_lines(struct lexer *lexer)
 {
     while (lexer->token.type == TOKEN_LINE_END)

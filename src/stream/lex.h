@@ -58,6 +58,9 @@ int lex_string(struct lexer *lexer, const char *what, char **string);
 /* The end of the line. */
 int lex_line_end(struct lexer *lexer);
 
+/* At the end of a line: the lines behind it, as they are, up to one that begins with }, which is the next token. */
+int lex_lines(struct lexer *lexer, const char **text, size_t *bytes);
+
 /* Empty lines, if any. */
 int lex_skip_lines(struct lexer *lexer);
 

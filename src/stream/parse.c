@@ -4,6 +4,7 @@
 #include "stream/skeleton.h"
 
 #include "base/file.h"
+#include "shader/program.h"
 
 #include <locale.h>
 #include <stdio.h>
@@ -203,6 +204,14 @@ static const struct command {
     {"declare", ANYWHERE, CALL_DECLARE, parse_declare, NULL},
     {"fvf", ANYWHERE, CALL_FVF, parse_fvf, NULL},
     {"frequency", ANYWHERE, CALL_FREQUENCY, parse_frequency, NULL},
+    {"vertexshader", ANYWHERE, CALL_SHADER, parse_vertex_shader, NULL},
+    {"pixelshader", ANYWHERE, CALL_SHADER, parse_pixel_shader, NULL},
+    {"vertexconstant", ANYWHERE, CALL_CONSTANTS, parse_vertex_constants, NULL},
+    {"pixelconstant", ANYWHERE, CALL_CONSTANTS, parse_pixel_constants, NULL},
+    {"vertexinteger", ANYWHERE, CALL_CONSTANTS, parse_vertex_integers, NULL},
+    {"pixelinteger", ANYWHERE, CALL_CONSTANTS, parse_pixel_integers, NULL},
+    {"vertexboolean", ANYWHERE, CALL_CONSTANTS, parse_vertex_booleans, NULL},
+    {"pixelboolean", ANYWHERE, CALL_CONSTANTS, parse_pixel_booleans, NULL},
     {"update", ANYWHERE, CALL_UPDATE, parse_update, NULL},
     {"mips", ANYWHERE, CALL_MIPS, parse_mips, NULL},
     {"attach", ANYWHERE, CALL_ATTACH, parse_attach, NULL},
@@ -220,6 +229,7 @@ static const struct command {
     {"indices", OUTSIDE, 0, NULL, parse_indices},
     {"buffer", OUTSIDE, 0, NULL, parse_buffer},
     {"mesh", OUTSIDE, 0, NULL, parse_mesh},
+    {"shader", OUTSIDE, 0, NULL, parse_shader},
     {"query", OUTSIDE, 0, NULL, parse_query},
     {"end", END, 0, NULL, parse_end},
 };
@@ -323,6 +333,8 @@ void stream_free(struct stream *stream)
         free(resource->vertices);
         free(resource->indices);
         skeleton_free(resource->skeleton);
+        free(resource->code);
+        program_release(resource->program);
     }
     free(stream->path);
     free(stream->resources);

@@ -28,6 +28,16 @@ int parse_new_name(struct parser *parser, enum resource_type type, struct resour
 /* Reads the name of a resource of one of the types (a mask of 1 << type); `what` names them in the reason. */
 int parse_name(struct parser *parser, unsigned types, const char *what, uint32_t *resource);
 
+/* The same, or none: *resource stays as it is. */
+int parse_name_or_none(struct parser *parser, unsigned types, const char *what, uint32_t *resource);
+
+/* The matrix of an operation of transforms; the name of a transform, with its number if it has one. */
+int parse_operation(struct parser *parser, double matrix[4][4]);
+int parse_transform_name(struct parser *parser, enum triptych_transform *which);
+
+/* Numbers that must be finite in binary32. */
+int parse_round(struct parser *parser, const struct token *place, double matrix[4][4], float rounded[4][4]);
+
 /* ATTRIBUTE:FORMAT, as much of the current token as `length` says. */
 int parse_attribute(struct parser *parser, size_t length, enum triptych_attribute *attribute,
                     enum triptych_format *format);
@@ -68,6 +78,14 @@ int parse_bind(struct parser *parser, struct call *call);
 int parse_declare(struct parser *parser, struct call *call);
 int parse_fvf(struct parser *parser, struct call *call);
 int parse_frequency(struct parser *parser, struct call *call);
+int parse_vertex_shader(struct parser *parser, struct call *call);
+int parse_pixel_shader(struct parser *parser, struct call *call);
+int parse_vertex_constants(struct parser *parser, struct call *call);
+int parse_pixel_constants(struct parser *parser, struct call *call);
+int parse_vertex_integers(struct parser *parser, struct call *call);
+int parse_pixel_integers(struct parser *parser, struct call *call);
+int parse_vertex_booleans(struct parser *parser, struct call *call);
+int parse_pixel_booleans(struct parser *parser, struct call *call);
 int parse_update(struct parser *parser, struct call *call);
 int parse_mips(struct parser *parser, struct call *call);
 int parse_attach(struct parser *parser, struct call *call);
@@ -82,6 +100,7 @@ int parse_texture(struct parser *parser);
 int parse_vertices(struct parser *parser);
 int parse_indices(struct parser *parser);
 int parse_buffer(struct parser *parser);
+int parse_shader(struct parser *parser);
 int parse_query(struct parser *parser);
 int parse_mesh(struct parser *parser);
 

@@ -9,12 +9,14 @@
 
 #include <inttypes.h>
 #include <stdlib.h>
+#include <string.h>
 
 enum { NOWHERE = UINT32_MAX };
 
 struct handles {
     triptych_buffer *vertices, *indices;
     triptych_texture *texture;
+    triptych_shader *shader;
     triptych_query *query;
     uint32_t frame; /* that the query ended in last, or NOWHERE */
 };
@@ -25,6 +27,7 @@ struct player {
     struct handles *handles; /* one per resource */
     uint32_t frame;          /* being played, or played last */
     uint32_t next;           /* the frame that the device's state is right for, or NOWHERE */
+    float transform[TRIPTYCH_TRANSFORM_COUNT][4][4]; /* as they are, for constants that are made of them */
 };
 
 /* --- Resources --------------------------------------------------------------------------------------------
@@ -68,6 +71,9 @@ static enum triptych_result create(triptych_device *device, const struct resourc
         result = triptych_buffer_create(device, resource->indices,
                                         (size_t)resource->index_count * resource->index_bits / 8,
                                         &handles->indices);
+    if (!result && resource->code)
+        result = triptych_shader_assemble(device, resource->name, resource->code, resource->code_bytes,
+                                          &handles->shader);
     handles->frame = NOWHERE;
     if (!result && resource->type == RESOURCE_QUERY)
         result = triptych_query_create(device, TRIPTYCH_QUERY_OCCLUSION, &handles->query);
@@ -116,6 +122,40 @@ void player_free(struct player *player)
 
 /* --- Calls ------------------------------------------------------------------------------------------------
  */
+
+static enum triptych_result set_transform(struct player *player, enum triptych_transform which,
+                                          const float matrix[4][4])
+{
+    memcpy(player->transform[which], matrix, sizeof player->transform[which]);
+    return triptych_set_transform(player->device, which, matrix);
+}
+
+static enum triptych_result set_shader(struct player *player, const struct call *call)
+{
+    triptych_shader *shader = call->resource == NO_RESOURCE ? NULL : player->handles[call->resource].shader;
+    return call->shader == TRIPTYCH_SHADER_PIXEL ? triptych_set_pixel_shader(player->device, shader)
+                                                 : triptych_set_vertex_shader(player->device, shader);
+}
+
+static enum triptych_result set_constants(triptych_device *device, const struct call *call)
+{
+    enum triptych_shader_stage stage = call->constants.stage;
+    unsigned first = call->constants.first, count = call->constants.count;
+    if (call->constants.type == CONSTANTS_BOOLEAN)
+        return triptych_set_shader_booleans(device, stage, first, call->constants.booleans, count);
+    if (call->constants.type == CONSTANTS_INTEGER)
+        return triptych_set_shader_integers(device, stage, first, call->constants.integers[0], count);
+    return triptych_set_shader_floats(device, stage, first, call->constants.floats[0], count);
+}
+
+/* That they are finite was checked when the stream was read. */
+static enum triptych_result set_constant_matrix(struct player *player, const struct call *call)
+{
+    float constants[CONSTANTS_PER_CALL][4];
+    stream_constants(call, (const float(*)[4][4])player->transform, constants);
+    return triptych_set_shader_floats(player->device, call->constant_matrix.stage,
+                                      call->constant_matrix.first, constants[0], call->constant_matrix.count);
+}
 
 static triptych_buffer *buffer_of(const struct player *player, uint32_t resource)
 {
@@ -246,7 +286,7 @@ static enum triptych_result execute_state(struct player *player, const struct ca
         return triptych_set_convention(device, call->convention.which, call->convention.value);
     case CALL_CLIP_PLANE:
         return triptych_set_clip_plane(device, call->clip_plane.index, call->clip_plane.plane);
-    case CALL_TRANSFORM: return triptych_set_transform(device, call->transform.which, call->transform.matrix);
+    case CALL_TRANSFORM: return set_transform(player, call->transform.which, call->transform.matrix);
     case CALL_MATERIAL: return triptych_set_material(device, &call->material);
     case CALL_LIGHT: return triptych_set_light(device, call->light.index, &call->light.value);
     case CALL_ENABLE_LIGHT: return triptych_enable_light(device, call->light.index, call->light.on);
@@ -263,6 +303,9 @@ static enum triptych_result execute_state(struct player *player, const struct ca
         return triptych_set_stream_frequency(device, call->frequency.stream, call->frequency.frequency,
                                              call->frequency.count);
     case CALL_DRAW_MESH: return bind_mesh(player, call->resource);
+    case CALL_SHADER: return set_shader(player, call);
+    case CALL_CONSTANTS: return set_constants(device, call);
+    case CALL_CONSTANT_MATRIX: return set_constant_matrix(player, call);
     case CALL_UPDATE: return update_texture(player, call);
     case CALL_MIPS: return triptych_texture_generate_mips(device, player->handles[call->resource].texture);
     case CALL_ATTACH: return attach(player, call);
@@ -416,6 +459,24 @@ static enum triptych_result reset_textures(struct player *player)
     return result;
 }
 
+static enum triptych_result reset_shaders(triptych_device *device)
+{
+    static const float floats[TRIPTYCH_SHADER_FLOATS][4];
+    static const int32_t integers[TRIPTYCH_SHADER_INTEGERS][4];
+    enum triptych_result result = triptych_set_vertex_shader(device, NULL);
+    if (!result)
+        result = triptych_set_pixel_shader(device, NULL);
+    for (int i = 0; i < TRIPTYCH_SHADER_STAGE_COUNT && !result; i++) {
+        enum triptych_shader_stage stage = (enum triptych_shader_stage)i;
+        result = triptych_set_shader_floats(device, stage, 0, floats[0], TRIPTYCH_SHADER_FLOATS);
+        if (!result)
+            result = triptych_set_shader_integers(device, stage, 0, integers[0], TRIPTYCH_SHADER_INTEGERS);
+        if (!result)
+            result = triptych_set_shader_booleans(device, stage, 0, integers[0], TRIPTYCH_SHADER_BOOLEANS);
+    }
+    return result;
+}
+
 static enum triptych_result reset(struct player *player)
 {
     static const float identity[4][4] = {{1, 0, 0, 0}, {0, 1, 0, 0}, {0, 0, 1, 0}, {0, 0, 0, 1}};
@@ -427,11 +488,13 @@ static enum triptych_result reset(struct player *player)
     for (unsigned t = 0; t < TRIPTYCH_STATE_TABLE_COUNT && !result; t++)
         result = reset_table(player->device, (enum triptych_state_table)t);
     for (unsigned i = 0; i < TRIPTYCH_TRANSFORM_COUNT && !result; i++)
-        result = triptych_set_transform(player->device, (enum triptych_transform)i, identity);
+        result = set_transform(player, (enum triptych_transform)i, identity);
     for (unsigned i = 0; i < TRIPTYCH_CLIP_PLANES && !result; i++)
         result = triptych_set_clip_plane(player->device, i, (const float[4]){0});
     for (unsigned i = 0; i < TRIPTYCH_CONVENTION_COUNT && !result; i++)
         result = triptych_set_convention(player->device, (enum triptych_convention)i, 0);
+    if (!result)
+        result = reset_shaders(player->device);
     if (!result)
         result = reset_vertices(player->device);
     for (unsigned i = 0; i < TRIPTYCH_SAMPLERS && !result; i++)

@@ -23,6 +23,7 @@
 #include <stdint.h>
 
 struct player;
+struct program;
 struct skeleton;
 
 enum stream_limit {
@@ -89,6 +90,7 @@ enum resource_type {
     RESOURCE_INDICES,
     RESOURCE_BUFFER,
     RESOURCE_MESH,
+    RESOURCE_SHADER,
     RESOURCE_QUERY,
     RESOURCE_SEQUENCE
 };
@@ -121,6 +123,10 @@ struct resource {
     struct mesh_options options; /* mesh */
     struct skeleton *skeleton;   /* of a mesh with bones */
 
+    char *code; /* shader: its canonical text */
+    size_t code_bytes;
+    const struct program *program; /* what it is */
+
     uint32_t call;     /* sequence: the number of its CALL_SEQUENCE */
     uint32_t depth;    /* sequence: 1 + that of the deepest sequence it plays */
     uint32_t executed; /* sequence: calls and plays that one play of it executes */
@@ -145,6 +151,9 @@ enum call_type {
     CALL_DECLARE,
     CALL_FVF,
     CALL_FREQUENCY,
+    CALL_SHADER,
+    CALL_CONSTANTS,
+    CALL_CONSTANT_MATRIX, /* constants from the transforms as they are then */
     CALL_UPDATE,
     CALL_MIPS,
     CALL_ATTACH,
@@ -159,6 +168,10 @@ enum call_type {
     CALL_PLAY,
     CALL_SEQUENCE /* its `count` calls follow; reaching it executes nothing */
 };
+
+/* Constants of shaders; longer lists become several calls. */
+enum constant_type { CONSTANTS_FLOAT, CONSTANTS_INTEGER, CONSTANTS_BOOLEAN };
+enum { CONSTANTS_PER_CALL = 4, MATRICES_PER_CALL = 4 };
 
 enum { NO_RESOURCE = 65536 }; /* past the last number: LIMIT_NAMES */
 
@@ -233,6 +246,24 @@ struct call {
             enum triptych_frequency frequency;
             uint32_t count;
         } frequency;
+        enum triptych_shader_stage shader; /* CALL_SHADER; no resource: the fixed function */
+        struct {
+            enum triptych_shader_stage stage;
+            enum constant_type type;
+            uint32_t first, count;
+            union {
+                float floats[CONSTANTS_PER_CALL][4];
+                int32_t integers[CONSTANTS_PER_CALL][4];
+                int32_t booleans[TRIPTYCH_SHADER_BOOLEANS];
+            };
+        } constants;
+        struct {
+            enum triptych_shader_stage stage;
+            uint32_t first, count;              /* columns */
+            uint32_t factors;                   /* matrices that are multiplied */
+            uint16_t factor[MATRICES_PER_CALL]; /* transforms as they are then */
+            uint8_t inverse, transposed;
+        } constant_matrix;
         struct {
             uint32_t face, level;
             struct triptych_box box; /* of width 0: the whole level */
@@ -273,6 +304,11 @@ extern const struct triptych_light stream_default_light;
 /* The declaration that a CALL_DECLARE makes; returns how many elements. */
 unsigned stream_declaration(const struct call *call,
                             struct triptych_declaration_element elements[TRIPTYCH_ATTRIBUTE_COUNT]);
+
+/* The constants that a CALL_CONSTANT_MATRIX makes of the transforms, of which there are TRIPTYCH_TRANSFORM_COUNT.
+ * Returns 0, or -1 if a number is not finite, as where there is no inverse. */
+int stream_constants(const struct call *call, const float (*transforms)[4][4],
+                     float constants[CONSTANTS_PER_CALL][4]);
 
 /* The bytes that an attribute can lie in: those of the vertices, or of a buffer of any type. */
 const void *resource_data(const struct resource *resource, size_t *bytes);

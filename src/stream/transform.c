@@ -45,6 +45,60 @@ void transform_multiply(double a[4][4], double b[4][4], double product[4][4])
     memcpy(product, sum, sizeof sum);
 }
 
+static void swap_rows(double a[4], double b[4])
+{
+    for (int j = 0; j < 4; j++) {
+        double other = a[j];
+        a[j] = b[j];
+        b[j] = other;
+    }
+}
+
+/* Column c of `left` becomes that of the identity. */
+static void eliminate(double left[4][4], double right[4][4], int c)
+{
+    double scale = 1 / left[c][c];
+    for (int j = 0; j < 4; j++) {
+        left[c][j] *= scale;
+        right[c][j] *= scale;
+    }
+    for (int i = 0; i < 4; i++) {
+        double factor = i == c ? 0 : left[i][c];
+        for (int j = 0; j < 4; j++) {
+            left[i][j] -= factor * left[c][j];
+            right[i][j] -= factor * right[c][j];
+        }
+    }
+}
+
+/* Gauss and Jordan, with the greatest pivot of each column. */
+void transform_invert(double matrix[4][4])
+{
+    double left[4][4], inverse[4][4];
+    memcpy(left, matrix, sizeof left);
+    set_identity(inverse);
+    for (int c = 0; c < 4; c++) {
+        int pivot = c;
+        for (int i = c + 1; i < 4; i++)
+            if (fabs(left[i][c]) > fabs(left[pivot][c]))
+                pivot = i;
+        swap_rows(left[c], left[pivot]);
+        swap_rows(inverse[c], inverse[pivot]);
+        eliminate(left, inverse, c);
+    }
+    memcpy(matrix, inverse, sizeof inverse);
+}
+
+void transform_transpose(double matrix[4][4])
+{
+    for (int i = 0; i < 4; i++)
+        for (int j = 0; j < i; j++) {
+            double other = matrix[i][j];
+            matrix[i][j] = matrix[j][i];
+            matrix[j][i] = other;
+        }
+}
+
 static const char *identity(const double *a, double m[4][4])
 {
     (void)a;

@@ -22,4 +22,9 @@ const struct transform_operation *transform_operation(size_t i);
 /* product = a * b; may be one of them. */
 void transform_multiply(double a[4][4], double b[4][4], double product[4][4]);
 
+/* Replaces the matrix; without an inverse there are values that are not finite. */
+void transform_invert(double matrix[4][4]);
+
+void transform_transpose(double matrix[4][4]);
+
 #endif

@@ -266,6 +266,21 @@ static void write_mesh(struct writer *writer, const struct resource *resource)
     }
 }
 
+/* Lines of their own, behind four spaces. */
+static void write_shader(struct writer *writer, const struct resource *resource)
+{
+    if (resource->path) {
+        write_path(writer, resource->path);
+        return;
+    }
+    fputs(" {\n", writer->out);
+    for (const char *line = resource->code, *end; *line; line = end + 1) {
+        end = strchr(line, '\n');
+        fprintf(writer->out, "    %.*s\n", (int)(end - line), line);
+    }
+    fputc('}', writer->out);
+}
+
 static void write_resource(struct writer *writer, const struct resource *resource)
 {
     switch (resource->type) {
@@ -288,6 +303,10 @@ static void write_resource(struct writer *writer, const struct resource *resourc
     case RESOURCE_MESH:
         fprintf(writer->out, "mesh %s", resource->name);
         write_mesh(writer, resource);
+        break;
+    case RESOURCE_SHADER:
+        fprintf(writer->out, "shader %s", resource->name);
+        write_shader(writer, resource);
         break;
     case RESOURCE_QUERY: fprintf(writer->out, "query %s", resource->name); break;
     case RESOURCE_SEQUENCE: return;
@@ -337,11 +356,11 @@ static void write_set(struct writer *writer, const struct call *call)
 static void write_transform_name(struct writer *writer, unsigned which)
 {
     if (which >= TRIPTYCH_TRANSFORM_WORLD1)
-        fprintf(writer->out, "transform world %u", which - TRIPTYCH_TRANSFORM_WORLD1 + 1);
+        fprintf(writer->out, " world %u", which - TRIPTYCH_TRANSFORM_WORLD1 + 1);
     else if (which >= TRIPTYCH_TRANSFORM_TEXTURE0)
-        fprintf(writer->out, "transform texture %u", which - TRIPTYCH_TRANSFORM_TEXTURE0);
+        fprintf(writer->out, " texture %u", which - TRIPTYCH_TRANSFORM_TEXTURE0);
     else
-        fprintf(writer->out, "transform %s", word_text(WORDS_TRANSFORM, which));
+        fprintf(writer->out, " %s", word_text(WORDS_TRANSFORM, which));
 }
 
 static void write_material(struct writer *writer, const struct triptych_material *material)
@@ -420,6 +439,40 @@ static void write_fvf(struct writer *writer, uint32_t fvf)
     for (size_t i = 0; i < sizeof rows / sizeof rows[0]; i++)
         if ((fvf & rows[i].mask) == rows[i].value)
             fprintf(writer->out, " %s", rows[i].word);
+}
+
+static const char *stage_word(enum triptych_shader_stage stage)
+{
+    return stage == TRIPTYCH_SHADER_PIXEL ? "pixel" : "vertex";
+}
+
+static void write_constants(struct writer *writer, const struct call *call)
+{
+    static const char *const word[] = {
+        [CONSTANTS_FLOAT] = "constant", [CONSTANTS_INTEGER] = "integer", [CONSTANTS_BOOLEAN] = "boolean"};
+    const int32_t *integers = call->constants.integers[0];
+    fprintf(writer->out, "%s%s %" PRIu32, stage_word(call->constants.stage), word[call->constants.type],
+            call->constants.first);
+    if (call->constants.type == CONSTANTS_FLOAT)
+        write_numbers(writer, call->constants.floats[0], 4 * (size_t)call->constants.count);
+    else if (call->constants.type == CONSTANTS_INTEGER)
+        for (int i = 0; i < (integers[3] ? 4 : 3); i++)
+            fprintf(writer->out, " %" PRId32, integers[i]);
+    else
+        for (uint32_t i = 0; i < call->constants.count; i++)
+            fputs(call->constants.booleans[i] ? " true" : " false", writer->out);
+}
+
+static void write_constant_matrix(struct writer *writer, const struct call *call)
+{
+    fprintf(writer->out, "%sconstant %" PRIu32 " transform", stage_word(call->constant_matrix.stage),
+            call->constant_matrix.first);
+    for (uint32_t i = 0; i < call->constant_matrix.factors; i++)
+        write_transform_name(writer, call->constant_matrix.factor[i]);
+    fprintf(writer->out, "%s%s", call->constant_matrix.inverse ? " inverse" : "",
+            call->constant_matrix.transposed ? " transposed" : "");
+    if (call->constant_matrix.count < CONSTANTS_PER_CALL)
+        fprintf(writer->out, " count %" PRIu32, call->constant_matrix.count);
 }
 
 static void write_update(struct writer *writer, const struct call *call, const char *name)
@@ -534,6 +587,7 @@ static void write_call(struct writer *writer, const struct call *call)
         write_numbers(writer, call->clip_plane.plane, 4);
         break;
     case CALL_TRANSFORM:
+        fputs("transform", out);
         write_transform_name(writer, call->transform.which);
         write_field(writer, "matrix", &call->transform.matrix[0][0], NULL, 16);
         break;
@@ -558,6 +612,9 @@ static void write_call(struct writer *writer, const struct call *call)
         fprintf(out, "frequency %" PRIu32 " %s %" PRIu32, call->frequency.stream,
                 word_text(WORDS_FREQUENCY, call->frequency.frequency), call->frequency.count);
         break;
+    case CALL_SHADER: fprintf(out, "%sshader %s", stage_word(call->shader), name); break;
+    case CALL_CONSTANTS: write_constants(writer, call); break;
+    case CALL_CONSTANT_MATRIX: write_constant_matrix(writer, call); break;
     case CALL_UPDATE: write_update(writer, call, name); break;
     case CALL_MIPS: fprintf(out, "mips %s", name); break;
     case CALL_CLEAR: write_clear(writer, call); break;
