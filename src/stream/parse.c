@@ -244,7 +244,7 @@ static int is_allowed(const struct parser *parser, const struct command *command
 
 static int expect_command(struct parser *parser)
 {
-    char words[512] = "";
+    char words[1024] = "";
     size_t at = 0;
     for (int i = 0; i < COMMANDS; i++)
         if (is_allowed(parser, &commands[i]))

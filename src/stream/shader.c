@@ -165,25 +165,25 @@ static int is_end_of_factors(const struct parser *parser)
 /* Transforms as they will be. */
 static int parse_current(struct parser *parser, struct call *call)
 {
-    struct call made = {.type = CALL_CONSTANT_MATRIX,
-                        .line = call->line,
-                        .column = call->column,
-                        .resource = NO_RESOURCE,
-                        .constant_matrix = {.stage = call->constants.stage, .first = call->constants.first}};
+    enum triptych_shader_stage stage = call->constants.stage;
     enum triptych_transform which;
+    uint32_t first = call->constants.first;
     int inverse, transposed;
-    for (; !is_end_of_factors(parser); made.constant_matrix.factors++) {
-        if (made.constant_matrix.factors == MATRICES_PER_CALL)
+    memset(&call->constants, 0, sizeof call->constants);
+    call->type = CALL_CONSTANT_MATRIX;
+    call->constant_matrix.stage = stage;
+    call->constant_matrix.first = first;
+    for (; !is_end_of_factors(parser); call->constant_matrix.factors++) {
+        if (call->constant_matrix.factors == MATRICES_PER_CALL)
             return lex_expected(&parser->lex, "at most %d transforms", MATRICES_PER_CALL);
         if (parse_transform_name(parser, &which))
             return -1;
-        made.constant_matrix.factor[made.constant_matrix.factors] = (uint16_t)which;
+        call->constant_matrix.factor[call->constant_matrix.factors] = (uint16_t)which;
     }
-    if (parse_columns(parser, made.constant_matrix.first, &inverse, &transposed, &made.constant_matrix.count))
+    if (parse_columns(parser, first, &inverse, &transposed, &call->constant_matrix.count))
         return -1;
-    made.constant_matrix.inverse = (uint8_t)inverse;
-    made.constant_matrix.transposed = (uint8_t)transposed;
-    *call = made;
+    call->constant_matrix.inverse = (uint8_t)inverse;
+    call->constant_matrix.transposed = (uint8_t)transposed;
     return 0;
 }
 
@@ -249,6 +249,7 @@ static int parse_floats(struct parser *parser, enum triptych_shader_stage stage,
                 return -1;
             call->constants.first += CONSTANTS_PER_CALL;
             call->constants.count = 0;
+            memset(call->constants.floats, 0, sizeof call->constants.floats);
         }
         if (call->constants.first + call->constants.count == TRIPTYCH_SHADER_FLOATS)
             return lex_expected(&parser->lex, "the end of the line behind constant %d",

@@ -61,6 +61,8 @@ static void expect_same_resource(const struct resource *a, const struct resource
     TEST_ASSERT_EQUAL_UINT64(bytes_a, bytes_b);
     if (bytes_a)
         TEST_ASSERT_EQUAL_MEMORY(data_a, data_b, bytes_a);
+    TEST_ASSERT_EQUAL_PTR(a->program, b->program);
+    TEST_ASSERT_EQUAL_UINT64(a->code_bytes, b->code_bytes);
     if (a->index_count)
         TEST_ASSERT_EQUAL_MEMORY(a->indices, b->indices, (size_t)a->index_count * a->index_bits / 8);
 }
@@ -135,6 +137,18 @@ static const char everything[] =
     "buffer o1 u32 { 77 }\nbuffer o4 color { 00000001 00000002 00000003 00000004 }\n"
     "buffer o5 u16 { 3 }\n"
     "buffer s u16 { 0 1 2 65535 }\nbuffer l u32 { 0 1 2 4294967295 }\n"
+    "shader vs { # a comment\n  vs_2_0 ; another\n dcl_position v0\n  mov oPos, -v0.wzyx\n}\n"
+    "shader ps {\r\n\tps_3_0\r\n\tdef c0, 0.1, 1e-20, -2, 3\r\n\tmov_sat oC0, c0.x\r\n  } # end\r\n"
+    "vertexshader vs\npixelshader ps\nvertexshader none\n"
+    "vertexconstant 3 0.1 -0 1e-45 3.4028234e38 1 2 3 4 5 6 7 8 9 10 11 12 13 14 15 16 17 18 19 20\n"
+    "pixelconstant 8191 0 0 0 0\npixelinteger 3 255 0 -128\nvertexinteger 2047 1 2 3 -2147483648\n"
+    "vertexboolean 0 true false false true true false false true true false false true true false false "
+    "true\n"
+    "pixelboolean 15 false\nvertexconstant 0 transform world view projection texture 3\n"
+    "vertexconstant 4 transform world 7 inverse transposed count 3\npixelconstant 9 transform view inverse\n"
+    "vertexconstant 4 transform rotate 33 1 2 3 translate 1 2 3 inverse count 1\n"
+    "pixelconstant 0 transform identity transposed\n"
+    "convention multiply legacy\n"
     "update e level 1 box 0 1 0 1 1 1 o1\nupdate u o4\nmips e\nmips k\nupdate k face 5 level 1 o5\n"
     "viewport 0.5 0 63.25 32 0.1 0.9\nscissor 1 0 7 0\n"
     "state zfunc lessequal\nstate ambient 0x12345678\nstate colorwriteenable 5\nstate lighting 0\n"
