@@ -206,6 +206,8 @@ static int parse_operations(struct parser *parser, struct call *call)
     if (store_columns(matrix, inverse, transposed, call->constants.floats))
         return lex_fail(&parser->lex, &place, "found constants that are not finite, expected a matrix%s",
                         inverse ? " with an inverse" : " of finite values");
+    for (uint32_t i = call->constants.count; i < CONSTANTS_PER_CALL; i++)
+        memset(call->constants.floats[i], 0, sizeof call->constants.floats[i]);
     return 0;
 }
 
