@@ -1,5 +1,5 @@
 /* The texture instructions of shaders, and those of neighbouring pixels: a function for each row of
- * def/shader.def. The definitions are in docs/shaders.md ("What texture instructions compute").
+ * def/shader.def. The definitions are in docs/shader-semantics.md ("Textures").
  *
  * A sampler samples what is bound to it, whatever the shader declared, by the rules of sample.h; where nothing is
  * bound, (0, 0, 0, 1). The third coordinate is what texels of depth are compared with, on cubes z.

@@ -1,4 +1,4 @@
-/* What texture instructions compute (docs/shaders.md), one quad of registers at a time under the emulator's binding: lookups
+/* What texture instructions compute (docs/shader-semantics.md), one quad of registers at a time under the emulator's binding: lookups
  * against a sampler written a second time, the rest against values worked out here. */
 #include "draw/key.h"
 #include "tests/support/canvas.h"

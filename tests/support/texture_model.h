@@ -1,4 +1,4 @@
-/* A sampler written a second time, in integers and binary64, straight from the definition (docs/shaders.md, and
+/* A sampler written a second time, in integers and binary64, straight from the definition (docs/shader-semantics.md, and
  * spec/address.h, sample.h, sample_float.h and detail.h for what filters do): what lookups are held against.
  *
  * Textures are square, 8 texels a side, with all four levels; their texels are random bytes, or multiples of 1/64.
