@@ -61,11 +61,12 @@ static inline struct vector4 sample_stage(struct env *e, const struct step *s, c
 }
 
 /* The first `count` components by the divisor. */
-static inline void divide_coordinates(struct env *e, struct vector4 *at, int count, flt divisor)
+static inline void divide_coordinates(struct env *e, const struct step *s, struct vector4 *at, int count,
+                                      flt divisor)
 {
     flt factor = reciprocal(E, divisor);
     for (int c = 0; c < count; c++)
-        at->v[c] = mul_f(E, at->v[c], factor);
+        at->v[c] = multiply(E, s, at->v[c], factor);
 }
 
 static inline flt limit(struct env *e, flt value, float low, float high)
@@ -87,7 +88,7 @@ static inline struct vector4 execute_texldp(struct env *e, const struct step *s)
 {
     struct lookup how = {.from = DETAIL_QUAD};
     struct vector4 at = s->source[0];
-    divide_coordinates(E, &at, 3, at.v[3]);
+    divide_coordinates(E, s, &at, 3, at.v[3]);
     return sample_source(E, s, &at, &how);
 }
 
@@ -168,7 +169,7 @@ static inline struct vector4 divided_source(struct env *e, const struct step *s)
     struct vector4 r = s->source[0];
     int modifier = s->instruction->source[0].modifier;
     if (modifier == MODIFIER_DIVIDE_Z || modifier == MODIFIER_DIVIDE_W)
-        divide_coordinates(E, &r, 2, r.v[modifier == MODIFIER_DIVIDE_Z ? 2 : 3]);
+        divide_coordinates(E, s, &r, 2, r.v[modifier == MODIFIER_DIVIDE_Z ? 2 : 3]);
     return r;
 }
 
@@ -183,12 +184,16 @@ static inline struct vector4 execute_texld_1_4(struct env *e, const struct step 
     return sample_stage(E, s, &at);
 }
 
-/* `by` displaces two coordinates by the stage's matrix (bump.h). */
+/* `by` displaces two coordinates by the stage's matrix, as bump.h has it. */
 static inline struct vector4 displaced(struct env *e, const struct step *s, struct vector4 at,
                                        const struct vector4 *by)
 {
-    struct float_color bump = {{by->v[0], by->v[1], by->v[2], by->v[3]}};
-    bump_displace(E, step_stage(s), &bump, at.v);
+    for (size_t axis = 0; axis < 2; axis++) {
+        flt by_u = bump_value(E, step_stage(s), offsetof(struct bump_job, matrix[0]) + sizeof(float) * axis);
+        flt by_v = bump_value(E, step_stage(s), offsetof(struct bump_job, matrix[1]) + sizeof(float) * axis);
+        flt partly = multiply_add(E, s, by->v[0], by_u, at.v[axis]);
+        at.v[axis] = multiply_add(E, s, by->v[1], by_v, partly);
+    }
     return at;
 }
 
@@ -230,7 +235,7 @@ static inline struct vector4 projected_coordinate(struct env *e, const struct st
     struct vector4 r = vector_of(t[0], t[1], t[2], t[3]);
     int projected = s->machine->pixel->projected[step_stage(s)];
     if (projected)
-        divide_coordinates(E, &r, 3, t[projected == PROJECTED_THIRD ? 2 : 3]);
+        divide_coordinates(E, s, &r, 3, t[projected == PROJECTED_THIRD ? 2 : 3]);
     return r;
 }
 
@@ -259,12 +264,14 @@ static inline struct vector4 execute_texbem(struct env *e, const struct step *s)
 
 static inline struct vector4 execute_texbeml(struct env *e, const struct step *s)
 {
-    const struct vector4 *by = &s->source[0];
-    struct vector4 texel = execute_texbem(E, s);
-    struct float_color bump = {{by->v[0], by->v[1], by->v[2], by->v[3]}};
-    struct float_color color = {{texel.v[0], texel.v[1], texel.v[2], texel.v[3]}};
-    color = bump_luminance(E, step_stage(s), &bump, color);
-    return vector_of(color.channel[0], color.channel[1], color.channel[2], color.channel[3]);
+    struct vector4 r = execute_texbem(E, s);
+    flt scale = bump_value(E, step_stage(s), offsetof(struct bump_job, luminance_scale));
+    flt offset = bump_value(E, step_stage(s), offsetof(struct bump_job, luminance_offset));
+    flt sum = multiply_add(E, s, s->source[0].v[2], scale, offset);
+    flt luminance = saturate(E, sum);
+    for (int c = 0; c < 4; c++)
+        r.v[c] = multiply(E, s, r.v[c], luminance);
+    return r;
 }
 
 static inline struct vector4 execute_texreg2ar(struct env *e, const struct step *s)

@@ -266,10 +266,11 @@ static void make_plane(const struct model_sampler *sampler)
 static void test_unbound_samplers_are_opaque_black(void)
 {
     static const float black[4] = {0, 0, 0, 1};
-    static const char *const others[] = {"ps_1_1\ntex t2\nmov r0, t2\n", "ps_1_4\ntexld r0, t2\n",
-                                         "ps_2_0\ndcl_volume s15\ndcl t0\ntexld r0, t0, s15\nmov oC0, r0\n",
-                                         "vs_3_0\ndcl_2d s3\ndcl_texcoord v0\ndcl_position o0\ndcl_texcoord "
-                                         "o1\nmov o0, v0\ntexldl o1, v0, s3\n"};
+    static const char *const others[] = {
+        "ps_1_1\ntex t2\nmov r0, t2\n", "ps_1_4\ntexld r0, t2\n",
+        "ps_2_0\ndcl_volume s15\ndcl t0\ntexld r0, t0, s15\nmov oC0, r0\n",
+        ("vs_3_0\ndcl_2d s3\ndcl_texcoord v0\ndcl_position o0\ndcl_texcoord o1\nmov o0, v0\n"
+         "texldl o1, v0, s3\n")};
     memset(&quad, 0, sizeof quad);
     texture.type = TRIPTYCH_TEXTURE_CUBE;
     for (enum load load = 0; load < LOADS; load++) {
