@@ -136,6 +136,16 @@ static void destroy(struct program *program)
     free(program);
 }
 
+/* The path without folders and ending. */
+static void name_after(struct program *program, const char *path)
+{
+    const char *slash = strrchr(path, '/'), *stem = slash ? slash + 1 : path, *dot = strrchr(stem, '.');
+    size_t length = dot && dot > stem ? (size_t)(dot - stem) : strlen(stem);
+    if (length >= sizeof program->name)
+        length = sizeof program->name - 1;
+    memcpy(program->name, stem, length);
+}
+
 static struct program *create(const struct shader *shader, struct error *error)
 {
     struct shader_counts counts;
@@ -148,6 +158,7 @@ static struct program *create(const struct shader *shader, struct error *error)
     }
     program->model = shader->model;
     program->slots = counts.slots;
+    name_after(program, shader->path);
     shader_describe(shader, &program->interface);
     program->step = calloc(shader->count + 1, sizeof *program->step);
     program->defined = calloc(shader->count + 1, sizeof *program->defined);

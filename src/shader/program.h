@@ -81,7 +81,8 @@ struct program_constant {
 };
 
 struct program {
-    uint32_t number; /* from 1 */
+    uint32_t number;              /* from 1 */
+    char name[SHADER_NAME_BYTES]; /* of the file or the like that it was first made of, for reports */
     const struct shader_model *model;
     struct shader_interface interface;
     struct program_step *step;

@@ -7,6 +7,7 @@
  * An engine stops early when its next repetition would take it beyond its share of seconds, but not before
  * REPETITIONS_MINIMUM: the emulator is slow, and a median needs something to be the middle of. */
 #include "tool/bench_report.h"
+#include "tool/bench_shaders.h"
 #include "tool/choose.h"
 #include "tool/option.h"
 #include "triptych.h"
@@ -22,6 +23,7 @@ static const double warm_up_share = 0.1; /* of an engine's seconds */
 struct settings {
     unsigned threads, repetitions, frames; /* frames 0: all */
     double seconds;
+    bool shaders; /* a table of each shader */
 };
 
 static bool goes_on(const struct bench_run *run, const struct settings *settings)
@@ -43,7 +45,7 @@ static int start_runs(const struct command *self, const struct stream *stream, c
             result->baseline = result->run_count;
         struct bench_run *run = result->runs + result->run_count;
         if (bench_run_start(self, stream, engines->index[result->run_count], settings->threads,
-                            settings->seconds * warm_up_share, run))
+                            settings->shaders, settings->seconds * warm_up_share, run))
             return bench_run_free(run), STATUS_BAD;
     }
     return STATUS_OK;
@@ -121,7 +123,7 @@ static int bench_all(const struct command *self, char **paths, const struct choi
         fflush(stdout);
     }
     bench_print_summary(bench);
-    return STATUS_OK;
+    return settings->shaders ? bench_print_shaders(self, bench) : STATUS_OK;
 }
 
 static void free_bench(struct bench *bench)
@@ -159,6 +161,8 @@ int command_bench(const struct command *self, int count, char **arguments)
          SECONDS_MAXIMUM},
         {"frames", "N", "frames of a run, spread over the stream; all", OPTION_NUMBER, &settings.frames, 1,
          FRAMES_MAXIMUM},
+        {"shaders", NULL, "measure each routine's calls; tables by shader and by length", OPTION_FLAG,
+         &settings.shaders, 0, 0},
         {"json", "FILE", "write everything, each run included", OPTION_TEXT, &json, 0, 0},
         {"csv", "FILE", "write a row per stream and engine", OPTION_TEXT, &csv, 0, 0},
     };
@@ -171,7 +175,8 @@ int command_bench(const struct command *self, int count, char **arguments)
     if (choose_engines(self, engine_list, &engines) || check_output(self, json) || check_output(self, csv))
         return STATUS_BAD;
 
-    struct bench bench = {machine_describe(), settings.threads, (unsigned)operands.count, NULL};
+    struct bench bench = {machine_describe(), settings.threads, settings.shaders, (unsigned)operands.count,
+                          NULL};
     bench.streams = calloc(bench.stream_count, sizeof *bench.streams);
     if (!bench.streams)
         return fail(self, "no memory for %u streams", bench.stream_count);

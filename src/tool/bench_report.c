@@ -1,4 +1,5 @@
 #include "tool/bench_report.h"
+#include "tool/bench_shaders.h"
 #include "base/file.h"
 #include "draw/key.h"
 #include "tool/choose.h"
@@ -13,7 +14,7 @@
 static const struct {
     const char *name, *heading;
     int decimals;
-} columns[COLUMN_COUNT] = {
+} columns[BENCH_COLUMNS] = {
 #define COLUMN(name, heading, decimals, meaning) {#name, heading, decimals},
 #include "tool/bench.def"
 #undef COLUMN
@@ -32,12 +33,12 @@ void bench_print_stream(const struct bench *bench, const struct bench_stream *st
     printf("\n%s: %u x %u, frames a run: %u, threads: %u\n", stream->name, stream->width, stream->height,
            stream->frames, bench->threads);
     table_column(&table, "engine", TABLE_LEFT);
-    for (int i = 0; i < COLUMN_COUNT; i++)
+    for (int i = 0; i < BENCH_COLUMNS; i++)
         if (columns[i].heading[0])
             table_column(&table, columns[i].heading, TABLE_RIGHT);
     for (unsigned i = 0; i < stream->run_count; i++) {
         table_cell(&table, "%s", triptych_engine_name(stream->runs[i].engine));
-        for (int j = 0; j < COLUMN_COUNT; j++)
+        for (int j = 0; j < BENCH_COLUMNS; j++)
             if (columns[j].heading[0])
                 table_cell(&table, "%.*f", columns[j].decimals, stream->runs[i].value[j]);
     }
@@ -147,7 +148,7 @@ static cJSON *json_run(const struct bench_run *run)
     cJSON *json = cJSON_CreateObject();
     cJSON_AddStringToObject(json, "engine", triptych_engine_name(run->engine));
     cJSON_AddNumberToObject(json, "width", triptych_engine_width(run->engine));
-    for (int i = 0; i < COLUMN_COUNT; i++)
+    for (int i = 0; i < BENCH_COLUMNS; i++)
         cJSON_AddNumberToObject(json, columns[i].name, run->value[i]);
     cJSON *samples = cJSON_AddObjectToObject(json, "samples");
     for (int i = 0; i < MEASURE_COUNT; i++)
@@ -208,6 +209,8 @@ int bench_write_json(const struct command *self, const struct bench *bench, cons
     for (unsigned run = 0; run < bench->streams->run_count; run++)
         for (unsigned unit = 0; unit < UNIT_COUNT; unit++)
             add_builds(builds, bench, run, unit);
+    if (bench->shaders)
+        cJSON_AddItemToObject(json, "shaders", bench_json_shaders(bench));
     int status = json_write(self, json, path);
     cJSON_Delete(json);
     return status;
@@ -218,7 +221,7 @@ static void write_row(FILE *out, const struct bench *bench, const struct bench_s
 {
     fprintf(out, "%s,%s,%u,%u,%u", stream->name, triptych_engine_name(run->engine),
             triptych_engine_width(run->engine), bench->threads, stream->frames);
-    for (int i = 0; i < COLUMN_COUNT; i++)
+    for (int i = 0; i < BENCH_COLUMNS; i++)
         fprintf(out, ",%.6g", run->value[i]);
     fputc('\n', out);
 }
@@ -231,7 +234,7 @@ int bench_write_csv(const struct command *self, const struct bench *bench, const
     if (!out)
         return fail(self, "no memory for %s", path);
     fputs("stream,engine,width,threads,frames", out);
-    for (int i = 0; i < COLUMN_COUNT; i++)
+    for (int i = 0; i < BENCH_COLUMNS; i++)
         fprintf(out, ",%s", columns[i].name);
     fputc('\n', out);
     for (unsigned i = 0; i < bench->stream_count; i++)

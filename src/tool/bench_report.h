@@ -19,6 +19,7 @@ struct bench_stream {
 struct bench {
     struct machine machine;
     unsigned threads;
+    bool shaders; /* the calls of routines were measured */
     unsigned stream_count;
     struct bench_stream *streams;
 };

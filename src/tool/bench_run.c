@@ -1,5 +1,6 @@
 #include "tool/bench_run.h"
 #include "draw/key.h"
+#include "shader/program.h"
 
 #include <stdlib.h>
 #include <string.h>
@@ -16,13 +17,13 @@ static double now(void)
 }
 
 int bench_run_start(const struct command *self, const struct stream *stream, unsigned engine,
-                    unsigned threads, double seconds, struct bench_run *run)
+                    unsigned threads, bool measure, double seconds, struct bench_run *run)
 {
     *run = (struct bench_run){.engine = engine};
     for (int i = 0; i < MEASURE_COUNT; i++)
         if (!(run->samples[i] = malloc(REPETITIONS_MAXIMUM * sizeof *run->samples[i])))
             return fail(self, "no memory for %d repetitions", REPETITIONS_MAXIMUM);
-    if (session_open(self, stream, engine, threads, &run->session))
+    if (session_open_measured(self, stream, engine, threads, measure, &run->session))
         return STATUS_BAD;
     double end = now() + seconds;
     unsigned frames = stream->frame_count;
@@ -72,6 +73,25 @@ static enum unit unit_of(const char *name)
     return unit;
 }
 
+static struct build build_of(const struct triptych_routine_info *info)
+{
+    const struct program *program = info->shader ? program_find(info->shader) : NULL;
+    struct build build = {.unit = unit_of(info->unit),
+                          .us = (double)info->build_ns / 1e3,
+                          .code_bytes = info->code_bytes,
+                          .parts = info->parts,
+                          .spills = info->spills,
+                          .by_operation = info->granularity && !strcmp(info->granularity, "operation"),
+                          .run_ns = (double)info->run_ns,
+                          .elements = (double)info->elements};
+    if (!program)
+        return build;
+    memcpy(build.shader, program->name, sizeof build.shader);
+    build.model = program->model->name;
+    build.slots = program->slots;
+    return build;
+}
+
 static int read_builds(const struct command *self, struct bench_run *run)
 {
     struct triptych_routine_info info;
@@ -83,9 +103,7 @@ static int read_builds(const struct command *self, struct bench_run *run)
         return fail(self, "no memory for %u routines", count);
     for (; run->build_count < count && triptych_get_routine(run->session.device, run->build_count, &info);
          run->build_count++)
-        run->builds[run->build_count] =
-            (struct build){unit_of(info.unit), (double)info.build_ns / 1e3, info.code_bytes,
-                           info.granularity && !strcmp(info.granularity, "operation")};
+        run->builds[run->build_count] = build_of(&info);
     return STATUS_OK;
 }
 

@@ -2,6 +2,7 @@
 #ifndef TOOL_BENCH_RUN_H
 #define TOOL_BENCH_RUN_H
 
+#include "shader/shader.h"
 #include "tool/sample.h"
 #include "tool/session.h"
 
@@ -11,7 +12,7 @@ enum bench_column {
 #define COLUMN(name, heading, decimals, meaning) COLUMN_##name,
 #include "tool/bench.def"
 #undef COLUMN
-    COLUMN_COUNT
+    BENCH_COLUMNS
 };
 
 /* What is measured anew in every repetition. */
@@ -19,9 +20,14 @@ enum measure { MEASURE_FRAME_MS, MEASURE_VERTEX_NS, MEASURE_PIXEL_NS, MEASURE_CO
 
 /* A routine the engine built. */
 struct build {
-    unsigned unit;         /* enum unit */
-    double us, code_bytes; /* code_bytes is 0 for engines that generate none */
-    bool by_operation;     /* stitched from operation fragments */
+    unsigned unit;                  /* enum unit */
+    double us, code_bytes;          /* code_bytes is 0 for engines that generate none */
+    double parts, spills;           /* instructions or fragments; values that went to memory */
+    bool by_operation;              /* stitched from operation fragments */
+    double run_ns, elements;        /* of all calls, where they are measured */
+    char shader[SHADER_NAME_BYTES]; /* empty: none */
+    const char *model;
+    unsigned slots; /* instruction slots of the shader */
 };
 
 struct bench_run {
@@ -31,15 +37,15 @@ struct bench_run {
     double *samples[MEASURE_COUNT]; /* REPETITIONS_MAXIMUM each, in order of time */
     double spent, last;             /* seconds: all measured repetitions, the last one */
     uint64_t hits, misses;          /* of the routine cache, in all measured repetitions */
-    double value[COLUMN_COUNT];     /* when finished */
+    double value[BENCH_COLUMNS];    /* when finished */
     size_t build_count;
     struct build *builds; /* when finished */
 };
 
-/* Opens a session and plays the stream's first frames until `seconds` have passed or all are played: builds
+/* Opens a session, with the calls of its routines measured if `measure`, and plays the stream's first frames until `seconds` have passed or all are played: builds
  * routines, fills caches, wakes the processor. Returns 0, or STATUS_BAD after telling why. */
 int bench_run_start(const struct command *self, const struct stream *stream, unsigned engine,
-                    unsigned threads, double seconds, struct bench_run *run);
+                    unsigned threads, bool measure, double seconds, struct bench_run *run);
 
 /* Plays `frames` frames, evenly spread over the stream, again and again for a tenth of a second at least, and
  * records one sample of each measure. */

@@ -17,8 +17,15 @@ struct stream *session_load(const struct command *self, const char *path)
 int session_open(const struct command *self, const struct stream *stream, unsigned engine, unsigned threads,
                  struct session *session)
 {
+    return session_open_measured(self, stream, engine, threads, false, session);
+}
+
+int session_open_measured(const struct command *self, const struct stream *stream, unsigned engine,
+                          unsigned threads, bool measure, struct session *session)
+{
     struct error error = {""};
-    const struct triptych_options options = {.engine = triptych_engine_name(engine), .threads = threads};
+    const struct triptych_options options = {
+        .engine = triptych_engine_name(engine), .threads = threads, .measure = measure};
     *session = (struct session){.stream = stream};
     if (triptych_device_create(&options, &session->device, error.text, sizeof error.text))
         return fail(self, "engine %s: %s", options.engine, error.text);

@@ -22,6 +22,9 @@ struct session {
  * return 0, or STATUS_BAD after telling why; a session that failed is still to be closed. */
 int session_open(const struct command *self, const struct stream *stream, unsigned engine, unsigned threads,
                  struct session *session);
+/* The same with the calls of routines measured (struct triptych_options). */
+int session_open_measured(const struct command *self, const struct stream *stream, unsigned engine,
+                          unsigned threads, bool measure, struct session *session);
 void session_close(struct session *session);
 
 /* Plays a frame (from 0) and waits until it is drawn. */
