@@ -185,7 +185,7 @@ static const char *unavailable(void)
         .name = title,                                                                                       \
         .description = "interpreter of the recording, one operation at a time over batches of elements",     \
         .width = lanes,                                                                                      \
-        .interprets = 1,                                                                                     \
+        .without_arena = 1,                                                                                  \
         .on_request = named,                                                                                 \
         .unavailable = unavailable,                                                                          \
         .build = build_##variable,                                                                           \

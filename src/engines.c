@@ -2,6 +2,7 @@
 
 #include "emu/batch.h"
 #include "emu/emulate.h"
+#include "external/external.h"
 #include "jit/jit.h"
 #include "stitch/stitch.h"
 
@@ -18,6 +19,7 @@ static const struct engine *const engines[] = {
     &engine_specialize,
     &engine_specialize_4,
     &engine_specialize_thesis,
+    &engine_external,
 };
 
 const struct engine *engine_at(unsigned i)

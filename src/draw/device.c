@@ -19,7 +19,7 @@ static enum triptych_result create_parts(struct triptych_device *device, const s
                                          struct error *error)
 {
     size_t cache_bytes = options->cache_bytes ? options->cache_bytes : CACHE_BYTES;
-    if (!device->engine->interprets) {
+    if (!device->engine->without_arena) {
         device->arena = code_create(arena_bytes(cache_bytes), NULL, error);
         if (!device->arena)
             return TRIPTYCH_ENGINE_FAILED;

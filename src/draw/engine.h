@@ -63,7 +63,7 @@ struct engine {
     const char *name;        /* as in --engine: "emulate", "stitch", "stitch-operation", "specialize" ... */
     const char *description; /* one line */
     int width;               /* lanes W of its routines */
-    int interprets;          /* generates no code: needs no arena */
+    int without_arena;       /* generates no code, or has it elsewhere */
     int on_request;          /* runs where it is named; left out of what is done with every engine */
 
     /* Null when the engine can run here, else one line that says why not. */

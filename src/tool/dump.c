@@ -4,6 +4,7 @@
  * alone; the routines it has built then are the draw's, and tell their keys. */
 #include "base/code.h"
 #include "draw/key.h"
+#include "external/external.h"
 #include "jit/jit.h"
 #include "stitch/stitch.h"
 #include "tool/choose.h"
@@ -37,6 +38,13 @@ static int dump_stitch(const struct engine *engine, struct code_arena *arena, en
     return stitch_dump(arena, engine, unit, key, stdout, error);
 }
 
+static int dump_external(const struct engine *engine, struct code_arena *arena, enum unit unit,
+                         const union key *key, const char *show, struct error *error)
+{
+    (void)engine, (void)arena;
+    return external_dump(unit, key, show ? show : "key,text,asm", stdout, error);
+}
+
 static const struct dumper {
     const struct engine *engine;
     int (*dump)(const struct engine *engine, struct code_arena *arena, enum unit unit, const union key *key,
@@ -44,7 +52,7 @@ static const struct dumper {
 } dumpers[] = {
     {&engine_specialize, dump_jit},          {&engine_specialize_4, dump_jit},
     {&engine_specialize_thesis, dump_jit},   {&engine_stitch, dump_stitch},
-    {&engine_stitch_operation, dump_stitch},
+    {&engine_stitch_operation, dump_stitch}, {&engine_external, dump_external},
 };
 
 static const struct dumper *find_dumper(const struct command *self, unsigned engine)
@@ -178,7 +186,8 @@ static int find_unit(const struct command *self, const char *name, enum unit *un
 static const char notes[] = "Stages of specialize: key, record (the operations as recorded), the name of a "
                             "pass (after it; triptych list\n"
                             "passes), intervals (registers), asm (the code), all. The stitchers show "
-                            "fragments, holes and code. Draws\n"
+                            "fragments, holes and code. Stages of\n"
+                            "external: key, vector (what the text is written in), text (C), asm, all. Draws "
                             "count from 0 within their frame.";
 
 int command_dump(const struct command *self, int count, char **arguments)

@@ -45,7 +45,7 @@ static void free_routine(struct code_arena *arena, struct routine *routine)
 static const struct engine engine = {.name = "count",
                                      .description = "counts",
                                      .width = 4,
-                                     .interprets = 1,
+                                     .without_arena = 1,
                                      .unavailable = unavailable,
                                      .build = build,
                                      .free = free_routine};

@@ -96,7 +96,7 @@ void shading_on_every_engine(void (*test)(void))
         engine = engine_at(i);
         if (engine->unavailable() || engine->on_request)
             continue;
-        arena = engine->interprets ? NULL : code_create(1 << 22, NULL, &error);
+        arena = engine->without_arena ? NULL : code_create(1 << 22, NULL, &error);
         shading_palette = NULL;
         shading_primitive = PRIMITIVE_TRIANGLE;
         random_begin();

@@ -1,0 +1,215 @@
+/* From text to code: a private folder, the compiler as a process of its own, the dynamic linker.
+ *
+ * Nothing stays behind: what is loaded is mapped, and its file is not needed any more. The compiler is
+ * started without a shell, with the environment as it is. */
+#include "external/external.h"
+
+#include <dlfcn.h>
+#include <errno.h>
+#include <fcntl.h>
+#include <signal.h>
+#include <spawn.h>
+#include <stdlib.h>
+#include <string.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+enum { PATH_CAPACITY = 4096, LINE_CAPACITY = 256 };
+
+enum work_file { WORK_TEXT, WORK_OBJECT, WORK_MESSAGES, WORK_COUNT };
+
+static const char *const file_name[WORK_COUNT] = {"routine.c", "routine.so", "messages"};
+
+struct work {
+    char folder[PATH_CAPACITY];
+    char path[WORK_COUNT][PATH_CAPACITY + 16];
+};
+
+extern char **environ;
+
+static const char *compiler(void)
+{
+    const char *name = getenv("TRIPTYCH_CC");
+    return name && *name ? name : "cc";
+}
+
+/* As posix_spawnp will look for it. */
+static int is_in_path(const char *name)
+{
+    char path[PATH_CAPACITY];
+    const char *folders = getenv("PATH");
+    for (folders = folders ? folders : ""; *folders; folders += *folders == ':') {
+        int length = (int)strcspn(folders, ":");
+        if (snprintf(path, sizeof path, "%.*s%s%s", length, folders, length ? "/" : "", name) <
+                (int)sizeof path &&
+            !access(path, X_OK))
+            return 1;
+        folders += length;
+    }
+    return 0;
+}
+
+const char *external_no_compiler(void)
+{
+    const char *name = compiler();
+    if (strchr(name, '/') ? !access(name, X_OK) : is_in_path(name))
+        return NULL;
+    return "needs a C compiler at run time: cc, or the program that TRIPTYCH_CC names";
+}
+
+static int open_work(struct work *work, struct error *error)
+{
+    const char *folder = getenv("TMPDIR");
+    if (!folder || !*folder)
+        folder = "/tmp";
+    if (snprintf(work->folder, sizeof work->folder, "%s/triptych-XXXXXX", folder) >= (int)sizeof work->folder)
+        return error_set(error, "TMPDIR is too long a path");
+    if (!mkdtemp(work->folder))
+        return error_set(error, "%s: cannot make a folder for the compiler: %s", folder, strerror(errno));
+    for (int i = 0; i < WORK_COUNT; i++)
+        snprintf(work->path[i], sizeof work->path[i], "%s/%s", work->folder, file_name[i]);
+    return 0;
+}
+
+static void close_work(const struct work *work)
+{
+    for (int i = 0; i < WORK_COUNT; i++)
+        unlink(work->path[i]);
+    rmdir(work->folder);
+}
+
+static int write_text(const struct work *work, const char *text, size_t bytes, struct error *error)
+{
+    const char *path = work->path[WORK_TEXT];
+    int file = open(path, O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0600);
+    if (file < 0)
+        return error_set(error, "%s: %s", path, strerror(errno));
+    while (bytes) {
+        ssize_t written = write(file, text, bytes);
+        if (written < 0 && errno == EINTR)
+            continue;
+        if (written < 0)
+            break;
+        text += written;
+        bytes -= (size_t)written;
+    }
+    int number = errno;
+    if (close(file) && !bytes)
+        return error_set(error, "%s: %s", path, strerror(errno));
+    return bytes ? error_set(error, "%s: %s", path, strerror(number)) : 0;
+}
+
+/* Input and output are nobody's, what it has to say goes to a file; signals are as in a new program. */
+static int spawn(const struct work *work, char *const arguments[], pid_t *process)
+{
+    posix_spawn_file_actions_t files;
+    posix_spawnattr_t attributes;
+    sigset_t none, all;
+    int result = posix_spawn_file_actions_init(&files);
+    if (result)
+        return result;
+    result = posix_spawnattr_init(&attributes);
+    if (result) {
+        posix_spawn_file_actions_destroy(&files);
+        return result;
+    }
+    sigemptyset(&none);
+    sigfillset(&all);
+    posix_spawnattr_setsigmask(&attributes, &none);
+    posix_spawnattr_setsigdefault(&attributes, &all);
+    posix_spawnattr_setflags(&attributes, POSIX_SPAWN_SETSIGMASK | POSIX_SPAWN_SETSIGDEF);
+    posix_spawn_file_actions_addopen(&files, STDIN_FILENO, "/dev/null", O_RDONLY, 0);
+    posix_spawn_file_actions_addopen(&files, STDOUT_FILENO, "/dev/null", O_WRONLY, 0);
+    posix_spawn_file_actions_addopen(&files, STDERR_FILENO, work->path[WORK_MESSAGES],
+                                     O_WRONLY | O_CREAT | O_TRUNC, 0600);
+    result = posix_spawnp(process, arguments[0], &files, &attributes, arguments, environ);
+    posix_spawnattr_destroy(&attributes);
+    posix_spawn_file_actions_destroy(&files);
+    return result;
+}
+
+/* The first line that speaks of an error, else the first line. */
+static void read_message(const struct work *work, char line[static LINE_CAPACITY])
+{
+    FILE *messages = fopen(work->path[WORK_MESSAGES], "re");
+    char next[LINE_CAPACITY];
+    line[0] = '\0';
+    while (messages && fgets(next, sizeof next, messages)) {
+        next[strcspn(next, "\r\n")] = '\0';
+        int says = strstr(next, "error") != NULL;
+        if (says || !line[0])
+            strcpy(line, next);
+        if (says)
+            break;
+    }
+    if (messages)
+        fclose(messages);
+}
+
+static int wait_for(pid_t process, int *status)
+{
+    while (waitpid(process, status, 0) < 0)
+        if (errno != EINTR)
+            return -1;
+    return 0;
+}
+
+static int run_compiler(const struct work *work, struct error *error)
+{
+    char *arguments[] = {(char *)compiler(),
+                         "-std=gnu17",
+                         "-O2",
+                         "-mavx2",
+                         "-mfma",
+                         "-mf16c",
+                         "-ffp-contract=off",
+                         "-fno-strict-aliasing",
+                         "-fno-stack-protector",
+                         "-fno-asynchronous-unwind-tables",
+                         "-w",
+                         "-pipe",
+                         "-fPIC",
+                         "-shared",
+                         "-nostdlib",
+                         "-o",
+                         (char *)work->path[WORK_OBJECT],
+                         (char *)work->path[WORK_TEXT],
+                         NULL};
+    pid_t process;
+    int status, result = spawn(work, arguments, &process);
+    char line[LINE_CAPACITY];
+    if (result)
+        return error_set(error, "cannot start the compiler %s: %s", arguments[0], strerror(result));
+    /* Where children are not waited for nobody knows the status, but the object is there or not. */
+    if (wait_for(process, &status))
+        status = access(work->path[WORK_OBJECT], R_OK) ? 0x100 : 0;
+    if (!status)
+        return 0;
+    if (WIFSIGNALED(status))
+        return error_set(error, "the compiler %s was ended by signal %d", arguments[0], WTERMSIG(status));
+    read_message(work, line);
+    return error_set(error, "the compiler %s failed with status %d: %s", arguments[0], WEXITSTATUS(status),
+                     line[0] ? line : "it does not say why");
+}
+
+void *external_compile(const char *text, size_t bytes, struct error *error)
+{
+    struct work *work = malloc(sizeof *work);
+    void *object = NULL;
+    if (!work || open_work(work, error)) {
+        if (!work)
+            error_set(error, "out of memory for compiling");
+        free(work);
+        return NULL;
+    }
+    if (!write_text(work, text, bytes, error) && !run_compiler(work, error)) {
+        object = dlopen(work->path[WORK_OBJECT], RTLD_NOW | RTLD_LOCAL);
+        if (!object) {
+            const char *reason = dlerror();
+            error_set(error, "cannot load what the compiler made: %s", reason ? reason : "no reason given");
+        }
+    }
+    close_work(work);
+    free(work);
+    return object;
+}

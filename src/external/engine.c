@@ -1,0 +1,126 @@
+/* The external engine: print, compile, load.
+ *
+ * The floating-point environment is set outside of the text, for a compiler sees no reason not to calculate
+ * before it is set what it finds in front of a loop. */
+#define _GNU_SOURCE /* dladdr1 */
+#include "base/cpu.h"
+#include "base/mxcsr.h"
+#include "external/external.h"
+
+#include <dlfcn.h>
+#include <elf.h>
+#include <link.h>
+#include <stdlib.h>
+#include <string.h>
+
+struct external_routine {
+    struct routine routine;
+    void *object; /* of dlopen */
+    void (*body)(const void *call);
+};
+
+static const char *unavailable(void)
+{
+    return cpu_has_avx2_fma() ? external_no_compiler()
+                              : "needs AVX2 and FMA, which this processor or system does not offer";
+}
+
+static void run(const void *call, const struct routine *routine)
+{
+    unsigned saved = mxcsr_enter();
+    ((const struct external_routine *)(const void *)routine)->body(call);
+    mxcsr_leave(saved);
+}
+
+/* The whole text; free it. Null with the reason. */
+static char *make_text(const struct ir *ir, enum unit unit, const union key *key, size_t *bytes,
+                       struct error *error)
+{
+    char *text = NULL;
+    FILE *out = open_memstream(&text, bytes);
+    if (out) {
+        int bad = fputs(external_vector, out) < 0;
+        bad |= external_print(ir, unit, key, out) | ferror(out);
+        bad |= fclose(out);
+        if (!bad)
+            return text;
+    }
+    error_set(error, "out of memory for the text of a %s routine", unit_name[unit]);
+    free(text);
+    return NULL;
+}
+
+/* The function's address and size; -1 if the object does not have it. */
+static int find_function(struct external_routine *external)
+{
+    void *function = dlsym(external->object, EXTERNAL_FUNCTION);
+    Dl_info info;
+    ElfW(Sym) *symbol = NULL;
+    if (!function)
+        return -1;
+    memcpy(&external->body, &function, sizeof function);
+    external->routine.code = function;
+    if (dladdr1(function, &info, (void **)&symbol, RTLD_DL_SYMENT) && symbol)
+        external->routine.code_bytes = (uint32_t)symbol->st_size;
+    return 0;
+}
+
+struct routine *external_routine(const struct ir *ir, enum unit unit, const union key *key,
+                                 struct error *error)
+{
+    struct external_routine *external = calloc(1, sizeof *external);
+    size_t bytes;
+    char *text = external ? make_text(ir, unit, key, &bytes, error) : NULL;
+    if (!external)
+        error_set(error, "out of memory for a routine");
+    if (text)
+        external->object = external_compile(text, bytes, error);
+    free(text);
+    if (!external || !external->object) {
+        free(external);
+        return NULL;
+    }
+    if (find_function(external)) {
+        error_set(error, "what the compiler made has no function of the name %s", EXTERNAL_FUNCTION);
+        dlclose(external->object);
+        free(external);
+        return NULL;
+    }
+    external->routine.run = run;
+    external->routine.engine = &engine_external;
+    external->routine.unit = unit;
+    external->routine.key = *key;
+    external->routine.parts = ir->count - 1;
+    return &external->routine;
+}
+
+static struct routine *build(struct code_arena *arena, enum unit unit, const union key *key,
+                             struct error *error)
+{
+    (void)arena;
+    struct ir *ir = ir_take(unit, key, error);
+    if (!ir)
+        return NULL;
+    struct routine *routine = external_routine(ir, unit, key, error);
+    ir_give(ir);
+    return routine;
+}
+
+static void free_routine(struct code_arena *arena, struct routine *routine)
+{
+    (void)arena;
+    dlclose(((struct external_routine *)(void *)routine)->object);
+    free(routine);
+}
+
+const struct engine engine_external = {
+    .name = "external",
+    .description =
+        "the recording printed as C, compiled by the system's compiler (TRIPTYCH_CC or cc) and loaded",
+    .width = EXTERNAL_WIDTH,
+    .without_arena = 1,
+    .on_request = 1,
+    .unavailable = unavailable,
+    .build = build,
+    .free = free_routine,
+};
