@@ -323,6 +323,12 @@ if "$TRIPTYCH" list engines | grep -q '^specialize .* available '; then
     refuses 'dump of an unknown unit' '--unit is "texel", expected vertex, setup or pixel' \
         dump "$work/good.tri" --unit texel
     refuses 'dump of an unknown stage' 'asm2' dump "$work/good.tri" --show asm2
+    refuses 'dump of an unknown stage of external' 'expected key, vector, text, asm or all' \
+        dump "$work/good.tri" --engine external --show text,asm2
+    answers 'dump of the text that is compiled' '^void routine\(const char \*call\)' \
+        dump "$work/good.tri" --engine external --show text
+    TRIPTYCH_CC=no-such-compiler refuses 'external without a compiler' 'external cannot run here: needs a C compiler' \
+        render "$work/good.tri" --engine external --out "$work/out/external.png"
     refuses 'dump of a stage that stitching has not' '--show is "asm", expected none' \
         dump "$work/good.tri" --engine stitch --show asm
 fi

@@ -29,6 +29,7 @@ check "the renderer includes no engine" src/draw base/ def/ draw/ shader/ tripty
 check "the recording includes no engine" src/ir ir/ base/ def/ draw/ shader/program.h spec/
 check "the emulator and the batch interpreter include no other engine" emu emu/ ir/ base/ def/ draw/ shader/program.h spec/
 check "the stitcher includes no other engine" src/stitch stitch/ base/ def/ draw/ shader/program.h spec/
+check "the external engine includes no other engine" src/external external/ ir/ base/ def/ draw/ shader/program.h spec/
 check "the specializer includes no other engine" src/jit jit/ ir/ base/ def/ draw/ shader/program.h spec/
 
 if grep -rn '#include' src/spec/*.h | grep -v '^src/spec/spec.h:' >&2; then

@@ -82,8 +82,16 @@ static void print_copy(const struct printer *p, const struct ir_instruction *i)
     fputs(i->type == TYPE_flt ? ")" : "", p->out);
 }
 
+/* Memory has floats and integers: anything else is an integer's bits. */
+static void print_cast(const struct printer *p, const struct ir_instruction *i)
+{
+    if (i->type != TYPE_flt && i->type != TYPE_itg)
+        fprintf(p->out, "(%s)", type_word[i->type]);
+}
+
 static void print_gather(const struct printer *p, const struct ir_instruction *i)
 {
+    print_cast(p, i);
     fprintf(p->out, "gather_%c(", type_letter[i->type]);
     if (i->field == GATHER_DIRECT)
         print_address(p, i);
@@ -107,6 +115,7 @@ static void print_value(const struct printer *p, const struct ir_instruction *i)
         break;
     case IR_load:
     case IR_uniform:
+        print_cast(p, i);
         fprintf(p->out, "%s_%c(", ir_op_information[i->op].name, type_letter[i->type]);
         print_address(p, i);
         fputc(')', p->out);
