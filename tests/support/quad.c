@@ -34,20 +34,21 @@ static const struct program *make_program(const char *text)
     return program;
 }
 
-static void derive(const struct state *state, const struct program *program, const struct quad *quad,
-                   struct derived *d)
+static struct state state; /* the device's, with the program */
+
+static void derive(const struct program *program, const struct quad *quad, struct derived *d)
 {
     int pixel = program->model->stage == STAGE_PIXEL;
     memset(d, 0, sizeof *d);
     for (int i = 0; i < PIXEL_SAMPLERS; i++)
         if (program->interface.sampled >> i & 1 && pixel)
-            derive_pixel_sampler(state, i, &d->pixel);
+            derive_pixel_sampler(&state, i, &d->pixel);
         else if (program->interface.sampled >> i & 1)
-            derive_vertex_sampler(state, i, &d->vertex);
+            derive_vertex_sampler(&state, i, &d->vertex);
     memcpy(d->pixel.projected, quad->projected, sizeof d->pixel.projected);
     for (int i = 0; i < 4 && pixel; i++)
         d->pixel.shader[i] = (uint8_t)(program->number >> 8 * i);
-    derive_job(state, &d->vertex, &d->pixel, &d->job);
+    derive_job(&state, &d->vertex, &d->pixel, &d->job);
 }
 
 static void give_inputs(struct machine *m, const struct quad *quad)
@@ -79,7 +80,9 @@ void quad_shade(const triptych_device *device, const char *text, const struct qu
     uint8_t *constants = malloc(program_constant_bytes(program));
     TEST_ASSERT_NOT_NULL(constants);
     program_write_constants(program, quad->constant, integer, constants);
-    derive(&device->state, program, quad, &derived);
+    state = device->state;
+    state.program[program->model->stage] = program;
+    derive(program, quad, &derived);
     unsigned saved = mxcsr_enter();
     e->program = program;
     e->base[BASE_CONSTANT] = constants;
