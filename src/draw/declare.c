@@ -1,6 +1,7 @@
 /* The vertex declaration and its streams: what may be declared, and where each attribute then lies.
  *
- * The state keeps one element per attribute and one binding per stream. A declaration sets all elements; an
+ * The state keeps one element per attribute, those of other usages, which only shaders read, in a list, and one
+ * binding per stream. A declaration sets all elements; an
  * attribute that is set by itself has a stream of its own, behind those that declarations name, so that both
  * ways mean the same to everything that follows. Buffers are compared with what is drawn when it is drawn
  * (draw/device.c). */
@@ -65,6 +66,15 @@ static int check_declaration(const struct triptych_declaration_element *elements
     return 0;
 }
 
+/* -1: none stands for it. */
+static int find_attribute(unsigned usage, unsigned usage_index)
+{
+    for (int a = 0; a < TRIPTYCH_ATTRIBUTE_COUNT; a++)
+        if (attribute_usage[a].usage == usage && attribute_usage[a].index == usage_index)
+            return a;
+    return -1;
+}
+
 enum triptych_result state_set_declaration(struct state *state,
                                            const struct triptych_declaration_element *elements,
                                            unsigned count, struct error *error)
@@ -72,13 +82,29 @@ enum triptych_result state_set_declaration(struct state *state,
     if (check_declaration(elements, count, error))
         return TRIPTYCH_BAD_ARGUMENT;
     memset(state->element, 0, sizeof state->element);
-    for (unsigned i = 0; i < count; i++)
-        for (int a = 0; a < TRIPTYCH_ATTRIBUTE_COUNT; a++)
-            if (attribute_usage[a].usage == elements[i].usage &&
-                attribute_usage[a].index == elements[i].usage_index)
-                state->element[a] =
-                    (struct state_element){elements[i].format, elements[i].stream, elements[i].offset};
+    state->others = 0;
+    for (unsigned i = 0; i < count; i++) {
+        struct state_element element = {elements[i].format, elements[i].stream, elements[i].offset};
+        int attribute = find_attribute(elements[i].usage, elements[i].usage_index);
+        if (attribute >= 0)
+            state->element[attribute] = element;
+        else
+            state->other[state->others++] = (struct state_other){
+                (uint8_t)elements[i].usage, (uint8_t)elements[i].usage_index, element};
+    }
     return TRIPTYCH_OK;
+}
+
+const struct state_element *state_find_element(const struct state *state, unsigned usage,
+                                               unsigned usage_index)
+{
+    int attribute = find_attribute(usage, usage_index);
+    if (attribute >= 0)
+        return state->element[attribute].format ? state->element + attribute : NULL;
+    for (unsigned i = 0; i < state->others; i++)
+        if (state->other[i].usage == usage && state->other[i].usage_index == usage_index)
+            return &state->other[i].element;
+    return NULL;
 }
 
 /* --- Flexible vertex formats ------------------------------------------------------------------------------
@@ -257,9 +283,8 @@ enum triptych_result state_set_frequency(struct state *state, unsigned stream,
     return TRIPTYCH_OK;
 }
 
-uint64_t state_last_vertex(const struct state *state, enum triptych_attribute attribute)
+uint64_t state_last_vertex(const struct state *state, const struct state_element *element)
 {
-    const struct state_element *element = state->element + attribute;
     const struct state_stream *stream = state->stream + element->stream;
     size_t taken = stream->offset + element->offset + vertex_types[element->format].bytes;
     if (!stream->stride)

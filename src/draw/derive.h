@@ -37,6 +37,9 @@ bool derive_flat(const struct state *state);
 /* Whether a draw with this key can change the target at all. */
 bool derive_effective(const struct pixel_key *key);
 
+/* What input v# of the vertex shader reads, or null if nothing is declared with its usage. */
+const struct state_element *derive_input(const struct state *state, const struct vertex_key *key, unsigned number);
+
 /* The values for these keys. Attributes' data and stride come from the streams as bound; those of a stream
  * that steps with the instance are instance 0's, with stride 0, those of a stream without buffer null. */
 void derive_job(const struct state *state, const struct vertex_key *vertex, const struct pixel_key *pixel,

@@ -1,5 +1,6 @@
-/* Fog: where its factor comes from, and the constants of its formula (spec/fog.h). */
+/* Fog: where its factor comes from (a vertex shader that gives none has no fog of its own), and the constants of its formula (spec/fog.h). */
 #include "draw/derive_part.h"
+#include "shader/program.h"
 
 #include <math.h>
 
@@ -19,7 +20,10 @@ void derive_fog(const struct state *state, struct pixel_key *key)
                                        [FOGMODE_linear] = FOG_LINEAR_Z};
     if (!GET(fogenable))
         return;
+    const struct program *vertex = derive_vertex_program(state);
     key->fog = by_depth[GET(fogtablemode)];
+    if (key->fog == FOG_VARYING && vertex && !derive_shader_gives(vertex, USAGE_FOG))
+        key->fog = FOG_NONE;
     if (key->fog == FOG_VARYING)
         key->varying[VARYING_fog] = INTERPOLATION_SMOOTH;
     else if (fog_by_w(state))

@@ -146,6 +146,10 @@ static void fill_stages(const struct state *state, const struct pixel_key *key, 
         if (stage_reads(key, i, SOURCE_FACTOR))
             job->texture_factor = rgba_word(GET(texturefactor));
     }
+    if (!key_program(key->shader) || shader_major(derive_pixel_program(state)->model) > 1)
+        return;
+    for (int i = 0; i < TEXTURE_STAGES; i++) /* a shader's instructions name the stage that has the matrix */
+        fill_bump(state, i, &job->bump[i]);
 }
 
 static void fill_fog(const struct state *state, const struct vertex_key *vertex, const struct pixel_key *key,
@@ -155,22 +159,32 @@ static void fill_fog(const struct state *state, const struct vertex_key *vertex,
         return;
     job->fog_color = rgba_word(GET(fogcolor));
     uint32_t mode = key->fog != FOG_VARYING                    ? GET(fogtablemode)
-                    : vertex->fog == VERTEX_FOG_SPECULAR_ALPHA ? FOGMODE_none
+                    : key_program(vertex->shader) || vertex->fog == VERTEX_FOG_SPECULAR_ALPHA ? FOGMODE_none
                                                                : GET(fogvertexmode);
     derive_fog_formula(state, mode, &job->fog_scale, &job->fog_offset);
+}
+
+static void fill_element(const struct state *state, const struct state_element *element,
+                         struct attribute_job *job)
+{
+    const struct state_stream *stream = state->stream + element->stream;
+    if (!stream->buffer)
+        return;
+    job->data = stream->buffer->data + stream->offset + element->offset;
+    if (stream->frequency != TRIPTYCH_FREQUENCY_INSTANCE)
+        job->stride = (int32_t)stream->stride;
 }
 
 static void fill_attributes(const struct state *state, const struct vertex_key *key, struct job *job)
 {
     for (int i = 0; i < ATTRIBUTE_COUNT; i++)
-        if (key->attribute[i] != ATTRIBUTE_FORMAT_NONE) {
-            const struct state_stream *stream = state_stream_of(state, i);
-            if (!stream->buffer)
-                continue;
-            job->attribute[i].data = stream->buffer->data + stream->offset + state->element[i].offset;
-            if (stream->frequency != TRIPTYCH_FREQUENCY_INSTANCE)
-                job->attribute[i].stride = (int32_t)stream->stride;
-        }
+        if (key->attribute[i] != ATTRIBUTE_FORMAT_NONE)
+            fill_element(state, state->element + i, &job->attribute[i]);
+    for (unsigned i = 0; i < INPUTS; i++) {
+        const struct state_element *element = derive_input(state, key, i);
+        if (element)
+            fill_element(state, element, &job->input[i]);
+    }
 }
 
 /* Where the projection's near and far plane have w: z' = z m33 + m43 and w = z m34 + m44 of camera space's z
@@ -229,7 +243,7 @@ static void fill_texture_matrices(const struct state *state, const struct vertex
 {
     for (int channel = 0; channel < TEXTURE_STAGES; channel++)
         if (vertex->texture_matrix[channel]) {
-            int stage = derive_channel_stage(pixel, channel);
+            int stage = derive_channel_set(state, pixel, channel);
             memcpy(job->texture_matrix[channel], state->transform[TRIPTYCH_TRANSFORM_TEXTURE0 + stage],
                    sizeof job->texture_matrix[channel]);
         }
@@ -248,6 +262,14 @@ void derive_palette(const struct state *state, struct palette_entry palette[WORL
     memset(palette, 0, WORLD_MATRICES * sizeof *palette);
     fill_palette(state, palette);
     mxcsr_leave(saved);
+}
+
+/* Where user clip planes are with a vertex shader: the space of its positions. */
+static struct matrix shader_clip_space(const struct state *state)
+{
+    struct matrix r = {{{1, 0, 0, 0}, {0, 1, 0, 0}, {0, 0, 1, 0}, {0, 0, 0, 1}}};
+    fold_depth_range(state, &r);
+    return r;
 }
 
 static bool blends_by_constant(const struct pixel_key *key)
@@ -286,7 +308,8 @@ __attribute__((noinline)) static void fill_job(const struct state *state, const 
         fill_window(state, job);
     else
         fill_viewport(state, job);
-    derive_setup_job(state, vertex, (const double(*)[4])view_projection.m, job);
+    struct matrix planes = key_program(vertex->shader) ? shader_clip_space(state) : view_projection;
+    derive_setup_job(state, vertex, (const double(*)[4])planes.m, job);
     fill_depth(state, pixel, job);
     fill_textures(state, vertex, pixel, job);
     fill_stages(state, pixel, job);

@@ -61,6 +61,28 @@ void derive_setup(const struct state *state, enum primitive primitive, const str
                   struct setup_key *key);
 void derive_vertex(const struct state *state, const struct pixel_key *pixel, const struct setup_key *setup,
                    struct vertex_key *key);
+uint8_t derive_format(const struct state_element *element, int components);
+
+/* The programs that a draw runs; null where it is the fixed function. */
+const struct program *derive_vertex_program(const struct state *state);
+const struct program *derive_pixel_program(const struct state *state);
+
+/* What shaders take the place of (derive_shader.c): the vertex routine but for its varyings and clip planes, and in the
+ * pixel routine stages, textures and varyings. */
+void derive_vertex_shader(const struct state *state, const struct program *program,
+                          const struct setup_key *setup, struct vertex_key *key);
+void derive_pixel_shader(const struct state *state, const struct program *program, enum primitive primitive,
+                         struct pixel_key *key);
+
+/* Where each component that is read comes from; behind what is said of varyings, channels and shaders. */
+void derive_links(const struct state *state, const struct pixel_key *pixel, struct vertex_key *key);
+bool derive_shader_gives(const struct program *program, unsigned usage);
+
+/* Which coordinate divides the others for a stage: a PROJECTED_ number. */
+uint8_t derive_projection(const struct state *state, int stage);
+
+/* The number of the TEXCOORD that comes in a channel; -1 for other usages, or none. */
+int derive_channel_set(const struct state *state, const struct pixel_key *key, int channel);
 
 /* Where pixel 0's centre is in the window of the viewport. */
 static inline double pixel_centre(const struct state *state)

@@ -1,6 +1,7 @@
 /* The pixel key: which tests, values and channels the pixel routine has, in the order that lets each rule out
  * what follows. */
 #include "draw/derive_part.h"
+#include "shader/program.h"
 
 #include <string.h>
 
@@ -39,30 +40,8 @@ static void flatten(const struct state *state, struct pixel_key *key)
             key->varying[v] = INTERPOLATION_FLAT;
 }
 
-void derive_pixel(const struct state *state, enum primitive primitive, struct pixel_key *key)
+static void derive_stages(const struct state *state, enum primitive primitive, struct pixel_key *key)
 {
-    derive_depth(state, primitive, key);
-    derive_targets(state, key);
-    key->alpha_discard = derive_alpha_discard(state);
-    key->count = state->counting;
-    derive_blend(state, key);
-    if (!derive_passes(key)) {
-        key->depth_write = key->count = 0;
-        memset(key->write_mask, 0, sizeof key->write_mask);
-    }
-    if (key->alpha_discard == COMPARE_ALWAYS)
-        derive_no_stencil(key);
-    if (!derive_effective(key)) { /* one key for all that draw nothing */
-        derive_no_stencil(key);
-        key->depth_function = COMPARE_ALWAYS;
-        key->alpha_discard = COMPARE_NEVER;
-    }
-    derive_depth_format(state, key);
-    derive_storage(state, key);
-    if (!pixel_write_mask(key))
-        derive_no_blend(key);
-    if (!pixel_shades(key))
-        return;
     derive_stage(state, key);
     derive_texture(state, key);
     if (pixel_write_mask(key) & MASK_COLOR) {
@@ -76,4 +55,38 @@ void derive_pixel(const struct state *state, enum primitive primitive, struct pi
         key->varying[VARYING_specular] = shading;
     if (primitive_is_point(primitive))
         flatten(state, key);
+}
+
+void derive_pixel(const struct state *state, enum primitive primitive, struct pixel_key *key)
+{
+    const struct program *program = derive_pixel_program(state);
+    derive_depth(state, primitive, key);
+    derive_targets(state, key);
+    key->alpha_discard = derive_alpha_discard(state);
+    key->kills = program && program->interface.kills;
+    key->count = state->counting;
+    derive_blend(state, key);
+    if (!derive_passes(key)) {
+        key->depth_write = key->count = 0;
+        memset(key->write_mask, 0, sizeof key->write_mask);
+    }
+    if (key->alpha_discard == COMPARE_ALWAYS)
+        derive_no_stencil(key);
+    if (!derive_effective(key)) { /* one key for all that draw nothing */
+        derive_no_stencil(key);
+        key->depth_function = COMPARE_ALWAYS;
+        key->alpha_discard = COMPARE_NEVER;
+        key->kills = 0;
+    }
+    derive_depth_format(state, key);
+    key->depth_output = program && program->interface.depth && pixel_tests_depth(key);
+    derive_storage(state, key);
+    if (!pixel_write_mask(key))
+        derive_no_blend(key);
+    if (!pixel_shades(key))
+        return;
+    if (program)
+        derive_pixel_shader(state, program, primitive, key);
+    else
+        derive_stages(state, primitive, key);
 }

@@ -4,6 +4,7 @@
  * Fill modes are for triangles alone. Culling and depth bias are, too (Direct3D 9, Depth Bias): for a line or
  * a point they are normalised away, for an edge or a corner of a triangle they are not. */
 #include "draw/derive_part.h"
+#include "shader/program.h"
 
 #include <math.h>
 
@@ -66,11 +67,19 @@ static bool smooth_varyings(const struct pixel_key *key)
 enum point_size derive_point_size(const struct state *state, enum primitive primitive)
 {
     int window = state->element[ATTRIBUTE_POSITIONT].format != TRIPTYCH_FORMAT_NONE;
+    const struct program *program = derive_vertex_program(state);
     if (!primitive_is_point(primitive))
         return POINT_SIZE_CONSTANT;
+    if (program) /* it does what pointscaleenable does by itself */
+        return derive_shader_gives(program, USAGE_PSIZE) ? POINT_SIZE_VERTEX : POINT_SIZE_CONSTANT;
     if (GET(pointscaleenable) && !window)
         return POINT_SIZE_SCALED;
     return state->element[ATTRIBUTE_POINT_SIZE].format ? POINT_SIZE_VERTEX : POINT_SIZE_CONSTANT;
+}
+
+static bool reads_face(const struct state *state, const struct pixel_key *pixel)
+{
+    return key_program(pixel->shader) && derive_pixel_program(state)->interface.face;
 }
 
 void derive_setup(const struct state *state, enum primitive primitive, const struct pixel_key *pixel,
@@ -85,7 +94,7 @@ void derive_setup(const struct state *state, enum primitive primitive, const str
     if (!primitive_has_area(primitive))
         return;
     key->cull = (uint8_t)(GET(cullmode) - CULLMODE_none);
-    key->facing = pixel->stencil == STENCIL_TWO;
+    key->facing = pixel->stencil == STENCIL_TWO || reads_face(state, pixel);
     if (key->depth)
         key->depth_bias = derive_depth_bias(state);
 }
@@ -158,8 +167,9 @@ void derive_setup_job(const struct state *state, const struct vertex_key *vertex
 {
     job->depth_bias = GET_FLOAT(depthbias);
     job->depth_bias_slope = GET_FLOAT(slopescaledepthbias);
-    job->point_size = vertex->point_size ? GET_FLOAT(pointsize) : point_size(state);
-    if (vertex->point_size)
+    int own_sizes = vertex->point_size || vertex->size_link;
+    job->point_size = own_sizes ? GET_FLOAT(pointsize) : point_size(state);
+    if (own_sizes)
         fill_point_sizes(state, job);
     for (int i = 0, n = 0; n < vertex->clip_planes; i++)
         if (GET(clipplaneenable) >> i & 1)

@@ -1,13 +1,17 @@
 /* Targets: which are written, how they store what is written, and whether that takes colours in binary32. */
 #include "draw/derive_part.h"
+#include "shader/program.h"
 
+/* Stages give all targets their colour; a target that a shader gives none stays as it is. */
 void derive_targets(const struct state *state, struct pixel_key *key)
 {
     const uint32_t enabled[TARGETS] = {GET(colorwriteenable), GET(colorwriteenable1), GET(colorwriteenable2),
                                        GET(colorwriteenable3)};
+    const struct program *program = derive_pixel_program(state);
     for (int t = 0; t < TARGETS; t++) {
+        bool given = !program || program->interface.targets >> t & 1;
         key->target[t] = state->target[t].storage;
-        key->write_mask[t] = (uint8_t)(enabled[t] & state->target[t].channels);
+        key->write_mask[t] = (uint8_t)(given ? enabled[t] & state->target[t].channels : 0);
     }
 }
 

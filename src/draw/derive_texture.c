@@ -116,9 +116,11 @@ uint32_t derive_first_level(const struct state *state, int number)
     return first < last ? first : last;
 }
 
-/* With a matrix a stage has coordinates of its own. */
+/* With a matrix a stage has coordinates of its own, and vertex shaders give each stage its own. */
 static bool same_coordinates(const struct state *state, int a, int b)
 {
+    if (derive_vertex_program(state))
+        return false;
     uint32_t flags = STAGE(a, texturetransformflags);
     return STAGE(a, texcoordindex) == STAGE(b, texcoordindex) && flags == STAGE(b, texturetransformflags) &&
            !(flags & TEXTURETRANSFORM_COUNT_MASK);
@@ -126,10 +128,12 @@ static bool same_coordinates(const struct state *state, int a, int b)
 
 /* The last of three or four coordinates divides the others (Direct3D 9, D3DTTFF_PROJECTED); without a count
  * it is the fourth, and with one or two coordinates nothing is left to be divided. */
-static bool is_projected(const struct state *state, int stage)
+uint8_t derive_projection(const struct state *state, int stage)
 {
     uint32_t flags = STAGE(stage, texturetransformflags), count = flags & TEXTURETRANSFORM_COUNT_MASK;
-    return (flags & TEXTURETRANSFORM_disable_projected) && (!count || count >= 3);
+    if (!(flags & TEXTURETRANSFORM_disable_projected) || (count && count < 3))
+        return PROJECTED_NONE;
+    return count == 3 ? PROJECTED_THIRD : PROJECTED_FOURTH;
 }
 
 /* Stages with the same coordinates share a channel; channels are numbered in the order of their first stages.
@@ -149,7 +153,7 @@ static void derive_channel(const struct state *state, int stage, struct pixel_ke
     }
     key->coordinates[stage] = next;
     key->varying[varying_texcoord(next)] = INTERPOLATION_SMOOTH;
-    if (is_projected(state, stage))
+    if (derive_projection(state, stage) != PROJECTED_NONE)
         key->varying[varying_divisor(next)] = INTERPOLATION_SMOOTH;
 }
 
@@ -185,26 +189,39 @@ int derive_channel_stage(const struct pixel_key *key, int channel)
     return -1;
 }
 
-/* Direct3D 9's WRAP states by set of coordinates; sets from 8 on are vertex shaders' alone. */
+/* Direct3D 9's WRAP states by set of coordinates; sets from 8 on are shaders' alone. */
 static uint32_t wrapped_coordinates(const struct state *state, uint32_t set)
 {
-    static const uint8_t row[TEXCOORD_SETS] = {
-        TRIPTYCH_STATE_wrap0, TRIPTYCH_STATE_wrap1, TRIPTYCH_STATE_wrap2, TRIPTYCH_STATE_wrap3,
-        TRIPTYCH_STATE_wrap4, TRIPTYCH_STATE_wrap5, TRIPTYCH_STATE_wrap6, TRIPTYCH_STATE_wrap7};
-    return state->value[row[set % TEXCOORD_SETS]];
+    static const uint8_t row[TRIPTYCH_USAGE_INDICES] = {
+        TRIPTYCH_STATE_wrap0,  TRIPTYCH_STATE_wrap1,  TRIPTYCH_STATE_wrap2,  TRIPTYCH_STATE_wrap3,
+        TRIPTYCH_STATE_wrap4,  TRIPTYCH_STATE_wrap5,  TRIPTYCH_STATE_wrap6,  TRIPTYCH_STATE_wrap7,
+        TRIPTYCH_STATE_wrap8,  TRIPTYCH_STATE_wrap9,  TRIPTYCH_STATE_wrap10, TRIPTYCH_STATE_wrap11,
+        TRIPTYCH_STATE_wrap12, TRIPTYCH_STATE_wrap13, TRIPTYCH_STATE_wrap14, TRIPTYCH_STATE_wrap15};
+    return state->value[row[set % TRIPTYCH_USAGE_INDICES]];
 }
 
-/* The fourth coordinate is a divisor, and what is divided does not turn around. */
+/* The set that a channel's coordinates wrap by: the texcoord of a shader, or that of the vertex. */
+static int wrapped_set(const struct state *state, const struct pixel_key *pixel, int channel)
+{
+    int set = derive_channel_set(state, pixel, channel);
+    if (set < 0 || set >= TEXTURE_STAGES || derive_vertex_program(state))
+        return set;
+    return (int)(STAGE(set, texcoordindex) & (TEXCOORD_SETS - 1));
+}
+
+/* A stage's fourth coordinate is a divisor, and what is divided does not turn around; shaders have four like any. */
 uint64_t derive_wrapped(const struct state *state, const struct pixel_key *pixel)
 {
     uint64_t slots = 0;
+    bool shader = key_program(pixel->shader) != 0;
     for (int channel = 0; channel < TEXTURE_STAGES; channel++) {
-        int stage = derive_channel_stage(pixel, channel);
-        if (stage < 0 || pixel->varying[varying_divisor(channel)])
+        int set = wrapped_set(state, pixel, channel);
+        if (set < 0 || (!shader && pixel->varying[varying_divisor(channel)]))
             continue;
-        uint64_t bits = wrapped_coordinates(state, STAGE(stage, texcoordindex));
+        uint64_t bits = wrapped_coordinates(state, (uint32_t)set);
         slots |= (bits & 3) << varying_slot[varying_texcoord(channel)];
         slots |= (bits >> 2 & 1) << varying_slot[varying_third(channel)];
+        slots |= (bits >> 3 & shader) << varying_slot[varying_divisor(channel)];
     }
     return slots;
 }

@@ -3,9 +3,9 @@
 #include "draw/derive_part.h"
 
 /* The bound format, cut to the components that the vertex routine can read. */
-static uint8_t derive_format(const struct state *state, enum attribute attribute, int components)
+uint8_t derive_format(const struct state_element *element, int components)
 {
-    int format = (int)state->element[attribute].format;
+    int format = (int)element->format;
     int last = ATTRIBUTE_FORMAT_FLOAT1 + components - 1;
     int floats = vertex_types[format].encoding == ENCODING_FLOAT;
     return (uint8_t)(floats && format > last ? last : format);
@@ -13,7 +13,7 @@ static uint8_t derive_format(const struct state *state, enum attribute attribute
 
 static void need(const struct state *state, struct vertex_key *key, enum attribute attribute, int components)
 {
-    key->attribute[attribute] = derive_format(state, attribute, components);
+    key->attribute[attribute] = derive_format(&state->element[attribute], components);
 }
 
 static int is_declared(const struct state *state, enum attribute attribute)
@@ -224,20 +224,33 @@ static int is_read(const struct setup_key *setup, int varying)
     return setup->varying[varying] != INTERPOLATION_NONE && !(smooth && primitive_is_point(setup->primitive));
 }
 
-void derive_vertex(const struct state *state, const struct pixel_key *pixel, const struct setup_key *setup,
-                   struct vertex_key *key)
+static void derive_fixed(const struct state *state, const struct pixel_key *pixel,
+                         const struct setup_key *setup, struct vertex_key *key)
 {
-    for (int v = 0; v < VARYING_COUNT; v++)
-        key->varying[v] = (uint8_t)is_read(setup, v);
     derive_position(state, key);
-    if (GET(clipping) && !in_window(key))
-        key->clip_planes = (uint8_t)__builtin_popcount(GET(clipplaneenable));
     derive_colors(state, key);
     derive_vertex_fog(state, key);
     key->point_size = (uint8_t)derive_point_size(state, setup->primitive);
     if (key->point_size != POINT_SIZE_CONSTANT)
         need(state, key, ATTRIBUTE_POINT_SIZE, 1);
-    for (int channel = 0; channel < TEXTURE_STAGES; channel++)
-        if (reads_channel(key, channel))
-            derive_coordinates(state, derive_channel_stage(pixel, channel), channel, key);
+    for (int channel = 0; channel < TEXTURE_STAGES; channel++) {
+        int stage = derive_channel_set(state, pixel, channel);
+        if (reads_channel(key, channel) && stage >= 0 && stage < TEXTURE_STAGES)
+            derive_coordinates(state, stage, channel, key);
+    }
+}
+
+void derive_vertex(const struct state *state, const struct pixel_key *pixel, const struct setup_key *setup,
+                   struct vertex_key *key)
+{
+    const struct program *program = derive_vertex_program(state);
+    for (int v = 0; v < VARYING_COUNT; v++)
+        key->varying[v] = (uint8_t)is_read(setup, v);
+    if (program)
+        derive_vertex_shader(state, program, setup, key);
+    else
+        derive_fixed(state, pixel, setup, key);
+    if (GET(clipping) && !in_window(key))
+        key->clip_planes = (uint8_t)__builtin_popcount(GET(clipplaneenable));
+    derive_links(state, pixel, key);
 }

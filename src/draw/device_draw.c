@@ -7,6 +7,7 @@
 
 #include <float.h>
 #include <inttypes.h>
+#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -24,13 +25,14 @@ uint64_t primitive_corners(enum triptych_primitive primitive, uint32_t count)
     }
 }
 
-/* Whether vertex `last` of an attribute lies in its buffer. */
-static enum triptych_result check_attribute(const struct state *state, enum attribute attribute,
-                                            uint64_t last, struct error *error)
+/* Whether the vertices of a draw lie in the buffer of an element: those up to `last`, or as many as its instances need.
+ */
+static enum triptych_result check_element(const struct state *state, const struct state_element *element,
+                                          const char *name, uint64_t last, struct error *error)
 {
-    const struct state_element *element = state->element + attribute;
-    const struct state_stream *stream = state_stream_of(state, (enum triptych_attribute)attribute);
-    const char *name = attribute_name[attribute];
+    const struct state_stream *stream = state->stream + element->stream;
+    if (stream->frequency == TRIPTYCH_FREQUENCY_INSTANCE)
+        last = (state_instances(state) - 1) / stream->count;
     if (!stream->buffer) {
         error_set(error, "%s: no buffer in stream %u, expected set_stream first", name, element->stream);
         return TRIPTYCH_BAD_CALL;
@@ -41,7 +43,7 @@ static enum triptych_result check_attribute(const struct state *state, enum attr
                   stream->buffer->bytes);
         return TRIPTYCH_BAD_CALL;
     }
-    uint64_t most = state_last_vertex(state, (enum triptych_attribute)attribute);
+    uint64_t most = state_last_vertex(state, element);
     if (last > most) {
         error_set(error, "vertex %" PRIu64 ": %s lies past its buffer, which ends with vertex %" PRIu64, last,
                   name, most);
@@ -50,19 +52,22 @@ static enum triptych_result check_attribute(const struct state *state, enum attr
     return TRIPTYCH_OK;
 }
 
-/* The same of each attribute that the vertex routine reads; those by instance have as many as are needed. */
+/* The same of everything that the vertex routine reads. */
 static enum triptych_result check_vertices(const struct triptych_device *device, uint64_t last,
                                            struct error *error)
 {
     const struct state *state = &device->state;
+    const struct vertex_key *key = &device->key[UNIT_VERTEX].vertex;
     enum triptych_result result = TRIPTYCH_OK;
-    for (int i = 0; i < ATTRIBUTE_COUNT && result == TRIPTYCH_OK; i++) {
-        const struct state_stream *stream = state_stream_of(state, i);
-        if (device->key[UNIT_VERTEX].vertex.attribute[i] == ATTRIBUTE_FORMAT_NONE)
-            continue;
-        int instanced = stream->frequency == TRIPTYCH_FREQUENCY_INSTANCE;
-        uint64_t most = instanced ? (state_instances(state) - 1) / stream->count : last;
-        result = check_attribute(state, i, most, error);
+    for (int i = 0; i < ATTRIBUTE_COUNT && result == TRIPTYCH_OK; i++)
+        if (key->attribute[i] != ATTRIBUTE_FORMAT_NONE)
+            result = check_element(state, state->element + i, attribute_name[i], last, error);
+    for (unsigned i = 0; i < INPUTS && result == TRIPTYCH_OK; i++) {
+        const struct state_element *element = derive_input(state, key, i);
+        char name[8];
+        snprintf(name, sizeof name, "v%u", i);
+        if (element)
+            result = check_element(state, element, name, last, error);
     }
     return result;
 }
@@ -222,14 +227,24 @@ static void mark_textures(struct triptych_device *device)
             device->state.texture[i]->recording = device->recording;
 }
 
-/* Attributes of streams that step with the instance: the same vertex for the whole of it. */
+/* Elements of streams that step with the instance: the same vertex for the whole of it. */
+static void step_element(const struct state *state, const struct state_element *element, uint32_t instance,
+                         struct attribute_job *job)
+{
+    const struct state_stream *stream = state->stream + element->stream;
+    if (job->data && stream->frequency == TRIPTYCH_FREQUENCY_INSTANCE)
+        job->data += (size_t)(instance / stream->count) * stream->stride;
+}
+
 static void step_instance(const struct triptych_device *device, uint32_t instance, struct job *job)
 {
     const struct state *state = &device->state;
-    for (int i = 0; i < ATTRIBUTE_COUNT; i++) {
-        const struct state_stream *stream = state_stream_of(state, i);
-        if (job->attribute[i].data && stream->frequency == TRIPTYCH_FREQUENCY_INSTANCE)
-            job->attribute[i].data += (size_t)(instance / stream->count) * stream->stride;
+    for (int i = 0; i < ATTRIBUTE_COUNT; i++)
+        step_element(state, state->element + i, instance, &job->attribute[i]);
+    for (unsigned i = 0; i < INPUTS; i++) {
+        const struct state_element *element = derive_input(state, &device->key[UNIT_VERTEX].vertex, i);
+        if (element)
+            step_element(state, element, instance, &job->input[i]);
     }
 }
 

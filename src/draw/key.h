@@ -147,6 +147,28 @@ static inline int varying_is_divisor(int varying)
            !((varying - VARYING_divisor0) % VARYING_CHANNEL);
 }
 
+/* Ports: what shaders see of the varyings, of four components each. A channel's third coordinate and its divisor are
+ * the third and the fourth component; shaders divide by themselves. */
+enum { PORT_DIFFUSE, PORT_SPECULAR, PORT_CHANNEL, PORTS = PORT_CHANNEL + TEXTURE_STAGES };
+
+/* The varying that component c of a port is in, and which of its components that is. */
+static inline int port_varying(int port, int c)
+{
+    int channel = port - PORT_CHANNEL;
+    if (port < PORT_CHANNEL)
+        return port == PORT_DIFFUSE ? (int)VARYING_diffuse : (int)VARYING_specular;
+    return c < 2 ? varying_texcoord(channel) : c == 2 ? varying_third(channel) : varying_divisor(channel);
+}
+static inline int port_component(int port, int c)
+{
+    return port < PORT_CHANNEL || c < 2 ? c : 0;
+}
+
+/* Where a component comes from: the fixed function; nowhere, so that it has its default; or component c of output o of
+ * the vertex shader, LINK_OUTPUT + 4 * o + c. */
+enum { INPUTS = 16, OUTPUTS = 16 };
+enum { LINK_FIXED, LINK_NONE, LINK_OUTPUT, LINK_COUNT = LINK_OUTPUT + 4 * OUTPUTS };
+
 /* Stages of ps_1_1 to ps_1_3, and which of their coordinates divides the others. */
 enum { PROJECTED_STAGES = 4 };
 enum { PROJECTED_NONE, PROJECTED_THIRD, PROJECTED_FOURTH, PROJECTED_COUNT };
@@ -413,6 +435,12 @@ static inline uint32_t key_program(const uint8_t shader[4])
     return shader[0] | (uint32_t)shader[1] << 8 | (uint32_t)shader[2] << 16 | (uint32_t)shader[3] << 24;
 }
 
+static inline void key_set_program(uint8_t shader[4], uint32_t number)
+{
+    for (int i = 0; i < 4; i++)
+        shader[i] = (uint8_t)(number >> 8 * i);
+}
+
 /* The program of a unit's key, or null if it has none. */
 const struct program *key_shader(enum unit unit, const union key *key);
 
@@ -540,10 +568,20 @@ static inline int pixel_leaves_traces(const struct pixel_key *key)
     return key->depth_write || key->count || pixel_writes_stencil(key);
 }
 
-/* Whether the pixel routine computes colours: to write them, or to find what the alpha test keeps. */
+/* Whether shading decides which pixels are left, and whether tests wait for it. */
+static inline int pixel_discards(const struct pixel_key *key)
+{
+    return key->alpha_discard || key->kills;
+}
+static inline int pixel_waits(const struct pixel_key *key)
+{
+    return pixel_discards(key) || key->depth_output;
+}
+
+/* Whether the pixel routine computes colours: to write them, or to find what is kept, or how deep it is. */
 static inline int pixel_shades(const struct pixel_key *key)
 {
-    return pixel_write_mask(key) || (key->alpha_discard && pixel_leaves_traces(key));
+    return pixel_write_mask(key) || (pixel_waits(key) && pixel_leaves_traces(key));
 }
 
 static inline int fog_reads_depth(int fog)
@@ -554,12 +592,14 @@ static inline int fog_reads_depth(int fog)
 /* Whether the pixel routine looks at the triangle's depth, and at w other than to interpolate. */
 static inline int pixel_reads_depth(const struct pixel_key *key)
 {
-    return (pixel_tests_depth(key) && !key->depth_w) || (pixel_shades(key) && fog_reads_depth(key->fog));
+    int tested = pixel_tests_depth(key) && !key->depth_w && !key->depth_output;
+    return tested || (pixel_shades(key) && fog_reads_depth(key->fog));
 }
 
 static inline int pixel_reads_w(const struct pixel_key *key)
 {
-    return (pixel_tests_depth(key) && key->depth_w) || (pixel_shades(key) && key->fog >= FOG_LINEAR_W);
+    int tested = pixel_tests_depth(key) && key->depth_w && !key->depth_output;
+    return tested || (pixel_shades(key) && key->fog >= FOG_LINEAR_W);
 }
 
 /* Whether alpha is blended otherwise than colour. */

@@ -21,6 +21,12 @@ struct state_element {
     size_t offset;
 };
 
+/* An element that no attribute stands for: shaders can ask for it by its usage. */
+struct state_other {
+    uint8_t usage, usage_index;
+    struct state_element element;
+};
+
 /* Vertex i begins at offset + i * stride of the buffer. */
 struct state_stream {
     struct triptych_buffer *buffer; /* null: not bound */
@@ -62,6 +68,8 @@ struct state {
     uint8_t light_enabled[TRIPTYCH_LIGHTS];
     struct triptych_texture *texture[TRIPTYCH_SAMPLERS];
     struct state_element element[TRIPTYCH_ATTRIBUTE_COUNT];
+    struct state_other other[TRIPTYCH_DECLARATION_ELEMENTS];
+    unsigned others;
     struct state_stream stream[STREAM_COUNT];
     struct triptych_buffer *indices;
     uint32_t index_bits; /* 16 or 32 while indices are bound */
@@ -124,6 +132,10 @@ enum triptych_result state_set_frequency(struct state *state, unsigned stream,
 enum triptych_result state_set_element(struct state *state, enum triptych_attribute attribute,
                                        const struct triptych_element *element, struct error *error);
 
+/* What is declared with that usage, or null. */
+const struct state_element *state_find_element(const struct state *state, unsigned usage,
+                                               unsigned usage_index);
+
 /* The stream that an attribute comes from. */
 static inline const struct state_stream *state_stream_of(const struct state *state,
                                                          enum triptych_attribute attribute)
@@ -138,8 +150,7 @@ static inline uint32_t state_instances(const struct state *state)
     return first->frequency == TRIPTYCH_FREQUENCY_INDEXED ? first->count : 1;
 }
 
-/* The last vertex of its stream that an attribute has, or UINT64_MAX where the stride is 0. The stream is
- * bound. */
-uint64_t state_last_vertex(const struct state *state, enum triptych_attribute attribute);
+/* The last vertex of its stream that has an element, or UINT64_MAX where the stride is 0. The stream is bound. */
+uint64_t state_last_vertex(const struct state *state, const struct state_element *element);
 
 #endif

@@ -2,19 +2,17 @@
 
 #include <string.h>
 
-enum { POSITION = 0, PSIZE = 4, TEXCOORD = 5, COLOR = 10, FOG = 11 };
-
 /* Registers whose usage goes without saying; -1 for the rest. */
 static int implied_usage(enum shader_file file, const struct shader_model *model)
 {
     switch (file) {
-    case FILE_POSITION: return POSITION;
-    case FILE_POINT: return PSIZE;
-    case FILE_FOG: return FOG;
-    case FILE_COLOR: return COLOR;
-    case FILE_COORDINATE: return TEXCOORD;
-    case FILE_TEXTURE: return TEXCOORD;
-    case FILE_INPUT: return shader_has_usage(file, model) ? -1 : COLOR;
+    case FILE_POSITION: return USAGE_POSITION;
+    case FILE_POINT: return USAGE_PSIZE;
+    case FILE_FOG: return USAGE_FOG;
+    case FILE_COLOR: return USAGE_COLOR;
+    case FILE_COORDINATE: return USAGE_TEXCOORD;
+    case FILE_TEXTURE: return USAGE_TEXCOORD;
+    case FILE_INPUT: return shader_has_usage(file, model) ? -1 : USAGE_COLOR;
     default: return -1;
     }
 }
@@ -39,25 +37,26 @@ static void add_port(struct shader_interface *interface, struct shader_port port
 
 /* A register that is mentioned, or declared without a usage. */
 static void add_implied(struct shader_interface *interface, const struct shader_model *model,
-                        const struct shader_operand *operand, unsigned mask)
+                        const struct shader_operand *operand, unsigned mask, bool centroid)
 {
     int usage = implied_usage(operand->file, model);
     if (usage >= 0)
         add_port(interface, (struct shader_port){operand->file, (uint8_t)operand->index, (uint8_t)mask,
-                                                 (uint8_t)usage, (uint8_t)operand->index});
+                                                 (uint8_t)usage, (uint8_t)operand->index, centroid});
 }
 
 static void add_declaration(struct shader_interface *interface, const struct shader_model *model,
                             const struct shader_instruction *instruction)
 {
     const struct shader_operand *declared = &instruction->destination;
+    bool centroid = declared->modifier & RESULT_CENTROID;
     if (declared->file == FILE_SAMPLER)
         interface->kinds[declared->index] = instruction->kind;
     else if (shader_has_usage(declared->file, model))
         add_port(interface, (struct shader_port){declared->file, (uint8_t)declared->index, declared->swizzle,
-                                                 instruction->usage, instruction->usage_index});
+                                                 instruction->usage, instruction->usage_index, centroid});
     else
-        add_implied(interface, model, declared, declared->swizzle);
+        add_implied(interface, model, declared, declared->swizzle, centroid);
 }
 
 /* ps_1_x names the stage by the destination; t# of the stage are its coordinates unless another's value is.
@@ -72,9 +71,9 @@ static void add_stage(struct shader_interface *interface, const struct shader_mo
     if (row->flags & IS_GRADIENT)
         interface->sampled |= (uint16_t)(1 << stage->index);
     if (stage->file == FILE_TEXTURE && !by_register)
-        add_implied(interface, model, stage, MASK_FULL);
+        add_implied(interface, model, stage, MASK_FULL, false);
     if (row->source[0] == OPERAND_SET && instruction->source[0].file == FILE_TEXTURE)
-        add_implied(interface, model, &instruction->source[0], MASK_FULL);
+        add_implied(interface, model, &instruction->source[0], MASK_FULL, false);
 }
 
 static void add_source(struct shader_interface *interface, const struct shader_model *model,
@@ -93,7 +92,7 @@ static void add_source(struct shader_interface *interface, const struct shader_m
         interface->sampled |= (uint16_t)(1 << source->index);
     /* What ps_1_x does not declare; t# there is a stage's own. */
     else if (source->file == FILE_INPUT && shader_major(model) == 1 && model->stage == STAGE_PIXEL)
-        add_implied(interface, model, source, MASK_FULL);
+        add_implied(interface, model, source, MASK_FULL, false);
 }
 
 static void add_result(struct shader_interface *interface, const struct shader_model *model,
@@ -106,7 +105,7 @@ static void add_result(struct shader_interface *interface, const struct shader_m
     else if (result->file == FILE_DEPTH)
         interface->depth = true;
     else if (is_output(result->file))
-        add_implied(interface, model, result, MASK_FULL);
+        add_implied(interface, model, result, MASK_FULL, false);
 }
 
 static void add_instruction(struct shader_interface *interface, const struct shader_model *model,

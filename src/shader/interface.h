@@ -15,6 +15,7 @@ struct shader_port {
     uint8_t file, index; /* the register */
     uint8_t mask;        /* components that are declared, or all */
     uint8_t usage, usage_index;
+    bool centroid; /* looked up inside the triangle (dcl_centroid) */
 };
 
 struct shader_interface {

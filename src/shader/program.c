@@ -125,6 +125,7 @@ static int fill(struct program *program, const struct shader *shader, struct err
         if (note_instruction(program, i, error))
             return -1;
     }
+    program_link(program);
     return program_connect(program, error);
 }
 

@@ -73,6 +73,20 @@ struct program_step {
     struct cell_set written; /* if, else, loop, rep, call: in its region, up to the match, or in the body */
 };
 
+/* Where a pixel shader's varyings come in: two ports of colours, then eight of coordinates, of four components each.
+ * ps_1_x and ps_2_x have v0 and v1 in the first two and t0 to t7 in the others. Registers of ps_3_0 that are declared
+ * as color 0 and 1 or texcoord 0 to 7 go the same way, those of other usages through free ports, from the ninth back
+ * behind the coordinates: ten ports for ten registers. */
+enum { PROGRAM_PORTS = 10, PORT_COORDINATE = 2 };
+
+struct program_port {
+    uint8_t file, index; /* v# or t# */
+    uint8_t mask;        /* components that are read; 0: nothing comes in here */
+    bool color;          /* declared as color 0 or 1 */
+    bool coordinate;     /* declared as a texcoord */
+    bool centroid;       /* looked up inside the triangle, as colours always are */
+};
+
 /* A def, defi or defb: bits. */
 struct program_constant {
     uint8_t file; /* FILE_CONSTANT, FILE_INTEGER, FILE_BOOLEAN */
@@ -98,6 +112,7 @@ struct program {
     struct cell_set written;            /* all cells that are written */
     uint8_t input_mask[SHADER_PORTS];   /* v#: components that are read; all of them if they are indexed */
     uint8_t texture_mask[8];            /* t#: components that are read as coordinates */
+    struct program_port port[PROGRAM_PORTS]; /* of a pixel shader */
     bool input_indexed, output_indexed; /* v[aL], o[aL] */
     uint32_t slots;                     /* as the validator counts */
     /* the registry's */
@@ -132,6 +147,13 @@ const struct program_constant *program_defined(const struct program *program, en
  * size have usages too (shader/interface.h). */
 int program_output(const struct program *program, unsigned usage, unsigned usage_index, unsigned *mask);
 
+/* What dcl, or the register's name, says that a component of an input is; null if nothing. */
+const struct shader_port *program_input(const struct program *program, unsigned file, unsigned index,
+                                        unsigned component);
+
+/* The number of the output that has component c of that usage and writes it, or -1. */
+int program_gives(const struct program *program, unsigned usage, unsigned usage_index, unsigned c);
+
 /* The cell of a destination register's component x. */
 unsigned program_cell(const struct shader_operand *destination, const struct shader_model *model);
 
@@ -157,5 +179,8 @@ static inline int program_integer_offset(const struct program *program, unsigned
 
 /* Where flow control goes, what regions write, how deep loops nest (program_flow.c). */
 int program_connect(struct program *program, struct error *error);
+
+/* A pixel shader's ports (program_link.c). */
+void program_link(struct program *program);
 
 #endif

@@ -180,6 +180,13 @@ struct shader_modifier {
 /* At the token's number. */
 extern const struct shader_modifier shader_modifiers[MODIFIER_COUNT];
 
+/* What dcl says a register is for. */
+enum shader_usage {
+#define USAGE(id, name, number) USAGE_##id = number,
+#include "def/shader_usage.def"
+#undef USAGE
+};
+
 struct shader_word {
     const char *name;
     uint8_t number;

@@ -6,7 +6,8 @@
  * draw/key.h describes. Stored and new depth are compared as they are stored.
  *
  * The comparison comes first of all but the stencil's (spec/stencil.h). The write follows at once, or behind
- * the alpha test when that is on. */
+ * shading when that decides which pixels are left. A depth that a shader gives replaces the triangle's, clamped as
+ * well, for all samples alike, and all tests come behind it. */
 
 static inline msk depth_compare(struct env *e, int function, flt new, flt stored)
 {
@@ -34,13 +35,18 @@ struct depth {
     itg code, stored_code;
 };
 
-/* The pixel's own depth. */
+static inline flt clamp_depth(struct env *e, flt depth)
+{
+    flt low = max_f(E, depth, lit_f(E, 0.0f));
+    return min_f(E, low, lit_f(E, 1.0f));
+}
+
+/* The triangle's depth at the pixel. */
 static inline flt pixel_depth(struct env *e, const struct pixel_position *at,
                               const struct triangle_layout *layout)
 {
     flt plane = evaluate_plane(E, at, layout->depth);
-    flt low = max_f(E, plane, lit_f(E, 0.0f));
-    return min_f(E, low, lit_f(E, 1.0f));
+    return clamp_depth(E, plane);
 }
 
 /* The same of w, in a w-buffer. */
@@ -51,8 +57,7 @@ static inline flt pixel_w_depth(struct env *e, const struct pixel_position *at,
     flt scale = uniform_f(E, BASE_JOB, (int)offsetof(struct job, w_scale));
     flt offset = uniform_f(E, BASE_JOB, (int)offsetof(struct job, w_offset));
     flt value = mad_f(E, w, scale, offset);
-    flt low = max_f(E, value, lit_f(E, 0.0f));
-    return min_f(E, low, lit_f(E, 1.0f));
+    return clamp_depth(E, value);
 }
 
 /* Two halves of 16 bits, each exact until it is rounded; above 2^31 modulo 2^32. */
@@ -107,7 +112,10 @@ static inline struct depth depth_pair(struct env *e, const struct pixel_key *k,
                                       const struct pixel_position *at, const struct triangle_layout *layout)
 {
     struct depth r;
-    r.new = k->depth_w ? pixel_w_depth(E, at, layout) : pixel_depth(E, at, layout);
+    if (at->depth)
+        r.new = *at->depth;
+    else
+        r.new = k->depth_w ? pixel_w_depth(E, at, layout) : pixel_depth(E, at, layout);
     if (k->depth_format == DEPTH_FLOAT) {
         r.stored = load_f(E, BASE_DEPTH, sample_word(at));
         r.code = r.stored_code = bits_i(E, r.stored);
@@ -155,8 +163,7 @@ static inline void depth_write(struct env *e, const struct pixel_key *k, const s
     store_i(E, BASE_DEPTH, sample_word(at), merged);
 }
 
-/* Tests depth, and writes it unless the alpha test has a say in that; returns the lanes that are still live.
- */
+/* Tests depth, and writes it unless shading has a say in that; returns the lanes that are still live. */
 static inline msk depth_test(struct env *e, const struct pixel_key *k, const struct pixel_position *at,
                              const struct triangle_layout *layout, int writes, msk live)
 {
@@ -169,7 +176,7 @@ static inline msk depth_test(struct env *e, const struct pixel_key *k, const str
     return live;
 }
 
-/* Behind the alpha test: the same depth again, which costs less than keeping it through shading. */
+/* Behind shading: the same depth again, which costs less than keeping it through shading. */
 static inline void depth_write_late(struct env *e, const struct pixel_key *k, const struct pixel_position *at,
                                     const struct triangle_layout *layout, msk live)
 {

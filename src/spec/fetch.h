@@ -11,15 +11,20 @@ struct vector4 {
     flt v[4];
 };
 
-static inline flt fetch_float(struct env *e, int attribute, itg offset, int component)
+/* What is fetched: a format, and where in the job a struct attribute_job says where it lies. */
+struct fetched {
+    int format, job;
+};
+
+static inline flt fetch_float(struct env *e, const struct fetched *from, itg offset, int component)
 {
-    return gather_f(E, BASE_JOB, (int)offsetof(struct job, attribute[attribute].data), offset, 1,
+    return gather_f(E, BASE_JOB, from->job + (int)offsetof(struct attribute_job, data), offset, 1,
                     4 * component);
 }
 
-static inline itg fetch_word(struct env *e, int attribute, itg offset, int word)
+static inline itg fetch_word(struct env *e, const struct fetched *from, itg offset, int word)
 {
-    return gather_i(E, BASE_JOB, (int)offsetof(struct job, attribute[attribute].data), offset, 1, 4 * word);
+    return gather_i(E, BASE_JOB, from->job + (int)offsetof(struct attribute_job, data), offset, 1, 4 * word);
 }
 
 /* `bits` bits of a word, of which `shift` is the lowest. */
@@ -68,50 +73,57 @@ static inline flt fetch_field(struct env *e, const struct vertex_type *type, itg
     return type->scale != 1 ? mul_f(E, value, lit_f(E, type->scale)) : value;
 }
 
-static inline struct vector4 fetch_color(struct env *e, int attribute, itg offset)
+static inline struct vector4 fetch_color(struct env *e, const struct fetched *from, itg offset)
 {
     static const uint8_t shift[4] = {16, 8, 0, 24};
     struct vector4 r;
-    itg packed = fetch_word(E, attribute, offset, 0);
+    itg packed = fetch_word(E, from, offset, 0);
     for (int c = 0; c < 4; c++)
         r.v[c] = fetch_field(E, &vertex_types[ATTRIBUTE_FORMAT_COLOR], packed, shift[c]);
     return r;
 }
 
 /* The first components, as many as the type has. */
-static inline void fetch_packed(struct env *e, const struct vertex_type *type, int attribute, itg offset,
-                                struct vector4 *r)
+static inline void fetch_packed(struct env *e, const struct fetched *from, itg offset, struct vector4 *r)
 {
-    itg packed = fetch_word(E, attribute, offset, 0);
+    const struct vertex_type *type = &vertex_types[from->format];
+    itg packed = fetch_word(E, from, offset, 0);
     for (int c = 0; c < type->components; c++) {
         int bit = type->bits * c;
         if (bit == 32)
-            packed = fetch_word(E, attribute, offset, 1);
+            packed = fetch_word(E, from, offset, 1);
         r->v[c] = fetch_field(E, type, packed, bit % 32);
     }
+}
+
+/* All four components of what is there. */
+static inline struct vector4 fetch_element(struct env *e, const struct fetched *from)
+{
+    struct vector4 r;
+    const struct vertex_type *type = &vertex_types[from->format];
+    itg index = load_i(E, BASE_INPUT, 0);
+    itg stride = uniform_i(E, BASE_JOB, from->job + (int)offsetof(struct attribute_job, stride));
+    itg offset = mul_i(E, index, stride);
+    if (type->encoding == ENCODING_COLOR)
+        return fetch_color(E, from, offset);
+    for (int c = type->components; c < 4; c++)
+        r.v[c] = lit_f(E, c == 3 ? 1.0f : 0.0f);
+    if (type->encoding != ENCODING_FLOAT)
+        fetch_packed(E, from, offset, &r);
+    else
+        for (int c = 0; c < type->components; c++)
+            r.v[c] = fetch_float(E, from, offset, c);
+    return r;
 }
 
 static inline struct vector4 fetch(struct env *e, const struct vertex_key *k, int attribute, float absent)
 {
     struct vector4 r;
-    int format = k->attribute[attribute];
-    const struct vertex_type *type = &vertex_types[format];
+    struct fetched from = {k->attribute[attribute], (int)offsetof(struct job, attribute[attribute])};
+    if (from.format != ATTRIBUTE_FORMAT_NONE)
+        return fetch_element(E, &from);
     for (int c = 0; c < 4; c++)
         r.v[c] = lit_f(E, absent);
-    if (format == ATTRIBUTE_FORMAT_NONE)
-        return r;
-    itg index = load_i(E, BASE_INPUT, 0);
-    itg stride = uniform_i(E, BASE_JOB, (int)offsetof(struct job, attribute[attribute].stride));
-    itg offset = mul_i(E, index, stride);
-    if (type->encoding == ENCODING_COLOR)
-        return fetch_color(E, attribute, offset);
-    for (int c = type->components; c < 4; c++)
-        r.v[c] = lit_f(E, c == 3 ? 1.0f : 0.0f);
-    if (type->encoding != ENCODING_FLOAT)
-        fetch_packed(E, type, attribute, offset, &r);
-    else
-        for (int c = 0; c < type->components; c++)
-            r.v[c] = fetch_float(E, attribute, offset, c);
     return r;
 }
 

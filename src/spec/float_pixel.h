@@ -47,9 +47,9 @@ static inline struct float_color float_stages(struct env *e, const struct pixel_
     return v.current;
 }
 
-static inline struct float_color float_shade(struct env *e, const struct pixel_source *s)
+static inline struct float_color apply_float_fog(struct env *e, const struct pixel_source *s,
+                                                 struct float_color color)
 {
-    struct float_color color = float_stages(E, s);
     if (!s->k->fog)
         return color;
     flt distance = fog_distance(E, s->k, s->layout, s->at, s->w);
@@ -61,13 +61,25 @@ static inline struct float_color float_shade(struct env *e, const struct pixel_s
     return color;
 }
 
+/* As finish_packed. */
+static inline void finish_float(struct env *e, const struct pixel_source *s, const struct float_color *color,
+                                int step, msk live)
+{
+    const struct pixel_key *k = s->k;
+    if (k->alpha_discard) {
+        itg alpha = quantize(E, color->channel[3]);
+        live = alpha_test(E, k->alpha_discard, alpha, live);
+    }
+    finish_tests(E, s, live);
+    for (int i = 0; i < s->samples->count; i++)
+        for (int t = 0; t < TARGETS; t++)
+            if (k->write_mask[t])
+                write_float_target(E, k, t, i, s->samples->live[i], color[step * t]);
+}
+
 static inline void shade_float(struct env *e, const struct pixel_source *s, msk live)
 {
-    struct float_color color = float_shade(E, s);
-    if (s->k->alpha_discard) {
-        itg alpha = quantize(E, color.channel[3]);
-        test_alpha(E, s, alpha, live);
-    }
-    for (int i = 0; i < s->samples->count; i++)
-        write_float_targets(E, s->k, i, s->samples->live[i], color);
+    struct float_color color = float_stages(E, s);
+    color = apply_float_fog(E, s, color);
+    finish_float(E, s, &color, 0, live);
 }

@@ -111,13 +111,11 @@ static inline void write_float_planes(struct env *e, const struct pixel_key *k, 
     }
 }
 
-static inline void write_float_targets(struct env *e, const struct pixel_key *k, int sample, msk live,
-                                       struct float_color color)
+static inline void write_float_target(struct env *e, const struct pixel_key *k, int t, int sample, msk live,
+                                      struct float_color color)
 {
-    for (int t = 0; t < TARGETS; t++) {
-        if (k->write_mask[t] && target_planes[k->target[t]] == 1)
-            write_float_word(E, k, t, sample, live, color);
-        else if (k->write_mask[t])
-            write_float_planes(E, k, t, sample, live, color);
-    }
+    if (target_planes[k->target[t]] == 1)
+        write_float_word(E, k, t, sample, live, color);
+    else
+        write_float_planes(E, k, t, sample, live, color);
 }

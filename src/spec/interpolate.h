@@ -5,14 +5,16 @@
  * of 1/w). */
 
 struct pixel_position {
-    flt x, y;   /* distance from the triangle's origin in pixels */
-    int sample; /* whose place this is; 0 at the centre */
+    flt x, y;         /* distance from the triangle's origin in pixels */
+    int sample;       /* whose place this is; 0 at the centre */
+    const flt *depth; /* that a shader gives, 0 to 1; null before it has */
 };
 
 static inline struct pixel_position pixel_position(struct env *e)
 {
     struct pixel_position at;
     at.sample = 0;
+    at.depth = NULL;
     flt block_x = uniform_f(E, BASE_ENTRY, (int)offsetof(struct entry, x));
     flt lane_x = load_f(E, BASE_LANES, (int)offsetof(struct lane_table, x));
     flt origin_x = uniform_f(E, BASE_TRIANGLE, (int)offsetof(struct triangle_head, origin_x));

@@ -1,10 +1,11 @@
-/* The pixel routine: stencil, depth, interpolation, textures and stages, specular, fog, alpha test, blending,
- * write; one lane a pixel of a 4x4 block (draw/call.h, struct pixel_call).
+/* The pixel routine: stencil, depth, interpolation, textures and stages or a shader (shader_pixel.h), specular, fog,
+ * alpha test, blending, write; one lane a pixel of a 4x4 block (draw/call.h, struct pixel_call).
  *
  * Bases: JOB; ENTRY the block's entry; TRIANGLE its record; LANES the per-lane constants of this chunk of the
  * block; COLOR and DEPTH the chunk's pixels in the tile. The alpha test comes before stencil and depth by
  * definition. These are tested first all the same where that makes no difference, and shading is skipped when
- * no lane is left; what is written waits for the alpha test. A query counts the lanes that pass everything.
+ * no lane is left; what is written waits for the alpha test, and for a shader that discards pixels or gives depth. A
+ * query counts the lanes that pass everything.
  */
 
 /* What all colours of a pixel are interpolated with. */
@@ -74,22 +75,21 @@ static inline struct color shade_stages(struct env *e, const struct pixel_source
     return v.current;
 }
 
-static inline struct color shade(struct env *e, const struct pixel_source *s)
+static inline struct color apply_fog(struct env *e, const struct pixel_source *s, struct color color)
 {
-    struct color color = shade_stages(E, s);
-    if (s->k->fog) {
-        flt distance = fog_distance(E, s->k, s->layout, s->at, s->w);
-        fix factor = fog_factor(E, s->k->fog, distance);
-        color = fog_blend(E, color, factor);
-    }
-    return color;
+    if (!s->k->fog)
+        return color;
+    flt distance = fog_distance(E, s->k, s->layout, s->at, s->w);
+    fix factor = fog_factor(E, s->k->fog, distance);
+    return fog_blend(E, color, factor);
 }
 
-/* Takes away what the alpha test discards; what waits for it is done. */
-static inline void test_alpha(struct env *e, const struct pixel_source *s, itg alpha, msk live)
+/* Does what waits for shading, in the lanes that it keeps. */
+static inline void finish_tests(struct env *e, const struct pixel_source *s, msk kept)
 {
     struct samples *samples = s->samples;
-    msk kept = alpha_test(E, s->k->alpha_discard, alpha, live);
+    if (!pixel_waits(s->k))
+        return;
     for (int i = 0; i < samples->count; i++) {
         if (samples->count > 1)
             samples->live[i] = and_m(E, samples->live[i], kept);
@@ -100,19 +100,32 @@ static inline void test_alpha(struct env *e, const struct pixel_source *s, itg a
     count_passed(E, s->k, samples);
 }
 
-static inline void shade_packed(struct env *e, const struct pixel_source *s, msk live)
+/* Tests and writes the colours of the targets; all have the first one's where `step` is 0, else each its own. */
+static inline void finish_packed(struct env *e, const struct pixel_source *s, const struct color *color,
+                                 int step, msk live)
 {
-    struct color color = shade(E, s);
-    if (s->k->alpha_discard) {
-        itg ga = int_of(E, color.ga);
+    const struct pixel_key *k = s->k;
+    if (k->alpha_discard) {
+        itg ga = int_of(E, color->ga);
         itg alpha = ushr_i(E, ga, 16);
-        test_alpha(E, s, alpha, live);
+        live = alpha_test(E, k->alpha_discard, alpha, live);
     }
+    finish_tests(E, s, live);
     for (int i = 0; i < s->samples->count; i++)
-        write_targets(E, s->k, i, s->samples->live[i], color);
+        for (int t = 0; t < TARGETS; t++)
+            if (k->write_mask[t])
+                write_target(E, k, t, i, s->samples->live[i], color[step * t]);
 }
 
-static inline void shade_float(struct env *e, const struct pixel_source *s, msk live); /* float_pixel.h */
+static inline void shade_packed(struct env *e, const struct pixel_source *s, msk live)
+{
+    struct color color = shade_stages(E, s);
+    color = apply_fog(E, s, color);
+    finish_packed(E, s, &color, 0, live);
+}
+
+static inline void shade_float(struct env *e, const struct pixel_source *s, msk live);     /* float_pixel.h */
+static inline void shade_by_shader(struct env *e, const struct pixel_source *s, msk live); /* shader_pixel.h */
 
 static inline struct pixel_source pixel_source(struct env *e, const struct pixel_key *k,
                                                const struct triangle_layout *layout,
@@ -137,14 +150,16 @@ static void spec_pixel(struct env *e, const struct pixel_key *k)
     pixel_samples(E, k, &at, &samples);
     for (int i = 0; i < samples.count; i++)
         samples.live[i] = early_tests(E, k, &samples.at[i], &layout, samples.covered[i]);
-    if (!k->alpha_discard)
+    if (!pixel_waits(k))
         count_passed(E, k, &samples);
     if (!pixel_shades(k))
         return;
     msk live = any_sample(E, &samples);
     WHEN (E, live) {
         struct pixel_source source = pixel_source(E, k, &layout, &at, &samples);
-        if (k->float_color)
+        if (e->program)
+            shade_by_shader(E, &source, live);
+        else if (k->float_color)
             shade_float(E, &source, live);
         else
             shade_packed(E, &source, live);

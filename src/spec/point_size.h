@@ -6,6 +6,15 @@
  * unless the vertex is in the window. What is greater than the maximum becomes that, otherwise what is less
  * than the minimum that. */
 
+static inline flt limit_point_size(struct env *e, flt size)
+{
+    flt least = uniform_f(E, BASE_JOB, (int)offsetof(struct job, point_least));
+    flt most = uniform_f(E, BASE_JOB, (int)offsetof(struct job, point_most));
+    msk large = lt_f(E, most, size);
+    flt raised = max_f(E, size, least);
+    return select_f(E, large, most, raised);
+}
+
 static inline flt point_size(struct env *e, const struct vertex_key *k, const struct camera *camera)
 {
     flt size = uniform_f(E, BASE_JOB, (int)offsetof(struct job, point_size));
@@ -27,9 +36,5 @@ static inline flt point_size(struct env *e, const struct vertex_key *k, const st
         flt in_pixels = mul_f(E, size, height);
         size = mul_f(E, in_pixels, scale);
     }
-    flt least = uniform_f(E, BASE_JOB, (int)offsetof(struct job, point_least));
-    flt most = uniform_f(E, BASE_JOB, (int)offsetof(struct job, point_most));
-    msk large = lt_f(E, most, size);
-    flt raised = max_f(E, size, least);
-    return select_f(E, large, most, raised);
+    return limit_point_size(E, size);
 }

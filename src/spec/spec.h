@@ -49,5 +49,7 @@
 #include "spec/shader_arithmetic.h"
 #include "spec/shader_texture.h"
 #include "spec/shader_execute.h"
+#include "spec/shader_vertex.h"
 #include "spec/pixel.h"
 #include "spec/float_pixel.h"
+#include "spec/shader_pixel.h"

@@ -111,28 +111,40 @@ static inline msk stencil_depth_write(struct env *e, const struct pixel_key *k,
     return both;
 }
 
-/* The tests before shading; what they write is written as well unless the alpha test has a say in it. Returns
- * the lanes that are still live. */
-static inline msk early_tests(struct env *e, const struct pixel_key *k, const struct pixel_position *at,
-                              const struct triangle_layout *layout, msk live)
+/* Both tests where the stencil is not written. */
+static inline msk stencil_depth_test(struct env *e, const struct pixel_key *k,
+                                     const struct pixel_position *at, const struct triangle_layout *layout,
+                                     int writes, msk live)
 {
-    if (pixel_writes_stencil(k))
-        return k->alpha_discard ? live : stencil_depth_write(E, k, at, layout, live);
     if (pixel_stencil(k)) {
         itg word = load_i(E, BASE_DEPTH, sample_word(at));
         itg stored = and_i(E, word, lit_i(E, 255));
         live = stencil_test(E, k, stored, live);
     }
-    return depth_test(E, k, at, layout, k->depth_write && !k->alpha_discard, live);
+    return depth_test(E, k, at, layout, writes, live);
 }
 
-/* What is left of them behind the alpha test. A pixel that it discards changes no stencil, whatever its
- * tests, so all of them wait for it when the stencil is written. */
+/* The tests before shading; what they write is written as well unless shading has a say in it. Returns the lanes
+ * that are still live. */
+static inline msk early_tests(struct env *e, const struct pixel_key *k, const struct pixel_position *at,
+                              const struct triangle_layout *layout, msk live)
+{
+    if (k->depth_output || (pixel_writes_stencil(k) && pixel_waits(k)))
+        return live;
+    if (pixel_writes_stencil(k))
+        return stencil_depth_write(E, k, at, layout, live);
+    return stencil_depth_test(E, k, at, layout, k->depth_write && !pixel_waits(k), live);
+}
+
+/* What is left of them behind shading. A pixel that it discards changes no stencil, whatever its tests, so all of
+ * them wait for it when the stencil is written. */
 static inline msk late_tests(struct env *e, const struct pixel_key *k, const struct pixel_position *at,
                              const struct triangle_layout *layout, msk kept)
 {
     if (pixel_writes_stencil(k))
         return stencil_depth_write(E, k, at, layout, kept);
+    if (k->depth_output)
+        return stencil_depth_test(E, k, at, layout, k->depth_write, kept);
     if (k->depth_write)
         depth_write_late(E, k, at, layout, kept);
     return kept;

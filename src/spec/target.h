@@ -93,17 +93,13 @@ static inline struct color narrow_color(struct env *e, const struct pixel_key *k
     return color;
 }
 
-/* Blends the colour into every target that is written. */
-static inline void write_targets(struct env *e, const struct pixel_key *k, int sample, msk live,
-                                 struct color color)
+/* Blends the colour into a target that is written. */
+static inline void write_target(struct env *e, const struct pixel_key *k, int t, int sample, msk live,
+                                struct color color)
 {
-    for (int t = 0; t < TARGETS; t++) {
-        if (!k->write_mask[t])
-            continue;
-        itg stored = load_i(E, BASE_COLOR, target_offset(k, t, sample));
-        struct color blended = blend(E, k, color, stored);
-        blended = narrow_color(E, k, k->target[t], blended);
-        itg word = color_pack(E, blended);
-        write_word(E, k->write_mask[t], target_offset(k, t, sample), live, word, stored);
-    }
+    itg stored = load_i(E, BASE_COLOR, target_offset(k, t, sample));
+    struct color blended = blend(E, k, color, stored);
+    blended = narrow_color(E, k, k->target[t], blended);
+    itg word = color_pack(E, blended);
+    write_word(E, k->write_mask[t], target_offset(k, t, sample), live, word, stored);
 }

@@ -1,5 +1,5 @@
-/* The vertex routine: fetch, blend, transform, clip code, light, fog; one lane a vertex (draw/call.h, struct
- * vertex_call).
+/* The vertex routine: fetch, blend, transform, clip code, light, fog, or a shader instead (shader_vertex.h); one
+ * lane a vertex (draw/call.h, struct vertex_call).
  *
  * Bases: JOB; INPUT is the lanes' vertex indices; OUTPUT the lanes' place in the vertex batch. Outputs that
  * the pixel routine does not read are not in the key's varyings: their whole computation is dead. A vertex
@@ -93,10 +93,27 @@ static inline void vertex_coordinates(struct env *e, const struct vertex_key *k,
         store_slot(E, varying_slot[varying_divisor(channel)], coordinates.v[divisor]);
 }
 
+/* What a pixel shader reads that no fixed function gives. */
+static inline void vertex_defaults(struct env *e, const struct vertex_key *k)
+{
+    for (int i = 0; i < 4 * PORTS; i++) {
+        int varying = port_varying(i / 4, i % 4);
+        if (k->varying[varying] && k->link[i] == LINK_NONE)
+            store_slot(E, varying_slot[varying] + port_component(i / 4, i % 4),
+                       lit_f(E, i % 4 == 3 ? 1.0f : 0.0f));
+    }
+}
+
+static inline void vertex_by_shader(struct env *e, const struct vertex_key *k); /* shader_vertex.h */
+
 static void spec_vertex(struct env *e, const struct vertex_key *k)
 {
     struct body body;
     struct camera camera;
+    if (e->program) {
+        vertex_by_shader(E, k);
+        return;
+    }
     if (in_window(k))
         window_position_of(E, k);
     else {
@@ -117,4 +134,5 @@ static void spec_vertex(struct env *e, const struct vertex_key *k)
     for (int channel = 0; channel < TEXTURE_STAGES; channel++)
         if (reads_channel(k, channel))
             vertex_coordinates(E, k, channel, &camera);
+    vertex_defaults(E, k);
 }

@@ -160,7 +160,7 @@ static int check_attribute(const struct follower *follower, unsigned attribute, 
     if (end > stream->buffer->bytes)
         return error_set(error, "found %s at bytes up to %zu, expected at most %zu, those of %s", word, end,
                          stream->buffer->bytes, name);
-    uint64_t most = state_last_vertex(&follower->state, attribute);
+    uint64_t most = state_last_vertex(&follower->state, element);
     if (last > most)
         return error_set(error,
                          "found vertex %" PRIu64 " drawn, expected at most %" PRIu64 ", the last %s in %s",
