@@ -89,8 +89,8 @@ enum triptych_result state_set_declaration(struct state *state,
         if (attribute >= 0)
             state->element[attribute] = element;
         else
-            state->other[state->others++] = (struct state_other){
-                (uint8_t)elements[i].usage, (uint8_t)elements[i].usage_index, element};
+            state->other[state->others++] =
+                (struct state_other){(uint8_t)elements[i].usage, (uint8_t)elements[i].usage_index, element};
     }
     return TRIPTYCH_OK;
 }

@@ -38,7 +38,8 @@ bool derive_flat(const struct state *state);
 bool derive_effective(const struct pixel_key *key);
 
 /* What input v# of the vertex shader reads, or null if nothing is declared with its usage. */
-const struct state_element *derive_input(const struct state *state, const struct vertex_key *key, unsigned number);
+const struct state_element *derive_input(const struct state *state, const struct vertex_key *key,
+                                         unsigned number);
 
 /* The values for these keys. Attributes' data and stride come from the streams as bound; those of a stream
  * that steps with the instance are instance 0's, with stride 0, those of a stream without buffer null. */

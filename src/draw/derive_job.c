@@ -158,9 +158,10 @@ static void fill_fog(const struct state *state, const struct vertex_key *vertex,
     if (!key->fog)
         return;
     job->fog_color = rgba_word(GET(fogcolor));
-    uint32_t mode = key->fog != FOG_VARYING                    ? GET(fogtablemode)
-                    : key_program(vertex->shader) || vertex->fog == VERTEX_FOG_SPECULAR_ALPHA ? FOGMODE_none
-                                                               : GET(fogvertexmode);
+    uint32_t mode = key->fog != FOG_VARYING ? GET(fogtablemode)
+                    : key_program(vertex->shader) || vertex->fog == VERTEX_FOG_SPECULAR_ALPHA
+                        ? FOGMODE_none
+                        : GET(fogvertexmode);
     derive_fog_formula(state, mode, &job->fog_scale, &job->fog_offset);
 }
 

@@ -23,7 +23,8 @@
 _Static_assert((int)PORTS == (int)PROGRAM_PORTS && (int)PORT_CHANNEL == (int)PORT_COORDINATE &&
                    (int)OUTPUTS == (int)OUTPUT_COUNT,
                "ports and outputs agree with programs");
-_Static_assert((int)TRIPTYCH_USAGE_SAMPLE == (int)USAGE_SAMPLE && (int)TRIPTYCH_USAGE_COLOR == (int)USAGE_COLOR,
+_Static_assert((int)TRIPTYCH_USAGE_SAMPLE == (int)USAGE_SAMPLE &&
+                   (int)TRIPTYCH_USAGE_COLOR == (int)USAGE_COLOR,
                "usages agree with the public ones");
 
 /* Vertices in the window are not processed any further. */
@@ -53,7 +54,8 @@ static void store_booleans(const struct state *state, const struct program *prog
 /* --- Vertices ---------------------------------------------------------------------------------------------
  */
 
-const struct state_element *derive_input(const struct state *state, const struct vertex_key *key, unsigned number)
+const struct state_element *derive_input(const struct state *state, const struct vertex_key *key,
+                                         unsigned number)
 {
     const struct program *program = derive_vertex_program(state);
     if (!program || key->input[number] == ATTRIBUTE_FORMAT_NONE)
@@ -96,11 +98,13 @@ static struct question shader_asks(const struct program *program, int port, unsi
 {
     const struct program_port *in = &program->port[port];
     const struct shader_port *from = in->mask ? program_input(program, in->file, in->index, c) : NULL;
-    return from ? (struct question){true, from->usage, from->usage_index, c} : (struct question){.asked = false};
+    return from ? (struct question){true, from->usage, from->usage_index, c}
+                : (struct question){.asked = false};
 }
 
 /* What stages ask for: the divisor can be the third coordinate. */
-static struct question stages_ask(const struct state *state, const struct pixel_key *pixel, int port, unsigned c)
+static struct question stages_ask(const struct state *state, const struct pixel_key *pixel, int port,
+                                  unsigned c)
 {
     if (port < PORT_CHANNEL)
         return (struct question){true, USAGE_COLOR, (unsigned)port, c};
@@ -112,7 +116,8 @@ static struct question stages_ask(const struct state *state, const struct pixel_
 }
 
 /* The fixed function gives a register what its first declaration asks for. */
-static uint8_t fixed_link(const struct state *state, const struct pixel_key *pixel, int port, struct question q)
+static uint8_t fixed_link(const struct state *state, const struct pixel_key *pixel, int port,
+                          struct question q)
 {
     bool gives;
     if (port < PORT_CHANNEL)
@@ -171,7 +176,8 @@ static const struct program_port *channel_port(const struct state *state, const 
                                                int channel)
 {
     const struct program *program = key_program(key->shader) ? derive_pixel_program(state) : NULL;
-    return program && program->port[PORT_CHANNEL + channel].mask ? &program->port[PORT_CHANNEL + channel] : NULL;
+    return program && program->port[PORT_CHANNEL + channel].mask ? &program->port[PORT_CHANNEL + channel]
+                                                                 : NULL;
 }
 
 int derive_channel_set(const struct state *state, const struct pixel_key *key, int channel)
@@ -202,8 +208,7 @@ static void derive_ports(const struct state *state, const struct program *progra
     for (int i = 0; i < PORTS; i++)
         for (int c = 0; c < 4; c++)
             if (program->port[i].mask >> c & 1)
-                key->varying[port_varying(i, c)] =
-                    port_interpolation(state, &program->port[i], i, primitive);
+                key->varying[port_varying(i, c)] = port_interpolation(state, &program->port[i], i, primitive);
 }
 
 /* ps_1_1 to ps_1_3 divide by the stage's state where they sample; later models say so themselves. */

@@ -124,7 +124,7 @@ struct job {
 
     struct texture_job texture[SAMPLERS];
     uint32_t stage_constant[TEXTURE_STAGES]; /* RGBA8, red in the low byte, like all packed colours here */
-    struct bump_job bump[TEXTURE_STAGES];    /* by the stage that is displaced; for ps_1_x by the stage itself */
+    struct bump_job bump[TEXTURE_STAGES]; /* by the stage that is displaced; for ps_1_x by the stage itself */
     uint32_t texture_factor;
     uint32_t fog_color;
     float fog_scale; /* of the fog's distance: see spec/fog.h */

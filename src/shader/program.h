@@ -106,15 +106,15 @@ struct program {
     uint32_t defined_count;
     uint32_t
         constants; /* rows of float constants that a draw brings: the highest read + 1, or all if they are indexed */
-    uint32_t integers;                  /* the same of integer constants */
-    uint16_t booleans;                  /* bits: those that are read and not defined by the shader */
-    struct cell_set initial;            /* cells that some region writes: they begin as 0 */
-    struct cell_set written;            /* all cells that are written */
-    uint8_t input_mask[SHADER_PORTS];   /* v#: components that are read; all of them if they are indexed */
-    uint8_t texture_mask[8];            /* t#: components that are read as coordinates */
+    uint32_t integers;                /* the same of integer constants */
+    uint16_t booleans;                /* bits: those that are read and not defined by the shader */
+    struct cell_set initial;          /* cells that some region writes: they begin as 0 */
+    struct cell_set written;          /* all cells that are written */
+    uint8_t input_mask[SHADER_PORTS]; /* v#: components that are read; all of them if they are indexed */
+    uint8_t texture_mask[8];          /* t#: components that are read as coordinates */
     struct program_port port[PROGRAM_PORTS]; /* of a pixel shader */
-    bool input_indexed, output_indexed; /* v[aL], o[aL] */
-    uint32_t slots;                     /* as the validator counts */
+    bool input_indexed, output_indexed;      /* v[aL], o[aL] */
+    uint32_t slots;                          /* as the validator counts */
     /* the registry's */
     uint32_t users;
     uint64_t hash;

@@ -124,8 +124,9 @@ static inline void shade_packed(struct env *e, const struct pixel_source *s, msk
     finish_packed(E, s, &color, 0, live);
 }
 
-static inline void shade_float(struct env *e, const struct pixel_source *s, msk live);     /* float_pixel.h */
-static inline void shade_by_shader(struct env *e, const struct pixel_source *s, msk live); /* shader_pixel.h */
+static inline void shade_float(struct env *e, const struct pixel_source *s, msk live); /* float_pixel.h */
+static inline void shade_by_shader(struct env *e, const struct pixel_source *s,
+                                   msk live); /* shader_pixel.h */
 
 static inline struct pixel_source pixel_source(struct env *e, const struct pixel_key *k,
                                                const struct triangle_layout *layout,

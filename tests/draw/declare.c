@@ -172,7 +172,8 @@ static void the_last_vertex_is_the_last_whole_one(void)
                                                                 TRIPTYCH_USAGE_POSITION, 0};
     TEST_ASSERT_EQUAL_INT(TRIPTYCH_OK, state_set_declaration(&state, &element, 1, &error));
     TEST_ASSERT_EQUAL_INT(TRIPTYCH_OK, state_set_stream(&state, 1, &buffer, 8, 20, &error));
-    TEST_ASSERT_EQUAL_UINT64((1024 - 8 - 4 - 12) / 20, state_last_vertex(&state, &state.element[TRIPTYCH_POSITION]));
+    TEST_ASSERT_EQUAL_UINT64((1024 - 8 - 4 - 12) / 20,
+                             state_last_vertex(&state, &state.element[TRIPTYCH_POSITION]));
     TEST_ASSERT_EQUAL_INT(TRIPTYCH_OK, state_set_stream(&state, 1, &buffer, 8, 0, &error));
     TEST_ASSERT_EQUAL_UINT64(UINT64_MAX, state_last_vertex(&state, &state.element[TRIPTYCH_POSITION]));
 }
