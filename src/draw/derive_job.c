@@ -146,10 +146,6 @@ static void fill_stages(const struct state *state, const struct pixel_key *key, 
         if (stage_reads(key, i, SOURCE_FACTOR))
             job->texture_factor = rgba_word(GET(texturefactor));
     }
-    if (!key_program(key->shader) || shader_major(derive_pixel_program(state)->model) > 1)
-        return;
-    for (int i = 0; i < TEXTURE_STAGES; i++) /* a shader's instructions name the stage that has the matrix */
-        fill_bump(state, i, &job->bump[i]);
 }
 
 static void fill_fog(const struct state *state, const struct vertex_key *vertex, const struct pixel_key *key,
