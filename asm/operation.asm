@@ -234,19 +234,23 @@ fragment gather_indirect, JOB, NOTHING, R_AX | M(15)
                 hole            .at + 1, HOLE_INDEX, A
 end_fragment
 
-; Lane i, from the frame, to base + offset + i * stride.
-fragment scatter, FRAME | JOB, NOTHING, R_AX | R_CX | R_DX
+; Lane i to base + offset + i * stride.
+fragment scatter, JOB, NOTHING, R_AX | R_CX | R_DX | M(15)
+    vectors 0, IS(0)
+    vector        NO_REG, NO_FIELD, 0,  vmovdqa m15, m0
     fill_base 1, 2, lea           rax, [dword r8]
     fill 3,       mov             ecx, strict dword 0
-    %assign lane 0
-    %rep 8
-    fill 0,       mov             edx, [frame + 4 * lane]
-                mov             [rax], edx
-      %if lane < 7
-                add             rax, rcx
-      %endif
-      %assign lane lane + 1
-    %endrep
+                lea             rdx, [rcx + 2 * rcx]
+                vmovd           [rax], xm15
+                vpextrd         [rax + rcx], xm15, 1
+                vpextrd         [rax + 2 * rcx], xm15, 2
+                vpextrd         [rax + rdx], xm15, 3
+                vextracti128    xm15, m15, 1
+                lea             rax, [rax + 4 * rcx]
+                vmovd           [rax], xm15
+                vpextrd         [rax + rcx], xm15, 1
+                vpextrd         [rax + 2 * rcx], xm15, 2
+                vpextrd         [rax + rdx], xm15, 3
 end_fragment
 
 ; ---- control

@@ -37,6 +37,15 @@ struct env {
     uint32_t loop[NESTING_MAXIMUM + 1];   /* the innermost loop's begin at each depth, 0: none */
 };
 
+static inline void env_start(struct env *e, struct plan *plan, const struct program *program)
+{
+    e->plan = plan;
+    e->program = program;
+    e->depth = e->region[0] = e->loop[0] = 0;
+    memset(e->recent, 0, sizeof e->recent);
+    plan_enter(plan);
+}
+
 static inline struct env *env_at(struct env *e, const char *file, int line)
 {
     e->file = file;

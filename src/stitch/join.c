@@ -8,6 +8,9 @@
 
 enum { LITERAL_BYTES = SLOT_BYTES, INT3 = 0xcc };
 
+/* The longest of one instruction with a three-byte prefix, with room. */
+enum { PLAIN_BYTES = 16 };
+
 /* Roles: bits 0-1 the argument of ModRM.reg (3: none), 2-4 of VEX.vvvv, 5-7 of ModRM.rm (4 to 7: none). The
  * prefix holds its bits inverted, so flipping is right for both of a number's halves. */
 static uint32_t vector_bits(const struct arguments *arguments, unsigned roles)
@@ -18,6 +21,14 @@ static uint32_t vector_bits(const struct arguments *arguments, unsigned roles)
     uint32_t vvvv = second > 3 ? 0 : (uint32_t)value[second];
     uint32_t rm = third > 3 ? 0 : (uint32_t)value[third];
     return (reg & 7) << 27 | (reg & 8) << 4 | vvvv << 11 | (rm & 7) << 24 | (rm & 8) << 2;
+}
+
+static void flip_vectors(uint8_t *at, const struct arguments *arguments, unsigned roles)
+{
+    uint32_t word;
+    memcpy(&word, at, sizeof word);
+    word ^= vector_bits(arguments, roles);
+    memcpy(at, &word, sizeof word);
 }
 
 /* A number among the general-purpose registers replaces that of rsp, in SIB and inverted in the prefix. */
@@ -34,22 +45,19 @@ static void fill(uint8_t *code, const struct plan *plan, const struct part *part
     uint32_t at = part->offset + hole->offset;
     int32_t value = part->arguments.value[hole->argument % ARGUMENT_COUNT];
     int32_t word;
-    switch (hole->kind) {
-    case HOLE_WORD:
+    if (hole->kind == HOLE_WORD) { /* most are */
         memcpy(&word, code + at, sizeof word);
         word = (int32_t)((uint32_t)word + (uint32_t)value);
         memcpy(code + at, &word, sizeof word);
-        break;
+        return;
+    }
+    switch (hole->kind) {
     case HOLE_BYTE: code[at] = (uint8_t)(code[at] + value); break;
     case HOLE_JUMP:
         word = (int32_t)(plan->part[value].offset - (at + (uint32_t)sizeof word));
         memcpy(code + at, &word, sizeof word);
         break;
-    case HOLE_VECTOR:
-        memcpy(&word, code + at, sizeof word);
-        word ^= (int32_t)vector_bits(&part->arguments, hole->argument);
-        memcpy(code + at, &word, sizeof word);
-        break;
+    case HOLE_VECTOR: flip_vectors(code + at, &part->arguments, hole->argument); break;
     case HOLE_ADDRESS: fill_address(code + at, value, (uint32_t)part->arguments.value[ARGUMENT_BASE]); break;
     case HOLE_INDEX:
         code[at] ^= (uint8_t)((value & 8) << 3);
@@ -68,9 +76,38 @@ static void fill(uint8_t *code, const struct plan *plan, const struct part *part
     }
 }
 
+/* One instruction whose only holes are its registers, and an address if it has one: most parts of operations
+ * are that. */
+static int is_plain(const struct fragment *fragment)
+{
+    return fragment->hole->kind == HOLE_VECTOR && fragment->holes == 1u + fragment->based &&
+           fragment->bytes <= PLAIN_BYTES;
+}
+
+/* As fill() does it, on two words that are not in memory yet. Bytes that are not the fragment's are overwritten
+ * by the next part. */
+static void copy_plain(uint8_t *code, const struct part *part)
+{
+    const struct fragment *fragment = part->fragment;
+    uint64_t word[2];
+    memcpy(word, fragment->code, sizeof word);
+    word[0] ^= (uint64_t)vector_bits(&part->arguments, fragment->hole->argument) << 8;
+    if (fragment->based) {
+        uint32_t displacement = (uint32_t)part->arguments.value[fragment->hole[1].argument];
+        uint64_t base = (uint64_t)part->arguments.value[ARGUMENT_BASE] ^ REGISTER_FRAME;
+        word[0] ^= (base & 7) << 40 | (base & 8) << 10 | (uint64_t)displacement << 48;
+        word[1] ^= displacement >> 16;
+    }
+    memcpy(code, word, sizeof word);
+}
+
 static void copy_part(uint8_t *code, const struct plan *plan, const struct part *part)
 {
     const struct fragment *fragment = part->fragment;
+    if (fragment->given | fragment->read && is_plain(fragment)) {
+        copy_plain(code + part->offset, part);
+        return;
+    }
     memcpy(code + part->offset, fragment->code, fragment->bytes);
     for (unsigned i = 0; i < fragment->holes; i++)
         fill(code, plan, part, fragment->hole + i);

@@ -25,8 +25,8 @@ void plan_place_operations(struct plan *plan, enum unit unit, const union key *k
 
 void plan_operations(struct plan *plan, enum unit unit, const union key *key)
 {
-    struct env e = {.plan = plan, .program = key_shader(unit, key)};
-    plan_enter(plan);
+    struct env e;
+    env_start(&e, plan, key_shader(unit, key));
     switch (unit) {
     case UNIT_VERTEX: spec_vertex(&e, &key->vertex); break;
     case UNIT_SETUP: spec_setup(&e, &key->setup); break;

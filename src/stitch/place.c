@@ -343,20 +343,11 @@ static void place_store(struct placing *p, const struct operation *operation, in
     finish_operands(p, operation);
 }
 
-/* Its fragment takes the lanes from the frame. What is had from elsewhere is there for the moment only: control
- * might not come this way again. */
 static void place_scatter(struct placing *p, const struct operation *operation)
 {
-    struct value *value = value_at(p, operation->operand[0]);
-    if (value->slot == SLOT_NONE) {
-        unsigned vector = (unsigned)bring(p, operation->operand[0]);
-        value->slot = take_slot(p);
-        append_store(p, vector, value->slot);
-    }
-    struct arguments arguments = {{value->slot, operation->k[0], operation->k[1], operation->k[2]}};
+    struct arguments arguments = {
+        {bring(p, operation->operand[0]), operation->k[0], operation->k[1], operation->k[2]}};
     append_part(p, operation->fragment, arguments);
-    if (is_permanent(p, operation->operand[0]))
-        free_slot(p, value);
     finish_operands(p, operation);
 }
 
@@ -439,9 +430,19 @@ static void place(struct placing *p, struct operation *operation)
     free_operands_slots(p, operation);
 }
 
+static void start(struct placing *p, struct plan *plan)
+{
+    p->plan = plan;
+    memset(p->holds, 0, sizeof p->holds);
+    p->free = (1u << VECTORS) - 1;
+    p->free_slots = p->depth = 0;
+    p->bytes = 0;
+}
+
 int32_t plan_place(struct plan *plan)
 {
-    struct placing p = {.plan = plan, .free = (1u << VECTORS) - 1};
+    struct placing p; /* what is opened, which is most of it, has no values yet */
+    start(&p, plan);
     if (plan->unrecorded || plan->depth > NESTING_MAXIMUM)
         return 0;
     for (p.now = 1; p.now < plan->operations; p.now++) {

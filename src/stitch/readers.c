@@ -57,7 +57,9 @@ static int is_needed(const struct plan *plan, const struct operation *operation,
 
 void plan_find_readers(struct plan *plan)
 {
-    struct walk walk = {.plan = plan};
+    struct walk walk;
+    walk.plan = plan;
+    walk.depth = 0;
     if (plan->unrecorded || plan->depth > NESTING_MAXIMUM)
         return;
     for (uint32_t number = plan->operations - 1; number; number--) {

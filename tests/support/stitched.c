@@ -59,9 +59,9 @@ int stitched_plan(struct plan *plan, const struct ir *ir)
 {
     static struct translation t;
     static const union key key;
-    t.env = (struct env){.plan = plan, .file = "program", .line = 1};
+    env_start(&t.env, plan, NULL);
+    env_at(&t.env, "program", 1);
     t.depth = 0;
-    plan_enter(plan);
     for (uint32_t number = 1; number < ir->count; number++)
         t.id[number] = translate(&t, &ir->instruction[number]);
     plan_place_operations(plan, UNIT_VERTEX, &key, NULL);
