@@ -79,41 +79,57 @@ binary le_f, vcmpleps
 binary eq_f, vcmpeqps
 binary ne_f, vcmpneqps
 
-fragment mad_f, NOTHING, NOTHING, NOTHING
+; Three forms, in this order: a * b + c in a register of its own; where nobody reads a factor any more, in that
+; factor's (arguments: result, the other factor, the summand); where nobody reads the summand any more, in the summand's
+; (arguments: result, both factors).
+%macro mad 3 ; name, instructions
+fragment %1, NOTHING, NOTHING, NOTHING
     vectors IS(RESULT), IS(A) | IS(B) | IS(C)
     folds   C
     apart
+    in_place
     vector        RESULT, NO_FIELD, A,  vmovaps m0, m0
-    vector        RESULT, B, C,  vfmadd213ps m0, m0, m0
+    vector        RESULT, B, C,  %2 m0, m0, m0
 end_fragment
-fragment mad_f_memory, FRAME, NOTHING, NOTHING
+fragment %1_memory, FRAME, NOTHING, NOTHING
     vectors IS(RESULT), IS(A) | IS(B)
     apart
     vector        RESULT, NO_FIELD, A,  vmovaps m0, m0
-    vector_memory RESULT, B, C,  vfmadd213ps m0, m0, [frame]
+    vector_memory RESULT, B, C,  %2 m0, m0, [frame]
 end_fragment
-
-; The same where nobody reads a factor any more: its register becomes the result's. Arguments: result, the other
-; factor, the summand.
-fragment mad_factor, NOTHING, NOTHING, NOTHING
+fragment %1_factor, NOTHING, NOTHING, NOTHING
     vectors IS(RESULT), IS(RESULT) | IS(1) | IS(2)
     folds   2
-    vector        RESULT, 1, 2,  vfmadd213ps m0, m0, m0
+    vector        RESULT, 1, 2,  %2 m0, m0, m0
 end_fragment
-fragment mad_factor_memory, FRAME, NOTHING, NOTHING
+fragment %1_factor_memory, FRAME, NOTHING, NOTHING
     vectors IS(RESULT), IS(RESULT) | IS(1)
-    vector_memory RESULT, 1, 2,  vfmadd213ps m0, m0, [frame]
+    vector_memory RESULT, 1, 2,  %2 m0, m0, [frame]
 end_fragment
-
-; Where nobody reads the summand any more. Arguments: result, both factors.
-fragment mad_sum, NOTHING, NOTHING, NOTHING
+fragment %1_sum, NOTHING, NOTHING, NOTHING
     vectors IS(RESULT), IS(RESULT) | IS(1) | IS(2)
     folds   2
-    vector        RESULT, 1, 2,  vfmadd231ps m0, m0, m0
+    vector        RESULT, 1, 2,  %3 m0, m0, m0
 end_fragment
-fragment mad_sum_memory, FRAME, NOTHING, NOTHING
+fragment %1_sum_memory, FRAME, NOTHING, NOTHING
     vectors IS(RESULT), IS(RESULT) | IS(1)
-    vector_memory RESULT, 1, 2,  vfmadd231ps m0, m0, [frame]
+    vector_memory RESULT, 1, 2,  %3 m0, m0, [frame]
+end_fragment
+%endmacro
+
+mad mad_f,   vfmadd213ps,  vfmadd231ps
+mad nmad_f,  vfnmadd213ps, vfnmadd231ps
+mad msub_f,  vfmsub213ps,  vfmsub231ps
+mad nmsub_f, vfnmsub213ps, vfnmsub231ps
+
+; Both bounds are literals.
+fragment clamp_f, CONSTANTS, NOTHING, NOTHING
+    vectors IS(RESULT), IS(A)
+    pools   IS(B) | IS(C)
+    vector        RESULT, A, NO_FIELD,  vmaxps m0, m0, [dword constants]
+.low:           hole            .low - 4, HOLE_WORD, B
+    vector        RESULT, RESULT, NO_FIELD,  vminps m0, m0, [dword constants]
+.high:          hole            .high - 4, HOLE_WORD, C
 end_fragment
 
 fragment neg_f, CONSTANTS, NOTHING, NOTHING

@@ -70,6 +70,14 @@ static inline uint32_t append(struct env *e, struct operation operation)
     return plan->operations++;
 }
 
+/* A row of op.def, fused with what gives its operands where it can be. */
+static inline uint32_t append_row(struct env *e, struct operation operation)
+{
+    if (forms_that_fuse >> operation.form & 1)
+        plan_fuse(e->plan, &operation);
+    return append(e, operation);
+}
+
 static inline uint32_t append_immediate(struct env *e, const struct fragment *fragment, uint32_t a, int k)
 {
     return append(
@@ -99,11 +107,12 @@ enum { COMMUTES = 1 };
     static inline result name(struct env *e PARAMETER_##ta(a) PARAMETER_##tb(b) PARAMETER_##tc(c))           \
     {                                                                                                        \
         return (result){                                                                                     \
-            append(e, (struct operation){.kind = OPERATION_COMPUTE,                                          \
-                                         .fragment = &fragment_##name,                                       \
-                                         .operand = {ID_##ta(a), ID_##tb(b), ID_##tc(c)},                    \
-                                         .operands = OPERANDS_##ta + OPERANDS_##tb + OPERANDS_##tc,          \
-                                         .commutes = (properties)})};                                        \
+            append_row(e, (struct operation){.kind = OPERATION_COMPUTE,                                      \
+                                             .fragment = &fragment_##name,                                   \
+                                             .form = FORM_##name,                                            \
+                                             .operand = {ID_##ta(a), ID_##tb(b), ID_##tc(c)},                \
+                                             .operands = OPERANDS_##ta + OPERANDS_##tb + OPERANDS_##tc,      \
+                                             .commutes = (properties)})};                                    \
     }
 #define OPK(name, result, ta, tb, tc, properties, expression)                                                \
     static inline result name(struct env *e PARAMETER_##ta(a), int k)                                        \
@@ -136,7 +145,8 @@ static inline uint32_t append_once(struct env *e, struct operation operation)
 
 static inline uint32_t literal(struct env *e, uint32_t bits)
 {
-    return append_once(e, (struct operation){.kind = OPERATION_LITERAL, .k = {(int32_t)bits}});
+    uint8_t form = !bits ? FORM_zero : !~bits ? FORM_ones : FORM_literal;
+    return append_once(e, (struct operation){.kind = OPERATION_LITERAL, .form = form, .k = {(int32_t)bits}});
 }
 
 static inline flt lit_f(struct env *e, float value)

@@ -44,6 +44,8 @@ struct fragment {
     uint8_t folded;      /* the argument that the next fragment takes from memory; 0: there is no such */
     uint8_t based;       /* has a HOLE_ADDRESS */
     uint8_t apart;       /* argument 0 is none of the registers read */
+    uint8_t in_place;    /* behind it stand forms that change a register (asm/operation.asm, mad) */
+    uint8_t pooled;      /* bit n: argument n is a literal, its offset among them */
 };
 
 static_assert(sizeof(struct hole) == 4, "asm/fragment.inc writes it so");

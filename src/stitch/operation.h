@@ -28,6 +28,38 @@ enum operation_kind {
     OPERATION_AGAIN /* k[0]: the begin */
 };
 
+/* What is computed: rows of def/op.def and of def/fusion.def, and what the latter tells of literals. */
+enum form {
+    FORM_none,
+#define OP(name, result, a, b, c, properties, expression)  FORM_##name,
+#define OPK(name, result, a, b, c, properties, expression) FORM_##name,
+#define CAST(name, result, from)
+#include "def/op.def"
+#undef OP
+#undef OPK
+#undef CAST
+#define FORM(name, fragment, operands, properties) FORM_##name,
+#define FUSION(operation, operand, given, becomes, a, b, c)
+#include "def/fusion.def"
+#undef FORM
+#undef FUSION
+    FORM_literal,
+    FORM_zero,
+    FORM_ones,
+    FORM_COUNT
+};
+
+static_assert(FORM_COUNT <= 64, "sets of forms are words");
+
+/* Those that may become another, as a set. */
+#define FORM(name, fragment, operands, properties)
+#define FUSION(operation, operand, given, becomes, a, b, c) | 1ull << FORM_##operation
+static const uint64_t forms_that_fuse = 0
+#include "def/fusion.def"
+    ;
+#undef FORM
+#undef FUSION
+
 struct operation {
     const struct fragment *fragment;
     uint32_t operand[3];
@@ -36,6 +68,8 @@ struct operation {
     uint8_t kind;     /* enum operation_kind */
     uint8_t operands;
     uint8_t commutes;
+    uint8_t form;  /* enum form */
+    uint8_t fused; /* of two or more */
     uint16_t line; /* of the specification */
     const char *file;
 };

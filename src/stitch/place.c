@@ -249,6 +249,10 @@ static void begin_operands(struct placing *p, const struct operation *operation)
 static const struct fragment *set_operand(struct placing *p, const struct fragment *fragment,
                                           struct arguments *arguments, unsigned n, uint32_t number)
 {
+    if (fragment->pooled >> n & 1) {
+        arguments->value[n] = literal_offset(p->plan, &p->plan->operation[number]);
+        return fragment;
+    }
     if (fragment->folded == n && in_memory(p, number)) {
         set_address(p, arguments, n, number);
         p->plan->counts.folded++;
@@ -257,6 +261,9 @@ static const struct fragment *set_operand(struct placing *p, const struct fragme
     arguments->value[n] = bring(p, number);
     return fragment;
 }
+
+/* Each behind the other: those that make a new value, a factor's register the result's, the sum's. */
+enum { MAD_FACTOR = 2, MAD_SUM = 4 };
 
 static void exchange(struct operation *operation)
 {
@@ -311,13 +318,13 @@ static void place_mad(struct placing *p, struct operation *operation)
     if (in_memory(p, operand[0]) && !in_memory(p, operand[1]))
         exchange(operation);
     if (dies(p, sum) && in_vector(p, sum) && sum != operand[0] && sum != operand[1]) {
-        place_mad_in(p, operation, &fragment_mad_sum, sum, operand[0], operand[1]);
+        place_mad_in(p, operation, operation->fragment + MAD_SUM, sum, operand[0], operand[1]);
         return;
     }
     if (dies(p, operand[1]) && !dies(p, operand[0]))
         exchange(operation);
     if (dies(p, operand[0]))
-        place_mad_in(p, operation, &fragment_mad_factor, operand[0], operand[1], sum);
+        place_mad_in(p, operation, operation->fragment + MAD_FACTOR, operand[0], operand[1], sum);
     else
         place_compute(p, operation);
 }
@@ -408,7 +415,7 @@ static void place(struct placing *p, struct operation *operation)
     begin_operands(p, operation);
     switch (operation->kind) {
     case OPERATION_COMPUTE:
-        if (operation->fragment == &fragment_mad_f)
+        if (operation->fragment->in_place)
             place_mad(p, operation);
         else
             place_compute(p, operation);
@@ -448,6 +455,7 @@ int32_t plan_place(struct plan *plan)
     for (p.now = 1; p.now < plan->operations; p.now++) {
         struct operation *operation = &plan->operation[p.now];
         plan->counts.operations += operation->kind != OPERATION_NONE;
+        plan->counts.fused += operation->kind != OPERATION_NONE && operation->fused;
         place(&p, operation);
     }
     return p.bytes;

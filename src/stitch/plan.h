@@ -42,6 +42,7 @@ struct part {
 struct plan_counts {
     unsigned operations; /* whose results are read, literals and reads of memory included */
     unsigned carried;    /* operands that were in a register */
+    unsigned fused;      /* of two of the specification's, or more */
     unsigned folded;     /* operands that a fragment takes from memory itself */
     unsigned loaded;     /* parts that bring a value from memory */
     unsigned stored;     /* parts that keep one in the frame */
@@ -90,6 +91,9 @@ void plan_land(struct plan *plan, unsigned part, unsigned n);
 
 /* Returns 0, or -1 with the reason when parts found no room or the frame is too large. */
 int plan_complete(const struct plan *plan, struct error *error);
+
+/* Makes one of an operation that is about to be appended and what gives its operands, if it can. */
+void plan_fuse(const struct plan *plan, struct operation *operation);
 
 /* Finds the readers of each value, and what nobody reads. */
 void plan_find_readers(struct plan *plan);

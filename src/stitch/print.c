@@ -81,11 +81,11 @@ static void print_counts(const struct plan *plan, FILE *out)
 {
     const struct plan_counts *counts = &plan->counts;
     if (counts->operations)
-        fprintf(
-            out,
-            "%u operations: %u operands carried in registers, %u folded, %u loads, %u stores, %u literals\n",
-            counts->operations, counts->carried, counts->folded, counts->loaded, counts->stored,
-            plan->literals);
+        fprintf(out,
+                "%u operations, %u of them fused: %u operands carried in registers, %u folded, %u loads, %u "
+                "stores, %u literals\n",
+                counts->operations, counts->fused, counts->carried, counts->folded, counts->loaded,
+                counts->stored, plan->literals);
 }
 
 void plan_print(const struct plan *plan, const struct code_span *span, FILE *out)

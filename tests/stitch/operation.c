@@ -267,7 +267,7 @@ static void multiplying_and_adding_in_place_is_the_same(void)
     static const struct {
         const struct fragment *fragment;
         uint8_t place[3]; /* the argument that a, b and c are: 0 the result */
-    } form[] = {{&fragment_mad_factor, {0, 1, 2}}, {&fragment_mad_sum, {1, 2, 0}}};
+    } form[] = {{&fragment_mad_f_factor, {0, 1, 2}}, {&fragment_mad_f_sum, {1, 2, 0}}};
     const struct operation_row *row = operations;
     while (row->fragment != &fragment_mad_f)
         row++;

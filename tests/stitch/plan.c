@@ -272,18 +272,26 @@ static void operation_plans_keep_the_contract(void)
     }
 }
 
-/* a * b + c whose operands are all read again, a value kept in the frame, a loop; constants. */
+static void note_program(const struct ir *ir)
+{
+    struct error error = {{0}};
+    stitched_plan(&plan, ir);
+    TEST_ASSERT_EQUAL_MESSAGE(0, plan_check(&plan, &error), error.text);
+    note_planned();
+}
+
+/* Loops and variables, negated products, constants. */
 static void plan_what_shaders_have(void)
 {
-    const struct program program = {.model = &shader_models[0]};
     static struct ir ir;
+    const struct program program = {.model = &shader_models[0]};
     uint64_t random = 0x5eed;
     struct error error = {{0}};
     for (int i = 0; i < 50; i++) {
         program_make_loops(&ir, 100, &random);
-        stitched_plan(&plan, &ir);
-        TEST_ASSERT_EQUAL_MESSAGE(0, plan_check(&plan, &error), error.text);
-        note_planned();
+        note_program(&ir);
+        stitched_make_fusing(&ir, 100, &random);
+        note_program(&ir);
     }
     plan_enter(&plan);
     plan_place_operations(&plan, UNIT_VERTEX, &no_state, &program);

@@ -50,6 +50,22 @@ static void random_programs_with_loops_and_variables_agree(void)
     }
 }
 
+static void programs_whose_operations_fuse_agree(void)
+{
+    uint64_t seed = 0xf05e;
+    unsigned fused = 0, operations = 0;
+    for (int round = 0; round < 600; round++) {
+        char what[64];
+        snprintf(what, sizeof what, "program %d", round);
+        stitched_make_fusing(&ir, 1 + program_random(&seed) % 80, &seed);
+        program_fill(&expected, &seed);
+        expect_equal(what);
+        fused += plan->counts.fused;
+        operations += plan->counts.operations;
+    }
+    TEST_ASSERT_GREATER_THAN(operations / 30, fused);
+}
+
 static void a_program_of_twenty_thousand_operations_agrees(void)
 {
     uint64_t seed = 0x20000;
@@ -203,6 +219,7 @@ int main(void)
     UNITY_BEGIN();
     RUN_TEST(random_programs_agree);
     RUN_TEST(random_programs_with_loops_and_variables_agree);
+    RUN_TEST(programs_whose_operations_fuse_agree);
     RUN_TEST(a_program_of_twenty_thousand_operations_agrees);
     RUN_TEST(values_that_registers_suffice_for_are_never_stored);
     RUN_TEST(values_that_are_not_alive_together_share_slots);

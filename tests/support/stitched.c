@@ -12,6 +12,16 @@ static const struct fragment *const fragments[IR_OP_COUNT] = {
 #undef CAST
 };
 
+static const uint8_t form[IR_OP_COUNT] = {
+#define OP(name, ...)  [IR_##name] = FORM_##name,
+#define OPK(name, ...) [IR_##name] = FORM_##name,
+#define CAST(name, ...)
+#include "def/op.def"
+#undef OP
+#undef OPK
+#undef CAST
+};
+
 struct translation {
     struct env env;
     uint32_t id[IR_CAPACITY]; /* of each value */
@@ -22,13 +32,14 @@ struct translation {
 static uint32_t table_operation(struct translation *t, const struct ir_instruction *i)
 {
     const struct ir_op_information *information = &ir_op_information[i->op];
-    struct operation operation = {.kind = OPERATION_COMPUTE, .fragment = fragments[i->op]};
+    struct operation operation = {
+        .kind = OPERATION_COMPUTE, .fragment = fragments[i->op], .form = form[i->op]};
     operation.operands = information->operands;
     operation.commutes = information->properties & IR_COMMUTES;
     for (int o = 0; o < information->operands; o++)
         operation.operand[o] = t->id[i->operand[o]];
     operation.k[0] = information->properties & IR_SHIFTS ? i->k : 0;
-    return append(&t->env, operation);
+    return append_row(&t->env, operation);
 }
 
 static uint32_t translate(struct translation *t, const struct ir_instruction *i)
@@ -81,4 +92,84 @@ int stitched_run(struct plan *plan, const struct ir *ir, struct code_arena *aren
     run(&call, NULL);
     code_free(arena, &span);
     return 0;
+}
+
+/* --- What fuses -------------------------------------------------------------------------------------------
+ */
+
+/* Values by type, the last few of which are operands. */
+struct fusing {
+    struct ir *ir;
+    uint64_t *seed;
+    uint16_t value[TYPE_msk + 1][IR_CAPACITY];
+    unsigned count[TYPE_msk + 1];
+};
+
+static uint16_t keep_value(struct fusing *f, struct ir_instruction i)
+{
+    uint16_t value = ir_append(f->ir, i);
+    f->value[i.type][f->count[i.type]++] = value;
+    return value;
+}
+
+static uint16_t pick_value(struct fusing *f, enum ir_type type)
+{
+    unsigned back = program_random(f->seed) % 4 ? 3 : 20;
+    back = back < f->count[type] ? back : f->count[type];
+    return f->value[type][f->count[type] - 1 - program_random(f->seed) % back];
+}
+
+static void keep_operation(struct fusing *f, enum ir_op op)
+{
+    const struct ir_op_information *information = &ir_op_information[op];
+    struct ir_instruction i = {.op = (uint8_t)op, .type = information->result};
+    for (int o = 0; o < information->operands; o++)
+        i.operand[o] = pick_value(f, information->operand[o]);
+    keep_value(f, i);
+}
+
+static void keep_literal(struct fusing *f, enum ir_type type)
+{
+    static const uint32_t bits[] = {0, 0xffffffff, 0x3f800000, 0xbf000000, 0x80000000};
+    uint32_t k = bits[program_random(f->seed) % 5];
+    keep_value(f, (struct ir_instruction){.op = IR_literal, .type = (uint8_t)type, .k = (int32_t)k});
+}
+
+static void keep_load(struct fusing *f, enum ir_type type)
+{
+    int32_t offset = (int32_t)(program_random(f->seed) % PROGRAM_ARRAYS) * PROGRAM_LANES * 4;
+    struct ir_instruction i = {.op = IR_load, .type = (uint8_t)type, .base = BASE_INPUT, .k = offset};
+    keep_value(f, i);
+}
+
+static void store_value(struct fusing *f, enum ir_type type)
+{
+    int32_t offset = (int32_t)(program_random(f->seed) % PROGRAM_STORES) * VERTEX_SLOT_BYTES;
+    struct ir_instruction i = {.op = IR_store, .base = BASE_OUTPUT, .k = offset};
+    i.operand[0] = pick_value(f, type);
+    ir_append(f->ir, i);
+}
+
+void stitched_make_fusing(struct ir *ir, unsigned length, uint64_t *seed)
+{
+    static const uint8_t ops[] = {IR_neg_f, IR_neg_f, IR_neg_f,    IR_add_f,    IR_sub_f, IR_mad_f,
+                                  IR_mad_f, IR_mad_f, IR_select_f, IR_select_i, IR_xor_i, IR_xor_i,
+                                  IR_and_i, IR_and_i, IR_max_f,    IR_max_f,    IR_min_f, IR_lt_f};
+    static struct fusing f;
+    f.ir = ir;
+    f.seed = seed;
+    memset(f.count, 0, sizeof f.count);
+    ir_start(ir);
+    ir->file[ir->file_count++] = "program";
+    for (int i = 0; i < 4; i++)
+        keep_load(&f, TYPE_flt), keep_load(&f, TYPE_itg);
+    keep_operation(&f, IR_lt_f);
+    while (length--)
+        switch (program_random(seed) % 8) {
+        case 0: keep_literal(&f, TYPE_flt + program_random(seed) % 2); break;
+        case 1: store_value(&f, TYPE_flt + program_random(seed) % 2); break;
+        default: keep_operation(&f, ops[program_random(seed) % sizeof ops]); break;
+        }
+    store_value(&f, TYPE_flt);
+    store_value(&f, TYPE_itg);
 }
