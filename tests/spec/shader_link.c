@@ -313,8 +313,8 @@ static void check_defaults(void)
     draw_declared(TRIPTYCH_USAGE_POSITION, NULL, 0);
     read_numbers(0);
     EXPECT_CENTRE("stages without a colour", 1, 1, 1, 1);
-    use_shaders(NULL,
-                "ps_3_0\ndcl_color v0\ndcl_tangent v1\ndcl_texcoord9 v2\nmov r1, v1\nmul r0, v0, r1\nadd oC0, r0, v2\n");
+    use_shaders(NULL, "ps_3_0\ndcl_color v0\ndcl_tangent v1\ndcl_texcoord9 v2\nmov r1, v1\nmul r0, v0, "
+                      "r1\nadd oC0, r0, v2\n");
     draw_declared(TRIPTYCH_USAGE_POSITION, NULL, 0);
     read_numbers(0);
     EXPECT_CENTRE("what the fixed function does not have", 0, 0, 0, 2);
