@@ -77,7 +77,7 @@ static void modifiers_change_what_is_read(void)
             if (row->columns[model->column] != 'x' || i == MODIFIER_DIVIDE_Z || i == MODIFIER_DIVIDE_W)
                 continue;
             int first = model->stage == STAGE_PIXEL && shader_major(model) == 1;
-            snprintf(body, sizeof body, "mov r0, %s%s%s", row->before, first ? "v0" : "r1", row->behind);
+            snprintf(body, sizeof body, "mov r0, %s%s%s", row->before, first ? "$1" : "r1", row->behind);
             struct trial trial = trial_of(model->name, body, 1);
             modifier = (enum shader_modifier_id)i;
             trial_expect(&trial, modified_reference);
@@ -248,7 +248,7 @@ static void results_are_shifted_and_then_saturated(void)
                 char body[64];
                 if (m < 3 && (shift < -1 || shift > 2)) /* _x8, _d4 and _d8 are ps_1_4's */
                     continue;
-                snprintf(body, sizeof body, "add%s%s r0, v0, v1", names[shift + 3], saturates ? "_sat" : "");
+                snprintf(body, sizeof body, "add%s%s r0, $1, $2", names[shift + 3], saturates ? "_sat" : "");
                 struct trial trial = trial_of(models[m], body, 1);
                 trial_expect(&trial, shifted_reference);
             }
@@ -345,8 +345,8 @@ static void pairs_read_before_either_writes(void)
     static const char *const models[] = {"ps_1_1", "ps_1_2", "ps_1_3", "ps_1_4"};
     for (unsigned m = 0; m < 4; m++) {
         struct trial trial = trial_of(models[m],
-                                      m < 3 ? "mov r0, v0\nsub r0.xyz, r0.w, v1\n+add r0.w, r0.z, v1"
-                                            : "mov r0, v0\nsub r0.xyz, r0.w, v1\n+add r0.w, r0.z, v1.w",
+                                      m < 3 ? "mov r0, $1\nsub r0.xyz, r0.w, $2\n+add r0.w, r0.z, $2"
+                                            : "mov r0, $1\nsub r0.xyz, r0.w, $2\n+add r0.w, r0.z, $2.w",
                                       1);
         trial_expect(&trial, paired_reference);
     }

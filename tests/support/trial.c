@@ -1,13 +1,15 @@
 #include "tests/support/trial.h"
 
 #include "def/lane.h"
+#include "draw/engine.h"
+#include "engines.h"
 #include "shader/program.h"
 
 #include <float.h>
 #include <stdio.h>
 #include <stdlib.h>
 
-enum { TEXT = 1 << 16, MESSAGE = 4096, INTEGERS = 16, CONSTANTS = 256 };
+enum { TEXT = 1 << 16, MESSAGE = 4096, INTEGERS = 16, RESULTS = 1024, CONSTANTS = 256 };
 
 static const float edge[] = {
     0.0f,    -0.0f,         1.0f,           -1.0f,           0.5f,        -0.5f,        2.0f,
@@ -92,44 +94,89 @@ static void append_number(char *text, const char *format, unsigned number)
     append(text, line);
 }
 
-/* Names by model: where operands come from, where results go. */
-static void make_text(const struct trial *trial, const struct shader_model *model, char *text)
+/* How a shader of a model gets its operands and gives its results. */
+struct frame {
+    const char *coordinates;           /* a line, or null */
+    const char *declare, *give, *take; /* lines for an operand, or a result, by its number; null: none */
+    const char
+        *names[TRIAL_OPERANDS]; /* of operands in the body: of ps_1_x, which has no need to move them */
+};
+
+/* Operands are inputs; of pixel shaders in draws, texels. */
+static struct frame frame_of(const struct shader_model *model, int textured)
 {
-    int pixel = model->stage == STAGE_PIXEL, third = shader_major(model) == 3;
-    const char *declare = !pixel || third ? "dcl_texcoord%u v%u\n" : "dcl t%u\n";
-    const char *give = pixel && !third ? "mov r%u, t%u\n" : "mov r%u, v%u\n";
-    const char *take = pixel ? "mov oC%u, r%u\n" : third ? "mov o%u, r%u\n" : "mov oT%u, r%u\n";
-    snprintf(text, TEXT, "%s\n", model->name);
-    if (pixel && shader_major(model) == 1) {
-        append(text, trial->setup ? trial->setup : "");
-        append(text, trial->body);
-        append(text, "\n");
-        return;
-    }
-    for (unsigned o = 1; o <= TRIAL_OPERANDS; o++)
-        append_number(text, declare, o);
-    if (!pixel && third) {
-        append(text, "dcl_position o0\n");
-        for (unsigned r = 0; r < trial->results; r++)
-            append_number(text, "dcl_texcoord%u o", r), append_number(text, "%u\n", r + 1);
-    }
-    append(text, trial->setup ? trial->setup : "");
-    for (unsigned o = 1; o <= TRIAL_OPERANDS; o++)
-        append_number(text, give, o);
-    append(text, trial->body);
-    append(text, "\n");
-    for (unsigned r = 0; r < trial->results && !trial->gives; r++) {
-        char line[80];
-        snprintf(line, sizeof line, take, r + (!pixel && third), r ? r + 3 : 0);
-        append(text, line);
-    }
-    if (!pixel)
-        append(text, third ? "mov o0, r1\n" : "mov oPos, r1\n");
-    if (trial->behind)
-        append(text, trial->behind);
+    int third = shader_major(model) == 3;
+    if (model->stage == STAGE_VERTEX)
+        return (struct frame){.declare = "dcl_texcoord%u v%u\n",
+                              .give = "mov r%u, v%u\n",
+                              .take = third ? "mov o%u, r%u\n" : "mov oT%u, r%u\n"};
+    if (shader_major(model) > 1 && textured)
+        return (struct frame){.coordinates = third ? "dcl_texcoord v0.xy\n" : "dcl t0.xy\n",
+                              .declare = "dcl_2d s%u\n",
+                              .give = third ? "texld r%u, v0, s%u\n" : "texld r%u, t0, s%u\n",
+                              .take = "mov oC%u, r%u\n"};
+    if (shader_major(model) > 1)
+        return (struct frame){.declare = third ? "dcl_texcoord%u v%u\n" : "dcl t%u\n",
+                              .give = third ? "mov r%u, v%u\n" : "mov r%u, t%u\n",
+                              .take = "mov oC%u, r%u\n"};
+    if (!textured)
+        return (struct frame){.names = {"v0", "v1"}};
+    if (model->column == COLUMN_PS_1_4)
+        return (struct frame){.give = "texld r%u, t%u\n", .names = {"r1", "r2"}};
+    return (struct frame){.give = "tex t%u\n", .names = {"t1", "t2"}};
 }
 
-static const struct shader_model *find_model(const char *name)
+/* With the operands' names in place of $1 and $2. */
+static void append_body(char *text, const char *body, const char *const names[TRIAL_OPERANDS])
+{
+    char letter[2] = "";
+    for (; *body; body++)
+        if (*body == '$') {
+            append(text, names[*++body - '1']);
+        } else {
+            letter[0] = *body;
+            append(text, letter);
+        }
+    append(text, "\n");
+}
+
+static void append_results(char *text, const struct trial *trial, const struct shader_model *model,
+                           const char *take)
+{
+    int vertices = model->stage == STAGE_VERTEX, third = shader_major(model) == 3;
+    for (unsigned r = 0; r < trial->results && take && !trial->gives; r++) {
+        char line[80];
+        snprintf(line, sizeof line, take, r + (vertices && third), r ? r + 3 : 0);
+        append(text, line);
+    }
+    if (vertices)
+        append(text, third ? "mov o0, r1\n" : "mov oPos, r1\n");
+}
+
+static void make_text(const struct trial *trial, const struct shader_model *model, int textured, char *text)
+{
+    struct frame frame = frame_of(model, textured);
+    unsigned operands = frame.names[0] ? 2 : TRIAL_OPERANDS;
+    snprintf(text, TEXT, "%s\n", model->name);
+    append(text, frame.coordinates ? frame.coordinates : "");
+    for (unsigned o = 1; o <= operands && frame.declare; o++)
+        append_number(text, frame.declare, o);
+    if (model->stage == STAGE_VERTEX && shader_major(model) == 3) {
+        append(text, "dcl_position o0\n");
+        for (unsigned r = 0; r < trial->results; r++) {
+            append_number(text, "dcl_texcoord%u o", r);
+            append_number(text, "%u\n", r + 1);
+        }
+    }
+    append(text, trial->setup ? trial->setup : "");
+    for (unsigned o = 1; o <= operands && frame.give; o++)
+        append_number(text, frame.give, o);
+    append_body(text, trial->body, frame.names);
+    append_results(text, trial, model, frame.take);
+    append(text, trial->behind ? trial->behind : "");
+}
+
+const struct shader_model *trial_model(const char *name)
 {
     for (int m = 0; m < MODEL_COUNT; m++)
         if (!strcmp(shader_models[m].name, name))
@@ -246,6 +293,44 @@ static uint8_t *make_constants(const struct trial *trial, const struct program *
     return constants;
 }
 
+static void expect_of_machine(const struct trial_memory *memory, const char *text, trial_reference *reference,
+                              const struct tolerance *tolerance)
+{
+    static const struct {
+        const char *name;
+        machine_way *way;
+    } ways[] = {{"emulated", trial_emulate}, {"recorded", trial_interpret}, {"optimized", trial_optimize}};
+    const struct trial *trial = memory->trial;
+    for (unsigned w = 0; w < sizeof ways / sizeof *ways; w++)
+        for (unsigned set = 0; set < trial->sets; set += TRIAL_LANES) {
+            struct trial_results got[TRIAL_LANES];
+            run_machine(memory, ways[w].way, set, got);
+            for (unsigned l = 0; l < TRIAL_LANES && set + l < trial->sets; l++)
+                compare(trial, ways[w].name, text, set + l, &got[l], reference, tolerance);
+        }
+}
+
+static void expect_of_engines(const struct trial_memory *memory, trial_reference *reference,
+                              const struct tolerance *tolerance)
+{
+    static struct trial_results results[RESULTS];
+    static char text[TEXT];
+    const struct trial *trial = memory->trial;
+    TEST_ASSERT_TRUE(trial->sets <= RESULTS);
+    make_text(trial, memory->program->model, 1, text);
+    for (unsigned i = 0; engine_at(i); i++) {
+        const struct engine *engine = engine_at(i);
+        if (engine->unavailable())
+            continue;
+        if (memory->program->model->stage == STAGE_VERTEX)
+            trial_run_vertices(memory, engine, results);
+        else
+            trial_run_pixels(trial, text, engine, results);
+        for (unsigned set = 0; set < trial->sets; set++)
+            compare(trial, engine->name, text, set, &results[set], reference, tolerance);
+    }
+}
+
 void trial_expect(const struct trial *trial, trial_reference *reference)
 {
     trial_expect_within(trial, reference, 0, 0);
@@ -255,23 +340,15 @@ void trial_expect_within(const struct trial *trial, trial_reference *reference, 
                          double absolute)
 {
     static unsigned number;
-    const struct tolerance tolerance = {relative, absolute};
-    static const struct {
-        const char *name;
-        machine_way *way;
-    } ways[] = {{"emulated", trial_emulate}, {"recorded", trial_interpret}, {"optimized", trial_optimize}};
     static char text[TEXT];
-    make_text(trial, find_model(trial->model), text);
+    const struct tolerance tolerance = {relative, absolute};
+    make_text(trial, trial_model(trial->model), 0, text);
     const struct program *program = make_program(text);
     uint8_t *constants = make_constants(trial, program);
     const struct trial_memory memory = {program, trial, constants, ++number};
-    for (unsigned w = 0; w < sizeof ways / sizeof *ways; w++)
-        for (unsigned set = 0; set < trial->sets; set += TRIAL_LANES) {
-            struct trial_results got[TRIAL_LANES];
-            run_machine(&memory, ways[w].way, set, got);
-            for (unsigned l = 0; l < TRIAL_LANES && set + l < trial->sets; l++)
-                compare(trial, ways[w].name, text, set + l, &got[l], reference, &tolerance);
-        }
+    expect_of_machine(&memory, text, reference, &tolerance);
+    if (!trial->alone)
+        expect_of_engines(&memory, reference, &tolerance);
     free(constants);
     program_release(program);
 }

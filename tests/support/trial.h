@@ -2,10 +2,13 @@
  * numbers.
  *
  * The body of a trial finds its operands in r1, r2 and r3 and leaves results in r0, then r4, r5 and so on; a trial makes
- * a whole shader of the model around it. In ps_1_x there are two operands, v0 and v1, and one result. The ways are:
+ * a whole shader of the model around it. In ps_1_x there are two operands, $1 and $2 in the
+ * body, and one result. The ways are:
  *   emulated    the specification's machine alone, under the emulator's binding, four lanes at once
  *   recorded    the same recorded, verified, and evaluated lane by lane by the table of operations
  *   optimized   the same after the specializer's passes
+ *   engines     each engine that can run here: vertex shaders as routines by themselves (trial_vertex.c), pixel
+ *               shaders by whole draws (trial_pixel.c)
  * A failing comparison names the shader, the way, the operands and both values. */
 #ifndef TESTS_TRIAL_H
 #define TESTS_TRIAL_H
@@ -38,6 +41,7 @@ struct trial {
     unsigned integers;
     unsigned booleans; /* bit i: b# */
     int legacy;        /* how multiplication goes */
+    int alone;         /* without engines */
     int gives;         /* the body writes its results to o1 and so on itself */
 };
 
@@ -73,6 +77,7 @@ extern const unsigned trial_ordinary_sets;
 /* --- The ways ---------------------------------------------------------------------------------------------
  */
 
+struct engine;
 struct program;
 
 /* What the two that need no engine get: memory as the machine reads it. */
@@ -89,8 +94,20 @@ enum { TRIAL_LANES = 4 };
 /* The number of the cell that has component x of a result. */
 unsigned trial_cell(const struct program *program, unsigned result);
 
+/* The number of the cell that has component x of a result. */
+unsigned trial_cell(const struct program *program, unsigned result);
+
 void trial_emulate(const struct trial_memory *memory, const float *input, float *output);
 void trial_interpret(const struct trial_memory *memory, const float *input, float *output);
 void trial_optimize(const struct trial_memory *memory, const float *input, float *output);
+
+const struct shader_model *trial_model(const char *name);
+
+/* All sets of a vertex shader by a routine of the engine, and of a pixel shader by a device of it, which is given its
+ * text. */
+void trial_run_vertices(const struct trial_memory *memory, const struct engine *engine,
+                        struct trial_results *results);
+void trial_run_pixels(const struct trial *trial, const char *text, const struct engine *engine,
+                      struct trial_results *results);
 
 #endif
