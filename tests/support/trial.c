@@ -320,7 +320,7 @@ static void expect_of_engines(const struct trial_memory *memory, trial_reference
     make_text(trial, memory->program->model, 1, text);
     for (unsigned i = 0; engine_at(i); i++) {
         const struct engine *engine = engine_at(i);
-        if (engine->unavailable())
+        if (engine->on_request || engine->unavailable())
             continue;
         if (memory->program->model->stage == STAGE_VERTEX)
             trial_run_vertices(memory, engine, results);
