@@ -1,0 +1,165 @@
+/* The arithmetic of ps_1_1 to ps_1_4: the same instructions over narrow registers, whose constants stay within -1 and 1
+ * and whose results stay within -8 and 8. */
+#include "tests/support/trial.h"
+
+#include <math.h>
+#include <stdio.h>
+#include <string.h>
+
+void setUp(void)
+{
+}
+
+void tearDown(void)
+{
+}
+
+typedef const struct trial_operands *operands;
+
+static const float constants[2][4] = {{0.75f, 3, -0.625f, -5}, {-1, 0.25f, 1.5f, -0.0f}};
+
+static double at(operands o, int operand, int c)
+{
+    return trial_flush(o->v[operand][c]);
+}
+
+/* Of constants beyond 1 the nearest of -1 and 1 is seen. */
+static double constant(int row, int c)
+{
+    return fmin(fmax((double)constants[row][c], -1), 1);
+}
+
+static double within(double value)
+{
+    return value > -8 ? value < 8 ? value : 8 : -8;
+}
+
+#define A constant(0, i)
+#define B constant(1, i)
+
+#define COMPONENTS(name, expression)                                                                         \
+    static void name##_reference(const struct trial *t, operands o, double r[TRIAL_RESULTS][4])              \
+    {                                                                                                        \
+        (void)t;                                                                                             \
+        for (int i = 0; i < 4; i++) {                                                                        \
+            double x = at(o, 0, i), y = at(o, 1, i);                                                         \
+            (void)x, (void)y;                                                                                \
+            r[0][i] = within(expression);                                                                    \
+        }                                                                                                    \
+    }
+
+static double rounded(double value)
+{
+    return (double)trial_round(value);
+}
+
+static double dot(operands o, int count)
+{
+    double sum = rounded(at(o, 0, 0) * at(o, 1, 0));
+    for (int c = 1; c < count; c++)
+        sum = rounded(trial_fused(at(o, 0, c), at(o, 1, c), sum));
+    return sum;
+}
+
+COMPONENTS(mov, x)
+COMPONENTS(constant, A)
+COMPONENTS(add, x + y)
+COMPONENTS(sub, x - B)
+COMPONENTS(mul, x *y)
+COMPONENTS(mad, trial_fused(x, y, A))
+COMPONENTS(lrp, trial_fused(x, rounded(y - A), A))
+COMPONENTS(cmp, x >= 0 ? y : B)
+COMPONENTS(cnd, x > 0.5 ? y : B)
+COMPONENTS(cnd_alpha, within(at(o, 0, 3)) > 0.5 ? y : B)
+COMPONENTS(dp3, dot(o, 3))
+COMPONENTS(dp4, dot(o, 4))
+
+/* Sixteen times a number: wider than what registers hold, hence cut off on the way. */
+COMPONENTS(grown, within(within(x * 4) * 4) * 0.25)
+
+static const struct row {
+    enum shader_opcode opcode;
+    const char *body;
+    trial_reference *reference;
+    unsigned models; /* bit m: ps_1_<m + 1> */
+} rows[] = {
+    {SHADER_MOV, "mov r0, $1", mov_reference, 15},
+    {SHADER_MOV, "mov r0, c0", constant_reference, 15},
+    {SHADER_ADD, "add r0, $1, $2", add_reference, 15},
+    {SHADER_SUB, "sub r0, $1, c1", sub_reference, 15},
+    {SHADER_MUL, "mul r0, $1, $2", mul_reference, 15},
+    {SHADER_MAD, "mad r0, $1, $2, c0", mad_reference, 15},
+    {SHADER_LRP, "lrp r0, $1, $2, c0", lrp_reference, 15},
+    {SHADER_DP3, "dp3 r0, $1, $2", dp3_reference, 15},
+    {SHADER_DP4, "dp4 r0, $1, $2", dp4_reference, 14},
+    {SHADER_CMP, "cmp r0, $1, $2, c1", cmp_reference, 14},
+    {SHADER_CND, "cnd r0, $1, $2, c1", cnd_reference, 8},
+    {SHADER_CND, "mov r0, $1\ncnd r0, r0.a, $2, c1", cnd_alpha_reference, 7},
+    {SHADER_MOV, "mov_x4 r0, $1\nmov_x4 r0, r0\nmov_d2 r0, r0\nmov_d2 r0, r0", grown_reference, 15},
+};
+
+static void try_row(const struct row *row, int model, const struct trial_operands *sets, unsigned count,
+                    int alone)
+{
+    char name[] = "ps_1_1";
+    name[5] = (char)('1' + model);
+    struct trial trial = {
+        .model = name, .body = row->body, .results = 1, .constant = constants, .constants = 2};
+    trial.operands = sets;
+    trial.sets = count;
+    trial.alone = alone;
+    trial_expect(&trial, row->reference);
+}
+
+static void each_row(const struct trial_operands *sets, unsigned count, int alone)
+{
+    for (unsigned i = 0; i < sizeof rows / sizeof *rows; i++)
+        for (int model = 0; model < 4; model++)
+            if (rows[i].models >> model & 1)
+                try_row(&rows[i], model, sets, count, alone);
+}
+
+static void the_machine_computes_what_definitions_say(void)
+{
+    each_row(trial_edges, trial_edge_sets, 1);
+}
+
+/* Operands of draws are texels, themselves results within -8 and 8; these are, with the edges among them. */
+static void engines_compute_what_definitions_say(void)
+{
+    static struct trial_operands sets[120];
+    for (unsigned s = 0; s < 120; s++) {
+        sets[s] = s < 60 ? trial_edges[s * 4] : trial_ordinary[s - 60];
+        for (int o = 0; o < 2; o++)
+            for (int c = 0; c < 4; c++)
+                if (!(fabsf(sets[s].v[o][c]) <= 8))
+                    sets[s].v[o][c] = (float)(o * 4 + c) - 7.5f;
+    }
+    each_row(sets, 120, 0);
+}
+
+static void every_instruction_of_these_models_has_a_row(void)
+{
+    for (int opcode = 0; opcode < SHADER_COUNT; opcode++) {
+        const struct shader_operation *operation = &shader_operations[opcode];
+        unsigned wanted = 0, tried = 0;
+        if (operation->destination != OPERAND_RESULT || operation->flags & IS_TEXTURE)
+            continue;
+        for (int model = 0; model < 4; model++)
+            if (shader_slots(operation, &shader_models[MODEL_PS_1_1 + model]) >= 0)
+                wanted |= 1u << model;
+        for (unsigned i = 0; i < sizeof rows / sizeof *rows; i++)
+            if ((int)rows[i].opcode == opcode)
+                tried |= rows[i].models;
+        TEST_ASSERT_EQUAL_HEX_MESSAGE(wanted, tried, operation->name);
+    }
+}
+
+int main(void)
+{
+    UNITY_BEGIN();
+    RUN_TEST(every_instruction_of_these_models_has_a_row);
+    RUN_TEST(the_machine_computes_what_definitions_say);
+    RUN_TEST(engines_compute_what_definitions_say);
+    return UNITY_END();
+}
