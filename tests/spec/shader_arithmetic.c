@@ -406,6 +406,35 @@ static void with_legacy_multiplication_zeros_give_zero(void)
     try_all(1);
 }
 
+/* Each set of operands a shader of its own, which folds its constants: on all ways for some of them. */
+static void try_literals(const struct row *row, const struct shader_model *model, unsigned step, int alone)
+{
+    char body[512];
+    if (shader_slots(&shader_operations[row->opcode], model) < 0 ||
+        row->flags & (shader_major(model) == 1 ? NOT_1 : ONLY_1))
+        return;
+    unfold(row->body, body, sizeof body);
+    struct trial trial = {
+        .model = model->name, .setup = row->setup, .body = body, .results = 1, .literal = 1, .sets = 1};
+    for (unsigned set = 0; set < trial_edge_sets; set += step) {
+        if (row->flags & ORDINARY && set < trial_edge_sets - trial_ordinary_sets)
+            continue;
+        trial.operands = &trial_edges[set];
+        trial.alone = alone;
+        trial_expect_within(&trial, row->reference, row->relative, row->absolute);
+    }
+}
+
+static void constants_that_are_known_compute_the_same(void)
+{
+    for (unsigned i = 0; i < sizeof rows / sizeof *rows; i++) {
+        try_literals(&rows[i], &shader_models[MODEL_VS_3_0], 7, 1);
+        try_literals(&rows[i], &shader_models[MODEL_VS_3_0], 61, 0);
+        try_literals(&rows[i], &shader_models[MODEL_PS_3_0], 113, 0);
+        try_literals(&rows[i], &shader_models[MODEL_VS_1_1], 113, 0);
+    }
+}
+
 /* cnd is of ps_1_x only (tests/spec/shader_1.c). */
 static void no_instruction_is_without_a_row(void)
 {
@@ -425,6 +454,7 @@ int main(void)
     UNITY_BEGIN();
     RUN_TEST(no_instruction_is_without_a_row);
     RUN_TEST(instructions_compute_what_their_definitions_say);
+    RUN_TEST(constants_that_are_known_compute_the_same);
     RUN_TEST(masks_leave_the_other_components_alone);
     RUN_TEST(with_legacy_multiplication_zeros_give_zero);
     return UNITY_END();

@@ -153,9 +153,24 @@ static void append_results(char *text, const struct trial *trial, const struct s
         append(text, third ? "mov o0, r1\n" : "mov oPos, r1\n");
 }
 
+/* Defines c11 to c13 by their bits. */
+static void define_operands(const struct trial *trial, char *text)
+{
+    char line[80];
+    TEST_ASSERT_EQUAL_UINT(1, trial->sets);
+    for (unsigned o = 0; o < TRIAL_OPERANDS; o++) {
+        const float *v = trial->operands->v[o];
+        snprintf(line, sizeof line, "def c1%u, 0x%08x, 0x%08x, 0x%08x, 0x%08x\n", o + 1, lane_bits(v[0]),
+                 lane_bits(v[1]), lane_bits(v[2]), lane_bits(v[3]));
+        append(text, line);
+    }
+}
+
 static void make_text(const struct trial *trial, const struct shader_model *model, int textured, char *text)
 {
     struct frame frame = frame_of(model, textured);
+    if (trial->literal)
+        frame = (struct frame){.give = "mov r%u, c1%u\n", .take = frame.take};
     unsigned operands = frame.names[0] ? 2 : TRIAL_OPERANDS;
     snprintf(text, TEXT, "%s\n", model->name);
     append(text, frame.coordinates ? frame.coordinates : "");
@@ -169,6 +184,8 @@ static void make_text(const struct trial *trial, const struct shader_model *mode
         }
     }
     append(text, trial->setup ? trial->setup : "");
+    if (trial->literal)
+        define_operands(trial, text);
     for (unsigned o = 1; o <= operands && frame.give; o++)
         append_number(text, frame.give, o);
     append_body(text, trial->body, frame.names);

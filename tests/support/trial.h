@@ -42,6 +42,7 @@ struct trial {
     unsigned booleans; /* bit i: b# */
     int legacy;        /* how multiplication goes */
     int alone;         /* without engines */
+    int literal;       /* the operands, one set, are constants that the shader defines: compilers see them */
     int gives;         /* the body writes its results to o1 and so on itself */
 };
 
