@@ -69,7 +69,7 @@ void trial_run_vertices(const struct trial_memory *memory, const struct engine *
     alignas(64) uint32_t index[BATCH];
     struct error error = {{0}};
     const struct trial *trial = memory->trial;
-    if (!engine->interprets)
+    if (!engine->without_arena)
         open_arena();
     memset(&key, 0, sizeof key);
     make_key(memory, &key.vertex);
