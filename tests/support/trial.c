@@ -337,7 +337,7 @@ static void expect_of_engines(const struct trial_memory *memory, trial_reference
     make_text(trial, memory->program->model, 1, text);
     for (unsigned i = 0; engine_at(i); i++) {
         const struct engine *engine = engine_at(i);
-        if (engine->on_request || engine->unavailable())
+        if ((engine->on_request && !trial->requested) || engine->unavailable())
             continue;
         if (memory->program->model->stage == STAGE_VERTEX)
             trial_run_vertices(memory, engine, results);
@@ -351,6 +351,35 @@ static void expect_of_engines(const struct trial_memory *memory, trial_reference
 void trial_expect(const struct trial *trial, trial_reference *reference)
 {
     trial_expect_within(trial, reference, 0, 0);
+}
+
+static struct trial_results emulated[RESULTS];
+
+static void emulated_reference(const struct trial *trial, const struct trial_operands *operands,
+                               double results[TRIAL_RESULTS][4])
+{
+    for (unsigned r = 0; r < trial->results; r++)
+        for (int c = 0; c < 4; c++)
+            results[r][c] = (double)emulated[operands - trial->operands].v[r][c];
+}
+
+void trial_expect_agreement(const struct trial *trial)
+{
+    static char text[TEXT];
+    make_text(trial, trial_model(trial->model), 0, text);
+    const struct program *program = make_program(text);
+    uint8_t *constants = make_constants(trial, program);
+    const struct trial_memory memory = {program, trial, constants, 0};
+    TEST_ASSERT_TRUE(trial->sets <= RESULTS);
+    for (unsigned set = 0; set < trial->sets; set += TRIAL_LANES) {
+        struct trial_results got[TRIAL_LANES];
+        run_machine(&memory, trial_emulate, set, got);
+        for (unsigned l = 0; l < TRIAL_LANES && set + l < trial->sets; l++)
+            emulated[set + l] = got[l];
+    }
+    free(constants);
+    trial_expect(trial, emulated_reference);
+    program_release(program);
 }
 
 void trial_expect_within(const struct trial *trial, trial_reference *reference, double relative,

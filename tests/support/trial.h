@@ -42,6 +42,7 @@ struct trial {
     unsigned booleans; /* bit i: b# */
     int legacy;        /* how multiplication goes */
     int alone;         /* without engines */
+    int requested;     /* with those that wait to be named too */
     int literal;       /* the operands, one set, are constants that the shader defines: compilers see them */
     int gives;         /* the body writes its results to o1 and so on itself */
 };
@@ -56,6 +57,9 @@ typedef void trial_reference(const struct trial *trial, const struct trial_opera
 void trial_expect_within(const struct trial *trial, trial_reference *reference, double relative,
                          double absolute);
 void trial_expect(const struct trial *trial, trial_reference *reference);
+
+/* The same against what the specification's machine gives under the emulator's binding, to the bit. */
+void trial_expect_agreement(const struct trial *trial);
 
 /* The nearest binary32, as arithmetic under the contract gives it: to zero below FLT_MIN. */
 float trial_round(double value);
