@@ -435,6 +435,41 @@ static void constants_that_are_known_compute_the_same(void)
     }
 }
 
+/* Angles by hand: zeros, right and straight angles as binary32 has them, beyond 2^25, and none at all. */
+static const struct trial_operands angles[] = {
+    {{{0.0f, 1, 0}}},
+    {{{-0.0f, 1, -0.0f}}},
+    {{{0x1.921fb6p+0f, 0, 1}}},
+    {{{-0x1.921fb6p+0f, 0, -1}}},
+    {{{0x1.921fb6p+1f, -1, 0}}},
+    {{{0x1p26f, 1, 0}}},
+    {{{FLT_MAX, 1, 0}}},
+    {{{-FLT_MAX, 1, 0}}},
+    {{{INFINITY, NAN, NAN}}},
+    {{{-INFINITY, NAN, NAN}}},
+    {{{NAN, NAN, NAN}}},
+};
+
+static void angle_reference(const struct trial *t, operands o, double r[TRIAL_RESULTS][4])
+{
+    (void)t;
+    r[0][0] = A(1), r[0][1] = A(2);
+    r[0][2] = r[0][3] = C(2);
+}
+
+static void angles_at_the_edges(void)
+{
+    static const char *const models[] = {"vs_3_0", "ps_3_0"};
+    for (int m = 0; m < 2; m++) {
+        struct trial trial = {.model = models[m],
+                              .body = "mov r0, r3\nsincos r0.xy, r1.x",
+                              .results = 1,
+                              .operands = angles,
+                              .sets = sizeof angles / sizeof *angles};
+        trial_expect_within(&trial, angle_reference, 0, 1.6e-7);
+    }
+}
+
 /* cnd is of ps_1_x only (tests/spec/shader_1.c). */
 static void no_instruction_is_without_a_row(void)
 {
@@ -454,6 +489,7 @@ int main(void)
     UNITY_BEGIN();
     RUN_TEST(no_instruction_is_without_a_row);
     RUN_TEST(instructions_compute_what_their_definitions_say);
+    RUN_TEST(angles_at_the_edges);
     RUN_TEST(constants_that_are_known_compute_the_same);
     RUN_TEST(masks_leave_the_other_components_alone);
     RUN_TEST(with_legacy_multiplication_zeros_give_zero);
