@@ -6,6 +6,7 @@
 #include "draw/key.h"
 #include "external/external.h"
 #include "jit/jit.h"
+#include "shader/program.h"
 #include "stitch/stitch.h"
 #include "tool/choose.h"
 #include "tool/option.h"
@@ -145,13 +146,35 @@ static int read_key(const struct command *self, const struct stream *stream, uin
     return status;
 }
 
+/* The shader that the key numbers, if it has one. */
+static int print_shader(enum unit unit, const union key *key, struct error *error)
+{
+    const struct program *program = key_shader(unit, key);
+    struct shader *shader = NULL;
+    char *text = NULL;
+    size_t bytes;
+    if (!program)
+        return 0;
+    if (shader_read("shader", program->tokens, program->token_count * sizeof *program->tokens, &shader,
+                    error))
+        return -1;
+    int bad = shader_print(shader, &text, &bytes, error);
+    if (!bad)
+        printf("shader %u, %u instruction slots, %u steps:\n%s\n", program->number, program->slots,
+               program->steps, text);
+    free(text);
+    shader_free(shader);
+    return bad;
+}
+
 static int dump_key(const struct command *self, const struct dumper *dumper, enum unit unit,
                     const union key *key, const char *show)
 {
     struct error error = {""};
     struct code_arena *arena = code_create(ARENA_BYTES, NULL, &error);
     progress(NULL);
-    int bad = !arena || dumper->dump(dumper->engine, arena, unit, key, show, &error);
+    int bad = !arena || print_shader(unit, key, &error) ||
+              dumper->dump(dumper->engine, arena, unit, key, show, &error);
     code_destroy(arena);
     return bad ? fail(self, "%s", error.text) : STATUS_OK;
 }
@@ -183,12 +206,14 @@ static int find_unit(const struct command *self, const char *name, enum unit *un
                 unit_name[2]);
 }
 
-static const char notes[] = "Stages of specialize: key, record (the operations as recorded), the name of a "
-                            "pass (after it; triptych list\n"
-                            "passes), intervals (registers), asm (the code), all. The stitchers show "
-                            "fragments, holes and code. Stages of\n"
-                            "external: key, vector (what the text is written in), text (C), asm, all. Draws "
-                            "count from 0 within their frame.";
+static const char notes[] =
+    "Stages of specialize: key, record (the operations as recorded), the name of a "
+    "pass (after it; triptych list\n"
+    "passes), intervals (registers), asm (the code), all. The stitchers show "
+    "fragments, holes and code. Stages of\n"
+    "external: key, vector (what the text is written in), text (C), asm, all. The text "
+    "of a draw's shader comes\n"
+    "first. Draws count from 0 within their frame.";
 
 int command_dump(const struct command *self, int count, char **arguments)
 {
