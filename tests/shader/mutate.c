@@ -205,27 +205,8 @@ static void damaged_valid_shaders_survive(void)
         struct shader *shader;
         TEST_ASSERT_EQUAL_INT_MESSAGE(0, shader_assemble("t", text, strlen(text), &shader, &error),
                                       error.text);
-        for (uint32_t changes = 1 + shader_random(&seed, 2); changes; changes--) {
-            struct shader_instruction *at = &shader->instructions[shader_random(&seed, shader->count)];
-            struct shader_operand *operand =
-                shader_random(&seed, 2) ? &at->source[shader_random(&seed, 3)] : &at->destination;
-            switch (shader_random(&seed, 6)) {
-            case 0:
-                operand->index = (uint16_t)shader_random(&seed, shader_random(&seed, 2) ? 8 : 2048);
-                break;
-            case 1:
-                operand->swizzle =
-                    (uint8_t)(1 + shader_random(&seed, operand == &at->destination ? 15 : 255));
-                break;
-            case 2: operand->modifier = (uint8_t)shader_random(&seed, 8); break;
-            case 3: *at = shader->instructions[shader_random(&seed, shader->count)]; break;
-            case 4:
-                if (operand->file)
-                    operand->file = (uint8_t)(1 + shader_random(&seed, FILE_COUNT - 1));
-                break;
-            default: shader->count = 1 + shader_random(&seed, shader->count); break;
-            }
-        }
+        for (uint32_t changes = 1 + shader_random(&seed, 2); changes; changes--)
+            shader_damage(shader, &seed);
         error_clear(&error);
         shader_validate(shader, NULL, &error) ? refused++ : valid++;
         error_clear(&error);

@@ -133,3 +133,23 @@ void shader_add_random(struct shader *shader, enum shader_opcode opcode, uint64_
     for (unsigned i = 0; i < SHADER_SOURCES && row->source[i]; i++)
         choose_source(model, &instruction->source[i], row->source[i], random);
 }
+
+void shader_damage(struct shader *shader, uint64_t *random)
+{
+    struct shader_instruction *at = &shader->instructions[shader_random(random, shader->count)];
+    struct shader_operand *operand =
+        shader_random(random, 2) ? &at->source[shader_random(random, 3)] : &at->destination;
+    switch (shader_random(random, 6)) {
+    case 0: operand->index = (uint16_t)shader_random(random, shader_random(random, 2) ? 8 : 2048); break;
+    case 1:
+        operand->swizzle = (uint8_t)(1 + shader_random(random, operand == &at->destination ? 15 : 255));
+        break;
+    case 2: operand->modifier = (uint8_t)shader_random(random, 8); break;
+    case 3: *at = shader->instructions[shader_random(random, shader->count)]; break;
+    case 4:
+        if (operand->file)
+            operand->file = (uint8_t)(1 + shader_random(random, FILE_COUNT - 1));
+        break;
+    default: shader->count = 1 + shader_random(random, shader->count); break;
+    }
+}

@@ -12,6 +12,9 @@ struct shader *shader_blank(const struct shader_model *model);
  * must be in the model's column. */
 void shader_add_random(struct shader *shader, enum shader_opcode opcode, uint64_t *random);
 
+/* Changes an operand, copies an instruction over another, or cuts the end off: most rules are one step away. */
+void shader_damage(struct shader *shader, uint64_t *random);
+
 /* A number below `below` (xorshift64*). */
 uint32_t shader_random(uint64_t *random, uint32_t below);
 
