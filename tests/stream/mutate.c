@@ -81,6 +81,12 @@ static const char *const pieces[] = {
     "update m",
     "fill",
     "on",
+    "inverse",
+    "vertexshader",
+    "pixelshader none\n",
+    "vertexconstant 0 transform",
+    "r0",
+    "oC0",
 };
 
 static size_t insert(char *text, size_t bytes, size_t at, const char *piece)
@@ -227,6 +233,11 @@ static void lights_survive(void)
     survive("tests/streams/lights.tri", MUTATIONS / 4);
 }
 
+static void shaders_survive(void)
+{
+    survive("tests/streams/shaders.tri", MUTATIONS / 2);
+}
+
 static void assets_survive(void)
 {
     survive("tests/streams/meshes.tri", MUTATIONS / 30);
@@ -266,6 +277,7 @@ int main(void)
     RUN_TEST(frames_and_sequences_survive);
     RUN_TEST(vertices_and_buffers_survive);
     RUN_TEST(lights_survive);
+    RUN_TEST(shaders_survive);
     RUN_TEST(assets_survive);
     RUN_TEST(damaged_patches_survive);
     return UNITY_END();

@@ -229,6 +229,41 @@ static void changed_textures_are_themselves_again_when_a_frame_is_replayed(void)
     TEST_ASSERT_EQUAL_INT(PIXELS, holds(picture, 0xff605040));
 }
 
+/* Draws keep the constants they were recorded with; a frame that is played alone has those of the frames before it,
+ * and none of what the device was left with. */
+static void constants_are_those_of_their_draw_and_their_frame(void)
+{
+    static uint32_t picture[PIXELS];
+    static const int32_t yes = 1;
+    static const float ones[4] = {1, 1, 1, 1};
+    for (int again = 0; again < 2; again++) {
+        load("triptych 1\ntarget 24 16\nstate cullmode none\n"
+             "vertices v position:float2 {\n-1 -1\n-1 3\n3 -1\n}\nbind vertices v\n"
+             "shader vs {\nvs_2_0\ndcl_position v0\nmov r0, c1\nif b0\nmov r0, c2\nendif\nmov oD0, r0\n"
+             "m4x4 oPos, v0, c4\n}\n"
+             "shader ps {\nps_2_0\ndcl v0\nmov r0, v0\nadd r0, r0, c0\nmov oC0, r0\n}\n"
+             "vertexshader vs\npixelshader ps\nvertexconstant 4 transform world\n"
+             "vertexconstant 1 1 0 0 1  0 1 0 1\nviewport 0 0 12 16 0 1\ndraw triangles 0 1\n"
+             "vertexboolean 0 true\npixelconstant 0 0 0 1 0\nviewport 12 0 12 16 0 1\ndraw triangles 0 "
+             "1\nframe\n"
+             "viewport 0 0 24 16 0 1\ndraw triangles 0 1\nframe\n"
+             "transform world translate 8 0 0\nvertexconstant 4 transform world\nclear color 0 0 0 1\n"
+             "draw triangles 0 1\n");
+        for (int order = 0; order < 2; order++) {
+            play(0, picture);
+            TEST_ASSERT_EQUAL_INT(PIXELS / 2, holds(picture, 0xff0000ff));
+            TEST_ASSERT_EQUAL_INT(PIXELS / 2, holds(picture, 0xffffff00));
+            play(2, picture);
+            TEST_ASSERT_EQUAL_INT(PIXELS, holds(picture, 0xff000000));
+            play(1, picture);
+            TEST_ASSERT_EQUAL_INT(PIXELS, holds(picture, 0xffffff00));
+        }
+        unload();
+        triptych_set_shader_booleans(device, TRIPTYCH_SHADER_VERTEX, 0, &yes, 1);
+        triptych_set_shader_floats(device, TRIPTYCH_SHADER_PIXEL, 0, ones, 1);
+    }
+}
+
 static void a_frame_past_the_last_is_refused(void)
 {
     load(standing);
@@ -273,6 +308,7 @@ int main(void)
     RUN_TEST(a_material_and_lights_start_as_documented);
     RUN_TEST(elements_in_buffers_draw_what_vertices_draw);
     RUN_TEST(changed_textures_are_themselves_again_when_a_frame_is_replayed);
+    RUN_TEST(constants_are_those_of_their_draw_and_their_frame);
     RUN_TEST(a_frame_past_the_last_is_refused);
     RUN_TEST(the_callback_sees_every_frame_and_can_stop);
     return UNITY_END();
