@@ -287,6 +287,21 @@ static void loops_that_are_not_allowed_refuse_the_draw(void)
     draw();
 }
 
+static void loops_that_would_run_too_long_refuse_the_draw(void)
+{
+    static const int32_t long_loop[4] = {255}, short_loop[4] = {1};
+    set_vertex("vs_3_0\ndcl_position v0\ndcl_position o0\nmov r0, v0\nrep i0\nrep i1\nrep i0\nrep i1\n"
+               "add r0, r0, v0\nendrep\nendrep\nendrep\nendrep\nmov o0, r0\n");
+    OK(triptych_set_shader_integers(device, TRIPTYCH_SHADER_VERTEX, 0, short_loop, 1));
+    OK(triptych_set_shader_integers(device, TRIPTYCH_SHADER_VERTEX, 1, long_loop, 1));
+    draw();
+    OK(triptych_set_shader_integers(device, TRIPTYCH_SHADER_VERTEX, 0, long_loop, 1));
+    TEST_ASSERT_EQUAL_INT(TRIPTYCH_BAD_CALL, triptych_draw(device, TRIPTYCH_TRIANGLE_LIST, 0, 1));
+    TEST_ASSERT_NOT_NULL_MESSAGE(strstr(triptych_error(device), "1048576"), triptych_error(device));
+    OK(triptych_set_vertex_shader(device, NULL));
+    draw();
+}
+
 /* --- Destroying -------------------------------------------------------------------------------------------
  */
 
@@ -337,6 +352,7 @@ int main(void)
     RUN_TEST(a_hundred_thousand_draws_stay_within_the_memory_of_constants);
     RUN_TEST(full_memory_of_constants_renders_what_is_recorded);
     RUN_TEST(loops_that_are_not_allowed_refuse_the_draw);
+    RUN_TEST(loops_that_would_run_too_long_refuse_the_draw);
     RUN_TEST(a_shader_is_destroyed_when_its_draws_are_rendered);
     RUN_TEST(another_shader_of_the_same_program_keeps_it);
     RUN_TEST(a_device_takes_its_shaders_with_it);

@@ -215,9 +215,50 @@ static void damaged_shaders_are_drawn_or_refused(void)
     TEST_ASSERT_GREATER_THAN_UINT32(1000, valid);
 }
 
+/* Through the interface: words of the bytecode that are other ones, bits of them, words that are gone. */
+static void damaged_bytecode_is_drawn_or_refused(void)
+{
+    glob_t files;
+    unsigned drawn = 0, refused = 0;
+    triptych_device *device = drawings[0].device;
+    TEST_ASSERT_EQUAL_INT(0, glob("tests/shaders/*/*.?sa", 0, NULL, &files));
+    for (size_t f = 0; f < files.gl_pathc; f++) {
+        struct shader *shader;
+        uint32_t *tokens;
+        size_t count;
+        TEST_ASSERT_EQUAL_INT(0, shader_load(files.gl_pathv[f], &shader, &error));
+        TEST_ASSERT_EQUAL_INT(0, shader_encode(shader, &tokens, &count, &error));
+        for (int i = 0; i < DAMAGES; i++) {
+            triptych_shader *made;
+            size_t at = shader_random(&seed, (uint32_t)count), cut = shader_random(&seed, 20) ? 0 : at;
+            uint32_t before = tokens[at];
+            tokens[at] = shader_random(&seed, 3) ? before ^ 1u << shader_random(&seed, 32)
+                                                 : tokens[shader_random(&seed, (uint32_t)count)];
+            if (triptych_shader_create(device, "tokens", tokens, 4 * (count - cut), &made)) {
+                expect_one_line(triptych_error(device));
+                refused++;
+            } else {
+                OK(triptych_shader_get_stage(made) == TRIPTYCH_SHADER_VERTEX
+                       ? triptych_set_vertex_shader(device, made)
+                       : triptych_set_pixel_shader(device, made));
+                drawn += !triptych_draw(device, TRIPTYCH_TRIANGLE_STRIP, 0, 2);
+                OK(triptych_finish(device));
+                OK(triptych_shader_destroy(device, made));
+            }
+            tokens[at] = before;
+        }
+        shader_free(shader);
+        free(tokens);
+    }
+    globfree(&files);
+    TEST_ASSERT_GREATER_THAN_UINT32(500, drawn);
+    TEST_ASSERT_GREATER_THAN_UINT32(500, refused);
+}
+
 int main(void)
 {
     UNITY_BEGIN();
     RUN_TEST(damaged_shaders_are_drawn_or_refused);
+    RUN_TEST(damaged_bytecode_is_drawn_or_refused);
     return UNITY_END();
 }
