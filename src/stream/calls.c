@@ -31,7 +31,7 @@ int parse_word(struct parser *parser, enum word_list list, const char *what, uns
     const struct token *token = &parser->lex.token;
     if (token->type == TOKEN_WORD && !word_value(list, token->text, token->length, value))
         return lex_next(&parser->lex);
-    char choices[256];
+    char choices[384];
     word_choices(list, choices, sizeof choices);
     return lex_expected(&parser->lex, "%s: %s", what, choices);
 }
@@ -540,8 +540,13 @@ static int bind_element(struct parser *parser, struct call *call)
 {
     struct lexer *lex = &parser->lex;
     unsigned attribute, format;
+    struct token place = lex->token;
     if (parse_word(parser, WORDS_ATTRIBUTE, "an attribute", &attribute))
         return -1;
+    if (attribute >= TRIPTYCH_ATTRIBUTE_COUNT)
+        return lex_fail(lex, &place,
+                        "found '%s', expected an attribute, or declare for what only shaders read",
+                        word_text(WORDS_ATTRIBUTE, attribute));
     call->element.attribute = (enum triptych_attribute)attribute;
     call->element.format = TRIPTYCH_FORMAT_NONE;
     if (lex_is(lex, "none"))

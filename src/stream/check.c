@@ -131,7 +131,7 @@ static int bind_stream(struct follower *follower, const struct call *call, struc
 
 static int declare(struct follower *follower, const struct call *call, struct error *error)
 {
-    struct triptych_declaration_element elements[TRIPTYCH_ATTRIBUTE_COUNT];
+    struct triptych_declaration_element elements[STREAM_ELEMENTS];
     unsigned count = stream_declaration(call, elements);
     return state_set_declaration(&follower->state, elements, count, error);
 }
@@ -139,19 +139,27 @@ static int declare(struct follower *follower, const struct call *call, struct er
 static int bind_vertices(struct follower *follower, uint32_t resource, struct error *error)
 {
     const struct layout *layout = &follower->stream->resources[resource].layout;
+    struct triptych_declaration_element elements[STREAM_ELEMENTS];
+    unsigned count = stream_declare_layout(layout, elements);
+    if (state_set_declaration(&follower->state, elements, count, error))
+        return -1;
+    if (count)
+        return state_set_stream(&follower->state, 0, stand_in(follower, resource), 0, layout->stride, error);
     for (unsigned a = 0; a < TRIPTYCH_ATTRIBUTE_COUNT; a++)
-        if (bind_element(follower, (enum triptych_attribute)a, resource, layout->format[a], layout->offset[a],
+        if (layout->format[a] != TRIPTYCH_FORMAT_NONE &&
+            bind_element(follower, (enum triptych_attribute)a, resource, layout->format[a], layout->offset[a],
                          layout->stride, error))
             return -1;
     return 0;
 }
 
-static int check_attribute(const struct follower *follower, unsigned attribute, uint64_t last,
-                           struct error *error)
+/* Whether vertices up to `last`, or as many as the instances need, have the element. */
+static int check_element(const struct follower *follower, const struct state_element *element,
+                         const char *word, uint64_t last, struct error *error)
 {
-    const struct state_element *element = &follower->state.element[attribute];
-    const struct state_stream *stream = state_stream_of(&follower->state, attribute);
-    const char *word = word_text(WORDS_ATTRIBUTE, attribute);
+    const struct state_stream *stream = &follower->state.stream[element->stream];
+    if (stream->frequency == TRIPTYCH_FREQUENCY_INSTANCE)
+        last = (state_instances(&follower->state) - 1) / stream->count;
     if (!stream->buffer)
         return error_set(error, "found %s in stream %u with nothing bound, expected bind stream before it",
                          word, element->stream);
@@ -172,13 +180,14 @@ static int check_attribute(const struct follower *follower, unsigned attribute, 
 static int check_vertices(const struct follower *follower, uint64_t last, struct error *error)
 {
     const struct state *state = &follower->state;
-    for (unsigned a = 0; a < TRIPTYCH_ATTRIBUTE_COUNT; a++) {
-        const struct state_stream *stream = state_stream_of(state, a);
-        if (state->element[a].format == TRIPTYCH_FORMAT_NONE)
-            continue;
-        int instanced = stream->frequency == TRIPTYCH_FREQUENCY_INSTANCE;
-        uint64_t most = instanced ? (state_instances(state) - 1) / stream->count : last;
-        if (check_attribute(follower, a, most, error))
+    for (unsigned a = 0; a < TRIPTYCH_ATTRIBUTE_COUNT; a++)
+        if (state->element[a].format != TRIPTYCH_FORMAT_NONE &&
+            check_element(follower, &state->element[a], word_text(WORDS_ATTRIBUTE, a), last, error))
+            return -1;
+    for (unsigned i = 0; i < state->others; i++) {
+        const struct state_other *other = &state->other[i];
+        if (check_element(follower, &other->element, stream_element_word(other->usage, other->usage_index),
+                          last, error))
             return -1;
     }
     return 0;

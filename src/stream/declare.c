@@ -5,16 +5,15 @@
 
 #include <string.h>
 
-int parse_attribute(struct parser *parser, size_t length, enum triptych_attribute *attribute,
-                    enum triptych_format *format)
+int parse_attribute(struct parser *parser, size_t length, unsigned *element, enum triptych_format *format)
 {
     struct lexer *lex = &parser->lex;
     const struct token *token = &lex->token;
     const char *colon = token->type == TOKEN_WORD ? memchr(token->text, ':', length) : NULL;
     size_t before = colon ? (size_t)(colon - token->text) : 0;
-    unsigned number, type;
-    char choices[256];
-    if (!colon || word_value(WORDS_ATTRIBUTE, token->text, before, &number)) {
+    unsigned type;
+    char choices[384];
+    if (!colon || word_value(WORDS_ATTRIBUTE, token->text, before, element)) {
         word_choices(WORDS_ATTRIBUTE, choices, sizeof choices);
         return lex_expected(lex, "ATTRIBUTE:FORMAT with %s", choices);
     }
@@ -22,7 +21,6 @@ int parse_attribute(struct parser *parser, size_t length, enum triptych_attribut
         word_choices(WORDS_FORMAT, choices, sizeof choices);
         return lex_expected(lex, "a format: %s", choices);
     }
-    *attribute = (enum triptych_attribute)number;
     *format = (enum triptych_format)type;
     return 0;
 }
@@ -49,18 +47,20 @@ static int parse_declared(struct parser *parser, struct call *call, unsigned str
 {
     const struct token *token = &parser->lex.token;
     const char *at = token->type == TOKEN_WORD ? memchr(token->text, '@', token->length) : NULL;
-    enum triptych_attribute attribute;
+    unsigned element;
     enum triptych_format format;
     size_t length = at ? (size_t)(at - token->text) : token->length;
-    if (parse_attribute(parser, length, &attribute, &format))
+    if (parse_attribute(parser, length, &element, &format))
         return -1;
     for (uint32_t i = 0; i < call->declare.count; i++)
-        if (call->declare.element[i].attribute == attribute)
+        if (call->declare.element[i].element == element)
             return lex_expected(&parser->lex, "each attribute once");
     if (at && parse_offset(parser, at, offset))
         return -1;
+    if (*offset > 65532)
+        return lex_expected(&parser->lex, "@OFFSET behind it, an element does not fit behind the one before");
     call->declare.element[call->declare.count++] =
-        (struct declared){(uint8_t)attribute, (uint8_t)format, (uint8_t)stream, *offset};
+        (struct declared){(uint8_t)element, (uint8_t)format, (uint8_t)stream, (uint16_t)*offset};
     *offset += vertex_types[format].bytes;
     return lex_next(&parser->lex);
 }
@@ -79,24 +79,51 @@ int parse_declare(struct parser *parser, struct call *call)
     return 0;
 }
 
-unsigned stream_declaration(const struct call *call,
-                            struct triptych_declaration_element elements[TRIPTYCH_ATTRIBUTE_COUNT])
-{
-    static const struct {
-        enum triptych_usage usage;
-        unsigned index;
-    } usages[TRIPTYCH_ATTRIBUTE_COUNT] = {
+static const struct {
+    enum triptych_usage usage;
+    unsigned index;
+} usages[STREAM_ELEMENTS] = {
 #define ATTRIBUTE(name, word, usage, index, meaning) {TRIPTYCH_USAGE_##usage, index},
 #include "def/attribute.def"
 #undef ATTRIBUTE
-    };
+#define ELEMENT(word, usage, index) {TRIPTYCH_USAGE_##usage, index},
+#include "stream/element.def"
+#undef ELEMENT
+};
+
+unsigned stream_declaration(const struct call *call,
+                            struct triptych_declaration_element elements[STREAM_ELEMENTS])
+{
     for (uint32_t i = 0; i < call->declare.count; i++) {
         const struct declared *from = &call->declare.element[i];
-        elements[i] = (struct triptych_declaration_element){from->stream, from->offset, from->format,
-                                                            usages[from->attribute].usage,
-                                                            usages[from->attribute].index};
+        elements[i] =
+            (struct triptych_declaration_element){from->stream, from->offset, from->format,
+                                                  usages[from->element].usage, usages[from->element].index};
     }
     return call->declare.count;
+}
+
+unsigned stream_declare_layout(const struct layout *layout,
+                               struct triptych_declaration_element elements[STREAM_ELEMENTS])
+{
+    unsigned count = 0;
+    int others = 0;
+    for (unsigned e = 0; e < STREAM_ELEMENTS; e++) {
+        if (layout->format[e] == TRIPTYCH_FORMAT_NONE)
+            continue;
+        elements[count++] = (struct triptych_declaration_element){0, layout->offset[e], layout->format[e],
+                                                                  usages[e].usage, usages[e].index};
+        others |= e >= TRIPTYCH_ATTRIBUTE_COUNT;
+    }
+    return others ? count : 0;
+}
+
+const char *stream_element_word(unsigned usage, unsigned usage_index)
+{
+    unsigned e = 0;
+    while (e + 1 < STREAM_ELEMENTS && (usages[e].usage != usage || usages[e].index != usage_index))
+        e++;
+    return word_text(WORDS_ATTRIBUTE, e);
 }
 
 int parse_fvf(struct parser *parser, struct call *call)

@@ -150,7 +150,7 @@ int parse_path(struct parser *parser, char **path)
 /* --- Vertices ---------------------------------------------------------------------------------------------
  */
 
-static int parse_element(struct parser *parser, struct resource *resource, enum triptych_attribute *which)
+static int parse_element(struct parser *parser, struct resource *resource, unsigned *which)
 {
     enum triptych_format format;
     if (parse_attribute(parser, parser->lex.token.length, which, &format))
@@ -200,10 +200,10 @@ static int parse_typed(struct parser *parser, enum triptych_format format, const
 }
 
 /* One vertex; its attributes in the order of the text. */
-static int parse_vertex(struct parser *parser, const struct layout *layout,
-                        const enum triptych_attribute *order, struct block *block)
+static int parse_vertex(struct parser *parser, const struct layout *layout, const unsigned *order,
+                        struct block *block)
 {
-    uint32_t vertex[4 * TRIPTYCH_ATTRIBUTE_COUNT] = {0}, word = 0, values = 0;
+    uint32_t vertex[4 * STREAM_ELEMENTS] = {0}, word = 0, values = 0;
     for (int i = 0; word < layout->stride / 4; i++) {
         enum triptych_format format = layout->format[order[i]];
         if (parse_typed(parser, format, word_text(WORDS_ATTRIBUTE, order[i]), &vertex[word]))
@@ -218,8 +218,8 @@ static int parse_vertex(struct parser *parser, const struct layout *layout,
     return lex_skip_lines(&parser->lex);
 }
 
-static int parse_vertex_block(struct parser *parser, const struct layout *layout,
-                              const enum triptych_attribute *order, struct block *block)
+static int parse_vertex_block(struct parser *parser, const struct layout *layout, const unsigned *order,
+                              struct block *block)
 {
     struct lexer *lex = &parser->lex;
     if (open_block(parser))
@@ -240,7 +240,7 @@ static int parse_vertex_block(struct parser *parser, const struct layout *layout
 
 int parse_vertices(struct parser *parser)
 {
-    enum triptych_attribute order[TRIPTYCH_ATTRIBUTE_COUNT];
+    unsigned order[STREAM_ELEMENTS];
     struct resource *resource;
     struct token place;
     int count = 0;
@@ -250,7 +250,7 @@ int parse_vertices(struct parser *parser)
         if (parse_element(parser, resource, &order[count]))
             return -1;
         count++;
-    } while (parser->lex.token.type == TOKEN_WORD && count < TRIPTYCH_ATTRIBUTE_COUNT);
+    } while (parser->lex.token.type == TOKEN_WORD && count < STREAM_ELEMENTS);
     const struct layout *layout = &resource->layout;
     struct block block = {.size = layout->stride, .limit = LIMIT_VERTICES, .items = "vertices"};
     place = parser->lex.token;

@@ -16,11 +16,10 @@ static inline uint32_t value_bytes(enum value_type type)
     return type == VALUE_U16 ? 2 : 4;
 }
 
-static inline void layout_add(struct layout *layout, enum triptych_attribute attribute,
-                              enum triptych_format format)
+static inline void layout_add(struct layout *layout, unsigned element, enum triptych_format format)
 {
-    layout->format[attribute] = format;
-    layout->offset[attribute] = layout->stride;
+    layout->format[element] = format;
+    layout->offset[element] = layout->stride;
     layout->stride += vertex_types[format].bytes;
 }
 

@@ -38,9 +38,8 @@ int parse_transform_name(struct parser *parser, enum triptych_transform *which);
 /* Numbers that must be finite in binary32. */
 int parse_round(struct parser *parser, const struct token *place, double matrix[4][4], float rounded[4][4]);
 
-/* ATTRIBUTE:FORMAT, as much of the current token as `length` says. */
-int parse_attribute(struct parser *parser, size_t length, enum triptych_attribute *attribute,
-                    enum triptych_format *format);
+/* ATTRIBUTE:FORMAT, as much of the current token as `length` says: a number of enum stream_element. */
+int parse_attribute(struct parser *parser, size_t length, unsigned *element, enum triptych_format *format);
 
 /* An integer from 0 to `high`. */
 int parse_integer(struct parser *parser, const char *what, int64_t high, uint32_t *value);

@@ -182,7 +182,7 @@ static enum triptych_result bind_stream(struct player *player, const struct call
 
 static enum triptych_result declare(struct player *player, const struct call *call)
 {
-    struct triptych_declaration_element elements[TRIPTYCH_ATTRIBUTE_COUNT];
+    struct triptych_declaration_element elements[STREAM_ELEMENTS];
     unsigned count = stream_declaration(call, elements);
     return triptych_set_declaration(player->device, elements, count);
 }
@@ -190,10 +190,15 @@ static enum triptych_result declare(struct player *player, const struct call *ca
 static enum triptych_result bind_vertices(struct player *player, uint32_t resource)
 {
     const struct layout *layout = &player->stream->resources[resource].layout;
-    enum triptych_result result = TRIPTYCH_OK;
+    struct triptych_declaration_element elements[STREAM_ELEMENTS];
+    unsigned count = stream_declare_layout(layout, elements);
+    enum triptych_result result = triptych_set_declaration(player->device, elements, count);
+    if (count && !result)
+        return triptych_set_stream(player->device, 0, buffer_of(player, resource), 0, layout->stride);
     for (unsigned a = 0; a < TRIPTYCH_ATTRIBUTE_COUNT && !result; a++)
-        result = bind_element(player, (enum triptych_attribute)a, resource, layout->format[a],
-                              layout->offset[a], layout->stride);
+        if (layout->format[a] != TRIPTYCH_FORMAT_NONE)
+            result = bind_element(player, (enum triptych_attribute)a, resource, layout->format[a],
+                                  layout->offset[a], layout->stride);
     return result;
 }
 

@@ -77,10 +77,19 @@ enum texture_source {
     TEXTURE_FILES     /* a PNG a face */
 };
 
-/* Interleaved vertices: where each attribute lies within `stride` bytes. */
+/* What a vertex can have: the attributes, by their numbers, then what only shaders read. */
+enum stream_element {
+    ELEMENT_ATTRIBUTES = TRIPTYCH_ATTRIBUTE_COUNT - 1,
+#define ELEMENT(word, usage, index) ELEMENT_##word,
+#include "stream/element.def"
+#undef ELEMENT
+    STREAM_ELEMENTS
+};
+
+/* Interleaved vertices: where each element lies within `stride` bytes. */
 struct layout {
-    enum triptych_format format[TRIPTYCH_ATTRIBUTE_COUNT];
-    uint32_t offset[TRIPTYCH_ATTRIBUTE_COUNT];
+    enum triptych_format format[STREAM_ELEMENTS];
+    uint32_t offset[STREAM_ELEMENTS];
     uint32_t stride;
 };
 
@@ -226,9 +235,9 @@ struct call {
         struct {
             uint32_t count;
             struct declared {
-                uint8_t attribute, format, stream;
-                uint32_t offset;
-            } element[TRIPTYCH_ATTRIBUTE_COUNT];
+                uint8_t element, format, stream;
+                uint16_t offset;
+            } element[STREAM_ELEMENTS];
         } declare;
         uint32_t fvf;
         struct {
@@ -303,7 +312,15 @@ extern const struct triptych_light stream_default_light;
 
 /* The declaration that a CALL_DECLARE makes; returns how many elements. */
 unsigned stream_declaration(const struct call *call,
-                            struct triptych_declaration_element elements[TRIPTYCH_ATTRIBUTE_COUNT]);
+                            struct triptych_declaration_element elements[STREAM_ELEMENTS]);
+
+/* What declares elements of vertices that lie in stream 0; returns how many, or 0 if all of them are attributes, which
+ * need no stream of that number. */
+unsigned stream_declare_layout(const struct layout *layout,
+                               struct triptych_declaration_element elements[STREAM_ELEMENTS]);
+
+/* The word of the element with that usage. */
+const char *stream_element_word(unsigned usage, unsigned usage_index);
 
 /* The constants that a CALL_CONSTANT_MATRIX makes of the transforms, of which there are TRIPTYCH_TRANSFORM_COUNT.
  * Returns 0, or -1 if a number is not finite, as where there is no inverse. */

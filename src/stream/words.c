@@ -16,6 +16,9 @@ static const struct row {
 #define ATTRIBUTE(name, word, usage, index, meaning) {WORDS_ATTRIBUTE, #word, TRIPTYCH_##name},
 #include "def/attribute.def"
 #undef ATTRIBUTE
+#define ELEMENT(word, usage, index) {WORDS_ATTRIBUTE, #word, ELEMENT_##word},
+#include "stream/element.def"
+#undef ELEMENT
 #define VERTEX_TYPE(name, word, components, encoding, bits, divisor, meaning)                                \
     {WORDS_FORMAT, #word, TRIPTYCH_FORMAT_##name},
 #include "def/vertex_type.def"

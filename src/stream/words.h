@@ -1,4 +1,4 @@
-/* The words of stream/word.def, and those of attributes, their types and depth formats, and the numbers they
+/* The words of stream/word.def, and those of attributes and other elements (enum stream_element), their types and depth formats, and the numbers they
  * stand for. */
 #ifndef STREAM_WORDS_H
 #define STREAM_WORDS_H

@@ -142,7 +142,7 @@ static void write_texture(struct writer *writer, const struct resource *resource
 }
 
 /* The attributes in the order in which they lie in a vertex; returns how many. */
-static int sort_attributes(const struct layout *layout, unsigned order[TRIPTYCH_ATTRIBUTE_COUNT])
+static int sort_attributes(const struct layout *layout, unsigned order[STREAM_ELEMENTS])
 {
     int count = 0;
     for (uint32_t offset = 0; offset < layout->stride; count++) {
@@ -191,7 +191,7 @@ static void write_typed(struct writer *writer, enum triptych_format format, cons
 static void write_vertices(struct writer *writer, const struct resource *resource)
 {
     const struct layout *layout = &resource->layout;
-    unsigned order[TRIPTYCH_ATTRIBUTE_COUNT];
+    unsigned order[STREAM_ELEMENTS];
     int count = sort_attributes(layout, order);
     for (int i = 0; i < count; i++)
         fprintf(writer->out, " %s:%s", word_text(WORDS_ATTRIBUTE, order[i]),
@@ -420,7 +420,7 @@ static void write_declare(struct writer *writer, const struct call *call)
         const struct declared *element = &call->declare.element[i];
         if (!i || element->stream != element[-1].stream)
             fprintf(writer->out, " %u", element->stream);
-        fprintf(writer->out, " %s:%s@%" PRIu32, word_text(WORDS_ATTRIBUTE, element->attribute),
+        fprintf(writer->out, " %s:%s@%u", word_text(WORDS_ATTRIBUTE, element->element),
                 word_text(WORDS_FORMAT, element->format), element->offset);
     }
 }

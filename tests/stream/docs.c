@@ -66,6 +66,9 @@ static void every_word_is_mentioned(void)
 #define WORD(list, word, value) #word,
 #include "stream/word.def"
 #undef WORD
+#define ELEMENT(word, usage, index) #word,
+#include "stream/element.def"
+#undef ELEMENT
     };
     for (size_t i = 0; i < sizeof words / sizeof *words; i++)
         TEST_ASSERT_NOT_NULL_MESSAGE(strstr(page, words[i]), words[i]);

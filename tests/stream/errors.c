@@ -331,6 +331,18 @@ static const struct bad lines[] = {
     {"declare position:float3 1 position:float2\n", "2:27", "expected each attribute once"},
     {"declare position:float3@2\n", "2:9", "expected a multiple of 4 up to 65532 behind @"},
     {"declare position:float3@\n", "2:9", "expected a multiple of 4 up to 65532 behind @"},
+    {"declare position:float3@65532 tangent:float3\n", "2:31",
+     "an element does not fit behind the one before"},
+    {"bind element tangent float3 b 0 4\n", "2:14",
+     "found 'tangent', expected an attribute, or declare for what only shaders read"},
+    {"target 8 8\nbuffer b float { 1 2 }\ndeclare position:float2 1 binormal1:float3\nbind stream 0 b 0 "
+     "0\nbind "
+     "stream 1 b 0 0\ndraw triangles 0 1\n",
+     "7:1", "found binormal1 at bytes up to 12, expected at most 8, those of b"},
+    {"target 8 8\nvertices v position:float2 tangent:float1 {\n0 0 0\n1 1 0\n}\nbind vertices v\ndraw "
+     "triangles 0 "
+     "1\n",
+     "8:1", "found vertex 2 drawn, expected at most 1, the last position in v"},
     {"declare position:float3@65536\n", "2:9", "expected a multiple of 4 up to 65532 behind @"},
     {"declare position:float3@1x\n", "2:9", "expected an offset up to 65532 behind @"},
     {"declare position\n", "2:9", "expected ATTRIBUTE:FORMAT"},

@@ -264,6 +264,28 @@ static void constants_are_those_of_their_draw_and_their_frame(void)
     }
 }
 
+/* A tangent comes to the shader from vertices and from a declared stream, and goes when vertices have none. */
+static void what_only_shaders_read_is_bound_and_unbound(void)
+{
+    static uint32_t picture[PIXELS];
+    load("triptych 1\ntarget 24 16\nstate cullmode none\n"
+         "vertices v tangent:float3 position:float2 {\n1 0 0 -1 -1\n1 0 0 -1 3\n1 0 0 3 -1\n}\n"
+         "vertices plain position:float2 {\n-1 -1\n-1 3\n3 -1\n}\nbuffer t float { 0 1 1 }\n"
+         "shader vs {\nvs_1_1\ndcl_position v0\ndcl_tangent v3\nmov oPos, v0\nmov oD0, v3\n}\n"
+         "vertexshader vs\nbind vertices v\ndraw triangles 0 1\nframe\n"
+         "bind vertices plain\nclear color 1 1 1 1 depth 1\ndraw triangles 0 1\nframe\n"
+         "declare position:float2 3 tangent:float3\nbind stream 0 plain 0 8\nbind stream 3 t 0 0\n"
+         "draw triangles 0 1\n");
+    for (int again = 0; again < 2; again++) {
+        play(0, picture);
+        TEST_ASSERT_EQUAL_INT(PIXELS, holds(picture, 0xff0000ff));
+        play(1, picture);
+        TEST_ASSERT_EQUAL_INT(PIXELS, holds(picture, 0xff000000)); /* without one it is 0 0 0 1 */
+        play(2, picture);
+        TEST_ASSERT_EQUAL_INT(PIXELS, holds(picture, 0xffffff00));
+    }
+}
+
 static void a_frame_past_the_last_is_refused(void)
 {
     load(standing);
@@ -309,6 +331,7 @@ int main(void)
     RUN_TEST(elements_in_buffers_draw_what_vertices_draw);
     RUN_TEST(changed_textures_are_themselves_again_when_a_frame_is_replayed);
     RUN_TEST(constants_are_those_of_their_draw_and_their_frame);
+    RUN_TEST(what_only_shaders_read_is_bound_and_unbound);
     RUN_TEST(a_frame_past_the_last_is_refused);
     RUN_TEST(the_callback_sees_every_frame_and_can_stop);
     return UNITY_END();

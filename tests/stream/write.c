@@ -137,6 +137,8 @@ static const char everything[] =
     "buffer o1 u32 { 77 }\nbuffer o4 color { 00000001 00000002 00000003 00000004 }\n"
     "buffer o5 u16 { 3 }\n"
     "buffer s u16 { 0 1 2 65535 }\nbuffer l u32 { 0 1 2 4294967295 }\n"
+    "vertices w tangent:float2 position:float3 color3:color sample:ubyte4 {\n 1 2 3 4 5 ff000000 1 2 3 4\n}\n"
+    "declare position:float3 fog:float1 2 tessfactor:float1 weights1:float2@16 indices1:ubyte4\n"
     "shader vs { # a comment\n  vs_2_0 ; another\n dcl_position v0\n  mov oPos, -v0.wzyx\n}\n"
     "shader ps {\r\n\tps_3_0\r\n\tdef c0, 0.1, 1e-20, -2, 3\r\n\tmov_sat oC0, c0.x\r\n  } # end\r\n"
     "vertexshader vs\npixelshader ps\nvertexshader none\n"
