@@ -1,6 +1,6 @@
-/* The shaders of tests/shaders, damaged at random: those that are valid still are drawn once, with random constants and
- * textures of all kinds, and every so often by all engines, whose pictures must be the same. Nothing crashes or takes
- * forever; the sanitizers watch. The seed is fixed. */
+/* The shaders of tests/shaders at random. Damaged ones that are valid still are drawn once, with random constants and
+ * textures of all kinds, and every so often by all engines; pairs that are whole by all engines in random states. All give
+ * the same pictures, nothing crashes or takes forever; the sanitizers watch. The seed is fixed. */
 #include "draw/device.h"
 #include "engines.h"
 #include "tests/support/shaders.h"
@@ -11,7 +11,7 @@
 #include <string.h>
 #include <unity.h>
 
-enum { SIZE = 6, DAMAGES = 32, ALL_ENGINES_EVERY = 8, ENGINES = 5, CONSTANTS = 256 };
+enum { SIZE = 6, DAMAGES = 32, ALL_ENGINES_EVERY = 8, ENGINES = 5, PAIRS = 240, CONSTANTS = 256 };
 
 struct drawing {
     const struct engine *engine;
@@ -255,10 +255,149 @@ static void damaged_bytecode_is_drawn_or_refused(void)
     TEST_ASSERT_GREATER_THAN_UINT32(500, refused);
 }
 
+/* --- States -----------------------------------------------------------------------------------------------
+ */
+
+/* A supported value of a state, of some kinds: where there is a word for each, and of colours and masks any bits. */
+static bool choose_value(const struct triptych_kind *kind, uint32_t *number)
+{
+    const struct triptych_value *value;
+    unsigned count = 0;
+    if (kind->notation == TRIPTYCH_NOTATION_HEXADECIMAL || kind->notation == TRIPTYCH_NOTATION_NUMBER) {
+        *number = shader_random(&seed, UINT32_MAX);
+        return *number >= kind->first && *number <= kind->last;
+    }
+    if (kind->notation != TRIPTYCH_NOTATION_WORDS)
+        return false;
+    while (triptych_value_at(kind, count))
+        count++;
+    value = triptych_value_at(kind, shader_random(&seed, count));
+    *number = value->number;
+    return value->support == TRIPTYCH_SUPPORT_YES;
+}
+
+static void set_everywhere(enum triptych_state_table table, unsigned i, unsigned row, uint32_t value)
+{
+    for (unsigned e = 0; e < engines; e++) {
+        triptych_device *device = drawings[e].device;
+        OK(table == TRIPTYCH_RENDER_STATES    ? triptych_set_state(device, row, value)
+           : table == TRIPTYCH_SAMPLER_STATES ? triptych_set_sampler_state(device, i, row, value)
+                                              : triptych_set_stage_state(device, i, row, value));
+    }
+}
+
+static void set_defaults(void)
+{
+    for (unsigned table = 0; table < TRIPTYCH_STATE_TABLE_COUNT; table++)
+        for (unsigned i = 0; i < triptych_table_size(table); i++)
+            for (unsigned row = 0; triptych_state_at(table, row); row++)
+                set_everywhere(table, i, row, triptych_state_default(table, row, i));
+}
+
+static void set_random_states(void)
+{
+    for (int chosen = 0; chosen < 24;) {
+        unsigned table = shader_random(&seed, 3), rows = 0;
+        uint32_t value;
+        while (triptych_state_at(table, rows))
+            rows++;
+        unsigned row = shader_random(&seed, rows), i = shader_random(&seed, table ? 4 : 1);
+        const struct triptych_state_row *state = triptych_state_at(table, row);
+        if (state->support == TRIPTYCH_SUPPORT_YES && choose_value(state->kind, &value)) {
+            set_everywhere(table, i, row, value);
+            chosen++;
+        }
+    }
+    set_everywhere(TRIPTYCH_RENDER_STATES, 0, TRIPTYCH_STATE_cullmode, 1);
+    for (unsigned e = 0; e < engines; e++)
+        triptych_set_convention(drawings[e].device, TRIPTYCH_MULTIPLY, (unsigned)(seed & 1));
+}
+
+static void set_random_target(void)
+{
+    static const enum triptych_surface_format formats[] = {TRIPTYCH_SURFACE_A8R8G8B8, TRIPTYCH_SURFACE_R5G6B5,
+                                                           TRIPTYCH_SURFACE_A16B16G16R16F,
+                                                           TRIPTYCH_SURFACE_A32B32G32R32F};
+    struct triptych_target_description target = {.width = SIZE, .height = SIZE};
+    do
+        target.depth_format = shader_random(&seed, TRIPTYCH_DEPTH_COUNT);
+    while (target.depth_format == TRIPTYCH_DEPTH_none);
+    unsigned targets = shader_random(&seed, 3) ? 1 : 2;
+    for (unsigned t = 0; t < targets; t++)
+        target.color_format[t] = formats[shader_random(&seed, 4)];
+    if (targets == 1 && !shader_random(&seed, 3))
+        target.samples = 4;
+    for (unsigned e = 0; e < engines; e++) {
+        triptych_device *device = drawings[e].device;
+        OK(triptych_set_target_description(device, &target));
+    }
+}
+
+/* The pictures of a pair, of which one may be null, as every engine draws it. */
+static bool draw_pair(const struct shader *vertex, const struct shader *pixel)
+{
+    static const float black[4] = {0};
+    enum triptych_result results[ENGINES] = {TRIPTYCH_OK};
+    for (unsigned e = 0; e < engines; e++) {
+        triptych_device *device = drawings[e].device;
+        triptych_shader *made[SHADER_STAGES] = {0};
+        for (int stage = 0; stage < SHADER_STAGES; stage++) {
+            const struct shader *shader = stage == STAGE_PIXEL ? pixel : vertex;
+            if (shader)
+                OK(device_shader_create(device, shader, &made[stage], &error));
+            OK(device_set_shader(device, stage, made[stage], &error));
+        }
+        OK(triptych_clear(device, black, 1));
+        results[e] = triptych_draw(device, TRIPTYCH_TRIANGLE_STRIP, 0, 2);
+        OK(triptych_read_target_numbers(device, 0, picture[0]));
+        OK(triptych_shader_destroy(device, made[0]));
+        OK(triptych_shader_destroy(device, made[1]));
+        if (!e)
+            memcpy(first, picture, sizeof first);
+        bool same = results[e] == results[0] && !memcmp(first, picture, sizeof first);
+        if (!same && vertex)
+            describe(vertex, drawings[e].engine->name);
+        if (!same && pixel)
+            describe(pixel, drawings[e].engine->name);
+        TEST_ASSERT_TRUE_MESSAGE(same, drawings[e].engine->name);
+    }
+    return results[0] == TRIPTYCH_OK;
+}
+
+static struct shader *load_random(const char *pattern)
+{
+    glob_t files;
+    struct shader *shader;
+    TEST_ASSERT_EQUAL_INT(0, glob(pattern, 0, NULL, &files));
+    TEST_ASSERT_EQUAL_INT(
+        0, shader_load(files.gl_pathv[shader_random(&seed, (uint32_t)files.gl_pathc)], &shader, &error));
+    globfree(&files);
+    return shader;
+}
+
+static void pairs_in_random_states_are_drawn_alike(void)
+{
+    unsigned drawn = 0;
+    for (int i = 0; i < PAIRS; i++) {
+        struct shader *vertex = i % 4 ? load_random("tests/shaders/*/*.vsa") : NULL;
+        struct shader *pixel = i % 4 != 1 ? load_random("tests/shaders/*/*.psa") : NULL;
+        if (i % 8 == 0)
+            set_random_target();
+        set_constants(seed);
+        set_defaults();
+        set_random_states();
+        drawn += draw_pair(vertex, pixel);
+        shader_free(vertex);
+        shader_free(pixel);
+    }
+    TEST_ASSERT_GREATER_THAN_UINT32(PAIRS / 2, drawn);
+}
+
 int main(void)
 {
     UNITY_BEGIN();
     RUN_TEST(damaged_shaders_are_drawn_or_refused);
     RUN_TEST(damaged_bytecode_is_drawn_or_refused);
+    RUN_TEST(pairs_in_random_states_are_drawn_alike);
     return UNITY_END();
 }
