@@ -37,8 +37,10 @@ int allocate_folds(const struct ir_instruction *instruction, int position)
 }
 
 /* Whether a spilled value can be read again from where it came from. */
-static int rematerializes(const struct ir_instruction *instruction)
+static int rematerializes(const struct ir *ir, const struct ir_instruction *instruction)
 {
+    if (instruction->op == IR_copy)
+        return allocate_is_constant(&ir->instruction[instruction->operand[0]]);
     return (instruction->op == IR_uniform || instruction->op == IR_load) && ir_is_invariant_read(instruction);
 }
 
@@ -111,18 +113,31 @@ static unsigned follow_loop_back(const struct allocation *a, const struct ir_ins
     return i->op == IR_loop ? a->loop[loop].outer : loop;
 }
 
+/* How often something runs for once that the routine's body does, as far as can be told: loops make eight passes. */
+static uint32_t frequency(unsigned depth)
+{
+    enum { DEPTH = 6 };
+    return 1u << 3 * (depth < DEPTH ? depth : DEPTH);
+}
+
 /* Backward: the chain of uses, their number, and each value's first and last. */
 static void chain_uses(const struct ir *ir, struct allocation *a)
 {
     memset(a->next_use, 0, ir->count * sizeof a->next_use[0]);
     memset(a->last, 0, ir->count * sizeof a->last[0]);
     memset(a->uses, 0, ir->count * sizeof a->uses[0]);
-    unsigned loop = 0, loops = ir->loops;
+    unsigned loop = 0, loops = ir->loops, depth = 0;
+    if (loops)
+        memset(a->weight, 0, ir->count * sizeof a->weight[0]);
     for (uint32_t number = ir->count - 1; number > 0; number--) {
         const struct ir_instruction *i = &ir->instruction[number];
         uint16_t after[3];
-        if (loops)
+        if (loops) {
+            depth += i->op == IR_again;
+            depth -= i->op == IR_loop;
             loop = follow_loop_back(a, i, number, loop);
+            a->weight[allocate_web(a, number)] += frequency(depth);
+        }
         for (int o = 0; o < 3; o++)
             after[o] = a->next_use[allocate_web(a, i->operand[o])];
         for (int o = 0; o < 3; o++) {
@@ -132,6 +147,8 @@ static void chain_uses(const struct ir *ir, struct allocation *a)
                 continue;
             a->next_use[value] = (uint16_t)number;
             a->uses[value]++;
+            if (loops)
+                a->weight[value] += frequency(depth);
             if (!a->last[value])
                 a->last[value] = loop ? end_of_life(a, value, number, loop) : (uint16_t)number;
         }
@@ -142,7 +159,7 @@ static void chain_uses(const struct ir *ir, struct allocation *a)
 static int stays_in_memory(const struct ir *ir, const struct allocation *a, uint32_t number)
 {
     const struct ir_instruction *i = &ir->instruction[number];
-    if (i->op == IR_literal || i->op == IR_constant)
+    if (allocate_is_constant(i))
         return 1;
     if (i->op != IR_load || !ir_is_invariant_read(i) || a->uses[number] != 1)
         return 0;
@@ -215,13 +232,36 @@ static unsigned next_use(const struct scan *scan, unsigned value)
     return next;
 }
 
-static unsigned furthest(const struct scan *scan, const struct ir_instruction *i)
+/* For how long an evicted value gives up its register: until its next use; one that came into a loop, for all of
+ * it, of which so much counts. */
+static uint64_t relief(const struct scan *scan, unsigned value, uint32_t position)
+{
+    enum { LOOP_RELIEF = 64 };
+    unsigned length = next_use(scan, value) - position;
+    if (length < LOOP_RELIEF && allocate_entered_loop(scan->allocation, value, scan->loop))
+        length = LOOP_RELIEF;
+    return length;
+}
+
+/* Whether it is better to have `value` in memory from here on than the other. In straight code, the one whose next
+ * use is furthest away. Where there are loops, the one that relieves most for what it costs. */
+static int is_better_victim(const struct scan *scan, unsigned value, unsigned other, uint32_t position)
+{
+    const struct allocation *a = scan->allocation;
+    if (!scan->ir->loops)
+        return next_use(scan, value) > next_use(scan, other);
+    return relief(scan, value, position) * a->weight[other] >
+           relief(scan, other, position) * a->weight[value];
+}
+
+static unsigned furthest(const struct scan *scan, const struct ir_instruction *i, uint32_t position)
 {
     unsigned victim = NO_REGISTER;
     for (unsigned reg = 0; reg < scan->registers; reg++) {
         if (is_operand(scan->allocation, i, scan->holder[reg]))
             continue;
-        if (victim == NO_REGISTER || next_use(scan, scan->holder[reg]) > next_use(scan, scan->holder[victim]))
+        if (victim == NO_REGISTER ||
+            is_better_victim(scan, scan->holder[reg], scan->holder[victim], position))
             victim = reg;
     }
     return victim;
@@ -251,8 +291,8 @@ static void place(struct scan *scan, uint32_t number, unsigned preferred)
         if (!scan->holder[r])
             reg = r;
     if (reg == NO_REGISTER) {
-        reg = furthest(scan, &scan->ir->instruction[number]);
-        if (reg == NO_REGISTER || next_use(scan, scan->holder[reg]) < a->next_use[number]) {
+        reg = furthest(scan, &scan->ir->instruction[number], number);
+        if (reg == NO_REGISTER || is_better_victim(scan, number, scan->holder[reg], number)) {
             a->reg[number] = SCRATCH_RESULT;
             spill(scan, number, number);
             return;
@@ -327,7 +367,7 @@ static uint32_t take_slot(struct allocation *a, uint32_t *lowest)
 
 static int reads_again(const struct ir *ir, const struct allocation *a, unsigned web)
 {
-    return rematerializes(&ir->instruction[web]) && !(a->webs && a->member[web]);
+    return rematerializes(ir, &ir->instruction[web]) && !(a->webs && a->member[web]);
 }
 
 /* Slots in order of definition, the lowest that is free again. */

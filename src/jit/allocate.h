@@ -48,7 +48,9 @@ struct allocation {
     uint16_t expiring[IR_CAPACITY]; /* the value whose slot is free behind a position, 0: none; then the next
                                        such */
     uint16_t expiring_next[IR_CAPACITY];
-    uint16_t recent[IR_CAPACITY];    /* if there are loops: the use passed last */
+    uint32_t weight[IR_CAPACITY]; /* if there are loops: how often it is used or defined, by estimate; and the
+                                     use passed last */
+    uint16_t recent[IR_CAPACITY]; /* if there are loops: the use passed last */
     uint16_t loop_at[IR_CAPACITY];   /* the loop that begins or ends at a position, or that a phi is of */
     uint16_t region_at[IR_CAPACITY]; /* if there are joins: of a `when` its end, and of an `end` its `when` */
     int webs;                        /* whether there are any: else each value is one */
@@ -64,6 +66,12 @@ struct allocation {
 
 /* Whether selection can take operand `position` of this operation from memory. */
 int allocate_folds(const struct ir_instruction *instruction, int position);
+
+/* Whether a value is in memory from the start: a literal, a frame constant. */
+static inline int allocate_is_constant(const struct ir_instruction *instruction)
+{
+    return instruction->op == IR_literal || instruction->op == IR_constant;
+}
 
 /* Fills `allocation` for a verified, compacted IR. `registers` (at most ALLOCATABLE, at least 4) may be fewer
  * to put the allocator under pressure. */

@@ -62,6 +62,16 @@ struct invariant_memory {
     uint8_t open[PASS_LOOPS];
 };
 
+/* Of preloading (preload.c), by copy from 1 and by loop. */
+struct preload_memory {
+    uint16_t source[IR_CAPACITY];
+    uint16_t following[IR_CAPACITY]; /* another copy before the same loop, 0: none */
+    uint16_t number[IR_CAPACITY];    /* of the copy in the new program */
+    uint16_t outer[PASS_LOOPS];
+    uint16_t first[PASS_LOOPS];
+    uint16_t start[PASS_LOOPS]; /* where a loop with its phis begins */
+};
+
 /* Scratch memory of the passes, one per build. */
 struct pass_memory {
     struct range range[IR_CAPACITY];
@@ -71,13 +81,15 @@ struct pass_memory {
     uint8_t read[VARIABLES];
     struct phi_memory phi;
     struct invariant_memory invariant;
+    struct preload_memory preload;
     struct ir_instruction rebuilt[IR_CAPACITY]; /* of the passes that add or move */
     uint16_t table[PASS_TABLE];
 };
 
 typedef unsigned pass_function(struct ir *ir, struct pass_memory *memory);
 
-pass_function pass_phi, pass_copy, pass_fold, pass_reduce, pass_common, pass_dead, pass_invariant, pass_hoist;
+pass_function pass_phi, pass_copy, pass_fold, pass_reduce, pass_common, pass_dead, pass_invariant, pass_hoist,
+    pass_preload;
 
 /* Fills memory->range for every value (range.c). Rounds as the contract does: run under its MXCSR. */
 void range_analyse(const struct ir *ir, struct pass_memory *memory);

@@ -91,6 +91,8 @@ struct address slot_address(const struct emitter *m, unsigned slot)
 static struct place memory_place(struct emitter *m, unsigned value)
 {
     const struct ir_instruction *i = &m->ir->instruction[value];
+    if (i->op == IR_copy && allocate_is_constant(&m->ir->instruction[i->operand[0]]))
+        i = &m->ir->instruction[value = i->operand[0]];
     unsigned slot = m->allocation->slot[allocate_web(m->allocation, value)];
     struct place p = {.value = value, .reg = NO_REGISTER, .addressable = 1};
     if (i->op == IR_literal)
