@@ -5,6 +5,7 @@
 #include "base/cpu.h"
 #include "base/mxcsr.h"
 #include "def/lane.h"
+#include "ir/bind.h"
 #include "tests/support/program.h"
 #include "unity.h"
 
@@ -123,11 +124,226 @@ static void test_machine_code_equals_the_interpreter(void)
     TEST_ASSERT_GREATER_THAN(1000, spills);
 }
 
+/* --- One by one -------------------------------------------------------------------------------------------- */
+
+static struct env environment;
+
+static struct env *start(void)
+{
+    ir_start(&builder->ir);
+    environment = (struct env){.ir = &builder->ir};
+    return &environment;
+}
+
+static unsigned count_of(enum ir_op op)
+{
+    unsigned n = 0;
+    for (uint32_t number = 1; number < builder->ir.count; number++)
+        n += builder->ir.instruction[number].op == op;
+    return n;
+}
+
+static uint32_t position_of(enum ir_op op)
+{
+    uint32_t number = 1;
+    while (number < builder->ir.count && builder->ir.instruction[number].op != op)
+        number++;
+    TEST_ASSERT_LESS_THAN_MESSAGE(builder->ir.count, number, ir_op_information[op].name);
+    return number;
+}
+
+/* Optimises what was recorded, compiles it with each number of registers and compares it with the interpreter. */
+static void expect_equal(void)
+{
+    struct error error = {{0}};
+    uint64_t seed = 7;
+    TEST_ASSERT_NULL(ir_verify(&builder->ir));
+    program_fill(&expected, &seed);
+    for (unsigned n = 0; n < PROGRAM_TABLE; n++)
+        expected.table[n] = n * 52 & 0x3fc;
+    for (int a = 0; a < ATTRIBUTE_COUNT; a++)
+        expected.job.attribute[a].data = (const uint8_t *)expected.table;
+    got = expected;
+    program_interpret(&builder->ir, &expected, 8);
+    optimize_verified(0, PROFILE_FULL, 0);
+    for (unsigned registers = 4; cpu_has_avx2_fma() && registers <= ALLOCATABLE; registers += 3) {
+        TEST_ASSERT_EQUAL_MESSAGE(0, program_compile_and_run(builder, arena, 8, registers, &got, &error),
+                                  error.text);
+        fail_if_different("machine code", registers);
+    }
+}
+
+enum { VALUE, LIVE, COUNT };
+
+/* A loop that ends lane by lane: each adds what it began with until the sum is 100 or more, eight times at most. */
+static void record_sums(struct env *e)
+{
+    flt step = max_f(E, load_f(E, BASE_INPUT, 0), lit_f(E, 1.5f));
+    set_f(E, VALUE, step);
+    set_m(E, LIVE, lt_f(E, step, lit_f(E, 50)));
+    set_i(E, COUNT, lit_i(E, 8));
+    LOOP(E, LIVE)
+    {
+        WHEN (E, get_m(E, LIVE)) {
+            flt sum = add_f(E, get_f(E, VALUE), mul_f(E, step, lit_f(E, 2)));
+            set_f(E, VALUE, select_f(E, get_m(E, LIVE), sum, get_f(E, VALUE)));
+        }
+        itg left = sub_i(E, get_i(E, COUNT), lit_i(E, 1));
+        set_i(E, COUNT, left);
+        msk more = and_m(E, lt_f(E, get_f(E, VALUE), lit_f(E, 100)), gt_i(E, left, lit_i(E, 0)));
+        set_m(E, LIVE, and_m(E, get_m(E, LIVE), more));
+    }
+    store_f(E, BASE_OUTPUT, 0, get_f(E, VALUE));
+}
+
+static void test_what_a_loop_carries_stays_in_registers_and_does_not_move(void)
+{
+    const struct ir *ir = &builder->ir;
+    record_sums(start());
+    expect_equal();
+    TEST_ASSERT_EQUAL(0, count_of(IR_set) + count_of(IR_get));
+    TEST_ASSERT_EQUAL(3, count_of(IR_phi));
+    TEST_ASSERT_EQUAL(0, builder->allocation.slots);
+    for (uint32_t n = position_of(IR_next); ir->instruction[n].op == IR_next; n++)
+        TEST_ASSERT_EQUAL(allocate_web(&builder->allocation, ir->instruction[n].operand[0]),
+                          allocate_web(&builder->allocation, ir->instruction[n].operand[1]));
+}
+
+static void test_what_does_not_change_is_computed_before_the_loop(void)
+{
+    record_sums(start());
+    expect_equal();
+    TEST_ASSERT_LESS_THAN(position_of(IR_loop), position_of(IR_mul_f));
+}
+
+static void test_it_leaves_all_loops_at_once(void)
+{
+    struct env *e = start();
+    set_m(E, LIVE, lit_m(E, 0));
+    set_f(E, VALUE, lit_f(E, 0));
+    flt start = load_f(E, BASE_INPUT, 0);
+    LOOP(E, LIVE)
+    {
+        flt outer = add_f(E, get_f(E, VALUE), start);
+        LOOP(E, LIVE)
+        set_f(E, VALUE, add_f(E, get_f(E, VALUE), sub_f(E, sqrt_f(E, start), neg_f(E, outer))));
+    }
+    store_f(E, BASE_OUTPUT, 0, get_f(E, VALUE));
+    expect_equal();
+    TEST_ASSERT_LESS_THAN(position_of(IR_loop), position_of(IR_sqrt_f));
+    TEST_ASSERT_GREATER_THAN(position_of(IR_loop), position_of(IR_neg_f));
+    TEST_ASSERT_GREATER_THAN(position_of(IR_neg_f), position_of(IR_sub_f));
+    uint32_t behind = position_of(IR_sub_f) + 1;
+    while (builder->ir.instruction[behind].op == IR_phi)
+        behind++;
+    TEST_ASSERT_EQUAL(IR_loop, builder->ir.instruction[behind].op);
+}
+
+/* Lanes that a region would have skipped are not read ahead for. */
+static void test_memory_is_not_read_before_the_region_that_reads_it(void)
+{
+    struct env *e = start();
+    set_f(E, VALUE, lit_f(E, 0));
+    set_m(E, LIVE, lit_m(E, 0));
+    itg place = and_i(E, load_i(E, BASE_INPUT, 0), lit_i(E, 0x3fc));
+    msk some = gt_i(E, load_i(E, BASE_INPUT, 4 * PROGRAM_LANES), lit_i(E, 0));
+    LOOP(E, LIVE)
+    {
+        WHEN (E, some) {
+            flt word = gather_f(E, BASE_JOB, offsetof(struct job, attribute[0].data), place, 1, 0);
+            set_f(E, VALUE, add_f(E, get_f(E, VALUE), word));
+        }
+    }
+    store_f(E, BASE_OUTPUT, 0, get_f(E, VALUE));
+    expect_equal();
+    TEST_ASSERT_GREATER_THAN(position_of(IR_when), position_of(IR_gather));
+}
+
+static void test_a_loop_that_nothing_comes_of_disappears(void)
+{
+    struct env *e = start();
+    record_sums(e);
+    builder->ir.count--; /* the store */
+    store_f(E, BASE_OUTPUT, 0, load_f(E, BASE_INPUT, 0));
+    optimize_verified(0, PROFILE_FULL, 0);
+    TEST_ASSERT_EQUAL(3, builder->ir.count);
+    start();
+    record_sums(e);
+    builder->ir.count--;
+    store_f(E, BASE_OUTPUT, 0, load_f(E, BASE_INPUT, 0));
+    optimize_verified(0, PROFILE_THESIS, 0);
+    TEST_ASSERT_EQUAL(3, builder->ir.count);
+}
+
+/* Sets that change nothing, in a loop in a loop. */
+static void test_a_phi_of_one_value_is_that_value(void)
+{
+    struct env *e = start();
+    flt value = load_f(E, BASE_INPUT, 0);
+    set_f(E, VALUE, value);
+    set_m(E, LIVE, lit_m(E, 0));
+    LOOP(E, LIVE)
+    {
+        LOOP(E, LIVE)
+        {
+            WHEN (E, lt_f(E, value, lit_f(E, 1)))
+                set_f(E, VALUE, get_f(E, VALUE));
+            store_f(E, BASE_OUTPUT, 0, get_f(E, VALUE));
+        }
+        set_f(E, VALUE, value);
+    }
+    expect_equal();
+    TEST_ASSERT_EQUAL(0, count_of(IR_phi) + count_of(IR_join) + count_of(IR_when));
+}
+
+/* Each place says where the next one is: the index and what is read at it do not share a register. */
+static void test_a_gather_from_where_the_last_one_pointed(void)
+{
+    struct env *e = start();
+    set_i(E, VALUE, and_i(E, load_i(E, BASE_INPUT, 0), lit_i(E, 0x3fc)));
+    set_i(E, COUNT, lit_i(E, 5));
+    LOOP(E, LIVE)
+    {
+        set_i(E, VALUE,
+              gather_i(E, BASE_JOB, offsetof(struct job, attribute[0].data), get_i(E, VALUE), 1, 0));
+        itg left = sub_i(E, get_i(E, COUNT), lit_i(E, 1));
+        set_i(E, COUNT, left);
+        set_m(E, LIVE, gt_i(E, left, lit_i(E, 0)));
+    }
+    store_i(E, BASE_OUTPUT, 0, get_i(E, VALUE));
+    expect_equal();
+}
+
+static void test_a_literal_that_a_loop_needs_in_a_register_is_loaded_before_it(void)
+{
+    struct env *e = start();
+    set_f(E, VALUE, load_f(E, BASE_INPUT, 0));
+    set_i(E, COUNT, lit_i(E, 5));
+    LOOP(E, LIVE)
+    {
+        set_f(E, VALUE, sub_f(E, lit_f(E, 3), get_f(E, VALUE)));
+        itg left = sub_i(E, get_i(E, COUNT), lit_i(E, 1));
+        set_i(E, COUNT, left);
+        set_m(E, LIVE, gt_i(E, left, lit_i(E, 0)));
+    }
+    store_f(E, BASE_OUTPUT, 0, get_f(E, VALUE));
+    expect_equal();
+    TEST_ASSERT_LESS_THAN(position_of(IR_loop), position_of(IR_copy));
+}
+
 int main(void)
 {
     UNITY_BEGIN();
     RUN_TEST(test_all_passes_keep_meaning);
     RUN_TEST(test_any_set_of_passes_keeps_meaning);
     RUN_TEST(test_machine_code_equals_the_interpreter);
+    RUN_TEST(test_what_a_loop_carries_stays_in_registers_and_does_not_move);
+    RUN_TEST(test_what_does_not_change_is_computed_before_the_loop);
+    RUN_TEST(test_it_leaves_all_loops_at_once);
+    RUN_TEST(test_memory_is_not_read_before_the_region_that_reads_it);
+    RUN_TEST(test_a_loop_that_nothing_comes_of_disappears);
+    RUN_TEST(test_a_phi_of_one_value_is_that_value);
+    RUN_TEST(test_a_gather_from_where_the_last_one_pointed);
+    RUN_TEST(test_a_literal_that_a_loop_needs_in_a_register_is_loaded_before_it);
     return UNITY_END();
 }
