@@ -1,15 +1,16 @@
-/* The intermediate representation that the specializer compiles, the batch interpreter runs and the external
- * engine prints: one flat array of instructions in SSA form. Where control flow joins, recordings have variables;
- * the specializer replaces them by phis and joins.
+/* The intermediate representation that the specializer compiles, the batch interpreter runs and the
+ * external engine prints: one flat array of instructions in SSA form. Where control flow joins, recordings
+ * have variables; the specializer replaces them by phis and joins.
  *
  * An instruction's number is its index, and the number of the value it defines; 0 is no value. Operands are
  * defined before they are used. The loop over what a call lists is outside of it all. Inside are regions:
- * `when mask ... end`, skipped when no lane of the mask is set, and `loop ... again mask`, run once and again
- * as long as a lane of the mask is set. Regions nest. A value defined in a `when` is used in that region only,
- * inner regions included; a value defined in a loop may be used behind it, too, since the loop has run by then
- * (recordings make no use of this). What else leaves a region, or goes from one pass of a loop to the next, goes
- * through a variable: `set` gives it all lanes of a value, `get` is a value of its own, what the variable holds
- * at that place. A variable holds nothing until it is set, and nothing from one chunk of lanes to the next.
+ * `when mask ... end`, skipped when no lane of the mask is set, and `loop ... again mask`, run once and
+ * again as long as a lane of the mask is set. Regions nest. A value defined in a `when` is used in that
+ * region only, inner regions included; a value defined in a loop may be used behind it, too, since the loop
+ * has run by then (recordings make no use of this). What else leaves a region, or goes from one pass of a
+ * loop to the next, goes through a variable: `set` gives it all lanes of a value, `get` is a value of its
+ * own, what the variable holds at that place. A variable holds nothing until it is set, and nothing from
+ * one chunk of lanes to the next.
  *
  * Opcodes are the rows of def/op.def, and these:
  *   copy a                      the same bits (the casts)

@@ -6,8 +6,9 @@
 
 /* Where control is, which values are there, and what each variable and phi is.
  *
- * A value is there as long as the `when` around it is open: a loop's body has run whenever what follows it does.
- * What a `when` sets, a variable does not hold behind the end for certain; what a loop sets, it does. */
+ * A value is there as long as the `when` around it is open: a loop's body has run whenever what follows it
+ * does. What a `when` sets, a variable does not hold behind the end for certain; what a loop sets, it does.
+ */
 struct walk {
     const struct ir *ir;
     uint32_t number;

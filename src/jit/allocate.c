@@ -113,7 +113,8 @@ static unsigned follow_loop_back(const struct allocation *a, const struct ir_ins
     return i->op == IR_loop ? a->loop[loop].outer : loop;
 }
 
-/* How often something runs for once that the routine's body does, as far as can be told: loops make eight passes. */
+/* How often something runs for once that the routine's body does, as far as can be told: loops make eight
+ * passes. */
 static uint32_t frequency(unsigned depth)
 {
     enum { DEPTH = 6 };
@@ -220,8 +221,8 @@ static void advance(struct scan *scan, uint32_t number)
             a->recent[allocate_web(a, i->operand[o])] = (uint16_t)number;
 }
 
-/* The position at which a value is used next. The uses that it had in this pass of a loop, it has again in the
- * next: they are at the loop's end, seen from here. */
+/* The position at which a value is used next. The uses that it had in this pass of a loop, it has again in
+ * the next: they are at the loop's end, seen from here. */
 static unsigned next_use(const struct scan *scan, unsigned value)
 {
     const struct allocation *a = scan->allocation;
@@ -232,8 +233,8 @@ static unsigned next_use(const struct scan *scan, unsigned value)
     return next;
 }
 
-/* For how long an evicted value gives up its register: until its next use; one that came into a loop, for all of
- * it, of which so much counts. */
+/* For how long an evicted value gives up its register: until its next use; one that came into a loop, for
+ * all of it, of which so much counts. */
 static uint64_t relief(const struct scan *scan, unsigned value, uint32_t position)
 {
     enum { LOOP_RELIEF = 64 };
@@ -243,8 +244,8 @@ static uint64_t relief(const struct scan *scan, unsigned value, uint32_t positio
     return length;
 }
 
-/* Whether it is better to have `value` in memory from here on than the other. In straight code, the one whose next
- * use is furthest away. Where there are loops, the one that relieves most for what it costs. */
+/* Whether it is better to have `value` in memory from here on than the other. In straight code, the one
+ * whose next use is furthest away. Where there are loops, the one that relieves most for what it costs. */
 static int is_better_victim(const struct scan *scan, unsigned value, unsigned other, uint32_t position)
 {
     const struct allocation *a = scan->allocation;
@@ -277,8 +278,8 @@ static void spill(struct scan *scan, unsigned value, uint32_t position)
     a->spills++;
 }
 
-/* A register for the result of `number`: its web's if that has one already; the preferred one, a free one, or that of the value used furthest
- * away, which may be the result itself. */
+/* A register for the result of `number`: its web's if that has one already; the preferred one, a free one,
+ * or that of the value used furthest away, which may be the result itself. */
 static void place(struct scan *scan, uint32_t number, unsigned preferred)
 {
     struct allocation *a = scan->allocation;

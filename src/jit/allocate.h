@@ -1,12 +1,18 @@
-/* Register allocation: linear scan over live intervals (Poletto and Sarkar 1999) in one straight line of
- * code.
+/* Register allocation: linear scan over live intervals (Poletto and Sarkar 1999) in one line of code, in
+ * which loops and regions are marks.
  *
- * A value's interval runs from its definition to its last use. A value lives in a register until position
- * `split` and in memory after it; it is stored where it is defined, so that it does not matter whether the
- * region in which it was evicted ran. Victims are the values whose next use is furthest away (Belady). Spill
- * slots are shared by values whose intervals do not meet. Values that memory already holds need no slot:
- * literals and frame constants are never in registers, a uniform is read again, a load from memory that no
- * routine writes is addressed where it is. */
+ * A value's interval runs from its definition to its last use; where it comes into a loop and is used
+ * there, to the loop's end. Values that phis and joins unite are one value with several definitions, a web
+ * (coalesce.c). A value lives in a register until position `split` and in memory after it; it is stored
+ * where it is defined, each time, so that it does not matter whether the region in which it was evicted
+ * ran. One that is evicted in a loop that it came into is in memory from the loop's head on, since the next
+ * pass comes to all of it.
+ *
+ * Victims are the values whose next use is furthest away (Belady 1966); where there are loops, those that
+ * give most for what they cost there. Spill slots are shared by values whose intervals do not meet. Values
+ * that memory already holds need no slot: literals and frame constants are never in registers unless
+ * copied, a uniform is read again, a load from memory that no routine writes is addressed where it is.
+ * Variables, where a profile leaves them, are words of the frame. */
 #ifndef JIT_ALLOCATE_H
 #define JIT_ALLOCATE_H
 
@@ -73,19 +79,19 @@ static inline int allocate_is_constant(const struct ir_instruction *instruction)
     return instruction->op == IR_literal || instruction->op == IR_constant;
 }
 
-/* Fills `allocation` for a verified, compacted IR. `registers` (at most ALLOCATABLE, at least 4) may be fewer
- * to put the allocator under pressure. */
+/* Fills `allocation` for a verified, compacted IR. `registers` (at most ALLOCATABLE, at least 4) may be
+ * fewer to put the allocator under pressure. */
 void allocate(const struct ir *ir, struct allocation *allocation, unsigned registers);
 
-/* The web of a value. What is said of a value's register, uses and slot stands at its web; of each definition,
- * `reg` is where its instruction puts it. */
+/* The web of a value. What is said of a value's register, uses and slot stands at its web; of each
+ * definition, `reg` is where its instruction puts it. */
 static inline unsigned allocate_web(const struct allocation *allocation, unsigned value)
 {
     return allocation->webs ? allocation->web[value] : value;
 }
 
-/* The outermost of the loops around loop `inner`, itself included, that what is defined at `birth` is older than; 0:
- * none. */
+/* The outermost of the loops around loop `inner`, itself included, that what is defined at `birth` is older
+ * than; 0: none. */
 unsigned allocate_entered_loop(const struct allocation *allocation, unsigned birth, unsigned inner);
 
 /* The end of the region behind which a join stands. */

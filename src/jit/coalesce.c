@@ -1,21 +1,22 @@
-/* Coalescing: which phis, joins and their operands share a place, so that nothing moves where control joins.
+/* Coalescing: which phis, joins and their operands share a place, so that nothing moves where control
+ * joins.
  *
- * A web is a set of values that are never alive at the same time, joined by phis; allocation treats it as one value
- * with several definitions. Every value begins as a web of its own. Then each phi is united with its next value,
- * inner loops first since they run most; each join with its operands; each phi with the value that it begins as;
- * unless two values of the united web would be alive at once. What is not united is moved where control passes
- * from one to the other (move.c).
+ * A web is a set of values that are never alive at the same time, joined by phis; allocation treats it as
+ * one value with several definitions. Every value begins as a web of its own. Then each phi is united with
+ * its next value, inner loops first since they run most; each join with its operands; each phi with the
+ * value that it begins as; unless two values of the united web would be alive at once. What is not united
+ * is moved where control passes from one to the other (move.c).
  *
- * A value is alive from its definition to its last use, and if it comes from outside of a loop and is used inside,
- * to the loop's end. A join reads its operands where control splits: the first at its region's `when`, the second
- * at the region's end. So a value that a region replaces dies there. A phi's next value is read at its loop's
- * `again`, and the phi itself is defined anew by it: its last use in the loop is the end of its life, not the loop's
- * end.
+ * A value is alive from its definition to its last use, and if it comes from outside of a loop and is used
+ * inside, to the loop's end. A join reads its operands where control splits: the first at its region's
+ * `when`, the second at the region's end. So a value that a region replaces dies there. A phi's next value
+ * is read at its loop's `again`, and the phi itself is defined anew by it: its last use in the loop is the
+ * end of its life, not the loop's end.
  *
  * The members of a web stand in a list by definition; since their lives do not meet, by death as well. */
 #include "jit/allocate.h"
 
-/* --- Lives of values --------------------------------------------------------------------------------------- */
+/* --- Lives of values ----------------------------------------------------------------------------------- */
 
 /* Where a value is defined, as loops see it: a phi belongs to its loop. */
 static unsigned birth(const struct ir *ir, const struct allocation *a, unsigned value)
@@ -67,7 +68,7 @@ static void find_lives(const struct ir *ir, struct allocation *a)
     }
 }
 
-/* --- Uniting ----------------------------------------------------------------------------------------------- */
+/* --- Uniting ------------------------------------------------------------------------------------------- */
 
 static unsigned find(struct allocation *a, unsigned value)
 {
@@ -76,13 +77,15 @@ static unsigned find(struct allocation *a, unsigned value)
     return value;
 }
 
-/* Whether a value is dead when another, defined later, is made. A gather's index and result are both alive. */
+/* Whether a value is dead when another, defined later, is made. A gather's index and result are both alive.
+ */
 static int dies_before(const struct ir *ir, const struct allocation *a, unsigned value, unsigned later)
 {
     return a->death[value] < later || (a->death[value] == later && ir->instruction[later].op != IR_gather);
 }
 
-/* Both lists merged into one by definition, unless lives meet. `x` is the web whose first value is earlier. */
+/* Both lists merged into one by definition, unless lives meet. `x` is the web whose first value is earlier.
+ */
 static int meet(const struct ir *ir, const struct allocation *a, unsigned x, unsigned y)
 {
     if (dies_before(ir, a, a->tail[x], y))

@@ -1,9 +1,9 @@
 /* Dead-code elimination: backward, from the stores. A region in which nothing is left goes with its
  * condition. A set stays while any get of its variable does: which of them it reaches is not asked.
  *
- * Where there are loops, what is live ahead may become so by what is found behind: the next pass of a loop reads
- * what the last one set, and its condition counts only once something in it does. So the marks are made over
- * and over until none is new, and only then what has none goes.
+ * Where there are loops, what is live ahead may become so by what is found behind: the next pass of a loop
+ * reads what the last one set, and its condition counts only once something in it does. So the marks are
+ * made over and over until none is new, and only then what has none goes.
  *
  * This is where a vertex output that the pixel routine does not read disappears with all that computed it:
  * the key has no store for it. */

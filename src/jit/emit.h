@@ -111,8 +111,8 @@ void bring(struct emitter *emitter, unsigned to, const struct place *place);
 /* A spill slot in the frame. */
 struct address slot_address(const struct emitter *emitter, unsigned slot);
 
-/* Notes what moves from a loop's end at the current position to its next pass; or, at the current position, to the
- * joins behind a region's `end`: their operand 0 at its `when`, operand 1 at the end (move.c). */
+/* Notes what moves from a loop's end at the current position to its next pass; or, at the current position,
+ * to the joins behind a region's `end`: their operand 0 at its `when`, operand 1 at the end (move.c). */
 void note_next_moves(struct emitter *emitter);
 void note_join_moves(struct emitter *emitter, uint32_t end, int operand);
 

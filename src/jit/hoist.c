@@ -1,6 +1,6 @@
-/* Loop-invariant motion of the job's words: a uniform read of the job becomes a slot of the frame's
- * constants, filled once before the loop, and from there a memory operand of whatever uses it. Runs last: it
- * adds no value.
+/* The words of the job and the constants of shaders, out of the loop over what a call lists: a uniform read
+ * of the job becomes a slot of the frame's constants, filled once before the loop, and from there a memory
+ * operand of whatever uses it. Runs after the other passes: it adds no value.
  *
  * Requires that equal reads are one (common), else each takes a slot of its own until none is left. */
 #include "jit/pass.h"

@@ -1,10 +1,11 @@
-/* Loop-invariant motion: what each pass of a loop would compute alike is computed before the loop, before the
- * outermost one for which that holds.
+/* Loop-invariant motion: what each pass of a loop would compute alike is computed before the loop, before
+ * the outermost one for which that holds.
  *
- * Operations cannot fail, so they are computed ahead even if a region in the loop would have skipped them. Memory is
- * read ahead only where it would have been read anyway, and only if no routine writes it. What is placed (phis,
- * joins, gets) stays. A moved value may cost a register in the loop; if none is left it becomes a memory operand,
- * which is still less than computing it again. Runs after the other passes, which see both sides of a loop as one. */
+ * Operations cannot fail, so they are computed ahead even if a region in the loop would have skipped them.
+ * Memory is read ahead only where it would have been read anyway, and only if no routine writes it. What is
+ * placed (phis, joins, gets) stays. A moved value may cost a register in the loop; if none is left it
+ * becomes a memory operand, which is still less than computing it again. Runs after the other passes, which
+ * see both sides of a loop as one. */
 #include "jit/pass.h"
 
 #include <string.h>

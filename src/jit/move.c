@@ -1,9 +1,10 @@
-/* Where control joins: the moves from values to the phis and joins that they become, for those that allocation gave
- * places of their own (coalesce.c).
+/* Where control joins: the moves from values to the phis and joins that they become, for those that
+ * allocation gave places of their own (coalesce.c).
  *
- * All moves of one edge happen at once; sources are where they are before, destinations where they are behind it.
- * They are written one by one, a move when nobody needs its destination any more; when all wait for each other, one
- * source is put aside. A destination that leaves its register later is stored, too, as every definition is. */
+ * All moves of one edge happen at once; sources are where they are before, destinations where they are
+ * behind it. They are written one by one, a move when nobody needs its destination any more; when all wait
+ * for each other, one source is put aside. A destination that leaves its register later is stored, too, as
+ * every definition is. */
 #include "jit/emit.h"
 
 static struct place place_at(struct emitter *m, unsigned value, uint32_t position)

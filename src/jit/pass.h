@@ -30,7 +30,8 @@ enum { PASS_TABLE = 2 * (IR_CAPACITY + 1) }; /* a power of two */
 
 enum { PHI_CHANGES = 2 * IR_CAPACITY, PASS_LOOPS = IR_CAPACITY / 2 + 1 };
 
-/* A variable that an open region has changed, and the value it held before; the phi, if that was the change. */
+/* A variable that an open region has changed, and the value it held before; the phi, if that was the
+ * change. */
 struct phi_change {
     uint16_t variable, value, phi;
 };

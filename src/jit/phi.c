@@ -1,17 +1,17 @@
 /* Variables become values (Cytron et al. 1991, made simple by structured control as in Braun et al. 2013).
  *
- * One walk from front to back keeps what each variable holds. A get is that value. A loop begins with a phi for
- * each variable that it sets and that holds something before; a `when` ends with a join for each that it sets. Who
- * needs a phi is not asked: dead-code elimination takes what no store needs, cycles of phis included. Later rounds
- * remove phis that turn out to be always one value, and joins of one value.
+ * One walk from front to back keeps what each variable holds. A get is that value. A loop begins with a phi
+ * for each variable that it sets and that holds something before; a `when` ends with a join for each that
+ * it sets. Who needs a phi is not asked: dead-code elimination takes what no store needs, cycles of phis
+ * included. Later rounds remove phis that turn out to be always one value, and joins of one value.
  *
  * Leaves no variable, unless phis and all have no room in IR_CAPACITY: then everything stays. */
 #include "jit/pass.h"
 
 #include <string.h>
 
-/* The construction's state. `undo` lists, innermost region last, which variables the open regions have changed
- * and what they held before; each once per region at most, behind its end. */
+/* The construction's state. `undo` lists, innermost region last, which variables the open regions have
+ * changed and what they held before; each once per region at most, behind its end. */
 struct construction {
     const struct ir *ir;
     struct phi_memory *memory;
@@ -41,7 +41,7 @@ static uint16_t append_phi(struct construction *c, const struct ir_instruction *
             .op = (uint8_t)op, .type = (uint8_t)type, .operand = {a, b}, .line = at->line, .file = at->file});
 }
 
-/* --- What loops set ---------------------------------------------------------------------------------------- */
+/* --- What loops set ------------------------------------------------------------------------------------ */
 
 /* Loops are numbered from 1 in order; what an inner one sets, the outer ones set. */
 static void note_set(struct phi_memory *memory, uint32_t loop, unsigned variable)
@@ -72,7 +72,7 @@ static void find_sets(const struct ir *ir, struct phi_memory *memory)
     }
 }
 
-/* --- Construction ------------------------------------------------------------------------------------------ */
+/* --- Construction -------------------------------------------------------------------------------------- */
 
 static void change(struct construction *c, unsigned variable, uint16_t value)
 {
@@ -205,7 +205,7 @@ static unsigned construct(struct ir *ir, struct pass_memory *memory)
     return 1;
 }
 
-/* --- Phis and joins of one value --------------------------------------------------------------------------- */
+/* --- Phis and joins of one value ----------------------------------------------------------------------- */
 
 /* A phi whose next value is itself or what it began as is that; so is a join of two equal values. */
 static uint16_t only_value(const struct ir *ir, const struct ir_instruction *i)

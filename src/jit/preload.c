@@ -1,9 +1,9 @@
 /* What a loop reads from memory into a register each time is loaded once, before the loop.
  *
- * Literals and frame constants are operands in memory, for which most instructions have room. Where one has none (the
- * left side of a subtraction, the other side of a selection) it takes a load each time. In a loop such an operand
- * becomes a copy made before it. Whether that copy keeps its register is the allocator's decision: if not, the operand
- * is in memory as before, at no cost. Runs last: copies would be propagated. */
+ * Literals and frame constants are operands in memory, for which most instructions have room. Where one has
+ * none (the left side of a subtraction, the other side of a selection) it takes a load each time. In a loop
+ * such an operand becomes a copy made before it. Whether that copy keeps its register is the allocator's
+ * decision: if not, the operand is in memory as before, at no cost. Runs last: copies would be propagated. */
 #include "jit/allocate.h"
 #include "jit/pass.h"
 

@@ -234,7 +234,8 @@ static struct range widened(struct range old, struct range r)
     return r;
 }
 
-/* What a phi may be, given another of its values; in the later rounds generously, in the last without asking. */
+/* What a phi may be, given another of its values; in the later rounds generously, in the last without
+ * asking. */
 static int extend_phi(struct range *phi, struct range value, unsigned round)
 {
     enum { ROUNDS_EXACT = 1, ROUNDS = 6 };
@@ -261,8 +262,8 @@ static int analyse_phi(const struct ir *ir, struct pass_memory *memory, uint32_t
     return 0;
 }
 
-/* Each phi begins as its first value; what is then found to come around the loop is added until nothing is. Each
- * round holds for phis within the ranges that it begins with: what the last one finds holds for all. */
+/* Each phi begins as its first value; what is then found to come around the loop is added until nothing is.
+ * Each round holds for phis within the ranges that it begins with: what the last one finds holds for all. */
 void range_analyse(const struct ir *ir, struct pass_memory *memory)
 {
     int extended = 1;

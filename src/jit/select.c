@@ -473,8 +473,8 @@ static void select_instruction(struct emitter *m, const struct ir_instruction *i
     }
 }
 
-/* Whether the instruction is where its value is put: not so for joins, nor for a phi that begins as a value of its
- * own web. */
+/* Whether the instruction is where its value is put: not so for joins, nor for a phi that begins as a value
+ * of its own web. */
 static int writes_result(const struct emitter *m, const struct ir_instruction *i)
 {
     const struct allocation *a = m->allocation;

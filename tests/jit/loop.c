@@ -1,6 +1,6 @@
-/* Loops, nested regions and variables: random programs mean after every pass, alone and with others, what they
- * meant before, and machine code with any number of registers computes what the interpreter does. And what the
- * passes are for, one by one. */
+/* Loops, nested regions and variables: random programs mean after every pass, alone and with others, what
+ * they meant before, and machine code with any number of registers computes what the interpreter does. And
+ * what the passes are for, one by one. */
 #include "base/code.h"
 #include "base/cpu.h"
 #include "base/mxcsr.h"
@@ -152,7 +152,8 @@ static uint32_t position_of(enum ir_op op)
     return number;
 }
 
-/* Optimises what was recorded, compiles it with each number of registers and compares it with the interpreter. */
+/* Optimises what was recorded, compiles it with each number of registers and compares it with the
+ * interpreter. */
 static void expect_equal(void)
 {
     struct error error = {{0}};
@@ -175,7 +176,8 @@ static void expect_equal(void)
 
 enum { VALUE, LIVE, COUNT };
 
-/* A loop that ends lane by lane: each adds what it began with until the sum is 100 or more, eight times at most. */
+/* A loop that ends lane by lane: each adds what it began with until the sum is 100 or more, eight times at
+ * most. */
 static void record_sums(struct env *e)
 {
     flt step = max_f(E, load_f(E, BASE_INPUT, 0), lit_f(E, 1.5f));

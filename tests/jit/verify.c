@@ -1,5 +1,5 @@
-/* What ir_verify refuses: a valid program of loops, regions, variables, phis and joins with one thing wrong at a
- * time. */
+/* What ir_verify refuses: a valid program of loops, regions, variables, phis and joins with one thing wrong
+ * at a time. */
 #include "ir/ir.h"
 #include "unity.h"
 
