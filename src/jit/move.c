@@ -42,8 +42,9 @@ void note_join_moves(struct emitter *m, uint32_t end, int operand)
     m->moves = 0;
     while (last + 1 < m->ir->count && m->ir->instruction[last + 1].op == IR_join)
         last++;
+    /* A join may have been evicted for a later one of the group. */
     for (uint32_t n = end + 1; n <= last; n++)
-        add_move(m, n, last, m->ir->instruction[n].operand[operand], m->position);
+        add_move(m, n, last + 1, m->ir->instruction[n].operand[operand], m->position);
 }
 
 static int reads(const struct emitter *m, const struct move *move, const struct move *destination)

@@ -234,15 +234,16 @@ static struct range widened(struct range old, struct range r)
     return r;
 }
 
-/* What a phi may be, given another of its values; in the later rounds generously, in the last without
- * asking. */
+/* After so many rounds a phi that is still extended may be anything; after some more, every phi. */
+enum { ROUNDS_EXACT = 1, ROUNDS_WIDENED = 3, ROUNDS = 5 };
+
+/* What a phi may be, given another of its values; in later rounds generously. */
 static int extend_phi(struct range *phi, struct range value, unsigned round)
 {
-    enum { ROUNDS_EXACT = 1, ROUNDS = 6 };
     if (contains(*phi, value))
         return 0;
     struct range both = checked(union_range(*phi, value));
-    *phi = round < ROUNDS_EXACT ? both : round < ROUNDS ? widened(*phi, both) : anything;
+    *phi = round < ROUNDS_EXACT ? both : round < ROUNDS_WIDENED ? widened(*phi, both) : anything;
     return 1;
 }
 
@@ -256,26 +257,37 @@ static int analyse_phi(const struct ir *ir, struct pass_memory *memory, uint32_t
                           round);
     }
     struct range start = range_as(ir, memory, i->operand[0], i->type);
-    if (round)
+    if (round && round < ROUNDS)
         return extend_phi(&memory->range[number], start, round);
-    memory->range[number] = start;
+    memory->range[number] = round ? anything : start;
     return 0;
 }
 
+/* One round from an instruction on; whether a phi was extended. */
+static int analyse(const struct ir *ir, struct pass_memory *memory, uint32_t from, unsigned round)
+{
+    int extended = 0;
+    for (uint32_t number = from; number < ir->count; number++) {
+        const struct ir_instruction *i = &ir->instruction[number];
+        if (i->op == IR_phi || i->op == IR_next)
+            extended |= analyse_phi(ir, memory, number, round);
+        else
+            memory->range[number] = value_range(ir, memory, i);
+    }
+    return extended;
+}
+
 /* Each phi begins as its first value; what is then found to come around the loop is added until nothing is.
- * Each round holds for phis within the ranges that it begins with: what the last one finds holds for all. */
+ * Each round holds for phis within the ranges that it begins with: what the last one finds holds for all.
+ * What stands before the first phi is as it was. */
 void range_analyse(const struct ir *ir, struct pass_memory *memory)
 {
-    int extended = 1;
+    uint32_t first = 1;
     memory->range[0] = anything;
-    for (unsigned round = 0; extended; round++) {
-        extended = 0;
-        for (uint32_t number = 1; number < ir->count; number++) {
-            const struct ir_instruction *i = &ir->instruction[number];
-            if (i->op == IR_phi || i->op == IR_next)
-                extended |= analyse_phi(ir, memory, number, round);
-            else
-                memory->range[number] = value_range(ir, memory, i);
-        }
-    }
+    if (!analyse(ir, memory, 1, 0))
+        return;
+    while (ir->instruction[first].op != IR_phi)
+        first++;
+    for (unsigned round = 1; analyse(ir, memory, first, round); round++)
+        continue;
 }
