@@ -1,6 +1,7 @@
-/* Common subexpressions: hash-consing from front to back. An earlier instruction may stand for a later equal
- * one when its region is still open there; reads count only where no routine writes (ir_is_invariant_read).
- * What a variable or a phi is changes, so that they are not shared. */
+/* Common subexpressions: hash-consing from front to back. An earlier instruction may stand for a later
+ * equal one when its region is still open there; reads count only where no routine writes
+ * (ir_is_invariant_read). Operands are looked up as what stands for them, so that whole expressions are
+ * found in one round. What a variable or a phi is changes, so that they are not shared. */
 #include "jit/pass.h"
 
 #include <string.h>
@@ -66,9 +67,13 @@ unsigned pass_common(struct ir *ir, struct pass_memory *memory)
     mask &= TABLE_MASK;
     memset(memory->table, 0, (mask + 1) * sizeof memory->table[0]);
     memory->flag[0] = 1;
+    memory->same[0] = 0;
     for (uint32_t number = 1; number < ir->count; number++) {
         struct ir_instruction *i = &ir->instruction[number];
         enter_or_leave(&scope, i, number);
+        memory->same[number] = (uint16_t)number;
+        for (int o = 0; o < 3; o++)
+            i->operand[o] = memory->same[i->operand[o]];
         if (!may_share(i))
             continue;
         order_operands(i);
@@ -77,6 +82,7 @@ unsigned pass_common(struct ir *ir, struct pass_memory *memory)
             slot = (slot + 1) & mask;
         /* One whose region is closed gives up its place: regions do not open again. */
         if (memory->table[slot] && memory->flag[memory->region[memory->table[slot]]]) {
+            memory->same[number] = memory->table[slot];
             *i = (struct ir_instruction){.op = IR_copy,
                                          .type = i->type,
                                          .operand = {memory->table[slot]},

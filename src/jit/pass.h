@@ -78,6 +78,7 @@ struct pass_memory {
     struct range range[IR_CAPACITY];
     uint16_t map[IR_CAPACITY];
     uint16_t region[IR_CAPACITY];
+    uint16_t same[IR_CAPACITY];
     uint8_t flag[IR_CAPACITY];
     uint8_t read[VARIABLES];
     struct phi_memory phi;
