@@ -211,11 +211,11 @@ bench:
 # `make check` draws a few streams with the external engine; these are all of them, a compilation a routine.
 verify-external: all
 	@$(COMMAND) verify --engines external --frames 1 --threads 2 $(wildcard bench/streams/*.tri tests/streams/*.tri \
-	  tests/scenes/*.tri)
+	  tests/scenes/*.tri tests/shading/*.tri)
 
-# The pictures of docs/gallery.md, which are goldens: look at them before they are committed.
+# The pictures of docs/gallery.md and docs/shader-gallery.md, which are goldens: look at them before they are committed.
 gallery: all
-	@GOLDENS=write TRIPTYCH=$(COMMAND) tests/goldens.sh $(wildcard tests/scenes/*.tri)
+	@GOLDENS=write TRIPTYCH=$(COMMAND) tests/goldens.sh $(wildcard tests/scenes/*.tri tests/shading/*.tri)
 
 # The public header reads these tables.
 PUBLIC_TABLES = $(addprefix src/,$(shell sed -n 's/^#include "\(.*\)"/\1/p' src/triptych.h))
@@ -251,7 +251,7 @@ make test            everything that is tested, from a bare Debian on; ends with
 make check           the same tests on the plain build only
 make bench           the measurements, from a bare Debian on; writes results/
 make verify-external every stream with the external engine: minutes of compiling
-make gallery         the pictures of docs/gallery.md anew
+make gallery         the pictures of docs/gallery.md and docs/shader-gallery.md anew
 make install         PREFIX=$(PREFIX) DESTDIR=$(DESTDIR)
 make dependencies    install every Debian package that any target needs
 make packages        what those packages are and what each is for

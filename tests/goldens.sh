@@ -1,7 +1,8 @@
 #!/bin/bash
 # The first frame of every stream, of bench/streams or tests/streams, that has a golden picture,
 # tests/goldens/STREAM.png, equals it pixel for pixel; so does that of every scene of tests/scenes its picture on the
-# gallery's page, docs/images/gallery/STREAM.png.
+# gallery's page, docs/images/gallery/STREAM.png, and that of every stream of tests/shading its picture on the shader
+# gallery's, docs/images/shaders/STREAM.png.
 # Given BUILD, TRIPTYCH and SANITIZE by tests/support/run.sh.
 #
 #   GOLDENS=write TRIPTYCH=build/triptych tests/goldens.sh STREAM...    makes the pictures anew: look at them
@@ -13,12 +14,13 @@ golden_of() # STREAM
     local name=${1##*/}
     case $1 in
         tests/scenes/*) printf 'docs/images/gallery/%s.png' "${name%.*}" ;;
+        tests/shading/*) printf 'docs/images/shaders/%s.png' "${name%.*}" ;;
         *) printf 'tests/goldens/%s.png' "${name%.*}" ;;
     esac
 }
 
 if [[ ${GOLDENS-} == write ]]; then
-    mkdir -p tests/goldens docs/images/gallery
+    mkdir -p tests/goldens docs/images/gallery docs/images/shaders
     for stream in "$@"; do
         "$TRIPTYCH" render "$stream" --engine emulate --out "$(golden_of "$stream")" || exit
     done
@@ -28,7 +30,8 @@ fi
 work=$(mktemp -d)
 trap 'rm -rf "$work"' EXIT
 shopt -s nullglob
-streams=(tests/scenes/*.tri)
+pages=(tests/scenes/*.tri tests/shading/*.tri)
+streams=("${pages[@]}")
 for golden in tests/goldens/*.png; do
     name=${golden##*/} name=${name%.png}
     stream=bench/streams/$name.tri
@@ -38,9 +41,11 @@ done
 ((${#streams[@]})) || { echo 'FAIL there are golden pictures' && exit 1; }
 
 failures=0
-for stream in tests/scenes/*.tri; do
-    if ! grep -qF "($(golden_of "$stream" | cut -d/ -f2-))" docs/gallery.md; then
-        printf 'FAIL docs/gallery.md shows %s\n' "$stream"
+for stream in "${pages[@]}"; do
+    page=docs/gallery.md
+    [[ $stream == tests/scenes/* ]] || page=docs/shader-gallery.md
+    if ! grep -qF "($(golden_of "$stream" | cut -d/ -f2-))" "$page"; then
+        printf 'FAIL %s shows %s\n' "$page" "$stream"
         failures=1
     fi
 done

@@ -1,6 +1,6 @@
 #!/bin/bash
-# Every shader of tests/shaders follows the rules of its model, says in its head what it shows and what it needs, and
-# its bytecode disassembles to text that assembles to the same bytecode.
+# Every shader of tests/shaders follows the rules of its model, says in its head what it shows and what it needs, is used
+# by a stream of tests/shading, and its bytecode disassembles to text that assembles to the same bytecode.
 # Given BUILD, TRIPTYCH and SANITIZE by tests/support/run.sh.
 set -uo pipefail
 cd "$(dirname "$0")/.."
@@ -17,6 +17,7 @@ examine() # SHADER : fails, or says what is wrong
     head -n 1 "$1" | grep -q '^; [[:alpha:]]' || { echo 'no comment at its head' && return; }
     grep -q '^; .*Inputs: ' "$1" || { echo 'no word of its inputs' && return; }
     grep -qE "^${stage%a}_[123]_[0-4x]$" "$1" || { echo "no model of ${stage%a}" && return; }
+    grep -qF "\"../${1#tests/}\"" tests/shading/*.tri || { echo 'no stream that uses it' && return; }
     "$TRIPTYCH" shader validate "$1" >/dev/null &&
         "$TRIPTYCH" shader assemble "$1" --out "$work/first" &&
         "$TRIPTYCH" shader disassemble "$work/first" >"$work/text" &&
