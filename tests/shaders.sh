@@ -11,13 +11,18 @@ shopt -s nullglob globstar
 shaders=(tests/shaders/**/*.[vp]sa)
 ((${#shaders[@]} >= 60)) || { echo 'FAIL there are sixty shaders' && exit 1; }
 
+# The files of shaders that some stream shades with, a line each.
+awk 'FNR == 1 { delete file }
+    $1 == "shader" { file[$2] = $3 }
+    $1 ~ /^(vertex|pixel)shader$/ && $2 in file { print file[$2] }' tests/shading/*.tri | sort -u >"$work/set"
+
 examine() # SHADER : fails, or says what is wrong
 {
     local stage=${1##*.}
     head -n 1 "$1" | grep -q '^; [[:alpha:]]' || { echo 'no comment at its head' && return; }
     grep -q '^; .*Inputs: ' "$1" || { echo 'no word of its inputs' && return; }
     grep -qE "^${stage%a}_[123]_[0-4x]$" "$1" || { echo "no model of ${stage%a}" && return; }
-    grep -qF "\"../${1#tests/}\"" tests/shading/*.tri || { echo 'no stream that uses it' && return; }
+    grep -qxF "\"../${1#tests/}\"" "$work/set" || { echo 'no stream that uses it' && return; }
     "$TRIPTYCH" shader validate "$1" >/dev/null &&
         "$TRIPTYCH" shader assemble "$1" --out "$work/first" &&
         "$TRIPTYCH" shader disassemble "$work/first" >"$work/text" &&
