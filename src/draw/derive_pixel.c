@@ -80,6 +80,7 @@ void derive_pixel(const struct state *state, enum primitive primitive, struct pi
     }
     derive_depth_format(state, key);
     key->depth_output = program && program->interface.depth && pixel_tests_depth(key);
+    key->depth_w &= !key->depth_output;
     derive_storage(state, key);
     if (!pixel_write_mask(key))
         derive_no_blend(key);

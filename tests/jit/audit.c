@@ -30,9 +30,11 @@ static const struct {
 } situations[] = {
 #define SITUATION(name, description) {name, description},
 #define GATE(holds, means_nothing)
+#define SHADER(name, text)
 #include "tests/support/situation.def"
 #undef SITUATION
 #undef GATE
+#undef SHADER
 };
 
 enum { SITUATIONS = sizeof situations / sizeof *situations };
@@ -42,9 +44,11 @@ static const struct {
 } gates[] = {
 #define SITUATION(name, description)
 #define GATE(holds, means_nothing) {holds, means_nothing},
+#define SHADER(name, text)
 #include "tests/support/situation.def"
 #undef SITUATION
 #undef GATE
+#undef SHADER
 };
 
 enum { GATES = sizeof gates / sizeof *gates };
@@ -61,7 +65,6 @@ static const struct {
     {"alphaarg", "", "_alphareplicate", "alpha replicated is alpha"},
     {"texturetransformflags", "", "_projected",
      "the last of three or four coordinates divides, not of fewer"},
-    {"texturetransformflags", "3", "4", "nothing reads the fourth coordinate where it does not divide"},
     {"magfilter", "none", "point", "no filter is the nearest texel"},
     {"minfilter", "none", "point", "no filter is the nearest texel"},
     {"magfilter", "linear", "anisotropic", "a magnified texel has no long side"},
