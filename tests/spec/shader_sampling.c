@@ -363,6 +363,58 @@ static void test_lookups_of_vertices(void)
     on_every_engine(check_vertices);
 }
 
+static const char displaced[] =
+    "vs_3_0\ndcl_2d s0\ndcl_position v0\ndcl_position o0\ndcl_texcoord o1\nmov o0, v0\n"
+    "texldl o1, v0, s0\n";
+static const char given[] = "ps_3_0\ndcl_texcoord v0\nmov oC0, v0\n";
+
+/* A texture of vertices that changes after a draw is the old one there. */
+static void check_changed(void)
+{
+    static const float first[4] = {1, 2, 3, 4}, second[4] = {5, 6, 7, 8};
+    const struct triptych_texture_description description = {
+        TRIPTYCH_TEXTURE_2D, TRIPTYCH_SURFACE_A32B32G32R32F, 1, 1, 1, 1};
+    triptych_texture *changing;
+    begin_part();
+    OK(triptych_texture_define(device, &description, &changing));
+    OK(triptych_texture_update(device, changing, 0, 0, NULL, first, sizeof first, 0));
+    OK(triptych_set_texture(device, TRIPTYCH_VERTEX_SAMPLER, changing));
+    use_shaders(displaced, given);
+    draw_declared(TRIPTYCH_USAGE_POSITION, NULL, 0);
+    OK(triptych_texture_update(device, changing, 0, 0, NULL, second, sizeof second, 0));
+    drawn_position[0][0] = drawn_position[2][0] = -1 + 1.0f * PART / SIZE;
+    draw_declared(TRIPTYCH_USAGE_POSITION, NULL, 0);
+    read_numbers(0);
+    expect_numbers(1, 1, first, "before the change");
+    expect_numbers(PART - 2, 1, second, "behind the change");
+}
+
+static void test_textures_of_vertices_can_change_between_draws(void)
+{
+    on_every_engine(check_changed);
+}
+
+static void check_feedback(void)
+{
+    const struct triptych_texture_description description = {
+        TRIPTYCH_TEXTURE_2D, TRIPTYCH_SURFACE_A32B32G32R32F, SIZE, SIZE, 1, 1};
+    struct triptych_target_textures target = {.depth_format = TRIPTYCH_DEPTH_d24s8};
+    OK(triptych_texture_define(device, &description, &target.color[0].texture));
+    OK(triptych_set_texture(device, TRIPTYCH_VERTEX_SAMPLER, target.color[0].texture));
+    use_shaders(displaced, given);
+    OK(triptych_set_target_textures(device, &target));
+    TEST_ASSERT_EQUAL_INT(TRIPTYCH_BAD_CALL, triptych_draw(device, TRIPTYCH_TRIANGLE_STRIP, 0, 2));
+    TEST_ASSERT_EQUAL_STRING("texture of sampler 16 is drawn to: expected another one, or none",
+                             triptych_error(device));
+    use_shaders(NULL, NULL);
+    draw_declared(TRIPTYCH_USAGE_POSITION, NULL, 0);
+}
+
+static void test_what_is_drawn_to_cannot_be_sampled_by_vertices(void)
+{
+    on_every_engine(check_feedback);
+}
+
 static void check_unbound(void)
 {
     begin_part();
@@ -384,6 +436,8 @@ static void test_unbound_samplers(void)
 
 static const char *const instructions[] = {
     "ps_1_1\ntex t1\nmov r0, t1\n",
+    "ps_1_1\ntex t2\nmov r0, t2\n",
+    "ps_1_1\ntex t3\nmov r0, t3\n",
     "ps_1_1\ntexcoord t1\nmov r0, t1\n",
     "ps_1_1\ntex t0\ntexbem t1, t0\nmov r0, t1\n",
     "ps_1_1\ntex t0\ntexbeml t1, t0\nmov r0, t1\n",
@@ -595,6 +649,8 @@ int main(void)
     RUN_TEST(test_lookups_of_pixels);
     RUN_TEST(test_any_sampler_on_any_numbers);
     RUN_TEST(test_lookups_of_vertices);
+    RUN_TEST(test_textures_of_vertices_can_change_between_draws);
+    RUN_TEST(test_what_is_drawn_to_cannot_be_sampled_by_vertices);
     RUN_TEST(test_unbound_samplers);
     RUN_TEST(test_instructions_of_ps_1_x);
     RUN_TEST(test_differences);
