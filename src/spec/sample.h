@@ -4,7 +4,8 @@
  *
  * Linear filtering blends the two texels of each axis by the position's fraction of 256, along u first, then
  * v, then w, then between two levels; each step is round((a * (256 - f) + b * f) / 256) of each channel. The
- * mean of N anisotropic taps is floor((2 * sum + N) / 2N), halves up. */
+ * mean of N anisotropic taps is floor((2 * sum + N) / 2N), halves up; they are taken in a loop that ends when
+ * no lane has another one. */
 
 /* What is sampled with. */
 struct sampler {
@@ -215,11 +216,14 @@ static inline struct sampler sampler(struct env *e, const struct sampler_key *k,
     return s;
 }
 
+/* Variables of the taps' loop: which one it is, which lanes have it, and the sums of up to four channels. */
+enum { VARIABLE_TAP = VARIABLES - 6, VARIABLE_TAPPED, VARIABLE_SUM };
+
 /* Moves the coordinates to tap i of 1 to N; `apart` is 1 / (N + 1). */
-static inline struct sampler tap_sampler(struct env *e, const struct sampler *s, int i, flt apart)
+static inline struct sampler tap_sampler(struct env *e, const struct sampler *s, flt i, flt apart)
 {
     struct sampler r = *s;
-    flt along = mad_f(E, lit_f(E, (float)i), apart, lit_f(E, -0.5f));
+    flt along = mad_f(E, i, apart, lit_f(E, -0.5f));
     for (int a = 0; a < s->axes; a++)
         r.coordinate[a] = mad_f(E, s->detail.step[a], along, s->coordinate[a]);
     return r;
@@ -231,10 +235,20 @@ static inline flt taps_apart(struct env *e, const struct sampler *s)
     return div_f(E, lit_f(E, 1.0f), spaces);
 }
 
-/* Lanes that have an i-th tap. */
-static inline msk tap_counts(struct env *e, const struct sampler *s, int i)
+static inline void begin_taps(struct env *e)
 {
-    return le_f(E, lit_f(E, (float)i), s->detail.taps);
+    set_f(E, VARIABLE_TAP, lit_f(E, 1.0f));
+    set_m(E, VARIABLE_TAPPED, lit_m(E, -1));
+}
+
+/* On to the next tap, while any lane has it. */
+static inline void next_tap(struct env *e, const struct sampler *s)
+{
+    flt i = get_f(E, VARIABLE_TAP);
+    flt next = add_f(E, i, lit_f(E, 1.0f));
+    msk more = le_f(E, next, s->detail.taps);
+    set_f(E, VARIABLE_TAP, next);
+    set_m(E, VARIABLE_TAPPED, more);
 }
 
 static inline fix fix_where(struct env *e, msk mask, fix value)
@@ -266,24 +280,44 @@ static inline fix divide_taps(struct env *e, fix sum, itg taps)
     return fix_of(E, joined);
 }
 
+static inline void add_tap(struct env *e, int variable, msk counts, fix value)
+{
+    fix counted = fix_where(E, counts, value);
+    itg before = get_i(E, variable);
+    fix sum = fix_of(E, before);
+    sum = add_x(E, sum, counted);
+    itg after = int_of(E, sum);
+    set_i(E, variable, after);
+}
+
+static inline fix mean_of_taps(struct env *e, int variable, itg taps)
+{
+    itg bits = get_i(E, variable);
+    fix sum = fix_of(E, bits);
+    return divide_taps(E, sum, taps);
+}
+
 static inline struct color sample_anisotropic(struct env *e, const struct sampler *s)
 {
     flt apart = taps_apart(E, s);
-    struct color sum;
-    sum.rb = sum.ga = lit_x(E, 0);
-    for (int i = 1; i <= s->k->anisotropy; i++) {
+    begin_taps(E);
+    set_i(E, VARIABLE_SUM, lit_i(E, 0));
+    set_i(E, VARIABLE_SUM + 1, lit_i(E, 0));
+    LOOP(E, VARIABLE_TAPPED)
+    {
+        flt i = get_f(E, VARIABLE_TAP);
+        msk counts = get_m(E, VARIABLE_TAPPED);
         struct sampler tap = tap_sampler(E, s, i, apart);
         struct color color = sample_levels(E, &tap);
-        msk counts = tap_counts(E, s, i);
-        fix rb = fix_where(E, counts, color.rb);
-        fix ga = fix_where(E, counts, color.ga);
-        sum.rb = add_x(E, sum.rb, rb);
-        sum.ga = add_x(E, sum.ga, ga);
+        add_tap(E, VARIABLE_SUM, counts, color.rb);
+        add_tap(E, VARIABLE_SUM + 1, counts, color.ga);
+        next_tap(E, s);
     }
     itg taps = round_i(E, s->detail.taps);
-    sum.rb = divide_taps(E, sum.rb, taps);
-    sum.ga = divide_taps(E, sum.ga, taps);
-    return sum;
+    struct color r;
+    r.rb = mean_of_taps(E, VARIABLE_SUM, taps);
+    r.ga = mean_of_taps(E, VARIABLE_SUM + 1, taps);
+    return r;
 }
 
 /* Without changes there is no longer one; what would take several taps along it takes one, filtered linearly. */

@@ -149,17 +149,27 @@ static inline struct float_color float_anisotropic(struct env *e, const struct s
 {
     flt apart = taps_apart(E, s);
     struct float_color sum = float_replicate(lit_f(E, 0.0f));
-    for (int i = 1; i <= s->k->anisotropy; i++) {
+    begin_taps(E);
+    for (int c = 0; c < texel_channels(s); c++)
+        set_f(E, VARIABLE_SUM + c, lit_f(E, 0.0f));
+    LOOP(E, VARIABLE_TAPPED)
+    {
+        flt i = get_f(E, VARIABLE_TAP);
+        msk counts = get_m(E, VARIABLE_TAPPED);
         struct sampler tap = tap_sampler(E, s, i, apart);
         struct float_color color = float_levels(E, &tap);
-        msk counts = tap_counts(E, s, i);
         for (int c = 0; c < texel_channels(s); c++) {
             flt counted = select_f(E, counts, color.channel[c], lit_f(E, 0.0f));
-            sum.channel[c] = add_f(E, sum.channel[c], counted);
+            flt before = get_f(E, VARIABLE_SUM + c);
+            flt after = add_f(E, before, counted);
+            set_f(E, VARIABLE_SUM + c, after);
         }
+        next_tap(E, s);
     }
-    for (int c = 0; c < texel_channels(s); c++)
-        sum.channel[c] = div_f(E, sum.channel[c], s->detail.taps);
+    for (int c = 0; c < texel_channels(s); c++) {
+        flt total = get_f(E, VARIABLE_SUM + c);
+        sum.channel[c] = div_f(E, total, s->detail.taps);
+    }
     return sum;
 }
 
