@@ -6,6 +6,8 @@
 #   bench.json, bench.csv   every stream with every engine, inside one process (triptych bench)
 #   bench.svg, bench.png    the table as a chart
 #   hyperfine.json          one stream with every engine, as whole processes: start, read, build, draw, write
+#   baselines.json, .csv    the engines that run only where they are named: batches of other sizes, and the system's
+#                           compiler (docs/baselines.md)
 #   verify.json             the last check
 #
 # Last, every engine's pictures are compared: the final line says "N streams, N engines, identical", or the run
@@ -24,6 +26,11 @@ streams=(bench/streams/*.tri)
 mkdir -p "$results" "$build/bench"
 
 "$triptych" bench "${streams[@]}" --json "$results/bench.json" --csv "$results/bench.csv" "$@"
+
+baselines=$("$triptych" list engines |
+    awk '$3 == "available" && $1 ~ /^(emulate|batch.*|specialize|external)$/ { print $1 }' | paste -sd, -)
+"$triptych" bench bench/streams/{teapot-bilinear,bunny,cat}.tri --frames 1 --seconds 2 \
+    --engines "$baselines" --json "$results/baselines.json" --csv "$results/baselines.csv"
 
 # The engines that could run here are those with a row.
 mapfile -t measured < <(awk -F, '

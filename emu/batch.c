@@ -144,7 +144,7 @@ struct routine *batch_routine(const struct ir *ir, unsigned lanes, enum unit uni
     routine->unit = unit;
     routine->key = *key;
     routine->parts = batch->plan->count;
-    routine->data_bytes = (uint32_t)(sizeof *batch + batch->plan->count * sizeof(struct step));
+    routine->data_bytes = (uint32_t)(sizeof *batch + batch->plan->count * sizeof(struct plan_step));
     return routine;
 }
 

@@ -61,7 +61,7 @@ static int has_step(const struct ir_instruction *i)
 
 /* --- What is live ----------------------------------------------------------------------------------------- */
 
-static int is_root_of_all(const struct ir_instruction *i)
+static int has_effect(const struct ir_instruction *i)
 {
     int properties = ir_op_information[i->op].properties;
     return properties & IR_EFFECT && i->op != IR_set;
@@ -85,7 +85,7 @@ static void mark_live(struct planner *p)
             p->note[number].next = p->sets[i->k];
             p->sets[i->k] = (uint16_t)number;
         }
-        if (is_root_of_all(i))
+        if (has_effect(i))
             work = mark(p, work, (uint16_t)number);
     }
     while (work) {
@@ -252,11 +252,11 @@ static uint32_t variable_offset(const struct planner *p, const struct layout *la
     return layout->rows + (p->variable[variable] - 1u) * layout->row_bytes;
 }
 
-static struct step make_step(const struct planner *p, const struct layout *layout, uint16_t number)
+static struct plan_step make_step(const struct planner *p, const struct layout *layout, uint16_t number)
 {
     const struct ir_instruction *i = &p->ir->instruction[number];
-    struct step step = {
-        .run = step_of(i->op), .base = i->base, .scale = i->scale, .k = i->k, .field = i->field};
+    struct plan_step step = {
+        .run = plan_step_of(i->op), .base = i->base, .scale = i->scale, .k = i->k, .field = i->field};
     for (int o = 0; o < ir_op_information[i->op].operands; o++) {
         step.operand[o] = value_offset(p, layout, i->operand[o]);
         step.stride[o] = p->note[p->note[i->operand[o]].root].place == PLACE_ROW ? GROUP_BYTES : 0;
@@ -283,7 +283,7 @@ static void make_steps(struct planner *p, const struct layout *layout, struct pl
             continue;
         if (ir_op_information[i->op].properties & IR_OPENS)
             p->note[number].slot = plan->count;
-        struct step *step = &plan->step[plan->count];
+        struct plan_step *step = &plan->step[plan->count];
         if (has_step(i)) {
             *step = make_step(p, layout, (uint16_t)number);
             plan->count++;
@@ -291,13 +291,13 @@ static void make_steps(struct planner *p, const struct layout *layout, struct pl
         if (i->op == IR_again)
             step->k = (int32_t)(step - (plan->step + p->note[note->match].slot));
         if (i->op == IR_end) {
-            struct step *when = plan->step + p->note[note->match].slot;
+            struct plan_step *when = plan->step + p->note[note->match].slot;
             when->k = (int32_t)(step - when);
         }
         if (i->op == IR_store && i->base == BASE_LANES)
             plan->counts = 1;
     }
-    plan->step[plan->count++] = (struct step){.run = step_end};
+    plan->step[plan->count++] = (struct plan_step){.run = plan_step_end};
 }
 
 static struct plan *make_plan(struct planner *p, unsigned lanes)

@@ -34,12 +34,12 @@ struct batch {
     const uint8_t *base[BASE_COUNT][GROUPS_MAXIMUM];
 };
 
-struct step;
+struct plan_step;
 
 /* Executes a step and returns the next one, null at the end. */
-typedef const struct step *step_function(struct batch *batch, const struct step *step);
+typedef const struct plan_step *step_function(struct batch *batch, const struct plan_step *step);
 
-struct step {
+struct plan_step {
     step_function *run;
     uint32_t to; /* byte offsets of rows in the frame */
     uint32_t operand[3];
@@ -58,7 +58,7 @@ struct plan {
     uint32_t count;
     int counts; /* adds up in the lane table: no two groups of a batch may be at the same place of a block */
     int32_t *literal;
-    struct step step[];
+    struct plan_step step[];
 };
 
 /* Plans a recording for batches of at most `lanes`; null with the reason. */
@@ -72,7 +72,7 @@ void plan_start(const struct plan *plan, uint8_t *frame);
 void plan_run(const struct plan *plan, struct batch *batch);
 
 /* What executes the opcode (step.c); null for those that are no step. */
-step_function *step_of(enum ir_op op);
-const struct step *step_end(struct batch *batch, const struct step *step);
+step_function *plan_step_of(enum ir_op op);
+const struct plan_step *plan_step_end(struct batch *batch, const struct plan_step *step);
 
 #endif

@@ -40,7 +40,7 @@ _Static_assert(sizeof(flt) == GROUP_BYTES && sizeof(itg) == GROUP_BYTES && sizeo
 #define PASS_non(n)
 
 #define OP(name, result, ta, tb, tc, properties, expression)                                                 \
-    static const struct step *step_##name(struct batch *batch, const struct step *step)                      \
+    static const struct plan_step *step_##name(struct batch *batch, const struct plan_step *step)            \
     {                                                                                                        \
         OPERAND_##ta(a) OPERAND_##tb(b) OPERAND_##tc(c) uint8_t *to = batch->frame + step->to;               \
         for (unsigned groups = batch->groups[step->once]; groups; groups--) {                                \
@@ -52,7 +52,7 @@ _Static_assert(sizeof(flt) == GROUP_BYTES && sizeof(itg) == GROUP_BYTES && sizeo
         return step + 1;                                                                                     \
     }
 #define OPK(name, result, ta, tb, tc, properties, expression)                                                \
-    static const struct step *step_##name(struct batch *batch, const struct step *step)                      \
+    static const struct plan_step *step_##name(struct batch *batch, const struct plan_step *step)            \
     {                                                                                                        \
         const int k = step->k;                                                                               \
         OPERAND_##ta(a) uint8_t *to = batch->frame + step->to;                                               \
@@ -92,7 +92,16 @@ static inline flt vector_sqrt_f(struct env *e, flt a)
     return r;
 }
 
-#define NEEDS_FMA __attribute__((target("fma")))
+#define NEEDS_SSE4 __attribute__((target("sse4.1")))
+#define NEEDS_FMA  __attribute__((target("fma")))
+
+NEEDS_SSE4 static inline flt vector_floor_f(struct env *e, flt a)
+{
+    (void)e;
+    flt r;
+    _mm_storeu_ps(r.lane, _mm_floor_ps(_mm_loadu_ps(a.lane)));
+    return r;
+}
 
 NEEDS_FMA static inline flt vector_mad_f(struct env *e, flt a, flt b, flt c)
 {
@@ -105,12 +114,13 @@ NEEDS_FMA static inline flt vector_mad_f(struct env *e, flt a, flt b, flt c)
 OP(vector_round_i, itg, flt, non, non, 0, )
 OP(vector_trunc_i, itg, flt, non, non, 0, )
 OP(vector_sqrt_f, flt, flt, non, non, 0, )
+NEEDS_SSE4 OP(vector_floor_f, flt, flt, non, non, 0, )
 NEEDS_FMA OP(vector_mad_f, flt, flt, flt, flt, 0, )
 #undef OP
 #undef OPK
 #undef CAST
 
-static const struct step *step_permute(struct batch *batch, const struct step *step)
+static const struct plan_step *step_permute(struct batch *batch, const struct plan_step *step)
 {
     const int k = step->k;
     OPERAND(a)
@@ -124,7 +134,7 @@ static const struct step *step_permute(struct batch *batch, const struct step *s
     return step + 1;
 }
 
-static const struct step *step_load(struct batch *batch, const struct step *step)
+static const struct plan_step *step_load(struct batch *batch, const struct plan_step *step)
 {
     const uint8_t *const *base = batch->base[step->base];
     const ptrdiff_t offset = step->k;
@@ -134,7 +144,7 @@ static const struct step *step_load(struct batch *batch, const struct step *step
     return step + 1;
 }
 
-static const struct step *step_store(struct batch *batch, const struct step *step)
+static const struct plan_step *step_store(struct batch *batch, const struct plan_step *step)
 {
     const uint8_t *const *base = batch->base[step->base];
     const ptrdiff_t offset = step->k;
@@ -144,7 +154,7 @@ static const struct step *step_store(struct batch *batch, const struct step *ste
     return step + 1;
 }
 
-static const struct step *step_uniform(struct batch *batch, const struct step *step)
+static const struct plan_step *step_uniform(struct batch *batch, const struct plan_step *step)
 {
     const uint8_t *const *base = batch->base[step->base];
     const ptrdiff_t offset = step->k;
@@ -158,7 +168,7 @@ static const struct step *step_uniform(struct batch *batch, const struct step *s
     return step + 1;
 }
 
-static const struct step *step_gather(struct batch *batch, const struct step *step)
+static const struct plan_step *step_gather(struct batch *batch, const struct plan_step *step)
 {
     const uint8_t *const *base = batch->base[step->base];
     const ptrdiff_t scale = step->scale, displacement = step->k;
@@ -178,7 +188,7 @@ static const struct step *step_gather(struct batch *batch, const struct step *st
     return step + 1;
 }
 
-static const struct step *step_scatter(struct batch *batch, const struct step *step)
+static const struct plan_step *step_scatter(struct batch *batch, const struct plan_step *step)
 {
     const uint8_t *const *base = batch->base[step->base];
     const ptrdiff_t offset = step->k, stride = step->field;
@@ -193,7 +203,7 @@ static const struct step *step_scatter(struct batch *batch, const struct step *s
 }
 
 /* `set` and `get`: between a value's row and the variable's. */
-static const struct step *step_move(struct batch *batch, const struct step *step)
+static const struct plan_step *step_move(struct batch *batch, const struct plan_step *step)
 {
     OPERAND(a)
     uint8_t *to = batch->frame + step->to;
@@ -202,7 +212,7 @@ static const struct step *step_move(struct batch *batch, const struct step *step
     return step + 1;
 }
 
-static int any_set(const struct batch *batch, const struct step *step)
+static int any_set(const struct batch *batch, const struct plan_step *step)
 {
     OPERAND(a)
     int32_t any = 0;
@@ -213,17 +223,17 @@ static int any_set(const struct batch *batch, const struct step *step)
     return any != 0;
 }
 
-static const struct step *step_when(struct batch *batch, const struct step *step)
+static const struct plan_step *step_when(struct batch *batch, const struct plan_step *step)
 {
     return any_set(batch, step) ? step + 1 : step + step->k;
 }
 
-static const struct step *step_again(struct batch *batch, const struct step *step)
+static const struct plan_step *step_again(struct batch *batch, const struct plan_step *step)
 {
     return any_set(batch, step) ? step - step->k : step + 1;
 }
 
-const struct step *step_end(struct batch *batch, const struct step *step)
+const struct plan_step *plan_step_end(struct batch *batch, const struct plan_step *step)
 {
     (void)batch, (void)step;
     return NULL;
@@ -243,12 +253,13 @@ static step_function *const steps[IR_OP_COUNT] = {
     [IR_permute] = step_permute,
 };
 
-step_function *step_of(enum ir_op op)
+step_function *plan_step_of(enum ir_op op)
 {
     switch (op) {
     case IR_round_i: return step_vector_round_i;
     case IR_trunc_i: return step_vector_trunc_i;
     case IR_sqrt_f: return step_vector_sqrt_f;
+    case IR_floor_f: return cpu_has_avx2_fma() ? step_vector_floor_f : step_floor_f;
     case IR_mad_f: return cpu_has_avx2_fma() ? step_vector_mad_f : step_mad_f;
     default: return steps[op];
     }
@@ -256,7 +267,7 @@ step_function *step_of(enum ir_op op)
 
 void plan_run(const struct plan *plan, struct batch *batch)
 {
-    const struct step *step = plan->step;
+    const struct plan_step *step = plan->step;
     while (step)
         step = step->run(batch, step);
 }

@@ -59,15 +59,17 @@ const char *external_no_compiler(void)
 
 static int open_work(struct work *work, struct error *error)
 {
+    char path[PATH_CAPACITY];
     const char *folder = getenv("TMPDIR");
     if (!folder || !*folder)
         folder = "/tmp";
-    if (snprintf(work->folder, sizeof work->folder, "%s/triptych-XXXXXX", folder) >= (int)sizeof work->folder)
+    if (snprintf(path, sizeof path, "%s/triptych-XXXXXX", folder) >= (int)sizeof path)
         return error_set(error, "TMPDIR is too long a path");
-    if (!mkdtemp(work->folder))
+    if (!mkdtemp(path))
         return error_set(error, "%s: cannot make a folder for the compiler: %s", folder, strerror(errno));
+    memcpy(work->folder, path, sizeof path);
     for (int i = 0; i < WORK_COUNT; i++)
-        snprintf(work->path[i], sizeof work->path[i], "%s/%s", work->folder, file_name[i]);
+        snprintf(work->path[i], sizeof work->path[i], "%s/%s", path, file_name[i]);
     return 0;
 }
 

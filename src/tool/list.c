@@ -5,6 +5,7 @@
  */
 #include "base/cpu.h"
 #include "draw/format.h"
+#include "engines.h"
 #include "jit/jit.h"
 #include "tool/option.h"
 #include "tool/shaders.h"
@@ -36,6 +37,7 @@ static void list_engines(cJSON *rows)
         add_text(row, "engine", triptych_engine_name(i));
         cJSON_AddNumberToObject(row, "width", triptych_engine_width(i));
         add_text(row, "here", reason ? reason : "available");
+        add_text(row, "runs", engine_at(i)->on_request ? "if named" : "always");
         add_text(row, "description", triptych_engine_description(i));
     }
 }
