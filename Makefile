@@ -69,7 +69,7 @@ tool_libraries = $(tool_packages) $(library_libraries)
 ifdef SANITIZE
 # gcc's flow warnings are wrong about instrumented code; the plain and clang builds are the ones that warn.
 CFLAGS    ?= -O1 -g
-SANITIZER := -fsanitize=address,undefined -fno-sanitize-recover=all -fno-omit-frame-pointer -Wno-maybe-uninitialized
+SANITIZER := -fsanitize=address,undefined -fno-sanitize-recover=all -fno-omit-frame-pointer -Wno-maybe-uninitialized -Wno-restrict
 else
 CFLAGS    ?= -O2 -g
 endif

@@ -106,26 +106,30 @@ static uint32_t join(const struct ir *ir, uint32_t number)
     return value[ir->instruction[number].operand[ran[end]]];
 }
 
+static const uint8_t *place(const struct ir_instruction *i)
+{
+    return base[i->base] + i->k;
+}
+
 /* One instruction in one lane; the number of the next one. */
 static uint32_t interpret(const struct ir *ir, uint32_t number, unsigned lane)
 {
     const struct ir_instruction *i = &ir->instruction[number];
     uint32_t a = value[i->operand[0]], *to = &value[number];
-    const uint8_t *at = base[i->base] + i->k;
     switch (i->op) {
     case IR_nop:
     case IR_end:
     case IR_loop: break;
     case IR_literal: *to = (uint32_t)i->k; break;
     case IR_copy: *to = a; break;
-    case IR_load: *to = word_at(at + 4 * lane); break;
-    case IR_uniform: *to = word_at(at); break;
+    case IR_load: *to = word_at(place(i) + 4 * lane); break;
+    case IR_uniform: *to = word_at(place(i)); break;
     case IR_constant: *to = word_at(base[ir->constant[i->k].base] + ir->constant[i->k].offset); break;
     case IR_gather:
         TEST_ASSERT_EQUAL_INT(GATHER_DIRECT, i->field);
-        *to = word_at(at + (ptrdiff_t)(int32_t)a * i->scale);
+        *to = word_at(place(i) + (ptrdiff_t)(int32_t)a * i->scale);
         break;
-    case IR_store: memcpy((uint8_t *)(uintptr_t)at + 4 * lane, &a, sizeof a); break;
+    case IR_store: memcpy((uint8_t *)(uintptr_t)place(i) + 4 * lane, &a, sizeof a); break;
     case IR_set: variable[i->k] = a; break;
     case IR_get: *to = variable[i->k]; break;
     case IR_phi: *to = a; break;
