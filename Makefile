@@ -90,7 +90,7 @@ unity_flags = -isystem $(dir $(UNITY_SOURCE)) -DUNITY_INCLUDE_DOUBLE -DUNITY_USE
 
 # --- What to build -------------------------------------------------------------------------------------------
 
-.PHONY: all programs check test bench gallery verify-external dependencies packages install clean format format-check help FORCE
+.PHONY: all programs check test bench bench-shaders gallery verify-external dependencies packages install clean format format-check help FORCE
 
 all: $(BUILD)/libtriptych.a $(if $(SANITIZE),,$(BUILD)/libtriptych.so $(BUILD)/triptych.pc) $(COMMAND) build/glmark2 \
   build/assimp
@@ -208,6 +208,12 @@ bench:
 	+@$(MAKE) $(jobs) all
 	@BUILD=$(BUILD) bench/run.sh
 
+# Every shader of the corpus with every engine, and flow control by constants and by values: results/shaders.txt.
+bench-shaders:
+	@tests/support/dependencies.sh build bench
+	+@$(MAKE) $(jobs) all
+	@BUILD=$(BUILD) bench/shaders.sh
+
 # `make check` draws a few streams with the external engine; these are all of them, a compilation a routine.
 verify-external: all
 	@$(COMMAND) verify --engines external --frames 1 --threads 2 $(wildcard bench/streams/*.tri tests/streams/*.tri \
@@ -250,6 +256,7 @@ make                 the library (static and shared) and the command, in $(BUILD
 make test            everything that is tested, from a bare Debian on; ends with "N passed, N failed"
 make check           the same tests on the plain build only
 make bench           the measurements, from a bare Debian on; writes results/
+make bench-shaders   the same of every shader in tests/shading, by shader and by length
 make verify-external every stream with the external engine: minutes of compiling
 make gallery         the pictures of docs/gallery.md and docs/shader-gallery.md anew
 make install         PREFIX=$(PREFIX) DESTDIR=$(DESTDIR)
