@@ -90,7 +90,7 @@ unity_flags = -isystem $(dir $(UNITY_SOURCE)) -DUNITY_INCLUDE_DOUBLE -DUNITY_USE
 
 # --- What to build -------------------------------------------------------------------------------------------
 
-.PHONY: all programs check test bench bench-shaders gallery verify-external dependencies packages install clean format format-check help FORCE
+.PHONY: all programs check test bench bench-shaders soak-shaders gallery verify-external dependencies packages install clean format format-check help FORCE
 
 all: $(BUILD)/libtriptych.a $(if $(SANITIZE),,$(BUILD)/libtriptych.so $(BUILD)/triptych.pc) $(COMMAND) build/glmark2 \
   build/assimp
@@ -219,6 +219,13 @@ verify-external: all
 	@$(COMMAND) verify --engines external --frames 1 --threads 2 $(wildcard bench/streams/*.tri tests/streams/*.tri \
 	  tests/scenes/*.tri tests/shading/*.tri)
 
+# Random tests of shaders with the sanitizers watching, for DURATION seconds.
+DURATION ?= 1800
+soak-shaders:
+	@tests/support/dependencies.sh build test
+	+@$(MAKE) $(jobs) BUILD=$(BUILD)/sanitize SANITIZE=1 all programs
+	@tests/support/soak.sh $(DURATION) $(BUILD)/sanitize
+
 # The pictures of docs/gallery.md and docs/shader-gallery.md, which are goldens: look at them before they are committed.
 gallery: all
 	@GOLDENS=write TRIPTYCH=$(COMMAND) tests/goldens.sh $(wildcard tests/scenes/*.tri tests/shading/*.tri)
@@ -257,6 +264,7 @@ make test            everything that is tested, from a bare Debian on; ends with
 make check           the same tests on the plain build only
 make bench           the measurements, from a bare Debian on; writes results/
 make bench-shaders   the same of every shader in tests/shading, by shader and by length
+make soak-shaders    random shaders, half an hour (DURATION=1800) with the sanitizers watching
 make verify-external every stream with the external engine: minutes of compiling
 make gallery         the pictures of docs/gallery.md and docs/shader-gallery.md anew
 make install         PREFIX=$(PREFIX) DESTDIR=$(DESTDIR)

@@ -1,8 +1,10 @@
 /* The shaders of tests/shaders at random. Damaged ones that are valid still are drawn once, with random constants and
  * textures of all kinds, and every so often by all engines; pairs that are whole by all engines in random states. All give
- * the same pictures, nothing crashes or takes forever; the sanitizers watch. The seed is fixed. */
+ * the same pictures, nothing crashes or takes forever; the sanitizers watch. The seed is fixed unless
+ * TRIPTYCH_SEED says otherwise. */
 #include "draw/device.h"
 #include "engines.h"
+#include "tests/support/seed.h"
 #include "tests/support/shaders.h"
 
 #include <glob.h>
@@ -102,7 +104,7 @@ static void create_drawing(const struct engine *engine)
 void setUp(void)
 {
     error_clear(&error);
-    seed = 0x9e3779b97f4a7c15;
+    seed = test_seed();
     engines = 0;
     for (unsigned i = 0; i < ENGINES; i++)
         if (!engine_find(names[i])->unavailable())

@@ -1,7 +1,8 @@
 /* Shaders damaged at random: text and tokens. Each is refused with one line at a place, or is a shader, which
  * then goes to tokens and text and back, and the validator has an opinion on it. The sanitizers watch. The
- * seed is fixed. */
+ * seed is fixed unless TRIPTYCH_SEED says otherwise. */
 #include "shader/shader.h"
+#include "tests/support/seed.h"
 #include "tests/support/shaders.h"
 
 #include <stdio.h>
@@ -17,7 +18,7 @@ static uint64_t seed;
 void setUp(void)
 {
     error_clear(&error);
-    seed = 0x9e3779b97f4a7c15;
+    seed = test_seed();
 }
 
 void tearDown(void)

@@ -1,5 +1,6 @@
 /* Random shaders of many instructions, with conditions, loops, breaks, predication, modifiers and masks, mean the same in
  * every way and on every engine, to the bit. */
+#include "tests/support/seed.h"
 #include "tests/support/trial.h"
 
 #include <stdarg.h>
@@ -188,7 +189,7 @@ static void try_shader(const char *model, unsigned number)
     static const int32_t integers[4][4] = {{0}, {1, 0, 0, 0}, {2, 0, 0, 0}, {5, 0, 0, 0}};
     static float constants[CONSTANTS][4];
     static struct trial_operands operands[40];
-    seed = number * 0x9e3779b97f4a7c15ull | 1;
+    seed = (test_seed() + number) * 0x9e3779b97f4a7c15ull | 1;
     text[0] = 0;
     for (unsigned i = 0; i < CONSTANTS * 4; i++)
         constants[i / 4][i % 4] = (float)below(4096) / 512.0f - 4;

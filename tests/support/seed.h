@@ -1,0 +1,16 @@
+/* Where random tests begin: the seed in TRIPTYCH_SEED, for long runs (make soak-shaders), or the same every time. */
+#ifndef TESTS_SUPPORT_SEED_H
+#define TESTS_SUPPORT_SEED_H
+
+#include <stdint.h>
+#include <stdlib.h>
+
+/* Never 0. */
+static inline uint64_t test_seed(void)
+{
+    const char *given = getenv("TRIPTYCH_SEED");
+    uint64_t number = given ? strtoull(given, NULL, 10) : 0;
+    return 0x9e3779b97f4a7c15 ^ number * 0xbf58476d1ce4e5b9;
+}
+
+#endif
