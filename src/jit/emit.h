@@ -43,8 +43,9 @@ struct place {
 /* A value becomes a phi or a join: to a register, to a slot, or to both. */
 struct move {
     struct place from;
-    uint8_t to;    /* NO_REGISTER: the slot alone */
-    uint16_t slot; /* NO_SLOT: the register alone */
+    uint8_t to;     /* NO_REGISTER: the slot alone */
+    uint16_t slot;  /* NO_SLOT: the register alone */
+    uint16_t waits; /* for so many others that read its destination first */
 };
 
 /* Everything a build needs to write its code: big, reused from build to build. */

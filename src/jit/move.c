@@ -56,14 +56,6 @@ static int reads(const struct emitter *m, const struct move *move, const struct 
     return move->from.address.displacement == slot_address(m, destination->slot).displacement;
 }
 
-static int is_ready(const struct emitter *m, const struct move *move)
-{
-    for (uint32_t n = 0; n < m->moves; n++)
-        if (&m->move[n] != move && reads(m, &m->move[n], move))
-            return 0;
-    return 1;
-}
-
 static void write_move(struct emitter *m, const struct move *move)
 {
     unsigned reg = move->to;
@@ -75,19 +67,38 @@ static void write_move(struct emitter *m, const struct move *move)
         vector_mr(&m->encoder, X86_vmovaps_store, m->length, slot_address(m, move->slot), reg);
 }
 
+/* A move's source is read: whoever waited for its place waits no more. */
+static void release_source(struct emitter *m, const struct move *move)
+{
+    for (uint32_t n = 0; n < m->moves; n++)
+        m->move[n].waits -= &m->move[n] != move && reads(m, move, &m->move[n]);
+}
+
+static void count_waits(struct emitter *m)
+{
+    for (uint32_t n = 0; n < m->moves; n++) {
+        m->move[n].waits = 0;
+        for (uint32_t other = 0; other < m->moves; other++)
+            m->move[n].waits += n != other && reads(m, &m->move[other], &m->move[n]);
+    }
+}
+
 void write_moves(struct emitter *m)
 {
+    count_waits(m);
     while (m->moves) {
         uint32_t ready = 0;
-        while (ready < m->moves && !is_ready(m, &m->move[ready]))
+        while (ready < m->moves && m->move[ready].waits)
             ready++;
-        if (ready == m->moves) {
-            struct move *first = &m->move[0];
-            bring(m, SCRATCH_RESULT, &first->from);
-            first->from = (struct place){.value = first->from.value, .reg = SCRATCH_RESULT};
-            continue;
+        struct move move = m->move[ready < m->moves ? ready : 0];
+        if (ready < m->moves) {
+            write_move(m, &move);
+            m->move[ready] = m->move[--m->moves];
+            release_source(m, &move);
+        } else {
+            bring(m, SCRATCH_RESULT, &move.from);
+            release_source(m, &m->move[0]);
+            m->move[0].from = (struct place){.value = move.from.value, .reg = SCRATCH_RESULT};
         }
-        write_move(m, &m->move[ready]);
-        m->move[ready] = m->move[--m->moves];
     }
 }

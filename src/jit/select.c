@@ -384,6 +384,7 @@ static void select_end(struct emitter *m)
 
 static void select_loop(struct emitter *m)
 {
+    encode_align(&m->encoder, 16);
     if (open_region(m))
         encode_label(&m->encoder, m->region_label[m->region_depth - 1]);
 }

@@ -298,6 +298,39 @@ static void test_a_phi_of_one_value_is_that_value(void)
     TEST_ASSERT_EQUAL(0, count_of(IR_phi) + count_of(IR_join) + count_of(IR_when));
 }
 
+/* Three dozen joins in one place, of values that stay: some are evicted for others. */
+static void change_everything(int regions)
+{
+    enum { MANY = 36 };
+    struct env *e = start();
+    flt before[MANY], value[MANY], sum = lit_f(E, 0);
+    for (int v = 0; v < MANY; v++)
+        set_f(E, v, before[v] = add_f(E, load_f(E, BASE_INPUT, 0), lit_f(E, (float)v)));
+    for (int region = 0; region < regions; region++)
+        WHEN (E, lt_f(E, load_f(E, BASE_INPUT, 4 * PROGRAM_LANES * region), lit_f(E, -3.5f))) {
+            for (int v = 0; v < MANY; v++)
+                value[v] = get_f(E, v);
+            for (int v = 0; v < MANY; v++)
+                set_f(E, v, v % 3 ? value[(7 * v + 1) % MANY] : mul_f(E, value[v], value[(v + 5) % MANY]));
+        }
+    for (int v = 0; v < MANY; v++)
+        sum = mad_f(E, sum, lit_f(E, 0.5f), get_f(E, MANY - 1 - v));
+    for (int v = 0; v < MANY; v++)
+        sum = mad_f(E, sum, lit_f(E, 0.75f), before[v]);
+    store_f(E, BASE_OUTPUT, 0, sum);
+    expect_equal();
+}
+
+static void test_a_region_that_changes_everything(void)
+{
+    change_everything(1);
+}
+
+static void test_two_regions_that_change_everything(void)
+{
+    change_everything(2);
+}
+
 /* Each place says where the next one is: the index and what is read at it do not share a register. */
 static void test_a_gather_from_where_the_last_one_pointed(void)
 {
@@ -345,6 +378,8 @@ int main(void)
     RUN_TEST(test_memory_is_not_read_before_the_region_that_reads_it);
     RUN_TEST(test_a_loop_that_nothing_comes_of_disappears);
     RUN_TEST(test_a_phi_of_one_value_is_that_value);
+    RUN_TEST(test_a_region_that_changes_everything);
+    RUN_TEST(test_two_regions_that_change_everything);
     RUN_TEST(test_a_gather_from_where_the_last_one_pointed);
     RUN_TEST(test_a_literal_that_a_loop_needs_in_a_register_is_loaded_before_it);
     return UNITY_END();
