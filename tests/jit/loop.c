@@ -311,12 +311,12 @@ static void change_everything(int regions)
             for (int v = 0; v < MANY; v++)
                 value[v] = get_f(E, v);
             for (int v = 0; v < MANY; v++)
-                set_f(E, v, v % 3 ? value[(7 * v + 1) % MANY] : mul_f(E, value[v], value[(v + 5) % MANY]));
+                set_f(E, v, v % 3 ? value[(7 * v + 1) % MANY] : add_f(E, value[v], value[(v + 5) % MANY]));
         }
     for (int v = 0; v < MANY; v++)
-        sum = mad_f(E, sum, lit_f(E, 0.5f), get_f(E, MANY - 1 - v));
+        sum = sub_f(E, get_f(E, MANY - 1 - v), sum);
     for (int v = 0; v < MANY; v++)
-        sum = mad_f(E, sum, lit_f(E, 0.75f), before[v]);
+        sum = sub_f(E, before[v], sum);
     store_f(E, BASE_OUTPUT, 0, sum);
     expect_equal();
 }
