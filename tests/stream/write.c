@@ -197,7 +197,7 @@ static void the_streams_of_the_project_come_back(void)
     static const char *const paths[] = {"tests/streams/frames.tri",         "tests/streams/meshes.tri",
                                         "tests/streams/vertex-buffers.tri", "bench/streams/teapot-lit.tri",
                                         "bench/streams/blend.tri",          "tests/scenes/shadow-volume.tri",
-                                        "tests/scenes/tunnel.tri"};
+                                        "tests/scenes/tunnel.tri",          "tests/streams/shaders.tri"};
     for (size_t i = 0; i < sizeof paths / sizeof *paths; i++) {
         char *text;
         size_t bytes;
