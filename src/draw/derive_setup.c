@@ -152,10 +152,19 @@ static float point_size(const struct state *state)
     return size < GET_FLOAT(pointsize_min) ? fminf(GET_FLOAT(pointsize_min), POINT_SIZE_MAXIMUM) : size;
 }
 
-static void fill_point_sizes(const struct state *state, struct job *job)
+static float point_limit(uint32_t bits)
 {
-    job->point_least = fminf(GET_FLOAT(pointsize_min), POINT_SIZE_MAXIMUM);
-    job->point_most = fminf(GET_FLOAT(pointsize_max), POINT_SIZE_MAXIMUM);
+    return fminf(state_float(bits), POINT_SIZE_MAXIMUM);
+}
+
+static void fill_point_limits(const struct state *state, struct job *job)
+{
+    job->point_least = point_limit(GET(pointsize_min));
+    job->point_most = point_limit(GET(pointsize_max));
+}
+
+static void fill_point_scale(const struct state *state, struct job *job)
+{
     job->point_scale[0] = GET_FLOAT(pointscale_a);
     job->point_scale[1] = GET_FLOAT(pointscale_b);
     job->point_scale[2] = GET_FLOAT(pointscale_c);
@@ -167,10 +176,11 @@ void derive_setup_job(const struct state *state, const struct vertex_key *vertex
 {
     job->depth_bias = GET_FLOAT(depthbias);
     job->depth_bias_slope = GET_FLOAT(slopescaledepthbias);
-    int own_sizes = vertex->point_size || vertex->size_link;
-    job->point_size = own_sizes ? GET_FLOAT(pointsize) : point_size(state);
-    if (own_sizes)
-        fill_point_sizes(state, job);
+    job->point_size = vertex->point_size ? GET_FLOAT(pointsize) : vertex->size_link ? 0 : point_size(state);
+    if (vertex->point_size || vertex->size_link)
+        fill_point_limits(state, job);
+    if (vertex->point_size)
+        fill_point_scale(state, job);
     for (int i = 0, n = 0; n < vertex->clip_planes; i++)
         if (GET(clipplaneenable) >> i & 1)
             transform_plane(state->clip_plane[i], view_projection, job->clip_plane[n++]);

@@ -221,6 +221,15 @@ static void derive_projected(const struct state *state, const struct program *pr
             key->projected[i] = derive_projection(state, i);
 }
 
+/* Where samples are matters to their depth and to centroids alone. */
+static bool reads_centroid(const struct program *program)
+{
+    bool r = false;
+    for (int i = 0; i < PORTS; i++)
+        r |= program->port[i].mask && program->port[i].centroid;
+    return r;
+}
+
 void derive_pixel_shader(const struct state *state, const struct program *program, enum primitive primitive,
                          struct pixel_key *key)
 {
@@ -237,4 +246,6 @@ void derive_pixel_shader(const struct state *state, const struct program *progra
         if (key->varying[VARYING_fog] && primitive_is_point(primitive))
             key->varying[VARYING_fog] = INTERPOLATION_FLAT;
     }
+    if ((!pixel_tests_depth(key) || key->depth_output) && !reads_centroid(program))
+        key->sample_centers = 0;
 }

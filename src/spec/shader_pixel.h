@@ -78,9 +78,10 @@ static inline void finish_shader_packed(struct env *e, const struct pixel_source
     struct color color[TARGETS];
     for (int t = 0; t < TARGETS; t++) {
         struct float_color exact = shader_color(m, t);
-        if (s->k->write_mask[t] || (!t && s->k->alpha_discard))
-            color[t] = color_quantize(E, exact.channel);
-        if (!t && s->k->fog)
+        if (!s->k->write_mask[t] && !(t == 0 && s->k->alpha_discard))
+            continue;
+        color[t] = color_quantize(E, exact.channel);
+        if (t == 0)
             color[t] = apply_fog(E, s, color[t]);
     }
     finish_packed(E, s, color, 1, live);

@@ -30,11 +30,9 @@ static const struct {
 } situations[] = {
 #define SITUATION(name, description) {name, description},
 #define GATE(holds, means_nothing)
-#define SHADER(name, text)
 #include "tests/support/situation.def"
 #undef SITUATION
 #undef GATE
-#undef SHADER
 };
 
 enum { SITUATIONS = sizeof situations / sizeof *situations };
@@ -44,11 +42,9 @@ static const struct {
 } gates[] = {
 #define SITUATION(name, description)
 #define GATE(holds, means_nothing) {holds, means_nothing},
-#define SHADER(name, text)
 #include "tests/support/situation.def"
 #undef SITUATION
 #undef GATE
-#undef SHADER
 };
 
 enum { GATES = sizeof gates / sizeof *gates };
@@ -661,9 +657,16 @@ enum { ALIKES = sizeof alikes / sizeof *alikes };
 
 static bool alike_needed[ALIKES];
 
+/* What differs of two vertex shaders may be what the pixel side does not read. */
+static bool other_vertex_shaders(const struct known *a, const struct known *b)
+{
+    const struct vertex_key *x = &a->key.vertex, *y = &b->key.vertex;
+    return a->unit == UNIT_VERTEX && key_program(x->shader) != key_program(y->shader);
+}
+
 static bool may_be_alike(const struct known *a, const struct known *b)
 {
-    bool result = false;
+    bool result = other_vertex_shaders(a, b);
     for (unsigned i = 0; i < ALIKES && a->unit == UNIT_PIXEL; i++)
         if (alikes[i].applies(&a->key.pixel, &b->key.pixel))
             alike_needed[i] = result = true;

@@ -4,6 +4,7 @@
 #include "fence.h"
 
 #include "draw/depth.h"
+#include "tests/support/programs.h"
 
 #include <stdio.h>
 #include <stdlib.h>
@@ -13,6 +14,7 @@
 enum {
     STRIDE_MAXIMUM = 44, /* bytes between two vertices of a stream */
     FETCH_MAXIMUM = 16,
+    CONSTANT_BYTES = 16 * (256 + 1 + 16),
     STREAM_BYTES = VERTEX_CAPACITY * STRIDE_MAXIMUM + FETCH_MAXIMUM + 4,
     TEXTURE_SIDE = 64,
     SMALL_SIDE = 16,
@@ -47,7 +49,8 @@ struct differential {
     uint8_t *stream[ATTRIBUTE_COUNT]; /* fenced */
     uint8_t *texels;                  /* fenced */
     struct texture_level levels[SAMPLERS][LEVELS];
-    uint8_t *palette; /* fenced */
+    uint8_t *palette;   /* fenced */
+    uint8_t *constants; /* fenced */
     alignas(64) uint32_t index_words[1 + SETUP_INDEX_ROWS * SETUP_CAPACITY];
     struct entry_list entries;
     alignas(64) uint8_t triangles[TRIANGLES * RECORD_MAXIMUM];
@@ -64,7 +67,8 @@ struct differential *differential_create(struct code_arena *arena)
     d->arena = arena;
     d->texels = fence(TEXTURE_BYTES);
     d->palette = fence(PALETTE_BYTES);
-    int complete = d->texels && d->palette;
+    d->constants = fence(CONSTANT_BYTES);
+    int complete = d->texels && d->palette && d->constants;
     for (int a = 0; a < ATTRIBUTE_COUNT; a++)
         complete &= (d->stream[a] = fence(STREAM_BYTES)) != NULL;
     if (complete)
@@ -81,6 +85,7 @@ void differential_destroy(struct differential *d)
         unfence(d->stream[a], STREAM_BYTES);
     unfence(d->texels, TEXTURE_BYTES);
     unfence(d->palette, PALETTE_BYTES);
+    unfence(d->constants, CONSTANT_BYTES);
     free(d);
 }
 
@@ -195,6 +200,7 @@ static void make_job(struct differential *d)
 {
     struct job *job = &d->job;
     memset(job, 0, sizeof *job);
+    job->srgb = &srgb_tables;
     fill(d, job->world_view_projection, sizeof job->world_view_projection, -2, 2);
     fill(d, job->world_view, sizeof job->world_view, -2, 2);
     fill(d, job->normal, sizeof job->normal, -2, 2);
@@ -220,6 +226,29 @@ static void make_job(struct differential *d)
     fill(d, job->clip_plane, sizeof job->clip_plane, -2, 2);
 }
 
+/* --- Shaders --- */
+
+/* The last of them ends at the fence. Loops are short, and most relative addresses small. */
+static void make_constants(struct differential *d, enum unit unit, const union key *key)
+{
+    float floats[256][4];
+    int32_t integers[16][4];
+    const struct program *program = key_shader(unit, key);
+    if (!program)
+        return;
+    size_t bytes = program_constant_bytes(program);
+    uint8_t *constants = d->constants + CONSTANT_BYTES - bytes;
+    fill(d, floats, sizeof floats, -2, 2);
+    for (int i = 0; i < 16; i++) {
+        integers[i][0] = (int32_t)below(d, 4);
+        integers[i][1] = (int32_t)below(d, 12);
+        integers[i][2] = (int32_t)below(d, 7) - 3;
+        integers[i][3] = 0;
+    }
+    program_write_constants(program, (const float(*)[4])floats, (const int32_t(*)[4])integers, constants);
+    d->job.constants[program->model->stage] = (const float *)(const void *)constants;
+}
+
 /* --- Vertices --- */
 
 /* Indices come from anywhere: of words, but not of vectors. */
@@ -229,10 +258,9 @@ static uint32_t *indices(struct differential *d)
 }
 
 /* The last vertex that is fetched ends at the fence, or up to three bytes before it. */
-static void make_stream(struct differential *d, int attribute, int format, uint32_t last)
+static void make_stream(struct differential *d, uint8_t *stream, struct attribute_job *job, int format,
+                        uint32_t last)
 {
-    struct attribute_job *job = &d->job.attribute[attribute];
-    uint8_t *stream = d->stream[attribute];
     job->stride = 4 * (int32_t)below(d, STRIDE_MAXIMUM / 4 + 1);
     job->data = stream + STREAM_BYTES - last * (uint32_t)job->stride - vertex_types[format].bytes;
     if (!below(d, 4))
@@ -254,7 +282,9 @@ static void make_vertex_inputs(struct differential *d, const struct vertex_key *
         last = indices(d)[i] > last ? indices(d)[i] : last;
     }
     for (int a = 0; a < ATTRIBUTE_COUNT; a++)
-        make_stream(d, a, key->attribute[a], last);
+        make_stream(d, d->stream[a], &d->job.attribute[a], key->attribute[a], last);
+    for (int i = 0; i < INPUTS && key_program(key->shader); i++) /* attributes are not read then */
+        make_stream(d, d->stream[i], &d->job.input[i], key->input[i], last);
 }
 
 /* --- Triangles --- */
@@ -498,7 +528,6 @@ static int32_t alpha_reference(struct differential *d)
 static void make_targets(struct differential *d, const struct pixel_key *key)
 {
     uint32_t *plane = d->initial.color;
-    d->job.srgb = &srgb_tables;
     for (int t = 0; t < (key->samples ? 1 : TARGETS); t++)
         for (int p = 0; p < target_planes[key->target[t]] << key->samples; p++, plane += TILE_PIXELS)
             if (target_planes[key->target[t]] > 1)
@@ -536,6 +565,7 @@ static void make_inputs(struct differential *d, enum unit unit, const union key 
     d->wild = (int)below(d, 2);
     memset(&d->initial, UNTOUCHED, sizeof d->initial);
     make_job(d);
+    make_constants(d, unit, key);
     switch (unit) {
     case UNIT_VERTEX:
         make_vertex_inputs(d, &key->vertex);
@@ -732,6 +762,21 @@ static void sample_usually(uint64_t chance, struct pixel_key *key)
         key->write_mask[t] = key->target[t] = 0;
 }
 
+/* A quarter of the routines have a shader. */
+static void shade_usually(uint64_t chance, enum unit unit, union key *key)
+{
+    const struct program *program[16];
+    uint8_t *shader = unit == UNIT_VERTEX ? key->vertex.shader : key->pixel.shader;
+    enum shader_stage stage = unit == UNIT_VERTEX ? STAGE_VERTEX : STAGE_PIXEL;
+    unsigned count = 0;
+    for (unsigned i = 0; sample_program(i); i++)
+        if (sample_program(i)->model->stage == stage)
+            program[count++] = sample_program(i);
+    key_set_program(shader, (chance >> 44) % 4 ? 0 : program[(chance >> 48) % count]->number);
+    if (unit == UNIT_PIXEL && !key_program(shader))
+        key->pixel.kills = key->pixel.depth_output = 0;
+}
+
 const char *differential_rounds(struct differential *d, const struct engine *a, const struct engine *b,
                                 enum unit unit, differential_shape *shape, uint64_t seed, int rounds)
 {
@@ -744,6 +789,8 @@ const char *differential_rounds(struct differential *d, const struct engine *a, 
                 sample_usually(seed, &key.pixel);
         if (unit == UNIT_VERTEX)
             declare_usually(seed, &key.vertex);
+        if (unit != UNIT_SETUP)
+            shade_usually(seed, unit, &key);
         if (shape)
             shape(unit, &key);
         difference = differential_compare(d, a, b, unit, &key, seed);

@@ -1,6 +1,6 @@
 #include "tests/support/situation.h"
 
-#include "shader/program.h"
+#include "tests/support/programs.h"
 
 #include <stdlib.h>
 #include <string.h>
@@ -129,46 +129,14 @@ static enum triptych_result set_texture(struct reader *r)
     return TRIPTYCH_OK;
 }
 
-static const struct {
-    const char *name, *text;
-} shaders[] = {
-#define SITUATION(name, description)
-#define GATE(holds, means_nothing)
-#define SHADER(name, text) {#name, text},
-#include "tests/support/situation.def"
-#undef SITUATION
-#undef GATE
-#undef SHADER
-};
-
-enum { SHADERS = sizeof shaders / sizeof *shaders };
-
-static const struct program *program_of(unsigned number)
-{
-    static const struct program *made[SHADERS];
-    struct error error = {{0}};
-    struct shader *shader = NULL;
-    const char *text = shaders[number].text;
-    if (!made[number] && !shader_assemble(shaders[number].name, text, strlen(text), &shader, &error) &&
-        !shader_validate(shader, NULL, &error))
-        made[number] = program_acquire(shader, &error);
-    shader_free(shader);
-    TEST_ASSERT_NOT_NULL_MESSAGE(made[number], error.text);
-    return made[number];
-}
-
 /* `vertex none`, `pixel none`: the fixed function. */
 static enum triptych_result set_shader(struct reader *r, enum shader_stage stage)
 {
     static struct shader_registers registers;
-    unsigned i = 0;
-    next(r);
-    while (i < SHADERS && strcmp(r->word, shaders[i].name) != 0)
-        i++;
-    TEST_ASSERT_TRUE_MESSAGE(i < SHADERS || !strcmp(r->word, "none"), r->word);
-    r->situation->state.program[stage] = i < SHADERS ? program_of(i) : NULL;
+    const struct program *program = strcmp(next(r), "none") ? sample_named(r->word) : NULL;
+    TEST_ASSERT_TRUE_MESSAGE(!program || program->model->stage == stage, r->word);
+    r->situation->state.program[stage] = program;
     r->situation->state.registers[stage] = &registers;
-    TEST_ASSERT_TRUE_MESSAGE(i == SHADERS || program_of(i)->model->stage == stage, r->word);
     return TRIPTYCH_OK;
 }
 
@@ -180,6 +148,13 @@ static enum triptych_result set_vertex_shader(struct reader *r)
 static enum triptych_result set_pixel_shader(struct reader *r)
 {
     return set_shader(r, STAGE_PIXEL);
+}
+
+static enum triptych_result set_booleans(struct reader *r)
+{
+    uint16_t *bits = &r->situation->state.booleans[number(r, SHADER_STAGES)];
+    *bits = (uint16_t)number(r, 0x10000);
+    return TRIPTYCH_OK;
 }
 
 static enum triptych_result set_light(struct reader *r)
@@ -268,10 +243,11 @@ const char *situation_add(struct situation *situation, const char *description)
 {
     static const char *const name[] = {"state",     "sampler", "stage", "texture", "light",
                                        "attribute", "target",  "depth", "samples", "projection",
-                                       "draw",      "vertex",  "pixel"};
+                                       "draw",      "vertex",  "pixel", "booleans"};
     static enum triptych_result (*const follow[])(struct reader *) = {
-        set_state, set_sampler, set_stage,      set_texture, set_light,         set_attribute,   set_target,
-        set_depth, set_samples, set_projection, set_drawn,   set_vertex_shader, set_pixel_shader};
+        set_state,     set_sampler,       set_stage,        set_texture, set_light,
+        set_attribute, set_target,        set_depth,        set_samples, set_projection,
+        set_drawn,     set_vertex_shader, set_pixel_shader, set_booleans};
     static struct reader r;
     r = (struct reader){.at = description, .situation = situation};
     for (r.at += strspn(r.at, " "); *r.at; r.at += strspn(r.at, " ")) {

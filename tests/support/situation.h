@@ -12,7 +12,8 @@
  *   samples N                      2^N per pixel
  *   projection NAME                perspective, as it is at first, or parallel
  *   draw PRIMITIVE                 triangles, as it is at first, lines or points
- *   vertex NAME, pixel NAME        a shader, a row of SHADER in situation.def; none: the fixed function
+ *   vertex NAME, pixel NAME        a shader, a row of tests/support/programs.def; none: the fixed function
+ *   booleans STAGE BITS            constants: 0 of vertices, 1 of pixels
  * At first every attribute is given that does not change what the others are for, and all else that is no
  * state by number has values that show where they go: materials, matrices, clip planes, a scissor rectangle
  * inside the viewport. */
