@@ -2,10 +2,10 @@
  * joins.
  *
  * A web is a set of values that are never alive at the same time, joined by phis; allocation treats it as
- * one value with several definitions. Every value begins as a web of its own. Then each phi is united with
- * its next value, inner loops first since they run most; each join with its operands; each phi with the
- * value that it begins as; unless two values of the united web would be alive at once. What is not united
- * is moved where control passes from one to the other (move.c).
+ * one value with several definitions. Every value begins as a web of its own. Then, in loops and inner ones
+ * first since they run most, each join is united with its operands and each phi with its next value; then
+ * the joins elsewhere; then each phi with the value that it begins as; unless two values of the united web
+ * would be alive at once. What is not united is moved where control passes from one to the other (move.c).
  *
  * A value is alive from its definition to its last use, and if it comes from outside of a loop and is used
  * inside, to the loop's end. A join reads its operands where control splits: the first at its region's
@@ -144,28 +144,45 @@ static void unite(const struct ir *ir, struct allocation *a, unsigned value, uns
         unite_lists(a, x, y);
 }
 
-static void unite_all(const struct ir *ir, struct allocation *a, enum ir_op op)
+static void unite_join(const struct ir *ir, struct allocation *a, uint32_t join)
 {
+    const struct ir_instruction *i = &ir->instruction[join];
+    if (a->death[join] == join)
+        return;
+    unite(ir, a, join, i->operand[1]);
+    unite(ir, a, join, i->operand[0]);
+}
+
+/* Joins in loops and their phis' next values, or what stands in no loop. */
+static void unite_joins(const struct ir *ir, struct allocation *a, int in_loops)
+{
+    unsigned depth = 0;
     for (uint32_t number = 1; number < ir->count; number++) {
         const struct ir_instruction *i = &ir->instruction[number];
-        if (i->op != op)
+        depth += i->op == IR_loop;
+        depth -= i->op == IR_again;
+        if ((depth != 0) != in_loops)
             continue;
-        if (op == IR_next)
+        if (i->op == IR_join)
+            unite_join(ir, a, number);
+        else if (i->op == IR_next)
             unite(ir, a, i->operand[0], i->operand[1]);
-        else if (a->death[number] > number) {
-            if (op == IR_join)
-                unite(ir, a, number, i->operand[1]);
-            unite(ir, a, number, i->operand[0]);
-        }
     }
+}
+
+static void unite_phis(const struct ir *ir, struct allocation *a)
+{
+    for (uint32_t number = 1; number < ir->count; number++)
+        if (ir->instruction[number].op == IR_phi && a->death[number] > number)
+            unite(ir, a, number, ir->instruction[number].operand[0]);
 }
 
 void allocate_coalesce(const struct ir *ir, struct allocation *a)
 {
     find_lives(ir, a);
-    unite_all(ir, a, IR_next);
-    unite_all(ir, a, IR_join);
-    unite_all(ir, a, IR_phi);
+    unite_joins(ir, a, 1);
+    unite_joins(ir, a, 0);
+    unite_phis(ir, a);
     for (uint32_t number = 1; number < ir->count; number++)
         a->web[number] = (uint16_t)find(a, number);
 }
