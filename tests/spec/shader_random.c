@@ -1,4 +1,5 @@
-/* Random shaders of many instructions, with conditions, loops, breaks, predication, modifiers and masks, mean the same in
+/* Random shaders of many instructions, with conditions, loops, breaks, predication, relative addresses, modifiers and
+ * masks, mean the same in
  * every way and on every engine, to the bit. */
 #include "tests/support/seed.h"
 #include "tests/support/trial.h"
@@ -7,7 +8,7 @@
 #include <stdio.h>
 #include <string.h>
 
-enum { TEXT = 1 << 14, REGISTERS = 8, CONSTANTS = 8, SHADERS = 20, DEPTH = 4 };
+enum { TEXT = 1 << 14, REGISTERS = 8, CONSTANTS = 8, SHADERS = 24, DEPTH = 4 };
 
 static char text[TEXT];
 static uint64_t seed;
@@ -43,6 +44,9 @@ static void put(const char *format, ...)
  */
 
 static int constants_left; /* an instruction can read one */
+static int counters;       /* loops with aL around it */
+static char stage;         /* v or p */
+static int third;          /* models 3.0, which have more modifiers */
 
 static void put_components(unsigned count)
 {
@@ -51,17 +55,28 @@ static void put_components(unsigned count)
         put("%c", "xyzw"[below(4)]);
 }
 
+static void put_constant(void)
+{
+    if (stage == 'v' && counters && below(2))
+        put("c[aL + %u]", below(CONSTANTS));
+    else if (stage == 'v' && !below(3))
+        put("c[a0.%c + %u]", "xyzw"[below(4)], below(CONSTANTS));
+    else
+        put("c%u", below(CONSTANTS));
+}
+
 enum { ANY_SWIZZLE, SCALAR, NO_SWIZZLE };
 
 static void put_source(int kind, unsigned apart)
 {
     unsigned number = below(REGISTERS);
-    const char *behind = below(4) ? "" : "_abs";
+    const char *behind = !third || below(4) ? "" : "_abs";
     if (number == apart)
         number = (number + 1) % REGISTERS;
     put(", %s", below(3) ? "" : "-");
     if (constants_left && !below(4)) {
-        put("c%u%s", below(CONSTANTS), behind);
+        put_constant();
+        put("%s", behind);
         constants_left--;
     } else
         put("r%u%s", number, behind);
@@ -104,17 +119,17 @@ static const struct instruction {
     {"expp", 1, SCALAR, 1, NULL, "v"},       {"cmp", 3, ANY_SWIZZLE, 1, NULL, "p"},
 };
 
-static void put_instruction(char stage, int predicates)
+static void put_instruction(void)
 {
     const struct instruction *i;
     do
         i = &instructions[below(sizeof instructions / sizeof *instructions)];
-    while (!strchr(i->stages, stage));
+    while (!strchr(i->stages, stage) || (!third && !strcmp(i->name, "sincos")));
     unsigned result = below(REGISTERS);
     int apart = !strcmp(i->name, "crs") || !strcmp(i->name, "nrm");
-    if (predicates && !below(3))
+    if (!below(3))
         put("(%sp0%s) ", below(2) ? "!" : "", below(2) ? "" : ".y");
-    put("%s%s r%u", i->name, i->saturates && !below(4) ? "_sat" : "", result);
+    put("%s%s r%u", i->name, i->saturates && (third || stage == 'p') && !below(4) ? "_sat" : "", result);
     if (i->mask)
         put("%s", i->mask);
     else
@@ -138,18 +153,18 @@ static void put_comparison(const char *name)
     put("\n");
 }
 
-static void put_block(char stage, int depth, int loops, unsigned length);
+static void put_block(int depth, int loops, unsigned length);
 
-static void put_condition(char stage, int depth, int loops)
+static void put_condition(int depth, int loops)
 {
     if (below(3))
         put_comparison("if");
     else
         put("if %sp0.%c\n", below(2) ? "!" : "", "xyzw"[below(4)]);
-    put_block(stage, depth + 1, loops, below(5));
+    put_block(depth + 1, loops, below(5));
     if (below(2)) {
         put("else\n");
-        put_block(stage, depth + 1, loops, below(5));
+        put_block(depth + 1, loops, below(5));
     }
     put("endif\n");
 }
@@ -164,31 +179,51 @@ static void put_setp(void)
     put("\n");
 }
 
-/* A line, or a block of them. */
-static void put_block(char stage, int depth, int loops, unsigned length)
+static void put_loop(int depth, int loops)
+{
+    int counts = (stage == 'v' || third) && below(2);
+    put(counts ? "loop aL, i%u\n" : "rep i%u\n", below(4));
+    counters += counts;
+    put_block(depth + 1, loops + 1, 1 + below(5));
+    counters -= counts;
+    put(counts ? "endloop\n" : "endrep\n");
+}
+
+static void put_address(void)
+{
+    put("mova a0");
+    put_mask();
+    put(", r%u\n", below(REGISTERS));
+}
+
+/* Lines, or blocks of them. */
+static void put_block(int depth, int loops, unsigned length)
 {
     for (unsigned i = 0; i < length; i++) {
         unsigned which = below(16);
         if (which == 0 && depth < DEPTH)
-            put_condition(stage, depth, loops);
-        else if (which == 1 && depth < DEPTH && loops < 2) {
-            put("rep i%u\n", below(4));
-            put_block(stage, depth + 1, loops + 1, 1 + below(5));
-            put("endrep\n");
-        } else if (which == 2 && loops)
+            put_condition(depth, loops);
+        else if (which == 1 && depth < DEPTH && loops < 2)
+            put_loop(depth, loops);
+        else if (which == 2 && loops)
             put_comparison("break");
         else if (which == 3)
             put_setp();
+        else if (which == 4 && stage == 'v')
+            put_address();
         else
-            put_instruction(stage, 1);
+            put_instruction();
     }
 }
 
 static void try_shader(const char *model, unsigned number)
 {
-    static const int32_t integers[4][4] = {{0}, {1, 0, 0, 0}, {2, 0, 0, 0}, {5, 0, 0, 0}};
+    static const int32_t integers[4][4] = {{0}, {1, 3, 1, 0}, {2, 0, 2, 0}, {5, 9, -3, 0}};
     static float constants[CONSTANTS][4];
     static struct trial_operands operands[40];
+    stage = model[0];
+    third = model[3] == '3';
+    counters = 0;
     seed = (test_seed() + number) * 0x9e3779b97f4a7c15ull | 1;
     text[0] = 0;
     for (unsigned i = 0; i < CONSTANTS * 4; i++)
@@ -200,7 +235,9 @@ static void try_shader(const char *model, unsigned number)
         if (r < 1 || r > TRIAL_OPERANDS)
             put("mov r%u, r%u.%s\n", r, 1 + r % 3, r % 2 ? "wzyx" : "yzwx");
     put("setp_ge p0, r1, r2\n");
-    put_block(model[0], 0, 0, 10 + below(number % 8 ? 30 : 90));
+    if (stage == 'v')
+        put("mova a0, r2\n");
+    put_block(third ? 0 : 2, 0, 10 + below(!third ? 10 : number % 8 ? 30 : 90));
     text[strlen(text) - 1] = 0;
     struct trial trial = {.model = model,
                           .body = text,
@@ -218,13 +255,13 @@ static void try_shader(const char *model, unsigned number)
 static void random_vertex_shaders_mean_the_same_everywhere(void)
 {
     for (unsigned number = 1; number <= SHADERS; number++)
-        try_shader("vs_3_0", number);
+        try_shader(number % 4 ? "vs_3_0" : "vs_2_x", number);
 }
 
 static void random_pixel_shaders_mean_the_same_everywhere(void)
 {
     for (unsigned number = 1; number <= SHADERS; number++)
-        try_shader("ps_3_0", SHADERS + number);
+        try_shader(number % 4 ? "ps_3_0" : "ps_2_x", SHADERS + number);
 }
 
 int main(void)
