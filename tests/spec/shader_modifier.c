@@ -257,6 +257,25 @@ static void saturation_ends_at_0_and_1_and_takes_nan_to_0(void)
     }
 }
 
+/* Partial precision is as good as the whole. */
+static void partial_reference(const struct trial *trial, operands o, double r[TRIAL_RESULTS][4])
+{
+    (void)trial;
+    for (int c = 0; c < 4; c++) {
+        r[0][c] = trial_fused(at(o, 0, c), at(o, 1, c), at(o, 2, c));
+        r[1][c] = saturated(at(o, 0, c) + at(o, 1, c));
+    }
+}
+
+static void partial_precision_changes_nothing(void)
+{
+    static const char *const models[] = {"ps_2_0", "ps_2_x", "ps_3_0"};
+    for (unsigned m = 0; m < sizeof models / sizeof *models; m++) {
+        struct trial trial = trial_of(models[m], "mad_pp r0, r1, r2, r3\nadd_sat_pp r4, r1, r2", 2);
+        trial_expect(&trial, partial_reference);
+    }
+}
+
 static int shift, saturates;
 
 static void shifted_reference(const struct trial *trial, operands o, double r[TRIAL_RESULTS][4])
@@ -392,6 +411,7 @@ int main(void)
     RUN_TEST(every_mask_keeps_what_it_does_not_name);
     RUN_TEST(sources_are_read_before_the_result_is_written);
     RUN_TEST(saturation_ends_at_0_and_1_and_takes_nan_to_0);
+    RUN_TEST(partial_precision_changes_nothing);
     RUN_TEST(results_are_shifted_and_then_saturated);
     RUN_TEST(predicates_choose_component_by_component);
     RUN_TEST(predicates_are_written_by_masks_and_under_predication);
