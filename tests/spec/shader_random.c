@@ -46,7 +46,8 @@ static void put(const char *format, ...)
 static int constants_left; /* an instruction can read one */
 static int counters;       /* loops with aL around it */
 static char stage;         /* v or p */
-static int third;          /* models 3.0, which have more modifiers */
+static int third;          /* models 3.0, which have more modifiers and room */
+static int lines_left, loops_left;
 
 static void put_components(unsigned count)
 {
@@ -199,11 +200,11 @@ static void put_address(void)
 /* Lines, or blocks of them. */
 static void put_block(int depth, int loops, unsigned length)
 {
-    for (unsigned i = 0; i < length; i++) {
+    for (unsigned i = 0; i < length && lines_left-- > 0; i++) {
         unsigned which = below(16);
         if (which == 0 && depth < DEPTH)
             put_condition(depth, loops);
-        else if (which == 1 && depth < DEPTH && loops < 2)
+        else if (which == 1 && depth < DEPTH && loops < 2 && loops_left-- > 0)
             put_loop(depth, loops);
         else if (which == 2 && loops)
             put_comparison("break");
@@ -224,6 +225,8 @@ static void try_shader(const char *model, unsigned number)
     stage = model[0];
     third = model[3] == '3';
     counters = 0;
+    lines_left = third ? 300 : 50;
+    loops_left = third ? 20 : 4;
     seed = (test_seed() + number) * 0x9e3779b97f4a7c15ull | 1;
     text[0] = 0;
     for (unsigned i = 0; i < CONSTANTS * 4; i++)
