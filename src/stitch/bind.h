@@ -75,7 +75,7 @@ static inline uint32_t append_row(struct env *e, struct operation operation)
 {
     if (forms_that_fuse >> operation.form & 1)
         plan_fuse(e->plan, &operation);
-    return append(e, operation);
+    return operation.form == FORM_same ? operation.operand[0] : append(e, operation);
 }
 
 static inline uint32_t append_immediate(struct env *e, const struct fragment *fragment, uint32_t a, int k)
@@ -351,7 +351,6 @@ static inline uint32_t variable_get(struct env *e, int number)
 {
     struct variable_state *variable = variable_at(e, number);
     if (!variable_is_known(e, variable)) {
-        variable->gets++;
         variable_known(e, variable, append(e, (struct operation){.kind = OPERATION_GET, .k = {number}}));
     }
     return variable->value;

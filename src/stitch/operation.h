@@ -86,10 +86,9 @@ struct value {
 
 enum { SLOT_NONE = -1, VECTOR_NONE = 255 };
 
-/* A variable: its slot, or SLOT_NONE, and how many operations get it. */
+/* A variable: its slot, or SLOT_NONE. */
 struct variable_state {
     int32_t slot;
-    uint32_t gets;
     uint32_t value; /* that it is known to have, 0: none; where that was learned: */
     uint32_t known_at, region;
     uint32_t depth;

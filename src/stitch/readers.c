@@ -2,14 +2,40 @@
  *
  * What is given before a loop and read in it must be there in every pass: it lives to the loop's end, of the
  * outermost loop that it is given before. What nobody reads is never asked for, and so neither is what only
- * it reads; variables that nobody gets are not set. */
+ * it reads. A variable is not set where whatever way leads on sets it again before it is got: what is got
+ * behind a region is got on the way past it too, and of a loop's next pass anything is expected. */
 #include "stitch/plan.h"
+
+#include <string.h>
+
+/* Variables, as a set. */
+struct variables {
+    uint64_t bits[VARIABLES / 64];
+};
 
 struct walk {
     struct plan *plan;
     unsigned depth;
     uint32_t begin[NESTING_MAXIMUM], end[NESTING_MAXIMUM]; /* the open loops, from the outermost */
+    struct variables wanted;                               /* got before they are set again */
+    unsigned skips;
+    struct variables behind[NESTING_MAXIMUM]; /* wanted at the ends of the open regions that may be skipped */
 };
+
+static int wants(const struct walk *walk, int32_t variable)
+{
+    return walk->wanted.bits[variable / 64] >> variable % 64 & 1;
+}
+
+static void get_variable(struct walk *walk, int32_t variable)
+{
+    walk->wanted.bits[variable / 64] |= 1ull << variable % 64;
+}
+
+static void set_variable(struct walk *walk, int32_t variable)
+{
+    walk->wanted.bits[variable / 64] &= ~(1ull << variable % 64);
+}
 
 /* The end of the outermost open loop that begins behind the value; 0: there is none. */
 static uint32_t loop_of(const struct walk *walk, uint32_t value)
@@ -43,38 +69,54 @@ static void read_operands(struct walk *walk, struct operation *operation, uint32
     }
 }
 
-static int is_needed(const struct plan *plan, const struct operation *operation, uint32_t number)
+static int is_needed(const struct walk *walk, const struct operation *operation, uint32_t number)
 {
     switch (operation->kind) {
     case OPERATION_COMPUTE:
     case OPERATION_LITERAL:
     case OPERATION_READ:
-    case OPERATION_GET: return plan->value[number].last != 0;
-    case OPERATION_SET: return plan->variable[operation->k[0]].gets != 0;
+    case OPERATION_GET: return walk->plan->value[number].last != 0;
+    case OPERATION_SET: return wants(walk, operation->k[0]);
     default: return 1;
+    }
+}
+
+static void control(struct walk *walk, const struct operation *operation, uint32_t number)
+{
+    switch (operation->kind) {
+    case OPERATION_GET: get_variable(walk, operation->k[0]); break;
+    case OPERATION_SET: set_variable(walk, operation->k[0]); break;
+    case OPERATION_END: walk->behind[walk->skips++] = walk->wanted; break;
+    case OPERATION_WHEN:
+        walk->skips--;
+        for (int i = 0; i < VARIABLES / 64; i++)
+            walk->wanted.bits[i] |= walk->behind[walk->skips].bits[i];
+        break;
+    case OPERATION_AGAIN:
+        walk->begin[walk->depth] = (uint32_t)operation->k[0];
+        walk->end[walk->depth++] = number;
+        memset(&walk->wanted, 0xff, sizeof walk->wanted);
+        break;
+    case OPERATION_LOOP: walk->depth--; break;
+    default: break;
     }
 }
 
 void plan_find_readers(struct plan *plan)
 {
-    struct walk walk;
+    struct walk walk; /* what is open, which is most of it, has no values yet */
     walk.plan = plan;
-    walk.depth = 0;
+    walk.depth = walk.skips = 0;
+    memset(&walk.wanted, 0, sizeof walk.wanted);
     if (plan->unrecorded || plan->depth > NESTING_MAXIMUM)
         return;
     for (uint32_t number = plan->operations - 1; number; number--) {
         struct operation *operation = &plan->operation[number];
-        if (!is_needed(plan, operation, number)) {
-            if (operation->kind == OPERATION_GET)
-                plan->variable[operation->k[0]].gets--;
+        if (!is_needed(&walk, operation, number)) {
             operation->kind = OPERATION_NONE;
             continue;
         }
-        if (operation->kind == OPERATION_AGAIN) {
-            walk.begin[walk.depth] = (uint32_t)operation->k[0];
-            walk.end[walk.depth++] = number;
-        } else if (operation->kind == OPERATION_LOOP)
-            walk.depth--;
+        control(&walk, operation, number);
         read_operands(&walk, operation, number);
     }
 }
