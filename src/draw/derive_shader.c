@@ -211,13 +211,25 @@ static void derive_ports(const struct state *state, const struct program *progra
                 key->varying[port_varying(i, c)] = port_interpolation(state, &program->port[i], i, primitive);
 }
 
-/* ps_1_1 to ps_1_3 divide by the stage's state where they sample; later models say so themselves. */
+static bool samples_coordinates(const struct program *program, int stage)
+{
+    for (uint32_t i = 0; i < program->steps; i++) {
+        const struct shader_instruction *instruction = &program->step[i].instruction;
+        unsigned opcode = instruction->opcode;
+        if ((opcode == SHADER_TEX || opcode == SHADER_TEXBEM || opcode == SHADER_TEXBEML) &&
+            instruction->destination.index == stage)
+            return true;
+    }
+    return false;
+}
+
+/* ps_1_1 to ps_1_3 divide by the stage's state where they sample at its coordinates; later models say so themselves. */
 static void derive_projected(const struct state *state, const struct program *program, struct pixel_key *key)
 {
     if (shader_major(program->model) > 1 || program->model->column == COLUMN_PS_1_4)
         return;
     for (int i = 0; i < PROJECTED_STAGES; i++)
-        if (program->interface.sampled >> i & 1 && key->texture[i])
+        if (key->texture[i] && samples_coordinates(program, i))
             key->projected[i] = derive_projection(state, i);
 }
 
