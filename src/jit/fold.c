@@ -1,5 +1,6 @@
 /* Constant folding: an operation whose operands are all literals is evaluated now, by the table's own
- * expression. Runs under the contract's MXCSR. */
+ * expression. A region that a literal decides is entered without asking, or goes; so do the joins behind it.
+ * Runs under the contract's MXCSR. */
 #include "jit/pass.h"
 
 static const struct ir_instruction *literal(const struct ir *ir, unsigned value)
@@ -29,6 +30,45 @@ static int fold(struct ir *ir, struct ir_instruction *i)
     return 1;
 }
 
+/* The `end` of a `when`. */
+static uint32_t find_end(const struct ir *ir, uint32_t number)
+{
+    for (unsigned depth = 0;; number++) {
+        depth += ir->instruction[number].op == IR_when;
+        depth -= ir->instruction[number].op == IR_end;
+        if (!depth)
+            return number;
+    }
+}
+
+/* What the joins behind a region are when it always runs, or never. */
+static void decide_joins(struct ir *ir, uint32_t end, int runs)
+{
+    for (uint32_t n = end + 1; n < ir->count; n++) {
+        struct ir_instruction *i = &ir->instruction[n];
+        if (i->op != IR_join && i->op != IR_nop)
+            return;
+        if (i->op == IR_join) {
+            i->op = IR_copy;
+            i->operand[0] = i->operand[runs];
+            i->operand[1] = 0;
+        }
+    }
+}
+
+static int fold_region(struct ir *ir, uint32_t when)
+{
+    const struct ir_instruction *mask = literal(ir, ir->instruction[when].operand[0]);
+    if (!mask)
+        return 0;
+    uint32_t end = find_end(ir, when);
+    decide_joins(ir, end, mask->k != 0);
+    for (uint32_t n = when; n <= end; n++)
+        if (!mask->k || n == when || n == end)
+            ir->instruction[n] = (struct ir_instruction){0};
+    return 1;
+}
+
 unsigned pass_fold(struct ir *ir, struct pass_memory *memory)
 {
     unsigned changes = 0;
@@ -37,6 +77,8 @@ unsigned pass_fold(struct ir *ir, struct pass_memory *memory)
         struct ir_instruction *i = &ir->instruction[number];
         if (is_table_operation(i->op))
             changes += (unsigned)fold(ir, i);
+        else if (i->op == IR_when)
+            changes += (unsigned)fold_region(ir, number);
     }
     return changes;
 }

@@ -67,7 +67,7 @@ static int keeps_bits(const struct range *y)
     return !y->denormal;
 }
 
-/* y + 0 = y unless y is -0; y + -0 = y. */
+/* y + 0 = y unless y is -0; y + -0 = y; y + -x = y - x. */
 static int reduce_add(const struct view *view, struct ir_instruction *i)
 {
     for (int o = 0; o < 2; o++) {
@@ -76,6 +76,11 @@ static int reduce_add(const struct view *view, struct ir_instruction *i)
         int positive = is_literal(view, zero, PLUS_ZERO) && !y->minus_zero && !y->nan;
         if ((positive || is_literal(view, zero, MINUS_ZERO)) && keeps_bits(y))
             return become_copy(i, i->operand[o]);
+    }
+    for (int o = 0; o < 2; o++) {
+        const struct ir_instruction *negated = &view->ir->instruction[i->operand[1 - o]];
+        if (negated->op == IR_neg_f)
+            return become(i, IR_sub_f, i->operand[o], negated->operand[0]);
     }
     return 0;
 }

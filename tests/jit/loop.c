@@ -298,6 +298,24 @@ static void test_a_phi_of_one_value_is_that_value(void)
     TEST_ASSERT_EQUAL(0, count_of(IR_phi) + count_of(IR_join) + count_of(IR_when));
 }
 
+static void test_a_region_that_a_literal_decides_is_none(void)
+{
+    struct env *e = start();
+    flt value = load_f(E, BASE_INPUT, 0);
+    set_f(E, VALUE, value);
+    WHEN (E, lit_m(E, -1))
+        WHEN (E, lit_m(E, 0)) {
+            store_f(E, BASE_OUTPUT, 0, value);
+            set_f(E, VALUE, neg_f(E, value));
+        }
+    WHEN (E, lit_m(E, -1))
+        set_f(E, VALUE, sqrt_f(E, get_f(E, VALUE)));
+    store_f(E, BASE_OUTPUT, VERTEX_SLOT_BYTES, get_f(E, VALUE));
+    expect_equal();
+    TEST_ASSERT_EQUAL(4, builder->ir.count);
+    TEST_ASSERT_EQUAL(IR_sqrt_f, builder->ir.instruction[2].op);
+}
+
 /* Three dozen joins in one place, of values that stay: some are evicted for others. */
 static void change_everything(int regions)
 {
@@ -378,6 +396,7 @@ int main(void)
     RUN_TEST(test_memory_is_not_read_before_the_region_that_reads_it);
     RUN_TEST(test_a_loop_that_nothing_comes_of_disappears);
     RUN_TEST(test_a_phi_of_one_value_is_that_value);
+    RUN_TEST(test_a_region_that_a_literal_decides_is_none);
     RUN_TEST(test_a_region_that_changes_everything);
     RUN_TEST(test_two_regions_that_change_everything);
     RUN_TEST(test_a_gather_from_where_the_last_one_pointed);

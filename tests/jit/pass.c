@@ -156,6 +156,27 @@ static void test_thesis_rules_apply_only_where_they_are_exact(void)
     TEST_ASSERT_EQUAL(IR_max_f, left_of(IR_max_f, IR_load, 0.0f));
 }
 
+static void test_what_is_negated_and_added_is_subtracted(void)
+{
+    struct ir *ir = &builder->ir;
+    for (int o = 0; o < 2; o++) {
+        ir_start(ir);
+        uint16_t x =
+            ir_append(ir, (struct ir_instruction){.op = IR_load, .type = TYPE_flt, .base = BASE_INPUT});
+        uint16_t y = ir_append(ir, (struct ir_instruction){.op = IR_neg_f, .type = TYPE_flt, .operand = {x}});
+        uint16_t z =
+            ir_append(ir, (struct ir_instruction){.op = IR_sqrt_f, .type = TYPE_flt, .operand = {x}});
+        uint16_t sum = ir_append(
+            ir, (struct ir_instruction){.op = IR_add_f, .type = TYPE_flt, .operand = {o ? z : y, o ? y : z}});
+        ir_append(ir, (struct ir_instruction){.op = IR_store, .base = BASE_OUTPUT, .operand = {sum}});
+        optimize_under_contract(PROFILE_THESIS, 0);
+        TEST_ASSERT_EQUAL(5, ir->count);
+        TEST_ASSERT_EQUAL(IR_sub_f, ir->instruction[3].op);
+        TEST_ASSERT_EQUAL(2, ir->instruction[3].operand[0]);
+        TEST_ASSERT_EQUAL(1, ir->instruction[3].operand[1]);
+    }
+}
+
 /* A packed colour's channels are 0 to 1 already: the clamp goes. */
 static void test_clamp_of_a_packed_colour_disappears(void)
 {
@@ -196,6 +217,7 @@ int main(void)
     RUN_TEST(test_optimizing_twice_changes_nothing);
     RUN_TEST(test_machine_code_with_few_registers_equals_the_interpreter);
     RUN_TEST(test_thesis_rules_apply_only_where_they_are_exact);
+    RUN_TEST(test_what_is_negated_and_added_is_subtracted);
     RUN_TEST(test_clamp_of_a_packed_colour_disappears);
     RUN_TEST(test_unread_output_takes_its_computation_along);
     return UNITY_END();
