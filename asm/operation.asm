@@ -210,6 +210,11 @@ fragment permute, NOTHING, NOTHING, NOTHING
 .end:           hole            .end - 1, HOLE_BYTE, B
 end_fragment
 
+fragment copy, NOTHING, NOTHING, NOTHING
+    vectors IS(RESULT), IS(A)
+    vector        RESULT, NO_FIELD, A,  vmovaps m0, m0
+end_fragment
+
 ; What is not of the frame need not be aligned.
 fragment load, FRAME, NOTHING, NOTHING
     vectors IS(RESULT), 0

@@ -313,6 +313,11 @@ static inline int loop_begin(struct env *e)
 
 static inline int loop_again(struct env *e, msk mask, int begin)
 {
+    for (unsigned v = 0; v < e->plan->variables; v++) {
+        struct variable_state *variable = &e->plan->variable[v];
+        if (variable->first && variable->first < (uint32_t)begin && variable->last > (uint32_t)begin)
+            variable->last = e->plan->operations;
+    }
     return region_end(e, (struct operation){.kind = OPERATION_AGAIN,
                                             .fragment = &fragment_again,
                                             .operand = {mask.id},
@@ -329,7 +334,7 @@ static inline struct variable_state *variable_at(struct env *e, int number)
 {
     struct plan *plan = e->plan;
     for (; plan->variables <= (unsigned)number; plan->variables++)
-        plan->variable[plan->variables] = (struct variable_state){.slot = SLOT_NONE};
+        plan->variable[plan->variables] = (struct variable_state){.slot = SLOT_NONE, .vector = VECTOR_NONE};
     return &plan->variable[number];
 }
 
@@ -347,10 +352,18 @@ static inline int variable_is_known(const struct env *e, const struct variable_s
            variable->known_at > e->loop[e->depth];
 }
 
+static inline void variable_used(struct env *e, struct variable_state *variable)
+{
+    if (!variable->first)
+        variable->first = e->plan->operations;
+    variable->last = e->plan->operations;
+}
+
 static inline uint32_t variable_get(struct env *e, int number)
 {
     struct variable_state *variable = variable_at(e, number);
     if (!variable_is_known(e, variable)) {
+        variable_used(e, variable);
         variable_known(e, variable, append(e, (struct operation){.kind = OPERATION_GET, .k = {number}}));
     }
     return variable->value;
@@ -358,8 +371,12 @@ static inline uint32_t variable_get(struct env *e, int number)
 
 static inline void variable_set(struct env *e, int number, uint32_t value)
 {
+    struct variable_state *variable = variable_at(e, number);
+    if (variable_is_known(e, variable) && variable->value == value)
+        return;
+    variable_used(e, variable);
     append(e, (struct operation){.kind = OPERATION_SET, .operand = {value}, .operands = 1, .k = {number}});
-    variable_known(e, variable_at(e, number), value);
+    variable_known(e, variable, value);
 }
 
 static inline flt get_f(struct env *e, int variable)

@@ -18,7 +18,7 @@ enum operation_kind {
     OPERATION_COMPUTE, /* `fragment`: k are the arguments behind the operands */
     OPERATION_LITERAL, /* k[0] in all lanes; k[1] is its place among the literals once it has one */
     OPERATION_READ,    /* `fragment`, load or uniform, from base k[1] + k[0] */
-    OPERATION_GET,     /* variable k[0] */
+    OPERATION_GET,     /* variable k[0]; k[1]: nothing is set before the value's last reader */
     OPERATION_SET,
     OPERATION_STORE, /* to base k[1] + k[0] */
     OPERATION_SCATTER,
@@ -86,12 +86,15 @@ struct value {
 
 enum { SLOT_NONE = -1, VECTOR_NONE = 255 };
 
-/* A variable: its slot, or SLOT_NONE. */
+/* A variable: a slot of the frame, or a register as long as it is in use. */
 struct variable_state {
-    int32_t slot;
-    uint32_t value; /* that it is known to have, 0: none; where that was learned: */
-    uint32_t known_at, region;
-    uint32_t depth;
+    int32_t slot;      /* or SLOT_NONE */
+    uint8_t vector;    /* or VECTOR_NONE */
+    uint32_t first;    /* the operations that it is in use from, */
+    uint32_t last;     /* and to: of what is in use when a loop begins, the loop's end */
+    uint32_t next_set; /* walking from back to front, the last that was met; 0: none */
+    uint32_t value;    /* that it is known to have, 0: none; where that was learned: */
+    uint32_t known_at, region, depth;
 };
 
 #endif

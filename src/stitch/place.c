@@ -10,6 +10,10 @@
  * region that may be skipped is stored before it, and behind it only those registers count that are the same
  * on both ways. A loop begins with empty registers: every pass finds what was given before it in the frame.
  *
+ * Variables have registers of their own as long as they are in use, if there are not too many, so that neither
+ * a region's end nor a loop's costs more than a copy; the others have slots. A value that was got is the
+ * variable's register itself, unless that is set before the value's last reader.
+ *
  * Slots are taken when something is stored and free again when its last reader has met it; the one freed
  * last is taken first, while it is in the cache. A variable has a slot that was never anything else's: in the
  * next pass of a loop that would be back. */
@@ -18,7 +22,7 @@
 #include <string.h>
 
 /* The last one is the fragments'. */
-enum { VECTORS = 15 };
+enum { VECTORS = 15, VARIABLE_VECTORS = 7 };
 
 /* The registers at a region's begin. */
 struct opened {
@@ -28,10 +32,12 @@ struct opened {
 
 struct placing {
     struct plan *plan;
-    uint32_t now;            /* the operation */
-    uint32_t holds[VECTORS]; /* the value in each register, 0: none */
-    uint32_t free;           /* registers without a value, as a mask */
-    uint32_t busy;           /* those of the operation's operands */
+    uint32_t now;              /* the operation */
+    uint32_t holds[VECTORS];   /* the value in each register, 0: none */
+    uint32_t free;             /* registers without a value, as a mask */
+    uint32_t busy;             /* those of the operation's operands */
+    uint32_t variables;        /* registers of variables */
+    int32_t variable[VECTORS]; /* which ones */
     uint32_t free_slots;
     int32_t bytes; /* of all slots */
     unsigned depth;
@@ -141,6 +147,41 @@ static unsigned take_vector(struct placing *p)
     return farthest;
 }
 
+/* --- Variables --- */
+
+static struct variable_state *variable_at(const struct placing *p, int32_t variable)
+{
+    return &p->plan->variable[variable];
+}
+
+/* Registers of variables that are not in use any more are free again. */
+static void release_variables(struct placing *p)
+{
+    for (uint32_t set = p->variables; set; set &= set - 1) {
+        unsigned vector = (unsigned)__builtin_ctz(set);
+        if (variable_at(p, p->variable[vector])->last < p->now) {
+            variable_at(p, p->variable[vector])->vector = VECTOR_NONE;
+            p->variables &= ~(1u << vector);
+            p->free |= 1u << vector;
+        }
+    }
+}
+
+/* Where it is set first, a variable is given a register, or else a slot when that is asked for. */
+static unsigned variable_vector(struct placing *p, int32_t number)
+{
+    struct variable_state *variable = variable_at(p, number);
+    release_variables(p);
+    if (variable->vector != VECTOR_NONE || variable->slot != SLOT_NONE ||
+        __builtin_popcount(p->variables) == VARIABLE_VECTORS)
+        return variable->vector;
+    unsigned vector = take_vector(p);
+    p->variable[vector] = number;
+    p->variables |= 1u << vector;
+    p->free &= ~(1u << vector);
+    return variable->vector = (uint8_t)vector;
+}
+
 /* --- Operands --- */
 
 static int in_vector(const struct placing *p, uint32_t number)
@@ -213,6 +254,25 @@ static int dies(const struct placing *p, uint32_t number)
     return value_at(p, number)->last == p->now;
 }
 
+static int is_variables(const struct placing *p, uint32_t number)
+{
+    return in_vector(p, number) && p->holds[value_at(p, number)->vector] != number;
+}
+
+/* Its register, if it has one, can be changed. */
+static int gives_way(const struct placing *p, uint32_t number)
+{
+    return dies(p, number) && !is_variables(p, number);
+}
+
+static void leave_vector(struct placing *p, uint32_t number)
+{
+    if (is_variables(p, number))
+        value_at(p, number)->vector = VECTOR_NONE;
+    else if (in_vector(p, number))
+        let_go(p, value_at(p, number)->vector);
+}
+
 /* The operands are about to be read: the registers of those that die can take the result. Their slots can not
  * yet take anything: what gives way to the result is stored before they are read. The first of two that are
  * the same value knows the next reader. */
@@ -222,8 +282,8 @@ static void finish_operands(struct placing *p, const struct operation *operation
         uint32_t number = operation->operand[i];
         if (!dies(p, number))
             value_at(p, number)->next = operation->next[i];
-        else if (in_vector(p, number))
-            let_go(p, value_at(p, number)->vector);
+        else
+            leave_vector(p, number);
     }
 }
 
@@ -317,36 +377,76 @@ static void place_mad(struct placing *p, struct operation *operation)
     uint32_t *operand = operation->operand, sum = operand[2];
     if (in_memory(p, operand[0]) && !in_memory(p, operand[1]))
         exchange(operation);
-    if (dies(p, sum) && in_vector(p, sum) && sum != operand[0] && sum != operand[1]) {
+    if (gives_way(p, sum) && in_vector(p, sum) && sum != operand[0] && sum != operand[1]) {
         place_mad_in(p, operation, operation->fragment + MAD_SUM, sum, operand[0], operand[1]);
         return;
     }
-    if (dies(p, operand[1]) && !dies(p, operand[0]))
+    if (gives_way(p, operand[1]) && !gives_way(p, operand[0]))
         exchange(operation);
-    if (dies(p, operand[0]))
+    if (gives_way(p, operand[0]))
         place_mad_in(p, operation, operation->fragment + MAD_FACTOR, operand[0], operand[1], sum);
     else
         place_compute(p, operation);
 }
 
-/* Into a register at once, or left to a reader that follows at once. */
+static void append_copy(struct placing *p, unsigned to, unsigned from)
+{
+    append_part(p, &fragment_copy, (struct arguments){{(int32_t)to, (int32_t)from}});
+}
+
+/* The variable's register, if that stays as it is; into another at once, or left in the frame to a reader that
+ * follows at once. */
 static void place_get(struct placing *p, const struct operation *operation)
 {
     struct value *value = value_at(p, p->now);
+    struct variable_state *variable = variable_at(p, operation->k[0]);
+    if (variable->vector != VECTOR_NONE && operation->k[1]) {
+        value->vector = variable->vector;
+        variable->last = variable->last < value->last ? value->last : variable->last;
+        return;
+    }
+    if (variable->vector != VECTOR_NONE) {
+        unsigned vector = take_vector(p);
+        append_copy(p, vector, variable->vector);
+        hold(p, vector, p->now);
+        return;
+    }
     value->slot = variable_slot(p, operation->k[0]);
     value->foreign = 1;
     if (value->last == p->now + 1)
         return;
-    p->busy = 0;
     bring(p, p->now);
     value->slot = SLOT_NONE;
     value->foreign = 0;
+}
+
+/* What is in no register comes into the variable's at once. */
+static void set_vector(struct placing *p, unsigned vector, uint32_t number)
+{
+    if (in_memory(p, number)) {
+        struct arguments arguments = {{(int32_t)vector}};
+        set_address(p, &arguments, 1, number);
+        append_part(p, &fragment_load, arguments);
+        p->plan->counts.loaded++;
+    } else
+        append_copy(p, vector, (unsigned)bring(p, number));
 }
 
 static void place_store(struct placing *p, const struct operation *operation, int32_t offset, int32_t base)
 {
     struct arguments arguments = {{bring(p, operation->operand[0]), offset, [ARGUMENT_BASE] = base}};
     append_part(p, &fragment_store, arguments);
+    finish_operands(p, operation);
+}
+
+static void place_set(struct placing *p, const struct operation *operation)
+{
+    unsigned vector = variable_vector(p, operation->k[0]);
+    if (vector == VECTOR_NONE) {
+        place_store(p, operation, variable_slot(p, operation->k[0]), REGISTER_FRAME);
+        return;
+    }
+    set_vector(p, vector, operation->operand[0]);
     finish_operands(p, operation);
 }
 
@@ -365,7 +465,7 @@ static void place_when(struct placing *p, const struct operation *operation)
     struct opened *opened = &p->opened[p->depth++];
     int32_t mask = bring(p, operation->operand[0]);
     finish_operands(p, operation);
-    for (uint32_t held = ~p->free & ((1u << VECTORS) - 1); held; held &= held - 1) {
+    for (uint32_t held = ~(p->free | p->variables) & ((1u << VECTORS) - 1); held; held &= held - 1) {
         unsigned vector = (unsigned)__builtin_ctz(held);
         if (value_at(p, p->holds[vector])->last > (uint32_t)operation->k[0])
             keep(p, vector);
@@ -396,8 +496,7 @@ static void place_loop(struct placing *p)
 static void bury(struct placing *p, uint32_t number)
 {
     struct value *value = value_at(p, number);
-    if (value->vector != VECTOR_NONE)
-        let_go(p, value->vector);
+    leave_vector(p, number);
     free_slot(p, value);
 }
 
@@ -425,7 +524,7 @@ static void place(struct placing *p, struct operation *operation)
             bring(p, p->now);
         break;
     case OPERATION_GET: place_get(p, operation); break;
-    case OPERATION_SET: place_store(p, operation, variable_slot(p, operation->k[0]), REGISTER_FRAME); break;
+    case OPERATION_SET: place_set(p, operation); break;
     case OPERATION_STORE: place_store(p, operation, operation->k[0], REGISTER_BASES + operation->k[1]); break;
     case OPERATION_SCATTER: place_scatter(p, operation); break;
     case OPERATION_WHEN: place_when(p, operation); break;
@@ -442,7 +541,7 @@ static void start(struct placing *p, struct plan *plan)
     p->plan = plan;
     memset(p->holds, 0, sizeof p->holds);
     p->free = (1u << VECTORS) - 1;
-    p->free_slots = p->depth = 0;
+    p->variables = p->free_slots = p->depth = 0;
     p->bytes = 0;
 }
 

@@ -117,6 +117,7 @@ void plan_enter(struct plan *plan)
     plan->frame_bytes = 0;
     plan->counts = (struct plan_counts){0};
     plan->operation[0] = (struct operation){0};
+    plan->value[0] = (struct value){0};
     plan_append(plan, &fragment_enter, (struct arguments){{0, MXCSR_CONTRACT}});
 }
 

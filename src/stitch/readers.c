@@ -3,7 +3,7 @@
  * What is given before a loop and read in it must be there in every pass: it lives to the loop's end, of the
  * outermost loop that it is given before. What nobody reads is never asked for, and so neither is what only
  * it reads. A variable is not set where whatever way leads on sets it again before it is got: what is got
- * behind a region is got on the way past it too, and of a loop's next pass anything is expected. */
+ * behind a region is got on the way past it too, and what a loop gets, at its end too. */
 #include "stitch/plan.h"
 
 #include <string.h>
@@ -27,14 +27,30 @@ static int wants(const struct walk *walk, int32_t variable)
     return walk->wanted.bits[variable / 64] >> variable % 64 & 1;
 }
 
-static void get_variable(struct walk *walk, int32_t variable)
+static void want(struct walk *walk, int32_t variable)
 {
     walk->wanted.bits[variable / 64] |= 1ull << variable % 64;
 }
 
-static void set_variable(struct walk *walk, int32_t variable)
+static void get_variable(struct walk *walk, struct operation *get, uint32_t number)
+{
+    uint32_t next_set = walk->plan->variable[get->k[0]].next_set;
+    get->k[1] = !next_set || walk->plan->value[number].last < next_set;
+    want(walk, get->k[0]);
+}
+
+static void set_variable(struct walk *walk, int32_t variable, uint32_t number)
 {
     walk->wanted.bits[variable / 64] &= ~(1ull << variable % 64);
+    walk->plan->variable[variable].next_set = number;
+}
+
+/* What the loop's next pass gets is wanted at its end. */
+static void want_again(struct walk *walk, const struct operation *again, uint32_t number)
+{
+    for (uint32_t n = (uint32_t)again->k[0]; n < number; n++)
+        if (walk->plan->operation[n].kind == OPERATION_GET)
+            want(walk, walk->plan->operation[n].k[0]);
 }
 
 /* The end of the outermost open loop that begins behind the value; 0: there is none. */
@@ -81,11 +97,11 @@ static int is_needed(const struct walk *walk, const struct operation *operation,
     }
 }
 
-static void control(struct walk *walk, const struct operation *operation, uint32_t number)
+static void control(struct walk *walk, struct operation *operation, uint32_t number)
 {
     switch (operation->kind) {
-    case OPERATION_GET: get_variable(walk, operation->k[0]); break;
-    case OPERATION_SET: set_variable(walk, operation->k[0]); break;
+    case OPERATION_GET: get_variable(walk, operation, number); break;
+    case OPERATION_SET: set_variable(walk, operation->k[0], number); break;
     case OPERATION_END: walk->behind[walk->skips++] = walk->wanted; break;
     case OPERATION_WHEN:
         walk->skips--;
@@ -95,7 +111,7 @@ static void control(struct walk *walk, const struct operation *operation, uint32
     case OPERATION_AGAIN:
         walk->begin[walk->depth] = (uint32_t)operation->k[0];
         walk->end[walk->depth++] = number;
-        memset(&walk->wanted, 0xff, sizeof walk->wanted);
+        want_again(walk, operation, number);
         break;
     case OPERATION_LOOP: walk->depth--; break;
     default: break;
