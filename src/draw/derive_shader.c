@@ -60,7 +60,7 @@ const struct state_element *derive_input(const struct state *state, const struct
     const struct program *program = derive_vertex_program(state);
     if (!program || key->input[number] == ATTRIBUTE_FORMAT_NONE)
         return NULL;
-    const struct shader_port *port = program_input(program, FILE_INPUT, number, 0);
+    const struct shader_port *port = program_declaration(program, FILE_INPUT, number);
     return state_find_element(state, port->usage, port->usage_index);
 }
 
@@ -72,12 +72,13 @@ static int highest(unsigned mask)
 static void derive_inputs(const struct state *state, const struct program *program, struct vertex_key *key)
 {
     for (unsigned i = 0; i < INPUTS; i++) {
-        const struct shader_port *port = program_input(program, FILE_INPUT, i, 0);
-        if (!port || !program->input_mask[i])
+        const struct shader_port *port = program_declaration(program, FILE_INPUT, i);
+        unsigned mask = program->input_mask[i] | (program->input_third[i] ? 4 : 0);
+        if (!port || !mask)
             continue;
         const struct state_element *element = state_find_element(state, port->usage, port->usage_index);
         if (element)
-            key->input[i] = derive_format(element, highest(program->input_mask[i]));
+            key->input[i] = derive_format(element, highest(mask));
     }
 }
 
@@ -185,9 +186,8 @@ int derive_channel_set(const struct state *state, const struct pixel_key *key, i
     if (!key_program(key->shader))
         return derive_channel_stage(key, channel);
     const struct program_port *port = channel_port(state, key, channel);
-    const struct shader_port *from = NULL;
-    for (unsigned c = 0; c < 4 && port && !from; c++)
-        from = program_input(derive_pixel_program(state), port->file, port->index, c);
+    const struct shader_port *from =
+        port ? program_declaration(derive_pixel_program(state), port->file, port->index) : NULL;
     return from && from->usage == USAGE_TEXCOORD ? (int)from->usage_index : -1;
 }
 
@@ -202,12 +202,22 @@ static uint8_t port_interpolation(const struct state *state, const struct progra
     return INTERPOLATION_SMOOTH;
 }
 
+/* What samples two dimensions and compares with nothing reads no third coordinate. */
+static bool third_is_read(const struct program_port *port, const struct pixel_key *key)
+{
+    bool r = !port->third;
+    for (int i = 0; i < PIXEL_SAMPLERS; i++)
+        r |= port->third >> i & 1 && key->texture[i] &&
+             (key->texture[i] != TEXTURE_2D || key->texel[i] == TEXEL_COMPARE);
+    return r;
+}
+
 static void derive_ports(const struct state *state, const struct program *program, enum primitive primitive,
                          struct pixel_key *key)
 {
     for (int i = 0; i < PORTS; i++)
         for (int c = 0; c < 4; c++)
-            if (program->port[i].mask >> c & 1)
+            if (program->port[i].mask >> c & 1 && (c != 2 || third_is_read(&program->port[i], key)))
                 key->varying[port_varying(i, c)] = port_interpolation(state, &program->port[i], i, primitive);
 }
 

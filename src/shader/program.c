@@ -29,6 +29,8 @@ unsigned program_source_mask(const struct shader_instruction *i, unsigned source
     case SHADER_BEM: return 3;
     case SHADER_LIT: return 11;
     case SHADER_DST: return source ? 10 : 6;
+    case SHADER_TEXLD:
+    case SHADER_TEXLDD: return 7;
     case SHADER_DP4:
     case SHADER_M4X4:
     case SHADER_M4X3: return 15;
@@ -53,6 +55,20 @@ static void note_read(struct program *program, const struct shader_operand *sour
             mask[source->index] |= (uint8_t)(1 << swizzle_component(source->swizzle, place));
     if (source->modifier == MODIFIER_DIVIDE_Z || source->modifier == MODIFIER_DIVIDE_W)
         mask[source->index] = MASK_FULL;
+}
+
+/* A lookup's third coordinate is asked for by its sampler alone: what is bound there may not have any use for it. */
+static void note_lookup(struct program *program, const struct shader_instruction *i, unsigned places)
+{
+    const struct shader_operand *at = &i->source[0];
+    uint16_t *third = at->file == FILE_INPUT     ? program->input_third
+                      : at->file == FILE_TEXTURE ? program->texture_third
+                                                 : NULL;
+    if (third && !at->relative && swizzle_component(at->swizzle, 2) == 2) {
+        third[at->index] |= (uint16_t)(1 << i->source[1].index);
+        places &= ~4u;
+    }
+    note_read(program, at, places);
 }
 
 static void note_constant(struct program *program, const struct shader_operand *source, unsigned rows)
@@ -93,7 +109,10 @@ static int note_instruction(struct program *program, const struct shader_instruc
         if (source->file == FILE_BOOLEAN && source->index >= 16)
             return error_set(error, "%s shader: found b%u, expected Boolean constants below 16",
                              program->model->name, source->index);
-        note_read(program, source, program_source_mask(i, s));
+        if (s == 0 && row->source[1] == OPERAND_SAMPLER)
+            note_lookup(program, i, program_source_mask(i, s));
+        else
+            note_read(program, source, program_source_mask(i, s));
         note_constant(program, source, row->source[s] == OPERAND_MATRIX ? row->rows : 1);
     }
     return 0;

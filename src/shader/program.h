@@ -84,6 +84,7 @@ struct program_port {
     uint8_t mask;        /* components that are read; 0: nothing comes in here */
     bool color;          /* declared as color 0 or 1 */
     bool coordinate;     /* declared as a texcoord */
+    uint16_t third;      /* samplers that alone read the third component; 0: other instructions do, or none */
     bool centroid;       /* looked up inside the triangle, as colours always are */
 };
 
@@ -112,6 +113,8 @@ struct program {
     struct cell_set written;          /* all cells that are written */
     uint8_t input_mask[SHADER_PORTS]; /* v#: components that are read; all of them if they are indexed */
     uint8_t texture_mask[8];          /* t#: components that are read as coordinates */
+    /* Samplers whose lookups read the third component, which counts for nothing in the masks then. */
+    uint16_t input_third[SHADER_PORTS], texture_third[8];
     struct program_port port[PROGRAM_PORTS]; /* of a pixel shader */
     bool input_indexed, output_indexed;      /* v[aL], o[aL] */
     uint32_t slots;                          /* as the validator counts */
@@ -150,6 +153,9 @@ int program_output(const struct program *program, unsigned usage, unsigned usage
 /* What dcl, or the register's name, says that a component of an input is; null if nothing. */
 const struct shader_port *program_input(const struct program *program, unsigned file, unsigned index,
                                         unsigned component);
+
+/* The same of a register's first component that has any. */
+const struct shader_port *program_declaration(const struct program *program, unsigned file, unsigned index);
 
 /* The number of the output that has component c of that usage and writes it, or -1. */
 int program_gives(const struct program *program, unsigned usage, unsigned usage_index, unsigned c);

@@ -27,8 +27,7 @@ int program_gives(const struct program *program, unsigned usage, unsigned usage_
     return -1;
 }
 
-/* The first declaration of a register. */
-static const struct shader_port *declaration(const struct program *program, unsigned file, unsigned index)
+const struct shader_port *program_declaration(const struct program *program, unsigned file, unsigned index)
 {
     const struct shader_port *port = NULL;
     for (unsigned c = 0; c < 4 && !port; c++)
@@ -36,9 +35,12 @@ static const struct shader_port *declaration(const struct program *program, unsi
     return port;
 }
 
-static void take_port(struct program *program, int number, const struct shader_port *from, unsigned mask)
+static void take_port(struct program *program, int number, const struct shader_port *from, unsigned mask,
+                      unsigned third)
 {
     struct program_port *port = &program->port[number];
+    port->third = (uint16_t)(mask & 4 ? 0 : third);
+    mask |= third ? 4 : 0;
     port->file = from->file;
     port->index = from->index;
     port->mask = (uint8_t)mask;
@@ -67,17 +69,19 @@ static int free_port(const struct program *program)
 }
 
 /* Those with ports of their own take them, then the others what is left. */
-static void link_file(struct program *program, enum shader_file file, const uint8_t *masks, unsigned count)
+static void link_file(struct program *program, enum shader_file file, const uint8_t *masks,
+                      const uint16_t *thirds, unsigned count)
 {
     for (int others = 0; others < 2; others++)
         for (unsigned i = 0; i < count; i++) {
-            const struct shader_port *from = masks[i] ? declaration(program, file, i) : NULL;
+            const struct shader_port *from =
+                masks[i] || thirds[i] ? program_declaration(program, file, i) : NULL;
             int own = from ? own_port(from) : NO_PORT;
             bool taken = own != NO_PORT && program->port[own].mask &&
                          (program->port[own].file != file || program->port[own].index != i);
             if (!from || (own == NO_PORT || taken) != (bool)others)
                 continue;
-            take_port(program, others ? free_port(program) : own, from, masks[i]);
+            take_port(program, others ? free_port(program) : own, from, masks[i], thirds[i]);
         }
 }
 
@@ -85,7 +89,8 @@ void program_link(struct program *program)
 {
     if (program->model->stage != STAGE_PIXEL)
         return;
-    link_file(program, FILE_INPUT, program->input_mask, shader_register_count(FILE_INPUT, program->model));
-    link_file(program, FILE_TEXTURE, program->texture_mask,
+    link_file(program, FILE_INPUT, program->input_mask, program->input_third,
+              shader_register_count(FILE_INPUT, program->model));
+    link_file(program, FILE_TEXTURE, program->texture_mask, program->texture_third,
               shader_register_count(FILE_TEXTURE, program->model));
 }
