@@ -811,6 +811,8 @@ int triptych_get_routine(triptych_device *device, unsigned i, struct triptych_ro
         .code_bytes = routine.code_bytes,
         .parts = routine.parts,
         .spills = routine.spills,
+        .fused = routine.fused,
+        .carried = routine.carried,
         .run_ns = routine.time ? __atomic_load_n(&routine.time->ns, __ATOMIC_RELAXED) : 0,
         .elements = routine.time ? __atomic_load_n(&routine.time->elements, __ATOMIC_RELAXED) : 0,
         .shader = routine.unit == UNIT_VERTEX  ? key_program(routine.key.vertex.shader)

@@ -385,6 +385,8 @@ struct triptych_routine_info {
     uint32_t code_bytes;
     uint32_t parts; /* instructions or fragments */
     uint32_t spills;
+    uint32_t fused;    /* of a routine's operation fragments, those that are two operations or more */
+    uint32_t carried;  /* operands that its fragments found in registers */
     uint64_t run_ns;   /* of all calls, and the vertices, triangles or covered pixels that they were for, */
     uint64_t elements; /* if the device measures them */
     uint32_t shader;   /* number of the shader that it runs; 0: none */

@@ -35,11 +35,12 @@ struct routine {
     uint32_t constant_bytes; /* of code_bytes, how many are data behind the code */
     uint32_t parts;          /* instructions emitted (specialize), fragments joined (stitch) */
     uint32_t spills;
-    uint32_t data_bytes;       /* held besides the code: what an interpreter works from */
-    const char *granularity;   /* stitch: "stage" or "operation", what its fragments are; null elsewhere */
-    uint64_t build_ns;         /* set by the cache around build() */
-    uint32_t number;           /* identity in dumps and reports, from 1, set by the cache */
-    uint64_t hits;             /* set by the cache */
+    uint32_t fused, carried; /* operation fragments: of two operations or more; operands found in registers */
+    uint32_t data_bytes;     /* held besides the code: what an interpreter works from */
+    const char *granularity; /* stitch: "stage" or "operation", what its fragments are; null elsewhere */
+    uint64_t build_ns;       /* set by the cache around build() */
+    uint32_t number;         /* identity in dumps and reports, from 1, set by the cache */
+    uint64_t hits;           /* set by the cache */
     struct routine_time *time; /* set by the cache; null: not measured */
 };
 

@@ -45,6 +45,8 @@ static void describe(struct stitched *stitched, const struct plan *plan)
     routine->constant_bytes = plan->bytes - plan->code_bytes;
     routine->parts = plan->count;
     routine->spills = plan->counts.stored;
+    routine->fused = plan->counts.fused;
+    routine->carried = plan->counts.carried;
 }
 
 struct routine *stitch_build(const struct engine *engine, stitch_coverage *lack, struct code_arena *arena,

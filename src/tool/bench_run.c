@@ -81,6 +81,8 @@ static struct build build_of(const struct triptych_routine_info *info)
                           .code_bytes = info->code_bytes,
                           .parts = info->parts,
                           .spills = info->spills,
+                          .fused = info->fused,
+                          .carried = info->carried,
                           .by_operation = info->granularity && !strcmp(info->granularity, "operation"),
                           .run_ns = (double)info->run_ns,
                           .elements = (double)info->elements};

@@ -23,6 +23,7 @@ struct build {
     unsigned unit;                  /* enum unit */
     double us, code_bytes;          /* code_bytes is 0 for engines that generate none */
     double parts, spills;           /* instructions or fragments; values that went to memory */
+    double fused, carried;          /* of operation fragments, as the interface has them */
     bool by_operation;              /* stitched from operation fragments */
     double run_ns, elements;        /* of all calls, where they are measured */
     char shader[SHADER_NAME_BYTES]; /* empty: none */

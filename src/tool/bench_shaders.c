@@ -21,7 +21,7 @@
 
 /* One shader with one engine. */
 struct figures {
-    double ns, us, bytes, parts, spills; /* ns: per element */
+    double ns, us, bytes, parts, spills, fused, carried; /* ns: per element */
 };
 
 struct shader_row {
@@ -91,6 +91,8 @@ static struct figures figures_of(const struct bench *bench, const struct build *
             elements += build->elements;
             r.parts = fmax(r.parts, build->parts);
             r.spills = fmax(r.spills, build->spills);
+            r.fused = fmax(r.fused, build->fused);
+            r.carried = fmax(r.carried, build->carried);
         }
     }
     if (!engine) {
@@ -149,7 +151,7 @@ static const char *engine_name_of(const struct bench *bench, unsigned engine)
 static void print_rows(const struct bench *bench, const struct shader_table *shaders)
 {
     struct table table = {0};
-    static const char *const headings[] = {"ns", "build us", "bytes", "parts", "spills"};
+    static const char *const headings[] = {"ns", "build us", "bytes", "parts", "spills", "fused", "carried"};
     puts("\nshaders: ns per vertex or covered pixel of their routines alone");
     table_column(&table, "shader", TABLE_LEFT);
     table_column(&table, "model", TABLE_LEFT);
@@ -173,6 +175,8 @@ static void print_rows(const struct bench *bench, const struct shader_table *sha
             table_cell(&table, "%.0f", f->bytes);
             table_cell(&table, "%.0f", f->parts);
             table_cell(&table, "%.0f", f->spills);
+            table_cell(&table, "%.0f", f->fused);
+            table_cell(&table, "%.0f", f->carried);
         }
     table_print(&table, 2, stdout);
 }
@@ -293,6 +297,8 @@ static cJSON *json_row(const struct bench *bench, const struct shader_table *sha
         cJSON_AddNumberToObject(item, "code_bytes", f->bytes);
         cJSON_AddNumberToObject(item, "parts", f->parts);
         cJSON_AddNumberToObject(item, "spills", f->spills);
+        cJSON_AddNumberToObject(item, "fused", f->fused);
+        cJSON_AddNumberToObject(item, "carried", f->carried);
         cJSON_AddItemToArray(engines, item);
     }
     return json;
