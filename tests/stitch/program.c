@@ -194,6 +194,56 @@ static void what_does_not_fit_is_refused(void)
     TEST_ASSERT_NOT_NULL_MESSAGE(strstr(error.text, "parts exceeds its room of 131072"), error.text);
 }
 
+static void refuse(const char *what)
+{
+    struct error error = {{0}};
+    TEST_ASSERT_EQUAL(-1, stitched_run(plan, &ir, arena, &got, &error));
+    TEST_ASSERT_NOT_NULL_MESSAGE(strstr(error.text, what), error.text);
+}
+
+static void regions_nested_too_deeply_are_refused(void)
+{
+    for (int more = 0; more < 2; more++) {
+        uint64_t seed = 6;
+        ir_start(&ir);
+        uint16_t value = load(0), mask = append_ir(IR_eq_i, value, value);
+        for (int i = 0; i < NESTING_MAXIMUM + more; i++)
+            ir_append(&ir, (struct ir_instruction){.op = IR_when, .operand = {mask}});
+        store(value);
+        for (int i = 0; i < NESTING_MAXIMUM + more; i++)
+            ir_append(&ir, (struct ir_instruction){.op = IR_end});
+        program_fill(&expected, &seed);
+        if (more)
+            refuse("plan of 257 regions in one another exceeds its room of 256");
+        else
+            expect_equal("nested");
+    }
+}
+
+static void more_literals_than_there_is_room_for_are_refused(void)
+{
+    ir_start(&ir);
+    uint16_t sum = load(0);
+    for (int i = 0; i < POOL_CAPACITY; i++) {
+        struct ir_instruction literal = {.op = IR_literal, .type = TYPE_itg, .k = i + 2};
+        sum = append_ir(IR_add_i, sum, ir_append(&ir, literal));
+    }
+    store(sum);
+    refuse("plan of 8193 literals exceeds its room of 8192");
+}
+
+/* The IR forbids it; were the specification wrong, it would not go unnoticed. */
+static void values_that_leave_their_region_are_refused(void)
+{
+    ir_start(&ir);
+    uint16_t value = load(0), mask = append_ir(IR_eq_i, value, value);
+    ir_append(&ir, (struct ir_instruction){.op = IR_when, .operand = {mask}});
+    uint16_t inside = append_ir(IR_add_i, value, value);
+    ir_append(&ir, (struct ir_instruction){.op = IR_end});
+    store(inside);
+    refuse("reads 1 values outside of their region");
+}
+
 void setUp(void)
 {
     struct error error = {{0}};
@@ -226,5 +276,8 @@ int main(void)
     RUN_TEST(values_that_are_alive_together_keep_apart);
     RUN_TEST(frames_that_a_stack_may_not_hold_are_refused);
     RUN_TEST(what_does_not_fit_is_refused);
+    RUN_TEST(regions_nested_too_deeply_are_refused);
+    RUN_TEST(more_literals_than_there_is_room_for_are_refused);
+    RUN_TEST(values_that_leave_their_region_are_refused);
     return UNITY_END();
 }
