@@ -3,9 +3,8 @@
  * Validated shaders nest properly, calls go forward only, and ret stands at the end of the main program and of
  * subroutines, outside of all blocks. So two walks do: from back to front regions find their ends, and since a
  * subroutine lies behind all calls of it, what it writes is known before what calls it. */
+#include "shader/check.h"
 #include "shader/program.h"
-
-#include <string.h>
 
 static bool is_if(unsigned opcode)
 {
@@ -43,12 +42,12 @@ static bool ends(unsigned opcode)
 
 static void match_blocks(struct program *program)
 {
-    uint32_t open[256], depth = 0;
+    uint32_t open[CHECK_BLOCKS], depth = 0;
     for (uint32_t i = 0; i < program->steps; i++) {
         unsigned opcode = program->step[i].instruction.opcode;
-        if (ends(opcode) && depth)
+        if (ends(opcode))
             program->step[open[--depth]].match = i;
-        if (begins(opcode) && depth < sizeof open / sizeof *open)
+        if (begins(opcode))
             open[depth++] = i;
     }
     for (uint32_t i = 0; i < program->steps; i++) {
@@ -189,28 +188,27 @@ static void find_written(struct program *program)
 /* --- Bounds -----------------------------------------------------------------------------------------------
  */
 
-/* Most loops around any step of a subroutine or of the main program, calls followed. `cost` of subroutines behind is
- * known: they are summed up from back to front. */
+/* What one run executes at most, calls followed, and the most loops around a step of it. */
 struct bound {
     const struct program *program;
-    const int32_t (*integers)[4];
-    uint64_t executed; /* saturates */
+    const int32_t (*integers)[4]; /* null: each loop that they count runs once */
+    uint64_t executed;            /* counting ends behind PROGRAM_EXECUTED */
     unsigned loops;
 };
 
+/* At least 1: who makes a routine walks through the body of a loop that never runs, too. */
 static uint64_t loop_count(const struct bound *bound, const struct shader_instruction *i)
 {
-    const struct shader_operand *integer = &i->source[i->opcode == SHADER_LOOP];
-    const struct program_constant *defined = program_defined(bound->program, FILE_INTEGER, integer->index);
-    if (defined)
-        return defined->value[0];
-    return bound->integers ? (uint64_t)bound->integers[integer->index][0] : 1;
+    unsigned index = i->source[i->opcode == SHADER_LOOP].index;
+    const struct program_constant *defined = program_defined(bound->program, FILE_INTEGER, index);
+    int32_t count = defined ? (int32_t)defined->value[0] : bound->integers ? bound->integers[index][0] : 1;
+    return count > 1 ? (uint64_t)count : 1;
 }
 
-/* Adds up steps `from` to `to`, each `times`, with `loops` around them; `depth` of calls is bounded by the model. */
+/* Adds up steps `from` to `to`, each `times`, with `loops` around them. How deep calls are is bounded by the model. */
 static void count_steps(struct bound *bound, uint32_t from, uint32_t to, uint64_t times, unsigned loops)
 {
-    uint64_t outer[64];
+    uint64_t outer[CHECK_BLOCKS];
     unsigned depth = 0;
     for (uint32_t i = from; i < to; i++) {
         const struct program_step *step = &bound->program->step[i];
@@ -218,14 +216,14 @@ static void count_steps(struct bound *bound, uint32_t from, uint32_t to, uint64_
         bound->executed += times;
         if (bound->executed > PROGRAM_EXECUTED)
             return;
-        if (is_loop(opcode) && depth < sizeof outer / sizeof *outer) {
+        if (is_loop(opcode)) {
             outer[depth++] = times;
             times *= loop_count(bound, &step->instruction);
             if (loops + depth > bound->loops)
                 bound->loops = loops + depth;
-        } else if ((opcode == SHADER_ENDLOOP || opcode == SHADER_ENDREP) && depth)
+        } else if (opcode == SHADER_ENDLOOP || opcode == SHADER_ENDREP)
             times = outer[--depth];
-        else if (is_call(opcode) && times)
+        else if (is_call(opcode))
             count_steps(bound, step->match, step->end, times, loops + depth);
     }
 }
@@ -279,6 +277,8 @@ int program_connect(struct program *program, struct error *error)
 {
     match_blocks(program);
     match_calls(program);
+    if (check_executed(program, NULL, error))
+        return -1;
     find_written(program);
-    return check_executed(program, NULL, error);
+    return 0;
 }
