@@ -65,12 +65,12 @@ static inline unsigned cell_next(const struct cell_set *set, unsigned cell)
 
 struct program_step {
     struct shader_instruction instruction;
-    uint32_t
-        match; /* if: its else, or its endif; else: its endif; loop, rep: its end; call: the first step of the body */
-    uint32_t end; /* if: its endif; call: the body's ret */
-    bool
-        leaves; /* if, else, loop, rep, conditional call: a break inside leaves the loop around it; of a loop: itself */
-    struct cell_set written; /* if, else, loop, rep, call: in its region, up to the match, or in the body */
+    /* if: its else, or its endif; else: its endif; loop, rep: its end; call, label: the first step of the body */
+    uint32_t match;
+    uint32_t end; /* if: its endif; call, label: the body's ret */
+    /* if, else, loop, rep, conditional call: a break inside leaves the loop around it; of a loop: itself */
+    bool leaves;
+    struct cell_set written; /* the same and label: in its region, up to the match, or in the body */
 };
 
 /* Where a pixel shader's varyings come in: two ports of colours, then eight of coordinates, of four components each.
@@ -105,10 +105,9 @@ struct program {
     uint32_t main;  /* steps of the main program: it ends there, or at its ret */
     struct program_constant *defined;
     uint32_t defined_count;
-    uint32_t
-        constants; /* rows of float constants that a draw brings: the highest read + 1, or all if they are indexed */
-    uint32_t integers;                /* the same of integer constants */
-    uint16_t booleans;                /* bits: those that are read and not defined by the shader */
+    uint32_t constants; /* rows of float constants that a draw brings: the highest read + 1; all if indexed */
+    uint32_t integers;  /* the same of integer constants */
+    uint16_t booleans;  /* bits: those that are read and not defined by the shader */
     struct cell_set initial;          /* cells that some region writes: they begin as 0 */
     struct cell_set written;          /* all cells that are written */
     uint8_t input_mask[SHADER_PORTS]; /* v#: components that are read; all of them if they are indexed */

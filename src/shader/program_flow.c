@@ -68,20 +68,26 @@ static uint32_t find_return(const struct program *program, uint32_t from)
     return i;
 }
 
-/* Bodies of subroutines by label, and the end of the main program. */
+enum { LABELS = 2048 }; /* numbers of registers have 11 bits */
+
+/* Where subroutines begin and end, and the end of the main program. */
 static void match_calls(struct program *program)
 {
+    uint32_t body[LABELS] = {0};
     program->main = find_return(program, 0);
+    for (uint32_t i = program->main; i < program->steps; i++) {
+        struct program_step *step = &program->step[i];
+        if (step->instruction.opcode != SHADER_LABEL)
+            continue;
+        body[step->instruction.source[0].index] = step->match = i + 1;
+        step->end = find_return(program, i + 1);
+    }
     for (uint32_t i = 0; i < program->steps; i++) {
         struct program_step *step = &program->step[i];
         if (!is_call(step->instruction.opcode))
             continue;
-        for (uint32_t label = i + 1; label < program->steps; label++) {
-            const struct shader_instruction *at = &program->step[label].instruction;
-            if (at->opcode == SHADER_LABEL && at->source[0].index == step->instruction.source[0].index)
-                step->match = label + 1;
-        }
-        step->end = find_return(program, step->match);
+        step->match = body[step->instruction.source[0].index];
+        step->end = program->step[step->match - 1].end;
     }
 }
 
@@ -174,8 +180,10 @@ static void find_written(struct program *program)
             sum_up(program, i + 1, step->match, &step->written);
             step->leaves = leaves(program, i + 1, step->match);
             add_set(&program->initial, &step->written);
-        } else if (is_call(opcode)) {
+        } else if (opcode == SHADER_LABEL)
             sum_up(program, step->match, step->end, &step->written);
+        else if (is_call(opcode)) {
+            step->written = program->step[step->match - 1].written;
             if (opcode == SHADER_CALLNZ)
                 add_set(&program->initial, &step->written);
         }
