@@ -193,12 +193,13 @@ static void test_fog_is_applied_below_3_0(void)
 static const struct drawn_element sides = {
     TRIPTYCH_USAGE_TEXCOORD, 0, {{-1, 1, 1, 1}, {1, 1, 1, 1}, {-1, 1, 1, 1}, {1, 1, 1, 1}}};
 static const char with_sides[] = "vs_2_0\ndcl_position v0\ndcl_texcoord v1\nmov oPos, v0\nmov oT0, v1\n";
-static const char *const killers[] = {
-    "ps_1_1\ndef c0, 1, 0, 0, 1\ntexkill t0\nmov r0, c0\n",
-    "ps_1_4\ndef c0, 1, 0, 0, 1\ntexcrd r1.xyz, t0\nphase\ntexkill r1\nmov r0, c0\n",
-    "ps_2_0\ndef c0, 1, 0, 0, 1\ndcl t0\ntexkill t0\nmov oC0, c0\n",
-    "ps_3_0\ndef c0, 1, 0, 0, 1\ndcl_texcoord v0\nmov r0, v0\nif_lt v0.x, c0.y\ntexkill r0\nendif\nmov oC0, "
-    "c0\n"};
+static const char kills_1_1[] = "ps_1_1\ndef c0, 1, 0, 0, 1\ntexkill t0\nmov r0, c0\n";
+static const char kills_1_4[] =
+    "ps_1_4\ndef c0, 1, 0, 0, 1\ntexcrd r1.xyz, t0\nphase\ntexkill r1\nmov r0, c0\n";
+static const char kills_2_0[] = "ps_2_0\ndef c0, 1, 0, 0, 1\ndcl t0\ntexkill t0\nmov oC0, c0\n";
+static const char kills_3_0[] = "ps_3_0\ndef c0, 1, 0, 0, 1\ndcl_texcoord v0\nmov r0, v0\nif_lt v0.x, c0.y\n"
+                                "texkill r0\nendif\nmov oC0, c0\n";
+static const char *const killers[] = {kills_1_1, kills_1_4, kills_2_0, kills_3_0};
 
 static void use_tests(unsigned samples)
 {
@@ -271,7 +272,7 @@ static void check_kill_alone(void)
 {
     set(TRIPTYCH_STATE_zenable, "true");
     OK(triptych_set_state(device, TRIPTYCH_STATE_colorwriteenable, 0));
-    use_shaders(with_sides, killers[2]);
+    use_shaders(with_sides, kills_2_0);
     clear_to(0);
     draw_declared(TRIPTYCH_USAGE_POSITION, &sides, 1);
     OK(triptych_read_depth(device, depth));
