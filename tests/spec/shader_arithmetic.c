@@ -435,6 +435,174 @@ static void constants_that_are_known_compute_the_same(void)
     }
 }
 
+/* --- Modifiers --------------------------------------------------------------------------------------------
+ * Every instruction with what can be written at it: of the result, of its first source, and a predicate. */
+
+enum dress { SATURATED, PARTIAL, NEGATED, MAGNITUDE, NEGATED_MAGNITUDE, PREDICATED, DRESSES };
+
+static const struct {
+    const char *before, *behind, *source; /* the name of the instruction; what stands for r1 */
+} dresses[DRESSES] = {
+    [SATURATED] = {"", "_sat", "r1"},
+    [PARTIAL] = {"", "_pp", "r1"},
+    [NEGATED] = {"", "", "-r1"},
+    [MAGNITUDE] = {"", "", "r1_abs"},
+    [NEGATED_MAGNITUDE] = {"", "", "-r1_abs"},
+    [PREDICATED] = {"(p0) ", "", "r1"},
+};
+
+static const struct row *dressed_row;
+static enum dress dress;
+static unsigned written; /* components */
+
+static double saturated(double value)
+{
+    return value > 0 ? value < 1 ? value : 1 : 0;
+}
+
+/* sincos of models 2 takes a predicate for all components only. */
+static int predicate_component(int c)
+{
+    return dressed_row->opcode == SHADER_SINCOS_2 ? 1 : c;
+}
+
+static void dressed_reference(const struct trial *t, operands o, double r[TRIAL_RESULTS][4])
+{
+    struct trial_operands changed = *o;
+    for (int c = 0; c < 4; c++) {
+        if (dress == MAGNITUDE || dress == NEGATED_MAGNITUDE)
+            changed.v[0][c] = fabsf(changed.v[0][c]);
+        if (dress == NEGATED || dress == NEGATED_MAGNITUDE)
+            changed.v[0][c] = -changed.v[0][c];
+    }
+    dressed_row->reference(t, &changed, r);
+    for (int c = 0; c < 4; c++) {
+        int p = predicate_component(c);
+        if (dress == SATURATED && written >> c & 1)
+            r[0][c] = saturated(r[0][c]);
+        if (dress == PREDICATED && !(C(p) > B(p)))
+            r[0][c] = C(c);
+    }
+}
+
+/* One line with the instruction, and which components it writes. */
+static void dress_line(const char *line, size_t length, const char *name, char *text)
+{
+    const char *result = line + strlen(name), *source = strstr(result, " r1"), *comma = strchr(result, ',');
+    const char *before =
+        dress == PREDICATED && dressed_row->opcode == SHADER_SINCOS_2 ? "(p0.y) " : dresses[dress].before;
+    for (const char *c = result; c < comma; c++)
+        for (unsigned i = 0; i < 4; i++)
+            written |= (unsigned)(*c == "xyzw"[i]) << i;
+    if (!memchr(result, '.', (size_t)(comma - result)))
+        written = 15;
+    sprintf(text + strlen(text), "%s%s%s%.*s %s%.*s", before, name, dresses[dress].behind,
+            (int)(source - result), result, dresses[dress].source, (int)(line + length - source - 3),
+            source + 3);
+}
+
+/* Every line that has the row's instruction; a predicate comes first. */
+static void dress_body(const char *body, const char *name, char *text)
+{
+    written = 0;
+    strcpy(text, dress == PREDICATED ? "mov r0, r3\nsetp_gt p0, r3, r2\n" : "");
+    for (const char *line = body; *line;) {
+        size_t length = strcspn(line, "\n"), letters = strlen(name);
+        if (!strncmp(line, name, letters) && line[letters] == ' ')
+            dress_line(line, length, name, text);
+        else
+            strncat(text, line, length);
+        line += length;
+        if (*line) {
+            strcat(text, "\n");
+            line++;
+        }
+    }
+}
+
+static int can_be_dressed(const struct shader_operation *operation, const struct shader_model *model)
+{
+    int third = shader_major(model) == 3, vertices = model->stage == STAGE_VERTEX;
+    switch (dress) {
+    case SATURATED: return !(operation->flags & IS_UNSATURATED) && (third || !vertices);
+    case PARTIAL: return !vertices;
+    case NEGATED: return 1;
+    case PREDICATED: return (model->capabilities & CAN_PREDICATION) != 0;
+    default: return third;
+    }
+}
+
+static void try_dressed(const struct row *row, const struct shader_model *model)
+{
+    char body[512], text[700];
+    const struct shader_operation *operation = &shader_operations[row->opcode];
+    if (shader_slots(operation, model) < 0 || row->flags & (shader_major(model) == 1 ? NOT_1 : ONLY_1))
+        return;
+    dressed_row = row;
+    unfold(row->body, body, sizeof body);
+    for (dress = 0; dress < DRESSES; dress++) {
+        if (!can_be_dressed(operation, model))
+            continue;
+        dress_body(body, operation->name, text);
+        struct trial trial = {.model = model->name, .setup = row->setup, .body = text, .results = 1};
+        trial.operands = row->flags & ORDINARY ? trial_ordinary : trial_edges;
+        trial.sets = row->flags & ORDINARY ? trial_ordinary_sets : trial_edge_sets;
+        trial.alone = shader_major(model) < 3 || dress == PARTIAL || dress == NEGATED_MAGNITUDE;
+        trial_expect_within(&trial, dressed_reference, row->relative, row->absolute);
+    }
+}
+
+static void every_instruction_takes_every_modifier(void)
+{
+    for (unsigned m = 0; m < sizeof models / sizeof *models; m++)
+        for (unsigned i = 0; i < sizeof rows / sizeof *rows; i++)
+            try_dressed(&rows[i], &shader_models[models[m]]);
+}
+
+/* --- Edges by hand ----------------------------------------------------------------------------------------
+ */
+
+/* What lit makes of x, y and w: the second operand's y and z. */
+static const struct trial_operands lights[] = {
+    {{{1, 0, 9, 0}, {0, 1, 0}}}, /* 0 to the power 0 is not seen */
+    {{{1, -0.0f, 9, 0}, {0, 1, 0}}},
+    {{{1, -1, 9, 2}, {0, 1, 0}}},
+    {{{0, 1, 9, 1}, {0, 0, 0}}},
+    {{{-0.0f, 1, 9, 1}, {0, 0, 0}}},
+    {{{-1, 0.5f, 9, 2}, {0, 0, 0}}},
+    {{{0.25f, 0.5f, 9, 2}, {0, 0.25f, 0.25f}}},
+    {{{2, 0.5f, 9, 0}, {0, 2, 1}}},
+    {{{2, 0.5f, 9, -2}, {0, 2, 4}}},
+    {{{1, 1, 9, INFINITY}, {0, 1, 1}}}, /* the power stays finite */
+    {{{1, INFINITY, 9, 0}, {0, 1, 1}}},
+    {{{1, INFINITY, 9, -1}, {0, 1, 0}}},
+    {{{INFINITY, 0.5f, 9, 1}, {0, INFINITY, 0.5f}}},
+    {{{NAN, 0.5f, 9, 1}, {0, 0, 0}}},
+    {{{1, NAN, 9, 1}, {0, 1, 0}}},
+    {{{1e-39f, 0.5f, 9, 1}, {0, 0, 0}}},
+    {{{1, 1e-39f, 9, 0}, {0, 1, 0}}},
+};
+
+static void light_reference(const struct trial *t, operands o, double r[TRIAL_RESULTS][4])
+{
+    (void)t;
+    r[0][0] = r[0][3] = 1;
+    r[0][1] = B(1), r[0][2] = B(2);
+}
+
+static void light_at_the_edges(void)
+{
+    static const char *const those[] = {"vs_1_1", "vs_2_0", "vs_3_0"};
+    for (int m = 0; m < 3; m++) {
+        struct trial trial = {.model = those[m],
+                              .body = "lit r0, r1",
+                              .results = 1,
+                              .operands = lights,
+                              .sets = sizeof lights / sizeof *lights};
+        trial_expect_within(&trial, light_reference, BITS_15, 0);
+    }
+}
+
 /* Angles by hand: zeros, right and straight angles as binary32 has them, beyond 2^25, and none at all. */
 static const struct trial_operands angles[] = {
     {{{0.0f, 1, 0}}},
@@ -459,10 +627,13 @@ static void angle_reference(const struct trial *t, operands o, double r[TRIAL_RE
 
 static void angles_at_the_edges(void)
 {
-    static const char *const models[] = {"vs_3_0", "ps_3_0"};
-    for (int m = 0; m < 2; m++) {
-        struct trial trial = {.model = models[m],
-                              .body = "mov r0, r3\nsincos r0.xy, r1.x",
+    static const char *const those[] = {"vs_3_0", "ps_3_0", "vs_2_0", "vs_2_x", "ps_2_0", "ps_2_x"};
+    for (int m = 0; m < 6; m++) {
+        int series = m >= 2;
+        struct trial trial = {.model = those[m],
+                              .setup = series ? SERIES : NULL,
+                              .body = series ? "mov r0, r3\nsincos r0.xy, r1.x, c20, c21"
+                                             : "mov r0, r3\nsincos r0.xy, r1.x",
                               .results = 1,
                               .operands = angles,
                               .sets = sizeof angles / sizeof *angles};
@@ -489,6 +660,8 @@ int main(void)
     UNITY_BEGIN();
     RUN_TEST(no_instruction_is_without_a_row);
     RUN_TEST(instructions_compute_what_their_definitions_say);
+    RUN_TEST(every_instruction_takes_every_modifier);
+    RUN_TEST(light_at_the_edges);
     RUN_TEST(angles_at_the_edges);
     RUN_TEST(constants_that_are_known_compute_the_same);
     RUN_TEST(masks_leave_the_other_components_alone);
