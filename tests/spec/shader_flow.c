@@ -387,6 +387,32 @@ static void all_lanes_can_leave_in_the_first_pass(void)
     }
 }
 
+/* All six over all pairs of edges, where every one but _ne stays with a NaN: left in the first pass if it
+ * holds, in the third if not. */
+static void left_by_comparison(const struct trial *trial, operands o, double r[TRIAL_RESULTS][4])
+{
+    (void)trial;
+    for (int c = 0; c < 4; c++)
+        r[0][c] = holds(at(o, 0, c), at(o, 1, c)) ? 1 : 3;
+}
+
+static void comparisons_leave_lane_by_lane(void)
+{
+    for (comparison = 1; comparison <= 6; comparison++) {
+        const char *name = shader_word_name(shader_comparisons, (unsigned)comparison);
+        char body[512] = "mov r0, c20.x";
+        for (int c = 0; c < 4; c++) {
+            size_t used = strlen(body);
+            char x = "xyzw"[c];
+            snprintf(body + used, sizeof body - used,
+                     "\nrep i0\nadd r0.%c, r0.%c, c20.y\nbreak_%s r1.%c, r2.%c\nendrep", x, x, name, x, x);
+        }
+        struct trial trial = trial_of(NULL, body, 1);
+        trial.setup = "def c20, 0, 1, 0, 0\ndefi i0, 3, 0, 0, 0\n";
+        on_all(dynamically, DYNAMICALLY, trial, left_by_comparison);
+    }
+}
+
 /* A lane that left the inner loop goes on in the outer one, until it leaves that; x counts inner passes, y outer ones. */
 static void left_twice(const struct trial *trial, operands o, double r[TRIAL_RESULTS][4])
 {
@@ -548,6 +574,7 @@ int main(void)
     RUN_TEST(loop_counts_from_its_start_by_its_step);
     RUN_TEST(the_counter_is_the_innermost_loops);
     RUN_TEST(lanes_leave_loops_by_themselves);
+    RUN_TEST(comparisons_leave_lane_by_lane);
     RUN_TEST(all_lanes_can_leave_in_the_first_pass);
     RUN_TEST(lanes_leave_the_innermost_loop_only);
     RUN_TEST(loops_run_in_the_lanes_that_enter);

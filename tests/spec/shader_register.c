@@ -191,6 +191,50 @@ static void inputs_are_addressed_by_the_counter(void)
     trial_expect(&trial, summed_inputs);
 }
 
+/* aL is 20, -108 and -236, where no input is, then 2. */
+static void summed_from_below(const struct trial *trial, operands o, double r[TRIAL_RESULTS][4])
+{
+    (void)trial;
+    for (int c = 0; c < 4; c++)
+        r[0][c] = 3 + at(o, 1, c);
+}
+
+static void inputs_below_the_first_are_zeros(void)
+{
+    struct trial trial = trial_of("vs_3_0",
+                                  "mov r0, c20.x\nloop aL, i0\nadd r0, r0, v[aL]\nadd r0, r0, c20.x\n"
+                                  "endloop\nsub r0, r0, c20.x\nloop aL, i1\nadd r0, r0, v[aL]\nendloop",
+                                  1);
+    trial.setup = "def c20, 1, 0, 0, 0\ndefi i0, 3, 20, -128, 0\ndefi i1, 1, 2, 0, 0\n";
+    trial.operands = trial_ordinary;
+    trial.sets = trial_ordinary_sets;
+    trial_expect(&trial, summed_from_below);
+    trial.model = "ps_3_0";
+    trial.alone = 1;
+    trial_expect(&trial, summed_from_below);
+}
+
+static void kept_outputs(const struct trial *trial, operands o, double r[TRIAL_RESULTS][4])
+{
+    (void)trial;
+    for (int i = 0; i < 3; i++)
+        for (int c = 0; c < 4; c++)
+            r[i][c] = at(o, i == 1 && c != 2 ? 0 : 1, c);
+}
+
+static void outputs_below_the_first_are_not_written(void)
+{
+    struct trial trial = trial_of("vs_3_0",
+                                  "mov o1, r2\nmov o2, r2\nmov o3, r2\nloop aL, i0\n"
+                                  "mov o[aL + 2].xyw, r1\nendloop",
+                                  3);
+    trial.setup = "defi i0, 3, 0, -100, 0\n"; /* o2, and twice nothing */
+    trial.gives = 1;
+    trial.operands = trial_ordinary;
+    trial.sets = trial_ordinary_sets;
+    trial_expect(&trial, kept_outputs);
+}
+
 /* o1, o2 and o3 get the operands backwards; what is written to o61 goes nowhere. */
 static void given_outputs(const struct trial *trial, operands o, double r[TRIAL_RESULTS][4])
 {
@@ -223,6 +267,8 @@ int main(void)
     RUN_TEST(rows_of_a_matrix_are_addressed);
     RUN_TEST(addressed_constants_are_modified_and_swizzled);
     RUN_TEST(inputs_are_addressed_by_the_counter);
+    RUN_TEST(inputs_below_the_first_are_zeros);
     RUN_TEST(outputs_are_addressed_by_the_counter);
+    RUN_TEST(outputs_below_the_first_are_not_written);
     return UNITY_END();
 }
