@@ -1,0 +1,544 @@
+/* The edges of what pixel shaders do with textures and with what they leave, worked out by hand, in whole draws on every
+ * engine: levels and biases at their limits, divisors of zero, samplers with nothing behind them, what kills, what
+ * registers of ps_1_x hold, depths, and NaN in targets of every format that can hold one. */
+#include "tests/support/drawn.h"
+#include "tests/support/texture_model.h"
+
+#include <float.h>
+#include <math.h>
+#include <stdio.h>
+#include <string.h>
+
+enum { PART = 8 }; /* pixels at the upper left that are drawn */
+
+void setUp(void)
+{
+    drawn_begin();
+}
+
+void tearDown(void)
+{
+    close_canvas();
+}
+
+#define COUNT(array) (sizeof(array) / sizeof *(array))
+
+static const char first[] = "vs_1_1\ndcl_position v0\ndcl_texcoord0 v1\ndcl_texcoord1 v2\nmov oPos, v0\n"
+                            "mov oT0, v1\nmov oT1, v2\n";
+static const char third[] = "vs_3_0\ndcl_position v0\ndcl_texcoord v1\ndcl_position o0\ndcl_texcoord o1\n"
+                            "mov o0, v0\nmov o1, v1\n";
+
+static uint32_t bits_of(float value)
+{
+    uint32_t bits;
+    memcpy(&bits, &value, sizeof bits);
+    return bits;
+}
+
+static void draw_part(void)
+{
+    for (int i = 0; i < 4; i++) {
+        drawn_position[i][0] = i % 2 ? -1 + 2.0f * PART / SIZE : -1;
+        drawn_position[i][1] = i / 2 ? 1 - 2.0f * PART / SIZE : 1;
+    }
+}
+
+static void begin_part(void)
+{
+    use_float_target();
+    draw_part();
+}
+
+static void set_pixel_constant(unsigned number, float x, float y, float z, float w)
+{
+    OK(triptych_set_shader_floats(device, TRIPTYCH_SHADER_PIXEL, number, (const float[4]){x, y, z, w}, 1));
+}
+
+/* With the same two sets of coordinates everywhere. */
+static void draw_coordinates(const float zeroth[4], const float next[4])
+{
+    const struct drawn_element element[] = {
+        drawn_constant(TRIPTYCH_USAGE_TEXCOORD, 0, zeroth[0], zeroth[1], zeroth[2], zeroth[3]),
+        drawn_constant(TRIPTYCH_USAGE_TEXCOORD, 1, next[0], next[1], next[2], next[3])};
+    draw_declared(TRIPTYCH_USAGE_POSITION, element, 2);
+    read_numbers(0);
+}
+
+static void expect_inside(const float expected[4], const char *what)
+{
+    expect_numbers(PART / 2, PART / 2 - 1, expected, what);
+}
+
+/* --- Levels -----------------------------------------------------------------------------------------------
+ */
+
+/* 8 texels a side; those of level n are n + 1 in all channels. */
+static void bind_levels(unsigned sampler)
+{
+    static float texels[64][4];
+    const struct triptych_texture_description description = {
+        TRIPTYCH_TEXTURE_2D, TRIPTYCH_SURFACE_A32B32G32R32F, 8, 8, 1, 4};
+    triptych_texture *levels;
+    OK(triptych_texture_define(device, &description, &levels));
+    for (unsigned level = 0; level < 4; level++) {
+        for (int i = 0; i < 256; i++)
+            texels[i / 4][i % 4] = (float)level + 1;
+        OK(triptych_texture_update(device, levels, 0, level, NULL, texels, sizeof *texels * (8u >> level),
+                                   0));
+    }
+    OK(triptych_set_texture(device, sampler, levels));
+    set_sampler(sampler, TRIPTYCH_SAMPLER_magfilter, "point");
+    set_sampler(sampler, TRIPTYCH_SAMPLER_minfilter, "point");
+    set_sampler(sampler, TRIPTYCH_SAMPLER_mipfilter, "point");
+}
+
+static void expect_level(float level, const char *what)
+{
+    expect_inside((const float[4]){level + 1, level + 1, level + 1, level + 1}, what);
+}
+
+/* From pixel to pixel u changes by a power of two, so that the level without a bias is its exponent plus 3. */
+static void check_biases(void)
+{
+    static const char *const texts[] = {"ps_2_0\ndcl_2d s2\ndcl t0\nmov r0, t0\nmov r0.w, c0.x\n"
+                                        "texldb r0, r0, s2\nmov oC0, r0\n",
+                                        "ps_2_x\ndcl_2d s2\ndcl t0\nmov r0, t0\nmov r0.w, c0.x\n"
+                                        "texldb r0, r0, s2\nmov oC0, r0\n",
+                                        "ps_3_0\ndcl_2d s2\ndcl_texcoord v0\nmov r0, v0\nmov r0.w, c0.x\n"
+                                        "texldb r0, r0, s2\nmov oC0, r0\n"};
+    static const struct {
+        float bias, change, level[2]; /* of models 2, and of 3 */
+    } cases[] = {{100, 0x1p-6f, {0, 3}},     {-100, 2, {1, 0}},      {3, 0x1p-4f, {2, 2}},
+                 {4, 0x1p-4f, {2, 3}},       {-3, 1, {0, 0}},        {-4, 2, {1, 0}},
+                 {15, 0x1p-16f, {0, 2}},     {16, 0x1p-16f, {0, 2}}, {INFINITY, 0x1p-16f, {0, 2}},
+                 {-16, 0x1p15f, {3, 2}},     {-17, 0x1p15f, {3, 2}}, {-INFINITY, 0x1p15f, {3, 2}},
+                 {NAN, 0x1p-16f, {0, 2}},    {NAN, 0x1p-4f, {2, 3}}, {-0.0f, 0.25f, {1, 1}},
+                 {INFINITY, 0x1p-5f, {1, 3}}};
+    begin_part();
+    bind_levels(2);
+    for (unsigned t = 0; t < COUNT(texts); t++) {
+        use_shaders(t == 2 ? third : first, texts[t]);
+        for (unsigned i = 0; i < COUNT(cases); i++) {
+            struct drawn_element ramp = drawn_constant(TRIPTYCH_USAGE_TEXCOORD, 0, 0, 0.5f, 0, 1);
+            char what[100];
+            for (int corner = 1; corner < 4; corner += 2)
+                ramp.value[corner][0] = PART * cases[i].change;
+            snprintf(what, sizeof what, "%.6s, bias %g of changes by %g", texts[t], (double)cases[i].bias,
+                     (double)cases[i].change);
+            set_pixel_constant(0, cases[i].bias, 0, 0, 0);
+            draw_declared(TRIPTYCH_USAGE_POSITION, &ramp, 1);
+            read_numbers(0);
+            expect_level(cases[i].level[t == 2], what);
+        }
+    }
+}
+
+static void test_biases_end_where_the_model_says(void)
+{
+    on_every_engine(check_biases);
+}
+
+/* What texldl is given, with maxmiplevel and mipmaplodbias. */
+static const struct {
+    float given;
+    unsigned first;
+    float bias, level;
+} levels[] = {{0, 0, 0, 0},         {-1, 0, 0, 0},       {0.25f, 0, 0, 0},     {0.75f, 0, 0, 1},
+              {1, 0, 0, 1},         {2.25f, 0, 0, 2},    {3, 0, 0, 3},         {7, 0, 0, 3},
+              {1e30f, 0, 0, 3},     {INFINITY, 0, 0, 3}, {-INFINITY, 0, 0, 0}, {NAN, 0, 0, 3},
+              {0, 2, 0, 2},         {-5, 2, 0, 2},       {1, 2, 0, 2},         {3, 2, 0, 3},
+              {-INFINITY, 1, 0, 1}, {0, 9, 0, 3},        {1, 0, 1, 2},         {2, 0, -1, 1},
+              {-1, 0, 3, 2},        {1, 1, -3, 1},       {18, 0, -16, 2}};
+
+static void check_levels_at(unsigned sampler, enum triptych_shader_stage stage, const char *vertex,
+                            const char *pixel)
+{
+    bind_levels(sampler);
+    use_shaders(vertex, pixel);
+    for (unsigned i = 0; i < COUNT(levels); i++) {
+        char what[100];
+        snprintf(what, sizeof what, "sampler %u, level %g, first %u, bias %g", sampler,
+                 (double)levels[i].given, levels[i].first, (double)levels[i].bias);
+        OK(triptych_set_sampler_state(device, sampler, TRIPTYCH_SAMPLER_maxmiplevel, levels[i].first));
+        OK(triptych_set_sampler_state(device, sampler, TRIPTYCH_SAMPLER_mipmaplodbias,
+                                      bits_of(levels[i].bias)));
+        OK(triptych_set_shader_floats(device, stage, 0, (const float[4]){0.5f, 0.25f, 0, levels[i].given},
+                                      1));
+        draw_declared(TRIPTYCH_USAGE_POSITION, NULL, 0);
+        read_numbers(0);
+        expect_level(levels[i].level, what);
+    }
+}
+
+static void check_levels(void)
+{
+    begin_part();
+    check_levels_at(5, TRIPTYCH_SHADER_PIXEL, third,
+                    "ps_3_0\ndcl_2d s5\nmov r0, c0\ntexldl r0, r0, s5\nmov oC0, r0\n");
+    check_levels_at(TRIPTYCH_VERTEX_SAMPLER + 3, TRIPTYCH_SHADER_VERTEX,
+                    "vs_3_0\ndcl_position v0\ndcl_2d s3\ndcl_position o0\ndcl_texcoord o1\nmov o0, v0\n"
+                    "mov r0, c0\ntexldl o1, r0, s3\n",
+                    "ps_3_0\ndcl_texcoord v0\nmov oC0, v0\n");
+}
+
+static void test_given_levels_are_limited_by_the_sampler(void)
+{
+    on_every_engine(check_levels);
+}
+
+/* texldd with the differences that the quad has is texld, to the bit. Coordinates bend, so that quads differ. */
+static void check_changes(void)
+{
+    static const char *const texts[] = {
+        "ps_3_0\ndcl_2d s2\ndcl_texcoord v0.xy\nmul r0.x, v0.x, v0.x\nmul r0.y, v0.x, v0.y\nmov r0.zw, v0.x\n"
+        "dsx r1, r0\ndsy r2, r0\ntexld r3, r0, s2\ntexldd r4, r0, s2, r1, r2\nmov oC0, r3\nmov oC1, r4\n",
+        "ps_2_x\ndcl_volume s2\ndcl t0.xy\nmul r0.x, t0.x, t0.x\nmul r0.y, t0.x, t0.y\nmov r0.zw, t0.x\n"
+        "dsx r1, r0\ndsy r2, r0\ntexld r3, r0, s2\ntexldd r4, r0, s2, r1, r2\nmov oC0, r3\nmov oC1, r4\n"};
+    static const char *const minification[] = {"point", "linear", "anisotropic"};
+    static struct model_texture texture;
+    static const struct model_sampler sampler = {.mag = 1, .min = 1, .mip = MODEL_MIP_LINEAR};
+    static float implicit[SIZE * SIZE][4];
+    struct triptych_target_description description = {
+        .width = SIZE,
+        .height = SIZE,
+        .color_format = {TRIPTYCH_SURFACE_A32B32G32R32F, TRIPTYCH_SURFACE_A32B32G32R32F}};
+    OK(triptych_set_target_description(device, &description));
+    for (int t = 0; t < 2; t++)
+        for (unsigned filter = 0; filter < COUNT(minification); filter++) {
+            struct drawn_element ramp = drawn_constant(TRIPTYCH_USAGE_TEXCOORD, 0, -1, -0.5f, 0, 1);
+            int several = 0;
+            ramp.value[1][0] = ramp.value[3][0] = 3;
+            ramp.value[2][1] = ramp.value[3][1] = 7;
+            model_make(&texture, device, 2, t ? TRIPTYCH_TEXTURE_VOLUME : TRIPTYCH_TEXTURE_2D, 1);
+            model_set(device, 2, &sampler);
+            set_sampler(2, TRIPTYCH_SAMPLER_minfilter, minification[filter]);
+            OK(triptych_set_sampler_state(device, 2, TRIPTYCH_SAMPLER_maxanisotropy, 4));
+            use_shaders(t ? first : third, texts[t]);
+            draw_declared(TRIPTYCH_USAGE_POSITION, &ramp, 1);
+            read_numbers(0);
+            memcpy(implicit, drawn, sizeof drawn);
+            read_numbers(1);
+            for (int p = 0; p < SIZE * SIZE; p++) {
+                expect_numbers(p % SIZE, p / SIZE, implicit[p], minification[filter]);
+                several += memcmp(implicit[p], implicit[0], sizeof *implicit) != 0;
+            }
+            TEST_ASSERT_GREATER_THAN_INT(SIZE, several);
+        }
+}
+
+static void test_given_changes_equal_those_of_the_quad(void)
+{
+    draw_part();
+    drawn_begin();
+    on_every_engine(check_changes);
+}
+
+/* --- Divisors ---------------------------------------------------------------------------------------------
+ */
+
+/* By zeros of either sign coordinates are multiplied by FLT_MAX: 0 stays, and the least number ends at the edge of its
+ * sign. */
+static void check_divisors(void)
+{
+    static const struct {
+        float u, v, divisor;
+        int x, y; /* the texel, of 8 x 8 */
+    } cases[] = {{0, 0, 0, 0, 0},
+                 {0, 0, -0.0f, 0, 0},
+                 {0x1p-125f, -0x1p-125f, 0, 7, 0},
+                 {0x1p-125f, -0x1p-125f, -0.0f, 7, 0},
+                 {-0x1p-125f, 0x1p-125f, 0, 0, 7},
+                 {-0.25f, -3, 0, 0, 0},
+                 {0.125f, 0.25f, 0.5f, 2, 4},
+                 {1, 2.5f, 4, 2, 5},
+                 {-0.25f, -0.5f, -0.5f, 4, 7},
+                 {0.25f, 0.5f, -0.5f, 0, 0},
+                 {0.5f, 0.5f, INFINITY, 0, 0}};
+    static const char *const texts[] = {
+        "ps_2_0\ndcl_2d s3\nmov r0, c0\ntexldp r0, r0, s3\nmov oC0, r0\n",
+        "ps_3_0\ndcl_2d s3\nmov r0, c0\ntexldp r0, r0, s3\nmov oC0, r0\n",
+        "ps_1_4\ntexld r3, t0_dw.xyw\nmov r0, r3\n",
+        "ps_1_4\ntexcrd r1.xyz, t0.xyw\nphase\ntexld r3, r1_dz\nmov r0, r3\n"};
+    static struct model_texture texture;
+    static const struct model_sampler nearest = {0};
+    begin_part();
+    model_make(&texture, device, 3, TRIPTYCH_TEXTURE_2D, 1);
+    model_set(device, 3, &nearest);
+    set_sampler(3, TRIPTYCH_SAMPLER_addressu, "clamp");
+    set_sampler(3, TRIPTYCH_SAMPLER_addressv, "clamp");
+    for (unsigned t = 0; t < COUNT(texts); t++) {
+        use_shaders(t == 1 ? third : first, texts[t]);
+        for (unsigned i = 0; i < COUNT(cases); i++) {
+            const float at[4] = {cases[i].u, cases[i].v, 0, cases[i].divisor};
+            char what[100];
+            if (t >= 2 && isinf(cases[i].divisor))
+                continue; /* interpolated it is no number */
+            snprintf(what, sizeof what, "%.30s: %g, %g by %g", texts[t], (double)at[0], (double)at[1],
+                     (double)at[3]);
+            set_pixel_constant(0, at[0], at[1], at[2], at[3]);
+            draw_coordinates(at, at);
+            expect_inside(texture.texel[0][0][cases[i].y][cases[i].x], what);
+        }
+    }
+}
+
+static void test_divisors_of_zero_are_the_least_that_can_be(void)
+{
+    on_every_engine(check_divisors);
+}
+
+/* --- Samplers with nothing behind them --------------------------------------------------------------------
+ */
+
+static void check_unbound(void)
+{
+    static const char *const texts[] = {
+        "ps_1_1\ntex t1\nmov r0, t1\n",
+        "ps_1_1\ntex t0\ntexbem t1, t0\nmov r0, t1\n",
+        "ps_1_1\ntex t0\ntexreg2ar t1, t0\nmov r0, t1\n",
+        "ps_1_4\ntexld r2, t0\nmov r0, r2\n",
+        "ps_2_0\ndcl_2d s4\ndcl t0\ntexld r0, t0, s4\nmov oC0, r0\n",
+        "ps_2_0\ndcl_cube s4\ndcl t0\ntexldp r0, t0, s4\nmov oC0, r0\n",
+        "ps_2_0\ndcl_volume s15\ndcl t0\ntexldb r0, t0, s15\nmov oC0, r0\n",
+        "ps_3_0\ndcl_2d s4\ndcl_texcoord v0\ntexldl r0, v0, s4\nmov oC0, r0\n",
+        "ps_3_0\ndcl_2d s4\ndcl_texcoord v0\nmov r1, v0\ntexldd r0, v0, s4, r1, r1\nmov oC0, r0\n",
+    };
+    begin_part();
+    for (unsigned t = 0; t < COUNT(texts); t++) {
+        use_shaders(texts[t][3] == '3' ? third : first, texts[t]);
+        draw_coordinates((const float[4]){0.5f, 0.25f, 2, 3}, (const float[4]){0.5f, 0.25f, 2, 3});
+        expect_inside((const float[4]){0, 0, 0, 1}, texts[t]);
+    }
+}
+
+static void test_without_a_texture_there_is_opaque_black(void)
+{
+    on_every_engine(check_unbound);
+}
+
+/* --- What kills -------------------------------------------------------------------------------------------
+ */
+
+static void expect_killed(int killed, const char *text, int c, float value)
+{
+    char what[200];
+    snprintf(what, sizeof what, "%s, component %d, %g", text, c, (double)value);
+    read_numbers(0);
+    expect_inside(killed ? (const float[4]){0.25f, 0.25f, 0.25f, 0.25f} : (const float[4]){1, 1, 1, 1}, what);
+}
+
+/* Constants come as they are; coordinates that are interpolated must be numbers. */
+static void check_kills(void)
+{
+    static const struct {
+        const char *text;
+        int components, interpolated;
+    } cases[] = {{"ps_1_1\ndef c1, 1, 1, 1, 1\ntexkill t0\nmov r0, c1\n", 3, 1},
+                 {"ps_1_2\ndef c1, 1, 1, 1, 1\ntexkill t0\nmov r0, c1\n", 3, 1},
+                 {"ps_1_3\ndef c1, 1, 1, 1, 1\ntex t1\ntexkill t0\nmov r0, c1\n", 3, 1},
+                 {"ps_1_4\ndef c1, 1, 1, 1, 1\ntexcrd r1.xyz, t0\nphase\ntexkill r1\nmov r0, c1\n", 3, 1},
+                 {"ps_1_4\ndef c1, 1, 1, 1, 1\nmov r1, c1\nphase\ntexkill t0\nmov r0, c1\n", 3, 1},
+                 {"ps_2_0\ndef c1, 1, 1, 1, 1\ndcl t0\ntexkill t0\nmov oC0, c1\n", 4, 1},
+                 {"ps_2_0\ndef c1, 1, 1, 1, 1\nmov r3, c0\ntexkill r3\nmov oC0, c1\n", 4, 0},
+                 {"ps_2_x\ndef c1, 1, 1, 1, 1\nmov r3, c0\ntexkill r3\nmov oC0, c1\n", 4, 0},
+                 {"ps_3_0\ndef c1, 1, 1, 1, 1\nmov r3, c0\ntexkill r3\nmov oC0, c1\n", 4, 0}};
+    static const float values[] = {-1,       -1e-20f, -0.0f, 0,         1e-20f,
+                                   -FLT_MIN, -1e-39f, NAN,   -INFINITY, INFINITY};
+    static const int kills[] = {1, 1, 0, 0, 0, 1, 0, 0, 1, 0};
+    begin_part();
+    for (unsigned i = 0; i < COUNT(cases); i++) {
+        use_shaders(cases[i].text[3] == '3' ? third : first, cases[i].text);
+        for (int c = 0; c < 4; c++)
+            for (unsigned v = 0; v < (cases[i].interpolated ? 5 : COUNT(values)); v++) {
+                float at[4] = {0.5f, 0.5f, 0.5f, 0.5f};
+                at[c] = values[v];
+                OK(triptych_clear(device, (const float[4]){0.25f, 0.25f, 0.25f, 0.25f}, 1));
+                set_pixel_constant(0, at[0], at[1], at[2], at[3]);
+                draw_coordinates(at, at);
+                expect_killed(c < cases[i].components && kills[v], cases[i].text, c, values[v]);
+            }
+    }
+}
+
+static void test_components_below_zero_kill(void)
+{
+    on_every_engine(check_kills);
+}
+
+/* --- Registers of ps_1_x ----------------------------------------------------------------------------------
+ */
+
+static void bind_value(unsigned sampler, float x, float y, float z, float w)
+{
+    const struct triptych_texture_description description = {
+        TRIPTYCH_TEXTURE_2D, TRIPTYCH_SURFACE_A32B32G32R32F, 1, 1, 1, 1};
+    triptych_texture *single;
+    OK(triptych_texture_define(device, &description, &single));
+    OK(triptych_texture_update(device, single, 0, 0, NULL, (const float[4]){x, y, z, w}, 16, 0));
+    OK(triptych_set_texture(device, sampler, single));
+}
+
+static void check_narrow(void)
+{
+    static const struct {
+        const char *text;
+        float texel[4], at[4], expected[4];
+    } cases[] = {
+        {"ps_1_1\ntex t1\nmov r0, t1\n", {100, -100, 7.5f, NAN}, {0}, {8, -8, 7.5f, -8}},
+        {"ps_1_3\ntex t1\nmov r0, t1\n", {INFINITY, -INFINITY, 8, -8}, {0}, {8, -8, 8, -8}},
+        {"ps_1_4\ntexld r1, t0\nmov r0, r1\n", {100, -100, 7.5f, NAN}, {0}, {8, -8, 7.5f, -8}},
+        {"ps_1_4\ntexcrd r1.xyz, t0\nmov r0.xyz, r1\n+mov r0.w, c0.w\n",
+         {0},
+         {100, -100, 7.5f, 3},
+         {8, -8, 7.5f, 0}},
+        {"ps_1_4\ntexcrd r1.xy, t0_dw.xyw\nmov r0, c0\nmov r0.xy, r1\n",
+         {0},
+         {0.5f, -3, 1, 0},
+         {8, -8, 0, 0}},
+        {"ps_1_4\ntexcrd r1.xy, t0_dw.xyw\nmov r0, c0\nmov r0.xy, r1\n",
+         {0},
+         {0.5f, -3, 1, 2},
+         {0.25f, -1.5f, 0, 0}},
+        {"ps_1_1\ntexcoord t0\nmov r0, t0\n", {0}, {-0.5f, 0.25f, 7, 0.5f}, {0, 0.25f, 1, 1}},
+        {"ps_1_3\ntexcoord t0\nmov r0, t0\n", {0}, {1e30f, -1e30f, -0.0f, -5}, {1, 0, 0, 1}},
+        {"ps_1_2\ntex t1\ntexdp3 t2, t1\nmov r0, t2\n", {0}, {0}, {0, 0, 0, 0}},
+        {"ps_1_1\ndef c1, 3, -3, 0.5, -1\nmov r0, c1\n", {0}, {0}, {1, -1, 0.5f, -1}},
+        {"ps_1_4\ndef c1, 3, -3, 0.5, -1\nmov r0, c1\n", {0}, {0}, {1, -1, 0.5f, -1}},
+    };
+    begin_part();
+    set_pixel_constant(0, 0, 0, 0, 0);
+    for (unsigned i = 0; i < COUNT(cases); i++) {
+        const float *texel = cases[i].texel;
+        bind_value(1, texel[0], texel[1], texel[2], texel[3]);
+        use_shaders(first, cases[i].text);
+        draw_coordinates(cases[i].at, cases[i].at);
+        expect_inside(cases[i].expected, cases[i].text);
+    }
+}
+
+static void test_registers_of_ps_1_x_are_narrow(void)
+{
+    on_every_engine(check_narrow);
+}
+
+/* --- Depth ------------------------------------------------------------------------------------------------
+ */
+
+/* Quotients are 1 by zeros of either sign, clamped, and take no bias. */
+static void check_depths(void)
+{
+    static const char *const texts[] = {
+        "ps_1_4\ntexcrd r5.xyz, t1\nphase\ntexdepth r5\nmov r0, c0\n",
+        "ps_1_3\ndef c1, 0, 0, 0, 0\ntexcoord t0\ntexm3x2pad t1, t0\ntexm3x2depth t2, t0\nmov r0, c1\n"};
+    static const char vertex[] =
+        "vs_1_1\ndcl_position v0\ndcl_texcoord0 v1\ndef c1, 1, 0, 0, 1\nmov oPos, v0\nmov oT0, c1\n"
+        "mov oT1, v1\nmov oT2, v1.yxzw\n";
+    static const float cases[][3] = {{0.25f, 0.5f, 0.5f}, {1, 4, 0.25f},  {1, 0, 1},    {-1, 0, 1},
+                                     {0, 0, 1},           {-1, -0.0f, 1}, {3, 2, 1},    {-1, 2, 0},
+                                     {-1, -4, 0.25f},     {0, 5, 0},      {5, 0.25f, 1}};
+    struct triptych_target_description description = {.width = SIZE,
+                                                      .height = SIZE,
+                                                      .depth_format = TRIPTYCH_DEPTH_d32f_lockable,
+                                                      .color_format = {TRIPTYCH_SURFACE_A8R8G8B8}};
+    static float depth[SIZE * SIZE];
+    OK(triptych_set_target_description(device, &description));
+    draw_part();
+    set(TRIPTYCH_STATE_zenable, "true");
+    set(TRIPTYCH_STATE_zfunc, "always");
+    OK(triptych_set_state(device, TRIPTYCH_STATE_depthbias, bits_of(0.125f)));
+    for (unsigned t = 0; t < COUNT(texts); t++) {
+        use_shaders(vertex, texts[t]);
+        for (unsigned i = 0; i < COUNT(cases); i++) {
+            const struct drawn_element quotient =
+                drawn_constant(TRIPTYCH_USAGE_TEXCOORD, 0, cases[i][0], cases[i][1], 0, 1);
+            char what[100];
+            draw_declared(TRIPTYCH_USAGE_POSITION, &quotient, 1);
+            OK(triptych_read_depth(device, depth));
+            snprintf(what, sizeof what, "%.6s: %g by %g", texts[t], (double)cases[i][0], (double)cases[i][1]);
+            TEST_ASSERT_EQUAL_FLOAT_MESSAGE(cases[i][2], depth[PART / 2 * SIZE + PART / 2], what);
+        }
+    }
+}
+
+static void test_depths_are_quotients(void)
+{
+    on_every_engine(check_depths);
+}
+
+/* --- NaN in targets ---------------------------------------------------------------------------------------
+ */
+
+static const struct {
+    enum triptych_surface_format format;
+    int channels; /* the others are 1 */
+} formats[] = {{TRIPTYCH_SURFACE_R16F, 1},          {TRIPTYCH_SURFACE_G16R16F, 2},
+               {TRIPTYCH_SURFACE_A16B16G16R16F, 4}, {TRIPTYCH_SURFACE_R32F, 1},
+               {TRIPTYCH_SURFACE_G32R32F, 2},       {TRIPTYCH_SURFACE_A32B32G32R32F, 4}};
+
+static void expect_one_nan(unsigned format, unsigned samples, const char *what)
+{
+    read_numbers(0);
+    for (int p = 0; p < 2; p++)
+        for (int c = 0; c < 4; c++) {
+            char message[100];
+            snprintf(message, sizeof message, "format %u, %u samples, %s, pixel %d, channel %d", format,
+                     samples, what, p, c);
+            TEST_ASSERT_EQUAL_HEX32_MESSAGE(c < formats[format].channels ? 0x7fc00000 : 0x3f800000,
+                                            bits_of(drawn[p * (SIZE + 1)][c]), message);
+        }
+}
+
+static void check_nan_in(unsigned format, unsigned samples)
+{
+    static const uint32_t odd[4] = {0xffc12345, 0x7f812345, 0x7fffffff, 0xff800001};
+    static const float zeros[4];
+    float nans[4];
+    struct triptych_target_description description = {
+        .width = SIZE, .height = SIZE, .color_format = {formats[format].format}, .samples = samples};
+    memcpy(nans, odd, sizeof nans);
+    OK(triptych_set_target_description(device, &description));
+    OK(triptych_set_shader_floats(device, TRIPTYCH_SHADER_PIXEL, 0, nans, 1));
+    use_shaders(third, "ps_3_0\nmov oC0, c0\n");
+    OK(triptych_clear(device, zeros, 1));
+    draw_declared(TRIPTYCH_USAGE_POSITION, NULL, 0);
+    expect_one_nan(format, samples, "stored");
+    OK(triptych_clear(device, zeros, 1));
+    use_shaders(third, "ps_3_0\nmov r0, c0\nsub r0, r0, c1\nmov oC0, r0\n");
+    draw_declared(TRIPTYCH_USAGE_POSITION, NULL, 0);
+    expect_one_nan(format, samples, "computed");
+    TEST_ASSERT_EQUAL_INT(TRIPTYCH_BAD_ARGUMENT, triptych_clear(device, nans, 1));
+    set(TRIPTYCH_STATE_alphablendenable, "true");
+    set(TRIPTYCH_STATE_srcblend, "zero");
+    set(TRIPTYCH_STATE_destblend, "one");
+    draw_declared(TRIPTYCH_USAGE_POSITION, NULL, 0);
+    expect_one_nan(format, samples, "blended");
+    set(TRIPTYCH_STATE_alphablendenable, "false");
+}
+
+static void check_nan(void)
+{
+    begin_part();
+    for (unsigned format = 0; format < COUNT(formats); format++)
+        for (unsigned samples = 1; samples <= 4; samples *= 4)
+            check_nan_in(format, samples);
+}
+
+static void test_there_is_one_nan_in_targets(void)
+{
+    on_every_engine(check_nan);
+}
+
+int main(void)
+{
+    UNITY_BEGIN();
+    RUN_TEST(test_biases_end_where_the_model_says);
+    RUN_TEST(test_given_levels_are_limited_by_the_sampler);
+    RUN_TEST(test_given_changes_equal_those_of_the_quad);
+    RUN_TEST(test_divisors_of_zero_are_the_least_that_can_be);
+    RUN_TEST(test_without_a_texture_there_is_opaque_black);
+    RUN_TEST(test_components_below_zero_kill);
+    RUN_TEST(test_registers_of_ps_1_x_are_narrow);
+    RUN_TEST(test_depths_are_quotients);
+    RUN_TEST(test_there_is_one_nan_in_targets);
+    return UNITY_END();
+}
