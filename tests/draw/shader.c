@@ -287,6 +287,29 @@ static void loops_that_are_not_allowed_refuse_the_draw(void)
     draw();
 }
 
+/* Counts and starts from 0 to 255, steps from -128 to 127; rep looks at its count alone. */
+static void each_number_of_a_loop_has_its_range(void)
+{
+    static const struct {
+        int32_t loop[4];
+        int good, good_for_rep;
+    } cases[] = {{{0, 0, 0}, 1, 1},   {{255, 255, 127}, 1, 1}, {{1, 0, -128}, 1, 1},
+                 {{-1, 0, 0}, 0, 0},  {{256, 0, 0}, 0, 0},     {{1, -1, 0}, 0, 1},
+                 {{1, 256, 0}, 0, 1}, {{1, 0, 128}, 0, 1},     {{1, 0, -129}, 0, 1},
+                 {{INT32_MIN}, 0, 0}, {{INT32_MAX}, 0, 0},     {{1, INT32_MIN, 0}, 0, 1}};
+    for (int rep = 0; rep < 2; rep++) {
+        set_vertex(rep ? loop_text
+                       : "vs_2_0\ndcl_position v0\nmov r0, v0\nloop aL, i2\nadd r0, r0, c0[aL]\nendloop\n"
+                         "mov oPos, r0\n");
+        for (unsigned i = 0; i < sizeof cases / sizeof *cases; i++) {
+            int good = rep ? cases[i].good_for_rep : cases[i].good;
+            OK(triptych_set_shader_integers(device, TRIPTYCH_SHADER_VERTEX, 2, cases[i].loop, 1));
+            TEST_ASSERT_EQUAL_INT(good ? TRIPTYCH_OK : TRIPTYCH_BAD_CALL,
+                                  triptych_draw(device, TRIPTYCH_TRIANGLE_LIST, 0, 1));
+        }
+    }
+}
+
 static void loops_that_would_run_too_long_refuse_the_draw(void)
 {
     static const int32_t long_loop[4] = {255}, short_loop[4] = {1};
@@ -352,6 +375,7 @@ int main(void)
     RUN_TEST(a_hundred_thousand_draws_stay_within_the_memory_of_constants);
     RUN_TEST(full_memory_of_constants_renders_what_is_recorded);
     RUN_TEST(loops_that_are_not_allowed_refuse_the_draw);
+    RUN_TEST(each_number_of_a_loop_has_its_range);
     RUN_TEST(loops_that_would_run_too_long_refuse_the_draw);
     RUN_TEST(a_shader_is_destroyed_when_its_draws_are_rendered);
     RUN_TEST(another_shader_of_the_same_program_keeps_it);

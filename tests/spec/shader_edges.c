@@ -465,6 +465,61 @@ static void test_depths_are_quotients(void)
     on_every_engine(check_depths);
 }
 
+/* --- Place and face ---------------------------------------------------------------------------------------
+ */
+
+/* vPos is whole however many samples there are, and its z and w are x and y again. */
+static void check_places(void)
+{
+    for (unsigned samples = 1; samples <= 4; samples *= 4) {
+        struct triptych_target_description description = {.width = SIZE,
+                                                          .height = SIZE,
+                                                          .color_format = {TRIPTYCH_SURFACE_A32B32G32R32F},
+                                                          .samples = samples};
+        OK(triptych_set_target_description(device, &description));
+        draw_part();
+        use_shaders(third, "ps_3_0\ndcl vPos\nmov oC0, vPos\n");
+        draw_declared(TRIPTYCH_USAGE_POSITION, NULL, 0);
+        read_numbers(0);
+        for (int y = 1; y < PART - 1; y++)
+            for (int x = 1; x < PART - 1; x++)
+                expect_numbers(x, y, (const float[4]){(float)x, (float)y, (float)x, (float)y}, "vPos");
+    }
+}
+
+static void test_places_are_whole(void)
+{
+    on_every_engine(check_places);
+}
+
+/* Lines have no back, whichever way they go. */
+static void check_lines(void)
+{
+    use_float_target();
+    use_shaders(third, "ps_3_0\ndcl vFace\nmov oC0, vFace\n");
+    for (int way = -1; way <= 1; way += 2) {
+        int fronts = 0;
+        OK(triptych_clear(device, (const float[4]){0}, 1));
+        for (int i = 0; i < 4; i++)
+            memcpy(drawn_position[i], (float[4]){i % 2 ? (float)way : (float)-way, 0.25f, 0.5f, 1},
+                   sizeof drawn_position[i]);
+        draw_declared(TRIPTYCH_USAGE_POSITION, NULL, 0);
+        OK(triptych_draw(device, TRIPTYCH_LINE_LIST, 0, 1));
+        read_numbers(0);
+        for (int p = 0; p < SIZE * SIZE; p++) {
+            TEST_ASSERT_TRUE(drawn[p][0] >= 0);
+            fronts += drawn[p][0] == 1;
+        }
+        TEST_ASSERT_INT_WITHIN(1, SIZE, fronts);
+    }
+    drawn_begin();
+}
+
+static void test_lines_are_fronts(void)
+{
+    on_every_engine(check_lines);
+}
+
 /* --- NaN in targets ---------------------------------------------------------------------------------------
  */
 
@@ -539,6 +594,8 @@ int main(void)
     RUN_TEST(test_components_below_zero_kill);
     RUN_TEST(test_registers_of_ps_1_x_are_narrow);
     RUN_TEST(test_depths_are_quotients);
+    RUN_TEST(test_places_are_whole);
+    RUN_TEST(test_lines_are_fronts);
     RUN_TEST(test_there_is_one_nan_in_targets);
     return UNITY_END();
 }
