@@ -161,7 +161,7 @@ libdir=$${prefix}/lib
 includedir=$${prefix}/include
 
 Name: triptych
-Description: one graphics pipeline run by three execution engines with identical results
+Description: one graphics pipeline run by interchangeable execution engines with identical results
 Version: $(VERSION)
 Libs: -L$${libdir} -ltriptych
 Libs.private: $(library_libraries)

@@ -68,7 +68,7 @@ struct program_step {
     /* if: its else, or its endif; else: its endif; loop, rep: its end; call, label: the first step of the body */
     uint32_t match;
     uint32_t end; /* if: its endif; call, label: the body's ret */
-    /* if, else, loop, rep, conditional call: a break inside leaves the loop around it; of a loop: itself */
+    /* if, else: a break inside leaves the loop around it; loop, rep: one inside leaves it */
     bool leaves;
     struct cell_set written; /* the same and label: in its region, up to the match, or in the body */
 };

@@ -35,6 +35,15 @@ static bool is_variant(unsigned engine, const char *name)
     return !strcmp(triptych_engine_name(engine), name) || !strcmp(triptych_engine_name(engine), variant);
 }
 
+/* Whether the engine without a width in its name is there by its full name as well. */
+static bool has_twin(unsigned engine)
+{
+    char twin[NAME_CAPACITY];
+    unsigned index;
+    snprintf(twin, sizeof twin, "%s-%u", triptych_engine_name(engine), triptych_engine_width(engine));
+    return find_engine(twin, &index);
+}
+
 static int find_variant(const struct command *self, const char *name, unsigned width, unsigned *index)
 {
     char widths[128] = "";
@@ -43,6 +52,8 @@ static int find_variant(const struct command *self, const char *name, unsigned w
             continue;
         if (triptych_engine_width(i) == width)
             return *index = i, STATUS_OK;
+        if (has_twin(i))
+            continue;
         snprintf(widths + strlen(widths), sizeof widths - strlen(widths), "%s%u", widths[0] ? ", " : "",
                  triptych_engine_width(i));
     }

@@ -15,7 +15,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-enum { NUMBER_MAXIMUM = 4194304, WIDTH_MAXIMUM = 64, ARENA_BYTES = 8 << 20 };
+enum { NUMBER_MAXIMUM = 4194304, WIDTH_MAXIMUM = 256, ARENA_BYTES = 8 << 20 };
 
 struct settings {
     const char *engine, *unit, *show;

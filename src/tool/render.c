@@ -11,7 +11,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-enum { FRAME_MAXIMUM = 65535, THREADS_MAXIMUM = 256, WIDTH_MAXIMUM = 64, CHANNELS = 4 };
+enum { FRAME_MAXIMUM = 65535, THREADS_MAXIMUM = 256, WIDTH_MAXIMUM = 256, CHANNELS = 4 };
 
 static int save_png(const char *path, const struct capture *capture, struct error *error)
 {
