@@ -161,6 +161,35 @@ static void addressed_constants_are_modified_and_swizzled(void)
     trial_expect(&trial, modifiers_and_swizzles);
 }
 
+/* Components of the address that the predicate keeps, and those that only one side of an if sets. */
+static void partly_addressed(const struct trial *trial, operands o, double r[TRIAL_RESULTS][4])
+{
+    (void)trial;
+    for (int c = 0; c < 4; c++) {
+        int changed = at(o, 0, c) > at(o, 1, c), inside = at(o, 0, 0) > at(o, 2, 0);
+        r[0][c] = row_at(changed ? 5 : 9, c);
+        r[1][c] = row_at(inside ? 7 : changed ? 5 : 9, c);
+    }
+}
+
+static void addresses_are_written_under_predication_and_in_branches(void)
+{
+    static const char *const models[] = {"vs_2_x", "vs_3_0"};
+    for (int m = 0; m < 2; m++) {
+        struct trial trial = trial_of(
+            models[m],
+            "mov r5, c20\nmova a0, r5.x\nsetp_gt p0, r1, r2\n(p0) mova a0, r5.y\nmov r0.x, c[a0.x].x\n"
+            "mov r0.y, c[a0.y].y\nmov r0.z, c[a0.z].z\nmov r0.w, c[a0.w].w\nif_gt r1.x, r3.x\n"
+            "mova a0, r5.z\nendif\nmov r4.x, c[a0.x].x\nmov r4.y, c[a0.y].y\nmov r4.z, c[a0.z].z\n"
+            "mov r4.w, c[a0.w].w",
+            2);
+        trial.setup = "def c20, 9, 5, 7, 0\n";
+        trial.operands = trial_edges;
+        trial.sets = trial_edge_sets;
+        trial_expect(&trial, partly_addressed);
+    }
+}
+
 /* --- Inputs and outputs by the loop's counter ----------------------------------------------------------------
  */
 
@@ -258,6 +287,34 @@ static void outputs_are_addressed_by_the_counter(void)
     trial_expect(&trial, given_outputs);
 }
 
+/* By the predicate, component by component, and in the lanes that execute. */
+static void partly_given_outputs(const struct trial *trial, operands o, double r[TRIAL_RESULTS][4])
+{
+    (void)trial;
+    for (int i = 0; i < 3; i++)
+        for (int c = 0; c < 4; c++) {
+            int given = at(o, 0, c) > at(o, 1, c), inside = at(o, 0, 1) >= at(o, 2, 1);
+            r[i][c] = at(o, 2, c);
+            if (given)
+                r[i][c] = at(o, 0, c);
+            if (inside && c == 2)
+                r[i][c] = at(o, 1, c) < 1 ? at(o, 1, c) > 0 ? at(o, 1, c) : 0 : isnan(at(o, 1, c)) ? 0 : 1;
+        }
+}
+
+static void addressed_outputs_are_written_under_predication_and_in_branches(void)
+{
+    struct trial trial = trial_of("vs_3_0",
+                                  "mov o1, r3\nmov o2, r3\nmov o3, r3\nsetp_gt p0, r1, r2\nloop aL, i0\n"
+                                  "(p0) mov o[aL], r1\nif_ge r1.y, r3.y\nmov_sat o[aL].z, r2\nendif\nendloop",
+                                  3);
+    trial.setup = "defi i0, 3, 1, 1, 0\n";
+    trial.gives = 1;
+    trial.operands = trial_edges;
+    trial.sets = trial_edge_sets;
+    trial_expect(&trial, partly_given_outputs);
+}
+
 int main(void)
 {
     UNITY_BEGIN();
@@ -266,9 +323,11 @@ int main(void)
     RUN_TEST(defined_constants_are_addressed_too);
     RUN_TEST(rows_of_a_matrix_are_addressed);
     RUN_TEST(addressed_constants_are_modified_and_swizzled);
+    RUN_TEST(addresses_are_written_under_predication_and_in_branches);
     RUN_TEST(inputs_are_addressed_by_the_counter);
     RUN_TEST(inputs_below_the_first_are_zeros);
     RUN_TEST(outputs_are_addressed_by_the_counter);
     RUN_TEST(outputs_below_the_first_are_not_written);
+    RUN_TEST(addressed_outputs_are_written_under_predication_and_in_branches);
     return UNITY_END();
 }
