@@ -365,7 +365,7 @@ static void test_components_below_zero_kill(void)
     on_every_engine(check_kills);
 }
 
-/* --- Registers of ps_1_x ----------------------------------------------------------------------------------
+/* --- What is written --------------------------------------------------------------------------------------
  */
 
 static void bind_value(unsigned sampler, float x, float y, float z, float w)
@@ -377,6 +377,80 @@ static void bind_value(unsigned sampler, float x, float y, float z, float w)
     OK(triptych_texture_update(device, single, 0, 0, NULL, (const float[4]){x, y, z, w}, 16, 0));
     OK(triptych_set_texture(device, sampler, single));
 }
+
+/* Lookups and differences under masks, swizzles and predicates. The texel is 1 2 3 4, what was there 5 6 7 8. */
+static void check_written(void)
+{
+    static const struct {
+        const char *line;
+        float expected[4];
+    } cases[] = {
+        {"texldl r0.xz, r1, s1", {1, 6, 3, 8}},
+        {"texldl r0.w, r1, s1", {5, 6, 7, 4}},
+        {"texldl r0, r1, s1.wzyx", {4, 3, 2, 1}},
+        {"texldl r0.yz, r1, s1.w", {5, 4, 4, 8}},
+        {"(p0) texldl r0, r1, s1", {1, 6, 7, 4}},
+        {"(!p0) texldl r0, r1, s1", {5, 2, 3, 8}},
+        {"(p0.y) texldl r0, r1, s1", {5, 6, 7, 8}},
+        {"(p0) texldl r0.zw, r1, s1.yyxx", {5, 6, 7, 1}},
+        {"(p0) texldd r0, r1, s1, r1, r1", {1, 6, 7, 4}},
+        {"texld r0, r1, s1.x", {1, 1, 1, 1}},
+        {"texldb r0, r1, s1.yzwx", {2, 3, 4, 1}},
+        {"texldp r0, r1, s1.zzzy", {3, 3, 3, 2}},
+        {"dsx r0.yw, r2", {5, 2, 7, 2}},
+        {"dsx_sat r0, -r2", {0, 0, 0, 0}},
+        {"dsx_sat r0.x, r2", {1, 6, 7, 8}},
+        {"dsy r0.x, r2_abs", {0, 6, 7, 8}},
+    };
+    begin_part();
+    bind_value(1, 1, 2, 3, 4);
+    for (unsigned i = 0; i < COUNT(cases); i++) {
+        char text[400];
+        snprintf(
+            text, sizeof text,
+            "ps_3_0\ndef c0, 5, 6, 7, 8\ndef c1, 1, -1, 0, 2\ndef c2, 0, 0, 0, 0\ndcl_2d s1\ndcl vPos.xy\n"
+            "mov r0, c0\nmov r1, c1\nadd r2, vPos.x, vPos.x\nsetp_gt p0, r1, c2\n%s\nmov oC0, r0\n",
+            cases[i].line);
+        use_shaders(third, text);
+        draw_declared(TRIPTYCH_USAGE_POSITION, NULL, 0);
+        read_numbers(0);
+        expect_inside(cases[i].expected, cases[i].line);
+    }
+}
+
+static void test_results_are_masked_swizzled_and_predicated(void)
+{
+    on_every_engine(check_written);
+}
+
+/* 0 times what is no number: NaN, which ps_1_x keeps as -8, or 0 with legacy multiplication. */
+static void check_legacy(void)
+{
+    static const float nans[4] = {NAN, NAN, NAN, 1};
+    begin_part();
+    bind_value(0, 0, -0.0f, 0, 0);
+    for (int legacy = 0; legacy < 2; legacy++) {
+        float expected = legacy ? 0 : -8;
+        OK(triptych_set_convention(device, TRIPTYCH_MULTIPLY,
+                                   legacy ? TRIPTYCH_MULTIPLY_LEGACY : TRIPTYCH_MULTIPLY_IEEE));
+        use_shaders(first, "ps_1_2\ntex t0\ntexdp3 t1, t0\nmov r0, t1\n");
+        draw_coordinates(nans, nans);
+        expect_inside((const float[4]){expected, expected, expected, expected}, "texdp3");
+        use_shaders(first,
+                    "ps_1_2\ntex t0\ntexm3x3pad t1, t0\ntexm3x3pad t2, t0\ntexm3x3 t3, t0\nmov r0, t3\n");
+        draw_coordinates(nans, nans);
+        read_numbers(0);
+        expect_inside((const float[4]){expected, 0, 0, 1}, "texm3x3");
+    }
+}
+
+static void test_legacy_multiplication_holds_for_rows_of_stages(void)
+{
+    on_every_engine(check_legacy);
+}
+
+/* --- Registers of ps_1_x ----------------------------------------------------------------------------------
+ */
 
 static void check_narrow(void)
 {
@@ -592,6 +666,8 @@ int main(void)
     RUN_TEST(test_divisors_of_zero_are_the_least_that_can_be);
     RUN_TEST(test_without_a_texture_there_is_opaque_black);
     RUN_TEST(test_components_below_zero_kill);
+    RUN_TEST(test_results_are_masked_swizzled_and_predicated);
+    RUN_TEST(test_legacy_multiplication_holds_for_rows_of_stages);
     RUN_TEST(test_registers_of_ps_1_x_are_narrow);
     RUN_TEST(test_depths_are_quotients);
     RUN_TEST(test_places_are_whole);
