@@ -120,11 +120,14 @@ static int spawn(const struct work *work, char *const arguments[], pid_t *proces
     posix_spawnattr_setsigmask(&attributes, &none);
     posix_spawnattr_setsigdefault(&attributes, &all);
     posix_spawnattr_setflags(&attributes, POSIX_SPAWN_SETSIGMASK | POSIX_SPAWN_SETSIGDEF);
-    posix_spawn_file_actions_addopen(&files, STDIN_FILENO, "/dev/null", O_RDONLY, 0);
-    posix_spawn_file_actions_addopen(&files, STDOUT_FILENO, "/dev/null", O_WRONLY, 0);
-    posix_spawn_file_actions_addopen(&files, STDERR_FILENO, work->path[WORK_MESSAGES],
-                                     O_WRONLY | O_CREAT | O_TRUNC, 0600);
-    result = posix_spawnp(process, arguments[0], &files, &attributes, arguments, environ);
+    result = posix_spawn_file_actions_addopen(&files, STDIN_FILENO, "/dev/null", O_RDONLY, 0);
+    if (!result)
+        result = posix_spawn_file_actions_addopen(&files, STDOUT_FILENO, "/dev/null", O_WRONLY, 0);
+    if (!result)
+        result = posix_spawn_file_actions_addopen(&files, STDERR_FILENO, work->path[WORK_MESSAGES],
+                                                  O_WRONLY | O_CREAT | O_TRUNC, 0600);
+    if (!result)
+        result = posix_spawnp(process, arguments[0], &files, &attributes, arguments, environ);
     posix_spawnattr_destroy(&attributes);
     posix_spawn_file_actions_destroy(&files);
     return result;

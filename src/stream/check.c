@@ -103,6 +103,7 @@ struct follower {
     struct triptych_buffer *stand_ins;         /* one per resource: their sizes are all that is looked at */
     uint32_t indices;
     const struct call **begun; /* by resource: the call that began the query, null outside */
+    bool integers_checked;     /* those of the shaders that are set: nothing is wrong with them */
 };
 
 static struct triptych_buffer *stand_in(struct follower *follower, uint32_t resource)
@@ -245,8 +246,9 @@ static int check_draw(struct follower *follower, const struct call *call, struct
 {
     uint64_t first = call->draw.first, count = call->draw.count;
     int indexed = call->type == CALL_DRAW_INDEXED;
-    if (state_check_integers(&follower->state, error))
+    if (!follower->integers_checked && state_check_integers(&follower->state, error))
         return -1;
+    follower->integers_checked = true;
     if (!follower->state.program[STAGE_VERTEX] && !follower->state.element[TRIPTYCH_POSITION].format &&
         !follower->state.element[TRIPTYCH_POSITIONT].format)
         return error_set(error, "found no position bound, expected bind vertices before it");
@@ -306,13 +308,22 @@ static int check_queries_ended(const struct follower *follower)
     return 0;
 }
 
+static void set_shader(struct follower *follower, const struct call *call)
+{
+    follower->state.program[call->shader] =
+        call->resource == NO_RESOURCE ? NULL : follower->stream->resources[call->resource].program;
+    follower->integers_checked = false;
+}
+
 /* Floats can be anything. */
 static void set_constants(struct follower *follower, const struct call *call)
 {
     struct shader_registers *registers = follower->state.registers[call->constants.stage];
-    if (call->constants.type == CONSTANTS_INTEGER)
-        memcpy(registers->integers[call->constants.first], call->constants.integers,
-               call->constants.count * sizeof *registers->integers);
+    if (call->constants.type != CONSTANTS_INTEGER)
+        return;
+    memcpy(registers->integers[call->constants.first], call->constants.integers,
+           call->constants.count * sizeof *registers->integers);
+    follower->integers_checked = false;
 }
 
 static int check_constant_matrix(const struct follower *follower, const struct call *call,
@@ -363,10 +374,7 @@ static int follow(struct follower *follower, const struct call *call, struct err
     case CALL_FREQUENCY:
         return state_set_frequency(state, call->frequency.stream, call->frequency.frequency,
                                    call->frequency.count, error);
-    case CALL_SHADER:
-        state->program[call->shader] =
-            call->resource == NO_RESOURCE ? NULL : follower->stream->resources[call->resource].program;
-        return 0;
+    case CALL_SHADER: set_shader(follower, call); return 0;
     case CALL_CONSTANTS: set_constants(follower, call); return 0;
     case CALL_CONSTANT_MATRIX: return check_constant_matrix(follower, call, error);
     case CALL_UPDATE:
