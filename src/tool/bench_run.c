@@ -91,6 +91,7 @@ static struct build build_of(const struct triptych_routine_info *info)
     memcpy(build.shader, program->name, sizeof build.shader);
     build.model = program->model->name;
     build.slots = program->slots;
+    build.hash = program->hash;
     return build;
 }
 

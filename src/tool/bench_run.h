@@ -29,6 +29,7 @@ struct build {
     char shader[SHADER_NAME_BYTES]; /* empty: none */
     const char *model;
     unsigned slots; /* instruction slots of the shader */
+    uint64_t hash;  /* of its tokens: what it is */
 };
 
 struct bench_run {

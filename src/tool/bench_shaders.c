@@ -46,8 +46,7 @@ enum { LENGTHS = sizeof lengths / sizeof *lengths };
 
 static bool is_same(const struct build *a, const struct build *b)
 {
-    return a->unit == b->unit && a->slots == b->slots && !strcmp(a->shader, b->shader) &&
-           !strcmp(a->model, b->model);
+    return a->unit == b->unit && a->model == b->model && a->hash == b->hash;
 }
 
 static bool is_listed(const struct shader_table *table, const struct build *build)
