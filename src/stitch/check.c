@@ -54,8 +54,10 @@ static int check_jumps(const struct plan *plan, unsigned i, struct error *error)
     const struct part *part = plan->part + i;
     for (unsigned h = 0; h < part->fragment->holes; h++) {
         const struct hole *hole = part->fragment->hole + h;
+        if (hole->kind != HOLE_JUMP)
+            continue;
         unsigned to = (unsigned)part->arguments.value[hole->argument];
-        if (hole->kind == HOLE_JUMP && to >= plan->count)
+        if (to >= plan->count)
             return error_set(error, "part %u, %s: jumps to part %u of %u", i, part->fragment->name, to,
                              plan->count);
     }
