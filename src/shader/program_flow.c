@@ -266,7 +266,7 @@ static int check_executed(const struct program *program, const int32_t (*integer
     count_steps(&bound, 0, program->main, 1, 0);
     if (bound.executed > PROGRAM_EXECUTED)
         return error_set(
-            error, "%s shader: loops and calls make it more than %d instructions, expected at most that",
+            error, "%s shader: loops and calls execute more than %d instructions, expected at most that",
             program->model->name, PROGRAM_EXECUTED);
     if (bound.loops > PROGRAM_LOOPS)
         return error_set(error, "%s shader: found loops %u deep, through calls, expected at most %d",

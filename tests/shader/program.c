@@ -56,6 +56,22 @@ static void expect_accepted(const struct program *program)
     program_release(program);
 }
 
+/* Far beyond any model: refused by the first one too deep, and nothing grows with the rest. */
+static void ten_thousand_nested_ifs_are_refused(void)
+{
+    enum { DEPTH = 10000 };
+    static char text[DEPTH * 32];
+    char *at = text + sprintf(text, "ps_3_0\ndcl_texcoord v0\n");
+    for (int i = 0; i < DEPTH; i++)
+        at += sprintf(at, "if_gt v0.x, v0.y\n");
+    at += sprintf(at, "mov oC0, v0\n");
+    for (int i = 0; i < DEPTH; i++)
+        at += sprintf(at, "endif\n");
+    TEST_ASSERT_NULL(acquire(text));
+    TEST_ASSERT_EQUAL_STRING("t:27:1: found computed conditions 25 deep, expected at most 24 in ps_3_0",
+                             error.text);
+}
+
 static void calls_of_calls_are_counted(void)
 {
     expect_accepted(acquire_tree(31, "", ""));
@@ -112,6 +128,7 @@ static void the_same_shader_is_one_program(void)
 int main(void)
 {
     UNITY_BEGIN();
+    RUN_TEST(ten_thousand_nested_ifs_are_refused);
     RUN_TEST(calls_of_calls_are_counted);
     RUN_TEST(loops_multiply);
     RUN_TEST(a_loop_that_never_runs_is_counted_once);
