@@ -8,16 +8,6 @@
 #include <stdlib.h>
 #include <string.h>
 
-static bool is_if(unsigned opcode)
-{
-    return opcode == SHADER_IF || opcode == SHADER_IF_COMPARE;
-}
-
-static bool is_call(unsigned opcode)
-{
-    return opcode == SHADER_CALL || opcode == SHADER_CALLNZ;
-}
-
 /* Whether the branch depends on computed values. */
 static bool is_computed(const struct shader_instruction *instruction)
 {

@@ -46,7 +46,6 @@ static void note_read(struct program *program, const struct shader_operand *sour
     if (!mask)
         return;
     if (source->relative) {
-        program->input_indexed = true;
         memset(program->input_mask, MASK_FULL, sizeof program->input_mask);
         return;
     }
@@ -103,7 +102,6 @@ static int note_instruction(struct program *program, const struct shader_instruc
     const struct shader_operation *row = &shader_operations[i->opcode];
     if (row->flags & IS_TEXTURE)
         note_stage(program, i);
-    program->output_indexed |= i->destination.relative != 0;
     for (unsigned s = 0; s < SHADER_SOURCES && row->source[s]; s++) {
         const struct shader_operand *source = &i->source[s];
         if (source->file == FILE_BOOLEAN && source->index >= 16)
@@ -121,12 +119,24 @@ static int note_instruction(struct program *program, const struct shader_instruc
 /* --- Making -----------------------------------------------------------------------------------------------
  */
 
+static float clamped(float value)
+{
+    return value < -1 ? -1 : value > 1 ? 1 : value;
+}
+
 static void define(struct program *program, const struct shader_instruction *i)
 {
     struct program_constant *constant = &program->defined[program->defined_count++];
     constant->file = i->destination.file;
     constant->index = i->destination.index;
     memcpy(constant->value, i->literal, sizeof constant->value);
+    for (int c = 0; c < 4 && shader_is_narrow(program->model);
+         c++) { /* which has no other files of constants */
+        float value;
+        memcpy(&value, &constant->value[c], sizeof value);
+        value = clamped(value);
+        memcpy(&constant->value[c], &value, sizeof value);
+    }
 }
 
 static int fill(struct program *program, const struct shader *shader, struct error *error)
@@ -265,32 +275,9 @@ const struct program_constant *program_defined(const struct program *program, en
     return NULL;
 }
 
-int program_output(const struct program *program, unsigned usage, unsigned usage_index, unsigned *mask)
-{
-    for (unsigned i = 0; i < program->interface.output_count; i++) {
-        const struct shader_port *port = &program->interface.outputs[i];
-        if (port->usage != usage || port->usage_index != usage_index)
-            continue;
-        struct shader_operand operand = {.file = port->file, .index = port->index};
-        *mask = port->mask;
-        return (int)(program_cell(&operand, program->model) - CELL_OUTPUT) / 4;
-    }
-    return -1;
-}
-
 size_t program_constant_bytes(const struct program *program)
 {
     return 16 * (size_t)(program->constants + 1 + program->integers);
-}
-
-static bool is_narrow(const struct program *program)
-{
-    return program->model->stage == STAGE_PIXEL && shader_major(program->model) == 1;
-}
-
-static float clamped(float value)
-{
-    return value < -1 ? -1 : value > 1 ? 1 : value;
 }
 
 void program_write_constants(const struct program *program, const float (*floats)[4],
@@ -298,7 +285,7 @@ void program_write_constants(const struct program *program, const float (*floats
 {
     float(*row)[4] = to;
     memcpy(row, floats, 16 * (size_t)program->constants);
-    if (is_narrow(program))
+    if (shader_is_narrow(program->model))
         for (uint32_t i = 0; i < 4 * program->constants; i++)
             row[i / 4][i % 4] = clamped(row[i / 4][i % 4]);
     for (uint32_t i = 0; i < program->defined_count; i++) {

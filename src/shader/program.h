@@ -115,7 +115,6 @@ struct program {
     /* Samplers whose lookups read the third component, which counts for nothing in the masks then. */
     uint16_t input_third[SHADER_PORTS], texture_third[8];
     struct program_port port[PROGRAM_PORTS]; /* of a pixel shader */
-    bool input_indexed, output_indexed;      /* v[aL], o[aL] */
     uint32_t slots;                          /* as the validator counts */
     /* the registry's */
     uint32_t users;
@@ -145,10 +144,6 @@ unsigned program_source_mask(const struct shader_instruction *instruction, unsig
 const struct program_constant *program_defined(const struct program *program, enum shader_file file,
                                                unsigned index);
 
-/* The number of the output with that usage, or -1; *mask receives its declared components. Position, fog and point
- * size have usages too (shader/interface.h). */
-int program_output(const struct program *program, unsigned usage, unsigned usage_index, unsigned *mask);
-
 /* What dcl, or the register's name, says that a component of an input is; null if nothing. */
 const struct shader_port *program_input(const struct program *program, unsigned file, unsigned index,
                                         unsigned component);
@@ -160,7 +155,7 @@ const struct shader_port *program_declaration(const struct program *program, uns
 int program_gives(const struct program *program, unsigned usage, unsigned usage_index, unsigned c);
 
 /* The cell of a destination register's component x. */
-unsigned program_cell(const struct shader_operand *destination, const struct shader_model *model);
+unsigned program_cell(const struct shader_operand *destination);
 
 /* What a draw brings: `constants` rows of four floats, a row of zeros (where relative addressing goes that is out of
  * range), `integers` rows of four. Bytes of it, and writing it from the state's registers, of which there are enough:

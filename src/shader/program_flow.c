@@ -1,24 +1,15 @@
 /* Flow control of a program: where it goes, and what each region of it writes.
  *
  * Validated shaders nest properly, calls go forward only, and ret stands at the end of the main program and of
- * subroutines, outside of all blocks. So two walks do: from back to front regions find their ends, and since a
- * subroutine lies behind all calls of it, what it writes is known before what calls it. */
+ * subroutines, outside of all blocks. So two walks do: from front to back regions find their ends; from back to
+ * front what they write is summed up, and since a subroutine lies behind all calls of it, what it writes is known
+ * before what calls it. */
 #include "shader/check.h"
 #include "shader/program.h"
-
-static bool is_if(unsigned opcode)
-{
-    return opcode == SHADER_IF || opcode == SHADER_IF_COMPARE;
-}
 
 static bool is_loop(unsigned opcode)
 {
     return opcode == SHADER_LOOP || opcode == SHADER_REP;
-}
-
-static bool is_call(unsigned opcode)
-{
-    return opcode == SHADER_CALL || opcode == SHADER_CALLNZ;
 }
 
 static bool is_break(unsigned opcode)
@@ -94,13 +85,13 @@ static void match_calls(struct program *program)
 /* --- What is written --------------------------------------------------------------------------------------
  */
 
-unsigned program_cell(const struct shader_operand *destination, const struct shader_model *model)
+unsigned program_cell(const struct shader_operand *destination)
 {
     unsigned index = destination->index;
     switch (destination->file) {
     case FILE_TEMPORARY: return CELL_TEMPORARY + 4 * index;
     case FILE_TEXTURE: return CELL_TEXTURE + 4 * index;
-    case FILE_ADDRESS: return model->stage == STAGE_VERTEX ? CELL_ADDRESS : CELL_TEXTURE + 4 * index;
+    case FILE_ADDRESS: return CELL_ADDRESS;
     case FILE_POSITION: return CELL_OUTPUT + 4 * OUTPUT_POSITION;
     case FILE_FOG: return CELL_OUTPUT + 4 * OUTPUT_FOG;
     case FILE_POINT: return CELL_OUTPUT + 4 * OUTPUT_POINT;
@@ -127,8 +118,7 @@ static void add_set(struct cell_set *to, const struct cell_set *from)
         to->word[i] |= from->word[i];
 }
 
-static void add_written(const struct program *program, const struct shader_instruction *i,
-                        struct cell_set *set)
+static void add_written(const struct shader_instruction *i, struct cell_set *set)
 {
     const struct shader_operation *row = &shader_operations[i->opcode];
     const struct shader_operand *to = &i->destination;
@@ -144,7 +134,7 @@ static void add_written(const struct program *program, const struct shader_instr
         for (unsigned o = 0; o < OUTPUT_COUNT; o++)
             add_cells(set, CELL_OUTPUT + 4 * o, to->swizzle);
     else
-        add_cells(set, program_cell(to, program->model), to->swizzle);
+        add_cells(set, program_cell(to), to->swizzle);
 }
 
 /* What steps from `from` to before `to` write, blocks and calls inside included. */
@@ -152,7 +142,7 @@ static void sum_up(const struct program *program, uint32_t from, uint32_t to, st
 {
     for (uint32_t i = from; i < to; i++) {
         const struct program_step *step = &program->step[i];
-        add_written(program, &step->instruction, set);
+        add_written(&step->instruction, set);
         if (is_call(step->instruction.opcode))
             add_set(set, &step->written);
     }
@@ -188,7 +178,7 @@ static void find_written(struct program *program)
                 add_set(&program->initial, &step->written);
         }
         if (step->instruction.predicate.file)
-            add_written(program, &step->instruction, &program->initial);
+            add_written(&step->instruction, &program->initial);
     }
     sum_up(program, 0, program->steps, &program->written);
 }

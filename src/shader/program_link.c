@@ -21,7 +21,7 @@ int program_gives(const struct program *program, unsigned usage, unsigned usage_
         if (port->usage != usage || port->usage_index != usage_index || !(port->mask >> c & 1))
             continue;
         struct shader_operand operand = {.file = port->file, .index = port->index};
-        unsigned cell = program_cell(&operand, program->model);
+        unsigned cell = program_cell(&operand);
         return cell_in(&program->written, cell + c) ? (int)(cell - CELL_OUTPUT) / 4 : -1;
     }
     return -1;

@@ -173,6 +173,13 @@ enum shader_modifier_id {
     MODIFIER_COUNT
 };
 
+/* Numbers of def/shader_comparison.def. */
+enum shader_comparison_id {
+#define COMPARISON(id, suffix, number) COMPARISON_##id = (number),
+#include "def/shader_comparison.def"
+#undef COMPARISON
+};
+
 struct shader_modifier {
     const char *before, *behind, *columns, *meaning;
 };
@@ -210,6 +217,22 @@ bool shader_has_usage(enum shader_file file, const struct shader_model *model);
 static inline unsigned shader_major(const struct shader_model *model)
 {
     return model->version >> 8;
+}
+
+static inline bool is_if(unsigned opcode)
+{
+    return opcode == SHADER_IF || opcode == SHADER_IF_COMPARE;
+}
+
+static inline bool is_call(unsigned opcode)
+{
+    return opcode == SHADER_CALL || opcode == SHADER_CALLNZ;
+}
+
+/* Whether registers have the ranges of ps_1_x: values within -8 and 8, constants within -1 and 1. */
+static inline bool shader_is_narrow(const struct shader_model *model)
+{
+    return model->stage == STAGE_PIXEL && shader_major(model) == 1;
 }
 
 /* --- One shader

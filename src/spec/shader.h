@@ -64,13 +64,10 @@ struct step {
 /* --- Sources ----------------------------------------------------------------------------------------------
  */
 
-static inline flt component_of_literal(struct env *e, const struct machine *m,
-                                       const struct program_constant *constant, unsigned c)
+static inline flt component_of_literal(struct env *e, const struct program_constant *constant, unsigned c)
 {
     float value;
     memcpy(&value, &constant->value[c], sizeof value);
-    if (m->pixel && shader_major(m->program->model) == 1)
-        value = value < -1 ? -1 : value > 1 ? 1 : value;
     return lit_f(E, value);
 }
 
@@ -111,7 +108,7 @@ static inline struct vector4 read_constant(struct env *e, const struct machine *
         if (!(places >> p & 1))
             continue;
         if (constant)
-            r.v[p] = component_of_literal(E, m, constant, c);
+            r.v[p] = component_of_literal(E, constant, c);
         else if (o->relative)
             r.v[p] = gather_f(E, BASE_CONSTANT, GATHER_DIRECT, index, 8, (int)(4 * c));
         else
@@ -140,8 +137,8 @@ static inline flt read_component(struct env *e, const struct machine *m, const s
                                  int row, unsigned c)
 {
     unsigned index = o->index + (unsigned)row;
-    int written =
-        m->pixel && shader_major(m->program->model) == 1 && m->program->model->column != COLUMN_PS_1_4;
+    const struct shader_model *model = m->program->model;
+    int written = shader_is_narrow(model) && model->column != COLUMN_PS_1_4;
     switch (o->file) {
     case FILE_TEMPORARY: return m->cell[CELL_TEMPORARY + 4 * index + c];
     case FILE_TEXTURE: return written ? m->cell[CELL_TEXTURE + 4 * index + c] : m->coordinate[index][c];
@@ -249,21 +246,14 @@ static inline void settle(struct env *e, struct machine *m)
     m->changed = (struct cell_set){{0}};
 }
 
-/* max and min take NaN to 0. */
-static inline flt saturate_result(struct env *e, flt v)
-{
-    flt low = max_f(E, v, lit_f(E, 0.0f));
-    return min_f(E, low, lit_f(E, 1.0f));
-}
-
 static inline flt finish_result(struct env *e, const struct machine *m, const struct shader_operand *to,
                                 flt v)
 {
     if (to->shift)
         v = mul_f(E, v, lit_f(E, to->shift > 0 ? (float)(1 << to->shift) : 1.0f / (float)(1 << -to->shift)));
     if (to->modifier & RESULT_SATURATE)
-        return saturate_result(E, v);
-    if (!m->pixel || shader_major(m->program->model) > 1)
+        return saturate(E, v);
+    if (!shader_is_narrow(m->program->model))
         return v;
     flt low = max_f(E, v, lit_f(E, -8.0f));
     return min_f(E, low, lit_f(E, 8.0f));
@@ -314,7 +304,7 @@ static inline void write_result(struct env *e, struct machine *m, const struct s
         if (to->relative)
             write_indexed(E, m, i, c, value);
         else
-            write_cell(E, m, i, program_cell(to, m->program->model), c, value);
+            write_cell(E, m, i, program_cell(to), c, value);
     }
 }
 
@@ -363,11 +353,11 @@ static inline void kill(struct env *e, struct machine *m, msk lanes)
 static inline msk compare_values(struct env *e, int comparison, flt a, flt b)
 {
     switch (comparison) {
-    case 1: return lt_f(E, b, a);
-    case 2: return eq_f(E, a, b);
-    case 3: return le_f(E, b, a);
-    case 4: return lt_f(E, a, b);
-    case 5: return ne_f(E, a, b);
+    case COMPARISON_GREATER: return lt_f(E, b, a);
+    case COMPARISON_EQUAL: return eq_f(E, a, b);
+    case COMPARISON_GREATER_EQUAL: return le_f(E, b, a);
+    case COMPARISON_LESS: return lt_f(E, a, b);
+    case COMPARISON_NOT_EQUAL: return ne_f(E, a, b);
     default: return le_f(E, a, b);
     }
 }

@@ -168,18 +168,24 @@ static void make_region(struct maker *maker, unsigned length)
     memcpy(maker->count, outside, sizeof outside);
 }
 
-void program_make(struct ir *ir, unsigned length, uint64_t *seed)
+/* An empty program with some values of each type to begin with. */
+static void begin(struct maker *maker, struct ir *ir, uint64_t *seed)
 {
-    static struct maker maker;
-    maker.ir = ir;
-    maker.seed = seed;
-    memset(maker.count, 0, sizeof maker.count);
+    maker->ir = ir;
+    maker->seed = seed;
+    memset(maker->count, 0, sizeof maker->count);
     ir_start(ir);
     ir->file[ir->file_count++] = "program";
     for (int type = TYPE_flt; type <= TYPE_fix; type++)
         for (int i = 0; i < 4; i++)
-            make_source(&maker, type);
-    make_mask(&maker);
+            make_source(maker, type);
+    make_mask(maker);
+}
+
+void program_make(struct ir *ir, unsigned length, uint64_t *seed)
+{
+    static struct maker maker;
+    begin(&maker, ir, seed);
     for (unsigned i = 0; i < length; i++)
         switch (program_random(seed) % 16) {
         case 0: make_store(&maker); break;
@@ -326,15 +332,7 @@ static void make_body(struct maker *maker, unsigned length, unsigned depth, unsi
 void program_make_loops(struct ir *ir, unsigned length, uint64_t *seed)
 {
     static struct maker maker;
-    maker.ir = ir;
-    maker.seed = seed;
-    memset(maker.count, 0, sizeof maker.count);
-    ir_start(ir);
-    ir->file[ir->file_count++] = "program";
-    for (int type = TYPE_flt; type <= TYPE_fix; type++)
-        for (int i = 0; i < 4; i++)
-            make_source(&maker, type);
-    make_mask(&maker);
+    begin(&maker, ir, seed);
     for (int i = 0; i < 8; i++)
         make_operation(&maker);
     for (unsigned variable = 0; variable < SHARED_VARIABLES; variable++)
