@@ -1,6 +1,6 @@
 # Triptych's build: `make help` lists the targets.
 #
-# Sources are found, never listed: src/tool/**/*.c and src/stream/**/*.c are the command; every other src/**/*.c,
+# Sources are found, never listed: those in src/tool, src/stream and src/fuzz are the command; every other src/**/*.c,
 # emu/*.c and asm/**/*.asm is the library; every tests/**/*.c outside tests/support/ is one Unity program with its
 # own main.
 # Everything built goes to $(BUILD). What is fetched or linked in from the system (the Unity sources, the glmark2
@@ -29,7 +29,7 @@ MAKEFLAGS += --no-builtin-rules --no-print-directory
 find = $(sort $(shell find $(1) -name '$(2)' 2>/dev/null))
 
 C_SOURCES       := $(call find,src emu,*.c)
-TOOL_SOURCES    := $(filter src/tool/% src/stream/%,$(C_SOURCES))
+TOOL_SOURCES    := $(filter src/tool/% src/stream/% src/fuzz/%,$(C_SOURCES))
 LIBRARY_SOURCES := $(filter-out $(TOOL_SOURCES),$(C_SOURCES)) $(call find,asm,*.asm)
 TEST_SOURCES    := $(call find,tests,*.c)
 SUPPORT_SOURCES := $(filter tests/support/%,$(TEST_SOURCES))
