@@ -152,6 +152,16 @@ enum triptych_result triptych_buffer_create(triptych_device *device, const void 
     return TRIPTYCH_OK;
 }
 
+enum triptych_result triptych_buffer_destroy(triptych_device *device, triptych_buffer *buffer)
+{
+    if (!device)
+        return TRIPTYCH_BAD_ARGUMENT;
+    if (!buffer)
+        return TRIPTYCH_OK;
+    struct error error = {{0}};
+    return finish(device, device_buffer_destroy(device, buffer, &error), &error);
+}
+
 enum triptych_result triptych_texture_create(triptych_device *device, const void *rgba, unsigned width,
                                              unsigned height, triptych_texture **texture)
 {
@@ -203,6 +213,16 @@ enum triptych_result triptych_texture_generate_mips(triptych_device *device, tri
         return null_argument(device, "texture");
     device_texture_generate_mips(device, texture);
     return TRIPTYCH_OK;
+}
+
+enum triptych_result triptych_texture_destroy(triptych_device *device, triptych_texture *texture)
+{
+    if (!device)
+        return TRIPTYCH_BAD_ARGUMENT;
+    if (!texture)
+        return TRIPTYCH_OK;
+    struct error error = {{0}};
+    return finish(device, device_texture_destroy(device, texture, &error), &error);
 }
 
 /* --- Shaders ----------------------------------------------------------------------------------------------
@@ -596,6 +616,16 @@ enum triptych_result triptych_query_create(triptych_device *device, enum triptyc
         return TRIPTYCH_OK;
     error_set(&error, "out of memory for a query");
     return finish(device, TRIPTYCH_NO_MEMORY, &error);
+}
+
+enum triptych_result triptych_query_destroy(triptych_device *device, triptych_query *query)
+{
+    if (!device)
+        return TRIPTYCH_BAD_ARGUMENT;
+    if (!query)
+        return TRIPTYCH_OK;
+    struct error error = {{0}};
+    return finish(device, device_query_destroy(device, query, &error), &error);
 }
 
 enum triptych_result triptych_query_begin(triptych_device *device, triptych_query *query)

@@ -441,6 +441,8 @@ TRIPTYCH_API enum triptych_result triptych_read_surface_numbers(triptych_device 
 /* Copies `bytes` (1 to 2^31 - 1) of data; the contents never change. */
 TRIPTYCH_API enum triptych_result triptych_buffer_create(triptych_device *, const void *data, size_t bytes,
                                                          triptych_buffer **buffer);
+/* Frees a buffer, after rendering what is recorded; where it was bound nothing is. Null is allowed. */
+TRIPTYCH_API enum triptych_result triptych_buffer_destroy(triptych_device *, triptych_buffer *);
 /* Copies an image of width x height (1 to 8192) RGBA8 texels. */
 TRIPTYCH_API enum triptych_result triptych_texture_create(triptych_device *, const void *rgba, unsigned width,
                                                           unsigned height, triptych_texture **texture);
@@ -461,6 +463,9 @@ TRIPTYCH_API enum triptych_result triptych_texture_update(triptych_device *, tri
  * more than 8 bits a channel to the precision of binary32. */
 TRIPTYCH_API enum triptych_result triptych_texture_generate_mips(triptych_device *,
                                                                  triptych_texture *texture);
+/* Frees a texture, after rendering what is recorded; where it was set there is none, and if it is drawn to, drawing goes
+ * back to the target. Null is allowed. */
+TRIPTYCH_API enum triptych_result triptych_texture_destroy(triptych_device *, triptych_texture *);
 
 /* Shaders, of the models 1.1 to 3.0 (docs/shaders.md). From bytecode: tokens as they lie in memory, from the version
  * token to the end token, or from assembly text. Either is copied. `name` begins the reasons of a shader that is
@@ -580,6 +585,8 @@ TRIPTYCH_API enum triptych_result triptych_query_end(triptych_device *, triptych
 /* The result of a query that has ended, after finishing. */
 TRIPTYCH_API enum triptych_result triptych_query_result(triptych_device *, triptych_query *,
                                                         uint64_t *result);
+/* Frees a query, also one that has begun. Null is allowed. */
+TRIPTYCH_API enum triptych_result triptych_query_destroy(triptych_device *, triptych_query *);
 
 /* Renders everything recorded so far. */
 TRIPTYCH_API enum triptych_result triptych_finish(triptych_device *);

@@ -117,6 +117,11 @@ void device_destroy(struct triptych_device *device)
 /* --- Rendering ---------------------------------------------------------------------------------------------
  */
 
+void device_limit_threads(struct triptych_device *device, unsigned threads)
+{
+    pool_limit(device->pool, threads);
+}
+
 void device_finish(struct triptych_device *device)
 {
     struct frame *frame = device->frame;

@@ -139,6 +139,10 @@ enum triptych_result device_query_end(struct triptych_device *device, struct tri
 enum triptych_result device_query_result(struct triptych_device *device, struct triptych_query *query,
                                          uint64_t *result, struct error *error);
 
+/* From now on rendering takes no more than so many of the device's threads; 0: all. For tools that compare numbers of
+ * threads without building routines twice. */
+void device_limit_threads(struct triptych_device *device, unsigned threads);
+
 /* Renders everything recorded. Cannot fail. */
 void device_finish(struct triptych_device *device);
 
@@ -161,6 +165,14 @@ enum triptych_result device_texture_update(struct triptych_device *device, struc
                                            const void *data, size_t row_pitch, size_t slice_pitch,
                                            struct error *error);
 void device_texture_generate_mips(struct triptych_device *device, struct triptych_texture *texture);
+
+/* device_resource.c; arguments are not null. */
+enum triptych_result device_buffer_destroy(struct triptych_device *device, struct triptych_buffer *buffer,
+                                           struct error *error);
+enum triptych_result device_texture_destroy(struct triptych_device *device, struct triptych_texture *texture,
+                                            struct error *error);
+enum triptych_result device_query_destroy(struct triptych_device *device, struct triptych_query *query,
+                                          struct error *error);
 
 /* Shaders (device_shader.c): from a decoded one, which is validated and may be freed; null sets none. */
 enum triptych_result device_shader_create(struct triptych_device *device, const struct shader *shader,

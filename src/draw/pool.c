@@ -23,7 +23,7 @@ struct pool {
     bool leaving;
     pool_task *task;
     void *user;
-    unsigned workers;
+    unsigned workers, limit;
     struct pool_worker worker[]; /* worker 0 is the caller's thread */
 };
 
@@ -94,6 +94,7 @@ struct pool *pool_create(unsigned threads, pool_create_thread *create, struct er
         if (create(&worker->thread, NULL, work, worker))
             break;
     }
+    pool->limit = pool->workers;
     return pool;
 }
 
@@ -118,10 +119,15 @@ unsigned pool_workers(const struct pool *pool)
     return pool->workers;
 }
 
+void pool_limit(struct pool *pool, unsigned workers)
+{
+    pool->limit = workers && workers < pool->workers ? workers : pool->workers;
+}
+
 void pool_run(struct pool *pool, unsigned workers, pool_task *task, void *user)
 {
-    if (workers > pool->workers)
-        workers = pool->workers;
+    if (workers > pool->limit)
+        workers = pool->limit;
     if (workers > 1) {
         pthread_mutex_lock(&pool->lock);
         pool->task = task;

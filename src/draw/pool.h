@@ -26,6 +26,9 @@ void pool_destroy(struct pool *pool);
 
 unsigned pool_workers(const struct pool *pool);
 
+/* From now on tasks run on no more than so many; 0: on all. */
+void pool_limit(struct pool *pool, unsigned workers);
+
 /* Runs task(user, i) for workers i below `workers` (clamped to 1 and the pool's size), returns when all have.
  */
 void pool_run(struct pool *pool, unsigned workers, pool_task *task, void *user);

@@ -1,5 +1,5 @@
-/* Buffers: what the application hands over once and never changes. They live as long as the device, so a
- * recorded draw may point into them. */
+/* Buffers: what the application hands over once and never changes. Recorded draws point into them: they are rendered
+ * before a buffer goes. */
 #ifndef DRAW_RESOURCE_H
 #define DRAW_RESOURCE_H
 

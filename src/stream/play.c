@@ -80,6 +80,16 @@ static enum triptych_result create(triptych_device *device, const struct resourc
     return result;
 }
 
+/* Calls with null or with what is the device's cannot fail. */
+static void destroy(triptych_device *device, const struct handles *handles)
+{
+    triptych_buffer_destroy(device, handles->vertices);
+    triptych_buffer_destroy(device, handles->indices);
+    triptych_texture_destroy(device, handles->texture);
+    triptych_shader_destroy(device, handles->shader);
+    triptych_query_destroy(device, handles->query);
+}
+
 static int create_all(struct player *player, struct error *error)
 {
     const struct stream *stream = player->stream;
@@ -116,6 +126,8 @@ void player_free(struct player *player)
 {
     if (!player)
         return;
+    for (uint32_t i = 0; player->handles && i < player->stream->resource_count; i++)
+        destroy(player->device, &player->handles[i]);
     free(player->handles);
     free(player);
 }

@@ -355,7 +355,7 @@ int stream_save(const struct stream *stream, const char *path, struct error *err
 int stream_prepare(const struct stream *stream, triptych_device *device, struct player **player,
                    struct error *error);
 
-/* Null is allowed. The resources stay on the device until it is destroyed: it has no call to free them. */
+/* Null is allowed. Frees the stream's resources on the device too. */
 void player_free(struct player *player);
 
 /* Plays frame `frame` (0 to frame_count - 1) and finishes it (triptych_finish). After frame - 1 that executes

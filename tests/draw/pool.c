@@ -54,6 +54,18 @@ static void the_number_wanted_is_clamped(void)
     TEST_ASSERT_EQUAL_UINT32(0, runs[2]);
 }
 
+static void a_limit_holds_until_it_is_lifted(void)
+{
+    pool = pool_create(3, NULL, NULL);
+    pool_limit(pool, 2);
+    pool_run(pool, 3, count_run, &pool);
+    TEST_ASSERT_EQUAL_UINT32(0, runs[2]);
+    pool_limit(pool, 0);
+    pool_run(pool, 3, count_run, &pool);
+    TEST_ASSERT_EQUAL_UINT32(2, runs[1]);
+    TEST_ASSERT_EQUAL_UINT32(1, runs[2]);
+}
+
 static void tasks_run_in_the_contracts_environment_and_the_callers_is_restored(void)
 {
     pool = pool_create(3, NULL, NULL);
@@ -95,6 +107,7 @@ int main(void)
     UNITY_BEGIN();
     RUN_TEST(each_wanted_worker_runs_once_a_round);
     RUN_TEST(the_number_wanted_is_clamped);
+    RUN_TEST(a_limit_holds_until_it_is_lifted);
     RUN_TEST(tasks_run_in_the_contracts_environment_and_the_callers_is_restored);
     RUN_TEST(refused_threads_make_a_smaller_pool);
     RUN_TEST(zero_means_as_many_as_processors);
