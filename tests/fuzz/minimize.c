@@ -248,7 +248,7 @@ static void an_indexed_draw_keeps_one_triangle(void)
 
 static void a_shader_keeps_what_is_asked_for_with_plain_operands(void)
 {
-    shrinks_to("triptych 1\ntarget 1 1\nshader lit {\nps_2_0\ndef c0, 0, 0, 0, 0\nmad r0, c0, c0, c0\nmov "
+    shrinks_to("triptych 1\ntarget 1 1\nshader lit {\nps_2_0\ndcl v0\nmov r0, v0\nmad r0, r0, c0, c0\nmov "
                "oC0, r0\n}\n",
                TEXTS("mad"));
 }
