@@ -1,0 +1,50 @@
+/* What the writers of a case's parts share: the maker, which knows what has been written so far. */
+#ifndef FUZZ_CASE_PART_H
+#define FUZZ_CASE_PART_H
+
+#include "fuzz/random.h"
+#include "fuzz/text.h"
+#include "triptych.h"
+
+enum { CASE_TEXTURES = 6, ANY_TEXTURE = TRIPTYCH_TEXTURE_TYPE_COUNT };
+
+struct case_texture {
+    enum triptych_texture_type type;
+    unsigned size; /* of a side */
+    bool target;   /* can be drawn to */
+};
+
+struct maker {
+    struct random random;
+    struct text *text;
+    unsigned width, height; /* of the target */
+    bool has_depth, has_stencil;
+    unsigned targets, samples;
+    bool wild;   /* vertices and matrices hold anything */
+    bool window; /* vertices are in pixels of the target */
+    unsigned vertices, indices;
+    struct case_texture texture[CASE_TEXTURES];
+    unsigned textures;
+    uint64_t elements; /* of vertices that a shader wants: enum stream_element, a bit each */
+    unsigned stages;   /* texture stages in use */
+    uint32_t samplers; /* in use, a bit each */
+    unsigned sampler_type[TRIPTYCH_SAMPLERS]; /* what a shader wants, or ANY_TEXTURE */
+};
+
+/* The parts, in the order in which a case has them; names are made of the maker's counts. */
+void case_target(struct maker *);
+void case_textures(struct maker *);
+void case_vertices(struct maker *);
+void case_transforms(struct maker *);
+void case_lights(struct maker *);
+void case_window(struct maker *);
+void case_states(struct maker *, unsigned changes);
+void case_samplers(struct maker *);
+void case_stages(struct maker *);
+
+/* Forms of values: " 0.25", four of them, " 0xAARRGGBB". */
+void case_number(struct maker *, float least, float most);
+void case_numbers(struct maker *, unsigned count, float least, float most);
+void case_color(struct maker *);
+
+#endif

@@ -1,0 +1,231 @@
+/* `triptych fuzz`: random cases drawn with every engine, width and number of threads (docs/fuzzing.md). */
+#include "base/file.h"
+#include "engines.h"
+#include "fuzz/campaign.h"
+#include "tool/choose.h"
+#include "tool/json.h"
+#include "tool/machine.h"
+#include "tool/option.h"
+
+#include <errno.h>
+#include <inttypes.h>
+#include <stdio.h>
+#include <string.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+enum { PATH_CAPACITY = 4096, NEVER = 0xffffffff };
+
+struct settings {
+    unsigned seed, first, count, jobs, enough, print;
+    double seconds, limit;
+    const char *engines, *threads, *folder, *json;
+};
+
+static uint64_t drawn(const struct campaign *campaign)
+{
+    return campaign->cases - campaign->outcomes[OUTCOME_REFUSED];
+}
+
+static bool watch(void *user, const struct campaign *campaign)
+{
+    const struct settings *settings = user;
+    progress("%" PRIu64 " of %u cases, %.0f a second, %u findings", campaign->cases, settings->count,
+             (double)campaign->cases / campaign->seconds, campaign->findings);
+    return false;
+}
+
+/* The reference of every comparison comes first, whatever the list says. */
+static int choose(const struct command *self, const struct settings *settings, struct runner_options *run)
+{
+    struct choice engines, threads;
+    unsigned reference;
+    if (choose_engines(self, settings->engines, &engines) ||
+        choose_threads(self, settings->threads, &threads) || choose_engine(self, "emulate", 0, &reference))
+        return STATUS_BAD;
+    run->engine[run->engines++] = engine_at(reference);
+    for (unsigned i = 0; i < engines.count; i++)
+        if (engines.index[i] != reference && run->engines < RUNNER_ENGINES)
+            run->engine[run->engines++] = engine_at(engines.index[i]);
+    if (threads.count > RUNNER_THREADS)
+        return fail(self, "%u numbers of threads, expected at most %d", threads.count, RUNNER_THREADS);
+    run->threads = threads.count;
+    memcpy(run->thread, threads.index, threads.count * sizeof *run->thread);
+    return STATUS_OK;
+}
+
+/* --- Findings ---------------------------------------------------------------------------------------------
+ */
+
+static void describe(const struct settings *settings, const struct campaign_finding *found, char *text,
+                     size_t size)
+{
+    const struct finding *finding = &found->finding;
+    int length = snprintf(text, size, "seed %u case %" PRIu64 ": %s", settings->seed, found->number,
+                          outcome_name[finding->outcome]);
+    if (finding->engine)
+        length += snprintf(text + length, size - (size_t)length, ": %s with %u thread%s",
+                           finding->engine->name, finding->threads, finding->threads == 1 ? "" : "s");
+    snprintf(text + length, size - (size_t)length, ": %s", finding->what);
+}
+
+static int save(const struct command *self, const struct settings *settings,
+                const struct campaign_finding *found, const char *description, const struct text *text)
+{
+    struct error error = {{0}};
+    struct text whole = {0};
+    char path[PATH_CAPACITY];
+    const char *rest = strchr(text->data, '\n');
+    snprintf(path, sizeof path, "%s/%u-%" PRIu64 ".tri", settings->folder, settings->seed, found->number);
+    text_add(&whole, "triptych 1\n# %s\n%s", description, rest ? rest + 1 : "");
+    int bad = whole.failed ? error_set(&error, "%s: out of memory", path)
+                           : file_write(path, whole.data, whole.length, &error);
+    text_free(&whole);
+    if (bad)
+        return fail(self, "%s", error.text);
+    printf("  %s\n", path);
+    return STATUS_OK;
+}
+
+static int report_finding(const struct command *self, const struct settings *settings,
+                          const struct campaign_finding *found, cJSON *list)
+{
+    char description[2 * FINDING_TEXT];
+    struct text text = {0};
+    describe(settings, found, description, sizeof description);
+    printf("%s\n", description);
+    cJSON_AddItemToArray(list, cJSON_CreateString(description));
+    campaign_case(settings->seed, found->number, &text);
+    int bad = text.failed ? fail(self, "out of memory for a case")
+                          : save(self, settings, found, description, &text);
+    text_free(&text);
+    return bad;
+}
+
+/* --- Report -----------------------------------------------------------------------------------------------
+ */
+
+static void summarize(const struct runner_options *run, const struct campaign *campaign)
+{
+    progress(NULL);
+    printf("%" PRIu64 " cases, %u engines, %u numbers of threads: %.0f a second, %.1f pixels a case, %" PRIu64
+           " refused, %" PRIu64 " limited, %u findings%s\n",
+           campaign->cases, run->engines, run->threads, (double)campaign->cases / campaign->seconds,
+           (double)campaign->pixels / (double)(drawn(campaign) ? drawn(campaign) : 1),
+           campaign->outcomes[OUTCOME_REFUSED], campaign->outcomes[OUTCOME_LIMITED], campaign->findings,
+           campaign->interrupted ? ", interrupted" : "");
+}
+
+static cJSON *make_json(const struct settings *settings, const struct runner_options *run,
+                        const struct campaign *campaign, cJSON *findings)
+{
+    struct machine machine = machine_describe();
+    cJSON *json = cJSON_CreateObject(), *engines;
+    cJSON_AddItemToObject(json, "machine", machine_json(&machine));
+    cJSON_AddNumberToObject(json, "seed", settings->seed);
+    cJSON_AddNumberToObject(json, "first", settings->first);
+    engines = cJSON_AddArrayToObject(json, "engines");
+    for (unsigned i = 0; i < run->engines; i++)
+        cJSON_AddItemToArray(engines, cJSON_CreateString(run->engine[i]->name));
+    cJSON_AddNumberToObject(json, "seconds", campaign->seconds);
+    cJSON_AddNumberToObject(json, "pixels", (double)campaign->pixels);
+    cJSON_AddNumberToObject(json, "cases", (double)campaign->cases);
+    for (unsigned o = 0; o < OUTCOME_COUNT; o++)
+        cJSON_AddNumberToObject(json, outcome_name[o], (double)campaign->outcomes[o]);
+    cJSON_AddBoolToObject(json, "interrupted", campaign->interrupted);
+    cJSON_AddItemReferenceToObject(json, "findings", findings);
+    return json;
+}
+
+static int report(const struct command *self, const struct settings *settings,
+                  const struct runner_options *run, const struct campaign *campaign)
+{
+    cJSON *findings = cJSON_CreateArray();
+    int status = campaign->findings ? STATUS_DIFFERENT : STATUS_OK;
+    for (unsigned i = 0; i < campaign->findings && status != STATUS_BAD; i++)
+        if (report_finding(self, settings, &campaign->finding[i], findings))
+            status = STATUS_BAD;
+    if (settings->json && status != STATUS_BAD) {
+        cJSON *json = make_json(settings, run, campaign, findings);
+        if (json_write(self, json, settings->json))
+            status = STATUS_BAD;
+        cJSON_Delete(json);
+    }
+    cJSON_Delete(findings);
+    summarize(run, campaign);
+    return status;
+}
+
+/* --- The command ------------------------------------------------------------------------------------------
+ */
+
+static int print_case(const struct command *self, const struct settings *settings)
+{
+    struct text text = {0};
+    campaign_case(settings->seed, settings->print, &text);
+    int bad = text.failed;
+    if (!bad)
+        fwrite(text.data, 1, text.length, stdout);
+    text_free(&text);
+    return bad ? fail(self, "out of memory for a case") : STATUS_OK;
+}
+
+static int fuzz(const struct command *self, struct settings *settings)
+{
+    static struct campaign campaign;
+    struct error error = {{0}};
+    struct campaign_options options = {.seed = settings->seed,
+                                       .first = settings->first,
+                                       .count = settings->count,
+                                       .seconds = settings->seconds,
+                                       .limit = settings->limit,
+                                       .jobs = settings->jobs,
+                                       .enough = settings->enough};
+    if (choose(self, settings, &options.run) || check_output(self, settings->json))
+        return STATUS_BAD;
+    if (mkdir(settings->folder, 0777) && errno != EEXIST)
+        return fail(self, "%s: cannot make the folder: %s", settings->folder, strerror(errno));
+    if (campaign_run(&options, watch, settings, &campaign, &error))
+        return fail(self, "%s", error.text);
+    int status = report(self, settings, &options.run, &campaign);
+    rmdir(settings->folder); /* if nothing was found */
+    return status;
+}
+
+static const char notes[] = "Case N of seed S is always the same draw stream. Findings are minimised and "
+                            "written to the folder as streams.\n"
+                            "Exit status 1 if there are any.";
+
+int command_fuzz(const struct command *self, int count, char **arguments)
+{
+    struct settings settings = {.seed = 1,
+                                .count = 1000,
+                                .jobs = 1,
+                                .enough = 10,
+                                .print = NEVER,
+                                .limit = 60,
+                                .threads = "1,2",
+                                .folder = "findings"};
+    const struct option options[] = {
+        {"seed", "S", "campaign; 1", OPTION_NUMBER, &settings.seed, 0, NEVER},
+        {"first", "N", "case to begin with; 0", OPTION_NUMBER, &settings.first, 0, NEVER},
+        {"count", "N", "cases; 1000", OPTION_NUMBER, &settings.count, 1, NEVER},
+        {"seconds", "T", "end after that time", OPTION_SECONDS, &settings.seconds, 0, 10000000},
+        {"engines", "LIST", "engines, separated by commas; all that can run here", OPTION_TEXT,
+         &settings.engines, 0, 0},
+        {"threads", "LIST", "numbers of threads; 1,2", OPTION_TEXT, &settings.threads, 0, 0},
+        {"jobs", "N", "processes; 1", OPTION_NUMBER, &settings.jobs, 1, CAMPAIGN_JOBS},
+        {"limit", "T", "seconds that a case may take; 60", OPTION_SECONDS, &settings.limit, 1, 100000},
+        {"findings", "N", "end after so many findings; 10", OPTION_NUMBER, &settings.enough, 1,
+         CAMPAIGN_FINDINGS},
+        {"output", "DIR", "folder for findings; findings", OPTION_TEXT, &settings.folder, 0, 0},
+        {"json", "FILE", "write the results", OPTION_TEXT, &settings.json, 0, 0},
+        {"print", "N", "write case N to standard output instead", OPTION_NUMBER, &settings.print, 0, NEVER},
+    };
+    struct operands operands = {0};
+    enum options_result result =
+        options_read(self, options, sizeof options / sizeof *options, notes, count, arguments, &operands);
+    if (result != OPTIONS_GO)
+        return options_status(result);
+    return settings.print != NEVER ? print_case(self, &settings) : fuzz(self, &settings);
+}
