@@ -102,8 +102,10 @@ static void add_texture(struct maker *maker)
     unsigned number = maker->textures++;
     struct case_texture *texture = &maker->texture[number];
     *texture = (struct case_texture){.type = random_below(&maker->random, TRIPTYCH_TEXTURE_TYPE_COUNT)};
-    unsigned depth = texture->type == TRIPTYCH_TEXTURE_VOLUME ? 1 + random_below(&maker->random, 4) : 1;
     const struct format *format = random_format(maker, ROLE_TEXTURE);
+    if (format->roles & ROLE_DEPTH)
+        texture->type = TRIPTYCH_TEXTURE_2D;
+    unsigned depth = texture->type == TRIPTYCH_TEXTURE_VOLUME ? 1 + random_below(&maker->random, 4) : 1;
     /* whole blocks of compressed formats */
     texture->size = format->side * (1 + random_below(&maker->random, 8 / format->side + 1));
     texture->target = format->roles & ROLE_TARGET && texture->type != TRIPTYCH_TEXTURE_VOLUME;
