@@ -199,8 +199,10 @@ static int check_pixel_end(struct check *check)
  * -----------------------------------------------------------------------------------------------
  */
 
-static int check_instruction(struct check *check)
+int check_instruction(struct check *check, uint32_t number)
 {
+    check->at = &check->shader->instructions[number];
+    check->row = &shader_operations[check->at->opcode];
     if (check->row->flags & IS_PREDICATES && !(check->model->capabilities & CAN_PREDICATION))
         return REFUSE(check, NULL, "found %s, which %s does not have", check->row->name, check->model->name);
     if (check_setup(check) || check_pairing(check) || check_predicate(check) || check_sources(check) ||
@@ -215,22 +217,29 @@ static int check_all(struct check *check)
     const struct shader *shader = check->shader;
     if (check_flow_begin(check))
         return -1;
-    for (uint32_t i = 0; i < shader->count; i++) {
-        check->at = &shader->instructions[i];
-        check->row = &shader_operations[check->at->opcode];
-        if (check_instruction(check))
+    for (uint32_t i = 0; i < shader->count; i++)
+        if (check_instruction(check, i))
             return -1;
-    }
     if (check_flow_end(check))
         return -1;
     return check->model->stage == STAGE_VERTEX ? check_vertex_end(check) : check_pixel_end(check);
 }
 
+struct check check_of(const struct shader *shader, struct error *error)
+{
+    return (struct check){.shader = shader, .model = shader->model, .error = error, .position_output = -1};
+}
+
+void check_free(struct check *check)
+{
+    free(check->subroutines);
+}
+
 int shader_validate(const struct shader *shader, struct shader_counts *counts, struct error *error)
 {
-    struct check check = {.shader = shader, .model = shader->model, .error = error, .position_output = -1};
+    struct check check = check_of(shader, error);
     int bad = check_all(&check);
-    free(check.subroutines);
+    check_free(&check);
     if (!bad && counts)
         *counts = (struct shader_counts){.slots = check.slots, .flow = check.flow};
     return bad;

@@ -81,6 +81,12 @@ struct check {
 #define REFUSE(check, operand, ...)                                                                          \
     shader_fail((check)->shader, (check)->at, operand, (check)->error, __VA_ARGS__)
 
+/* check.c: the pass by itself, for who writes a shader and asks of each instruction as it is added: check_flow_begin,
+ * then instruction by instruction. What the rules look ahead for (labels, breaks, phase) must be known to the former. */
+struct check check_of(const struct shader *shader, struct error *error);
+int check_instruction(struct check *check, uint32_t number);
+void check_free(struct check *check);
+
 /* check_operand.c */
 int check_predicate(struct check *check);
 int check_sources(struct check *check);

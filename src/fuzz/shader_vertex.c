@@ -1,0 +1,198 @@
+/* Random vertex shaders: their inputs and outputs. The position comes first or last, from four dot products with a matrix in
+ * constants, or as it is in the vertices, moved a little by something computed now and then; wild shaders make it of anything. */
+#include "fuzz/shader_part.h"
+
+enum { OUTPUTS = 12, POSITION_SLOTS = 8, OUTPUT_SLOTS = 6 };
+
+/* What is written in the end; below 3.0 registers have their usages. */
+struct output {
+    uint8_t file, index, mask;
+};
+
+/* --- Declarations -----------------------------------------------------------------------------------------
+ */
+
+static void random_usage(struct maker *maker, unsigned *usage, unsigned *usage_index)
+{
+    static const uint8_t common[] = {USAGE_NORMAL, USAGE_COLOR, USAGE_TEXCOORD, USAGE_TEXCOORD};
+    *usage = common[below(maker, sizeof common)];
+    *usage_index = *usage == USAGE_TEXCOORD ? below(maker, 8) : *usage == USAGE_COLOR ? below(maker, 2) : 0;
+    if (!one_in(maker, 5))
+        return;
+    do
+        *usage = below(maker, USAGE_SAMPLE + 1);
+    while (*usage == USAGE_POSITIONT || *usage == USAGE_POSITION);
+    *usage_index = one_in(maker, 3) ? below(maker, 16) : 0;
+}
+
+/* Whether an input or output of that file has the usage already. */
+static bool is_declared(const struct maker *maker, enum shader_file file, unsigned usage,
+                        unsigned usage_index)
+{
+    for (uint32_t i = 0; i < maker->shader->count; i++) {
+        const struct shader_instruction *at = &maker->shader->instructions[i];
+        if (at->opcode == SHADER_DCL && at->destination.file == file && at->usage == usage &&
+            at->usage_index == usage_index)
+            return true;
+    }
+    return false;
+}
+
+static void declare_inputs(struct maker *maker)
+{
+    unsigned index = one_in(maker, 4) ? below(maker, 4) : 0;
+    unsigned count = below(maker, one_in(maker, 6) ? 12 : 4);
+    declare(maker, result_of(FILE_INPUT, index, MASK_FULL), USAGE_POSITION, 0, 0);
+    for (unsigned i = 0; i < count; i++) {
+        unsigned usage, usage_index, mask = one_in(maker, 3) ? 1 + below(maker, MASK_FULL) : MASK_FULL;
+        random_usage(maker, &usage, &usage_index);
+        if (!is_declared(maker, FILE_INPUT, usage, usage_index))
+            declare(maker, result_of(FILE_INPUT, ++index, mask), usage, usage_index, 0);
+    }
+}
+
+/* Outputs of vs_3_0 can share a register, components apart. */
+static unsigned declare_outputs(struct maker *maker, struct output *outputs)
+{
+    unsigned count = 0, more = below(maker, one_in(maker, 5) ? OUTPUTS : 5), index = below(maker, 2);
+    outputs[count++] = (struct output){FILE_OUTPUT, (uint8_t)index, MASK_FULL};
+    declare(maker, result_of(FILE_OUTPUT, index, MASK_FULL), USAGE_POSITION, 0, 0);
+    for (unsigned free = 0; count <= more && ++index < OUTPUTS; free = 0) {
+        for (unsigned part = 0; part < 2 && free != MASK_FULL; part++) {
+            unsigned usage, usage_index;
+            unsigned mask = part ? MASK_FULL & ~free : one_in(maker, 3) ? 1 + below(maker, 15) : MASK_FULL;
+            random_usage(maker, &usage, &usage_index);
+            if (usage == USAGE_NORMAL || is_declared(maker, FILE_OUTPUT, usage, usage_index) ||
+                !declare(maker, result_of(FILE_OUTPUT, index, mask), usage, usage_index, 0) ||
+                count == OUTPUTS)
+                break;
+            outputs[count++] = (struct output){FILE_OUTPUT, (uint8_t)index, (uint8_t)mask};
+            free |= mask;
+        }
+    }
+    return count;
+}
+
+/* oPos, and some of the others. */
+static unsigned choose_outputs(struct maker *maker, struct output *outputs)
+{
+    unsigned count = 0;
+    outputs[count++] = (struct output){FILE_POSITION, 0, MASK_FULL};
+    for (unsigned i = 0; i < 2; i++)
+        if (!one_in(maker, 1 + 2 * (2 - i)))
+            outputs[count++] = (struct output){FILE_COLOR, (uint8_t)i, MASK_FULL};
+    for (unsigned i = below(maker, one_in(maker, 6) ? 8 : 4), index = 0; i > 0 && index < 8; i--, index++)
+        outputs[count++] = (struct output){FILE_COORDINATE, (uint8_t)index, MASK_FULL};
+    if (one_in(maker, 6))
+        outputs[count++] = (struct output){FILE_FOG, 0, MASK_FULL};
+    if (one_in(maker, 10) && count < OUTPUTS)
+        outputs[count++] = (struct output){FILE_POINT, 0, MASK_FULL};
+    return count;
+}
+
+/* --- Values -----------------------------------------------------------------------------------------------
+ */
+
+/* The position plus something small. */
+static bool move_position(struct maker *maker, struct shader_operand to, unsigned from)
+{
+    struct shader_instruction moved = {.opcode = SHADER_MAD, .destination = to};
+    int by = written_register(maker, MASK_FULL);
+    if (by < 0 || maker->size[by] > 1)
+        return false;
+    moved.source[0] = operand_of(FILE_TEMPORARY, (unsigned)by);
+    moved.source[1] = operand_of(FILE_CONSTANT, below(maker, maker->constants));
+    moved.source[2] = operand_of(FILE_TEMPORARY, from);
+    moved.source[1].swizzle = (uint8_t)(below(maker, 4) * 0x55);
+    return add(maker, &moved);
+}
+
+static bool transform_by_rows(struct maker *maker, struct shader_operand to,
+                              const struct shader_operand *from)
+{
+    for (unsigned i = 0; i < 4; i++) {
+        struct shader_operand result = to;
+        result.swizzle = (uint8_t)(1 << i);
+        struct shader_instruction row = {.opcode = SHADER_DP4, .destination = result};
+        row.source[0] = *from;
+        row.source[1] = operand_of(FILE_CONSTANT, (unsigned)maker->made->matrix + i);
+        if (!add(maker, &row))
+            return false;
+    }
+    return true;
+}
+
+static bool transform(struct maker *maker, struct shader_operand to)
+{
+    const struct shader_operand from =
+        operand_of(FILE_INPUT, maker->shader->instructions[0].destination.index);
+    struct shader_instruction whole = {.opcode = SHADER_M4X4, .destination = to};
+    whole.source[0] = from;
+    whole.source[1] = operand_of(FILE_CONSTANT, (unsigned)maker->made->matrix);
+    if (maker->made->matrix < 0) {
+        whole.opcode = SHADER_MOV;
+        whole.source[1] = (struct shader_operand){0};
+    } else if (one_in(maker, 4)) {
+        return transform_by_rows(maker, to, &from);
+    }
+    return add(maker, &whole);
+}
+
+/* r# takes the position first now and then, for something to be added to it. */
+static void write_position(struct maker *maker, const struct output *output)
+{
+    struct shader_operand to = result_of(output->file, output->index, MASK_FULL);
+    unsigned temporary = below(maker, maker->pool);
+    if (maker->wild && one_in(maker, 3)) {
+        propose_any(maker, &to);
+    } else if (one_in(maker, 5) && transform(maker, result_of(FILE_TEMPORARY, temporary, MASK_FULL))) {
+        struct shader_instruction move = {.opcode = SHADER_MOV, .destination = to};
+        move.source[0] = operand_of(FILE_TEMPORARY, temporary);
+        if (!move_position(maker, to, temporary))
+            add(maker, &move);
+    } else {
+        transform(maker, to);
+    }
+}
+
+static void write_output(struct maker *maker, const struct output *output)
+{
+    struct shader_instruction give = {.opcode = SHADER_MOV};
+    give.destination = result_of(output->file, output->index, output->mask);
+    int from = written_register(maker, MASK_FULL);
+    if (one_in(maker, 8))
+        give.destination.swizzle &= (uint8_t)(1 + below(maker, MASK_FULL));
+    if (!give.destination.swizzle)
+        give.destination.swizzle = output->mask;
+    choose_result_modifiers(maker, &give);
+    if (from >= 0 && one_in(maker, 2)) {
+        give.source[0] = operand_of(FILE_TEMPORARY, (unsigned)from);
+        add(maker, &give);
+    } else {
+        propose_any(maker, &give.destination);
+    }
+}
+
+void write_vertex(struct maker *maker)
+{
+    struct output outputs[OUTPUTS];
+    bool third = shader_major(maker->model) == 3, first;
+    maker->made->matrix = one_in(maker, 4) ? -1 : 0;
+    maker->made->clip_position = maker->made->matrix < 0;
+    declare_inputs(maker);
+    if (third && one_in(maker, 4))
+        declare_samplers(maker, 1 + below(maker, 3));
+    unsigned count = third ? declare_outputs(maker, outputs) : choose_outputs(maker, outputs);
+    write_definitions(maker);
+    first = one_in(maker, 3);
+    maker->reserve = POSITION_SLOTS + OUTPUT_SLOTS * (count - 1);
+    if (first)
+        write_position(maker, &outputs[0]);
+    write_body(maker);
+    maker->reserve -= POSITION_SLOTS + OUTPUT_SLOTS * (count - 1);
+    if (!first)
+        write_position(maker, &outputs[0]);
+    for (unsigned i = 1; i < count; i++)
+        write_output(maker, &outputs[i]);
+    end_body(maker);
+}
