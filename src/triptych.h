@@ -225,7 +225,7 @@ enum { TRIPTYCH_SHADER_FLOATS = 8192, TRIPTYCH_SHADER_INTEGERS = 2048, TRIPTYCH_
 struct triptych_options {
     const char *engine; /* name as listed by triptych_engine_name(); null: "specialize" */
     unsigned threads;   /* rendering threads, the caller's included; 0: as many as the process may run on */
-    size_t cache_bytes; /* budget of the routine cache's code; 0: 16 MiB */
+    size_t cache_bytes; /* budget of the routine cache: beyond it, what is not in use leaves; 0: 16 MiB */
     int measure;        /* nonzero: time the calls of each routine (triptych_get_routine) */
 };
 
@@ -403,7 +403,7 @@ TRIPTYCH_API void triptych_device_destroy(triptych_device *device);
 TRIPTYCH_API const char *triptych_error(const triptych_device *device);
 
 /* The i-th engine's name, description, lanes and why it cannot run here (null: it can); null past the last.
- */
+ * The reason is the calling thread's until it asks again. */
 TRIPTYCH_API const char *triptych_engine_name(unsigned i);
 TRIPTYCH_API const char *triptych_engine_description(unsigned i);
 TRIPTYCH_API unsigned triptych_engine_width(unsigned i);

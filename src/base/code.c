@@ -5,6 +5,7 @@
 #include <errno.h>
 #include <linux/membarrier.h>
 #include <pthread.h>
+#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 #include <sys/mman.h>
@@ -52,6 +53,7 @@ struct code_arena {
     size_t used_units;
     size_t peak_units;
     size_t free_blocks;
+    size_t refused; /* bytes that the last reservation found no hole for, or 0 */
 };
 
 static int native_create_file(const char *name, unsigned flags)
@@ -189,6 +191,7 @@ int code_reserve(struct code_arena *arena, size_t bytes, struct code_span *span,
         first = find_free(arena, count);
     if (first != NO_BLOCK)
         take(arena, first, count);
+    arena->refused = first == NO_BLOCK ? bytes : 0;
     size_t used = arena->used_units * CODE_ALIGNMENT;
     pthread_mutex_unlock(&arena->mutex);
     if (first == NO_BLOCK) {
@@ -198,6 +201,14 @@ int code_reserve(struct code_arena *arena, size_t bytes, struct code_span *span,
     }
     *span = span_of(arena, first, count);
     return 0;
+}
+
+size_t code_refused(struct code_arena *arena)
+{
+    pthread_mutex_lock(&arena->mutex);
+    size_t refused = arena->refused;
+    pthread_mutex_unlock(&arena->mutex);
+    return refused;
 }
 
 /* A hole where `count` units fit more tightly than they do at the start of the used block that begins at
@@ -353,6 +364,34 @@ void code_destroy(struct code_arena *arena)
     pthread_mutex_destroy(&arena->mutex);
     free(arena->units);
     free(arena);
+}
+
+/* A function that gives ANSWER: what is written at one address has to run at the other. */
+static int try_arena(struct code_arena *arena, struct error *error)
+{
+    enum { ANSWER = 0x54726970 };
+    static const uint8_t answer[] = {0xb8, 0x70, 0x69, 0x72, 0x54, 0xc3}; /* mov eax, ANSWER; ret */
+    struct code_span span;
+    if (code_reserve(arena, sizeof answer, &span, error))
+        return -1;
+    memcpy(span.writable, answer, sizeof answer);
+    int (*function)(void) = (int (*)(void))(uintptr_t)code_commit(arena, &span, sizeof answer);
+    int given = function();
+    code_free(arena, &span);
+    return given == ANSWER ? 0 : error_set(error, "code arena: what is written is not what runs");
+}
+
+const char *code_unavailable(void)
+{
+    static _Thread_local char text[ERROR_CAPACITY + 32];
+    struct error error = {{0}};
+    struct code_arena *arena = code_create(1, NULL, &error);
+    int result = arena ? try_arena(arena, &error) : -1;
+    code_destroy(arena);
+    if (!result)
+        return NULL;
+    snprintf(text, sizeof text, "needs executable memory; %s", error.text);
+    return text;
 }
 
 const void *code_executable(const struct code_arena *arena, const void *writable)

@@ -57,12 +57,20 @@ struct code_statistics {
  * one. Returns null, with the reason, when the system refuses. */
 struct code_arena *code_create(size_t bytes, const struct code_system *system, struct error *error);
 
+/* Null when generated code can run in this process now, which is tried with an arena of one page; else one line that
+ * says why not, the calling thread's until it asks again. */
+const char *code_unavailable(void);
+
 /* Unmaps everything. No code of it may be running; null is allowed. */
 void code_destroy(struct code_arena *arena);
 
 /* A span of at least `bytes` (> 0) to write into. Returns 0, or -1 with the reason when no hole is that
  * large. */
 int code_reserve(struct code_arena *arena, size_t bytes, struct code_span *span, struct error *error);
+
+/* The bytes of the last reservation if it found no hole, else 0: who frees until there is a hole that large can try
+ * again. */
+size_t code_refused(struct code_arena *arena);
 
 /* Ends the writing of a reserved span of which the first `bytes` (> 0) are code; at most CODE_ALIGNMENT bytes
  * beyond them have been written to. Updates `span` to where the code now is, and returns its executable

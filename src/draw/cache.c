@@ -1,10 +1,10 @@
-/* Four structures over the same entries: hash buckets to find, a list by use to evict, a list by number to
- * report, and the list of orphans: evicted while in use. Release looks a routine up by its key and, when the
- * table has another or none for that key, among the orphans, which are few. */
+/* Three structures over the same entries: hash buckets to find, a list by number to report, and the list of
+ * the idle, those that nobody uses, to evict. */
 #include "draw/cache.h"
 
+#include "base/code.h"
+
 #include <pthread.h>
-#include <stdbool.h>
 #include <stdlib.h>
 #include <string.h>
 #include <time.h>
@@ -14,7 +14,7 @@ struct link {
 };
 
 struct cache_entry {
-    struct link used;     /* on cache.used, or on cache.orphans */
+    struct link idle;     /* while there are no references */
     struct link numbered; /* on cache.numbered */
     struct cache_entry *chain;
     struct packed_key key;
@@ -33,9 +33,8 @@ struct cache {
     size_t budget;
     bool measures;
     uint32_t next_number;
-    struct link used;     /* most recently used first */
-    struct link numbered; /* oldest first */
-    struct link orphans;
+    struct link idle;            /* last used first */
+    struct link numbered;        /* oldest first */
     struct cache_entry **bucket; /* bucket_count of them, a power of two */
     size_t bucket_count;
     struct cache_statistics statistics;
@@ -89,21 +88,14 @@ struct cache *cache_create(const struct engine *engine, struct code_arena *arena
     cache->budget = budget;
     cache->bucket = bucket;
     cache->bucket_count = FIRST_BUCKETS;
-    list_initialize(&cache->used);
+    list_initialize(&cache->idle);
     list_initialize(&cache->numbered);
-    list_initialize(&cache->orphans);
     return cache;
 }
 
 void cache_measure(struct cache *cache)
 {
     cache->measures = true;
-}
-
-static void free_entry(struct cache *cache, struct cache_entry *entry)
-{
-    cache->engine->free(cache->arena, entry->routine);
-    free(entry);
 }
 
 static struct cache_entry **bucket_of(struct cache *cache, uint64_t hash)
@@ -121,43 +113,43 @@ static struct cache_entry **find(struct cache *cache, enum unit unit, const stru
     return at;
 }
 
-static void evict(struct cache *cache, struct cache_entry *entry)
+/* Evicts the routine that has been idle for the longest time, if there is one. */
+static bool evict_oldest(struct cache *cache)
 {
+    if (cache->idle.previous == &cache->idle)
+        return false;
+    struct cache_entry *entry = ENTRY_OF(cache->idle.previous, idle);
     struct cache_entry **at = bucket_of(cache, entry->hash);
     while (*at != entry)
         at = &(*at)->chain;
     *at = entry->chain;
-    list_remove(&entry->used);
+    list_remove(&entry->idle);
     list_remove(&entry->numbered);
     cache->statistics.bytes -= entry->price;
     cache->statistics.routines--;
     cache->statistics.evictions++;
-    if (entry->references)
-        list_insert_after(&cache->orphans, &entry->used);
-    else
-        free_entry(cache, entry);
+    cache->engine->free(cache->arena, entry->routine);
+    free(entry);
+    return true;
+}
+
+static void evict_idle(struct cache *cache)
+{
+    while (evict_oldest(cache))
+        ;
 }
 
 static void evict_to_budget(struct cache *cache)
 {
-    while (cache->statistics.bytes > cache->budget && cache->statistics.routines > 1)
-        evict(cache, ENTRY_OF(cache->used.previous, used));
-}
-
-static void evict_unused(struct cache *cache)
-{
-    for (struct link *link = cache->used.next, *next; link != &cache->used; link = next) {
-        next = link->next;
-        if (!ENTRY_OF(link, used)->references)
-            evict(cache, ENTRY_OF(link, used));
-    }
+    while (cache->statistics.bytes > cache->budget && cache->statistics.routines > 1 && evict_oldest(cache))
+        ;
 }
 
 void cache_destroy(struct cache *cache)
 {
     if (!cache)
         return;
-    evict_unused(cache);
+    evict_idle(cache);
     pthread_mutex_destroy(&cache->lock);
     free(cache->bucket);
     free(cache);
@@ -182,20 +174,41 @@ static void grow(struct cache *cache)
     cache->bucket_count = count;
 }
 
-/* The arena may be full of routines that are not in use: the second try has their room. */
-static struct routine *build(struct cache *cache, enum unit unit, const union key *key, struct error *error)
+/* Whether the last build found no hole in the arena, but will now: routines left for it. */
+static bool make_room(struct cache *cache)
 {
-    struct error first = {{0}};
+    size_t wanted = cache->arena ? code_refused(cache->arena) : 0;
+    if (!wanted)
+        return false;
+    do
+        if (!evict_oldest(cache))
+            return false;
+    while (code_statistics(cache->arena).largest_free < wanted);
+    return true;
+}
+
+static struct routine *try_build(struct cache *cache, enum unit unit, const union key *key,
+                                 struct error *error)
+{
     uint64_t start = now_ns();
-    struct routine *routine = cache->engine->build(cache->arena, unit, key, &first);
-    if (!routine) {
-        evict_unused(cache);
-        start = now_ns();
-        routine = cache->engine->build(cache->arena, unit, key, error);
-    }
+    struct routine *routine = cache->engine->build(cache->arena, unit, key, error);
     if (routine)
         routine->build_ns = now_ns() - start;
     return routine;
+}
+
+/* What else may be short is memory: the last try has that of all idle routines. */
+static struct routine *build(struct cache *cache, enum unit unit, const union key *key, struct error *error)
+{
+    struct routine *routine;
+    do {
+        struct error first = {{0}};
+        routine = try_build(cache, unit, key, &first);
+    } while (!routine && make_room(cache));
+    if (routine)
+        return routine;
+    evict_idle(cache);
+    return try_build(cache, unit, key, error);
 }
 
 static struct cache_entry *insert(struct cache *cache, enum unit unit, const union key *key,
@@ -224,7 +237,6 @@ static struct cache_entry *insert(struct cache *cache, enum unit unit, const uni
     struct cache_entry **at = bucket_of(cache, hash);
     entry->chain = *at;
     *at = entry;
-    list_insert_after(&cache->used, &entry->used);
     list_insert_after(cache->numbered.previous, &entry->numbered);
     cache->statistics.bytes += entry->price;
     cache->statistics.routines++;
@@ -240,8 +252,8 @@ static struct cache_entry *acquire(struct cache *cache, enum unit unit, const un
     if (entry) {
         cache->statistics.hits++;
         entry->routine->hits++;
-        list_remove(&entry->used);
-        list_insert_after(&cache->used, &entry->used);
+        if (!entry->references)
+            list_remove(&entry->idle);
     } else {
         cache->statistics.misses++;
         entry = insert(cache, unit, key, &packed, hash, error);
@@ -261,28 +273,23 @@ const struct routine *cache_acquire(struct cache *cache, enum unit unit, const u
     return entry ? entry->routine : NULL;
 }
 
-static void release_orphan(struct cache *cache, const struct routine *routine)
-{
-    struct link *link = cache->orphans.next;
-    while (ENTRY_OF(link, used)->routine != routine)
-        link = link->next;
-    struct cache_entry *entry = ENTRY_OF(link, used);
-    if (--entry->references)
-        return;
-    list_remove(&entry->used);
-    free_entry(cache, entry);
-}
-
 void cache_release(struct cache *cache, const struct routine *routine)
 {
     pthread_mutex_lock(&cache->lock);
     struct packed_key packed = key_pack(routine->unit, &routine->key);
     struct cache_entry *entry = *find(cache, routine->unit, &packed, key_hash(routine->unit, &packed));
-    if (entry && entry->routine == routine)
-        entry->references--;
-    else
-        release_orphan(cache, routine);
+    if (!--entry->references)
+        list_insert_after(&cache->idle, &entry->idle);
+    evict_to_budget(cache);
     pthread_mutex_unlock(&cache->lock);
+}
+
+bool cache_is_crowded(struct cache *cache)
+{
+    pthread_mutex_lock(&cache->lock);
+    bool crowded = cache->statistics.bytes / 2 > cache->budget;
+    pthread_mutex_unlock(&cache->lock);
+    return crowded;
 }
 
 struct cache_statistics cache_statistics(struct cache *cache)

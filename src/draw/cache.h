@@ -1,10 +1,13 @@
-/* The routine cache: one routine per unit and key, the least recently used leave when their code exceeds a
- * budget.
+/* The routine cache: one routine per unit and key; when there is no more room, those leave that were not used for the
+ * longest time.
  *
  * Exact: entries are found by hash and compared by unit and packed key, byte for byte. Safe while routines
- * run: an acquired routine is counted, and eviction takes it out of the table at once but frees it when the
- * last user has released it. A routine's price is its code and its entry, so that engines without code are
- * bounded too; the newest routine always stays, whatever its price.
+ * run: an acquired routine is counted, and what is in use is never evicted. Room is of two kinds. The budget: routines
+ * that are not in use leave until all together cost no more, or one is left, whatever its price; what is in use may
+ * cost more than the budget, and its owner finds out (cache_is_crowded). The arena: when a routine finds no hole there,
+ * others leave until it does. So a build fails for want of room only if what is in use has all of the arena.
+ *
+ * A routine's price is its code and its entry, so that engines without code are bounded too.
  *
  * Thread-safe; building happens under the cache's lock, so a key is built once however many threads ask for
  * it. */
@@ -12,6 +15,8 @@
 #define DRAW_CACHE_H
 
 #include "draw/engine.h"
+
+#include <stdbool.h>
 
 struct cache;
 
@@ -35,6 +40,9 @@ void cache_destroy(struct cache *cache);
 const struct routine *cache_acquire(struct cache *cache, enum unit unit, const union key *key,
                                     struct error *error);
 void cache_release(struct cache *cache, const struct routine *routine);
+
+/* Whether the routines cost twice the budget, which those in use must be to blame for: time to release some. */
+bool cache_is_crowded(struct cache *cache);
 
 struct cache_statistics cache_statistics(struct cache *cache);
 

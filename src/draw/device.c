@@ -2,16 +2,19 @@
 
 #include "base/code.h"
 
+#include <assert.h>
 #include <stdlib.h>
 
 /* --- Making and freeing -----------------------------------------------------------------------------------
  */
 
-/* Twice the cache's budget: routines that are evicted while recorded draws still need them keep their room.
- */
+/* Twice the cache's budget, for routines that recorded draws need may cost more. And where two of the largest
+ * routines of a draw are, they leave three holes at most, one of which is large enough for the third. */
 static size_t arena_bytes(size_t cache_bytes)
 {
-    size_t minimum = (size_t)64 << 20, bytes = 2 * cache_bytes;
+    const size_t minimum = (size_t)64 << 20, bytes = 2 * cache_bytes;
+    static_assert((64 << 20) >= 5 * ROUTINE_BYTES_MAXIMUM,
+                  "two of them and three holes of nearly their size");
     return bytes < minimum ? minimum : bytes;
 }
 
@@ -20,7 +23,8 @@ static enum triptych_result create_parts(struct triptych_device *device, const s
 {
     size_t cache_bytes = options->cache_bytes ? options->cache_bytes : CACHE_BYTES;
     if (!device->engine->without_arena) {
-        device->arena = code_create(arena_bytes(cache_bytes), NULL, error);
+        device->arena =
+            code_create(options->code_bytes ? options->code_bytes : arena_bytes(cache_bytes), NULL, error);
         if (!device->arena)
             return TRIPTYCH_ENGINE_FAILED;
     }

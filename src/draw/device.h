@@ -64,9 +64,10 @@ struct triptych_device {
 };
 
 struct device_options {
-    unsigned threads;                  /* 0: as many as processors */
-    size_t cache_bytes;                /* 0: CACHE_BYTES */
-    bool measure;                      /* the calls of routines are timed */
+    unsigned threads;   /* 0: as many as processors */
+    size_t cache_bytes; /* 0: CACHE_BYTES */
+    size_t code_bytes;  /* of the code arena; 0: enough for the cache and the largest routines */
+    bool measure;       /* the calls of routines are timed */
     pool_create_thread *create_thread; /* null: pthread_create */
     uint32_t arena_bytes;              /* of the frame's arena; 0: ARENA_BYTES */
 };

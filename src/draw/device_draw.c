@@ -198,17 +198,17 @@ static int acquire_all(struct triptych_device *device, const struct routine *rou
     return 0;
 }
 
-/* Routines may not find room because recorded draws hold others: rendering these makes room. */
+/* Recorded draws hold routines; rendering these draws makes room, where there is none or others might soon have
+ * none. */
 static int acquire_routines(struct triptych_device *device, const struct routine *routine[UNIT_COUNT],
                             struct error *error)
 {
+    bool recorded = device->frame->commands;
     struct error first = {{0}};
-    if (!acquire_all(device, routine, device->frame->commands ? &first : error))
-        return 0;
-    if (!device->frame->commands)
-        return -1;
-    device_finish(device);
-    return acquire_all(device, routine, error);
+    int result = acquire_all(device, routine, recorded ? &first : error);
+    if (recorded && (result || cache_is_crowded(device->cache)))
+        device_finish(device);
+    return recorded && result ? acquire_all(device, routine, error) : result;
 }
 
 /* Whether the draw samples the texture of sampler number i. */

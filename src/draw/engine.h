@@ -60,6 +60,9 @@ static inline void routine_run(const struct routine *routine, const void *call, 
     __atomic_fetch_add(&routine->time->elements, elements, __ATOMIC_RELAXED);
 }
 
+/* No routine's code and data are larger; engines refuse to build it. */
+enum { ROUTINE_BYTES_MAXIMUM = 8 << 20 };
+
 struct engine {
     const char *name;        /* as in --engine: "emulate", "stitch", "stitch-operation", "specialize" ... */
     const char *description; /* one line */
@@ -67,7 +70,8 @@ struct engine {
     int without_arena;       /* generates no code, or has it elsewhere */
     int on_request;          /* runs where it is named; left out of what is done with every engine */
 
-    /* Null when the engine can run here, else one line that says why not. */
+    /* Null when the engine can run here, else one line that says why not, the calling thread's until it asks again.
+     */
     const char *(*unavailable)(void);
 
     /* Builds the routine for a normalised key; null with the reason in error. `arena` is where code lives; an

@@ -11,6 +11,7 @@
 #include <spawn.h>
 #include <stdlib.h>
 #include <string.h>
+#include <sys/mman.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
@@ -55,6 +56,25 @@ const char *external_no_compiler(void)
     if (strchr(name, '/') ? !access(name, X_OK) : is_in_path(name))
         return NULL;
     return "needs a C compiler at run time: cc, or the program that TRIPTYCH_CC names";
+}
+
+/* As the dynamic linker maps code; tried with the code of this process. Who cannot try finds out later. */
+const char *external_no_loading(void)
+{
+    static _Thread_local char text[LINE_CAPACITY];
+    int file = open("/proc/self/exe", O_RDONLY | O_CLOEXEC);
+    if (file < 0)
+        return NULL;
+    const size_t page = (size_t)sysconf(_SC_PAGESIZE);
+    void *code = mmap(NULL, page, PROT_READ | PROT_EXEC, MAP_PRIVATE, file, 0);
+    int number = errno;
+    close(file);
+    if (code == MAP_FAILED) {
+        snprintf(text, sizeof text, "needs to load code; cannot map a file executable: %s", strerror(number));
+        return text;
+    }
+    munmap(code, page);
+    return NULL;
 }
 
 static int open_work(struct work *work, struct error *error)

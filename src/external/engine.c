@@ -21,8 +21,10 @@ struct external_routine {
 
 static const char *unavailable(void)
 {
-    return cpu_has_avx2_fma() ? external_no_compiler()
-                              : "needs AVX2 and FMA, which this processor or system does not offer";
+    if (!cpu_has_avx2_fma())
+        return "needs AVX2 and FMA, which this processor or system does not offer";
+    const char *reason = external_no_loading();
+    return reason ? reason : external_no_compiler();
 }
 
 static void run(const void *call, const struct routine *routine)

@@ -35,6 +35,9 @@ enum { EXTERNAL_WIDTH = 8 };
  * (compile.c). */
 void *external_compile(const char *text, size_t bytes, struct error *error);
 
+/* Null if code can be loaded, else why not: one line, the calling thread's until it asks again. */
+const char *external_no_loading(void);
+
 /* Null if there is a compiler, else why there is none. */
 const char *external_no_compiler(void);
 

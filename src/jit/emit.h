@@ -3,8 +3,11 @@
 #ifndef JIT_EMIT_H
 #define JIT_EMIT_H
 
+#include "draw/engine.h"
 #include "jit/allocate.h"
 #include "jit/encode.h"
+
+#include <assert.h>
 
 /* Like the arrays of the IR, large but untouched: a routine of IR_CAPACITY instructions of ordinary length
  * fits. */
@@ -17,6 +20,8 @@ enum {
     REGION_DEPTH = 1024,
     SPILL_CAPACITY = 32768 /* slots; their frame, 1 MiB and 16 KiB of variables, fits any thread's stack */
 };
+
+static_assert((int)CODE_CAPACITY <= (int)ROUTINE_BYTES_MAXIMUM, "what fits a build is a routine");
 
 /* The frame's head, upward from rsp: two MXCSR words, and room for the lanes of one value. */
 enum { FRAME_SAVED_MXCSR = 0, FRAME_CONTRACT_MXCSR = 4, FRAME_LANES = 32, FRAME_HEAD = 64 };

@@ -10,7 +10,8 @@
 
 static const char *unavailable(void)
 {
-    return cpu_has_avx2_fma() ? NULL : "needs AVX2 and FMA, which this processor or system does not offer";
+    return cpu_has_avx2_fma() ? code_unavailable()
+                              : "needs AVX2 and FMA, which this processor or system does not offer";
 }
 
 /* Copies the built code into the arena. */

@@ -138,6 +138,9 @@ int plan_join(struct plan *plan, struct code_arena *arena, struct code_span *spa
     if (plan_complete(plan, error))
         return -1;
     lay_out(plan);
+    if (plan->bytes > ROUTINE_BYTES_MAXIMUM)
+        return error_set(error, "the routine's code is %u bytes, expected at most %d", plan->bytes,
+                         ROUTINE_BYTES_MAXIMUM);
     if (code_reserve(arena, plan->bytes, span, error))
         return -1;
     for (unsigned i = 0; i < plan->count; i++)

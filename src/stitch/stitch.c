@@ -14,7 +14,8 @@ struct stitched {
 
 static const char *unavailable(void)
 {
-    return cpu_has_avx2_fma() ? NULL : "the stitcher's fragments need a CPU and a system with AVX2 and FMA";
+    return cpu_has_avx2_fma() ? code_unavailable()
+                              : "the stitcher's fragments need a CPU and a system with AVX2 and FMA";
 }
 
 static const char *want_operations(enum unit unit, const union key *key)

@@ -147,37 +147,44 @@ static void the_least_recently_used_leaves_first(void)
     TEST_ASSERT_EQUAL_INT(2, freed);
 }
 
-static void an_evicted_routine_lives_until_it_is_released(void)
+static void what_is_in_use_stays_whatever_it_costs(void)
 {
     start(2);
-    const struct routine *held = acquire(0);
-    const struct routine *again = acquire(0);
-    TEST_ASSERT_EQUAL_PTR(held, again);
-    touch(1);
-    touch(2);
-    TEST_ASSERT_FALSE(present(0));
-    TEST_ASSERT_EQUAL_INT(0, freed);
+    const struct routine *held[5];
+    for (int n = 0; n < 5; n++) {
+        TEST_ASSERT_FALSE(cache_is_crowded(cache));
+        held[n] = acquire(n);
+    }
+    TEST_ASSERT_TRUE(cache_is_crowded(cache));
+    touch(5);
+    TEST_ASSERT_EQUAL_INT(1, freed); /* routine 5, the only idle one */
+    for (int n = 0; n < 5; n++) {
+        const struct routine *again = acquire(n);
+        TEST_ASSERT_EQUAL_PTR(held[n], again);
+        TEST_ASSERT_EQUAL_INT(n, again->key.pixel.write_mask[0]);
+        cache_release(cache, again);
+    }
+    TEST_ASSERT_EQUAL_INT(6, built);
+    TEST_ASSERT_EQUAL_UINT64(5, cache_statistics(cache).routines);
+    for (int n = 4; n >= 0; n--)
+        cache_release(cache, held[n]);
+    TEST_ASSERT_FALSE(cache_is_crowded(cache));
+    TEST_ASSERT_EQUAL_INT(4, freed);
+    TEST_ASSERT_TRUE(present(0) && present(1));
+}
+
+static void a_routine_leaves_when_its_last_user_has_released_it(void)
+{
+    start(1);
+    const struct routine *held = acquire(0), *again = acquire(0), *other = acquire(1);
     cache_release(cache, held);
     TEST_ASSERT_EQUAL_INT(0, freed);
     TEST_ASSERT_EQUAL_INT(0, again->key.pixel.write_mask[0]);
     cache_release(cache, again);
     TEST_ASSERT_EQUAL_INT(1, freed);
-}
-
-static void a_successor_of_an_evicted_routine_is_not_confused_with_it(void)
-{
-    start(2);
-    const struct routine *first = acquire(0);
-    touch(1);
-    touch(2);
-    const struct routine *second = acquire(0);
-    TEST_ASSERT_TRUE(first != second);
-    TEST_ASSERT_TRUE(first->number < second->number);
-    cache_release(cache, second);
-    TEST_ASSERT_EQUAL_INT(1, freed); /* routine 1, by the budget */
-    cache_release(cache, first);
-    TEST_ASSERT_EQUAL_INT(2, freed);
-    TEST_ASSERT_TRUE(present(0));
+    TEST_ASSERT_FALSE(present(0));
+    cache_release(cache, other);
+    TEST_ASSERT_TRUE(present(1));
 }
 
 static void one_routine_larger_than_the_budget_still_works(void)
@@ -201,7 +208,7 @@ static void a_refusal_gives_the_reason_and_leaves_no_trace(void)
     TEST_ASSERT_EQUAL_UINT64(1, cache_statistics(cache).routines);
 }
 
-static void a_full_arena_is_emptied_of_what_nobody_uses(void)
+static void the_last_try_has_the_memory_of_all_idle_routines(void)
 {
     start(8);
     capacity = 3;
@@ -287,11 +294,11 @@ int main(void)
     RUN_TEST(a_key_is_built_once);
     RUN_TEST(units_with_equal_bytes_are_different_routines);
     RUN_TEST(the_least_recently_used_leaves_first);
-    RUN_TEST(an_evicted_routine_lives_until_it_is_released);
-    RUN_TEST(a_successor_of_an_evicted_routine_is_not_confused_with_it);
+    RUN_TEST(what_is_in_use_stays_whatever_it_costs);
+    RUN_TEST(a_routine_leaves_when_its_last_user_has_released_it);
     RUN_TEST(one_routine_larger_than_the_budget_still_works);
     RUN_TEST(a_refusal_gives_the_reason_and_leaves_no_trace);
-    RUN_TEST(a_full_arena_is_emptied_of_what_nobody_uses);
+    RUN_TEST(the_last_try_has_the_memory_of_all_idle_routines);
     RUN_TEST(routines_have_numbers_hits_and_build_times);
     RUN_TEST(hundreds_of_keys_are_all_found_again);
     RUN_TEST(threads_may_share_it);
