@@ -53,6 +53,17 @@ static void add_draw(struct maker *maker)
              random_chance(random, 3) ? 1 + random_below(random, most) : most);
 }
 
+static void change_something(struct maker *maker)
+{
+    case_states(maker, random_below(&maker->random, 6));
+    if (random_chance(&maker->random, 6))
+        case_copy(maker);
+    if (random_chance(&maker->random, 6))
+        case_change(maker);
+    if (random_chance(&maker->random, 8))
+        case_samplers(maker);
+}
+
 /* The target is read where it is drawn to: what one draw leaves the next ones blend with and compare with. */
 static void add_draws(struct maker *maker)
 {
@@ -62,11 +73,24 @@ static void add_draws(struct maker *maker)
         text_add(maker->text, "begin-query q0\n");
     for (unsigned d = 0; d < draws; d++) {
         if (d)
-            case_states(maker, random_below(&maker->random, 6));
+            change_something(maker);
         add_draw(maker);
     }
     if (query)
         text_add(maker->text, "end-query q0\n");
+}
+
+/* Draws to a texture, which the draws behind may sample. */
+static void add_pass(struct maker *maker)
+{
+    if (!random_chance(&maker->random, 8) || !case_attach(maker))
+        return;
+    text_add(maker->text, "clear color");
+    case_numbers(maker, 4, 0, 1);
+    text_add(maker->text, "\n");
+    add_draw(maker);
+    text_add(maker->text, "attach none\n");
+    case_samplers(maker);
 }
 
 /* --- The whole --------------------------------------------------------------------------------------------
@@ -100,6 +124,7 @@ void case_write(struct random *random, struct text *text)
     case_samplers(&maker);
     case_stages(&maker);
     case_states(&maker, random_chance(&maker.random, 4) ? 0 : random_below(&maker.random, 24));
+    add_pass(&maker);
     add_clear(&maker);
     add_draws(&maker);
     *random = maker.random;

@@ -12,6 +12,8 @@ struct case_texture {
     enum triptych_texture_type type;
     unsigned size; /* of a side */
     bool target;   /* can be drawn to */
+    bool mips;
+    unsigned update_words; /* of the buffer that can replace a face's first level; 0: there is none */
 };
 
 struct maker {
@@ -41,6 +43,11 @@ void case_window(struct maker *);
 void case_states(struct maker *, unsigned changes);
 void case_samplers(struct maker *);
 void case_stages(struct maker *);
+
+/* Between draws. Whether textures are drawn to from here on. */
+bool case_attach(struct maker *);
+void case_copy(struct maker *);
+void case_change(struct maker *);
 
 /* Forms of values: " 0.25", four of them, " 0xAARRGGBB". */
 void case_number(struct maker *, float least, float most);

@@ -96,6 +96,18 @@ static void add_contents(struct maker *maker, const struct case_texture *texture
     }
 }
 
+/* A buffer with other texels for a face's first level. */
+static void add_update(struct maker *maker, unsigned number, const struct format *format, unsigned depth)
+{
+    struct case_texture *texture = &maker->texture[number];
+    struct case_texture face = {.type = TRIPTYCH_TEXTURE_2D, .size = texture->size};
+    texture->update_words = (unsigned)((texel_blocks(&face, format, depth) * format->bytes + 3) / 4);
+    text_add(maker->text, "buffer u%u u32 {", number);
+    for (unsigned i = 0; i < texture->update_words; i++)
+        text_add(maker->text, "%s%u", i % 8 ? " " : "\n    ", (uint32_t)random_u64(&maker->random));
+    text_add(maker->text, "\n}\n");
+}
+
 static void add_texture(struct maker *maker)
 {
     static const char *const type[] = {"2d", "cube", "volume"};
@@ -114,10 +126,13 @@ static void add_texture(struct maker *maker)
         text_add(maker->text, " %u", texture->size);
     if (texture->type == TRIPTYCH_TEXTURE_VOLUME)
         text_add(maker->text, " %u", depth);
-    if (random_chance(&maker->random, 2) && format->coding == CODING_PACKED)
+    texture->mips = random_chance(&maker->random, 2) && format->coding == CODING_PACKED;
+    if (texture->mips)
         text_add(maker->text, " mips");
     add_contents(maker, texture, format, depth);
     text_add(maker->text, "\n");
+    if (random_chance(&maker->random, 8))
+        add_update(maker, number, format, depth);
 }
 
 void case_textures(struct maker *maker)
