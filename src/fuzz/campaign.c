@@ -2,6 +2,7 @@
 #include "fuzz/campaign.h"
 
 #include "fuzz/case.h"
+#include "fuzz/minimize.h"
 
 #include <errno.h>
 #include <signal.h>
@@ -15,7 +16,7 @@
 #include <time.h>
 #include <unistd.h>
 
-enum { POLL_NS = 20000000 };
+enum { POLL_NS = 20000000, TRIES = 4000 };
 static const uint64_t nothing = UINT64_MAX;
 
 /* What a process tells; it alone writes, except `stop`. */
@@ -307,4 +308,29 @@ enum outcome campaign_try(const struct campaign_options *options, const char *pa
     }
     munmap(shared, sizeof *shared);
     return finding->outcome;
+}
+
+struct failure {
+    struct campaign_options options;
+    const struct finding *finding;
+};
+
+static bool fails(void *user, const char *text, size_t bytes)
+{
+    struct failure *failure = user;
+    struct finding now;
+    campaign_try(&failure->options, "case", text, bytes, &now);
+    return now.outcome == failure->finding->outcome && now.engine == failure->finding->engine;
+}
+
+int campaign_minimize(const struct campaign_options *options, const struct finding *finding,
+                      const struct text *text, struct text *smallest, struct error *error)
+{
+    struct failure failure = {*options, finding};
+    struct runner_options *run = &failure.options.run;
+    if (finding->engine && finding->engine != run->engine[0]) {
+        run->engine[1] = finding->engine;
+        run->engines = 2;
+    }
+    return minimize(text->data, text->length, fails, &failure, TRIES, smallest, NULL, error);
 }

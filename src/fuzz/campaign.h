@@ -53,4 +53,9 @@ void campaign_case(uint64_t seed, uint64_t number, struct text *text);
 enum outcome campaign_try(const struct campaign_options *options, const char *path, const char *text,
                           size_t bytes, struct finding *finding);
 
+/* The smallest text that fails as `finding` says: with the same outcome on the same engine. Returns 0, or -1 with the
+ * reason, as when it cannot be seen to fail by itself. */
+int campaign_minimize(const struct campaign_options *options, const struct finding *finding,
+                      const struct text *text, struct text *smallest, struct error *error);
+
 #endif

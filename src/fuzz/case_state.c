@@ -85,7 +85,7 @@ static bool hides(const char *name)
 void case_states(struct maker *maker, unsigned changes)
 {
     unsigned rows = table_rows(TRIPTYCH_RENDER_STATES);
-    bool hide = random_chance(&maker->random, 3);
+    bool hide = random_chance(&maker->random, 2);
     while (changes) {
         const struct triptych_state_row *row =
             triptych_state_at(TRIPTYCH_RENDER_STATES, random_below(&maker->random, rows));

@@ -87,8 +87,26 @@ static int save(const struct command *self, const struct settings *settings,
     return STATUS_OK;
 }
 
+/* The case made small; as it is where it does not fail by itself, which is said. */
+static int save_smallest(const struct command *self, const struct settings *settings,
+                         const struct campaign_options *options, const struct campaign_finding *found,
+                         const char *description, const struct text *text)
+{
+    struct error error = {{0}};
+    struct text smallest = {0};
+    progress("case %" PRIu64 " is made small", found->number);
+    bool made = !campaign_minimize(options, &found->finding, text, &smallest, &error);
+    progress(NULL);
+    if (!made)
+        printf("  not made small: %s\n", error.text);
+    int bad = save(self, settings, found, description, made ? &smallest : text);
+    text_free(&smallest);
+    return bad;
+}
+
 static int report_finding(const struct command *self, const struct settings *settings,
-                          const struct campaign_finding *found, cJSON *list)
+                          const struct campaign_options *options, const struct campaign_finding *found,
+                          cJSON *list)
 {
     char description[2 * FINDING_TEXT];
     struct text text = {0};
@@ -97,7 +115,7 @@ static int report_finding(const struct command *self, const struct settings *set
     cJSON_AddItemToArray(list, cJSON_CreateString(description));
     campaign_case(settings->seed, found->number, &text);
     int bad = text.failed ? fail(self, "out of memory for a case")
-                          : save(self, settings, found, description, &text);
+                          : save_smallest(self, settings, options, found, description, &text);
     text_free(&text);
     return bad;
 }
@@ -138,21 +156,21 @@ static cJSON *make_json(const struct settings *settings, const struct runner_opt
 }
 
 static int report(const struct command *self, const struct settings *settings,
-                  const struct runner_options *run, const struct campaign *campaign)
+                  const struct campaign_options *options, const struct campaign *campaign)
 {
     cJSON *findings = cJSON_CreateArray();
     int status = campaign->findings ? STATUS_DIFFERENT : STATUS_OK;
     for (unsigned i = 0; i < campaign->findings && status != STATUS_BAD; i++)
-        if (report_finding(self, settings, &campaign->finding[i], findings))
+        if (report_finding(self, settings, options, &campaign->finding[i], findings))
             status = STATUS_BAD;
     if (settings->json && status != STATUS_BAD) {
-        cJSON *json = make_json(settings, run, campaign, findings);
+        cJSON *json = make_json(settings, &options->run, campaign, findings);
         if (json_write(self, json, settings->json))
             status = STATUS_BAD;
         cJSON_Delete(json);
     }
     cJSON_Delete(findings);
-    summarize(run, campaign);
+    summarize(&options->run, campaign);
     return status;
 }
 
@@ -187,7 +205,7 @@ static int fuzz(const struct command *self, struct settings *settings)
         return fail(self, "%s: cannot make the folder: %s", settings->folder, strerror(errno));
     if (campaign_run(&options, watch, settings, &campaign, &error))
         return fail(self, "%s", error.text);
-    int status = report(self, settings, &options.run, &campaign);
+    int status = report(self, settings, &options, &campaign);
     rmdir(settings->folder); /* if nothing was found */
     return status;
 }
