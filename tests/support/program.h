@@ -19,6 +19,9 @@ struct program_data {
 
 uint32_t program_random(uint64_t *seed);
 
+/* The bits of an edge of binary32 or of integers, or of an ordinary float. */
+uint32_t program_word(uint64_t *seed);
+
 /* Fills input, job and table with edges and ordinary values. `data`, or a copy of it made while it stands,
  * can be run. */
 void program_fill(struct program_data *data, uint64_t *seed);
@@ -28,6 +31,11 @@ void program_make(struct ir *ir, unsigned length, uint64_t *seed);
 
 /* The same with nested regions, loops of up to three passes that end lane by lane, and variables. */
 void program_make_loops(struct ir *ir, unsigned length, uint64_t *seed);
+
+/* Either, with what no recording has but the intermediate representation allows: values of loops that are used behind
+ * them, and in OUTPUT scattered words, words broadcast from there, and lanes that are not where they were stored, which
+ * depends on how many lanes run together. */
+void program_make_wild(struct ir *ir, unsigned length, uint64_t *seed);
 
 /* Runs every lane through the IR by def/op.def's expressions, under the contract's MXCSR. */
 void program_interpret(const struct ir *ir, struct program_data *data, unsigned width);
