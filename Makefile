@@ -70,12 +70,18 @@ ifdef SANITIZE
 # gcc's flow warnings are wrong about instrumented code; the plain and clang builds are the ones that warn.
 CFLAGS    ?= -O1 -g
 SANITIZER := -fsanitize=address,undefined -fno-sanitize-recover=all -fno-omit-frame-pointer -Wno-maybe-uninitialized -Wno-restrict
+CHECK_IR  := 1
 else
 CFLAGS    ?= -O2 -g
 endif
 
+# Every recording and what every pass of the specializer leaves is verified before anything is made of it.
+ifdef CHECK_IR
+CHECKED := -DTRIPTYCH_CHECK_IR
+endif
+
 compile = $(CC) -std=gnu17 $(CFLAGS) -Wall -Wextra -Werror -ffp-contract=off -fPIC -fvisibility=hidden -pthread \
-  $(SANITIZER) -Isrc -I. $(package_includes) $(CPPFLAGS)
+  $(SANITIZER) $(CHECKED) -Isrc -I. $(package_includes) $(CPPFLAGS)
 link = $(CC) $(CFLAGS) $(SANITIZER) -pthread -Wl,--as-needed,-z,relro,-z,now $(LDFLAGS)
 
 # An object without this note makes the whole program's stack executable; every assembly file gets it from here.
@@ -273,7 +279,7 @@ make packages        what those packages are and what each is for
 make format          clang-format over the C sources; format-check only looks
 make clean           remove $(BUILD)/
 
-BUILD=dir  CC=clang  SANITIZE=1  V=1 (show commands)  ONLY=text (tests whose path contains it)
+BUILD=dir  CC=clang  SANITIZE=1  CHECK_IR=1 (verify after each pass)  V=1 (show commands)  ONLY=text (tests whose path contains it)
 CFLAGS=... (optimisation and debugging only)  UNITY_DIR=dir (a Unity checkout instead of the fetched one)
 endef
 

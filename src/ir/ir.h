@@ -144,6 +144,20 @@ void ir_compact(struct ir *ir, uint16_t *map);
  * Returns null, or one line that says what is wrong (static storage: for one thread at a time). */
 const char *ir_verify(const struct ir *ir);
 
+/* The same for any number of threads. Returns 0, or -1 with the reason, which begins with what `made` the program: "the
+ * recording", "pass common". */
+int ir_check(const struct ir *ir, const char *made, struct error *error);
+
+/* Whether this is a build (make CHECK_IR=1, and any with sanitizers) in which every recording and what every pass
+ * leaves is checked, and refused if it is wrong. */
+enum {
+#ifdef TRIPTYCH_CHECK_IR
+    IR_CHECKED = 1
+#else
+    IR_CHECKED = 0
+#endif
+};
+
 /* One line a instruction: number, type, operation, operands, spec line. */
 void ir_print(const struct ir *ir, FILE *out);
 void ir_print_instruction(const struct ir *ir, uint32_t number, FILE *out);

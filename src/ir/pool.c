@@ -37,10 +37,11 @@ struct ir *ir_take(enum unit unit, const union key *key, struct error *error)
     unsigned saved = mxcsr_enter();
     ir_record(&recording->ir, unit, key);
     mxcsr_leave(saved);
-    if (!recording->ir.overflow)
+    if (recording->ir.overflow)
+        error_set(error, "the %s routine takes more than %d operations", unit_name[unit], IR_CAPACITY - 1);
+    else if (!IR_CHECKED || !ir_check(&recording->ir, "the recording", error))
         return &recording->ir;
     ir_give(&recording->ir);
-    error_set(error, "the %s routine takes more than %d operations", unit_name[unit], IR_CAPACITY - 1);
     return NULL;
 }
 

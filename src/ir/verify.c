@@ -1,6 +1,7 @@
 /* What makes an IR valid: see ir.h. One walk from front to back. */
 #include "ir/ir.h"
 
+#include <pthread.h>
 #include <stdarg.h>
 #include <string.h>
 
@@ -200,4 +201,14 @@ const char *ir_verify(const struct ir *ir)
             return what;
     }
     return walk.region || walk.waiting ? "a region is not ended" : NULL;
+}
+
+int ir_check(const struct ir *ir, const char *made, struct error *error)
+{
+    static pthread_mutex_t lock = PTHREAD_MUTEX_INITIALIZER;
+    pthread_mutex_lock(&lock);
+    const char *what = ir_verify(ir);
+    int result = what ? error_set(error, "%s is no valid program: %s", made, what) : 0;
+    pthread_mutex_unlock(&lock);
+    return result;
 }

@@ -1,6 +1,7 @@
 #include "jit/build.h"
 
 #include "base/mxcsr.h"
+#include "jit/jit.h"
 
 #include <pthread.h>
 #include <sys/mman.h>
@@ -39,6 +40,40 @@ void builder_give(struct builder *builder)
     pthread_mutex_unlock(&pool_lock);
 }
 
+/* Of an observer that checks what each pass leaves before the caller's sees it. */
+struct check {
+    pass_observer *observer;
+    void *context;
+    struct error *error;
+    int failed;
+};
+
+static void check_pass(void *context, enum pass pass, const struct ir *ir)
+{
+    struct check *check = context;
+    char made[32];
+    snprintf(made, sizeof made, "what pass %s left", jit_pass_name(pass));
+    if (!check->failed)
+        check->failed = ir_check(ir, made, check->error);
+    if (check->observer)
+        check->observer(check->context, pass, ir);
+}
+
+/* Returns 0, or -1 with the reason in a build that checks. */
+static int optimize_checked(struct builder *b, const struct build_options *options, pass_observer *observer,
+                            void *context, struct error *error)
+{
+    struct check check = {observer, context, error, 0};
+    if (!IR_CHECKED) {
+        optimize(&b->ir, &b->pass, options->profile, options->disabled, observer, context);
+        return 0;
+    }
+    if (ir_check(&b->ir, "the recording", error))
+        return -1;
+    optimize(&b->ir, &b->pass, options->profile, options->disabled, check_pass, &check);
+    return check.failed ? -1 : ir_check(&b->ir, "what the passes left", error);
+}
+
 static size_t build_stages(struct builder *b, const struct build_options *options, enum unit unit,
                            const union key *key, pass_observer *observer, void *context, struct error *error)
 {
@@ -47,7 +82,8 @@ static size_t build_stages(struct builder *b, const struct build_options *option
         error_set(error, "the %s routine takes more than %d operations", unit_name[unit], IR_CAPACITY - 1);
         return 0;
     }
-    optimize(&b->ir, &b->pass, options->profile, options->disabled, observer, context);
+    if (optimize_checked(b, options, observer, context, error))
+        return 0;
     allocate(&b->ir, &b->allocation, options->registers ? options->registers : ALLOCATABLE);
     b->emitter.ir = &b->ir;
     b->emitter.allocation = &b->allocation;

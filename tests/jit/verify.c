@@ -252,6 +252,18 @@ static void test_what_is_joined_from_before_a_region_is_defined_before_it(void)
     refuse("leaves its region");
 }
 
+/* What a build with CHECK_IR refuses says whose fault it is. */
+static void test_a_check_names_what_made_the_program(void)
+{
+    struct error error = {{0}};
+    mask();
+    TEST_ASSERT_EQUAL(0, ir_check(&ir, "what pass dead left", &error));
+    effect(IR_end, 0, 0);
+    TEST_ASSERT_EQUAL(-1, ir_check(&ir, "what pass dead left", &error));
+    TEST_ASSERT_EQUAL_STRING(
+        "what pass dead left is no valid program: instruction 2: ends no region of its kind", error.text);
+}
+
 int main(void)
 {
     UNITY_BEGIN();
@@ -273,5 +285,6 @@ int main(void)
     RUN_TEST(test_a_phi_of_an_outer_loop_is_not_fed_by_an_inner_one);
     RUN_TEST(test_joins_stand_behind_their_region);
     RUN_TEST(test_what_is_joined_from_before_a_region_is_defined_before_it);
+    RUN_TEST(test_a_check_names_what_made_the_program);
     return UNITY_END();
 }
