@@ -6,7 +6,7 @@
 struct scan {
     const struct ir *ir;
     struct allocation *allocation;
-    unsigned registers;
+    unsigned registers;           /* a bit for each that there is */
     unsigned loop;                /* the innermost around the position */
     uint16_t holder[ALLOCATABLE]; /* 0: free */
 };
@@ -157,7 +157,7 @@ static void chain_uses(const struct ir *ir, struct allocation *a)
 }
 
 /* A load that is used once, by an instruction that can read memory there, stays where it is. */
-static int stays_in_memory(const struct ir *ir, const struct allocation *a, uint32_t number)
+static int stays_in_memory(const struct ir *ir, struct allocation *a, uint32_t number)
 {
     const struct ir_instruction *i = &ir->instruction[number];
     if (allocate_is_constant(i))
@@ -167,7 +167,7 @@ static int stays_in_memory(const struct ir *ir, const struct allocation *a, uint
     const struct ir_instruction *user = &ir->instruction[a->next_use[number]];
     for (int o = 0; o < 3; o++)
         if (user->operand[o] == number)
-            return allocate_folds(user, o);
+            return allocate_folds(user, o) && allocate_lot(a, 4) != 1;
     return 0;
 }
 
@@ -257,12 +257,14 @@ static int is_better_victim(const struct scan *scan, unsigned value, unsigned ot
 
 static unsigned furthest(const struct scan *scan, const struct ir_instruction *i, uint32_t position)
 {
-    unsigned victim = NO_REGISTER;
-    for (unsigned reg = 0; reg < scan->registers; reg++) {
-        if (is_operand(scan->allocation, i, scan->holder[reg]))
+    unsigned victim = NO_REGISTER, candidates = 1;
+    for (unsigned reg = 0; reg < ALLOCATABLE; reg++) {
+        if (!(scan->registers >> reg & 1) || is_operand(scan->allocation, i, scan->holder[reg]))
             continue;
-        if (victim == NO_REGISTER ||
-            is_better_victim(scan, scan->holder[reg], scan->holder[victim], position))
+        int better = victim == NO_REGISTER ||
+                     (!scan->allocation->lots &&
+                      is_better_victim(scan, scan->holder[reg], scan->holder[victim], position));
+        if (better || allocate_lot(scan->allocation, ++candidates) == 1)
             victim = reg;
     }
     return victim;
@@ -278,6 +280,25 @@ static void spill(struct scan *scan, unsigned value, uint32_t position)
     a->spills++;
 }
 
+static unsigned free_register(struct scan *scan)
+{
+    unsigned first = allocate_lot(scan->allocation, ALLOCATABLE);
+    for (unsigned n = 0; n < ALLOCATABLE; n++) {
+        unsigned reg = (first + n) % ALLOCATABLE;
+        if (scan->registers >> reg & 1 && !scan->holder[reg])
+            return reg;
+    }
+    return NO_REGISTER;
+}
+
+/* Whether a result goes to memory rather than the value that is in a register. */
+static int gives_way(const struct scan *scan, uint32_t number, unsigned reg)
+{
+    if (scan->allocation->lots)
+        return allocate_lot(scan->allocation, 4) == 1;
+    return is_better_victim(scan, number, scan->holder[reg], number);
+}
+
 /* A register for the result of `number`: its web's if that has one already; the preferred one, a free one,
  * or that of the value used furthest away, which may be the result itself. */
 static void place(struct scan *scan, uint32_t number, unsigned preferred)
@@ -288,12 +309,11 @@ static void place(struct scan *scan, uint32_t number, unsigned preferred)
         a->reg[number] = a->split[web] == NEVER ? a->reg[web] : SCRATCH_RESULT;
         return;
     }
-    for (unsigned r = 0; reg == NO_REGISTER && r < scan->registers; r++)
-        if (!scan->holder[r])
-            reg = r;
+    if (reg == NO_REGISTER || allocate_lot(a, 4) == 1)
+        reg = free_register(scan);
     if (reg == NO_REGISTER) {
         reg = furthest(scan, &scan->ir->instruction[number], number);
-        if (reg == NO_REGISTER || is_better_victim(scan, number, scan->holder[reg], number)) {
+        if (reg == NO_REGISTER || gives_way(scan, number, reg)) {
             a->reg[number] = SCRATCH_RESULT;
             spill(scan, number, number);
             return;
@@ -313,7 +333,7 @@ static void cross_loop(struct scan *scan, const struct ir_instruction *i, uint32
         return;
     }
     scan->loop = a->loop[scan->loop].outer;
-    for (unsigned reg = 0; reg < scan->registers; reg++)
+    for (unsigned reg = 0; reg < ALLOCATABLE; reg++)
         if (a->last[scan->holder[reg]] == number)
             scan->holder[reg] = 0;
 }
@@ -356,9 +376,9 @@ static uint32_t take_slot(struct allocation *a, uint32_t *lowest)
     uint32_t words = (a->slots + 63) / 64;
     while (*lowest < words && !a->free_slot[*lowest])
         ++*lowest;
-    if (*lowest == words) {
+    if (*lowest == words || allocate_lot(a, 4) == 1) {
         if (a->slots % 64 == 0)
-            a->free_slot[words] = 0;
+            a->free_slot[a->slots / 64] = 0;
         return a->slots++;
     }
     uint32_t slot = *lowest * 64 + (uint32_t)__builtin_ctzll(a->free_slot[*lowest]);
@@ -392,9 +412,10 @@ static void assign_slots(const struct ir *ir, struct allocation *a)
     }
 }
 
-void allocate(const struct ir *ir, struct allocation *allocation, unsigned registers)
+void allocate(const struct ir *ir, struct allocation *allocation, const struct register_file *file)
 {
-    struct scan scan = {.ir = ir, .allocation = allocation, .registers = registers};
+    struct scan scan = {.ir = ir, .allocation = allocation, .registers = ~(unsigned)file->without};
+    allocation->lots = file->seed;
     allocation->spills = 0;
     allocation->webs = ir->phis != 0;
     if (ir->loops || ir->phis) {

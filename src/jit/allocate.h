@@ -41,7 +41,15 @@ enum residence {
     RESIDENCE_MEMORY    /* an operand in memory wherever it is used */
 };
 
+/* Which registers there are, and how to choose among them. All zero: all, by the rules above. Tests take some away and
+ * draw lots, since what is allocated must be right whatever is chosen. */
+struct register_file {
+    uint16_t without; /* bit r: register r is not to be used; all may be missing */
+    uint64_t seed;    /* not 0: free registers, victims, slots and what shares a place are drawn by lot */
+};
+
 struct allocation {
+    uint64_t lots; /* the state of the lots; 0: none are drawn */
     uint8_t residence[IR_CAPACITY];
     uint8_t reg[IR_CAPACITY];
     uint16_t split[IR_CAPACITY]; /* at positions after this the value is in memory; NEVER */
@@ -79,9 +87,27 @@ static inline int allocate_is_constant(const struct ir_instruction *instruction)
     return instruction->op == IR_literal || instruction->op == IR_constant;
 }
 
-/* Fills `allocation` for a verified, compacted IR. `registers` (at most ALLOCATABLE, at least 4) may be
- * fewer to put the allocator under pressure. */
-void allocate(const struct ir *ir, struct allocation *allocation, unsigned registers);
+/* Fills `allocation` for a verified, compacted IR. */
+void allocate(const struct ir *ir, struct allocation *allocation, const struct register_file *file);
+
+/* Registers 0 to count - 1, chosen by the rules. */
+static inline struct register_file register_file_of(unsigned count)
+{
+    return (struct register_file){.without = (uint16_t)(((1u << ALLOCATABLE) - 1) & ~((1u << count) - 1))};
+}
+
+/* A number below `limit` where lots are drawn, else 0. */
+static inline unsigned allocate_lot(struct allocation *allocation, unsigned limit)
+{
+    uint64_t lots = allocation->lots;
+    if (!lots)
+        return 0;
+    lots ^= lots >> 12;
+    lots ^= lots << 25;
+    lots ^= lots >> 27;
+    allocation->lots = lots;
+    return (unsigned)((lots * 0x2545f4914f6cdd1dull >> 33) % limit);
+}
 
 /* The web of a value. What is said of a value's register, uses and slot stands at its web; of each
  * definition, `reg` is where its instruction puts it. */

@@ -84,7 +84,7 @@ static size_t build_stages(struct builder *b, const struct build_options *option
     }
     if (optimize_checked(b, options, observer, context, error))
         return 0;
-    allocate(&b->ir, &b->allocation, options->registers ? options->registers : ALLOCATABLE);
+    allocate(&b->ir, &b->allocation, &options->file);
     b->emitter.ir = &b->ir;
     b->emitter.allocation = &b->allocation;
     b->emitter.width = options->width;

@@ -9,8 +9,8 @@
 struct build_options {
     unsigned width; /* 4 or 8 */
     enum profile profile;
-    uint32_t disabled;  /* bit p: pass p is left out */
-    unsigned registers; /* at most ALLOCATABLE; 0: all */
+    uint32_t disabled; /* bit p: pass p is left out */
+    struct register_file file;
 };
 
 /* What the engine varies; null when it is none of the specializer's. */

@@ -140,7 +140,7 @@ static void unite(const struct ir *ir, struct allocation *a, unsigned value, uns
         x = y;
         y = swapped;
     }
-    if (x != y && has_place(ir, other) && !meet(ir, a, x, y))
+    if (x != y && has_place(ir, other) && !meet(ir, a, x, y) && allocate_lot(a, 4) != 1)
         unite_lists(a, x, y);
 }
 

@@ -120,7 +120,7 @@ static void specialize(const struct addressing *how, unsigned width, int rows)
     struct error error = {{0}};
     struct code_span span;
     record(&builder->ir, how, rows);
-    allocate(&builder->ir, &builder->allocation, ALLOCATABLE);
+    allocate(&builder->ir, &builder->allocation, &(struct register_file){0});
     builder->emitter.ir = &builder->ir;
     builder->emitter.allocation = &builder->allocation;
     builder->emitter.width = width;

@@ -207,15 +207,33 @@ void program_interpret(const struct ir *ir, struct program_data *data, unsigned 
 int program_compile_and_run(struct builder *b, struct code_arena *arena, unsigned width, unsigned registers,
                             struct program_data *data, struct error *error)
 {
+    struct register_file file = register_file_of(registers);
+    return program_compile_with(b, arena, width, &file, data, error);
+}
+
+int program_compile_with(struct builder *b, struct code_arena *arena, unsigned width,
+                         const struct register_file *file, struct program_data *data, struct error *error)
+{
+    allocate(&b->ir, &b->allocation, file);
+    size_t bytes = program_emit(b, width, error);
+    return bytes ? program_run(b, bytes, arena, data, error) : -1;
+}
+
+size_t program_emit(struct builder *b, unsigned width, struct error *error)
+{
     static const union key key;
-    allocate(&b->ir, &b->allocation, registers);
     b->emitter.ir = &b->ir;
     b->emitter.allocation = &b->allocation;
     b->emitter.width = width;
     b->emitter.length = width == 4 ? X86_128 : X86_256;
-    size_t bytes = emit_routine(&b->emitter, UNIT_VERTEX, &key, error);
+    return emit_routine(&b->emitter, UNIT_VERTEX, &key, error);
+}
+
+int program_run(const struct builder *b, size_t bytes, struct code_arena *arena, struct program_data *data,
+                struct error *error)
+{
     struct code_span span;
-    if (!bytes || code_reserve(arena, bytes, &span, error))
+    if (code_reserve(arena, bytes, &span, error))
         return -1;
     memcpy(span.writable, b->emitter.code, bytes);
     const void *code = code_commit(arena, &span, bytes);

@@ -49,6 +49,14 @@ void program_observe(const struct ir *ir, struct program_data *data, unsigned wi
 int program_compile_and_run(struct builder *builder, struct code_arena *arena, unsigned width,
                             unsigned registers, struct program_data *data, struct error *error);
 
+int program_compile_with(struct builder *builder, struct code_arena *arena, unsigned width,
+                         const struct register_file *file, struct program_data *data, struct error *error);
+
+/* Its parts: encodes what has been allocated, and returns the bytes or 0; runs them. */
+size_t program_emit(struct builder *builder, unsigned width, struct error *error);
+int program_run(const struct builder *builder, size_t bytes, struct code_arena *arena,
+                struct program_data *data, struct error *error);
+
 /* Index of the first output word that differs (two NaN are equal), or -1. */
 int program_difference(const struct program_data *a, const struct program_data *b);
 

@@ -1,0 +1,234 @@
+/* Allocation under pressure: programs compiled with few registers and with choices drawn by lot. Their code is proved to
+ * read what it should (tests/support/placement.h), and computes what the interpreter does.
+ *
+ * TRIPTYCH_SEED chooses other programs, registers and lots. */
+#include "base/code.h"
+#include "base/cpu.h"
+#include "base/mxcsr.h"
+#include "def/lane.h"
+#include "tests/support/placement.h"
+#include "tests/support/program.h"
+#include "tests/support/seed.h"
+#include "unity.h"
+
+#include <stdio.h>
+#include <string.h>
+
+enum { PROGRAMS = 1500 };
+
+static struct code_arena *arena;
+static struct builder *builder;
+static struct program_data given, expected, got;
+static char message[700];
+
+void setUp(void)
+{
+    struct error error = {{0}};
+    if (!cpu_has_avx2_fma())
+        TEST_IGNORE_MESSAGE("needs AVX2 and FMA");
+    arena = code_create(0, NULL, &error);
+    builder = builder_take(&error);
+    TEST_ASSERT_NOT_NULL_MESSAGE(arena, error.text);
+    TEST_ASSERT_NOT_NULL_MESSAGE(builder, error.text);
+}
+
+void tearDown(void)
+{
+    if (builder)
+        builder_give(builder);
+    code_destroy(arena);
+    arena = NULL;
+    builder = NULL;
+}
+
+/* None to all registers, any of them. */
+static struct register_file random_file(uint64_t *seed)
+{
+    static const uint8_t sizes[] = {13, 13, 8, 5, 3, 2, 1, 0};
+    struct register_file file = {0};
+    unsigned size = sizes[program_random(seed) % sizeof sizes];
+    for (unsigned left = ALLOCATABLE; left > size; left--) {
+        unsigned n = program_random(seed) % left; /* the n-th that is left goes */
+        for (unsigned r = 0; r < ALLOCATABLE; r++)
+            if (!(file.without >> r & 1) && !n--) {
+                file.without |= (uint16_t)(1u << r);
+                break;
+            }
+    }
+    file.seed = program_random(seed) % 4 ? program_random(seed) : 0;
+    return file;
+}
+
+static void fail(uint64_t number, unsigned width, const struct register_file *file, const char *what)
+{
+    snprintf(message, sizeof message, "program %llu, %u lanes, without registers 0x%x, lots %llu: %s",
+             (unsigned long long)number, width, file->without, (unsigned long long)file->seed, what);
+    TEST_FAIL_MESSAGE(message);
+}
+
+static void expect_same(uint64_t number, unsigned width, const struct register_file *file)
+{
+    char what[120];
+    int at = program_difference(&expected, &got);
+    if (at < 0)
+        return;
+    snprintf(what, sizeof what, "lane %d of slot %d: expected %08x, got %08x", at % VERTEX_CAPACITY,
+             at / VERTEX_CAPACITY, lane_bits(expected.output[at]), lane_bits(got.output[at]));
+    fail(number, width, file, what);
+}
+
+typedef void generator(struct ir *, unsigned length, uint64_t *seed);
+
+/* Makes program `number`, optimised with some set of passes, and what it computes. Returns the lanes. */
+static unsigned prepare(generator *make, uint64_t number, unsigned longest, uint64_t *seed)
+{
+    static const uint32_t disabled[] = {0, ~0u, 0, 1};
+    unsigned width = number % 3 ? 8 : 4;
+    *seed = test_seed() + number * 0x9e3779b97f4a7c15ull;
+    *seed |= !*seed;
+    make(&builder->ir, 3 + program_random(seed) % longest, seed);
+    TEST_ASSERT_NULL(ir_verify(&builder->ir));
+    program_fill(&given, seed);
+    expected = given;
+    program_interpret(&builder->ir, &expected, width);
+    unsigned saved = mxcsr_enter();
+    optimize(&builder->ir, &builder->pass, PROFILE_FULL, disabled[program_random(seed) % 4], NULL, NULL);
+    mxcsr_leave(saved);
+    return width;
+}
+
+static void try_program(generator *make, uint64_t number, unsigned longest)
+{
+    struct error error = {{0}};
+    uint64_t seed;
+    unsigned width = prepare(make, number, longest, &seed);
+    struct register_file file = random_file(&seed);
+    got = given;
+    if (program_compile_with(builder, arena, width, &file, &got, &error))
+        fail(number, width, &file, error.text);
+    const char *wrong = placement_check(builder);
+    if (wrong)
+        fail(number, width, &file, wrong);
+    expect_same(number, width, &file);
+}
+
+static void test_straight_programs(void)
+{
+    for (uint64_t n = 1; n <= PROGRAMS; n++)
+        try_program(program_make, n, 100);
+}
+
+static void test_programs_with_loops_and_variables(void)
+{
+    for (uint64_t n = 1; n <= PROGRAMS; n++)
+        try_program(program_make_loops, n, 40);
+}
+
+static void test_programs_that_no_recording_is(void)
+{
+    for (uint64_t n = 1; n <= PROGRAMS; n++)
+        try_program(program_make_wild, n, 50);
+}
+
+/* --- Sabotage ----------------------------------------------------------------------------------------------- */
+
+enum { ANOTHER_REGISTER, ANOTHER_SLOT, NO_RELOAD, NO_STORE, LOST_INSTRUCTION, DAMAGES };
+
+/* A value that is in a register at first, and spilled if the damage is to that. */
+static unsigned choose_victim(unsigned damage, uint64_t *seed)
+{
+    const struct allocation *a = &builder->allocation;
+    for (unsigned tries = 0; tries < 200; tries++) {
+        unsigned value = 1 + program_random(seed) % (builder->ir.count - 1);
+        if (a->residence[value] != RESIDENCE_REGISTER || allocate_web(a, value) != value)
+            continue;
+        if (damage == ANOTHER_REGISTER || damage == LOST_INSTRUCTION || a->slot[value] != NO_SLOT)
+            return value;
+    }
+    return 0;
+}
+
+/* The encoder refuses a gather into its own index. */
+static int gathers_can_be_encoded(void)
+{
+    const struct allocation *a = &builder->allocation;
+    for (uint32_t n = 1; n < builder->ir.count; n++)
+        if (builder->ir.instruction[n].op == IR_gather && a->reg[n] != NO_REGISTER &&
+            a->reg[n] == a->reg[allocate_web(a, builder->ir.instruction[n].operand[0])])
+            return 0;
+    return 1;
+}
+
+static int damage_allocation(unsigned damage, uint64_t *seed)
+{
+    struct allocation *a = &builder->allocation;
+    unsigned victim = choose_victim(damage, seed);
+    if (!victim)
+        return 0;
+    switch (damage) {
+    case ANOTHER_REGISTER:
+        a->reg[victim] = (uint8_t)((a->reg[victim] + 1 + program_random(seed) % 2) % 3);
+        break;
+    case ANOTHER_SLOT: a->slot[victim] = (uint16_t)(program_random(seed) % a->slots); break;
+    case NO_RELOAD: a->split[victim] = NEVER; break;
+    case NO_STORE: a->slot[victim] = NO_SLOT; break;
+    }
+    return gathers_can_be_encoded();
+}
+
+/* Nops in place of the code of one operation. */
+static int lose_instruction(uint64_t *seed)
+{
+    struct emitter *m = &builder->emitter;
+    const struct code_line *line = &m->line[1 + program_random(seed) % (m->lines - 2)];
+    unsigned op = builder->ir.instruction[line->instruction].op;
+    uint32_t length = line[1].offset - line->offset;
+    if (!line->instruction || !length || op == IR_when || op == IR_again || op == IR_end || op == IR_loop)
+        return 0;
+    memset(m->code + line->offset, 0x90, length);
+    return 1;
+}
+
+/* What is not noticed does no harm. Returns whether it was. */
+static int is_noticed(uint64_t number, unsigned damage, unsigned *tried)
+{
+    struct error error = {{0}};
+    uint64_t seed;
+    unsigned width = prepare(number % 2 ? program_make : program_make_loops, number, 40, &seed);
+    struct register_file file = register_file_of(3);
+    allocate(&builder->ir, &builder->allocation, &file);
+    if (damage != LOST_INSTRUCTION && !damage_allocation(damage, &seed))
+        return 0;
+    size_t bytes = program_emit(builder, width, &error);
+    TEST_ASSERT_MESSAGE(bytes, error.text);
+    if (damage == LOST_INSTRUCTION && !lose_instruction(&seed))
+        return 0;
+    ++*tried;
+    if (placement_check(builder))
+        return 1;
+    got = given;
+    TEST_ASSERT_EQUAL_MESSAGE(0, program_run(builder, bytes, arena, &got, &error), error.text);
+    expect_same(number, width, &file);
+    return 0;
+}
+
+static void test_damage_is_noticed(void)
+{
+    for (unsigned damage = 0; damage < DAMAGES; damage++) {
+        unsigned tried = 0, noticed = 0;
+        for (uint64_t n = 1; n <= 400; n++)
+            noticed += (unsigned)is_noticed(n, damage, &tried);
+        TEST_ASSERT_GREATER_THAN(100, tried);
+        TEST_ASSERT_GREATER_OR_EQUAL(damage == LOST_INSTRUCTION ? tried : tried / 3, noticed);
+    }
+}
+
+int main(void)
+{
+    UNITY_BEGIN();
+    RUN_TEST(test_straight_programs);
+    RUN_TEST(test_programs_with_loops_and_variables);
+    RUN_TEST(test_programs_that_no_recording_is);
+    RUN_TEST(test_damage_is_noticed);
+    return UNITY_END();
+}
