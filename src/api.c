@@ -254,8 +254,11 @@ static enum triptych_result create_shader(triptych_device *device, const char *n
         return finish(device, TRIPTYCH_NO_MEMORY, &error);
     }
     locale_t before = uselocale(locale);
-    enum triptych_result status = TRIPTYCH_BAD_ARGUMENT;
-    if (!read(name ? name : "shader", data, bytes, &shader, &error)) {
+    enum triptych_result status;
+    errno = 0;
+    if (read(name ? name : "shader", data, bytes, &shader, &error)) {
+        status = device_refusal(TRIPTYCH_BAD_ARGUMENT);
+    } else {
         status = device_shader_create(device, shader, result, &error);
         shader_free(shader);
     }

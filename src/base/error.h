@@ -2,7 +2,10 @@
  *
  * Library functions return `enum triptych_result` (triptych.h) and write the reason with `error_set`. The
  * line says what was found, where, and what was expected; it carries no trailing newline and no program name.
- * Only the command prints it and chooses the exit status. */
+ * Only the command prints it and chooses the exit status.
+ *
+ * That memory was refused is told by errno, as malloc tells it: whoever has to know it from other reasons sets errno to 0
+ * before and finds ENOMEM after. */
 #ifndef BASE_ERROR_H
 #define BASE_ERROR_H
 

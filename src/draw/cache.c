@@ -4,6 +4,7 @@
 
 #include "base/code.h"
 
+#include <errno.h>
 #include <pthread.h>
 #include <stdlib.h>
 #include <string.h>
@@ -191,6 +192,7 @@ static struct routine *try_build(struct cache *cache, enum unit unit, const unio
                                  struct error *error)
 {
     uint64_t start = now_ns();
+    errno = 0;
     struct routine *routine = cache->engine->build(cache->arena, unit, key, error);
     if (routine)
         routine->build_ns = now_ns() - start;
@@ -273,11 +275,24 @@ const struct routine *cache_acquire(struct cache *cache, enum unit unit, const u
     return entry ? entry->routine : NULL;
 }
 
+/* The entry of a routine that is in use. */
+static struct cache_entry *entry_of(struct cache *cache, const struct routine *routine)
+{
+    struct packed_key packed = key_pack(routine->unit, &routine->key);
+    return *find(cache, routine->unit, &packed, key_hash(routine->unit, &packed));
+}
+
+void cache_retain(struct cache *cache, const struct routine *routine)
+{
+    pthread_mutex_lock(&cache->lock);
+    entry_of(cache, routine)->references++;
+    pthread_mutex_unlock(&cache->lock);
+}
+
 void cache_release(struct cache *cache, const struct routine *routine)
 {
     pthread_mutex_lock(&cache->lock);
-    struct packed_key packed = key_pack(routine->unit, &routine->key);
-    struct cache_entry *entry = *find(cache, routine->unit, &packed, key_hash(routine->unit, &packed));
+    struct cache_entry *entry = entry_of(cache, routine);
     if (!--entry->references)
         list_insert_after(&cache->idle, &entry->idle);
     evict_to_budget(cache);

@@ -35,10 +35,12 @@ void cache_measure(struct cache *cache);
 /* Frees all routines; none may be in use. Null is allowed. */
 void cache_destroy(struct cache *cache);
 
-/* The routine for a normalised key, found or built; to be released. Null with the reason when it cannot be
- * built, even after everything that is not in use has been evicted. */
+/* The routine for a normalised key, found or built; to be released. Null with the reason, and errno ENOMEM if that was
+ * memory, when it cannot be built, even after everything that is not in use has been evicted. */
 const struct routine *cache_acquire(struct cache *cache, enum unit unit, const union key *key,
                                     struct error *error);
+/* The same routine once more, for somebody else: cannot fail. */
+void cache_retain(struct cache *cache, const struct routine *routine);
 void cache_release(struct cache *cache, const struct routine *routine);
 
 /* Whether the routines cost twice the budget, which those in use must be to blame for: time to release some. */

@@ -23,10 +23,11 @@ static enum triptych_result create_parts(struct triptych_device *device, const s
 {
     size_t cache_bytes = options->cache_bytes ? options->cache_bytes : CACHE_BYTES;
     if (!device->engine->without_arena) {
+        errno = 0;
         device->arena =
             code_create(options->code_bytes ? options->code_bytes : arena_bytes(cache_bytes), NULL, error);
         if (!device->arena)
-            return TRIPTYCH_ENGINE_FAILED;
+            return device_refusal(TRIPTYCH_ENGINE_FAILED);
     }
     device->cache = cache_create(device->engine, device->arena, cache_bytes, error);
     if (device->cache && options->measure)

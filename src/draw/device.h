@@ -14,6 +14,8 @@
 #include "draw/surface.h"
 #include "shader/shader.h"
 
+#include <errno.h>
+
 /* Called for each draw that is recorded: its number, from 0, and its keys, indexed by enum unit. */
 typedef void device_draw_callback(void *user, uint64_t number, const union key key[UNIT_COUNT]);
 
@@ -71,6 +73,12 @@ struct device_options {
     pool_create_thread *create_thread; /* null: pthread_create */
     uint32_t arena_bytes;              /* of the frame's arena; 0: ARENA_BYTES */
 };
+
+/* What a failure was, of a function before which errno was 0. */
+static inline enum triptych_result device_refusal(enum triptych_result otherwise)
+{
+    return errno == ENOMEM ? TRIPTYCH_NO_MEMORY : otherwise;
+}
 
 enum { CACHE_BYTES = 16 << 20, CACHE_BYTES_MAXIMUM = 1 << 30 };
 

@@ -248,13 +248,9 @@ static void step_instance(const struct triptych_device *device, uint32_t instanc
     }
 }
 
-static enum triptych_result record_instance(struct triptych_device *device, const struct draw *source,
-                                            uint32_t instance, struct error *error)
+static void record_instance(struct triptych_device *device, const struct draw *source, uint32_t instance)
 {
     const struct setup_key *setup = &device->key[UNIT_SETUP].setup;
-    const struct routine *routine[UNIT_COUNT];
-    if (acquire_routines(device, routine, error))
-        return TRIPTYCH_ENGINE_FAILED;
     struct command *command = next_draw(device);
     command->kind = COMMAND_DRAW;
     struct draw *draw = &command->draw;
@@ -262,7 +258,8 @@ static enum triptych_result record_instance(struct triptych_device *device, cons
     draw->job = device->job;
     constants_write(&device->constants, &device->state, &draw->job);
     step_instance(device, instance, &draw->job);
-    memcpy(draw->routine, routine, sizeof draw->routine);
+    for (int unit = 0; unit < UNIT_COUNT; unit++)
+        cache_retain(device->cache, draw->routine[unit]);
     draw->scissor = derive_scissor(&device->state);
     draw->stride = setup_layout(setup).stride;
     draw->shape = derive_shape(setup->primitive);
@@ -273,6 +270,20 @@ static enum triptych_result record_instance(struct triptych_device *device, cons
     draw->flat = derive_flat(&device->state);
     device->frame->commands++;
     mark_textures(device);
+}
+
+/* All of them or none. The routines are held until the last is recorded: a queue that is full meanwhile is rendered and
+ * lets go of them. */
+static enum triptych_result record_instances(struct triptych_device *device, const struct draw *source,
+                                             uint32_t instances, struct error *error)
+{
+    struct draw draw = *source;
+    if (acquire_routines(device, draw.routine, error))
+        return device_refusal(TRIPTYCH_ENGINE_FAILED);
+    for (uint32_t i = 0; i < instances; i++)
+        record_instance(device, &draw, i);
+    for (int unit = 0; unit < UNIT_COUNT; unit++)
+        cache_release(device->cache, draw.routine[unit]);
     return TRIPTYCH_OK;
 }
 
@@ -288,17 +299,18 @@ static enum triptych_result check_feedback(const struct triptych_device *device,
 }
 
 /* Records a checked draw, all its instances one after the other. The source's primitive, count, indices and
- * base are filled in. Only the first instance can fail: the others find its routines in use. */
+ * base are filled in. */
 static enum triptych_result record(struct triptych_device *device, const struct draw *source,
                                    struct error *error)
 {
     uint32_t instances = source->indices ? state_instances(&device->state) : 1;
     if (check_feedback(device, error) != TRIPTYCH_OK)
         return TRIPTYCH_BAD_CALL;
-    if (source->count && derive_effective(&device->key[UNIT_PIXEL].pixel))
-        for (uint32_t i = 0; i < instances; i++)
-            if (record_instance(device, source, i, error) != TRIPTYCH_OK)
-                return TRIPTYCH_ENGINE_FAILED;
+    if (source->count && derive_effective(&device->key[UNIT_PIXEL].pixel)) {
+        enum triptych_result result = record_instances(device, source, instances, error);
+        if (result != TRIPTYCH_OK)
+            return result;
+    }
     if (device->on_draw)
         device->on_draw(device->on_draw_user, device->draws, device->key);
     device->draws++;

@@ -21,10 +21,11 @@ enum triptych_result device_shader_create(struct triptych_device *device, const 
         error_set(error, "out of memory for a shader");
         return TRIPTYCH_NO_MEMORY;
     }
+    errno = 0;
     *made = (struct triptych_shader){.device = device, .program = program_acquire(shader, error)};
     if (!made->program) {
         free(made);
-        return TRIPTYCH_BAD_ARGUMENT;
+        return device_refusal(TRIPTYCH_BAD_ARGUMENT);
     }
     made->next = device->shaders;
     device->shaders = *result = made;

@@ -1,0 +1,455 @@
+/* Everything that a device asks the system for is refused once: each memory block, mapping and thread of each call of
+ * the interface, alone, and together with all that come after it.
+ *
+ * A call that fails has changed nothing: it is made again with the next request refused, until it asks for nothing more,
+ * and the picture at the end is that of a device that was never refused anything. Where a call goes on without what it
+ * was refused, its later requests have their turn when the scene is drawn again. */
+#define _GNU_SOURCE
+#include "tests/support/fault.h"
+
+#include "engines.h"
+#include "triptych.h"
+
+#include <math.h>
+#include <unity.h>
+#include <xxhash.h>
+
+enum { WIDTH = 80, HEIGHT = 70, PIXELS = WIDTH * HEIGHT, CALLS = 512, PASSES = 400 };
+
+static triptych_device *device;
+static char reason[512];
+static const char *engine;
+static uint64_t digest;
+
+/* Each call of a scene, in order: the first of its requests that has not been refused yet. */
+static struct {
+    bool injecting, onwards, more;
+    unsigned call;
+    unsigned long next[CALLS];
+    unsigned long refused, gone_on; /* calls that failed, and that went on without */
+} sweep;
+
+void setUp(void)
+{
+}
+
+void tearDown(void)
+{
+    fault_disarm();
+    fault.watching = false;
+    triptych_device_destroy(device);
+    device = NULL;
+}
+
+/* --- Calls ------------------------------------------------------------------------------------------------
+ */
+
+static void begin_call(void)
+{
+    reason[0] = 0;
+    TEST_ASSERT_LESS_THAN(CALLS, sweep.call);
+    if (sweep.injecting)
+        fault_arm(sweep.next[sweep.call], sweep.onwards);
+}
+
+/* Judges a result; whether the call is to be made again. */
+static bool again(enum triptych_result result, const char *text)
+{
+    bool refused = fault.armed && fault.refused;
+    unsigned long number = fault.at;
+    char message[1024];
+    fault_disarm();
+    const char *told = reason[0] || !device ? reason : triptych_error(device);
+    snprintf(message, sizeof message, "%s: request %lu%s of %s: result %d, \"%s\"", engine, number,
+             sweep.onwards ? " and all later" : "", text, result, told);
+    if (result == TRIPTYCH_OK) {
+        sweep.next[sweep.call] += refused;
+        sweep.more |= refused;
+        sweep.gone_on += refused;
+        sweep.call++;
+        return false;
+    }
+    TEST_ASSERT_TRUE_MESSAGE(refused, message);
+    TEST_ASSERT_EQUAL_INT_MESSAGE(TRIPTYCH_NO_MEMORY, result, message);
+    TEST_ASSERT_NOT_NULL_MESSAGE(strstr(told, "memory"), message);
+    TEST_ASSERT_NULL_MESSAGE(strchr(told, '\n'), message);
+    sweep.refused++;
+    sweep.next[sweep.call]++;
+    begin_call();
+    return true;
+}
+
+/* Makes the call until it succeeds. */
+#define TRY(call)                                                                                            \
+    do                                                                                                       \
+        begin_call();                                                                                        \
+    while (again((call), #call))
+
+static void open_device(unsigned threads, size_t cache_bytes)
+{
+    struct triptych_options options = {.engine = engine, .threads = threads, .cache_bytes = cache_bytes};
+    begin_call();
+    while (again(triptych_device_create(&options, &device, reason, sizeof reason), "triptych_device_create"))
+        TEST_ASSERT_NULL(device);
+    reason[0] = 0;
+}
+
+static void add_to_digest(const void *data, size_t bytes)
+{
+    digest = XXH3_64bits_withSeed(data, bytes, digest);
+}
+
+static void read_target(bool stencil)
+{
+    static uint32_t color[PIXELS];
+    static float depth[PIXELS];
+    static uint8_t stencils[PIXELS];
+    TRY(triptych_read_color(device, color));
+    TRY(triptych_read_depth(device, depth));
+    add_to_digest(color, sizeof color);
+    add_to_digest(depth, sizeof depth);
+    if (!stencil)
+        return;
+    TRY(triptych_read_stencil(device, stencils));
+    add_to_digest(stencils, sizeof stencils);
+}
+
+/* --- What is drawn ----------------------------------------------------------------------------------------
+ */
+
+struct vertex {
+    float position[3];
+    float normal[3];
+    uint32_t color;
+    float coordinates[3];
+    float weights[1];
+    uint32_t matrices;
+};
+
+enum { VERTICES = 36 };
+
+static triptych_buffer *make_vertices(void)
+{
+    struct vertex vertices[VERTICES];
+    triptych_buffer *buffer;
+    for (int i = 0; i < VERTICES; i++) {
+        float angle = (float)i * 2.399f, radius = 0.3f + 0.09f * (float)(i % 13);
+        vertices[i] = (struct vertex){{radius * cosf(angle), radius * sinf(angle), (float)i / VERTICES},
+                                      {0.6f * cosf(angle), 0.6f * sinf(angle), -0.8f},
+                                      0xff406080u * (uint32_t)(i + 1) | 0xff000000u,
+                                      {cosf(angle), sinf(angle), (float)(i % 5) - 2},
+                                      {(float)(i % 4) / 4},
+                                      (uint32_t)(i % 3) | (uint32_t)(i % 2) << 8};
+    }
+    TRY(triptych_buffer_create(device, vertices, sizeof vertices, &buffer));
+    return buffer;
+}
+
+static void use_vertices(bool blending)
+{
+    static const struct triptych_declaration_element elements[] = {
+        {0, offsetof(struct vertex, position), TRIPTYCH_FORMAT_FLOAT3, TRIPTYCH_USAGE_POSITION, 0},
+        {0, offsetof(struct vertex, normal), TRIPTYCH_FORMAT_FLOAT3, TRIPTYCH_USAGE_NORMAL, 0},
+        {0, offsetof(struct vertex, color), TRIPTYCH_FORMAT_COLOR, TRIPTYCH_USAGE_COLOR, 0},
+        {0, offsetof(struct vertex, coordinates), TRIPTYCH_FORMAT_FLOAT3, TRIPTYCH_USAGE_TEXCOORD, 0},
+        {0, offsetof(struct vertex, weights), TRIPTYCH_FORMAT_FLOAT1, TRIPTYCH_USAGE_BLENDWEIGHT, 0},
+        {0, offsetof(struct vertex, matrices), TRIPTYCH_FORMAT_UBYTE4, TRIPTYCH_USAGE_BLENDINDICES, 0},
+    };
+    TRY(triptych_set_declaration(device, elements, blending ? 6 : 4));
+    TRY(triptych_set_stream(device, 0, make_vertices(), 0, sizeof(struct vertex)));
+}
+
+static void use_state(enum triptych_state state, uint32_t value)
+{
+    TRY(triptych_set_state(device, state, value));
+}
+
+static void clear(void)
+{
+    TRY(triptych_clear_buffers(device, TRIPTYCH_CLEAR_COLOR | TRIPTYCH_CLEAR_DEPTH,
+                               (const float[4]){0.1f, 0.2f, 0.3f, 1}, 1, 0));
+}
+
+static triptych_texture *make_texture(enum triptych_texture_type type, enum triptych_surface_format format)
+{
+    static const uint32_t texels[16] = {0xff0000ff, 0xff00ff00, 0xffff0000, 0xffffffff, 0x80808080,
+                                        0xff00ffff, 0xffff00ff, 0xffffff00, 0xff102030};
+    struct triptych_texture_description description = {type, format, 4, 4, 1, 0};
+    triptych_texture *texture;
+    TRY(triptych_texture_define(device, &description, &texture));
+    for (unsigned face = 0; face < (type == TRIPTYCH_TEXTURE_CUBE ? 6u : 1u); face++)
+        TRY(triptych_texture_update(device, texture, face, 0, NULL, texels, 16, 64));
+    TRY(triptych_texture_generate_mips(device, texture));
+    return texture;
+}
+
+static void sample(unsigned stage, triptych_texture *texture, uint32_t filter)
+{
+    TRY(triptych_set_texture(device, stage, texture));
+    TRY(triptych_set_sampler_state(device, stage, TRIPTYCH_SAMPLER_minfilter, filter));
+    TRY(triptych_set_sampler_state(device, stage, TRIPTYCH_SAMPLER_magfilter, filter));
+    TRY(triptych_set_sampler_state(device, stage, TRIPTYCH_SAMPLER_mipfilter, filter));
+}
+
+/* Textures of three kinds, several samples a pixel, indices, a query, an image of the picture in a texture. */
+static void draw_fixed_function(unsigned threads)
+{
+    static const uint16_t indices[] = {0, 5, 9, 14, 3, 8, 21, 30, 2, 11, 17, 26};
+    struct triptych_target_description target = {
+        .width = WIDTH, .height = HEIGHT, .depth_format = TRIPTYCH_DEPTH_d24s8, .samples = 4};
+    triptych_query *query;
+    triptych_buffer *order;
+    uint64_t passed;
+    open_device(threads, 0);
+    TRY(triptych_set_target_description(device, &target));
+    clear();
+    use_vertices(false);
+    use_state(TRIPTYCH_STATE_cullmode, 1);
+    use_state(TRIPTYCH_STATE_lighting, 1);
+    use_state(TRIPTYCH_STATE_ambient, 0xff404040);
+    TRY(triptych_set_light(device, 0,
+                           &(struct triptych_light){.diffuse = {1, 1, 1, 1}, .direction = {0, 0, 1}}));
+    TRY(triptych_enable_light(device, 0, 1));
+    TRY(triptych_query_create(device, TRIPTYCH_QUERY_OCCLUSION, &query));
+    TRY(triptych_query_begin(device, query));
+    TRY(triptych_draw(device, TRIPTYCH_TRIANGLE_LIST, 0, 12));
+    TRY(triptych_query_end(device, query));
+    TRY(triptych_buffer_create(device, indices, sizeof indices, &order));
+    TRY(triptych_set_indices(device, order, 16));
+    sample(0, make_texture(TRIPTYCH_TEXTURE_2D, TRIPTYCH_SURFACE_A8R8G8B8), 2);
+    sample(1, make_texture(TRIPTYCH_TEXTURE_CUBE, TRIPTYCH_SURFACE_X8R8G8B8), 2);
+    TRY(triptych_set_stage_state(device, 1, TRIPTYCH_STAGE_colorop, 4));
+    TRY(triptych_draw_indexed(device, TRIPTYCH_TRIANGLE_STRIP, 0, 0, 10));
+    TRY(triptych_query_result(device, query, &passed));
+    add_to_digest(&passed, sizeof passed);
+    read_target(true);
+}
+
+/* A texture is drawn to, copied and read; matrices are chosen by vertices; many draws of a small cache. */
+static void draw_to_textures(unsigned threads)
+{
+    static uint32_t read[64 * 64];
+    static const float matrix[4][4] = {{0.5f, 0, 0, 0}, {0, 0.5f, 0, 0}, {0, 0, 1, 0}, {0.2f, 0, 0, 1}};
+    struct triptych_texture_description description = {
+        TRIPTYCH_TEXTURE_2D, TRIPTYCH_SURFACE_A8R8G8B8, 64, 64, 1, 1};
+    triptych_texture *texture[2];
+    open_device(threads, 1);
+    TRY(triptych_set_target(device, WIDTH, HEIGHT));
+    clear();
+    use_vertices(true);
+    use_state(TRIPTYCH_STATE_cullmode, 1);
+    use_state(TRIPTYCH_STATE_lighting, 0);
+    use_state(TRIPTYCH_STATE_vertexblend, 1);
+    use_state(TRIPTYCH_STATE_indexedvertexblendenable, 1);
+    TRY(triptych_set_transform(device, TRIPTYCH_TRANSFORM_WORLD1, matrix));
+    for (int i = 0; i < 2; i++)
+        TRY(triptych_texture_define(device, &description, &texture[i]));
+    TRY(triptych_set_target_textures(device,
+                                     &(struct triptych_target_textures){.color = {{texture[0], 0, 0}},
+                                                                        .depth_format = TRIPTYCH_DEPTH_d16}));
+    clear();
+    TRY(triptych_draw(device, TRIPTYCH_TRIANGLE_LIST, 0, 12));
+    TRY(triptych_set_target_textures(device, NULL));
+    struct triptych_surface from = {texture[0], 0, 0}, to = {texture[1], 0, 0};
+    TRY(triptych_copy(device, &from, &(struct triptych_rectangle){0, 0, 32, 32}, &to,
+                      &(struct triptych_rectangle){3, 5, 50, 41}, TRIPTYCH_COPY_LINEAR));
+    TRY(triptych_read_surface(device, &to, read));
+    add_to_digest(read, sizeof read);
+    sample(0, texture[1], 1);
+    TRY(triptych_draw(device, TRIPTYCH_TRIANGLE_FAN, 0, 20));
+    read_target(false);
+}
+
+static void shade(const char *vertex, const char *pixel)
+{
+    triptych_shader *shader[2];
+    TRY(triptych_shader_assemble(device, "vertex", vertex, strlen(vertex), &shader[0]));
+    TRY(triptych_shader_assemble(device, "pixel", pixel, strlen(pixel), &shader[1]));
+    TRY(triptych_set_vertex_shader(device, shader[0]));
+    TRY(triptych_set_pixel_shader(device, shader[1]));
+}
+
+/* Shaders with loops, calls, constants of all kinds and a lookup; from text and from bytecode. */
+static void draw_with_shaders(unsigned threads)
+{
+    static const uint32_t bytecode[] = {0xffff0200, 0x05000051, 0xa00f0000, 0x3f000000, 0x3e800000,
+                                        0x3f800000, 0x3f800000, 0x02000001, 0x800f0000, 0xa0e40000,
+                                        0x02000001, 0x800f0800, 0x80e40000, 0x0000ffff};
+    triptych_shader *shader;
+    open_device(threads, 0);
+    TRY(triptych_set_target(device, WIDTH, HEIGHT));
+    clear();
+    use_vertices(false);
+    use_state(TRIPTYCH_STATE_cullmode, 1);
+    shade(
+        "vs_3_0\ndef c9, 0.5, 1, 0, 0\ndcl_position v0\ndcl_color v1\ndcl_texcoord v2\ndcl_position o0\n"
+        "dcl_color o1\ndcl_texcoord o2\nmov r0, v1\nloop aL, i0\nadd r0, r0, c[aL]\nendloop\nif b1\ncall l0\n"
+        "endif\nmov o0, v0\nmov o1, r0\nmov o2, v2\nret\nlabel l0\nmul r0, r0, c9.x\nret\n",
+        "ps_3_0\ndcl_color v0\ndcl_texcoord v1\ndcl_2d s0\nmov r1, v0\nrep i1\nmul r1, r1, c2\nadd r1, r1, "
+        "c3\nendrep\n"
+        "texld r0, v1, s0\nadd r0, r0, r1\nmov oC0, r0\n");
+    sample(0, make_texture(TRIPTYCH_TEXTURE_2D, TRIPTYCH_SURFACE_G16R16), 2);
+    TRY(triptych_set_shader_floats(device, TRIPTYCH_SHADER_VERTEX, 0, (const float[8]){0.1f, 0, 0.2f}, 2));
+    TRY(triptych_set_shader_floats(device, TRIPTYCH_SHADER_PIXEL, 2, (const float[8]){0.5f, 0.5f, 0.4f, 1},
+                                   2));
+    TRY(triptych_set_shader_integers(device, TRIPTYCH_SHADER_VERTEX, 0, (const int32_t[4]){2, 0, 1}, 1));
+    TRY(triptych_set_shader_integers(device, TRIPTYCH_SHADER_PIXEL, 1, (const int32_t[4]){3}, 1));
+    TRY(triptych_set_shader_booleans(device, TRIPTYCH_SHADER_VERTEX, 1, (const int32_t[1]){1}, 1));
+    TRY(triptych_draw(device, TRIPTYCH_TRIANGLE_LIST, 0, 12));
+    TRY(triptych_shader_create(device, "bytecode", bytecode, sizeof bytecode, &shader));
+    TRY(triptych_set_pixel_shader(device, shader));
+    TRY(triptych_draw(device, TRIPTYCH_TRIANGLE_LIST, 3, 3));
+    TRY(triptych_shader_destroy(device, shader));
+    TRY(triptych_draw(device, TRIPTYCH_TRIANGLE_STRIP, 20, 3));
+    read_target(false);
+}
+
+/* Every kind of primitive, edges instead of faces, user planes, what crosses the eye's plane. */
+static void draw_lines_and_points(unsigned threads)
+{
+    static const float perspective[4][4] = {{1, 0, 0, 0}, {0, 1, 0, 0}, {0, 0, 1, 2}, {0, 0, -0.2f, -0.3f}};
+    open_device(threads, 0);
+    TRY(triptych_set_target(device, WIDTH, HEIGHT));
+    clear();
+    use_vertices(false);
+    use_state(TRIPTYCH_STATE_cullmode, 1);
+    use_state(TRIPTYCH_STATE_lighting, 0);
+    use_state(TRIPTYCH_STATE_clipplaneenable, 1);
+    use_state(TRIPTYCH_STATE_pointsize, triptych_float_bits(5));
+    TRY(triptych_set_clip_plane(device, 0, (const float[4]){1, 0.3f, 0, 0.4f}));
+    TRY(triptych_set_transform(device, TRIPTYCH_TRANSFORM_PROJECTION, perspective));
+    TRY(triptych_draw(device, TRIPTYCH_TRIANGLE_LIST, 0, 12));
+    TRY(triptych_draw(device, TRIPTYCH_POINT_LIST, 0, 36));
+    TRY(triptych_draw(device, TRIPTYCH_LINE_STRIP, 0, 30));
+    use_state(TRIPTYCH_STATE_fillmode, 2);
+    TRY(triptych_draw(device, TRIPTYCH_TRIANGLE_STRIP, 2, 20));
+    read_target(false);
+}
+
+/* Instances whose routines fall out of a cache without room while they are recorded. */
+static void draw_instances(unsigned threads)
+{
+    static const uint16_t indices[] = {0, 7, 19, 4, 25, 31};
+    static const float places[3][4] = {{0}, {0.3f, 0.1f, 0}, {-0.4f, 0.2f, 0}};
+    static const struct triptych_declaration_element elements[] = {
+        {0, offsetof(struct vertex, position), TRIPTYCH_FORMAT_FLOAT3, TRIPTYCH_USAGE_POSITION, 0},
+        {0, offsetof(struct vertex, color), TRIPTYCH_FORMAT_COLOR, TRIPTYCH_USAGE_COLOR, 0},
+        {1, 0, TRIPTYCH_FORMAT_FLOAT4, TRIPTYCH_USAGE_TEXCOORD, 0},
+    };
+    triptych_buffer *order, *place;
+    open_device(threads, 1);
+    TRY(triptych_set_target(device, WIDTH, HEIGHT));
+    clear();
+    TRY(triptych_buffer_create(device, indices, sizeof indices, &order));
+    TRY(triptych_buffer_create(device, places, sizeof places, &place));
+    TRY(triptych_set_indices(device, order, 16));
+    TRY(triptych_set_declaration(device, elements, 3));
+    TRY(triptych_set_stream(device, 0, make_vertices(), 0, sizeof(struct vertex)));
+    TRY(triptych_set_stream(device, 1, place, 0, 16));
+    TRY(triptych_set_stream_frequency(device, 0, TRIPTYCH_FREQUENCY_INDEXED, 3));
+    TRY(triptych_set_stream_frequency(device, 1, TRIPTYCH_FREQUENCY_INSTANCE, 1));
+    use_state(TRIPTYCH_STATE_cullmode, 1);
+    use_state(TRIPTYCH_STATE_zenable, 0);
+    use_state(TRIPTYCH_STATE_alphablendenable, 1);
+    use_state(TRIPTYCH_STATE_srcblend, 2);
+    use_state(TRIPTYCH_STATE_destblend, 2);
+    shade("vs_2_0\ndcl_position v0\ndcl_color v1\ndcl_texcoord v2\nmov r0, v2\nadd r0, r0, v0\nmov oPos, "
+          "r0\nmov oD0, v1\n",
+          "ps_2_0\ndcl v0\nmov r0, v0\nmov oC0, r0\n");
+    TRY(triptych_draw_indexed(device, TRIPTYCH_TRIANGLE_LIST, 0, 0, 2));
+    read_target(false);
+}
+
+/* --- The sweep --------------------------------------------------------------------------------------------
+ */
+
+typedef void scene(unsigned threads);
+
+static uint64_t draw_scene(scene *draw, unsigned threads)
+{
+    digest = 1;
+    sweep.call = 0;
+    sweep.more = false;
+    draw(threads);
+    triptych_device_destroy(device);
+    device = NULL;
+    return digest;
+}
+
+/* What is kept for the whole process, recordings and plans, is there after a scene was drawn once. */
+static void refuse_everything(scene *draw, unsigned threads, bool onwards)
+{
+    uint64_t expected = 0;
+    memset(&sweep, 0, sizeof sweep);
+    sweep.onwards = onwards;
+    for (unsigned i = 0; i < CALLS; i++)
+        sweep.next[i] = 1;
+    for (unsigned pass = 0; !pass || sweep.more; pass++) {
+        TEST_ASSERT_LESS_THAN(PASSES, pass);
+        sweep.injecting = true;
+        if (pass)
+            fault_watch();
+        uint64_t got = draw_scene(draw, threads);
+        const char *lost = pass ? fault_lost() : NULL;
+        TEST_ASSERT_NULL_MESSAGE(lost, lost);
+        bool more = sweep.more;
+        sweep.injecting = false;
+        if (!pass)
+            expected = draw_scene(draw, threads);
+        sweep.more = more || !pass;
+        TEST_ASSERT_EQUAL_HEX64_MESSAGE(expected, got, engine);
+    }
+    TEST_ASSERT_GREATER_THAN(5, sweep.refused);
+}
+
+static void on_engines(scene *draw)
+{
+    bool soak = getenv("TRIPTYCH_SOAK") != NULL;
+    for (unsigned i = 0; triptych_engine_name(i); i++) {
+        engine = triptych_engine_name(i);
+        if (triptych_engine_unavailable(i) ||
+            (engine_at(i)->on_request && (!soak || !strcmp(engine, "external"))))
+            continue;
+        refuse_everything(draw, 1, false);
+        refuse_everything(draw, 1, true);
+        if (soak || !strcmp(engine, "specialize"))
+            refuse_everything(draw, 2, false);
+    }
+}
+
+static void test_fixed_function_with_textures_and_queries(void)
+{
+    on_engines(draw_fixed_function);
+}
+
+static void test_drawing_to_textures_and_copies(void)
+{
+    on_engines(draw_to_textures);
+}
+
+static void test_shaders_with_loops_and_constants(void)
+{
+    on_engines(draw_with_shaders);
+}
+
+static void test_lines_points_and_clipping(void)
+{
+    on_engines(draw_lines_and_points);
+}
+
+static void test_a_draw_of_instances_is_recorded_whole_or_not_at_all(void)
+{
+    on_engines(draw_instances);
+}
+
+int main(void)
+{
+    UNITY_BEGIN();
+    RUN_TEST(test_fixed_function_with_textures_and_queries);
+    RUN_TEST(test_drawing_to_textures_and_copies);
+    RUN_TEST(test_shaders_with_loops_and_constants);
+    RUN_TEST(test_lines_points_and_clipping);
+    RUN_TEST(test_a_draw_of_instances_is_recorded_whole_or_not_at_all);
+    printf("%lu requests refused at %u places\n", fault.total, fault.sites);
+    return UNITY_END();
+}
