@@ -47,9 +47,11 @@ enum triptych_result device_create(const struct engine *engine, const struct dev
                   CACHE_BYTES_MAXIMUM);
         return TRIPTYCH_BAD_ARGUMENT;
     }
-    if (engine->unavailable()) {
-        error_set(error, "engine %s: %s", engine->name, engine->unavailable());
-        return TRIPTYCH_ENGINE_FAILED;
+    errno = 0;
+    const char *reason = engine->unavailable(); /* which may be over when it is asked again */
+    if (reason) {
+        error_set(error, "engine %s: %s", engine->name, reason);
+        return device_refusal(TRIPTYCH_ENGINE_FAILED);
     }
     struct triptych_device *device = calloc(1, sizeof *device);
     if (!device) {
