@@ -1,6 +1,7 @@
 #include "fuzz/case.h"
 
 #include "fuzz/case_part.h"
+#include "fuzz/shader.h"
 
 void case_number(struct maker *maker, float least, float most)
 {
@@ -62,6 +63,8 @@ static void change_something(struct maker *maker)
         case_change(maker);
     if (random_chance(&maker->random, 8))
         case_samplers(maker);
+    if (random_chance(&maker->random, 8))
+        case_switch_shaders(maker);
 }
 
 /* The target is read where it is drawn to: what one draw leaves the next ones blend with and compare with. */
@@ -112,15 +115,18 @@ static void choose(struct maker *maker)
 void case_write(struct random *random, struct text *text)
 {
     struct maker maker = {.random = *random, .text = text};
+    struct fuzz_shader made[TRIPTYCH_SHADER_STAGE_COUNT];
     choose(&maker);
     text_add(text, "triptych 1\n");
     case_target(&maker);
+    case_shaders(&maker, made);
     case_textures(&maker);
     text_add(text, "query q0\n");
     case_vertices(&maker);
     case_window(&maker);
     case_transforms(&maker);
     case_lights(&maker);
+    case_constants(&maker);
     case_samplers(&maker);
     case_stages(&maker);
     case_states(&maker, random_chance(&maker.random, 4) ? 0 : random_below(&maker.random, 24));

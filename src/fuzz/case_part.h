@@ -8,6 +8,8 @@
 
 enum { CASE_TEXTURES = 6, ANY_TEXTURE = TRIPTYCH_TEXTURE_TYPE_COUNT };
 
+struct fuzz_shader;
+
 struct case_texture {
     enum triptych_texture_type type;
     unsigned size; /* of a side */
@@ -28,19 +30,22 @@ struct maker {
     struct case_texture texture[CASE_TEXTURES];
     unsigned textures;
     uint64_t elements; /* of vertices that a shader wants: enum stream_element, a bit each */
-    unsigned stages;   /* texture stages in use */
-    uint32_t samplers; /* in use, a bit each */
-    unsigned sampler_type[TRIPTYCH_SAMPLERS]; /* what a shader wants, or ANY_TEXTURE */
+    const struct fuzz_shader *shader[TRIPTYCH_SHADER_STAGE_COUNT]; /* null: the fixed function */
+    unsigned stages;                                               /* texture stages in use */
+    uint32_t samplers;                                             /* in use, a bit each */
+    unsigned sampler_type[TRIPTYCH_SAMPLERS];                      /* what a shader wants, or ANY_TEXTURE */
 };
 
 /* The parts, in the order in which a case has them; names are made of the maker's counts. */
 void case_target(struct maker *);
+void case_shaders(struct maker *, struct fuzz_shader *made); /* one per stage */
 void case_textures(struct maker *);
 void case_vertices(struct maker *);
 void case_transforms(struct maker *);
 void case_lights(struct maker *);
 void case_window(struct maker *);
 void case_states(struct maker *, unsigned changes);
+void case_constants(struct maker *);
 void case_samplers(struct maker *);
 void case_stages(struct maker *);
 
@@ -48,6 +53,7 @@ void case_stages(struct maker *);
 bool case_attach(struct maker *);
 void case_copy(struct maker *);
 void case_change(struct maker *);
+void case_switch_shaders(struct maker *);
 
 /* Forms of values: " 0.25", four of them, " 0xAARRGGBB". */
 void case_number(struct maker *, float least, float most);

@@ -108,12 +108,23 @@ static void add_update(struct maker *maker, unsigned number, const struct format
     text_add(maker->text, "\n}\n");
 }
 
+static enum triptych_texture_type choose_type(struct maker *maker)
+{
+    unsigned first = random_below(&maker->random, TRIPTYCH_SAMPLERS), any = random_below(&maker->random, 3);
+    for (unsigned i = 0; i < TRIPTYCH_SAMPLERS; i++) {
+        unsigned sampler = (first + i) % TRIPTYCH_SAMPLERS;
+        if (maker->samplers >> sampler & 1 && maker->sampler_type[sampler] != ANY_TEXTURE)
+            return (enum triptych_texture_type)maker->sampler_type[sampler];
+    }
+    return (enum triptych_texture_type)any;
+}
+
 static void add_texture(struct maker *maker)
 {
     static const char *const type[] = {"2d", "cube", "volume"};
     unsigned number = maker->textures++;
     struct case_texture *texture = &maker->texture[number];
-    *texture = (struct case_texture){.type = random_below(&maker->random, TRIPTYCH_TEXTURE_TYPE_COUNT)};
+    *texture = (struct case_texture){.type = choose_type(maker)};
     const struct format *format = random_format(maker, ROLE_TEXTURE);
     if (format->roles & ROLE_DEPTH)
         texture->type = TRIPTYCH_TEXTURE_2D;
@@ -135,9 +146,12 @@ static void add_texture(struct maker *maker)
         add_update(maker, number, format, depth);
 }
 
+/* A shader's samplers find textures of their kind as a rule. */
 void case_textures(struct maker *maker)
 {
-    unsigned count = random_below(&maker->random, 4);
+    bool wanted = maker->shader[TRIPTYCH_SHADER_VERTEX] || maker->shader[TRIPTYCH_SHADER_PIXEL];
+    unsigned count =
+        wanted && maker->samplers ? 1 + random_below(&maker->random, 4) : random_below(&maker->random, 4);
     while (maker->textures < count)
         add_texture(maker);
 }
