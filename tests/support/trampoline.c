@@ -1,11 +1,15 @@
 #include "trampoline.h"
 
+#include <stdarg.h>
 #include <stddef.h>
+#include <stdio.h>
 #include <string.h>
+#include <sys/mman.h>
 
 /* The assembly's view of memory; names are global because assembly refers to them. */
 struct machine_state trampoline_in, trampoline_out;
 const void *trampoline_code;
+uint32_t trampoline_wide; /* the processor has registers of 512 bits, 32 of them */
 uint64_t trampoline_stack;
 uint32_t trampoline_mxcsr;
 
@@ -13,10 +17,11 @@ _Static_assert(offsetof(struct machine_state, general) == 512, "the assembly's o
 _Static_assert(offsetof(struct machine_state, flags) == 640, "the assembly's offsets");
 _Static_assert(offsetof(struct machine_state, mxcsr) == 648, "the assembly's offsets");
 _Static_assert(offsetof(struct machine_state, taken) == 652, "the assembly's offsets");
+_Static_assert(offsetof(struct machine_state, zmm_high) == 704, "the assembly's offsets");
 
 __asm__(".text\n"
         ".hidden trampoline_in\n.hidden trampoline_out\n.hidden trampoline_code\n"
-        ".hidden trampoline_stack\n.hidden trampoline_mxcsr\n"
+        ".hidden trampoline_stack\n.hidden trampoline_mxcsr\n.hidden trampoline_wide\n"
         ".hidden trampoline_enter\n.globl trampoline_enter\n.type trampoline_enter, @function\n"
         "trampoline_enter:\n"
         "  push %rbx\n  push %rbp\n  push %r12\n  push %r13\n  push %r14\n  push %r15\n"
@@ -26,6 +31,15 @@ __asm__(".text\n"
         ".irp n, 0,1,2,3,4,5,6,7,8,9,10,11,12,13,14,15\n"
         "  vmovaps trampoline_in+32*\\n(%rip), %ymm\\n\n"
         ".endr\n"
+        "  cmpl $0, trampoline_wide(%rip)\n"
+        "  je 1f\n"
+        ".irp n, 0,1,2,3,4,5,6,7,8,9,10,11,12,13,14,15\n"
+        "  vinserti64x4 $1, trampoline_in+704+32*\\n(%rip), %zmm\\n, %zmm\\n\n"
+        ".endr\n"
+        ".irp n, 16,17,18,19,20,21,22,23,24,25,26,27,28,29,30,31\n"
+        "  vbroadcasti64x4 trampoline_in+704+32*(\\n-16)(%rip), %zmm\\n\n"
+        ".endr\n"
+        "1:\n"
         "  mov trampoline_in+512+0(%rip), %rax\n"
         "  mov trampoline_in+512+8(%rip), %rcx\n"
         "  mov trampoline_in+512+16(%rip), %rdx\n"
@@ -61,17 +75,145 @@ __asm__(".text\n"
         ".irp n, 0,1,2,3,4,5,6,7,8,9,10,11,12,13,14,15\n"
         "  vmovaps %ymm\\n, trampoline_out+32*\\n(%rip)\n"
         ".endr\n"
+        "  cmpl $0, trampoline_wide(%rip)\n"
+        "  je 1f\n"
+        ".irp n, 0,1,2,3,4,5,6,7,8,9,10,11,12,13,14,15\n"
+        "  vextracti64x4 $1, %zmm\\n, trampoline_out+704+32*\\n(%rip)\n"
+        ".endr\n"
+        ".irp n, 16,17,18,19,20,21,22,23,24,25,26,27,28,29,30,31\n"
+        "  vpxorq %zmm\\n, %zmm\\n, %zmm\\n\n"
+        ".endr\n"
+        "1:\n"
         "  vzeroupper\n"
         "  pop %r15\n  pop %r14\n  pop %r13\n  pop %r12\n  pop %rbp\n  pop %rbx\n"
         "  ret\n");
 
 void trampoline_enter(void);
 
+static int is_wide(void)
+{
+    static int known, wide;
+    if (!known)
+        wide = __builtin_cpu_supports("avx512f") != 0;
+    known = 1;
+    return wide;
+}
+
 void trampoline_run(const void *code, const struct machine_state *in, struct machine_state *out)
 {
     trampoline_in = *in;
     trampoline_code = code;
-    trampoline_out.taken = 0;
+    trampoline_wide = (uint32_t)is_wide();
+    trampoline_out = (struct machine_state){.taken = 0};
     trampoline_enter();
     *out = trampoline_out;
+}
+
+/* --- Calls ---------------------------------------------------------------------------------------------------
+ *
+ *   unreadable page | the callee's stack, STACK_BYTES | return address | guard words | unreadable page           */
+
+enum {
+    STACK_BYTES = 2 << 20,
+    GUARD_BYTES = 4096, /* above the return address */
+    PAGE_BYTES = 4096,
+    STEPS = 256, /* of 16 bytes: how far the stack pointer may be from where the room ends */
+    DIRECTION_FLAG = 0x400,
+    MXCSR_FLAGS = 0x3f
+};
+
+enum { RBX = 3, RSP = 4, RBP = 5, RSI = 6, RDI = 7, R12 = 12 };
+
+static char message[160];
+
+__attribute__((format(printf, 1, 2))) static const char *offence(const char *format, ...)
+{
+    va_list arguments;
+    va_start(arguments, format);
+    vsnprintf(message, sizeof message, format, arguments);
+    va_end(arguments);
+    return message;
+}
+
+static uint64_t next_random(uint64_t *seed)
+{
+    *seed += !*seed;
+    *seed ^= *seed >> 12;
+    *seed ^= *seed << 25;
+    *seed ^= *seed >> 27;
+    return *seed * 0x2545f4914f6cdd1dull;
+}
+
+/* The first byte behind the callee's stack and its guard words; kept for all calls. */
+static uint8_t *stack_end(void)
+{
+    static uint8_t *end;
+    size_t room = STACK_BYTES + GUARD_BYTES + STEPS * 16;
+    if (end)
+        return end;
+    uint8_t *start = mmap(NULL, room + 2 * PAGE_BYTES, PROT_READ | PROT_WRITE,
+                          MAP_PRIVATE | MAP_ANONYMOUS | MAP_NORESERVE, -1, 0);
+    if (start == MAP_FAILED || mprotect(start, PAGE_BYTES, PROT_NONE) ||
+        mprotect(start + PAGE_BYTES + room, PAGE_BYTES, PROT_NONE))
+        return NULL;
+    return end = start + PAGE_BYTES + room;
+}
+
+static void fill(void *memory, size_t bytes, uint64_t *seed)
+{
+    for (size_t at = 0; at + 8 <= bytes; at += 8)
+        memcpy((uint8_t *)memory + at, &(uint64_t){next_random(seed)}, 8);
+}
+
+static const char *check_saved(const struct machine_state *in, const struct machine_state *out)
+{
+    static const char *const name[] = {"rax", "rcx", "rdx", "rbx", "rsp", "rbp", "rsi", "rdi"};
+    if (out->general[RSP] != in->general[RSP] + 8)
+        return offence("returns with rsp %lld bytes off",
+                       (long long)(out->general[RSP] - in->general[RSP] - 8));
+    for (int r = RBX; r < 16; r++)
+        if ((r == RBX || r == RBP || r >= R12) && in->general[r] != out->general[r])
+            return r < 8 ? offence("does not restore %s", name[r]) : offence("does not restore r%d", r);
+    if (out->flags & DIRECTION_FLAG)
+        return offence("returns with the direction flag set");
+    if ((out->mxcsr ^ in->mxcsr) & ~(uint32_t)MXCSR_FLAGS)
+        return offence("does not restore MXCSR: %04x, was %04x", out->mxcsr, in->mxcsr);
+    return NULL;
+}
+
+/* Upper halves that are not zero slow down whoever uses the lower ones next. */
+static const char *check_upper_halves(const struct machine_state *out)
+{
+    static const uint8_t zero[32];
+    for (int n = 0; n < 16; n++)
+        if (memcmp(out->ymm[n] + 16, zero, 16) || memcmp(out->zmm_high[n], zero, 32))
+            return offence("returns with something in the upper half of vector register %d", n);
+    return NULL;
+}
+
+const char *trampoline_call(const void *function, const void *first, const void *second, uint32_t mxcsr,
+                            uint64_t *seed)
+{
+    static struct machine_state in, out;
+    static uint8_t guard[GUARD_BYTES];
+    uint8_t *end = stack_end();
+    if (!end)
+        return "there is no memory for a stack";
+    uint8_t *top = end - GUARD_BYTES - 16 * (next_random(seed) % STEPS);
+    fill(&in, offsetof(struct machine_state, flags), seed);
+    fill(in.zmm_high, sizeof in.zmm_high, seed);
+    fill(top, GUARD_BYTES, seed);
+    memcpy(guard, top, GUARD_BYTES);
+    memcpy(top - 8, &(const void *){trampoline_exit}, sizeof(void *));
+    in.general[RSP] = (uint64_t)(uintptr_t)(top - 8);
+    in.general[RDI] = (uint64_t)(uintptr_t)first;
+    in.general[RSI] = (uint64_t)(uintptr_t)second;
+    in.mxcsr = mxcsr;
+    trampoline_run(function, &in, &out);
+    const char *found = check_saved(&in, &out);
+    if (!found)
+        found = check_upper_halves(&out);
+    if (!found && memcmp(guard, top, GUARD_BYTES))
+        found = offence("writes to its caller's frame");
+    return found;
 }

@@ -1,0 +1,167 @@
+/* Generated routines as callees: thousands of every engine, in every unit, called through the checked trampoline on random
+ * data. They keep the calling convention, do not write to what they may only read nor beyond what they are to write,
+ * and agree with one another. And they follow from their key alone: built again at another address, in another arena,
+ * after another routine, they are the same bytes. */
+#include "base/code.h"
+#include "engines.h"
+#include "tests/support/differential.h"
+#include "tests/support/routines.h"
+#include "tests/support/seed.h"
+#include "tests/support/trampoline.h"
+
+#include <string.h>
+#include <unity.h>
+
+enum { ENGINES = 8, RANDOM_KEYS = 600, RANDOM_SHADERS = 200 };
+
+static struct code_arena *arena, *other;
+static struct differential *differential;
+static const struct engine *engines[ENGINES];
+static unsigned engine_count;
+static uint64_t seed;
+
+static void find_engines(void)
+{
+    engine_count = 0;
+    for (unsigned i = 0; engine_at(i); i++)
+        if (!engine_at(i)->without_arena && !engine_at(i)->unavailable())
+            engines[engine_count++] = engine_at(i);
+    if (!engine_count)
+        TEST_IGNORE_MESSAGE("no engine can generate code here");
+}
+
+void setUp(void)
+{
+    struct error error = {{0}};
+    find_engines();
+    arena = code_create(0, NULL, &error);
+    TEST_ASSERT_NOT_NULL_MESSAGE(arena, error.text);
+    other = code_create(0, NULL, &error);
+    TEST_ASSERT_NOT_NULL_MESSAGE(other, error.text);
+    differential = differential_create(arena);
+    TEST_ASSERT_NOT_NULL(differential);
+    seed = test_seed();
+}
+
+void tearDown(void)
+{
+    differential_destroy(differential);
+    code_destroy(arena);
+    code_destroy(other);
+    differential = NULL;
+    arena = other = NULL;
+}
+
+/* --- The harness ------------------------------------------------------------------------------------------- */
+
+/* Functions that do one thing that they must not. */
+static void test_offences_are_noticed(void)
+{
+    static const struct {
+        const char *name;
+        uint8_t code[24];
+    } offence[] = {
+        {"does not restore rbx", {0x48, 0xff, 0xc3, 0xc3}},                      /* inc rbx */
+        {"does not restore rbp", {0x48, 0xff, 0xc5, 0xc3}},                      /* inc rbp */
+        {"does not restore r12", {0x49, 0xff, 0xc4, 0xc3}},                      /* inc r12 */
+        {"does not restore r15", {0x49, 0xff, 0xc7, 0xc3}},                      /* inc r15 */
+        {"returns with rsp 8 bytes off", {0xc2, 0x08, 0x00}},                    /* ret 8 */
+        {"returns with the direction flag set", {0xc5, 0xfc, 0x77, 0xfd, 0xc3}}, /* vzeroall; std */
+        {"does not restore MXCSR",
+         {0x6a, 0x00, 0xc7, 0x04, 0x24, 0x80, 0x1f, 0x00, 0x00, 0x0f, 0xae, 0x14, 0x24, 0x58, 0xc3}},
+        /* push 0; mov dword [rsp], 0x1f80; ldmxcsr [rsp]; pop rax */
+        {"upper half of vector register 0", {0xc3}},
+        {"upper half of vector register 1",
+         {0xc5, 0xf8, 0x57, 0xc0, 0xc3}}, /* vxorps xmm0, xmm0, xmm0 clears it, 1 is left */
+        {"writes to its caller's frame", {0xc5, 0xf8, 0x77, 0x48, 0x89, 0x7c, 0x24, 0x08, 0xc3}},
+        /* vzeroupper; mov [rsp + 8], rdi */
+    };
+    static const uint8_t innocent[] = {0xc5, 0xf8, 0x77,
+                                       0x50, 0x58, 0xc3}; /* vzeroupper; push rax; pop rax */
+    struct code_span span;
+    struct error error = {{0}};
+    for (size_t i = 0; i <= sizeof offence / sizeof *offence; i++) {
+        int good = i == sizeof offence / sizeof *offence;
+        TEST_ASSERT_EQUAL_INT(0, code_reserve(arena, 64, &span, &error));
+        memcpy(span.writable, good ? innocent : offence[i].code,
+               good ? sizeof innocent : sizeof offence[i].code);
+        const char *found = trampoline_call(code_commit(arena, &span, 64), NULL, NULL, 0x7f80, &seed);
+        const char *expected = good ? NULL : offence[i].name;
+        int noticed = found && expected && strstr(found, expected);
+        TEST_ASSERT_TRUE_MESSAGE(good ? !found : noticed, found ? found : expected);
+        code_free(arena, &span);
+    }
+}
+
+/* --- Routines ---------------------------------------------------------------------------------------------- */
+
+static struct routine *build(const struct engine *engine, struct code_arena *where, enum unit unit,
+                             const union key *key)
+{
+    struct error error = {{0}};
+    struct routine *routine = engine->build(where, unit, key, &error);
+    TEST_ASSERT_NOT_NULL_MESSAGE(routine, error.text);
+    return routine;
+}
+
+/* A routine of another key comes between the two, and takes the place that the second would have. */
+static void expect_same_bytes(const struct engine *engine, enum unit unit, const union key *key)
+{
+    static char message[KEY_TEXT_CAPACITY + 200];
+    union key between;
+    char text[KEY_TEXT_CAPACITY];
+    differential_key(unit, &seed, &between);
+    struct routine *first = build(engine, arena, unit, key);
+    struct routine *second = build(engine, other, unit, &between);
+    struct routine *third = build(engine, other, unit, key);
+    int same = first->code_bytes == third->code_bytes && first->constant_bytes == third->constant_bytes &&
+               first->parts == third->parts && first->spills == third->spills &&
+               !memcmp(first->code, third->code, first->code_bytes);
+    snprintf(message, sizeof message, "%s is not the same again; %s key: %s", engine->name, unit_name[unit],
+             key_print(unit, key, text));
+    engine->free(arena, first);
+    engine->free(other, second);
+    engine->free(other, third);
+    TEST_ASSERT_TRUE_MESSAGE(same, message);
+}
+
+static void check(void *context, enum unit unit, const union key *key)
+{
+    (void)context;
+    for (unsigned e = 0; e < engine_count; e++)
+        expect_same_bytes(engines[e], unit, key);
+    const char *found = differential_run(differential, engines, engine_count, unit, key, seed);
+    if (found)
+        TEST_FAIL_MESSAGE(found);
+}
+
+static void test_routines_of_random_keys(void)
+{
+    TEST_ASSERT_GREATER_THAN(RANDOM_KEYS / 2, visit_random_keys(RANDOM_KEYS, seed, check, NULL));
+}
+
+static void test_routines_of_the_shaders(void)
+{
+    TEST_ASSERT_GREATER_THAN(100, visit_shaders(seed, check, NULL));
+}
+
+static void test_routines_of_random_shaders(void)
+{
+    TEST_ASSERT_GREATER_THAN(RANDOM_SHADERS / 2, visit_random_shaders(RANDOM_SHADERS, seed, check, NULL));
+}
+
+static void test_routines_of_the_streams(void)
+{
+    TEST_ASSERT_GREATER_THAN(500, visit_streams(check, NULL));
+}
+
+int main(void)
+{
+    UNITY_BEGIN();
+    RUN_TEST(test_offences_are_noticed);
+    RUN_TEST(test_routines_of_random_keys);
+    RUN_TEST(test_routines_of_the_shaders);
+    RUN_TEST(test_routines_of_random_shaders);
+    RUN_TEST(test_routines_of_the_streams);
+    return UNITY_END();
+}
