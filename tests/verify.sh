@@ -5,7 +5,7 @@ set -uo pipefail
 cd "$(dirname "$0")/.."
 
 shopt -s nullglob
-streams=(bench/streams/*.tri tests/streams/*.tri tests/scenes/*.tri tests/shading/*.tri)
+streams=(bench/streams/*.tri tests/streams/*.tri tests/scenes/*.tri tests/shading/*.tri tests/regressions/*.tri)
 ((${#streams[@]})) || { echo 'FAIL there are draw streams' && exit 1; }
 
 options=()

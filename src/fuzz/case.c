@@ -47,7 +47,7 @@ static void add_draw(struct maker *maker)
 {
     struct random *random = &maker->random;
     unsigned p = random_chance(random, 3) ? random_below(random, PRIMITIVES) : random_below(random, 3);
-    bool indexed = maker->indices && !random_chance(random, 4);
+    bool indexed = maker->indices && (maker->instanced || !random_chance(random, 4));
     unsigned corners = indexed ? maker->indices : maker->vertices;
     unsigned most = (corners - primitives[p].first) / primitives[p].each + 1;
     text_add(maker->text, indexed ? "draw-indexed %s 0 0 %u\n" : "draw %s 0 %u\n", primitives[p].word,

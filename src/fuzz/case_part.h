@@ -27,6 +27,7 @@ struct maker {
     bool wild;   /* vertices and matrices hold anything */
     bool window; /* vertices are in pixels of the target */
     unsigned vertices, indices;
+    bool instanced; /* which only draws with indices can be */
     struct case_texture texture[CASE_TEXTURES];
     unsigned textures;
     uint64_t elements; /* of vertices that a shader wants: enum stream_element, a bit each */

@@ -156,6 +156,31 @@ static unsigned stride_of(const struct element *elements, unsigned count)
     return bytes;
 }
 
+/* Elements first to first + count - 1 as a resource of their own. */
+static void add_resource(struct maker *maker, unsigned number, const struct element *elements, unsigned count)
+{
+    if (maker->wild) {
+        text_add(maker->text, "buffer v%u u32", number);
+    } else {
+        text_add(maker->text, "vertices v%u", number);
+        add_elements(maker, elements, count);
+    }
+    add_block(maker, elements, count);
+}
+
+/* Each part of the elements in a stream of its own. */
+static void bind_streams(struct maker *maker, const struct element *elements, const unsigned part[2])
+{
+    text_add(maker->text, "declare");
+    add_elements(maker, elements, part[0]);
+    if (part[1])
+        text_add(maker->text, " 1");
+    add_elements(maker, elements + part[0], part[1]);
+    text_add(maker->text, "\nbind stream 0 v0 0 %u\n", stride_of(elements, part[0]));
+    if (part[1])
+        text_add(maker->text, "bind stream 1 v1 0 %u\n", stride_of(elements + part[0], part[1]));
+}
+
 static void add_indices(struct maker *maker)
 {
     maker->indices = 3 * (1 + random_below(&maker->random, 4));
@@ -165,24 +190,34 @@ static void add_indices(struct maker *maker)
     text_add(maker->text, " }\nbind indices i0\n");
 }
 
+/* The second stream steps with instances, of which there are no more than vertices. */
+static void add_instances(struct maker *maker)
+{
+    maker->instanced = true;
+    text_add(maker->text, "frequency 0 indexed %u\nfrequency 1 instance %u\n",
+             1 + random_below(&maker->random, maker->vertices < 4 ? maker->vertices : 4),
+             1 + random_below(&maker->random, 2));
+}
+
 void case_vertices(struct maker *maker)
 {
     struct element elements[ELEMENTS];
     maker->vertices = 3 + random_below(&maker->random, VERTICES - 2);
-    unsigned count = choose_elements(maker, elements);
-    if (maker->wild) {
-        text_add(maker->text, "buffer v0 u32");
-        add_block(maker, elements, count);
-        text_add(maker->text, "declare");
-        add_elements(maker, elements, count);
-        text_add(maker->text, "\nbind stream 0 v0 0 %u\n", stride_of(elements, count));
-    } else {
-        text_add(maker->text, "vertices v0");
-        add_elements(maker, elements, count);
-        add_block(maker, elements, count);
-        text_add(maker->text, "bind vertices v0\n");
+    unsigned count = choose_elements(maker, elements), part[2] = {count, 0};
+    if (count > 1 && random_chance(&maker->random, 5)) {
+        part[0] = 1 + random_below(&maker->random, count - 1);
+        part[1] = count - part[0];
     }
+    add_resource(maker, 0, elements, part[0]);
+    if (part[1])
+        add_resource(maker, 1, elements + part[0], part[1]);
+    if (part[1] || maker->wild)
+        bind_streams(maker, elements, part);
+    else
+        text_add(maker->text, "bind vertices v0\n");
     maker->indices = 0;
     if (random_chance(&maker->random, 3))
         add_indices(maker);
+    if (part[1] && maker->indices && random_chance(&maker->random, 2))
+        add_instances(maker);
 }
