@@ -2,6 +2,8 @@
 
 #include <cpuid.h>
 #include <pthread.h>
+#include <stdio.h>
+#include <stdlib.h>
 #include <string.h>
 
 /* XCR0: bit 1 SSE, bit 2 the upper halves of ymm; bits 5 to 7 mask registers and the rest of zmm. */
@@ -15,9 +17,10 @@ enum { EAX, EBX, ECX, EDX };
 
 static const struct {
     const char *name, *meaning;
-    uint8_t leaf, from, bit, state;
+    uint8_t needs, leaf, from, bit, state;
 } features[CPU_FEATURE_COUNT] = {
-#define FEATURE(name, leaf, register, bit, state, meaning) {#name, meaning, leaf, register, bit, state},
+#define FEATURE(name, needs, leaf, register, bit, state, meaning)                                            \
+    {#name, meaning, CPU_##needs, leaf, register, bit, state},
 #include "def/cpu.def"
 #undef FEATURE
 };
@@ -61,6 +64,46 @@ struct cpu cpu_detect(const struct cpu_system *system)
     return cpu;
 }
 
+/* The feature that `name`, of `length` characters, is the name of; CPU_FEATURE_COUNT if it is none's. */
+static unsigned find_feature(const char *name, size_t length)
+{
+    unsigned i = 0;
+    while (i < CPU_FEATURE_COUNT &&
+           (strlen(features[i].name) != length || memcmp(features[i].name, name, length) != 0))
+        i++;
+    return i;
+}
+
+static int refuse_mask(const char *mask, struct error *error)
+{
+    char names[ERROR_CAPACITY] = "";
+    for (unsigned i = 0; i < CPU_FEATURE_COUNT; i++)
+        snprintf(names + strlen(names), sizeof names - strlen(names), "%s-%s", i ? ", " : "",
+                 features[i].name);
+    return error_set(error, "TRIPTYCH_CPU is \"%.80s\", expected what to hide, separated by commas, of %s",
+                     mask, names);
+}
+
+int cpu_hide(struct cpu *cpu, const char *mask, struct error *error)
+{
+    bool hide[CPU_FEATURE_COUNT] = {false};
+    for (const char *at = mask; *at;) {
+        size_t length = strcspn(at, ",");
+        unsigned feature = at[0] == '-' ? find_feature(at + 1, length - 1) : CPU_FEATURE_COUNT;
+        if (feature == CPU_FEATURE_COUNT || (at[length] && !at[length + 1]))
+            return refuse_mask(mask, error);
+        hide[feature] = true;
+        at += length + (at[length] == ',');
+    }
+    /* What is needed has an earlier row, so one walk reaches all that builds on it. */
+    for (unsigned i = 0; i < CPU_FEATURE_COUNT; i++) {
+        hide[i] |= hide[features[i].needs];
+        cpu->hidden[i] |= hide[i] && cpu->has[i];
+        cpu->has[i] &= !hide[i];
+    }
+    return 0;
+}
+
 static struct cpu_registers native_identify(uint32_t leaf)
 {
     struct cpu_registers registers;
@@ -76,10 +119,14 @@ static uint64_t native_saved_state(void)
 }
 
 static struct cpu native;
+static struct error native_error;
 
 static void detect_native(void)
 {
+    const char *mask = getenv("TRIPTYCH_CPU");
     native = cpu_detect(&(struct cpu_system){native_identify, native_saved_state});
+    if (mask)
+        cpu_hide(&native, mask, &native_error);
 }
 
 const struct cpu *cpu_native(void)
@@ -89,10 +136,23 @@ const struct cpu *cpu_native(void)
     return &native;
 }
 
-bool cpu_has_avx2_fma(void)
+const char *cpu_native_error(void)
 {
+    cpu_native();
+    return native_error.text[0] ? native_error.text : NULL;
+}
+
+const char *cpu_lacks_avx2_fma(void)
+{
+    static const uint8_t needed[] = {CPU_avx, CPU_avx2, CPU_fma, CPU_f16c};
     const struct cpu *cpu = cpu_native();
-    return cpu->has[CPU_avx] && cpu->has[CPU_avx2] && cpu->has[CPU_fma] && cpu->has[CPU_f16c];
+    const char *reason = NULL;
+    for (unsigned i = 0; i < sizeof needed; i++)
+        if (cpu->hidden[needed[i]])
+            reason = "needs AVX2 and FMA, which TRIPTYCH_CPU hides";
+        else if (!cpu->has[needed[i]])
+            return "needs AVX2 and FMA, which this processor or system does not offer";
+    return reason;
 }
 
 const char *cpu_feature_name(enum cpu_feature feature)

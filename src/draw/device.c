@@ -1,6 +1,7 @@
 #include "draw/device.h"
 
 #include "base/code.h"
+#include "base/cpu.h"
 
 #include <assert.h>
 #include <stdlib.h>
@@ -45,6 +46,10 @@ enum triptych_result device_create(const struct engine *engine, const struct dev
     if (options->cache_bytes > CACHE_BYTES_MAXIMUM) {
         error_set(error, "cache of %zu bytes: expected at most %d", options->cache_bytes,
                   CACHE_BYTES_MAXIMUM);
+        return TRIPTYCH_BAD_ARGUMENT;
+    }
+    if (cpu_native_error()) {
+        error_set(error, "%s", cpu_native_error());
         return TRIPTYCH_BAD_ARGUMENT;
     }
     errno = 0;
@@ -269,6 +274,11 @@ void device_get_statistics(const struct triptych_device *device, struct triptych
         .vertex_ns = frame->geometry_ns,
         .pixel_ns = frame->tiles_ns,
     };
+}
+
+void device_shuffle(struct triptych_device *device, uint64_t seed)
+{
+    device->frame->shuffle = seed;
 }
 
 void device_on_draw(struct triptych_device *device, device_draw_callback *callback, void *user)

@@ -57,6 +57,33 @@ struct command *frame_next(struct frame *frame)
     return frame->commands < FRAME_COMMANDS ? frame->command + frame->commands : NULL;
 }
 
+/* --- The order of tasks -----------------------------------------------------------------------------------
+ */
+
+static uint32_t random_below(struct frame *frame, uint32_t bound)
+{
+    frame->shuffle = frame->shuffle * 6364136223846793005u + 1442695040888963407u;
+    return (uint32_t)((frame->shuffle >> 32) * bound >> 32);
+}
+
+/* Before a phase of `count` tasks. */
+static void order_tasks(struct frame *frame, uint32_t count)
+{
+    if (!frame->shuffle)
+        return;
+    for (uint32_t i = 0; i < count; i++) {
+        uint32_t j = random_below(frame, i + 1);
+        frame->order[i] = frame->order[j];
+        frame->order[j] = (uint16_t)i;
+    }
+}
+
+/* The task that is handed out as the i-th. */
+static uint32_t task_at(const struct frame *frame, uint32_t i)
+{
+    return frame->shuffle ? frame->order[i] : i;
+}
+
 /* --- Geometry ---------------------------------------------------------------------------------------------
  */
 
@@ -106,10 +133,12 @@ static void geometry_task(void *user, unsigned number)
     struct frame_worker *worker = frame->worker + number;
     uint64_t start = now_ns();
     bin_begin_round(&worker->bins, &frame->arena, frame->target->columns, frame->target->rows);
-    uint32_t chunk;
-    while ((chunk = atomic_fetch_add(&frame->next_chunk, 1)) < frame->chunks &&
-           chunk < atomic_load(&frame->first_stopped))
-        process_chunk(frame, worker, chunk);
+    uint32_t i;
+    while ((i = atomic_fetch_add(&frame->next_chunk, 1)) < frame->chunks) {
+        uint32_t chunk = task_at(frame, i);
+        if (chunk < atomic_load(&frame->first_stopped))
+            process_chunk(frame, worker, chunk);
+    }
     worker->geometry_ns += now_ns() - start;
 }
 
@@ -160,10 +189,10 @@ static void tiles_task(void *user, unsigned number)
 {
     struct frame *frame = user;
     struct frame_worker *worker = frame->worker + number;
-    uint32_t tiles = frame->target->columns * frame->target->rows, tile;
+    uint32_t tiles = frame->target->columns * frame->target->rows, i;
     uint64_t start = now_ns();
-    while ((tile = atomic_fetch_add(&frame->next_tile, 1)) < tiles)
-        tile_render(&worker->tile, frame, tile);
+    while ((i = atomic_fetch_add(&frame->next_tile, 1)) < tiles)
+        tile_render(&worker->tile, frame, task_at(frame, i));
     worker->tiles_ns += now_ns() - start;
 }
 
@@ -177,8 +206,10 @@ static void render_round(struct frame *frame, struct cursor *at, uint32_t limit)
     atomic_store(&frame->next_chunk, 0);
     atomic_store(&frame->next_tile, 0);
     atomic_store(&frame->first_stopped, UINT32_MAX);
+    order_tasks(frame, frame->chunks);
     pool_run(frame->pool, frame->chunks, geometry_task, frame);
     uint32_t busy = link_chunks(frame, at);
+    order_tasks(frame, frame->target->columns * frame->target->rows);
     pool_run(frame->pool, busy, tiles_task, frame);
     frame->statistics.rounds++;
 }

@@ -3,7 +3,9 @@
  * A round takes commands from the queue in order, draws cut into chunks of primitives, and runs two phases on
  * the pool. Geometry: threads take chunks in any order, each written into its own bins in the arena. Tiles:
  * each chunk's bins are appended to the tiles' in the order of chunks, then threads take tiles, each rendered
- * by one thread in that order. So the image does not depend on who did what.
+ * by one thread in that order. So the image does not depend on who did what. A test can have chunks and tiles
+ * handed out in a random order to see that it is so: with one thread too, what a task finds then depends on
+ * nothing that happened to be done before.
  *
  * When the arena fills up, the chunk that ran out of it stops where it is, later ones are given up, and the
  * next round begins at the first primitive not done: memory is bounded whatever is drawn. */
@@ -17,8 +19,11 @@
 enum {
     FRAME_COMMANDS = 1024, /* the queue's capacity */
     FRAME_CHUNKS = 4096,   /* chunks of a round, at most */
-    CHUNK_PRIMITIVES = 2048
+    CHUNK_PRIMITIVES = 2048,
+    TASKS_MAXIMUM = FRAME_CHUNKS > TARGET_TILES_MAXIMUM ? FRAME_CHUNKS : TARGET_TILES_MAXIMUM
 };
+
+_Static_assert(TASKS_MAXIMUM <= UINT16_MAX + 1, "tasks are numbered with 16 bits");
 
 /* A run of one draw's primitives, or a clear. */
 struct chunk {
@@ -61,6 +66,9 @@ struct frame {
     uint32_t tile_last[TARGET_TILES_MAXIMUM];
     _Atomic uint32_t next_chunk, next_tile;
     _Atomic uint32_t first_stopped; /* the first chunk that did not fit the arena */
+
+    uint64_t shuffle; /* state of the random order in which tasks are handed out; 0: as they come */
+    uint16_t order[TASKS_MAXIMUM]; /* of the tasks of a phase, when shuffled */
 
     struct frame_statistics statistics;
 };

@@ -187,6 +187,7 @@ static int run_compiler(const struct work *work, struct error *error)
                          "-mavx2",
                          "-mfma",
                          "-mf16c",
+                         "-mno-avx512f", /* whatever the compiler takes for this machine */
                          "-ffp-contract=off",
                          "-fno-strict-aliasing",
                          "-fno-stack-protector",

@@ -21,9 +21,9 @@ struct external_routine {
 
 static const char *unavailable(void)
 {
-    if (!cpu_has_avx2_fma())
-        return "needs AVX2 and FMA, which this processor or system does not offer";
-    const char *reason = external_no_loading();
+    const char *reason = cpu_lacks_avx2_fma();
+    if (!reason)
+        reason = external_no_loading();
     return reason ? reason : external_no_compiler();
 }
 

@@ -10,8 +10,8 @@
 
 static const char *unavailable(void)
 {
-    return cpu_has_avx2_fma() ? code_unavailable()
-                              : "needs AVX2 and FMA, which this processor or system does not offer";
+    const char *reason = cpu_lacks_avx2_fma();
+    return reason ? reason : code_unavailable();
 }
 
 /* Copies the built code into the arena. */

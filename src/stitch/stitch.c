@@ -14,8 +14,8 @@ struct stitched {
 
 static const char *unavailable(void)
 {
-    return cpu_has_avx2_fma() ? code_unavailable()
-                              : "the stitcher's fragments need a CPU and a system with AVX2 and FMA";
+    const char *reason = cpu_lacks_avx2_fma();
+    return reason ? reason : code_unavailable();
 }
 
 static const char *want_operations(enum unit unit, const union key *key)

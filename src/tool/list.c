@@ -52,7 +52,7 @@ static void list_cpu(cJSON *rows)
     for (unsigned i = 0; i < CPU_FEATURE_COUNT; i++) {
         row = add_row(rows);
         add_text(row, "what", cpu_feature_name(i));
-        add_text(row, "here", cpu->has[i] ? "yes" : "no");
+        add_text(row, "here", cpu->has[i] ? "yes" : cpu->hidden[i] ? "hidden" : "no");
         add_text(row, "meaning", cpu_feature_meaning(i));
     }
 }

@@ -1,4 +1,5 @@
 /* The command `triptych`: finds the subcommand in the table and lets it run. */
+#include "base/cpu.h"
 #include "tool/tool.h"
 #include "triptych.h"
 
@@ -22,6 +23,8 @@ static void print_help(FILE *out)
     for (int i = 0; i < COMMAND_COUNT; i++)
         fprintf(out, "  %-8s %-13s %s\n", commands[i].name, commands[i].operands, commands[i].summary);
     fputs("\ntriptych COMMAND --help tells a command's options; triptych --version tells the version.\n"
+          "TRIPTYCH_CPU=-avx512f,... hides features of the processor (list cpu), TRIPTYCH_CC names "
+          "external's compiler.\n"
           "Exit status: 0 good, 1 a difference was found, 2 bad input or usage.\n",
           out);
 }
@@ -46,6 +49,8 @@ static int run(int count, char **arguments)
         return print_help(stdout), STATUS_OK;
     if (!strcmp(arguments[1], "--version"))
         return puts("triptych " TRIPTYCH_VERSION), STATUS_OK;
+    if (cpu_native_error())
+        return fail(&program, "%s", cpu_native_error());
     for (int i = 0; i < COMMAND_COUNT; i++)
         if (!strcmp(arguments[1], commands[i].name))
             return commands[i].run(commands + i, count - 2, arguments + 2);

@@ -4,6 +4,7 @@
  * stencils; every other configuration draws the same frame on a device of its own and is compared at once, so
  * that memory does not grow with the number of frames. A configuration that differed is told with its first
  * differing frame and leaves the stream's remaining frames alone. */
+#include "draw/device.h"
 #include "tool/choose.h"
 #include "tool/difference.h"
 #include "tool/json.h"
@@ -33,8 +34,9 @@ struct settings {
     struct choice engines, threads;
     const char *folder; /* for pictures of differences, or null */
     bool all_frames;
-    unsigned frames; /* spread over a stream that has more */
-    cJSON *report;   /* array of the streams, or null */
+    unsigned frames;  /* spread over a stream that has more */
+    unsigned shuffle; /* seed of the order of tasks in all but the reference; 0: in order */
+    cJSON *report;    /* array of the streams, or null */
 };
 
 /* The verification of one stream. */
@@ -74,9 +76,11 @@ static int open_all(const struct command *self, const struct stream *stream, con
         for (unsigned j = 0; j < settings->threads.count; j++) {
             if (settings->engines.index[i] == engine && settings->threads.index[j] == 1)
                 continue;
+            struct configuration *other = verification->others + verification->count++;
             if (open_configuration(self, stream, settings->engines.index[i], settings->threads.index[j],
-                                   verification->others + verification->count++))
+                                   other))
                 return STATUS_BAD;
+            device_shuffle(other->session.device, settings->shuffle);
         }
     if (!verification->count)
         return fail(self,
@@ -321,6 +325,8 @@ int command_verify(const struct command *self, int count, char **arguments)
          0, 0},
         {"threads", "LIST", "numbers of threads; 1,2", OPTION_TEXT, &thread_list, 0, 0},
         {"frames", "N|all", "how many frames, spread over the stream; 8", OPTION_TEXT, &frames, 0, 0},
+        {"shuffle", "SEED", "batches and tiles in random orders, but for the reference; 0: in order",
+         OPTION_NUMBER, &settings.shuffle, 0, INT32_MAX},
         {"difference", "DIR", "where to paint what differs", OPTION_TEXT, &settings.folder, 0, 0},
         {"json", "FILE", "write the results", OPTION_TEXT, &json, 0, 0},
     };

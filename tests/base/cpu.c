@@ -2,6 +2,7 @@
 
 #include "unity.h"
 
+#include <stdlib.h>
 #include <string.h>
 
 /* A processor made of parts: which leaves it has, what leaf 1 and 7 say, what the system saves. */
@@ -42,7 +43,7 @@ static struct cpu detect(void)
     return cpu_detect(&(struct cpu_system){fake_identify, fake_saved_state});
 }
 
-enum { XSAVE = 1 << 27, AVX = 1 << 28, FMA = 1 << 12, AVX2 = 1 << 5, AVX512F = 1 << 16 };
+enum { XSAVE = 1 << 27, AVX = 1 << 28, FMA = 1 << 12, AVX2 = 1 << 5, AVX512F = 1 << 16, AVX512BW = 1 << 30 };
 
 void setUp(void)
 {
@@ -108,8 +109,66 @@ static void test_the_model_is_trimmed_and_never_empty(void)
     TEST_ASSERT_EQUAL_STRING(fake.brand, detect().model);
 }
 
+static struct cpu hide(const char *mask)
+{
+    struct cpu cpu = detect();
+    struct error error = {""};
+    TEST_ASSERT_EQUAL_INT_MESSAGE(0, cpu_hide(&cpu, mask, &error), error.text);
+    return cpu;
+}
+
+static void test_what_the_mask_names_is_hidden(void)
+{
+    struct cpu cpu = hide("-fma,-avx512f");
+    TEST_ASSERT_TRUE(cpu.has[CPU_avx]);
+    TEST_ASSERT_TRUE(cpu.has[CPU_avx2]);
+    TEST_ASSERT_FALSE(cpu.has[CPU_fma]);
+    TEST_ASSERT_TRUE(cpu.hidden[CPU_fma]);
+    TEST_ASSERT_FALSE(cpu.has[CPU_avx512f]);
+    TEST_ASSERT_TRUE(cpu.hidden[CPU_avx512f]);
+    cpu = hide("");
+    TEST_ASSERT_TRUE(cpu.has[CPU_avx512f]);
+}
+
+static void test_what_builds_on_a_hidden_feature_is_hidden_too(void)
+{
+    fake.leaf7_ebx |= AVX512BW;
+    struct cpu cpu = hide("-avx2");
+    TEST_ASSERT_TRUE(cpu.has[CPU_fma]);
+    TEST_ASSERT_TRUE(cpu.hidden[CPU_avx2] && cpu.hidden[CPU_avx512f] && cpu.hidden[CPU_avx512bw]);
+    TEST_ASSERT_FALSE(cpu.has[CPU_avx2] || cpu.has[CPU_avx512f] || cpu.has[CPU_avx512bw]);
+    cpu = hide("-avx");
+    for (int i = 0; i < CPU_FEATURE_COUNT; i++)
+        TEST_ASSERT_FALSE(cpu.has[i]);
+}
+
+static void test_what_is_not_there_is_not_hidden(void)
+{
+    struct cpu cpu = hide("-avx512vl");
+    TEST_ASSERT_FALSE(cpu.has[CPU_avx512vl]);
+    TEST_ASSERT_FALSE(cpu.hidden[CPU_avx512vl]);
+}
+
+static void test_a_mask_that_says_anything_else_hides_nothing(void)
+{
+    static const char *const masks[] = {
+        "avx2",        "+avx2",       "-avx3",      "-",     "-avx2,",  ",-avx2",       "-avx2 ",
+        "-avx2,,-fma", "-avx2,-fmaa", "-avx2;-fma", "-AVX2", "-avx512", "-fma,-avx2,-", " "};
+    for (size_t i = 0; i < sizeof masks / sizeof *masks; i++) {
+        struct cpu cpu = detect(), before = cpu;
+        struct error error = {""};
+        TEST_ASSERT_EQUAL_INT_MESSAGE(-1, cpu_hide(&cpu, masks[i], &error), masks[i]);
+        TEST_ASSERT_NOT_NULL(strstr(error.text, masks[i]));
+        TEST_ASSERT_NOT_NULL(strstr(error.text, "-avx512f, "));
+        TEST_ASSERT_EQUAL_MEMORY(&before, &cpu, sizeof cpu);
+    }
+}
+
+/* Only where nothing is hidden: the compiler does not read the mask. */
 static void test_this_machine_agrees_with_the_compiler(void)
 {
+    if (getenv("TRIPTYCH_CPU"))
+        TEST_IGNORE_MESSAGE("TRIPTYCH_CPU is set");
     __builtin_cpu_init();
     const struct cpu *cpu = cpu_native();
     TEST_ASSERT_EQUAL(!!__builtin_cpu_supports("avx2"), cpu->has[CPU_avx2]);
@@ -128,6 +187,10 @@ int main(void)
     RUN_TEST(test_xgetbv_is_not_executed_where_it_does_not_exist);
     RUN_TEST(test_leaves_beyond_the_last_are_not_believed);
     RUN_TEST(test_the_model_is_trimmed_and_never_empty);
+    RUN_TEST(test_what_the_mask_names_is_hidden);
+    RUN_TEST(test_what_builds_on_a_hidden_feature_is_hidden_too);
+    RUN_TEST(test_what_is_not_there_is_not_hidden);
+    RUN_TEST(test_a_mask_that_says_anything_else_hides_nothing);
     RUN_TEST(test_this_machine_agrees_with_the_compiler);
     return UNITY_END();
 }

@@ -1,6 +1,7 @@
 /* The encoder's bookkeeping: labels and the references to them, padding, data, and running out of room. Code
  * with labels is also run, out of a code arena. */
 #include "base/code.h"
+#include "base/cpu.h"
 #include "base/disassemble.h"
 #include "jit/encode.h"
 
@@ -108,7 +109,7 @@ static void constants_before_and_after_the_code_are_found_with_any_immediate(voi
 
 static void vector_code_reads_its_pool(void)
 {
-    if (!__builtin_cpu_supports("avx2") || !__builtin_cpu_supports("fma"))
+    if (!cpu_has_avx2_fma())
         TEST_IGNORE_MESSAGE("needs AVX2 and FMA");
     enum { POOL };
     const float pool[] = {2.5f, 0.25f};
