@@ -10,6 +10,7 @@
 #include "draw/constant.h"
 #include "draw/frame.h"
 #include "draw/query.h"
+#include "draw/shuffle.h"
 #include "draw/state.h"
 #include "draw/surface.h"
 #include "shader/shader.h"
@@ -208,10 +209,6 @@ enum triptych_result device_read_sample(struct triptych_device *device, unsigned
                                         float *depth, uint8_t *stencil, struct error *error);
 
 void device_get_statistics(const struct triptych_device *device, struct triptych_statistics *statistics);
-
-/* For tests: from now on chunks and tiles are handed out in a random order, a new one each time, from this
- * seed (draw/frame.h); 0: in order. The image is the same. */
-void device_shuffle(struct triptych_device *device, uint64_t seed);
 
 /* For tools: who is told of each draw (null: nobody), and what the device works with. */
 void device_on_draw(struct triptych_device *device, device_draw_callback *callback, void *user);

@@ -4,7 +4,7 @@
  * stencils; every other configuration draws the same frame on a device of its own and is compared at once, so
  * that memory does not grow with the number of frames. A configuration that differed is told with its first
  * differing frame and leaves the stream's remaining frames alone. */
-#include "draw/device.h"
+#include "draw/shuffle.h"
 #include "tool/choose.h"
 #include "tool/difference.h"
 #include "tool/json.h"

@@ -8,7 +8,7 @@
 #include <string.h>
 #include <unity.h>
 
-enum { SIZE = 200, TILES = 16, DRAWS = 7, LARGE = 60, SMALL = CHUNK_PRIMITIVES + 100 };
+enum { SIZE = 200, TILES = 16, DRAWS = 7, LARGE = 60, SMALL = 2 * CHUNK_PRIMITIVES + 100 };
 
 struct vertex {
     float position[4];
@@ -100,7 +100,7 @@ static void draw_scene(struct result *result)
     for (int d = 0; d < DRAWS; d++) {
         OK(triptych_query_create(device, TRIPTYCH_QUERY_OCCLUSION, &query[d]));
         OK(triptych_query_begin(device, query[d]));
-        draw_triangles(&seed, d % 2 ? SMALL : LARGE, d % 2 ? 0.04f : 0.7f);
+        draw_triangles(&seed, d % 2 ? SMALL : LARGE, d % 2 ? 0.06f : 0.7f);
         OK(triptych_query_end(device, query[d]));
         if (d == 3)
             OK(triptych_clear(device, NULL, 0.6f));
@@ -134,9 +134,9 @@ static void any_order_of_tasks_gives_the_same_image_when_the_arena_fills_up(void
     open_device(1, 0, 0);
     draw_scene(&expected);
     for (unsigned threads = 1; threads <= 3; threads += 2) {
-        open_device(threads, ARENA_BLOCK * (1 + threads), 4 + threads);
+        open_device(threads, ARENA_BLOCK * 5 / 4, 4 + threads);
         draw_scene(&got);
-        expect_the_same("with an arena for a few chunks");
+        expect_the_same("with an arena of little more than a block");
         TEST_ASSERT_TRUE(device->frame->statistics.rounds > 3);
     }
 }
