@@ -8,11 +8,6 @@ shopt -s nullglob
 streams=(bench/streams/*.tri tests/streams/*.tri tests/scenes/*.tri tests/shading/*.tri tests/regressions/*.tri)
 ((${#streams[@]})) || { echo 'FAIL there are draw streams' && exit 1; }
 
-available() # PATTERN : names of the engines that can run here and match
-{
-    "$TRIPTYCH" list engines | awk -v pattern="$1" '$1 ~ pattern && $3 == "available" { print $1 }'
-}
-
 options=()
 [[ -z ${SANITIZE-} ]] || options=(--frames 1 --threads 2)
 failures=0
@@ -26,23 +21,10 @@ for stream in "${streams[@]}"; do
     fi
 done
 
-# Batches and tiles in random orders: streams of many of them, some with queries and with targets that are read again.
-many=(bench/streams/{bunny,street}.tri tests/streams/{queries,render-to-texture}.tri tests/scenes/{particles,shadow-volume}.tri
-    tests/shading/light-loop.tri)
-for seed in 1 2 3; do
-    if said=$("$TRIPTYCH" verify "${many[@]}" --engines "$(available '^(batch|specialize)$' | tail -n 1)" \
-        --frames 2 --threads 1,3 --shuffle "$seed" 2>&1); then
-        printf 'ok shuffled by %s\n' "$seed"
-    else
-        printf 'FAIL shuffled by %s\n%s\n' "$seed" "$said"
-        failures=1
-    fi
-done
-
 # Engines that are left out above: they run where they are named, for what they add is much time.
 few=(bench/streams/teapot-bilinear.tri tests/streams/{lights,multisampling,queries,render-to-texture}.tri
     tests/scenes/cube-map.tri tests/streams/shaders.tri tests/shading/light-loop.tri)
-for engine in $(available '^(batch-4|batch-256|external)$'); do
+for engine in $("$TRIPTYCH" list engines | awk '$1 ~ /^(batch-4|batch-256|external)$/ && $3 == "available" { print $1 }'); do
     if said=$("$TRIPTYCH" verify "${few[@]}" --engines "$engine" --frames 1 --threads 2 2>&1); then
         printf 'ok %s\n' "$engine"
     else

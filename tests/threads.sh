@@ -1,0 +1,44 @@
+#!/bin/bash
+# Any number of threads draws every stream alike, whatever the order in which batches and tiles are handed out. In the
+# build that watches threads (SANITIZE=thread) a race between them is a failure too; generated code is not watched, the
+# C around it and the interpreters are.
+# Given BUILD, TRIPTYCH and SANITIZE by tests/support/run.sh; THOROUGH=1 takes all streams (make check-threads).
+set -uo pipefail
+cd "$(dirname "$0")/.."
+
+shopt -s nullglob
+streams=(tests/streams/*.tri)
+seeds=(1 2 3)
+if [[ ${SANITIZE-} ]]; then
+    seeds=(1)
+else
+    # Of many batches and tiles.
+    streams+=(bench/streams/{bunny,street}.tri tests/scenes/{particles,shadow-volume}.tri tests/shading/light-loop.tri)
+fi
+engines=$("$TRIPTYCH" list engines | awk '$1 ~ /^(emulate|batch|stitch|specialize)$/ && $3 == "available" { print $1 }' |
+    paste -sd,)
+
+failures=0
+verify() # NAME ARGUMENT...
+{
+    local name=$1 said
+    shift
+    if said=$("$TRIPTYCH" verify --frames 1 "$@" 2>&1) && [[ ${said##*$'\n'} == *', identical' ]]; then
+        printf 'ok %s\n' "$name"
+    else
+        printf 'FAIL %s\n%s\n' "$name" "$said"
+        failures=1
+    fi
+}
+
+if [[ ${THOROUGH-} ]]; then
+    for stream in bench/streams/*.tri tests/{streams,scenes,shading}/*.tri; do
+        verify "$stream" "$stream" --engines "$engines" --threads 2,4 --shuffle 1
+    done
+else
+    for seed in "${seeds[@]}"; do
+        verify "${#streams[@]} streams with 3 threads, shuffled by $seed" "${streams[@]}" --engines "$engines" --threads 3 \
+            --shuffle "$seed"
+    done
+fi
+exit $failures
