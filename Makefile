@@ -5,7 +5,8 @@
 # own main.
 # Everything built goes to $(BUILD). What is fetched or linked in from the system (the Unity sources, the glmark2
 # and Assimp assets) goes to build/ whatever BUILD is, because draw streams name their assets through build/glmark2.
-# `make test` runs this file again for each variant: plain, clang (CC=clang), sanitize (SANITIZE=1).
+# `make test` runs this file again for each variant: plain, clang (CC=clang), sanitize (SANITIZE=address), thread
+# (SANITIZE=thread); `make matrix` and `make coverage` do for theirs.
 
 VERSION := $(shell sed -n 's/^#define TRIPTYCH_VERSION "\(.*\)"/\1/p' src/triptych.h)
 SONAME  := libtriptych.so.$(firstword $(subst ., ,$(VERSION)))
@@ -66,13 +67,21 @@ library_libraries = $(filter-out -lOpenEXR-% -lOpenEXRUtil% -lIex% -lIlmThread% 
   -lZydis -lZycore -pthread -lm
 tool_libraries = $(tool_packages) $(library_libraries)
 
-ifdef SANITIZE
-# gcc's flow warnings are wrong about instrumented code; the plain and clang builds are the ones that warn.
-CFLAGS    ?= -O1 -g
-SANITIZER := -fsanitize=address,undefined -fno-sanitize-recover=all -fno-omit-frame-pointer -Wno-maybe-uninitialized -Wno-restrict
-CHECK_IR  := 1
+# Instrumented builds: SANITIZE=address (1 is the same), with undefined behaviour; SANITIZE=thread; COVERAGE=1, whose
+# counters several threads and processes share. gcc's flow warnings are wrong about instrumented code; the plain, clang
+# and matrix builds are the ones that warn.
+instrument_address  = -fsanitize=address,undefined -fno-sanitize-recover=all
+instrument_thread   = -fsanitize=thread
+instrument_coverage = --coverage -fprofile-update=atomic
+
+instrument := $(if $(SANITIZE),$(SANITIZE:1=address),$(if $(COVERAGE),coverage))
+ifneq ($(instrument),)
+$(if $(instrument_$(instrument)),,$(error SANITIZE is "$(SANITIZE)", expected address or thread))
+CFLAGS     ?= -O1 -g
+INSTRUMENT := $(instrument_$(instrument)) -fno-omit-frame-pointer -Wno-maybe-uninitialized -Wno-restrict
+CHECK_IR   := 1
 else
-CFLAGS    ?= -O2 -g
+CFLAGS     ?= -O2 -g
 endif
 
 # Every recording and what every pass of the specializer leaves is verified before anything is made of it.
@@ -81,8 +90,8 @@ CHECKED := -DTRIPTYCH_CHECK_IR
 endif
 
 compile = $(CC) -std=gnu17 $(CFLAGS) -Wall -Wextra -Werror -ffp-contract=off -fPIC -fvisibility=hidden -pthread \
-  $(SANITIZER) $(CHECKED) -Isrc -I. $(package_includes) $(CPPFLAGS)
-link = $(CC) $(CFLAGS) $(SANITIZER) -pthread -Wl,--as-needed,-z,relro,-z,now $(LDFLAGS)
+  $(INSTRUMENT) $(CHECKED) -Isrc -I. $(package_includes) $(CPPFLAGS)
+link = $(CC) $(CFLAGS) $(INSTRUMENT) -pthread -Wl,--as-needed,-z,relro,-z,now $(LDFLAGS)
 
 # An object without this note makes the whole program's stack executable; every assembly file gets it from here.
 assemble = $(NASM) -f elf64 -g -F dwarf -Werror -Iasm/ \
@@ -96,7 +105,7 @@ unity_flags = -isystem $(dir $(UNITY_SOURCE)) -DUNITY_INCLUDE_DOUBLE -DUNITY_USE
 
 # --- What to build -------------------------------------------------------------------------------------------
 
-.PHONY: all programs check test bench bench-shaders soak-shaders gallery verify-external dependencies packages install clean format format-check help FORCE
+.PHONY: all programs check test check-threads matrix coverage soak bench bench-shaders gallery verify-external dependencies packages install clean format format-check help FORCE
 
 all: $(BUILD)/libtriptych.a $(if $(SANITIZE),,$(BUILD)/libtriptych.so $(BUILD)/triptych.pc) $(COMMAND) build/glmark2 \
   build/assimp
@@ -206,8 +215,32 @@ test:
 	@tests/support/dependencies.sh build test
 	+@$(MAKE) $(jobs) all programs
 	+@$(MAKE) $(jobs) BUILD=$(BUILD)/clang CC=clang all programs
-	+@$(MAKE) $(jobs) BUILD=$(BUILD)/sanitize SANITIZE=1 all programs
-	@tests/support/run.sh '$(ONLY)' $(BUILD) $(BUILD)/sanitize
+	+@$(MAKE) $(jobs) BUILD=$(BUILD)/sanitize SANITIZE=address all programs
+	+@$(MAKE) $(jobs) BUILD=$(BUILD)/thread SANITIZE=thread all $(threaded)
+	@tests/support/run.sh '$(ONLY)' $(BUILD) $(BUILD)/sanitize $(BUILD)/thread
+
+# What runs under ThreadSanitizer besides tests/threads.sh: programs whose subject is threads or what they share.
+threaded = $(patsubst %.c,$(BUILD)/thread/%,$(call only,$(patsubst %,tests/%.c,base/code draw/cache draw/pool \
+  draw/shuffle stream/threads)))
+
+# `make test` watches the threads of small streams; here it is all streams, with more threads.
+check-threads:
+	@tests/support/dependencies.sh build test
+	+@$(MAKE) $(jobs) BUILD=$(BUILD)/thread SANITIZE=thread all $(threaded)
+	@THOROUGH=1 tests/support/run.sh '$(ONLY)' $(BUILD)/thread
+
+# Compilers and levels, each with all features of this processor and without AVX-512: the same bytes, results/matrix.txt.
+matrix:
+	@tests/support/dependencies.sh build test
+	+@tests/support/matrix.sh $(BUILD)/matrix
+
+# Lines of src/ and emu/ that the tests execute, results/coverage.txt: fails below 90 %.
+coverage:
+	@tests/support/dependencies.sh build test
+	+@$(MAKE) $(jobs) BUILD=$(BUILD)/coverage COVERAGE=1 all programs
+	@find $(BUILD)/coverage -name '*.gcda' -delete
+	@tests/support/run.sh '$(ONLY)' $(BUILD)/coverage
+	@tests/support/coverage.sh $(BUILD)/coverage 90 | tee results/coverage.txt
 
 bench:
 	@tests/support/dependencies.sh build bench

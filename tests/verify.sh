@@ -1,6 +1,6 @@
 #!/bin/bash
 # All engines, widths and thread counts draw every stream alike, byte for byte.
-# Given BUILD, TRIPTYCH and SANITIZE by tests/support/run.sh; with sanitizers fewer frames are drawn.
+# Given BUILD, TRIPTYCH and SLOW by tests/support/run.sh; in slow builds fewer frames are drawn.
 set -uo pipefail
 cd "$(dirname "$0")/.."
 
@@ -9,7 +9,7 @@ streams=(bench/streams/*.tri tests/streams/*.tri tests/scenes/*.tri tests/shadin
 ((${#streams[@]})) || { echo 'FAIL there are draw streams' && exit 1; }
 
 options=()
-[[ -z ${SANITIZE-} ]] || options=(--frames 1 --threads 2)
+[[ -z ${SLOW-} ]] || options=(--frames 1 --threads 2)
 failures=0
 for stream in "${streams[@]}"; do
     if said=$("$TRIPTYCH" verify "$stream" "${options[@]}" 2>&1) &&

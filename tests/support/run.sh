@@ -5,7 +5,8 @@
 #
 # A build's tests are its Unity programs, BUILD/tests/**, one for every source tests/**/*.c outside
 # tests/support/, and the executable scripts tests/*.sh, which print a line "ok NAME" or "FAIL NAME" per test and
-# are given TRIPTYCH (the command), BUILD (the build), and SANITIZE=1 if the build is instrumented.
+# are given TRIPTYCH (the command), BUILD (the build), SANITIZE=1 if the build is instrumented for sanitizers, and SLOW=1
+# if it is instrumented for anything. A build that watches threads has only some programs; these are run, and threads.sh.
 # FILTER keeps the tests whose path contains it.
 #
 # Prints a line per program as it ends, what a failing one said, and last of all "N passed, N failed". A program
@@ -34,7 +35,8 @@ run_one() # NUMBER BUILD TEST : reports, and leaves "PASSED FAILED" in the resul
         program=("$test") limit=1200
         export BUILD=$(realpath "$build")
         export TRIPTYCH=$BUILD/triptych
-        grep -q -e -fsanitize "$build/flags" && export SANITIZE=1
+        grep -q -e -fsanitize "$build/flags" && export SANITIZE=1 SLOW=1
+        grep -q -e --coverage "$build/flags" && export SLOW=1
     fi
     # The group swallows bash's own notice of a signal.
     { timeout -k 10 "$limit" "${program[@]}" >"$output" 2>&1 </dev/null || status=$?; } 2>/dev/null
@@ -71,15 +73,19 @@ run_one() # NUMBER BUILD TEST : reports, and leaves "PASSED FAILED" in the resul
 }
 export -f run_one
 
+# Scripts first, for the longest tests are among them.
 tests=()
 while IFS= read -r test; do
     [[ $test != *"$filter"* ]] || tests+=("$test")
-done < <(find tests -path tests/support -prune -o -name '*.c' -print | sort
-    find tests -maxdepth 1 -name '*.sh' -perm -u+x -print | sort)
+done < <(find tests -maxdepth 1 -name '*.sh' -perm -u+x -print | sort
+    find tests -path tests/support -prune -o -name '*.c' -print | sort)
 
 count=0
-for build in "$@"; do
-    for test in "${tests[@]}"; do
+for test in "${tests[@]}"; do
+    for build in "$@"; do
+        if grep -q -e -fsanitize=thread "$build/flags" && [[ $test != tests/threads.sh && ! -x $build/${test%.c} ]]; then
+            continue
+        fi
         printf '%d\0%s\0%s\0' "$count" "$build" "$test" >>"$results/jobs"
         count=$((count + 1))
     done
