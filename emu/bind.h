@@ -34,7 +34,12 @@ struct env {
     union variable variable[VARIABLES];
 };
 
+#ifndef GIVE
 #define E e
+
+/* What every operation says of its value; fuzz/trace.c has it written down. */
+#define GIVE(value) (value)
+#endif
 
 /* Loop bodies of def/op.def's rows: per lane for the 32-bit types, per half for pairs. */
 #define LANES_flt       for (int i = 0; i < EMULATE_WIDTH; i++)
@@ -65,7 +70,7 @@ struct env {
         {                                                                                                    \
             LOAD_##ta(a) LOAD_##tb(b) LOAD_##tc(c) r.PUT_##result[i] = (expression);                         \
         }                                                                                                    \
-        return r;                                                                                            \
+        return GIVE(r);                                                                                      \
     }
 #define OPK(name, result, ta, tb, tc, properties, expression)                                                \
     static inline result name(struct env *e ARGUMENT_##ta(a), int k)                                         \
@@ -76,7 +81,7 @@ struct env {
         {                                                                                                    \
             LOAD_##ta(a) r.PUT_##result[i] = (expression);                                                   \
         }                                                                                                    \
-        return r;                                                                                            \
+        return GIVE(r);                                                                                      \
     }
 #define CAST(name, result, from)                                                                             \
     static inline result name(struct env *e, from a)                                                         \
@@ -84,7 +89,7 @@ struct env {
         (void)e;                                                                                             \
         result r;                                                                                            \
         memcpy(&r, &a, sizeof r);                                                                            \
-        return r;                                                                                            \
+        return GIVE(r);                                                                                      \
     }
 #include "def/op.def"
 #undef OP
@@ -97,7 +102,7 @@ static inline flt lit_f(struct env *e, float value)
     flt r;
     for (int i = 0; i < EMULATE_WIDTH; i++)
         r.lane[i] = value;
-    return r;
+    return GIVE(r);
 }
 
 static inline itg lit_i(struct env *e, int32_t value)
@@ -106,7 +111,7 @@ static inline itg lit_i(struct env *e, int32_t value)
     itg r;
     for (int i = 0; i < EMULATE_WIDTH; i++)
         r.lane[i] = value;
-    return r;
+    return GIVE(r);
 }
 
 static inline msk lit_m(struct env *e, int32_t value)
@@ -115,7 +120,7 @@ static inline msk lit_m(struct env *e, int32_t value)
     msk r;
     for (int i = 0; i < EMULATE_WIDTH; i++)
         r.lane[i] = value;
-    return r;
+    return GIVE(r);
 }
 
 static inline fix lit_x(struct env *e, uint16_t value)
@@ -124,7 +129,7 @@ static inline fix lit_x(struct env *e, uint16_t value)
     fix r;
     for (int i = 0; i < 2 * EMULATE_WIDTH; i++)
         r.half[i] = value;
-    return r;
+    return GIVE(r);
 }
 
 static inline flt permute_f(struct env *e, flt a, int lanes)
@@ -133,21 +138,21 @@ static inline flt permute_f(struct env *e, flt a, int lanes)
     flt r;
     for (int i = 0; i < EMULATE_WIDTH; i++)
         r.lane[i] = a.lane[(i & ~3) | (lanes >> 2 * (i & 3) & 3)];
-    return r;
+    return GIVE(r);
 }
 
 static inline flt load_f(struct env *e, enum base base, int offset)
 {
     flt r;
     memcpy(&r, e->base[base] + offset, sizeof r);
-    return r;
+    return GIVE(r);
 }
 
 static inline itg load_i(struct env *e, enum base base, int offset)
 {
     itg r;
     memcpy(&r, e->base[base] + offset, sizeof r);
-    return r;
+    return GIVE(r);
 }
 
 static inline void store_f(struct env *e, enum base base, int offset, flt value)
@@ -185,18 +190,27 @@ static inline const uint8_t *gather_start(struct env *e, enum base base, int fie
     return start;
 }
 
+static inline void gather(struct env *e, void *words, enum base base, int field, itg index, int scale,
+                          int displacement)
+{
+    uint8_t *to = words;
+    const uint8_t *start = gather_start(e, base, field);
+    for (int i = 0; i < EMULATE_WIDTH; i++)
+        memcpy(to + 4 * i, start + (ptrdiff_t)index.lane[i] * scale + displacement, 4);
+}
+
 static inline itg gather_i(struct env *e, enum base base, int field, itg index, int scale, int displacement)
 {
-    const uint8_t *start = gather_start(e, base, field);
     itg r;
-    for (int i = 0; i < EMULATE_WIDTH; i++)
-        memcpy(&r.lane[i], start + (ptrdiff_t)index.lane[i] * scale + displacement, 4);
-    return r;
+    gather(e, &r, base, field, index, scale, displacement);
+    return GIVE(r);
 }
 
 static inline flt gather_f(struct env *e, enum base base, int field, itg index, int scale, int displacement)
 {
-    return bits_f(e, gather_i(e, base, field, index, scale, displacement));
+    flt r;
+    gather(e, &r, base, field, index, scale, displacement);
+    return GIVE(r);
 }
 
 static inline void scatter_i(struct env *e, enum base base, int offset, int stride, itg value)
@@ -207,22 +221,24 @@ static inline void scatter_i(struct env *e, enum base base, int offset, int stri
 
 static inline void scatter_f(struct env *e, enum base base, int offset, int stride, flt value)
 {
-    scatter_i(e, base, offset, stride, bits_i(e, value));
+    itg bits;
+    memcpy(&bits, &value, sizeof bits);
+    scatter_i(e, base, offset, stride, bits);
 }
 
 static inline flt get_f(struct env *e, int variable)
 {
-    return e->variable[variable].f;
+    return GIVE(e->variable[variable].f);
 }
 
 static inline itg get_i(struct env *e, int variable)
 {
-    return e->variable[variable].i;
+    return GIVE(e->variable[variable].i);
 }
 
 static inline msk get_m(struct env *e, int variable)
 {
-    return e->variable[variable].m;
+    return GIVE(e->variable[variable].m);
 }
 
 static inline void set_f(struct env *e, int variable, flt value)

@@ -57,6 +57,11 @@ void ir_start(struct ir *ir)
     memset(&ir->instruction[0], 0, sizeof ir->instruction[0]);
 }
 
+void ir_duplicate(struct ir *ir, const struct ir *from)
+{
+    memcpy(ir, from, offsetof(struct ir, instruction) + from->count * sizeof *from->instruction);
+}
+
 static void count_control(struct ir *ir, const struct ir_instruction *i)
 {
     if (i->op == IR_loop)

@@ -129,6 +129,9 @@ struct ir {
 /* Empties it. */
 void ir_start(struct ir *ir);
 
+/* Makes it the same as another. */
+void ir_duplicate(struct ir *ir, const struct ir *from);
+
 /* Appends an instruction and returns its number; past the capacity sets `overflow` and returns 0. */
 uint16_t ir_append(struct ir *ir, struct ir_instruction instruction);
 

@@ -77,7 +77,6 @@ static int optimize_checked(struct builder *b, const struct build_options *optio
 static size_t build_stages(struct builder *b, const struct build_options *options, enum unit unit,
                            const union key *key, pass_observer *observer, void *context, struct error *error)
 {
-    ir_record(&b->ir, unit, key);
     if (b->ir.overflow) {
         error_set(error, "the %s routine takes more than %d operations", unit_name[unit], IR_CAPACITY - 1);
         return 0;
@@ -96,6 +95,18 @@ size_t build_code(struct builder *b, const struct build_options *options, enum u
                   const union key *key, pass_observer *observer, void *context, struct error *error)
 {
     unsigned saved = mxcsr_enter();
+    ir_record(&b->ir, unit, key);
+    size_t bytes = build_stages(b, options, unit, key, observer, context, error);
+    mxcsr_leave(saved);
+    return bytes;
+}
+
+size_t build_recording(struct builder *b, const struct ir *ir, const struct build_options *options,
+                       enum unit unit, const union key *key, pass_observer *observer, void *context,
+                       struct error *error)
+{
+    unsigned saved = mxcsr_enter();
+    ir_duplicate(&b->ir, ir);
     size_t bytes = build_stages(b, options, unit, key, observer, context, error);
     mxcsr_leave(saved);
     return bytes;

@@ -34,4 +34,15 @@ void builder_give(struct builder *builder);
 size_t build_code(struct builder *builder, const struct build_options *options, enum unit unit,
                   const union key *key, pass_observer *observer, void *context, struct error *error);
 
+/* The same for a recording instead of a key's. */
+size_t build_recording(struct builder *builder, const struct ir *ir, const struct build_options *options,
+                       enum unit unit, const union key *key, pass_observer *observer, void *context,
+                       struct error *error);
+
+/* A routine of one of the specializer's engines for a recording, with passes left out besides; free it like the
+ * engine's. Null with the reason. */
+struct routine *jit_routine(const struct engine *engine, const struct ir *ir, uint32_t disabled,
+                            pass_observer *observer, void *context, struct code_arena *arena, enum unit unit,
+                            const union key *key, struct error *error);
+
 #endif

@@ -33,7 +33,15 @@ static int install(struct code_arena *arena, const struct builder *b, size_t byt
     return 0;
 }
 
-static struct routine *build_with(const struct engine *engine, const struct build_options *options,
+/* What is built, and who looks on. */
+struct order {
+    const struct ir *ir; /* null: the key's */
+    struct build_options options;
+    pass_observer *observer;
+    void *context;
+};
+
+static struct routine *build_with(const struct engine *engine, const struct order *order,
                                   struct code_arena *arena, enum unit unit, const union key *key,
                                   struct error *error)
 {
@@ -46,7 +54,9 @@ static struct routine *build_with(const struct engine *engine, const struct buil
     routine->engine = engine;
     routine->unit = unit;
     routine->key = *key;
-    size_t bytes = build_code(b, options, unit, key, NULL, NULL, error);
+    size_t bytes = order->ir ? build_recording(b, order->ir, &order->options, unit, key, order->observer,
+                                               order->context, error)
+                             : build_code(b, &order->options, unit, key, NULL, NULL, error);
     if (!bytes || install(arena, b, bytes, routine, error))
         goto failed;
     builder_give(b);
@@ -67,26 +77,26 @@ static void free_routine(struct code_arena *arena, struct routine *routine)
     free(routine);
 }
 
-static const struct build_options options_8 = {.width = 8, .profile = PROFILE_FULL};
-static const struct build_options options_4 = {.width = 4, .profile = PROFILE_FULL};
-static const struct build_options options_thesis = {.width = 8, .profile = PROFILE_THESIS};
+static const struct order order_8 = {.options = {.width = 8, .profile = PROFILE_FULL}};
+static const struct order order_4 = {.options = {.width = 4, .profile = PROFILE_FULL}};
+static const struct order order_thesis = {.options = {.width = 8, .profile = PROFILE_THESIS}};
 
 static struct routine *build_8(struct code_arena *arena, enum unit unit, const union key *key,
                                struct error *error)
 {
-    return build_with(&engine_specialize, &options_8, arena, unit, key, error);
+    return build_with(&engine_specialize, &order_8, arena, unit, key, error);
 }
 
 static struct routine *build_4(struct code_arena *arena, enum unit unit, const union key *key,
                                struct error *error)
 {
-    return build_with(&engine_specialize_4, &options_4, arena, unit, key, error);
+    return build_with(&engine_specialize_4, &order_4, arena, unit, key, error);
 }
 
 static struct routine *build_thesis(struct code_arena *arena, enum unit unit, const union key *key,
                                     struct error *error)
 {
-    return build_with(&engine_specialize_thesis, &options_thesis, arena, unit, key, error);
+    return build_with(&engine_specialize_thesis, &order_thesis, arena, unit, key, error);
 }
 
 const struct engine engine_specialize = {
@@ -118,8 +128,17 @@ const struct engine engine_specialize_thesis = {
 
 const struct build_options *engine_options(const struct engine *engine)
 {
-    return engine == &engine_specialize          ? &options_8
-           : engine == &engine_specialize_4      ? &options_4
-           : engine == &engine_specialize_thesis ? &options_thesis
+    return engine == &engine_specialize          ? &order_8.options
+           : engine == &engine_specialize_4      ? &order_4.options
+           : engine == &engine_specialize_thesis ? &order_thesis.options
                                                  : NULL;
+}
+
+struct routine *jit_routine(const struct engine *engine, const struct ir *ir, uint32_t disabled,
+                            pass_observer *observer, void *context, struct code_arena *arena, enum unit unit,
+                            const union key *key, struct error *error)
+{
+    struct order order = {ir, *engine_options(engine), observer, context};
+    order.options.disabled |= disabled;
+    return build_with(engine, &order, arena, unit, key, error);
 }

@@ -141,6 +141,10 @@ int plan_check(const struct plan *plan, struct error *error);
 /* Copies the plan's code into the arena and fills the holes. Returns 0, or -1 with the reason. */
 int plan_join(struct plan *plan, struct code_arena *arena, struct code_span *span, struct error *error);
 
+/* A routine of a plan; free it like the engine's. Null with the reason. */
+struct routine *plan_routine(struct plan *plan, const struct engine *engine, struct code_arena *arena,
+                             enum unit unit, const union key *key, struct error *error);
+
 /* Part by part: fragment, arguments, spec line, instructions. The plan has been joined to the code at `code`.
  */
 void plan_print(const struct plan *plan, const struct code_span *span, FILE *out);

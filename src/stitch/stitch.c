@@ -50,31 +50,37 @@ static void describe(struct stitched *stitched, const struct plan *plan)
     routine->carried = plan->counts.carried;
 }
 
+struct routine *plan_routine(struct plan *plan, const struct engine *engine, struct code_arena *arena,
+                             enum unit unit, const union key *key, struct error *error)
+{
+    struct stitched *stitched = calloc(1, sizeof *stitched);
+    if (!stitched) {
+        error_set(error, "out of memory for a routine");
+        return NULL;
+    }
+    struct routine *routine = &stitched->routine;
+    routine->granularity = plan->operations > 1 ? "operation" : "stage";
+    routine->engine = engine;
+    routine->unit = unit;
+    routine->key = *key;
+    if (plan_join(plan, arena, &stitched->span, error)) {
+        free(stitched);
+        return NULL;
+    }
+    describe(stitched, plan);
+    return routine;
+}
+
 struct routine *stitch_build(const struct engine *engine, stitch_coverage *lack, struct code_arena *arena,
                              enum unit unit, const union key *key, struct error *error)
 {
     struct plan *plan = plan_take(error);
     if (!plan)
         return NULL;
-    struct stitched *stitched = calloc(1, sizeof *stitched);
-    if (!stitched) {
-        error_set(error, "out of memory for a routine");
-        goto failed;
-    }
-    struct routine *routine = &stitched->routine;
-    routine->granularity = make_plan(plan, lack, unit, key) ? "operation" : "stage";
-    routine->engine = engine;
-    routine->unit = unit;
-    routine->key = *key;
-    if (plan_join(plan, arena, &stitched->span, error))
-        goto failed;
-    describe(stitched, plan);
+    make_plan(plan, lack, unit, key);
+    struct routine *routine = plan_routine(plan, engine, arena, unit, key, error);
     plan_give(plan);
     return routine;
-failed:
-    free(stitched);
-    plan_give(plan);
-    return NULL;
 }
 
 static struct routine *build_stages(struct code_arena *arena, enum unit unit, const union key *key,

@@ -1,0 +1,438 @@
+#include "fuzz/bisect.h"
+
+#include "draw/device.h"
+#include "fuzz/hunt.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+/* --- A routine that is two -------------------------------------------------------------------------------- */
+
+struct pair {
+    struct routine routine;
+    struct routine *side[2];
+};
+
+/* The bisection that runs: engines' functions are told nothing of it. There is one at a time. */
+static struct search {
+    const struct engine *engine[2];
+    const struct bisect_options *options;
+    struct bisection *bisection;
+    struct triptych_device *device;
+    struct error *error;
+    struct replay replay;
+    uint8_t *image[2];
+    bool watches; /* the draw is one of those that are looked at */
+    bool found, failed;
+} * search;
+
+static void free_pair(struct code_arena *arena, struct routine *routine)
+{
+    struct pair *pair = (struct pair *)(void *)routine;
+    for (int i = 0; i < 2; i++)
+        if (pair->side[i])
+            search->engine[i]->free(arena, pair->side[i]);
+    free(pair);
+}
+
+static int examine(struct code_arena *arena, const struct pair *pair, struct replay *replay);
+
+static void forget_replay(void)
+{
+    replay_free(&search->replay);
+    for (int i = 0; i < 2; i++) {
+        free(search->image[i]);
+        search->image[i] = NULL;
+    }
+}
+
+/* Whether the two routines differ on the call, in what is looked for. */
+static bool differs(const struct pair *pair, const void *call)
+{
+    const struct target *target = &search->device->target;
+    struct replay_target planes = {target->planes * target->samples, target->depth ? target->samples : 0};
+    struct replay *replay = &search->replay;
+    bool out_of_memory = replay_take(replay, pair->side[0], call, &planes) != 0;
+    replay->pixel_x = search->options->x;
+    replay->pixel_y = search->options->y;
+    for (int i = 0; i < 2 && !out_of_memory; i++) {
+        search->image[i] = replay_image(replay);
+        out_of_memory = !search->image[i];
+        if (!out_of_memory)
+            replay_run(replay, pair->side[i], search->image[i]);
+    }
+    if (out_of_memory) {
+        error_set(search->error, "out of memory for the call of a routine");
+        search->failed = true;
+        return false;
+    }
+    return replay_differs(replay, search->image[0], search->image[1], NULL);
+}
+
+static void run_pair(const void *call, const struct routine *routine)
+{
+    const struct pair *pair = (const struct pair *)(const void *)routine;
+    if (search->watches && !search->found && !search->failed) {
+        if (differs(pair, call)) {
+            search->found = true;
+            search->failed = examine(search->device->arena, pair, &search->replay) != 0;
+        }
+        forget_replay();
+    }
+    pair->side[0]->run(call, pair->side[0]);
+}
+
+static struct routine *build_pair(struct code_arena *arena, enum unit unit, const union key *key,
+                                  struct error *error)
+{
+    struct pair *pair = calloc(1, sizeof *pair);
+    if (!pair) {
+        error_set(error, "out of memory for a routine");
+        return NULL;
+    }
+    for (int i = 0; i < 2; i++) {
+        pair->side[i] = search->engine[i]->build(arena, unit, key, error);
+        if (!pair->side[i]) {
+            free_pair(arena, &pair->routine);
+            return NULL;
+        }
+        pair->routine.code_bytes += pair->side[i]->code_bytes;
+    }
+    pair->routine.run = run_pair;
+    pair->routine.unit = unit;
+    pair->routine.key = *key;
+    return &pair->routine;
+}
+
+static const char *available(void)
+{
+    return NULL;
+}
+
+static const struct engine engine_pair = {
+    .name = "pair",
+    .description = "two engines at once",
+    .width = LANES_MAXIMUM,
+    .unavailable = available,
+    .build = build_pair,
+    .free = free_pair,
+};
+
+/* --- The operation ---------------------------------------------------------------------------------------- */
+
+bool hunt_agrees(const struct ir *ir, uint32_t instruction, uint32_t a, uint32_t b)
+{
+    const struct ir_instruction *i = &ir->instruction[instruction];
+    while (i->op == IR_copy)
+        i = &ir->instruction[i->operand[0]];
+    return a == b || (i->type == TYPE_flt && (a & 0x7fffffff) > 0x7f800000 && (b & 0x7fffffff) > 0x7f800000);
+}
+
+void hunt_note(struct hunt *hunt, const struct ir *ir, const struct event_list *events, uint32_t event,
+               unsigned lane, const uint32_t value[2])
+{
+    struct bisection *b = hunt->bisection;
+    const struct event *e = events->event + event;
+    const struct ir_instruction *i = &ir->instruction[e->instruction];
+    b->outcome = BISECT_FOUND;
+    b->lane = hunt->probing.lane + lane;
+    b->operation = ir_op_information[i->op].name;
+    b->type = i->type;
+    b->value[0] = value[0];
+    b->value[1] = value[1];
+    b->expected = e->lane[lane];
+    b->instruction = e->instruction;
+    b->in_loop = e->visit != 0;
+    b->visit_pass = events->visit[e->visit].pass;
+    if (i->line)
+        snprintf(b->place, sizeof b->place, "%s:%u", ir->file[i->file], i->line);
+}
+
+/* The store of the recording that writes the first word that differs. */
+static void note_store(struct hunt *hunt)
+{
+    struct bisection *b = hunt->bisection;
+    const uint8_t *base[BASE_COUNT];
+    uint8_t *image = hunt->replay->before;
+    replay_bases(hunt->replay, image, hunt->probing.lane, base);
+    for (uint32_t n = 1; n < hunt->ir->count; n++) {
+        const struct ir_instruction *i = &hunt->ir->instruction[n];
+        uint32_t lane = hunt->place.element - hunt->probing.lane;
+        int32_t step = i->op == IR_scatter ? i->field : 4;
+        if ((i->op != IR_store && i->op != IR_scatter) || lane >= QUAD_LANES ||
+            base[i->base] + i->k + (ptrdiff_t)lane * step != image + hunt->place.at)
+            continue;
+        b->operation = ir_op_information[i->op].name;
+        b->instruction = n;
+        b->type = hunt->ir->instruction[i->operand[0]].type;
+        memcpy(b->value, hunt->place.word, sizeof b->value);
+        snprintf(b->place, sizeof b->place, "%s:%u", hunt->ir->file[i->file], i->line);
+    }
+}
+
+/* The first event at which both are seen and differ, in the order of execution. */
+static void compare_events(struct hunt *hunt)
+{
+    const struct event_list *events = &hunt->probing.events;
+    uint32_t unseen = 0;
+    for (uint32_t n = 0; n < events->count; n++) {
+        if (!hunt->seen[0].known[n] || !hunt->seen[1].known[n]) {
+            unseen++;
+            continue;
+        }
+        for (unsigned lane = 0; lane < QUAD_LANES; lane++) {
+            uint32_t value[2] = {hunt->seen[0].value[n][lane], hunt->seen[1].value[n][lane]};
+            if (hunt_agrees(hunt->ir, events->event[n].instruction, value[0], value[1]))
+                continue;
+            hunt_note(hunt, hunt->ir, events, n, lane, value);
+            if (unseen)
+                snprintf(hunt->bisection->reason, sizeof hunt->bisection->reason,
+                         "%u values before it are not seen: looking at them makes the difference disappear",
+                         unseen);
+            return;
+        }
+    }
+    snprintf(hunt->bisection->reason, sizeof hunt->bisection->reason,
+             events->cut
+                 ? "the values of the first %u operations are the same, and it goes on for longer"
+                 : "of %u values none that can be seen differs: looking makes the difference disappear",
+             events->count);
+}
+
+/* The side whose value is not the recording's; -1 if that cannot be told. */
+static int wrong_side(const struct hunt *hunt)
+{
+    uint8_t *image = replay_image(hunt->replay), *ran = replay_image(hunt->replay);
+    int side = -1;
+    if (image && ran && interpret_all(hunt->interpreter, hunt->ir, hunt->replay, image))
+        for (int i = 0; i < 2 && side < 0; i++) {
+            replay_run(hunt->replay, hunt->routine[i], ran);
+            if (replay_differs(hunt->replay, image, ran, NULL))
+                side = i;
+        }
+    free(image);
+    free(ran);
+    return side;
+}
+
+static int observe(struct hunt *hunt, struct error *error)
+{
+    for (int i = 0; i < 2; i++)
+        if (observation_start(hunt->seen + i, &hunt->probing.events))
+            return error_set(error, "out of memory for %u values", hunt->probing.events.count);
+    for (unsigned i = 0; i < 2; i++)
+        if (reading_of(hunt->routine[i]) == READING_STAGES)
+            return hunt_stages(hunt, i, error);
+    for (int i = 0; i < 2; i++)
+        if (probe_observe(&hunt->probing, hunt->routine[i], hunt->seen + i, error))
+            return -1;
+    compare_events(hunt);
+    return 0;
+}
+
+/* Operations of the four lanes in which the outputs differ. */
+static int find_operation(struct hunt *hunt, struct error *error)
+{
+    uint8_t *image = replay_image(hunt->replay);
+    if (!image)
+        return error_set(error, "out of memory for the call of a routine");
+    uint32_t lane = hunt->place.element / QUAD_LANES * QUAD_LANES;
+    memcpy(image, hunt->replay->before, hunt->replay->output_bytes + hunt->replay->table_bytes);
+    interpret(hunt->interpreter, hunt->ir, hunt->replay, image, lane, true);
+    free(image);
+    hunt->probing = (struct probing){.ir = hunt->ir,
+                                     .replay = hunt->replay,
+                                     .events = interpreter_events(hunt->interpreter),
+                                     .lane = lane,
+                                     .arena = hunt->arena,
+                                     .interpreter = hunt->interpreter};
+    hunt->bisection->outcome = BISECT_NARROWED;
+    note_store(hunt);
+    int result = observe(hunt, error);
+    int side = result ? -1 : wrong_side(hunt);
+    if (side >= 0)
+        result = hunt_passes(hunt, (unsigned)side, error);
+    for (int i = 0; i < 2; i++)
+        observation_free(hunt->seen + i);
+    return result;
+}
+
+/* --- The call --------------------------------------------------------------------------------------------- */
+
+static void name_output(struct bisection *b, const struct replay *r, size_t at)
+{
+    static const struct {
+        const char *name;
+        int slot;
+    } slots[] = {
+        {"x", SLOT_X},
+        {"y", SLOT_Y},
+        {"z", SLOT_Z},
+        {"w", SLOT_W},
+        {"clip code", SLOT_CODE},
+#define VARYING(name, components, text) {#name, SLOT_##name},
+#include "def/varying.def"
+#undef VARYING
+        {"point size", SLOT_POINT_SIZE}
+    };
+    if (r->unit == UNIT_VERTEX) {
+        int slot = (int)(at / VERTEX_SLOT_BYTES), i = 0;
+        while (i + 1 < (int)(sizeof slots / sizeof *slots) && slots[i + 1].slot <= slot)
+            i++;
+        snprintf(b->output_name, sizeof b->output_name, "%s%+d", slots[i].name, slot - slots[i].slot);
+        if (slot == slots[i].slot)
+            snprintf(b->output_name, sizeof b->output_name, "%s", slots[i].name);
+    } else if (r->unit == UNIT_SETUP) {
+        snprintf(b->output_name, sizeof b->output_name, "byte %zu of the record", at % r->layout.stride);
+    } else if (at < r->color_bytes) {
+        snprintf(b->output_name, sizeof b->output_name, "colour plane %zu", at / TILE_PLANE_BYTES);
+    } else if (at < r->output_bytes) {
+        snprintf(b->output_name, sizeof b->output_name, "depth plane %zu",
+                 (at - r->color_bytes) / TILE_PLANE_BYTES);
+    } else {
+        snprintf(b->output_name, sizeof b->output_name, "pixels passed");
+    }
+}
+
+static void note_place(struct bisection *b, const struct replay *r, const struct replay_place *place)
+{
+    b->lane = place->element;
+    memcpy(b->output, place->word, sizeof b->output);
+    memcpy(b->value, place->word, sizeof b->value);
+    name_output(b, r, place->at);
+    if (r->unit == UNIT_PIXEL)
+        replay_pixel(r, place->element, &b->x, &b->y);
+    else
+        memcpy(&b->element, r->before + r->output_bytes + 4 * (size_t)place->element, sizeof b->element);
+}
+
+/* Runs the narrowed call with both and notes where they differ first. */
+static int compare_call(struct hunt *hunt, struct error *error)
+{
+    uint8_t *image[2] = {replay_image(hunt->replay), replay_image(hunt->replay)};
+    int result = image[0] && image[1] ? 0 : error_set(error, "out of memory for the call of a routine");
+    for (int i = 0; i < 2 && !result; i++)
+        replay_run(hunt->replay, hunt->routine[i], image[i]);
+    if (!result && replay_differs(hunt->replay, image[0], image[1], &hunt->place))
+        note_place(hunt->bisection, hunt->replay, &hunt->place);
+    free(image[0]);
+    free(image[1]);
+    return result;
+}
+
+static int examine_narrowed(struct hunt *hunt, struct error *error)
+{
+    hunt->ir = ir_take(hunt->replay->unit, hunt->replay->key, error);
+    hunt->interpreter = interpreter_create();
+    int result = hunt->ir ? 0 : -1;
+    if (!result && (!hunt->interpreter || replay_reserve(hunt->replay, probe_rows(hunt->ir))))
+        result = error_set(error, "out of memory for the values of %u operations", hunt->ir->count);
+    if (!result)
+        result = find_operation(hunt, error);
+    interpreter_free(hunt->interpreter);
+    if (hunt->ir)
+        ir_give(hunt->ir);
+    return result;
+}
+
+static int examine(struct code_arena *arena, const struct pair *pair, struct replay *replay)
+{
+    struct bisection *b = search->bisection;
+    struct hunt hunt = {
+        .bisection = b, .routine = {pair->side[0], pair->side[1]}, .replay = replay, .arena = arena};
+    b->outcome = BISECT_CALL;
+    b->unit = replay->unit;
+    key_print(replay->unit, replay->key, b->key);
+    int narrowed = replay_narrow(replay, pair->side[0], pair->side[1]);
+    if (narrowed < 0)
+        return error_set(search->error, "out of memory for the call of a routine");
+    if (compare_call(&hunt, search->error))
+        return -1;
+    if (!narrowed) {
+        snprintf(b->reason, sizeof b->reason,
+                 "it takes more than one %s to make them differ, of %u in the call",
+                 replay->unit == UNIT_PIXEL ? "block" : "group of 16", replay->count);
+        return 0;
+    }
+    return examine_narrowed(&hunt, search->error);
+}
+
+/* --- The stream ------------------------------------------------------------------------------------------- */
+
+static bool is_draw(const struct stream *stream, uint32_t position)
+{
+    enum call_type type = stream->calls[stream->executed[position]].type;
+    return type == CALL_DRAW || type == CALL_DRAW_INDEXED || type == CALL_DRAW_MESH;
+}
+
+/* The stream with a frame for each draw: `frames` has room for all of its calls and two more. */
+static struct stream draw_by_draw(const struct stream *stream, uint32_t *frames)
+{
+    struct stream view = *stream;
+    view.frames = frames;
+    view.frame_count = 0;
+    frames[0] = 0;
+    for (uint32_t i = 0; i < stream->executed_count; i++)
+        if (is_draw(stream, i))
+            frames[++view.frame_count] = i + 1;
+    return view;
+}
+
+/* Which draw of which frame of the stream that is. */
+static void number_draw(const struct stream *stream, uint32_t position, struct bisection *b)
+{
+    while (b->frame + 1 < stream->frame_count && stream->frames[b->frame + 1] <= position)
+        b->frame++;
+    for (uint32_t i = stream->frames[b->frame]; i < position; i++)
+        b->draw_of_frame += is_draw(stream, i);
+}
+
+static int play(const struct stream *stream, struct stream *view, struct error *error)
+{
+    struct player *player;
+    int result = stream_prepare(view, search->device, &player, error);
+    for (uint32_t i = 0; i < view->frame_count && !result && !search->found && !search->failed; i++) {
+        search->watches = search->options->draw < 0 || search->options->draw == i;
+        result = player_frame(player, i, error);
+        if (search->found) {
+            search->bisection->draw = i;
+            number_draw(stream, view->frames[i + 1] - 1, search->bisection);
+        }
+    }
+    player_free(player);
+    return result || search->failed ? -1 : 0;
+}
+
+static int search_stream(const struct stream *stream, struct error *error)
+{
+    const struct device_options options = {.threads = 1};
+    uint32_t *frames = malloc((stream->executed_count + 2) * sizeof *frames);
+    if (!frames)
+        return error_set(error, "out of memory for %u calls", stream->executed_count);
+    struct stream view = draw_by_draw(stream, frames);
+    int result = device_create(&engine_pair, &options, &search->device, error) ? -1 : 0;
+    if (!result) {
+        result = play(stream, &view, error);
+        device_destroy(search->device);
+    }
+    free(frames);
+    return result;
+}
+
+int bisect(const struct stream *stream, const struct engine *reference, const struct engine *other,
+           const struct bisect_options *options, struct bisection *bisection, struct error *error)
+{
+    static const struct bisect_options any = {BISECT_ANY, BISECT_ANY, BISECT_ANY};
+    struct search this = {.engine = {reference, other},
+                          .options = options ? options : &any,
+                          .bisection = bisection,
+                          .error = error};
+    *bisection = (struct bisection){.engine = {reference, other}};
+    for (int i = 0; i < 2; i++)
+        if (this.engine[i]->unavailable())
+            return error_set(error, "engine %s: %s", this.engine[i]->name, this.engine[i]->unavailable());
+    search = &this;
+    int result = search_stream(stream, error);
+    search = NULL;
+    return result;
+}
