@@ -1,0 +1,333 @@
+/* Bisecting: bugs are planted in engines, one at a time, and the bisector has to name the operation, its line and what else
+ * it promises. The plants are made at link time (Makefile: --wrap), so that the engines themselves are those of the library. */
+#include "fuzz/bisect.h"
+
+#include "engines.h"
+#include "external/external.h"
+#include "jit/allocate.h"
+#include "jit/pass.h"
+#include "stitch/plan.h"
+
+#include "unity.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+/* --- Plants ----------------------------------------------------------------------------------------------- */
+
+/* What is planted now, if anything. */
+static struct {
+    enum ir_op batch_op, batch_becomes;   /* steps of the batch interpreter */
+    enum ir_op reduce_op, reduce_becomes; /* pass reduce makes one of the other, the last one */
+    unsigned reduce_at;                   /* of the instructions that are such: from 0 */
+    bool dead_drops_store;
+
+    const struct fragment *fragment, *fragment_becomes;
+    const char *text, *text_becomes; /* of the external engine */
+} plant;
+
+/* As emu/plan.h has it, whose plans are others than the stitcher's. */
+struct plan_step;
+typedef const struct plan_step *step_function(void *batch, const struct plan_step *step);
+
+step_function *__real_plan_step_of(enum ir_op op);
+step_function *__wrap_plan_step_of(enum ir_op op);
+unsigned __real_pass_reduce(struct ir *ir, struct pass_memory *memory);
+unsigned __wrap_pass_reduce(struct ir *ir, struct pass_memory *memory);
+unsigned __real_pass_dead(struct ir *ir, struct pass_memory *memory);
+unsigned __wrap_pass_dead(struct ir *ir, struct pass_memory *memory);
+int __real_plan_join(struct plan *plan, struct code_arena *arena, struct code_span *span,
+                     struct error *error);
+int __wrap_plan_join(struct plan *plan, struct code_arena *arena, struct code_span *span,
+                     struct error *error);
+void *__real_external_compile(const char *text, size_t bytes, struct error *error);
+void *__wrap_external_compile(const char *text, size_t bytes, struct error *error);
+
+step_function *__wrap_plan_step_of(enum ir_op op)
+{
+    return __real_plan_step_of(plant.batch_op && op == plant.batch_op ? plant.batch_becomes : op);
+}
+
+unsigned __wrap_pass_reduce(struct ir *ir, struct pass_memory *memory)
+{
+    unsigned changes = __real_pass_reduce(ir, memory), met = 0;
+    for (uint32_t n = 1; n < ir->count && plant.reduce_op; n++)
+        if (ir->instruction[n].op == plant.reduce_op && met++ == plant.reduce_at) {
+            ir->instruction[n].op = plant.reduce_becomes;
+            return changes + 1;
+        }
+    return changes;
+}
+
+unsigned __wrap_pass_dead(struct ir *ir, struct pass_memory *memory)
+{
+    unsigned changes = __real_pass_dead(ir, memory);
+    for (uint32_t n = 1; n < ir->count && plant.dead_drops_store; n++)
+        if (ir->instruction[n].op == IR_store && ir->instruction[n].base == BASE_COLOR) {
+            ir->instruction[n] = (struct ir_instruction){.op = IR_nop};
+            return changes + 1;
+        }
+    return changes;
+}
+
+int __wrap_plan_join(struct plan *plan, struct code_arena *arena, struct code_span *span, struct error *error)
+{
+    for (unsigned i = 0; i < plan->count && plant.fragment; i++)
+        if (plan->part[i].fragment == plant.fragment)
+            plan->part[i].fragment = plant.fragment_becomes;
+    return __real_plan_join(plan, arena, span, error);
+}
+
+void *__wrap_external_compile(const char *text, size_t bytes, struct error *error)
+{
+    char *changed = malloc(bytes + 1);
+    TEST_ASSERT_NOT_NULL(changed);
+    memcpy(changed, text, bytes);
+    changed[bytes] = 0;
+    char *routine = strstr(changed, "void routine(");
+    for (char *at = routine; plant.text && (at = strstr(at, plant.text));)
+        memcpy(at, plant.text_becomes, strlen(plant.text));
+    void *object = __real_external_compile(changed, bytes, error);
+    free(changed);
+    return object;
+}
+
+/* --- The bisector ----------------------------------------------------------------------------------------- */
+
+static struct bisection found;
+static struct text printed;
+
+void setUp(void)
+{
+    memset(&plant, 0, sizeof plant);
+}
+
+void tearDown(void)
+{
+    text_free(&printed);
+}
+
+#define VERTICES                                                                                             \
+    "triptych 1\n"                                                                                           \
+    "target 32 32\n"                                                                                         \
+    "vertices corner position:float4 diffuse:color texcoord:float2 {\n"                                      \
+    "-1 -1 0.25 1 0xffff8040 0 1\n-1 1 0.25 1 0xff20ff60 0 0\n1 -1 0.75 1 0xff4020ff 1 1\n}\n"               \
+    "state lighting false\nstate cullmode none\nbind vertices corner\n"
+
+/* Texture times diffuse; the first draw is behind the viewer and draws nothing. */
+static const char modulate[] = VERTICES "texture t 2 2 { ffc08040 ff4080c0 ff204060 fff0f0f0 }\n"
+                                        "clear color 0 0 0 1 depth 1\n"
+                                        "transform world translate 0 0 -9\ndraw triangles 0 1\n"
+                                        "transform world identity\nframe\n"
+                                        "bind texture t\ndraw triangles 0 1\n";
+
+/* A loop of five passes in which a value goes around. */
+static const char looping[] = VERTICES "shader loops {\n"
+                                       "ps_3_0\n"
+                                       "defi i0, 5, 0, 1, 0\n"
+                                       "def c0, 0.25, 0.5, 0.75, 1\n"
+                                       "dcl_color v0\n"
+                                       "mov r0, c0\n"
+                                       "mov r1, v0\n"
+                                       "rep i0\n"
+                                       "max r2, r0, r1\n"
+                                       "mad r0, r2, c0, c0\n"
+                                       "endrep\n"
+                                       "mov oC0, r0\n"
+                                       "}\n"
+                                       "pixelshader loops\ndraw triangles 0 1\n";
+
+static void run(const char *text, const char *reference, const char *other,
+                const struct bisect_options *options)
+{
+    struct stream *stream;
+    struct error error = {""};
+    TEST_ASSERT_EQUAL_INT_MESSAGE(0, stream_parse("case.tri", text, strlen(text), &stream, &error),
+                                  error.text);
+    int result = bisect(stream, engine_find(reference), engine_find(other), options, &found, &error);
+    stream_free(stream);
+    TEST_ASSERT_EQUAL_INT_MESSAGE(0, result, error.text);
+    bisection_print(&found, &printed);
+    TEST_ASSERT_FALSE(printed.failed);
+}
+
+static bool can_run(const char *engine)
+{
+    return !engine_find(engine)->unavailable();
+}
+
+#define NEEDS(engine)                                                                                        \
+    if (!can_run(engine))                                                                                    \
+    TEST_IGNORE_MESSAGE(engine " cannot run here")
+
+static void names(const char *operation, const char *file)
+{
+    TEST_ASSERT_EQUAL_INT_MESSAGE(BISECT_FOUND, found.outcome, printed.data);
+    TEST_ASSERT_EQUAL_STRING_MESSAGE(operation, found.operation, printed.data);
+    TEST_ASSERT_EQUAL_STRING_LEN_MESSAGE(file, found.place, strlen(file), printed.data);
+    TEST_ASSERT_NOT_EQUAL_MESSAGE(found.value[0], found.value[1], printed.data);
+    TEST_ASSERT_EQUAL_HEX32_MESSAGE(found.expected, found.value[0], printed.data);
+}
+
+/* --- Tests ------------------------------------------------------------------------------------------------ */
+
+static void engines_that_agree_are_said_to(void)
+{
+    static const char *const others[] = {"batch", "stitch", "stitch-operation", "specialize", "specialize-4"};
+    for (unsigned i = 0; i < sizeof others / sizeof *others; i++) {
+        if (!can_run(others[i]))
+            continue;
+        run(looping, "emulate", others[i], NULL);
+        TEST_ASSERT_EQUAL_INT(BISECT_SAME, found.outcome);
+        text_free(&printed);
+        run(modulate, "emulate", others[i], NULL);
+        TEST_ASSERT_EQUAL_INT(BISECT_SAME, found.outcome);
+        text_free(&printed);
+    }
+}
+
+static void an_operation_of_the_batch_interpreter(void)
+{
+    plant.batch_op = IR_mul_x;
+    plant.batch_becomes = IR_add_x;
+    run(modulate, "emulate", "batch", NULL);
+    names("mul_x", "spec/color.h:");
+    TEST_ASSERT_EQUAL_INT(UNIT_PIXEL, found.unit);
+    TEST_ASSERT_EQUAL_UINT64(1, found.draw);
+    TEST_ASSERT_EQUAL_UINT(1, found.frame);
+    TEST_ASSERT_EQUAL_UINT(0, found.draw_of_frame);
+    TEST_ASSERT_NOT_NULL(strstr(printed.data, ", unit pixel\n"));
+}
+
+static void in_a_vertex_routine(void)
+{
+    plant.batch_op = IR_mad_f;
+    plant.batch_becomes = IR_select_f; /* three operands */
+    run(modulate, "emulate", "batch", NULL);
+    names("mad_f", "spec/");
+    TEST_ASSERT_EQUAL_INT(UNIT_VERTEX, found.unit);
+    TEST_ASSERT_EQUAL_UINT64(0, found.draw);
+}
+
+static void in_a_setup_routine(void)
+{
+    plant.batch_op = IR_div_f;
+    plant.batch_becomes = IR_sub_f;
+    run(modulate, "emulate", "batch-16", NULL);
+    names("div_f", "spec/");
+    TEST_ASSERT_EQUAL_INT(UNIT_SETUP, found.unit);
+}
+
+static void the_pixel_that_is_asked_for(void)
+{
+    const struct bisect_options options = {BISECT_ANY, 7, 20};
+    plant.batch_op = IR_mul_x;
+    plant.batch_becomes = IR_add_x;
+    run(modulate, "emulate", "batch", &options);
+    names("mul_x", "spec/color.h:");
+    TEST_ASSERT_EQUAL_INT(7, found.x);
+    TEST_ASSERT_EQUAL_INT(20, found.y);
+}
+
+static void the_draw_that_is_asked_for(void)
+{
+    const struct bisect_options options = {0, BISECT_ANY, BISECT_ANY};
+    plant.batch_op = IR_mul_x;
+    plant.batch_becomes = IR_add_x;
+    run(modulate, "emulate", "batch", &options);
+    TEST_ASSERT_EQUAL_INT(BISECT_SAME, found.outcome);
+}
+
+/* In the first passes all lanes take the same side; values differ from the pass on in which the operation does. */
+static void the_first_pass_of_a_loop_in_which_it_differs(void)
+{
+    plant.batch_op = IR_max_f;
+    plant.batch_becomes = IR_min_f;
+    run(looping, "emulate", "batch", NULL);
+    TEST_ASSERT_EQUAL_INT_MESSAGE(BISECT_FOUND, found.outcome, printed.data);
+    TEST_ASSERT_EQUAL_STRING_MESSAGE("max_f", found.operation, printed.data);
+}
+
+static void a_pass_that_is_wrong_is_named_with_the_operation(void)
+{
+    NEEDS("specialize");
+    static const char *const engines[] = {"specialize", "specialize-4", "specialize-thesis"};
+    for (unsigned i = 0; i < 3; i++) {
+        plant.reduce_op = IR_mul_x;
+        plant.reduce_becomes = IR_add_x;
+        plant.reduce_at = 1;
+        run(modulate, "emulate", engines[i], NULL);
+        names("mul_x", "spec/color.h:");
+        TEST_ASSERT_NOT_NULL_MESSAGE(strstr(found.pass, "pass reduce"), printed.data);
+        text_free(&printed);
+    }
+}
+
+static void a_store_that_a_pass_drops_is_named(void)
+{
+    NEEDS("specialize");
+    plant.dead_drops_store = true;
+    run(modulate, "emulate", "specialize", NULL);
+    TEST_ASSERT_EQUAL_INT_MESSAGE(BISECT_NARROWED, found.outcome, printed.data);
+    TEST_ASSERT_NOT_NULL_MESSAGE(strstr(found.pass, "pass dead"), printed.data);
+    TEST_ASSERT_EQUAL_STRING_MESSAGE("store", found.operation, printed.data);
+    TEST_ASSERT_EQUAL_STRING_LEN("spec/", found.place, 5);
+}
+
+static void an_operation_fragment(void)
+{
+    NEEDS("stitch-operation");
+    plant.fragment = &fragment_mul_x;
+    plant.fragment_becomes = &fragment_add_x;
+    run(modulate, "emulate", "stitch-operation", NULL);
+    names("mul_x", "spec/color.h:");
+}
+
+static void the_specializer_against_the_stitcher(void)
+{
+    NEEDS("specialize");
+    plant.fragment = &fragment_mul_x;
+    plant.fragment_becomes = &fragment_add_x;
+    run(modulate, "specialize", "stitch-operation", NULL);
+    names("mul_x", "spec/color.h:");
+    TEST_ASSERT_EQUAL_STRING("", found.pass);
+}
+
+static void a_statement_of_the_external_engine(void)
+{
+    NEEDS("external");
+    plant.text = "mul_x(";
+    plant.text_becomes = "add_x(";
+    run(modulate, "emulate", "external", NULL);
+    names("mul_x", "spec/color.h:");
+}
+
+static void what_is_printed_begins_with_the_line(void)
+{
+    plant.batch_op = IR_mul_x;
+    plant.batch_becomes = IR_add_x;
+    run(modulate, "emulate", "batch", NULL);
+    TEST_ASSERT_EQUAL_STRING_LEN("spec/color.h:", printed.data, 13);
+    TEST_ASSERT_NOT_NULL(strstr(printed.data, ": mul_x: emulate "));
+    TEST_ASSERT_NOT_NULL(strstr(printed.data, ", batch "));
+    TEST_ASSERT_NOT_NULL(strstr(printed.data, "key of the pixel routine: depth_function"));
+}
+
+int main(void)
+{
+    UNITY_BEGIN();
+    RUN_TEST(engines_that_agree_are_said_to);
+    RUN_TEST(an_operation_of_the_batch_interpreter);
+    RUN_TEST(in_a_vertex_routine);
+    RUN_TEST(in_a_setup_routine);
+    RUN_TEST(the_pixel_that_is_asked_for);
+    RUN_TEST(the_draw_that_is_asked_for);
+    RUN_TEST(the_first_pass_of_a_loop_in_which_it_differs);
+    RUN_TEST(a_pass_that_is_wrong_is_named_with_the_operation);
+    RUN_TEST(a_store_that_a_pass_drops_is_named);
+    RUN_TEST(an_operation_fragment);
+    RUN_TEST(the_specializer_against_the_stitcher);
+    RUN_TEST(a_statement_of_the_external_engine);
+    RUN_TEST(what_is_printed_begins_with_the_line);
+    return UNITY_END();
+}
