@@ -55,7 +55,7 @@ COMMAND  := $(if $(TOOL_SOURCES),$(BUILD)/triptych)
 # --- Flags ---------------------------------------------------------------------------------------------------
 
 # Asked of pkg-config on first use and not before: `make test` installs pkg-config itself.
-LIBRARY_PACKAGES := libpng OpenEXR libxxhash
+LIBRARY_PACKAGES := libpng OpenEXR libxxhash libzstd
 TOOL_PACKAGES    := libcjson assimp
 package_includes = $(eval package_includes := $(patsubst -I%,-isystem %,$(filter -I%,\
   $(shell pkg-config --cflags $(LIBRARY_PACKAGES) $(TOOL_PACKAGES)))))$(package_includes)

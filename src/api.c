@@ -778,6 +778,58 @@ enum triptych_result triptych_read_sample(triptych_device *device, unsigned samp
     return finish(device, device_read_sample(device, sample, rgba, depth, stencil, &error), &error);
 }
 
+size_t triptych_contents_bytes(const triptych_device *device)
+{
+    return device ? device_contents_bytes(device) : 0;
+}
+
+enum triptych_result triptych_read_contents(triptych_device *device, void *data)
+{
+    if (!device)
+        return TRIPTYCH_BAD_ARGUMENT;
+    if (!data)
+        return null_argument(device, "data");
+    struct error error = {{0}};
+    return finish(device, device_read_contents(device, data, &error), &error);
+}
+
+enum triptych_result triptych_write_contents(triptych_device *device, const void *data, size_t bytes)
+{
+    if (!device)
+        return TRIPTYCH_BAD_ARGUMENT;
+    if (!data)
+        return null_argument(device, "data");
+    struct error error = {{0}};
+    return finish(device, device_write_contents(device, data, bytes, &error), &error);
+}
+
+size_t triptych_texture_texel_bytes(const triptych_texture *texture)
+{
+    return texture ? texture_texel_bytes(texture) : 0;
+}
+
+enum triptych_result triptych_texture_read_texels(triptych_device *device, triptych_texture *texture,
+                                                  void *data)
+{
+    if (!device)
+        return TRIPTYCH_BAD_ARGUMENT;
+    if (!texture || !data)
+        return null_argument(device, texture ? "data" : "texture");
+    device_read_texels(device, texture, data);
+    return TRIPTYCH_OK;
+}
+
+enum triptych_result triptych_texture_write_texels(triptych_device *device, triptych_texture *texture,
+                                                   const void *data, size_t bytes)
+{
+    if (!device)
+        return TRIPTYCH_BAD_ARGUMENT;
+    if (!texture || !data)
+        return null_argument(device, texture ? "data" : "texture");
+    struct error error = {{0}};
+    return finish(device, device_write_texels(device, texture, data, bytes, &error), &error);
+}
+
 void triptych_get_target(const triptych_device *device, struct triptych_target_description *description)
 {
     if (!description)

@@ -604,6 +604,16 @@ TRIPTYCH_API enum triptych_result triptych_read_target_numbers(triptych_device *
  * depth and stencil. */
 TRIPTYCH_API enum triptych_result triptych_read_sample(triptych_device *, unsigned sample, uint32_t *rgba,
                                                        float *depth, uint8_t *stencil);
+/* All that is drawn to as it is stored, every sample, depth and stencil included, which can be written back where the
+ * target is described the same; none without a target. */
+TRIPTYCH_API size_t triptych_contents_bytes(const triptych_device *);
+TRIPTYCH_API enum triptych_result triptych_read_contents(triptych_device *, void *data);
+TRIPTYCH_API enum triptych_result triptych_write_contents(triptych_device *, const void *data, size_t bytes);
+/* The same of all texels of a texture: face by face, level by level, RGBA8 words or four binary32 a texel. */
+TRIPTYCH_API size_t triptych_texture_texel_bytes(const triptych_texture *);
+TRIPTYCH_API enum triptych_result triptych_texture_read_texels(triptych_device *, triptych_texture *, void *data);
+TRIPTYCH_API enum triptych_result triptych_texture_write_texels(triptych_device *, triptych_texture *,
+                                                                const void *data, size_t bytes);
 /* The target's description, its first colour's format included; all zero without one. */
 TRIPTYCH_API void triptych_get_target(const triptych_device *, struct triptych_target_description *);
 /* Whether 8 unsigned bits a channel hold all that a surface of the format can. */

@@ -214,3 +214,78 @@ int file_write(const char *path, const void *data, size_t bytes, struct error *e
         exists ? replace_target(path, status.st_mode & 07777, data, bytes) : replace(path, 0, data, bytes);
     return result ? fail(error, path, "cannot write") : 0;
 }
+
+/* --- Writing piece by piece -------------------------------------------------------------------------------
+ */
+
+static void release(struct file_output *output)
+{
+    free(output->path);
+    free(output->temporary);
+    *output = (struct file_output){.descriptor = -1};
+}
+
+static int begin_beside(struct file_output *output, mode_t mode)
+{
+    size_t size = strlen(output->path) + 64;
+    output->temporary = malloc(size);
+    if (!output->temporary)
+        return -1;
+    output->descriptor = open_temporary(output->path, output->temporary, size);
+    if (output->descriptor >= 0)
+        return mode ? fchmod(output->descriptor, mode) : 0;
+    free(output->temporary);
+    output->temporary = NULL;
+    return -1;
+}
+
+int file_begin(struct file_output *output, const char *path, struct error *error)
+{
+    struct stat status;
+    int exists = !stat(path, &status), result = -1;
+    *output = (struct file_output){.descriptor = -1};
+    if (exists && S_ISDIR(status.st_mode))
+        return error_set(error, "%s: is a folder, expected a file to write", path);
+    output->path = exists && S_ISREG(status.st_mode) ? realpath(path, NULL) : strdup(path);
+    if (output->path && exists && !S_ISREG(status.st_mode))
+        result = output->descriptor = open(path, O_WRONLY | O_CLOEXEC);
+    else if (output->path)
+        result = begin_beside(output, exists ? status.st_mode & 07777 : 0);
+    if (result >= 0)
+        return 0;
+    fail(error, path, "cannot write");
+    file_discard(output);
+    return -1;
+}
+
+int file_append(struct file_output *output, const void *data, size_t bytes, struct error *error)
+{
+    return write_all(output->descriptor, data, bytes) ? fail(error, output->path, "cannot write") : 0;
+}
+
+int file_commit(struct file_output *output, struct error *error)
+{
+    int descriptor = output->descriptor;
+    output->descriptor = -1;
+    int result = write_and_close(descriptor, NULL, 0, output->temporary != NULL);
+    if (!result && output->temporary)
+        result = rename(output->temporary, output->path);
+    if (result) {
+        fail(error, output->path, "cannot write");
+        file_discard(output);
+        return -1;
+    }
+    if (output->temporary)
+        synchronize_folder(output->temporary);
+    release(output);
+    return 0;
+}
+
+void file_discard(struct file_output *output)
+{
+    if (output->descriptor >= 0)
+        close(output->descriptor);
+    if (output->temporary)
+        unlink(output->temporary);
+    release(output);
+}

@@ -19,4 +19,18 @@ int file_read(const char *path, size_t limit, char **data, size_t *bytes, struct
  * they lead to is replaced. What exists and is no regular file (a device, a pipe) is written to as it is. */
 int file_write(const char *path, const void *data, size_t bytes, struct error *error);
 
+/* The same for contents that come piece by piece: between file_begin and file_commit or file_discard they are in the
+ * temporary file, and nothing is at `path` that was not there before. After a failure of file_append the output is
+ * still to be discarded; file_commit discards it itself. */
+struct file_output {
+    int descriptor;
+    char *path;      /* that the file will have */
+    char *temporary; /* that it has; null when `path` is written to as it is */
+};
+
+int file_begin(struct file_output *output, const char *path, struct error *error);
+int file_append(struct file_output *output, const void *data, size_t bytes, struct error *error);
+int file_commit(struct file_output *output, struct error *error);
+void file_discard(struct file_output *output);
+
 #endif

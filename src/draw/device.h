@@ -117,6 +117,15 @@ enum triptych_result device_read_surface_numbers(struct triptych_device *device,
                                                  const struct triptych_surface *surface, float *numbers,
                                                  struct error *error);
 
+/* What is drawn to, and a texture, as they are stored (draw/contents.c). */
+size_t device_contents_bytes(const struct triptych_device *device);
+enum triptych_result device_read_contents(struct triptych_device *device, void *data, struct error *error);
+enum triptych_result device_write_contents(struct triptych_device *device, const void *data, size_t bytes,
+                                           struct error *error);
+void device_read_texels(struct triptych_device *device, struct triptych_texture *texture, void *data);
+enum triptych_result device_write_texels(struct triptych_device *device, struct triptych_texture *texture,
+                                         const void *data, size_t bytes, struct error *error);
+
 /* Direct access to the state is for changes; they must be followed by this. */
 static inline void device_state_changed(struct triptych_device *device)
 {

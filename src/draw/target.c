@@ -122,14 +122,6 @@ uint32_t *target_fill_depth(struct target *target, uint32_t tile)
     return words;
 }
 
-/* The word of a pixel within its tile: the block, then quad order (draw/call.h). */
-static uint32_t pixel_word(uint32_t x, uint32_t y)
-{
-    uint32_t block = y / BLOCK_SIZE * (TILE_SIZE / BLOCK_SIZE) + x / BLOCK_SIZE;
-    uint32_t lane = (x & 1) | (y & 1) << 1 | (x & 2) << 1 | (y & 2) << 2;
-    return block * BLOCK_PIXELS + lane;
-}
-
 static void clear_part(struct target *target, uint32_t tile, const struct clear *clear,
                        const struct rectangle *part, const struct rectangle *whole)
 {

@@ -67,6 +67,14 @@ void target_describe(const struct target *target, struct triptych_target_descrip
 /* The words of a clear to a colour. Called in the contract's floating-point environment. */
 void target_clear_words(const struct target *target, const float color[4], uint32_t words[TARGET_PLANES]);
 
+/* The word of a pixel within its tile: the block, then quad order (draw/call.h). */
+static inline uint32_t pixel_word(uint32_t x, uint32_t y)
+{
+    uint32_t block = y / BLOCK_SIZE * (TILE_SIZE / BLOCK_SIZE) + x / BLOCK_SIZE;
+    uint32_t lane = (x & 1) | (y & 1) << 1 | (x & 2) << 1 | (y & 2) << 2;
+    return block * BLOCK_PIXELS + lane;
+}
+
 /* The first of a tile's planes. */
 static inline uint32_t *target_tile_color(const struct target *target, uint32_t tile)
 {
@@ -96,6 +104,10 @@ uint32_t target_depth_at(const struct target *target, uint32_t x, uint32_t y);
  * floating-point environment. */
 void target_write_numbers(struct target *target, unsigned t, const struct rectangle *part,
                           const float *image);
+
+/* Everything that the target holds, as it is (draw/contents.c): how many bytes it is, and a copy. */
+size_t target_contents_bytes(const struct triptych_target_description *description);
+void target_read_contents(struct target *target, void *data);
 
 /* Which of a pixel's samples is read; resolved is the average of all colours, channel by channel of bytes to
  * nearest and halves up, of numbers in binary32, summed in order; and sample 0 of depth and stencil. */

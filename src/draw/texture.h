@@ -49,6 +49,9 @@ size_t texture_row_bytes(const struct format *format, uint32_t width);
 /* Bytes of a level of one face in the format's form, without gaps. */
 size_t texture_level_bytes(const struct triptych_texture *texture, unsigned level);
 
+/* Bytes of all texels as they are stored. */
+size_t texture_texel_bytes(const struct triptych_texture *texture);
+
 /* Checks a change of `box` (null: all of the level), and makes it. */
 enum triptych_result texture_check_update(const struct triptych_texture *texture, unsigned face,
                                           unsigned level, const struct triptych_box *box, size_t row_pitch,

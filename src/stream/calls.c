@@ -1,6 +1,7 @@
 /* The calls of the text format: one function reads each, from behind its first word up to where its line
  * should end. What a call means is not looked at here beyond its own words and numbers; check.c does. */
 #include "draw/format.h"
+#include "stream/check.h"
 #include "stream/parse.h"
 #include "stream/skeleton.h"
 #include "stream/transform.h"
@@ -10,18 +11,6 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
-
-const struct triptych_material stream_default_material = {.diffuse = {1, 1, 1, 1}};
-const struct triptych_light stream_default_light = {
-    .theta = 0.5f,
-    .phi = 1,
-    .falloff = 1,
-    .type = TRIPTYCH_LIGHT_DIRECTIONAL,
-    .diffuse = {1, 1, 1, 1},
-    .direction = {0, 0, 1},
-    .range = 0x1.fffffep+63f, /* the square root of FLT_MAX, rounded down */
-    .attenuation = {1, 0, 0},
-};
 
 /* --- Parts of calls ---------------------------------------------------------------------------------------
  */
@@ -500,19 +489,33 @@ static int bind_vertices(struct parser *parser, struct call *call)
     return parse_name(parser, DRAWABLES, "vertices or a mesh", &call->resource);
 }
 
+/* What the bytes of a buffer are as indices. */
+static int parse_bits(struct parser *parser, uint32_t *bits)
+{
+    *bits = lex_is(&parser->lex, "16") ? 16 : 32;
+    if (*bits == 32 && !lex_is(&parser->lex, "32"))
+        return lex_expected(&parser->lex, "16 or 32 bits");
+    return lex_next(&parser->lex);
+}
+
 static int bind_indices(struct parser *parser, struct call *call)
 {
     struct token place = parser->lex.token;
     if (parse_name_or_none(parser, INDICES, "indices, a mesh, a buffer of u16 or u32, or none,",
                            &call->resource))
         return -1;
-    if (call->resource != NO_RESOURCE && !parser->stream->resources[call->resource].indices)
+    if (call->resource == NO_RESOURCE)
+        return 0;
+    const struct resource *resource = &parser->stream->resources[call->resource];
+    if (resource->type == RESOURCE_BUFFER && resource->value_type == VALUE_BYTES)
+        return parse_bits(parser, &call->index_bits);
+    if (!resource->indices)
         return lex_fail(&parser->lex, &place, "found a buffer of other values, expected one of u16 or u32");
     return 0;
 }
 
-/* OFFSET STRIDE */
-static int parse_place(struct parser *parser, uint32_t *offset, uint32_t *stride)
+/* OFFSET STRIDE, multiples of `step`. */
+static int parse_place(struct parser *parser, uint32_t step, uint32_t *offset, uint32_t *stride)
 {
     struct lexer *lex = &parser->lex;
     for (int i = 0; i < 2; i++) {
@@ -520,8 +523,8 @@ static int parse_place(struct parser *parser, uint32_t *offset, uint32_t *stride
         uint32_t *value = i ? stride : offset;
         if (parse_integer(parser, i ? "stride" : "offset", i ? 65536 : INT32_MAX, value))
             return -1;
-        if (*value % 4)
-            return lex_fail(lex, &place, "found '%u', expected a multiple of 4", *value);
+        if (*value % step)
+            return lex_fail(lex, &place, "found '%u', expected a multiple of %u", *value, step);
     }
     return 0;
 }
@@ -533,7 +536,7 @@ static int bind_stream(struct parser *parser, struct call *call)
         return -1;
     if (call->resource == NO_RESOURCE)
         return 0;
-    return parse_place(parser, &call->bind_stream.offset, &call->bind_stream.stride);
+    return parse_place(parser, 4, &call->bind_stream.offset, &call->bind_stream.stride);
 }
 
 static int bind_element(struct parser *parser, struct call *call)
@@ -555,7 +558,7 @@ static int bind_element(struct parser *parser, struct call *call)
         parse_name(parser, ELEMENTS, "a buffer, vertices or a mesh", &call->resource))
         return -1;
     call->element.format = (enum triptych_format)format;
-    return parse_place(parser, &call->element.offset, &call->element.stride);
+    return parse_place(parser, 1, &call->element.offset, &call->element.stride);
 }
 
 int parse_bind(struct parser *parser, struct call *call)
@@ -596,6 +599,25 @@ int parse_clear(struct parser *parser, struct call *call)
                         (double)stencil);
     call->clear.stencil = (uint32_t)stencil;
     return 0;
+}
+
+int parse_texels(struct parser *parser, struct call *call)
+{
+    if (parse_name(parser, TEXTURES, "a texture", &call->resource) ||
+        parse_name(parser, 1 << RESOURCE_BUFFER, "a buffer", &call->texels.source))
+        return -1;
+    stream_note_changes(parser->stream, call);
+    return 0;
+}
+
+int parse_contents(struct parser *parser, struct call *call)
+{
+    return parse_name(parser, 1 << RESOURCE_BUFFER, "a buffer", &call->resource);
+}
+
+int parse_release(struct parser *parser, struct call *call)
+{
+    return parse_name(parser, ~(1u << RESOURCE_SEQUENCE), "a resource that is no sequence", &call->resource);
 }
 
 int parse_query_part(struct parser *parser, struct call *call)

@@ -4,8 +4,9 @@
  * viewport may be is decided in one place. Draws are checked against everything that is bound, whether the
  * pipeline would read it or not. A reason stands at the call that cannot be executed, also when it is played
  * in a sequence. */
-#include "stream/layout.h"
-#include "stream/parse.h"
+#include "stream/check.h"
+#include "container/layout.h"
+#include "stream/words.h"
 
 #include "draw/device.h"
 
@@ -13,33 +14,38 @@
 #include <stdlib.h>
 #include <string.h>
 
-static int fail_at(struct parser *parser, const struct call *call, const char *reason)
+int stream_fail(const struct stream *stream, const struct call *call, const char *reason, struct error *error)
 {
-    struct token place = {.line = call->line, .column = call->column};
-    return lex_fail(&parser->lex, &place, "%s", reason);
+    if (stream->container)
+        return error_set(error, "%s: offset %" PRIu64 " (byte %" PRIu32 ", %s): %s", stream->path,
+                         call_offset(call), call_byte(call), call_word(call->type), reason);
+    return error_set(error, "%s:%" PRIu32 ":%" PRIu32 ": %s", stream->path, call->line, call->column, reason);
 }
 
 /* --- Expansion --------------------------------------------------------------------------------------------
  */
 
 struct expansion {
-    struct parser *parser;
+    struct stream *stream;
     uint32_t frame_capacity;
+    struct error *error;
 };
 
-static int add_frame(struct expansion *expansion, const struct call *call)
+/* frames[f] is where frame f ends until all is expanded. */
+static int add_frame(void *user, const struct call *call)
 {
-    struct stream *stream = expansion->parser->stream;
+    struct expansion *expansion = user;
+    struct stream *stream = expansion->stream;
     if (stream->frame_count == LIMIT_FRAMES) {
         struct error reason = {{0}};
         error_set(&reason, "found one more frame, expected at most %d", LIMIT_FRAMES);
-        return fail_at(expansion->parser, call, reason.text);
+        return stream_fail(stream, call, reason.text, expansion->error);
     }
     if (stream->frame_count + 2 > expansion->frame_capacity) {
         uint32_t capacity = 2 * expansion->frame_capacity + 16;
         uint32_t *larger = realloc(stream->frames, capacity * sizeof *larger);
         if (!larger)
-            return fail_at(expansion->parser, call, "not enough memory");
+            return stream_fail(stream, call, "not enough memory", expansion->error);
         stream->frames = larger;
         expansion->frame_capacity = capacity;
     }
@@ -47,20 +53,19 @@ static int add_frame(struct expansion *expansion, const struct call *call)
     return 0;
 }
 
-/* Executes calls first to last - 1. frames[f] is where frame f ends until all is expanded. */
-static int expand(struct expansion *expansion, uint32_t first, uint32_t last)
+int stream_expand_calls(struct stream *stream, uint32_t first, uint32_t last, expand_frame *frame, void *user)
 {
-    struct stream *stream = expansion->parser->stream;
     for (uint32_t i = first; i < last; i++) {
         const struct call *call = &stream->calls[i];
         if (call->type == CALL_SEQUENCE) {
             i += call->sequence.count;
         } else if (call->type == CALL_FRAME) {
-            if (add_frame(expansion, call))
+            if (frame && frame(user, call))
                 return -1;
         } else if (call->type == CALL_PLAY) {
-            uint32_t sequence = stream->resources[call->resource].call;
-            if (expand(expansion, sequence + 1, sequence + 1 + stream->calls[sequence].sequence.count))
+            uint32_t begin = stream->resources[call->resource].call + 1;
+            if (stream_expand_calls(stream, begin, begin + stream->calls[begin - 1].sequence.count, frame,
+                                    user))
                 return -1;
         } else {
             stream->executed[stream->executed_count++] = i;
@@ -69,23 +74,20 @@ static int expand(struct expansion *expansion, uint32_t first, uint32_t last)
     return 0;
 }
 
-int stream_expand(struct parser *parser)
+/* Plays and frames are among the most: there is room for at least enough. */
+int stream_expand(struct stream *stream, uint32_t most, struct error *error)
 {
-    struct stream *stream = parser->stream;
-    struct expansion expansion = {.parser = parser};
-    if (!parser->executed)
-        return lex_expected(&parser->lex, "at least one call");
-    /* Counts plays and frames too: at least enough. */
-    stream->executed = malloc(parser->executed * sizeof *stream->executed);
+    struct expansion expansion = {.stream = stream, .error = error};
+    stream->executed = malloc((most + 1) * sizeof *stream->executed);
     if (!stream->executed)
-        return lex_fail(&parser->lex, &parser->lex.token, "not enough memory");
-    if (expand(&expansion, 0, stream->call_count))
+        return error_set(error, "%s: not enough memory", stream->path);
+    if (stream_expand_calls(stream, 0, stream->call_count, add_frame, &expansion))
         return -1;
     uint32_t ended = stream->frame_count ? stream->frames[stream->frame_count - 1] : 0;
     if (stream->executed_count > ended && add_frame(&expansion, &stream->calls[stream->call_count - 1]))
         return -1;
     if (!stream->frame_count)
-        return lex_expected(&parser->lex, "at least one call that is executed");
+        return 0;
     memmove(stream->frames + 1, stream->frames, stream->frame_count * sizeof *stream->frames);
     stream->frames[0] = 0;
     return 0;
@@ -94,45 +96,90 @@ int stream_expand(struct parser *parser)
 /* --- Following --------------------------------------------------------------------------------------------
  */
 
-struct follower {
-    struct parser *parser;
-    const struct stream *stream;
-    struct state state;
-    uint32_t width, height;                    /* of what is drawn to; 0: none yet */
-    struct triptych_target_description target; /* set last */
-    struct triptych_buffer *stand_ins;         /* one per resource: their sizes are all that is looked at */
-    uint32_t indices;
-    const struct call **begun; /* by resource: the call that began the query, null outside */
-    bool integers_checked;     /* those of the shaders that are set: nothing is wrong with them */
+/* A resource as the state sees it: its size is all that is looked at, and of indices their values. */
+struct stand_in {
+    struct triptych_buffer buffer; /* the first: what the state has is one of these */
+    uint32_t resource;
 };
 
-static struct triptych_buffer *stand_in(struct follower *follower, uint32_t resource)
+struct followed {
+    struct stand_in *stand_in; /* once it is bound */
+    bool begun, released;      /* a query; anything */
+    struct call begin;         /* the call that began the query */
+};
+
+struct follower {
+    const struct stream *stream;
+    struct state state;
+    struct shader_registers registers[SHADER_STAGES];
+    uint32_t width, height;                    /* of what is drawn to; 0: none yet */
+    struct triptych_target_description target; /* set last */
+    struct triptych_target_description drawn;  /* that, or what textures make */
+    struct followed *resources;                /* by number, as many as have been asked for */
+    uint32_t resource_count, begun;            /* queries that have begun */
+    uint32_t indices, index_bits;
+    uint32_t texture[TRIPTYCH_SAMPLERS], shader[SHADER_STAGES], attached[TRIPTYCH_TARGETS + 1];
+    bool integers_checked; /* those of the shaders that are set: nothing is wrong with them */
+};
+
+static struct followed *followed(struct follower *follower, uint32_t number)
 {
-    struct triptych_buffer *buffer = &follower->stand_ins[resource];
-    resource_data(&follower->stream->resources[resource], &buffer->bytes);
-    return buffer;
+    if (number >= follower->resource_count) {
+        uint32_t count = follower->stream->resource_count;
+        struct followed *larger = realloc(follower->resources, count * sizeof *larger);
+        if (!larger)
+            return NULL;
+        memset(larger + follower->resource_count, 0, (count - follower->resource_count) * sizeof *larger);
+        follower->resources = larger;
+        follower->resource_count = count;
+    }
+    return &follower->resources[number];
+}
+
+static struct triptych_buffer *stand_in(struct follower *follower, uint32_t resource, struct error *error)
+{
+    struct followed *entry = followed(follower, resource);
+    const struct resource *data = &follower->stream->resources[resource];
+    if (entry && !entry->stand_in) {
+        entry->stand_in = calloc(1, sizeof *entry->stand_in);
+        if (entry->stand_in) {
+            entry->stand_in->resource = resource;
+            entry->stand_in->buffer.data =
+                (uint8_t *)(uintptr_t)resource_data(data, &entry->stand_in->buffer.bytes);
+        }
+    }
+    if (entry && entry->stand_in)
+        return &entry->stand_in->buffer;
+    error_set(error, "not enough memory");
+    return NULL;
+}
+
+static const char *buffer_name(const struct follower *follower, const struct triptych_buffer *buffer)
+{
+    return follower->stream->resources[((const struct stand_in *)(const void *)buffer)->resource].name;
 }
 
 static int bind_element(struct follower *follower, enum triptych_attribute attribute, uint32_t resource,
                         enum triptych_format format, uint32_t offset, uint32_t stride, struct error *error)
 {
     struct triptych_element element = {.format = format, .offset = offset, .stride = stride};
-    if (format != TRIPTYCH_FORMAT_NONE)
-        element.buffer = stand_in(follower, resource);
+    if (format != TRIPTYCH_FORMAT_NONE && !(element.buffer = stand_in(follower, resource, error)))
+        return -1;
     return state_set_element(&follower->state, attribute, &element, error) ? -1 : 0;
 }
 
 static int bind_stream(struct follower *follower, const struct call *call, struct error *error)
 {
-    struct triptych_buffer *buffer =
-        call->resource == NO_RESOURCE ? NULL : stand_in(follower, call->resource);
+    struct triptych_buffer *buffer = NULL;
+    if (call->resource != NO_RESOURCE && !(buffer = stand_in(follower, call->resource, error)))
+        return -1;
     return state_set_stream(&follower->state, call->bind_stream.number, buffer, call->bind_stream.offset,
                             call->bind_stream.stride, error);
 }
 
 static int declare(struct follower *follower, const struct call *call, struct error *error)
 {
-    struct triptych_declaration_element elements[STREAM_ELEMENTS];
+    struct triptych_declaration_element elements[TRIPTYCH_DECLARATION_ELEMENTS];
     unsigned count = stream_declaration(call, elements);
     return state_set_declaration(&follower->state, elements, count, error);
 }
@@ -144,8 +191,10 @@ static int bind_vertices(struct follower *follower, uint32_t resource, struct er
     unsigned count = stream_declare_layout(layout, elements);
     if (state_set_declaration(&follower->state, elements, count, error))
         return -1;
-    if (count)
-        return state_set_stream(&follower->state, 0, stand_in(follower, resource), 0, layout->stride, error);
+    if (count) {
+        struct triptych_buffer *buffer = stand_in(follower, resource, error);
+        return buffer ? (int)state_set_stream(&follower->state, 0, buffer, 0, layout->stride, error) : -1;
+    }
     for (unsigned a = 0; a < TRIPTYCH_ATTRIBUTE_COUNT; a++)
         if (layout->format[a] != TRIPTYCH_FORMAT_NONE &&
             bind_element(follower, (enum triptych_attribute)a, resource, layout->format[a], layout->offset[a],
@@ -164,7 +213,7 @@ static int check_element(const struct follower *follower, const struct state_ele
     if (!stream->buffer)
         return error_set(error, "found %s in stream %u with nothing bound, expected bind stream before it",
                          word, element->stream);
-    const char *name = follower->stream->resources[stream->buffer - follower->stand_ins].name;
+    const char *name = buffer_name(follower, stream->buffer);
     size_t end = stream->offset + element->offset + vertex_types[element->format].bytes;
     if (end > stream->buffer->bytes)
         return error_set(error, "found %s at bytes up to %zu, expected at most %zu, those of %s", word, end,
@@ -205,35 +254,38 @@ static int check_no_instances(const struct follower *follower, struct error *err
     return 0;
 }
 
-static void index_extremes(const struct resource *resource, uint64_t first, uint64_t count, uint32_t *least,
-                           uint32_t *most)
+/* Of a range of them. The stand-in remembers what it was asked. */
+static int index_extremes(struct follower *follower, uint64_t first, uint64_t count, uint32_t *least,
+                          uint32_t *most, struct error *error)
 {
-    const uint16_t *narrow = resource->indices;
-    const uint32_t *wide = resource->indices;
-    *least = UINT32_MAX;
-    *most = 0;
-    for (uint64_t i = first; i < first + count; i++) {
-        uint32_t index = resource->index_bits == 16 ? narrow[i] : wide[i];
-        *least = index < *least ? index : *least;
-        *most = index > *most ? index : *most;
-    }
+    struct triptych_buffer *buffer = stand_in(follower, follower->indices, error);
+    if (!buffer)
+        return -1;
+    const struct index_range *range =
+        buffer_index_range(buffer, follower->index_bits, (uint32_t)first, (uint32_t)count);
+    *least = range->minimum;
+    *most = range->maximum;
+    return 0;
 }
 
 /* The extremes of all indices do for most draws; only where they would not are those of the range looked at.
  */
-static int check_indices(const struct follower *follower, int32_t base, uint64_t first, uint64_t count,
+static int check_indices(struct follower *follower, int32_t base, uint64_t first, uint64_t count,
                          struct error *error)
 {
-    if (follower->indices == NO_RESOURCE)
-        return error_set(error, "found no indices bound, expected bind indices before it");
     const struct resource *resource = &follower->stream->resources[follower->indices];
     uint32_t least = resource->index_least, most = resource->index_most;
-    if (first + count > resource->index_count)
-        return error_set(error, "found index %" PRIu64 " drawn, expected at most %u, the last in %s",
-                         first + count - 1, resource->index_count - 1, resource->name);
+    size_t bytes;
+    resource_data(resource, &bytes);
+    uint64_t room = bytes / (follower->index_bits / 8);
+    if (first + count > room)
+        return error_set(error, "found index %" PRIu64 " drawn, expected at most %" PRIu64 ", the last in %s",
+                         first + count - 1, room - 1, resource->name);
     struct error ignored = {{0}};
-    if ((int64_t)base + least < 0 || check_vertices(follower, (uint64_t)((int64_t)base + most), &ignored))
-        index_extremes(resource, first, count, &least, &most);
+    if (!resource->indices || (int64_t)base + least < 0 ||
+        check_vertices(follower, (uint64_t)((int64_t)base + most), &ignored))
+        if (index_extremes(follower, first, count, &least, &most, error))
+            return -1;
     if ((int64_t)base + least < 0)
         return error_set(error, "found vertex %" PRId64 " drawn, expected 0 or more", (int64_t)base + least);
     if ((int64_t)base + most > UINT32_MAX)
@@ -268,6 +320,7 @@ static int check_draw(struct follower *follower, const struct call *call, struct
 
 static void draw_to(struct follower *follower, const struct triptych_target_description *target)
 {
+    follower->drawn = *target;
     follower->width = target->width;
     follower->height = target->height;
     state_set_target(&follower->state, target);
@@ -279,6 +332,9 @@ static int attach(struct follower *follower, const struct call *call, struct err
     if (call->attach.some && check_attach(follower->stream, call, &description, error))
         return -1;
     draw_to(follower, &description);
+    for (int t = 0; t < TRIPTYCH_TARGETS; t++)
+        follower->attached[t] = call->attach.some ? call->attach.color[t].resource : NO_RESOURCE;
+    follower->attached[TRIPTYCH_TARGETS] = call->attach.some ? call->attach.depth.resource : NO_RESOURCE;
     return 0;
 }
 
@@ -286,32 +342,99 @@ static int attach(struct follower *follower, const struct call *call, struct err
 static int follow_query(struct follower *follower, const struct call *call, struct error *error)
 {
     const char *name = follower->stream->resources[call->resource].name;
-    const struct call **begun = &follower->begun[call->resource];
-    if (call->type == CALL_BEGIN_QUERY && *begun)
+    struct followed *query = followed(follower, call->resource);
+    if (!query)
+        return error_set(error, "not enough memory");
+    if (call->type == CALL_BEGIN_QUERY && query->begun)
         return error_set(error, "found query %s begun again, expected end-query %s before it", name, name);
-    if (call->type == CALL_END_QUERY && !*begun)
+    if (call->type == CALL_END_QUERY && !query->begun)
         return error_set(error, "found query %s not begun, expected begin-query %s before it", name, name);
-    *begun = call->type == CALL_BEGIN_QUERY ? call : NULL;
+    query->begun = call->type == CALL_BEGIN_QUERY;
+    query->begin = *call;
+    follower->begun += query->begun ? 1 : UINT32_MAX;
     return 0;
 }
 
-static int check_queries_ended(const struct follower *follower)
+int follower_frame(struct follower *follower, struct error *error)
 {
-    for (uint32_t i = 0; i < follower->stream->resource_count; i++)
-        if (follower->begun[i]) {
+    for (uint32_t i = 0; i < follower->resource_count && follower->begun; i++)
+        if (follower->resources[i].begun) {
             struct error reason = {{0}};
             const char *name = follower->stream->resources[i].name;
             error_set(&reason, "found query %s begun and not ended, expected end-query %s in its frame", name,
                       name);
-            return fail_at(follower->parser, follower->begun[i], reason.text);
+            return stream_fail(follower->stream, &follower->resources[i].begin, reason.text, error);
         }
     return 0;
 }
+
+/* --- Releases ---------------------------------------------------------------------------------------------
+ */
+
+/* What still has the resource, or null. */
+static const char *holder(const struct follower *follower, uint32_t number)
+{
+    const struct state *state = &follower->state;
+    const struct followed *entry = &follower->resources[number];
+    for (unsigned i = 0; i < STREAM_COUNT && entry->stand_in; i++)
+        if (state->stream[i].buffer == &entry->stand_in->buffer)
+            return "bound as vertices";
+    for (unsigned i = 0; i < TRIPTYCH_SAMPLERS; i++)
+        if (follower->texture[i] == number)
+            return "bound as a texture";
+    for (unsigned i = 0; i < SHADER_STAGES; i++)
+        if (follower->shader[i] == number)
+            return "set as a shader";
+    for (unsigned i = 0; i <= TRIPTYCH_TARGETS; i++)
+        if (follower->attached[i] == number)
+            return "attached";
+    if (follower->indices == number)
+        return "bound as indices";
+    return entry->begun ? "begun" : NULL;
+}
+
+static int follow_release(struct follower *follower, const struct call *call, struct error *error)
+{
+    struct followed *entry = followed(follower, call->resource);
+    if (!entry)
+        return error_set(error, "not enough memory");
+    const char *held = holder(follower, call->resource);
+    if (held)
+        return error_set(error, "found '%s' %s, expected a resource that nothing uses",
+                         follower->stream->resources[call->resource].name, held);
+    free(entry->stand_in);
+    *entry = (struct followed){.released = true};
+    return 0;
+}
+
+static int check_released(struct follower *follower, const struct call *call, struct error *error)
+{
+    struct call_resource resources[CALL_RESOURCES];
+    struct call copy = *call;
+    unsigned count = call_resources(&copy, resources);
+    for (unsigned i = 0; i < count; i++) {
+        uint32_t number = *resources[i].number;
+        if (number < follower->resource_count && follower->resources[number].released)
+            return error_set(error, "found '%s', which was released, expected another",
+                             follower->stream->resources[number].name);
+    }
+    return 0;
+}
+
+void follower_define(struct follower *follower, uint32_t number)
+{
+    if (number < follower->resource_count)
+        follower->resources[number] = (struct followed){.released = false};
+}
+
+/* --- Calls ------------------------------------------------------------------------------------------------
+ */
 
 static void set_shader(struct follower *follower, const struct call *call)
 {
     follower->state.program[call->shader] =
         call->resource == NO_RESOURCE ? NULL : follower->stream->resources[call->resource].program;
+    follower->shader[call->shader] = call->resource;
     follower->integers_checked = false;
 }
 
@@ -336,12 +459,33 @@ static int check_constant_matrix(const struct follower *follower, const struct c
     return 0;
 }
 
+static int bind_indices(struct follower *follower, const struct call *call)
+{
+    follower->indices = call->resource;
+    if (call->resource != NO_RESOURCE)
+        follower->index_bits =
+            call->index_bits ? call->index_bits : follower->stream->resources[call->resource].index_bits;
+    return 0;
+}
+
+/* Whether a buffer has as many bytes as what it is for. */
+static int check_bytes(const struct follower *follower, uint32_t source, size_t expected, struct error *error)
+{
+    const struct resource *resource = &follower->stream->resources[source];
+    size_t bytes;
+    resource_data(resource, &bytes);
+    return bytes == expected
+               ? 0
+               : error_set(error, "found %zu bytes in %s, expected %zu", bytes, resource->name, expected);
+}
+
 static int follow(struct follower *follower, const struct call *call, struct error *error)
 {
     struct state *state = &follower->state;
     switch (call->type) {
     case CALL_TARGET:
         follower->target = call->target;
+        memset(follower->attached, 0xff, sizeof follower->attached);
         draw_to(follower, &call->target);
         return 0;
     case CALL_ATTACH: return attach(follower, call, error);
@@ -356,15 +500,17 @@ static int follow(struct follower *follower, const struct call *call, struct err
     case CALL_SET:
         return state_set_value(state, call->set.table, call->set.i, call->set.row, call->set.value, error);
     case CALL_CONVENTION:
-    case CALL_CLIP_PLANE: return 0;
+        return state_set_convention(state, call->convention.which, call->convention.value, error);
+    case CALL_CLIP_PLANE:
+        return state_set_clip_plane(state, call->clip_plane.index, call->clip_plane.plane, error);
     case CALL_TRANSFORM:
         return state_set_transform(state, call->transform.which, call->transform.matrix, error);
     case CALL_MATERIAL: return state_set_material(state, &call->material, error);
     case CALL_LIGHT: return state_set_light(state, call->light.index, &call->light.value, error);
     case CALL_ENABLE_LIGHT: return 0;
-    case CALL_BIND_TEXTURE: return 0;
+    case CALL_BIND_TEXTURE: follower->texture[call->sampler] = call->resource; return 0;
     case CALL_BIND_VERTICES: return bind_vertices(follower, call->resource, error);
-    case CALL_BIND_INDICES: follower->indices = call->resource; return 0;
+    case CALL_BIND_INDICES: return bind_indices(follower, call);
     case CALL_BIND_ELEMENT:
         return bind_element(follower, call->element.attribute, call->resource, call->element.format,
                             call->element.offset, call->element.stride, error);
@@ -379,14 +525,18 @@ static int follow(struct follower *follower, const struct call *call, struct err
     case CALL_CONSTANT_MATRIX: return check_constant_matrix(follower, call, error);
     case CALL_UPDATE:
     case CALL_MIPS: return 0;
+    case CALL_TEXELS:
+        return check_bytes(follower, call->texels.source,
+                           resource_cost(&follower->stream->resources[call->resource]), error);
+    case CALL_CONTENTS:
+        return check_bytes(follower, call->resource, target_contents_bytes(&follower->drawn), error);
+    case CALL_RELEASE: return follow_release(follower, call, error);
     case CALL_CLEAR:
         return state_check_clear(state->depth_format, call->clear.flags, call->clear.color, call->clear.depth,
                                  error);
     case CALL_DRAW:
     case CALL_DRAW_INDEXED: return check_draw(follower, call, error);
-    case CALL_DRAW_MESH:
-        follower->indices = call->resource;
-        return bind_vertices(follower, call->resource, error);
+    case CALL_DRAW_MESH: bind_indices(follower, call); return bind_vertices(follower, call->resource, error);
     case CALL_BEGIN_QUERY:
     case CALL_END_QUERY: return follow_query(follower, call, error);
     case CALL_FRAME:
@@ -398,46 +548,65 @@ static int follow(struct follower *follower, const struct call *call, struct err
 
 static int needs_target(enum call_type type)
 {
-    return type == CALL_VIEWPORT || type == CALL_SCISSOR || type == CALL_CLEAR || type == CALL_DRAW ||
-           type == CALL_DRAW_INDEXED || type == CALL_DRAW_MESH;
+    return type == CALL_VIEWPORT || type == CALL_SCISSOR || type == CALL_CLEAR || type == CALL_CONTENTS ||
+           type == CALL_DRAW || type == CALL_DRAW_INDEXED || type == CALL_DRAW_MESH;
 }
 
-static int follow_all(struct follower *follower)
+int follower_call(struct follower *follower, const struct call *call, struct error *error)
+{
+    struct error reason = {{0}};
+    if (needs_target(call->type) && !follower->width)
+        return stream_fail(follower->stream, call, "found no target, expected target WIDTH HEIGHT before it",
+                           error);
+    if (check_released(follower, call, &reason) || follow(follower, call, &reason))
+        return stream_fail(follower->stream, call, reason.text, error);
+    return 0;
+}
+
+struct follower *follower_create(const struct stream *stream)
+{
+    struct follower *follower = calloc(1, sizeof *follower);
+    if (!follower)
+        return NULL;
+    follower->stream = stream;
+    follower->indices = NO_RESOURCE;
+    memset(follower->texture, 0xff, sizeof follower->texture);
+    memset(follower->shader, 0xff, sizeof follower->shader);
+    memset(follower->attached, 0xff, sizeof follower->attached);
+    state_initialize(&follower->state);
+    for (int stage = 0; stage < SHADER_STAGES; stage++)
+        follower->state.registers[stage] = &follower->registers[stage];
+    return follower;
+}
+
+void follower_free(struct follower *follower)
+{
+    for (uint32_t i = 0; follower && i < follower->resource_count; i++)
+        free(follower->resources[i].stand_in);
+    if (follower)
+        free(follower->resources);
+    free(follower);
+}
+
+static int follow_all(struct follower *follower, struct error *error)
 {
     const struct stream *stream = follower->stream;
     uint32_t frame = 0;
     for (uint32_t i = 0; i < stream->executed_count; i++) {
         for (; frame < stream->frame_count && stream->frames[frame + 1] <= i; frame++)
-            if (check_queries_ended(follower))
+            if (follower_frame(follower, error))
                 return -1;
-        const struct call *call = &stream->calls[stream->executed[i]];
-        struct error reason = {{0}};
-        if (needs_target(call->type) && !follower->width)
-            return fail_at(follower->parser, call, "found no target, expected target WIDTH HEIGHT before it");
-        if (follow(follower, call, &reason))
-            return fail_at(follower->parser, call, reason.text);
+        if (follower_call(follower, &stream->calls[stream->executed[i]], error))
+            return -1;
     }
-    return check_queries_ended(follower);
+    return follower_frame(follower, error);
 }
 
-int stream_check(struct parser *parser)
+int stream_check(const struct stream *stream, struct error *error)
 {
-    const struct stream *stream = parser->stream;
-    struct follower follower = {.parser = parser, .stream = stream, .indices = NO_RESOURCE};
-    follower.stand_ins = calloc(stream->resource_count + 1, sizeof *follower.stand_ins);
-    follower.begun = calloc(stream->resource_count + 1, sizeof *follower.begun);
-    struct shader_registers *registers = calloc(SHADER_STAGES, sizeof *registers);
-    int result = -1;
-    if (follower.stand_ins && follower.begun && registers) {
-        state_initialize(&follower.state);
-        for (int stage = 0; stage < SHADER_STAGES; stage++)
-            follower.state.registers[stage] = &registers[stage];
-        result = follow_all(&follower);
-    } else {
-        lex_fail(&parser->lex, &parser->lex.token, "not enough memory");
-    }
-    free(follower.stand_ins);
-    free(follower.begun);
-    free(registers);
+    struct follower *follower = follower_create(stream);
+    int result =
+        follower ? follow_all(follower, error) : error_set(error, "%s: not enough memory", stream->path);
+    follower_free(follower);
     return result;
 }

@@ -1,28 +1,56 @@
 /* The calls of the text format that say what vertices are: declarations, flexible vertex formats,
  * frequencies. */
-#include "stream/layout.h"
+#include "container/layout.h"
+#include "stream/check.h"
 #include "stream/parse.h"
 
+#include <stdio.h>
 #include <string.h>
+
+static int parse_format(struct parser *parser, const char *text, size_t length, enum triptych_format *format)
+{
+    unsigned type;
+    char choices[384];
+    if (!word_value(WORDS_FORMAT, text, length, &type)) {
+        *format = (enum triptych_format)type;
+        return 0;
+    }
+    word_choices(WORDS_FORMAT, choices, sizeof choices);
+    return lex_expected(&parser->lex, "a format: %s", choices);
+}
+
+static int expect_attribute(struct parser *parser)
+{
+    char choices[384];
+    word_choices(WORDS_ATTRIBUTE, choices, sizeof choices);
+    return lex_expected(&parser->lex, "ATTRIBUTE:FORMAT with %s", choices);
+}
 
 int parse_attribute(struct parser *parser, size_t length, unsigned *element, enum triptych_format *format)
 {
-    struct lexer *lex = &parser->lex;
-    const struct token *token = &lex->token;
+    const struct token *token = &parser->lex.token;
     const char *colon = token->type == TOKEN_WORD ? memchr(token->text, ':', length) : NULL;
     size_t before = colon ? (size_t)(colon - token->text) : 0;
-    unsigned type;
-    char choices[384];
-    if (!colon || word_value(WORDS_ATTRIBUTE, token->text, before, element)) {
-        word_choices(WORDS_ATTRIBUTE, choices, sizeof choices);
-        return lex_expected(lex, "ATTRIBUTE:FORMAT with %s", choices);
+    if (!colon || word_value(WORDS_ATTRIBUTE, token->text, before, element))
+        return expect_attribute(parser);
+    return parse_format(parser, colon + 1, length - before - 1, format);
+}
+
+/* A usage by its word and index, as "color.5", where it has no word of its own. */
+static int parse_usage(const char *text, size_t length, unsigned *usage, unsigned *index)
+{
+    const char *dot = memchr(text, '.', length);
+    size_t before = dot ? (size_t)(dot - text) : 0;
+    size_t digits = dot ? length - before - 1 : 0;
+    if (!digits || digits > 2 || word_value(WORDS_USAGE, text, before, usage))
+        return -1;
+    *index = 0;
+    for (const char *c = dot + 1; c < text + length; c++) {
+        if (*c < '0' || *c > '9')
+            return -1;
+        *index = 10 * *index + (unsigned)(*c - '0');
     }
-    if (word_value(WORDS_FORMAT, colon + 1, length - before - 1, &type)) {
-        word_choices(WORDS_FORMAT, choices, sizeof choices);
-        return lex_expected(lex, "a format: %s", choices);
-    }
-    *format = (enum triptych_format)type;
-    return 0;
+    return *index < TRIPTYCH_USAGE_INDICES ? 0 : -1;
 }
 
 /* The digits behind an element's @. */
@@ -42,26 +70,50 @@ static int parse_offset(struct parser *parser, const char *at, uint32_t *offset)
     return 0;
 }
 
-/* ATTRIBUTE:FORMAT or ATTRIBUTE:FORMAT@OFFSET */
+/* ATTRIBUTE:FORMAT, or USAGE.INDEX:FORMAT */
+static int parse_what(struct parser *parser, size_t length, struct declared *declared)
+{
+    const struct token *token = &parser->lex.token;
+    const char *colon = token->type == TOKEN_WORD ? memchr(token->text, ':', length) : NULL;
+    size_t before = colon ? (size_t)(colon - token->text) : 0;
+    unsigned usage, index, element;
+    enum triptych_format format = TRIPTYCH_FORMAT_NONE;
+    if (!colon)
+        return expect_attribute(parser);
+    if (!word_value(WORDS_ATTRIBUTE, token->text, before, &element))
+        usage = element_usage(element, &index);
+    else if (parse_usage(token->text, before, &usage, &index))
+        return expect_attribute(parser);
+    if (parse_format(parser, colon + 1, length - before - 1, &format))
+        return -1;
+    declared->usage = usage & 15;
+    declared->usage_index = index & 15;
+    declared->format = format & 31;
+    return 0;
+}
+
+/* The same with @OFFSET or without. */
 static int parse_declared(struct parser *parser, struct call *call, unsigned stream, uint32_t *offset)
 {
     const struct token *token = &parser->lex.token;
     const char *at = token->type == TOKEN_WORD ? memchr(token->text, '@', token->length) : NULL;
-    unsigned element;
-    enum triptych_format format;
     size_t length = at ? (size_t)(at - token->text) : token->length;
-    if (parse_attribute(parser, length, &element, &format))
+    struct declared made = {.stream = stream & 15};
+    if (parse_what(parser, length, &made))
         return -1;
     for (uint32_t i = 0; i < call->declare.count; i++)
-        if (call->declare.element[i].element == element)
+        if (call->declare.element[i].usage == made.usage &&
+            call->declare.element[i].usage_index == made.usage_index)
             return lex_expected(&parser->lex, "each attribute once");
+    if (call->declare.count == TRIPTYCH_DECLARATION_ELEMENTS)
+        return lex_expected(&parser->lex, "at most %d elements", TRIPTYCH_DECLARATION_ELEMENTS);
     if (at && parse_offset(parser, at, offset))
         return -1;
     if (*offset > 65532)
         return lex_expected(&parser->lex, "@OFFSET behind it, an element does not fit behind the one before");
-    call->declare.element[call->declare.count++] =
-        (struct declared){(uint8_t)element, (uint8_t)format, (uint8_t)stream, (uint16_t)*offset};
-    *offset += vertex_types[format].bytes;
+    made.words = *offset / 4 & 0x3fff;
+    call->declare.element[call->declare.count++] = made;
+    *offset += vertex_types[made.format].bytes;
     return lex_next(&parser->lex);
 }
 
@@ -79,26 +131,13 @@ int parse_declare(struct parser *parser, struct call *call)
     return 0;
 }
 
-static const struct {
-    enum triptych_usage usage;
-    unsigned index;
-} usages[STREAM_ELEMENTS] = {
-#define ATTRIBUTE(name, word, usage, index, meaning) {TRIPTYCH_USAGE_##usage, index},
-#include "def/attribute.def"
-#undef ATTRIBUTE
-#define ELEMENT(word, usage, index) {TRIPTYCH_USAGE_##usage, index},
-#include "stream/element.def"
-#undef ELEMENT
-};
-
 unsigned stream_declaration(const struct call *call,
-                            struct triptych_declaration_element elements[STREAM_ELEMENTS])
+                            struct triptych_declaration_element elements[TRIPTYCH_DECLARATION_ELEMENTS])
 {
     for (uint32_t i = 0; i < call->declare.count; i++) {
         const struct declared *from = &call->declare.element[i];
-        elements[i] =
-            (struct triptych_declaration_element){from->stream, from->offset, from->format,
-                                                  usages[from->element].usage, usages[from->element].index};
+        elements[i] = (struct triptych_declaration_element){from->stream, 4 * from->words, from->format,
+                                                            from->usage, from->usage_index};
     }
     return call->declare.count;
 }
@@ -106,13 +145,14 @@ unsigned stream_declaration(const struct call *call,
 unsigned stream_declare_layout(const struct layout *layout,
                                struct triptych_declaration_element elements[STREAM_ELEMENTS])
 {
-    unsigned count = 0;
+    unsigned count = 0, index;
     int others = 0;
     for (unsigned e = 0; e < STREAM_ELEMENTS; e++) {
         if (layout->format[e] == TRIPTYCH_FORMAT_NONE)
             continue;
-        elements[count++] = (struct triptych_declaration_element){0, layout->offset[e], layout->format[e],
-                                                                  usages[e].usage, usages[e].index};
+        enum triptych_usage usage = element_usage(e, &index);
+        elements[count++] =
+            (struct triptych_declaration_element){0, layout->offset[e], layout->format[e], usage, index};
         others |= e >= TRIPTYCH_ATTRIBUTE_COUNT;
     }
     return others ? count : 0;
@@ -120,35 +160,48 @@ unsigned stream_declare_layout(const struct layout *layout,
 
 const char *stream_element_word(unsigned usage, unsigned usage_index)
 {
-    unsigned e = 0;
-    while (e + 1 < STREAM_ELEMENTS && (usages[e].usage != usage || usages[e].index != usage_index))
-        e++;
-    return word_text(WORDS_ATTRIBUTE, e);
+    static _Thread_local char text[32];
+    int element = element_find(usage, usage_index);
+    if (element >= 0)
+        return word_text(WORDS_ATTRIBUTE, (unsigned)element);
+    snprintf(text, sizeof text, "%s.%u", word_text(WORDS_USAGE, usage), usage_index);
+    return text;
+}
+
+static const struct {
+    const char *word;
+    uint32_t mask, value;
+} fvf_parts[] = {
+#define FVF(word, mask, value, meaning) {#word, mask, value},
+#include "def/fvf.def"
+#undef FVF
+};
+
+enum { FVF_PARTS = sizeof fvf_parts / sizeof fvf_parts[0] };
+
+int check_fvf(uint32_t fvf)
+{
+    uint32_t rest = fvf;
+    for (int i = 0; i < FVF_PARTS; i++)
+        if ((fvf & fvf_parts[i].mask) == fvf_parts[i].value)
+            rest &= ~fvf_parts[i].mask;
+    return fvf && !rest ? 0 : -1;
 }
 
 int parse_fvf(struct parser *parser, struct call *call)
 {
-    static const struct {
-        const char *word;
-        uint32_t mask, value;
-    } rows[] = {
-#define FVF(word, mask, value, meaning) {#word, mask, value},
-#include "def/fvf.def"
-#undef FVF
-    };
-    enum { ROWS = sizeof rows / sizeof rows[0] };
     struct lexer *lex = &parser->lex;
     uint32_t given = 0;
     do {
         int i = 0;
-        while (i < ROWS && !lex_is(lex, rows[i].word))
+        while (i < FVF_PARTS && !lex_is(lex, fvf_parts[i].word))
             i++;
-        if (i == ROWS)
+        if (i == FVF_PARTS)
             return lex_expected(lex, "parts of a vertex format: xyz, normal, diffuse, tex1 and the like");
-        if (given & rows[i].mask)
+        if (given & fvf_parts[i].mask)
             return lex_expected(lex, "one part of its kind");
-        given |= rows[i].mask;
-        call->fvf |= rows[i].value;
+        given |= fvf_parts[i].mask;
+        call->fvf |= fvf_parts[i].value;
         if (lex_next(lex))
             return -1;
     } while (lex->token.type != TOKEN_LINE_END && lex->token.type != TOKEN_END);

@@ -1,6 +1,7 @@
 /* The definitions of the text format but textures and meshes: vertices, indices and buffers, from behind
  * their first word. */
-#include "stream/layout.h"
+#include "container/layout.h"
+#include "stream/asset.h"
 #include "stream/parse.h"
 
 #include "base/half.h"
@@ -10,7 +11,7 @@
 
 const void *resource_data(const struct resource *resource, size_t *bytes)
 {
-    if (resource->vertices) {
+    if (resource->vertex_bytes) {
         *bytes = resource->vertex_bytes;
         return resource->vertices;
     }
@@ -61,7 +62,7 @@ static int parse_value(struct parser *parser, enum value_type type, const char *
     uint16_t narrow;
     uint32_t wide;
     switch (type) {
-    case VALUE_FLOAT: return lex_number(&parser->lex, what, value);
+    case VALUE_FLOAT: return lex_any_number(&parser->lex, what, value);
     case VALUE_COLOR: return lex_color(&parser->lex, what, value);
     case VALUE_U16:
         if (lex_integer(&parser->lex, what, 0, UINT16_MAX, &integer))
@@ -75,6 +76,7 @@ static int parse_value(struct parser *parser, enum value_type type, const char *
         wide = (uint32_t)integer;
         memcpy(value, &wide, sizeof wide);
         return 0;
+    case VALUE_BYTES: break;
     }
     return -1;
 }
@@ -101,24 +103,10 @@ static int parse_values(struct parser *parser, enum value_type type, const char 
 
 int parse_account(struct parser *parser, const struct token *place, size_t bytes)
 {
-    parser->bytes += bytes;
-    if (parser->bytes > LIMIT_STREAM_BYTES)
-        return lex_fail(&parser->lex, place, "found more than %d bytes of resources, expected less",
-                        LIMIT_STREAM_BYTES);
+    struct error reason = {{0}};
+    if (build_account(&parser->build, bytes, &reason))
+        return lex_fail(&parser->lex, place, "%s", reason.text);
     return 0;
-}
-
-/* Where a path of the text leads: a relative one starts at the stream's folder. The caller frees it. */
-static char *asset_path(const char *stream_path, const char *path)
-{
-    const char *slash = strrchr(stream_path, '/');
-    size_t folder = slash && path[0] != '/' ? (size_t)(slash - stream_path) + 1 : 0;
-    char *joined = malloc(folder + strlen(path) + 1);
-    if (joined) {
-        memcpy(joined, stream_path, folder);
-        strcpy(joined + folder, path);
-    }
-    return joined;
 }
 
 int parse_load(struct parser *parser, struct resource *resource, const char *path, const struct token *place,
@@ -171,6 +159,9 @@ static int parse_field(struct parser *parser, const struct vertex_type *type, co
         low = -range / 2;
     if (type->encoding != ENCODING_HALF) {
         if (lex_integer(&parser->lex, what, low, low + range - 1, &integer))
+            return -1;
+    } else if (lex_half_bits(&parser->lex, &integer)) {
+        if (lex_next(&parser->lex))
             return -1;
     } else {
         struct token place = parser->lex.token;
@@ -238,14 +229,11 @@ static int parse_vertex_block(struct parser *parser, const struct layout *layout
     return lex_next(lex);
 }
 
-int parse_vertices(struct parser *parser)
+int parse_vertex_data(struct parser *parser, struct resource *resource)
 {
     unsigned order[STREAM_ELEMENTS];
-    struct resource *resource;
     struct token place;
     int count = 0;
-    if (parse_new_name(parser, RESOURCE_VERTICES, &resource))
-        return -1;
     do {
         if (parse_element(parser, resource, &order[count]))
             return -1;
@@ -261,21 +249,16 @@ int parse_vertices(struct parser *parser)
     return result ? -1 : parse_account(parser, &place, block.bytes);
 }
 
+int parse_vertices(struct parser *parser)
+{
+    struct resource *resource;
+    if (parse_new_name(parser, RESOURCE_VERTICES, &resource))
+        return -1;
+    return parse_vertex_data(parser, resource);
+}
+
 /* --- Indices and values -----------------------------------------------------------------------------------
  */
-
-void parse_extremes(struct resource *resource)
-{
-    const uint16_t *narrow = resource->indices;
-    const uint32_t *wide = resource->indices;
-    resource->index_least = UINT32_MAX;
-    resource->index_most = 0;
-    for (uint32_t i = 0; i < resource->index_count; i++) {
-        uint32_t index = resource->index_bits == 16 ? narrow[i] : wide[i];
-        resource->index_least = index < resource->index_least ? index : resource->index_least;
-        resource->index_most = index > resource->index_most ? index : resource->index_most;
-    }
-}
 
 /* The block of a resource whose data are all of one type. */
 static int parse_data(struct parser *parser, struct resource *resource, enum value_type type,
@@ -288,7 +271,7 @@ static int parse_data(struct parser *parser, struct resource *resource, enum val
         resource->indices = block.data;
         resource->index_bits = 8 * value_bytes(type);
         resource->index_count = (uint32_t)(block.bytes / value_bytes(type));
-        parse_extremes(resource);
+        build_extremes(resource);
     } else {
         resource->vertices = block.data;
         resource->vertex_bytes = block.bytes;
@@ -296,17 +279,60 @@ static int parse_data(struct parser *parser, struct resource *resource, enum val
     return result ? -1 : parse_account(parser, &place, block.bytes);
 }
 
-int parse_indices(struct parser *parser)
+/* { HEX... }: pairs of digits, as many to a word as one likes. */
+static int parse_bytes(struct parser *parser, struct block *block)
 {
-    struct resource *resource;
-    if (parse_new_name(parser, RESOURCE_INDICES, &resource))
+    struct lexer *lex = &parser->lex;
+    if (open_block(parser) || lex_skip_lines(lex))
         return -1;
+    for (; lex->token.type == TOKEN_WORD;) {
+        const struct token *token = &lex->token;
+        if (token->length % 2)
+            return lex_expected(lex, "bytes: pairs of hexadecimal digits");
+        for (size_t i = 0; i < token->length; i += 2) {
+            int high = hexadecimal_digit(token->text[i]), low = hexadecimal_digit(token->text[i + 1]);
+            uint8_t byte = (uint8_t)(high << 4 | low);
+            if (high < 0 || low < 0)
+                return lex_expected(lex, "bytes: pairs of hexadecimal digits");
+            if (append(parser, block, &byte))
+                return -1;
+        }
+        if (lex_next(lex) || lex_skip_lines(lex))
+            return -1;
+    }
+    if (lex->token.type != TOKEN_CLOSE)
+        return lex_expected(lex, "bytes or }");
+    if (!block->bytes)
+        return lex_expected(lex, "bytes before it");
+    return lex_next(lex);
+}
+
+static int parse_byte_buffer(struct parser *parser, struct resource *resource)
+{
+    struct token place = parser->lex.token;
+    struct block block = {.size = 1, .limit = LIMIT_FILE_BYTES, .items = "bytes"};
+    int result = parse_bytes(parser, &block);
+    resource->vertices = block.data;
+    resource->vertex_bytes = block.bytes;
+    return result ? -1 : parse_account(parser, &place, block.bytes);
+}
+
+int parse_index_data(struct parser *parser, struct resource *resource)
+{
     int narrow = lex_is(&parser->lex, "16");
     if (!narrow && !lex_is(&parser->lex, "32"))
         return lex_expected(&parser->lex, "16 or 32 bits");
     if (lex_next(&parser->lex))
         return -1;
     return parse_data(parser, resource, narrow ? VALUE_U16 : VALUE_U32, "index");
+}
+
+int parse_indices(struct parser *parser)
+{
+    struct resource *resource;
+    if (parse_new_name(parser, RESOURCE_INDICES, &resource))
+        return -1;
+    return parse_index_data(parser, resource);
 }
 
 int parse_buffer(struct parser *parser)
@@ -317,6 +343,8 @@ int parse_buffer(struct parser *parser)
         parse_word(parser, WORDS_VALUE, "a type of values", &type))
         return -1;
     resource->value_type = (enum value_type)type;
+    if (resource->value_type == VALUE_BYTES)
+        return parse_byte_buffer(parser, resource);
     return parse_data(parser, resource, resource->value_type, "value");
 }
 

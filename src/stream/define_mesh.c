@@ -146,6 +146,19 @@ static int parse_shadow(struct parser *parser, struct mesh_options *out)
                : 0;
 }
 
+/* ATTRIBUTE:FORMAT... { vertices } 16|32 { indices of triangles } */
+static int parse_given(struct parser *parser, struct resource *resource)
+{
+    if (parse_vertex_data(parser, resource) || parse_index_data(parser, resource))
+        return -1;
+    struct error reason = {{0}};
+    if (resource->index_count % 3)
+        return lex_expected(&parser->lex, "three indices a triangle before it");
+    if (mesh_check_indices(resource, &reason))
+        return lex_expected(&parser->lex, "%s", reason.text);
+    return 0;
+}
+
 static int parse_source(struct parser *parser, struct resource *resource)
 {
     struct mesh_options *out = &resource->options;
@@ -175,11 +188,13 @@ int parse_mesh(struct parser *parser)
     if (parse_new_name(parser, RESOURCE_MESH, &resource) || parse_word(parser, WORDS_MESH, "a mesh", &source))
         return -1;
     resource->options.source = (enum mesh_source)source;
+    if (source == MESH_DATA)
+        return parse_given(parser, resource);
     struct token place = parser->lex.token;
     if (parse_source(parser, resource) || parse_options(parser, &resource->options) ||
         make(parser, resource, &place))
         return -1;
-    parse_extremes(resource);
+    build_extremes(resource);
     return parse_account(parser, &place,
                          resource->vertex_bytes + (size_t)resource->index_count * resource->index_bits / 8);
 }

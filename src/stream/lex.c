@@ -85,6 +85,15 @@ static int is_text(unsigned char byte, int before_line_feed)
            (byte == '\r' && before_line_feed);
 }
 
+int lex_is_utf8(const char *text, size_t bytes)
+{
+    size_t length;
+    for (const char *at = text; at < text + bytes; at += length)
+        if (!(length = sequence_length((const unsigned char *)at, (size_t)(text + bytes - at))))
+            return 0;
+    return 1;
+}
+
 static int check_text(struct lexer *lexer)
 {
     struct token place = {.line = 1};
@@ -258,6 +267,37 @@ int lex_number(struct lexer *lexer, const char *what, float *number)
     return lex_next(lexer);
 }
 
+int lex_any_number(struct lexer *lexer, const char *what, float *number)
+{
+    static const char prefix[] = "bits:";
+    const struct token *token = &lexer->token;
+    size_t skip = sizeof prefix - 1;
+    uint32_t bits;
+    if (token->type != TOKEN_WORD || token->length != skip + 8 || memcmp(token->text, prefix, skip))
+        return lex_number(lexer, what, number);
+    lexer->token.text += skip;
+    lexer->token.length -= skip;
+    if (lex_color(lexer, what, &bits))
+        return -1;
+    memcpy(number, &bits, sizeof bits);
+    return 0;
+}
+
+int lex_half_bits(const struct lexer *lexer, int64_t *bits)
+{
+    const struct token *token = &lexer->token;
+    if (token->type != TOKEN_WORD || token->length != 9 || memcmp(token->text, "bits:", 5))
+        return 0;
+    *bits = 0;
+    for (int i = 5; i < 9; i++) {
+        int digit = hexadecimal_digit(token->text[i]);
+        if (digit < 0)
+            return 0;
+        *bits = *bits << 4 | digit;
+    }
+    return 1;
+}
+
 int lex_double(struct lexer *lexer, const char *what, double *number)
 {
     char word[NUMBER_BYTES], *end;
@@ -296,7 +336,7 @@ int lex_integer(struct lexer *lexer, const char *what, int64_t low, int64_t high
     return lex_next(lexer);
 }
 
-static int hexadecimal(char c)
+int hexadecimal_digit(char c)
 {
     if (c >= '0' && c <= '9')
         return c - '0';
@@ -316,7 +356,7 @@ int lex_color(struct lexer *lexer, const char *what, uint32_t *color)
     }
     good = good && length == 8;
     for (size_t i = 0; good && i < 8; i++) {
-        int digit = hexadecimal(text[i]);
+        int digit = hexadecimal_digit(text[i]);
         good = digit >= 0;
         value = value << 4 | (uint32_t)(digit & 15);
     }

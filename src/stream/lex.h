@@ -32,6 +32,9 @@ struct lexer {
  * locale of the thread must write numbers with a point. */
 int lex_start(struct lexer *lexer, const char *path, const char *text, size_t bytes, struct error *error);
 
+/* Whether the bytes are text in UTF-8. */
+int lex_is_utf8(const char *text, size_t bytes);
+
 /* Goes on to the next token; fails at a string that does not end with its line. */
 int lex_next(struct lexer *lexer);
 
@@ -47,10 +50,17 @@ int lex_is(const struct lexer *lexer, const char *word);
 /* The current token, then the next: a finite number, an integer from `low` to `high`, a colour 0xAARRGGBB.
  * `what` names it in the reason. */
 int lex_number(struct lexer *lexer, const char *what, float *number);
+/* A number of any kind: what is infinite or none at all is bits: and the eight hexadecimal digits of its binary32. */
+int lex_any_number(struct lexer *lexer, const char *what, float *number);
+/* Whether the current token is bits: and the four digits of a binary16, which it gives. */
+int lex_half_bits(const struct lexer *lexer, int64_t *bits);
 int lex_double(struct lexer *lexer, const char *what, double *number);
 int lex_numbers(struct lexer *lexer, const char *what, float *numbers, size_t count);
 int lex_integer(struct lexer *lexer, const char *what, int64_t low, int64_t high, int64_t *integer);
 int lex_color(struct lexer *lexer, const char *what, uint32_t *color);
+
+/* The value of a hexadecimal digit, or -1. */
+int hexadecimal_digit(char c);
 
 /* The contents of a string, which the caller frees. */
 int lex_string(struct lexer *lexer, const char *what, char **string);

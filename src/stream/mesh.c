@@ -1,6 +1,7 @@
 #include "stream/mesh.h"
+#include "stream/build.h"
 
-#include "stream/layout.h"
+#include "container/layout.h"
 #include "stream/place.h"
 
 #include <math.h>
@@ -404,4 +405,13 @@ int mesh_make(struct resource *resource, const struct resource *caster, struct e
     int result = options->source == MESH_SHADOW ? mesh_make_shadow(&mesh, name, options, caster, error)
                                                 : mesh_make_shape(&mesh, name, options, error);
     return finish(resource, &mesh, name, result, error);
+}
+
+int mesh_check_indices(struct resource *resource, struct error *error)
+{
+    build_extremes(resource);
+    if (resource->index_most < resource->vertex_count)
+        return 0;
+    return error_set(error, "found index %u in a mesh, expected at most %u, its last vertex",
+                     resource->index_most, resource->vertex_count - 1);
 }

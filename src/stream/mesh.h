@@ -55,4 +55,7 @@ int mesh_load(struct resource *resource, const char *path, struct error *error);
 /* The same without a file; `caster` is the mesh of a shadow. */
 int mesh_make(struct resource *resource, const struct resource *caster, struct error *error);
 
+/* Finds the extremes of its indices, which must be of vertices that it has. */
+int mesh_check_indices(struct resource *resource, struct error *error);
+
 #endif

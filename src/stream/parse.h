@@ -4,19 +4,15 @@
 #ifndef STREAM_PARSE_H
 #define STREAM_PARSE_H
 
+#include "stream/asset.h"
+#include "stream/build.h"
 #include "stream/lex.h"
-#include "stream/stream.h"
 #include "stream/words.h"
 
 struct parser {
     struct lexer lex;
     struct stream *stream;
-    uint32_t resource_capacity, call_capacity;
-    uint32_t *names; /* open addressing: 1 + a resource's number, 0 is free; a power of two of places */
-    uint32_t name_places;
-    size_t bytes;      /* of all resources */
-    uint32_t sequence; /* the one that is being read, or NO_RESOURCE */
-    uint32_t executed; /* by the calls outside sequences */
+    struct builder build;
 };
 
 /* The current token as one of a list's words. `what` names it in the reason. */
@@ -46,14 +42,14 @@ int parse_integer(struct parser *parser, const char *what, int64_t high, uint32_
 /* Counts a resource's bytes against the stream's limit. */
 int parse_account(struct parser *parser, const struct token *place, size_t bytes);
 
-/* Finds the least and the largest of a resource's indices. */
-void parse_extremes(struct resource *resource);
+/* ATTRIBUTE:FORMAT... { vertices }, and 16|32 { indices }, into a resource. */
+int parse_vertex_data(struct parser *parser, struct resource *resource);
+int parse_index_data(struct parser *parser, struct resource *resource);
 
 /* Reads the path of a file, which the caller frees. */
 int parse_path(struct parser *parser, char **path);
 
 /* Calls the loader with where the path leads; a failure is reported at `place`. */
-typedef int resource_loader(struct resource *resource, const char *path, struct error *error);
 int parse_load(struct parser *parser, struct resource *resource, const char *path, const struct token *place,
                resource_loader *loader);
 
@@ -90,6 +86,9 @@ int parse_mips(struct parser *parser, struct call *call);
 int parse_attach(struct parser *parser, struct call *call);
 int parse_copy(struct parser *parser, struct call *call);
 int parse_clear(struct parser *parser, struct call *call);
+int parse_texels(struct parser *parser, struct call *call);
+int parse_contents(struct parser *parser, struct call *call);
+int parse_release(struct parser *parser, struct call *call);
 int parse_query_part(struct parser *parser, struct call *call);
 int parse_draw(struct parser *parser, struct call *call);
 int parse_primitives(struct parser *parser, struct call *call);
@@ -102,18 +101,5 @@ int parse_buffer(struct parser *parser);
 int parse_shader(struct parser *parser);
 int parse_query(struct parser *parser);
 int parse_mesh(struct parser *parser);
-
-/* Fills stream->executed and stream->frames. */
-int stream_expand(struct parser *parser);
-
-/* Follows the state through the executed calls: targets and viewports, what is bound, what draws read. */
-int stream_check(struct parser *parser);
-
-/* Whether surfaces can be drawn to, and what target they make; whether a copy can be made (stream/surface.c).
- */
-int check_attach(const struct stream *stream, const struct call *call,
-                 struct triptych_target_description *description, struct error *error);
-int check_copy(const struct stream *stream, const struct call *call,
-               const struct triptych_target_description *target, struct error *error);
 
 #endif

@@ -5,7 +5,7 @@
  * frame can leave to later ones are all set here, so that playing does not depend on what the device's own
  * defaults are. */
 #include "draw/texture.h"
-#include "stream/stream.h"
+#include "stream/check.h"
 
 #include <inttypes.h>
 #include <stdlib.h>
@@ -194,7 +194,7 @@ static enum triptych_result bind_stream(struct player *player, const struct call
 
 static enum triptych_result declare(struct player *player, const struct call *call)
 {
-    struct triptych_declaration_element elements[STREAM_ELEMENTS];
+    struct triptych_declaration_element elements[TRIPTYCH_DECLARATION_ELEMENTS];
     unsigned count = stream_declaration(call, elements);
     return triptych_set_declaration(player->device, elements, count);
 }
@@ -214,12 +214,14 @@ static enum triptych_result bind_vertices(struct player *player, uint32_t resour
     return result;
 }
 
-static enum triptych_result bind_indices(struct player *player, uint32_t resource)
+/* `bits` is 0 where the resource says them. */
+static enum triptych_result bind_indices(struct player *player, uint32_t resource, uint32_t bits)
 {
     if (resource == NO_RESOURCE)
         return triptych_set_indices(player->device, NULL, 16);
-    return triptych_set_indices(player->device, player->handles[resource].indices,
-                                player->stream->resources[resource].index_bits);
+    const struct handles *handles = &player->handles[resource];
+    return triptych_set_indices(player->device, bits ? handles->vertices : handles->indices,
+                                bits ? bits : player->stream->resources[resource].index_bits);
 }
 
 static enum triptych_result bind_texture(struct player *player, unsigned sampler, uint32_t resource)
@@ -231,7 +233,7 @@ static enum triptych_result bind_texture(struct player *player, unsigned sampler
 static enum triptych_result bind_mesh(struct player *player, uint32_t resource)
 {
     enum triptych_result result = bind_vertices(player, resource);
-    return result ? result : bind_indices(player, resource);
+    return result ? result : bind_indices(player, resource, 0);
 }
 
 static enum triptych_result set_value(triptych_device *device, enum triptych_state_table table, uint32_t i,
@@ -257,6 +259,21 @@ static enum triptych_result update_texture(struct player *player, const struct c
     const void *data = resource_data(&resources[call->update.source], &bytes);
     return triptych_texture_update(player->device, texture, call->update.face, call->update.level, box, data,
                                    row, row * rows);
+}
+
+static enum triptych_result write_texels(struct player *player, const struct call *call)
+{
+    size_t bytes;
+    const void *data = resource_data(&player->stream->resources[call->texels.source], &bytes);
+    return triptych_texture_write_texels(player->device, player->handles[call->resource].texture, data,
+                                         bytes);
+}
+
+static enum triptych_result write_contents(struct player *player, const struct call *call)
+{
+    size_t bytes;
+    const void *data = resource_data(&player->stream->resources[call->resource], &bytes);
+    return triptych_write_contents(player->device, data, bytes);
 }
 
 static struct triptych_surface surface_of(const struct player *player, const struct stream_surface *surface)
@@ -309,7 +326,7 @@ static enum triptych_result execute_state(struct player *player, const struct ca
     case CALL_ENABLE_LIGHT: return triptych_enable_light(device, call->light.index, call->light.on);
     case CALL_BIND_TEXTURE: return bind_texture(player, call->sampler, call->resource);
     case CALL_BIND_VERTICES: return bind_vertices(player, call->resource);
-    case CALL_BIND_INDICES: return bind_indices(player, call->resource);
+    case CALL_BIND_INDICES: return bind_indices(player, call->resource, call->index_bits);
     case CALL_BIND_ELEMENT:
         return bind_element(player, call->element.attribute, call->resource, call->element.format,
                             call->element.offset, call->element.stride);
@@ -325,7 +342,10 @@ static enum triptych_result execute_state(struct player *player, const struct ca
     case CALL_CONSTANT_MATRIX: return set_constant_matrix(player, call);
     case CALL_UPDATE: return update_texture(player, call);
     case CALL_MIPS: return triptych_texture_generate_mips(device, player->handles[call->resource].texture);
+    case CALL_TEXELS: return write_texels(player, call);
     case CALL_ATTACH: return attach(player, call);
+    case CALL_CONTENTS:
+    case CALL_RELEASE:
     case CALL_COPY:
     case CALL_CLEAR:
     case CALL_DRAW:
@@ -344,6 +364,7 @@ static enum triptych_result execute_pixels(struct player *player, const struct c
     triptych_device *device = player->device;
     switch (call->type) {
     case CALL_COPY: return copy(player, call);
+    case CALL_CONTENTS: return write_contents(player, call);
     case CALL_CLEAR:
         return triptych_clear_buffers(device, call->clear.flags, call->clear.color, call->clear.depth,
                                       call->clear.stencil);
@@ -376,6 +397,7 @@ static int is_overwritten(const struct stream *stream, uint32_t at, uint32_t end
         case CALL_TARGET:
         case CALL_ATTACH:
         case CALL_COPY:
+        case CALL_CONTENTS:
         case CALL_VIEWPORT:
         case CALL_SCISSOR:
         case CALL_DRAW:
@@ -516,7 +538,7 @@ static enum triptych_result reset(struct player *player)
         result = reset_vertices(player->device);
     for (unsigned i = 0; i < TRIPTYCH_SAMPLERS && !result; i++)
         result = bind_texture(player, i, NO_RESOURCE);
-    return result ? result : bind_indices(player, NO_RESOURCE);
+    return result ? result : bind_indices(player, NO_RESOURCE, 0);
 }
 
 /* Executes the calls at first to last - 1 of `executed`; the reason names the call's place in the text. */
@@ -526,8 +548,7 @@ static int execute_range(struct player *player, uint32_t first, uint32_t last, i
     for (uint32_t i = first; i < last; i++)
         if (execute(player, i, last, draws)) {
             const struct call *call = &stream->calls[stream->executed[i]];
-            return error_set(error, "%s:%" PRIu32 ":%" PRIu32 ": %s", stream->path, call->line, call->column,
-                             triptych_error(player->device));
+            return stream_fail(stream, call, triptych_error(player->device), error);
         }
     return 0;
 }

@@ -1,6 +1,7 @@
 /* Shaders in the text format: their definitions, which of them are set, and their constants. A shader is kept as the
  * program that it is and as its canonical text, from which the device makes it. */
 #include "shader/program.h"
+#include "stream/asset.h"
 #include "stream/parse.h"
 #include "stream/transform.h"
 
@@ -10,21 +11,6 @@
 
 /* --- Definitions ------------------------------------------------------------------------------------------
  */
-
-/* Frees the shader. */
-static int keep(struct resource *resource, struct shader *shader, struct error *error)
-{
-    resource->program = program_acquire(shader, error);
-    int result = resource->program ? shader_print(shader, &resource->code, &resource->code_bytes, error) : -1;
-    shader_free(shader);
-    return result;
-}
-
-static int load(struct resource *resource, const char *path, struct error *error)
-{
-    struct shader *shader;
-    return shader_load(path, &shader, error) ? -1 : keep(resource, shader, error);
-}
 
 /* The lines between the braces. Those of the reason are counted from the first of them. */
 static int parse_text(struct parser *parser, struct resource *resource)
@@ -41,7 +27,8 @@ static int parse_text(struct parser *parser, struct resource *resource)
         return lex_expected(lex, "the end of the line before the text of the shader");
     if (lex_lines(lex, &text, &bytes))
         return -1;
-    if (shader_assemble(resource->name, text, bytes, &shader, &reason) || keep(resource, shader, &reason))
+    if (shader_assemble(resource->name, text, bytes, &shader, &reason) ||
+        asset_keep_shader(resource, shader, &reason))
         return lex_fail(lex, &place, "%s", reason.text);
     return lex_next(lex);
 }
@@ -54,9 +41,10 @@ int parse_shader(struct parser *parser)
     struct token place = parser->lex.token;
     if (place.type != TOKEN_STRING && place.type != TOKEN_OPEN)
         return lex_expected(&parser->lex, "the path of a file in double quotes, or {");
-    if (place.type == TOKEN_OPEN ? parse_text(parser, resource)
-                                 : parse_path(parser, &resource->path) ||
-                                       parse_load(parser, resource, resource->path, &place, load))
+    if (place.type == TOKEN_OPEN
+            ? parse_text(parser, resource)
+            : parse_path(parser, &resource->path) ||
+                  parse_load(parser, resource, resource->path, &place, asset_load_shader))
         return -1;
     return parse_account(parser, &place, resource->code_bytes);
 }
@@ -256,8 +244,10 @@ static int parse_floats(struct parser *parser, enum triptych_shader_stage stage,
         if (call->constants.first + call->constants.count == TRIPTYCH_SHADER_FLOATS)
             return lex_expected(&parser->lex, "the end of the line behind constant %d",
                                 TRIPTYCH_SHADER_FLOATS - 1);
-        if (lex_numbers(&parser->lex, "constant X Y Z W", call->constants.floats[call->constants.count], 4))
-            return -1;
+        for (int i = 0; i < 4; i++)
+            if (lex_any_number(&parser->lex, "constant X Y Z W",
+                               &call->constants.floats[call->constants.count][i]))
+                return -1;
         call->constants.count++;
     } while (!at_line_end(parser));
     return 0;

@@ -1,5 +1,6 @@
 /* The calls that name surfaces of textures: attach and copy. */
 #include "draw/surface.h"
+#include "stream/check.h"
 #include "stream/parse.h"
 
 #include <string.h>
@@ -39,6 +40,19 @@ static int parse_attached(struct parser *parser, struct stream_surface *surface)
     return 0;
 }
 
+/* Behind `color`: none where only targets behind it are drawn to. */
+static int parse_color(struct parser *parser, struct stream_surface *surface)
+{
+    if (lex_next(&parser->lex))
+        return -1;
+    if (lex_is(&parser->lex, "none"))
+        return lex_next(&parser->lex);
+    if (parse_surface(parser, surface))
+        return -1;
+    note_change(parser, surface);
+    return 0;
+}
+
 /* attach none, or attach [color SURFACE]... [depth SURFACE | depthformat FORMAT] */
 int parse_attach(struct parser *parser, struct call *call)
 {
@@ -51,7 +65,7 @@ int parse_attach(struct parser *parser, struct call *call)
         return lex_next(lex);
     call->attach.some = 1;
     while (lex_is(lex, "color") && colors < TRIPTYCH_TARGETS)
-        if (parse_attached(parser, &call->attach.color[colors++]))
+        if (parse_color(parser, &call->attach.color[colors++]))
             return -1;
     if (lex_is(lex, "depth"))
         return parse_attached(parser, &call->attach.depth);

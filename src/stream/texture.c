@@ -5,9 +5,9 @@
  * are made (fill, checker, gradient) and colors are encoded into it, so that formats with fewer bits show
  * what is left of them. */
 #include "draw/texture.h"
-#include "base/file.h"
-#include "base/png.h"
-#include "stream/dds.h"
+#include "stream/asset.h"
+#include "stream/check.h"
+#include "stream/paint.h"
 #include "stream/parse.h"
 
 #include <inttypes.h>
@@ -16,56 +16,6 @@
 
 /* --- Images -----------------------------------------------------------------------------------------------
  */
-
-static void describe_image(struct resource *resource, uint32_t width, uint32_t height)
-{
-    resource->texture = (struct triptych_texture_description){
-        TRIPTYCH_TEXTURE_2D, TRIPTYCH_SURFACE_A8B8G8R8, width, height, 1, 1};
-    resource->texel_bytes = 4 * (size_t)width * height;
-}
-
-static int load_png(struct resource *resource, const char *path, struct error *error)
-{
-    unsigned width, height;
-    uint32_t *rgba;
-    if (png_load(path, &width, &height, &rgba, error))
-        return -1;
-    resource->source = TEXTURE_IMAGE;
-    resource->texels = (uint8_t *)rgba;
-    describe_image(resource, width, height);
-    return 0;
-}
-
-static int load_dds(struct resource *resource, const char *path, char *data, size_t bytes,
-                    struct error *error)
-{
-    size_t offset;
-    resource->source = TEXTURE_DDS;
-    resource->texels = (uint8_t *)data;
-    if (dds_read(path, data, bytes, &resource->texture, &offset, error))
-        return -1;
-    resource->texel_bytes = bytes - offset;
-    memmove(data, data + offset, resource->texel_bytes);
-    return 0;
-}
-
-static int load_image(struct resource *resource, const char *path, struct error *error)
-{
-    char *data;
-    size_t bytes;
-    if (file_read(path, LIMIT_FILE_BYTES, &data, &bytes, error))
-        return -1;
-    if (dds_is(data, bytes))
-        return load_dds(resource, path, data, bytes, error);
-    free(data);
-    return load_png(resource, path, error);
-}
-
-/* 0xAARRGGBB of the text to the RGBA8 word with red in the lowest byte. */
-static uint32_t swap_red_and_blue(uint32_t c)
-{
-    return (c & 0xff00ff00) | (c >> 16 & 0xff) | (c & 0xff) << 16;
-}
 
 /* { color... } with line breaks anywhere: as many as expected, into an array for the caller to free. */
 static int parse_colors(struct parser *parser, size_t count, const char *item, uint32_t **colors)
@@ -101,13 +51,13 @@ static int parse_image(struct parser *parser, struct resource *resource)
     if (lex_integer(lex, "texture width", 1, TRIPTYCH_TEXTURE_MAXIMUM, &width) ||
         lex_integer(lex, "texture height", 1, TRIPTYCH_TEXTURE_MAXIMUM, &height))
         return -1;
-    describe_image(resource, (uint32_t)width, (uint32_t)height);
+    paint_describe_image(resource, (uint32_t)width, (uint32_t)height);
     if (parse_account(parser, &lex->token, resource->texel_bytes))
         return -1;
     int result = parse_colors(parser, (size_t)(width * height), "texel", &colors);
     resource->texels = (uint8_t *)colors;
     for (size_t i = 0; !result && i < resource->texel_bytes / 4; i++)
-        colors[i] = swap_red_and_blue(colors[i]);
+        colors[i] = paint_swap(colors[i]);
     return result;
 }
 
@@ -115,109 +65,21 @@ static int parse_file(struct parser *parser, struct resource *resource)
 {
     struct token place = parser->lex.token;
     if (parse_path(parser, &resource->path) ||
-        parse_load(parser, resource, resource->path, &place, load_image))
+        parse_load(parser, resource, resource->path, &place, asset_load_texture))
         return -1;
     return parse_account(parser, &place, resource->texel_bytes);
 }
 
-/* --- Made contents ----------------------------------------------------------------------------------------
- */
-
-/* A level of a face while its contents are made: rows of RGBA8 words, slice after slice. */
-struct canvas {
-    const struct triptych_texture *shape;
-    const struct texture_level *level;
-    unsigned face;
-    uint32_t *texels;
-};
-
-typedef void painter(struct resource *resource, const struct canvas *canvas);
-
-static void paint_fill(struct resource *resource, const struct canvas *canvas)
-{
-    unsigned levels = resource->color_count / canvas->shape->faces;
-    unsigned number = (unsigned)(canvas->level - canvas->shape->level) + canvas->face * levels;
-    uint32_t color = swap_red_and_blue(resource->colors[number]);
-    for (int i = 0; i < canvas->level->slice_texels * canvas->level->depth; i++)
-        canvas->texels[i] = color;
-}
-
-static void paint_checker(struct resource *resource, const struct canvas *canvas)
-{
-    uint32_t *texel = canvas->texels, cell = resource->cell;
-    for (uint32_t z = 0; z < (uint32_t)canvas->level->depth; z++)
-        for (uint32_t y = 0; y < (uint32_t)canvas->level->height; y++)
-            for (uint32_t x = 0; x < (uint32_t)canvas->level->width; x++)
-                *texel++ = swap_red_and_blue(resource->colors[(x / cell + y / cell + z / cell) % 2]);
-}
-
-/* 0 to 255 from the first to the last of a side. */
-static uint32_t ramp(int at, int size)
-{
-    return size > 1 ? (uint32_t)((510 * at + size - 1) / (2 * (size - 1))) : 0;
-}
-
-static void paint_gradient(struct resource *resource, const struct canvas *canvas)
-{
-    const struct texture_level *level = canvas->level;
-    uint32_t *texel = canvas->texels;
-    (void)resource;
-    for (int z = 0; z < level->depth; z++)
-        for (int y = 0; y < level->height; y++)
-            for (int x = 0; x < level->width; x++) {
-                uint32_t blue = canvas->shape->faces > 1 ? canvas->face * 51 : ramp(z, level->depth);
-                *texel++ = 0xff000000 | blue << 16 | ramp(y, level->height) << 8 | ramp(x, level->width);
-            }
-}
-
-/* As floats, which is what formats with more than 8 bits are encoded from. */
-static void widen(const uint32_t *texels, size_t count, float *numbers)
-{
-    for (size_t i = 0; i < 4 * count; i++)
-        numbers[i] = (float)(texels[i / 4] >> 8 * (i % 4) & 255) / 255.0f;
-}
-
-/* The canvas has room for the level's floats behind its words. */
-static void encode_level(const struct canvas *canvas, uint8_t *data)
-{
-    const struct format *format = canvas->shape->format;
-    uint32_t width = (uint32_t)canvas->level->width;
-    uint32_t rows = (uint32_t)(canvas->level->height * canvas->level->depth);
-    const void *texels = canvas->texels;
-    if (format->storage == STORAGE_FLOAT4) {
-        float *numbers = (float *)(void *)(canvas->texels + (size_t)width * rows);
-        widen(canvas->texels, (size_t)width * rows, numbers);
-        texels = numbers;
-    }
-    format_encode(format, texels, width, width, rows, data, texture_row_bytes(format, width));
-}
-
-static unsigned given_levels(const struct resource *resource, const struct triptych_texture *shape)
-{
-    return resource->mips ? 1 : shape->levels;
-}
-
-static int paint(struct parser *parser, struct resource *resource, const struct triptych_texture *shape,
-                 painter *painter)
-{
-    size_t texels = (size_t)shape->level[0].slice_texels * (size_t)shape->level[0].depth;
-    uint8_t *data = resource->texels;
-    struct canvas canvas = {.shape = shape, .texels = malloc(texels * (4 + 16))};
-    if (!canvas.texels)
-        return lex_fail(&parser->lex, &parser->lex.token, "not enough memory");
-    for (canvas.face = 0; canvas.face < shape->faces; canvas.face++)
-        for (unsigned level = 0; level < given_levels(resource, shape); level++) {
-            canvas.level = &shape->level[level];
-            painter(resource, &canvas);
-            encode_level(&canvas, data);
-            data += texture_level_bytes(shape, level);
-        }
-    free(canvas.texels);
-    return 0;
-}
-
 /* --- Sources ----------------------------------------------------------------------------------------------
  */
+
+static int paint(struct parser *parser, struct resource *resource, const struct triptych_texture *shape)
+{
+    struct error reason = {{0}};
+    if (paint_texture(resource, shape, &reason))
+        return lex_fail(&parser->lex, &parser->lex.token, "%s", reason.text);
+    return 0;
+}
 
 static int parse_empty(struct parser *parser, struct resource *resource, const struct triptych_texture *shape)
 {
@@ -225,14 +87,6 @@ static int parse_empty(struct parser *parser, struct resource *resource, const s
     (void)resource;
     (void)shape;
     return 0;
-}
-
-static int nibble(char c)
-{
-    if (c >= '0' && c <= '9')
-        return c - '0';
-    c |= 32;
-    return c >= 'a' && c <= 'f' ? c - 'a' + 10 : -1;
 }
 
 /* A word of pairs of hexadecimal digits. */
@@ -244,7 +98,7 @@ static int parse_hex(struct parser *parser, struct resource *resource, size_t *a
     if (token->length / 2 > resource->texel_bytes - *at)
         return lex_expected(&parser->lex, "at most %zu bytes", resource->texel_bytes);
     for (size_t i = 0; i < token->length; i += 2) {
-        int high = nibble(token->text[i]), low = nibble(token->text[i + 1]);
+        int high = hexadecimal_digit(token->text[i]), low = hexadecimal_digit(token->text[i + 1]);
         if (high < 0 || low < 0)
             return lex_expected(&parser->lex, "bytes: pairs of hexadecimal digits");
         resource->texels[(*at)++] = (uint8_t)(high << 4 | low);
@@ -272,34 +126,24 @@ static int parse_bytes(struct parser *parser, struct resource *resource, const s
     return lex_next(lex);
 }
 
-/* The colors stand in the order of the texels of a texture whose faces have the levels that are given. */
-static void paint_colors(struct resource *resource, const struct canvas *canvas)
-{
-    size_t count = (size_t)canvas->level->slice_texels * (size_t)canvas->level->depth;
-    size_t first =
-        canvas->face * (resource->color_count / canvas->shape->faces) + (size_t)canvas->level->offset;
-    for (size_t i = 0; i < count; i++)
-        canvas->texels[i] = swap_red_and_blue(resource->colors[first + i]);
-}
-
-static int parse_texels(struct parser *parser, struct resource *resource,
-                        const struct triptych_texture *shape)
+static int parse_colored(struct parser *parser, struct resource *resource,
+                         const struct triptych_texture *shape)
 {
     size_t count = 0;
-    for (unsigned level = 0; level < given_levels(resource, shape); level++)
+    for (unsigned level = 0; level < paint_given_levels(resource, shape); level++)
         count += (size_t)shape->level[level].slice_texels * (size_t)shape->level[level].depth;
     resource->color_count = (uint32_t)(count * shape->faces);
     if (parse_colors(parser, resource->color_count, "texel", &resource->colors))
         return -1;
-    return paint(parser, resource, shape, paint_colors);
+    return paint(parser, resource, shape);
 }
 
 static int parse_fill(struct parser *parser, struct resource *resource, const struct triptych_texture *shape)
 {
-    resource->color_count = shape->faces * given_levels(resource, shape);
+    resource->color_count = shape->faces * paint_given_levels(resource, shape);
     if (parse_colors(parser, resource->color_count, "color", &resource->colors))
         return -1;
-    return paint(parser, resource, shape, paint_fill);
+    return paint(parser, resource, shape);
 }
 
 static int parse_checker(struct parser *parser, struct resource *resource,
@@ -316,57 +160,32 @@ static int parse_checker(struct parser *parser, struct resource *resource,
     if (lex_color(&parser->lex, "color", &resource->colors[0]) ||
         lex_color(&parser->lex, "color", &resource->colors[1]))
         return -1;
-    return paint(parser, resource, shape, paint_checker);
+    return paint(parser, resource, shape);
 }
 
 static int parse_gradient(struct parser *parser, struct resource *resource,
                           const struct triptych_texture *shape)
 {
-    return paint(parser, resource, shape, paint_gradient);
+    return paint(parser, resource, shape);
 }
 
-/* A PNG for the level that is given of each face. */
-static int load_face(struct resource *face, const char *path, struct error *error)
-{
-    const struct triptych_texture_description *whole = &face->texture;
-    unsigned width, height;
-    uint32_t *rgba;
-    if (png_load(path, &width, &height, &rgba, error))
-        return -1;
-    face->texels = (uint8_t *)rgba;
-    if (width == whole->width && height == whole->height)
-        return 0;
-    return error_set(error, "%s: %ux%u pixels, expected %ux%u", path, width, height, whole->width,
-                     whole->height);
-}
-
-static void paint_image(struct resource *resource, const struct canvas *canvas)
-{
-    memcpy(canvas->texels, resource->colors, 4 * (size_t)canvas->level->slice_texels);
-}
-
-/* Each picture stands in `colors` while it is encoded into its face. */
 static int parse_face(struct parser *parser, struct resource *resource, const struct triptych_texture *shape,
                       unsigned number)
 {
     struct token place = parser->lex.token;
-    struct resource face = {.texture = resource->texture, .mips = 1};
-    struct triptych_texture alone = *shape;
-    size_t bytes = texture_level_bytes(shape, 0);
-    int result = parse_path(parser, &resource->face_path[number]) ||
-                 parse_load(parser, &face, resource->face_path[number], &place, load_face);
-    face.colors = (uint32_t *)(void *)face.texels;
-    face.texels = resource->texels + number * bytes;
-    alone.faces = 1;
-    if (!result)
-        result = paint(parser, &face, &alone, paint_image);
-    free(face.colors);
-    return result ? -1 : 0;
+    struct error reason = {{0}};
+    if (parse_path(parser, &resource->face_path[number]))
+        return -1;
+    char *path = asset_path(parser->lex.path, resource->face_path[number]);
+    int result = path ? asset_load_face(resource, shape, number, path, &reason)
+                      : error_set(&reason, "not enough memory");
+    free(path);
+    return result ? lex_fail(&parser->lex, &place, "%s", reason.text) : 0;
 }
 
 static int parse_files(struct parser *parser, struct resource *resource, const struct triptych_texture *shape)
 {
-    if (given_levels(resource, shape) > 1 || shape->depth > 1)
+    if (paint_given_levels(resource, shape) > 1 || shape->depth > 1)
         return lex_expected(&parser->lex, "one level and one slice, or mips, for files");
     for (unsigned face = 0; face < shape->faces; face++)
         if (parse_face(parser, resource, shape, face))
@@ -381,7 +200,7 @@ static const struct maker {
     int (*parse)(struct parser *parser, struct resource *resource, const struct triptych_texture *shape);
 } sources[] = {
     {"empty", TEXTURE_EMPTY, 0, parse_empty},       {"bytes", TEXTURE_BYTES, 0, parse_bytes},
-    {"colors", TEXTURE_COLORS, 1, parse_texels},    {"fill", TEXTURE_FILL, 1, parse_fill},
+    {"colors", TEXTURE_COLORS, 1, parse_colored},   {"fill", TEXTURE_FILL, 1, parse_fill},
     {"checker", TEXTURE_CHECKER, 1, parse_checker}, {"gradient", TEXTURE_GRADIENT, 1, parse_gradient},
     {"files", TEXTURE_FILES, 1, parse_files},
 };
@@ -449,7 +268,7 @@ static int allocate_texels(struct parser *parser, struct resource *resource,
                            const struct triptych_texture *shape, const struct token *place)
 {
     size_t decoded = (size_t)shape->face_texels * shape->faces * format_texel_bytes(shape->format);
-    for (unsigned level = 0; level < given_levels(resource, shape); level++)
+    for (unsigned level = 0; level < paint_given_levels(resource, shape); level++)
         resource->texel_bytes += shape->faces * texture_level_bytes(shape, level);
     if (parse_account(parser, place, decoded))
         return -1;
@@ -533,26 +352,23 @@ static int parse_box(struct parser *parser, struct triptych_box *box)
                : 0;
 }
 
-/* Whether the box is a part of the texture, and the source as many bytes as it takes. */
-static int check_update(struct parser *parser, const struct call *call, const struct token *place)
+int check_update(const struct stream *stream, const struct call *call, struct error *error)
 {
-    struct resource *resources = parser->stream->resources;
+    const struct resource *resources = stream->resources;
     const struct triptych_box *box = call->update.box.width ? &call->update.box : NULL;
     struct triptych_texture shape;
-    struct error reason = {{0}};
     texture_describe(&resources[call->resource].texture, &shape, NULL);
     size_t pitch = (size_t)1 << 20, bytes;
-    if (texture_check_update(&shape, call->update.face, call->update.level, box, pitch, pitch * pitch,
-                             &reason))
-        return lex_fail(&parser->lex, place, "%s", reason.text);
+    if (texture_check_update(&shape, call->update.face, call->update.level, box, pitch, pitch * pitch, error))
+        return -1;
     resource_data(&resources[call->update.source], &bytes);
     size_t expected = texture_level_bytes(&shape, call->update.level);
     if (box)
         expected = texture_row_bytes(shape.format, box->width) * format_blocks(shape.format, box->height) *
                    box->depth;
     if (bytes < expected || bytes >= expected + 4) /* a value's bytes cannot always be divided */
-        return lex_fail(&parser->lex, place, "found %zu bytes in %s, expected %zu", bytes,
-                        resources[call->update.source].name, expected);
+        return error_set(error, "found %zu bytes in %s, expected %zu", bytes,
+                         resources[call->update.source].name, expected);
     return 0;
 }
 
@@ -574,5 +390,8 @@ int parse_update(struct parser *parser, struct call *call)
     }
     if (parse_name(parser, 1 << RESOURCE_BUFFER, "face, level, box, or a buffer", &call->update.source))
         return -1;
-    return check_update(parser, call, &place);
+    struct error reason = {{0}};
+    if (check_update(parser->stream, call, &reason))
+        return lex_fail(lex, &place, "%s", reason.text);
+    return 0;
 }

@@ -17,7 +17,7 @@ static const struct row {
 #include "def/attribute.def"
 #undef ATTRIBUTE
 #define ELEMENT(word, usage, index) {WORDS_ATTRIBUTE, #word, ELEMENT_##word},
-#include "stream/element.def"
+#include "container/element.def"
 #undef ELEMENT
 #define VERTEX_TYPE(name, word, components, encoding, bits, divisor, meaning)                                \
     {WORDS_FORMAT, #word, TRIPTYCH_FORMAT_##name},

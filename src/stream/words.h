@@ -20,7 +20,8 @@ enum word_list {
     WORDS_MESH,
     WORDS_NORMALS,
     WORDS_TEXCOORDS,
-    WORDS_TEXTURETYPE
+    WORDS_TEXTURETYPE,
+    WORDS_USAGE
 };
 
 /* The number's word; null if it has none. */

@@ -4,12 +4,15 @@
 #include "base/file.h"
 #include "base/half.h"
 #include "draw/format.h"
-#include "stream/layout.h"
+#include "container/layout.h"
+#include "stream/asset.h"
+#include "stream/folder.h"
 #include "stream/stream.h"
 #include "stream/words.h"
 
 #include <inttypes.h>
 #include <locale.h>
+#include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -19,14 +22,20 @@ struct writer {
     const struct stream *stream;
     char *prefix; /* from the new text's folder to that of the old, in front of relative paths; "" if they are
                      one */
+    int by_path;  /* the files of the resource that is being written have its data */
 };
 
 enum { VALUES_PER_LINE = 16 };
 
-/* Numbers of matrices are read as binary64 and rounded later: both ways have to give the number. */
+/* Numbers of matrices are read as binary64 and rounded later: both ways have to give the number. What decimal digits
+ * cannot say is written as its bits. */
 static void write_number(struct writer *writer, float number)
 {
     char text[32];
+    if (!isfinite(number)) {
+        fprintf(writer->out, " bits:%08" PRIx32, triptych_float_bits(number));
+        return;
+    }
     for (int digits = 6; digits <= 9; digits++) {
         snprintf(text, sizeof text, "%.*g", digits, (double)number);
         if (strtof(text, NULL) == number && (float)strtod(text, NULL) == number)
@@ -78,12 +87,18 @@ static void write_image(struct writer *writer, const struct resource *resource)
     fputs("\n}", writer->out);
 }
 
-static void write_bytes(struct writer *writer, const struct resource *resource)
+static void write_hexadecimal(struct writer *writer, const uint8_t *bytes, size_t count)
 {
-    fputs(" bytes {", writer->out);
-    for (size_t i = 0; i < resource->texel_bytes; i++)
-        fprintf(writer->out, "%s%02x", i % 32 ? i % 4 ? "" : " " : "\n    ", resource->texels[i]);
+    fputs(" {", writer->out);
+    for (size_t i = 0; i < count; i++)
+        fprintf(writer->out, "%s%02x", i % 32 ? i % 4 ? "" : " " : "\n    ", bytes[i]);
     fputs("\n}", writer->out);
+}
+
+static void write_bytes(struct writer *writer, const uint8_t *bytes, size_t count)
+{
+    fputs(" bytes", writer->out);
+    write_hexadecimal(writer, bytes, count);
 }
 
 static void write_texture_type(struct writer *writer, const struct resource *resource)
@@ -106,7 +121,9 @@ static void write_contents(struct writer *writer, const struct resource *resourc
 {
     switch (resource->source) {
     case TEXTURE_EMPTY: fputs(" empty", writer->out); break;
-    case TEXTURE_BYTES: write_bytes(writer, resource); break;
+    case TEXTURE_IMAGE:
+    case TEXTURE_DDS:
+    case TEXTURE_BYTES: write_bytes(writer, resource->texels, resource->texel_bytes); break;
     case TEXTURE_GRADIENT: fputs(" gradient", writer->out); break;
     case TEXTURE_CHECKER:
         fprintf(writer->out, " checker %" PRIu32 " 0x%08" PRIx32 " 0x%08" PRIx32, resource->cell,
@@ -118,19 +135,21 @@ static void write_contents(struct writer *writer, const struct resource *resourc
         write_colors(writer, resource->colors, resource->color_count, VALUES_PER_LINE / 2);
         break;
     case TEXTURE_FILES:
+        if (!writer->by_path) {
+            write_bytes(writer, resource->texels, resource->texel_bytes);
+            break;
+        }
         fputs(" files", writer->out);
         for (int face = 0; face < 6 && resource->face_path[face]; face++)
             write_path(writer, resource->face_path[face]);
         break;
-    case TEXTURE_IMAGE:
-    case TEXTURE_DDS: break;
     }
 }
 
 static void write_texture(struct writer *writer, const struct resource *resource)
 {
     fprintf(writer->out, "texture %s", resource->name);
-    if (resource->path) {
+    if (resource->path && writer->by_path) {
         fputs(" file", writer->out);
         write_path(writer, resource->path);
     } else if (resource->source == TEXTURE_IMAGE) {
@@ -141,20 +160,6 @@ static void write_texture(struct writer *writer, const struct resource *resource
     }
 }
 
-/* The attributes in the order in which they lie in a vertex; returns how many. */
-static int sort_attributes(const struct layout *layout, unsigned order[STREAM_ELEMENTS])
-{
-    int count = 0;
-    for (uint32_t offset = 0; offset < layout->stride; count++) {
-        unsigned a = 0;
-        while (!layout->format[a] || layout->offset[a] != offset)
-            a++;
-        order[count] = a;
-        offset += vertex_types[layout->format[a]].bytes;
-    }
-    return count;
-}
-
 /* Component c of a packed type. */
 static void write_packed(struct writer *writer, const struct vertex_type *type, const uint8_t *data,
                          unsigned c)
@@ -162,7 +167,9 @@ static void write_packed(struct writer *writer, const struct vertex_type *type, 
     uint32_t word, bit = c * type->bits;
     memcpy(&word, data + bit / 32 * 4, sizeof word);
     uint32_t field = word >> bit % 32 & ((1u << type->bits) - 1), sign = 1u << (type->bits - 1);
-    if (type->encoding == ENCODING_HALF)
+    if (type->encoding == ENCODING_HALF && (field & 0x7c00) == 0x7c00)
+        fprintf(writer->out, " bits:%04" PRIx32, field);
+    else if (type->encoding == ENCODING_HALF)
         write_number(writer, half_to_float((uint16_t)field));
     else if (type->encoding == ENCODING_SIGNED)
         fprintf(writer->out, " %" PRId32, (int32_t)((field ^ sign) - sign));
@@ -192,15 +199,15 @@ static void write_vertices(struct writer *writer, const struct resource *resourc
 {
     const struct layout *layout = &resource->layout;
     unsigned order[STREAM_ELEMENTS];
-    int count = sort_attributes(layout, order);
-    for (int i = 0; i < count; i++)
+    unsigned count = layout_order(layout, order);
+    for (unsigned i = 0; i < count; i++)
         fprintf(writer->out, " %s:%s", word_text(WORDS_ATTRIBUTE, order[i]),
                 word_text(WORDS_FORMAT, layout->format[order[i]]));
     fputs(" {\n", writer->out);
     for (uint32_t v = 0; v < resource->vertex_count; v++) {
         const uint8_t *vertex = resource->vertices + (size_t)v * layout->stride;
         fputs("   ", writer->out);
-        for (int i = 0; i < count; i++)
+        for (unsigned i = 0; i < count; i++)
             write_typed(writer, layout->format[order[i]], vertex + layout->offset[order[i]]);
         fputc('\n', writer->out);
     }
@@ -233,6 +240,13 @@ static void write_values(struct writer *writer, const struct resource *resource)
 static void write_mesh(struct writer *writer, const struct resource *resource)
 {
     const struct mesh_options *options = &resource->options;
+    if (!writer->by_path || options->source == MESH_DATA) {
+        fputs(" data", writer->out);
+        write_vertices(writer, resource);
+        fprintf(writer->out, " %" PRIu32, resource->index_bits);
+        write_indices(writer, resource);
+        return;
+    }
     fprintf(writer->out, " %s", word_text(WORDS_MESH, options->source));
     if (resource->path)
         write_path(writer, resource->path);
@@ -269,7 +283,7 @@ static void write_mesh(struct writer *writer, const struct resource *resource)
 /* Lines of their own, behind four spaces. */
 static void write_shader(struct writer *writer, const struct resource *resource)
 {
-    if (resource->path) {
+    if (resource->path && writer->by_path) {
         write_path(writer, resource->path);
         return;
     }
@@ -283,6 +297,8 @@ static void write_shader(struct writer *writer, const struct resource *resource)
 
 static void write_resource(struct writer *writer, const struct resource *resource)
 {
+    int files = resource->path || resource->face_path[0];
+    writer->by_path = !files || !resource->embedded || asset_is_unchanged(writer->stream, resource);
     switch (resource->type) {
     case RESOURCE_TEXTURE: write_texture(writer, resource); break;
     case RESOURCE_VERTICES:
@@ -295,7 +311,9 @@ static void write_resource(struct writer *writer, const struct resource *resourc
         break;
     case RESOURCE_BUFFER:
         fprintf(writer->out, "buffer %s %s", resource->name, word_text(WORDS_VALUE, resource->value_type));
-        if (resource->indices)
+        if (resource->value_type == VALUE_BYTES)
+            write_hexadecimal(writer, resource->vertices, resource->vertex_bytes);
+        else if (resource->indices)
             write_indices(writer, resource);
         else
             write_values(writer, resource);
@@ -420,8 +438,8 @@ static void write_declare(struct writer *writer, const struct call *call)
         const struct declared *element = &call->declare.element[i];
         if (!i || element->stream != element[-1].stream)
             fprintf(writer->out, " %u", element->stream);
-        fprintf(writer->out, " %s:%s@%u", word_text(WORDS_ATTRIBUTE, element->element),
-                word_text(WORDS_FORMAT, element->format), element->offset);
+        fprintf(writer->out, " %s:%s@%u", stream_element_word(element->usage, element->usage_index),
+                word_text(WORDS_FORMAT, element->format), 4u * element->words);
     }
 }
 
@@ -528,10 +546,15 @@ static void write_surface(struct writer *writer, const char *word, const struct 
 
 static void write_attach(struct writer *writer, const struct call *call)
 {
+    int last = TRIPTYCH_TARGETS - 1;
     fputs(call->attach.some ? "attach" : "attach none", writer->out);
-    for (int t = 0; t < TRIPTYCH_TARGETS; t++)
+    while (last >= 0 && call->attach.color[last].resource == NO_RESOURCE)
+        last--;
+    for (int t = 0; t <= last && call->attach.some; t++)
         if (call->attach.color[t].resource != NO_RESOURCE)
             write_surface(writer, "color ", &call->attach.color[t]);
+        else
+            fputs(" color none", writer->out);
     if (call->attach.depth.resource != NO_RESOURCE)
         write_surface(writer, "depth ", &call->attach.depth);
     if (call->attach.depth_format)
@@ -603,7 +626,11 @@ static void write_call(struct writer *writer, const struct call *call)
         fprintf(out, "%s", name);
         break;
     case CALL_BIND_VERTICES: fprintf(out, "bind vertices %s", name); break;
-    case CALL_BIND_INDICES: fprintf(out, "bind indices %s", name); break;
+    case CALL_BIND_INDICES:
+        fprintf(out, "bind indices %s", name);
+        if (call->index_bits)
+            fprintf(out, " %" PRIu32, call->index_bits);
+        break;
     case CALL_BIND_ELEMENT: write_bind_element(writer, call, name); break;
     case CALL_BIND_STREAM: write_bind_stream(writer, call, name); break;
     case CALL_DECLARE: write_declare(writer, call); break;
@@ -617,6 +644,11 @@ static void write_call(struct writer *writer, const struct call *call)
     case CALL_CONSTANT_MATRIX: write_constant_matrix(writer, call); break;
     case CALL_UPDATE: write_update(writer, call, name); break;
     case CALL_MIPS: fprintf(out, "mips %s", name); break;
+    case CALL_TEXELS:
+        fprintf(out, "texels %s %s", name, writer->stream->resources[call->texels.source].name);
+        break;
+    case CALL_CONTENTS: fprintf(out, "contents %s", name); break;
+    case CALL_RELEASE: fprintf(out, "release %s", name); break;
     case CALL_CLEAR: write_clear(writer, call); break;
     case CALL_DRAW:
     case CALL_DRAW_INDEXED: write_draw(writer, call); break;
@@ -650,85 +682,6 @@ static void write_calls(struct writer *writer)
     }
 }
 
-/* --- Folders ----------------------------------------------------------------------------------------------
- */
-
-/* The real path of the folder that a file is in, for the caller to free. */
-static char *real_folder(const char *path)
-{
-    const char *slash = strrchr(path, '/');
-    char *folder = slash ? strndup(path, slash == path ? 1 : (size_t)(slash - path)) : strdup(".");
-    char *real = folder ? realpath(folder, NULL) : NULL;
-    free(folder);
-    return real;
-}
-
-/* "../" for each folder of `from` that is not one of `to`, then the rest of `to` and a slash. Both are real
- * paths. */
-static char *relative_folder(const char *from, const char *to)
-{
-    size_t common = 0, length = 0, up = 0;
-    while (from[length] && from[length] == to[length])
-        if (from[length++] == '/')
-            common = length;
-    if ((!from[length] || from[length] == '/') && (!to[length] || to[length] == '/'))
-        common = length;
-    for (const char *c = from + common; *c; c++)
-        up += *c != '/' && (c == from + common || c[-1] == '/');
-    const char *rest = to + common + (to[common] == '/');
-    char *out = malloc(3 * up + strlen(rest) + 2), *at = out;
-    for (; out && up; up--)
-        at = stpcpy(at, "../");
-    if (out)
-        sprintf(at, "%s%s", rest, *rest ? "/" : "");
-    return out;
-}
-
-static int is_relative(const char *path)
-{
-    return path && path[0] != '/';
-}
-
-static int has_relative_face(const struct resource *resource)
-{
-    for (int face = 0; face < 6; face++)
-        if (is_relative(resource->face_path[face]))
-            return 1;
-    return 0;
-}
-
-static int names_files(const struct stream *stream)
-{
-    for (uint32_t i = 0; i < stream->resource_count; i++)
-        if (is_relative(stream->resources[i].path) || has_relative_face(&stream->resources[i]))
-            return 1;
-    return 0;
-}
-
-static int find_prefix(struct writer *writer, const char *path, struct error *error)
-{
-    if (!names_files(writer->stream)) {
-        writer->prefix = strdup("");
-        return writer->prefix ? 0 : error_set(error, "%s: not enough memory", path);
-    }
-    char *from = real_folder(path), *to = real_folder(writer->stream->path);
-    if (from && to)
-        writer->prefix = relative_folder(from, to);
-    int found = from && to;
-    free(from);
-    free(to);
-    if (!found)
-        return error_set(error, "%s: its folder or that of %s is not there, expected both", path,
-                         writer->stream->path);
-    if (!writer->prefix)
-        return error_set(error, "%s: not enough memory", path);
-    for (const char *c = writer->prefix; *c; c++)
-        if ((unsigned char)*c < ' ' || *c == 0x7f)
-            return error_set(error, "%s: a folder's name has control characters, which paths cannot have",
-                             path);
-    return 0;
-}
-
 /* --- Streams ----------------------------------------------------------------------------------------------
  */
 
@@ -750,7 +703,7 @@ int stream_write(const struct stream *stream, const char *path, char **text, siz
 {
     struct writer writer = {.stream = stream};
     *text = NULL;
-    int result = find_prefix(&writer, path, error);
+    int result = folder_prefix(stream, path, &writer.prefix, error);
     locale_t locale = result ? NULL : newlocale(LC_NUMERIC_MASK, "C", NULL);
     if (locale) {
         locale_t before = uselocale(locale);

@@ -1,5 +1,6 @@
-/* `triptych convert`: a stream written anew; the forms are known by their files' extensions. */
-#include "stream/stream.h"
+/* `triptych convert`: a stream written anew; what is read is known by its first bytes, what is written by the file's
+ * extension. */
+#include "stream/container.h"
 #include "tool/option.h"
 
 #include <stdio.h>
@@ -7,10 +8,10 @@
 
 static const struct form {
     const char *extension;
-    int (*read)(const char *path, struct stream **stream, struct error *error);
     int (*save)(const struct stream *stream, const char *path, struct error *error);
 } forms[] = {
-    {".tri", stream_read, stream_save}, /* text; canonical when written */
+    {".tri", stream_save},     /* text, canonical */
+    {".trib", container_save}, /* the container */
 };
 
 static const struct form *find_form(const struct command *self, const char *path)
@@ -28,18 +29,24 @@ static const struct form *find_form(const struct command *self, const char *path
 
 int command_convert(const struct command *self, int count, char **arguments)
 {
+    bool salvage = false;
+    const struct option options[] = {
+        {"salvage", NULL, "of a damaged or unfinished container, keep the whole frames before the damage",
+         OPTION_FLAG, &salvage, 0, 0},
+    };
     struct operands operands = {.least = 2, .most = 2};
-    enum options_result result = options_read(self, NULL, 0, NULL, count, arguments, &operands);
+    enum options_result result =
+        options_read(self, options, sizeof options / sizeof *options, NULL, count, arguments, &operands);
     if (result != OPTIONS_GO)
         return options_status(result);
     const char *input = operands.value[0], *output = operands.value[1];
-    const struct form *from = find_form(self, input);
-    const struct form *to = from ? find_form(self, output) : NULL;
-    if (!to)
+    const struct form *to = find_form(self, output);
+    if (!to || check_output(self, output))
         return STATUS_BAD;
     struct stream *stream;
     struct error error = {""};
-    if (from->read(input, &stream, &error))
+    if (salvage ? container_read(input, CONTAINER_SALVAGE, &stream, &error)
+                : stream_read(input, &stream, &error))
         return fail(self, "%s", error.text);
     int bad = to->save(stream, output, &error);
     stream_free(stream);

@@ -67,7 +67,7 @@ static void every_word_is_mentioned(void)
 #include "stream/word.def"
 #undef WORD
 #define ELEMENT(word, usage, index) #word,
-#include "stream/element.def"
+#include "container/element.def"
 #undef ELEMENT
     };
     for (size_t i = 0; i < sizeof words / sizeof *words; i++)

@@ -17,6 +17,7 @@ libpng-dev         build   reads and writes PNG pictures
 libopenexr-dev     build   reads and writes EXR pictures (the C core, OpenEXRCore)
 libzydis-dev       build   disassembles generated code, and checks its encoding independently
 libxxhash-dev      build   hashes keys, chunks and pictures
+libzstd-dev        build   compresses recorded streams
 libcjson-dev       build   writes and reads JSON reports
 libassimp-dev      build   imports 3D models into draw streams
 glmark2-data       build   the models and textures of the draw streams

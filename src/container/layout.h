@@ -1,9 +1,9 @@
 /* Sizes and places of attributes within interleaved vertices. */
-#ifndef STREAM_LAYOUT_H
-#define STREAM_LAYOUT_H
+#ifndef CONTAINER_LAYOUT_H
+#define CONTAINER_LAYOUT_H
 
 #include "draw/key.h"
-#include "stream/stream.h"
+#include "container/call.h"
 
 /* Values that a format has in the text: its components, or one colour. */
 static inline uint32_t format_values(enum triptych_format format)
@@ -13,7 +13,7 @@ static inline uint32_t format_values(enum triptych_format format)
 
 static inline uint32_t value_bytes(enum value_type type)
 {
-    return type == VALUE_U16 ? 2 : 4;
+    return type == VALUE_BYTES ? 1 : type == VALUE_U16 ? 2 : 4;
 }
 
 static inline void layout_add(struct layout *layout, unsigned element, enum triptych_format format)
@@ -22,5 +22,8 @@ static inline void layout_add(struct layout *layout, unsigned element, enum trip
     layout->offset[element] = layout->stride;
     layout->stride += vertex_types[format].bytes;
 }
+
+/* The elements in the order in which they lie in a vertex; returns how many. */
+unsigned layout_order(const struct layout *layout, unsigned order[STREAM_ELEMENTS]);
 
 #endif

@@ -1,0 +1,158 @@
+/* Contents as they are stored, for recordings that begin late: all words of what is drawn to, and all texels of a
+ * texture. Nothing is rounded, resolved or lost, whatever formats and samples.
+ *
+ * Contents of a target: its pixels row by row, of each the samples, of each sample the words of all colours, then that
+ * of depth and stencil. Words that no drawing can leave are made ones that it can. */
+#include "base/mxcsr.h"
+#include "draw/device.h"
+
+#include <string.h>
+
+static uint32_t colour_planes(const struct triptych_target_description *description)
+{
+    uint32_t planes = 0;
+    for (unsigned t = 0; t < TARGETS; t++) {
+        const struct format *format = target_format(description, t);
+        planes += format ? target_planes[color_storage(format)] : 0;
+    }
+    return planes;
+}
+
+size_t target_contents_bytes(const struct triptych_target_description *description)
+{
+    enum triptych_depth_format depth = description->depth_format;
+    uint32_t samples = description->samples ? description->samples : 1;
+    uint32_t words = colour_planes(description) + (depth_mask(depth) || stencil_mask(depth));
+    return (size_t)description->width * description->height * samples * words * sizeof(uint32_t);
+}
+
+/* Where the words of a pixel are: a colour's planes, and depth's, each as many as there are samples. */
+struct pixel {
+    uint32_t *color, *depth;
+};
+
+static struct pixel find_pixel(struct target *target, uint32_t x, uint32_t y)
+{
+    uint32_t tile = y / TILE_SIZE * target->columns + x / TILE_SIZE;
+    uint32_t word = pixel_word(x % TILE_SIZE, y % TILE_SIZE);
+    return (struct pixel){target_fill_color(target, tile) + word,
+                          target->depth ? target_fill_depth(target, tile) + word : NULL};
+}
+
+static uint32_t valid_depth(enum triptych_depth_format format, uint32_t word)
+{
+    uint32_t kept = word & (depth_mask(format) | stencil_mask(format));
+    float depth = depth_decode(format, kept);
+    if (depth_formats[format].storage != DEPTH_FLOAT && depth_formats[format].storage != DEPTH_FLOAT24)
+        return kept;
+    if (depth > 0 && depth <= 1)
+        return kept;
+    return (kept & stencil_mask(format)) | depth_encode(format, depth > 1 ? 1 : 0);
+}
+
+static void write_pixel(struct target *target, uint32_t x, uint32_t y, const uint8_t **data)
+{
+    struct pixel pixel = find_pixel(target, x, y);
+    for (uint32_t sample = 0; sample < target->samples; sample++) {
+        for (uint32_t plane = 0; plane < target->planes; plane++, *data += sizeof(uint32_t))
+            memcpy(pixel.color + (sample * target->planes + plane) * TILE_PIXELS, *data, sizeof(uint32_t));
+        if (!pixel.depth)
+            continue;
+        uint32_t word;
+        memcpy(&word, *data, sizeof word);
+        pixel.depth[sample * TILE_PIXELS] = valid_depth(target->depth_format, word);
+        *data += sizeof word;
+    }
+}
+
+/* Not inlined: the compiler may move arithmetic over a change of MXCSR, but not a call. */
+__attribute__((noinline)) static void write_pixels(struct target *target, const uint8_t *data)
+{
+    for (uint32_t y = 0; y < target->height; y++)
+        for (uint32_t x = 0; x < target->width; x++)
+            write_pixel(target, x, y, &data);
+}
+
+static void read_pixel(struct target *target, uint32_t x, uint32_t y, uint8_t **data)
+{
+    struct pixel pixel = find_pixel(target, x, y);
+    for (uint32_t sample = 0; sample < target->samples; sample++) {
+        for (uint32_t plane = 0; plane < target->planes; plane++, *data += sizeof(uint32_t))
+            memcpy(*data, pixel.color + (sample * target->planes + plane) * TILE_PIXELS, sizeof(uint32_t));
+        if (!pixel.depth)
+            continue;
+        memcpy(*data, pixel.depth + sample * TILE_PIXELS, sizeof(uint32_t));
+        *data += sizeof(uint32_t);
+    }
+}
+
+void target_read_contents(struct target *target, void *data)
+{
+    uint8_t *at = data;
+    for (uint32_t y = 0; y < target->height; y++)
+        for (uint32_t x = 0; x < target->width; x++)
+            read_pixel(target, x, y, &at);
+}
+
+/* --- The device's -----------------------------------------------------------------------------------------
+ */
+
+size_t device_contents_bytes(const struct triptych_device *device)
+{
+    struct triptych_target_description description;
+    if (!device->target.width)
+        return 0;
+    target_describe(&device->target, &description);
+    return target_contents_bytes(&description);
+}
+
+enum triptych_result device_read_contents(struct triptych_device *device, void *data, struct error *error)
+{
+    enum triptych_result result = device_has_target(device, error);
+    if (result != TRIPTYCH_OK)
+        return result;
+    device_finish(device);
+    target_read_contents(&device->target, data);
+    return TRIPTYCH_OK;
+}
+
+enum triptych_result device_write_contents(struct triptych_device *device, const void *data, size_t bytes,
+                                           struct error *error)
+{
+    enum triptych_result result = device_has_target(device, error);
+    if (result != TRIPTYCH_OK)
+        return result;
+    if (bytes != device_contents_bytes(device)) {
+        error_set(error, "contents of %zu bytes: expected %zu", bytes, device_contents_bytes(device));
+        return TRIPTYCH_BAD_ARGUMENT;
+    }
+    device_finish(device);
+    unsigned saved = mxcsr_enter();
+    write_pixels(&device->target, data);
+    mxcsr_leave(saved);
+    return TRIPTYCH_OK;
+}
+
+size_t texture_texel_bytes(const struct triptych_texture *texture)
+{
+    return (size_t)texture->face_texels * texture->faces * format_texel_bytes(texture->format);
+}
+
+void device_read_texels(struct triptych_device *device, struct triptych_texture *texture, void *data)
+{
+    device_store_texture(device, texture);
+    memcpy(data, texture->texels, texture_texel_bytes(texture));
+}
+
+enum triptych_result device_write_texels(struct triptych_device *device, struct triptych_texture *texture,
+                                         const void *data, size_t bytes, struct error *error)
+{
+    if (bytes != texture_texel_bytes(texture)) {
+        error_set(error, "texels of %zu bytes: expected %zu", bytes, texture_texel_bytes(texture));
+        return TRIPTYCH_BAD_ARGUMENT;
+    }
+    device_store_texture(device, texture);
+    memcpy(texture->texels, data, bytes);
+    device_load_texture(device, texture);
+    return TRIPTYCH_OK;
+}
