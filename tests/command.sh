@@ -338,6 +338,9 @@ fi
 does 'convert' convert "$work/good.tri" "$work/canonical.tri"
 does 'convert what was converted' convert "$work/canonical.tri" "$work/again.tri"
 holds 'canonical text stays as it is' cmp "$work/canonical.tri" "$work/again.tri"
+does 'convert to a container' convert "$work/good.tri" "$work/good.trib"
+does 'convert from a container' convert "$work/good.trib" "$work/back.tri"
+holds 'a container comes back as the canonical text' cmp "$work/canonical.tri" "$work/back.tri"
 does 'the converted stream is readable' \
     render "$work/canonical.tri" --engine emulate --out "$work/canonical.png"
 holds 'and draws the same' "$TRIPTYCH" compare "$picture" "$work/canonical.png"

@@ -26,6 +26,7 @@ check "base includes base and its own table" src/base base/ def/cpu.def triptych
 check "tables include tables and layouts" src/def def/ draw/call.h draw/key.h shader/program.h
 check "shaders know tables and the base" src/shader base/ def/ shader/
 check "the renderer includes no engine" src/draw base/ def/ draw/ shader/ triptych.h
+check "the container knows the renderer and no engine" src/container base/ container/ def/ draw/ shader/ triptych.h
 check "the recording includes no engine" src/ir ir/ base/ def/ draw/ shader/program.h spec/
 check "the emulator and the batch interpreter include no other engine" emu emu/ ir/ base/ def/ draw/ shader/program.h spec/
 check "the stitcher includes no other engine" src/stitch stitch/ base/ def/ draw/ shader/program.h spec/
