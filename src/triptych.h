@@ -611,7 +611,8 @@ TRIPTYCH_API enum triptych_result triptych_read_contents(triptych_device *, void
 TRIPTYCH_API enum triptych_result triptych_write_contents(triptych_device *, const void *data, size_t bytes);
 /* The same of all texels of a texture: face by face, level by level, RGBA8 words or four binary32 a texel. */
 TRIPTYCH_API size_t triptych_texture_texel_bytes(const triptych_texture *);
-TRIPTYCH_API enum triptych_result triptych_texture_read_texels(triptych_device *, triptych_texture *, void *data);
+TRIPTYCH_API enum triptych_result triptych_texture_read_texels(triptych_device *, triptych_texture *,
+                                                               void *data);
 TRIPTYCH_API enum triptych_result triptych_texture_write_texels(triptych_device *, triptych_texture *,
                                                                 const void *data, size_t bytes);
 /* The target's description, its first colour's format included; all zero without one. */
