@@ -1,6 +1,7 @@
 /* `triptych fuzz`: random cases drawn with every engine, width and number of threads (docs/fuzzing.md). */
 #include "base/file.h"
 #include "engines.h"
+#include "fuzz/bisect.h"
 #include "fuzz/campaign.h"
 #include "tool/choose.h"
 #include "tool/json.h"
@@ -69,15 +70,20 @@ static void describe(const struct settings *settings, const struct campaign_find
     snprintf(text + length, size - (size_t)length, ": %s", finding->what);
 }
 
+/* The text as a stream whose first lines say what is wrong with it. */
 static int save(const struct command *self, const struct settings *settings,
-                const struct campaign_finding *found, const char *description, const struct text *text)
+                const struct campaign_finding *found, const char *description, const struct text *explanation,
+                const struct text *text)
 {
     struct error error = {{0}};
     struct text whole = {0};
     char path[PATH_CAPACITY];
     const char *rest = strchr(text->data, '\n');
     snprintf(path, sizeof path, "%s/%u-%" PRIu64 ".tri", settings->folder, settings->seed, found->number);
-    text_add(&whole, "triptych 1\n# %s\n%s", description, rest ? rest + 1 : "");
+    text_add(&whole, "triptych 1\n# %s\n", description);
+    for (const char *line = explanation->data; line && *line; line = strchr(line, '\n') + 1)
+        text_add(&whole, "# %.*s\n", (int)strcspn(line, "\n"), line);
+    text_add(&whole, "%s", rest ? rest + 1 : "");
     int bad = whole.failed ? error_set(&error, "%s: out of memory", path)
                            : file_write(path, whole.data, whole.length, &error);
     text_free(&whole);
@@ -87,19 +93,41 @@ static int save(const struct command *self, const struct settings *settings,
     return STATUS_OK;
 }
 
+/* Which operation it is that differs; nothing for other outcomes, and where that cannot be found out. */
+static void explain(const struct finding *finding, const struct engine *reference, const struct text *text,
+                    struct text *explanation)
+{
+    static struct bisection bisection;
+    static const struct bisect_options anywhere = {BISECT_ANY, BISECT_ANY, BISECT_ANY};
+    struct error error = {{0}};
+    struct stream *stream;
+    if (finding->outcome != OUTCOME_DIFFERENT || finding->engine == reference ||
+        stream_parse("case", text->data, text->length, &stream, &error))
+        return;
+    if (bisect(stream, reference, finding->engine, &anywhere, &bisection, &error))
+        text_add(explanation, "%s\n", error.text);
+    else
+        bisection_print(&bisection, explanation);
+    stream_free(stream);
+    printf("%s", explanation->data ? explanation->data : "");
+}
+
 /* The case made small; as it is where it does not fail by itself, which is said. */
 static int save_smallest(const struct command *self, const struct settings *settings,
                          const struct campaign_options *options, const struct campaign_finding *found,
                          const char *description, const struct text *text)
 {
     struct error error = {{0}};
-    struct text smallest = {0};
+    struct text smallest = {0}, explanation = {0};
     progress("case %" PRIu64 " is made small", found->number);
     bool made = !campaign_minimize(options, &found->finding, text, &smallest, &error);
     progress(NULL);
     if (!made)
         printf("  not made small: %s\n", error.text);
-    int bad = save(self, settings, found, description, made ? &smallest : text);
+    const struct text *rest = made ? &smallest : text;
+    explain(&found->finding, options->run.engine[0], rest, &explanation);
+    int bad = save(self, settings, found, description, &explanation, rest);
+    text_free(&explanation);
     text_free(&smallest);
     return bad;
 }
