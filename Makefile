@@ -162,7 +162,7 @@ $(BUILD)/tests/tool/verify: private override LDFLAGS += -Wl,--wrap=triptych_read
 
 # And this one wrong operations, passes and fragments, to see them named.
 $(BUILD)/tests/fuzz/bisect: private override LDFLAGS += -Wl,--wrap=plan_step_of,--wrap=pass_reduce,--wrap=pass_dead \
-  -Wl,--wrap=plan_join,--wrap=external_compile
+  -Wl,--wrap=vector_rrr,--wrap=plan_join,--wrap=external_compile
 
 # Files that hold a text and are rewritten only when it changes: the same one however BUILD is spelled, for a test
 # installs from the build that others run at the same time.

@@ -215,17 +215,28 @@ static int wrong_side(const struct hunt *hunt)
     return side;
 }
 
-static int observe(struct hunt *hunt, struct error *error)
+/* Stage fragments whose outputs are right: the recording's values stand for theirs. */
+static void take_recorded(const struct hunt *hunt, struct observation *seen)
+{
+    for (uint32_t n = 0; n < hunt->probing.events.count; n++) {
+        memcpy(seen->value[n], hunt->probing.events.event[n].lane, sizeof *seen->value);
+        seen->known[n] = 1;
+    }
+}
+
+static int observe(struct hunt *hunt, int wrong, struct error *error)
 {
     for (int i = 0; i < 2; i++)
         if (observation_start(hunt->seen + i, &hunt->probing.events))
             return error_set(error, "out of memory for %u values", hunt->probing.events.count);
-    for (unsigned i = 0; i < 2; i++)
-        if (reading_of(hunt->routine[i]) == READING_STAGES)
-            return hunt_stages(hunt, i, error);
     for (int i = 0; i < 2; i++)
-        if (probe_observe(&hunt->probing, hunt->routine[i], hunt->seen + i, error))
+        if (reading_of(hunt->routine[i]) == READING_STAGES) {
+            if (wrong == i)
+                return hunt_stages(hunt, (unsigned)i, error);
+            take_recorded(hunt, hunt->seen + i);
+        } else if (probe_observe(&hunt->probing, hunt->routine[i], hunt->seen + i, error)) {
             return -1;
+        }
     compare_events(hunt);
     return 0;
 }
@@ -248,9 +259,9 @@ static int find_operation(struct hunt *hunt, struct error *error)
                                      .interpreter = hunt->interpreter};
     hunt->bisection->outcome = BISECT_NARROWED;
     note_store(hunt);
-    int result = observe(hunt, error);
-    int side = result ? -1 : wrong_side(hunt);
-    if (side >= 0)
+    int side = wrong_side(hunt);
+    int result = observe(hunt, side, error);
+    if (side >= 0 && !result)
         result = hunt_passes(hunt, (unsigned)side, error);
     for (int i = 0; i < 2; i++)
         observation_free(hunt->seen + i);

@@ -44,7 +44,8 @@ static void print_where(struct text *out, const struct bisection *b)
 static void print_first_line(struct text *out, const struct bisection *b)
 {
     if (b->outcome == BISECT_FOUND || (b->outcome == BISECT_NARROWED && b->operation)) {
-        text_add(out, "%s: %s: ", *b->place ? b->place : "(no line)", b->operation);
+        text_add(out, "%s: %s%s: ", *b->place ? b->place : "(no line)", *b->fragment ? "fragment " : "",
+                 b->operation);
         print_values(out, b, b->value, b->type);
     } else {
         text_add(out, "%s routine, %s: ", unit_name[b->unit], b->output_name);
@@ -62,7 +63,7 @@ void bisection_print(const struct bisection *b, struct text *out)
         return;
     }
     print_first_line(out, b);
-    if (b->outcome == BISECT_FOUND && *b->place) {
+    if (b->outcome == BISECT_FOUND && *b->place && !*b->fragment) {
         text_add(out, "  the recording, by the table of operations: ");
         print_value(out, b->type, b->expected);
         text_add(out, " (%%%u, %s%s)\n", b->instruction, type_names[b->type],

@@ -4,7 +4,7 @@
 
 #include "engines.h"
 #include "external/external.h"
-#include "jit/allocate.h"
+#include "jit/encode.h"
 #include "jit/pass.h"
 #include "stitch/plan.h"
 
@@ -21,8 +21,11 @@ static struct {
     enum ir_op reduce_op, reduce_becomes; /* pass reduce makes one of the other, the last one */
     unsigned reduce_at;                   /* of the instructions that are such: from 0 */
     bool dead_drops_store;
+    bool multiply_adds; /* the specializer's encoder writes vpaddw for vpmullw */
+    bool shy;           /* what is planted in the specializer is not there when passes see probes */
 
     const struct fragment *fragment, *fragment_becomes;
+    int32_t argument;                /* added to the fragment's first */
     const char *text, *text_becomes; /* of the external engine */
 } plant;
 
@@ -36,6 +39,10 @@ unsigned __real_pass_reduce(struct ir *ir, struct pass_memory *memory);
 unsigned __wrap_pass_reduce(struct ir *ir, struct pass_memory *memory);
 unsigned __real_pass_dead(struct ir *ir, struct pass_memory *memory);
 unsigned __wrap_pass_dead(struct ir *ir, struct pass_memory *memory);
+void __real_vector_rrr(struct encoder *encoder, enum x86_vector instruction, enum vector_length length,
+                       unsigned to, unsigned first, unsigned second);
+void __wrap_vector_rrr(struct encoder *encoder, enum x86_vector instruction, enum vector_length length,
+                       unsigned to, unsigned first, unsigned second);
 int __real_plan_join(struct plan *plan, struct code_arena *arena, struct code_span *span,
                      struct error *error);
 int __wrap_plan_join(struct plan *plan, struct code_arena *arena, struct code_span *span,
@@ -48,15 +55,34 @@ step_function *__wrap_plan_step_of(enum ir_op op)
     return __real_plan_step_of(plant.batch_op && op == plant.batch_op ? plant.batch_becomes : op);
 }
 
+/* Whether the passes have last seen a program with probes: only these store behind the lanes' tables. */
+static bool hides;
+
+static void look_for_probes(const struct ir *ir)
+{
+    hides = false;
+    for (uint32_t n = 1; n < ir->count && plant.shy; n++)
+        hides |= ir->instruction[n].op == IR_store && ir->instruction[n].base == BASE_LANES;
+}
+
 unsigned __wrap_pass_reduce(struct ir *ir, struct pass_memory *memory)
 {
     unsigned changes = __real_pass_reduce(ir, memory), met = 0;
-    for (uint32_t n = 1; n < ir->count && plant.reduce_op; n++)
+    look_for_probes(ir);
+    for (uint32_t n = 1; n < ir->count && plant.reduce_op && !hides; n++)
         if (ir->instruction[n].op == plant.reduce_op && met++ == plant.reduce_at) {
             ir->instruction[n].op = plant.reduce_becomes;
             return changes + 1;
         }
     return changes;
+}
+
+void __wrap_vector_rrr(struct encoder *encoder, enum x86_vector instruction, enum vector_length length,
+                       unsigned to, unsigned first, unsigned second)
+{
+    if (plant.multiply_adds && !hides && instruction == X86_vpmullw)
+        instruction = X86_vpaddw;
+    __real_vector_rrr(encoder, instruction, length, to, first, second);
 }
 
 unsigned __wrap_pass_dead(struct ir *ir, struct pass_memory *memory)
@@ -73,8 +99,10 @@ unsigned __wrap_pass_dead(struct ir *ir, struct pass_memory *memory)
 int __wrap_plan_join(struct plan *plan, struct code_arena *arena, struct code_span *span, struct error *error)
 {
     for (unsigned i = 0; i < plan->count && plant.fragment; i++)
-        if (plan->part[i].fragment == plant.fragment)
+        if (plan->part[i].fragment == plant.fragment) {
             plan->part[i].fragment = plant.fragment_becomes;
+            plan->part[i].arguments.value[0] += plant.argument;
+        }
     return __real_plan_join(plan, arena, span, error);
 }
 
@@ -274,6 +302,51 @@ static void a_store_that_a_pass_drops_is_named(void)
     TEST_ASSERT_EQUAL_STRING_LEN("spec/", found.place, 5);
 }
 
+static void what_the_encoder_makes_wrong_is_no_pass(void)
+{
+    NEEDS("specialize");
+    plant.multiply_adds = true;
+    run(modulate, "emulate", "specialize", NULL);
+    names("mul_x", "spec/color.h:");
+    TEST_ASSERT_NOT_NULL_MESSAGE(strstr(found.pass, "no pass"), printed.data);
+}
+
+/* Looking makes the difference disappear: the pass is known all the same, and where the first wrong word is stored. */
+static void a_pass_that_is_right_when_it_is_looked_at(void)
+{
+    NEEDS("specialize");
+    plant.reduce_op = IR_mul_x;
+    plant.reduce_becomes = IR_add_x;
+    plant.shy = true;
+    run(modulate, "emulate", "specialize", NULL);
+    TEST_ASSERT_EQUAL_INT_MESSAGE(BISECT_NARROWED, found.outcome, printed.data);
+    TEST_ASSERT_NOT_NULL_MESSAGE(strstr(found.pass, "pass reduce"), printed.data);
+    TEST_ASSERT_NOT_NULL_MESSAGE(strstr(found.reason, "disappear"), printed.data);
+    TEST_ASSERT_EQUAL_STRING("store", found.operation);
+}
+
+/* The same behind the passes: what they leave can be probed without them. */
+static void code_that_is_right_when_its_recording_is_looked_at(void)
+{
+    NEEDS("specialize");
+    plant.multiply_adds = plant.shy = true;
+    run(modulate, "emulate", "specialize", NULL);
+    names("mul_x", "spec/color.h:");
+    TEST_ASSERT_NOT_NULL_MESSAGE(strstr(found.pass, "no pass"), printed.data);
+    TEST_ASSERT_NOT_NULL_MESSAGE(strstr(found.reason, "what the passes leave"), printed.data);
+}
+
+/* The stitcher's stages are the reference: they are right, so the recording's values stand for theirs. */
+static void against_stage_fragments(void)
+{
+    NEEDS("stitch");
+    plant.batch_op = IR_mul_x;
+    plant.batch_becomes = IR_add_x;
+    run(modulate, "stitch", "batch", NULL);
+    names("mul_x", "spec/color.h:");
+    TEST_ASSERT_EQUAL_STRING("", found.fragment);
+}
+
 static void an_operation_fragment(void)
 {
     NEEDS("stitch-operation");
@@ -302,6 +375,54 @@ static void a_statement_of_the_external_engine(void)
     names("mul_x", "spec/color.h:");
 }
 
+static void names_fragment(const char *name)
+{
+    TEST_ASSERT_EQUAL_INT_MESSAGE(BISECT_FOUND, found.outcome, printed.data);
+    TEST_ASSERT_EQUAL_STRING_LEN_MESSAGE(name, found.fragment, strlen(name), printed.data);
+}
+
+static void a_stage_fragment_in_the_middle_of_a_routine(void)
+{
+    NEEDS("stitch");
+    plant.fragment = &fragment_stage_two_modulate;
+    plant.fragment_becomes = &fragment_stage_two_add;
+    run(modulate, "emulate", "stitch", NULL);
+    names_fragment("stage_two_modulate, ");
+    TEST_ASSERT_EQUAL_STRING_LEN_MESSAGE("spec/", found.place, 5, printed.data);
+}
+
+static void a_stage_fragment_whose_result_is_compared(void)
+{
+    NEEDS("stitch");
+    plant.fragment = &fragment_depth_new;
+    plant.fragment_becomes = &fragment_depth_new;
+    plant.argument = sizeof(float); /* the plane begins a word too late */
+    run(modulate, "emulate", "stitch", NULL);
+    names_fragment("depth_new, ");
+}
+
+static void a_stage_fragment_of_the_vertex_routine(void)
+{
+    NEEDS("stitch");
+    plant.fragment = &fragment_clip_position_w;
+    plant.fragment_becomes = &fragment_clip_position_w;
+    plant.argument = 4;
+    run(modulate, "emulate", "stitch", NULL);
+    names_fragment("clip_position_w, ");
+    TEST_ASSERT_EQUAL_INT(UNIT_VERTEX, found.unit);
+}
+
+static void a_stage_fragment_of_the_setup_routine(void)
+{
+    NEEDS("stitch");
+    plant.fragment = &fragment_smooth_plane;
+    plant.fragment_becomes = &fragment_smooth_plane;
+    plant.argument = VERTEX_SLOT_BYTES;
+    run(modulate, "emulate", "stitch", NULL);
+    names_fragment("smooth_plane, ");
+    TEST_ASSERT_EQUAL_INT(UNIT_SETUP, found.unit);
+}
+
 static void what_is_printed_begins_with_the_line(void)
 {
     plant.batch_op = IR_mul_x;
@@ -325,9 +446,17 @@ int main(void)
     RUN_TEST(the_first_pass_of_a_loop_in_which_it_differs);
     RUN_TEST(a_pass_that_is_wrong_is_named_with_the_operation);
     RUN_TEST(a_store_that_a_pass_drops_is_named);
+    RUN_TEST(what_the_encoder_makes_wrong_is_no_pass);
+    RUN_TEST(a_pass_that_is_right_when_it_is_looked_at);
+    RUN_TEST(code_that_is_right_when_its_recording_is_looked_at);
+    RUN_TEST(against_stage_fragments);
     RUN_TEST(an_operation_fragment);
     RUN_TEST(the_specializer_against_the_stitcher);
     RUN_TEST(a_statement_of_the_external_engine);
+    RUN_TEST(a_stage_fragment_in_the_middle_of_a_routine);
+    RUN_TEST(a_stage_fragment_whose_result_is_compared);
+    RUN_TEST(a_stage_fragment_of_the_vertex_routine);
+    RUN_TEST(a_stage_fragment_of_the_setup_routine);
     RUN_TEST(what_is_printed_begins_with_the_line);
     return UNITY_END();
 }
