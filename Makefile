@@ -68,11 +68,11 @@ library_libraries = $(filter-out -lOpenEXR-% -lOpenEXRUtil% -lIex% -lIlmThread% 
 tool_libraries = $(tool_packages) $(library_libraries)
 
 # Instrumented builds: SANITIZE=address (1 is the same), with undefined behaviour; SANITIZE=thread; COVERAGE=1, whose
-# counters several threads and processes share. gcc's flow warnings are wrong about instrumented code; the plain, clang
-# and matrix builds are the ones that warn.
+# counters may lose steps between threads, but not that a line ran. gcc's flow warnings are wrong about instrumented
+# code; the plain, clang and matrix builds are the ones that warn.
 instrument_address  = -fsanitize=address,undefined -fno-sanitize-recover=all
 instrument_thread   = -fsanitize=thread
-instrument_coverage = --coverage -fprofile-update=atomic
+instrument_coverage = --coverage -fprofile-update=single
 
 instrument := $(if $(SANITIZE),$(SANITIZE:1=address),$(if $(COVERAGE),coverage))
 ifneq ($(instrument),)
