@@ -262,12 +262,14 @@ verify-external: all
 	@$(COMMAND) verify --engines external --frames 1 --threads 2 $(wildcard bench/streams/*.tri tests/streams/*.tri \
 	  tests/scenes/*.tri tests/shading/*.tri)
 
-# Random tests of shaders with the sanitizers watching, for DURATION seconds.
+# Random cases and random tests with seed after seed from SEED on, for DURATION seconds; part of it with sanitizers.
 DURATION ?= 1800
-soak-shaders:
+SEED     ?= 1
+soak:
 	@tests/support/dependencies.sh build test
-	+@$(MAKE) $(jobs) BUILD=$(BUILD)/sanitize SANITIZE=1 all programs
-	@tests/support/soak.sh $(DURATION) $(BUILD)/sanitize
+	+@$(MAKE) $(jobs) all
+	+@$(MAKE) $(jobs) BUILD=$(BUILD)/sanitize SANITIZE=address all programs
+	@tests/support/soak.sh $(DURATION) $(BUILD) $(BUILD)/sanitize $(SEED)
 
 # The pictures of docs/gallery.md and docs/shader-gallery.md, which are goldens: look at them before they are committed.
 gallery: all
@@ -307,7 +309,10 @@ make test            everything that is tested, from a bare Debian on; ends with
 make check           the same tests on the plain build only
 make bench           the measurements, from a bare Debian on; writes results/
 make bench-shaders   the same of every shader in tests/shading, by shader and by length
-make soak-shaders    random shaders, half an hour (DURATION=1800) with the sanitizers watching
+make soak            random cases and tests with new seeds, half an hour (DURATION=1800 SEED=1), then a summary
+make matrix          gcc and clang at -O0, -O2, -O3, with and without AVX-512: the same bytes, results/matrix.txt
+make check-threads   all streams with several threads in random orders, ThreadSanitizer watching
+make coverage        lines that the tests execute, results/coverage.txt; fails below 90 %
 make verify-external every stream with the external engine: minutes of compiling
 make gallery         the pictures of docs/gallery.md and docs/shader-gallery.md anew
 make install         PREFIX=$(PREFIX) DESTDIR=$(DESTDIR)
@@ -316,7 +321,8 @@ make packages        what those packages are and what each is for
 make format          clang-format over the C sources; format-check only looks
 make clean           remove $(BUILD)/
 
-BUILD=dir  CC=clang  SANITIZE=1  CHECK_IR=1 (verify after each pass)  V=1 (show commands)  ONLY=text (tests whose path contains it)
+BUILD=dir  CC=clang  SANITIZE=address|thread  COVERAGE=1  CHECK_IR=1 (verify after each pass)
+V=1 (show commands)  ONLY=text (tests whose path contains it)
 CFLAGS=... (optimisation and debugging only)  UNITY_DIR=dir (a Unity checkout instead of the fetched one)
 endef
 

@@ -1,4 +1,4 @@
-/* Where random tests begin: the seed in TRIPTYCH_SEED, for long runs (make soak-shaders), or the same every time. */
+/* Where random tests begin: the seed in TRIPTYCH_SEED, for long runs (make soak), or the same every time. */
 #ifndef TESTS_SUPPORT_SEED_H
 #define TESTS_SUPPORT_SEED_H
 
