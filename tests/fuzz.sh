@@ -10,7 +10,7 @@ count=2400
 name="$count random cases of seed 5 are drawn alike"
 said=$("$TRIPTYCH" fuzz --seed 5 --count "$count" --output "$BUILD/findings" 2>&1)
 status=$?
-if ((status == 0)) && grep -qE "^$count cases, [0-9]+ engines, .*: .*, 0 refused, .*, 0 findings$" <<<"$said"; then
+if ((status == 0)) && grep -qE "^$count cases, [0-9]+ engines, .*, 0 findings$" <<<"$said"; then
     printf 'ok %s\n' "$name"
 else
     printf 'FAIL %s\n%s\nstatus %d\n' "$name" "$said" "$status"
