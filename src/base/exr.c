@@ -1,10 +1,11 @@
 /* The file is made in memory through OpenEXRCore's write function and then written by file_write: half a
  * picture is never seen. The core writes the chunk table at the end, back near the start, so the memory is
- * written at offsets. */
+ * written at offsets. What goes wrong in the core for want of memory has many names there; errno has one. */
 #include "base/exr.h"
 
 #include "base/file.h"
 
+#include <errno.h>
 #include <openexr.h>
 #include <stdint.h>
 #include <stdlib.h>
@@ -126,6 +127,7 @@ static int encode(struct job *job)
     initializer.user_data = job;
     initializer.write_fn = write_bytes;
     initializer.error_handler_fn = on_error;
+    errno = 0;
     exr_result_t result = exr_start_write(&context, job->path, EXR_WRITE_FILE_DIRECTLY, &initializer);
     if (!result)
         result = write_header(context, job);
@@ -135,7 +137,8 @@ static int encode(struct job *job)
     if (!result)
         result = finished;
     if (result)
-        return error_set(job->error, "%s: %s", job->path, exr_get_default_error_message(result));
+        return error_set(job->error, "%s: %s", job->path,
+                         errno == ENOMEM ? "not enough memory" : exr_get_default_error_message(result));
     return 0;
 }
 

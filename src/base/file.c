@@ -1,4 +1,5 @@
 #include "base/file.h"
+#include "base/leftover.h"
 
 #include <errno.h>
 #include <fcntl.h>
@@ -99,8 +100,10 @@ static int write_all(int descriptor, const char *data, size_t bytes)
         ssize_t put = write(descriptor, data, bytes);
         if (put < 0 && errno == EINTR)
             continue;
-        if (put < 0)
+        if (put <= 0) {
+            errno = put ? errno : EIO;
             return -1;
+        }
         data += put;
         bytes -= (size_t)put;
     }
@@ -130,15 +133,19 @@ static int write_through(const char *path, const void *data, size_t bytes, struc
     return 0;
 }
 
-/* Opens a new file beside `path`; its name is left in `name`, of `size` bytes. */
-static int open_temporary(const char *path, char *name, size_t size)
+/* Opens a new file beside `path`; its name is left in `name`, of `size` bytes, and noted. */
+static int open_temporary(const char *path, char *name, size_t size, int *leftover)
 {
     static atomic_uint serial;
     for (int attempt = 0; attempt < 100; attempt++) {
         snprintf(name, size, "%s.%ld-%u.new", path, (long)getpid(), atomic_fetch_add(&serial, 1));
+        *leftover = leftover_note(name);
         int descriptor = open(name, O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
-        if (descriptor >= 0 || errno != EEXIST)
+        if (descriptor >= 0)
             return descriptor;
+        leftover_forget(*leftover);
+        if (errno != EEXIST)
+            break;
     }
     return -1;
 }
@@ -160,7 +167,7 @@ static void synchronize_folder(char *path)
 static int write_beside(const char *path, mode_t mode, char *name, size_t size, const void *data,
                         size_t bytes)
 {
-    int descriptor = open_temporary(path, name, size);
+    int leftover, descriptor = open_temporary(path, name, size, &leftover);
     if (descriptor < 0)
         return -1;
     int result = mode ? fchmod(descriptor, mode) : 0;
@@ -170,12 +177,13 @@ static int write_beside(const char *path, mode_t mode, char *name, size_t size, 
         result = write_and_close(descriptor, data, bytes, 1);
     if (!result)
         result = rename(name, path);
-    if (result) {
-        int reason = errno;
+    int reason = errno;
+    if (result)
         unlink(name);
-        errno = reason;
+    leftover_forget(leftover);
+    errno = reason;
+    if (result)
         return -1;
-    }
     synchronize_folder(name);
     return 0;
 }

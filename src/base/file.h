@@ -14,9 +14,11 @@
 int file_read(const char *path, size_t limit, char **data, size_t *bytes, struct error *error);
 
 /* Writes a temporary file in the same folder, syncs it and renames it to `path`: after a failure (a full
- * disk, a folder that may not be written) or a crash `path` is what it was before, and a failure leaves no
- * temporary file. An existing file's permission bits are kept, and so are symbolic links to it: the file that
- * they lead to is replaced. What exists and is no regular file (a device, a pipe) is written to as it is. */
+ * disk, a folder that may not be written) or a crash `path` is what it was before. A failure leaves no
+ * temporary file, nor does a signal whose handler calls leftovers_remove (base/leftover.h); a process that is
+ * killed leaves PATH.PROCESS-NUMBER.new. An existing file's permission bits are kept, and so are symbolic
+ * links to it: the file that they lead to is replaced. What exists and is no regular file (a device, a pipe)
+ * is written to as it is. */
 int file_write(const char *path, const void *data, size_t bytes, struct error *error);
 
 /* The same for contents that come piece by piece: between file_begin and file_commit or file_discard they are in the

@@ -1,21 +1,30 @@
 /* From text to code: a private folder, the compiler as a process of its own, the dynamic linker.
  *
- * Nothing stays behind: what is loaded is mapped, and its file is not needed any more. The compiler is
- * started without a shell, with the environment as it is. */
+ * Nothing stays behind: what is loaded is mapped, and its file is not needed any more. A process that is killed while
+ * the compiler runs leaves its folder, TMPDIR/triptych-PROCESS-NUMBER; whoever works in one holds a lock on it, which
+ * ends with the process, and the first compilation of a process removes the user's folders that nobody has locked. The
+ * compiler is started without a shell, with the environment as it is. */
 #include "external/external.h"
+#include "base/leftover.h"
 
+#include <dirent.h>
 #include <dlfcn.h>
 #include <errno.h>
 #include <fcntl.h>
 #include <signal.h>
 #include <spawn.h>
+#include <stdatomic.h>
 #include <stdlib.h>
 #include <string.h>
+#include <sys/file.h>
 #include <sys/mman.h>
+#include <sys/stat.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
 enum { PATH_CAPACITY = 4096, LINE_CAPACITY = 256 };
+
+#define FOLDER_NAME "triptych-%u-%u"
 
 enum work_file { WORK_TEXT, WORK_OBJECT, WORK_MESSAGES, WORK_COUNT };
 
@@ -24,6 +33,8 @@ static const char *const file_name[WORK_COUNT] = {"routine.c", "routine.so", "me
 struct work {
     char folder[PATH_CAPACITY];
     char path[WORK_COUNT][PATH_CAPACITY + 16];
+    int lock; /* the folder, open */
+    int leftover[WORK_COUNT + 1];
 };
 
 extern char **environ;
@@ -77,27 +88,103 @@ const char *external_no_loading(void)
     return NULL;
 }
 
-static int open_work(struct work *work, struct error *error)
+static const char *temporary_folder(void)
 {
-    char path[PATH_CAPACITY];
     const char *folder = getenv("TMPDIR");
-    if (!folder || !*folder)
-        folder = "/tmp";
-    if (snprintf(path, sizeof path, "%s/triptych-XXXXXX", folder) >= (int)sizeof path)
-        return error_set(error, "TMPDIR is too long a path");
-    if (!mkdtemp(path))
-        return error_set(error, "%s: cannot make a folder for the compiler: %s", folder, strerror(errno));
-    memcpy(work->folder, path, sizeof path);
+    return folder && *folder ? folder : "/tmp";
+}
+
+static void name_files(struct work *work)
+{
     for (int i = 0; i < WORK_COUNT; i++)
-        snprintf(work->path[i], sizeof work->path[i], "%s/%s", path, file_name[i]);
+        snprintf(work->path[i], sizeof work->path[i], "%s/%s", work->folder, file_name[i]);
+}
+
+/* Locks the folder. Whether it is ours now: somebody who cleans up may have been faster. */
+static int lock_work(struct work *work)
+{
+    struct stat status;
+    work->lock = open(work->folder, O_RDONLY | O_DIRECTORY | O_CLOEXEC | O_NOFOLLOW);
+    if (work->lock < 0)
+        return 0;
+    if (!flock(work->lock, LOCK_EX | LOCK_NB) && !fstat(work->lock, &status) && status.st_nlink)
+        return 1;
+    close(work->lock);
     return 0;
 }
 
-static void close_work(const struct work *work)
+static void remove_work(const struct work *work)
 {
     for (int i = 0; i < WORK_COUNT; i++)
         unlink(work->path[i]);
     rmdir(work->folder);
+    close(work->lock);
+}
+
+static void note_work(struct work *work)
+{
+    for (int i = 0; i < WORK_COUNT; i++)
+        work->leftover[i] = leftover_note(work->path[i]);
+    work->leftover[WORK_COUNT] = leftover_note(work->folder);
+}
+
+static void close_work(const struct work *work)
+{
+    remove_work(work);
+    for (int i = 0; i <= WORK_COUNT; i++)
+        leftover_forget(work->leftover[i]);
+}
+
+/* What processes left that were killed. */
+static void remove_stale(struct work *work)
+{
+    DIR *folder = opendir(temporary_folder());
+    struct dirent *entry;
+    struct stat status;
+    unsigned process, number;
+    int end;
+    while (folder && (entry = readdir(folder))) {
+        end = 0;
+        if (sscanf(entry->d_name, FOLDER_NAME "%n", &process, &number, &end) < 2 || entry->d_name[end] ||
+            snprintf(work->folder, sizeof work->folder, "%s/%s", temporary_folder(), entry->d_name) >=
+                (int)sizeof work->folder ||
+            lstat(work->folder, &status) || status.st_uid != geteuid())
+            continue;
+        name_files(work);
+        if (lock_work(work))
+            remove_work(work);
+    }
+    if (folder)
+        closedir(folder);
+}
+
+static int make_folder(struct work *work, struct error *error)
+{
+    static atomic_uint serial;
+    for (int attempt = 0; attempt < 100; attempt++) {
+        if (snprintf(work->folder, sizeof work->folder, "%s/" FOLDER_NAME, temporary_folder(),
+                     (unsigned)getpid(), atomic_fetch_add(&serial, 1)) >= (int)sizeof work->folder)
+            return error_set(error, "TMPDIR is too long a path");
+        name_files(work);
+        note_work(work);
+        int made = !mkdir(work->folder, 0700);
+        if (made && lock_work(work))
+            return 0;
+        for (int i = 0; i <= WORK_COUNT; i++)
+            leftover_forget(work->leftover[i]);
+        if (!made && errno != EEXIST)
+            break;
+    }
+    return error_set(error, "%s: cannot make a folder for the compiler: %s", temporary_folder(),
+                     strerror(errno));
+}
+
+static int open_work(struct work *work, struct error *error)
+{
+    static atomic_flag cleaned = ATOMIC_FLAG_INIT;
+    if (!atomic_flag_test_and_set(&cleaned))
+        remove_stale(work);
+    return make_folder(work, error);
 }
 
 static int write_text(const struct work *work, const char *text, size_t bytes, struct error *error)

@@ -4,6 +4,7 @@
  * before it is set what it finds in front of a loop. */
 #define _GNU_SOURCE /* dladdr1 */
 #include "base/cpu.h"
+#include "base/memory_file.h"
 #include "base/mxcsr.h"
 #include "external/external.h"
 
@@ -39,11 +40,11 @@ static char *make_text(const struct ir *ir, enum unit unit, const union key *key
                        struct error *error)
 {
     char *text = NULL;
-    FILE *out = open_memstream(&text, bytes);
+    FILE *out = memory_file_open();
     if (out) {
         int bad = fputs(external_vector, out) < 0;
-        bad |= external_print(ir, unit, key, out) | ferror(out);
-        bad |= fclose(out);
+        bad |= external_print(ir, unit, key, out);
+        bad |= memory_file_close(out, &text, bytes);
         if (!bad)
             return text;
     }

@@ -4,6 +4,7 @@
  * says nothing is left out, one that replicates a component is that letter, any other swizzle is four
  * letters. Numbers of def are the shortest decimals that give the same bits, or those bits in hexadecimal if
  * they are not finite. Names of constants come first, as comments. */
+#include "base/memory_file.h"
 #include "shader/shader.h"
 
 #include <inttypes.h>
@@ -153,17 +154,15 @@ static void print_names(FILE *out, const struct shader *shader)
 
 int shader_print(const struct shader *shader, char **text, size_t *bytes, struct error *error)
 {
-    FILE *out = open_memstream(text, bytes);
+    FILE *out = memory_file_open();
+    *text = NULL;
     if (!out)
         return error_set(error, "%s: not enough memory for its text", shader->path);
     fprintf(out, "%s\n", shader->model->name);
     print_names(out, shader);
     for (uint32_t i = 0; i < shader->count; i++)
         print_instruction(out, &shader->instructions[i], shader->model);
-    int bad = ferror(out);
-    if (!fclose(out) && !bad)
-        return 0;
-    free(*text);
-    *text = NULL;
-    return error_set(error, "%s: not enough memory for its text", shader->path);
+    return memory_file_close(out, text, bytes)
+               ? error_set(error, "%s: not enough memory for its text", shader->path)
+               : 0;
 }

@@ -1,5 +1,6 @@
 #include "stream/folder.h"
 
+#include <errno.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -63,10 +64,10 @@ int folder_prefix(const struct stream *stream, const char *path, char **prefix, 
         *prefix = strdup("");
         return *prefix ? 0 : error_set(error, "%s: not enough memory", path);
     }
-    char *from = real_folder(path), *to = real_folder(stream->path);
-    if (from && to)
+    char *from = real_folder(path), *to = from ? real_folder(stream->path) : NULL;
+    int found = to || errno == ENOMEM;
+    if (to)
         *prefix = relative_folder(from, to);
-    int found = from && to;
     free(from);
     free(to);
     if (!found)

@@ -11,6 +11,7 @@
 #include <assimp/config.h>
 #include <assimp/postprocess.h>
 #include <assimp/scene.h>
+#include <errno.h>
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -154,7 +155,7 @@ static int check_file(const char *path, struct error *error)
     FILE *file = fopen(path, "rb");
     struct stat status;
     if (!file)
-        return error_set(error, "%s: cannot open, expected a model file", path);
+        return error_set(error, "%s: cannot open: %s, expected a model file", path, strerror(errno));
     int result = fstat(fileno(file), &status);
     if (result || !S_ISREG(status.st_mode) || status.st_size > LIMIT_FILE_BYTES)
         result =

@@ -3,6 +3,7 @@
  */
 #include "base/file.h"
 #include "base/half.h"
+#include "base/memory_file.h"
 #include "draw/format.h"
 #include "container/layout.h"
 #include "stream/asset.h"
@@ -687,15 +688,14 @@ static void write_calls(struct writer *writer)
 
 static int write_all(struct writer *writer, char **text, size_t *bytes)
 {
-    writer->out = open_memstream(text, bytes);
+    writer->out = memory_file_open();
     if (!writer->out)
         return -1;
     fputs("triptych 1\n", writer->out);
     for (uint32_t i = 0; i < writer->stream->resource_count; i++)
         write_resource(writer, &writer->stream->resources[i]);
     write_calls(writer);
-    int failed = ferror(writer->out);
-    return fclose(writer->out) || failed ? -1 : 0;
+    return memory_file_close(writer->out, text, bytes);
 }
 
 int stream_write(const struct stream *stream, const char *path, char **text, size_t *bytes,

@@ -5,10 +5,13 @@
  * has its own device, kept from warm-up to end, as an application would. Pictures are not read back.
  *
  * An engine stops early when its next repetition would take it beyond its share of seconds, but not before
- * REPETITIONS_MINIMUM: the emulator is slow, and a median needs something to be the middle of. */
+ * REPETITIONS_MINIMUM: the emulator is slow, and a median needs something to be the middle of.
+ *
+ * Interrupted (interrupt.h), it reports the streams that are done. */
 #include "tool/bench_report.h"
 #include "tool/bench_shaders.h"
 #include "tool/choose.h"
+#include "tool/interrupt.h"
 #include "tool/option.h"
 #include "triptych.h"
 
@@ -38,7 +41,7 @@ static int start_runs(const struct command *self, const struct stream *stream, c
     result->runs = calloc(engines->count, sizeof *result->runs);
     if (!result->runs)
         return fail(self, "no memory for %u engines", engines->count);
-    for (; result->run_count < engines->count; result->run_count++) {
+    for (; result->run_count < engines->count && !interrupted(); result->run_count++) {
         const char *name = triptych_engine_name(engines->index[result->run_count]);
         progress("%s: %s, warming up", result->name, name);
         if (!strcmp(name, "emulate"))
@@ -56,7 +59,7 @@ static int repeat_all(const struct command *self, const struct settings *setting
 {
     for (bool going_on = true; going_on;) {
         going_on = false;
-        for (unsigned i = 0; i < result->run_count; i++) {
+        for (unsigned i = 0; i < result->run_count && !interrupted(); i++) {
             struct bench_run *run = result->runs + i;
             if (!goes_on(run, settings))
                 continue;
@@ -102,7 +105,7 @@ static int bench_one(const struct command *self, const char *path, const struct 
     int status = start_runs(self, stream, engines, settings, result);
     if (!status)
         status = repeat_all(self, settings, result);
-    if (!status)
+    if (!status && !interrupted())
         status = finish_all(self, result);
     for (unsigned i = 0; i < result->run_count; i++)
         session_close(&result->runs[i].session);
@@ -110,29 +113,46 @@ static int bench_one(const struct command *self, const char *path, const struct 
     return status;
 }
 
-static int bench_all(const struct command *self, char **paths, const struct choice *engines,
-                     const struct settings *settings, struct bench *bench)
+static void free_stream(struct bench_stream *stream)
 {
-    for (unsigned i = 0; i < bench->stream_count; i++) {
-        if (bench_one(self, paths[i], engines, settings, bench->streams + i))
-            return STATUS_BAD;
+    for (unsigned i = 0; i < stream->run_count; i++)
+        bench_run_free(stream->runs + i);
+    free(stream->runs);
+    *stream = (struct bench_stream){0};
+}
+
+/* Measures the streams until all `count` are done or somebody interrupts: bench->stream_count is how many. */
+static int measure_all(const struct command *self, char **paths, unsigned count, const struct choice *engines,
+                       const struct settings *settings, struct bench *bench)
+{
+    while (bench->stream_count < count) {
+        struct bench_stream *stream = bench->streams + bench->stream_count;
+        int status = bench_one(self, paths[bench->stream_count], engines, settings, stream);
         progress(NULL);
-        if (!i)
+        if (status || interrupted())
+            return free_stream(stream), status;
+        if (!bench->stream_count++)
             bench_print_machine(bench);
-        bench_print_stream(bench, bench->streams + i);
+        bench_print_stream(bench, stream);
         fflush(stdout);
     }
+    return STATUS_OK;
+}
+
+static int bench_all(const struct command *self, char **paths, unsigned count, const struct choice *engines,
+                     const struct settings *settings, struct bench *bench)
+{
+    int status = measure_all(self, paths, count, engines, settings, bench);
+    if (status || !bench->stream_count)
+        return status;
     bench_print_summary(bench);
     return settings->shaders ? bench_print_shaders(self, bench) : STATUS_OK;
 }
 
 static void free_bench(struct bench *bench)
 {
-    for (unsigned i = 0; i < bench->stream_count; i++) {
-        for (unsigned j = 0; j < bench->streams[i].run_count; j++)
-            bench_run_free(bench->streams[i].runs + j);
-        free(bench->streams[i].runs);
-    }
+    for (unsigned i = 0; i < bench->stream_count; i++)
+        free_stream(bench->streams + i);
     free(bench->streams);
 }
 
@@ -145,7 +165,8 @@ static const char notes[] =
     "is\n"
     "geometry time per vertex shaded, ns/pixel tile time per pixel shaded, both summed over threads; "
     "ms/frame is\n"
-    "wall time. \"x\" columns: times the speed of emulate (or, without it, of the first engine).";
+    "wall time. \"x\" columns: times the speed of emulate (or, without it, of the first engine).\n"
+    "SIGINT or SIGTERM ends it with a report of the streams that are done, and status 130 or 143.";
 
 int command_bench(const struct command *self, int count, char **arguments)
 {
@@ -175,16 +196,22 @@ int command_bench(const struct command *self, int count, char **arguments)
     if (choose_engines(self, engine_list, &engines) || check_output(self, json) || check_output(self, csv))
         return STATUS_BAD;
 
-    struct bench bench = {machine_describe(), settings.threads, settings.shaders, (unsigned)operands.count,
-                          NULL};
-    bench.streams = calloc(bench.stream_count, sizeof *bench.streams);
+    struct bench bench = {machine_describe(), settings.threads, settings.shaders, 0, NULL};
+    unsigned count_streams = (unsigned)operands.count;
+    bench.streams = calloc(count_streams, sizeof *bench.streams);
     if (!bench.streams)
-        return fail(self, "no memory for %u streams", bench.stream_count);
-    int status = bench_all(self, operands.value, &engines, &settings, &bench);
-    if (!status && json)
+        return fail(self, "no memory for %u streams", count_streams);
+    interrupt_wait();
+    int status = bench_all(self, operands.value, count_streams, &engines, &settings, &bench);
+    if (!status && json && bench.stream_count)
         status = bench_write_json(self, &bench, json);
-    if (!status && csv)
+    if (!status && csv && bench.stream_count)
         status = bench_write_csv(self, &bench, csv);
+    if (!status && interrupted()) {
+        printf("\ninterrupted by %s: %u of %u streams\n", interrupt_name(), bench.stream_count,
+               count_streams);
+        status = interrupt_status();
+    }
     free_bench(&bench);
     return status;
 }

@@ -1,8 +1,10 @@
 #include "tool/bench_report.h"
 #include "tool/bench_shaders.h"
 #include "base/file.h"
+#include "base/memory_file.h"
 #include "draw/key.h"
 #include "tool/choose.h"
+#include "tool/interrupt.h"
 #include "tool/json.h"
 #include "tool/table.h"
 #include "triptych.h"
@@ -83,7 +85,6 @@ static size_t count_builds(const struct bench *bench, unsigned run)
     return count;
 }
 
-/* All zero when memory runs out, as for an engine that built nothing. */
 static struct unit_summary summarize_unit(const struct bench *bench, unsigned run, unsigned unit)
 {
     size_t all = count_builds(bench, run), count = 0, coded = 0, by_operation = 0;
@@ -98,6 +99,8 @@ static struct unit_summary summarize_unit(const struct bench *bench, unsigned ru
             if (build->code_bytes > 0)
                 bytes[coded++] = build->code_bytes;
         }
+    if (!us || !bytes)
+        report_is_incomplete();
     struct unit_summary summary = {summarize(us, count), summarize(bytes, coded), by_operation};
     free(us);
     free(bytes);
@@ -202,6 +205,8 @@ int bench_write_json(const struct command *self, const struct bench *bench, cons
     cJSON *json = cJSON_CreateObject();
     cJSON_AddItemToObject(json, "machine", machine_json(&bench->machine));
     cJSON_AddNumberToObject(json, "threads", bench->threads);
+    if (interrupted())
+        cJSON_AddStringToObject(json, "interrupted", interrupt_name());
     cJSON *streams = cJSON_AddArrayToObject(json, "streams");
     for (unsigned i = 0; i < bench->stream_count; i++)
         cJSON_AddItemToArray(streams, json_stream(bench->streams + i));
@@ -230,7 +235,7 @@ int bench_write_csv(const struct command *self, const struct bench *bench, const
 {
     char *text = NULL;
     size_t bytes = 0;
-    FILE *out = open_memstream(&text, &bytes);
+    FILE *out = report_is_complete() ? memory_file_open() : NULL;
     if (!out)
         return fail(self, "no memory for %s", path);
     fputs("stream,engine,width,threads,frames", out);
@@ -241,8 +246,8 @@ int bench_write_csv(const struct command *self, const struct bench *bench, const
         for (unsigned j = 0; j < bench->streams[i].run_count; j++)
             write_row(out, bench, bench->streams + i, bench->streams[i].runs + j);
     struct error error = {""};
-    int bad = ferror(out) | fclose(out);
-    bad = bad ? error_set(&error, "no memory for %s", path) : file_write(path, text, bytes, &error);
+    int bad = memory_file_close(out, &text, &bytes) ? error_set(&error, "no memory for %s", path)
+                                                    : file_write(path, text, bytes, &error);
     free(text);
     return bad ? fail(self, "%s", error.text) : STATUS_OK;
 }

@@ -311,6 +311,8 @@ cJSON *bench_json_shaders(const struct bench *bench)
         json = cJSON_CreateArray();
         for (size_t i = 0; i < shaders.count; i++)
             cJSON_AddItemToArray(json, json_row(bench, &shaders, &shaders.row[i]));
+    } else {
+        report_is_incomplete();
     }
     free(shaders.row);
     return json;

@@ -90,12 +90,23 @@ static int add(const struct command *self, struct choice *choice, unsigned value
     return STATUS_OK;
 }
 
+/* The reason is asked for once: it may be another one, or over, the next time. */
+static int add_if_available(const struct command *self, struct choice *choice, unsigned engine)
+{
+    const char *reason = triptych_engine_unavailable(engine);
+    if (!reason)
+        return add(self, choice, engine, triptych_engine_name(engine));
+    unsigned i = choice->left_out_count++;
+    choice->left_out[i].index = engine;
+    snprintf(choice->left_out[i].reason, sizeof choice->left_out[i].reason, "%s", reason);
+    return STATUS_OK;
+}
+
 int choose_engines(const struct command *self, const char *list, struct choice *choice)
 {
-    choice->count = 0;
+    choice->count = choice->left_out_count = 0;
     for (unsigned i = 0; !list && triptych_engine_name(i); i++)
-        if (!engine_at(i)->on_request && !triptych_engine_unavailable(i) &&
-            add(self, choice, i, triptych_engine_name(i)))
+        if (!engine_at(i)->on_request && add_if_available(self, choice, i))
             return STATUS_BAD;
     char name[NAME_CAPACITY];
     while ((list = list_next(list, name, sizeof name))) {

@@ -4,6 +4,7 @@
 #include "fuzz/bisect.h"
 #include "fuzz/campaign.h"
 #include "tool/choose.h"
+#include "tool/interrupt.h"
 #include "tool/json.h"
 #include "tool/machine.h"
 #include "tool/option.h"
@@ -33,7 +34,7 @@ static bool watch(void *user, const struct campaign *campaign)
     const struct settings *settings = user;
     progress("%" PRIu64 " of %u cases, %.0f a second, %u findings", campaign->cases, settings->count,
              (double)campaign->cases / campaign->seconds, campaign->findings);
-    return false;
+    return interrupted();
 }
 
 /* The reference of every comparison comes first, whatever the list says. */
@@ -231,16 +232,18 @@ static int fuzz(const struct command *self, struct settings *settings)
         return STATUS_BAD;
     if (mkdir(settings->folder, 0777) && errno != EEXIST)
         return fail(self, "%s: cannot make the folder: %s", settings->folder, strerror(errno));
+    interrupt_wait();
     if (campaign_run(&options, watch, settings, &campaign, &error))
         return fail(self, "%s", error.text);
     int status = report(self, settings, &options, &campaign);
     rmdir(settings->folder); /* if nothing was found */
-    return status;
+    return campaign.interrupted && status != STATUS_BAD ? interrupt_status() : status;
 }
 
-static const char notes[] = "Case N of seed S is always the same draw stream. Findings are minimised and "
-                            "written to the folder as streams.\n"
-                            "Exit status 1 if there are any.";
+static const char notes[] =
+    "Case N of seed S is always the same draw stream. Findings are minimised and "
+    "written to the folder as streams.\n"
+    "Exit status 1 if there are any; after SIGINT or SIGTERM a report so far, and 130 or 143.";
 
 int command_fuzz(const struct command *self, int count, char **arguments)
 {

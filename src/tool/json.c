@@ -1,14 +1,70 @@
 #include "tool/json.h"
 #include "base/file.h"
 
+#include <stdalign.h>
+#include <stddef.h>
+#include <stdlib.h>
 #include <string.h>
+
+/* In front of each block. */
+struct block {
+    alignas(max_align_t) struct block *next;
+    struct block **link; /* what points here */
+};
+
+static struct block *blocks;
+
+static void *allocate(size_t bytes)
+{
+    struct block *block = malloc(sizeof *block + bytes);
+    if (!block) {
+        report_is_incomplete();
+        return NULL;
+    }
+    *block = (struct block){.next = blocks, .link = &blocks};
+    if (blocks)
+        blocks->link = &block->next;
+    blocks = block;
+    return block + 1;
+}
+
+static void release(void *memory)
+{
+    if (!memory)
+        return;
+    struct block *block = (struct block *)memory - 1;
+    *block->link = block->next;
+    if (block->next)
+        block->next->link = block->link;
+    free(block);
+}
+
+void json_begin(void)
+{
+    cJSON_InitHooks(&(cJSON_Hooks){.malloc_fn = allocate, .free_fn = release});
+}
+
+void json_end(void)
+{
+    while (blocks)
+        release(blocks + 1);
+    cJSON_InitHooks(NULL);
+}
+
+char *json_text(const struct command *self, const cJSON *json)
+{
+    char *text = report_is_complete() ? cJSON_Print(json) : NULL;
+    if (!text)
+        fail(self, "out of memory for the report");
+    return text;
+}
 
 int json_write(const struct command *self, const cJSON *json, const char *path)
 {
     struct error error = {""};
-    char *text = cJSON_Print(json);
+    char *text = json_text(self, json);
     if (!text)
-        return fail(self, "no memory for %s", path);
+        return STATUS_BAD;
     size_t length = strlen(text);
     text[length] = '\n'; /* in place of the zero byte: files of text end with a line's end */
     int bad = file_write(path, text, length + 1, &error);

@@ -7,13 +7,13 @@
 #include "draw/format.h"
 #include "engines.h"
 #include "jit/jit.h"
+#include "tool/json.h"
 #include "tool/option.h"
 #include "tool/shaders.h"
 #include "tool/states.h"
 #include "tool/table.h"
 #include "triptych.h"
 
-#include <cjson/cJSON.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -125,14 +125,14 @@ static int print_rows(const struct command *self, const struct subject *subject,
 {
     cJSON *rows = cJSON_CreateArray();
     subject->list(rows);
-    char *text = json ? cJSON_Print(rows) : NULL;
+    char *text = json ? json_text(self, rows) : NULL;
     if (text)
         puts(text);
-    else if (!json)
+    else if (!json && report_is_complete())
         print_table(rows);
     cJSON_Delete(rows);
     cJSON_free(text);
-    return json && !text ? fail(self, "out of memory") : STATUS_OK;
+    return json && !text ? STATUS_BAD : STATUS_OK;
 }
 
 static int print(const struct command *self, const struct subject *subject, bool json, bool markdown)

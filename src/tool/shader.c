@@ -34,8 +34,8 @@ static int send_json(const struct command *self, const struct settings *settings
     char *text = NULL;
     if (settings->output)
         status = json_write(self, report, settings->output);
-    else if (!(text = cJSON_Print(report)))
-        status = fail(self, "out of memory");
+    else if (!(text = json_text(self, report)))
+        status = STATUS_BAD;
     else
         puts(text);
     cJSON_free(text);

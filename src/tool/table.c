@@ -1,4 +1,5 @@
 #include "tool/table.h"
+#include "tool/tool.h"
 
 #include <stdarg.h>
 #include <stdlib.h>
@@ -60,7 +61,7 @@ void table_print(struct table *table, unsigned indent, FILE *out)
     for (unsigned row = 0; row < rows; row++)
         print_row(table, table->cell + row * table->columns, width, indent, out);
     if (table->incomplete)
-        fputs("(out of memory: rows are missing)\n", out);
+        report_is_incomplete();
     free(table->cell);
     *table = (struct table){0};
 }

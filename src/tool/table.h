@@ -9,7 +9,7 @@ enum { TABLE_COLUMNS = 20, TABLE_CELL = 96 };
 
 enum table_alignment { TABLE_LEFT, TABLE_RIGHT };
 
-/* Zero is an empty table. When memory runs out the table prints what it has and then says so. */
+/* Zero is an empty table. When memory is refused it prints what it has, and the report is incomplete (tool.h). */
 struct table {
     unsigned columns, cells, capacity;
     enum table_alignment alignment[TABLE_COLUMNS];

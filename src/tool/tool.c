@@ -21,6 +21,23 @@ int fail(const struct command *self, const char *format, ...)
     return STATUS_BAD;
 }
 
+static bool incomplete;
+
+void report_begin(void)
+{
+    incomplete = false;
+}
+
+void report_is_incomplete(void)
+{
+    incomplete = true;
+}
+
+bool report_is_complete(void)
+{
+    return !incomplete;
+}
+
 void progress(const char *format, ...)
 {
     static bool shown;

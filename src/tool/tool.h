@@ -11,7 +11,7 @@ enum status {
     STATUS_OK = 0,
     STATUS_DIFFERENT = 1, /* a difference was found, a verification failed */
     STATUS_BAD = 2        /* bad input or usage, or something refused by the system */
-};
+};                        /* and 128 + the signal's number of a command that was interrupted (interrupt.h) */
 
 struct command {
     const char *name;
@@ -31,6 +31,12 @@ int fail(const struct command *self, const char *format, ...) __attribute__((for
 /* Whether a file of that path can be made or replaced, asked before hours are spent on its contents. A null
  * path is fine. Returns 0, or STATUS_BAD after telling why not. */
 int check_output(const struct command *self, const char *path);
+
+/* Once memory was refused to a part of a report, the program will end with STATUS_BAD, and no report is written to a
+ * file. */
+void report_begin(void);
+void report_is_incomplete(void);
+bool report_is_complete(void);
 
 /* Shows a line of progress in place of the last; null wipes it. */
 void progress(const char *format, ...) __attribute__((format(printf, 1, 2)));

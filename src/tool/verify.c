@@ -3,10 +3,13 @@
  * The reference is the emulator with one thread. For every frame it draws once and keeps colours, depths and
  * stencils; every other configuration draws the same frame on a device of its own and is compared at once, so
  * that memory does not grow with the number of frames. A configuration that differed is told with its first
- * differing frame and leaves the stream's remaining frames alone. */
+ * differing frame and leaves the stream's remaining frames alone.
+ *
+ * Interrupted (interrupt.h), it reports the frames that all configurations have drawn. */
 #include "draw/shuffle.h"
 #include "tool/choose.h"
 #include "tool/difference.h"
+#include "tool/interrupt.h"
 #include "tool/json.h"
 #include "tool/machine.h"
 #include "tool/option.h"
@@ -43,7 +46,8 @@ struct settings {
 struct verification {
     char name[STEM_CAPACITY];
     const char *path;
-    unsigned frames, all; /* drawn, in the stream */
+    unsigned frames, all; /* to draw, in the stream */
+    unsigned drawn;
     struct configuration reference;
     struct configuration *others;
     unsigned count, different;
@@ -177,12 +181,9 @@ static int draw(const struct command *self, const struct verification *verificat
                : STATUS_OK;
 }
 
-static int verify_frame(const struct command *self, const struct settings *settings,
-                        struct verification *verification, unsigned frame)
+static void add_frame(struct verification *verification)
 {
-    struct capture *expected = &verification->expected;
-    if (draw(self, verification, &verification->reference, frame, expected))
-        return STATUS_BAD;
+    const struct capture *expected = &verification->expected;
     size_t pixels = (size_t)expected->width * expected->height;
     XXH3_64bits_update(verification->digest, expected->color, pixels * sizeof *expected->color);
     if (expected->has_depth)
@@ -195,7 +196,13 @@ static int verify_frame(const struct command *self, const struct settings *setti
     for (unsigned i = 0; i < expected->query_count; i++)
         XXH3_64bits_update(verification->digest, &expected->queries[i].passed,
                            sizeof expected->queries[i].passed);
-    for (unsigned i = 0; i < verification->count; i++) {
+    verification->drawn++;
+}
+
+static int compare_others(const struct command *self, const struct settings *settings,
+                          struct verification *verification, unsigned frame)
+{
+    for (unsigned i = 0; i < verification->count && !interrupted(); i++) {
         struct configuration *configuration = verification->others + i;
         if (configuration->differs)
             continue;
@@ -207,12 +214,25 @@ static int verify_frame(const struct command *self, const struct settings *setti
     return STATUS_OK;
 }
 
+/* A frame counts when every configuration has drawn it. */
+static int verify_frame(const struct command *self, const struct settings *settings,
+                        struct verification *verification, unsigned frame)
+{
+    if (draw(self, verification, &verification->reference, frame, &verification->expected) ||
+        compare_others(self, settings, verification, frame))
+        return STATUS_BAD;
+    if (!interrupted())
+        add_frame(verification);
+    return STATUS_OK;
+}
+
 static void add_stream(const struct settings *settings, struct verification *verification, const char *digest)
 {
     cJSON *json = cJSON_CreateObject();
     cJSON_AddStringToObject(json, "stream", verification->name);
     cJSON_AddStringToObject(json, "path", verification->path);
-    cJSON_AddNumberToObject(json, "frames", verification->frames);
+    cJSON_AddNumberToObject(json, "frames", verification->drawn);
+    cJSON_AddBoolToObject(json, "complete", verification->drawn == verification->frames);
     cJSON_AddNumberToObject(json, "configurations", verification->count + 1);
     cJSON_AddStringToObject(json, "xxh3", digest);
     cJSON_AddBoolToObject(json, "identical", !verification->different);
@@ -225,9 +245,9 @@ static void report(const struct settings *settings, struct verification *verific
     char digest[24];
     snprintf(digest, sizeof digest, "%016llx", (unsigned long long)XXH3_64bits_digest(verification->digest));
     progress(NULL);
-    if (!verification->different)
+    if (!verification->different && verification->drawn)
         printf("%s: identical, %u of %u frames, %u configurations, %u x %u, xxh3 %s\n", verification->name,
-               verification->frames, verification->all, verification->count + 1, verification->expected.width,
+               verification->drawn, verification->all, verification->count + 1, verification->expected.width,
                verification->expected.height, digest);
     fflush(stdout);
     if (settings->report)
@@ -239,16 +259,20 @@ static int verify_frames(const struct command *self, const struct stream *stream
 {
     if (open_all(self, stream, settings, verification))
         return STATUS_BAD;
-    for (unsigned i = 0; i < verification->frames; i++)
+    for (unsigned i = 0; i < verification->frames && !interrupted(); i++)
         if (verify_frame(self, settings, verification,
                          session_spread(i, verification->frames, verification->all)))
             return STATUS_BAD;
     return STATUS_OK;
 }
 
-/* Verifies a stream; *different counts the streams that differ. */
+/* Streams so far. */
+struct totals {
+    unsigned complete, different;
+};
+
 static int verify_stream(const struct command *self, const char *path, const struct settings *settings,
-                         unsigned *different)
+                         struct totals *totals)
 {
     struct stream *stream = session_load(self, path);
     if (!stream)
@@ -263,7 +287,8 @@ static int verify_stream(const struct command *self, const char *path, const str
     int status = verify_frames(self, stream, settings, &verification);
     if (!status) {
         report(settings, &verification);
-        *different += verification.different != 0;
+        totals->different += verification.different != 0;
+        totals->complete += verification.drawn == verification.frames;
     } else {
         cJSON_Delete(verification.differences);
     }
@@ -272,36 +297,49 @@ static int verify_stream(const struct command *self, const char *path, const str
     return status;
 }
 
-static void tell_left_out(void)
+static void tell_left_out(const struct choice *engines)
 {
-    for (unsigned i = 0; triptych_engine_name(i); i++)
-        if (triptych_engine_unavailable(i))
-            printf("left out %s: %s\n", triptych_engine_name(i), triptych_engine_unavailable(i));
+    for (unsigned i = 0; i < engines->left_out_count; i++)
+        printf("left out %s: %s\n", triptych_engine_name(engines->left_out[i].index),
+               engines->left_out[i].reason);
+}
+
+static void summarize(const struct operands *operands, const struct settings *settings,
+                      const struct totals *totals)
+{
+    if (interrupted())
+        printf("interrupted by %s: %u of ", interrupt_name(), totals->complete);
+    printf("%d streams, %u engines, ", operands->count, settings->engines.count);
+    if (totals->different)
+        printf("%u differ\n", totals->different);
+    else
+        puts("identical");
 }
 
 static int verify_all(const struct command *self, const struct operands *operands,
-                      const struct settings *settings)
+                      const struct settings *settings, bool *identical)
 {
-    unsigned different = 0;
-    for (int i = 0; i < operands->count; i++)
-        if (verify_stream(self, operands->value[i], settings, &different))
+    struct totals totals = {0};
+    for (int i = 0; i < operands->count && !interrupted(); i++)
+        if (verify_stream(self, operands->value[i], settings, &totals))
             return STATUS_BAD;
-    tell_left_out();
-    printf("%d streams, %u engines, ", operands->count, settings->engines.count);
-    if (different)
-        printf("%u differ\n", different);
-    else
-        puts("identical");
-    return different ? STATUS_DIFFERENT : STATUS_OK;
+    tell_left_out(&settings->engines);
+    summarize(operands, settings, &totals);
+    *identical = !totals.different;
+    if (interrupted())
+        return interrupt_status();
+    return totals.different ? STATUS_DIFFERENT : STATUS_OK;
 }
 
 static int write_report(const struct command *self, const struct settings *settings, const char *path,
-                        int status)
+                        bool identical, int status)
 {
     struct machine machine = machine_describe();
     cJSON *json = cJSON_CreateObject();
     cJSON_AddItemToObject(json, "machine", machine_json(&machine));
-    cJSON_AddBoolToObject(json, "identical", status == STATUS_OK);
+    cJSON_AddBoolToObject(json, "identical", identical);
+    if (interrupted())
+        cJSON_AddStringToObject(json, "interrupted", interrupt_name());
     cJSON *engines = cJSON_AddArrayToObject(json, "engines");
     for (unsigned i = 0; i < settings->engines.count; i++)
         cJSON_AddItemToArray(engines, cJSON_CreateString(triptych_engine_name(settings->engines.index[i])));
@@ -314,7 +352,8 @@ static int write_report(const struct command *self, const struct settings *setti
 static const char notes[] =
     "The reference is emulate with 1 thread; every colour and depth byte of every other configuration must "
     "equal\n"
-    "its. Frames count from 0. Last line: \"N streams, N engines, identical\" or how many streams differ.";
+    "its. Frames count from 0. Last line: \"N streams, N engines, identical\" or how many streams differ.\n"
+    "SIGINT or SIGTERM ends it with a report of what has been drawn, and status 130 or 143.";
 
 int command_verify(const struct command *self, int count, char **arguments)
 {
@@ -343,10 +382,12 @@ int command_verify(const struct command *self, int count, char **arguments)
         choose_threads(self, thread_list, &settings.threads) || check_output(self, json))
         return STATUS_BAD;
 
+    bool identical;
     settings.report = json ? cJSON_CreateArray() : NULL;
-    int status = verify_all(self, &operands, &settings);
+    interrupt_wait();
+    int status = verify_all(self, &operands, &settings, &identical);
     if (json && status != STATUS_BAD)
-        status = write_report(self, &settings, json, status);
+        status = write_report(self, &settings, json, identical, status);
     cJSON_Delete(settings.report);
     return status;
 }

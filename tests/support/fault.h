@@ -168,6 +168,8 @@ static FAULT_PLAIN __attribute__((noinline)) bool fault_refuses(void *caller)
         int count = fault_backtrace(caller, frames);
         if (fault.seen)
             fault.stack = fault.seen(frames, count);
+        for (int i = 0; i < count && i < 4; i++) /* what the C library asks for in their name */
+            refuses &= !fault_is_foreign(frames[i]);
         if (refuses)
             fault_note_site(frames, count);
     }

@@ -1,0 +1,85 @@
+/* Finds the subcommand in the table, lets it run, and sees to what it left. */
+#include "tool/program.h"
+#include "base/cpu.h"
+#include "tool/json.h"
+#include "tool/tool.h"
+#include "triptych.h"
+
+#include <errno.h>
+#include <stdio.h>
+#include <string.h>
+
+static const struct command commands[] = {
+#define COMMAND(name, operands, summary) {#name, operands, summary, command_##name},
+#include "tool/command.def"
+#undef COMMAND
+};
+
+enum { COMMAND_COUNT = sizeof commands / sizeof *commands };
+
+static const struct command program = {"", "", "", NULL};
+
+static void print_help(FILE *out)
+{
+    fputs("usage: triptych COMMAND [OPTIONS] ...\n\n", out);
+    for (int i = 0; i < COMMAND_COUNT; i++)
+        fprintf(out, "  %-8s %-13s %s\n", commands[i].name, commands[i].operands, commands[i].summary);
+    fputs("\ntriptych COMMAND --help tells a command's options; triptych --version tells the version.\n"
+          "TRIPTYCH_CPU=-avx512f,... hides features of the processor (list cpu), TRIPTYCH_CC names "
+          "external's compiler.\n"
+          "Exit status: 0 good, 1 a difference was found, 2 bad input or usage, or something was refused;\n"
+          "128 + N: ended early by signal N (130: SIGINT) with a report of what was done.\n",
+          out);
+}
+
+static int unknown_command(const char *name)
+{
+    char names[256] = "";
+    for (int i = 0; i < COMMAND_COUNT; i++)
+        snprintf(names + strlen(names), sizeof names - strlen(names), "%s%s", i ? ", " : "",
+                 commands[i].name);
+    return fail(&program, "unknown %s \"%s\", expected one of: %s", name[0] == '-' ? "option" : "command",
+                name, names);
+}
+
+static int run(int count, char **arguments)
+{
+    if (count < 2) {
+        print_help(stderr);
+        return STATUS_BAD;
+    }
+    if (!strcmp(arguments[1], "--help"))
+        return print_help(stdout), STATUS_OK;
+    if (!strcmp(arguments[1], "--version"))
+        return puts("triptych " TRIPTYCH_VERSION), STATUS_OK;
+    if (cpu_native_error())
+        return fail(&program, "%s", cpu_native_error());
+    for (int i = 0; i < COMMAND_COUNT; i++)
+        if (!strcmp(arguments[1], commands[i].name))
+            return commands[i].run(commands + i, count - 2, arguments + 2);
+    return unknown_command(arguments[1]);
+}
+
+/* What could not be written was not reported: a full disk must not look like success. The reason of an earlier line's
+ * failure is not known any more. */
+static int check_standard_output(void)
+{
+    int failed = ferror(stdout);
+    errno = 0;
+    if (!fflush(stdout) && !failed)
+        return STATUS_OK;
+    return errno ? fail(&program, "cannot write to standard output: %s", strerror(errno))
+                 : fail(&program, "cannot write to standard output");
+}
+
+int program_run(int count, char **arguments)
+{
+    report_begin();
+    json_begin();
+    int status = run(count, arguments);
+    json_end();
+    progress(NULL);
+    if (!report_is_complete() && status != STATUS_BAD)
+        status = fail(&program, "out of memory: the report is incomplete");
+    return check_standard_output() ? STATUS_BAD : status;
+}

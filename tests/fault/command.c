@@ -1,0 +1,300 @@
+/* Everything that a command asks the system for while it reads, draws, compares and reports is refused once.
+ *
+ * Each command line is run undisturbed, then with its n-th request refused for n = 1, 2, 3 ..., and with that and all later
+ * ones. A run ends with what the undisturbed one gave, or with status 2, one line that says that memory is short, and
+ * the file that was to be written as it was before; nothing is lost, no file stays open. Of requests that the
+ * same five functions lead to only the first is refused, unless TRIPTYCH_SOAK is set. */
+#define _GNU_SOURCE
+#include "tests/support/fault.h"
+
+#include "tool/program.h"
+
+#include <dirent.h>
+#include <fcntl.h>
+#include <sys/stat.h>
+#include <time.h>
+#include <unity.h>
+#include <xxhash.h>
+
+enum { ARGUMENTS = 16, SEEN = 1 << 14, OUTPUT = 1 << 20, CALLERS = 5 };
+
+static char folder[] = "/dev/shm/triptych-fault-XXXXXX"; /* where nothing waits for a disk */
+static char output[128];
+static bool soak;
+static unsigned long runs;
+
+/* --- Time ------------------------------------------------------------------------------------------------- */
+
+/* A measurement takes a number of repetitions and not half a second. */
+int clock_gettime(clockid_t clock, struct timespec *time)
+{
+    static _Atomic uint64_t ns;
+    uint64_t now = clock == CLOCK_MONOTONIC ? atomic_fetch_add(&ns, 20000000) : 1700000000000000000u;
+    *time = (struct timespec){(time_t)(now / 1000000000u), (long)(now % 1000000000u)};
+    return 0;
+}
+
+time_t time(time_t *seconds)
+{
+    return seconds ? *seconds = 1700000000 : 1700000000;
+}
+
+/* --- A run ------------------------------------------------------------------------------------------------ */
+
+struct outcome {
+    int status;
+    size_t said, complained, written; /* bytes */
+    char out[OUTPUT], error[4096], file[OUTPUT];
+};
+
+static struct outcome expected, got;
+static int out_file, error_file;
+
+static size_t take(int descriptor, char *text, size_t size)
+{
+    ssize_t bytes = pread(descriptor, text, size - 1, 0);
+    TEST_ASSERT_TRUE(bytes >= 0 && (size_t)bytes < size - 1);
+    text[bytes] = 0;
+    TEST_ASSERT_EQUAL_INT(0, ftruncate(descriptor, 0));
+    lseek(descriptor, 0, SEEK_SET);
+    return (size_t)bytes;
+}
+
+static size_t read_output(char *text, size_t size)
+{
+    int descriptor = open(output, O_RDONLY | O_CLOEXEC);
+    if (descriptor < 0)
+        return *text = 0, SIZE_MAX;
+    ssize_t bytes = read(descriptor, text, size - 1);
+    close(descriptor);
+    TEST_ASSERT_TRUE(bytes >= 0 && (size_t)bytes < size - 1);
+    text[bytes] = 0;
+    return (size_t)bytes;
+}
+
+/* Runs the words of a command line; OUT stands for the file that is written. */
+static void run(const char *line, struct outcome *outcome, unsigned long at, bool onwards)
+{
+    char words[1024], *arguments[ARGUMENTS] = {"triptych"};
+    static char out_name[160];
+    int count = 1;
+    snprintf(words, sizeof words, "%s", line);
+    for (char *word = strtok(words, " "); word; word = strtok(NULL, " ")) {
+        TEST_ASSERT_LESS_THAN(ARGUMENTS, count);
+        arguments[count++] = word;
+        if (!strncmp(word, "OUT", 3)) {
+            snprintf(output, sizeof output, "%s/output%s", folder, word + 3);
+            snprintf(out_name, sizeof out_name, "%s", output);
+            arguments[count - 1] = out_name;
+        }
+    }
+    unlink(output);
+    fflush(NULL);
+    int saved[2] = {dup(STDOUT_FILENO), dup(STDERR_FILENO)};
+    dup2(out_file, STDOUT_FILENO);
+    dup2(error_file, STDERR_FILENO);
+    fault_arm(at, onwards);
+    outcome->status = program_run(count, arguments);
+    fault_disarm();
+    fflush(NULL);
+    dup2(saved[0], STDOUT_FILENO);
+    dup2(saved[1], STDERR_FILENO);
+    close(saved[0]);
+    close(saved[1]);
+    outcome->said = take(out_file, outcome->out, sizeof outcome->out);
+    outcome->complained = take(error_file, outcome->error, sizeof outcome->error);
+    outcome->written = read_output(outcome->file, sizeof outcome->file);
+    runs++;
+}
+
+/* --- What is seen of requests ----------------------------------------------------------------------------- */
+
+static uint64_t seen[SEEN];
+static unsigned long chosen[SEEN]; /* the requests of a run to refuse */
+static unsigned choices;
+
+static bool is_new(uint64_t stack)
+{
+    unsigned at = (unsigned)stack & (SEEN - 1);
+    for (; seen[at]; at = (at + 1) & (SEEN - 1))
+        if (seen[at] == stack)
+            return false;
+    seen[at] = stack;
+    return true;
+}
+
+static uint64_t hash_of(void *const *frames, int count)
+{
+    return XXH3_64bits(frames, (size_t)(count < CALLERS ? count : CALLERS) * sizeof *frames) | 1;
+}
+
+static uint64_t survey(void *const *frames, int count)
+{
+    if ((soak || is_new(hash_of(frames, count))) && choices < SEEN)
+        chosen[choices++] = fault.count;
+    return 0;
+}
+
+/* --- Judging ---------------------------------------------------------------------------------------------- */
+
+static unsigned open_files(void)
+{
+    unsigned count = 0;
+    DIR *files = opendir("/proc/self/fd");
+    while (files && readdir(files))
+        count++;
+    closedir(files);
+    return count;
+}
+
+static unsigned files_in_folder(void)
+{
+    unsigned count = 0;
+    DIR *files = opendir(folder);
+    for (struct dirent *entry; files && (entry = readdir(files));)
+        count += entry->d_name[0] != '.';
+    closedir(files);
+    return count;
+}
+
+/* A line of numbers that differ from run to run may differ. */
+static bool same_result(bool measures)
+{
+    return got.status == expected.status && got.complained == expected.complained &&
+           (measures || (got.said == expected.said && !memcmp(got.out, expected.out, got.said))) &&
+           (measures ? (got.written == SIZE_MAX) == (expected.written == SIZE_MAX)
+                     : got.written == expected.written &&
+                           (got.written == SIZE_MAX || !memcmp(got.file, expected.file, got.written)));
+}
+
+static bool failed_well(void)
+{
+    const char *end = strchr(got.error, '\n');
+    return got.status == 2 && end && !end[1] && strstr(got.error, "memory") && got.written == SIZE_MAX;
+}
+
+static void judge(const char *line, bool measures, unsigned long at, bool onwards, unsigned files)
+{
+    char message[2048];
+    bool good = fault.refused ? same_result(measures) || failed_well() : same_result(measures);
+    snprintf(message, sizeof message,
+             "%s: request %lu%s of %lu: status %d, %zu bytes written (%zu), %zu said (%zu), %zu complained "
+             "\"%.400s\"",
+             line, at, onwards ? " and all later" : "", fault.count, got.status, got.written,
+             expected.written, got.said, expected.said, got.complained, got.error);
+    TEST_ASSERT_TRUE_MESSAGE(good, message);
+    const char *lost = fault_lost();
+    if (lost)
+        snprintf(message + strlen(message), sizeof message - strlen(message), ": %s", lost);
+    TEST_ASSERT_NULL_MESSAGE(lost, message);
+    TEST_ASSERT_EQUAL_UINT_MESSAGE(files, open_files(), message);
+    TEST_ASSERT_EQUAL_UINT_MESSAGE(got.written != SIZE_MAX, files_in_folder(), message);
+}
+
+static void refuse_each(const char *line, bool measures, int status)
+{
+    char message[5000];
+    choices = 0;
+    run(line, &expected, 0, false); /* what the process keeps */
+    fault.seen = survey;
+    run(line, &expected, 0, false);
+    fault.seen = NULL;
+    snprintf(message, sizeof message, "%s: %s", line, expected.error);
+    TEST_ASSERT_EQUAL_INT_MESSAGE(status, expected.status, message);
+    unsigned files = open_files();
+    unsigned long count = fault.count;
+    for (unsigned i = 0; i < choices; i++)
+        for (int onwards = 0; onwards < 2; onwards++) {
+            fault_watch();
+            run(line, &got, chosen[i], onwards);
+            judge(line, measures, chosen[i], onwards, files);
+        }
+    if (soak)
+        printf("%s: %lu requests\n", line, count);
+}
+
+/* --- Tests ------------------------------------------------------------------------------------------------ */
+
+void setUp(void)
+{
+}
+
+void tearDown(void)
+{
+    fault_disarm();
+    fault.seen = NULL;
+    fault.watching = false;
+    unlink(output);
+}
+
+static void test_reading_and_writing_streams(void)
+{
+    static const char *const streams[] = {
+        "tests/streams/meshes.tri",          "tests/streams/stencil-shadow.tri",
+        "tests/streams/texture-formats.tri", "tests/streams/texture-detail.tri",
+        "tests/streams/shaders.tri",         "tests/streams/vertex-formats.tri",
+        "tests/streams/texture-cubes.tri",   "tests/streams/frames.tri",
+        "tests/streams/vertex-blend.tri",    "tests/streams/texture-volumes.tri",
+        "tests/streams/queries.tri",         "tests/streams/texture-levels.tri",
+        "tests/scenes/skinning.tri",         "tests/scenes/shadow-volume.tri",
+        "tests/streams/perspective.tri",     "tests/scenes/dxt.tri",
+    };
+    char line[256];
+    for (size_t i = 0; i < sizeof streams / sizeof *streams; i++) {
+        snprintf(line, sizeof line, "convert %s OUT.tri", streams[i]);
+        refuse_each(line, false, 0);
+    }
+}
+
+static void test_pictures(void)
+{
+    refuse_each("render tests/streams/queries.tri --engine emulate --out OUT.png", false, 0);
+    refuse_each("render tests/streams/target-formats.tri --engine specialize --threads 2 --out OUT.exr",
+                false, 0);
+    refuse_each("compare tests/goldens/queries.png tests/goldens/queries.png", false, 0);
+    refuse_each("compare tests/goldens/queries.png tests/goldens/scissors.png --difference OUT.png", false,
+                1);
+}
+
+static void test_verifying_and_measuring(void)
+{
+    refuse_each(
+        "verify tests/streams/queries.tri --engines stitch,batch --threads 1 --frames 1 --json OUT.json",
+        false, 0);
+    refuse_each("bench tests/streams/shaders.tri --engines specialize --repetitions 3 --seconds 0 --frames 1 "
+                "--shaders --json OUT.json",
+                true, 0);
+    refuse_each("bench tests/streams/frames.tri --engines emulate --repetitions 3 --seconds 0 --frames 1 "
+                "--csv OUT.csv",
+                true, 0);
+}
+
+static void test_dumps_lists_and_shaders(void)
+{
+    refuse_each("dump tests/streams/shaders.tri --show all", true, 0);
+    refuse_each("dump tests/streams/frames.tri --engine stitch --unit vertex", true, 0);
+    refuse_each("dump tests/streams/frames.tri --engine external --show text", false, 0);
+    refuse_each("list states --json", false, 0);
+    refuse_each("list shaders --markdown", false, 0);
+    refuse_each("list formats", false, 0);
+    refuse_each("fuzz --print 3", false, 0);
+    refuse_each("shader assemble tests/shaders/common/color.psa --json", false, 0);
+    refuse_each("shader disassemble tests/shaders/common/color.psa --out OUT.txt", false, 0);
+    refuse_each("shader validate tests/shaders/common/color.psa --json", false, 0);
+}
+
+int main(void)
+{
+    soak = getenv("TRIPTYCH_SOAK") != NULL;
+    out_file = memfd_create("out", MFD_CLOEXEC);
+    error_file = memfd_create("error", MFD_CLOEXEC);
+    UNITY_BEGIN();
+    TEST_ASSERT_NOT_NULL(mkdtemp(folder));
+    RUN_TEST(test_reading_and_writing_streams);
+    RUN_TEST(test_pictures);
+    RUN_TEST(test_verifying_and_measuring);
+    RUN_TEST(test_dumps_lists_and_shaders);
+    rmdir(folder);
+    printf("%lu runs, %lu requests refused at %u places\n", runs, fault.total, fault.sites);
+    return UNITY_END();
+}
