@@ -1,6 +1,6 @@
 /* The command `triptych`. */
 #include "tool/interrupt.h"
-#include "tool/program.h"
+#include "tool/command_line.h"
 
 #include <fcntl.h>
 #include <unistd.h>
@@ -19,5 +19,5 @@ int main(int count, char **arguments)
 {
     interrupt_catch();
     open_standard();
-    return program_run(count, arguments);
+    return command_line_run(count, arguments);
 }

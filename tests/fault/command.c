@@ -7,7 +7,7 @@
 #define _GNU_SOURCE
 #include "tests/support/fault.h"
 
-#include "tool/program.h"
+#include "tool/command_line.h"
 
 #include <dirent.h>
 #include <fcntl.h>
@@ -94,7 +94,7 @@ static void run(const char *line, struct outcome *outcome, unsigned long at, boo
     dup2(out_file, STDOUT_FILENO);
     dup2(error_file, STDERR_FILENO);
     fault_arm(at, onwards);
-    outcome->status = program_run(count, arguments);
+    outcome->status = command_line_run(count, arguments);
     fault_disarm();
     fflush(NULL);
     dup2(saved[0], STDOUT_FILENO);

@@ -1,5 +1,5 @@
 /* Finds the subcommand in the table, lets it run, and sees to what it left. */
-#include "tool/program.h"
+#include "tool/command_line.h"
 #include "base/cpu.h"
 #include "tool/json.h"
 #include "tool/tool.h"
@@ -72,7 +72,7 @@ static int check_standard_output(void)
                  : fail(&program, "cannot write to standard output");
 }
 
-int program_run(int count, char **arguments)
+int command_line_run(int count, char **arguments)
 {
     report_begin();
     json_begin();
