@@ -110,29 +110,6 @@ static int write_all(int descriptor, const char *data, size_t bytes)
     return 0;
 }
 
-/* Errors of a network or full file system may come as late as at close. */
-static int write_and_close(int descriptor, const void *data, size_t bytes, int synchronize)
-{
-    int result = write_all(descriptor, data, bytes);
-    if (!result && synchronize)
-        result = fsync(descriptor);
-    int reason = errno;
-    if (close(descriptor) && !result)
-        return -1;
-    errno = reason;
-    return result;
-}
-
-static int write_through(const char *path, const void *data, size_t bytes, struct error *error)
-{
-    int descriptor = open(path, O_WRONLY | O_CLOEXEC);
-    if (descriptor < 0)
-        return fail(error, path, "cannot open");
-    if (write_and_close(descriptor, data, bytes, 0))
-        return fail(error, path, "cannot write");
-    return 0;
-}
-
 /* Opens a new file beside `path`; its name is left in `name`, of `size` bytes, and noted. */
 static int open_temporary(const char *path, char *name, size_t size, int *leftover)
 {
@@ -163,103 +140,52 @@ static void synchronize_folder(char *path)
     }
 }
 
-/* Failures are told by errno. */
-static int write_beside(const char *path, mode_t mode, char *name, size_t size, const void *data,
-                        size_t bytes)
-{
-    int leftover, descriptor = open_temporary(path, name, size, &leftover);
-    if (descriptor < 0)
-        return -1;
-    int result = mode ? fchmod(descriptor, mode) : 0;
-    if (result)
-        close(descriptor);
-    else
-        result = write_and_close(descriptor, data, bytes, 1);
-    if (!result)
-        result = rename(name, path);
-    int reason = errno;
-    if (result)
-        unlink(name);
-    leftover_forget(leftover);
-    errno = reason;
-    if (result)
-        return -1;
-    synchronize_folder(name);
-    return 0;
-}
-
-static int replace(const char *path, mode_t mode, const void *data, size_t bytes)
-{
-    size_t size = strlen(path) + 64;
-    char *name = malloc(size);
-    int result = name ? write_beside(path, mode, name, size, data, bytes) : -1;
-    int reason = errno;
-    free(name);
-    errno = reason;
-    return result;
-}
-
-/* Replacing a link would leave the file that it leads to as it was. */
-static int replace_target(const char *path, mode_t mode, const void *data, size_t bytes)
-{
-    char *target = realpath(path, NULL);
-    int result = target ? replace(target, mode, data, bytes) : -1;
-    int reason = errno;
-    free(target);
-    errno = reason;
-    return result;
-}
-
-int file_write(const char *path, const void *data, size_t bytes, struct error *error)
-{
-    struct stat status;
-    int exists = !stat(path, &status);
-    if (exists && S_ISDIR(status.st_mode))
-        return error_set(error, "%s: is a folder, expected a file to write", path);
-    if (exists && !S_ISREG(status.st_mode))
-        return write_through(path, data, bytes, error);
-    int result =
-        exists ? replace_target(path, status.st_mode & 07777, data, bytes) : replace(path, 0, data, bytes);
-    return result ? fail(error, path, "cannot write") : 0;
-}
-
-/* --- Writing piece by piece -------------------------------------------------------------------------------
- */
-
 static void release(struct file_output *output)
 {
+    leftover_forget(output->leftover);
+    free(output->name);
     free(output->path);
     free(output->temporary);
-    *output = (struct file_output){.descriptor = -1};
+    *output = (struct file_output){.descriptor = -1, .leftover = -1};
 }
 
+/* Failures are told by errno. */
 static int begin_beside(struct file_output *output, mode_t mode)
 {
     size_t size = strlen(output->path) + 64;
-    output->temporary = malloc(size);
-    if (!output->temporary)
+    char *name = malloc(size);
+    output->descriptor = name ? open_temporary(output->path, name, size, &output->leftover) : -1;
+    if (output->descriptor < 0) {
+        int reason = errno;
+        free(name);
+        errno = reason;
         return -1;
-    output->descriptor = open_temporary(output->path, output->temporary, size);
-    if (output->descriptor >= 0)
-        return mode ? fchmod(output->descriptor, mode) : 0;
-    free(output->temporary);
-    output->temporary = NULL;
-    return -1;
+    }
+    output->temporary = name;
+    return mode ? fchmod(output->descriptor, mode) : 0;
+}
+
+/* Replacing a link would leave the file that it leads to as it was. */
+static int begin(struct file_output *output, const struct stat *existing)
+{
+    if (existing && !S_ISREG(existing->st_mode))
+        output->descriptor = open(output->name, O_WRONLY | O_CLOEXEC);
+    else
+        output->path = existing ? realpath(output->name, NULL) : strdup(output->name);
+    if (output->path)
+        return begin_beside(output, existing ? existing->st_mode & 07777 : 0);
+    return output->descriptor;
 }
 
 int file_begin(struct file_output *output, const char *path, struct error *error)
 {
     struct stat status;
-    int exists = !stat(path, &status), result = -1;
-    *output = (struct file_output){.descriptor = -1};
+    int exists = !stat(path, &status);
+    *output = (struct file_output){.descriptor = -1, .leftover = -1};
     if (exists && S_ISDIR(status.st_mode))
         return error_set(error, "%s: is a folder, expected a file to write", path);
-    output->path = exists && S_ISREG(status.st_mode) ? realpath(path, NULL) : strdup(path);
-    if (output->path && exists && !S_ISREG(status.st_mode))
-        result = output->descriptor = open(path, O_WRONLY | O_CLOEXEC);
-    else if (output->path)
-        result = begin_beside(output, exists ? status.st_mode & 07777 : 0);
-    if (result >= 0)
+    output->name = strdup(path);
+    if (output->name && begin(output, exists ? &status : NULL) >= 0)
         return 0;
     fail(error, path, "cannot write");
     file_discard(output);
@@ -268,18 +194,26 @@ int file_begin(struct file_output *output, const char *path, struct error *error
 
 int file_append(struct file_output *output, const void *data, size_t bytes, struct error *error)
 {
-    return write_all(output->descriptor, data, bytes) ? fail(error, output->path, "cannot write") : 0;
+    return write_all(output->descriptor, data, bytes) ? fail(error, output->name, "cannot write") : 0;
+}
+
+/* Errors of a network or full file system may come as late as at close. */
+static int finish(struct file_output *output)
+{
+    int descriptor = output->descriptor;
+    output->descriptor = -1;
+    int result = output->temporary ? fsync(descriptor) : 0;
+    int reason = errno;
+    if (close(descriptor) && !result)
+        return -1;
+    errno = reason;
+    return result || !output->temporary ? result : rename(output->temporary, output->path);
 }
 
 int file_commit(struct file_output *output, struct error *error)
 {
-    int descriptor = output->descriptor;
-    output->descriptor = -1;
-    int result = write_and_close(descriptor, NULL, 0, output->temporary != NULL);
-    if (!result && output->temporary)
-        result = rename(output->temporary, output->path);
-    if (result) {
-        fail(error, output->path, "cannot write");
+    if (finish(output)) {
+        fail(error, output->name, "cannot write");
         file_discard(output);
         return -1;
     }
@@ -296,4 +230,15 @@ void file_discard(struct file_output *output)
     if (output->temporary)
         unlink(output->temporary);
     release(output);
+}
+
+int file_write(const char *path, const void *data, size_t bytes, struct error *error)
+{
+    struct file_output output;
+    if (file_begin(&output, path, error))
+        return -1;
+    if (!file_append(&output, data, bytes, error))
+        return file_commit(&output, error);
+    file_discard(&output);
+    return -1;
 }

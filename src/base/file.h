@@ -26,8 +26,10 @@ int file_write(const char *path, const void *data, size_t bytes, struct error *e
  * still to be discarded; file_commit discards it itself. */
 struct file_output {
     int descriptor;
+    int leftover;    /* of `temporary` (base/leftover.h) */
+    char *name;      /* as it was given, for messages */
     char *path;      /* that the file will have */
-    char *temporary; /* that it has; null when `path` is written to as it is */
+    char *temporary; /* that it has; null when `name` is written to as it is */
 };
 
 int file_begin(struct file_output *output, const char *path, struct error *error);
