@@ -20,12 +20,20 @@
 ; stack grows by its guard page only.
 fragment enter, FRAME | FRAME_END | CALLED, FRAME | FRAME_END | CONSTANTS, R_AX | R_CX
                 push            rbp
+    cfa                             NUMBER_RSP, 16
+    saved                           NUMBER_RBP, 16
                 mov             rbp, rsp
+    cfa                             NUMBER_RBP, 16
                 push            rbx
+    saved                           NUMBER_RBX, 24
                 push            r12
+    saved                           12, 32
                 push            r13
+    saved                           13, 40
                 push            r14
+    saved                           14, 48
                 push            r15
+    saved                           15, 56
     fill 0,       lea             rax, [frame - 40]           ; both MXCSR and what aligning may take
                 jmp             .reached
 .page:          sub             rsp, 4096
@@ -47,11 +55,18 @@ fragment leave, FRAME_END, NOTHING, FRAME | FRAME_END | CONSTANTS | STRIDE | COL
                 ldmxcsr         [CALLER_MXCSR]
                 lea             rsp, [rbp - SAVED_BYTES]
                 pop             r15
+    restored                        15, 0
                 pop             r14
+    restored                        14, 0
                 pop             r13
+    restored                        13, 0
                 pop             r12
+    restored                        12, 0
                 pop             rbx
+    restored                        NUMBER_RBX, 0
                 pop             rbp
+    cfa                             NUMBER_RSP, 8
+    restored                        NUMBER_RBP, 0
                 ret
 end_fragment
 

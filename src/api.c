@@ -1,5 +1,6 @@
 /* The public functions: null pointers are refused here, everything else by the device; the reason of a
  * failure is kept for triptych_error(). */
+#define _GNU_SOURCE /* secure_getenv */
 #include "draw/depth.h"
 #include "draw/device.h"
 #include "engines.h"
@@ -7,6 +8,7 @@
 
 #include <locale.h>
 #include <stdio.h>
+#include <stdlib.h>
 #include <string.h>
 
 static const char default_engine[] = "specialize";
@@ -23,11 +25,13 @@ static enum triptych_result create(const struct triptych_options *options, tript
         error_set(error, "engine %s: there is none of that name", name);
         return TRIPTYCH_BAD_ARGUMENT;
     }
-    struct device_options device_options = {0};
+    struct device_options device_options = {.debug = secure_getenv("TRIPTYCH_DEBUG")};
     if (options) {
         device_options.threads = options->threads;
         device_options.cache_bytes = options->cache_bytes;
         device_options.measure = options->measure != 0;
+        if (options->debug)
+            device_options.debug = options->debug;
     }
     return device_create(engine, &device_options, device, error);
 }
@@ -56,6 +60,14 @@ void triptych_device_destroy(triptych_device *device)
 const char *triptych_error(const triptych_device *device)
 {
     return device ? device->error.text : "device is null";
+}
+
+const char *triptych_debug_error(triptych_device *device)
+{
+    if (!device)
+        return "device is null";
+    device_debug_error(device, &device->debug_told);
+    return device->debug_told.text;
 }
 
 const char *triptych_engine_name(unsigned i)

@@ -227,6 +227,9 @@ struct triptych_options {
     unsigned threads;   /* rendering threads, the caller's included; 0: as many as the process may run on */
     size_t cache_bytes; /* budget of the routine cache: beyond it, what is not in use leaves; 0: 16 MiB */
     int measure;        /* nonzero: time the calls of each routine (triptych_get_routine) */
+    const char
+        *debug; /* who is told of generated code: words of def/debug.def, comma-separated; null: those of the
+                         * environment's TRIPTYCH_DEBUG */
 };
 
 /* A render target: one to four colours, each of a format that can be a target (def/format.def), and depth.
@@ -401,6 +404,10 @@ TRIPTYCH_API enum triptych_result triptych_device_create(const struct triptych_o
 TRIPTYCH_API void triptych_device_destroy(triptych_device *device);
 /* The reason of the last failed call; an empty string when none failed. */
 TRIPTYCH_API const char *triptych_error(const triptych_device *device);
+
+/* The first reason why something that options.debug asks for is not done, such as a file that cannot be written; an empty
+ * string while all is. Never a reason for anything else to fail. Valid until asked again. */
+TRIPTYCH_API const char *triptych_debug_error(triptych_device *device);
 
 /* The i-th engine's name, description, lanes and why it cannot run here (null: it can); null past the last.
  * The reason is the calling thread's until it asks again. */

@@ -25,13 +25,14 @@ check() {
 check "base includes base and its own table" src/base base/ def/cpu.def triptych.h
 check "tables include tables and layouts" src/def def/ draw/call.h draw/key.h shader/program.h
 check "shaders know tables and the base" src/shader base/ def/ shader/
-check "the renderer includes no engine" src/draw base/ def/ draw/ shader/ triptych.h
+check "debugging knows the base and its own table" src/debug base/ debug/ def/debug.def
+check "the renderer includes no engine" src/draw base/ debug/ def/ draw/ shader/ triptych.h
 check "the container knows the renderer and no engine" src/container base/ container/ def/ draw/ shader/ triptych.h
 check "the recording includes no engine" src/ir ir/ base/ def/ draw/ shader/program.h spec/
 check "the emulator and the batch interpreter include no other engine" emu emu/ ir/ base/ def/ draw/ shader/program.h spec/
-check "the stitcher includes no other engine" src/stitch stitch/ base/ def/ draw/ shader/program.h spec/
+check "the stitcher includes no other engine" src/stitch stitch/ base/ debug/code.h def/ draw/ shader/program.h spec/
 check "the external engine includes no other engine" src/external external/ ir/ base/ def/ draw/ shader/program.h spec/
-check "the specializer includes no other engine" src/jit jit/ ir/ base/ def/ draw/ shader/program.h spec/
+check "the specializer includes no other engine" src/jit jit/ ir/ base/ debug/code.h def/ draw/ shader/program.h spec/
 
 if grep -rn '#include' src/spec/*.h | grep -v '^src/spec/spec.h:' >&2; then
     echo "FAIL the specification includes nothing"

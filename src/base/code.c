@@ -12,7 +12,7 @@
 #include <sys/syscall.h>
 #include <unistd.h>
 
-/* The allocator. Memory is counted in units of CODE_ALIGNMENT bytes and is tiled by blocks, free or used. A
+/* The allocator. Memory is counted in units, of CODE_ALIGNMENT bytes or of a page, and is tiled by blocks, free or used. A
  * side array has one entry per unit; a block describes itself in the entries of its first and last unit
  * (boundary tags), so that a released block finds both neighbours at once and no two free blocks ever touch.
  * Free blocks hang in lists by the logarithm of their size. The array is zero pages until used, and a zero
@@ -43,6 +43,8 @@ struct code_arena {
     uint8_t *writable;
     uint8_t *executable;
     size_t capacity;
+    size_t unit;           /* bytes */
+    bool breakpoints;      /* a debugger's may be in the executable view */
     pthread_mutex_t mutex; /* guards all below */
     struct unit *units;
     uint32_t lists[LIST_COUNT]; /* first units; list n holds sizes 2^n to 2^(n+1) - 1 */
@@ -165,34 +167,34 @@ static void release(struct code_arena *arena, uint32_t first, uint32_t count)
 
 /* Spans and units. */
 
-static uint32_t unit_count(size_t bytes)
+static uint32_t unit_count(const struct code_arena *arena, size_t bytes)
 {
-    return (uint32_t)((bytes + CODE_ALIGNMENT - 1) / CODE_ALIGNMENT);
+    return (uint32_t)((bytes + arena->unit - 1) / arena->unit);
 }
 
 static uint32_t first_unit(const struct code_arena *arena, const struct code_span *span)
 {
-    return FIRST_UNIT + (uint32_t)((size_t)(span->writable - arena->writable) / CODE_ALIGNMENT);
+    return FIRST_UNIT + (uint32_t)((size_t)(span->writable - arena->writable) / arena->unit);
 }
 
 static struct code_span span_of(const struct code_arena *arena, uint32_t first, uint32_t count)
 {
-    size_t offset = (size_t)(first - FIRST_UNIT) * CODE_ALIGNMENT;
+    size_t offset = (size_t)(first - FIRST_UNIT) * arena->unit;
     return (struct code_span){arena->writable + offset, arena->executable + offset,
-                              (size_t)count * CODE_ALIGNMENT};
+                              (size_t)count * arena->unit};
 }
 
 int code_reserve(struct code_arena *arena, size_t bytes, struct code_span *span, struct error *error)
 {
     assert(bytes);
-    uint32_t first = NO_BLOCK, count = bytes <= arena->capacity ? unit_count(bytes) : 0;
+    uint32_t first = NO_BLOCK, count = bytes <= arena->capacity ? unit_count(arena, bytes) : 0;
     pthread_mutex_lock(&arena->mutex);
     if (count)
         first = find_free(arena, count);
     if (first != NO_BLOCK)
         take(arena, first, count);
     arena->refused = first == NO_BLOCK ? bytes : 0;
-    size_t used = arena->used_units * CODE_ALIGNMENT;
+    size_t used = arena->used_units * arena->unit;
     pthread_mutex_unlock(&arena->mutex);
     if (first == NO_BLOCK) {
         *span = (struct code_span){0};
@@ -221,13 +223,20 @@ static uint32_t find_tighter(const struct code_arena *arena, uint32_t first, uin
     return hole != after && hole != NO_BLOCK && arena->units[hole].count < here ? hole : NO_BLOCK;
 }
 
+/* The executable view shows the file's pages again, where a debugger has put its own in their place. */
+static void forget_breakpoints(const struct code_arena *arena, const struct code_span *span)
+{
+    if (arena->breakpoints)
+        madvise((void *)(uintptr_t)span->executable, span->bytes, MADV_DONTNEED);
+}
+
 const void *code_commit(struct code_arena *arena, struct code_span *span, size_t bytes)
 {
     assert(bytes && bytes <= span->bytes);
-    size_t dirty = bytes + CODE_ALIGNMENT < span->bytes ? bytes + CODE_ALIGNMENT : span->bytes;
+    size_t dirty = bytes + arena->unit < span->bytes ? bytes + arena->unit : span->bytes;
     memset(span->writable + bytes, TRAP, dirty - bytes);
 
-    uint32_t count = unit_count(bytes), reserved = unit_count(span->bytes);
+    uint32_t count = unit_count(arena, bytes), reserved = unit_count(arena, span->bytes);
     pthread_mutex_lock(&arena->mutex);
     uint32_t first = first_unit(arena, span);
     assert(!arena->units[first].free && arena->units[first].count == reserved);
@@ -247,6 +256,7 @@ const void *code_commit(struct code_arena *arena, struct code_span *span, size_t
     pthread_mutex_unlock(&arena->mutex);
 
     *span = span_of(arena, first, count);
+    forget_breakpoints(arena, span);
     if (recycled && arena->can_serialize)
         syscall(SYS_membarrier, MEMBARRIER_CMD_PRIVATE_EXPEDITED_SYNC_CORE, 0, 0);
     return span->executable;
@@ -257,7 +267,8 @@ void code_free(struct code_arena *arena, struct code_span *span)
     if (!span->bytes)
         return;
     memset(span->writable, TRAP, span->bytes);
-    uint32_t count = unit_count(span->bytes);
+    forget_breakpoints(arena, span);
+    uint32_t count = unit_count(arena, span->bytes);
     pthread_mutex_lock(&arena->mutex);
     uint32_t first = first_unit(arena, span);
     assert(!arena->units[first].free && arena->units[first].count == count);
@@ -293,7 +304,8 @@ static int map_views(struct code_arena *arena, const struct code_system *system,
     void *writable = system->map(NULL, bytes, PROT_READ | PROT_WRITE, MAP_SHARED, file, 0);
     if (writable == MAP_FAILED)
         return error_set(error, "code arena: cannot map %zu bytes writable: %s", bytes, strerror(errno));
-    void *executable = system->map(NULL, bytes, PROT_READ | PROT_EXEC, MAP_SHARED, file, 0);
+    void *executable = system->map(NULL, bytes, PROT_READ | PROT_EXEC,
+                                   arena->breakpoints ? MAP_PRIVATE : MAP_SHARED, file, 0);
     if (executable == MAP_FAILED) {
         int reason = errno;
         munmap(writable, bytes);
@@ -314,11 +326,11 @@ static int map_memory(struct code_arena *arena, const struct code_system *system
     return result;
 }
 
-static struct code_arena *allocate(size_t capacity, struct error *error)
+static struct code_arena *allocate(size_t capacity, size_t unit, struct error *error)
 {
     enum { SENTINELS = 2 };
     struct code_arena *arena = calloc(1, sizeof *arena);
-    struct unit *units = calloc(capacity / CODE_ALIGNMENT + SENTINELS, sizeof *units);
+    struct unit *units = calloc(capacity / unit + SENTINELS, sizeof *units);
     if (!arena || !units) {
         free(arena);
         free(units);
@@ -326,6 +338,8 @@ static struct code_arena *allocate(size_t capacity, struct error *error)
         return NULL;
     }
     arena->capacity = capacity;
+    arena->unit = unit;
+    arena->breakpoints = unit != CODE_ALIGNMENT;
     arena->units = units;
     arena->recycled_from = UINT32_MAX;
     arena->can_serialize =
@@ -334,7 +348,8 @@ static struct code_arena *allocate(size_t capacity, struct error *error)
     return arena;
 }
 
-struct code_arena *code_create(size_t bytes, const struct code_system *system, struct error *error)
+static struct code_arena *create(size_t bytes, bool breakpoints, const struct code_system *system,
+                                 struct error *error)
 {
     const size_t most = (size_t)2 << 30, page = (size_t)sysconf(_SC_PAGESIZE);
     if (bytes > most) {
@@ -342,15 +357,26 @@ struct code_arena *code_create(size_t bytes, const struct code_system *system, s
         return NULL;
     }
     size_t capacity = bytes ? (bytes + page - 1) / page * page : DEFAULT_BYTES;
-    struct code_arena *arena = allocate(capacity, error);
+    struct code_arena *arena = allocate(capacity, breakpoints ? page : CODE_ALIGNMENT, error);
     if (!arena)
         return NULL;
     if (map_memory(arena, system ? system : &code_system_native, error)) {
         code_destroy(arena);
         return NULL;
     }
-    link_free(arena, FIRST_UNIT, unit_count(capacity));
+    link_free(arena, FIRST_UNIT, unit_count(arena, capacity));
     return arena;
+}
+
+struct code_arena *code_create(size_t bytes, const struct code_system *system, struct error *error)
+{
+    return create(bytes, false, system, error);
+}
+
+struct code_arena *code_create_for_breakpoints(size_t bytes, const struct code_system *system,
+                                               struct error *error)
+{
+    return create(bytes, true, system, error);
 }
 
 void code_destroy(struct code_arena *arena)
@@ -417,7 +443,7 @@ static size_t largest_free(const struct code_arena *arena)
              block = arena->units[block].next)
             if (largest < arena->units[block].count)
                 largest = arena->units[block].count;
-    return (size_t)largest * CODE_ALIGNMENT;
+    return (size_t)largest * arena->unit;
 }
 
 struct code_statistics code_statistics(struct code_arena *arena)
@@ -425,8 +451,8 @@ struct code_statistics code_statistics(struct code_arena *arena)
     pthread_mutex_lock(&arena->mutex);
     struct code_statistics statistics = {
         .capacity = arena->capacity,
-        .used = arena->used_units * CODE_ALIGNMENT,
-        .peak = arena->peak_units * CODE_ALIGNMENT,
+        .used = arena->used_units * arena->unit,
+        .peak = arena->peak_units * arena->unit,
         .free_spans = arena->free_blocks,
         .largest_free = largest_free(arena),
     };

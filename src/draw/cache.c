@@ -3,9 +3,12 @@
 #include "draw/cache.h"
 
 #include "base/code.h"
+#include "debug/debug.h"
 
 #include <errno.h>
+#include <inttypes.h>
 #include <pthread.h>
+#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 #include <time.h>
@@ -25,6 +28,7 @@ struct cache_entry {
     enum unit unit;
     struct routine *routine;
     struct routine_time time;
+    struct debug_record *record; /* null: nobody was told of it */
 };
 
 struct cache {
@@ -33,6 +37,8 @@ struct cache {
     struct code_arena *arena;
     size_t budget;
     bool measures;
+    unsigned listeners;
+    struct error debug_error;
     uint32_t next_number;
     struct link idle;            /* last used first */
     struct link numbered;        /* oldest first */
@@ -99,6 +105,35 @@ void cache_measure(struct cache *cache)
     cache->measures = true;
 }
 
+void cache_debug(struct cache *cache, unsigned listeners)
+{
+    cache->listeners = listeners;
+}
+
+void cache_debug_error(struct cache *cache, struct error *error)
+{
+    pthread_mutex_lock(&cache->lock);
+    *error = cache->debug_error;
+    pthread_mutex_unlock(&cache->lock);
+}
+
+/* Tells the listeners of a routine that has its number. */
+static void tell(struct cache *cache, struct cache_entry *entry)
+{
+    const struct routine *routine = entry->routine;
+    struct debug_code code = {.code = routine->code};
+    if (!cache->listeners || !cache->engine->describe)
+        return;
+    int length = snprintf(code.name, sizeof code.name, "triptych_%s_%u_%s_%016" PRIx64,
+                          unit_name[entry->unit], routine->number, cache->engine->name, entry->hash);
+    for (int i = 0; i < length; i++)
+        if (code.name[i] == '-')
+            code.name[i] = '_';
+    if (!cache->engine->describe(routine, &code, &cache->debug_error))
+        entry->record = debug_add(cache->listeners, &code, &cache->debug_error);
+    debug_code_free(&code);
+}
+
 static struct cache_entry **bucket_of(struct cache *cache, uint64_t hash)
 {
     return cache->bucket + (hash & (cache->bucket_count - 1));
@@ -129,6 +164,7 @@ static bool evict_oldest(struct cache *cache)
     cache->statistics.bytes -= entry->price;
     cache->statistics.routines--;
     cache->statistics.evictions++;
+    debug_remove(entry->record);
     cache->engine->free(cache->arena, entry->routine);
     free(entry);
     return true;
@@ -242,6 +278,7 @@ static struct cache_entry *insert(struct cache *cache, enum unit unit, const uni
     list_insert_after(cache->numbered.previous, &entry->numbered);
     cache->statistics.bytes += entry->price;
     cache->statistics.routines++;
+    tell(cache, entry);
     return entry;
 }
 

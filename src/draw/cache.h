@@ -31,6 +31,8 @@ struct cache *cache_create(const struct engine *engine, struct code_arena *arena
                            struct error *error);
 /* From now on the calls of routines that are built are measured. */
 void cache_measure(struct cache *cache);
+/* From now on those listeners (debug/debug.h) are told of routines that are built, and when they are gone. */
+void cache_debug(struct cache *cache, unsigned listeners);
 
 /* Frees all routines; none may be in use. Null is allowed. */
 void cache_destroy(struct cache *cache);
@@ -45,6 +47,9 @@ void cache_release(struct cache *cache, const struct routine *routine);
 
 /* Whether the routines cost twice the budget, which those in use must be to blame for: time to release some. */
 bool cache_is_crowded(struct cache *cache);
+
+/* The first reason why a listener was not told of something; empty when there is none. */
+void cache_debug_error(struct cache *cache, struct error *error);
 
 struct cache_statistics cache_statistics(struct cache *cache);
 

@@ -2,6 +2,7 @@
 
 #include "base/code.h"
 #include "base/cpu.h"
+#include "debug/debug.h"
 
 #include <assert.h>
 #include <stdlib.h>
@@ -20,19 +21,22 @@ static size_t arena_bytes(size_t cache_bytes)
 }
 
 static enum triptych_result create_parts(struct triptych_device *device, const struct device_options *options,
-                                         struct error *error)
+                                         unsigned listeners, struct error *error)
 {
     size_t cache_bytes = options->cache_bytes ? options->cache_bytes : CACHE_BYTES;
     if (!device->engine->without_arena) {
         errno = 0;
-        device->arena =
-            code_create(options->code_bytes ? options->code_bytes : arena_bytes(cache_bytes), NULL, error);
+        size_t bytes = options->code_bytes ? options->code_bytes : arena_bytes(cache_bytes);
+        device->arena = listeners >> DEBUG_gdb & 1 ? code_create_for_breakpoints(bytes, NULL, error)
+                                                   : code_create(bytes, NULL, error);
         if (!device->arena)
             return device_refusal(TRIPTYCH_ENGINE_FAILED);
     }
     device->cache = cache_create(device->engine, device->arena, cache_bytes, error);
     if (device->cache && options->measure)
         cache_measure(device->cache);
+    if (device->cache)
+        cache_debug(device->cache, listeners);
     device->pool = pool_create(options->threads, options->create_thread, error);
     if (device->cache && device->pool)
         device->frame = frame_create(device->pool, options->arena_bytes, error);
@@ -42,7 +46,10 @@ static enum triptych_result create_parts(struct triptych_device *device, const s
 enum triptych_result device_create(const struct engine *engine, const struct device_options *options,
                                    struct triptych_device **result, struct error *error)
 {
+    unsigned listeners;
     *result = NULL;
+    if (debug_read(options->debug, &listeners, error))
+        return TRIPTYCH_BAD_ARGUMENT;
     if (options->cache_bytes > CACHE_BYTES_MAXIMUM) {
         error_set(error, "cache of %zu bytes: expected at most %d", options->cache_bytes,
                   CACHE_BYTES_MAXIMUM);
@@ -64,10 +71,11 @@ enum triptych_result device_create(const struct engine *engine, const struct dev
         return TRIPTYCH_NO_MEMORY;
     }
     device->engine = engine;
+    debug_open(listeners, &device->debug_error);
     state_initialize(&device->state);
     for (int stage = 0; stage < SHADER_STAGES; stage++)
         device->state.registers[stage] = &device->registers[stage];
-    enum triptych_result status = create_parts(device, options, error);
+    enum triptych_result status = create_parts(device, options, listeners, error);
     if (status == TRIPTYCH_OK)
         *result = device;
     else
@@ -124,6 +132,13 @@ void device_destroy(struct triptych_device *device)
     }
     device_free_shaders(device);
     free(device);
+}
+
+void device_debug_error(struct triptych_device *device, struct error *error)
+{
+    *error = device->debug_error;
+    if (!error->text[0])
+        cache_debug_error(device->cache, error);
 }
 
 /* --- Rendering ---------------------------------------------------------------------------------------------

@@ -63,6 +63,8 @@ struct triptych_device {
     void *on_draw_user;
 
     struct error error;               /* of the last failed public call */
+    struct error debug_error;         /* why something of options.debug cannot be done */
+    struct error debug_told;          /* what triptych_debug_error gave */
     char key_text[KEY_TEXT_CAPACITY]; /* of the last routine reported */
 };
 
@@ -71,6 +73,7 @@ struct device_options {
     size_t cache_bytes; /* 0: CACHE_BYTES */
     size_t code_bytes;  /* of the code arena; 0: enough for the cache and the largest routines */
     bool measure;       /* the calls of routines are timed */
+    const char *debug;  /* words of def/debug.def, comma-separated; null: none */
     pool_create_thread *create_thread; /* null: pthread_create */
     uint32_t arena_bytes;              /* of the frame's arena; 0: ARENA_BYTES */
 };
@@ -216,6 +219,9 @@ enum triptych_result device_check_integers(struct triptych_device *device, struc
 /* One sample's of colour target 0 and of depth and stencil; what is null is not read. */
 enum triptych_result device_read_sample(struct triptych_device *device, unsigned sample, uint32_t *rgba,
                                         float *depth, uint8_t *stencil, struct error *error);
+
+/* The first reason why something that was asked for in options.debug is not done; empty when all is. */
+void device_debug_error(struct triptych_device *device, struct error *error);
 
 void device_get_statistics(const struct triptych_device *device, struct triptych_statistics *statistics);
 

@@ -13,6 +13,7 @@
 
 struct routine;
 struct code_arena; /* base/code.h */
+struct debug_code; /* debug/code.h */
 
 /* `call` is the unit's call structure. Routines may run on many threads at once; they set FTZ and DAZ with
  * all exceptions masked and round to nearest on entry, and restore the caller's MXCSR. */
@@ -81,6 +82,10 @@ struct engine {
 
     /* Frees a routine that no thread runs. */
     void (*free)(struct code_arena *arena, struct routine *routine);
+
+    /* What debuggers and profilers may know of a routine's code, all but its name, found by building it once more: so
+     * routines cost nothing more when nobody asks. 0, or -1 with the reason; null for engines without such code. */
+    int (*describe)(const struct routine *routine, struct debug_code *code, struct error *error);
 };
 
 #endif

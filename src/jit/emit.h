@@ -3,6 +3,7 @@
 #ifndef JIT_EMIT_H
 #define JIT_EMIT_H
 
+#include "debug/code.h"
 #include "draw/engine.h"
 #include "jit/allocate.h"
 #include "jit/encode.h"
@@ -35,7 +36,10 @@ enum { LABEL_CAPACITY = LABEL_FREE + LITERAL_CAPACITY + 2 * REGION_CAPACITY };
 struct code_line {
     uint32_t offset;
     uint16_t instruction; /* IR number; 0 for the frame */
+    uint16_t frame_line;  /* of the frame, in frame.c */
 };
+
+enum { UNWIND_CAPACITY = 32 };
 
 /* An operand at the current position. */
 struct place {
@@ -80,6 +84,8 @@ struct emitter {
     uint32_t region_depth;
     uint32_t moves; /* noted, not yet written */
     struct move move[VARIABLES];
+    uint32_t unwinds;
+    struct debug_unwind unwind[UNWIND_CAPACITY]; /* the frame's, as it is made and left */
     struct code_line line[IR_CAPACITY + 64];
     int32_t labels[LABEL_CAPACITY];
     struct fixup fixups[FIXUP_CAPACITY];
@@ -129,7 +135,8 @@ void write_moves(struct emitter *emitter);
  */
 void select_gather(struct emitter *emitter, const struct ir_instruction *instruction);
 
-/* Notes that the code from here on belongs to an IR instruction (0: the frame). */
+/* Notes that the code from here on belongs to an IR instruction, or to the frame, a line of frame.c. */
 void note_line(struct emitter *emitter, uint32_t instruction);
+void note_frame_line(struct emitter *emitter, unsigned line);
 
 #endif

@@ -2,6 +2,7 @@
  * 8 lanes with the passes of the thesis alone. */
 #include "base/code.h"
 #include "base/cpu.h"
+#include "debug/code.h"
 #include "jit/build.h"
 #include "jit/jit.h"
 
@@ -77,6 +78,40 @@ static void free_routine(struct code_arena *arena, struct routine *routine)
     free(routine);
 }
 
+static void describe_code(const struct builder *b, struct debug_code *code)
+{
+    const struct emitter *m = &b->emitter;
+    code->folder = "src";
+    code->bytes = m->code_bytes;
+    for (uint32_t i = 0; i < m->lines; i++) {
+        const struct code_line *line = m->line + i;
+        const struct ir_instruction *instruction = &b->ir.instruction[line->instruction];
+        if (line->instruction)
+            debug_add_source(code, line->offset, b->ir.file[instruction->file], instruction->line);
+        else
+            debug_add_source(code, line->offset, "jit/frame.c", line->frame_line);
+    }
+    for (uint32_t i = 0; i < m->unwinds; i++)
+        debug_add_unwind(code, m->unwind[i].offset, m->unwind[i].rule, m->unwind[i].reg, m->unwind[i].value);
+}
+
+static int describe(const struct routine *routine, struct debug_code *code, struct error *error)
+{
+    struct builder *b = builder_take(error);
+    if (!b)
+        return -1;
+    size_t bytes =
+        build_code(b, engine_options(routine->engine), routine->unit, &routine->key, NULL, NULL, error);
+    int result = bytes ? 0 : -1;
+    if (bytes && (bytes != routine->code_bytes || memcmp(b->emitter.code, routine->code, bytes)))
+        result =
+            error_set(error, "a %s routine was built twice and is not the same", unit_name[routine->unit]);
+    if (!result)
+        describe_code(b, code);
+    builder_give(b);
+    return result;
+}
+
 static const struct order order_8 = {.options = {.width = 8, .profile = PROFILE_FULL}};
 static const struct order order_4 = {.options = {.width = 4, .profile = PROFILE_FULL}};
 static const struct order order_thesis = {.options = {.width = 8, .profile = PROFILE_THESIS}};
@@ -106,6 +141,7 @@ const struct engine engine_specialize = {
     .unavailable = unavailable,
     .build = build_8,
     .free = free_routine,
+    .describe = describe,
 };
 
 const struct engine engine_specialize_4 = {
@@ -115,6 +151,7 @@ const struct engine engine_specialize_4 = {
     .unavailable = unavailable,
     .build = build_4,
     .free = free_routine,
+    .describe = describe,
 };
 
 const struct engine engine_specialize_thesis = {
@@ -124,6 +161,7 @@ const struct engine engine_specialize_thesis = {
     .unavailable = unavailable,
     .build = build_thesis,
     .free = free_routine,
+    .describe = describe,
 };
 
 const struct build_options *engine_options(const struct engine *engine)

@@ -12,6 +12,7 @@
 #include "jit/emit.h"
 #include "shader/program.h"
 
+#include <assert.h>
 #include <stddef.h>
 
 #define CALL     X86_RDI
@@ -34,10 +35,31 @@ const uint8_t base_register[BASE_COUNT] = {
 #undef BASE
 };
 
-void note_line(struct emitter *m, uint32_t instruction)
+static void note(struct emitter *m, uint32_t instruction, unsigned line)
 {
     if (m->lines < sizeof m->line / sizeof m->line[0])
-        m->line[m->lines++] = (struct code_line){(uint32_t)encoder_size(&m->encoder), (uint16_t)instruction};
+        m->line[m->lines++] =
+            (struct code_line){(uint32_t)encoder_size(&m->encoder), (uint16_t)instruction, (uint16_t)line};
+}
+
+void note_line(struct emitter *m, uint32_t instruction)
+{
+    note(m, instruction, 0);
+}
+
+void note_frame_line(struct emitter *m, unsigned line)
+{
+    note(m, 0, line);
+}
+
+/* How to unwind from here on. */
+static void note_unwind(struct emitter *m, enum debug_rule rule, unsigned reg, int32_t value)
+{
+    assert(m->unwinds < UNWIND_CAPACITY);
+    m->unwind[m->unwinds++] = (struct debug_unwind){.offset = (uint32_t)encoder_size(&m->encoder),
+                                                    .rule = (uint8_t)rule,
+                                                    .reg = (uint8_t)reg,
+                                                    .value = value};
 }
 
 static uint32_t literal_slot(int32_t bits)
@@ -122,6 +144,15 @@ static void reserve_frame(struct emitter *m, int32_t bytes)
     gpr_ri(&m->encoder, X86_sub, X86_64, X86_RSP, bytes);
 }
 
+/* Callee-saved registers that are in use, in the order in which they lie below rbp; the last one only for a shader's
+ * constants. */
+static const uint8_t saved[] = {AHEAD, X86_R12, X86_R13, CONSTANT};
+
+static int saved_registers(const struct emitter *m)
+{
+    return (int)sizeof saved - !m->constants;
+}
+
 static void prologue(struct emitter *m, size_t job_field)
 {
     struct encoder *e = &m->encoder;
@@ -129,13 +160,16 @@ static void prologue(struct emitter *m, size_t job_field)
     m->frame_slots = m->frame_constants + (int32_t)(m->ir->constant_count * m->width * 4);
     m->frame_variables = m->frame_slots + (int32_t)(m->allocation->slots * m->width * 4);
     int32_t bytes = m->frame_variables + (int32_t)(m->ir->variables * m->width * 4);
+    note_frame_line(m, __LINE__);
     gpr_r(e, X86_push, X86_64, X86_RBP);
+    note_unwind(m, DEBUG_CFA, X86_RSP, 16);
+    note_unwind(m, DEBUG_SAVED, X86_RBP, 16);
     gpr_rr(e, X86_mov, X86_64, X86_RBP, X86_RSP);
-    gpr_r(e, X86_push, X86_64, AHEAD);
-    gpr_r(e, X86_push, X86_64, X86_R12);
-    gpr_r(e, X86_push, X86_64, X86_R13);
-    if (m->constants)
-        gpr_r(e, X86_push, X86_64, CONSTANT);
+    note_unwind(m, DEBUG_CFA, X86_RBP, 16);
+    for (int i = 0; i < saved_registers(m); i++) {
+        gpr_r(e, X86_push, X86_64, saved[i]);
+        note_unwind(m, DEBUG_SAVED, saved[i], 24 + 8 * i);
+    }
     reserve_frame(m, bytes);
     gpr_ri(e, X86_and, X86_64, X86_RSP, -64);
     vector_m(e, X86_vstmxcsr, address_at(X86_RSP, FRAME_SAVED_MXCSR));
@@ -150,15 +184,17 @@ static void prologue(struct emitter *m, size_t job_field)
 static void epilogue(struct emitter *m)
 {
     struct encoder *e = &m->encoder;
+    note_frame_line(m, __LINE__);
     vector_m(e, X86_vldmxcsr, address_at(X86_RSP, FRAME_SAVED_MXCSR));
     vector_none(e, X86_vzeroupper);
-    gpr_rm(e, X86_mov, X86_64, AHEAD, address_at(X86_RBP, -8));
-    gpr_rm(e, X86_mov, X86_64, X86_R12, address_at(X86_RBP, -16));
-    gpr_rm(e, X86_mov, X86_64, X86_R13, address_at(X86_RBP, -24));
-    if (m->constants)
-        gpr_rm(e, X86_mov, X86_64, CONSTANT, address_at(X86_RBP, -32));
+    for (int i = 0; i < saved_registers(m); i++) {
+        gpr_rm(e, X86_mov, X86_64, saved[i], address_at(X86_RBP, -8 - 8 * i));
+        note_unwind(m, DEBUG_RESTORED, saved[i], 0);
+    }
     gpr_rr(e, X86_mov, X86_64, X86_RSP, X86_RBP);
     gpr_r(e, X86_pop, X86_64, X86_RBP);
+    note_unwind(m, DEBUG_CFA, X86_RSP, 8);
+    note_unwind(m, DEBUG_RESTORED, X86_RBP, 0);
     encode_return(e);
 }
 
@@ -189,11 +225,13 @@ static void end_loop(struct emitter *m)
 static void vertex_loop(struct emitter *m)
 {
     int32_t step = (int32_t)m->width * 4;
+    note_frame_line(m, __LINE__);
     load(m, INPUT, offsetof(struct vertex_call, index));
     load(m, OUTPUT, offsetof(struct vertex_call, out));
     load_limit(m, offsetof(struct vertex_call, count), 2);
     begin_loop(m);
     emit_body(m);
+    note_frame_line(m, __LINE__);
     gpr_ri(&m->encoder, X86_add, X86_64, INPUT, step);
     gpr_ri(&m->encoder, X86_add, X86_64, OUTPUT, step);
     end_loop(m);
@@ -202,12 +240,14 @@ static void vertex_loop(struct emitter *m)
 static void setup_loop(struct emitter *m, const struct setup_key *key)
 {
     int32_t stride = setup_layout(key).stride;
+    note_frame_line(m, __LINE__);
     load(m, INPUT, offsetof(struct setup_call, index));
     load(m, OUTPUT, offsetof(struct setup_call, out));
     load(m, VERTICES, offsetof(struct setup_call, vertices));
     load_limit(m, offsetof(struct setup_call, count), 2);
     begin_loop(m);
     emit_body(m);
+    note_frame_line(m, __LINE__);
     gpr_ri(&m->encoder, X86_add, X86_64, INPUT, (int32_t)m->width * 4);
     gpr_ri(&m->encoder, X86_add, X86_64, OUTPUT, (int32_t)m->width * stride);
     end_loop(m);
@@ -233,6 +273,7 @@ static void pixel_loop(struct emitter *m)
 {
     struct encoder *e = &m->encoder;
     int32_t step = (int32_t)m->width * 4;
+    note_frame_line(m, __LINE__);
     load(m, ENTRY, offsetof(struct pixel_call, entries));
     load_limit(m, offsetof(struct pixel_call, count), 4);
     begin_loop(m);
@@ -241,6 +282,7 @@ static void pixel_loop(struct emitter *m)
     gpr_ri(e, X86_test, X86_32, AHEAD, (1 << m->width) - 1);
     encode_jump_if(e, X86_IF_z, LABEL_SKIP);
     emit_body(m);
+    note_frame_line(m, __LINE__);
     encode_label(e, LABEL_SKIP);
     gpr_ri(e, X86_add, X86_64, COLOR, step);
     gpr_ri(e, X86_add, X86_64, DEPTH, step);
@@ -280,12 +322,11 @@ static int32_t constants_field(enum unit unit, const union key *key)
 size_t emit_routine(struct emitter *m, enum unit unit, const union key *key, struct error *error)
 {
     encoder_start(&m->encoder, m->code, sizeof m->code, m->labels, LABEL_FREE, m->fixups, FIXUP_CAPACITY);
-    m->literals = m->lines = m->regions = m->region_depth = 0;
+    m->literals = m->lines = m->unwinds = m->regions = m->region_depth = 0;
     m->exceeded = NULL;
     if (m->allocation->slots > SPILL_CAPACITY)
         note_exceeded(m, "values in memory at once", SPILL_CAPACITY);
     m->constants = constants_field(unit, key);
-    note_line(m, 0);
     prologue(m, job_field(unit));
     switch (unit) {
     case UNIT_VERTEX: vertex_loop(m); break;

@@ -507,5 +507,4 @@ void emit_body(struct emitter *m)
         if (!effect)
             store_spilled(m);
     }
-    note_line(m, 0);
 }

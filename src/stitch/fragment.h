@@ -46,10 +46,14 @@ struct fragment {
     uint8_t apart;       /* argument 0 is none of the registers read */
     uint8_t in_place;    /* behind it stand forms that change a register (asm/operation.asm, mad) */
     uint8_t pooled;      /* bit n: argument n is a literal, its offset among them */
+    const char *file;    /* where it is written down */
+    const struct debug_unwind *unwind; /* debug/code.h */
+    uint16_t line, unwinds;
 };
 
 static_assert(sizeof(struct hole) == 4, "asm/fragment.inc writes it so");
-static_assert(sizeof(struct fragment) == 48 && offsetof(struct fragment, bytes) == 36,
+static_assert(sizeof(struct fragment) == 72 && offsetof(struct fragment, bytes) == 36 &&
+                  offsetof(struct fragment, line) == 64,
               "asm/fragment.inc writes it so");
 
 /* General-purpose registers by their hardware number, as far as C must know them. */

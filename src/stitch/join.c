@@ -133,7 +133,7 @@ static void lay_out(struct plan *plan)
     plan->bytes = plan->literals ? plan->literals_offset + plan->literals * LITERAL_BYTES : bytes;
 }
 
-int plan_join(struct plan *plan, struct code_arena *arena, struct code_span *span, struct error *error)
+int plan_lay_out(struct plan *plan, struct error *error)
 {
     if (plan_complete(plan, error))
         return -1;
@@ -141,6 +141,13 @@ int plan_join(struct plan *plan, struct code_arena *arena, struct code_span *spa
     if (plan->bytes > ROUTINE_BYTES_MAXIMUM)
         return error_set(error, "the routine's code is %u bytes, expected at most %d", plan->bytes,
                          ROUTINE_BYTES_MAXIMUM);
+    return 0;
+}
+
+int plan_join(struct plan *plan, struct code_arena *arena, struct code_span *span, struct error *error)
+{
+    if (plan_lay_out(plan, error))
+        return -1;
     if (code_reserve(arena, plan->bytes, span, error))
         return -1;
     for (unsigned i = 0; i < plan->count; i++)

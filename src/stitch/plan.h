@@ -138,6 +138,9 @@ const char *register_name(unsigned bit);
  * and not destroyed since. Returns 0, or -1 naming the part and the register. */
 int plan_check(const struct plan *plan, struct error *error);
 
+/* Finds where each part is in the routine. Returns 0, or -1 with the reason why it cannot be joined. */
+int plan_lay_out(struct plan *plan, struct error *error);
+
 /* Copies the plan's code into the arena and fills the holes. Returns 0, or -1 with the reason. */
 int plan_join(struct plan *plan, struct code_arena *arena, struct code_span *span, struct error *error);
 

@@ -2,6 +2,7 @@
 #include "stitch/stitch.h"
 
 #include "base/cpu.h"
+#include "debug/code.h"
 #include "stitch/cover.h"
 #include "stitch/plan.h"
 
@@ -37,7 +38,7 @@ static const char *make_plan(struct plan *plan, stitch_coverage *lack, enum unit
     return reason;
 }
 
-static void describe(struct stitched *stitched, const struct plan *plan)
+static void fill_in(struct stitched *stitched, const struct plan *plan)
 {
     struct routine *routine = &stitched->routine;
     routine->run = (routine_function *)(uintptr_t)stitched->span.executable;
@@ -67,7 +68,7 @@ struct routine *plan_routine(struct plan *plan, const struct engine *engine, str
         free(stitched);
         return NULL;
     }
-    describe(stitched, plan);
+    fill_in(stitched, plan);
     return routine;
 }
 
@@ -103,6 +104,42 @@ static void free_routine(struct code_arena *arena, struct routine *routine)
     free(stitched);
 }
 
+/* Parts of operations come from lines of the spec, the others from where their fragments are written down. */
+static void describe_code(const struct plan *plan, struct debug_code *code)
+{
+    code->folder = "";
+    code->bytes = plan->code_bytes;
+    for (unsigned i = 0; i < plan->count; i++) {
+        const struct part *part = plan->part + i;
+        const struct fragment *fragment = part->fragment;
+        if (part->file)
+            debug_add_source(code, part->offset, part->file, part->line);
+        else
+            debug_add_source(code, part->offset, fragment->file, fragment->line);
+        for (unsigned n = 0; n < fragment->unwinds; n++) {
+            const struct debug_unwind *row = fragment->unwind + n;
+            debug_add_unwind(code, part->offset + row->offset, row->rule, row->reg, row->value);
+        }
+    }
+}
+
+static int describe(const struct routine *routine, struct debug_code *code, struct error *error)
+{
+    struct plan *plan = plan_take(error);
+    if (!plan)
+        return -1;
+    make_plan(plan, routine->engine == &engine_stitch ? stages_lack : want_operations, routine->unit,
+              &routine->key);
+    int result = plan_lay_out(plan, error);
+    if (!result && (plan->bytes != routine->code_bytes || plan->count != routine->parts))
+        result =
+            error_set(error, "a %s routine was planned twice and is not the same", unit_name[routine->unit]);
+    if (!result)
+        describe_code(plan, code);
+    plan_give(plan);
+    return result;
+}
+
 const struct engine engine_stitch = {
     .name = "stitch",
     .description =
@@ -111,6 +148,7 @@ const struct engine engine_stitch = {
     .unavailable = unavailable,
     .build = build_stages,
     .free = free_routine,
+    .describe = describe,
 };
 
 const struct engine engine_stitch_operation = {
@@ -120,6 +158,7 @@ const struct engine engine_stitch_operation = {
     .unavailable = unavailable,
     .build = build_operations,
     .free = free_routine,
+    .describe = describe,
 };
 
 static int print_plan(struct plan *plan, struct code_arena *arena, FILE *out, struct error *error)

@@ -20,15 +20,25 @@ int session_open(const struct command *self, const struct stream *stream, unsign
     return session_open_measured(self, stream, engine, threads, false, session);
 }
 
+/* Once: what is asked for in TRIPTYCH_DEBUG and cannot be done is worth a line, not a failure. */
+static void tell_debug_error(struct session *session)
+{
+    const char *reason = session->device ? triptych_debug_error(session->device) : "";
+    if (*reason && !session->told)
+        fail(session->self, "debugging: %s", reason);
+    session->told |= *reason != 0;
+}
+
 int session_open_measured(const struct command *self, const struct stream *stream, unsigned engine,
                           unsigned threads, bool measure, struct session *session)
 {
     struct error error = {""};
     const struct triptych_options options = {
         .engine = triptych_engine_name(engine), .threads = threads, .measure = measure};
-    *session = (struct session){.stream = stream};
+    *session = (struct session){.stream = stream, .self = self};
     if (triptych_device_create(&options, &session->device, error.text, sizeof error.text))
         return fail(self, "engine %s: %s", options.engine, error.text);
+    tell_debug_error(session);
     if (stream_prepare(stream, session->device, &session->player, &error))
         return fail(self, "%s", error.text);
     return STATUS_OK;
@@ -36,6 +46,7 @@ int session_open_measured(const struct command *self, const struct stream *strea
 
 void session_close(struct session *session)
 {
+    tell_debug_error(session);
     player_free(session->player);
     triptych_device_destroy(session->device);
     *session = (struct session){0};

@@ -13,9 +13,11 @@ struct stream *session_load(const struct command *self, const char *path);
 
 /* Zero is a closed session. The stream must outlive it. */
 struct session {
+    const struct command *self;
     const struct stream *stream;
     triptych_device *device;
     struct player *player;
+    bool told; /* what of TRIPTYCH_DEBUG cannot be done */
 };
 
 /* Opens a session with the engine of that number (triptych_engine_name). The functions that return an int

@@ -109,6 +109,45 @@ static void no_address_is_both_writable_and_executable(void)
     TEST_ASSERT_EQUAL_STRING("r-xs", permissions);
 }
 
+/* What a debugger's write to code does to the mapping. */
+static void poke(const uint8_t *code, uint8_t byte)
+{
+    const size_t page = (size_t)sysconf(_SC_PAGESIZE);
+    void *start = (void *)((uintptr_t)code & ~(page - 1));
+    TEST_ASSERT_EQUAL_INT(0, mprotect(start, page, PROT_READ | PROT_WRITE));
+    *(volatile uint8_t *)(uintptr_t)code = byte;
+    TEST_ASSERT_EQUAL_INT(0, mprotect(start, page, PROT_READ | PROT_EXEC));
+}
+
+static void breakpoints_stay_in_their_routine_and_go_with_it(void)
+{
+    code_destroy(arena);
+    arena = code_create_for_breakpoints(CAPACITY, NULL, &error);
+    TEST_ASSERT_NOT_NULL_MESSAGE(arena, error.text);
+    struct code_span first = reserve(2 * FUNCTION_BYTES), second = reserve(FUNCTION_BYTES);
+    write_function(first.writable, 1);
+    write_function(second.writable, 2);
+    const uint8_t *one = code_commit(arena, &first, FUNCTION_BYTES);
+    const uint8_t *two = code_commit(arena, &second, FUNCTION_BYTES);
+    TEST_ASSERT_EQUAL_UINT64(0, (uintptr_t)one % (size_t)sysconf(_SC_PAGESIZE));
+    poke(one, 0xCC);
+    poke(two + 1, 7); /* not a breakpoint, but seen without a trap */
+    TEST_ASSERT_EQUAL_HEX8(0xCC, *one);
+    TEST_ASSERT_EQUAL_HEX8(0xB8, *(uint8_t *)code_writable(arena, one));
+    TEST_ASSERT_EQUAL_INT(7, run(two));
+    code_free(arena, &first);
+    first = reserve(FUNCTION_BYTES);
+    write_function(first.writable, 3);
+    TEST_ASSERT_EQUAL_PTR(one, code_commit(arena, &first, FUNCTION_BYTES));
+    TEST_ASSERT_EQUAL_INT(3, run(one));
+    TEST_ASSERT_EQUAL_INT(7, run(two));
+    char permissions[5];
+    permissions_of(one, permissions);
+    TEST_ASSERT_EQUAL_STRING("r-xp", permissions);
+    permissions_of(first.writable, permissions);
+    TEST_ASSERT_EQUAL_STRING("rw-s", permissions);
+}
+
 /* The signal that ends a process which does `act(argument)`, 0 if none does. */
 static int signal_of(void (*act)(void *), void *argument)
 {
@@ -428,6 +467,7 @@ int main(void)
     RUN_TEST(committed_code_runs_at_the_executable_address);
     RUN_TEST(views_translate_into_each_other);
     RUN_TEST(no_address_is_both_writable_and_executable);
+    RUN_TEST(breakpoints_stay_in_their_routine_and_go_with_it);
     RUN_TEST(the_wrong_view_faults_and_the_right_one_does_not);
     RUN_TEST(freed_code_and_the_tail_of_code_trap);
     RUN_TEST(freeing_an_empty_span_does_nothing);

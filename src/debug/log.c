@@ -1,0 +1,51 @@
+#include "debug/log.h"
+
+#include <errno.h>
+#include <fcntl.h>
+#include <stdio.h>
+#include <string.h>
+#include <unistd.h>
+
+int log_open(struct log *log, const char *path, struct error *error)
+{
+    int result = 0;
+    pthread_mutex_lock(&log->lock);
+    if (!log->file) {
+        snprintf(log->path, sizeof log->path, "%s", path);
+        unlink(log->path);
+        int file = open(log->path, O_RDWR | O_CREAT | O_EXCL | O_NOFOLLOW | O_CLOEXEC, 0600);
+        result = file < 0 ? error_set(error, "%s: %s", log->path, strerror(errno)) : 1;
+        log->file = file < 0 ? 0 : file;
+        log->broken = false;
+    }
+    pthread_mutex_unlock(&log->lock);
+    return result;
+}
+
+static int write_all(int file, const uint8_t *data, size_t count)
+{
+    while (count) {
+        ssize_t written = write(file, data, count);
+        if (written < 0 && errno == EINTR)
+            continue;
+        if (written <= 0)
+            return -1;
+        data += written;
+        count -= (size_t)written;
+    }
+    return 0;
+}
+
+int log_append(struct log *log, const struct bytes *record, struct error *error)
+{
+    int result = 0;
+    if (record->failed)
+        return error_set(error, "%s: out of memory for a record", log->path);
+    pthread_mutex_lock(&log->lock);
+    if (log->file && !log->broken && write_all(log->file, record->data, record->count)) {
+        log->broken = true;
+        result = error_set(error, "%s: %s; no more routines are noted there", log->path, strerror(errno));
+    }
+    pthread_mutex_unlock(&log->lock);
+    return result;
+}
