@@ -1,8 +1,8 @@
 # Triptych's build: `make help` lists the targets.
 #
 # Sources are found, never listed: those in src/tool, src/stream and src/fuzz are the command; every other src/**/*.c,
-# emu/*.c and asm/**/*.asm is the library; every tests/**/*.c outside tests/support/ is one Unity program with its
-# own main.
+# emu/*.c and asm/**/*.asm is the library; every tests/**/*.c outside tests/support/ and tests/fuzz/targets/ is one
+# Unity program with its own main.
 # Everything built goes to $(BUILD). What is fetched or linked in from the system (the Unity sources, the glmark2
 # and Assimp assets) goes to build/ whatever BUILD is, because draw streams name their assets through build/glmark2.
 # `make test` runs this file again for each variant: plain, clang (CC=clang), sanitize (SANITIZE=address), thread
@@ -34,7 +34,8 @@ TOOL_SOURCES    := $(filter src/tool/% src/stream/% src/fuzz/%,$(C_SOURCES))
 LIBRARY_SOURCES := $(filter-out $(TOOL_SOURCES),$(C_SOURCES)) $(call find,asm,*.asm)
 TEST_SOURCES    := $(call find,tests,*.c)
 SUPPORT_SOURCES := $(filter tests/support/%,$(TEST_SOURCES))
-PROGRAM_SOURCES := $(filter-out $(SUPPORT_SOURCES),$(TEST_SOURCES))
+TARGET_SOURCES  := $(filter tests/fuzz/targets/%,$(TEST_SOURCES))
+PROGRAM_SOURCES := $(filter-out $(SUPPORT_SOURCES) $(TARGET_SOURCES),$(TEST_SOURCES))
 UNITY_SOURCE    := $(or $(firstword $(wildcard $(UNITY_DIR)/unity.c)),$(UNITY_DIR)/src/unity.c)
 
 object = $(patsubst %,$(BUILD)/object/%.o,$(basename $(1)))
@@ -42,8 +43,9 @@ object = $(patsubst %,$(BUILD)/object/%.o,$(basename $(1)))
 LIBRARY_OBJECTS := $(call object,$(LIBRARY_SOURCES))
 TOOL_OBJECTS    := $(call object,$(TOOL_SOURCES))
 SUPPORT_OBJECTS := $(call object,$(SUPPORT_SOURCES))
+TARGET_OBJECTS  := $(call object,$(TARGET_SOURCES))
 PROGRAM_OBJECTS := $(call object,$(PROGRAM_SOURCES))
-OBJECTS         := $(LIBRARY_OBJECTS) $(TOOL_OBJECTS) $(SUPPORT_OBJECTS) $(PROGRAM_OBJECTS)
+OBJECTS         := $(LIBRARY_OBJECTS) $(TOOL_OBJECTS) $(SUPPORT_OBJECTS) $(TARGET_OBJECTS) $(PROGRAM_OBJECTS)
 
 # ONLY=text keeps the tests whose path contains the text.
 only = $(if $(ONLY),$(foreach t,$(1),$(if $(findstring $(ONLY),$(t)),$(t))),$(1))
@@ -67,18 +69,19 @@ library_libraries = $(filter-out -lOpenEXR-% -lOpenEXRUtil% -lIex% -lIlmThread% 
   -lZydis -lZycore -pthread -lm
 tool_libraries = $(tool_packages) $(library_libraries)
 
-# Instrumented builds: SANITIZE=address (1 is the same), with undefined behaviour; SANITIZE=thread; COVERAGE=1, whose
-# counters may lose steps between threads, but not that a line ran. gcc's flow warnings are wrong about instrumented
-# code; the plain, clang and matrix builds are the ones that warn.
+# Instrumented builds: SANITIZE=address (1 is the same), with undefined behaviour; SANITIZE=thread; SANITIZE=fuzzer, which
+# is address for libFuzzer (CC=clang); COVERAGE=1, whose counters may lose steps between threads, but not that a line ran.
+# gcc's flow warnings are wrong about instrumented code; the plain, clang and matrix builds are the ones that warn.
 instrument_address  = -fsanitize=address,undefined -fno-sanitize-recover=all
+instrument_fuzzer   = $(instrument_address) -fsanitize=fuzzer-no-link
 instrument_thread   = -fsanitize=thread
 instrument_coverage = --coverage -fprofile-update=single
 
 instrument := $(if $(SANITIZE),$(SANITIZE:1=address),$(if $(COVERAGE),coverage))
 ifneq ($(instrument),)
-$(if $(instrument_$(instrument)),,$(error SANITIZE is "$(SANITIZE)", expected address or thread))
+$(if $(instrument_$(instrument)),,$(error SANITIZE is "$(SANITIZE)", expected address, thread or fuzzer))
 CFLAGS     ?= -O1 -g
-INSTRUMENT := $(instrument_$(instrument)) -fno-omit-frame-pointer -Wno-maybe-uninitialized -Wno-restrict
+INSTRUMENT := $(instrument_$(instrument)) -fno-omit-frame-pointer $(if $(findstring clang,$(CC)),,-Wno-maybe-uninitialized -Wno-restrict)
 CHECK_IR   := 1
 else
 CFLAGS     ?= -O2 -g
@@ -105,7 +108,7 @@ unity_flags = -isystem $(dir $(UNITY_SOURCE)) -DUNITY_INCLUDE_DOUBLE -DUNITY_USE
 
 # --- What to build -------------------------------------------------------------------------------------------
 
-.PHONY: all programs check test check-threads matrix coverage soak bench bench-shaders gallery verify-external dependencies packages install clean format format-check help FORCE
+.PHONY: all programs check test check-threads matrix coverage soak bench bench-shaders gallery verify-external fuzzers fuzz-input fuzz-input-smoke dependencies packages install clean format format-check help FORCE
 
 all: $(BUILD)/libtriptych.a $(if $(SANITIZE),,$(BUILD)/libtriptych.so $(BUILD)/triptych.pc) $(COMMAND) build/glmark2 \
   build/assimp
@@ -163,6 +166,24 @@ $(BUILD)/tests/tool/verify: private override LDFLAGS += -Wl,--wrap=triptych_read
 # And this one wrong operations, passes and fragments, to see them named.
 $(BUILD)/tests/fuzz/bisect: private override LDFLAGS += -Wl,--wrap=plan_step_of,--wrap=pass_reduce,--wrap=pass_dead \
   -Wl,--wrap=vector_rrr,--wrap=plan_join,--wrap=external_compile
+
+# Fuzz targets stay within limits of their own (tests/fuzz/targets/limit.c): as a test, and with libFuzzer's main and
+# a link by the name of each target (CC=clang SANITIZE=fuzzer).
+fuzz_wraps = -Wl,--wrap=build_account,--wrap=mesh_make,--wrap=mesh_read_model,--wrap=file_read
+
+$(BUILD)/tests/fuzz/inputs: $(TARGET_OBJECTS)
+$(BUILD)/tests/fuzz/inputs: private override LDFLAGS += $(fuzz_wraps)
+
+FUZZERS := $(filter-out target limit fuzzer sound survive,$(basename $(notdir $(TARGET_SOURCES))))
+
+fuzzers: $(addprefix $(BUILD)/fuzz/,$(FUZZERS))
+
+$(BUILD)/fuzz/inputs: $(TARGET_OBJECTS) $(BUILD)/command.a $(BUILD)/libtriptych.a
+	@mkdir -p $(@D)
+	$(call say,LD)$(link) -fsanitize=fuzzer $(fuzz_wraps) $^ $(tool_libraries) -o $@
+
+$(addprefix $(BUILD)/fuzz/,$(FUZZERS)): $(BUILD)/fuzz/inputs
+	@ln -sf inputs $@
 
 # Files that hold a text and are rewritten only when it changes: the same one however BUILD is spelled, for a test
 # installs from the build that others run at the same time.
@@ -271,6 +292,19 @@ soak:
 	+@$(MAKE) $(jobs) BUILD=$(BUILD)/sanitize SANITIZE=address all programs
 	@tests/support/soak.sh $(DURATION) $(BUILD) $(BUILD)/sanitize $(SEED)
 
+# Readers of untrusted input with libFuzzer, a target after the other or JOBS at a time, each for DURATION seconds;
+# TARGET=name: only that one. What is found is in $(BUILD)/fuzzer/findings.
+JOBS ?= 1
+fuzz-input:
+	@tests/support/dependencies.sh build test fuzz
+	+@$(MAKE) $(jobs) BUILD=$(BUILD)/fuzzer CC=clang SANITIZE=fuzzer CFLAGS='-O2 -gline-tables-only' fuzzers
+	+@$(MAKE) $(jobs) all
+	@COMMAND=$(COMMAND) tests/fuzz/campaign.sh $(BUILD)/fuzzer $(DURATION) $(JOBS) $(or $(TARGET),$(FUZZERS))
+
+# Ten minutes in all.
+fuzz-input-smoke:
+	+@$(MAKE) fuzz-input DURATION=$$((600 / $(words $(FUZZERS)))) JOBS=1
+
 # The pictures of docs/gallery.md and docs/shader-gallery.md, which are goldens: look at them before they are committed.
 gallery: all
 	@GOLDENS=write TRIPTYCH=$(COMMAND) tests/goldens.sh $(wildcard tests/scenes/*.tri tests/shading/*.tri)
@@ -310,6 +344,8 @@ make check           the same tests on the plain build only
 make bench           the measurements, from a bare Debian on; writes results/
 make bench-shaders   the same of every shader in tests/shading, by shader and by length
 make soak            random cases and tests with new seeds, half an hour (DURATION=1800 SEED=1), then a summary
+make fuzz-input      untrusted input with libFuzzer, half an hour (DURATION=1800) each TARGET, JOBS at a time
+make fuzz-input-smoke  the same in ten minutes
 make matrix          gcc and clang at -O0, -O2, -O3, with and without AVX-512: the same bytes, results/matrix.txt
 make check-threads   all streams with several threads in random orders, ThreadSanitizer watching
 make coverage        lines that the tests execute, results/coverage.txt; fails below 90 %

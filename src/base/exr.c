@@ -21,6 +21,7 @@ struct job {
     size_t count;
     uint8_t *data;
     size_t bytes, capacity;
+    exr_result_t (*compress)(exr_encode_pipeline_t *pipeline); /* the core's */
 };
 
 /* The default handler prints. The context may be locked while this is called, so that asking it for the job
@@ -93,7 +94,27 @@ static void point_to_rows(exr_encode_pipeline_t *pipeline, const struct job *job
     }
 }
 
-static exr_result_t write_chunk(exr_context_t context, const struct job *job, exr_encode_pipeline_t *pipeline,
+/* Readers take a chunk for raw when it is as long as its pixels are, and the core (3.1.5) writes it packed when that is
+ * by chance what packing makes of it. */
+static exr_result_t compress_or_copy(exr_encode_pipeline_t *pipeline)
+{
+    const struct job *job = pipeline->encoding_user_data;
+    exr_result_t result = job->compress(pipeline);
+    if (!result && pipeline->compressed_bytes == pipeline->packed_bytes)
+        memcpy(pipeline->compressed_buffer, pipeline->packed_buffer, pipeline->packed_bytes);
+    return result;
+}
+
+static exr_result_t choose_routines(exr_context_t context, struct job *job, exr_encode_pipeline_t *pipeline)
+{
+    exr_result_t result = exr_encoding_choose_default_routines(context, 0, pipeline);
+    job->compress = pipeline->compress_fn;
+    pipeline->encoding_user_data = job;
+    pipeline->compress_fn = compress_or_copy;
+    return result;
+}
+
+static exr_result_t write_chunk(exr_context_t context, struct job *job, exr_encode_pipeline_t *pipeline,
                                 int y)
 {
     exr_chunk_info_t chunk;
@@ -105,11 +126,11 @@ static exr_result_t write_chunk(exr_context_t context, const struct job *job, ex
         return result;
     point_to_rows(pipeline, job, (size_t)y);
     if (!y)
-        result = exr_encoding_choose_default_routines(context, 0, pipeline);
+        result = choose_routines(context, job, pipeline);
     return result ? result : exr_encoding_run(context, 0, pipeline);
 }
 
-static exr_result_t write_pixels(exr_context_t context, const struct job *job)
+static exr_result_t write_pixels(exr_context_t context, struct job *job)
 {
     exr_encode_pipeline_t pipeline = EXR_ENCODE_PIPELINE_INITIALIZER;
     int32_t step = 0;
@@ -145,7 +166,7 @@ static int encode(struct job *job)
 int exr_save(const char *path, unsigned width, unsigned height, const struct exr_channel *channels,
              size_t count, struct error *error)
 {
-    struct job job = {path, error, width, height, channels, count, NULL, 0, 0};
+    struct job job = {path, error, width, height, channels, count, NULL, 0, 0, NULL};
     if (!width || !height || width > EXR_SIDE_MAXIMUM || height > EXR_SIDE_MAXIMUM)
         return error_set(error, "%s: %u x %u pixels, expected 1 to %d a side", path, width, height,
                          EXR_SIDE_MAXIMUM);

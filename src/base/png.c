@@ -17,8 +17,10 @@ struct job {
     struct error *error;
     png_structp png;
     png_infop info;
-    char *data; /* the file: all of it when reading, what is there so far when writing */
-    size_t bytes, position, capacity;
+    const char *source; /* reading: the file */
+    size_t position;
+    char *data; /* writing: what is there of the file so far */
+    size_t bytes, capacity;
     unsigned width, height;
     uint32_t *rgba;
     png_bytepp rows;
@@ -63,8 +65,17 @@ static void read_bytes(png_structp png, png_bytep out, size_t bytes)
     struct job *job = png_get_io_ptr(png);
     if (bytes > job->bytes - job->position)
         png_error(png, "the file is cut off");
-    memcpy(out, job->data + job->position, bytes);
+    memcpy(out, job->source + job->position, bytes);
     job->position += bytes;
+}
+
+/* What is not needed for the samples is skipped: texts and profiles can unpack to a thousand times their size each,
+ * and there may be a thousand of them. */
+static void set_limits(png_structp png)
+{
+    png_set_user_limits(png, PNG_SIDE_MAXIMUM, PNG_SIDE_MAXIMUM);
+    png_set_chunk_malloc_max(png, PNG_CHUNK_MAXIMUM);
+    png_set_keep_unknown_chunks(png, PNG_HANDLE_CHUNK_NEVER, NULL, -1);
 }
 
 static void convert_to_rgba8(struct job *job)
@@ -81,8 +92,7 @@ static int decode(struct job *job)
 {
     if (setjmp(png_jmpbuf(job->png)))
         return -1;
-    png_set_user_limits(job->png, PNG_SIDE_MAXIMUM, PNG_SIDE_MAXIMUM);
-    png_set_chunk_malloc_max(job->png, PNG_CHUNK_MAXIMUM);
+    set_limits(job->png);
     png_set_read_fn(job->png, job, read_bytes);
     png_read_info(job->png, job->info);
     convert_to_rgba8(job);
@@ -96,13 +106,12 @@ static int decode(struct job *job)
     return 0;
 }
 
-int png_load(const char *path, unsigned *width, unsigned *height, uint32_t **rgba, struct error *error)
+int png_decode(const char *path, const void *data, size_t bytes, unsigned *width, unsigned *height,
+               uint32_t **rgba, struct error *error)
 {
-    struct job job = {.path = path, .error = error};
+    struct job job = {.path = path, .error = error, .source = data, .bytes = bytes};
     int result = -1;
     *rgba = NULL;
-    if (file_read(path, PNG_FILE_MAXIMUM, &job.data, &job.bytes, error))
-        return -1;
     job.png = png_create_read_struct(PNG_LIBPNG_VER_STRING, &job, on_error, on_warning);
     job.info = job.png ? png_create_info_struct(job.png) : NULL;
     if (!job.info)
@@ -117,6 +126,18 @@ int png_load(const char *path, unsigned *width, unsigned *height, uint32_t **rgb
         job.rgba = NULL;
     }
     free_job(&job);
+    return result;
+}
+
+int png_load(const char *path, unsigned *width, unsigned *height, uint32_t **rgba, struct error *error)
+{
+    char *data;
+    size_t bytes;
+    *rgba = NULL;
+    if (file_read(path, PNG_FILE_MAXIMUM, &data, &bytes, error))
+        return -1;
+    int result = png_decode(path, data, bytes, width, height, rgba, error);
+    free(data);
     return result;
 }
 

@@ -4,6 +4,7 @@
 
 #include "base/error.h"
 
+#include <stddef.h>
 #include <stdint.h>
 
 enum { PNG_SIDE_MAXIMUM = 8192 };
@@ -13,6 +14,10 @@ enum { PNG_SIDE_MAXIMUM = 8192 };
  * failure. Refused: what is no PNG, damaged or cut off, or has more than PNG_SIDE_MAXIMUM pixels on a side.
  * Returns 0, or -1 with the reason, which begins with the path. */
 int png_load(const char *path, unsigned *width, unsigned *height, uint32_t **rgba, struct error *error);
+
+/* The same of a file in memory; `path` begins the reason. */
+int png_decode(const char *path, const void *data, size_t bytes, unsigned *width, unsigned *height,
+               uint32_t **rgba, struct error *error);
 
 /* Writes an RGBA8 PNG, whole or not at all (base/file.h). Returns 0, or -1 with the reason. */
 int png_save(const char *path, unsigned width, unsigned height, const uint32_t *rgba, struct error *error);

@@ -276,6 +276,16 @@ static int check_declaration(struct assembler *assembler, const struct shader_in
     return 0;
 }
 
+/* Bytecode of other models has no bit for it. */
+static int read_pairing(struct assembler *assembler, struct shader_instruction *instruction)
+{
+    const struct shader_model *model = assembler->shader->model;
+    if (scan_is(&assembler->scanner, '+') && (model->stage == STAGE_VERTEX || shader_major(model) >= 2))
+        return scan_expected(&assembler->scanner, "an instruction, which is not paired in %s", model->name);
+    instruction->coissue = scan_skip(&assembler->scanner, '+');
+    return 0;
+}
+
 static int read_statement(struct assembler *assembler)
 {
     struct scanner *scanner = &assembler->scanner;
@@ -287,8 +297,8 @@ static int read_statement(struct assembler *assembler)
     instruction->column = (uint16_t)(scanner->token.column < 0xffff ? scanner->token.column : 0xffff);
     if (scan_is(scanner, '(') && read_predicate(assembler, instruction))
         return -1;
-    instruction->coissue = scan_skip(scanner, '+');
-    if (read_word(assembler, instruction, &result) || read_operands(assembler, instruction, &result))
+    if (read_pairing(assembler, instruction) || read_word(assembler, instruction, &result) ||
+        read_operands(assembler, instruction, &result))
         return -1;
     if (instruction->opcode == SHADER_DCL && check_declaration(assembler, instruction))
         return -1;

@@ -24,11 +24,12 @@ char *asset_path(const char *stream_path, const char *path)
 /* --- Textures ---------------------------------------------------------------------------------------------
  */
 
-static int load_png(struct resource *resource, const char *path, struct error *error)
+static int load_png(struct resource *resource, const char *path, const char *data, size_t bytes,
+                    struct error *error)
 {
     unsigned width, height;
     uint32_t *rgba;
-    if (png_load(path, &width, &height, &rgba, error))
+    if (png_decode(path, data, bytes, &width, &height, &rgba, error))
         return -1;
     resource->source = TEXTURE_IMAGE;
     resource->texels = (uint8_t *)rgba;
@@ -57,8 +58,9 @@ int asset_load_texture(struct resource *resource, const char *path, struct error
         return -1;
     if (dds_is(data, bytes))
         return load_dds(resource, path, data, bytes, error);
+    int result = load_png(resource, path, data, bytes, error);
     free(data);
-    return load_png(resource, path, error);
+    return result;
 }
 
 /* Each picture stands in `colors` while it is encoded into its face. */

@@ -34,10 +34,16 @@ int mesh_add_vertex(struct mesh *mesh, const char *path, const struct mesh_verte
 int mesh_add_triangle(struct mesh *mesh, const char *path, uint32_t a, uint32_t b, uint32_t c,
                       struct error *error);
 
-/* The importers: all triangles of a model file that Assimp reads, with `bones` also its skeleton; the cells
- * of a BEZ file's patches. */
+/* The importers: all triangles of a model file that Assimp reads, with `bones` also its skeleton, in a process of its
+ * own (import.c) that takes no more than the limits, if they are given; the cells of a BEZ file's patches. */
+struct isolate_limits;
 int mesh_read_model(struct mesh *mesh, const char *path, int bones, struct error *error);
+int mesh_read_model_within(struct mesh *mesh, const char *path, int bones,
+                           const struct isolate_limits *limits, struct error *error);
 int mesh_read_bezier(struct mesh *mesh, const char *path, unsigned subdivisions, struct error *error);
+
+/* What happens in that process: a damaged file can crash it. */
+int model_import(struct mesh *mesh, const char *path, int bones, struct error *error);
 
 /* Those without a file: the shapes of shape.c; the volume that a mesh keeps from a light. `name` begins
  * reasons. */

@@ -191,7 +191,7 @@ static int add_scene(struct mesh *mesh, const char *path, const struct aiScene *
     return add_node(mesh, path, scene, scene->mRootNode, &identity, error);
 }
 
-int mesh_read_model(struct mesh *mesh, const char *path, int bones, struct error *error)
+int model_import(struct mesh *mesh, const char *path, int bones, struct error *error)
 {
     static const unsigned steps = aiProcess_Triangulate | aiProcess_JoinIdenticalVertices |
                                   aiProcess_SortByPType | aiProcess_FlipUVs | aiProcess_ImproveCacheLocality |

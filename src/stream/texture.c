@@ -61,13 +61,21 @@ static int parse_image(struct parser *parser, struct resource *resource)
     return result;
 }
 
+/* What the texels take on a device, which can be eight times what they take in a file. */
+static size_t decoded_bytes(const struct triptych_texture *shape)
+{
+    return (size_t)shape->face_texels * shape->faces * format_texel_bytes(shape->format);
+}
+
 static int parse_file(struct parser *parser, struct resource *resource)
 {
     struct token place = parser->lex.token;
+    struct triptych_texture shape;
     if (parse_path(parser, &resource->path) ||
         parse_load(parser, resource, resource->path, &place, asset_load_texture))
         return -1;
-    return parse_account(parser, &place, resource->texel_bytes);
+    texture_describe(&resource->texture, &shape, NULL);
+    return parse_account(parser, &place, decoded_bytes(&shape));
 }
 
 /* --- Sources ----------------------------------------------------------------------------------------------
@@ -267,10 +275,9 @@ static int parse_levels(struct parser *parser, struct resource *resource)
 static int allocate_texels(struct parser *parser, struct resource *resource,
                            const struct triptych_texture *shape, const struct token *place)
 {
-    size_t decoded = (size_t)shape->face_texels * shape->faces * format_texel_bytes(shape->format);
     for (unsigned level = 0; level < paint_given_levels(resource, shape); level++)
         resource->texel_bytes += shape->faces * texture_level_bytes(shape, level);
-    if (parse_account(parser, place, decoded))
+    if (parse_account(parser, place, decoded_bytes(shape)))
         return -1;
     resource->texels = calloc(resource->texel_bytes, 1);
     return resource->texels ? 0 : lex_fail(&parser->lex, place, "not enough memory");

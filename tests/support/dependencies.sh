@@ -25,6 +25,7 @@ assimp-testmodels  test    the animated model of a scene
 clang              test    compiles everything a second time, for its warnings
 hyperfine          bench   measures whole processes
 gnuplot-nox        bench   draws the charts
+libclang-rt-14-dev fuzz    libFuzzer and the sanitizers of clang, for readers of untrusted input
 clang-format       format  formats the C sources
 '
 

@@ -4,9 +4,10 @@
 #   tests/support/run.sh FILTER BUILD...
 #
 # A build's tests are its Unity programs, BUILD/tests/**, one for every source tests/**/*.c outside
-# tests/support/, and the executable scripts tests/*.sh, which print a line "ok NAME" or "FAIL NAME" per test and
-# are given TRIPTYCH (the command), BUILD (the build), SANITIZE=1 if the build is instrumented for sanitizers, and SLOW=1
-# if it is instrumented for anything. A build that watches threads has only some programs; these are run, and threads.sh.
+# tests/support/ and tests/fuzz/targets/, and the executable scripts tests/*.sh, which print a line "ok NAME" or "FAIL
+# NAME" per test and are given TRIPTYCH (the command), BUILD (the build), SANITIZE=1 if the build is instrumented for
+# sanitizers, and SLOW=1 if it is instrumented for anything. A build that watches threads has only some programs; these
+# are run, and threads.sh.
 # FILTER keeps the tests whose path contains it.
 #
 # Prints a line per program as it ends, what a failing one said, and last of all "N passed, N failed". A program
@@ -78,7 +79,7 @@ tests=()
 while IFS= read -r test; do
     [[ $test != *"$filter"* ]] || tests+=("$test")
 done < <(find tests -maxdepth 1 -name '*.sh' -perm -u+x -print | sort
-    find tests -path tests/support -prune -o -name '*.c' -print | sort)
+    find tests \( -path tests/support -o -path tests/fuzz/targets \) -prune -o -name '*.c' -print | sort)
 
 count=0
 for test in "${tests[@]}"; do

@@ -1,0 +1,54 @@
+/* What streams of a fuzzer may take: the limits of a stream (stream/limit.def) are those of a day's work, and an input
+ * that is worth trying takes a millisecond. The linker puts these before the functions of their names (--wrap). A
+ * refusal is an error as any other, so the readers' ways out are taken more often than in life. */
+#include "base/file.h"
+#include "stream/build.h"
+#include "stream/mesh.h"
+#include "tests/fuzz/targets/target.h"
+
+#include <string.h>
+
+enum { BYTES = 1 << 20, CELLS = 1 << 10 };
+
+int fuzz_files;
+
+int __real_build_account(struct builder *builder, size_t bytes, struct error *error);
+int __real_mesh_make(struct resource *resource, const struct resource *caster, struct error *error);
+int __real_file_read(const char *path, size_t limit, char **data, size_t *bytes, struct error *error);
+int __wrap_build_account(struct builder *builder, size_t bytes, struct error *error);
+int __wrap_mesh_make(struct resource *resource, const struct resource *caster, struct error *error);
+int __wrap_file_read(const char *path, size_t limit, char **data, size_t *bytes, struct error *error);
+int __wrap_mesh_read_model(struct mesh *mesh, const char *path, int bones, struct error *error);
+
+int __wrap_build_account(struct builder *builder, size_t bytes, struct error *error)
+{
+    if (bytes > BYTES || builder->bytes + bytes > BYTES)
+        return error_set(error, "found more bytes of resources than a fuzzer has patience for");
+    return __real_build_account(builder, bytes, error);
+}
+
+int __wrap_mesh_make(struct resource *resource, const struct resource *caster, struct error *error)
+{
+    const struct mesh_options *options = &resource->options;
+    if ((uint64_t)options->cells[0] * options->cells[1] > CELLS)
+        return error_set(error, "%s: more cells than a fuzzer has patience for", resource->name);
+    return __real_mesh_make(resource, caster, error);
+}
+
+/* Nothing of the machine is read, whatever a stream names. */
+int __wrap_file_read(const char *path, size_t limit, char **data, size_t *bytes, struct error *error)
+{
+    if (fuzz_files && (!strncmp(path, "/proc/self/fd/", 14) || strstr(path, "/fuzz-")))
+        return __real_file_read(path, limit, data, bytes, error);
+    *data = NULL;
+    *bytes = 0;
+    return error_set(error, "%s: no file for a fuzzer", path);
+}
+
+/* Models of foreign formats have a target that says what an import may take. */
+int __wrap_mesh_read_model(struct mesh *mesh, const char *path, int bones, struct error *error)
+{
+    (void)mesh;
+    (void)bones;
+    return error_set(error, "%s: no model for a fuzzer", path);
+}

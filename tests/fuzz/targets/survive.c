@@ -1,0 +1,133 @@
+#include "tests/fuzz/targets/survive.h"
+
+#include "shader/program.h"
+#include "stream/container.h"
+#include "tests/fuzz/targets/target.h"
+
+#include <string.h>
+#include <unistd.h>
+
+enum { PIXELS = 4096, CALLS = 64, VERTICES = 600, STEPS = 128 };
+
+static void expect_equal_bytes(const void *a, const void *b, size_t bytes, const char *what, const char *name)
+{
+    expect(!bytes || !memcmp(a, b, bytes), "%s of %s", what, name);
+}
+
+static void expect_equal_resources(const struct stream *a, const struct stream *b)
+{
+    expect(a->resource_count == b->resource_count, "%u and %u", a->resource_count, b->resource_count);
+    for (uint32_t i = 0; i < a->resource_count; i++) {
+        const struct resource *x = &a->resources[i], *y = &b->resources[i];
+        expect(x->type == y->type && x->texel_bytes == y->texel_bytes && x->vertex_bytes == y->vertex_bytes &&
+                   x->index_count == y->index_count && x->index_bits == y->index_bits,
+               "%s", x->name);
+        expect_equal_bytes(x->texels, y->texels, x->texel_bytes, "texels", x->name);
+        expect_equal_bytes(x->vertices, y->vertices, x->vertex_bytes, "vertices", x->name);
+        expect_equal_bytes(x->indices, y->indices, (size_t)x->index_count * x->index_bits / 8, "indices",
+                           x->name);
+        expect(x->program == y->program, "the program of %s", x->name);
+    }
+}
+
+/* The same stream as text, whichever form it came in. */
+static void expect_text(const struct stream *stream, const char *once, size_t bytes)
+{
+    struct error error = {{0}};
+    char *twice;
+    size_t bytes_again;
+    expect(!stream_write(stream, "fuzz.tri", &twice, &bytes_again, &error), "%s", error.text);
+    expect(bytes == bytes_again && !memcmp(once, twice, bytes), "%s\n%s", once, twice);
+    free(twice);
+}
+
+static void expect_equal(const struct stream *stream, const struct stream *again, const char *once,
+                         size_t bytes)
+{
+    expect_text(again, once, bytes);
+    expect(stream->executed_count == again->executed_count, "%u", again->executed_count);
+    expect(stream->frame_count == again->frame_count, "%u", again->frame_count);
+    expect_equal_resources(stream, again);
+}
+
+static void expect_survives_text(const struct stream *stream, const char *once, size_t bytes)
+{
+    struct error error = {{0}};
+    struct stream *again;
+    expect(!stream_parse("fuzz.tri", once, bytes, &again, &error), "%s\n%s", error.text, once);
+    expect_equal(stream, again, once, bytes);
+    stream_free(again);
+}
+
+static void expect_survives_container(const struct stream *stream, const char *once, size_t bytes)
+{
+    struct error error = {{0}};
+    struct stream *again;
+    const char *path = fuzz_path("trib");
+    expect(!container_save(stream, path, &error), "%s", error.text);
+    fuzz_files = 1;
+    expect(!container_read(path, 0, &again, &error), "%s", error.text);
+    fuzz_files = 0;
+    unlink(path);
+    expect_equal(stream, again, once, bytes);
+    stream_free(again);
+}
+
+/* Loops can execute a million instructions a pixel, within the rules. */
+static int is_short(const struct program *program)
+{
+    for (uint32_t i = 0; i < program->steps; i++) {
+        enum shader_opcode opcode = program->step[i].instruction.opcode;
+        if (opcode == SHADER_LOOP || opcode == SHADER_REP || opcode == SHADER_CALL || opcode == SHADER_CALLNZ)
+            return 0;
+    }
+    return program->steps <= STEPS;
+}
+
+static int is_small(const struct stream *stream)
+{
+    for (uint32_t i = 0; i < stream->resource_count; i++) {
+        const struct resource *r = &stream->resources[i];
+        if (r->texel_bytes > 4 * PIXELS || (r->program && !is_short(r->program)))
+            return 0;
+    }
+    for (uint32_t i = 0; i < stream->call_count; i++) {
+        const struct call *call = &stream->calls[i];
+        if (call->type == CALL_TARGET && (uint64_t)call->target.width * call->target.height *
+                                                 (call->target.samples ? call->target.samples : 1) >
+                                             PIXELS)
+            return 0;
+        if ((call->type == CALL_DRAW || call->type == CALL_DRAW_INDEXED) && call->draw.count > VERTICES)
+            return 0;
+        if (call->type == CALL_DRAW_MESH && stream->resources[call->resource].index_count > VERTICES)
+            return 0;
+        if (call->type == CALL_FREQUENCY)
+            return 0;
+    }
+    return stream->executed_count <= CALLS && stream->frame_count <= CALLS;
+}
+
+/* What the check lets through the device must take. */
+static void expect_plays(const struct stream *stream)
+{
+    static const struct triptych_options options = {.engine = "emulate", .threads = 1};
+    struct error error = {{0}};
+    triptych_device *device;
+    expect(!triptych_device_create(&options, &device, NULL, 0), "a device");
+    int result = stream_play(stream, device, 0, stream->frame_count - 1, NULL, NULL, &error);
+    triptych_device_destroy(device);
+    expect(!result, "%s", error.text);
+}
+
+void expect_survives(const struct stream *stream)
+{
+    struct error error = {{0}};
+    char *text;
+    size_t bytes;
+    expect(!stream_write(stream, "fuzz.tri", &text, &bytes, &error), "%s", error.text);
+    expect_survives_text(stream, text, bytes);
+    expect_survives_container(stream, text, bytes);
+    free(text);
+    if (is_small(stream))
+        expect_plays(stream);
+}
