@@ -11,6 +11,7 @@
 #include "stream/stream.h"
 #include "stream/words.h"
 
+#include <errno.h>
 #include <inttypes.h>
 #include <locale.h>
 #include <math.h>
@@ -24,6 +25,7 @@ struct writer {
     char *prefix; /* from the new text's folder to that of the old, in front of relative paths; "" if they are
                      one */
     int by_path;  /* the files of the resource that is being written have its data */
+    int starved;  /* that could not be found out for want of memory */
 };
 
 enum { VALUES_PER_LINE = 16 };
@@ -299,7 +301,9 @@ static void write_shader(struct writer *writer, const struct resource *resource)
 static void write_resource(struct writer *writer, const struct resource *resource)
 {
     int files = resource->path || resource->face_path[0];
+    errno = 0;
     writer->by_path = !files || !resource->embedded || asset_is_unchanged(writer->stream, resource);
+    writer->starved |= !writer->by_path && errno == ENOMEM;
     switch (resource->type) {
     case RESOURCE_TEXTURE: write_texture(writer, resource); break;
     case RESOURCE_VERTICES:
@@ -695,7 +699,8 @@ static int write_all(struct writer *writer, char **text, size_t *bytes)
     for (uint32_t i = 0; i < writer->stream->resource_count; i++)
         write_resource(writer, &writer->stream->resources[i]);
     write_calls(writer);
-    return memory_file_close(writer->out, text, bytes);
+    int closed = memory_file_close(writer->out, text, bytes);
+    return writer->starved ? -1 : closed;
 }
 
 int stream_write(const struct stream *stream, const char *path, char **text, size_t *bytes,

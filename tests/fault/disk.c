@@ -161,6 +161,7 @@ static const struct {
     {"image.png", write_png, NULL},
     {"image.exr", write_exr, NULL},
     {"stream.tri", run_command, "convert tests/streams/frames.tri OUT"},
+    {"stream.trib", run_command, "convert tests/streams/frames.tri OUT"},
     {"render.png", run_command, "render tests/streams/odd-target.tri --engine emulate --out OUT"},
     {"report.json", run_command,
      "verify tests/streams/odd-target.tri --engines batch --threads 1 --json OUT"},
