@@ -128,6 +128,15 @@ bool hunt_agrees(const struct ir *ir, uint32_t instruction, uint32_t a, uint32_t
     return a == b || (i->type == TYPE_flt && (a & 0x7fffffff) > 0x7f800000 && (b & 0x7fffffff) > 0x7f800000);
 }
 
+static void note_lane(struct bisection *b, const struct replay *r, uint32_t lane)
+{
+    b->lane = lane;
+    if (r->unit == UNIT_PIXEL)
+        replay_pixel(r, lane, &b->x, &b->y);
+    else
+        memcpy(&b->element, r->before + r->output_bytes + 4 * (size_t)lane, sizeof b->element);
+}
+
 void hunt_note(struct hunt *hunt, const struct ir *ir, const struct event_list *events, uint32_t event,
                unsigned lane, const uint32_t value[2])
 {
@@ -135,7 +144,7 @@ void hunt_note(struct hunt *hunt, const struct ir *ir, const struct event_list *
     const struct event *e = events->event + event;
     const struct ir_instruction *i = &ir->instruction[e->instruction];
     b->outcome = BISECT_FOUND;
-    b->lane = hunt->probing.lane + lane;
+    note_lane(b, hunt->replay, hunt->probing.lane + lane);
     b->operation = ir_op_information[i->op].name;
     b->type = i->type;
     b->value[0] = value[0];
@@ -146,6 +155,16 @@ void hunt_note(struct hunt *hunt, const struct ir *ir, const struct event_list *
     b->visit_pass = events->visit[e->visit].pass;
     if (i->line)
         snprintf(b->place, sizeof b->place, "%s:%u", ir->file[i->file], i->line);
+}
+
+/* Of an instruction in the recording, in a lane of the four. */
+static uint32_t last_value(const struct hunt *hunt, uint32_t instruction, uint32_t lane)
+{
+    const struct event_list *events = &hunt->probing.events;
+    for (uint32_t n = events->count; n-- > 0;)
+        if (events->event[n].instruction == instruction)
+            return events->event[n].lane[lane];
+    return 0;
 }
 
 /* The store of the recording that writes the first word that differs. */
@@ -165,13 +184,33 @@ static void note_store(struct hunt *hunt)
         b->operation = ir_op_information[i->op].name;
         b->instruction = n;
         b->type = hunt->ir->instruction[i->operand[0]].type;
-        memcpy(b->value, hunt->place.word, sizeof b->value);
+        b->expected = last_value(hunt, i->operand[0], lane);
         snprintf(b->place, sizeof b->place, "%s:%u", hunt->ir->file[i->file], i->line);
     }
 }
 
+/* No value differs: then it is the store, unless there is more than has been seen. */
+static void note_nothing(struct hunt *hunt, int wrong, uint32_t unseen)
+{
+    struct bisection *b = hunt->bisection;
+    const char *why = "all %u values are the same: it is how they are stored, or whether";
+    if (hunt->probing.events.cut)
+        why = "the values of the first %u operations are the same, and it goes on for longer";
+    else if (unseen)
+        why = "of %u values none that can be seen differs: looking makes the difference disappear";
+    else if (wrong >= 0 && reading_of(hunt->routine[wrong]) == READING_TRACED)
+        why = "%u values: the emulator's reading of the specification, compiled once more, gives the right "
+              "ones";
+    else
+        b->outcome = BISECT_FOUND;
+#pragma GCC diagnostic push
+#pragma GCC diagnostic ignored "-Wformat-nonliteral"
+    snprintf(b->reason, sizeof b->reason, why, hunt->probing.events.count);
+#pragma GCC diagnostic pop
+}
+
 /* The first event at which both are seen and differ, in the order of execution. */
-static void compare_events(struct hunt *hunt)
+static void compare_events(struct hunt *hunt, int wrong)
 {
     const struct event_list *events = &hunt->probing.events;
     uint32_t unseen = 0;
@@ -180,7 +219,8 @@ static void compare_events(struct hunt *hunt)
             unseen++;
             continue;
         }
-        for (unsigned lane = 0; lane < QUAD_LANES; lane++) {
+        for (unsigned l = 0; l < QUAD_LANES; l++) {
+            unsigned lane = (hunt->place.element + l) % QUAD_LANES; /* that of the output first */
             uint32_t value[2] = {hunt->seen[0].value[n][lane], hunt->seen[1].value[n][lane]};
             if (hunt_agrees(hunt->ir, events->event[n].instruction, value[0], value[1]))
                 continue;
@@ -192,11 +232,7 @@ static void compare_events(struct hunt *hunt)
             return;
         }
     }
-    snprintf(hunt->bisection->reason, sizeof hunt->bisection->reason,
-             events->cut
-                 ? "the values of the first %u operations are the same, and it goes on for longer"
-                 : "of %u values none that can be seen differs: looking makes the difference disappear",
-             events->count);
+    note_nothing(hunt, wrong, unseen);
 }
 
 /* The side whose value is not the recording's; -1 if that cannot be told. */
@@ -237,7 +273,7 @@ static int observe(struct hunt *hunt, int wrong, struct error *error)
         } else if (probe_observe(&hunt->probing, hunt->routine[i], hunt->seen + i, error)) {
             return -1;
         }
-    compare_events(hunt);
+    compare_events(hunt, wrong);
     return 0;
 }
 
@@ -307,14 +343,10 @@ static void name_output(struct bisection *b, const struct replay *r, size_t at)
 
 static void note_place(struct bisection *b, const struct replay *r, const struct replay_place *place)
 {
-    b->lane = place->element;
+    note_lane(b, r, place->element);
     memcpy(b->output, place->word, sizeof b->output);
     memcpy(b->value, place->word, sizeof b->value);
     name_output(b, r, place->at);
-    if (r->unit == UNIT_PIXEL)
-        replay_pixel(r, place->element, &b->x, &b->y);
-    else
-        memcpy(&b->element, r->before + r->output_bytes + 4 * (size_t)place->element, sizeof b->element);
 }
 
 /* Runs the narrowed call with both and notes where they differ first. */
