@@ -315,6 +315,14 @@ for engine in $("$TRIPTYCH" list engines | awk 'NR > 1 && $1 !~ /^(emulate|batch
         answers "dump of $engine, $unit" '[0-9a-f]+ +ret' dump "$work/good.tri" --engine "$engine" --unit "$unit"
     done
 done
+answers 'bisect of engines that agree' 'the routines of emulate and batch agree on every call' \
+    bisect "$work/good.tri" --engines emulate,batch
+answers 'bisect of one draw and pixel' 'agree on every call' \
+    bisect "$work/good.tri" --engines emulate,batch --draw 0 --pixel 3,4
+refuses 'bisect of one engine' '--engines names 1, expected two' bisect "$work/good.tri" --engines emulate
+refuses 'bisect of half a pixel' '--pixel is "3", expected X,Y' \
+    bisect "$work/good.tri" --engines emulate,batch --pixel 3
+refuses 'bisect of a stream that is not there' 'none.tri' bisect "$work/none.tri" --engines emulate,batch
 refuses 'dump of an engine without code' 'emulate makes no code' dump "$work/good.tri" --engine emulate
 if "$TRIPTYCH" list engines | grep -q '^specialize .* available '; then
     answers 'dump of every stage' '== asm' dump "$work/good.tri" --show all

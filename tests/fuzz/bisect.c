@@ -7,11 +7,14 @@
 #include "jit/encode.h"
 #include "jit/pass.h"
 #include "stitch/plan.h"
+#include "tool/tool.h"
 
 #include "unity.h"
 
+#include <fcntl.h>
 #include <stdlib.h>
 #include <string.h>
+#include <unistd.h>
 
 /* --- Plants ----------------------------------------------------------------------------------------------- */
 
@@ -432,6 +435,46 @@ static void what_is_printed_begins_with_the_line(void)
     TEST_ASSERT_NOT_NULL(strstr(printed.data, "key of the pixel routine: depth_function"));
 }
 
+/* The command itself, quietly; its report is read back. */
+static void the_command_writes_a_report(void)
+{
+    static const struct command self = {"bisect", "STREAM", "", NULL};
+    char folder[] = "/tmp/bisect-XXXXXX", stream[64], report[64], text[4096] = "";
+    TEST_ASSERT_NOT_NULL(mkdtemp(folder));
+    snprintf(stream, sizeof stream, "%s/case.tri", folder);
+    snprintf(report, sizeof report, "%s/report.json", folder);
+    FILE *file = fopen(stream, "w");
+    fputs(modulate, file);
+    fclose(file);
+    fflush(stdout);
+    int kept = dup(STDOUT_FILENO), nowhere = open("/dev/null", O_WRONLY);
+    dup2(nowhere, STDOUT_FILENO);
+    plant.batch_op = IR_mul_x;
+    plant.batch_becomes = IR_add_x;
+    char *arguments[] = {stream, "--engines", "emulate,batch", "--pixel", "7,20", "--json", report};
+    int status = command_bisect(&self, sizeof arguments / sizeof *arguments, arguments);
+    fflush(stdout);
+    dup2(kept, STDOUT_FILENO);
+    close(kept);
+    close(nowhere);
+    file = fopen(report, "r");
+    TEST_ASSERT_NOT_NULL(file);
+    text[fread(text, 1, sizeof text - 1, file)] = 0;
+    fclose(file);
+    remove(stream);
+    remove(report);
+    rmdir(folder);
+    TEST_ASSERT_EQUAL_INT(STATUS_DIFFERENT, status);
+    static const char *const parts[] = {"\"outcome\":\t\"found\"",
+                                        "\"operation\":\t\"mul_x\"",
+                                        "\"place\":\t\"spec/color.h:",
+                                        "\"x\":\t7",
+                                        "\"y\":\t20",
+                                        "\"draw\":\t1"};
+    for (unsigned i = 0; i < sizeof parts / sizeof *parts; i++)
+        TEST_ASSERT_NOT_NULL_MESSAGE(strstr(text, parts[i]), text);
+}
+
 int main(void)
 {
     UNITY_BEGIN();
@@ -456,5 +499,6 @@ int main(void)
     RUN_TEST(a_stage_fragment_of_the_vertex_routine);
     RUN_TEST(a_stage_fragment_of_the_setup_routine);
     RUN_TEST(what_is_printed_begins_with_the_line);
+    RUN_TEST(the_command_writes_a_report);
     return UNITY_END();
 }
