@@ -12,6 +12,8 @@
 
 #define NOT_SEEN 0x5a17b0e5u /* what rows hold before */
 
+enum { RUNS_MAXIMUM = 100000 }; /* of code with one probe: what has not been seen by then stays unknown */
+
 /* --- Engines ---------------------------------------------------------------------------------------------- */
 
 enum reading reading_of(const struct routine *routine)
@@ -265,8 +267,19 @@ struct run {
     const struct routine *routine; /* without probes */
     struct routine *probed;
     uint8_t *image, *expected;
-    const uint8_t *wanted;
+    uint8_t *wanted;
+    uint32_t *first, *next; /* of each visit, the first of its events + 1; of each event, the next one + 1 */
+    uint32_t runs;          /* of the code so far */
 };
+
+static void list_events(struct run *run)
+{
+    const struct event_list *events = &run->probing->events;
+    for (uint32_t n = events->count; n-- > 0;) {
+        run->next[n] = run->first[events->event[n].visit];
+        run->first[events->event[n].visit] = n + 1;
+    }
+}
 
 /* Rows of loops: the pass of each that the visit is in. */
 static void choose_visit(const struct run *run, uint32_t visit)
@@ -290,31 +303,30 @@ static void clear_rows(const struct run *run)
 static void read_rows(const struct run *run, uint32_t visit, struct observation *observation)
 {
     const struct probing *p = run->probing;
-    for (uint32_t n = 0; n < p->events.count; n++) {
-        const struct event *event = p->events.event + n;
-        if (event->visit != visit || !run->wanted[event->instruction])
+    for (uint32_t n = run->first[visit]; n; n = run->next[n - 1]) {
+        uint32_t instruction = p->events.event[n - 1].instruction;
+        if (!run->wanted[instruction])
             continue;
         const uint32_t *row =
-            replay_probe_row(p->replay, run->image, probe_row(p->ir, event->instruction)) + p->lane;
+            replay_probe_row(p->replay, run->image, probe_row(p->ir, instruction)) + p->lane;
         bool seen = false;
         for (int lane = 0; lane < QUAD_LANES; lane++)
             seen |= row[lane] != NOT_SEEN;
-        memcpy(observation->value[n], row, sizeof *observation->value);
-        observation->known[n] = seen;
+        memcpy(observation->value[n - 1], row, sizeof *observation->value);
+        observation->known[n - 1] = seen;
     }
 }
 
 static bool has_visit(const struct run *run, uint32_t visit)
 {
-    const struct event_list *events = &run->probing->events;
-    for (uint32_t n = 0; n < events->count; n++)
-        if (events->event[n].visit == visit && run->wanted[events->event[n].instruction])
+    for (uint32_t n = run->first[visit]; n; n = run->next[n - 1])
+        if (run->wanted[run->probing->events.event[n - 1].instruction])
             return true;
     return false;
 }
 
 /* Runs it once for each visit. Whether the outputs stay what they are without probes; if not, nothing is known. */
-static bool run_visits(const struct run *run, struct observation *observation)
+static bool run_visits(struct run *run, struct observation *observation)
 {
     const struct probing *p = run->probing;
     for (uint32_t visit = 0; visit < p->events.visits; visit++) {
@@ -322,6 +334,7 @@ static bool run_visits(const struct run *run, struct observation *observation)
             continue;
         clear_rows(run);
         choose_visit(run, visit);
+        run->runs++;
         replay_run(p->replay, run->probed, run->image);
         if (replay_differs(p->replay, run->expected, run->image, NULL))
             return false;
@@ -357,16 +370,15 @@ static void observe_recorded(struct run *run, struct ir *probed, struct observat
 {
     const struct probing *p = run->probing;
     struct error ignored = {{0}};
-    uint8_t *wanted = (uint8_t *)(uintptr_t)run->wanted;
-    memset(wanted, 1, p->ir->count);
+    memset(run->wanted, 1, p->ir->count);
     if (observe_wanted(run, probed, observation, &ignored))
         return;
     forget(p, observation, 0);
     if (run->routine->engine == &engine_external)
         return;
-    for (uint32_t number = 1; number < p->ir->count; number++) {
-        memset(wanted, 0, p->ir->count);
-        wanted[number] = 1;
+    for (uint32_t number = 1; number < p->ir->count && run->runs < RUNS_MAXIMUM; number++) {
+        memset(run->wanted, 0, p->ir->count);
+        run->wanted[number] = 1;
         error_clear(&ignored);
         if (is_value(&p->ir->instruction[number]) && !observe_wanted(run, probed, observation, &ignored))
             forget(p, observation, number);
@@ -383,16 +395,21 @@ int probe_observe(const struct probing *p, const struct routine *routine, struct
     run.image = replay_image(p->replay);
     run.expected = replay_image(p->replay);
     run.wanted = calloc(p->ir->count, 1);
+    run.first = calloc(p->events.visits, sizeof *run.first);
+    run.next = calloc(p->events.count + 1, sizeof *run.next);
     int result = 0;
-    if (!probed || !run.image || !run.expected || !run.wanted) {
+    if (!probed || !run.image || !run.expected || !run.wanted || !run.first || !run.next) {
         result = error_set(error, "out of memory for observing a routine");
     } else {
+        list_events(&run);
         replay_run(p->replay, routine, run.expected);
         observe_recorded(&run, probed, observation);
     }
     free(run.image);
     free(run.expected);
-    free((void *)(uintptr_t)run.wanted);
+    free(run.wanted);
+    free(run.first);
+    free(run.next);
     if (probed)
         ir_give(probed);
     return result;
