@@ -130,6 +130,9 @@ $(BUILD)/object/%.o: %.asm $(BUILD)/flags
 $(BUILD)/object/src/tool/machine.o: private CPPFLAGS += -DTRIPTYCH_COMMIT='"$(COMMIT)"'
 $(BUILD)/object/src/tool/machine.o: $(BUILD)/commit
 
+# The whole specification once more, with a hook behind each operation; it runs for a few pixels of a case that failed.
+$(BUILD)/object/src/fuzz/trace.o: private override CFLAGS += -O0
+
 $(SUPPORT_OBJECTS) $(PROGRAM_OBJECTS): private CPPFLAGS += $(unity_flags)
 $(SUPPORT_OBJECTS) $(PROGRAM_OBJECTS): | $(UNITY_SOURCE)
 

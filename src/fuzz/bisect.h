@@ -4,10 +4,10 @@
  *            --narrow--> one group of vertices or triangles, or one block of pixels
  *            --observe--> every value of both engines at every operation --> the first that differs
  *
- * The renderer around routines is the same for all engines, so an engine can only be wrong in a routine. One that wraps
- * both runs each call twice, on equal inputs, and goes on with what the reference made of it. The order of
- * operations is that of the recording, performed by the table of operations for the four lanes that differ: it says whose value is
- * right, too.
+ * The renderer around routines is the same for all engines, so an engine can only be wrong in a routine. One that
+ * wraps both runs each call twice, on equal inputs, and goes on with what the reference made of it. The order of
+ * operations is that of the recording, performed by the table of operations for the four lanes that differ: it
+ * says whose value is right, too.
  *
  * docs/fuzzing.md says how each engine's values are seen, and what that cannot do. */
 #ifndef FUZZ_BISECT_H
@@ -64,7 +64,8 @@ struct bisection {
     char reason[256];  /* why it is no more than this */
 };
 
-/* Plays the stream with both engines. Returns 0, or -1 with the reason: no such engine here, no memory, a stream that cannot be played. */
+/* Plays the stream with both engines. Returns 0, or -1 with the reason: no such engine here, no memory, a stream
+ * that cannot be played. */
 int bisect(const struct stream *stream, const struct engine *reference, const struct engine *other,
            const struct bisect_options *options, struct bisection *bisection, struct error *error);
 

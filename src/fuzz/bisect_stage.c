@@ -1,12 +1,13 @@
-/* Which stage fragment makes a routine wrong. Fragments have no operations inside, but they leave values in registers, and most
- * of these are values of the specification.
+/* Which stage fragment makes a routine wrong. Fragments have no operations inside, but they leave values in
+ * registers, and most of these are values of the specification.
  *
- * Behind each fragment of the loop the registers that it gives are stored to rows of probes, and so are the words of the
- * outputs around the first that differs, through a register that is put aside and brought back. The fragment behind which
- * that word is wrong has written it; those that it has its inputs from, directly or not, are the only ones that can be at fault.
- * Of these it is the first that leaves a register with a value that no operation of the recording has, unless
- * something that is computed from that register is a value of the recording again: fragments have forms of their own for some
- * things, such as channels times 256. If all registers are right, it is the one that has written the word. */
+ * Behind each fragment of the loop the registers that it gives are stored to rows of probes, and so are the words
+ * of the outputs around the first that differs, through a register that is put aside and brought back. The
+ * fragment behind which that word is wrong has written it; those that it has its inputs from, directly or not, are
+ * the only ones that can be at fault. Of these it is the first that leaves a register with a value that no
+ * operation of the recording has, unless something that is computed from that register is a value of the recording
+ * again: fragments have forms of their own for some things, such as channels times 256. If all registers are
+ * right, it is the one that has written the word. */
 #include "fuzz/hunt.h"
 #include "stitch/plan.h"
 
@@ -215,8 +216,8 @@ static bool is_computed(const struct ir_instruction *i)
     return i->op != IR_literal && !(ir_op_information[i->op].properties & IR_READS);
 }
 
-/* The first instruction behind those that give the inputs whose value the row is, else the first at all; 0 for none. What does not
- * tell much has to be computed from the inputs, soon, or be one of them. */
+/* The first instruction behind those that give the inputs whose value the row is, else the first at all; 0 for
+ * none. What does not tell much has to be computed from the inputs, soon, or be one of them. */
 static uint32_t match_row(const struct stage_hunt *h, const uint32_t *row, uint32_t inputs)
 {
     const struct ir *ir = h->hunt->ir;

@@ -1,5 +1,5 @@
-/* The operation stitcher's reading of a recording instead of the specification: each instruction is said once more in the words
- * of its binding, which appends what it always does. */
+/* The operation stitcher's reading of a recording instead of the specification: each instruction is said once more
+ * in the words of its binding, which appends what it always does. */
 #include "fuzz/probe.h"
 
 #include "stitch/bind.h"

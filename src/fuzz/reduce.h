@@ -1,9 +1,9 @@
 /* A draw stream's text as words, and candidates for a smaller one.
  *
- * The words stand in one array for good; a candidate marks some as gone, or puts other text in their places, and is
- * tried. If it fails as the original does it is kept, else undone. So indices stay valid in a pass; between passes the words
- * that are gone are swept out. A word knows its line, and lines are the unit of the text format: a statement is a line,
- * or the lines of a block up to its closing brace. Comments are no words. */
+ * The words stand in one array for good; a candidate marks some as gone, or puts other text in their places, and
+ * is tried. If it fails as the original does it is kept, else undone. So indices stay valid in a pass; between
+ * passes the words that are gone are swept out. A word knows its line, and lines are the unit of the text format:
+ * a statement is a line, or the lines of a block up to its closing brace. Comments are no words. */
 #ifndef FUZZ_REDUCE_H
 #define FUZZ_REDUCE_H
 
@@ -19,8 +19,8 @@ struct word {
     bool in_shader;
 };
 
-/* Words first to end - 1. Braces of a block are at `open` and `close`, 0: none. A sequence is the statement of its first
- * line, and `close` is the first word of its `end`. */
+/* Words first to end - 1. Braces of a block are at `open` and `close`, 0: none. A sequence is the statement of its
+ * first line, and `close` is the first word of its `end`. */
 struct statement {
     uint32_t first, end, open, close;
     uint32_t depth; /* 1: in a sequence */
@@ -76,8 +76,8 @@ bool reduction_exhausted(const struct reduction *reduction);
 /* Adds a range of words to those of the pass. */
 void reduction_add_range(struct reduction *reduction, uint32_t first, uint32_t end);
 
-/* Removes as many of the ranges as possible: in groups of all of them, halves, quarters, down to one at a time; from
- * behind, since later things depend on earlier ones. */
+/* Removes as many of the ranges as possible: in groups of all of them, halves, quarters, down to one at a time;
+ * from behind, since later things depend on earlier ones. */
 void reduction_remove_ranges(struct reduction *reduction);
 
 bool word_is(const struct word *word, const char *text);

@@ -1,5 +1,6 @@
-/* Bisecting: bugs are planted in engines, one at a time, and the bisector has to name the operation, its line and what else
- * it promises. The plants are made at link time (Makefile: --wrap), so that the engines themselves are those of the library. */
+/* Bisecting: bugs are planted in engines, one at a time, and the bisector has to name the operation, its line and
+ * what else it promises. The plants are made at link time (Makefile: --wrap), so that the engines themselves are
+ * those of the library. */
 #include "fuzz/bisect.h"
 
 #include "engines.h"
@@ -312,7 +313,8 @@ static void what_the_encoder_makes_wrong_is_no_pass(void)
     TEST_ASSERT_NOT_NULL_MESSAGE(strstr(found.pass, "no pass"), printed.data);
 }
 
-/* Looking makes the difference disappear: the pass is known all the same, and where the first wrong word is stored. */
+/* Looking makes the difference disappear: the pass is known all the same, and where the first wrong word is
+ * stored. */
 static void a_pass_that_is_right_when_it_is_looked_at(void)
 {
     NEEDS("specialize");
