@@ -108,7 +108,7 @@ unity_flags = -isystem $(dir $(UNITY_SOURCE)) -DUNITY_INCLUDE_DOUBLE -DUNITY_USE
 
 # --- What to build -------------------------------------------------------------------------------------------
 
-.PHONY: all programs check test check-threads matrix coverage soak bench bench-shaders gallery verify-external fuzzers fuzz-input fuzz-input-smoke dependencies packages install clean format format-check help FORCE
+.PHONY: all programs check test check-threads matrix coverage soak bench bench-shaders mutations gallery verify-external fuzzers fuzz-input fuzz-input-smoke dependencies packages install clean format format-check help FORCE
 
 all: $(BUILD)/libtriptych.a $(if $(SANITIZE),,$(BUILD)/libtriptych.so $(BUILD)/triptych.pc) $(COMMAND) build/glmark2 \
   build/assimp
@@ -165,6 +165,9 @@ $(PROGRAMS): $(BUILD)/tests/%: $(BUILD)/object/tests/%.o $(SUPPORT_OBJECTS) $(BU
 
 # This test plants differences between the engines' pictures, to see the verification fail.
 $(BUILD)/tests/tool/verify: private override LDFLAGS += -Wl,--wrap=triptych_read_color,--wrap=triptych_read_depth
+
+# And this one gives all keys one hash.
+$(BUILD)/tests/draw/cache: private override LDFLAGS += -Wl,--wrap=key_hash
 
 # And this one wrong operations, passes and fragments, to see them named.
 $(BUILD)/tests/fuzz/bisect: private override LDFLAGS += -Wl,--wrap=plan_step_of,--wrap=pass_reduce,--wrap=pass_dead \
@@ -308,6 +311,13 @@ fuzz-input:
 fuzz-input-smoke:
 	+@$(MAKE) fuzz-input DURATION=$$((600 / $(words $(FUZZERS)))) JOBS=1
 
+# Plants the bugs of tests/mutations/table.txt, one after the other, in a copy of the tree: results/mutations.md. About half
+# an hour; ONLY="text..." keeps those whose name contains one of the texts.
+mutations:
+	@tests/support/dependencies.sh build test
+	+@$(MAKE) $(jobs) $(UNITY_SOURCE) build/glmark2 build/assimp
+	@BUILD=$(BUILD) tests/mutations/run.sh '$(ONLY)'
+
 # The pictures of docs/gallery.md and docs/shader-gallery.md, which are goldens: look at them before they are committed.
 gallery: all
 	@GOLDENS=write TRIPTYCH=$(COMMAND) tests/goldens.sh $(wildcard tests/scenes/*.tri tests/shading/*.tri)
@@ -352,6 +362,7 @@ make fuzz-input-smoke  the same in ten minutes
 make matrix          gcc and clang at -O0, -O2, -O3, with and without AVX-512: the same bytes, results/matrix.txt
 make check-threads   all streams with several threads in random orders, ThreadSanitizer watching
 make coverage        lines that the tests execute, results/coverage.txt; fails below 90 %
+make mutations       plants bugs in a copy of the tree and sees that the tests find them: results/mutations.md
 make verify-external every stream with the external engine: minutes of compiling
 make gallery         the pictures of docs/gallery.md and docs/shader-gallery.md anew
 make install         PREFIX=$(PREFIX) DESTDIR=$(DESTDIR)

@@ -129,6 +129,7 @@ void case_write(struct random *random, struct text *text)
     case_constants(&maker);
     case_samplers(&maker);
     case_stages(&maker);
+    case_features(&maker);
     case_states(&maker, random_chance(&maker.random, 4) ? 0 : random_below(&maker.random, 24));
     add_pass(&maker);
     add_clear(&maker);

@@ -45,6 +45,7 @@ void case_vertices(struct maker *);
 void case_transforms(struct maker *);
 void case_lights(struct maker *);
 void case_window(struct maker *);
+void case_features(struct maker *);
 void case_states(struct maker *, unsigned changes);
 void case_constants(struct maker *);
 void case_samplers(struct maker *);

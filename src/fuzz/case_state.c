@@ -82,6 +82,33 @@ static bool hides(const char *name)
     return false;
 }
 
+/* What is off in Direct3D 9 unless it is asked for, and hardly ever on by luck, with the states that it reads. */
+void case_features(struct maker *maker)
+{
+    static const struct {
+        const char *on, *states;
+        uint8_t one_in;
+    } features[] = {{"alphatestenable", "alpha", 8},
+                    {"stencilenable", "stencil", 6},
+                    {"alphablendenable", "blend", 6},
+                    {"alphablendenable", "src", 6},
+                    {"fogenable", "fog", 8},
+                    {"twosidedstencilmode", "ccw_stencil", 12},
+                    {"scissortestenable", "scissor", 24}};
+    const struct triptych_state_row *row;
+    if (random_below(&maker->random, 8) < 5)
+        text_add(maker->text, "state cullmode none\n");
+    for (unsigned f = 0; f < sizeof features / sizeof *features; f++) {
+        if (!random_chance(&maker->random, features[f].one_in))
+            continue;
+        for (unsigned i = 0; (row = triptych_state_at(TRIPTYCH_RENDER_STATES, i)); i++)
+            if (!strncmp(row->name, features[f].states, strlen(features[f].states)) &&
+                random_below(&maker->random, 4))
+                write_state(maker, "state", row);
+        text_add(maker->text, "state %s true\n", features[f].on);
+    }
+}
+
 void case_states(struct maker *maker, unsigned changes)
 {
     unsigned rows = table_rows(TRIPTYCH_RENDER_STATES);

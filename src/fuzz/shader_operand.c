@@ -244,6 +244,18 @@ static struct shader_operand choose_register(struct maker *maker, enum shader_fi
     return operand;
 }
 
+struct shader_operand choose_input(struct maker *maker)
+{
+    uint32_t inputs = readable(maker, FILE_INPUT), coordinates = readable(maker, FILE_TEXTURE);
+    bool both = inputs && coordinates && one_in(maker, 2);
+    /* The first input of vertices is their position, of which not all components vary. */
+    if (!is_pixel(maker) && inputs & (inputs - 1))
+        inputs &= inputs - 1;
+    if (coordinates && (!inputs || both))
+        return operand_of(FILE_TEXTURE, any_bit(maker, coordinates));
+    return inputs ? operand_of(FILE_INPUT, any_bit(maker, inputs)) : operand_of(FILE_NONE, 0);
+}
+
 /* An earlier source of the instruction from the same file, if no port is left for another register of it. */
 static const struct shader_operand *shared_port(const struct maker *maker,
                                                 const struct shader_instruction *instruction, unsigned source,

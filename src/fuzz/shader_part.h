@@ -82,6 +82,9 @@ bool choose_source(struct maker *maker, struct shader_instruction *instruction, 
 /* A destination, with mask and modifiers. */
 void choose_result(struct maker *maker, struct shader_instruction *instruction);
 
+/* An input that is there, without swizzle; of no file if there is none. */
+struct shader_operand choose_input(struct maker *maker);
+
 /* A mask that the instruction takes. */
 unsigned choose_mask(struct maker *maker, const struct shader_operation *row);
 

@@ -114,16 +114,23 @@ static int complete_register(struct maker *maker)
     return propose(maker, SHADER_MOV, &to) ? index : -1;
 }
 
-/* Colours between 0 and 1 show more than others: the fraction, or saturation. */
+/* Something that varies over the picture, added; and colours between 0 and 1 show more than others: the fraction of
+ * them, or saturation. */
 static void tame_color(struct maker *maker, unsigned index)
 {
-    struct shader_instruction tamed = {.opcode = one_in(maker, 2) ? SHADER_FRC : SHADER_MAD};
-    tamed.destination = result_of(FILE_TEMPORARY, index, MASK_FULL);
-    tamed.source[0] = operand_of(FILE_TEMPORARY, index);
-    if (tamed.opcode == SHADER_MAD) {
+    struct shader_instruction tamed = {.opcode = SHADER_MAD,
+                                       .destination = result_of(FILE_TEMPORARY, index, MASK_FULL)};
+    tamed.source[0] = choose_input(maker);
+    tamed.source[1] = operand_of(FILE_CONSTANT, below(maker, maker->constants));
+    tamed.source[2] = operand_of(FILE_TEMPORARY, index);
+    if (tamed.source[0].file)
+        add(maker, &tamed);
+    tamed.source[0] = tamed.source[2];
+    if (one_in(maker, 4)) {
         tamed.destination.modifier = RESULT_SATURATE;
-        tamed.source[1] = operand_of(FILE_CONSTANT, below(maker, maker->constants));
-        tamed.source[2] = operand_of(FILE_TEMPORARY, index);
+    } else {
+        tamed.opcode = SHADER_FRC;
+        tamed.source[1] = tamed.source[2] = operand_of(FILE_NONE, 0);
     }
     add(maker, &tamed);
 }

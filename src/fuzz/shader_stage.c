@@ -133,15 +133,29 @@ static void write_arithmetic(struct maker *maker, unsigned count)
     }
 }
 
-/* r0 is the colour: all of it must be written. */
+/* r0 is the colour: all of it must be written; mostly by something that varies. */
 static void complete_color(struct maker *maker)
 {
+    static const uint8_t opcodes[] = {SHADER_MAD, SHADER_MUL, SHADER_ADD};
     struct shader_operand to = result_of(FILE_TEMPORARY, 0, MASK_FULL);
+    bool complete = maker->check.written.temporary[0] == MASK_FULL;
     maker->reserve = 0;
-    if (maker->check.written.temporary[0] == MASK_FULL)
-        gather_fresh(maker, 0);
-    else if (!propose(maker, one_in(maker, 2) ? SHADER_ADD : SHADER_LRP, &to))
+    if (!complete && !propose(maker, one_in(maker, 2) ? SHADER_ADD : SHADER_LRP, &to))
         propose(maker, SHADER_MOV, &to);
+    if (complete && one_in(maker, 2))
+        gather_fresh(maker, 0);
+    if (maker->wild || !has_room(maker, 1) || one_in(maker, 4))
+        return;
+    struct shader_instruction vary = {.opcode = opcodes[below(maker, sizeof opcodes)], .destination = to};
+    vary.source[0] = choose_input(maker);
+    vary.source[1] = operand_of(FILE_TEMPORARY, 0);
+    vary.destination.shift = (int8_t) - (int)below(maker, 2);
+    if (vary.opcode == SHADER_MAD) {
+        vary.source[2] = vary.source[1];
+        vary.source[1] = operand_of(FILE_CONSTANT, below(maker, maker->constants));
+    }
+    if (vary.source[0].file)
+        add(maker, &vary);
 }
 
 void write_stages(struct maker *maker)

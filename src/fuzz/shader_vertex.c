@@ -155,6 +155,21 @@ static void write_position(struct maker *maker, const struct output *output)
     }
 }
 
+/* An input, scaled: so that something varies over the picture whatever the rest is. */
+static bool pass_input(struct maker *maker, const struct shader_operand *to)
+{
+    static const uint8_t opcodes[] = {SHADER_MOV, SHADER_MUL, SHADER_MAD};
+    struct shader_instruction pass = {.opcode = opcodes[below(maker, sizeof opcodes)], .destination = *to};
+    pass.source[0] = choose_input(maker);
+    if (pass.opcode != SHADER_MOV)
+        pass.source[1] = operand_of(FILE_CONSTANT, below(maker, maker->constants));
+    if (pass.opcode == SHADER_MAD)
+        pass.source[2] = pass.source[0];
+    if (pass.opcode == SHADER_MAD && one_in(maker, 2))
+        pass.source[2].swizzle = (uint8_t)(below(maker, 4) * 0x55);
+    return add(maker, &pass);
+}
+
 static void write_output(struct maker *maker, const struct output *output)
 {
     struct shader_instruction give = {.opcode = SHADER_MOV};
@@ -165,7 +180,11 @@ static void write_output(struct maker *maker, const struct output *output)
     if (!give.destination.swizzle)
         give.destination.swizzle = output->mask;
     choose_result_modifiers(maker, &give);
-    if (from >= 0 && one_in(maker, 2)) {
+    bool color = output->file == FILE_COLOR || output->file == FILE_OUTPUT;
+    unsigned which = below(maker, color ? 5 : 3);
+    if (which != 1 && which != 2 && pass_input(maker, &give.destination))
+        return;
+    if (from >= 0 && which == 1) {
         give.source[0] = operand_of(FILE_TEMPORARY, (unsigned)from);
         add(maker, &give);
     } else {

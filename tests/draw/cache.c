@@ -13,6 +13,15 @@ static struct cache *cache;
 static int built, freed, refuse, capacity;
 static struct error error;
 
+/* What the linker puts in place of key_hash (see the Makefile): all keys collide where a test says so. */
+static int collide;
+uint64_t __real_key_hash(enum unit unit, const struct packed_key *packed);
+uint64_t __wrap_key_hash(enum unit unit, const struct packed_key *packed);
+uint64_t __wrap_key_hash(enum unit unit, const struct packed_key *packed)
+{
+    return collide ? 77 : __real_key_hash(unit, packed);
+}
+
 static const char *unavailable(void)
 {
     return NULL;
@@ -92,7 +101,7 @@ static void start(int routines)
 
 void setUp(void)
 {
-    built = freed = refuse = 0;
+    built = freed = refuse = collide = 0;
     capacity = 1000;
     error_clear(&error);
 }
@@ -118,9 +127,8 @@ static void a_key_is_built_once(void)
     TEST_ASSERT_EQUAL_UINT64(4, statistics.routines);
 }
 
-static void units_with_equal_bytes_are_different_routines(void)
+static void units_with_equal_bytes_are_different(void)
 {
-    start(8);
     union key key;
     memset(&key, 0, sizeof key);
     const struct routine *setup = cache_acquire(cache, UNIT_SETUP, &key, &error);
@@ -130,6 +138,24 @@ static void units_with_equal_bytes_are_different_routines(void)
     TEST_ASSERT_EQUAL_INT(UNIT_PIXEL, pixel->unit);
     cache_release(cache, setup);
     cache_release(cache, pixel);
+}
+
+static void units_with_equal_bytes_are_different_routines(void)
+{
+    start(8);
+    units_with_equal_bytes_are_different();
+}
+
+/* A hash is no more than where to look: nobody will see two keys with the same one, but it would be the wrong routine. */
+static void keys_with_equal_hashes_are_different_routines(void)
+{
+    collide = 1;
+    start(16);
+    for (int i = 0; i < 3; i++)
+        for (int n = 0; n < 12; n++)
+            touch(n);
+    TEST_ASSERT_EQUAL_INT(12, built);
+    units_with_equal_bytes_are_different();
 }
 
 static void the_least_recently_used_leaves_first(void)
@@ -293,6 +319,7 @@ int main(void)
     UNITY_BEGIN();
     RUN_TEST(a_key_is_built_once);
     RUN_TEST(units_with_equal_bytes_are_different_routines);
+    RUN_TEST(keys_with_equal_hashes_are_different_routines);
     RUN_TEST(the_least_recently_used_leaves_first);
     RUN_TEST(what_is_in_use_stays_whatever_it_costs);
     RUN_TEST(a_routine_leaves_when_its_last_user_has_released_it);

@@ -1,0 +1,213 @@
+#!/bin/bash
+# Plants bugs and sees that the tests find them.
+#
+#   tests/mutations/run.sh [ONLY]     every row of tests/mutations/table.txt whose name contains ONLY, or one of its words
+#   tests/mutations/run.sh --fit      only says which rows do not fit their files any more
+#
+# A row is a bug: whole lines of a file, as they must stand there exactly once, what they become, and the test that must
+# find it: a text as `make check ONLY=text` takes it, or `fuzz`, five minutes of `triptych fuzz`. Each is planted in
+# a copy of the tree, in BUILD/mutations/tree, which keeps its objects; what must find it has passed without it before.
+#
+# Says for each row "found" or "GOT AWAY", with what found it and how long that took, and keeps that in
+# BUILD/mutations/NAME.result, from which results/mutations.md is written once every row has one. Exits with 1 if any
+# got away, no longer fits its file, or does not build, and if a test fails without a bug.
+set -uo pipefail
+cd "$(dirname "$0")/../.." || exit 1
+export LC_ALL=C
+
+only=${1-}
+build=${BUILD:-build}
+home=$build/mutations tree=$build/mutations/tree
+table=tests/mutations/table.txt
+limit=300  # seconds of fuzzing
+longest=600 # of a test, after which it hangs, which is found too
+trouble=0
+
+mkdir -p "$tree/build"
+home=$(realpath "$home") tree=$(realpath "$tree")
+
+# --- The table
+
+names=()
+declare -A file plants finder old new
+
+read_table()
+{
+    local line name= number=0
+    while IFS= read -r line; do
+        number=$((number + 1))
+        case $line in
+        '' | '#'*) ;;
+        'bug '*) name=${line#bug } && names+=("$name") && file[$name]= old[$name]= new[$name]= finder[$name]= ;;
+        'file '*) file[$name]=${line#file } ;;
+        'plants '*) plants[$name]=${line#plants } ;;
+        'found by '*) finder[$name]=${line#found by } ;;
+        '-'*) old[$name]+=${line#-}$'\n' ;;
+        '+'*) new[$name]+=${line#+}$'\n' ;;
+        *) echo "$table:$number: found '$line', expected bug, file, plants, found by, - or +" >&2 && exit 2 ;;
+        esac
+    done <"$table"
+}
+
+# --- The copy
+
+# What differs is copied, with a new time, so that make sees it.
+copy_tree()
+{
+    local path
+    while IFS= read -r -d '' path; do
+        [[ -f $path ]] || continue
+        cmp -s "$path" "$tree/$path" && continue
+        mkdir -p "$tree/$(dirname "$path")" && rm -f "$tree/$path" && cp -P "$path" "$tree/$path" || exit 1
+    done < <(git ls-files -z --cached --others --exclude-standard)
+    (cd "$tree" && find src emu asm tests -type f -print0) | while IFS= read -r -d '' path; do
+        [[ -f $path ]] || rm -f "$tree/$path"
+    done
+    [[ -e $tree/build/unity || ! -d build/unity ]] || ln -s "$(realpath build/unity)" "$tree/build/unity"
+    make -C "$tree" -s build/glmark2 build/assimp
+}
+
+# plant NAME: replaces the lines in the copy; fails if they are not there, or not once.
+plant()
+{
+    local text rest
+    text=$(cat "${file[$1]}" && echo .) || return 1
+    text=$'\n'${text%.}
+    rest=${text#*$'\n'"${old[$1]}"}
+    [[ -n ${old[$1]} && $rest != "$text" && ${rest/$'\n'"${old[$1]}"/} == "$rest" ]] || return 1
+    text=${text%%$'\n'"${old[$1]}"*}$'\n'${new[$1]}$rest
+    rm -f "$tree/${file[$1]}"
+    printf '%s' "${text#$'\n'}" >"$tree/${file[$1]}"
+}
+
+restore()
+{
+    rm -f "$tree/${file[$1]}"
+    cp -P "${file[$1]}" "$tree/${file[$1]}"
+}
+
+# --- Building and looking
+
+# build FINDER: the programs that it takes, and the command if it is a script or the fuzzer.
+build()
+{
+    local goals="ONLY=$1 programs"
+    case $1 in
+    fuzz) goals=all ;;
+    *) (cd "$tree" && compgen -G "tests/*$1*.sh" >/dev/null) && goals+=" all" ;;
+    esac
+    # shellcheck disable=SC2086
+    nice make -C "$tree" -j"$(nproc)" BUILD=build $goals >"$home/build.log" 2>&1
+}
+
+# look FINDER: whether everything is as it should be.
+look()
+{
+    if [[ $1 == fuzz ]]; then
+        (cd "$tree" && rm -rf build/findings && timeout -k 10 $((limit + longest)) nice build/triptych fuzz \
+            --seed 1 --count 1000000 --seconds "$limit" --findings 1 --output build/findings) >"$home/look.log" 2>&1
+    else
+        timeout -k 10 "$longest" nice "$tree/tests/support/run.sh" "$1" build >"$home/look.log" 2>&1
+    fi
+}
+
+# What a test said, or else the first line that says that something is wrong.
+reason()
+{
+    local said
+    said=$(grep -aE -m 1 ':FAIL: |ERROR: |runtime error' "$home/look.log") ||
+        said=$(grep -aE -m 1 '^ *FAIL |differ|killed by|stopped after|ran no test|ended with|error:' "$home/look.log")
+    sed -E 's/^ +//' <<<"$said" | cut -c 1-160
+}
+
+declare -A sound
+# Whether the finder passes without any bug; asked once.
+is_sound()
+{
+    [[ -n ${sound[$1]-} ]] && return "${sound[$1]}"
+    sound[$1]=0
+    if [[ $1 != fuzz ]]; then
+        build "$1" && look "$1" || sound[$1]=1
+    fi
+    return "${sound[$1]}"
+}
+
+# --- One bug
+
+# try NAME: leaves VERDICT, SECONDS and what was said in the result.
+try()
+{
+    local name=$1 test verdict='GOT AWAY' said= by= started
+    for test in ${finder[$name]}; do
+        is_sound "$test" || { verdict='TEST FAILS WITHOUT IT' by=$test said=$(reason) && break; }
+    done
+    started=$SECONDS
+    if [[ $verdict == 'GOT AWAY' ]] && ! plant "$name"; then
+        verdict='DOES NOT FIT'
+    elif [[ $verdict == 'GOT AWAY' ]]; then
+        for test in ${finder[$name]}; do
+            by=$test
+            build "$test" || { verdict='DOES NOT BUILD' said=$(grep -am 1 error "$home/build.log") && break; }
+            look "$test" || { verdict=found said=$(reason) && break; }
+        done
+        restore "$name"
+    fi
+    printf '%s\t%d\t%s\t%s\n' "$verdict" $((SECONDS - started)) "$by" "$said" >"$home/$name.result"
+    printf '%-22s %-9s %4d s  %-24s %s\n' "$name" "$verdict" $((SECONDS - started)) "$by" "$said"
+    [[ $verdict == found ]]
+}
+
+# --- The report
+
+write_report()
+{
+    local name verdict seconds by said missing=0 found=0
+    for name in "${names[@]}"; do
+        [[ -f $home/$name.result ]] || missing=$((missing + 1))
+    done
+    ((missing)) && echo "results/mutations.md waits for $missing more" && return
+    {
+        echo '# Planted bugs'
+        echo
+        echo 'Each row of `tests/mutations/table.txt` is planted in a copy of the tree, which is built and tested by what'
+        echo 'must find it; `make mutations` writes this page. Seconds are those of building and testing, on a machine'
+        echo 'that does other work beside it.'
+        echo
+        echo '| Bug | Where | What | Found by | Seconds | What was said |'
+        echo '| --- | --- | --- | --- | --- | --- |'
+        for name in "${names[@]}"; do
+            IFS=$'\t' read -r verdict seconds by said <"$home/$name.result"
+            [[ $verdict == found ]] && found=$((found + 1)) || by="**$verdict**"
+            said=${said//|/\\|}
+            echo "| $name | \`${file[$name]}\` | ${plants[$name]} | $by | $seconds | ${said//\`/\'} |"
+        done
+        echo
+        echo "$found of ${#names[@]} found."
+    } >results/mutations.md.new && mv results/mutations.md.new results/mutations.md
+}
+
+# is_wanted NAME
+is_wanted()
+{
+    local word
+    for word in $only; do
+        [[ $1 != *"$word"* ]] || return 0
+    done
+    [[ -z $only ]]
+}
+
+read_table
+copy_tree
+if [[ $only == --fit ]]; then
+    for name in "${names[@]}"; do
+        plant "$name" || { echo "$name does not fit ${file[$name]}" && trouble=1; }
+        restore "$name"
+    done
+    exit $trouble
+fi
+for name in "${names[@]}"; do
+    is_wanted "$name" || continue
+    try "$name" || trouble=1
+done
+write_report
+exit $trouble
