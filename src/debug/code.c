@@ -21,8 +21,10 @@ static bool grow(struct debug_code *code, void **rows, size_t size, uint32_t cou
 void debug_add_source(struct debug_code *code, uint32_t offset, const char *file, uint32_t line)
 {
     void *rows = code->source;
+    if (code->sources && code->source[code->sources - 1].offset == offset)
+        code->sources--;
     const struct debug_source *last = code->sources ? code->source + code->sources - 1 : NULL;
-    if (last && last->line == line && (last->file == file || !strcmp(last->file, file)))
+    if (last && last->line == line && !strcmp(last->file, file))
         return;
     bool room = grow(code, &rows, sizeof *code->source, code->sources, &code->source_capacity);
     code->source = rows;

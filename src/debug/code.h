@@ -48,7 +48,7 @@ struct debug_code {
     bool failed; /* memory was short: the rows are not all */
 };
 
-/* Appends a row; a source row that says what the one before says is left out. */
+/* Appends a row. Of source rows for no code the last counts, and one that says what the one before says is left out. */
 void debug_add_source(struct debug_code *code, uint32_t offset, const char *file, uint32_t line);
 void debug_add_unwind(struct debug_code *code, uint32_t offset, enum debug_rule rule, unsigned reg,
                       int32_t value);

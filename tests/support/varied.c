@@ -37,12 +37,13 @@ void varied_begin(triptych_device *device)
     bind(device, buffer);
 }
 
+/* State 0 and those next to it draw something. */
 void varied_draw(triptych_device *device, unsigned n)
 {
-    OK(triptych_set_state(device, TRIPTYCH_STATE_srcblend, 1 + n % 9));
-    OK(triptych_set_state(device, TRIPTYCH_STATE_destblend, 1 + n / 9 % 9));
-    OK(triptych_set_state(device, TRIPTYCH_STATE_alphafunc, 1 + n / 81 % 8));
-    OK(triptych_set_state(device, TRIPTYCH_STATE_zfunc, 1 + n / 648 % 8));
+    OK(triptych_set_state(device, TRIPTYCH_STATE_srcblend, 1 + (n + 4) % 9));
+    OK(triptych_set_state(device, TRIPTYCH_STATE_destblend, 1 + (n / 9 + 5) % 9));
+    OK(triptych_set_state(device, TRIPTYCH_STATE_alphafunc, 1 + (n / 81 + 4) % 8));
+    OK(triptych_set_state(device, TRIPTYCH_STATE_zfunc, 1 + (n / 648 + 3) % 8));
     OK(triptych_draw(device, TRIPTYCH_TRIANGLE_LIST, 0, 1));
 }
 
