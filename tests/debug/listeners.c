@@ -331,9 +331,10 @@ static void map_in_the_way(const void *unused)
     triptych_device_destroy(device);
 }
 
-/* Some routines fit, then the file is full. */
+/* Some routines fit, then the file is full, and ends with a whole record. */
 static void full_disk(const void *unused)
 {
+    char path[128];
     (void)unused;
     signal(SIGXFSZ, SIG_IGN);
     triptych_device *device =
@@ -342,6 +343,11 @@ static void full_disk(const void *unused)
     setrlimit(RLIMIT_FSIZE, &(struct rlimit){20000, 20000});
     draw_all(device);
     check_reason(device, "no more routines are noted there");
+    snprintf(path, sizeof path, "%s/jit-%d.dump", folder, (int)getpid());
+    size_t bytes = read_file(path), at = 40;
+    while (at < bytes)
+        at += number(contents + at + 4, 4);
+    TEST_ASSERT_TRUE(at == bytes && at > 40);
     triptych_device_destroy(device);
 }
 

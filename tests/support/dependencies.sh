@@ -22,6 +22,7 @@ libcjson-dev       build   writes and reads JSON reports
 libassimp-dev      build   imports 3D models into draw streams
 glmark2-data       build   the models and textures of the draw streams
 assimp-testmodels  test    the animated model of a scene
+gdb                test    debugs generated code: names, lines and callers of every instruction
 clang              test    compiles everything a second time, for its warnings
 hyperfine          bench   measures whole processes
 gnuplot-nox        bench   draws the charts
