@@ -16,6 +16,11 @@ struct build_options {
 /* What the engine varies; null when it is none of the specializer's. */
 const struct build_options *engine_options(const struct engine *engine);
 
+/* What the engines' `build` is: with their options, or a test's. The engine frees what comes of it. */
+struct routine *build_routine(const struct engine *engine, const struct build_options *options,
+                              struct code_arena *arena, enum unit unit, const union key *key,
+                              struct error *error);
+
 /* The memory of one build, reused: none is allocated while building. */
 struct builder {
     struct ir ir;

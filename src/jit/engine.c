@@ -180,3 +180,11 @@ struct routine *jit_routine(const struct engine *engine, const struct ir *ir, ui
     order.options.disabled |= disabled;
     return build_with(engine, &order, arena, unit, key, error);
 }
+
+struct routine *build_routine(const struct engine *engine, const struct build_options *options,
+                              struct code_arena *arena, enum unit unit, const union key *key,
+                              struct error *error)
+{
+    const struct order order = {.options = *options};
+    return build_with(engine, &order, arena, unit, key, error);
+}

@@ -1,13 +1,17 @@
-/* Allocation under pressure: programs compiled with few registers and with choices drawn by lot. Their code is proved to
- * read what it should (tests/support/placement.h), and computes what the interpreter does.
+/* Allocation under pressure: random programs, and routines of random keys, of all shaders of tests/shaders, of random
+ * shaders and of all streams, compiled with few registers and with choices drawn by lot. Their code is proved to read what
+ * it should (tests/support/placement.h), and computes what the interpreter does, or the same routine without pressure.
  *
  * TRIPTYCH_SEED chooses other programs, registers and lots. */
 #include "base/code.h"
 #include "base/cpu.h"
 #include "base/mxcsr.h"
 #include "def/lane.h"
+#include "jit/jit.h"
+#include "tests/support/differential.h"
 #include "tests/support/placement.h"
 #include "tests/support/program.h"
+#include "tests/support/routines.h"
 #include "tests/support/seed.h"
 #include "unity.h"
 
@@ -130,6 +134,62 @@ static void test_programs_that_no_recording_is(void)
         try_program(program_make_wild, n, 50);
 }
 
+/* --- Routines ----------------------------------------------------------------------------------------------- */
+
+static struct differential *differential;
+static struct build_options options;
+static uint64_t lots;
+static unsigned visited;
+
+static struct routine *build_under_pressure(struct code_arena *where, enum unit unit, const union key *key,
+                                            struct error *error)
+{
+    return build_routine(&engine_specialize, &options, where, unit, key, error);
+}
+
+/* As they are built, and with registers and choices by lot; every third of them runs. */
+static void check_routine(void *context, enum unit unit, const union key *key)
+{
+    struct engine pressed = engine_specialize;
+    const struct engine *engines[] = {&engine_specialize, &pressed};
+    struct error error = {{0}};
+    char text[KEY_TEXT_CAPACITY];
+    static char complaint[KEY_TEXT_CAPACITY + 1000];
+    (void)context;
+    pressed.name = "specialize under pressure";
+    pressed.build = build_under_pressure;
+    options = (struct build_options){.width = 8, .profile = PROFILE_FULL};
+    for (int pressure = 0; pressure < 2; pressure++) {
+        const char *wrong = error.text;
+        if (build_code(builder, &options, unit, key, NULL, NULL, &error))
+            wrong = placement_check(builder);
+        snprintf(complaint, sizeof complaint, "%u lanes, without registers 0x%x, lots %llu: %s; %s key: %s",
+                 options.width, options.file.without, (unsigned long long)options.file.seed,
+                 wrong ? wrong : "", unit_name[unit], key_print(unit, key, text));
+        TEST_ASSERT_NULL_MESSAGE(wrong, complaint);
+        options = (struct build_options){.width = program_random(&lots) % 3 ? 8 : 4,
+                                         .profile = program_random(&lots) % 4 ? PROFILE_FULL : PROFILE_THESIS,
+                                         .file = random_file(&lots)};
+    }
+    const char *found = visited++ % 3 ? NULL : differential_run(differential, engines, 2, unit, key, lots);
+    if (found)
+        TEST_FAIL_MESSAGE(found);
+}
+
+static void test_routines(void)
+{
+    visited = 0;
+    lots = test_seed();
+    differential = differential_create(arena);
+    TEST_ASSERT_NOT_NULL(differential);
+    visit_random_keys(450, lots, check_routine, NULL);
+    visit_shaders(lots, check_routine, NULL);
+    visit_random_shaders(200, lots, check_routine, NULL);
+    visit_streams(check_routine, NULL);
+    differential_destroy(differential);
+    TEST_ASSERT_GREATER_THAN(1000, visited);
+}
+
 /* --- Sabotage ----------------------------------------------------------------------------------------------- */
 
 enum { ANOTHER_REGISTER, ANOTHER_SLOT, NO_RELOAD, NO_STORE, LOST_INSTRUCTION, DAMAGES };
@@ -229,6 +289,7 @@ int main(void)
     RUN_TEST(test_straight_programs);
     RUN_TEST(test_programs_with_loops_and_variables);
     RUN_TEST(test_programs_that_no_recording_is);
+    RUN_TEST(test_routines);
     RUN_TEST(test_damage_is_noticed);
     return UNITY_END();
 }

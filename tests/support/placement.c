@@ -7,7 +7,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-enum { VECTORS = 16, LANES = VECTORS, SLOTS, SET = 24, DEPTH = 64 };
+enum { VECTORS = 16, LANES = VECTORS, SLOTS, SET = VARIABLES + 16, DEPTH = 64 };
 
 enum origin {
     FROM_NOTHING,
@@ -96,7 +96,7 @@ static bool contains(const struct content *p, unsigned value)
     return false;
 }
 
-/* A set that is full forgets the oldest: what is joined last is what is needed. */
+/* All variables may begin as one value. A set that is full forgets the oldest: it is the latest that is needed. */
 static void add(struct content *p, unsigned value)
 {
     if (contains(p, value))
@@ -104,6 +104,12 @@ static void add(struct content *p, unsigned value)
     if (p->count == SET)
         memmove(p->value, p->value + 1, --p->count * sizeof p->value[0]);
     p->value[p->count++] = (uint16_t)value;
+}
+
+/* What is used of it: most sets are small. */
+static void assign(struct content *to, const struct content *from)
+{
+    memcpy(to, from, offsetof(struct content, value) + from->count * sizeof from->value[0]);
 }
 
 static void remove_value(struct content *p, unsigned value)
@@ -176,7 +182,8 @@ static void copy_places(const struct check *c, struct places *to, const struct p
     if (!to->at)
         abort();
     to->reached = from->reached;
-    memcpy(to->at, from->at, c->places * sizeof *to->at);
+    for (unsigned p = 0; p < c->places; p++)
+        assign(&to->at[p], &from->at[p]);
 }
 
 /* Keeps what both hold. Returns whether anything had to go. */
@@ -228,7 +235,8 @@ static void name_joins(struct check *c, struct places *s, uint32_t end, int oper
 static void name_next(struct check *c, struct places *s)
 {
     for (unsigned p = 0; p < c->places; p++) {
-        struct content before = s->at[p], *after = &s->at[p];
+        struct content before, *after = &s->at[p];
+        assign(&before, after);
         for (uint32_t n = c->number - 1; operation(c, n)->op == IR_next; n--)
             remove_value(after, operation(c, n)->operand[0]);
         for (uint32_t n = c->number - 1; operation(c, n)->op == IR_next; n--)
@@ -313,7 +321,7 @@ static void write_memory(struct check *c, const ZydisDecodedOperand *o, const st
     if (base == X86_RSP) {
         int place = place_in_frame(c, at);
         if (place >= 0)
-            c->now.at[place] = *p;
+            assign(&c->now.at[place], p);
         else if (i->op != IR_set || at != c->m->frame_variables + i->k * lane_bytes(c))
             wrong(c, "writes to the frame at %lld", (long long)at);
         else {
@@ -356,12 +364,12 @@ static uint32_t selected_end(const struct check *c)
 }
 
 /* A register gets an intermediate result, or the value whose register it is. */
-static void write_register(struct check *c, unsigned reg, struct content p)
+static void write_register(struct check *c, unsigned reg, const struct content *p)
 {
-    c->now.at[reg] = p;
+    assign(&c->now.at[reg], p);
     for (uint32_t n = c->number; n < selected_end(c); n++)
         if (c->b->allocation.residence[n] == RESIDENCE_REGISTER && c->b->allocation.reg[n] == reg &&
-            (p.made_in == c->visit || holds(c, &p, n))) {
+            (p->made_in == c->visit || holds(c, p, n))) {
             add(&c->now.at[reg], n);
             if (!lasts(operation(c, n)))
                 c->now.at[reg].origin = FROM_NOTHING;
@@ -391,7 +399,7 @@ static void run_copy(struct check *c)
                                                  : read_memory(c, from, broadcast ? FROM_WORD : FROM_LANES);
     note_operands(c, &p);
     if (operand_vector(to) >= 0)
-        write_register(c, (unsigned)operand_vector(to), p);
+        write_register(c, (unsigned)operand_vector(to), &p);
     else
         write_memory(c, to, &p);
 }
@@ -414,7 +422,7 @@ static void run_constant(struct check *c)
     /* A gather's mask and what it merges into; an operation on one register twice. */
     if (operation(c, c->number)->op == IR_gather || (!zero && note_operands(c, before)))
         p.made_in = c->visit;
-    write_register(c, (unsigned)operand_vector(&c->operand[0]), p);
+    write_register(c, (unsigned)operand_vector(&c->operand[0]), &p);
 }
 
 static void read_operand(struct check *c, const ZydisDecodedOperand *o)
@@ -453,7 +461,7 @@ static void run_other(struct check *c)
         if (!(o->actions & ZYDIS_OPERAND_ACTION_MASK_WRITE))
             continue;
         if (operand_vector(o) >= 0)
-            write_register(c, (unsigned)operand_vector(o), p);
+            write_register(c, (unsigned)operand_vector(o), &p);
         else if (o->type == ZYDIS_OPERAND_TYPE_MEMORY)
             write_memory(c, o, &p);
     }
