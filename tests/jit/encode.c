@@ -9,6 +9,7 @@
 #include <Zydis/Zydis.h>
 #include <stdbool.h>
 #include <stdio.h>
+#include <stdlib.h>
 #include <string.h>
 #include <unity.h>
 
@@ -135,8 +136,7 @@ static void require_immediate(unsigned operand, int64_t value, bool is_signed)
     require(is_signed ? o->imm.value.s == value : o->imm.value.u == (uint64_t)value, "immediate");
 }
 
-/* Addresses: every base with every displacement class, every base, index and scale, no base, and both labels.
- */
+/* Addresses: every base with every displacement class, every base, index and scale, no base, and both labels. */
 
 typedef void address_function(void *context, struct address address);
 
@@ -148,13 +148,17 @@ static bool index_allowed(unsigned index, bool vector_index)
     return vector_index || index != X86_RSP;
 }
 
+/* Every other displacement with every other scale, in turn from one call to the next; all of them in a long run. */
 static void for_each_indexed(address_function *function, void *context, bool vector_index)
 {
     static const unsigned char scales[] = {1, 2, 4, 8};
+    static unsigned turn;
+    unsigned step = getenv("TRIPTYCH_SEED") ? 1 : 2;
+    turn++;
     for (unsigned base = 0; base <= 16; base++)
         for (unsigned index = 0; index < 16; index++)
             for (unsigned s = 0; index_allowed(index, vector_index) && s < sizeof scales; s++)
-                for (unsigned d = s & 1; d < DISPLACEMENTS; d += 2)
+                for (unsigned d = (s + turn) % step; d < DISPLACEMENTS; d += step)
                     function(context, address_indexed(base < 16 ? base : X86_NONE, index, scales[s],
                                                       displacements[d]));
 }
@@ -606,12 +610,13 @@ static void check_gpr_single_memory(void *context, struct address address)
     require_rex(c, extends(address), false);
 }
 
-static const int32_t immediates[] = {0, 1, 31, -1, 127, -128, 128, -129, 0x12345678, INT32_MAX, INT32_MIN};
+static const int32_t immediates[] = {0,    1,   31,   32,         63,        -1,       127,
+                                     -128, 128, -129, 0x12345678, INT32_MAX, INT32_MIN};
 enum { IMMEDIATES = sizeof immediates / sizeof *immediates };
 
 static bool takes_immediate(const struct gpr_choice *c, int32_t immediate)
 {
-    return !is(c->row->trait, "COUNT") || (immediate >= 0 && immediate < 32);
+    return !is(c->row->trait, "COUNT") || (immediate >= 0 && immediate < (c->size == X86_64 ? 64 : 32));
 }
 
 static void check_gpr_memory_immediate(void *context, struct address address)

@@ -73,6 +73,8 @@ static void fill_registers(struct machine_state *in, uint32_t read)
 {
     for (size_t i = 0; i < 16 * 32; i += 8)
         memcpy(&in->ymm[0][0] + i, &(uint64_t){random_word()}, 8);
+    for (size_t i = 0; i < sizeof in->zmm_high; i += 8)
+        memcpy(&in->zmm_high[0][0] + i, &(uint64_t){random_word()}, 8);
     for (int r = 0; r < 16; r++)
         in->general[r] = random_word();
     for (int n = 0; n < 16; n++)
@@ -174,6 +176,10 @@ static const char *check_registers(const struct part *part, const struct machine
     for (int n = 0; n < 16; n++)
         if (!(may_change >> (REGISTER_VECTORS + n) & 1) && memcmp(in->ymm[n], out->ymm[n], 32))
             return violation(fragment, "changes ymm", n);
+    for (int n = 0; n < 16; n++)
+        if (trampoline_is_wide() && !(may_change >> (REGISTER_VECTORS + n) & 1) &&
+            memcmp(in->zmm_high[n], out->zmm_high[n], 32))
+            return violation(fragment, "changes the upper half of zmm", n);
     if (out->flags & DIRECTION_FLAG)
         return violation(fragment, "sets the direction flag", 1);
     return NULL;

@@ -90,7 +90,7 @@ __asm__(".text\n"
 
 void trampoline_enter(void);
 
-static int is_wide(void)
+int trampoline_is_wide(void)
 {
     static int known, wide;
     if (!known)
@@ -103,7 +103,7 @@ void trampoline_run(const void *code, const struct machine_state *in, struct mac
 {
     trampoline_in = *in;
     trampoline_code = code;
-    trampoline_wide = (uint32_t)is_wide();
+    trampoline_wide = (uint32_t)trampoline_is_wide();
     trampoline_out = (struct machine_state){.taken = 0};
     trampoline_enter();
     *out = trampoline_out;

@@ -21,6 +21,9 @@ struct machine_state {
                                              on, coming in */
 };
 
+/* Whether there are registers of 512 bits, and `zmm_high` says something. */
+int trampoline_is_wide(void);
+
 /* Loads `in`, jumps to `code`, stores what was there on the way out to `out`. Needs AVX. */
 void trampoline_run(const void *code, const struct machine_state *in, struct machine_state *out);
 
