@@ -176,6 +176,12 @@ static void make_reload(struct maker *maker)
     if (maker->wild && program_random(maker->seed) % 4 == 0)
         i.op = IR_uniform;
     keep(maker, type, ir_append(maker->ir, i));
+    if (program_random(maker->seed) % 2)
+        return;
+    /* Again, behind a store to the same place. */
+    ir_append(maker->ir, (struct ir_instruction){
+                             .op = IR_store, .base = BASE_OUTPUT, .operand = {pick(maker, type)}, .k = i.k});
+    keep(maker, type, ir_append(maker->ir, i));
 }
 
 static void make_region(struct maker *maker, unsigned length)
