@@ -1,0 +1,113 @@
+/* What the parts of the proof share (placement.h): places and what they hold (placement_place.c), what an instruction does to
+ * them (placement_code.c), and the walk over operations and control (placement.c). */
+#ifndef TESTS_PLACEMENT_PART_H
+#define TESTS_PLACEMENT_PART_H
+
+#include "placement.h"
+
+#include <Zydis/Zydis.h>
+#include <stdbool.h>
+
+enum { VECTORS = 16, LANES = VECTORS, SLOTS, SET = VARIABLES + 16, DEPTH = 64 };
+
+enum origin {
+    FROM_NOTHING,
+    FROM_LITERAL,
+    FROM_CONSTANT,
+    FROM_WORD,
+    FROM_LANES,
+    FROM_VARIABLE,
+    FROM_ELSEWHERE
+};
+
+/* What a register or a slot holds. */
+struct content {
+    uint64_t made_in; /* the operation, by visit, that it is an intermediate result of */
+    uint8_t origin;
+    uint8_t base;   /* FROM_WORD, FROM_LANES: a general-purpose register */
+    uint16_t count; /* of the values that it is */
+    int32_t number; /* bits of the literal, of the constant, of the variable; displacement */
+    uint16_t value[SET];
+};
+
+/* Registers, the frame's room for lanes, slots. */
+struct places {
+    bool reached;
+    struct content *at;
+};
+
+struct loop_state {
+    uint32_t number; /* of the loop */
+    size_t offset;   /* of its head */
+    struct places head;
+};
+
+struct check {
+    const struct builder *b;
+    const struct ir *ir;
+    const struct emitter *m;
+    ZydisDecoder decoder;
+    unsigned places; /* in all */
+    uint64_t visit;
+    uint32_t number; /* of the operation */
+    uint32_t line;
+    size_t offset;
+    struct places now;
+    unsigned regions, loops;
+    struct places skipped[REGION_DEPTH]; /* by open region: state on the way around it */
+    size_t skipped_to[REGION_DEPTH];
+    struct loop_state loop[DEPTH];
+    struct places local; /* behind a jump within an operation's code */
+    size_t local_to;
+    unsigned stores;
+    unsigned read; /* a bit for each operand that was read */
+    bool coded;    /* the operation has code */
+    bool again;    /* the loop is to be walked once more */
+    ZydisDecodedInstruction instruction;
+    ZydisDecodedOperand operand[ZYDIS_MAX_OPERAND_COUNT];
+    bool wrong;
+    char text[256];
+};
+
+/* Notes the first thing that is wrong, with the operation and the place in the code. */
+__attribute__((format(printf, 2, 3))) void placement_wrong(struct check *c, const char *format, ...);
+
+static inline const struct ir_instruction *placement_operation(const struct check *c, unsigned number)
+{
+    return &c->ir->instruction[number];
+}
+
+/* Adds a value to a set; copies what is used of one. */
+void place_add(struct content *p, unsigned value);
+void place_assign(struct content *to, const struct content *from);
+
+/* Whether a value can be read again: of what routines write, only the operation itself knows when. */
+bool place_lasts(const struct ir_instruction *i);
+
+/* Whether a place holds a value, as one of its names or by where it was filled from. */
+bool place_holds(const struct check *c, const struct content *p, unsigned value);
+
+/* Notes which of the current operation's operands are read here, and returns whether any is; complains if what is read
+ * is none and no intermediate result of the operation either. */
+bool place_note_operands(struct check *c, const struct content *p);
+void place_expect(struct check *c, const struct content *p, const char *where, long number);
+
+void places_copy(const struct check *c, struct places *to, const struct places *from);
+
+/* Keeps in `to` what both hold. Returns whether anything had to go. */
+bool places_merge(const struct check *c, struct places *to, const struct places *from);
+
+/* Everywhere, from now on, what holds `source` also holds `name`; the joins behind a region are their operands of one
+ * way; the phis of the loop that ends are their next values. */
+void places_rename(struct check *c, struct places *s, unsigned name, unsigned source);
+void places_name_joins(struct check *c, struct places *s, uint32_t end, int operand);
+void places_name_next(struct check *c, struct places *s);
+
+/* The code that was selected for the current operation, if any was; the end of the operations that it covers. */
+void placement_run_code(struct check *c);
+uint32_t placement_selected_end(const struct check *c);
+
+/* A jump in it (placement.c). */
+void placement_run_jump(struct check *c);
+
+#endif

@@ -1,0 +1,163 @@
+#include "placement_part.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+/* --- What a place holds ------------------------------------------------------------------------------------ */
+
+static bool contains(const struct content *p, unsigned value)
+{
+    for (unsigned n = 0; n < p->count; n++)
+        if (p->value[n] == value)
+            return true;
+    return false;
+}
+
+/* All variables may begin as one value. A set that is full forgets the oldest: it is the latest that is needed. */
+void place_add(struct content *p, unsigned value)
+{
+    if (contains(p, value))
+        return;
+    if (p->count == SET)
+        memmove(p->value, p->value + 1, --p->count * sizeof p->value[0]);
+    p->value[p->count++] = (uint16_t)value;
+}
+
+/* What is used of it: most sets are small. */
+void place_assign(struct content *to, const struct content *from)
+{
+    memcpy(to, from, offsetof(struct content, value) + from->count * sizeof from->value[0]);
+}
+
+static void remove_value(struct content *p, unsigned value)
+{
+    for (unsigned n = 0; n < p->count; n++)
+        if (p->value[n] == value)
+            p->value[n--] = p->value[--p->count];
+}
+
+/* Whether a place that was filled from there holds a value that can be read there. */
+static bool comes_from(const struct check *c, const struct content *p, const struct ir_instruction *i)
+{
+    switch (p->origin) {
+    case FROM_LITERAL: return i->op == IR_literal && i->k == p->number;
+    case FROM_CONSTANT: return i->op == IR_constant && i->k == p->number;
+    case FROM_WORD: return i->op == IR_uniform && base_register[i->base] == p->base && i->k == p->number;
+    case FROM_LANES: return i->op == IR_load && base_register[i->base] == p->base && i->k == p->number;
+    case FROM_VARIABLE: return i->op == IR_get && i->k == p->number && i == placement_operation(c, c->number);
+    }
+    return false;
+}
+
+/* Whether it can be read again: of what routines write, only the operation itself knows when. */
+bool place_lasts(const struct ir_instruction *i)
+{
+    return allocate_is_constant(i) || ir_is_invariant_read(i);
+}
+
+bool place_holds(const struct check *c, const struct content *p, unsigned value)
+{
+    const struct ir_instruction *i = placement_operation(c, value);
+    if (contains(p, value))
+        return true;
+    if (i->op == IR_copy && allocate_is_constant(placement_operation(c, i->operand[0])))
+        i = placement_operation(c, i->operand[0]);
+    return (place_lasts(i) || value == c->number) && comes_from(c, p, i);
+}
+
+/* Notes which of the operation's operands are read here. Returns whether any is. */
+bool place_note_operands(struct check *c, const struct content *p)
+{
+    const struct ir_instruction *i = placement_operation(c, c->number);
+    bool any = false;
+    for (int o = 0; o < ir_op_information[i->op].operands; o++)
+        if (place_holds(c, p, i->operand[o])) {
+            c->read |= 1u << o;
+            any = true;
+        }
+    return any;
+}
+
+void place_expect(struct check *c, const struct content *p, const char *where, long number)
+{
+    const struct ir_instruction *i = placement_operation(c, c->number);
+    bool sign = i->op == IR_neg_f && p->origin == FROM_LITERAL && p->number == INT32_MIN;
+    if (place_note_operands(c, p) || sign || p->made_in == c->visit)
+        return;
+    if (p->count)
+        placement_wrong(c, "reads %s %ld, which holds %%%u", where, number, p->value[p->count - 1]);
+    else
+        placement_wrong(c, "reads %s %ld, which holds no operand", where, number);
+}
+
+/* --- States ------------------------------------------------------------------------------------------------- */
+
+void places_copy(const struct check *c, struct places *to, const struct places *from)
+{
+    if (!to->at)
+        to->at = malloc(c->places * sizeof *to->at);
+    if (!to->at)
+        abort();
+    to->reached = from->reached;
+    for (unsigned p = 0; p < c->places; p++)
+        place_assign(&to->at[p], &from->at[p]);
+}
+
+/* Keeps what both hold. Returns whether anything had to go. */
+static bool intersect(struct content *p, const struct content *other)
+{
+    unsigned kept = 0;
+    bool changed =
+        p->origin && (p->origin != other->origin || p->base != other->base || p->number != other->number);
+    if (changed)
+        p->origin = FROM_NOTHING;
+    for (unsigned n = 0; n < p->count; n++)
+        if (contains(other, p->value[n]))
+            p->value[kept++] = p->value[n];
+    changed |= kept != p->count;
+    p->count = (uint16_t)kept;
+    p->made_in = p->made_in == other->made_in ? p->made_in : 0;
+    return changed;
+}
+
+bool places_merge(const struct check *c, struct places *to, const struct places *from)
+{
+    bool changed = false;
+    if (!from->reached)
+        return false;
+    if (!to->reached) {
+        places_copy(c, to, from);
+        return true;
+    }
+    for (unsigned p = 0; p < c->places; p++)
+        changed |= intersect(&to->at[p], &from->at[p]);
+    return changed;
+}
+
+/* Everywhere, from now on, what holds `source` also holds `name`. */
+void places_rename(struct check *c, struct places *s, unsigned name, unsigned source)
+{
+    for (unsigned p = 0; p < c->places; p++)
+        if (place_holds(c, &s->at[p], source))
+            place_add(&s->at[p], name);
+}
+
+void places_name_joins(struct check *c, struct places *s, uint32_t end, int operand)
+{
+    for (uint32_t n = end + 1; n < c->ir->count && placement_operation(c, n)->op == IR_join; n++)
+        places_rename(c, s, n, placement_operation(c, n)->operand[operand]);
+}
+
+/* All phis of the loop that ends here become their next values at once. */
+void places_name_next(struct check *c, struct places *s)
+{
+    for (unsigned p = 0; p < c->places; p++) {
+        struct content before, *after = &s->at[p];
+        place_assign(&before, after);
+        for (uint32_t n = c->number - 1; placement_operation(c, n)->op == IR_next; n--)
+            remove_value(after, placement_operation(c, n)->operand[0]);
+        for (uint32_t n = c->number - 1; placement_operation(c, n)->op == IR_next; n--)
+            if (place_holds(c, &before, placement_operation(c, n)->operand[1]))
+                place_add(after, placement_operation(c, n)->operand[0]);
+    }
+}
