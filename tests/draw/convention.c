@@ -1,18 +1,22 @@
 /* Generated routines as callees: thousands of every engine, in every unit, called through the checked trampoline on random
  * data. They keep the calling convention, do not write to what they may only read nor beyond what they are to write,
  * and agree with one another. And they follow from their key alone: built again at another address, in another arena,
- * after another routine, they are the same bytes. */
+ * after another routine, in another process, they are the same bytes. */
+#define _GNU_SOURCE
 #include "base/code.h"
 #include "engines.h"
+#include "stitch/fragment.h"
 #include "tests/support/differential.h"
 #include "tests/support/routines.h"
 #include "tests/support/seed.h"
 #include "tests/support/trampoline.h"
 
+#include <stdio.h>
 #include <string.h>
 #include <unity.h>
+#include <xxhash.h>
 
-enum { ENGINES = 8, RANDOM_KEYS = 600, RANDOM_SHADERS = 200 };
+enum { ENGINES = 8, RANDOM_KEYS = 600, RANDOM_SHADERS = 200, HASHED_KEYS = 150 };
 
 static struct code_arena *arena, *other;
 static struct differential *differential;
@@ -135,6 +139,59 @@ static void check(void *context, enum unit unit, const union key *key)
         TEST_FAIL_MESSAGE(found);
 }
 
+/* --- Another process --------------------------------------------------------------------------------------- */
+
+/* The one address that code holds, of the stitcher's constants, is another in each process. */
+static void forget_address(uint8_t *code, size_t bytes)
+{
+    const void *address = stitch_constants;
+    for (uint8_t *at = code; (at = memmem(at, (size_t)(code + bytes - at), &address, sizeof address));)
+        memset(at, 0, sizeof address);
+}
+
+static void hash_bytes(void *hash, enum unit unit, const union key *key)
+{
+    for (unsigned e = 0; e < engine_count; e++) {
+        static uint8_t code[1 << 20];
+        struct routine *routine = build(engines[e], arena, unit, key);
+        TEST_ASSERT_LESS_OR_EQUAL(sizeof code, routine->code_bytes);
+        memcpy(code, routine->code, routine->code_bytes);
+        forget_address(code, routine->code_bytes);
+        *(uint64_t *)hash = XXH3_64bits_withSeed(code, routine->code_bytes, *(uint64_t *)hash);
+        engines[e]->free(arena, routine);
+    }
+}
+
+static uint64_t hash_of_many(void)
+{
+    uint64_t hash = 0;
+    visit_random_keys(HASHED_KEYS, test_seed(), hash_bytes, &hash);
+    visit_shaders(test_seed(), hash_bytes, &hash);
+    return hash;
+}
+
+/* Where all addresses are others. */
+static void test_another_process_makes_the_same_bytes(void)
+{
+    unsigned long long other_hash = 0;
+    FILE *process = popen("/proc/$PPID/exe hash", "r");
+    TEST_ASSERT_NOT_NULL(process);
+    int items = fscanf(process, "%llx", &other_hash);
+    TEST_ASSERT_EQUAL_INT(0, pclose(process));
+    TEST_ASSERT_EQUAL_INT(1, items);
+    TEST_ASSERT_EQUAL_HEX64(hash_of_many(), other_hash);
+}
+
+static int print_hash(void)
+{
+    setUp();
+    printf("%llx\n", (unsigned long long)hash_of_many());
+    tearDown();
+    return 0;
+}
+
+/* --- Many ---------------------------------------------------------------------------------------------------- */
+
 static void test_routines_of_random_keys(void)
 {
     TEST_ASSERT_GREATER_THAN(RANDOM_KEYS / 2, visit_random_keys(RANDOM_KEYS, seed, check, NULL));
@@ -155,10 +212,13 @@ static void test_routines_of_the_streams(void)
     TEST_ASSERT_GREATER_THAN(500, visit_streams(check, NULL));
 }
 
-int main(void)
+int main(int count, char **arguments)
 {
+    if (count > 1 && !strcmp(arguments[1], "hash"))
+        return print_hash();
     UNITY_BEGIN();
     RUN_TEST(test_offences_are_noticed);
+    RUN_TEST(test_another_process_makes_the_same_bytes);
     RUN_TEST(test_routines_of_random_keys);
     RUN_TEST(test_routines_of_the_shaders);
     RUN_TEST(test_routines_of_random_shaders);
