@@ -1,6 +1,7 @@
 /* The public functions: null pointers are refused here, everything else by the device; the reason of a
  * failure is kept for triptych_error(). */
 #define _GNU_SOURCE /* secure_getenv */
+#include "container/record.h"
 #include "draw/depth.h"
 #include "draw/device.h"
 #include "engines.h"
@@ -44,6 +45,12 @@ enum triptych_result triptych_device_create(const struct triptych_options *optio
     if (device) {
         *device = NULL;
         result = create(options, device, &error);
+        if (result == TRIPTYCH_OK)
+            result = record_from_environment(*device, &error);
+        if (result != TRIPTYCH_OK) {
+            device_destroy(*device);
+            *device = NULL;
+        }
     } else {
         error_set(&error, "device is null: expected where to put it");
     }
@@ -54,6 +61,8 @@ enum triptych_result triptych_device_create(const struct triptych_options *optio
 
 void triptych_device_destroy(triptych_device *device)
 {
+    if (device && device->recorder)
+        record_stop(device, NULL);
     device_destroy(device);
 }
 
@@ -118,6 +127,27 @@ static enum triptych_result changed(triptych_device *device, enum triptych_resul
     return finish(device, result, error);
 }
 
+/* --- Recording --------------------------------------------------------------------------------------------
+ */
+
+enum triptych_result triptych_record_start(triptych_device *device, const char *path)
+{
+    if (!device)
+        return TRIPTYCH_BAD_ARGUMENT;
+    if (!path)
+        return null_argument(device, "path");
+    struct error error = {{0}};
+    return finish(device, record_start(device, path, &error), &error);
+}
+
+enum triptych_result triptych_record_stop(triptych_device *device)
+{
+    if (!device)
+        return TRIPTYCH_BAD_ARGUMENT;
+    struct error error = {{0}};
+    return finish(device, record_stop(device, &error), &error);
+}
+
 /* --- Target, buffers, textures ----------------------------------------------------------------------------
  */
 
@@ -127,7 +157,10 @@ enum triptych_result triptych_set_target(triptych_device *device, unsigned width
         return TRIPTYCH_BAD_ARGUMENT;
     struct triptych_target_description description = {.width = width, .height = height};
     struct error error = {{0}};
-    return finish(device, device_set_target(device, &description, &error), &error);
+    enum triptych_result result = device_set_target(device, &description, &error);
+    if (result == TRIPTYCH_OK)
+        record_target(device, &description);
+    return finish(device, result, &error);
 }
 
 enum triptych_result triptych_set_target_description(triptych_device *device,
@@ -138,7 +171,10 @@ enum triptych_result triptych_set_target_description(triptych_device *device,
     if (!description)
         return null_argument(device, "description");
     struct error error = {{0}};
-    return finish(device, device_set_target(device, description, &error), &error);
+    enum triptych_result result = device_set_target(device, description, &error);
+    if (result == TRIPTYCH_OK)
+        record_target(device, description);
+    return finish(device, result, &error);
 }
 
 enum triptych_result triptych_buffer_create(triptych_device *device, const void *data, size_t bytes,
@@ -161,6 +197,7 @@ enum triptych_result triptych_buffer_create(triptych_device *device, const void 
     }
     (*buffer)->next = device->buffers;
     device->buffers = *buffer;
+    record_new_buffer(device, *buffer);
     return TRIPTYCH_OK;
 }
 
@@ -171,6 +208,7 @@ enum triptych_result triptych_buffer_destroy(triptych_device *device, triptych_b
     if (!buffer)
         return TRIPTYCH_OK;
     struct error error = {{0}};
+    record_end_buffer(device, buffer);
     return finish(device, device_buffer_destroy(device, buffer, &error), &error);
 }
 
@@ -187,6 +225,10 @@ enum triptych_result triptych_texture_create(triptych_device *device, const void
     enum triptych_result result = device_texture_create(device, &description, texture, &error);
     if (result == TRIPTYCH_OK)
         result = device_texture_update(device, *texture, 0, 0, NULL, rgba, 4 * (size_t)width, 0, &error);
+    if (result == TRIPTYCH_OK) {
+        record_new_texture(device, *texture);
+        record_update(device, *texture, 0, 0, NULL, rgba, 4 * (size_t)width, 0);
+    }
     return finish(device, result, &error);
 }
 
@@ -199,7 +241,10 @@ enum triptych_result triptych_texture_define(triptych_device *device,
     if (!description || !texture)
         return null_argument(device, description ? "texture" : "description");
     struct error error = {{0}};
-    return finish(device, device_texture_create(device, description, texture, &error), &error);
+    enum triptych_result result = device_texture_create(device, description, texture, &error);
+    if (result == TRIPTYCH_OK)
+        record_new_texture(device, *texture);
+    return finish(device, result, &error);
 }
 
 enum triptych_result triptych_texture_update(triptych_device *device, triptych_texture *texture,
@@ -211,10 +256,11 @@ enum triptych_result triptych_texture_update(triptych_device *device, triptych_t
     if (!texture || !data)
         return null_argument(device, texture ? "data" : "texture");
     struct error error = {{0}};
-    return finish(
-        device,
-        device_texture_update(device, texture, face, level, box, data, row_pitch, slice_pitch, &error),
-        &error);
+    enum triptych_result result =
+        device_texture_update(device, texture, face, level, box, data, row_pitch, slice_pitch, &error);
+    if (result == TRIPTYCH_OK)
+        record_update(device, texture, face, level, box, data, row_pitch, slice_pitch);
+    return finish(device, result, &error);
 }
 
 enum triptych_result triptych_texture_generate_mips(triptych_device *device, triptych_texture *texture)
@@ -224,6 +270,7 @@ enum triptych_result triptych_texture_generate_mips(triptych_device *device, tri
     if (!texture)
         return null_argument(device, "texture");
     device_texture_generate_mips(device, texture);
+    record_mips(device, texture);
     return TRIPTYCH_OK;
 }
 
@@ -234,6 +281,7 @@ enum triptych_result triptych_texture_destroy(triptych_device *device, triptych_
     if (!texture)
         return TRIPTYCH_OK;
     struct error error = {{0}};
+    record_end_texture(device, texture);
     return finish(device, device_texture_destroy(device, texture, &error), &error);
 }
 
@@ -247,6 +295,20 @@ static int read_tokens(const char *path, const char *data, size_t bytes, struct 
                        struct error *error)
 {
     return shader_read(path, data, bytes, shader, error);
+}
+
+/* What recordings write of a shader that lives when they begin. */
+static enum triptych_result keep_source(triptych_device *device, const void *data, size_t bytes, bool is_text,
+                                        triptych_shader **shader, struct error *error)
+{
+    enum triptych_result result = device_shader_keep(*shader, data, bytes, is_text, error);
+    if (result == TRIPTYCH_OK) {
+        record_new_shader(device, *shader);
+        return result;
+    }
+    device_shader_destroy(device, *shader, NULL);
+    *shader = NULL;
+    return result;
 }
 
 /* The front end's functions want a locale that writes numbers with a point. */
@@ -273,6 +335,8 @@ static enum triptych_result create_shader(triptych_device *device, const char *n
     } else {
         status = device_shader_create(device, shader, result, &error);
         shader_free(shader);
+        if (status == TRIPTYCH_OK)
+            status = keep_source(device, data, bytes, read == shader_assemble, result, &error);
     }
     uselocale(before);
     freelocale(locale);
@@ -298,6 +362,7 @@ enum triptych_result triptych_shader_destroy(triptych_device *device, triptych_s
     if (!shader)
         return TRIPTYCH_OK;
     struct error error = {{0}};
+    record_end_shader(device, shader);
     return finish(device, device_shader_destroy(device, shader, &error), &error);
 }
 
@@ -318,7 +383,10 @@ static enum triptych_result set_shader(triptych_device *device, enum shader_stag
     if (!device)
         return TRIPTYCH_BAD_ARGUMENT;
     struct error error = {{0}};
-    return finish(device, device_set_shader(device, stage, shader, &error), &error);
+    enum triptych_result result = device_set_shader(device, stage, shader, &error);
+    if (result == TRIPTYCH_OK)
+        record_shader(device, stage, shader);
+    return finish(device, result, &error);
 }
 
 enum triptych_result triptych_set_vertex_shader(triptych_device *device, triptych_shader *shader)
@@ -339,7 +407,10 @@ enum triptych_result triptych_set_shader_floats(triptych_device *device, enum tr
     if (!values && count)
         return null_argument(device, "values");
     struct error error = {{0}};
-    return finish(device, device_set_floats(device, stage, first, values, count, &error), &error);
+    enum triptych_result result = device_set_floats(device, stage, first, values, count, &error);
+    if (result == TRIPTYCH_OK)
+        record_floats(device, stage, first, values, count);
+    return finish(device, result, &error);
 }
 
 enum triptych_result triptych_set_shader_integers(triptych_device *device, enum triptych_shader_stage stage,
@@ -350,7 +421,10 @@ enum triptych_result triptych_set_shader_integers(triptych_device *device, enum 
     if (!values && count)
         return null_argument(device, "values");
     struct error error = {{0}};
-    return finish(device, device_set_integers(device, stage, first, values, count, &error), &error);
+    enum triptych_result result = device_set_integers(device, stage, first, values, count, &error);
+    if (result == TRIPTYCH_OK)
+        record_integers(device, stage, first, values, count);
+    return finish(device, result, &error);
 }
 
 enum triptych_result triptych_set_shader_booleans(triptych_device *device, enum triptych_shader_stage stage,
@@ -361,7 +435,10 @@ enum triptych_result triptych_set_shader_booleans(triptych_device *device, enum 
     if (!values && count)
         return null_argument(device, "values");
     struct error error = {{0}};
-    return finish(device, device_set_booleans(device, stage, first, values, count, &error), &error);
+    enum triptych_result result = device_set_booleans(device, stage, first, values, count, &error);
+    if (result == TRIPTYCH_OK)
+        record_booleans(device, stage, first, values, count);
+    return finish(device, result, &error);
 }
 
 /* --- State ------------------------------------------------------------------------------------------------
@@ -373,7 +450,10 @@ static enum triptych_result set_value(triptych_device *device, enum triptych_sta
     if (!device)
         return TRIPTYCH_BAD_ARGUMENT;
     struct error error = {{0}};
-    return changed(device, state_set_value(&device->state, table, i, row, value, &error), &error);
+    enum triptych_result result = state_set_value(&device->state, table, i, row, value, &error);
+    if (result == TRIPTYCH_OK)
+        record_value(device, table, i, row, value);
+    return changed(device, result, &error);
 }
 
 enum triptych_result triptych_set_state(triptych_device *device, enum triptych_state which, uint32_t value)
@@ -401,7 +481,10 @@ enum triptych_result triptych_set_transform(triptych_device *device, enum tripty
     if (!matrix)
         return null_argument(device, "matrix");
     struct error error = {{0}};
-    return changed(device, state_set_transform(&device->state, which, matrix, &error), &error);
+    enum triptych_result result = state_set_transform(&device->state, which, matrix, &error);
+    if (result == TRIPTYCH_OK)
+        record_transform(device, which, matrix);
+    return changed(device, result, &error);
 }
 
 enum triptych_result triptych_set_viewport(triptych_device *device, const struct triptych_viewport *viewport)
@@ -415,10 +498,11 @@ enum triptych_result triptych_set_viewport(triptych_device *device, const struct
         error_set(&error, "no target: expected set_target before a viewport");
         return finish(device, TRIPTYCH_BAD_CALL, &error);
     }
-    return changed(
-        device,
-        state_set_viewport(&device->state, viewport, device->target.width, device->target.height, &error),
-        &error);
+    enum triptych_result result =
+        state_set_viewport(&device->state, viewport, device->target.width, device->target.height, &error);
+    if (result == TRIPTYCH_OK)
+        record_viewport(device, viewport);
+    return changed(device, result, &error);
 }
 
 enum triptych_result triptych_set_scissor(triptych_device *device, unsigned x, unsigned y, unsigned width,
@@ -431,10 +515,11 @@ enum triptych_result triptych_set_scissor(triptych_device *device, unsigned x, u
         error_set(&error, "no target: expected set_target before a scissor rectangle");
         return finish(device, TRIPTYCH_BAD_CALL, &error);
     }
-    return changed(device,
-                   state_set_scissor(&device->state, (struct scissor){x, y, width, height},
-                                     device->target.width, device->target.height, &error),
-                   &error);
+    enum triptych_result result = state_set_scissor(&device->state, (struct scissor){x, y, width, height},
+                                                    device->target.width, device->target.height, &error);
+    if (result == TRIPTYCH_OK)
+        record_scissor(device, x, y, width, height);
+    return changed(device, result, &error);
 }
 
 enum triptych_result triptych_set_clip_plane(triptych_device *device, unsigned i, const float plane[4])
@@ -444,7 +529,10 @@ enum triptych_result triptych_set_clip_plane(triptych_device *device, unsigned i
     if (!plane)
         return null_argument(device, "plane");
     struct error error = {{0}};
-    return changed(device, state_set_clip_plane(&device->state, i, plane, &error), &error);
+    enum triptych_result result = state_set_clip_plane(&device->state, i, plane, &error);
+    if (result == TRIPTYCH_OK)
+        record_clip_plane(device, i, plane);
+    return changed(device, result, &error);
 }
 
 enum triptych_result triptych_set_convention(triptych_device *device, enum triptych_convention which,
@@ -453,7 +541,10 @@ enum triptych_result triptych_set_convention(triptych_device *device, enum tript
     if (!device)
         return TRIPTYCH_BAD_ARGUMENT;
     struct error error = {{0}};
-    return changed(device, state_set_convention(&device->state, which, value, &error), &error);
+    enum triptych_result result = state_set_convention(&device->state, which, value, &error);
+    if (result == TRIPTYCH_OK)
+        record_convention(device, which, value);
+    return changed(device, result, &error);
 }
 
 enum triptych_result triptych_set_material(triptych_device *device, const struct triptych_material *material)
@@ -463,7 +554,10 @@ enum triptych_result triptych_set_material(triptych_device *device, const struct
     if (!material)
         return null_argument(device, "material");
     struct error error = {{0}};
-    return changed(device, state_set_material(&device->state, material, &error), &error);
+    enum triptych_result result = state_set_material(&device->state, material, &error);
+    if (result == TRIPTYCH_OK)
+        record_material(device, material);
+    return changed(device, result, &error);
 }
 
 enum triptych_result triptych_set_light(triptych_device *device, unsigned index,
@@ -474,7 +568,10 @@ enum triptych_result triptych_set_light(triptych_device *device, unsigned index,
     if (!light)
         return null_argument(device, "light");
     struct error error = {{0}};
-    return changed(device, state_set_light(&device->state, index, light, &error), &error);
+    enum triptych_result result = state_set_light(&device->state, index, light, &error);
+    if (result == TRIPTYCH_OK)
+        record_light(device, index, light);
+    return changed(device, result, &error);
 }
 
 enum triptych_result triptych_enable_light(triptych_device *device, unsigned index, int enable)
@@ -487,6 +584,7 @@ enum triptych_result triptych_enable_light(triptych_device *device, unsigned ind
         return finish(device, TRIPTYCH_BAD_ARGUMENT, &error);
     }
     device->state.light_enabled[index] = enable != 0;
+    record_enable_light(device, index, enable);
     return changed(device, TRIPTYCH_OK, &error);
 }
 
@@ -501,6 +599,7 @@ enum triptych_result triptych_set_texture(triptych_device *device, unsigned samp
         return finish(device, TRIPTYCH_BAD_ARGUMENT, &error);
     }
     device->state.texture[sampler] = texture;
+    record_bind_texture(device, sampler, texture);
     return changed(device, TRIPTYCH_OK, &error);
 }
 
@@ -512,7 +611,10 @@ enum triptych_result triptych_set_element(triptych_device *device, enum triptych
     if (!element)
         return null_argument(device, "element");
     struct error error = {{0}};
-    return changed(device, state_set_element(&device->state, attribute, element, &error), &error);
+    enum triptych_result result = state_set_element(&device->state, attribute, element, &error);
+    if (result == TRIPTYCH_OK)
+        record_element(device, attribute, element);
+    return changed(device, result, &error);
 }
 
 enum triptych_result triptych_set_declaration(triptych_device *device,
@@ -524,7 +626,10 @@ enum triptych_result triptych_set_declaration(triptych_device *device,
     if (!elements && count)
         return null_argument(device, "elements");
     struct error error = {{0}};
-    return changed(device, state_set_declaration(&device->state, elements, count, &error), &error);
+    enum triptych_result result = state_set_declaration(&device->state, elements, count, &error);
+    if (result == TRIPTYCH_OK)
+        record_declaration(device, elements, count);
+    return changed(device, result, &error);
 }
 
 enum triptych_result triptych_set_fvf(triptych_device *device, uint32_t fvf)
@@ -532,7 +637,10 @@ enum triptych_result triptych_set_fvf(triptych_device *device, uint32_t fvf)
     if (!device)
         return TRIPTYCH_BAD_ARGUMENT;
     struct error error = {{0}};
-    return changed(device, state_set_fvf(&device->state, fvf, &error), &error);
+    enum triptych_result result = state_set_fvf(&device->state, fvf, &error);
+    if (result == TRIPTYCH_OK)
+        record_fvf(device, fvf);
+    return changed(device, result, &error);
 }
 
 enum triptych_result triptych_set_stream(triptych_device *device, unsigned stream, triptych_buffer *buffer,
@@ -541,7 +649,10 @@ enum triptych_result triptych_set_stream(triptych_device *device, unsigned strea
     if (!device)
         return TRIPTYCH_BAD_ARGUMENT;
     struct error error = {{0}};
-    return changed(device, state_set_stream(&device->state, stream, buffer, offset, stride, &error), &error);
+    enum triptych_result result = state_set_stream(&device->state, stream, buffer, offset, stride, &error);
+    if (result == TRIPTYCH_OK)
+        record_stream(device, stream, buffer, offset, stride);
+    return changed(device, result, &error);
 }
 
 enum triptych_result triptych_set_stream_frequency(triptych_device *device, unsigned stream,
@@ -550,7 +661,10 @@ enum triptych_result triptych_set_stream_frequency(triptych_device *device, unsi
     if (!device)
         return TRIPTYCH_BAD_ARGUMENT;
     struct error error = {{0}};
-    return changed(device, state_set_frequency(&device->state, stream, frequency, count, &error), &error);
+    enum triptych_result result = state_set_frequency(&device->state, stream, frequency, count, &error);
+    if (result == TRIPTYCH_OK)
+        record_frequency(device, stream, frequency, count);
+    return changed(device, result, &error);
 }
 
 enum triptych_result triptych_set_indices(triptych_device *device, triptych_buffer *buffer, unsigned bits)
@@ -564,6 +678,7 @@ enum triptych_result triptych_set_indices(triptych_device *device, triptych_buff
     }
     device->state.indices = buffer;
     device->state.index_bits = buffer ? bits : 0;
+    record_indices(device, buffer, bits);
     return TRIPTYCH_OK;
 }
 
@@ -576,7 +691,10 @@ enum triptych_result triptych_draw(triptych_device *device, enum triptych_primit
     if (!device)
         return TRIPTYCH_BAD_ARGUMENT;
     struct error error = {{0}};
-    return finish(device, device_draw(device, primitive, first, count, &error), &error);
+    enum triptych_result result = device_draw(device, primitive, first, count, &error);
+    if (result == TRIPTYCH_OK)
+        record_draw(device, primitive, first, count);
+    return finish(device, result, &error);
 }
 
 enum triptych_result triptych_draw_indexed(triptych_device *device, enum triptych_primitive primitive,
@@ -585,7 +703,10 @@ enum triptych_result triptych_draw_indexed(triptych_device *device, enum triptyc
     if (!device)
         return TRIPTYCH_BAD_ARGUMENT;
     struct error error = {{0}};
-    return finish(device, device_draw_indexed(device, primitive, base, first, count, &error), &error);
+    enum triptych_result result = device_draw_indexed(device, primitive, base, first, count, &error);
+    if (result == TRIPTYCH_OK)
+        record_draw_indexed(device, primitive, base, first, count);
+    return finish(device, result, &error);
 }
 
 enum triptych_result triptych_clear(triptych_device *device, const float color[4], float depth)
@@ -595,7 +716,10 @@ enum triptych_result triptych_clear(triptych_device *device, const float color[4
     struct clear_values values = {(color ? TRIPTYCH_CLEAR_COLOR : 0) | (depth < 0 ? 0 : TRIPTYCH_CLEAR_DEPTH),
                                   color, depth, 0};
     struct error error = {{0}};
-    return finish(device, device_clear(device, &values, &error), &error);
+    enum triptych_result result = device_clear(device, &values, &error);
+    if (result == TRIPTYCH_OK)
+        record_clear(device, &values);
+    return finish(device, result, &error);
 }
 
 enum triptych_result triptych_clear_buffers(triptych_device *device, unsigned flags, const float color[4],
@@ -607,7 +731,10 @@ enum triptych_result triptych_clear_buffers(triptych_device *device, unsigned fl
         return null_argument(device, "color");
     struct clear_values values = {flags, color, depth, stencil};
     struct error error = {{0}};
-    return finish(device, device_clear(device, &values, &error), &error);
+    enum triptych_result result = device_clear(device, &values, &error);
+    if (result == TRIPTYCH_OK)
+        record_clear(device, &values);
+    return finish(device, result, &error);
 }
 
 /* --- Queries ----------------------------------------------------------------------------------------------
@@ -627,8 +754,10 @@ enum triptych_result triptych_query_create(triptych_device *device, enum triptyc
         return finish(device, TRIPTYCH_BAD_ARGUMENT, &error);
     }
     *query = query_create(&device->queries, type);
-    if (*query)
+    if (*query) {
+        record_new_query(device, *query);
         return TRIPTYCH_OK;
+    }
     error_set(&error, "out of memory for a query");
     return finish(device, TRIPTYCH_NO_MEMORY, &error);
 }
@@ -640,6 +769,7 @@ enum triptych_result triptych_query_destroy(triptych_device *device, triptych_qu
     if (!query)
         return TRIPTYCH_OK;
     struct error error = {{0}};
+    record_end_query(device, query);
     return finish(device, device_query_destroy(device, query, &error), &error);
 }
 
@@ -650,7 +780,10 @@ enum triptych_result triptych_query_begin(triptych_device *device, triptych_quer
     if (!query)
         return null_argument(device, "query");
     struct error error = {{0}};
-    return finish(device, device_query_begin(device, query, &error), &error);
+    enum triptych_result result = device_query_begin(device, query, &error);
+    if (result == TRIPTYCH_OK)
+        record_query(device, query, 1);
+    return finish(device, result, &error);
 }
 
 enum triptych_result triptych_query_end(triptych_device *device, triptych_query *query)
@@ -660,7 +793,10 @@ enum triptych_result triptych_query_end(triptych_device *device, triptych_query 
     if (!query)
         return null_argument(device, "query");
     struct error error = {{0}};
-    return finish(device, device_query_end(device, query, &error), &error);
+    enum triptych_result result = device_query_end(device, query, &error);
+    if (result == TRIPTYCH_OK)
+        record_query(device, query, 0);
+    return finish(device, result, &error);
 }
 
 enum triptych_result triptych_query_result(triptych_device *device, triptych_query *query, uint64_t *result)
@@ -678,6 +814,7 @@ enum triptych_result triptych_finish(triptych_device *device)
     if (!device)
         return TRIPTYCH_BAD_ARGUMENT;
     device_finish(device);
+    record_frame(device);
     return TRIPTYCH_OK;
 }
 
@@ -717,7 +854,11 @@ enum triptych_result triptych_set_target_textures(triptych_device *device,
     if (!device)
         return TRIPTYCH_BAD_ARGUMENT;
     struct error error = {{0}};
-    return finish(device, device_set_target_textures(device, textures, &error), &error);
+    bool changes = textures || device->draws_to_textures;
+    enum triptych_result result = device_set_target_textures(device, textures, &error);
+    if (result == TRIPTYCH_OK && changes)
+        record_attach(device, textures);
+    return finish(device, result, &error);
 }
 
 enum triptych_result triptych_copy(triptych_device *device, const struct triptych_surface *source,
@@ -736,7 +877,10 @@ enum triptych_result triptych_copy(triptych_device *device, const struct triptyc
         copy.part[0] = *source_part;
     if (target_part)
         copy.part[1] = *target_part;
-    return finish(device, device_copy(device, &copy, &error), &error);
+    enum triptych_result result = device_copy(device, &copy, &error);
+    if (result == TRIPTYCH_OK)
+        record_copy(device, &copy);
+    return finish(device, result, &error);
 }
 
 enum triptych_result triptych_read_surface(triptych_device *device, const struct triptych_surface *surface,
@@ -812,7 +956,10 @@ enum triptych_result triptych_write_contents(triptych_device *device, const void
     if (!data)
         return null_argument(device, "data");
     struct error error = {{0}};
-    return finish(device, device_write_contents(device, data, bytes, &error), &error);
+    enum triptych_result result = device_write_contents(device, data, bytes, &error);
+    if (result == TRIPTYCH_OK)
+        record_contents(device, data, bytes);
+    return finish(device, result, &error);
 }
 
 size_t triptych_texture_texel_bytes(const triptych_texture *texture)
@@ -839,7 +986,10 @@ enum triptych_result triptych_texture_write_texels(triptych_device *device, trip
     if (!texture || !data)
         return null_argument(device, texture ? "data" : "texture");
     struct error error = {{0}};
-    return finish(device, device_write_texels(device, texture, data, bytes, &error), &error);
+    enum triptych_result result = device_write_texels(device, texture, data, bytes, &error);
+    if (result == TRIPTYCH_OK)
+        record_texels(device, texture, data, bytes);
+    return finish(device, result, &error);
 }
 
 void triptych_get_target(const triptych_device *device, struct triptych_target_description *description)

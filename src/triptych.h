@@ -35,7 +35,8 @@ enum triptych_result {
     TRIPTYCH_BAD_CALL,     /* not possible in this state: no target, index past the buffer, ... */
     TRIPTYCH_UNSUPPORTED,  /* a state or value that Direct3D 9 has and this version does not */
     TRIPTYCH_NO_MEMORY,
-    TRIPTYCH_ENGINE_FAILED /* the engine cannot run here or could not build a routine */
+    TRIPTYCH_ENGINE_FAILED, /* the engine cannot run here or could not build a routine */
+    TRIPTYCH_FILE_FAILED    /* a recording could not be written */
 };
 
 typedef struct triptych_device triptych_device;
@@ -594,6 +595,16 @@ TRIPTYCH_API enum triptych_result triptych_query_result(triptych_device *, tript
                                                         uint64_t *result);
 /* Frees a query, also one that has begun. Null is allowed. */
 TRIPTYCH_API enum triptych_result triptych_query_destroy(triptych_device *, triptych_query *);
+
+/* Recording of calls, into a container of draws (docs/container.md), while they run: everything that pictures depend on,
+ * with the memory that it reads. What lives on the device when it starts is written first, so that it may start at any
+ * time. triptych_finish ends a frame of the recording. Failures to write are told when it stops, and then there is no file;
+ * until it stops there is none of that name either. A device that is destroyed stops its recording.
+ *
+ * With TRIPTYCH_RECORD=PATH in the environment, every device that a process creates is recorded from its creation on; all
+ * but the first have a number in front of the path's extension. */
+TRIPTYCH_API enum triptych_result triptych_record_start(triptych_device *, const char *path);
+TRIPTYCH_API enum triptych_result triptych_record_stop(triptych_device *);
 
 /* Renders everything recorded so far. */
 TRIPTYCH_API enum triptych_result triptych_finish(triptych_device *);

@@ -62,12 +62,13 @@ static void append(struct chunk_writer *writer, const void *data, size_t bytes)
         writer->failed = true;
 }
 
-int chunk_open(struct chunk_writer *writer, const char *path, struct error *error)
+int chunk_open(struct chunk_writer *writer, const char *path, bool recording, struct error *error)
 {
     uint8_t header[CHUNK_FILE_HEADER] = {0};
     *writer = (struct chunk_writer){.contents = malloc(CHUNK_BYTES),
                                     .stored = malloc(CHUNK_HEADER + CHUNK_BYTES),
-                                    .context = ZSTD_createCCtx()};
+                                    .context = ZSTD_createCCtx(),
+                                    .recording = recording};
     if (!writer->contents || !writer->stored || !writer->context) {
         free_writer(writer);
         return error_set(error, "%s: not enough memory", path);
@@ -78,6 +79,7 @@ int chunk_open(struct chunk_writer *writer, const char *path, struct error *erro
     }
     memcpy(header, magic, sizeof magic);
     put32(header + sizeof magic, CONTAINER_VERSION);
+    put32(header + 12, recording);
     append(writer, header, sizeof header);
     return 0;
 }
@@ -91,7 +93,7 @@ static void write_chunk(struct chunk_writer *writer, enum type type, size_t stor
     put32(header + 16, (uint32_t)stored);
     put32(header + 20, (uint32_t)bytes);
     put32(header + 24, writer->frames);
-    put32(header + 28, 0);
+    put32(header + 28, writer->recording);
     put64(header, XXH3_64bits(header + 8, CHUNK_HEADER - 8 + stored));
     append(writer, header, CHUNK_HEADER + stored);
     writer->all_frames += writer->frames;
@@ -229,9 +231,10 @@ static int read_header(struct chunk_reader *reader, struct error *error)
     if (version != CONTAINER_VERSION)
         return error_set(error, "%s: offset 8: found version %" PRIu32 " of the format, expected %d",
                          reader->path, version, CONTAINER_VERSION);
-    if (get32(header + 12))
-        return error_set(error, "%s: offset 12: found %" PRIu32 ", expected 0", reader->path,
+    if (get32(header + 12) > 1)
+        return error_set(error, "%s: offset 12: found %" PRIu32 ", expected 0 or 1", reader->path,
                          get32(header + 12));
+    reader->recording = get32(header + 12);
     reader->offset = CHUNK_FILE_HEADER;
     return 0;
 }
@@ -292,8 +295,9 @@ static int check_header(const struct chunk_reader *reader, const uint8_t *header
         snprintf(reason, sizeof reason,
                  "found %" PRIu32 " bytes stored for %" PRIu32 ", expected 1 to %d, and no more stored",
                  stored, bytes, CHUNK_BYTES);
-    else if (get32(header + 28))
-        snprintf(reason, sizeof reason, "found %" PRIu32 " in the header, expected 0", get32(header + 28));
+    else if (get32(header + 28) != reader->recording)
+        snprintf(reason, sizeof reason, "found %" PRIu32 " in the header, expected %d as in the file's",
+                 get32(header + 28), reader->recording);
     return *reason ? fail_next(reader, error, reason) : 0;
 }
 

@@ -2,14 +2,14 @@
  *
  *   header    0  8 bytes  8d 'T' 'R' 'I' 'B' 0d 0a 1a: no text begins so, and files that were sent as text do not
  *             8  u32      version, 1
- *            12  u32      0
+ *            12  u32      1 of a recording: what is behind its last frame is no frame; else 0
  *   chunk     0  u64      XXH3-64 of all that follows in the chunk
  *             8  u32      type: "BODY", "END "
  *            12  u32      number, from 0
  *            16  u32      bytes that are stored, at most as many as there are contents
  *            20  u32      bytes of the contents, 1 to 2^20
  *            24  u32      frames that end in the contents
- *            28  u32      0
+ *            28  u32      as at 12 of the header
  *            32  ...      the contents: as they are if there are as many stored, else one frame of zstd
  *   end       32  u64     frames of all chunks
  *             40  u64     records of all chunks
@@ -52,12 +52,12 @@ struct chunk_writer {
     struct ZSTD_CCtx_s *context;
     uint32_t number, frames;
     uint64_t all_frames, all_records;
-    bool failed;
+    bool recording, failed;
     struct error error; /* the first that went wrong; nothing is written from then on */
 };
 
 /* Begins a file. Returns 0 or -1 with the reason; a writer that failed to open needs no closing. */
-int chunk_open(struct chunk_writer *writer, const char *path, struct error *error);
+int chunk_open(struct chunk_writer *writer, const char *path, bool recording, struct error *error);
 
 /* Adds a record, of at most CHUNK_BYTES; data, of any length; the end of a frame. */
 void chunk_record(struct chunk_writer *writer, const void *bytes, size_t count);
@@ -90,7 +90,7 @@ struct chunk_reader {
     uint32_t frames;      /* that end in it */
     uint64_t all_frames;  /* in all that was read */
     uint64_t all_records; /* the caller counts them */
-    bool ended;
+    bool recording, ended;
 };
 
 /* Reads the header. The path and the memory must outlive the reader, the descriptor is the caller's. */

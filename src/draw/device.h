@@ -30,6 +30,10 @@ struct triptych_shader {
     struct triptych_device *device;
     struct triptych_shader *next; /* of the device's */
     const struct program *program;
+    void *source; /* what it was made of, for recordings */
+    size_t source_bytes;
+    bool source_is_text;
+    uint32_t recorded; /* its number while calls are recorded */
 };
 
 struct triptych_device {
@@ -59,6 +63,8 @@ struct triptych_device {
 
     uint64_t draws, triangles;
     uint64_t recording; /* counts how often the queue was emptied */
+    struct recorder *recorder; /* of calls (container/record.h), or null */
+
     device_draw_callback *on_draw;
     void *on_draw_user;
 
@@ -199,6 +205,9 @@ enum triptych_result device_query_destroy(struct triptych_device *device, struct
 /* Shaders (device_shader.c): from a decoded one, which is validated and may be freed; null sets none. */
 enum triptych_result device_shader_create(struct triptych_device *device, const struct shader *shader,
                                           struct triptych_shader **result, struct error *error);
+/* Keeps a copy of what the shader was made of. */
+enum triptych_result device_shader_keep(struct triptych_shader *shader, const void *source, size_t bytes,
+                                        bool is_text, struct error *error);
 enum triptych_result device_shader_destroy(struct triptych_device *device, struct triptych_shader *shader,
                                            struct error *error);
 void device_free_shaders(struct triptych_device *device);

@@ -55,8 +55,23 @@ enum triptych_result device_set_shader(struct triptych_device *device, enum shad
     return TRIPTYCH_OK;
 }
 
+enum triptych_result device_shader_keep(struct triptych_shader *shader, const void *source, size_t bytes,
+                                        bool is_text, struct error *error)
+{
+    shader->source = malloc(bytes + 1);
+    if (!shader->source) {
+        error_set(error, "out of memory for a shader of %zu bytes", bytes);
+        return TRIPTYCH_NO_MEMORY;
+    }
+    memcpy(shader->source, source, bytes);
+    shader->source_bytes = bytes;
+    shader->source_is_text = is_text;
+    return TRIPTYCH_OK;
+}
+
 static void free_shader(struct triptych_shader *shader)
 {
+    free(shader->source);
     program_release(shader->program);
     free(shader);
 }

@@ -22,6 +22,7 @@ struct triptych_query {
     uint64_t before;     /* passed before the beginning, once it is rendered */
     bool before_known;
     uint64_t result;
+    uint32_t recorded; /* its number while calls are recorded */
 };
 
 /* What a device knows of queries; zero at first. */

@@ -27,6 +27,7 @@ struct triptych_texture {
     uint32_t face_texels; /* from a face to the next */
     uint32_t *texels;     /* 64-byte aligned */
     struct texture_level level[TEXTURE_LEVELS];
+    uint32_t recorded;  /* its number while calls are recorded */
     uint64_t recording; /* the device's, when a draw was last recorded that may read it */
 };
 

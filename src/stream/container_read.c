@@ -408,11 +408,11 @@ static int read_records(struct whole *whole, struct error *error)
     }
 }
 
-/* What was read before something was wrong, up to the end of its last frame. */
-static int salvage(struct whole *whole, struct error *error)
+/* Nothing is left behind the end of the last frame: of a recording, and of what was read before something was wrong. */
+static int cut(struct whole *whole, struct error *error)
 {
     if (!whole->whole_calls)
-        return -1;
+        return error_set(error, "%s: found no end of a frame, expected at least one", whole->stream->path);
     whole->stream->call_count = whole->whole_calls;
     whole->build.executed = whole->whole_executed;
     whole->build.sequence = NO_RESOURCE;
@@ -440,8 +440,8 @@ static int read_whole(struct whole *whole, const void *data, size_t bytes, unsig
     if (chunk_read_memory(&whole->reader, whole->stream->path, data, bytes, flags, error))
         return -1;
     int result = read_records(whole, error);
-    if (result && flags & CONTAINER_SALVAGE)
-        result = salvage(whole, error);
+    if (result ? flags & CONTAINER_SALVAGE : whole->reader.recording)
+        result = cut(whole, error);
     if (!result)
         result = finish(whole, error);
     chunk_reader_free(&whole->reader);

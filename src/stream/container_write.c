@@ -102,7 +102,7 @@ int container_save(const struct stream *stream, const char *path, struct error *
     struct writer writer = {.stream = stream};
     int result = folder_prefix(stream, path, &writer.prefix, error);
     if (!result)
-        result = chunk_open(&writer.chunks, path, error);
+        result = chunk_open(&writer.chunks, path, false, error);
     if (!result) {
         write_all(&writer);
         if (writer.codec.failed) {

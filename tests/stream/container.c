@@ -367,7 +367,8 @@ static void sizes_that_no_chunk_has_are_refused(void)
                 {16, UINT32_MAX, "no more stored"},
                 {12, 1, "found chunk 1, expected 0"},
                 {8, 0x12345678, "chunk of type"},
-                {28, 1, "found 1 in the header"}};
+                {28, 1, "found 1 in the header"},
+                {28, 2, "found 2 in the header"}};
     for (size_t i = 0; i < sizeof rows / sizeof *rows; i++) {
         char kept[4], *at = bytes.data + CHUNK_FILE_HEADER + rows[i].at;
         memcpy(kept, at, 4);

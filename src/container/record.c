@@ -1,0 +1,168 @@
+#include "container/record_part.h"
+
+#include <stdatomic.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+/* --- Records ----------------------------------------------------------------------------------------------
+ */
+
+static void begin_record(struct recorder *recorder, uint32_t type)
+{
+    recorder->codec.bytes = 0;
+    code_u8(&recorder->codec, type, 0, "");
+}
+
+/* A record that there was no memory for must not be missing from the file. */
+static void end_record(struct recorder *recorder)
+{
+    if (recorder->codec.failed && !recorder->chunks.failed) {
+        recorder->chunks.failed = true;
+        error_set(&recorder->chunks.error, "recording: %s", recorder->codec.error.text);
+    }
+    chunk_record(&recorder->chunks, recorder->codec.data, recorder->codec.bytes);
+}
+
+static bool draws(enum call_type type)
+{
+    return type == CALL_DRAW || type == CALL_DRAW_INDEXED || type == CALL_CLEAR || type == CALL_COPY;
+}
+
+void record_call(struct recorder *recorder, const struct call *call)
+{
+    struct call copy = *call;
+    begin_record(recorder, call->type);
+    call_code(&recorder->codec, &copy);
+    end_record(recorder);
+    if (call->type == CALL_FRAME)
+        chunk_frame(&recorder->chunks);
+    recorder->drawn = call->type != CALL_FRAME && (recorder->drawn || draws(call->type));
+}
+
+static void fail(struct recorder *recorder, const char *reason)
+{
+    recorder->chunks.failed = true;
+    error_set(&recorder->chunks.error, "recording: %s", reason);
+}
+
+static uint32_t take_number(struct recorder *recorder)
+{
+    if (recorder->free_count)
+        return recorder->free_numbers[--recorder->free_count];
+    if (recorder->next < NO_RESOURCE)
+        return recorder->next++;
+    fail(recorder, "more than 65536 resources at a time");
+    return 0;
+}
+
+uint32_t record_define(struct recorder *recorder, const struct resource *resource)
+{
+    struct resource_part parts[RESOURCE_PARTS];
+    struct resource copy = *resource;
+    uint32_t number = take_number(recorder);
+    begin_record(recorder, RECORD_DEFINE);
+    code_u32(&recorder->codec, number, 0, "");
+    code_u8(&recorder->codec, copy.type, 0, "");
+    resource_code(&recorder->codec, &copy);
+    end_record(recorder);
+    unsigned count = resource_parts(&copy, parts);
+    for (unsigned i = 0; i < count; i++)
+        chunk_data(&recorder->chunks, parts[i].data, parts[i].bytes);
+    return number;
+}
+
+void record_release(struct recorder *recorder, uint32_t number)
+{
+    record_call(recorder, &(struct call){.type = CALL_RELEASE, .resource = number});
+    if (recorder->free_count == recorder->free_capacity) {
+        uint32_t capacity = 2 * recorder->free_capacity + 64;
+        uint32_t *larger = realloc(recorder->free_numbers, capacity * sizeof *larger);
+        if (!larger) {
+            fail(recorder, "not enough memory");
+            return;
+        }
+        recorder->free_numbers = larger;
+        recorder->free_capacity = capacity;
+    }
+    recorder->free_numbers[recorder->free_count++] = number;
+}
+
+uint32_t record_bytes(struct recorder *recorder, const void *data, size_t bytes)
+{
+    struct resource resource = {.type = RESOURCE_BUFFER, .value_type = VALUE_BYTES, .vertex_bytes = bytes};
+    resource.vertices = (uint8_t *)(uintptr_t)data;
+    return record_define(recorder, &resource);
+}
+
+/* --- Beginning and end ------------------------------------------------------------------------------------
+ */
+
+enum triptych_result record_start(struct triptych_device *device, const char *path, struct error *error)
+{
+    if (device->recorder) {
+        error_set(error, "%s: calls are recorded already, expected record_stop before another recording",
+                  path);
+        return TRIPTYCH_BAD_CALL;
+    }
+    struct recorder *recorder = calloc(1, sizeof *recorder);
+    if (!recorder) {
+        error_set(error, "%s: out of memory for a recording", path);
+        return TRIPTYCH_NO_MEMORY;
+    }
+    if (chunk_open(&recorder->chunks, path, true, error)) {
+        free(recorder);
+        return TRIPTYCH_BAD_ARGUMENT;
+    }
+    device->recorder = recorder;
+    record_beginning(device);
+    return TRIPTYCH_OK;
+}
+
+/* "PATH", then "PATH-2.EXTENSION" and so on. */
+enum triptych_result record_from_environment(struct triptych_device *device, struct error *error)
+{
+    static atomic_uint devices;
+    const char *path = getenv("TRIPTYCH_RECORD");
+    if (!path || !*path)
+        return TRIPTYCH_OK;
+    unsigned number = atomic_fetch_add(&devices, 1) + 1;
+    const char *slash = strrchr(path, '/'), *dot = strrchr(slash ? slash : path, '.');
+    size_t stem = dot ? (size_t)(dot - path) : strlen(path), size = strlen(path) + 16;
+    char *numbered = malloc(size);
+    if (!numbered) {
+        error_set(error, "%s: out of memory for a recording", path);
+        return TRIPTYCH_NO_MEMORY;
+    }
+    snprintf(numbered, size, "%.*s-%u%s", (int)stem, path, number, path + stem);
+    enum triptych_result result = record_start(device, number > 1 ? numbered : path, error);
+    free(numbered);
+    return result;
+}
+
+/* Queries of a stream end in their frame. */
+static void end_queries(struct triptych_device *device)
+{
+    for (triptych_query *query = device->queries.first; query; query = query->next)
+        if (query->type == TRIPTYCH_QUERY_OCCLUSION && query->phase == QUERY_BEGUN)
+            record_call(device->recorder,
+                        &(struct call){.type = CALL_END_QUERY, .resource = query->recorded});
+}
+
+enum triptych_result record_stop(struct triptych_device *device, struct error *error)
+{
+    struct recorder *recorder = device->recorder;
+    if (!recorder) {
+        error_set(error, "no calls are recorded: expected record_start first");
+        return TRIPTYCH_BAD_CALL;
+    }
+    if (recorder->drawn)
+        record_frame(device);
+    end_queries(device);
+    device->recorder = NULL;
+    int result = chunk_close(&recorder->chunks, error);
+    free(recorder->codec.data);
+    free(recorder->free_numbers);
+    free(recorder);
+    return result ? TRIPTYCH_FILE_FAILED : TRIPTYCH_OK;
+}

@@ -1,0 +1,207 @@
+/* What vertices are, and draws.
+ *
+ * A stream's draws lie within everything that is declared, a device's within what the pipeline reads. Where a draw leaves
+ * something aside that does not lie in its buffer, that is undeclared for the draw and declared again. */
+#include "container/record_part.h"
+
+#include <string.h>
+
+static void add(struct triptych_device *device, struct call call)
+{
+    record_call(device->recorder, &call);
+}
+
+/* --- Declarations -----------------------------------------------------------------------------------------
+ */
+
+void record_element(struct triptych_device *device, enum triptych_attribute attribute,
+                    const struct triptych_element *element)
+{
+    struct call call = {.type = CALL_BIND_ELEMENT, .resource = NO_RESOURCE};
+    if (!device->recorder)
+        return;
+    call.element.attribute = attribute;
+    call.element.format = element->format;
+    if (element->format) {
+        call.resource = element->buffer->recorded;
+        call.element.offset = (uint32_t)element->offset;
+        call.element.stride = (uint32_t)element->stride;
+    }
+    add(device, call);
+}
+
+void record_declaration(struct triptych_device *device, const struct triptych_declaration_element *elements,
+                        unsigned count)
+{
+    struct call call = {.type = CALL_DECLARE, .resource = NO_RESOURCE, .declare.count = count};
+    for (unsigned i = 0; i < count && device->recorder; i++)
+        call.declare.element[i] = (struct declared){.usage = elements[i].usage & 15,
+                                                    .usage_index = elements[i].usage_index & 15,
+                                                    .format = elements[i].format & 31,
+                                                    .stream = elements[i].stream & 15,
+                                                    .words = elements[i].offset / 4 & 0x3fff};
+    if (device->recorder)
+        add(device, call);
+}
+
+void record_fvf(struct triptych_device *device, uint32_t fvf)
+{
+    if (device->recorder)
+        add(device, (struct call){.type = CALL_FVF, .resource = NO_RESOURCE, .fvf = fvf});
+}
+
+void record_stream(struct triptych_device *device, unsigned stream, const triptych_buffer *buffer,
+                   size_t offset, size_t stride)
+{
+    struct call call = {.type = CALL_BIND_STREAM, .resource = NO_RESOURCE, .bind_stream.number = stream};
+    if (!device->recorder)
+        return;
+    if (buffer) {
+        call.resource = buffer->recorded;
+        call.bind_stream.offset = (uint32_t)offset;
+        call.bind_stream.stride = (uint32_t)stride;
+    }
+    add(device, call);
+}
+
+void record_frequency(struct triptych_device *device, unsigned stream, enum triptych_frequency frequency,
+                      uint32_t count)
+{
+    if (device->recorder)
+        add(device, (struct call){.type = CALL_FREQUENCY,
+                                  .resource = NO_RESOURCE,
+                                  .frequency = {stream, frequency, count}});
+}
+
+void record_indices(struct triptych_device *device, const triptych_buffer *buffer, unsigned bits)
+{
+    struct call call = {.type = CALL_BIND_INDICES, .resource = NO_RESOURCE};
+    if (!device->recorder)
+        return;
+    if (buffer) {
+        call.resource = buffer->recorded;
+        call.index_bits = bits;
+    }
+    add(device, call);
+}
+
+/* --- All that is declared ---------------------------------------------------------------------------------
+ */
+
+static struct declared declared_of(unsigned usage, unsigned usage_index, const struct state_element *element)
+{
+    return (struct declared){.usage = usage & 15,
+                             .usage_index = usage_index & 15,
+                             .format = element->format & 31,
+                             .stream = element->stream & 15,
+                             .words = element->offset / 4 & 0x3fff};
+}
+
+static void write_declaration(struct recorder *recorder, const struct state *state,
+                              const struct left_out *left_out)
+{
+    struct call call = {.type = CALL_DECLARE, .resource = NO_RESOURCE};
+    for (unsigned a = 0; a < TRIPTYCH_ATTRIBUTE_COUNT; a++) {
+        const struct state_element *element = &state->element[a];
+        unsigned index, usage = element_usage(a, &index);
+        if (element->format && element->stream < TRIPTYCH_STREAMS && !(left_out->attributes >> a & 1))
+            call.declare.element[call.declare.count++] = declared_of(usage, index, element);
+    }
+    for (unsigned i = 0; i < state->others; i++)
+        if (!(left_out->others >> i & 1))
+            call.declare.element[call.declare.count++] =
+                declared_of(state->other[i].usage, state->other[i].usage_index, &state->other[i].element);
+    record_call(recorder, &call);
+}
+
+void record_vertex_input(struct recorder *recorder, const struct state *state,
+                         const struct left_out *left_out)
+{
+    write_declaration(recorder, state, left_out);
+    for (unsigned a = 0; a < TRIPTYCH_ATTRIBUTE_COUNT; a++) {
+        const struct state_element *element = &state->element[a];
+        const struct state_stream *stream = &state->stream[element->stream];
+        struct call call = {.type = CALL_BIND_ELEMENT};
+        if (!element->format || element->stream < TRIPTYCH_STREAMS || !stream->buffer ||
+            left_out->attributes >> a & 1)
+            continue;
+        call.resource = stream->buffer->recorded;
+        call.element.attribute = (enum triptych_attribute)a;
+        call.element.format = element->format;
+        call.element.offset = (uint32_t)stream->offset;
+        call.element.stride = (uint32_t)stream->stride;
+        record_call(recorder, &call);
+    }
+}
+
+/* --- Draws ------------------------------------------------------------------------------------------------
+ */
+
+/* As the check of a stream has it (stream/check.c). */
+static bool lies_within(const struct state *state, const struct state_element *element, uint64_t last)
+{
+    const struct state_stream *stream = &state->stream[element->stream];
+    if (!stream->buffer)
+        return element->stream >= TRIPTYCH_STREAMS;
+    if (stream->frequency == TRIPTYCH_FREQUENCY_INSTANCE)
+        last = (state_instances(state) - 1) / stream->count;
+    if (stream->offset + element->offset + vertex_types[element->format].bytes > stream->buffer->bytes)
+        return false;
+    return last <= state_last_vertex(state, element);
+}
+
+static struct left_out find_left_out(const struct state *state, uint64_t last)
+{
+    struct left_out left_out = {0};
+    for (unsigned a = 0; a < TRIPTYCH_ATTRIBUTE_COUNT; a++)
+        if (state->element[a].format && !lies_within(state, &state->element[a], last))
+            left_out.attributes |= (uint64_t)1 << a;
+    for (unsigned i = 0; i < state->others; i++)
+        if (!lies_within(state, &state->other[i].element, last))
+            left_out.others |= (uint64_t)1 << i;
+    return left_out;
+}
+
+static void add_draw(struct triptych_device *device, const struct call *call, uint64_t last)
+{
+    static const struct left_out none;
+    struct left_out left_out = call->draw.count ? find_left_out(&device->state, last) : none;
+    bool some = left_out.attributes || left_out.others;
+    if (some)
+        record_vertex_input(device->recorder, &device->state, &left_out);
+    record_call(device->recorder, call);
+    if (some)
+        record_vertex_input(device->recorder, &device->state, &none);
+}
+
+void record_draw(struct triptych_device *device, enum triptych_primitive primitive, uint32_t first,
+                 uint32_t count)
+{
+    struct call call = {.type = CALL_DRAW, .resource = NO_RESOURCE};
+    if (!device->recorder)
+        return;
+    call.draw.primitive = primitive;
+    call.draw.first = first;
+    call.draw.count = count;
+    add_draw(device, &call, count ? first + primitive_corners(primitive, count) - 1 : 0);
+}
+
+void record_draw_indexed(struct triptych_device *device, enum triptych_primitive primitive, int32_t base,
+                         uint32_t first, uint32_t count)
+{
+    struct call call = {.type = CALL_DRAW_INDEXED, .resource = NO_RESOURCE};
+    uint64_t last = 0;
+    if (!device->recorder)
+        return;
+    call.draw.primitive = primitive;
+    call.draw.base = base;
+    call.draw.first = first;
+    call.draw.count = count;
+    if (count) {
+        const struct index_range *range =
+            buffer_index_range(device->state.indices, device->state.index_bits, first,
+                               (uint32_t)primitive_corners(primitive, count));
+        last = (uint64_t)((int64_t)base + range->maximum);
+    }
+    add_draw(device, &call, last);
+}
