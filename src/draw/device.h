@@ -62,7 +62,7 @@ struct triptych_device {
     struct palette *palettes; /* the job's, then those of recorded draws */
 
     uint64_t draws, triangles;
-    uint64_t recording; /* counts how often the queue was emptied */
+    uint64_t recording;        /* counts how often the queue was emptied */
     struct recorder *recorder; /* of calls (container/record.h), or null */
 
     device_draw_callback *on_draw;

@@ -20,7 +20,7 @@ struct triptych_buffer {
     struct triptych_buffer *next; /* of the device's */
     uint8_t *data;                /* 64-byte aligned */
     size_t bytes;
-    uint32_t recorded;            /* its number while calls are recorded */
+    uint32_t recorded;                      /* its number while calls are recorded */
     struct index_range range[INDEX_RANGES]; /* direct-mapped by a hash of the range */
 };
 
