@@ -47,6 +47,9 @@ struct record {
  * RECORD_NONE. A failure leaves nothing to be freed. */
 int container_next(struct chunk_reader *reader, size_t room, struct record *record, struct error *error);
 
+/* "texture", "buffer", ...: what resources without a name are called, with a number. */
+const char *container_type_name(enum resource_type type);
+
 /* Makes what the definition implies: a shader's program, a shape's vertices, texels that are made. The resources that
  * it names are the stream's; `caster` is that of a shadow, or null. */
 int container_finish_resource(struct resource *resource, const struct resource *caster, struct error *error);

@@ -294,16 +294,21 @@ struct whole {
     uint32_t whole_executed; /* up to the last frame's end */
 };
 
-/* Names that recordings leave out are made of the type and the number. */
-static int name_resource(const struct whole *whole, struct record *record, char name[LIMIT_NAME_BYTES + 1])
+const char *container_type_name(enum resource_type type)
 {
-    static const char *const kind[] = {
+    static const char *const name[] = {
         [RESOURCE_TEXTURE] = "texture", [RESOURCE_VERTICES] = "vertices", [RESOURCE_INDICES] = "indices",
         [RESOURCE_BUFFER] = "buffer",   [RESOURCE_MESH] = "mesh",         [RESOURCE_SHADER] = "shader",
         [RESOURCE_QUERY] = "query",     [RESOURCE_SEQUENCE] = "sequence"};
+    return name[type];
+}
+
+/* Names that recordings leave out are made of the type and the number. */
+static int name_resource(const struct whole *whole, struct record *record, char name[LIMIT_NAME_BYTES + 1])
+{
     if (record->resource.name)
         return snprintf(name, LIMIT_NAME_BYTES + 1, "%s", record->resource.name);
-    return snprintf(name, LIMIT_NAME_BYTES + 1, "%s%u", kind[record->resource.type],
+    return snprintf(name, LIMIT_NAME_BYTES + 1, "%s%u", container_type_name(record->resource.type),
                     whole->stream->resource_count);
 }
 

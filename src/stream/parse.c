@@ -12,6 +12,7 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+#include <unistd.h>
 
 /* --- Names ------------------------------------------------------------------------------------------------
  */
@@ -230,6 +231,8 @@ void stream_free(struct stream *stream)
         return;
     for (uint32_t i = 0; i < stream->resource_count; i++)
         resource_free(&stream->resources[i]);
+    if (stream->streamed)
+        close(stream->descriptor);
     free(stream->path);
     free(stream->resources);
     free(stream->calls);

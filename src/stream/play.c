@@ -6,29 +6,11 @@
  * defaults are. */
 #include "draw/texture.h"
 #include "stream/check.h"
+#include "stream/play_part.h"
 
 #include <inttypes.h>
 #include <stdlib.h>
 #include <string.h>
-
-enum { NOWHERE = UINT32_MAX };
-
-struct handles {
-    triptych_buffer *vertices, *indices;
-    triptych_texture *texture;
-    triptych_shader *shader;
-    triptych_query *query;
-    uint32_t frame; /* that the query ended in last, or NOWHERE */
-};
-
-struct player {
-    const struct stream *stream;
-    triptych_device *device;
-    struct handles *handles; /* one per resource */
-    uint32_t frame;          /* being played, or played last */
-    uint32_t next;           /* the frame that the device's state is right for, or NOWHERE */
-    float transform[TRIPTYCH_TRANSFORM_COUNT][4][4]; /* as they are, for constants that are made of them */
-};
 
 /* --- Resources --------------------------------------------------------------------------------------------
  */
@@ -58,7 +40,7 @@ static enum triptych_result create_texture(triptych_device *device, const struct
     return result ? result : fill_texture(device, resource, *texture);
 }
 
-static enum triptych_result create(triptych_device *device, const struct resource *resource,
+enum triptych_result player_create(triptych_device *device, const struct resource *resource,
                                    struct handles *handles)
 {
     enum triptych_result result = TRIPTYCH_OK;
@@ -81,7 +63,7 @@ static enum triptych_result create(triptych_device *device, const struct resourc
 }
 
 /* Calls with null or with what is the device's cannot fail. */
-static void destroy(triptych_device *device, const struct handles *handles)
+void player_destroy(triptych_device *device, const struct handles *handles)
 {
     triptych_buffer_destroy(device, handles->vertices);
     triptych_buffer_destroy(device, handles->indices);
@@ -94,9 +76,18 @@ static int create_all(struct player *player, struct error *error)
 {
     const struct stream *stream = player->stream;
     for (uint32_t i = 0; i < stream->resource_count; i++)
-        if (create(player->device, &stream->resources[i], &player->handles[i]))
+        if (player_create(player->device, &stream->resources[i], &player->handles[i]))
             return error_set(error, "%s: %s: %s", stream->path, stream->resources[i].name,
                              triptych_error(player->device));
+    return 0;
+}
+
+static int open_recording(struct player *player, struct error *error)
+{
+    player->reader = reader_create(player->stream, error);
+    if (!player->reader)
+        return -1;
+    player->stream = reader_window(player->reader);
     return 0;
 }
 
@@ -114,7 +105,8 @@ int stream_prepare(const struct stream *stream, triptych_device *device, struct 
     made->stream = stream;
     made->device = device;
     made->next = NOWHERE;
-    if (create_all(made, error)) {
+    made->handle_count = stream->resource_count;
+    if (stream->streamed ? open_recording(made, error) : create_all(made, error)) {
         player_free(made);
         return -1;
     }
@@ -126,9 +118,10 @@ void player_free(struct player *player)
 {
     if (!player)
         return;
-    for (uint32_t i = 0; player->handles && i < player->stream->resource_count; i++)
-        destroy(player->device, &player->handles[i]);
+    for (uint32_t i = 0; player->handles && i < player->handle_count; i++)
+        player_destroy(player->device, &player->handles[i]);
     free(player->handles);
+    reader_free(player->reader);
     free(player);
 }
 
@@ -306,7 +299,7 @@ static enum triptych_result copy(struct player *player, const struct call *call)
 }
 
 /* Everything that stays from call to call. */
-static enum triptych_result execute_state(struct player *player, const struct call *call)
+enum triptych_result player_execute_state(struct player *player, const struct call *call)
 {
     triptych_device *device = player->device;
     switch (call->type) {
@@ -359,7 +352,7 @@ static enum triptych_result execute_state(struct player *player, const struct ca
     return TRIPTYCH_OK;
 }
 
-static enum triptych_result execute_pixels(struct player *player, const struct call *call)
+enum triptych_result player_execute_pixels(struct player *player, const struct call *call)
 {
     triptych_device *device = player->device;
     switch (call->type) {
@@ -447,9 +440,9 @@ static enum triptych_result execute(struct player *player, uint32_t at, uint32_t
     if (call->type == CALL_TARGET && draws && is_overwritten(stream, at, end))
         result = keep_target(player, call, &kept);
     if (!result && !kept)
-        result = execute_state(player, call);
+        result = player_execute_state(player, call);
     if (!result && draws)
-        result = execute_pixels(player, call);
+        result = player_execute_pixels(player, call);
     return result;
 }
 
@@ -516,7 +509,7 @@ static enum triptych_result reset_shaders(triptych_device *device)
     return result;
 }
 
-static enum triptych_result reset(struct player *player)
+enum triptych_result player_reset(struct player *player)
 {
     static const float identity[4][4] = {{1, 0, 0, 0}, {0, 1, 0, 0}, {0, 0, 1, 0}, {0, 0, 0, 1}};
     enum triptych_result result = triptych_set_target_textures(player->device, NULL);
@@ -558,7 +551,7 @@ static int seek(struct player *player, uint32_t frame, struct error *error)
     if (player->next == frame)
         return 0;
     player->next = NOWHERE;
-    if (reset(player))
+    if (player_reset(player))
         return error_set(error, "%s: %s", player->stream->path, triptych_error(player->device));
     return execute_range(player, 0, player->stream->frames[frame], 0, error);
 }
@@ -569,6 +562,8 @@ int player_frame(struct player *player, uint32_t frame, struct error *error)
     if (frame >= stream->frame_count)
         return error_set(error, "%s: frame %" PRIu32 ", expected 0 to %" PRIu32, stream->path, frame,
                          stream->frame_count - 1);
+    if (player->reader)
+        return player_recorded_frame(player, frame, error);
     if (seek(player, frame, error))
         return -1;
     player->next = NOWHERE;
@@ -587,7 +582,7 @@ int player_frame(struct player *player, uint32_t frame, struct error *error)
 int player_query(struct player *player, uint32_t i, struct query_count *count)
 {
     const struct stream *stream = player->stream;
-    for (uint32_t r = 0; r < stream->resource_count; r++) {
+    for (uint32_t r = 0; r < player->handle_count; r++) {
         const struct handles *handles = &player->handles[r];
         if (!handles->query || handles->frame != player->frame || i--)
             continue;

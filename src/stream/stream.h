@@ -33,6 +33,9 @@ enum stream_limit {
 struct stream {
     char *path;    /* of the file; empty when parsed from memory without one */
     int container; /* it comes from one: places are in that */
+    int streamed; /* it has no more than its number of frames: resources and calls are read from `descriptor` as
+                      they are played (stream/reader.h) */
+    int descriptor;
     struct resource *resources;
     uint32_t resource_count;
     struct call *calls;

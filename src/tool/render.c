@@ -101,7 +101,7 @@ static int render_frame(const struct command *self, const struct stream *stream,
 static int render(const struct command *self, const char *path, const struct settings *settings,
                   unsigned engine, const struct picture_kind *kind)
 {
-    struct stream *stream = session_load(self, path);
+    struct stream *stream = session_load_frames(self, path);
     if (!stream)
         return STATUS_BAD;
     struct capture capture = {0};

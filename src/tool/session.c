@@ -1,8 +1,18 @@
 #include "tool/session.h"
-#include "stream/stream.h"
+#include "stream/reader.h"
 
 #include <stdlib.h>
 #include <string.h>
+
+struct stream *session_load_frames(const struct command *self, const char *path)
+{
+    struct stream *stream;
+    struct error error = {""};
+    progress("reading %s", path);
+    if (stream_open(path, &stream, &error))
+        return fail(self, "%s", error.text), NULL;
+    return stream;
+}
 
 struct stream *session_load(const struct command *self, const char *path)
 {

@@ -11,6 +11,10 @@
 /* Reads and checks a stream. Null after telling what is wrong with it. */
 struct stream *session_load(const struct command *self, const char *path);
 
+/* The same of a stream whose frames are played in their order: of a recording they are read as they are played, and the
+ * stream has no more than their number (stream/reader.h). */
+struct stream *session_load_frames(const struct command *self, const char *path);
+
 /* Zero is a closed session. The stream must outlive it. */
 struct session {
     const struct command *self;

@@ -274,7 +274,7 @@ struct totals {
 static int verify_stream(const struct command *self, const char *path, const struct settings *settings,
                          struct totals *totals)
 {
-    struct stream *stream = session_load(self, path);
+    struct stream *stream = session_load_frames(self, path);
     if (!stream)
         return STATUS_BAD;
     struct verification verification = {.path = path, .all = stream->frame_count};
