@@ -1,3 +1,4 @@
+#define _GNU_SOURCE /* secure_getenv */
 #include "container/record_part.h"
 
 #include <stdatomic.h>
@@ -123,7 +124,7 @@ enum triptych_result record_start(struct triptych_device *device, const char *pa
 enum triptych_result record_from_environment(struct triptych_device *device, struct error *error)
 {
     static atomic_uint devices;
-    const char *path = getenv("TRIPTYCH_RECORD");
+    const char *path = secure_getenv("TRIPTYCH_RECORD");
     if (!path || !*path)
         return TRIPTYCH_OK;
     unsigned number = atomic_fetch_add(&devices, 1) + 1;
