@@ -36,6 +36,7 @@ enum { FAULT_FRAMES = 24, FAULT_SITES = 4096, FAULT_BLOCKS = 1 << 16, FAULT_FORE
 static struct fault {
     atomic_flag lock;
     bool armed, onwards; /* `onwards`: not only request number `at` is refused but all after it */
+    bool only_threads;   /* memory is neither counted nor refused */
     bool watching;
     pthread_t thread;    /* that armed it */
     unsigned long count; /* requests since it was armed, from 1 */
@@ -149,7 +150,7 @@ static void fault_note_site(void *const *frames, int count)
 /* Whether this request is refused. `caller`: who asks. */
 static FAULT_PLAIN __attribute__((noinline)) bool fault_refuses(void *caller)
 {
-    if (!fault.armed || fault_is_foreign(caller))
+    if (!fault.armed || fault.only_threads || fault_is_foreign(caller))
         return false;
 #ifdef FAULT_SANITIZED
     if (!pthread_equal(pthread_self(), fault.thread)) /* the sanitizers' own needs when a thread begins */
@@ -188,6 +189,11 @@ static void fault_arm(unsigned long at, bool onwards)
     fault.onwards = onwards;
     fault.thread = pthread_self();
     fault.armed = true;
+}
+
+__attribute__((unused)) static void fault_only_threads(bool only)
+{
+    fault.only_threads = only;
 }
 
 static void fault_disarm(void)
@@ -250,7 +256,7 @@ static FAULT_PLAIN void fault_freed(const void *block)
     fault_unlock();
 }
 
-static void fault_watch(void)
+__attribute__((unused)) static void fault_watch(void)
 {
     memset(fault.block, 0, sizeof fault.block);
     fault.blocks = 0;
@@ -258,7 +264,7 @@ static void fault_watch(void)
 }
 
 /* Stops watching; what is still allocated, in words, or null. */
-static const char *fault_lost(void)
+__attribute__((unused)) static const char *fault_lost(void)
 {
     static char text[512];
     Dl_info info = {0};
@@ -382,7 +388,11 @@ FAULT_EXPORT int pthread_create(pthread_t *thread, const pthread_attr_t *attribu
         void *found = dlsym(RTLD_NEXT, "pthread_create");
         memcpy(&real, &found, sizeof real);
     }
-    return fault_refuses(FAULT_CALLER) ? EAGAIN : real(thread, attributes, run, argument);
+    bool only_threads = fault.only_threads;
+    fault.only_threads = false;
+    bool refuses = fault_refuses(FAULT_CALLER);
+    fault.only_threads = only_threads;
+    return refuses ? EAGAIN : real(thread, attributes, run, argument);
 }
 
 /* --- Beginning and end ------------------------------------------------------------------------------------

@@ -1,0 +1,97 @@
+/* Threads that the system does not give: a device has as many as it gets, the caller's own at least, and draws the same. */
+#define _GNU_SOURCE
+#include "tests/support/fault.h"
+
+#include "draw/device.h"
+#include "engines.h"
+#include "triptych.h"
+
+#include <sys/resource.h>
+#include <sys/wait.h>
+#include <unity.h>
+
+enum { SIDE = 200, THREADS = 6 };
+
+static uint32_t expected[SIDE * SIDE], got[SIDE * SIDE];
+
+void setUp(void)
+{
+}
+
+void tearDown(void)
+{
+    fault_disarm();
+}
+
+/* A picture by a device whose thread number `at`, from 1, and perhaps all later ones are refused; 0: none is. Returns how
+ * many threads it has. */
+static unsigned draw(const char *engine, unsigned long at, bool onwards, uint32_t *image)
+{
+    static const float corners[6][3] = {{-1, -1, 0}, {0, 1, 0.5f}, {1, -0.9f, 1},
+                                        {-1, 1, 1},  {1, 0.8f, 0}, {0, -1, 0}};
+    struct triptych_options options = {.engine = engine, .threads = THREADS};
+    struct triptych_element element = {.format = TRIPTYCH_FORMAT_FLOAT3, .stride = 12};
+    triptych_device *device;
+    char reason[256] = "";
+    fault_only_threads(true);
+    fault_arm(at, onwards);
+    TEST_ASSERT_EQUAL_INT_MESSAGE(TRIPTYCH_OK,
+                                  triptych_device_create(&options, &device, reason, sizeof reason), reason);
+    fault_disarm();
+    fault_only_threads(false);
+    unsigned workers = pool_workers(device->pool);
+    TEST_ASSERT_EQUAL_INT(TRIPTYCH_OK, triptych_set_target(device, SIDE, SIDE));
+    TEST_ASSERT_EQUAL_INT(TRIPTYCH_OK, triptych_set_state(device, TRIPTYCH_STATE_cullmode, 1));
+    TEST_ASSERT_EQUAL_INT(TRIPTYCH_OK, triptych_set_state(device, TRIPTYCH_STATE_ambient, 0xff4080c0));
+    TEST_ASSERT_EQUAL_INT(TRIPTYCH_OK,
+                          triptych_buffer_create(device, corners, sizeof corners, &element.buffer));
+    TEST_ASSERT_EQUAL_INT(TRIPTYCH_OK, triptych_set_element(device, TRIPTYCH_POSITION, &element));
+    TEST_ASSERT_EQUAL_INT(TRIPTYCH_OK, triptych_draw(device, TRIPTYCH_TRIANGLE_LIST, 0, 2));
+    TEST_ASSERT_EQUAL_INT(TRIPTYCH_OK, triptych_read_color(device, image));
+    triptych_device_destroy(device);
+    return workers;
+}
+
+static void test_a_device_has_the_threads_that_it_gets(void)
+{
+    static const char *const engines[] = {"emulate", "specialize"};
+    for (unsigned e = 0; e < 2; e++) {
+        TEST_ASSERT_EQUAL_UINT(THREADS, draw(engines[e], 0, false, expected));
+        for (unsigned long at = 1; at < THREADS; at++)
+            for (int onwards = 0; onwards < 2; onwards++) {
+                TEST_ASSERT_EQUAL_UINT(at, draw(engines[e], at, onwards, got));
+                TEST_ASSERT_EQUAL_UINT64(1, fault.refused);
+                TEST_ASSERT_EQUAL_MEMORY(expected, got, sizeof got);
+            }
+    }
+}
+
+/* The system itself refuses, by its limit of processes: not to the superuser, who becomes somebody else here. */
+static void test_a_limit_of_the_system(void)
+{
+    int status;
+    draw("specialize", 0, false, expected);
+    fflush(NULL);
+    pid_t process = fork();
+    TEST_ASSERT_GREATER_OR_EQUAL(0, process);
+    if (!process) {
+        struct rlimit none = {0, 0};
+        if (setrlimit(RLIMIT_NPROC, &none) || (!geteuid() && (setgid(65534) || setuid(65534))))
+            _exit(100);
+        unsigned workers = draw("specialize", 0, false, got);
+        _exit(memcmp(expected, got, sizeof got) ? 101 : (int)workers);
+    }
+    TEST_ASSERT_EQUAL_INT(process, waitpid(process, &status, 0));
+    TEST_ASSERT_TRUE(WIFEXITED(status));
+    if (WEXITSTATUS(status) == 100)
+        TEST_IGNORE_MESSAGE("the system does not let us be limited");
+    TEST_ASSERT_EQUAL_INT(1, WEXITSTATUS(status));
+}
+
+int main(void)
+{
+    UNITY_BEGIN();
+    RUN_TEST(test_a_device_has_the_threads_that_it_gets);
+    RUN_TEST(test_a_limit_of_the_system);
+    return UNITY_END();
+}
