@@ -164,7 +164,7 @@ $(PROGRAMS): $(BUILD)/tests/%: $(BUILD)/object/tests/%.o $(SUPPORT_OBJECTS) $(BU
 	$(call say,LD)$(link) $(filter %.o,$^) $(filter %.a,$^) $(tool_libraries) -o $@
 
 # This test plants differences between the engines' pictures, to see the verification fail.
-$(BUILD)/tests/tool/verify: private override LDFLAGS += -Wl,--wrap=triptych_read_color,--wrap=triptych_read_depth
+$(BUILD)/tests/tool/verify: private override LDFLAGS += -Wl,--wrap=triptych_read_color,--wrap=triptych_read_depth,--wrap=triptych_read_stencil,--wrap=triptych_read_target_numbers
 
 # And this one gives all keys one hash.
 $(BUILD)/tests/draw/cache: private override LDFLAGS += -Wl,--wrap=key_hash
@@ -270,8 +270,9 @@ coverage:
 	@tests/support/dependencies.sh build test
 	+@$(MAKE) $(jobs) BUILD=$(BUILD)/coverage COVERAGE=1 all programs
 	@find $(BUILD)/coverage -name '*.gcda' -delete
-	@tests/support/run.sh '$(ONLY)' $(BUILD)/coverage
-	@tests/support/coverage.sh $(BUILD)/coverage 90 | tee results/coverage.txt
+	@COVERAGE=1 tests/support/run.sh '$(ONLY)' $(BUILD)/coverage
+	@mkdir -p results
+	@tests/support/coverage.sh $(BUILD)/coverage 90 >results/coverage.txt; status=$$?; tail -n 1 results/coverage.txt; exit $$status
 
 bench:
 	@tests/support/dependencies.sh build bench

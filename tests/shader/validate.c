@@ -116,6 +116,15 @@ static const char bare[] = "%s";
 static const struct {
     const char *frame, *text, *reason;
 } bad[] = {
+    /* rules that hold once or nowhere */
+    {bare, "ps_1_4\ntexcrd r0.xyz, t0\nphase\ntexld r1, r0_dz\ntexld r2, r0_dz\ntexld r3, r0_dz\nmov r0, r1",
+     "t:6:11: found the modifier '_dz' a third time, expected at most two"},
+    {ps1, "mov r0.xyz, t0\n+nop", "t:5:1: found + before nop, expected arithmetic that pairs"},
+    {ps20, "mov oDepth, r0.x\nmov oDepth, r0.x", "t:6:5: found oDepth written again, expected it once"},
+    {ps20, "mov oDepth.x, r0.x", "t:5:5: found a mask of oDepth, expected none"},
+    {vs3, "mov o[aL], v0", "t:5:5: found aL outside a loop, expected it between loop and endloop"},
+    {bare, "vs_3_0\ndcl_position o[a0.x]\nmov o0, c0",
+     "t:2:14: found a relative index, expected none of dcl"},
     /* registers */
     {vs1, "mov r12, v0", "t:4:5: found r12, expected r0 to r11"},
     {vs1, "mov r0, c256", "t:4:9: found c256, expected c0 to c255"},
@@ -446,6 +455,9 @@ static void nesting_is_counted_and_never_overflows(void)
                     "t:28:1: found conditions 25 deep, expected at most 24");
     expect_repeated("vs_3_0\ndcl_position o0\nmov o0, c0\n", "if_gt c0.x, c0.y\n", 10000, "",
                     "t:28:1: found computed conditions 25 deep, expected at most 24");
+    expect_repeated("vs_3_0\ndcl_position o0\nmov o0, c0\nrep i0\n", "if_gt c0.x, c0.y\n", 24,
+                    "break_gt c0.x, c0.y\n",
+                    "t:29:1: found computed conditions 25 deep, expected at most 24");
     expect_repeated("vs_3_0\ndcl_position o0\nmov o0, c0\n", "rep i0\n", 10000, "",
                     "t:8:1: found loops 5 deep, expected at most 4");
     expect_repeated("vs_3_sw\ndcl_position o0\nmov o0, c0\n", "loop aL, i0\n", 10000, "",

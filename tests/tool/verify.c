@@ -16,12 +16,19 @@
 enum { WIDTH = 48, X = 7, Y = 3, READS = 10, NEVER = READS };
 
 static struct {
-    int color_read, depth_read;   /* numbers of the readings so far */
-    int color_plant, depth_plant; /* the reading to change */
+    int color_read, depth_read;       /* numbers of the readings so far */
+    int color_plant, depth_plant;     /* the reading to change */
+    bool stencil_plant, number_plant; /* whether to change the next */
 } planted;
 
 enum triptych_result __real_triptych_read_color(triptych_device *device, uint32_t *rgba);
 enum triptych_result __real_triptych_read_depth(triptych_device *device, float *depth);
+enum triptych_result __real_triptych_read_stencil(triptych_device *device, uint8_t *stencil);
+enum triptych_result __real_triptych_read_target_numbers(triptych_device *device, unsigned target,
+                                                         float *numbers);
+enum triptych_result __wrap_triptych_read_stencil(triptych_device *device, uint8_t *stencil);
+enum triptych_result __wrap_triptych_read_target_numbers(triptych_device *device, unsigned target,
+                                                         float *numbers);
 enum triptych_result __wrap_triptych_read_color(triptych_device *device, uint32_t *rgba);
 enum triptych_result __wrap_triptych_read_depth(triptych_device *device, float *depth);
 
@@ -41,24 +48,34 @@ enum triptych_result __wrap_triptych_read_depth(triptych_device *device, float *
     return result;
 }
 
+enum triptych_result __wrap_triptych_read_stencil(triptych_device *device, uint8_t *stencil)
+{
+    enum triptych_result result = __real_triptych_read_stencil(device, stencil);
+    if (planted.stencil_plant)
+        stencil[Y] ^= 1;
+    planted.stencil_plant = false;
+    return result;
+}
+
+enum triptych_result __wrap_triptych_read_target_numbers(triptych_device *device, unsigned target,
+                                                         float *numbers)
+{
+    enum triptych_result result = __real_triptych_read_target_numbers(device, target, numbers);
+    if (planted.number_plant)
+        ((uint32_t *)numbers)[4 * Y + 1] ^= 1;
+    planted.number_plant = false;
+    return result;
+}
+
 static char folder[] = "/tmp/triptych-verify-XXXXXX";
 static char report_path[64], painting_path[96];
 static cJSON *report;
 
-static int verify(void)
+static int verify_stream(char *stream)
 {
     static const struct command self = {"verify", "STREAM...", "", command_verify};
-    char *arguments[] = {"tests/streams/frames.tri",
-                         "--engines",
-                         "emulate",
-                         "--threads",
-                         "1,2",
-                         "--frames",
-                         "all",
-                         "--difference",
-                         folder,
-                         "--json",
-                         report_path};
+    char *arguments[] = {stream, "--engines",    "emulate", "--threads", "1,2",      "--frames",
+                         "all",  "--difference", folder,    "--json",    report_path};
     int status = command_verify(&self, sizeof arguments / sizeof *arguments, arguments);
     char text[16384] = "";
     FILE *file = fopen(report_path, "r");
@@ -68,6 +85,11 @@ static int verify(void)
     report = cJSON_Parse(text);
     TEST_ASSERT_NOT_NULL(report);
     return status;
+}
+
+static int verify(void)
+{
+    return verify_stream("tests/streams/frames.tri");
 }
 
 static const cJSON *difference(void)
@@ -135,6 +157,31 @@ static void test_a_wrong_reference_is_found_too(void)
     check_frame_2(1, 0);
 }
 
+/* The pixel at Y in the first row, whatever has been changed of it. */
+static void check_one_pixel_of(const char *count)
+{
+    TEST_ASSERT_TRUE(cJSON_IsFalse(cJSON_GetObjectItem(report, "identical")));
+    TEST_ASSERT_EQUAL_INT(Y, number("x"));
+    TEST_ASSERT_EQUAL_INT(0, number("y"));
+    TEST_ASSERT_EQUAL_INT(0, number("color_pixels"));
+    TEST_ASSERT_EQUAL_INT(0, number("depth_pixels"));
+    TEST_ASSERT_EQUAL_INT(1, number(count));
+}
+
+static void test_one_bit_of_stencil_is_found(void)
+{
+    planted.stencil_plant = true;
+    TEST_ASSERT_EQUAL_INT(STATUS_DIFFERENT, verify_stream("tests/streams/stencil-operations.tri"));
+    check_one_pixel_of("stencil_pixels");
+}
+
+static void test_one_bit_of_a_number_is_found(void)
+{
+    planted.number_plant = true;
+    TEST_ASSERT_EQUAL_INT(STATUS_DIFFERENT, verify_stream("tests/streams/targets.tri"));
+    check_one_pixel_of("number_pixels");
+}
+
 int main(void)
 {
     if (!mkdtemp(folder))
@@ -145,6 +192,8 @@ int main(void)
     RUN_TEST(test_without_a_plant_all_is_identical);
     RUN_TEST(test_one_bit_of_colour_is_found);
     RUN_TEST(test_one_bit_of_depth_is_found);
+    RUN_TEST(test_one_bit_of_stencil_is_found);
+    RUN_TEST(test_one_bit_of_a_number_is_found);
     RUN_TEST(test_a_wrong_reference_is_found_too);
     unlink(report_path);
     unlink(painting_path);
