@@ -8,6 +8,7 @@
 
 #include <stdlib.h>
 #include <string.h>
+#include <sys/stat.h>
 
 char *asset_path(const char *stream_path, const char *path)
 {
@@ -19,6 +20,14 @@ char *asset_path(const char *stream_path, const char *path)
         strcpy(joined + folder, path);
     }
     return joined;
+}
+
+int asset_check_path(const char *path, struct error *error)
+{
+    struct stat status;
+    if (!stat(path, &status) && !S_ISREG(status.st_mode))
+        return error_set(error, "%s: is no regular file, expected one", path);
+    return 0;
 }
 
 /* --- Textures ---------------------------------------------------------------------------------------------
@@ -54,7 +63,7 @@ int asset_load_texture(struct resource *resource, const char *path, struct error
 {
     char *data;
     size_t bytes;
-    if (file_read(path, LIMIT_FILE_BYTES, &data, &bytes, error))
+    if (asset_check_path(path, error) || file_read(path, LIMIT_FILE_BYTES, &data, &bytes, error))
         return -1;
     if (dds_is(data, bytes))
         return load_dds(resource, path, data, bytes, error);
@@ -72,7 +81,7 @@ int asset_load_face(struct resource *resource, const struct triptych_texture *sh
     unsigned width, height;
     alone.faces = 1;
     face.texels = resource->texels + number * texture_level_bytes(shape, 0);
-    if (png_load(path, &width, &height, &face.colors, error))
+    if (asset_check_path(path, error) || png_load(path, &width, &height, &face.colors, error))
         return -1;
     int result = 0;
     if (width != shape->width || height != shape->height)
@@ -98,6 +107,8 @@ int asset_keep_shader(struct resource *resource, struct shader *shader, struct e
 int asset_load_shader(struct resource *resource, const char *path, struct error *error)
 {
     struct shader *shader;
+    if (asset_check_path(path, error))
+        return -1;
     return shader_load(path, &shader, error) ? -1 : asset_keep_shader(resource, shader, error);
 }
 

@@ -10,6 +10,9 @@ struct shader;
 /* Where a path of a stream leads: a relative one starts at the stream's folder. The caller frees it. */
 char *asset_path(const char *stream_path, const char *path);
 
+/* Refuses what exists and is no regular file: a pipe may never end, or never begin. */
+int asset_check_path(const char *path, struct error *error);
+
 /* Fills a resource from the file at a path. */
 typedef int resource_loader(struct resource *resource, const char *path, struct error *error);
 resource_loader asset_load_texture, asset_load_shader; /* and mesh_load */

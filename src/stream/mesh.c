@@ -1,7 +1,8 @@
 #include "stream/mesh.h"
-#include "stream/build.h"
 
 #include "container/layout.h"
+#include "stream/asset.h"
+#include "stream/build.h"
 #include "stream/place.h"
 
 #include <math.h>
@@ -392,6 +393,8 @@ int mesh_load(struct resource *resource, const char *path, struct error *error)
 {
     const struct mesh_options *options = &resource->options;
     struct mesh mesh = {0};
+    if (asset_check_path(path, error))
+        return -1;
     int result = options->source == MESH_BEZIER ? mesh_read_bezier(&mesh, path, options->subdivisions, error)
                                                 : mesh_read_model(&mesh, path, options->bones, error);
     return finish(resource, &mesh, path, result, error);
