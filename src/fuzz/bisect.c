@@ -16,6 +16,7 @@ struct pair {
 /* The bisection that runs: engines' functions are told nothing of it. There is one at a time. */
 static struct search {
     const struct engine *engine[2];
+    struct engine pair; /* of the two */
     const struct bisect_options *options;
     struct bisection *bisection;
     struct triptych_device *device;
@@ -453,7 +454,9 @@ static int search_stream(const struct stream *stream, struct error *error)
     if (!frames)
         return error_set(error, "out of memory for %u calls", stream->executed_count);
     struct stream view = draw_by_draw(stream, frames);
-    int result = device_create(&engine_pair, &options, &search->device, error) ? -1 : 0;
+    search->pair = engine_pair;
+    search->pair.without_arena = search->engine[0]->without_arena && search->engine[1]->without_arena;
+    int result = device_create(&search->pair, &options, &search->device, error) ? -1 : 0;
     if (!result) {
         result = play(stream, &view, error);
         device_destroy(search->device);
