@@ -43,8 +43,8 @@ struct code_arena {
     uint8_t *writable;
     uint8_t *executable;
     size_t capacity;
-    size_t unit;           /* bytes */
-    bool breakpoints;      /* a debugger's may be in the executable view */
+    size_t unit; /* bytes */
+    enum code_purpose purpose;
     pthread_mutex_t mutex; /* guards all below */
     struct unit *units;
     uint32_t lists[LIST_COUNT]; /* first units; list n holds sizes 2^n to 2^(n+1) - 1 */
@@ -226,7 +226,7 @@ static uint32_t find_tighter(const struct code_arena *arena, uint32_t first, uin
 /* The executable view shows the file's pages again, where a debugger has put its own in their place. */
 static void forget_breakpoints(const struct code_arena *arena, const struct code_span *span)
 {
-    if (arena->breakpoints)
+    if (arena->purpose == CODE_TO_DEBUG)
         madvise((void *)(uintptr_t)span->executable, span->bytes, MADV_DONTNEED);
 }
 
@@ -305,7 +305,7 @@ static int map_views(struct code_arena *arena, const struct code_system *system,
     if (writable == MAP_FAILED)
         return error_set(error, "code arena: cannot map %zu bytes writable: %s", bytes, strerror(errno));
     void *executable = system->map(NULL, bytes, PROT_READ | PROT_EXEC,
-                                   arena->breakpoints ? MAP_PRIVATE : MAP_SHARED, file, 0);
+                                   arena->purpose == CODE_TO_DEBUG ? MAP_PRIVATE : MAP_SHARED, file, 0);
     if (executable == MAP_FAILED) {
         int reason = errno;
         munmap(writable, bytes);
@@ -316,8 +316,29 @@ static int map_views(struct code_arena *arena, const struct code_system *system,
     return 0;
 }
 
+static int map_without_file(struct code_arena *arena, const struct code_system *system, struct error *error)
+{
+    size_t bytes = arena->capacity;
+    void *writable = system->map(NULL, bytes, PROT_READ | PROT_WRITE, MAP_SHARED | MAP_ANONYMOUS, -1, 0);
+    if (writable == MAP_FAILED)
+        return error_set(error, "code arena: cannot map %zu bytes writable: %s", bytes, strerror(errno));
+    void *executable = mremap(writable, 0, bytes, MREMAP_MAYMOVE); /* of shared memory, 0 is a second view */
+    if (executable == MAP_FAILED || mprotect(executable, bytes, PROT_READ | PROT_EXEC)) {
+        int reason = errno;
+        munmap(writable, bytes);
+        if (executable != MAP_FAILED)
+            munmap(executable, bytes);
+        return error_set(error, "code arena: cannot map %zu bytes executable: %s", bytes, strerror(reason));
+    }
+    arena->writable = writable;
+    arena->executable = executable;
+    return 0;
+}
+
 static int map_memory(struct code_arena *arena, const struct code_system *system, struct error *error)
 {
+    if (arena->purpose == CODE_TO_PROFILE)
+        return map_without_file(arena, system, error);
     int file = create_file(system);
     if (file < 0)
         return error_set(error, "code arena: cannot create a memory file: %s", strerror(errno));
@@ -339,7 +360,6 @@ static struct code_arena *allocate(size_t capacity, size_t unit, struct error *e
     }
     arena->capacity = capacity;
     arena->unit = unit;
-    arena->breakpoints = unit != CODE_ALIGNMENT;
     arena->units = units;
     arena->recycled_from = UINT32_MAX;
     arena->can_serialize =
@@ -348,8 +368,8 @@ static struct code_arena *allocate(size_t capacity, size_t unit, struct error *e
     return arena;
 }
 
-static struct code_arena *create(size_t bytes, bool breakpoints, const struct code_system *system,
-                                 struct error *error)
+struct code_arena *code_create_for(enum code_purpose purpose, size_t bytes, const struct code_system *system,
+                                   struct error *error)
 {
     const size_t most = (size_t)2 << 30, page = (size_t)sysconf(_SC_PAGESIZE);
     if (bytes > most) {
@@ -357,9 +377,10 @@ static struct code_arena *create(size_t bytes, bool breakpoints, const struct co
         return NULL;
     }
     size_t capacity = bytes ? (bytes + page - 1) / page * page : DEFAULT_BYTES;
-    struct code_arena *arena = allocate(capacity, breakpoints ? page : CODE_ALIGNMENT, error);
+    struct code_arena *arena = allocate(capacity, purpose == CODE_TO_DEBUG ? page : CODE_ALIGNMENT, error);
     if (!arena)
         return NULL;
+    arena->purpose = purpose;
     if (map_memory(arena, system ? system : &code_system_native, error)) {
         code_destroy(arena);
         return NULL;
@@ -370,13 +391,7 @@ static struct code_arena *create(size_t bytes, bool breakpoints, const struct co
 
 struct code_arena *code_create(size_t bytes, const struct code_system *system, struct error *error)
 {
-    return create(bytes, false, system, error);
-}
-
-struct code_arena *code_create_for_breakpoints(size_t bytes, const struct code_system *system,
-                                               struct error *error)
-{
-    return create(bytes, true, system, error);
+    return code_create_for(CODE_TO_RUN, bytes, system, error);
 }
 
 void code_destroy(struct code_arena *arena)

@@ -12,7 +12,7 @@
  * refer to anything outside by a rip-relative distance (addresses in registers or 64-bit immediates are
  * fine).
  *
- * Spans are multiples of CODE_ALIGNMENT and aligned to it (or to pages: code_create_for_breakpoints). What surrounds code is 0xCC (int3): the tail of
+ * Spans are multiples of CODE_ALIGNMENT and aligned to it (or to pages: code_create_for). What surrounds code is 0xCC (int3): the tail of
  * its last unit, and spans that have been freed, so that a stray jump traps. All functions are thread-safe;
  * nobody else may touch a span between its reserve and its commit, or run it while it is freed. */
 #ifndef BASE_CODE_H
@@ -57,11 +57,17 @@ struct code_statistics {
  * one. Returns null, with the reason, when the system refuses. */
 struct code_arena *code_create(size_t bytes, const struct code_system *system, struct error *error);
 
-/* The same for a debugger that sets breakpoints. It can write them only to pages that are private to the process, so the
- * executable view is such a mapping: it shows what the file has, but for pages that the debugger has written to. Spans are
- * whole pages here, and a commit lets go of the debugger's, so that no routine keeps another's breakpoints. */
-struct code_arena *code_create_for_breakpoints(size_t bytes, const struct code_system *system,
-                                               struct error *error);
+/* The same for code that others look at.
+ *
+ * A debugger can write breakpoints only to pages that are private to the process. So the executable view is such a
+ * mapping, which shows what the file has but for pages that the debugger has written to; spans are whole pages, and a
+ * commit lets go of the debugger's, so that no routine keeps another's breakpoints.
+ *
+ * perf looks for names of code without symbols only where no file is mapped. So both views are of shared memory without a
+ * file: the second one is made from the first, and made executable instead of writable before anything runs. */
+enum code_purpose { CODE_TO_RUN, CODE_TO_DEBUG, CODE_TO_PROFILE };
+struct code_arena *code_create_for(enum code_purpose purpose, size_t bytes, const struct code_system *system,
+                                   struct error *error);
 
 /* Null when generated code can run in this process now, which is tried with an arena of one page; else one line that
  * says why not, the calling thread's until it asks again. */

@@ -20,6 +20,14 @@ static size_t arena_bytes(size_t cache_bytes)
     return bytes < minimum ? minimum : bytes;
 }
 
+/* A debugger's breakpoints are worth more than names in perf's map. */
+static enum code_purpose purpose_of(unsigned listeners)
+{
+    return listeners >> DEBUG_gdb & 1    ? CODE_TO_DEBUG
+           : listeners >> DEBUG_perf & 1 ? CODE_TO_PROFILE
+                                         : CODE_TO_RUN;
+}
+
 static enum triptych_result create_parts(struct triptych_device *device, const struct device_options *options,
                                          unsigned listeners, struct error *error)
 {
@@ -27,8 +35,7 @@ static enum triptych_result create_parts(struct triptych_device *device, const s
     if (!device->engine->without_arena) {
         errno = 0;
         size_t bytes = options->code_bytes ? options->code_bytes : arena_bytes(cache_bytes);
-        device->arena = listeners >> DEBUG_gdb & 1 ? code_create_for_breakpoints(bytes, NULL, error)
-                                                   : code_create(bytes, NULL, error);
+        device->arena = code_create_for(purpose_of(listeners), bytes, NULL, error);
         if (!device->arena)
             return device_refusal(TRIPTYCH_ENGINE_FAILED);
     }

@@ -122,7 +122,7 @@ static void poke(const uint8_t *code, uint8_t byte)
 static void breakpoints_stay_in_their_routine_and_go_with_it(void)
 {
     code_destroy(arena);
-    arena = code_create_for_breakpoints(CAPACITY, NULL, &error);
+    arena = code_create_for(CODE_TO_DEBUG, CAPACITY, NULL, &error);
     TEST_ASSERT_NOT_NULL_MESSAGE(arena, error.text);
     struct code_span first = reserve(2 * FUNCTION_BYTES), second = reserve(FUNCTION_BYTES);
     write_function(first.writable, 1);
@@ -146,6 +146,21 @@ static void breakpoints_stay_in_their_routine_and_go_with_it(void)
     TEST_ASSERT_EQUAL_STRING("r-xp", permissions);
     permissions_of(first.writable, permissions);
     TEST_ASSERT_EQUAL_STRING("rw-s", permissions);
+}
+
+static void code_to_profile_is_in_no_file_and_never_both(void)
+{
+    char permissions[5];
+    code_destroy(arena);
+    arena = code_create_for(CODE_TO_PROFILE, CAPACITY, NULL, &error);
+    TEST_ASSERT_NOT_NULL_MESSAGE(arena, error.text);
+    struct code_span span = reserve(FUNCTION_BYTES);
+    write_function(span.writable, 9);
+    TEST_ASSERT_EQUAL_INT(9, run(code_commit(arena, &span, FUNCTION_BYTES)));
+    permissions_of(span.writable, permissions);
+    TEST_ASSERT_EQUAL_STRING("rw-s", permissions);
+    permissions_of(span.executable, permissions);
+    TEST_ASSERT_EQUAL_STRING("r-xs", permissions);
 }
 
 /* The signal that ends a process which does `act(argument)`, 0 if none does. */
@@ -467,6 +482,7 @@ int main(void)
     RUN_TEST(committed_code_runs_at_the_executable_address);
     RUN_TEST(views_translate_into_each_other);
     RUN_TEST(no_address_is_both_writable_and_executable);
+    RUN_TEST(code_to_profile_is_in_no_file_and_never_both);
     RUN_TEST(breakpoints_stay_in_their_routine_and_go_with_it);
     RUN_TEST(the_wrong_view_faults_and_the_right_one_does_not);
     RUN_TEST(freed_code_and_the_tail_of_code_trap);
