@@ -25,7 +25,10 @@ static struct varied_image expected;
 
 void setUp(void)
 {
+    struct varied_image none;
     varied_render(engine_find("emulate"), &(struct device_options){.threads = 1}, 0, STATES, &expected);
+    varied_render(engine_find("emulate"), &(struct device_options){.threads = 1}, 0, 0, &none);
+    TEST_ASSERT_TRUE(memcmp(&expected, &none, sizeof none));
 }
 
 void tearDown(void)
@@ -126,18 +129,20 @@ static void ask_for_both(const void *unused)
 }
 
 /* The kernel ends whoever asks for both: first that it does, then that nobody is ended. */
-static void render_under_guard(const void *unused)
+static void render_under_guard(const void *debug)
 {
-    (void)unused;
+    const struct device_options options = {.threads = 2, .cache_bytes = 20000, .debug = debug};
+    char map[64];
     sandbox_enter(&(struct sandbox){.protection = PROT_WRITE | PROT_EXEC});
     for (unsigned i = 0; engine_at(i); i++) {
         struct varied_image found;
         if (engine_at(i)->on_request || engine_at(i)->unavailable())
             continue;
-        varied_render(engine_at(i), &(struct device_options){.threads = 2, .cache_bytes = 20000}, 0, STATES,
-                      &found);
+        varied_render(engine_at(i), &options, 0, STATES, &found);
         TEST_ASSERT_EQUAL_MEMORY_MESSAGE(&expected, &found, sizeof found, engine_at(i)->name);
     }
+    snprintf(map, sizeof map, "/tmp/perf-%d.map", (int)getpid());
+    unlink(map);
 }
 
 static void nobody_asks_for_memory_that_is_both(void)
@@ -151,7 +156,9 @@ static void nobody_asks_for_memory_that_is_both(void)
     }
     TEST_ASSERT_EQUAL_INT(child, waitpid(child, &status, 0));
     TEST_ASSERT_TRUE(WIFSIGNALED(status) && WTERMSIG(status) == SIGSYS);
-    sandbox_child(render_under_guard, NULL);
+    sandbox_child(render_under_guard, "");
+    sandbox_child(render_under_guard, "gdb");
+    sandbox_child(render_under_guard, "perf");
 }
 
 /* --- Refused ------------------------------------------------------------------------------------------------------ */
