@@ -364,13 +364,13 @@ void record_update(struct triptych_device *device, const triptych_texture *textu
                    unsigned level, const struct triptych_box *box, const void *data, size_t row_pitch,
                    size_t slice_pitch)
 {
-    const struct texture_level *whole = &texture->level[level];
-    const struct triptych_box all = {
-        0, 0, 0, (unsigned)whole->width, (unsigned)whole->height, (unsigned)whole->depth};
     struct call call = {.type = CALL_UPDATE, .resource = texture->recorded};
     size_t bytes;
     if (!device->recorder)
         return;
+    const struct texture_level *whole = &texture->level[level];
+    const struct triptych_box all = {
+        0, 0, 0, (unsigned)whole->width, (unsigned)whole->height, (unsigned)whole->depth};
     uint8_t *packed = pack_rows(texture, box ? box : &all, data, row_pitch, slice_pitch, &bytes);
     if (!packed)
         codec_fail(&device->recorder->codec, "not enough memory");

@@ -26,7 +26,7 @@ struct stand_in {
 struct followed {
     struct stand_in *stand_in; /* once it is bound */
     bool begun, released;      /* a query; anything */
-    struct call begin;         /* the call that began the query */
+    uint32_t line, column;     /* of the call that began the query */
 };
 
 struct follower {
@@ -46,7 +46,8 @@ struct follower {
 static struct followed *followed(struct follower *follower, uint32_t number)
 {
     if (number >= follower->resource_count) {
-        uint32_t count = follower->stream->resource_count;
+        uint32_t most = follower->stream->resource_count, twice = 2 * follower->resource_count;
+        uint32_t count = most > twice ? most : twice;
         struct followed *larger = realloc(follower->resources, count * sizeof *larger);
         if (!larger)
             return NULL;
@@ -271,7 +272,8 @@ static int follow_query(struct follower *follower, const struct call *call, stru
     if (call->type == CALL_END_QUERY && !query->begun)
         return error_set(error, "found query %s not begun, expected begin-query %s before it", name, name);
     query->begun = call->type == CALL_BEGIN_QUERY;
-    query->begin = *call;
+    query->line = call->line;
+    query->column = call->column;
     follower->begun += query->begun ? 1 : UINT32_MAX;
     return 0;
 }
@@ -284,7 +286,10 @@ int follower_frame(struct follower *follower, struct error *error)
             const char *name = follower->stream->resources[i].name;
             error_set(&reason, "found query %s begun and not ended, expected end-query %s in its frame", name,
                       name);
-            return stream_fail(follower->stream, &follower->resources[i].begin, reason.text, error);
+            const struct call begin = {.type = CALL_BEGIN_QUERY,
+                                       .line = follower->resources[i].line,
+                                       .column = follower->resources[i].column};
+            return stream_fail(follower->stream, &begin, reason.text, error);
         }
     return 0;
 }
