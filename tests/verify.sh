@@ -23,7 +23,8 @@ done
 
 # Engines that are left out above: they run where they are named, for what they add is much time.
 few=(bench/streams/teapot-bilinear.tri tests/streams/{lights,multisampling,queries,render-to-texture}.tri
-    tests/scenes/cube-map.tri tests/streams/shaders.tri tests/shading/light-loop.tri)
+    tests/scenes/cube-map.tri tests/streams/shaders.tri tests/shading/light-loop.tri
+    tests/regressions/anisotropic-words-and-numbers.tri)
 for engine in $("$TRIPTYCH" list engines | awk '$1 ~ /^(batch-4|batch-256|external)$/ && $3 == "available" { print $1 }'); do
     if said=$("$TRIPTYCH" verify "${few[@]}" --engines "$engine" --frames 1 --threads 2 2>&1); then
         printf 'ok %s\n' "$engine"

@@ -216,8 +216,9 @@ static inline struct sampler sampler(struct env *e, const struct sampler_key *k,
     return s;
 }
 
-/* Variables of the taps' loop: which one it is, which lanes have it, and the sums of up to four channels. */
-enum { VARIABLE_TAP = VARIABLES - 6, VARIABLE_TAPPED, VARIABLE_SUM };
+/* Variables of the taps' loop: which one it is, which lanes have it, and the sums: of two pairs of channels, or of up to
+ * four. A variable has one type in all of a routine, which may sample textures of both kinds. */
+enum { VARIABLE_TAP = VARIABLES - 8, VARIABLE_TAPPED, VARIABLE_PAIR_SUM, VARIABLE_SUM = VARIABLES - 4 };
 
 /* Moves the coordinates to tap i of 1 to N; `apart` is 1 / (N + 1). */
 static inline struct sampler tap_sampler(struct env *e, const struct sampler *s, flt i, flt apart)
@@ -301,22 +302,22 @@ static inline struct color sample_anisotropic(struct env *e, const struct sample
 {
     flt apart = taps_apart(E, s);
     begin_taps(E);
-    set_i(E, VARIABLE_SUM, lit_i(E, 0));
-    set_i(E, VARIABLE_SUM + 1, lit_i(E, 0));
+    set_i(E, VARIABLE_PAIR_SUM, lit_i(E, 0));
+    set_i(E, VARIABLE_PAIR_SUM + 1, lit_i(E, 0));
     LOOP(E, VARIABLE_TAPPED)
     {
         flt i = get_f(E, VARIABLE_TAP);
         msk counts = get_m(E, VARIABLE_TAPPED);
         struct sampler tap = tap_sampler(E, s, i, apart);
         struct color color = sample_levels(E, &tap);
-        add_tap(E, VARIABLE_SUM, counts, color.rb);
-        add_tap(E, VARIABLE_SUM + 1, counts, color.ga);
+        add_tap(E, VARIABLE_PAIR_SUM, counts, color.rb);
+        add_tap(E, VARIABLE_PAIR_SUM + 1, counts, color.ga);
         next_tap(E, s);
     }
     itg taps = round_i(E, s->detail.taps);
     struct color r;
-    r.rb = mean_of_taps(E, VARIABLE_SUM, taps);
-    r.ga = mean_of_taps(E, VARIABLE_SUM + 1, taps);
+    r.rb = mean_of_taps(E, VARIABLE_PAIR_SUM, taps);
+    r.ga = mean_of_taps(E, VARIABLE_PAIR_SUM + 1, taps);
     return r;
 }
 
