@@ -517,6 +517,31 @@ static void predicates_call_lane_by_lane(void)
     on_all(dynamically, DYNAMICALLY, trial, called_by_predicate);
 }
 
+static void called_inside(const struct trial *trial, operands o, double r[TRIAL_RESULTS][4])
+{
+    (void)trial;
+    for (int c = 0; c < 4; c++) {
+        r[0][c] = at(o, 0, c);
+        if (at(o, 0, 2) < at(o, 1, 2) && at(o, 0, 1) < at(o, 1, 1))
+            r[0][c] = rounded(r[0][c] + at(o, 1, c));
+        for (int pass = 0; pass < 2; pass++)
+            if (!(at(o, 0, 0) < at(o, 1, 0)))
+                r[0][c] = rounded(r[0][c] * at(o, 2, c));
+    }
+}
+
+/* What they write is written by the condition and by the loop around the calls. */
+static void conditional_calls_inside_of_conditions_and_loops_leave_what_they_wrote(void)
+{
+    struct trial trial = trial_of(NULL,
+                                  "mov r0, r1\nsetp_lt p0, r1, r2\nif_lt r1.z, r2.z\ncallnz l0, p0.y\n"
+                                  "endif\nrep i0\ncallnz l1, !p0.x\nendrep",
+                                  1);
+    trial.setup = "defi i0, 2, 0, 0, 0\n";
+    trial.behind = "ret\nlabel l0\nadd r0, r0, r2\nret\nlabel l1\nmul r0, r0, r3\nret\n";
+    on_all(dynamically, DYNAMICALLY, trial, called_inside);
+}
+
 /* Each calls the next twice: 1 + 2 + 4 + 8 additions. */
 static void called_4_deep(const struct trial *trial, operands o, double r[TRIAL_RESULTS][4])
 {
@@ -580,6 +605,7 @@ int main(void)
     RUN_TEST(loops_run_in_the_lanes_that_enter);
     RUN_TEST(subroutines_run_where_they_are_called);
     RUN_TEST(predicates_call_lane_by_lane);
+    RUN_TEST(conditional_calls_inside_of_conditions_and_loops_leave_what_they_wrote);
     RUN_TEST(subroutines_call_4_deep);
     RUN_TEST(subroutines_in_loops_know_who_left);
     return UNITY_END();
