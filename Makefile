@@ -108,7 +108,7 @@ unity_flags = -isystem $(dir $(UNITY_SOURCE)) -DUNITY_INCLUDE_DOUBLE -DUNITY_USE
 
 # --- What to build -------------------------------------------------------------------------------------------
 
-.PHONY: all programs check test check-threads matrix coverage soak bench bench-shaders mutations gallery verify-external fuzzers fuzz-input fuzz-input-smoke dependencies packages install clean format format-check help FORCE
+.PHONY: all programs check test check-threads matrix coverage soak soak-faults soak-memory bench bench-shaders mutations gallery verify-external fuzzers fuzz-input fuzz-input-smoke dependencies packages install clean format format-check help FORCE
 
 all: $(BUILD)/libtriptych.a $(if $(SANITIZE),,$(BUILD)/libtriptych.so $(BUILD)/triptych.pc) $(COMMAND) build/glmark2 \
   build/assimp
@@ -319,6 +319,16 @@ mutations:
 	+@$(MAKE) $(jobs) $(UNITY_SOURCE) build/glmark2 build/assimp
 	@BUILD=$(BUILD) tests/mutations/run.sh '$(ONLY)'
 
+# Everything that the system can refuse, at every request and every call, and every place that asks for memory.
+soak-faults:
+	@tests/support/dependencies.sh build test
+	+@$(MAKE) $(jobs) all programs
+	@tests/support/faults.sh $(BUILD)
+
+# Memory on streams of 10 million triangles, 100,000 states, 100,000 shaders, a million constants.
+soak-memory: $(BUILD)/tests/fault/memory
+	@TRIPTYCH_SOAK=1 $<
+
 # The pictures of docs/gallery.md and docs/shader-gallery.md, which are goldens: look at them before they are committed.
 gallery: all
 	@GOLDENS=write TRIPTYCH=$(COMMAND) tests/goldens.sh $(wildcard tests/scenes/*.tri tests/shading/*.tri)
@@ -356,6 +366,8 @@ make                 the library (static and shared) and the command, in $(BUILD
 make test            everything that is tested, from a bare Debian on; ends with "N passed, N failed"
 make check           the same tests on the plain build only
 make bench           the measurements, from a bare Debian on; writes results/
+make soak-faults     everything that the system can refuse, refused at every request: half an hour
+make soak-memory     what 10 million triangles and 100,000 states take: minutes
 make bench-shaders   the same of every shader in tests/shading, by shader and by length
 make soak            random cases and tests with new seeds, half an hour (DURATION=1800 SEED=1), then a summary
 make fuzz-input      untrusted input with libFuzzer, half an hour (DURATION=1800) each TARGET, JOBS at a time

@@ -70,11 +70,11 @@ int read_names(struct shader *shader, const unsigned char *comment, size_t bytes
             shader->path, token);
     if (!count)
         return 0;
-    struct shader_name *names = realloc(shader->names, (shader->name_count + (size_t)count) * sizeof *names);
-    if (!names || shader->name_count + (size_t)count > NAMES) {
-        shader->names = names ? names : shader->names;
+    if (shader->name_count + (size_t)count > NAMES)
         return error_set(error, "%s: more than %d names of constants", shader->path, NAMES);
-    }
+    struct shader_name *names = realloc(shader->names, (shader->name_count + (size_t)count) * sizeof *names);
+    if (!names)
+        return error_set(error, "%s: not enough memory for the names of constants", shader->path);
     shader->names = names;
     for (uint32_t i = 0; i < count; i++) {
         uint32_t offset = first + i * CONSTANT_BYTES;

@@ -280,15 +280,20 @@ static void test_reading_and_writing_streams(void)
     }
 }
 
-/* The same of containers; the input is made first. */
+/* The same of containers, which are made first; one with files of textures, one with a shader. */
 static void test_containers(void)
 {
-    char line[512], *arguments[] = {"triptych", "convert", "tests/streams/shaders.tri", container};
-    TEST_ASSERT_EQUAL_INT(0, command_line_run(4, arguments));
+    static char *const streams[] = {"tests/streams/shaders.tri", "tests/scenes/cube-map.tri",
+                                    "tests/streams/render-to-texture.tri"};
+    char line[512];
     refuse_each("convert tests/streams/meshes.tri OUT.trib", CONTAINER, 0);
     refuse_each("convert tests/streams/frames.tri OUT.trib", CONTAINER, 0);
-    snprintf(line, sizeof line, "convert %s OUT.tri", container);
-    refuse_each(line, EXACT, 0);
+    for (unsigned i = 0; i < 3; i++) {
+        char *arguments[] = {"triptych", "convert", streams[i], container};
+        TEST_ASSERT_EQUAL_INT(0, command_line_run(4, arguments));
+        snprintf(line, sizeof line, "convert %s OUT.tri", container);
+        refuse_each(line, EXACT, 0);
+    }
     snprintf(line, sizeof line, "convert %s OUT.trib --salvage", container);
     refuse_each(line, CONTAINER, 0);
     snprintf(line, sizeof line, "render %s --engine emulate --out OUT.png", container);
@@ -301,6 +306,7 @@ static void test_pictures(void)
     refuse_each("render tests/streams/queries.tri --engine emulate --out OUT.png", EXACT, 0);
     refuse_each("render tests/streams/target-formats.tri --engine specialize --threads 2 --out OUT.exr",
                 EXACT, 0);
+    refuse_each("verify tests/streams/targets.tri --engines batch --threads 1 --frames 1", EXACT, 0);
     refuse_each("compare tests/goldens/queries.png tests/goldens/queries.png", EXACT, 0);
     refuse_each("compare tests/goldens/stencil-operations.png tests/goldens/texture-addressing.png "
                 "--difference OUT.png",

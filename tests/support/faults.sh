@@ -4,16 +4,16 @@
 #
 #   tests/support/faults.sh BUILD
 #
-# A place is a line that calls one of the functions below; it has been refused when code of that line, or of the three
-# behind it where the call goes on, was. EXCEPT names what the tests cannot reach, with the reason.
+# A place is a line that calls one of the functions below; it has been refused when code of that line, or of the few
+# around it that a statement takes, was. EXCEPT names what the tests cannot reach, with the reason.
 # Prints what the tests print, the places that were never refused, and a summary. Ends non-zero when something failed.
 set -uo pipefail
 cd "$(dirname "$0")/../.."
 
 build=$1
-functions='malloc|calloc|realloc|aligned_alloc|posix_memalign|strdup|strndup|realpath|fopencookie|newlocale|mmap|memfd_create|pthread_create|XXH3_createState'
+functions='malloc|calloc|realloc|aligned_alloc|posix_memalign|strdup|strndup|realpath|fopencookie|mmap|memfd_create|pthread_create|XXH3_createState'
 except='src/external/(compile|engine)\.c' # a compilation takes longer than all the rest: tests/external has its refusals
-except+='|src/external/dump\.c'
+except+='|src/external/dump\.c|src/base/code\.c' # code.c's calls are jumps: who called them was refused
 except+='|src/tool/(minimize|bisect)\.c|src/fuzz/' # drawing random cases: the campaign counts a process that is refused
 
 sites=$(mktemp) places=$(mktemp) refused=$(mktemp)
@@ -27,7 +27,7 @@ for name in device command thread disk interrupt memory; do
     [[ -s $sites ]] || continue
     # Return addresses: the call is in front of them.
     while read -r address; do printf '0x%x\n' $((address - 1)); done <"$sites" |
-        addr2line -i -e "$build/tests/fault/$name" | sed -n "s|^$PWD/||; s| (discriminator.*||; p" >>"$refused"
+        addr2line -i -e "$build/tests/fault/$name" | sed -En 's/ \(discriminator.*//; s,^.*/((src|emu)/[^/]*/?[^/]*:[0-9]+)$,\1,p' >>"$refused"
 done
 
 grep -rnE "\b($functions)\(" --include='*.[ch]' src emu | grep -vE ':[0-9]+:( \*|/\*|.*//)' |
@@ -35,7 +35,7 @@ grep -rnE "\b($functions)\(" --include='*.[ch]' src emu | grep -vE ':[0-9]+:( \*
 
 never=0
 while IFS=: read -r file line; do
-    for ((near = line; near <= line + 3; near++)); do
+    for ((near = line - 2; near <= line + 3; near++)); do
         grep -qxF "$file:$near" "$refused" && continue 2
     done
     printf 'never refused: %s:%s: %s\n' "$file" "$line" "$(sed -n "${line}s/^ *//p" "$file")"
