@@ -241,6 +241,20 @@ static void judge_failure(unsigned i, int reason, unsigned long at, int result)
     TEST_ASSERT_EQUAL_UINT_MESSAGE(0, leftovers(false), message);
 }
 
+/* What close tells last of all included: data may have been lost as late as that. */
+static void test_each_call_that_fails_before_the_new_name_is_told(void)
+{
+    unsigned long calls, at = 0;
+    write_undisturbed(0, &calls);
+    do {
+        put_before(false);
+        int result = attempt(0, FILE_FAULT_ERROR, EIO, ++at, &calls);
+        TEST_ASSERT_NOT_NULL(file_fault.name);
+        TEST_ASSERT_TRUE_MESSAGE(result != 0, file_fault.name);
+    } while (strcmp(file_fault.name, "rename"));
+    TEST_ASSERT_GREATER_OR_EQUAL_UINT(5, at); /* open, write, fsync, close */
+}
+
 /* Where the folder is synced nothing depends on it any more. */
 static void test_each_call_that_fails_leaves_the_old_file_or_the_new_one(void)
 {
@@ -470,6 +484,7 @@ static void test_standard_output_that_is_full(void)
 int main(void)
 {
     UNITY_BEGIN();
+    RUN_TEST(test_each_call_that_fails_before_the_new_name_is_told);
     RUN_TEST(test_each_call_that_fails_leaves_the_old_file_or_the_new_one);
     RUN_TEST(test_short_and_interrupted_writes_are_continued);
     RUN_TEST(test_a_write_that_stores_nothing_fails);
