@@ -42,17 +42,19 @@ fuzz() # TARGET
     return $status
 }
 
-# Regressions, whose names begin with no checksum, stay whatever they cover.
+# From inputs of up to LENGTH bytes. Regressions, whose names begin with no checksum, stay whatever they cover.
 merge() # TARGET
 {
-    local target=$1 corpus=tests/fuzz/corpus/$1 kept=$build/kept/$1
-    rm -rf "$kept"
-    mkdir -p "$kept" "$corpus"
-    "$build/fuzz/$target" -set_cover_merge=1 -use_counters=0 -timeout=10 -rss_limit_mb=2048 -max_len="${LENGTH:-1024}" "$kept" "$corpus" \
-        "$build/inputs/$target" "$build/seeds/$target" >"$build/logs/$target.merge.log" 2>&1 </dev/null
+    local target=$1 corpus=tests/fuzz/corpus/$1 small=$build/small/$1 kept=$build/kept/$1
+    rm -rf "$small" "$kept"
+    mkdir -p "$small" "$kept" "$corpus"
+    find -L "$corpus" "$build/inputs/$target" -type f -size "-${LENGTH:-400}c" -exec cp -t "$small" {} + 2>/dev/null # some are in both
+    "$build/fuzz/$target" -merge=1 -use_counters=0 -timeout=10 -rss_limit_mb=2048 "$kept" "$small" \
+        >"$build/logs/$target.merge.log" 2>&1 </dev/null
     find "$corpus" -type f -regextype posix-extended -regex '.*/[0-9a-f]{40}' -delete
     cp "$kept"/* "$corpus"/
-    printf '%-10s %6d inputs, %s\n' "$target" "$(find "$corpus" -type f | wc -l)" "$(du -sh --apparent-size "$corpus" | cut -f1)"
+    find "$corpus" -type f -printf '%s\n' |
+        awk -v target="$target" '{ bytes += $1 } END { printf "%-10s %6d inputs, %d bytes\n", target, NR, bytes }'
 }
 
 export -f fuzz merge statistic column

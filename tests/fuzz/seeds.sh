@@ -15,17 +15,42 @@ copy() # FILE... : those of up to 16 KiB
     done
 }
 
-case $target in
-text) # with small targets, so that they are played
-    copy tests/*/*.tri bench/streams/*.tri
-    sed -i -E 's/^target [0-9]+ [0-9]+/target 16 16/' "$folder"/*
-    ;;
-container)
-    for file in tests/streams/*.tri tests/shading/*.tri; do
-        [[ $(stat -c %s "$file") -gt 8192 ]] || sed -E 's/^target [0-9]+ [0-9]+/target 16 16/' "$file" >"$folder/../seed.tri"
-        "$COMMAND" convert "$folder/../seed.tri" "$folder/$(basename "$file" .tri).trib" >/dev/null 2>&1
+# A stream with a small target, so that it is played.
+shrink() # FILE
+{
+    sed -E 's/^( *target) [0-9]+ [0-9]+/\1 16 16/; s/^( *viewport) ([^ ]+ ){4}/\1 0 0 16 16 /
+        s/^( *scissor) ([^ ]+ ){3}[^ ]+/\1 0 0 16 16/' "$1"
+}
+
+# Small streams without files, each in turn in the folder's seed.tri.
+each_stream() # COMMAND...
+{
+    local file
+    for file in $(grep -LE 'file|bezier' tests/streams/*.tri tests/shading/*.tri); do
+        [[ $(stat -c %s "$file") -le 8192 ]] || continue
+        shrink "$file" >"$folder/seed.tri"
+        "$@" "$folder/seed.tri" "$folder/$(basename "$file" .tri).trib" >/dev/null 2>&1
     done
-    rm -f "$folder/../seed.tri"
+    rm -f "$folder"/seed.*
+}
+
+record() # STREAM RECORDING
+{
+    TRIPTYCH_RECORD=$2 "$COMMAND" render "$1" --engine emulate --out "$1.png"
+}
+
+case $target in
+text)
+    rm -f "$folder"/small-*
+    copy tests/*/*.tri bench/streams/*.tri
+    for file in "$folder"/*.tri; do
+        shrink "$file" >"$folder/small-${file##*/}"
+    done
+    ;;
+container) each_stream "$COMMAND" convert ;;
+recording) # the calls of the interface that drawing makes
+    each_stream record
+    find "$folder" -size +16k -delete
     ;;
 shader) copy $(find tests/shaders -type f) ;;
 bytecode)

