@@ -127,7 +127,8 @@ void chunk_record(struct chunk_writer *writer, const void *bytes, size_t count)
     writer->all_records++;
     if (writer->failed)
         return;
-    memcpy(writer->contents + writer->bytes, bytes, count);
+    if (count) /* what could not be recorded is null */
+        memcpy(writer->contents + writer->bytes, bytes, count);
     writer->bytes += count;
 }
 
