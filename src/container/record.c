@@ -1,6 +1,7 @@
 #define _GNU_SOURCE /* secure_getenv */
 #include "container/record_part.h"
 
+#include <errno.h>
 #include <stdatomic.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -111,9 +112,10 @@ enum triptych_result record_start(struct triptych_device *device, const char *pa
         error_set(error, "%s: out of memory for a recording", path);
         return TRIPTYCH_NO_MEMORY;
     }
+    errno = 0;
     if (chunk_open(&recorder->chunks, path, true, error)) {
         free(recorder);
-        return TRIPTYCH_BAD_ARGUMENT;
+        return device_refusal(TRIPTYCH_BAD_ARGUMENT);
     }
     device->recorder = recorder;
     record_beginning(device);

@@ -478,6 +478,6 @@ int main(void)
     RUN_TEST(test_lines_points_and_clipping);
     RUN_TEST(test_a_draw_of_instances_is_recorded_whole_or_not_at_all);
     RUN_TEST(test_a_table_of_routines_that_cannot_grow);
-    printf("%lu requests refused at %u places\n", fault.total, fault.sites);
+    printf("%lu requests refused at %u places\n", fault.total, fault_sites->count);
     return UNITY_END();
 }

@@ -44,8 +44,6 @@ static struct fault {
     unsigned long refused; /* requests */
     unsigned long total;   /* refused since the program began */
     uint64_t stack;        /* what led to the last one refused, hashed */
-    void *site[FAULT_SITES];
-    unsigned sites;
     struct {
         uintptr_t begin, end;
     } foreign[FAULT_FOREIGN];
@@ -60,6 +58,12 @@ static struct fault {
                      int count); /* of each request, before it is granted or refused; or null */
 } fault = {.lock = ATOMIC_FLAG_INIT};
 
+/* What forks were refused counts too. */
+static struct fault_sites {
+    unsigned count;
+    void *site[FAULT_SITES];
+} * fault_sites;
+
 /* --- What is replaced -------------------------------------------------------------------------------------
  */
 
@@ -73,8 +77,10 @@ static struct fault {
 #endif
 
 #ifdef FAULT_SANITIZED
+enum { FAULT_INSTRUMENTED = 1 };
 #define FAULT_REAL(name) __interceptor_##name
 #else
+enum { FAULT_INSTRUMENTED = 0 };
 #define FAULT_REAL(name) __libc_##name
 #endif
 
@@ -140,11 +146,11 @@ static void fault_note_site(void *const *frames, int count)
         i++;
     if (i == count)
         return;
-    for (unsigned s = 0; s < fault.sites; s++)
-        if (fault.site[s] == frames[i])
+    for (unsigned s = 0; s < fault_sites->count; s++)
+        if (fault_sites->site[s] == frames[i])
             return;
-    if (fault.sites < FAULT_SITES)
-        fault.site[fault.sites++] = frames[i];
+    if (fault_sites->count < FAULT_SITES)
+        fault_sites->site[fault_sites->count++] = frames[i];
 }
 
 /* Whether this request is refused. `caller`: who asks. */
@@ -395,6 +401,12 @@ FAULT_EXPORT int pthread_create(pthread_t *thread, const pthread_attr_t *attribu
     return refuses ? EAGAIN : real(thread, attributes, run, argument);
 }
 
+/* Memory that forks share, all zeros. */
+static void *fault_shared(size_t bytes)
+{
+    return (void *)syscall(SYS_mmap, NULL, bytes, PROT_READ | PROT_WRITE, MAP_SHARED | MAP_ANONYMOUS, -1, 0);
+}
+
 /* --- Beginning and end ------------------------------------------------------------------------------------
  */
 
@@ -426,6 +438,7 @@ extern void __lsan_enable(void) __attribute__((weak));
 __attribute__((constructor)) static void fault_begin(void)
 {
     void *frames[4];
+    fault_sites = fault_shared(sizeof *fault_sites);
     dl_iterate_phdr(fault_find_foreign, NULL);
     if (__lsan_disable)
         __lsan_disable();
@@ -439,8 +452,8 @@ __attribute__((destructor)) static void fault_end(void)
     extern char __executable_start;
     const char *path = getenv("TRIPTYCH_FAULT_SITES");
     FILE *out = path ? fopen(path, "a") : NULL;
-    for (unsigned i = 0; i < fault.sites && out; i++)
-        fprintf(out, "0x%tx\n", (char *)fault.site[i] - &__executable_start);
+    for (unsigned i = 0; i < fault_sites->count && out; i++)
+        fprintf(out, "0x%tx\n", (char *)fault_sites->site[i] - &__executable_start);
     if (out)
         fclose(out);
 }
