@@ -1,12 +1,21 @@
 /* The process's own unwinder, libgcc's: it finds the call frame information of code that no file holds where it is
- * registered. Source: libgcc's unwind-dw2-fde.h; LLVM and others rely on the same two functions. */
+ * registered. Source: libgcc's unwind-dw2-fde.h. What most register with, __register_frame, takes memory for what libgcc
+ * notes and does not look whether it got any; this gives it that memory. */
 #include "debug/debug.h"
 #include "debug/dwarf.h"
 
+#include <stdint.h>
 #include <stdlib.h>
 
-void __register_frame(void *begin);
-void __deregister_frame(void *begin);
+enum { OBJECT_WORDS = 16 }; /* libgcc's struct object has 6 to 8 */
+
+struct registered {
+    void *frames;
+    uintptr_t object[OBJECT_WORDS];
+};
+
+void __register_frame_info(const void *begin, void *object);
+void *__deregister_frame_info(const void *begin);
 
 static int open_unwinder(struct error *error)
 {
@@ -16,21 +25,26 @@ static int open_unwinder(struct error *error)
 
 static int add(const struct debug_code *code, void **record, struct error *error)
 {
-    struct bytes frame = {0};
-    dwarf_frame(code, DWARF_EH_FRAME, &frame);
-    if (frame.failed) {
-        bytes_free(&frame);
+    struct registered *registered = calloc(1, sizeof *registered);
+    struct bytes frames = {0};
+    dwarf_frame(code, DWARF_EH_FRAME, &frames);
+    if (frames.failed || !registered) {
+        bytes_free(&frames);
+        free(registered);
         return error_set(error, "out of memory for unwinding %s", code->name);
     }
-    __register_frame(frame.data);
-    *record = frame.data;
+    registered->frames = frames.data;
+    __register_frame_info(frames.data, registered->object);
+    *record = registered;
     return 0;
 }
 
 static void remove_frame(void *record)
 {
-    __deregister_frame(record);
-    free(record);
+    struct registered *registered = record;
+    __deregister_frame_info(registered->frames);
+    free(registered->frames);
+    free(registered);
 }
 
 const struct debug_interface debug_to_unwind = {open_unwinder, add, remove_frame};
