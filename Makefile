@@ -70,12 +70,13 @@ library_libraries = $(filter-out -lOpenEXR-% -lOpenEXRUtil% -lIex% -lIlmThread% 
 tool_libraries = $(tool_packages) $(library_libraries)
 
 # Instrumented builds: SANITIZE=address (1 is the same), with undefined behaviour; SANITIZE=thread; SANITIZE=fuzzer, which
-# is address for libFuzzer (CC=clang); COVERAGE=1, whose counters may lose steps between threads, but not that a line ran.
-# gcc's flow warnings are wrong about instrumented code; the plain, clang and matrix builds are the ones that warn.
+# is address for libFuzzer (CC=clang); COVERAGE=1, whose counters are atomic because gcc counts loops with them otherwise,
+# and threads would change each other's. gcc's flow warnings are wrong about instrumented code; the plain, clang and
+# matrix builds are the ones that warn.
 instrument_address  = -fsanitize=address,undefined -fno-sanitize-recover=all
 instrument_fuzzer   = $(instrument_address) -fsanitize=fuzzer-no-link
 instrument_thread   = -fsanitize=thread
-instrument_coverage = --coverage -fprofile-update=single
+instrument_coverage = --coverage -fprofile-update=atomic
 
 instrument := $(if $(SANITIZE),$(SANITIZE:1=address),$(if $(COVERAGE),coverage))
 ifneq ($(instrument),)
@@ -162,6 +163,11 @@ $(PROGRAMS): $(BUILD)/tests/%: $(BUILD)/object/tests/%.o $(SUPPORT_OBJECTS) $(BU
   $(BUILD)/command.a $(BUILD)/libtriptych.a
 	@mkdir -p $(@D)
 	$(call say,LD)$(link) $(filter %.o,$^) $(filter %.a,$^) $(tool_libraries) -o $@
+
+ifeq ($(instrument),coverage)
+$(BUILD)/triptych: private override LDFLAGS += -Wl,--wrap=_exit $(BUILD)/object/tests/support/end.o
+$(BUILD)/triptych: $(BUILD)/object/tests/support/end.o
+endif
 
 # This test plants differences between the engines' pictures, to see the verification fail.
 $(BUILD)/tests/tool/verify: private override LDFLAGS += -Wl,--wrap=triptych_read_color,--wrap=triptych_read_depth,--wrap=triptych_read_stencil,--wrap=triptych_read_target_numbers

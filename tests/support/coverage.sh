@@ -16,7 +16,7 @@ find "$build"/object/{src,emu} -name '*.gcno' -print0 | xargs -0 gcov -t >"$repo
 
 awk -v least="$least" -v list="${LINES:-0}" '
     function percent(part, all) { return all ? 100 * part / all : 100 }
-    function row(lines, ran, name) { printf "%-34s %7d %7d %8.2f\n", name, lines, ran, percent(ran, lines) }
+    function row(lines, ran, name) { return sprintf("%-34s %7d %7d %8.2f", name, lines, ran, percent(ran, lines)) }
 
     # "COUNT:LINE:TEXT", "-" where there is no code, "#####" or "=====" where it did not run; line 0 tells about the file.
     /^ *-: *0:Source:/ { source = $0; sub(/^ *-: *0:Source:/, "", source); next }
@@ -38,9 +38,11 @@ awk -v least="$least" -v list="${LINES:-0}" '
             exit
         }
         printf "%-34s %7s %7s %8s\n", "file", "lines", "ran", "per cent"
-        sort = "sort"
-        for (source in lines) { row(lines[source], ran[source], source) | sort; all += lines[source]; done += ran[source] }
-        close(sort)
-        row(all, done, "all")
+        for (source in lines) {
+            print row(lines[source], ran[source], source) | "sort"
+            all += lines[source]; done += ran[source]
+        }
+        close("sort")
+        print row(all, done, "all")
         if (percent(done, all) < least) { printf "FAIL less than %d per cent\n", least > "/dev/stderr"; exit 1 }
     }' "$report"
