@@ -172,12 +172,52 @@ static void test_a_recording_is_whole_or_not_there(void)
     printf("%lu requests refused at %u places\n", at - 1, fault_sites->count);
 }
 
+static void remove_files(void)
+{
+    char name[512];
+    DIR *entries = opendir(folder);
+    for (struct dirent *entry; (entry = readdir(entries));)
+        if (entry->d_name[0] != '.') {
+            snprintf(name, sizeof name, "%s/%s", folder, entry->d_name);
+            unlink(name);
+        }
+    closedir(entries);
+}
+
+/* A device that is to be recorded from its creation on is created with its recording or not at all. */
+static void test_devices_that_the_environment_records(void)
+{
+    struct triptych_options options = {.engine = "emulate", .threads = 1};
+    enum triptych_result result = TRIPTYCH_NO_MEMORY;
+    char reason[512];
+    setenv("TRIPTYCH_RECORD", path, 1);
+    for (unsigned long at = 1; result; at++) {
+        fault_watch();
+        fault_arm(at, false);
+        result = triptych_device_create(&options, &device, reason, sizeof reason);
+        fault_disarm();
+        if (result) {
+            TEST_ASSERT_EQUAL_INT_MESSAGE(TRIPTYCH_NO_MEMORY, result, reason);
+            TEST_ASSERT_NULL(device);
+            TEST_ASSERT_EQUAL_UINT_MESSAGE(0, files(), reason);
+        }
+        result = fault.refused && !result ? TRIPTYCH_NO_MEMORY : result; /* it went on without */
+        triptych_device_destroy(device);
+        device = NULL;
+        const char *lost = fault_lost();
+        TEST_ASSERT_NULL_MESSAGE(lost, lost);
+        remove_files();
+    }
+    unsetenv("TRIPTYCH_RECORD");
+}
+
 int main(void)
 {
     UNITY_BEGIN();
     TEST_ASSERT_NOT_NULL(mkdtemp(folder));
     snprintf(path, sizeof path, "%s/recording.trib", folder);
     RUN_TEST(test_a_recording_is_whole_or_not_there);
+    RUN_TEST(test_devices_that_the_environment_records);
     rmdir(folder);
     return UNITY_END();
 }
