@@ -35,6 +35,9 @@ int stream_fail(const struct stream *stream, const struct call *call, const char
 /* Whether a call read from a container names resources of the right kinds, and says nothing that has no text. */
 int call_check(const struct stream *stream, struct call *call, struct error *error);
 
+/* The same of vertices: bits of a word that belong to no number have no text. */
+int vertices_check_bits(const struct resource *resource, struct error *error);
+
 /* Whether an update's box is a part of its texture, and its source as many bytes as it takes. */
 int check_update(const struct stream *stream, const struct call *call, struct error *error);
 

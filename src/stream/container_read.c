@@ -270,7 +270,9 @@ static int finish_mesh(struct resource *resource, const struct resource *caster,
 
 int container_finish_resource(struct resource *resource, const struct resource *caster, struct error *error)
 {
-    int result = 0;
+    int result = resource->vertices ? vertices_check_bits(resource, error) : 0;
+    if (result)
+        return -1;
     if (resource->type == RESOURCE_TEXTURE)
         result = finish_texture(resource, error);
     else if (resource->type == RESOURCE_SHADER)

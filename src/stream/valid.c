@@ -199,3 +199,20 @@ void stream_note_changes(struct stream *stream, const struct call *call)
     if (call->type == CALL_ATTACH)
         note(stream, call->attach.depth.resource);
 }
+
+int vertices_check_bits(const struct resource *resource, struct error *error)
+{
+    for (unsigned e = 0; e < STREAM_ELEMENTS; e++) {
+        const struct vertex_type *type = &vertex_types[resource->layout.format[e]];
+        unsigned used = (unsigned)type->bits * type->components % 32;
+        for (uint32_t v = 0; used && v < resource->vertex_count; v++) {
+            const uint8_t *vertex = resource->vertices + (size_t)v * resource->layout.stride;
+            uint32_t word;
+            memcpy(&word, vertex + resource->layout.offset[e] + type->bytes - sizeof word, sizeof word);
+            if (word >> used)
+                return error_set(error, "found 0x%08x of type %s in vertex %u, expected zeros above bit %u",
+                                 word, type->word, v, used - 1);
+        }
+    }
+    return 0;
+}
