@@ -44,11 +44,12 @@ finish()
 }
 trap 'interrupted=1; finish' INT TERM
 
-campaign() # BUILD SECONDS
+campaign() # BUILD SECONDS : or as long as is left
 {
-    local status=0 drawn
+    local status=0 drawn left=$((seconds - SECONDS))
+    ((left > 0)) || return
     working "$1/triptych fuzz"
-    "$1/triptych" fuzz --seed "$seed" --count 1000000 --seconds "$2" --jobs "$(nproc)" --output "$found" >"$output" 2>&1 ||
+    "$1/triptych" fuzz --seed "$seed" --count 1000000 --seconds "$((left < $2 ? left : $2))" --jobs "$(nproc)" --output "$found" >"$output" 2>&1 ||
         status=$?
     drawn=$(sed -nE 's/^([0-9]+) cases, .*/\1/p' "$output" | tail -n 1)
     cases=$((cases + ${drawn:-0}))
@@ -56,9 +57,8 @@ campaign() # BUILD SECONDS
 }
 
 while ((SECONDS < seconds)); do
-    left=$((seconds - SECONDS))
-    campaign "$build" $((left < 60 ? left : 60))
-    campaign "$instrumented" $((left < 20 ? left : 20))
+    campaign "$build" 60
+    campaign "$instrumented" 20
     for program in "${programs[@]}"; do
         ((SECONDS < seconds)) || break
         status=0
