@@ -148,7 +148,11 @@ try()
         for test in ${finder[$name]}; do
             by=$test
             build "$test" || { verdict='DOES NOT BUILD' said=$(grep -am 1 error "$home/build.log") && break; }
-            look "$test" || { verdict=found said=$(reason) && break; }
+            look "$test" && continue
+            [[ $test == fuzz ]] || grep -qE '^[0-9]+ passed, [0-9]+ failed' "$home/look.log" ||
+                { verdict='NO ANSWER' && break; }
+            verdict=found said=$(reason)
+            break
         done
         restore "$name"
     fi
