@@ -1,0 +1,35 @@
+#!/bin/bash
+# All engines, widths and thread counts draw every stream of bench/streams/micro alike, byte for byte. The streams have many
+# layers of a megapixel; here their targets are smaller, and no multiple of a tile. They are also what their
+# generator writes.
+# Given BUILD, TRIPTYCH and SLOW by tests/support/run.sh; in slow builds fewer threads are tried.
+set -uo pipefail
+cd "$(dirname "$0")/.."
+
+work=$(mktemp -d)
+trap 'rm -rf "$work"' EXIT
+mkdir "$work/again"
+failures=0
+
+awk -v folder="$work/again" -f bench/generate-micro.awk
+if diff -r bench/streams/micro "$work/again" >"$work/difference"; then
+    printf 'ok bench/generate-micro.awk writes bench/streams/micro\n'
+else
+    printf 'FAIL bench/generate-micro.awk writes bench/streams/micro\n%s\n' "$(head -n 20 "$work/difference")"
+    failures=1
+fi
+
+options=(--frames all)
+[[ -z ${SLOW-} ]] || options=(--frames 1 --threads 2)
+for stream in bench/streams/micro/*.tri; do
+    small=$work/${stream##*/}
+    sed 's/^target 1024 1024 /target 168 136 /' "$stream" >"$small"
+    if said=$("$TRIPTYCH" verify "$small" "${options[@]}" 2>&1) &&
+        grep -q '^target 168 136 ' "$small" && [[ ${said##*$'\n'} == '1 streams, '*' engines, identical' ]]; then
+        printf 'ok %s\n' "$stream"
+    else
+        printf 'FAIL %s\n%s\n' "$stream" "$said"
+        failures=1
+    fi
+done
+exit $failures
