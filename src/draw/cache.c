@@ -264,6 +264,7 @@ static struct cache_entry *insert(struct cache *cache, enum unit unit, const uni
     }
     entry->routine->number = ++cache->next_number;
     entry->routine->hits = 0;
+    entry->routine->entry = entry;
     entry->routine->time = cache->measures ? &entry->time : NULL;
     entry->unit = unit;
     entry->key = *packed;
@@ -312,24 +313,17 @@ const struct routine *cache_acquire(struct cache *cache, enum unit unit, const u
     return entry ? entry->routine : NULL;
 }
 
-/* The entry of a routine that is in use. */
-static struct cache_entry *entry_of(struct cache *cache, const struct routine *routine)
-{
-    struct packed_key packed = key_pack(routine->unit, &routine->key);
-    return *find(cache, routine->unit, &packed, key_hash(routine->unit, &packed));
-}
-
 void cache_retain(struct cache *cache, const struct routine *routine)
 {
     pthread_mutex_lock(&cache->lock);
-    entry_of(cache, routine)->references++;
+    routine->entry->references++;
     pthread_mutex_unlock(&cache->lock);
 }
 
 void cache_release(struct cache *cache, const struct routine *routine)
 {
     pthread_mutex_lock(&cache->lock);
-    struct cache_entry *entry = entry_of(cache, routine);
+    struct cache_entry *entry = routine->entry;
     if (!--entry->references)
         list_insert_after(&cache->idle, &entry->idle);
     evict_to_budget(cache);

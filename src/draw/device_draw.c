@@ -248,7 +248,8 @@ static void step_instance(const struct triptych_device *device, uint32_t instanc
     }
 }
 
-static void record_instance(struct triptych_device *device, const struct draw *source, uint32_t instance)
+static void record_instance(struct triptych_device *device, const struct draw *source,
+                            const struct routine *const routine[UNIT_COUNT], uint32_t instance)
 {
     const struct setup_key *setup = &device->key[UNIT_SETUP].setup;
     struct command *command = next_draw(device);
@@ -258,8 +259,10 @@ static void record_instance(struct triptych_device *device, const struct draw *s
     draw->job = device->job;
     constants_write(&device->constants, &device->state, &draw->job);
     step_instance(device, instance, &draw->job);
-    for (int unit = 0; unit < UNIT_COUNT; unit++)
-        cache_retain(device->cache, draw->routine[unit]);
+    for (int unit = 0; unit < UNIT_COUNT; unit++) {
+        draw->routine[unit] = routine[unit];
+        cache_retain(device->cache, routine[unit]);
+    }
     draw->scissor = derive_scissor(&device->state);
     draw->stride = setup_layout(setup).stride;
     draw->shape = derive_shape(setup->primitive);
@@ -277,13 +280,13 @@ static void record_instance(struct triptych_device *device, const struct draw *s
 static enum triptych_result record_instances(struct triptych_device *device, const struct draw *source,
                                              uint32_t instances, struct error *error)
 {
-    struct draw draw = *source;
-    if (acquire_routines(device, draw.routine, error))
+    const struct routine *routine[UNIT_COUNT];
+    if (acquire_routines(device, routine, error))
         return device_refusal(TRIPTYCH_ENGINE_FAILED);
     for (uint32_t i = 0; i < instances; i++)
-        record_instance(device, &draw, i);
+        record_instance(device, source, routine, i);
     for (int unit = 0; unit < UNIT_COUNT; unit++)
-        cache_release(device->cache, draw.routine[unit]);
+        cache_release(device->cache, routine[unit]);
     return TRIPTYCH_OK;
 }
 

@@ -12,8 +12,9 @@
 #include <time.h>
 
 struct routine;
-struct code_arena; /* base/code.h */
-struct debug_code; /* debug/code.h */
+struct cache_entry; /* draw/cache.c */
+struct code_arena;  /* base/code.h */
+struct debug_code;  /* debug/code.h */
 
 /* `call` is the unit's call structure. Routines may run on many threads at once; they set FTZ and DAZ with
  * all exceptions masked and round to nearest on entry, and restore the caller's MXCSR. */
@@ -43,6 +44,7 @@ struct routine {
     uint32_t number;         /* identity in dumps and reports, from 1, set by the cache */
     uint64_t hits;           /* set by the cache */
     struct routine_time *time; /* set by the cache; null: not measured */
+    struct cache_entry *entry; /* the cache's own */
 };
 
 /* Runs the routine; `elements` are counted if it is measured. */
