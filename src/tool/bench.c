@@ -8,6 +8,7 @@
  * REPETITIONS_MINIMUM: the emulator is slow, and a median needs something to be the middle of.
  *
  * Interrupted (interrupt.h), it reports the streams that are done. */
+#include "tool/bench_builds.h"
 #include "tool/bench_report.h"
 #include "tool/bench_shaders.h"
 #include "tool/choose.h"
@@ -27,6 +28,7 @@ struct settings {
     unsigned threads, repetitions, frames; /* frames 0: all */
     double seconds;
     bool shaders; /* a table of each shader */
+    bool builds;  /* routines are built, nothing is drawn */
 };
 
 static bool goes_on(const struct bench_run *run, const struct settings *settings)
@@ -166,6 +168,10 @@ static const char notes[] =
     "geometry time per vertex shaded, ns/pixel tile time per pixel shaded, both summed over threads; "
     "ms/frame is\n"
     "wall time. \"x\" columns: times the speed of emulate (or, without it, of the first engine).\n"
+    "With --builds every routine that the streams' draws need is built once in each repetition; shown are "
+    "the "
+    "medians of\n"
+    "each routine's, and of what a draw's set of three takes.\n"
     "SIGINT or SIGTERM ends it with a report of the streams that are done, and status 130 or 143.";
 
 int command_bench(const struct command *self, int count, char **arguments)
@@ -184,6 +190,8 @@ int command_bench(const struct command *self, int count, char **arguments)
          FRAMES_MAXIMUM},
         {"shaders", NULL, "measure each routine's calls; tables by shader and by length", OPTION_FLAG,
          &settings.shaders, 0, 0},
+        {"builds", NULL, "measure instead how long the streams' routines take to build", OPTION_FLAG,
+         &settings.builds, 0, 0},
         {"json", "FILE", "write everything, each run included", OPTION_TEXT, &json, 0, 0},
         {"csv", "FILE", "write a row per stream and engine", OPTION_TEXT, &csv, 0, 0},
     };
@@ -196,6 +204,11 @@ int command_bench(const struct command *self, int count, char **arguments)
     if (choose_engines(self, engine_list, &engines) || check_output(self, json) || check_output(self, csv))
         return STATUS_BAD;
 
+    if (settings.builds) {
+        interrupt_wait();
+        return bench_builds(self, operands.value, (unsigned)operands.count, &engines, settings.repetitions,
+                            json);
+    }
     struct bench bench = {machine_describe(), settings.threads, settings.shaders, 0, NULL};
     unsigned count_streams = (unsigned)operands.count;
     bench.streams = calloc(count_streams, sizeof *bench.streams);
