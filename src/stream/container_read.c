@@ -292,8 +292,8 @@ struct whole {
     struct builder build;
     struct stream *stream;
     uint32_t *slots; /* the resource that each number of the container means now, or NO_RESOURCE */
-    uint32_t whole_calls;
-    uint32_t whole_executed; /* up to the last frame's end */
+    /* Up to the last frame's end. */
+    uint32_t whole_calls, whole_resources, whole_executed;
 };
 
 const char *container_type_name(enum resource_type type)
@@ -385,6 +385,7 @@ static int add_call(struct whole *whole, struct call *call, struct error *error)
     stream_note_changes(whole->stream, call);
     if (call->type == CALL_FRAME && !inside) {
         whole->whole_calls = whole->stream->call_count;
+        whole->whole_resources = whole->stream->resource_count;
         whole->whole_executed = whole->build.executed;
     }
     return 0;
@@ -415,12 +416,16 @@ static int read_records(struct whole *whole, struct error *error)
     }
 }
 
-/* Nothing is left behind the end of the last frame: of a recording, and of what was read before something was wrong. */
+/* Nothing is left behind the end of the last frame: of a recording, and of what was read before something was wrong. That
+ * may be a resource, defined and not finished. */
 static int cut(struct whole *whole, struct error *error)
 {
+    struct stream *stream = whole->stream;
     if (!whole->whole_calls)
-        return error_set(error, "%s: found no end of a frame, expected at least one", whole->stream->path);
-    whole->stream->call_count = whole->whole_calls;
+        return error_set(error, "%s: found no end of a frame, expected at least one", stream->path);
+    stream->call_count = whole->whole_calls;
+    while (stream->resource_count > whole->whole_resources)
+        resource_free(&stream->resources[--stream->resource_count]);
     whole->build.executed = whole->whole_executed;
     whole->build.sequence = NO_RESOURCE;
     error_clear(error);

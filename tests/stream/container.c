@@ -445,6 +445,36 @@ static void a_frame_that_is_not_whole_is_left_out(void)
     free(made.data);
 }
 
+/* A definition that is wrong, or a sequence that does not end, behind the last frame. */
+static void what_is_wrong_is_left_out_with_all_behind_it(void)
+{
+    static const struct {
+        const char *record;
+        size_t bytes;
+        const char *reason;
+    } rows[] = {
+        {"\x40\x09\0\0\0\5\1\0x\0\0\6\0\0\0vs_9_9", 21, "vs_9_9"},
+        {"\x40\x09\0\0\0\1\1\0x\1\0\0\x0e\1\0\0\0\xff\xff\xff\xff", 22, "udec3"},
+        {"\x40\x09\0\0\0\7\1\0x\x24\0\0\0\0", 14, ""}, /* a sequence that does not end */
+    };
+    struct bytes container = pack(small), contents = unpack(&container);
+    for (size_t i = 0; i < sizeof rows / sizeof *rows; i++) {
+        struct stream *stream;
+        memcpy(contents.data + contents.count, rows[i].record, rows[i].bytes);
+        struct bytes made = repack(contents.data, contents.count + rows[i].bytes);
+        TEST_ASSERT_EQUAL_INT(-1, try(made.data, made.count, 0, &stream));
+        TEST_ASSERT_NOT_NULL_MESSAGE(strstr(error.text, rows[i].reason), error.text);
+        TEST_ASSERT_EQUAL_INT_MESSAGE(0, try(made.data, made.count, CONTAINER_SALVAGE, &stream), error.text);
+        TEST_ASSERT_EQUAL_UINT(2, stream->frame_count);
+        TEST_ASSERT_EQUAL_UINT(2, stream->resource_count);
+        expect_sound(stream);
+        stream_free(stream);
+        free(made.data);
+    }
+    free(container.data);
+    free(contents.data);
+}
+
 int main(void)
 {
     UNITY_BEGIN();
@@ -462,5 +492,6 @@ int main(void)
     RUN_TEST(a_sequence_cannot_play_itself);
     RUN_TEST(whole_frames_of_an_unfinished_container_are_salvaged);
     RUN_TEST(a_frame_that_is_not_whole_is_left_out);
+    RUN_TEST(what_is_wrong_is_left_out_with_all_behind_it);
     return UNITY_END();
 }
