@@ -299,6 +299,17 @@ answers 'verify ends with its sum' '^1 streams, [0-9]+ engines, identical$' \
 holds 'verify writes JSON' grep -q '"identical":' "$work/verify.json"
 refuses 'verify of the reference against itself' 'expected another engine or number of threads' \
     verify "$work/good.tri" --engines emulate --threads 1
+for command in 'verify good.tri --difference' 'fuzz --count 1 --output'; do
+    read -ra words <<<"${command/good.tri/$work/good.tri}"
+    refuses "${words[0]}: pictures and findings in a file" 'good.tri: is no folder, expected one' "${words[@]}" "$work/good.tri"
+    refuses "${words[0]}: pictures and findings in a missing folder" 'none/x: cannot make the folder: No such file' \
+        "${words[@]}" "$work/none/x"
+    mkdir "$work/own"
+    answers "${words[0]} finds nothing to put into a folder" '' "${words[@]}" "$work/own"
+    holds 'and leaves the folder, which is not its own' rmdir "$work/own"
+    answers "${words[0]} makes a folder" '' "${words[@]}" "$work/own"
+    holds 'and leaves none that is empty' test ! -e "$work/own"
+done
 answers 'bench prints, and writes JSON and CSV' '^ +geometric mean ' bench "$work/good.tri" --repetitions 3 \
     --seconds 1 --json "$work/bench.json" --csv "$work/bench.csv"
 holds 'the CSV has one width' awk -F, 'NR == 1 { n = NF } NF != n { bad = 1 } END { exit bad || NR < 2 }' "$work/bench.csv"
@@ -321,6 +332,8 @@ answers 'bisect of engines that agree' 'the routines of emulate and batch agree 
 answers 'bisect of one draw and pixel' 'agree on every call' \
     bisect "$work/good.tri" --engines emulate,batch --draw 0 --pixel 3,4
 refuses 'bisect of one engine' '--engines names 1, expected two' bisect "$work/good.tri" --engines emulate
+refuses 'bisect of a draw that is not there' 'good.tri: there is no draw 1, the stream has 1' \
+    bisect "$work/good.tri" --engines emulate,batch --draw 1
 refuses 'bisect of half a pixel' '--pixel is "3", expected X,Y' \
     bisect "$work/good.tri" --engines emulate,batch --pixel 3
 refuses 'bisect of a stream that is not there' 'none.tri' bisect "$work/none.tri" --engines emulate,batch

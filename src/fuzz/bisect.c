@@ -456,7 +456,12 @@ static int search_stream(const struct stream *stream, struct error *error)
     struct stream view = draw_by_draw(stream, frames);
     search->pair = engine_pair;
     search->pair.without_arena = search->engine[0]->without_arena && search->engine[1]->without_arena;
-    int result = device_create(&search->pair, &options, &search->device, error) ? -1 : 0;
+    int result = 0;
+    if (search->options->draw >= (int64_t)view.frame_count)
+        result = error_set(error, "there is no draw %u, the stream has %u", (unsigned)search->options->draw,
+                           view.frame_count);
+    else if (device_create(&search->pair, &options, &search->device, error))
+        result = -1;
     if (!result) {
         result = play(stream, &view, error);
         device_destroy(search->device);
@@ -474,9 +479,11 @@ int bisect(const struct stream *stream, const struct engine *reference, const st
                           .bisection = bisection,
                           .error = error};
     *bisection = (struct bisection){.engine = {reference, other}};
-    for (int i = 0; i < 2; i++)
-        if (this.engine[i]->unavailable())
-            return error_set(error, "engine %s: %s", this.engine[i]->name, this.engine[i]->unavailable());
+    for (int i = 0; i < 2; i++) {
+        const char *why = this.engine[i]->unavailable(); /* which may be over when it is asked again */
+        if (why)
+            return error_set(error, "engine %s: %s", this.engine[i]->name, why);
+    }
     search = &this;
     int result = search_stream(stream, error);
     search = NULL;

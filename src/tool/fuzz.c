@@ -9,11 +9,9 @@
 #include "tool/machine.h"
 #include "tool/option.h"
 
-#include <errno.h>
 #include <inttypes.h>
 #include <stdio.h>
 #include <string.h>
-#include <sys/stat.h>
 #include <unistd.h>
 
 enum { PATH_CAPACITY = 4096, NEVER = 0xffffffff };
@@ -82,7 +80,8 @@ static int save(const struct command *self, const struct settings *settings,
     const char *rest = strchr(text->data, '\n');
     snprintf(path, sizeof path, "%s/%u-%" PRIu64 ".tri", settings->folder, settings->seed, found->number);
     text_add(&whole, "triptych 1\n# %s\n", description);
-    for (const char *line = explanation->data; line && *line; line = strchr(line, '\n') + 1)
+    whole.failed |= explanation->failed;
+    for (const char *line = explanation->data; line && *line && !whole.failed; line = strchr(line, '\n') + 1)
         text_add(&whole, "# %.*s\n", (int)strcspn(line, "\n"), line);
     text_add(&whole, "%s", rest ? rest + 1 : "");
     int bad = whole.failed ? error_set(&error, "%s: out of memory", path)
@@ -228,16 +227,16 @@ static int fuzz(const struct command *self, struct settings *settings)
                                        .limit = settings->limit,
                                        .jobs = settings->jobs,
                                        .enough = settings->enough};
-    if (choose(self, settings, &options.run) || check_output(self, settings->json))
+    bool made;
+    if (choose(self, settings, &options.run) || check_output(self, settings->json) ||
+        make_folder(self, settings->folder, &made))
         return STATUS_BAD;
-    if (mkdir(settings->folder, 0777) && errno != EEXIST)
-        return fail(self, "%s: cannot make the folder: %s", settings->folder, strerror(errno));
     interrupt_wait();
-    if (campaign_run(&options, watch, settings, &campaign, &error))
-        return fail(self, "%s", error.text);
+    int bad = campaign_run(&options, watch, settings, &campaign, &error) ? fail(self, "%s", error.text) : 0;
     int status = report(self, settings, &options, &campaign);
-    rmdir(settings->folder); /* if nothing was found */
-    return campaign.interrupted && status != STATUS_BAD ? interrupt_status() : status;
+    if (made)
+        rmdir(settings->folder); /* if nothing was found */
+    return bad ? bad : campaign.interrupted && status != STATUS_BAD ? interrupt_status() : status;
 }
 
 static const char notes[] =

@@ -39,7 +39,8 @@ static bool seconds_read(const char *text, unsigned least, unsigned most, double
 static void print_help(const struct command *self, const struct option *options, unsigned option_count,
                        const char *notes)
 {
-    printf("usage: triptych %s [OPTIONS] %s\n\n%s\n\n", self->name, self->operands, self->summary);
+    printf("usage: triptych %s [OPTIONS]%s%s\n\n%s\n\n", self->name, *self->operands ? " " : "",
+           self->operands, self->summary);
     for (unsigned i = 0; i < option_count; i++) {
         char left[64];
         snprintf(left, sizeof left, "--%s%s%s", options[i].name, options[i].argument ? " " : "",
@@ -136,6 +137,7 @@ enum options_result options_read(const struct command *self, const struct option
     if (operands->count < operands->least)
         fail(self, "expected %s, got %d of them", self->operands, operands->count);
     else
-        fail(self, "unexpected \"%s\", expected only %s", arguments[operands->most], self->operands);
+        fail(self, "unexpected \"%s\", expected only %s", arguments[operands->most],
+             *self->operands ? self->operands : "options");
     return OPTIONS_BAD;
 }

@@ -74,6 +74,20 @@ int check_output(const struct command *self, const char *path)
     return fail(self, "%s: cannot be written: %s", path, strerror(errno));
 }
 
+int make_folder(const struct command *self, const char *path, bool *made)
+{
+    struct stat found;
+    *made = path && !mkdir(path, 0777);
+    if (!path || *made)
+        return STATUS_OK;
+    if (errno != EEXIST)
+        return fail(self, "%s: cannot make the folder: %s", path, strerror(errno));
+    if (!stat(path, &found) && !S_ISDIR(found.st_mode))
+        return fail(self, "%s: is no folder, expected one", path);
+    return access(path, W_OK | X_OK) ? fail(self, "%s: cannot be written: %s", path, strerror(errno))
+                                     : STATUS_OK;
+}
+
 void path_stem(const char *path, char *stem, unsigned capacity)
 {
     const char *slash = strrchr(path, '/');

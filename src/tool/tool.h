@@ -32,6 +32,10 @@ int fail(const struct command *self, const char *format, ...) __attribute__((for
  * path is fine. Returns 0, or STATUS_BAD after telling why not. */
 int check_output(const struct command *self, const char *path);
 
+/* Makes a folder for files, or finds that it is there and takes some; *made is whether it was not. A null path is fine.
+ * Returns 0, or STATUS_BAD after telling why not. */
+int make_folder(const struct command *self, const char *path, bool *made);
+
 /* Once memory was refused to a part of a report, the program will end with STATUS_BAD, and no report is written to a
  * file. */
 void report_begin(void);

@@ -16,11 +16,10 @@
 #include "tool/session.h"
 #include "triptych.h"
 
-#include <errno.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
-#include <sys/stat.h>
+#include <unistd.h>
 #include <xxhash.h>
 
 enum { STEM_CAPACITY = 64, PATH_CAPACITY = 4096, FRAMES_DEFAULT = 8, FRAMES_MAXIMUM = 65536 };
@@ -126,8 +125,6 @@ static int save_picture(const struct command *self, const struct settings *setti
                         unsigned frame)
 {
     char path[PATH_CAPACITY];
-    if (mkdir(settings->folder, 0777) && errno != EEXIST)
-        return fail(self, "%s: cannot make the folder: %s", settings->folder, strerror(errno));
     snprintf(path, sizeof path, "%s/%s-%s-%u-frame-%u.png", settings->folder, verification->name,
              triptych_engine_name(configuration->engine), configuration->threads, frame);
     struct picture expected = capture_picture(&verification->expected),
@@ -370,6 +367,7 @@ int command_verify(const struct command *self, int count, char **arguments)
         {"json", "FILE", "write the results", OPTION_TEXT, &json, 0, 0},
     };
     struct operands operands = {.least = 1, .most = ANY_NUMBER};
+    bool made, identical;
     enum options_result result =
         options_read(self, options, sizeof options / sizeof *options, notes, count, arguments, &operands);
     if (result != OPTIONS_GO)
@@ -379,15 +377,17 @@ int command_verify(const struct command *self, int count, char **arguments)
         return fail(self, "--frames is \"%s\", expected all or a number from 1 to %d", frames,
                     FRAMES_MAXIMUM);
     if (choose_engines(self, engine_list, &settings.engines) ||
-        choose_threads(self, thread_list, &settings.threads) || check_output(self, json))
+        choose_threads(self, thread_list, &settings.threads) || check_output(self, json) ||
+        make_folder(self, settings.folder, &made))
         return STATUS_BAD;
 
-    bool identical;
     settings.report = json ? cJSON_CreateArray() : NULL;
     interrupt_wait();
     int status = verify_all(self, &operands, &settings, &identical);
     if (json && status != STATUS_BAD)
         status = write_report(self, &settings, json, identical, status);
     cJSON_Delete(settings.report);
+    if (made)
+        rmdir(settings.folder); /* if nothing differs */
     return status;
 }
