@@ -36,6 +36,8 @@ static int find_joint(const struct skeleton *skeleton, const char *name)
 static uint32_t count_nodes(const struct aiNode *node)
 {
     uint32_t count = 1;
+    if (!node)
+        return 0;
     for (unsigned i = 0; i < node->mNumChildren; i++)
         count += count_nodes(node->mChildren[i]);
     return count;
@@ -43,6 +45,8 @@ static uint32_t count_nodes(const struct aiNode *node)
 
 static int add_joints(struct skeleton *skeleton, const struct aiNode *node, int parent)
 {
+    if (!node)
+        return 0;
     struct joint *joint = &skeleton->joints[skeleton->joint_count];
     int number = (int)skeleton->joint_count++;
     joint->name = strdup(node->mName.data);

@@ -111,6 +111,8 @@ static int add_node(struct mesh *mesh, const char *path, const struct aiScene *s
                     const struct aiNode *node, const struct aiMatrix4x4 *parent, struct error *error)
 {
     struct aiMatrix4x4 matrix = *parent;
+    if (!node)
+        return 0;
     aiMultiplyMatrix4(&matrix, &node->mTransformation);
     struct placement placement = make_placement(&matrix);
     for (unsigned i = 0; i < node->mNumMeshes; i++)
@@ -166,8 +168,11 @@ static int check_file(const char *path, struct error *error)
     return result;
 }
 
+/* Assimp leaves children null when a RAW file has several groups. */
 static int check_depth(const struct aiNode *node, int depth)
 {
+    if (!node)
+        return 0;
     if (depth == NODE_DEPTH_MAXIMUM)
         return -1;
     for (unsigned i = 0; i < node->mNumChildren; i++)
@@ -188,7 +193,9 @@ static int add_scene(struct mesh *mesh, const char *path, const struct aiScene *
         return error_set(error, "%s: nodes nested more than %d deep", path, NODE_DEPTH_MAXIMUM);
     if (bones && !(mesh->skeleton = bones_read(scene, path, error)))
         return -1;
-    return add_node(mesh, path, scene, scene->mRootNode, &identity, error);
+    if (add_node(mesh, path, scene, scene->mRootNode, &identity, error))
+        return -1;
+    return mesh->index_count ? 0 : error_set(error, "%s: no triangles", path);
 }
 
 int model_import(struct mesh *mesh, const char *path, int bones, struct error *error)

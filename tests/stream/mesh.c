@@ -29,6 +29,13 @@ void tearDown(void)
     unlink(path);
 }
 
+static void use_ending(const char *ending)
+{
+    unlink(path);
+    snprintf(path, sizeof path, "/tmp/triptych-mesh.XXXXXX.%s", ending);
+    close(mkstemps(path, (int)strlen(ending) + 1));
+}
+
 static void write_file(const char *text)
 {
     TEST_ASSERT_EQUAL_INT_MESSAGE(0, file_write(path, text, strlen(text), &error), error.text);
@@ -207,9 +214,7 @@ static void node_transforms_are_applied_and_mirrors_keep_fronts(void)
         "\"buffers\":[{\"byteLength\":36,\"uri\":\"data:application/octet-stream;base64,"
         "AAAAAAAAAAAAAAAAAACAPwAAAAAAAAAAAAAAAAAAgD8AAAAA\"}]}";
     static const struct mesh_options options = {0};
-    unlink(path);
-    strcpy(path, "/tmp/triptych-mesh.XXXXXX.gltf");
-    close(mkstemps(path, 5));
+    use_ending("gltf");
     read_model(gltf, &options);
     TEST_ASSERT_EQUAL_UINT(3, mesh.index_count);
     for (uint32_t i = 0; i < 3; i++) {
@@ -235,15 +240,43 @@ static void models_without_triangles_and_damaged_ones_are_refused(void)
     }
 }
 
+static void expect_without_triangles(const char *text)
+{
+    char expected[128];
+    write_file(text);
+    error_clear(&error);
+    TEST_ASSERT_EQUAL_INT(-1, mesh_read_model(&mesh, path, 1, &error));
+    snprintf(expected, sizeof expected, "%s: no triangles", path);
+    TEST_ASSERT_EQUAL_STRING(expected, error.text);
+}
+
+static void bones_of_nothing_are_refused_as_such(void)
+{
+    use_ending("x");
+    expect_without_triangles("xof 0302txt 0064\nFrame a {\n}\n");
+}
+
+/* Assimp makes the nodes of a RAW file's groups in one place: the last is there, the others are null. */
+static void nodes_that_are_null_are_passed_over(void)
+{
+    static const char raw[] = "first\n0 0 0 1 0 0 0 1 0 a.png\nsecond\n0 0 1 1 0 1 0 1 1 b.png\n";
+    use_ending("raw");
+    write_file(raw);
+    for (int bones = 0; bones < 2; bones++) {
+        mesh_free(&mesh);
+        TEST_ASSERT_EQUAL_INT_MESSAGE(0, mesh_read_model(&mesh, path, bones, &error), error.text);
+        TEST_ASSERT_EQUAL_UINT(0, mesh.index_count % 3);
+        TEST_ASSERT_TRUE(mesh.index_count);
+    }
+}
+
 /* Assimp would reserve what the header claims, and walk it for minutes. */
 static void a_ply_header_that_claims_more_than_the_file_is_refused_at_once(void)
 {
     char expected[256];
     static const char ply[] = "ply\nformat ascii 1.0\nelement vertex 100000000000\nproperty float x\n"
                               "element face 1\nproperty list uchar int vertex_indices\nend_header\n";
-    unlink(path);
-    strcpy(path, "/tmp/triptych-mesh.XXXXXX.ply");
-    close(mkstemps(path, 4));
+    use_ending("ply");
     write_file(ply);
     TEST_ASSERT_EQUAL_INT(-1, mesh_read_model(&mesh, path, 0, &error));
     snprintf(expected, sizeof expected, "%s:3: 100000000000 entries of vertex in a file of %zu bytes", path,
@@ -429,6 +462,8 @@ int main(void)
     RUN_TEST(projected_texture_coordinates_go_round_without_turning_back);
     RUN_TEST(node_transforms_are_applied_and_mirrors_keep_fronts);
     RUN_TEST(models_without_triangles_and_damaged_ones_are_refused);
+    RUN_TEST(bones_of_nothing_are_refused_as_such);
+    RUN_TEST(nodes_that_are_null_are_passed_over);
     RUN_TEST(a_ply_header_that_claims_more_than_the_file_is_refused_at_once);
     RUN_TEST(a_flat_patch_is_its_grid);
     RUN_TEST(texture_coordinates_and_colors_are_those_of_the_corners);
