@@ -181,12 +181,13 @@ $(BUILD)/tests/fuzz/bisect: private override LDFLAGS += -Wl,--wrap=plan_step_of,
 
 # Fuzz targets stay within limits of their own (tests/fuzz/targets/limit.c): as a test, and with libFuzzer's main and
 # a link by the name of each target (CC=clang SANITIZE=fuzzer).
-fuzz_wraps = -Wl,--wrap=build_account,--wrap=container_next,--wrap=mesh_make,--wrap=mesh_read_model,--wrap=file_read
+fuzz_wraps = -Wl,--wrap=build_account,--wrap=container_next,--wrap=mesh_make,--wrap=mesh_read_model,--wrap=file_read \
+  -Wl,--wrap=aiImportFileExWithProperties,--wrap=aiReleaseImport
 
 $(BUILD)/tests/fuzz/inputs: $(TARGET_OBJECTS)
 $(BUILD)/tests/fuzz/inputs: private override LDFLAGS += $(fuzz_wraps)
 
-FUZZERS := $(filter-out target limit frame fuzzer sound survive,$(basename $(notdir $(TARGET_SOURCES))))
+FUZZERS := $(filter-out target limit frame fuzzer importer sound survive,$(basename $(notdir $(TARGET_SOURCES))))
 
 fuzzers: $(addprefix $(BUILD)/fuzz/,$(FUZZERS))
 

@@ -1,12 +1,14 @@
-/* Files of foreign formats on the whole of their way: into a process of its own, through Assimp, and back. The first
- * byte chooses the format by which the file is named, the second whether bones are asked for. Assimp crashes, hangs and
- * takes all memory; that is a refusal as any other, noted by its reason. */
-#include "stream/isolate.h"
+/* Files of foreign formats: through Assimp, into a mesh, and from process to process. The first byte chooses the format
+ * by which the file is named, the second whether bones are asked for and whether the file gets a process of its own, as
+ * it does in life, or one that has read others before (importer.h). Assimp crashes, hangs and takes all memory;
+ * that is a refusal as any other, noted by its reason. When it is not Assimp that crashes, the file gets a process of its
+ * own anyway, so that no other's damage is taken for a finding. */
 #include "stream/mesh.h"
+#include "stream/transfer.h"
+#include "tests/fuzz/targets/importer.h"
 #include "tests/fuzz/targets/target.h"
 
 #include <fcntl.h>
-#include <pthread.h>
 #include <string.h>
 #include <unistd.h>
 
@@ -24,42 +26,65 @@ static const char *write_model(unsigned format, const uint8_t *data, size_t byte
     return path;
 }
 
-/* The end of an importer's process is no finding, so a sanitizer there must not tell libFuzzer. */
-void __sanitizer_set_death_callback(void (*callback)(void)) __attribute__((weak));
-
-static void forget_callback(void)
-{
-    if (__sanitizer_set_death_callback)
-        __sanitizer_set_death_callback(NULL);
-}
-
 static uint32_t size_of(uint32_t count)
 {
     return count ? 32 - (uint32_t)__builtin_clz(count) : 0;
 }
 
-static void run(const uint8_t *data, size_t bytes)
+/* As mesh_read_model does it. */
+static int import_alone(struct mesh *mesh, const char *path, int bones, struct error *error)
 {
     static const struct isolate_limits limits = {
-        .memory = 256 << 20, .seconds = 2, .milliseconds = 8000, .answer = 16 << 20};
+        .memory = 256 << 20, .seconds = 1, .milliseconds = 4000, .answer = 16 << 20};
+    static const char ended[] = ": reading it ended ";
+    int result = mesh_read_model_within(mesh, path, bones, &limits, error);
+    int died = result && !strncmp(error->text + strlen(path), ended, sizeof ended - 1);
+    expect(!died || importer_died_in_assimp(), "%s", error->text);
+    return result;
+}
+
+static int import(struct mesh *mesh, const char *path, int bones, struct error *error)
+{
+    struct answer answer;
+    switch (importer_run(path, bones, &answer, error)) {
+    case IMPORT_REFUSED: return -1;
+    case IMPORT_DIED:
+        if (importer_died_in_assimp())
+            return -1;
+        error_clear(error);
+        return import_alone(mesh, path, bones, error);
+    case IMPORT_ANSWERED: break;
+    }
+    int result = transfer_read(path, answer.data, answer.bytes, mesh, error);
+    expect(!result, "%s", error->text);
+    free(answer.data);
+    return result;
+}
+
+static void expect_finishes(struct mesh *mesh, const char *path)
+{
     static const struct mesh_options options = {.normals = NORMALS_SMOOTH};
-    static int prepared;
+    struct error error = {{0}};
+    if (mesh_finish(mesh, path, &options, &error))
+        expect_refusal(&error, path);
+}
+
+static void run(const uint8_t *data, size_t bytes)
+{
     struct choices choices = {data, data + bytes};
-    if (!prepared++)
-        pthread_atfork(NULL, NULL, forget_callback);
     struct mesh mesh = {0};
     struct error error = {{0}};
-    unsigned format = choose(&choices, FORMATS), bones = choose(&choices, 2);
+    unsigned format = choose(&choices, FORMATS), way = choose(&choices, 16), bones = way & 1;
+    importer_prepare();
     const char *path = write_model(format, choices.at, (size_t)(choices.end - choices.at));
-    if (mesh_read_model_within(&mesh, path, (int)bones, &limits, &error)) {
+    if ((way < 15 ? import : import_alone)(&mesh, path, (int)bones, &error)) {
         expect(!mesh.vertices && !mesh.indices && !mesh.skeleton, "a refused mesh");
         expect_refusal(&error, path);
     } else {
         expect(!error.text[0], "%s", error.text);
         fuzz_note(format | size_of(mesh.vertex_count) << 8 | size_of(mesh.index_count) << 16 |
                   (mesh.has_color ? 1u << 24 : 0) | (mesh.has_texcoord ? 1u << 25 : 0) | bones << 26);
-        if (mesh_finish(&mesh, path, &options, &error))
-            expect_refusal(&error, path);
+        expect_finishes(&mesh, path);
     }
     unlink(path);
     mesh_free(&mesh);
