@@ -95,6 +95,13 @@
                 vcvtps2dq       %1, %1
 %endmacro
 
+; The weight of a position, scratch m12.
+%macro both_halves 2 ; weight, position
+                vpand           %1, %2, [constants + BYTE_I]
+                vpslld          m12, %1, 16
+                vpor            %1, %1, m12
+%endmacro
+
 %macro axis_point 3 ; across or down, register's number, addressing
 fragment %1_%3_point, JOB | CONSTANTS | M(%2), M(%2), M(12) | M(13)
                 axis_position   m%2, %3
@@ -107,10 +114,8 @@ end_fragment
 fragment %1_%5_linear, JOB | CONSTANTS | M(%2), M(%2) | M(%3) | M(%4), M(12) | M(13)
                 axis_position   m%2, %5
                 vpsubd          m%2, m%2, [constants + HALF_I]
-                vpand           m%4, m%2, [constants + BYTE_I]
+                both_halves     m%4, m%2
                 vpsrad          m%2, m%2, 8
-                vpslld          m12, m%4, 16
-                vpor            m%4, m%4, m12
                 vpaddd          m%3, m%2, [constants + ONE_I]
                 %5_index        m%2
                 %5_index        m%3
@@ -124,6 +129,24 @@ end_fragment
                 axis_linear     down, 9, 7, 11, %1
 %endmacro
 
+; Across alone: the second column is the one behind the first (src/spec/address.h, address_pairs). Arguments: size_256, then
+; last or, clamped, last_256.
+fragment across_power_pair, JOB | CONSTANTS | M(8), M(8) | M(10), M(12) | M(13)
+                axis_position   m8, power
+                vpsubd          m8, m8, [constants + HALF_I]
+                both_halves     m10, m8
+                vpsrad          m8, m8, 8
+                power_index     m8
+end_fragment
+
+fragment across_clamp_pair, JOB | CONSTANTS | M(8), M(8) | M(10), M(12) | M(13)
+                axis_position   m8, clamp
+                vpsubd          m8, m8, [constants + HALF_I]
+                clamp_index     m8
+                both_halves     m10, m8
+                vpsrad          m8, m8, 8
+end_fragment
+
 axes wrap
 axes power
 axes clamp
@@ -132,7 +155,7 @@ axes mirror_power
 axes mirror_once
 axes border
 
-; Arguments: texels and width of the job. The row is a product of numbers below 2^15: vpmaddwd is exact and quick.
+; Arguments: texels and pitch of the job. The row is a product of numbers below 2^15: vpmaddwd is exact and quick.
 fragment sample_point, JOB | M(8) | M(9) | M(14), M(6) | M(7), R_AX | M(8) | M(9) | M(10)
     fill 1,     vpbroadcastd    m10, [at_job]
     fill 0,     mov             rax, [at_job]
@@ -177,7 +200,7 @@ end_fragment
                 lerp            m7, m1, m13, m11
 %endmacro
 
-; Arguments: texels and width of the job.
+; Arguments: texels and pitch of the job.
 ;
 ;   m8 m6    columns        m10  weight across
 ;   m9 m7    rows           m11  weight down
@@ -201,10 +224,39 @@ fragment sample_bilinear, JOB | M_TO(6, 11) | M(14) | M(15), M(6) | M(7), R_AX |
                 blend_four
 end_fragment
 
+; The texels at the indices of a register, and those behind them: eight loads of 64 bits in two gathers. The indices' middle
+; pairs change places, so that what is gathered can be told apart within its halves.
+%macro gather_pairs 6 ; indices, left, right, scratch, scratch, scratch's number
+                vpermq          %1, %1, 0xd8
+                vextracti128    xmm%6, %1, 1
+                vpcmpeqd        m0, m0, m0
+                vpcmpeqd        m1, m1, m1
+                vpgatherdq      %4, [rax + %5 * 4], m0
+                vpgatherdq      %3, [rax + xmm%6 * 4], m1
+                vshufps         %2, %4, %3, 0x88
+                vshufps         %3, %4, %3, 0xdd
+%endmacro
+
+; Arguments: texels and pitch of the job.
+;
+;   m8       first columns  m10  weight across
+;   m9 m7    rows           m11  weight down
+fragment sample_bilinear_pair, JOB | M_TO(7, 11) | M(14) | M(15), M(6) | M(7), R_AX | M(0) | M(1) | M_TO(8, 13)
+    fill 1,     vpbroadcastd    m12, [at_job]
+    fill 0,     mov             rax, [at_job]
+                vpmaddwd        m9, m9, m12                 ; upper row
+                vpmaddwd        m7, m7, m12                 ; lower row
+                vpaddd          m9, m9, m8
+                vpaddd          m8, m7, m8
+                gather_pairs    m9, m6, m13, m7, xmm9, 12
+                gather_pairs    m8, m12, m9, m7, xmm8, 12
+                blend_four
+end_fragment
+
 ; ---- with a border
 ;
 ; Taps inside the image are gathered over the border colour, by mask: for the others nothing is read. Indices on an axis
-; without a border are inside anyway. Arguments: texels, width, last_u, last_v, border of the job.
+; without a border are inside anyway. Arguments: texels, pitch, last_u, last_v, border of the job.
 
 %define LAST_U          2
 %define LAST_V          3

@@ -317,6 +317,9 @@ void resource_set_part(struct resource *resource, unsigned part, void *data);
 /* Bytes that a device takes for the resource, for limits. */
 size_t resource_cost(const struct resource *resource);
 
+/* Bytes of a texture's texels as calls set them: in the storage of its format, without gaps. */
+size_t resource_texels(const struct resource *resource);
+
 /* The number in a layout of what is used so (enum stream_element); -1: there is none. And back. */
 int element_find(unsigned usage, unsigned usage_index);
 enum triptych_usage element_usage(unsigned element, unsigned *usage_index);

@@ -74,7 +74,7 @@ static void size_texture(struct codec *codec, struct resource *resource)
     }
     for (unsigned level = 0; level < given_levels(resource, &shape); level++) {
         resource->texel_bytes += shape.faces * texture_level_bytes(&shape, level);
-        texels += (size_t)shape.level[level].slice_texels * (size_t)shape.level[level].depth;
+        texels += texture_level_count(&shape.level[level]);
     }
     if (resource->source == TEXTURE_CHECKER)
         resource->color_count = 2;
@@ -324,13 +324,20 @@ void resource_set_part(struct resource *resource, unsigned part, void *data)
         resource->vertices = data;
 }
 
+size_t resource_texels(const struct resource *resource)
+{
+    struct triptych_texture shape;
+    enum triptych_result result = texture_describe(&resource->texture, &shape, NULL);
+    return result == TRIPTYCH_OK ? texture_texel_bytes(&shape) : 0;
+}
+
 size_t resource_cost(const struct resource *resource)
 {
     struct triptych_texture shape;
     if (resource->type == RESOURCE_TEXTURE) {
         if (texture_describe(&resource->texture, &shape, NULL) != TRIPTYCH_OK)
             return 0;
-        return (size_t)shape.face_texels * shape.faces * format_texel_bytes(shape.format);
+        return texture_storage_bytes(&shape);
     }
     return resource->vertex_bytes + (size_t)resource->index_count * resource->index_bits / 8 +
            resource->code_bytes;

@@ -133,15 +133,10 @@ enum triptych_result device_write_contents(struct triptych_device *device, const
     return TRIPTYCH_OK;
 }
 
-size_t texture_texel_bytes(const struct triptych_texture *texture)
-{
-    return (size_t)texture->face_texels * texture->faces * format_texel_bytes(texture->format);
-}
-
 void device_read_texels(struct triptych_device *device, struct triptych_texture *texture, void *data)
 {
     device_store_texture(device, texture);
-    memcpy(data, texture->texels, texture_texel_bytes(texture));
+    texture_read_texels(texture, data);
 }
 
 enum triptych_result device_write_texels(struct triptych_device *device, struct triptych_texture *texture,
@@ -152,7 +147,7 @@ enum triptych_result device_write_texels(struct triptych_device *device, struct 
         return TRIPTYCH_BAD_ARGUMENT;
     }
     device_store_texture(device, texture);
-    memcpy(texture->texels, data, bytes);
+    texture_write_texels(texture, data);
     device_load_texture(device, texture);
     return TRIPTYCH_OK;
 }

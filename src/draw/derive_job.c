@@ -82,18 +82,22 @@ static void fill_texture(const struct state *state, struct sampler_key key, stru
     job->texels = key.mip ? texture->texels : texture_level_texels(texture, 0, first);
     job->width = level->width;
     job->height = level->height;
-    job->width_256 = level->width_256;
-    job->height_256 = level->height_256;
+    job->width_256 = (float)(level->width * 256);
+    job->height_256 = (float)(level->height * 256);
     job->last_u = job->width - 1;
     job->last_v = job->height - 1;
+    job->pitch = level->pitch;
+    job->last_u_256 = job->last_u * 256;
+    job->last_v_256 = job->last_v * 256;
     if (memchr(key.address, ADDRESS_BORDER, sizeof key.address))
         job->border = rgba_word(SAMPLER(key.number, bordercolor));
     if (key.kind == TEXTURE_CUBE)
         job->face_texels = (int32_t)texture->face_texels;
     if (key.kind == TEXTURE_VOLUME) {
         job->depth = level->depth;
-        job->depth_256 = level->depth_256;
+        job->depth_256 = (float)(level->depth * 256);
         job->last_w = job->depth - 1;
+        job->last_w_256 = job->last_w * 256;
         job->slice_texels = level->slice_texels;
     }
     if (key.mip || key.minify)

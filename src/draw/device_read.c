@@ -23,9 +23,9 @@ static void read_task(void *user, unsigned worker)
     (void)worker;
     while ((row = atomic_fetch_add(&r->next_row, 1)) < r->target->rows) {
         if (r->color)
-            target_read_color(r->target, r->t, r->sample, row, r->color);
+            target_read_color(r->target, r->t, r->sample, row, r->color, r->target->width);
         if (r->numbers)
-            target_read_numbers(r->target, r->t, r->sample, row, r->numbers);
+            target_read_numbers(r->target, r->t, r->sample, row, r->numbers, r->target->width);
         if (r->depth)
             target_read_depth(r->target, r->sample, row, r->depth);
         if (r->stencil)

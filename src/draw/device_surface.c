@@ -147,7 +147,7 @@ static void read_image(struct triptych_device *device, const struct image *image
         return;
     }
     for (uint32_t row = 0; row < target->rows; row++)
-        target_read_numbers(target, image->surface->slice, SAMPLE_RESOLVED, row, numbers);
+        target_read_numbers(target, image->surface->slice, SAMPLE_RESOLVED, row, numbers, target->width);
 }
 
 static void write_image(struct triptych_device *device, const struct image *image,

@@ -47,27 +47,31 @@ struct palette_entry {
 };
 
 /* One level of a texture's faces (draw/texture.h), as the generated code finds it: texels are counted, not
- * bytes. */
+ * bytes. What each lane needs of a level of its own are the first four words, of volumes the first six. */
 struct texture_level {
     int32_t offset; /* of its first texel from the face's */
+    int32_t pitch;  /* from a row to the next */
     int32_t width, height, depth;
-    float width_256, height_256, depth_256; /* * 256: texture coordinates become 24.8 fixed point */
-    int32_t slice_texels;
+    int32_t slice_texels; /* from a slice to the next */
+    int32_t reserved[2];
 };
 
 /* Levels further away than this are further than any texture has. */
 #define LOD_BIAS_MAXIMUM 64.0f
 
 struct texture_job {
-    const uint32_t *texels; /* rows of `width` RGBA8 words, red in the low byte */
+    const uint32_t *texels; /* rows of `pitch` RGBA8 words, red in the low byte */
     int32_t width;          /* texels, 1 to 8192; of the level that is sampled when no other is */
     int32_t height;
     float width_256; /* width * 256: texture coordinates become 24.8 fixed point */
     float height_256;
     int32_t last_u; /* width - 1: the mask of a power of two, the limit of a clamp */
     int32_t last_v;
+    int32_t pitch;      /* texels from a row to the next */
+    int32_t last_u_256; /* last_u and last_v in 24.8 fixed point: the limits of a clamped position */
+    int32_t last_v_256;
     /* Read only for volumes, cubes and levels of detail. */
-    int32_t depth, last_w;
+    int32_t depth, last_w, last_w_256;
     float depth_256;
     int32_t slice_texels, face_texels;       /* texels from a slice, a face to the next */
     float lod_offset;                        /* 256 times mipmaplodbias and what makes pixels of texels */

@@ -51,7 +51,7 @@ static uint32_t average_bytes(const struct texture_level *from, const struct cel
     for (uint32_t k = 0; k < cell->z.count; k++)
         for (uint32_t j = 0; j < cell->y.count; j++) {
             size_t row = (size_t)(cell->z.first + k) * (size_t)from->height + cell->y.first + j;
-            const uint32_t *texel = texels + row * (size_t)from->width + cell->x.first;
+            const uint32_t *texel = texels + row * (size_t)from->pitch + cell->x.first;
             for (uint32_t i = 0; i < cell->x.count; i++)
                 for (int c = 0; c < 4; c++)
                     sum[c] += (uint64_t)cell->z.weight[k] * cell->y.weight[j] * cell->x.weight[i] *
@@ -70,7 +70,7 @@ static void average_floats(const struct texture_level *from, const struct cell *
     for (uint32_t k = 0; k < cell->z.count; k++)
         for (uint32_t j = 0; j < cell->y.count; j++) {
             size_t row = (size_t)(cell->z.first + k) * (size_t)from->height + cell->y.first + j;
-            const float *texel = texels + 4 * (row * (size_t)from->width + cell->x.first);
+            const float *texel = texels + 4 * (row * (size_t)from->pitch + cell->x.first);
             for (uint32_t i = 0; i < cell->x.count; i++)
                 for (int c = 0; c < 4; c++)
                     sum[c] += (double)cell->z.weight[k] * cell->y.weight[j] * cell->x.weight[i] *
@@ -84,11 +84,11 @@ static void shrink(const struct triptych_texture *texture, unsigned face, unsign
 {
     const struct texture_level *from = &texture->level[level - 1], *to = &texture->level[level];
     const void *source = texture_level_texels(texture, face, level - 1);
-    uint32_t *words = texture_level_texels(texture, face, level);
-    float *floats = (float *)(void *)words;
+    uint32_t *first = texture_level_texels(texture, face, level), *words = first;
+    float *floats = (float *)(void *)first;
     struct cell cell;
     for (uint32_t z = 0; z < (uint32_t)to->depth; z++)
-        for (uint32_t y = 0; y < (uint32_t)to->height; y++)
+        for (uint32_t y = 0; y < (uint32_t)to->height; y++, words++, floats += 4)
             for (uint32_t x = 0; x < (uint32_t)to->width; x++) {
                 cell.x = taps_of(x, (uint32_t)from->width);
                 cell.y = taps_of(y, (uint32_t)from->height);
@@ -100,6 +100,7 @@ static void shrink(const struct triptych_texture *texture, unsigned face, unsign
                     average_floats(from, &cell, source, floats);
                 floats += 4;
             }
+    texture_close_rows(texture, to, first, (size_t)(to->height * to->depth));
 }
 
 void texture_generate_mips(struct triptych_texture *texture)

@@ -216,26 +216,30 @@ enum triptych_result surface_check_copy(const struct surface_copy *copy,
 static void load_depth(const struct triptych_surface *surface, struct target *target)
 {
     const float *texel = surface_texels(surface);
-    for (uint32_t y = 0; y < target->height; y++)
+    size_t gap = 4 * (size_t)(surface_level(surface)->pitch - surface_level(surface)->width);
+    for (uint32_t y = 0; y < target->height; y++, texel += gap)
         for (uint32_t x = 0; x < target->width; x++, texel += 4)
             *target_depth_word(target, x, y) = depth_encode(target->depth_format, *texel);
 }
 
 static void store_depth(const struct triptych_surface *surface, const struct target *target)
 {
-    float *texel = surface_texels(surface);
-    for (uint32_t y = 0; y < target->height; y++)
+    const struct texture_level *level = surface_level(surface);
+    float *first = surface_texels(surface), *texel = first;
+    for (uint32_t y = 0; y < target->height; y++, texel += 4 * (level->pitch - level->width))
         for (uint32_t x = 0; x < target->width; x++, texel += 4) {
             float depth = depth_decode(target->depth_format, target_depth_at(target, x, y));
             texel[0] = texel[1] = texel[2] = texel[3] = depth;
         }
+    texture_close_rows(surface->texture, level, first, target->height);
 }
 
 void surfaces_load(const struct triptych_target_textures *textures, struct target *target)
 {
     for (unsigned t = 0; t < TARGETS; t++)
         if (textures->color[t].texture)
-            target_write_texels(target, t, surface_texels(&textures->color[t]));
+            target_write_texels(target, t, surface_texels(&textures->color[t]),
+                                (size_t)surface_level(&textures->color[t])->pitch);
     if (textures->depth.texture)
         load_depth(&textures->depth, target);
 }
@@ -243,11 +247,13 @@ void surfaces_load(const struct triptych_target_textures *textures, struct targe
 static void store_color(const struct triptych_surface *surface, const struct target *target, unsigned t)
 {
     void *texels = surface_texels(surface);
+    size_t pitch = (size_t)surface_level(surface)->pitch;
     for (uint32_t row = 0; row < target->rows; row++)
         if (surface->texture->format->storage == STORAGE_RGBA8)
-            target_read_color(target, t, SAMPLE_RESOLVED, row, texels);
+            target_read_color(target, t, SAMPLE_RESOLVED, row, texels, pitch);
         else
-            target_read_numbers(target, t, SAMPLE_RESOLVED, row, texels);
+            target_read_numbers(target, t, SAMPLE_RESOLVED, row, texels, pitch);
+    texture_close_rows(surface->texture, surface_level(surface), texels, target->height);
 }
 
 void surfaces_store(const struct triptych_target_textures *textures, const struct target *target)
@@ -265,26 +271,28 @@ void surfaces_store(const struct triptych_target_textures *textures, const struc
 void surface_read_numbers(const struct triptych_surface *surface, float *image)
 {
     const struct texture_level *level = surface_level(surface);
-    size_t texels = (size_t)level->width * (size_t)level->height;
-    if (surface->texture->format->storage == STORAGE_FLOAT4) {
-        memcpy(image, surface_texels(surface), texels * 4 * sizeof *image);
-        return;
-    }
-    const uint32_t *word = surface_texels(surface);
-    for (size_t i = 0; i < texels; i++)
-        color_numbers(TARGET_8888, word + i, image + 4 * i);
+    size_t bytes = format_texel_bytes(surface->texture->format), width = (size_t)level->width;
+    const uint8_t *row = surface_texels(surface);
+    for (int y = 0; y < level->height; y++, row += (size_t)level->pitch * bytes, image += 4 * width)
+        if (surface->texture->format->storage == STORAGE_FLOAT4)
+            memcpy(image, row, width * bytes);
+        else
+            for (size_t x = 0; x < width; x++)
+                color_numbers(TARGET_8888, (const uint32_t *)(const void *)row + x, image + 4 * x);
 }
 
 void surface_write_numbers(const struct triptych_surface *surface, const struct triptych_rectangle *part,
                            const float *image)
 {
     const struct format *format = surface->texture->format;
-    size_t bytes = format_texel_bytes(format), width = (size_t)surface_level(surface)->width;
+    const struct texture_level *level = surface_level(surface);
+    size_t bytes = format_texel_bytes(format), pitch = (size_t)level->pitch;
     uint8_t *texels = surface_texels(surface);
     for (size_t y = part->y; y < (size_t)part->y + part->height; y++)
         for (size_t x = part->x; x < (size_t)part->x + part->width; x++, image += 4) {
             uint32_t words[4];
             color_encode(format, image, words);
-            memcpy(texels + (y * width + x) * bytes, words, bytes);
+            memcpy(texels + (y * pitch + x) * bytes, words, bytes);
         }
+    texture_close_rows(surface->texture, level, texels + part->y * pitch * bytes, part->height);
 }

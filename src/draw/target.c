@@ -235,7 +235,7 @@ static void read_cleared(uint32_t value, const struct rectangle *area, uint32_t 
 
 /* A sample's plane of a row of tiles. */
 static void read_plane(const struct target *target, uint32_t sample, uint32_t plane, uint32_t tile_row,
-                       uint32_t *image)
+                       uint32_t *image, size_t pitch)
 {
     for (uint32_t i = 0; i < target->columns; i++) {
         uint32_t tile = tile_row * target->columns + i;
@@ -243,9 +243,9 @@ static void read_plane(const struct target *target, uint32_t sample, uint32_t pl
         const uint32_t *words =
             target_tile_color(target, tile) + (sample * target->planes + plane) * TILE_PIXELS;
         if (target->clear[tile].color_pending)
-            read_cleared(target->clear[tile].color[plane], &area, image, target->width);
+            read_cleared(target->clear[tile].color[plane], &area, image, pitch);
         else
-            read_tile(words, &area, image, target->width);
+            read_tile(words, &area, image, pitch);
     }
 }
 
@@ -308,30 +308,31 @@ static uint32_t row_end(const struct target *target, uint32_t tile_row)
 }
 
 void target_read_color(const struct target *target, unsigned t, int sample, uint32_t tile_row,
-                       uint32_t *image)
+                       uint32_t *image, size_t pitch)
 {
     const struct target_color *color = target->colors + t;
     bool single = sample != SAMPLE_RESOLVED || target->samples == 1;
     if (target_planes[color->storage] == 1 && single) {
-        read_plane(target, sample < 0 ? 0 : (uint32_t)sample, color->plane, tile_row, image);
+        read_plane(target, sample < 0 ? 0 : (uint32_t)sample, color->plane, tile_row, image, pitch);
         return;
     }
     for (uint32_t y = tile_row * TILE_SIZE; y < row_end(target, tile_row); y++)
         for (uint32_t x = 0; x < target->width; x++) {
             uint32_t words[4];
             read_words(target, color, sample, x, y, words);
-            image[(size_t)y * target->width + x] = color_bytes(color->storage, words);
+            image[y * pitch + x] = color_bytes(color->storage, words);
         }
 }
 
-void target_read_numbers(const struct target *target, unsigned t, int sample, uint32_t tile_row, float *image)
+void target_read_numbers(const struct target *target, unsigned t, int sample, uint32_t tile_row, float *image,
+                         size_t pitch)
 {
     const struct target_color *color = target->colors + t;
     for (uint32_t y = tile_row * TILE_SIZE; y < row_end(target, tile_row); y++)
         for (uint32_t x = 0; x < target->width; x++) {
             uint32_t words[4];
             read_words(target, color, sample, x, y, words);
-            color_numbers(color->storage, words, image + ((size_t)y * target->width + x) * 4);
+            color_numbers(color->storage, words, image + (y * pitch + x) * 4);
         }
 }
 
@@ -386,12 +387,12 @@ static void write_words(struct target *target, const struct target_color *color,
             place[(sample * target->planes + color->plane + (uint32_t)p) * TILE_PIXELS] = words[p];
 }
 
-void target_write_texels(struct target *target, unsigned t, const void *texels)
+void target_write_texels(struct target *target, unsigned t, const void *texels, size_t pitch)
 {
     const struct target_color *color = target->colors + t;
     size_t bytes = target_planes[color->storage] * sizeof(uint32_t);
     const uint8_t *texel = texels;
-    for (uint32_t y = 0; y < target->height; y++)
+    for (uint32_t y = 0; y < target->height; y++, texel += (pitch - target->width) * bytes)
         for (uint32_t x = 0; x < target->width; x++, texel += bytes) {
             uint32_t words[4];
             memcpy(words, texel, bytes);

@@ -93,8 +93,8 @@ void target_clear_tile(struct target *target, uint32_t tile, const struct clear 
 uint32_t *target_fill_color(struct target *target, uint32_t tile);
 uint32_t *target_fill_depth(struct target *target, uint32_t tile);
 
-/* All pixels of colour target t from texels: words, or four numbers each, rows without gaps. */
-void target_write_texels(struct target *target, unsigned t, const void *texels);
+/* All pixels of colour target t from texels, words or four numbers each, in rows that are `pitch` apart. */
+void target_write_texels(struct target *target, unsigned t, const void *texels, size_t pitch);
 
 /* The place of a pixel's depth, made valid, and its word. */
 uint32_t *target_depth_word(struct target *target, uint32_t x, uint32_t y);
@@ -114,11 +114,12 @@ void target_read_contents(struct target *target, void *data);
 enum { SAMPLE_RESOLVED = -1 };
 
 /* Copies one row of tiles into rows of a linear image of the target's size: colour target t as RGBA8 (what
- * has more is clamped to 0..1 and rounded) or as four numbers a pixel. */
+ * has more is clamped to 0..1 and rounded) or as four numbers a pixel. A row begins `pitch` pixels behind the
+ * one above. */
 void target_read_color(const struct target *target, unsigned t, int sample, uint32_t tile_row,
-                       uint32_t *image);
-void target_read_numbers(const struct target *target, unsigned t, int sample, uint32_t tile_row,
-                         float *image);
+                       uint32_t *image, size_t pitch);
+void target_read_numbers(const struct target *target, unsigned t, int sample, uint32_t tile_row, float *image,
+                         size_t pitch);
 void target_read_depth(const struct target *target, int sample, uint32_t tile_row, float *image);
 void target_read_stencil(const struct target *target, int sample, uint32_t tile_row, uint8_t *image);
 

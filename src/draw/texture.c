@@ -87,12 +87,10 @@ static uint64_t lay_out(struct triptych_texture *texture)
             .width = (int32_t)width,
             .height = (int32_t)height,
             .depth = (int32_t)depth,
-            .width_256 = (float)width * 256,
-            .height_256 = (float)height * 256,
-            .depth_256 = (float)depth * 256,
-            .slice_texels = (int32_t)(width * height),
+            .pitch = (int32_t)(width + 1),
+            .slice_texels = (int32_t)((width + 1) * height),
         };
-        offset += (uint64_t)width * height * depth;
+        offset += (uint64_t)(width + 1) * height * depth;
     }
     return offset;
 }
@@ -110,7 +108,7 @@ static void clear_texels(struct triptych_texture *texture, size_t bytes)
 
 static enum triptych_result allocate(struct triptych_texture *texture, struct error *error)
 {
-    size_t bytes = (size_t)texture->face_texels * texture->faces * format_texel_bytes(texture->format);
+    size_t bytes = texture_storage_bytes(texture);
     size_t rounded = (bytes + TEXTURE_ALIGNMENT - 1) & ~(size_t)(TEXTURE_ALIGNMENT - 1);
     texture->texels = aligned_alloc(TEXTURE_ALIGNMENT, rounded);
     if (!texture->texels) {
@@ -187,6 +185,11 @@ size_t texture_level_bytes(const struct triptych_texture *texture, unsigned leve
            format_blocks(texture->format, (uint32_t)l->height) * (size_t)l->depth;
 }
 
+size_t texture_storage_bytes(const struct triptych_texture *texture)
+{
+    return (size_t)texture->face_texels * texture->faces * format_texel_bytes(texture->format);
+}
+
 static struct triptych_box whole_level(const struct triptych_texture *texture, unsigned level)
 {
     const struct texture_level *l = &texture->level[level];
@@ -249,10 +252,85 @@ void texture_update(struct triptych_texture *texture, unsigned face, unsigned le
     struct triptych_box whole = whole_level(texture, level);
     box = box ? box : &whole;
     uint8_t *texels = texture_level_texels(texture, face, level);
-    size_t stride = (size_t)l->width;
+    size_t stride = (size_t)l->pitch, size = format_texel_bytes(texture->format);
     for (unsigned z = 0; z < box->depth; z++) {
-        size_t first = ((size_t)(box->z + z) * (size_t)l->height + box->y) * stride + box->x;
+        size_t first = ((size_t)(box->z + z) * (size_t)l->height + box->y) * stride;
         format_decode(texture->format, (const uint8_t *)data + z * slice_pitch, row_pitch, box->width,
-                      box->height, texels + first * format_texel_bytes(texture->format), stride);
+                      box->height, texels + (first + box->x) * size, stride);
+        texture_close_rows(texture, l, texels + first * size, box->height);
     }
+}
+
+void texture_close_rows(const struct triptych_texture *texture, const struct texture_level *level,
+                        void *texels, size_t rows)
+{
+    size_t size = format_texel_bytes(texture->format);
+    uint8_t *first = texels;
+    for (size_t y = 0; y < rows; y++, first += (size_t)level->pitch * size)
+        memcpy(first + (size_t)level->width * size, first, size);
+}
+
+/* --- As a whole -------------------------------------------------------------------------------------------
+ */
+
+size_t texture_level_count(const struct texture_level *level)
+{
+    return (size_t)level->width * (size_t)level->height * (size_t)level->depth;
+}
+
+size_t texture_texel_bytes(const struct triptych_texture *texture)
+{
+    size_t texels = 0;
+    for (unsigned level = 0; level < texture->levels; level++)
+        texels += texture_level_count(texture->level + level);
+    return texels * texture->faces * format_texel_bytes(texture->format);
+}
+
+/* Goes over all rows, in order: what a copy without gaps consists of. */
+struct row {
+    const struct texture_level *level;
+    uint8_t *texels;
+    size_t bytes;
+};
+
+typedef void row_visitor(const struct triptych_texture *texture, const struct row *row, void *user);
+
+static void visit_rows(const struct triptych_texture *texture, row_visitor *visit, void *user)
+{
+    size_t size = format_texel_bytes(texture->format);
+    for (unsigned face = 0; face < texture->faces; face++)
+        for (unsigned i = 0; i < texture->levels; i++) {
+            const struct texture_level *level = texture->level + i;
+            struct row row = {level, texture_level_texels(texture, face, i), (size_t)level->width * size};
+            for (int y = 0; y < level->height * level->depth; y++, row.texels += (size_t)level->pitch * size)
+                visit(texture, &row, user);
+        }
+}
+
+static void read_row(const struct triptych_texture *texture, const struct row *row, void *user)
+{
+    uint8_t **data = user;
+    (void)texture;
+    memcpy(*data, row->texels, row->bytes);
+    *data += row->bytes;
+}
+
+static void write_row(const struct triptych_texture *texture, const struct row *row, void *user)
+{
+    const uint8_t **data = user;
+    memcpy(row->texels, *data, row->bytes);
+    texture_close_rows(texture, row->level, row->texels, 1);
+    *data += row->bytes;
+}
+
+void texture_read_texels(const struct triptych_texture *texture, void *data)
+{
+    uint8_t *at = data;
+    visit_rows(texture, read_row, &at);
+}
+
+void texture_write_texels(struct triptych_texture *texture, const void *data)
+{
+    const uint8_t *at = data;
+    visit_rows(texture, write_row, &at);
 }

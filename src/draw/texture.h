@@ -2,7 +2,11 @@
  *
  *   face 0: level 0, level 1, ... | face 1: ... | ...        a cube has six faces, others one
  *   level:  slice 0, slice 1, ...                            a volume has its depth of them, others one
- *   slice:  rows of texels from the top, without gaps
+ *   slice:  rows of texels from the top; behind each its first texel again
+ *
+ * A row is repeated for one texel, so that linear filtering finds the two neighbours of a row next to each
+ * other wherever it wraps around: it reads both at once. Who changes texels closes their rows
+ * (texture_close_rows). Outside of here nobody sees that texel.
  *
  * The size of level l is that of level 0 divided by 2^l, rounded down, at least 1. Every texel's index within
  * the allocation is below 2^30, so that generated code addresses words with 32 bits.
@@ -24,7 +28,7 @@ struct triptych_texture {
     enum triptych_texture_type type;
     uint32_t width, height, depth; /* of level 0 */
     uint32_t levels, faces;
-    uint32_t face_texels; /* from a face to the next */
+    uint32_t face_texels; /* from a face to the next, rows' ends included */
     uint32_t *texels;     /* 64-byte aligned */
     struct texture_level level[TEXTURE_LEVELS];
     uint32_t recorded;  /* its number while calls are recorded */
@@ -50,8 +54,21 @@ size_t texture_row_bytes(const struct format *format, uint32_t width);
 /* Bytes of a level of one face in the format's form, without gaps. */
 size_t texture_level_bytes(const struct triptych_texture *texture, unsigned level);
 
-/* Bytes of all texels as they are stored. */
+/* Texels of a level of one face. */
+size_t texture_level_count(const struct texture_level *level);
+
+/* Bytes of all texels, face by face and level by level, in the storage of the format without gaps; and a copy of them. */
 size_t texture_texel_bytes(const struct triptych_texture *texture);
+void texture_read_texels(const struct triptych_texture *texture, void *data);
+void texture_write_texels(struct triptych_texture *texture, const void *data);
+
+/* Bytes that the texels take. */
+size_t texture_storage_bytes(const struct triptych_texture *texture);
+
+/* Repeats the first texel of each of `rows` rows of a level, the first of which begins at `texels`, behind the
+ * row. */
+void texture_close_rows(const struct triptych_texture *texture, const struct texture_level *level,
+                        void *texels, size_t rows);
 
 /* Checks a change of `box` (null: all of the level), and makes it. */
 enum triptych_result texture_check_update(const struct triptych_texture *texture, unsigned face,

@@ -109,10 +109,7 @@ static int visit_sections(struct triptych_device *device, section_visitor *visit
     }
     uint32_t number = 0;
     for (struct triptych_texture *texture = device->textures; texture && !stop; texture = texture->next) {
-        struct section texels = {"texture", texture->texels,
-                                 (size_t)texture->faces * texture->face_texels *
-                                     format_texel_bytes(texture->format) / 4,
-                                 number++, 0};
+        struct section texels = {"texture", texture->texels, texture_storage_bytes(texture) / 4, number++, 0};
         stop = visit(user, &texels);
     }
     return stop;

@@ -1,14 +1,18 @@
-/* Gathers, in three ways.
+/* Gathers, in four ways.
  *
- * The instruction, where the indices are in a register: it merges by mask, all ones, rebuilt each time since
- * it is cleared; the destination is zeroed first to cut its dependency. On many processors it is microcode,
- * so:
+ * The instruction, where one word is wanted and the indices are in a register: it merges by mask, all ones,
+ * rebuilt each time since it is cleared; the destination is zeroed first to cut its dependency. On many
+ * processors it is microcode, so:
  *
  * Lane by lane, where the indices lie in memory anyway (setup's vertices).
  *
- * By rows, where neighbouring words of the same places follow one another (a vertex attribute's components):
- * each place is loaded once, whole, and the rows are transposed within 128-bit halves. Nothing is read past
- * the last word: a buffer may end there.
+ * By pairs, where two neighbouring words of the same places follow one another (texels of a row):
+ *
+ *   p  a0 b0 a1 b1 | a4 b4 a5 b5          a  a0 a1 a2 a3 | a4 a5 a6 a7
+ *   q  a2 b2 a3 b3 | a6 b6 a7 b7    ->    b  b0 b1 b2 b3 | b4 b5 b6 b7
+ *
+ * By rows, where three or four do (a vertex attribute's components): each place is loaded once, whole, and the
+ * rows are transposed within 128-bit halves. Nothing is read past the last word: a buffer may end there.
  *
  *   s0  x0 y0 z0 w0 | x4 y4 z4 w4         x  x0 x1 x2 x3 | x4 x5 x6 x7
  *   s1  x1 y1 z1 w1 | x5 ..               y  y0 y1 ..
@@ -40,8 +44,26 @@ static void select_gather_instruction(struct emitter *m, const struct ir_instruc
                   SCRATCH_SECOND);
 }
 
-/* --- Lane by lane ------------------------------------------------------------------------------------------
+/* --- From indices in memory --------------------------------------------------------------------------------
  */
+
+static int indices_in_memory(const struct emitter *m, const struct ir_instruction *i)
+{
+    const struct ir_instruction *index = &m->ir->instruction[i->operand[0]];
+    return index->op == IR_load && ir_is_invariant_read(index);
+}
+
+/* Where the indices are in memory: stored if they are not there. */
+static struct address indices_of(struct emitter *m, const struct ir_instruction *i)
+{
+    const struct ir_instruction *index = &m->ir->instruction[i->operand[0]];
+    struct place place = place_of(m, i->operand[0]);
+    struct address lanes = address_at(X86_RSP, FRAME_LANES);
+    if (indices_in_memory(m, i))
+        return address_at(base_register[index->base], index->k);
+    vector_mr(&m->encoder, X86_vmovups_store, m->length, lanes, need_register(m, &place, SCRATCH_FIRST));
+    return lanes;
+}
 
 /* Four words at [base + index * scale + k] into the low half of `to`, the indices being words at `lanes`. */
 static void gather_four(struct emitter *m, unsigned to, struct address lanes, const struct ir_instruction *i,
@@ -58,16 +80,9 @@ static void gather_four(struct emitter *m, unsigned to, struct address lanes, co
     }
 }
 
-static int indices_in_memory(const struct emitter *m, const struct ir_instruction *i)
-{
-    const struct ir_instruction *index = &m->ir->instruction[i->operand[0]];
-    return index->op == IR_load && ir_is_invariant_read(index);
-}
-
 static void select_gather_words(struct emitter *m, const struct ir_instruction *i)
 {
-    const struct ir_instruction *index = &m->ir->instruction[i->operand[0]];
-    struct address lanes = address_at(base_register[index->base], index->k);
+    struct address lanes = indices_of(m, i);
     unsigned to = result_register(m), base = gather_base(m, i);
     gather_four(m, to, lanes, i, base);
     if (m->width == 4)
@@ -75,6 +90,41 @@ static void select_gather_words(struct emitter *m, const struct ir_instruction *
     lanes.displacement += 16;
     gather_four(m, SCRATCH_SECOND, lanes, i, base);
     vector_rrri(&m->encoder, X86_vinsertf128, X86_256, to, to, SCRATCH_SECOND, 1);
+}
+
+/* --- By pairs ----------------------------------------------------------------------------------------------
+ */
+
+/* The pairs of two lanes into the low half of `to`. */
+static void load_pairs(struct emitter *m, unsigned to, struct address lanes, const struct ir_instruction *i,
+                       unsigned base)
+{
+    struct address second = lanes;
+    second.displacement += 4;
+    gpr_rm(&m->encoder, X86_movsxd, X86_64, X86_R12, lanes);
+    gpr_rm(&m->encoder, X86_movsxd, X86_64, X86_R13, second);
+    vector_rm(&m->encoder, X86_vmovq, X86_128, to, address_indexed(base, X86_R12, i->scale, i->k));
+    vector_rrm(&m->encoder, X86_vmovhps, X86_128, to, to, address_indexed(base, X86_R13, i->scale, i->k));
+}
+
+static void select_gather_pairs(struct emitter *m, const struct ir_instruction *i)
+{
+    const uint8_t *result = m->allocation->reg + m->position;
+    const unsigned part[2] = {result[0], SCRATCH_SECOND};
+    struct address lanes = indices_of(m, i);
+    unsigned base = gather_base(m, i);
+    for (int p = 0; p < 2; p++, lanes.displacement += 8) {
+        struct address later = lanes;
+        later.displacement += 16;
+        load_pairs(m, part[p], lanes, i, base);
+        if (m->width == 4)
+            continue;
+        load_pairs(m, SCRATCH_FIRST, later, i, base);
+        vector_rrri(&m->encoder, X86_vinsertf128, X86_256, part[p], part[p], SCRATCH_FIRST, 1);
+    }
+    vector_rrri(&m->encoder, X86_vshufps, m->length, result[1], part[0], part[1], 0xdd);
+    vector_rrri(&m->encoder, X86_vshufps, m->length, part[0], part[0], part[1], 0x88);
+    m->selected = m->position + 2;
 }
 
 /* --- By rows -----------------------------------------------------------------------------------------------
@@ -111,17 +161,14 @@ static void load_row(struct emitter *m, unsigned to, struct address lane, const 
     }
     vector_rm(&m->encoder, X86_vmovq, X86_128, to, row);
     row.displacement += 8;
-    if (words == 3)
-        vector_rrmi(&m->encoder, X86_vinsertps, X86_128, to, to, row, 2 << 4);
+    vector_rrmi(&m->encoder, X86_vinsertps, X86_128, to, to, row, 2 << 4);
 }
 
 static void load_rows(struct emitter *m, const unsigned s[ROWS], const struct ir_instruction *i,
                       unsigned words)
 {
-    struct place index = place_of(m, i->operand[0]);
-    struct address lane = address_at(X86_RSP, FRAME_LANES);
+    struct address lane = indices_of(m, i);
     unsigned base = gather_base(m, i);
-    vector_mr(&m->encoder, X86_vmovups_store, m->length, lane, need_register(m, &index, SCRATCH_FIRST));
     for (unsigned row = 0; row < ROWS; row++, lane.displacement += 4) {
         struct address later = lane;
         later.displacement += 16;
@@ -142,20 +189,15 @@ static void interleave(struct emitter *m, enum x86_vector how, unsigned to, unsi
 static void select_gather_rows(struct emitter *m, const struct ir_instruction *i, unsigned words)
 {
     const uint8_t *r = m->allocation->reg + m->position;
-    unsigned s[ROWS] = {r[0], r[1], words > 2 ? r[2] : SCRATCH_RESULT,
-                        words > 3   ? r[3]
-                        : words > 2 ? SCRATCH_RESULT
-                                    : SCRATCH_SECOND};
+    unsigned s[ROWS] = {r[0], r[1], r[2], words > 3 ? r[3] : SCRATCH_RESULT};
     load_rows(m, s, i, words);
     interleave(m, X86_vunpcklps, SCRATCH_FIRST, s[0], s[1]);
     interleave(m, X86_vunpcklps, SCRATCH_SECOND, s[2], s[3]);
-    if (words > 2) {
-        interleave(m, X86_vunpckhps, r[0], s[0], s[1]);
-        interleave(m, X86_vunpckhps, SCRATCH_RESULT, s[2], s[3]);
-        interleave(m, X86_vpunpcklqdq, r[2], r[0], SCRATCH_RESULT);
-        if (words == 4)
-            interleave(m, X86_vpunpckhqdq, r[3], r[0], SCRATCH_RESULT);
-    }
+    interleave(m, X86_vunpckhps, r[0], s[0], s[1]);
+    interleave(m, X86_vunpckhps, SCRATCH_RESULT, s[2], s[3]);
+    interleave(m, X86_vpunpcklqdq, r[2], r[0], SCRATCH_RESULT);
+    if (words == 4)
+        interleave(m, X86_vpunpckhqdq, r[3], r[0], SCRATCH_RESULT);
     interleave(m, X86_vpunpcklqdq, r[0], SCRATCH_FIRST, SCRATCH_SECOND);
     interleave(m, X86_vpunpckhqdq, r[1], SCRATCH_FIRST, SCRATCH_SECOND);
     m->selected = m->position + words;
@@ -164,8 +206,10 @@ static void select_gather_rows(struct emitter *m, const struct ir_instruction *i
 void select_gather(struct emitter *m, const struct ir_instruction *i)
 {
     unsigned words = row_length(m, i);
-    if (words > 1)
+    if (words > 2)
         select_gather_rows(m, i, words);
+    else if (words == 2)
+        select_gather_pairs(m, i);
     else if (indices_in_memory(m, i))
         select_gather_words(m, i);
     else

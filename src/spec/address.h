@@ -14,12 +14,17 @@
  *   BORDER       as CLAMP; a texel whose index had to change, on this axis, is the border colour instead,
  *                each of those that are blended by itself
  *
+ * Linear filtering of bytes reads the neighbour behind a texel where it is in memory, on u, WRAP of a power of
+ * two and CLAMP: rows end with their first texel (draw/texture.h), and a position that is clamped before it is
+ * split has the fraction 0 at either edge, so that what stands behind counts nothing.
+ *
  * On a power of two WRAP and MIRROR take bits of the index. Otherwise the coordinate's whole periods go
  * first, u - floor(u) or u - 2 * floor(u / 2), and an index that steps over an edge is brought back. */
 
 struct axis {
     itg index[2];  /* of the texel and, linear only, its neighbour */
     itg wanted[2]; /* the same before addressing */
+    int adjoining; /* the neighbour stands behind the texel, and index[1] is not there */
     itg fraction;  /* of the way to the neighbour, 0 to 255; linear only */
     fix weight;    /* the same in both halves */
 };
@@ -27,6 +32,7 @@ struct axis {
 /* How the lanes filter: linear if any of them does, mixed if not all of them do but those of `smooth`. */
 struct tap {
     int linear, mixed;
+    int pairs; /* neighbours may be read with what they adjoin */
     msk smooth;
 };
 
@@ -36,7 +42,7 @@ struct level {
     int number; /* the sampler's */
     int each;   /* the fields of this structure count */
     int placed; /* the image does not begin where the texture does, but `offset` texels from there */
-    itg offset;
+    itg offset, pitch;
     itg size[3], last[3];
     flt size_256[3];
     itg slice_texels;
@@ -76,6 +82,20 @@ static inline flt job_size_256(struct env *e, int number, int axis)
 static inline flt level_size_256(struct env *e, const struct level *l, int axis)
 {
     return l->each ? l->size_256[axis] : job_size_256(E, l->number, axis);
+}
+
+static inline itg level_pitch(struct env *e, const struct level *l)
+{
+    return l->each ? l->pitch : uniform_i(E, BASE_JOB, TEXTURE_FIELD(l->number, pitch));
+}
+
+static inline itg level_last_256(struct env *e, const struct level *l, int axis)
+{
+    static const size_t field[3] = {offsetof(struct texture_job, last_u_256),
+                                    offsetof(struct texture_job, last_v_256),
+                                    offsetof(struct texture_job, last_w_256)};
+    return l->each ? shl_i(E, l->last[axis], 8)
+                   : uniform_i(E, BASE_JOB, texture_field(l->number, field[axis]));
 }
 
 static inline itg clamp_index(struct env *e, itg index, itg last)
@@ -172,10 +192,30 @@ static inline itg tap_fraction(struct env *e, const struct tap *tap, itg positio
     return tap->mixed ? select_i(E, tap->smooth, fraction, lit_i(E, 0)) : fraction;
 }
 
+/* An axis along which each texel's neighbour stands behind it. */
+static inline struct axis address_pairs(struct env *e, const struct level *l, const struct tap *tap,
+                                        int address, int axis, itg position)
+{
+    struct axis r = {.adjoining = 1};
+    if (address == ADDRESS_CLAMP) {
+        itg last_256 = level_last_256(E, l, axis);
+        position = clamp_index(E, position, last_256);
+    }
+    itg index = shr_i(E, position, 8);
+    if (address == ADDRESS_WRAP_POWER) {
+        itg last = level_last(E, l, axis);
+        index = and_i(E, index, last);
+    }
+    r.index[0] = r.index[1] = r.wanted[0] = r.wanted[1] = index;
+    r.fraction = tap_fraction(E, tap, position);
+    r.weight = both_halves(E, r.fraction);
+    return r;
+}
+
 static inline struct axis address_axis(struct env *e, const struct level *l, const struct tap *tap,
                                        int address, int axis, flt coordinate)
 {
-    struct axis r;
+    struct axis r = {.adjoining = 0};
     flt inner = address_period(E, address, coordinate);
     flt size_256 = level_size_256(E, l, axis);
     flt scaled = mul_f(E, inner, size_256);
@@ -183,6 +223,8 @@ static inline struct axis address_axis(struct env *e, const struct level *l, con
     if (tap->linear) {
         itg offset = tap_offset(E, tap);
         position = sub_i(E, position, offset);
+        if (tap->pairs && axis == 0 && (address == ADDRESS_WRAP_POWER || address == ADDRESS_CLAMP))
+            return address_pairs(E, l, tap, address, axis, position);
     }
     itg index = shr_i(E, position, 8);
     r.index[0] = address_index(E, address, index, l, axis);

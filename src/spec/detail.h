@@ -172,27 +172,28 @@ static inline struct detail given_detail(struct env *e, const struct sampler_key
     return r;
 }
 
-/* The image of each lane's level. */
+/* The image of each lane's level. The words that are read follow one another, in memory and here: engines can
+ * take them together. */
 static inline struct level gather_level(struct env *e, int number, itg level, int axes)
 {
     static const size_t size[3] = {offsetof(struct texture_level, width),
                                    offsetof(struct texture_level, height),
                                    offsetof(struct texture_level, depth)};
-    static const size_t size_256[3] = {offsetof(struct texture_level, width_256),
-                                       offsetof(struct texture_level, height_256),
-                                       offsetof(struct texture_level, depth_256)};
     struct level r = {.number = number, .each = 1, .placed = 1};
     int levels = TEXTURE_FIELD(number, levels);
     itg row = shl_i(E, level, 3); /* of 8 words */
     r.offset = gather_i(E, BASE_JOB, levels, row, 4, (int)offsetof(struct texture_level, offset));
-    r.slice_texels = r.offset;
-    for (int i = 0; i < axes; i++) {
+    r.pitch = gather_i(E, BASE_JOB, levels, row, 4, (int)offsetof(struct texture_level, pitch));
+    for (int i = 0; i < axes; i++)
         r.size[i] = gather_i(E, BASE_JOB, levels, row, 4, (int)size[i]);
-        r.size_256[i] = gather_f(E, BASE_JOB, levels, row, 4, (int)size_256[i]);
-        r.last[i] = sub_i(E, r.size[i], lit_i(E, 1));
-    }
+    r.slice_texels = r.pitch;
     if (axes == 3)
         r.slice_texels =
             gather_i(E, BASE_JOB, levels, row, 4, (int)offsetof(struct texture_level, slice_texels));
+    for (int i = 0; i < axes; i++) {
+        itg positions = shl_i(E, r.size[i], 8);
+        r.size_256[i] = float_f(E, positions);
+        r.last[i] = sub_i(E, r.size[i], lit_i(E, 1));
+    }
     return r;
 }

@@ -25,9 +25,9 @@ static inline int has_border(const struct sampler *s, int axis)
 
 /* The number of the first texel of a row, by taps down and through the slices. */
 static inline itg texel_row(struct env *e, const struct sampler *s, const struct level *l,
-                            const struct axis *axis, int j, int k, itg width)
+                            const struct axis *axis, int j, int k, itg pitch)
 {
-    itg row = dot_i(E, axis[1].index[j], width);
+    itg row = dot_i(E, axis[1].index[j], pitch);
     if (s->axes == 3) {
         itg slice_texels =
             l->each ? l->slice_texels : uniform_i(E, BASE_JOB, TEXTURE_FIELD(l->number, slice_texels));
@@ -62,6 +62,20 @@ static inline itg texel(struct env *e, const struct sampler *s, const struct axi
     return word;
 }
 
+/* The two texels of a row that are blended along u. */
+static inline void texel_pair(struct env *e, const struct sampler *s, const struct axis *axis, int j, int k,
+                              itg row, itg pair[2])
+{
+    if (axis[0].adjoining) {
+        itg index = add_i(E, row, axis[0].index[0]);
+        pair[0] = gather_i(E, BASE_JOB, TEXTURE_FIELD(s->k->number, texels), index, 4, 0);
+        pair[1] = gather_i(E, BASE_JOB, TEXTURE_FIELD(s->k->number, texels), index, 4, 4);
+    } else {
+        pair[0] = texel(E, s, axis, 0, j, k, row);
+        pair[1] = texel(E, s, axis, 1, j, k, row);
+    }
+}
+
 static inline fix lerp_256(struct env *e, fix a, fix b, fix inverse, fix weight)
 {
     fix left = mul_x(E, a, inverse);
@@ -88,36 +102,37 @@ static inline struct color lerp_texels(struct env *e, itg a, itg b, fix inverse,
 
 /* Four texels of the slice of tap `k`. */
 static inline struct color sample_slice(struct env *e, const struct sampler *s, const struct level *l,
-                                        const struct axis *axis, int k, itg width)
+                                        const struct axis *axis, int k, itg pitch)
 {
-    itg upper_row = texel_row(E, s, l, axis, 0, k, width);
-    itg upper_left = texel(E, s, axis, 0, 0, k, upper_row);
-    itg upper_right = texel(E, s, axis, 1, 0, k, upper_row);
-    itg lower_row = texel_row(E, s, l, axis, 1, k, width);
-    itg lower_left = texel(E, s, axis, 0, 1, k, lower_row);
-    itg lower_right = texel(E, s, axis, 1, 1, k, lower_row);
+    itg texels[2][2];
+    itg upper_row = texel_row(E, s, l, axis, 0, k, pitch);
+    texel_pair(E, s, axis, 0, k, upper_row, texels[0]);
+    itg lower_row = texel_row(E, s, l, axis, 1, k, pitch);
+    texel_pair(E, s, axis, 1, k, lower_row, texels[1]);
     fix inverse_u = sub_x(E, lit_x(E, 256), axis[0].weight);
     fix inverse_v = sub_x(E, lit_x(E, 256), axis[1].weight);
-    struct color upper = lerp_texels(E, upper_left, upper_right, inverse_u, axis[0].weight);
-    struct color lower = lerp_texels(E, lower_left, lower_right, inverse_u, axis[0].weight);
+    struct color upper = lerp_texels(E, texels[0][0], texels[0][1], inverse_u, axis[0].weight);
+    struct color lower = lerp_texels(E, texels[1][0], texels[1][1], inverse_u, axis[0].weight);
     return lerp_colors(E, upper, lower, inverse_v, axis[1].weight);
 }
 
 static inline struct color sample_image(struct env *e, const struct sampler *s, const struct level *l)
 {
     struct axis axis[3];
+    struct tap tap = s->tap;
+    tap.pairs = !has_border(s, 1) && (s->axes == 2 || !has_border(s, 2));
     for (int a = 0; a < s->axes; a++)
-        axis[a] = address_axis(E, l, &s->tap, s->k->address[a], a, s->coordinate[a]);
-    itg width = level_size(E, l, 0);
+        axis[a] = address_axis(E, l, &tap, s->k->address[a], a, s->coordinate[a]);
+    itg pitch = level_pitch(E, l);
     if (!s->tap.linear) {
-        itg row = texel_row(E, s, l, axis, 0, 0, width);
+        itg row = texel_row(E, s, l, axis, 0, 0, pitch);
         itg word = texel(E, s, axis, 0, 0, 0, row);
         return color_unpack(E, word);
     }
-    struct color near = sample_slice(E, s, l, axis, 0, width);
+    struct color near = sample_slice(E, s, l, axis, 0, pitch);
     if (s->axes == 2)
         return near;
-    struct color far = sample_slice(E, s, l, axis, 1, width);
+    struct color far = sample_slice(E, s, l, axis, 1, pitch);
     fix inverse = sub_x(E, lit_x(E, 256), axis[2].weight);
     return lerp_colors(E, near, far, inverse, axis[2].weight);
 }

@@ -101,11 +101,11 @@ static inline struct float_color float_blend_texels(struct env *e, const struct 
 
 static inline struct float_color float_slice(struct env *e, const struct sampler *s, const struct level *l,
                                              const struct axis *axis, const struct float_weight *w, int k,
-                                             itg width)
+                                             itg pitch)
 {
     struct float_color row[2];
     for (int j = 0; j < 2; j++) {
-        itg first = texel_row(E, s, l, axis, j, k, width);
+        itg first = texel_row(E, s, l, axis, j, k, pitch);
         struct float_color left = float_texel(E, s, axis, 0, j, k, first);
         struct float_color right = float_texel(E, s, axis, 1, j, k, first);
         row[j] = float_blend_texels(E, s, &left, &right, &w[0]);
@@ -119,17 +119,17 @@ static inline struct float_color float_image(struct env *e, const struct sampler
     struct float_weight weight[3];
     for (int a = 0; a < s->axes; a++)
         axis[a] = address_axis(E, l, &s->tap, s->k->address[a], a, s->coordinate[a]);
-    itg width = level_size(E, l, 0);
+    itg pitch = level_pitch(E, l);
     if (!s->tap.linear) {
-        itg row = texel_row(E, s, l, axis, 0, 0, width);
+        itg row = texel_row(E, s, l, axis, 0, 0, pitch);
         return float_texel(E, s, axis, 0, 0, 0, row);
     }
     for (int a = 0; a < s->axes; a++)
         weight[a] = float_weight(E, axis[a].fraction);
-    struct float_color near = float_slice(E, s, l, axis, weight, 0, width);
+    struct float_color near = float_slice(E, s, l, axis, weight, 0, pitch);
     if (s->axes == 2)
         return near;
-    struct float_color far = float_slice(E, s, l, axis, weight, 1, width);
+    struct float_color far = float_slice(E, s, l, axis, weight, 1, pitch);
     return float_blend_texels(E, s, &near, &far, &weight[2]);
 }
 

@@ -139,13 +139,24 @@ static void plan_sample(struct plan *plan, const struct pixel_key *key, int stag
         {&fragment_sample_point, &fragment_sample_bilinear},
         {&fragment_sample_point_border, &fragment_sample_bilinear_border}};
     int border = key->address_u[stage] == ADDRESS_BORDER || key->address_v[stage] == ADDRESS_BORDER;
-    plan_append(plan, across[key->address_u[stage]][key->filter[stage]],
-                ARGUMENTS(TEXTURE(width_256), TEXTURE(last_u), TEXTURE(width)));
+    int linear = key->filter[stage] == FILTER_LINEAR, u = key->address_u[stage];
+    const struct fragment *taps = sample[border][key->filter[stage]];
+    if (linear && !border && (u == ADDRESS_CLAMP || u == ADDRESS_WRAP_POWER)) {
+        taps = &fragment_sample_bilinear_pair;
+        if (u == ADDRESS_CLAMP)
+            plan_append(plan, &fragment_across_clamp_pair,
+                        ARGUMENTS(TEXTURE(width_256), TEXTURE(last_u_256)));
+        else
+            plan_append(plan, &fragment_across_power_pair, ARGUMENTS(TEXTURE(width_256), TEXTURE(last_u)));
+    } else {
+        plan_append(plan, across[u][key->filter[stage]],
+                    ARGUMENTS(TEXTURE(width_256), TEXTURE(last_u), TEXTURE(width)));
+    }
     plan_append(plan, down[key->address_v[stage]][key->filter[stage]],
                 ARGUMENTS(TEXTURE(height_256), TEXTURE(last_v), TEXTURE(height)));
     plan_append(
-        plan, sample[border][key->filter[stage]],
-        ARGUMENTS(TEXTURE(texels), TEXTURE(width), TEXTURE(last_u), TEXTURE(last_v), TEXTURE(border)));
+        plan, taps,
+        ARGUMENTS(TEXTURE(texels), TEXTURE(pitch), TEXTURE(last_u), TEXTURE(last_v), TEXTURE(border)));
 #undef TEXTURE
 }
 

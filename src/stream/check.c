@@ -453,7 +453,7 @@ static int follow(struct follower *follower, const struct call *call, struct err
     case CALL_MIPS: return 0;
     case CALL_TEXELS:
         return check_bytes(follower, call->texels.source,
-                           resource_cost(&follower->stream->resources[call->resource]), error);
+                           resource_texels(&follower->stream->resources[call->resource]), error);
     case CALL_CONTENTS:
         return check_bytes(follower, call->resource, target_contents_bytes(&follower->drawn), error);
     case CALL_RELEASE: return follow_release(follower, call, error);

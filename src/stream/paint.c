@@ -31,7 +31,7 @@ static void paint_fill(struct resource *resource, const struct canvas *canvas)
     unsigned levels = resource->color_count / canvas->shape->faces;
     unsigned number = (unsigned)(canvas->level - canvas->shape->level) + canvas->face * levels;
     uint32_t color = paint_swap(resource->colors[number]);
-    for (int i = 0; i < canvas->level->slice_texels * canvas->level->depth; i++)
+    for (size_t i = 0; i < texture_level_count(canvas->level); i++)
         canvas->texels[i] = color;
 }
 

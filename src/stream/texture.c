@@ -61,12 +61,6 @@ static int parse_image(struct parser *parser, struct resource *resource)
     return result;
 }
 
-/* What the texels take on a device, which can be eight times what they take in a file. */
-static size_t decoded_bytes(const struct triptych_texture *shape)
-{
-    return (size_t)shape->face_texels * shape->faces * format_texel_bytes(shape->format);
-}
-
 static int parse_file(struct parser *parser, struct resource *resource)
 {
     struct token place = parser->lex.token;
@@ -75,7 +69,7 @@ static int parse_file(struct parser *parser, struct resource *resource)
         parse_load(parser, resource, resource->path, &place, asset_load_texture))
         return -1;
     texture_describe(&resource->texture, &shape, NULL);
-    return parse_account(parser, &place, decoded_bytes(&shape));
+    return parse_account(parser, &place, texture_storage_bytes(&shape));
 }
 
 /* --- Sources ----------------------------------------------------------------------------------------------
@@ -139,7 +133,7 @@ static int parse_colored(struct parser *parser, struct resource *resource,
 {
     size_t count = 0;
     for (unsigned level = 0; level < paint_given_levels(resource, shape); level++)
-        count += (size_t)shape->level[level].slice_texels * (size_t)shape->level[level].depth;
+        count += texture_level_count(&shape->level[level]);
     resource->color_count = (uint32_t)(count * shape->faces);
     if (parse_colors(parser, resource->color_count, "texel", &resource->colors))
         return -1;
@@ -277,7 +271,7 @@ static int allocate_texels(struct parser *parser, struct resource *resource,
 {
     for (unsigned level = 0; level < paint_given_levels(resource, shape); level++)
         resource->texel_bytes += shape->faces * texture_level_bytes(shape, level);
-    if (parse_account(parser, place, decoded_bytes(shape)))
+    if (parse_account(parser, place, texture_storage_bytes(shape)))
         return -1;
     resource->texels = calloc(resource->texel_bytes, 1);
     return resource->texels ? 0 : lex_fail(&parser->lex, place, "not enough memory");

@@ -55,7 +55,7 @@ void tearDown(void)
 static void read_all(void)
 {
     for (uint32_t row = 0; row < target.rows; row++) {
-        target_read_color(&target, 0, SAMPLE_RESOLVED, row, image);
+        target_read_color(&target, 0, SAMPLE_RESOLVED, row, image, target.width);
         target_read_depth(&target, SAMPLE_RESOLVED, row, depth);
     }
 }

@@ -48,9 +48,9 @@ static void test_levels_halve_down_to_one_texel(void)
         const struct texture_level *level = &texture->level[i];
         TEST_ASSERT_EQUAL_INT_ARRAY(sizes[i], ((int[]){level->width, level->height, level->depth}), 3);
         TEST_ASSERT_EQUAL_INT(offset, level->offset);
-        TEST_ASSERT_EQUAL_INT(level->width * level->height, level->slice_texels);
-        TEST_ASSERT_TRUE(level->width_256 == 256 * sizes[i][0] && level->height_256 == 256 * sizes[i][1]);
-        offset += sizes[i][0] * sizes[i][1];
+        TEST_ASSERT_EQUAL_INT(level->width + 1, level->pitch);
+        TEST_ASSERT_EQUAL_INT(level->pitch * level->height, level->slice_texels);
+        offset += (sizes[i][0] + 1) * sizes[i][1];
     }
     TEST_ASSERT_EQUAL_UINT(offset, texture->face_texels);
 }
@@ -59,8 +59,8 @@ static void test_faces_follow_one_another_with_all_their_levels(void)
 {
     MAKE(TRIPTYCH_TEXTURE_CUBE, TRIPTYCH_SURFACE_R32F, 8, 8, 1, 2);
     TEST_ASSERT_EQUAL_UINT(6, texture->faces);
-    TEST_ASSERT_EQUAL_UINT(64 + 16, texture->face_texels);
-    TEST_ASSERT_EQUAL_PTR(texture->texels + 4 * (5 * 80 + 64), texture_level_texels(texture, 5, 1));
+    TEST_ASSERT_EQUAL_UINT(72 + 20, texture->face_texels);
+    TEST_ASSERT_EQUAL_PTR(texture->texels + 4 * (5 * 92 + 72), texture_level_texels(texture, 5, 1));
 }
 
 static void test_a_volume_halves_its_depth_too(void)
@@ -69,7 +69,7 @@ static void test_a_volume_halves_its_depth_too(void)
     TEST_ASSERT_EQUAL_UINT(4, texture->levels);
     TEST_ASSERT_EQUAL_INT(4, texture->level[1].depth);
     TEST_ASSERT_EQUAL_INT(1, texture->level[3].depth);
-    TEST_ASSERT_EQUAL_UINT(4 * 2 * 9 + 2 * 1 * 4 + 2 + 1, texture->face_texels);
+    TEST_ASSERT_EQUAL_UINT(5 * 2 * 9 + 3 * 1 * 4 + 2 * 2 + 2, texture->face_texels);
 }
 
 static void test_contents_start_as_zeros_of_the_format(void)
@@ -108,7 +108,7 @@ static void test_bad_descriptions_are_refused_with_a_reason(void)
         {{0, TRIPTYCH_SURFACE_L8, 1, 1, 2, 1}, TRIPTYCH_BAD_ARGUMENT, "2d texture of depth 2: expected 1"},
         {{1, TRIPTYCH_SURFACE_L8, 4, 2, 1, 1}, TRIPTYCH_BAD_ARGUMENT, "4x2 texels: expected a square"},
         {{0, TRIPTYCH_SURFACE_L8, 4, 2, 1, 4}, TRIPTYCH_BAD_ARGUMENT, "4 levels: expected at most 3"},
-        {{2, TRIPTYCH_SURFACE_L8, 2048, 2048, 2048, 1}, TRIPTYCH_BAD_ARGUMENT, "34359738368 bytes"},
+        {{2, TRIPTYCH_SURFACE_L8, 2048, 2048, 2048, 1}, TRIPTYCH_BAD_ARGUMENT, "34376515584 bytes"},
     };
     for (unsigned i = 0; i < sizeof cases / sizeof *cases; i++) {
         error_clear(&reason);
@@ -161,14 +161,14 @@ static void test_an_update_changes_its_box_and_nothing_else(void)
     TEST_ASSERT_EQUAL_INT(TRIPTYCH_OK, texture_check_update(texture, 0, 1, &box, 5, 20, &reason));
     texture_update(texture, 0, 1, &box, data, 5, 20);
     const uint32_t *level = texture_level_texels(texture, 0, 1);
-    for (uint32_t i = 0; i < 8 * 8 * 6; i++)
+    for (uint32_t i = 0; i < 9 * 8 * 6; i++)
         TEST_ASSERT_EQUAL_HEX32(0, texture->texels[i]);
     for (unsigned z = 0; z < 3; z++)
         for (unsigned y = 0; y < 4; y++)
             for (unsigned x = 0; x < 4; x++) {
                 int inside = x >= 1 && y >= 2 && z >= 1;
                 unsigned value = inside ? data[(z - 1) * 20 + (y - 2) * 5 + x - 1] : 0;
-                TEST_ASSERT_EQUAL_HEX32(value << 24, level[(z * 4 + y) * 4 + x]);
+                TEST_ASSERT_EQUAL_HEX32(value << 24, level[(z * 4 + y) * 5 + x]);
             }
 }
 
@@ -191,7 +191,7 @@ static double expected_mean(unsigned level, unsigned x, unsigned y, unsigned z, 
     for (unsigned k = 0; k < (unsigned)from->depth; k++)
         for (unsigned j = 0; j < (unsigned)from->height; j++)
             for (unsigned i = 0; i < (unsigned)from->width; i++) {
-                size_t at = 4 * ((k * (size_t)from->height + j) * (size_t)from->width + i) + (unsigned)c;
+                size_t at = 4 * ((k * (size_t)from->height + j) * (size_t)from->pitch + i) + (unsigned)c;
                 double value = texture->format->storage == STORAGE_RGBA8 ? bytes[at] : (double)floats[at];
                 sum += value * covered(x, i, (unsigned)from->width, (unsigned)to->width) *
                        covered(y, j, (unsigned)from->height, (unsigned)to->height) *
@@ -215,7 +215,8 @@ static void check_mips(void)
         const uint8_t *bytes = texture_level_texels(texture, 0, l);
         const float *floats = (const float *)(const void *)bytes;
         for (int i = 0; i < 4 * to->slice_texels * to->depth; i++) {
-            int at = i / 4, x = at % to->width, y = at / to->width % to->height, z = at / to->slice_texels;
+            int at = i / 4, y = at / to->pitch % to->height, z = at / to->slice_texels;
+            int x = at % to->pitch % to->width;
             double mean = expected_mean(l, (unsigned)x, (unsigned)y, (unsigned)z, i % 4);
             if (texture->format->storage == STORAGE_RGBA8)
                 TEST_ASSERT_DOUBLE_WITHIN(0.5 + 1e-9, mean, bytes[i]);
@@ -240,13 +241,70 @@ static void test_mips_are_means_by_area_whatever_the_size(void)
     check_mips();
 }
 
+/* --- Rows' ends -------------------------------------------------------------------------------------------
+ */
+
+static void expect_closed_rows(void)
+{
+    size_t bytes = format_texel_bytes(texture->format);
+    for (unsigned face = 0; face < texture->faces; face++)
+        for (unsigned l = 0; l < texture->levels; l++) {
+            const struct texture_level *level = &texture->level[l];
+            const uint8_t *row = texture_level_texels(texture, face, l);
+            for (int y = 0; y < level->height * level->depth; y++, row += (size_t)level->pitch * bytes)
+                TEST_ASSERT_EQUAL_MEMORY(row, row + (size_t)level->width * bytes, bytes);
+        }
+}
+
+static void fill_randomly(uint8_t *data, size_t bytes)
+{
+    for (size_t i = 0; i < bytes; i++)
+        data[i] = (uint8_t)(random_word() % 61);
+}
+
+static void test_rows_end_with_their_first_texel_whoever_changes_them(void)
+{
+    static const struct triptych_box box = {0, 1, 1, 2, 3, 2};
+    static uint8_t data[8 * 6 * 4 * 16 * 2];
+    for (int wide = 0; wide < 2; wide++) {
+        enum triptych_surface_format format =
+            wide ? TRIPTYCH_SURFACE_A32B32G32R32F : TRIPTYCH_SURFACE_A8R8G8B8;
+        unsigned bytes = wide ? 16 : 4;
+        MAKE(TRIPTYCH_TEXTURE_VOLUME, format, 8, 6, 4, 0);
+        expect_closed_rows();
+        fill_randomly(data, sizeof data);
+        texture_update(texture, 0, 0, NULL, data, 8 * bytes, 8 * 6 * bytes);
+        expect_closed_rows();
+        texture_update(texture, 0, 0, &box, data + 64, 2 * bytes, 6 * bytes);
+        expect_closed_rows();
+        texture_generate_mips(texture);
+        expect_closed_rows();
+        TEST_ASSERT_TRUE(texture_texel_bytes(texture) <= sizeof data);
+        texture_write_texels(texture, data);
+        expect_closed_rows();
+    }
+}
+
+static void test_texels_are_copied_without_the_ends(void)
+{
+    static uint8_t data[6 * (7 * 7 + 3 * 3 + 1) * 4], copy[sizeof data];
+    MAKE(TRIPTYCH_TEXTURE_CUBE, TRIPTYCH_SURFACE_A8R8G8B8, 7, 7, 1, 0);
+    TEST_ASSERT_EQUAL_UINT(sizeof data, texture_texel_bytes(texture));
+    fill_randomly(data, sizeof data);
+    texture_write_texels(texture, data);
+    texture_read_texels(texture, copy);
+    TEST_ASSERT_EQUAL_MEMORY(data, copy, sizeof data);
+    const uint32_t *face = texture_level_texels(texture, 5, 1);
+    TEST_ASSERT_EQUAL_MEMORY(data + 4 * (5 * 59 + 49 + 3), face + 4, 12);
+}
+
 static void test_mips_round_halves_up_and_each_face_has_its_own(void)
 {
     MAKE(TRIPTYCH_TEXTURE_CUBE, TRIPTYCH_SURFACE_A8R8G8B8, 2, 2, 1, 0);
     for (unsigned face = 0; face < 6; face++) {
         uint32_t *texel = texture_level_texels(texture, face, 0);
         texel[0] = face + 1; /* the mean is (face + 1) / 4 */
-        texel[1] = texel[2] = texel[3] = 0;
+        texel[1] = texel[3] = texel[4] = 0;
     }
     texture_generate_mips(texture);
     for (unsigned face = 0; face < 6; face++)
@@ -320,6 +378,8 @@ int main(void)
     RUN_TEST(test_bad_updates_are_refused_with_a_reason);
     RUN_TEST(test_an_update_changes_its_box_and_nothing_else);
     RUN_TEST(test_mips_are_means_by_area_whatever_the_size);
+    RUN_TEST(test_rows_end_with_their_first_texel_whoever_changes_them);
+    RUN_TEST(test_texels_are_copied_without_the_ends);
     RUN_TEST(test_mips_round_halves_up_and_each_face_has_its_own);
     RUN_TEST(test_draws_read_what_was_there_when_they_were_recorded);
     RUN_TEST(test_calls_that_fail_say_why);

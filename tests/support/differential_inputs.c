@@ -323,12 +323,12 @@ static int32_t make_levels(const int32_t side[3], struct texture_level levels[LE
     int32_t offset = 0;
     for (int l = 0; l < LEVELS; l++) {
         struct texture_level *level = &levels[l];
-        *level =
-            (struct texture_level){offset, half(side[0], l), half(side[1], l), half(side[2], l), 0, 0, 0, 0};
-        level->width_256 = 256 * (float)level->width;
-        level->height_256 = 256 * (float)level->height;
-        level->depth_256 = 256 * (float)level->depth;
-        level->slice_texels = level->width * level->height;
+        *level = (struct texture_level){.offset = offset,
+                                        .width = half(side[0], l),
+                                        .height = half(side[1], l),
+                                        .depth = half(side[2], l)};
+        level->pitch = level->width + 1;
+        level->slice_texels = level->pitch * level->height;
         offset += level->slice_texels * level->depth;
     }
     return offset;
@@ -346,7 +346,8 @@ static void make_detail(struct differential *d, int sampler)
     texture->lod_offset = number(d, -256 * 14, 256);
 }
 
-/* The image's last texel is the last word before the fence. */
+/* The image's last row ends with the last word before the fence. Rows do not end with their first texels: which
+ * of the two an engine reads, it has to read where the specification does. */
 static void make_texture(struct differential *d, struct sampler_key key)
 {
     struct texture_job *texture = &d->job.texture[key.number];
@@ -354,7 +355,7 @@ static void make_texture(struct differential *d, struct sampler_key key)
     int small = kind == TEXTURE_VOLUME || words > 1;
     const int32_t side[3] = {texture_side(d, small, key.address[0]), texture_side(d, small, key.address[1]),
                              kind == TEXTURE_VOLUME ? texture_side(d, small, key.address[2]) : 1};
-    int32_t chain = make_levels(side, d->levels[key.number]), image = side[0] * side[1] * side[2];
+    int32_t chain = make_levels(side, d->levels[key.number]), image = (side[0] + 1) * side[1] * side[2];
     texture->face_texels = key.mip ? chain : image;
     int32_t texels = kind == TEXTURE_CUBE ? 6 * texture->face_texels : texture->face_texels;
     texture->texels = (const uint32_t *)(void *)(d->texels + TEXTURE_BYTES) - words * texels;
@@ -367,7 +368,11 @@ static void make_texture(struct differential *d, struct sampler_key key)
     texture->last_u = side[0] - 1;
     texture->last_v = side[1] - 1;
     texture->last_w = side[2] - 1;
-    texture->slice_texels = side[0] * side[1];
+    texture->pitch = side[0] + 1;
+    texture->last_u_256 = 256 * texture->last_u;
+    texture->last_v_256 = 256 * texture->last_v;
+    texture->last_w_256 = 256 * texture->last_w;
+    texture->slice_texels = texture->pitch * side[1];
     texture->border = differential_word(d);
     make_detail(d, key.number);
 }
