@@ -18,9 +18,16 @@ static void add(struct triptych_device *device, struct call call)
 
 static void write_texture(struct triptych_device *device, triptych_texture *texture)
 {
-    device_store_texture(device, texture);
+    size_t bytes = texture_texel_bytes(texture);
+    void *data = malloc(bytes);
     record_new_texture(device, texture);
-    record_texels(device, texture, texture->texels, texture_texel_bytes(texture));
+    if (data) {
+        device_read_texels(device, texture, data);
+        record_texels(device, texture, data, bytes);
+    } else {
+        codec_fail(&device->recorder->codec, "not enough memory");
+    }
+    free(data);
 }
 
 static void write_resources(struct triptych_device *device)
