@@ -28,6 +28,7 @@ check "shaders know tables and the base" src/shader base/ def/ shader/
 check "debugging knows the base and its own table" src/debug base/ debug/ def/debug.def
 check "the renderer includes no engine" src/draw base/ debug/ def/ draw/ shader/ triptych.h
 check "the container knows the renderer and no engine" src/container base/ container/ def/ draw/ shader/ triptych.h
+check "the interface knows engines by their list" src/api api/ base/ container/ draw/ engines.h shader/
 check "the recording includes no engine" src/ir ir/ base/ def/ draw/ shader/program.h spec/
 check "the emulator and the batch interpreter include no other engine" emu emu/ ir/ base/ def/ draw/ shader/program.h spec/
 check "the stitcher includes no other engine" src/stitch stitch/ base/ debug/code.h def/ draw/ shader/program.h spec/

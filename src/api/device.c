@@ -1,0 +1,210 @@
+/* Devices and what is known of them, engines, recording, formats; and what all parts of the interface share. */
+#define _GNU_SOURCE /* secure_getenv */
+#include "api/api.h"
+#include "draw/depth.h"
+#include "engines.h"
+
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+static const char default_engine[] = "specialize";
+
+/* --- Devices and engines ----------------------------------------------------------------------------------
+ */
+
+static enum triptych_result create(const struct triptych_options *options, triptych_device **device,
+                                   struct error *error)
+{
+    const char *name = options && options->engine ? options->engine : default_engine;
+    const struct engine *engine = engine_find(name);
+    if (!engine) {
+        error_set(error, "engine %s: there is none of that name", name);
+        return TRIPTYCH_BAD_ARGUMENT;
+    }
+    struct device_options device_options = {.debug = secure_getenv("TRIPTYCH_DEBUG")};
+    if (options) {
+        device_options.threads = options->threads;
+        device_options.cache_bytes = options->cache_bytes;
+        device_options.measure = options->measure != 0;
+        if (options->debug)
+            device_options.debug = options->debug;
+    }
+    return device_create(engine, &device_options, device, error);
+}
+
+enum triptych_result triptych_device_create(const struct triptych_options *options, triptych_device **device,
+                                            char *reason, size_t size)
+{
+    struct error error = {{0}};
+    enum triptych_result result = TRIPTYCH_BAD_ARGUMENT;
+    if (device) {
+        *device = NULL;
+        result = create(options, device, &error);
+        if (result == TRIPTYCH_OK)
+            result = record_from_environment(*device, &error);
+        if (result != TRIPTYCH_OK) {
+            device_destroy(*device);
+            *device = NULL;
+        }
+    } else {
+        error_set(&error, "device is null: expected where to put it");
+    }
+    if (reason && size)
+        snprintf(reason, size, "%s", error.text);
+    return result;
+}
+
+void triptych_device_destroy(triptych_device *device)
+{
+    if (device && device->recorder)
+        record_stop(device, NULL);
+    device_destroy(device);
+}
+
+const char *triptych_error(const triptych_device *device)
+{
+    return device ? device->error.text : "device is null";
+}
+
+const char *triptych_debug_error(triptych_device *device)
+{
+    if (!device)
+        return "device is null";
+    device_debug_error(device, &device->debug_told);
+    return device->debug_told.text;
+}
+
+const char *triptych_engine_name(unsigned i)
+{
+    return engine_at(i) ? engine_at(i)->name : NULL;
+}
+
+const char *triptych_engine_description(unsigned i)
+{
+    return engine_at(i) ? engine_at(i)->description : NULL;
+}
+
+unsigned triptych_engine_width(unsigned i)
+{
+    return engine_at(i) ? (unsigned)engine_at(i)->width : 0;
+}
+
+const char *triptych_engine_unavailable(unsigned i)
+{
+    return engine_at(i) ? engine_at(i)->unavailable() : NULL;
+}
+
+/* --- Arguments and results --------------------------------------------------------------------------------
+ */
+
+enum triptych_result api_finish(triptych_device *device, enum triptych_result result,
+                                const struct error *error)
+{
+    if (result != TRIPTYCH_OK)
+        device->error = *error;
+    return result;
+}
+
+enum triptych_result api_null_argument(triptych_device *device, const char *what)
+{
+    struct error error = {{0}};
+    error_set(&error, "%s is null", what);
+    return api_finish(device, TRIPTYCH_BAD_ARGUMENT, &error);
+}
+
+enum triptych_result api_changed(triptych_device *device, enum triptych_result result,
+                                 const struct error *error)
+{
+    if (result == TRIPTYCH_OK)
+        device_state_changed(device);
+    return api_finish(device, result, error);
+}
+
+/* --- Recording --------------------------------------------------------------------------------------------
+ */
+
+enum triptych_result triptych_record_start(triptych_device *device, const char *path)
+{
+    if (!device)
+        return TRIPTYCH_BAD_ARGUMENT;
+    if (!path)
+        return api_null_argument(device, "path");
+    struct error error = {{0}};
+    return api_finish(device, record_start(device, path, &error), &error);
+}
+
+enum triptych_result triptych_record_stop(triptych_device *device)
+{
+    if (!device)
+        return TRIPTYCH_BAD_ARGUMENT;
+    struct error error = {{0}};
+    return api_finish(device, record_stop(device, &error), &error);
+}
+
+/* --- Formats ----------------------------------------------------------------------------------------------
+ */
+
+int triptych_format_is_bytes(enum triptych_surface_format number)
+{
+    const struct format *format = format_find(number);
+    return format && format->storage == STORAGE_RGBA8;
+}
+
+static int known_format(enum triptych_depth_format format)
+{
+    return (unsigned)format < TRIPTYCH_DEPTH_COUNT;
+}
+
+unsigned triptych_depth_bits(enum triptych_depth_format format)
+{
+    return known_format(format) ? depth_formats[format].depth_bits : 0;
+}
+
+unsigned triptych_stencil_bits(enum triptych_depth_format format)
+{
+    return known_format(format) ? depth_formats[format].stencil_bits : 0;
+}
+
+const char *triptych_depth_format_name(enum triptych_depth_format format)
+{
+    return known_format(format) ? depth_formats[format].name : NULL;
+}
+
+/* --- Statistics -------------------------------------------------------------------------------------------
+ */
+
+void triptych_get_statistics(const triptych_device *device, struct triptych_statistics *statistics)
+{
+    if (!statistics)
+        return;
+    memset(statistics, 0, sizeof *statistics);
+    if (device)
+        device_get_statistics(device, statistics);
+}
+
+int triptych_get_routine(triptych_device *device, unsigned i, struct triptych_routine_info *info)
+{
+    struct routine routine;
+    if (!device || !info || !cache_get(device->cache, i, &routine))
+        return 0;
+    *info = (struct triptych_routine_info){
+        .number = routine.number,
+        .unit = unit_name[routine.unit],
+        .key = key_print(routine.unit, &routine.key, device->key_text),
+        .build_ns = routine.build_ns,
+        .hits = routine.hits,
+        .code_bytes = routine.code_bytes,
+        .parts = routine.parts,
+        .spills = routine.spills,
+        .fused = routine.fused,
+        .carried = routine.carried,
+        .run_ns = routine.time ? __atomic_load_n(&routine.time->ns, __ATOMIC_RELAXED) : 0,
+        .elements = routine.time ? __atomic_load_n(&routine.time->elements, __ATOMIC_RELAXED) : 0,
+        .shader = routine.unit == UNIT_VERTEX  ? key_program(routine.key.vertex.shader)
+                  : routine.unit == UNIT_PIXEL ? key_program(routine.key.pixel.shader)
+                                               : 0,
+        .granularity = routine.granularity,
+    };
+    return 1;
+}

@@ -1,0 +1,240 @@
+/* State: states, transforms, lights, textures, and what vertices are. */
+#include "api/api.h"
+
+static enum triptych_result set_value(triptych_device *device, enum triptych_state_table table, unsigned i,
+                                      unsigned row, uint32_t value)
+{
+    if (!device)
+        return TRIPTYCH_BAD_ARGUMENT;
+    struct error error = {{0}};
+    enum triptych_result result = state_set_value(&device->state, table, i, row, value, &error);
+    if (result == TRIPTYCH_OK)
+        record_value(device, table, i, row, value);
+    return api_changed(device, result, &error);
+}
+
+enum triptych_result triptych_set_state(triptych_device *device, enum triptych_state which, uint32_t value)
+{
+    return set_value(device, TRIPTYCH_RENDER_STATES, 0, which, value);
+}
+
+enum triptych_result triptych_set_sampler_state(triptych_device *device, unsigned sampler,
+                                                enum triptych_sampler_state which, uint32_t value)
+{
+    return set_value(device, TRIPTYCH_SAMPLER_STATES, sampler, which, value);
+}
+
+enum triptych_result triptych_set_stage_state(triptych_device *device, unsigned stage,
+                                              enum triptych_stage_state which, uint32_t value)
+{
+    return set_value(device, TRIPTYCH_STAGE_STATES, stage, which, value);
+}
+
+enum triptych_result triptych_set_transform(triptych_device *device, enum triptych_transform which,
+                                            const float matrix[4][4])
+{
+    if (!device)
+        return TRIPTYCH_BAD_ARGUMENT;
+    if (!matrix)
+        return api_null_argument(device, "matrix");
+    struct error error = {{0}};
+    enum triptych_result result = state_set_transform(&device->state, which, matrix, &error);
+    if (result == TRIPTYCH_OK)
+        record_transform(device, which, matrix);
+    return api_changed(device, result, &error);
+}
+
+enum triptych_result triptych_set_viewport(triptych_device *device, const struct triptych_viewport *viewport)
+{
+    if (!device)
+        return TRIPTYCH_BAD_ARGUMENT;
+    if (!viewport)
+        return api_null_argument(device, "viewport");
+    struct error error = {{0}};
+    if (!device->target.width) {
+        error_set(&error, "no target: expected set_target before a viewport");
+        return api_finish(device, TRIPTYCH_BAD_CALL, &error);
+    }
+    enum triptych_result result =
+        state_set_viewport(&device->state, viewport, device->target.width, device->target.height, &error);
+    if (result == TRIPTYCH_OK)
+        record_viewport(device, viewport);
+    return api_changed(device, result, &error);
+}
+
+enum triptych_result triptych_set_scissor(triptych_device *device, unsigned x, unsigned y, unsigned width,
+                                          unsigned height)
+{
+    if (!device)
+        return TRIPTYCH_BAD_ARGUMENT;
+    struct error error = {{0}};
+    if (!device->target.width) {
+        error_set(&error, "no target: expected set_target before a scissor rectangle");
+        return api_finish(device, TRIPTYCH_BAD_CALL, &error);
+    }
+    enum triptych_result result = state_set_scissor(&device->state, (struct scissor){x, y, width, height},
+                                                    device->target.width, device->target.height, &error);
+    if (result == TRIPTYCH_OK)
+        record_scissor(device, x, y, width, height);
+    return api_changed(device, result, &error);
+}
+
+enum triptych_result triptych_set_clip_plane(triptych_device *device, unsigned i, const float plane[4])
+{
+    if (!device)
+        return TRIPTYCH_BAD_ARGUMENT;
+    if (!plane)
+        return api_null_argument(device, "plane");
+    struct error error = {{0}};
+    enum triptych_result result = state_set_clip_plane(&device->state, i, plane, &error);
+    if (result == TRIPTYCH_OK)
+        record_clip_plane(device, i, plane);
+    return api_changed(device, result, &error);
+}
+
+enum triptych_result triptych_set_convention(triptych_device *device, enum triptych_convention which,
+                                             unsigned value)
+{
+    if (!device)
+        return TRIPTYCH_BAD_ARGUMENT;
+    struct error error = {{0}};
+    enum triptych_result result = state_set_convention(&device->state, which, value, &error);
+    if (result == TRIPTYCH_OK)
+        record_convention(device, which, value);
+    return api_changed(device, result, &error);
+}
+
+enum triptych_result triptych_set_material(triptych_device *device, const struct triptych_material *material)
+{
+    if (!device)
+        return TRIPTYCH_BAD_ARGUMENT;
+    if (!material)
+        return api_null_argument(device, "material");
+    struct error error = {{0}};
+    enum triptych_result result = state_set_material(&device->state, material, &error);
+    if (result == TRIPTYCH_OK)
+        record_material(device, material);
+    return api_changed(device, result, &error);
+}
+
+enum triptych_result triptych_set_light(triptych_device *device, unsigned index,
+                                        const struct triptych_light *light)
+{
+    if (!device)
+        return TRIPTYCH_BAD_ARGUMENT;
+    if (!light)
+        return api_null_argument(device, "light");
+    struct error error = {{0}};
+    enum triptych_result result = state_set_light(&device->state, index, light, &error);
+    if (result == TRIPTYCH_OK)
+        record_light(device, index, light);
+    return api_changed(device, result, &error);
+}
+
+enum triptych_result triptych_enable_light(triptych_device *device, unsigned index, int enable)
+{
+    if (!device)
+        return TRIPTYCH_BAD_ARGUMENT;
+    struct error error = {{0}};
+    if (index >= TRIPTYCH_LIGHTS) {
+        error_set(&error, "light %u: expected 0 to %u", index, TRIPTYCH_LIGHTS - 1);
+        return api_finish(device, TRIPTYCH_BAD_ARGUMENT, &error);
+    }
+    device->state.light_enabled[index] = enable != 0;
+    record_enable_light(device, index, enable);
+    return api_changed(device, TRIPTYCH_OK, &error);
+}
+
+enum triptych_result triptych_set_texture(triptych_device *device, unsigned sampler,
+                                          triptych_texture *texture)
+{
+    if (!device)
+        return TRIPTYCH_BAD_ARGUMENT;
+    struct error error = {{0}};
+    if (sampler >= TRIPTYCH_SAMPLERS) {
+        error_set(&error, "sampler %u: expected 0 to %u", sampler, TRIPTYCH_SAMPLERS - 1);
+        return api_finish(device, TRIPTYCH_BAD_ARGUMENT, &error);
+    }
+    device->state.texture[sampler] = texture;
+    record_bind_texture(device, sampler, texture);
+    return api_changed(device, TRIPTYCH_OK, &error);
+}
+
+enum triptych_result triptych_set_element(triptych_device *device, enum triptych_attribute attribute,
+                                          const struct triptych_element *element)
+{
+    if (!device)
+        return TRIPTYCH_BAD_ARGUMENT;
+    if (!element)
+        return api_null_argument(device, "element");
+    struct error error = {{0}};
+    enum triptych_result result = state_set_element(&device->state, attribute, element, &error);
+    if (result == TRIPTYCH_OK)
+        record_element(device, attribute, element);
+    return api_changed(device, result, &error);
+}
+
+enum triptych_result triptych_set_declaration(triptych_device *device,
+                                              const struct triptych_declaration_element *elements,
+                                              unsigned count)
+{
+    if (!device)
+        return TRIPTYCH_BAD_ARGUMENT;
+    if (!elements && count)
+        return api_null_argument(device, "elements");
+    struct error error = {{0}};
+    enum triptych_result result = state_set_declaration(&device->state, elements, count, &error);
+    if (result == TRIPTYCH_OK)
+        record_declaration(device, elements, count);
+    return api_changed(device, result, &error);
+}
+
+enum triptych_result triptych_set_fvf(triptych_device *device, uint32_t fvf)
+{
+    if (!device)
+        return TRIPTYCH_BAD_ARGUMENT;
+    struct error error = {{0}};
+    enum triptych_result result = state_set_fvf(&device->state, fvf, &error);
+    if (result == TRIPTYCH_OK)
+        record_fvf(device, fvf);
+    return api_changed(device, result, &error);
+}
+
+enum triptych_result triptych_set_stream(triptych_device *device, unsigned stream, triptych_buffer *buffer,
+                                         size_t offset, size_t stride)
+{
+    if (!device)
+        return TRIPTYCH_BAD_ARGUMENT;
+    struct error error = {{0}};
+    enum triptych_result result = state_set_stream(&device->state, stream, buffer, offset, stride, &error);
+    if (result == TRIPTYCH_OK)
+        record_stream(device, stream, buffer, offset, stride);
+    return api_changed(device, result, &error);
+}
+
+enum triptych_result triptych_set_stream_frequency(triptych_device *device, unsigned stream,
+                                                   enum triptych_frequency frequency, uint32_t count)
+{
+    if (!device)
+        return TRIPTYCH_BAD_ARGUMENT;
+    struct error error = {{0}};
+    enum triptych_result result = state_set_frequency(&device->state, stream, frequency, count, &error);
+    if (result == TRIPTYCH_OK)
+        record_frequency(device, stream, frequency, count);
+    return api_changed(device, result, &error);
+}
+
+enum triptych_result triptych_set_indices(triptych_device *device, triptych_buffer *buffer, unsigned bits)
+{
+    if (!device)
+        return TRIPTYCH_BAD_ARGUMENT;
+    struct error error = {{0}};
+    if (buffer && bits != 16 && bits != 32) {
+        error_set(&error, "indices of %u bits: expected 16 or 32", bits);
+        return api_finish(device, TRIPTYCH_BAD_ARGUMENT, &error);
+    }
+    device->state.indices = buffer;
+    device->state.index_bits = buffer ? bits : 0;
+    record_indices(device, buffer, bits);
+    return TRIPTYCH_OK;
+}
