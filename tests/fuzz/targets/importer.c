@@ -32,7 +32,7 @@ enum {
     LIFE = 512,
     ANSWER = 16 << 20,
     MEMORY = 512 << 20,
-    PROCESSOR_MICROSECONDS = 100000,
+    PROCESSOR_MICROSECONDS = 50000,
     MILLISECONDS = 4000
 };
 
@@ -64,10 +64,11 @@ const char *__asan_default_options(void);
 void __asan_on_error(void);
 void __sanitizer_set_death_callback(void (*callback)(void)) __attribute__((weak));
 
-/* Memory that is refused is refused as the C library does it: imports may take little. */
+/* Memory that is refused is refused as the C library does it: imports may take little. What is freed is kept from use for
+ * less long than usual, because forks take as long as a process is large. */
 const char *__asan_default_options(void)
 {
-    return "allocator_may_return_null=1";
+    return "allocator_may_return_null=1:quarantine_size_mb=32";
 }
 
 /* A fault of Assimp's heap needs no report, which takes longer than a hundred imports. */
