@@ -1,5 +1,6 @@
 #include "draw/batch.h"
 
+#include <emmintrin.h>
 #include <string.h>
 
 enum { NUMBER_LIMIT = 1 << 24 };
@@ -7,44 +8,52 @@ enum { NUMBER_LIMIT = 1 << 24 };
 /* --- Primitives to vertices -------------------------------------------------------------------------------
  */
 
-static uint32_t vertex_at(const struct draw *draw, uint32_t i)
+/* Where primitives come from: what a draw says of it, copied so that a compiler can keep it in registers. */
+struct index_source {
+    enum triptych_primitive primitive;
+    uint32_t bits, base;
+    const void *indices;
+};
+
+static inline uint32_t vertex_at(const struct index_source *source, uint32_t i)
 {
-    switch (draw->index_bits) {
-    case 16: return draw->base + ((const uint16_t *)draw->indices)[i];
-    case 32: return draw->base + ((const uint32_t *)draw->indices)[i];
-    default: return draw->base + i;
+    switch (source->bits) {
+    case 16: return source->base + ((const uint16_t *)source->indices)[i];
+    case 32: return source->base + ((const uint32_t *)source->indices)[i];
+    default: return source->base + i;
     }
 }
 
 /* The vertices of primitive p, in an order that keeps the winding of the first and begins with the vertex
  * that gives a flat triangle its colour (Direct3D 9: the strip's vertex p, the fan's vertex p + 1; the line's
  * first). */
-static void primitive_vertices(const struct draw *draw, uint32_t p, uint32_t vertex[3])
+static inline void primitive_vertices(const struct index_source *source, uint32_t p, uint32_t vertex[3])
 {
     uint32_t odd = p & 1;
-    switch (draw->primitive) {
+    switch (source->primitive) {
     case TRIPTYCH_TRIANGLE_STRIP:
-        vertex[0] = vertex_at(draw, p);
-        vertex[1] = vertex_at(draw, p + 1 + odd);
-        vertex[2] = vertex_at(draw, p + 2 - odd);
+        vertex[0] = vertex_at(source, p);
+        vertex[1] = vertex_at(source, p + 1 + odd);
+        vertex[2] = vertex_at(source, p + 2 - odd);
         break;
     case TRIPTYCH_TRIANGLE_FAN:
-        vertex[0] = vertex_at(draw, p + 1);
-        vertex[1] = vertex_at(draw, p + 2);
-        vertex[2] = vertex_at(draw, 0);
+        vertex[0] = vertex_at(source, p + 1);
+        vertex[1] = vertex_at(source, p + 2);
+        vertex[2] = vertex_at(source, 0);
         break;
-    case TRIPTYCH_POINT_LIST: vertex[0] = vertex[1] = vertex[2] = vertex_at(draw, p); break;
+    case TRIPTYCH_POINT_LIST: vertex[0] = vertex[1] = vertex[2] = vertex_at(source, p); break;
     case TRIPTYCH_LINE_LIST:
-        vertex[0] = vertex_at(draw, 2 * p);
-        vertex[1] = vertex[2] = vertex_at(draw, 2 * p + 1);
+        vertex[0] = vertex_at(source, 2 * p);
+        vertex[1] = vertex[2] = vertex_at(source, 2 * p + 1);
         break;
     case TRIPTYCH_LINE_STRIP:
-        vertex[0] = vertex_at(draw, p);
-        vertex[1] = vertex[2] = vertex_at(draw, p + 1);
+        vertex[0] = vertex_at(source, p);
+        vertex[1] = vertex[2] = vertex_at(source, p + 1);
         break;
     default:
-        for (uint32_t i = 0; i < 3; i++)
-            vertex[i] = vertex_at(draw, 3 * p + i);
+        vertex[0] = vertex_at(source, 3 * p);
+        vertex[1] = vertex_at(source, 3 * p + 1);
+        vertex[2] = vertex_at(source, 3 * p + 2);
     }
 }
 
@@ -61,22 +70,85 @@ static void begin_batch(struct batch *batch, uint32_t first)
     }
 }
 
-/* Whether a vertex is in the batch already cannot be predicted: no branch asks. */
-static uint8_t lane_of(struct batch *batch, uint32_t vertex)
+/* The vertex' lane, the next one if the batch does not have it. That cannot be predicted, so no branch may ask,
+ * which compilers are not to be talked out of: lane < VERTEX_CAPACITY ? (lane) : (next, count + 1). */
+static inline uint32_t lane_of(struct batch *batch, uint64_t number, uint32_t *count, uint32_t vertex)
 {
-    struct batch_place *place = batch->map + vertex % BATCH_MAP;
-    uint32_t next = batch->vertices_count, tag = batch->number << 8 | next;
-    uint32_t known = (place->vertex == vertex) & (place->tag >> 8 == batch->number);
-    tag = known ? place->tag : tag;
+    uint64_t *place = batch->map + vertex % BATCH_MAP;
+    uint64_t here = (uint64_t)vertex << 32 | number, lane = *place ^ here, next = *count;
     batch->vertex[next] = vertex;
-    batch->vertices_count = next + !known;
-    *place = (struct batch_place){vertex, tag};
-    return (uint8_t)tag;
+    __asm__("cmpq %[capacity], %[lane]\n\t"
+            "cmovaeq %[next], %[lane]\n\t"
+            "sbbl $-1, %[count]"
+            : [lane] "+r"(lane), [count] "+r"(*count)
+            : [next] "r"(next), [capacity] "e"(VERTEX_CAPACITY)
+            : "cc");
+    *place = here | lane;
+    return (uint32_t)lane;
 }
 
-static bool has_room(const struct batch *batch)
+static inline uint32_t least(uint32_t a, uint32_t b)
 {
-    return batch->vertices_count + 3 <= BATCH_VERTICES && batch->triangles_count < BATCH_TRIANGLES;
+    return a < b ? a : b;
+}
+
+/* Takes primitives from p on into the batch that has just begun, until it is full. Returns the first that it
+ * has not taken. */
+static inline __attribute__((always_inline)) uint32_t assemble_from(struct batch *batch, uint32_t p,
+                                                                    uint32_t end, struct index_source source)
+{
+    uint64_t number = (uint64_t)batch->number << 8;
+    uint32_t count = 0, most = least(end - p, BATCH_TRIANGLES), i = 0;
+    for (; i < most && count + 3 <= BATCH_VERTICES; i++) {
+        uint32_t vertex[3], *corner = batch->corner[i / SETUP_CAPACITY][0] + i % SETUP_CAPACITY;
+        primitive_vertices(&source, p + i, vertex);
+        corner[0] = 4 * lane_of(batch, number, &count, vertex[0]);
+        corner[SETUP_CAPACITY] = 4 * lane_of(batch, number, &count, vertex[1]);
+        corner[2 * SETUP_CAPACITY] = 4 * lane_of(batch, number, &count, vertex[2]);
+    }
+    batch->vertices_count = count;
+    batch->triangles_count = i;
+    return p + i;
+}
+
+/* Writes first, first + step ... to `count` words, and up to three more. */
+static void write_sequence(uint32_t *to, uint32_t first, uint32_t step, uint32_t count)
+{
+    __m128i value =
+        _mm_set_epi32((int)(first + 3 * step), (int)(first + 2 * step), (int)(first + step), (int)first);
+    for (uint32_t i = 0; i < count; i += 4) {
+        _mm_store_si128((__m128i *)(void *)(to + i), value);
+        value = _mm_add_epi32(value, _mm_set1_epi32((int)(4 * step)));
+    }
+}
+
+/* The same for a list without indices, which shares no vertices. */
+static uint32_t assemble_list(struct batch *batch, uint32_t p, uint32_t end)
+{
+    uint32_t count = least(end - p, BATCH_VERTICES / 3);
+    write_sequence(batch->vertex, batch->draw->base + 3 * p, 1, 3 * count);
+    for (uint32_t k = 0; k < 3; k++)
+        write_sequence(batch->corner[0][k], 4 * k, 4 * 3, count);
+    batch->vertices_count = 3 * count;
+    batch->triangles_count = count;
+    return p + count;
+}
+
+static uint32_t assemble(struct batch *batch, uint32_t p, uint32_t end)
+{
+    const struct draw *draw = batch->draw;
+    struct index_source source = {draw->primitive, draw->index_bits, draw->base, draw->indices};
+    if (draw->primitive != TRIPTYCH_TRIANGLE_LIST)
+        return assemble_from(batch, p, end, source);
+    switch (draw->index_bits) {
+    case 16:
+        return assemble_from(batch, p, end,
+                             (struct index_source){TRIPTYCH_TRIANGLE_LIST, 16, source.base, source.indices});
+    case 32:
+        return assemble_from(batch, p, end,
+                             (struct index_source){TRIPTYCH_TRIANGLE_LIST, 32, source.base, source.indices});
+    default: return assemble_list(batch, p, end);
+    }
 }
 
 /* Lanes up to the next multiple of LANES_MAXIMUM repeat the last vertex. */
@@ -109,22 +181,22 @@ static void add_to_setup(struct batch *batch, uint32_t a, uint32_t b, uint32_t c
     batch->setup_index[2][i] = 4 * c;
 }
 
-/* Sets up and bins the group of records collected so far, which are those of all primitives before `next`.
- * Returns false when the arena is full. */
-static bool set_up(struct batch *batch, uint32_t next)
+/* Sets up and bins a group of records, which are the last of all primitives before `next`. Returns false when the
+ * arena is full. */
+static bool set_up_group(struct batch *batch, uint32_t index[SETUP_INDEX_ROWS][SETUP_CAPACITY],
+                         uint32_t count, uint32_t next)
 {
     const struct draw *draw = batch->draw;
     const struct routine *routine = draw->routine[UNIT_SETUP];
-    uint32_t count = batch->setup_count, padded = count;
-    batch->setup_count = 0;
+    uint32_t padded = count;
     if (count) {
         for (; padded % LANES_MAXIMUM; padded++)
             for (int i = 0; i < SETUP_INDEX_ROWS; i++)
-                batch->setup_index[i][padded] = batch->setup_index[i][count - 1];
+                index[i][padded] = index[i][count - 1];
         uint8_t *out = bin_reserve(batch->bins, padded * draw->stride);
         if (!out)
             return false;
-        struct setup_call call = {&draw->job, batch->setup_index[0], batch->vertices, out, padded};
+        struct setup_call call = {&draw->job, index[0], batch->vertices, out, padded};
         routine_run(routine, &call, count);
         int visible =
             bin_records(batch->bins, count, draw->stride, draw->shape, &draw->sampling, &draw->scissor);
@@ -135,6 +207,14 @@ static bool set_up(struct batch *batch, uint32_t next)
     }
     batch->done = next;
     return true;
+}
+
+/* The same for what the clipper has left so far. */
+static bool set_up(struct batch *batch, uint32_t next)
+{
+    uint32_t count = batch->setup_count;
+    batch->setup_count = 0;
+    return set_up_group(batch, batch->setup_index, count, next);
 }
 
 /* A triangle that needs the clipper. The clipper's lanes are free again after each setup. */
@@ -289,29 +369,81 @@ static bool add_parts(struct batch *batch, struct clipper *clipper, const uint8_
 
 typedef bool add_function(struct batch *, struct clipper *, const uint8_t corner[3], uint32_t primitive);
 
+/* One by one, each as its clip codes ask. */
 static bool add_all(struct batch *batch, struct clipper *clipper, enum primitive primitive)
 {
-    static add_function *const others[PRIMITIVE_COUNT] = {[PRIMITIVE_LINE] = add_line,
-                                                          [PRIMITIVE_POINT] = add_point,
-                                                          [PRIMITIVE_EDGE] = add_parts,
-                                                          [PRIMITIVE_CORNER] = add_parts};
-    uint32_t count = batch->triangles_count, i = 0;
-    if (primitive == PRIMITIVE_TRIANGLE)
-        while (i < count && add_triangle(batch, clipper, batch->lane[i], batch->first + i))
-            i++;
-    else
-        while (i < count && others[primitive](batch, clipper, batch->lane[i], batch->first + i))
-            i++;
-    return i == count;
+    static add_function *const add[PRIMITIVE_COUNT] = {[PRIMITIVE_TRIANGLE] = add_triangle,
+                                                       [PRIMITIVE_LINE] = add_line,
+                                                       [PRIMITIVE_POINT] = add_point,
+                                                       [PRIMITIVE_EDGE] = add_parts,
+                                                       [PRIMITIVE_CORNER] = add_parts};
+    for (uint32_t i = 0; i < batch->triangles_count; i++) {
+        const uint32_t *row = batch->corner[i / SETUP_CAPACITY][0] + i % SETUP_CAPACITY;
+        const uint8_t corner[3] = {(uint8_t)(row[0] / 4), (uint8_t)(row[SETUP_CAPACITY] / 4),
+                                   (uint8_t)(row[2 * SETUP_CAPACITY] / 4)};
+        if (!add[primitive](batch, clipper, corner, batch->first + i))
+            return false;
+    }
+    return true;
 }
 
-/* Shades and sets up the whole batch. Returns false when the arena is full. */
-static bool end_batch(struct batch *batch)
+/* Bits of clip codes that count: those that all vertices of the batch have, and those that any has. */
+struct batch_codes {
+    uint32_t every, any;
+};
+
+static uint32_t every_bit(__m128i v)
 {
-    if (!batch->triangles_count)
-        return true;
-    shade_vertices(batch);
-    const struct setup_key *key = &batch->draw->routine[UNIT_SETUP]->key.setup;
+    v = _mm_and_si128(v, _mm_shuffle_epi32(v, _MM_SHUFFLE(1, 0, 3, 2)));
+    return (uint32_t)_mm_cvtsi128_si32(_mm_and_si128(v, _mm_shuffle_epi32(v, 1)));
+}
+
+static struct batch_codes batch_codes(const struct batch *batch)
+{
+    const float *code = batch->vertices + SLOT_CODE * VERTEX_CAPACITY;
+    __m128i ones = _mm_set1_epi32(-1), every = ones, none = ones;
+    for (uint32_t i = 0; i < batch->vertices_count; i += 4) {
+        __m128i codes = _mm_load_si128((const __m128i *)(const void *)(code + i));
+        every = _mm_and_si128(every, codes);
+        none = _mm_andnot_si128(codes, none);
+    }
+    uint32_t counts = ~batch->draw->clip_ignored;
+    return (struct batch_codes){every_bit(every) & counts, ~every_bit(none) & (counts | CLIP_INVALID)};
+}
+
+/* Drops triangles that lie on the outside of one side of the frustum altogether; returns how many are left. */
+static uint32_t drop_outside(const struct batch *batch, uint32_t corner[SETUP_INDEX_ROWS][SETUP_CAPACITY],
+                             uint32_t count)
+{
+    uint32_t left = 0, counts = CLIP_FRUSTUM & ~batch->draw->clip_ignored;
+    for (uint32_t i = 0; i < count; i++) {
+        uint32_t a = corner[0][i], b = corner[1][i], c = corner[2][i];
+        uint32_t outside =
+            clip_code_of(batch, a / 4) & clip_code_of(batch, b / 4) & clip_code_of(batch, c / 4);
+        corner[0][left] = a;
+        corner[1][left] = b;
+        corner[2][left] = c;
+        left += !(outside & counts);
+    }
+    return left;
+}
+
+/* Triangles none of which needs the clipper: there are no others than the batch's. */
+static bool add_unclipped(struct batch *batch, uint32_t any)
+{
+    for (uint32_t i = 0; i < batch->triangles_count; i += SETUP_CAPACITY) {
+        uint32_t(*corner)[SETUP_CAPACITY] = batch->corner[i / SETUP_CAPACITY];
+        uint32_t count = least(batch->triangles_count - i, SETUP_CAPACITY), left = count;
+        if (any & CLIP_FRUSTUM)
+            left = drop_outside(batch, corner, count);
+        if (!set_up_group(batch, corner, left, batch->first + i + count))
+            return false;
+    }
+    return true;
+}
+
+static bool add_clipped(struct batch *batch, const struct setup_key *key)
+{
     struct clipper clipper =
         clipper_create(&batch->draw->job, key->varying, batch->vertices, batch->vertices_count);
     clipper.window = key->window;
@@ -323,25 +455,34 @@ static bool end_batch(struct batch *batch)
     return add_all(batch, &clipper, key->primitive) && set_up(batch, batch->first + batch->triangles_count);
 }
 
+/* Shades and sets up the whole batch. Returns false when the arena is full. */
+static bool end_batch(struct batch *batch)
+{
+    const struct setup_key *key = &batch->draw->routine[UNIT_SETUP]->key.setup;
+    shade_vertices(batch);
+    struct batch_codes codes = batch_codes(batch);
+    if (key->primitive != PRIMITIVE_TRIANGLE)
+        return add_clipped(batch, key);
+    if (codes.every & CLIP_FRUSTUM) {
+        batch->done = batch->first + batch->triangles_count;
+        return true;
+    }
+    if ((codes.any & (CLIP_NEEDED | CLIP_INVALID)) || batch->draw->wrapped)
+        return add_clipped(batch, key);
+    return add_unclipped(batch, codes.any);
+}
+
 uint32_t batch_primitives(struct batch *batch, const struct draw *draw, uint32_t first, uint32_t count,
                           struct bin_writer *bins)
 {
     batch->draw = draw;
     batch->bins = bins;
     batch->done = first;
-    begin_batch(batch, first);
-    for (uint32_t p = first; p < first + count; p++) {
-        uint32_t vertex[3];
-        primitive_vertices(draw, p, vertex);
-        if (!has_room(batch)) {
-            if (!end_batch(batch))
-                return batch->done - first;
-            begin_batch(batch, p);
-        }
-        uint8_t *lane = batch->lane[batch->triangles_count++];
-        for (int i = 0; i < 3; i++)
-            lane[i] = lane_of(batch, vertex[i]);
+    for (uint32_t p = first; p < first + count;) {
+        begin_batch(batch, p);
+        p = assemble(batch, p, first + count);
+        if (!end_batch(batch))
+            break;
     }
-    end_batch(batch);
     return batch->done - first;
 }

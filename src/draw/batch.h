@@ -11,7 +11,12 @@
 #include "draw/clip.h"
 #include "draw/command.h"
 
-enum { BATCH_VERTICES = VERTEX_CAPACITY - 16, BATCH_TRIANGLES = 512, BATCH_MAP = 1024 };
+enum {
+    BATCH_VERTICES = VERTEX_CAPACITY - 16,
+    BATCH_GROUPS = 2, /* of triangles for setup */
+    BATCH_TRIANGLES = BATCH_GROUPS * SETUP_CAPACITY,
+    BATCH_MAP = 1024
+};
 
 _Static_assert(VERTEX_CAPACITY - BATCH_VERTICES >= CLIP_VERTICES_MAXIMUM, "the clipper has room");
 _Static_assert(BATCH_VERTICES % LANES_MAXIMUM == 0, "padded batches fit");
@@ -20,20 +25,14 @@ struct batch_counts {
     uint64_t vertices_shaded, triangles_set_up, triangles_visible;
 };
 
-/* Where a vertex is in the batch, by the low bits of its index. */
-struct batch_place {
-    uint32_t vertex;
-    uint32_t tag; /* number of the batch << 8 | lane */
-};
-
 /* One thread's workspace. */
 struct batch {
     alignas(64) float vertices[SLOT_COUNT * VERTEX_CAPACITY];
-    alignas(64) uint32_t setup_index[SETUP_INDEX_ROWS][SETUP_CAPACITY];
+    alignas(64) uint32_t corner[BATCH_GROUPS][SETUP_INDEX_ROWS][SETUP_CAPACITY]; /* as primitives have them */
+    alignas(64) uint32_t setup_index[SETUP_INDEX_ROWS][SETUP_CAPACITY];          /* as clipping leaves them */
     alignas(64) uint32_t vertex[VERTEX_CAPACITY]; /* index of the vertex in each lane */
-    uint8_t lane[BATCH_TRIANGLES][4];             /* of each triangle's corners */
-    struct batch_place map[BATCH_MAP];
-    uint32_t number; /* of the batch, 24 bits */
+    uint64_t map[BATCH_MAP]; /* by a vertex' low bits where it was placed: vertex << 32 | batch << 8 | lane */
+    uint32_t number;         /* of the batch, 24 bits */
     uint32_t vertices_count, triangles_count, setup_count;
     uint32_t first; /* primitive of triangle 0 */
     uint32_t done;  /* primitives before this one are binned */
