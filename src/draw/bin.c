@@ -1,6 +1,7 @@
 #include "draw/bin.h"
 
-#include <string.h>
+#include "draw/raster_part.h"
+
 #include <sys/mman.h>
 
 _Static_assert(sizeof(struct bin_cell) == ARENA_ALIGNMENT, "a cell is a cache line");
@@ -142,16 +143,65 @@ static uint32_t list_visible(const uint8_t *record, uint32_t count, uint32_t str
     return visible;
 }
 
-static uint32_t tile_count(const struct rectangle *tiles)
+/* How bounds are found. */
+struct bounding {
+    enum raster_shape shape;
+    const struct sampling *sampling;
+    const struct rectangle *scissor;
+    struct box limit; /* the scissor */
+    bool plain;       /* triangles with one sample a pixel */
+};
+
+/* Where the bounds put triangle i of the group; returns how many tiles they meet. */
+static uint32_t place_rectangle(struct bin_writer *writer, uint32_t i, const struct rectangle *bounds)
 {
-    return (uint32_t)((tiles->x1 - tiles->x0) * (tiles->y1 - tiles->y0));
+    struct rectangle tiles = raster_tiles(bounds);
+    uint32_t count = (uint32_t)((tiles.x1 - tiles.x0) * (tiles.y1 - tiles.y0));
+    writer->tiles[i] = tiles;
+    writer->tile[i] = count > 1 ? MANY_TILES : (uint32_t)tiles.y0 * writer->columns + (uint32_t)tiles.x0;
+    return count;
 }
 
-/* Moves the records that may touch a pixel to the front, their tiles to writer->tiles; counts the pairs of
- * such a triangle and a tile. */
+static inline uint32_t place_box(struct bin_writer *writer, uint32_t i, const struct box *box)
+{
+    enum { TILE_BITS = 6 };
+    _Static_assert(1 << TILE_BITS == TILE_SIZE, "bits of a tile's side");
+    __m128i first = _mm_srai_epi16(box->low, TILE_BITS);
+    __m128i last = _mm_srai_epi16(_mm_add_epi16(box->high, _mm_set1_epi16(-1)), TILE_BITS);
+    if (of_both(_mm_cmpeq_epi16(first, last))) {
+        writer->tile[i] = (uint32_t)box_y(first) * writer->columns + (uint32_t)box_x(first);
+        return 1;
+    }
+    struct rectangle bounds = {box_x(box->low), box_y(box->low), box_x(box->high), box_y(box->high)};
+    return place_rectangle(writer, i, &bounds);
+}
+
+/* Returns 0 when the record touches no pixel of the scissor rectangle. */
+static inline uint32_t place(struct bin_writer *writer, const struct bounding *how, uint32_t i,
+                             const uint8_t *record)
+{
+    const struct triangle_head *head = (const struct triangle_head *)(const void *)record;
+    struct rectangle bounds;
+    if (how->plain) {
+        struct box box = triangle_box(head, &how->limit);
+        return box_is_empty(&box) ? 0 : place_box(writer, i, &box);
+    }
+    if (!sampled_bounds(how->sampling, how->shape, head, how->scissor, &bounds))
+        return 0;
+    return place_rectangle(writer, i, &bounds);
+}
+
+static inline void copy_record(uint8_t *to, const uint8_t *from, uint32_t stride)
+{
+    for (uint32_t i = 0; i < stride; i += sizeof(__m128i))
+        _mm_store_si128((__m128i *)(void *)(to + i),
+                        _mm_load_si128((const __m128i *)(const void *)(from + i)));
+}
+
+/* Moves the records that may touch a pixel to the front, their tiles to the writer; counts the pairs of such a
+ * triangle and a tile. */
 static uint32_t keep_visible(struct bin_writer *writer, uint32_t count, uint32_t stride,
-                             enum raster_shape shape, const struct sampling *sampling,
-                             const struct rectangle *scissor, uint32_t *pairs)
+                             const struct bounding *how, uint32_t *pairs)
 {
     uint16_t list[SETUP_CAPACITY];
     uint8_t *start = writer->arena->base + writer->at, *kept = start;
@@ -159,14 +209,12 @@ static uint32_t keep_visible(struct bin_writer *writer, uint32_t count, uint32_t
     *pairs = 0;
     for (uint32_t i = 0; i < candidates; i++) {
         const uint8_t *record = start + list[i] * stride;
-        struct rectangle bounds;
-        if (!sampled_bounds(sampling, shape, (const struct triangle_head *)(const void *)record, scissor,
-                            &bounds))
+        uint32_t tiles = place(writer, how, visible, record);
+        if (!tiles)
             continue;
-        writer->tiles[visible] = raster_tiles(&bounds);
-        *pairs += tile_count(&writer->tiles[visible]);
+        *pairs += tiles;
         if (kept != record)
-            memcpy(kept, record, stride);
+            copy_record(kept, record, stride);
         kept += stride;
         visible++;
     }
@@ -176,19 +224,19 @@ static uint32_t keep_visible(struct bin_writer *writer, uint32_t count, uint32_t
 int bin_records(struct bin_writer *writer, uint32_t count, uint32_t stride, enum raster_shape shape,
                 const struct sampling *sampling, const struct rectangle *scissor)
 {
-    uint32_t pairs, triangle = writer->at;
-    uint32_t visible = keep_visible(writer, count, stride, shape, sampling, scissor, &pairs);
+    struct bounding how = {shape, sampling, scissor, box_of(scissor),
+                           shape == SHAPE_TRIANGLE && (!sampling->samples || sampling->centers)};
+    uint32_t pairs, triangle = writer->at, visible = keep_visible(writer, count, stride, &how, &pairs);
     writer->at += visible * stride;
     uint32_t tiles = writer->columns * writer->rows;
     uint32_t cells = CELLS(pairs, pairs < tiles ? pairs : tiles);
     if (!bin_reserve(writer, cells * (uint32_t)sizeof(struct bin_cell)))
         return -1;
     for (uint32_t i = 0; i < visible; i++, triangle += stride) {
-        const struct rectangle *in = writer->tiles + i;
-        if (tile_count(in) == 1)
-            append(writer, (uint32_t)in->y0 * writer->columns + (uint32_t)in->x0, triangle);
+        if (writer->tile[i] != MANY_TILES)
+            append(writer, writer->tile[i], triangle);
         else
-            append_to_tiles(writer, in, scissor, shape, sampling, triangle);
+            append_to_tiles(writer, writer->tiles + i, scissor, shape, sampling, triangle);
     }
     return (int)visible;
 }

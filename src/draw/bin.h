@@ -22,6 +22,7 @@ enum {
     ARENA_BLOCK = 256 << 10,
     ARENA_ALIGNMENT = 64,
     BIN_CELL_TRIANGLES = 11,
+    MANY_TILES = 0x7fffffff,
     TARGET_TILES_MAXIMUM = (TARGET_SIZE_MAXIMUM / TILE_SIZE) * (TARGET_SIZE_MAXIMUM / TILE_SIZE)
 };
 
@@ -47,9 +48,10 @@ struct bin_writer {
     uint32_t at, end;       /* what is left of its block */
     uint32_t columns, rows; /* of the target, in tiles */
     uint32_t chunk;
-    uint32_t heads;                         /* first head cell of the chunk */
-    uint32_t open[TARGET_TILES_MAXIMUM];    /* the tile's last cell of the chunk */
-    struct rectangle tiles[SETUP_CAPACITY]; /* that the bounds of the group's triangles meet */
+    uint32_t heads;                      /* first head cell of the chunk */
+    uint32_t open[TARGET_TILES_MAXIMUM]; /* the tile's last cell of the chunk */
+    uint32_t tile[SETUP_CAPACITY];       /* that holds the bounds of a triangle of the group; or MANY_TILES */
+    struct rectangle tiles[SETUP_CAPACITY]; /* and these are the tiles that they meet */
 };
 
 /* An arena of `bytes`, ARENA_BYTES unless a test wants to see it full: less may be too small for one group of

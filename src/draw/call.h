@@ -90,7 +90,8 @@ enum clip_bit {
  *
  * Triangles: ordered so that the area is positive (clockwise on the screen): interior points have all three
  * edge functions positive. Lines: start and end in 0 and 1; x[2] is -1 if the last pixel is drawn, else 0.
- * Points: left and top in 0, right and bottom in 1. What is not mentioned is not written. */
+ * Points: left and top in 0, right and bottom in 1. What is not mentioned is not written, nor need anything but
+ * `visible` be where that is 0. */
 struct triangle_head {
     int32_t
         visible; /* 0: culled or without area; else -1, or 1 with the key's `facing` if counterclockwise */

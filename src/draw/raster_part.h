@@ -4,6 +4,8 @@
 
 #include "draw/raster.h"
 
+#include <emmintrin.h>
+
 enum {
     SUBPIXELS = 1 << SUBPIXEL_BITS,
     CENTRE = SUBPIXELS / 2,
@@ -35,6 +37,62 @@ static inline int32_t pixel_from(int32_t position)
 static inline uint32_t kept(const uint16_t from[BLOCK_SIZE + 1], int32_t first, int32_t start, int32_t end)
 {
     return from[maximum(start - first, 0)] & ~from[minimum(end - first, BLOCK_SIZE)];
+}
+
+/* A rectangle for bounds of triangles: word 0 is x and word 4 is y, the others mean nothing. Pixels of the window
+ * need no more than 16 bits. */
+struct box {
+    __m128i low, high;
+};
+
+static inline __m128i box_corner(int32_t x, int32_t y)
+{
+    return _mm_unpacklo_epi64(_mm_set1_epi16((int16_t)x), _mm_set1_epi16((int16_t)y));
+}
+
+static inline struct box box_of(const struct rectangle *r)
+{
+    return (struct box){box_corner(r->x0, r->y0), box_corner(r->x1, r->y1)};
+}
+
+static inline __m128i next_corner(__m128i v)
+{
+    return _mm_shufflehi_epi16(_mm_shufflelo_epi16(v, _MM_SHUFFLE(0, 0, 2, 1)), _MM_SHUFFLE(0, 0, 2, 1));
+}
+
+/* The centres that a visible triangle may cover, cut to the limit. */
+static inline struct box triangle_box(const struct triangle_head *head, const struct box *limit)
+{
+    __m128i half = _mm_set1_epi32(CENTRE - 1);
+    __m128i x = _mm_loadu_si128((const __m128i *)(const void *)head->x); /* the fourth is not used */
+    __m128i y = _mm_loadu_si128((const __m128i *)(const void *)head->y);
+    x = _mm_srai_epi32(_mm_add_epi32(x, half), SUBPIXEL_BITS);
+    y = _mm_srai_epi32(_mm_add_epi32(y, half), SUBPIXEL_BITS);
+    __m128i a = _mm_packs_epi32(x, y), b = next_corner(a), c = next_corner(b);
+    __m128i low = _mm_min_epi16(_mm_min_epi16(a, b), c);
+    __m128i high = _mm_max_epi16(_mm_max_epi16(a, b), c);
+    return (struct box){_mm_max_epi16(low, limit->low), _mm_min_epi16(high, limit->high)};
+}
+
+/* Whether a comparison is true of both coordinates. */
+static inline bool of_both(__m128i words)
+{
+    return (_mm_movemask_epi8(words) & 0x0101) == 0x0101;
+}
+
+static inline bool box_is_empty(const struct box *box)
+{
+    return !of_both(_mm_cmpgt_epi16(box->high, box->low));
+}
+
+static inline int32_t box_x(__m128i corner)
+{
+    return (int16_t)_mm_extract_epi16(corner, 0);
+}
+
+static inline int32_t box_y(__m128i corner)
+{
+    return (int16_t)_mm_extract_epi16(corner, 4);
 }
 
 static inline bool intersect(struct rectangle *a, const struct rectangle *b)

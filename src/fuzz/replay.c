@@ -184,9 +184,9 @@ static bool agree(const struct replay *r, const uint8_t *a, size_t at, const uin
     if (r->unit == UNIT_PIXEL)
         return r->pixel_x != NO_PIXEL && at < r->output_bytes && !is_asked(r, at);
     size_t within = at % r->layout.stride;
-    if (at >= r->output_bytes || within < sizeof(struct triangle_head))
-        return both_nan && within > offsetof(struct triangle_head, y) + 8;
-    return both_nan || !word_at(a, at - within + offsetof(struct triangle_head, visible));
+    bool open = at < r->output_bytes && within >= sizeof(int32_t) &&
+                !word_at(a, at - within + offsetof(struct triangle_head, visible));
+    return open || (both_nan && within > offsetof(struct triangle_head, y) + 8);
 }
 
 static uint32_t element_at(const struct replay *r, size_t at)

@@ -25,17 +25,15 @@
  * the key calls smooth: u from 0 at the left to 1 at the right, v from 0 at the top to 1 at the bottom, third
  * coordinates 0, divisors 1. 1/w counts as 1 unless the pixel routine asks for w itself. */
 
-/* The head; vertices 1 and 2 change places where the area is negative. */
-static inline void record_head(struct env *e, const struct setup_key *k, const struct triangle_layout *layout,
-                               const struct corner p[3], msk visible, flt area)
+/* The head of a visible triangle; vertices 1 and 2 change places where the area is negative. */
+static inline void record_head(struct env *e, const struct triangle_layout *layout, const struct corner p[3],
+                               flt area)
 {
     msk turned = lt_f(E, area, lit_f(E, 0.0f));
     itg x1 = select_i(E, turned, p[2].window_x, p[1].window_x);
     itg x2 = select_i(E, turned, p[1].window_x, p[2].window_x);
     itg y1 = select_i(E, turned, p[2].window_y, p[1].window_y);
     itg y2 = select_i(E, turned, p[1].window_y, p[2].window_y);
-    itg flag = visible_flag(E, k, visible, area);
-    record_i(E, layout, offsetof(struct triangle_head, visible), flag);
     record_i(E, layout, offsetof(struct triangle_head, x[0]), p[0].window_x);
     record_i(E, layout, offsetof(struct triangle_head, x[1]), x1);
     record_i(E, layout, offsetof(struct triangle_head, x[2]), x2);
@@ -54,8 +52,10 @@ static inline void setup_triangle(struct env *e, const struct setup_key *k,
         p[i] = project(E, k, i);
     struct face face = face_of(E, p);
     msk visible = visible_winding(E, k, face.area);
-    record_head(E, k, layout, p, visible, face.area);
+    itg flag = visible_flag(E, k, visible, face.area);
+    record_i(E, layout, offsetof(struct triangle_head, visible), flag);
     WHEN (E, visible) {
+        record_head(E, layout, p, face.area);
         struct gradients g = face_gradients(E, &face);
         if (k->depth) {
             flt depth[3] = {p[0].depth, p[1].depth, p[2].depth};

@@ -98,11 +98,13 @@ static enum meaning meaning(const struct differential *d, enum unit unit, const 
     if (unit != UNIT_SETUP || records >= (size_t)d->count * d->layout.stride)
         return EXACT;
     size_t within = records % d->layout.stride;
-    if (within < sizeof(struct triangle_head) || within >= record_end(&key->setup, &d->layout))
+    if (within < sizeof(int32_t) || within >= record_end(&key->setup, &d->layout))
         return EXACT;
     struct triangle_head head;
     memcpy(&head, d->result[0].records + records - within, sizeof head);
-    return head.visible ? ANY_NAN : OPEN;
+    if (!head.visible)
+        return OPEN;
+    return within < sizeof head ? EXACT : ANY_NAN;
 }
 
 static int is_nan(uint32_t bits)
