@@ -127,6 +127,13 @@ static void process_chunk(struct frame *frame, struct frame_worker *worker, uint
         stop_after(frame, number);
 }
 
+/* Whether no more chunks should begin; the first one always may, so every round gets ahead. */
+static bool round_is_full(const struct frame *frame)
+{
+    uint64_t used = atomic_load_explicit(&frame->arena.used, memory_order_relaxed);
+    return used > (uint64_t)ROUND_BYTES * pool_workers(frame->pool);
+}
+
 static void geometry_task(void *user, unsigned number)
 {
     struct frame *frame = user;
@@ -136,6 +143,8 @@ static void geometry_task(void *user, unsigned number)
     uint32_t i;
     while ((i = atomic_fetch_add(&frame->next_chunk, 1)) < frame->chunks) {
         uint32_t chunk = task_at(frame, i);
+        if (chunk && round_is_full(frame))
+            stop_after(frame, chunk);
         if (chunk < atomic_load(&frame->first_stopped))
             process_chunk(frame, worker, chunk);
     }

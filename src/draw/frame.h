@@ -7,6 +7,9 @@
  * handed out in a random order to see that it is so: with one thread too, what a task finds then depends on
  * nothing that happened to be done before.
  *
+ * A round ends early when its records outgrow the caches: tiles then find in them what geometry has written, and
+ * the next round writes to the same place.
+ *
  * When the arena fills up, the chunk that ran out of it stops where it is, later ones are given up, and the
  * next round begins at the first primitive not done: memory is bounded whatever is drawn. */
 #ifndef DRAW_FRAME_H
@@ -20,6 +23,7 @@ enum {
     FRAME_COMMANDS = 1024, /* the queue's capacity */
     FRAME_CHUNKS = 4096,   /* chunks of a round, at most */
     CHUNK_PRIMITIVES = 2048,
+    ROUND_BYTES = 1 << 20, /* of the arena, for each thread: chunks that begin beyond are the next round's */
     TASKS_MAXIMUM = FRAME_CHUNKS > TARGET_TILES_MAXIMUM ? FRAME_CHUNKS : TARGET_TILES_MAXIMUM
 };
 
