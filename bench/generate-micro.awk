@@ -4,10 +4,11 @@
 #
 #     awk -v folder=bench/streams/micro -f bench/generate-micro.awk
 #
-# A stream has two frames, each of which begins with a clear: first what is measured, with so many layers that what a frame
-# costs besides them does not count; then the same work with fewer layers, for renderers that are slow. The layers
-# of a frame cover the whole target, 1024 x 1024, and lie in one another's place; where nothing else is said each is a rectangle
-# of two triangles at w = 1.
+# A stream has three frames, each of which begins with a clear. The first sets everything, so that the others can be played
+# again and again on what it left (player_again, src/stream/stream.h). The second is what is measured, with so many layers
+# that what a frame costs besides them does not count; the third the same work with fewer layers, for renderers that are
+# slow. The layers of a frame cover the whole target, 1024 x 1024, and lie in one another's place; where nothing else is said
+# each is a rectangle of two triangles at w = 1.
 
 function emit(text) { print text > path }
 
@@ -88,15 +89,19 @@ function layer(call) {
 
 function play(count, name,   i) { for (i = 0; i < count; i++) emit("play " name) }
 
+# The frame that sets everything ends here; then `measured` begins another one, and `less` the last.
+function ready(clear) { emit(clear); emit("frame") }
+function measured() { emit(""); emit("# What is measured.") }
+function less() { emit(""); emit("# The same work, less of it.") }
+
 function frames(full, short, clear) {
     if (!clear) clear = "clear color 0 0 0 1 depth 1"
-    emit("")
-    emit("# What is measured.")
+    ready(clear)
+    measured()
     emit(clear)
     play(full, "layer")
     emit("frame")
-    emit("")
-    emit("# The same work, less of it.")
+    less()
     emit(clear)
     play(short, "layer")
     emit("frame")
@@ -135,8 +140,9 @@ function fills() {
     emit("bind vertices quads")
     emit("state zenable true")
     emit("state zfunc less")
+    ready("clear color 0 0 0 1 depth 1")
     for (i = 0; i < 2; i++) {
-        emit("")
+        if (i) less(); else measured()
         emit("clear color 0 0 0 1 depth 1")
         for (j = 0; j < (i ? 4 : 32); j++) emit("draw strip " 4 * j " 2")
         emit("frame")
@@ -398,11 +404,9 @@ function draws(name, about, colors,   i) {
 
 function rest() {
     begin("clear", "A clear of colour and depth, and nothing else.", "stores of 8 bytes a pixel to memory, unless they are put off.")
-    emit("")
-    emit("clear color 0.2 0.4 0.6 1 depth 1")
-    emit("frame")
-    emit("clear color 0.2 0.4 0.6 1 depth 1")
-    emit("frame")
+    emit("sequence layer")
+    emit("end")
+    frames(1, 1, "clear color 0.2 0.4 0.6 1 depth 1")
 
     begin("readback", "One layer, whose pixels are then read: the reading alone is measured.",
           "copying 4 bytes a pixel through memory.")

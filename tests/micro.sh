@@ -20,7 +20,7 @@ else
 fi
 
 options=(--frames all)
-[[ -z ${SLOW-} ]] || options=(--frames 1 --threads 2)
+[[ -z ${SLOW-} ]] || options+=(--threads 2)
 for stream in bench/streams/micro/*.tri; do
     small=$work/${stream##*/}
     sed 's/^target 1024 1024 /target 168 136 /' "$stream" >"$small"

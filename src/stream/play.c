@@ -556,16 +556,9 @@ static int seek(struct player *player, uint32_t frame, struct error *error)
     return execute_range(player, 0, player->stream->frames[frame], 0, error);
 }
 
-int player_frame(struct player *player, uint32_t frame, struct error *error)
+static int perform(struct player *player, uint32_t frame, struct error *error)
 {
     const struct stream *stream = player->stream;
-    if (frame >= stream->frame_count)
-        return error_set(error, "%s: frame %" PRIu32 ", expected 0 to %" PRIu32, stream->path, frame,
-                         stream->frame_count - 1);
-    if (player->reader)
-        return player_recorded_frame(player, frame, error);
-    if (seek(player, frame, error))
-        return -1;
     player->next = NOWHERE;
     player->frame = frame;
     for (uint32_t i = 0; i < stream->resource_count; i++)
@@ -577,6 +570,25 @@ int player_frame(struct player *player, uint32_t frame, struct error *error)
                          triptych_error(player->device));
     player->next = frame + 1;
     return 0;
+}
+
+int player_frame(struct player *player, uint32_t frame, struct error *error)
+{
+    const struct stream *stream = player->stream;
+    if (frame >= stream->frame_count)
+        return error_set(error, "%s: frame %" PRIu32 ", expected 0 to %" PRIu32, stream->path, frame,
+                         stream->frame_count - 1);
+    if (player->reader)
+        return player_recorded_frame(player, frame, error);
+    return seek(player, frame, error) ? -1 : perform(player, frame, error);
+}
+
+int player_again(struct player *player, struct error *error)
+{
+    if (player->reader || player->next == NOWHERE || !player->next)
+        return error_set(error, "%s: no frame to play again, expected one that was played whole",
+                         player->stream->path);
+    return perform(player, player->next - 1, error);
 }
 
 int player_query(struct player *player, uint32_t i, struct query_count *count)
