@@ -323,7 +323,7 @@ static void the_callback_sees_every_frame_and_can_stop(void)
 static void test_a_frame_played_again_starts_from_what_it_left(void)
 {
     uint32_t once[PIXELS], again[PIXELS];
-    load("triptych 1\ntarget 24 16\nvertices v position:float2 { -1 -1\n-1 1\n1 1\n}\nstate lighting false\n"
+    load("triptych 1\ntarget 24 16\nvertices v position:float2 {\n-1 -1\n-1 1\n1 1\n}\nstate lighting false\n"
          "bind vertices v\nclear color 0 0 0 1\nframe\n"
          "state alphablendenable true\nstate srcblend one\nstate destblend one\nstage 0 colorop selectarg1\n"
          "stage 0 colorarg1 tfactor\nstate texturefactor 0xff202020\ndraw triangles 0 1\n");
