@@ -5,7 +5,7 @@
 #     awk -v folder=bench/streams/micro -f bench/generate-micro.awk
 #
 # A stream has three frames, each of which begins with a clear. The first sets everything, so that the others can be played
-# again and again on what it left (player_again, src/stream/stream.h). The second is what is measured, with so many layers
+# again and again on what it left (player_go_on, src/stream/stream.h). The second is what is measured, with so many layers
 # that what a frame costs besides them does not count; the third the same work with fewer layers, for renderers that are
 # slow. The layers of a frame cover the whole target, 1024 x 1024, and lie in one another's place; where nothing else is said
 # each is a rectangle of two triangles at w = 1.

@@ -583,12 +583,13 @@ int player_frame(struct player *player, uint32_t frame, struct error *error)
     return seek(player, frame, error) ? -1 : perform(player, frame, error);
 }
 
-int player_again(struct player *player, struct error *error)
+int player_go_on(struct player *player, uint32_t frame, struct error *error)
 {
-    if (player->reader || player->next == NOWHERE || !player->next)
-        return error_set(error, "%s: no frame to play again, expected one that was played whole",
-                         player->stream->path);
-    return perform(player, player->next - 1, error);
+    const struct stream *stream = player->stream;
+    if (player->reader || player->next == NOWHERE || frame >= stream->frame_count)
+        return error_set(error, "%s: frame %" PRIu32 " cannot go on from what was drawn last", stream->path,
+                         frame);
+    return perform(player, frame, error);
 }
 
 int player_query(struct player *player, uint32_t i, struct query_count *count)

@@ -100,9 +100,9 @@ void player_free(struct player *player);
  * from the defaults on, without their draws and clears. */
 int player_frame(struct player *player, uint32_t frame, struct error *error);
 
-/* Executes the calls of the frame that was played last once more, on what it left, and finishes it: nothing is executed
- * besides them. Not of a recording. */
-int player_again(struct player *player, struct error *error);
+/* Executes a frame's calls, whichever frame it is, on what the one that was played last left, and finishes it: nothing is
+ * executed besides them. Not of a recording. */
+int player_go_on(struct player *player, uint32_t frame, struct error *error);
 
 /* What a query counted in the frame that was played last. */
 struct query_count {

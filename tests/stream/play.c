@@ -320,19 +320,19 @@ static void the_callback_sees_every_frame_and_can_stop(void)
     TEST_ASSERT_EQUAL_INT(-1, stream_play(stream, device, 5, 6, NULL, NULL, &error));
 }
 
-static void test_a_frame_played_again_starts_from_what_it_left(void)
+static void test_a_frame_goes_on_from_what_was_left(void)
 {
     uint32_t once[PIXELS], again[PIXELS];
     load("triptych 1\ntarget 24 16\nvertices v position:float2 {\n-1 -1\n-1 1\n1 1\n}\nstate lighting false\n"
          "bind vertices v\nclear color 0 0 0 1\nframe\n"
          "state alphablendenable true\nstate srcblend one\nstate destblend one\nstage 0 colorop selectarg1\n"
          "stage 0 colorarg1 tfactor\nstate texturefactor 0xff202020\ndraw triangles 0 1\n");
-    TEST_ASSERT_EQUAL_INT_MESSAGE(-1, player_again(player, &error), "no frame was played");
+    TEST_ASSERT_EQUAL_INT_MESSAGE(-1, player_go_on(player, 1, &error), "no frame was played");
     error_clear(&error);
     play(0, once);
     play(1, once);
     TEST_ASSERT_GREATER_THAN_INT(0, holds(once, 0xff202020));
-    TEST_ASSERT_EQUAL_INT_MESSAGE(0, player_again(player, &error), error.text);
+    TEST_ASSERT_EQUAL_INT_MESSAGE(0, player_go_on(player, 1, &error), error.text);
     TEST_ASSERT_EQUAL_INT(0, triptych_read_color(device, again));
     TEST_ASSERT_EQUAL_INT(holds(once, 0xff202020), holds(again, 0xff404040));
 }
@@ -351,6 +351,6 @@ int main(void)
     RUN_TEST(what_only_shaders_read_is_bound_and_unbound);
     RUN_TEST(a_frame_past_the_last_is_refused);
     RUN_TEST(the_callback_sees_every_frame_and_can_stop);
-    RUN_TEST(test_a_frame_played_again_starts_from_what_it_left);
+    RUN_TEST(test_a_frame_goes_on_from_what_was_left);
     return UNITY_END();
 }

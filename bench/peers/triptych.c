@@ -1,0 +1,123 @@
+/* Triptych as a renderer that is measured: ENGINE THREADS FOLDER. It plays the streams of the folder. */
+#include "peer.h"
+#include "stream/stream.h"
+#include "triptych.h"
+
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+enum { PREPARE, FULL, LESS }; /* the streams' frames */
+
+static struct triptych_options options;
+static const char *folder;
+static const struct workload *current;
+static struct stream *stream;
+static triptych_device *device;
+static struct player *player;
+static triptych_shader *shader; /* of renderer_build */
+static struct error error;
+
+const char *renderer_start(int count, char **arguments, char *description)
+{
+    if (count != 4)
+        return "expected ENGINE THREADS FOLDER";
+    options.engine = arguments[1];
+    options.threads = (unsigned)strtoul(arguments[2], NULL, 10);
+    folder = arguments[3];
+    if (triptych_device_create(&options, &device, error.text, sizeof error.text))
+        return error.text;
+    triptych_device_destroy(device);
+    device = NULL;
+    snprintf(description, 256, "Triptych %s, engine %s", TRIPTYCH_VERSION, options.engine);
+    return NULL;
+}
+
+static const char *reason_of(enum triptych_result result)
+{
+    return result ? triptych_error(device) : NULL;
+}
+
+static const char *load(const struct workload *workload)
+{
+    char path[1024];
+    stream_free(stream);
+    stream = NULL;
+    snprintf(path, sizeof path, "%s/%s.tri", folder, workload->name);
+    if (stream_read(path, &stream, &error))
+        return error.text;
+    current = workload;
+    return stream->frame_count == 3 ? NULL : "the stream has not 3 frames";
+}
+
+/* Each time with a device that knows nothing. */
+const char *renderer_open(const struct workload *workload)
+{
+    const char *reason = current == workload ? NULL : load(workload);
+    if (reason)
+        return reason;
+    if (triptych_device_create(&options, &device, error.text, sizeof error.text) ||
+        stream_prepare(stream, device, &player, &error))
+        return error.text;
+    return player_frame(player, PREPARE, &error) ? error.text : NULL;
+}
+
+const char *renderer_limit(bool limited)
+{
+    const char *reason = reason_of(triptych_set_scissor(device, 508, 508, 8, 8));
+    return reason ? reason : reason_of(triptych_set_state(device, TRIPTYCH_STATE_scissortestenable, limited));
+}
+
+/* Frames are played from where the first one left the device, never from the beginning. */
+const char *renderer_frame(bool less)
+{
+    return player_go_on(player, less ? LESS : FULL, &error) ? error.text : NULL;
+}
+
+const char *renderer_read(uint32_t *rgba, bool *upward)
+{
+    *upward = false;
+    return reason_of(triptych_read_color(device, rgba));
+}
+
+const char *renderer_build(unsigned number)
+{
+    char text[512];
+    triptych_shader *made;
+    int length = snprintf(text, sizeof text,
+                          "ps_2_0\ndef c0, %.7f, 0.5, 0.75, 1\ndcl t0.xy\ndcl_2d s0\ntexld r0, t0, s0\n"
+                          "mul r1.xyz, r0, c0\ndp3 r0.w, r1, r1\nmad r1.xyz, r0, r0.w, c0.w\nmov r1.w, c0.w\n"
+                          "mul r1.xyz, r1, c0.y\nmov oC0, r1\n",
+                          0.25 + number * 1e-6);
+    const char *reason = reason_of(triptych_shader_assemble(device, "new", text, (size_t)length, &made));
+    if (!reason)
+        reason = reason_of(triptych_set_pixel_shader(device, made));
+    if (!reason)
+        reason = reason_of(triptych_draw(device, TRIPTYCH_TRIANGLE_STRIP, 0, 2));
+    if (!reason)
+        reason = reason_of(triptych_finish(device));
+    triptych_shader_destroy(device, shader);
+    shader = made;
+    return reason;
+}
+
+double renderer_build_us(void)
+{
+    struct triptych_routine_info info;
+    double us = 0;
+    for (unsigned i = 0; triptych_get_routine(device, i, &info); i++)
+        us += (double)info.build_ns / 1e3;
+    return us;
+}
+
+void renderer_close(void)
+{
+    if (shader)
+        triptych_shader_destroy(device, shader);
+    shader = NULL;
+    player_free(player);
+    player = NULL;
+    if (device)
+        triptych_device_destroy(device);
+    device = NULL;
+}
