@@ -45,7 +45,8 @@ TOOL_OBJECTS    := $(call object,$(TOOL_SOURCES))
 SUPPORT_OBJECTS := $(call object,$(SUPPORT_SOURCES))
 TARGET_OBJECTS  := $(call object,$(TARGET_SOURCES))
 PROGRAM_OBJECTS := $(call object,$(PROGRAM_SOURCES))
-OBJECTS         := $(LIBRARY_OBJECTS) $(TOOL_OBJECTS) $(SUPPORT_OBJECTS) $(TARGET_OBJECTS) $(PROGRAM_OBJECTS)
+PEER_OBJECTS    := $(call object,$(call find,bench/peers,*.c))
+OBJECTS         := $(PEER_OBJECTS) $(LIBRARY_OBJECTS) $(TOOL_OBJECTS) $(SUPPORT_OBJECTS) $(TARGET_OBJECTS) $(PROGRAM_OBJECTS)
 
 # ONLY=text keeps the tests whose path contains the text.
 only = $(if $(ONLY),$(foreach t,$(1),$(if $(findstring $(ONLY),$(t)),$(t))),$(1))
@@ -109,7 +110,7 @@ unity_flags = -isystem $(dir $(UNITY_SOURCE)) -DUNITY_INCLUDE_DOUBLE -DUNITY_USE
 
 # --- What to build -------------------------------------------------------------------------------------------
 
-.PHONY: all programs check test check-threads matrix coverage soak soak-faults soak-memory bench bench-shaders mutations gallery verify-external fuzzers fuzz-input fuzz-input-smoke dependencies packages install clean format format-check help FORCE
+.PHONY: all programs check test check-threads matrix coverage soak soak-faults soak-memory bench peers bench-shaders mutations gallery verify-external fuzzers fuzz-input fuzz-input-smoke dependencies packages install clean format format-check help FORCE
 
 all: $(BUILD)/libtriptych.a $(if $(SANITIZE),,$(BUILD)/libtriptych.so $(BUILD)/triptych.pc) $(COMMAND) build/glmark2 \
   build/assimp
@@ -163,6 +164,16 @@ $(PROGRAMS): $(BUILD)/tests/%: $(BUILD)/object/tests/%.o $(SUPPORT_OBJECTS) $(BU
   $(BUILD)/command.a $(BUILD)/libtriptych.a
 	@mkdir -p $(@D)
 	$(call say,LD)$(link) $(filter %.o,$^) $(filter %.a,$^) $(tool_libraries) -o $@
+
+# Of `make peers`: the driver, a renderer that is Triptych, and one that is GLES2 of whichever library.
+peer = $(foreach part,$(1) workload,$(BUILD)/object/bench/peers/$(part).o)
+
+$(BUILD)/peers/drive: $(call peer,drive report limits) $(BUILD)/command.a $(BUILD)/libtriptych.a
+$(BUILD)/peers/triptych: $(call peer,triptych peer) $(BUILD)/command.a $(BUILD)/libtriptych.a
+$(BUILD)/peers/gles: $(call peer,gles gles_library gles_shader peer)
+$(BUILD)/peers/drive $(BUILD)/peers/triptych $(BUILD)/peers/gles:
+	@mkdir -p $(@D)
+	$(call say,LD)$(link) $(filter %.o,$^) $(filter %.a,$^) $(if $(filter %.a,$^),$(tool_libraries),-ldl) -o $@
 
 ifeq ($(instrument),coverage)
 $(BUILD)/triptych: private override LDFLAGS += -Wl,--wrap=_exit $(BUILD)/object/tests/support/end.o
@@ -238,7 +249,7 @@ build/unity/src/unity.c:
 jobs = $(if $(findstring jobserver,$(MAKEFLAGS)),,-j$(shell nproc))
 
 dependencies:
-	@tests/support/dependencies.sh build test bench format
+	@tests/support/dependencies.sh build test bench peers format
 
 packages:
 	@tests/support/dependencies.sh --list
@@ -285,6 +296,13 @@ bench:
 	@tests/support/dependencies.sh build bench
 	+@$(MAKE) $(jobs) all
 	@BUILD=$(BUILD) bench/run.sh
+
+# Other renderers and every engine on the same work, in turns: results/peers.txt. WORKLOAD=glob PEERS="name ..." PASSES=n
+# QUICK=1: bench/peers.sh.
+peers:
+	@tests/support/dependencies.sh build bench peers
+	+@$(MAKE) $(jobs) all $(addprefix $(BUILD)/peers/,drive triptych gles)
+	@BUILD=$(BUILD) bench/peers.sh
 
 # Every shader of the corpus with every engine, and flow control by constants and by values: results/shaders.txt.
 bench-shaders:
@@ -358,7 +376,7 @@ install: all
 clean:
 	rm -rf $(BUILD)
 
-FORMATTED = $(call find,src emu tests,*.[ch])
+FORMATTED = $(call find,src emu tests bench,*.[ch])
 
 format:
 	@tests/support/dependencies.sh format
@@ -375,6 +393,8 @@ make check           the same tests on the plain build only
 make bench           the measurements, from a bare Debian on; writes results/
 make soak-faults     everything that the system can refuse, refused at every request: half an hour
 make soak-memory     what 10 million triangles and 100,000 states take: minutes
+make peers           Mesa's softpipe and llvmpipe, SwiftShader and every engine on the same work: results/peers.txt
+                     (WORKLOAD=glob PEERS="name..." PASSES=n QUICK=1 CLOCK=time)
 make bench-shaders   the same of every shader in tests/shading, by shader and by length
 make soak            random cases and tests with new seeds, half an hour (DURATION=1800 SEED=1), then a summary
 make fuzz-input      untrusted input with libFuzzer, half an hour (DURATION=1800) each TARGET, JOBS at a time

@@ -90,11 +90,12 @@ static void set4(const char *name, float x, float y, float z, float w)
 
 static void set_lit(void)
 {
-    float size = scene->geometry == GRID_90 ? 0.985f : 0.8728f, tilt = scene->geometry == GRID_90 ? 0.004f : 0.05f;
+    float size = scene->geometry == GRID_90 ? 0.985f : 0.8728f,
+          tilt = scene->geometry == GRID_90 ? 0.004f : 0.05f;
     static const float turn[] = {1, 0, 0, 0, 1, 0, 0, 0, 1};
     const float grid[] = {size, 0, 0, 0, 0, 0, size, 0, 0, 0, 0.1f, 0.5f, 0, 0, tilt, 1};
-    const float cells[] = {0.005455f, 0, 0,           0,    0, 0, 0.005594872f, 0,
-                           0,         0, 0.000641026f, 0.5f, 0, 0, 0.000320513f, 1};
+    const float cells[] = {0.005455f,    0, 0, 0, 0, 0, 0.005594872f, 0, 0, 0, 0.000641026f, 0.5f, 0, 0,
+                           0.000320513f, 1};
     gl.Uniform4fv(uniform("rows"), 4, scene->geometry == CELLS ? cells : grid);
     gl.Uniform3fv(uniform("turn"), 3, turn);
     float unit = scene->geometry == CELLS ? 160 : 1;
@@ -127,8 +128,8 @@ static void set_uniforms(void)
     row = uniform("row");
     offset = uniform("offset");
     if (constant >= 0)
-        gl.Uniform4f(constant, (float)(c >> 16 & 255) / 255, (float)(c >> 8 & 255) / 255, (float)(c & 255) / 255,
-                     (float)(c >> 24) / 255);
+        gl.Uniform4f(constant, (float)(c >> 16 & 255) / 255, (float)(c >> 8 & 255) / 255,
+                     (float)(c & 255) / 255, (float)(c >> 24) / 255);
     if (scene->textures)
         gl.Uniform1i(uniform("checker"), 0);
     if (scene->textures > 1)
@@ -150,7 +151,10 @@ static const char *make_program(unsigned number)
     gl.AttachShader(program, vertex);
     gl.AttachShader(program, pixel);
     gl.BindAttribLocation(program, POSITION, "position");
-    gl.BindAttribLocation(program, FIRST, scene->vertex == PASS ? "texcoord" : scene->vertex == LIT ? "normal" : "first");
+    gl.BindAttribLocation(program, FIRST,
+                          scene->vertex == PASS  ? "texcoord"
+                          : scene->vertex == LIT ? "normal"
+                                                 : "first");
     if (scene->vertex == VECTORS)
         gl.BindAttribLocation(program, SECOND, "second");
     gl.LinkProgram(program);
@@ -216,10 +220,12 @@ static void make_texture(unsigned unit, uint32_t (*at)(unsigned, unsigned))
     gl.TexParameteri(GL_TEXTURE_2D, GL_TEXTURE_WRAP_S, wrap);
     gl.TexParameteri(GL_TEXTURE_2D, GL_TEXTURE_WRAP_T, wrap);
     gl.TexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAG_FILTER, near);
-    gl.TexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MIN_FILTER, filter == TRILINEAR ? GL_LINEAR_MIPMAP_LINEAR : near);
+    gl.TexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MIN_FILTER,
+                     filter == TRILINEAR ? GL_LINEAR_MIPMAP_LINEAR : near);
     for (int level = 0; level < (filter == TRILINEAR ? LEVELS : 1); level++) {
         int side = TEXTURE_SIDE >> level;
-        gl.TexImage2D(GL_TEXTURE_2D, level, GL_RGBA, side, side, 0, GL_RGBA, GL_UNSIGNED_BYTE, texels[level % 2]);
+        gl.TexImage2D(GL_TEXTURE_2D, level, GL_RGBA, side, side, 0, GL_RGBA, GL_UNSIGNED_BYTE,
+                      texels[level % 2]);
         halve(texels[level % 2], texels[(level + 1) % 2], (unsigned)side / 2);
     }
 }
@@ -252,8 +258,8 @@ static void upload(GLenum target, const void *data, size_t bytes)
 static void make_corners(float size, float right)
 {
     float l = scene->low, h = scene->high, r = right * size;
-    const float corners[] = {-size, size,  0, 1,     l, l, r, r,  0, right, h, l,
-                             -size, -size, 0, 1,     l, h, r, -r, 0, right, h, h};
+    const float corners[] = {-size, size,  0, 1, l, l, r, r,  0, right, h, l,
+                             -size, -size, 0, 1, l, h, r, -r, 0, right, h, h};
     upload(GL_ARRAY_BUFFER, corners, sizeof corners);
     attribute(POSITION, 4, 0, 6);
     attribute(FIRST, 2, 4, 6);
@@ -303,7 +309,8 @@ static const char *make_grid(unsigned cells)
         return "no memory for a grid";
     }
     for (unsigned i = 0; i < side * side; i++) {
-        const float vertex[] = {(float)(2.0 * (i % side) / cells - 1), 0, (float)(2.0 * (i / side) / cells - 1), 0, 1, 0};
+        const float vertex[] = {
+            (float)(2.0 * (i % side) / cells - 1), 0, (float)(2.0 * (i / side) / cells - 1), 0, 1, 0};
         memcpy(vertices[i], vertex, sizeof vertex);
     }
     for (unsigned cell = 0; cell < cells * cells; cell++) {
@@ -349,34 +356,17 @@ static const char *make_geometry(void)
     for (GLuint i = POSITION; i <= SECOND; i++)
         gl.DisableVertexAttribArray(i);
     switch (scene->geometry) {
-    case QUAD:
-        make_corners(1, 1);
-        break;
-    case TILTED:
-        make_corners(1, 2);
-        break;
-    case TINY:
-        make_corners(0.01f, 1);
-        break;
-    case QUADS:
-        make_quads();
-        break;
+    case QUAD: make_corners(1, 1); break;
+    case TILTED: make_corners(1, 2); break;
+    case TINY: make_corners(0.01f, 1); break;
+    case QUADS: make_quads(); break;
     case ARITHMETIC:
-    case COLORS:
-        make_vectors();
-        break;
-    case GRID_316:
-        return make_grid(316);
-    case GRID_90:
-        return make_grid(90);
-    case CELLS:
-        make_cells();
-        break;
-    case SMALL:
-        make_small();
-        break;
-    case NOTHING:
-        break;
+    case COLORS: make_vectors(); break;
+    case GRID_316: return make_grid(316);
+    case GRID_90: return make_grid(90);
+    case CELLS: make_cells(); break;
+    case SMALL: make_small(); break;
+    case NOTHING: break;
     }
     return NULL;
 }
@@ -453,20 +443,12 @@ static void draw_small(void)
 static void draw_layer(unsigned layer)
 {
     switch (scene->geometry) {
-    case NOTHING:
-        break;
-    case CELLS:
-        draw_cells();
-        break;
-    case SMALL:
-        draw_small();
-        break;
+    case NOTHING: break;
+    case CELLS: draw_cells(); break;
+    case SMALL: draw_small(); break;
     case GRID_316:
-    case GRID_90:
-        gl.DrawElements(GL_TRIANGLES, index_count, GL_UNSIGNED_INT, NULL);
-        break;
-    default:
-        gl.DrawArrays(GL_TRIANGLE_STRIP, scene->geometry == QUADS ? (GLint)layer * 4 : 0, 4);
+    case GRID_90: gl.DrawElements(GL_TRIANGLES, index_count, GL_UNSIGNED_INT, NULL); break;
+    default: gl.DrawArrays(GL_TRIANGLE_STRIP, scene->geometry == QUADS ? (GLint)layer * 4 : 0, 4);
     }
 }
 

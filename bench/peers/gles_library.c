@@ -29,12 +29,11 @@ static void *find(void *library, const char *name)
 static int find_all(void *egl, void *gles)
 {
     int missing = 0;
-#define FUNCTION(name) missing |= !(*(void **)&gl.egl##name = find(egl, "egl" #name));
-    EGL_FUNCTIONS(FUNCTION)
-#undef FUNCTION
-#define FUNCTION(name) missing |= !(*(void **)&gl.name = find(gles, "gl" #name));
-    GL_FUNCTIONS(FUNCTION)
-#undef FUNCTION
+#define EGL_FUNCTION(name) missing |= !(*(void **)&gl.egl##name = find(egl, "egl" #name));
+#define GL_FUNCTION(name)  missing |= !(*(void **)&gl.name = find(gles, "gl" #name));
+#include "gles_function.def"
+#undef EGL_FUNCTION
+#undef GL_FUNCTION
     return missing;
 }
 
@@ -65,9 +64,21 @@ static const char *failed(const char *what)
 
 static const char *make_current(EGLDisplay display, int side)
 {
-    static const EGLint wanted[] = {EGL_SURFACE_TYPE, EGL_PBUFFER_BIT, EGL_RENDERABLE_TYPE, EGL_OPENGL_ES2_BIT,
-                                    EGL_RED_SIZE, 8, EGL_GREEN_SIZE, 8, EGL_BLUE_SIZE, 8, EGL_ALPHA_SIZE, 8,
-                                    EGL_DEPTH_SIZE, 24, EGL_NONE};
+    static const EGLint wanted[] = {EGL_SURFACE_TYPE,
+                                    EGL_PBUFFER_BIT,
+                                    EGL_RENDERABLE_TYPE,
+                                    EGL_OPENGL_ES2_BIT,
+                                    EGL_RED_SIZE,
+                                    8,
+                                    EGL_GREEN_SIZE,
+                                    8,
+                                    EGL_BLUE_SIZE,
+                                    8,
+                                    EGL_ALPHA_SIZE,
+                                    8,
+                                    EGL_DEPTH_SIZE,
+                                    24,
+                                    EGL_NONE};
     static const EGLint version[] = {EGL_CONTEXT_CLIENT_VERSION, 2, EGL_NONE};
     const EGLint size[] = {EGL_WIDTH, side, EGL_HEIGHT, side, EGL_NONE};
     EGLConfig config;

@@ -28,16 +28,18 @@ static const char *const vertex_texts[] = {
     [VECTORS] = "attribute vec4 position; attribute vec4 first; attribute vec3 second;\n"
                 "varying vec4 a; varying vec3 b;\n"
                 "void main() { gl_Position = position; a = first; b = second; }\n",
-    [LIT] = "attribute vec3 position; attribute vec3 normal;\n"
-            "uniform vec4 rows[4]; uniform vec3 turn[3]; uniform vec3 light, diffuse, offset; uniform vec4 ambient;\n"
-            "varying vec4 color;\n"
-            "void main() {\n"
-            "    vec4 p = vec4(position + offset, 1.0);\n"
-            "    gl_Position = vec4(dot(p, rows[0]), dot(p, rows[1]), dot(p, rows[2]), dot(p, rows[3]));\n"
-            "    vec3 n = normalize(vec3(dot(normal, turn[0]), dot(normal, turn[1]), dot(normal, turn[2])));\n"
-            "    vec3 l = normalize(light - p.xyz);\n"
-            "    color = clamp(vec4(diffuse, 0.0) * max(dot(n, l), 0.0) + ambient, 0.0, 1.0);\n"
-            "}\n",
+    [LIT] =
+        "attribute vec3 position; attribute vec3 normal;\n"
+        "uniform vec4 rows[4]; uniform vec3 turn[3]; uniform vec3 light, diffuse, offset; uniform vec4 "
+        "ambient;\n"
+        "varying vec4 color;\n"
+        "void main() {\n"
+        "    vec4 p = vec4(position + offset, 1.0);\n"
+        "    gl_Position = vec4(dot(p, rows[0]), dot(p, rows[1]), dot(p, rows[2]), dot(p, rows[3]));\n"
+        "    vec3 n = normalize(vec3(dot(normal, turn[0]), dot(normal, turn[1]), dot(normal, turn[2])));\n"
+        "    vec3 l = normalize(light - p.xyz);\n"
+        "    color = clamp(vec4(diffuse, 0.0) * max(dot(n, l), 0.0) + ambient, 0.0, 1.0);\n"
+        "}\n",
     [PLACE] = "attribute vec3 position; uniform vec4 place, row;\n"
               "void main() { gl_Position = vec4(position, 1.0) + place + row; }\n",
 };
@@ -77,28 +79,19 @@ static const char phong[] =
 static void add_pixel(enum pixel_shader shader, unsigned number)
 {
     switch (shader) {
-    case CONSTANT:
-        add("uniform vec4 constant;\nvoid main() { gl_FragColor = constant; }\n");
-        return;
+    case CONSTANT: add("uniform vec4 constant;\nvoid main() { gl_FragColor = constant; }\n"); return;
     case TEXTURE:
-        add("varying vec2 uv; uniform sampler2D checker;\nvoid main() { gl_FragColor = texture2D(checker, uv); }\n");
+        add("varying vec2 uv; uniform sampler2D checker;\nvoid main() { gl_FragColor = texture2D(checker, "
+            "uv); }\n");
         return;
     case TWO_TEXTURES:
         add("varying vec2 uv; uniform sampler2D checker, gradient;\n"
             "void main() { gl_FragColor = texture2D(checker, uv) * texture2D(gradient, uv); }\n");
         return;
-    case MULTIPLY_ADD:
-        add_multiply_add();
-        return;
-    case NORMALIZE:
-        add_normalize();
-        return;
-    case PHONG:
-        add("%s", phong);
-        return;
-    case COLOR:
-        add("varying vec4 color;\nvoid main() { gl_FragColor = color; }\n");
-        return;
+    case MULTIPLY_ADD: add_multiply_add(); return;
+    case NORMALIZE: add_normalize(); return;
+    case PHONG: add("%s", phong); return;
+    case COLOR: add("varying vec4 color;\nvoid main() { gl_FragColor = color; }\n"); return;
     case NEW:
         add("varying vec2 uv; uniform sampler2D checker;\nvoid main() {\n"
             "    vec4 t = texture2D(checker, uv);\n    vec3 c = t.xyz * vec3(%.7f, 0.5, 0.75);\n"

@@ -31,7 +31,7 @@ struct workload {
     const char *name;
     enum kind kind;
     enum rate rate;
-    double amount; /* of a layer: rate = amount * layers / milliseconds */
+    double amount;       /* of a layer: rate = amount * layers / milliseconds */
     unsigned full, less; /* layers */
     enum group group;
     unsigned tolerance;

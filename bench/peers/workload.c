@@ -3,7 +3,8 @@
 #include <string.h>
 
 const struct workload workloads[] = {
-#define WORKLOAD(name, kind, rate, amount, full, less, group, tolerance, stored, memory, gathers, sums, text)                \
+#define WORKLOAD(name, kind, rate, amount, full, less, group, tolerance, stored, memory, gathers, sums,      \
+                 text)                                                                                       \
     {#name, kind, rate, amount, full, less, group, tolerance, stored, memory, gathers, sums, text},
 #include "workload.def"
 #undef WORKLOAD

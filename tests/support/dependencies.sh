@@ -1,7 +1,7 @@
 #!/bin/bash
 # Makes sure that the Debian packages a target needs are installed, and installs those that are not.
 #
-#   tests/support/dependencies.sh GROUP...    groups: build test bench format
+#   tests/support/dependencies.sh GROUP...    groups: build test bench peers format fuzz
 #   tests/support/dependencies.sh --list
 #
 # Silent when there is nothing to do. Ends non-zero, after naming the packages and their reasons, when a package
@@ -26,6 +26,11 @@ gdb                test    debugs generated code: names, lines and callers of ev
 clang              test    compiles everything a second time, for its warnings
 hyperfine          bench   measures whole processes
 gnuplot-nox        bench   draws the charts
+libegl-dev         peers  headers of EGL, for the renderers that are measured against
+libgles-dev        peers  the headers of GLES2, and its library
+libegl1            peers  finds the EGL of a vendor
+libegl-mesa0       peers  EGL of Mesa
+libgl1-mesa-dri    peers  softpipe and llvmpipe of Mesa
 libclang-rt-14-dev fuzz    libFuzzer and the sanitizers of clang, for readers of untrusted input
 clang-format       format  formats the C sources
 '

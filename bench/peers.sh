@@ -1,0 +1,105 @@
+#!/bin/bash
+# The measurements of `make peers`: Triptych's engines and other renderers on the same work, in turns.
+#
+#   bench/peers.sh [OPTION of bench/peers/drive.c]...
+#
+# In the environment:
+#   WORKLOAD=glob     which workloads (bench/peers/workload.def); all
+#   PEERS="name..."   which renderers, engines included, by glob; with -all behind it on all cores. Default: softpipe, llvmpipe,
+#                     swiftshader, emulate, batch, stitch, specialize, and all but softpipe, emulate and batch on all cores.
+#                     NAME=COMMAND is a program of yours that speaks as peer.h says (spaces as commas).
+#   PASSES=n          5
+#   CLOCK=time        one core's times by the wall's clock; else by the processor's, which other processes disturb less
+#   QUICK=1           one pass of short samples
+#   SWIFTSHADER=dir   where ANGLE's libEGL.so and libGLESv2.so lie, with libvk_swiftshader.so
+#
+# Writes results/peers.txt, .json and .svg (RESULTS). Ends with 1 when a picture differs or a renderer failed, and tells
+# which renderers are missing.
+set -euo pipefail
+cd "$(dirname "$0")/.."
+
+build=${BUILD:-build}
+results=${RESULTS:-results}
+mkdir -p "$results" "$build/peers"
+cores=$(nproc)
+wanted=(${PEERS:-softpipe llvmpipe swiftshader emulate batch stitch specialize
+    llvmpipe-all swiftshader-all stitch-all specialize-all})
+engines=$("$build/triptych" list engines | awk 'NR > 1 && $3 == "available" { print $1 }')
+
+mesa=(env EGL_PLATFORM=surfaceless LIBGL_ALWAYS_SOFTWARE=1 MESA_SHADER_CACHE_DISABLE=true __EGL_VENDOR_LIBRARY_FILENAMES=)
+for file in /usr/share/glvnd/egl_vendor.d/*mesa*.json; do
+    [[ -f $file ]] && mesa[-1]=__EGL_VENDOR_LIBRARY_FILENAMES=$file
+done
+
+# The first folder with all that ANGLE needs.
+swiftshader=
+for folder in ${SWIFTSHADER-} build/swiftshader /usr/lib/chromium /opt/google/chrome; do
+    if [[ -s $folder/libEGL.so && -s $folder/libGLESv2.so && -s $folder/libvk_swiftshader.so && -z $swiftshader ]]; then
+        swiftshader=$(realpath "$folder")
+    fi
+done
+
+renderer() # NAME one|all : its line for the driver
+{
+    local threads=1
+    [[ $2 == one ]] || threads=$cores
+    case $1 in
+        softpipe) echo "$1 peer $2 ${mesa[*]} GALLIUM_DRIVER=softpipe $build/peers/gles softpipe" ;;
+        # With no threads of its own a context draws where it is called.
+        llvmpipe)
+            [[ $2 == one ]] && threads=0
+            echo "$1 peer $2 ${mesa[*]} GALLIUM_DRIVER=llvmpipe LP_NUM_THREADS=$threads $build/peers/gles llvmpipe"
+            ;;
+        swiftshader)
+            if [[ $swiftshader ]]; then
+                echo "$1 peer $2 env LD_LIBRARY_PATH=$swiftshader" \
+                    "VK_ICD_FILENAMES=$swiftshader/vk_swiftshader_icd.json $build/peers/gles swiftshader $swiftshader"
+            else
+                echo "$1 peer $2 missing no ANGLE with SwiftShader in build/swiftshader (bench/swiftshader.sh fetches it) or" \
+                    "SWIFTSHADER"
+            fi
+            ;;
+        *)
+            if grep -qx "$1" <<<"$engines"; then
+                echo "$1 engine $2 $build/peers/triptych $1 $threads bench/streams/micro"
+            else
+                echo "$1 engine $2 missing no engine of that name runs here"
+            fi
+            ;;
+    esac
+}
+
+renderers()
+{
+    local name known
+    known="softpipe llvmpipe swiftshader $engines"
+    for name in "${wanted[@]}"; do
+        if [[ $name == *=* ]]; then
+            local command=${name#*=}
+            echo "${name%%=*} peer one ${command//,/ }"
+            continue
+        fi
+        local where=one base=$name match found=
+        [[ $name == *-all ]] && where=all base=${name%-all}
+        for match in $known; do
+            # shellcheck disable=SC2053
+            if [[ $match == $base ]]; then renderer "$match" "$where" && found=1; fi
+        done
+        [[ $found ]] || renderer "$base" "$where"
+    done
+}
+
+options=()
+[[ -z ${WORKLOAD-} ]] || options+=(--workload "$WORKLOAD")
+[[ -z ${QUICK-} ]] || options+=(--passes 1 --seconds 0.04 --budget 0)
+[[ -z ${PASSES-} ]] || options+=(--passes "$PASSES")
+[[ -z ${CLOCK-} ]] || options+=(--clock "$CLOCK")
+
+status=0
+renderers | "$build/peers/drive" --folder "$build/peers" --text "$results/peers.txt" --json "$results/peers.json" \
+    --csv "$build/peers/chart.csv" "${options[@]}" "$@" || status=$?
+if ((status < 2)) && [[ $(wc -l <"$build/peers/chart.csv") -gt 1 ]]; then
+    gnuplot -c bench/chart.gnuplot "$build/peers/chart.csv" "$results/peers.svg" "$results/peers.png" \
+        "times llvmpipe's speed, one core"
+fi
+exit "$status"
