@@ -9,7 +9,8 @@ enum { COLD_MAXIMUM = 9, BUILDS_MAXIMUM = 200, READING_MOST = 5 };
 
 static const double cold_seconds = 0.6; /* in all, if one time took less */
 
-static const struct workload *workload; /* that is open */
+static const struct workload *workload;    /* that is open */
+static enum { NOTHING, LESS, FULL } drawn; /* by the last frame, if there is nothing else in the target */
 static uint32_t pixels[PIXELS];
 
 /* Seconds: that pass, and that the processor works for this process. */
@@ -45,6 +46,12 @@ static double median(double *values, unsigned count)
 {
     qsort(values, count, sizeof *values, ascending);
     return (values[(count - 1) / 2] + values[count / 2]) / 2;
+}
+
+static const char *draw(bool less)
+{
+    drawn = less ? LESS : FULL;
+    return renderer_frame(less);
 }
 
 /* --- Opening: the first time -------------------------------------------------------------------------------- */
@@ -83,7 +90,7 @@ static const char *open_workload(const struct workload *wanted, char *answer, si
         work[count++] = cold.work * 1e3;
     } while (count < COLD_MAXIMUM && since(begun).time < cold_seconds);
     struct span start = now();
-    if ((reason = renderer_frame(true)))
+    if ((reason = draw(true)))
         return reason;
     workload = wanted;
     snprintf(answer, capacity, "%.6f %.6f %.6f %.3f", median(ms, count), median(work, count),
@@ -93,16 +100,24 @@ static const char *open_workload(const struct workload *wanted, char *answer, si
 
 /* --- Measuring ---------------------------------------------------------------------------------------------- */
 
+/* The first frame does not count, for the caches were another renderer's meanwhile, unless it is long. */
 static const char *measure_frames(bool less, double seconds, struct span *each)
 {
     unsigned count = 0;
+    bool warm = false;
     struct span start = now(), passed;
     do {
-        const char *reason = renderer_frame(less);
+        const char *reason = draw(less);
         if (reason)
             return reason;
         count++;
         passed = since(start);
+        if (!warm && passed.time < seconds / 2) {
+            start = now();
+            passed = (struct span){0, 0};
+            count = 0;
+        }
+        warm = true;
     } while (passed.time < seconds);
     *each = (struct span){passed.time / count, passed.work / count};
     return NULL;
@@ -137,6 +152,7 @@ static const char *measure_builds(double seconds, struct span *each)
     unsigned count = 0;
     do {
         struct span start = now();
+        drawn = NOTHING;
         const char *reason = renderer_build(++number);
         if (reason)
             return reason;
@@ -156,7 +172,7 @@ static const char *measure(bool less, double seconds, char *answer, size_t capac
         reason = measure_reading(seconds, &each);
     else if (workload->kind == BUILD)
         reason = measure_builds(seconds, &each);
-    else if (!(reason = renderer_frame(less))) /* the caches were another renderer's meanwhile */
+    else
         reason = measure_frames(less, seconds, &each);
     snprintf(answer, capacity, "%.9g %.9g", each.time * 1e3, each.work * 1e3);
     return reason;
@@ -165,7 +181,7 @@ static const char *measure(bool less, double seconds, char *answer, size_t capac
 static const char *write_image(bool less, const char *path)
 {
     bool upward = false;
-    const char *reason = renderer_frame(less);
+    const char *reason = drawn == (less ? LESS : FULL) ? NULL : draw(less);
     if (!reason)
         reason = renderer_read(pixels, &upward);
     if (reason)
