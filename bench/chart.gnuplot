@@ -26,7 +26,7 @@ stats table using (column("speedup")) nooutput
 set style fill solid noborder
 set boxwidth width
 set logscale y
-set ylabel (ARG4 eq "" ? "times the emulator's speed" : ARG4)
+set ylabel "times the emulator's speed"
 set format y "%g"
 set yrange [0.5:1.8 * STATS_max]
 set xrange [0.4:words(streams) + 0.6]

@@ -99,7 +99,7 @@ status=0
 renderers | "$build/peers/drive" --folder "$build/peers" --text "$results/peers.txt" --json "$results/peers.json" \
     --csv "$build/peers/chart.csv" "${options[@]}" "$@" || status=$?
 if ((status < 2)) && [[ $(wc -l <"$build/peers/chart.csv") -gt 1 ]]; then
-    gnuplot -c bench/chart.gnuplot "$build/peers/chart.csv" "$results/peers.svg" "$results/peers.png" \
-        "times llvmpipe's speed, one core"
+    gnuplot -c bench/peers/chart.gnuplot "$build/peers/chart.csv" "$results/peers.svg" "$results/peers.png" \
+        "times the speed of llvmpipe, one core"
 fi
 exit "$status"

@@ -521,12 +521,13 @@ int report_csv(const struct run *run, const char *path)
     FILE *file = fopen(path, "w");
     if (!file)
         return -1;
-    fputs("stream,engine,speedup\n", file);
+    fputs("stream,engine,speedup,least,most\n", file);
     for (unsigned w = 0; w < run->count; w++)
         for (unsigned i = 0; i < run->renderer_count; i++) {
             struct ratio ratio = between(run, w, (int)i, find(run, "llvmpipe", ONE));
             if (shown(run, i, ONE) && ratio.median > 0)
-                fprintf(file, "%s,%s,%.4f\n", run->workloads[w]->name, run->renderers[i].name, ratio.median);
+                fprintf(file, "%s,%s,%.4f,%.4f,%.4f\n", run->workloads[w]->name, run->renderers[i].name,
+                        ratio.median, ratio.least, ratio.most);
         }
     return fclose(file) ? -1 : 0;
 }
