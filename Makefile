@@ -115,7 +115,7 @@ unity_flags = -isystem $(dir $(UNITY_SOURCE)) -DUNITY_INCLUDE_DOUBLE -DUNITY_USE
 all: $(BUILD)/libtriptych.a $(if $(SANITIZE),,$(BUILD)/libtriptych.so $(BUILD)/triptych.pc) $(COMMAND) build/glmark2 \
   build/assimp
 
-programs: $(PROGRAMS)
+programs: $(PROGRAMS) $(if $(filter tests/peers.sh,$(SCRIPTS)),$(BUILD)/peers/drive $(BUILD)/peers/triptych)
 
 # Starts a recipe line: a short note in place of the command, or the command itself with V=1.
 say = $(if $(V),,@printf '  %-4s  %s\n' $(1) $(or $(2),$@);)

@@ -10,6 +10,7 @@
 #                     NAME=COMMAND is a program of yours that speaks as peer.h says (spaces as commas).
 #   PASSES=n          5
 #   CLOCK=time        one core's times by the wall's clock; else by the processor's, which other processes disturb less
+#   PRIORITY=1        real-time priority of the renderers (chrt -f), for a machine that is busy with what can wait
 #   QUICK=1           one pass of short samples
 #   SWIFTSHADER=dir   where ANGLE's libEGL.so and libGLESv2.so lie, with libvk_swiftshader.so
 #
@@ -26,6 +27,7 @@ wanted=(${PEERS:-softpipe llvmpipe swiftshader emulate batch stitch specialize
     llvmpipe-all swiftshader-all stitch-all specialize-all})
 engines=$("$build/triptych" list engines | awk 'NR > 1 && $3 == "available" { print $1 }')
 
+nice=${PRIORITY:+chrt -f $PRIORITY }
 mesa=(env EGL_PLATFORM=surfaceless LIBGL_ALWAYS_SOFTWARE=1 MESA_SHADER_CACHE_DISABLE=true __EGL_VENDOR_LIBRARY_FILENAMES=)
 for file in /usr/share/glvnd/egl_vendor.d/*mesa*.json; do
     [[ -f $file ]] && mesa[-1]=__EGL_VENDOR_LIBRARY_FILENAMES=$file
@@ -34,7 +36,9 @@ done
 # The first folder with all that ANGLE needs.
 swiftshader=
 for folder in ${SWIFTSHADER-} build/swiftshader /usr/lib/chromium /opt/google/chrome; do
-    if [[ -s $folder/libEGL.so && -s $folder/libGLESv2.so && -s $folder/libvk_swiftshader.so && -z $swiftshader ]]; then
+    # Stubs are small.
+    if [[ -z $swiftshader && -s $folder/libEGL.so && -s $folder/libvk_swiftshader.so &&
+        $(stat -c %s "$folder/libGLESv2.so" 2>/dev/null || echo 0) -gt 1000000 ]]; then
         swiftshader=$(realpath "$folder")
     fi
 done
@@ -44,15 +48,15 @@ renderer() # NAME one|all : its line for the driver
     local threads=1
     [[ $2 == one ]] || threads=$cores
     case $1 in
-        softpipe) echo "$1 peer $2 ${mesa[*]} GALLIUM_DRIVER=softpipe $build/peers/gles softpipe" ;;
+        softpipe) echo "$1 peer $2 $nice${mesa[*]} GALLIUM_DRIVER=softpipe $build/peers/gles softpipe" ;;
         # With no threads of its own a context draws where it is called.
         llvmpipe)
             [[ $2 == one ]] && threads=0
-            echo "$1 peer $2 ${mesa[*]} GALLIUM_DRIVER=llvmpipe LP_NUM_THREADS=$threads $build/peers/gles llvmpipe"
+            echo "$1 peer $2 $nice${mesa[*]} GALLIUM_DRIVER=llvmpipe LP_NUM_THREADS=$threads $build/peers/gles llvmpipe"
             ;;
         swiftshader)
             if [[ $swiftshader ]]; then
-                echo "$1 peer $2 env LD_LIBRARY_PATH=$swiftshader" \
+                echo "$1 peer $2 ${nice}env LD_LIBRARY_PATH=$swiftshader" \
                     "VK_ICD_FILENAMES=$swiftshader/vk_swiftshader_icd.json $build/peers/gles swiftshader $swiftshader"
             else
                 echo "$1 peer $2 missing no ANGLE with SwiftShader in build/swiftshader (bench/swiftshader.sh fetches it) or" \
@@ -61,7 +65,7 @@ renderer() # NAME one|all : its line for the driver
             ;;
         *)
             if grep -qx "$1" <<<"$engines"; then
-                echo "$1 engine $2 $build/peers/triptych $1 $threads bench/streams/micro"
+                echo "$1 engine $2 $nice$build/peers/triptych $1 $threads bench/streams/micro"
             else
                 echo "$1 engine $2 missing no engine of that name runs here"
             fi

@@ -385,6 +385,7 @@ int main(int count, char **arguments)
         else
             stop("found '%s', expected an option", option);
     }
+    run.machine = machine_describe();
     read_renderers(&run);
     choose_workloads(&run, pattern);
     run_start(&run);

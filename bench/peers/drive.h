@@ -3,6 +3,7 @@
 #define PEERS_DRIVE_H
 
 #include "peer.h"
+#include "tool/machine.h"
 
 #include <stdio.h>
 #include <sys/types.h>
@@ -39,6 +40,7 @@ struct cell {
 };
 
 struct run {
+    struct machine machine;
     unsigned renderer_count, passes;
     struct renderer renderers[RENDERERS_MAXIMUM];
     unsigned count; /* of workloads chosen */

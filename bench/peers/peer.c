@@ -7,7 +7,7 @@
 
 enum { COLD_MAXIMUM = 9, BUILDS_MAXIMUM = 200, READING_MOST = 5 };
 
-static const double cold_seconds = 0.6; /* in all, if one time took less */
+static const double cold_seconds = 0.3; /* in all, if one time took less */
 
 static const struct workload *workload;    /* that is open */
 static enum { NOTHING, LESS, FULL } drawn; /* by the last frame, if there is nothing else in the target */
