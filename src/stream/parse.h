@@ -1,4 +1,4 @@
-/* What the parts of the text reader share: the lines (parse.c), the calls (calls.c), the definitions of
+/* What the parts of the text reader share: the lines (parse.c), the calls (calls.c, call_state.c), the definitions of
  * resources (define.c), the check of the whole (check.c). Functions return 0, or -1 with the reason set at
  * the lexer's error. */
 #ifndef STREAM_PARSE_H
@@ -17,6 +17,17 @@ struct parser {
 
 /* The current token as one of a list's words. `what` names it in the reason. */
 int parse_word(struct parser *parser, enum word_list list, const char *what, unsigned *value);
+
+/* A word followed by numbers, at most once in its call. */
+struct field {
+    const char *word;
+    float *numbers;
+    size_t count;
+    int given;
+};
+
+/* Fields in any order up to the end of the line. */
+int parse_fields(struct parser *parser, struct field *fields, size_t count);
 
 /* Reads a name that is not in use and adds a resource of that type; *resource is valid until the next one. */
 int parse_new_name(struct parser *parser, enum resource_type type, struct resource **resource);

@@ -1,5 +1,5 @@
-/* What the parts of the player share: resources and calls (play.c), recordings that are read as they are played
- * (play_recording.c). */
+/* What the parts of the player share: resources and frames (play.c), calls and the state before them (play_call.c),
+ * recordings that are read as they are played (play_recording.c). */
 #ifndef STREAM_PLAY_PART_H
 #define STREAM_PLAY_PART_H
 
@@ -30,6 +30,10 @@ struct player {
 enum triptych_result player_create(triptych_device *device, const struct resource *resource,
                                    struct handles *handles);
 void player_destroy(triptych_device *device, const struct handles *handles);
+
+/* The texture's contents as the stream defines them. */
+enum triptych_result player_fill(triptych_device *device, const struct resource *resource,
+                                 triptych_texture *texture);
 
 /* A call: what stays from call to call, and what changes pixels and counts. */
 enum triptych_result player_execute_state(struct player *player, const struct call *call);
