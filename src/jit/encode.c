@@ -6,6 +6,7 @@
 #include <string.h>
 
 /* How it works: a row of x86.def is packed into eight bytes that are already in the bit positions VEX wants,
+ * EVEX's into two more,
  * and a prefix with its opcode is composed in a register and stored as one word. Stores may run past the
  * instruction's end, never past the slack that `room` has checked, and the next instruction overwrites them.
  */
@@ -41,6 +42,10 @@ enum {
     LENGTHS_LX = 1 << X86_128,
     LENGTHS_LY = 1 << X86_256,
     LENGTHS_LV = LENGTHS_LX | LENGTHS_LY,
+    EVEX_LENGTHS_LX = 1 << X86_128,
+    EVEX_LENGTHS_LZ = 1 << X86_512,
+    EVEX_LENGTHS_LW = 1 << X86_256 | EVEX_LENGTHS_LZ,
+    EVEX_LENGTHS_LV = EVEX_LENGTHS_LX | EVEX_LENGTHS_LW,
 };
 
 /* Which of the two kinds of operand a row lets ModRM.rm be. */
@@ -51,6 +56,8 @@ enum {
     REGISTER_X = RM_REGISTER,
     REGISTER_Y = RM_REGISTER,
     REGISTER_G = RM_REGISTER,
+    REGISTER_H = RM_REGISTER,
+    REGISTER_K = RM_REGISTER,
     REGISTER_Q = RM_REGISTER,
     REGISTER_N = 0,
     MEMORY_MV = RM_MEMORY,
@@ -61,7 +68,26 @@ enum {
     MEMORY_M32 = RM_MEMORY,
     MEMORY_M64 = RM_MEMORY,
     MEMORY_M128 = RM_MEMORY,
+    MEMORY_M256 = RM_MEMORY,
     MEMORY_MN = 0,
+};
+
+/* Of EVEX: the unit of an 8-bit displacement as a power of two; from UNIT_V on it grows with the length. */
+enum {
+    UNIT_M32 = 2,
+    UNIT_M64 = 3,
+    UNIT_M128 = 4,
+    UNIT_M256 = 5,
+    UNIT_V = 16,
+    UNIT_MH = UNIT_V + 3,
+    UNIT_MV = UNIT_V + 4,
+    UNIT_MN = 0,
+    BROADCAST_BN = 0,
+    BROADCAST_B4 = 2, /* likewise, of one element */
+    BROADCAST_B8 = 3,
+    MASKING_ZZ = 0,
+    MASKING_MM = 1,
+    MASKING_ZM = 3
 };
 
 struct vector_row {
@@ -83,6 +109,25 @@ static const struct vector_row vector_rows[X86_VECTOR_COUNT] = {
                   digit,                                                                                     \
                   LENGTHS_##lengths,                                                                         \
                   REGISTER_##rm | MEMORY_##memory},
+#include "def/x86.def"
+};
+
+/* EVEX.P0 but for registers' high bits in `row.map`, W, pp and the bit that is always set in `row.w_prefix`. */
+struct evex_row {
+    struct vector_row row;
+    uint8_t unit;
+    uint8_t broadcast;
+    uint8_t masking;
+};
+
+static const struct evex_row evex_rows[X86_VECTOR_COUNT] = {
+#define X86_EVEX(id, mnemonic, form, prefix, map, w, opcode, digit, lengths, reg, vvvv, rm, memory,          \
+                 broadcast, masking)                                                                         \
+    [X86_##id] = {{FORM_##form, opcode, MAP_##map, w << 7 | 4 | VEX_##prefix, digit, EVEX_LENGTHS_##lengths, \
+                   REGISTER_##rm | MEMORY_##memory},                                                         \
+                  UNIT_##memory,                                                                             \
+                  BROADCAST_##broadcast,                                                                     \
+                  MASKING_##masking},
 #include "def/x86.def"
 };
 
@@ -176,9 +221,10 @@ static bool fits_byte(int32_t value)
 
 /* ModRM, SIB and displacement. Base code 5 with mod 0 means "no base", so rbp and r13 always carry a
  * displacement; base code 4 announces a SIB, so rsp and r12 always carry one; index code 4 means "no index".
+ * A displacement of one byte counts in units of 1 << unit.
  */
 static uint8_t *put_address(struct encoder *encoder, uint8_t *at, unsigned reg, struct address address,
-                            int trailing)
+                            unsigned unit, int trailing)
 {
     unsigned modrm = (reg & 7) << 3;
     if (address.base == X86_RIP_LABEL) {
@@ -194,8 +240,9 @@ static uint8_t *put_address(struct encoder *encoder, uint8_t *at, unsigned reg, 
         base = 5;
     } else if (address.displacement == 0 && base != 5) {
         displacement_bytes = 0;
-    } else if (fits_byte(address.displacement)) {
+    } else if (fits_byte(address.displacement >> unit) && !(address.displacement & ((1 << unit) - 1))) {
         displacement_bytes = 1;
+        address.displacement >>= unit;
         modrm |= 0x40;
     } else {
         modrm |= 0x80;
@@ -247,17 +294,114 @@ static void vex_memory(struct encoder *encoder, const struct vector_row *row, en
         return;
     uint8_t *at =
         put_vex(encoder->at, row, length, reg, vvvv, index_extension(address), base_extension(address));
-    at = put_address(encoder, at, reg, address, trailing);
+    at = put_address(encoder, at, reg, address, 0, trailing);
     *at = (uint8_t)immediate;
     encoder->at = at + trailing;
 }
 
+/* EVEX. Registers have five bits; above them a destination says its mask, and whether other lanes become zero. */
+
+enum { OPERAND_BITS = 31, OPERAND_MASK_SHIFT = 8, OPERAND_MASK_BITS = 7, OPERAND_ZERO_SHIFT = 15 };
+
+struct evex_fields {
+    unsigned reg, vvvv, x, b;
+    unsigned decoration; /* of the destination */
+    unsigned broadcast;
+};
+
+static uint8_t *put_evex(uint8_t *at, const struct evex_row *evex, enum vector_length length,
+                         const struct evex_fields *f)
+{
+    unsigned mask = f->decoration >> OPERAND_MASK_SHIFT & OPERAND_MASK_BITS;
+    unsigned zero = f->decoration >> OPERAND_ZERO_SHIFT & 1;
+    assert(evex->row.lengths >> length & 1 && (f->reg | f->vvvv) <= OPERAND_BITS);
+    assert(!mask || evex->masking & MASKING_MM);
+    assert(!zero || (mask && evex->masking == MASKING_ZM));
+    assert(!f->broadcast || evex->broadcast);
+    unsigned first =
+        (~f->reg >> 3 & 1) << 7 | (f->x ^ 1) << 6 | (f->b ^ 1) << 5 | (~f->reg >> 4 & 1) << 4 | evex->row.map;
+    unsigned second = evex->row.w_prefix | (~f->vvvv & 15) << 3;
+    unsigned third = zero << 7 | (unsigned)length << 5 | f->broadcast << 4 | (~f->vvvv >> 4 & 1) << 3 | mask;
+    store32(at, 0x62 | first << 8 | second << 16 | third << 24);
+    at[4] = evex->row.opcode;
+    return at + 5;
+}
+
+static void evex_register(struct encoder *encoder, const struct evex_row *evex, enum vector_length length,
+                          unsigned reg, unsigned vvvv, unsigned rm, unsigned immediate, int trailing)
+{
+    assert(evex->row.rm & RM_REGISTER && immediate < 256);
+    if (!room(encoder, ENCODER_SLACK))
+        return;
+    const struct evex_fields fields = {.reg = reg & OPERAND_BITS,
+                                       .vvvv = vvvv & OPERAND_BITS,
+                                       .x = rm >> 4 & 1,
+                                       .b = rm >> 3 & 1,
+                                       .decoration = reg | vvvv | rm};
+    uint8_t *at = put_evex(encoder->at, evex, length, &fields);
+    at[0] = (uint8_t)(0xC0 | (reg & 7) << 3 | (rm & 7));
+    at[1] = (uint8_t)immediate;
+    encoder->at = at + 1 + trailing;
+}
+
+static unsigned displacement_unit(const struct evex_row *evex, enum vector_length length, unsigned broadcast)
+{
+    if (broadcast)
+        return evex->broadcast;
+    return evex->unit < UNIT_V ? evex->unit : evex->unit - UNIT_V + (unsigned)length;
+}
+
+static void evex_memory(struct encoder *encoder, const struct evex_row *evex, enum vector_length length,
+                        unsigned reg, unsigned vvvv, struct address address, unsigned immediate, int trailing)
+{
+    assert(evex->row.rm & RM_MEMORY && immediate < 256 && address.index != X86_RSP);
+    if (!room(encoder, ENCODER_SLACK))
+        return;
+    const struct evex_fields fields = {.reg = reg & OPERAND_BITS,
+                                       .vvvv = vvvv & OPERAND_BITS,
+                                       .x = index_extension(address),
+                                       .b = base_extension(address),
+                                       .decoration =
+                                           reg | vvvv | (unsigned)address.mask << OPERAND_MASK_SHIFT,
+                                       .broadcast = address.broadcast};
+    uint8_t *at = put_evex(encoder->at, evex, length, &fields);
+    at = put_address(encoder, at, reg, address, displacement_unit(evex, length, address.broadcast), trailing);
+    *at = (uint8_t)immediate;
+    encoder->at = at + trailing;
+}
+
+/* The shorter of the two encodings that can say it. */
+
+static void put_register(struct encoder *encoder, enum x86_vector id, enum vector_length length, unsigned reg,
+                         unsigned vvvv, unsigned rm, unsigned immediate, int trailing)
+{
+    if (length == X86_512 || (reg | vvvv | rm) > 15 || !vector_rows[id].form)
+        evex_register(encoder, &evex_rows[id], length, reg, vvvv, rm, immediate, trailing);
+    else
+        vex_register(encoder, &vector_rows[id], length, reg, vvvv, rm, immediate, trailing);
+}
+
+static void put_memory(struct encoder *encoder, enum x86_vector id, enum vector_length length, unsigned reg,
+                       unsigned vvvv, struct address address, unsigned immediate, int trailing)
+{
+    if (length == X86_512 || (reg | vvvv) > 15 || address.broadcast || address.mask || !vector_rows[id].form)
+        evex_memory(encoder, &evex_rows[id], length, reg, vvvv, address, immediate, trailing);
+    else
+        vex_memory(encoder, &vector_rows[id], length, reg, vvvv, address, immediate, trailing);
+}
+
+/* What both encodings of an instruction have in common: the form and the digit. */
 static const struct vector_row *vector_row(enum x86_vector id, unsigned forms)
 {
-    const struct vector_row *row = &vector_rows[id];
+    const struct vector_row *row = vector_rows[id].form ? &vector_rows[id] : &evex_rows[id].row;
     assert(row->form & forms);
     (void)forms;
     return row;
+}
+
+int vector_broadcasts(enum x86_vector id)
+{
+    return evex_rows[id].broadcast;
 }
 
 void vector_none(struct encoder *encoder, enum x86_vector id)
@@ -278,21 +422,23 @@ void vector_rr(struct encoder *encoder, enum x86_vector id, enum vector_length l
 {
     const struct vector_row *row = vector_row(id, FORM_RM | FORM_MR);
     if (row->form == FORM_RM)
-        vex_register(encoder, row, length, to, 0, from, 0, 0);
+        put_register(encoder, id, length, to, 0, from, 0, 0);
     else
-        vex_register(encoder, row, length, from, 0, to, 0, 0);
+        put_register(encoder, id, length, from, 0, to, 0, 0);
 }
 
 void vector_rm(struct encoder *encoder, enum x86_vector id, enum vector_length length, unsigned to,
                struct address from)
 {
-    vex_memory(encoder, vector_row(id, FORM_RM), length, to, 0, from, 0, 0);
+    vector_row(id, FORM_RM);
+    put_memory(encoder, id, length, to, 0, from, 0, 0);
 }
 
 void vector_mr(struct encoder *encoder, enum x86_vector id, enum vector_length length, struct address to,
                unsigned from)
 {
-    vex_memory(encoder, vector_row(id, FORM_MR), length, from, 0, to, 0, 0);
+    vector_row(id, FORM_MR);
+    put_memory(encoder, id, length, from, 0, to, 0, 0);
 }
 
 void vector_rri(struct encoder *encoder, enum x86_vector id, enum vector_length length, unsigned to,
@@ -300,47 +446,56 @@ void vector_rri(struct encoder *encoder, enum x86_vector id, enum vector_length 
 {
     const struct vector_row *row = vector_row(id, FORM_RMI | FORM_MRI | FORM_VMI);
     if (row->form == FORM_RMI)
-        vex_register(encoder, row, length, to, 0, from, immediate, 1);
+        put_register(encoder, id, length, to, 0, from, immediate, 1);
     else if (row->form == FORM_MRI)
-        vex_register(encoder, row, length, from, 0, to, immediate, 1);
+        put_register(encoder, id, length, from, 0, to, immediate, 1);
     else
-        vex_register(encoder, row, length, row->digit, to, from, immediate, 1);
+        put_register(encoder, id, length, row->digit, to, from, immediate, 1);
 }
 
 void vector_rmi(struct encoder *encoder, enum x86_vector id, enum vector_length length, unsigned to,
                 struct address from, unsigned immediate)
 {
-    vex_memory(encoder, vector_row(id, FORM_RMI), length, to, 0, from, immediate, 1);
+    const struct vector_row *row = vector_row(id, FORM_RMI | FORM_VMI);
+    if (row->form == FORM_RMI)
+        put_memory(encoder, id, length, to, 0, from, immediate, 1);
+    else
+        put_memory(encoder, id, length, row->digit, to, from, immediate, 1);
 }
 
 void vector_mri(struct encoder *encoder, enum x86_vector id, enum vector_length length, struct address to,
                 unsigned from, unsigned immediate)
 {
-    vex_memory(encoder, vector_row(id, FORM_MRI), length, from, 0, to, immediate, 1);
+    vector_row(id, FORM_MRI);
+    put_memory(encoder, id, length, from, 0, to, immediate, 1);
 }
 
 void vector_rrr(struct encoder *encoder, enum x86_vector id, enum vector_length length, unsigned to,
                 unsigned first, unsigned second)
 {
-    vex_register(encoder, vector_row(id, FORM_RVM), length, to, first, second, 0, 0);
+    vector_row(id, FORM_RVM);
+    put_register(encoder, id, length, to, first, second, 0, 0);
 }
 
 void vector_rrm(struct encoder *encoder, enum x86_vector id, enum vector_length length, unsigned to,
                 unsigned first, struct address second)
 {
-    vex_memory(encoder, vector_row(id, FORM_RVM), length, to, first, second, 0, 0);
+    vector_row(id, FORM_RVM);
+    put_memory(encoder, id, length, to, first, second, 0, 0);
 }
 
 void vector_rrri(struct encoder *encoder, enum x86_vector id, enum vector_length length, unsigned to,
                  unsigned first, unsigned second, unsigned immediate)
 {
-    vex_register(encoder, vector_row(id, FORM_RVMI), length, to, first, second, immediate, 1);
+    vector_row(id, FORM_RVMI);
+    put_register(encoder, id, length, to, first, second, immediate, 1);
 }
 
 void vector_rrmi(struct encoder *encoder, enum x86_vector id, enum vector_length length, unsigned to,
                  unsigned first, struct address second, unsigned immediate)
 {
-    vex_memory(encoder, vector_row(id, FORM_RVMI), length, to, first, second, immediate, 1);
+    vector_row(id, FORM_RVMI);
+    put_memory(encoder, id, length, to, first, second, immediate, 1);
 }
 
 void vector_rrrr(struct encoder *encoder, enum x86_vector id, enum vector_length length, unsigned to,
@@ -370,6 +525,7 @@ void vector_gather(struct encoder *encoder, enum x86_vector id, enum vector_leng
     vex_memory(encoder, vector_row(id, FORM_GATHER), length, to, mask, from, 0, 0);
 }
 
+/* Registers above 15, and 512 bits, take six bytes either way. */
 void vector_copy(struct encoder *encoder, enum vector_length length, unsigned to, unsigned from)
 {
     vector_rr(encoder, from >= 8 && to < 8 ? X86_vmovaps_store : X86_vmovaps, length, to, from);
@@ -437,7 +593,7 @@ static void legacy_memory(struct encoder *encoder, const struct gpr_row *row, un
     if (row->trait == TRAIT_BYTES)
         rex |= byte_rex(reg);
     uint8_t *at = put_legacy(encoder->at, row, opcode, rex);
-    at = put_address(encoder, at, reg, address, (int)trailing);
+    at = put_address(encoder, at, reg, address, 0, (int)trailing);
     store32(at, (uint32_t)immediate);
     encoder->at = at + trailing;
 }

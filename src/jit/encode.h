@@ -1,6 +1,7 @@
 /* The machine-code encoder: turns one operation with its operands into x86-64 bytes.
  *
- * Vector instructions are VEX-encoded and take a vector length; general-register instructions take an operand
+ * Vector instructions take a vector length, and are VEX-encoded unless they need what only EVEX has: 512 bits,
+ * registers 16 to 31, a mask, a broadcast operand; general-register instructions take an operand
  * size. What can be encoded is src/def/x86.def and nothing else. A function name spells its operands in Intel
  * order, destination first: r a register, m memory, i an immediate; so
  *     vector_rrm(e, X86_vaddps, X86_256, 3, 4, address_at(X86_RDI, 64));      vaddps ymm3, ymm4, [rdi + 64]
@@ -27,7 +28,8 @@
 #include <stdint.h>
 
 enum x86_vector {
-#define X86_VECTOR(id, ...) X86_##id,
+#define X86_VECTOR(id, ...)   X86_##id,
+#define X86_EVEX_OWN(id, ...) X86_##id,
 #include "def/x86.def"
     X86_VECTOR_COUNT
 };
@@ -62,10 +64,11 @@ enum gpr {
     X86_R15,
 };
 
-/* Values are VEX.L; 2 is EVEX's 512 bits, not encoded yet. */
+/* Values are VEX.L, and EVEX.L'L. */
 enum vector_length {
     X86_128 = 0,
     X86_256 = 1,
+    X86_512 = 2,
 };
 
 /* Values are REX.W. */
@@ -96,6 +99,18 @@ enum vector_rounding {
     X86_ROUND_TRUNCATE = 0x0B,
 };
 
+/* A destination of which an instruction writes the lanes only that mask register `k` (1 to 7) has; the others stay, or
+ * become zero. */
+static inline unsigned masked(unsigned to, unsigned k)
+{
+    return to | k << 8;
+}
+
+static inline unsigned zeroed(unsigned to, unsigned k)
+{
+    return masked(to, k) | 1u << 15;
+}
+
 enum {
     X86_NONE = 0xFF,      /* no base, no index */
     X86_RIP_LABEL = 0xFE, /* base: the address of `label` */
@@ -105,11 +120,14 @@ enum {
 
 /* [base + index * scale + displacement], or [label + displacement]. `base` is a gpr, X86_NONE or
  * X86_RIP_LABEL (then no index); `index` a gpr other than rsp, X86_NONE, or for gathers a vector register;
- * `scale` 1, 2, 4 or 8. */
+ * `scale` 1, 2, 4 or 8. With `broadcast` it is one element, which all lanes read; `mask` is the mask register whose lanes
+ * are stored, 0: all. */
 struct address {
     uint8_t base;
     uint8_t index;
     uint8_t scale;
+    uint8_t broadcast;
+    uint8_t mask;
     int32_t displacement;
     uint32_t label;
 };
@@ -193,8 +211,11 @@ void encode_align(struct encoder *encoder, unsigned alignment);
 /* `count` bytes of multi-byte nops. */
 void encode_nops(struct encoder *encoder, unsigned count);
 
-/* Vector instructions. A register operand is a vector's number 0 to 15, or a gpr where the row says so.
- * In comments, the forms of x86.def that each accepts. */
+/* Whether an instruction has an encoding whose memory operand is broadcast. */
+int vector_broadcasts(enum x86_vector);
+
+/* Vector instructions. A register operand is a vector's number 0 to 31, or a mask register's or a gpr's where the row
+ * says so. In comments, the forms of x86.def that each accepts. */
 void vector_none(struct encoder *, enum x86_vector);                                               /* NONE */
 void vector_m(struct encoder *, enum x86_vector, struct address);                                  /* M */
 void vector_rr(struct encoder *, enum x86_vector, enum vector_length, unsigned to, unsigned from); /* RM MR */
@@ -205,7 +226,7 @@ void vector_mr(struct encoder *, enum x86_vector, enum vector_length, struct add
 void vector_rri(struct encoder *, enum x86_vector, enum vector_length, unsigned to, unsigned from,
                 unsigned immediate); /* RMI MRI VMI */
 void vector_rmi(struct encoder *, enum x86_vector, enum vector_length, unsigned to, struct address from,
-                unsigned immediate); /* RMI */
+                unsigned immediate); /* RMI VMI */
 void vector_mri(struct encoder *, enum x86_vector, enum vector_length, struct address to, unsigned from,
                 unsigned immediate); /* MRI */
 void vector_rrr(struct encoder *, enum x86_vector, enum vector_length, unsigned to, unsigned first,

@@ -42,6 +42,7 @@ static struct {
     ZydisDecoder decoder;
     ZydisDecodedInstruction decoded;
     ZydisDecodedOperand operands[ZYDIS_MAX_OPERAND_COUNT];
+    int unit;        /* of a displacement of one byte */
     const char *row; /* its id, for messages */
 } at;
 
@@ -63,6 +64,7 @@ static void require(bool condition, const char *what)
 static struct encoder *begin(void)
 {
     encoder_start(&at.encoder, at.code, ROOM, at.labels, LABELS, at.fixups, FIXUPS);
+    at.unit = 1;
     at.encoder.at += BEHIND_OFFSET;
     encode_label(&at.encoder, BEHIND);
     at.encoder.at = at.encoder.start + HERE;
@@ -124,7 +126,8 @@ static void require_memory(unsigned operand, struct address address, ZydisRegist
         require(o->mem.index == index_first + address.index && o->mem.scale == address.scale, "index");
     require(o->mem.disp.value == address.displacement, "displacement");
     bool none = address.displacement == 0 && (address.base & 7) != X86_RBP;
-    bool byte = address.displacement == (int8_t)address.displacement;
+    int32_t units = address.displacement / at.unit;
+    bool byte = address.displacement % at.unit == 0 && units == (int8_t)units;
     unsigned shortest = address.base == X86_NONE ? 32 : none ? 0 : byte ? 8 : 32;
     require(at.decoded.raw.disp.size == shortest, "displacement size");
 }
@@ -140,7 +143,8 @@ static void require_immediate(unsigned operand, int64_t value, bool is_signed)
 
 typedef void address_function(void *context, struct address address);
 
-static const int32_t displacements[] = {0, 1, -1, 127, -128, 128, -129, 0x12345678, INT32_MIN};
+static const int32_t displacements[] = {0,    1,    -1,   127,   -128,  128,        -129,     508,
+                                        -512, 4064, 8128, -8192, -8256, 0x12345678, INT32_MIN};
 enum { DISPLACEMENTS = sizeof displacements / sizeof *displacements };
 
 static bool index_allowed(unsigned index, bool vector_index)
@@ -179,21 +183,33 @@ static void for_each_address(address_function *function, void *context)
 
 struct vector_expectation {
     enum x86_vector id;
-    const char *name, *mnemonic, *form, *prefix, *map, *lengths, *reg, *vvvv, *rm, *memory;
+    const char *name, *mnemonic, *form, *prefix, *map, *lengths, *reg, *vvvv, *rm, *memory, *broadcast,
+        *masking;
     unsigned w, opcode;
+    bool evex;
 };
 
 static const struct vector_expectation vector_rows[] = {
 #define X86_VECTOR(id, mnemonic, form, prefix, map, w, opcode, digit, lengths, reg, vvvv, rm, memory)        \
-    {X86_##id, #id, #mnemonic, #form, #prefix, #map, #lengths, #reg, #vvvv, #rm, #memory, w, opcode},
+    {X86_##id, #id, #mnemonic, #form, #prefix, #map, #lengths, #reg,                                         \
+     #vvvv,    #rm, #memory,   "BN",  "ZZ",    w,    opcode,   false},
+#include "def/x86.def"
+#define X86_EVEX(id, mnemonic, form, prefix, map, w, opcode, digit, lengths, reg, vvvv, rm, memory,          \
+                 broadcast, masking)                                                                         \
+    {X86_##id, #id, #mnemonic, #form,      #prefix,  #map, #lengths, #reg,                                   \
+     #vvvv,    #rm, #memory,   #broadcast, #masking, w,    opcode,   true},
 #include "def/x86.def"
 };
+
+enum { VECTOR_ROWS = sizeof vector_rows / sizeof *vector_rows };
 
 /* One choice of everything an instruction can have; a form uses a part of it. */
 struct vector_choice {
     const struct vector_expectation *row;
     enum vector_length length;
     unsigned reg, vvvv, rm, third, immediate;
+    unsigned mask; /* 0: none */
+    bool zero, broadcast;
     bool memory;
     struct address address;
 };
@@ -215,26 +231,28 @@ static bool has_memory_form(const struct vector_expectation *row)
 
 static bool has_length(const struct vector_expectation *row, enum vector_length length)
 {
-    return is(row->lengths, "LV") || is(row->lengths, length == X86_128 ? "LX" : "LY");
+    static const char *const which[] = {"LX", "LY LW", "LW LZ"};
+    return (is(row->lengths, "LV") && (length < X86_512 || row->evex)) ||
+           strstr(which[length], row->lengths) != NULL;
 }
 
-static void encode_memory_form(struct encoder *e, const struct vector_choice *c)
+/* The destination, as the encoder is asked for it. */
+static unsigned decorated(const struct vector_choice *c, unsigned to)
+{
+    return c->zero ? zeroed(to, c->mask) : masked(to, c->mask);
+}
+
+static void encode_other_memory_form(struct encoder *e, const struct vector_choice *c)
 {
     const char *form = c->row->form;
     enum x86_vector id = c->row->id;
     enum vector_length l = c->length;
-    if (is(form, "RM"))
-        vector_rm(e, id, l, c->reg, c->address);
-    else if (is(form, "MR"))
-        vector_mr(e, id, l, c->address, c->reg);
-    else if (is(form, "RMI"))
-        vector_rmi(e, id, l, c->reg, c->address, c->immediate);
+    struct address to = c->address;
+    to.mask = (uint8_t)c->mask;
+    if (is(form, "MR"))
+        vector_mr(e, id, l, to, c->reg);
     else if (is(form, "MRI"))
-        vector_mri(e, id, l, c->address, c->reg, c->immediate);
-    else if (is(form, "RVM"))
-        vector_rrm(e, id, l, c->reg, c->vvvv, c->address);
-    else if (is(form, "RVMI"))
-        vector_rrmi(e, id, l, c->reg, c->vvvv, c->address, c->immediate);
+        vector_mri(e, id, l, to, c->reg, c->immediate);
     else if (is(form, "RVMS"))
         vector_rrmr(e, id, l, c->reg, c->vvvv, c->address, c->third);
     else if (is(form, "MVR"))
@@ -247,25 +265,48 @@ static void encode_memory_form(struct encoder *e, const struct vector_choice *c)
         TEST_FAIL_MESSAGE(form);
 }
 
+static void encode_memory_form(struct encoder *e, const struct vector_choice *c)
+{
+    const char *form = c->row->form;
+    enum x86_vector id = c->row->id;
+    enum vector_length l = c->length;
+    struct address address = c->address;
+    unsigned to = decorated(c, c->reg);
+    address.broadcast = c->broadcast;
+    if (is(form, "RM"))
+        vector_rm(e, id, l, to, address);
+    else if (is(form, "RMI"))
+        vector_rmi(e, id, l, to, address, c->immediate);
+    else if (is(form, "VMI"))
+        vector_rmi(e, id, l, decorated(c, c->vvvv), address, c->immediate);
+    else if (is(form, "RVM"))
+        vector_rrm(e, id, l, to, c->vvvv, address);
+    else if (is(form, "RVMI"))
+        vector_rrmi(e, id, l, to, c->vvvv, address, c->immediate);
+    else
+        encode_other_memory_form(e, c);
+}
+
 static void encode_register_form(struct encoder *e, const struct vector_choice *c)
 {
     const char *form = c->row->form;
     enum x86_vector id = c->row->id;
     enum vector_length l = c->length;
+    unsigned to = decorated(c, c->reg);
     if (is(form, "RM"))
-        vector_rr(e, id, l, c->reg, c->rm);
+        vector_rr(e, id, l, to, c->rm);
     else if (is(form, "MR"))
-        vector_rr(e, id, l, c->rm, c->reg);
+        vector_rr(e, id, l, decorated(c, c->rm), c->reg);
     else if (is(form, "RMI"))
-        vector_rri(e, id, l, c->reg, c->rm, c->immediate);
+        vector_rri(e, id, l, to, c->rm, c->immediate);
     else if (is(form, "MRI"))
-        vector_rri(e, id, l, c->rm, c->reg, c->immediate);
+        vector_rri(e, id, l, decorated(c, c->rm), c->reg, c->immediate);
     else if (is(form, "VMI"))
-        vector_rri(e, id, l, c->vvvv, c->rm, c->immediate);
+        vector_rri(e, id, l, decorated(c, c->vvvv), c->rm, c->immediate);
     else if (is(form, "RVM"))
-        vector_rrr(e, id, l, c->reg, c->vvvv, c->rm);
+        vector_rrr(e, id, l, to, c->vvvv, c->rm);
     else if (is(form, "RVMI"))
-        vector_rrri(e, id, l, c->reg, c->vvvv, c->rm, c->immediate);
+        vector_rrri(e, id, l, to, c->vvvv, c->rm, c->immediate);
     else if (is(form, "RVMS"))
         vector_rrrr(e, id, l, c->reg, c->vvvv, c->rm, c->third);
     else if (is(form, "NONE"))
@@ -276,8 +317,11 @@ static void encode_register_form(struct encoder *e, const struct vector_choice *
 
 static ZydisRegister class_first(const char *class, enum vector_length length)
 {
+    static const ZydisRegister vector[] = {ZYDIS_REGISTER_XMM0, ZYDIS_REGISTER_YMM0, ZYDIS_REGISTER_ZMM0};
     switch (*class) {
-    case 'V': return length == X86_256 ? ZYDIS_REGISTER_YMM0 : ZYDIS_REGISTER_XMM0;
+    case 'V': return vector[length];
+    case 'H': return vector[length == X86_512];
+    case 'K': return ZYDIS_REGISTER_K0;
     case 'X': return ZYDIS_REGISTER_XMM0;
     case 'Y': return ZYDIS_REGISTER_YMM0;
     case 'G': return ZYDIS_REGISTER_EAX;
@@ -289,7 +333,7 @@ static ZydisRegister class_first(const char *class, enum vector_length length)
 
 static unsigned memory_bits(const char *memory, enum vector_length length)
 {
-    unsigned vector = length == X86_256 ? 256 : 128, bits = 0;
+    unsigned vector = 128u << length, bits = 0;
     if (is(memory, "MV"))
         return vector;
     if (is(memory, "MH"))
@@ -321,10 +365,53 @@ static void require_shortest_vex(const struct vector_choice *c, bool map_0f, boo
     bool extended = c->memory ? (c->address.base < 16 && c->address.base >= 8) ||
                                     (c->address.index < 16 && c->address.index >= 8)
                               : c->rm >= 8;
+    if (c->row->evex) {
+        require(at.decoded.encoding == ZYDIS_INSTRUCTION_ENCODING_EVEX, "encoding");
+        return;
+    }
     require(at.decoded.encoding == ZYDIS_INSTRUCTION_ENCODING_VEX, "encoding");
     require(at.decoded.raw.vex.size == (map_0f && !w && !extended ? 2 : 3), "VEX size");
     if (w)
         require_w_has_meaning();
+}
+
+/* The disassembler lists the mask of what can be masked behind the destination, also where it is none. */
+static unsigned at_lists_masks(const struct vector_expectation *row)
+{
+    return !is(row->masking, "ZZ");
+}
+
+/* Whether the encoder has to choose EVEX for what is asked; else the row's other encoding is the shorter one. */
+static bool needs_evex(const struct vector_choice *c)
+{
+    bool shared = false;
+    for (unsigned i = 0; i < VECTOR_ROWS; i++)
+        shared |= !vector_rows[i].evex && vector_rows[i].id == c->row->id;
+    unsigned rm = c->memory ? 0 : c->rm;
+    return !shared || c->length == X86_512 || (c->reg | c->vvvv | rm) > 15 || c->mask || c->broadcast;
+}
+
+/* The mask that is applied, whether the other lanes become zero, and the broadcast; an operand that is the mask is hidden
+ * unless there is one. */
+static void require_decoration(const struct vector_choice *c)
+{
+    static const ZydisBroadcastMode all[] = {ZYDIS_BROADCAST_MODE_1_TO_4, ZYDIS_BROADCAST_MODE_1_TO_8,
+                                             ZYDIS_BROADCAST_MODE_1_TO_16};
+    static const ZydisBroadcastMode pairs[] = {ZYDIS_BROADCAST_MODE_1_TO_2, ZYDIS_BROADCAST_MODE_1_TO_4,
+                                               ZYDIS_BROADCAST_MODE_1_TO_8};
+    ZydisMaskMode mode = !c->mask               ? ZYDIS_MASK_MODE_DISABLED
+                         : c->zero              ? ZYDIS_MASK_MODE_ZEROING
+                         : is(c->row->reg, "K") ? ZYDIS_MASK_MODE_CONTROL
+                                                : ZYDIS_MASK_MODE_MERGING;
+    if (is(c->row->name, "vblendmps") && c->mask)
+        mode = c->zero ? ZYDIS_MASK_MODE_CONTROL_ZEROING : ZYDIS_MASK_MODE_CONTROL;
+    if (is(c->row->reg, "K") && c->mask)
+        mode = ZYDIS_MASK_MODE_ZEROING;
+    require(at.decoded.avx.mask.reg == (ZydisRegister)(ZYDIS_REGISTER_K0 + (int)c->mask), "mask");
+    require(at.decoded.avx.mask.mode == mode, "mode of masking");
+    if (c->broadcast)
+        require(at.decoded.avx.broadcast.mode == (is(c->row->broadcast, "B8") ? pairs : all)[c->length],
+                "broadcast");
 }
 
 /* The letters of the form, in order, are the operands the disassembler must list. */
@@ -332,16 +419,24 @@ static void check_vector(const struct vector_choice *c)
 {
     const struct vector_expectation *row = c->row;
     const char *letters = is(row->form, "NONE") ? "" : is(row->form, "GATHER") ? "RMV" : row->form;
+    if (row->evex && !needs_evex(c))
+        return;
     at.row = row->name;
     struct encoder *encoder = begin();
     if (c->memory)
         encode_memory_form(encoder, c);
     else
         encode_register_form(encoder, c);
-    finish(row->mnemonic, (unsigned)strlen(letters));
-    for (unsigned i = 0; letters[i]; i++) {
+    finish(row->mnemonic, (unsigned)strlen(letters) + row->evex * at_lists_masks(row));
+    if (row->evex)
+        require_decoration(c);
+    unsigned element = is(row->broadcast, "B8") ? 64 : 32;
+    unsigned bits = !c->memory ? 0 : c->broadcast ? element : memory_bits(row->memory, c->length);
+    at.unit = row->evex && c->memory ? (int)bits / 8 : 1;
+    for (unsigned n = 0; letters[n]; n++) {
         bool gather = is(row->form, "GATHER");
-        switch (letters[i]) {
+        unsigned i = n + (n && row->evex ? at_lists_masks(row) : 0);
+        switch (letters[n]) {
         case 'R': require_register(i, class_first(row->reg, c->length), c->reg); break;
         case 'V': require_register(i, class_first(row->vvvv, c->length), c->vvvv); break;
         case 'S': require_register(i, class_first(row->reg, c->length), c->third); break;
@@ -349,7 +444,7 @@ static void check_vector(const struct vector_choice *c)
         case 'M':
             if (c->memory)
                 require_memory(i, c->address, gather ? class_first(row->rm, c->length) : ZYDIS_REGISTER_RAX,
-                               memory_bits(row->memory, c->length));
+                               bits);
             else
                 require_register(i, class_first(row->rm, c->length), c->rm);
             break;
@@ -362,8 +457,8 @@ typedef void vector_test(struct vector_choice *choice);
 
 static void for_each_vector_row(vector_test *test)
 {
-    for (unsigned i = 0; i < X86_VECTOR_COUNT; i++)
-        for (unsigned length = X86_128; length <= X86_256; length++)
+    for (unsigned i = 0; i < VECTOR_ROWS; i++)
+        for (unsigned length = X86_128; length <= X86_512; length++)
             if (has_length(&vector_rows[i], length))
                 test(&(struct vector_choice){.row = &vector_rows[i], .length = length});
 }
@@ -372,7 +467,29 @@ static void for_each_vector_row(vector_test *test)
 static unsigned values(const struct vector_choice *c, char letter)
 {
     const char *form = is(c->row->form, "GATHER") ? "RMV" : is(c->row->form, "NONE") ? "" : c->row->form;
-    return strchr(form, letter) ? 16 : 1;
+    const char *class = letter == 'R' || letter == 'S' ? c->row->reg
+                        : letter == 'V'                ? c->row->vvvv
+                                                       : c->row->rm;
+    if (!strchr(form, letter))
+        return 1;
+    return is(class, "K") ? 8 : is(class, "G") || is(class, "Q") || !c->row->evex ? 16 : 32;
+}
+
+/* Masks and broadcasts in turn, as far as the row has them. */
+static void decorate(struct vector_choice *c, unsigned turn)
+{
+    bool stores = c->row->form[0] == 'M' && c->memory;
+    c->mask = is(c->row->masking, "ZZ") ? 0 : turn % 8;
+    c->zero = c->mask && is(c->row->masking, "ZM") && !stores && turn / 8 % 2;
+    c->broadcast = c->memory && !is(c->row->broadcast, "BN") && turn / 3 % 2;
+}
+
+/* Of registers that three fields name, EVEX has too many to try all triples: every pair is met. All in a long run. */
+static unsigned stride(const struct vector_choice *c)
+{
+    return c->row->evex && strchr(c->row->form, 'V') && strchr(c->row->form, 'R') && !getenv("TRIPTYCH_SEED")
+               ? 11
+               : 1;
 }
 
 static void all_registers(struct vector_choice *c)
@@ -382,8 +499,9 @@ static void all_registers(struct vector_choice *c)
     unsigned count = 0;
     for (c->reg = 0; c->reg < values(c, 'R'); c->reg++)
         for (c->vvvv = 0; c->vvvv < values(c, 'V'); c->vvvv++)
-            for (c->rm = 0; c->rm < values(c, 'M'); c->rm++)
+            for (c->rm = (c->reg + c->vvvv) % stride(c); c->rm < values(c, 'M'); c->rm += stride(c))
                 for (c->third = 0; c->third < values(c, 'S'); c->third++) {
+                    decorate(c, count);
                     c->immediate = count++ * 37 & 255;
                     check_vector(c);
                 }
@@ -393,10 +511,11 @@ static void check_at_address(void *context, struct address address)
 {
     struct vector_choice *c = context;
     c->address = address;
-    c->reg = (c->reg + 5) % 16;
-    c->vvvv = (c->vvvv + 3) % 16;
+    c->reg = (c->reg + 5) % values(c, 'R');
+    c->vvvv = (c->vvvv + 3) % values(c, 'V');
     c->third = (c->third + 7) % 16;
     c->immediate = (c->immediate + 37) & 255;
+    decorate(c, c->immediate);
     if (is(c->row->form, "GATHER")) { /* all three differ */
         c->reg = (address.index + 1 + c->immediate % 7) % 16;
         c->vvvv = (address.index + 8 + c->immediate % 8) % 16;
@@ -428,6 +547,7 @@ static void all_registers_with_memory(struct vector_choice *c)
             for (c->vvvv = 0; c->vvvv < values(c, 'V'); c->vvvv++)
                 for (c->third = 0; c->third < values(c, 'S'); c->third++) {
                     c->address = addresses[a];
+                    decorate(c, c->reg * 5 + c->vvvv * 3 + a);
                     check_vector(c);
                 }
 }
@@ -466,14 +586,15 @@ static void vector_rows_take_all_registers_with_memory(void)
 static void vector_copy_is_the_shortest_vmovaps(void)
 {
     at.row = "vector_copy";
-    for (unsigned length = X86_128; length <= X86_256; length++)
-        for (unsigned to = 0; to < 16; to++)
-            for (unsigned from = 0; from < 16; from++) {
+    for (unsigned length = X86_128; length <= X86_512; length++)
+        for (unsigned to = 0; to < 32; to++)
+            for (unsigned from = 0; from < 32; from++) {
+                bool evex = length == X86_512 || to > 15 || from > 15;
                 vector_copy(begin(), length, to, from);
-                finish("vmovaps", 2);
+                finish("vmovaps", 2 + evex);
                 require_register(0, class_first("V", length), to);
-                require_register(1, class_first("V", length), from);
-                require(at.length == (to >= 8 && from >= 8 ? 5 : 4), "length");
+                require_register(1 + evex, class_first("V", length), from);
+                require(at.length == (evex ? 6 : to >= 8 && from >= 8 ? 5 : 4), "length");
             }
 }
 
@@ -755,12 +876,12 @@ static void constants_use_the_shortest_mov(void)
 /* The table covers each mnemonic once per encoding: no two rows may stand for the same thing. */
 static void no_row_is_there_twice(void)
 {
-    for (unsigned i = 0; i < X86_VECTOR_COUNT; i++)
+    for (unsigned i = 0; i < VECTOR_ROWS; i++)
         for (unsigned j = 0; j < i; j++) {
             const struct vector_expectation *a = &vector_rows[i], *b = &vector_rows[j];
             bool same = is(a->form, b->form) && is(a->prefix, b->prefix) && is(a->map, b->map) &&
                         a->w == b->w && a->opcode == b->opcode && is(a->mnemonic, b->mnemonic) &&
-                        is(a->rm, b->rm);
+                        is(a->rm, b->rm) && a->evex == b->evex;
             TEST_ASSERT_FALSE_MESSAGE(same, a->name);
         }
 }
