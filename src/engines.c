@@ -9,16 +9,14 @@
 #include <string.h>
 
 static const struct engine *const engines[] = {
-    &engine_emulate,
-    &engine_batch,
+    &engine_emulate,  &engine_batch,
 #define BATCH(lanes) &engine_batch_##lanes,
 #include "def/batch.def"
 #undef BATCH
-    &engine_stitch,
-    &engine_stitch_operation,
-    &engine_specialize,
-    &engine_specialize_4,
-    &engine_specialize_thesis,
+    &engine_stitch,   &engine_stitch_operation,
+#define SPECIALIZE(id, ...) &engine_##id,
+#include "def/specialize.def"
+#undef SPECIALIZE
     &engine_external,
 };
 

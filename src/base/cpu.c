@@ -142,17 +142,31 @@ const char *cpu_native_error(void)
     return native_error.text[0] ? native_error.text : NULL;
 }
 
+/* Hidden features are told from those that are not there: what is missing comes first. */
+static const char *lacks(const uint8_t *needed, unsigned count, const char *hidden, const char *missing)
+{
+    const struct cpu *cpu = cpu_native();
+    const char *reason = NULL;
+    for (unsigned i = 0; i < count; i++)
+        if (cpu->hidden[needed[i]])
+            reason = hidden;
+        else if (!cpu->has[needed[i]])
+            return missing;
+    return reason;
+}
+
 const char *cpu_lacks_avx2_fma(void)
 {
     static const uint8_t needed[] = {CPU_avx, CPU_avx2, CPU_fma, CPU_f16c};
-    const struct cpu *cpu = cpu_native();
-    const char *reason = NULL;
-    for (unsigned i = 0; i < sizeof needed; i++)
-        if (cpu->hidden[needed[i]])
-            reason = "needs AVX2 and FMA, which TRIPTYCH_CPU hides";
-        else if (!cpu->has[needed[i]])
-            return "needs AVX2 and FMA, which this processor or system does not offer";
-    return reason;
+    return lacks(needed, sizeof needed, "needs AVX2 and FMA, which TRIPTYCH_CPU hides",
+                 "needs AVX2 and FMA, which this processor or system does not offer");
+}
+
+const char *cpu_lacks_avx512(void)
+{
+    static const uint8_t needed[] = {CPU_avx512f, CPU_avx512dq, CPU_avx512bw, CPU_avx512vl};
+    return lacks(needed, sizeof needed, "needs AVX-512 F, DQ, BW and VL, which TRIPTYCH_CPU hides",
+                 "needs AVX-512 F, DQ, BW and VL, which this processor or system does not offer");
 }
 
 const char *cpu_feature_name(enum cpu_feature feature)

@@ -62,6 +62,9 @@ static inline bool cpu_has_avx2_fma(void)
     return !cpu_lacks_avx2_fma();
 }
 
+/* Why code of 512-bit vectors with 16 and 32-bit elements cannot run here: AVX-512 F, DQ, BW and VL. Null: it can. */
+const char *cpu_lacks_avx512(void);
+
 /* The feature's name as in /proc/cpuinfo, and what it is, for lists. */
 const char *cpu_feature_name(enum cpu_feature feature);
 const char *cpu_feature_meaning(enum cpu_feature feature);

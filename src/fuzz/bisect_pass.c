@@ -89,7 +89,7 @@ static int find_pass(struct look *look, const struct routine *routine, struct er
 int hunt_passes(struct hunt *hunt, unsigned side, struct error *error)
 {
     const struct routine *routine = hunt->routine[side];
-    if (!engine_options(routine->engine))
+    if (!jit_is_engine(routine->engine))
         return 0;
     struct look look = {.hunt = hunt, .culprit = -1};
     look.expected = replay_image(hunt->replay);

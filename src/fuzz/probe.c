@@ -5,6 +5,7 @@
 #include "external/external.h"
 #include "fuzz/trace.h"
 #include "jit/build.h"
+#include "jit/jit.h"
 #include "stitch/stitch.h"
 
 #include <stdlib.h>
@@ -25,7 +26,7 @@ enum reading reading_of(const struct routine *routine)
 
 static bool is_jit(const struct engine *engine)
 {
-    return engine_options(engine) != NULL;
+    return jit_is_engine(engine);
 }
 
 struct teller {

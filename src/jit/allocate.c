@@ -6,10 +6,35 @@
 struct scan {
     const struct ir *ir;
     struct allocation *allocation;
-    unsigned registers;           /* a bit for each that there is */
-    unsigned loop;                /* the innermost around the position */
-    uint16_t holder[ALLOCATABLE]; /* 0: free */
+    uint64_t registers;         /* a bit for each that there is */
+    uint64_t held;              /* and for each that has a holder */
+    unsigned loop;              /* the innermost around the position */
+    uint16_t holder[REGISTERS]; /* 0: free */
 };
+
+static uint64_t registers_of(int wide)
+{
+    return wide ? WIDE_REGISTERS | MASK_REGISTERS : NARROW_REGISTERS;
+}
+
+/* The registers that could hold a value. */
+static uint64_t suitable(const struct scan *scan, uint32_t number)
+{
+    int mask = allocate_is_mask(scan->allocation, &scan->ir->instruction[number]);
+    return scan->registers & (mask ? MASK_REGISTERS : WIDE_REGISTERS);
+}
+
+static void hold(struct scan *scan, unsigned reg, unsigned value)
+{
+    scan->holder[reg] = (uint16_t)value;
+    scan->held |= 1ull << reg;
+}
+
+static void let_go(struct scan *scan, unsigned reg)
+{
+    scan->holder[reg] = 0;
+    scan->held &= ~(1ull << reg);
+}
 
 int allocate_folds(const struct ir_instruction *instruction, int position)
 {
@@ -156,13 +181,16 @@ static void chain_uses(const struct ir *ir, struct allocation *a)
     }
 }
 
-/* A load that is used once, by an instruction that can read memory there, stays where it is. */
+/* A load that is used once, by an instruction that can read memory there, stays where it is; with 16 lanes a broadcast
+ * word does, too. */
 static int stays_in_memory(const struct ir *ir, struct allocation *a, uint32_t number)
 {
     const struct ir_instruction *i = &ir->instruction[number];
     if (allocate_is_constant(i))
         return 1;
-    if (i->op != IR_load || !ir_is_invariant_read(i) || a->uses[number] != 1)
+    if (i->op != IR_load && !(i->op == IR_uniform && a->wide))
+        return 0;
+    if (!ir_is_invariant_read(i) || a->uses[number] != 1)
         return 0;
     const struct ir_instruction *user = &ir->instruction[a->next_use[number]];
     for (int o = 0; o < 3; o++)
@@ -204,8 +232,9 @@ static unsigned release(struct scan *scan, uint32_t number)
         unsigned reg = a->reg[value];
         if (a->split[value] != NEVER || scan->holder[reg] != value)
             continue;
-        scan->holder[reg] = 0;
-        preferred = reg;
+        let_go(scan, reg);
+        if (suitable(scan, number) >> reg & 1)
+            preferred = reg;
     }
     return preferred;
 }
@@ -258,8 +287,9 @@ static int is_better_victim(const struct scan *scan, unsigned value, unsigned ot
 static unsigned furthest(const struct scan *scan, const struct ir_instruction *i, uint32_t position)
 {
     unsigned victim = NO_REGISTER, candidates = 1;
-    for (unsigned reg = 0; reg < ALLOCATABLE; reg++) {
-        if (!(scan->registers >> reg & 1) || is_operand(scan->allocation, i, scan->holder[reg]))
+    for (uint64_t left = suitable(scan, position); left; left &= left - 1) {
+        unsigned reg = (unsigned)__builtin_ctzll(left);
+        if (is_operand(scan->allocation, i, scan->holder[reg]))
             continue;
         int better = victim == NO_REGISTER ||
                      (!scan->allocation->lots &&
@@ -280,15 +310,11 @@ static void spill(struct scan *scan, unsigned value, uint32_t position)
     a->spills++;
 }
 
-static unsigned free_register(struct scan *scan)
+static unsigned free_register(struct scan *scan, uint32_t number)
 {
-    unsigned first = allocate_lot(scan->allocation, ALLOCATABLE);
-    for (unsigned n = 0; n < ALLOCATABLE; n++) {
-        unsigned reg = (first + n) % ALLOCATABLE;
-        if (scan->registers >> reg & 1 && !scan->holder[reg])
-            return reg;
-    }
-    return NO_REGISTER;
+    uint64_t free = suitable(scan, number) & ~scan->held;
+    uint64_t above = free & ~0ull << allocate_lot(scan->allocation, REGISTERS);
+    return free ? (unsigned)__builtin_ctzll(above ? above : free) : NO_REGISTER;
 }
 
 /* Whether a result goes to memory rather than the value that is in a register. */
@@ -305,22 +331,23 @@ static void place(struct scan *scan, uint32_t number, unsigned preferred)
 {
     struct allocation *a = scan->allocation;
     unsigned web = allocate_web(a, number), reg = preferred;
+    uint8_t scratch = allocate_is_mask(a, &scan->ir->instruction[number]) ? MASK_RESULT : SCRATCH_RESULT;
     if (web != number) {
-        a->reg[number] = a->split[web] == NEVER ? a->reg[web] : SCRATCH_RESULT;
+        a->reg[number] = a->split[web] == NEVER ? a->reg[web] : scratch;
         return;
     }
     if (reg == NO_REGISTER || allocate_lot(a, 4) == 1)
-        reg = free_register(scan);
+        reg = free_register(scan, number);
     if (reg == NO_REGISTER) {
         reg = furthest(scan, &scan->ir->instruction[number], number);
         if (reg == NO_REGISTER || gives_way(scan, number, reg)) {
-            a->reg[number] = SCRATCH_RESULT;
+            a->reg[number] = scratch;
             spill(scan, number, number);
             return;
         }
         spill(scan, scan->holder[reg], number);
     }
-    scan->holder[reg] = (uint16_t)number;
+    hold(scan, reg, number);
     a->reg[number] = (uint8_t)reg;
 }
 
@@ -333,9 +360,9 @@ static void cross_loop(struct scan *scan, const struct ir_instruction *i, uint32
         return;
     }
     scan->loop = a->loop[scan->loop].outer;
-    for (unsigned reg = 0; reg < ALLOCATABLE; reg++)
-        if (a->last[scan->holder[reg]] == number)
-            scan->holder[reg] = 0;
+    for (unsigned reg = 0; reg < REGISTERS; reg++)
+        if (scan->holder[reg] && a->last[scan->holder[reg]] == number)
+            let_go(scan, reg);
 }
 
 /* A gather's result must not share a register with its index. */
@@ -414,8 +441,10 @@ static void assign_slots(const struct ir *ir, struct allocation *a)
 
 void allocate(const struct ir *ir, struct allocation *allocation, const struct register_file *file)
 {
-    struct scan scan = {.ir = ir, .allocation = allocation, .registers = ~(unsigned)file->without};
+    struct scan scan = {
+        .ir = ir, .allocation = allocation, .registers = registers_of(file->wide) & ~file->without};
     allocation->lots = file->seed;
+    allocation->wide = file->wide;
     allocation->spills = 0;
     allocation->webs = ir->phis != 0;
     if (ir->loops || ir->phis) {
@@ -437,7 +466,8 @@ void allocate_print(const struct ir *ir, const struct allocation *a, FILE *out)
         const struct ir_instruction *i = &ir->instruction[number];
         if (a->residence[number] != RESIDENCE_REGISTER || allocate_web(a, number) != number)
             continue;
-        fprintf(out, "%5u to %5u  v%-2u ", number, a->last[number], a->reg[number]);
+        unsigned reg = a->reg[number];
+        fprintf(out, "%5u to %5u  %c%-2u ", number, a->last[number], reg < MASKS ? 'v' : 'k', reg % MASKS);
         if (a->split[number] == NEVER)
             fprintf(out, "%-22s", "");
         else if (a->slot[number] == NO_SLOT)

@@ -12,17 +12,24 @@
  * give most for what they cost there. Spill slots are shared by values whose intervals do not meet. Values
  * that memory already holds need no slot: literals and frame constants are never in registers unless
  * copied, a uniform is read again, a load from memory that no routine writes is addressed where it is.
- * Variables, where a profile leaves them, are words of the frame. */
+ * Variables, where a profile leaves them, are words of the frame.
+ *
+ * There are two sets of registers, each for values of its own. Vectors have 13 registers, or 29 where there are 32. With
+ * 16 lanes masks have six of their own. */
 #ifndef JIT_ALLOCATE_H
 #define JIT_ALLOCATE_H
 
 #include "ir/ir.h"
 
 enum {
-    ALLOCATABLE = 13, /* vector registers 0 to 12 */
+    ALLOCATABLE = 13, /* vector registers 0 to 12; those from 16 on as well where there are 32 */
     SCRATCH_RESULT = 13,
     SCRATCH_FIRST = 14, /* two registers for operands that must leave memory */
     SCRATCH_SECOND = 15,
+    MASKS = 32,          /* the number of mask register 0; 33 to 38 are allocated */
+    MASK_RESULT = MASKS, /* the one that no instruction can be masked by */
+    MASK_SCRATCH = MASKS + 7,
+    REGISTERS = MASKS + 8,
     NO_REGISTER = 255,
     NO_SLOT = 0xffff,
     NEVER = 0xffff,
@@ -44,12 +51,19 @@ enum residence {
 /* Which registers there are, and how to choose among them. All zero: all, by the rules above. Tests take some away and
  * draw lots, since what is allocated must be right whatever is chosen. */
 struct register_file {
-    uint16_t without; /* bit r: register r is not to be used; all may be missing */
+    uint64_t without; /* bit r: register r is not to be used; all may be missing */
     uint64_t seed;    /* not 0: free registers, victims, slots and what shares a place are drawn by lot */
+    int wide;         /* 32 vector registers, and mask registers */
 };
+
+/* Those that are allocated, a bit each. */
+#define NARROW_REGISTERS ((1ull << ALLOCATABLE) - 1)
+#define WIDE_REGISTERS   (NARROW_REGISTERS | 0xffff0000ull)
+#define MASK_REGISTERS   (0x7eull << MASKS)
 
 struct allocation {
     uint64_t lots; /* the state of the lots; 0: none are drawn */
+    int wide;
     uint8_t residence[IR_CAPACITY];
     uint8_t reg[IR_CAPACITY];
     uint16_t split[IR_CAPACITY]; /* at positions after this the value is in memory; NEVER */
@@ -90,10 +104,27 @@ static inline int allocate_is_constant(const struct ir_instruction *instruction)
 /* Fills `allocation` for a verified, compacted IR. */
 void allocate(const struct ir *ir, struct allocation *allocation, const struct register_file *file);
 
-/* Registers 0 to count - 1, chosen by the rules. */
-static inline struct register_file register_file_of(unsigned count)
+/* Whether a value is in a mask register when it is in one: what the table says is a mask, and what such values go
+ * through. (Integers have their and-not from masks.) */
+static inline int allocate_is_mask(const struct allocation *allocation,
+                                   const struct ir_instruction *instruction)
 {
-    return (struct register_file){.without = (uint16_t)(((1u << ALLOCATABLE) - 1) & ~((1u << count) - 1))};
+    if (!allocation->wide || instruction->type != TYPE_msk)
+        return 0;
+    switch (instruction->op) {
+    case IR_copy:
+    case IR_get:
+    case IR_phi:
+    case IR_join: return 1;
+    default: return ir_op_information[instruction->op].result == TYPE_msk;
+    }
+}
+
+/* Registers 0 to count - 1, and half as many masks, chosen by the rules; the whole file if that is ALLOCATABLE. */
+static inline struct register_file register_file_of(unsigned count, unsigned width)
+{
+    uint64_t with = ((1ull << count) - 1) | ((2ull << count / 2) - 1) << MASKS;
+    return (struct register_file){.without = count < ALLOCATABLE ? ~with : 0, .wide = width == 16};
 }
 
 /* A number below `limit` where lots are drawn, else 0. */

@@ -83,11 +83,13 @@ static size_t build_stages(struct builder *b, const struct build_options *option
     }
     if (optimize_checked(b, options, observer, context, error))
         return 0;
-    allocate(&b->ir, &b->allocation, &options->file);
+    struct register_file file = options->file;
+    file.wide = options->width == 16;
+    allocate(&b->ir, &b->allocation, &file);
     b->emitter.ir = &b->ir;
     b->emitter.allocation = &b->allocation;
     b->emitter.width = options->width;
-    b->emitter.length = options->width == 4 ? X86_128 : X86_256;
+    b->emitter.length = length_of(options->width);
     return emit_routine(&b->emitter, unit, key, error);
 }
 

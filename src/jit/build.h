@@ -7,14 +7,14 @@
 #include "jit/pass.h"
 
 struct build_options {
-    unsigned width; /* 4 or 8 */
+    unsigned width; /* 4, 8 or 16 */
     enum profile profile;
     uint32_t disabled; /* bit p: pass p is left out */
     struct register_file file;
 };
 
-/* What the engine varies; null when it is none of the specializer's. */
-const struct build_options *engine_options(const struct engine *engine);
+/* What the engine varies, and chooses for a key; null when it is none of the specializer's. */
+const struct build_options *engine_options(const struct engine *engine, enum unit unit, const union key *key);
 
 /* What the engines' `build` is: with their options, or a test's. The engine frees what comes of it. */
 struct routine *build_routine(const struct engine *engine, const struct build_options *options,

@@ -132,6 +132,12 @@ static int has_place(const struct ir *ir, unsigned value)
     return op != IR_literal && op != IR_constant && op != IR_load;
 }
 
+/* Masks have registers of their own. */
+static int same_kind(const struct ir *ir, const struct allocation *a, unsigned x, unsigned y)
+{
+    return allocate_is_mask(a, &ir->instruction[x]) == allocate_is_mask(a, &ir->instruction[y]);
+}
+
 static void unite(const struct ir *ir, struct allocation *a, unsigned value, unsigned other)
 {
     unsigned x = find(a, value), y = find(a, other);
@@ -140,7 +146,8 @@ static void unite(const struct ir *ir, struct allocation *a, unsigned value, uns
         x = y;
         y = swapped;
     }
-    if (x != y && has_place(ir, other) && !meet(ir, a, x, y) && allocate_lot(a, 4) != 1)
+    if (x != y && has_place(ir, other) && same_kind(ir, a, x, y) && !meet(ir, a, x, y) &&
+        allocate_lot(a, 4) != 1)
         unite_lists(a, x, y);
 }
 

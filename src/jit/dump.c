@@ -118,7 +118,7 @@ static int dump_stages(struct dump *dump, const struct build_options *options, e
 int jit_dump(const struct engine *engine, enum unit unit, const union key *key, const char *show, FILE *out,
              struct error *error)
 {
-    const struct build_options *options = engine_options(engine);
+    const struct build_options *options = engine_options(engine, unit, key);
     if (!options)
         return error_set(error, "engine %s is none of the specializer's", engine->name);
     if (check_words(show, error))

@@ -25,7 +25,7 @@ enum {
 static_assert((int)CODE_CAPACITY <= (int)ROUTINE_BYTES_MAXIMUM, "what fits a build is a routine");
 
 /* The frame's head, upward from rsp: two MXCSR words, and room for the lanes of one value. */
-enum { FRAME_SAVED_MXCSR = 0, FRAME_CONTRACT_MXCSR = 4, FRAME_LANES = 32, FRAME_HEAD = 64 };
+enum { FRAME_SAVED_MXCSR = 0, FRAME_CONTRACT_MXCSR = 4, FRAME_LANES = 64, FRAME_HEAD = 128 };
 
 /* Labels of the frame; regions and literals follow. */
 enum frame_label { LABEL_LOOP, LABEL_CHUNK, LABEL_SKIP, LABEL_DONE, LABEL_PAGE, LABEL_FREE };
@@ -45,7 +45,8 @@ enum { UNWIND_CAPACITY = 32 };
 struct place {
     unsigned value;
     uint8_t reg;         /* NO_REGISTER: in memory */
-    uint8_t addressable; /* in memory, lanes and all: `address` can be an operand */
+    uint8_t addressable; /* in memory, lanes and all or to be broadcast: `address` can be an operand */
+    uint8_t mask;        /* in memory, a bit a lane */
     struct address address;
 };
 
@@ -53,6 +54,7 @@ struct place {
 struct move {
     struct place from;
     uint8_t to;     /* NO_REGISTER: the slot alone */
+    uint8_t mask;   /* what moves is a mask */
     uint16_t slot;  /* NO_SLOT: the register alone */
     uint16_t waits; /* for so many others that read its destination first */
 };
@@ -63,7 +65,7 @@ struct emitter {
     const struct allocation *allocation;
     struct encoder encoder;
     enum vector_length length;
-    unsigned width;    /* lanes: 4 or 8 */
+    unsigned width;    /* lanes: 4, 8 or 16 */
     uint32_t position; /* of the IR instruction being selected */
     uint32_t selected; /* instructions before this one are: a group may be selected together */
     uint32_t literals;
@@ -77,6 +79,7 @@ struct emitter {
     int32_t frame_variables;
     int32_t constants; /* where in the job the address of the shader's constants is; 0: no shader */
     int32_t literal_bits[LITERAL_CAPACITY];
+    uint8_t literal_lanes[LITERAL_CAPACITY]; /* whether it is there once for each lane */
     uint32_t literal_label[LITERAL_CAPACITY];
     uint16_t
         literal_table[LITERAL_TABLE]; /* by hash: 1 + the literal's number, 0: none; all 0 between builds */
@@ -108,17 +111,35 @@ void emit_body(struct emitter *emitter);
 /* The general-purpose register that holds a base (frame.c). */
 extern const uint8_t base_register[BASE_COUNT];
 
-/* The address of a literal's lanes in the constant pool. */
-struct address literal_address(struct emitter *emitter, int32_t bits);
+/* The vector length of a number of lanes. */
+static inline enum vector_length length_of(unsigned width)
+{
+    return width == 4 ? X86_128 : width == 8 ? X86_256 : X86_512;
+}
 
-/* Where a value is at the current position; the register of an operand, loaded into `scratch` if it is in
- * memory; the register that the current instruction's value was given (select.c). */
+/* Whether there are 16 lanes: then EVEX encodings, mask registers and operands that are broadcast. */
+static inline int is_wide(const struct emitter *emitter)
+{
+    return emitter->width == 16;
+}
+
+/* A literal in the constant pool: all of its lanes or, when `lanes` is 0, one that is broadcast. */
+struct address literal_address(struct emitter *emitter, int32_t bits, int lanes);
+
+/* Where a value is at the current position; the vector register of an operand, loaded into `scratch` if it is in
+ * memory or a mask; the register that the current instruction's value was given (select.c). */
 struct place place_of(struct emitter *emitter, unsigned value);
 unsigned need_register(struct emitter *emitter, const struct place *place, unsigned scratch);
 unsigned result_register(const struct emitter *emitter);
 
-/* Brings a value into the register `to`; flags stay (select.c). */
+/* The same for a mask register, the number that instructions have for it. */
+unsigned need_mask(struct emitter *emitter, const struct place *place, unsigned scratch);
+
+/* Brings a value into the register `to`, whichever kind it is of; flags stay (select.c). */
 void bring(struct emitter *emitter, unsigned to, const struct place *place);
+
+/* Stores a register, a mask or lanes, to where one of its kind can be read again. */
+void store_register(struct emitter *emitter, struct address to, unsigned reg);
 
 /* A spill slot in the frame. */
 struct address slot_address(const struct emitter *emitter, unsigned slot);

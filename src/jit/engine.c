@@ -1,4 +1,4 @@
-/* The specializer's engines: the same code generator for 4 and for 8 lanes, with the default profile, and for
+/* The specializer's engines: the same code generator for 4, 8 and 16 lanes, with the default profile, and for
  * 8 lanes with the passes of the thesis alone. */
 #include "base/code.h"
 #include "base/cpu.h"
@@ -8,12 +8,6 @@
 
 #include <stdlib.h>
 #include <string.h>
-
-static const char *unavailable(void)
-{
-    const char *reason = cpu_lacks_avx2_fma();
-    return reason ? reason : code_unavailable();
-}
 
 /* Copies the built code into the arena. */
 static int install(struct code_arena *arena, const struct builder *b, size_t bytes, struct routine *routine,
@@ -100,8 +94,8 @@ static int describe(const struct routine *routine, struct debug_code *code, stru
     struct builder *b = builder_take(error);
     if (!b)
         return -1;
-    size_t bytes =
-        build_code(b, engine_options(routine->engine), routine->unit, &routine->key, NULL, NULL, error);
+    size_t bytes = build_code(b, engine_options(routine->engine, routine->unit, &routine->key), routine->unit,
+                              &routine->key, NULL, NULL, error);
     int result = bytes ? 0 : -1;
     if (bytes && (bytes != routine->code_bytes || memcmp(b->emitter.code, routine->code, bytes)))
         result =
@@ -112,71 +106,79 @@ static int describe(const struct routine *routine, struct debug_code *code, stru
     return result;
 }
 
-static const struct order order_8 = {.options = {.width = 8, .profile = PROFILE_FULL}};
-static const struct order order_4 = {.options = {.width = 4, .profile = PROFILE_FULL}};
-static const struct order order_thesis = {.options = {.width = 8, .profile = PROFILE_THESIS}};
+/* --- The engines: def/specialize.def ------------------------------------------------------------------------ */
 
-static struct routine *build_8(struct code_arena *arena, enum unit unit, const union key *key,
-                               struct error *error)
-{
-    return build_with(&engine_specialize, &order_8, arena, unit, key, error);
-}
-
-static struct routine *build_4(struct code_arena *arena, enum unit unit, const union key *key,
-                               struct error *error)
-{
-    return build_with(&engine_specialize_4, &order_4, arena, unit, key, error);
-}
-
-static struct routine *build_thesis(struct code_arena *arena, enum unit unit, const union key *key,
-                                    struct error *error)
-{
-    return build_with(&engine_specialize_thesis, &order_thesis, arena, unit, key, error);
-}
-
-const struct engine engine_specialize = {
-    .name = "specialize",
-    .description = "dynamic specializer, all passes, 8 lanes (AVX2)",
-    .width = 8,
-    .unavailable = unavailable,
-    .build = build_8,
-    .free = free_routine,
-    .describe = describe,
+static const struct {
+    const struct engine *engine;
+    struct build_options options;
+} variants[] = {
+#define SPECIALIZE(id, name, lanes, passes, meaning)                                                         \
+    {&engine_##id, {.width = lanes, .profile = PROFILE_##passes}},
+#include "def/specialize.def"
+#undef SPECIALIZE
 };
 
-const struct engine engine_specialize_4 = {
-    .name = "specialize-4",
-    .description = "dynamic specializer, all passes, 4 lanes (128-bit registers)",
-    .width = 4,
-    .unavailable = unavailable,
-    .build = build_4,
-    .free = free_routine,
-    .describe = describe,
-};
-
-const struct engine engine_specialize_thesis = {
-    .name = "specialize-thesis",
-    .description = "dynamic specializer with the passes of the thesis alone, 8 lanes",
-    .width = 8,
-    .unavailable = unavailable,
-    .build = build_thesis,
-    .free = free_routine,
-    .describe = describe,
-};
-
-const struct build_options *engine_options(const struct engine *engine)
+const struct build_options *engine_options(const struct engine *engine, enum unit unit, const union key *key)
 {
-    return engine == &engine_specialize          ? &order_8.options
-           : engine == &engine_specialize_4      ? &order_4.options
-           : engine == &engine_specialize_thesis ? &order_thesis.options
-                                                 : NULL;
+    (void)unit, (void)key;
+    for (unsigned i = 0; i < sizeof variants / sizeof *variants; i++)
+        if (variants[i].engine == engine)
+            return &variants[i].options;
+    return NULL;
 }
+
+int jit_is_engine(const struct engine *engine)
+{
+    return engine_options(engine, UNIT_VERTEX, NULL) != NULL;
+}
+
+static const char *unavailable_8(void)
+{
+    const char *reason = cpu_lacks_avx2_fma();
+    return reason ? reason : code_unavailable();
+}
+
+static const char *unavailable_4(void)
+{
+    return unavailable_8();
+}
+
+static const char *unavailable_16(void)
+{
+    const char *reason = unavailable_8();
+    return reason ? reason : cpu_lacks_avx512();
+}
+
+static struct routine *build_for(const struct engine *engine, struct code_arena *arena, enum unit unit,
+                                 const union key *key, struct error *error)
+{
+    const struct order order = {.options = *engine_options(engine, unit, key)};
+    return build_with(engine, &order, arena, unit, key, error);
+}
+
+#define SPECIALIZE(id, text, lanes, passes, meaning)                                                         \
+    static struct routine *build_##id(struct code_arena *arena, enum unit unit, const union key *key,        \
+                                      struct error *error)                                                   \
+    {                                                                                                        \
+        return build_for(&engine_##id, arena, unit, key, error);                                             \
+    }                                                                                                        \
+    const struct engine engine_##id = {                                                                      \
+        .name = text,                                                                                        \
+        .description = meaning,                                                                              \
+        .width = lanes,                                                                                      \
+        .unavailable = unavailable_##lanes,                                                                  \
+        .build = build_##id,                                                                                 \
+        .free = free_routine,                                                                                \
+        .describe = describe,                                                                                \
+    };
+#include "def/specialize.def"
+#undef SPECIALIZE
 
 struct routine *jit_routine(const struct engine *engine, const struct ir *ir, uint32_t disabled,
                             pass_observer *observer, void *context, struct code_arena *arena, enum unit unit,
                             const union key *key, struct error *error)
 {
-    struct order order = {ir, *engine_options(engine), observer, context};
+    struct order order = {ir, *engine_options(engine, unit, key), observer, context};
     order.options.disabled |= disabled;
     return build_with(engine, &order, arena, unit, key, error);
 }

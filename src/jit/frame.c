@@ -2,12 +2,13 @@
  *
  * rdi keeps the call structure, the bases have fixed registers (below), rax is scratch, rbx counts down a
  * block's coverage. Stack, upward from rsp, 64-byte aligned: saved MXCSR, the contract's MXCSR, then the
- * frame's constants, the spill slots and the variables, W * 4 bytes each. Of callee-saved registers rbp, rbx,
+ * room for a value's lanes, the frame's constants, the spill slots and the variables, W * 4 bytes each. With 16 lanes
+ * the frame has no constants: they are broadcast from where they are. Of callee-saved registers rbp, rbx,
  * r12 and r13 are in use, and r14 for a shader's constants. Constants that the body uses follow the code and
  * are reached relative to rip, so a routine can be copied anywhere.
  *
  * The pixel loop walks entries; within a 4x4 block it walks chunks of W lanes, passing over those without
- * coverage: rbx holds the coverage still ahead and ends the block when it is empty. */
+ * coverage: rbx holds the coverage still ahead and ends the block when it is empty. Sixteen lanes are the block. */
 #include "base/mxcsr.h"
 #include "jit/emit.h"
 #include "shader/program.h"
@@ -62,33 +63,43 @@ static void note_unwind(struct emitter *m, enum debug_rule rule, unsigned reg, i
                                                     .value = value};
 }
 
-static uint32_t literal_slot(int32_t bits)
+static uint32_t literal_slot(int32_t bits, int lanes)
 {
-    return ((uint32_t)bits * 0x9e3779b1u) >> (32 - __builtin_ctz(LITERAL_TABLE));
+    return (((uint32_t)bits + (uint32_t)lanes) * 0x9e3779b1u) >> (32 - __builtin_ctz(LITERAL_TABLE));
 }
 
-struct address literal_address(struct emitter *m, int32_t bits)
+/* Its number from 1. */
+static uint32_t find_literal(struct emitter *m, int32_t bits, int lanes)
 {
-    uint32_t slot = literal_slot(bits), i;
-    while ((i = m->literal_table[slot]) && m->literal_bits[i - 1] != bits)
+    uint32_t slot = literal_slot(bits, lanes), i;
+    while ((i = m->literal_table[slot]) &&
+           (m->literal_bits[i - 1] != bits || m->literal_lanes[i - 1] != lanes))
         slot = (slot + 1) % LITERAL_TABLE;
     if (i)
-        return address_label(m->literal_label[i - 1], 0);
+        return i;
     if (m->literals == LITERAL_CAPACITY) {
         note_exceeded(m, "literals", LITERAL_CAPACITY);
-        return address_label(m->literal_label[0], 0);
+        return 1;
     }
     m->literal_bits[m->literals] = bits;
+    m->literal_lanes[m->literals] = (uint8_t)lanes;
     m->literal_label[m->literals] = encoder_add_label(&m->encoder);
     m->literal_table[slot] = (uint16_t)++m->literals;
-    return address_label(m->encoder.label_count - 1, 0);
+    return m->literals;
+}
+
+struct address literal_address(struct emitter *m, int32_t bits, int lanes)
+{
+    struct address address = address_label(m->literal_label[find_literal(m, bits, lanes) - 1], 0);
+    address.broadcast = !lanes;
+    return address;
 }
 
 /* In the order opposite to entering: each is found before what it was put behind is gone. */
 static void forget_literals(struct emitter *m)
 {
     for (uint32_t i = m->literals; i > 0; i--) {
-        uint32_t slot = literal_slot(m->literal_bits[i - 1]);
+        uint32_t slot = literal_slot(m->literal_bits[i - 1], m->literal_lanes[i - 1]);
         while (m->literal_table[slot] != i)
             slot = (slot + 1) % LITERAL_TABLE;
         m->literal_table[slot] = 0;
@@ -102,7 +113,7 @@ static void load(struct emitter *m, enum gpr to, size_t field)
 
 static void broadcast_constants(struct emitter *m)
 {
-    for (uint32_t c = 0; c < m->ir->constant_count; c++) {
+    for (uint32_t c = 0; !is_wide(m) && c < m->ir->constant_count; c++) {
         const struct ir_constant *constant = &m->ir->constant[c];
         struct address slot = address_at(X86_RSP, m->frame_constants + (int32_t)(c * m->width * 4));
         vector_rm(&m->encoder, X86_vbroadcastss, m->length, 0,
@@ -157,7 +168,7 @@ static void prologue(struct emitter *m, size_t job_field)
 {
     struct encoder *e = &m->encoder;
     m->frame_constants = FRAME_HEAD;
-    m->frame_slots = m->frame_constants + (int32_t)(m->ir->constant_count * m->width * 4);
+    m->frame_slots = m->frame_constants + (int32_t)(is_wide(m) ? 0 : m->ir->constant_count * m->width * 4);
     m->frame_variables = m->frame_slots + (int32_t)(m->allocation->slots * m->width * 4);
     int32_t bytes = m->frame_variables + (int32_t)(m->ir->variables * m->width * 4);
     note_frame_line(m, __LINE__);
@@ -265,19 +276,14 @@ static void begin_block(struct emitter *m)
     gpr_rr(e, X86_add, X86_64, COLOR, X86_RAX);
     load(m, DEPTH, offsetof(struct pixel_call, depth));
     gpr_rr(e, X86_add, X86_64, DEPTH, X86_RAX);
-    load(m, LANES, offsetof(struct pixel_call, lanes));
-    gpr_rm(e, X86_movzx16, X86_32, AHEAD, address_at(ENTRY, offsetof(struct entry, coverage)));
 }
 
-static void pixel_loop(struct emitter *m)
+static void walk_chunks(struct emitter *m)
 {
     struct encoder *e = &m->encoder;
     int32_t step = (int32_t)m->width * 4;
-    note_frame_line(m, __LINE__);
-    load(m, ENTRY, offsetof(struct pixel_call, entries));
-    load_limit(m, offsetof(struct pixel_call, count), 4);
-    begin_loop(m);
-    begin_block(m);
+    load(m, LANES, offsetof(struct pixel_call, lanes));
+    gpr_rm(e, X86_movzx16, X86_32, AHEAD, address_at(ENTRY, offsetof(struct entry, coverage)));
     encode_label(e, LABEL_CHUNK);
     gpr_ri(e, X86_test, X86_32, AHEAD, (1 << m->width) - 1);
     encode_jump_if(e, X86_IF_z, LABEL_SKIP);
@@ -289,19 +295,40 @@ static void pixel_loop(struct emitter *m)
     gpr_ri(e, X86_add, X86_64, LANES, step);
     gpr_ri(e, X86_shr, X86_32, AHEAD, (int32_t)m->width);
     encode_jump_if(e, X86_IF_nz, LABEL_CHUNK);
-    gpr_ri(e, X86_add, X86_64, ENTRY, sizeof(struct entry));
+}
+
+/* A block always has coverage. */
+static void pixel_loop(struct emitter *m)
+{
+    note_frame_line(m, __LINE__);
+    load(m, ENTRY, offsetof(struct pixel_call, entries));
+    load_limit(m, offsetof(struct pixel_call, count), 4);
+    if (is_wide(m))
+        load(m, LANES, offsetof(struct pixel_call, lanes));
+    begin_loop(m);
+    begin_block(m);
+    if (is_wide(m)) {
+        emit_body(m);
+        note_frame_line(m, __LINE__);
+    } else
+        walk_chunks(m);
+    gpr_ri(&m->encoder, X86_add, X86_64, ENTRY, sizeof(struct entry));
     end_loop(m);
 }
 
+/* What is loaded whole comes first, aligned. */
 static void constant_pool(struct emitter *m)
 {
-    for (uint32_t i = 0; i < m->literals; i++) {
-        int32_t lanes[LANES_MAXIMUM];
-        for (unsigned lane = 0; lane < m->width; lane++)
-            lanes[lane] = m->literal_bits[i];
-        encode_label(&m->encoder, m->literal_label[i]);
-        encode_data(&m->encoder, lanes, m->width * sizeof lanes[0]);
-    }
+    int32_t lanes[LANES_MAXIMUM];
+    for (int once = 0; once < 2; once++)
+        for (uint32_t i = 0; i < m->literals; i++) {
+            if (m->literal_lanes[i] == once)
+                continue;
+            for (unsigned lane = 0; lane < m->width; lane++)
+                lanes[lane] = m->literal_bits[i];
+            encode_label(&m->encoder, m->literal_label[i]);
+            encode_data(&m->encoder, lanes, (once ? 1 : m->width) * sizeof lanes[0]);
+        }
 }
 
 static size_t job_field(enum unit unit)

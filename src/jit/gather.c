@@ -4,7 +4,7 @@
  * rebuilt each time since it is cleared; the destination is zeroed first to cut its dependency. On many
  * processors it is microcode, so:
  *
- * Lane by lane, where the indices lie in memory anyway (setup's vertices).
+ * Lane by lane, where the indices lie in memory anyway (setup's vertices), and with 16 lanes always.
  *
  * By pairs, where two neighbouring words of the same places follow one another (texels of a row):
  *
@@ -80,16 +80,28 @@ static void gather_four(struct emitter *m, unsigned to, struct address lanes, co
     }
 }
 
-static void select_gather_words(struct emitter *m, const struct ir_instruction *i)
+/* Eight words, or four, into the low half of `to`. */
+static void gather_half(struct emitter *m, unsigned to, struct address lanes, const struct ir_instruction *i,
+                        unsigned base)
 {
-    struct address lanes = indices_of(m, i);
-    unsigned to = result_register(m), base = gather_base(m, i);
     gather_four(m, to, lanes, i, base);
     if (m->width == 4)
         return;
     lanes.displacement += 16;
     gather_four(m, SCRATCH_SECOND, lanes, i, base);
     vector_rrri(&m->encoder, X86_vinsertf128, X86_256, to, to, SCRATCH_SECOND, 1);
+}
+
+static void select_gather_words(struct emitter *m, const struct ir_instruction *i)
+{
+    struct address lanes = indices_of(m, i);
+    unsigned to = result_register(m), base = gather_base(m, i);
+    gather_half(m, to, lanes, i, base);
+    if (!is_wide(m))
+        return;
+    lanes.displacement += 32;
+    gather_half(m, SCRATCH_FIRST, lanes, i, base);
+    vector_rrri(&m->encoder, X86_vinsertf64x4, X86_512, to, to, SCRATCH_FIRST, 1);
 }
 
 /* --- By pairs ----------------------------------------------------------------------------------------------
@@ -115,12 +127,12 @@ static void select_gather_pairs(struct emitter *m, const struct ir_instruction *
     unsigned base = gather_base(m, i);
     for (int p = 0; p < 2; p++, lanes.displacement += 8) {
         struct address later = lanes;
-        later.displacement += 16;
         load_pairs(m, part[p], lanes, i, base);
-        if (m->width == 4)
-            continue;
-        load_pairs(m, SCRATCH_FIRST, later, i, base);
-        vector_rrri(&m->encoder, X86_vinsertf128, X86_256, part[p], part[p], SCRATCH_FIRST, 1);
+        for (unsigned four = 1; four < m->width / 4; four++) {
+            later.displacement += 16;
+            load_pairs(m, SCRATCH_FIRST, later, i, base);
+            vector_rrri(&m->encoder, X86_vinsertf128, m->length, part[p], part[p], SCRATCH_FIRST, four);
+        }
     }
     vector_rrri(&m->encoder, X86_vshufps, m->length, result[1], part[0], part[1], 0xdd);
     vector_rrri(&m->encoder, X86_vshufps, m->length, part[0], part[0], part[1], 0x88);
@@ -171,12 +183,12 @@ static void load_rows(struct emitter *m, const unsigned s[ROWS], const struct ir
     unsigned base = gather_base(m, i);
     for (unsigned row = 0; row < ROWS; row++, lane.displacement += 4) {
         struct address later = lane;
-        later.displacement += 16;
         load_row(m, s[row], lane, i, words, base);
-        if (m->width == 4)
-            continue;
-        load_row(m, SCRATCH_FIRST, later, i, words, base);
-        vector_rrri(&m->encoder, X86_vinsertf128, X86_256, s[row], s[row], SCRATCH_FIRST, 1);
+        for (unsigned four = 1; four < m->width / 4; four++) {
+            later.displacement += 16;
+            load_row(m, SCRATCH_FIRST, later, i, words, base);
+            vector_rrri(&m->encoder, X86_vinsertf128, m->length, s[row], s[row], SCRATCH_FIRST, four);
+        }
     }
 }
 
@@ -210,7 +222,7 @@ void select_gather(struct emitter *m, const struct ir_instruction *i)
         select_gather_rows(m, i, words);
     else if (words == 2)
         select_gather_pairs(m, i);
-    else if (indices_in_memory(m, i))
+    else if (is_wide(m) || indices_in_memory(m, i))
         select_gather_words(m, i);
     else
         select_gather_instruction(m, i);

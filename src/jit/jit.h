@@ -6,9 +6,12 @@
 
 #include <stdio.h>
 
-extern const struct engine engine_specialize;        /* W = 8, AVX2 */
-extern const struct engine engine_specialize_4;      /* W = 4, the same code on 128-bit registers */
-extern const struct engine engine_specialize_thesis; /* W = 8, only the passes of the thesis */
+#define SPECIALIZE(id, ...) extern const struct engine engine_##id;
+#include "def/specialize.def"
+#undef SPECIALIZE
+
+/* Whether an engine is one of these. */
+int jit_is_engine(const struct engine *engine);
 
 /* Writes the stages of building a routine with one of the engines above that `show` names, a comma-separated
  * list of: key, record, a pass's name (jit_pass_name), intervals, asm; or all. Returns 0, or -1 with the

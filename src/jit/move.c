@@ -25,6 +25,7 @@ static void add_move(struct emitter *m, unsigned target, uint32_t behind, unsign
         return;
     m->move[m->moves++] = (struct move){.from = place_at(m, source, before),
                                         .to = behind <= a->split[web] ? a->reg[web] : NO_REGISTER,
+                                        .mask = (uint8_t)allocate_is_mask(a, &m->ir->instruction[web]),
                                         .slot = a->slot[web]};
 }
 
@@ -60,11 +61,12 @@ static void write_move(struct emitter *m, const struct move *move)
 {
     unsigned reg = move->to;
     if (reg == NO_REGISTER)
-        reg = need_register(m, &move->from, SCRATCH_FIRST);
+        reg = move->mask ? MASKS + need_mask(m, &move->from, MASK_SCRATCH)
+                         : need_register(m, &move->from, SCRATCH_FIRST);
     else
         bring(m, reg, &move->from);
     if (move->slot != NO_SLOT)
-        vector_mr(&m->encoder, X86_vmovaps_store, m->length, slot_address(m, move->slot), reg);
+        store_register(m, slot_address(m, move->slot), reg);
 }
 
 /* A move's source is read: whoever waited for its place waits no more. */
@@ -96,9 +98,10 @@ void write_moves(struct emitter *m)
             m->move[ready] = m->move[--m->moves];
             release_source(m, &move);
         } else {
-            bring(m, SCRATCH_RESULT, &move.from);
+            uint8_t aside = move.mask ? MASK_RESULT : SCRATCH_RESULT;
+            bring(m, aside, &move.from);
             release_source(m, &m->move[0]);
-            m->move[0].from = (struct place){.value = move.from.value, .reg = SCRATCH_RESULT};
+            m->move[0].from = (struct place){.value = move.from.value, .reg = aside};
         }
     }
 }

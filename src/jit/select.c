@@ -7,6 +7,9 @@
  * apply: a selection with zero is a bitwise and, zero is made by an exclusive or, comparisons swap sides to
  * keep memory on the right.
  *
+ * Sixteen lanes are EVEX's: masks are in registers of their own, and what is the same for all lanes is broadcast
+ * from four bytes by the instruction that uses it, if it is one of 32-bit elements.
+ *
  * Lanes are in memory order, so loads and stores are plain moves. Gathers have a file of their own
  * (gather.c). */
 #include "jit/emit.h"
@@ -22,7 +25,10 @@ enum form {
     FORM_NEGATE,
     FORM_HALF, /* there and back */
     FORM_MAD,
-    FORM_SELECT
+    FORM_SELECT,
+    FORM_BLEND, /* the forms of mask registers */
+    FORM_TEST,  /* predicate */
+    FORM_MASKS
 };
 
 struct rule {
@@ -78,6 +84,24 @@ static const struct rule rules[IR_OP_COUNT] = {
     [IR_permute] = {X86_vpermilps_immediate, FORM_SHIFT, 0},
 };
 
+/* Predicates of vpcmpd. */
+enum { VPCMP_EQUAL = 0, VPCMP_LESS = 1, VPCMP_GREATER = 6 };
+
+/* What is different with 16 lanes. */
+static const struct rule wide_rules[IR_OP_COUNT] = {
+    [IR_select_f] = {X86_vblendmps, FORM_BLEND, 0},
+    [IR_select_i] = {X86_vblendmps, FORM_BLEND, 0},
+    [IR_lt_f] = {X86_vcmpps_mask, FORM_TEST, X86_CMP_LT},
+    [IR_le_f] = {X86_vcmpps_mask, FORM_TEST, X86_CMP_LE},
+    [IR_eq_f] = {X86_vcmpps_mask, FORM_TEST, X86_CMP_EQ},
+    [IR_ne_f] = {X86_vcmpps_mask, FORM_TEST, X86_CMP_NEQ},
+    [IR_eq_i] = {X86_vpcmpd_mask, FORM_TEST, VPCMP_EQUAL},
+    [IR_gt_i] = {X86_vpcmpd_mask, FORM_TEST, VPCMP_GREATER},
+    [IR_and_m] = {X86_kandw, FORM_MASKS, 0},
+    [IR_or_m] = {X86_korw, FORM_MASKS, 0},
+    [IR_andn_m] = {X86_kandnw, FORM_MASKS, 0},
+};
+
 static struct address frame_address(const struct emitter *m, int32_t start, unsigned slot)
 {
     return address_at(X86_RSP, start + (int32_t)(slot * m->width * 4));
@@ -88,6 +112,17 @@ struct address slot_address(const struct emitter *m, unsigned slot)
     return frame_address(m, m->frame_slots, slot);
 }
 
+/* A frame constant, or with 16 lanes the word that it would be made of. */
+static struct address constant_address(const struct emitter *m, unsigned slot)
+{
+    const struct ir_constant *constant = &m->ir->constant[slot];
+    if (!is_wide(m))
+        return frame_address(m, m->frame_constants, slot);
+    struct address address = address_at(base_register[constant->base], constant->offset);
+    address.broadcast = 1;
+    return address;
+}
+
 static struct place memory_place(struct emitter *m, unsigned value)
 {
     const struct ir_instruction *i = &m->ir->instruction[value];
@@ -96,14 +131,17 @@ static struct place memory_place(struct emitter *m, unsigned value)
     unsigned slot = m->allocation->slot[allocate_web(m->allocation, value)];
     struct place p = {.value = value, .reg = NO_REGISTER, .addressable = 1};
     if (i->op == IR_literal)
-        p.address = literal_address(m, i->k);
+        p.address = literal_address(m, i->k, !is_wide(m));
     else if (i->op == IR_constant)
-        p.address = frame_address(m, m->frame_constants, (unsigned)i->k);
-    else if (slot != NO_SLOT)
+        p.address = constant_address(m, (unsigned)i->k);
+    else if (slot != NO_SLOT) {
         p.address = slot_address(m, slot);
-    else {
+        p.mask = (uint8_t)allocate_is_mask(m->allocation, i);
+        p.addressable = !p.mask;
+    } else {
         p.address = address_at(base_register[i->base], i->k);
-        p.addressable = i->op == IR_load;
+        p.address.broadcast = i->op == IR_uniform && is_wide(m);
+        p.addressable = i->op == IR_load || is_wide(m);
     }
     return p;
 }
@@ -122,23 +160,78 @@ static int is_zero(const struct emitter *m, unsigned value)
     return m->ir->instruction[value].op == IR_literal && !m->ir->instruction[value].k;
 }
 
-void bring(struct emitter *m, unsigned to, const struct place *p)
+static void bring_mask(struct emitter *m, unsigned to, const struct place *p)
 {
-    if (p->reg != NO_REGISTER) {
+    struct encoder *e = &m->encoder;
+    if (p->reg != NO_REGISTER && p->reg >= MASKS) {
         if (p->reg != to)
-            vector_copy(&m->encoder, m->length, to, p->reg);
-    } else if (is_zero(m, p->value))
+            vector_rr(e, X86_kmovw, X86_128, to - MASKS, p->reg - MASKS);
+    } else if (p->reg == NO_REGISTER && p->mask)
+        vector_rm(e, X86_kmovw, X86_128, to - MASKS, p->address);
+    else
+        vector_rr(e, X86_vpmovd2m, m->length, to - MASKS, need_register(m, p, SCRATCH_FIRST));
+}
+
+static void bring_memory(struct emitter *m, unsigned to, const struct place *p)
+{
+    struct address from = p->address;
+    enum x86_vector how = p->addressable && !from.broadcast ? X86_vmovups : X86_vbroadcastss;
+    from.broadcast = 0;
+    if (is_zero(m, p->value))
         vector_rrr(&m->encoder, X86_vxorps, m->length, to, to, to);
     else
-        vector_rm(&m->encoder, p->addressable ? X86_vmovups : X86_vbroadcastss, m->length, to, p->address);
+        vector_rm(&m->encoder, how, m->length, to, from);
+}
+
+void bring(struct emitter *m, unsigned to, const struct place *p)
+{
+    if (to >= MASKS)
+        bring_mask(m, to, p);
+    else if (p->mask || (p->reg >= MASKS && p->reg != NO_REGISTER))
+        vector_rr(&m->encoder, X86_vpmovm2d, m->length, to, need_mask(m, p, MASK_SCRATCH));
+    else if (p->reg == NO_REGISTER)
+        bring_memory(m, to, p);
+    else if (p->reg != to)
+        vector_copy(&m->encoder, m->length, to, p->reg);
 }
 
 unsigned need_register(struct emitter *m, const struct place *p, unsigned scratch)
 {
-    if (p->reg != NO_REGISTER)
+    if (p->reg < MASKS)
         return p->reg;
     bring(m, scratch, p);
     return scratch;
+}
+
+unsigned need_mask(struct emitter *m, const struct place *p, unsigned scratch)
+{
+    if (p->reg != NO_REGISTER && p->reg >= MASKS)
+        return p->reg - MASKS;
+    bring(m, scratch, p);
+    return scratch - MASKS;
+}
+
+void store_register(struct emitter *m, struct address to, unsigned reg)
+{
+    if (reg >= MASKS)
+        vector_mr(&m->encoder, X86_kmovw_store, X86_128, to, reg - MASKS);
+    else
+        vector_mr(&m->encoder, X86_vmovaps_store, m->length, to, reg);
+}
+
+/* Whether an instruction can have the value as its operand in memory. Those of 16-bit elements broadcast nothing: of a
+ * literal they are given all lanes. */
+static int folds(struct emitter *m, enum x86_vector instruction, struct place *p)
+{
+    if (p->reg != NO_REGISTER || !p->addressable)
+        return 0;
+    if (p->address.broadcast && !vector_broadcasts(instruction)) {
+        const struct ir_instruction *i = &m->ir->instruction[p->value];
+        if (i->op != IR_literal)
+            return 0;
+        p->address = literal_address(m, i->k, 1);
+    }
+    return 1;
 }
 
 unsigned result_register(const struct emitter *m)
@@ -156,7 +249,7 @@ static void select_binary(struct emitter *m, const struct rule *rule, unsigned l
         b = swapped;
     }
     unsigned first = need_register(m, &a, SCRATCH_FIRST);
-    if (b.reg == NO_REGISTER && b.addressable)
+    if (folds(m, rule->instruction, &b))
         vector_rrm(&m->encoder, rule->instruction, m->length, result_register(m), first, b.address);
     else
         vector_rrr(&m->encoder, rule->instruction, m->length, result_register(m), first,
@@ -183,7 +276,7 @@ static void select_compare(struct emitter *m, const struct rule *rule, const str
         predicate = swapped_predicate(predicate);
     }
     unsigned first = need_register(m, &a, SCRATCH_FIRST);
-    if (b.reg == NO_REGISTER && b.addressable)
+    if (folds(m, rule->instruction, &b))
         vector_rrmi(&m->encoder, rule->instruction, m->length, result_register(m), first, b.address,
                     predicate);
     else
@@ -191,17 +284,50 @@ static void select_compare(struct emitter *m, const struct rule *rule, const str
                     need_register(m, &b, SCRATCH_SECOND), predicate);
 }
 
+/* A comparison into a mask register. */
+static void select_compare_masks(struct emitter *m, const struct rule *rule, const struct ir_instruction *i)
+{
+    struct place a = place_of(m, i->operand[0]), b = place_of(m, i->operand[1]);
+    unsigned predicate = rule->immediate, to = result_register(m) - MASKS, right = i->operand[1];
+    if (a.reg == NO_REGISTER && a.addressable && b.reg != NO_REGISTER) {
+        struct place swapped = a;
+        right = i->operand[0];
+        a = b;
+        b = swapped;
+        predicate = rule->instruction == X86_vcmpps_mask ? swapped_predicate(predicate)
+                    : predicate == VPCMP_GREATER         ? VPCMP_LESS
+                                                         : predicate;
+    }
+    unsigned first = need_register(m, &a, SCRATCH_FIRST);
+    if (rule->instruction == X86_vpcmpd_mask && predicate == VPCMP_EQUAL && is_zero(m, right))
+        vector_rrr(&m->encoder, X86_vptestnmd, m->length, to, first, first);
+    else if (folds(m, rule->instruction, &b))
+        vector_rrmi(&m->encoder, rule->instruction, m->length, to, first, b.address, predicate);
+    else
+        vector_rrri(&m->encoder, rule->instruction, m->length, to, first,
+                    need_register(m, &b, SCRATCH_SECOND), predicate);
+}
+
+/* The result's register may be read: the second operand is brought there when it has none. */
+static void select_masks(struct emitter *m, const struct rule *rule, const struct ir_instruction *i)
+{
+    int reversed = rule->instruction == X86_kandnw;
+    struct place a = place_of(m, i->operand[reversed]), b = place_of(m, i->operand[!reversed]);
+    unsigned first = need_mask(m, &a, MASK_SCRATCH), second = need_mask(m, &b, MASK_RESULT);
+    vector_rrr(&m->encoder, rule->instruction, X86_256, result_register(m) - MASKS, first, second);
+}
+
 static void select_unary(struct emitter *m, const struct rule *rule, const struct ir_instruction *i)
 {
     struct place a = place_of(m, i->operand[0]);
     unsigned to = result_register(m);
-    int folds = a.reg == NO_REGISTER && a.addressable;
-    unsigned from = folds ? 0 : need_register(m, &a, SCRATCH_FIRST);
-    if (rule->form == FORM_ROUND && folds)
+    int in_memory = folds(m, rule->instruction, &a);
+    unsigned from = in_memory ? 0 : need_register(m, &a, SCRATCH_FIRST);
+    if (rule->form == FORM_ROUND && in_memory)
         vector_rmi(&m->encoder, rule->instruction, m->length, to, a.address, rule->immediate);
     else if (rule->form == FORM_ROUND)
         vector_rri(&m->encoder, rule->instruction, m->length, to, from, rule->immediate);
-    else if (folds)
+    else if (in_memory)
         vector_rm(&m->encoder, rule->instruction, m->length, to, a.address);
     else
         vector_rr(&m->encoder, rule->instruction, m->length, to, from);
@@ -218,7 +344,8 @@ static void select_negate(struct emitter *m, const struct ir_instruction *i)
 {
     struct place a = place_of(m, i->operand[0]);
     unsigned from = need_register(m, &a, SCRATCH_FIRST);
-    vector_rrm(&m->encoder, X86_vxorps, m->length, result_register(m), from, literal_address(m, INT32_MIN));
+    vector_rrm(&m->encoder, X86_vxorps, m->length, result_register(m), from,
+               literal_address(m, INT32_MIN, !is_wide(m)));
 }
 
 static void select_half(struct emitter *m, const struct rule *rule, const struct ir_instruction *i)
@@ -252,6 +379,47 @@ static void select_select(struct emitter *m, const struct ir_instruction *i)
     else
         vector_rrrr(&m->encoder, X86_vblendvps, m->length, to, base, need_register(m, &then, SCRATCH_RESULT),
                     test);
+}
+
+/* mask ? b : 0. */
+static void select_or_zero(struct emitter *m, const struct place *mask, struct place *then)
+{
+    enum x86_vector how = then->address.broadcast ? X86_vbroadcastss : X86_vmovups;
+    unsigned to = result_register(m);
+    if (then->reg == NO_REGISTER && then->addressable) {
+        then->address.broadcast = 0;
+        vector_rm(&m->encoder, how, m->length, zeroed(to, need_mask(m, mask, MASK_SCRATCH)), then->address);
+        return;
+    }
+    unsigned from = need_register(m, then, SCRATCH_RESULT);
+    vector_rr(&m->encoder, X86_vmovaps, m->length, zeroed(to, need_mask(m, mask, MASK_SCRATCH)), from);
+}
+
+/* mask ? b : c by a mask register, which comes last: values that are masks themselves pass through the same scratch
+ * registers. */
+static void select_blend(struct emitter *m, const struct ir_instruction *i)
+{
+    struct place mask = place_of(m, i->operand[0]), then = place_of(m, i->operand[1]),
+                 otherwise = place_of(m, i->operand[2]);
+    unsigned to = result_register(m);
+    if (is_zero(m, i->operand[2])) {
+        select_or_zero(m, &mask, &then);
+        return;
+    }
+    unsigned base = need_register(m, &otherwise, SCRATCH_SECOND);
+    if (is_zero(m, i->operand[1])) {
+        unsigned k = need_mask(m, &mask, MASK_SCRATCH);
+        if (base != to)
+            vector_copy(&m->encoder, m->length, to, base);
+        vector_rrr(&m->encoder, X86_vxorps, m->length, masked(to, k), to, to);
+    } else if (folds(m, X86_vblendmps, &then)) {
+        unsigned k = need_mask(m, &mask, MASK_SCRATCH);
+        vector_rrm(&m->encoder, X86_vblendmps, m->length, masked(to, k), base, then.address);
+    } else {
+        unsigned from = need_register(m, &then, SCRATCH_RESULT);
+        unsigned k = need_mask(m, &mask, MASK_SCRATCH);
+        vector_rrr(&m->encoder, X86_vblendmps, m->length, masked(to, k), base, from);
+    }
 }
 
 /* to = to * x + y, or to = to * [x] + y, or to = to * x + [y]: the result's register holds a factor. */
@@ -330,8 +498,11 @@ static void select_scatter(struct emitter *m, const struct ir_instruction *i)
     if (m->width == 4)
         return;
     to.displacement += 4 * i->field;
-    vector_rri(&m->encoder, X86_vextractf128, X86_256, SCRATCH_SECOND, from, 1);
-    scatter_four(m, SCRATCH_SECOND, to, i->field);
+    for (unsigned four = 1; four < m->width / 4; four++) {
+        vector_rri(&m->encoder, X86_vextractf128, m->length, SCRATCH_SECOND, from, four);
+        scatter_four(m, SCRATCH_SECOND, to, i->field);
+        to.displacement += 4 * i->field;
+    }
 }
 
 /* A label for a region's other end, remembered until that end comes; 0 when there is no room. */
@@ -348,8 +519,11 @@ static int open_region(struct emitter *m)
 static void test_lanes(struct emitter *m, unsigned mask)
 {
     struct place place = place_of(m, mask);
-    unsigned test = need_register(m, &place, SCRATCH_FIRST);
-    vector_rr(&m->encoder, X86_vtestps, m->length, test, test);
+    unsigned test = is_wide(m) ? need_mask(m, &place, MASK_SCRATCH) : need_register(m, &place, SCRATCH_FIRST);
+    if (is_wide(m))
+        vector_rr(&m->encoder, X86_kortestw, X86_128, test, test);
+    else
+        vector_rr(&m->encoder, X86_vtestps, m->length, test, test);
 }
 
 /* When the region does not run, what the joins behind it take from before moves on the way around it. */
@@ -408,13 +582,16 @@ static void select_again(struct emitter *m, const struct ir_instruction *i)
 static void select_variable(struct emitter *m, const struct ir_instruction *i)
 {
     struct address variable = frame_address(m, m->frame_variables, (unsigned)i->k);
-    if (i->op == IR_get)
+    int mask = is_wide(m) && i->type == TYPE_msk;
+    struct place value = place_of(m, i->operand[0]);
+    if (i->op == IR_get && mask)
+        vector_rm(&m->encoder, X86_kmovw, X86_128, result_register(m) - MASKS, variable);
+    else if (i->op == IR_get)
         vector_rm(&m->encoder, X86_vmovaps, m->length, result_register(m), variable);
-    else {
-        struct place value = place_of(m, i->operand[0]);
-        vector_mr(&m->encoder, X86_vmovaps_store, m->length, variable,
-                  need_register(m, &value, SCRATCH_FIRST));
-    }
+    else
+        store_register(m, variable,
+                       mask ? MASKS + need_mask(m, &value, MASK_SCRATCH)
+                            : need_register(m, &value, SCRATCH_FIRST));
 }
 
 static void select_memory(struct emitter *m, const struct ir_instruction *i)
@@ -430,7 +607,9 @@ static void select_memory(struct emitter *m, const struct ir_instruction *i)
 
 static void select_by_rule(struct emitter *m, const struct ir_instruction *i)
 {
-    const struct rule *rule = &rules[i->op];
+    const struct rule *rule = &rules[i->op], *wide = &wide_rules[i->op];
+    if (is_wide(m) && wide->form && (wide->form != FORM_MASKS || i->type == TYPE_msk))
+        rule = wide;
     int commutes = ir_op_information[i->op].properties & IR_COMMUTES;
     switch (rule->form) {
     case FORM_BINARY: select_binary(m, rule, i->operand[0], i->operand[1], commutes); break;
@@ -443,6 +622,9 @@ static void select_by_rule(struct emitter *m, const struct ir_instruction *i)
     case FORM_HALF: select_half(m, rule, i); break;
     case FORM_MAD: select_mad(m, i); break;
     case FORM_SELECT: select_select(m, i); break;
+    case FORM_BLEND: select_blend(m, i); break;
+    case FORM_TEST: select_compare_masks(m, rule, i); break;
+    case FORM_MASKS: select_masks(m, rule, i); break;
     }
 }
 
@@ -488,8 +670,7 @@ static void store_spilled(struct emitter *m)
 {
     unsigned slot = m->allocation->slot[allocate_web(m->allocation, m->position)];
     if (slot != NO_SLOT)
-        vector_mr(&m->encoder, X86_vmovaps_store, m->length, frame_address(m, m->frame_slots, slot),
-                  result_register(m));
+        store_register(m, slot_address(m, slot), result_register(m));
 }
 
 void emit_body(struct emitter *m)

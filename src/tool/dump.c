@@ -51,9 +51,12 @@ static const struct dumper {
     int (*dump)(const struct engine *engine, struct code_arena *arena, enum unit unit, const union key *key,
                 const char *show, struct error *error);
 } dumpers[] = {
-    {&engine_specialize, dump_jit},          {&engine_specialize_4, dump_jit},
-    {&engine_specialize_thesis, dump_jit},   {&engine_stitch, dump_stitch},
-    {&engine_stitch_operation, dump_stitch}, {&engine_external, dump_external},
+#define SPECIALIZE(id, ...) {&engine_##id, dump_jit},
+#include "def/specialize.def"
+#undef SPECIALIZE
+    {&engine_stitch, dump_stitch},
+    {&engine_stitch_operation, dump_stitch},
+    {&engine_external, dump_external},
 };
 
 static const struct dumper *find_dumper(const struct command *self, unsigned engine)

@@ -292,7 +292,7 @@ static void run_large(struct builder *builder, struct code_arena *arena, int val
     step_function *function;
     uint64_t seed = 1;
     record_values(&builder->ir, values);
-    struct register_file file = register_file_of(ALLOCATABLE);
+    struct register_file file = register_file_of(ALLOCATABLE, 8);
     allocate(&builder->ir, &builder->allocation, &file);
     size_t bytes = program_emit(builder, 8, &error);
     TEST_ASSERT_TRUE_MESSAGE(bytes && !code_reserve(arena, bytes, &span, &error), error.text);

@@ -146,8 +146,8 @@ static int path_count;
 
 static void values_are_the_recordings(void)
 {
-    static const char *const names[] = {"emulate",    "batch",        "batch-8",          "stitch-operation",
-                                        "specialize", "specialize-4", "specialize-thesis"};
+    static const char *const names[] = {"emulate",    "batch",        "batch-8",           "stitch-operation",
+                                        "specialize", "specialize-4", "specialize-thesis", "specialize-16"};
     interpreter = interpreter_create();
     TEST_ASSERT_NOT_NULL(interpreter);
     for (unsigned i = 0; i < sizeof names / sizeof *names; i++)

@@ -40,12 +40,22 @@ static void compare_units(const struct engine *engine)
 
 static void test_eight_lanes_equal_the_emulator(void)
 {
-    compare_units(&engine_specialize);
+    compare_units(&engine_specialize_8);
 }
 
 static void test_four_lanes_equal_the_emulator(void)
 {
     compare_units(&engine_specialize_4);
+}
+
+static void test_sixteen_lanes_equal_the_emulator(void)
+{
+    compare_units(&engine_specialize_16);
+}
+
+static void test_lanes_by_choice_equal_the_emulator(void)
+{
+    compare_units(&engine_specialize);
 }
 
 static void test_thesis_profile_equals_the_emulator(void)
@@ -58,6 +68,8 @@ int main(void)
     UNITY_BEGIN();
     RUN_TEST(test_eight_lanes_equal_the_emulator);
     RUN_TEST(test_four_lanes_equal_the_emulator);
+    RUN_TEST(test_sixteen_lanes_equal_the_emulator);
+    RUN_TEST(test_lanes_by_choice_equal_the_emulator);
     RUN_TEST(test_thesis_profile_equals_the_emulator);
     return UNITY_END();
 }

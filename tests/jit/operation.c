@@ -1,4 +1,4 @@
-/* Every row of def/op.def, compiled for 4 and 8 lanes, against the row's own expression, on every combination
+/* Every row of def/op.def, compiled for 4, 8 and 16 lanes, against the row's own expression, on every combination
  * of values at the edges: operands in registers, in memory and literal, each in every position. */
 #include "base/code.h"
 #include "base/cpu.h"
@@ -26,6 +26,12 @@ void tearDown(void)
 {
     builder_give(builder);
     code_destroy(arena);
+}
+
+/* The most lanes that this machine has code for. */
+static unsigned widest(void)
+{
+    return cpu_lacks_avx512() ? 8 : 16;
 }
 
 enum operand_form { FROM_REGISTER, FROM_MEMORY, FROM_LITERAL, FORMS };
@@ -117,8 +123,8 @@ static void check_forms(enum ir_op op, int k)
         combinations *= FORMS;
     for (unsigned n = 0; n < combinations; n++) {
         enum operand_form form[3] = {n % FORMS, n / FORMS % FORMS, n / FORMS / FORMS};
-        check_values(op, form, k, 4);
-        check_values(op, form, k, 8);
+        for (unsigned width = 4; width <= widest(); width *= 2)
+            check_values(op, form, k, width);
     }
 }
 
@@ -143,8 +149,8 @@ static void test_a_permutation_takes_the_lanes_it_names(void)
     for (int lanes = 0; lanes < 256; lanes++)
         for (enum operand_form from = 0; from < FORMS; from++) {
             const enum operand_form form[3] = {from};
-            check_values(IR_permute, form, lanes, 4);
-            check_values(IR_permute, form, lanes, 8);
+            for (unsigned width = 4; width <= widest(); width *= 2)
+                check_values(IR_permute, form, lanes, width);
         }
 }
 
@@ -154,7 +160,7 @@ static void test_operands_may_be_one_value(void)
     if (!cpu_has_avx2_fma())
         TEST_IGNORE_MESSAGE("needs AVX2 and FMA");
     for (unsigned sharing = 0; sharing < 8; sharing++)
-        for (unsigned width = 4; width <= 8; width += 4) {
+        for (unsigned width = 4; width <= widest(); width *= 2) {
             enum operand_form form[3] = {FROM_REGISTER, FROM_REGISTER, FROM_REGISTER};
             make_program(IR_mad_f, form, 0, 0);
             struct ir_instruction *mad = &builder->ir.instruction[builder->ir.count - 2];

@@ -45,28 +45,36 @@ void tearDown(void)
     builder = NULL;
 }
 
-/* None to all registers, any of them. */
-static struct register_file random_file(uint64_t *seed)
+/* Takes registers away from a set, any of them, until so many are left. Returns those. */
+static uint64_t random_registers(uint64_t registers, unsigned size, uint64_t *seed)
 {
-    static const uint8_t sizes[] = {13, 13, 8, 5, 3, 2, 1, 0};
-    struct register_file file = {0};
-    unsigned size = sizes[program_random(seed) % sizeof sizes];
-    for (unsigned left = ALLOCATABLE; left > size; left--) {
-        unsigned n = program_random(seed) % left; /* the n-th that is left goes */
-        for (unsigned r = 0; r < ALLOCATABLE; r++)
-            if (!(file.without >> r & 1) && !n--) {
-                file.without |= (uint16_t)(1u << r);
-                break;
-            }
+    for (unsigned left = (unsigned)__builtin_popcountll(registers); left > size; left--) {
+        uint64_t from = registers;
+        for (unsigned n = program_random(seed) % left; n; n--) /* the n-th that is left goes */
+            from &= from - 1;
+        registers &= ~(from & -from);
     }
+    return registers;
+}
+
+/* None to all registers, any of them; and masks. */
+static struct register_file random_file(unsigned width, uint64_t *seed)
+{
+    static const uint8_t sizes[] = {13, 29, 8, 5, 3, 2, 1, 0}, masks[] = {6, 6, 3, 2, 1, 0};
+    struct register_file file = {.wide = width == 16};
+    unsigned size = sizes[program_random(seed) % sizeof sizes];
+    unsigned count = masks[program_random(seed) % sizeof masks];
+    file.without = ~(random_registers(file.wide ? WIDE_REGISTERS : NARROW_REGISTERS, size, seed) |
+                     random_registers(MASK_REGISTERS, count, seed));
     file.seed = program_random(seed) % 4 ? program_random(seed) : 0;
     return file;
 }
 
 static void fail(uint64_t number, unsigned width, const struct register_file *file, const char *what)
 {
-    snprintf(message, sizeof message, "program %llu, %u lanes, without registers 0x%x, lots %llu: %s",
-             (unsigned long long)number, width, file->without, (unsigned long long)file->seed, what);
+    snprintf(message, sizeof message, "program %llu, %u lanes, without registers 0x%llx, lots %llu: %s",
+             (unsigned long long)number, width, (unsigned long long)file->without,
+             (unsigned long long)file->seed, what);
     TEST_FAIL_MESSAGE(message);
 }
 
@@ -81,13 +89,20 @@ static void expect_same(uint64_t number, unsigned width, const struct register_f
     fail(number, width, file, what);
 }
 
+static unsigned random_width(unsigned number)
+{
+    static const unsigned widths[] = {4, 8, 16, 8, 16};
+    unsigned width = widths[number % 5];
+    return width == 16 && cpu_lacks_avx512() ? 8 : width;
+}
+
 typedef void generator(struct ir *, unsigned length, uint64_t *seed);
 
 /* Makes program `number`, optimised with some set of passes, and what it computes. Returns the lanes. */
 static unsigned prepare(generator *make, uint64_t number, unsigned longest, uint64_t *seed)
 {
     static const uint32_t disabled[] = {0, ~0u, 0, 1};
-    unsigned width = number % 3 ? 8 : 4;
+    unsigned width = random_width((unsigned)number);
     *seed = test_seed() + number * 0x9e3779b97f4a7c15ull;
     *seed |= !*seed;
     make(&builder->ir, 3 + program_random(seed) % longest, seed);
@@ -106,7 +121,7 @@ static void try_program(generator *make, uint64_t number, unsigned longest)
     struct error error = {{0}};
     uint64_t seed;
     unsigned width = prepare(make, number, longest, &seed);
-    struct register_file file = random_file(&seed);
+    struct register_file file = random_file(width, &seed);
     got = given;
     if (program_compile_with(builder, arena, width, &file, &got, &error))
         fail(number, width, &file, error.text);
@@ -158,18 +173,20 @@ static void check_routine(void *context, enum unit unit, const union key *key)
     (void)context;
     pressed.name = "specialize under pressure";
     pressed.build = build_under_pressure;
-    options = (struct build_options){.width = 8, .profile = PROFILE_FULL};
+    options = (struct build_options){.width = random_width(visited), .profile = PROFILE_FULL};
     for (int pressure = 0; pressure < 2; pressure++) {
         const char *wrong = error.text;
         if (build_code(builder, &options, unit, key, NULL, NULL, &error))
             wrong = placement_check(builder);
-        snprintf(complaint, sizeof complaint, "%u lanes, without registers 0x%x, lots %llu: %s; %s key: %s",
-                 options.width, options.file.without, (unsigned long long)options.file.seed,
-                 wrong ? wrong : "", unit_name[unit], key_print(unit, key, text));
+        snprintf(complaint, sizeof complaint, "%u lanes, without registers 0x%llx, lots %llu: %s; %s key: %s",
+                 options.width, (unsigned long long)options.file.without,
+                 (unsigned long long)options.file.seed, wrong ? wrong : "", unit_name[unit],
+                 key_print(unit, key, text));
         TEST_ASSERT_NULL_MESSAGE(wrong, complaint);
-        options = (struct build_options){.width = program_random(&lots) % 3 ? 8 : 4,
+        unsigned width = random_width(program_random(&lots));
+        options = (struct build_options){.width = width,
                                          .profile = program_random(&lots) % 4 ? PROFILE_FULL : PROFILE_THESIS,
-                                         .file = random_file(&lots)};
+                                         .file = random_file(width, &lots)};
     }
     const char *found = visited++ % 3 ? NULL : differential_run(differential, engines, 2, unit, key, lots);
     if (found)
@@ -222,12 +239,13 @@ static int gathers_can_be_encoded(void)
 static int damage_allocation(unsigned damage, uint64_t *seed)
 {
     struct allocation *a = &builder->allocation;
-    unsigned victim = choose_victim(damage, seed);
+    unsigned victim = choose_victim(damage, seed), first;
     if (!victim)
         return 0;
     switch (damage) {
     case ANOTHER_REGISTER:
-        a->reg[victim] = (uint8_t)((a->reg[victim] + 1 + program_random(seed) % 2) % 3);
+        first = a->reg[victim] < MASKS ? 0 : MASKS + 1;
+        a->reg[victim] = (uint8_t)(first + (a->reg[victim] - first + 1 + program_random(seed) % 2) % 3);
         break;
     case ANOTHER_SLOT: a->slot[victim] = (uint16_t)(program_random(seed) % a->slots); break;
     case NO_RELOAD: a->split[victim] = NEVER; break;
@@ -255,7 +273,7 @@ static int is_noticed(uint64_t number, unsigned damage, unsigned *tried)
     struct error error = {{0}};
     uint64_t seed;
     unsigned width = prepare(number % 2 ? program_make : program_make_loops, number, 40, &seed);
-    struct register_file file = register_file_of(3);
+    struct register_file file = register_file_of(3, width);
     allocate(&builder->ir, &builder->allocation, &file);
     if (damage != LOST_INSTRUCTION && !damage_allocation(damage, &seed))
         return 0;

@@ -1,5 +1,7 @@
 #include "placement_part.h"
 
+#include <string.h>
+
 /* --- Memory ------------------------------------------------------------------------------------------------- */
 
 static int lane_bytes(const struct check *c)
@@ -7,11 +9,17 @@ static int lane_bytes(const struct check *c)
     return (int)c->m->width * 4;
 }
 
-/* The literal whose lanes lie at an offset of the code. */
+/* Whether one element is read for all lanes. */
+static bool is_broadcast(const struct check *c)
+{
+    return c->instruction.avx.broadcast.mode != ZYDIS_BROADCAST_MODE_INVALID;
+}
+
+/* The literal whose lanes, or whose one word for all of them, lie at an offset of the code. */
 static struct content literal_at(struct check *c, int64_t offset)
 {
     for (uint32_t n = 0; n < c->m->literals; n++)
-        if (c->m->labels[c->m->literal_label[n]] == offset)
+        if (c->m->labels[c->m->literal_label[n]] == offset && (is_broadcast(c) || c->m->literal_lanes[n]))
             return (struct content){.origin = FROM_LITERAL, .number = c->m->literal_bits[n]};
     placement_wrong(c, "reads 0x%llx, where no literal begins", (long long)offset);
     return (struct content){.origin = FROM_ELSEWHERE};
@@ -39,7 +47,7 @@ static struct content read_frame(struct check *c, int64_t displacement)
     if (displacement >= c->m->frame_variables)
         return (struct content){.origin = FROM_VARIABLE,
                                 .number = (int32_t)((displacement - c->m->frame_variables) / lane_bytes(c))};
-    if (from < 0 || from % lane_bytes(c))
+    if (from < 0 || from % lane_bytes(c) || is_wide(c->m))
         placement_wrong(c, "reads the frame at %lld", (long long)displacement);
     return (struct content){.origin = FROM_CONSTANT, .number = (int32_t)(from / lane_bytes(c))};
 }
@@ -49,9 +57,21 @@ static int general_number(ZydisRegister r)
     return r >= ZYDIS_REGISTER_RAX && r <= ZYDIS_REGISTER_R15 ? (int)(r - ZYDIS_REGISTER_RAX) : -1;
 }
 
+/* With 16 lanes frame constants are read from where they are made of. */
+static bool find_constant(const struct check *c, int base, int64_t displacement, struct content *p)
+{
+    for (uint32_t n = 0; is_wide(c->m) && n < c->ir->constant_count; n++)
+        if (base_register[c->ir->constant[n].base] == base && c->ir->constant[n].offset == displacement) {
+            *p = (struct content){.origin = FROM_CONSTANT, .number = (int32_t)n};
+            return true;
+        }
+    return false;
+}
+
 /* Of a whole row of lanes, or of one word that is broadcast. */
 static struct content read_memory(struct check *c, const ZydisDecodedOperand *o, enum origin origin)
 {
+    struct content constant;
     const struct ir_instruction *i = placement_operation(c, c->number);
     int base = general_number(o->mem.base);
     if (o->mem.base == ZYDIS_REGISTER_RIP)
@@ -63,6 +83,10 @@ static struct content read_memory(struct check *c, const ZydisDecodedOperand *o,
             placement_wrong(c, "gathers");
         return (struct content){.origin = FROM_ELSEWHERE, .made_in = c->visit};
     }
+    if (is_broadcast(c))
+        origin = FROM_WORD;
+    if (origin == FROM_WORD && find_constant(c, base, o->mem.disp.value, &constant))
+        return constant;
     return (struct content){
         .origin = (uint8_t)origin, .base = (uint8_t)base, .number = (int32_t)o->mem.disp.value};
 }
@@ -96,11 +120,16 @@ static void write_memory(struct check *c, const ZydisDecodedOperand *o, const st
 
 /* --- Instructions ------------------------------------------------------------------------------------------- */
 
+/* As allocation counts them: vectors, then masks; -1: neither. */
 static int vector_number(ZydisRegister r)
 {
-    if (r >= ZYDIS_REGISTER_XMM0 && r <= ZYDIS_REGISTER_XMM15)
+    if (r >= ZYDIS_REGISTER_XMM0 && r <= ZYDIS_REGISTER_XMM31)
         return (int)(r - ZYDIS_REGISTER_XMM0);
-    return r >= ZYDIS_REGISTER_YMM0 && r <= ZYDIS_REGISTER_YMM15 ? (int)(r - ZYDIS_REGISTER_YMM0) : -1;
+    if (r >= ZYDIS_REGISTER_YMM0 && r <= ZYDIS_REGISTER_YMM31)
+        return (int)(r - ZYDIS_REGISTER_YMM0);
+    if (r >= ZYDIS_REGISTER_K0 && r <= ZYDIS_REGISTER_K7)
+        return (int)(r - ZYDIS_REGISTER_K0) + MASKS;
+    return r >= ZYDIS_REGISTER_ZMM0 && r <= ZYDIS_REGISTER_ZMM31 ? (int)(r - ZYDIS_REGISTER_ZMM0) : -1;
 }
 
 static int operand_vector(const ZydisDecodedOperand *o)
@@ -136,10 +165,21 @@ static bool is_full(const struct check *c, const ZydisDecodedOperand *o)
     return o->size == c->m->width * 32;
 }
 
+/* Masks from one place to another, or to lanes and back. */
+static bool copies_mask(const struct check *c)
+{
+    ZydisMnemonic m = c->instruction.mnemonic;
+    return m == ZYDIS_MNEMONIC_KMOVW || m == ZYDIS_MNEMONIC_VPMOVM2D || m == ZYDIS_MNEMONIC_VPMOVD2M;
+}
+
 /* Whole registers from one place to another. */
 static bool is_copy(const struct check *c)
 {
     ZydisMnemonic m = c->instruction.mnemonic;
+    if (c->mask)
+        return false;
+    if (copies_mask(c))
+        return true;
     if (m == ZYDIS_MNEMONIC_VBROADCASTSS)
         return is_full(c, &c->operand[0]) && c->operand[1].type == ZYDIS_OPERAND_TYPE_MEMORY;
     return (m == ZYDIS_MNEMONIC_VMOVAPS || m == ZYDIS_MNEMONIC_VMOVUPS) && is_full(c, &c->operand[0]) &&
@@ -152,7 +192,11 @@ static void run_copy(struct check *c)
     bool broadcast = c->instruction.mnemonic == ZYDIS_MNEMONIC_VBROADCASTSS;
     struct content p = operand_vector(from) >= 0 ? c->now.at[operand_vector(from)]
                                                  : read_memory(c, from, broadcast ? FROM_WORD : FROM_LANES);
+    bool masks = c->instruction.mnemonic == ZYDIS_MNEMONIC_KMOVW;
+    if (operand_vector(from) < 0 && p.bits != masks && p.origin != FROM_VARIABLE)
+        placement_wrong(c, masks ? "reads lanes as a mask" : "reads a mask as lanes");
     place_note_operands(c, &p);
+    p.bits = masks || c->instruction.mnemonic == ZYDIS_MNEMONIC_VPMOVD2M;
     if (operand_vector(to) >= 0)
         write_register(c, (unsigned)operand_vector(to), &p);
     else
@@ -163,7 +207,7 @@ static void run_copy(struct check *c)
 static bool makes_constant(const struct check *c)
 {
     ZydisMnemonic m = c->instruction.mnemonic;
-    if (m != ZYDIS_MNEMONIC_VXORPS && m != ZYDIS_MNEMONIC_VPCMPEQD)
+    if ((m != ZYDIS_MNEMONIC_VXORPS && m != ZYDIS_MNEMONIC_VPCMPEQD) || c->mask)
         return false;
     int reg = operand_vector(&c->operand[0]);
     return reg >= 0 && operand_vector(&c->operand[1]) == reg && operand_vector(&c->operand[2]) == reg;
@@ -190,6 +234,8 @@ static void read_operand(struct check *c, const ZydisDecodedOperand *o)
     if (vector_number(o->mem.index) >= 0)
         place_expect(c, &c->now.at[vector_number(o->mem.index)], "index", vector_number(o->mem.index));
     struct content p = read_memory(c, o, FROM_LANES);
+    if (p.bits)
+        placement_wrong(c, "reads a mask as lanes");
     if (i->op == IR_gather && p.origin == FROM_LANES) { /* its pointer, or the word of one lane */
         const struct ir_instruction *index = placement_operation(c, i->operand[0]);
         int64_t lane = p.number - index->k;
@@ -212,7 +258,7 @@ static void run_other(struct check *c)
             read_operand(c, &c->operand[n]);
     for (unsigned n = 0; n < c->instruction.operand_count; n++) {
         const ZydisDecodedOperand *o = &c->operand[n];
-        struct content p = {.made_in = c->visit};
+        struct content p = {.made_in = c->visit, .bits = operand_vector(o) >= MASKS};
         if (!(o->actions & ZYDIS_OPERAND_ACTION_MASK_WRITE))
             continue;
         if (operand_vector(o) >= 0)
@@ -222,9 +268,24 @@ static void run_other(struct check *c)
     }
 }
 
+/* What masks an instruction is listed behind its destination, and is k0 where nothing does. */
+static void take_mask(struct check *c)
+{
+    c->mask = 0;
+    if (c->instruction.encoding != ZYDIS_INSTRUCTION_ENCODING_EVEX || c->instruction.operand_count < 2 ||
+        c->operand[1].encoding != ZYDIS_OPERAND_ENCODING_MASK)
+        return;
+    c->mask = (unsigned)(c->operand[1].reg.value - ZYDIS_REGISTER_K0);
+    c->instruction.operand_count--;
+    memmove(c->operand + 1, c->operand + 2, (c->instruction.operand_count - 1u) * sizeof c->operand[0]);
+    if (c->mask)
+        place_expect(c, &c->now.at[MASKS + c->mask], "mask", c->mask);
+}
+
 static void run_instruction(struct check *c)
 {
     ZydisInstructionCategory category = c->instruction.meta.category;
+    take_mask(c);
     if (c->instruction.mnemonic == ZYDIS_MNEMONIC_NOP)
         return;
     if (category == ZYDIS_CATEGORY_COND_BR || category == ZYDIS_CATEGORY_UNCOND_BR)

@@ -8,7 +8,8 @@
 #include <Zydis/Zydis.h>
 #include <stdbool.h>
 
-enum { VECTORS = 16, LANES = VECTORS, SLOTS, SET = VARIABLES + 16, DEPTH = 64 };
+/* Registers have the numbers that allocation gives them, masks included. */
+enum { LANES = REGISTERS, SLOTS, SET = VARIABLES + 16, DEPTH = 64 };
 
 enum origin {
     FROM_NOTHING,
@@ -25,6 +26,7 @@ struct content {
     uint64_t made_in; /* the operation, by visit, that it is an intermediate result of */
     uint8_t origin;
     uint8_t base;   /* FROM_WORD, FROM_LANES: a general-purpose register */
+    uint8_t bits;   /* one a lane: a mask that is not all lanes long */
     uint16_t count; /* of the values that it is */
     int32_t number; /* bits of the literal, of the constant, of the variable; displacement */
     uint16_t value[SET];
@@ -64,7 +66,8 @@ struct check {
     bool coded;    /* the operation has code */
     bool again;    /* the loop is to be walked once more */
     ZydisDecodedInstruction instruction;
-    ZydisDecodedOperand operand[ZYDIS_MAX_OPERAND_COUNT];
+    ZydisDecodedOperand operand[ZYDIS_MAX_OPERAND_COUNT]; /* without the mask register that masks it */
+    unsigned mask;                                        /* which is this one; 0: none */
     bool wrong;
     char text[256];
 };

@@ -112,7 +112,7 @@ static bool intersect(struct content *p, const struct content *other)
     if (changed)
         p->origin = FROM_NOTHING;
     for (unsigned n = 0; n < p->count; n++)
-        if (contains(other, p->value[n]))
+        if (contains(other, p->value[n]) && p->bits == other->bits)
             p->value[kept++] = p->value[n];
     changed |= kept != p->count;
     p->count = (uint16_t)kept;

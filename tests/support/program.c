@@ -207,14 +207,16 @@ void program_interpret(const struct ir *ir, struct program_data *data, unsigned 
 int program_compile_and_run(struct builder *b, struct code_arena *arena, unsigned width, unsigned registers,
                             struct program_data *data, struct error *error)
 {
-    struct register_file file = register_file_of(registers);
+    struct register_file file = register_file_of(registers, width);
     return program_compile_with(b, arena, width, &file, data, error);
 }
 
 int program_compile_with(struct builder *b, struct code_arena *arena, unsigned width,
                          const struct register_file *file, struct program_data *data, struct error *error)
 {
-    allocate(&b->ir, &b->allocation, file);
+    struct register_file all = *file;
+    all.wide = width == 16;
+    allocate(&b->ir, &b->allocation, &all);
     size_t bytes = program_emit(b, width, error);
     return bytes ? program_run(b, bytes, arena, data, error) : -1;
 }
@@ -225,7 +227,7 @@ size_t program_emit(struct builder *b, unsigned width, struct error *error)
     b->emitter.ir = &b->ir;
     b->emitter.allocation = &b->allocation;
     b->emitter.width = width;
-    b->emitter.length = width == 4 ? X86_128 : X86_256;
+    b->emitter.length = length_of(width);
     return emit_routine(&b->emitter, UNIT_VERTEX, &key, error);
 }
 
