@@ -9,6 +9,7 @@
 
 #include "draw/call.h"
 
+#include <emmintrin.h>
 #include <stdbool.h>
 
 /* Columns x0 <= x < x1, rows y0 <= y < y1; empty when either range is. */
@@ -48,6 +49,30 @@ bool raster_touches(const struct raster *raster, int column, int row);
  * returns how many. `triangle` goes to the entries unchanged. Up to TILE_BLOCKS entries are written. */
 uint32_t raster_tile(const struct triangle_head *head, const struct rectangle *scissor, int column, int row,
                      uint32_t triangle, struct entry *entries);
+
+/* A rectangle for bounds of triangles: word 0 is x and word 4 is y, the others mean nothing. Pixels of the window
+ * need no more than 16 bits. */
+struct box {
+    __m128i low, high;
+};
+
+/* A tile and a scissor rectangle, made ready for many triangles. */
+struct raster_site {
+    struct box limit; /* what both have in common */
+    struct rectangle scissor;
+    bool whole;                             /* the scissor takes nothing from the tile */
+    int32_t x, y;                           /* the tile's first pixel */
+    __m128i column[TILE_SIZE / BLOCK_SIZE]; /* what an entry says of the column of blocks that it is in, */
+    __m128i row[TILE_SIZE / BLOCK_SIZE];    /* and of the row: or-ed together, its place */
+};
+
+/* The triangles of the records at `count` offsets from `records`, as raster_tile() has them one by one, into
+ * entries *used and following of PIXEL_ENTRIES. Returns how many triangles, fewer than `count` when the next one
+ * might not find room. */
+uint32_t raster_list(const struct raster_site *site, const uint8_t *records, const uint32_t *offset,
+                     uint32_t count, struct entry *entries, uint32_t *used);
+
+void raster_enter(struct raster_site *site, const struct rectangle *scissor, int column, int row);
 
 typedef uint32_t raster_function(const struct triangle_head *head, const struct rectangle *scissor,
                                  int column, int row, uint32_t record, struct entry *entries);

@@ -4,8 +4,6 @@
 
 #include "draw/raster.h"
 
-#include <emmintrin.h>
-
 enum {
     SUBPIXELS = 1 << SUBPIXEL_BITS,
     CENTRE = SUBPIXELS / 2,
@@ -39,12 +37,6 @@ static inline uint32_t kept(const uint16_t from[BLOCK_SIZE + 1], int32_t first, 
     return from[maximum(start - first, 0)] & ~from[minimum(end - first, BLOCK_SIZE)];
 }
 
-/* A rectangle for bounds of triangles: word 0 is x and word 4 is y, the others mean nothing. Pixels of the window
- * need no more than 16 bits. */
-struct box {
-    __m128i low, high;
-};
-
 static inline __m128i box_corner(int32_t x, int32_t y)
 {
     return _mm_unpacklo_epi64(_mm_set1_epi16((int16_t)x), _mm_set1_epi16((int16_t)y));
@@ -60,8 +52,8 @@ static inline __m128i next_corner(__m128i v)
     return _mm_shufflehi_epi16(_mm_shufflelo_epi16(v, _MM_SHUFFLE(0, 0, 2, 1)), _MM_SHUFFLE(0, 0, 2, 1));
 }
 
-/* The centres that a visible triangle may cover, cut to the limit. */
-static inline struct box triangle_box(const struct triangle_head *head, const struct box *limit)
+/* The centres that a visible triangle may cover. */
+static inline struct box whole_box(const struct triangle_head *head)
 {
     __m128i half = _mm_set1_epi32(CENTRE - 1);
     __m128i x = _mm_loadu_si128((const __m128i *)(const void *)head->x); /* the fourth is not used */
@@ -69,9 +61,19 @@ static inline struct box triangle_box(const struct triangle_head *head, const st
     x = _mm_srai_epi32(_mm_add_epi32(x, half), SUBPIXEL_BITS);
     y = _mm_srai_epi32(_mm_add_epi32(y, half), SUBPIXEL_BITS);
     __m128i a = _mm_packs_epi32(x, y), b = next_corner(a), c = next_corner(b);
-    __m128i low = _mm_min_epi16(_mm_min_epi16(a, b), c);
-    __m128i high = _mm_max_epi16(_mm_max_epi16(a, b), c);
-    return (struct box){_mm_max_epi16(low, limit->low), _mm_min_epi16(high, limit->high)};
+    return (struct box){_mm_min_epi16(_mm_min_epi16(a, b), c), _mm_max_epi16(_mm_max_epi16(a, b), c)};
+}
+
+static inline struct box cut_box(const struct box *box, const struct box *limit)
+{
+    return (struct box){_mm_max_epi16(box->low, limit->low), _mm_min_epi16(box->high, limit->high)};
+}
+
+/* The centres that a visible triangle may cover, cut to the limit. */
+static inline struct box triangle_box(const struct triangle_head *head, const struct box *limit)
+{
+    struct box box = whole_box(head);
+    return cut_box(&box, limit);
 }
 
 /* Whether a comparison is true of both coordinates. */

@@ -70,13 +70,26 @@ static void prefetch_cell(const uint8_t *base, const struct bin_cell *cell)
     }
 }
 
-static void rasterize_cell(struct tile_worker *worker, const struct frame *frame, uint32_t tile,
-                           const struct bin_cell *cell)
+/* Triangles with one sample a pixel. */
+static void rasterize_triangles(struct tile_worker *worker, const struct frame *frame, uint32_t tile,
+                                const struct bin_cell *cell)
+{
+    uint32_t done = 0;
+    for (;;) {
+        done += raster_list(&worker->site, frame->arena.base, cell->triangle + done, cell->count - done,
+                            worker->entries.entry, &worker->count);
+        if (done == cell->count)
+            return;
+        shade(worker, frame, tile);
+    }
+}
+
+static void rasterize_any(struct tile_worker *worker, const struct frame *frame, uint32_t tile,
+                          const struct bin_cell *cell)
 {
     const uint8_t *base = frame->arena.base;
     const struct draw *draw = worker->draw;
     int column = (int)(tile % frame->target->columns), row = (int)(tile / frame->target->columns);
-    prefetch_cell(base, cell);
     for (uint32_t i = 0; i < cell->count; i++) {
         uint32_t triangle = cell->triangle[i];
         if (worker->count + TILE_BLOCKS > PIXEL_ENTRIES)
@@ -85,6 +98,32 @@ static void rasterize_cell(struct tile_worker *worker, const struct frame *frame
                                       (const struct triangle_head *)(const void *)(base + triangle),
                                       &draw->scissor, column, row, triangle, &worker->entries, worker->count);
     }
+}
+
+static void rasterize_cells(struct tile_worker *worker, const struct frame *frame, uint32_t tile,
+                            uint32_t first)
+{
+    const struct draw *draw = worker->draw;
+    bool plain = draw->shape == SHAPE_TRIANGLE && !draw->sampling.samples;
+    for (uint32_t at = first; at;) {
+        const struct bin_cell *cell = bin_cell(&frame->arena, at);
+        prefetch_cell(frame->arena.base, cell);
+        if (plain)
+            rasterize_triangles(worker, frame, tile, cell);
+        else
+            rasterize_any(worker, frame, tile, cell);
+        at = cell->next;
+    }
+}
+
+/* Entries from here on are another draw's. */
+static void begin_draw(struct tile_worker *worker, const struct frame *frame, uint32_t tile, uint32_t command)
+{
+    shade(worker, frame, tile);
+    worker->draw = &frame->command[command].draw;
+    worker->command = command;
+    raster_enter(&worker->site, &worker->draw->scissor, (int)(tile % frame->target->columns),
+                 (int)(tile / frame->target->columns));
 }
 
 void tile_render(struct tile_worker *worker, const struct frame *frame, uint32_t tile)
@@ -102,13 +141,9 @@ void tile_render(struct tile_worker *worker, const struct frame *frame, uint32_t
         if (!head)
             break;
         __builtin_prefetch(frame->arena.base + bin_cell(&frame->arena, head)->later);
-        const struct draw *draw = &frame_command(frame, chunk)->draw;
-        if (draw != worker->draw)
-            shade(worker, frame, tile);
-        worker->draw = draw;
-        worker->command = frame->chunk[chunk].command;
-        for (uint32_t cell = head; cell; cell = bin_cell(&frame->arena, cell)->next)
-            rasterize_cell(worker, frame, tile, bin_cell(&frame->arena, cell));
+        if (&frame_command(frame, chunk)->draw != worker->draw)
+            begin_draw(worker, frame, tile, frame->chunk[chunk].command);
+        rasterize_cells(worker, frame, tile, head);
     }
     shade(worker, frame, tile);
 }

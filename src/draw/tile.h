@@ -12,6 +12,7 @@ struct tile_worker {
     struct lane_table lanes; /* its counters are zero between calls */
     uint32_t count;
     const struct draw *draw; /* whose entries these are */
+    struct raster_site site; /* the tile in the draw's scissor rectangle */
     uint32_t command;        /* its number */
     uint64_t pixels_shaded;
 };

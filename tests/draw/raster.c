@@ -181,7 +181,21 @@ static void scatter(struct triangle_head *h, int32_t x, int32_t y, int32_t reach
     }
 }
 
-enum shape { TINY, BLOCKS, MIDDLE, TILES, HUGE, SLIVER, GRID, CENTRES, NEEDLE, NEARLY_LINE, CORNERS, SHAPES };
+enum shape {
+    TINY,
+    BLOCKS,
+    SIXTEEN_BITS,
+    MIDDLE,
+    TILES,
+    HUGE,
+    SLIVER,
+    GRID,
+    CENTRES,
+    NEEDLE,
+    NEARLY_LINE,
+    CORNERS,
+    SHAPES
+};
 
 /* A triangle of the shape about the window position (x, y). */
 static void random_head(struct triangle_head *h, enum shape shape, int32_t x, int32_t y)
@@ -189,6 +203,14 @@ static void random_head(struct triangle_head *h, enum shape shape, int32_t x, in
     switch (shape) {
     case TINY: scatter(h, x, y, 300, 1, 0); break;
     case BLOCKS: scatter(h, x, y, 1500, 1, 0); break;
+    case SIXTEEN_BITS: { /* about as large as edges of 16 bits allow, vertices at the corners of their bounds */
+        int32_t width = between(5000, 5600), height = between(5000, 5600);
+        for (int i = 0; i < 3; i++) {
+            h->x[i] = limited(x + (draw() % 4 ? draw() & 1 ? width : 0 : between(0, width)));
+            h->y[i] = limited(y + (draw() % 4 ? draw() & 1 ? height : 0 : between(0, height)));
+        }
+        break;
+    }
     case MIDDLE: scatter(h, x, y, 8000, 1, 0); break;
     case TILES: scatter(h, x, y, 60000, 1, 0); break;
     case HUGE: scatter(h, 0, 0, WINDOW_MAXIMUM, 1, 0); break;
@@ -241,16 +263,27 @@ static struct rectangle random_cut(int32_t x, int32_t y, int32_t size)
     return r;
 }
 
+/* One to four whole tiles about (x, y): nothing is cut off but by the tiles' sides. */
+static struct rectangle whole_tiles(int32_t x, int32_t y)
+{
+    struct rectangle r = {x & -TILE_SIZE, y & -TILE_SIZE, (x & -TILE_SIZE) + TILE_SIZE,
+                          (y & -TILE_SIZE) + TILE_SIZE};
+    r.x0 -= r.x0 && draw() & 1 ? TILE_SIZE : 0;
+    r.y0 -= r.y0 && draw() & 1 ? TILE_SIZE : 0;
+    return r;
+}
+
+/* With a cut size of 0 in whole tiles. */
 static void compare_shape(enum shape shape, int triangles, int32_t cut_size)
 {
     uint64_t covered = 0;
     for (int i = 0; i < triangles; i++) {
-        int32_t x = between(0, TARGET), y = between(0, TARGET);
+        int32_t x = between(0, TARGET - 1), y = between(0, TARGET - 1);
         struct triangle_head h = {.visible = -1};
         do
             random_head(&h, shape, x * 256 + between(-256, 256), y * 256 + between(-256, 256));
         while (!orient(&h));
-        struct area a = make_area(random_cut(x, y, cut_size));
+        struct area a = make_area(cut_size ? random_cut(x, y, cut_size) : whole_tiles(x, y));
         struct triangle_head before = h;
         count_binned(&a, &h);
         expect_oracle(&a, &h);
@@ -270,6 +303,16 @@ static void test_tiny_triangles_equal_the_oracle(void)
 static void test_triangles_of_a_few_blocks_equal_the_oracle(void)
 {
     compare_shape(BLOCKS, 20000, 24);
+}
+
+static void test_triangles_in_whole_tiles_equal_the_oracle(void)
+{
+    compare_shape(TINY, 3000, 0);
+    compare_shape(BLOCKS, 3000, 0);
+    compare_shape(SIXTEEN_BITS, 4000, 0);
+    compare_shape(MIDDLE, 1000, 0);
+    compare_shape(CENTRES, 2000, 0);
+    compare_shape(NEARLY_LINE, 1000, 0);
 }
 
 static void test_triangles_within_a_tile_equal_the_oracle(void)
@@ -359,6 +402,42 @@ static void test_a_covered_tile_is_256_whole_blocks(void)
         TEST_ASSERT_EQUAL_FLOAT((float)(5 * 64 + i / 16 * 4), entries[i].y);
         TEST_ASSERT_EQUAL_UINT32(7, entries[i].triangle);
     }
+}
+
+/* A list gives what its triangles give one by one, and stops before one that might not find room. */
+static void test_lists_are_their_triangles_one_after_the_other(void)
+{
+    enum { RECORDS = 11, STRIDE = 64 };
+    static const enum shape shapes[] = {TINY, BLOCKS, SIXTEEN_BITS, MIDDLE, TILES, HUGE};
+    uint32_t stops = 0;
+    for (int round = 0; round < 2000; round++) {
+        static alignas(64) uint8_t records[RECORDS * STRIDE];
+        static struct entry entries[PIXEL_ENTRIES], one[TILE_BLOCKS];
+        uint32_t offset[RECORDS], used = draw() % 900, before = used;
+        struct rectangle cut = round & 1 ? whole : random_cut(32, 32, 80);
+        struct raster_site site;
+        for (uint32_t i = 0; i < RECORDS; i++) {
+            struct triangle_head h = {.visible = -1};
+            do
+                random_head(&h, shapes[draw() % 6], between(0, 64 * 256), between(0, 64 * 256));
+            while (!orient(&h));
+            offset[i] = i * STRIDE;
+            memcpy(records + offset[i], &h, sizeof h);
+        }
+        raster_enter(&site, &cut, 0, 0);
+        uint32_t done = raster_list(&site, records, offset, RECORDS, entries, &used), next = before;
+        for (uint32_t i = 0; i < done; i++) {
+            uint32_t count = raster_tile((const void *)(records + offset[i]), &cut, 0, 0, offset[i], one);
+            TEST_ASSERT_LESS_OR_EQUAL_UINT32(PIXEL_ENTRIES, next + count);
+            if (count)
+                TEST_ASSERT_EQUAL_MEMORY(one, entries + next, count * sizeof *one);
+            next += count;
+        }
+        TEST_ASSERT_EQUAL_UINT32(next, used);
+        TEST_ASSERT_TRUE(done == RECORDS || used > PIXEL_ENTRIES - TILE_BLOCKS);
+        stops += done < RECORDS;
+    }
+    TEST_ASSERT_GREATER_THAN_UINT32(10, stops);
 }
 
 /* --- Tiles
@@ -518,11 +597,13 @@ int main(void)
     RUN_TEST(test_a_covered_tile_is_256_whole_blocks);
     RUN_TEST(test_tiny_triangles_equal_the_oracle);
     RUN_TEST(test_triangles_of_a_few_blocks_equal_the_oracle);
+    RUN_TEST(test_triangles_in_whole_tiles_equal_the_oracle);
     RUN_TEST(test_triangles_within_a_tile_equal_the_oracle);
     RUN_TEST(test_triangles_over_tiles_equal_the_oracle);
     RUN_TEST(test_huge_triangles_equal_the_oracle);
     RUN_TEST(test_slivers_equal_the_oracle);
     RUN_TEST(test_edges_through_centres_equal_the_oracle);
+    RUN_TEST(test_lists_are_their_triangles_one_after_the_other);
     RUN_TEST(test_rejected_tiles_have_no_pixels);
     RUN_TEST(test_pixels_inside_a_mesh_are_covered_once);
     RUN_TEST(test_pixels_inside_a_fan_are_covered_once);
