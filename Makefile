@@ -82,7 +82,7 @@ instrument_coverage = --coverage -fprofile-update=atomic
 instrument := $(if $(SANITIZE),$(SANITIZE:1=address),$(if $(COVERAGE),coverage))
 ifneq ($(instrument),)
 $(if $(instrument_$(instrument)),,$(error SANITIZE is "$(SANITIZE)", expected address, thread or fuzzer))
-CFLAGS     ?= -O1 -g
+CFLAGS     ?= -O1 -g1
 INSTRUMENT := $(instrument_$(instrument)) -fno-omit-frame-pointer $(if $(findstring clang,$(CC)),,-Wno-maybe-uninitialized -Wno-restrict)
 CHECK_IR   := 1
 else
@@ -94,9 +94,16 @@ ifdef CHECK_IR
 CHECKED := -DTRIPTYCH_CHECK_IR
 endif
 
-compile = $(CC) -std=gnu17 $(CFLAGS) -Wall -Wextra -Werror -ffp-contract=off -fPIC -fvisibility=hidden -pthread \
+# With sanitizers a program has 25 MB of code and data besides debugging information. There are 150 programs, so most share
+# it: $(BUILD)/tests/shared.so has all that is not a test, and lets tests see it.
+SHARED := $(if $(SANITIZE),$(BUILD)/tests/shared.so)
+
+compile = $(CC) -std=gnu17 $(CFLAGS) -Wall -Wextra -Werror -ffp-contract=off -fPIC $(if $(SHARED),,-fvisibility=hidden) -pthread \
   $(INSTRUMENT) $(CHECKED) -Isrc -I. $(package_includes) $(CPPFLAGS)
 link = $(CC) $(CFLAGS) $(INSTRUMENT) -pthread -Wl,--as-needed,-z,relro,-z,now $(LDFLAGS)
+
+# There are 150 test programs, and most of what they take on the disk is debugging information.
+compressed = -Wl,--compress-debug-sections=zlib
 
 # An object without this note makes the whole program's stack executable; every assembly file gets it from here.
 assemble = $(NASM) -f elf64 -g -F dwarf -Werror -Iasm/ \
@@ -110,12 +117,15 @@ unity_flags = -isystem $(dir $(UNITY_SOURCE)) -DUNITY_INCLUDE_DOUBLE -DUNITY_USE
 
 # --- What to build -------------------------------------------------------------------------------------------
 
-.PHONY: all programs check test check-threads matrix coverage soak soak-faults soak-memory bench peers bench-shaders mutations gallery verify-external fuzzers fuzz-input fuzz-input-smoke dependencies packages install clean format format-check help FORCE
+.PHONY: all programs objects check test check-threads matrix coverage soak soak-faults soak-memory bench peers bench-shaders mutations gallery verify-external fuzzers fuzz-input fuzz-input-smoke dependencies packages install clean format format-check help FORCE
 
 all: $(BUILD)/libtriptych.a $(if $(SANITIZE),,$(BUILD)/libtriptych.so $(BUILD)/triptych.pc) $(COMMAND) build/glmark2 \
   build/assimp
 
 programs: $(PROGRAMS) $(if $(filter tests/peers.sh,$(SCRIPTS)),$(BUILD)/peers/drive $(BUILD)/peers/triptych)
+
+# All that is compiled for tests, which need no headers of GLES2.
+objects: $(filter-out $(PROGRAM_OBJECTS) %/gles.o %/gles_library.o %/gles_shader.o,$(OBJECTS)) $(PROGRAMS:$(BUILD)/%=$(BUILD)/object/%.o)
 
 # Starts a recipe line: a short note in place of the command, or the command itself with V=1.
 say = $(if $(V),,@printf '  %-4s  %s\n' $(1) $(or $(2),$@);)
@@ -145,7 +155,8 @@ $(BUILD)/object/unity.o: $(UNITY_SOURCE) $(BUILD)/flags
 # Archives are written anew, so that an object whose source is gone is gone too; the lists notice the removal.
 $(BUILD)/libtriptych.a: $(LIBRARY_OBJECTS) $(BUILD)/library.list
 $(BUILD)/command.a: $(TOOL_OBJECTS) $(BUILD)/command.list
-$(BUILD)/libtriptych.a $(BUILD)/command.a:
+$(BUILD)/support.a: $(SUPPORT_OBJECTS) $(BUILD)/support.list
+$(BUILD)/libtriptych.a $(BUILD)/command.a $(BUILD)/support.a:
 	$(call say,AR)rm -f $@ && $(AR) rcs $@ $(filter %.o,$^)
 
 # The map keeps the assembly's symbols inside; -z,text refuses code that would have to be patched when loaded.
@@ -160,10 +171,24 @@ $(BUILD)/libtriptych.so: $(BUILD)/$(SONAME)
 $(BUILD)/triptych: $(TOOL_OBJECTS) $(BUILD)/libtriptych.a $(BUILD)/command.list
 	$(call say,LD)$(link) $(TOOL_OBJECTS) $(BUILD)/libtriptych.a $(tool_libraries) -o $@
 
-$(PROGRAMS): $(BUILD)/tests/%: $(BUILD)/object/tests/%.o $(SUPPORT_OBJECTS) $(BUILD)/object/unity.o \
-  $(BUILD)/command.a $(BUILD)/libtriptych.a
+# From archives a test takes what it needs. Two kinds do so in every build: those that put functions in the place of the
+# library's, as a shared object calls its own, and those that name symbols of assembly, which stay where they are linked.
+apart    := $(addprefix $(BUILD)/tests/,draw/cache draw/convention draw/stack fuzz/bisect fuzz/inputs tool/verify stitch/%)
+archives := $(addprefix $(BUILD)/,support.a command.a libtriptych.a)
+found_beside = '-Wl,-rpath,$$ORIGIN/..'
+
+$(if $(SHARED),$(filter $(apart),$(PROGRAMS)),$(PROGRAMS)): $(archives)
+$(if $(SHARED),$(filter-out $(apart),$(PROGRAMS))): $(SHARED)
+
+$(PROGRAMS): $(BUILD)/tests/%: $(BUILD)/object/tests/%.o $(BUILD)/object/unity.o
 	@mkdir -p $(@D)
-	$(call say,LD)$(link) $(filter %.o,$^) $(filter %.a,$^) $(tool_libraries) -o $@
+	$(call say,LD)$(link) $(compressed) $(filter %.o,$^) $(or $(filter %.so,$^),$(archives)) \
+	  $(if $(filter %.so,$^),$(found_beside)) $(tool_libraries) -o $@
+
+$(BUILD)/tests/shared.so: $(filter-out %/main.o,$(TOOL_OBJECTS)) $(LIBRARY_OBJECTS) $(SUPPORT_OBJECTS) \
+  $(addprefix $(BUILD)/,library.list command.list support.list)
+	@mkdir -p $(@D)
+	$(call say,LD)$(link) $(compressed) -shared -Wl,-Bsymbolic $(filter %.o,$^) $(tool_libraries) -o $@
 
 # Of `make peers`: the driver, a renderer that is Triptych, and one that is GLES2 of whichever library.
 peer = $(foreach part,$(1) workload,$(BUILD)/object/bench/peers/$(part).o)
@@ -214,8 +239,9 @@ $(addprefix $(BUILD)/fuzz/,$(FUZZERS)): $(BUILD)/fuzz/inputs
 $(BUILD)/flags: text = $(compile) $(unity_flags) $(link) $(assemble)
 $(BUILD)/library.list: text = $(LIBRARY_OBJECTS:$(BUILD)/%=%)
 $(BUILD)/command.list: text = $(TOOL_OBJECTS:$(BUILD)/%=%)
+$(BUILD)/support.list: text = $(SUPPORT_OBJECTS:$(BUILD)/%=%)
 $(BUILD)/commit: text = $(COMMIT)
-$(BUILD)/flags $(BUILD)/library.list $(BUILD)/command.list $(BUILD)/commit: FORCE
+$(BUILD)/flags $(addprefix $(BUILD)/,library.list command.list support.list commit): FORCE
 	@mkdir -p $(@D)
 	@printf '%s\n' "$(text)" | cmp -s - $@ || printf '%s\n' "$(text)" >$@
 
@@ -263,7 +289,7 @@ check:
 test:
 	@tests/support/dependencies.sh build test
 	+@$(MAKE) $(jobs) all programs
-	+@$(MAKE) $(jobs) BUILD=$(BUILD)/clang CC=clang all programs
+	+@$(MAKE) $(jobs) BUILD=$(BUILD)/clang CC=clang all objects
 	+@$(MAKE) $(jobs) BUILD=$(BUILD)/sanitize SANITIZE=address all programs
 	+@$(MAKE) $(jobs) BUILD=$(BUILD)/thread SANITIZE=thread all $(threaded)
 	@tests/support/run.sh '$(ONLY)' $(BUILD) $(BUILD)/sanitize $(BUILD)/thread
