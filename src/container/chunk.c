@@ -167,12 +167,6 @@ int chunk_close(struct chunk_writer *writer, struct error *error)
     return writer->failed ? error_set(error, "%s", writer->error.text) : 0;
 }
 
-void chunk_discard(struct chunk_writer *writer)
-{
-    file_discard(&writer->file);
-    free_writer(writer);
-}
-
 /* --- Reading ----------------------------------------------------------------------------------------------
  */
 

@@ -15,7 +15,7 @@
  *             40  u64     records of all chunks
  *
  * All numbers are little-endian. The contents of the BODY chunks, one behind the other, are records and data
- * (container.h in stream/ reads them, record.h and stream/ write them); a record does not cross from one chunk into the
+ * (container.h in stream/ reads them, write.h writes them); a record does not cross from one chunk into the
  * next, data do. Nothing follows the end.
  *
  * The writer writes to a temporary file and renames it at the end, so that a file without an end is one whose writer
@@ -66,9 +66,6 @@ void chunk_frame(struct chunk_writer *writer);
 
 /* Writes the rest and the end and gives the file its name, if nothing has failed; otherwise there is no file. */
 int chunk_close(struct chunk_writer *writer, struct error *error);
-
-/* Leaves no file. */
-void chunk_discard(struct chunk_writer *writer);
 
 /* --- Reading ----------------------------------------------------------------------------------------------
  */

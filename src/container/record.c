@@ -10,22 +10,6 @@
 /* --- Records ----------------------------------------------------------------------------------------------
  */
 
-static void begin_record(struct recorder *recorder, uint32_t type)
-{
-    recorder->codec.bytes = 0;
-    code_u8(&recorder->codec, type, 0, "");
-}
-
-/* A record that there was no memory for must not be missing from the file. */
-static void end_record(struct recorder *recorder)
-{
-    if (recorder->codec.failed && !recorder->chunks.failed) {
-        recorder->chunks.failed = true;
-        error_set(&recorder->chunks.error, "recording: %s", recorder->codec.error.text);
-    }
-    chunk_record(&recorder->chunks, recorder->codec.data, recorder->codec.bytes);
-}
-
 static bool draws(enum call_type type)
 {
     return type == CALL_DRAW || type == CALL_DRAW_INDEXED || type == CALL_CLEAR || type == CALL_COPY;
@@ -33,19 +17,8 @@ static bool draws(enum call_type type)
 
 void record_call(struct recorder *recorder, const struct call *call)
 {
-    struct call copy = *call;
-    begin_record(recorder, call->type);
-    call_code(&recorder->codec, &copy);
-    end_record(recorder);
-    if (call->type == CALL_FRAME)
-        chunk_frame(&recorder->chunks);
+    record_write_call(&recorder->write, call);
     recorder->drawn = call->type != CALL_FRAME && (recorder->drawn || draws(call->type));
-}
-
-static void fail(struct recorder *recorder, const char *reason)
-{
-    recorder->chunks.failed = true;
-    error_set(&recorder->chunks.error, "recording: %s", reason);
 }
 
 static uint32_t take_number(struct recorder *recorder)
@@ -54,23 +27,14 @@ static uint32_t take_number(struct recorder *recorder)
         return recorder->free_numbers[--recorder->free_count];
     if (recorder->next < NO_RESOURCE)
         return recorder->next++;
-    fail(recorder, "more than 65536 resources at a time");
+    record_write_fail(&recorder->write, "more than 65536 resources at a time");
     return 0;
 }
 
 uint32_t record_define(struct recorder *recorder, const struct resource *resource)
 {
-    struct resource_part parts[RESOURCE_PARTS];
-    struct resource copy = *resource;
     uint32_t number = take_number(recorder);
-    begin_record(recorder, RECORD_DEFINE);
-    code_u32(&recorder->codec, number, 0, "");
-    code_u8(&recorder->codec, copy.type, 0, "");
-    resource_code(&recorder->codec, &copy);
-    end_record(recorder);
-    unsigned count = resource_parts(&copy, parts);
-    for (unsigned i = 0; i < count; i++)
-        chunk_data(&recorder->chunks, parts[i].data, parts[i].bytes);
+    record_write_definition(&recorder->write, number, resource);
     return number;
 }
 
@@ -81,7 +45,7 @@ void record_release(struct recorder *recorder, uint32_t number)
         uint32_t capacity = 2 * recorder->free_capacity + 64;
         uint32_t *larger = realloc(recorder->free_numbers, capacity * sizeof *larger);
         if (!larger) {
-            fail(recorder, "not enough memory");
+            record_write_fail(&recorder->write, "not enough memory");
             return;
         }
         recorder->free_numbers = larger;
@@ -113,7 +77,7 @@ enum triptych_result record_start(struct triptych_device *device, const char *pa
         return TRIPTYCH_NO_MEMORY;
     }
     errno = 0;
-    if (chunk_open(&recorder->chunks, path, true, error)) {
+    if (chunk_open(&recorder->write.chunks, path, true, error)) {
         free(recorder);
         return device_refusal(TRIPTYCH_BAD_ARGUMENT);
     }
@@ -163,8 +127,8 @@ enum triptych_result record_stop(struct triptych_device *device, struct error *e
         record_frame(device);
     end_queries(device);
     device->recorder = NULL;
-    int result = chunk_close(&recorder->chunks, error);
-    free(recorder->codec.data);
+    int result = chunk_close(&recorder->write.chunks, error);
+    free(recorder->write.codec.data);
     free(recorder->free_numbers);
     free(recorder);
     return result ? TRIPTYCH_FILE_FAILED : TRIPTYCH_OK;

@@ -59,7 +59,7 @@ void record_new_shader(struct triptych_device *device, triptych_shader *shader)
     if (!recorder)
         return;
     if (print_shader(shader, &resource))
-        codec_fail(&recorder->codec, "not enough memory");
+        codec_fail(&recorder->write.codec, "not enough memory");
     shader->recorded = record_define(recorder, &resource);
     free(resource.code);
 }
@@ -373,7 +373,7 @@ void record_update(struct triptych_device *device, const triptych_texture *textu
         0, 0, 0, (unsigned)whole->width, (unsigned)whole->height, (unsigned)whole->depth};
     uint8_t *packed = pack_rows(texture, box ? box : &all, data, row_pitch, slice_pitch, &bytes);
     if (!packed)
-        codec_fail(&device->recorder->codec, "not enough memory");
+        codec_fail(&device->recorder->write.codec, "not enough memory");
     call.update.face = face;
     call.update.level = level;
     call.update.box = box ? *box : (struct triptych_box){0};

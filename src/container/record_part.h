@@ -3,13 +3,11 @@
 #ifndef CONTAINER_RECORD_PART_H
 #define CONTAINER_RECORD_PART_H
 
-#include "container/chunk.h"
-#include "container/codec.h"
 #include "container/record.h"
+#include "container/write.h"
 
 struct recorder {
-    struct chunk_writer chunks;
-    struct codec codec;        /* of one record after the other */
+    struct record_writer write;
     uint32_t *free_numbers;    /* of resources that were released */
     uint32_t free_count, next; /* and the first that was never used */
     uint32_t free_capacity;

@@ -25,7 +25,7 @@ static void write_texture(struct triptych_device *device, triptych_texture *text
         device_read_texels(device, texture, data);
         record_texels(device, texture, data, bytes);
     } else {
-        codec_fail(&device->recorder->codec, "not enough memory");
+        codec_fail(&device->recorder->write.codec, "not enough memory");
     }
     free(data);
 }
@@ -51,7 +51,7 @@ static void write_contents(struct triptych_device *device, struct target *target
     size_t bytes = target_contents_bytes(description);
     void *data = malloc(bytes);
     if (!data) {
-        codec_fail(&device->recorder->codec, "not enough memory");
+        codec_fail(&device->recorder->write.codec, "not enough memory");
         return;
     }
     target_read_contents(target, data);

@@ -197,8 +197,10 @@ static int write_text(const struct work *work, const char *text, size_t bytes, s
         ssize_t written = write(file, text, bytes);
         if (written < 0 && errno == EINTR)
             continue;
-        if (written < 0)
+        if (written <= 0) {
+            errno = written ? errno : EIO;
             break;
+        }
         text += written;
         bytes -= (size_t)written;
     }

@@ -43,28 +43,6 @@ struct event_list interpreter_events(const struct interpreter *i)
 
 /* --- Regions ---------------------------------------------------------------------------------------------- */
 
-static uint32_t region_end(const struct ir *ir, uint32_t number)
-{
-    for (unsigned depth = 0;; number++) {
-        uint8_t properties = ir_op_information[ir->instruction[number].op].properties;
-        depth += (properties & IR_OPENS) != 0;
-        depth -= (properties & IR_CLOSES) != 0;
-        if (!depth)
-            return number;
-    }
-}
-
-static uint32_t region_start(const struct ir *ir, uint32_t number)
-{
-    for (unsigned depth = 0;; number--) {
-        uint8_t properties = ir_op_information[ir->instruction[number].op].properties;
-        depth += (properties & IR_CLOSES) != 0;
-        depth -= (properties & IR_OPENS) != 0;
-        if (!depth)
-            return number;
-    }
-}
-
 static void enter_visit(struct interpreter *m, struct visit visit)
 {
     if (!m->notes)
@@ -85,7 +63,7 @@ static bool any(quad q)
 /* Behind a region that ran, or was skipped. */
 static uint32_t skip(struct interpreter *m, uint32_t when, bool runs)
 {
-    uint32_t end = region_end(m->ir, when);
+    uint32_t end = ir_other_end(m->ir, when);
     m->ran[end] = runs;
     return runs ? when + 1 : end + 1;
 }
@@ -104,7 +82,7 @@ static uint32_t repeat(struct interpreter *m, uint32_t again, bool goes_on)
             m->value[m->ir->instruction[n].operand[0]] = m->next[m->ir->instruction[n].operand[0]];
     visit.pass++;
     enter_visit(m, visit);
-    return region_start(m->ir, again) + 1;
+    return ir_other_end(m->ir, again) + 1;
 }
 
 static quad join(const struct interpreter *m, uint32_t number)

@@ -88,6 +88,18 @@ int ir_is_invariant_read(const struct ir_instruction *instruction)
            instruction->base != BASE_DEPTH && instruction->base != BASE_OUTPUT;
 }
 
+uint32_t ir_other_end(const struct ir *ir, uint32_t number)
+{
+    int opens = ir_op_information[ir->instruction[number].op].properties & IR_OPENS;
+    for (int depth = 0;; number += opens ? 1 : UINT32_MAX) {
+        unsigned properties = ir_op_information[ir->instruction[number].op].properties;
+        depth += (properties & IR_OPENS) != 0;
+        depth -= (properties & IR_CLOSES) != 0;
+        if (!depth)
+            return number;
+    }
+}
+
 void ir_compact(struct ir *ir, uint16_t *map)
 {
     uint32_t to = 1;

@@ -138,6 +138,9 @@ uint16_t ir_append(struct ir *ir, struct ir_instruction instruction);
 /* Whether the instruction only reads memory that no routine writes (so that it may move). */
 int ir_is_invariant_read(const struct ir_instruction *instruction);
 
+/* The other end of the region that the instruction opens or closes. */
+uint32_t ir_other_end(const struct ir *ir, uint32_t number);
+
 /* Removes nops and renumbers. `map` is scratch of IR_CAPACITY entries. */
 void ir_compact(struct ir *ir, uint16_t *map);
 

@@ -1,5 +1,5 @@
 /* A stream as a container: the resources in their order, then the calls in theirs. */
-#include "container/codec.h"
+#include "container/write.h"
 #include "stream/container.h"
 #include "stream/folder.h"
 
@@ -9,21 +9,8 @@
 struct writer {
     const struct stream *stream;
     char *prefix;
-    struct chunk_writer chunks;
-    struct codec codec; /* of one record after the other */
+    struct record_writer write;
 };
-
-/* Begins a record of that type, which is written by end_record. */
-static void begin_record(struct writer *writer, uint32_t type)
-{
-    writer->codec.bytes = 0;
-    code_u8(&writer->codec, type, 0, "");
-}
-
-static void end_record(struct writer *writer)
-{
-    chunk_record(&writer->chunks, writer->codec.data, writer->codec.bytes);
-}
 
 /* The path from the new folder, which must not have become too long. */
 static void move_path(struct writer *writer, char **path)
@@ -32,15 +19,14 @@ static void move_path(struct writer *writer, char **path)
         return;
     *path = folder_join(writer->prefix, *path);
     if (!*path)
-        codec_fail(&writer->codec, "not enough memory");
+        codec_fail(&writer->write.codec, "not enough memory");
     else if (strlen(*path) > LIMIT_PATH_BYTES)
-        codec_fail(&writer->codec, "a path of %zu bytes, expected at most %d", strlen(*path),
+        codec_fail(&writer->write.codec, "a path of %zu bytes, expected at most %d", strlen(*path),
                    LIMIT_PATH_BYTES);
 }
 
 static void write_resource(struct writer *writer, uint32_t number)
 {
-    struct resource_part parts[RESOURCE_PARTS];
     struct resource copy = writer->stream->resources[number];
     enum { FACES = sizeof copy.face_path / sizeof *copy.face_path };
     if (copy.options.source == MESH_DATA)
@@ -48,14 +34,7 @@ static void write_resource(struct writer *writer, uint32_t number)
     move_path(writer, &copy.path);
     for (int face = 0; face < FACES; face++)
         move_path(writer, &copy.face_path[face]);
-    begin_record(writer, RECORD_DEFINE);
-    code_u32(&writer->codec, number, 0, "");
-    code_u8(&writer->codec, copy.type, 0, "");
-    resource_code(&writer->codec, &copy);
-    end_record(writer);
-    unsigned count = resource_parts(&copy, parts);
-    for (unsigned i = 0; i < count; i++)
-        chunk_data(&writer->chunks, parts[i].data, parts[i].bytes);
+    record_write_definition(&writer->write, number, &copy);
     free(copy.path);
     for (int face = 0; face < FACES; face++)
         free(copy.face_path[face]);
@@ -64,16 +43,10 @@ static void write_resource(struct writer *writer, uint32_t number)
 /* The call itself; sequences are defined here, where their calls are. */
 static void write_call(struct writer *writer, const struct call *call)
 {
-    struct call copy = *call;
-    if (call->type == CALL_SEQUENCE) {
+    if (call->type == CALL_SEQUENCE)
         write_resource(writer, call->resource);
-        return;
-    }
-    begin_record(writer, call->type);
-    call_code(&writer->codec, &copy);
-    end_record(writer);
-    if (call->type == CALL_FRAME)
-        chunk_frame(&writer->chunks);
+    else
+        record_write_call(&writer->write, call);
 }
 
 static void write_all(struct writer *writer)
@@ -83,10 +56,9 @@ static void write_all(struct writer *writer)
     for (uint32_t i = 0; i < stream->resource_count; i++)
         if (stream->resources[i].type != RESOURCE_SEQUENCE)
             write_resource(writer, i);
-    for (uint32_t i = 0; i <= stream->call_count && !writer->codec.failed; i++) {
+    for (uint32_t i = 0; i <= stream->call_count && !writer->write.codec.failed; i++) {
         if (i == end) {
-            begin_record(writer, RECORD_END);
-            end_record(writer);
+            record_write_end(&writer->write);
             end = UINT32_MAX;
         }
         if (i == stream->call_count)
@@ -102,17 +74,12 @@ int container_save(const struct stream *stream, const char *path, struct error *
     struct writer writer = {.stream = stream};
     int result = folder_prefix(stream, path, &writer.prefix, error);
     if (!result)
-        result = chunk_open(&writer.chunks, path, false, error);
+        result = chunk_open(&writer.write.chunks, path, false, error);
     if (!result) {
         write_all(&writer);
-        if (writer.codec.failed) {
-            chunk_discard(&writer.chunks);
-            result = error_set(error, "%s: %s", path, writer.codec.error.text);
-        } else {
-            result = chunk_close(&writer.chunks, error);
-        }
+        result = chunk_close(&writer.write.chunks, error);
     }
-    free(writer.codec.data);
+    free(writer.write.codec.data);
     free(writer.prefix);
     return result;
 }

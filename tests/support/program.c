@@ -114,18 +114,6 @@ static void step(struct interpreter *in, uint32_t number, unsigned lane)
     }
 }
 
-/* The other end of the region that begins (step 1) or ends (-1) at `number`. */
-static uint32_t other_end(const struct ir *ir, uint32_t number, int step)
-{
-    for (int depth = 0;; number += (uint32_t)step) {
-        unsigned properties = ir_op_information[ir->instruction[number].op].properties;
-        depth += (properties & IR_OPENS) != 0;
-        depth -= (properties & IR_CLOSES) != 0;
-        if (!depth)
-            return number;
-    }
-}
-
 static int any_lane(const struct interpreter *in, unsigned mask)
 {
     uint32_t any = 0;
@@ -152,13 +140,13 @@ static uint32_t follow(struct interpreter *in, uint32_t number)
     const struct ir_instruction *i = &in->ir->instruction[number];
     uint32_t other = number;
     if (i->op == IR_when) {
-        other = other_end(in->ir, number, 1);
+        other = ir_other_end(in->ir, number);
         in->ran[other] = (uint8_t)any_lane(in, i->operand[0]);
         return in->ran[other] ? number : other;
     }
     if (i->op == IR_again && any_lane(in, i->operand[0])) {
         give_next(in, number);
-        return other_end(in->ir, number, -1);
+        return ir_other_end(in->ir, number);
     }
     return number;
 }

@@ -52,29 +52,6 @@ static const struct ir *record_trial(const struct trial_memory *memory, int opti
     return ir;
 }
 
-/* The end of the region that the instruction opens. */
-static uint32_t region_end(const struct ir *ir, uint32_t number)
-{
-    for (unsigned depth = 0;; number++) {
-        uint8_t properties = ir_op_information[ir->instruction[number].op].properties;
-        depth += (properties & IR_OPENS) != 0;
-        depth -= (properties & IR_CLOSES) != 0;
-        if (!depth)
-            return number;
-    }
-}
-
-static uint32_t region_start(const struct ir *ir, uint32_t number)
-{
-    for (unsigned depth = 0;; number--) {
-        uint8_t properties = ir_op_information[ir->instruction[number].op].properties;
-        depth += (properties & IR_CLOSES) != 0;
-        depth -= (properties & IR_OPENS) != 0;
-        if (!depth)
-            return number;
-    }
-}
-
 static uint32_t word_at(const uint8_t *address)
 {
     uint32_t word;
@@ -85,7 +62,7 @@ static uint32_t word_at(const uint8_t *address)
 /* Behind a region that ran, or was skipped. */
 static uint32_t skip(const struct ir *ir, uint32_t when, int runs)
 {
-    uint32_t end = region_end(ir, when);
+    uint32_t end = ir_other_end(ir, when);
     ran[end] = (uint8_t)runs;
     return runs ? when + 1 : end + 1;
 }
@@ -95,7 +72,7 @@ static uint32_t repeat(const struct ir *ir, uint32_t again)
 {
     for (uint32_t n = again - 1; ir->instruction[n].op == IR_next || ir->instruction[n].op == IR_nop; n--)
         value[ir->instruction[n].operand[0]] = next[ir->instruction[n].operand[0]];
-    return region_start(ir, again) + 1;
+    return ir_other_end(ir, again) + 1;
 }
 
 static uint32_t join(const struct ir *ir, uint32_t number)
