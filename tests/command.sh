@@ -224,6 +224,8 @@ refuses 'output that is a folder' 'folder.png: ' \
 ln -s /dev/full "$work/full.png"
 refuses 'output on a full disk' 'full.png: .*No space left' \
     render "$work/good.tri" --engine emulate --out "$work/full.png"
+TRIPTYCH_RECORD=/dev/full refuses 'recording on a full disk' '^triptych render: /dev/full: .*No space left' \
+    render "$work/good.tri" --engine emulate --out "$work/recorded.png"
 refuses 'picture that is none' 'good.tri' compare "$work/good.tri" "$picture"
 head -c 60 "$picture" >"$work/short.png"
 refuses 'picture cut off' 'short.png' compare "$picture" "$work/short.png"

@@ -81,5 +81,5 @@ int command_line_run(int count, char **arguments)
     progress(NULL);
     if (!report_is_complete() && status != STATUS_BAD)
         status = fail(&program, "out of memory: the report is incomplete");
-    return check_standard_output() ? STATUS_BAD : status;
+    return check_standard_output() || has_failed() ? STATUS_BAD : status;
 }

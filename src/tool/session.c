@@ -54,10 +54,18 @@ int session_open_measured(const struct command *self, const struct stream *strea
     return STATUS_OK;
 }
 
+/* TRIPTYCH_RECORD may have asked for one. */
+static void end_recording(struct session *session)
+{
+    if (session->device && triptych_record_stop(session->device) == TRIPTYCH_FILE_FAILED)
+        fail_at_end(session->self, "%s", triptych_error(session->device));
+}
+
 void session_close(struct session *session)
 {
     tell_debug_error(session);
     player_free(session->player);
+    end_recording(session);
     triptych_device_destroy(session->device);
     *session = (struct session){0};
 }

@@ -9,23 +9,42 @@
 
 enum { PATH_CAPACITY = 4096 };
 
-int fail(const struct command *self, const char *format, ...)
+static bool incomplete, failed;
+
+static void print_failure(const struct command *self, const char *format, va_list arguments)
 {
     progress(NULL);
     fprintf(stderr, "triptych%s%s: ", self->name[0] ? " " : "", self->name);
+    vfprintf(stderr, format, arguments);
+    fputc('\n', stderr);
+}
+
+int fail(const struct command *self, const char *format, ...)
+{
     va_list arguments;
     va_start(arguments, format);
-    vfprintf(stderr, format, arguments);
+    print_failure(self, format, arguments);
     va_end(arguments);
-    fputc('\n', stderr);
     return STATUS_BAD;
 }
 
-static bool incomplete;
+void fail_at_end(const struct command *self, const char *format, ...)
+{
+    va_list arguments;
+    va_start(arguments, format);
+    print_failure(self, format, arguments);
+    va_end(arguments);
+    failed = true;
+}
+
+bool has_failed(void)
+{
+    return failed;
+}
 
 void report_begin(void)
 {
-    incomplete = false;
+    incomplete = failed = false;
 }
 
 void report_is_incomplete(void)

@@ -28,6 +28,10 @@ struct command {
 /* Prints the failure and returns STATUS_BAD. */
 int fail(const struct command *self, const char *format, ...) __attribute__((format(printf, 2, 3)));
 
+/* The same, where nobody can return it: the program will end with STATUS_BAD, whatever else it does. */
+void fail_at_end(const struct command *self, const char *format, ...) __attribute__((format(printf, 2, 3)));
+bool has_failed(void);
+
 /* Whether a file of that path can be made or replaced, asked before hours are spent on its contents. A null
  * path is fine. Returns 0, or STATUS_BAD after telling why not. */
 int check_output(const struct command *self, const char *path);
