@@ -230,6 +230,18 @@ refuses 'picture that is none' 'good.tri' compare "$work/good.tri" "$picture"
 head -c 60 "$picture" >"$work/short.png"
 refuses 'picture cut off' 'short.png' compare "$picture" "$work/short.png"
 
+stream_from_a_pipe()
+{
+    mkfifo "$work/pipe.tri"
+    for ((i = 0; i < 5; i++)); do
+        cat "$work/good.tri" >"$work/pipe.tri" &
+        timeout 60 "$TRIPTYCH" render "$work/pipe.tri" --engine emulate --out "$work/piped.png" &&
+            cmp "$picture" "$work/piped.png" || return
+        wait
+    done
+}
+holds 'a stream may come from a pipe' stream_from_a_pipe
+
 # --- Bad streams ---------------------------------------------------------------------------------------------
 
 refuses 'stream that is not there' 'none.tri: .*No such file' \

@@ -52,10 +52,17 @@ static int count_frames(const struct stream *stream, uint32_t *frames, struct er
     return result;
 }
 
+/* Opening a pipe and closing it again would end whoever writes to it. */
+static int open_regular(const char *path)
+{
+    struct stat status;
+    return stat(path, &status) || !S_ISREG(status.st_mode) ? -1 : open(path, O_RDONLY | O_CLOEXEC);
+}
+
 int stream_open(const char *path, struct stream **stream, struct error *error)
 {
     *stream = NULL;
-    int descriptor = open(path, O_RDONLY | O_CLOEXEC);
+    int descriptor = open_regular(path);
     if (descriptor < 0 || !is_recording(descriptor, path)) {
         if (descriptor >= 0)
             close(descriptor);
