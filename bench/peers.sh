@@ -6,12 +6,14 @@
 # In the environment:
 #   WORKLOAD=glob     which workloads (bench/peers/workload.def); all
 #   PEERS="name..."   which renderers, engines included, by glob; with -all behind it on all cores. Default: softpipe, llvmpipe,
-#                     swiftshader, emulate, batch, stitch, specialize, and all but softpipe, emulate and batch on all cores.
+#                     swiftshader, swgl and swgl-span, emulate, batch, stitch, specialize, and on all cores llvmpipe,
+#                     swiftshader, stitch, specialize.
 #                     NAME=COMMAND is a program of yours that speaks as peer.h says (spaces as commas).
 #   PASSES=n          5
 #   CLOCK=time        one core's times by the wall's clock; else by the processor's, which other processes disturb less
 #   PRIORITY=1        real-time priority of the renderers (chrt -f), for a machine that is busy with what can wait
 #   QUICK=1           one pass of short samples
+#   SWGL=program      what bench/swgl.sh builds
 #   SWIFTSHADER=dir   where ANGLE's libEGL.so and libGLESv2.so lie, with libvk_swiftshader.so
 #
 # Writes results/peers.txt, .json and .svg (RESULTS). Ends with 1 when a picture differs or a renderer failed, and tells
@@ -23,7 +25,7 @@ build=${BUILD:-build}
 results=${RESULTS:-results}
 mkdir -p "$results" "$build/peers"
 cores=$(nproc)
-wanted=(${PEERS:-softpipe llvmpipe swiftshader emulate batch stitch specialize
+wanted=(${PEERS:-softpipe llvmpipe swiftshader swgl swgl-span emulate batch stitch specialize
     llvmpipe-all swiftshader-all stitch-all specialize-all})
 engines=$("$build/triptych" list engines | awk 'NR > 1 && $3 == "available" { print $1 }')
 
@@ -42,6 +44,8 @@ for folder in ${SWIFTSHADER-} build/swiftshader /usr/lib/chromium /opt/google/ch
         swiftshader=$(realpath "$folder")
     fi
 done
+
+swgl=${SWGL:-build/swgl/renderer}
 
 renderer() # NAME one|all : its line for the driver
 {
@@ -63,6 +67,15 @@ renderer() # NAME one|all : its line for the driver
                     "SWIFTSHADER"
             fi
             ;;
+        swgl | swgl-span)
+            local path=generic
+            [[ $1 == swgl ]] || path=span
+            if [[ -x $swgl ]]; then
+                echo "$1 special $2 $nice$swgl $path"
+            else
+                echo "$1 special $2 missing no build/swgl/renderer (bench/swgl.sh builds it) and no SWGL"
+            fi
+            ;;
         *)
             if grep -qx "$1" <<<"$engines"; then
                 echo "$1 engine $2 $nice$build/peers/triptych $1 $threads bench/streams/micro"
@@ -76,7 +89,7 @@ renderer() # NAME one|all : its line for the driver
 renderers()
 {
     local name known
-    known="softpipe llvmpipe swiftshader $engines"
+    known="softpipe llvmpipe swiftshader swgl swgl-span $engines"
     for name in "${wanted[@]}"; do
         if [[ $name == *=* ]]; then
             local command=${name#*=}

@@ -69,6 +69,12 @@ drive clear "${lines[@]}" "fake peer one $work/fake \\001 measure"
 check 'a renderer that fails fails the run' \
     test "$? $(grep -c '^FAILED: fake, clear: cannot measure' "$work/output")" = '1 1'
 
+sed 's/ok 1 1 1 -1/ok none/' "$work/fake" >"$work/absent"
+chmod +x "$work/absent"
+drive clear "${lines[@]}" "absent special one $work/absent \\001"
+check 'a renderer that has no part in a workload does not' \
+    test "$? $(grep -c ' 0 different, 0 failed' "$work/output")" = '0 1'
+
 drive clear "${lines[@]}" 'fake peer one /nonexistent/renderer'
 check 'a renderer that does not start fails the run' \
     test "$? $(grep -c 'MISSING: the process ended' "$work/output")" = '1 1'

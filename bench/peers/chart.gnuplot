@@ -24,7 +24,7 @@ set yrange [count + 0.5:0.5]
 set ytics ("" 1) scale 0 nomirror noenhanced
 do for [i = 1:count] { set ytics add (word(workloads, i) i) }
 set grid xtics ytics linecolor rgb "#dddddd"
-set key above center horizontal samplen 1 noenhanced
+set key outside right top vertical samplen 1 noenhanced
 set border 1
 set xtics nomirror
 set arrow from first 1, graph 0 to first 1, graph 1 nohead linewidth 1.5

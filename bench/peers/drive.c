@@ -3,7 +3,8 @@
  *
  *   drive OPTION... <RENDERERS
  *
- * A line of standard input is a renderer: NAME engine|peer one|all COMMAND..., or NAME engine|peer one|all missing REASON.
+ * A line of standard input is a renderer: NAME engine|peer|special one|all COMMAND..., or missing REASON in
+ * place of the command.
  * Those of one core are bound to the last core that the driver may use.
  *
  * For each workload, renderers take turns pass by pass, so that whatever else the machine does hits all alike. A slow one
@@ -214,6 +215,8 @@ static void open_all(struct run *run, const struct workload *workload, struct ce
         cell->measured = true;
         if (ask(run->renderers + i, answer, "open %s", workload->name))
             fail(cell, answer);
+        else if (!strcmp(answer, "none"))
+            *cell = (struct cell){.absent = true};
         else if (sscanf(answer, "%lf %lf %lf %lf", &cell->cold[TIME], &cell->cold[WORK], &less_ms,
                         &cell->build_us) != 4)
             fail(cell, "no numbers from open");
@@ -251,7 +254,8 @@ static void measure_workload(struct run *run, const struct workload *workload, s
         char answer[REASON_BYTES];
         if (run->renderers[i].to)
             ask(run->renderers + i, answer, "close");
-        run->bad |= run->renderers[i].to && (!cells[i].measured || cells[i].agreement == DIFFERENT);
+        run->bad |= run->renderers[i].to && !cells[i].absent &&
+                    (!cells[i].measured || cells[i].agreement == DIFFERENT);
     }
 }
 
@@ -288,8 +292,8 @@ static void read_renderer(struct run *run, char *line)
     char side[16], cores[16];
     int used = 0;
     if (sscanf(line, "%47s %15s %15s %n", renderer->name, side, cores, &used) != 3 || !used)
-        stop("found '%s', expected NAME engine|peer one|all COMMAND", line);
-    renderer->side = strcmp(side, "engine") ? PEER : ENGINE;
+        stop("found '%s', expected NAME engine|peer|special one|all COMMAND", line);
+    renderer->side = !strcmp(side, "engine") ? ENGINE : !strcmp(side, "peer") ? PEER : SPECIAL;
     renderer->cores = strcmp(cores, "all") ? ONE : ALL;
     snprintf(renderer->text, sizeof renderer->text, "%s", line + used);
     if (!strncmp(renderer->text, "missing ", 8)) {

@@ -11,7 +11,8 @@
 enum { RENDERERS_MAXIMUM = 32, PASSES_MAXIMUM = 64, NAME_BYTES = 48, REASON_BYTES = 256 };
 
 enum cores { ONE, ALL };
-enum side { ENGINE, PEER }; /* Triptych's, or another renderer */
+/* Triptych's; another renderer; one that is made for a part of the workloads, and compared with by itself. */
+enum side { ENGINE, PEER, SPECIAL };
 
 struct renderer {
     char name[NAME_BYTES]; /* without the cores */
@@ -31,6 +32,7 @@ enum agreement { UNKNOWN, IDENTICAL, SIMILAR, DIFFERENT };
 /* A renderer on a workload. All milliseconds are of a layer, or of a frame where the workload's rate is MS. */
 struct cell {
     bool measured, less;       /* fewer layers a frame */
+    bool absent;               /* the renderer has no part in the workload */
     char reason[REASON_BYTES]; /* why not measured */
     unsigned count;
     double ms[CLOCKS][PASSES_MAXIMUM], spent;

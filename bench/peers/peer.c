@@ -84,7 +84,10 @@ static const char *open_workload(const struct workload *wanted, char *answer, si
     unsigned count = 0;
     do {
         renderer_close();
-        if ((reason = cold_once(wanted, &cold, build_us + count)))
+        reason = cold_once(wanted, &cold, build_us + count);
+        if (reason && !strcmp(reason, "none"))
+            return snprintf(answer, capacity, "none"), NULL;
+        if (reason)
             return reason;
         ms[count] = cold.time * 1e3;
         work[count++] = cold.work * 1e3;

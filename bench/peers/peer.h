@@ -8,7 +8,7 @@
  *   open WORKLOAD              ok COLD CPU LESS BUILD: what drawing first took longer than drawing the same again, in
  *                              milliseconds of time and of the processor, medians over a few times; the time of a frame
  *                              with fewer layers; the microseconds that building code took of the first, by the
- *                              renderer's own account, or -1
+ *                              renderer's own account, or -1. "ok none": this renderer has no part in the workload
  *   measure full|less SECONDS  ok MS CPU: of a frame (reading, shader) on average, over at least so many seconds; the
  *                              processor's time is that of all threads
  *   image full|less FILE       ok: 1024 x 1024 RGBA8 from the top, raw
@@ -49,7 +49,8 @@ const struct workload *workload_find(const char *name); /* null: none */
 /* From the process' arguments. `description` has room for 256 bytes. */
 const char *renderer_start(int count, char **arguments, char *description);
 
-/* Everything of the workload but what depends on its shaders and states, as if it had never been drawn. */
+/* Everything of the workload but what depends on its shaders and states, as if it had never been drawn. The reason "none"
+ * means that the renderer has no part in it, which is no failure. */
 const char *renderer_open(const struct workload *workload);
 /* Limits drawing to some pixels, or does not. */
 const char *renderer_limit(bool limited);

@@ -201,10 +201,15 @@ static void print_ratios(FILE *file, const struct run *run, enum cores cores)
 {
     int engine = find(run, run->engine, cores), stitch = find(run, "stitch", cores);
     int llvmpipe = find(run, "llvmpipe", cores), emulate = find(run, "emulate", cores);
-    fprintf(file, "\n%s: times the speed, median [least most]\n%-25s %-21s %-33s %-21s %-21s %-21s %s\n",
+    fprintf(file, "\n%s: times the speed, median [least most]\n%-25s %-21s %-32s %-21s %-21s",
             cores == ONE ? "One core" : "All cores", "", " against llvmpipe", " against the best peer",
-            " stitch and llvmpipe", " against emulate", cores == ONE ? " emulate and softpipe" : "",
-            "% of limit");
+            " stitch and llvmpipe", " against emulate");
+    if (cores == ONE)
+        fprintf(file, " %-21s", " emulate and softpipe");
+    for (unsigned i = 0; i < run->renderer_count; i++)
+        if (shown(run, i, cores) && run->renderers[i].side == SPECIAL)
+            fprintf(file, "  against %-12s", run->renderers[i].name);
+    fprintf(file, cores == ONE ? " %% of limit\n" : "\n");
     for (unsigned w = 0; w < run->count; w++) {
         const struct workload *workload = run->workloads[w];
         int best = best_peer(run, w, cores);
@@ -216,6 +221,9 @@ static void print_ratios(FILE *file, const struct run *run, enum cores cores)
         print_ratio(file, between(run, w, engine, emulate));
         if (cores == ONE)
             print_ratio(file, between(run, w, emulate, find(run, "softpipe", ONE)));
+        for (unsigned i = 0; i < run->renderer_count; i++)
+            if (shown(run, i, cores) && run->renderers[i].side == SPECIAL)
+                print_ratio(file, between(run, w, engine, (int)i));
         double share = engine < 0 || cores != ONE
                            ? 0
                            : share_of_limit(workload, &run->cells[w][engine], clock_for(run, cores));
@@ -275,7 +283,7 @@ static void print_pictures(FILE *file, const struct run *run)
         for (unsigned i = 0; i < run->renderer_count; i++) {
             const struct cell *cell = &run->cells[w][i];
             const struct renderer *renderer = run->renderers + i;
-            if (!*renderer->description)
+            if (!*renderer->description || cell->absent)
                 continue;
             counts[cell->agreement] += cell->measured;
             failed += !cell->measured;
@@ -295,7 +303,7 @@ static void print_pictures(FILE *file, const struct run *run)
 
 /* Geometric means of ratios over workloads of some groups, and how many of them are below 1. */
 struct mean {
-    const char *name, *text;
+    const char *name, *text, *against;
     double value;
     unsigned count, behind;
     char names[512]; /* of those that are behind */
@@ -330,7 +338,7 @@ struct pair {
 
 static struct mean mean_of(const struct run *run, const struct pair *pair)
 {
-    struct mean mean = {.text = pair->text, .name = pair->first};
+    struct mean mean = {.text = pair->text, .name = pair->first, .against = pair->second};
     int first = find(run, pair->first, pair->cores);
     for (unsigned w = 0; w < run->count; w++) {
         int second = pair->second ? find(run, pair->second, pair->cores) : best_peer(run, w, pair->cores);
@@ -349,24 +357,30 @@ static unsigned means_of(const struct run *run, struct mean means[MEANS_MAXIMUM]
         RECTANGLES = 1 << RECTANGLE
     };
     const struct pair pairs[] = {
-        {run->engine, "llvmpipe", ONE, CORE_ONLY, "one core: against llvmpipe, fills to triangles"},
-        {run->engine, NULL, ONE, FIRST, "one core: against the best peer, first table"},
-        {run->engine, NULL, ONE, RECTANGLES, "one core: against the best peer, rectangles"},
-        {"stitch", "llvmpipe", ONE, CORE_ONLY, "one core: against llvmpipe, fills to triangles"},
-        {run->engine, "stitch", ONE, CORE_ONLY, "one core: against stitch, fills to triangles"},
-        {run->engine, "emulate", ONE, CORE_ONLY, "one core: against emulate, fills to triangles"},
-        {"emulate", "softpipe", ONE, FIRST, "one core: against softpipe, first table"},
-        {run->engine, "llvmpipe", ALL, CORE_ONLY, "all cores: against llvmpipe, fills to triangles"},
-        {run->engine, NULL, ALL, FIRST, "all cores: against the best peer, first table"},
-        {run->engine, NULL, ALL, RECTANGLES, "all cores: against the best peer, rectangles"},
+        {run->engine, "llvmpipe", ONE, CORE_ONLY, "one core, fills to triangles"},
+        {run->engine, NULL, ONE, FIRST, "one core: the best peer, first table"},
+        {run->engine, NULL, ONE, RECTANGLES, "one core: the best peer, rectangles"},
+        {"stitch", "llvmpipe", ONE, CORE_ONLY, "one core, fills to triangles"},
+        {run->engine, "stitch", ONE, CORE_ONLY, "one core, fills to triangles"},
+        {run->engine, "emulate", ONE, CORE_ONLY, "one core, fills to triangles"},
+        {"emulate", "softpipe", ONE, FIRST, "one core, first table"},
+        {run->engine, "llvmpipe", ALL, CORE_ONLY, "all cores, fills to triangles"},
+        {run->engine, NULL, ALL, FIRST, "all cores: the best peer, first table"},
+        {run->engine, NULL, ALL, RECTANGLES, "all cores: the best peer, rectangles"},
     };
     unsigned count = 0;
     for (unsigned i = 0; i < sizeof pairs / sizeof *pairs; i++)
         means[count++] = mean_of(run, pairs + i);
     for (unsigned i = 0; i < run->renderer_count; i++) {
+        const struct pair pair = {run->engine, run->renderers[i].name, run->renderers[i].cores, ALL_GROUPS,
+                                  "on what that one takes part in"};
+        if (run->renderers[i].side == SPECIAL)
+            means[count++] = mean_of(run, &pair);
+    }
+    for (unsigned i = 0; i < run->renderer_count; i++) {
         if (!shown(run, i, ALL))
             continue;
-        struct mean mean = {.name = run->renderers[i].name, .text = "all cores: against one, all workloads"};
+        struct mean mean = {.name = run->renderers[i].name, .text = "all cores against one, all workloads"};
         for (unsigned w = 0; w < run->count; w++)
             if (run->workloads[w]->kind == FRAME && run->workloads[w]->rate != MS)
                 mean_add(&mean, speed_up(run, w, i), run->workloads[w]->name);
@@ -379,11 +393,12 @@ static void print_means(FILE *file, const struct run *run)
 {
     struct mean means[MEANS_MAXIMUM];
     unsigned count = means_of(run, means);
-    fprintf(file, "\nGeometric means of the ratios\n");
+    fprintf(file, "\nGeometric means of the ratios: how many times as fast the first is as the second\n");
     for (unsigned i = 0; i < count; i++)
         if (means[i].count) {
-            fprintf(file, "%-18s %-50s %7.2f  of %u workloads", means[i].name, means[i].text,
-                    mean_value(means + i), means[i].count);
+            fprintf(file, "%-12s %-12s %-42s %7.2f  of %u workloads", means[i].name,
+                    means[i].against ? means[i].against : "", means[i].text, mean_value(means + i),
+                    means[i].count);
             fprintf(file, means[i].behind ? ", behind in %u:%s\n" : "\n", means[i].behind, means[i].names);
         }
 }
@@ -455,7 +470,10 @@ static void add_cell(const struct run *run, unsigned w, unsigned i, cJSON *array
     cJSON_AddStringToObject(json, "renderer", renderer->name);
     cJSON_AddStringToObject(json, "cores", renderer->cores == ONE ? "one" : "all");
     if (!cell->measured) {
-        cJSON_AddStringToObject(json, "reason", *renderer->reason ? renderer->reason : cell->reason);
+        cJSON_AddStringToObject(json, "reason",
+                                cell->absent        ? "no part in this workload"
+                                : *renderer->reason ? renderer->reason
+                                                    : cell->reason);
         return;
     }
     cJSON_AddNumberToObject(json, "value",
@@ -471,6 +489,12 @@ static void add_cell(const struct run *run, unsigned w, unsigned i, cJSON *array
     cJSON_AddNumberToObject(json, "pixels_beyond_tolerance", cell->share);
     add_ratio(json, "against_llvmpipe", between(run, w, (int)i, find(run, "llvmpipe", renderer->cores)));
     add_ratio(json, "against_best_peer", between(run, w, (int)i, best_peer(run, w, renderer->cores)));
+    for (unsigned other = 0; other < run->renderer_count; other++)
+        if (run->renderers[other].side == SPECIAL && run->renderers[other].cores == renderer->cores) {
+            char name[NAME_BYTES + 16];
+            snprintf(name, sizeof name, "against_%s", run->renderers[other].name);
+            add_ratio(json, name, between(run, w, (int)i, (int)other));
+        }
     if (renderer->cores == ALL)
         add_ratio(json, "against_one_core", speed_up(run, w, i));
     else
@@ -509,6 +533,8 @@ static cJSON *json_of(const struct run *run)
         if (means[i].count) {
             cJSON *mean = add_object(mean_list);
             cJSON_AddStringToObject(mean, "renderer", means[i].name);
+            if (means[i].against)
+                cJSON_AddStringToObject(mean, "against", means[i].against);
             cJSON_AddStringToObject(mean, "text", means[i].text);
             cJSON_AddNumberToObject(mean, "mean", mean_value(means + i));
             cJSON_AddNumberToObject(mean, "workloads", means[i].count);
