@@ -45,8 +45,8 @@ TOOL_OBJECTS    := $(call object,$(TOOL_SOURCES))
 SUPPORT_OBJECTS := $(call object,$(SUPPORT_SOURCES))
 TARGET_OBJECTS  := $(call object,$(TARGET_SOURCES))
 PROGRAM_OBJECTS := $(call object,$(PROGRAM_SOURCES))
-PEER_OBJECTS    := $(call object,$(call find,bench/peers,*.c))
-OBJECTS         := $(PEER_OBJECTS) $(LIBRARY_OBJECTS) $(TOOL_OBJECTS) $(SUPPORT_OBJECTS) $(TARGET_OBJECTS) $(PROGRAM_OBJECTS)
+BENCH_OBJECTS   := $(call object,$(call find,bench,*.c))
+OBJECTS         := $(LIBRARY_OBJECTS) $(TOOL_OBJECTS) $(SUPPORT_OBJECTS) $(TARGET_OBJECTS) $(PROGRAM_OBJECTS) $(BENCH_OBJECTS)
 
 # ONLY=text keeps the tests whose path contains the text.
 only = $(if $(ONLY),$(foreach t,$(1),$(if $(findstring $(ONLY),$(t)),$(t))),$(1))
@@ -117,7 +117,7 @@ unity_flags = -isystem $(dir $(UNITY_SOURCE)) -DUNITY_INCLUDE_DOUBLE -DUNITY_USE
 
 # --- What to build -------------------------------------------------------------------------------------------
 
-.PHONY: all programs objects check test check-threads matrix coverage soak soak-faults soak-memory bench peers bench-shaders mutations gallery verify-external fuzzers fuzz-input fuzz-input-smoke dependencies packages install clean format format-check help FORCE
+.PHONY: all programs objects check test check-threads matrix coverage soak soak-faults soak-memory bench peers bench-shaders bench-draws mutations gallery verify-external fuzzers fuzz-input fuzz-input-smoke dependencies packages install clean format format-check help FORCE
 
 all: $(BUILD)/libtriptych.a $(if $(SANITIZE),,$(BUILD)/libtriptych.so $(BUILD)/triptych.pc) $(COMMAND) build/glmark2 \
   build/assimp
@@ -336,6 +336,16 @@ bench-shaders:
 	+@$(MAKE) $(jobs) all
 	@BUILD=$(BUILD) bench/shaders.sh
 
+# Draws per second of one small triangle, one change of the state before each (bench/draws.c).
+$(BUILD)/bench/draws: $(BUILD)/object/bench/draws.o $(BUILD)/libtriptych.a
+	@mkdir -p $(@D)
+	$(call say,LD)$(link) $^ $(library_libraries) -o $@
+
+bench-draws:
+	@tests/support/dependencies.sh build
+	+@$(MAKE) $(jobs) $(BUILD)/bench/draws
+	@$(BUILD)/bench/draws
+
 # `make check` draws a few streams with the external engine; these are all of them, a compilation a routine.
 verify-external: all
 	@$(COMMAND) verify --engines external --frames 1 --threads 2 $(wildcard bench/streams/*.tri tests/streams/*.tri \
@@ -422,6 +432,7 @@ make soak-memory     what 10 million triangles and 100,000 states take: minutes
 make peers           Mesa's softpipe and llvmpipe, SwiftShader and every engine on the same work: results/peers.txt
                      (WORKLOAD=glob PEERS="name..." PASSES=n QUICK=1 CLOCK=time)
 make bench-shaders   the same of every shader in tests/shading, by shader and by length
+make bench-draws     draws per second of one small triangle, one change of the state before each
 make soak            random cases and tests with new seeds, half an hour (DURATION=1800 SEED=1), then a summary
 make fuzz-input      untrusted input with libFuzzer, half an hour (DURATION=1800) each TARGET, JOBS at a time
 make fuzz-input-smoke  the same in ten minutes
