@@ -10,8 +10,8 @@
 enum triptych_result api_finish(triptych_device *device, enum triptych_result result,
                                 const struct error *error);
 
-/* The same, after a change of the state. */
-enum triptych_result api_changed(triptych_device *device, enum triptych_result result,
+/* The same, after a change of the state that may have changed these parts of what it derives to (draw/change.h). */
+enum triptych_result api_changed(triptych_device *device, enum triptych_result result, unsigned parts,
                                  const struct error *error);
 
 /* Ends a call whose argument `what` must not be null. */

@@ -36,7 +36,8 @@ static enum triptych_result create(const struct triptych_options *options, tript
 enum triptych_result triptych_device_create(const struct triptych_options *options, triptych_device **device,
                                             char *reason, size_t size)
 {
-    struct error error = {{0}};
+    struct error error;
+    error_clear(&error);
     enum triptych_result result = TRIPTYCH_BAD_ARGUMENT;
     if (device) {
         *device = NULL;
@@ -108,16 +109,17 @@ enum triptych_result api_finish(triptych_device *device, enum triptych_result re
 
 enum triptych_result api_null_argument(triptych_device *device, const char *what)
 {
-    struct error error = {{0}};
+    struct error error;
+    error_clear(&error);
     error_set(&error, "%s is null", what);
     return api_finish(device, TRIPTYCH_BAD_ARGUMENT, &error);
 }
 
-enum triptych_result api_changed(triptych_device *device, enum triptych_result result,
+enum triptych_result api_changed(triptych_device *device, enum triptych_result result, unsigned parts,
                                  const struct error *error)
 {
     if (result == TRIPTYCH_OK)
-        device_state_changed(device);
+        device_state_changed(device, parts);
     return api_finish(device, result, error);
 }
 
@@ -130,7 +132,8 @@ enum triptych_result triptych_record_start(triptych_device *device, const char *
         return TRIPTYCH_BAD_ARGUMENT;
     if (!path)
         return api_null_argument(device, "path");
-    struct error error = {{0}};
+    struct error error;
+    error_clear(&error);
     return api_finish(device, record_start(device, path, &error), &error);
 }
 
@@ -138,7 +141,8 @@ enum triptych_result triptych_record_stop(triptych_device *device)
 {
     if (!device)
         return TRIPTYCH_BAD_ARGUMENT;
-    struct error error = {{0}};
+    struct error error;
+    error_clear(&error);
     return api_finish(device, record_stop(device, &error), &error);
 }
 
@@ -186,7 +190,10 @@ void triptych_get_statistics(const triptych_device *device, struct triptych_stat
 int triptych_get_routine(triptych_device *device, unsigned i, struct triptych_routine_info *info)
 {
     struct routine routine;
-    if (!device || !info || !cache_get(device->cache, i, &routine))
+    if (!device || !info)
+        return 0;
+    device_count_hits(device);
+    if (!cache_get(device->cache, i, &routine))
         return 0;
     *info = (struct triptych_routine_info){
         .number = routine.number,

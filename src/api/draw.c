@@ -6,7 +6,8 @@ enum triptych_result triptych_draw(triptych_device *device, enum triptych_primit
 {
     if (!device)
         return TRIPTYCH_BAD_ARGUMENT;
-    struct error error = {{0}};
+    struct error error;
+    error_clear(&error);
     enum triptych_result result = device_draw(device, primitive, first, count, &error);
     if (result == TRIPTYCH_OK)
         record_draw(device, primitive, first, count);
@@ -18,7 +19,8 @@ enum triptych_result triptych_draw_indexed(triptych_device *device, enum triptyc
 {
     if (!device)
         return TRIPTYCH_BAD_ARGUMENT;
-    struct error error = {{0}};
+    struct error error;
+    error_clear(&error);
     enum triptych_result result = device_draw_indexed(device, primitive, base, first, count, &error);
     if (result == TRIPTYCH_OK)
         record_draw_indexed(device, primitive, base, first, count);
@@ -31,7 +33,8 @@ enum triptych_result triptych_clear(triptych_device *device, const float color[4
         return TRIPTYCH_BAD_ARGUMENT;
     struct clear_values values = {(color ? TRIPTYCH_CLEAR_COLOR : 0) | (depth < 0 ? 0 : TRIPTYCH_CLEAR_DEPTH),
                                   color, depth, 0};
-    struct error error = {{0}};
+    struct error error;
+    error_clear(&error);
     enum triptych_result result = device_clear(device, &values, &error);
     if (result == TRIPTYCH_OK)
         record_clear(device, &values);
@@ -46,7 +49,8 @@ enum triptych_result triptych_clear_buffers(triptych_device *device, unsigned fl
     if (flags & TRIPTYCH_CLEAR_COLOR && !color)
         return api_null_argument(device, "color");
     struct clear_values values = {flags, color, depth, stencil};
-    struct error error = {{0}};
+    struct error error;
+    error_clear(&error);
     enum triptych_result result = device_clear(device, &values, &error);
     if (result == TRIPTYCH_OK)
         record_clear(device, &values);
@@ -58,7 +62,8 @@ enum triptych_result triptych_set_target_textures(triptych_device *device,
 {
     if (!device)
         return TRIPTYCH_BAD_ARGUMENT;
-    struct error error = {{0}};
+    struct error error;
+    error_clear(&error);
     bool changes = textures || device->draws_to_textures;
     enum triptych_result result = device_set_target_textures(device, textures, &error);
     if (result == TRIPTYCH_OK && changes)
@@ -77,7 +82,8 @@ enum triptych_result triptych_copy(triptych_device *device, const struct triptyc
     if (!source || !target)
         return api_null_argument(device, source ? "target" : "source");
     struct surface_copy copy = {.surface = {source, target}, .filter = filter};
-    struct error error = {{0}};
+    struct error error;
+    error_clear(&error);
     if (source_part)
         copy.part[0] = *source_part;
     if (target_part)
@@ -99,7 +105,8 @@ enum triptych_result triptych_query_create(triptych_device *device, enum triptyc
     if (!query)
         return api_null_argument(device, "query");
     *query = NULL;
-    struct error error = {{0}};
+    struct error error;
+    error_clear(&error);
     if ((unsigned)type >= TRIPTYCH_QUERY_COUNT) {
         error_set(&error, "query type %u: expected 0 to %u", (unsigned)type, TRIPTYCH_QUERY_COUNT - 1);
         return api_finish(device, TRIPTYCH_BAD_ARGUMENT, &error);
@@ -119,7 +126,8 @@ enum triptych_result triptych_query_destroy(triptych_device *device, triptych_qu
         return TRIPTYCH_BAD_ARGUMENT;
     if (!query)
         return TRIPTYCH_OK;
-    struct error error = {{0}};
+    struct error error;
+    error_clear(&error);
     record_end_query(device, query);
     return api_finish(device, device_query_destroy(device, query, &error), &error);
 }
@@ -130,7 +138,8 @@ enum triptych_result triptych_query_begin(triptych_device *device, triptych_quer
         return TRIPTYCH_BAD_ARGUMENT;
     if (!query)
         return api_null_argument(device, "query");
-    struct error error = {{0}};
+    struct error error;
+    error_clear(&error);
     enum triptych_result result = device_query_begin(device, query, &error);
     if (result == TRIPTYCH_OK)
         record_query(device, query, 1);
@@ -143,7 +152,8 @@ enum triptych_result triptych_query_end(triptych_device *device, triptych_query 
         return TRIPTYCH_BAD_ARGUMENT;
     if (!query)
         return api_null_argument(device, "query");
-    struct error error = {{0}};
+    struct error error;
+    error_clear(&error);
     enum triptych_result result = device_query_end(device, query, &error);
     if (result == TRIPTYCH_OK)
         record_query(device, query, 0);
@@ -156,7 +166,8 @@ enum triptych_result triptych_query_result(triptych_device *device, triptych_que
         return TRIPTYCH_BAD_ARGUMENT;
     if (!query || !result)
         return api_null_argument(device, query ? "result" : "query");
-    struct error error = {{0}};
+    struct error error;
+    error_clear(&error);
     return api_finish(device, device_query_result(device, query, result, &error), &error);
 }
 

@@ -7,7 +7,8 @@ enum triptych_result triptych_read_color(triptych_device *device, uint32_t *rgba
         return TRIPTYCH_BAD_ARGUMENT;
     if (!rgba)
         return api_null_argument(device, "image");
-    struct error error = {{0}};
+    struct error error;
+    error_clear(&error);
     return api_finish(device, device_read_target(device, 0, rgba, &error), &error);
 }
 
@@ -17,7 +18,8 @@ enum triptych_result triptych_read_target(triptych_device *device, unsigned t, u
         return TRIPTYCH_BAD_ARGUMENT;
     if (!rgba)
         return api_null_argument(device, "image");
-    struct error error = {{0}};
+    struct error error;
+    error_clear(&error);
     return api_finish(device, device_read_target(device, t, rgba, &error), &error);
 }
 
@@ -27,7 +29,8 @@ enum triptych_result triptych_read_target_numbers(triptych_device *device, unsig
         return TRIPTYCH_BAD_ARGUMENT;
     if (!rgba)
         return api_null_argument(device, "image");
-    struct error error = {{0}};
+    struct error error;
+    error_clear(&error);
     return api_finish(device, device_read_target_numbers(device, t, rgba, &error), &error);
 }
 
@@ -38,7 +41,8 @@ enum triptych_result triptych_read_surface(triptych_device *device, const struct
         return TRIPTYCH_BAD_ARGUMENT;
     if (!surface || !rgba)
         return api_null_argument(device, surface ? "image" : "surface");
-    struct error error = {{0}};
+    struct error error;
+    error_clear(&error);
     return api_finish(device, device_read_surface(device, surface, rgba, &error), &error);
 }
 
@@ -49,7 +53,8 @@ enum triptych_result triptych_read_surface_numbers(triptych_device *device,
         return TRIPTYCH_BAD_ARGUMENT;
     if (!surface || !rgba)
         return api_null_argument(device, surface ? "image" : "surface");
-    struct error error = {{0}};
+    struct error error;
+    error_clear(&error);
     return api_finish(device, device_read_surface_numbers(device, surface, rgba, &error), &error);
 }
 
@@ -59,7 +64,8 @@ enum triptych_result triptych_read_depth(triptych_device *device, float *depth)
         return TRIPTYCH_BAD_ARGUMENT;
     if (!depth)
         return api_null_argument(device, "image");
-    struct error error = {{0}};
+    struct error error;
+    error_clear(&error);
     return api_finish(device, device_read_depth(device, depth, &error), &error);
 }
 
@@ -69,7 +75,8 @@ enum triptych_result triptych_read_stencil(triptych_device *device, uint8_t *ste
         return TRIPTYCH_BAD_ARGUMENT;
     if (!stencil)
         return api_null_argument(device, "image");
-    struct error error = {{0}};
+    struct error error;
+    error_clear(&error);
     return api_finish(device, device_read_stencil(device, stencil, &error), &error);
 }
 
@@ -78,7 +85,8 @@ enum triptych_result triptych_read_sample(triptych_device *device, unsigned samp
 {
     if (!device)
         return TRIPTYCH_BAD_ARGUMENT;
-    struct error error = {{0}};
+    struct error error;
+    error_clear(&error);
     return api_finish(device, device_read_sample(device, sample, rgba, depth, stencil, &error), &error);
 }
 
@@ -96,7 +104,8 @@ enum triptych_result triptych_read_contents(triptych_device *device, void *data)
         return TRIPTYCH_BAD_ARGUMENT;
     if (!data)
         return api_null_argument(device, "data");
-    struct error error = {{0}};
+    struct error error;
+    error_clear(&error);
     return api_finish(device, device_read_contents(device, data, &error), &error);
 }
 
@@ -106,7 +115,8 @@ enum triptych_result triptych_write_contents(triptych_device *device, const void
         return TRIPTYCH_BAD_ARGUMENT;
     if (!data)
         return api_null_argument(device, "data");
-    struct error error = {{0}};
+    struct error error;
+    error_clear(&error);
     enum triptych_result result = device_write_contents(device, data, bytes, &error);
     if (result == TRIPTYCH_OK)
         record_contents(device, data, bytes);
@@ -136,7 +146,8 @@ enum triptych_result triptych_texture_write_texels(triptych_device *device, trip
         return TRIPTYCH_BAD_ARGUMENT;
     if (!texture || !data)
         return api_null_argument(device, texture ? "data" : "texture");
-    struct error error = {{0}};
+    struct error error;
+    error_clear(&error);
     enum triptych_result result = device_write_texels(device, texture, data, bytes, &error);
     if (result == TRIPTYCH_OK)
         record_texels(device, texture, data, bytes);

@@ -6,7 +6,8 @@ enum triptych_result triptych_set_target(triptych_device *device, unsigned width
     if (!device)
         return TRIPTYCH_BAD_ARGUMENT;
     struct triptych_target_description description = {.width = width, .height = height};
-    struct error error = {{0}};
+    struct error error;
+    error_clear(&error);
     enum triptych_result result = device_set_target(device, &description, &error);
     if (result == TRIPTYCH_OK)
         record_target(device, &description);
@@ -20,7 +21,8 @@ enum triptych_result triptych_set_target_description(triptych_device *device,
         return TRIPTYCH_BAD_ARGUMENT;
     if (!description)
         return api_null_argument(device, "description");
-    struct error error = {{0}};
+    struct error error;
+    error_clear(&error);
     enum triptych_result result = device_set_target(device, description, &error);
     if (result == TRIPTYCH_OK)
         record_target(device, description);
@@ -35,7 +37,8 @@ enum triptych_result triptych_buffer_create(triptych_device *device, const void 
     if (!data || !buffer)
         return api_null_argument(device, data ? "buffer" : "data");
     *buffer = NULL;
-    struct error error = {{0}};
+    struct error error;
+    error_clear(&error);
     if (!bytes || bytes > INT32_MAX) {
         error_set(&error, "buffer of %zu bytes: expected 1 to 2^31 - 1", bytes);
         return api_finish(device, TRIPTYCH_BAD_ARGUMENT, &error);
@@ -57,7 +60,8 @@ enum triptych_result triptych_buffer_destroy(triptych_device *device, triptych_b
         return TRIPTYCH_BAD_ARGUMENT;
     if (!buffer)
         return TRIPTYCH_OK;
-    struct error error = {{0}};
+    struct error error;
+    error_clear(&error);
     record_end_buffer(device, buffer);
     return api_finish(device, device_buffer_destroy(device, buffer, &error), &error);
 }
@@ -71,7 +75,8 @@ enum triptych_result triptych_texture_create(triptych_device *device, const void
         return api_null_argument(device, rgba ? "texture" : "image");
     const struct triptych_texture_description description = {
         TRIPTYCH_TEXTURE_2D, TRIPTYCH_SURFACE_A8B8G8R8, width, height, 1, 1};
-    struct error error = {{0}};
+    struct error error;
+    error_clear(&error);
     enum triptych_result result = device_texture_create(device, &description, texture, &error);
     if (result == TRIPTYCH_OK)
         result = device_texture_update(device, *texture, 0, 0, NULL, rgba, 4 * (size_t)width, 0, &error);
@@ -90,7 +95,8 @@ enum triptych_result triptych_texture_define(triptych_device *device,
         return TRIPTYCH_BAD_ARGUMENT;
     if (!description || !texture)
         return api_null_argument(device, description ? "texture" : "description");
-    struct error error = {{0}};
+    struct error error;
+    error_clear(&error);
     enum triptych_result result = device_texture_create(device, description, texture, &error);
     if (result == TRIPTYCH_OK)
         record_new_texture(device, *texture);
@@ -105,7 +111,8 @@ enum triptych_result triptych_texture_update(triptych_device *device, triptych_t
         return TRIPTYCH_BAD_ARGUMENT;
     if (!texture || !data)
         return api_null_argument(device, texture ? "data" : "texture");
-    struct error error = {{0}};
+    struct error error;
+    error_clear(&error);
     enum triptych_result result =
         device_texture_update(device, texture, face, level, box, data, row_pitch, slice_pitch, &error);
     if (result == TRIPTYCH_OK)
@@ -130,7 +137,8 @@ enum triptych_result triptych_texture_destroy(triptych_device *device, triptych_
         return TRIPTYCH_BAD_ARGUMENT;
     if (!texture)
         return TRIPTYCH_OK;
-    struct error error = {{0}};
+    struct error error;
+    error_clear(&error);
     record_end_texture(device, texture);
     return api_finish(device, device_texture_destroy(device, texture, &error), &error);
 }

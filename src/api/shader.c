@@ -36,7 +36,8 @@ static enum triptych_result create_shader(triptych_device *device, const char *n
     if (!data || !result)
         return api_null_argument(device, data ? "shader" : "code");
     *result = NULL;
-    struct error error = {{0}};
+    struct error error;
+    error_clear(&error);
     struct shader *shader;
     locale_t locale = newlocale(LC_NUMERIC_MASK, "C", NULL);
     if (!locale) {
@@ -77,7 +78,8 @@ enum triptych_result triptych_shader_destroy(triptych_device *device, triptych_s
         return TRIPTYCH_BAD_ARGUMENT;
     if (!shader)
         return TRIPTYCH_OK;
-    struct error error = {{0}};
+    struct error error;
+    error_clear(&error);
     record_end_shader(device, shader);
     return api_finish(device, device_shader_destroy(device, shader, &error), &error);
 }
@@ -98,7 +100,8 @@ static enum triptych_result set_shader(triptych_device *device, enum shader_stag
 {
     if (!device)
         return TRIPTYCH_BAD_ARGUMENT;
-    struct error error = {{0}};
+    struct error error;
+    error_clear(&error);
     enum triptych_result result = device_set_shader(device, stage, shader, &error);
     if (result == TRIPTYCH_OK)
         record_shader(device, stage, shader);
@@ -122,7 +125,8 @@ enum triptych_result triptych_set_shader_floats(triptych_device *device, enum tr
         return TRIPTYCH_BAD_ARGUMENT;
     if (!values && count)
         return api_null_argument(device, "values");
-    struct error error = {{0}};
+    struct error error;
+    error_clear(&error);
     enum triptych_result result = device_set_floats(device, stage, first, values, count, &error);
     if (result == TRIPTYCH_OK)
         record_floats(device, stage, first, values, count);
@@ -136,7 +140,8 @@ enum triptych_result triptych_set_shader_integers(triptych_device *device, enum 
         return TRIPTYCH_BAD_ARGUMENT;
     if (!values && count)
         return api_null_argument(device, "values");
-    struct error error = {{0}};
+    struct error error;
+    error_clear(&error);
     enum triptych_result result = device_set_integers(device, stage, first, values, count, &error);
     if (result == TRIPTYCH_OK)
         record_integers(device, stage, first, values, count);
@@ -150,7 +155,8 @@ enum triptych_result triptych_set_shader_booleans(triptych_device *device, enum 
         return TRIPTYCH_BAD_ARGUMENT;
     if (!values && count)
         return api_null_argument(device, "values");
-    struct error error = {{0}};
+    struct error error;
+    error_clear(&error);
     enum triptych_result result = device_set_booleans(device, stage, first, values, count, &error);
     if (result == TRIPTYCH_OK)
         record_booleans(device, stage, first, values, count);

@@ -6,11 +6,16 @@ static enum triptych_result set_value(triptych_device *device, enum triptych_sta
 {
     if (!device)
         return TRIPTYCH_BAD_ARGUMENT;
-    struct error error = {{0}};
-    enum triptych_result result = state_set_value(&device->state, table, i, row, value, &error);
+    struct error error;
+    error_clear(&error);
+    unsigned change = state_has_value(&device->state, table, i, row, value) ? 0 : PARTS_ALL;
+    enum triptych_result result =
+        change ? state_set_value(&device->state, table, i, row, value, &error) : TRIPTYCH_OK;
     if (result == TRIPTYCH_OK)
         record_value(device, table, i, row, value);
-    return api_changed(device, result, &error);
+    if (change && result == TRIPTYCH_OK)
+        change = change_of_value(table, row);
+    return api_changed(device, result, change, &error);
 }
 
 enum triptych_result triptych_set_state(triptych_device *device, enum triptych_state which, uint32_t value)
@@ -37,11 +42,12 @@ enum triptych_result triptych_set_transform(triptych_device *device, enum tripty
         return TRIPTYCH_BAD_ARGUMENT;
     if (!matrix)
         return api_null_argument(device, "matrix");
-    struct error error = {{0}};
+    struct error error;
+    error_clear(&error);
     enum triptych_result result = state_set_transform(&device->state, which, matrix, &error);
     if (result == TRIPTYCH_OK)
         record_transform(device, which, matrix);
-    return api_changed(device, result, &error);
+    return api_changed(device, result, change_of_transform(which), &error);
 }
 
 enum triptych_result triptych_set_viewport(triptych_device *device, const struct triptych_viewport *viewport)
@@ -50,7 +56,8 @@ enum triptych_result triptych_set_viewport(triptych_device *device, const struct
         return TRIPTYCH_BAD_ARGUMENT;
     if (!viewport)
         return api_null_argument(device, "viewport");
-    struct error error = {{0}};
+    struct error error;
+    error_clear(&error);
     if (!device->target.width) {
         error_set(&error, "no target: expected set_target before a viewport");
         return api_finish(device, TRIPTYCH_BAD_CALL, &error);
@@ -59,7 +66,7 @@ enum triptych_result triptych_set_viewport(triptych_device *device, const struct
         state_set_viewport(&device->state, viewport, device->target.width, device->target.height, &error);
     if (result == TRIPTYCH_OK)
         record_viewport(device, viewport);
-    return api_changed(device, result, &error);
+    return api_changed(device, result, CHANGE_OF_VIEWPORT, &error);
 }
 
 enum triptych_result triptych_set_scissor(triptych_device *device, unsigned x, unsigned y, unsigned width,
@@ -67,7 +74,8 @@ enum triptych_result triptych_set_scissor(triptych_device *device, unsigned x, u
 {
     if (!device)
         return TRIPTYCH_BAD_ARGUMENT;
-    struct error error = {{0}};
+    struct error error;
+    error_clear(&error);
     if (!device->target.width) {
         error_set(&error, "no target: expected set_target before a scissor rectangle");
         return api_finish(device, TRIPTYCH_BAD_CALL, &error);
@@ -76,7 +84,7 @@ enum triptych_result triptych_set_scissor(triptych_device *device, unsigned x, u
                                                     device->target.width, device->target.height, &error);
     if (result == TRIPTYCH_OK)
         record_scissor(device, x, y, width, height);
-    return api_changed(device, result, &error);
+    return api_changed(device, result, CHANGE_OF_SCISSOR, &error);
 }
 
 enum triptych_result triptych_set_clip_plane(triptych_device *device, unsigned i, const float plane[4])
@@ -85,11 +93,12 @@ enum triptych_result triptych_set_clip_plane(triptych_device *device, unsigned i
         return TRIPTYCH_BAD_ARGUMENT;
     if (!plane)
         return api_null_argument(device, "plane");
-    struct error error = {{0}};
+    struct error error;
+    error_clear(&error);
     enum triptych_result result = state_set_clip_plane(&device->state, i, plane, &error);
     if (result == TRIPTYCH_OK)
         record_clip_plane(device, i, plane);
-    return api_changed(device, result, &error);
+    return api_changed(device, result, CHANGE_OF_CLIP_PLANE, &error);
 }
 
 enum triptych_result triptych_set_convention(triptych_device *device, enum triptych_convention which,
@@ -97,11 +106,12 @@ enum triptych_result triptych_set_convention(triptych_device *device, enum tript
 {
     if (!device)
         return TRIPTYCH_BAD_ARGUMENT;
-    struct error error = {{0}};
+    struct error error;
+    error_clear(&error);
     enum triptych_result result = state_set_convention(&device->state, which, value, &error);
     if (result == TRIPTYCH_OK)
         record_convention(device, which, value);
-    return api_changed(device, result, &error);
+    return api_changed(device, result, PARTS_ALL, &error);
 }
 
 enum triptych_result triptych_set_material(triptych_device *device, const struct triptych_material *material)
@@ -110,11 +120,13 @@ enum triptych_result triptych_set_material(triptych_device *device, const struct
         return TRIPTYCH_BAD_ARGUMENT;
     if (!material)
         return api_null_argument(device, "material");
-    struct error error = {{0}};
+    struct error error;
+    error_clear(&error);
+    unsigned change = change_of_material(&device->state.material, material);
     enum triptych_result result = state_set_material(&device->state, material, &error);
     if (result == TRIPTYCH_OK)
         record_material(device, material);
-    return api_changed(device, result, &error);
+    return api_changed(device, result, change, &error);
 }
 
 enum triptych_result triptych_set_light(triptych_device *device, unsigned index,
@@ -124,25 +136,28 @@ enum triptych_result triptych_set_light(triptych_device *device, unsigned index,
         return TRIPTYCH_BAD_ARGUMENT;
     if (!light)
         return api_null_argument(device, "light");
-    struct error error = {{0}};
+    struct error error;
+    error_clear(&error);
+    unsigned change = index < TRIPTYCH_LIGHTS ? change_of_light(&device->state.light[index], light) : 0;
     enum triptych_result result = state_set_light(&device->state, index, light, &error);
     if (result == TRIPTYCH_OK)
         record_light(device, index, light);
-    return api_changed(device, result, &error);
+    return api_changed(device, result, change, &error);
 }
 
 enum triptych_result triptych_enable_light(triptych_device *device, unsigned index, int enable)
 {
     if (!device)
         return TRIPTYCH_BAD_ARGUMENT;
-    struct error error = {{0}};
+    struct error error;
+    error_clear(&error);
     if (index >= TRIPTYCH_LIGHTS) {
         error_set(&error, "light %u: expected 0 to %u", index, TRIPTYCH_LIGHTS - 1);
         return api_finish(device, TRIPTYCH_BAD_ARGUMENT, &error);
     }
     device->state.light_enabled[index] = enable != 0;
     record_enable_light(device, index, enable);
-    return api_changed(device, TRIPTYCH_OK, &error);
+    return api_changed(device, TRIPTYCH_OK, PARTS_ALL, &error);
 }
 
 enum triptych_result triptych_set_texture(triptych_device *device, unsigned sampler,
@@ -150,14 +165,16 @@ enum triptych_result triptych_set_texture(triptych_device *device, unsigned samp
 {
     if (!device)
         return TRIPTYCH_BAD_ARGUMENT;
-    struct error error = {{0}};
+    struct error error;
+    error_clear(&error);
     if (sampler >= TRIPTYCH_SAMPLERS) {
         error_set(&error, "sampler %u: expected 0 to %u", sampler, TRIPTYCH_SAMPLERS - 1);
         return api_finish(device, TRIPTYCH_BAD_ARGUMENT, &error);
     }
+    unsigned change = change_of_texture(device->state.texture[sampler], texture);
     device->state.texture[sampler] = texture;
     record_bind_texture(device, sampler, texture);
-    return api_changed(device, TRIPTYCH_OK, &error);
+    return api_changed(device, TRIPTYCH_OK, change, &error);
 }
 
 enum triptych_result triptych_set_element(triptych_device *device, enum triptych_attribute attribute,
@@ -167,11 +184,12 @@ enum triptych_result triptych_set_element(triptych_device *device, enum triptych
         return TRIPTYCH_BAD_ARGUMENT;
     if (!element)
         return api_null_argument(device, "element");
-    struct error error = {{0}};
+    struct error error;
+    error_clear(&error);
     enum triptych_result result = state_set_element(&device->state, attribute, element, &error);
     if (result == TRIPTYCH_OK)
         record_element(device, attribute, element);
-    return api_changed(device, result, &error);
+    return api_changed(device, result, PARTS_ALL, &error);
 }
 
 enum triptych_result triptych_set_declaration(triptych_device *device,
@@ -182,22 +200,24 @@ enum triptych_result triptych_set_declaration(triptych_device *device,
         return TRIPTYCH_BAD_ARGUMENT;
     if (!elements && count)
         return api_null_argument(device, "elements");
-    struct error error = {{0}};
+    struct error error;
+    error_clear(&error);
     enum triptych_result result = state_set_declaration(&device->state, elements, count, &error);
     if (result == TRIPTYCH_OK)
         record_declaration(device, elements, count);
-    return api_changed(device, result, &error);
+    return api_changed(device, result, PARTS_ALL, &error);
 }
 
 enum triptych_result triptych_set_fvf(triptych_device *device, uint32_t fvf)
 {
     if (!device)
         return TRIPTYCH_BAD_ARGUMENT;
-    struct error error = {{0}};
+    struct error error;
+    error_clear(&error);
     enum triptych_result result = state_set_fvf(&device->state, fvf, &error);
     if (result == TRIPTYCH_OK)
         record_fvf(device, fvf);
-    return api_changed(device, result, &error);
+    return api_changed(device, result, PARTS_ALL, &error);
 }
 
 enum triptych_result triptych_set_stream(triptych_device *device, unsigned stream, triptych_buffer *buffer,
@@ -205,11 +225,12 @@ enum triptych_result triptych_set_stream(triptych_device *device, unsigned strea
 {
     if (!device)
         return TRIPTYCH_BAD_ARGUMENT;
-    struct error error = {{0}};
+    struct error error;
+    error_clear(&error);
     enum triptych_result result = state_set_stream(&device->state, stream, buffer, offset, stride, &error);
     if (result == TRIPTYCH_OK)
         record_stream(device, stream, buffer, offset, stride);
-    return api_changed(device, result, &error);
+    return api_changed(device, result, CHANGE_OF_STREAM, &error);
 }
 
 enum triptych_result triptych_set_stream_frequency(triptych_device *device, unsigned stream,
@@ -217,18 +238,20 @@ enum triptych_result triptych_set_stream_frequency(triptych_device *device, unsi
 {
     if (!device)
         return TRIPTYCH_BAD_ARGUMENT;
-    struct error error = {{0}};
+    struct error error;
+    error_clear(&error);
     enum triptych_result result = state_set_frequency(&device->state, stream, frequency, count, &error);
     if (result == TRIPTYCH_OK)
         record_frequency(device, stream, frequency, count);
-    return api_changed(device, result, &error);
+    return api_changed(device, result, CHANGE_OF_STREAM, &error);
 }
 
 enum triptych_result triptych_set_indices(triptych_device *device, triptych_buffer *buffer, unsigned bits)
 {
     if (!device)
         return TRIPTYCH_BAD_ARGUMENT;
-    struct error error = {{0}};
+    struct error error;
+    error_clear(&error);
     if (buffer && bits != 16 && bits != 32) {
         error_set(&error, "indices of %u bits: expected 16 or 32", bits);
         return api_finish(device, TRIPTYCH_BAD_ARGUMENT, &error);

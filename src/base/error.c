@@ -13,8 +13,3 @@ int error_set(struct error *error, const char *format, ...)
     va_end(arguments);
     return -1;
 }
-
-void error_clear(struct error *error)
-{
-    error->text[0] = 0;
-}

@@ -20,7 +20,10 @@ struct error {
  * error_set(...)` reads well in functions whose success is 0. */
 int error_set(struct error *error, const char *format, ...) __attribute__((format(printf, 2, 3)));
 
-/* Forgets the reason. */
-void error_clear(struct error *error);
+/* Forgets the reason; of an error that is not initialised there is none then. */
+static inline void error_clear(struct error *error)
+{
+    error->text[0] = '\0';
+}
 
 #endif

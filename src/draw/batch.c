@@ -158,7 +158,7 @@ static void shade_vertices(struct batch *batch)
     uint32_t count = batch->vertices_count;
     for (; count % LANES_MAXIMUM; count++)
         batch->vertex[count] = batch->vertex[count - 1];
-    struct vertex_call call = {&batch->draw->job, batch->vertex, batch->vertices, count};
+    struct vertex_call call = {batch->draw->job, batch->vertex, batch->vertices, count};
     routine_run(routine, &call, batch->vertices_count);
     batch->counts.vertices_shaded += batch->vertices_count;
 }
@@ -196,7 +196,7 @@ static bool set_up_group(struct batch *batch, uint32_t index[SETUP_INDEX_ROWS][S
         uint8_t *out = bin_reserve(batch->bins, padded * draw->stride);
         if (!out)
             return false;
-        struct setup_call call = {&draw->job, index[0], batch->vertices, out, padded};
+        struct setup_call call = {draw->job, index[0], batch->vertices, out, padded};
         routine_run(routine, &call, count);
         int visible =
             bin_records(batch->bins, count, draw->stride, draw->shape, &draw->sampling, &draw->scissor);
@@ -445,7 +445,7 @@ static bool add_unclipped(struct batch *batch, uint32_t any)
 static bool add_clipped(struct batch *batch, const struct setup_key *key)
 {
     struct clipper clipper =
-        clipper_create(&batch->draw->job, key->varying, batch->vertices, batch->vertices_count);
+        clipper_create(batch->draw->job, key->varying, batch->vertices, batch->vertices_count);
     clipper.window = key->window;
     if (key->point_size)
         clipper.smooth |= 1ull << SLOT_POINT_SIZE;

@@ -330,6 +330,14 @@ void cache_release(struct cache *cache, const struct routine *routine)
     pthread_mutex_unlock(&cache->lock);
 }
 
+void cache_add_hits(struct cache *cache, const struct routine *routine, uint64_t hits)
+{
+    pthread_mutex_lock(&cache->lock);
+    cache->statistics.hits += hits;
+    routine->entry->routine->hits += hits;
+    pthread_mutex_unlock(&cache->lock);
+}
+
 bool cache_is_crowded(struct cache *cache)
 {
     pthread_mutex_lock(&cache->lock);

@@ -44,6 +44,8 @@ const struct routine *cache_acquire(struct cache *cache, enum unit unit, const u
 /* The same routine once more, for somebody else: cannot fail. */
 void cache_retain(struct cache *cache, const struct routine *routine);
 void cache_release(struct cache *cache, const struct routine *routine);
+/* As if a routine that is in use had been found so many times more. */
+void cache_add_hits(struct cache *cache, const struct routine *routine, uint64_t hits);
 
 /* Whether the routines cost twice the budget, which those in use must be to blame for: time to release some. */
 bool cache_is_crowded(struct cache *cache);

@@ -1,6 +1,7 @@
 /* What a device has recorded and not rendered yet: draws and clears, self-contained.
  *
- * A draw is a snapshot: values are copied, routines are held, and what it points to never changes. */
+ * A draw is a snapshot: what it points to never changes until it is rendered. Draws between which nothing has changed
+ * share their job. */
 #ifndef DRAW_COMMAND_H
 #define DRAW_COMMAND_H
 
@@ -10,7 +11,7 @@
 #include "triptych.h"
 
 struct draw {
-    struct job job;
+    const struct job *job;
     const struct routine *routine[UNIT_COUNT];
     struct rectangle scissor;
     enum triptych_primitive primitive;

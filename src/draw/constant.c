@@ -43,12 +43,13 @@ static void write_block(struct constants *constants, const struct state *state, 
     constants->block[stage] = (const float *)(const void *)block;
 }
 
-void constants_write(struct constants *constants, const struct state *state, struct job *job)
+void constants_write(struct constants *constants, const struct state *state,
+                     const float *block[SHADER_STAGES])
 {
     for (int stage = 0; stage < SHADER_STAGES; stage++) {
         if (state->program[stage] && !is_right(constants, state, stage))
             write_block(constants, state, stage);
-        job->constants[stage] = state->program[stage] ? constants->block[stage] : NULL;
+        block[stage] = state->program[stage] ? constants->block[stage] : NULL;
     }
 }
 

@@ -29,8 +29,9 @@ void constants_destroy(struct constants *constants);
 /* Whether the blocks of a draw with this state fit; they do after constants_reset. */
 bool constants_fit(const struct constants *constants, const struct state *state);
 
-/* Blocks for a draw with this state, which fit, into the job: the newest ones where they are right. */
-void constants_write(struct constants *constants, const struct state *state, struct job *job);
+/* The blocks of a draw with this state, which fit: the newest ones where they are right. Null without shader. */
+void constants_write(struct constants *constants, const struct state *state,
+                     const float *block[SHADER_STAGES]);
 
 /* A constant of that stage has changed: its newest block is not that of later draws. */
 void constants_changed(struct constants *constants, unsigned stage);

@@ -41,10 +41,30 @@ bool derive_effective(const struct pixel_key *key);
 const struct state_element *derive_input(const struct state *state, const struct vertex_key *key,
                                          unsigned number);
 
-/* The values for these keys. Attributes' data and stride come from the streams as bound; those of a stream
+/* What is derived together: the parts of the job, what of a draw is neither key nor job, and the keys. */
+enum derived_part {
+#define JOB_PART(name, first, last, meaning) PART_##name,
+#include "def/job_part.def"
+#undef JOB_PART
+    JOB_PARTS,
+    PART_SETTING = JOB_PARTS, /* struct draw: how it is covered and clipped */
+    PART_VERTICES,            /* how many vertices there are */
+    PART_KEYS,
+    DERIVED_PARTS
+};
+
+/* Sets of parts have bit 1 << part. Where keys may have changed, everything may. */
+#define PARTS(name) (1u << PART_##name)
+enum { PARTS_OF_JOB = (1 << JOB_PARTS) - 1, PARTS_ALL = (1 << DERIVED_PARTS) - 1 };
+
+/* The values for these keys, but for the palette and the constants of shaders. Attributes' data and stride come from the streams as bound; those of a stream
  * that steps with the instance are instance 0's, with stride 0, those of a stream without buffer null. */
 void derive_job(const struct state *state, const struct vertex_key *vertex, const struct pixel_key *pixel,
                 struct job *job);
+
+/* Derives these parts of a job anew, for keys that are those of the others. */
+void derive_job_parts(const struct state *state, const struct vertex_key *vertex,
+                      const struct pixel_key *pixel, unsigned parts, struct job *job);
 
 /* The palette of indexed vertex blending, which the caller keeps for as long as the job is used. */
 void derive_palette(const struct state *state, struct palette_entry palette[WORLD_MATRICES]);

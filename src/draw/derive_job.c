@@ -282,52 +282,160 @@ static bool blends_by_constant(const struct pixel_key *key)
     return r;
 }
 
-/* Not inlined: the compiler may move arithmetic over a change of MXCSR, but not a call. */
-__attribute__((noinline)) static void fill_job(const struct state *state, const struct vertex_key *vertex,
-                                               const struct pixel_key *pixel, struct job *job)
+/* --- The parts --------------------------------------------------------------------------------------------
+ */
+
+/* What parts are derived from. */
+struct given {
+    const struct state *state;
+    const struct vertex_key *vertex;
+    const struct pixel_key *pixel;
+};
+
+static struct matrix transform(const struct given *s, unsigned which)
 {
-    struct matrix world = matrix_of((const float(*)[4])state->transform[TRIPTYCH_TRANSFORM_WORLD]);
-    struct matrix view = matrix_of((const float(*)[4])state->transform[TRIPTYCH_TRANSFORM_VIEW]);
-    struct matrix projection = matrix_of((const float(*)[4])state->transform[TRIPTYCH_TRANSFORM_PROJECTION]);
-    fold_depth_range(state, &projection);
-    struct matrix view_projection = matrix_multiply(&view, &projection);
-    struct matrix world_view = matrix_multiply(&world, &view);
+    return matrix_of((const float(*)[4])s->state->transform[which]);
+}
+
+static struct matrix projection_of(const struct given *s)
+{
+    struct matrix r = transform(s, TRIPTYCH_TRANSFORM_PROJECTION);
+    fold_depth_range(s->state, &r);
+    return r;
+}
+
+static void fill_PALETTE(const struct given *s, struct job *job)
+{
+    (void)s, (void)job; /* the caller's */
+}
+
+static void fill_VIEWPORT(const struct given *s, struct job *job)
+{
+    if (s->vertex->attribute[ATTRIBUTE_POSITIONT] != ATTRIBUTE_FORMAT_NONE)
+        fill_window(s->state, job);
+    else
+        fill_viewport(s->state, job);
+}
+
+static void fill_DEPTH(const struct given *s, struct job *job)
+{
+    fill_depth(s->state, s->pixel, job);
+}
+
+static void fill_FOG(const struct given *s, struct job *job)
+{
+    fill_fog(s->state, s->vertex, s->pixel, job);
+}
+
+static void fill_REFERENCES(const struct given *s, struct job *job)
+{
+    const struct state *state = s->state;
+    if (s->pixel->alpha_discard)
+        job->alpha_reference = (int32_t)GET(alpharef);
+    if (blends_by_constant(s->pixel))
+        job->blend_constant = rgba_word(GET(blendfactor));
+    if (s->vertex->tween)
+        job->tween_factor = GET_FLOAT(tweenfactor);
+}
+
+static void fill_SETUP(const struct given *s, struct job *job)
+{
+    derive_setup_job(s->state, s->vertex, job);
+}
+
+static void fill_TRANSFORM(const struct given *s, struct job *job)
+{
+    struct matrix world = transform(s, TRIPTYCH_TRANSFORM_WORLD),
+                  view = transform(s, TRIPTYCH_TRANSFORM_VIEW);
+    struct matrix projection = projection_of(s), world_view = matrix_multiply(&world, &view);
     struct matrix world_view_projection = matrix_multiply(&world_view, &projection);
-    fill_attributes(state, vertex, job);
     matrix_store(&world_view_projection, job->world_view_projection);
     matrix_store(&world_view, job->world_view);
-    if (vertex->attribute[ATTRIBUTE_NORMAL] || vertex->attribute[ATTRIBUTE_NORMAL1])
+    if (s->vertex->attribute[ATTRIBUTE_NORMAL] || s->vertex->attribute[ATTRIBUTE_NORMAL1])
         matrix_store_normal(&world_view, job->normal);
-    if (vertex->lighting)
-        derive_lights(state, vertex, &view, job);
-    if (vertex->matrices)
-        fill_blend(state, vertex, &view, &projection, job);
-    if (vertex->tween)
-        job->tween_factor = GET_FLOAT(tweenfactor);
-    fill_texture_matrices(state, vertex, pixel, job);
-    if (vertex->attribute[ATTRIBUTE_POSITIONT] != ATTRIBUTE_FORMAT_NONE)
-        fill_window(state, job);
-    else
-        fill_viewport(state, job);
-    struct matrix planes = key_program(vertex->shader) ? shader_clip_space(state) : view_projection;
-    derive_setup_job(state, vertex, (const double(*)[4])planes.m, job);
-    fill_depth(state, pixel, job);
-    fill_textures(state, vertex, pixel, job);
-    fill_stages(state, pixel, job);
-    fill_shader_bumps(state, program_find(key_program(pixel->shader)), job);
-    fill_fog(state, vertex, pixel, job);
-    if (pixel->alpha_discard)
-        job->alpha_reference = (int32_t)GET(alpharef);
-    if (blends_by_constant(pixel))
-        job->blend_constant = rgba_word(GET(blendfactor));
-    job->srgb = &srgb_tables;
+}
+
+static void fill_ATTRIBUTES(const struct given *s, struct job *job)
+{
+    fill_attributes(s->state, s->vertex, job);
+}
+
+static void fill_STAGES(const struct given *s, struct job *job)
+{
+    fill_stages(s->state, s->pixel, job);
+    fill_shader_bumps(s->state, program_find(key_program(s->pixel->shader)), job);
+}
+
+static void fill_TEXTURES(const struct given *s, struct job *job)
+{
+    fill_textures(s->state, s->vertex, s->pixel, job);
+}
+
+static void fill_LIGHTS(const struct given *s, struct job *job)
+{
+    struct matrix view = transform(s, TRIPTYCH_TRANSFORM_VIEW);
+    if (s->vertex->lighting)
+        derive_lights(s->state, s->vertex, &view, job);
+}
+
+static void fill_TEXTURE_MATRICES(const struct given *s, struct job *job)
+{
+    fill_texture_matrices(s->state, s->vertex, s->pixel, job);
+}
+
+static void fill_BLEND(const struct given *s, struct job *job)
+{
+    struct matrix view = transform(s, TRIPTYCH_TRANSFORM_VIEW), projection = projection_of(s);
+    if (s->vertex->matrices)
+        fill_blend(s->state, s->vertex, &view, &projection, job);
+}
+
+static void fill_CLIP_PLANES(const struct given *s, struct job *job)
+{
+    struct matrix planes = shader_clip_space(s->state);
+    if (!s->vertex->clip_planes)
+        return;
+    if (!key_program(s->vertex->shader)) {
+        struct matrix view = transform(s, TRIPTYCH_TRANSFORM_VIEW), projection = projection_of(s);
+        planes = matrix_multiply(&view, &projection);
+    }
+    derive_clip_planes(s->state, s->vertex, (const double(*)[4])planes.m, job);
+}
+
+/* Where each part is, and what fills it in when it is zero. */
+static const struct {
+    uint16_t begin, end;
+    void (*fill)(const struct given *, struct job *);
+} job_part[JOB_PARTS] = {
+#define JOB_PART(name, first, last, meaning)                                                                 \
+    {offsetof(struct job, first), offsetof(struct job, last) + sizeof((struct job *)0)->last, fill_##name},
+#include "def/job_part.def"
+#undef JOB_PART
+};
+
+/* Not inlined: the compiler may move arithmetic over a change of MXCSR, but not a call. */
+__attribute__((noinline)) static void fill_parts(const struct given *given, unsigned parts, struct job *job)
+{
+    for (; parts; parts &= parts - 1) {
+        int part = __builtin_ctz(parts);
+        memset((char *)job + job_part[part].begin, 0, (size_t)(job_part[part].end - job_part[part].begin));
+        job_part[part].fill(given, job);
+    }
+}
+
+void derive_job_parts(const struct state *state, const struct vertex_key *vertex,
+                      const struct pixel_key *pixel, unsigned parts, struct job *job)
+{
+    const struct given given = {state, vertex, pixel};
+    unsigned saved = mxcsr_enter();
+    fill_parts(&given, parts & PARTS_OF_JOB, job);
+    mxcsr_leave(saved);
 }
 
 void derive_job(const struct state *state, const struct vertex_key *vertex, const struct pixel_key *pixel,
                 struct job *job)
 {
-    unsigned saved = mxcsr_enter();
     memset(job, 0, sizeof *job);
-    fill_job(state, vertex, pixel, job);
-    mxcsr_leave(saved);
+    derive_job_parts(state, vertex, pixel, PARTS_OF_JOB, job);
+    job->srgb = &srgb_tables;
 }

@@ -93,9 +93,10 @@ static inline double pixel_centre(const struct state *state)
 /* Where the primitive's points have their size from. */
 enum point_size derive_point_size(const struct state *state, enum primitive primitive);
 
-/* Depth bias, point size and user clip planes; `view_projection` as the vertex routine applies it. */
-void derive_setup_job(const struct state *state, const struct vertex_key *vertex,
-                      const double view_projection[4][4], struct job *job);
+/* Depth bias and point size; user clip planes, with `view_projection` as the vertex routine applies it. */
+void derive_setup_job(const struct state *state, const struct vertex_key *vertex, struct job *job);
+void derive_clip_planes(const struct state *state, const struct vertex_key *vertex,
+                        const double view_projection[4][4], struct job *job);
 
 /* The first stage whose coordinates come in a channel; -1 when none do. */
 int derive_channel_stage(const struct pixel_key *key, int channel);

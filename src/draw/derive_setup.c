@@ -171,8 +171,7 @@ static void fill_point_scale(const struct state *state, struct job *job)
     job->viewport_height = state->viewport.height;
 }
 
-void derive_setup_job(const struct state *state, const struct vertex_key *vertex,
-                      const double view_projection[4][4], struct job *job)
+void derive_setup_job(const struct state *state, const struct vertex_key *vertex, struct job *job)
 {
     job->depth_bias = GET_FLOAT(depthbias);
     job->depth_bias_slope = GET_FLOAT(slopescaledepthbias);
@@ -181,6 +180,11 @@ void derive_setup_job(const struct state *state, const struct vertex_key *vertex
         fill_point_limits(state, job);
     if (vertex->point_size)
         fill_point_scale(state, job);
+}
+
+void derive_clip_planes(const struct state *state, const struct vertex_key *vertex,
+                        const double view_projection[4][4], struct job *job)
+{
     for (int i = 0, n = 0; n < vertex->clip_planes; i++)
         if (GET(clipplaneenable) >> i & 1)
             transform_plane(state->clip_plane[i], view_projection, job->clip_plane[n++]);

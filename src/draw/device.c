@@ -78,6 +78,7 @@ enum triptych_result device_create(const struct engine *engine, const struct dev
         return TRIPTYCH_NO_MEMORY;
     }
     device->engine = engine;
+    device->stale = PARTS_ALL;
     debug_open(listeners, &device->debug_error);
     state_initialize(&device->state);
     for (int stage = 0; stage < SHADER_STAGES; stage++)
@@ -90,38 +91,13 @@ enum triptych_result device_create(const struct engine *engine, const struct dev
     return status;
 }
 
-static void free_palettes(struct palette *palette)
-{
-    for (struct palette *next; palette; palette = next) {
-        next = palette->next;
-        free(palette);
-    }
-}
-
-/* Empties the queue; its draws are rendered or not wanted. */
-static void forget_commands(struct triptych_device *device)
-{
-    struct frame *frame = device->frame;
-    for (uint32_t i = 0; i < frame->commands; i++)
-        if (frame->command[i].kind == COMMAND_DRAW)
-            for (int unit = 0; unit < UNIT_COUNT; unit++)
-                cache_release(device->cache, frame->command[i].draw.routine[unit]);
-    frame->commands = 0;
-    constants_reset(&device->constants);
-    if (device->palettes) {
-        free_palettes(device->palettes->next);
-        device->palettes->next = NULL;
-    }
-    device->recording++;
-}
-
 void device_destroy(struct triptych_device *device)
 {
     if (!device)
         return;
     if (device->frame)
-        forget_commands(device);
-    free_palettes(device->palettes);
+        device_forget(device);
+    free(device->palettes);
     frame_destroy(device->frame);
     pool_destroy(device->pool);
     cache_destroy(device->cache);
@@ -162,7 +138,7 @@ void device_finish(struct triptych_device *device)
     if (frame->commands)
         frame_render(frame, &device->target);
     queries_rendered(&device->queries, frame->passed, frame->commands);
-    forget_commands(device);
+    device_forget(device);
 }
 
 /* --- The target --------------------------------------------------------------------------------------------
@@ -236,7 +212,7 @@ enum triptych_result device_set_target(struct triptych_device *device,
     target_destroy(&device->target);
     device->target = target;
     state_set_target(&device->state, description);
-    device_state_changed(device);
+    device_state_changed(device, PARTS_ALL);
     return TRIPTYCH_OK;
 }
 /* --- Textures ---------------------------------------------------------------------------------------------
@@ -283,6 +259,8 @@ void device_get_statistics(const struct triptych_device *device, struct triptych
 {
     const struct frame_statistics *frame = &device->frame->statistics;
     struct cache_statistics cache = cache_statistics(device->cache);
+    for (uint32_t i = 0; i < device->held_count; i++)
+        cache.hits += device->held[i].hits;
     *statistics = (struct triptych_statistics){
         .draws = device->draws,
         .triangles = device->triangles,

@@ -7,6 +7,7 @@
 #define DRAW_DEVICE_H
 
 #include "draw/cache.h"
+#include "draw/change.h"
 #include "draw/constant.h"
 #include "draw/frame.h"
 #include "draw/query.h"
@@ -55,11 +56,21 @@ struct triptych_device {
     bool integers_checked;                                   /* state_check_integers found nothing */
     struct queries queries;
 
-    /* What the state derives to, once somebody has asked since it changed. */
-    bool derived;
+    /* What the state derives to, but for what has changed since somebody asked (device_record.c). */
+    unsigned stale; /* these parts (draw/derive.h) */
     union key key[UNIT_COUNT];
     struct job job;
     struct palette *palettes; /* the job's, then those of recorded draws */
+    uint64_t vertices;        /* that all elements have which are read; 0 if one has no buffer, or none */
+    struct draw draw; /* what does not depend on the call; routines and job, if held and recorded, or null */
+
+    /* Routines that recorded draws use, each held once for all draws that follow one another, or nearly. */
+    struct held {
+        const struct routine *routine;
+        uint64_t hits; /* of draws that did not have to ask the cache */
+    } held[FRAME_COMMANDS * UNIT_COUNT];
+    uint32_t held_count;
+    uint32_t in_use[UNIT_COUNT]; /* of them, by the draw's routines */
 
     uint64_t draws, triangles;
     uint64_t recording;        /* counts how often the queue was emptied */
@@ -135,11 +146,32 @@ void device_read_texels(struct triptych_device *device, struct triptych_texture 
 enum triptych_result device_write_texels(struct triptych_device *device, struct triptych_texture *texture,
                                          const void *data, size_t bytes, struct error *error);
 
-/* Direct access to the state is for changes; they must be followed by this. */
-static inline void device_state_changed(struct triptych_device *device)
+/* Direct access to the state is for changes; they must be followed by this, with the parts that may have changed
+ * (draw/change.h). */
+static inline void device_state_changed(struct triptych_device *device, unsigned parts)
 {
-    device->derived = false;
+    device->stale |= parts;
 }
+
+/* device_record.c: derives what is stale, for draws of a primitive. */
+enum triptych_result device_derive(struct triptych_device *device, enum triptych_primitive primitive,
+                                   struct error *error);
+
+/* Records a checked draw of what is derived, all instances one after the other: `source` has what depends on the call. */
+enum triptych_result device_record(struct triptych_device *device, const struct draw *source,
+                                   uint32_t instances, struct error *error);
+
+/* The place of the next command; renders what is recorded if there is no other. */
+struct command *device_next_command(struct triptych_device *device);
+
+/* Whether draws sample the texture of sampler number i. */
+bool device_samples(const struct triptych_device *device, int i);
+
+/* Tells the cache of hits that it does not know of. */
+void device_count_hits(struct triptych_device *device);
+
+/* Empties the queue; its draws are rendered or not wanted. */
+void device_forget(struct triptych_device *device);
 
 /* Vertices or indices that `count` primitives take; count is not 0. */
 uint64_t primitive_corners(enum triptych_primitive primitive, uint32_t count);

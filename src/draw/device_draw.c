@@ -52,22 +52,26 @@ static enum triptych_result check_element(const struct state *state, const struc
     return TRIPTYCH_OK;
 }
 
-/* The same of everything that the vertex routine reads. */
+/* The same of everything that the vertex routine reads. What all elements have is known from before; to find what one
+ * lacks takes longer. */
 static enum triptych_result check_vertices(const struct triptych_device *device, uint64_t last,
                                            struct error *error)
 {
     const struct state *state = &device->state;
     const struct vertex_key *key = &device->key[UNIT_VERTEX].vertex;
     enum triptych_result result = TRIPTYCH_OK;
+    if (last < device->vertices)
+        return result;
     for (int i = 0; i < ATTRIBUTE_COUNT && result == TRIPTYCH_OK; i++)
         if (key->attribute[i] != ATTRIBUTE_FORMAT_NONE)
             result = check_element(state, state->element + i, attribute_name[i], last, error);
     for (unsigned i = 0; i < INPUTS && result == TRIPTYCH_OK; i++) {
         const struct state_element *element = derive_input(state, key, i);
         char name[8];
+        if (!element)
+            continue;
         snprintf(name, sizeof name, "v%u", i);
-        if (element)
-            result = check_element(state, element, name, last, error);
+        result = check_element(state, element, name, last, error);
     }
     return result;
 }
@@ -136,173 +140,20 @@ static enum triptych_result check_indices(const struct triptych_device *device, 
     }
     return check_vertices(device, (uint64_t)highest, error);
 }
-/* --- Recording --------------------------------------------------------------------------------------------
- */
-
-/* The newest palette is that of the job; recorded draws may use the others. */
-static enum triptych_result make_palette(struct triptych_device *device, struct error *error)
-{
-    struct palette *palette = malloc(sizeof *palette);
-    if (!palette) {
-        error_set(error, "out of memory for a palette of world matrices");
-        return TRIPTYCH_NO_MEMORY;
-    }
-    derive_palette(&device->state, palette->entry);
-    palette->next = device->palettes;
-    device->palettes = palette;
-    device->job.palette = palette->entry;
-    return TRIPTYCH_OK;
-}
-
-static enum triptych_result derive(struct triptych_device *device, enum triptych_primitive drawn,
-                                   struct error *error)
-{
-    enum triptych_result result = TRIPTYCH_OK;
-    enum primitive primitive = derive_primitive(&device->state, drawn);
-    if (device->derived && device->key[UNIT_SETUP].setup.primitive == primitive)
-        return result;
-    derive_keys(&device->state, primitive, device->key);
-    derive_job(&device->state, &device->key[UNIT_VERTEX].vertex, &device->key[UNIT_PIXEL].pixel,
-               &device->job);
-    if (device->key[UNIT_VERTEX].vertex.indexed_matrices)
-        result = make_palette(device, error);
-    device->derived = result == TRIPTYCH_OK;
-    return result;
-}
-
-static struct command *next_command(struct triptych_device *device)
-{
-    if (!frame_next(device->frame))
-        device_finish(device);
-    return frame_next(device->frame);
-}
-
-static struct command *next_draw(struct triptych_device *device)
-{
-    if (!constants_fit(&device->constants, &device->state))
-        device_finish(device);
-    return next_command(device);
-}
-
-static int acquire_all(struct triptych_device *device, const struct routine *routine[UNIT_COUNT],
-                       struct error *error)
-{
-    for (int unit = 0; unit < UNIT_COUNT; unit++) {
-        routine[unit] = cache_acquire(device->cache, unit, &device->key[unit], error);
-        if (routine[unit])
-            continue;
-        while (unit--)
-            cache_release(device->cache, routine[unit]);
-        return -1;
-    }
-    return 0;
-}
-
-/* Recorded draws hold routines; rendering these draws makes room, where there is none or others might soon have
- * none. */
-static int acquire_routines(struct triptych_device *device, const struct routine *routine[UNIT_COUNT],
-                            struct error *error)
-{
-    bool recorded = device->frame->commands;
-    struct error first = {{0}};
-    int result = acquire_all(device, routine, recorded ? &first : error);
-    if (recorded && (result || cache_is_crowded(device->cache)))
-        device_finish(device);
-    return recorded && result ? acquire_all(device, routine, error) : result;
-}
-
-/* Whether the draw samples the texture of sampler number i. */
-static bool samples(const struct triptych_device *device, int i)
-{
-    const struct pixel_key *pixel = &device->key[UNIT_PIXEL].pixel;
-    const struct vertex_key *vertex = &device->key[UNIT_VERTEX].vertex;
-    return i < PIXEL_SAMPLERS ? pixel->texture[i] : vertex->texture[i - PIXEL_SAMPLERS];
-}
-
-/* The textures that the draw samples: they must not change before it is rendered. */
-static void mark_textures(struct triptych_device *device)
-{
-    for (int i = 0; i < SAMPLERS; i++)
-        if (samples(device, i))
-            device->state.texture[i]->recording = device->recording;
-}
-
-/* Elements of streams that step with the instance: the same vertex for the whole of it. */
-static void step_element(const struct state *state, const struct state_element *element, uint32_t instance,
-                         struct attribute_job *job)
-{
-    const struct state_stream *stream = state->stream + element->stream;
-    if (job->data && stream->frequency == TRIPTYCH_FREQUENCY_INSTANCE)
-        job->data += (size_t)(instance / stream->count) * stream->stride;
-}
-
-static void step_instance(const struct triptych_device *device, uint32_t instance, struct job *job)
-{
-    const struct state *state = &device->state;
-    for (int i = 0; i < ATTRIBUTE_COUNT; i++)
-        step_element(state, state->element + i, instance, &job->attribute[i]);
-    for (unsigned i = 0; i < INPUTS; i++) {
-        const struct state_element *element = derive_input(state, &device->key[UNIT_VERTEX].vertex, i);
-        if (element)
-            step_element(state, element, instance, &job->input[i]);
-    }
-}
-
-static void record_instance(struct triptych_device *device, const struct draw *source,
-                            const struct routine *const routine[UNIT_COUNT], uint32_t instance)
-{
-    const struct setup_key *setup = &device->key[UNIT_SETUP].setup;
-    struct command *command = next_draw(device);
-    command->kind = COMMAND_DRAW;
-    struct draw *draw = &command->draw;
-    *draw = *source;
-    draw->job = device->job;
-    constants_write(&device->constants, &device->state, &draw->job);
-    step_instance(device, instance, &draw->job);
-    for (int unit = 0; unit < UNIT_COUNT; unit++) {
-        draw->routine[unit] = routine[unit];
-        cache_retain(device->cache, routine[unit]);
-    }
-    draw->scissor = derive_scissor(&device->state);
-    draw->stride = setup_layout(setup).stride;
-    draw->shape = derive_shape(setup->primitive);
-    draw->sampling = derive_sampling(&device->state);
-    draw->clip_ignored = derive_clip_ignored(&device->state);
-    draw->last_pixel = derive_last_pixel(&device->state);
-    draw->wrapped = derive_wrapped(&device->state, &device->key[UNIT_PIXEL].pixel);
-    draw->flat = derive_flat(&device->state);
-    device->frame->commands++;
-    mark_textures(device);
-}
-
-/* All of them or none. The routines are held until the last is recorded: a queue that is full meanwhile is rendered and
- * lets go of them. */
-static enum triptych_result record_instances(struct triptych_device *device, const struct draw *source,
-                                             uint32_t instances, struct error *error)
-{
-    const struct routine *routine[UNIT_COUNT];
-    if (acquire_routines(device, routine, error))
-        return device_refusal(TRIPTYCH_ENGINE_FAILED);
-    for (uint32_t i = 0; i < instances; i++)
-        record_instance(device, source, routine, i);
-    for (int unit = 0; unit < UNIT_COUNT; unit++)
-        cache_release(device->cache, routine[unit]);
-    return TRIPTYCH_OK;
-}
-
 /* What is drawn to cannot be sampled: its texels are not those of the tiles. */
 static enum triptych_result check_feedback(const struct triptych_device *device, struct error *error)
 {
-    for (int i = 0; i < SAMPLERS; i++)
-        if (samples(device, i) && device_draws_to(device, device->state.texture[i])) {
+    for (int i = 0; i < SAMPLERS && device->draws_to_textures; i++)
+        if (device_samples(device, i) && device_draws_to(device, device->state.texture[i])) {
             error_set(error, "texture of sampler %d is drawn to: expected another one, or none", i);
             return TRIPTYCH_BAD_CALL;
         }
     return TRIPTYCH_OK;
 }
+/* --- Draws ------------------------------------------------------------------------------------------------
+ */
 
-/* Records a checked draw, all its instances one after the other. The source's primitive, count, indices and
- * base are filled in. */
+/* Records a checked draw. The source's primitive, count, indices and base are filled in. */
 static enum triptych_result record(struct triptych_device *device, const struct draw *source,
                                    struct error *error)
 {
@@ -310,7 +161,7 @@ static enum triptych_result record(struct triptych_device *device, const struct 
     if (check_feedback(device, error) != TRIPTYCH_OK)
         return TRIPTYCH_BAD_CALL;
     if (source->count && derive_effective(&device->key[UNIT_PIXEL].pixel)) {
-        enum triptych_result result = record_instances(device, source, instances, error);
+        enum triptych_result result = device_record(device, source, instances, error);
         if (result != TRIPTYCH_OK)
             return result;
     }
@@ -327,7 +178,7 @@ enum triptych_result device_draw(struct triptych_device *device, enum triptych_p
     enum triptych_result result = check_draw(device, primitive, error);
     if (result != TRIPTYCH_OK)
         return result;
-    result = derive(device, primitive, error);
+    result = device_derive(device, primitive, error);
     if (result == TRIPTYCH_OK)
         result = check_no_instances(device, error);
     if (count && result == TRIPTYCH_OK)
@@ -347,7 +198,7 @@ enum triptych_result device_draw_indexed(struct triptych_device *device, enum tr
     }
     if (result != TRIPTYCH_OK)
         return result;
-    result = derive(device, primitive, error);
+    result = device_derive(device, primitive, error);
     if (count && result == TRIPTYCH_OK)
         result = check_indices(device, base, first, primitive_corners(primitive, count), error);
     struct draw draw = {.primitive = primitive, .count = count, .base = (uint32_t)base};
@@ -365,7 +216,7 @@ enum triptych_result device_clear(struct triptych_device *device, const struct c
         result = state_check_clear(format, values->flags, values->color, values->depth, error);
     if (result != TRIPTYCH_OK || !values->flags)
         return result;
-    struct command *command = next_command(device);
+    struct command *command = device_next_command(device);
     struct clear *clear = &command->clear;
     command->kind = COMMAND_CLEAR;
     *clear = (struct clear){.area = derive_scissor(&device->state),
@@ -394,7 +245,7 @@ static void count_while_asked(struct triptych_device *device)
 {
     bool counting = device->queries.counting;
     if (device->state.counting != counting)
-        device_state_changed(device);
+        device_state_changed(device, PARTS_ALL);
     device->state.counting = counting;
 }
 

@@ -31,7 +31,7 @@ enum triptych_result device_buffer_destroy(struct triptych_device *device, struc
         return not_ours(error, "buffer");
     device_finish(device);
     unbind_buffer(&device->state, buffer);
-    device_state_changed(device);
+    device_state_changed(device, PARTS_ALL);
     *at = buffer->next;
     buffer_destroy(buffer);
     return TRIPTYCH_OK;
@@ -51,7 +51,7 @@ enum triptych_result device_texture_destroy(struct triptych_device *device, stru
     for (unsigned i = 0; i < TRIPTYCH_SAMPLERS; i++)
         if (device->state.texture[i] == texture)
             device->state.texture[i] = NULL;
-    device_state_changed(device);
+    device_state_changed(device, PARTS_ALL);
     *at = texture->next;
     texture_destroy(texture);
     return TRIPTYCH_OK;

@@ -51,7 +51,7 @@ enum triptych_result device_set_shader(struct triptych_device *device, enum shad
         return TRIPTYCH_OK;
     device->state.program[stage] = program;
     device->integers_checked = false;
-    device_state_changed(device);
+    device_state_changed(device, PARTS_ALL);
     return TRIPTYCH_OK;
 }
 
@@ -159,7 +159,7 @@ enum triptych_result device_set_booleans(struct triptych_device *device, enum tr
     }
     const struct program *program = device->state.program[stage];
     if (program && (before ^ *booleans) & program->booleans)
-        device_state_changed(device);
+        device_state_changed(device, PARTS_ALL);
     return TRIPTYCH_OK;
 }
 

@@ -78,7 +78,7 @@ static void target_changed(struct triptych_device *device)
     struct triptych_target_description description;
     target_describe(&device->target, &description);
     state_set_target(&device->state, &description);
-    device_state_changed(device);
+    device_state_changed(device, PARTS_ALL);
 }
 
 enum triptych_result device_set_target_textures(struct triptych_device *device,

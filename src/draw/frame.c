@@ -29,10 +29,11 @@ struct frame *frame_create(struct pool *pool, uint32_t arena_bytes, struct error
     if (frame) {
         frame->pool = pool;
         frame->command = allocate_zeroed(FRAME_COMMANDS * sizeof *frame->command);
+        frame->job = allocate_zeroed(FRAME_COMMANDS * sizeof *frame->job);
         frame->passed = allocate_zeroed(FRAME_COMMANDS * sizeof *frame->passed);
         frame->worker = allocate_zeroed(pool_workers(pool) * sizeof *frame->worker);
     }
-    if (!frame || !frame->command || !frame->passed || !frame->worker ||
+    if (!frame || !frame->command || !frame->job || !frame->passed || !frame->worker ||
         arena_create(&frame->arena, arena_bytes ? arena_bytes : ARENA_BYTES, error)) {
         error_set(error, "out of memory for the renderer's queue");
         frame_destroy(frame);
@@ -47,6 +48,7 @@ void frame_destroy(struct frame *frame)
         return;
     arena_destroy(&frame->arena);
     free(frame->command);
+    free(frame->job);
     free(frame->passed);
     free(frame->worker);
     free(frame);

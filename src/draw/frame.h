@@ -57,7 +57,8 @@ struct frame {
     struct target *target; /* while rendering */
     struct arena arena;
     struct command *command; /* FRAME_COMMANDS of them */
-    uint32_t commands;
+    struct job *job;         /* as many: no draw needs more than one */
+    uint32_t commands, jobs;
     _Atomic uint64_t *passed;    /* samples that passed the tests of each draw whose key counts */
     struct frame_worker *worker; /* one per thread of the pool */
 
@@ -81,6 +82,12 @@ struct frame {
  * with the reason when memory is short. */
 struct frame *frame_create(struct pool *pool, uint32_t arena_bytes, struct error *error);
 void frame_destroy(struct frame *frame);
+
+/* The place of the next job; there is one for each command. It counts once frame->jobs is increased. */
+static inline struct job *frame_next_job(struct frame *frame)
+{
+    return frame->job + frame->jobs;
+}
 
 /* The place of the next command; null when the queue is full. It counts once frame->commands is increased. */
 struct command *frame_next(struct frame *frame);

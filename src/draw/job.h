@@ -11,6 +11,7 @@
 #include "base/srgb.h"
 #include "draw/key.h"
 
+#include <stdalign.h>
 #include <stdint.h>
 
 /* Where vertex i's attribute begins: data + i * stride. `data` includes the stream's and the element's
@@ -87,27 +88,12 @@ struct bump_job {
     float luminance_scale, luminance_offset;
 };
 
+/* In parts that are derived together (def/job_part.def), the smallest first. */
 struct job {
-    struct attribute_job attribute[ATTRIBUTE_COUNT];
-    struct attribute_job input[INPUTS]; /* v# of the vertex shader */
+    alignas(64) const struct srgb_tables *srgb;
+    const float *constants[2]; /* of the vertex and the pixel shader: program_write_constants */
 
-    float world_view_projection[4][4];
-    float world_view[4][4];
-    float normal[3][4]; /* inverse transpose of world * view, 3x3; the fourth column is unused */
-
-    float base_color[4]; /* emissive + material ambient * (scene ambient + directional ambients); w: material
-                            alpha. With reflectances from the vertex emissive alone, 0 if it is from there too
-                          */
-    struct light_job light[LIGHT_COUNT];
-    float ambient_light[3]; /* scene ambient + directional ambients, when it is not in base_color */
-    float power;            /* the material's */
-    float specular_alpha;   /* the material's */
-
-    float projection[4][4]; /* when matrices are blended */
-    float tween_factor;
-    float texture_matrix[TEXTURE_STAGES][4][4]; /* by channel */
-    struct palette_entry blend[BLEND_MATRICES]; /* world matrices 0 to 3 */
-    const struct palette_entry *palette;        /* all of them, when vertices say which */
+    const struct palette_entry *palette; /* all world matrices, when vertices say which */
 
     /* Guard band: |x| <= guard_x * w keeps projected vertices within +-16383 pixels. */
     float guard_x, guard_y;
@@ -126,16 +112,13 @@ struct job {
     int32_t stencil_mask;      /* of reference and stored value when they are compared */
     int32_t stencil_write_mask;
 
-    struct texture_job texture[SAMPLERS];
-    uint32_t stage_constant[TEXTURE_STAGES]; /* RGBA8, red in the low byte, like all packed colours here */
-    struct bump_job bump[TEXTURE_STAGES]; /* by the stage that is displaced; for ps_1_x by the stage itself */
-    uint32_t texture_factor;
-    uint32_t fog_color;
-    float fog_scale; /* of the fog's distance: see spec/fog.h */
+    uint32_t fog_color; /* RGBA8, red in the low byte, like all packed colours here */
+    float fog_scale;    /* of the fog's distance: see spec/fog.h */
     float fog_offset;
+
     int32_t alpha_reference; /* 0 to 255 */
     uint32_t blend_constant;
-    const struct srgb_tables *srgb;
+    float tween_factor;
 
     float depth_bias;              /* added to the depth of triangles */
     float depth_bias_slope;        /* the same, times the triangle's greatest slope */
@@ -143,9 +126,34 @@ struct job {
     float point_least, point_most; /* the limits, then */
     float point_scale[3];          /* constant, linear and quadratic term of the shrinking */
     float viewport_height;         /* what a size of 1 is at a distance where they add up to 1 */
-    float clip_plane[CLIP_PLANES_USER][4]; /* in clip space: inside where the product with x y z w is >= 0 */
 
-    const float *constants[2]; /* of the vertex and the pixel shader: program_write_constants */
+    float world_view_projection[4][4];
+    float world_view[4][4];
+    float normal[3][4]; /* inverse transpose of world * view, 3x3; the fourth column is unused */
+
+    struct attribute_job attribute[ATTRIBUTE_COUNT];
+    struct attribute_job input[INPUTS]; /* v# of the vertex shader */
+
+    uint32_t texture_factor;
+    uint32_t stage_constant[TEXTURE_STAGES];
+    struct bump_job bump[TEXTURE_STAGES]; /* by the stage that is displaced; for ps_1_x by the stage itself */
+
+    struct texture_job texture[SAMPLERS];
+
+    float base_color[4]; /* emissive + material ambient * (scene ambient + directional ambients); w: material
+                            alpha. With reflectances from the vertex emissive alone, 0 if it is from there too
+                          */
+    float ambient_light[3]; /* scene ambient + directional ambients, when it is not in base_color */
+    float power;            /* the material's */
+    float specular_alpha;   /* the material's */
+    struct light_job light[LIGHT_COUNT];
+
+    float texture_matrix[TEXTURE_STAGES][4][4]; /* by channel */
+
+    float projection[4][4];                     /* when matrices are blended */
+    struct palette_entry blend[BLEND_MATRICES]; /* world matrices 0 to 3 */
+
+    float clip_plane[CLIP_PLANES_USER][4]; /* in clip space: inside where the product with x y z w is >= 0 */
 };
 
 #endif

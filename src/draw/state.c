@@ -153,6 +153,19 @@ enum triptych_result state_set_value(struct state *state, enum triptych_state_ta
     return TRIPTYCH_OK;
 }
 
+bool state_has_value(const struct state *state, enum triptych_state_table table, unsigned i, unsigned row,
+                     uint32_t value)
+{
+    switch (table) {
+    case TRIPTYCH_RENDER_STATES: return row < TRIPTYCH_STATE_COUNT && state->value[row] == value;
+    case TRIPTYCH_SAMPLER_STATES:
+        return i < TRIPTYCH_SAMPLERS && row < TRIPTYCH_SAMPLER_STATE_COUNT && state->sampler[i][row] == value;
+    case TRIPTYCH_STAGE_STATES:
+        return i < TRIPTYCH_STAGES && row < TRIPTYCH_STAGE_STATE_COUNT && state->stage[i][row] == value;
+    default: return false;
+    }
+}
+
 static void initialize_values(struct state *state)
 {
     struct place place;

@@ -9,6 +9,8 @@
 #include "draw/resource.h"
 #include "draw/texture.h"
 
+#include <stdbool.h>
+
 struct program;
 
 /* The streams of a declaration, then one for each attribute that is set by itself. */
@@ -98,6 +100,9 @@ enum triptych_result state_check_clear(enum triptych_depth_format format, unsign
  * sampler or stage `i` (0 for render states) and the row's number in the table. */
 enum triptych_result state_set_value(struct state *state, enum triptych_state_table table, unsigned i,
                                      unsigned row, uint32_t value, struct error *error);
+/* Whether the place is there and has that value already. */
+bool state_has_value(const struct state *state, enum triptych_state_table table, unsigned i, unsigned row,
+                     uint32_t value);
 enum triptych_result state_set_transform(struct state *state, enum triptych_transform which,
                                          const float matrix[4][4], struct error *error);
 enum triptych_result state_set_viewport(struct state *state, const struct triptych_viewport *viewport,

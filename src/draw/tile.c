@@ -38,7 +38,7 @@ static void shade(struct tile_worker *worker, const struct frame *frame, uint32_
     const struct pixel_key *key = &routine->key.pixel;
     struct target *target = frame->target;
     struct pixel_call call = {
-        .job = &worker->draw->job,
+        .job = worker->draw->job,
         .entries = worker->entries.entry,
         .triangles = frame->arena.base,
         .lanes = &worker->lanes,

@@ -17,7 +17,8 @@ static uint32_t *clip_codes; /* of each vertex number; null: all inside */
 static struct arena arena;
 static struct bin_writer *bins;
 static struct batch *batch;
-static struct draw draw;
+static struct job job;
+static struct draw draw = {.job = &job};
 static uint32_t heads;
 
 /* The vertex's number becomes its x, which survives in the batch for setup to find. */
@@ -69,7 +70,7 @@ void setUp(void)
     TEST_ASSERT_TRUE(bins && batch);
     memset(batch, 0, sizeof *batch);
     memset(&draw, 0, sizeof draw);
-    draw.job.guard_x = draw.job.guard_y = 10;
+    job.guard_x = job.guard_y = 10;
     draw.routine[UNIT_VERTEX] = &vertex_routine;
     draw.routine[UNIT_SETUP] = &setup_routine;
     draw.scissor = (struct rectangle){0, 0, 128, 64};
