@@ -3,10 +3,16 @@
 
 #include "base/mxcsr.h"
 
+#include <emmintrin.h>
 #include <sched.h>
+#include <stdatomic.h>
 #include <stdbool.h>
 #include <stdint.h>
 #include <stdlib.h>
+
+/* Rounds follow one another within microseconds while something is drawn, which a sleeping thread takes to wake
+ * up: who waits looks this often first, some tens of microseconds, where there is a processor for each. */
+enum { LOOKS = 1000 };
 
 struct pool_worker {
     struct pool *pool;
@@ -17,10 +23,12 @@ struct pool_worker {
 struct pool {
     pthread_mutex_t lock;
     pthread_cond_t start, done;
-    uint64_t round;   /* of tasks; a worker has run round r when it waits for r + 1 */
-    unsigned wanted;  /* workers of this round */
-    unsigned running; /* threads that have not finished it */
-    bool leaving;
+    /* Written with the lock held only. */
+    _Atomic uint64_t round;   /* of tasks; a worker has run round r when it waits for r + 1 */
+    _Atomic unsigned running; /* threads that have not finished it */
+    _Atomic bool leaving;
+    unsigned wanted; /* workers of this round */
+    unsigned looks;
     pool_task *task;
     void *user;
     unsigned workers, limit;
@@ -32,6 +40,18 @@ static void run_in_contract(pool_task *task, void *user, unsigned worker)
     unsigned saved = mxcsr_enter();
     task(user, worker);
     mxcsr_leave(saved);
+}
+
+static void look_for_round(const struct pool *pool, uint64_t round)
+{
+    for (unsigned i = 0; i < pool->looks && pool->round == round && !pool->leaving; i++)
+        _mm_pause();
+}
+
+static void look_for_end(const struct pool *pool)
+{
+    for (unsigned i = 0; i < pool->looks && pool->running; i++)
+        _mm_pause();
 }
 
 /* Waits for the round after `round`; false when the pool is leaving. */
@@ -58,6 +78,9 @@ static void *work(void *argument)
         pthread_mutex_lock(&pool->lock);
         if (!--pool->running)
             pthread_cond_signal(&pool->done);
+        pthread_mutex_unlock(&pool->lock);
+        look_for_round(pool, round);
+        pthread_mutex_lock(&pool->lock);
     }
     pthread_mutex_unlock(&pool->lock);
     return NULL;
@@ -95,6 +118,7 @@ struct pool *pool_create(unsigned threads, pool_create_thread *create, struct er
             break;
     }
     pool->limit = pool->workers;
+    pool->looks = pool->workers <= processors() ? LOOKS : 0;
     return pool;
 }
 
@@ -140,6 +164,7 @@ void pool_run(struct pool *pool, unsigned workers, pool_task *task, void *user)
     }
     run_in_contract(task, user, 0);
     if (workers > 1) {
+        look_for_end(pool);
         pthread_mutex_lock(&pool->lock);
         while (pool->running)
             pthread_cond_wait(&pool->done, &pool->lock);

@@ -1,23 +1,31 @@
 #include "draw/tile.h"
 
 #include "draw/frame.h"
+#include "draw/raster_part.h"
 
 #include <string.h>
 
-/* Set bits of the entries' coverages, four at a time (Warren, Hacker's Delight, 5-1). */
+/* Set bits of the entries' coverages, four at a time (Warren, Hacker's Delight, 5-1); up to three behind them
+ * are read. */
 static uint64_t count_pixels(const struct entry *entry, uint32_t count)
 {
-    uint64_t total = 0;
-    for (uint32_t i = 0; i < count; i += 4) {
-        uint64_t x = 0;
-        for (uint32_t j = i; j < i + 4 && j < count; j++)
-            x = x << 16 | entry[j].coverage;
-        x -= x >> 1 & 0x5555555555555555;
-        x = (x & 0x3333333333333333) + (x >> 2 & 0x3333333333333333);
-        x = (x + (x >> 4)) & 0x0f0f0f0f0f0f0f0f;
-        total += x * 0x0101010101010101 >> 56;
+    const __m128i *at = (const __m128i *)(const void *)entry;
+    __m128i total = _mm_setzero_si128();
+    for (uint32_t i = 0; i < count; i += 4, at += 4) {
+        /* The third words of four entries: coverage below, block above. */
+        __m128i low = _mm_unpackhi_epi32(_mm_load_si128(at), _mm_load_si128(at + 1));
+        __m128i high = _mm_unpackhi_epi32(_mm_load_si128(at + 2), _mm_load_si128(at + 3));
+        __m128i x = _mm_and_si128(_mm_unpacklo_epi64(low, high), _mm_set1_epi32(WHOLE_BLOCK));
+        __m128i some = _mm_cmplt_epi32(_mm_set_epi32(3, 2, 1, 0), _mm_set1_epi32((int)(count - i)));
+        x = _mm_and_si128(x, some);
+        x = _mm_sub_epi16(x, _mm_and_si128(_mm_srli_epi16(x, 1), _mm_set1_epi8(0x55)));
+        x = _mm_add_epi16(_mm_and_si128(x, _mm_set1_epi8(0x33)),
+                          _mm_and_si128(_mm_srli_epi16(x, 2), _mm_set1_epi8(0x33)));
+        x = _mm_and_si128(_mm_add_epi16(x, _mm_srli_epi16(x, 4)), _mm_set1_epi8(0x0f));
+        total = _mm_add_epi64(total, _mm_sad_epu8(x, _mm_setzero_si128()));
     }
-    return total;
+    total = _mm_add_epi64(total, _mm_unpackhi_epi64(total, total));
+    return (uint64_t)_mm_cvtsi128_si64(total);
 }
 
 /* What the call has counted, to the draw's sum: any order of threads gives the same. */
