@@ -24,6 +24,8 @@
  * Signs are taken together: the bitwise or of three edge functions is negative where any of them is. */
 #include "draw/raster_part.h"
 
+#include "base/cpu.h"
+
 enum {
     SATURATION = 1 << 30,
     GROUP_SIZE = 16,   /* pixels: 4x4 blocks */
@@ -542,6 +544,12 @@ static __attribute__((noinline)) uint32_t rasterize(const struct raster_site *si
     return (uint32_t)(w.next - entries);
 }
 
+static bool has_kernel(void)
+{
+    const bool *has = cpu_native()->has;
+    return has[CPU_avx512f] && has[CPU_avx512dq] && has[CPU_avx512bw] && has[CPU_avx512vl];
+}
+
 void raster_enter(struct raster_site *site, const struct rectangle *scissor, int column, int row)
 {
     struct rectangle tile = tile_rectangle(column, row), limit = *scissor;
@@ -549,8 +557,10 @@ void raster_enter(struct raster_site *site, const struct rectangle *scissor, int
     site->limit = box_of(&limit);
     site->scissor = *scissor;
     site->whole = limit.x0 == tile.x0 && limit.y0 == tile.y0 && limit.x1 == tile.x1 && limit.y1 == tile.y1;
+    site->kernel = has_kernel();
     site->x = tile.x0;
     site->y = tile.y0;
+    site->row[ROW_BLOCKS] = _mm_setzero_si128();
     for (int i = 0; i < ROW_BLOCKS; i++) {
         struct entry across = {.x = (float)(tile.x0 + i * BLOCK_SIZE), .block = (uint16_t)i};
         struct entry down = {.y = (float)(tile.y0 + i * BLOCK_SIZE), .block = (uint16_t)(i * ROW_BLOCKS)};
@@ -577,15 +587,40 @@ static inline struct entry *raster_one(const struct raster_site *site, const str
     return emit_tiny(site, head, &in, triangle, entries);
 }
 
+/* asm/raster.asm */
+_Static_assert(offsetof(struct raster_site, limit) == 0 && offsetof(struct raster_site, column) == 64 &&
+                   offsetof(struct raster_site, row) == 64 + ROW_BLOCKS * 16 &&
+                   offsetof(struct triangle_head, x) == 4 && offsetof(struct triangle_head, y) == 16,
+               "the kernel's layouts");
+
+struct raster_progress {
+    struct entry *next;
+    uint64_t left;
+};
+
+struct raster_progress raster_tiny_avx512(const struct raster_site *site, const uint8_t *records,
+                                          const uint32_t *offset, uint32_t count, struct entry *next,
+                                          const struct entry *last);
+
 uint32_t raster_list(const struct raster_site *site, const uint8_t *records, const uint32_t *offset,
                      uint32_t count, struct entry *entries, uint32_t *used)
 {
     struct entry *next = entries + *used;
     const struct entry *last = entries + PIXEL_ENTRIES - TILE_BLOCKS;
+    bool kernel = site->whole && site->kernel;
     uint32_t i = 0;
-    for (; i < count && next <= last; i++)
+    while (i < count && next <= last) {
+        if (kernel) {
+            struct raster_progress now = raster_tiny_avx512(site, records, offset + i, count - i, next, last);
+            next = now.next;
+            i = count - (uint32_t)now.left;
+        }
+        if (i == count || next > last)
+            break;
         next = raster_one(site, (const struct triangle_head *)(const void *)(records + offset[i]), offset[i],
                           next);
+        i++;
+    }
     *used = (uint32_t)(next - entries);
     return i;
 }

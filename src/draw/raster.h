@@ -56,14 +56,16 @@ struct box {
     __m128i low, high;
 };
 
-/* A tile and a scissor rectangle, made ready for many triangles. */
+/* A tile and a scissor rectangle, made ready for many triangles. asm/raster.asm knows the layout. */
 struct raster_site {
     struct box limit; /* what both have in common */
     struct rectangle scissor;
-    bool whole;                             /* the scissor takes nothing from the tile */
-    int32_t x, y;                           /* the tile's first pixel */
+    int32_t x, y; /* the tile's first pixel */
+    bool whole;   /* the scissor takes nothing from the tile */
+    bool kernel;  /* the processor has what the kernel for tiny triangles needs, and it may be used */
     __m128i column[TILE_SIZE / BLOCK_SIZE]; /* what an entry says of the column of blocks that it is in, */
-    __m128i row[TILE_SIZE / BLOCK_SIZE];    /* and of the row: or-ed together, its place */
+    __m128i
+        row[TILE_SIZE / BLOCK_SIZE + 1]; /* and of the row: or-ed together, its place; the last is not used */
 };
 
 /* The triangles of the records at `count` offsets from `records`, as raster_tile() has them one by one, into

@@ -183,6 +183,7 @@ static void scatter(struct triangle_head *h, int32_t x, int32_t y, int32_t reach
 
 enum shape {
     TINY,
+    NINE_PIXELS,
     BLOCKS,
     SIXTEEN_BITS,
     MIDDLE,
@@ -197,20 +198,23 @@ enum shape {
     SHAPES
 };
 
+/* Vertices mostly at the corners of a box, as far from one another as its size allows. */
+static void box_corners(struct triangle_head *h, int32_t x, int32_t y, int32_t width, int32_t height)
+{
+    for (int i = 0; i < 3; i++) {
+        h->x[i] = limited(x + (draw() % 4 ? draw() & 1 ? width : 0 : between(0, width)));
+        h->y[i] = limited(y + (draw() % 4 ? draw() & 1 ? height : 0 : between(0, height)));
+    }
+}
+
 /* A triangle of the shape about the window position (x, y). */
 static void random_head(struct triangle_head *h, enum shape shape, int32_t x, int32_t y)
 {
     switch (shape) {
     case TINY: scatter(h, x, y, 300, 1, 0); break;
     case BLOCKS: scatter(h, x, y, 1500, 1, 0); break;
-    case SIXTEEN_BITS: { /* about as large as edges of 16 bits allow, vertices at the corners of their bounds */
-        int32_t width = between(5000, 5600), height = between(5000, 5600);
-        for (int i = 0; i < 3; i++) {
-            h->x[i] = limited(x + (draw() % 4 ? draw() & 1 ? width : 0 : between(0, width)));
-            h->y[i] = limited(y + (draw() % 4 ? draw() & 1 ? height : 0 : between(0, height)));
-        }
-        break;
-    }
+    case NINE_PIXELS: box_corners(h, x, y, between(1900, 2400), between(1900, 2400)); break;
+    case SIXTEEN_BITS: box_corners(h, x, y, between(5000, 5600), between(5000, 5600)); break;
     case MIDDLE: scatter(h, x, y, 8000, 1, 0); break;
     case TILES: scatter(h, x, y, 60000, 1, 0); break;
     case HUGE: scatter(h, 0, 0, WINDOW_MAXIMUM, 1, 0); break;
@@ -309,6 +313,7 @@ static void test_triangles_in_whole_tiles_equal_the_oracle(void)
 {
     compare_shape(TINY, 3000, 0);
     compare_shape(BLOCKS, 3000, 0);
+    compare_shape(NINE_PIXELS, 3000, 0);
     compare_shape(SIXTEEN_BITS, 4000, 0);
     compare_shape(MIDDLE, 1000, 0);
     compare_shape(CENTRES, 2000, 0);
@@ -408,26 +413,40 @@ static void test_a_covered_tile_is_256_whole_blocks(void)
 static void test_lists_are_their_triangles_one_after_the_other(void)
 {
     enum { RECORDS = 11, STRIDE = 64 };
-    static const enum shape shapes[] = {TINY, BLOCKS, SIXTEEN_BITS, MIDDLE, TILES, HUGE};
+    static const enum shape shapes[] = {TINY,        TINY,        TINY,   BLOCKS,
+                                        NINE_PIXELS, NINE_PIXELS, BLOCKS, SIXTEEN_BITS};
     uint32_t stops = 0;
-    for (int round = 0; round < 2000; round++) {
+    for (int round = 0; round < 20000; round++) {
         static alignas(64) uint8_t records[RECORDS * STRIDE];
         static struct entry entries[PIXEL_ENTRIES], one[TILE_BLOCKS];
-        uint32_t offset[RECORDS], used = draw() % 900, before = used;
-        struct rectangle cut = round & 1 ? whole : random_cut(32, 32, 80);
+        int column = between(0, TARGET_TILES - 1), row = between(0, TARGET_TILES - 1);
+        int32_t x = column * TILE_SIZE, y = row * TILE_SIZE;
+        uint32_t offset[RECORDS], used = draw() % 800, before = used;
+        struct rectangle cut = {0, 0, TARGET, TARGET};
         struct raster_site site;
+        if (round % 4 == 0)
+            cut = random_cut(x + 32, y + 32, 80);
         for (uint32_t i = 0; i < RECORDS; i++) {
+            enum shape shape = round % 8 == 1 && draw() & 1 ? HUGE : shapes[draw() % 8];
+            int32_t grid = draw() & 1 ? 1 : 128; /* edges through centres */
             struct triangle_head h = {.visible = -1};
-            do
-                random_head(&h, shapes[draw() % 6], between(0, 64 * 256), between(0, 64 * 256));
-            while (!orient(&h));
+            do {
+                random_head(&h, shape, x * 256 + between(-1024, 65 * 256),
+                            y * 256 + between(-1024, 65 * 256));
+                for (int v = 0; v < 3; v++) {
+                    h.x[v] = h.x[v] / grid * grid;
+                    h.y[v] = h.y[v] / grid * grid;
+                }
+            } while (!orient(&h));
             offset[i] = i * STRIDE;
             memcpy(records + offset[i], &h, sizeof h);
         }
-        raster_enter(&site, &cut, 0, 0);
+        raster_enter(&site, &cut, column, row);
+        site.kernel &= round % 8 != 2;
         uint32_t done = raster_list(&site, records, offset, RECORDS, entries, &used), next = before;
         for (uint32_t i = 0; i < done; i++) {
-            uint32_t count = raster_tile((const void *)(records + offset[i]), &cut, 0, 0, offset[i], one);
+            uint32_t count =
+                raster_tile((const void *)(records + offset[i]), &cut, column, row, offset[i], one);
             TEST_ASSERT_LESS_OR_EQUAL_UINT32(PIXEL_ENTRIES, next + count);
             if (count)
                 TEST_ASSERT_EQUAL_MEMORY(one, entries + next, count * sizeof *one);
