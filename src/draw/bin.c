@@ -65,7 +65,7 @@ void bin_begin_round(struct bin_writer *writer, struct arena *arena, uint32_t co
 void bin_begin_chunk(struct bin_writer *writer, uint32_t chunk)
 {
     writer->chunk = chunk;
-    writer->heads = 0;
+    writer->heads = writer->covered = 0;
 }
 
 uint32_t bin_end_chunk(struct bin_writer *writer)
@@ -125,10 +125,24 @@ static void append_to_tiles(struct bin_writer *writer, const struct rectangle *t
     const uint8_t *record = writer->arena->base + triangle;
     struct sampled_raster raster;
     sampled_prepare(&raster, sampling, shape, (const struct triangle_head *)(const void *)record, scissor);
+    bool covers = shape == SHAPE_TRIANGLE && !sampling->samples && raster.count;
     for (int32_t row = tiles->y0; row < tiles->y1; row++)
-        for (int32_t column = tiles->x0; column < tiles->x1; column++)
-            if (sampled_touches(&raster, column, row))
-                append(writer, (uint32_t)row * writer->columns + (uint32_t)column, triangle);
+        for (int32_t column = tiles->x0; column < tiles->x1; column++) {
+            if (!sampled_touches(&raster, column, row))
+                continue;
+            uint32_t all = covers && raster_covers(&raster.raster[0], column, row) ? BIN_COVERS : 0;
+            append(writer, (uint32_t)row * writer->columns + (uint32_t)column, triangle | all);
+            writer->covered += all;
+        }
+}
+
+bool bin_covers(const struct arena *arena, uint32_t head)
+{
+    for (uint32_t at = head; at; at = bin_cell(arena, at)->next)
+        for (uint32_t i = 0; i < bin_cell(arena, at)->count; i++)
+            if (bin_cell(arena, at)->triangle[i] & BIN_COVERS)
+                return true;
+    return false;
 }
 
 /* The numbers of the records that setup left visible. About half are not, in no order that could be

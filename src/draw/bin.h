@@ -39,8 +39,13 @@ struct bin_cell {
     uint32_t chunk;   /* of a head */
     uint16_t tile;
     uint16_t count;
-    uint32_t triangle[BIN_CELL_TRIANGLES]; /* offsets of records */
+    uint32_t
+        triangle[BIN_CELL_TRIANGLES]; /* offsets of records, with BIN_COVERS in those that cover the tile */
 };
+
+/* Offsets are multiples of ARENA_ALIGNMENT. Not all triangles that cover a tile have the bit: those that setup
+ * leaves in several tiles, of one sample. */
+enum { BIN_COVERS = 1 };
 
 /* One thread's way into the arena, and the chunk it is writing. */
 struct bin_writer {
@@ -49,6 +54,7 @@ struct bin_writer {
     uint32_t columns, rows; /* of the target, in tiles */
     uint32_t chunk;
     uint32_t heads;                      /* first head cell of the chunk */
+    uint32_t covered;                    /* how many tiles its triangles cover, each counted for itself */
     uint32_t open[TARGET_TILES_MAXIMUM]; /* the tile's last cell of the chunk */
     uint32_t tile[SETUP_CAPACITY];       /* that holds the bounds of a triangle of the group; or MANY_TILES */
     struct rectangle tiles[SETUP_CAPACITY]; /* and these are the tiles that they meet */
@@ -64,6 +70,9 @@ static inline struct bin_cell *bin_cell(const struct arena *arena, uint32_t offs
 {
     return (struct bin_cell *)(void *)(arena->base + offset);
 }
+
+/* Whether any triangle of the chain that begins with this cell covers the tile. */
+bool bin_covers(const struct arena *arena, uint32_t head);
 
 /* Before a round of chunks: forgets the block, whose arena has been reset. */
 void bin_begin_round(struct bin_writer *writer, struct arena *arena, uint32_t columns, uint32_t rows);

@@ -2,6 +2,8 @@
  * the idle, those that nobody uses, to evict. */
 #include "draw/cache.h"
 
+#include "draw/hidden.h"
+
 #include "base/code.h"
 #include "debug/debug.h"
 
@@ -265,6 +267,10 @@ static struct cache_entry *insert(struct cache *cache, enum unit unit, const uni
     entry->routine->number = ++cache->next_number;
     entry->routine->hits = 0;
     entry->routine->entry = entry;
+    if (unit == UNIT_PIXEL) {
+        entry->routine->traits = (uint16_t)pixel_traits(&key->pixel);
+        entry->routine->depth_plane = pixel_layout(&key->pixel).depth;
+    }
     entry->routine->time = cache->measures ? &entry->time : NULL;
     entry->unit = unit;
     entry->key = *packed;

@@ -53,6 +53,7 @@ static uint32_t valid_depth(enum triptych_depth_format format, uint32_t word)
 static void write_pixel(struct target *target, uint32_t x, uint32_t y, const uint8_t **data)
 {
     struct pixel pixel = find_pixel(target, x, y);
+    target_forget_depth(target, y / TILE_SIZE * target->columns + x / TILE_SIZE);
     for (uint32_t sample = 0; sample < target->samples; sample++) {
         for (uint32_t plane = 0; plane < target->planes; plane++, *data += sizeof(uint32_t))
             memcpy(pixel.color + (sample * target->planes + plane) * TILE_PIXELS, *data, sizeof(uint32_t));

@@ -45,6 +45,8 @@ struct routine {
     uint64_t hits;           /* set by the cache */
     struct routine_time *time; /* set by the cache; null: not measured */
     struct cache_entry *entry; /* the cache's own */
+    uint16_t traits;           /* of a pixel routine (draw/hidden.h), set by the cache */
+    uint16_t depth_plane;      /* the byte offset of depth's plane in its records, likewise */
 };
 
 /* Runs the routine; `elements` are counted if it is measured. */

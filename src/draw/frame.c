@@ -1,5 +1,7 @@
 #include "draw/frame.h"
 
+#include "draw/hidden.h"
+
 #include <stdlib.h>
 #include <string.h>
 #include <time.h>
@@ -124,6 +126,7 @@ static void process_chunk(struct frame *frame, struct frame_worker *worker, uint
     bin_begin_chunk(&worker->bins, number);
     chunk->done = batch_primitives(&worker->batch, &command->draw, chunk->first, chunk->count, &worker->bins);
     chunk->heads = bin_end_chunk(&worker->bins);
+    chunk->covered = worker->bins.covered;
     chunk->counts = worker->batch.counts;
     if (chunk->done < chunk->count)
         stop_after(frame, number);
@@ -173,12 +176,26 @@ static uint32_t link_chunk(struct frame *frame, const struct chunk *chunk)
     return fresh;
 }
 
+/* Remembers the bins of a chunk that overwrite their tiles. */
+static void link_covered(struct frame *frame, const struct chunk *chunk)
+{
+    const struct routine *routine = frame->command[chunk->command].draw.routine[UNIT_PIXEL];
+    if (!(routine->traits & PIXEL_OVERWRITES_ALL) ||
+        !pixel_writes_all_targets(&routine->key.pixel, frame->target))
+        return;
+    for (uint32_t head = chunk->heads; head; head = bin_cell(&frame->arena, head)->sibling)
+        if (bin_covers(&frame->arena, head))
+            frame->tile_start[bin_cell(&frame->arena, head)->tile] = head;
+}
+
 /* Makes the tiles' bins from those of the chunks that are done, and moves the cursor behind these. Returns
  * how many tiles there is something to do in, about. */
 static uint32_t link_chunks(struct frame *frame, struct cursor *at)
 {
     uint32_t busy = 0, stopped = atomic_load(&frame->first_stopped);
-    memset(frame->tile_first, 0, frame->target->columns * frame->target->rows * sizeof *frame->tile_first);
+    size_t bytes = frame->target->columns * frame->target->rows * sizeof *frame->tile_first;
+    memset(frame->tile_first, 0, bytes);
+    memset(frame->tile_start, 0, bytes);
     frame->clears = 0;
     for (uint32_t i = 0; i < frame->chunks && i <= stopped; i++) {
         const struct chunk *chunk = frame->chunk + i;
@@ -186,6 +203,8 @@ static uint32_t link_chunks(struct frame *frame, struct cursor *at)
         if (command->kind == COMMAND_CLEAR)
             frame->clear_chunk[frame->clears++] = i;
         busy += link_chunk(frame, chunk);
+        if (chunk->covered)
+            link_covered(frame, chunk);
         frame->statistics.vertices_shaded += chunk->counts.vertices_shaded;
         frame->statistics.triangles_set_up += chunk->counts.triangles_set_up;
         frame->statistics.triangles_visible += chunk->counts.triangles_visible;
@@ -243,6 +262,7 @@ void frame_render(struct frame *frame, struct target *target)
     struct cursor at = {0, 0};
     uint32_t limit = FRAME_CHUNKS;
     frame->target = target;
+    frame->farthest = depth_encode(target->depth_format, 1);
     memset(frame->passed, 0, frame->commands * sizeof *frame->passed);
     while (at.command < frame->commands) {
         struct cursor before = at;

@@ -35,6 +35,7 @@ struct chunk {
     uint32_t first, count; /* primitives */
     uint32_t done;         /* how many of them are in the bins */
     uint32_t heads;        /* head cells of its bins */
+    uint32_t covered;      /* of the bins, see struct bin_writer */
     struct batch_counts counts;
 };
 
@@ -55,6 +56,7 @@ struct frame_statistics {
 struct frame {
     struct pool *pool;
     struct target *target; /* while rendering */
+    uint32_t farthest;     /* the word of its greatest depth */
     struct arena arena;
     struct command *command; /* FRAME_COMMANDS of them */
     struct job *job;         /* as many: no draw needs more than one */
@@ -69,6 +71,8 @@ struct frame {
     uint32_t clears;
     uint32_t tile_first[TARGET_TILES_MAXIMUM]; /* head cells of each tile's bin */
     uint32_t tile_last[TARGET_TILES_MAXIMUM];
+    uint32_t
+        tile_start[TARGET_TILES_MAXIMUM]; /* the last head cell with a triangle that overwrites the tile */
     _Atomic uint32_t next_chunk, next_tile;
     _Atomic uint32_t first_stopped; /* the first chunk that did not fit the arena */
 

@@ -97,6 +97,21 @@ bool raster_touches(const struct raster *raster, int column, int row)
     return true;
 }
 
+bool raster_covers(const struct raster *raster, int column, int row)
+{
+    const struct rectangle *bounds = &raster->bounds;
+    int x0 = column * TILE_SIZE, y0 = row * TILE_SIZE, last = TILE_SIZE - 1;
+    if (bounds->x0 > x0 || bounds->y0 > y0 || bounds->x1 < x0 + TILE_SIZE || bounds->y1 < y0 + TILE_SIZE)
+        return false;
+    for (int i = 0; i < 3; i++) {
+        int64_t a = raster->a[i], b = raster->b[i];
+        int64_t x = x0 + (a < 0 ? last : 0), y = y0 + (b < 0 ? last : 0);
+        if (raster->c[i] + a * x + b * y < 0)
+            return false;
+    }
+    return true;
+}
+
 /* Edge functions of the four groups in a row less the value at the row's first pixel: at the pixel of each
  * group where it is largest, and where it is smallest. */
 struct groups {

@@ -45,6 +45,9 @@ struct rectangle raster_tiles(const struct rectangle *bounds);
  * certain. */
 bool raster_touches(const struct raster *raster, int column, int row);
 
+/* Whether it certainly covers all pixels of the tile. */
+bool raster_covers(const struct raster *raster, int column, int row);
+
 /* The blocks of the tile (column, row) that the triangle covers within the scissor rectangle, in block order;
  * returns how many. `triangle` goes to the entries unchanged. Up to TILE_BLOCKS entries are written. */
 uint32_t raster_tile(const struct triangle_head *head, const struct rectangle *scissor, int column, int row,

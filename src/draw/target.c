@@ -46,6 +46,7 @@ int target_create(struct target *target, const struct triptych_target_descriptio
     }
     struct tile_clear clear = {
         .depth = depth_encode(t.depth_format, 1), .color_pending = true, .depth_pending = true};
+    clear.range = (struct depth_range){clear.depth, clear.depth};
     target_clear_words(&t, (const float[4]){0}, clear.color);
     for (size_t i = 0; i < tiles; i++)
         t.clear[i] = clear;
@@ -122,6 +123,11 @@ uint32_t *target_fill_depth(struct target *target, uint32_t tile)
     return words;
 }
 
+void target_forget_depth(struct target *target, uint32_t tile)
+{
+    target->clear[tile].range = (struct depth_range){0, depth_mask(target->depth_format)};
+}
+
 static void clear_part(struct target *target, uint32_t tile, const struct clear *clear,
                        const struct rectangle *part, const struct rectangle *whole)
 {
@@ -156,6 +162,20 @@ static bool sets_whole_word(const struct target *target, const struct clear *cle
     return clear->depth_mask == (depth_mask(format) | stencil_mask(format));
 }
 
+/* What is known of depth behind a clear of which the bits `left` are set in a part of the tile, or pixel by pixel, and
+ * the others everywhere. */
+static void note_cleared_depth(const struct target *target, const struct clear *clear,
+                               struct tile_clear *tile, uint32_t left)
+{
+    uint32_t mask = depth_mask(target->depth_format), depth = clear->depth & mask;
+    if (!(clear->depth_mask & mask))
+        return;
+    if (!(left & mask))
+        tile->range = (struct depth_range){depth, depth};
+    tile->range.least = depth < tile->range.least ? depth : tile->range.least;
+    tile->range.most = depth > tile->range.most ? depth : tile->range.most;
+}
+
 void target_clear_tile(struct target *target, uint32_t tile, const struct clear *clear)
 {
     struct rectangle whole = tile_area(target, tile);
@@ -178,6 +198,7 @@ void target_clear_tile(struct target *target, uint32_t tile, const struct clear 
             rest.depth_mask = 0;
         }
     }
+    note_cleared_depth(target, clear, pending, rest.depth_mask);
     if (rest.set_color || rest.depth_mask)
         clear_part(target, tile, &rest, &part, &whole);
 }
@@ -421,6 +442,7 @@ uint32_t *target_depth_word(struct target *target, uint32_t x, uint32_t y)
 {
     uint32_t tile;
     size_t place = depth_place(target, x, y, &tile);
+    target_forget_depth(target, tile);
     return target_fill_depth(target, tile) + place;
 }
 

@@ -17,9 +17,15 @@
 
 enum { TARGET_PLANES = 4 * TARGETS };
 
+/* Depths, as words without the stencil: their order is that of the depths. */
+struct depth_range {
+    uint32_t least, most;
+};
+
 struct tile_clear {
     uint32_t color[TARGET_PLANES];     /* each plane's word */
     uint32_t depth;                    /* the word, stencil included */
+    struct depth_range range;          /* no stored depth is outside of it; of one sample per pixel */
     bool color_pending, depth_pending; /* the words are not valid: every one has this value */
 };
 
@@ -89,9 +95,11 @@ static inline uint32_t *target_tile_depth(const struct target *target, uint32_t 
 /* Applies the clear's part in one tile. */
 void target_clear_tile(struct target *target, uint32_t tile, const struct clear *clear);
 
-/* Makes the tile's words valid before something reads or changes them; returns them. */
+/* Makes the tile's words valid before something reads or changes them; returns them. Who changes depth says what
+ * is known of it then, or that nothing is. */
 uint32_t *target_fill_color(struct target *target, uint32_t tile);
 uint32_t *target_fill_depth(struct target *target, uint32_t tile);
+void target_forget_depth(struct target *target, uint32_t tile);
 
 /* All pixels of colour target t from texels, words or four numbers each, in rows that are `pitch` apart. */
 void target_write_texels(struct target *target, unsigned t, const void *texels, size_t pitch);

@@ -2,6 +2,7 @@
 
 #include "draw/frame.h"
 #include "draw/raster_part.h"
+#include "draw/hidden.h"
 
 #include <string.h>
 
@@ -38,12 +39,9 @@ static void take_count(struct tile_worker *worker, const struct frame *frame)
     atomic_fetch_add_explicit(frame->passed + worker->command, sum, memory_order_relaxed);
 }
 
-static void shade(struct tile_worker *worker, const struct frame *frame, uint32_t tile)
+/* Runs the pixel routine over the entries. */
+static void run_pixels(struct tile_worker *worker, const struct frame *frame, uint32_t tile)
 {
-    if (!worker->count)
-        return;
-    const struct routine *routine = worker->draw->routine[UNIT_PIXEL];
-    const struct pixel_key *key = &routine->key.pixel;
     struct target *target = frame->target;
     struct pixel_call call = {
         .job = worker->draw->job,
@@ -55,17 +53,159 @@ static void shade(struct tile_worker *worker, const struct frame *frame, uint32_
     };
     /* Nobody reads what is not there; an address it has all the same. */
     call.depth = target->depth ? target_tile_depth(target, tile) : call.color;
-    if (pixel_write_mask(key))
-        target_fill_color(target, tile);
-    if (pixel_tests_depth(key) || pixel_stencil(key))
-        target_fill_depth(target, tile);
     uint64_t pixels = count_pixels(worker->entries.entry, worker->count);
-    routine_run(routine, &call, pixels);
-    if (key->count)
-        take_count(worker, frame);
+    routine_run(worker->draw->routine[UNIT_PIXEL], &call, pixels);
     worker->pixels_shaded += pixels;
     worker->count = 0;
 }
+
+static void shade(struct tile_worker *worker, const struct frame *frame, uint32_t tile)
+{
+    if (!worker->count)
+        return;
+    const struct pixel_key *key = &worker->draw->routine[UNIT_PIXEL]->key.pixel;
+    if (pixel_write_mask(key))
+        target_fill_color(frame->target, tile);
+    if (pixel_tests_depth(key) || pixel_stencil(key))
+        target_fill_depth(frame->target, tile);
+    run_pixels(worker, frame, tile);
+    if (key->count)
+        take_count(worker, frame);
+}
+
+/* --- What need not be drawn --------------------------------------------------------------------------------
+ */
+
+/* A triangle in a tile, and what its depth there has to do with what is stored. */
+struct meeting {
+    const struct triangle_head *head;
+    uint32_t triangle; /* offset of its record */
+    bool covers;       /* the whole tile */
+    bool constant;     /* its depth */
+    struct depth_range depths;
+    enum depth_verdict verdict;
+};
+
+static int32_t tile_start(uint32_t number)
+{
+    return (int32_t)number * TILE_SIZE;
+}
+
+/* The pixels of the tile that the triangle's own bounds meet. */
+static struct rectangle meeting_area(const struct frame *frame, uint32_t tile, const struct draw *draw,
+                                     const struct triangle_head *head)
+{
+    int32_t x = tile_start(tile % frame->target->columns), y = tile_start(tile / frame->target->columns);
+    struct rectangle limit = {x, y, x + TILE_SIZE, y + TILE_SIZE}, area;
+    return rasterizer[draw->shape].bounds(head, &limit, &area) ? area : limit;
+}
+
+static void compare_depths(struct meeting *m, const struct frame *frame, uint32_t tile,
+                           const struct draw *draw)
+{
+    const struct routine *routine = draw->routine[UNIT_PIXEL];
+    const uint8_t *plane = (const uint8_t *)m->head + routine->depth_plane;
+    struct rectangle area = meeting_area(frame, tile, draw, m->head);
+    m->depths = triangle_depths(m->head, (const struct plane *)(const void *)plane, &area,
+                                frame->target->depth_format, &m->constant);
+    m->verdict =
+        depth_verdict(routine->key.pixel.depth_function, m->depths, frame->target->clear[tile].range);
+}
+
+/* Whether the tile can keep one value in place of its words: nothing that is not written has to stay. */
+static bool can_be_uniform(const struct target *target, const struct tile_clear *clear,
+                           const struct pixel_key *key)
+{
+    return pixel_writes_all_targets(key, target) &&
+           (!key->depth_write || clear->depth_pending || !stencil_mask(target->depth_format));
+}
+
+/* Shades one block of a triangle whose pixels are all alike, and takes its words for all. */
+static void shade_uniform(struct tile_worker *worker, const struct frame *frame, uint32_t tile,
+                          const struct meeting *m)
+{
+    struct target *target = frame->target;
+    struct tile_clear *clear = target->clear + tile;
+    const struct pixel_key *key = &worker->draw->routine[UNIT_PIXEL]->key.pixel;
+    const uint32_t *color = target_tile_color(target, tile);
+    uint32_t *depth = pixel_tests_depth(key) ? target_tile_depth(target, tile) : NULL;
+    for (int i = 0; depth && clear->depth_pending && i < BLOCK_PIXELS; i++)
+        depth[i] = clear->depth;
+    worker->entries.entry[0] = (struct entry){.x = (float)tile_start(tile % target->columns),
+                                              .y = (float)tile_start(tile / target->columns),
+                                              .coverage = UINT16_MAX,
+                                              .triangle = m->triangle};
+    worker->count = 1;
+    run_pixels(worker, frame, tile);
+    for (uint32_t p = 0; p < target->planes; p++)
+        clear->color[p] = color[p * TILE_PIXELS];
+    clear->color_pending = true;
+    if (!key->depth_write)
+        return;
+    clear->depth = depth[0];
+    clear->depth_pending = true;
+    clear->range = m->depths;
+}
+
+/* Notes what the triangle may leave behind in the tile's depth. */
+static void note_depths(struct tile_worker *worker, const struct frame *frame, uint32_t tile,
+                        const struct meeting *m)
+{
+    const struct routine *routine = worker->draw->routine[UNIT_PIXEL];
+    int function = routine->key.pixel.depth_function;
+    struct depth_range *range = &frame->target->clear[tile].range;
+    if (!(routine->traits & PIXEL_WRITES_DEPTH))
+        return;
+    if (m->covers && routine->traits & PIXEL_DEPTH_KNOWN && !pixel_waits(&routine->key.pixel)) {
+        *range = depth_narrowed(function, *range, m->depths);
+    } else if (!worker->widened) {
+        *range = depth_widened(function, *range, (struct depth_range){0, UINT32_MAX});
+        worker->widened = true;
+    }
+}
+
+/* Whether there is nothing left to rasterize of the triangle. */
+static bool is_dealt_with(struct tile_worker *worker, const struct frame *frame, uint32_t tile,
+                          struct meeting *m)
+{
+    const struct routine *routine = worker->draw->routine[UNIT_PIXEL];
+    const struct tile_clear *clear = frame->target->clear + tile;
+    bool tests = pixel_tests_depth(&routine->key.pixel);
+    m->verdict = tests ? DEPTH_UNDECIDED : DEPTH_PASSES;
+    m->constant = true;
+    if (routine->traits & PIXEL_DEPTH_KNOWN)
+        compare_depths(m, frame, tile, worker->draw);
+    if (m->verdict == DEPTH_FAILS)
+        return true;
+    bool uniform = m->covers && routine->traits & PIXEL_UNIFORM && m->verdict == DEPTH_PASSES &&
+                   (m->constant || !routine->key.pixel.depth_write) &&
+                   can_be_uniform(frame->target, clear, &routine->key.pixel);
+    if (uniform) {
+        shade(worker, frame, tile);
+        shade_uniform(worker, frame, tile, m);
+    }
+    return uniform;
+}
+
+/* Whether asking can be worth it: of triangles that cover the tile, and where depth is known to be less than
+ * anything. */
+static bool asks(const struct tile_worker *worker, const struct frame *frame, uint32_t tile, bool covers)
+{
+    const struct depth_range *range = &frame->target->clear[tile].range;
+    const struct routine *routine = worker->draw->routine[UNIT_PIXEL];
+    if (covers || !(routine->traits & PIXEL_DEPTH_KNOWN))
+        return covers;
+    switch (routine->key.pixel.depth_function) {
+    case COMPARE_LESS:
+    case COMPARE_LESS_EQUAL: return range->most < frame->farthest;
+    case COMPARE_GREATER:
+    case COMPARE_GREATER_EQUAL: return range->least > 0;
+    default: return false;
+    }
+}
+
+/* --- A tile ------------------------------------------------------------------------------------------------
+ */
 
 /* Asks for what is next: the cell behind this one, and this one's records with the planes that begin in them.
  */
@@ -78,18 +218,40 @@ static void prefetch_cell(const uint8_t *base, const struct bin_cell *cell)
     }
 }
 
-/* Triangles with one sample a pixel. */
+/* Triangles with one sample a pixel, none of which has BIN_COVERS. */
 static void rasterize_triangles(struct tile_worker *worker, const struct frame *frame, uint32_t tile,
-                                const struct bin_cell *cell)
+                                const uint32_t *triangle, uint32_t count)
 {
-    uint32_t done = 0;
-    for (;;) {
-        done += raster_list(&worker->site, frame->arena.base, cell->triangle + done, cell->count - done,
+    for (uint32_t done = 0;;) {
+        done += raster_list(&worker->site, frame->arena.base, triangle + done, count - done,
                             worker->entries.entry, &worker->count);
-        if (done == cell->count)
+        if (done == count)
             return;
         shade(worker, frame, tile);
     }
+}
+
+/* The same from number `from` on, each looked at first if that may be worth it. */
+static void rasterize_seen(struct tile_worker *worker, const struct frame *frame, uint32_t tile,
+                           const struct bin_cell *cell, uint32_t from)
+{
+    uint32_t seen[BIN_CELL_TRIANGLES], count = 0;
+    for (uint32_t i = from; i < cell->count; i++) {
+        uint32_t triangle = cell->triangle[i] & ~(uint32_t)BIN_COVERS;
+        struct meeting m = {.head =
+                                (const struct triangle_head *)(const void *)(frame->arena.base + triangle),
+                            .triangle = triangle,
+                            .covers = cell->triangle[i] & BIN_COVERS};
+        if (m.covers) {
+            rasterize_triangles(worker, frame, tile, seen, count);
+            count = 0;
+        }
+        if (asks(worker, frame, tile, m.covers) && is_dealt_with(worker, frame, tile, &m))
+            continue;
+        note_depths(worker, frame, tile, &m);
+        seen[count++] = triangle;
+    }
+    rasterize_triangles(worker, frame, tile, seen, count);
 }
 
 static void rasterize_any(struct tile_worker *worker, const struct frame *frame, uint32_t tile,
@@ -108,19 +270,71 @@ static void rasterize_any(struct tile_worker *worker, const struct frame *frame,
     }
 }
 
+/* Whether any triangle of the cell covers the tile. */
+static bool cell_covers(const struct bin_cell *cell)
+{
+    uint32_t all = 0;
+    for (uint32_t i = 0; i < cell->count; i++)
+        all |= cell->triangle[i];
+    return all & BIN_COVERS;
+}
+
+/* The chain of cells from `first` on, the first of which begins with triangle number `from`. */
 static void rasterize_cells(struct tile_worker *worker, const struct frame *frame, uint32_t tile,
-                            uint32_t first)
+                            uint32_t first, uint32_t from)
 {
     const struct draw *draw = worker->draw;
+    const struct meeting any = {.covers = false};
     bool plain = draw->shape == SHAPE_TRIANGLE && !draw->sampling.samples;
-    for (uint32_t at = first; at;) {
+    for (uint32_t at = first; at; from = 0) {
         const struct bin_cell *cell = bin_cell(&frame->arena, at);
         prefetch_cell(frame->arena.base, cell);
-        if (plain)
-            rasterize_triangles(worker, frame, tile, cell);
-        else
-            rasterize_any(worker, frame, tile, cell);
+        if (plain && (cell_covers(cell) || asks(worker, frame, tile, false))) {
+            rasterize_seen(worker, frame, tile, cell, from);
+        } else {
+            note_depths(worker, frame, tile, &any);
+            if (plain)
+                rasterize_triangles(worker, frame, tile, cell->triangle, cell->count);
+            else
+                rasterize_any(worker, frame, tile, cell);
+        }
         at = cell->next;
+    }
+}
+
+/* The last triangle of the chain that covers the tile: its cell, and its number there. */
+static uint32_t last_covering(const struct frame *frame, uint32_t head, uint32_t *number)
+{
+    uint32_t found = head;
+    *number = 0;
+    for (uint32_t at = head; at; at = bin_cell(&frame->arena, at)->next)
+        for (uint32_t i = 0; i < bin_cell(&frame->arena, at)->count; i++)
+            if (bin_cell(&frame->arena, at)->triangle[i] & BIN_COVERS) {
+                found = at;
+                *number = i;
+            }
+    return found;
+}
+
+/* The chain of one chunk. */
+static void rasterize_chain(struct tile_worker *worker, const struct frame *frame, uint32_t tile,
+                            uint32_t head)
+{
+    uint32_t first = head, from = 0;
+    if (head == frame->tile_start[tile] && worker->draw->routine[UNIT_PIXEL]->traits & PIXEL_COLORS_ONLY)
+        first = last_covering(frame, head, &from);
+    rasterize_cells(worker, frame, tile, first, from);
+}
+
+/* Clears up to the chunk; where the tile is overwritten later, colour does not matter. */
+static void clear_before(struct tile_worker *worker, const struct frame *frame, uint32_t tile, uint32_t chunk,
+                         bool overwritten, uint32_t *next)
+{
+    for (; *next < frame->clears && frame->clear_chunk[*next] < chunk; ++*next) {
+        struct clear clear = frame_command(frame, frame->clear_chunk[*next])->clear;
+        shade(worker, frame, tile);
+        clear.set_color &= !overwritten;
+        target_clear_tile(frame->target, tile, &clear);
     }
 }
 
@@ -130,28 +344,29 @@ static void begin_draw(struct tile_worker *worker, const struct frame *frame, ui
     shade(worker, frame, tile);
     worker->draw = &frame->command[command].draw;
     worker->command = command;
+    worker->widened = false;
     raster_enter(&worker->site, &worker->draw->scissor, (int)(tile % frame->target->columns),
                  (int)(tile / frame->target->columns));
 }
 
 void tile_render(struct tile_worker *worker, const struct frame *frame, uint32_t tile)
 {
-    uint32_t clear = 0;
+    uint32_t clear = 0, head = frame->tile_first[tile];
+    bool overwritten = frame->tile_start[tile];
     worker->count = 0;
     worker->draw = NULL;
     worker->lanes = lane_table;
-    for (uint32_t head = frame->tile_first[tile];; head = bin_cell(&frame->arena, head)->later) {
-        uint32_t chunk = head ? bin_cell(&frame->arena, head)->chunk : UINT32_MAX;
-        for (; clear < frame->clears && frame->clear_chunk[clear] < chunk; clear++) {
-            shade(worker, frame, tile);
-            target_clear_tile(frame->target, tile, &frame_command(frame, frame->clear_chunk[clear])->clear);
-        }
-        if (!head)
-            break;
+    for (; head; head = bin_cell(&frame->arena, head)->later) {
+        uint32_t chunk = bin_cell(&frame->arena, head)->chunk;
+        overwritten &= head != frame->tile_start[tile];
         __builtin_prefetch(frame->arena.base + bin_cell(&frame->arena, head)->later);
+        clear_before(worker, frame, tile, chunk, overwritten || head == frame->tile_start[tile], &clear);
+        if (overwritten && frame_command(frame, chunk)->draw.routine[UNIT_PIXEL]->traits & PIXEL_COLORS_ONLY)
+            continue;
         if (&frame_command(frame, chunk)->draw != worker->draw)
             begin_draw(worker, frame, tile, frame->chunk[chunk].command);
-        rasterize_cells(worker, frame, tile, head);
+        rasterize_chain(worker, frame, tile, head);
     }
+    clear_before(worker, frame, tile, UINT32_MAX, false, &clear);
     shade(worker, frame, tile);
 }
