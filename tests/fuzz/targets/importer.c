@@ -1,5 +1,5 @@
-/* A process for every import costs a fuzzer more than the import: copying the page tables of a process with sanitizers,
- * and taking them down. This one stays until it dies, or for LIFE imports. Requests and answers are in memory that both
+/* A process for every import costs a fuzzer the copying of page tables, which are large with sanitizers, and taking them
+ * down. This one stays until it dies, or for LIFE imports. Requests and answers are in memory that both
  * processes share, a byte each way says that one is there. The end of the pipe is the end of the process.
  *
  * Coverage comes back as well, so that libFuzzer sees what happens to a scene on its way to a mesh: its counters of edges
@@ -71,7 +71,7 @@ const char *__asan_default_options(void)
     return "allocator_may_return_null=1:quarantine_size_mb=32";
 }
 
-/* A fault of Assimp's heap needs no report, which takes longer than a hundred imports. */
+/* A fault of Assimp's heap needs no report, for which a symbolizer would be started. */
 void __asan_on_error(void)
 {
     if (exchange && exchange->in_assimp)
