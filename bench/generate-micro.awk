@@ -236,7 +236,8 @@ function rectangles() {
 
 # --- Arithmetic ------------------------------------------------------------------------------------------------
 
-# Two vectors, `texcoord` and `texcoord1`, from the corners to the pixels.
+# Two vectors, `texcoord` and `texcoord1`, from the corners to the pixels. They are in a plane, so that it does not matter
+# whether a renderer sees two triangles or a rectangle.
 function shaded(columns,   i, n, corner) {
     plain()
     emit("shader through {")
@@ -264,12 +265,12 @@ function shader(text,   lines, n, i) {
 function repeated(text, count,   all) { while (count-- > 0) all = all "\n" text; return all }
 
 function arithmetic() {
-    corners = " -1 1 0 1  -0.6 0.7 1 1  -1 1 0; 1 1 0 1  0.8 0.5 1 1  1 1 0; -1 -1 0 1  -0.5 -0.8 1 1  -1 -1 0;" \
-              " 1 -1 0 1  0.7 -0.6 1 1  1 -1 0"
+    corners = " -1 1 0 1  -0.6 0.7 1 1  -1 1 0; 1 1 0 1  0.8 0.5 1 1  1 1 0; -1 -1 0 1  -0.5 -0.6 1 1  -1 -1 0;" \
+              " 1 -1 0 1  0.9 -0.8 1 1  1 -1 0"
     begin("multiply-add", "Arithmetic: 4 layers of 64 dependent multiply-adds of four components a pixel.",
           "256 multiply-adds of one number a pixel, which wait for one another unless other pixels fill the time.")
-    shaded(" -1 1 0 1  0.1 0.9 0.3 1  0 0 0; 1 1 0 1  0.9 0.7 0.2 1  0 0 0; -1 -1 0 1  0.3 0.2 0.9 1  0 0 0;" \
-           " 1 -1 0 1  0.6 0.1 0.5 1  0 0 0")
+    shaded(" -1 1 0 1  0.1 0.9 0.3 1  0 0 0; 1 1 0 1  0.7 0.7 0.2 1  0 0 0; -1 -1 0 1  0.3 0.2 0.9 1  0 0 0;" \
+           " 1 -1 0 1  0.9 0 0.8 1  0 0 0")
     shader("ps_3_0\ndcl_texcoord v0\nmov r1, c1\nmov r0, v0" repeated("mad r0, r0, c0, r1", 64) "\nmov oC0, r0")
     emit("pixelconstant 0 0.99 0.985 0.99 1")
     emit("pixelconstant 1 0.002 0.003 0.004 0")

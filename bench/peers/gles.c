@@ -280,9 +280,9 @@ static void make_quads(void)
 static void make_vectors(void)
 {
     static const float arithmetic[4][4] = {
-        {-0.6f, 0.7f, 1, 1}, {0.8f, 0.5f, 1, 1}, {-0.5f, -0.8f, 1, 1}, {0.7f, -0.6f, 1, 1}};
+        {-0.6f, 0.7f, 1, 1}, {0.8f, 0.5f, 1, 1}, {-0.5f, -0.6f, 1, 1}, {0.9f, -0.8f, 1, 1}};
     static const float colors[4][4] = {
-        {0.1f, 0.9f, 0.3f, 1}, {0.9f, 0.7f, 0.2f, 1}, {0.3f, 0.2f, 0.9f, 1}, {0.6f, 0.1f, 0.5f, 1}};
+        {0.1f, 0.9f, 0.3f, 1}, {0.7f, 0.7f, 0.2f, 1}, {0.3f, 0.2f, 0.9f, 1}, {0.9f, 0, 0.8f, 1}};
     float vertices[4][11];
     for (int i = 0; i < 4; i++) {
         const float x = i % 2 ? 1 : -1, y = i < 2 ? 1 : -1, place_of[] = {x, y, 0, 1}, second[] = {x, y, 0};

@@ -119,9 +119,9 @@ static void make_textures()
 static void make_geometry()
 {
     static const float arithmetic[4][4] = {
-        {-0.6f, 0.7f, 1, 1}, {0.8f, 0.5f, 1, 1}, {-0.5f, -0.8f, 1, 1}, {0.7f, -0.6f, 1, 1}};
+        {-0.6f, 0.7f, 1, 1}, {0.8f, 0.5f, 1, 1}, {-0.5f, -0.6f, 1, 1}, {0.9f, -0.8f, 1, 1}};
     static const float colors[4][4] = {
-        {0.1f, 0.9f, 0.3f, 1}, {0.9f, 0.7f, 0.2f, 1}, {0.3f, 0.2f, 0.9f, 1}, {0.6f, 0.1f, 0.5f, 1}};
+        {0.1f, 0.9f, 0.3f, 1}, {0.7f, 0.7f, 0.2f, 1}, {0.3f, 0.2f, 0.9f, 1}, {0.9f, 0, 0.8f, 1}};
     static float vertices[32 * 4][12];
     static uint16_t indices[32][6];
     for (unsigned i = 0; i < 128; i++) {
