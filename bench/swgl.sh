@@ -40,7 +40,7 @@ sources=$(cargo metadata --format-version 1 --features sources --manifest-path "
 sources=${sources%/Cargo.toml}/src
 [[ -f $sources/gl.cc ]] || { echo "swgl: no sources of swgl $version" >&2 && exit 1; }
 
-# The shaders of bench/peers/gles_shader.c, as far as swgl takes part, in the GLSL that it translates; its powers of 0 are none.
+# The shaders of bench/peers/gles_shader.c, as far as swgl takes part, in the GLSL that it translates; its powers below 2^-126 are none.
 shaders=()
 shader() # NAME VERTEX PIXEL
 {
@@ -79,7 +79,7 @@ void main(void) {
     vec3 v = eye.xyz - b.xyz; v = v * inversesqrt(dot(v, v));
     float d = dot(n, l);
     vec3 r = n * (2.0 * d) - l;
-    float s = pow(max(dot(r, v), 0.001), 32.0);
+    float s = pow(max(dot(r, v), 0.1), 32.0);
     color = specular * s + (diffuse * max(d, 0.0) + ambient);
 }'
 
