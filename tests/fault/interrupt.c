@@ -145,7 +145,8 @@ static cJSON *read_report(void)
 
 /* --- Tests ------------------------------------------------------------------------------------------------ */
 
-static void stop_verification(int number, const char *name)
+/* Returns whether a stream was left in the middle: the request may also come between two. */
+static int interrupt_verification(int number, const char *name)
 {
     char last[128];
     pid_t process = start(
@@ -168,10 +169,20 @@ static void stop_verification(int number, const char *name)
         complete += cJSON_IsTrue(cJSON_GetObjectItem(of, "complete"));
         partial += cJSON_IsFalse(cJSON_GetObjectItem(of, "complete"));
     }
-    TEST_ASSERT_EQUAL_INT(1, partial);
+    TEST_ASSERT_LESS_OR_EQUAL(1, partial);
     TEST_ASSERT_LESS_OR_EQUAL(1, complete);
     cJSON_Delete(json);
     TEST_ASSERT_EQUAL_UINT(1, count_files("report*"));
+    return partial;
+}
+
+static void stop_verification(int number, const char *name)
+{
+    enum { TRIES = 10 };
+    for (int i = 0; i < TRIES; i++)
+        if (interrupt_verification(number, name))
+            return;
+    TEST_FAIL_MESSAGE("no verification was interrupted in the middle of a stream");
 }
 
 static void test_a_verification_reports_what_it_has_drawn(void)
