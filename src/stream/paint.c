@@ -93,16 +93,16 @@ unsigned paint_given_levels(const struct resource *resource, const struct tripty
 /* The colors stand in the order of the texels of a texture whose faces have the levels that are given. */
 static void paint_colors(struct resource *resource, const struct canvas *canvas)
 {
-    size_t count = (size_t)canvas->level->slice_texels * (size_t)canvas->level->depth;
-    size_t first =
-        canvas->face * (resource->color_count / canvas->shape->faces) + (size_t)canvas->level->offset;
-    for (size_t i = 0; i < count; i++)
+    size_t first = canvas->face * (resource->color_count / canvas->shape->faces);
+    for (const struct texture_level *level = canvas->shape->level; level < canvas->level; level++)
+        first += texture_level_count(level);
+    for (size_t i = 0; i < texture_level_count(canvas->level); i++)
         canvas->texels[i] = paint_swap(resource->colors[first + i]);
 }
 
 static void paint_image(struct resource *resource, const struct canvas *canvas)
 {
-    memcpy(canvas->texels, resource->colors, 4 * (size_t)canvas->level->slice_texels);
+    memcpy(canvas->texels, resource->colors, 4 * texture_level_count(canvas->level));
 }
 
 static painter *const painters[] = {[TEXTURE_COLORS] = paint_colors,
@@ -113,7 +113,7 @@ static painter *const painters[] = {[TEXTURE_COLORS] = paint_colors,
 
 int paint_texture(struct resource *resource, const struct triptych_texture *shape, struct error *error)
 {
-    size_t texels = (size_t)shape->level[0].slice_texels * (size_t)shape->level[0].depth;
+    size_t texels = texture_level_count(&shape->level[0]);
     uint8_t *data = resource->texels;
     struct canvas canvas = {.shape = shape, .texels = malloc(texels * (4 + 16))};
     if (!canvas.texels)
