@@ -1,16 +1,17 @@
-; Triangles of up to nine pixels each way, AVX-512: all of a triangle's blocks, up to 2x2, at once and without a branch
-; on how many there are. src/draw/raster.c is the reference, explains edges, rule and limits, and does all others.
+; Tiny triangles with AVX-512: four blocks at a time, 2x2 of them, and one time is enough for most. src/draw/raster.c is
+; the reference, explains edges, rule and limits, and does all others.
 ;
-; A vector of 32 words is two blocks side by side, in the order of lanes; two of them are 8x8 pixels. With i and j from
-; 0 to 7, |a i + b j| <= 7 (|a| + |b|) < 7 * 2 * 9 * 256 = 32256, so words limited to 16 bits keep their signs.
+; A vector of 32 words is two blocks side by side, in the order of lanes; two of them are 8x8 pixels. The values at the
+; blocks' first pixels are double words, edge by edge the four blocks; limited to words and permuted, they are added to
+; what their pixels differ by.
 ;
 ; struct raster_progress raster_tiny_avx512(const struct raster_site *site, const uint8_t *records,
 ;                                           const uint32_t *offset, uint32_t count,
 ;                                           struct entry *next, const struct entry *last);
 ;
 ; From the first triangle on, while it is such a triangle and `next` is not behind `last`: its entries to `next` and
-; following, where there is room for four even if it has fewer. Returns what `next` is then, and how many triangles are
-; left. The scissor rectangle takes nothing from the tile.
+; following, and up to three more that mean nothing. Returns what `next` is then, and how many triangles are left. The
+; scissor rectangle takes nothing from the tile.
 
     default rel
 
@@ -28,16 +29,26 @@
 %define HEAD_X      4                   ; struct triangle_head
 %define HEAD_Y      16
 
-MOST_PIXELS         equ 8               ; between the first centres behind the vertices: less than nine between these
+%define first_x     [rsp - 4]           ; 16 times the numbers of blocks in the tile
+%define last_x      [rsp - 8]
+%define last_y      [rsp - 12]
+%define kept_blocks rsp - 16            ; which halves of entries are in the bounds, by second row and second column
+
+MOST_PIXELS         equ 20              ; between the first centres behind the vertices: less than 21 between these
 
 section .rodata progbits alloc noexec nowrite align=64
 
-across_words:       ; i of the 32 pixels
-    dw 0, 1, 0, 1, 2, 3, 2, 3, 0, 1, 0, 1, 2, 3, 2, 3
-    dw 4, 5, 4, 5, 6, 7, 6, 7, 4, 5, 4, 5, 6, 7, 6, 7
+across_words:       ; i of the 32 pixels in their blocks
+    times 2 dw 0, 1, 0, 1, 2, 3, 2, 3, 0, 1, 0, 1, 2, 3, 2, 3
 down_words:         ; j
-    dw 0, 0, 1, 1, 0, 0, 1, 1, 2, 2, 3, 3, 2, 2, 3, 3
-    dw 0, 0, 1, 1, 0, 0, 1, 1, 2, 2, 3, 3, 2, 2, 3, 3
+    times 2 dw 0, 0, 1, 1, 0, 0, 1, 1, 2, 2, 3, 3, 2, 2, 3, 3
+upper_words:        ; where the values of two blocks go
+    times 16 dw 0
+    times 16 dw 1
+edge_doubles:       ; where those of three edges come from
+    times 4 dd 0
+    times 4 dd 1
+    times 8 dd 2
 coverage_words:     ; where the four blocks' coverages go
     dw 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 1, 0, 0, 0
     dw 0, 0, 0, 0, 2, 0, 0, 0, 0, 0, 0, 0, 3, 0, 0, 0
@@ -55,21 +66,15 @@ before_centre:      times 4 dd 127
 centre:             times 4 dd 128
 one_double:         times 4 dd 1
 one_word:           times 8 dw 1
-two_words:          times 8 dw 2
 too_large:          times 8 dw MOST_PIXELS + 1
 block_start:        times 8 dw -4
-kept_blocks:        ; blocks that are in the bounds, by whether there are second columns and rows
-    dq 0x000000000000ffff, 0x00000000ffffffff, 0x0000ffff0000ffff, 0xffffffffffffffff
+block_bits:         times 8 dw 15 << 4              ; of the pixel's position times 4
 
-; In zmm5 a, in zmm6 b, in zmm7 the value at the first pixel.
-%macro edge_at_pixels 2 ; results: upper and lower blocks
-                vpmullw         zmm5, zmm5, zmm16
-                vpmullw         zmm8, zmm6, zmm17
-                vpsllw          zmm6, zmm6, 2
-                vpaddw          zmm5, zmm5, zmm8
-                vpaddw          zmm6, zmm6, zmm5
-                vpaddsw         %1, zmm5, zmm7
-                vpaddsw         %2, zmm6, zmm7
+; What the pixels of a block differ by from its first.
+%macro edge_steps 3 ; result; a and b in all words, which are lost
+                vpmullw         %2, %2, zmm16
+                vpmullw         %3, %3, zmm17
+                vpaddw          %1, %2, %3
 %endmacro
 
 section .text progbits alloc exec nowrite align=16
@@ -85,10 +90,23 @@ raster_tiny_avx512:
                 vpaddw          zmm21, zmm20, zmm19
                 vpaddw          zmm22, zmm21, zmm19
                 vpaddw          zmm23, zmm22, zmm19
+                vmovdqa64       zmm24, [upper_words]            ; edge 0: upper blocks, lower blocks
+                vpaddw          zmm25, zmm24, zmm20
+                vpsllw          zmm31, zmm20, 2
+                vpaddw          zmm26, zmm24, zmm31             ; edges 1 and 2
+                vpaddw          zmm27, zmm25, zmm31
+                vpaddw          zmm28, zmm26, zmm31
+                vpaddw          zmm29, zmm27, zmm31
+                vmovdqa64       zmm30, [edge_doubles]
                 mov             eax, 0x10101010
                 kmovd           k1, eax                         ; words with a coverage
                 mov             eax, 0x8888
                 kmovd           k2, eax                         ; double words with a record
+                mov             eax, 0xaaaa
+                kmovd           k6, eax                         ; blocks on the right
+                mov             eax, 0xcccc
+                kmovd           k7, eax                         ; blocks below
+                mov             dword [kept_blocks], 0xff330f03
                 vmovdqa         xmm14, [before_centre]
                 vmovdqa         xmm15, [word_pairs]
                 test            count, count
@@ -120,33 +138,27 @@ raster_tiny_avx512:
                 test            eax, 0x101
                 jnz             .next                           ; nothing in the tile
 
-                ; first block, and whether there are second ones
-                vpsubw          xmm6, xmm6, [one_word]
-                vpsraw          xmm9, xmm5, 2
-                vpsraw          xmm6, xmm6, 2
-                vpsubw          xmm6, xmm6, xmm9
+                ; blocks of the tile from first to last
                 vmovdqa         xmm8, [too_large]
                 vpcmpgtw        xmm8, xmm8, xmm7
-                vmovdqa         xmm10, [two_words]
-                vpcmpgtw        xmm10, xmm10, xmm6
-                vpand           xmm8, xmm8, xmm10
                 vpmovmskb       eax, xmm8
                 not             eax
                 test            eax, 0x101
                 jnz             .end                            ; not one of ours
+                vpsubw          xmm6, xmm6, [one_word]
+                vpsllw          xmm9, xmm5, 2
+                vpsllw          xmm6, xmm6, 2
+                vpand           xmm9, xmm9, [block_bits]
+                vpand           xmm6, xmm6, [block_bits]
                 vpextrw         eax, xmm6, 0
                 vpextrw         r10d, xmm6, 4
-                lea             r10d, [rax + r10 * 2]
-                lea             r11, [kept_blocks]
-                kmovq           k5, [r11 + r10 * 8]
+                mov             last_x, eax
+                mov             last_y, r10d
                 vpextrw         eax, xmm9, 0
                 vpextrw         r11d, xmm9, 4
-                and             eax, 15
-                and             r11d, 15
-                shl             eax, 4
-                shl             r11d, 4
+                mov             first_x, eax
 
-                ; edges: a0 b0 a1 b1 a2 b2 in xmm4, values at the first pixel in xmm2
+                ; edges: a0 b0 a1 b1 a2 b2 in xmm4, values at the first pixel in xmm5
                 vpshufd         xmm2, xmm1, 0xc9
                 vpshufd         xmm3, xmm0, 0xc9
                 vpsubd          xmm2, xmm1, xmm2
@@ -163,52 +175,90 @@ raster_tiny_avx512:
                 vpshufb         xmm6, xmm6, xmm15
                 vpshufb         xmm4, xmm4, xmm15
                 vpmaddwd        xmm6, xmm6, xmm4
-                vpslld          xmm2, xmm2, 16                  ; a, then b: positive on left and top edges
-                vpaddd          xmm2, xmm2, xmm3
-                vmovdqa         xmm3, [one_double]
-                vpcmpgtd        xmm2, xmm3, xmm2                ; the rule: -1 on the others
-                vpaddd          xmm2, xmm2, xmm6
-                vpsrad          xmm2, xmm2, 8
-                vpackssdw       xmm2, xmm2, xmm2
+                vpslld          xmm5, xmm2, 16                  ; a, then b: positive on left and top edges
+                vpaddd          xmm5, xmm5, xmm3
+                vmovdqa         xmm7, [one_double]
+                vpcmpgtd        xmm5, xmm7, xmm5                ; the rule: -1 on the others
+                vpaddd          xmm5, xmm5, xmm6
+                vpsrad          xmm5, xmm5, 8
 
-                ; three edges at 64 pixels: the upper blocks, the lower ones
-                vpbroadcastw    zmm5, xmm4                      ; a
-                vpermw          zmm6, zmm19, zmm4               ; b
-                vpbroadcastw    zmm7, xmm2                      ; value
-                edge_at_pixels  zmm0, zmm1
-                vpermw          zmm5, zmm20, zmm4
-                vpermw          zmm6, zmm21, zmm4
-                vpermw          zmm7, zmm19, zmm2
-                edge_at_pixels  zmm9, zmm10
-                vpermw          zmm5, zmm22, zmm4
-                vpermw          zmm6, zmm23, zmm4
-                vpermw          zmm7, zmm20, zmm2
-                edge_at_pixels  zmm11, zmm12
-                vpternlogq      zmm0, zmm9, zmm11, 0xfe
-                vpternlogq      zmm1, zmm10, zmm12, 0xfe
-                vpmovw2m        k3, zmm0
-                vpmovw2m        k4, zmm1
+                ; zmm0 to zmm2 the edges' steps in a block; zmm3 their values at four blocks, zmm4 at the row's first
+                ; four, zmm5 and zmm6 steps to the next four
+                vpermd          zmm3, zmm30, zmm3
+                vpermd          zmm2, zmm30, zmm2
+                vpermd          zmm7, zmm30, zmm5
+                vpslld          zmm6, zmm3, 2
+                vpslld          zmm5, zmm2, 2
+                vpaddd          zmm7 {k6}, zmm7, zmm5
+                vpaddd          zmm7 {k7}, zmm7, zmm6
+                vpaddd          zmm5, zmm5, zmm5
+                vpaddd          zmm6, zmm6, zmm6
+                vmovdqa64       zmm3, zmm7
+                vpbroadcastw    zmm7, xmm4
+                vpermw          zmm8, zmm19, zmm4
+                edge_steps      zmm0, zmm7, zmm8
+                vpermw          zmm7, zmm20, zmm4
+                vpermw          zmm8, zmm21, zmm4
+                edge_steps      zmm1, zmm7, zmm8
+                vpermw          zmm7, zmm22, zmm4
+                vpermw          zmm8, zmm23, zmm4
+                edge_steps      zmm2, zmm7, zmm8
+.row:           vmovdqa64       zmm4, zmm3
+.blocks:        xor             r10d, r10d
+                cmp             r11d, last_y
+                setb            r10b                            ; there is a second row
+                cmp             eax, last_x
+                adc             r10d, r10d                      ; and a second column
+                kmovb           k5, [kept_blocks + r10]
+                vpackssdw       zmm13, zmm3, zmm3
+                vpermw          zmm7, zmm24, zmm13
+                vpermw          zmm8, zmm25, zmm13
+                vpermw          zmm9, zmm26, zmm13
+                vpermw          zmm10, zmm27, zmm13
+                vpermw          zmm11, zmm28, zmm13
+                vpermw          zmm12, zmm29, zmm13
+                vpaddsw         zmm7, zmm7, zmm0
+                vpaddsw         zmm8, zmm8, zmm0
+                vpaddsw         zmm9, zmm9, zmm1
+                vpaddsw         zmm10, zmm10, zmm1
+                vpaddsw         zmm11, zmm11, zmm2
+                vpaddsw         zmm12, zmm12, zmm2
+                vpternlogq      zmm7, zmm9, zmm11, 0xfe
+                vpternlogq      zmm8, zmm10, zmm12, 0xfe
+                vpmovw2m        k3, zmm7
+                vpmovw2m        k4, zmm8
                 kunpckdq        k3, k4, k3
-                kandnq          k3, k3, k5
+                knotq           k3, k3
                 kmovq           r10, k3
 
                 ; entries of the blocks that are covered
-                vmovq           xmm0, r10
-                vpermw          zmm0 {k1}{z}, zmm18, zmm0
-                vptestmq        k3, zmm0, zmm0
+                vmovq           xmm7, r10
+                vpermw          zmm7 {k1}{z}, zmm18, zmm7
+                vptestmq        k3, zmm7, zmm7
                 kshiftrb        k4, k3, 1
                 korb            k3, k3, k4
-                vpbroadcastd    zmm1 {k2}{z}, [offset]
-                vbroadcasti64x4 zmm2, [site + COLUMN + rax]
-                vmovdqu         ymm3, [site + ROW + r11]
-                vshufi64x2      zmm3, zmm3, zmm3, 0x50
-                vpternlogq      zmm0, zmm1, zmm2, 0xfe
-                vporq           zmm0, zmm0, zmm3
-                vpcompressq     zmm0 {k3}{z}, zmm0
-                vmovdqu64       [next], zmm0
-                kmovb           eax, k3
-                popcnt          eax, eax
-                lea             next, [next + rax * 8]
+                kandb           k3, k3, k5
+                vpbroadcastd    zmm8 {k2}{z}, [offset]
+                vbroadcasti64x4 zmm9, [site + COLUMN + rax]
+                vmovdqu         ymm10, [site + ROW + r11]
+                vshufi64x2      zmm10, zmm10, zmm10, 0x50
+                vpternlogq      zmm7, zmm8, zmm9, 0xfe
+                vporq           zmm7, zmm7, zmm10
+                vpcompressq     zmm7 {k3}{z}, zmm7
+                vmovdqu64       [next], zmm7
+                kmovb           r10d, k3
+                popcnt          r10d, r10d
+                lea             next, [next + r10 * 8]
+
+                add             eax, 32
+                vpaddd          zmm3, zmm3, zmm5
+                cmp             eax, last_x
+                jle             .blocks
+                add             r11d, 32
+                mov             eax, first_x
+                vpaddd          zmm3, zmm4, zmm6
+                cmp             r11d, last_y
+                jle             .row
 .next:          add             offset, 4
                 dec             count
                 jnz             .triangle

@@ -71,9 +71,9 @@ struct raster_site {
         row[TILE_SIZE / BLOCK_SIZE + 1]; /* and of the row: or-ed together, its place; the last is not used */
 };
 
-/* The triangles of the records at `count` offsets from `records`, as raster_tile() has them one by one, into
- * entries *used and following of PIXEL_ENTRIES. Returns how many triangles, fewer than `count` when the next one
- * might not find room. */
+/* The triangles of the records at `count` offsets from `records`, as raster_tile() has them one by one but the
+ * blocks of one in any order, into entries *used and following of PIXEL_ENTRIES. Returns how many triangles,
+ * fewer than `count` when the next one might not find room. */
 uint32_t raster_list(const struct raster_site *site, const uint8_t *records, const uint32_t *offset,
                      uint32_t count, struct entry *entries, uint32_t *used);
 
