@@ -335,6 +335,53 @@ static void clip_codes_drop_what_cannot_be_seen(void)
     expect_triangle(1, 9, 10, 11);
 }
 
+static uint32_t random_below(uint32_t bound) /* Park and Miller */
+{
+    static uint32_t state = 1;
+    state = (uint32_t)((uint64_t)state * 48271 % 2147483647);
+    return state % bound;
+}
+
+/* Vertices inside, beside one side or another, or invalid, of lists with indices and without: what is set up is what
+ * a look at each triangle alone says, in order, whichever way its batch went. */
+static void triangles_are_dropped_as_if_they_came_alone(void)
+{
+    enum { VERTICES = 3000, TRIANGLES = VERTICES / 3, BASE = 7 };
+    static const uint32_t side[] = {CLIP_LEFT, CLIP_RIGHT, CLIP_TOP, CLIP_BOTTOM | CLIP_LEFT, CLIP_INVALID};
+    static uint32_t codes[BASE + VERTICES], index[VERTICES];
+    static uint16_t short_index[VERTICES];
+    uint32_t dropped = 0;
+    clip_codes = codes;
+    draw.base = BASE;
+    for (uint32_t round = 0; round < 60; round++) {
+        uint32_t kinds = round % 6, reach = 1 + random_below(400), expected = 0;
+        draw.index_bits = round / 6 % 3 * 16;
+        draw.indices = draw.index_bits == 16 ? (const void *)short_index : draw.index_bits ? index : NULL;
+        for (uint32_t i = 0; i < VERTICES; i++) {
+            codes[BASE + i] = kinds && random_below(4) ? side[random_below(kinds)] : 0;
+            if (round % 6 == 1 && i % 1024 < 512)
+                codes[BASE + i] = CLIP_LEFT; /* whole batches */
+            index[i] = draw.index_bits ? (i / 2 + random_below(reach)) % VERTICES : i;
+            short_index[i] = (uint16_t)index[i];
+        }
+        batch->counts = (struct batch_counts){0};
+        TEST_ASSERT_EQUAL_UINT32(TRIANGLES, run(0, TRIANGLES));
+        for (uint32_t i = 0; i < TRIANGLES; i++) {
+            uint32_t a = BASE
+            +index[3 * i], b = BASE
+            +index[3 * i + 1], c = BASE
+            +index[3 * i + 2];
+            if ((codes[a] & codes[b] & codes[c] & CLIP_FRUSTUM) ||
+                ((codes[a] | codes[b] | codes[c]) & CLIP_INVALID))
+                continue;
+            expect_triangle(expected++, a, b, c);
+        }
+        TEST_ASSERT_EQUAL_UINT64(expected, batch->counts.triangles_set_up);
+        dropped += TRIANGLES - expected;
+    }
+    TEST_ASSERT_GREATER_THAN_UINT32(1000, dropped);
+}
+
 /* How many triangles are in a tile's bin; they must be in order. */
 static uint32_t binned(uint32_t tile)
 {
@@ -417,6 +464,7 @@ int main(void)
     RUN_TEST(long_runs_are_cut_into_batches);
     RUN_TEST(many_triangles_of_few_vertices_are_cut_too);
     RUN_TEST(clip_codes_drop_what_cannot_be_seen);
+    RUN_TEST(triangles_are_dropped_as_if_they_came_alone);
     RUN_TEST(bins_hold_each_visible_triangle_once_in_order);
     RUN_TEST(what_misses_the_scissor_rectangle_is_not_kept);
     RUN_TEST(a_full_arena_stops_at_a_primitive_and_goes_on_from_it);
