@@ -159,21 +159,19 @@ static void geometry_task(void *user, unsigned number)
 /* --- Tiles ------------------------------------------------------------------------------------------------
  */
 
-/* Appends a chunk's bins to the tiles'; returns how many tiles had none before. */
-static uint32_t link_chunk(struct frame *frame, const struct chunk *chunk)
+/* Appends a chunk's bins to the tiles'. */
+static void link_chunk(struct frame *frame, const struct chunk *chunk)
 {
-    uint32_t fresh = 0;
     for (uint32_t head = chunk->heads; head; head = bin_cell(&frame->arena, head)->sibling) {
         uint32_t tile = bin_cell(&frame->arena, head)->tile;
         if (!frame->tile_first[tile]) {
             frame->tile_first[tile] = head;
-            fresh++;
+            frame->busy[frame->busy_count++] = (uint16_t)tile;
         } else {
             bin_cell(&frame->arena, frame->tile_last[tile])->later = head;
         }
         frame->tile_last[tile] = head;
     }
-    return fresh;
 }
 
 /* Remembers the bins of a chunk that overwrite their tiles. */
@@ -188,21 +186,20 @@ static void link_covered(struct frame *frame, const struct chunk *chunk)
             frame->tile_start[bin_cell(&frame->arena, head)->tile] = head;
 }
 
-/* Makes the tiles' bins from those of the chunks that are done, and moves the cursor behind these. Returns
- * how many tiles there is something to do in, about. */
-static uint32_t link_chunks(struct frame *frame, struct cursor *at)
+/* Makes the tiles' bins from those of the chunks that are done, and moves the cursor behind these. */
+static void link_chunks(struct frame *frame, struct cursor *at)
 {
-    uint32_t busy = 0, stopped = atomic_load(&frame->first_stopped);
-    size_t bytes = frame->target->columns * frame->target->rows * sizeof *frame->tile_first;
-    memset(frame->tile_first, 0, bytes);
-    memset(frame->tile_start, 0, bytes);
-    frame->clears = 0;
+    uint32_t stopped = atomic_load(&frame->first_stopped);
+    uint32_t tiles = frame->target->columns * frame->target->rows;
+    memset(frame->tile_first, 0, tiles * sizeof *frame->tile_first);
+    memset(frame->tile_start, 0, tiles * sizeof *frame->tile_start);
+    frame->clears = frame->busy_count = 0;
     for (uint32_t i = 0; i < frame->chunks && i <= stopped; i++) {
         const struct chunk *chunk = frame->chunk + i;
         const struct command *command = frame->command + chunk->command;
         if (command->kind == COMMAND_CLEAR)
             frame->clear_chunk[frame->clears++] = i;
-        busy += link_chunk(frame, chunk);
+        link_chunk(frame, chunk);
         if (chunk->covered)
             link_covered(frame, chunk);
         frame->statistics.vertices_shaded += chunk->counts.vertices_shaded;
@@ -212,17 +209,19 @@ static uint32_t link_chunks(struct frame *frame, struct cursor *at)
         if (command->kind == COMMAND_CLEAR || at->primitive == command->draw.count)
             *at = (struct cursor){chunk->command + 1, 0};
     }
-    return busy + frame->clears;
+    frame->tile_tasks = frame->clears ? tiles : frame->busy_count;
 }
 
 static void tiles_task(void *user, unsigned number)
 {
     struct frame *frame = user;
     struct frame_worker *worker = frame->worker + number;
-    uint32_t tiles = frame->target->columns * frame->target->rows, i;
     uint64_t start = now_ns();
-    while ((i = atomic_fetch_add(&frame->next_tile, 1)) < tiles)
-        tile_render(&worker->tile, frame, task_at(frame, i));
+    uint32_t i;
+    while ((i = atomic_fetch_add(&frame->next_tile, 1)) < frame->tile_tasks) {
+        uint32_t task = task_at(frame, i);
+        tile_render(&worker->tile, frame, frame->clears ? task : frame->busy[task]);
+    }
     worker->tiles_ns += now_ns() - start;
 }
 
@@ -238,9 +237,9 @@ static void render_round(struct frame *frame, struct cursor *at, uint32_t limit)
     atomic_store(&frame->first_stopped, UINT32_MAX);
     order_tasks(frame, frame->chunks);
     pool_run(frame->pool, frame->chunks, geometry_task, frame);
-    uint32_t busy = link_chunks(frame, at);
-    order_tasks(frame, frame->target->columns * frame->target->rows);
-    pool_run(frame->pool, busy, tiles_task, frame);
+    link_chunks(frame, at);
+    order_tasks(frame, frame->tile_tasks);
+    pool_run(frame->pool, frame->tile_tasks, tiles_task, frame);
     frame->statistics.rounds++;
 }
 

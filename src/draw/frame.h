@@ -73,6 +73,9 @@ struct frame {
     uint32_t tile_last[TARGET_TILES_MAXIMUM];
     uint32_t
         tile_start[TARGET_TILES_MAXIMUM]; /* the last head cell with a triangle that overwrites the tile */
+    uint16_t busy[TARGET_TILES_MAXIMUM];  /* the tiles that have one, in no order that matters */
+    uint32_t busy_count;
+    uint32_t tile_tasks; /* of the tile phase: the busy tiles, or all of them where there is a clear */
     _Atomic uint32_t next_chunk, next_tile;
     _Atomic uint32_t first_stopped; /* the first chunk that did not fit the arena */
 
