@@ -161,9 +161,9 @@ static struct stream_surface surface_of(const struct triptych_surface *surface)
 void record_attach(struct triptych_device *device, const struct triptych_target_textures *textures)
 {
     static const struct triptych_surface none;
-    struct call call = {.type = CALL_ATTACH, .resource = NO_RESOURCE};
     if (!device->recorder)
         return;
+    struct call call = {.type = CALL_ATTACH, .resource = NO_RESOURCE};
     call.attach.some = textures != NULL;
     for (int t = 0; t < TRIPTYCH_TARGETS; t++)
         call.attach.color[t] = surface_of(textures ? &textures->color[t] : &none);
@@ -175,9 +175,9 @@ void record_attach(struct triptych_device *device, const struct triptych_target_
 
 void record_copy(struct triptych_device *device, const struct surface_copy *copy)
 {
-    struct call call = {.type = CALL_COPY, .resource = NO_RESOURCE, .copy.filter = copy->filter};
     if (!device->recorder)
         return;
+    struct call call = {.type = CALL_COPY, .resource = NO_RESOURCE, .copy.filter = copy->filter};
     for (int i = 0; i < 2; i++) {
         call.copy.surface[i] = surface_of(copy->surface[i]);
         if (!copy->surface[i]->texture)
@@ -233,18 +233,18 @@ void record_convention(struct triptych_device *device, enum triptych_convention 
 
 void record_clip_plane(struct triptych_device *device, unsigned i, const float plane[4])
 {
-    struct call call = {.type = CALL_CLIP_PLANE, .resource = NO_RESOURCE, .clip_plane.index = i};
     if (!device->recorder)
         return;
+    struct call call = {.type = CALL_CLIP_PLANE, .resource = NO_RESOURCE, .clip_plane.index = i};
     memcpy(call.clip_plane.plane, plane, sizeof call.clip_plane.plane);
     add(device, call);
 }
 
 void record_transform(struct triptych_device *device, enum triptych_transform which, const float matrix[4][4])
 {
-    struct call call = {.type = CALL_TRANSFORM, .resource = NO_RESOURCE, .transform.which = which};
     if (!device->recorder)
         return;
+    struct call call = {.type = CALL_TRANSFORM, .resource = NO_RESOURCE, .transform.which = which};
     memcpy(call.transform.matrix, matrix, sizeof call.transform.matrix);
     add(device, call);
 }
@@ -257,9 +257,9 @@ void record_material(struct triptych_device *device, const struct triptych_mater
 
 void record_light(struct triptych_device *device, unsigned index, const struct triptych_light *light)
 {
-    struct call call = {.type = CALL_LIGHT, .resource = NO_RESOURCE};
     if (!device->recorder)
         return;
+    struct call call = {.type = CALL_LIGHT, .resource = NO_RESOURCE};
     call.light.index = index;
     call.light.value = *light;
     add(device, call);
@@ -267,9 +267,9 @@ void record_light(struct triptych_device *device, unsigned index, const struct t
 
 void record_enable_light(struct triptych_device *device, unsigned index, int on)
 {
-    struct call call = {.type = CALL_ENABLE_LIGHT, .resource = NO_RESOURCE};
     if (!device->recorder)
         return;
+    struct call call = {.type = CALL_ENABLE_LIGHT, .resource = NO_RESOURCE};
     call.light.index = index;
     call.light.on = on != 0;
     add(device, call);
@@ -277,18 +277,18 @@ void record_enable_light(struct triptych_device *device, unsigned index, int on)
 
 void record_bind_texture(struct triptych_device *device, unsigned sampler, const triptych_texture *texture)
 {
-    struct call call = {.type = CALL_BIND_TEXTURE, .sampler = sampler};
     if (!device->recorder)
         return;
+    struct call call = {.type = CALL_BIND_TEXTURE, .sampler = sampler};
     call.resource = texture ? texture->recorded : NO_RESOURCE;
     add(device, call);
 }
 
 void record_shader(struct triptych_device *device, enum shader_stage stage, const triptych_shader *shader)
 {
-    struct call call = {.type = CALL_SHADER, .shader = (enum triptych_shader_stage)stage};
     if (!device->recorder)
         return;
+    struct call call = {.type = CALL_SHADER, .shader = (enum triptych_shader_stage)stage};
     call.resource = shader ? shader->recorded : NO_RESOURCE;
     add(device, call);
 }
@@ -392,9 +392,9 @@ void record_mips(struct triptych_device *device, const triptych_texture *texture
 void record_texels(struct triptych_device *device, const triptych_texture *texture, const void *data,
                    size_t bytes)
 {
-    struct call call = {.type = CALL_TEXELS, .resource = texture->recorded};
     if (!device->recorder)
         return;
+    struct call call = {.type = CALL_TEXELS, .resource = texture->recorded};
     call.texels.source = record_bytes(device->recorder, data, bytes);
     add(device, call);
     record_release(device->recorder, call.texels.source);

@@ -17,9 +17,9 @@ static void add(struct triptych_device *device, struct call call)
 void record_element(struct triptych_device *device, enum triptych_attribute attribute,
                     const struct triptych_element *element)
 {
-    struct call call = {.type = CALL_BIND_ELEMENT, .resource = NO_RESOURCE};
     if (!device->recorder)
         return;
+    struct call call = {.type = CALL_BIND_ELEMENT, .resource = NO_RESOURCE};
     call.element.attribute = attribute;
     call.element.format = element->format;
     if (element->format) {
@@ -53,9 +53,9 @@ void record_fvf(struct triptych_device *device, uint32_t fvf)
 void record_stream(struct triptych_device *device, unsigned stream, const triptych_buffer *buffer,
                    size_t offset, size_t stride)
 {
-    struct call call = {.type = CALL_BIND_STREAM, .resource = NO_RESOURCE, .bind_stream.number = stream};
     if (!device->recorder)
         return;
+    struct call call = {.type = CALL_BIND_STREAM, .resource = NO_RESOURCE, .bind_stream.number = stream};
     if (buffer) {
         call.resource = buffer->recorded;
         call.bind_stream.offset = (uint32_t)offset;
@@ -75,9 +75,9 @@ void record_frequency(struct triptych_device *device, unsigned stream, enum trip
 
 void record_indices(struct triptych_device *device, const triptych_buffer *buffer, unsigned bits)
 {
-    struct call call = {.type = CALL_BIND_INDICES, .resource = NO_RESOURCE};
     if (!device->recorder)
         return;
+    struct call call = {.type = CALL_BIND_INDICES, .resource = NO_RESOURCE};
     if (buffer) {
         call.resource = buffer->recorded;
         call.index_bits = bits;
@@ -177,9 +177,9 @@ static void add_draw(struct triptych_device *device, const struct call *call, ui
 void record_draw(struct triptych_device *device, enum triptych_primitive primitive, uint32_t first,
                  uint32_t count)
 {
-    struct call call = {.type = CALL_DRAW, .resource = NO_RESOURCE};
     if (!device->recorder)
         return;
+    struct call call = {.type = CALL_DRAW, .resource = NO_RESOURCE};
     call.draw.primitive = primitive;
     call.draw.first = first;
     call.draw.count = count;

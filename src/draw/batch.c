@@ -151,12 +151,18 @@ static uint32_t assemble(struct batch *batch, uint32_t p, uint32_t end)
     }
 }
 
-/* Lanes up to the next multiple of LANES_MAXIMUM repeat the last vertex. */
+/* How many lanes a routine is called with for so many; its own are a power of two. */
+static uint32_t padded_lanes(const struct routine *routine, uint32_t count)
+{
+    return (count + routine->lanes - 1) & -routine->lanes;
+}
+
+/* Lanes up to the end of the routine's last step repeat the last vertex. */
 static void shade_vertices(struct batch *batch)
 {
     const struct routine *routine = batch->draw->routine[UNIT_VERTEX];
-    uint32_t count = batch->vertices_count;
-    for (; count % LANES_MAXIMUM; count++)
+    uint32_t count = batch->vertices_count, padded = padded_lanes(routine, count);
+    for (; count < padded; count++)
         batch->vertex[count] = batch->vertex[count - 1];
     struct vertex_call call = {batch->draw->job, batch->vertex, batch->vertices, count};
     routine_run(routine, &call, batch->vertices_count);
@@ -188,11 +194,12 @@ static bool set_up_group(struct batch *batch, uint32_t index[SETUP_INDEX_ROWS][S
 {
     const struct draw *draw = batch->draw;
     const struct routine *routine = draw->routine[UNIT_SETUP];
-    uint32_t padded = count;
+    uint32_t padded = padded_lanes(routine, count);
+    int rows = draw->shape == SHAPE_TRIANGLE ? 3 : SETUP_INDEX_ROWS;
     if (count) {
-        for (; padded % LANES_MAXIMUM; padded++)
-            for (int i = 0; i < SETUP_INDEX_ROWS; i++)
-                index[i][padded] = index[i][count - 1];
+        for (uint32_t lane = count; lane < padded; lane++)
+            for (int i = 0; i < rows; i++)
+                index[i][lane] = index[i][count - 1];
         uint8_t *out = bin_reserve(batch->bins, padded * draw->stride);
         if (!out)
             return false;

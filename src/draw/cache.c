@@ -265,6 +265,8 @@ static struct cache_entry *insert(struct cache *cache, enum unit unit, const uni
         return NULL;
     }
     entry->routine->number = ++cache->next_number;
+    entry->routine->lanes =
+        cache->engine->width < LANES_MAXIMUM ? (uint32_t)cache->engine->width : LANES_MAXIMUM;
     entry->routine->hits = 0;
     entry->routine->entry = entry;
     if (unit == UNIT_PIXEL) {

@@ -27,7 +27,7 @@
 #include <stdalign.h>
 
 enum {
-    LANES_MAXIMUM = 16,    /* counts of lanes in calls are padded to this, so that every W divides them */
+    LANES_MAXIMUM = 16,    /* counts of lanes in calls are padded to W, or to this where W is more */
     VERTEX_CAPACITY = 256, /* lanes of a vertex batch, clipper's room included */
     VERTEX_SLOT_BYTES = VERTEX_CAPACITY * 4,
     SETUP_CAPACITY = 256, /* triangles of one setup call */
@@ -163,7 +163,7 @@ struct lane_table {
 
 extern const struct lane_table lane_table;
 
-/* For each lane i < count (a multiple of 16, at most VERTEX_CAPACITY): shades vertex index[i] into lane i of
+/* For each lane i < count (a multiple of W or of 16, at most VERTEX_CAPACITY): shades vertex index[i] into lane i of
  * out. */
 struct vertex_call {
     const struct job *job;
@@ -172,7 +172,7 @@ struct vertex_call {
     uint32_t count;
 };
 
-/* For each lane i < count (a multiple of 16, at most SETUP_CAPACITY): the triangle of batch vertices
+/* For each lane i < count (a multiple of W or of 16, at most SETUP_CAPACITY): the triangle of batch vertices
  * index[0][i], index[1][i], index[2][i], as *byte* offsets of their lanes (4 * lane), into record i of out.
  *
  * Lines and edges go from vertex 0 to vertex 1, points and corners are at vertex 0; edges and corners belong

@@ -1,6 +1,9 @@
 #include "draw/change.h"
 
-/* Values that are in no key. The others are 0 here. */
+/* What says nothing to anybody but by keys; what depends on keys follows from there. */
+enum { BY_KEYS = PARTS(KEYS) | PARTS(SETTING) };
+
+/* Values that are in no key, and those that are nowhere else. The others are 0 here: everything. */
 static const uint32_t render_change[TRIPTYCH_STATE_COUNT] = {
     [TRIPTYCH_STATE_texturefactor] = PARTS(STAGES),
     [TRIPTYCH_STATE_fogcolor] = PARTS(FOG),
@@ -29,18 +32,78 @@ static const uint32_t render_change[TRIPTYCH_STATE_COUNT] = {
     [TRIPTYCH_STATE_wrap7] = PARTS(SETTING),
     [TRIPTYCH_STATE_pointscale_b] = PARTS(SETUP),
     [TRIPTYCH_STATE_pointscale_c] = PARTS(SETUP),
+    [TRIPTYCH_STATE_alphablendenable] = BY_KEYS,
+    [TRIPTYCH_STATE_srcblend] = BY_KEYS,
+    [TRIPTYCH_STATE_destblend] = BY_KEYS,
+    [TRIPTYCH_STATE_blendop] = BY_KEYS,
+    [TRIPTYCH_STATE_separatealphablendenable] = BY_KEYS,
+    [TRIPTYCH_STATE_srcblendalpha] = BY_KEYS,
+    [TRIPTYCH_STATE_destblendalpha] = BY_KEYS,
+    [TRIPTYCH_STATE_blendopalpha] = BY_KEYS,
+    [TRIPTYCH_STATE_colorwriteenable] = BY_KEYS,
+    [TRIPTYCH_STATE_colorwriteenable1] = BY_KEYS,
+    [TRIPTYCH_STATE_colorwriteenable2] = BY_KEYS,
+    [TRIPTYCH_STATE_colorwriteenable3] = BY_KEYS,
+    [TRIPTYCH_STATE_zenable] = BY_KEYS,
+    [TRIPTYCH_STATE_zfunc] = BY_KEYS,
+    [TRIPTYCH_STATE_zwriteenable] = BY_KEYS,
+    [TRIPTYCH_STATE_alphatestenable] = BY_KEYS,
+    [TRIPTYCH_STATE_alphafunc] = BY_KEYS,
+    [TRIPTYCH_STATE_cullmode] = BY_KEYS,
+    [TRIPTYCH_STATE_stencilenable] = BY_KEYS,
+    [TRIPTYCH_STATE_stencilfunc] = BY_KEYS,
+    [TRIPTYCH_STATE_stencilfail] = BY_KEYS,
+    [TRIPTYCH_STATE_stencilzfail] = BY_KEYS,
+    [TRIPTYCH_STATE_stencilpass] = BY_KEYS,
+    [TRIPTYCH_STATE_ccw_stencilfunc] = BY_KEYS,
+    [TRIPTYCH_STATE_ccw_stencilfail] = BY_KEYS,
+    [TRIPTYCH_STATE_ccw_stencilzfail] = BY_KEYS,
+    [TRIPTYCH_STATE_ccw_stencilpass] = BY_KEYS,
+    [TRIPTYCH_STATE_twosidedstencilmode] = BY_KEYS,
+    [TRIPTYCH_STATE_shademode] = BY_KEYS,
+    [TRIPTYCH_STATE_specularenable] = BY_KEYS,
+    [TRIPTYCH_STATE_lighting] = BY_KEYS,
+    [TRIPTYCH_STATE_fogenable] = BY_KEYS,
+    [TRIPTYCH_STATE_ditherenable] = BY_KEYS,
+    [TRIPTYCH_STATE_srgbwriteenable] = BY_KEYS,
+    [TRIPTYCH_STATE_normalizenormals] = BY_KEYS,
+    [TRIPTYCH_STATE_localviewer] = BY_KEYS,
+    [TRIPTYCH_STATE_colorvertex] = BY_KEYS,
+    [TRIPTYCH_STATE_diffusematerialsource] = BY_KEYS,
+    [TRIPTYCH_STATE_ambientmaterialsource] = BY_KEYS,
+    [TRIPTYCH_STATE_emissivematerialsource] = BY_KEYS,
+    [TRIPTYCH_STATE_specularmaterialsource] = BY_KEYS,
 };
 
 static const uint32_t sampler_change[TRIPTYCH_SAMPLER_STATE_COUNT] = {
     [TRIPTYCH_SAMPLER_bordercolor] = PARTS(TEXTURES),
     [TRIPTYCH_SAMPLER_mipmaplodbias] = PARTS(TEXTURES),
+    [TRIPTYCH_SAMPLER_addressu] = BY_KEYS,
+    [TRIPTYCH_SAMPLER_addressv] = BY_KEYS,
+    [TRIPTYCH_SAMPLER_addressw] = BY_KEYS,
+    [TRIPTYCH_SAMPLER_magfilter] = BY_KEYS,
+    [TRIPTYCH_SAMPLER_minfilter] = BY_KEYS,
+    [TRIPTYCH_SAMPLER_maxanisotropy] = BY_KEYS,
+    [TRIPTYCH_SAMPLER_srgbtexture] = BY_KEYS,
 };
 
 static const uint32_t stage_change[TRIPTYCH_STAGE_STATE_COUNT] = {
-    [TRIPTYCH_STAGE_constant] = PARTS(STAGES),       [TRIPTYCH_STAGE_bumpenvmat00] = PARTS(STAGES),
-    [TRIPTYCH_STAGE_bumpenvmat01] = PARTS(STAGES),   [TRIPTYCH_STAGE_bumpenvmat10] = PARTS(STAGES),
-    [TRIPTYCH_STAGE_bumpenvmat11] = PARTS(STAGES),   [TRIPTYCH_STAGE_bumpenvlscale] = PARTS(STAGES),
+    [TRIPTYCH_STAGE_constant] = PARTS(STAGES),
+    [TRIPTYCH_STAGE_bumpenvmat00] = PARTS(STAGES),
+    [TRIPTYCH_STAGE_bumpenvmat01] = PARTS(STAGES),
+    [TRIPTYCH_STAGE_bumpenvmat10] = PARTS(STAGES),
+    [TRIPTYCH_STAGE_bumpenvmat11] = PARTS(STAGES),
+    [TRIPTYCH_STAGE_bumpenvlscale] = PARTS(STAGES),
     [TRIPTYCH_STAGE_bumpenvloffset] = PARTS(STAGES),
+    [TRIPTYCH_STAGE_colorop] = BY_KEYS,
+    [TRIPTYCH_STAGE_colorarg1] = BY_KEYS,
+    [TRIPTYCH_STAGE_colorarg2] = BY_KEYS,
+    [TRIPTYCH_STAGE_colorarg0] = BY_KEYS,
+    [TRIPTYCH_STAGE_alphaop] = BY_KEYS,
+    [TRIPTYCH_STAGE_alphaarg1] = BY_KEYS,
+    [TRIPTYCH_STAGE_alphaarg2] = BY_KEYS,
+    [TRIPTYCH_STAGE_alphaarg0] = BY_KEYS,
+    [TRIPTYCH_STAGE_resultarg] = BY_KEYS,
 };
 
 unsigned change_of_value(enum triptych_state_table table, unsigned row)

@@ -43,7 +43,7 @@ const struct state_element *derive_input(const struct state *state, const struct
 
 /* What is derived together: the parts of the job, what of a draw is neither key nor job, and the keys. */
 enum derived_part {
-#define JOB_PART(name, first, last, meaning) PART_##name,
+#define JOB_PART(name, keys, first, last, meaning) PART_##name,
 #include "def/job_part.def"
 #undef JOB_PART
     JOB_PARTS,
@@ -53,9 +53,12 @@ enum derived_part {
     DERIVED_PARTS
 };
 
-/* Sets of parts have bit 1 << part. Where keys may have changed, everything may. */
+/* Sets of parts have bit 1 << part. */
 #define PARTS(name) (1u << PART_##name)
 enum { PARTS_OF_JOB = (1 << JOB_PARTS) - 1, PARTS_ALL = (1 << DERIVED_PARTS) - 1 };
+
+/* What is derived from a unit's key besides the state. */
+unsigned derive_parts_of_key(enum unit unit);
 
 /* The values for these keys, but for the palette and the constants of shaders. Attributes' data and stride come from the streams as bound; those of a stream
  * that steps with the instance are instance 0's, with stride 0, those of a stream without buffer null. */
@@ -65,6 +68,15 @@ void derive_job(const struct state *state, const struct vertex_key *vertex, cons
 /* Derives these parts of a job anew, for keys that are those of the others. */
 void derive_job_parts(const struct state *state, const struct vertex_key *vertex,
                       const struct pixel_key *pixel, unsigned parts, struct job *job);
+
+/* What routines for these keys read of a job, as runs of bytes from its start; nobody looks at the rest. */
+struct live_job {
+    unsigned count;
+    struct {
+        uint16_t begin, end;
+    } run[JOB_PARTS + 1];
+};
+void derive_live(const struct vertex_key *vertex, const struct pixel_key *pixel, struct live_job *live);
 
 /* The palette of indexed vertex blending, which the caller keeps for as long as the job is used. */
 void derive_palette(const struct state *state, struct palette_entry palette[WORLD_MATRICES]);

@@ -402,13 +402,21 @@ static void fill_CLIP_PLANES(const struct given *s, struct job *job)
     derive_clip_planes(s->state, s->vertex, (const double(*)[4])planes.m, job);
 }
 
-/* Where each part is, and what fills it in when it is zero. */
+enum {
+    READS_VERTEX = 1 << UNIT_VERTEX,
+    READS_PIXEL = 1 << UNIT_PIXEL,
+    READS_BOTH = READS_VERTEX | READS_PIXEL
+};
+
+/* Where each part is, the units whose keys it is derived from, and what fills it in when it is zero. */
 static const struct {
     uint16_t begin, end;
+    uint8_t units;
     void (*fill)(const struct given *, struct job *);
 } job_part[JOB_PARTS] = {
-#define JOB_PART(name, first, last, meaning)                                                                 \
-    {offsetof(struct job, first), offsetof(struct job, last) + sizeof((struct job *)0)->last, fill_##name},
+#define JOB_PART(name, keys, first, last, meaning)                                                           \
+    {offsetof(struct job, first), offsetof(struct job, last) + sizeof((struct job *)0)->last, READS_##keys,  \
+     fill_##name},
 #include "def/job_part.def"
 #undef JOB_PART
 };
@@ -421,6 +429,15 @@ __attribute__((noinline)) static void fill_parts(const struct given *given, unsi
         memset((char *)job + job_part[part].begin, 0, (size_t)(job_part[part].end - job_part[part].begin));
         job_part[part].fill(given, job);
     }
+}
+
+unsigned derive_parts_of_key(enum unit unit)
+{
+    unsigned parts = unit == UNIT_VERTEX ? PARTS(VERTICES) : PARTS(SETTING);
+    for (unsigned part = 0; part < JOB_PARTS; part++)
+        if (job_part[part].units >> unit & 1)
+            parts |= 1u << part;
+    return parts;
 }
 
 void derive_job_parts(const struct state *state, const struct vertex_key *vertex,

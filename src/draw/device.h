@@ -60,7 +60,9 @@ struct triptych_device {
     unsigned stale; /* these parts (draw/derive.h) */
     union key key[UNIT_COUNT];
     struct job job;
+    struct live_job live;     /* of the job */
     struct palette *palettes; /* the job's, then those of recorded draws */
+    bool steps;               /* some stream does not go by the vertex */
     uint64_t vertices;        /* that all elements have which are read; 0 if one has no buffer, or none */
     struct draw draw; /* what does not depend on the call; routines and job, if held and recorded, or null */
 

@@ -100,7 +100,7 @@ static enum triptych_result check_draw(struct triptych_device *device, enum trip
 /* Direct3D 9 steps by instances in indexed draws only. */
 static enum triptych_result check_no_instances(const struct triptych_device *device, struct error *error)
 {
-    for (unsigned i = 0; i < TRIPTYCH_STREAMS; i++)
+    for (unsigned i = 0; i < TRIPTYCH_STREAMS && device->steps; i++)
         if (device->state.stream[i].frequency != TRIPTYCH_FREQUENCY_VERTEX) {
             error_set(error, "stream %u: its frequency is by instance, expected an indexed draw", i);
             return TRIPTYCH_BAD_CALL;

@@ -14,6 +14,16 @@
 #include <stdlib.h>
 #include <string.h>
 
+/* Builds that check themselves (make CHECK_IR=1, and any with sanitizers): what is derived by parts is what would be from
+ * scratch, and what of jobs is not said to be read is not. */
+enum {
+#ifdef TRIPTYCH_CHECK_IR
+    JOBS_CHECKED = 1
+#else
+    JOBS_CHECKED = 0
+#endif
+};
+
 /* --- Deriving ---------------------------------------------------------------------------------------------
  */
 
@@ -26,17 +36,22 @@ static bool same_key(enum unit unit, const union key *a, const union key *b)
     return !memcmp(a, b, key_bytes[unit]);
 }
 
-/* Routines are those of the keys, or none. */
-static void derive_new_keys(struct triptych_device *device, enum primitive primitive)
+/* Routines are those of the keys, or none. Returns the parts that depend on what has changed. */
+static unsigned derive_new_keys(struct triptych_device *device, enum primitive primitive)
 {
     union key key[UNIT_COUNT];
+    unsigned parts = 0;
     derive_keys(&device->state, primitive, key);
     for (int unit = 0; unit < UNIT_COUNT; unit++) {
         if (same_key(unit, &key[unit], &device->key[unit]))
             continue;
         device->key[unit] = key[unit];
         device->draw.routine[unit] = NULL;
+        parts |= derive_parts_of_key(unit);
     }
+    if (parts)
+        derive_live(&key[UNIT_VERTEX].vertex, &key[UNIT_PIXEL].pixel, &device->live);
+    return parts;
 }
 
 static void derive_setting(struct triptych_device *device)
@@ -65,6 +80,14 @@ static uint64_t element_vertices(const struct state *state, const struct state_e
     if (stream->frequency == TRIPTYCH_FREQUENCY_INSTANCE)
         return (state_instances(state) - 1) / stream->count <= last ? UINT64_MAX : 0;
     return last == UINT64_MAX ? last : last + 1;
+}
+
+static bool derive_steps(const struct state *state)
+{
+    bool steps = false;
+    for (unsigned i = 0; i < TRIPTYCH_STREAMS; i++)
+        steps |= state->stream[i].frequency != TRIPTYCH_FREQUENCY_VERTEX;
+    return steps;
 }
 
 static uint64_t derive_vertices(const struct state *state, const struct vertex_key *key)
@@ -98,6 +121,19 @@ static enum triptych_result make_palette(struct triptych_device *device, struct 
     return TRIPTYCH_OK;
 }
 
+static bool is_derived(const struct triptych_device *device, enum primitive primitive)
+{
+    union key key[UNIT_COUNT];
+    struct job job;
+    derive_keys(&device->state, primitive, key);
+    for (int unit = 0; unit < UNIT_COUNT; unit++)
+        if (!same_key(unit, &key[unit], &device->key[unit]))
+            return false;
+    derive_job(&device->state, &key[UNIT_VERTEX].vertex, &key[UNIT_PIXEL].pixel, &job);
+    job.palette = device->job.palette;
+    return !memcmp(&job, &device->job, sizeof job);
+}
+
 enum triptych_result device_derive(struct triptych_device *device, enum triptych_primitive drawn,
                                    struct error *error)
 {
@@ -109,11 +145,13 @@ enum triptych_result device_derive(struct triptych_device *device, enum triptych
     if (!stale)
         return TRIPTYCH_OK;
     if (stale & PARTS(KEYS))
-        derive_new_keys(device, primitive);
+        stale |= derive_new_keys(device, primitive);
     if (stale & PARTS(SETTING))
         derive_setting(device);
-    if (stale & PARTS(VERTICES))
+    if (stale & PARTS(VERTICES)) {
+        device->steps = derive_steps(&device->state);
         device->vertices = derive_vertices(&device->state, vertex);
+    }
     if (stale & PARTS_OF_JOB)
         device->draw.job = NULL;
     if (stale == PARTS_ALL)
@@ -125,6 +163,8 @@ enum triptych_result device_derive(struct triptych_device *device, enum triptych
         result = make_palette(device, error);
     if (result == TRIPTYCH_OK)
         device->stale = 0;
+    if (JOBS_CHECKED && result == TRIPTYCH_OK && !is_derived(device, primitive))
+        abort();
     return result;
 }
 
@@ -269,11 +309,21 @@ static void step_instance(const struct triptych_device *device, uint32_t instanc
     }
 }
 
+/* Nobody reads the rest, but in builds that check themselves it is what would be noticed. */
+static void copy_live(struct job *to, const struct job *from, const struct live_job *live)
+{
+    if (JOBS_CHECKED)
+        memset(to, 0xbb, sizeof *to);
+    for (unsigned i = 0; i < live->count; i++)
+        memcpy((char *)to + live->run[i].begin, (const char *)from + live->run[i].begin,
+               (size_t)(live->run[i].end - live->run[i].begin));
+}
+
 static struct job *new_job(struct triptych_device *device, const float *const block[SHADER_STAGES])
 {
     struct job *job = frame_next_job(device->frame);
     device->frame->jobs++;
-    *job = device->job;
+    copy_live(job, &device->job, &device->live);
     memcpy(job->constants, block, sizeof job->constants);
     return job;
 }

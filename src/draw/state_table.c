@@ -1,6 +1,7 @@
 /* The tables of states, of their kinds and of the words of values, as the interface shows them. */
 #include "triptych.h"
 
+#include <stdatomic.h>
 #include <string.h>
 
 enum {
@@ -126,18 +127,29 @@ const struct triptych_kind *triptych_kind_at(unsigned i)
     return i < KIND_COUNT ? &kinds[i] : NULL;
 }
 
-const struct triptych_value *triptych_value_at(const struct triptych_kind *kind, unsigned i)
+/* The first of a kind's values, which follow one another; VALUE_COUNT if it has none. Looked for once. */
+static unsigned first_value(const struct triptych_kind *kind)
 {
-    unsigned first = 0;
+    static _Atomic uint16_t found[KIND_COUNT]; /* and 1 */
+    unsigned first = atomic_load_explicit(&found[kind - kinds], memory_order_relaxed);
+    if (first)
+        return first - 1;
     while (first < VALUE_COUNT && values[first].kind != kind)
         first++;
+    atomic_store_explicit(&found[kind - kinds], (uint16_t)(first + 1), memory_order_relaxed);
+    return first;
+}
+
+const struct triptych_value *triptych_value_at(const struct triptych_kind *kind, unsigned i)
+{
+    unsigned first = first_value(kind);
     return i < VALUE_COUNT - first && values[first + i].kind == kind ? &values[first + i] : NULL;
 }
 
 const struct triptych_value *triptych_value_find(const struct triptych_kind *kind, uint32_t number)
 {
-    for (unsigned i = 0; i < VALUE_COUNT; i++)
-        if (values[i].kind == kind && values[i].number == number)
+    for (unsigned i = first_value(kind); i < VALUE_COUNT && values[i].kind == kind; i++)
+        if (values[i].number == number)
             return &values[i];
     return NULL;
 }

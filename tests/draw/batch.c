@@ -12,21 +12,20 @@ static uint32_t triangle_log[LOG_CAPACITY][3];
 static struct {
     uint32_t provoking, last_pixel;
 } other_log[LOG_CAPACITY]; /* and of what is no triangle */
-static uint32_t vertex_calls, vertices_padded;
+static uint32_t vertex_calls, vertices_padded, triangles_padded;
 static uint32_t *clip_codes; /* of each vertex number; null: all inside */
 static struct arena arena;
 static struct bin_writer *bins;
 static struct batch *batch;
 static struct job job;
-static struct draw draw = {.job = &job};
+static struct draw draw;
 static uint32_t heads;
 
 /* The vertex's number becomes its x, which survives in the batch for setup to find. */
 static void log_vertices(const void *arguments, const struct routine *routine)
 {
     const struct vertex_call *call = arguments;
-    (void)routine;
-    TEST_ASSERT_EQUAL_UINT32(0, call->count % LANES_MAXIMUM);
+    TEST_ASSERT_EQUAL_UINT32(0, call->count % routine->lanes);
     TEST_ASSERT_TRUE(call->count <= VERTEX_CAPACITY);
     vertex_calls++;
     vertices_padded += call->count;
@@ -41,8 +40,9 @@ static void log_vertices(const void *arguments, const struct routine *routine)
 static void log_triangles(const void *arguments, const struct routine *routine)
 {
     const struct setup_call *call = arguments;
-    TEST_ASSERT_EQUAL_UINT32(0, call->count % LANES_MAXIMUM);
+    TEST_ASSERT_EQUAL_UINT32(0, call->count % routine->lanes);
     TEST_ASSERT_TRUE(call->count <= SETUP_CAPACITY);
+    triangles_padded += call->count;
     uint32_t first =
         (uint32_t)batch->counts.triangles_set_up; /* the padding of earlier groups is overwritten */
     for (uint32_t i = 0; i < call->count; i++) {
@@ -59,8 +59,8 @@ static void log_triangles(const void *arguments, const struct routine *routine)
     }
 }
 
-static struct routine vertex_routine = {.run = log_vertices, .unit = UNIT_VERTEX};
-static struct routine setup_routine = {.run = log_triangles, .unit = UNIT_SETUP};
+static struct routine vertex_routine = {.run = log_vertices, .unit = UNIT_VERTEX, .lanes = LANES_MAXIMUM};
+static struct routine setup_routine = {.run = log_triangles, .unit = UNIT_SETUP, .lanes = LANES_MAXIMUM};
 
 void setUp(void)
 {
@@ -70,6 +70,7 @@ void setUp(void)
     TEST_ASSERT_TRUE(bins && batch);
     memset(batch, 0, sizeof *batch);
     memset(&draw, 0, sizeof draw);
+    draw.job = &job;
     job.guard_x = job.guard_y = 10;
     draw.routine[UNIT_VERTEX] = &vertex_routine;
     draw.routine[UNIT_SETUP] = &setup_routine;
@@ -77,7 +78,8 @@ void setUp(void)
     draw.stride = 64;
     setup_routine.key.setup.primitive = PRIMITIVE_TRIANGLE;
     clip_codes = NULL;
-    vertex_calls = vertices_padded = 0;
+    vertex_calls = vertices_padded = triangles_padded = 0;
+    vertex_routine.lanes = setup_routine.lanes = LANES_MAXIMUM;
 }
 
 void tearDown(void)
@@ -286,6 +288,22 @@ static void shared_vertices_are_shaded_once_a_batch(void)
     TEST_ASSERT_EQUAL_UINT64(225, batch->counts.vertices_shaded);
 }
 
+/* The lanes behind repeat the last one, so that nothing is computed that was not given. */
+static void calls_are_padded_to_what_a_routine_does_at_once(void)
+{
+    draw.primitive = TRIPTYCH_TRIANGLE_LIST;
+    for (uint32_t lanes = 1; lanes <= LANES_MAXIMUM; lanes *= 2) {
+        vertices_padded = triangles_padded = 0;
+        vertex_routine.lanes = setup_routine.lanes = lanes;
+        batch->counts = (struct batch_counts){0};
+        TEST_ASSERT_EQUAL_UINT32(3, run(0, 3));
+        TEST_ASSERT_EQUAL_UINT32((9 + lanes - 1) / lanes * lanes, vertices_padded);
+        TEST_ASSERT_EQUAL_UINT32((3 + lanes - 1) / lanes * lanes, triangles_padded);
+        for (uint32_t i = 0; i < 3; i++)
+            expect_triangle(i, 3 * i, 3 * i + 1, 3 * i + 2);
+    }
+}
+
 static void long_runs_are_cut_into_batches(void)
 {
     TEST_ASSERT_EQUAL_UINT32(1000, run(0, 1000));
@@ -461,6 +479,7 @@ int main(void)
     RUN_TEST(a_run_may_begin_anywhere);
     RUN_TEST(indices_of_16_and_32_bits_are_moved_by_the_base);
     RUN_TEST(shared_vertices_are_shaded_once_a_batch);
+    RUN_TEST(calls_are_padded_to_what_a_routine_does_at_once);
     RUN_TEST(long_runs_are_cut_into_batches);
     RUN_TEST(many_triangles_of_few_vertices_are_cut_too);
     RUN_TEST(clip_codes_drop_what_cannot_be_seen);

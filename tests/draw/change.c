@@ -403,7 +403,7 @@ static void compare(const char *what, unsigned *named, unsigned *needed)
 static void report_unneeded(const char *setter, unsigned named, unsigned needed)
 {
     static const char *const part_name[DERIVED_PARTS] = {
-#define JOB_PART(name, first, last, meaning) #name,
+#define JOB_PART(name, keys, first, last, meaning) #name,
 #include "def/job_part.def"
 #undef JOB_PART
         "SETTING", "VERTICES", "KEYS"};

@@ -123,7 +123,7 @@ static const char *available(void)
 
 static const struct engine engine_looked = {.name = "looked",
                                             .description = "",
-                                            .width = 4,
+                                            .width = LANES_MAXIMUM,
                                             .unavailable = available,
                                             .build = build,
                                             .free = release};
