@@ -121,19 +121,6 @@ static enum triptych_result make_palette(struct triptych_device *device, struct 
     return TRIPTYCH_OK;
 }
 
-static bool is_derived(const struct triptych_device *device, enum primitive primitive)
-{
-    union key key[UNIT_COUNT];
-    struct job job;
-    derive_keys(&device->state, primitive, key);
-    for (int unit = 0; unit < UNIT_COUNT; unit++)
-        if (!same_key(unit, &key[unit], &device->key[unit]))
-            return false;
-    derive_job(&device->state, &key[UNIT_VERTEX].vertex, &key[UNIT_PIXEL].pixel, &job);
-    job.palette = device->job.palette;
-    return !memcmp(&job, &device->job, sizeof job);
-}
-
 enum triptych_result device_derive(struct triptych_device *device, enum triptych_primitive drawn,
                                    struct error *error)
 {
@@ -163,8 +150,6 @@ enum triptych_result device_derive(struct triptych_device *device, enum triptych
         result = make_palette(device, error);
     if (result == TRIPTYCH_OK)
         device->stale = 0;
-    if (JOBS_CHECKED && result == TRIPTYCH_OK && !is_derived(device, primitive))
-        abort();
     return result;
 }
 
@@ -372,9 +357,25 @@ static void record_instance(struct triptych_device *device, const struct draw *s
     device->frame->commands++;
 }
 
+static bool is_derived(const struct triptych_device *device)
+{
+    union key key[UNIT_COUNT];
+    struct job job;
+    enum primitive primitive = (enum primitive)device->key[UNIT_SETUP].setup.primitive;
+    derive_keys(&device->state, primitive, key);
+    for (int unit = 0; unit < UNIT_COUNT; unit++)
+        if (!same_key(unit, &key[unit], &device->key[unit]))
+            return false;
+    derive_job(&device->state, &key[UNIT_VERTEX].vertex, &key[UNIT_PIXEL].pixel, &job);
+    job.palette = device->job.palette;
+    return !memcmp(&job, &device->job, sizeof job);
+}
+
 enum triptych_result device_record(struct triptych_device *device, const struct draw *source,
                                    uint32_t instances, struct error *error)
 {
+    if (JOBS_CHECKED && !is_derived(device))
+        abort();
     if (prepare_routines(device, error))
         return device_refusal(TRIPTYCH_ENGINE_FAILED);
     for (uint32_t i = 0; i < instances; i++)
