@@ -410,7 +410,7 @@ TRIPTYCH_API const char *triptych_error(const triptych_device *device);
  * string while all is. Never a reason for anything else to fail. Valid until asked again. */
 TRIPTYCH_API const char *triptych_debug_error(triptych_device *device);
 
-/* The i-th engine's name, description, lanes and why it cannot run here (null: it can); null past the last.
+/* The i-th engine's name, description, lanes (0: chosen for each routine) and why it cannot run here (null: it can); null past the last.
  * The reason is the calling thread's until it asks again. */
 TRIPTYCH_API const char *triptych_engine_name(unsigned i);
 TRIPTYCH_API const char *triptych_engine_description(unsigned i);

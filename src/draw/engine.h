@@ -73,7 +73,7 @@ enum { ROUTINE_BYTES_MAXIMUM = 8 << 20 };
 struct engine {
     const char *name;        /* as in --engine: "emulate", "stitch", "stitch-operation", "specialize" ... */
     const char *description; /* one line */
-    int width;               /* lanes W of its routines */
+    int width;               /* lanes W of its routines; 0: chosen for each of them */
     int without_arena;       /* generates no code, or has it elsewhere */
     int on_request;          /* runs where it is named; left out of what is done with every engine */
 

@@ -13,8 +13,8 @@ struct build_options {
     struct register_file file;
 };
 
-/* What the engine varies, and chooses for a key; null when it is none of the specializer's. */
-const struct build_options *engine_options(const struct engine *engine, enum unit unit, const union key *key);
+/* What the engine varies, and chooses for a unit; null when it is none of the specializer's. */
+const struct build_options *engine_options(const struct engine *engine, enum unit unit);
 
 /* What the engines' `build` is: with their options, or a test's. The engine frees what comes of it. */
 struct routine *build_routine(const struct engine *engine, const struct build_options *options,

@@ -85,9 +85,9 @@ static void dump_code(struct dump *dump, size_t bytes)
     for (uint32_t i = 0; i < m->literals; i++) {
         float value;
         memcpy(&value, &m->literal_bits[i], sizeof value);
-        fprintf(dump->out, "%6x  constant 0x%08x (%.9g) in %u lanes\n",
+        fprintf(dump->out, "%6x  constant 0x%08x (%.9g) in %u lanes%s\n",
                 (unsigned)m->labels[m->literal_label[i]], (unsigned)m->literal_bits[i], (double)value,
-                m->width);
+                m->width, m->literal_lanes[i] ? "" : ", broadcast");
     }
 }
 
@@ -118,7 +118,7 @@ static int dump_stages(struct dump *dump, const struct build_options *options, e
 int jit_dump(const struct engine *engine, enum unit unit, const union key *key, const char *show, FILE *out,
              struct error *error)
 {
-    const struct build_options *options = engine_options(engine, unit, key);
+    const struct build_options *options = engine_options(engine, unit);
     if (!options)
         return error_set(error, "engine %s is none of the specializer's", engine->name);
     if (check_words(show, error))

@@ -94,8 +94,8 @@ static int describe(const struct routine *routine, struct debug_code *code, stru
     struct builder *b = builder_take(error);
     if (!b)
         return -1;
-    size_t bytes = build_code(b, engine_options(routine->engine, routine->unit, &routine->key), routine->unit,
-                              &routine->key, NULL, NULL, error);
+    size_t bytes = build_code(b, engine_options(routine->engine, routine->unit), routine->unit, &routine->key,
+                              NULL, NULL, error);
     int result = bytes ? 0 : -1;
     if (bytes && (bytes != routine->code_bytes || memcmp(b->emitter.code, routine->code, bytes)))
         result =
@@ -118,9 +118,19 @@ static const struct {
 #undef SPECIALIZE
 };
 
-const struct build_options *engine_options(const struct engine *engine, enum unit unit, const union key *key)
+/* Sixteen lanes where there are so many, but for setup: it ends in storing records word by word, which twice the
+ * lanes make no faster. */
+static const struct build_options *choose(enum unit unit)
 {
-    (void)unit, (void)key;
+    static const struct build_options eight = {.width = 8, .profile = PROFILE_FULL},
+                                      sixteen = {.width = 16, .profile = PROFILE_FULL};
+    return unit == UNIT_SETUP || cpu_lacks_avx512() ? &eight : &sixteen;
+}
+
+const struct build_options *engine_options(const struct engine *engine, enum unit unit)
+{
+    if (engine == &engine_specialize)
+        return choose(unit);
     for (unsigned i = 0; i < sizeof variants / sizeof *variants; i++)
         if (variants[i].engine == engine)
             return &variants[i].options;
@@ -129,13 +139,18 @@ const struct build_options *engine_options(const struct engine *engine, enum uni
 
 int jit_is_engine(const struct engine *engine)
 {
-    return engine_options(engine, UNIT_VERTEX, NULL) != NULL;
+    return engine_options(engine, UNIT_VERTEX) != NULL;
 }
 
 static const char *unavailable_8(void)
 {
     const char *reason = cpu_lacks_avx2_fma();
     return reason ? reason : code_unavailable();
+}
+
+static const char *unavailable_0(void)
+{
+    return unavailable_8();
 }
 
 static const char *unavailable_4(void)
@@ -152,7 +167,7 @@ static const char *unavailable_16(void)
 static struct routine *build_for(const struct engine *engine, struct code_arena *arena, enum unit unit,
                                  const union key *key, struct error *error)
 {
-    const struct order order = {.options = *engine_options(engine, unit, key)};
+    const struct order order = {.options = *engine_options(engine, unit)};
     return build_with(engine, &order, arena, unit, key, error);
 }
 
@@ -178,7 +193,7 @@ struct routine *jit_routine(const struct engine *engine, const struct ir *ir, ui
                             pass_observer *observer, void *context, struct code_arena *arena, enum unit unit,
                             const union key *key, struct error *error)
 {
-    struct order order = {ir, *engine_options(engine, unit, key), observer, context};
+    struct order order = {ir, *engine_options(engine, unit), observer, context};
     order.options.disabled |= disabled;
     return build_with(engine, &order, arena, unit, key, error);
 }

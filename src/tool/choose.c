@@ -52,7 +52,7 @@ static int find_variant(const struct command *self, const char *name, unsigned w
             continue;
         if (triptych_engine_width(i) == width)
             return *index = i, STATUS_OK;
-        if (has_twin(i))
+        if (has_twin(i) || !triptych_engine_width(i))
             continue;
         snprintf(widths + strlen(widths), sizeof widths - strlen(widths), "%s%u", widths[0] ? ", " : "",
                  triptych_engine_width(i));

@@ -35,7 +35,10 @@ static void list_engines(cJSON *rows)
         const char *reason = triptych_engine_unavailable(i);
         cJSON *row = add_row(rows);
         add_text(row, "engine", triptych_engine_name(i));
-        cJSON_AddNumberToObject(row, "width", triptych_engine_width(i));
+        if (triptych_engine_width(i))
+            cJSON_AddNumberToObject(row, "width", triptych_engine_width(i));
+        else
+            add_text(row, "width", "chosen");
         add_text(row, "here", reason ? reason : "available");
         add_text(row, "runs", engine_at(i)->on_request ? "if named" : "always");
         add_text(row, "description", triptych_engine_description(i));
