@@ -111,7 +111,7 @@ static void test_machine_code_equals_the_interpreter(void)
         TEST_IGNORE_MESSAGE("needs AVX2 and FMA");
     for (unsigned n = 1; n <= 2 * PROGRAMS; n++)
         for (unsigned r = n % 2; r < sizeof registers; r += 2) {
-            unsigned width = n % 3 ? 8 : 4;
+            unsigned width = program_width(n);
             make(n, width);
             optimize_verified(n, n % 7 ? PROFILE_FULL : PROFILE_THESIS, disabled[n % 8]);
             TEST_ASSERT_EQUAL_MESSAGE(

@@ -107,7 +107,7 @@ static void test_machine_code_with_few_registers_equals_the_interpreter(void)
         TEST_IGNORE_MESSAGE("needs AVX2 and FMA");
     for (unsigned registers = 4; registers <= ALLOCATABLE; registers += 3)
         for (uint64_t n = 1; n <= PROGRAMS / 2; n++) {
-            unsigned width = n % 2 ? 8 : 4;
+            unsigned width = program_width(n);
             check_optimized(n, PROFILE_FULL, n % 3 ? 0 : ~0u, "before compiling");
             uint64_t seed = n;
             program_fill(&expected, &seed);

@@ -89,20 +89,13 @@ static void expect_same(uint64_t number, unsigned width, const struct register_f
     fail(number, width, file, what);
 }
 
-static unsigned random_width(unsigned number)
-{
-    static const unsigned widths[] = {4, 8, 16, 8, 16};
-    unsigned width = widths[number % 5];
-    return width == 16 && cpu_lacks_avx512() ? 8 : width;
-}
-
 typedef void generator(struct ir *, unsigned length, uint64_t *seed);
 
 /* Makes program `number`, optimised with some set of passes, and what it computes. Returns the lanes. */
 static unsigned prepare(generator *make, uint64_t number, unsigned longest, uint64_t *seed)
 {
     static const uint32_t disabled[] = {0, ~0u, 0, 1};
-    unsigned width = random_width((unsigned)number);
+    unsigned width = program_width(number);
     *seed = test_seed() + number * 0x9e3779b97f4a7c15ull;
     *seed |= !*seed;
     make(&builder->ir, 3 + program_random(seed) % longest, seed);
@@ -173,7 +166,7 @@ static void check_routine(void *context, enum unit unit, const union key *key)
     (void)context;
     pressed.name = "specialize under pressure";
     pressed.build = build_under_pressure;
-    options = (struct build_options){.width = random_width(visited), .profile = PROFILE_FULL};
+    options = (struct build_options){.width = program_width(visited), .profile = PROFILE_FULL};
     for (int pressure = 0; pressure < 2; pressure++) {
         const char *wrong = error.text;
         if (build_code(builder, &options, unit, key, NULL, NULL, &error))
@@ -183,7 +176,7 @@ static void check_routine(void *context, enum unit unit, const union key *key)
                  (unsigned long long)options.file.seed, wrong ? wrong : "", unit_name[unit],
                  key_print(unit, key, text));
         TEST_ASSERT_NULL_MESSAGE(wrong, complaint);
-        unsigned width = random_width(program_random(&lots));
+        unsigned width = program_width(program_random(&lots));
         options = (struct build_options){.width = width,
                                          .profile = program_random(&lots) % 4 ? PROFILE_FULL : PROFILE_THESIS,
                                          .file = random_file(width, &lots)};

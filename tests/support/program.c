@@ -2,6 +2,7 @@
 
 #include "edges.h"
 #include "base/code.h"
+#include "base/cpu.h"
 #include "base/mxcsr.h"
 #include "def/lane.h"
 
@@ -13,6 +14,13 @@ uint32_t program_random(uint64_t *seed)
     *seed ^= *seed << 25;
     *seed ^= *seed >> 27;
     return (uint32_t)(*seed * 0x2545f4914f6cdd1dull >> 32);
+}
+
+unsigned program_width(uint64_t number)
+{
+    static const unsigned widths[] = {4, 8, 16, 8, 16};
+    unsigned width = widths[number % (sizeof widths / sizeof *widths)];
+    return width == 16 && cpu_lacks_avx512() ? 8 : width;
 }
 
 uint32_t program_word(uint64_t *seed)

@@ -19,6 +19,9 @@ struct program_data {
 
 uint32_t program_random(uint64_t *seed);
 
+/* Lanes that this machine has code for, in turn. */
+unsigned program_width(uint64_t number);
+
 /* The bits of an edge of binary32 or of integers, or of an ordinary float. */
 uint32_t program_word(uint64_t *seed);
 
