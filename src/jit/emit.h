@@ -156,6 +156,9 @@ void write_moves(struct emitter *emitter);
  */
 void select_gather(struct emitter *emitter, const struct ir_instruction *instruction);
 
+/* Writes the scatter at the current position, and with it those that follow of neighbouring words (scatter.c). */
+void select_scatter(struct emitter *emitter, const struct ir_instruction *instruction);
+
 /* Notes that the code from here on belongs to an IR instruction, or to the frame, a line of frame.c. */
 void note_line(struct emitter *emitter, uint32_t instruction);
 void note_frame_line(struct emitter *emitter, unsigned line);

@@ -10,8 +10,8 @@
  * Sixteen lanes are EVEX's: masks are in registers of their own, and what is the same for all lanes is broadcast
  * from four bytes by the instruction that uses it, if it is one of 32-bit elements.
  *
- * Lanes are in memory order, so loads and stores are plain moves. Gathers have a file of their own
- * (gather.c). */
+ * Lanes are in memory order, so loads and stores are plain moves. Gathers and scatters have files of
+ * their own (gather.c, scatter.c). */
 #include "jit/emit.h"
 
 enum form {
@@ -477,31 +477,6 @@ static void select_mad(struct emitter *m, const struct ir_instruction *i)
     } else {
         bring(m, to, &c);
         add_in_place(m, to, &a, &b);
-    }
-}
-
-static void scatter_four(struct emitter *m, unsigned from, struct address to, int32_t stride)
-{
-    vector_mr(&m->encoder, X86_vmovss_store, X86_128, to, from);
-    for (unsigned lane = 1; lane < 4; lane++) {
-        to.displacement += stride;
-        vector_mri(&m->encoder, X86_vextractps, X86_128, to, from, lane);
-    }
-}
-
-static void select_scatter(struct emitter *m, const struct ir_instruction *i)
-{
-    struct place value = place_of(m, i->operand[0]);
-    unsigned from = need_register(m, &value, SCRATCH_FIRST);
-    struct address to = address_at(base_register[i->base], i->k);
-    scatter_four(m, from, to, i->field);
-    if (m->width == 4)
-        return;
-    to.displacement += 4 * i->field;
-    for (unsigned four = 1; four < m->width / 4; four++) {
-        vector_rri(&m->encoder, X86_vextractf128, m->length, SCRATCH_SECOND, from, four);
-        scatter_four(m, SCRATCH_SECOND, to, i->field);
-        to.displacement += 4 * i->field;
     }
 }
 

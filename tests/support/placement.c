@@ -67,10 +67,10 @@ static void expect_operands(struct check *c)
 {
     const struct ir_instruction *i = placement_operation(c, c->number);
     bool copies = i->op == IR_copy || i->op == IR_phi || i->op == IR_next;
-    for (int o = 0; c->coded && !copies && o < ir_op_information[i->op].operands; o++)
-        if (!(c->read >> o & 1) && placement_operation(c, i->operand[o])->op != IR_literal)
-            placement_wrong(c, "does not read %%%u", i->operand[o]);
-    unsigned stores = i->op == IR_scatter ? c->m->width : i->op == IR_store || i->op == IR_set;
+    for (int o = 0; c->coded && !copies && o < placement_operands(c); o++)
+        if (!(c->read >> o & 1) && placement_operation(c, placement_operand(c, o))->op != IR_literal)
+            placement_wrong(c, "does not read %%%u", placement_operand(c, o));
+    unsigned stores = i->op == IR_scatter ? c->coded * c->m->width : i->op == IR_store || i->op == IR_set;
     if (c->stores != stores)
         placement_wrong(c, "stores %u times", c->stores);
 }

@@ -137,14 +137,28 @@ static int operand_vector(const ZydisDecodedOperand *o)
     return o->type == ZYDIS_OPERAND_TYPE_REGISTER ? vector_number(o->reg.value) : -1;
 }
 
-/* The next operations that one selection covers: gathers by rows. */
+/* The next operations that one selection covers: gathers and scatters by rows. */
 uint32_t placement_selected_end(const struct check *c)
 {
     uint32_t end = c->number + 1, next = c->line + 1 < c->m->lines ? c->m->line[c->line + 1].instruction : 0;
-    while (placement_operation(c, c->number)->op == IR_gather && end < c->ir->count && end != next &&
-           placement_operation(c, end)->op == IR_gather)
+    unsigned op = placement_operation(c, c->number)->op;
+    while ((op == IR_gather || op == IR_scatter) && end < c->ir->count && end != next &&
+           placement_operation(c, end)->op == op)
         end++;
     return end;
+}
+
+int placement_operands(const struct check *c)
+{
+    unsigned op = placement_operation(c, c->number)->op;
+    return op == IR_scatter && c->coded ? (int)(placement_selected_end(c) - c->number)
+                                        : ir_op_information[op].operands;
+}
+
+unsigned placement_operand(const struct check *c, int o)
+{
+    const struct ir_instruction *i = placement_operation(c, c->number);
+    return i->op == IR_scatter ? i[o].operand[0] : i->operand[o];
 }
 
 /* A register gets an intermediate result, or the value whose register it is. */

@@ -110,6 +110,10 @@ void places_name_next(struct check *c, struct places *s);
 void placement_run_code(struct check *c);
 uint32_t placement_selected_end(const struct check *c);
 
+/* The operands of the current operation; of scatters that one selection covers, those of all. */
+int placement_operands(const struct check *c);
+unsigned placement_operand(const struct check *c, int o);
+
 /* A jump in it (placement.c). */
 void placement_run_jump(struct check *c);
 

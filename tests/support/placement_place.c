@@ -68,10 +68,9 @@ bool place_holds(const struct check *c, const struct content *p, unsigned value)
 /* Notes which of the operation's operands are read here. Returns whether any is. */
 bool place_note_operands(struct check *c, const struct content *p)
 {
-    const struct ir_instruction *i = placement_operation(c, c->number);
     bool any = false;
-    for (int o = 0; o < ir_op_information[i->op].operands; o++)
-        if (place_holds(c, p, i->operand[o])) {
+    for (int o = 0; o < placement_operands(c); o++)
+        if (place_holds(c, p, placement_operand(c, o))) {
             c->read |= 1u << o;
             any = true;
         }
