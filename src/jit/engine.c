@@ -118,8 +118,8 @@ static const struct {
 #undef SPECIALIZE
 };
 
-/* Sixteen lanes where there are so many, but for setup: it ends in storing records word by word, which twice the
- * lanes make no faster. */
+/* Sixteen lanes where there are so many, but for setup: what it gathers and scatters goes lane by lane however many
+ * there are. */
 static const struct build_options *choose(enum unit unit)
 {
     static const struct build_options eight = {.width = 8, .profile = PROFILE_FULL},

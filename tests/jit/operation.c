@@ -172,11 +172,55 @@ static void test_operands_may_be_one_value(void)
         }
 }
 
+/* `words` neighbouring words of records, and if `last` is set one apart; every third is a mask, others literal. */
+static void make_scatters(unsigned words, int stride, unsigned literals, int last)
+{
+    struct ir *ir = &builder->ir;
+    uint16_t value[6];
+    ir_start(ir);
+    for (unsigned n = 0; n < words; n++) {
+        value[n] =
+            make_operand(ir, literals >> n & 1 ? FROM_LITERAL : FROM_MEMORY, (int)n % PROGRAM_ARRAYS, n);
+        if (n % 3 == 2)
+            value[n] = ir_append(ir, (struct ir_instruction){
+                                         .op = IR_gt_i, .type = TYPE_msk, .operand = {value[n], value[0]}});
+    }
+    for (unsigned n = 0; n < words; n++)
+        ir_append(ir, (struct ir_instruction){.op = IR_scatter,
+                                              .base = BASE_OUTPUT,
+                                              .operand = {value[n]},
+                                              .k = 64 + 4 * (int)n,
+                                              .field = stride});
+    if (last)
+        ir_append(ir, (struct ir_instruction){.op = IR_scatter,
+                                              .base = BASE_OUTPUT,
+                                              .operand = {value[0]},
+                                              .k = 64 + 4 * (int)words + (last - 1) * 4,
+                                              .field = stride});
+}
+
+/* Rows of records that meet, overlap, or have room behind them. */
+static void test_scattered_words_are_where_they_belong(void)
+{
+    static const int strides[] = {-16, 0, 4, 8, 12, 16, 20, 64};
+    if (!cpu_has_avx2_fma())
+        TEST_IGNORE_MESSAGE("needs AVX2 and FMA");
+    for (unsigned n = 0; n < 6 * 8 * 16 * 3; n++) {
+        unsigned words = 1 + n % 6;
+        make_scatters(words, strides[n / 6 % 8], n / 48 % 16, (int)(n / 768));
+        for (unsigned width = 4; width <= widest(); width *= 2) {
+            fill_inputs(IR_add_i, n);
+            check(IR_scatter, width);
+        }
+    }
+}
+
 int main(void)
 {
     UNITY_BEGIN();
     RUN_TEST(test_every_operation_equals_its_expression);
     RUN_TEST(test_a_permutation_takes_the_lanes_it_names);
     RUN_TEST(test_operands_may_be_one_value);
+    RUN_TEST(test_scattered_words_are_where_they_belong);
     return UNITY_END();
 }
