@@ -7,6 +7,7 @@
 
 #include "ir/ir.h"
 
+#include <assert.h>
 #include <string.h>
 
 typedef struct {
@@ -22,12 +23,17 @@ typedef struct {
     uint16_t id;
 } msk;
 
+enum { KNOWN_FILES = 2 * IR_FILES };
+
 struct env {
     struct ir *ir;
     const struct program *program; /* of the shader, if the key has one */
     const char *path;              /* of the current spec file */
     uint8_t file;
     uint16_t line;
+    /* The numbers of files by the addresses of their paths, of which there is one each: an open hash table. */
+    const char *known_path[KNOWN_FILES];
+    uint8_t known_number[KNOWN_FILES];
 };
 
 /* The part of a path that a reader wants: from "spec/" on. */
@@ -37,21 +43,41 @@ static inline const char *spec_path(const char *path)
     return spec ? spec : path;
 }
 
+/* The number of a path that is not known yet. */
+static inline uint8_t number_file(struct ir *ir, const char *path)
+{
+    uint32_t file = 0;
+    path = spec_path(path);
+    while (file < ir->file_count && strcmp(ir->file[file], path))
+        file++;
+    if (file == IR_FILES)
+        return IR_FILES - 1;
+    if (file == ir->file_count)
+        ir->file[ir->file_count++] = path;
+    return (uint8_t)file;
+}
+
+static_assert(KNOWN_FILES == 1 << 7, "the hash has so many bits");
+
+/* The spec's functions call one another across files all the time. */
+static inline void record_file(struct env *e, const char *path)
+{
+    uint32_t at = (uint32_t)(uintptr_t)path * 0x9e3779b1u >> 25;
+    while (e->known_path[at] && e->known_path[at] != path)
+        at = (at + 1) % KNOWN_FILES;
+    if (!e->known_path[at]) {
+        e->known_number[at] = number_file(e->ir, path);
+        e->known_path[at] = e->ir->file_count < IR_FILES ? path : NULL;
+    }
+    e->path = path;
+    e->file = e->known_number[at];
+}
+
 static inline struct env *record_at(struct env *e, const char *path, int line)
 {
     e->line = (uint16_t)line;
-    if (path == e->path)
-        return e;
-    e->path = path;
-    path = spec_path(path);
-    struct ir *ir = e->ir;
-    for (e->file = 0; e->file < ir->file_count; e->file++)
-        if (!strcmp(ir->file[e->file], path))
-            return e;
-    if (ir->file_count < IR_FILES)
-        ir->file[ir->file_count++] = path;
-    else
-        e->file = IR_FILES - 1;
+    if (path != e->path)
+        record_file(e, path);
     return e;
 }
 

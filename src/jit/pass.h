@@ -96,6 +96,11 @@ pass_function pass_phi, pass_copy, pass_fold, pass_reduce, pass_common, pass_dea
 /* Fills memory->range for every value (range.c). Rounds as the contract does: run under its MXCSR. */
 void range_analyse(const struct ir *ir, struct pass_memory *memory);
 
+/* The same for single values, of a program that may be reduced meanwhile: after `begin`, memory->range of a value holds
+ * once it was demanded; memory->flag tells of which that was, and memory->table is in use. */
+void range_begin(const struct ir *ir, struct pass_memory *memory);
+void range_demand(const struct ir *ir, struct pass_memory *memory, unsigned value);
+
 /* The range of an instruction's operand, as the type that the operation takes it for: after copy propagation
  * through a cast the value may be of another, of which its range says nothing. */
 struct range range_of_operand(const struct ir *ir, const struct pass_memory *memory,

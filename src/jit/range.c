@@ -10,6 +10,7 @@
 #include "jit/pass.h"
 
 #include <float.h>
+#include <string.h>
 
 static const struct range anything = {-INFINITY, INFINITY, 1, 1, 1};
 
@@ -180,6 +181,7 @@ static struct range other_range(const struct ir *ir, const struct pass_memory *m
 {
     switch (i->op) {
     case IR_literal: return literal_range(i);
+    case IR_copy: return range_as(ir, memory, i->operand[0], i->type);
     case IR_join:
         return union_range(range_as(ir, memory, i->operand[0], i->type),
                            range_as(ir, memory, i->operand[1], i->type));
@@ -187,11 +189,21 @@ static struct range other_range(const struct ir *ir, const struct pass_memory *m
     }
 }
 
+/* The operations of the table of which something is known: all others' values may be anything. */
+static const uint8_t is_known[IR_OP_COUNT] = {
+    [IR_add_f] = 1,   [IR_sub_f] = 1,   [IR_mul_f] = 1,   [IR_mad_f] = 1,    [IR_sqrt_f] = 1,
+    [IR_min_f] = 1,   [IR_max_f] = 1,   [IR_neg_f] = 1,   [IR_select_f] = 1, [IR_select_i] = 1,
+    [IR_float_f] = 1, [IR_round_i] = 1, [IR_trunc_i] = 1, [IR_and_i] = 1,    [IR_ushr_i] = 1,
+    [IR_shr_i] = 1,   [IR_min_i] = 1,   [IR_max_i] = 1,
+};
+
 static struct range value_range(const struct ir *ir, const struct pass_memory *memory,
                                 const struct ir_instruction *i)
 {
     if (i->op >= IR_copy)
         return other_range(ir, memory, i);
+    if (!is_known[i->op])
+        return anything;
     struct range a = range_of_operand(ir, memory, i, 0);
     struct range b = range_of_operand(ir, memory, i, 1);
     struct range c = range_of_operand(ir, memory, i, 2);
@@ -213,8 +225,7 @@ static struct range value_range(const struct ir *ir, const struct pass_memory *m
     case IR_ushr_i: return shift_right_range(a, i->k, 1);
     case IR_shr_i: return shift_right_range(a, i->k, 0);
     case IR_min_i: return a.nan || b.nan ? anything : minimum_range(a, b);
-    case IR_max_i: return a.nan || b.nan ? anything : maximum_range(a, b);
-    default: return anything;
+    default: return a.nan || b.nan ? anything : maximum_range(a, b);
     }
 }
 
@@ -290,4 +301,49 @@ void range_analyse(const struct ir *ir, struct pass_memory *memory)
         first++;
     for (unsigned round = 1; analyse(ir, memory, first, round); round++)
         continue;
+}
+
+/* --- One value's, when it is asked for ----------------------------------------------------------------- */
+
+void range_begin(const struct ir *ir, struct pass_memory *memory)
+{
+    if (ir->loops && ir->phis) {
+        range_analyse(ir, memory);
+        memset(memory->flag, 1, ir->count);
+        return;
+    }
+    memset(memory->flag, 0, ir->count);
+    memory->flag[0] = 1;
+    memory->range[0] = anything;
+}
+
+/* An operand that has to be looked at first; 0: none. */
+static unsigned unknown_operand(const struct ir_instruction *i, const struct pass_memory *memory)
+{
+    if (i->op < IR_copy ? !is_known[i->op] : i->op != IR_copy && i->op != IR_join)
+        return 0;
+    for (int o = 0; o < ir_op_information[i->op].operands; o++)
+        if (!memory->flag[i->operand[o]])
+            return i->operand[o];
+    return 0;
+}
+
+/* Operands first, which are earlier: a stack of what waits for them, in which nothing stands twice. */
+void range_demand(const struct ir *ir, struct pass_memory *memory, unsigned value)
+{
+    uint16_t *waiting = memory->table;
+    uint32_t depth = 0;
+    while (!memory->flag[value]) {
+        const struct ir_instruction *i = &ir->instruction[value];
+        unsigned operand = unknown_operand(i, memory);
+        if (operand) {
+            waiting[depth++] = (uint16_t)value;
+            value = operand;
+            continue;
+        }
+        memory->range[value] = value_range(ir, memory, i);
+        memory->flag[value] = 1;
+        if (depth)
+            value = waiting[--depth];
+    }
 }

@@ -5,7 +5,9 @@
  * flushed not even the first is: y * 1 of a denormal is a zero, and y keeps its bits. Each rule is applied
  * where the operands' ranges (range.c) prove it. Likewise a clamp that the range already satisfies goes, and
  * a selection, a mask or an integer operation with a neutral operand. A rule turns its instruction into a
- * copy of an operand, a literal, or a cheaper operation; copy propagation does the rest. Requires nothing. */
+ * copy of an operand, a literal, or a cheaper operation; copy propagation does the rest. Requires nothing.
+ *
+ * Most rules ask for a literal first, so that few ranges are ever asked for; they are found then. */
 #include "jit/pass.h"
 
 #include "def/lane.h"
@@ -13,11 +15,18 @@
 enum { PLUS_ZERO = 0, ONE = 0x3f800000 };
 #define MINUS_ZERO INT32_MIN
 
-/* What the rules look at: the program, and the ranges of the instruction's operands. */
+/* What the rules look at: the program, and, where that is not enough, what is known of the instruction's operands. */
 struct view {
     const struct ir *ir;
-    struct range operand[3];
+    struct pass_memory *memory;
+    const struct ir_instruction *instruction;
 };
+
+static struct range operand_range(const struct view *view, int operand)
+{
+    range_demand(view->ir, view->memory, view->instruction->operand[operand]);
+    return range_of_operand(view->ir, view->memory, view->instruction, operand);
+}
 
 static int is_literal(const struct view *view, unsigned value, int32_t bits)
 {
@@ -25,14 +34,14 @@ static int is_literal(const struct view *view, unsigned value, int32_t bits)
     return i->op == IR_literal && i->k == bits;
 }
 
-static int is_finite(const struct range *r)
+static int is_finite(struct range r)
 {
-    return !r->nan && r->low > -INFINITY && r->high < INFINITY;
+    return !r.nan && r.low > -INFINITY && r.high < INFINITY;
 }
 
-static int is_sign_clear(const struct range *r)
+static int is_sign_clear(struct range r)
 {
-    return r->low >= 0 && !r->minus_zero;
+    return r.low >= 0 && !r.minus_zero;
 }
 
 static int become_copy(struct ir_instruction *i, unsigned source)
@@ -62,19 +71,24 @@ static int become(struct ir_instruction *i, enum ir_op op, unsigned a, unsigned 
 }
 
 /* Whether arithmetic that leaves y's value leaves its bits too: it flushes a denormal. */
-static int keeps_bits(const struct range *y)
+static int keeps_bits(struct range y)
 {
-    return !y->denormal;
+    return !y.denormal;
+}
+
+/* Whether y + 0 = y. */
+static int keeps_zero(struct range y)
+{
+    return !y.minus_zero && !y.nan && keeps_bits(y);
 }
 
 /* y + 0 = y unless y is -0; y + -0 = y; y + -x = y - x. */
 static int reduce_add(const struct view *view, struct ir_instruction *i)
 {
     for (int o = 0; o < 2; o++) {
-        const struct range *y = &view->operand[o];
         unsigned zero = i->operand[1 - o];
-        int positive = is_literal(view, zero, PLUS_ZERO) && !y->minus_zero && !y->nan;
-        if ((positive || is_literal(view, zero, MINUS_ZERO)) && keeps_bits(y))
+        if ((is_literal(view, zero, PLUS_ZERO) && keeps_zero(operand_range(view, o))) ||
+            (is_literal(view, zero, MINUS_ZERO) && keeps_bits(operand_range(view, o))))
             return become_copy(i, i->operand[o]);
     }
     for (int o = 0; o < 2; o++) {
@@ -89,9 +103,9 @@ static int reduce_add(const struct view *view, struct ir_instruction *i)
 static int reduce_sub(const struct view *view, struct ir_instruction *i)
 {
     unsigned a = i->operand[0], b = i->operand[1];
-    if (is_literal(view, b, PLUS_ZERO) && keeps_bits(&view->operand[0]))
+    if (is_literal(view, b, PLUS_ZERO) && keeps_bits(operand_range(view, 0)))
         return become_copy(i, a);
-    if (a == b && is_finite(&view->operand[0]))
+    if (a == b && is_finite(operand_range(view, 0)))
         return become_literal(i, PLUS_ZERO);
     return 0;
 }
@@ -100,11 +114,11 @@ static int reduce_sub(const struct view *view, struct ir_instruction *i)
 static int reduce_mul(const struct view *view, struct ir_instruction *i)
 {
     for (int o = 0; o < 2; o++) {
-        const struct range *y = &view->operand[o];
         unsigned x = i->operand[1 - o];
-        if (is_literal(view, x, ONE) && keeps_bits(y))
+        if (is_literal(view, x, ONE) && keeps_bits(operand_range(view, o)))
             return become_copy(i, i->operand[o]);
-        if (is_literal(view, x, PLUS_ZERO) && is_finite(y) && is_sign_clear(y))
+        if (is_literal(view, x, PLUS_ZERO) && is_finite(operand_range(view, o)) &&
+            is_sign_clear(operand_range(view, o)))
             return become_literal(i, PLUS_ZERO);
     }
     return 0;
@@ -114,13 +128,12 @@ static int reduce_mul(const struct view *view, struct ir_instruction *i)
 static int reduce_mad(const struct view *view, struct ir_instruction *i)
 {
     unsigned z = i->operand[2];
-    const struct range *addend = &view->operand[2];
     for (int o = 0; o < 2; o++) {
         unsigned x = i->operand[1 - o];
         if (is_literal(view, x, ONE))
             return become(i, IR_add_f, i->operand[o], z);
-        if (is_literal(view, x, PLUS_ZERO) && is_finite(&view->operand[o]) && !addend->minus_zero &&
-            !addend->nan && keeps_bits(addend))
+        if (is_literal(view, x, PLUS_ZERO) && is_finite(operand_range(view, o)) &&
+            keeps_zero(operand_range(view, 2)))
             return become_copy(i, z);
     }
     return is_literal(view, z, MINUS_ZERO) ? become(i, IR_mul_f, i->operand[0], i->operand[1]) : 0;
@@ -130,13 +143,13 @@ static int reduce_mad(const struct view *view, struct ir_instruction *i)
  * signs. */
 static int reduce_extreme(const struct view *view, struct ir_instruction *i, int minimum)
 {
-    const struct range *a = &view->operand[0], *b = &view->operand[1];
-    if (a->nan || b->nan || a->denormal || b->denormal ||
-        ((a->minus_zero || b->minus_zero) && a->low <= 0 && a->high >= 0))
+    const struct range a = operand_range(view, 0), b = operand_range(view, 1);
+    if (a.nan || b.nan || a.denormal || b.denormal ||
+        ((a.minus_zero || b.minus_zero) && a.low <= 0 && a.high >= 0))
         return 0;
-    if (minimum ? a->high <= b->low : a->low >= b->high)
+    if (minimum ? a.high <= b.low : a.low >= b.high)
         return become_copy(i, i->operand[0]);
-    if (minimum ? b->high <= a->low : b->low >= a->high)
+    if (minimum ? b.high <= a.low : b.low >= a.high)
         return become_copy(i, i->operand[1]);
     return 0;
 }
@@ -204,7 +217,7 @@ static int reduce(const struct view *view, struct ir_instruction *i)
     case IR_mul_f: return reduce_mul(view, i);
     case IR_mad_f: return reduce_mad(view, i);
     case IR_div_f:
-        if (is_literal(view, i->operand[1], ONE) && keeps_bits(&view->operand[0]))
+        if (is_literal(view, i->operand[1], ONE) && keeps_bits(operand_range(view, 0)))
             return become_copy(i, i->operand[0]);
         return 0;
     case IR_min_f:
@@ -239,15 +252,13 @@ static int reduce(const struct view *view, struct ir_instruction *i)
 unsigned pass_reduce(struct ir *ir, struct pass_memory *memory)
 {
     unsigned changes = 0;
-    range_analyse(ir, memory);
-    struct view view = {.ir = ir};
+    struct view view = {.ir = ir, .memory = memory};
+    range_begin(ir, memory);
     for (uint32_t number = 1; number < ir->count; number++) {
         struct ir_instruction *i = &ir->instruction[number];
-        if (i->op == IR_nop || i->op >= IR_copy)
-            continue;
-        for (int o = 0; o < 3; o++)
-            view.operand[o] = range_of_operand(ir, memory, i, o);
-        changes += (unsigned)reduce(&view, i);
+        view.instruction = i;
+        if (i->op != IR_nop && i->op < IR_copy)
+            changes += (unsigned)reduce(&view, i);
     }
     return changes;
 }
