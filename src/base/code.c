@@ -30,7 +30,14 @@ enum {
     LIST_COUNT = 32,
     NO_BLOCK = 0, /* unit 0 is the sentinel, so it starts no block */
     FIRST_UNIT = 1,
+    AHEAD = 32 << 10,  /* bytes of pages that are had at once, */
+    BEGIN = 256 << 10, /* and when an arena is made */
 };
+
+/* Linux 5.14; earlier kernels do not know it, nor may the C library's headers. */
+#ifndef MADV_POPULATE_WRITE
+#define MADV_POPULATE_WRITE 23
+#endif
 
 struct unit {
     uint32_t free; /* is this an end of a free block? */
@@ -45,6 +52,7 @@ struct code_arena {
     size_t capacity;
     size_t unit; /* bytes */
     enum code_purpose purpose;
+    size_t populated;      /* bytes from the start that need no page fault any more, as far as is known */
     pthread_mutex_t mutex; /* guards all below */
     struct unit *units;
     uint32_t lists[LIST_COUNT]; /* first units; list n holds sizes 2^n to 2^(n+1) - 1 */
@@ -184,6 +192,21 @@ static struct code_span span_of(const struct code_arena *arena, uint32_t first, 
                               (size_t)count * arena->unit};
 }
 
+/* Has the pages up to `end`, and some ahead of it: one by one, as they are written, they cost several times as much, and
+ * more than stitching what is written there. Two threads at once do it both, which does no harm. */
+static void populate(struct code_arena *arena, size_t end)
+{
+    size_t from = __atomic_load_n(&arena->populated, __ATOMIC_RELAXED);
+    if (end <= from)
+        return;
+    size_t to = end - from < AHEAD ? from + AHEAD : (end + AHEAD - 1) / AHEAD * AHEAD;
+    if (to > arena->capacity)
+        to = arena->capacity;
+    if (madvise(arena->writable + from, to - from, MADV_POPULATE_WRITE))
+        to = arena->capacity; /* it is not to be had: not again */
+    __atomic_store_n(&arena->populated, to, __ATOMIC_RELAXED);
+}
+
 int code_reserve(struct code_arena *arena, size_t bytes, struct code_span *span, struct error *error)
 {
     assert(bytes);
@@ -202,6 +225,7 @@ int code_reserve(struct code_arena *arena, size_t bytes, struct code_span *span,
                          arena->capacity);
     }
     *span = span_of(arena, first, count);
+    populate(arena, (size_t)(span->writable - arena->writable) + span->bytes);
     return 0;
 }
 
@@ -386,6 +410,7 @@ struct code_arena *code_create_for(enum code_purpose purpose, size_t bytes, cons
         return NULL;
     }
     link_free(arena, FIRST_UNIT, unit_count(arena, capacity));
+    populate(arena, bytes && bytes < BEGIN ? bytes : BEGIN);
     return arena;
 }
 

@@ -2,7 +2,7 @@
  *
  * A memfd of fixed capacity is mapped once writable and once executable; no address is ever both. Code is
  * written through the writable view and run through the executable one, and a pointer in one translates to
- * the other by adding a constant. Pages are committed by the kernel when first written, so capacity costs
+ * the other by adding a constant. Pages are had from the kernel a few ahead of what is written, so capacity costs
  * only address space.
  *
  * Writing a routine: `code_reserve` a span large enough for any outcome, write it, `code_commit` the bytes
