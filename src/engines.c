@@ -5,6 +5,7 @@
 #include "external/external.h"
 #include "jit/jit.h"
 #include "stitch/stitch.h"
+#include "tiered/tiered.h"
 
 #include <string.h>
 
@@ -17,6 +18,7 @@ static const struct engine *const engines[] = {
 #define SPECIALIZE(id, ...) &engine_##id,
 #include "def/specialize.def"
 #undef SPECIALIZE
+    &engine_tiered,   &engine_tiered_swap,
     &engine_external,
 };
 

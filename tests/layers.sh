@@ -35,6 +35,8 @@ check "the stitcher includes no other engine" src/stitch stitch/ base/ debug/cod
 check "the external engine includes no other engine" src/external external/ ir/ base/ def/ draw/ shader/program.h spec/
 check "the specializer includes no other engine" src/jit jit/ ir/ base/ debug/code.h def/ draw/ shader/program.h spec/
 
+check "tiers know the two engines they are of" src/tiered tiered/ base/ def/ draw/ shader/program.h stitch/stitch.h jit/jit.h
+
 if grep -rn '#include' src/spec/*.h | grep -v '^src/spec/spec.h:' >&2; then
     echo "FAIL the specification includes nothing"
     failed=1

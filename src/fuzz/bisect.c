@@ -2,6 +2,7 @@
 
 #include "draw/device.h"
 #include "fuzz/hunt.h"
+#include "tiered/tiered.h"
 
 #include <stdlib.h>
 #include <string.h>
@@ -483,6 +484,10 @@ int bisect(const struct stream *stream, const struct engine *reference, const st
         const char *why = this.engine[i]->unavailable(); /* which may be over when it is asked again */
         if (why)
             return error_set(error, "engine %s: %s", this.engine[i]->name, why);
+        if (tiered_engine(this.engine[i], 0))
+            return error_set(error, "engine %s: its routines are those of %s and %s, which can be bisected",
+                             this.engine[i]->name, tiered_engine(this.engine[i], 0)->name,
+                             tiered_engine(this.engine[i], 1)->name);
     }
     search = &this;
     int result = search_stream(stream, error);

@@ -253,12 +253,29 @@ void program_release(const struct program *released)
         destroy(program);
 }
 
+/* Under the lock. */
+static struct program *find_registered(uint32_t number)
+{
+    struct program *found = registry;
+    while (found && found->number != number)
+        found = found->next;
+    return found;
+}
+
 const struct program *program_find(uint32_t number)
 {
     pthread_mutex_lock(&registry_lock);
-    const struct program *found = registry;
-    while (found && found->number != number)
-        found = found->next;
+    const struct program *found = find_registered(number);
+    pthread_mutex_unlock(&registry_lock);
+    return found;
+}
+
+const struct program *program_hold(uint32_t number)
+{
+    pthread_mutex_lock(&registry_lock);
+    struct program *found = find_registered(number);
+    if (found)
+        found->users++;
     pthread_mutex_unlock(&registry_lock);
     return found;
 }

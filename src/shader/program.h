@@ -137,6 +137,9 @@ void program_release(const struct program *program);
 /* The program of that number while it has users, else null. Thread-safe, as all of this is. */
 const struct program *program_find(uint32_t number);
 
+/* The same with one more user, to be released. */
+const struct program *program_hold(uint32_t number);
+
 /* The places of a source that the instruction reads: bit 0 x to bit 3 w of the swizzled value. */
 unsigned program_source_mask(const struct shader_instruction *instruction, unsigned source);
 

@@ -8,6 +8,7 @@
 #include "jit/jit.h"
 #include "shader/program.h"
 #include "stitch/stitch.h"
+#include "tiered/tiered.h"
 #include "tool/choose.h"
 #include "tool/option.h"
 #include "tool/session.h"
@@ -39,6 +40,14 @@ static int dump_stitch(const struct engine *engine, struct code_arena *arena, en
     return stitch_dump(arena, engine, unit, key, stdout, error);
 }
 
+/* Both tiers, in their order. */
+static int dump_tiered(const struct engine *engine, struct code_arena *arena, enum unit unit,
+                       const union key *key, const char *show, struct error *error)
+{
+    return dump_stitch(tiered_engine(engine, 0), arena, unit, key, NULL, error) ||
+           dump_jit(tiered_engine(engine, 1), arena, unit, key, show, error);
+}
+
 static int dump_external(const struct engine *engine, struct code_arena *arena, enum unit unit,
                          const union key *key, const char *show, struct error *error)
 {
@@ -54,9 +63,8 @@ static const struct dumper {
 #define SPECIALIZE(id, ...) {&engine_##id, dump_jit},
 #include "def/specialize.def"
 #undef SPECIALIZE
-    {&engine_stitch, dump_stitch},
-    {&engine_stitch_operation, dump_stitch},
-    {&engine_external, dump_external},
+    {&engine_stitch, dump_stitch}, {&engine_stitch_operation, dump_stitch}, {&engine_external, dump_external},
+    {&engine_tiered, dump_tiered}, {&engine_tiered_swap, dump_tiered},
 };
 
 static const struct dumper *find_dumper(const struct command *self, unsigned engine)

@@ -109,18 +109,11 @@ static uint64_t hash_of_set(const struct keys *c, size_t i)
     return hash ^ hash >> 32;
 }
 
-/* One more user of the program that a key numbers; null if there is none. */
+/* The program that a key numbers, held; null if there is none. */
 static const struct program *hold_program(enum unit unit, const union key *key)
 {
-    struct error error;
     const struct program *program = key_shader(unit, key);
-    struct shader *shader = NULL;
-    if (!program || shader_read("shader", program->tokens, program->token_count * sizeof *program->tokens,
-                                &shader, &error))
-        return NULL;
-    const struct program *held = program_acquire(shader, &error);
-    shader_free(shader);
-    return held;
+    return program ? program_hold(program->number) : NULL;
 }
 
 /* The routine's number, a new one if it was not seen before. */
