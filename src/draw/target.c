@@ -1,5 +1,6 @@
 #include "draw/target.h"
 
+#include "base/large.h"
 #include "def/lane.h"
 
 #include <emmintrin.h>
@@ -36,8 +37,8 @@ int target_create(struct target *target, const struct triptych_target_descriptio
     size_t tiles = (size_t)t.columns * t.rows;
     place_colors(&t, description);
     size_t planes = tiles * t.samples;
-    t.color = aligned_alloc(64, planes * t.planes * TILE_PLANE_BYTES);
-    t.depth = has_depth ? aligned_alloc(64, planes * TILE_PLANE_BYTES) : NULL;
+    t.color = large_allocate(planes * t.planes * TILE_PLANE_BYTES);
+    t.depth = has_depth ? large_allocate(planes * TILE_PLANE_BYTES) : NULL;
     t.clear = malloc(tiles * sizeof *t.clear);
     if (!t.color || (has_depth && !t.depth) || !t.clear) {
         target_destroy(&t);
