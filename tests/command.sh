@@ -332,6 +332,11 @@ holds 'the hit rate is that of the runs measured' awk -F, '
     NR == 1 { for (i = 1; i <= NF; i++) if ($i == "hit_rate") column = i }
     NR > 1 && $column != 100 { bad = 1 }
     END { exit bad || NR < 2 || !column }' "$work/bench.csv"
+answers 'bench of builds prints a row of sets for each engine' '^stitch +set +1 ' bench "$work/good.tri" --builds \
+    --engines stitch,emulate --repetitions 3 --json "$work/builds.json"
+holds 'and writes JSON' grep -q '"first_p99_us":' "$work/builds.json"
+answers 'bench of cold frames prints a row for each stream and engine' '^good +tiered +[0-9.]+ +[0-9.]+ ' \
+    bench "$work/good.tri" --cold --engines tiered --repetitions 3
 holds 'the JSON names the machine' grep -q '"commit":' "$work/bench.json"
 
 # --- Dumps ---------------------------------------------------------------------------------------------------

@@ -9,6 +9,7 @@
  *
  * Interrupted (interrupt.h), it reports the streams that are done. */
 #include "tool/bench_builds.h"
+#include "tool/bench_cold.h"
 #include "tool/bench_report.h"
 #include "tool/bench_shaders.h"
 #include "tool/choose.h"
@@ -29,6 +30,7 @@ struct settings {
     double seconds;
     bool shaders; /* a table of each shader */
     bool builds;  /* routines are built, nothing is drawn */
+    bool cold;    /* frames whose routines are not there yet */
 };
 
 static bool goes_on(const struct bench_run *run, const struct settings *settings)
@@ -192,6 +194,8 @@ int command_bench(const struct command *self, int count, char **arguments)
          &settings.shaders, 0, 0},
         {"builds", NULL, "measure instead how long the streams' routines take to build", OPTION_FLAG,
          &settings.builds, 0, 0},
+        {"cold", NULL, "measure instead what frames take that are seen for the first time", OPTION_FLAG,
+         &settings.cold, 0, 0},
         {"json", "FILE", "write everything, each run included", OPTION_TEXT, &json, 0, 0},
         {"csv", "FILE", "write a row per stream and engine", OPTION_TEXT, &csv, 0, 0},
     };
@@ -208,6 +212,11 @@ int command_bench(const struct command *self, int count, char **arguments)
         interrupt_wait();
         return bench_builds(self, operands.value, (unsigned)operands.count, &engines, settings.repetitions,
                             json);
+    }
+    if (settings.cold) {
+        interrupt_wait();
+        return bench_cold(self, operands.value, (unsigned)operands.count, &engines, settings.threads,
+                          settings.repetitions, settings.frames);
     }
     struct bench bench = {machine_describe(), settings.threads, settings.shaders, 0, NULL};
     unsigned count_streams = (unsigned)operands.count;

@@ -360,6 +360,10 @@ static void test_verifying_and_measuring(void)
     refuse_each("bench tests/streams/frames.tri --engines emulate --repetitions 3 --seconds 0 --frames 1 "
                 "--csv OUT.csv",
                 MEASURES, 0);
+    refuse_each("bench tests/streams/shaders.tri --builds --engines stitch --repetitions 3 --json OUT.json",
+                MEASURES, 0);
+    refuse_each("bench tests/streams/frames.tri --cold --engines emulate --repetitions 3 --frames 1",
+                MEASURES, 0);
 }
 
 static void test_dumps_lists_and_shaders(void)
