@@ -1,7 +1,7 @@
-/* Generated routines as callees: thousands of every engine, in every unit, called through the checked trampoline on random
- * data. They keep the calling convention, do not write to what they may only read nor beyond what they are to write,
- * and agree with one another. And they follow from their key alone: built again at another address, in another arena,
- * after another routine, in another process, they are the same bytes. */
+/* Generated routines as callees: thousands of every engine that makes code of its own, in every unit, called through the
+ * checked trampoline on random data. They keep the calling convention, do not write to what they may only read nor beyond
+ * what they are to write, and agree with one another. And they follow from their key alone: built again at another
+ * address, in another arena, after another routine, in another process, they are the same bytes. */
 #define _GNU_SOURCE
 #include "base/code.h"
 #include "engines.h"
@@ -10,13 +10,14 @@
 #include "tests/support/routines.h"
 #include "tests/support/seed.h"
 #include "tests/support/trampoline.h"
+#include "tiered/tiered.h"
 
 #include <stdio.h>
 #include <string.h>
 #include <unity.h>
 #include <xxhash.h>
 
-enum { ENGINES = 8, RANDOM_KEYS = 450, RANDOM_SHADERS = 120, HASHED_KEYS = 90 };
+enum { ENGINES = 32, RANDOM_KEYS = 450, RANDOM_SHADERS = 120, HASHED_KEYS = 90 };
 
 static struct code_arena *arena, *other;
 static struct differential *differential;
@@ -27,9 +28,11 @@ static uint64_t seed;
 static void find_engines(void)
 {
     engine_count = 0;
-    for (unsigned i = 0; engine_at(i); i++)
-        if (!engine_at(i)->without_arena && !engine_at(i)->unavailable())
-            engines[engine_count++] = engine_at(i);
+    for (unsigned i = 0; engine_at(i) && engine_count < ENGINES; i++) {
+        const struct engine *engine = engine_at(i);
+        if (!engine->without_arena && !engine->unavailable() && !tiered_engine(engine, 0))
+            engines[engine_count++] = engine;
+    }
     if (!engine_count)
         TEST_IGNORE_MESSAGE("no engine can generate code here");
 }
