@@ -4,10 +4,10 @@
 #
 #     awk -v folder=bench/streams/micro -f bench/generate-micro.awk
 #
-# A stream has three frames, each of which begins with a clear. The first sets everything, so that the others can be played
+# A stream has three frames, which begin with a clear. The first sets everything, so that the others can be played
 # again and again on what it left (player_go_on, src/stream/stream.h). The second is what is measured, with so many layers
 # that what a frame costs besides them does not count; the third the same work with fewer layers, for renderers that are
-# slow. The layers of a frame cover the whole target, 1024 x 1024, and lie in one another's place; where nothing else is said
+# slow. Textures and arithmetic have one opaque layer, and no clear but the first. The layers of a frame cover the whole target, 1024 x 1024, and lie in one another's place; where nothing else is said
 # each is a rectangle of two triangles at w = 1.
 
 function emit(text) { print text > path }
@@ -107,6 +107,18 @@ function frames(full, short, clear) {
     emit("frame")
 }
 
+# An opaque layer over what is there. More of them would say nothing: who sees that a layer is hidden by the next one draws
+# the last alone.
+function one_layer() {
+    ready("clear color 0 0 0 1 depth 1")
+    measured()
+    play(1, "layer")
+    emit("frame")
+    less()
+    play(1, "layer")
+    emit("frame")
+}
+
 # --- Fills -----------------------------------------------------------------------------------------------------
 
 function fills() {
@@ -153,13 +165,13 @@ function fills() {
 
 function textures() {
     taps = " texels of 4 bytes a pixel gathered from the second-level cache, and "
-    begin("nearest", "Texture: 16 layers of one RGBA8 texture of 256 x 256, repeated 4 times, nearest.",
+    begin("nearest", "Texture: a layer of one RGBA8 texture of 256 x 256, repeated 4 times, nearest.",
           "1" taps "storing 4 bytes.")
-    plain(); texture_alone(); quad(0.001, 4.001); filter(0, "point"); layer("draw strip 0 2"); frames(16, 2)
+    plain(); texture_alone(); quad(0.001, 4.001); filter(0, "point"); layer("draw strip 0 2"); one_layer()
 
-    begin("bilinear", "Texture: 16 layers of one RGBA8 texture of 256 x 256, repeated 4 times, bilinear.",
+    begin("bilinear", "Texture: a layer of one RGBA8 texture of 256 x 256, repeated 4 times, bilinear.",
           "4" taps "12 linear interpolations.")
-    plain(); texture_alone(); quad(0.001, 4.001); filter(0, "linear"); layer("draw strip 0 2"); frames(16, 2)
+    plain(); texture_alone(); quad(0.001, 4.001); filter(0, "linear"); layer("draw strip 0 2"); one_layer()
 
     begin("bilinear-one", "Texture: a clear and one layer of one RGBA8 texture, bilinear, a frame.",
           "4" taps "12 linear interpolations; and by how soon all is done.")
@@ -169,7 +181,7 @@ function textures() {
           "4" taps "12 linear interpolations and 8 products, a load and a store of 4 bytes.")
     plain(); texture_alone(); quad(0.001, 4.001); filter(0, "linear"); blend("srcalpha"); layer("draw strip 0 2"); frames(16, 2)
 
-    begin("bilinear-perspective", "Texture: 16 bilinear layers in perspective, w from 1 to 2.",
+    begin("bilinear-perspective", "Texture: a bilinear layer in perspective, w from 1 to 2.",
           "4" taps "12 linear interpolations and a division.")
     plain(); texture_alone()
     emit("vertices quad position:float4 texcoord:float2 {")
@@ -179,9 +191,9 @@ function textures() {
     emit("     2 -2 0 2   4.001 4.001")
     emit("}")
     emit("bind vertices quad")
-    filter(0, "linear"); layer("draw strip 0 2"); frames(16, 2)
+    filter(0, "linear"); layer("draw strip 0 2"); one_layer()
 
-    begin("trilinear", "Texture: 8 layers, repeated 11 times, bilinear in two levels of detail with linear interpolation between them.",
+    begin("trilinear", "Texture: a layer, repeated 11 times, bilinear in two levels of detail with linear interpolation between them.",
           "8" taps "28 linear interpolations, and by the level of detail.")
     plain(); checker(1)
     emit("bind texture checker")
@@ -189,11 +201,11 @@ function textures() {
     emit("stage 0 colorarg1 texture")
     emit("stage 0 alphaop selectarg1")
     emit("stage 0 alphaarg1 texture")
-    quad(0.001, 11.001); filter(0, "linear", "linear"); layer("draw strip 0 2"); frames(8, 1)
+    quad(0.001, 11.001); filter(0, "linear", "linear"); layer("draw strip 0 2"); one_layer()
 
-    begin("two-textures", "Texture: 8 layers of two bilinear textures, multiplied.",
+    begin("two-textures", "Texture: a layer of two bilinear textures, multiplied.",
           "8" taps "24 linear interpolations and 4 products.")
-    two("quad", 0.001, 4.001, 0); frames(8, 1)
+    two("quad", 0.001, 4.001, 0); one_layer()
 }
 
 function two(name, low, high, clamped,   i) {
@@ -213,25 +225,25 @@ function two(name, low, high, clamped,   i) {
 
 # What a renderer of rectangles is made for: no perspective, no repetition, textures a little magnified.
 function rectangles() {
-    about = "Rectangles: 16 layers, clamped, u and v from 0 to 0.9, "
+    about = "Rectangles: clamped, u and v from 0 to 0.9, "
     taps = " texels of 4 bytes a pixel, which are neighbours along a row, and by "
     begin("rectangle-blend", "Rectangles: 32 layers of a constant colour, blended, premultiplied.",
           "a load and a store of 4 bytes a pixel in the first-level cache, and one product a channel.")
     plain(); constant_color("48362412"); quad(0, 1); blend("one"); layer("draw strip 0 2"); frames(32, 4)
 
     begin("rectangle-nearest", about "nearest.", "loading 1" taps "storing 4 bytes.")
-    plain(); texture_alone(); quad(0, 0.9); filter(0, "point"); clamp(0); layer("draw strip 0 2"); frames(16, 2)
+    plain(); texture_alone(); quad(0, 0.9); filter(0, "point"); clamp(0); layer("draw strip 0 2"); one_layer()
 
     begin("rectangle-bilinear", about "bilinear.", "loading 4" taps "12 linear interpolations.")
-    plain(); texture_alone(); quad(0, 0.9); filter(0, "linear"); clamp(0); layer("draw strip 0 2"); frames(16, 2)
+    plain(); texture_alone(); quad(0, 0.9); filter(0, "linear"); clamp(0); layer("draw strip 0 2"); one_layer()
 
-    begin("rectangle-bilinear-blend", about "bilinear, blended, premultiplied.",
+    begin("rectangle-bilinear-blend", about "16 layers, bilinear, blended, premultiplied.",
           "loading 4" taps "12 linear interpolations and 4 products, a load and a store of 4 bytes.")
     plain(); texture_alone(); quad(0, 0.9); filter(0, "linear"); clamp(0); blend("one"); layer("draw strip 0 2"); frames(16, 2)
 
-    begin("rectangle-two-textures", "Rectangles: 8 layers, clamped, u and v from 0 to 0.9, two bilinear textures, multiplied.",
+    begin("rectangle-two-textures", "Rectangles: clamped, u and v from 0 to 0.9, two bilinear textures, multiplied.",
           "loading 8" taps "24 linear interpolations and 4 products.")
-    two("quad", 0, 0.9, 1); frames(8, 1)
+    two("quad", 0, 0.9, 1); one_layer()
 }
 
 # --- Arithmetic ------------------------------------------------------------------------------------------------
@@ -267,24 +279,24 @@ function repeated(text, count,   all) { while (count-- > 0) all = all "\n" text;
 function arithmetic() {
     corners = " -1 1 0 1  -0.6 0.7 1 1  -1 1 0; 1 1 0 1  0.8 0.5 1 1  1 1 0; -1 -1 0 1  -0.5 -0.6 1 1  -1 -1 0;" \
               " 1 -1 0 1  0.9 -0.8 1 1  1 -1 0"
-    begin("multiply-add", "Arithmetic: 4 layers of 64 dependent multiply-adds of four components a pixel.",
+    begin("multiply-add", "Arithmetic: 64 dependent multiply-adds of four components a pixel.",
           "256 multiply-adds of one number a pixel, which wait for one another unless other pixels fill the time.")
     shaded(" -1 1 0 1  0.1 0.9 0.3 1  0 0 0; 1 1 0 1  0.7 0.7 0.2 1  0 0 0; -1 -1 0 1  0.3 0.2 0.9 1  0 0 0;" \
            " 1 -1 0 1  0.9 0 0.8 1  0 0 0")
     shader("ps_3_0\ndcl_texcoord v0\nmov r1, c1\nmov r0, v0" repeated("mad r0, r0, c0, r1", 64) "\nmov oC0, r0")
     emit("pixelconstant 0 0.99 0.985 0.99 1")
     emit("pixelconstant 1 0.002 0.003 0.004 0")
-    layer("draw strip 0 2"); frames(4, 1)
+    layer("draw strip 0 2"); one_layer()
 
-    begin("normalize", "Arithmetic: 2 layers of 16 times n = normalize(v + (exp2 n.y, sin n.x, pow n.z)).",
+    begin("normalize", "Arithmetic: 16 times n = normalize(v + (exp2 n.y, sin n.x, pow n.z)).",
           "16 times a sine, three exponentials and logarithms, a square root and a division a pixel.")
     shaded(corners)
     shader("ps_3_0\ndef c1, 1.5, 0.5, 0, 1\ndcl_texcoord v0\nmov r0, v0" \
            repeated("exp r1.x, r0.y\nsincos r1.y, r0.x\npow r1.z, r0.z, c1.x\nadd r2.xyz, r1, v0\nnrm r0.xyz, r2", 16) \
            "\nmad r0.xyz, r0, c1.y, c1.y\nmov r0.w, c1.w\nmov oC0, r0")
-    layer("draw strip 0 2"); frames(2, 1)
+    layer("draw strip 0 2"); one_layer()
 
-    begin("phong", "Arithmetic: 8 layers of Phong's lighting a pixel: 3 normalisations, a reflection, power 32.",
+    begin("phong", "Arithmetic: Phong's lighting a pixel: 3 normalisations, a reflection, power 32.",
           "about 60 multiply-adds, 3 square roots and divisions, a logarithm and an exponential a pixel.")
     shaded(corners)
     shader("ps_3_0\ndef c5, 0, 32, 0, 1\ndcl_texcoord v0\ndcl_texcoord1 v1\n" \
@@ -296,7 +308,7 @@ function arithmetic() {
     emit("pixelconstant 2 0.2 0.4 0.7 0")
     emit("pixelconstant 3 0.05 0.05 0.1 1")
     emit("pixelconstant 4 0.8 0.8 0.6 0")
-    layer("draw strip 0 2"); frames(8, 1)
+    layer("draw strip 0 2"); one_layer()
 }
 
 # --- Triangles -------------------------------------------------------------------------------------------------

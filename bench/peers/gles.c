@@ -459,7 +459,8 @@ const char *renderer_frame(bool less)
         if (failed)
             return failed;
     }
-    gl.Clear(GL_COLOR_BUFFER_BIT | GL_DEPTH_BUFFER_BIT);
+    if (workload->kind != LAYER)
+        gl.Clear(GL_COLOR_BUFFER_BIT | GL_DEPTH_BUFFER_BIT);
     for (unsigned i = 0; i < (less ? workload->less : workload->full); i++)
         draw_layer(i);
     gl.Finish();

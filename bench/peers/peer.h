@@ -23,9 +23,9 @@
 
 enum { SIDE = 1024, PIXELS = SIDE * SIDE };
 
-enum kind { FRAME, READ, BUILD };
+enum kind { FRAME, LAYER, READ, BUILD };
 enum rate { MPIX, MTRI, KDRAW, MS };
-enum group { CORE, TABLE, RECTANGLE, EXTRA };
+enum group { CORE, HIDDEN, TABLE, RECTANGLE, EXTRA };
 
 struct workload {
     const char *name;

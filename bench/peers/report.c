@@ -352,12 +352,14 @@ static unsigned means_of(const struct run *run, struct mean means[MEANS_MAXIMUM]
 {
     enum {
         CORE_ONLY = 1 << CORE,
-        FIRST = 1 << CORE | 1 << TABLE,
-        ALL_GROUPS = 15,
-        RECTANGLES = 1 << RECTANGLE
+        FILLED = CORE_ONLY | 1 << HIDDEN,
+        FIRST = FILLED | 1 << TABLE,
+        RECTANGLES = 1 << RECTANGLE,
+        ALL_GROUPS = FIRST | RECTANGLES | 1 << EXTRA
     };
     const struct pair pairs[] = {
         {run->engine, "llvmpipe", ONE, CORE_ONLY, "one core, fills to triangles"},
+        {run->engine, "llvmpipe", ONE, FILLED, "one core, hidden layers too"},
         {run->engine, NULL, ONE, FIRST, "one core: the best peer, first table"},
         {run->engine, NULL, ONE, RECTANGLES, "one core: the best peer, rectangles"},
         {"stitch", "llvmpipe", ONE, CORE_ONLY, "one core, fills to triangles"},
@@ -382,7 +384,7 @@ static unsigned means_of(const struct run *run, struct mean means[MEANS_MAXIMUM]
             continue;
         struct mean mean = {.name = run->renderers[i].name, .text = "all cores against one, all workloads"};
         for (unsigned w = 0; w < run->count; w++)
-            if (run->workloads[w]->kind == FRAME && run->workloads[w]->rate != MS)
+            if (run->workloads[w]->rate != MS)
                 mean_add(&mean, speed_up(run, w, i), run->workloads[w]->name);
         means[count++] = mean;
     }

@@ -190,7 +190,8 @@ extern "C" const char *renderer_frame(bool less)
 {
     if (!program)
         make_program();
-    Clear(GL_COLOR_BUFFER_BIT | GL_DEPTH_BUFFER_BIT);
+    if (workload->kind != LAYER)
+        Clear(GL_COLOR_BUFFER_BIT | GL_DEPTH_BUFFER_BIT);
     for (unsigned i = 0; i < (less ? workload->less : workload->full); i++)
         DrawElementsInstanced(GL_TRIANGLES, 6, GL_UNSIGNED_SHORT, scene->geometry == QUADS ? i * 12 : 0, 1);
     GetColorBuffer(0, true, nullptr, nullptr, nullptr); // carries out a clear that was put off
