@@ -13,7 +13,7 @@ position(list, name) = (sum [i = 1:words(list)] (word(list, i) eq name ? i : 0))
 workloads = distinct("stream")
 renderers = distinct("engine")
 count = words(workloads)
-colors = "#9a9a9a #000000 #e69f00 #56b4e9 #009e73 #cc79a7 #d55e00 #0072b2"
+colors = "#9a9a9a #000000 #e69f00 #56b4e9 #009e73 #cc79a7 #b8860b #0072b2 #d5002e #7f3fbf #6b8e23"
 
 set datafile separator comma
 set datafile columnheaders
