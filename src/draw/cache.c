@@ -251,6 +251,12 @@ static struct routine *build(struct cache *cache, enum unit unit, const union ke
     return try_build(cache, unit, key, error);
 }
 
+/* What calls of an engine's routines are padded to, which do not say it themselves. */
+static uint32_t padded_to(const struct engine *engine)
+{
+    return engine->width && engine->width < LANES_MAXIMUM ? (uint32_t)engine->width : LANES_MAXIMUM;
+}
+
 static struct cache_entry *insert(struct cache *cache, enum unit unit, const union key *key,
                                   const struct packed_key *packed, uint64_t hash, struct error *error)
 {
@@ -265,8 +271,8 @@ static struct cache_entry *insert(struct cache *cache, enum unit unit, const uni
         return NULL;
     }
     entry->routine->number = ++cache->next_number;
-    entry->routine->lanes =
-        cache->engine->width < LANES_MAXIMUM ? (uint32_t)cache->engine->width : LANES_MAXIMUM;
+    if (!entry->routine->lanes)
+        entry->routine->lanes = padded_to(cache->engine);
     entry->routine->hits = 0;
     entry->routine->entry = entry;
     if (unit == UNIT_PIXEL) {

@@ -41,10 +41,10 @@ struct routine {
     uint32_t data_bytes;     /* held besides the code: what an interpreter works from */
     const char *granularity; /* stitch: "stage" or "operation", what its fragments are; null elsewhere */
     uint64_t build_ns;       /* set by the cache around build() */
-    uint32_t
-        lanes; /* calls have a multiple of so many: the engine's width, or LANES_MAXIMUM; set by the cache */
-    uint32_t number;           /* identity in dumps and reports, from 1, set by the cache */
-    uint64_t hits;             /* set by the cache */
+    uint32_t lanes;          /* calls have a multiple of so many; 0 when it is built: the engine's width, or
+                                LANES_MAXIMUM where that is not less or none, set by the cache */
+    uint32_t number;         /* identity in dumps and reports, from 1, set by the cache */
+    uint64_t hits;           /* set by the cache */
     struct routine_time *time; /* set by the cache; null: not measured */
     struct cache_entry *entry; /* the cache's own */
     uint16_t traits;           /* of a pixel routine (draw/hidden.h), set by the cache */

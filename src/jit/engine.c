@@ -168,7 +168,10 @@ static struct routine *build_for(const struct engine *engine, struct code_arena 
                                  const union key *key, struct error *error)
 {
     const struct order order = {.options = *engine_options(engine, unit)};
-    return build_with(engine, &order, arena, unit, key, error);
+    struct routine *routine = build_with(engine, &order, arena, unit, key, error);
+    if (routine)
+        routine->lanes = (uint32_t)order.options.width;
+    return routine;
 }
 
 #define SPECIALIZE(id, text, lanes, passes, meaning)                                                         \

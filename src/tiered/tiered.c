@@ -202,7 +202,7 @@ static int describe(const struct routine *routine, struct debug_code *code, stru
 const struct engine engine_tiered = {
     .name = "tiered",
     .description = "stitched at once, specialized in the background, calls go there when that is ready",
-    .width = 8,
+    .width = 0,
     .unavailable = unavailable,
     .build = build,
     .free = free_routine,
@@ -213,7 +213,7 @@ const struct engine engine_tiered_swap = {
     .name = "tiered-swap",
     .description =
         "tiered, not left to the clock: first calls are stitched, second ones wait for the specialized",
-    .width = 8,
+    .width = 0,
     .unavailable = unavailable,
     .build = build_swapping,
     .free = free_routine,
