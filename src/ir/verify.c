@@ -187,7 +187,7 @@ static const char *verify_instruction(struct walk *walk, const struct ir_instruc
 
 const char *ir_verify(const struct ir *ir)
 {
-    static struct walk walk;
+    static _Thread_local struct walk walk;
     memset(walk.type, 0, sizeof walk.type);
     memset(walk.holds, 0, sizeof walk.holds);
     walk.ir = ir;
