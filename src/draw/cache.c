@@ -156,6 +156,7 @@ static bool evict_oldest(struct cache *cache)
 {
     if (cache->idle.previous == &cache->idle)
         return false;
+    int reason = errno; /* of a failure for which this makes room */
     struct cache_entry *entry = ENTRY_OF(cache->idle.previous, idle);
     struct cache_entry **at = bucket_of(cache, entry->hash);
     while (*at != entry)
@@ -169,6 +170,7 @@ static bool evict_oldest(struct cache *cache)
     debug_remove(entry->record);
     cache->engine->free(cache->arena, entry->routine);
     free(entry);
+    errno = reason;
     return true;
 }
 
