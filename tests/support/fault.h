@@ -37,6 +37,7 @@ static struct fault {
     atomic_flag lock;
     bool armed, onwards; /* `onwards`: not only request number `at` is refused but all after it */
     bool only_threads;   /* memory is neither counted nor refused */
+    bool alone;          /* only the requests of the thread that armed it count: others ask when they like */
     bool watching;
     pthread_t thread;    /* that armed it */
     unsigned long count; /* requests since it was armed, from 1 */
@@ -157,6 +158,8 @@ static void fault_note_site(void *const *frames, int count)
 static FAULT_PLAIN __attribute__((noinline)) bool fault_refuses(void *caller)
 {
     if (!fault.armed || fault.only_threads || fault_is_foreign(caller))
+        return false;
+    if (fault.alone && !pthread_equal(pthread_self(), fault.thread))
         return false;
 #ifdef FAULT_SANITIZED
     if (!pthread_equal(pthread_self(), fault.thread)) /* the sanitizers' own needs when a thread begins */
