@@ -11,7 +11,6 @@
 #include "draw/derive.h"
 #include "draw/device.h"
 
-#include <errno.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -210,9 +209,7 @@ static int use_routines(struct triptych_device *device, struct error *error)
         }
         const struct routine *routine = cache_acquire(device->cache, unit, &device->key[unit], error);
         if (!routine) {
-            int reason = errno;
             let_go(device, before);
-            errno = reason;
             return -1;
         }
         hold(device, unit, routine);

@@ -14,7 +14,6 @@
 #include "stitch/stitch.h"
 #include "tiered/background.h"
 
-#include <errno.h>
 #include <stdlib.h>
 
 enum { TIERS = 2 };
@@ -182,7 +181,6 @@ static void free_routine(struct code_arena *arena, struct routine *routine)
     struct tiered *tiered = tiered_of(routine);
     if (!tiered)
         return;
-    int reason = errno; /* of a failure for which this makes room */
     background_cancel(&tiered->job);
     background_end();
     let_go_of_program(tiered);
@@ -190,7 +188,6 @@ static void free_routine(struct code_arena *arena, struct routine *routine)
         if (tiered->tier[i])
             tiers[i]->free(arena, tiered->tier[i]);
     free(tiered);
-    errno = reason;
 }
 
 /* Of the first tier, which is there when somebody is told. */

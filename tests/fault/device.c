@@ -427,7 +427,6 @@ static void on_engines(scene *draw)
     bool soak = getenv("TRIPTYCH_SOAK") != NULL;
     for (unsigned i = 0; triptych_engine_name(i); i++) {
         engine = triptych_engine_name(i);
-        fault.alone = !strncmp(engine, "tiered", 6); /* what is done in the background has no order */
         if (triptych_engine_unavailable(i) ||
             (engine_at(i)->on_request && (!soak || !strcmp(engine, "external"))))
             continue;

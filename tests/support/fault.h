@@ -37,7 +37,6 @@ static struct fault {
     atomic_flag lock;
     bool armed, onwards; /* `onwards`: not only request number `at` is refused but all after it */
     bool only_threads;   /* memory is neither counted nor refused */
-    bool alone;          /* only the requests of the thread that armed it count: others ask when they like */
     bool watching;
     pthread_t thread;    /* that armed it */
     unsigned long count; /* requests since it was armed, from 1 */
@@ -58,6 +57,9 @@ static struct fault {
     uint64_t (*seen)(void *const *frames,
                      int count); /* of each request, before it is granted or refused; or null */
 } fault = {.lock = ATOMIC_FLAG_INIT};
+
+/* In each thread: it is deciding, and what the unwinder asks for meanwhile is granted. */
+static _Thread_local bool fault_inside;
 
 /* What forks were refused counts too. */
 static struct fault_sites {
@@ -157,22 +159,17 @@ static void fault_note_site(void *const *frames, int count)
 /* Whether this request is refused. `caller`: who asks. */
 static FAULT_PLAIN __attribute__((noinline)) bool fault_refuses(void *caller)
 {
-    if (!fault.armed || fault.only_threads || fault_is_foreign(caller))
-        return false;
-    if (fault.alone && !pthread_equal(pthread_self(), fault.thread))
+    if (!fault.armed || fault.only_threads || fault_inside || fault_is_foreign(caller))
         return false;
 #ifdef FAULT_SANITIZED
     if (!pthread_equal(pthread_self(), fault.thread)) /* the sanitizers' own needs when a thread begins */
         return false;
 #endif
+    fault_inside = true;
     fault_lock();
-    bool was_armed = fault.armed;
-    fault.armed = false; /* what the unwinder itself may ask for */
+    unsigned long number = ++fault.count;
     fault_unlock();
-    if (!was_armed)
-        return false;
-    fault.count++;
-    bool refuses = fault.count == fault.at || (fault.onwards && fault.count > fault.at);
+    bool refuses = number == fault.at || (fault.onwards && number > fault.at);
     if (refuses || fault.seen) {
         void *frames[FAULT_FRAMES];
         int count = fault_backtrace(caller, frames);
@@ -180,12 +177,14 @@ static FAULT_PLAIN __attribute__((noinline)) bool fault_refuses(void *caller)
             fault.stack = fault.seen(frames, count);
         for (int i = 0; i < count && i < 4; i++) /* what the C library asks for in their name */
             refuses &= !fault_is_foreign(frames[i]);
+        fault_lock();
         if (refuses)
             fault_note_site(frames, count);
+        fault.refused += refuses;
+        fault.total += refuses;
+        fault_unlock();
     }
-    fault.refused += refuses;
-    fault.total += refuses;
-    fault.armed = true;
+    fault_inside = false;
     if (refuses)
         errno = ENOMEM;
     return refuses;
