@@ -60,6 +60,10 @@ struct texture_level {
 /* Levels further away than this are further than any texture has. */
 #define LOD_BIAS_MAXIMUM 64.0f
 
+/* Behind a texture's last texel there is room for so many rows of its longest and so many texels more, which routines may
+ * read whatever they hold: they load texels by windows (jit/gather_window.c). */
+enum { TEXTURE_MARGIN_ROWS = 4, TEXTURE_MARGIN_TEXELS = 8 };
+
 struct texture_job {
     const uint32_t *texels; /* rows of `pitch` RGBA8 words, red in the low byte */
     int32_t width;          /* texels, 1 to 8192; of the level that is sampled when no other is */

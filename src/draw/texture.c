@@ -109,7 +109,9 @@ static void clear_texels(struct triptych_texture *texture, size_t bytes)
 static enum triptych_result allocate(struct triptych_texture *texture, struct error *error)
 {
     size_t bytes = texture_storage_bytes(texture);
-    size_t rounded = (bytes + TEXTURE_ALIGNMENT - 1) & ~(size_t)(TEXTURE_ALIGNMENT - 1);
+    size_t margin = TEXTURE_MARGIN_ROWS * (size_t)texture->level[0].pitch + TEXTURE_MARGIN_TEXELS;
+    size_t room = bytes + margin * format_texel_bytes(texture->format);
+    size_t rounded = (room + TEXTURE_ALIGNMENT - 1) & ~(size_t)(TEXTURE_ALIGNMENT - 1);
     texture->texels = aligned_alloc(TEXTURE_ALIGNMENT, rounded);
     if (!texture->texels) {
         error_set(error, "out of memory for a texture of %ux%u texels", texture->width, texture->height);

@@ -8,6 +8,8 @@
  * other wherever it wraps around: it reads both at once. Who changes texels closes their rows
  * (texture_close_rows). Outside of here nobody sees that texel.
  *
+ * Behind the last texel there is a margin that may be read, and holds nothing (draw/job.h).
+ *
  * The size of level l is that of level 0 divided by 2^l, rounded down, at least 1. Every texel's index within
  * the allocation is below 2^30, so that generated code addresses words with 32 bits.
  *

@@ -38,6 +38,7 @@ const struct ir_op_information ir_op_information[IR_OP_COUNT] = {
     [IR_phi] = {"phi", TYPE_non, {0}, 1, IR_PLACED},
     [IR_next] = {"next", TYPE_non, {0}, 2, IR_EFFECT},
     [IR_join] = {"join", TYPE_non, {0}, 2, IR_PLACED},
+    [IR_window] = {"window", TYPE_non, {TYPE_itg, TYPE_itg, TYPE_itg}, 3, IR_EFFECT},
     [IR_permute] = {"permute", TYPE_flt, {TYPE_flt}, 1, IR_SHIFTS},
 };
 
@@ -155,6 +156,8 @@ void ir_print_instruction(const struct ir *ir, uint32_t number, FILE *out)
         fprintf(out, " %d", (int)i->k);
     else if (i->op == IR_set || i->op == IR_get)
         fprintf(out, " variable %d", (int)i->k);
+    else if (i->op == IR_window)
+        fprintf(out, " %s[%d]-> pitch +%d", base_name[i->base], (int)i->field, (int)i->k);
     if (i->line)
         fprintf(out, "    ; %s:%u", ir->file[i->file], i->line);
     fputc('\n', out);

@@ -29,6 +29,8 @@
  *   join a b                    directly behind an `end`: b if the region ran, else a; b may be of the region
  *   constant k                  slot k of the frame's constants, filled before the loop (hoist.c)
  *   permute a k                 lanes change places within each four: lane l takes lane (k >> 2 * l) & 3
+ *   window a b c field k        the gathers that follow read words of the pointer at field, at a + b * pitch and, of four,
+ *                               at a + c * pitch too, the pitch being the word at base + k: a hint (jit/window.c)
  * The number of lanes appears nowhere here: the same recording serves every W. */
 #ifndef IR_IR_H
 #define IR_IR_H
@@ -67,6 +69,7 @@ enum ir_op {
     IR_phi,
     IR_next,
     IR_join,
+    IR_window,
     IR_OP_COUNT
 };
 

@@ -81,6 +81,7 @@ static size_t build_stages(struct builder *b, const struct build_options *option
         error_set(error, "the %s routine takes more than %d operations", unit_name[unit], IR_CAPACITY - 1);
         return 0;
     }
+    b->pass.lanes = options->width;
     if (optimize_checked(b, options, observer, context, error))
         return 0;
     struct register_file file = options->file;

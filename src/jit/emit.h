@@ -156,6 +156,10 @@ void write_moves(struct emitter *emitter);
  */
 void select_gather(struct emitter *emitter, const struct ir_instruction *instruction);
 
+/* Writes the gathers behind the window at the current position, if their texels can be chosen in registers
+ * (gather_window.c). */
+void select_window(struct emitter *emitter, const struct ir_instruction *instruction);
+
 /* Writes the scatter at the current position, and with it those that follow of neighbouring words (scatter.c). */
 void select_scatter(struct emitter *emitter, const struct ir_instruction *instruction);
 

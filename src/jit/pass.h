@@ -75,6 +75,7 @@ struct preload_memory {
 
 /* Scratch memory of the passes, one per build. */
 struct pass_memory {
+    unsigned lanes; /* that the routine will have, if that is known */
     struct range range[IR_CAPACITY];
     uint16_t map[IR_CAPACITY];
     uint16_t region[IR_CAPACITY];
@@ -91,7 +92,7 @@ struct pass_memory {
 typedef unsigned pass_function(struct ir *ir, struct pass_memory *memory);
 
 pass_function pass_phi, pass_copy, pass_fold, pass_reduce, pass_common, pass_dead, pass_invariant, pass_hoist,
-    pass_preload;
+    pass_preload, pass_window;
 
 /* Fills memory->range for every value (range.c). Rounds as the contract does: run under its MXCSR. */
 void range_analyse(const struct ir *ir, struct pass_memory *memory);

@@ -613,6 +613,7 @@ static void select_instruction(struct emitter *m, const struct ir_instruction *i
 {
     switch (i->op) {
     case IR_gather: select_gather(m, i); break;
+    case IR_window: select_window(m, i); break;
     case IR_scatter: select_scatter(m, i); break;
     case IR_when: select_when(m, i); break;
     case IR_end: select_end(m); break;

@@ -62,18 +62,23 @@ static inline itg texel(struct env *e, const struct sampler *s, const struct axi
     return word;
 }
 
-/* The two texels of a row that are blended along u. */
-static inline void texel_pair(struct env *e, const struct sampler *s, const struct axis *axis, int j, int k,
-                              itg row, itg pair[2])
+/* The texels of two rows that are blended along u and v: all of them are asked for together, since they are neighbours. */
+static inline void texel_square(struct env *e, const struct sampler *s, const struct axis *axis, int k,
+                                const itg row[2], itg texels[2][2])
 {
-    if (axis[0].adjoining) {
-        itg index = add_i(E, row, axis[0].index[0]);
-        pair[0] = gather_i(E, BASE_JOB, TEXTURE_FIELD(s->k->number, texels), index, 4, 0);
-        pair[1] = gather_i(E, BASE_JOB, TEXTURE_FIELD(s->k->number, texels), index, 4, 4);
-    } else {
-        pair[0] = texel(E, s, axis, 0, j, k, row);
-        pair[1] = texel(E, s, axis, 1, j, k, row);
+    int field = TEXTURE_FIELD(s->k->number, texels);
+    if (!axis[0].adjoining) {
+        for (int j = 0; j < 2; j++)
+            for (int i = 0; i < 2; i++)
+                texels[j][i] = texel(E, s, axis, i, j, k, row[j]);
+        return;
     }
+    itg upper = add_i(E, row[0], axis[0].index[0]);
+    itg lower = add_i(E, row[1], axis[0].index[0]);
+    texels[0][0] = gather_i(E, BASE_JOB, field, upper, 4, 0);
+    texels[0][1] = gather_i(E, BASE_JOB, field, upper, 4, 4);
+    texels[1][0] = gather_i(E, BASE_JOB, field, lower, 4, 0);
+    texels[1][1] = gather_i(E, BASE_JOB, field, lower, 4, 4);
 }
 
 static inline fix lerp_256(struct env *e, fix a, fix b, fix inverse, fix weight)
@@ -104,11 +109,10 @@ static inline struct color lerp_texels(struct env *e, itg a, itg b, fix inverse,
 static inline struct color sample_slice(struct env *e, const struct sampler *s, const struct level *l,
                                         const struct axis *axis, int k, itg pitch)
 {
-    itg texels[2][2];
-    itg upper_row = texel_row(E, s, l, axis, 0, k, pitch);
-    texel_pair(E, s, axis, 0, k, upper_row, texels[0]);
-    itg lower_row = texel_row(E, s, l, axis, 1, k, pitch);
-    texel_pair(E, s, axis, 1, k, lower_row, texels[1]);
+    itg row[2], texels[2][2];
+    row[0] = texel_row(E, s, l, axis, 0, k, pitch);
+    row[1] = texel_row(E, s, l, axis, 1, k, pitch);
+    texel_square(E, s, axis, k, row, texels);
     fix inverse_u = sub_x(E, lit_x(E, 256), axis[0].weight);
     fix inverse_v = sub_x(E, lit_x(E, 256), axis[1].weight);
     struct color upper = lerp_texels(E, texels[0][0], texels[0][1], inverse_u, axis[0].weight);

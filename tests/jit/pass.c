@@ -36,6 +36,7 @@ void tearDown(void)
 static void optimize_under_contract(enum profile profile, uint32_t disabled)
 {
     unsigned saved = mxcsr_enter();
+    builder->pass.lanes = 16;
     optimize(&builder->ir, &builder->pass, profile, disabled, NULL, NULL);
     mxcsr_leave(saved);
 }

@@ -104,6 +104,7 @@ static unsigned prepare(generator *make, uint64_t number, unsigned longest, uint
     expected = given;
     program_interpret(&builder->ir, &expected, width);
     unsigned saved = mxcsr_enter();
+    builder->pass.lanes = width;
     optimize(&builder->ir, &builder->pass, PROFILE_FULL, disabled[program_random(seed) % 4], NULL, NULL);
     mxcsr_leave(saved);
     return width;

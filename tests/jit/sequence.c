@@ -147,6 +147,7 @@ static void test_long_programs(void)
 int main(void)
 {
     UNITY_BEGIN();
+    memory.lanes = 16;
     RUN_TEST(test_straight_programs);
     RUN_TEST(test_programs_with_loops_and_variables);
     RUN_TEST(test_programs_that_no_recording_is);

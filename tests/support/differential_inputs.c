@@ -346,7 +346,7 @@ static void make_detail(struct differential *d, int sampler)
     texture->lod_offset = number(d, -256 * 14, 256);
 }
 
-/* The image's last row ends with the last word before the fence. Rows do not end with their first texels: which
+/* The margin behind the image's last row ends with the last word before the fence. Rows do not end with their first texels: which
  * of the two an engine reads, it has to read where the specification does. */
 static void make_texture(struct differential *d, struct sampler_key key)
 {
@@ -358,7 +358,8 @@ static void make_texture(struct differential *d, struct sampler_key key)
     int32_t chain = make_levels(side, d->levels[key.number]), image = (side[0] + 1) * side[1] * side[2];
     texture->face_texels = key.mip ? chain : image;
     int32_t texels = kind == TEXTURE_CUBE ? 6 * texture->face_texels : texture->face_texels;
-    texture->texels = (const uint32_t *)(void *)(d->texels + TEXTURE_BYTES) - words * texels;
+    int32_t margin = TEXTURE_MARGIN_ROWS * (side[0] + 1) + TEXTURE_MARGIN_TEXELS;
+    texture->texels = (const uint32_t *)(void *)(d->texels + TEXTURE_BYTES) - words * (texels + margin);
     texture->width = side[0];
     texture->height = side[1];
     texture->depth = side[2];

@@ -17,7 +17,8 @@ void placement_wrong(struct check *c, const char *format, ...)
     va_end(arguments);
 }
 
-/* Around a region, to the moves of the way into it, back to a loop's head, or out of the loop. */
+/* Around a region, to the moves of the way into it, to one of a window's ways, back to a loop's head, or out of the
+ * loop. */
 void placement_run_jump(struct check *c)
 {
     const struct ir_instruction *i = placement_operation(c, c->number);
@@ -28,9 +29,12 @@ void placement_run_jump(struct check *c)
         unsigned region = c->regions; /* opened behind this operation's code */
         places_copy(c, &c->skipped[region], &c->now);
         c->skipped_to[region] = to;
-    } else if (i->op == IR_when || zero) {
-        places_copy(c, &c->local, &c->now);
-        c->local_to = to;
+    } else if (i->op == IR_when || i->op == IR_window || zero) {
+        unsigned n = 0;
+        while (n < LOCAL_JUMPS - 1 && c->local[n].reached)
+            n++;
+        places_copy(c, &c->local[n], &c->now);
+        c->local_to[n] = to;
     } else if (i->op == IR_again) {
         struct loop_state *loop = &c->loop[c->loops - 1];
         struct places around = {0};
@@ -134,7 +138,9 @@ static void start(struct check *c, const struct builder *b)
     c->m = &b->emitter;
     c->places = SLOTS + b->allocation.slots;
     c->visit = c->line = c->regions = c->loops = c->offset = 0;
-    c->wrong = c->again = c->local.reached = false;
+    c->wrong = c->again = false;
+    for (unsigned n = 0; n < LOCAL_JUMPS; n++)
+        c->local[n].reached = false;
     ZydisDecoderInit(&c->decoder, ZYDIS_MACHINE_MODE_LONG_64, ZYDIS_STACK_WIDTH_64);
     c->now.at = calloc(c->places, sizeof *c->now.at);
     if (!c->now.at)
@@ -146,8 +152,11 @@ static void finish(struct check *c)
 {
     struct places none = {0};
     free(c->now.at);
-    free(c->local.at);
-    c->now = c->local = none;
+    c->now = none;
+    for (unsigned n = 0; n < LOCAL_JUMPS; n++) {
+        free(c->local[n].at);
+        c->local[n] = none;
+    }
     for (unsigned n = 0; n < REGION_DEPTH; n++) {
         free(c->skipped[n].at);
         c->skipped[n] = none;

@@ -4,6 +4,14 @@
 
 /* --- Memory ------------------------------------------------------------------------------------------------- */
 
+/* How many a window has itself; those of the gathers that it covers come behind them. */
+enum { WINDOW_OPERANDS = 3 };
+
+static bool gathers(const struct ir_instruction *i)
+{
+    return i->op == IR_gather || i->op == IR_window;
+}
+
 static int lane_bytes(const struct check *c)
 {
     return (int)c->m->width * 4;
@@ -79,7 +87,7 @@ static struct content read_memory(struct check *c, const ZydisDecodedOperand *o,
     if (base == X86_RSP)
         return read_frame(c, o->mem.disp.value);
     if (o->mem.index != ZYDIS_REGISTER_NONE || base == X86_RAX) {
-        if (i->op != IR_gather)
+        if (!gathers(i))
             placement_wrong(c, "gathers");
         return (struct content){.origin = FROM_ELSEWHERE, .made_in = c->visit};
     }
@@ -137,11 +145,13 @@ static int operand_vector(const ZydisDecodedOperand *o)
     return o->type == ZYDIS_OPERAND_TYPE_REGISTER ? vector_number(o->reg.value) : -1;
 }
 
-/* The next operations that one selection covers: gathers and scatters by rows. */
+/* The next operations that one selection covers: gathers and scatters by rows, the gathers behind a window. */
 uint32_t placement_selected_end(const struct check *c)
 {
     uint32_t end = c->number + 1, next = c->line + 1 < c->m->lines ? c->m->line[c->line + 1].instruction : 0;
     unsigned op = placement_operation(c, c->number)->op;
+    if (op == IR_window)
+        op = IR_gather;
     while ((op == IR_gather || op == IR_scatter) && end < c->ir->count && end != next &&
            placement_operation(c, end)->op == op)
         end++;
@@ -151,13 +161,16 @@ uint32_t placement_selected_end(const struct check *c)
 int placement_operands(const struct check *c)
 {
     unsigned op = placement_operation(c, c->number)->op;
-    return op == IR_scatter && c->coded ? (int)(placement_selected_end(c) - c->number)
-                                        : ir_op_information[op].operands;
+    int covered = c->coded ? (int)(placement_selected_end(c) - c->number) : 1;
+    int operands = ir_op_information[op].operands;
+    return op == IR_scatter ? covered : op == IR_window ? operands + covered - 1 : operands;
 }
 
 unsigned placement_operand(const struct check *c, int o)
 {
     const struct ir_instruction *i = placement_operation(c, c->number);
+    if (i->op == IR_window && o >= WINDOW_OPERANDS)
+        return i[o - WINDOW_OPERANDS + 1].operand[0];
     return i->op == IR_scatter ? i[o].operand[0] : i->operand[o];
 }
 
@@ -233,7 +246,7 @@ static void run_constant(struct check *c)
     bool zero = c->instruction.mnemonic == ZYDIS_MNEMONIC_VXORPS;
     struct content p = {.origin = FROM_LITERAL, .number = zero ? 0 : -1};
     /* A gather's mask and what it merges into; an operation on one register twice. */
-    if (placement_operation(c, c->number)->op == IR_gather || (!zero && place_note_operands(c, before)))
+    if (gathers(placement_operation(c, c->number)) || (!zero && place_note_operands(c, before)))
         p.made_in = c->visit;
     write_register(c, (unsigned)operand_vector(&c->operand[0]), &p);
 }
@@ -250,10 +263,11 @@ static void read_operand(struct check *c, const ZydisDecodedOperand *o)
     struct content p = read_memory(c, o, FROM_LANES);
     if (p.bits)
         placement_wrong(c, "reads a mask as lanes");
-    if (i->op == IR_gather && p.origin == FROM_LANES) { /* its pointer, or the word of one lane */
+    if (gathers(i) && p.origin == FROM_LANES) { /* its pointer, a window's pitch, or the word of one lane */
         const struct ir_instruction *index = placement_operation(c, i->operand[0]);
         int64_t lane = p.number - index->k;
-        if (p.base == base_register[i->base] && p.number == i->field)
+        if (p.base == base_register[i->base] &&
+            (p.number == i->field || (i->op == IR_window && p.number == i->k)))
             return;
         if (index->op == IR_load && p.base == base_register[index->base] && lane >= 0 &&
             lane < lane_bytes(c)) {
@@ -314,10 +328,12 @@ static void run_instruction(struct check *c)
 
 static void arrive(struct check *c)
 {
-    if (!c->local.reached || c->local_to != c->offset)
-        return;
-    places_merge(c, &c->now, &c->local);
-    c->local.reached = false;
+    for (unsigned n = 0; n < LOCAL_JUMPS; n++) {
+        if (!c->local[n].reached || c->local_to[n] != c->offset)
+            continue;
+        places_merge(c, &c->now, &c->local[n]);
+        c->local[n].reached = false;
+    }
 }
 
 /* The code that was selected for the current operation, if any was. */
@@ -331,7 +347,7 @@ void placement_run_code(struct check *c)
     if (c->line + 1 >= c->m->lines || c->m->line[c->line].instruction != c->number)
         return;
     size_t end = c->m->line[c->line + 1].offset;
-    c->coded = true;
+    c->coded = placement_operation(c, c->number)->op != IR_window || end > c->m->line[c->line].offset;
     for (c->offset = c->m->line[c->line].offset; c->offset < end && !c->wrong;
          c->offset += c->instruction.length) {
         arrive(c);
@@ -346,6 +362,7 @@ void placement_run_code(struct check *c)
             placement_wrong(c, "cannot be reached");
     }
     arrive(c);
-    if (c->local.reached)
-        placement_wrong(c, "jumps out of its code");
+    for (unsigned n = 0; n < LOCAL_JUMPS; n++)
+        if (c->local[n].reached)
+            placement_wrong(c, "jumps out of its code");
 }

@@ -9,7 +9,7 @@
 #include <stdbool.h>
 
 /* Registers have the numbers that allocation gives them, masks included. */
-enum { LANES = REGISTERS, SLOTS, SET = VARIABLES + 16, DEPTH = 64 };
+enum { LANES = REGISTERS, SLOTS, SET = VARIABLES + 16, DEPTH = 64, LOCAL_JUMPS = 2 };
 
 enum origin {
     FROM_NOTHING,
@@ -59,8 +59,8 @@ struct check {
     struct places skipped[REGION_DEPTH]; /* by open region: state on the way around it */
     size_t skipped_to[REGION_DEPTH];
     struct loop_state loop[DEPTH];
-    struct places local; /* behind a jump within an operation's code */
-    size_t local_to;
+    struct places local[LOCAL_JUMPS]; /* behind a jump within an operation's code */
+    size_t local_to[LOCAL_JUMPS];
     unsigned stores;
     unsigned read; /* a bit for each operand that was read */
     bool coded;    /* the operation has code */

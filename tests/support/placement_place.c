@@ -80,8 +80,9 @@ bool place_note_operands(struct check *c, const struct content *p)
 void place_expect(struct check *c, const struct content *p, const char *where, long number)
 {
     const struct ir_instruction *i = placement_operation(c, c->number);
-    bool sign = i->op == IR_neg_f && p->origin == FROM_LITERAL && p->number == INT32_MIN;
-    if (place_note_operands(c, p) || sign || p->made_in == c->visit)
+    bool literal = p->origin == FROM_LITERAL;
+    bool own = literal && (i->op == IR_window || (i->op == IR_neg_f && p->number == INT32_MIN));
+    if (place_note_operands(c, p) || own || p->made_in == c->visit)
         return;
     if (p->count)
         placement_wrong(c, "reads %s %ld, which holds %%%u", where, number, p->value[p->count - 1]);

@@ -43,6 +43,8 @@ void program_fill(struct program_data *data, uint64_t *seed)
         data->table[i] = program_word(seed);
     for (int a = 0; a < ATTRIBUTE_COUNT; a++)
         data->job.attribute[a].data = (const uint8_t *)(data->table + a);
+    data->job.texture[0].texels = data->table;
+    data->job.texture[0].pitch = PROGRAM_PITCH;
 }
 
 struct interpreter {
@@ -108,6 +110,7 @@ static void step(struct interpreter *in, uint32_t number, unsigned lane)
     case IR_gather: *to = gather_word(in, i, a); break;
     case IR_constant: memcpy(to, (const uint8_t *)&in->data->job + in->ir->constant[i->k].offset, 4); break;
     case IR_phi: *to = a; break;
+    case IR_window: break;
     case IR_next: in->next[i->operand[0]][lane] = in->value[i->operand[1]][lane]; break;
     case IR_join: *to = in->ran[joined_end(in->ir, number)] ? in->value[i->operand[1]][lane] : a; break;
     case IR_set: in->variable[i->k][lane] = a; break;

@@ -115,10 +115,56 @@ static void make_direct_gather(struct maker *maker)
     keep(maker, i.type, ir_append(maker->ir, i));
 }
 
-/* From one place of one table, or of two. */
+static uint16_t make_integers(struct maker *maker, enum ir_op op, uint16_t a, uint16_t b)
+{
+    return ir_append(maker->ir,
+                     (struct ir_instruction){.op = (uint8_t)op, .type = TYPE_itg, .operand = {a, b}});
+}
+
+/* The texel x + y * pitch, and with `pair` its neighbour. */
+static void make_texel(struct maker *maker, uint16_t index, int pair)
+{
+    struct ir_instruction i = {.op = IR_gather,
+                               .type = TYPE_itg,
+                               .base = BASE_JOB,
+                               .scale = 4,
+                               .operand = {index},
+                               .field = (int32_t)offsetof(struct job, texture[0].texels)};
+    keep(maker, TYPE_itg, ir_append(maker->ir, i));
+    i.k = 4;
+    if (pair)
+        keep(maker, TYPE_itg, ir_append(maker->ir, i));
+}
+
+/* One texel, or four neighbours, near each other in all lanes or not. The rows are mostly y and y + 1. */
+static void make_texels(struct maker *maker)
+{
+    static const int8_t most[] = {1, 3, 7};
+    struct ir_instruction pitch = {.op = IR_uniform,
+                                   .type = TYPE_itg,
+                                   .base = BASE_JOB,
+                                   .k = (int32_t)offsetof(struct job, texture[0].pitch)};
+    struct ir_instruction one = {.op = IR_literal, .type = TYPE_itg, .k = 1};
+    uint16_t x = make_index(maker, most[program_random(maker->seed) % 3]), indices[2], y[2];
+    y[0] = make_index(maker, most[program_random(maker->seed) % 3]);
+    y[1] = program_random(maker->seed) % 4 ? make_integers(maker, IR_add_i, y[0], ir_append(maker->ir, one))
+                                           : make_index(maker, 7);
+    uint16_t words = ir_append(maker->ir, pitch);
+    int pair = program_random(maker->seed) % 2;
+    for (int row = 0; row < 2; row++)
+        indices[row] = make_integers(maker, IR_add_i, x, make_integers(maker, IR_dot_i, y[row], words));
+    for (int row = 0; row < 1 + pair; row++)
+        make_texel(maker, indices[row], pair);
+}
+
+/* From one place of one table, or of two, or texels. */
 static void make_gathers(struct maker *maker)
 {
     enum { LAST_PLACE = 0x3fc };
+    if (program_random(maker->seed) % 3 == 0) {
+        make_texels(maker);
+        return;
+    }
     if (program_random(maker->seed) % 4 == 0) {
         make_direct_gather(maker);
         return;

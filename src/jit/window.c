@@ -1,0 +1,124 @@
+/* Windows: which gathers of texels lie close together.
+ *
+ * The pixels of a block look at texels that are near each other, unless the texture is much smaller on the screen than
+ * it is: within a few rows, and a few texels of each. These few rows are loaded as they are, once for all lanes, and each
+ * lane's texel is chosen among them in registers (gather_window.c). This pass finds what reads texels by place, x + y *
+ * pitch, and puts a `window` before it that names x and y, so that both are still there:
+ *
+ *   a = add x (dot y pitch)          one gather: a texel
+ *   a, b = add x (dot y' pitch)      four gathers of neighbours, a a+1 b b+1: the texels that are blended linearly
+ *
+ * Whether lanes are near each other is found out when the routine runs. For 16 lanes only. Runs last: a window is no
+ * value and has no effect, which other passes would have to know. */
+#include "jit/pass.h"
+
+#include <string.h>
+
+/* Where a gather reads: x + y * pitch, the pitch a word of the job. */
+struct texel_place {
+    uint16_t x, y;
+    int32_t pitch;
+};
+
+/* The offset in the job of what is the same in all lanes; -1: it is no such word. */
+static int32_t job_word(const struct ir *ir, unsigned value)
+{
+    const struct ir_instruction *i = &ir->instruction[value];
+    if (i->op == IR_uniform && i->base == BASE_JOB)
+        return i->k;
+    if (i->op == IR_constant && ir->constant[i->k].base == BASE_JOB)
+        return ir->constant[i->k].offset;
+    return -1;
+}
+
+static int find_row(const struct ir *ir, unsigned row, struct texel_place *place)
+{
+    const struct ir_instruction *i = &ir->instruction[row];
+    for (int o = 0; i->op == IR_dot_i && o < 2; o++) {
+        place->y = i->operand[1 - o];
+        place->pitch = job_word(ir, i->operand[o]);
+        if (place->pitch >= 0)
+            return 1;
+    }
+    return 0;
+}
+
+static int find_place(const struct ir *ir, unsigned index, struct texel_place *place)
+{
+    const struct ir_instruction *i = &ir->instruction[index];
+    for (int o = 0; i->op == IR_add_i && o < 2; o++) {
+        place->x = i->operand[1 - o];
+        if (find_row(ir, i->operand[o], place))
+            return 1;
+    }
+    return 0;
+}
+
+/* Whether an instruction is the gather of `index`, `words` behind where `first` reads. */
+static int reads(const struct ir_instruction *i, const struct ir_instruction *first, unsigned index,
+                 int words)
+{
+    return i->op == IR_gather && i->operand[0] == index && i->base == first->base &&
+           i->field == first->field && i->scale == first->scale && i->k == first->k + 4 * words;
+}
+
+/* The window of the gathers from this one on; its op is nop if there is none. */
+static struct ir_instruction window_at(const struct ir *ir, uint32_t number)
+{
+    const struct ir_instruction *i = &ir->instruction[number];
+    struct ir_instruction none = {.op = IR_nop};
+    struct texel_place upper, lower;
+    if (i->op != IR_gather || i->field == GATHER_DIRECT || i->scale != 4 || i->k ||
+        !find_place(ir, i->operand[0], &upper))
+        return none;
+    struct ir_instruction window = {.op = IR_window,
+                                    .base = i->base,
+                                    .field = i->field,
+                                    .k = upper.pitch,
+                                    .operand = {upper.x, upper.y, upper.y},
+                                    .line = i->line,
+                                    .file = i->file};
+    if (number + 1 == ir->count || !reads(i + 1, i, i->operand[0], 1))
+        return window;
+    unsigned below = number + 2 < ir->count ? i[2].operand[0] : 0;
+    if (number + 3 >= ir->count || !reads(i + 2, i, below, 0) || !reads(i + 3, i, below, 1) ||
+        !find_place(ir, below, &lower) || lower.x != upper.x || lower.pitch != upper.pitch)
+        return none;
+    window.operand[2] = lower.y;
+    return window;
+}
+
+static unsigned gathers_of(const struct ir_instruction *window)
+{
+    return window->operand[1] == window->operand[2] ? 1 : 4;
+}
+
+unsigned pass_window(struct ir *ir, struct pass_memory *memory)
+{
+    unsigned windows = 0;
+    uint32_t count = 1, seen = 0; /* gathers before `seen` are of a window already */
+    if (memory->lanes != 16)
+        return 0;
+    ir_compact(ir, memory->map);
+    memory->map[0] = 0;
+    memory->rebuilt[0] = ir->instruction[0];
+    for (uint32_t number = 1; number < ir->count; number++) {
+        struct ir_instruction window = {.op = IR_nop};
+        if (number >= seen && ir->count + windows < IR_CAPACITY)
+            window = window_at(ir, number);
+        if (window.op == IR_window) {
+            for (int o = 0; o < 3; o++)
+                window.operand[o] = memory->map[window.operand[o]];
+            memory->rebuilt[count++] = window;
+            seen = number + gathers_of(&window);
+            windows++;
+        }
+        memory->rebuilt[count] = ir->instruction[number];
+        for (int o = 0; o < 3; o++)
+            memory->rebuilt[count].operand[o] = memory->map[ir->instruction[number].operand[o]];
+        memory->map[number] = (uint16_t)count++;
+    }
+    memcpy(ir->instruction, memory->rebuilt, count * sizeof *memory->rebuilt);
+    ir->count = count;
+    return windows;
+}
