@@ -13,7 +13,8 @@ enum { PROGRAM_LANES = 64, PROGRAM_ARRAYS = 4, PROGRAM_STORES = 8, PROGRAM_TABLE
 struct program_data {
     struct job job;
     uint32_t input[PROGRAM_ARRAYS * PROGRAM_LANES];
-    uint32_t table[PROGRAM_TABLE]; /* what is gathered from, by pointers in the job's attributes and first texture */
+    uint32_t table
+        [PROGRAM_TABLE]; /* what is gathered from, by pointers in the job's attributes and first texture */
     alignas(64) float output[SLOT_COUNT * VERTEX_CAPACITY];
 };
 
