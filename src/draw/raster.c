@@ -133,8 +133,15 @@ struct walk {
     int32_t x, y;             /* of the tile's first pixel in the window */
     uint16_t column[ROW_BLOCKS]; /* lanes of the blocks of each column that are within the bounds */
     uint32_t triangle;
+    __m128i same; /* what all its entries say: the triangle */
+    const struct raster_site *site;
     struct entry *next;
 };
+
+static inline __m128i entry_triangle(uint32_t triangle)
+{
+    return _mm_slli_si128(_mm_cvtsi32_si128((int)triangle), offsetof(struct entry, triangle));
+}
 
 static inline int32_t edge_value(const struct walk *w, int i, int32_t x, int32_t y)
 {
@@ -252,8 +259,13 @@ static inline void emit_whole(struct walk *w, int32_t y, uint32_t blocks)
 {
     struct entry *next = w->next;
     uint32_t lanes = row_lanes(w, y);
-    for (int i = __builtin_ctz(blocks); blocks >> i; i++)
-        *next++ = make_entry(w, y, i, lanes & w->column[i]);
+    __m128i here = _mm_or_si128(w->same, w->site->row[y / BLOCK_SIZE]);
+    for (int i = __builtin_ctz(blocks); blocks >> i; i++) {
+        __m128i covered =
+            _mm_slli_si128(_mm_cvtsi32_si128((int)(lanes & w->column[i])), offsetof(struct entry, coverage));
+        __m128i entry = _mm_or_si128(_mm_or_si128(here, w->site->column[i]), covered);
+        _mm_storeu_si128((__m128i *)(void *)next++, entry);
+    }
     w->next = next;
 }
 
@@ -482,7 +494,7 @@ static inline __attribute__((always_inline)) struct entry *emit_tiny(const struc
 {
     struct tiny t;
     make_tiny(&t, head, site->x + (int32_t)in->x0 * BLOCK_SIZE, site->y + (int32_t)in->y0 * BLOCK_SIZE);
-    __m128i same = _mm_slli_si128(_mm_cvtsi32_si128((int)triangle), offsetof(struct entry, triangle));
+    __m128i same = entry_triangle(triangle);
     const __m128i *last_row = site->row + in->y1, *last_column = site->column + in->x1;
     for (const __m128i *row = site->row + in->y0; row <= last_row; row++) {
         __m128i value = t.value, here = _mm_or_si128(same, *row);
@@ -539,6 +551,8 @@ static __attribute__((noinline)) uint32_t rasterize(const struct raster_site *si
 {
     const struct rectangle *scissor = &site->scissor;
     struct walk w;
+    w.site = site;
+    w.same = entry_triangle(triangle);
     w.x = site->x;
     w.y = site->y;
     w.triangle = triangle;
@@ -638,6 +652,19 @@ uint32_t raster_list(const struct raster_site *site, const uint8_t *records, con
     }
     *used = (uint32_t)(next - entries);
     return i;
+}
+
+uint32_t raster_whole(const struct raster_site *site, uint32_t triangle, struct entry *entries)
+{
+    __m128i *next = (__m128i *)(void *)entries;
+    __m128i covered = _mm_slli_si128(_mm_cvtsi32_si128(WHOLE_BLOCK), offsetof(struct entry, coverage));
+    __m128i same = _mm_or_si128(entry_triangle(triangle), covered);
+    for (int row = 0; row < ROW_BLOCKS; row++) {
+        __m128i here = _mm_or_si128(same, site->row[row]);
+        for (int column = 0; column < ROW_BLOCKS; column++)
+            _mm_storeu_si128(next++, _mm_or_si128(here, site->column[column]));
+    }
+    return TILE_BLOCKS;
 }
 
 uint32_t raster_tile(const struct triangle_head *head, const struct rectangle *scissor, int column, int row,

@@ -231,6 +231,15 @@ static void rasterize_triangles(struct tile_worker *worker, const struct frame *
     }
 }
 
+/* A triangle that covers the tile, which the scissor leaves whole. */
+static void rasterize_whole(struct tile_worker *worker, const struct frame *frame, uint32_t tile,
+                            uint32_t triangle)
+{
+    if (worker->count + TILE_BLOCKS > PIXEL_ENTRIES)
+        shade(worker, frame, tile);
+    worker->count += raster_whole(&worker->site, triangle, worker->entries.entry + worker->count);
+}
+
 /* The same from number `from` on, each looked at first if that may be worth it. */
 static void rasterize_seen(struct tile_worker *worker, const struct frame *frame, uint32_t tile,
                            const struct bin_cell *cell, uint32_t from)
@@ -249,7 +258,10 @@ static void rasterize_seen(struct tile_worker *worker, const struct frame *frame
         if (asks(worker, frame, tile, m.covers) && is_dealt_with(worker, frame, tile, &m))
             continue;
         note_depths(worker, frame, tile, &m);
-        seen[count++] = triangle;
+        if (m.covers && worker->site.whole)
+            rasterize_whole(worker, frame, tile, triangle);
+        else
+            seen[count++] = triangle;
     }
     rasterize_triangles(worker, frame, tile, seen, count);
 }

@@ -38,6 +38,8 @@ const struct ir_op_information ir_op_information[IR_OP_COUNT] = {
     [IR_phi] = {"phi", TYPE_non, {0}, 1, IR_PLACED},
     [IR_next] = {"next", TYPE_non, {0}, 2, IR_EFFECT},
     [IR_join] = {"join", TYPE_non, {0}, 2, IR_PLACED},
+    [IR_coverage] = {"coverage", TYPE_msk, {0}, 0, IR_READS},
+    [IR_store_where] = {"store_where", TYPE_non, {TYPE_non, TYPE_msk}, 2, IR_EFFECT},
     [IR_window] = {"window", TYPE_non, {TYPE_itg, TYPE_itg, TYPE_itg}, 3, IR_EFFECT},
     [IR_permute] = {"permute", TYPE_flt, {TYPE_flt}, 1, IR_SHIFTS},
 };
@@ -150,7 +152,8 @@ void ir_print_instruction(const struct ir *ir, uint32_t number, FILE *out)
         fprintf(out, " %%%u", i->operand[o]);
     if (i->op == IR_literal)
         print_literal(i, out);
-    else if (information->properties & IR_READS || i->op == IR_store || i->op == IR_scatter)
+    else if (information->properties & IR_READS || i->op == IR_store || i->op == IR_store_where ||
+             i->op == IR_scatter)
         print_memory(i, out);
     else if (information->properties & IR_SHIFTS || i->op == IR_constant)
         fprintf(out, " %d", (int)i->k);

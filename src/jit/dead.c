@@ -65,7 +65,9 @@ static int is_live(struct sweep *s, uint32_t number)
     const struct ir_instruction *i = &s->ir->instruction[number];
     switch (i->op) {
     case IR_store:
-    case IR_scatter: return 1;
+    case IR_store_where:
+    case IR_scatter:
+    case IR_window: return 1;
     case IR_when:
     case IR_loop: return leave(s, i);
     case IR_set: return s->read[i->k];

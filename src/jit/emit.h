@@ -108,6 +108,13 @@ static inline void note_exceeded(struct emitter *emitter, const char *what, int 
 /* Writes the body: every IR instruction, at emitter->position (select.c). */
 void emit_body(struct emitter *emitter);
 
+/* Writes the instructions from emitter->position up to `end`, which becomes the position; with `lines`, it is noted where
+ * each begins. */
+void emit_instructions(struct emitter *emitter, uint32_t end, int lines);
+
+/* A value that will be evicted is stored where it is defined: that of the current position. */
+void store_spilled(struct emitter *emitter);
+
 /* The general-purpose register that holds a base (frame.c). */
 extern const uint8_t base_register[BASE_COUNT];
 
@@ -156,8 +163,8 @@ void write_moves(struct emitter *emitter);
  */
 void select_gather(struct emitter *emitter, const struct ir_instruction *instruction);
 
-/* Writes the gathers behind the window at the current position, if their texels can be chosen in registers
- * (gather_window.c). */
+/* Writes what stands behind the window at the current position, and moves on to its last, if its texels can be chosen in
+ * registers (gather_window.c). */
 void select_window(struct emitter *emitter, const struct ir_instruction *instruction);
 
 /* Writes the scatter at the current position, and with it those that follow of neighbouring words (scatter.c). */

@@ -38,14 +38,13 @@ static unsigned gathers(const struct emitter *m, const struct ir_instruction *wi
 {
     const struct allocation *a = m->allocation;
     unsigned n = window->operand[1] == window->operand[2] ? 1 : 4;
+    uint32_t last = m->position + window->scale;
     uint32_t used = 0;
     if (!is_wide(m))
         return 0;
-    for (uint32_t at = m->position + 1; at <= m->position + n; at++) {
-        const struct ir_instruction *i = &m->ir->instruction[at];
+    for (uint32_t at = last + 1 - n; at <= last; at++) {
         unsigned reg = a->reg[at];
-        if (at >= m->ir->count || i->op != IR_gather || i->field != window->field)
-            return 0;
+        assert(m->ir->instruction[at].op == IR_gather);
         if (a->residence[at] != RESIDENCE_REGISTER || reg == SCRATCH_RESULT || used >> reg & 1)
             return 0;
         used |= 1u << reg;
@@ -140,10 +139,10 @@ static void choose_pairs(struct emitter *m, unsigned left, unsigned right, unsig
 }
 
 /* What is near, into the registers of the gathers behind the window. */
-static void choose(struct emitter *m, unsigned count)
+static void choose(struct emitter *m, const struct ir_instruction *window, unsigned count)
 {
     struct encoder *e = &m->encoder;
-    const uint8_t *result = m->allocation->reg + m->position + 1;
+    const uint8_t *result = m->allocation->reg + m->position + window->scale + 1 - count;
     vector_rrm(e, X86_vpmaddwd, X86_512, NUMBERS, NUMBERS, literal_address(m, WINDOW_WIDTH << 16 | 1, 1));
     if (count == 1) {
         load_window(m, result[0], OTHER);
@@ -159,29 +158,29 @@ static void choose(struct emitter *m, unsigned count)
     choose_pairs(m, result[2], result[3], NUMBERS);
 }
 
-/* The same, lane by lane. */
-static void gather_far(struct emitter *m, unsigned count)
+/* What a window's gathers are given where they have no register. */
+static void store_gathered(struct emitter *m, unsigned count, uint32_t last)
 {
-    uint32_t window = m->position;
-    for (m->position = window + 1; m->position <= window + count; m->position = m->selected) {
-        m->selected = m->position + 1;
-        select_gather(m, &m->ir->instruction[m->position]);
-    }
-    m->position = window;
+    for (m->position = last + 1 - count; m->position <= last; m->position++)
+        store_spilled(m);
 }
 
 void select_window(struct emitter *m, const struct ir_instruction *window)
 {
     unsigned count = gathers(m, window);
+    uint32_t here = m->position, last = here + window->scale;
     if (!count)
         return;
     uint32_t far = encoder_add_label(&m->encoder), done = encoder_add_label(&m->encoder);
     find_places(m, window);
     check_places(m, window, count, far);
     find_window(m, window);
-    choose(m, count);
+    choose(m, window, count);
+    store_gathered(m, count, last);
     encode_jump(&m->encoder, done);
     encode_label(&m->encoder, far);
-    gather_far(m, count);
+    m->position = here + 1;
+    emit_instructions(m, last + 1, 0);
+    m->position = last;
     encode_label(&m->encoder, done);
 }

@@ -92,7 +92,7 @@ struct pass_memory {
 typedef unsigned pass_function(struct ir *ir, struct pass_memory *memory);
 
 pass_function pass_phi, pass_copy, pass_fold, pass_reduce, pass_common, pass_dead, pass_invariant, pass_hoist,
-    pass_preload, pass_window;
+    pass_preload, pass_wide, pass_window;
 
 /* Fills memory->range for every value (range.c). Rounds as the contract does: run under its MXCSR. */
 void range_analyse(const struct ir *ir, struct pass_memory *memory);

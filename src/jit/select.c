@@ -580,6 +580,15 @@ static void select_memory(struct emitter *m, const struct ir_instruction *i)
                   result_register(m), at);
 }
 
+static void select_store_where(struct emitter *m, const struct ir_instruction *i)
+{
+    struct place value = place_of(m, i->operand[0]), mask = place_of(m, i->operand[1]);
+    struct address at = address_at(base_register[i->base], i->k);
+    unsigned from = need_register(m, &value, SCRATCH_FIRST);
+    at.mask = (uint8_t)need_mask(m, &mask, MASK_SCRATCH);
+    vector_mr(&m->encoder, X86_vmovups_store, m->length, at, from);
+}
+
 static void select_by_rule(struct emitter *m, const struct ir_instruction *i)
 {
     const struct rule *rule = &rules[i->op], *wide = &wide_rules[i->op];
@@ -613,6 +622,11 @@ static void select_instruction(struct emitter *m, const struct ir_instruction *i
 {
     switch (i->op) {
     case IR_gather: select_gather(m, i); break;
+    case IR_store_where: select_store_where(m, i); break;
+    case IR_coverage:
+        vector_rm(&m->encoder, X86_kmovw, X86_128, result_register(m) - MASKS,
+                  address_at(base_register[i->base], i->k));
+        break;
     case IR_window: select_window(m, i); break;
     case IR_scatter: select_scatter(m, i); break;
     case IR_when: select_when(m, i); break;
@@ -641,27 +655,33 @@ static int writes_result(const struct emitter *m, const struct ir_instruction *i
            (i->op != IR_phi || allocate_web(a, m->position) != allocate_web(a, i->operand[0]));
 }
 
-/* A value that will be evicted is stored where it is defined. */
-static void store_spilled(struct emitter *m)
+void store_spilled(struct emitter *m)
 {
     unsigned slot = m->allocation->slot[allocate_web(m->allocation, m->position)];
     if (slot != NO_SLOT)
         store_register(m, slot_address(m, slot), result_register(m));
 }
 
-void emit_body(struct emitter *m)
+void emit_instructions(struct emitter *m, uint32_t end, int lines)
 {
     m->selected = 0;
-    for (m->position = 1; m->position < m->ir->count && !m->exceeded; m->position++) {
+    for (; m->position < end && !m->exceeded; m->position++) {
         const struct ir_instruction *i = &m->ir->instruction[m->position];
         int effect = ir_op_information[i->op].properties & IR_EFFECT;
         if (!effect && (m->allocation->residence[m->position] != RESIDENCE_REGISTER || !writes_result(m, i)))
             continue;
         if (m->position >= m->selected) {
-            note_line(m, m->position);
+            if (lines)
+                note_line(m, m->position);
             select_instruction(m, i);
         }
         if (!effect)
             store_spilled(m);
     }
+}
+
+void emit_body(struct emitter *m)
+{
+    m->position = 1;
+    emit_instructions(m, m->ir->count, 1);
 }

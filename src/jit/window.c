@@ -8,8 +8,9 @@
  *   a = add x (dot y pitch)          one gather: a texel
  *   a, b = add x (dot y' pitch)      four gathers of neighbours, a a+1 b b+1: the texels that are blended linearly
  *
- * Whether lanes are near each other is found out when the routine runs. For 16 lanes only. Runs last: a window is no
- * value and has no effect, which other passes would have to know. */
+ * Behind the window stand the gathers and what of their indices nobody else needs: the way for lanes that are not near
+ * each other, which is found out when the routine runs. For 16 lanes only. Runs last: a window is no value and has no
+ * effect, which other passes would have to know. */
 #include "jit/pass.h"
 
 #include <string.h>
@@ -93,32 +94,118 @@ static unsigned gathers_of(const struct ir_instruction *window)
     return window->operand[1] == window->operand[2] ? 1 : 4;
 }
 
-unsigned pass_window(struct ir *ir, struct pass_memory *memory)
+/* The indices of a window's gathers and the rows that they are made of, rows first; returns how many. */
+static unsigned indices_of(const struct ir *ir, uint32_t first, unsigned gathers, uint16_t value[4])
+{
+    unsigned rows = gathers > 1 ? 2 : 1;
+    struct texel_place place;
+    for (unsigned row = 0; row < rows; row++) {
+        unsigned index = ir->instruction[first + 2 * row].operand[0];
+        const uint16_t *operand = ir->instruction[index].operand;
+        value[row] = operand[!find_row(ir, operand[0], &place)];
+        value[rows + row] = (uint16_t)index;
+    }
+    return 2 * rows;
+}
+
+/* Marks those of them that go behind the window: the indices if only its gathers use them, and then their rows. Returns how
+ * many. */
+static unsigned move_indices(const struct ir *ir, struct pass_memory *memory, uint32_t first,
+                             unsigned gathers)
+{
+    uint16_t value[4];
+    unsigned rows = indices_of(ir, first, gathers, value) / 2, moved = 0;
+    for (unsigned row = 0; row < rows; row++) {
+        unsigned index = value[rows + row];
+        if (memory->region[index] != gathers / rows)
+            continue;
+        memory->flag[index] = 1;
+        memory->flag[value[row]] = memory->region[value[row]] == 1;
+        moved += 1 + memory->flag[value[row]];
+    }
+    return moved;
+}
+
+static void count_uses(const struct ir *ir, uint16_t *uses)
+{
+    memset(uses, 0, ir->count * sizeof *uses);
+    for (uint32_t number = 1; number < ir->count; number++)
+        for (int o = 0; o < 3; o++)
+            uses[ir->instruction[number].operand[o]]++;
+}
+
+/* Where each window goes, and what behind it: memory->same of its first gather is how many instructions. */
+static unsigned find_windows(const struct ir *ir, struct pass_memory *memory)
 {
     unsigned windows = 0;
-    uint32_t count = 1, seen = 0; /* gathers before `seen` are of a window already */
+    count_uses(ir, memory->region);
+    memset(memory->flag, 0, ir->count * sizeof *memory->flag);
+    memset(memory->same, 0, ir->count * sizeof *memory->same);
+    for (uint32_t number = 1; number < ir->count && ir->count + windows < IR_CAPACITY; number++) {
+        const struct ir_instruction *i = &ir->instruction[number];
+        struct ir_instruction window = window_at(ir, number);
+        if (i->op == IR_window)
+            number += i->scale;
+        if (window.op != IR_window)
+            continue;
+        unsigned gathers = gathers_of(&window);
+        memory->same[number] = (uint16_t)(gathers + move_indices(ir, memory, number, gathers));
+        number += gathers - 1;
+        windows++;
+    }
+    return windows;
+}
+
+struct rebuild {
+    const struct ir *ir;
+    struct pass_memory *memory;
+    uint32_t count;
+};
+
+static void append(struct rebuild *r, const struct ir_instruction *i)
+{
+    struct ir_instruction *to = &r->memory->rebuilt[r->count++];
+    *to = *i;
+    for (int o = 0; o < 3; o++)
+        to->operand[o] = r->memory->map[i->operand[o]];
+}
+
+static void append_value(struct rebuild *r, uint32_t number)
+{
+    r->memory->map[number] = (uint16_t)r->count;
+    append(r, &r->ir->instruction[number]);
+}
+
+static void append_window(struct rebuild *r, uint32_t first)
+{
+    struct ir_instruction window = window_at(r->ir, first);
+    uint16_t value[4];
+    unsigned values = indices_of(r->ir, first, gathers_of(&window), value);
+    window.scale = (uint8_t)r->memory->same[first];
+    append(r, &window);
+    for (unsigned v = 0; v < values; v++)
+        if (r->memory->flag[value[v]])
+            append_value(r, value[v]);
+}
+
+unsigned pass_window(struct ir *ir, struct pass_memory *memory)
+{
+    struct rebuild r = {ir, memory, 1};
     if (memory->lanes != 16)
         return 0;
     ir_compact(ir, memory->map);
+    unsigned windows = find_windows(ir, memory);
+    if (!windows)
+        return 0;
     memory->map[0] = 0;
     memory->rebuilt[0] = ir->instruction[0];
     for (uint32_t number = 1; number < ir->count; number++) {
-        struct ir_instruction window = {.op = IR_nop};
-        if (number >= seen && ir->count + windows < IR_CAPACITY)
-            window = window_at(ir, number);
-        if (window.op == IR_window) {
-            for (int o = 0; o < 3; o++)
-                window.operand[o] = memory->map[window.operand[o]];
-            memory->rebuilt[count++] = window;
-            seen = number + gathers_of(&window);
-            windows++;
-        }
-        memory->rebuilt[count] = ir->instruction[number];
-        for (int o = 0; o < 3; o++)
-            memory->rebuilt[count].operand[o] = memory->map[ir->instruction[number].operand[o]];
-        memory->map[number] = (uint16_t)count++;
+        if (memory->same[number])
+            append_window(&r, number);
+        if (!memory->flag[number])
+            append_value(&r, number);
     }
-    memcpy(ir->instruction, memory->rebuilt, count * sizeof *memory->rebuilt);
-    ir->count = count;
+    memcpy(ir->instruction, memory->rebuilt, r.count * sizeof *memory->rebuilt);
+    ir->count = r.count;
     return windows;
 }

@@ -18,6 +18,8 @@ static struct code_arena *arena;
 static struct builder *builder;
 static struct program_data expected, got;
 
+static unsigned lanes = 16; /* that what is optimised will have */
+
 void setUp(void)
 {
     struct error error = {{0}};
@@ -29,6 +31,7 @@ void setUp(void)
 
 void tearDown(void)
 {
+    lanes = 16;
     builder_give(builder);
     code_destroy(arena);
 }
@@ -36,7 +39,7 @@ void tearDown(void)
 static void optimize_under_contract(enum profile profile, uint32_t disabled)
 {
     unsigned saved = mxcsr_enter();
-    builder->pass.lanes = 16;
+    builder->pass.lanes = lanes;
     optimize(&builder->ir, &builder->pass, profile, disabled, NULL, NULL);
     mxcsr_leave(saved);
 }
@@ -108,7 +111,7 @@ static void test_machine_code_with_few_registers_equals_the_interpreter(void)
         TEST_IGNORE_MESSAGE("needs AVX2 and FMA");
     for (unsigned registers = 4; registers <= ALLOCATABLE; registers += 3)
         for (uint64_t n = 1; n <= PROGRAMS / 2; n++) {
-            unsigned width = program_width(n);
+            unsigned width = lanes = program_width(n);
             check_optimized(n, PROFILE_FULL, n % 3 ? 0 : ~0u, "before compiling");
             uint64_t seed = n;
             program_fill(&expected, &seed);

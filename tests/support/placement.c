@@ -59,7 +59,7 @@ static void expect_result(struct check *c)
     for (uint32_t n = c->number; c->coded && n < placement_selected_end(c); n++) {
         const struct ir_instruction *i = placement_operation(c, n);
         if (ir_op_information[i->op].properties & IR_EFFECT || a->residence[n] != RESIDENCE_REGISTER ||
-            i->op == IR_join)
+            i->op == IR_join || (self->op == IR_window && i->op != IR_gather))
             continue;
         if (!place_holds(c, &c->now.at[a->reg[n]], n))
             placement_wrong(c, "%%%u is not in register %u", (unsigned)n, a->reg[n]);
@@ -74,7 +74,8 @@ static void expect_operands(struct check *c)
     for (int o = 0; c->coded && !copies && o < placement_operands(c); o++)
         if (!(c->read >> o & 1) && placement_operation(c, placement_operand(c, o))->op != IR_literal)
             placement_wrong(c, "does not read %%%u", placement_operand(c, o));
-    unsigned stores = i->op == IR_scatter ? c->coded * c->m->width : i->op == IR_store || i->op == IR_set;
+    unsigned stores = i->op == IR_scatter ? c->coded * c->m->width
+                                          : i->op == IR_store || i->op == IR_store_where || i->op == IR_set;
     if (c->stores != stores)
         placement_wrong(c, "stores %u times", c->stores);
 }

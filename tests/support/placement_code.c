@@ -4,8 +4,8 @@
 
 /* --- Memory ------------------------------------------------------------------------------------------------- */
 
-/* How many a window has itself; those of the gathers that it covers come behind them. */
-enum { WINDOW_OPERANDS = 3 };
+/* No window has more: its own, and those of two rows, two indices and four gathers. */
+enum { WINDOW_OPERANDS = 3 + 4 + 4 + 4 };
 
 static bool gathers(const struct ir_instruction *i)
 {
@@ -117,7 +117,7 @@ static void write_memory(struct check *c, const ZydisDecodedOperand *o, const st
         }
         return;
     }
-    bool meant = i->op == IR_store
+    bool meant = i->op == IR_store || i->op == IR_store_where
                      ? at == i->k
                      : i->op == IR_scatter && (!i->field ? at == i->k : (at - i->k) % i->field == 0);
     if (!meant || base != base_register[i->base] || o->mem.index != ZYDIS_REGISTER_NONE)
@@ -145,32 +145,47 @@ static int operand_vector(const ZydisDecodedOperand *o)
     return o->type == ZYDIS_OPERAND_TYPE_REGISTER ? vector_number(o->reg.value) : -1;
 }
 
-/* The next operations that one selection covers: gathers and scatters by rows, the gathers behind a window. */
+/* The next operations that one selection covers: gathers and scatters by rows, what stands behind a window. */
 uint32_t placement_selected_end(const struct check *c)
 {
     uint32_t end = c->number + 1, next = c->line + 1 < c->m->lines ? c->m->line[c->line + 1].instruction : 0;
     unsigned op = placement_operation(c, c->number)->op;
     if (op == IR_window)
-        op = IR_gather;
+        return end + (c->coded ? placement_operation(c, c->number)->scale : 0);
     while ((op == IR_gather || op == IR_scatter) && end < c->ir->count && end != next &&
            placement_operation(c, end)->op == op)
         end++;
     return end;
 }
 
+/* Those of a window are its own and then those of what it covers, but what that makes for itself. */
+static int window_operands(const struct check *c, unsigned operand[WINDOW_OPERANDS])
+{
+    int count = 0;
+    for (uint32_t n = c->number; n < placement_selected_end(c); n++)
+        for (int o = 0; o < ir_op_information[placement_operation(c, n)->op].operands; o++) {
+            unsigned value = placement_operation(c, n)->operand[o];
+            if (value < c->number)
+                operand[count++] = value;
+        }
+    return count;
+}
+
 int placement_operands(const struct check *c)
 {
-    unsigned op = placement_operation(c, c->number)->op;
-    int covered = c->coded ? (int)(placement_selected_end(c) - c->number) : 1;
-    int operands = ir_op_information[op].operands;
-    return op == IR_scatter ? covered : op == IR_window ? operands + covered - 1 : operands;
+    unsigned op = placement_operation(c, c->number)->op, operand[WINDOW_OPERANDS];
+    if (op == IR_window)
+        return window_operands(c, operand);
+    return op == IR_scatter && c->coded ? (int)(placement_selected_end(c) - c->number)
+                                        : ir_op_information[op].operands;
 }
 
 unsigned placement_operand(const struct check *c, int o)
 {
     const struct ir_instruction *i = placement_operation(c, c->number);
-    if (i->op == IR_window && o >= WINDOW_OPERANDS)
-        return i[o - WINDOW_OPERANDS + 1].operand[0];
+    unsigned operand[WINDOW_OPERANDS];
+    if (i->op == IR_window)
+        return window_operands(c, operand), operand[o];
     return i->op == IR_scatter ? i[o].operand[0] : i->operand[o];
 }
 
@@ -220,7 +235,9 @@ static void run_copy(struct check *c)
     struct content p = operand_vector(from) >= 0 ? c->now.at[operand_vector(from)]
                                                  : read_memory(c, from, broadcast ? FROM_WORD : FROM_LANES);
     bool masks = c->instruction.mnemonic == ZYDIS_MNEMONIC_KMOVW;
-    if (operand_vector(from) < 0 && p.bits != masks && p.origin != FROM_VARIABLE)
+    if (placement_operation(c, c->number)->op == IR_coverage && operand_vector(from) < 0)
+        p = (struct content){.made_in = c->visit, .bits = masks};
+    else if (operand_vector(from) < 0 && p.bits != masks && p.origin != FROM_VARIABLE)
         placement_wrong(c, masks ? "reads lanes as a mask" : "reads a mask as lanes");
     place_note_operands(c, &p);
     p.bits = masks || c->instruction.mnemonic == ZYDIS_MNEMONIC_VPMOVD2M;

@@ -116,6 +116,10 @@ static void step(struct interpreter *in, uint32_t number, unsigned lane)
     case IR_set: in->variable[i->k][lane] = a; break;
     case IR_get: *to = in->variable[i->k][lane]; break;
     case IR_store: memcpy((uint8_t *)in->data->output + i->k + 4 * (in->first + lane), &a, 4); break;
+    case IR_store_where:
+        if (in->value[i->operand[1]][lane])
+            memcpy((uint8_t *)in->data->output + i->k + 4 * (in->first + lane), &a, 4);
+        break;
     case IR_scatter:
         memcpy((uint8_t *)(in->data->output + in->first) + i->k + i->field * (int32_t)lane, &a, 4);
         break;

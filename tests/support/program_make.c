@@ -230,6 +230,29 @@ static void make_reload(struct maker *maker)
     keep(maker, type, ir_append(maker->ir, i));
 }
 
+/* Some lanes keep what was there, or get what is somewhere else. */
+static void make_merge(struct maker *maker)
+{
+    int32_t slot = slot_for(maker, TYPE_itg);
+    struct ir_instruction load = {.op = IR_load, .type = TYPE_itg, .base = BASE_OUTPUT, .k = slot};
+    struct ir_instruction store = {.op = IR_store, .base = BASE_OUTPUT, .k = slot};
+    uint16_t before = ir_append(maker->ir, load), new = pick(maker, TYPE_itg);
+    if (program_random(maker->seed) % 4 == 0)
+        make_store(maker);
+    store.operand[0] = ir_append(
+        maker->ir, (struct ir_instruction){
+                       .op = IR_select_i, .type = TYPE_itg, .operand = {pick(maker, TYPE_msk), new, before}});
+    ir_append(maker->ir, store);
+}
+
+static void make_store_or_merge(struct maker *maker)
+{
+    if (program_random(maker->seed) % 3)
+        make_store(maker);
+    else
+        make_merge(maker);
+}
+
 static void make_region(struct maker *maker, unsigned length)
 {
     unsigned outside[TYPE_msk + 1];
@@ -276,7 +299,7 @@ static void make_straight(struct ir *ir, unsigned length, uint64_t *seed, int wi
     begin(&maker, ir, seed, wild);
     for (unsigned i = 0; i < length; i++)
         switch (program_random(seed) % 16) {
-        case 0: make_store(&maker); break;
+        case 0: make_store_or_merge(&maker); break;
         case 1: make_cast(&maker); break;
         case 2: make_source_or_reload(&maker); break;
         case 3:
@@ -405,7 +428,7 @@ static void make_body(struct maker *maker, unsigned length, unsigned depth, unsi
 {
     for (unsigned i = 0; i < length; i++)
         switch (program_random(maker->seed) % 16) {
-        case 0: make_store(maker); break;
+        case 0: make_store_or_merge(maker); break;
         case 1: make_cast(maker); break;
         case 2: make_source_or_reload(maker); break;
         case 3:
