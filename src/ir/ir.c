@@ -39,6 +39,7 @@ const struct ir_op_information ir_op_information[IR_OP_COUNT] = {
     [IR_next] = {"next", TYPE_non, {0}, 2, IR_EFFECT},
     [IR_join] = {"join", TYPE_non, {0}, 2, IR_PLACED},
     [IR_coverage] = {"coverage", TYPE_msk, {0}, 0, IR_READS},
+    [IR_reciprocal] = {"reciprocal", TYPE_flt, {TYPE_flt, TYPE_flt}, 2, IR_READS},
     [IR_store_where] = {"store_where", TYPE_non, {TYPE_non, TYPE_msk}, 2, IR_EFFECT},
     [IR_window] = {"window", TYPE_non, {TYPE_itg, TYPE_itg, TYPE_itg}, 3, IR_EFFECT},
     [IR_permute] = {"permute", TYPE_flt, {TYPE_flt}, 1, IR_SHIFTS},

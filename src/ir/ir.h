@@ -30,6 +30,7 @@
  *   constant k                  slot k of the frame's constants, filled before the loop (hoist.c)
  *   permute a k                 lanes change places within each four: lane l takes lane (k >> 2 * l) & 3
  *   coverage base k             bit l of the half word at base + k, all of lane l; of 16 lanes (jit/wide.c)
+ *   reciprocal a b base k       1 / the plane at base + k, at x = a and y = b; of 16 lanes
  *   store_where a b base k      a store of the lanes that b has; of 16 lanes
  *   window a b c field k        the gathers that follow read words of the pointer at field, at a + b * pitch and, of four,
  *                               at a + c * pitch too, the pitch being the word at base + k: a hint (jit/window.c)
@@ -72,6 +73,7 @@ enum ir_op {
     IR_next,
     IR_join,
     IR_coverage,
+    IR_reciprocal,
     IR_store_where,
     IR_window,
     IR_OP_COUNT

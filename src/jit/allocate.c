@@ -365,10 +365,10 @@ static void cross_loop(struct scan *scan, const struct ir_instruction *i, uint32
             let_go(scan, reg);
 }
 
-/* A gather's result must not share a register with its index. */
-static int keeps_operands(const struct ir_instruction *i)
+/* A gather's result must not share a register with its index; a reciprocal's is written before all is read. */
+int allocate_keeps_operands(const struct ir_instruction *i)
 {
-    return i->op == IR_gather;
+    return i->op == IR_gather || i->op == IR_reciprocal;
 }
 
 static void scan_instruction(struct scan *scan, uint32_t number)
@@ -376,11 +376,11 @@ static void scan_instruction(struct scan *scan, uint32_t number)
     const struct ir_instruction *i = &scan->ir->instruction[number];
     unsigned preferred = NO_REGISTER;
     advance(scan, number);
-    if (!keeps_operands(i))
+    if (!allocate_keeps_operands(i))
         preferred = release(scan, number);
     if (scan->allocation->residence[number] == RESIDENCE_REGISTER)
         place(scan, number, preferred);
-    if (keeps_operands(i))
+    if (allocate_keeps_operands(i))
         release(scan, number);
     if (i->op == IR_loop || i->op == IR_again)
         cross_loop(scan, i, number);

@@ -95,6 +95,9 @@ struct allocation {
 /* Whether selection can take operand `position` of this operation from memory. */
 int allocate_folds(const struct ir_instruction *instruction, int position);
 
+/* Whether operands keep their registers until the result is there. */
+int allocate_keeps_operands(const struct ir_instruction *instruction);
+
 /* Whether a value is in memory from the start: a literal, a frame constant. */
 static inline int allocate_is_constant(const struct ir_instruction *instruction)
 {

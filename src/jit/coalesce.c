@@ -81,7 +81,8 @@ static unsigned find(struct allocation *a, unsigned value)
  */
 static int dies_before(const struct ir *ir, const struct allocation *a, unsigned value, unsigned later)
 {
-    return a->death[value] < later || (a->death[value] == later && ir->instruction[later].op != IR_gather);
+    return a->death[value] < later ||
+           (a->death[value] == later && !allocate_keeps_operands(&ir->instruction[later]));
 }
 
 /* Both lists merged into one by definition, unless lives meet. `x` is the web whose first value is earlier.

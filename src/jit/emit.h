@@ -79,7 +79,7 @@ struct emitter {
     int32_t frame_variables;
     int32_t constants; /* where in the job the address of the shader's constants is; 0: no shader */
     int32_t literal_bits[LITERAL_CAPACITY];
-    uint8_t literal_lanes[LITERAL_CAPACITY]; /* whether it is there once for each lane */
+    uint8_t literal_lanes[LITERAL_CAPACITY]; /* enum literal_kind */
     uint32_t literal_label[LITERAL_CAPACITY];
     uint16_t
         literal_table[LITERAL_TABLE]; /* by hash: 1 + the literal's number, 0: none; all 0 between builds */
@@ -130,8 +130,9 @@ static inline int is_wide(const struct emitter *emitter)
     return emitter->width == 16;
 }
 
-/* A literal in the constant pool: all of its lanes or, when `lanes` is 0, one that is broadcast. */
-struct address literal_address(struct emitter *emitter, int32_t bits, int lanes);
+/* A literal in the constant pool: one word that is broadcast, or a word for each lane, the same or lane times as much. */
+enum literal_kind { LITERAL_ONCE, LITERAL_LANES, LITERAL_MULTIPLES };
+struct address literal_address(struct emitter *emitter, int32_t bits, enum literal_kind kind);
 
 /* Where a value is at the current position; the vector register of an operand, loaded into `scratch` if it is in
  * memory or a mask; the register that the current instruction's value was given (select.c). */

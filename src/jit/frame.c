@@ -63,17 +63,17 @@ static void note_unwind(struct emitter *m, enum debug_rule rule, unsigned reg, i
                                                     .value = value};
 }
 
-static uint32_t literal_slot(int32_t bits, int lanes)
+static uint32_t literal_slot(int32_t bits, unsigned kind)
 {
-    return (((uint32_t)bits + (uint32_t)lanes) * 0x9e3779b1u) >> (32 - __builtin_ctz(LITERAL_TABLE));
+    return (((uint32_t)bits + kind) * 0x9e3779b1u) >> (32 - __builtin_ctz(LITERAL_TABLE));
 }
 
 /* Its number from 1. */
-static uint32_t find_literal(struct emitter *m, int32_t bits, int lanes)
+static uint32_t find_literal(struct emitter *m, int32_t bits, enum literal_kind kind)
 {
-    uint32_t slot = literal_slot(bits, lanes), i;
+    uint32_t slot = literal_slot(bits, kind), i;
     while ((i = m->literal_table[slot]) &&
-           (m->literal_bits[i - 1] != bits || m->literal_lanes[i - 1] != lanes))
+           (m->literal_bits[i - 1] != bits || m->literal_lanes[i - 1] != kind))
         slot = (slot + 1) % LITERAL_TABLE;
     if (i)
         return i;
@@ -82,16 +82,16 @@ static uint32_t find_literal(struct emitter *m, int32_t bits, int lanes)
         return 1;
     }
     m->literal_bits[m->literals] = bits;
-    m->literal_lanes[m->literals] = (uint8_t)lanes;
+    m->literal_lanes[m->literals] = (uint8_t)kind;
     m->literal_label[m->literals] = encoder_add_label(&m->encoder);
     m->literal_table[slot] = (uint16_t)++m->literals;
     return m->literals;
 }
 
-struct address literal_address(struct emitter *m, int32_t bits, int lanes)
+struct address literal_address(struct emitter *m, int32_t bits, enum literal_kind kind)
 {
-    struct address address = address_label(m->literal_label[find_literal(m, bits, lanes) - 1], 0);
-    address.broadcast = !lanes;
+    struct address address = address_label(m->literal_label[find_literal(m, bits, kind) - 1], 0);
+    address.broadcast = kind == LITERAL_ONCE;
     return address;
 }
 
@@ -322,10 +322,11 @@ static void constant_pool(struct emitter *m)
     int32_t lanes[LANES_MAXIMUM];
     for (int once = 0; once < 2; once++)
         for (uint32_t i = 0; i < m->literals; i++) {
-            if (m->literal_lanes[i] == once)
+            if ((m->literal_lanes[i] == LITERAL_ONCE) != once)
                 continue;
             for (unsigned lane = 0; lane < m->width; lane++)
-                lanes[lane] = m->literal_bits[i];
+                lanes[lane] =
+                    m->literal_bits[i] * (m->literal_lanes[i] == LITERAL_MULTIPLES ? (int32_t)lane : 1);
             encode_label(&m->encoder, m->literal_label[i]);
             encode_data(&m->encoder, lanes, (once ? 1 : m->width) * sizeof lanes[0]);
         }

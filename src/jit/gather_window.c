@@ -1,9 +1,9 @@
 /* Gathers of texels that lie close together: a window of the texture is loaded, and lanes choose in it.
  *
  * The window is eight texels wide and four rows high, two vectors: what one permutation of two registers can choose from.
- * It begins at the least x and the least y of all lanes, found for both at once in the halves of words,
+ * It begins at the least x and the least y of the block's corners, found for both at once in the halves of words,
  *
- *   t = y << 16 | x        least = the least of t's halves over the lanes        r = t - least
+ *   t = y << 16 | x        least = the least of t's halves over the corners      r = t - least
  *
  * and a lane's texel has the number r.x + 8 * r.y in it, if r.x and r.y are small enough in all lanes. Where four texels
  * are blended, the right neighbours have the next number, so that x has one place less, and the lower ones the same in a
@@ -23,7 +23,7 @@
  * texel (TEXTURE_MARGIN_ROWS). Coordinates of texels are below 2^15. */
 #include "jit/emit.h"
 
-enum { WINDOW_WIDTH = 8, WINDOW_HEIGHT = 4 };
+enum { WINDOW_WIDTH = 8, WINDOW_HEIGHT = 4, CORNER_LANES = 5 };
 
 static_assert((int)WINDOW_HEIGHT <= (int)TEXTURE_MARGIN_ROWS &&
                   (int)WINDOW_WIDTH <= (int)TEXTURE_MARGIN_TEXELS,
@@ -52,16 +52,17 @@ static unsigned gathers(const struct emitter *m, const struct ir_instruction *wi
     return n;
 }
 
-/* The least of the unsigned words at the same place of each lane: to all lanes of NEXT_NUMBERS and, of one lane, to r12. */
+/* The least of the unsigned words at the same place of the lanes that are the block's corners, every fifth one: to all lanes
+ * of NEXT_NUMBERS and, of one lane, to r12. In between nothing is less, unless perspective or a texture's edge make it so:
+ * then lanes are out of the window. */
 static void least_words(struct emitter *m, unsigned of)
 {
+    static const uint8_t orders[] = {0x4e, 0xb1};
     struct encoder *e = &m->encoder;
-    vector_rri(e, X86_vextractf64x4, X86_512, NEXT_NUMBERS, of, 1);
-    vector_rrr(e, X86_vpminuw, X86_256, NEXT_NUMBERS, NEXT_NUMBERS, of);
-    vector_rri(e, X86_vextractf128, X86_256, OTHER, NEXT_NUMBERS, 1);
-    vector_rrr(e, X86_vpminuw, X86_128, NEXT_NUMBERS, NEXT_NUMBERS, OTHER);
-    for (unsigned order = 0x4e; order; order = order == 0x4e ? 0xb1 : 0) {
-        vector_rri(e, X86_vpshufd, X86_128, OTHER, NEXT_NUMBERS, order);
+    vector_rm(e, X86_vmovups, X86_512, NEXT_NUMBERS, literal_address(m, CORNER_LANES, LITERAL_MULTIPLES));
+    vector_rrr(e, X86_vpermd, X86_512, NEXT_NUMBERS, NEXT_NUMBERS, of);
+    for (int half = 0; half < 2; half++) {
+        vector_rri(e, X86_vpshufd, X86_128, OTHER, NEXT_NUMBERS, orders[half]);
         vector_rrr(e, X86_vpminuw, X86_128, NEXT_NUMBERS, NEXT_NUMBERS, OTHER);
     }
     vector_rr(e, X86_vmovd_store, X86_128, X86_R12, NEXT_NUMBERS);
@@ -84,7 +85,7 @@ static void check_places(struct emitter *m, const struct ir_instruction *window,
 {
     struct encoder *e = &m->encoder;
     int32_t most = (WINDOW_WIDTH - 1 - (count > 1)) | (WINDOW_HEIGHT - 1) << 16;
-    struct address one = literal_address(m, 1, 0);
+    struct address one = literal_address(m, 1, LITERAL_ONCE);
     unsigned all = MASK_SCRATCH - MASKS, kept = all;
     if (count > 1) {
         struct place upper = place_of(m, window->operand[1]), lower = place_of(m, window->operand[2]);
@@ -93,7 +94,7 @@ static void check_places(struct emitter *m, const struct ir_instruction *window,
         vector_rrmi(e, X86_vpcmpd_mask, X86_512, all, OTHER, one, 0);
         kept = masked(all, all);
     }
-    vector_rrm(e, X86_vpminuw, X86_512, OTHER, NUMBERS, literal_address(m, most, 1));
+    vector_rrm(e, X86_vpminuw, X86_512, OTHER, NUMBERS, literal_address(m, most, LITERAL_LANES));
     vector_rrri(e, X86_vpcmpd_mask, X86_512, kept, OTHER, NUMBERS, 0);
     vector_rr(e, X86_kortestw, X86_128, all, all);
     encode_jump_if(e, X86_IF_nb, far);
@@ -143,7 +144,8 @@ static void choose(struct emitter *m, const struct ir_instruction *window, unsig
 {
     struct encoder *e = &m->encoder;
     const uint8_t *result = m->allocation->reg + m->position + window->scale + 1 - count;
-    vector_rrm(e, X86_vpmaddwd, X86_512, NUMBERS, NUMBERS, literal_address(m, WINDOW_WIDTH << 16 | 1, 1));
+    vector_rrm(e, X86_vpmaddwd, X86_512, NUMBERS, NUMBERS,
+               literal_address(m, WINDOW_WIDTH << 16 | 1, LITERAL_LANES));
     if (count == 1) {
         load_window(m, result[0], OTHER);
         vector_rrr(e, X86_vpermt2ps, X86_512, result[0], NUMBERS, OTHER);
@@ -152,7 +154,7 @@ static void choose(struct emitter *m, const struct ir_instruction *window, unsig
     load_window(m, result[1], result[0]);
     gpr_rm(e, X86_lea, X86_64, X86_RAX, address_indexed(X86_RAX, X86_R12, 4, 0));
     load_window(m, result[3], result[2]);
-    vector_rrm(e, X86_vpaddd, X86_512, NEXT_NUMBERS, NUMBERS, literal_address(m, 1, 0));
+    vector_rrm(e, X86_vpaddd, X86_512, NEXT_NUMBERS, NUMBERS, literal_address(m, 1, LITERAL_ONCE));
     vector_copy(e, X86_512, OTHER, NUMBERS);
     choose_pairs(m, result[0], result[1], OTHER);
     choose_pairs(m, result[2], result[3], NUMBERS);

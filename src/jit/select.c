@@ -102,6 +102,16 @@ static const struct rule wide_rules[IR_OP_COUNT] = {
     [IR_andn_m] = {X86_kandnw, FORM_MASKS, 0},
 };
 
+/* A literal for an instruction that broadcasts whatever it reads. */
+enum { ONE = 0x3f800000 };
+
+static struct address literal_word(struct emitter *m, int32_t bits)
+{
+    struct address word = literal_address(m, bits, LITERAL_ONCE);
+    word.broadcast = 0;
+    return word;
+}
+
 static struct address frame_address(const struct emitter *m, int32_t start, unsigned slot)
 {
     return address_at(X86_RSP, start + (int32_t)(slot * m->width * 4));
@@ -131,7 +141,7 @@ static struct place memory_place(struct emitter *m, unsigned value)
     unsigned slot = m->allocation->slot[allocate_web(m->allocation, value)];
     struct place p = {.value = value, .reg = NO_REGISTER, .addressable = 1};
     if (i->op == IR_literal)
-        p.address = literal_address(m, i->k, !is_wide(m));
+        p.address = literal_address(m, i->k, is_wide(m) ? LITERAL_ONCE : LITERAL_LANES);
     else if (i->op == IR_constant)
         p.address = constant_address(m, (unsigned)i->k);
     else if (slot != NO_SLOT) {
@@ -229,7 +239,7 @@ static int folds(struct emitter *m, enum x86_vector instruction, struct place *p
         const struct ir_instruction *i = &m->ir->instruction[p->value];
         if (i->op != IR_literal)
             return 0;
-        p->address = literal_address(m, i->k, 1);
+        p->address = literal_address(m, i->k, LITERAL_LANES);
     }
     return 1;
 }
@@ -345,7 +355,7 @@ static void select_negate(struct emitter *m, const struct ir_instruction *i)
     struct place a = place_of(m, i->operand[0]);
     unsigned from = need_register(m, &a, SCRATCH_FIRST);
     vector_rrm(&m->encoder, X86_vxorps, m->length, result_register(m), from,
-               literal_address(m, INT32_MIN, !is_wide(m)));
+               literal_address(m, INT32_MIN, is_wide(m) ? LITERAL_ONCE : LITERAL_LANES));
 }
 
 static void select_half(struct emitter *m, const struct rule *rule, const struct ir_instruction *i)
@@ -589,6 +599,30 @@ static void select_store_where(struct emitter *m, const struct ir_instruction *i
     vector_mr(&m->encoder, X86_vmovups_store, m->length, at, from);
 }
 
+/* w: 1 where the plane of 1/w is 1 whatever the place, which its three words say. */
+static void select_reciprocal(struct emitter *m, const struct ir_instruction *i)
+{
+    struct encoder *e = &m->encoder;
+    struct place x = place_of(m, i->operand[0]), y = place_of(m, i->operand[1]);
+    struct address value = address_at(base_register[i->base], i->k), dx = value, dy = value;
+    uint32_t divide = encoder_add_label(e), done = encoder_add_label(e);
+    unsigned to = result_register(m);
+    dx.displacement += (int32_t)offsetof(struct plane, dx);
+    dy.displacement += (int32_t)offsetof(struct plane, dy);
+    vector_rm(e, X86_vbroadcastss, m->length, to, literal_word(m, ONE));
+    gpr_mi(e, X86_cmp, X86_64, dx, 0);
+    encode_jump_if(e, X86_IF_nz, divide);
+    gpr_mi(e, X86_cmp, X86_32, value, ONE);
+    encode_jump_if(e, X86_IF_z, done);
+    encode_label(e, divide);
+    vector_rm(e, X86_vbroadcastss, m->length, SCRATCH_SECOND, value);
+    dx.broadcast = dy.broadcast = 1;
+    vector_rrm(e, X86_vfmadd231ps, m->length, SCRATCH_SECOND, need_register(m, &y, SCRATCH_FIRST), dy);
+    vector_rrm(e, X86_vfmadd231ps, m->length, SCRATCH_SECOND, need_register(m, &x, SCRATCH_FIRST), dx);
+    vector_rrr(e, X86_vdivps, m->length, to, to, SCRATCH_SECOND);
+    encode_label(e, done);
+}
+
 static void select_by_rule(struct emitter *m, const struct ir_instruction *i)
 {
     const struct rule *rule = &rules[i->op], *wide = &wide_rules[i->op];
@@ -622,6 +656,7 @@ static void select_instruction(struct emitter *m, const struct ir_instruction *i
 {
     switch (i->op) {
     case IR_gather: select_gather(m, i); break;
+    case IR_reciprocal: select_reciprocal(m, i); break;
     case IR_store_where: select_store_where(m, i); break;
     case IR_coverage:
         vector_rm(&m->encoder, X86_kmovw, X86_128, result_register(m) - MASKS,

@@ -1,14 +1,19 @@
-/* What 16 lanes have of their own: masks that are 16 bits.
+/* What 16 lanes have of their own: first of all masks that are 16 bits.
  *
  * Sixteen lanes are a whole block, so the coverage of an entry is a mask as it stands, a load of two bytes in place of a
  * comparison of each lane's bit; and since an entry has coverage, what asks for any need not ask. A store of a selection
  * between a new value and what was there becomes a store of the lanes selected, without reading:
  *
+ * Last, w where perspective has none of it: a triangle parallel to the screen, as all of flat pictures are, has 1/w the same
+ * at all pixels. The routine looks at the plane, which is cheaper than to divide, if that says 1 everywhere.
+ *
  *   eq (and uniform bits) bits       ->  coverage
  *   when coverage ... end            ->  ...
  *   store (select mask a (load p))   ->  store_where a mask
+ *   div 1 (mad x dx (mad y dy v))    ->  reciprocal x y
  *
  * What was computed for these is removed at once. */
+#include "def/lane.h"
 #include "draw/call.h"
 #include "jit/pass.h"
 
@@ -96,6 +101,43 @@ static unsigned become_store_where(const struct ir *ir, uint32_t number, struct 
     return 1;
 }
 
+/* Whether this is the word of a triangle's record at `offset`; with an offset of -1, any. */
+static int is_record_word(const struct ir_instruction *i, int32_t offset)
+{
+    return i->op == IR_uniform && i->base == BASE_TRIANGLE && (offset < 0 || i->k == offset);
+}
+
+/* The operand of a multiply-add that is multiplied by a word of the record; -1: neither or both. */
+static int multiplied(const struct ir *ir, const struct ir_instruction *i)
+{
+    int first = is_record_word(operand(ir, i, 0), -1), second = is_record_word(operand(ir, i, 1), -1);
+    return i->op != IR_mad_f || first == second ? -1 : first;
+}
+
+static unsigned become_reciprocal(const struct ir *ir, struct ir_instruction *i)
+{
+    const struct ir_instruction *one = operand(ir, i, 0), *column = operand(ir, i, 1);
+    if (one->op != IR_literal || one->k != (int32_t)lane_bits(1.0f))
+        return 0;
+    int x = multiplied(ir, column);
+    const struct ir_instruction *row = operand(ir, column, 2);
+    int y = x < 0 ? -1 : multiplied(ir, row);
+    if (y < 0 || !is_record_word(operand(ir, row, 2), -1))
+        return 0;
+    int32_t plane = operand(ir, row, 2)->k;
+    if (!is_record_word(operand(ir, column, !x), plane + (int32_t)offsetof(struct plane, dx)) ||
+        !is_record_word(operand(ir, row, !y), plane + (int32_t)offsetof(struct plane, dy)))
+        return 0;
+    *i = (struct ir_instruction){.op = IR_reciprocal,
+                                 .type = TYPE_flt,
+                                 .base = BASE_TRIANGLE,
+                                 .operand = {column->operand[x], row->operand[y]},
+                                 .k = plane,
+                                 .line = i->line,
+                                 .file = i->file};
+    return 1;
+}
+
 unsigned pass_wide(struct ir *ir, struct pass_memory *memory)
 {
     unsigned changes = 0;
@@ -105,6 +147,8 @@ unsigned pass_wide(struct ir *ir, struct pass_memory *memory)
         struct ir_instruction *i = &ir->instruction[number];
         if (i->op == IR_eq_i)
             changes += become_coverage(ir, i);
+        else if (i->op == IR_div_f)
+            changes += become_reciprocal(ir, i);
         else if (i->op == IR_when)
             changes += open_region(ir, number);
         else if (i->op == IR_store)

@@ -29,7 +29,7 @@ void placement_run_jump(struct check *c)
         unsigned region = c->regions; /* opened behind this operation's code */
         places_copy(c, &c->skipped[region], &c->now);
         c->skipped_to[region] = to;
-    } else if (i->op == IR_when || i->op == IR_window || zero) {
+    } else if (i->op == IR_when || i->op == IR_window || i->op == IR_reciprocal || zero) {
         unsigned n = 0;
         while (n < LOCAL_JUMPS - 1 && c->local[n].reached)
             n++;

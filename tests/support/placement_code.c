@@ -240,6 +240,8 @@ static void run_copy(struct check *c)
     else if (operand_vector(from) < 0 && p.bits != masks && p.origin != FROM_VARIABLE)
         placement_wrong(c, masks ? "reads lanes as a mask" : "reads a mask as lanes");
     place_note_operands(c, &p);
+    if (placement_operation(c, c->number)->op == IR_reciprocal && p.origin == FROM_LITERAL)
+        p = (struct content){.made_in = c->visit}; /* its result, where it need not divide */
     p.bits = masks || c->instruction.mnemonic == ZYDIS_MNEMONIC_VPMOVD2M;
     if (operand_vector(to) >= 0)
         write_register(c, (unsigned)operand_vector(to), &p);

@@ -77,11 +77,21 @@ bool place_note_operands(struct check *c, const struct content *p)
     return any;
 }
 
+/* What an operation brings itself: literals, the words of a reciprocal's plane. */
+static bool is_own(const struct ir_instruction *i, const struct content *p)
+{
+    bool word = p->origin == FROM_WORD || p->origin == FROM_LANES;
+    if (i->op == IR_reciprocal && word && p->base == base_register[i->base])
+        return p->number >= i->k && p->number < i->k + (int32_t)sizeof(struct plane);
+    if (p->origin != FROM_LITERAL)
+        return false;
+    return i->op == IR_window || i->op == IR_reciprocal || (i->op == IR_neg_f && p->number == INT32_MIN);
+}
+
 void place_expect(struct check *c, const struct content *p, const char *where, long number)
 {
     const struct ir_instruction *i = placement_operation(c, c->number);
-    bool literal = p->origin == FROM_LITERAL;
-    bool own = literal && (i->op == IR_window || (i->op == IR_neg_f && p->number == INT32_MIN));
+    bool own = is_own(i, p);
     if (place_note_operands(c, p) || own || p->made_in == c->visit)
         return;
     if (p->count)
