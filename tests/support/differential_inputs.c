@@ -249,6 +249,21 @@ static void make_varying(struct differential *d, uint8_t *record, const struct p
     }
 }
 
+/* 1/w, in half of the triangles without a slope one way or both, and then often 1. */
+static void make_reciprocal(struct differential *d, uint8_t *record)
+{
+    static const float some[] = {1, 1, 0.5f, 2};
+    struct plane plane;
+    make_plane(d, record, d->layout.reciprocal_w, 0.2f, 2);
+    memcpy(&plane, record + d->layout.reciprocal_w, sizeof plane);
+    unsigned kind = below(d, 8);
+    if (kind < 4)
+        plane = (struct plane){some[kind], kind == 1 ? plane.dx : 0, 0};
+    else if (kind == 4)
+        plane = (struct plane){1, 0, plane.dy};
+    memcpy(record + d->layout.reciprocal_w, &plane, sizeof plane);
+}
+
 static void make_triangles(struct differential *d, const struct pixel_key *key)
 {
     for (int i = 0; i < TRIANGLES; i++) {
@@ -261,7 +276,7 @@ static void make_triangles(struct differential *d, const struct pixel_key *key)
         if (d->layout.depth)
             make_plane(d, record, d->layout.depth, -0.25f, 1.25f);
         if (d->layout.smooth)
-            make_plane(d, record, d->layout.reciprocal_w, 0.2f, 2);
+            make_reciprocal(d, record);
         for (int v = 0; v < VARYING_COUNT; v++)
             make_varying(d, record, key, v);
     }
