@@ -49,7 +49,10 @@ for stream in "${pages[@]}"; do
         failures=1
     fi
 done
+# With sanitizers every fourth is drawn: the plain build draws them all.
+number=0
 for stream in "${streams[@]}"; do
+    [[ ${SANITIZE-} ]] && ((number++ % 4)) && continue
     if said=$("$TRIPTYCH" render "$stream" --engine emulate --out "$work/picture.png" 2>&1 &&
         "$TRIPTYCH" compare "$(golden_of "$stream")" "$work/picture.png" 2>&1); then
         printf 'ok %s\n' "$stream"

@@ -200,7 +200,8 @@ static int print_hash(void)
 
 static void test_routines_of_random_keys(void)
 {
-    TEST_ASSERT_GREATER_THAN(RANDOM_KEYS / 2, visit_random_keys(RANDOM_KEYS, seed, check, NULL));
+    unsigned keys = test_share(RANDOM_KEYS);
+    TEST_ASSERT_GREATER_THAN(keys / 2, visit_random_keys(keys, seed, check, NULL));
 }
 
 static void test_routines_of_the_shaders(void)
@@ -210,7 +211,8 @@ static void test_routines_of_the_shaders(void)
 
 static void test_routines_of_random_shaders(void)
 {
-    TEST_ASSERT_GREATER_THAN(RANDOM_SHADERS / 2, visit_random_shaders(RANDOM_SHADERS, seed, check, NULL));
+    unsigned shaders = test_share(RANDOM_SHADERS);
+    TEST_ASSERT_GREATER_THAN(shaders / 2, visit_random_shaders(shaders, seed, check, NULL));
 }
 
 static void test_routines_of_the_streams(void)

@@ -32,7 +32,7 @@ static void compare_units(const struct engine *engine)
         TEST_IGNORE_MESSAGE(engine->unavailable());
     for (int unit = 0; unit < UNIT_COUNT; unit++) {
         const char *difference = differential_rounds(differential, &engine_emulate, engine, unit, NULL,
-                                                     test_seed() + (uint64_t)unit, ROUNDS);
+                                                     test_seed() + (uint64_t)unit, test_share(ROUNDS));
         if (difference)
             TEST_FAIL_MESSAGE(difference);
     }

@@ -6,6 +6,7 @@
 #include "base/mxcsr.h"
 #include "def/lane.h"
 #include "tests/support/program.h"
+#include "tests/support/seed.h"
 #include "unity.h"
 
 #include <math.h>
@@ -73,7 +74,7 @@ static void check_optimized(uint64_t number, enum profile profile, uint32_t disa
 
 static void test_all_passes_keep_meaning(void)
 {
-    for (uint64_t n = 1; n <= PROGRAMS; n++) {
+    for (uint64_t n = 1; n <= test_share(PROGRAMS); n++) {
         check_optimized(n, PROFILE_FULL, 0, "full profile");
         check_optimized(n, PROFILE_THESIS, 0, "thesis profile");
     }
@@ -82,20 +83,20 @@ static void test_all_passes_keep_meaning(void)
 static void test_each_pass_alone_keeps_meaning(void)
 {
     for (unsigned pass = 0; pass < PASS_COUNT; pass++)
-        for (uint64_t n = 1; n <= PROGRAMS / 2; n++)
+        for (uint64_t n = 1; n <= test_share(PROGRAMS) / 2; n++)
             check_optimized(n, PROFILE_FULL, ~(1u << pass), "one pass");
 }
 
 static void test_all_passes_but_one_keep_meaning(void)
 {
     for (unsigned pass = 0; pass < PASS_COUNT; pass++)
-        for (uint64_t n = 1; n <= PROGRAMS / 2; n++)
+        for (uint64_t n = 1; n <= test_share(PROGRAMS) / 2; n++)
             check_optimized(n, PROFILE_FULL, 1u << pass, "all but one pass");
 }
 
 static void test_optimizing_twice_changes_nothing(void)
 {
-    for (uint64_t n = 1; n <= PROGRAMS / 4; n++) {
+    for (uint64_t n = 1; n <= test_share(PROGRAMS) / 4; n++) {
         check_optimized(n, PROFILE_FULL, 0, "first time");
         uint32_t count = builder->ir.count;
         optimize_under_contract(PROFILE_FULL, 0);
@@ -110,7 +111,7 @@ static void test_machine_code_with_few_registers_equals_the_interpreter(void)
     if (!cpu_has_avx2_fma())
         TEST_IGNORE_MESSAGE("needs AVX2 and FMA");
     for (unsigned registers = 4; registers <= ALLOCATABLE; registers += 3)
-        for (uint64_t n = 1; n <= PROGRAMS / 2; n++) {
+        for (uint64_t n = 1; n <= test_share(PROGRAMS) / 2; n++) {
             unsigned width = lanes = program_width(n);
             check_optimized(n, PROFILE_FULL, n % 3 ? 0 : ~0u, "before compiling");
             uint64_t seed = n;
@@ -122,7 +123,7 @@ static void test_machine_code_with_few_registers_equals_the_interpreter(void)
             fail_if_different("machine code", n);
             spills += builder->allocation.spills;
         }
-    TEST_ASSERT_GREATER_THAN(1000, spills);
+    TEST_ASSERT_GREATER_THAN(test_share(1000), spills);
 }
 
 /* An operation on a loaded word and a literal, and the opcode that is left of it after the thesis' passes. */

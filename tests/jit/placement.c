@@ -127,19 +127,19 @@ static void try_program(generator *make, uint64_t number, unsigned longest)
 
 static void test_straight_programs(void)
 {
-    for (uint64_t n = 1; n <= PROGRAMS; n++)
+    for (uint64_t n = 1; n <= test_share(PROGRAMS); n++)
         try_program(program_make, n, 100);
 }
 
 static void test_programs_with_loops_and_variables(void)
 {
-    for (uint64_t n = 1; n <= PROGRAMS; n++)
+    for (uint64_t n = 1; n <= test_share(PROGRAMS); n++)
         try_program(program_make_loops, n, 40);
 }
 
 static void test_programs_that_no_recording_is(void)
 {
-    for (uint64_t n = 1; n <= PROGRAMS; n++)
+    for (uint64_t n = 1; n <= test_share(PROGRAMS); n++)
         try_program(program_make_wild, n, 50);
 }
 
@@ -193,12 +193,12 @@ static void test_routines(void)
     lots = test_seed();
     differential = differential_create(arena);
     TEST_ASSERT_NOT_NULL(differential);
-    visit_random_keys(450, lots, check_routine, NULL);
+    visit_random_keys(test_share(450), lots, check_routine, NULL);
     visit_shaders(lots, check_routine, NULL);
-    visit_random_shaders(200, lots, check_routine, NULL);
+    visit_random_shaders(test_share(200), lots, check_routine, NULL);
     visit_streams(check_routine, NULL);
     differential_destroy(differential);
-    TEST_ASSERT_GREATER_THAN(1000, visited);
+    TEST_ASSERT_GREATER_THAN(test_share(1000), visited);
 }
 
 /* --- Sabotage ----------------------------------------------------------------------------------------------- */

@@ -1,6 +1,7 @@
 /* What happens to a shaded pixel, on every engine: alpha test, late depth write, scissor, blending. Each
  * expected value is worked out here from the definition. */
 #include "tests/support/canvas.h"
+#include "tests/support/seed.h"
 
 #include <stdio.h>
 
@@ -119,7 +120,7 @@ static void expect_scissored(unsigned x, unsigned y, unsigned width, unsigned he
 
 static void check_scissor(void)
 {
-    for (int round = 0; round < 40; round++) {
+    for (int round = 0; round < (int)test_share(40); round++) {
         uint32_t background = random_word(), clear = random_word(), color = random_word();
         unsigned x = random_word() % (SIZE + 1), y = random_word() % (SIZE + 1);
         unsigned width = random_word() % (SIZE + 1 - x), height = random_word() % (SIZE + 1 - y);
@@ -286,7 +287,7 @@ static void check_blending(int separate)
     set_stage(0, TRIPTYCH_STAGE_colorop, "selectarg1");
     set_stage(0, TRIPTYCH_STAGE_alphaop, "selectarg1");
     set(TRIPTYCH_STATE_separatealphablendenable, separate ? "true" : "false");
-    for (unsigned i = 0; i < BLENDINGS; i++) {
+    for (unsigned i = 0; i < BLENDINGS; i += BLENDINGS / test_share(BLENDINGS)) {
         struct blending color, alpha;
         if (!make_blending(i, &color))
             continue;

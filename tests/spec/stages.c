@@ -2,6 +2,7 @@
  * and unbound textures. What a pixel must be is worked out with Direct3D 9's formulas, one by one, on
  * integers. */
 #include "tests/support/canvas.h"
+#include "tests/support/seed.h"
 
 #include <math.h>
 #include <stdio.h>
@@ -254,7 +255,7 @@ static void check_stages(void)
     struct whole_stage stage;
     make_textures();
     for (int i = 0; i < OPERATIONS; i++)
-        for (int round = 0; round < 12; round++) {
+        for (int round = 0; round < (int)test_share(12); round++) {
             random_stage(&stage, operation_words[i], random_operation(ALPHA_OPERATIONS));
             if (round % 3 == 0 && i < ALPHA_OPERATIONS)
                 stage.alpha = stage.color; /* all channels alike */
@@ -271,7 +272,7 @@ static void check_chains(void)
 {
     struct whole_stage stage[TRIPTYCH_STAGES];
     make_textures();
-    for (int round = 0; round < 60; round++) {
+    for (int round = 0; round < (int)test_share(60); round++) {
         unsigned count = 2 + random_word() % (TRIPTYCH_STAGES - 1);
         for (unsigned i = 0; i < count; i++) {
             random_stage(&stage[i], random_operation(OPERATIONS), random_operation(ALPHA_OPERATIONS));
@@ -289,7 +290,7 @@ static void check_usual_chains(void)
     static const char *const usual[] = {"selectarg1", "modulate", "add", "modulate2x", "blendtexturealpha"};
     struct whole_stage stage[3];
     make_textures();
-    for (unsigned round = 0; round < 25; round++) {
+    for (unsigned round = 0; round < test_share(25); round++) {
         for (int i = 0; i < 3; i++) {
             const char *word = usual[i ? (round / (i == 1 ? 5 : 1)) % 5 : round % 2];
             random_stage(&stage[i], word, word);

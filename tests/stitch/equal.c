@@ -43,7 +43,7 @@ static void compare(enum unit unit)
     enum { ROUNDS = 3000 };
     for (size_t i = 0; i < sizeof stitchers / sizeof *stitchers; i++) {
         const char *difference = differential_rounds(differential, &engine_emulate, stitchers[i].engine, unit,
-                                                     stitchers[i].shape, test_seed() + i, ROUNDS);
+                                                     stitchers[i].shape, test_seed() + i, test_share(ROUNDS));
         if (difference)
             TEST_FAIL_MESSAGE(difference);
     }

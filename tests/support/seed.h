@@ -1,4 +1,4 @@
-/* Where random tests begin: the seed in TRIPTYCH_SEED, for long runs (make soak), or the same every time. */
+/* Where random tests begin, and how many cases they try: the seed in TRIPTYCH_SEED, for long runs (make soak), or the same every time. */
 #ifndef TESTS_SUPPORT_SEED_H
 #define TESTS_SUPPORT_SEED_H
 
@@ -11,6 +11,17 @@ static inline uint64_t test_seed(void)
     const char *given = getenv("TRIPTYCH_SEED");
     uint64_t number = given ? strtoull(given, NULL, 10) : 0;
     return 0x9e3779b97f4a7c15 ^ number * 0xbf58476d1ce4e5b9;
+}
+
+/* How many of so many random cases a build with sanitizers tries: they watch what is around generated code, not the code,
+ * whose cases the plain build tries. */
+static inline unsigned test_share(unsigned count)
+{
+#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
+    return (count + 3) / 4;
+#else
+    return count;
+#endif
 }
 
 #endif
