@@ -4,7 +4,7 @@
  * rebuilt each time since it is cleared; the destination is zeroed first to cut its dependency. On many
  * processors it is microcode, so:
  *
- * Lane by lane, where the indices lie in memory anyway (setup's vertices), and with 16 lanes always.
+ * Lane by lane, where the indices lie in memory anyway (setup's vertices). Sixteen lanes are two instructions of eight.
  *
  * By pairs, where two neighbouring words of the same places follow one another (texels of a row):
  *
@@ -42,6 +42,34 @@ static void select_gather_instruction(struct emitter *m, const struct ir_instruc
     vector_rrr(&m->encoder, X86_vxorps, m->length, to, to, to);
     vector_gather(&m->encoder, X86_vgatherdps, m->length, to, address_indexed(base, lanes, i->scale, i->k),
                   SCRATCH_SECOND);
+}
+
+/* Eight lanes of `indices`, a register below 16, to SCRATCH_RESULT. */
+static void gather_eight(struct emitter *m, const struct ir_instruction *i, unsigned indices, unsigned base)
+{
+    struct encoder *e = &m->encoder;
+    vector_rrr(e, X86_vpcmpeqd, X86_256, SCRATCH_SECOND, SCRATCH_SECOND, SCRATCH_SECOND);
+    vector_rrr(e, X86_vxorps, X86_256, SCRATCH_RESULT, SCRATCH_RESULT, SCRATCH_RESULT);
+    vector_gather(e, X86_vgatherdps, X86_256, SCRATCH_RESULT, address_indexed(base, indices, i->scale, i->k),
+                  SCRATCH_SECOND);
+}
+
+/* The instruction twice, for 16 lanes, whose result is not in SCRATCH_RESULT. */
+static void select_gather_halves(struct emitter *m, const struct ir_instruction *i)
+{
+    struct encoder *e = &m->encoder;
+    struct place index = place_of(m, i->operand[0]);
+    unsigned to = result_register(m), lanes = need_register(m, &index, SCRATCH_FIRST), low = lanes;
+    unsigned base = gather_base(m, i);
+    if (lanes > SCRATCH_SECOND) {
+        vector_copy(e, X86_512, SCRATCH_FIRST, lanes);
+        low = SCRATCH_FIRST;
+    }
+    gather_eight(m, i, low, base);
+    vector_copy(e, X86_512, to, SCRATCH_RESULT);
+    vector_rri(e, X86_vextractf64x4, X86_512, SCRATCH_FIRST, lanes, 1);
+    gather_eight(m, i, SCRATCH_FIRST, base);
+    vector_rrri(e, X86_vinsertf64x4, X86_512, to, to, SCRATCH_RESULT, 1);
 }
 
 /* --- From indices in memory --------------------------------------------------------------------------------
@@ -222,8 +250,10 @@ void select_gather(struct emitter *m, const struct ir_instruction *i)
         select_gather_rows(m, i, words);
     else if (words == 2)
         select_gather_pairs(m, i);
-    else if (is_wide(m) || indices_in_memory(m, i))
+    else if (indices_in_memory(m, i) || (is_wide(m) && result_register(m) == SCRATCH_RESULT))
         select_gather_words(m, i);
+    else if (is_wide(m))
+        select_gather_halves(m, i);
     else
         select_gather_instruction(m, i);
 }

@@ -15,6 +15,9 @@
 
 #include <string.h>
 
+/* Of memory->flag: the value is computed of something gathered; it goes behind the window. */
+enum { DEPENDS = 1, MOVES = 2 };
+
 /* Where a gather reads: x + y * pitch, the pitch a word of the job. */
 struct texel_place {
     uint16_t x, y;
@@ -119,11 +122,21 @@ static unsigned move_indices(const struct ir *ir, struct pass_memory *memory, ui
         unsigned index = value[rows + row];
         if (memory->region[index] != gathers / rows)
             continue;
-        memory->flag[index] = 1;
-        memory->flag[value[row]] = memory->region[value[row]] == 1;
-        moved += 1 + memory->flag[value[row]];
+        memory->flag[index] |= MOVES;
+        moved++;
+        if (memory->region[value[row]] != 1)
+            continue;
+        memory->flag[value[row]] |= MOVES;
+        moved++;
     }
     return moved;
+}
+
+/* A single texel at a place that was looked up: tables are read so, and their entries are anywhere. */
+static int is_scattered(const struct pass_memory *memory, const struct ir_instruction *window)
+{
+    return gathers_of(window) == 1 &&
+           (memory->flag[window->operand[0]] | memory->flag[window->operand[1]]) & DEPENDS;
 }
 
 static void count_uses(const struct ir *ir, uint16_t *uses)
@@ -134,19 +147,32 @@ static void count_uses(const struct ir *ir, uint16_t *uses)
             uses[ir->instruction[number].operand[o]]++;
 }
 
+/* Marks what is computed of something gathered: memory->flag is DEPENDS. */
+static void find_dependent(const struct ir *ir, struct pass_memory *memory)
+{
+    for (uint32_t number = 1; number < ir->count; number++) {
+        const struct ir_instruction *i = &ir->instruction[number];
+        uint8_t any = i->op == IR_gather ? DEPENDS : 0;
+        for (int o = 0; o < 3; o++)
+            any |= memory->flag[i->operand[o]] & DEPENDS;
+        memory->flag[number] = any;
+    }
+}
+
 /* Where each window goes, and what behind it: memory->same of its first gather is how many instructions. */
 static unsigned find_windows(const struct ir *ir, struct pass_memory *memory)
 {
     unsigned windows = 0;
     count_uses(ir, memory->region);
-    memset(memory->flag, 0, ir->count * sizeof *memory->flag);
+    memory->flag[0] = 0;
+    find_dependent(ir, memory);
     memset(memory->same, 0, ir->count * sizeof *memory->same);
     for (uint32_t number = 1; number < ir->count && ir->count + windows < IR_CAPACITY; number++) {
         const struct ir_instruction *i = &ir->instruction[number];
         struct ir_instruction window = window_at(ir, number);
         if (i->op == IR_window)
             number += i->scale;
-        if (window.op != IR_window)
+        if (window.op != IR_window || is_scattered(memory, &window))
             continue;
         unsigned gathers = gathers_of(&window);
         memory->same[number] = (uint16_t)(gathers + move_indices(ir, memory, number, gathers));
@@ -184,7 +210,7 @@ static void append_window(struct rebuild *r, uint32_t first)
     window.scale = (uint8_t)r->memory->same[first];
     append(r, &window);
     for (unsigned v = 0; v < values; v++)
-        if (r->memory->flag[value[v]])
+        if (r->memory->flag[value[v]] & MOVES)
             append_value(r, value[v]);
 }
 
@@ -202,7 +228,7 @@ unsigned pass_window(struct ir *ir, struct pass_memory *memory)
     for (uint32_t number = 1; number < ir->count; number++) {
         if (memory->same[number])
             append_window(&r, number);
-        if (!memory->flag[number])
+        if (!(memory->flag[number] & MOVES))
             append_value(&r, number);
     }
     memcpy(ir->instruction, memory->rebuilt, r.count * sizeof *memory->rebuilt);
