@@ -13,8 +13,8 @@
 /* Like the arrays of the IR, large but untouched: a routine of IR_CAPACITY instructions of ordinary length
  * fits. */
 enum {
-    CODE_CAPACITY = 4 << 20, /* bytes of one routine, constants included */
-    FIXUP_CAPACITY = 2 * IR_CAPACITY,
+    CODE_CAPACITY = 4 << 20,          /* bytes of one routine, constants included */
+    FIXUP_CAPACITY = 4 * IR_CAPACITY, /* of few instructions more than two, of a window seven */
     LITERAL_CAPACITY = 8192,
     LITERAL_TABLE = 2 * LITERAL_CAPACITY, /* a power of two */
     REGION_CAPACITY = 16384,
@@ -30,7 +30,8 @@ enum { FRAME_SAVED_MXCSR = 0, FRAME_CONTRACT_MXCSR = 4, FRAME_LANES = 64, FRAME_
 /* Labels of the frame; regions and literals follow. */
 enum frame_label { LABEL_LOOP, LABEL_CHUNK, LABEL_SKIP, LABEL_DONE, LABEL_PAGE, LABEL_FREE };
 
-enum { LABEL_CAPACITY = LABEL_FREE + LITERAL_CAPACITY + 2 * REGION_CAPACITY };
+/* Windows and reciprocals have two of their own. */
+enum { LABEL_CAPACITY = LABEL_FREE + LITERAL_CAPACITY + 2 * REGION_CAPACITY + 2 * IR_CAPACITY };
 
 /* Where an instruction's code begins. */
 struct code_line {
