@@ -1,6 +1,8 @@
 #include "fuzz/interpret.h"
 
 #include "base/mxcsr.h"
+#include "def/lane.h"
+#include "draw/call.h"
 
 #include <stdlib.h>
 #include <string.h>
@@ -13,6 +15,7 @@ typedef struct {
 
 struct interpreter {
     const struct ir *ir;
+    uint32_t lane; /* the first */
     const uint8_t *base[BASE_COUNT];
     quad value[IR_CAPACITY];
     quad next[IR_CAPACITY]; /* of each phi */
@@ -132,6 +135,23 @@ static void scatter(const struct interpreter *m, const struct ir_instruction *i,
         memcpy((uint8_t *)(uintptr_t)place(m, i) + l * i->field, &value.lane[l], 4);
 }
 
+static void store_where(const struct interpreter *m, const struct ir_instruction *i, quad value, quad where)
+{
+    for (int l = 0; l < QUAD_LANES; l++)
+        if (where.lane[l])
+            memcpy((uint8_t *)(uintptr_t)place(m, i) + 4 * l, &value.lane[l], 4);
+}
+
+static quad coverage(const struct interpreter *m, const struct ir_instruction *i)
+{
+    quad result;
+    uint16_t bits;
+    memcpy(&bits, place(m, i), sizeof bits);
+    for (uint32_t l = 0; l < QUAD_LANES; l++)
+        result.lane[l] = bits >> (m->lane + l) & 1 ? UINT32_MAX : 0;
+    return result;
+}
+
 /* --- Instructions ----------------------------------------------------------------------------------------- */
 
 static quad permute(quad a, int32_t k)
@@ -151,6 +171,21 @@ static quad compute(const struct interpreter *m, const struct ir_instruction *i)
     return result;
 }
 
+/* 1 / (value + y dy + x dx), as ir.h has it. */
+static quad reciprocal(const struct interpreter *m, const struct ir_instruction *i)
+{
+    const uint8_t *plane = place(m, i);
+    quad value = all(plane + offsetof(struct plane, value)), dx = all(plane + offsetof(struct plane, dx));
+    quad dy = all(plane + offsetof(struct plane, dy)), x = m->value[i->operand[0]],
+         y = m->value[i->operand[1]], result;
+    for (int l = 0; l < QUAD_LANES; l++) {
+        uint32_t row = ir_evaluate(IR_mad_f, y.lane[l], dy.lane[l], value.lane[l], 0);
+        uint32_t sum = ir_evaluate(IR_mad_f, x.lane[l], dx.lane[l], row, 0);
+        result.lane[l] = ir_evaluate(IR_div_f, lane_bits(1.0f), sum, 0, 0);
+    }
+    return result;
+}
+
 static quad value_of(const struct interpreter *m, uint32_t number)
 {
     const struct ir_instruction *i = &m->ir->instruction[number];
@@ -165,6 +200,8 @@ static quad value_of(const struct interpreter *m, uint32_t number)
     case IR_gather: return gather(m, i, a);
     case IR_get: return m->variable[i->k];
     case IR_join: return join(m, number);
+    case IR_coverage: return coverage(m, i);
+    case IR_reciprocal: return reciprocal(m, i);
     case IR_permute: return permute(a, i->k);
     default: return compute(m, i);
     }
@@ -189,9 +226,11 @@ static uint32_t step(struct interpreter *m, uint32_t number)
     quad a = m->value[i->operand[0]];
     switch (i->op) {
     case IR_nop:
+    case IR_window:
     case IR_end: break;
     case IR_loop: enter_visit(m, (struct visit){m->visit, m->loop[number], 0}); break;
     case IR_store: memcpy((uint8_t *)(uintptr_t)place(m, i), &a, sizeof a); break;
+    case IR_store_where: store_where(m, i, a, m->value[i->operand[1]]); break;
     case IR_scatter: scatter(m, i, a); break;
     case IR_set: m->variable[i->k] = a; break;
     case IR_next: m->next[i->operand[0]] = m->value[i->operand[1]]; break;
@@ -210,6 +249,7 @@ bool interpret(struct interpreter *m, const struct ir *ir, const struct replay *
 {
     unsigned saved = mxcsr_enter();
     m->ir = ir;
+    m->lane = lane;
     m->notes = notes;
     m->visit = 0;
     if (notes) {
