@@ -32,8 +32,8 @@ static_assert((int)WINDOW_HEIGHT <= (int)TEXTURE_MARGIN_ROWS &&
 /* Scratch registers by what they hold last. */
 enum { NUMBERS = SCRATCH_RESULT, NEXT_NUMBERS = SCRATCH_FIRST, OTHER = SCRATCH_SECOND };
 
-/* How many gathers stand behind the window at the current position; 0 if one of them has no register of its own, or there
- * are not 16 lanes. */
+/* How many gathers stand behind the window at the current position; 0 if one of them has no register of its own, if there
+ * are not 16 lanes, or if something else was put in between (the bisector's probes). */
 static unsigned gathers(const struct emitter *m, const struct ir_instruction *window)
 {
     const struct allocation *a = m->allocation;
@@ -44,7 +44,8 @@ static unsigned gathers(const struct emitter *m, const struct ir_instruction *wi
         return 0;
     for (uint32_t at = last + 1 - n; at <= last; at++) {
         unsigned reg = a->reg[at];
-        assert(m->ir->instruction[at].op == IR_gather);
+        if (at >= m->ir->count || m->ir->instruction[at].op != IR_gather)
+            return 0;
         if (a->residence[at] != RESIDENCE_REGISTER || reg == SCRATCH_RESULT || used >> reg & 1)
             return 0;
         used |= 1u << reg;
