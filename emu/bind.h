@@ -1,6 +1,7 @@
 /* The emulator's binding: a value is four lanes, an operation computes them at once, and every host decision
  * on the state is taken again for every group of four. Nothing here knows the key; nothing is slowed down on
- * purpose. */
+ * purpose: four lanes are one register of SSE2, which every x86-64 has, and compilers make one or two of its
+ * instructions of most rows of def/op.def. emu/quad.h has those of which they make more. */
 #ifndef EMU_BIND_H
 #define EMU_BIND_H
 
@@ -9,17 +10,21 @@
 
 enum { EMULATE_WIDTH = 4 };
 
+typedef float floats __attribute__((vector_size(4 * EMULATE_WIDTH)));
+typedef int32_t words __attribute__((vector_size(4 * EMULATE_WIDTH)));
+typedef uint16_t halves __attribute__((vector_size(4 * EMULATE_WIDTH)));
+
 typedef struct {
-    float lane[EMULATE_WIDTH];
+    floats lane;
 } flt;
 typedef struct {
-    int32_t lane[EMULATE_WIDTH];
+    words lane;
 } itg;
 typedef struct {
-    uint16_t half[2 * EMULATE_WIDTH];
+    halves half;
 } fix;
 typedef struct {
-    int32_t lane[EMULATE_WIDTH]; /* 0 or -1 */
+    words lane; /* 0 or -1 */
 } msk;
 
 union variable {
@@ -31,6 +36,7 @@ union variable {
 struct env {
     const uint8_t *base[BASE_COUNT];
     const struct program *program; /* of the shader, if the key has one */
+    bool fuses;                    /* the processor has fused multiply-additions */
     union variable variable[VARIABLES];
 };
 
@@ -91,53 +97,40 @@ struct env {
         memcpy(&r, &a, sizeof r);                                                                            \
         return GIVE(r);                                                                                      \
     }
-#include "def/op.def"
-#undef OP
-#undef OPK
-#undef CAST
+#include "emu/quad.h"
 
 static inline flt lit_f(struct env *e, float value)
 {
     (void)e;
-    flt r;
-    for (int i = 0; i < EMULATE_WIDTH; i++)
-        r.lane[i] = value;
+    flt r = {{value, value, value, value}};
     return GIVE(r);
 }
 
 static inline itg lit_i(struct env *e, int32_t value)
 {
     (void)e;
-    itg r;
-    for (int i = 0; i < EMULATE_WIDTH; i++)
-        r.lane[i] = value;
+    itg r = {{value, value, value, value}};
     return GIVE(r);
 }
 
 static inline msk lit_m(struct env *e, int32_t value)
 {
     (void)e;
-    msk r;
-    for (int i = 0; i < EMULATE_WIDTH; i++)
-        r.lane[i] = value;
+    msk r = {{value, value, value, value}};
     return GIVE(r);
 }
 
 static inline fix lit_x(struct env *e, uint16_t value)
 {
     (void)e;
-    fix r;
-    for (int i = 0; i < 2 * EMULATE_WIDTH; i++)
-        r.half[i] = value;
+    fix r = {{value, value, value, value, value, value, value, value}};
     return GIVE(r);
 }
 
 static inline flt permute_f(struct env *e, flt a, int lanes)
 {
     (void)e;
-    flt r;
-    for (int i = 0; i < EMULATE_WIDTH; i++)
-        r.lane[i] = a.lane[(i & ~3) | (lanes >> 2 * (i & 3) & 3)];
+    flt r = {{a.lane[lanes & 3], a.lane[lanes >> 2 & 3], a.lane[lanes >> 4 & 3], a.lane[lanes >> 6 & 3]}};
     return GIVE(r);
 }
 
@@ -190,33 +183,43 @@ static inline const uint8_t *gather_start(struct env *e, enum base base, int fie
     return start;
 }
 
-static inline void gather(struct env *e, void *words, enum base base, int field, itg index, int scale,
-                          int displacement)
+static inline int32_t word_at(const uint8_t *address)
 {
-    uint8_t *to = words;
-    const uint8_t *start = gather_start(e, base, field);
-    for (int i = 0; i < EMULATE_WIDTH; i++)
-        memcpy(to + 4 * i, start + (ptrdiff_t)index.lane[i] * scale + displacement, 4);
+    int32_t word;
+    memcpy(&word, address, sizeof word);
+    return word;
+}
+
+static inline itg gather(struct env *e, enum base base, int field, itg index, int scale, int displacement)
+{
+    const uint8_t *start = gather_start(e, base, field) + displacement;
+    itg r = {{word_at(start + (ptrdiff_t)index.lane[0] * scale),
+              word_at(start + (ptrdiff_t)index.lane[1] * scale),
+              word_at(start + (ptrdiff_t)index.lane[2] * scale),
+              word_at(start + (ptrdiff_t)index.lane[3] * scale)}};
+    return r;
 }
 
 static inline itg gather_i(struct env *e, enum base base, int field, itg index, int scale, int displacement)
 {
-    itg r;
-    gather(e, &r, base, field, index, scale, displacement);
+    itg r = gather(e, base, field, index, scale, displacement);
     return GIVE(r);
 }
 
 static inline flt gather_f(struct env *e, enum base base, int field, itg index, int scale, int displacement)
 {
+    itg words = gather(e, base, field, index, scale, displacement);
     flt r;
-    gather(e, &r, base, field, index, scale, displacement);
+    memcpy(&r, &words, sizeof r);
     return GIVE(r);
 }
 
 static inline void scatter_i(struct env *e, enum base base, int offset, int stride, itg value)
 {
-    for (int i = 0; i < EMULATE_WIDTH; i++)
-        memcpy((uint8_t *)e->base[base] + offset + i * stride, &value.lane[i], 4);
+    for (int i = 0; i < EMULATE_WIDTH; i++) {
+        int32_t word = value.lane[i];
+        memcpy((uint8_t *)e->base[base] + offset + i * stride, &word, sizeof word);
+    }
 }
 
 static inline void scatter_f(struct env *e, enum base base, int offset, int stride, flt value)
@@ -258,7 +261,7 @@ static inline void set_m(struct env *e, int variable, msk value)
 
 static inline int any_lane(msk mask)
 {
-    return (mask.lane[0] | mask.lane[1] | mask.lane[2] | mask.lane[3]) != 0;
+    return _mm_movemask_ps((__m128)mask.lane) != 0;
 }
 
 /* The body runs when any lane of the mask is set. */

@@ -5,16 +5,31 @@
  * run time. */
 #include "emu/emulate.h"
 
+#include "base/cpu.h"
 #include "base/mxcsr.h"
 #include "emu/bind.h"
 #include "spec/spec.h"
 
 #include <stdlib.h>
 
+/* What follows from the key alone. */
+struct emulate_routine {
+    struct routine routine;
+    const struct program *program;
+    struct triangle_layout layout;
+    bool fuses;
+};
+
+static const struct emulate_routine *emulate_routine(const struct routine *routine)
+{
+    return (const struct emulate_routine *)(const void *)routine;
+}
+
 /* An env for the calls of a routine with this job. */
 static void begin(struct env *e, const struct routine *routine, const struct job *job)
 {
-    e->program = key_shader(routine->unit, &routine->key);
+    e->program = emulate_routine(routine)->program;
+    e->fuses = emulate_routine(routine)->fuses;
     e->base[BASE_JOB] = (const uint8_t *)job;
     if (e->program)
         e->base[BASE_CONSTANT] = (const uint8_t *)job->constants[e->program->model->stage];
@@ -37,22 +52,21 @@ static void emulate_vertex(const void *arguments, const struct routine *routine)
 static void emulate_setup(const void *arguments, const struct routine *routine)
 {
     const struct setup_call *call = arguments;
-    const struct setup_key *key = &routine->key.setup;
+    const struct triangle_layout *layout = &emulate_routine(routine)->layout;
     unsigned saved = mxcsr_enter();
-    size_t stride = setup_layout(key).stride;
     struct env e;
     begin(&e, routine, call->job);
     e.base[BASE_VERTICES] = (const uint8_t *)call->vertices;
     for (uint32_t i = 0; i < call->count; i += EMULATE_WIDTH) {
         e.base[BASE_INPUT] = (const uint8_t *)(call->index + i);
-        e.base[BASE_OUTPUT] = call->out + i * stride;
-        spec_setup(&e, key);
+        e.base[BASE_OUTPUT] = call->out + (size_t)i * layout->stride;
+        spec_setup(&e, &routine->key.setup, layout);
     }
     mxcsr_leave(saved);
 }
 
 static void emulate_block(struct env *e, const struct pixel_call *call, const struct entry *entry,
-                          const struct pixel_key *key)
+                          const struct emulate_routine *routine)
 {
     e->base[BASE_ENTRY] = (const uint8_t *)entry;
     e->base[BASE_TRIANGLE] = call->triangles + entry->triangle;
@@ -63,7 +77,7 @@ static void emulate_block(struct env *e, const struct pixel_call *call, const st
         e->base[BASE_LANES] = (const uint8_t *)call->lanes + 4 * lane;
         e->base[BASE_COLOR] = (const uint8_t *)(call->color + word);
         e->base[BASE_DEPTH] = (const uint8_t *)(call->depth + word);
-        spec_pixel(e, key);
+        spec_pixel(e, &routine->routine.key.pixel, &routine->layout);
     }
 }
 
@@ -74,7 +88,7 @@ static void emulate_pixel(const void *arguments, const struct routine *routine)
     struct env e;
     begin(&e, routine, call->job);
     for (uint32_t i = 0; i < call->count; i++)
-        emulate_block(&e, call, call->entries + i, &routine->key.pixel);
+        emulate_block(&e, call, call->entries + i, emulate_routine(routine));
     mxcsr_leave(saved);
 }
 
@@ -88,16 +102,20 @@ static struct routine *build(struct code_arena *arena, enum unit unit, const uni
 {
     static routine_function *const run[UNIT_COUNT] = {emulate_vertex, emulate_setup, emulate_pixel};
     (void)arena;
-    struct routine *routine = calloc(1, sizeof *routine);
+    struct emulate_routine *routine = calloc(1, sizeof *routine);
     if (!routine) {
         error_set(error, "out of memory for a routine");
         return NULL;
     }
-    routine->run = run[unit];
-    routine->engine = &engine_emulate;
-    routine->unit = unit;
-    routine->key = *key;
-    return routine;
+    routine->program = key_shader(unit, key);
+    routine->layout = unit_layout(unit, key);
+    routine->fuses = cpu_has_avx2_fma();
+    routine->routine = (struct routine){.run = run[unit],
+                                        .engine = &engine_emulate,
+                                        .unit = unit,
+                                        .key = *key,
+                                        .data_bytes = sizeof *routine - sizeof routine->routine};
+    return &routine->routine;
 }
 
 static void free_routine(struct code_arena *arena, struct routine *routine)

@@ -66,54 +66,22 @@ _Static_assert(sizeof(flt) == GROUP_BYTES && sizeof(itg) == GROUP_BYTES && sizeo
 #define CAST(name, ...)
 #include "def/op.def"
 
-/* The same where the processor has an instruction for four lanes but C has nothing that compilers would make
- * it of. */
-static inline itg vector_round_i(struct env *e, flt a)
-{
-    (void)e;
-    itg r;
-    _mm_storeu_si128((__m128i *)(void *)r.lane, _mm_cvtps_epi32(_mm_loadu_ps(a.lane)));
-    return r;
-}
-
-static inline itg vector_trunc_i(struct env *e, flt a)
-{
-    (void)e;
-    itg r;
-    _mm_storeu_si128((__m128i *)(void *)r.lane, _mm_cvttps_epi32(_mm_loadu_ps(a.lane)));
-    return r;
-}
-
-static inline flt vector_sqrt_f(struct env *e, flt a)
-{
-    (void)e;
-    flt r;
-    _mm_storeu_ps(r.lane, _mm_sqrt_ps(_mm_loadu_ps(a.lane)));
-    return r;
-}
-
+/* The same with instructions that not every x86-64 has. */
 #define NEEDS_SSE4 __attribute__((target("sse4.1")))
 #define NEEDS_FMA  __attribute__((target("fma")))
 
 NEEDS_SSE4 static inline flt vector_floor_f(struct env *e, flt a)
 {
     (void)e;
-    flt r;
-    _mm_storeu_ps(r.lane, _mm_floor_ps(_mm_loadu_ps(a.lane)));
-    return r;
+    return (flt){_mm_floor_ps(a.lane)};
 }
 
 NEEDS_FMA static inline flt vector_mad_f(struct env *e, flt a, flt b, flt c)
 {
     (void)e;
-    flt r;
-    _mm_storeu_ps(r.lane, _mm_fmadd_ps(_mm_loadu_ps(a.lane), _mm_loadu_ps(b.lane), _mm_loadu_ps(c.lane)));
-    return r;
+    return (flt){_mm_fmadd_ps(a.lane, b.lane, c.lane)};
 }
 
-OP(vector_round_i, itg, flt, non, non, 0, )
-OP(vector_trunc_i, itg, flt, non, non, 0, )
-OP(vector_sqrt_f, flt, flt, non, non, 0, )
 NEEDS_SSE4 OP(vector_floor_f, flt, flt, non, non, 0, )
 NEEDS_FMA OP(vector_mad_f, flt, flt, flt, flt, 0, )
 #undef OP
@@ -182,7 +150,7 @@ static const struct plan_step *step_gather(struct batch *batch, const struct pla
         if (field != GATHER_DIRECT)
             memcpy(&start, start + field, sizeof start);
         for (int i = 0; i < GROUP_LANES; i++)
-            memcpy(&r.lane[i], start + a.lane[i] * scale + displacement, 4);
+            r.lane[i] = word_at(start + a.lane[i] * scale + displacement);
         memcpy(to, &r, sizeof r);
     }
     return step + 1;
@@ -197,7 +165,7 @@ static const struct plan_step *step_scatter(struct batch *batch, const struct pl
         NEXT(itg, a)
         uint8_t *at = (uint8_t *)*base++ + offset;
         for (int i = 0; i < GROUP_LANES; i++)
-            memcpy(at + i * stride, &a.lane[i], 4);
+            memcpy(at + i * stride, a_at - a_stride + 4 * i, 4);
     }
     return step + 1;
 }
@@ -256,9 +224,6 @@ static step_function *const steps[IR_OP_COUNT] = {
 step_function *plan_step_of(enum ir_op op)
 {
     switch (op) {
-    case IR_round_i: return step_vector_round_i;
-    case IR_trunc_i: return step_vector_trunc_i;
-    case IR_sqrt_f: return step_vector_sqrt_f;
     case IR_floor_f: return cpu_has_avx2_fma() ? step_vector_floor_f : step_floor_f;
     case IR_mad_f: return cpu_has_avx2_fma() ? step_vector_mad_f : step_mad_f;
     default: return steps[op];

@@ -66,3 +66,12 @@ struct triangle_layout pixel_layout(const struct pixel_key *key)
 {
     return triangle_layout(pixel_reads_depth(key), pixel_reads_w(key), key->varying);
 }
+
+struct triangle_layout unit_layout(enum unit unit, const union key *key)
+{
+    switch (unit) {
+    case UNIT_SETUP: return setup_layout(&key->setup);
+    case UNIT_PIXEL: return pixel_layout(&key->pixel);
+    default: return (struct triangle_layout){0};
+    }
+}

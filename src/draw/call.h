@@ -206,4 +206,7 @@ extern const uint8_t varying_slot[VARYING_COUNT];
 struct triangle_layout setup_layout(const struct setup_key *key);
 struct triangle_layout pixel_layout(const struct pixel_key *key);
 
+/* The one or the other; of vertices nothing. */
+struct triangle_layout unit_layout(enum unit unit, const union key *key);
+
 #endif

@@ -53,6 +53,7 @@ void trace_emulate(struct trace *trace, enum unit unit, const union key *key,
                    const uint8_t *const base[BASE_COUNT])
 {
     static _Thread_local struct env e;
+    struct triangle_layout layout = unit_layout(unit, key);
     unsigned saved = mxcsr_enter();
     current = trace;
     trace->count = 0;
@@ -61,8 +62,8 @@ void trace_emulate(struct trace *trace, enum unit unit, const union key *key,
     memcpy(e.base, base, sizeof e.base);
     switch (unit) {
     case UNIT_VERTEX: spec_vertex(&e, &key->vertex); break;
-    case UNIT_SETUP: spec_setup(&e, &key->setup); break;
-    default: spec_pixel(&e, &key->pixel); break;
+    case UNIT_SETUP: spec_setup(&e, &key->setup, &layout); break;
+    default: spec_pixel(&e, &key->pixel, &layout); break;
     }
     mxcsr_leave(saved);
 }

@@ -143,21 +143,21 @@ static inline struct pixel_source pixel_source(struct env *e, const struct pixel
     return r;
 }
 
-static void spec_pixel(struct env *e, const struct pixel_key *k)
+/* `layout` is pixel_layout's. */
+static void spec_pixel(struct env *e, const struct pixel_key *k, const struct triangle_layout *layout)
 {
-    struct triangle_layout layout = pixel_layout(k);
     struct pixel_position at = pixel_position(E);
     struct samples samples;
     pixel_samples(E, k, &at, &samples);
     for (int i = 0; i < samples.count; i++)
-        samples.live[i] = early_tests(E, k, &samples.at[i], &layout, samples.covered[i]);
+        samples.live[i] = early_tests(E, k, &samples.at[i], layout, samples.covered[i]);
     if (!pixel_waits(k))
         count_passed(E, k, &samples);
     if (!pixel_shades(k))
         return;
     msk live = any_sample(E, &samples);
     WHEN (E, live) {
-        struct pixel_source source = pixel_source(E, k, &layout, &at, &samples);
+        struct pixel_source source = pixel_source(E, k, layout, &at, &samples);
         if (e->program)
             shade_by_shader(E, &source, live);
         else if (k->float_color)

@@ -77,13 +77,13 @@ static inline void setup_triangle(struct env *e, const struct setup_key *k,
     }
 }
 
-static void spec_setup(struct env *e, const struct setup_key *k)
+/* `layout` is setup_layout's. */
+static void spec_setup(struct env *e, const struct setup_key *k, const struct triangle_layout *layout)
 {
-    struct triangle_layout layout = setup_layout(k);
     switch (k->primitive) {
-    case PRIMITIVE_TRIANGLE: setup_triangle(E, k, &layout); break;
+    case PRIMITIVE_TRIANGLE: setup_triangle(E, k, layout); break;
     case PRIMITIVE_LINE:
-    case PRIMITIVE_EDGE: setup_line(E, k, &layout); break;
-    default: setup_point(E, k, &layout);
+    case PRIMITIVE_EDGE: setup_line(E, k, layout); break;
+    default: setup_point(E, k, layout);
     }
 }

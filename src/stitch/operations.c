@@ -26,11 +26,12 @@ void plan_place_operations(struct plan *plan, enum unit unit, const union key *k
 void plan_operations(struct plan *plan, enum unit unit, const union key *key)
 {
     struct env e;
+    struct triangle_layout layout = unit_layout(unit, key);
     env_start(&e, plan, key_shader(unit, key));
     switch (unit) {
     case UNIT_VERTEX: spec_vertex(&e, &key->vertex); break;
-    case UNIT_SETUP: spec_setup(&e, &key->setup); break;
-    default: spec_pixel(&e, &key->pixel);
+    case UNIT_SETUP: spec_setup(&e, &key->setup, &layout); break;
+    default: spec_pixel(&e, &key->pixel, &layout);
     }
     plan_place_operations(plan, unit, key, e.program);
 }

@@ -1,6 +1,7 @@
 /* The emulator's binding of every row of def/op.def: each lane, and each half of a pair, gets what the row's
  * expression says of the same lane of the operands. And the exact conversions and extremes that the
  * expressions rest on. */
+#include "base/cpu.h"
 #include "base/mxcsr.h"
 #include "emu/bind.h"
 #include "ir/ir.h"
@@ -11,6 +12,7 @@
 #include <stdio.h>
 
 static unsigned saved;
+static struct env env; /* of the emulator, on this processor or on a lesser one */
 
 void setUp(void)
 {
@@ -89,7 +91,7 @@ static void check_lanes(const char *name, enum ir_op row, const uint32_t in[3][4
     {                                                                                                        \
         uint32_t in[3][4] = {{0}};                                                                           \
         MAKE_##ta(a, 0) MAKE_##tb(b, 1) MAKE_##tc(c, 2) result r =                                           \
-            (name)(NULL PASS_##ta(a) PASS_##tb(b) PASS_##tc(c));                                             \
+            (name)(&env PASS_##ta(a) PASS_##tb(b) PASS_##tc(c));                                             \
         check_lanes(#name, IR_##name, in, &r, IS_FLOAT_##result, 0);                                         \
     }
 #define OPK(name, result, ta, tb, tc, properties, expression)                                                \
@@ -97,7 +99,7 @@ static void check_lanes(const char *name, enum ir_op row, const uint32_t in[3][4
     {                                                                                                        \
         uint32_t in[3][4] = {{0}};                                                                           \
         MAKE_##ta(a, 0) int k = (int)(round % (sizeof(result) == sizeof(fix) && #name[5] == 'x' ? 16 : 32)); \
-        result r = (name)(NULL, a, k);                                                                       \
+        result r = (name)(&env, a, k);                                                                       \
         check_lanes(#name, IR_##name, in, &r, IS_FLOAT_##result, k);                                         \
     }
 #define CAST(name, ...)
@@ -106,7 +108,7 @@ static void check_lanes(const char *name, enum ir_op row, const uint32_t in[3][4
 #undef OPK
 #undef CAST
 
-static void test_every_operation_of_the_emulator_equals_its_expression(void)
+static void check_every_operation(void)
 {
     for (unsigned round = 0; round < edge_count * edge_count / 4 + 1; round++) {
 #define OP(name, ...)  check_##name(round);
@@ -117,6 +119,20 @@ static void test_every_operation_of_the_emulator_equals_its_expression(void)
 #undef OPK
 #undef CAST
     }
+}
+
+static void test_every_operation_of_the_emulator_equals_its_expression(void)
+{
+    env.fuses = false;
+    check_every_operation();
+}
+
+static void test_every_operation_equals_its_expression_where_the_processor_fuses(void)
+{
+    if (!cpu_has_avx2_fma())
+        TEST_IGNORE_MESSAGE("needs AVX2 and FMA");
+    env.fuses = true;
+    check_every_operation();
 }
 
 static void test_permutations_of_quads_are_those_their_names_say(void)
@@ -174,6 +190,7 @@ int main(void)
 {
     UNITY_BEGIN();
     RUN_TEST(test_every_operation_of_the_emulator_equals_its_expression);
+    RUN_TEST(test_every_operation_equals_its_expression_where_the_processor_fuses);
     RUN_TEST(test_permutations_of_quads_are_those_their_names_say);
     RUN_TEST(test_round_is_nearest_even_and_saturates_to_the_indefinite_integer);
     RUN_TEST(test_minimum_and_maximum_give_the_second_operand_on_nan_and_on_equal_zeros);

@@ -23,9 +23,11 @@ void tearDown(void)
     mxcsr_leave(saved);
 }
 
+/* Compilers do not flush denormals when they compute what they know. */
 static float evaluate(flt function(struct env *, flt), float x)
 {
-    return function(&e, lit_f(&e, x)).lane[EMULATE_WIDTH - 1];
+    volatile float unknown = x;
+    return function(&e, lit_f(&e, unknown)).lane[EMULATE_WIDTH - 1];
 }
 
 static float raised(float x, float y)

@@ -55,7 +55,7 @@ static void give_inputs(struct machine *m, const struct quad *quad)
 {
     for (int r = 0; r < OUTPUT_COUNT; r++)
         for (int c = 0; c < 4; c++)
-            memcpy(m->input[r][c].lane, quad->v[r % QUAD_REGISTERS][c], sizeof m->input[r][c].lane);
+            memcpy(&m->input[r][c], quad->v[r % QUAD_REGISTERS][c], sizeof m->input[r][c]);
     for (int r = 0; r < QUAD_REGISTERS; r++)
         memcpy(m->coordinate[r], m->input[r], sizeof m->coordinate[r]);
 }
