@@ -26,7 +26,7 @@ struct axis {
     itg wanted[2]; /* the same before addressing */
     int adjoining; /* the neighbour stands behind the texel, and index[1] is not there */
     itg fraction;  /* of the way to the neighbour, 0 to 255; linear only */
-    fix weight;    /* the same in both halves */
+    fix weight;    /* the same in both halves; linear only */
 };
 
 /* How the lanes filter: linear if any of them does, mixed if not all of them do but those of `smooth`. */
@@ -193,10 +193,10 @@ static inline itg tap_fraction(struct env *e, const struct tap *tap, itg positio
 }
 
 /* An axis along which each texel's neighbour stands behind it. */
-static inline struct axis address_pairs(struct env *e, const struct level *l, const struct tap *tap,
-                                        int address, int axis, itg position)
+static inline void address_pairs(struct env *e, const struct level *l, const struct tap *tap, int address,
+                                 int axis, itg position, struct axis *r)
 {
-    struct axis r = {.adjoining = 1};
+    r->adjoining = 1;
     if (address == ADDRESS_CLAMP) {
         itg last_256 = level_last_256(E, l, axis);
         position = clamp_index(E, position, last_256);
@@ -206,16 +206,14 @@ static inline struct axis address_pairs(struct env *e, const struct level *l, co
         itg last = level_last(E, l, axis);
         index = and_i(E, index, last);
     }
-    r.index[0] = r.index[1] = r.wanted[0] = r.wanted[1] = index;
-    r.fraction = tap_fraction(E, tap, position);
-    r.weight = both_halves(E, r.fraction);
-    return r;
+    r->index[0] = r->index[1] = r->wanted[0] = r->wanted[1] = index;
+    r->fraction = tap_fraction(E, tap, position);
+    r->weight = both_halves(E, r->fraction);
 }
 
-static inline struct axis address_axis(struct env *e, const struct level *l, const struct tap *tap,
-                                       int address, int axis, flt coordinate)
+static inline void address_axis(struct env *e, const struct level *l, const struct tap *tap, int address,
+                                int axis, flt coordinate, struct axis *r)
 {
-    struct axis r = {.adjoining = 0};
     flt inner = address_period(E, address, coordinate);
     flt size_256 = level_size_256(E, l, axis);
     flt scaled = mul_f(E, inner, size_256);
@@ -223,20 +221,20 @@ static inline struct axis address_axis(struct env *e, const struct level *l, con
     if (tap->linear) {
         itg offset = tap_offset(E, tap);
         position = sub_i(E, position, offset);
-        if (tap->pairs && axis == 0 && (address == ADDRESS_WRAP_POWER || address == ADDRESS_CLAMP))
-            return address_pairs(E, l, tap, address, axis, position);
+        if (tap->pairs && axis == 0 && (address == ADDRESS_WRAP_POWER || address == ADDRESS_CLAMP)) {
+            address_pairs(E, l, tap, address, axis, position, r);
+            return;
+        }
     }
     itg index = shr_i(E, position, 8);
-    r.index[0] = address_index(E, address, index, l, axis);
-    r.index[1] = r.index[0];
-    r.wanted[0] = r.wanted[1] = r.fraction = index;
-    r.weight = lit_x(E, 0);
+    r->adjoining = 0;
+    r->index[0] = address_index(E, address, index, l, axis);
+    r->wanted[0] = index;
     if (tap->linear) {
         itg next = add_i(E, index, lit_i(E, 1));
-        r.index[1] = address_index(E, address, next, l, axis);
-        r.wanted[1] = next;
-        r.fraction = tap_fraction(E, tap, position);
-        r.weight = both_halves(E, r.fraction);
+        r->index[1] = address_index(E, address, next, l, axis);
+        r->wanted[1] = next;
+        r->fraction = tap_fraction(E, tap, position);
+        r->weight = both_halves(E, r->fraction);
     }
-    return r;
 }

@@ -134,66 +134,56 @@ static inline int needs_detail(const struct sampler_key *k)
     return k->mip || k->minify;
 }
 
-static inline struct detail detail(struct env *e, const struct sampler_key *k, int axes,
-                                   const struct lookup *how, const struct changes *changes)
+static inline void detail(struct env *e, const struct sampler_key *k, int axes, const struct lookup *how,
+                          const struct changes *changes, struct detail *r)
 {
-    struct detail r;
-    r.images = 1;
+    r->images = 1;
     flt longer = max_f(E, changes->across_square, changes->down_square);
     flt square = min_f(E, longer, lit_f(E, 0x1p100f)); /* NaN too */
     itg lambda = lambda_256(E, k->number, how, square);
-    r.level[0] = r.level[1] = r.fraction = lambda;
-    r.minified = gt_i(E, lambda, lit_i(E, 0));
-    r.taps = r.step[0] = r.step[1] = r.step[2] = square;
+    r->minified = gt_i(E, lambda, lit_i(E, 0));
     if (k->minify == MINIFY_ANISOTROPIC) {
-        flt share = detail_taps(E, k->anisotropy, axes, changes, square, &r);
+        flt share = detail_taps(E, k->anisotropy, axes, changes, square, r);
         lambda = lambda_256(E, k->number, how, share);
     }
     if (k->mip)
-        detail_levels(E, k->number, k->mip, lambda, &r);
-    return r;
+        detail_levels(E, k->number, k->mip, lambda, r);
 }
 
 /* A level further away than any texture's is as good as one. */
-static inline struct detail given_detail(struct env *e, const struct sampler_key *k, flt level)
+static inline void given_detail(struct env *e, const struct sampler_key *k, flt level, struct detail *r)
 {
-    struct detail r;
     flt bias = uniform_f(E, BASE_JOB, TEXTURE_FIELD(k->number, lod_bias_256));
     flt low = min_f(E, level, lit_f(E, 1024.0f)); /* NaN too */
     flt limited = max_f(E, low, lit_f(E, -1024.0f));
     flt sum = mad_f(E, limited, lit_f(E, 256.0f), bias);
     itg lambda = round_i(E, sum);
-    r.images = 1;
-    r.level[0] = r.level[1] = r.fraction = lambda;
-    r.minified = gt_i(E, lambda, lit_i(E, 0));
-    r.taps = r.step[0] = r.step[1] = r.step[2] = sum;
+    r->images = 1;
+    r->minified = gt_i(E, lambda, lit_i(E, 0));
     if (k->mip)
-        detail_levels(E, k->number, k->mip, lambda, &r);
-    return r;
+        detail_levels(E, k->number, k->mip, lambda, r);
 }
 
 /* The image of each lane's level. The words that are read follow one another, in memory and here: engines can
  * take them together. */
-static inline struct level gather_level(struct env *e, int number, itg level, int axes)
+static inline void gather_level(struct env *e, int number, itg level, int axes, struct level *r)
 {
     static const size_t size[3] = {offsetof(struct texture_level, width),
                                    offsetof(struct texture_level, height),
                                    offsetof(struct texture_level, depth)};
-    struct level r = {.number = number, .each = 1, .placed = 1};
     int levels = TEXTURE_FIELD(number, levels);
     itg row = shl_i(E, level, 3); /* of 8 words */
-    r.offset = gather_i(E, BASE_JOB, levels, row, 4, (int)offsetof(struct texture_level, offset));
-    r.pitch = gather_i(E, BASE_JOB, levels, row, 4, (int)offsetof(struct texture_level, pitch));
+    r->each = r->placed = 1;
+    r->offset = gather_i(E, BASE_JOB, levels, row, 4, (int)offsetof(struct texture_level, offset));
+    r->pitch = gather_i(E, BASE_JOB, levels, row, 4, (int)offsetof(struct texture_level, pitch));
     for (int i = 0; i < axes; i++)
-        r.size[i] = gather_i(E, BASE_JOB, levels, row, 4, (int)size[i]);
-    r.slice_texels = r.pitch;
+        r->size[i] = gather_i(E, BASE_JOB, levels, row, 4, (int)size[i]);
     if (axes == 3)
-        r.slice_texels =
+        r->slice_texels =
             gather_i(E, BASE_JOB, levels, row, 4, (int)offsetof(struct texture_level, slice_texels));
     for (int i = 0; i < axes; i++) {
-        itg positions = shl_i(E, r.size[i], 8);
-        r.size_256[i] = float_f(E, positions);
-        r.last[i] = sub_i(E, r.size[i], lit_i(E, 1));
+        itg positions = shl_i(E, r->size[i], 8);
+        r->size_256[i] = float_f(E, positions);
+        r->last[i] = sub_i(E, r->size[i], lit_i(E, 1));
     }
-    return r;
 }

@@ -126,7 +126,7 @@ static inline struct color sample_image(struct env *e, const struct sampler *s, 
     struct tap tap = s->tap;
     tap.pairs = !has_border(s, 1) && (s->axes == 2 || !has_border(s, 2));
     for (int a = 0; a < s->axes; a++)
-        axis[a] = address_axis(E, l, &tap, s->k->address[a], a, s->coordinate[a]);
+        address_axis(E, l, &tap, s->k->address[a], a, s->coordinate[a], &axis[a]);
     itg pitch = level_pitch(E, l);
     if (!s->tap.linear) {
         itg row = texel_row(E, s, l, axis, 0, 0, pitch);
@@ -145,28 +145,29 @@ static inline struct color sample_image(struct env *e, const struct sampler *s, 
  */
 
 /* Image number `i` of those that are blended: in the job, or each lane's own; on a cube, of its face. */
-static inline struct level sampler_level(struct env *e, const struct sampler *s, int i)
+static inline void sampler_level(struct env *e, const struct sampler *s, int i, struct level *r)
 {
-    struct level r = {.number = s->k->number};
+    r->number = s->k->number;
+    r->each = r->placed = 0;
     if (s->k->mip)
-        r = gather_level(E, s->k->number, s->detail.level[i], s->axes);
+        gather_level(E, s->k->number, s->detail.level[i], s->axes, r);
     if (s->k->kind != TEXTURE_CUBE)
-        return r;
+        return;
     itg face_texels = uniform_i(E, BASE_JOB, TEXTURE_FIELD(s->k->number, face_texels));
     itg face = mul_i(E, s->face, face_texels);
-    r.offset = r.placed ? add_i(E, r.offset, face) : face;
-    r.placed = 1;
-    return r;
+    r->offset = r->placed ? add_i(E, r->offset, face) : face;
+    r->placed = 1;
 }
 
 static inline struct color sample_levels(struct env *e, const struct sampler *s)
 {
-    struct level first = sampler_level(E, s, 0);
-    struct color color = sample_image(E, s, &first);
+    struct level level;
+    sampler_level(E, s, 0, &level);
+    struct color color = sample_image(E, s, &level);
     if (!s->k->mip || s->detail.images == 1)
         return color;
-    struct level second = sampler_level(E, s, 1);
-    struct color further = sample_image(E, s, &second);
+    sampler_level(E, s, 1, &level);
+    struct color further = sample_image(E, s, &level);
     fix weight = both_halves(E, s->detail.fraction);
     fix inverse = sub_x(E, lit_x(E, 256), weight);
     return lerp_colors(E, color, further, inverse, weight);
@@ -209,44 +210,42 @@ static inline void project_cube(struct env *e, struct sampler *s, const flt v[3]
 
 /* Coordinates u, v and, where the texture needs it, a third: w, z of a cube's vector, or the reference depth.
  */
-static inline struct sampler sampler(struct env *e, const struct sampler_key *k, const flt v[3],
-                                     const struct lookup *how)
+static inline void sampler_begin(struct env *e, struct sampler *s, const struct sampler_key *k,
+                                 const flt v[3], const struct lookup *how)
 {
-    struct sampler s = {.k = k, .axes = k->kind == TEXTURE_VOLUME ? 3 : 2};
     struct changes changes;
     int cube = k->kind == TEXTURE_CUBE;
     int measured = needs_detail(k) && how->from != DETAIL_GIVEN;
+    s->k = k;
+    s->axes = k->kind == TEXTURE_VOLUME ? 3 : 2;
     if (measured && how->from == DETAIL_CHANGES)
         changes = how->changes;
     else if (measured)
-        quad_changes(E, v, cube ? 3 : s.axes, &changes);
+        quad_changes(E, v, cube ? 3 : s->axes, &changes);
     if (cube)
-        project_cube(E, &s, v, measured ? &changes : NULL);
+        project_cube(E, s, v, measured ? &changes : NULL);
     else
-        for (int a = 0; a < s.axes; a++)
-            s.coordinate[a] = v[a];
+        for (int a = 0; a < s->axes; a++)
+            s->coordinate[a] = v[a];
     if (measured) {
-        measure_changes(E, k->number, s.axes, &changes);
-        s.detail = detail(E, k, s.axes, how, &changes);
+        measure_changes(E, k->number, s->axes, &changes);
+        detail(E, k, s->axes, how, &changes, &s->detail);
     } else if (needs_detail(k))
-        s.detail = given_detail(E, k, how->amount);
-    choose_filter(E, &s);
-    s.reference = v[2];
-    return s;
+        given_detail(E, k, how->amount, &s->detail);
+    choose_filter(E, s);
+    s->reference = v[2];
 }
 
 /* Variables of the taps' loop: which one it is, which lanes have it, and the sums: of two pairs of channels, or of up to
  * four. A variable has one type in all of a routine, which may sample textures of both kinds. */
 enum { VARIABLE_TAP = VARIABLES - 8, VARIABLE_TAPPED, VARIABLE_PAIR_SUM, VARIABLE_SUM = VARIABLES - 4 };
 
-/* Moves the coordinates to tap i of 1 to N; `apart` is 1 / (N + 1). */
-static inline struct sampler tap_sampler(struct env *e, const struct sampler *s, flt i, flt apart)
+/* Moves the coordinates of `to` to tap i of 1 to N; `apart` is 1 / (N + 1). */
+static inline void move_to_tap(struct env *e, const struct sampler *s, flt i, flt apart, struct sampler *to)
 {
-    struct sampler r = *s;
     flt along = mad_f(E, i, apart, lit_f(E, -0.5f));
     for (int a = 0; a < s->axes; a++)
-        r.coordinate[a] = mad_f(E, s->detail.step[a], along, s->coordinate[a]);
-    return r;
+        to->coordinate[a] = mad_f(E, s->detail.step[a], along, s->coordinate[a]);
 }
 
 static inline flt taps_apart(struct env *e, const struct sampler *s)
@@ -320,6 +319,7 @@ static inline fix mean_of_taps(struct env *e, int variable, itg taps)
 static inline struct color sample_anisotropic(struct env *e, const struct sampler *s)
 {
     flt apart = taps_apart(E, s);
+    struct sampler tap = *s;
     begin_taps(E);
     set_i(E, VARIABLE_PAIR_SUM, lit_i(E, 0));
     set_i(E, VARIABLE_PAIR_SUM + 1, lit_i(E, 0));
@@ -327,7 +327,7 @@ static inline struct color sample_anisotropic(struct env *e, const struct sample
     {
         flt i = get_f(E, VARIABLE_TAP);
         msk counts = get_m(E, VARIABLE_TAPPED);
-        struct sampler tap = tap_sampler(E, s, i, apart);
+        move_to_tap(E, s, i, apart, &tap);
         struct color color = sample_levels(E, &tap);
         add_tap(E, VARIABLE_PAIR_SUM, counts, color.rb);
         add_tap(E, VARIABLE_PAIR_SUM + 1, counts, color.ga);
@@ -354,6 +354,7 @@ static inline struct color sample(struct env *e, const struct sampler_key *key, 
                                   const struct lookup *how)
 {
     struct sampler_key k = lookup_sampler(key, how);
-    struct sampler s = sampler(E, &k, v, how);
+    struct sampler s;
+    sampler_begin(E, &s, &k, v, how);
     return k.minify == MINIFY_ANISOTROPIC ? sample_anisotropic(E, &s) : sample_levels(E, &s);
 }

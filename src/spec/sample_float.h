@@ -117,8 +117,10 @@ static inline struct float_color float_image(struct env *e, const struct sampler
 {
     struct axis axis[3];
     struct float_weight weight[3];
+    struct tap tap = s->tap;
+    tap.pairs = 0;
     for (int a = 0; a < s->axes; a++)
-        axis[a] = address_axis(E, l, &s->tap, s->k->address[a], a, s->coordinate[a]);
+        address_axis(E, l, &tap, s->k->address[a], a, s->coordinate[a], &axis[a]);
     itg pitch = level_pitch(E, l);
     if (!s->tap.linear) {
         itg row = texel_row(E, s, l, axis, 0, 0, pitch);
@@ -135,12 +137,13 @@ static inline struct float_color float_image(struct env *e, const struct sampler
 
 static inline struct float_color float_levels(struct env *e, const struct sampler *s)
 {
-    struct level first = sampler_level(E, s, 0);
-    struct float_color color = float_image(E, s, &first);
+    struct level level;
+    sampler_level(E, s, 0, &level);
+    struct float_color color = float_image(E, s, &level);
     if (!s->k->mip || s->detail.images == 1)
         return color;
-    struct level second = sampler_level(E, s, 1);
-    struct float_color further = float_image(E, s, &second);
+    sampler_level(E, s, 1, &level);
+    struct float_color further = float_image(E, s, &level);
     struct float_weight weight = float_weight(E, s->detail.fraction);
     return float_blend_texels(E, s, &color, &further, &weight);
 }
@@ -149,6 +152,7 @@ static inline struct float_color float_anisotropic(struct env *e, const struct s
 {
     flt apart = taps_apart(E, s);
     struct float_color sum = float_replicate(lit_f(E, 0.0f));
+    struct sampler tap = *s;
     begin_taps(E);
     for (int c = 0; c < texel_channels(s); c++)
         set_f(E, VARIABLE_SUM + c, lit_f(E, 0.0f));
@@ -156,7 +160,7 @@ static inline struct float_color float_anisotropic(struct env *e, const struct s
     {
         flt i = get_f(E, VARIABLE_TAP);
         msk counts = get_m(E, VARIABLE_TAPPED);
-        struct sampler tap = tap_sampler(E, s, i, apart);
+        move_to_tap(E, s, i, apart, &tap);
         struct float_color color = float_levels(E, &tap);
         for (int c = 0; c < texel_channels(s); c++) {
             flt counted = select_f(E, counts, color.channel[c], lit_f(E, 0.0f));
@@ -178,7 +182,8 @@ static inline struct float_color float_sample(struct env *e, const struct sample
                                               const struct lookup *how)
 {
     struct sampler_key k = lookup_sampler(key, how);
-    struct sampler s = sampler(E, &k, v, how);
+    struct sampler s;
+    sampler_begin(E, &s, &k, v, how);
     if (k.texel == TEXEL_COMPARE)
         s.reference = saturate(E, s.reference);
     struct float_color color =
