@@ -80,7 +80,7 @@ static int decode_register(struct reader *reader, uint32_t token, struct shader_
 static int read_relative(struct reader *reader, uint32_t token, struct shader_operand *operand)
 {
     struct shader_operand index = {0};
-    uint32_t relative;
+    uint32_t relative = 0;
     if (!(token & TOKEN_RELATIVE))
         return 0;
     if (shader_registers[operand->file].index != NUMBERED)
@@ -105,7 +105,7 @@ static int read_relative(struct reader *reader, uint32_t token, struct shader_op
 
 static int read_source(struct reader *reader, struct shader_operand *operand)
 {
-    uint32_t token;
+    uint32_t token = 0;
     if (take(reader, &token) || decode_register(reader, token, operand))
         return -1;
     operand->swizzle = (uint8_t)(token >> 16);
@@ -118,7 +118,7 @@ static int read_source(struct reader *reader, struct shader_operand *operand)
 
 static int read_destination(struct reader *reader, struct shader_operand *operand)
 {
-    uint32_t token;
+    uint32_t token = 0;
     if (take(reader, &token) || decode_register(reader, token, operand))
         return -1;
     unsigned shift = token >> 24 & 15;
@@ -137,7 +137,7 @@ static int read_destination(struct reader *reader, struct shader_operand *operan
 /* dcl's first token, then the register. */
 static int read_declaration(struct reader *reader, struct shader_instruction *instruction)
 {
-    uint32_t token, place = reader->at;
+    uint32_t token = 0, place = reader->at;
     if (take(reader, &token))
         return -1;
     instruction->usage = token & 15;
@@ -257,7 +257,7 @@ static int read_comment(struct reader *reader, uint32_t token)
 
 static int read_version(struct reader *reader)
 {
-    uint32_t token;
+    uint32_t token = 0;
     if (take(reader, &token))
         return -1;
     for (unsigned i = MODEL_COUNT; i-- > 0;) { /* the first of a version wins: 2_x */
@@ -274,7 +274,7 @@ static int read_version(struct reader *reader)
 
 static int read_tokens(struct reader *reader)
 {
-    uint32_t token;
+    uint32_t token = 0;
     if (read_version(reader))
         return -1;
     for (;;) {
