@@ -162,8 +162,8 @@ static void shade_vertices(struct batch *batch)
 {
     const struct routine *routine = batch->draw->routine[UNIT_VERTEX];
     uint32_t count = batch->vertices_count, padded = padded_lanes(routine, count);
-    for (; count < padded; count++)
-        batch->vertex[count] = batch->vertex[count - 1];
+    for (uint32_t last = batch->vertex[count - 1]; count < padded; count++)
+        batch->vertex[count] = last;
     struct vertex_call call = {batch->draw->job, batch->vertex, batch->vertices, count};
     routine_run(routine, &call, batch->vertices_count);
     batch->counts.vertices_shaded += batch->vertices_count;
@@ -197,9 +197,9 @@ static bool set_up_group(struct batch *batch, uint32_t index[SETUP_INDEX_ROWS][S
     uint32_t padded = padded_lanes(routine, count);
     int rows = draw->shape == SHAPE_TRIANGLE ? 3 : SETUP_INDEX_ROWS;
     if (count) {
-        for (uint32_t lane = count; lane < padded; lane++)
-            for (int i = 0; i < rows; i++)
-                index[i][lane] = index[i][count - 1];
+        for (int i = 0; i < rows && count < padded; i++)
+            for (uint32_t lane = count, last = index[i][count - 1]; lane < padded; lane++)
+                index[i][lane] = last;
         uint8_t *out = bin_reserve(batch->bins, padded * draw->stride);
         if (!out)
             return false;
