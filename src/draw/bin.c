@@ -65,7 +65,8 @@ void bin_begin_round(struct bin_writer *writer, struct arena *arena, uint32_t co
 void bin_begin_chunk(struct bin_writer *writer, uint32_t chunk)
 {
     writer->chunk = chunk;
-    writer->heads = writer->covered = 0;
+    writer->heads = writer->wide = writer->covered = 0;
+    writer->pixels = 0;
 }
 
 uint32_t bin_end_chunk(struct bin_writer *writer)
@@ -145,6 +146,75 @@ bool bin_covers(const struct arena *arena, uint32_t head)
     return false;
 }
 
+/* --- Triangles that reach far ------------------------------------------------------------------------------ */
+
+static struct rectangle tiles_of_all(const struct bin_writer *writer, uint32_t count)
+{
+    struct rectangle all = writer->tiles[0];
+    for (uint32_t i = 1; i < count; i++) {
+        const struct rectangle *tiles = writer->tiles + i;
+        all = (struct rectangle){minimum(all.x0, tiles->x0), minimum(all.y0, tiles->y0),
+                                 maximum(all.x1, tiles->x1), maximum(all.y1, tiles->y1)};
+    }
+    return all;
+}
+
+/* Whether the visible triangles of a group, which begins its chunk, are to have no cells; `tiles` are those of all. */
+static bool are_wide(const struct bin_writer *writer, uint32_t visible, struct rectangle *tiles)
+{
+    if (!visible || visible > WIDE_TRIANGLES || writer->heads || writer->wide)
+        return false;
+    for (uint32_t i = 0; i < visible; i++)
+        if (writer->tile[i] != MANY_TILES)
+            return false;
+    *tiles = tiles_of_all(writer, visible);
+    uint32_t count = (uint32_t)((tiles->x1 - tiles->x0) * (tiles->y1 - tiles->y0));
+    return count >= WIDE_TILES && count * WIDE_PART >= writer->columns * writer->rows;
+}
+
+/* Returns false when the arena is full. */
+static bool keep_wide(struct bin_writer *writer, uint32_t triangle, uint32_t stride, uint32_t visible,
+                      const struct rectangle *tiles, const struct rectangle *scissor)
+{
+    const uint32_t bytes = (sizeof(struct wide) + ARENA_ALIGNMENT - 1) & -(uint32_t)ARENA_ALIGNMENT;
+    struct wide *wide = (struct wide *)(void *)bin_reserve(writer, bytes);
+    if (!wide)
+        return false;
+    wide->tiles = *tiles;
+    wide->count = 0;
+    for (uint32_t i = 0; i < visible; i++, triangle += stride) {
+        const uint8_t *record = writer->arena->base + triangle;
+        wide->triangle[wide->count].offset = triangle;
+        wide->count += raster_prepare(&wide->triangle[wide->count].raster,
+                                      (const struct triangle_head *)(const void *)record, scissor);
+    }
+    writer->wide = writer->at;
+    writer->at += bytes;
+    return true;
+}
+
+static bool meets_tile(const struct rectangle *bounds, int32_t column, int32_t row)
+{
+    int32_t x = column * TILE_SIZE, y = row * TILE_SIZE;
+    return bounds->x0 < x + TILE_SIZE && bounds->y0 < y + TILE_SIZE && bounds->x1 > x && bounds->y1 > y;
+}
+
+void bin_wide_cell(const struct wide *wide, uint32_t tile_column, uint32_t tile_row, struct bin_cell *cell)
+{
+    int32_t column = (int32_t)tile_column, row = (int32_t)tile_row;
+    cell->count = 0;
+    cell->next = 0;
+    for (uint32_t i = 0; i < wide->count; i++) {
+        const struct raster *raster = &wide->triangle[i].raster;
+        if (!meets_tile(&raster->bounds, column, row) || !raster_touches(raster, column, row))
+            continue;
+        uint32_t all = raster_covers(raster, column, row) ? BIN_COVERS : 0;
+        cell->triangle[cell->count++] = wide->triangle[i].offset | all;
+    }
+}
+
+/* --- Records ------------------------------------------------------------------------------------------------ */
+
 /* The numbers of the records that setup left visible. About half are not, in no order that could be
  * predicted: no branch asks. */
 static uint32_t list_visible(const uint8_t *record, uint32_t count, uint32_t stride, uint16_t *list)
@@ -171,6 +241,7 @@ static uint32_t place_rectangle(struct bin_writer *writer, uint32_t i, const str
 {
     struct rectangle tiles = raster_tiles(bounds);
     uint32_t count = (uint32_t)((tiles.x1 - tiles.x0) * (tiles.y1 - tiles.y0));
+    writer->pixels += (uint64_t)((bounds->x1 - bounds->x0) * (bounds->y1 - bounds->y0));
     writer->tiles[i] = tiles;
     writer->tile[i] = count > 1 ? MANY_TILES : (uint32_t)tiles.y0 * writer->columns + (uint32_t)tiles.x0;
     return count;
@@ -183,6 +254,8 @@ static inline uint32_t place_box(struct bin_writer *writer, uint32_t i, const st
     __m128i first = _mm_srai_epi16(box->low, TILE_BITS);
     __m128i last = _mm_srai_epi16(_mm_add_epi16(box->high, _mm_set1_epi16(-1)), TILE_BITS);
     if (of_both(_mm_cmpeq_epi16(first, last))) {
+        __m128i size = _mm_sub_epi16(box->high, box->low);
+        writer->pixels += (uint32_t)(box_x(size) * box_y(size));
         writer->tile[i] = (uint32_t)box_y(first) * writer->columns + (uint32_t)box_x(first);
         return 1;
     }
@@ -242,6 +315,9 @@ int bin_records(struct bin_writer *writer, uint32_t count, uint32_t stride, enum
                            shape == SHAPE_TRIANGLE && (!sampling->samples || sampling->centers)};
     uint32_t pairs, triangle = writer->at, visible = keep_visible(writer, count, stride, &how, &pairs);
     writer->at += visible * stride;
+    struct rectangle all;
+    if (shape == SHAPE_TRIANGLE && !sampling->samples && are_wide(writer, visible, &all))
+        return keep_wide(writer, triangle, stride, visible, &all, scissor) ? (int)visible : -1;
     uint32_t tiles = writer->columns * writer->rows;
     uint32_t cells = CELLS(pairs, pairs < tiles ? pairs : tiles);
     if (!bin_reserve(writer, cells * (uint32_t)sizeof(struct bin_cell)))

@@ -8,7 +8,10 @@
  * Geometry is processed in chunks (draw/frame.h). For each tile that a chunk touches there is a chain of
  * cells with the offsets of its triangles' records; the chains' head cells are chained too: those of one
  * chunk while it is written (`sibling`), those of one tile, in the order of chunks, when all are (`later`).
- */
+ *
+ * A chunk that begins with few triangles that reach over much of the target has no cells of these, which would be
+ * one for every tile, written by one thread and linked by one: it says where they are, and who renders a tile looks which
+ * of them touch it (`struct wide`). */
 #ifndef DRAW_BIN_H
 #define DRAW_BIN_H
 
@@ -23,6 +26,9 @@ enum {
     ARENA_ALIGNMENT = 64,
     BIN_CELL_TRIANGLES = 11,
     MANY_TILES = 0x7fffffff,
+    WIDE_TRIANGLES = 8, /* of a chunk, at most */
+    WIDE_TILES = 16,    /* that they meet, at least, and this part of the target: */
+    WIDE_PART = 4,
     TARGET_TILES_MAXIMUM = (TARGET_SIZE_MAXIMUM / TILE_SIZE) * (TARGET_SIZE_MAXIMUM / TILE_SIZE)
 };
 
@@ -47,6 +53,16 @@ struct bin_cell {
  * leaves in several tiles, of one sample. */
 enum { BIN_COVERS = 1 };
 
+/* The triangles that a chunk begins with and that are in no cells. */
+struct wide {
+    struct rectangle tiles; /* that their bounds meet */
+    uint32_t count;
+    struct {
+        uint32_t offset; /* of its record */
+        struct raster raster;
+    } triangle[WIDE_TRIANGLES];
+};
+
 /* One thread's way into the arena, and the chunk it is writing. */
 struct bin_writer {
     struct arena *arena;
@@ -54,7 +70,9 @@ struct bin_writer {
     uint32_t columns, rows; /* of the target, in tiles */
     uint32_t chunk;
     uint32_t heads;                      /* first head cell of the chunk */
+    uint32_t wide;                       /* its struct wide; 0: it has none */
     uint32_t covered;                    /* how many tiles its triangles cover, each counted for itself */
+    uint64_t pixels;                     /* of the bounds of its triangles, in the scissor */
     uint32_t open[TARGET_TILES_MAXIMUM]; /* the tile's last cell of the chunk */
     uint32_t tile[SETUP_CAPACITY];       /* that holds the bounds of a triangle of the group; or MANY_TILES */
     struct rectangle tiles[SETUP_CAPACITY]; /* and these are the tiles that they meet */
@@ -70,6 +88,14 @@ static inline struct bin_cell *bin_cell(const struct arena *arena, uint32_t offs
 {
     return (struct bin_cell *)(void *)(arena->base + offset);
 }
+
+static inline struct wide *bin_wide(const struct arena *arena, uint32_t offset)
+{
+    return (struct wide *)(void *)(arena->base + offset);
+}
+
+/* Those of a wide chunk's triangles that may touch the tile (column, row), as a cell. */
+void bin_wide_cell(const struct wide *wide, uint32_t column, uint32_t row, struct bin_cell *cell);
 
 /* Whether any triangle of the chain that begins with this cell covers the tile. */
 bool bin_covers(const struct arena *arena, uint32_t head);

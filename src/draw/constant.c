@@ -7,7 +7,7 @@
 int constants_create(struct constants *constants, struct error *error)
 {
     if (!constants->memory)
-        constants->memory = malloc(CONSTANT_BYTES);
+        constants->memory = malloc(2 * (size_t)CONSTANT_BYTES);
     return constants->memory ? 0 : error_set(error, "out of memory for the constants of shaders");
 }
 
@@ -35,7 +35,7 @@ static void write_block(struct constants *constants, const struct state *state, 
 {
     const struct program *program = state->program[stage];
     const struct shader_registers *registers = state->registers[stage];
-    uint8_t *block = constants->memory + constants->used;
+    uint8_t *block = constants->memory + constants->half + constants->used;
     program_write_constants(program, (const float(*)[4])registers->floats,
                             (const int32_t(*)[4])registers->integers, block);
     constants->used += program_constant_bytes(program);
@@ -63,4 +63,10 @@ void constants_reset(struct constants *constants)
     constants->used = 0;
     for (unsigned stage = 0; stage < SHADER_STAGES; stage++)
         constants_changed(constants, stage);
+}
+
+void constants_exchange(struct constants *constants)
+{
+    constants->half = CONSTANT_BYTES - constants->half;
+    constants_reset(constants);
 }

@@ -2,7 +2,7 @@
  *
  * A block is what program_write_constants makes of the state's registers. It never changes; draws share it until
  * their shader, or a constant that it reads, is another. The memory is bounded: when blocks do not fit any more,
- * what is recorded must be rendered first. */
+ * what is recorded must be rendered first. There are two of it, so that draws can be recorded meanwhile. */
 #ifndef DRAW_CONSTANT_H
 #define DRAW_CONSTANT_H
 
@@ -16,8 +16,9 @@
 enum { CONSTANT_BYTES = 8 << 20 };
 
 struct constants {
-    uint8_t *memory; /* CONSTANT_BYTES; null before the first shader */
-    size_t used;
+    uint8_t *memory; /* twice CONSTANT_BYTES; null before the first shader */
+    size_t half;     /* where the half begins that is written: 0 or CONSTANT_BYTES */
+    size_t used;     /* of it */
     const struct program *program[SHADER_STAGES]; /* whose block is the newest one; null: there is none */
     const float *block[SHADER_STAGES];
 };
@@ -36,7 +37,9 @@ void constants_write(struct constants *constants, const struct state *state,
 /* A constant of that stage has changed: its newest block is not that of later draws. */
 void constants_changed(struct constants *constants, unsigned stage);
 
-/* Nobody needs the blocks any more. */
+/* Nobody needs the newest half's blocks any more. */
 void constants_reset(struct constants *constants);
+/* Nobody needs the other half's blocks: the next ones go there. */
+void constants_exchange(struct constants *constants);
 
 #endif

@@ -79,6 +79,8 @@ enum triptych_result device_create(const struct engine *engine, const struct dev
     }
     device->engine = engine;
     device->stale = PARTS_ALL;
+    device->held = device->held_by[0];
+    device->rendered.held = device->held_by[1];
     debug_open(listeners, &device->debug_error);
     state_initialize(&device->state);
     for (int stage = 0; stage < SHADER_STAGES; stage++)
@@ -122,23 +124,6 @@ void device_debug_error(struct triptych_device *device, struct error *error)
     *error = device->debug_error;
     if (!error->text[0])
         cache_debug_error(device->cache, error);
-}
-
-/* --- Rendering ---------------------------------------------------------------------------------------------
- */
-
-void device_limit_threads(struct triptych_device *device, unsigned threads)
-{
-    pool_limit(device->pool, threads);
-}
-
-void device_finish(struct triptych_device *device)
-{
-    struct frame *frame = device->frame;
-    if (frame->commands)
-        frame_render(frame, &device->target);
-    queries_rendered(&device->queries, frame->passed, frame->commands);
-    device_forget(device);
 }
 
 /* --- The target --------------------------------------------------------------------------------------------
@@ -274,11 +259,6 @@ void device_get_statistics(const struct triptych_device *device, struct triptych
         .vertex_ns = frame->geometry_ns,
         .pixel_ns = frame->tiles_ns,
     };
-}
-
-void device_shuffle(struct triptych_device *device, uint64_t seed)
-{
-    device->frame->shuffle = seed;
 }
 
 void device_on_draw(struct triptych_device *device, device_draw_callback *callback, void *user)

@@ -37,6 +37,11 @@ struct triptych_shader {
     uint32_t recorded; /* its number while calls are recorded */
 };
 
+struct held {
+    const struct routine *routine;
+    uint64_t hits; /* of draws that did not have to ask the cache */
+};
+
 struct triptych_device {
     const struct engine *engine;
     struct code_arena *arena; /* null when the engine generates no code */
@@ -67,12 +72,18 @@ struct triptych_device {
     struct draw draw; /* what does not depend on the call; routines and job, if held and recorded, or null */
 
     /* Routines that recorded draws use, each held once for all draws that follow one another, or nearly. */
-    struct held {
-        const struct routine *routine;
-        uint64_t hits; /* of draws that did not have to ask the cache */
-    } held[FRAME_COMMANDS * UNIT_COUNT];
+    struct held *held; /* one of held_by */
     uint32_t held_count;
     uint32_t in_use[UNIT_COUNT]; /* of them, by the draw's routines */
+
+    /* What the draws use that are rendered in the background (device_render.c). */
+    struct {
+        struct held *held; /* the other one */
+        uint32_t held_count;
+        struct palette *palettes;
+        uint32_t commands;
+    } rendered;
+    struct held held_by[2][FRAME_COMMANDS * UNIT_COUNT];
 
     uint64_t draws, triangles;
     uint64_t recording;        /* counts how often the queue was emptied */
@@ -172,8 +183,8 @@ bool device_samples(const struct triptych_device *device, int i);
 /* Tells the cache of hits that it does not know of. */
 void device_count_hits(struct triptych_device *device);
 
-/* Empties the queue; its draws are rendered or not wanted. */
-void device_forget(struct triptych_device *device);
+/* Lets go of the routines that were held last, down to `count`. */
+void device_let_go(struct triptych_device *device, uint32_t count);
 
 /* Vertices or indices that `count` primitives take; count is not 0. */
 uint64_t primitive_corners(enum triptych_primitive primitive, uint32_t count);
@@ -207,6 +218,14 @@ void device_limit_threads(struct triptych_device *device, unsigned threads);
 
 /* Renders everything recorded. Cannot fail. */
 void device_finish(struct triptych_device *device);
+/* The same, but where there are threads it may only have begun when this returns: what is recorded next does not wait. */
+void device_start(struct triptych_device *device);
+/* Whether draws that are not rendered yet sample the texture. */
+bool device_uses(const struct triptych_device *device, const struct triptych_texture *texture);
+/* How many commands are recorded that nobody knows to be rendered. */
+uint32_t device_commands(const struct triptych_device *device);
+/* Nothing that was recorded is wanted any more. */
+void device_forget(struct triptych_device *device);
 
 /* Finishes and copies the target, if there is one. */
 enum triptych_result device_read_target(struct triptych_device *device, unsigned t, uint32_t *rgba,

@@ -252,7 +252,7 @@ static void count_while_asked(struct triptych_device *device)
 enum triptych_result device_query_begin(struct triptych_device *device, struct triptych_query *query,
                                         struct error *error)
 {
-    enum triptych_result result = query_begin(&device->queries, query, device->frame->commands, error);
+    enum triptych_result result = query_begin(&device->queries, query, device_commands(device), error);
     count_while_asked(device);
     return result;
 }
@@ -260,7 +260,7 @@ enum triptych_result device_query_begin(struct triptych_device *device, struct t
 enum triptych_result device_query_end(struct triptych_device *device, struct triptych_query *query,
                                       struct error *error)
 {
-    enum triptych_result result = query_end(&device->queries, query, device->frame->commands, error);
+    enum triptych_result result = query_end(&device->queries, query, device_commands(device), error);
     count_while_asked(device);
     return result;
 }

@@ -68,7 +68,7 @@ static enum triptych_result read_target(struct triptych_device *device, struct r
         return result;
     device_finish(device);
     reading->target = &device->target;
-    pool_run(device->pool, device->target.rows, read_task, reading);
+    pool_run(device->pool, 0, device->target.rows, POOL_ALL, read_task, reading);
     return TRIPTYCH_OK;
 }
 

@@ -184,8 +184,7 @@ static void hold(struct triptych_device *device, enum unit unit, const struct ro
     use(device, unit, device->held_count++);
 }
 
-/* Lets go of those that were held last, down to `count`. */
-static void let_go(struct triptych_device *device, uint32_t count)
+void device_let_go(struct triptych_device *device, uint32_t count)
 {
     while (device->held_count > count) {
         const struct held *held = &device->held[--device->held_count];
@@ -209,7 +208,7 @@ static int use_routines(struct triptych_device *device, struct error *error)
         }
         const struct routine *routine = cache_acquire(device->cache, unit, &device->key[unit], error);
         if (!routine) {
-            let_go(device, before);
+            device_let_go(device, before);
             return -1;
         }
         hold(device, unit, routine);
@@ -217,15 +216,15 @@ static int use_routines(struct triptych_device *device, struct error *error)
     return (int)(device->held_count - before);
 }
 
-/* Renders what is recorded while the draw's routines stay held. */
-static void render_before(struct triptych_device *device)
+/* Renders what is recorded, or begins to, while the draw's routines stay held. */
+static void render_before(struct triptych_device *device, void (*render)(struct triptych_device *))
 {
     const struct routine *kept[UNIT_COUNT];
     for (int unit = 0; unit < UNIT_COUNT; unit++) {
         kept[unit] = device->draw.routine[unit];
         cache_retain(device->cache, kept[unit]);
     }
-    device_finish(device);
+    render(device);
     for (int unit = 0; unit < UNIT_COUNT; unit++)
         hold(device, unit, kept[unit]);
 }
@@ -239,7 +238,7 @@ static int prepare_routines(struct triptych_device *device, struct error *error)
     error_clear(&first);
     int asked = use_routines(device, recorded ? &first : error);
     if (recorded && asked > 0 && cache_is_crowded(device->cache))
-        render_before(device);
+        render_before(device, device_finish);
     if (recorded && asked < 0) {
         device_finish(device);
         asked = use_routines(device, error);
@@ -294,14 +293,18 @@ static void step_instance(const struct triptych_device *device, uint32_t instanc
     }
 }
 
-/* Nobody reads the rest, but in builds that check themselves it is what would be noticed. */
+/* The next job's lines, likely to be the same ones, are asked for meanwhile: another core may have them that rendered the
+ * job before. Nobody reads the rest of the job, but in builds that check themselves it is what would be noticed. */
 static void copy_live(struct job *to, const struct job *from, const struct live_job *live)
 {
     if (JOBS_CHECKED)
         memset(to, 0xbb, sizeof *to);
-    for (unsigned i = 0; i < live->count; i++)
-        memcpy((char *)to + live->run[i].begin, (const char *)from + live->run[i].begin,
-               (size_t)(live->run[i].end - live->run[i].begin));
+    for (unsigned i = 0; i < live->count; i++) {
+        size_t begin = live->run[i].begin, end = live->run[i].end;
+        memcpy((char *)to + begin, (const char *)from + begin, end - begin);
+        for (size_t at = begin; at < end; at += 64)
+            __builtin_prefetch((char *)(to + 1) + at, 1);
+    }
 }
 
 static struct job *new_job(struct triptych_device *device, const float *const block[SHADER_STAGES])
@@ -336,19 +339,18 @@ static const struct job *make_job(struct triptych_device *device, uint32_t insta
 struct command *device_next_command(struct triptych_device *device)
 {
     if (!frame_next(device->frame))
-        device_finish(device);
+        device_start(device);
     return frame_next(device->frame);
 }
 
 static void record_instance(struct triptych_device *device, const struct draw *source, uint32_t instance)
 {
     if (!frame_next(device->frame) || !constants_fit(&device->constants, &device->state))
-        render_before(device);
+        render_before(device, device_start);
     struct command *command = frame_next(device->frame);
-    const struct job *job = make_job(device, instance);
     command->kind = COMMAND_DRAW;
     command->draw = device->draw;
-    command->draw.job = job;
+    command->draw.job = make_job(device, instance); /* which may be new to device->draw, too */
     command->draw.primitive = source->primitive;
     command->draw.count = source->count;
     command->draw.indices = source->indices;
@@ -381,20 +383,4 @@ enum triptych_result device_record(struct triptych_device *device, const struct 
     for (uint32_t i = 0; i < instances; i++)
         record_instance(device, source, i);
     return TRIPTYCH_OK;
-}
-
-void device_forget(struct triptych_device *device)
-{
-    let_go(device, 0);
-    device->draw.job = NULL;
-    device->frame->commands = device->frame->jobs = 0;
-    constants_reset(&device->constants);
-    for (struct palette *palette = device->palettes ? device->palettes->next : NULL, *next; palette;
-         palette = next) {
-        next = palette->next;
-        free(palette);
-    }
-    if (device->palettes)
-        device->palettes->next = NULL;
-    device->recording++;
 }

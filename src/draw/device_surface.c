@@ -49,7 +49,7 @@ bool device_draws_to(const struct triptych_device *device, const struct triptych
 
 void device_store_texture(struct triptych_device *device, const struct triptych_texture *texture)
 {
-    if (texture->recording == device->recording || device_draws_to(device, texture))
+    if (device_uses(device, texture) || device_draws_to(device, texture))
         device_finish(device);
     if (device_draws_to(device, texture))
         surfaces_store(&device->drawn, &device->target);

@@ -4,36 +4,58 @@
 #include "base/mxcsr.h"
 
 #include <emmintrin.h>
+#include <errno.h>
 #include <sched.h>
+#include <semaphore.h>
+#include <stdalign.h>
 #include <stdatomic.h>
-#include <stdbool.h>
-#include <stdint.h>
 #include <stdlib.h>
+#include <string.h>
 
-/* Rounds follow one another within microseconds while something is drawn, which a sleeping thread takes to wake
- * up: who waits looks this often first, some tens of microseconds, where there is a processor for each. */
-enum { LOOKS = 1000 };
+/* How often who waits looks before he sleeps, where there is a processor for each: some tens of microseconds at most,
+ * which a sleeping thread takes to wake up. */
+enum { LOOKS = 1000, LINE = 64 };
+
+/* The gate of the rounds, in one word: the round's number, how many more may enter, how many are inside. */
+enum { PLACE_SHIFT = 16, ROUND_SHIFT = 32 };
+#define PLACES ((uint64_t)0xffff << PLACE_SHIFT)
+#define INSIDE ((uint64_t)0xffff)
 
 struct pool_worker {
+    alignas(LINE) _Atomic bool asleep; /* or about to be; who makes it false posts `wake` */
+    sem_t wake;
     struct pool *pool;
     unsigned number;
+    uint32_t round; /* the last that it took part in */
     pthread_t thread;
 };
 
+/* What a worker waits for. */
+typedef bool pool_condition(const struct pool *pool, const struct pool_worker *self);
+
 struct pool {
-    pthread_mutex_t lock;
-    pthread_cond_t start, done;
-    /* Written with the lock held only. */
-    _Atomic uint64_t round;   /* of tasks; a worker has run round r when it waits for r + 1 */
-    _Atomic unsigned running; /* threads that have not finished it */
-    _Atomic bool leaving;
-    unsigned wanted; /* workers of this round */
-    unsigned looks;
+    alignas(LINE) _Atomic uint64_t gate;
+    /* Written while nobody is inside and nobody may enter. */
     pool_task *task;
     void *user;
-    unsigned workers, limit;
-    struct pool_worker worker[]; /* worker 0 is the caller's thread */
+    _Atomic unsigned leader;  /* the worker whose round it is */
+    _Atomic bool waking;      /* who sleeps is to be woken */
+    _Atomic unsigned to_wake; /* the next worker to be looked at for that */
+
+    alignas(LINE) _Atomic bool started; /* the task in the background, and has not ended */
+    pool_task *background;
+    void *background_user;
+
+    alignas(LINE) _Atomic bool leaving;
+    _Atomic unsigned limit;
+    unsigned workers;
+    unsigned looks;
+    _Atomic uint64_t wakes;
+    struct pool_worker worker[]; /* worker 0 is the device's thread */
 };
+
+/* The worker that runs what is started. */
+enum { BACKGROUND_WORKER = 1 };
 
 static void run_in_contract(pool_task *task, void *user, unsigned worker)
 {
@@ -42,48 +64,201 @@ static void run_in_contract(pool_task *task, void *user, unsigned worker)
     mxcsr_leave(saved);
 }
 
-static void look_for_round(const struct pool *pool, uint64_t round)
+/* --- Sleeping and waking ------------------------------------------------------------------------------------
+ *
+ * Who goes to sleep says so and then looks once more; who wakes changes what is waited for and then looks who sleeps.
+ * Both orders hold for all (sequential consistency), so one of the two sees the other. */
+
+static void sleep_until_woken(struct pool_worker *self)
 {
-    for (unsigned i = 0; i < pool->looks && pool->round == round && !pool->leaving; i++)
-        _mm_pause();
+    while (sem_wait(&self->wake) && errno == EINTR)
+        ;
 }
 
-static void look_for_end(const struct pool *pool)
+static void wait_for(struct pool *pool, struct pool_worker *self, pool_condition *met)
 {
-    for (unsigned i = 0; i < pool->looks && pool->running; i++)
+    for (unsigned i = 0; i < pool->looks; i++) {
+        if (met(pool, self))
+            return;
         _mm_pause();
+    }
+    for (;;) {
+        self->asleep = true;
+        bool is_met = met(pool, self);
+        /* Who has been woken meanwhile takes what was posted. */
+        if (!is_met || !atomic_exchange(&self->asleep, false))
+            sleep_until_woken(self);
+        if (is_met)
+            return;
+    }
 }
 
-/* Waits for the round after `round`; false when the pool is leaving. */
-static bool next_round(struct pool *pool, uint64_t round)
+static bool wake(struct pool *pool, unsigned number)
 {
-    while (pool->round == round && !pool->leaving)
-        pthread_cond_wait(&pool->start, &pool->lock);
-    return !pool->leaving;
+    struct pool_worker *worker = pool->worker + number;
+    if (!worker->asleep || !atomic_exchange(&worker->asleep, false))
+        return false;
+    atomic_fetch_add_explicit(&pool->wakes, 1, memory_order_relaxed);
+    sem_post(&worker->wake);
+    return true;
+}
+
+/* Wakes two that sleep, if the round has places for them. */
+static void wake_two(struct pool *pool)
+{
+    for (int woken = 0; woken < 2 && pool->waking && pool->gate & PLACES;) {
+        unsigned number = atomic_fetch_add(&pool->to_wake, 1);
+        if (number >= pool->limit)
+            return;
+        woken += wake(pool, number);
+    }
+}
+
+/* --- Rounds ------------------------------------------------------------------------------------------------- */
+
+static uint32_t round_of(uint64_t gate)
+{
+    return (uint32_t)(gate >> ROUND_SHIFT);
+}
+
+/* Whether there is a round that the worker may take part in, and has not. */
+static bool may_enter(const struct pool *pool, const struct pool_worker *self)
+{
+    uint64_t gate = pool->gate;
+    return gate & PLACES && round_of(gate) != self->round && self->number < pool->limit;
+}
+
+static bool enter(struct pool *pool, struct pool_worker *self)
+{
+    uint64_t gate = pool->gate;
+    do
+        if (!(gate & PLACES) || round_of(gate) == self->round || self->number >= pool->limit)
+            return false;
+    while (!atomic_compare_exchange_weak(&pool->gate, &gate, gate - ((uint64_t)1 << PLACE_SHIFT) + 1));
+    self->round = round_of(gate);
+    return true;
+}
+
+static void leave(struct pool *pool)
+{
+    unsigned leader = pool->leader; /* another's, once the last has left */
+    uint64_t gate = atomic_fetch_sub(&pool->gate, 1) - 1;
+    if (!(gate & (PLACES | INSIDE)))
+        wake(pool, leader);
+}
+
+static void take_part(struct pool *pool, struct pool_worker *self)
+{
+    if (!enter(pool, self))
+        return;
+    wake_two(pool);
+    run_in_contract(pool->task, pool->user, self->number);
+    leave(pool);
+}
+
+static bool everybody_left(const struct pool *pool, const struct pool_worker *self)
+{
+    (void)self;
+    return !(pool->gate & INSIDE);
+}
+
+/* Others than the caller that a round of so many is open to. */
+static unsigned others(const struct pool *pool, unsigned workers)
+{
+    unsigned limit = pool->limit;
+    workers = workers < limit ? workers : limit;
+    return workers ? workers - 1 : 0;
+}
+
+void pool_call(struct pool *pool, unsigned workers)
+{
+    uint64_t places = others(pool, workers);
+    if (!places || pool->waking)
+        return;
+    pool->waking = true;
+    if (!(pool->gate & (PLACES | INSIDE)))
+        atomic_fetch_add(&pool->gate, places << PLACE_SHIFT);
+    wake_two(pool);
+}
+
+void pool_run(struct pool *pool, unsigned worker, unsigned workers, enum pool_call call, pool_task *task,
+              void *user)
+{
+    struct pool_worker *self = pool->worker + worker;
+    uint64_t places = call == POOL_ALONE ? 0 : others(pool, workers);
+    if (pool->limit < 2) {
+        run_in_contract(task, user, worker);
+        return;
+    }
+    pool->task = task;
+    pool->user = user;
+    pool->leader = worker;
+    pool->waking = call == POOL_ALL && places;
+    pool->to_wake = 0;
+    self->round = round_of(pool->gate) + 1;
+    pool->gate = (uint64_t)self->round << ROUND_SHIFT | places << PLACE_SHIFT;
+    wake_two(pool);
+    run_in_contract(task, user, worker);
+    atomic_fetch_and(&pool->gate, ~PLACES);
+    wait_for(pool, self, everybody_left);
+}
+
+/* --- The background ----------------------------------------------------------------------------------------- */
+
+static bool helps_or_ends(const struct pool *pool, const struct pool_worker *self)
+{
+    return !pool->started || may_enter(pool, self);
+}
+
+void pool_start(struct pool *pool, pool_task *task, void *user)
+{
+    pool->background = task;
+    pool->background_user = user;
+    pool->started = true;
+    wake(pool, BACKGROUND_WORKER);
+}
+
+void pool_wait(struct pool *pool)
+{
+    struct pool_worker *self = pool->worker;
+    while (pool->started) {
+        wait_for(pool, self, helps_or_ends);
+        take_part(pool, self);
+    }
+}
+
+static bool is_started(const struct pool *pool, const struct pool_worker *self)
+{
+    return self->number == BACKGROUND_WORKER && pool->started;
+}
+
+static void run_background(struct pool *pool, const struct pool_worker *self)
+{
+    run_in_contract(pool->background, pool->background_user, self->number);
+    pool->started = false;
+    wake(pool, 0);
+}
+
+/* --- Workers ------------------------------------------------------------------------------------------------ */
+
+static bool is_wanted(const struct pool *pool, const struct pool_worker *self)
+{
+    return pool->leaving || is_started(pool, self) || may_enter(pool, self);
 }
 
 static void *work(void *argument)
 {
     struct pool_worker *self = argument;
     struct pool *pool = self->pool;
-    pthread_mutex_lock(&pool->lock);
-    for (uint64_t round = 0; next_round(pool, round);) {
-        round = pool->round;
-        if (self->number >= pool->wanted)
-            continue;
-        pool_task *task = pool->task;
-        void *user = pool->user;
-        pthread_mutex_unlock(&pool->lock);
-        run_in_contract(task, user, self->number);
-        pthread_mutex_lock(&pool->lock);
-        if (!--pool->running)
-            pthread_cond_signal(&pool->done);
-        pthread_mutex_unlock(&pool->lock);
-        look_for_round(pool, round);
-        pthread_mutex_lock(&pool->lock);
+    for (;;) {
+        wait_for(pool, self, is_wanted);
+        if (is_started(pool, self))
+            run_background(pool, self);
+        else if (pool->leaving)
+            return NULL;
+        else
+            take_part(pool, self);
     }
-    pthread_mutex_unlock(&pool->lock);
-    return NULL;
 }
 
 static unsigned processors(void)
@@ -94,31 +269,40 @@ static unsigned processors(void)
     return (unsigned)CPU_COUNT(&set);
 }
 
+static void create_worker(struct pool *pool, unsigned number)
+{
+    struct pool_worker *worker = pool->worker + number;
+    worker->pool = pool;
+    worker->number = number;
+    sem_init(&worker->wake, 0, 0);
+}
+
+/* Workers find what the pool is made with from the beginning, but for how many of them there will be. */
 struct pool *pool_create(unsigned threads, pool_create_thread *create, struct error *error)
 {
     if (!threads)
         threads = processors();
     if (threads > POOL_THREADS_MAXIMUM)
         threads = POOL_THREADS_MAXIMUM;
-    struct pool *pool = calloc(1, sizeof *pool + threads * sizeof *pool->worker);
+    size_t bytes = sizeof(struct pool) + threads * sizeof(struct pool_worker);
+    struct pool *pool = aligned_alloc(LINE, bytes);
     if (!pool) {
         error_set(error, "out of memory for %u threads", threads);
         return NULL;
     }
-    pthread_mutex_init(&pool->lock, NULL);
-    pthread_cond_init(&pool->start, NULL);
-    pthread_cond_init(&pool->done, NULL);
+    memset(pool, 0, bytes);
+    pool->looks = threads <= processors() ? LOOKS : 0;
+    pool->limit = 1;
+    for (unsigned i = 0; i < threads; i++)
+        create_worker(pool, i);
     if (!create)
         create = pthread_create;
     for (pool->workers = 1; pool->workers < threads; pool->workers++) {
         struct pool_worker *worker = pool->worker + pool->workers;
-        worker->pool = pool;
-        worker->number = pool->workers;
         if (create(&worker->thread, NULL, work, worker))
             break;
     }
     pool->limit = pool->workers;
-    pool->looks = pool->workers <= processors() ? LOOKS : 0;
     return pool;
 }
 
@@ -126,15 +310,11 @@ void pool_destroy(struct pool *pool)
 {
     if (!pool)
         return;
-    pthread_mutex_lock(&pool->lock);
     pool->leaving = true;
-    pthread_cond_broadcast(&pool->start);
-    pthread_mutex_unlock(&pool->lock);
+    for (unsigned i = 1; i < pool->workers; i++)
+        wake(pool, i);
     for (unsigned i = 1; i < pool->workers; i++)
         pthread_join(pool->worker[i].thread, NULL);
-    pthread_cond_destroy(&pool->done);
-    pthread_cond_destroy(&pool->start);
-    pthread_mutex_destroy(&pool->lock);
     free(pool);
 }
 
@@ -148,26 +328,12 @@ void pool_limit(struct pool *pool, unsigned workers)
     pool->limit = workers && workers < pool->workers ? workers : pool->workers;
 }
 
-void pool_run(struct pool *pool, unsigned workers, pool_task *task, void *user)
+unsigned pool_limited(const struct pool *pool)
 {
-    if (workers > pool->limit)
-        workers = pool->limit;
-    if (workers > 1) {
-        pthread_mutex_lock(&pool->lock);
-        pool->task = task;
-        pool->user = user;
-        pool->wanted = workers;
-        pool->running = workers - 1;
-        pool->round++;
-        pthread_cond_broadcast(&pool->start);
-        pthread_mutex_unlock(&pool->lock);
-    }
-    run_in_contract(task, user, 0);
-    if (workers > 1) {
-        look_for_end(pool);
-        pthread_mutex_lock(&pool->lock);
-        while (pool->running)
-            pthread_cond_wait(&pool->done, &pool->lock);
-        pthread_mutex_unlock(&pool->lock);
-    }
+    return pool->limit;
+}
+
+uint64_t pool_wakes(const struct pool *pool)
+{
+    return pool->wakes;
 }

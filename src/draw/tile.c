@@ -222,7 +222,11 @@ static void prefetch_cell(const uint8_t *base, const struct bin_cell *cell)
 static void rasterize_triangles(struct tile_worker *worker, const struct frame *frame, uint32_t tile,
                                 const uint32_t *triangle, uint32_t count)
 {
-    for (uint32_t done = 0;;) {
+    if (!worker->entered && count)
+        raster_enter(&worker->site, &worker->draw->scissor, (int)(tile % frame->target->columns),
+                     (int)(tile / frame->target->columns));
+    worker->entered |= count;
+    for (uint32_t done = 0; count;) {
         done += raster_list(&worker->site, frame->arena.base, triangle + done, count - done,
                             worker->entries.entry, &worker->count);
         if (done == count)
@@ -291,27 +295,23 @@ static bool cell_covers(const struct bin_cell *cell)
     return all & BIN_COVERS;
 }
 
-/* The chain of cells from `first` on, the first of which begins with triangle number `from`. */
-static void rasterize_cells(struct tile_worker *worker, const struct frame *frame, uint32_t tile,
-                            uint32_t first, uint32_t from)
+/* The triangles of a cell from number `from` on. */
+static void rasterize_cell(struct tile_worker *worker, const struct frame *frame, uint32_t tile,
+                           const struct bin_cell *cell, uint32_t from)
 {
     const struct draw *draw = worker->draw;
     const struct meeting any = {.covers = false};
     bool plain = draw->shape == SHAPE_TRIANGLE && !draw->sampling.samples;
-    for (uint32_t at = first; at; from = 0) {
-        const struct bin_cell *cell = bin_cell(&frame->arena, at);
-        prefetch_cell(frame->arena.base, cell);
-        if (plain && (cell_covers(cell) || asks(worker, frame, tile, false))) {
-            rasterize_seen(worker, frame, tile, cell, from);
-        } else {
-            note_depths(worker, frame, tile, &any);
-            if (plain)
-                rasterize_triangles(worker, frame, tile, cell->triangle, cell->count);
-            else
-                rasterize_any(worker, frame, tile, cell);
-        }
-        at = cell->next;
+    prefetch_cell(frame->arena.base, cell);
+    if (plain && (cell_covers(cell) || asks(worker, frame, tile, false))) {
+        rasterize_seen(worker, frame, tile, cell, from);
+        return;
     }
+    note_depths(worker, frame, tile, &any);
+    if (plain)
+        rasterize_triangles(worker, frame, tile, cell->triangle, cell->count);
+    else
+        rasterize_any(worker, frame, tile, cell);
 }
 
 /* The last triangle of the chain that covers the tile: its cell, and its number there. */
@@ -328,57 +328,119 @@ static uint32_t last_covering(const struct frame *frame, uint32_t head, uint32_t
     return found;
 }
 
-/* The chain of one chunk. */
-static void rasterize_chain(struct tile_worker *worker, const struct frame *frame, uint32_t tile,
-                            uint32_t head)
+/* Whether of the chunk nothing counts that its last triangle over the whole tile is drawn over. */
+static bool starts_at_last(const struct tile_worker *worker, uint32_t chunk, uint32_t start)
 {
-    uint32_t first = head, from = 0;
-    if (head == frame->tile_start[tile] && worker->draw->routine[UNIT_PIXEL]->traits & PIXEL_COLORS_ONLY)
-        first = last_covering(frame, head, &from);
-    rasterize_cells(worker, frame, tile, first, from);
+    return chunk + 1 == start && worker->draw->routine[UNIT_PIXEL]->traits & PIXEL_COLORS_ONLY;
 }
 
-/* Clears up to the chunk; where the tile is overwritten later, colour does not matter. */
-static void clear_before(struct tile_worker *worker, const struct frame *frame, uint32_t tile, uint32_t chunk,
-                         bool overwritten, uint32_t *next)
+/* The chain of one chunk. */
+static void rasterize_chain(struct tile_worker *worker, const struct frame *frame, uint32_t tile,
+                            uint32_t head, uint32_t start)
 {
-    for (; *next < frame->clears && frame->clear_chunk[*next] < chunk; ++*next) {
-        struct clear clear = frame_command(frame, frame->clear_chunk[*next])->clear;
-        shade(worker, frame, tile);
-        clear.set_color &= !overwritten;
-        target_clear_tile(frame->target, tile, &clear);
+    uint32_t at = head, from = 0;
+    if (starts_at_last(worker, bin_cell(&frame->arena, head)->chunk, start))
+        at = last_covering(frame, head, &from);
+    for (; at; from = 0) {
+        const struct bin_cell *cell = bin_cell(&frame->arena, at);
+        rasterize_cell(worker, frame, tile, cell, from);
+        at = cell->next;
     }
+}
+
+static bool same_rectangle(const struct rectangle *a, const struct rectangle *b)
+{
+    return !memcmp(a, b, sizeof *a);
 }
 
 /* Entries from here on are another draw's. */
 static void begin_draw(struct tile_worker *worker, const struct frame *frame, uint32_t tile, uint32_t command)
 {
+    if (worker->draw == &frame->rendered[command].draw)
+        return;
     shade(worker, frame, tile);
-    worker->draw = &frame->command[command].draw;
+    worker->draw = &frame->rendered[command].draw;
     worker->command = command;
     worker->widened = false;
-    raster_enter(&worker->site, &worker->draw->scissor, (int)(tile % frame->target->columns),
-                 (int)(tile / frame->target->columns));
+    worker->entered &= same_rectangle(&worker->site.scissor, &worker->draw->scissor);
+}
+
+/* The triangles of a chunk that are in no bins. */
+static void rasterize_wide(struct tile_worker *worker, const struct frame *frame, uint32_t tile,
+                           uint32_t number, uint32_t start)
+{
+    const struct chunk *chunk = frame->chunk + number;
+    struct bin_cell cell;
+    uint32_t from = 0;
+    bin_wide_cell(bin_wide(&frame->arena, chunk->wide), tile % frame->target->columns,
+                  tile / frame->target->columns, &cell);
+    if (!cell.count)
+        return;
+    begin_draw(worker, frame, tile, chunk->command);
+    for (uint32_t i = 0; i < cell.count && starts_at_last(worker, number, start); i++)
+        if (cell.triangle[i] & BIN_COVERS)
+            from = i;
+    rasterize_cell(worker, frame, tile, &cell, from);
+}
+
+/* --- What is overwritten -----------------------------------------------------------------------------------
+ */
+
+/* Behind the last chunk with a triangle that overwrites the tile; 0: there is none. */
+static uint32_t find_start(const struct frame *frame, uint32_t tile)
+{
+    uint32_t start = frame->tile_start[tile];
+    for (uint32_t i = frame->wide_starts; i-- > 0 && frame->wide_start[i] >= start;) {
+        uint32_t number = frame->wide_start[i];
+        struct bin_cell cell;
+        bin_wide_cell(bin_wide(&frame->arena, frame->chunk[number].wide), tile % frame->target->columns,
+                      tile / frame->target->columns, &cell);
+        if (cell_covers(&cell))
+            return number + 1;
+    }
+    return start;
+}
+
+/* Whether what a chunk draws to the tile is overwritten, and leaves nothing else. */
+static bool is_overwritten(const struct frame *frame, uint32_t chunk, uint32_t start)
+{
+    return chunk + 1 < start &&
+           frame_command(frame, chunk)->draw.routine[UNIT_PIXEL]->traits & PIXEL_COLORS_ONLY;
+}
+
+/* A chunk that is in all tiles. Where the tile is overwritten later, the colour of a clear does not matter. */
+static void render_everywhere(struct tile_worker *worker, const struct frame *frame, uint32_t tile,
+                              uint32_t chunk, uint32_t start)
+{
+    const struct command *command = frame_command(frame, chunk);
+    if (command->kind == COMMAND_CLEAR) {
+        struct clear clear = command->clear;
+        shade(worker, frame, tile);
+        clear.set_color &= chunk + 1 >= start;
+        target_clear_tile(frame->target, tile, &clear);
+    } else if (!is_overwritten(frame, chunk, start)) {
+        rasterize_wide(worker, frame, tile, chunk, start);
+    }
 }
 
 void tile_render(struct tile_worker *worker, const struct frame *frame, uint32_t tile)
 {
-    uint32_t clear = 0, head = frame->tile_first[tile];
-    bool overwritten = frame->tile_start[tile];
+    uint32_t next = 0, start = find_start(frame, tile), end = frame->everywhere_count;
     worker->count = 0;
     worker->draw = NULL;
+    worker->entered = false;
     worker->lanes = lane_table;
-    for (; head; head = bin_cell(&frame->arena, head)->later) {
+    for (uint32_t head = frame->tile_first[tile]; head; head = bin_cell(&frame->arena, head)->later) {
         uint32_t chunk = bin_cell(&frame->arena, head)->chunk;
-        overwritten &= head != frame->tile_start[tile];
         __builtin_prefetch(frame->arena.base + bin_cell(&frame->arena, head)->later);
-        clear_before(worker, frame, tile, chunk, overwritten || head == frame->tile_start[tile], &clear);
-        if (overwritten && frame_command(frame, chunk)->draw.routine[UNIT_PIXEL]->traits & PIXEL_COLORS_ONLY)
+        while (next < end && frame->everywhere[next] <= chunk)
+            render_everywhere(worker, frame, tile, frame->everywhere[next++], start);
+        if (is_overwritten(frame, chunk, start))
             continue;
-        if (&frame_command(frame, chunk)->draw != worker->draw)
-            begin_draw(worker, frame, tile, frame->chunk[chunk].command);
-        rasterize_chain(worker, frame, tile, head);
+        begin_draw(worker, frame, tile, frame->chunk[chunk].command);
+        rasterize_chain(worker, frame, tile, head, start);
     }
-    clear_before(worker, frame, tile, UINT32_MAX, false, &clear);
+    while (next < end)
+        render_everywhere(worker, frame, tile, frame->everywhere[next++], start);
     shade(worker, frame, tile);
 }

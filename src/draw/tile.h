@@ -12,7 +12,8 @@ struct tile_worker {
     struct lane_table lanes; /* its counters are zero between calls */
     uint32_t count;
     const struct draw *draw; /* whose entries these are */
-    struct raster_site site; /* the tile in the draw's scissor rectangle */
+    struct raster_site site; /* the tile in the draw's scissor rectangle, once anything is rasterized */
+    bool entered;            /* that it is so */
     uint32_t command;        /* its number */
     bool widened;            /* what is known of the tile's depth allows for what the draw writes */
     uint64_t pixels_shaded;

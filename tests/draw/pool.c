@@ -1,10 +1,12 @@
-/* The thread pool: every wanted worker runs once a round, in the contract's floating-point environment. */
+/* The thread pool: who takes part in a round, and how often; the background; the contract's floating-point environment. */
 #include "draw/pool.h"
 
 #include "base/mxcsr.h"
 
 #include <errno.h>
+#include <sched.h>
 #include <stdatomic.h>
+#include <time.h>
 #include <unity.h>
 
 static struct pool *pool;
@@ -32,37 +34,103 @@ static void count_run(void *user, unsigned worker)
         wrong_environment++;
 }
 
-static void each_wanted_worker_runs_once_a_round(void)
+static void the_caller_runs_every_round_and_others_no_more_than_once(void)
 {
     pool = pool_create(4, NULL, NULL);
     TEST_ASSERT_EQUAL_UINT32(4, pool_workers(pool));
-    for (int i = 0; i < 300; i++)
-        pool_run(pool, 1 + i % 4, count_run, &pool);
-    TEST_ASSERT_EQUAL_UINT32(300, runs[0]);
-    TEST_ASSERT_EQUAL_UINT32(225, runs[1]);
-    TEST_ASSERT_EQUAL_UINT32(150, runs[2]);
-    TEST_ASSERT_EQUAL_UINT32(75, runs[3]);
+    for (unsigned i = 0; i < 300; i++) {
+        pool_run(pool, 0, 1 + i % 4, i % 3, count_run, &pool);
+        TEST_ASSERT_EQUAL_UINT32(i + 1, runs[0]);
+        for (int w = 1; w < 4; w++)
+            TEST_ASSERT_TRUE(runs[w] <= i + 1);
+    }
 }
 
-static void the_number_wanted_is_clamped(void)
+/* A task whose caller has not done its part before so many have come. */
+static _Atomic unsigned present, wanted;
+
+static void gather(void *user, unsigned worker)
 {
-    pool = pool_create(2, NULL, NULL);
-    pool_run(pool, 0, count_run, &pool);
-    pool_run(pool, 1000, count_run, &pool);
-    TEST_ASSERT_EQUAL_UINT32(2, runs[0]);
-    TEST_ASSERT_EQUAL_UINT32(1, runs[1]);
-    TEST_ASSERT_EQUAL_UINT32(0, runs[2]);
+    count_run(user, worker);
+    present++;
+    while (present < wanted)
+        sched_yield();
+}
+
+static void gather_all(unsigned workers, unsigned expected, enum pool_call call)
+{
+    present = 0;
+    wanted = expected;
+    pool_run(pool, 0, workers, call, gather, &pool);
+    TEST_ASSERT_EQUAL_UINT32(expected, present);
+}
+
+static void let_everybody_sleep(void)
+{
+    nanosleep(&(struct timespec){.tv_nsec = 20 * 1000 * 1000}, NULL);
+}
+
+static void all_who_are_called_come_from_their_sleep(void)
+{
+    pool = pool_create(7, NULL, NULL);
+    for (int i = 0; i < 20; i++) {
+        if (i % 2)
+            let_everybody_sleep();
+        gather_all(7, 7, POOL_ALL);
+    }
+    for (int w = 0; w < 7; w++)
+        TEST_ASSERT_EQUAL_UINT32(20, runs[w]);
+}
+
+static void no_more_come_than_are_called(void)
+{
+    pool = pool_create(7, NULL, NULL);
+    for (unsigned i = 0; i < 200; i++)
+        gather_all(1 + i % 7, 1 + i % 7, POOL_ALL);
+    gather_all(0, 1, POOL_ALL);
+    gather_all(1000, 7, POOL_ALL);
+}
+
+static void call_the_others(void *user, unsigned worker)
+{
+    if (worker == 0)
+        pool_call(pool, 3);
+    gather(user, worker);
+}
+
+static void others_can_be_called_in_the_middle_of_a_round(void)
+{
+    pool = pool_create(4, NULL, NULL);
+    for (int i = 0; i < 100; i++) {
+        if (i % 20 == 0)
+            let_everybody_sleep();
+        present = 0;
+        wanted = 3;
+        pool_run(pool, 0, 3, i % 2 ? POOL_ALONE : POOL_AWAKE, call_the_others, &pool);
+        TEST_ASSERT_EQUAL_UINT32(3, present);
+    }
+}
+
+static void a_round_alone_wakes_nobody(void)
+{
+    pool = pool_create(3, NULL, NULL);
+    let_everybody_sleep();
+    uint64_t before = pool_wakes(pool);
+    for (int i = 0; i < 100; i++)
+        pool_run(pool, 0, 3, i % 2 ? POOL_ALONE : POOL_AWAKE, count_run, &pool);
+    TEST_ASSERT_EQUAL_UINT64(before, pool_wakes(pool));
+    TEST_ASSERT_EQUAL_UINT32(100, runs[0]);
 }
 
 static void a_limit_holds_until_it_is_lifted(void)
 {
     pool = pool_create(3, NULL, NULL);
     pool_limit(pool, 2);
-    pool_run(pool, 3, count_run, &pool);
+    TEST_ASSERT_EQUAL_UINT32(2, pool_limited(pool));
+    gather_all(3, 2, POOL_ALL);
     TEST_ASSERT_EQUAL_UINT32(0, runs[2]);
     pool_limit(pool, 0);
-    pool_run(pool, 3, count_run, &pool);
-    TEST_ASSERT_EQUAL_UINT32(2, runs[1]);
+    gather_all(3, 3, POOL_ALL);
     TEST_ASSERT_EQUAL_UINT32(1, runs[2]);
 }
 
@@ -71,12 +139,63 @@ static void tasks_run_in_the_contracts_environment_and_the_callers_is_restored(v
     pool = pool_create(3, NULL, NULL);
     unsigned saved = _mm_getcsr(), odd = (saved & ~0x3fu) | _MM_ROUND_DOWN;
     _mm_setcsr(odd);
-    pool_run(pool, 3, count_run, &pool);
+    gather_all(3, 3, POOL_ALL);
     unsigned after = _mm_getcsr() & ~0x3fu;
     _mm_setcsr(saved);
     TEST_ASSERT_EQUAL_HEX32(odd, after);
     TEST_ASSERT_EQUAL_UINT32(0, wrong_environment);
-    TEST_ASSERT_EQUAL_UINT32(3, runs[0] + runs[1] + runs[2]);
+}
+
+/* --- The background ----------------------------------------------------------------------------------------- */
+
+static _Atomic unsigned rounds_begun;
+static _Atomic bool go_on;
+
+/* Rounds that as many must take part in as `wanted` says. */
+static void lead_rounds(void *user, unsigned worker)
+{
+    TEST_ASSERT_EQUAL_UINT32(1, worker);
+    for (int i = 0; i < 50; i++) {
+        present = 0;
+        rounds_begun++;
+        pool_run(pool, worker, 4, POOL_ALL, gather, user);
+    }
+}
+
+static void who_waits_for_the_background_is_one_of_its_workers(void)
+{
+    pool = pool_create(3, NULL, NULL);
+    for (int i = 0; i < 4; i++) {
+        if (i % 2)
+            let_everybody_sleep();
+        wanted = 3;
+        rounds_begun = 0;
+        pool_start(pool, lead_rounds, &pool);
+        pool_wait(pool);
+        TEST_ASSERT_EQUAL_UINT32(50, rounds_begun);
+        for (int w = 0; w < 3; w++)
+            TEST_ASSERT_EQUAL_UINT32(50 * (i + 1), runs[w]);
+    }
+    pool_wait(pool); /* for nothing */
+}
+
+static void wait_for_go(void *user, unsigned worker)
+{
+    count_run(user, worker);
+    while (!go_on)
+        sched_yield();
+}
+
+static void the_background_runs_while_its_starter_does_something_else(void)
+{
+    pool = pool_create(2, NULL, NULL);
+    go_on = false;
+    pool_start(pool, wait_for_go, &pool);
+    go_on = true; /* behind the start, without which it would never end */
+    pool_wait(pool);
+    TEST_ASSERT_EQUAL_UINT32(1, runs[1]);
+    TEST_ASSERT_EQUAL_UINT32(0, runs[0]);
+    TEST_ASSERT_EQUAL_UINT32(0, wrong_environment);
 }
 
 static int threads_left;
@@ -92,8 +211,7 @@ static void refused_threads_make_a_smaller_pool(void)
     threads_left = 2;
     pool = pool_create(16, refuse_later, NULL);
     TEST_ASSERT_EQUAL_UINT32(3, pool_workers(pool));
-    pool_run(pool, 16, count_run, &pool);
-    TEST_ASSERT_EQUAL_UINT32(3, runs[0] + runs[1] + runs[2]);
+    gather_all(16, 3, POOL_ALL);
 }
 
 static void zero_means_as_many_as_processors(void)
@@ -105,10 +223,15 @@ static void zero_means_as_many_as_processors(void)
 int main(void)
 {
     UNITY_BEGIN();
-    RUN_TEST(each_wanted_worker_runs_once_a_round);
-    RUN_TEST(the_number_wanted_is_clamped);
+    RUN_TEST(the_caller_runs_every_round_and_others_no_more_than_once);
+    RUN_TEST(all_who_are_called_come_from_their_sleep);
+    RUN_TEST(no_more_come_than_are_called);
+    RUN_TEST(others_can_be_called_in_the_middle_of_a_round);
+    RUN_TEST(a_round_alone_wakes_nobody);
     RUN_TEST(a_limit_holds_until_it_is_lifted);
     RUN_TEST(tasks_run_in_the_contracts_environment_and_the_callers_is_restored);
+    RUN_TEST(who_waits_for_the_background_is_one_of_its_workers);
+    RUN_TEST(the_background_runs_while_its_starter_does_something_else);
     RUN_TEST(refused_threads_make_a_smaller_pool);
     RUN_TEST(zero_means_as_many_as_processors);
     return UNITY_END();
