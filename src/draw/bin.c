@@ -254,8 +254,6 @@ static inline uint32_t place_box(struct bin_writer *writer, uint32_t i, const st
     __m128i first = _mm_srai_epi16(box->low, TILE_BITS);
     __m128i last = _mm_srai_epi16(_mm_add_epi16(box->high, _mm_set1_epi16(-1)), TILE_BITS);
     if (of_both(_mm_cmpeq_epi16(first, last))) {
-        __m128i size = _mm_sub_epi16(box->high, box->low);
-        writer->pixels += (uint32_t)(box_x(size) * box_y(size));
         writer->tile[i] = (uint32_t)box_y(first) * writer->columns + (uint32_t)box_x(first);
         return 1;
     }
@@ -315,6 +313,7 @@ int bin_records(struct bin_writer *writer, uint32_t count, uint32_t stride, enum
                            shape == SHAPE_TRIANGLE && (!sampling->samples || sampling->centers)};
     uint32_t pairs, triangle = writer->at, visible = keep_visible(writer, count, stride, &how, &pairs);
     writer->at += visible * stride;
+    writer->pixels += (uint64_t)visible * PIXELS_GUESSED;
     struct rectangle all;
     if (shape == SHAPE_TRIANGLE && !sampling->samples && are_wide(writer, visible, &all))
         return keep_wide(writer, triangle, stride, visible, &all, scissor) ? (int)visible : -1;

@@ -26,6 +26,7 @@ enum {
     ARENA_ALIGNMENT = 64,
     BIN_CELL_TRIANGLES = 11,
     MANY_TILES = 0x7fffffff,
+    PIXELS_GUESSED = 256,
     WIDE_TRIANGLES = 8, /* of a chunk, at most */
     WIDE_TILES = 16,    /* that they meet, at least, and this part of the target: */
     WIDE_PART = 4,
@@ -72,7 +73,7 @@ struct bin_writer {
     uint32_t heads;                      /* first head cell of the chunk */
     uint32_t wide;                       /* its struct wide; 0: it has none */
     uint32_t covered;                    /* how many tiles its triangles cover, each counted for itself */
-    uint64_t pixels;                     /* of the bounds of its triangles, in the scissor */
+    uint64_t pixels; /* about so many: those of bounds that meet several tiles, and for each triangle some */
     uint32_t open[TARGET_TILES_MAXIMUM]; /* the tile's last cell of the chunk */
     uint32_t tile[SETUP_CAPACITY];       /* that holds the bounds of a triangle of the group; or MANY_TILES */
     struct rectangle tiles[SETUP_CAPACITY]; /* and these are the tiles that they meet */

@@ -120,9 +120,10 @@ static uint32_t task_at(const struct frame *frame, uint32_t i)
 enum {
     CHUNK_NS = 100,
     PRIMITIVE_NS = 40,
-    TILE_NS = 60, /* with nothing but a clear, half of that */
+    TILE_NS = 40, /* with nothing but a clear, half of that */
+    WIDE_NS = 5, /* and with what is everywhere, in each of them */
     PIXELS_OF_NS = 8,
-    SHARED_NS = 4000, /* a phase that is worth another thread that looks for work */
+    SHARED_NS = 10000, /* a phase that is worth another thread that looks for work */
     CALL_NS = 25000   /* and one that is worth waking it */
 };
 
@@ -134,19 +135,26 @@ static enum pool_call call_for(uint64_t ns)
 /* A thread's time in a phase; the leader calls the others if it is more than was thought. */
 struct stint {
     uint64_t start;
-    bool leads, called;
+    uint64_t work; /* that was done when it last looked at the clock, in what the phase counts */
+    bool may_call;
 };
 
-static struct stint begin_stint(const struct frame *frame, unsigned number)
+static struct stint begin_stint(const struct frame *frame, unsigned number, uint64_t work)
 {
-    return (struct stint){now_ns(), number == frame->leader, frame->call == POOL_ALL};
+    bool may_call =
+        number == frame->leader && frame->call != POOL_ALL && pool_limited(frame->pool) > 1;
+    return (struct stint){now_ns(), work, may_call};
 }
 
-static void look_at_clock(struct stint *stint, const struct frame *frame, uint32_t tasks_left)
+static void look_at_clock(struct stint *stint, const struct frame *frame, uint32_t tasks_left, uint64_t work)
 {
-    if (!stint->leads || stint->called || !tasks_left || now_ns() - stint->start < CALL_NS / 2)
+    enum { WORK_BETWEEN_LOOKS = 256 }; /* pixels or primitives: a look costs what a few of them do */
+    if (!stint->may_call || !tasks_left || work - stint->work < WORK_BETWEEN_LOOKS)
         return;
-    stint->called = true;
+    stint->work = work;
+    if (now_ns() - stint->start < CALL_NS / 2)
+        return;
+    stint->may_call = false;
     pool_call(frame->pool, tasks_left + 1);
 }
 
@@ -240,7 +248,8 @@ static void geometry_task(void *user, unsigned number)
 {
     struct frame *frame = user;
     struct frame_worker *worker = frame->worker + number;
-    struct stint stint = begin_stint(frame, number);
+    uint64_t primitives = 0;
+    struct stint stint = begin_stint(frame, number, primitives);
     bin_begin_round(&worker->bins, &frame->arena, frame->target->columns, frame->target->rows);
     for (uint32_t i; (i = atomic_fetch_add(&frame->next_task, 1)) < frame->chunk_tasks;) {
         uint32_t task = task_at(frame, i);
@@ -250,8 +259,9 @@ static void geometry_task(void *user, unsigned number)
             prefetch_chunk(frame, chunk);
             if (chunk < atomic_load(&frame->first_stopped))
                 process_chunk(frame, worker, chunk);
+            primitives += frame->chunk[chunk].count;
         }
-        look_at_clock(&stint, frame, frame->chunk_tasks - i - 1);
+        look_at_clock(&stint, frame, frame->chunk_tasks - i - 1, primitives);
     }
     worker->geometry_ns += now_ns() - stint.start;
 }
@@ -344,13 +354,14 @@ static void link_chunks(struct frame *frame, struct cursor *at)
  * each other is one thread's. Returns how many, from *first on. */
 static uint32_t take_tiles(struct frame *frame, uint32_t *first)
 {
-    enum { RUNS = 8 }; /* that each thread would take, were all alike */
+    enum { RUNS = 8, ALONE_MOST = 4 }; /* runs that each thread would take, were all alike */
     uint32_t next = atomic_load_explicit(&frame->next_task, memory_order_relaxed), count;
     do {
         uint32_t left = frame->tile_tasks - next;
         if (!left)
             return 0;
         count = left / (RUNS * pool_limited(frame->pool));
+        count = frame->call == POOL_ALONE && count > ALONE_MOST ? ALONE_MOST : count;
         count = count ? count : 1;
     } while (!atomic_compare_exchange_weak(&frame->next_task, &next, next + count));
     *first = next;
@@ -361,14 +372,15 @@ static void tiles_task(void *user, unsigned number)
 {
     struct frame *frame = user;
     struct frame_worker *worker = frame->worker + number;
-    struct stint stint = begin_stint(frame, number);
+    struct stint stint = begin_stint(frame, number, worker->tile.pixels_shaded);
     uint32_t first, count;
+    worker->tile.lanes = lane_table;
     while ((count = take_tiles(frame, &first))) {
         for (uint32_t i = first; i < first + count; i++) {
             uint32_t task = task_at(frame, i);
             tile_render(&worker->tile, frame, frame->everywhere_count ? task : frame->busy[task]);
+            look_at_clock(&stint, frame, frame->tile_tasks - first - count, worker->tile.pixels_shaded);
         }
-        look_at_clock(&stint, frame, frame->tile_tasks - first - count);
     }
     worker->tiles_ns += now_ns() - stint.start;
 }
@@ -384,7 +396,8 @@ static uint64_t geometry_ns(const struct frame *frame)
 static uint64_t tiles_ns(const struct frame *frame)
 {
     uint64_t cells = frame->busy_count + (uint64_t)frame->tile_tasks;
-    return cells * (TILE_NS / 2) + frame->pixels / PIXELS_OF_NS;
+    uint64_t everywhere = (uint64_t)frame->everywhere_count * frame->tile_tasks;
+    return cells * (TILE_NS / 2) + everywhere * WIDE_NS + frame->pixels / PIXELS_OF_NS;
 }
 
 static void render_round(struct frame *frame, struct cursor *at, uint32_t limit)

@@ -34,11 +34,13 @@ struct pool_worker {
 typedef bool pool_condition(const struct pool *pool, const struct pool_worker *self);
 
 struct pool {
-    alignas(LINE) _Atomic uint64_t gate;
-    /* Written while nobody is inside and nobody may enter. */
-    pool_task *task;
+    alignas(LINE) _Atomic uint64_t gate; /* what who looks for work looks at */
+
+    /* The round; written while nobody is inside and nobody may enter. */
+    alignas(LINE) pool_task *task;
     void *user;
     _Atomic unsigned leader;  /* the worker whose round it is */
+    bool open;                /* or was; the leader's */
     _Atomic bool waking;      /* who sleeps is to be woken */
     _Atomic unsigned to_wake; /* the next worker to be looked at for that */
 
@@ -170,37 +172,45 @@ static unsigned others(const struct pool *pool, unsigned workers)
     return workers ? workers - 1 : 0;
 }
 
+/* Lets so many in, from now on. */
+static void open_round(struct pool *pool, uint64_t places)
+{
+    struct pool_worker *self = pool->worker + pool->leader;
+    pool->open = true;
+    pool->to_wake = 0;
+    self->round = round_of(pool->gate) + 1;
+    pool->gate = (uint64_t)self->round << ROUND_SHIFT | places << PLACE_SHIFT;
+}
+
 void pool_call(struct pool *pool, unsigned workers)
 {
     uint64_t places = others(pool, workers);
     if (!places || pool->waking)
         return;
     pool->waking = true;
-    if (!(pool->gate & (PLACES | INSIDE)))
-        atomic_fetch_add(&pool->gate, places << PLACE_SHIFT);
+    if (!pool->open)
+        open_round(pool, places);
     wake_two(pool);
 }
 
+/* A round that nobody else is asked to leaves the gate alone, which others look at. */
 void pool_run(struct pool *pool, unsigned worker, unsigned workers, enum pool_call call, pool_task *task,
               void *user)
 {
-    struct pool_worker *self = pool->worker + worker;
-    uint64_t places = call == POOL_ALONE ? 0 : others(pool, workers);
-    if (pool->limit < 2) {
-        run_in_contract(task, user, worker);
-        return;
-    }
+    uint64_t places = others(pool, workers);
     pool->task = task;
     pool->user = user;
     pool->leader = worker;
-    pool->waking = call == POOL_ALL && places;
-    pool->to_wake = 0;
-    self->round = round_of(pool->gate) + 1;
-    pool->gate = (uint64_t)self->round << ROUND_SHIFT | places << PLACE_SHIFT;
-    wake_two(pool);
+    pool->open = pool->waking = false;
+    if (call == POOL_ALL)
+        pool_call(pool, workers);
+    else if (call == POOL_AWAKE && places)
+        open_round(pool, places);
     run_in_contract(task, user, worker);
+    if (!pool->open)
+        return;
     atomic_fetch_and(&pool->gate, ~PLACES);
-    wait_for(pool, self, everybody_left);
+    wait_for(pool, pool->worker + worker, everybody_left);
 }
 
 /* --- The background ----------------------------------------------------------------------------------------- */

@@ -429,7 +429,6 @@ void tile_render(struct tile_worker *worker, const struct frame *frame, uint32_t
     worker->count = 0;
     worker->draw = NULL;
     worker->entered = false;
-    worker->lanes = lane_table;
     for (uint32_t head = frame->tile_first[tile]; head; head = bin_cell(&frame->arena, head)->later) {
         uint32_t chunk = bin_cell(&frame->arena, head)->chunk;
         __builtin_prefetch(frame->arena.base + bin_cell(&frame->arena, head)->later);

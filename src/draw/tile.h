@@ -9,7 +9,7 @@
 /* One thread's workspace. */
 struct tile_worker {
     alignas(64) struct entry_list entries;
-    struct lane_table lanes; /* its counters are zero between calls */
+    struct lane_table lanes; /* lane_table: its counters are zero between calls */
     uint32_t count;
     const struct draw *draw; /* whose entries these are */
     struct raster_site site; /* the tile in the draw's scissor rectangle, once anything is rasterized */
