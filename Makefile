@@ -295,7 +295,7 @@ test:
 	@tests/support/run.sh '$(ONLY)' $(BUILD) $(BUILD)/sanitize $(BUILD)/thread
 
 # What runs under ThreadSanitizer besides tests/threads.sh: programs whose subject is threads or what they share.
-threaded = $(patsubst %.c,$(BUILD)/thread/%,$(call only,$(patsubst %,tests/%.c,base/code draw/cache draw/pool \
+threaded = $(patsubst %.c,$(BUILD)/thread/%,$(call only,$(patsubst %,tests/%.c,base/code draw/background draw/cache draw/pool \
   draw/shuffle stream/threads)))
 
 # `make test` watches the threads of small streams; here it is all streams, with more threads.
