@@ -1,5 +1,6 @@
 #include "draw/constant.h"
 
+#include "base/prefetch.h"
 #include "shader/program.h"
 
 #include <stdlib.h>
@@ -31,6 +32,9 @@ bool constants_fit(const struct constants *constants, const struct state *state)
     return constants->used + bytes <= CONSTANT_BYTES;
 }
 
+/* So far before they are written lines are asked for, which another core has that rendered what was there. */
+enum { BYTES_AHEAD = 1024 };
+
 static void write_block(struct constants *constants, const struct state *state, int stage)
 {
     const struct program *program = state->program[stage];
@@ -39,18 +43,18 @@ static void write_block(struct constants *constants, const struct state *state, 
     program_write_constants(program, (const float(*)[4])registers->floats,
                             (const int32_t(*)[4])registers->integers, block);
     constants->used += program_constant_bytes(program);
+    prefetch_to_write(block + BYTES_AHEAD, program_constant_bytes(program));
     constants->program[stage] = program;
     constants->block[stage] = (const float *)(const void *)block;
 }
 
-void constants_write(struct constants *constants, const struct state *state,
-                     const float *block[SHADER_STAGES])
+const float *constants_block(struct constants *constants, const struct state *state, int stage)
 {
-    for (int stage = 0; stage < SHADER_STAGES; stage++) {
-        if (state->program[stage] && !is_right(constants, state, stage))
-            write_block(constants, state, stage);
-        block[stage] = state->program[stage] ? constants->block[stage] : NULL;
-    }
+    if (!state->program[stage])
+        return NULL;
+    if (!is_right(constants, state, stage))
+        write_block(constants, state, stage);
+    return constants->block[stage];
 }
 
 void constants_changed(struct constants *constants, unsigned stage)

@@ -30,9 +30,8 @@ void constants_destroy(struct constants *constants);
 /* Whether the blocks of a draw with this state fit; they do after constants_reset. */
 bool constants_fit(const struct constants *constants, const struct state *state);
 
-/* The blocks of a draw with this state, which fit: the newest ones where they are right. Null without shader. */
-void constants_write(struct constants *constants, const struct state *state,
-                     const float *block[SHADER_STAGES]);
+/* The block of a draw's stage with this state, which fits: the newest one if it is right. Null without shader. */
+const float *constants_block(struct constants *constants, const struct state *state, int stage);
 
 /* A constant of that stage has changed: its newest block is not that of later draws. */
 void constants_changed(struct constants *constants, unsigned stage);

@@ -1,5 +1,6 @@
 /* What of a job is read: a queue of draws that each have a job of their own holds, and copies, no more than that. */
 #include "draw/derive_part.h"
+#include "shader/program.h"
 
 static const struct {
     uint16_t begin, end;
@@ -33,14 +34,29 @@ static void add_elements(struct live_job *live, size_t array, size_t bytes, cons
     add_run(live, array + first * bytes, array + last * bytes);
 }
 
+/* What has no shader reads constants of stages, and how some are displaced; of shaders those do that name stages. */
+static void add_stages(struct live_job *live, const struct pixel_key *pixel)
+{
+    uint32_t shader = key_program(pixel->shader);
+    if (shader && shader_major(program_find(shader)->model) == 1)
+        add_part(live, PART_STAGES);
+    if (shader || !pixel->stages)
+        return;
+    add_run(live, offsetof(struct job, texture_factor), offsetof(struct job, bump));
+    add_elements(live, offsetof(struct job, bump), sizeof(struct bump_job), pixel->bump, TEXTURE_STAGES);
+}
+
 /* Parts that are small are read by somebody nearly always. */
 void derive_live(const struct vertex_key *vertex, const struct pixel_key *pixel, struct live_job *live)
 {
     live->count = 0;
-    add_run(live, 0, offsetof(struct job, input));
+    add_run(live, 0, offsetof(struct job, world_view_projection));
+    if (!key_program(vertex->shader))
+        add_part(live, PART_TRANSFORM);
+    add_elements(live, offsetof(struct job, attribute), sizeof(struct attribute_job), vertex->attribute,
+                 ATTRIBUTE_COUNT);
     add_elements(live, offsetof(struct job, input), sizeof(struct attribute_job), vertex->input, INPUTS);
-    if (pixel->stages || key_program(pixel->shader))
-        add_part(live, PART_STAGES);
+    add_stages(live, pixel);
     add_elements(live, offsetof(struct job, texture), sizeof(struct texture_job), pixel->texture,
                  PIXEL_SAMPLERS);
     add_elements(live, offsetof(struct job, texture[PIXEL_SAMPLERS]), sizeof(struct texture_job),

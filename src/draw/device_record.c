@@ -8,6 +8,7 @@
  * Routines are held once for all draws that use them between two renderings, not once for each: device->draw has those
  * of the keys as long as they are held, and when other keys come, those that were held last are looked at before the
  * cache is asked. */
+#include "base/prefetch.h"
 #include "draw/derive.h"
 #include "draw/device.h"
 
@@ -284,17 +285,22 @@ static void step_element(const struct state *state, const struct state_element *
 static void step_instance(const struct triptych_device *device, uint32_t instance, struct job *job)
 {
     const struct state *state = &device->state;
-    for (int i = 0; i < ATTRIBUTE_COUNT; i++)
+    const struct vertex_key *key = &device->key[UNIT_VERTEX].vertex;
+    for (unsigned i = key_next(key->attribute, 0, ATTRIBUTE_COUNT); i < ATTRIBUTE_COUNT;
+         i = key_next(key->attribute, i + 1, ATTRIBUTE_COUNT))
         step_element(state, state->element + i, instance, &job->attribute[i]);
     for (unsigned i = 0; i < INPUTS; i++) {
-        const struct state_element *element = derive_input(state, &device->key[UNIT_VERTEX].vertex, i);
+        const struct state_element *element = derive_input(state, key, i);
         if (element)
             step_element(state, element, instance, &job->input[i]);
     }
 }
 
-/* The next job's lines, likely to be the same ones, are asked for meanwhile: another core may have them that rendered the
- * job before. Nobody reads the rest of the job, but in builds that check themselves it is what would be noticed. */
+/* Queues are used again, and another core has the lines that rendered what was there: so many draws before they are written
+ * they are asked for. */
+enum { JOBS_AHEAD = 4, COMMANDS_AHEAD = 8 };
+
+/* The same lines of later jobs are likely to be written. Nobody reads the rest of the job, but in builds that check themselves it is what would be noticed. */
 static void copy_live(struct job *to, const struct job *from, const struct live_job *live)
 {
     if (JOBS_CHECKED)
@@ -302,34 +308,36 @@ static void copy_live(struct job *to, const struct job *from, const struct live_
     for (unsigned i = 0; i < live->count; i++) {
         size_t begin = live->run[i].begin, end = live->run[i].end;
         memcpy((char *)to + begin, (const char *)from + begin, end - begin);
-        for (size_t at = begin; at < end; at += 64)
-            __builtin_prefetch((char *)(to + 1) + at, 1);
+        prefetch_to_write((const char *)(to + JOBS_AHEAD) + begin, end - begin);
     }
 }
 
-static struct job *new_job(struct triptych_device *device, const float *const block[SHADER_STAGES])
+/* Blocks of constants, one by one: loaded as one vector they would have to wait for the stores of both. */
+static struct job *new_job(struct triptych_device *device, const float *vertex, const float *pixel)
 {
     struct job *job = frame_next_job(device->frame);
     device->frame->jobs++;
     copy_live(job, &device->job, &device->live);
-    memcpy(job->constants, block, sizeof job->constants);
+    job->constants[STAGE_VERTEX] = vertex;
+    job->constants[STAGE_PIXEL] = pixel;
     return job;
 }
 
 /* The job of an instance: that of the draw before, if it is the same. Instances after the first have their own. */
 static const struct job *make_job(struct triptych_device *device, uint32_t instance)
 {
-    const float *block[SHADER_STAGES];
-    constants_write(&device->constants, &device->state, block);
-    if (!device->draw.job)
+    const float *vertex = constants_block(&device->constants, &device->state, STAGE_VERTEX);
+    const float *pixel = constants_block(&device->constants, &device->state, STAGE_PIXEL);
+    const struct job *last = device->draw.job;
+    if (!last)
         mark_textures(device);
     if (instance) {
-        struct job *job = new_job(device, block);
+        struct job *job = new_job(device, vertex, pixel);
         step_instance(device, instance, job);
         return job;
     }
-    if (!device->draw.job || memcmp(device->draw.job->constants, block, sizeof block))
-        device->draw.job = new_job(device, block);
+    if (!last || last->constants[STAGE_VERTEX] != vertex || last->constants[STAGE_PIXEL] != pixel)
+        device->draw.job = new_job(device, vertex, pixel);
     return device->draw.job;
 }
 
@@ -348,6 +356,7 @@ static void record_instance(struct triptych_device *device, const struct draw *s
     if (!frame_next(device->frame) || !constants_fit(&device->constants, &device->state))
         render_before(device, device_start);
     struct command *command = frame_next(device->frame);
+    prefetch_to_write(command + COMMANDS_AHEAD, sizeof *command);
     command->kind = COMMAND_DRAW;
     command->draw = device->draw;
     command->draw.job = make_job(device, instance); /* which may be new to device->draw, too */

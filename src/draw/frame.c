@@ -121,10 +121,10 @@ enum {
     CHUNK_NS = 100,
     PRIMITIVE_NS = 40,
     TILE_NS = 40, /* with nothing but a clear, half of that */
-    WIDE_NS = 5, /* and with what is everywhere, in each of them */
+    WIDE_NS = 5,  /* and with what is everywhere, in each of them */
     PIXELS_OF_NS = 8,
     SHARED_NS = 10000, /* a phase that is worth another thread that looks for work */
-    CALL_NS = 25000   /* and one that is worth waking it */
+    CALL_NS = 25000    /* and one that is worth waking it */
 };
 
 static enum pool_call call_for(uint64_t ns)
@@ -141,8 +141,7 @@ struct stint {
 
 static struct stint begin_stint(const struct frame *frame, unsigned number, uint64_t work)
 {
-    bool may_call =
-        number == frame->leader && frame->call != POOL_ALL && pool_limited(frame->pool) > 1;
+    bool may_call = number == frame->leader && frame->call != POOL_ALL && pool_limited(frame->pool) > 1;
     return (struct stint){now_ns(), work, may_call};
 }
 
@@ -182,6 +181,18 @@ static void add_chunk(struct frame *frame, struct cursor at, uint32_t count, uin
     *of_task += count;
 }
 
+/* Commands lie in another core's cache when that has recorded them. */
+enum { COMMANDS_AHEAD = 8 };
+
+static void prefetch_command(const struct frame *frame, uint32_t number)
+{
+    const char *command = (const char *)(frame->rendered + number);
+    if (number >= frame->rendered_commands)
+        return;
+    __builtin_prefetch(command);
+    __builtin_prefetch(command + sizeof(struct command) - 1);
+}
+
 /* Cuts the commands from the cursor on into up to `limit` chunks. */
 static void make_chunks(struct frame *frame, struct cursor at, uint32_t limit)
 {
@@ -190,6 +201,7 @@ static void make_chunks(struct frame *frame, struct cursor at, uint32_t limit)
     while (at.command < frame->rendered_commands && frame->chunks < limit) {
         const struct command *command = frame->rendered + at.command;
         uint32_t left = command->kind == COMMAND_DRAW ? command->draw.count - at.primitive : 0;
+        prefetch_command(frame, at.command + COMMANDS_AHEAD);
         uint32_t count = left < CHUNK_PRIMITIVES ? left : CHUNK_PRIMITIVES;
         add_chunk(frame, at, count, &of_task);
         at.primitive += count;
@@ -233,17 +245,6 @@ static bool round_is_full(const struct frame *frame)
     return used > (uint64_t)ROUND_BYTES * pool_limited(frame->pool);
 }
 
-/* Commands and jobs lie in another core's cache when that has recorded them. */
-static void prefetch_chunk(const struct frame *frame, uint32_t number)
-{
-    enum { AHEAD = 8 };
-    if (number + AHEAD >= frame->chunks)
-        return;
-    const char *command = (const char *)frame_command(frame, number + AHEAD);
-    __builtin_prefetch(command);
-    __builtin_prefetch(command + 64);
-}
-
 static void geometry_task(void *user, unsigned number)
 {
     struct frame *frame = user;
@@ -256,7 +257,6 @@ static void geometry_task(void *user, unsigned number)
         for (uint32_t chunk = frame->chunk_task[task]; chunk < frame->chunk_task[task + 1]; chunk++) {
             if (chunk && round_is_full(frame))
                 stop_after(frame, chunk);
-            prefetch_chunk(frame, chunk);
             if (chunk < atomic_load(&frame->first_stopped))
                 process_chunk(frame, worker, chunk);
             primitives += frame->chunk[chunk].count;
