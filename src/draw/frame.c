@@ -350,22 +350,48 @@ static void link_chunks(struct frame *frame, struct cursor *at)
         frame->everywhere_count ? frame->target->columns * frame->target->rows : frame->busy_count;
 }
 
-/* Takes tiles off the counter: many at first, one by one at the end, so that threads end together and what lies next to
- * each other is one thread's. Returns how many, from *first on. */
-static uint32_t take_tiles(struct frame *frame, uint32_t *first)
+static uint32_t part_begin(const struct frame *frame, uint32_t part)
 {
-    enum { RUNS = 8, ALONE_MOST = 4 }; /* runs that each thread would take, were all alike */
-    uint32_t next = atomic_load_explicit(&frame->next_task, memory_order_relaxed), count;
+    return (uint32_t)((uint64_t)frame->tile_tasks * part / frame->parts);
+}
+
+/* As many parts as threads may come, if there are not too many. */
+static void make_parts(struct frame *frame, uint64_t ns)
+{
+    unsigned threads = call_for(ns) == POOL_ALONE ? 1 : pool_limited(frame->pool);
+    frame->parts = threads < TILE_PARTS ? threads : TILE_PARTS;
+    for (uint32_t i = 0; i < frame->parts; i++)
+        atomic_store_explicit(&frame->part[i].next, part_begin(frame, i), memory_order_relaxed);
+}
+
+/* Takes tiles off a part: many at first, one by one at the end, so that threads end together. Returns how many, from *first
+ * on. */
+static uint32_t take_of_part(struct frame *frame, uint32_t part, uint32_t *first)
+{
+    enum { RUNS = 8, ALONE_MOST = 4 };
+    _Atomic uint32_t *counter = &frame->part[part].next;
+    uint32_t next = atomic_load_explicit(counter, memory_order_relaxed), count;
     do {
-        uint32_t left = frame->tile_tasks - next;
+        uint32_t left = part_begin(frame, part + 1) - next;
         if (!left)
             return 0;
-        count = left / (RUNS * pool_limited(frame->pool));
+        count = left / RUNS;
         count = frame->call == POOL_ALONE && count > ALONE_MOST ? ALONE_MOST : count;
         count = count ? count : 1;
-    } while (!atomic_compare_exchange_weak(&frame->next_task, &next, next + count));
+    } while (!atomic_compare_exchange_weak(counter, &next, next + count));
     *first = next;
     return count;
+}
+
+/* The thread's own part first, then what others have left of theirs. */
+static uint32_t take_tiles(struct frame *frame, unsigned number, uint32_t *first)
+{
+    for (uint32_t i = 0; i < frame->parts; i++) {
+        uint32_t count = take_of_part(frame, (number + i) % frame->parts, first);
+        if (count)
+            return count;
+    }
+    return 0;
 }
 
 static void tiles_task(void *user, unsigned number)
@@ -375,7 +401,7 @@ static void tiles_task(void *user, unsigned number)
     struct stint stint = begin_stint(frame, number, worker->tile.pixels_shaded);
     uint32_t first, count;
     worker->tile.lanes = lane_table;
-    while ((count = take_tiles(frame, &first))) {
+    while ((count = take_tiles(frame, number, &first))) {
         for (uint32_t i = first; i < first + count; i++) {
             uint32_t task = task_at(frame, i);
             tile_render(&worker->tile, frame, frame->everywhere_count ? task : frame->busy[task]);
@@ -407,6 +433,7 @@ static void render_round(struct frame *frame, struct cursor *at, uint32_t limit)
     atomic_store(&frame->first_stopped, UINT32_MAX);
     run_phase(frame, frame->chunk_tasks, geometry_ns(frame), geometry_task);
     link_chunks(frame, at);
+    make_parts(frame, tiles_ns(frame));
     run_phase(frame, frame->tile_tasks, tiles_ns(frame), tiles_task);
     frame->unseen.rounds++;
 }

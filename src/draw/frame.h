@@ -9,8 +9,9 @@
  * handed out in a random order to see that it is so: with one thread too, what a task finds then depends on
  * nothing that happened to be done before.
  *
- * Chunks are taken in runs of some primitives, tiles in runs that get shorter towards the end, so that threads seldom
- * meet at the counter. A phase with little work is its thread's own; one with some more is open to threads that look
+ * Chunks are taken in runs of some primitives, tiles in runs that get shorter towards the end, each thread beginning with
+ * a part of its own, so that threads seldom meet at a counter and find in their caches what they have drawn before. A
+ * phase with little work is its thread's own; one with some more is open to threads that look
  * for work anyway; and those that sleep are woken for what is worth it, by what is known before or by the time that it
  * turns out to take.
  *
@@ -30,6 +31,7 @@ enum {
     FRAME_COMMANDS = 1024, /* the queue's capacity */
     FRAME_CHUNKS = 4096,   /* chunks of a round, at most */
     CHUNK_PRIMITIVES = 2048,
+    TILE_PARTS = 16,
     TASK_PRIMITIVES = 64,  /* of the chunks that a thread takes at once, at least, if there are as many */
     ROUND_BYTES = 1 << 20, /* of the arena, for each thread: chunks that begin beyond are the next round's */
     TASKS_MAXIMUM = FRAME_CHUNKS > TARGET_TILES_MAXIMUM ? FRAME_CHUNKS : TARGET_TILES_MAXIMUM
@@ -110,7 +112,11 @@ struct frame {
     uint32_t tile_tasks; /* of the tile phase: the busy tiles, or all of them if a chunk is everywhere */
     uint64_t pixels;     /* of the bounds of what the tile phase draws */
     _Atomic uint32_t first_stopped; /* the first chunk that did not fit the arena */
-    alignas(64) _Atomic uint32_t next_task;
+    alignas(64) _Atomic uint32_t next_task; /* of the geometry phase */
+    uint32_t parts;                         /* that the tasks of the tile phase are in */
+    struct {
+        alignas(64) _Atomic uint32_t next; /* task */
+    } part[TILE_PARTS];
 
     alignas(
         64) uint64_t shuffle; /* state of the random order in which tasks are handed out; 0: as they come */
