@@ -220,6 +220,14 @@ static void stop_after(struct frame *frame, uint32_t chunk)
         ;
 }
 
+/* Keeps compilers from loading two numbers at once that were stored one by one a moment ago: the load would wait until
+ * both are in the cache, behind all that was stored before. */
+static inline uint64_t scalar(uint64_t x)
+{
+    __asm__("" : "+r"(x));
+    return x;
+}
+
 static void process_chunk(struct frame *frame, struct frame_worker *worker, uint32_t number)
 {
     struct chunk *chunk = frame->chunk + number;
@@ -233,7 +241,9 @@ static void process_chunk(struct frame *frame, struct frame_worker *worker, uint
     chunk->wide = worker->bins.wide;
     chunk->covered = worker->bins.covered;
     chunk->pixels = worker->bins.pixels;
-    chunk->counts = worker->batch.counts;
+    chunk->counts = (struct batch_counts){scalar(worker->batch.counts.vertices_shaded),
+                                          scalar(worker->batch.counts.triangles_set_up),
+                                          scalar(worker->batch.counts.triangles_visible)};
     if (chunk->done < chunk->count)
         stop_after(frame, number);
 }
