@@ -207,14 +207,15 @@ static bool asks(const struct tile_worker *worker, const struct frame *frame, ui
 /* --- A tile ------------------------------------------------------------------------------------------------
  */
 
-/* Asks for what is next: the cell behind this one, and this one's records with the planes that begin in them.
- */
-static void prefetch_cell(const uint8_t *base, const struct bin_cell *cell)
+/* Asks for a cell's records with the planes that begin in them, and for the cell behind it. They may be in the cache of
+ * another core, where geometry has written them. */
+static void prefetch_cell(const struct arena *arena, uint32_t offset)
 {
-    __builtin_prefetch(base + cell->next);
+    const struct bin_cell *cell = bin_cell(arena, offset);
+    __builtin_prefetch(arena->base + cell->next);
     for (uint32_t i = 0; i < cell->count; i++) {
-        __builtin_prefetch(base + cell->triangle[i]);
-        __builtin_prefetch(base + cell->triangle[i] + 64);
+        __builtin_prefetch(arena->base + cell->triangle[i]);
+        __builtin_prefetch(arena->base + cell->triangle[i] + 64);
     }
 }
 
@@ -302,7 +303,6 @@ static void rasterize_cell(struct tile_worker *worker, const struct frame *frame
     const struct draw *draw = worker->draw;
     const struct meeting any = {.covers = false};
     bool plain = draw->shape == SHAPE_TRIANGLE && !draw->sampling.samples;
-    prefetch_cell(frame->arena.base, cell);
     if (plain && (cell_covers(cell) || asks(worker, frame, tile, false))) {
         rasterize_seen(worker, frame, tile, cell, from);
         return;
@@ -343,6 +343,9 @@ static void rasterize_chain(struct tile_worker *worker, const struct frame *fram
         at = last_covering(frame, head, &from);
     for (; at; from = 0) {
         const struct bin_cell *cell = bin_cell(&frame->arena, at);
+        uint32_t next = cell->next ? cell->next : bin_cell(&frame->arena, head)->later;
+        if (next)
+            prefetch_cell(&frame->arena, next);
         rasterize_cell(worker, frame, tile, cell, from);
         at = cell->next;
     }
@@ -429,6 +432,8 @@ void tile_render(struct tile_worker *worker, const struct frame *frame, uint32_t
     worker->count = 0;
     worker->draw = NULL;
     worker->entered = false;
+    if (frame->tile_first[tile])
+        prefetch_cell(&frame->arena, frame->tile_first[tile]);
     for (uint32_t head = frame->tile_first[tile]; head; head = bin_cell(&frame->arena, head)->later) {
         uint32_t chunk = bin_cell(&frame->arena, head)->chunk;
         __builtin_prefetch(frame->arena.base + bin_cell(&frame->arena, head)->later);
