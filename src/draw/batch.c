@@ -1,5 +1,7 @@
 #include "draw/batch.h"
 
+#include "base/prefetch.h"
+
 #include <emmintrin.h>
 #include <string.h>
 
@@ -187,6 +189,14 @@ static void add_to_setup(struct batch *batch, uint32_t a, uint32_t b, uint32_t c
     batch->setup_index[2][i] = 4 * c;
 }
 
+/* Asks for the lines behind the group of so many bytes that is going to be written, where the next one will be: another core
+ * has them that drew what was there in the last round. */
+static void prefetch_records(const struct bin_writer *bins, uint32_t bytes)
+{
+    uint32_t next = bins->at + bytes;
+    prefetch_to_write(bins->arena->base + next, least(bins->end - next, bytes));
+}
+
 /* Sets up and bins a group of records, which are the last of all primitives before `next`. Returns false when the
  * arena is full. */
 static bool set_up_group(struct batch *batch, uint32_t index[SETUP_INDEX_ROWS][SETUP_CAPACITY],
@@ -203,6 +213,7 @@ static bool set_up_group(struct batch *batch, uint32_t index[SETUP_INDEX_ROWS][S
         uint8_t *out = bin_reserve(batch->bins, padded * draw->stride);
         if (!out)
             return false;
+        prefetch_records(batch->bins, padded * draw->stride);
         struct setup_call call = {draw->job, index[0], batch->vertices, out, padded};
         routine_run(routine, &call, count);
         int visible =
