@@ -70,10 +70,10 @@ struct bin_writer {
     uint32_t at, end;       /* what is left of its block */
     uint32_t columns, rows; /* of the target, in tiles */
     uint32_t chunk;
-    uint32_t heads;                      /* first head cell of the chunk */
-    uint32_t wide;                       /* its struct wide; 0: it has none */
-    uint32_t covered;                    /* how many tiles its triangles cover, each counted for itself */
-    uint64_t pixels; /* about so many: those of bounds that meet several tiles, and for each triangle some */
+    uint32_t heads;   /* first head cell of the chunk */
+    uint32_t wide;    /* its struct wide; 0: it has none */
+    uint32_t covered; /* how many tiles its triangles cover, each counted for itself */
+    uint64_t pixels;  /* about so many: those of bounds that meet several tiles, and for each triangle some */
     uint32_t open[TARGET_TILES_MAXIMUM]; /* the tile's last cell of the chunk */
     uint32_t tile[SETUP_CAPACITY];       /* that holds the bounds of a triangle of the group; or MANY_TILES */
     struct rectangle tiles[SETUP_CAPACITY]; /* and these are the tiles that they meet */

@@ -111,7 +111,7 @@ struct frame {
     uint32_t busy_count;
     uint32_t tile_tasks; /* of the tile phase: the busy tiles, or all of them if a chunk is everywhere */
     uint64_t pixels;     /* of the bounds of what the tile phase draws */
-    _Atomic uint32_t first_stopped; /* the first chunk that did not fit the arena */
+    _Atomic uint32_t first_stopped;         /* the first chunk that did not fit the arena */
     alignas(64) _Atomic uint32_t next_task; /* of the geometry phase */
     uint32_t parts;                         /* that the tasks of the tile phase are in */
     struct {
