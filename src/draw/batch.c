@@ -191,10 +191,14 @@ static void add_to_setup(struct batch *batch, uint32_t a, uint32_t b, uint32_t c
 
 /* Asks for the lines behind the group of so many bytes that is going to be written, where the next one will be: another core
  * has them that drew what was there in the last round. */
-static void prefetch_records(const struct bin_writer *bins, uint32_t bytes)
+static void prefetch_records(struct bin_writer *bins, uint32_t bytes)
 {
-    uint32_t next = bins->at + bytes;
-    prefetch_to_write(bins->arena->base + next, least(bins->end - next, bytes));
+    uint32_t from = bins->at + bytes, to = bins->end - from < bytes ? bins->end : from + bytes;
+    from = from > bins->asked ? from : bins->asked;
+    if (!bins->arena->shared || from >= to)
+        return;
+    prefetch_to_write(bins->arena->base + from, to - from);
+    bins->asked = to;
 }
 
 /* Sets up and bins a group of records, which are the last of all primitives before `next`. Returns false when the

@@ -26,6 +26,7 @@ int arena_create(struct arena *arena, uint32_t bytes, struct error *error)
         return error_set(error, "out of memory for the triangle arena (%u KiB)", bytes >> 10);
     arena->base = base;
     arena->capacity = bytes;
+    arena->shared = false;
     arena_reset(arena);
     return 0;
 }
@@ -57,7 +58,7 @@ static uint32_t take(struct arena *arena, uint32_t bytes)
 void bin_begin_round(struct bin_writer *writer, struct arena *arena, uint32_t columns, uint32_t rows)
 {
     writer->arena = arena;
-    writer->at = writer->end = 0;
+    writer->at = writer->end = writer->asked = 0;
     writer->columns = columns;
     writer->rows = rows;
 }

@@ -36,6 +36,7 @@ enum {
 struct arena {
     uint8_t *base;
     uint32_t capacity; /* bytes */
+    bool shared;       /* other threads read and write in it, too */
     _Atomic uint32_t used;
 };
 
@@ -68,6 +69,7 @@ struct wide {
 struct bin_writer {
     struct arena *arena;
     uint32_t at, end;       /* what is left of its block */
+    uint32_t asked;         /* the end of what was asked for to be written */
     uint32_t columns, rows; /* of the target, in tiles */
     uint32_t chunk;
     uint32_t heads;   /* first head cell of the chunk */

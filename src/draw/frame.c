@@ -440,6 +440,7 @@ static void render_round(struct frame *frame, struct cursor *at, uint32_t limit)
 {
     make_chunks(frame, *at, limit);
     arena_reset(&frame->arena);
+    frame->arena.shared = pool_limited(frame->pool) > 1;
     atomic_store(&frame->first_stopped, UINT32_MAX);
     run_phase(frame, frame->chunk_tasks, geometry_ns(frame), geometry_task);
     link_chunks(frame, at);

@@ -11,13 +11,13 @@
 
 static struct pool *pool;
 static _Atomic unsigned runs[POOL_THREADS_MAXIMUM];
-static _Atomic unsigned wrong_environment;
+static _Atomic unsigned wrong_environment, ended;
 
 void setUp(void)
 {
     for (int i = 0; i < POOL_THREADS_MAXIMUM; i++)
         runs[i] = 0;
-    wrong_environment = 0;
+    wrong_environment = ended = 0;
 }
 
 void tearDown(void)
@@ -89,6 +89,26 @@ static void no_more_come_than_are_called(void)
         gather_all(1 + i % 7, 1 + i % 7, POOL_ALL);
     gather_all(0, 1, POOL_ALL);
     gather_all(1000, 7, POOL_ALL);
+}
+
+static void come_and_linger(void *user, unsigned worker)
+{
+    gather(user, worker);
+    if (worker) {
+        nanosleep(&(struct timespec){.tv_nsec = 5 * 1000 * 1000}, NULL);
+        ended++;
+    }
+}
+
+static void the_caller_waits_for_all_who_came(void)
+{
+    pool = pool_create(3, NULL, NULL);
+    for (unsigned i = 1; i <= 5; i++) {
+        present = 0;
+        wanted = 3;
+        pool_run(pool, 0, 3, POOL_ALL, come_and_linger, &pool);
+        TEST_ASSERT_EQUAL_UINT32(2 * i, ended);
+    }
 }
 
 static void call_the_others(void *user, unsigned worker)
@@ -226,6 +246,7 @@ int main(void)
     RUN_TEST(the_caller_runs_every_round_and_others_no_more_than_once);
     RUN_TEST(all_who_are_called_come_from_their_sleep);
     RUN_TEST(no_more_come_than_are_called);
+    RUN_TEST(the_caller_waits_for_all_who_came);
     RUN_TEST(others_can_be_called_in_the_middle_of_a_round);
     RUN_TEST(a_round_alone_wakes_nobody);
     RUN_TEST(a_limit_holds_until_it_is_lifted);
