@@ -114,11 +114,11 @@ static triptych_texture *make_texture(uint32_t *seed)
     return texture;
 }
 
-/* What draws use changes while they may be rendered: the texture of the draws up to number FRAME_COMMANDS + 20 behind
- * number FRAME_COMMANDS + 40, where the newest draws do not use it, and later where they do. */
+/* What draws use changes while they may be rendered: the texture of the first queue's draws, when the newest draws do not
+ * use it, and later when they do. */
 static void change_texture(triptych_texture *texture, uint32_t i, uint32_t *seed)
 {
-    if (i == FRAME_COMMANDS + 20)
+    if (i == FRAME_COMMANDS - 10)
         OK(triptych_set_texture(device, 0, NULL));
     if (i == FRAME_COMMANDS + 40 || i == 2 * FRAME_COMMANDS + 200)
         fill_texture(texture, seed);
