@@ -219,14 +219,21 @@ static void prefetch_cell(const struct arena *arena, uint32_t offset)
     }
 }
 
+/* Makes the site ready, before anything is rasterized. */
+static void enter_site(struct tile_worker *worker, const struct frame *frame, uint32_t tile)
+{
+    if (!worker->entered)
+        raster_enter(&worker->site, &worker->draw->scissor, (int)(tile % frame->target->columns),
+                     (int)(tile / frame->target->columns));
+    worker->entered = true;
+}
+
 /* Triangles with one sample a pixel, none of which has BIN_COVERS. */
 static void rasterize_triangles(struct tile_worker *worker, const struct frame *frame, uint32_t tile,
                                 const uint32_t *triangle, uint32_t count)
 {
-    if (!worker->entered && count)
-        raster_enter(&worker->site, &worker->draw->scissor, (int)(tile % frame->target->columns),
-                     (int)(tile / frame->target->columns));
-    worker->entered |= count;
+    if (count)
+        enter_site(worker, frame, tile);
     for (uint32_t done = 0; count;) {
         done += raster_list(&worker->site, frame->arena.base, triangle + done, count - done,
                             worker->entries.entry, &worker->count);
@@ -263,6 +270,7 @@ static void rasterize_seen(struct tile_worker *worker, const struct frame *frame
         if (asks(worker, frame, tile, m.covers) && is_dealt_with(worker, frame, tile, &m))
             continue;
         note_depths(worker, frame, tile, &m);
+        enter_site(worker, frame, tile);
         if (m.covers && worker->site.whole)
             rasterize_whole(worker, frame, tile, triangle);
         else
