@@ -201,7 +201,8 @@ void pool_run(struct pool *pool, unsigned worker, unsigned workers, enum pool_ca
     pool->task = task;
     pool->user = user;
     pool->leader = worker;
-    pool->open = pool->waking = false;
+    pool->open = false;
+    pool->waking = false;
     if (call == POOL_ALL)
         pool_call(pool, workers);
     else if (call == POOL_AWAKE && places)
