@@ -13,7 +13,7 @@ cd "$(dirname "$0")/.."
 
 triptych=${BUILD:-build}/triptych
 results=${RESULTS:-results}
-engines=${ENGINES:-emulate,batch,stitch,specialize,specialize-4,specialize-thesis,external}
+engines=${ENGINES:-emulate,batch,stitch,specialize,specialize-8,specialize-thesis,external}
 
 shopt -s nullglob
 streams=(tests/shading/*.tri)
