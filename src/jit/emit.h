@@ -136,7 +136,7 @@ enum literal_kind { LITERAL_ONCE, LITERAL_LANES, LITERAL_MULTIPLES };
 struct address literal_address(struct emitter *emitter, int32_t bits, enum literal_kind kind);
 
 /* Where a value is at the current position; the vector register of an operand, loaded into `scratch` if it is in
- * memory or a mask; the register that the current instruction's value was given (select.c). */
+ * memory or a mask; the register that the current instruction's value was given (place.c). */
 struct place place_of(struct emitter *emitter, unsigned value);
 unsigned need_register(struct emitter *emitter, const struct place *place, unsigned scratch);
 unsigned result_register(const struct emitter *emitter);
@@ -144,14 +144,28 @@ unsigned result_register(const struct emitter *emitter);
 /* The same for a mask register, the number that instructions have for it. */
 unsigned need_mask(struct emitter *emitter, const struct place *place, unsigned scratch);
 
-/* Brings a value into the register `to`, whichever kind it is of; flags stay (select.c). */
+/* Brings a value into the register `to`, whichever kind it is of; flags stay. */
 void bring(struct emitter *emitter, unsigned to, const struct place *place);
 
 /* Stores a register, a mask or lanes, to where one of its kind can be read again. */
 void store_register(struct emitter *emitter, struct address to, unsigned reg);
 
-/* A spill slot in the frame. */
+/* The lanes of number `slot` of those that begin at an offset in the frame; a spill slot. */
+struct address frame_address(const struct emitter *emitter, int32_t start, unsigned slot);
 struct address slot_address(const struct emitter *emitter, unsigned slot);
+
+/* Whether a value is the literal 0. */
+int is_zero(const struct emitter *emitter, unsigned value);
+
+/* Whether an instruction can have the value as its operand in memory; `place` then says how. Those of 16-bit elements
+ * broadcast nothing: of a literal they are given all lanes. */
+int folds(struct emitter *emitter, enum x86_vector instruction, struct place *place);
+
+/* The beginning and the end of a region and of a loop, at the current position (region.c). */
+void select_when(struct emitter *emitter, const struct ir_instruction *instruction);
+void select_end(struct emitter *emitter);
+void select_loop(struct emitter *emitter);
+void select_again(struct emitter *emitter, const struct ir_instruction *instruction);
 
 /* Notes what moves from a loop's end at the current position to its next pass; or, at the current position,
  * to the joins behind a region's `end`: their operand 0 at its `when`, operand 1 at the end (move.c). */

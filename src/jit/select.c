@@ -102,153 +102,6 @@ static const struct rule wide_rules[IR_OP_COUNT] = {
     [IR_andn_m] = {X86_kandnw, FORM_MASKS, 0},
 };
 
-/* A literal for an instruction that broadcasts whatever it reads. */
-enum { ONE = 0x3f800000 };
-
-static struct address literal_word(struct emitter *m, int32_t bits)
-{
-    struct address word = literal_address(m, bits, LITERAL_ONCE);
-    word.broadcast = 0;
-    return word;
-}
-
-static struct address frame_address(const struct emitter *m, int32_t start, unsigned slot)
-{
-    return address_at(X86_RSP, start + (int32_t)(slot * m->width * 4));
-}
-
-struct address slot_address(const struct emitter *m, unsigned slot)
-{
-    return frame_address(m, m->frame_slots, slot);
-}
-
-/* A frame constant, or with 16 lanes the word that it would be made of. */
-static struct address constant_address(const struct emitter *m, unsigned slot)
-{
-    const struct ir_constant *constant = &m->ir->constant[slot];
-    if (!is_wide(m))
-        return frame_address(m, m->frame_constants, slot);
-    struct address address = address_at(base_register[constant->base], constant->offset);
-    address.broadcast = 1;
-    return address;
-}
-
-static struct place memory_place(struct emitter *m, unsigned value)
-{
-    const struct ir_instruction *i = &m->ir->instruction[value];
-    if (i->op == IR_copy && allocate_is_constant(&m->ir->instruction[i->operand[0]]))
-        i = &m->ir->instruction[value = i->operand[0]];
-    unsigned slot = m->allocation->slot[allocate_web(m->allocation, value)];
-    struct place p = {.value = value, .reg = NO_REGISTER, .addressable = 1};
-    if (i->op == IR_literal)
-        p.address = literal_address(m, i->k, is_wide(m) ? LITERAL_ONCE : LITERAL_LANES);
-    else if (i->op == IR_constant)
-        p.address = constant_address(m, (unsigned)i->k);
-    else if (slot != NO_SLOT) {
-        p.address = slot_address(m, slot);
-        p.mask = (uint8_t)allocate_is_mask(m->allocation, i);
-        p.addressable = !p.mask;
-    } else {
-        p.address = address_at(base_register[i->base], i->k);
-        p.address.broadcast = i->op == IR_uniform && is_wide(m);
-        p.addressable = i->op == IR_load || is_wide(m);
-    }
-    return p;
-}
-
-struct place place_of(struct emitter *m, unsigned value)
-{
-    const struct allocation *a = m->allocation;
-    unsigned web = allocate_web(a, value);
-    if (a->residence[value] == RESIDENCE_REGISTER && m->position <= a->split[web])
-        return (struct place){.value = value, .reg = a->reg[web]};
-    return memory_place(m, value);
-}
-
-static int is_zero(const struct emitter *m, unsigned value)
-{
-    return m->ir->instruction[value].op == IR_literal && !m->ir->instruction[value].k;
-}
-
-static void bring_mask(struct emitter *m, unsigned to, const struct place *p)
-{
-    struct encoder *e = &m->encoder;
-    if (p->reg != NO_REGISTER && p->reg >= MASKS) {
-        if (p->reg != to)
-            vector_rr(e, X86_kmovw, X86_128, to - MASKS, p->reg - MASKS);
-    } else if (p->reg == NO_REGISTER && p->mask)
-        vector_rm(e, X86_kmovw, X86_128, to - MASKS, p->address);
-    else
-        vector_rr(e, X86_vpmovd2m, m->length, to - MASKS, need_register(m, p, SCRATCH_FIRST));
-}
-
-static void bring_memory(struct emitter *m, unsigned to, const struct place *p)
-{
-    struct address from = p->address;
-    enum x86_vector how = p->addressable && !from.broadcast ? X86_vmovups : X86_vbroadcastss;
-    from.broadcast = 0;
-    if (is_zero(m, p->value))
-        vector_rrr(&m->encoder, X86_vxorps, m->length, to, to, to);
-    else
-        vector_rm(&m->encoder, how, m->length, to, from);
-}
-
-void bring(struct emitter *m, unsigned to, const struct place *p)
-{
-    if (to >= MASKS)
-        bring_mask(m, to, p);
-    else if (p->mask || (p->reg >= MASKS && p->reg != NO_REGISTER))
-        vector_rr(&m->encoder, X86_vpmovm2d, m->length, to, need_mask(m, p, MASK_SCRATCH));
-    else if (p->reg == NO_REGISTER)
-        bring_memory(m, to, p);
-    else if (p->reg != to)
-        vector_copy(&m->encoder, m->length, to, p->reg);
-}
-
-unsigned need_register(struct emitter *m, const struct place *p, unsigned scratch)
-{
-    if (p->reg < MASKS)
-        return p->reg;
-    bring(m, scratch, p);
-    return scratch;
-}
-
-unsigned need_mask(struct emitter *m, const struct place *p, unsigned scratch)
-{
-    if (p->reg != NO_REGISTER && p->reg >= MASKS)
-        return p->reg - MASKS;
-    bring(m, scratch, p);
-    return scratch - MASKS;
-}
-
-void store_register(struct emitter *m, struct address to, unsigned reg)
-{
-    if (reg >= MASKS)
-        vector_mr(&m->encoder, X86_kmovw_store, X86_128, to, reg - MASKS);
-    else
-        vector_mr(&m->encoder, X86_vmovaps_store, m->length, to, reg);
-}
-
-/* Whether an instruction can have the value as its operand in memory. Those of 16-bit elements broadcast nothing: of a
- * literal they are given all lanes. */
-static int folds(struct emitter *m, enum x86_vector instruction, struct place *p)
-{
-    if (p->reg != NO_REGISTER || !p->addressable)
-        return 0;
-    if (p->address.broadcast && !vector_broadcasts(instruction)) {
-        const struct ir_instruction *i = &m->ir->instruction[p->value];
-        if (i->op != IR_literal)
-            return 0;
-        p->address = literal_address(m, i->k, LITERAL_LANES);
-    }
-    return 1;
-}
-
-unsigned result_register(const struct emitter *m)
-{
-    return m->allocation->reg[m->position];
-}
-
 static void select_binary(struct emitter *m, const struct rule *rule, unsigned left, unsigned right,
                           int commutes)
 {
@@ -490,80 +343,6 @@ static void select_mad(struct emitter *m, const struct ir_instruction *i)
     }
 }
 
-/* A label for a region's other end, remembered until that end comes; 0 when there is no room. */
-static int open_region(struct emitter *m)
-{
-    if (m->region_depth == REGION_DEPTH)
-        return note_exceeded(m, "nested regions", REGION_DEPTH), 0;
-    if (m->regions++ == REGION_CAPACITY)
-        return note_exceeded(m, "regions", REGION_CAPACITY), 0;
-    m->region_label[m->region_depth++] = encoder_add_label(&m->encoder);
-    return 1;
-}
-
-static void test_lanes(struct emitter *m, unsigned mask)
-{
-    struct place place = place_of(m, mask);
-    unsigned test = is_wide(m) ? need_mask(m, &place, MASK_SCRATCH) : need_register(m, &place, SCRATCH_FIRST);
-    if (is_wide(m))
-        vector_rr(&m->encoder, X86_kortestw, X86_128, test, test);
-    else
-        vector_rr(&m->encoder, X86_vtestps, m->length, test, test);
-}
-
-/* When the region does not run, what the joins behind it take from before moves on the way around it. */
-static void select_when(struct emitter *m, const struct ir_instruction *i)
-{
-    test_lanes(m, i->operand[0]);
-    if (!open_region(m))
-        return;
-    uint32_t end = m->region_label[m->region_depth - 1];
-    m->moves = 0;
-    if (m->ir->phis)
-        note_join_moves(m, m->allocation->region_at[m->position], 0);
-    if (!m->moves) {
-        encode_jump_if(&m->encoder, X86_IF_z, end);
-        return;
-    }
-    uint32_t begin = encoder_add_label(&m->encoder);
-    encode_jump_if(&m->encoder, X86_IF_nz, begin);
-    write_moves(m);
-    encode_jump(&m->encoder, end);
-    encode_label(&m->encoder, begin);
-}
-
-static void select_end(struct emitter *m)
-{
-    if (m->ir->phis) {
-        note_join_moves(m, m->position, 1);
-        write_moves(m);
-    }
-    encode_label(&m->encoder, m->region_label[--m->region_depth]);
-}
-
-static void select_loop(struct emitter *m)
-{
-    encode_align(&m->encoder, 16);
-    if (open_region(m))
-        encode_label(&m->encoder, m->region_label[m->region_depth - 1]);
-}
-
-static void select_again(struct emitter *m, const struct ir_instruction *i)
-{
-    uint32_t head = m->region_label[--m->region_depth];
-    test_lanes(m, i->operand[0]);
-    note_next_moves(m);
-    if (!m->moves) {
-        encode_jump_if(&m->encoder, X86_IF_nz, head);
-        return;
-    }
-    uint32_t done = encoder_add_label(&m->encoder);
-    encode_jump_if(&m->encoder, X86_IF_z, done);
-    write_moves(m);
-    encode_jump(&m->encoder, head);
-    encode_label(&m->encoder, done);
-}
-
 static void select_variable(struct emitter *m, const struct ir_instruction *i)
 {
     struct address variable = frame_address(m, m->frame_variables, (unsigned)i->k);
@@ -597,6 +376,16 @@ static void select_store_where(struct emitter *m, const struct ir_instruction *i
     unsigned from = need_register(m, &value, SCRATCH_FIRST);
     at.mask = (uint8_t)need_mask(m, &mask, MASK_SCRATCH);
     vector_mr(&m->encoder, X86_vmovups_store, m->length, at, from);
+}
+
+/* A literal for an instruction that broadcasts whatever it reads. */
+enum { ONE = 0x3f800000 };
+
+static struct address literal_word(struct emitter *m, int32_t bits)
+{
+    struct address word = literal_address(m, bits, LITERAL_ONCE);
+    word.broadcast = 0;
+    return word;
 }
 
 /* w: 1 where the plane of 1/w is 1 whatever the place, which its three words say. */
