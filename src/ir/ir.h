@@ -33,7 +33,8 @@
  *   reciprocal a b base k       1 / the plane at base + k, at x = a and y = b; of 16 lanes
  *   store_where a b base k      a store of the lanes that b has; of 16 lanes
  *   window a b c field k        the gathers that follow read words of the pointer at field, at a + b * pitch and, of four,
- *                               at a + c * pitch too, the pitch being the word at base + k: a hint (jit/window.c)
+ *                               at a + c * pitch too, the pitch being the word at base + k: a hint (jit/window.c); `scale`
+ *                               instructions, the last of them the gathers, are the way for lanes far apart
  * The number of lanes appears nowhere here: the same recording serves every W. */
 #ifndef IR_IR_H
 #define IR_IR_H

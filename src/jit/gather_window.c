@@ -101,7 +101,7 @@ static void check_places(struct emitter *m, const struct ir_instruction *window,
     encode_jump_if(e, X86_IF_nb, far);
 }
 
-/* The window's first texel to rax, the bytes of one, two and three rows to r12, and r13. */
+/* The window's first texel to rax, the texels of one row to r12 and of three to r13. */
 static void find_window(struct emitter *m, const struct ir_instruction *window)
 {
     struct encoder *e = &m->encoder;
