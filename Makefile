@@ -1,12 +1,11 @@
 # Triptych's build: `make help` lists the targets.
 #
-# Sources are found, never listed: those in src/tool, src/stream and src/fuzz are the command; every other src/**/*.c,
-# emu/*.c and asm/**/*.asm is the library; every tests/**/*.c outside tests/support/ and tests/fuzz/targets/ is one
-# Unity program with its own main.
-# Everything built goes to $(BUILD). What is fetched or linked in from the system (the Unity sources, the glmark2
-# and Assimp assets) goes to build/ whatever BUILD is, because draw streams name their assets through build/glmark2.
-# `make test` runs this file again for each variant: plain, clang (CC=clang), sanitize (SANITIZE=address), thread
-# (SANITIZE=thread); `make matrix` and `make coverage` do for theirs.
+# Sources are found, never listed. src/command is the command. All other sources in src, emu and asm are the
+# library. Each tests/**/*.c outside tests/support/ and tests/command/fuzz/targets/ is a Unity program with
+# its own main. Everything built is in $(BUILD). The Unity sources and links to the models of glmark2 and
+# Assimp are always in build/, because draw streams name their models by paths that begin with build/glmark2.
+# `make test` runs this file again for each variant: plain, clang (CC=clang), sanitize (SANITIZE=address) and
+# thread (SANITIZE=thread). `make matrix` and `make coverage` run it for their own variants.
 
 VERSION := $(shell sed -n 's/^#define TRIPTYCH_VERSION "\(.*\)"/\1/p' src/triptych.h)
 SONAME  := libtriptych.so.$(firstword $(subst ., ,$(VERSION)))
@@ -25,16 +24,16 @@ UNITY_DIR ?= build/unity
 .SUFFIXES:
 MAKEFLAGS += --no-builtin-rules --no-print-directory
 
-# --- Sources -------------------------------------------------------------------------------------------------
+# --- Sources ------------------------------------------------------------------------------------------------
 
 find = $(sort $(shell find $(1) -name '$(2)' 2>/dev/null))
 
 C_SOURCES       := $(call find,src emu,*.c)
-TOOL_SOURCES    := $(filter src/tool/% src/stream/% src/fuzz/%,$(C_SOURCES))
+TOOL_SOURCES    := $(filter src/command/%,$(C_SOURCES))
 LIBRARY_SOURCES := $(filter-out $(TOOL_SOURCES),$(C_SOURCES)) $(call find,asm,*.asm)
 TEST_SOURCES    := $(call find,tests,*.c)
 SUPPORT_SOURCES := $(filter tests/support/%,$(TEST_SOURCES))
-TARGET_SOURCES  := $(filter tests/fuzz/targets/%,$(TEST_SOURCES))
+TARGET_SOURCES  := $(filter tests/command/fuzz/targets/%,$(TEST_SOURCES))
 PROGRAM_SOURCES := $(filter-out $(SUPPORT_SOURCES) $(TARGET_SOURCES),$(TEST_SOURCES))
 UNITY_SOURCE    := $(or $(firstword $(wildcard $(UNITY_DIR)/unity.c)),$(UNITY_DIR)/src/unity.c)
 
@@ -48,16 +47,16 @@ PROGRAM_OBJECTS := $(call object,$(PROGRAM_SOURCES))
 BENCH_OBJECTS   := $(call object,$(call find,bench,*.c))
 OBJECTS         := $(LIBRARY_OBJECTS) $(TOOL_OBJECTS) $(SUPPORT_OBJECTS) $(TARGET_OBJECTS) $(PROGRAM_OBJECTS) $(BENCH_OBJECTS)
 
-# ONLY=text keeps the tests whose path contains the text.
+# ONLY=text selects the tests whose path contains the text.
 only = $(if $(ONLY),$(foreach t,$(1),$(if $(findstring $(ONLY),$(t)),$(t))),$(1))
 
 PROGRAMS := $(patsubst %.c,$(BUILD)/%,$(call only,$(PROGRAM_SOURCES)))
 SCRIPTS  := $(call only,$(wildcard tests/*.sh))
 COMMAND  := $(if $(TOOL_SOURCES),$(BUILD)/triptych)
 
-# --- Flags ---------------------------------------------------------------------------------------------------
+# --- Flags --------------------------------------------------------------------------------------------------
 
-# Asked of pkg-config on first use and not before: `make test` installs pkg-config itself.
+# pkg-config runs at the first use of these variables, because `make test` installs pkg-config.
 LIBRARY_PACKAGES := libpng OpenEXR libxxhash libzstd
 TOOL_PACKAGES    := libcjson assimp
 package_includes = $(eval package_includes := $(patsubst -I%,-isystem %,$(filter -I%,\
@@ -65,15 +64,15 @@ package_includes = $(eval package_includes := $(patsubst -I%,-isystem %,$(filter
 library_packages = $(eval library_packages := $(shell pkg-config --libs $(LIBRARY_PACKAGES)))$(library_packages)
 tool_packages    = $(eval tool_packages := $(shell pkg-config --libs $(TOOL_PACKAGES)))$(tool_packages)
 
-# OpenEXR.pc names the C++ libraries too; only the C core is used. Zydis has no .pc file in Debian.
+# OpenEXR.pc also names the C++ libraries, and only the C core is used. Zydis has no .pc file in Debian.
 library_libraries = $(filter-out -lOpenEXR-% -lOpenEXRUtil% -lIex% -lIlmThread% -lImath%,$(library_packages)) \
   -lZydis -lZycore -pthread -lm
 tool_libraries = $(tool_packages) $(library_libraries)
 
-# Instrumented builds: SANITIZE=address (1 is the same), with undefined behaviour; SANITIZE=thread; SANITIZE=fuzzer, which
-# is address for libFuzzer (CC=clang); COVERAGE=1, whose counters are atomic because gcc counts loops with them otherwise,
-# and threads would change each other's. gcc's flow warnings are wrong about instrumented code; the plain, clang and
-# matrix builds are the ones that warn.
+# Instrumented builds: SANITIZE=address (or 1) finds bad memory accesses and undefined behaviour.
+# SANITIZE=thread finds data races. SANITIZE=fuzzer is address for libFuzzer (CC=clang). COVERAGE=1 counts
+# lines; its counters are atomic, because several threads increment them. gcc's flow warnings are wrong for
+# instrumented code, so only the plain, clang and matrix builds enable them.
 instrument_address  = -fsanitize=address,undefined -fno-sanitize-recover=all
 instrument_fuzzer   = $(instrument_address) -fsanitize=fuzzer-no-link
 instrument_thread   = -fsanitize=thread
@@ -89,61 +88,79 @@ else
 CFLAGS     ?= -O2 -g
 endif
 
-# Every recording and what every pass of the specializer leaves is verified before anything is made of it.
+# Verifies every recording, and the IR after every pass of the specializer.
 ifdef CHECK_IR
 CHECKED := -DTRIPTYCH_CHECK_IR
 endif
 
-# With sanitizers a program has 25 MB of code and data besides debugging information. There are 150 programs, so most share
-# it: $(BUILD)/tests/shared.so has all that is not a test, and lets tests see it.
+# With sanitizers, a program has 25 MB of code and data without its debugging information. There are 150 test
+# programs, so most of them share $(BUILD)/tests/shared.so, which contains everything that is not a test.
 SHARED := $(if $(SANITIZE),$(BUILD)/tests/shared.so)
 
 compile = $(CC) -std=gnu17 $(CFLAGS) -Wall -Wextra -Werror -ffp-contract=off -fPIC $(if $(SHARED),,-fvisibility=hidden) -pthread \
   $(INSTRUMENT) $(CHECKED) -Isrc -I. $(package_includes) $(CPPFLAGS)
 link = $(CC) $(CFLAGS) $(INSTRUMENT) -pthread -Wl,--as-needed,-z,relro,-z,now $(LDFLAGS)
 
-# There are 150 test programs, and most of what they take on the disk is debugging information.
+# Debugging information is most of the size of the 150 test programs.
 compressed = -Wl,--compress-debug-sections=zlib
 
-# An object without this note makes the whole program's stack executable; every assembly file gets it from here.
-assemble = $(NASM) -f elf64 -g -F dwarf -Werror -Iasm/ \
+# An object without this note makes the stack of the whole program executable.
+assemble = $(NASM) -f elf64 -g -F dwarf -Werror -Iasm/stitch/ -I$(BUILD)/asm/ \
   --before 'section .note.GNU-stack noalloc noexec nowrite progbits' --before 'section .text'
 
-# The command reports measurements with the commit they were made at; only one object depends on it.
+# Reports of measurements contain the commit. Only one object depends on it.
 COMMIT := $(or $(shell git describe --always --dirty 2>/dev/null),unknown)
 
-# Unity has no double-precision assertions unless asked; flushing after each test keeps a crashing program's passes.
+# Unity disables double-precision assertions by default. Flushing after each test keeps the results of a
+# program that crashes.
 unity_flags = -isystem $(dir $(UNITY_SOURCE)) -DUNITY_INCLUDE_DOUBLE -DUNITY_USE_FLUSH_STDOUT
 
-# --- What to build -------------------------------------------------------------------------------------------
+# --- What to build ------------------------------------------------------------------------------------------
 
-.PHONY: all programs objects check test check-threads matrix coverage soak soak-faults soak-memory bench peers bench-shaders bench-draws mutations gallery verify-external fuzzers fuzz-input fuzz-input-smoke dependencies packages install clean format format-check help FORCE
+.PHONY: all programs objects check test check-threads matrix coverage soak soak-faults soak-memory bench peers bench-shaders bench-draws mutations gallery verify-external docs fuzzers fuzz-input fuzz-input-smoke dependencies packages install clean format format-check compile_commands.json help FORCE
 
 all: $(BUILD)/libtriptych.a $(if $(SANITIZE),,$(BUILD)/libtriptych.so $(BUILD)/triptych.pc) $(COMMAND) build/glmark2 \
   build/assimp
 
 programs: $(PROGRAMS) $(if $(filter tests/peers.sh,$(SCRIPTS)),$(BUILD)/peers/drive $(BUILD)/peers/triptych)
 
-# All that is compiled for tests, which need no headers of GLES2.
+# Every object that the tests compile. The objects left out need the headers of GLES2, which the tests do not
+# install.
 objects: $(filter-out $(PROGRAM_OBJECTS) %/gles.o %/gles_library.o %/gles_shader.o,$(OBJECTS)) $(PROGRAMS:$(BUILD)/%=$(BUILD)/object/%.o)
 
-# Starts a recipe line: a short note in place of the command, or the command itself with V=1.
+# Starts a recipe line: prints a short note instead of the command, or the command itself with V=1.
 say = $(if $(V),,@printf '  %-4s  %s\n' $(1) $(or $(2),$@);)
 
 $(BUILD)/object/%.o: %.c $(BUILD)/flags
 	@mkdir -p $(@D)
 	$(call say,CC,$<)$(compile) -MMD -MP -c $< -o $@
 
-# Dependencies by a run of their own: -MD of nasm 2.16 leaves out what is included.
+# A run of its own for the dependencies: -MD of nasm 2.16 omits included files.
 $(BUILD)/object/%.o: %.asm $(BUILD)/flags
 	@mkdir -p $(@D)
 	$(call say,NASM,$<)$(assemble) -M -MP -MT $@ -MF $(@:.o=.d) $< && $(assemble) $< -o $@
 
-$(BUILD)/object/src/tool/machine.o: private CPPFLAGS += -DTRIPTYCH_COMMIT='"$(COMMIT)"'
-$(BUILD)/object/src/tool/machine.o: $(BUILD)/commit
+# Offsets of C structures for assembly: asm/*/offset.c prints "@NAME value" into its own assembly text.
+ASM_INCLUDES := $(patsubst %.c,$(BUILD)/%.inc,$(call find,asm,offset.c)) $(BUILD)/asm/stitch/argument.inc
 
-# The whole specification once more, with a hook behind each operation; it runs for a few pixels of a case that failed.
-$(BUILD)/object/src/fuzz/trace.o: private override CFLAGS += -O0
+$(BUILD)/asm/%.inc: asm/%.c $(BUILD)/flags
+	@mkdir -p $(@D)
+	$(call say,GEN)$(CC) -std=gnu17 -O1 -Wall -Wextra -Werror -Isrc -I. $(CPPFLAGS) -MMD -MP -MT $@ -MF $(@:.inc=.d) -S $< -o $(@:.inc=.s)
+	@sed -n 's/.*"@\([A-Z_]*\) \(-\{0,1\}[0-9]*\)".*/%define \1 \2/p' $(@:.inc=.s) >$@
+
+# The arguments of the stitcher's fragments by name: argument_FRAGMENT.NAME is the argument's number.
+$(BUILD)/asm/stitch/argument.inc: src/def/engine/fragment.def
+	@mkdir -p $(@D)
+	$(call say,GEN)awk -F '[(), ]+' '/^FRAGMENT/ { for (i = 3; i <= NF && $$i !~ /^"/; i++) \
+	  print "%define argument_" $$2 "." $$i " " i - 3 }' $< >$@
+
+$(filter $(BUILD)/object/asm/%,$(LIBRARY_OBJECTS)): | $(ASM_INCLUDES)
+
+$(BUILD)/object/src/command/bench/machine.o: private CPPFLAGS += -DTRIPTYCH_COMMIT='"$(COMMIT)"'
+$(BUILD)/object/src/command/bench/machine.o: $(BUILD)/commit
+
+# The whole specification with a hook after each operation. It runs only for a few pixels of a failing case.
+$(BUILD)/object/src/command/fuzz/bisect/trace.o: private override CFLAGS += -O0
 
 $(SUPPORT_OBJECTS) $(PROGRAM_OBJECTS): private CPPFLAGS += $(unity_flags)
 $(SUPPORT_OBJECTS) $(PROGRAM_OBJECTS): | $(UNITY_SOURCE)
@@ -152,14 +169,15 @@ $(BUILD)/object/unity.o: $(UNITY_SOURCE) $(BUILD)/flags
 	@mkdir -p $(@D)
 	$(call say,CC,$<)$(compile) -w $(unity_flags) -c $< -o $@
 
-# Archives are written anew, so that an object whose source is gone is gone too; the lists notice the removal.
+# Archives are rewritten, so that they contain no object of a removed source. The lists change when a source
+# is removed.
 $(BUILD)/libtriptych.a: $(LIBRARY_OBJECTS) $(BUILD)/library.list
 $(BUILD)/command.a: $(TOOL_OBJECTS) $(BUILD)/command.list
 $(BUILD)/support.a: $(SUPPORT_OBJECTS) $(BUILD)/support.list
 $(BUILD)/libtriptych.a $(BUILD)/command.a $(BUILD)/support.a:
 	$(call say,AR)rm -f $@ && $(AR) rcs $@ $(filter %.o,$^)
 
-# The map keeps the assembly's symbols inside; -z,text refuses code that would have to be patched when loaded.
+# The version script hides the symbols of assembly. -z,text refuses code that needs relocation when loaded.
 $(BUILD)/$(SONAME): $(LIBRARY_OBJECTS) $(BUILD)/library.list src/triptych.map
 	$(call say,LD)$(link) -shared -Wl,-soname,$(SONAME),-z,defs,-z,text \
 	  -Wl,--version-script=src/triptych.map $(LIBRARY_OBJECTS) $(library_libraries) -o $@
@@ -167,13 +185,14 @@ $(BUILD)/$(SONAME): $(LIBRARY_OBJECTS) $(BUILD)/library.list src/triptych.map
 $(BUILD)/libtriptych.so: $(BUILD)/$(SONAME)
 	@ln -sf $(SONAME) $@
 
-# The archive of the command lets a test link the command's parts without its main.
+# Tests link parts of the command, without its main, from this archive.
 $(BUILD)/triptych: $(TOOL_OBJECTS) $(BUILD)/libtriptych.a $(BUILD)/command.list
 	$(call say,LD)$(link) $(TOOL_OBJECTS) $(BUILD)/libtriptych.a $(tool_libraries) -o $@
 
-# From archives a test takes what it needs. Two kinds do so in every build: those that put functions in the place of the
-# library's, as a shared object calls its own, and those that name symbols of assembly, which stay where they are linked.
-apart    := $(addprefix $(BUILD)/tests/,draw/cache draw/convention draw/stack fuzz/bisect fuzz/inputs tool/verify stitch/%)
+# Two kinds of tests link archives in every build: tests that replace functions of the library, because a
+# shared object calls its own functions, and tests that use symbols of assembly, because a shared object hides
+# these.
+apart    := $(addprefix $(BUILD)/tests/,render/device/cache render/raster/tiny contract/convention contract/stack command/fuzz/bisect command/fuzz/inputs command/tool/verify engines/stitch/%)
 archives := $(addprefix $(BUILD)/,support.a command.a libtriptych.a)
 found_beside = '-Wl,-rpath,$$ORIGIN/..'
 
@@ -190,12 +209,12 @@ $(BUILD)/tests/shared.so: $(filter-out %/main.o,$(TOOL_OBJECTS)) $(LIBRARY_OBJEC
 	@mkdir -p $(@D)
 	$(call say,LD)$(link) $(compressed) -shared -Wl,-Bsymbolic $(filter %.o,$^) $(tool_libraries) -o $@
 
-# Of `make peers`: the driver, a renderer that is Triptych, and one that is GLES2 of whichever library.
+# The programs of `make peers`: the driver, Triptych as a renderer, and GLES2 of any library as a renderer.
 peer = $(foreach part,$(1) workload,$(BUILD)/object/bench/peers/$(part).o)
 
-$(BUILD)/peers/drive: $(call peer,drive report limits) $(BUILD)/command.a $(BUILD)/libtriptych.a
+$(BUILD)/peers/drive: $(call peer,drive limits ratio mean report report_json) $(BUILD)/command.a $(BUILD)/libtriptych.a
 $(BUILD)/peers/triptych: $(call peer,triptych peer) $(BUILD)/command.a $(BUILD)/libtriptych.a
-$(BUILD)/peers/gles: $(call peer,gles gles_library gles_shader peer)
+$(BUILD)/peers/gles: $(call peer,gles gles_library gles_shader gles_texel peer)
 $(BUILD)/peers/drive $(BUILD)/peers/triptych $(BUILD)/peers/gles:
 	@mkdir -p $(@D)
 	$(call say,LD)$(link) $(filter %.o,$^) $(filter %.a,$^) $(if $(filter %.a,$^),$(tool_libraries),-ldl) -o $@
@@ -205,23 +224,23 @@ $(BUILD)/triptych: private override LDFLAGS += -Wl,--wrap=_exit $(BUILD)/object/
 $(BUILD)/triptych: $(BUILD)/object/tests/support/end.o
 endif
 
-# This test plants differences between the engines' pictures, to see the verification fail.
-$(BUILD)/tests/tool/verify: private override LDFLAGS += -Wl,--wrap=triptych_read_color,--wrap=triptych_read_depth,--wrap=triptych_read_stencil,--wrap=triptych_read_target_numbers
+# This test changes the pictures of engines, so that the verification must fail.
+$(BUILD)/tests/command/tool/verify: private override LDFLAGS += -Wl,--wrap=triptych_read_color,--wrap=triptych_read_depth,--wrap=triptych_read_stencil,--wrap=triptych_read_target_numbers
 
-# And this one gives all keys one hash.
-$(BUILD)/tests/draw/cache: private override LDFLAGS += -Wl,--wrap=key_hash
+# This test gives all keys the same hash.
+$(BUILD)/tests/render/device/cache: private override LDFLAGS += -Wl,--wrap=key_hash
 
-# And this one wrong operations, passes and fragments, to see them named.
-$(BUILD)/tests/fuzz/bisect: private override LDFLAGS += -Wl,--wrap=plan_step_of,--wrap=pass_reduce,--wrap=pass_dead \
-  -Wl,--wrap=vector_rrr,--wrap=plan_join,--wrap=external_compile
+# This test replaces operations, passes and fragments by wrong ones, which the bisector must name.
+$(BUILD)/tests/command/fuzz/bisect: private override LDFLAGS += -Wl,--wrap=schedule_step_of,--wrap=pass_reduce,--wrap=pass_dead \
+  -Wl,--wrap=encode_rrr,--wrap=plan_join,--wrap=external_compile
 
-# Fuzz targets stay within limits of their own (tests/fuzz/targets/limit.c): as a test, and with libFuzzer's main and
-# a link by the name of each target (CC=clang SANITIZE=fuzzer).
-fuzz_wraps = -Wl,--wrap=build_account,--wrap=container_next,--wrap=mesh_make,--wrap=mesh_read_model,--wrap=file_read \
+# Fuzz targets have limits of their own (tests/command/fuzz/targets/limit.c). They are linked into a test, and
+# into a program with libFuzzer's main that has a link for each target (CC=clang SANITIZE=fuzzer).
+fuzz_wraps = -Wl,--wrap=stream_build_account,--wrap=container_next,--wrap=mesh_make,--wrap=mesh_read_model,--wrap=file_read \
   -Wl,--wrap=aiImportFileExWithProperties,--wrap=aiReleaseImport
 
-$(BUILD)/tests/fuzz/inputs: $(TARGET_OBJECTS)
-$(BUILD)/tests/fuzz/inputs: private override LDFLAGS += $(fuzz_wraps)
+$(BUILD)/tests/command/fuzz/inputs: $(TARGET_OBJECTS)
+$(BUILD)/tests/command/fuzz/inputs: private override LDFLAGS += $(fuzz_wraps)
 
 FUZZERS := $(filter-out target limit frame fuzzer importer sound survive,$(basename $(notdir $(TARGET_SOURCES))))
 
@@ -234,8 +253,8 @@ $(BUILD)/fuzz/inputs: $(TARGET_OBJECTS) $(BUILD)/command.a $(BUILD)/libtriptych.
 $(addprefix $(BUILD)/fuzz/,$(FUZZERS)): $(BUILD)/fuzz/inputs
 	@ln -sf inputs $@
 
-# Files that hold a text and are rewritten only when it changes: the same one however BUILD is spelled, for a test
-# installs from the build that others run at the same time.
+# Files with a text, rewritten only when the text changes. The text does not depend on the spelling of BUILD,
+# because one test installs from the build that other tests use at that time.
 $(BUILD)/flags: text = $(compile) $(unity_flags) $(link) $(assemble)
 $(BUILD)/library.list: text = $(LIBRARY_OBJECTS:$(BUILD)/%=%)
 $(BUILD)/command.list: text = $(TOOL_OBJECTS:$(BUILD)/%=%)
@@ -258,152 +277,166 @@ Libs.private: $(library_libraries)
 Cflags: -I$${includedir}/triptych
 endef
 
-# Make writes the file before it runs any of the recipe's lines.
+# Make writes the file before it runs the lines of the recipe.
 $(BUILD)/triptych.pc: Makefile FORCE
 	@$(shell mkdir -p $(@D))$(file >$@.new,$(pkgconfig))cmp -s $@.new $@ && rm $@.new || mv $@.new $@
 
-# Models that draw streams name.
+# Models that draw streams use.
 build/glmark2 build/assimp:
 	@mkdir -p build
 	@ln -sfn /usr/share/$(@F) $@
 
 build/unity/src/unity.c:
-	@tests/support/unity.sh build/unity
+	@tests/support/scripts/unity.sh build/unity
 
-# --- What to do ----------------------------------------------------------------------------------------------
+# --- What to do ---------------------------------------------------------------------------------------------
 
 jobs = $(if $(findstring jobserver,$(MAKEFLAGS)),,-j$(shell nproc))
 
 dependencies:
-	@tests/support/dependencies.sh build test bench peers format
+	@tests/support/scripts/dependencies.sh build test bench peers format
 
 packages:
-	@tests/support/dependencies.sh --list
+	@tests/support/scripts/dependencies.sh --list
 
-# The scripts need the command, which a selection without them does without.
+# Only the scripts need the command.
 check:
-	@tests/support/dependencies.sh build test
+	@tests/support/scripts/dependencies.sh build test
 	+@$(MAKE) $(jobs) programs $(if $(SCRIPTS),all)
-	@tests/support/run.sh '$(ONLY)' $(BUILD)
+	@tests/support/scripts/run.sh '$(ONLY)' $(BUILD)
 
 test:
-	@tests/support/dependencies.sh build test
+	@tests/support/scripts/dependencies.sh build test
 	+@$(MAKE) $(jobs) all programs
 	+@$(MAKE) $(jobs) BUILD=$(BUILD)/clang CC=clang all objects
 	+@$(MAKE) $(jobs) BUILD=$(BUILD)/sanitize SANITIZE=address all programs
 	+@$(MAKE) $(jobs) BUILD=$(BUILD)/thread SANITIZE=thread all $(threaded)
-	@tests/support/run.sh '$(ONLY)' $(BUILD) $(BUILD)/sanitize $(BUILD)/thread
+	@tests/support/scripts/run.sh '$(ONLY)' $(BUILD) $(BUILD)/sanitize $(BUILD)/thread
 
-# What runs under ThreadSanitizer besides tests/threads.sh: programs whose subject is threads or what they share.
-threaded = $(patsubst %.c,$(BUILD)/thread/%,$(call only,$(patsubst %,tests/%.c,base/code draw/background draw/cache draw/pool \
-  draw/shuffle stream/threads)))
+# Programs that run under ThreadSanitizer, besides tests/threads.sh: those that test threads or data that
+# threads share.
+threaded = $(patsubst %.c,$(BUILD)/thread/%,$(call only,$(patsubst %,tests/%.c,machine/code render/queue/background render/device/cache render/queue/pool \
+  render/queue/shuffle command/stream/threads)))
 
-# `make test` watches the threads of small streams; here it is all streams, with more threads.
+# `make test` runs ThreadSanitizer on small streams. This target runs it on all streams, with more threads.
 check-threads:
-	@tests/support/dependencies.sh build test
+	@tests/support/scripts/dependencies.sh build test
 	+@$(MAKE) $(jobs) BUILD=$(BUILD)/thread SANITIZE=thread all $(threaded)
-	@THOROUGH=1 tests/support/run.sh '$(ONLY)' $(BUILD)/thread
+	@THOROUGH=1 tests/support/scripts/run.sh '$(ONLY)' $(BUILD)/thread
 
-# Compilers and levels, each with all features of this processor and without AVX-512: the same bytes, results/matrix.txt.
+# Compares the pictures of builds by compiler and level, with and without AVX-512: results/matrix.txt.
 matrix:
-	@tests/support/dependencies.sh build test
-	+@tests/support/matrix.sh $(BUILD)/matrix
+	@tests/support/scripts/dependencies.sh build test
+	+@tests/support/scripts/matrix.sh $(BUILD)/matrix
 
-# Lines of src/ and emu/ that the tests execute, results/coverage.txt: fails below 90 %.
+# Lists the lines of src/ and emu/ that the tests execute, results/coverage.txt, and fails below 90 %.
 coverage:
-	@tests/support/dependencies.sh build test
+	@tests/support/scripts/dependencies.sh build test
 	+@$(MAKE) $(jobs) BUILD=$(BUILD)/coverage COVERAGE=1 all programs
 	@find $(BUILD)/coverage -name '*.gcda' -delete
-	@COVERAGE=1 tests/support/run.sh '$(ONLY)' $(BUILD)/coverage
+	@COVERAGE=1 tests/support/scripts/run.sh '$(ONLY)' $(BUILD)/coverage
 	@mkdir -p results
-	@tests/support/coverage.sh $(BUILD)/coverage 90 >results/coverage.txt; status=$$?; tail -n 1 results/coverage.txt; exit $$status
+	@tests/support/scripts/coverage.sh $(BUILD)/coverage 90 >results/coverage.txt; status=$$?; tail -n 1 results/coverage.txt; exit $$status
 
 bench:
-	@tests/support/dependencies.sh build bench
+	@tests/support/scripts/dependencies.sh build bench
 	+@$(MAKE) $(jobs) all
 	@BUILD=$(BUILD) bench/run.sh
 
-# Other renderers and every engine on the same work, in turns: results/peers.txt. WORKLOAD=glob PEERS="name ..." PASSES=n
-# QUICK=1: bench/peers.sh.
+# Measures other renderers and every engine on the same work, in turns: results/peers.txt. bench/peers.sh
+# describes WORKLOAD=glob PEERS="name ..." PASSES=n QUICK=1.
 peers:
-	@tests/support/dependencies.sh build bench peers
+	@tests/support/scripts/dependencies.sh build bench peers
 	+@$(MAKE) $(jobs) all $(addprefix $(BUILD)/peers/,drive triptych gles)
 	@BUILD=$(BUILD) bench/peers.sh
 
-# Every shader of the corpus with every engine, and flow control by constants and by values: results/shaders.txt.
+# Measures every shader of the corpus with every engine, and flow control by constants and by values:
+# results/shaders.txt.
 bench-shaders:
-	@tests/support/dependencies.sh build bench
+	@tests/support/scripts/dependencies.sh build bench
 	+@$(MAKE) $(jobs) all
 	@BUILD=$(BUILD) bench/shaders.sh
 
-# Draws per second of one small triangle, one change of the state before each (bench/draws.c).
+# Measures draws of one small triangle per second, with one change of the state before each draw
+# (bench/draws.c).
 $(BUILD)/bench/draws: $(BUILD)/object/bench/draws.o $(BUILD)/libtriptych.a
 	@mkdir -p $(@D)
 	$(call say,LD)$(link) $^ $(library_libraries) -o $@
 
 bench-draws:
-	@tests/support/dependencies.sh build
+	@tests/support/scripts/dependencies.sh build
 	+@$(MAKE) $(jobs) $(BUILD)/bench/draws
 	@$(BUILD)/bench/draws
 
-# `make check` draws a few streams with the external engine; these are all of them, a compilation a routine.
+# `make check` draws a few streams with the external engine. This target draws all: each routine is one
+# compilation.
 verify-external: all
-	@$(COMMAND) verify --engines external --frames 1 --threads 2 $(wildcard bench/streams/*.tri tests/streams/*.tri \
-	  tests/scenes/*.tri tests/shading/*.tri)
+	@$(COMMAND) verify --engines external --frames 1 --threads 2 $(wildcard bench/streams/*.tri tests/data/streams/*.tri \
+	  tests/data/scenes/*.tri tests/data/shading/*.tri)
 
-# Random cases and random tests with seed after seed from SEED on, for DURATION seconds; part of it with sanitizers.
+# Runs random cases and random tests with successive seeds from SEED on, for DURATION seconds, partly with
+# sanitizers.
 DURATION ?= 1800
 SEED     ?= 1
 soak:
-	@tests/support/dependencies.sh build test
+	@tests/support/scripts/dependencies.sh build test
 	+@$(MAKE) $(jobs) all
 	+@$(MAKE) $(jobs) BUILD=$(BUILD)/sanitize SANITIZE=address all programs
-	@tests/support/soak.sh $(DURATION) $(BUILD) $(BUILD)/sanitize $(SEED)
+	@tests/support/scripts/soak.sh $(DURATION) $(BUILD) $(BUILD)/sanitize $(SEED)
 
-# Readers of untrusted input with libFuzzer, a target after the other or JOBS at a time, each for DURATION seconds;
-# TARGET=name: only that one. What is found is in $(BUILD)/fuzzer/findings.
+# Runs the readers of untrusted input under libFuzzer, JOBS targets at a time, each for DURATION seconds, or
+# only TARGET=name. Findings are in $(BUILD)/fuzzer/findings.
 JOBS ?= 1
 fuzz-input:
-	@tests/support/dependencies.sh build test fuzz
+	@tests/support/scripts/dependencies.sh build test fuzz
 	+@$(MAKE) $(jobs) BUILD=$(BUILD)/fuzzer CC=clang SANITIZE=fuzzer CFLAGS='-O2 -gline-tables-only' fuzzers
 	+@$(MAKE) $(jobs) all
-	@COMMAND=$(COMMAND) tests/fuzz/campaign.sh $(BUILD)/fuzzer $(DURATION) $(JOBS) $(or $(TARGET),$(FUZZERS))
+	@COMMAND=$(COMMAND) tests/command/fuzz/campaign.sh $(BUILD)/fuzzer $(DURATION) $(JOBS) $(or $(TARGET),$(FUZZERS))
 
-# Ten minutes in all.
+# The same in ten minutes.
 fuzz-input-smoke:
 	+@$(MAKE) fuzz-input DURATION=$$((600 / $(words $(FUZZERS)))) JOBS=1
 
-# Plants the bugs of tests/mutations/table.txt, one after the other, in a copy of the tree: results/mutations.md. About half
-# an hour; ONLY="text..." keeps those whose name contains one of the texts.
+# Plants each bug of tests/mutations/table.txt in a copy of the tree and runs the tests: results/mutations.md.
+# This takes about half an hour. ONLY="text..." selects bugs whose name contains one of the texts.
 mutations:
-	@tests/support/dependencies.sh build test
+	@tests/support/scripts/dependencies.sh build test
 	+@$(MAKE) $(jobs) $(UNITY_SOURCE) build/glmark2 build/assimp
 	@BUILD=$(BUILD) tests/mutations/run.sh '$(ONLY)'
 
-# Everything that the system can refuse, at every request and every call, and every place that asks for memory.
+# Refuses every request to the system, one at a time, and every allocation.
 soak-faults:
-	@tests/support/dependencies.sh build test
+	@tests/support/scripts/dependencies.sh build test
 	+@$(MAKE) $(jobs) all programs
-	@tests/support/faults.sh $(BUILD)
+	@tests/support/scripts/faults.sh $(BUILD)
 
-# Memory on streams of 10 million triangles, 100,000 states, 100,000 shaders, a million constants.
+# Measures memory on streams of 10 million triangles, 100,000 states, 100,000 shaders and a million constants.
 soak-memory: $(BUILD)/tests/fault/memory
 	@TRIPTYCH_SOAK=1 $<
 
-# The pictures of docs/gallery.md and docs/shader-gallery.md, which are goldens: look at them before they are committed.
-gallery: all
-	@GOLDENS=write TRIPTYCH=$(COMMAND) tests/goldens.sh $(wildcard tests/scenes/*.tri tests/shading/*.tri)
+# Writes the measured figures of the pages from results/, their listings from the command, and docs/states.md
+# and docs/shaders.md from the tables.
+docs: all
+	@tests/support/scripts/dependencies.sh build test
+	@python3 bench/figures write
+	@for page in states shaders; do $(COMMAND) list $$page --markdown >$(BUILD)/$$page.md && mv $(BUILD)/$$page.md docs/$$page.md || exit; done
+	@LISTINGS=write TRIPTYCH=$(COMMAND) tests/pages.sh
 
-# The public header reads these tables.
+# Renders the pictures of docs/gallery.md and docs/shader-gallery.md, which are goldens: look at them before a
+# commit.
+gallery: all
+	@GOLDENS=write TRIPTYCH=$(COMMAND) tests/goldens.sh $(wildcard tests/data/scenes/*.tri tests/data/shading/*.tri)
+
+# The tables that the public header includes.
 PUBLIC_TABLES = $(addprefix src/,$(shell sed -n 's/^#include "\(.*\)"/\1/p' src/triptych.h))
 
 installed = $(DESTDIR)$(PREFIX)
 
 install: all
-	install -d $(installed)/bin $(installed)/include/triptych/def $(installed)/lib/pkgconfig
+	install -d $(installed)/bin $(installed)/include/triptych $(installed)/lib/pkgconfig
 	install -m 755 $(COMMAND) $(installed)/bin/
 	install -m 644 src/triptych.h $(installed)/include/triptych/
-	install -m 644 $(PUBLIC_TABLES) $(installed)/include/triptych/def/
+	for table in $(PUBLIC_TABLES:src/%=%); do install -D -m 644 src/$$table $(installed)/include/triptych/$$table || exit; done
 	install -m 644 $(BUILD)/libtriptych.a $(installed)/lib/
 	install -m 755 $(BUILD)/$(SONAME) $(installed)/lib/
 	ln -sf $(SONAME) $(installed)/lib/libtriptych.so
@@ -412,40 +445,57 @@ install: all
 clean:
 	rm -rf $(BUILD)
 
-FORMATTED = $(call find,src emu tests bench,*.[ch])
+# The compilation database, for clangd and other tools: every C source, and every header of the specification,
+# because each header compiles by itself.
+DATABASE_FILES = $(C_SOURCES) $(TEST_SOURCES) $(call find,bench,*.c) $(call find,src/spec,*.h)
+comma := ,
+database_entry = {"directory": "$(CURDIR)", "file": "$(1)", \
+  "command": "$(compile) $(if $(filter tests/%,$(1)),$(unity_flags)) -x c -c $(1)"}
+
+$(BUILD)/compile_commands.json: FORCE
+	@mkdir -p $(@D)
+	@$(file >$@.new,[)$(foreach f,$(DATABASE_FILES),$(file >>$@.new,$(call database_entry,$(f))$(if \
+	  $(filter-out $(lastword $(DATABASE_FILES)),$(f)),$(comma))))$(file >>$@.new,])mv $@.new $@
+
+compile_commands.json: $(BUILD)/compile_commands.json
+	@cp $< $@
+
+FORMATTED = $(call find,src emu asm tests bench,*.[ch])
 
 format:
-	@tests/support/dependencies.sh format
+	@tests/support/scripts/dependencies.sh format
 	clang-format -i $(FORMATTED)
 
 format-check:
-	@tests/support/dependencies.sh format
+	@tests/support/scripts/dependencies.sh format
 	clang-format --dry-run --Werror $(FORMATTED)
 
 define help
 make                 the library (static and shared) and the command, in $(BUILD)/
-make test            everything that is tested, from a bare Debian on; ends with "N passed, N failed"
+make test            all tests, starting from a bare Debian; ends with "N passed, N failed"
 make check           the same tests on the plain build only
-make bench           the measurements, from a bare Debian on; writes results/
-make soak-faults     everything that the system can refuse, refused at every request: half an hour
-make soak-memory     what 10 million triangles and 100,000 states take: minutes
-make peers           Mesa's softpipe and llvmpipe, SwiftShader and every engine on the same work: results/peers.txt
+make bench           the measurements, starting from a bare Debian; writes results/
+make soak-faults     refuses every request to the system, one at a time: half an hour
+make soak-memory     measures the memory of 10 million triangles and 100,000 states: minutes
+make peers           measures Mesa's softpipe and llvmpipe, SwiftShader and every engine on the same work: results/peers.txt
                      (WORKLOAD=glob PEERS="name..." PASSES=n QUICK=1 CLOCK=time)
-make bench-shaders   the same of every shader in tests/shading, by shader and by length
+make bench-shaders   measures every shader in tests/data/shading, by shader and by length
 make bench-draws     draws per second of one small triangle, one change of the state before each
 make soak            random cases and tests with new seeds, half an hour (DURATION=1800 SEED=1), then a summary
-make fuzz-input      untrusted input with libFuzzer, half an hour (DURATION=1800) each TARGET, JOBS at a time
+make fuzz-input      readers of untrusted input under libFuzzer, half an hour (DURATION=1800) each TARGET, JOBS at a time
 make fuzz-input-smoke  the same in ten minutes
-make matrix          gcc and clang at -O0, -O2, -O3, with and without AVX-512: the same bytes, results/matrix.txt
-make check-threads   all streams with several threads in random orders, ThreadSanitizer watching
-make coverage        lines that the tests execute, results/coverage.txt; fails below 90 %
-make mutations       plants bugs in a copy of the tree and sees that the tests find them: results/mutations.md
+make matrix          compares builds of gcc and clang at -O0, -O2, -O3, with and without AVX-512: results/matrix.txt
+make check-threads   all streams with several threads in random orders under ThreadSanitizer
+make coverage        lists lines that the tests execute, results/coverage.txt; fails below 90 %
+make mutations       plants bugs in a copy of the tree and checks that the tests find them: results/mutations.md
 make verify-external every stream with the external engine: minutes of compiling
-make gallery         the pictures of docs/gallery.md and docs/shader-gallery.md anew
+make docs            writes the measured figures of the pages from results/, their listings, and docs/states.md
+make gallery         renders the pictures of docs/gallery.md and docs/shader-gallery.md
 make install         PREFIX=$(PREFIX) DESTDIR=$(DESTDIR)
 make dependencies    install every Debian package that any target needs
-make packages        what those packages are and what each is for
-make format          clang-format over the C sources; format-check only looks
+make packages        lists those packages and their purpose
+make compile_commands.json  writes the compilation database, for clangd
+make format          runs clang-format on the C sources; format-check only compares
 make clean           remove $(BUILD)/
 
 BUILD=dir  CC=clang  SANITIZE=address|thread  COVERAGE=1  CHECK_IR=1 (verify after each pass)
@@ -456,4 +506,4 @@ endef
 help:
 	@$(info $(help)):
 
--include $(OBJECTS:.o=.d)
+-include $(OBJECTS:.o=.d) $(wildcard $(ASM_INCLUDES:.inc=.d))

@@ -2,22 +2,22 @@
  *
  *   draws [--engine NAME] [--threads N] [--draws N] [--passes N] [MODE]...
  *
- * Each mode is a way of changing the state between two draws (the table below). A pass makes all its draws through the
- * public interface and finishes, so everything is in the time: the set call, the draw call, geometry, tiles, the flushes
- * of the queue. Of several passes the median counts, the passes of the modes taking turns; the first of each, which
- * builds the routines, does not count. On a busy machine the processors' time says more than the clock's. Each picture has
- * a hash, the same with every engine. */
+ * Each mode is a way of changing the state between two draws (the table below). A pass makes all its draws
+ * through the public interface and finishes, so everything is in the time: the set call, the draw call,
+ * geometry, tiles, the flushes of the queue. Of several passes the median counts, the passes of the modes
+ * taking turns; the first of each, which builds the routines, does not count. On a busy machine processor
+ * time is more accurate than wall time. Each picture has a hash, the same with every engine. */
+#include "base/clock.h"
 #include "triptych.h"
 
 #include <inttypes.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
-#include <time.h>
 
 enum { SIZE = 256, TRIANGLES = 1024, PASSES_MAXIMUM = 101 };
 
-/* What the modes share. */
+/* The objects that the modes share. */
 struct bench {
     triptych_device *device;
     triptych_buffer *vertices;
@@ -33,7 +33,7 @@ static void check(triptych_device *device, enum triptych_result result)
     exit(1);
 }
 
-/* --- Changes, each made before draw number i ------------------------------------------------------------------ */
+/* --- Changes, each made before draw number i ------------------------------------------------------------ */
 
 static void change_nothing(struct bench *bench, uint32_t i)
 {
@@ -113,7 +113,7 @@ static const struct mode {
 
 enum { MODES = sizeof modes / sizeof *modes };
 
-/* --- What is drawn -------------------------------------------------------------------------------------------- */
+/* --- What is drawn -------------------------------------------------------------------------------------- */
 
 static const char vertex_code[] = "vs_2_0\n"
                                   "dcl_position v0\n"
@@ -171,7 +171,7 @@ static void make(struct bench *bench, const struct triptych_options *options)
     check(device, triptych_enable_light(device, 0, 1));
 }
 
-/* What the mode's draws begin with. */
+/* Sets the state before the mode's draws. */
 static void prepare(struct bench *bench, const struct mode *mode)
 {
     triptych_device *device = bench->device;
@@ -199,13 +199,6 @@ static void prepare(struct bench *bench, const struct mode *mode)
     check(device, triptych_set_stage_state(device, 0, TRIPTYCH_STAGE_colorarg2, 3));
 }
 
-static double now(clockid_t clock)
-{
-    struct timespec t;
-    clock_gettime(clock, &t);
-    return (double)t.tv_sec + (double)t.tv_nsec / 1e9;
-}
-
 struct duration {
     double seconds, used; /* on the clock, of processors */
 };
@@ -214,16 +207,17 @@ static struct duration run(struct bench *bench, const struct mode *mode, uint32_
 {
     prepare(bench, mode);
     check(bench->device, triptych_finish(bench->device));
-    double start = now(CLOCK_MONOTONIC), used = now(CLOCK_PROCESS_CPUTIME_ID);
+    double start = clock_seconds_of(CLOCK_MONOTONIC), used = clock_seconds_of(CLOCK_PROCESS_CPUTIME_ID);
     for (uint32_t i = 0; i < draws; i++) {
         mode->change(bench, i);
         check(bench->device, triptych_draw(bench->device, TRIPTYCH_TRIANGLE_LIST, 3 * (i % TRIANGLES), 1));
     }
     check(bench->device, triptych_finish(bench->device));
-    return (struct duration){now(CLOCK_MONOTONIC) - start, now(CLOCK_PROCESS_CPUTIME_ID) - used};
+    return (struct duration){clock_seconds_of(CLOCK_MONOTONIC) - start,
+                             clock_seconds_of(CLOCK_PROCESS_CPUTIME_ID) - used};
 }
 
-/* --- The table ------------------------------------------------------------------------------------------------ */
+/* --- The table ------------------------------------------------------------------------------------------ */
 
 /* FNV-1a. */
 static uint64_t hash_picture(struct bench *bench)

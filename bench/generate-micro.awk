@@ -1,13 +1,14 @@
-# Writes the draw streams of bench/streams/micro/: one kind of work each, which `make peers` measures Triptych's
-# engines and other renderers on (bench/peers/workload.def names them, bench/peers/gles.c does the same work). Plain awk
-# (mawk, gawk, busybox); the same text every time:
+# Writes the draw streams of bench/streams/micro/: one kind of work each, which `make peers` measures
+# Triptych's engines and other renderers on (bench/peers/workload.def names them, bench/peers/gles.c does the
+# same work). Plain awk (mawk, gawk, busybox); the same text every time:
 #
 #     awk -v folder=bench/streams/micro -f bench/generate-micro.awk
 #
-# A stream has three frames, which begin with a clear. The first sets everything, so that the others can be played
-# again and again on what it left (player_go_on, src/stream/stream.h). The second is what is measured, with so many layers
-# that what a frame costs besides them does not count; the third the same work with fewer layers, for renderers that are
-# slow. Textures and arithmetic have one opaque layer, and no clear but the first. The layers of a frame cover the whole target, 1024 x 1024, and lie in one another's place; where nothing else is said
+# A stream has three frames, which begin with a clear. The first sets everything, so that the others can be
+# played again and again on what it left (player_go_on, src/command/stream/stream.h). The second is measured,
+# with enough layers that the rest of the frame does not count; the third the same work with fewer layers, for
+# renderers that are slow. Textures and arithmetic have one opaque layer, and no clear but the first. The
+# layers of a frame cover the whole target, 1024 x 1024, and are in the same place; by default
 # each is a rectangle of two triangles at w = 1.
 
 function emit(text) { print text > path }
@@ -21,7 +22,7 @@ function begin(name, about, bound) {
     emit("convention depthrange minus")
 }
 
-# What full-screen layers start from: no light, no depth, both sides.
+# The state of full-screen layers: no light, no depth, both sides.
 function plain() {
     emit("state lighting false")
     emit("state cullmode none")
@@ -53,7 +54,8 @@ function quad(low, high) {
     emit("bind vertices quad")
 }
 
-# Both textures are 256 x 256: squares of 4 texels in two colours, one of which is translucent; red to the right, green down.
+# Both textures are 256 x 256: squares of 4 texels in two colours, one of them translucent; red to the right,
+# green down.
 function checker(mips) {
     emit("texture checker 2d A8R8G8B8 256 256 " (mips ? "mips " : "") "checker 4 ffe0a040 80203060")
 }
@@ -71,7 +73,7 @@ function clamp(sampler) {
     emit("sampler " sampler " addressv clamp")
 }
 
-function texture_alone() {
+function one_texture() {
     checker(0)
     emit("bind texture checker")
     emit("stage 0 colorop selectarg1")
@@ -91,7 +93,7 @@ function play(count, name,   i) { for (i = 0; i < count; i++) emit("play " name)
 
 # The frame that sets everything ends here; then `measured` begins another one, and `less` the last.
 function ready(clear) { emit(clear); emit("frame") }
-function measured() { emit(""); emit("# What is measured.") }
+function measured() { emit(""); emit("# The measured frame.") }
 function less() { emit(""); emit("# The same work, less of it.") }
 
 function frames(full, short, clear) {
@@ -107,8 +109,8 @@ function frames(full, short, clear) {
     emit("frame")
 }
 
-# An opaque layer over what is there. More of them would say nothing: who sees that a layer is hidden by the next one draws
-# the last alone.
+# An opaque layer over what is there. More of them would show nothing: a renderer may find that a layer is
+# hidden by the next one, and draw only the last.
 function one_layer() {
     ready("clear color 0 0 0 1 depth 1")
     measured()
@@ -119,7 +121,7 @@ function one_layer() {
     emit("frame")
 }
 
-# --- Fills -----------------------------------------------------------------------------------------------------
+# --- Fills ---
 
 function fills() {
     begin("flat", "Fill: 32 opaque layers of a constant colour.",
@@ -127,15 +129,16 @@ function fills() {
     plain(); constant_color("ff4080c0"); quad(0, 1); layer("draw strip 0 2"); frames(32, 4)
 
     begin("flat-one", "Fill: a clear and one opaque layer of a constant colour a frame.",
-          "stores of 4 bytes a pixel to memory, twice: colour, and what a clear of depth costs; and by how soon all is done.")
+          "stores of 4 bytes a pixel to memory, twice: colour, and what a clear of depth costs; and by how " \
+              "soon all is done.")
     plain(); constant_color("ff4080c0"); quad(0, 1); layer("draw strip 0 2"); frames(1, 1)
 
     begin("flat-blend", "Blending: 32 layers of a constant colour, source alpha.",
           "a load and a store of 4 bytes a pixel in the first-level cache, and two products a channel.")
     plain(); constant_color("48c08040"); quad(0, 1); blend("srcalpha"); layer("draw strip 0 2"); frames(32, 4)
 
-    begin("depth-fail", "Depth test: 32 layers behind what is there already.",
-          "reading 4 bytes of depth a pixel, or less by what is known of whole blocks.")
+    begin("depth-fail", "Depth test: 32 layers, all hidden by the depths of the target.",
+          "reading 4 bytes of depth a pixel, or less where whole blocks are bounded.")
     plain(); constant_color("ff4080c0"); quad(0, 1)
     emit("state zenable true")
     layer("draw strip 0 2"); frames(32, 4, "clear color 0.2 0.4 0.6 1 depth 0.25")
@@ -161,29 +164,30 @@ function fills() {
     }
 }
 
-# --- Textures --------------------------------------------------------------------------------------------------
+# --- Textures ---
 
 function textures() {
     taps = " texels of 4 bytes a pixel gathered from the second-level cache, and "
     begin("nearest", "Texture: a layer of one RGBA8 texture of 256 x 256, repeated 4 times, nearest.",
           "1" taps "storing 4 bytes.")
-    plain(); texture_alone(); quad(0.001, 4.001); filter(0, "point"); layer("draw strip 0 2"); one_layer()
+    plain(); one_texture(); quad(0.001, 4.001); filter(0, "point"); layer("draw strip 0 2"); one_layer()
 
     begin("bilinear", "Texture: a layer of one RGBA8 texture of 256 x 256, repeated 4 times, bilinear.",
           "4" taps "12 linear interpolations.")
-    plain(); texture_alone(); quad(0.001, 4.001); filter(0, "linear"); layer("draw strip 0 2"); one_layer()
+    plain(); one_texture(); quad(0.001, 4.001); filter(0, "linear"); layer("draw strip 0 2"); one_layer()
 
     begin("bilinear-one", "Texture: a clear and one layer of one RGBA8 texture, bilinear, a frame.",
           "4" taps "12 linear interpolations; and by how soon all is done.")
-    plain(); texture_alone(); quad(0.001, 4.001); filter(0, "linear"); layer("draw strip 0 2"); frames(1, 1)
+    plain(); one_texture(); quad(0.001, 4.001); filter(0, "linear"); layer("draw strip 0 2"); frames(1, 1)
 
     begin("bilinear-blend", "Texture: 16 bilinear layers, blended by the texture's alpha.",
           "4" taps "12 linear interpolations and 8 products, a load and a store of 4 bytes.")
-    plain(); texture_alone(); quad(0.001, 4.001); filter(0, "linear"); blend("srcalpha"); layer("draw strip 0 2"); frames(16, 2)
+    plain(); one_texture(); quad(0.001, 4.001); filter(0, "linear"); blend("srcalpha");
+    layer("draw strip 0 2"); frames(16, 2)
 
     begin("bilinear-perspective", "Texture: a bilinear layer in perspective, w from 1 to 2.",
           "4" taps "12 linear interpolations and a division.")
-    plain(); texture_alone()
+    plain(); one_texture()
     emit("vertices quad position:float4 texcoord:float2 {")
     emit("    -1  1 0 1   0.001 0.001")
     emit("     2  2 0 2   4.001 0.001")
@@ -193,7 +197,8 @@ function textures() {
     emit("bind vertices quad")
     filter(0, "linear"); layer("draw strip 0 2"); one_layer()
 
-    begin("trilinear", "Texture: a layer, repeated 11 times, bilinear in two levels of detail with linear interpolation between them.",
+    begin("trilinear", "Texture: a layer, repeated 11 times, bilinear in two levels of detail with linear " \
+        "interpolation between them.",
           "8" taps "28 linear interpolations, and by the level of detail.")
     plain(); checker(1)
     emit("bind texture checker")
@@ -209,7 +214,7 @@ function textures() {
 }
 
 function two(name, low, high, clamped,   i) {
-    plain(); texture_alone(); gradient()
+    plain(); one_texture(); gradient()
     emit("bind texture 1 gradient")
     emit("stage 1 colorop modulate")
     emit("stage 1 colorarg1 texture")
@@ -223,7 +228,7 @@ function two(name, low, high, clamped,   i) {
     layer("draw strip 0 2")
 }
 
-# What a renderer of rectangles is made for: no perspective, no repetition, textures a little magnified.
+# The usual work of a renderer of rectangles: no perspective, no repetition, textures a little magnified.
 function rectangles() {
     about = "Rectangles: clamped, u and v from 0 to 0.9, "
     taps = " texels of 4 bytes a pixel, which are neighbours along a row, and by "
@@ -232,24 +237,26 @@ function rectangles() {
     plain(); constant_color("48362412"); quad(0, 1); blend("one"); layer("draw strip 0 2"); frames(32, 4)
 
     begin("rectangle-nearest", about "nearest.", "loading 1" taps "storing 4 bytes.")
-    plain(); texture_alone(); quad(0, 0.9); filter(0, "point"); clamp(0); layer("draw strip 0 2"); one_layer()
+    plain(); one_texture(); quad(0, 0.9); filter(0, "point"); clamp(0); layer("draw strip 0 2"); one_layer()
 
     begin("rectangle-bilinear", about "bilinear.", "loading 4" taps "12 linear interpolations.")
-    plain(); texture_alone(); quad(0, 0.9); filter(0, "linear"); clamp(0); layer("draw strip 0 2"); one_layer()
+    plain(); one_texture(); quad(0, 0.9); filter(0, "linear"); clamp(0); layer("draw strip 0 2"); one_layer()
 
     begin("rectangle-bilinear-blend", about "16 layers, bilinear, blended, premultiplied.",
           "loading 4" taps "12 linear interpolations and 4 products, a load and a store of 4 bytes.")
-    plain(); texture_alone(); quad(0, 0.9); filter(0, "linear"); clamp(0); blend("one"); layer("draw strip 0 2"); frames(16, 2)
+    plain(); one_texture(); quad(0, 0.9); filter(0, "linear"); clamp(0); blend("one");
+    layer("draw strip 0 2"); frames(16, 2)
 
-    begin("rectangle-two-textures", "Rectangles: clamped, u and v from 0 to 0.9, two bilinear textures, multiplied.",
+    begin("rectangle-two-textures", "Rectangles: clamped, u and v from 0 to 0.9, two bilinear textures, " \
+        "multiplied.",
           "loading 8" taps "24 linear interpolations and 4 products.")
     two("quad", 0, 0.9, 1); one_layer()
 }
 
-# --- Arithmetic ------------------------------------------------------------------------------------------------
+# --- Arithmetic ---
 
-# Two vectors, `texcoord` and `texcoord1`, from the corners to the pixels. They are in a plane, so that it does not matter
-# whether a renderer sees two triangles or a rectangle.
+# Two vectors, `texcoord` and `texcoord1`, from the corners to the pixels. They are in a plane, so that it
+# does not matter if a renderer finds two triangles or a rectangle.
 function shaded(columns,   i, n, corner) {
     plain()
     emit("shader through {")
@@ -277,13 +284,17 @@ function shader(text,   lines, n, i) {
 function repeated(text, count,   all) { while (count-- > 0) all = all "\n" text; return all }
 
 function arithmetic() {
-    corners = " -1 1 0 1  -0.6 0.7 1 1  -1 1 0; 1 1 0 1  0.8 0.5 1 1  1 1 0; -1 -1 0 1  -0.5 -0.6 1 1  -1 -1 0;" \
+    corners = " -1 1 0 1  -0.6 0.7 1 1  -1 1 0; 1 1 0 1  0.8 0.5 1 1  1 1 0; -1 -1 0 1  -0.5 -0.6 1 1  -1 " \
+        "-1 0;" \
               " 1 -1 0 1  0.9 -0.8 1 1  1 -1 0"
     begin("multiply-add", "Arithmetic: 64 dependent multiply-adds of four components a pixel.",
-          "256 multiply-adds of one number a pixel, which wait for one another unless other pixels fill the time.")
-    shaded(" -1 1 0 1  0.1 0.9 0.3 1  0 0 0; 1 1 0 1  0.7 0.7 0.2 1  0 0 0; -1 -1 0 1  0.3 0.2 0.9 1  0 0 0;" \
+          "256 multiply-adds of one number a pixel, which wait for one another unless other pixels fill " \
+              "the time.")
+    shaded(" -1 1 0 1  0.1 0.9 0.3 1  0 0 0; 1 1 0 1  0.7 0.7 0.2 1  0 0 0; -1 -1 0 1  0.3 0.2 0.9 1  0 0 " \
+        "0;" \
            " 1 -1 0 1  0.9 0 0.8 1  0 0 0")
-    shader("ps_3_0\ndcl_texcoord v0\nmov r1, c1\nmov r0, v0" repeated("mad r0, r0, c0, r1", 64) "\nmov oC0, r0")
+    shader("ps_3_0\ndcl_texcoord v0\nmov r1, c1\nmov r0, v0" repeated("mad r0, r0, c0, r1",
+        64) "\nmov oC0, r0")
     emit("pixelconstant 0 0.99 0.985 0.99 1")
     emit("pixelconstant 1 0.002 0.003 0.004 0")
     layer("draw strip 0 2"); one_layer()
@@ -292,7 +303,8 @@ function arithmetic() {
           "16 times a sine, three exponentials and logarithms, a square root and a division a pixel.")
     shaded(corners)
     shader("ps_3_0\ndef c1, 1.5, 0.5, 0, 1\ndcl_texcoord v0\nmov r0, v0" \
-           repeated("exp r1.x, r0.y\nsincos r1.y, r0.x\npow r1.z, r0.z, c1.x\nadd r2.xyz, r1, v0\nnrm r0.xyz, r2", 16) \
+           repeated("exp r1.x, r0.y\nsincos r1.y, r0.x\npow r1.z, r0.z, c1.x\nadd r2.xyz, r1, v0\nnrm " \
+               "r0.xyz, r2", 16) \
            "\nmad r0.xyz, r0, c1.y, c1.y\nmov r0.w, c1.w\nmov oC0, r0")
     layer("draw strip 0 2"); one_layer()
 
@@ -301,8 +313,10 @@ function arithmetic() {
     shaded(corners)
     shader("ps_3_0\ndef c5, 0, 32, 0, 1\ndcl_texcoord v0\ndcl_texcoord1 v1\n" \
            "nrm r0.xyz, v0\nsub r1.xyz, c0, v1\nnrm r2.xyz, r1\nsub r3.xyz, c1, v1\nnrm r4.xyz, r3\n" \
-           "dp3 r0.w, r0, r2\nadd r1.w, r0.w, r0.w\nmad r1.xyz, r0, r1.w, -r2\ndp3 r2.w, r1, r4\nmax r2.w, r2.w, c5.x\n" \
-           "pow r3.w, r2.w, c5.y\nmax r0.w, r0.w, c5.x\nmov r5, c3\nmad r5, c2, r0.w, r5\nmad oC0, c4, r3.w, r5")
+           "dp3 r0.w, r0, r2\nadd r1.w, r0.w, r0.w\nmad r1.xyz, r0, r1.w, -r2\ndp3 r2.w, r1, r4\nmax r2.w, " \
+               "r2.w, c5.x\n" \
+           "pow r3.w, r2.w, c5.y\nmax r0.w, r0.w, c5.x\nmov r5, c3\nmad r5, c2, r0.w, r5\nmad oC0, c4, " \
+               "r3.w, r5")
     emit("pixelconstant 0 0.5 0.8 1.5 0")
     emit("pixelconstant 1 0 0 2 0")
     emit("pixelconstant 2 0.2 0.4 0.7 0")
@@ -311,15 +325,17 @@ function arithmetic() {
     layer("draw strip 0 2"); one_layer()
 }
 
-# --- Triangles -------------------------------------------------------------------------------------------------
+# --- Triangles ---
 
-# Lit by a point in the vertex shader, diffuse alone: position 4x4, normal 3x3 and normalised.
+# Lit by a point in the vertex shader, only diffuse: position 4x4, normal 3x3 and normalised.
 function lit(size, tilt, offset) {
     emit("shader lit {")
-    emit("    vs_2_0"); emit("    def c10, 0, 0, 0, 0"); emit("    dcl_position v0"); emit("    dcl_normal v1")
+    emit("    vs_2_0"); emit("    def c10, 0, 0, 0, 0"); emit("    dcl_position v0");
+    emit("    dcl_normal v1")
     emit("    add r5, v0, c11")
     emit("    m4x4 oPos, r5, c0"); emit("    m3x3 r0.xyz, v1, c4"); emit("    nrm r1.xyz, r0")
-    emit("    sub r2.xyz, c7, r5"); emit("    nrm r3.xyz, r2"); emit("    dp3 r0.w, r1, r3"); emit("    max r0.w, r0.w, c10.x")
+    emit("    sub r2.xyz, c7, r5"); emit("    nrm r3.xyz, r2"); emit("    dp3 r0.w, r1, r3");
+    emit("    max r0.w, r0.w, c10.x")
     emit("    mov r4, c9"); emit("    mad oD0, c8, r0.w, r4")
     emit("}")
     emit("vertexshader lit")
@@ -339,23 +355,28 @@ function grid(cells) { emit("mesh grid grid " cells " " cells) }
 
 function triangles(   x, z, i) {
     begin("triangles-4", "Triangles: 199,712 of 4 pixels, indexed, lit in the vertex shader, depth test.",
-          "what a vertex costs (half a one a triangle), setup, and finding a few pixels: all of it in the caches but the records.")
+          "what a vertex costs (half a one a triangle), setup, and finding a few pixels: all of it in the " \
+              "caches but the records.")
     grid(316); lit(0.8728, 0.05, 1); layer("draw mesh grid"); frames(1, 1)
 
-    begin("triangles-4-culled", "Triangles: 199,712 of 4 pixels, indexed, lit in the vertex shader, all seen from behind.",
-          "what a vertex costs (half a one a triangle) and finding out that a triangle is turned away.")
+    begin("triangles-4-culled", "Triangles: 199,712 of 4 pixels, indexed, lit in the vertex shader, all " \
+        "with their back to the camera.",
+          "the cost of a vertex (half of one a triangle) and the test of a triangle's direction.")
     grid(316); lit(0.8728, 0.05, 1)
     emit("state cullmode cw")
     layer("draw mesh grid"); frames(1, 1)
 
-    begin("triangles-4-separate", "Triangles: 199,680 of 4 pixels, each with vertices of its own, lit in the vertex shader, depth test, " \
+    begin("triangles-4-separate", "Triangles: 199,680 of 4 pixels, each with vertices of its own, lit in " \
+        "the vertex shader, depth test, " \
           "in 260 draws of 768.",
           "what three vertices cost, setup, and finding a few pixels.")
     emit("vertices cells position:float3 normal:float3 {")
     for (z = 0; z < 24; z++)
         for (x = 0; x < 16; x++) {
-            emit("    " x " 0 " z " 0 1 0"); emit("    " x " 0 " z + 1 " 0 1 0"); emit("    " x + 1 " 0 " z + 1 " 0 1 0")
-            emit("    " x " 0 " z " 0 1 0"); emit("    " x + 1 " 0 " z + 1 " 0 1 0"); emit("    " x + 1 " 0 " z " 0 1 0")
+            emit("    " x " 0 " z " 0 1 0"); emit("    " x " 0 " z + 1 " 0 1 0");
+            emit("    " x + 1 " 0 " z + 1 " 0 1 0")
+            emit("    " x " 0 " z " 0 1 0"); emit("    " x + 1 " 0 " z + 1 " 0 1 0");
+            emit("    " x + 1 " 0 " z " 0 1 0")
         }
     emit("}")
     emit("bind vertices cells")
@@ -377,7 +398,7 @@ function triangles(   x, z, i) {
     grid(90); lit(0.985, 0.004, 1); layer("draw mesh grid"); frames(1, 1)
 }
 
-# --- Draws -----------------------------------------------------------------------------------------------------
+# --- Draws ---
 
 # 10,000 triangles of 8 pixels, 100 in each of 100 rows.
 function draws(name, about, colors,   i) {
@@ -400,7 +421,8 @@ function draws(name, about, colors,   i) {
     emit("sequence row")
     for (i = 0; i < 100; i++) {
         emit("    vertexconstant 4 " sprintf("%.7g", (i * 10 + 12 - 512) / 512) " 0 0 0")
-        if (colors) emit("    pixelconstant 0 " sprintf("%.2f %.2f %.2f", i / 99, 1 - i / 99, (i % 10) / 9) " 1")
+        if (colors) emit("    pixelconstant 0 " sprintf("%.2f %.2f %.2f", i / 99, 1 - i / 99,
+            (i % 10) / 9) " 1")
         emit("    draw triangles 0 1")
     }
     emit("end")
@@ -413,25 +435,28 @@ function draws(name, about, colors,   i) {
     frames(1, 1)
 }
 
-# --- The rest --------------------------------------------------------------------------------------------------
+# --- The rest ---
 
 function rest() {
-    begin("clear", "A clear of colour and depth, and nothing else.", "stores of 8 bytes a pixel to memory, unless they are put off.")
+    begin("clear", "A clear of colour and depth, and nothing else.",
+        "stores of 8 bytes a pixel to memory, unless they are put off.")
     emit("sequence layer")
     emit("end")
     frames(1, 1, "clear color 0.2 0.4 0.6 1 depth 1")
 
-    begin("readback", "One layer, whose pixels are then read: the reading alone is measured.",
+    begin("readback", "One layer, whose pixels are then read: only the reading is measured.",
           "copying 4 bytes a pixel through memory.")
-    plain(); texture_alone(); quad(0, 0.9); filter(0, "linear"); clamp(0); layer("draw strip 0 2"); frames(1, 1)
+    plain(); one_texture(); quad(0, 0.9); filter(0, "linear"); clamp(0); layer("draw strip 0 2"); frames(1, 1)
 
-    begin("new-shader", "A small rectangle with a pixel shader, of which another one takes the place before every frame that is measured: " \
+    begin("new-shader", "A small rectangle with a pixel shader, which is replaced before every measured " \
+        "frame: " \
           "the numbers of its def are new. From the text to the first pixel.",
           "the compiler.")
     plain()
     emit("shader pixels {")
     emit("    ps_2_0"); emit("    def c0, 0.25, 0.5, 0.75, 1"); emit("    dcl t0.xy"); emit("    dcl_2d s0")
-    emit("    texld r0, t0, s0"); emit("    mul r1.xyz, r0, c0"); emit("    dp3 r0.w, r1, r1"); emit("    mad r1.xyz, r0, r0.w, c0.w")
+    emit("    texld r0, t0, s0"); emit("    mul r1.xyz, r0, c0"); emit("    dp3 r0.w, r1, r1");
+    emit("    mad r1.xyz, r0, r0.w, c0.w")
     emit("    mov r1.w, c0.w"); emit("    mul r1.xyz, r1, c0.y"); emit("    mov oC0, r1")
     emit("}")
     checker(0)

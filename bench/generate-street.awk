@@ -1,12 +1,12 @@
-# Writes bench/streams/street.tri: a street at dusk, some four hundred objects in about a hundred states, and a camera
-# that moves down it for sixty frames. Plain awk (mawk, gawk, busybox); the same text every time:
+# Writes bench/streams/street.tri: a street at dusk, some four hundred objects in about a hundred states, and
+# a camera that moves down it for sixty frames. Plain awk (mawk, gawk, busybox); the same text every time:
 #
 #     awk -f bench/generate-street.awk > bench/streams/street.tri
 #
-# The street runs toward -z between x = -3.5 and 3.5, with pavements to 6.4 and houses beyond; y is up, a unit is a
-# metre. Objects set the whole state they want and emit() writes what differs from the state before, as an engine
-# with a state cache does; what a state makes irrelevant (filters without a texture, factors without blending) is left
-# as it was. What is translucent is collected and drawn last, from far to near.
+# The street runs toward -z between x = -3.5 and 3.5, with pavements to 6.4 and houses beyond; y is up, a
+# unit is a metre. Objects set the whole state they need and emit() writes what differs from the state before,
+# as an engine with a state cache does; states without effect (filters without a texture, factors without
+# blending) keep their value. Translucent objects are collected and drawn last, from far to near.
 
 function random() { seed = (seed * 16807) % 2147483647; return seed / 2147483647 }
 function between(low, high) { return low + (high - low) * random() }
@@ -14,7 +14,7 @@ function number(v) { v = sprintf("%.2f", v); sub(/\.?0+$/, "", v); return v == "
 function triple(x, y, z) { return number(x) " " number(y) " " number(z) }
 function call(text) { print "    " text }
 
-# --- State -----------------------------------------------------------------------------------------------------
+# --- State ---
 
 function want(   i) {
     for (i = 1; i <= state_count; i++) wanted[state_name[i]] = state_default[i]
@@ -55,7 +55,8 @@ function emit_state(   i, name) {
     world_is = world
 }
 
-# Draws what is wanted: a mesh from a file, or one of the shapes defined here with its indices or as a fan or strip.
+# Draws the current object: a mesh from a file, or one of the shapes defined here with its indices or as a
+# fan or strip.
 function emit(   part) {
     emit_state()
     objects++
@@ -76,11 +77,12 @@ function emit(   part) {
     call("draw-indexed triangles 0 0 " part[2])
 }
 
-# Keeps what is wanted for after the opaque objects; z is where it stands.
+# Keeps the current object until after the opaque ones; z is its position.
 function later(z,   i, all) {
     all = texture "|" world "|" lights "|" material "|" mesh
     for (i = 1; i <= state_count; i++) all = all "|" wanted[state_name[i]]
-    for (i = late_count++; i > 0 && late_z[i - 1] > z; i--) { late_z[i] = late_z[i - 1]; late[i] = late[i - 1] }
+    for (i = late_count++; i > 0 && late_z[i - 1] > z; i--) { late_z[i] = late_z[i - 1];
+        late[i] = late[i - 1] }
     late_z[i] = z; late[i] = all
 }
 
@@ -96,7 +98,8 @@ function emit_late(   i, k, part) {
 
 function set(name, value) { wanted[name] = value }
 function at(operations) { world = operations }
-function paint(name, filter, operation) { texture = name; set("magfilter", filter); set("minfilter", filter); set("colorop", operation); set("alphaop", operation) }
+function paint(name, filter, operation) { texture = name; set("magfilter", filter); set("minfilter", filter);
+    set("colorop", operation); set("alphaop", operation) }
 function clamp() { set("addressu", "clamp"); set("addressv", "clamp") }
 function unlit() { set("lighting", "false") }
 # The target's alpha stays 1: what has an alpha of its own does not write it.
@@ -105,7 +108,8 @@ function translucent(source, destination) {
     set("alphablendenable", "true"); set("srcblend", source); set("destblend", destination)
     set("zwriteenable", "false"); keep_alpha()
 }
-function surface(r, g, b, a) { material = "diffuse " triple(r, g, b) " " number(a) " ambient " triple(r, g, b) " 1" }
+function surface(r, g, b, a) { material = "diffuse " triple(r, g, b) " " number(a) " ambient " triple(r, g,
+    b) " 1" }
 
 # Sun and sky, and the lamps that reach a circle about (x, z), at most `most` of them.
 function lit(x, z, reach, most,   i, d) {
@@ -116,9 +120,10 @@ function lit(x, z, reach, most,   i, d) {
     }
 }
 
-# --- Shapes ----------------------------------------------------------------------------------------------------
+# --- Shapes ---
 
-function begin_shape(name, attributes) { print "vertices " name " " attributes " {"; corner = 0; faces = ""; triangles = 0 }
+function begin_shape(name, attributes) { print "vertices " name " " attributes " {"; corner = 0; faces = "";
+    triangles = 0 }
 function end_shape(name) {
     print "}"
     if (triangles) print "indices " name "-faces 16 {" faces "\n}"
@@ -127,7 +132,8 @@ function end_shape(name) {
 function face(a, b, c) { faces = faces (triangles++ % 8 ? "  " : "\n    ") a " " b " " c }
 function four(a, b, c, d) { face(a, b, c); face(a, c, d) }
 
-# A grid of columns x rows cells from o along u and v, facing n, with texture coordinates 0 to s, t (t downward).
+# A grid of columns x rows cells from o along u and v, facing n, with texture coordinates 0 to s, t (t
+# downward).
 function grid(ox, oy, oz, ux, uy, uz, vx, vy, vz, nx, ny, nz, columns, rows, s, t,   i, j, a, b, first) {
     first = corner
     for (j = 0; j <= rows; j++)
@@ -144,7 +150,8 @@ function grid(ox, oy, oz, ux, uy, uz, vx, vy, vz, nx, ny, nz, columns, rows, s, 
         }
 }
 
-# A side of a solid that runs around the y axis: `sides` faces from radius r0 at y0 to r1 at y1, smooth normals.
+# A side of a solid that runs around the y axis: `sides` faces from radius r0 at y0 to r1 at y1, smooth
+# normals.
 function around(y0, r0, y1, r1, sides,   i, c, s, k, l, normal, first) {
     first = corner; k = (r0 - r1) / (y1 - y0); l = sqrt(1 + k * k)
     for (i = 0; i <= sides; i++) {
@@ -226,7 +233,8 @@ function flat_shapes(   i) {
     grid(0, -0.5, 0.5, 0, 0, -1, 0, 1, 0, 1, 0, 0, 1, 1, 1, 1)
     end_shape("panel")
     print "vertices interior position:float3 diffuse:color {"
-    print "    0 -0.5 0.5  ffb06828\n    0 -0.5 -0.5  ffd08030\n    0 0.5 -0.5  fff8c870\n    0 0.5 0.5  ffe8b058\n}"
+    print "    0 -0.5 0.5  ffb06828\n    0 -0.5 -0.5  ffd08030\n    0 0.5 -0.5  fff8c870\n    0 0.5 0.5  " \
+        "ffe8b058\n}"
     shape["interior"] = "fan 2"
     print "vertices dark-interior position:float3 diffuse:float3 {"
     print "    0 -0.5 0.5  0.05 0.06 0.1\n    0 -0.5 -0.5  0.06 0.07 0.1"
@@ -273,13 +281,16 @@ function car_shapes(   n, z, y, x, i, k, j, s) {
     i = triangles; triangles = 0; end_shape("car"); shape["car"] = "triangles " i
     print "vertices car-glass position:float3 diffuse:color {"
     for (s = -1; s <= 1; s += 2) {
-        print "    " triple(s * 0.87, 0.98, -0.85) "  c0303848\n    " triple(s * 0.67, 1.36, -0.4) "  c0607088"
+        print "    " triple(s * 0.87, 0.98, -0.85) "  c0303848\n    " triple(s * 0.67, 1.36,
+            -0.4) "  c0607088"
         print "    " triple(s * 0.87, 0.98, 0.15) "  c0303848\n    " triple(s * 0.67, 1.36, 0.15) "  c0607088"
         print "    " triple(s * 0.87, 0.98, 0.25) "  c0303848\n    " triple(s * 0.67, 1.36, 0.25) "  c0607088"
         print "    " triple(s * 0.87, 0.98, 1.3) "  c0303848\n    " triple(s * 0.67, 1.36, 0.8) "  c0607088"
     }
-    print "    -0.7 1.02 -1  c0405068\n    0.7 1.02 -1  c0405068\n    -0.58 1.38 -0.53  c08090a8\n    0.58 1.38 -0.53  c08090a8"
-    print "    -0.7 1.05 1.47  c0303848\n    0.7 1.05 1.47  c0303848\n    -0.58 1.4 0.93  c0687890\n    0.58 1.4 0.93  c0687890\n}"
+    print "    -0.7 1.02 -1  c0405068\n    0.7 1.02 -1  c0405068\n    -0.58 1.38 -0.53  c08090a8\n    0.58 " \
+        "1.38 -0.53  c08090a8"
+    print "    -0.7 1.05 1.47  c0303848\n    0.7 1.05 1.47  c0303848\n    -0.58 1.4 0.93  c0687890\n    " \
+        "0.58 1.4 0.93  c0687890\n}"
     print "indices car-glass-faces 16 {\n    0 1 2  2 1 3  4 5 6  6 5 7  8 9 10  10 9 11  12 13 14  14 13 15"
     print "    16 17 18  18 17 19  20 21 22  22 21 23\n}"
     shape["car-glass"] = "indexed 12"
@@ -287,7 +298,8 @@ function car_shapes(   n, z, y, x, i, k, j, s) {
 
 function screen_shapes() {
     print "vertices plate position:float2 diffuse:color {"
-    print "    -0.98 0.62  90101828\n    -0.98 0.96  90283850\n    -0.5 0.62  60101828\n    -0.5 0.96  60283850\n}"
+    print "    -0.98 0.62  90101828\n    -0.98 0.96  90283850\n    -0.5 0.62  60101828\n    -0.5 0.96  " \
+        "60283850\n}"
     shape["plate"] = "strip 2"
     print "vertices gauge position:float2 texcoord:float1 {"
     print "    -0.94 0.66  0\n    -0.94 0.69  0\n    -0.56 0.66  1\n    -0.56 0.69  1\n}"
@@ -298,7 +310,7 @@ function screen_shapes() {
     shape["veil"] = "strip 2"
 }
 
-# --- Objects ---------------------------------------------------------------------------------------------------
+# --- Objects ---
 
 function ground(   i, z, s) {
     want(); mesh = "meadow"; paint("grass", "linear", "modulate"); surface(0.9, 0.9, 0.9, 1); lights = "01"
@@ -308,10 +320,12 @@ function ground(   i, z, s) {
         want(); mesh = "road"; paint("asphalt", i < 7 ? "linear" : "point", "modulate"); surface(1, 1, 1, 1)
         lit(0, z - 4, 10, 3); at("scale 7 1 8 translate 0 0 " number(z - 4)); emit()
         for (s = -1; s <= 1; s += 2) {
-            want(); mesh = "pavement-slab"; paint("pavement", i < 7 ? "linear" : "point", "modulate"); surface(1, 1, 1, 1)
+            want(); mesh = "pavement-slab"; paint("pavement", i < 7 ? "linear" : "point", "modulate");
+            surface(1, 1, 1, 1)
             lit(s * 5, z - 4, 9, 3); at("scale 3 1 8 translate " triple(s * 5, 0.12, z - 4)); emit()
             if (i < 9) {
-                want(); mesh = "box"; surface(0.6, 0.6, 0.58, 1); lit(s * 3.5, z - 4, 8, 1); set("shademode", "flat")
+                want(); mesh = "box"; surface(0.6, 0.6, 0.58, 1); lit(s * 3.5, z - 4, 8, 1);
+                set("shademode", "flat")
                 set("normalizenormals", "true")
                 at("scale 0.08 0.07 4 translate " triple(s * 3.5, 0.06, z - 4)); emit()
             }
@@ -321,7 +335,8 @@ function ground(   i, z, s) {
 
 function marks(   i) {
     for (i = 0; i < 16; i++) {
-        want(); unlit(); mesh = "dash"; translucent("srcalpha", "invsrcalpha"); if (i % 4 == 1) set("shademode", "flat")
+        want(); unlit(); mesh = "dash"; translucent("srcalpha", "invsrcalpha");
+        if (i % 4 == 1) set("shademode", "flat")
         at("scale 0.15 1 2.2 translate 0 0.012 " number(5 - 5 * i)); later(-1000 + i)
     }
 }
@@ -334,19 +349,24 @@ function wall_style(i) {
     if (i % 5 == 4) { paint("plaster", "point", "modulate"); surface(0.75, 0.9, 0.72, 1) }
 }
 
-function place(s, x, y, z, scale) { return "scale " scale (s > 0 ? " rotate 180 0 1 0" : "") " translate " triple(x, y, z) }
+function place(s, x, y, z, scale) { return "scale " scale (s > 0 ? " rotate 180 0 1 0" : "") " " \
+    "translate " triple(x, y, z) }
 
-# One window: what is behind it, then the frame with translucent panes; or, cheaper, one opaque picture of both.
+# One window: the room beyond it, then the frame with translucent panes; or, cheaper, one opaque picture of
+# both.
 function window(i, s, x, y, z, style) {
-    want(); if (style == 0) { unlit(); mesh = "panel"; paint("window", "linear", "selectarg1"); clamp(); keep_alpha() }
+    want(); if (style == 0) { unlit(); mesh = "panel"; paint("window", "linear", "selectarg1"); clamp();
+        keep_alpha() }
     if (style == 1) { unlit(); mesh = "interior" }
     if (style == 2) { unlit(); mesh = "dark-interior"; set("zfunc", "less") }
-    if (style == 3) { mesh = "panel"; paint("window", "point", "add"); clamp(); keep_alpha(); surface(0.3, 0.22, 0.1, 1); lights = "0" }
+    if (style == 3) { mesh = "panel"; paint("window", "point", "add"); clamp(); keep_alpha();
+        surface(0.3, 0.22, 0.1, 1); lights = "0" }
     at(place(s, x, y, z, "1 1.3 1.2")); emit()
     if (style != 1 && style != 2) return
     want(); unlit(); mesh = "panel"; paint("window", i % 2 ? "linear" : "point", "selectarg1"); clamp()
     translucent("srcalpha", "invsrcalpha"); if (i % 3 == 0) set("zfunc", "less")
-    if (i % 4 == 1) { set("lighting", "true"); set("colorop", "modulate"); set("alphaop", "modulate"); surface(1, 1, 1, 1); lit(x, z, 9, 2) }
+    if (i % 4 == 1) { set("lighting", "true"); set("colorop", "modulate"); set("alphaop", "modulate");
+        surface(1, 1, 1, 1); lit(x, z, 9, 2) }
     at(place(s, x - s * 0.01, y, z, "1 1.3 1.2")); later(z)
 }
 
@@ -357,7 +377,8 @@ function house(i, s, z,   x, d, l, h, front, floor, k) {
     at(place(s, x, 0, z, triple(d, h, l))); emit()
     if (i % 6 == 3) {
         # A second pass of light where the first pass is visible.
-        translucent("one", "invsrcalpha"); set("zfunc", "equal"); surface(0.4, 0.3, 0.2, 0); set("ambient", "0xff000000")
+        translucent("one", "invsrcalpha"); set("zfunc", "equal"); surface(0.4, 0.3, 0.2, 0);
+        set("ambient", "0xff000000")
         lights = substr(lights, 3); if (lights == "") lights = "0"
         texture = "none"; emit()
     }
@@ -371,26 +392,32 @@ function house(i, s, z,   x, d, l, h, front, floor, k) {
     want(); mesh = "box"; paint("brick", "point", "modulate"); surface(0.9, 0.85, 0.8, 1); lights = "01"
     set("normalizenormals", "true"); set("addressv", "clamp")
     at("scale 0.35 0.9 0.35 translate " triple(x + s * 1.1, h + 2.3, z + (i % 2 ? 2 : -2))); emit()
-    want(); mesh = "panel"; paint("door", i % 3 ? "linear" : "point", "modulate"); clamp(); set("normalizenormals", "true")
+    want(); mesh = "panel"; paint("door", i % 3 ? "linear" : "point", "modulate"); clamp();
+    set("normalizenormals", "true")
     surface(0.8 + 0.2 * (i % 2), 1 - 0.2 * (i % 3), 0.9, 1); lit(front, z, 9, i % 3)
     at(place(s, front - s * 0.02, 1.15, z, "1 2.1 1.05")); emit()
-    want(); mesh = "box"; surface(0.55, 0.55, 0.52, 1); lit(front, z, 7, 1); set("shademode", "flat"); set("normalizenormals", "true")
+    want(); mesh = "box"; surface(0.55, 0.55, 0.52, 1); lit(front, z, 7, 1); set("shademode", "flat");
+    set("normalizenormals", "true")
     at("scale 0.3 0.06 0.7 translate " triple(front - s * 0.3, 0.16, z)); emit()
     for (floor = 0; floor < (h > 4 ? 2 : 1); floor++)
         for (k = -1; k <= 1; k += 2)
-            window(i + floor + (k > 0), s, front - s * 0.02, 1.7 + 2.5 * floor, z + k * 2.2, (i * 5 + floor * 3 + (k > 0) * 2) % 4)
+            window(i + floor + (k > 0), s, front - s * 0.02, 1.7 + 2.5 * floor, z + k * 2.2,
+                (i * 5 + floor * 3 + (k > 0) * 2) % 4)
 }
 
 # The shadow that an object of this size leaves on the ground.
 function blob(x, y, z, w, l) {
-    want(); unlit(); mesh = "patch"; paint("shadow", "linear", "selectarg1"); clamp(); translucent("srcalpha", "invsrcalpha")
+    want(); unlit(); mesh = "patch"; paint("shadow", "linear", "selectarg1"); clamp();
+    translucent("srcalpha", "invsrcalpha")
     at("scale " triple(w, 1, l) " translate " triple(x, y, z)); later(z - 500)
 }
 
 function tree(i, x, z, size,   crown) {
-    want(); mesh = "trunk"; surface(0.34, 0.24, 0.17, 1); lit(x, z, 9, 2); if (i % 2) set("normalizenormals", "true")
+    want(); mesh = "trunk"; surface(0.34, 0.24, 0.17, 1); lit(x, z, 9, 2);
+    if (i % 2) set("normalizenormals", "true")
     at("scale " triple(size, size, size) " translate " triple(x, 0, z)); emit()
-    crown = "scale " triple(1.5 * size, 1.7 * size, 1.5 * size) " rotate " i * 47 " 0 1 0 translate " triple(x, 3.4 * size, z)
+    crown = "scale " triple(1.5 * size, 1.7 * size, 1.5 * size) " rotate " i * 47 " 0 1 0 " \
+        "translate " triple(x, 3.4 * size, z)
     want(); at(crown); surface(0.30 + 0.05 * (i % 3), 0.44 + 0.04 * (i % 2), 0.20, 1); lit(x, z, 10, i % 4)
     set("normalizenormals", "true")
     mesh = i % 3 == 0 ? "leaves" : "rock"
@@ -398,7 +425,8 @@ function tree(i, x, z, size,   crown) {
     if (i % 4 == 2) {
         # Depth first, colour where it is equal: each pixel of the crown is shaded once.
         unlit(); set("colorwriteenable", 0); texture = "none"; emit()
-        set("lighting", "true"); set("colorwriteenable", 15); set("zfunc", "equal"); set("zwriteenable", "false")
+        set("lighting", "true"); set("colorwriteenable", 15); set("zfunc", "equal");
+        set("zwriteenable", "false")
         if (mesh == "leaves") texture = "grass"
     }
     if (i % 5 == 1) set("shademode", "flat")
@@ -409,27 +437,35 @@ function tree(i, x, z, size,   crown) {
 function garden(i, s, z,   k) {
     for (k = 0; k < 2; k++) tree(i + k, s * (8.3 + 3 * k + random()), z - 1.7 + 3.2 * k, between(0.8, 1.15))
     for (k = -1; k <= 1; k++) {
-        want(); mesh = "rock"; surface(0.22, 0.36, 0.16, 1); lit(s * 7, z, 8, k + 1); set("normalizenormals", "true")
+        want(); mesh = "rock"; surface(0.22, 0.36, 0.16, 1); lit(s * 7, z, 8, k + 1);
+        set("normalizenormals", "true")
         if (k == 0) set("shademode", "flat")
-        at("scale 0.75 0.6 0.85 rotate " i * 60 + k * 100 " 0 1 0 translate " triple(s * 7.6, 0.4, z + 2.3 * k)); emit()
+        at("scale 0.75 0.6 0.85 rotate " i * 60 + k * 100 " 0 1 0 translate " triple(s * 7.6, 0.4,
+            z + 2.3 * k)); emit()
     }
-    want(); unlit(); mesh = "palings"; paint("fence", i % 2 ? "linear" : "point", "selectarg1"); set("addressv", "clamp")
+    want(); unlit(); mesh = "palings"; paint("fence", i % 2 ? "linear" : "point", "selectarg1");
+    set("addressv", "clamp")
     set("cullmode", "none"); translucent("srcalpha", "invsrcalpha"); if (i % 3) set("zwriteenable", "true")
     at("scale 1 1 8 translate " triple(s * 6.5, 0.1, z)); later(z)
 }
 
 function lamp(i, x, z,   s) {
     s = x > 0 ? 1 : -1
-    want(); mesh = "post"; surface(0.14, 0.16, 0.17, 1); lit(x, z, 4, 1); if (i % 2) set("normalizenormals", "true")
+    want(); mesh = "post"; surface(0.14, 0.16, 0.17, 1); lit(x, z, 4, 1);
+    if (i % 2) set("normalizenormals", "true")
     at("translate " triple(x, 0.12, z)); emit()
-    want(); mesh = "box"; surface(0.14, 0.16, 0.17, 1); lights = "01"; set("shademode", i % 2 ? "flat" : "gouraud")
+    want(); mesh = "box"; surface(0.14, 0.16, 0.17, 1); lights = "01";
+    set("shademode", i % 2 ? "flat" : "gouraud")
     set("normalizenormals", "true")
     at("scale 0.5 0.04 0.04 translate " triple(x - s * 0.45, 4.68, z)); emit()
-    want(); mesh = "box"; material = "diffuse 0 0 0 1 emissive 1 0.86 0.55 1"; set("cullmode", i % 2 ? "cw" : "none")
+    want(); mesh = "box"; material = "diffuse 0 0 0 1 emissive 1 0.86 0.55 1";
+    set("cullmode", i % 2 ? "cw" : "none")
     at("scale 0.3 0.08 0.14 translate " triple(x - s * 0.9, 4.58, z)); emit()
-    want(); unlit(); mesh = "card"; paint("glow", "linear", "selectarg1"); clamp(); translucent("one", "invsrcalpha")
+    want(); unlit(); mesh = "card"; paint("glow", "linear", "selectarg1"); clamp();
+    translucent("one", "invsrcalpha")
     at("scale 2.6 2.6 1 translate " triple(x - s * 0.9, 4.55, z + 0.2)); later(z + 0.2)
-    want(); unlit(); mesh = "patch"; paint("glow", "linear", "selectarg1"); clamp(); translucent("one", "invsrcalpha")
+    want(); unlit(); mesh = "patch"; paint("glow", "linear", "selectarg1"); clamp();
+    translucent("one", "invsrcalpha")
     if (i % 2) set("colorwriteenable", 3)
     at("scale 5 1 5 translate " triple(x - s * 2.7, 0.02, z)); later(z - 400)
 }
@@ -441,7 +477,8 @@ function car(i, x, z, turn, r, g, b,   k, base, wheel) {
     at("identity" base); emit()
     for (k = 0; k < 4; k++) {
         want(); mesh = "wheel"; surface(0.12, 0.12, 0.13, 1); lit(x, z, 6, k % 2)
-        wheel = "rotate " (k % 2 ? -90 : 90) " 0 0 1 translate " triple(k % 2 ? 0.7 : -0.7, 0.33, k < 2 ? -1.35 : 1.35)
+        wheel = "rotate " (k % 2 ? -90 : 90) " 0 0 1 translate " triple(k % 2 ? 0.7 : -0.7, 0.33,
+            k < 2 ? -1.35 : 1.35)
         at(wheel base); emit()
     }
     want(); unlit(); mesh = "car-glass"; set("cullmode", "none"); translucent("srcalpha", "invsrcalpha")
@@ -452,14 +489,15 @@ function car(i, x, z, turn, r, g, b,   k, base, wheel) {
 
 function stand(name, x, y, z, turn, size) {
     mesh = name; lit(x, z, 9, 3); set("normalizenormals", "true")
-    at("rotate " (name == "teapot" ? -90 : 90) " 1 0 0 rotate " turn " 0 1 0 scale " triple(size, size, size) " translate " triple(x, y, z))
+    at("rotate " (name == "teapot" ? -90 : 90) " 1 0 0 rotate " turn " 0 1 0 scale " triple(size, size,
+        size) " translate " triple(x, y, z))
 }
 
 function beast(name, x, y, z, turn, size, r, g, b, style) {
     want(); surface(r, g, b, 1); stand(name, x, y, z, turn, size); set("shademode", style); emit()
 }
 
-# The same, faintly, where something stands in front of it.
+# The same, faintly, where another object hides it.
 function behind(name, x, y, z, turn, size) {
     want(); surface(0.4, 0.65, 1, 0.4); stand(name, x, y, z, turn, size); lights = "01"
     translucent("srcalpha", "invsrcalpha"); set("zfunc", "greater"); later(z)
@@ -467,10 +505,12 @@ function behind(name, x, y, z, turn, size) {
 
 function things(   i) {
     for (i = 0; i < 7; i++) {
-        want(); mesh = "box"; paint("crate", i % 3 ? "linear" : "point", i % 4 == 3 ? "selectarg1" : "modulate"); surface(1, 1, 1, 1)
+        want(); mesh = "box"; paint("crate", i % 3 ? "linear" : "point",
+            i % 4 == 3 ? "selectarg1" : "modulate"); surface(1, 1, 1, 1)
         lit(5.6, -11, 8, i % 3 + 1); set("normalizenormals", i % 2 ? "true" : "false"); if (i % 2) clamp()
         if (wanted["colorop"] == "selectarg1") unlit()
-        at("scale 0.45 0.45 0.45 rotate " i * 23 " 0 1 0 translate " triple(5.5 + 0.1 * (i % 3), 0.57 + 0.9 * (i > 4), -9.4 - (i % 5) * 1.15)); emit()
+        at("scale 0.45 0.45 0.45 rotate " i * 23 " 0 1 0 translate " triple(5.5 + 0.1 * (i % 3),
+            0.57 + 0.9 * (i > 4), -9.4 - (i % 5) * 1.15)); emit()
         if (i < 5) blob(5.5 + 0.1 * (i % 3), 0.14, -9.4 - i * 1.15, 1.6, 1.6)
     }
     want(); mesh = "box"; paint("marble", "linear", "modulate"); surface(1, 1, 1, 1); lit(-5.2, -17.5, 9, 2)
@@ -481,14 +521,16 @@ function things(   i) {
     beast("horse", 5.2, 1.95, -33, -60, 1, 0.36, 0.46, 0.42, "flat")
     beast("cat", 4.6, 0.52, -4.2, -60, 0.62, 0.86, 0.58, 0.30, "gouraud")
     beast("cat", -4.4, 0.52, -24, 50, 0.6, 0.30, 0.30, 0.32, "flat")
-    beast("cat", 8.4, 0.52, -28.5, 20, 0.62, 0.9, 0.88, 0.84, "gouraud"); behind("cat", 8.4, 0.52, -28.5, 20, 0.62)
+    beast("cat", 8.4, 0.52, -28.5, 20, 0.62, 0.9, 0.88, 0.84, "gouraud");
+    behind("cat", 8.4, 0.52, -28.5, 20, 0.62)
     blob(4.6, 0.14, -4.2, 1.4, 1.4); blob(-4.4, 0.14, -24, 1.4, 1.4)
 
     # A tea shop: the sign is a teapot, the awning is seen from both sides.
     want(); surface(1, 1, 1, 1); paint("porcelain", "linear", "modulate"); set("cullmode", "none")
     stand("teapot", -5.4, 3.75, -12.1, 90, 0.7); emit()
     for (i = 0; i < 6; i++) {
-        want(); unlit(); mesh = "patch"; set("cullmode", "none"); if (i % 2) paint("porcelain", "point", "selectarg1")
+        want(); unlit(); mesh = "patch"; set("cullmode", "none");
+        if (i % 2) paint("porcelain", "point", "selectarg1")
         at("scale 1.5 1 0.66 rotate -18 0 0 1 translate " triple(-5.8, 2.8, -12.1 + 0.66 * (i - 2.5))); emit()
     }
 
@@ -500,9 +542,11 @@ function things(   i) {
     }
     # Three neon discs, each in one channel.
     for (i = 0; i < 3; i++) {
-        want(); unlit(); mesh = "disc"; set("cullmode", "none"); set("colorwriteenable", i == 0 ? 1 : i == 1 ? 2 : 4)
+        want(); unlit(); mesh = "disc"; set("cullmode", "none");
+        set("colorwriteenable", i == 0 ? 1 : i == 1 ? 2 : 4)
         set("zwriteenable", "false")
-        at("scale 0.4 0.4 0.4 rotate 90 0 1 0 translate " triple(-6.46 + 0.01 * i, 2.1 + (i == 0) * 0.4, -28.4 + (i == 1) * 0.45 + (i == 0) * 0.22)); emit()
+        at("scale 0.4 0.4 0.4 rotate 90 0 1 0 translate " triple(-6.46 + 0.01 * i, 2.1 + (i == 0) * 0.4,
+            -28.4 + (i == 1) * 0.45 + (i == 0) * 0.22)); emit()
     }
 }
 
@@ -510,11 +554,14 @@ function things(   i) {
 function sky(   i) {
     call("viewport 0 0 1280 1024 1 1")
     want(); unlit(); mesh = "sky"; set("cullmode", "none"); set("zwriteenable", "false"); emit()
-    want(); unlit(); mesh = "card"; paint("glow", "linear", "selectarg1"); clamp(); translucent("one", "invsrcalpha"); set("zfunc", "equal")
+    want(); unlit(); mesh = "card"; paint("glow", "linear", "selectarg1"); clamp();
+    translucent("one", "invsrcalpha"); set("zfunc", "equal")
     at("scale 210 210 1 translate -22 14 -390"); emit()
     for (i = 0; i < 7; i++) {
-        want(); unlit(); mesh = "cloud"; paint("shadow", "linear", "add"); clamp(); translucent("srcalpha", "invsrcalpha"); set("zfunc", "equal")
-        at("scale " triple(between(70, 150), between(9, 18), 1) " translate " triple(-190 + 62 * i, 70 + 75 * random(), -390)); emit()
+        want(); unlit(); mesh = "cloud"; paint("shadow", "linear", "add"); clamp();
+        translucent("srcalpha", "invsrcalpha"); set("zfunc", "equal")
+        at("scale " triple(between(70, 150), between(9, 18), 1) " translate " triple(-190 + 62 * i,
+            70 + 75 * random(), -390)); emit()
     }
     want(); unlit(); mesh = "veil"; translucent("srcalpha", "invsrcalpha"); set("zfunc", "notequal"); emit()
     call("viewport 0 0 1280 1024 0 1")
@@ -523,12 +570,16 @@ function sky(   i) {
 # The screen's corner: a plate, a gauge, and a teapot in a viewport whose depth runs the other way.
 function screen() {
     call("transform view identity"); call("transform projection identity")
-    want(); unlit(); mesh = "plate"; set("zenable", "false"); set("cullmode", "none"); translucent("srcalpha", "invsrcalpha"); emit()
-    want(); unlit(); mesh = "gauge"; set("zenable", "false"); set("cullmode", "none"); paint("scale", "point", "selectarg1"); clamp(); emit()
+    want(); unlit(); mesh = "plate"; set("zenable", "false"); set("cullmode", "none");
+    translucent("srcalpha", "invsrcalpha"); emit()
+    want(); unlit(); mesh = "gauge"; set("zenable", "false"); set("cullmode", "none");
+    paint("scale", "point", "selectarg1"); clamp(); emit()
     call("transform projection perspective-rh 30 1.5 1 10"); call("viewport 40 40 240 130 1 0")
     call("clear depth 0")
-    want(); mesh = "teapot"; surface(0.95, 0.8, 0.4, 1); material = material " emissive 0.15 0.12 0.06 1"; lights = "1"; set("zfunc", "greaterequal"); set("cullmode", "none")
-    set("normalizenormals", "true"); at("rotate -90 1 0 0 rotate 35 0 1 0 rotate 20 1 0 0 translate 0 -0.05 -3.6"); emit()
+    want(); mesh = "teapot"; surface(0.95, 0.8, 0.4, 1); material = material " emissive 0.15 0.12 0.06 1";
+    lights = "1"; set("zfunc", "greaterequal"); set("cullmode", "none")
+    set("normalizenormals", "true"); at("rotate -90 1 0 0 rotate 35 0 1 0 rotate 20 1 0 0 translate 0 " \
+        "-0.05 -3.6"); emit()
     call("viewport 0 0 1280 1024 0 1")
 }
 
@@ -536,7 +587,8 @@ function animate(   f, t, x, y, z) {
     for (f = 0; f < 60; f++) {
         t = f / 59; x = 1.1 + 1.5 * sin(6.0 * t); y = 2.1 + 2.2 * t * t * (3 - 2 * t); z = 9.5 - 40 * t
         print "transform projection perspective-rh 52 1.25 0.2 600"
-        print "transform view lookat-rh " triple(x, y, z) "  " triple(x * 0.3 - 0.9 + 1.5 * sin(4 * t), 2.5 - 0.9 * t, z - 16) "  0 1 0"
+        print "transform view lookat-rh " triple(x, y, z) "  " triple(x * 0.3 - 0.9 + 1.5 * sin(4 * t),
+            2.5 - 0.9 * t, z - 16) "  0 1 0"
         print "clear color 0 0 0 1 depth 1\nplay street\nframe"
     }
 }
@@ -545,7 +597,8 @@ function prologue(   i) {
     print "triptych 1"
     print "# A street at dusk, written by bench/generate-street.awk, which explains it.\n"
     print "target 1280 1024"
-    for (i = 1; i <= split("asphalt brick door fence glow grass marble pavement plaster porcelain roof shadow window", texture_file, " "); i++)
+    for (i = 1; i <= split("asphalt brick door fence glow grass marble pavement plaster porcelain roof " \
+        "shadow window", texture_file, " "); i++)
         print "texture " texture_file[i] " file \"assets/" texture_file[i] ".png\""
     print "texture crate file \"../../build/glmark2/textures/crate-base.png\""
     print "texture picture file \"../../build/glmark2/textures/effect-2d.png\""
@@ -560,15 +613,20 @@ function prologue(   i) {
     print "light 0 directional diffuse 0.85 0.52 0.30 1 direction 0.35 -0.30 0.85"
     print "light 1 directional diffuse 0.26 0.30 0.42 1 direction -0.25 -0.55 -0.75"
     for (i = 0; i < lamps; i++)
-        print "light " (i + 2) " point diffuse 1 0.72 0.38 1 position " triple(lamp_x[i] * 0.82, 4.4, lamp_z[i]) " range 16 attenuation 0.35 0.06 0.045"
+        print "light " (i + 2) " point diffuse 1 0.72 0.38 1 position " triple(lamp_x[i] * 0.82, 4.4,
+            lamp_z[i]) " range 16 attenuation 0.35 0.06 0.045"
 }
 
 BEGIN {
     seed = 2007; pi = atan2(0, -1); lamps = 6
     for (i = 0; i < lamps; i++) { lamp_x[i] = i % 2 ? 4.4 : -4.4; lamp_z[i] = -1 - 12 * i }
-    state_count = split("cullmode shademode lighting normalizenormals ambient zenable zwriteenable zfunc alphablendenable srcblend destblend colorwriteenable colorop alphaop magfilter minfilter addressu addressv", state_name, " ")
-    split("cw gouraud true false 0xff62667c true true lessequal false one zero 15 modulate selectarg1 linear linear wrap wrap", state_default, " ")
-    for (i = 1; i <= state_count; i++) table[state_name[i]] = i <= 12 ? "state" : i <= 14 ? "stage 0" : "sampler 0"
+    state_count = split("cullmode shademode lighting normalizenormals ambient zenable zwriteenable zfunc " \
+        "alphablendenable srcblend destblend colorwriteenable colorop alphaop magfilter minfilter addressu " \
+        "addressv", state_name, " ")
+    split("cw gouraud true false 0xff62667c true true lessequal false one zero 15 modulate selectarg1 " \
+        "linear linear wrap wrap", state_default, " ")
+    for (i = 1; i <= state_count; i++) table[state_name[i]] = i <= 12 ? "state" : i <= 14 ? "stage " \
+        "0" : "sampler 0"
     prologue()
     print "sequence street"
     for (i = 0; i < 8; i++) { call("light " i " off"); light_is[i] = 0 }
@@ -579,8 +637,10 @@ BEGIN {
     }
     marks()
     for (i = 0; i < lamps; i++) lamp(i, lamp_x[i], lamp_z[i])
-    car(0, -2.6, 0.5, 0, 0.65, 0.12, 0.10); car(1, 2.6, -8, 0, 0.16, 0.30, 0.55); car(2, -2.6, -20, 180, 0.75, 0.72, 0.66)
-    car(3, 2.6, -26, 0, 0.20, 0.42, 0.26); car(4, -2.6, -38, 180, 0.70, 0.55, 0.15); car(5, 2.6, -44, 2, 0.3, 0.3, 0.34)
+    car(0, -2.6, 0.5, 0, 0.65, 0.12, 0.10); car(1, 2.6, -8, 0, 0.16, 0.30, 0.55);
+    car(2, -2.6, -20, 180, 0.75, 0.72, 0.66)
+    car(3, 2.6, -26, 0, 0.20, 0.42, 0.26); car(4, -2.6, -38, 180, 0.70, 0.55, 0.15);
+    car(5, 2.6, -44, 2, 0.3, 0.3, 0.34)
     car(6, -1.6, -58, 180, 0.8, 0.8, 0.82)
     for (i = 0; i < 6; i++) tree(i, i % 2 ? 5.7 : -5.7, -1.5 - 13 * i, 0.75)
     things()

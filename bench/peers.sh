@@ -5,19 +5,21 @@
 #
 # In the environment:
 #   WORKLOAD=glob     which workloads (bench/peers/workload.def); all
-#   PEERS="name..."   which renderers, engines included, by glob; with -all behind it on all cores. Default: softpipe, llvmpipe,
-#                     swiftshader, swgl and swgl-span, emulate, batch, stitch, specialize, and on all cores llvmpipe,
-#                     swiftshader, stitch, specialize.
-#                     NAME=COMMAND is a program of yours that speaks as peer.h says (spaces as commas).
+#   PEERS="name..."   which renderers, engines included, by glob; with the suffix -all on all cores. Default:
+#                     softpipe, llvmpipe, swiftshader, swgl and swgl-span, emulate, batch, stitch, specialize,
+#                     and on all cores llvmpipe, swiftshader, stitch, specialize.
+#                     NAME=COMMAND is your program with the protocol of peer.h (spaces as commas).
 #   PASSES=n          5
-#   CLOCK=time        one core's times by the wall's clock; else by the processor's, which other processes disturb less
-#   PRIORITY=1        real-time priority of the renderers (chrt -f), for a machine that is busy with what can wait
+#   CLOCK=time        one core's times by the wall's clock; else by the processor's, which other processes
+#                     disturb less
+#   PRIORITY=1        real-time priority of the renderers (chrt -f), for a machine that is busy with what can
+#                     wait
 #   QUICK=1           one pass of short samples
 #   SWGL=program      what bench/swgl.sh builds
 #   SWIFTSHADER=dir   where ANGLE's libEGL.so and libGLESv2.so lie, with libvk_swiftshader.so
 #
-# Writes results/peers.txt, .json and .svg (RESULTS). Ends with 1 when a picture differs or a renderer failed, and tells
-# which renderers are missing.
+# Writes results/peers.txt, .json and .svg (RESULTS). Ends with 1 if a picture differs or a renderer failed,
+# and lists the missing renderers. The suffix -avx2 of an engine hides AVX-512 from it.
 set -euo pipefail
 cd "$(dirname "$0")/.."
 
@@ -25,12 +27,13 @@ build=${BUILD:-build}
 results=${RESULTS:-results}
 mkdir -p "$results" "$build/peers"
 cores=$(nproc)
-wanted=(${PEERS:-softpipe llvmpipe swiftshader swgl swgl-span emulate batch stitch specialize
+wanted=(${PEERS:-softpipe llvmpipe swiftshader swgl swgl-span emulate batch stitch specialize specialize-avx2
     llvmpipe-all swiftshader-all stitch-all specialize-all})
 engines=$("$build/triptych" list engines | awk 'NR > 1 && $3 == "available" { print $1 }')
 
 nice=${PRIORITY:+chrt -f $PRIORITY }
-mesa=(env EGL_PLATFORM=surfaceless LIBGL_ALWAYS_SOFTWARE=1 MESA_SHADER_CACHE_DISABLE=true __EGL_VENDOR_LIBRARY_FILENAMES=)
+mesa=(env EGL_PLATFORM=surfaceless LIBGL_ALWAYS_SOFTWARE=1 MESA_SHADER_CACHE_DISABLE=true \
+    __EGL_VENDOR_LIBRARY_FILENAMES=)
 for file in /usr/share/glvnd/egl_vendor.d/*mesa*.json; do
     [[ -f $file ]] && mesa[-1]=__EGL_VENDOR_LIBRARY_FILENAMES=$file
 done
@@ -77,8 +80,10 @@ renderer() # NAME one|all : its line for the driver
             fi
             ;;
         *)
-            if grep -qx "$1" <<<"$engines"; then
-                echo "$1 engine $2 $nice$build/peers/triptych $1 $threads bench/streams/micro"
+            local engine=${1%-avx2} features=
+            [[ $engine == "$1" ]] || features='env TRIPTYCH_CPU=-avx512f '
+            if grep -qx "$engine" <<<"$engines"; then
+                echo "$1 engine $2 $nice$features$build/peers/triptych $engine $threads bench/streams/micro"
             else
                 echo "$1 engine $2 missing no engine of that name runs here"
             fi
@@ -89,7 +94,7 @@ renderer() # NAME one|all : its line for the driver
 renderers()
 {
     local name known
-    known="softpipe llvmpipe swiftshader swgl swgl-span $engines"
+    known="softpipe llvmpipe swiftshader swgl swgl-span $engines specialize-avx2"
     for name in "${wanted[@]}"; do
         if [[ $name == *=* ]]; then
             local command=${name#*=}
@@ -113,7 +118,8 @@ options=()
 [[ -z ${CLOCK-} ]] || options+=(--clock "$CLOCK")
 
 status=0
-renderers | "$build/peers/drive" --folder "$build/peers" --text "$results/peers.txt" --json "$results/peers.json" \
+renderers | "$build/peers/drive" --folder "$build/peers" --text "$results/peers.txt" --json \
+    "$results/peers.json" \
     --csv "$build/peers/chart.csv" "${options[@]}" "$@" || status=$?
 if ((status < 2)) && [[ $(wc -l <"$build/peers/chart.csv") -gt 1 ]]; then
     gnuplot -c bench/peers/chart.gnuplot "$build/peers/chart.csv" "$results/peers.svg" "$results/peers.png" \

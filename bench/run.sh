@@ -6,12 +6,14 @@
 #   bench.json, bench.csv   every stream with every engine, inside one process (triptych bench)
 #   bench.svg, bench.png    the table as a chart
 #   hyperfine.json          one stream with every engine, as whole processes: start, read, build, draw, write
-#   baselines.json, .csv    the engines that run only where they are named: batches of other sizes, and the system's
-#                           compiler (docs/baselines.md)
-#   verify.json             the last check
+#   baselines.json, .csv    the engines that run only if named: other batch sizes and the system's compiler
+#                           (docs/baselines.md)
+#   builds.json             what building each routine takes, over the states of all streams of the project
+#   cold.json               what the first frames of a new device take, against the same frames again
+#   verify.json             the comparison of all pictures
 #
-# Last, every engine's pictures are compared: the final line says "N streams, N engines, identical", or the run
-# fails, for a wrong picture drawn fast is worth nothing.
+# The last step compares the pictures of all engines. Its last line is "N streams, N engines, identical";
+# otherwise the run fails.
 set -euo pipefail
 cd "$(dirname "$0")/.."
 
@@ -32,7 +34,13 @@ baselines=$("$triptych" list engines |
 "$triptych" bench bench/streams/{teapot-bilinear,bunny,cat}.tri --frames 1 --seconds 2 \
     --engines "$baselines" --json "$results/baselines.json" --csv "$results/baselines.csv"
 
-# The engines that could run here are those with a row.
+"$triptych" bench --builds --repetitions 15 --engines stitch,specialize-thesis,specialize-8,specialize \
+    --json "$results/builds.json" \
+    {bench/streams,bench/streams/micro,tests/data/streams,tests/data/scenes,tests/data/shading,tests/data/regressions}/*.tri
+"$triptych" bench --cold --frames 6 --engines stitch,specialize,tiered --json "$results/cold.json" \
+    "$process_stream"
+
+# The engines that can run here have a row.
 mapfile -t measured < <(awk -F, '
     NR == 1 { for (i = 1; i <= NF; i++) if ($i == "engine") column = i; next }
     column && !seen[$column]++ { print $column }' "$results/bench.csv")

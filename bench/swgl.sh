@@ -1,6 +1,7 @@
 #!/bin/bash
-# Builds Mozilla's swgl into a renderer for `make peers`: the crates swgl and glsl-to-cxx (MPL 2.0) from crates.io, which
-# translate GLSL to C++ when they are built, and bench/peers/swgl.cc. Needs cargo and clang++.
+# Builds Mozilla's swgl into a renderer for `make peers`: the crates swgl and glsl-to-cxx (MPL 2.0) from
+# crates.io, which translate GLSL to C++ when they are built, and bench/peers/swgl.cc. Needs cargo and
+# clang++.
 #
 #   bench/swgl.sh [FOLDER]    build/swgl
 set -euo pipefail
@@ -40,7 +41,8 @@ sources=$(cargo metadata --format-version 1 --features sources --manifest-path "
 sources=${sources%/Cargo.toml}/src
 [[ -f $sources/gl.cc ]] || { echo "swgl: no sources of swgl $version" >&2 && exit 1; }
 
-# The shaders of bench/peers/gles_shader.c, as far as swgl takes part, in the GLSL that it translates; its powers below 2^-126 are none.
+# The shaders of bench/peers/gles_shader.c, as far as swgl takes part, in the GLSL that it translates; its
+# powers below 2^-126 are none.
 shaders=()
 shader() # NAME VERTEX PIXEL
 {
@@ -86,14 +88,16 @@ void main(void) {
 {
     printf '#include "%s.h"\n' "${shaders[@]}"
     echo 'ProgramLoader load_shader(const char* name) {'
-    for name in "${shaders[@]}"; do echo "  if (!strcmp(name, \"$name\")) return ${name}_program::loader;"; done
+    for name in "${shaders[@]}"; do echo "  if (!strcmp(name, \"$name\")) return ${name}_program::loader;"; \
+        done
     echo '  return nullptr;'
     echo '}'
 } >"$folder/shaders/load_shader.h"
 
 # The flags of swgl's own build.
 clang++ -std=c++20 -O2 -DNDEBUG -fno-exceptions -fno-rtti -fno-math-errno -ffast-math -mrecip=none \
-    -fno-finite-math-only -w -I"$sources" -I"$folder/shaders" -Ibench/peers -c bench/peers/swgl.cc -o "$folder/swgl.o"
+    -fno-finite-math-only -w -I"$sources" -I"$folder/shaders" -Ibench/peers -c bench/peers/swgl.cc -o \
+        "$folder/swgl.o"
 for part in peer workload; do
     clang -std=gnu17 -O2 -c "bench/peers/$part.c" -o "$folder/$part.o"
 done

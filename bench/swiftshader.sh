@@ -1,7 +1,7 @@
 #!/bin/bash
 # Fetches ANGLE with SwiftShader into a folder, for `make peers`: the libraries that come with the npm package
-# @sparticuz/chromium (Apache and BSD licences). Needs npm and node. Debian's chromium has SwiftShader, but only
-# stubs of ANGLE's libEGL and libGLESv2.
+# @sparticuz/chromium (Apache and BSD licences). Needs npm and node. Debian's chromium has SwiftShader, but
+# only stubs of ANGLE's libEGL and libGLESv2.
 #
 #   bench/swiftshader.sh [FOLDER]    build/swiftshader
 set -euo pipefail
@@ -13,7 +13,8 @@ work=$(mktemp -d)
 trap 'rm -rf "$work"' EXIT
 
 for tool in npm node; do
-    command -v "$tool" >/dev/null || { echo "swiftshader: no $tool, which fetches and unpacks it" >&2 && exit 1; }
+    command -v "$tool" >/dev/null || { echo "swiftshader: no $tool, which fetches and unpacks it" >&2 &&
+        exit 1; }
 done
 npm pack "$package" --silent --pack-destination "$work" >/dev/null
 tar -xzf "$work"/*.tgz -C "$work" package/bin/swiftshader.tar.br package/LICENSE

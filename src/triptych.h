@@ -1,16 +1,19 @@
 /* Triptych: a software renderer of the Direct3D 9 class whose pipeline runs on interchangeable engines.
  *
- * A device records state and draws, and renders them with the engine it was created with. Every engine gives
- * the same bytes. Calls on one device are made by one thread at a time; rendering itself uses the device's
- * threads.
+ * A device stores state and draws, and renders them with the engine it was created with. All engines produce
+ * the same bytes. Only one thread at a time may call functions of a device. Rendering uses the threads of the
+ * device.
  *
- * Conventions: row vectors (p' = p * M, matrices are m[row][column]); clip depth 0 to w; window y down, pixel
- * centres at half-integers (both unless triptych_set_convention says otherwise), top-left fill rule; colours
- * are red, green, blue, alpha from 0 to 1, or packed 0xAARRGGBB where said; images are rows from the top of
- * RGBA8 words, red in the lowest byte.
+ * Conventions:
+ * - Vectors are rows: p' = p * M. Matrices are m[row][column].
+ * - Clip depth is 0 to w, unless triptych_set_convention changes it.
+ * - In the window y points down, and the fill rule is top-left. Pixel centres are at half-integers, unless
+ *   triptych_set_convention changes it.
+ * - Colours are red, green, blue, alpha from 0 to 1. Packed colours are 0xAARRGGBB.
+ * - Images are rows of RGBA8 words from the top, with red in the lowest byte.
  *
- * Errors: a call that fails returns something else than TRIPTYCH_OK, changes nothing, and triptych_error()
- * gives one line that says what was wrong and what was expected. */
+ * Errors: a call that fails returns a value other than TRIPTYCH_OK and changes nothing. triptych_error() then
+ * returns one line with the cause and the expected input. */
 #ifndef TRIPTYCH_H
 #define TRIPTYCH_H
 
@@ -31,9 +34,9 @@ extern "C" {
 
 enum triptych_result {
     TRIPTYCH_OK = 0,
-    TRIPTYCH_BAD_ARGUMENT, /* out of range, not finite, unknown */
-    TRIPTYCH_BAD_CALL,     /* not possible in this state: no target, index past the buffer, ... */
-    TRIPTYCH_UNSUPPORTED,  /* a state or value that Direct3D 9 has and this version does not */
+    TRIPTYCH_BAD_ARGUMENT, /* out of range, not finite, or unknown */
+    TRIPTYCH_BAD_CALL,     /* invalid in the current state, such as a draw without a target */
+    TRIPTYCH_UNSUPPORTED,  /* a state or value of Direct3D 9 that this version does not implement */
     TRIPTYCH_NO_MEMORY,
     TRIPTYCH_ENGINE_FAILED, /* the engine cannot run here or could not build a routine */
     TRIPTYCH_FILE_FAILED    /* a recording could not be written */
@@ -43,26 +46,26 @@ typedef struct triptych_device triptych_device;
 typedef struct triptych_buffer triptych_buffer;   /* vertices or indices */
 typedef struct triptych_texture triptych_texture; /* 2D, cube or volume, with levels */
 typedef struct triptych_shader triptych_shader;   /* of vertices or pixels */
-typedef struct triptych_query triptych_query;     /* what the device finds out while it renders */
+typedef struct triptych_query triptych_query;     /* a measurement during rendering */
 
-/* States, in three tables: of the device, of each sampler, of each texture stage. */
+/* States, in three tables: render states, sampler states and texture stage states. */
 enum triptych_state {
-#define STATE(number, name, kind, initial, units, support, test, meaning) TRIPTYCH_STATE_##name,
-#include "def/state.def"
+#define STATE(number, name, ...) TRIPTYCH_STATE_##name,
+#include "def/state/state.def"
 #undef STATE
     TRIPTYCH_STATE_COUNT
 };
 
 enum triptych_sampler_state {
-#define SAMPLER_STATE(number, name, kind, initial, units, support, test, meaning) TRIPTYCH_SAMPLER_##name,
-#include "def/sampler_state.def"
+#define SAMPLER_STATE(number, name, ...) TRIPTYCH_SAMPLER_##name,
+#include "def/state/sampler_state.def"
 #undef SAMPLER_STATE
     TRIPTYCH_SAMPLER_STATE_COUNT
 };
 
 enum triptych_stage_state {
-#define STAGE_STATE(number, name, kind, initial, units, support, test, meaning) TRIPTYCH_STAGE_##name,
-#include "def/stage_state.def"
+#define STAGE_STATE(number, name, ...) TRIPTYCH_STAGE_##name,
+#include "def/state/stage_state.def"
 #undef STAGE_STATE
     TRIPTYCH_STAGE_STATE_COUNT
 };
@@ -74,7 +77,7 @@ enum triptych_state_table {
     TRIPTYCH_STATE_TABLE_COUNT
 };
 
-/* Samplers 0 to 15 are those of pixels, the last four of vertex shaders (s0 to s3). */
+/* Samplers 0 to 15 belong to pixels. The last four are s0 to s3 of vertex shaders. */
 enum { TRIPTYCH_VERTEX_SAMPLER = 16, TRIPTYCH_SAMPLERS = 20, TRIPTYCH_STAGES = 8 };
 
 enum triptych_transform {
@@ -86,19 +89,19 @@ enum triptych_transform {
     TRIPTYCH_TRANSFORM_COUNT = TRIPTYCH_TRANSFORM_WORLD1 + 255
 };
 
-/* What the fixed-function pipeline reads of a vertex. */
+/* Vertex attributes of the fixed-function pipeline. */
 enum triptych_attribute {
 #define ATTRIBUTE(name, word, usage, index, meaning) TRIPTYCH_##name,
-#include "def/attribute.def"
+#include "def/state/attribute.def"
 #undef ATTRIBUTE
     TRIPTYCH_ATTRIBUTE_COUNT
 };
 
-/* How an attribute lies in memory: Direct3D 9's D3DDECLTYPE, plus 1. */
+/* Memory formats of vertex attributes: Direct3D 9's D3DDECLTYPE, plus 1. */
 enum triptych_format {
-    TRIPTYCH_FORMAT_NONE, /* attribute not given */
+    TRIPTYCH_FORMAT_NONE, /* the attribute is absent */
 #define VERTEX_TYPE(name, word, components, encoding, bits, divisor, meaning) TRIPTYCH_FORMAT_##name,
-#include "def/vertex_type.def"
+#include "def/state/vertex_type.def"
 #undef VERTEX_TYPE
     TRIPTYCH_FORMAT_COUNT
 };
@@ -124,17 +127,16 @@ enum triptych_usage {
 
 /* How indexed draws step through a stream (Direct3D 9's stream frequency). */
 enum triptych_frequency {
-    TRIPTYCH_FREQUENCY_VERTEX,   /* with the vertex */
-    TRIPTYCH_FREQUENCY_INDEXED,  /* with the vertex; stream 0: everything is drawn `count` times */
-    TRIPTYCH_FREQUENCY_INSTANCE, /* with the instance: the next vertex after each `count` instances */
+    TRIPTYCH_FREQUENCY_VERTEX,   /* once per vertex */
+    TRIPTYCH_FREQUENCY_INDEXED,  /* once per vertex; on stream 0 also the number of instances, `count` */
+    TRIPTYCH_FREQUENCY_INSTANCE, /* once per `count` instances */
     TRIPTYCH_FREQUENCY_COUNT
 };
 
-/* Formats of textures and targets, by Direct3D 9's numbers; def/format.def says what each is. */
+/* Formats of textures and targets, by Direct3D 9's numbers. def/state/format.def describes them. */
 enum triptych_surface_format {
-#define FORMAT(name, number, bytes, side, storage, roles, coding, red, green, blue, alpha)                   \
-    TRIPTYCH_SURFACE_##name = number,
-#include "def/format.def"
+#define FORMAT(name, number, ...) TRIPTYCH_SURFACE_##name = number,
+#include "def/state/format.def"
 #undef FORMAT
 };
 
@@ -155,22 +157,23 @@ enum triptych_face {
     TRIPTYCH_FACE_NEGATIVE_Z
 };
 
-/* Formats of the depth surface (def/depth_format.def); TRIPTYCH_DEPTH_none is no surface. */
+/* Formats of the depth surface (def/state/depth_format.def). TRIPTYCH_DEPTH_none means no depth surface. */
 enum triptych_depth_format {
-#define DEPTH_FORMAT(name, storage, depth_bits, stencil_bits, meaning) TRIPTYCH_DEPTH_##name,
-#include "def/depth_format.def"
+#define DEPTH_FORMAT(name, ...) TRIPTYCH_DEPTH_##name,
+#include "def/state/depth_format.def"
 #undef DEPTH_FORMAT
     TRIPTYCH_DEPTH_COUNT
 };
 
-/* What triptych_clear_buffers sets. */
+/* Flags of triptych_clear_buffers. */
 enum { TRIPTYCH_CLEAR_COLOR = 1, TRIPTYCH_CLEAR_DEPTH = 2, TRIPTYCH_CLEAR_STENCIL = 4 };
 
 enum triptych_query_type {
-    TRIPTYCH_QUERY_OCCLUSION, /* samples that passed alpha, stencil and depth test between begin and end */
-    TRIPTYCH_QUERY_EVENT,     /* 1 once everything before its end is rendered */
-    TRIPTYCH_QUERY_TIMESTAMP, /* nanoseconds of a monotonic clock when everything before its end was rendered
-                               */
+    /* samples that passed the alpha, stencil and depth tests between begin and end */
+    TRIPTYCH_QUERY_OCCLUSION,
+    TRIPTYCH_QUERY_EVENT, /* 1 after everything before the end of the query is rendered */
+    /* time on a monotonic clock, in nanoseconds, when everything before its end was rendered */
+    TRIPTYCH_QUERY_TIMESTAMP,
     TRIPTYCH_QUERY_COUNT
 };
 
@@ -184,7 +187,7 @@ enum triptych_primitive {
     TRIPTYCH_PRIMITIVE_COUNT
 };
 
-/* Where interfaces differ: the first value of each is what a device begins with. */
+/* Conventions that differ between graphics interfaces. The first value of each is the default. */
 enum triptych_convention {
     TRIPTYCH_PIXEL_CENTER,
     TRIPTYCH_DEPTH_RANGE,
@@ -192,16 +195,16 @@ enum triptych_convention {
     TRIPTYCH_CONVENTION_COUNT
 };
 enum triptych_pixel_center {
-    TRIPTYCH_PIXEL_CENTER_HALF,   /* pixel 0's centre is at 0.5, as in Direct3D 10 and OpenGL */
-    TRIPTYCH_PIXEL_CENTER_INTEGER /* at 0, as in Direct3D 9 */
+    TRIPTYCH_PIXEL_CENTER_HALF,   /* the centre of pixel 0 is at 0.5, as in Direct3D 10 and OpenGL */
+    TRIPTYCH_PIXEL_CENTER_INTEGER /* the centre of pixel 0 is at 0, as in Direct3D 9 */
 };
 enum triptych_depth_range {
     TRIPTYCH_DEPTH_RANGE_ZERO, /* clip depth from 0 to w, as in Direct3D */
     TRIPTYCH_DEPTH_RANGE_MINUS /* from -w to w, as in OpenGL */
 };
 enum triptych_multiply {
-    TRIPTYCH_MULTIPLY_IEEE,  /* shaders multiply as IEEE 754 says */
-    TRIPTYCH_MULTIPLY_LEGACY /* 0 times anything is 0 in shaders, also infinity and NaN */
+    TRIPTYCH_MULTIPLY_IEEE,  /* shaders multiply according to IEEE 754 */
+    TRIPTYCH_MULTIPLY_LEGACY /* in shaders 0 times any value is 0, also infinity and NaN */
 };
 
 enum triptych_light_type { TRIPTYCH_LIGHT_DIRECTIONAL, TRIPTYCH_LIGHT_POINT, TRIPTYCH_LIGHT_SPOT };
@@ -216,50 +219,52 @@ enum {
 };
 enum { TRIPTYCH_STREAMS = 16, TRIPTYCH_DECLARATION_ELEMENTS = 64, TRIPTYCH_USAGE_INDICES = 16 };
 
-/* What a shader shades. */
+/* Shader stages. */
 enum triptych_shader_stage { TRIPTYCH_SHADER_VERTEX, TRIPTYCH_SHADER_PIXEL, TRIPTYCH_SHADER_STAGE_COUNT };
 
-/* Registers of shader constants, of each stage. Shaders can read the first 256 floats (pixel shaders 224, in models
- * below 3.0 fewer) and 16 integers, those of the models for software (vs_2_sw, ps_3_sw) all of them. */
+/* Constant registers of each stage. Vertex shaders can read the first 256 floats and 16 integers, pixel
+ * shaders the first 224 floats and 16 integers, and fewer floats in models below 3.0. The software models
+ * vs_2_sw and ps_3_sw can read all floats and integers. */
 enum { TRIPTYCH_SHADER_FLOATS = 8192, TRIPTYCH_SHADER_INTEGERS = 2048, TRIPTYCH_SHADER_BOOLEANS = 16 };
 
 struct triptych_options {
-    const char *engine; /* name as listed by triptych_engine_name(); null: "specialize" */
-    unsigned threads;   /* rendering threads, the caller's included; 0: as many as the process may run on */
-    size_t cache_bytes; /* budget of the routine cache: beyond it, what is not in use leaves; 0: 16 MiB */
-    int measure;        /* nonzero: time the calls of each routine (triptych_get_routine) */
+    const char *engine; /* a name that triptych_engine_name() returns; null: "specialize" */
+    unsigned threads;   /* rendering threads, including the caller's; 0: one per available processor */
+    size_t cache_bytes; /* budget of the routine cache, beyond which unused routines are evicted; 0: 16 MiB */
+    int measure;        /* nonzero: measure the time of each routine (triptych_get_routine) */
     const char
-        *debug; /* who is told of generated code: words of def/debug.def, comma-separated; null: those of the
-                         * environment's TRIPTYCH_DEBUG */
+        /* Receivers of information about generated code: words of def/debug.def, separated by commas. Null:
+         * the value of the environment variable TRIPTYCH_DEBUG. */
+        *debug;
 };
 
-/* A render target: one to four colours, each of a format that can be a target (def/format.def), and depth.
- * Zero in a field means what triptych_set_target gives: one colour, A8R8G8B8. What is drawn goes to all of
- * them. */
+/* A render target: one to four colours and depth. Each colour format must be valid for targets
+ * (def/state/format.def). Draws write all colours. A field that is 0 has the value that triptych_set_target
+ * uses: one colour, A8R8G8B8. */
 struct triptych_target_description {
     unsigned width, height; /* pixels, 1 to 8192 */
     enum triptych_depth_format depth_format;
     enum triptych_surface_format color_format[TRIPTYCH_TARGETS];
-    unsigned samples; /* per pixel: 1 (or 0), or with one colour target 2, 4 or 8 */
+    unsigned samples; /* samples per pixel: 0 or 1; with one colour also 2, 4 or 8 */
 };
 
-/* One image of a texture: a level, of the face of a cube or the slice of a volume that `slice` numbers.
- * Without a texture it is colour target number `slice` of the target that triptych_set_target made, where
- * that is allowed, and no surface elsewhere. */
+/* One image of a texture: a level and, for a cube or volume, the face or slice `slice`. Functions that accept
+ * the target take a null texture as colour number `slice` of the target that triptych_set_target made. For
+ * other functions a null texture means no surface. */
 struct triptych_surface {
     triptych_texture *texture;
     unsigned level, slice;
 };
 
-/* Surfaces to draw to, all of one size, none of them twice. Without a depth texture the target has depth of
- * its own, which begins anew; a texture of a depth format brings its contents, stencil 0. */
+/* Surfaces to draw to. They have one size, and all are different. Without a depth texture the target has its
+ * own depth surface, which is cleared first. A depth texture provides its contents, with stencil 0. */
 struct triptych_target_textures {
     struct triptych_surface color[TRIPTYCH_TARGETS];
     struct triptych_surface depth;
-    enum triptych_depth_format depth_format; /* without a depth texture */
+    enum triptych_depth_format depth_format; /* only without a depth texture */
 };
 
-/* Part of an image, in pixels. */
+/* A part of an image, in pixels. */
 struct triptych_rectangle {
     unsigned x, y, width, height;
 };
@@ -269,30 +274,31 @@ enum triptych_copy_filter { TRIPTYCH_COPY_POINT, TRIPTYCH_COPY_LINEAR, TRIPTYCH_
 /* One element of a vertex declaration. */
 struct triptych_declaration_element {
     unsigned stream; /* 0 to 15 */
-    size_t offset;   /* bytes from the vertex's start in its stream, a multiple of 4, at most 65532 */
+    size_t offset;   /* bytes from the start of the vertex, a multiple of 4, at most 65532 */
     enum triptych_format format;
     enum triptych_usage usage;
     unsigned usage_index; /* 0 to 15 */
 };
 
-/* An attribute in a place of its own: where it lies within a vertex of its buffer. */
+/* An attribute with its own stream: its location in the vertices of a buffer. */
 struct triptych_element {
     enum triptych_format format;
-    triptych_buffer *buffer; /* null with FORMAT_NONE */
-    size_t offset;           /* bytes of vertex 0's attribute from the buffer's start */
-    size_t stride;           /* bytes from a vertex to the next, 0 to 65536 */
+    triptych_buffer *buffer; /* null with TRIPTYCH_FORMAT_NONE */
+    size_t offset;           /* bytes from the start of the buffer to the attribute of vertex 0 */
+    size_t stride;           /* bytes between vertices, 0 to 65536 */
 };
 
-/* A texture to be created. Sides are 1 to 8192 texels, of a volume 1 to 2048; a cube is square. */
+/* Description of a new texture. Sides are 1 to 8192 texels, for a volume 1 to 2048. A cube's width and height
+ * are equal. */
 struct triptych_texture_description {
     enum triptych_texture_type type;
     enum triptych_surface_format format;
     unsigned width, height;
-    unsigned depth;  /* of a volume; 1 otherwise */
-    unsigned levels; /* each half the size of the one before; 0: down to a single texel */
+    unsigned depth;  /* slices of a volume; otherwise 1 */
+    unsigned levels; /* each half the size of the previous one; 0: down to one texel */
 };
 
-/* Texels of a level: a rectangle of depth 1, or a box of a volume. */
+/* A part of a level, in texels: a box of a volume, or a rectangle with depth 1. */
 struct triptych_box {
     unsigned x, y, z;
     unsigned width, height, depth;
@@ -308,13 +314,13 @@ struct triptych_material {
     float ambient[4];
     float emissive[4];
     float specular[4];
-    float power; /* of highlights, 0 or more */
+    float power; /* exponent of highlights, 0 or more */
 };
 
-/* World space. `direction` is the way the light travels (directional, spot); `position`, `range` and
- * `attenuation` are those of lights that have a place. A spot is full within the cone of angle `theta` (0 to
- * phi) and dark outside of that of `phi` (up to pi, radians, whole angles); between them the falloff-th
- * power. */
+/* A light in world space. `direction` is the direction in which the light of a directional light or a spot
+ * travels. Only points and spots use `position`, `range` and `attenuation`. A spot has full intensity inside
+ * the cone of angle `theta`, 0 to `phi`, and none outside the cone of angle `phi`, up to pi. Both are whole
+ * cone angles in radians. Between the cones the intensity follows the power `falloff`. */
 struct triptych_light {
     enum triptych_light_type type;
     float diffuse[4];
@@ -330,22 +336,22 @@ struct triptych_light {
 
 enum triptych_support {
     TRIPTYCH_SUPPORT_YES,
-    TRIPTYCH_SUPPORT_LATER, /* Direct3D 9 has it and this version does not */
-    TRIPTYCH_SUPPORT_NEVER  /* nor will any other */
+    TRIPTYCH_SUPPORT_LATER, /* part of Direct3D 9, but not of this version */
+    TRIPTYCH_SUPPORT_NEVER  /* part of Direct3D 9, but not planned */
 };
 
 enum triptych_notation {
-    TRIPTYCH_NOTATION_WORDS,       /* the values that triptych_value_at() gives, and no others */
+    TRIPTYCH_NOTATION_WORDS,       /* only the values that triptych_value_at() returns */
     TRIPTYCH_NOTATION_NUMBER,      /* decimal */
     TRIPTYCH_NOTATION_HEXADECIMAL, /* colours 0xAARRGGBB, bits */
     TRIPTYCH_NOTATION_REAL         /* the bits of a finite float: triptych_float_bits() */
 };
 
-/* What values a state can have. */
+/* The kind of a state's values. */
 struct triptych_kind {
     const char *name;
     enum triptych_notation notation;
-    double first, last; /* unless WORDS: the range */
+    double first, last; /* the range, unless the notation is WORDS */
 };
 
 struct triptych_value {
@@ -355,139 +361,149 @@ struct triptych_value {
     enum triptych_support support;
 };
 
-/* A row of a table of states. States that are not supported can only be set to their default. */
+/* A row of a table of states. A state that is not supported can only be set to its default. */
 struct triptych_state_row {
     unsigned number; /* Direct3D 9's */
     const char *name;
     const struct triptych_kind *kind;
     const char
-        *units; /* keys it enters: letters of V vertex, S setup, P pixel; "job" if none, "-" if ignored */
+        /* The keys that contain it: letters of V vertex, S setup, P pixel. "job" if none does, "-" if it is
+         * ignored. */
+        *units;
     enum triptych_support support;
-    const char *test; /* file that shows that it works, from the folder tests; "" if none does */
+    const char *test; /* the test of the state, relative to the folder tests; "" if there is none */
     const char *meaning;
 };
 
-/* Counters since the device was created. Draws, their primitives and the cache count when a draw is recorded,
- * all else when it is rendered. Lines and points count as triangles. */
+/* Counters since the creation of the device. Draws, triangles and the cache are counted when a draw is
+ * submitted, everything else when it is rendered. Lines and points count as triangles. */
 struct triptych_statistics {
     uint64_t draws, triangles;
     uint64_t vertices_shaded, triangles_set_up, triangles_visible;
-    uint64_t pixels_shaded;                             /* pixels covered, hidden ones included */
-    uint64_t cache_hits, cache_misses, cache_evictions; /* of vertex, setup and pixel routines */
-    /* Monotonic clock, summed over threads. */
-    uint64_t vertex_ns; /* geometry phase: vertex, clip, setup, bin */
-    uint64_t pixel_ns;  /* tile phase: rasterize, pixel */
+    uint64_t pixels_shaded;                             /* covered pixels, including hidden ones */
+    uint64_t cache_hits, cache_misses, cache_evictions; /* routines of all units */
+    /* Times of a monotonic clock, summed over threads. */
+    uint64_t vertex_ns; /* geometry phase: vertex routines, clipping, setup, binning */
+    uint64_t pixel_ns;  /* tile phase: rasterization, pixel routines */
 };
 
-/* A routine the device has built, as triptych_routine() reports it. Strings live until the next call. */
+/* A routine of the device's cache (triptych_get_routine). Strings are valid until the next call. */
 struct triptych_routine_info {
-    uint32_t number;  /* identity in dumps, from 1 */
+    uint32_t number;  /* number in dumps, from 1 */
     const char *unit; /* "vertex", "setup", "pixel" */
-    const char *key;  /* key text */
+    const char *key;  /* the text of its key */
     uint64_t build_ns;
     uint64_t hits;
     uint32_t code_bytes;
     uint32_t parts; /* instructions or fragments */
     uint32_t spills;
-    uint32_t fused;    /* of a routine's operation fragments, those that are two operations or more */
-    uint32_t carried;  /* operands that its fragments found in registers */
-    uint64_t run_ns;   /* of all calls, and the vertices, triangles or covered pixels that they were for, */
-    uint64_t elements; /* if the device measures them */
-    uint32_t shader;   /* number of the shader that it runs; 0: none */
-    const char *granularity; /* of a stitched routine's fragments: "stage" or "operation"; null of others */
+    uint32_t fused;   /* fragments that combine two or more operations */
+    uint32_t carried; /* operands that fragments received in registers */
+    /* time in the routine, and processed vertices, triangles or covered pixels, if the device measures */
+    uint64_t run_ns;
+    uint64_t elements;       /* elements that were processed */
+    uint32_t shader;         /* the number of its shader; 0: none */
+    const char *granularity; /* the fragments of a stitched routine: "stage" or "operation"; otherwise null */
+    uint32_t lanes;          /* elements per pass of its code */
+    /* The instruction set of its code: "SSE2", "AVX2" or "AVX-512". It is "SSE2" if the code is not
+     * generated. A tiered routine has the lanes and the instruction set of its first tier. */
+    const char *instruction_set;
 };
 
-/* Creates a device. On failure *device is null and the reason is in `reason` (of `size` bytes, may be null).
- */
+/* Creates a device. On failure *device is null, and `reason`, which may be null, receives the reason in at
+ * most `size` bytes. */
 TRIPTYCH_API enum triptych_result triptych_device_create(const struct triptych_options *options,
                                                          triptych_device **device, char *reason, size_t size);
-/* Frees the device and everything made with it. Null is allowed. */
+/* Frees the device and all its objects. Null is allowed. */
 TRIPTYCH_API void triptych_device_destroy(triptych_device *device);
-/* The reason of the last failed call; an empty string when none failed. */
+/* Returns the reason of the last failed call; an empty string if none has failed. */
 TRIPTYCH_API const char *triptych_error(const triptych_device *device);
 
-/* The first reason why something that options.debug asks for is not done, such as a file that cannot be written; an empty
- * string while all is. Never a reason for anything else to fail. Valid until asked again. */
+/* Returns the first failure of an output that options.debug enables, such as a file that cannot be written;
+ * an empty string if there is none. Such a failure does not affect other calls. The string is valid until the
+ * next call. */
 TRIPTYCH_API const char *triptych_debug_error(triptych_device *device);
 
-/* The i-th engine's name, description, lanes (0: chosen for each routine) and why it cannot run here (null: it can); null past the last.
- * The reason is the calling thread's until it asks again. */
+/* The name and description of engine `i`, and the reason why it cannot run on this machine, null if it can;
+ * null past the last engine. Its lanes; 0 if they vary by routine. The reason is valid until the thread's
+ * next call. */
 TRIPTYCH_API const char *triptych_engine_name(unsigned i);
 TRIPTYCH_API const char *triptych_engine_description(unsigned i);
 TRIPTYCH_API unsigned triptych_engine_width(unsigned i);
 TRIPTYCH_API const char *triptych_engine_unavailable(unsigned i);
 
-/* The render target, colour RGBA8 and depth binary32, 1 to 8192 pixels a side; contents start as zero and
- * depth 1. Sets the viewport to the whole target with depth 0 to 1, and the scissor rectangle to the whole
- * target. */
+/* Sets the render target: colour RGBA8 and depth binary32, 1 to 8192 pixels per side. The contents start with
+ * colour 0 and depth 1. The viewport becomes the whole target with depth 0 to 1, the scissor rectangle the
+ * whole target. */
 TRIPTYCH_API enum triptych_result triptych_set_target(triptych_device *, unsigned width, unsigned height);
-/* The same with formats of choice. */
+/* Like triptych_set_target, with any formats. */
 TRIPTYCH_API enum triptych_result triptych_set_target_description(triptych_device *,
                                                                   const struct triptych_target_description *);
 
-/* Draws to textures from here on, and back to the target that was set before, contents unchanged, when it is
- * null. Either sets viewport and scissor rectangle as triptych_set_target does, which ends drawing to
- * textures too. A texture that is drawn to cannot be sampled at the same time. */
+/* Draws to textures instead of the target. Null returns to the target, whose contents have not changed. Both
+ * set the viewport and the scissor rectangle like triptych_set_target, which also ends drawing to textures. A
+ * texture cannot be a target and be sampled in one draw. */
 TRIPTYCH_API enum triptych_result triptych_set_target_textures(triptych_device *,
                                                                const struct triptych_target_textures *);
 
-/* Copies a part of a surface to a part of another one (null, or of width 0: all of it), scaled if their sizes
- * differ, and converted to the other's format, which must be one that can be drawn to; formats of depth
- * cannot be copied. */
+/* Copies a part of a surface to a part of another surface. A null part, or one of width 0, is the whole
+ * surface. Scales if the sizes differ, and converts to the format of the destination, which must be valid for
+ * targets. Depth formats cannot be copied. */
 TRIPTYCH_API enum triptych_result triptych_copy(triptych_device *, const struct triptych_surface *source,
                                                 const struct triptych_rectangle *source_part,
                                                 const struct triptych_surface *target,
                                                 const struct triptych_rectangle *target_part,
                                                 enum triptych_copy_filter filter);
 
-/* A surface's texels, as RGBA8 words or as four numbers each, like triptych_read_target. */
+/* Reads the texels of a surface as RGBA8 words or as four numbers each, like triptych_read_target. */
 TRIPTYCH_API enum triptych_result triptych_read_surface(triptych_device *, const struct triptych_surface *,
                                                         uint32_t *rgba);
 TRIPTYCH_API enum triptych_result triptych_read_surface_numbers(triptych_device *,
                                                                 const struct triptych_surface *, float *rgba);
 
-/* Copies `bytes` (1 to 2^31 - 1) of data; the contents never change. */
+/* Creates a buffer with a copy of `bytes` bytes, 1 to 2^31 - 1. Its contents never change. */
 TRIPTYCH_API enum triptych_result triptych_buffer_create(triptych_device *, const void *data, size_t bytes,
                                                          triptych_buffer **buffer);
-/* Frees a buffer, after rendering what is recorded; where it was bound nothing is. Null is allowed. */
+/* Frees a buffer. Pending draws are rendered first. Bindings of the buffer become unbound. Null is
+ * allowed. */
 TRIPTYCH_API enum triptych_result triptych_buffer_destroy(triptych_device *, triptych_buffer *);
-/* Copies an image of width x height (1 to 8192) RGBA8 texels. */
+/* Creates a 2D texture with a copy of width x height RGBA8 texels, 1 to 8192 per side. */
 TRIPTYCH_API enum triptych_result triptych_texture_create(triptych_device *, const void *rgba, unsigned width,
                                                           unsigned height, triptych_texture **texture);
 
-/* A texture whose texels are all what zeros in its format mean. */
+/* Creates a texture. All bits of its texels are 0. */
 TRIPTYCH_API enum triptych_result
 triptych_texture_define(triptych_device *, const struct triptych_texture_description *description,
                         triptych_texture **texture);
-/* Copies texels in the texture's format to a part of a level (null: all of it). `face` is 0 but for cubes. A
- * compressed format's part begins at multiples of 4 texels and ends at them or with the level. Rows of texels
- * or blocks lie `row_pitch` bytes apart, slices of a volume `slice_pitch`. Draws recorded before read what
- * was there before; that may mean rendering them first. */
+/* Copies texels in the format of the texture to a part of a level; null: the whole level. `face` is 0 except
+ * for cubes. For compressed formats the part starts at multiples of 4 texels, and ends at multiples of 4 or
+ * at the end of the level. Rows of texels or blocks are `row_pitch` bytes apart, slices of a volume
+ * `slice_pitch` bytes. Earlier draws read the old texels, so they may have to be rendered first. */
 TRIPTYCH_API enum triptych_result triptych_texture_update(triptych_device *, triptych_texture *texture,
                                                           unsigned face, unsigned level,
                                                           const struct triptych_box *box, const void *data,
                                                           size_t row_pitch, size_t slice_pitch);
-/* Makes every level but the first from the one before it: a texel is the mean of those it covers, in formats of
- * more than 8 bits a channel to the precision of binary32. */
+/* Computes every level but the first from the previous one. Each texel is the mean of the texels that it
+ * covers. Formats with more than 8 bits per channel are averaged in binary32. */
 TRIPTYCH_API enum triptych_result triptych_texture_generate_mips(triptych_device *,
                                                                  triptych_texture *texture);
-/* Frees a texture, after rendering what is recorded; where it was set there is none, and if it is drawn to, drawing goes
- * back to the target. Null is allowed. */
+/* Frees a texture. Pending draws are rendered first. Samplers with this texture become unbound. If it is a
+ * target, drawing returns to the target that triptych_set_target made. Null is allowed. */
 TRIPTYCH_API enum triptych_result triptych_texture_destroy(triptych_device *, triptych_texture *);
 
-/* Shaders, of the models 1.1 to 3.0 (docs/shaders.md). From bytecode: tokens as they lie in memory, from the version
- * token to the end token, or from assembly text. Either is copied. `name` begins the reasons of a shader that is
- * refused: "NAME: token N: ...", "NAME:LINE:COLUMN: ..."; null: "shader". */
+/* Create shaders of the models 1.1 to 3.0 (docs/shaders.md): from bytecode, from the version token to the end
+ * token, or from assembly text. The input is copied. The reason of a refusal begins with `name`: "NAME: token
+ * N: ..." or "NAME:LINE:COLUMN: ...". A null name is "shader". */
 TRIPTYCH_API enum triptych_result triptych_shader_create(triptych_device *, const char *name,
                                                          const void *code, size_t bytes,
                                                          triptych_shader **shader);
 TRIPTYCH_API enum triptych_result triptych_shader_assemble(triptych_device *, const char *name,
                                                            const char *text, size_t bytes,
                                                            triptych_shader **shader);
-/* Frees a shader, after rendering what is recorded; where it was set the pipeline becomes the fixed one. Null is
- * allowed. */
+/* Frees a shader. Pending draws are rendered first. A stage with this shader becomes the fixed function. Null
+ * is allowed. */
 TRIPTYCH_API enum triptych_result triptych_shader_destroy(triptych_device *, triptych_shader *);
-/* Which of them it is, and the name of its model ("vs_2_0"). */
+/* The stage of a shader, and the name of its model, such as "vs_2_0". */
 TRIPTYCH_API enum triptych_shader_stage triptych_shader_get_stage(const triptych_shader *);
 TRIPTYCH_API const char *triptych_shader_get_model(const triptych_shader *);
 
@@ -496,7 +512,7 @@ TRIPTYCH_API enum triptych_result triptych_set_sampler_state(triptych_device *, 
                                                              enum triptych_sampler_state, uint32_t value);
 TRIPTYCH_API enum triptych_result triptych_set_stage_state(triptych_device *, unsigned stage,
                                                            enum triptych_stage_state, uint32_t value);
-/* The value that states of notation REAL take for a number. */
+/* Returns the bits of a number, as states of the notation REAL take them. */
 static inline uint32_t triptych_float_bits(float number)
 {
     union {
@@ -508,35 +524,35 @@ static inline uint32_t triptych_float_bits(float number)
 TRIPTYCH_API enum triptych_result triptych_set_transform(triptych_device *, enum triptych_transform,
                                                          const float matrix[4][4]);
 TRIPTYCH_API enum triptych_result triptych_set_viewport(triptych_device *, const struct triptych_viewport *);
-/* The rectangle, in pixels inside the target, that draws and clears stay in while the state scissortestenable
- * is on; an empty one lets nothing through. The whole target after set_target. */
+/* Sets the scissor rectangle, in pixels inside the target. While the state scissortestenable is on, it limits
+ * draws and clears. An empty rectangle excludes everything. */
 TRIPTYCH_API enum triptych_result triptych_set_scissor(triptych_device *, unsigned x, unsigned y,
                                                        unsigned width, unsigned height);
-/* Plane `i` (0 to 5) of world space: with bit i of the state clipplaneenable on, what is drawn is cut to
- * x a + y b + z c + d >= 0. Zero at first: everything is inside. */
+/* Sets plane `i`, 0 to 5, of world space. While bit i of the state clipplaneenable is on, primitives are
+ * clipped to x a + y b + z c + d >= 0. The initial plane is 0, which clips nothing. */
 TRIPTYCH_API enum triptych_result triptych_set_clip_plane(triptych_device *, unsigned i,
                                                           const float plane[4]);
-/* Value: a number of enum triptych_pixel_center, triptych_depth_range or triptych_multiply. */
+/* `value` is of enum triptych_pixel_center, triptych_depth_range or triptych_multiply. */
 TRIPTYCH_API enum triptych_result triptych_set_convention(triptych_device *, enum triptych_convention,
                                                           unsigned value);
 TRIPTYCH_API enum triptych_result triptych_set_material(triptych_device *, const struct triptych_material *);
 TRIPTYCH_API enum triptych_result triptych_set_light(triptych_device *, unsigned index,
                                                      const struct triptych_light *);
 TRIPTYCH_API enum triptych_result triptych_enable_light(triptych_device *, unsigned index, int enable);
-/* Sampler i is texture stage i's and s# of a pixel shader; TRIPTYCH_VERTEX_SAMPLER + i is s# of a vertex
- * shader. Null unbinds: what of a stage reads the texture then passes the current colour, and shaders sample
- * (0, 0, 0, 1). */
+/* Sets a texture. Sampler i belongs to texture stage i and to s# i of pixel shaders; sampler
+ * TRIPTYCH_VERTEX_SAMPLER + i to s# i of vertex shaders. Null unbinds: a stage that reads the texture then
+ * passes the current colour, and shaders sample (0, 0, 0, 1). */
 TRIPTYCH_API enum triptych_result triptych_set_texture(triptych_device *, unsigned sampler,
                                                        triptych_texture *);
 
-/* What draws are shaded by; null: the fixed-function pipeline. */
+/* Sets the shader of a stage. Null selects the fixed-function pipeline. */
 TRIPTYCH_API enum triptych_result triptych_set_vertex_shader(triptych_device *, triptych_shader *);
 TRIPTYCH_API enum triptych_result triptych_set_pixel_shader(triptych_device *, triptych_shader *);
 
-/* Constants of a stage's shaders: `count` registers from `first` on, of four floats, four integers (those of a loop:
- * count, start, step, unused; of a rep: count) or one Boolean each. All are zero at first, and stay when another
- * shader is set. What a shader defines itself goes before them, in that shader. Draws recorded before keep what was
- * set then. */
+/* Set `count` constant registers of a stage from `first` on. A register has four floats, four integers or one
+ * Boolean. The integers of a loop are count, start, step and one unused value; those of a rep are count and
+ * three unused values. All are initially 0, and they keep their values when the shader changes. Constants
+ * that a shader defines replace them in that shader. Earlier draws keep the earlier values. */
 TRIPTYCH_API enum triptych_result triptych_set_shader_floats(triptych_device *, enum triptych_shader_stage,
                                                              unsigned first, const float *values,
                                                              unsigned count);
@@ -547,116 +563,123 @@ TRIPTYCH_API enum triptych_result triptych_set_shader_booleans(triptych_device *
                                                                unsigned first, const int32_t *values,
                                                                unsigned count);
 
-/* Says where in its stream each attribute lies: count (0 to 64) elements, none of them twice the same usage
- * and index. Attributes that it does not mention are not given. A vertex with POSITIONT is drawn where it
- * says. */
+/* Sets the vertex declaration: `count` elements, 0 to 64, each with a different usage and index. Attributes
+ * that it does not list are absent. A vertex with POSITIONT is already transformed. */
 TRIPTYCH_API enum triptych_result
 triptych_set_declaration(triptych_device *, const struct triptych_declaration_element *elements,
                          unsigned count);
-/* Sets the declaration that a code of Direct3D 9's D3DFVF values means: all of it in stream 0. */
+/* Sets the declaration of a code of Direct3D 9's D3DFVF values, with all elements in stream 0. */
 TRIPTYCH_API enum triptych_result triptych_set_fvf(triptych_device *, uint32_t fvf);
-/* Stream 0 to 15: vertices of `stride` bytes (0 to 65536; 0: all the same) from `offset` on, multiples of 4.
- * Null unbinds. */
+/* Binds a buffer to a stream, 0 to 15. Its vertices of `stride` bytes start at `offset`; both are multiples
+ * of 4. The stride is 0 to 65536; 0: all vertices are equal. Null unbinds. */
 TRIPTYCH_API enum triptych_result triptych_set_stream(triptych_device *, unsigned stream, triptych_buffer *,
                                                       size_t offset, size_t stride);
-/* count is 1 with FREQUENCY_VERTEX, else 1 to 2^30 - 1. Stream 0 cannot have FREQUENCY_INSTANCE. */
+/* `count` is 1 with TRIPTYCH_FREQUENCY_VERTEX, otherwise 1 to 2^30 - 1. Stream 0 cannot have
+ * TRIPTYCH_FREQUENCY_INSTANCE. */
 TRIPTYCH_API enum triptych_result triptych_set_stream_frequency(triptych_device *, unsigned stream,
                                                                 enum triptych_frequency, uint32_t count);
-/* Declares one attribute and gives it a stream that no other has. */
+/* Declares one attribute, with its own stream. */
 TRIPTYCH_API enum triptych_result triptych_set_element(triptych_device *, enum triptych_attribute,
                                                        const struct triptych_element *);
-/* bits is 16 or 32; null unbinds. */
+/* Binds a buffer of indices. `bits` is 16 or 32. Null unbinds. */
 TRIPTYCH_API enum triptych_result triptych_set_indices(triptych_device *, triptych_buffer *, unsigned bits);
 
-/* Draws `count` primitives (triangles, lines, points) from vertex `first` on. */
+/* Draws `count` primitives from vertex `first` on. */
 TRIPTYCH_API enum triptych_result triptych_draw(triptych_device *, enum triptych_primitive, uint32_t first,
                                                 uint32_t count);
-/* Draws `count` primitives whose vertices are base + indices from `first` on. */
+/* Draws `count` primitives from index `first` on. `base` is added to each index. */
 TRIPTYCH_API enum triptych_result triptych_draw_indexed(triptych_device *, enum triptych_primitive,
                                                         int32_t base, uint32_t first, uint32_t count);
 
-/* Clears the viewport's pixels, within the scissor rectangle if its test is on: colour (unless null) and
- * depth (0 to 1, unless negative). */
+/* Clears the pixels of the viewport, inside the scissor rectangle if its test is on. A null color and a
+ * negative depth are not cleared. Depth is 0 to 1. */
 TRIPTYCH_API enum triptych_result triptych_clear(triptych_device *, const float color[4], float depth);
 
-/* The same for any of the three surfaces (a sum of TRIPTYCH_CLEAR_...). The stencil's value is cut to its
- * bits; colour, depth and stencil are looked at only if they are cleared. Depth and stencil must exist. */
+/* Like triptych_clear, for the surfaces in `flags`, a sum of TRIPTYCH_CLEAR_... values. Arguments for other
+ * surfaces are ignored. The value of the stencil is truncated to its bits. Depth and stencil must exist to be
+ * cleared. */
 TRIPTYCH_API enum triptych_result triptych_clear_buffers(triptych_device *, unsigned flags,
                                                          const float color[4], float depth, unsigned stencil);
 
-/* Queries. Begin and end may come again; an end without a begin fails, but for an event and a timestamp,
- * which have none. */
+/* Queries. A query can begin and end again. Events and timestamps have no begin. For other types an end
+ * without a begin fails. */
 TRIPTYCH_API enum triptych_result triptych_query_create(triptych_device *, enum triptych_query_type,
                                                         triptych_query **query);
 TRIPTYCH_API enum triptych_result triptych_query_begin(triptych_device *, triptych_query *);
 TRIPTYCH_API enum triptych_result triptych_query_end(triptych_device *, triptych_query *);
-/* The result of a query that has ended, after finishing. */
+/* Returns the result of a query that has ended. Renders pending draws first. */
 TRIPTYCH_API enum triptych_result triptych_query_result(triptych_device *, triptych_query *,
                                                         uint64_t *result);
-/* Frees a query, also one that has begun. Null is allowed. */
+/* Frees a query, also between begin and end. Null is allowed. */
 TRIPTYCH_API enum triptych_result triptych_query_destroy(triptych_device *, triptych_query *);
 
-/* Recording of calls, into a container of draws (docs/container.md), while they run: everything that pictures depend on,
- * with the memory that it reads. What lives on the device when it starts is written first, so that it may start at any
- * time. triptych_finish ends a frame of the recording. Failures to write are told when it stops, and then there is no file;
- * until it stops there is none of that name either. A device that is destroyed stops its recording.
+/* Recording: writes calls to a container (docs/container.md) while they are made, with the memory that they
+ * read. A recording can start at any time, because it begins with the device's objects and state.
+ * triptych_finish ends a frame of the recording. The file appears when the recording stops; a failure to
+ * write is reported then, and there is no file. The destruction of the device stops its recording.
  *
- * With TRIPTYCH_RECORD=PATH in the environment, every device that a process creates is recorded from its creation on; all
- * but the first have a number in front of the path's extension. */
+ * With the environment variable TRIPTYCH_RECORD=PATH, each device of the process is recorded from its
+ * creation on. From the second device on, the file name has a number before the extension of the path. */
 TRIPTYCH_API enum triptych_result triptych_record_start(triptych_device *, const char *path);
 TRIPTYCH_API enum triptych_result triptych_record_stop(triptych_device *);
 
-/* Renders everything recorded so far. */
+/* Renders all pending draws. */
 TRIPTYCH_API enum triptych_result triptych_finish(triptych_device *);
 
-/* Finishes and copies the target: width * height RGBA8 words, depth values from 0 to 1, or stencil values. */
+/* Render all pending draws, then copy the target: width * height RGBA8 words, depth values from 0 to 1, or
+ * stencil values. */
 TRIPTYCH_API enum triptych_result triptych_read_color(triptych_device *, uint32_t *rgba);
 TRIPTYCH_API enum triptych_result triptych_read_depth(triptych_device *, float *depth);
 TRIPTYCH_API enum triptych_result triptych_read_stencil(triptych_device *, uint8_t *stencil);
-/* Colour target t, from 0, as RGBA8 words (what has more than that is clamped to 0..1 and rounded), or as
- * four numbers a pixel, exactly. */
+/* Read colour target `t`, from 0, as RGBA8 words, with values clamped to 0..1 and rounded, or exactly, as
+ * four numbers per pixel. */
 TRIPTYCH_API enum triptych_result triptych_read_target(triptych_device *, unsigned t, uint32_t *rgba);
 TRIPTYCH_API enum triptych_result triptych_read_target_numbers(triptych_device *, unsigned t, float *rgba);
-/* The same of one sample of each pixel, as it is, of colour target 0; what is null is not copied. The calls
- * above give the average of all samples' colours (of bytes rounded to nearest, halves up) and sample 0's
- * depth and stencil. */
+/* Reads one sample of each pixel of colour target 0. A null pointer skips its surface. The functions above
+ * return the average of all samples' colours, with bytes rounded to nearest, halves up, and the depth and
+ * stencil of sample 0. */
 TRIPTYCH_API enum triptych_result triptych_read_sample(triptych_device *, unsigned sample, uint32_t *rgba,
                                                        float *depth, uint8_t *stencil);
-/* All that is drawn to as it is stored, every sample, depth and stencil included, which can be written back where the
- * target is described the same; none without a target. */
+/* Read and write the current target in its stored form, with every sample, depth and stencil. The size in
+ * bytes is 0 without a target. Contents can be written to a target with the same description. */
 TRIPTYCH_API size_t triptych_contents_bytes(const triptych_device *);
 TRIPTYCH_API enum triptych_result triptych_read_contents(triptych_device *, void *data);
 TRIPTYCH_API enum triptych_result triptych_write_contents(triptych_device *, const void *data, size_t bytes);
-/* The same of all texels of a texture: face by face, level by level, RGBA8 words or four binary32 a texel. */
+/* Read and write all texels of a texture in their stored form: face by face, level by level, RGBA8 words or
+ * four binary32 numbers per texel. */
 TRIPTYCH_API size_t triptych_texture_texel_bytes(const triptych_texture *);
 TRIPTYCH_API enum triptych_result triptych_texture_read_texels(triptych_device *, triptych_texture *,
                                                                void *data);
 TRIPTYCH_API enum triptych_result triptych_texture_write_texels(triptych_device *, triptych_texture *,
                                                                 const void *data, size_t bytes);
-/* The target's description, its first colour's format included; all zero without one. */
+/* Returns the description of the target, including the format of its first colour; all 0 without a target. */
 TRIPTYCH_API void triptych_get_target(const triptych_device *, struct triptych_target_description *);
-/* Whether 8 unsigned bits a channel hold all that a surface of the format can. */
+/* Returns nonzero if 8 unsigned bits per channel can represent all values of the format. */
 TRIPTYCH_API int triptych_format_is_bytes(enum triptych_surface_format);
-/* The bits of depth and of stencil of a format; its name, null when there is none. */
+/* The bits of depth and stencil of a format, and its name; null if the format is unknown. */
 TRIPTYCH_API unsigned triptych_depth_bits(enum triptych_depth_format);
 TRIPTYCH_API unsigned triptych_stencil_bits(enum triptych_depth_format);
 TRIPTYCH_API const char *triptych_depth_format_name(enum triptych_depth_format);
 TRIPTYCH_API void triptych_target_size(const triptych_device *, unsigned *width, unsigned *height);
 
 TRIPTYCH_API void triptych_get_statistics(const triptych_device *, struct triptych_statistics *);
-/* The i-th routine in the cache, in order of number; returns 0 past the last. */
+/* Reads routine `i` of the cache, by increasing number. Returns 0 past the last. */
 TRIPTYCH_API int triptych_get_routine(triptych_device *, unsigned i, struct triptych_routine_info *);
 
-/* The tables of states: a table's name ("state", "sampler", "stage") and how many of each of its states a
- * device has (1, TRIPTYCH_SAMPLERS, TRIPTYCH_STAGES); a table's rows, whose numbers are the enumerators of
- * the table's states (null past the last); the default of row `row` of sampler or stage `i`. */
+/* The tables of states:
+ * - a table's name: "state", "sampler" or "stage";
+ * - its size, the number of copies of each state: 1, TRIPTYCH_SAMPLERS or TRIPTYCH_STAGES;
+ * - its rows, numbered like the enumerators of its states; null past the last;
+ * - the default of row `row` of sampler or stage `i`. */
 TRIPTYCH_API const char *triptych_table_name(enum triptych_state_table);
 TRIPTYCH_API unsigned triptych_table_size(enum triptych_state_table);
 TRIPTYCH_API const struct triptych_state_row *triptych_state_at(enum triptych_state_table, unsigned row);
 TRIPTYCH_API uint32_t triptych_state_default(enum triptych_state_table, unsigned row, unsigned i);
 
-/* Kinds, and the values of a kind with words, null past the last; the value with a number and its word (null
- * if there is none); a word's number (returns nonzero if there is none). */
+/* Kinds of values:
+ * - kind `i`, and value `i` of a kind with words; null past the last;
+ * - the value of a kind with a number, and its word; null if there is none;
+ * - the number of a word; returns nonzero if there is none. */
 TRIPTYCH_API const struct triptych_kind *triptych_kind_at(unsigned i);
 TRIPTYCH_API const struct triptych_value *triptych_value_at(const struct triptych_kind *, unsigned i);
 TRIPTYCH_API const struct triptych_value *triptych_value_find(const struct triptych_kind *, uint32_t number);

@@ -1,6 +1,6 @@
 #!/bin/bash
-# The command's manners: what it says to bad input and usage, and what it leaves behind.
-# Given BUILD, TRIPTYCH and SANITIZE by tests/support/run.sh.
+# How the command behaves: its messages for bad input and usage, and the files that it leaves.
+# Given BUILD, TRIPTYCH and SANITIZE by tests/support/scripts/run.sh.
 set -uo pipefail
 cd "$(dirname "$0")/.."
 
@@ -19,7 +19,8 @@ verdict() # NAME PROBLEM : ok when there is none
     fi
 }
 
-# Bad input or usage: exit status 2, nothing on stdout, one line on stderr that holds the pattern, and no new file.
+# Bad input or usage: exit status 2, nothing on stdout, one line on stderr that holds the pattern, and no new
+# file.
 refuses() # NAME PATTERN ARGUMENT...
 {
     local name=$1 pattern=$2 status=0 problem=
@@ -58,7 +59,7 @@ answers() # NAME PATTERN ARGUMENT...
     verdict "$name" "$problem"
 }
 
-# Good usage that has nothing to say.
+# Good usage that prints nothing.
 does() # NAME ARGUMENT...
 {
     local name=$1 status=0 problem=
@@ -79,7 +80,7 @@ holds() # NAME COMMAND... : the command succeeds
     if "$@" >"$work/said" 2>"$work/err"; then verdict "$name" ''; else verdict "$name" "failed: $*"; fi
 }
 
-stream() # FILE : standard input, behind the first line
+stream() # FILE : standard input, after the first line
 {
     { echo 'triptych 1' && cat; } >"$work/$1"
 }
@@ -108,7 +109,7 @@ frame
 END
 picture=$work/picture.png
 
-# --- Usage ---------------------------------------------------------------------------------------------------
+# --- Usage --------------------------------------------------------------------------------------------------
 
 answers 'help' 'usage: triptych' --help
 answers 'version' '^triptych [0-9]+\.[0-9]+\.[0-9]+$' --version
@@ -120,7 +121,7 @@ refuses 'unknown command' 'unknown command "paint".*render' paint
 refuses 'unknown option in front of the command' 'unknown option "--verbose"' --verbose
 refuses 'no operand' 'expected STREAM' render --out "$work/out/picture.png"
 refuses 'too many operands' 'unexpected "b"' render a b
-refuses 'option without its value' '--out is without its value' render "$work/good.tri" --out
+refuses 'option without its value' '--out has no value' render "$work/good.tri" --out
 refuses 'number out of range' '--threads is "0", expected' render "$work/good.tri" --threads 0
 refuses 'number that is none' '--threads is "two", expected' render "$work/good.tri" --threads two
 refuses 'unknown engine' 'unknown engine "turbo".*emulate' \
@@ -129,11 +130,11 @@ refuses 'width that the engine has not' 'emulate has no width 5, expected one of
     render "$work/good.tri" --engine emulate --width 5 --out "$work/out/picture.png"
 refuses 'unknown engine in a list' 'unknown engine "turbo"' verify "$work/good.tri" --engines emulate,turbo
 refuses 'engine listed twice' '"emulate" is listed twice' verify "$work/good.tri" --engines emulate,emulate
-refuses 'bad list of threads' '"x" is no number of threads' verify "$work/good.tri" --threads 1,x
+refuses 'bad list of threads' '"x" is not a number of threads' verify "$work/good.tri" --threads 1,x
 refuses 'bad number of frames' '--frames is "some"' verify "$work/good.tri" --frames some
 refuses 'unknown list' 'cannot list "cats"' list cats
 
-# --- Lists ---------------------------------------------------------------------------------------------------
+# --- Lists --------------------------------------------------------------------------------------------------
 
 answers 'list engines' '^emulate ' list engines
 answers 'list states' '^zfunc +COMPARE +lessequal +SP +yes +the comparison' list states
@@ -147,7 +148,7 @@ answers 'list cpu' '^avx2 +(yes|no) ' list cpu
 answers 'list passes' '^pass +meaning' list passes
 answers 'list as JSON' '"state":' list states --json
 refuses 'list in two forms' 'expected one of them' list states --json --markdown
-refuses 'list that is no page' '[-]-markdown is for states and shaders only' list cpu --markdown
+refuses 'list that is not a page' '[-]-markdown is for states and shaders only' list cpu --markdown
 
 page_is_the_tables() # WHAT
 {
@@ -166,7 +167,7 @@ full_disk_is_noticed()
 }
 holds 'a full disk is noticed on standard output' full_disk_is_noticed
 
-# --- Shaders -------------------------------------------------------------------------------------------------
+# --- Shaders ------------------------------------------------------------------------------------------------
 
 printf 'ps_1_4\n+MAD_x2 r0.rgb, -t1_bx2, c2.a, 1 - r3 ; comment\n' >"$work/good.shader"
 answers 'assemble a shader' '^0xffff0104 0x40000004 0x81070000 0xb5e40001 0xa0ff0002 0x86e40003$' \
@@ -178,11 +179,11 @@ answers 'text as JSON' '"model":.*"ps_1_4"' shader disassemble "$work/good.code"
 printf 'ps_2_0\ndcl t0.xy\ndcl_2d s0\ntexld r0, t0, s0\nmov oC0, r0\n' >"$work/valid.shader"
 answers 'validate a shader' '^valid ps_2_0: 4 instructions, 2 slots$' shader validate "$work/valid.shader"
 answers 'validate as JSON' '"slots":.*2' shader validate "$work/valid.shader" --json
-refuses 'shader that breaks a rule' 'good.code: token 1: found \+ behind nothing to pair with' \
+refuses 'shader that breaks a rule' 'good.code: token 1: found \+ without an instruction to pair with' \
     shader validate "$work/good.code" --json --out "$work/out/report"
 refuses 'unknown action' 'unknown action "compile", expected one of: assemble' shader compile "$work/good.shader"
 refuses 'no shader' 'expected ACTION' shader assemble
-refuses 'shader that is not there' 'none.shader: .*No such file' shader assemble "$work/none.shader"
+refuses 'missing shader' 'none.shader: .*No such file' shader assemble "$work/none.shader"
 printf 'vs_1_1\nmov r0\n' >"$work/bad.shader"
 refuses 'bad text of a shader' 'bad.shader:2:7: found the end of the line, expected' \
     shader assemble "$work/bad.shader" --out "$work/out/code"
@@ -190,13 +191,13 @@ head -c 20 "$work/good.code" >"$work/bad.code"
 refuses 'bytecode cut off' 'bad.code: token 5: found the end of the data' \
     shader disassemble "$work/bad.code" --out "$work/out/text"
 
-# --- Rendering -----------------------------------------------------------------------------------------------
+# --- Rendering ----------------------------------------------------------------------------------------------
 
 does 'render a PNG' render "$work/good.tri" --engine emulate --out "$picture"
 holds 'the PNG has the right size' bash -c "file '$picture' 2>/dev/null | grep -q '40 x 30' ||
     [[ \$(od -An -tx1 -j16 -N8 '$picture' | tr -d ' \n') == 000000280000001e ]]"
 does 'render an EXR' render "$work/good.tri" --engine emulate --out "$work/picture.exr"
-does 'render four targets as an EXR' render tests/streams/targets.tri --out "$work/targets.exr"
+does 'render four targets as an EXR' render tests/data/streams/targets.tri --out "$work/targets.exr"
 holds 'it has the channels of the fourth' grep -q 'target3\.R' "$work/targets.exr"
 holds 'the EXR begins as one' bash -c "[[ \$(od -An -tx1 -N4 '$work/picture.exr' | tr -d ' ') == 762f3101 ]]"
 does 'render another frame' render "$work/good.tri" --engine emulate --frame 1 --out "$work/black.png"
@@ -242,9 +243,9 @@ stream_from_a_pipe()
 }
 holds 'a stream may come from a pipe' stream_from_a_pipe
 
-# --- Bad streams ---------------------------------------------------------------------------------------------
+# --- Bad streams --------------------------------------------------------------------------------------------
 
-refuses 'stream that is not there' 'none.tri: .*No such file' \
+refuses 'missing stream' 'none.tri: .*No such file' \
     render "$work/none.tri" --engine emulate --out "$work/out/picture.png"
 refuses 'stream that is a folder' "$work" render "$work" --engine emulate --out "$work/out/picture.png"
 head -c 100 /dev/urandom >"$work/noise.tri"
@@ -303,7 +304,8 @@ END
 refuses 'verify of a bad stream' 'bad.tri:2:' verify "$work/bad.tri" --json "$work/out/verify.json"
 refuses 'bench of a bad stream' 'bad.tri:2:' bench "$work/bad.tri" --csv "$work/out/bench.csv"
 
-# --- Verification and measurement ----------------------------------------------------------------------------
+# --- Verification and measurement
+# ----------------------------------------------------------------------------
 
 refuses 'report into a missing folder' 'none/x.json: cannot be written: No such file' \
     bench "$work/good.tri" --json "$work/out/none/x.json"
@@ -315,7 +317,7 @@ refuses 'verify of the reference against itself' 'expected another engine or num
     verify "$work/good.tri" --engines emulate --threads 1
 for command in 'verify good.tri --difference' 'fuzz --count 1 --output'; do
     read -ra words <<<"${command/good.tri/$work/good.tri}"
-    refuses "${words[0]}: pictures and findings in a file" 'good.tri: is no folder, expected one' "${words[@]}" "$work/good.tri"
+    refuses "${words[0]}: pictures and findings in a file" 'good.tri: is not a folder' "${words[@]}" "$work/good.tri"
     refuses "${words[0]}: pictures and findings in a missing folder" 'none/x: cannot make the folder: No such file' \
         "${words[@]}" "$work/none/x"
     mkdir "$work/own"
@@ -327,19 +329,23 @@ done
 answers 'bench prints, and writes JSON and CSV' '^ +geometric mean ' bench "$work/good.tri" --repetitions 3 \
     --seconds 1 --json "$work/bench.json" --csv "$work/bench.csv"
 holds 'the CSV has one width' awk -F, 'NR == 1 { n = NF } NF != n { bad = 1 } END { exit bad || NR < 2 }' "$work/bench.csv"
-# The first frame builds the routines, in the warm-up; what is measured finds them, however often it is repeated.
+# The first frame builds the routines, in the warm-up; what is measured finds them, however often it is
+# repeated.
 holds 'the hit rate is that of the runs measured' awk -F, '
     NR == 1 { for (i = 1; i <= NF; i++) if ($i == "hit_rate") column = i }
     NR > 1 && $column != 100 { bad = 1 }
     END { exit bad || NR < 2 || !column }' "$work/bench.csv"
-answers 'bench of builds prints a row of sets for each engine' '^stitch +set +1 ' bench "$work/good.tri" --builds \
+answers 'bench of builds prints a row of sets for each engine' '^stitch +8 +AVX2 +set +1 ' bench "$work/good.tri" --builds \
     --engines stitch,emulate --repetitions 3 --json "$work/builds.json"
 holds 'and writes JSON' grep -q '"first_p99_us":' "$work/builds.json"
 answers 'bench of cold frames prints a row for each stream and engine' '^good +tiered +[0-9.]+ +[0-9.]+ ' \
-    bench "$work/good.tri" --cold --engines tiered --repetitions 3
+    bench "$work/good.tri" --cold --engines tiered --repetitions 3 --json "$work/cold.json"
+holds 'and writes JSON too' grep -q '"thread_first":' "$work/cold.json"
+holds 'the JSON has lanes and instruction set of each engine' \
+    test "$(grep -c '"lanes":' "$work/bench.json")" = "$(grep -c '"instruction_set":' "$work/bench.json")"
 holds 'the JSON names the machine' grep -q '"commit":' "$work/bench.json"
 
-# --- Dumps ---------------------------------------------------------------------------------------------------
+# --- Dumps --------------------------------------------------------------------------------------------------
 
 for engine in $("$TRIPTYCH" list engines | awk 'NR > 1 && $1 !~ /^(emulate|batch)/ && $3 == "available" { print $1 }'); do
     for unit in vertex setup pixel; do
@@ -351,16 +357,16 @@ answers 'bisect of engines that agree' 'the routines of emulate and batch agree 
 answers 'bisect of one draw and pixel' 'agree on every call' \
     bisect "$work/good.tri" --engines emulate,batch --draw 0 --pixel 3,4
 refuses 'bisect of one engine' '--engines names 1, expected two' bisect "$work/good.tri" --engines emulate
-refuses 'bisect of a draw that is not there' 'good.tri: there is no draw 1, the stream has 1' \
+refuses 'bisect of a missing draw' 'good.tri: there is no draw 1, the stream has 1' \
     bisect "$work/good.tri" --engines emulate,batch --draw 1
 refuses 'bisect of half a pixel' '--pixel is "3", expected X,Y' \
     bisect "$work/good.tri" --engines emulate,batch --pixel 3
-refuses 'bisect of a stream that is not there' 'none.tri' bisect "$work/none.tri" --engines emulate,batch
+refuses 'bisect of a missing stream' 'none.tri' bisect "$work/none.tri" --engines emulate,batch
 refuses 'dump of an engine without code' 'emulate makes no code' dump "$work/good.tri" --engine emulate
 if "$TRIPTYCH" list engines | grep -q '^specialize .* available '; then
     answers 'dump of every stage' '== asm' dump "$work/good.tri" --show all
-    refuses 'dump of a draw that is not there' 'frame 0 has no draw 1, it has 1' dump "$work/good.tri" --draw 1
-    refuses 'dump of a frame that is not there' 'no frame 7, its last is 1' dump "$work/good.tri" --frame 7
+    refuses 'dump of a missing draw' 'frame 0 has no draw 1, it has 1' dump "$work/good.tri" --draw 1
+    refuses 'dump of a missing frame' 'no frame 7, its last is 1' dump "$work/good.tri" --frame 7
     refuses 'dump of an unknown unit' '--unit is "texel", expected vertex, setup or pixel' \
         dump "$work/good.tri" --unit texel
     refuses 'dump of an unknown stage' 'asm2' dump "$work/good.tri" --show asm2
@@ -374,7 +380,7 @@ if "$TRIPTYCH" list engines | grep -q '^specialize .* available '; then
         dump "$work/good.tri" --engine stitch --show asm
 fi
 
-# --- Conversion ----------------------------------------------------------------------------------------------
+# --- Conversion ---------------------------------------------------------------------------------------------
 
 does 'convert' convert "$work/good.tri" "$work/canonical.tri"
 does 'convert what was converted' convert "$work/canonical.tri" "$work/again.tri"

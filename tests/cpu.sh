@@ -1,7 +1,7 @@
 #!/bin/bash
-# Features of the processor that TRIPTYCH_CPU hides are used nowhere: they are listed as hidden, engines that need them
-# say why they cannot run, the others draw the same, and a list that is not understood is refused.
-# Given BUILD, TRIPTYCH and SANITIZE by tests/support/run.sh.
+# Features of the processor that TRIPTYCH_CPU hides are used nowhere: they are listed as hidden, engines that
+# need them report why they cannot run, the others draw the same, and a list that is not understood is
+# refused. Given BUILD, TRIPTYCH and SANITIZE by tests/support/scripts/run.sh.
 set -uo pipefail
 cd "$(dirname "$0")/.."
 unset TRIPTYCH_CPU
@@ -9,7 +9,7 @@ unset TRIPTYCH_CPU
 work=$(mktemp -d)
 trap 'rm -rf "$work"' EXIT
 failures=0
-stream=tests/streams/lights.tri
+stream=tests/data/streams/lights.tri
 
 test_case() # NAME COMMAND... : the command's output is shown only if it fails
 {

@@ -1,11 +1,12 @@
 #!/bin/bash
-# GDB and generated code: routines have names and lines, and every instruction of a routine of each kind of generated code
-# has its caller. In-process tests look closer (tests/debug); this one asks the debugger itself.
+# GDB and generated code: routines have names and lines, and GDB finds the caller at every instruction of a
+# routine, for each engine that generates code. The tests in tests/debug check the same tables in the process;
+# this test runs the debugger.
 set -uo pipefail
 cd "$(dirname "$0")/.." || exit 1
 work=$(mktemp -d)
 trap 'rm -rf "$work"' EXIT
-# Leaks cannot be looked for where somebody traces already.
+# The leak checker cannot run in a process that is traced by a debugger.
 export ASAN_OPTIONS=detect_leaks=0
 failed=0
 
@@ -26,12 +27,12 @@ STREAM
 
 for engine in specialize stitch stitch-operation; do
     output=$work/$engine
-    ENGINE=$engine gdb -nx -batch -x tests/support/step.py --args "$TRIPTYCH" render "$work/small.tri" --engine "$engine" --threads 1 \
+    ENGINE=$engine gdb -nx -batch -x tests/support/routine/step.py --args "$TRIPTYCH" render "$work/small.tri" --engine "$engine" --threads 1 \
         --out "$work/small.png" >"$output" 2>&1 </dev/null
     grep -E '^(ok|FAIL) ' "$output"
     if grep -q '^FAIL' "$output" || (($(grep -c '^ok ' "$output") != 4)); then
         failed=1
-        (($(grep -cE '^(ok|FAIL) ' "$output") == 4)) || echo "FAIL gdb does not come to the end with $engine"
+        (($(grep -cE '^(ok|FAIL) ' "$output") == 4)) || echo "FAIL gdb stops early with $engine"
         tail -n 20 "$output" >&2
     fi
 done

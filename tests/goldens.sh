@@ -1,9 +1,9 @@
 #!/bin/bash
-# The first frame of every stream, of bench/streams or tests/streams, that has a golden picture,
-# tests/goldens/STREAM.png, equals it pixel for pixel; so does that of every scene of tests/scenes its picture on the
-# gallery's page, docs/images/gallery/STREAM.png, and that of every stream of tests/shading its picture on the shader
-# gallery's, docs/images/shaders/STREAM.png.
-# Given BUILD, TRIPTYCH and SANITIZE by tests/support/run.sh.
+# The first frame of every stream, of bench/streams or tests/data/streams, that has a golden picture,
+# tests/data/goldens/STREAM.png, equals it pixel for pixel; so does that of every scene of tests/data/scenes
+# its picture on the gallery's page, docs/images/gallery/STREAM.png, and that of every stream of
+# tests/data/shading its picture on the shader gallery's, docs/images/shaders/STREAM.png.
+# Given BUILD, TRIPTYCH and SANITIZE by tests/support/scripts/run.sh.
 #
 #   GOLDENS=write TRIPTYCH=build/triptych tests/goldens.sh STREAM...    makes the pictures anew: look at them
 set -uo pipefail
@@ -13,14 +13,14 @@ golden_of() # STREAM
 {
     local name=${1##*/}
     case $1 in
-        tests/scenes/*) printf 'docs/images/gallery/%s.png' "${name%.*}" ;;
-        tests/shading/*) printf 'docs/images/shaders/%s.png' "${name%.*}" ;;
-        *) printf 'tests/goldens/%s.png' "${name%.*}" ;;
+        tests/data/scenes/*) printf 'docs/images/gallery/%s.png' "${name%.*}" ;;
+        tests/data/shading/*) printf 'docs/images/shaders/%s.png' "${name%.*}" ;;
+        *) printf 'tests/data/goldens/%s.png' "${name%.*}" ;;
     esac
 }
 
 if [[ ${GOLDENS-} == write ]]; then
-    mkdir -p tests/goldens docs/images/gallery docs/images/shaders
+    mkdir -p tests/data/goldens docs/images/gallery docs/images/shaders
     for stream in "$@"; do
         "$TRIPTYCH" render "$stream" --engine emulate --out "$(golden_of "$stream")" || exit
     done
@@ -30,12 +30,12 @@ fi
 work=$(mktemp -d)
 trap 'rm -rf "$work"' EXIT
 shopt -s nullglob
-pages=(tests/scenes/*.tri tests/shading/*.tri)
+pages=(tests/data/scenes/*.tri tests/data/shading/*.tri)
 streams=("${pages[@]}")
-for golden in tests/goldens/*.png; do
+for golden in tests/data/goldens/*.png; do
     name=${golden##*/} name=${name%.png}
     stream=bench/streams/$name.tri
-    [[ -f $stream ]] || stream=tests/streams/$name.tri
+    [[ -f $stream ]] || stream=tests/data/streams/$name.tri
     streams+=("$stream")
 done
 ((${#streams[@]})) || { echo 'FAIL there are golden pictures' && exit 1; }
@@ -43,7 +43,7 @@ done
 failures=0
 for stream in "${pages[@]}"; do
     page=docs/gallery.md
-    [[ $stream == tests/scenes/* ]] || page=docs/shader-gallery.md
+    [[ $stream == tests/data/scenes/* ]] || page=docs/shader-gallery.md
     if ! grep -qF "($(golden_of "$stream" | cut -d/ -f2-))" "$page"; then
         printf 'FAIL %s shows %s\n' "$page" "$stream"
         failures=1

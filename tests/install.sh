@@ -1,6 +1,6 @@
 #!/bin/bash
-# What `make install` leaves behind is usable without this tree: header, libraries, pkg-config file, command.
-# Given BUILD, TRIPTYCH and SLOW by tests/support/run.sh.
+# The files of `make install` are usable without this tree: header, libraries, pkg-config file, command.
+# Given BUILD, TRIPTYCH and SLOW by tests/support/scripts/run.sh.
 set -uo pipefail
 cd "$(dirname "$0")/.."
 
@@ -48,13 +48,16 @@ pkgconfig_needs_no_build()
 header_stands_alone()
 {
     printf '#include <triptych.h>\n' >"$work/header.c"
-    gcc -std=c17 -Wall -Wextra -Werror -pedantic -fsyntax-only $(pkg-config --cflags triptych) "$work/header.c" &&
-        clang -x c++ -std=c++17 -Wall -Wextra -Werror -fsyntax-only $(pkg-config --cflags triptych) "$work/header.c"
+    gcc -std=c17 -Wall -Wextra -Werror -pedantic -fsyntax-only $(pkg-config --cflags triptych) \
+        "$work/header.c" &&
+        clang -x c++ -std=c++17 -Wall -Wextra -Werror -fsyntax-only $(pkg-config --cflags triptych) \
+            "$work/header.c"
 }
 
 exports_are_the_header()
 {
-    gcc -E -P $(pkg-config --cflags triptych) "$work/include/triptych/triptych.h" | tr '\n' ' ' | tr ';' '\n' |
+    gcc -E -P $(pkg-config --cflags triptych) "$work/include/triptych/triptych.h" | tr '\n' ' ' |
+        tr ';' '\n' |
         sed -n 's/.*visibility("default").*[ *]\(triptych_[a-z0-9_]*\)(.*/\1/p' | sort >"$work/declared"
     nm -D --defined-only "$work/lib/libtriptych.so" | awk '{ print $3 }' | sort >"$work/exported"
     [[ -s $work/declared ]] && diff "$work/declared" "$work/exported"

@@ -1,8 +1,9 @@
 #!/bin/bash
-# All engines, widths and thread counts draw every stream of bench/streams/micro alike, byte for byte. The streams have many
-# layers of a megapixel; here their targets are smaller, and no multiple of a tile. They are also what their
-# generator writes.
-# Given BUILD, TRIPTYCH and SLOW by tests/support/run.sh; in slow builds fewer threads are tried, on the last frames alone.
+# All engines, widths and thread counts draw the same bytes for every stream of bench/streams/micro. The
+# streams have many layers of a megapixel; here their targets are smaller, and no multiple of a tile. They
+# must also equal the output of their generator.
+# Given BUILD, TRIPTYCH and SLOW by tests/support/scripts/run.sh; in slow builds fewer threads are tried, on
+# the last frames only.
 set -uo pipefail
 cd "$(dirname "$0")/.."
 
@@ -23,7 +24,7 @@ options=(--frames all)
 edits=(-e 's/^target 1024 1024 /target 168 136 /')
 if [[ ${SLOW-} ]]; then
     options+=(--threads 2)
-    edits+=(-e '/^# What is measured/,/^# The same work/d')
+    edits+=(-e '/^# The measured frame/,/^# The same work/d')
 fi
 for stream in bench/streams/micro/*.tri; do
     small=$work/${stream##*/}

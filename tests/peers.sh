@@ -1,7 +1,7 @@
 #!/bin/bash
-# What compares renderers (`make peers`) finds a wrong picture, a renderer that fails and one that is missing, and measures
-# two engines on a few workloads without EGL.
-# Given BUILD by tests/support/run.sh.
+# The comparison of renderers (`make peers`) finds a wrong picture, a renderer that fails and one that is
+# missing, and measures two engines on a few workloads without EGL.
+# Given BUILD by tests/support/scripts/run.sh.
 set -uo pipefail
 cd "$(dirname "$0")/.."
 
@@ -21,7 +21,8 @@ check() # NAME CONDITION...
     fi
 }
 
-# A renderer that answers as bench/peers/peer.h says, with a picture of one byte, or with an error to the command $2.
+# A renderer that answers as bench/peers/peer.h defines, with a picture of one byte, or with an error to the
+# command $2.
 cat >"$work/fake" <<'FAKE'
 #!/bin/bash
 while read -r word first second; do
@@ -45,7 +46,8 @@ drive() # WORKLOAD RENDERER... : the status of the driver
         --folder "$work" --text "$work/text" --json "$work/json" --csv "$work/csv" >"$work/output" 2>&1
 }
 
-engines=$("$BUILD/triptych" list engines | awk '$1 ~ /^(emulate|specialize)$/ && $3 == "available" { print $1 }')
+engines=$("$BUILD/triptych" list engines | awk \
+    '$1 ~ /^(emulate|specialize)$/ && $3 == "available" { print $1 }')
 lines=()
 for engine in $engines; do
     lines+=("$engine engine one $BUILD/peers/triptych $engine 1 bench/streams/micro")
@@ -57,6 +59,16 @@ check 'engines agree, and what is missing is told' \
 check 'the table is a file too' cmp -s "$work/output" "$work/text"
 check 'every renderer has a value in the JSON' \
     test "$(grep -c '"value":' "$work/json")" = "${#lines[@]}"
+
+check 'engines have lanes and an instruction set in the JSON' \
+    test "$(grep -c '"instruction_set":' "$work/json")" = "${#lines[@]}"
+
+drive 'flat*' "${lines[@]}" "llvmpipe peer one $work/fake \\377"
+groups=$(python3 -c 'import json, sys
+means = json.load(open(sys.argv[1]))["geometric_means"]
+print(*sorted({(mean["group"], mean["workloads"]) for mean in means}))' "$work/json")
+check 'hidden layers are in no mean but their own' \
+    test "$groups" = "('core', 2) ('hidden', 1)"
 
 drive 'c[l]ear' "${lines[@]}" "fake peer one $work/fake \\377"
 check 'a wrong picture fails the run' \

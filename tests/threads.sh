@@ -1,19 +1,20 @@
 #!/bin/bash
-# Any number of threads draws every stream alike, whatever the order in which batches and tiles are handed out. In the
-# build that watches threads (SANITIZE=thread) a race between them is a failure too; generated code is not watched, the
-# C around it and the interpreters are.
-# Given BUILD, TRIPTYCH and SANITIZE by tests/support/run.sh; THOROUGH=1 takes all streams (make check-threads).
+# Any number of threads draws every stream alike, whatever the order in which batches and tiles are handed
+# out. In the build that watches threads (SANITIZE=thread) a race between them is a failure too; generated
+# code is not watched, the C around it and the interpreters are.
+# Given BUILD, TRIPTYCH and SANITIZE by tests/support/scripts/run.sh; THOROUGH=1 takes all streams (make
+# check-threads).
 set -uo pipefail
 cd "$(dirname "$0")/.."
 
 shopt -s nullglob
-streams=(tests/streams/*.tri)
+streams=(tests/data/streams/*.tri)
 seeds=(1 2 3)
 if [[ ${SANITIZE-} ]]; then
     seeds=(1)
 else
     # Of many batches and tiles.
-    streams+=(bench/streams/{bunny,street}.tri tests/scenes/{particles,shadow-volume}.tri tests/shading/light-loop.tri)
+    streams+=(bench/streams/{bunny,street}.tri tests/data/scenes/{particles,shadow-volume}.tri tests/data/shading/light-loop.tri)
 fi
 engines=$("$TRIPTYCH" list engines | awk '$1 ~ /^(emulate|batch|stitch|specialize)$/ && $3 == "available" { print $1 }' |
     paste -sd,)

@@ -1,13 +1,13 @@
 #!/bin/bash
 # All engines, widths and thread counts draw every stream alike, byte for byte.
-# Given BUILD, TRIPTYCH and SLOW by tests/support/run.sh; in slow builds fewer frames are drawn, and only the streams that
-# are made for tests: what the others say is read and drawn there by goldens.sh.
+# Given BUILD, TRIPTYCH and SLOW by tests/support/scripts/run.sh; in slow builds fewer frames are drawn, and
+# only the streams that are made for tests: goldens.sh reads and draws the others there.
 set -uo pipefail
 cd "$(dirname "$0")/.."
 
 shopt -s nullglob
-streams=(bench/streams/*.tri tests/streams/*.tri tests/scenes/*.tri tests/shading/*.tri tests/regressions/*.tri)
-[[ -z ${SLOW-} ]] || streams=(tests/streams/*.tri tests/regressions/*.tri)
+streams=(bench/streams/*.tri tests/data/streams/*.tri tests/data/scenes/*.tri tests/data/shading/*.tri tests/data/regressions/*.tri)
+[[ -z ${SLOW-} ]] || streams=(tests/data/streams/*.tri tests/data/regressions/*.tri)
 ((${#streams[@]})) || { echo 'FAIL there are draw streams' && exit 1; }
 
 options=()
@@ -24,9 +24,9 @@ for stream in "${streams[@]}"; do
 done
 
 # Engines that are left out above: they run where they are named, for what they add is much time.
-few=(bench/streams/teapot-bilinear.tri tests/streams/{lights,multisampling,queries,render-to-texture}.tri
-    tests/scenes/cube-map.tri tests/streams/shaders.tri tests/shading/light-loop.tri
-    tests/regressions/anisotropic-words-and-numbers.tri)
+few=(bench/streams/teapot-bilinear.tri tests/data/streams/{lights,multisampling,queries,render-to-texture}.tri
+    tests/data/scenes/cube-map.tri tests/data/streams/shaders.tri tests/data/shading/light-loop.tri
+    tests/data/regressions/anisotropic-words-and-numbers.tri)
 for engine in $("$TRIPTYCH" list engines | awk '$1 ~ /^(batch-4|batch-256|external)$/ && $3 == "available" { print $1 }'); do
     if said=$("$TRIPTYCH" verify "${few[@]}" --engines "$engine" --frames 1 --threads 2 2>&1); then
         printf 'ok %s\n' "$engine"

@@ -1,16 +1,17 @@
-/* The driver of `make peers`: starts the renderers (peer.h), has them measure the workloads in turns, compares their
- * pictures, and reports.
+/* The driver of `make peers`: starts the renderers (peer.h), has them measure the workloads in turns,
+ * compares their pictures, and reports.
  *
  *   drive OPTION... <RENDERERS
  *
- * A line of standard input is a renderer: NAME engine|peer|special one|all COMMAND..., or missing REASON in
- * place of the command.
- * Those of one core are bound to the last core that the driver may use.
+ * A line of standard input is a renderer: NAME engine|peer|special one|all COMMAND..., or missing REASON
+ * instead of the command. Those of one core are bound to the last core that the driver may use.
  *
- * For each workload, renderers take turns pass by pass, so that whatever else the machine does hits all alike. A slow one
- * has fewer passes, and frames with fewer layers. Every picture is compared with that of the reference: an engine's must
- * equal it, a peer's be near it. Ends with 1 if a picture is not or a renderer failed. */
+ * For each workload, renderers take turns pass by pass, so that whatever else the machine does hits all
+ * alike. A slow one has fewer passes, and frames with fewer layers. Every picture is compared with that of
+ * the reference: an engine's must equal it, a peer's be near it. Ends with 1 if a picture is not or a
+ * renderer failed. */
 #define _GNU_SOURCE /* sched_setaffinity */
+#include "base/clock.h"
 #include "drive.h"
 
 #include <fcntl.h>
@@ -21,20 +22,12 @@
 #include <stdlib.h>
 #include <string.h>
 #include <sys/wait.h>
-#include <time.h>
 #include <unistd.h>
 
 static const double frame_most = 0.4;        /* seconds: slower ones are drawn with fewer layers */
 static const double share_tolerated = 0.005; /* of pixels: those at edges, where rules of coverage differ */
 
-static double now(void)
-{
-    struct timespec time;
-    clock_gettime(CLOCK_MONOTONIC, &time);
-    return (double)time.tv_sec + (double)time.tv_nsec * 1e-9;
-}
-
-/* --- Processes ------------------------------------------------------------------------------------------------- */
+/* --- Processes ------------------------------------------------------------------------------------------ */
 
 static void bind_to_last_core(void)
 {
@@ -89,8 +82,8 @@ static void land(struct renderer *renderer)
     renderer->process = 0;
 }
 
-/* Sends a command and reads the answer behind "ok ". Lines that libraries print are not answers. Returns 0, or -1 with the
- * reason. */
+/* Sends a command and reads the answer after "ok ". Lines that libraries print are not answers. Returns 0,
+ * or -1 with the reason. */
 static int ask(struct renderer *renderer, char answer[REASON_BYTES], const char *format, ...)
 {
     char line[REASON_BYTES];
@@ -136,7 +129,7 @@ void run_end(struct run *run)
         land(run->renderers + i);
 }
 
-/* --- Pictures ---------------------------------------------------------------------------------------------------- */
+/* --- Pictures ------------------------------------------------------------------------------------------- */
 
 static int read_picture(const char *path, uint8_t *picture)
 {
@@ -196,7 +189,7 @@ static void compare(struct run *run, const struct workload *workload, struct cel
     }
 }
 
-/* --- Measuring ----------------------------------------------------------------------------------------------------- */
+/* --- Measuring ------------------------------------------------------------------------------------------ */
 
 static void fail(struct cell *cell, const char *reason)
 {
@@ -227,7 +220,7 @@ static void open_all(struct run *run, const struct workload *workload, struct ce
 static void measure_one(struct run *run, const struct workload *workload, unsigned i, struct cell *cell)
 {
     char answer[REASON_BYTES];
-    double time, work, start = now();
+    double time, work, start = clock_seconds();
     if (ask(run->renderers + i, answer, "measure %s %g", cell->less ? "less" : "full", run->seconds)) {
         fail(cell, answer);
         return;
@@ -239,7 +232,7 @@ static void measure_one(struct run *run, const struct workload *workload, unsign
     double layers = workload->rate == MS ? 1 : cell->less ? workload->less : workload->full;
     cell->ms[TIME][cell->count] = time / layers;
     cell->ms[WORK][cell->count++] = work / layers;
-    cell->spent += now() - start;
+    cell->spent += clock_seconds() - start;
 }
 
 static void measure_workload(struct run *run, const struct workload *workload, struct cell *cells)
@@ -270,7 +263,7 @@ void run_measure(struct run *run)
         fprintf(stderr, "\r\033[K");
 }
 
-/* --- The command ----------------------------------------------------------------------------------------------------- */
+/* --- The command ---------------------------------------------------------------------------------------- */
 
 static void stop(const char *format, ...) __attribute__((format(printf, 1, 2), noreturn));
 

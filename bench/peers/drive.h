@@ -1,9 +1,9 @@
-/* What was measured: renderers, and for each workload and renderer the samples of all passes. */
-#ifndef PEERS_DRIVE_H
-#define PEERS_DRIVE_H
+/* The measurements: renderers, and for each workload and renderer the samples of all passes. */
+#ifndef BENCH_PEERS_DRIVE_H
+#define BENCH_PEERS_DRIVE_H
 
 #include "peer.h"
-#include "tool/machine.h"
+#include "command/bench/machine.h"
 
 #include <stdio.h>
 #include <sys/types.h>
@@ -18,7 +18,7 @@ struct renderer {
     char name[NAME_BYTES]; /* without the cores */
     enum side side;
     enum cores cores;
-    char *command[32]; /* null: there is none here, `reason` says why */
+    char *command[32]; /* null: none here, with a `reason` */
     char text[1024];   /* of the command's words */
     char description[REASON_BYTES], reason[REASON_BYTES];
     pid_t process;
@@ -29,7 +29,8 @@ enum clocks { TIME, WORK, CLOCKS }; /* of the wall, of the processor */
 
 enum agreement { UNKNOWN, IDENTICAL, SIMILAR, DIFFERENT };
 
-/* A renderer on a workload. All milliseconds are of a layer, or of a frame where the workload's rate is MS. */
+/* A renderer on a workload. All milliseconds are of a layer, or of a frame where the workload's rate is
+ * MS. */
 struct cell {
     bool measured, less;       /* fewer layers a frame */
     bool absent;               /* the renderer has no part in the workload */
@@ -68,7 +69,7 @@ int report_json(const struct run *run, const char *path);
 /* stream,engine,speedup against llvmpipe, for bench/chart.gnuplot. */
 int report_csv(const struct run *run, const char *path);
 
-/* What the machine can do, from limits.c, in thousands of millions a second; 0: not known. */
+/* The rates of the machine, from limits.c, in thousands of millions a second; 0: not known. */
 struct limits {
     double sums_avx2, sums_avx512;                  /* multiply-adds of one number */
     double store_first, store_second, store_memory; /* bytes */

@@ -1,6 +1,7 @@
 /* A GLES2 renderer that is measured: NAME [FOLDER], the folder with ANGLE's libraries. */
 #include "gles_library.h"
 #include "gles_shader.h"
+#include "gles_texel.h"
 #include "peer.h"
 
 #include <stdio.h>
@@ -63,7 +64,7 @@ static const char *check(const char *what)
     return reason;
 }
 
-/* --- Programs ------------------------------------------------------------------------------------------------ */
+/* --- Programs ------------------------------------------------------------------------------------------- */
 
 static GLuint compile(GLenum type, const char *text)
 {
@@ -174,38 +175,7 @@ static const char *make_program(unsigned number)
     return NULL;
 }
 
-/* --- Textures: the streams', made again ------------------------------------------------------------------------ */
-
-static uint32_t rgba(uint32_t argb)
-{
-    return (argb & 0xff00ff00) | (argb >> 16 & 255) | (argb & 255) << 16;
-}
-
-static uint32_t checker_at(unsigned x, unsigned y)
-{
-    return rgba((x / 4 + y / 4) % 2 ? 0x80203060 : 0xffe0a040);
-}
-
-static uint32_t gradient_at(unsigned x, unsigned y)
-{
-    return 0xff000000 | y << 8 | x;
-}
-
-/* The mean of four texels, channel by channel, rounded. */
-static void halve(const uint32_t *from, uint32_t *to, unsigned side)
-{
-    for (unsigned y = 0; y < side; y++)
-        for (unsigned x = 0; x < side; x++) {
-            uint32_t mean = 0;
-            for (unsigned shift = 0; shift < 32; shift += 8) {
-                const uint32_t *texel = from + (2 * y * 2 * side) + 2 * x;
-                uint32_t sum = (texel[0] >> shift & 255) + (texel[1] >> shift & 255) +
-                               (texel[2 * side] >> shift & 255) + (texel[2 * side + 1] >> shift & 255);
-                mean |= (sum + 2) / 4 << shift;
-            }
-            to[y * side + x] = mean;
-        }
-}
+/* --- Textures ------------------------------------------------------------------------------------------ */
 
 static void make_texture(unsigned unit, uint32_t (*at)(unsigned, unsigned))
 {
@@ -226,7 +196,7 @@ static void make_texture(unsigned unit, uint32_t (*at)(unsigned, unsigned))
         int side = TEXTURE_SIDE >> level;
         gl.TexImage2D(GL_TEXTURE_2D, level, GL_RGBA, side, side, 0, GL_RGBA, GL_UNSIGNED_BYTE,
                       texels[level % 2]);
-        halve(texels[level % 2], texels[(level + 1) % 2], (unsigned)side / 2);
+        gles_halve(texels[level % 2], texels[(level + 1) % 2], (unsigned)side / 2);
     }
 }
 
@@ -234,12 +204,12 @@ static void make_textures(void)
 {
     gl.GenTextures(2, textures);
     if (scene->textures)
-        make_texture(0, checker_at);
+        make_texture(0, gles_checker);
     if (scene->textures > 1)
-        make_texture(1, gradient_at);
+        make_texture(1, gles_gradient);
 }
 
-/* --- Geometry ------------------------------------------------------------------------------------------------ */
+/* --- Geometry ------------------------------------------------------------------------------------------- */
 
 static void attribute(GLuint i, GLint components, unsigned offset_floats, unsigned stride_floats)
 {
@@ -371,7 +341,7 @@ static const char *make_geometry(void)
     return NULL;
 }
 
-/* --- Frames -------------------------------------------------------------------------------------------------- */
+/* --- Frames --------------------------------------------------------------------------------------------- */
 
 static void set_states(void)
 {

@@ -1,6 +1,8 @@
 #include "gles_library.h"
 
 #include <dlfcn.h>
+#include <stdbool.h>
+#include <stddef.h>
 #include <stdio.h>
 #include <string.h>
 
@@ -18,23 +20,32 @@ static void *load(const char *folder, const char *name)
     return library;
 }
 
-static void *find(void *library, const char *name)
-{
-    void *found = dlsym(library, name);
-    if (!found)
-        snprintf(reason, sizeof reason, "the library has no %s", name);
-    return found;
-}
-
-static int find_all(void *egl, void *gles)
-{
-    int missing = 0;
-#define EGL_FUNCTION(name) missing |= !(*(void **)&gl.egl##name = find(egl, "egl" #name));
-#define GL_FUNCTION(name)  missing |= !(*(void **)&gl.name = find(gles, "gl" #name));
+/* Where the address of a function goes in `gl`. */
+static const struct entry {
+    const char *name;
+    size_t at;
+    bool is_egl;
+} entries[] = {
+#define EGL_FUNCTION(name) {"egl" #name, offsetof(struct gles, egl##name), true},
+#define GL_FUNCTION(name)  {"gl" #name, offsetof(struct gles, name), false},
 #include "gles_function.def"
 #undef EGL_FUNCTION
 #undef GL_FUNCTION
-    return missing;
+};
+
+/* Returns true if the libraries have all functions; else `reason` names a missing one. */
+static bool find_all(void *egl, void *gles)
+{
+    bool found_all = true;
+    for (size_t i = 0; i < sizeof entries / sizeof *entries; i++) {
+        const struct entry *entry = &entries[i];
+        void *found = dlsym(entry->is_egl ? egl : gles, entry->name);
+        if (!found)
+            snprintf(reason, sizeof reason, "the library has no %s", entry->name);
+        memcpy((char *)&gl + entry->at, &found, sizeof found);
+        found_all = found_all && found;
+    }
+    return found_all;
 }
 
 /* ANGLE has many back ends; Vulkan's device that is SwiftShader, without a window system. */
@@ -101,7 +112,7 @@ const char *gles_start(const char *folder, int side)
 {
     void *egl = load(folder, folder ? "libEGL.so" : "libEGL.so.1");
     void *gles = egl ? load(folder, folder ? "libGLESv2.so" : "libGLESv2.so.2") : NULL;
-    if (!gles || find_all(egl, gles))
+    if (!gles || !find_all(egl, gles))
         return reason;
     EGLDisplay display = folder ? angle_display() : gl.eglGetDisplay(EGL_DEFAULT_DISPLAY);
     return display == EGL_NO_DISPLAY ? failed("eglGetDisplay") : make_current(display, side);

@@ -1,6 +1,7 @@
-/* EGL and GLES2 of a folder, or the system's: which of them is decided when the process runs, so nothing is linked. */
-#ifndef PEERS_GLES_LIBRARY_H
-#define PEERS_GLES_LIBRARY_H
+/* EGL and GLES2 of a folder, or the system's: which of them is decided when the process runs, so nothing
+ * is linked. */
+#ifndef BENCH_PEERS_GLES_LIBRARY_H
+#define BENCH_PEERS_GLES_LIBRARY_H
 
 #define EGL_EGLEXT_PROTOTYPES
 #define GL_GLEXT_PROTOTYPES
@@ -18,8 +19,8 @@ struct gles {
 
 extern struct gles gl;
 
-/* Loads the libraries of `folder`, ANGLE's, or with null the system's, and makes a context with a surface of that side and
- * RGBA8 + depth 24 current. Returns a reason, or null. */
+/* Loads the libraries of `folder`, ANGLE's, or with null the system's, and makes a context with a surface
+ * of that side and RGBA8 + depth 24 current. Returns a reason, or null. */
 const char *gles_start(const char *folder, int side);
 
 #endif

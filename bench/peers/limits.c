@@ -1,12 +1,12 @@
-/* What one core of this machine can do at most, measured on the spot: loops that do nothing else. Each rate is the best of
- * a few tries, for what disturbs only makes slower. */
+/* The rates that one core of this machine can reach, measured by loops without other work. Each rate is the
+ * best of a few tries, because disturbances only slow a loop down. */
 #define _GNU_SOURCE
+#include "base/clock.h"
 #include "drive.h"
 
 #include <immintrin.h>
 #include <stdlib.h>
 #include <string.h>
-#include <time.h>
 
 enum {
     TRIES = 5,
@@ -19,9 +19,7 @@ enum {
 
 static double now(void)
 {
-    struct timespec time;
-    clock_gettime(CLOCK_THREAD_CPUTIME_ID, &time);
-    return (double)time.tv_sec + (double)time.tv_nsec * 1e-9;
+    return clock_seconds_of(CLOCK_THREAD_CPUTIME_ID);
 }
 
 /* Keeps the compiler from seeing through. */

@@ -1,9 +1,9 @@
+#include "base/clock.h"
 #include "peer.h"
 
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
-#include <time.h>
 
 enum { COLD_MAXIMUM = 9, BUILDS_MAXIMUM = 200, READING_MOST = 5 };
 
@@ -18,16 +18,9 @@ struct span {
     double time, work;
 };
 
-static double clock_of(clockid_t clock)
-{
-    struct timespec time;
-    clock_gettime(clock, &time);
-    return (double)time.tv_sec + (double)time.tv_nsec * 1e-9;
-}
-
 static struct span now(void)
 {
-    return (struct span){clock_of(CLOCK_MONOTONIC), clock_of(CLOCK_PROCESS_CPUTIME_ID)};
+    return (struct span){clock_seconds_of(CLOCK_MONOTONIC), clock_seconds_of(CLOCK_PROCESS_CPUTIME_ID)};
 }
 
 static struct span since(struct span start)
@@ -54,7 +47,7 @@ static const char *draw(bool less)
     return renderer_frame(less);
 }
 
-/* --- Opening: the first time -------------------------------------------------------------------------------- */
+/* --- Opening: the first time ---------------------------------------------------------------------------- */
 
 /* Opens the workload and draws some of its pixels twice. */
 static const char *cold_once(const struct workload *wanted, struct span *cold, double *build_us)
@@ -101,7 +94,7 @@ static const char *open_workload(const struct workload *wanted, char *answer, si
     return NULL;
 }
 
-/* --- Measuring ---------------------------------------------------------------------------------------------- */
+/* --- Measuring ------------------------------------------------------------------------------------------ */
 
 /* The first frame does not count, for the caches were another renderer's meanwhile, unless it is long. */
 static const char *measure_frames(bool less, double seconds, struct span *each)
@@ -198,7 +191,7 @@ static const char *write_image(bool less, const char *path)
     return fclose(file) || rows != SIDE ? "the picture's file cannot be written" : NULL;
 }
 
-/* --- Commands ----------------------------------------------------------------------------------------------- */
+/* --- Commands ------------------------------------------------------------------------------------------- */
 
 static const char *obey(char *line, const char *description, char *answer, size_t capacity)
 {

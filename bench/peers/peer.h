@@ -1,22 +1,24 @@
 /* A renderer that is measured: what each of them does, and the process around it.
  *
- * A renderer runs in a process of its own (peer.c has its main), whose environment and processors the driver (drive.c)
- * chose before it began, because libraries read both when they are loaded. It reads commands, a line each, from standard
- * input and answers each with a line on standard output, "ok ..." or "error REASON":
+ * A renderer runs in a process of its own (peer.c has its main), whose environment and processors the
+ * driver (drive.c) chose before it began, because libraries read both when they are loaded. It reads
+ * commands, a line each, from standard input and answers each with a line on standard output, "ok ..." or
+ * "error REASON":
  *
  *   hello                      ok DESCRIPTION of the renderer
- *   open WORKLOAD              ok COLD CPU LESS BUILD: what drawing first took longer than drawing the same again, in
- *                              milliseconds of time and of the processor, medians over a few times; the time of a frame
- *                              with fewer layers; the microseconds that building code took of the first, by the
- *                              renderer's own account, or -1. "ok none": this renderer has no part in the workload
- *   measure full|less SECONDS  ok MS CPU: of a frame (reading, shader) on average, over at least so many seconds; the
- *                              processor's time is that of all threads
+ *   open WORKLOAD              ok COLD CPU LESS BUILD: what drawing first took longer than drawing the same
+ *                              again, in milliseconds of time and of the processor, medians over a few times;
+ *                              the time of a frame with fewer layers; the microseconds that building code
+ *                              took of the first, by the renderer's own account, or -1. "ok none": this
+ *                              renderer has no part in the workload
+ *   measure full|less SECONDS  ok MS CPU: of a frame (reading, shader) on average, over at least that time;
+ *                              the processor's time is that of all threads
  *   image full|less FILE       ok: 1024 x 1024 RGBA8 from the top, raw
  *   close                      ok
  *
  * It ends when the input does. */
-#ifndef PEERS_PEER_H
-#define PEERS_PEER_H
+#ifndef BENCH_PEERS_PEER_H
+#define BENCH_PEERS_PEER_H
 
 #include <stdbool.h>
 #include <stdint.h>
@@ -44,13 +46,13 @@ extern const unsigned workload_count;
 
 const struct workload *workload_find(const char *name); /* null: none */
 
-/* A renderer. What returns a reason returns null when all is well. */
+/* A renderer. A function that returns a reason returns null on success. */
 
 /* From the process' arguments. `description` has room for 256 bytes. */
 const char *renderer_start(int count, char **arguments, char *description);
 
-/* Everything of the workload but what depends on its shaders and states, as if it had never been drawn. The reason "none"
- * means that the renderer has no part in it, which is no failure. */
+/* Everything of the workload but what depends on its shaders and states, as if it had never been drawn.
+ * The reason "none" means that the renderer has no part in it, which is not a failure. */
 const char *renderer_open(const struct workload *workload);
 /* Limits drawing to some pixels, or does not. */
 const char *renderer_limit(bool limited);

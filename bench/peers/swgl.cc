@@ -1,7 +1,8 @@
-// Mozilla's swgl as a renderer that is measured: generic|span. It takes part in what it is made for, rectangles without
-// perspective or repetition, and says so of all else. `span` has the paths for whole spans that its users write into shaders by
-// hand. bench/swgl.sh builds it, with swgl's own sources from its crate: nothing of them is here.
-#include "gl.cc"
+// Mozilla's swgl as a renderer that is measured: generic|span. It takes part in the workloads that it is
+// made for: rectangles without perspective or repetition. `span` uses the paths for whole spans that swgl's
+// users write into shaders by hand, and takes part only in workloads that have one. bench/swgl.sh builds it
+// with swgl's sources from its crate.
+#include <gl.cc>
 
 extern "C" {
 #include "peer.h"
@@ -56,11 +57,16 @@ static void set4(const char *name, float x, float y, float z, float w)
         Uniform4fv(at, 1, v);
 }
 
+// True if swgl's users write a path for whole spans of the scene's shader.
+static bool has_span()
+{
+    return !strcmp(scene->shader, "flat") || !strcmp(scene->shader, "tex");
+}
+
 static void make_program()
 {
     char name[32];
-    bool has_span = !strcmp(scene->shader, "flat") || !strcmp(scene->shader, "tex");
-    snprintf(name, sizeof name, "%s%s", scene->shader, span && has_span ? "_span" : "");
+    snprintf(name, sizeof name, "%s%s", scene->shader, span ? "_span" : "");
     GLuint vs = CreateShader(GL_VERTEX_SHADER), fs = CreateShader(GL_FRAGMENT_SHADER);
     ShaderSourceByName(vs, name);
     ShaderSourceByName(fs, name);
@@ -159,7 +165,7 @@ extern "C" const char *renderer_open(const struct workload *wanted)
     for (const struct scene &each : scenes)
         if (!strcmp(each.name, wanted->name))
             scene = &each;
-    if (!scene)
+    if (!scene || (span && !has_span()))
         return "none";
     workload = wanted;
     make_textures();

@@ -1,6 +1,7 @@
 /* Triptych as a renderer that is measured: ENGINE THREADS FOLDER. It plays the streams of the folder. */
 #include "peer.h"
-#include "stream/stream.h"
+#include "command/bench/execution.h"
+#include "command/stream/stream.h"
 #include "triptych.h"
 
 #include <stdio.h>
@@ -17,21 +18,6 @@ static triptych_device *device;
 static struct player *player;
 static triptych_shader *shader; /* of renderer_build */
 static struct error error;
-
-const char *renderer_start(int count, char **arguments, char *description)
-{
-    if (count != 4)
-        return "expected ENGINE THREADS FOLDER";
-    options.engine = arguments[1];
-    options.threads = (unsigned)strtoul(arguments[2], NULL, 10);
-    folder = arguments[3];
-    if (triptych_device_create(&options, &device, error.text, sizeof error.text))
-        return error.text;
-    triptych_device_destroy(device);
-    device = NULL;
-    snprintf(description, 256, "Triptych %s, engine %s", TRIPTYCH_VERSION, options.engine);
-    return NULL;
-}
 
 static const char *reason_of(enum triptych_result result)
 {
@@ -50,7 +36,7 @@ static const char *load(const struct workload *workload)
     return stream->frame_count == 3 ? NULL : "the stream has not 3 frames";
 }
 
-/* Each time with a device that knows nothing. */
+/* Each workload gets a new device. */
 const char *renderer_open(const struct workload *workload)
 {
     const char *reason = current == workload ? NULL : load(workload);
@@ -68,7 +54,7 @@ const char *renderer_limit(bool limited)
     return reason ? reason : reason_of(triptych_set_state(device, TRIPTYCH_STATE_scissortestenable, limited));
 }
 
-/* Frames are played from where the first one left the device, never from the beginning. */
+/* The first frame prepares the device; the others follow it without playing it again. */
 const char *renderer_frame(bool less)
 {
     return player_go_on(player, less ? LESS : FULL, &error) ? error.text : NULL;
@@ -120,4 +106,32 @@ void renderer_close(void)
     if (device)
         triptych_device_destroy(device);
     device = NULL;
+}
+
+/* Draws one frame, to describe the lanes and instruction set of the routines that run. */
+static const char *describe(char *description)
+{
+    char lanes[EXECUTION_TEXT];
+    struct execution execution = {0};
+    const char *reason = renderer_open(workload_find("flat-one"));
+    if (!reason)
+        reason = renderer_frame(false);
+    if (!reason)
+        reason = reason_of(triptych_finish(device));
+    if (!reason)
+        execution_add_device(&execution, device);
+    renderer_close();
+    snprintf(description, 256, "Triptych %s, engine %s, %s lanes, %s", TRIPTYCH_VERSION, options.engine,
+             execution_lanes(&execution, lanes), execution_set(&execution));
+    return reason;
+}
+
+const char *renderer_start(int count, char **arguments, char *description)
+{
+    if (count != 4)
+        return "expected ENGINE THREADS FOLDER";
+    options.engine = arguments[1];
+    options.threads = (unsigned)strtoul(arguments[2], NULL, 10);
+    folder = arguments[3];
+    return describe(description);
 }

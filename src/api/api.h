@@ -1,20 +1,26 @@
-/* The public functions of triptych.h: null pointers are refused here, everything else by the device; what has succeeded
- * is recorded (container/record.h); the reason of a failure is kept for triptych_error(). */
+/* The public functions of triptych.h. They refuse null pointers, and the device refuses everything else.
+ * Successful calls are recorded (capture/record.h). The device keeps the reason of a failure for
+ * triptych_error(). */
 #ifndef API_API_H
 #define API_API_H
 
-#include "container/record.h"
-#include "draw/device.h"
+#include "capture/record.h"
+#include "render/device/device.h"
 
-/* Ends a call: the reason is kept from the last failed call until the next one. Returns the result. */
-enum triptych_result api_finish(triptych_device *device, enum triptych_result result,
-                                const struct error *error);
+/* Begin a public function that needs a device, and arguments that are given. Return the error that
+ * api_finish keeps. Return null, with the reason kept, if a pointer is null: the function then returns
+ * TRIPTYCH_BAD_ARGUMENT. */
+struct error *api_begin(triptych_device *device);
+struct error *api_begin_with(triptych_device *device, bool given, const char *name);
+struct error *api_begin_with_both(triptych_device *device, bool first, const char *first_name, bool second,
+                                  const char *second_name);
 
-/* The same, after a change of the state that may have changed these parts of what it derives to (draw/change.h). */
-enum triptych_result api_changed(triptych_device *device, enum triptych_result result, unsigned parts,
-                                 const struct error *error);
+/* Ends a public function. If it failed, the device keeps the error for triptych_error(). Returns the
+ * result. */
+enum triptych_result api_finish(triptych_device *device, enum triptych_result result);
 
-/* Ends a call whose argument `what` must not be null. */
-enum triptych_result api_null_argument(triptych_device *device, const char *what);
+/* Ends a public function that has changed the state, and with it these parts of the derived state
+ * (render/derive/change.h). */
+enum triptych_result api_changed(triptych_device *device, enum triptych_result result, unsigned parts);
 
 #endif

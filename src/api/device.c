@@ -1,8 +1,8 @@
-/* Devices and what is known of them, engines, recording, formats; and what all parts of the interface share. */
+/* Devices, engines, recordings, formats and statistics. */
 #define _GNU_SOURCE /* secure_getenv */
 #include "api/api.h"
-#include "draw/depth.h"
-#include "engines.h"
+#include "render/target/depth.h"
+#include "engines/list.h"
 
 #include <stdio.h>
 #include <stdlib.h>
@@ -10,8 +10,7 @@
 
 static const char default_engine[] = "specialize";
 
-/* --- Devices and engines ----------------------------------------------------------------------------------
- */
+/* --- Devices and engines -------------------------------------------------------------------------------- */
 
 static enum triptych_result create(const struct triptych_options *options, triptych_device **device,
                                    struct error *error)
@@ -65,15 +64,15 @@ void triptych_device_destroy(triptych_device *device)
 
 const char *triptych_error(const triptych_device *device)
 {
-    return device ? device->error.text : "device is null";
+    return device ? device->errors.last.text : "device is null";
 }
 
 const char *triptych_debug_error(triptych_device *device)
 {
     if (!device)
         return "device is null";
-    device_debug_error(device, &device->debug_told);
-    return device->debug_told.text;
+    device_debug_error(device, &device->errors.told);
+    return device->errors.told.text;
 }
 
 const char *triptych_engine_name(unsigned i)
@@ -93,61 +92,67 @@ unsigned triptych_engine_width(unsigned i)
 
 const char *triptych_engine_unavailable(unsigned i)
 {
-    return engine_at(i) ? engine_at(i)->unavailable() : NULL;
+    return engine_at(i) ? engine_unavailable(engine_at(i)) : NULL;
 }
 
-/* --- Arguments and results --------------------------------------------------------------------------------
- */
+/* --- Arguments and results ------------------------------------------------------------------------------ */
 
-enum triptych_result api_finish(triptych_device *device, enum triptych_result result,
-                                const struct error *error)
+static _Thread_local struct error call_error;
+
+struct error *api_begin(triptych_device *device)
+{
+    error_clear(&call_error);
+    return device ? &call_error : NULL;
+}
+
+struct error *api_begin_with(triptych_device *device, bool given, const char *name)
+{
+    if (!api_begin(device) || given)
+        return device ? &call_error : NULL;
+    error_set(&call_error, "%s is null", name);
+    api_finish(device, TRIPTYCH_BAD_ARGUMENT);
+    return NULL;
+}
+
+struct error *api_begin_with_both(triptych_device *device, bool first, const char *first_name, bool second,
+                                  const char *second_name)
+{
+    return first ? api_begin_with(device, second, second_name) : api_begin_with(device, first, first_name);
+}
+
+enum triptych_result api_finish(triptych_device *device, enum triptych_result result)
 {
     if (result != TRIPTYCH_OK)
-        device->error = *error;
+        device->errors.last = call_error;
     return result;
 }
 
-enum triptych_result api_null_argument(triptych_device *device, const char *what)
-{
-    struct error error;
-    error_clear(&error);
-    error_set(&error, "%s is null", what);
-    return api_finish(device, TRIPTYCH_BAD_ARGUMENT, &error);
-}
-
-enum triptych_result api_changed(triptych_device *device, enum triptych_result result, unsigned parts,
-                                 const struct error *error)
+enum triptych_result api_changed(triptych_device *device, enum triptych_result result, unsigned parts)
 {
     if (result == TRIPTYCH_OK)
         device_state_changed(device, parts);
-    return api_finish(device, result, error);
+    return api_finish(device, result);
 }
 
-/* --- Recording --------------------------------------------------------------------------------------------
- */
+/* --- Recording ------------------------------------------------------------------------------------------ */
 
 enum triptych_result triptych_record_start(triptych_device *device, const char *path)
 {
-    if (!device)
+    struct error *error = api_begin_with(device, path, "path");
+    if (!error)
         return TRIPTYCH_BAD_ARGUMENT;
-    if (!path)
-        return api_null_argument(device, "path");
-    struct error error;
-    error_clear(&error);
-    return api_finish(device, record_start(device, path, &error), &error);
+    return api_finish(device, record_start(device, path, error));
 }
 
 enum triptych_result triptych_record_stop(triptych_device *device)
 {
-    if (!device)
+    struct error *error = api_begin(device);
+    if (!error)
         return TRIPTYCH_BAD_ARGUMENT;
-    struct error error;
-    error_clear(&error);
-    return api_finish(device, record_stop(device, &error), &error);
+    return api_finish(device, record_stop(device, error));
 }
 
-/* --- Formats ----------------------------------------------------------------------------------------------
- */
+/* --- Formats -------------------------------------------------------------------------------------------- */
 
 int triptych_format_is_bytes(enum triptych_surface_format number)
 {
@@ -175,8 +180,7 @@ const char *triptych_depth_format_name(enum triptych_depth_format format)
     return known_format(format) ? depth_formats[format].name : NULL;
 }
 
-/* --- Statistics -------------------------------------------------------------------------------------------
- */
+/* --- Statistics ----------------------------------------------------------------------------------------- */
 
 void triptych_get_statistics(const triptych_device *device, struct triptych_statistics *statistics)
 {
@@ -212,6 +216,8 @@ int triptych_get_routine(triptych_device *device, unsigned i, struct triptych_ro
                   : routine.unit == UNIT_PIXEL ? key_program(routine.key.pixel.shader)
                                                : 0,
         .granularity = routine.granularity,
+        .lanes = routine_lanes(&routine),
+        .instruction_set = routine_instruction_set(&routine),
     };
     return 1;
 }

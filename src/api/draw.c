@@ -4,71 +4,64 @@
 enum triptych_result triptych_draw(triptych_device *device, enum triptych_primitive primitive, uint32_t first,
                                    uint32_t count)
 {
-    if (!device)
+    struct error *error = api_begin(device);
+    if (!error)
         return TRIPTYCH_BAD_ARGUMENT;
-    struct error error;
-    error_clear(&error);
-    enum triptych_result result = device_draw(device, primitive, first, count, &error);
+    enum triptych_result result = device_draw(device, primitive, first, count, error);
     if (result == TRIPTYCH_OK)
         record_draw(device, primitive, first, count);
-    return api_finish(device, result, &error);
+    return api_finish(device, result);
 }
 
 enum triptych_result triptych_draw_indexed(triptych_device *device, enum triptych_primitive primitive,
                                            int32_t base, uint32_t first, uint32_t count)
 {
-    if (!device)
+    struct error *error = api_begin(device);
+    if (!error)
         return TRIPTYCH_BAD_ARGUMENT;
-    struct error error;
-    error_clear(&error);
-    enum triptych_result result = device_draw_indexed(device, primitive, base, first, count, &error);
+    enum triptych_result result = device_draw_indexed(device, primitive, base, first, count, error);
     if (result == TRIPTYCH_OK)
         record_draw_indexed(device, primitive, base, first, count);
-    return api_finish(device, result, &error);
+    return api_finish(device, result);
 }
 
 enum triptych_result triptych_clear(triptych_device *device, const float color[4], float depth)
 {
-    if (!device)
+    struct error *error = api_begin(device);
+    if (!error)
         return TRIPTYCH_BAD_ARGUMENT;
     struct clear_values values = {(color ? TRIPTYCH_CLEAR_COLOR : 0) | (depth < 0 ? 0 : TRIPTYCH_CLEAR_DEPTH),
                                   color, depth, 0};
-    struct error error;
-    error_clear(&error);
-    enum triptych_result result = device_clear(device, &values, &error);
+    enum triptych_result result = device_clear(device, &values, error);
     if (result == TRIPTYCH_OK)
         record_clear(device, &values);
-    return api_finish(device, result, &error);
+    return api_finish(device, result);
 }
 
 enum triptych_result triptych_clear_buffers(triptych_device *device, unsigned flags, const float color[4],
                                             float depth, unsigned stencil)
 {
-    if (!device)
+    struct error *error = api_begin_with(device, !(flags & TRIPTYCH_CLEAR_COLOR) || color, "color");
+    if (!error)
         return TRIPTYCH_BAD_ARGUMENT;
-    if (flags & TRIPTYCH_CLEAR_COLOR && !color)
-        return api_null_argument(device, "color");
     struct clear_values values = {flags, color, depth, stencil};
-    struct error error;
-    error_clear(&error);
-    enum triptych_result result = device_clear(device, &values, &error);
+    enum triptych_result result = device_clear(device, &values, error);
     if (result == TRIPTYCH_OK)
         record_clear(device, &values);
-    return api_finish(device, result, &error);
+    return api_finish(device, result);
 }
 
 enum triptych_result triptych_set_target_textures(triptych_device *device,
                                                   const struct triptych_target_textures *textures)
 {
-    if (!device)
+    struct error *error = api_begin(device);
+    if (!error)
         return TRIPTYCH_BAD_ARGUMENT;
-    struct error error;
-    error_clear(&error);
-    bool changes = textures || device->draws_to_textures;
-    enum triptych_result result = device_set_target_textures(device, textures, &error);
+    bool changes = textures || device_drawn_textures(device);
+    enum triptych_result result = device_set_target_textures(device, textures, error);
     if (result == TRIPTYCH_OK && changes)
         record_attach(device, textures);
-    return api_finish(device, result, &error);
+    return api_finish(device, result);
 }
 
 enum triptych_result triptych_copy(triptych_device *device, const struct triptych_surface *source,
@@ -77,98 +70,81 @@ enum triptych_result triptych_copy(triptych_device *device, const struct triptyc
                                    const struct triptych_rectangle *target_part,
                                    enum triptych_copy_filter filter)
 {
-    if (!device)
+    struct error *error = api_begin_with_both(device, source, "source", target, "target");
+    if (!error)
         return TRIPTYCH_BAD_ARGUMENT;
-    if (!source || !target)
-        return api_null_argument(device, source ? "target" : "source");
     struct surface_copy copy = {.surface = {source, target}, .filter = filter};
-    struct error error;
-    error_clear(&error);
     if (source_part)
         copy.part[0] = *source_part;
     if (target_part)
         copy.part[1] = *target_part;
-    enum triptych_result result = device_copy(device, &copy, &error);
+    enum triptych_result result = device_copy(device, &copy, error);
     if (result == TRIPTYCH_OK)
         record_copy(device, &copy);
-    return api_finish(device, result, &error);
+    return api_finish(device, result);
 }
 
-/* --- Queries ----------------------------------------------------------------------------------------------
- */
+/* --- Queries -------------------------------------------------------------------------------------------- */
 
 enum triptych_result triptych_query_create(triptych_device *device, enum triptych_query_type type,
                                            triptych_query **query)
 {
-    if (!device)
+    struct error *error = api_begin_with(device, query, "query");
+    if (!error)
         return TRIPTYCH_BAD_ARGUMENT;
-    if (!query)
-        return api_null_argument(device, "query");
     *query = NULL;
-    struct error error;
-    error_clear(&error);
     if ((unsigned)type >= TRIPTYCH_QUERY_COUNT) {
-        error_set(&error, "query type %u: expected 0 to %u", (unsigned)type, TRIPTYCH_QUERY_COUNT - 1);
-        return api_finish(device, TRIPTYCH_BAD_ARGUMENT, &error);
+        error_set(error, "query type %u: expected 0 to %u", (unsigned)type, TRIPTYCH_QUERY_COUNT - 1);
+        return api_finish(device, TRIPTYCH_BAD_ARGUMENT);
     }
     *query = query_create(&device->queries, type);
     if (*query) {
         record_new_query(device, *query);
         return TRIPTYCH_OK;
     }
-    error_set(&error, "out of memory for a query");
-    return api_finish(device, TRIPTYCH_NO_MEMORY, &error);
+    error_set(error, "out of memory for a query");
+    return api_finish(device, TRIPTYCH_NO_MEMORY);
 }
 
 enum triptych_result triptych_query_destroy(triptych_device *device, triptych_query *query)
 {
-    if (!device)
+    struct error *error = api_begin(device);
+    if (!error)
         return TRIPTYCH_BAD_ARGUMENT;
     if (!query)
         return TRIPTYCH_OK;
-    struct error error;
-    error_clear(&error);
     record_end_query(device, query);
-    return api_finish(device, device_query_destroy(device, query, &error), &error);
+    return api_finish(device, device_query_destroy(device, query, error));
 }
 
 enum triptych_result triptych_query_begin(triptych_device *device, triptych_query *query)
 {
-    if (!device)
+    struct error *error = api_begin_with(device, query, "query");
+    if (!error)
         return TRIPTYCH_BAD_ARGUMENT;
-    if (!query)
-        return api_null_argument(device, "query");
-    struct error error;
-    error_clear(&error);
-    enum triptych_result result = device_query_begin(device, query, &error);
+    enum triptych_result result = device_query_begin(device, query, error);
     if (result == TRIPTYCH_OK)
         record_query(device, query, 1);
-    return api_finish(device, result, &error);
+    return api_finish(device, result);
 }
 
 enum triptych_result triptych_query_end(triptych_device *device, triptych_query *query)
 {
-    if (!device)
+    struct error *error = api_begin_with(device, query, "query");
+    if (!error)
         return TRIPTYCH_BAD_ARGUMENT;
-    if (!query)
-        return api_null_argument(device, "query");
-    struct error error;
-    error_clear(&error);
-    enum triptych_result result = device_query_end(device, query, &error);
+    enum triptych_result result = device_query_end(device, query, error);
     if (result == TRIPTYCH_OK)
         record_query(device, query, 0);
-    return api_finish(device, result, &error);
+    return api_finish(device, result);
 }
 
 enum triptych_result triptych_query_result(triptych_device *device, triptych_query *query, uint64_t *result)
 {
-    if (!device)
+    struct error *error = api_begin_with_both(device, query, "query", result, "result");
+    if (!error)
         return TRIPTYCH_BAD_ARGUMENT;
-    if (!query || !result)
-        return api_null_argument(device, query ? "result" : "query");
-    struct error error;
-    error_clear(&error);
-    return api_finish(device, device_query_result(device, query, result, &error), &error);
+    return api_finish(device, device_query_result(device, query, result, error));
 }
 
 enum triptych_result triptych_finish(triptych_device *device)

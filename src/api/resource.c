@@ -3,129 +3,110 @@
 
 enum triptych_result triptych_set_target(triptych_device *device, unsigned width, unsigned height)
 {
-    if (!device)
+    struct error *error = api_begin(device);
+    if (!error)
         return TRIPTYCH_BAD_ARGUMENT;
     struct triptych_target_description description = {.width = width, .height = height};
-    struct error error;
-    error_clear(&error);
-    enum triptych_result result = device_set_target(device, &description, &error);
+    enum triptych_result result = device_set_target(device, &description, error);
     if (result == TRIPTYCH_OK)
         record_target(device, &description);
-    return api_finish(device, result, &error);
+    return api_finish(device, result);
 }
 
 enum triptych_result triptych_set_target_description(triptych_device *device,
                                                      const struct triptych_target_description *description)
 {
-    if (!device)
+    struct error *error = api_begin_with(device, description, "description");
+    if (!error)
         return TRIPTYCH_BAD_ARGUMENT;
-    if (!description)
-        return api_null_argument(device, "description");
-    struct error error;
-    error_clear(&error);
-    enum triptych_result result = device_set_target(device, description, &error);
+    enum triptych_result result = device_set_target(device, description, error);
     if (result == TRIPTYCH_OK)
         record_target(device, description);
-    return api_finish(device, result, &error);
+    return api_finish(device, result);
 }
 
 enum triptych_result triptych_buffer_create(triptych_device *device, const void *data, size_t bytes,
                                             triptych_buffer **buffer)
 {
-    if (!device)
+    struct error *error = api_begin_with_both(device, data, "data", buffer, "buffer");
+    if (!error)
         return TRIPTYCH_BAD_ARGUMENT;
-    if (!data || !buffer)
-        return api_null_argument(device, data ? "buffer" : "data");
     *buffer = NULL;
-    struct error error;
-    error_clear(&error);
     if (!bytes || bytes > INT32_MAX) {
-        error_set(&error, "buffer of %zu bytes: expected 1 to 2^31 - 1", bytes);
-        return api_finish(device, TRIPTYCH_BAD_ARGUMENT, &error);
+        error_set(error, "buffer of %zu bytes: expected 1 to 2^31 - 1", bytes);
+        return api_finish(device, TRIPTYCH_BAD_ARGUMENT);
     }
     *buffer = buffer_create(data, bytes);
     if (!*buffer) {
-        error_set(&error, "out of memory for a buffer of %zu bytes", bytes);
-        return api_finish(device, TRIPTYCH_NO_MEMORY, &error);
+        error_set(error, "out of memory for a buffer of %zu bytes", bytes);
+        return api_finish(device, TRIPTYCH_NO_MEMORY);
     }
-    (*buffer)->next = device->buffers;
-    device->buffers = *buffer;
+    (*buffer)->next = device->resources.buffers;
+    device->resources.buffers = *buffer;
     record_new_buffer(device, *buffer);
     return TRIPTYCH_OK;
 }
 
 enum triptych_result triptych_buffer_destroy(triptych_device *device, triptych_buffer *buffer)
 {
-    if (!device)
+    struct error *error = api_begin(device);
+    if (!error)
         return TRIPTYCH_BAD_ARGUMENT;
     if (!buffer)
         return TRIPTYCH_OK;
-    struct error error;
-    error_clear(&error);
     record_end_buffer(device, buffer);
-    return api_finish(device, device_buffer_destroy(device, buffer, &error), &error);
+    return api_finish(device, device_buffer_destroy(device, buffer, error));
 }
 
 enum triptych_result triptych_texture_create(triptych_device *device, const void *rgba, unsigned width,
                                              unsigned height, triptych_texture **texture)
 {
-    if (!device)
+    struct error *error = api_begin_with_both(device, rgba, "image", texture, "texture");
+    if (!error)
         return TRIPTYCH_BAD_ARGUMENT;
-    if (!rgba || !texture)
-        return api_null_argument(device, rgba ? "texture" : "image");
     const struct triptych_texture_description description = {
         TRIPTYCH_TEXTURE_2D, TRIPTYCH_SURFACE_A8B8G8R8, width, height, 1, 1};
-    struct error error;
-    error_clear(&error);
-    enum triptych_result result = device_texture_create(device, &description, texture, &error);
+    enum triptych_result result = device_texture_create(device, &description, texture, error);
     if (result == TRIPTYCH_OK)
-        result = device_texture_update(device, *texture, 0, 0, NULL, rgba, 4 * (size_t)width, 0, &error);
+        result = device_texture_update(device, *texture, 0, 0, NULL, rgba, 4 * (size_t)width, 0, error);
     if (result == TRIPTYCH_OK) {
         record_new_texture(device, *texture);
         record_update(device, *texture, 0, 0, NULL, rgba, 4 * (size_t)width, 0);
     }
-    return api_finish(device, result, &error);
+    return api_finish(device, result);
 }
 
 enum triptych_result triptych_texture_define(triptych_device *device,
                                              const struct triptych_texture_description *description,
                                              triptych_texture **texture)
 {
-    if (!device)
+    struct error *error = api_begin_with_both(device, description, "description", texture, "texture");
+    if (!error)
         return TRIPTYCH_BAD_ARGUMENT;
-    if (!description || !texture)
-        return api_null_argument(device, description ? "texture" : "description");
-    struct error error;
-    error_clear(&error);
-    enum triptych_result result = device_texture_create(device, description, texture, &error);
+    enum triptych_result result = device_texture_create(device, description, texture, error);
     if (result == TRIPTYCH_OK)
         record_new_texture(device, *texture);
-    return api_finish(device, result, &error);
+    return api_finish(device, result);
 }
 
 enum triptych_result triptych_texture_update(triptych_device *device, triptych_texture *texture,
                                              unsigned face, unsigned level, const struct triptych_box *box,
                                              const void *data, size_t row_pitch, size_t slice_pitch)
 {
-    if (!device)
+    struct error *error = api_begin_with_both(device, texture, "texture", data, "data");
+    if (!error)
         return TRIPTYCH_BAD_ARGUMENT;
-    if (!texture || !data)
-        return api_null_argument(device, texture ? "data" : "texture");
-    struct error error;
-    error_clear(&error);
     enum triptych_result result =
-        device_texture_update(device, texture, face, level, box, data, row_pitch, slice_pitch, &error);
+        device_texture_update(device, texture, face, level, box, data, row_pitch, slice_pitch, error);
     if (result == TRIPTYCH_OK)
         record_update(device, texture, face, level, box, data, row_pitch, slice_pitch);
-    return api_finish(device, result, &error);
+    return api_finish(device, result);
 }
 
 enum triptych_result triptych_texture_generate_mips(triptych_device *device, triptych_texture *texture)
 {
-    if (!device)
+    if (!api_begin_with(device, texture, "texture"))
         return TRIPTYCH_BAD_ARGUMENT;
-    if (!texture)
-        return api_null_argument(device, "texture");
     device_texture_generate_mips(device, texture);
     record_mips(device, texture);
     return TRIPTYCH_OK;
@@ -133,12 +114,11 @@ enum triptych_result triptych_texture_generate_mips(triptych_device *device, tri
 
 enum triptych_result triptych_texture_destroy(triptych_device *device, triptych_texture *texture)
 {
-    if (!device)
+    struct error *error = api_begin(device);
+    if (!error)
         return TRIPTYCH_BAD_ARGUMENT;
     if (!texture)
         return TRIPTYCH_OK;
-    struct error error;
-    error_clear(&error);
     record_end_texture(device, texture);
-    return api_finish(device, device_texture_destroy(device, texture, &error), &error);
+    return api_finish(device, device_texture_destroy(device, texture, error));
 }

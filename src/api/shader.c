@@ -1,6 +1,6 @@
-/* Shaders, made of text or of tokens, and their constants. */
+/* Shaders, from text or bytecode, and their constants. */
 #include "api/api.h"
-#include "shader/program.h"
+#include "shader/program/program.h"
 
 #include <locale.h>
 
@@ -13,7 +13,7 @@ static int read_tokens(const char *path, const char *data, size_t bytes, struct 
     return shader_read(path, data, bytes, shader, error);
 }
 
-/* What recordings write of a shader that lives when they begin. */
+/* Keeps the source, which a recording that starts later writes. */
 static enum triptych_result keep_source(triptych_device *device, const void *data, size_t bytes, bool is_text,
                                         triptych_shader **shader, struct error *error)
 {
@@ -27,37 +27,34 @@ static enum triptych_result keep_source(triptych_device *device, const void *dat
     return result;
 }
 
-/* The front end's functions want a locale that writes numbers with a point. */
+/* The front end needs a locale whose numbers have a decimal point. */
 static enum triptych_result create_shader(triptych_device *device, const char *name, const void *data,
                                           size_t bytes, shader_reader *read, triptych_shader **result)
 {
-    if (!device)
+    struct error *error = api_begin_with_both(device, data, "code", result, "shader");
+    if (!error)
         return TRIPTYCH_BAD_ARGUMENT;
-    if (!data || !result)
-        return api_null_argument(device, data ? "shader" : "code");
     *result = NULL;
-    struct error error;
-    error_clear(&error);
     struct shader *shader;
     locale_t locale = newlocale(LC_NUMERIC_MASK, "C", NULL);
     if (!locale) {
-        error_set(&error, "out of memory for a shader");
-        return api_finish(device, TRIPTYCH_NO_MEMORY, &error);
+        error_set(error, "out of memory for a shader");
+        return api_finish(device, TRIPTYCH_NO_MEMORY);
     }
     locale_t before = uselocale(locale);
     enum triptych_result status;
     errno = 0;
-    if (read(name ? name : "shader", data, bytes, &shader, &error)) {
+    if (read(name ? name : "shader", data, bytes, &shader, error)) {
         status = device_refusal(TRIPTYCH_BAD_ARGUMENT);
     } else {
-        status = device_shader_create(device, shader, result, &error);
+        status = device_shader_create(device, shader, result, error);
         shader_free(shader);
         if (status == TRIPTYCH_OK)
-            status = keep_source(device, data, bytes, read == shader_assemble, result, &error);
+            status = keep_source(device, data, bytes, read == shader_assemble, result, error);
     }
     uselocale(before);
     freelocale(locale);
-    return api_finish(device, status, &error);
+    return api_finish(device, status);
 }
 
 enum triptych_result triptych_shader_create(triptych_device *device, const char *name, const void *code,
@@ -74,14 +71,13 @@ enum triptych_result triptych_shader_assemble(triptych_device *device, const cha
 
 enum triptych_result triptych_shader_destroy(triptych_device *device, triptych_shader *shader)
 {
-    if (!device)
+    struct error *error = api_begin(device);
+    if (!error)
         return TRIPTYCH_BAD_ARGUMENT;
     if (!shader)
         return TRIPTYCH_OK;
-    struct error error;
-    error_clear(&error);
     record_end_shader(device, shader);
-    return api_finish(device, device_shader_destroy(device, shader, &error), &error);
+    return api_finish(device, device_shader_destroy(device, shader, error));
 }
 
 enum triptych_shader_stage triptych_shader_get_stage(const triptych_shader *shader)
@@ -98,14 +94,13 @@ const char *triptych_shader_get_model(const triptych_shader *shader)
 static enum triptych_result set_shader(triptych_device *device, enum shader_stage stage,
                                        triptych_shader *shader)
 {
-    if (!device)
+    struct error *error = api_begin(device);
+    if (!error)
         return TRIPTYCH_BAD_ARGUMENT;
-    struct error error;
-    error_clear(&error);
-    enum triptych_result result = device_set_shader(device, stage, shader, &error);
+    enum triptych_result result = device_set_shader(device, stage, shader, error);
     if (result == TRIPTYCH_OK)
         record_shader(device, stage, shader);
-    return api_finish(device, result, &error);
+    return api_finish(device, result);
 }
 
 enum triptych_result triptych_set_vertex_shader(triptych_device *device, triptych_shader *shader)
@@ -121,44 +116,35 @@ enum triptych_result triptych_set_pixel_shader(triptych_device *device, triptych
 enum triptych_result triptych_set_shader_floats(triptych_device *device, enum triptych_shader_stage stage,
                                                 unsigned first, const float *values, unsigned count)
 {
-    if (!device)
+    struct error *error = api_begin_with(device, values || !count, "values");
+    if (!error)
         return TRIPTYCH_BAD_ARGUMENT;
-    if (!values && count)
-        return api_null_argument(device, "values");
-    struct error error;
-    error_clear(&error);
-    enum triptych_result result = device_set_floats(device, stage, first, values, count, &error);
+    enum triptych_result result = device_set_floats(device, stage, first, values, count, error);
     if (result == TRIPTYCH_OK)
         record_floats(device, stage, first, values, count);
-    return api_finish(device, result, &error);
+    return api_finish(device, result);
 }
 
 enum triptych_result triptych_set_shader_integers(triptych_device *device, enum triptych_shader_stage stage,
                                                   unsigned first, const int32_t *values, unsigned count)
 {
-    if (!device)
+    struct error *error = api_begin_with(device, values || !count, "values");
+    if (!error)
         return TRIPTYCH_BAD_ARGUMENT;
-    if (!values && count)
-        return api_null_argument(device, "values");
-    struct error error;
-    error_clear(&error);
-    enum triptych_result result = device_set_integers(device, stage, first, values, count, &error);
+    enum triptych_result result = device_set_integers(device, stage, first, values, count, error);
     if (result == TRIPTYCH_OK)
         record_integers(device, stage, first, values, count);
-    return api_finish(device, result, &error);
+    return api_finish(device, result);
 }
 
 enum triptych_result triptych_set_shader_booleans(triptych_device *device, enum triptych_shader_stage stage,
                                                   unsigned first, const int32_t *values, unsigned count)
 {
-    if (!device)
+    struct error *error = api_begin_with(device, values || !count, "values");
+    if (!error)
         return TRIPTYCH_BAD_ARGUMENT;
-    if (!values && count)
-        return api_null_argument(device, "values");
-    struct error error;
-    error_clear(&error);
-    enum triptych_result result = device_set_booleans(device, stage, first, values, count, &error);
+    enum triptych_result result = device_set_booleans(device, stage, first, values, count, error);
     if (result == TRIPTYCH_OK)
         record_booleans(device, stage, first, values, count);
-    return api_finish(device, result, &error);
+    return api_finish(device, result);
 }

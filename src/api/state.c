@@ -1,21 +1,20 @@
-/* State: states, transforms, lights, textures, and what vertices are. */
+/* States, transforms, lights, textures and vertex declarations. */
 #include "api/api.h"
 
 static enum triptych_result set_value(triptych_device *device, enum triptych_state_table table, unsigned i,
                                       unsigned row, uint32_t value)
 {
-    if (!device)
+    struct error *error = api_begin(device);
+    if (!error)
         return TRIPTYCH_BAD_ARGUMENT;
-    struct error error;
-    error_clear(&error);
     unsigned change = state_has_value(&device->state, table, i, row, value) ? 0 : PARTS_ALL;
     enum triptych_result result =
-        change ? state_set_value(&device->state, table, i, row, value, &error) : TRIPTYCH_OK;
+        change ? state_set_value(&device->state, table, i, row, value, error) : TRIPTYCH_OK;
     if (result == TRIPTYCH_OK)
         record_value(device, table, i, row, value);
     if (change && result == TRIPTYCH_OK)
         change = change_of_value(table, row);
-    return api_changed(device, result, change, &error);
+    return api_changed(device, result, change);
 }
 
 enum triptych_result triptych_set_state(triptych_device *device, enum triptych_state which, uint32_t value)
@@ -38,223 +37,195 @@ enum triptych_result triptych_set_stage_state(triptych_device *device, unsigned 
 enum triptych_result triptych_set_transform(triptych_device *device, enum triptych_transform which,
                                             const float matrix[4][4])
 {
-    if (!device)
+    struct error *error = api_begin_with(device, matrix, "matrix");
+    if (!error)
         return TRIPTYCH_BAD_ARGUMENT;
-    if (!matrix)
-        return api_null_argument(device, "matrix");
-    struct error error;
-    error_clear(&error);
-    enum triptych_result result = state_set_transform(&device->state, which, matrix, &error);
+    enum triptych_result result = state_set_transform(&device->state, which, matrix, error);
     if (result == TRIPTYCH_OK)
         record_transform(device, which, matrix);
-    return api_changed(device, result, change_of_transform(which), &error);
+    return api_changed(device, result, change_of_transform(which));
 }
 
 enum triptych_result triptych_set_viewport(triptych_device *device, const struct triptych_viewport *viewport)
 {
-    if (!device)
+    struct error *error = api_begin_with(device, viewport, "viewport");
+    if (!error)
         return TRIPTYCH_BAD_ARGUMENT;
-    if (!viewport)
-        return api_null_argument(device, "viewport");
-    struct error error;
-    error_clear(&error);
-    if (!device->target.width) {
-        error_set(&error, "no target: expected set_target before a viewport");
-        return api_finish(device, TRIPTYCH_BAD_CALL, &error);
+    if (!device_target(device)->width) {
+        error_set(error, "no target: expected set_target before a viewport");
+        return api_finish(device, TRIPTYCH_BAD_CALL);
     }
-    enum triptych_result result =
-        state_set_viewport(&device->state, viewport, device->target.width, device->target.height, &error);
+    enum triptych_result result = state_set_viewport(&device->state, viewport, device_target(device)->width,
+                                                     device_target(device)->height, error);
     if (result == TRIPTYCH_OK)
         record_viewport(device, viewport);
-    return api_changed(device, result, CHANGE_OF_VIEWPORT, &error);
+    return api_changed(device, result, CHANGE_OF_VIEWPORT);
 }
 
 enum triptych_result triptych_set_scissor(triptych_device *device, unsigned x, unsigned y, unsigned width,
                                           unsigned height)
 {
-    if (!device)
+    struct error *error = api_begin(device);
+    if (!error)
         return TRIPTYCH_BAD_ARGUMENT;
-    struct error error;
-    error_clear(&error);
-    if (!device->target.width) {
-        error_set(&error, "no target: expected set_target before a scissor rectangle");
-        return api_finish(device, TRIPTYCH_BAD_CALL, &error);
+    if (!device_target(device)->width) {
+        error_set(error, "no target: expected set_target before a scissor rectangle");
+        return api_finish(device, TRIPTYCH_BAD_CALL);
     }
-    enum triptych_result result = state_set_scissor(&device->state, (struct scissor){x, y, width, height},
-                                                    device->target.width, device->target.height, &error);
+    enum triptych_result result =
+        state_set_scissor(&device->state, (struct scissor){x, y, width, height}, device_target(device)->width,
+                          device_target(device)->height, error);
     if (result == TRIPTYCH_OK)
         record_scissor(device, x, y, width, height);
-    return api_changed(device, result, CHANGE_OF_SCISSOR, &error);
+    return api_changed(device, result, CHANGE_OF_SCISSOR);
 }
 
 enum triptych_result triptych_set_clip_plane(triptych_device *device, unsigned i, const float plane[4])
 {
-    if (!device)
+    struct error *error = api_begin_with(device, plane, "plane");
+    if (!error)
         return TRIPTYCH_BAD_ARGUMENT;
-    if (!plane)
-        return api_null_argument(device, "plane");
-    struct error error;
-    error_clear(&error);
-    enum triptych_result result = state_set_clip_plane(&device->state, i, plane, &error);
+    enum triptych_result result = state_set_clip_plane(&device->state, i, plane, error);
     if (result == TRIPTYCH_OK)
         record_clip_plane(device, i, plane);
-    return api_changed(device, result, CHANGE_OF_CLIP_PLANE, &error);
+    return api_changed(device, result, CHANGE_OF_CLIP_PLANE);
 }
 
 enum triptych_result triptych_set_convention(triptych_device *device, enum triptych_convention which,
                                              unsigned value)
 {
-    if (!device)
+    struct error *error = api_begin(device);
+    if (!error)
         return TRIPTYCH_BAD_ARGUMENT;
-    struct error error;
-    error_clear(&error);
-    enum triptych_result result = state_set_convention(&device->state, which, value, &error);
+    enum triptych_result result = state_set_convention(&device->state, which, value, error);
     if (result == TRIPTYCH_OK)
         record_convention(device, which, value);
-    return api_changed(device, result, PARTS_ALL, &error);
+    return api_changed(device, result, PARTS_ALL);
 }
 
 enum triptych_result triptych_set_material(triptych_device *device, const struct triptych_material *material)
 {
-    if (!device)
+    struct error *error = api_begin_with(device, material, "material");
+    if (!error)
         return TRIPTYCH_BAD_ARGUMENT;
-    if (!material)
-        return api_null_argument(device, "material");
-    struct error error;
-    error_clear(&error);
     unsigned change = change_of_material(&device->state.material, material);
-    enum triptych_result result = state_set_material(&device->state, material, &error);
+    enum triptych_result result = state_set_material(&device->state, material, error);
     if (result == TRIPTYCH_OK)
         record_material(device, material);
-    return api_changed(device, result, change, &error);
+    return api_changed(device, result, change);
 }
 
 enum triptych_result triptych_set_light(triptych_device *device, unsigned index,
                                         const struct triptych_light *light)
 {
-    if (!device)
+    struct error *error = api_begin_with(device, light, "light");
+    if (!error)
         return TRIPTYCH_BAD_ARGUMENT;
-    if (!light)
-        return api_null_argument(device, "light");
-    struct error error;
-    error_clear(&error);
     unsigned change = index < TRIPTYCH_LIGHTS ? change_of_light(&device->state.light[index], light) : 0;
-    enum triptych_result result = state_set_light(&device->state, index, light, &error);
+    enum triptych_result result = state_set_light(&device->state, index, light, error);
     if (result == TRIPTYCH_OK)
         record_light(device, index, light);
-    return api_changed(device, result, change, &error);
+    return api_changed(device, result, change);
 }
 
 enum triptych_result triptych_enable_light(triptych_device *device, unsigned index, int enable)
 {
-    if (!device)
+    struct error *error = api_begin(device);
+    if (!error)
         return TRIPTYCH_BAD_ARGUMENT;
-    struct error error;
-    error_clear(&error);
     if (index >= TRIPTYCH_LIGHTS) {
-        error_set(&error, "light %u: expected 0 to %u", index, TRIPTYCH_LIGHTS - 1);
-        return api_finish(device, TRIPTYCH_BAD_ARGUMENT, &error);
+        error_set(error, "light %u: expected 0 to %u", index, TRIPTYCH_LIGHTS - 1);
+        return api_finish(device, TRIPTYCH_BAD_ARGUMENT);
     }
     device->state.light_enabled[index] = enable != 0;
     record_enable_light(device, index, enable);
-    return api_changed(device, TRIPTYCH_OK, PARTS_ALL, &error);
+    return api_changed(device, TRIPTYCH_OK, PARTS_ALL);
 }
 
 enum triptych_result triptych_set_texture(triptych_device *device, unsigned sampler,
                                           triptych_texture *texture)
 {
-    if (!device)
+    struct error *error = api_begin(device);
+    if (!error)
         return TRIPTYCH_BAD_ARGUMENT;
-    struct error error;
-    error_clear(&error);
     if (sampler >= TRIPTYCH_SAMPLERS) {
-        error_set(&error, "sampler %u: expected 0 to %u", sampler, TRIPTYCH_SAMPLERS - 1);
-        return api_finish(device, TRIPTYCH_BAD_ARGUMENT, &error);
+        error_set(error, "sampler %u: expected 0 to %u", sampler, TRIPTYCH_SAMPLERS - 1);
+        return api_finish(device, TRIPTYCH_BAD_ARGUMENT);
     }
     unsigned change = change_of_texture(device->state.texture[sampler], texture);
     device->state.texture[sampler] = texture;
     record_bind_texture(device, sampler, texture);
-    return api_changed(device, TRIPTYCH_OK, change, &error);
+    return api_changed(device, TRIPTYCH_OK, change);
 }
 
 enum triptych_result triptych_set_element(triptych_device *device, enum triptych_attribute attribute,
                                           const struct triptych_element *element)
 {
-    if (!device)
+    struct error *error = api_begin_with(device, element, "element");
+    if (!error)
         return TRIPTYCH_BAD_ARGUMENT;
-    if (!element)
-        return api_null_argument(device, "element");
-    struct error error;
-    error_clear(&error);
-    enum triptych_result result = state_set_element(&device->state, attribute, element, &error);
+    enum triptych_result result = state_set_element(&device->state, attribute, element, error);
     if (result == TRIPTYCH_OK)
         record_element(device, attribute, element);
-    return api_changed(device, result, PARTS_ALL, &error);
+    return api_changed(device, result, PARTS_ALL);
 }
 
 enum triptych_result triptych_set_declaration(triptych_device *device,
                                               const struct triptych_declaration_element *elements,
                                               unsigned count)
 {
-    if (!device)
+    struct error *error = api_begin_with(device, elements || !count, "elements");
+    if (!error)
         return TRIPTYCH_BAD_ARGUMENT;
-    if (!elements && count)
-        return api_null_argument(device, "elements");
-    struct error error;
-    error_clear(&error);
-    enum triptych_result result = state_set_declaration(&device->state, elements, count, &error);
+    enum triptych_result result = state_set_declaration(&device->state, elements, count, error);
     if (result == TRIPTYCH_OK)
         record_declaration(device, elements, count);
-    return api_changed(device, result, PARTS_ALL, &error);
+    return api_changed(device, result, PARTS_ALL);
 }
 
 enum triptych_result triptych_set_fvf(triptych_device *device, uint32_t fvf)
 {
-    if (!device)
+    struct error *error = api_begin(device);
+    if (!error)
         return TRIPTYCH_BAD_ARGUMENT;
-    struct error error;
-    error_clear(&error);
-    enum triptych_result result = state_set_fvf(&device->state, fvf, &error);
+    enum triptych_result result = state_set_fvf(&device->state, fvf, error);
     if (result == TRIPTYCH_OK)
         record_fvf(device, fvf);
-    return api_changed(device, result, PARTS_ALL, &error);
+    return api_changed(device, result, PARTS_ALL);
 }
 
 enum triptych_result triptych_set_stream(triptych_device *device, unsigned stream, triptych_buffer *buffer,
                                          size_t offset, size_t stride)
 {
-    if (!device)
+    struct error *error = api_begin(device);
+    if (!error)
         return TRIPTYCH_BAD_ARGUMENT;
-    struct error error;
-    error_clear(&error);
-    enum triptych_result result = state_set_stream(&device->state, stream, buffer, offset, stride, &error);
+    enum triptych_result result = state_set_stream(&device->state, stream, buffer, offset, stride, error);
     if (result == TRIPTYCH_OK)
         record_stream(device, stream, buffer, offset, stride);
-    return api_changed(device, result, CHANGE_OF_STREAM, &error);
+    return api_changed(device, result, CHANGE_OF_STREAM);
 }
 
 enum triptych_result triptych_set_stream_frequency(triptych_device *device, unsigned stream,
                                                    enum triptych_frequency frequency, uint32_t count)
 {
-    if (!device)
+    struct error *error = api_begin(device);
+    if (!error)
         return TRIPTYCH_BAD_ARGUMENT;
-    struct error error;
-    error_clear(&error);
-    enum triptych_result result = state_set_frequency(&device->state, stream, frequency, count, &error);
+    enum triptych_result result = state_set_frequency(&device->state, stream, frequency, count, error);
     if (result == TRIPTYCH_OK)
         record_frequency(device, stream, frequency, count);
-    return api_changed(device, result, CHANGE_OF_STREAM, &error);
+    return api_changed(device, result, CHANGE_OF_STREAM);
 }
 
 enum triptych_result triptych_set_indices(triptych_device *device, triptych_buffer *buffer, unsigned bits)
 {
-    if (!device)
+    struct error *error = api_begin(device);
+    if (!error)
         return TRIPTYCH_BAD_ARGUMENT;
-    struct error error;
-    error_clear(&error);
     if (buffer && bits != 16 && bits != 32) {
-        error_set(&error, "indices of %u bits: expected 16 or 32", bits);
-        return api_finish(device, TRIPTYCH_BAD_ARGUMENT, &error);
+        error_set(error, "indices of %u bits: expected 16 or 32", bits);
+        return api_finish(device, TRIPTYCH_BAD_ARGUMENT);
     }
     device->state.indices = buffer;
     device->state.index_bits = buffer ? bits : 0;

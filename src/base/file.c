@@ -18,16 +18,15 @@ static int fail(struct error *error, const char *path, const char *doing)
     return error_set(error, "%s: %s: %s", path, doing, reason);
 }
 
-/* --- Reading ----------------------------------------------------------------------------------------------
- */
+/* --- Reading --- */
 
 struct contents {
     char *data;
     size_t bytes, capacity;
 };
 
-/* Room for one more read and the final zero; `limit` + 1 bytes are read at most, to notice that there are
- * more. */
+/* Makes room for one more read and the final zero. At most `limit` + 1 bytes are read: one more shows that
+ * the file is too large. */
 static int grow(struct contents *contents, size_t limit)
 {
     if (contents->capacity - contents->bytes > 1)
@@ -72,7 +71,7 @@ int file_read(const char *path, size_t limit, char **data, size_t *bytes, struct
     int descriptor = open(path, O_RDONLY | O_CLOEXEC);
     if (descriptor < 0)
         return fail(error, path, "cannot open");
-    /* A regular file's size saves the growing; it is a hint, the file may change meanwhile. */
+    /* Only a hint, which saves reallocation: the file may change. */
     if (!fstat(descriptor, &status) && S_ISREG(status.st_mode) && (uint64_t)status.st_size <= limit) {
         contents.capacity = (size_t)status.st_size + 2;
         contents.data = malloc(contents.capacity);
@@ -91,8 +90,7 @@ int file_read(const char *path, size_t limit, char **data, size_t *bytes, struct
     return 0;
 }
 
-/* --- Writing ----------------------------------------------------------------------------------------------
- */
+/* --- Writing --- */
 
 static int write_all(int descriptor, const char *data, size_t bytes)
 {
@@ -110,7 +108,8 @@ static int write_all(int descriptor, const char *data, size_t bytes)
     return 0;
 }
 
-/* Opens a new file beside `path`; its name is left in `name`, of `size` bytes, and noted. */
+/* Opens a new file in the folder of `path`. Writes its path to `name`, of `size` bytes, and notes it as a
+ * leftover. */
 static int open_temporary(const char *path, char *name, size_t size, int *leftover)
 {
     static atomic_uint serial;
@@ -127,7 +126,7 @@ static int open_temporary(const char *path, char *name, size_t size, int *leftov
     return -1;
 }
 
-/* The new name is durable once the folder is; some file systems cannot sync folders, which is no failure. */
+/* Makes the new name durable. Some file systems cannot sync folders, which is not an error. */
 static void synchronize_folder(char *path)
 {
     char *slash = strrchr(path, '/');
@@ -149,7 +148,7 @@ static void release(struct file_output *output)
     *output = (struct file_output){.descriptor = -1, .leftover = -1};
 }
 
-/* Failures are told by errno. */
+/* On failure, errno is the reason. */
 static int begin_beside(struct file_output *output, mode_t mode)
 {
     size_t size = strlen(output->path) + 64;
@@ -165,7 +164,7 @@ static int begin_beside(struct file_output *output, mode_t mode)
     return mode ? fchmod(output->descriptor, mode) : 0;
 }
 
-/* Replacing a link would leave the file that it leads to as it was. */
+/* A symbolic link is followed, so that the file that it names is replaced and not the link. */
 static int begin(struct file_output *output, const struct stat *existing)
 {
     if (existing && !S_ISREG(existing->st_mode))
@@ -197,7 +196,7 @@ int file_append(struct file_output *output, const void *data, size_t bytes, stru
     return write_all(output->descriptor, data, bytes) ? fail(error, output->name, "cannot write") : 0;
 }
 
-/* Errors of a network or full file system may come as late as at close. */
+/* On a network or full file system, close may be the first call that reports an error. */
 static int finish(struct file_output *output)
 {
     int descriptor = output->descriptor;

@@ -1,13 +1,14 @@
-/* IEEE 754 binary16 from and to binary32, with integer operations: the same on every processor, and without
- * regard to the floating-point environment.
+/* Conversion between IEEE 754 binary16 and binary32, with integer operations only: the result is the same on
+ * every processor and in every floating-point environment.
  *
- * Every binary16 value, denormals included, is a normal binary32. To binary16: nearest even; what rounds
- * beyond 65504 is infinite; a NaN stays one. */
+ * Every binary16 number, denormals included, is a normal binary32 number or zero. Conversion to binary16
+ * rounds to nearest even. Magnitudes that round above 65504 become infinite; a NaN stays a NaN. */
 #ifndef BASE_HALF_H
 #define BASE_HALF_H
 
+#include "base/bits.h"
+
 #include <stdint.h>
-#include <string.h>
 
 static inline float half_to_float(uint16_t half)
 {
@@ -24,15 +25,12 @@ static inline float half_to_float(uint16_t half)
         bits = 0;
     }
     bits |= sign;
-    float value;
-    memcpy(&value, &bits, sizeof value);
-    return value;
+    return bits_to_float(bits);
 }
 
 static inline uint16_t float_to_half(float value)
 {
-    uint32_t bits;
-    memcpy(&bits, &value, sizeof bits);
+    uint32_t bits = bits_of_float(value);
     uint32_t sign = bits >> 16 & 0x8000, magnitude = bits & 0x7fffffff;
     if (magnitude > 0x7f800000)
         return (uint16_t)(sign | 0x7e00);

@@ -1,19 +1,19 @@
-/* Files and folders that must not stay behind when a signal ends the process while somebody works with them.
+/* Temporary files and folders to remove when a signal ends the process.
  *
- * Who makes one notes it before, and forgets it once it is gone or has become what it was made for. A signal's handler
- * calls leftovers_remove and ends the process. A process that is killed (SIGKILL) or loses its power leaves them: base/file.h
- * and external/compile.c say how their names are recognised. */
+ * Code that makes one notes its path first, and forgets it after removing or renaming it. A signal handler
+ * calls leftovers_remove and ends the process. A process that is killed (SIGKILL) leaves its files;
+ * base/file.h and engines/external/compile.c document their names. */
 #ifndef BASE_LEFTOVER_H
 #define BASE_LEFTOVER_H
 
-/* Notes a path, which must not change until it is forgotten. Returns its number, or -1 when too many are noted, which
- * only means that this one would stay. Thread-safe. */
+/* Notes a path. The string must not change until it is forgotten. Returns its number, or -1 if too many are
+ * noted; then the file is not removed after a signal. Thread-safe. */
 int leftover_note(const char *path);
 
-/* A number that leftover_note returned. */
+/* Forgets the path of that number; -1 is ignored. */
 void leftover_forget(int number);
 
-/* Removes all files that are noted, then all folders, which must be empty then. Async-signal-safe. */
+/* Removes all noted files, then all noted folders that are empty. Async-signal-safe. */
 void leftovers_remove(void);
 
 #endif

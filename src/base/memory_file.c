@@ -7,7 +7,8 @@
 
 enum { FIRST_CAPACITY = 4096 };
 
-/* In the file that prints to it: its last bytes come when it is closed, and go on to who closes it. */
+/* The state of an open file. Its last bytes arrive when the file is closed; memory_file_close then takes
+ * them. */
 struct memory {
     char *text;
     size_t bytes, capacity;
@@ -16,7 +17,7 @@ struct memory {
 
 static _Thread_local struct memory closed;
 
-/* Room for more bytes and the zero behind them. */
+/* Makes room for more bytes and a final zero. */
 static bool grow(struct memory *memory, size_t more)
 {
     size_t capacity = memory->capacity;

@@ -1,16 +1,17 @@
-/* Text that is printed into memory, whole or not at all.
+/* A FILE that prints into memory: the text is complete, or an error is reported.
  *
- * Not open_memstream: where it is refused memory glibc drops characters, and neither ferror nor fclose tells. */
+ * Unlike open_memstream: when memory is refused, glibc drops characters, and neither ferror nor fclose
+ * reports it. */
 #ifndef BASE_MEMORY_FILE_H
 #define BASE_MEMORY_FILE_H
 
 #include <stdio.h>
 
-/* A file to print to. Null when memory is refused. */
+/* Opens the file. Returns null when memory is refused. */
 FILE *memory_file_open(void);
 
-/* Closes the file. *text is what was printed, to be freed, with a zero byte behind its *bytes. Returns 0, or -1 and *text
- * null when memory was refused at any time. */
+/* Closes the file. *text is the printed text, followed by a zero byte that *bytes does not count; the caller
+ * frees it. Returns 0, or -1 with *text null if memory was refused at any time. */
 int memory_file_close(FILE *file, char **text, size_t *bytes);
 
 #endif

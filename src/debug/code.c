@@ -3,7 +3,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* Room for one more; returns false, and notes it, when there is none. */
+/* Makes room for one more row. Returns false and sets `failed` if the allocation fails. */
 static bool grow(struct debug_code *code, void **rows, size_t size, uint32_t count, uint32_t *capacity)
 {
     if (code->failed || count < *capacity)

@@ -1,8 +1,9 @@
-/* Telling others of generated code: GDB, the process's unwinder, perf (def/debug.def). All is opt-in.
+/* Registers generated code with listeners: GDB, the process's unwinder, perf (def/debug.def). Each has to be
+ * enabled.
  *
- * What is told is the process's, not a device's: one list for GDB, one file for perf, whatever the number of devices.
- * Nothing here fails a draw: what cannot be told is left out, and the first reason is kept by who asked. All functions
- * are thread-safe. */
+ * Registrations belong to the process, not to a device: there is one list for GDB and one file for perf,
+ * however many devices there are. Errors never fail a draw: code that cannot be registered is omitted, and
+ * the caller keeps the first reason. All functions are thread-safe. */
 #ifndef DEBUG_DEBUG_H
 #define DEBUG_DEBUG_H
 
@@ -16,8 +17,8 @@ enum debug_listener {
     DEBUG_LISTENERS
 };
 
-/* One of them. `open` is called before anything is added, by each device: 0, or -1 with the reason. `add` tells of
- * code, and gives what `remove` wants when it is gone (null: nothing to do then). */
+/* A listener. Each device calls `open` before it adds code; the result is 0, or -1 with the reason. `add`
+ * registers code and returns a record for `remove`, or null if the code need not be removed. */
 struct debug_interface {
     int (*open)(struct error *error);
     int (*add)(const struct debug_code *code, void **record, struct error *error);
@@ -28,20 +29,20 @@ struct debug_interface {
 #include "def/debug.def"
 #undef DEBUG
 
-/* Reads a list of words, comma-separated, into a set of bits 1 << DEBUG_name; null is none. Returns 0, or -1 with the
- * reason. */
+/* Parses a comma-separated list of words to a set of bits 1 << DEBUG_name; a null list is empty. Returns 0,
+ * or -1 with the reason. */
 int debug_read(const char *words, unsigned *listeners, struct error *error);
 
-/* Makes ready those that can be; -1 with the first reason if some cannot. */
+/* Opens listeners. Returns 0, or -1 with the first reason if some cannot be opened. */
 int debug_open(unsigned listeners, struct error *error);
 
-/* What was told of one routine. */
+/* The registrations of one routine. */
 struct debug_record;
 
-/* Tells of code. Null, perhaps with a reason, when nobody has to know when it is gone. */
+/* Registers code. Returns null, with the reason if there is one, when nothing has to be removed. */
 struct debug_record *debug_add(unsigned listeners, const struct debug_code *code, struct error *error);
 
-/* The code is about to be gone; null is allowed. */
+/* Removes the registrations of code before it is freed. `record` may be null. */
 void debug_remove(struct debug_record *record);
 
 #endif

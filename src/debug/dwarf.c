@@ -3,7 +3,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* --- Bytes -------------------------------------------------------------------------------------------------------- */
+/* --- Bytes --------------------------------------------------------------------------------------------- */
 
 void bytes_append(struct bytes *bytes, const void *data, size_t count)
 {
@@ -63,7 +63,7 @@ static void sleb(struct bytes *out, int64_t value)
     byte(out, value & 0x7f);
 }
 
-/* A length of 32 bits that is filled in when what it measures is there. */
+/* A length of 32 bits, which end_length fills in. */
 static size_t begin_length(struct bytes *out)
 {
     bytes_append_number(out, 0, 4);
@@ -77,7 +77,7 @@ static void end_length(struct bytes *out, size_t begin)
         memcpy(out->data + begin - 4, &length, sizeof length);
 }
 
-/* --- Frames ------------------------------------------------------------------------------------------------------- */
+/* --- Frames -------------------------------------------------------------------------------------------- */
 
 enum {
     DW_CFA_nop = 0x00,
@@ -127,15 +127,15 @@ static void add_rule(struct bytes *out, const struct debug_unwind *row)
     }
 }
 
-/* What holds at the first instruction of all code. */
+/* The rules at the first instruction of all code. */
 static void add_common(struct bytes *out, enum dwarf_frame_form form)
 {
     static const struct debug_unwind entry = {.rule = DEBUG_CFA, .reg = 4, .value = 8};
     size_t length = begin_length(out);
-    bytes_append_number(out, form == DWARF_EH_FRAME ? 0 : UINT32_MAX, 4); /* this is no routine's */
+    bytes_append_number(out, form == DWARF_EH_FRAME ? 0 : UINT32_MAX, 4); /* marks the common information */
     byte(out, 1);                                                         /* version */
     byte(out, 0);                                                         /* no augmentation */
-    uleb(out, 1);                                                         /* of code, in bytes */
+    uleb(out, 1);                                                         /* alignment of code, in bytes */
     sleb(out, DATA_ALIGNMENT);
     byte(out, RETURN_ADDRESS);
     add_rule(out, &entry);
@@ -165,7 +165,7 @@ void dwarf_frame(const struct debug_code *code, enum dwarf_frame_form form, stru
         bytes_append_number(out, 0, 4);
 }
 
-/* --- Lines -------------------------------------------------------------------------------------------------------- */
+/* --- Lines --------------------------------------------------------------------------------------------- */
 
 enum {
     DW_LNS_copy = 1,
@@ -174,7 +174,7 @@ enum {
     DW_LNS_set_file = 4,
     DW_LNE_end_sequence = 1,
     DW_LNE_set_address = 2,
-    FILES = 64, /* a routine's sources are fewer; the rest are the last */
+    FILES = 64, /* more than a routine has; further files count as the last one */
     LINE_BASE = -5,
     LINE_RANGE = 14,
     OPCODE_BASE = 13
@@ -185,7 +185,7 @@ struct files {
     unsigned count;
 };
 
-/* Numbers count from 1. */
+/* Returns the number of a file, from 1. */
 static unsigned file_number(struct files *files, const char *name)
 {
     for (unsigned i = 0; i < files->count; i++)
@@ -261,7 +261,7 @@ void dwarf_line(const struct debug_code *code, struct bytes *out)
     end_length(out, length);
 }
 
-/* --- The unit ----------------------------------------------------------------------------------------------------- */
+/* --- The unit ------------------------------------------------------------------------------------------ */
 
 enum {
     DW_TAG_compile_unit = 0x11,

@@ -1,5 +1,5 @@
-/* The header, the sections' contents, then the table of sections. .text has the code's address and no contents: who
- * reads the file reads instructions from the process. All addresses are final. */
+/* The file is the header, the contents of the sections, and the table of sections. .text has the address of
+ * the code and no contents: a debugger reads the instructions from the process. All addresses are final. */
 #include "debug/elf.h"
 
 #include <elf.h>
@@ -90,7 +90,7 @@ static void write_sections(const struct debug_code *code, struct bytes *out, Elf
     header[SECTION_TEXT].sh_size = code->bytes;
     header[SECTION_TEXT].sh_addralign = 1;
     header[SECTION_SYMBOLS].sh_link = SECTION_STRINGS;
-    header[SECTION_SYMBOLS].sh_info = 1; /* the first symbol that is not local */
+    header[SECTION_SYMBOLS].sh_info = 1; /* the first global symbol */
     header[SECTION_SYMBOLS].sh_entsize = sizeof(Elf64_Sym);
 }
 

@@ -1,9 +1,9 @@
-/* GDB's interface for generated code: a list of ELF files in memory, and a function with a breakpoint in it, called after
- * each change of the list.
+/* GDB's interface for generated code: a list of ELF files in memory, and a function in which GDB sets a
+ * breakpoint; it is called after each change of the list.
  *
- * Source: Debugging with GDB, chapter "JIT Compilation Interface". The names and layouts are fixed there; they are weak,
- * so that another code generator may be linked into the same program. A debugger that attaches later reads the list as it
- * is then. */
+ * Source: Debugging with GDB, chapter "JIT Compilation Interface", which defines the names and layouts. The
+ * symbols are weak, so that another code generator can be linked into the same program. A debugger that
+ * attaches later reads the whole list. */
 #include "debug/debug.h"
 #include "debug/elf.h"
 
@@ -36,7 +36,7 @@ __attribute__((weak, noinline)) void __jit_debug_register_code(void)
 
 static pthread_mutex_t lock = PTHREAD_MUTEX_INITIALIZER;
 
-static void tell(uint32_t action, struct jit_code_entry *entry)
+static void notify(uint32_t action, struct jit_code_entry *entry)
 {
     __jit_debug_descriptor.action_flag = action;
     __jit_debug_descriptor.relevant_entry = entry;
@@ -58,7 +58,7 @@ static void insert(struct jit_code_entry *entry)
     if (entry->next_entry)
         entry->next_entry->prev_entry = entry;
     __jit_debug_descriptor.first_entry = entry;
-    tell(JIT_REGISTER_FN, entry);
+    notify(JIT_REGISTER_FN, entry);
     pthread_mutex_unlock(&lock);
 }
 
@@ -70,7 +70,7 @@ static int add(const struct debug_code *code, void **record, struct error *error
     if (!entry || file.failed) {
         free(entry);
         bytes_free(&file);
-        return error_set(error, "out of memory for telling GDB of %s", code->name);
+        return error_set(error, "out of memory for registering %s with GDB", code->name);
     }
     entry->symfile_addr = (const char *)file.data;
     entry->symfile_size = file.count;
@@ -89,7 +89,7 @@ static void remove_entry(void *record)
         __jit_debug_descriptor.first_entry = entry->next_entry;
     if (entry->next_entry)
         entry->next_entry->prev_entry = entry->prev_entry;
-    tell(JIT_UNREGISTER_FN, entry);
+    notify(JIT_UNREGISTER_FN, entry);
     pthread_mutex_unlock(&lock);
     free((char *)(uintptr_t)entry->symfile_addr);
     free(entry);

@@ -1,10 +1,11 @@
-/* Jitdump: the bytes of each routine, its lines and when it was made, from which `perf inject --jit` makes an ELF file for
- * each. Source: the Linux kernel's tools/perf/Documentation/jitdump-specification.txt, version 1.
+/* Jitdump: the code of each routine, its lines and the time of its registration. `perf inject --jit` makes an
+ * ELF file of each. Source: the Linux kernel's tools/perf/Documentation/jitdump-specification.txt, version 1.
  *
- * perf finds the file because the process maps a page of it executable, which leaves an event in the recording; the page
- * is never run. Time is CLOCK_MONOTONIC, so recordings need `-k mono`. Where code takes the place of code that is gone,
- * the later record counts from its time on. */
+ * perf finds the file because the process maps a page of it as executable, which leaves an event in perf's
+ * data; the page is never executed. Times are CLOCK_MONOTONIC, so perf needs `-k mono`. If new code has the
+ * address of code that was freed, the later record is valid from its time on. */
 #define _GNU_SOURCE /* secure_getenv, gettid */
+#include "base/clock.h"
 #include "debug/debug.h"
 #include "debug/log.h"
 
@@ -15,20 +16,12 @@
 #include <stdlib.h>
 #include <string.h>
 #include <sys/mman.h>
-#include <time.h>
 #include <unistd.h>
 
 enum { MAGIC = 0x4a695444, VERSION = 1, JIT_CODE_LOAD = 0, JIT_CODE_DEBUG_INFO = 2, HEADER_BYTES = 40 };
 
 static struct log dump = {.lock = PTHREAD_MUTEX_INITIALIZER};
 static atomic_uint_least64_t next_index;
-
-static uint64_t now(void)
-{
-    struct timespec t;
-    clock_gettime(CLOCK_MONOTONIC, &t);
-    return (uint64_t)t.tv_sec * 1000000000u + (uint64_t)t.tv_nsec;
-}
 
 static int write_header(struct error *error)
 {
@@ -39,20 +32,20 @@ static int write_header(struct error *error)
     bytes_append_number(&header, EM_X86_64, 4);
     bytes_append_number(&header, 0, 4);
     bytes_append_number(&header, (uint64_t)getpid(), 4);
-    bytes_append_number(&header, now(), 8);
-    bytes_append_number(&header, 0, 8); /* flags: time is not the processor's counter */
+    bytes_append_number(&header, clock_ns(), 8);
+    bytes_append_number(&header, 0, 8); /* flags: times are not the processor's time stamp counter */
     int result = log_append(&dump, &header, error);
     bytes_free(&header);
     return result;
 }
 
-/* The page stays mapped for as long as the process lives. */
+/* The page stays mapped until the process ends. */
 static int map_marker(struct error *error)
 {
     void *page = mmap(NULL, (size_t)sysconf(_SC_PAGESIZE), PROT_READ | PROT_EXEC, MAP_PRIVATE, dump.file, 0);
     if (page != MAP_FAILED)
         return 0;
-    return error_set(error, "%s: perf will not find it, since it cannot be mapped executable: %s", dump.path,
+    return error_set(error, "%s: perf cannot find it, since it cannot be mapped as executable: %s", dump.path,
                      strerror(errno));
 }
 
@@ -70,12 +63,12 @@ static int open_dump(struct error *error)
     return made;
 }
 
-/* The record's length is filled in at its end. */
+/* end_record fills in the length. */
 static size_t begin_record(struct bytes *out, unsigned kind)
 {
     bytes_append_number(out, kind, 4);
     bytes_append_number(out, 0, 4);
-    bytes_append_number(out, now(), 8);
+    bytes_append_number(out, clock_ns(), 8);
     return out->count - 16;
 }
 
@@ -117,7 +110,7 @@ static void add_load(const struct debug_code *code, struct bytes *out)
     end_record(out, begin);
 }
 
-/* Lines belong to the load that follows. */
+/* Lines belong to the load record after them. */
 static int add(const struct debug_code *code, void **record, struct error *error)
 {
     struct bytes records = {0};

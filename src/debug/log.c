@@ -44,10 +44,11 @@ int log_append(struct log *log, const struct bytes *record, struct error *error)
     pthread_mutex_lock(&log->lock);
     off_t start = log->file && !log->broken ? lseek(log->file, 0, SEEK_CUR) : 0;
     if (log->file && !log->broken && write_all(log->file, record->data, record->count)) {
-        result = error_set(error, "%s: %s; no more routines are noted there", log->path, strerror(errno));
+        result = error_set(error, "%s: %s; later routines are omitted", log->path, strerror(errno));
         log->broken = true;
         if (ftruncate(log->file, start))
-            error_set(error, "%s: cannot be shortened to whole records: %s", log->path, strerror(errno));
+            error_set(error, "%s: cannot be truncated after its last whole record: %s", log->path,
+                      strerror(errno));
     }
     pthread_mutex_unlock(&log->lock);
     return result;

@@ -1,8 +1,8 @@
-/* perf's map: a line for each routine, start and size in hexadecimal and the name. Source: the Linux kernel's
- * tools/perf/Documentation/jit-interface.txt, which fixes the path.
+/* perf's map: a line for each routine with start and size in hexadecimal and the name. Source: the Linux
+ * kernel's tools/perf/Documentation/jit-interface.txt, which defines the path.
  *
- * A map knows no time: where a routine was evicted and another took its place, both have a line. Jitdump tells them
- * apart. */
+ * A map has no times: if a routine has the address of an evicted one, both have a line. Jitdump distinguishes
+ * them. */
 #include "debug/debug.h"
 #include "debug/log.h"
 

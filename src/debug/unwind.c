@@ -1,6 +1,6 @@
-/* The process's own unwinder, libgcc's: it finds the call frame information of code that no file holds where it is
- * registered. Source: libgcc's unwind-dw2-fde.h. What most register with, __register_frame, takes memory for what libgcc
- * notes and does not look whether it got any; this gives it that memory. */
+/* The process's own unwinder, libgcc, to which the call frame information of generated code has to be
+ * registered. Source: libgcc's unwind-dw2-fde.h. The usual function, __register_frame, allocates memory
+ * without a check for failure; __register_frame_info uses memory of the caller. */
 #include "debug/debug.h"
 #include "debug/dwarf.h"
 

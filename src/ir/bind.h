@@ -1,10 +1,12 @@
-/* The recorder's binding: a value is the number of an IR instruction, an operation appends one.
+/* The recorder's binding: a value is the number of an IR instruction, and an operation appends an
+ * instruction.
  *
- * Host control flow over the key has run its course when recording ends: what is recorded is the pipeline for
- * this one key. E notes the spec's file and line, so that every instruction knows the words that made it. */
+ * Control flow of the host depends on the key only and is executed while recording, so a recording is the
+ * pipeline for one key. E notes the file and line of the specification that append each instruction. */
 #ifndef IR_BIND_H
 #define IR_BIND_H
 
+#include "base/bits.h"
 #include "ir/ir.h"
 
 #include <assert.h>
@@ -28,22 +30,22 @@ enum { KNOWN_FILES = 2 * IR_FILES };
 struct env {
     struct ir *ir;
     const struct program *program; /* of the shader, if the key has one */
-    const char *path;              /* of the current spec file */
+    const char *path;              /* of the current file of the specification */
     uint8_t file;
     uint16_t line;
-    /* The numbers of files by the addresses of their paths, of which there is one each: an open hash table. */
+    /* A hash table from the address of a path to the number of the file. */
     const char *known_path[KNOWN_FILES];
     uint8_t known_number[KNOWN_FILES];
 };
 
-/* The part of a path that a reader wants: from "spec/" on. */
+/* The part of a path from "spec/" on. */
 static inline const char *spec_path(const char *path)
 {
     const char *spec = strstr(path, "spec/");
     return spec ? spec : path;
 }
 
-/* The number of a path that is not known yet. */
+/* The number of a path that is not in the hash table. A path may have several addresses. */
 static inline uint8_t number_file(struct ir *ir, const char *path)
 {
     uint32_t file = 0;
@@ -57,9 +59,9 @@ static inline uint8_t number_file(struct ir *ir, const char *path)
     return (uint8_t)file;
 }
 
-static_assert(KNOWN_FILES == 1 << 7, "the hash has so many bits");
+static_assert(KNOWN_FILES == 1 << 7, "the hash has 7 bits");
 
-/* The spec's functions call one another across files all the time. */
+/* Called often, since functions of the specification call functions of other files. */
 static inline void record_file(struct env *e, const char *path)
 {
     uint32_t at = (uint32_t)(uintptr_t)path * 0x9e3779b1u >> 25;
@@ -141,9 +143,7 @@ static inline uint16_t record_memory(struct env *e, enum ir_op op, enum ir_type 
 
 static inline flt lit_f(struct env *e, float value)
 {
-    int32_t bits;
-    memcpy(&bits, &value, sizeof bits);
-    return (flt){record(e, IR_literal, TYPE_flt, 0, 0, 0, bits)};
+    return (flt){record(e, IR_literal, TYPE_flt, 0, 0, 0, (int32_t)bits_of_float(value))};
 }
 
 static inline itg lit_i(struct env *e, int32_t value)
@@ -256,7 +256,7 @@ static inline void set_m(struct env *e, int variable, msk value)
     record_set(e, TYPE_msk, variable, value.id);
 }
 
-/* Ends the loop that LOOP is here, so that its body is recorded once. */
+/* Ends the for statement of LOOP after one iteration, which records the body. */
 static inline int record_again(struct env *e, int variable)
 {
     msk mask = get_m(e, variable);
@@ -267,9 +267,9 @@ static inline int record_again(struct env *e, int variable)
 #define LOOP(e, variable)                                                                                    \
     for (int once_ = (record(e, IR_loop, TYPE_non, 0, 0, 0, 0), 1); once_; once_ = record_again(e, variable))
 
-/* The region's body is recorded once. */
+/* The for statement has one iteration, which records the body. */
 #define WHEN(e, mask)                                                                                        \
-    for (int once = (record(e, IR_when, TYPE_non, (mask).id, 0, 0, 0), 1); once;                             \
-         once = (record(e, IR_end, TYPE_non, 0, 0, 0, 0), 0))
+    for (int once_ = (record(e, IR_when, TYPE_non, (mask).id, 0, 0, 0), 1); once_;                           \
+         once_ = (record(e, IR_end, TYPE_non, 0, 0, 0, 0), 0))
 
 #endif

@@ -1,5 +1,7 @@
-/* One lane of one operation, straight from the table's expressions: constant folding and the tests use it. */
-#include "def/lane.h"
+/* Evaluates one lane of an operation with the expression of its row in def/op.def, for constant folding and
+ * tests. */
+#include "base/bits.h"
+#include "contract/lane.h"
 #include "ir/ir.h"
 
 typedef float value_flt;
@@ -10,7 +12,7 @@ typedef int value_non;
 
 static float get_flt(uint32_t bits)
 {
-    return lane_from_bits(bits);
+    return bits_to_float(bits);
 }
 
 static int32_t get_itg(uint32_t bits)
@@ -20,7 +22,7 @@ static int32_t get_itg(uint32_t bits)
 
 static uint32_t put_flt(float value)
 {
-    return lane_bits(value);
+    return bits_of_float(value);
 }
 
 static uint32_t put_itg(int32_t value)
@@ -43,7 +45,7 @@ static uint32_t put_fix(uint32_t value)
 #define get_non(x) 0
 #define USE(a)     (void)(a)
 
-/* Each row as a function of three words; for pairs, of their low halves. */
+/* Each row as a function of three words. For pairs it evaluates the low halves. */
 #define OP(name, result, ta, tb, tc, properties, expression)                                                 \
     static uint32_t evaluate_##name(uint32_t wa, uint32_t wb, uint32_t wc, int32_t k)                        \
     {                                                                                                        \

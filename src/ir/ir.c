@@ -1,49 +1,37 @@
 #include "ir/ir.h"
 
+#include "base/bits.h"
+
 #include <string.h>
 
 #define OPERANDS_flt   1
 #define OPERANDS_itg   1
 #define OPERANDS_fix   1
 #define OPERANDS_msk   1
+#define OPERANDS_any   1
 #define OPERANDS_non   0
 #define COMMUTES       IR_COMMUTES
 #define COUNT(a, b, c) (OPERANDS_##a + OPERANDS_##b + OPERANDS_##c)
 
+#define IR_OP(name, result, a, b, c, properties, ...)                                                        \
+    [IR_##name] = {#name, TYPE_##result, {TYPE_##a, TYPE_##b, TYPE_##c}, COUNT(a, b, c), properties},
+#define OP(name, result, a, b, c, properties, expression)                                                    \
+    IR_OP(name, result, a, b, c, IR_COMPUTES | (properties), )
+#define OPK(name, result, a, b, c, properties, expression)                                                   \
+    IR_OP(name, result, a, b, c, IR_COMPUTES | IR_SHIFTS | (properties), )
+#define CAST(name, ...)
+
 const struct ir_op_information ir_op_information[IR_OP_COUNT] = {
     [IR_nop] = {"nop", TYPE_non, {0}, 0, 0},
-#define OP(name, result, a, b, c, properties, expression)                                                    \
-    [IR_##name] = {#name, TYPE_##result, {TYPE_##a, TYPE_##b, TYPE_##c}, COUNT(a, b, c), properties},
-#define OPK(name, result, a, b, c, properties, expression)                                                   \
-    [IR_##name] = {#name, TYPE_##result, {TYPE_##a}, 1, IR_SHIFTS | (properties)},
-#define CAST(name, ...)
 #include "def/op.def"
+#include "def/ir.def"
+#include "def/engine/lowered.def"
+};
+
 #undef OP
 #undef OPK
 #undef CAST
-    [IR_copy] = {"copy", TYPE_non, {0}, 1, 0},
-    [IR_literal] = {"literal", TYPE_non, {0}, 0, 0},
-    [IR_load] = {"load", TYPE_non, {0}, 0, IR_READS},
-    [IR_uniform] = {"uniform", TYPE_non, {0}, 0, IR_READS},
-    [IR_gather] = {"gather", TYPE_non, {TYPE_itg}, 1, IR_READS},
-    [IR_store] = {"store", TYPE_non, {0}, 1, IR_EFFECT},
-    [IR_scatter] = {"scatter", TYPE_non, {0}, 1, IR_EFFECT},
-    [IR_when] = {"when", TYPE_non, {TYPE_msk}, 1, IR_EFFECT | IR_OPENS},
-    [IR_end] = {"end", TYPE_non, {0}, 0, IR_EFFECT | IR_CLOSES},
-    [IR_loop] = {"loop", TYPE_non, {0}, 0, IR_EFFECT | IR_OPENS},
-    [IR_again] = {"again", TYPE_non, {TYPE_msk}, 1, IR_EFFECT | IR_CLOSES},
-    [IR_set] = {"set", TYPE_non, {0}, 1, IR_EFFECT},
-    [IR_get] = {"get", TYPE_non, {0}, 0, IR_PLACED},
-    [IR_constant] = {"constant", TYPE_non, {0}, 0, 0},
-    [IR_phi] = {"phi", TYPE_non, {0}, 1, IR_PLACED},
-    [IR_next] = {"next", TYPE_non, {0}, 2, IR_EFFECT},
-    [IR_join] = {"join", TYPE_non, {0}, 2, IR_PLACED},
-    [IR_coverage] = {"coverage", TYPE_msk, {0}, 0, IR_READS},
-    [IR_reciprocal] = {"reciprocal", TYPE_flt, {TYPE_flt, TYPE_flt}, 2, IR_READS},
-    [IR_store_where] = {"store_where", TYPE_non, {TYPE_non, TYPE_msk}, 2, IR_EFFECT},
-    [IR_window] = {"window", TYPE_non, {TYPE_itg, TYPE_itg, TYPE_itg}, 3, IR_EFFECT},
-    [IR_permute] = {"permute", TYPE_flt, {TYPE_flt}, 1, IR_SHIFTS},
-};
+#undef IR_OP
 
 static const char *const type_name[] = {"   ", "flt", "itg", "fix", "msk"};
 
@@ -57,7 +45,7 @@ void ir_start(struct ir *ir)
 {
     ir->count = 1;
     ir->file_count = ir->constant_count = ir->loops = ir->variables = ir->phis = 0;
-    ir->overflow = 0;
+    ir->overflow = false;
     memset(&ir->instruction[0], 0, sizeof ir->instruction[0]);
 }
 
@@ -70,33 +58,33 @@ static void count_control(struct ir *ir, const struct ir_instruction *i)
 {
     if (i->op == IR_loop)
         ir->loops++;
-    else if (i->op != IR_again && ir->variables <= (uint32_t)i->k)
+    else if (i->op != IR_when && ir->variables <= (uint32_t)i->k)
         ir->variables = (uint32_t)i->k + 1;
 }
 
 uint16_t ir_append(struct ir *ir, struct ir_instruction instruction)
 {
     if (ir->count == IR_CAPACITY) {
-        ir->overflow = 1;
+        ir->overflow = true;
         return 0;
     }
-    if (instruction.op >= IR_loop && instruction.op <= IR_get)
+    if (ir_properties(&instruction) & (IR_OPENS | IR_VARIABLE))
         count_control(ir, &instruction);
     ir->instruction[ir->count] = instruction;
     return (uint16_t)ir->count++;
 }
 
-int ir_is_invariant_read(const struct ir_instruction *instruction)
+bool ir_is_invariant_read(const struct ir_instruction *instruction)
 {
-    return ir_op_information[instruction->op].properties & IR_READS && instruction->base != BASE_COLOR &&
+    return ir_properties(instruction) & IR_READS && instruction->base != BASE_COLOR &&
            instruction->base != BASE_DEPTH && instruction->base != BASE_OUTPUT;
 }
 
 uint32_t ir_other_end(const struct ir *ir, uint32_t number)
 {
-    int opens = ir_op_information[ir->instruction[number].op].properties & IR_OPENS;
+    bool opens = ir_properties(&ir->instruction[number]) & IR_OPENS;
     for (int depth = 0;; number += opens ? 1 : UINT32_MAX) {
-        unsigned properties = ir_op_information[ir->instruction[number].op].properties;
+        unsigned properties = ir_properties(&ir->instruction[number]);
         depth += (properties & IR_OPENS) != 0;
         depth -= (properties & IR_CLOSES) != 0;
         if (!depth)
@@ -124,8 +112,7 @@ void ir_compact(struct ir *ir, uint16_t *map)
 
 static void print_literal(const struct ir_instruction *i, FILE *out)
 {
-    float value;
-    memcpy(&value, &i->k, sizeof value);
+    float value = bits_to_float((uint32_t)i->k);
     if (i->type == TYPE_flt)
         fprintf(out, " %.9g", (double)value);
     else
@@ -144,7 +131,7 @@ static void print_memory(const struct ir_instruction *i, FILE *out)
         fprintf(out, " stride %d", (int)i->field);
 }
 
-void ir_print_instruction(const struct ir *ir, uint32_t number, FILE *out)
+static void ir_print_instruction(const struct ir *ir, uint32_t number, FILE *out)
 {
     const struct ir_instruction *i = &ir->instruction[number];
     const struct ir_op_information *information = &ir_op_information[i->op];
@@ -153,12 +140,11 @@ void ir_print_instruction(const struct ir *ir, uint32_t number, FILE *out)
         fprintf(out, " %%%u", i->operand[o]);
     if (i->op == IR_literal)
         print_literal(i, out);
-    else if (information->properties & IR_READS || i->op == IR_store || i->op == IR_store_where ||
-             i->op == IR_scatter)
+    else if (information->properties & (IR_READS | IR_WRITES))
         print_memory(i, out);
     else if (information->properties & IR_SHIFTS || i->op == IR_constant)
         fprintf(out, " %d", (int)i->k);
-    else if (i->op == IR_set || i->op == IR_get)
+    else if (information->properties & IR_VARIABLE)
         fprintf(out, " variable %d", (int)i->k);
     else if (i->op == IR_window)
         fprintf(out, " %s[%d]-> pitch +%d", base_name[i->base], (int)i->field, (int)i->k);

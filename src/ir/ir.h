@@ -1,50 +1,36 @@
-/* The intermediate representation that the specializer compiles, the batch interpreter runs and the
- * external engine prints: one flat array of instructions in SSA form. Where control flow joins, recordings
- * have variables; the specializer replaces them by phis and joins.
+/* The intermediate representation (IR): one flat array of instructions in static single assignment (SSA)
+ * form. The specializer compiles it, the batch interpreter runs it and the external engine prints it as C.
+ * The number of lanes is not part of it: one recording serves every width.
  *
- * An instruction's number is its index, and the number of the value it defines; 0 is no value. Operands are
- * defined before they are used. The loop over what a call lists is outside of it all. Inside are regions:
- * `when mask ... end`, skipped when no lane of the mask is set, and `loop ... again mask`, run once and
- * again as long as a lane of the mask is set. Regions nest. A value defined in a `when` is used in that
- * region only, inner regions included; a value defined in a loop may be used behind it, too, since the loop
- * has run by then (recordings make no use of this). What else leaves a region, or goes from one pass of a
- * loop to the next, goes through a variable: `set` gives it all lanes of a value, `get` is a value of its
- * own, what the variable holds at that place. A variable holds nothing until it is set, and nothing from
- * one chunk of lanes to the next.
+ * An instruction's number is its index in the array, and names the value that it defines; 0 names none.
+ * Operands are defined before they are used. A routine repeats the array for each group of lanes; that outer
+ * loop is not part of the IR. Inside there are regions:
+ *   when a ... end      is skipped when no lane of the mask a is set
+ *   loop ... again a    runs once, and is repeated while a lane of a is set
+ * Regions nest. The condition of a loop may be defined in the loop. A value that is defined in a `when` is
+ * used only in that region and the regions inside it. A value that is defined in a loop may also be used
+ * after it, because a loop runs at least once (recordings make no use of this).
  *
- * Opcodes are the rows of def/op.def, and these:
- *   copy a                      the same bits (the casts)
- *   literal k                   the 32 bits k in every lane
- *   load base k                 the lanes' consecutive words at base + k
- *   uniform base k              the word at base + k in every lane
- *   gather a base field k scale words at start + a * scale + k; start is base, or the pointer at base + field
- *   store a base k              the lanes' consecutive words to base + k
- *   scatter a base k field      lane l's word to base + k + l * field
- *   when a, end                 a region
- *   loop, again a               a loop; `a` is defined before or in it
- *   set a k, get k              variable k, below VARIABLES; all its sets and gets have its type
- *   phi a, next p b             directly before a loop and before its end: p is a in the loop's first pass, and
- *                               from one pass to the next becomes b, all phis of a loop at once; behind the loop
- *                               it is what it was in the last pass. Each phi has one `next`
- *   join a b                    directly behind an `end`: b if the region ran, else a; b may be of the region
- *   constant k                  slot k of the frame's constants, filled before the loop (hoist.c)
- *   permute a k                 lanes change places within each four: lane l takes lane (k >> 2 * l) & 3
- *   coverage base k             bit l of the half word at base + k, all of lane l; of 16 lanes (jit/wide.c)
- *   reciprocal a b base k       1 / the plane at base + k, at x = a and y = b; of 16 lanes
- *   store_where a b base k      a store of the lanes that b has; of 16 lanes
- *   window a b c field k        the gathers that follow read words of the pointer at field, at a + b * pitch and, of four,
- *                               at a + c * pitch too, the pitch being the word at base + k: a hint (jit/window.c); `scale`
- *                               instructions, the last of them the gathers, are the way for lanes far apart
- * The number of lanes appears nowhere here: the same recording serves every W. */
+ * Other values that leave a region, or pass from one iteration of a loop to the next, go through a variable:
+ * `set` stores all lanes of a value and `get` is a new value, the contents of the variable at that position.
+ * Variables are numbered below VARIABLES. All sets and gets of a variable have its type. A variable has no
+ * value until it is set, and keeps none from one group of lanes to the next. The specializer replaces
+ * variables by phis and joins.
+ *
+ * The operations are the rows of three tables: def/op.def computes, def/ir.def is the rest of what is
+ * recorded, and def/engine/lowered.def is what only the specializer's passes make. Each row has its types and
+ * properties, which are what generic code tests: the order of the operations has no meaning, except that
+ * those of def/op.def come first. */
 #ifndef IR_IR_H
 #define IR_IR_H
 
 #include "base/error.h"
-#include "def/binding.h"
+#include "contract/binding.h"
 
 #include <stdio.h>
 
-enum ir_type { TYPE_non, TYPE_flt, TYPE_itg, TYPE_fix, TYPE_msk };
+/* `any` appears only in tables: an operand of any type. */
+enum ir_type { TYPE_non, TYPE_flt, TYPE_itg, TYPE_fix, TYPE_msk, TYPE_any = TYPE_non };
 
 enum ir_op {
     IR_nop,
@@ -55,117 +41,120 @@ enum ir_op {
 #undef OP
 #undef OPK
 #undef CAST
-    IR_copy,
-    IR_literal,
-    IR_load,
-    IR_uniform,
-    IR_gather,
-    IR_store,
-    IR_scatter,
-    IR_when,
-    IR_end,
-    IR_loop,
-    IR_again,
-    IR_set,
-    IR_get,
-    IR_constant,
-    IR_permute,
-    IR_phi,
-    IR_next,
-    IR_join,
-    IR_coverage,
-    IR_reciprocal,
-    IR_store_where,
-    IR_window,
+#define IR_OP(name, ...) IR_##name,
+#include "def/ir.def"
+#include "def/engine/lowered.def"
+#undef IR_OP
     IR_OP_COUNT
 };
 
+/* Operations 1 to IR_COMPUTED have IR_COMPUTES. */
+enum { IR_COMPUTED = IR_copy - 1 };
+
 enum ir_property {
-    IR_COMMUTES = 1, /* a and b may change places */
-    IR_EFFECT = 2,   /* not a value: memory or control */
-    IR_READS = 4,    /* reads memory */
-    IR_SHIFTS = 8,   /* takes the staged immediate k */
-    IR_OPENS = 16,   /* begins a region */
-    IR_CLOSES = 32,  /* ends one */
-    IR_PLACED = 64   /* depends on where it stands, not on its operands alone */
+    IR_COMMUTES = 1 << 0, /* a and b may be exchanged */
+    IR_EFFECT = 1 << 1,   /* defines no value */
+    IR_READS = 1 << 2,    /* reads memory */
+    IR_WRITES = 1 << 3,   /* writes memory */
+    IR_SHIFTS = 1 << 4,   /* has the immediate k */
+    IR_OPENS = 1 << 5,    /* begins a region */
+    IR_CLOSES = 1 << 6,   /* ends a region */
+    IR_PLACED = 1 << 7,   /* its value depends on its position, not only on its operands */
+    /* a row of def/op.def: each lane is computed from the operands' lane (ir_evaluate) */
+    IR_COMPUTES = 1 << 8,
+    IR_VARIABLE = 1 << 9, /* k is a variable */
+    IR_KEPT = 1 << 10     /* kept although it has no value and writes no memory */
 };
 
 struct ir_op_information {
     const char *name;
-    uint8_t
-        result; /* enum ir_type; TYPE_non for effects, and for the opcodes whose type the instruction says */
+    uint8_t result; /* enum ir_type; TYPE_non: see def/ir.def */
     uint8_t operand[3];
     uint8_t operands;
-    uint8_t properties;
+    uint16_t properties;
 };
 
 extern const struct ir_op_information ir_op_information[IR_OP_COUNT];
 
 struct ir_instruction {
     uint8_t op;   /* enum ir_op */
-    uint8_t type; /* enum ir_type of the value; of a set, the variable's */
+    uint8_t type; /* enum ir_type of the value; of a set, the variable's type */
     uint8_t base; /* enum base */
     uint8_t scale;
     uint16_t operand[3];
-    uint16_t line; /* of the spec file that made it */
-    uint8_t file;
+    uint16_t line; /* of the file of the specification that recorded it; 0: none */
+    uint8_t file;  /* index in `file` of struct ir */
     int32_t k;
     int32_t field;
 };
 
-/* Numbers are 16 bits wide, and 0xffff is none. The arrays of a build are this long, which costs address
- * space: only what a routine uses of them is ever touched. */
+static inline unsigned ir_properties(const struct ir_instruction *instruction)
+{
+    return ir_op_information[instruction->op].properties;
+}
+
+static inline unsigned ir_operands(const struct ir_instruction *instruction)
+{
+    return ir_op_information[instruction->op].operands;
+}
+
+/* Numbers have 16 bits and 0xffff is reserved. The arrays of a build have IR_CAPACITY entries. That costs
+ * address space only: pages that a routine does not reach are never touched. */
 enum { IR_CAPACITY = 65535, IR_FILES = 64, IR_CONSTANTS = 512 };
 
-/* A hoisted word: broadcast from base + offset before the loop. */
+/* A slot of the routine's constant table: the word at base + offset, broadcast to all lanes. */
 struct ir_constant {
     uint8_t base;
     int32_t offset;
 };
 
 struct ir {
-    uint32_t count;     /* instruction 0 is a nop */
-    uint32_t loops;     /* so many were recorded */
-    uint32_t variables; /* those set or got are below this */
-    uint32_t phis;      /* and joins: there are no more than so many */
+    uint32_t count;     /* of instructions; instruction 0 is a nop */
+    uint32_t loops;     /* the number of loops recorded */
+    uint32_t variables; /* every variable in use is below this */
+    uint32_t phis;      /* at least the number of phis and joins */
     uint32_t file_count;
     uint32_t constant_count;
-    int overflow; /* more than IR_CAPACITY instructions were recorded: the routine cannot be built */
+    bool overflow; /* more than IR_CAPACITY - 1 instructions were recorded: the routine cannot be built */
     const char *file[IR_FILES];
     struct ir_constant constant[IR_CONSTANTS];
     struct ir_instruction instruction[IR_CAPACITY];
 };
 
-/* Empties it. */
+/* Makes `ir` an empty program. */
 void ir_start(struct ir *ir);
 
-/* Makes it the same as another. */
+/* Copies the program `from` to `ir`. */
 void ir_duplicate(struct ir *ir, const struct ir *from);
 
 /* Appends an instruction and returns its number; past the capacity sets `overflow` and returns 0. */
 uint16_t ir_append(struct ir *ir, struct ir_instruction instruction);
 
-/* Whether the instruction only reads memory that no routine writes (so that it may move). */
-int ir_is_invariant_read(const struct ir_instruction *instruction);
+/* Returns true if the instruction only reads memory that no routine writes, so that it may move. */
+bool ir_is_invariant_read(const struct ir_instruction *instruction);
 
-/* The other end of the region that the instruction opens or closes. */
+/* Returns the number of the other end of the region that the instruction opens or closes. */
 uint32_t ir_other_end(const struct ir *ir, uint32_t number);
 
-/* Removes nops and renumbers. `map` is scratch of IR_CAPACITY entries. */
+/* Removes nops and renumbers. `map` is scratch memory of IR_CAPACITY entries. */
 void ir_compact(struct ir *ir, uint16_t *map);
 
-/* Checks that operands are defined before use, in an open region, that regions nest, that all sets and gets
- * of a variable have one type, that every get is reached by a set whichever way control takes, and that phis, next
- * values and joins stand where they belong (verify.c).
- * Returns null, or one line that says what is wrong (static storage: for one thread at a time). */
+/* Verifies that
+ *   - operands are values, defined before their use in a region that is still open,
+ *   - regions nest,
+ *   - all sets and gets of a variable have one type, and a set precedes every get on each path of control,
+ *   - phis, next values and joins are at their positions.
+ * Returns null, or one line that describes the first error. The line is in static memory of the calling
+ * thread. For tests: the reason for which a recording is invalid; ir_check calls it. */
 const char *ir_verify(const struct ir *ir);
 
-/* The same for any number of threads. Returns 0, or -1 with the reason, which begins with what `made` the program: "the
- * recording", "pass common". */
-int ir_check(const struct ir *ir, const char *made, struct error *error);
+/* Does the same, from several threads too. Returns 0, or -1 with the reason, which begins with the name of
+ * the program: "the recording", "the result of pass common". For tests: recordings that are invalid; builds
+ * with CHECK_IR call it too. */
+int ir_check(const struct ir *ir, const char *name, struct error *error);
 
-/* Whether this is a build (make CHECK_IR=1, and any with sanitizers) in which every recording and what every pass
- * leaves is checked, and refused if it is wrong. */
+/* True in builds that verify every recording and the result of every pass (make CHECK_IR=1, and builds with
+ * sanitizers). A routine that fails the check is not built. */
 enum {
 #ifdef TRIPTYCH_CHECK_IR
     IR_CHECKED = 1
@@ -174,20 +163,17 @@ enum {
 #endif
 };
 
-/* One line a instruction: number, type, operation, operands, spec line. */
+/* Prints one line per instruction: number, type, operation, operands, line of the specification. */
 void ir_print(const struct ir *ir, FILE *out);
-void ir_print_instruction(const struct ir *ir, uint32_t number, FILE *out);
-
-/* Records the spec of a unit for a key (record.c). */
+/* Records the specification of a unit for a key (record.c). */
 void ir_record(struct ir *ir, enum unit unit, const union key *key);
 
-/* A recording in memory of a pool of the process (pool.c), for those who have none of their own; null with
- * the reason. Give it back. */
+/* Returns a recording in memory of the process's pool (pool.c), for callers without memory of their own, or
+ * null with the reason. Return it with ir_give. */
 struct ir *ir_take(enum unit unit, const union key *key, struct error *error);
 void ir_give(struct ir *ir);
 
-/* Evaluates one operation of def/op.def on one lane's bits (fix: both halves). Runs under the caller's MXCSR.
- */
+/* Evaluates an operation of def/op.def on one lane's bits (a pair: both halves), under the caller's MXCSR. */
 uint32_t ir_evaluate(enum ir_op op, uint32_t a, uint32_t b, uint32_t c, int32_t k);
 
 #endif

@@ -1,28 +1,28 @@
-/* What makes an IR valid: see ir.h. One walk from front to back. */
+/* Verifies a program, in one walk from front to back (ir.h lists the rules). */
 #include "ir/ir.h"
 
 #include <pthread.h>
 #include <stdarg.h>
 #include <string.h>
 
-/* Where control is, which values are there, and what each variable and phi is.
+/* The state of the walk: the open regions, the values that can be used, the variables and the phis.
  *
- * A value is there as long as the `when` around it is open: a loop's body has run whenever what follows it
- * does. What a `when` sets, a variable does not hold behind the end for certain; what a loop sets, it does.
- */
+ * A value can be used while the `when` around it is open. It can also be used after a loop, since the body of
+ * a loop runs before what follows it. After the end of a `when`, a variable that only the `when` sets may
+ * have no value; after a loop, a variable that the loop sets has one. */
 struct walk {
     const struct ir *ir;
     uint32_t number;
-    uint16_t scope[IR_CAPACITY];  /* of each value: the `when` that it is inside of, 0: none */
+    uint16_t scope[IR_CAPACITY];  /* of each value: the `when` around it, 0: none */
     uint16_t parent[IR_CAPACITY]; /* of each region: the one around it */
     uint16_t outer[IR_CAPACITY];  /* of each `when`: the one around it */
-    uint16_t held[IR_CAPACITY];   /* of each `when`: how many variables were held before it */
+    uint16_t held[IR_CAPACITY];   /* of each `when`: the number of variables with a value before it */
     uint16_t owner[IR_CAPACITY];  /* of each phi: its loop until `next` gives it a value, then 0 */
     uint16_t phis[IR_CAPACITY];   /* of each loop: its phis that have no `next` yet */
     uint8_t open[IR_CAPACITY];
     uint8_t type[VARIABLES];
     uint8_t holds[VARIABLES];
-    uint16_t holding[VARIABLES]; /* in the order in which they were set first */
+    uint16_t holding[VARIABLES]; /* variables with a value, in the order of their first set */
     uint16_t holding_count;
     uint16_t region;  /* the innermost */
     uint16_t when;    /* the innermost `when` */
@@ -47,13 +47,14 @@ static const struct ir_instruction *instruction(const struct walk *walk, unsigne
     return &walk->ir->instruction[number];
 }
 
-static int is_value(const struct ir_instruction *i)
+static bool is_value(const struct ir_instruction *i)
 {
-    return i->type && !(ir_op_information[i->op].properties & IR_EFFECT);
+    return i->type && !(ir_properties(i) & IR_EFFECT);
 }
 
-/* The second operand of a join is inside of the region that has just ended. */
-static int is_there(const struct walk *walk, const struct ir_instruction *i, int o)
+/* Returns true if an operand can be used. The second operand of a join may be in the region that has just
+ * ended. */
+static bool is_usable(const struct walk *walk, const struct ir_instruction *i, int o)
 {
     unsigned scope = walk->scope[i->operand[o]];
     return walk->open[scope] || (i->op == IR_join && o == 1 && scope == walk->ended);
@@ -63,7 +64,7 @@ static const char *verify_operands(struct walk *walk, const struct ir_instructio
 {
     for (int o = 0; o < 3; o++) {
         unsigned operand = i->operand[o];
-        if (o >= ir_op_information[i->op].operands) {
+        if (o >= (int)ir_operands(i)) {
             if (operand)
                 return wrong(walk, "operand %d is superfluous", o);
             continue;
@@ -71,8 +72,8 @@ static const char *verify_operands(struct walk *walk, const struct ir_instructio
         if (!operand || operand >= walk->number)
             return wrong(walk, "operand %d is not defined before", o);
         if (!is_value(instruction(walk, operand)))
-            return wrong(walk, "operand %d is no value", o);
-        if (!is_there(walk, i, o))
+            return wrong(walk, "operand %d is not a value", o);
+        if (!is_usable(walk, i, o))
             return wrong(walk, "operand %d leaves its region", o);
     }
     return NULL;
@@ -86,7 +87,7 @@ static const char *verify_variable(struct walk *walk, const struct ir_instructio
         return wrong(walk, "variable %d is of another type", (int)i->k);
     walk->type[i->k] = i->type;
     if (i->op == IR_get && !walk->holds[i->k])
-        return wrong(walk, "variable %d may hold nothing", (int)i->k);
+        return wrong(walk, "variable %d may have no value", (int)i->k);
     if (i->op == IR_set && !walk->holds[i->k]) {
         walk->holds[i->k] = 1;
         walk->holding[walk->holding_count++] = (uint16_t)i->k;
@@ -98,7 +99,7 @@ static const char *verify_next(struct walk *walk, const struct ir_instruction *i
 {
     unsigned phi = i->operand[0];
     if (instruction(walk, phi)->op != IR_phi || !walk->region || walk->owner[phi] != walk->region)
-        return wrong(walk, "%u is no phi of this loop that awaits its next value", phi);
+        return wrong(walk, "%u is not a phi of this loop without a next value", phi);
     walk->owner[phi] = 0;
     walk->phis[walk->region]--;
     return NULL;
@@ -107,23 +108,23 @@ static const char *verify_next(struct walk *walk, const struct ir_instruction *i
 static const char *verify_join(struct walk *walk, const struct ir_instruction *i)
 {
     if (walk->previous != IR_end && walk->previous != IR_join)
-        return wrong(walk, "a join stands behind no region's end");
+        return wrong(walk, "a join does not follow a region's end");
     if (i->operand[0] > walk->ended)
         return wrong(walk, "operand 0 is not defined before the region");
     for (int o = 0; o < 2; o++)
         if (instruction(walk, i->operand[o])->op == IR_join && i->operand[o] > walk->ended &&
             walk->scope[i->operand[o]] == walk->when)
-            return wrong(walk, "operand %d is joined at the same place", o);
+            return wrong(walk, "operand %d is a join of the same region", o);
     return NULL;
 }
 
-/* Phis stand directly before their loop, `next`s directly before its end. */
-static const char *verify_place(struct walk *walk, const struct ir_instruction *i)
+/* Phis directly precede their loop, and next values its end. */
+static const char *verify_position(struct walk *walk, const struct ir_instruction *i)
 {
     if (walk->previous == IR_phi && i->op != IR_phi && i->op != IR_loop)
-        return wrong(walk, "a phi stands before no loop");
+        return wrong(walk, "a phi does not precede a loop");
     if (walk->previous == IR_next && i->op != IR_next && i->op != IR_again)
-        return wrong(walk, "a next value stands before no loop's end");
+        return wrong(walk, "a next value does not precede a loop's end");
     switch (i->op) {
     case IR_set:
     case IR_get: return verify_variable(walk, i);
@@ -155,7 +156,7 @@ static void enter(struct walk *walk, const struct ir_instruction *i)
 static const char *leave(struct walk *walk, const struct ir_instruction *i)
 {
     if (instruction(walk, walk->region)->op != (i->op == IR_end ? IR_when : IR_loop))
-        return wrong(walk, "ends no region of its kind");
+        return wrong(walk, "no region of its kind is open");
     if (i->op == IR_again && walk->phis[walk->region])
         return wrong(walk, "a phi of this loop has no next value");
     if (i->op == IR_end) {
@@ -171,10 +172,10 @@ static const char *leave(struct walk *walk, const struct ir_instruction *i)
 
 static const char *verify_instruction(struct walk *walk, const struct ir_instruction *i)
 {
-    unsigned properties = ir_op_information[i->op].properties;
+    unsigned properties = ir_properties(i);
     const char *what = verify_operands(walk, i);
     if (!what)
-        what = verify_place(walk, i);
+        what = verify_position(walk, i);
     if (!what && properties & IR_CLOSES)
         what = leave(walk, i);
     walk->scope[walk->number] = walk->when;
@@ -203,12 +204,12 @@ const char *ir_verify(const struct ir *ir)
     return walk.region || walk.waiting ? "a region is not ended" : NULL;
 }
 
-int ir_check(const struct ir *ir, const char *made, struct error *error)
+int ir_check(const struct ir *ir, const char *name, struct error *error)
 {
     static pthread_mutex_t lock = PTHREAD_MUTEX_INITIALIZER;
     pthread_mutex_lock(&lock);
     const char *what = ir_verify(ir);
-    int result = what ? error_set(error, "%s is no valid program: %s", made, what) : 0;
+    int result = what ? error_set(error, "%s is not a valid program: %s", name, what) : 0;
     pthread_mutex_unlock(&lock);
     return result;
 }

@@ -2,7 +2,7 @@
 
 #include <string.h>
 
-/* Registers whose usage goes without saying; -1 for the rest. */
+/* Registers with an implicit usage; -1 for the rest. */
 static int implied_usage(enum shader_file file, const struct shader_model *model)
 {
     switch (file) {
@@ -59,8 +59,8 @@ static void add_declaration(struct shader_interface *interface, const struct sha
         add_implied(interface, model, declared, declared->swizzle, centroid);
 }
 
-/* ps_1_x names the stage by the destination; t# of the stage are its coordinates unless another's value is.
- */
+/* In ps_1_x the destination is the stage. t# of the stage are its coordinates unless an earlier instruction
+ * wrote them. */
 static void add_stage(struct shader_interface *interface, const struct shader_model *model,
                       const struct shader_instruction *instruction)
 {
@@ -90,7 +90,7 @@ static void add_source(struct shader_interface *interface, const struct shader_m
         interface->constants = (uint16_t)end;
     else if (source->file == FILE_SAMPLER)
         interface->sampled |= (uint16_t)(1 << source->index);
-    /* What ps_1_x does not declare; t# there is a stage's own. */
+    /* Adds the inputs that ps_1_x does not declare; its t# belong to their stages. */
     else if (source->file == FILE_INPUT && shader_major(model) == 1 && model->stage == STAGE_PIXEL)
         add_implied(interface, model, source, MASK_FULL, false);
 }

@@ -1,17 +1,18 @@
-/* Shaders of the models 1.1 to 3.0, as the tables of def/shader*.def describe them.
+/* Shaders of the models 1.1 to 3.0, as the tables in def/shader describe them.
  *
- * A `struct shader` is one shader, decoded: a flat array of instructions whose operands are resolved to a
- * register file, a number, and what is done to the value on the way. It comes from text (shader_assemble) or
- * from bytecode (shader_read), goes to bytecode (shader_encode) or canonical text (shader_print), and is held
- * against its model's rules by shader_validate; engines run what was validated. Text and bytecode say the
- * same: what was printed assembles to the same tokens, and what was encoded reads back as the same
+ * A `struct shader` is one decoded shader: a flat array of instructions whose operands are resolved to a
+ * register file, a number and modifiers. It is made from text (shader_assemble) or from bytecode
+ * (shader_read), and converted to bytecode (shader_encode) or canonical text (shader_print). shader_validate
+ * validates it against the rules of its model; engines run validated shaders only. Text and bytecode are
+ * equivalent: printed text assembles to the same tokens, and encoded tokens read back as the same
  * instructions.
  *
- * The two readers check what a shader must be to be represented at all: instructions and registers that its
- * model knows, operands of the right number, modifiers that exist, numbers that fit their fields. Everything
- * else (limits, ports, masks, flow control, what was written before it is read) is the validator's.
+ * The two readers check only that a shader can be represented: that its model has the instructions and
+ * registers, that operands have the right number, that modifiers exist, that numbers fit their fields. The
+ * validator checks everything else: limits, ports, masks, flow control, reads of registers that were never
+ * written.
  *
- * Bounded: SHADER_BYTES of input, SHADER_INSTRUCTIONS, and nothing recurses.
+ * Bounds: SHADER_BYTES of input, SHADER_INSTRUCTIONS. Nothing is recursive.
  *
  * Sources: Microsoft's reference of the shader assembly (asm-vs, asm-ps), d3d9types.h, and the driver kit's
  * "Shader Code Tokens". */
@@ -26,9 +27,7 @@
 
 enum { SHADER_BYTES = 16 << 20, SHADER_INSTRUCTIONS = 65536, SHADER_SOURCES = 4, SHADER_NAME_BYTES = 64 };
 
-/* --- Tables
- * -------------------------------------------------------------------------------------------------
- */
+/* --- Tables -------------------------------------------------------------------------------------------- */
 
 enum shader_stage { STAGE_VERTEX, STAGE_PIXEL };
 
@@ -57,20 +56,20 @@ struct shader_model {
     uint8_t arithmetic, texture; /* slots of each sort; 0: no limit */
     uint8_t temporaries;         /* r registers */
     uint8_t flow;                /* instructions of static flow control; 0: no limit */
-    uint8_t branches, dynamic;   /* how deep: if by constants, by values */
+    uint8_t branches, dynamic;   /* the deepest nesting: of if by constants, by values */
     uint8_t loops, calls;
 };
 
 enum shader_model_id {
 #define MODEL(id, ...) MODEL_##id,
-#include "def/shader_model.def"
+#include "def/shader/shader_model.def"
 #undef MODEL
     MODEL_COUNT
 };
 
 extern const struct shader_model shader_models[MODEL_COUNT];
 
-/* What an operand may be. */
+/* Kinds of operands. */
 enum shader_operand_kind {
     OPERAND_NONE,
     /* destinations */
@@ -79,8 +78,8 @@ enum shader_operand_kind {
     OPERAND_FLAGS,            /* p0 */
     OPERAND_STAGE,            /* t#: the texture stage is the register's number */
     OPERAND_TEMPORARY,        /* r# */
-    OPERAND_KILL,             /* t#, r# or v#; it is read */
-    OPERAND_DECLARED,         /* what dcl declares */
+    OPERAND_KILL,             /* t#, r# or v#, which is read */
+    OPERAND_DECLARED,         /* the register that dcl declares */
     OPERAND_CONSTANT,         /* c#, with four literals */
     OPERAND_CONSTANT_INTEGER, /* i#, with four literals */
     OPERAND_CONSTANT_BOOLEAN, /* b#, with one literal */
@@ -90,7 +89,7 @@ enum shader_operand_kind {
     OPERAND_MATRIX,      /* the first of consecutive registers */
     OPERAND_SCRATCH,     /* r#, whose value is lost */
     OPERAND_SERIES,      /* c#, unmodified */
-    OPERAND_COORDINATES, /* where to sample */
+    OPERAND_COORDINATES, /* the position to sample at */
     OPERAND_SAMPLER,
     OPERAND_SET,       /* ps_1_4: t#, or r# in the second phase */
     OPERAND_SAMPLED,   /* ps_1_1 to ps_1_3: t# that was sampled */
@@ -115,6 +114,19 @@ enum shader_masks {
     MASKS_FRACTION,   /* vs_1_1: .y or .xy; any elsewhere */
 };
 
+/* The components that an instruction reads of a source, after its swizzle: a byte for the first source, and
+ * one for all others. Bits 0 to 3 are x to w; bit 4 adds the components of the destination's mask. */
+enum shader_reads {
+    READS_NONE = 0,
+    READS_XY = 0x0303,
+    READS_XYZ = 0x0707,
+    READS_XYZW = 0x0f0f,
+    READS_XYW = 0x0b0b,
+    READS_RESULT = 0x1010,
+    READS_XYZ_RESULT = 0x1717,
+    READS_YZ_YW = 0x0a06, /* .yz of the first source, .yw of the second */
+};
+
 enum { COMPARISON = 0xff };
 
 enum {
@@ -130,17 +142,17 @@ enum {
     IS_APART = 512
 };
 
-/* A row of def/shader.def. */
+/* A row of def/shader/shader.def. */
 struct shader_operation {
     const char *name, *meaning;
     const char *slots; /* a character per column */
-    uint16_t opcode, flags;
+    uint16_t opcode, flags, reads;
     uint8_t control, cube, destination, source[SHADER_SOURCES], masks, rows;
 };
 
 enum shader_opcode {
 #define INSTRUCTION(id, ...) SHADER_##id,
-#include "def/shader.def"
+#include "def/shader/shader.def"
 #undef INSTRUCTION
     SHADER_COUNT
 };
@@ -150,14 +162,14 @@ extern const struct shader_operation shader_operations[SHADER_COUNT];
 enum shader_file {
     FILE_NONE,
 #define REGISTER(id, ...) FILE_##id,
-#include "def/shader_register.def"
+#include "def/shader/shader_register.def"
 #undef REGISTER
     FILE_COUNT
 };
 
 enum { NUMBERED = 0xff, CAN_READ = 1, CAN_WRITE = 2, IS_FLOAT = 4 };
 
-/* A row of def/shader_register.def. */
+/* A row of def/shader/shader_register.def. */
 struct shader_register {
     const char *name, *ports, *meaning;
     uint8_t type, index, access;
@@ -168,29 +180,29 @@ extern const struct shader_register shader_registers[FILE_COUNT];
 
 enum shader_modifier_id {
 #define MODIFIER(id, ...) MODIFIER_##id,
-#include "def/shader_modifier.def"
+#include "def/shader/shader_modifier.def"
 #undef MODIFIER
     MODIFIER_COUNT
 };
 
-/* Numbers of def/shader_comparison.def. */
+/* Numbers of def/shader/shader_comparison.def. */
 enum shader_comparison_id {
 #define COMPARISON(id, suffix, number) COMPARISON_##id = (number),
-#include "def/shader_comparison.def"
+#include "def/shader/shader_comparison.def"
 #undef COMPARISON
 };
 
 struct shader_modifier {
-    const char *before, *behind, *columns, *meaning;
+    const char *before, *after, *columns, *meaning;
 };
 
-/* At the token's number. */
+/* By the token's number. */
 extern const struct shader_modifier shader_modifiers[MODIFIER_COUNT];
 
-/* What dcl says a register is for. */
+/* The usage of a register, from dcl. */
 enum shader_usage {
 #define USAGE(id, name, number) USAGE_##id = number,
-#include "def/shader_usage.def"
+#include "def/shader/shader_usage.def"
 #undef USAGE
 };
 
@@ -205,14 +217,20 @@ extern const struct shader_word shader_comparisons[], shader_usages[],
 /* The name of that number, or null. */
 const char *shader_word_name(const struct shader_word *words, unsigned number);
 
-/* Slots of the instruction in the model's column, or -1 if it is not there. */
+/* Slots of the instruction in the model's column, or -1 if the model does not have it. */
 int shader_slots(const struct shader_operation *operation, const struct shader_model *model);
 
-/* How many registers the model has of the file. */
+/* The number of registers of the file in the model. */
 unsigned shader_register_count(enum shader_file file, const struct shader_model *model);
 
-/* Whether dcl says what the register is for: of elements, outputs, and ps_3_0's varyings. */
+/* Returns true if dcl gives registers of the file a usage: elements, outputs, and ps_3_0's varyings. */
 bool shader_has_usage(enum shader_file file, const struct shader_model *model);
+
+struct shader_instruction;
+
+/* The components that the instruction reads of a source, after its swizzle: bit 0 x to bit 3 w. A scalar
+ * source is read in x only; _dw adds w. */
+unsigned shader_source_components(const struct shader_instruction *instruction, unsigned source);
 
 static inline unsigned shader_major(const struct shader_model *model)
 {
@@ -229,22 +247,25 @@ static inline bool is_call(unsigned opcode)
     return opcode == SHADER_CALL || opcode == SHADER_CALLNZ;
 }
 
-/* Whether registers have the ranges of ps_1_x: values within -8 and 8, constants within -1 and 1. */
+static inline bool is_break(unsigned opcode)
+{
+    return opcode == SHADER_BREAK || opcode == SHADER_BREAK_COMPARE || opcode == SHADER_BREAKP;
+}
+
+/* Returns true if registers have the ranges of ps_1_x: values within -8 and 8, constants within -1 and 1. */
 static inline bool shader_is_narrow(const struct shader_model *model)
 {
     return model->stage == STAGE_PIXEL && shader_major(model) == 1;
 }
 
-/* --- One shader
- * ---------------------------------------------------------------------------------------------
- */
+/* --- One shader ---------------------------------------------------------------------------------------- */
 
 /* Bits of a destination's modifier. */
 enum { RESULT_SATURATE = 1, RESULT_PARTIAL = 2, RESULT_CENTROID = 4 };
 
 enum { MASK_FULL = 15, SWIZZLE_NONE = 0xe4 };
 
-/* The component that the swizzle puts at a place. */
+/* The component that the swizzle selects for a place. */
 static inline unsigned swizzle_component(unsigned swizzle, unsigned place)
 {
     return swizzle >> 2 * place & 3;
@@ -261,23 +282,24 @@ struct shader_operand {
     uint8_t swizzle;   /* of a source: two bits per component, x lowest; of a destination: mask, x lowest */
     int8_t shift;      /* of a destination: the result is multiplied by 2 to this power, -3 to 3 */
     uint16_t index;    /* added to the relative index if there is one */
-    uint8_t relative;  /* FILE_NONE, FILE_ADDRESS or FILE_LOOP: what else is added */
-    uint8_t component; /* which component of a0 that is */
-    uint16_t place;    /* text: the column; bytecode: tokens behind the instruction's */
+    uint8_t relative;  /* FILE_NONE, FILE_ADDRESS or FILE_LOOP: the register added to the index */
+    uint8_t component; /* the component of a0 */
+    uint16_t place;    /* text: the column; bytecode: tokens after the instruction's */
 };
 
 struct shader_instruction {
-    uint8_t opcode;                   /* enum shader_opcode */
-    uint8_t comparison;               /* number of def/shader_comparison.def, or 0 */
-    bool coissue;                     /* executes together with the one before */
-    uint8_t usage, usage_index, kind; /* of dcl: numbers of def/shader_usage.def; kind only of samplers */
-    uint16_t column;                  /* text: where the instruction begins */
-    uint32_t place;                   /* text: the line, from 1; bytecode: the token, from 0 */
+    uint8_t opcode;     /* enum shader_opcode */
+    uint8_t comparison; /* number of def/shader/shader_comparison.def, or 0 */
+    bool coissue;       /* executes together with the one before */
+    uint8_t usage, usage_index,
+        kind;        /* of dcl: numbers of def/shader/shader_usage.def; kind only of samplers */
+    uint16_t column; /* text: where the instruction begins */
+    uint32_t place;  /* text: the line, from 1; bytecode: the token, from 0 */
     struct shader_operand destination, predicate, source[SHADER_SOURCES];
     uint32_t literal[4]; /* of def, defi: bits; of defb: the first is 0 or 1 */
 };
 
-/* What an application calls a range of constants (from the bytecode's constant table). */
+/* The application's name of a range of constants (from the bytecode's constant table). */
 struct shader_name {
     char name[SHADER_NAME_BYTES];
     uint8_t file; /* c, i, b or s */
@@ -286,7 +308,7 @@ struct shader_name {
 
 struct shader {
     char *path;
-    bool bytecode; /* what places mean */
+    bool bytecode; /* places are tokens */
     const struct shader_model *model;
     struct shader_instruction *instructions; /* in order, with dcl and def */
     uint32_t count, capacity;
@@ -304,36 +326,35 @@ int shader_assemble(const char *path, const char *text, size_t bytes, struct sha
 int shader_read(const char *path, const void *code, size_t bytes, struct shader **shader,
                 struct error *error);
 
-/* A file of either form, told apart by the version token's highest byte, 0xff, which no text has. */
+/* Loads a file of either form. In bytecode the highest byte of the version token is 0xff, which no text has.
+ */
 int shader_load(const char *path, struct shader **shader, struct error *error);
 
-/* The tokens, which the caller frees, as they lie in memory here. */
+/* The tokens in the byte order of this machine; the caller frees them. */
 int shader_encode(const struct shader *shader, uint32_t **tokens, size_t *count, struct error *error);
 
 /* Canonical text, zero-terminated, which the caller frees. */
 int shader_print(const struct shader *shader, char **text, size_t *bytes, struct error *error);
 
-/* What a valid shader takes of its model's limits. */
+/* A valid shader's use of its model's limits. */
 struct shader_counts {
     unsigned slots; /* in all; of ps_1_4 both phases together */
     unsigned flow;  /* instructions of static flow control */
 };
 
-/* Whether a device could run the shader; `counts` may be null. */
+/* Validates the shader against its model; `counts` may be null. */
 int shader_validate(const struct shader *shader, struct shader_counts *counts, struct error *error);
 
 void shader_free(struct shader *shader);
 
-/* --- For the parts
- * ------------------------------------------------------------------------------------------
- */
+/* --- For the parts ------------------------------------------------------------------------------------- */
 
 struct shader *shader_create(const char *path, bool bytecode, struct error *error);
 
 /* Room for one more instruction, zeroed; null with the reason. */
 struct shader_instruction *shader_append(struct shader *shader, struct error *error);
 
-/* Sets the reason, behind the place of an operand, or of the instruction if `operand` is null. Returns -1. */
+/* Sets the reason with the place of an operand, or of the instruction if `operand` is null. Returns -1. */
 int shader_fail(const struct shader *shader, const struct shader_instruction *instruction,
                 const struct shader_operand *operand, struct error *error, const char *reason, ...)
     __attribute__((format(printf, 5, 6)));

@@ -1,4 +1,4 @@
-/* The tables of def/shader*.def as arrays. */
+/* The tables of def/shader as arrays. */
 #include "shader/shader.h"
 
 #define VERTEX      STAGE_VERTEX
@@ -14,7 +14,7 @@ const struct shader_model shader_models[MODEL_COUNT] = {
               dynamic, loops, calls, capabilities)                                                           \
     {name,        stage, COLUMN_##column, capabilities, version, slots, arithmetic, texture,                 \
      temporaries, flow,  branches,        dynamic,      loops,   calls},
-#include "def/shader_model.def"
+#include "def/shader/shader_model.def"
 #undef MODEL
 };
 
@@ -32,19 +32,20 @@ const struct shader_model shader_models[MODEL_COUNT] = {
 
 const struct shader_operation shader_operations[SHADER_COUNT] = {
 #define INSTRUCTION(id, name, opcode, control, vs, ps, cube, destination, source0, source1, source2,         \
-                    source3, masks, rows, flags, meaning)                                                    \
+                    source3, masks, reads, rows, flags, meaning)                                             \
     {name,                                                                                                   \
      meaning,                                                                                                \
      vs ps,                                                                                                  \
      opcode,                                                                                                 \
      flags,                                                                                                  \
+     READS_##reads,                                                                                          \
      control,                                                                                                \
      cube,                                                                                                   \
      OPERAND_##destination,                                                                                  \
      {OPERAND_##source0, OPERAND_##source1, OPERAND_##source2, OPERAND_##source3},                           \
      MASKS_##masks,                                                                                          \
      rows},
-#include "def/shader.def"
+#include "def/shader/shader.def"
 #undef INSTRUCTION
 };
 
@@ -57,38 +58,38 @@ const struct shader_register shader_registers[FILE_COUNT] = {
 #define REGISTER(id, name, type, index, v1, v2, vx, v3, p1, p2, p3, p4, p20, p2x, p30, software, ports,      \
                  access, meaning)                                                                            \
     {name, ports, meaning, type, index, access, {v1, v2, vx, v3, p1, p2, p3, p4, p20, p2x, p30}, software},
-#include "def/shader_register.def"
+#include "def/shader/shader_register.def"
 #undef REGISTER
 };
 
 const struct shader_modifier shader_modifiers[MODIFIER_COUNT] = {
-#define MODIFIER(id, number, before, behind, columns, meaning) [number] = {before, behind, columns, meaning},
-#include "def/shader_modifier.def"
+#define MODIFIER(id, number, before, after, columns, meaning) [number] = {before, after, columns, meaning},
+#include "def/shader/shader_modifier.def"
 #undef MODIFIER
 };
 
 #define MODIFIER(id, number, ...) _Static_assert(MODIFIER_##id == number, "rows are in the order of numbers");
-#include "def/shader_modifier.def"
+#include "def/shader/shader_modifier.def"
 #undef MODIFIER
 
 #undef COMPARISON
 const struct shader_word shader_comparisons[] = {
 #define COMPARISON(id, name, number) {name, number},
-#include "def/shader_comparison.def"
+#include "def/shader/shader_comparison.def"
 #undef COMPARISON
     {NULL, 0},
 };
 
 const struct shader_word shader_usages[] = {
 #define USAGE(id, name, number) {name, number},
-#include "def/shader_usage.def"
+#include "def/shader/shader_usage.def"
 #undef USAGE
     {NULL, 0},
 };
 
 const struct shader_word shader_kinds[] = {
 #define KIND(id, name, number) {name, number},
-#include "def/shader_usage.def"
+#include "def/shader/shader_usage.def"
 #undef KIND
     {NULL, 0},
 };
@@ -104,6 +105,20 @@ int shader_slots(const struct shader_operation *operation, const struct shader_m
 {
     char slots = operation->slots[model->column];
     return slots == '.' ? -1 : slots <= '9' ? slots - '0' : slots - 'a' + 10;
+}
+
+unsigned shader_source_components(const struct shader_instruction *instruction, unsigned source)
+{
+    enum { FROM_RESULT = 16, W = 8 };
+    const struct shader_operation *row = &shader_operations[instruction->opcode];
+    unsigned reads = source ? row->reads >> 8 : row->reads & 0xff;
+    if (row->source[source] == OPERAND_SCALAR || row->source[source] == OPERAND_PREDICATE)
+        return 1;
+    if (row->source[source] == OPERAND_SCRATCH)
+        return 0;
+    if (instruction->source[source].modifier == MODIFIER_DIVIDE_W)
+        reads |= W;
+    return (reads & MASK_FULL) | (reads & FROM_RESULT ? instruction->destination.swizzle : 0u);
 }
 
 unsigned shader_register_count(enum shader_file file, const struct shader_model *model)

@@ -1,55 +1,14 @@
-/* The pipeline, in the order of its parts: include this after a binding (docs/staging.md).
+/* The specification of the pipeline: the routines of the three units, spec_vertex, spec_setup and spec_pixel.
+ * Include it after a binding (contract/language.h).
  *
- * A binding provides: the lane types flt, itg, fix and msk; struct env; E, which is the env at the current
- * source line; every operation of def/op.def; lit_f lit_i lit_x lit_m; load_, store_, uniform_, gather_ and
- * scatter_ for _f and _i; WHEN and LOOP; get_ and set_ for _f, _i and _m, of the variables that values leave
- * regions by. None of these files has an include guard and none includes anything: they are
- * read once per engine, each time in another sense. */
-#include "spec/fetch.h"
-#include "spec/transcendental.h"
-#include "spec/transform.h"
-#include "spec/skin.h"
-#include "spec/camera.h"
-#include "spec/light.h"
-#include "spec/vertex_fog.h"
-#include "spec/texgen.h"
-#include "spec/point_size.h"
-#include "spec/clip.h"
-#include "spec/vertex.h"
-#include "spec/setup_plane.h"
-#include "spec/setup_line.h"
-#include "spec/setup_point.h"
-#include "spec/setup.h"
-#include "spec/color.h"
-#include "spec/float_color.h"
-#include "spec/interpolate.h"
-#include "spec/address.h"
-#include "spec/detail.h"
-#include "spec/cube.h"
-#include "spec/sample.h"
-#include "spec/srgb.h"
-#include "spec/sample_float.h"
-#include "spec/stage.h"
-#include "spec/float_stage.h"
-#include "spec/compare.h"
-#include "spec/depth.h"
-#include "spec/fog.h"
-#include "spec/stencil.h"
-#include "spec/multisample.h"
-#include "spec/alpha.h"
-#include "spec/blend.h"
-#include "spec/float_blend.h"
-#include "spec/write.h"
-#include "spec/target.h"
-#include "spec/float_target.h"
-#include "spec/bump.h"
-#include "spec/shader.h"
-#include "spec/shader_flow.h"
-#include "spec/shader_function.h"
-#include "spec/shader_arithmetic.h"
-#include "spec/shader_texture.h"
-#include "spec/shader_execute.h"
-#include "spec/shader_vertex.h"
-#include "spec/pixel.h"
-#include "spec/float_pixel.h"
-#include "spec/shader_pixel.h"
+ * Reading order: math/ has the arithmetic that all parts share; texture/ samples; shader/ executes shaders;
+ * vertex/, setup/ and pixel/ are the units, each ending in the header that is included here. Every header
+ * includes those that it uses. */
+#ifndef SPEC_SPEC_H
+#define SPEC_SPEC_H
+
+#include "spec/pixel/pixel.h"
+#include "spec/setup/setup.h"
+#include "spec/vertex/vertex.h"
+
+#endif

@@ -1,4 +1,4 @@
-/* The error convention of base/error.h: the first reason is kept, whole lines only up to the capacity. */
+/* The convention of base/error.h: the first reason is kept, and truncated at the capacity. */
 #include "base/error.h"
 
 #include <string.h>
@@ -49,7 +49,7 @@ static void a_long_reason_is_cut_at_the_capacity(void)
 
 static void a_null_error_is_ignored(void)
 {
-    TEST_ASSERT_EQUAL_INT(-1, error_set(NULL, "nobody listens to %s", "this"));
+    TEST_ASSERT_EQUAL_INT(-1, error_set(NULL, "without a buffer for %s", "this"));
 }
 
 int main(void)

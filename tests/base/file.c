@@ -1,4 +1,4 @@
-/* Whole files of base/file.h: the size limit, what is left behind after failures, and a disk that is full. */
+/* Whole files (base/file.h): the size limit, temporary files after failures, a full disk. */
 #include "base/file.h"
 
 #include <fcntl.h>
@@ -50,7 +50,7 @@ static void expect_contents(const char *expected)
     free(data);
 }
 
-static void what_is_written_is_read_back(void)
+static void written_bytes_are_read_back(void)
 {
     TEST_ASSERT_EQUAL_INT(0, file_write(path, "first", 5, &error));
     expect_contents("first");
@@ -103,8 +103,8 @@ static void permission_bits_of_an_existing_file_stay(void)
     TEST_ASSERT_EQUAL_INT(0640, status.st_mode & 07777);
 }
 
-/* As /dev/stdout is a link: replacing it would damage the machine. */
-static void a_link_stays_and_the_file_it_leads_to_is_replaced(void)
+/* /dev/stdout is such a link: replacing it would damage the machine. */
+static void a_link_is_kept_and_its_target_is_replaced(void)
 {
     char link[160];
     struct stat status;
@@ -119,7 +119,7 @@ static void a_link_stays_and_the_file_it_leads_to_is_replaced(void)
     TEST_ASSERT_EQUAL_UINT64(1, files_in_folder());
 }
 
-/* A limit on file sizes stands for the full disk: write stores a part, then fails. */
+/* A limit on file sizes simulates a full disk: write stores a part, then fails. */
 static void a_write_that_fails_half_way_changes_nothing(void)
 {
     struct rlimit before, small;
@@ -163,12 +163,12 @@ static void a_missing_folder_is_reported(void)
 int main(void)
 {
     UNITY_BEGIN();
-    RUN_TEST(what_is_written_is_read_back);
+    RUN_TEST(written_bytes_are_read_back);
     RUN_TEST(a_file_of_the_limit_is_read_and_one_more_byte_refused);
     RUN_TEST(an_endless_device_stops_at_the_limit);
     RUN_TEST(a_missing_file_and_a_folder_give_their_reason);
     RUN_TEST(permission_bits_of_an_existing_file_stay);
-    RUN_TEST(a_link_stays_and_the_file_it_leads_to_is_replaced);
+    RUN_TEST(a_link_is_kept_and_its_target_is_replaced);
     RUN_TEST(a_write_that_fails_half_way_changes_nothing);
     RUN_TEST(a_full_device_is_reported);
     RUN_TEST(a_device_is_written_to_and_not_replaced);

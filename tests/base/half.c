@@ -1,4 +1,5 @@
-/* binary16: every value there and back, and the rounding of what lies between them. */
+/* binary16: every value survives the conversion to binary32 and back, and numbers between them round
+ * correctly. */
 #include "base/half.h"
 
 #include <math.h>
@@ -12,7 +13,7 @@ void tearDown(void)
 {
 }
 
-/* The value by its definition. */
+/* The value by the definition of the format. */
 static double defined(unsigned half)
 {
     int exponent = half >> 10 & 31;
@@ -39,8 +40,8 @@ static void test_every_half_comes_back(void)
     TEST_ASSERT_EQUAL_HEX16(0x7e00, float_to_half(NAN) & 0x7fff);
 }
 
-/* Between each half and the next: the middle goes to the even one, what is beside it to the nearer one. */
-static void test_what_lies_between_rounds_to_the_nearest_even(void)
+/* Between neighbours, the middle rounds to the even one, other numbers to the nearer one. */
+static void test_numbers_between_halves_round_to_nearest_even(void)
 {
     for (unsigned half = 0; half < 0x7bff; half++) {
         double low = defined(half), high = defined(half + 1);
@@ -60,6 +61,6 @@ int main(void)
     UNITY_BEGIN();
     RUN_TEST(test_every_finite_half_is_the_value_its_bits_define);
     RUN_TEST(test_every_half_comes_back);
-    RUN_TEST(test_what_lies_between_rounds_to_the_nearest_even);
+    RUN_TEST(test_numbers_between_halves_round_to_nearest_even);
     return UNITY_END();
 }

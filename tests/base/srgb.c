@@ -1,4 +1,4 @@
-/* The tables of sRGB, computed again in the format's own terms. */
+/* The tables of sRGB, computed again from the standard's formula. */
 #include "base/srgb.h"
 
 #include <math.h>
@@ -17,8 +17,7 @@ static long double linear(long double encoded)
     return encoded <= 0.04045L ? encoded / 12.92L : powl((encoded + 0.055L) / 1.055L, 2.4L);
 }
 
-/* Binary64 arithmetic has more than the precision that is needed, except next to a tie, where neither of two
- * neighbours would be wrong by more than that. */
+/* binary64 is precise enough except next to a tie, where either neighbour is within that precision. */
 static void decoded_values_are_the_nearest(void)
 {
     for (int code = 0; code < 256; code++) {
@@ -32,7 +31,7 @@ static void decoded_values_are_the_nearest(void)
     TEST_ASSERT_EQUAL_FLOAT(1, srgb_tables.decoded[255]);
 }
 
-/* Values from `least` on are nearer to the code than to the one before, counted in encoded values. */
+/* Compared as encoded values, numbers from `least` on are nearer to the code than to the previous one. */
 static void least_values_begin_their_codes(void)
 {
     for (int code = 1; code < 256; code++) {

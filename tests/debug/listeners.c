@@ -1,9 +1,10 @@
-/* What GDB, perf's map and jitdump are told, read back: every routine by name, its bytes and its lines; nothing unless asked
- * for; and what cannot be told is one line and no failure. */
+/* The registrations with GDB, perf's map and jitdump, read back: names, bytes and lines of every routine.
+ * Nothing is registered unless enabled, and a failed registration results in one line, not in a failed draw.
+ */
 #include "debug/debug.h"
-#include "engines.h"
-#include "tests/support/sandbox.h"
-#include "tests/support/varied.h"
+#include "engines/list.h"
+#include "tests/support/system/sandbox.h"
+#include "tests/support/picture/varied.h"
 
 #include <elf.h>
 #include <errno.h>
@@ -84,7 +85,7 @@ static size_t read_file(const char *path)
     return bytes;
 }
 
-/* --- GDB ---------------------------------------------------------------------------------------------------------- */
+/* --- GDB ----------------------------------------------------------------------------------------------- */
 
 static unsigned count_entries(void)
 {
@@ -139,7 +140,7 @@ static bool has_file(const struct routine *routine)
     return false;
 }
 
-static void gdb_has_a_file_of_each_routine_and_loses_it_with_the_routine(void)
+static void gdb_has_a_file_for_each_routine_until_it_is_freed(void)
 {
     static const char *const engines[] = {"specialize",    "specialize-4", "specialize-8",
                                           "specialize-16", "stitch",       "stitch-operation"};
@@ -147,7 +148,7 @@ static void gdb_has_a_file_of_each_routine_and_loses_it_with_the_routine(void)
     for (size_t e = 0; e < sizeof engines / sizeof *engines; e++) {
         struct routine routine;
         unsigned count = 0;
-        if (engine_find(engines[e])->unavailable())
+        if (engine_unavailable(engine_find(engines[e])))
             continue;
         triptych_device *device =
             open_device(engines[e], &(struct device_options){.threads = 1, .debug = "gdb"});
@@ -171,7 +172,7 @@ static void evicted_routines_are_not_in_gdbs_list(void)
     triptych_device_destroy(device);
 }
 
-static void nobody_is_told_unless_asked(void)
+static void nothing_is_registered_unless_enabled(void)
 {
     triptych_device *device = open_device("specialize", &(struct device_options){.threads = 1});
     draw_all(device);
@@ -182,7 +183,7 @@ static void nobody_is_told_unless_asked(void)
     triptych_device_destroy(device);
 }
 
-/* --- perf --------------------------------------------------------------------------------------------------------- */
+/* --- perf ---------------------------------------------------------------------------------------------- */
 
 static void check_map(const struct routine *routine)
 {
@@ -263,7 +264,7 @@ static void check_header(const char *dump)
     TEST_ASSERT_EQUAL_UINT64((uint64_t)getpid(), number(dump + 20, 4));
 }
 
-/* By this mapping perf finds the file. */
+/* perf finds the file by this mapping. */
 static bool is_mapped_executable(const char *path)
 {
     size_t bytes = read_file("/proc/self/maps");
@@ -300,7 +301,7 @@ static void perf_has_all_routines_of_all_devices(void)
     TEST_ASSERT_EQUAL_INT(0600, status.st_mode & 0777);
 }
 
-/* --- What cannot be told ------------------------------------------------------------------------------------------ */
+/* --- Failed registrations ------------------------------------------------------------------------------- */
 
 static void check_reason(triptych_device *device, const char *part)
 {
@@ -345,7 +346,7 @@ static void full_disk(const void *unused)
     TEST_ASSERT_EQUAL_STRING("", triptych_debug_error(device));
     setrlimit(RLIMIT_FSIZE, &(struct rlimit){20000, 20000});
     draw_all(device);
-    check_reason(device, "no more routines are noted there");
+    check_reason(device, "later routines are omitted");
     snprintf(path, sizeof path, "%s/jit-%d.dump", folder, (int)getpid());
     size_t bytes = read_file(path), at = 40;
     while (at < bytes)
@@ -366,7 +367,7 @@ static void no_executable_memory(const void *unused)
     triptych_device_destroy(device);
 }
 
-static void what_cannot_be_told_is_a_line_and_no_failure(void)
+static void a_failed_registration_is_one_line(void)
 {
     char path[128];
     sandbox_child(dump_to_nowhere, NULL);
@@ -377,7 +378,8 @@ static void what_cannot_be_told_is_a_line_and_no_failure(void)
     TEST_ASSERT_EQUAL_INT(0, system(path));
 }
 
-/* --- Asking ------------------------------------------------------------------------------------------------------- */
+/* --- Enabling --------------------------------------------------------------------------------------------
+ */
 
 static void ask_by_environment(const void *unused)
 {
@@ -401,12 +403,12 @@ static void ask_by_environment(const void *unused)
     triptych_device_destroy(device);
 }
 
-static void the_environment_asks_where_the_options_do_not(void)
+static void the_environment_enables_listeners_without_options(void)
 {
     sandbox_child(ask_by_environment, NULL);
 }
 
-static void every_word_is_known_and_no_part_of_one(void)
+static void every_word_is_accepted_and_no_part_of_one(void)
 {
     unsigned listeners;
     static const char *const wrong[] = {"gd", "gdbx", "gdb,,perf", ",gdb", "gdb perf", " gdb"};
@@ -427,12 +429,12 @@ int main(void)
     snprintf(map_path, sizeof map_path, "/tmp/perf-%d.map", (int)getpid());
     snprintf(dump_path, sizeof dump_path, "%s/jit-%d.dump", folder, (int)getpid());
     UNITY_BEGIN();
-    RUN_TEST(nobody_is_told_unless_asked);
-    RUN_TEST(gdb_has_a_file_of_each_routine_and_loses_it_with_the_routine);
+    RUN_TEST(nothing_is_registered_unless_enabled);
+    RUN_TEST(gdb_has_a_file_for_each_routine_until_it_is_freed);
     RUN_TEST(evicted_routines_are_not_in_gdbs_list);
-    RUN_TEST(what_cannot_be_told_is_a_line_and_no_failure);
-    RUN_TEST(the_environment_asks_where_the_options_do_not);
-    RUN_TEST(every_word_is_known_and_no_part_of_one);
+    RUN_TEST(a_failed_registration_is_one_line);
+    RUN_TEST(the_environment_enables_listeners_without_options);
+    RUN_TEST(every_word_is_accepted_and_no_part_of_one);
     RUN_TEST(perf_has_all_routines_of_all_devices);
     unlink(map_path);
     unlink(dump_path);

@@ -1,14 +1,15 @@
-/* Unwind information is right at every instruction: whole routines of every engine and unit are run one instruction at a
- * time, and at each the caller is found, with all its registers, by an unwinder of the tests' own and by the process's. */
-#include "base/code.h"
-#include "base/cpu.h"
+/* Unwind information is correct at every instruction: routines of every engine and unit are executed one
+ * instruction at a time, and at each one an unwinder of the tests and that of the process find the caller
+ * with all its registers. */
+#include "machine/code.h"
+#include "machine/cpu.h"
 #include "debug/debug.h"
 #include "debug/dwarf.h"
-#include "engines.h"
-#include "jit/build.h"
-#include "tests/support/program.h"
-#include "tests/support/stepper.h"
-#include "tests/support/varied.h"
+#include "engines/list.h"
+#include "engines/specialize/build.h"
+#include "tests/support/shader/program.h"
+#include "tests/support/routine/stepper.h"
+#include "tests/support/picture/varied.h"
 
 #include <stdlib.h>
 #include <string.h>
@@ -21,7 +22,7 @@ static struct {
     const uint8_t *code;
     size_t bytes;
     struct bytes frame;                 /* .eh_frame */
-    bool registered;                    /* the process's unwinder knows it too */
+    bool registered;                    /* also with the process's unwinder */
     uint64_t entry[UNWINDER_REGISTERS]; /* at the first instruction */
     uint64_t return_address, cfa;
     uint64_t lowest; /* stack pointer */
@@ -43,7 +44,7 @@ void tearDown(void)
     bytes_free(&seen.frame);
 }
 
-/* --- Looking ------------------------------------------------------------------------------------------------------ */
+/* --- Stepping ------------------------------------------------------------------------------------------- */
 
 static void found_wrong(uint64_t at, const char *reason)
 {
@@ -73,7 +74,7 @@ static void check_own(const uint64_t value[UNWINDER_REGISTERS])
 
 struct walk {
     uint64_t at;
-    int state; /* 0: before the routine's frame; 1: in it; 2: the caller was found behind it */
+    int state; /* 0: before the routine's frame; 1: in it; 2: the caller was found after it */
 };
 
 static _Unwind_Reason_Code visit(struct _Unwind_Context *context, void *user)
@@ -89,7 +90,7 @@ static _Unwind_Reason_Code visit(struct _Unwind_Context *context, void *user)
     return _URC_NO_REASON;
 }
 
-/* From the handler through the signal's frame into the routine. */
+/* Unwinds from the handler through the signal's frame to the routine. */
 static void check_process(uint64_t at)
 {
     struct walk walk = {.at = at};
@@ -115,7 +116,7 @@ static void look(void *user, const uint64_t value[UNWINDER_REGISTERS])
         check_process(at);
 }
 
-/* Makes the routine's information; every row of it must be seen. */
+/* Describes the routine; every row must be reached. */
 static void begin_looking(const struct debug_code *code)
 {
     bytes_free(&seen.frame);
@@ -142,7 +143,7 @@ static void end_looking(const struct debug_code *code, const char *name, uint32_
     }
 }
 
-/* --- Routines of a rendered picture ------------------------------------------------------------------------------- */
+/* --- Routines of a rendered picture -------------------------------------------------------------------- */
 
 static const struct engine *real;
 static struct {
@@ -175,10 +176,11 @@ static void step(const void *call, const struct routine *routine)
     debug_code_free(&code);
 }
 
-static struct routine *build(struct code_arena *arena, enum unit unit, const union key *key,
-                             struct error *reason)
+static struct routine *build(const struct engine *self, struct code_arena *arena, enum unit unit,
+                             const union key *key, struct error *reason)
 {
-    struct routine *routine = real->build(arena, unit, key, reason);
+    (void)self;
+    struct routine *routine = engine_build(real, arena, unit, key, reason);
     if (routine)
         routine->run = step;
     return routine;
@@ -191,7 +193,7 @@ static void every_instruction_of_every_engine_finds_its_caller(void)
     varied_render(engine_find("emulate"), &(struct device_options){.threads = 1}, 0, 6, &expected);
     for (unsigned i = 0; (real = engine_at(i)); i++) {
         struct engine stepping = *real;
-        if (!real->describe || real->unavailable())
+        if (!real->describe || engine_unavailable(real))
             continue;
         memset(&stepped, 0, sizeof stepped);
         stepping.build = build;
@@ -205,7 +207,7 @@ static void every_instruction_of_every_engine_finds_its_caller(void)
     TEST_ASSERT_TRUE(engines >= 5);
 }
 
-/* --- Large frames: their pages are touched one by one before rsp is where it stays --------------------------------- */
+/* --- Large frames, whose pages are touched before rsp has its final value --------------------- */
 
 /* All registers change in a loop, so that each component is a variable of its own. */
 static void write_shader(char *text, size_t capacity)
@@ -259,7 +261,8 @@ static void a_frame_of_several_pages_finds_its_caller_at_every_instruction(void)
     }
 }
 
-/* A routine of the specializer that takes more stack than its unrolled probes reach: values that are all alive. */
+/* A routine of the specializer whose frame is too large for unrolled probes: all values are alive together.
+ */
 static void record_values(struct ir *ir, int count)
 {
     static uint16_t alive[IR_CAPACITY];
@@ -292,15 +295,15 @@ static void run_large(struct builder *builder, struct code_arena *arena, int val
     step_function *function;
     uint64_t seed = 1;
     record_values(&builder->ir, values);
-    struct register_file file = register_file_of(ALLOCATABLE, 8);
-    allocate(&builder->ir, &builder->allocation, &file);
+    struct register_file file = allocate_register_file(ALLOCATABLE, 8);
+    allocate_registers(&builder->ir, &builder->allocation, &file);
     size_t bytes = program_emit(builder, 8, &error);
     TEST_ASSERT_TRUE_MESSAGE(bytes && !code_reserve(arena, bytes, &span, &error), error.text);
     memcpy(span.writable, builder->emitter.code, bytes);
     const void *start = code_commit(arena, &span, bytes);
     memcpy(&function, &start, sizeof function);
     program_fill(&data, &seed);
-    struct vertex_call call = {&data.job, data.input, data.output, 16};
+    struct vertex_arguments call = {&data.job, data.input, data.output, 16};
     describe_built(builder, start, &code);
     begin_looking(&code);
     stepper_call(function, &call, NULL, start, bytes, look, NULL);
@@ -309,24 +312,24 @@ static void run_large(struct builder *builder, struct code_arena *arena, int val
     code_free(arena, &span);
 }
 
-static void frames_that_are_touched_in_a_loop_find_their_caller_too(void)
+static void frames_that_are_touched_in_a_loop_find_their_caller(void)
 {
     enum { SLOT = 32, FEW = 1000, MANY = 2500, UNROLLED = 16 * 4096 };
     struct code_arena *arena = code_create(0, NULL, &error);
-    struct builder *builder = builder_take(&error);
+    struct builder *builder = specialize_take(&error);
     TEST_ASSERT_TRUE_MESSAGE(arena && builder, error.text);
     run_large(builder, arena, FEW);
     TEST_ASSERT_TRUE(seen.cfa - seen.lowest < UNROLLED && seen.cfa - seen.lowest > FEW * SLOT / 2);
     run_large(builder, arena, MANY);
     TEST_ASSERT_TRUE(seen.cfa - seen.lowest > UNROLLED);
-    builder_give(builder);
+    specialize_give(builder);
     code_destroy(arena);
 }
 
-/* --- Opt-in ------------------------------------------------------------------------------------------------------- */
+/* --- Opt-in -------------------------------------------------------------------------------------------- */
 
-/* Without the word, the process's unwinder ends at the routine. */
-static void the_process_unwinds_only_where_it_is_asked_to(void)
+/* If it is not enabled, the process's unwinder ends at the routine. */
+static void the_process_unwinds_only_if_enabled(void)
 {
     struct code_arena *arena = code_create(0, NULL, &error);
     TEST_ASSERT_NOT_NULL_MESSAGE(arena, error.text);
@@ -361,7 +364,7 @@ int main(void)
     UNITY_BEGIN();
     RUN_TEST(every_instruction_of_every_engine_finds_its_caller);
     RUN_TEST(a_frame_of_several_pages_finds_its_caller_at_every_instruction);
-    RUN_TEST(frames_that_are_touched_in_a_loop_find_their_caller_too);
-    RUN_TEST(the_process_unwinds_only_where_it_is_asked_to);
+    RUN_TEST(frames_that_are_touched_in_a_loop_find_their_caller);
+    RUN_TEST(the_process_unwinds_only_if_enabled);
     return UNITY_END();
 }

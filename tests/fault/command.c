@@ -1,14 +1,15 @@
-/* Everything that a command asks the system for while it reads, draws, compares and reports is refused once.
+/* Refuses each memory request of a command once: while it reads, draws, compares and reports.
  *
- * Each command line is run undisturbed, then with its n-th request refused for n = 1, 2, 3 ..., and with that and all later
- * ones. A run ends with what the undisturbed one gave, or with status 2, one line that says that memory is short, and
- * the file that was to be written as it was before; nothing is lost, no file stays open. Of requests that the
- * same five functions lead to only the first is refused, unless TRIPTYCH_SOAK is set. */
+ * Each command line runs undisturbed. Then it runs with its n-th request refused, for n = 1, 2, 3 ..., and
+ * with that and all later requests refused. A run must end with the result of the undisturbed run; or with
+ * status 2, one line that reports that memory is short, and the output file as it was before. There may be no
+ * leak and no open file. Of requests with the same five callers only the first is refused, unless
+ * TRIPTYCH_SOAK is set. */
 #define _GNU_SOURCE
-#include "tests/support/fault.h"
+#include "tests/support/system/fault.h"
 
 #include "base/file.h"
-#include "tool/command_line.h"
+#include "command/tool/command_line.h"
 
 #include <dirent.h>
 #include <fcntl.h>
@@ -24,7 +25,7 @@ static char output[128], container[128];
 static bool soak;
 static unsigned long runs;
 
-/* --- Time ------------------------------------------------------------------------------------------------- */
+/* --- Time ----------------------------------------------------------------------------------------------- */
 
 /* A measurement takes a number of repetitions and not half a second. */
 int clock_gettime(clockid_t clock, struct timespec *time)
@@ -40,7 +41,7 @@ time_t time(time_t *seconds)
     return seconds ? *seconds = 1700000000 : 1700000000;
 }
 
-/* --- A run ------------------------------------------------------------------------------------------------ */
+/* --- A run ---------------------------------------------------------------------------------------------- */
 
 struct outcome {
     int status;
@@ -73,7 +74,7 @@ static size_t read_output(char *text, size_t size)
     return (size_t)bytes;
 }
 
-/* Runs the words of a command line; OUT stands for the file that is written. */
+/* Runs the words of a command line; OUT is replaced by the path of the output file. */
 static void run(const char *line, struct outcome *outcome, unsigned long at, bool onwards)
 {
     char words[1024], *arguments[ARGUMENTS] = {"triptych"};
@@ -108,7 +109,7 @@ static void run(const char *line, struct outcome *outcome, unsigned long at, boo
     runs++;
 }
 
-/* --- What is seen of requests ----------------------------------------------------------------------------- */
+/* --- What is seen of requests --------------------------------------------------------------------------- */
 
 /* Shared with forks, whose requests go on with the numbers that they began with. */
 static struct {
@@ -139,7 +140,7 @@ static uint64_t survey(void *const *frames, int count)
     return 0;
 }
 
-/* --- Judging ---------------------------------------------------------------------------------------------- */
+/* --- Judging -------------------------------------------------------------------------------------------- */
 
 static unsigned open_files(void)
 {
@@ -161,8 +162,8 @@ static unsigned files_in_folder(void)
     return count;
 }
 
-/* How results are compared: measurements are others each time; a container that was refused the memory to compress a
- * chunk is larger and says the same; what a debugger is not told is said in a line. */
+/* Compares results. Measurements differ each time; a container without memory to compress a chunk is larger
+ * and has the same contents; a record that a debugger does not get is reported in a line. */
 enum comparison { EXACT, MEASURES, CONTAINER, DEBUGGING };
 
 static char *expected_text;
@@ -218,7 +219,7 @@ static void judge(const char *line, enum comparison comparison, unsigned long at
     bool good =
         same_result(comparison) || ((fault.refused || elsewhere) && failed_well(comparison, elsewhere));
     snprintf(message, sizeof message,
-             "%s: request %lu%s of %lu: status %d, %zu bytes written (%zu), %zu said (%zu), %zu complained "
+             "%s: request %lu%s of %lu: status %d, %zu bytes written (%zu), %zu printed (%zu), %zu of errors "
              "\"%.400s\"",
              line, at, onwards ? " and all later" : "", fault.count, got.status, got.written,
              expected.written, got.said, expected.said, got.complained, got.error);
@@ -258,7 +259,7 @@ static void refuse_each(const char *line, enum comparison comparison, int status
         printf("%s: %lu requests\n", line, count);
 }
 
-/* --- Tests ------------------------------------------------------------------------------------------------ */
+/* --- Tests ---------------------------------------------------------------------------------------------- */
 
 void setUp(void)
 {
@@ -276,14 +277,14 @@ void tearDown(void)
 static void test_reading_and_writing_streams(void)
 {
     static const char *const streams[] = {
-        "tests/streams/meshes.tri",          "tests/streams/stencil-shadow.tri",
-        "tests/streams/texture-formats.tri", "tests/streams/texture-detail.tri",
-        "tests/streams/shaders.tri",         "tests/streams/vertex-formats.tri",
-        "tests/streams/texture-cubes.tri",   "tests/streams/frames.tri",
-        "tests/streams/vertex-blend.tri",    "tests/streams/texture-volumes.tri",
-        "tests/streams/queries.tri",         "tests/streams/texture-levels.tri",
-        "tests/scenes/skinning.tri",         "tests/scenes/shadow-volume.tri",
-        "tests/streams/perspective.tri",     "tests/scenes/dxt.tri",
+        "tests/data/streams/meshes.tri",          "tests/data/streams/stencil-shadow.tri",
+        "tests/data/streams/texture-formats.tri", "tests/data/streams/texture-detail.tri",
+        "tests/data/streams/shaders.tri",         "tests/data/streams/vertex-formats.tri",
+        "tests/data/streams/texture-cubes.tri",   "tests/data/streams/frames.tri",
+        "tests/data/streams/vertex-blend.tri",    "tests/data/streams/texture-volumes.tri",
+        "tests/data/streams/queries.tri",         "tests/data/streams/texture-levels.tri",
+        "tests/data/scenes/skinning.tri",         "tests/data/scenes/shadow-volume.tri",
+        "tests/data/streams/perspective.tri",     "tests/data/scenes/dxt.tri",
     };
     char line[256];
     for (size_t i = 0; i < sizeof streams / sizeof *streams; i++) {
@@ -295,11 +296,11 @@ static void test_reading_and_writing_streams(void)
 /* The same of containers, which are made first; one with files of textures, one with a shader. */
 static void test_containers(void)
 {
-    static char *const streams[] = {"tests/streams/shaders.tri", "tests/scenes/cube-map.tri",
-                                    "tests/streams/render-to-texture.tri"};
+    static char *const streams[] = {"tests/data/streams/shaders.tri", "tests/data/scenes/cube-map.tri",
+                                    "tests/data/streams/render-to-texture.tri"};
     char line[512];
-    refuse_each("convert tests/streams/meshes.tri OUT.trib", CONTAINER, 0);
-    refuse_each("convert tests/streams/frames.tri OUT.trib", CONTAINER, 0);
+    refuse_each("convert tests/data/streams/meshes.tri OUT.trib", CONTAINER, 0);
+    refuse_each("convert tests/data/streams/frames.tri OUT.trib", CONTAINER, 0);
     for (unsigned i = 0; i < 3; i++) {
         char *arguments[] = {"triptych", "convert", streams[i], container};
         TEST_ASSERT_EQUAL_INT(0, command_line_run(4, arguments));
@@ -313,11 +314,11 @@ static void test_containers(void)
     unlink(container);
 }
 
-/* What an application drew, call by call: read piece by piece, with what was made and destroyed meanwhile. */
+/* A capture of an application, read piece by piece, with objects that are made and destroyed. */
 static void test_recordings(void)
 {
     char line[512],
-        *arguments[] = {"triptych", "render", "tests/streams/texture-changes.tri", "--engine", "emulate",
+        *arguments[] = {"triptych", "render", "tests/data/streams/texture-changes.tri", "--engine", "emulate",
                         "--out",    output};
     snprintf(output, sizeof output, "%s/output.png", folder);
     setenv("TRIPTYCH_RECORD", container, 1);
@@ -329,22 +330,22 @@ static void test_recordings(void)
     unlink(container);
 }
 
-/* What cannot be told to a debugger is left out. */
+/* A record that a debugger cannot get is left out. */
 static void test_debuggers(void)
 {
     setenv("TRIPTYCH_DEBUG", "gdb,unwind", 1);
-    refuse_each("render tests/streams/odd-target.tri --engine specialize --out OUT.png", DEBUGGING, 0);
+    refuse_each("render tests/data/streams/odd-target.tri --engine specialize --out OUT.png", DEBUGGING, 0);
     unsetenv("TRIPTYCH_DEBUG");
 }
 
 static void test_pictures(void)
 {
-    refuse_each("render tests/streams/queries.tri --engine emulate --out OUT.png", EXACT, 0);
-    refuse_each("render tests/streams/target-formats.tri --engine specialize --threads 2 --out OUT.exr",
+    refuse_each("render tests/data/streams/queries.tri --engine emulate --out OUT.png", EXACT, 0);
+    refuse_each("render tests/data/streams/target-formats.tri --engine specialize --threads 2 --out OUT.exr",
                 EXACT, 0);
-    refuse_each("verify tests/streams/targets.tri --engines batch --threads 1 --frames 1", EXACT, 0);
-    refuse_each("compare tests/goldens/queries.png tests/goldens/queries.png", EXACT, 0);
-    refuse_each("compare tests/goldens/stencil-operations.png tests/goldens/texture-addressing.png "
+    refuse_each("verify tests/data/streams/targets.tri --engines batch --threads 1 --frames 1", EXACT, 0);
+    refuse_each("compare tests/data/goldens/queries.png tests/data/goldens/queries.png", EXACT, 0);
+    refuse_each("compare tests/data/goldens/stencil-operations.png tests/data/goldens/texture-addressing.png "
                 "--difference OUT.png",
                 false, 1);
 }
@@ -352,32 +353,35 @@ static void test_pictures(void)
 static void test_verifying_and_measuring(void)
 {
     refuse_each(
-        "verify tests/streams/queries.tri --engines stitch,batch --threads 1 --frames 1 --json OUT.json",
+        "verify tests/data/streams/queries.tri --engines stitch,batch --threads 1 --frames 1 --json OUT.json",
         EXACT, 0);
-    refuse_each("bench tests/streams/shaders.tri --engines specialize --repetitions 3 --seconds 0 --frames 1 "
-                "--shaders --json OUT.json",
-                MEASURES, 0);
-    refuse_each("bench tests/streams/frames.tri --engines emulate --repetitions 3 --seconds 0 --frames 1 "
-                "--csv OUT.csv",
-                MEASURES, 0);
-    refuse_each("bench tests/streams/shaders.tri --builds --engines stitch --repetitions 3 --json OUT.json",
-                MEASURES, 0);
-    refuse_each("bench tests/streams/frames.tri --cold --engines emulate --repetitions 3 --frames 1",
+    refuse_each(
+        "bench tests/data/streams/shaders.tri --engines specialize --repetitions 3 --seconds 0 --frames 1 "
+        "--shaders --json OUT.json",
+        MEASURES, 0);
+    refuse_each(
+        "bench tests/data/streams/frames.tri --engines emulate --repetitions 3 --seconds 0 --frames 1 "
+        "--csv OUT.csv",
+        MEASURES, 0);
+    refuse_each(
+        "bench tests/data/streams/shaders.tri --builds --engines stitch --repetitions 3 --json OUT.json",
+        MEASURES, 0);
+    refuse_each("bench tests/data/streams/frames.tri --cold --engines emulate --repetitions 3 --frames 1",
                 MEASURES, 0);
 }
 
 static void test_dumps_lists_and_shaders(void)
 {
-    refuse_each("dump tests/streams/shaders.tri --show all", MEASURES, 0);
-    refuse_each("dump tests/streams/frames.tri --engine stitch --unit vertex", MEASURES, 0);
-    refuse_each("dump tests/streams/frames.tri --engine external --show text", EXACT, 0);
+    refuse_each("dump tests/data/streams/shaders.tri --show all", MEASURES, 0);
+    refuse_each("dump tests/data/streams/frames.tri --engine stitch --unit vertex", MEASURES, 0);
+    refuse_each("dump tests/data/streams/frames.tri --engine external --show text", EXACT, 0);
     refuse_each("list states --json", EXACT, 0);
     refuse_each("list shaders --markdown", EXACT, 0);
     refuse_each("list formats", EXACT, 0);
     refuse_each("fuzz --print 3", EXACT, 0);
-    refuse_each("shader assemble tests/shaders/common/color.psa --json", EXACT, 0);
-    refuse_each("shader disassemble tests/shaders/common/color.psa --out OUT.txt", EXACT, 0);
-    refuse_each("shader validate tests/shaders/common/color.psa --json", EXACT, 0);
+    refuse_each("shader assemble tests/data/shaders/common/color.psa --json", EXACT, 0);
+    refuse_each("shader disassemble tests/data/shaders/common/color.psa --out OUT.txt", EXACT, 0);
+    refuse_each("shader validate tests/data/shaders/common/color.psa --json", EXACT, 0);
 }
 
 int main(void)

@@ -1,13 +1,13 @@
-/* Everything that a device asks the system for is refused once: each memory block, mapping and thread of each call of
- * the interface, alone, and together with all that come after it.
+/* Refuses each request of a device once: each memory block, mapping and thread of each call of the interface,
+ * by itself and together with all later ones.
  *
- * A call that fails has changed nothing: it is made again with the next request refused, until it asks for nothing more,
- * and the picture at the end is that of a device that was never refused anything. Where a call goes on without what it
- * was refused, its later requests have their turn when the scene is drawn again. */
+ * A call that fails has changed nothing. It is repeated with the next request refused, until it requests
+ * nothing more. The picture at the end must be that of an undisturbed device. If a call goes on without a
+ * refused request, its later requests are refused when the scene is drawn again. */
 #define _GNU_SOURCE
-#include "tests/support/fault.h"
+#include "tests/support/system/fault.h"
 
-#include "engines.h"
+#include "engines/list.h"
 #include "triptych.h"
 
 #include <math.h>
@@ -41,8 +41,7 @@ void tearDown(void)
     device = NULL;
 }
 
-/* --- Calls ------------------------------------------------------------------------------------------------
- */
+/* --- Calls ---------------------------------------------------------------------------------------------- */
 
 static void begin_call(void)
 {
@@ -114,8 +113,7 @@ static void read_target(bool stencil)
     add_to_digest(stencils, sizeof stencils);
 }
 
-/* --- What is drawn ----------------------------------------------------------------------------------------
- */
+/* --- What is drawn -------------------------------------------------------------------------------------- */
 
 struct vertex {
     float position[3];
@@ -191,7 +189,8 @@ static void sample(unsigned stage, triptych_texture *texture, uint32_t filter)
     TRY(triptych_set_sampler_state(device, stage, TRIPTYCH_SAMPLER_mipfilter, filter));
 }
 
-/* Textures of three kinds, several samples a pixel, indices, a query, an image of the picture in a texture. */
+/* Textures of three kinds, several samples a pixel, indices, a query, an image of the picture in a
+ * texture. */
 static void draw_fixed_function(unsigned threads)
 {
     static const uint16_t indices[] = {0, 5, 9, 14, 3, 8, 21, 30, 2, 11, 17, 26};
@@ -380,8 +379,7 @@ static void draw_with_many_states(unsigned threads)
     read_target(false);
 }
 
-/* --- The sweep --------------------------------------------------------------------------------------------
- */
+/* --- The sweep ------------------------------------------------------------------------------------------ */
 
 typedef void scene(unsigned threads);
 
@@ -396,7 +394,7 @@ static uint64_t draw_scene(scene *draw, unsigned threads)
     return digest;
 }
 
-/* What is kept for the whole process, recordings and plans, is there after a scene was drawn once. */
+/* Recordings and plans are kept for the whole process and exist after a scene was drawn once. */
 static void refuse_everything(scene *draw, unsigned threads, bool onwards)
 {
     uint64_t expected = 0;
@@ -430,7 +428,7 @@ static void on_engines(scene *draw)
         if (triptych_engine_unavailable(i) ||
             (engine_at(i)->on_request && (!soak || !strcmp(engine, "external"))))
             continue;
-        refuse_everything(draw, 1, true); /* first: it does not go on, so what is kept is not there yet */
+        refuse_everything(draw, 1, true); /* first: the call fails, so nothing is kept yet */
         refuse_everything(draw, 1, false);
         if (soak || !strcmp(engine, "specialize"))
             refuse_everything(draw, 2, false);

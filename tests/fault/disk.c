@@ -1,12 +1,13 @@
-/* Files are whole or as they were: whatever fails while one is written, however few bytes a write takes, and wherever the
- * process is killed. Everything that the command writes is tried, with each call of the system in turn. */
+/* Files are whole or as they were: whatever fails while one is written, however few bytes a write takes,
+ * and wherever the process is killed. Everything that the command writes is tried, with each call of the
+ * system in turn. */
 #define _GNU_SOURCE
-#include "tests/support/fault_file.h"
+#include "tests/support/system/fault_file.h"
 
-#include "base/exr.h"
+#include "image/exr.h"
 #include "base/file.h"
-#include "base/png.h"
-#include "tool/command_line.h"
+#include "image/png.h"
+#include "command/tool/command_line.h"
 
 #include <dirent.h>
 #include <sched.h>
@@ -31,7 +32,7 @@ struct contents {
 
 static struct contents before, after, now;
 
-/* --- Files ------------------------------------------------------------------------------------------------ */
+/* --- Files ---------------------------------------------------------------------------------------------- */
 
 static void read_contents(struct contents *contents)
 {
@@ -49,7 +50,7 @@ static bool same(const struct contents *a, const struct contents *b)
     return a->bytes == b->bytes && (a->bytes == SIZE_MAX || !memcmp(a->data, b->data, a->bytes));
 }
 
-/* Temporary files: what base/file.h says their names are. Fails on anything else beside the file. */
+/* Temporary files, with the names that base/file.h specifies. Fails on any other file in the folder. */
 static unsigned leftovers(bool remove_them)
 {
     unsigned count = 0;
@@ -86,9 +87,9 @@ static void put_before(bool exists)
     read_contents(&before);
 }
 
-/* --- Writers ---------------------------------------------------------------------------------------------- */
+/* --- Writers -------------------------------------------------------------------------------------------- */
 
-/* Writes `path`; returns 0, or something else after telling why in `said`. */
+/* Writes `path`. Returns 0, or another value with the reason in the buffer of messages. */
 typedef int writer(const char *line);
 
 static int write_plain(const char *line)
@@ -120,7 +121,7 @@ static int write_exr(const char *line)
     return result;
 }
 
-/* A command line; the word OUT stands for the path. */
+/* A command line; the word OUT is replaced by the path. */
 static int run_command(const char *line)
 {
     char words[1024], *arguments[ARGUMENTS] = {"triptych"};
@@ -160,17 +161,18 @@ static const struct {
     {"plain", write_plain, "something else, and longer than what was there before"},
     {"image.png", write_png, NULL},
     {"image.exr", write_exr, NULL},
-    {"stream.tri", run_command, "convert tests/streams/frames.tri OUT"},
-    {"stream.trib", run_command, "convert tests/streams/frames.tri OUT"},
-    {"render.png", run_command, "render tests/streams/odd-target.tri --engine emulate --out OUT"},
+    {"stream.tri", run_command, "convert tests/data/streams/frames.tri OUT"},
+    {"stream.trib", run_command, "convert tests/data/streams/frames.tri OUT"},
+    {"render.png", run_command, "render tests/data/streams/odd-target.tri --engine emulate --out OUT"},
     {"report.json", run_command,
-     "verify tests/streams/odd-target.tri --engines batch --threads 1 --json OUT"},
-    {"shader.json", run_command, "shader validate tests/shaders/common/color.psa --json --out OUT"},
-    {"tokens", run_command, "shader assemble tests/shaders/common/color.psa --out OUT"},
+     "verify tests/data/streams/odd-target.tri --engines batch --threads 1 --json OUT"},
+    {"shader.json", run_command, "shader validate tests/data/shaders/common/color.psa --json --out OUT"},
+    {"tokens", run_command, "shader assemble tests/data/shaders/common/color.psa --out OUT"},
     {"measures.csv", run_command,
-     "bench tests/streams/odd-target.tri --engines specialize --repetitions 3 --seconds 0 --csv OUT"},
+     "bench tests/data/streams/odd-target.tri --engines specialize --repetitions 3 --seconds 0 --csv OUT"},
     {"difference.png", run_command,
-     "compare tests/goldens/stencil-operations.png tests/goldens/texture-addressing.png --difference OUT"},
+     "compare tests/data/goldens/stencil-operations.png tests/data/goldens/texture-addressing.png "
+     "--difference OUT"},
 };
 
 enum { WRITERS = sizeof writers / sizeof *writers };
@@ -189,7 +191,8 @@ static int attempt(unsigned i, enum file_fault fault, int reason, unsigned long 
     return result;
 }
 
-/* What is written when nothing happens, after two runs that were the same; false if the writer writes nothing. */
+/* The contents of an undisturbed file, after two runs with equal contents; false if the writer writes
+ * nothing. */
 static bool write_undisturbed(unsigned i, unsigned long *calls)
 {
     if (path[0])
@@ -223,7 +226,7 @@ static bool is_whole(void)
                                   now.data[now.bytes - 1] == '\n');
 }
 
-/* --- Tests ------------------------------------------------------------------------------------------------ */
+/* --- Tests ---------------------------------------------------------------------------------------------- */
 
 static void judge_failure(unsigned i, int reason, unsigned long at, int result)
 {
@@ -241,8 +244,8 @@ static void judge_failure(unsigned i, int reason, unsigned long at, int result)
     TEST_ASSERT_EQUAL_UINT_MESSAGE(0, leftovers(false), message);
 }
 
-/* What close tells last of all included: data may have been lost as late as that. */
-static void test_each_call_that_fails_before_the_new_name_is_told(void)
+/* Errors of close included: data may be lost as late as that. */
+static void test_each_call_that_fails_before_the_new_name_is_reported(void)
 {
     unsigned long calls, at = 0;
     write_undisturbed(0, &calls);
@@ -311,7 +314,7 @@ static void test_a_write_that_stores_nothing_fails(void)
     TEST_ASSERT_EQUAL_UINT64(1, zeros);
 }
 
-/* --- Killed ----------------------------------------------------------------------------------------------- */
+/* --- Killed --------------------------------------------------------------------------------------------- */
 
 /* Writes in a process of its own; returns whether that was killed. */
 static bool write_and_be_killed(unsigned i, enum file_fault fault, unsigned long at)
@@ -380,7 +383,7 @@ static void test_killed_at_any_time_leaves_one_of_two_files(void)
     TEST_ASSERT_TRUE(seen[0] && seen[1]);
 }
 
-/* --- Full ------------------------------------------------------------------------------------------------- */
+/* --- Full ----------------------------------------------------------------------------------------------- */
 
 /* In a process of its own with a file system of 64 KiB mounted on the folder. */
 static int fill_the_disk(void)
@@ -432,27 +435,27 @@ static void test_a_disk_that_is_really_full(void)
     TEST_ASSERT_EQUAL_INT(process, waitpid(process, &status, 0));
     if (WIFEXITED(status) && WEXITSTATUS(status) == 1)
         TEST_IGNORE_MESSAGE(
-            "the system refuses a file system of our own; RLIMIT_FSIZE in tests/base/file.c stands for it");
+            "the system refuses a new file system; RLIMIT_FSIZE in tests/base/file.c tests the same");
     TEST_ASSERT_EQUAL_INT(0, status >> 8);
     TEST_ASSERT_TRUE(WIFEXITED(status));
 }
 
-/* Every command says what it could not say. */
+/* Every command reports output that it could not write. */
 static void test_standard_output_that_is_full(void)
 {
     static const char *const lines[] = {
 #define COMMAND(name, operands, summary) #name " --help",
-#include "tool/command.def"
+#include "command/support/command.def"
 #undef COMMAND
         "--help",
         "--version",
-        "render tests/streams/queries.tri --engine emulate --out OUT",
-        "verify tests/streams/odd-target.tri --engines batch --threads 1",
-        "bench tests/streams/odd-target.tri --engines specialize --repetitions 3 --seconds 0",
+        "render tests/data/streams/queries.tri --engine emulate --out OUT",
+        "verify tests/data/streams/odd-target.tri --engines batch --threads 1",
+        "bench tests/data/streams/odd-target.tri --engines specialize --repetitions 3 --seconds 0",
         "fuzz --print 1",
-        "dump tests/streams/odd-target.tri",
-        "shader disassemble tests/shaders/common/color.psa",
-        "compare tests/goldens/odd-target.png tests/goldens/odd-target.png",
+        "dump tests/data/streams/odd-target.tri",
+        "shader disassemble tests/data/shaders/common/color.psa",
+        "compare tests/data/goldens/odd-target.png tests/data/goldens/odd-target.png",
         "list states",
     };
     snprintf(path, sizeof path, "%s/picture.png", folder);
@@ -484,7 +487,7 @@ static void test_standard_output_that_is_full(void)
 int main(void)
 {
     UNITY_BEGIN();
-    RUN_TEST(test_each_call_that_fails_before_the_new_name_is_told);
+    RUN_TEST(test_each_call_that_fails_before_the_new_name_is_reported);
     RUN_TEST(test_each_call_that_fails_leaves_the_old_file_or_the_new_one);
     RUN_TEST(test_short_and_interrupted_writes_are_continued);
     RUN_TEST(test_a_write_that_stores_nothing_fails);

@@ -1,11 +1,11 @@
-/* Asked to stop: what is done is reported whole, what was begun leaves nothing behind. The command runs in a process of
- * its own, which is sent the signal once it has begun. */
+/* Interrupted commands: finished work is reported whole, and unfinished work leaves nothing. The command runs
+ * in its own process, which gets the signal after its start. */
 #define _GNU_SOURCE
 #include "base/file.h"
 #include "base/leftover.h"
-#include "external/external.h"
-#include "tool/command_line.h"
-#include "tool/interrupt.h"
+#include "engines/external/external.h"
+#include "command/tool/command_line.h"
+#include "command/support/interrupt.h"
 
 #include <cjson/cJSON.h>
 #include <dirent.h>
@@ -27,7 +27,7 @@ enum { ARGUMENTS = 64, TEXT = 1 << 16, LATEST_MS = 60000 };
 
 static char folder[64], report[128], stream[128], said[TEXT], complained[TEXT];
 
-/* A stream of the same lines again and again behind a triangle. */
+/* A stream that repeats the same lines after a triangle. */
 static void write_stream(const char *size, const char *line, unsigned count)
 {
     char *text = NULL;
@@ -73,7 +73,7 @@ void tearDown(void)
     TEST_ASSERT_EQUAL_INT(0, system(line));
 }
 
-/* --- A command in a process ------------------------------------------------------------------------------- */
+/* --- A command in a process ----------------------------------------------------------------------------- */
 
 static void sleep_ms(long ms)
 {
@@ -143,14 +143,14 @@ static cJSON *read_report(void)
     return json;
 }
 
-/* --- Tests ------------------------------------------------------------------------------------------------ */
+/* --- Tests ---------------------------------------------------------------------------------------------- */
 
 /* Returns whether a stream was left in the middle: the request may also come between two. */
 static int interrupt_verification(int number, const char *name)
 {
     char last[128];
-    pid_t process = start(
-        "verify tests/streams/odd-target.tri STREAM --engines batch --threads 1 --frames all --json REPORT");
+    pid_t process = start("verify tests/data/streams/odd-target.tri STREAM --engines batch --threads 1 "
+                          "--frames all --json REPORT");
     await("out");
     TEST_ASSERT_EQUAL_INT(0, kill(process, number));
     TEST_ASSERT_EQUAL_INT_MESSAGE(128 + number, end(process), complained);
@@ -198,9 +198,9 @@ static void test_sigterm_and_sighup_are_requests_too(void)
 
 static void test_a_measurement_reports_the_streams_that_are_done(void)
 {
-    pid_t process = start(
-        "bench tests/streams/odd-target.tri tests/streams/odd-target.tri tests/streams/frames.tri STREAM "
-        "--engines specialize --repetitions 1000 --seconds 0.2 --json REPORT");
+    pid_t process = start("bench tests/data/streams/odd-target.tri tests/data/streams/odd-target.tri "
+                          "tests/data/streams/frames.tri STREAM "
+                          "--engines specialize --repetitions 1000 --seconds 0.2 --json REPORT");
     await("out");
     TEST_ASSERT_EQUAL_INT(0, kill(process, SIGINT));
     TEST_ASSERT_EQUAL_INT_MESSAGE(130, end(process), complained);
@@ -231,7 +231,7 @@ static void test_fuzzing_reports_the_cases_so_far(void)
 }
 
 /* A frame that takes for ever: the first signal waits for it, the second does not. */
-static void test_a_second_signal_ends_at_once(void)
+static void test_a_second_signal_ends_immediately(void)
 {
     write_stream("4096 4096", "draw triangles 0 1\n", 10000);
     pid_t process = start("verify STREAM --engines batch --threads 1 --json REPORT");
@@ -280,7 +280,7 @@ static void test_a_signal_while_a_file_is_written_removes_the_temporary_file(voi
     TEST_ASSERT_EQUAL_UINT(1, count_files("report.json"));
 }
 
-/* --- The compiler's folders ------------------------------------------------------------------------------- */
+/* --- The compiler's folders ----------------------------------------------------------------------------- */
 
 /* A compiler that does not end before its input does. */
 static void make_slow_compiler(void)
@@ -331,7 +331,7 @@ static void test_a_signal_while_compiling_removes_the_folder(void)
     TEST_ASSERT_EQUAL_UINT(0, count_files("triptych-*"));
 }
 
-/* What SIGKILL leaves the next process removes, but nothing that is in use. */
+/* The next process removes the folders that SIGKILL leaves, but none that is in use. */
 static void test_folders_of_processes_that_were_killed_are_removed_by_the_next_one(void)
 {
     char line[128];
@@ -375,7 +375,7 @@ int main(void)
     RUN_TEST(test_sigterm_and_sighup_are_requests_too);
     RUN_TEST(test_a_measurement_reports_the_streams_that_are_done);
     RUN_TEST(test_fuzzing_reports_the_cases_so_far);
-    RUN_TEST(test_a_second_signal_ends_at_once);
+    RUN_TEST(test_a_second_signal_ends_immediately);
     RUN_TEST(test_rendering_ends_by_the_signal_and_leaves_nothing);
     RUN_TEST(test_a_signal_while_a_file_is_written_removes_the_temporary_file);
     RUN_TEST(test_a_signal_while_compiling_removes_the_folder);

@@ -1,10 +1,11 @@
-/* Memory is bounded by what the application holds and by budgets, not by how much is drawn: the most that a process has had
- * resident when it has drawn many triangles, states, shaders or constants is what it had after a few, but for the buffers
- * it made.
+/* Memory is bounded by what the application holds and by budgets, not by how much is drawn: the most that
+ * a process has had resident when it has drawn many triangles, states, shaders or constants is what it had
+ * after a few, but for the buffers it made.
  *
- * Each measurement is a process of its own. With TRIPTYCH_SOAK set: 10 million triangles and 100,000 states. */
+ * Each measurement is a process of its own. With TRIPTYCH_SOAK set: 10 million triangles and 100,000
+ * states. */
 #define _GNU_SOURCE
-#include "engines.h"
+#include "engines/list.h"
 #include "triptych.h"
 
 #include <stdbool.h>
@@ -55,7 +56,7 @@ enum { INSTRUMENTED = 0 };
 enum { INSTRUMENTED = 0 };
 #endif
 
-/* --- Measuring -------------------------------------------------------------------------------------------- */
+/* --- Measuring ------------------------------------------------------------------------------------------ */
 
 typedef void workload(unsigned long amount);
 
@@ -82,7 +83,7 @@ static void open_device(void)
     OK(triptych_clear(device, (const float[4]){0}, 1));
 }
 
-/* What a process that does that much has resident at most. */
+/* The largest resident size of a process that does that work. */
 static long measure(workload *work, unsigned long amount)
 {
     int ends[2], status;
@@ -122,7 +123,7 @@ static void expect_bounded(workload *work, unsigned long few, unsigned long many
     TEST_ASSERT_TRUE_MESSAGE(large <= small + held_kib + SLACK_KIB, message);
 }
 
-/* --- Triangles -------------------------------------------------------------------------------------------- */
+/* --- Triangles ------------------------------------------------------------------------------------------ */
 
 enum { GRID = 100, FILLING = 1500000 }; /* vertices a side; triangles that fill the arena of a round */
 
@@ -190,7 +191,7 @@ static void test_many_draws_of_triangles(void)
         expect_bounded(draw_in_parts, FILLING, soak ? 10000000 : 3 * FILLING, 0);
 }
 
-/* --- States ----------------------------------------------------------------------------------------------- */
+/* --- States --------------------------------------------------------------------------------------------- */
 
 static unsigned digit(unsigned long *number, unsigned base)
 {
@@ -239,7 +240,7 @@ static void test_many_states(void)
     }
 }
 
-/* --- Shaders and constants -------------------------------------------------------------------------------- */
+/* --- Shaders and constants ------------------------------------------------------------------------------ */
 
 static void draw_with_shaders(unsigned long shaders)
 {
@@ -281,7 +282,7 @@ static void test_many_constants(void)
     expect_bounded(draw_with_constants, 4000, soak ? 1000000 : 20000, 0);
 }
 
-/* --- Things that are made and destroyed ------------------------------------------------------------------- */
+/* --- Things that are made and destroyed ----------------------------------------------------------------- */
 
 static void make_and_destroy(unsigned long count)
 {

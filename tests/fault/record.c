@@ -1,10 +1,10 @@
-/* What a recording of calls asks the system for is refused once: drawing goes on as if nothing were recorded, and at the
- * end there is a whole recording that plays to the same picture, or none and a line that says why. */
+/* Refuses each request of the recorder once. Drawing goes on as without it. At the end there is a whole
+ * capture that plays to the same picture, or none and a line with the reason. */
 #define _GNU_SOURCE
-#include "tests/support/fault.h"
+#include "tests/support/system/fault.h"
 
 #include "base/file.h"
-#include "stream/stream.h"
+#include "command/stream/stream.h"
 #include "triptych.h"
 
 #include <dirent.h>
@@ -56,7 +56,8 @@ static void draw_once(float depth)
     DO(triptych_buffer_destroy(device, element.buffer));
 }
 
-/* Recording begins in the middle of things; much is made and destroyed after that. Returns the result of its end. */
+/* Recording begins in the middle of things; much is made and destroyed after that. Returns the result of
+ * its end. */
 static enum triptych_result draw(enum triptych_result *started)
 {
     static const char text[] =
@@ -156,7 +157,7 @@ static bool refuse(unsigned long at)
     return fault.refused;
 }
 
-static void test_a_recording_is_whole_or_not_there(void)
+static void test_a_capture_is_whole_or_missing(void)
 {
     enum triptych_result started;
     unsigned long at = 1;
@@ -216,7 +217,7 @@ int main(void)
     UNITY_BEGIN();
     TEST_ASSERT_NOT_NULL(mkdtemp(folder));
     snprintf(path, sizeof path, "%s/recording.trib", folder);
-    RUN_TEST(test_a_recording_is_whole_or_not_there);
+    RUN_TEST(test_a_capture_is_whole_or_missing);
     RUN_TEST(test_devices_that_the_environment_records);
     rmdir(folder);
     return UNITY_END();

@@ -1,9 +1,10 @@
-/* Threads that the system does not give: a device has as many as it gets, the caller's own at least, and draws the same. */
+/* Threads that the system refuses: a device has the threads that it gets, at least that of its caller, and
+ * draws the same picture. */
 #define _GNU_SOURCE
-#include "tests/support/fault.h"
+#include "tests/support/system/fault.h"
 
-#include "draw/device.h"
-#include "engines.h"
+#include "render/device/device.h"
+#include "engines/list.h"
 #include "triptych.h"
 
 #include <sys/resource.h>
@@ -23,8 +24,8 @@ void tearDown(void)
     fault_disarm();
 }
 
-/* A picture by a device whose thread number `at`, from 1, and perhaps all later ones are refused; 0: none is. Returns how
- * many threads it has. */
+/* A picture by a device whose thread number `at`, from 1, and perhaps all later ones are refused; 0: none
+ * is. Returns how many threads it has. */
 static unsigned draw(const char *engine, unsigned long at, bool onwards, uint32_t *image)
 {
     static const float corners[6][3] = {{-1, -1, 0}, {0, 1, 0.5f}, {1, -0.9f, 1},
@@ -66,7 +67,8 @@ static void test_a_device_has_the_threads_that_it_gets(void)
     }
 }
 
-/* The system itself refuses, by its limit of processes: not to the superuser, who becomes somebody else here. */
+/* The system itself refuses, by its limit of processes. The superuser has no limit, so the test changes its
+ * user. */
 static void test_a_limit_of_the_system(void)
 {
     int status;

@@ -1,16 +1,18 @@
 #!/bin/bash
-# Plants bugs and sees that the tests find them.
+# Plants bugs, and checks that the tests find them.
 #
-#   tests/mutations/run.sh [ONLY]     every row of tests/mutations/table.txt whose name contains ONLY, or one of its words
-#   tests/mutations/run.sh --fit      only says which rows do not fit their files any more
+#   tests/mutations/run.sh [ONLY]     every row of tests/mutations/table.txt whose name contains ONLY, or one
+#                                     of its words
+#   tests/mutations/run.sh --fit      only lists the rows that no longer fit their files
 #
-# A row is a bug: whole lines of a file, as they must stand there exactly once, what they become, and the test that must
-# find it: a text as `make check ONLY=text` takes it, or `fuzz`, five minutes of `triptych fuzz`. Each is planted in
-# a copy of the tree, in BUILD/mutations/tree, which keeps its objects; what must find it has passed without it before.
+# A row is a bug: whole lines of a file, which must occur in it exactly once, their replacement, and the test
+# that must find it: a text as `make check ONLY=text` takes it, or `fuzz`, five minutes of `triptych fuzz`.
+# Each is planted in a copy of the tree, in BUILD/mutations/tree, which keeps its objects; what must find it
+# has passed without it before.
 #
-# Says for each row "found" or "GOT AWAY", with what found it and how long that took, and keeps that in
-# BUILD/mutations/NAME.result, from which results/mutations.md is written once every row has one. Exits with 1 if any
-# got away, no longer fits its file, or does not build, and if a test fails without a bug.
+# Prints for each row "found" or "GOT AWAY", with what found it and how long that took, and keeps that in
+# BUILD/mutations/NAME.result, from which results/mutations.md is written once every row has one. Exits with
+# 1 if any got away, no longer fits its file, or does not build, and if a test fails without a bug.
 set -uo pipefail
 cd "$(dirname "$0")/../.." || exit 1
 export LC_ALL=C
@@ -38,7 +40,8 @@ read_table()
         number=$((number + 1))
         case $line in
         '' | '#'*) ;;
-        'bug '*) name=${line#bug } && names+=("$name") && file[$name]= old[$name]= new[$name]= finder[$name]= ;;
+        'bug '*) name=${line#bug } && names+=("$name") &&
+            file[$name]= old[$name]= new[$name]= finder[$name]= ;;
         'file '*) file[$name]=${line#file } ;;
         'plants '*) plants[$name]=${line#plants } ;;
         'found by '*) finder[$name]=${line#found by } ;;
@@ -51,7 +54,7 @@ read_table()
 
 # --- The copy
 
-# What differs is copied, with a new time, so that make sees it.
+# Copies files that differ, with a new time, so that make rebuilds them.
 copy_tree()
 {
     local path
@@ -67,7 +70,7 @@ copy_tree()
     make -C "$tree" -s build/glmark2 build/assimp
 }
 
-# plant NAME: replaces the lines in the copy; fails if they are not there, or not once.
+# plant NAME: replaces the lines in the copy; fails if they do not occur exactly once.
 plant()
 {
     local text rest
@@ -105,23 +108,25 @@ look()
 {
     if [[ $1 == fuzz ]]; then
         (cd "$tree" && rm -rf build/findings && timeout -k 10 $((limit + longest)) nice build/triptych fuzz \
-            --seed 1 --count 1000000 --seconds "$limit" --findings 1 --output build/findings) >"$home/look.log" 2>&1
+            --seed 1 --count 1000000 --seconds "$limit" --findings 1 --output build/findings) \
+                >"$home/look.log" 2>&1
     else
-        timeout -k 10 "$longest" nice "$tree/tests/support/run.sh" "$1" build >"$home/look.log" 2>&1
+        timeout -k 10 "$longest" nice "$tree/tests/support/scripts/run.sh" "$1" build >"$home/look.log" 2>&1
     fi
 }
 
-# What a test said, or else the first line that says that something is wrong.
+# The message of a failing test, or else the first line that reports a fault.
 reason()
 {
     local said
     said=$(grep -aE -m 1 ':FAIL: |ERROR: |runtime error' "$home/look.log") ||
-        said=$(grep -aE -m 1 '^ *FAIL |differ|killed by|stopped after|ran no test|ended with|error:' "$home/look.log")
+        said=$(grep -aE -m 1 '^ *FAIL |differ|killed by|stopped after|ran no test|ended with|error:' \
+            "$home/look.log")
     sed -E 's/^ +//' <<<"$said" | cut -c 1-160
 }
 
 declare -A sound
-# Whether the finder passes without any bug; asked once.
+# Returns true if the finder passes without any bug; tried once.
 is_sound()
 {
     [[ -n ${sound[$1]-} ]] && return "${sound[$1]}"
@@ -134,7 +139,7 @@ is_sound()
 
 # --- One bug
 
-# try NAME: leaves VERDICT, SECONDS and what was said in the result.
+# try NAME: leaves the verdict, the seconds and the message in the result.
 try()
 {
     local name=$1 test verdict='GOT AWAY' said= by= started
@@ -173,11 +178,11 @@ write_report()
     {
         echo '# Planted bugs'
         echo
-        echo 'Each row of `tests/mutations/table.txt` is planted in a copy of the tree, which is built and tested by what'
-        echo 'must find it; `make mutations` writes this page. Seconds are those of building and testing, on a machine'
-        echo 'that does other work beside it.'
+        echo 'Each row of `tests/mutations/table.txt` is planted in a copy of the tree, which is built and'
+        echo 'tested with the test that must find it. `make mutations` writes this page. Seconds are those of building and'
+        echo 'testing, on a machine that also does other work.'
         echo
-        echo '| Bug | Where | What | Found by | Seconds | What was said |'
+        echo '| Bug | Where | What | Found by | Seconds | Message |'
         echo '| --- | --- | --- | --- | --- | --- |'
         for name in "${names[@]}"; do
             IFS=$'\t' read -r verdict seconds by said <"$home/$name.result"

@@ -90,7 +90,7 @@ static void old_pixel_shaders_sample_by_stage(void)
     TEST_ASSERT_FALSE(interface.depth);
 }
 
-static void pixel_shaders_of_models_2_and_3_say_what_they_write(void)
+static void pixel_shaders_of_models_2_and_3_list_their_outputs(void)
 {
     describe("ps_2_0\ndcl t4.xy\ndcl v1\ndcl_cube s3\ntexld r0, t4.xyzw, s3\nmul r0, r0, v1\nmov oC0, "
              "r0\nmov oC1, r0\n"
@@ -113,6 +113,6 @@ int main(void)
     RUN_TEST(a_matrix_counts_with_all_its_rows);
     RUN_TEST(declared_outputs_share_registers);
     RUN_TEST(old_pixel_shaders_sample_by_stage);
-    RUN_TEST(pixel_shaders_of_models_2_and_3_say_what_they_write);
+    RUN_TEST(pixel_shaders_of_models_2_and_3_list_their_outputs);
     return UNITY_END();
 }

@@ -1,9 +1,9 @@
 /* Shaders damaged at random: text and tokens. Each is refused with one line at a place, or is a shader, which
  * then goes to tokens and text and back, and the validator has an opinion on it. The sanitizers watch. The
- * seed is fixed unless TRIPTYCH_SEED says otherwise. */
+ * seed is fixed unless TRIPTYCH_SEED is set. */
 #include "shader/shader.h"
-#include "tests/support/seed.h"
-#include "tests/support/shaders.h"
+#include "tests/support/system/seed.h"
+#include "tests/support/shader/shaders.h"
 
 #include <stdio.h>
 #include <stdlib.h>
@@ -44,7 +44,7 @@ static void expect_one_line(const char *path)
     TEST_ASSERT_NULL_MESSAGE(strchr(error.text, '\n'), error.text);
 }
 
-/* The validator has an opinion on everything, and says where. */
+/* The validator accepts a shader or refuses it with a place. */
 static void expect_opinion(const struct shader *shader)
 {
     error_clear(&error);
@@ -54,7 +54,7 @@ static void expect_opinion(const struct shader *shader)
         TEST_ASSERT_EQUAL_STRING("", error.text);
 }
 
-/* What a reader let through is a shader in every respect. */
+/* A shader that a reader accepted can be printed, encoded and validated. */
 static void expect_sound(const struct shader *shader)
 {
     struct shader *again;

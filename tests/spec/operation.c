@@ -1,12 +1,13 @@
-/* The emulator's binding of every row of def/op.def: each lane, and each half of a pair, gets what the row's
- * expression says of the same lane of the operands. And the exact conversions and extremes that the
+/* The emulator's binding of every row of def/op.def: each lane, and each half of a pair, equals the row's
+ * expression for the same lane of the operands. And the exact conversions and extremes that the
  * expressions rest on. */
-#include "base/cpu.h"
-#include "base/mxcsr.h"
-#include "emu/bind.h"
+#include "base/bits.h"
+#include "machine/cpu.h"
+#include "machine/mxcsr.h"
+#include "emu/emulate/bind.h"
 #include "ir/ir.h"
-#include "tests/support/edges.h"
-#include "unity.h"
+#include "tests/support/shader/edges.h"
+#include <unity.h>
 
 #include <math.h>
 #include <stdio.h>
@@ -39,7 +40,7 @@ static void take_words(uint32_t words[4], unsigned round, int position, int is_m
 /* Which of two NaN an operation gives is not defined. */
 static int same(uint32_t a, uint32_t b, int is_float)
 {
-    return a == b || (is_float && isnan(lane_from_bits(a)) && isnan(lane_from_bits(b)));
+    return a == b || (is_float && isnan(bits_to_float(a)) && isnan(bits_to_float(b)));
 }
 
 static void check_lanes(const char *name, enum ir_op row, const uint32_t in[3][4], const void *result,
@@ -135,7 +136,7 @@ static void test_every_operation_equals_its_expression_where_the_processor_fuses
     check_every_operation();
 }
 
-static void test_permutations_of_quads_are_those_their_names_say(void)
+static void test_permutations_of_quads_fit_their_names(void)
 {
     const flt value = {{10, 11, 12, 13}};
     static const struct {
@@ -166,15 +167,15 @@ static void test_round_is_nearest_even_and_saturates_to_the_indefinite_integer(v
 
 static void test_minimum_and_maximum_give_the_second_operand_on_nan_and_on_equal_zeros(void)
 {
-    TEST_ASSERT_EQUAL_HEX32(0x40000000, lane_bits(lane_min(NAN, 2.0f)));
+    TEST_ASSERT_EQUAL_HEX32(0x40000000, bits_of_float(lane_min(NAN, 2.0f)));
     TEST_ASSERT_TRUE(isnan(lane_min(2.0f, NAN)));
-    TEST_ASSERT_EQUAL_HEX32(0x80000000, lane_bits(lane_max(0.0f, -0.0f)));
-    TEST_ASSERT_EQUAL_HEX32(0x00000000, lane_bits(lane_max(-0.0f, 0.0f)));
+    TEST_ASSERT_EQUAL_HEX32(0x80000000, bits_of_float(lane_max(0.0f, -0.0f)));
+    TEST_ASSERT_EQUAL_HEX32(0x00000000, bits_of_float(lane_max(-0.0f, 0.0f)));
 }
 
 static void test_floor_takes_a_denormal_for_zero(void)
 {
-    TEST_ASSERT_EQUAL_HEX32(0x80000000, lane_bits(lane_floor(-0x1p-140f)));
+    TEST_ASSERT_EQUAL_HEX32(0x80000000, bits_of_float(lane_floor(-0x1p-140f)));
     TEST_ASSERT_EQUAL_FLOAT(-2.0f, lane_floor(-1.25f));
     TEST_ASSERT_EQUAL_FLOAT(1.0f, lane_floor(1.75f));
 }
@@ -182,8 +183,8 @@ static void test_floor_takes_a_denormal_for_zero(void)
 static void test_fused_multiply_add_rounds_once(void)
 {
     float a = 1 + 0x1p-12f;
-    TEST_ASSERT_EQUAL_HEX32(lane_bits(0x1p-24f),
-                            ir_evaluate(IR_mad_f, lane_bits(a), lane_bits(a), lane_bits(-(1 + 0x1p-11f)), 0));
+    TEST_ASSERT_EQUAL_HEX32(bits_of_float(0x1p-24f), ir_evaluate(IR_mad_f, bits_of_float(a), bits_of_float(a),
+                                                                 bits_of_float(-(1 + 0x1p-11f)), 0));
 }
 
 int main(void)
@@ -191,7 +192,7 @@ int main(void)
     UNITY_BEGIN();
     RUN_TEST(test_every_operation_of_the_emulator_equals_its_expression);
     RUN_TEST(test_every_operation_equals_its_expression_where_the_processor_fuses);
-    RUN_TEST(test_permutations_of_quads_are_those_their_names_say);
+    RUN_TEST(test_permutations_of_quads_fit_their_names);
     RUN_TEST(test_round_is_nearest_even_and_saturates_to_the_indefinite_integer);
     RUN_TEST(test_minimum_and_maximum_give_the_second_operand_on_nan_and_on_equal_zeros);
     RUN_TEST(test_floor_takes_a_denormal_for_zero);

@@ -1,0 +1,386 @@
+"""Tables and lines of the pages that are written whole from results/ (see __main__.py)."""
+
+import math
+
+import results
+from results import load, only
+
+texts = {}
+
+COMMANDS = {
+    "bench": "make bench",
+    "baselines": "make bench",
+    "builds": "make bench",
+    "cold": "make bench",
+    "verify": "make bench",
+    "shaders": "make bench-shaders",
+    "flow": "make bench-shaders",
+    "peers": "make peers",
+    "fuzz": "triptych fuzz",
+}
+
+
+def text(function):
+    texts[function.__name__.replace("_", "-")] = function
+    return function
+
+
+def significant(value, digits=3):
+    """The value rounded to significant digits, without an exponent."""
+    if value == 0:
+        return "0"
+    rounded = round(value, digits - 1 - math.floor(math.log10(abs(value))))
+    places = max(0, digits - 1 - math.floor(math.log10(abs(rounded))))
+    return f"{rounded:,.{places}f}"
+
+
+def markdown(headings, rows, left=1):
+    """A table whose first `left` columns are aligned to the left, with a line end before and after it."""
+    rule = ["---"] * left + ["---:"] * (len(headings) - left)
+    lines = [headings, rule] + rows
+    return "\n" + "".join("| " + " | ".join(map(str, line)) + " |\n" for line in lines)
+
+
+# --- Where a number comes from -----------------------------------------------------------------------------------
+
+
+def engine_fields(file):
+    """The lanes and instruction set of each engine of a file, by engine, in the file's order."""
+    found = {}
+    report = load(file)
+    for each in report.get("streams", []):
+        for run in each.get("engines", []):
+            if isinstance(run, dict):
+                found.setdefault(run["engine"], run)
+    for each in report.get("renderers", []) + report.get("builds", []) + report.get("cold", []):
+        found.setdefault(each.get("name", each.get("engine")), each)
+    return found
+
+
+def describe_engine(name, fields):
+    lanes, instruction_set = fields.get("lanes"), fields.get("instruction_set")
+    if not lanes or not instruction_set:
+        return f"`{name}`"
+    unit = " (vertex/setup/pixel)" if "/" in str(lanes) else ""
+    return f"`{name}` {lanes} lanes{unit} {instruction_set}"
+
+
+@text
+def source(file, *engines):
+    """Processor, compiler, commit and command of a results file, with the lanes and instruction set of each engine."""
+    report = load(file)
+    machine = report["campaigns"][-1]["machine"] if file == "fuzz" else report["machine"]
+    line = f"{machine['cpu']}, {machine['compiler']}, commit {machine['commit']}"
+    known = engine_fields(file)
+    named = [describe_engine(name, known[name]) for name in engines or known if name in known]
+    named = [each for each in named if " " in each]
+    if named:
+        line += "; " + ", ".join(named)
+    return f"{line}; `{COMMANDS[file]}` writes [results/{file}.json]({link(file)})"
+
+
+def link(file):
+    return f"../results/{file}.json"
+
+
+@text
+def source_here(file, *engines):
+    """The same for README.md, which is not in docs/."""
+    return source(file, *engines).replace("(../results/", "(results/")
+
+
+@text
+def machine(file, field):
+    return str(load(file)["machine"][field])
+
+
+# --- Streams -----------------------------------------------------------------------------------------------------------
+
+
+@text
+def bench_output(name, *engines):
+    """The table that `triptych bench` prints for a stream, as a code block."""
+    each = only(load("bench")["streams"], "bench", stream=name)
+    columns = [
+        ("ms/frame", "frame_ms", 3),
+        ("mad", "frame_ms_deviation", 3),
+        ("ns/vertex", "vertex_ns", 2),
+        ("ns/pixel", "pixel_ns", 2),
+        ("routines", "routines", 0),
+        ("build us", "build_us", 1),
+        ("bytes", "code_bytes", 0),
+        ("x frame", "speedup", 2),
+    ]
+    lines = [["engine", "lanes", "set"] + [heading for heading, _, _ in columns]]
+    for engine in engines:
+        run = only(each["engines"], name, engine=engine)
+        fields = [engine, str(run.get("lanes", "")), run.get("instruction_set", "")]
+        lines.append(fields + [f"{run[column]:.{places}f}" for _, column, places in columns])
+    widths = [max(len(line[i]) for line in lines) for i in range(len(lines[0]))]
+    left = ("engine", "set")
+    table = "".join(
+        "  ".join(
+            cell.ljust(width) if heading in left else cell.rjust(width)
+            for cell, width, heading in zip(line, widths, lines[0])
+        ).rstrip()
+        + "\n"
+        for line in lines
+    )
+    return f"\n```\n{each['stream']}: {each['width']} x {each['height']}, threads: {load('bench')['threads']}\n{table}```\n"
+
+
+@text
+def frames(*arguments):
+    """Milliseconds a frame: STREAM... -- ENGINE..., with the geometric mean of all streams over emulate."""
+    at = arguments.index("--")
+    streams, engines = arguments[:at], arguments[at + 1 :]
+    rows = [
+        [f"`{name}`"] + [significant(results.stream_row("bench", name, engine)["frame_ms"]) for engine in engines]
+        for name in streams
+    ]
+    count = len(load("bench")["streams"])
+    means = [significant(results.stream("bench", "mean", engine, "speedup")) for engine in engines]
+    rows.append([f"times as fast as `emulate`, geometric mean of {count} streams"] + means)
+    return markdown(["ms a frame"] + [f"`{engine}`" for engine in engines], rows)
+
+
+@text
+def baselines(*engines):
+    """Processor time per vertex and per pixel of each engine on the streams of baselines.json."""
+    streams = [each["stream"] for each in load("baselines")["streams"]]
+    headings = ["engine", "lanes", "set"]
+    for name in streams:
+        headings += [f"{name}: ns/vertex", "ns/pixel"]
+    rows = []
+    for engine in engines:
+        runs = [results.stream_row("baselines", name, engine) for name in streams]
+        row = [f"`{engine}`", runs[0].get("lanes", ""), runs[0].get("instruction_set", "")]
+        for run in runs:
+            row += [significant(run["vertex_ns"]), significant(run["pixel_ns"])]
+        rows.append(row)
+    return markdown(headings, rows)
+
+
+@text
+def baseline_code(*engines):
+    """Size of the median routine, and what building it takes, on the streams of baselines.json."""
+    headings = ["stream"]
+    for engine in engines:
+        headings += [f"`{engine}`: bytes", "build, µs"]
+    rows = []
+    for each in load("baselines")["streams"]:
+        row = [f"`{each['stream']}`"]
+        for engine in engines:
+            run = results.stream_row("baselines", each["stream"], engine)
+            row += [f"{run['code_bytes']:,.0f}", significant(run["build_us"])]
+        rows.append(row)
+    return markdown(headings, rows)
+
+
+@text
+def flow():
+    """Flow control by constants and by values: nanoseconds a pixel and routines, from flow.json."""
+    names = {
+        "booleans": "eight parts inside of `if b#`, four sets of Booleans",
+        "values": "the same inside of `if_gt` of two constants",
+        "integers": "a loop of 16 passes, `rep i#`, the count set by the draw",
+        "defined": "the same, the count defined in the shader",
+        "unrolled": "its 16 passes written out",
+    }
+    rows = []
+    for name, meaning in names.items():
+        stitch, specialize = (results.stream_row("flow", name, each) for each in ("stitch", "specialize"))
+        pixel_routines = stitch["routines"] - 2  # a vertex and a setup routine besides
+        times = [significant(each["pixel_ns"]) for each in (stitch, specialize)]
+        rows.append([meaning] + times + [f"{pixel_routines:.0f}"])
+    return markdown(["", "`stitch`: ns/pixel", "`specialize`: ns/pixel", "pixel routines"], rows)
+
+
+# --- Routines ----------------------------------------------------------------------------------------------------------
+
+
+@text
+def unit_builds(file, quantity, *engines):
+    """Medians of build_us or code_bytes by unit, over the routines of a file's streams."""
+    headings = ["median, " + {"build_us": "µs", "code_bytes": "bytes"}[quantity], "vertex", "setup", "pixel"]
+    rows = [
+        [f"`{engine}`"]
+        + [
+            significant(only(load(file)["builds"], file, engine=engine, unit=unit)[quantity]["median"])
+            for unit in ("vertex", "setup", "pixel")
+        ]
+        for engine in engines
+    ]
+    return markdown(headings, rows)
+
+
+@text
+def builds(*engines):
+    """What building routines takes: the distribution by unit and for sets of three, from builds.json."""
+    headings = ["µs", "", "routines or sets", "median", "90 %", "99 %", "most"]
+    rows = []
+    for engine in engines:
+        for what in ("vertex", "setup", "pixel", "set"):
+            entry = only(load("builds")["builds"], "builds", engine=engine, what=what)
+            times = [significant(entry[each + "_us"]) for each in ("median", "p90", "p99", "most")]
+            rows.append([f"`{engine}`", what, f"{entry['count']:,.0f}"] + times)
+    return markdown(headings, rows, 2)
+
+
+@text
+def cold(*engines):
+    """What the first frame of a stream costs, by the clock of the thread that draws, from cold.json."""
+    rows = []
+    for engine in engines:
+        entry = only(load("cold")["cold"], "cold", engine=engine)
+        rows.append(
+            [f"`{engine}`"] + [significant(entry[each]) for each in ("thread_warm_ms", "thread_first", "thread_worst")]
+        )
+    return markdown(["engine", "warm frame, ms", "first frame, times that", "worst of the frames, times that"], rows)
+
+
+# --- Shaders -----------------------------------------------------------------------------------------------------------
+
+LENGTHS = [(1, 8), (9, 16), (17, 32), (33, 64), (65, 128), (129, 256), (257, 1 << 32)]
+
+
+def length_name(least, most):
+    return f"from {least}" if most > 1 << 20 else f"{least} to {most}"
+
+
+@text
+def shader_lengths(unit, *engines):
+    """Nanoseconds per element by the length of the shader, with the quotient of stitch and specialize-8."""
+    rows = []
+    for least, most in LENGTHS:
+        found = results.shader_rows(unit, least, most)
+        if not found:
+            continue
+        times = [results.shader_column(found, engine, "ns") for engine in engines]
+        quotient = results.shader_column(found, "stitch", "ns") / results.shader_column(found, "specialize-8", "ns")
+        rows.append([length_name(least, most), len(found)] + list(map(significant, times)) + [f"{quotient:.2f}"])
+    headings = [f"{unit} slots", "shaders"] + [f"`{engine}`" for engine in engines] + ["`stitch` / `specialize-8`"]
+    return markdown(headings, rows)
+
+
+@text
+def shader_builds(*engines):
+    """Microseconds to build a routine, and bytes of code, by the length of the shader, both units."""
+    coded = [engine for engine in engines if engine in ("stitch", "specialize")]
+    rows = []
+    for least, most in LENGTHS:
+        found = results.shader_rows("all", least, most)
+        row = [length_name(least, most)]
+        row += [significant(results.shader_column(found, engine, "build_us")) for engine in engines]
+        row += [f"{results.shader_column(found, engine, 'code_bytes'):,.0f}" for engine in coded]
+        rows.append(row)
+    headings = ["slots"] + [f"`{engine}`, µs" for engine in engines] + [f"`{engine}`, bytes" for engine in coded]
+    return markdown(headings, rows)
+
+
+@text
+def shader_code(*engines):
+    """Means over all shaders: instructions, bytes of code, spills and microseconds to build."""
+    rows = []
+    for engine in engines:
+        found = [only(row["engines"], row["shader"], engine=engine) for row in load("shaders")["shaders"]]
+        means = [sum(each[column] for each in found) / len(found) for column in ("parts", "code_bytes", "spills", "build_us")]
+        rows.append([f"`{engine}`"] + [significant(mean) for mean in means])
+    return markdown(["mean of a shader's routines", "instructions", "bytes of code", "spills", "build, µs"], rows)
+
+
+@text
+def shader_worst(first, second, count):
+    """The shaders with the largest quotients of two engines' times, in a line."""
+    return ", ".join(
+        f"`{name}` {quotient:.1f} times" for quotient, name in results.worst_shaders(first, second, count)
+    )
+
+
+# --- Renderers ---------------------------------------------------------------------------------------------------------
+
+
+def rate(value):
+    return "-" if value is None else significant(value)
+
+
+def renderer_names(cores="one"):
+    return [each["name"] for each in load("peers")["renderers"] if each["cores"] == cores and "description" in each]
+
+
+@text
+def renderers(*arguments):
+    """Values of workloads by renderer: RENDERER... -- WORKLOAD... A renderer that was not measured has no column."""
+    at = arguments.index("--")
+    columns = [name for name in arguments[:at] if name in renderer_names()]
+    rows = []
+    for name in arguments[at + 1 :]:
+        workload = results.workload(name)
+        values = [results.cell(name, column).get("value") for column in columns]
+        rows.append([workload["text"], workload["unit"]] + [rate(value) for value in values])
+    return markdown(["", "unit"] + [f"`{name}`" for name in columns], rows, 2)
+
+
+@text
+def limits():
+    """Each workload with its rate, with AVX-512 and AVX2, the best peer, and the share of the machine's limit."""
+    narrow = "specialize-avx2" in renderer_names()
+    headings = ["workload", "unit", "`specialize`"] + (["with AVX2"] if narrow else [])
+    headings += ["best peer", "times as fast"] + (["with AVX2"] if narrow else []) + ["% of the limit"]
+    rows = []
+    for workload in load("peers")["workloads"]:
+        own = results.cell(workload["name"], "specialize")
+        avx2 = results.cell(workload["name"], "specialize-avx2") if narrow else {}
+        row = [f"`{workload['name']}`", workload["unit"], rate(own.get("value"))]
+        row += [rate(avx2.get("value"))] if narrow else []
+        row += [results.best_peer(workload["name"]), rate(own["against_best_peer"][0])]
+        row += [rate(avx2.get("against_best_peer", [None])[0])] if narrow else []
+        share = own.get("percent_of_limit", 0)
+        rows.append(row + [f"{share:.0f}" if share > 0 else "-"])
+    return markdown(headings, rows, 2)
+
+
+@text
+def means():
+    """The geometric means of the report, by pair of renderers and group of workloads."""
+    rows = [
+        [
+            f"`{entry['renderer']}`",
+            f"`{entry['against']}`" if "against" in entry else "best peer",
+            entry["text"],
+            f"{entry['mean']:.2f}",
+            entry["workloads"],
+        ]
+        for entry in load("peers")["geometric_means"]
+    ]
+    return markdown(["renderer", "against", "over", "times as fast", "workloads"], rows, 3)
+
+
+# --- Checks and history ------------------------------------------------------------------------------------------------
+
+
+@text
+def campaigns():
+    """The campaigns of `triptych fuzz` that fuzz.json holds."""
+    rows = []
+    for run in results.campaigns():
+        counts = [f"{run[each]:,}" for each in ("cases", "same", "refused", "limited")]
+        bad = sum(run[each] for each in ("different", "failed", "crashed", "hung"))
+        rows.append(
+            [run["machine"]["commit"], f"{run['seed']}{', interrupted' if run['interrupted'] else ''}", len(run["engines"])] + counts + [bad, f"{run['pixels'] / 1e6:.1f}"]
+        )
+    headings = ["commit", "seed", "engines", "cases", "same", "refused", "limited", "findings", "million pixels"]
+    return markdown(headings, rows)
+
+
+@text
+def history(table):
+    """The rows of history.csv with that table's name. An empty change continues the one above."""
+    rows = []
+    for row in load("history.csv"):
+        if row["table"] == table:
+            files = ", ".join(f"`{file}`" for file in row["files"].split())
+            rows.append([row["change"], files, row["workload"], row["result"], row["unit"], row["measured_by"]])
+    if not rows:
+        raise KeyError(f"history.csv has no rows of {table}")
+    return markdown(["change", "where", "measured on", "before → after", "unit", "measured by"], rows, 6)

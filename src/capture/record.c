@@ -1,0 +1,120 @@
+#define _GNU_SOURCE /* secure_getenv */
+#include "capture/record_part.h"
+
+#include <errno.h>
+#include <stdatomic.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+/* --- Records -------------------------------------------------------------------------------------------- */
+
+void record_append(struct recorder *recorder, const struct call *call)
+{
+    record_write_call(&recorder->write, call);
+    recorder->drawn =
+        call->type != CALL_FRAME && (recorder->drawn || call_row(call->type)->traits & CALL_DRAWS);
+}
+
+static uint32_t take_number(struct recorder *recorder)
+{
+    if (recorder->free_count)
+        return recorder->free_numbers[--recorder->free_count];
+    if (recorder->next < NO_RESOURCE)
+        return recorder->next++;
+    record_write_fail(&recorder->write, "more than 65536 resources at a time");
+    return 0;
+}
+
+uint32_t record_define(struct recorder *recorder, const struct resource *resource)
+{
+    uint32_t number = take_number(recorder);
+    record_write_definition(&recorder->write, number, resource);
+    return number;
+}
+
+void record_release(struct recorder *recorder, uint32_t number)
+{
+    record_append(recorder, &(struct call){.type = CALL_RELEASE, .resource = number});
+    if (recorder->free_count == recorder->free_capacity) {
+        uint32_t capacity = 2 * recorder->free_capacity + 64;
+        uint32_t *larger = realloc(recorder->free_numbers, capacity * sizeof *larger);
+        if (!larger) {
+            record_write_fail(&recorder->write, "not enough memory");
+            return;
+        }
+        recorder->free_numbers = larger;
+        recorder->free_capacity = capacity;
+    }
+    recorder->free_numbers[recorder->free_count++] = number;
+}
+
+uint32_t record_bytes(struct recorder *recorder, const void *data, size_t bytes)
+{
+    struct resource resource = {.type = RESOURCE_BUFFER, .value_type = VALUE_BYTES, .vertex_bytes = bytes};
+    resource.vertices = (uint8_t *)(uintptr_t)data;
+    return record_define(recorder, &resource);
+}
+
+/* --- Beginning and end ---------------------------------------------------------------------------------- */
+
+enum triptych_result record_start(struct triptych_device *device, const char *path, struct error *error)
+{
+    if (device->recorder) {
+        error_set(error, "%s: calls are recorded already, expected record_stop before another recording",
+                  path);
+        return TRIPTYCH_BAD_CALL;
+    }
+    struct recorder *recorder = calloc(1, sizeof *recorder);
+    if (!recorder) {
+        error_set(error, "%s: out of memory for a recording", path);
+        return TRIPTYCH_NO_MEMORY;
+    }
+    errno = 0;
+    if (chunk_open(&recorder->write.chunks, path, true, error)) {
+        free(recorder);
+        return device_refusal(TRIPTYCH_BAD_ARGUMENT);
+    }
+    device->recorder = recorder;
+    record_beginning(device);
+    return TRIPTYCH_OK;
+}
+
+/* Names are "PATH", then "PATH-2.EXTENSION" and so on. */
+enum triptych_result record_from_environment(struct triptych_device *device, struct error *error)
+{
+    static atomic_uint devices;
+    const char *path = secure_getenv("TRIPTYCH_RECORD");
+    if (!path || !*path)
+        return TRIPTYCH_OK;
+    unsigned number = atomic_fetch_add(&devices, 1) + 1;
+    const char *slash = strrchr(path, '/'), *dot = strrchr(slash ? slash : path, '.');
+    size_t stem = dot ? (size_t)(dot - path) : strlen(path), size = strlen(path) + 16;
+    char *numbered = malloc(size);
+    if (!numbered) {
+        error_set(error, "%s: out of memory for a recording", path);
+        return TRIPTYCH_NO_MEMORY;
+    }
+    snprintf(numbered, size, "%.*s-%u%s", (int)stem, path, number, path + stem);
+    enum triptych_result result = record_start(device, number > 1 ? numbered : path, error);
+    free(numbered);
+    return result;
+}
+
+enum triptych_result record_stop(struct triptych_device *device, struct error *error)
+{
+    struct recorder *recorder = device->recorder;
+    if (!recorder) {
+        error_set(error, "no calls are recorded: expected record_start first");
+        return TRIPTYCH_BAD_CALL;
+    }
+    if (recorder->drawn)
+        record_frame(device);
+    record_open_queries(device, CALL_END_QUERY);
+    device->recorder = NULL;
+    int result = chunk_close(&recorder->write.chunks, error);
+    free(recorder->write.codec.data);
+    free(recorder->free_numbers);
+    free(recorder);
+    return result ? TRIPTYCH_FILE_FAILED : TRIPTYCH_OK;
+}

@@ -1,0 +1,202 @@
+/* Vertex declarations and draws.
+ *
+ * A stream checks draws against everything that is declared, a device only against what the pipeline reads.
+ * An element that exceeds its buffer and that the draw does not read is therefore undeclared for the draw,
+ * and declared again afterwards. */
+#include "capture/record_part.h"
+
+#include <string.h>
+
+/* --- Declarations --------------------------------------------------------------------------------------- */
+
+void record_element(struct triptych_device *device, enum triptych_attribute attribute,
+                    const struct triptych_element *element)
+{
+    if (!device->recorder)
+        return;
+    struct call call = {.type = CALL_BIND_ELEMENT, .resource = NO_RESOURCE};
+    call.element.attribute = attribute;
+    call.element.format = element->format;
+    if (element->format) {
+        call.resource = element->buffer->recorded;
+        call.element.offset = (uint32_t)element->offset;
+        call.element.stride = (uint32_t)element->stride;
+    }
+    record_append(device->recorder, &call);
+}
+
+void record_declaration(struct triptych_device *device, const struct triptych_declaration_element *elements,
+                        unsigned count)
+{
+    struct call call = {.type = CALL_DECLARE, .resource = NO_RESOURCE, .declare.count = count};
+    for (unsigned i = 0; i < count && device->recorder; i++)
+        call.declare.element[i] = (struct call_declared){.usage = elements[i].usage & 15,
+                                                         .usage_index = elements[i].usage_index & 15,
+                                                         .format = elements[i].format & 31,
+                                                         .stream = elements[i].stream & 15,
+                                                         .words = elements[i].offset / 4 & 0x3fff};
+    if (device->recorder)
+        record_append(device->recorder, &call);
+}
+
+void record_fvf(struct triptych_device *device, uint32_t fvf)
+{
+    if (device->recorder)
+        record_append(device->recorder,
+                      &(struct call){.type = CALL_FVF, .resource = NO_RESOURCE, .fvf.code = fvf});
+}
+
+void record_stream(struct triptych_device *device, unsigned stream, const triptych_buffer *buffer,
+                   size_t offset, size_t stride)
+{
+    if (!device->recorder)
+        return;
+    struct call call = {.type = CALL_BIND_STREAM, .resource = NO_RESOURCE, .bind_stream.number = stream};
+    if (buffer) {
+        call.resource = buffer->recorded;
+        call.bind_stream.offset = (uint32_t)offset;
+        call.bind_stream.stride = (uint32_t)stride;
+    }
+    record_append(device->recorder, &call);
+}
+
+void record_frequency(struct triptych_device *device, unsigned stream, enum triptych_frequency frequency,
+                      uint32_t count)
+{
+    if (device->recorder)
+        record_append(device->recorder, &(struct call){.type = CALL_FREQUENCY,
+                                                       .resource = NO_RESOURCE,
+                                                       .frequency = {stream, frequency, count}});
+}
+
+void record_indices(struct triptych_device *device, const triptych_buffer *buffer, unsigned bits)
+{
+    if (!device->recorder)
+        return;
+    struct call call = {.type = CALL_BIND_INDICES, .resource = NO_RESOURCE};
+    if (buffer) {
+        call.resource = buffer->recorded;
+        call.bind_indices.bits = bits;
+    }
+    record_append(device->recorder, &call);
+}
+
+/* --- All that is declared ------------------------------------------------------------------------------- */
+
+static struct call_declared declared_of(unsigned usage, unsigned usage_index,
+                                        const struct state_element *element)
+{
+    return (struct call_declared){.usage = usage & 15,
+                                  .usage_index = usage_index & 15,
+                                  .format = element->format & 31,
+                                  .stream = element->stream & 15,
+                                  .words = element->offset / 4 & 0x3fff};
+}
+
+static void write_declaration(struct recorder *recorder, const struct state *state,
+                              const struct left_out *left_out)
+{
+    struct call call = {.type = CALL_DECLARE, .resource = NO_RESOURCE};
+    for (unsigned a = 0; a < TRIPTYCH_ATTRIBUTE_COUNT; a++) {
+        const struct state_element *element = &state->element[a];
+        unsigned index, usage = resource_element_usage(a, &index);
+        if (element->format && element->stream < TRIPTYCH_STREAMS && !(left_out->attributes >> a & 1))
+            call.declare.element[call.declare.count++] = declared_of(usage, index, element);
+    }
+    for (unsigned i = 0; i < state->others; i++)
+        if (!(left_out->others >> i & 1))
+            call.declare.element[call.declare.count++] =
+                declared_of(state->other[i].usage, state->other[i].usage_index, &state->other[i].element);
+    record_append(recorder, &call);
+}
+
+void record_vertex_input(struct recorder *recorder, const struct state *state,
+                         const struct left_out *left_out)
+{
+    write_declaration(recorder, state, left_out);
+    for (unsigned a = 0; a < TRIPTYCH_ATTRIBUTE_COUNT; a++) {
+        const struct state_element *element = &state->element[a];
+        const struct state_stream *stream = &state->stream[element->stream];
+        struct call call = {.type = CALL_BIND_ELEMENT};
+        if (!element->format || element->stream < TRIPTYCH_STREAMS || !stream->buffer ||
+            left_out->attributes >> a & 1)
+            continue;
+        call.resource = stream->buffer->recorded;
+        call.element.attribute = (enum triptych_attribute)a;
+        call.element.format = element->format;
+        call.element.offset = (uint32_t)stream->offset;
+        call.element.stride = (uint32_t)stream->stride;
+        record_append(recorder, &call);
+    }
+}
+
+/* --- Draws ---------------------------------------------------------------------------------------------- */
+
+/* The same condition as in command/stream/follow_vertices.c. */
+static bool lies_within(const struct state *state, const struct state_element *element, uint64_t last)
+{
+    const struct state_stream *stream = &state->stream[element->stream];
+    if (!stream->buffer)
+        return element->stream >= TRIPTYCH_STREAMS;
+    if (stream->frequency == TRIPTYCH_FREQUENCY_INSTANCE)
+        last = (state_instances(state) - 1) / stream->count;
+    if (stream->offset + element->offset + key_vertex_types[element->format].bytes > stream->buffer->bytes)
+        return false;
+    return last <= state_last_vertex(state, element);
+}
+
+static struct left_out find_left_out(const struct state *state, uint64_t last)
+{
+    struct left_out left_out = {0};
+    for (unsigned a = 0; a < TRIPTYCH_ATTRIBUTE_COUNT; a++)
+        if (state->element[a].format && !lies_within(state, &state->element[a], last))
+            left_out.attributes |= (uint64_t)1 << a;
+    for (unsigned i = 0; i < state->others; i++)
+        if (!lies_within(state, &state->other[i].element, last))
+            left_out.others |= (uint64_t)1 << i;
+    return left_out;
+}
+
+static void add_draw(struct triptych_device *device, const struct call *call, uint32_t count, uint64_t last)
+{
+    static const struct left_out none;
+    struct left_out left_out = count ? find_left_out(&device->state, last) : none;
+    bool some = left_out.attributes || left_out.others;
+    if (some)
+        record_vertex_input(device->recorder, &device->state, &left_out);
+    record_append(device->recorder, call);
+    if (some)
+        record_vertex_input(device->recorder, &device->state, &none);
+}
+
+void record_draw(struct triptych_device *device, enum triptych_primitive primitive, uint32_t first,
+                 uint32_t count)
+{
+    if (!device->recorder)
+        return;
+    struct call call = {.type = CALL_DRAW, .resource = NO_RESOURCE};
+    call.draw.primitive = primitive;
+    call.draw.first = first;
+    call.draw.count = count;
+    add_draw(device, &call, count, count ? first + device_corners(primitive, count) - 1 : 0);
+}
+
+void record_draw_indexed(struct triptych_device *device, enum triptych_primitive primitive, int32_t base,
+                         uint32_t first, uint32_t count)
+{
+    struct call call = {.type = CALL_DRAW_INDEXED, .resource = NO_RESOURCE};
+    uint64_t last = 0;
+    if (!device->recorder)
+        return;
+    call.draw_indexed.primitive = primitive;
+    call.draw_indexed.base = base;
+    call.draw_indexed.first = first;
+    call.draw_indexed.count = count;
+    if (count) {
+        const struct index_range *range =
+            buffer_index_range(device->state.indices, device->state.index_bits, first,
+                               (uint32_t)device_corners(primitive, count));
+        last = (uint64_t)((int64_t)base + range->maximum);
+    }
+    add_draw(device, &call, count, last);
+}

@@ -1,0 +1,270 @@
+/* The format: head, vertices, indices; for a skeleton its head, then joints, bones and animations one by one.
+ * A name is its length and its bytes. */
+#include "command/assets/transfer.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+enum { MAGIC = 0x6873656d, NAME_BYTES = 4096 };
+
+struct head {
+    uint32_t magic, vertices, indices, has_color, has_texcoord, has_skeleton;
+};
+
+struct skeleton_head {
+    uint32_t joints, bones, animations;
+};
+
+/* --- Writing --- */
+
+static int add_name(struct answer *answer, const char *name)
+{
+    uint32_t length = (uint32_t)strnlen(name, NAME_BYTES);
+    return isolate_append(answer, &length, sizeof length) || isolate_append(answer, name, length);
+}
+
+static int add_animation(struct answer *answer, const struct animation *animation)
+{
+    int bad = add_name(answer, animation->name) ||
+              isolate_append(answer, &animation->seconds, sizeof animation->seconds) ||
+              isolate_append(answer, &animation->track_count, sizeof animation->track_count);
+    for (uint32_t t = 0; !bad && t < animation->track_count; t++) {
+        const struct track *track = &animation->tracks[t];
+        bad = isolate_append(answer, &track->joint, sizeof track->joint) ||
+              isolate_append(answer, track->key_count, sizeof track->key_count);
+        for (int part = 0; !bad && part < TRACK_PARTS; part++)
+            bad =
+                isolate_append(answer, track->keys[part], track->key_count[part] * sizeof *track->keys[part]);
+    }
+    return bad;
+}
+
+static int add_skeleton(struct answer *answer, const struct skeleton *skeleton)
+{
+    struct skeleton_head head = {skeleton->joint_count, skeleton->bone_count, skeleton->animation_count};
+    int bad = isolate_append(answer, &head, sizeof head);
+    for (uint32_t j = 0; !bad && j < head.joints; j++) {
+        const struct joint *joint = &skeleton->joints[j];
+        bad = add_name(answer, joint->name) || isolate_append(answer, &joint->parent, sizeof joint->parent) ||
+              isolate_append(answer, joint->rest, sizeof joint->rest);
+    }
+    bad = bad || isolate_append(answer, skeleton->bones, head.bones * sizeof *skeleton->bones);
+    for (uint32_t a = 0; !bad && a < head.animations; a++)
+        bad = add_animation(answer, &skeleton->animations[a]);
+    return bad;
+}
+
+int transfer_write(const struct mesh *mesh, struct answer *answer)
+{
+    struct head head = {MAGIC,
+                        mesh->vertex_count,
+                        mesh->index_count,
+                        mesh->has_color != 0,
+                        mesh->has_texcoord != 0,
+                        mesh->skeleton != NULL};
+    int bad = isolate_append(answer, &head, sizeof head) ||
+              isolate_append(answer, mesh->vertices, mesh->vertex_count * sizeof *mesh->vertices) ||
+              isolate_append(answer, mesh->indices, mesh->index_count * sizeof *mesh->indices) ||
+              (mesh->skeleton && add_skeleton(answer, mesh->skeleton));
+    return bad ? -1 : 0;
+}
+
+/* --- Reading --- */
+
+struct reader {
+    const uint8_t *at;
+    size_t left;
+    const char *path;
+    struct error *error;
+};
+
+static int damaged(const struct reader *reader, const char *what)
+{
+    return error_set(reader->error, "%s: the answer of its reader is damaged: %s", reader->path, what);
+}
+
+static int take(struct reader *reader, void *out, size_t bytes)
+{
+    if (bytes > reader->left)
+        return damaged(reader, "it ends early");
+    if (bytes)
+        memcpy(out, reader->at, bytes);
+    reader->at += bytes;
+    reader->left -= bytes;
+    return 0;
+}
+
+/* Allocates `count` zeroed elements. Each takes at least `least` of the remaining bytes, which bounds
+ * `count`. */
+static int make_room(struct reader *reader, size_t count, size_t size, size_t least, void *room)
+{
+    void *made;
+    if (count > reader->left / least)
+        return damaged(reader, "it ends early");
+    made = calloc(count ? count : 1, size);
+    memcpy(room, &made, sizeof made);
+    return made ? 0 : error_set(reader->error, "%s: not enough memory", reader->path);
+}
+
+static int take_array(struct reader *reader, size_t count, size_t size, void *array)
+{
+    void *made;
+    if (make_room(reader, count, size, size, array))
+        return -1;
+    memcpy(&made, array, sizeof made);
+    return take(reader, made, count * size);
+}
+
+static int take_name(struct reader *reader, char **name)
+{
+    uint32_t length = 0;
+    if (take(reader, &length, sizeof length))
+        return -1;
+    if (length > NAME_BYTES)
+        return damaged(reader, "a name is too long");
+    if (!(*name = malloc(length + 1)))
+        return error_set(reader->error, "%s: not enough memory", reader->path);
+    (*name)[length] = 0;
+    if (take(reader, *name, length))
+        return -1;
+    for (uint32_t i = 0; i < length; i++)
+        if ((unsigned char)(*name)[i] < ' ' || (*name)[i] == 0x7f)
+            (*name)[i] = ' ';
+    return 0;
+}
+
+static int are_finite(const float *numbers, size_t count)
+{
+    for (size_t i = 0; i < count; i++)
+        if (!isfinite(numbers[i]))
+            return 0;
+    return 1;
+}
+
+static int check_vertices(struct reader *reader, const struct mesh *mesh)
+{
+    uint32_t bones = mesh->skeleton ? mesh->skeleton->bone_count : 1;
+    for (uint32_t v = 0; v < mesh->vertex_count; v++) {
+        const struct mesh_vertex *vertex = &mesh->vertices[v];
+        if (!are_finite(vertex->position, 3) || !are_finite(vertex->normal, 3) ||
+            !are_finite(vertex->texcoord, 2) || !are_finite(vertex->weight, 4))
+            return damaged(reader, "a vertex is not finite");
+        for (int i = 0; i < 4; i++)
+            if (vertex->bone[i] >= bones)
+                return damaged(reader, "a vertex has a missing bone");
+    }
+    for (uint32_t i = 0; i < mesh->index_count; i++)
+        if (mesh->indices[i] >= mesh->vertex_count)
+            return damaged(reader, "a triangle uses a missing vertex");
+    return 0;
+}
+
+/* --- Skeletons --- */
+
+static int take_joints(struct reader *reader, struct skeleton *skeleton, uint32_t count)
+{
+    enum { LEAST = sizeof(uint32_t) + sizeof(int) + sizeof(double[4][4]) };
+    if (make_room(reader, count, sizeof *skeleton->joints, LEAST, &skeleton->joints))
+        return -1;
+    while (skeleton->joint_count < count) {
+        int number = (int)skeleton->joint_count++;
+        struct joint *joint = &skeleton->joints[number];
+        if (take_name(reader, &joint->name) || take(reader, &joint->parent, sizeof joint->parent) ||
+            take(reader, joint->rest, sizeof joint->rest))
+            return -1;
+        if (joint->parent < -1 || joint->parent >= number)
+            return damaged(reader, "a joint precedes its parent");
+    }
+    return 0;
+}
+
+static int take_bones(struct reader *reader, struct skeleton *skeleton, uint32_t count)
+{
+    if (!count || count > SKELETON_BONES)
+        return damaged(reader, "a wrong number of bones");
+    if (take_array(reader, count, sizeof *skeleton->bones, &skeleton->bones))
+        return -1;
+    skeleton->bone_count = count;
+    for (uint32_t b = 0; b < count; b++)
+        if (skeleton->bones[b].joint >= skeleton->joint_count)
+            return damaged(reader, "a bone without its joint");
+    return 0;
+}
+
+static int take_track(struct reader *reader, const struct skeleton *skeleton, struct track *track)
+{
+    if (take(reader, &track->joint, sizeof track->joint) ||
+        take(reader, track->key_count, sizeof track->key_count))
+        return -1;
+    if (track->joint >= skeleton->joint_count)
+        return damaged(reader, "a track without its joint");
+    for (int part = 0; part < TRACK_PARTS; part++)
+        if (take_array(reader, track->key_count[part], sizeof *track->keys[part], &track->keys[part]))
+            return -1;
+    return 0;
+}
+
+static int take_animation(struct reader *reader, const struct skeleton *skeleton, struct animation *animation)
+{
+    enum { LEAST = sizeof(uint32_t) * (1 + TRACK_PARTS) };
+    uint32_t count = 0;
+    if (take_name(reader, &animation->name) || take(reader, &animation->seconds, sizeof animation->seconds) ||
+        take(reader, &count, sizeof count) ||
+        make_room(reader, count, sizeof *animation->tracks, LEAST, &animation->tracks))
+        return -1;
+    while (animation->track_count < count)
+        if (take_track(reader, skeleton, &animation->tracks[animation->track_count++]))
+            return -1;
+    return 0;
+}
+
+static int take_skeleton(struct reader *reader, struct mesh *mesh)
+{
+    enum { LEAST = sizeof(uint32_t) * 2 + sizeof(double) };
+    struct skeleton_head head;
+    struct skeleton *skeleton = mesh->skeleton = calloc(1, sizeof *skeleton);
+    if (!skeleton)
+        return error_set(reader->error, "%s: not enough memory", reader->path);
+    skeleton->scale = 1;
+    if (take(reader, &head, sizeof head) || take_joints(reader, skeleton, head.joints) ||
+        take_bones(reader, skeleton, head.bones) ||
+        make_room(reader, head.animations, sizeof *skeleton->animations, LEAST, &skeleton->animations))
+        return -1;
+    while (skeleton->animation_count < head.animations)
+        if (take_animation(reader, skeleton, &skeleton->animations[skeleton->animation_count++]))
+            return -1;
+    return 0;
+}
+
+/* --- Meshes --- */
+
+static int take_mesh(struct reader *reader, struct mesh *mesh)
+{
+    struct head head;
+    if (take(reader, &head, sizeof head))
+        return -1;
+    if (head.magic != MAGIC || head.vertices > LIMIT_VERTICES || head.indices > LIMIT_VALUES ||
+        head.indices % 3)
+        return damaged(reader, "a wrong number of vertices or indices");
+    mesh->has_color = head.has_color != 0;
+    mesh->has_texcoord = head.has_texcoord != 0;
+    if (take_array(reader, head.vertices, sizeof *mesh->vertices, &mesh->vertices))
+        return -1;
+    mesh->vertex_count = mesh->vertex_capacity = head.vertices;
+    if (take_array(reader, head.indices, sizeof *mesh->indices, &mesh->indices))
+        return -1;
+    mesh->index_count = mesh->index_capacity = head.indices;
+    if (head.has_skeleton && take_skeleton(reader, mesh))
+        return -1;
+    return reader->left ? damaged(reader, "it continues after its end") : check_vertices(reader, mesh);
+}
+
+int transfer_read(const char *path, const void *data, size_t bytes, struct mesh *mesh, struct error *error)
+{
+    struct reader reader = {data, bytes, path, error};
+    int result = take_mesh(&reader, mesh);
+    if (result)
+        mesh_free(mesh);
+    return result;
+}

@@ -1,0 +1,241 @@
+/* `triptych bench`: measures engines on the same streams, in one process.
+ *
+ * A repetition plays the same frames with every engine. The engines take turns, repetition by repetition, so
+ * that other work, heat and changes of the clock frequency affect all of them equally. Each engine has one
+ * device from warm-up to end, as an application would. Pictures are not read back.
+ *
+ * An engine stops early if its next repetition would exceed its share of seconds, but not before
+ * REPETITIONS_MINIMUM: the emulator is slow, and a median needs several values.
+ *
+ * If interrupted (interrupt.h), the command reports the streams that are done. */
+#include "command/bench/bench_builds.h"
+#include "command/bench/bench_cold.h"
+#include "command/bench/bench_report.h"
+#include "command/bench/bench_shaders.h"
+#include "command/support/choose.h"
+#include "command/support/interrupt.h"
+#include "command/support/option.h"
+#include "triptych.h"
+
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+enum { REPETITIONS_MINIMUM = 3, FRAMES_MAXIMUM = 65536, SECONDS_MAXIMUM = 86400 };
+
+static const double warm_up_share = 0.1; /* of an engine's seconds */
+
+struct settings {
+    unsigned threads, repetitions, frames; /* frames 0: all */
+    double seconds;
+    bool shaders; /* a table of each shader */
+    bool builds;  /* routines are built, no picture is drawn */
+    bool cold;    /* frames whose routines are not built yet */
+};
+
+static bool goes_on(const struct bench_run *run, const struct settings *settings)
+{
+    return run->repetitions < settings->repetitions &&
+           (run->repetitions < REPETITIONS_MINIMUM || run->spent + run->last <= settings->seconds);
+}
+
+static int start_runs(const struct command *self, const struct stream *stream, const struct choice *engines,
+                      const struct settings *settings, struct bench_stream *result)
+{
+    result->runs = calloc(engines->count, sizeof *result->runs);
+    if (!result->runs)
+        return tool_fail(self, "no memory for %u engines", engines->count);
+    for (; result->run_count < engines->count && !interrupt_signal(); result->run_count++) {
+        const char *name = triptych_engine_name(engines->index[result->run_count]);
+        tool_progress("%s: %s, warming up", result->name, name);
+        if (!strcmp(name, "emulate"))
+            result->baseline = result->run_count;
+        struct bench_run *run = result->runs + result->run_count;
+        if (bench_run_start(self, stream, engines->index[result->run_count], settings->threads,
+                            settings->shaders, settings->seconds * warm_up_share, run))
+            return bench_run_free(run), STATUS_BAD;
+    }
+    return STATUS_OK;
+}
+
+static int repeat_all(const struct command *self, const struct settings *settings,
+                      struct bench_stream *result)
+{
+    for (bool going_on = true; going_on;) {
+        going_on = false;
+        for (unsigned i = 0; i < result->run_count && !interrupt_signal(); i++) {
+            struct bench_run *run = result->runs + i;
+            if (!goes_on(run, settings))
+                continue;
+            going_on = true;
+            tool_progress("%s: %s, run %u", result->name, triptych_engine_name(run->engine),
+                          run->repetitions + 1);
+            if (bench_run_repeat(self, result->frames, run))
+                return STATUS_BAD;
+        }
+    }
+    return STATUS_OK;
+}
+
+static int finish_all(const struct command *self, struct bench_stream *result)
+{
+    triptych_target_size(result->runs->session.device, &result->width, &result->height);
+    for (unsigned i = 0; i < result->run_count; i++)
+        if (bench_run_finish(self, result->runs + i))
+            return STATUS_BAD;
+    for (unsigned i = 0; i < result->run_count; i++)
+        bench_run_rate(result->runs + result->baseline, result->runs + i);
+    return STATUS_OK;
+}
+
+/* The stream's name becomes a field of the CSV: what would end the field is replaced. */
+static void name_stream(const char *path, char name[STREAM_NAME])
+{
+    tool_path_stem(path, name, STREAM_NAME);
+    for (char *at = name; (at = strpbrk(at, ",\"\r\n"));)
+        *at = '_';
+}
+
+static int bench_one(const struct command *self, const char *path, const struct choice *engines,
+                     const struct settings *settings, struct bench_stream *result)
+{
+    result->path = path;
+    name_stream(path, result->name);
+    struct stream *stream = session_load(self, path);
+    if (!stream)
+        return STATUS_BAD;
+    result->frames = stream->frame_count;
+    if (settings->frames && settings->frames < result->frames)
+        result->frames = settings->frames;
+    int status = start_runs(self, stream, engines, settings, result);
+    if (!status)
+        status = repeat_all(self, settings, result);
+    if (!status && !interrupt_signal())
+        status = finish_all(self, result);
+    for (unsigned i = 0; i < result->run_count; i++)
+        session_close(&result->runs[i].session);
+    stream_free(stream);
+    return status;
+}
+
+static void free_stream(struct bench_stream *stream)
+{
+    for (unsigned i = 0; i < stream->run_count; i++)
+        bench_run_free(stream->runs + i);
+    free(stream->runs);
+    *stream = (struct bench_stream){0};
+}
+
+/* Measures the streams until all `count` are done or the command is interrupted. bench->stream_count is the
+ * number of streams that are done. */
+static int measure_all(const struct command *self, char **paths, unsigned count, const struct choice *engines,
+                       const struct settings *settings, struct bench *bench)
+{
+    while (bench->stream_count < count) {
+        struct bench_stream *stream = bench->streams + bench->stream_count;
+        int status = bench_one(self, paths[bench->stream_count], engines, settings, stream);
+        tool_progress(NULL);
+        if (status || interrupt_signal())
+            return free_stream(stream), status;
+        if (!bench->stream_count++)
+            bench_print_machine(bench);
+        bench_print_stream(bench, stream);
+        fflush(stdout);
+    }
+    return STATUS_OK;
+}
+
+static int bench_all(const struct command *self, char **paths, unsigned count, const struct choice *engines,
+                     const struct settings *settings, struct bench *bench)
+{
+    int status = measure_all(self, paths, count, engines, settings, bench);
+    if (status || !bench->stream_count)
+        return status;
+    bench_print_summary(bench);
+    return settings->shaders ? bench_print_shaders(self, bench) : STATUS_OK;
+}
+
+static void free_bench(struct bench *bench)
+{
+    for (unsigned i = 0; i < bench->stream_count; i++)
+        free_stream(bench->streams + i);
+    free(bench->streams);
+}
+
+static const char notes[] =
+    "Per stream and engine: a warm-up of up to a tenth of the seconds, then runs until the repetitions are "
+    "done or\n"
+    "the next one would exceed the seconds, but at least 3. A run plays the frames, again if that took less "
+    "than a\n"
+    "tenth of a second. Reported are medians, min, max and the median absolute deviation (mad). ns/vertex "
+    "is\n"
+    "geometry time per vertex shaded, ns/pixel tile time per pixel shaded, both summed over threads; "
+    "ms/frame is\n"
+    "wall time. \"x\" columns: times the speed of emulate (or, without it, of the first engine).\n"
+    "With --builds every routine that the streams' draws need is built once in each repetition; shown are "
+    "the "
+    "medians of\n"
+    "each routine's, and of what a draw's set of three takes.\n"
+    "SIGINT or SIGTERM ends it with a report of the streams that are done, and status 130 or 143.";
+
+int command_bench(const struct command *self, int count, char **arguments)
+{
+    struct settings settings = {.threads = 1, .repetitions = 15, .seconds = 10};
+    const char *engine_list = NULL, *json = NULL, *csv = NULL;
+    const struct option options[] = {
+        {"engines", "LIST", "engines, separated by commas; all that can run here", OPTION_TEXT, &engine_list,
+         0, 0},
+        {"threads", "N", "rendering threads of each device; 1", OPTION_NUMBER, &settings.threads, 1, 256},
+        {"repetitions", "N", "runs measured at most; 15", OPTION_NUMBER, &settings.repetitions,
+         REPETITIONS_MINIMUM, REPETITIONS_MAXIMUM},
+        {"seconds", "S", "time of an engine on a stream; 10", OPTION_SECONDS, &settings.seconds, 0,
+         SECONDS_MAXIMUM},
+        {"frames", "N", "frames of a run, spread over the stream; all", OPTION_NUMBER, &settings.frames, 1,
+         FRAMES_MAXIMUM},
+        {"shaders", NULL, "measure each routine's calls; tables by shader and by length", OPTION_FLAG,
+         &settings.shaders, 0, 0},
+        {"builds", NULL, "measure instead the time to build the streams' routines", OPTION_FLAG,
+         &settings.builds, 0, 0},
+        {"cold", NULL, "measure instead the first frames of a new device", OPTION_FLAG, &settings.cold, 0, 0},
+        {"json", "FILE", "write everything, each run included", OPTION_TEXT, &json, 0, 0},
+        {"csv", "FILE", "write a row per stream and engine", OPTION_TEXT, &csv, 0, 0},
+    };
+    struct operands operands = {.least = 1, .most = ANY_NUMBER};
+    enum options_result result =
+        options_read(self, options, sizeof options / sizeof *options, notes, count, arguments, &operands);
+    if (result != OPTIONS_GO)
+        return options_status(result);
+    struct choice engines;
+    if (choose_engines(self, engine_list, &engines) || tool_check_output(self, json) ||
+        tool_check_output(self, csv))
+        return STATUS_BAD;
+
+    if (settings.builds) {
+        interrupt_defer();
+        return bench_builds(self, operands.value, (unsigned)operands.count, &engines, settings.repetitions,
+                            json);
+    }
+    if (settings.cold) {
+        interrupt_defer();
+        return bench_cold(self, operands.value, (unsigned)operands.count, &engines, settings.threads,
+                          settings.repetitions, settings.frames, json);
+    }
+    struct bench bench = {machine_describe(), settings.threads, settings.shaders, 0, NULL};
+    unsigned count_streams = (unsigned)operands.count;
+    bench.streams = calloc(count_streams, sizeof *bench.streams);
+    if (!bench.streams)
+        return tool_fail(self, "no memory for %u streams", count_streams);
+    interrupt_defer();
+    int status = bench_all(self, operands.value, count_streams, &engines, &settings, &bench);
+    if (!status && json && bench.stream_count)
+        status = bench_write_json(self, &bench, json);
+    if (!status && csv && bench.stream_count)
+        status = bench_write_csv(self, &bench, csv);
+    if (!status && interrupt_signal()) {
+        printf("\ninterrupted by %s: %u of %u streams\n", interrupt_name(), bench.stream_count,
+               count_streams);
+        status = interrupt_status();
+    }
+    free_bench(&bench);
+    return status;
+}

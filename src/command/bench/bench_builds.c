@@ -1,0 +1,226 @@
+/* Plays the streams only for their keys (keys.h): the distinct routines, and the distinct sets of three that
+ * a draw needs. Then each engine builds all routines in rounds, in the order in which the streams need them.
+ * Each round has a new arena. The figure of a routine is the median of its rounds, which other work on the
+ * machine hardly changes. The figure of a set is the sum of its three routines. The first round is reported
+ * separately: its caches and pages are cold. */
+#include "command/bench/bench_builds.h"
+
+#include "base/clock.h"
+#include "machine/code.h"
+#include "engines/list.h"
+#include "command/support/interrupt.h"
+#include "command/support/json.h"
+#include "command/list/keys.h"
+#include "command/bench/execution.h"
+#include "command/bench/machine.h"
+#include "command/bench/summary.h"
+#include "command/support/session.h"
+#include "command/support/table.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+enum { ARENA_BYTES = 256 << 20 };
+
+/* A routine, with the engine at hand. */
+struct sample {
+    struct routine *routine;
+    double *us; /* of each round */
+    double median;
+};
+
+struct collection {
+    struct keys keys;
+    struct sample *sample; /* of each that was found */
+    unsigned rounds;
+    struct execution execution; /* of the engine at hand */
+};
+
+static int collect(const struct command *self, const char *path, struct collection *c)
+{
+    struct error error = {""};
+    struct stream *stream = session_load(self, path);
+    if (!stream)
+        return STATUS_BAD;
+    tool_progress("%s: %zu routines so far", path, c->keys.count);
+    int bad = keys_collect(&c->keys, stream, interrupt_signal, &error);
+    stream_free(stream);
+    return bad ? tool_fail(self, "%s: %s", path, error.text) : STATUS_OK;
+}
+
+/* --- Building ------------------------------------------------------------------------------------------- */
+
+static int build_round(const struct engine *engine, struct collection *c, unsigned round, struct error *error)
+{
+    struct code_arena *arena = engine->without_arena ? NULL : code_create(ARENA_BYTES, NULL, error);
+    int bad = !arena && !engine->without_arena;
+    size_t built = 0;
+    for (; built < c->keys.count && !bad; built++) {
+        const struct key_found *found = c->keys.found + built;
+        struct sample *sample = c->sample + built;
+        double start = clock_seconds() * 1e6;
+        sample->routine = engine_build(engine, arena, found->unit, &found->key, error);
+        sample->us[round] = clock_seconds() * 1e6 - start;
+        bad = !sample->routine;
+        if (!bad && !round)
+            execution_add(&c->execution, sample->routine);
+    }
+    for (size_t i = 0; i < built; i++)
+        if (c->sample[i].routine)
+            engine->free(arena, c->sample[i].routine);
+    code_destroy(arena);
+    return bad;
+}
+
+/* A kind of row: the routines of a unit or, as UNIT_COUNT, sets. */
+static const char *kind_name(unsigned kind)
+{
+    return kind < UNIT_COUNT ? unit_name[kind] : "set";
+}
+
+static double of_round(const struct sample *sample, int round)
+{
+    return round < 0 ? sample->median : sample->us[round];
+}
+
+/* Of a kind, in a round or, if that is -1, by their medians. */
+static struct summary summarize_kind(const struct collection *c, unsigned kind, int round, double *values)
+{
+    size_t count = 0;
+    for (size_t i = 0; i < c->keys.count && kind < UNIT_COUNT; i++)
+        if (c->keys.found[i].unit == kind)
+            values[count++] = of_round(c->sample + i, round);
+    for (size_t i = 0; i < c->keys.sets && kind == UNIT_COUNT; i++, count++) {
+        values[count] = 0;
+        for (int unit = 0; unit < UNIT_COUNT; unit++)
+            values[count] += of_round(c->sample + c->keys.set[i].routine[unit], round);
+    }
+    return summary_of(values, count);
+}
+
+static void find_medians(struct collection *c, double *values)
+{
+    for (size_t i = 0; i < c->keys.count; i++) {
+        memcpy(values, c->sample[i].us, c->rounds * sizeof *values);
+        c->sample[i].median = summary_of(values, c->rounds).median;
+    }
+}
+
+static cJSON *json_row(const struct engine *engine, const struct execution *execution, unsigned kind,
+                       const struct summary *all, const struct summary *first)
+{
+    cJSON *json = cJSON_CreateObject();
+    cJSON_AddStringToObject(json, "engine", engine->name);
+    execution_json(execution, json);
+    cJSON_AddStringToObject(json, "what", kind_name(kind));
+    cJSON_AddNumberToObject(json, "count", (double)all->count);
+    cJSON_AddNumberToObject(json, "least_us", all->least);
+    cJSON_AddNumberToObject(json, "p10_us", all->p10);
+    cJSON_AddNumberToObject(json, "median_us", all->median);
+    cJSON_AddNumberToObject(json, "p90_us", all->p90);
+    cJSON_AddNumberToObject(json, "p99_us", all->p99);
+    cJSON_AddNumberToObject(json, "most_us", all->most);
+    cJSON_AddNumberToObject(json, "first_median_us", first->median);
+    cJSON_AddNumberToObject(json, "first_p99_us", first->p99);
+    cJSON_AddNumberToObject(json, "first_most_us", first->most);
+    return json;
+}
+
+static void report(const struct collection *c, const struct engine *engine, double *values,
+                   struct table *table, cJSON *rows)
+{
+    char lanes[EXECUTION_TEXT];
+    for (unsigned kind = 0; kind <= UNIT_COUNT; kind++) {
+        struct summary first = summarize_kind(c, kind, 0, values);
+        struct summary all = summarize_kind(c, kind, -1, values);
+        const double cells[] = {all.least, all.p10,      all.median, all.p90,   all.p99,
+                                all.most,  first.median, first.p99,  first.most};
+        table_cell(table, "%s", engine->name);
+        table_cell(table, "%s", execution_lanes(&c->execution, lanes));
+        table_cell(table, "%s", execution_set(&c->execution));
+        table_cell(table, "%s", kind_name(kind));
+        table_cell(table, "%zu", all.count);
+        for (size_t i = 0; i < sizeof cells / sizeof *cells; i++)
+            table_cell(table, "%.1f", cells[i]);
+        cJSON_AddItemToArray(rows, json_row(engine, &c->execution, kind, &all, &first));
+    }
+}
+
+static int measure(const struct command *self, const struct engine *engine, struct collection *c)
+{
+    struct error error = {""};
+    c->execution = (struct execution){0};
+    for (unsigned round = 0; round < c->rounds && !interrupt_signal(); round++) {
+        tool_progress("%s: round %u of %u", engine->name, round + 1, c->rounds);
+        if (build_round(engine, c, round, &error))
+            return tool_fail(self, "engine %s: %s", engine->name, error.text);
+    }
+    return STATUS_OK;
+}
+
+static void begin_table(struct table *table)
+{
+    static const char *const headings[] = {"count", "min", "p10",           "median", "p90",
+                                           "p99",   "max", "first: median", "p99",    "max"};
+    table_column(table, "engine", TABLE_LEFT);
+    table_column(table, "lanes", TABLE_LEFT);
+    table_column(table, "set", TABLE_LEFT);
+    table_column(table, "microseconds", TABLE_LEFT);
+    for (size_t i = 0; i < sizeof headings / sizeof *headings; i++)
+        table_column(table, headings[i], TABLE_RIGHT);
+}
+
+static int measure_all(const struct command *self, const struct choice *engines, struct collection *c,
+                       cJSON *rows)
+{
+    struct table table = {0};
+    size_t most = c->keys.sets > c->keys.count ? c->keys.sets : c->keys.count;
+    double *values = calloc(most + c->rounds + 1, sizeof *values);
+    double *us = calloc(c->keys.count * c->rounds + 1, sizeof *us);
+    c->sample = calloc(c->keys.count + 1, sizeof *c->sample);
+    int status =
+        values && us && c->sample ? STATUS_OK : tool_fail(self, "no memory for %zu routines", c->keys.count);
+    for (size_t i = 0; i < c->keys.count && !status; i++)
+        c->sample[i].us = us + i * c->rounds;
+    begin_table(&table);
+    for (unsigned i = 0; i < engines->count && !status && !interrupt_signal(); i++) {
+        const struct engine *engine = engine_at(engines->index[i]);
+        status = measure(self, engine, c);
+        if (status || interrupt_signal())
+            break;
+        find_medians(c, values);
+        report(c, engine, values, &table, rows);
+    }
+    tool_progress(NULL);
+    table_print(&table, 0, stdout);
+    free(values);
+    free(us);
+    free(c->sample);
+    return status;
+}
+
+int bench_builds(const struct command *self, char **paths, unsigned count, const struct choice *engines,
+                 unsigned rounds, const char *json)
+{
+    struct collection c = {.rounds = rounds};
+    const struct machine machine = machine_describe();
+    int status = STATUS_OK;
+    for (unsigned i = 0; i < count && !status && !interrupt_signal(); i++)
+        status = collect(self, paths[i], &c);
+    tool_progress(NULL);
+    cJSON *report = cJSON_CreateObject();
+    cJSON_AddItemToObject(report, "machine", machine_json(&machine));
+    cJSON *rows = cJSON_AddArrayToObject(report, "builds");
+    if (!status && !interrupt_signal()) {
+        printf("%u streams, %zu routines, %zu sets, %u rounds; commit %s, %s\n", count, c.keys.count,
+               c.keys.sets, rounds, machine.commit, machine.date);
+        status = measure_all(self, engines, &c, rows);
+    }
+    if (!status && interrupt_signal())
+        status = interrupt_status();
+    if (!status && json)
+        status = json_write(self, report, json);
+    cJSON_Delete(report);
+    keys_free(&c.keys);
+    return status;
+}

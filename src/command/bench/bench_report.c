@@ -1,0 +1,265 @@
+#include "command/bench/bench_report.h"
+#include "command/bench/bench_shaders.h"
+#include "base/file.h"
+#include "base/memory_file.h"
+#include "contract/key.h"
+#include "command/support/choose.h"
+#include "command/support/interrupt.h"
+#include "command/support/json.h"
+#include "command/support/table.h"
+#include "triptych.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+static const struct {
+    const char *name, *heading;
+    int decimals;
+} columns[BENCH_COLUMNS] = {
+#define COLUMN(name, heading, decimals, meaning) {#name, heading, decimals},
+#include "command/bench/bench.def"
+#undef COLUMN
+};
+
+void bench_print_machine(const struct bench *bench)
+{
+    const struct machine *machine = &bench->machine;
+    printf("%s, %u cores, %s\n%s, commit %s, %s\n", machine->model, machine->cores, machine->kernel,
+           machine->compiler, machine->commit, machine->date);
+}
+
+void bench_print_stream(const struct bench *bench, const struct bench_stream *stream)
+{
+    struct table table = {0};
+    char lanes[EXECUTION_TEXT];
+    printf("\n%s: %u x %u, frames a run: %u, threads: %u\n", stream->name, stream->width, stream->height,
+           stream->frames, bench->threads);
+    table_column(&table, "engine", TABLE_LEFT);
+    table_column(&table, "lanes", TABLE_LEFT);
+    table_column(&table, "set", TABLE_LEFT);
+    for (int i = 0; i < BENCH_COLUMNS; i++)
+        if (columns[i].heading[0])
+            table_column(&table, columns[i].heading, TABLE_RIGHT);
+    for (unsigned i = 0; i < stream->run_count; i++) {
+        const struct execution *execution = &stream->runs[i].execution;
+        table_cell(&table, "%s", triptych_engine_name(stream->runs[i].engine));
+        table_cell(&table, "%s", execution_lanes(execution, lanes));
+        table_cell(&table, "%s", execution_set(execution));
+        for (int j = 0; j < BENCH_COLUMNS; j++)
+            if (columns[j].heading[0])
+                table_cell(&table, "%.*f", columns[j].decimals, stream->runs[i].value[j]);
+    }
+    table_print(&table, 2, stdout);
+}
+
+static void print_speedups(const struct bench *bench)
+{
+    struct table table = {0};
+    const struct bench_stream *first = bench->streams;
+    printf("\ntimes the speed of %s, by whole frames\n",
+           triptych_engine_name(first->runs[first->baseline].engine));
+    table_column(&table, "stream", TABLE_LEFT);
+    double logarithms[CHOICE_CAPACITY] = {0};
+    for (unsigned j = 0; j < first->run_count; j++)
+        table_column(&table, triptych_engine_name(first->runs[j].engine), TABLE_RIGHT);
+    for (unsigned i = 0; i < bench->stream_count; i++) {
+        table_cell(&table, "%s", bench->streams[i].name);
+        for (unsigned j = 0; j < first->run_count; j++) {
+            double speedup = bench->streams[i].runs[j].value[COLUMN_speedup];
+            table_cell(&table, "%.2f", speedup);
+            logarithms[j] += log(speedup);
+        }
+    }
+    table_cell(&table, "geometric mean");
+    for (unsigned j = 0; j < first->run_count; j++)
+        table_cell(&table, "%.2f", exp(logarithms[j] / bench->stream_count));
+    table_print(&table, 2, stdout);
+}
+
+/* Build times and sizes of one engine's routines for one unit, over all streams. */
+struct unit_summary {
+    struct summary us, bytes;
+    size_t by_operation; /* how many were stitched from operation fragments */
+};
+
+static size_t count_builds(const struct bench *bench, unsigned run)
+{
+    size_t count = 0;
+    for (unsigned i = 0; i < bench->stream_count; i++)
+        count += bench->streams[i].runs[run].build_count;
+    return count;
+}
+
+static struct unit_summary summarize_unit(const struct bench *bench, unsigned run, unsigned unit)
+{
+    size_t all = count_builds(bench, run), count = 0, coded = 0, by_operation = 0;
+    double *us = calloc(all + 1, sizeof *us), *bytes = calloc(all + 1, sizeof *bytes);
+    for (unsigned i = 0; i < bench->stream_count && us && bytes; i++)
+        for (size_t j = 0; j < bench->streams[i].runs[run].build_count; j++) {
+            const struct build *build = bench->streams[i].runs[run].builds + j;
+            if (build->unit != unit)
+                continue;
+            us[count++] = build->us;
+            by_operation += build->by_operation;
+            if (build->code_bytes > 0)
+                bytes[coded++] = build->code_bytes;
+        }
+    if (!us || !bytes)
+        tool_report_mark_incomplete();
+    struct unit_summary summary = {summary_of(us, count), summary_of(bytes, coded), by_operation};
+    free(us);
+    free(bytes);
+    return summary;
+}
+
+static void print_builds(const struct bench *bench)
+{
+    struct table table = {0};
+    puts("\nbuilding routines, all streams");
+    table_column(&table, "engine", TABLE_LEFT);
+    table_column(&table, "unit", TABLE_LEFT);
+    static const char *const headings[] = {
+        "routines", "by operation", "build us: min", "p10", "median", "p90",
+        "p99",      "max",          "bytes: median", "min", "max"};
+    for (size_t i = 0; i < sizeof headings / sizeof *headings; i++)
+        table_column(&table, headings[i], TABLE_RIGHT);
+    for (unsigned run = 0; run < bench->streams->run_count; run++)
+        for (unsigned unit = 0; unit < UNIT_COUNT; unit++) {
+            struct unit_summary summary = summarize_unit(bench, run, unit);
+            table_cell(&table, "%s", triptych_engine_name(bench->streams->runs[run].engine));
+            table_cell(&table, "%s", unit_name[unit]);
+            table_cell(&table, "%zu", summary.us.count);
+            table_cell(&table, "%zu", summary.by_operation);
+            table_cell(&table, "%.1f", summary.us.least);
+            table_cell(&table, "%.1f", summary.us.p10);
+            table_cell(&table, "%.1f", summary.us.median);
+            table_cell(&table, "%.1f", summary.us.p90);
+            table_cell(&table, "%.1f", summary.us.p99);
+            table_cell(&table, "%.1f", summary.us.most);
+            table_cell(&table, "%.0f", summary.bytes.median);
+            table_cell(&table, "%.0f", summary.bytes.least);
+            table_cell(&table, "%.0f", summary.bytes.most);
+        }
+    table_print(&table, 2, stdout);
+}
+
+void bench_print_summary(const struct bench *bench)
+{
+    print_speedups(bench);
+    print_builds(bench);
+}
+
+static cJSON *json_run(const struct bench_run *run)
+{
+    static const char *const names[MEASURE_COUNT] = {
+        [MEASURE_FRAME_MS] = "frame_ms", [MEASURE_VERTEX_NS] = "vertex_ns", [MEASURE_PIXEL_NS] = "pixel_ns"};
+    cJSON *json = cJSON_CreateObject();
+    cJSON_AddStringToObject(json, "engine", triptych_engine_name(run->engine));
+    execution_json(&run->execution, json);
+    for (int i = 0; i < BENCH_COLUMNS; i++)
+        cJSON_AddNumberToObject(json, columns[i].name, run->value[i]);
+    cJSON *samples = cJSON_AddObjectToObject(json, "samples");
+    for (int i = 0; i < MEASURE_COUNT; i++)
+        cJSON_AddItemToObject(samples, names[i],
+                              cJSON_CreateDoubleArray(run->samples[i], (int)run->repetitions));
+    return json;
+}
+
+static cJSON *json_stream(const struct bench_stream *stream)
+{
+    cJSON *json = cJSON_CreateObject();
+    cJSON_AddStringToObject(json, "stream", stream->name);
+    cJSON_AddStringToObject(json, "path", stream->path);
+    cJSON_AddNumberToObject(json, "width", stream->width);
+    cJSON_AddNumberToObject(json, "height", stream->height);
+    cJSON_AddNumberToObject(json, "frames", stream->frames);
+    cJSON *runs = cJSON_AddArrayToObject(json, "engines");
+    for (unsigned i = 0; i < stream->run_count; i++)
+        cJSON_AddItemToArray(runs, json_run(stream->runs + i));
+    return json;
+}
+
+static cJSON *json_summary(const struct summary *summary)
+{
+    cJSON *json = cJSON_CreateObject();
+    cJSON_AddNumberToObject(json, "median", summary->median);
+    cJSON_AddNumberToObject(json, "min", summary->least);
+    cJSON_AddNumberToObject(json, "max", summary->most);
+    cJSON_AddNumberToObject(json, "deviation", summary->deviation);
+    cJSON_AddNumberToObject(json, "p10", summary->p10);
+    cJSON_AddNumberToObject(json, "p90", summary->p90);
+    cJSON_AddNumberToObject(json, "p99", summary->p99);
+    return json;
+}
+
+static void add_builds(cJSON *builds, const struct bench *bench, unsigned run, unsigned unit)
+{
+    struct unit_summary summary = summarize_unit(bench, run, unit);
+    struct execution execution = {0};
+    for (unsigned i = 0; i < bench->stream_count; i++)
+        execution_add_all(&execution, &bench->streams[i].runs[run].execution);
+    cJSON *json = cJSON_CreateObject();
+    cJSON_AddStringToObject(json, "engine", triptych_engine_name(bench->streams->runs[run].engine));
+    cJSON_AddStringToObject(json, "unit", unit_name[unit]);
+    execution_json(&execution, json);
+    cJSON_AddNumberToObject(json, "routines", (double)summary.us.count);
+    cJSON_AddNumberToObject(json, "by_operation", (double)summary.by_operation);
+    cJSON_AddItemToObject(json, "build_us", json_summary(&summary.us));
+    cJSON_AddItemToObject(json, "code_bytes", json_summary(&summary.bytes));
+    cJSON_AddItemToArray(builds, json);
+}
+
+int bench_write_json(const struct command *self, const struct bench *bench, const char *path)
+{
+    cJSON *json = cJSON_CreateObject();
+    cJSON_AddItemToObject(json, "machine", machine_json(&bench->machine));
+    cJSON_AddNumberToObject(json, "threads", bench->threads);
+    if (interrupt_signal())
+        cJSON_AddStringToObject(json, "interrupted", interrupt_name());
+    cJSON *streams = cJSON_AddArrayToObject(json, "streams");
+    for (unsigned i = 0; i < bench->stream_count; i++)
+        cJSON_AddItemToArray(streams, json_stream(bench->streams + i));
+    cJSON *builds = cJSON_AddArrayToObject(json, "builds");
+    for (unsigned run = 0; run < bench->streams->run_count; run++)
+        for (unsigned unit = 0; unit < UNIT_COUNT; unit++)
+            add_builds(builds, bench, run, unit);
+    if (bench->shaders)
+        cJSON_AddItemToObject(json, "shaders", bench_json_shaders(bench));
+    int status = json_write(self, json, path);
+    cJSON_Delete(json);
+    return status;
+}
+
+static void write_row(FILE *out, const struct bench *bench, const struct bench_stream *stream,
+                      const struct bench_run *run)
+{
+    char lanes[EXECUTION_TEXT];
+    fprintf(out, "%s,%s,%s,%s,%u,%u", stream->name, triptych_engine_name(run->engine),
+            execution_lanes(&run->execution, lanes), execution_set(&run->execution), bench->threads,
+            stream->frames);
+    for (int i = 0; i < BENCH_COLUMNS; i++)
+        fprintf(out, ",%.6g", run->value[i]);
+    fputc('\n', out);
+}
+
+int bench_write_csv(const struct command *self, const struct bench *bench, const char *path)
+{
+    char *text = NULL;
+    size_t bytes = 0;
+    FILE *out = tool_report_is_complete() ? memory_file_open() : NULL;
+    if (!out)
+        return tool_fail(self, "no memory for %s", path);
+    fputs("stream,engine,lanes,instruction_set,threads,frames", out);
+    for (int i = 0; i < BENCH_COLUMNS; i++)
+        fprintf(out, ",%s", columns[i].name);
+    fputc('\n', out);
+    for (unsigned i = 0; i < bench->stream_count; i++)
+        for (unsigned j = 0; j < bench->streams[i].run_count; j++)
+            write_row(out, bench, bench->streams + i, bench->streams[i].runs + j);
+    struct error error = {""};
+    int bad = memory_file_close(out, &text, &bytes) ? error_set(&error, "no memory for %s", path)
+                                                    : file_write(path, text, bytes, &error);
+    free(text);
+    return bad ? tool_fail(self, "%s", error.text) : STATUS_OK;
+}

@@ -1,0 +1,499 @@
+#include "command/fuzz/bisect/bisect.h"
+
+#include "render/device/device.h"
+#include "command/fuzz/bisect/hunt.h"
+#include "engines/tiered/tiered.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+/* --- A routine that is two ------------------------------------------------------------------------------ */
+
+struct pair {
+    struct routine routine;
+    struct routine *side[2];
+};
+
+/* A bisection. The routines of its engine `pair` find it in that engine's options. */
+struct search {
+    const struct engine *engine[2];
+    struct engine pair; /* builds a routine with each of the two */
+    const struct bisect_options *options;
+    struct bisection *bisection;
+    struct triptych_device *device;
+    struct error *error;
+    struct replay replay;
+    uint8_t *image[2];
+    bool watches; /* the draw is one of those that are looked at */
+    bool found, failed;
+};
+
+static struct search *search_of(const struct pair *pair)
+{
+    return (struct search *)(uintptr_t)pair->routine.engine->options;
+}
+
+static void free_pair(struct code_arena *arena, struct routine *routine)
+{
+    struct pair *pair = (struct pair *)(void *)routine;
+    for (int i = 0; i < 2; i++)
+        if (pair->side[i])
+            pair->side[i]->engine->free(arena, pair->side[i]);
+    free(pair);
+}
+
+static int examine(struct search *search, const struct pair *pair);
+
+static void forget_replay(struct search *search)
+{
+    replay_free(&search->replay);
+    for (int i = 0; i < 2; i++) {
+        free(search->image[i]);
+        search->image[i] = NULL;
+    }
+}
+
+/* Returns true if the two routines differ on the call, within the pixel or draw that the options select. */
+static bool differs(struct search *search, const struct pair *pair, const void *call)
+{
+    const struct target *target = device_target(search->device);
+    struct replay_target planes = {target->planes * target->samples, target->depth ? target->samples : 0};
+    struct replay *replay = &search->replay;
+    bool out_of_memory = replay_take(replay, pair->side[0], call, &planes) != 0;
+    replay->pixel_x = search->options->x;
+    replay->pixel_y = search->options->y;
+    for (int i = 0; i < 2 && !out_of_memory; i++) {
+        search->image[i] = replay_image(replay);
+        out_of_memory = !search->image[i];
+        if (!out_of_memory)
+            replay_run(replay, pair->side[i], search->image[i]);
+    }
+    if (out_of_memory) {
+        error_set(search->error, "out of memory for the call of a routine");
+        search->failed = true;
+        return false;
+    }
+    return replay_differs(replay, search->image[0], search->image[1], NULL);
+}
+
+static void run_pair(const void *call, const struct routine *routine)
+{
+    const struct pair *pair = (const struct pair *)(const void *)routine;
+    struct search *search = search_of(pair);
+    if (search->watches && !search->found && !search->failed) {
+        if (differs(search, pair, call)) {
+            search->found = true;
+            search->failed = examine(search, pair) != 0;
+        }
+        forget_replay(search);
+    }
+    pair->side[0]->run(call, pair->side[0]);
+}
+
+static struct routine *build_pair(const struct engine *self, struct code_arena *arena, enum unit unit,
+                                  const union key *key, struct error *error)
+{
+    struct pair *pair = calloc(1, sizeof *pair);
+    if (!pair) {
+        error_set(error, "out of memory for a routine");
+        return NULL;
+    }
+    pair->routine.engine = self;
+    for (int i = 0; i < 2; i++) {
+        pair->side[i] = engine_build(search_of(pair)->engine[i], arena, unit, key, error);
+        if (!pair->side[i]) {
+            free_pair(arena, &pair->routine);
+            return NULL;
+        }
+        pair->routine.code_bytes += pair->side[i]->code_bytes;
+    }
+    pair->routine.run = run_pair;
+    pair->routine.unit = unit;
+    pair->routine.key = *key;
+    return &pair->routine;
+}
+
+static const struct engine engine_pair = {
+    .name = "pair",
+    .description = "two engines together",
+    .width = LANES_MAXIMUM,
+    .build = build_pair,
+    .free = free_pair,
+};
+
+/* --- The operation -------------------------------------------------------------------------------------- */
+
+bool hunt_agrees(const struct ir *ir, uint32_t instruction, uint32_t a, uint32_t b)
+{
+    const struct ir_instruction *i = &ir->instruction[instruction];
+    while (i->op == IR_copy)
+        i = &ir->instruction[i->operand[0]];
+    return a == b || (i->type == TYPE_flt && (a & 0x7fffffff) > 0x7f800000 && (b & 0x7fffffff) > 0x7f800000);
+}
+
+static void note_lane(struct bisection *b, const struct replay *r, uint32_t lane)
+{
+    b->lane = lane;
+    if (r->unit == UNIT_PIXEL)
+        replay_pixel(r, lane, &b->x, &b->y);
+    else
+        memcpy(&b->element, r->before + r->output_bytes + 4 * (size_t)lane, sizeof b->element);
+}
+
+void hunt_note(struct hunt *hunt, const struct ir *ir, const struct event_list *events, uint32_t event,
+               unsigned lane, const uint32_t value[2])
+{
+    struct bisection *b = hunt->bisection;
+    const struct event *e = events->event + event;
+    const struct ir_instruction *i = &ir->instruction[e->instruction];
+    b->outcome = BISECT_FOUND;
+    note_lane(b, hunt->replay, hunt->probing.lane + lane);
+    b->operation = ir_op_information[i->op].name;
+    b->type = i->type;
+    b->value[0] = value[0];
+    b->value[1] = value[1];
+    b->expected = e->lane[lane];
+    b->instruction = e->instruction;
+    b->in_loop = e->visit != 0;
+    b->visit_pass = events->visit[e->visit].pass;
+    if (i->line)
+        snprintf(b->place, sizeof b->place, "%s:%u", ir->file[i->file], i->line);
+}
+
+/* Of an instruction in the recording, in a lane of the four. */
+static uint32_t last_value(const struct hunt *hunt, uint32_t instruction, uint32_t lane)
+{
+    const struct event_list *events = &hunt->probing.events;
+    for (uint32_t n = events->count; n-- > 0;)
+        if (events->event[n].instruction == instruction)
+            return events->event[n].lane[lane];
+    return 0;
+}
+
+/* The store of the recording that writes the first word that differs. */
+static void note_store(struct hunt *hunt)
+{
+    struct bisection *b = hunt->bisection;
+    const uint8_t *base[BASE_COUNT];
+    uint8_t *image = hunt->replay->before;
+    replay_bases(hunt->replay, image, hunt->probing.lane, base);
+    for (uint32_t n = 1; n < hunt->ir->count; n++) {
+        const struct ir_instruction *i = &hunt->ir->instruction[n];
+        uint32_t lane = hunt->place.element - hunt->probing.lane;
+        int32_t step = i->op == IR_scatter ? i->field : 4;
+        if ((i->op != IR_store && i->op != IR_scatter) || lane >= QUAD_LANES ||
+            base[i->base] + i->k + (ptrdiff_t)lane * step != image + hunt->place.at)
+            continue;
+        b->operation = ir_op_information[i->op].name;
+        b->instruction = n;
+        b->type = hunt->ir->instruction[i->operand[0]].type;
+        b->expected = last_value(hunt, i->operand[0], lane);
+        snprintf(b->place, sizeof b->place, "%s:%u", hunt->ir->file[i->file], i->line);
+    }
+}
+
+/* No value differs: then it is the store, unless there is more than has been seen. */
+static void note_nothing(struct hunt *hunt, int wrong, uint32_t unseen)
+{
+    struct bisection *b = hunt->bisection;
+    const char *why = "all %u values are the same: it is how they are stored, or whether";
+    if (hunt->probing.events.cut)
+        why = "the values of the first %u operations are the same, and it goes on for longer";
+    else if (unseen)
+        why = "of %u values none that can be seen differs: looking makes the difference disappear";
+    else if (wrong >= 0 && probe_reading(hunt->routine[wrong]) == READING_TRACED)
+        why = "%u values: the emulator's reading of the specification, compiled once more, gives the right "
+              "ones";
+    else
+        b->outcome = BISECT_FOUND;
+#pragma GCC diagnostic push
+#pragma GCC diagnostic ignored "-Wformat-nonliteral"
+    snprintf(b->reason, sizeof b->reason, why, hunt->probing.events.count);
+#pragma GCC diagnostic pop
+}
+
+/* The first event at which both are seen and differ, in the order of execution. */
+static void compare_events(struct hunt *hunt, int wrong)
+{
+    const struct event_list *events = &hunt->probing.events;
+    uint32_t unseen = 0;
+    for (uint32_t n = 0; n < events->count; n++) {
+        if (!hunt->seen[0].known[n] || !hunt->seen[1].known[n]) {
+            unseen++;
+            continue;
+        }
+        for (unsigned l = 0; l < QUAD_LANES; l++) {
+            unsigned lane = (hunt->place.element + l) % QUAD_LANES; /* that of the output first */
+            uint32_t value[2] = {hunt->seen[0].value[n][lane], hunt->seen[1].value[n][lane]};
+            if (hunt_agrees(hunt->ir, events->event[n].instruction, value[0], value[1]))
+                continue;
+            hunt_note(hunt, hunt->ir, events, n, lane, value);
+            if (unseen)
+                snprintf(hunt->bisection->reason, sizeof hunt->bisection->reason,
+                         "%u values before it are not seen: looking at them makes the difference disappear",
+                         unseen);
+            return;
+        }
+    }
+    note_nothing(hunt, wrong, unseen);
+}
+
+/* The side whose value is not that of the recording; -1 if unknown. */
+static int wrong_side(const struct hunt *hunt)
+{
+    uint8_t *image = replay_image(hunt->replay), *ran = replay_image(hunt->replay);
+    int side = -1;
+    if (image && ran && interpret_all(hunt->interpreter, hunt->ir, hunt->replay, image))
+        for (int i = 0; i < 2 && side < 0; i++) {
+            replay_run(hunt->replay, hunt->routine[i], ran);
+            if (replay_differs(hunt->replay, image, ran, NULL))
+                side = i;
+        }
+    free(image);
+    free(ran);
+    return side;
+}
+
+/* The outputs of these stage fragments are right, so the values of the recording are used as theirs. */
+static void take_recorded(const struct hunt *hunt, struct observation *seen)
+{
+    for (uint32_t n = 0; n < hunt->probing.events.count; n++) {
+        memcpy(seen->value[n], hunt->probing.events.event[n].lane, sizeof *seen->value);
+        seen->known[n] = 1;
+    }
+}
+
+static int observe(struct hunt *hunt, int wrong, struct error *error)
+{
+    for (int i = 0; i < 2; i++)
+        if (observation_start(hunt->seen + i, &hunt->probing.events))
+            return error_set(error, "out of memory for %u values", hunt->probing.events.count);
+    for (int i = 0; i < 2; i++)
+        if (probe_reading(hunt->routine[i]) == READING_STAGES) {
+            if (wrong == i)
+                return hunt_stages(hunt, (unsigned)i, error);
+            take_recorded(hunt, hunt->seen + i);
+        } else if (probe_observe(&hunt->probing, hunt->routine[i], hunt->seen + i, error)) {
+            return -1;
+        }
+    compare_events(hunt, wrong);
+    return 0;
+}
+
+/* Operations of the four lanes in which the outputs differ. */
+static int find_operation(struct hunt *hunt, struct error *error)
+{
+    uint8_t *image = replay_image(hunt->replay);
+    if (!image)
+        return error_set(error, "out of memory for the call of a routine");
+    uint32_t lane = hunt->place.element / QUAD_LANES * QUAD_LANES;
+    memcpy(image, hunt->replay->before, hunt->replay->output_bytes + hunt->replay->table_bytes);
+    interpret(hunt->interpreter, hunt->ir, hunt->replay, image, lane, true);
+    free(image);
+    hunt->probing = (struct probing){.ir = hunt->ir,
+                                     .replay = hunt->replay,
+                                     .events = interpreter_events(hunt->interpreter),
+                                     .lane = lane,
+                                     .arena = hunt->arena,
+                                     .interpreter = hunt->interpreter};
+    hunt->bisection->outcome = BISECT_NARROWED;
+    note_store(hunt);
+    int side = wrong_side(hunt);
+    int result = observe(hunt, side, error);
+    if (side >= 0 && !result)
+        result = hunt_passes(hunt, (unsigned)side, error);
+    for (int i = 0; i < 2; i++)
+        observation_free(hunt->seen + i);
+    return result;
+}
+
+/* --- The call ------------------------------------------------------------------------------------------- */
+
+static void name_output(struct bisection *b, const struct replay *r, size_t at)
+{
+    static const struct {
+        const char *name;
+        int slot;
+    } slots[] = {
+        {"x", SLOT_X},
+        {"y", SLOT_Y},
+        {"z", SLOT_Z},
+        {"w", SLOT_W},
+        {"clip code", SLOT_CODE},
+#define VARYING(name, components, text) {#name, SLOT_##name},
+#include "def/state/varying.def"
+#undef VARYING
+        {"point size", SLOT_POINT_SIZE}
+    };
+    if (r->unit == UNIT_VERTEX) {
+        int slot = (int)(at / VERTEX_SLOT_BYTES), i = 0;
+        while (i + 1 < (int)(sizeof slots / sizeof *slots) && slots[i + 1].slot <= slot)
+            i++;
+        snprintf(b->output_name, sizeof b->output_name, "%s%+d", slots[i].name, slot - slots[i].slot);
+        if (slot == slots[i].slot)
+            snprintf(b->output_name, sizeof b->output_name, "%s", slots[i].name);
+    } else if (r->unit == UNIT_SETUP) {
+        snprintf(b->output_name, sizeof b->output_name, "byte %zu of the record", at % r->layout.stride);
+    } else if (at < r->color_bytes) {
+        snprintf(b->output_name, sizeof b->output_name, "colour plane %zu", at / TILE_PLANE_BYTES);
+    } else if (at < r->output_bytes) {
+        snprintf(b->output_name, sizeof b->output_name, "depth plane %zu",
+                 (at - r->color_bytes) / TILE_PLANE_BYTES);
+    } else {
+        snprintf(b->output_name, sizeof b->output_name, "pixels passed");
+    }
+}
+
+static void note_place(struct bisection *b, const struct replay *r, const struct replay_place *place)
+{
+    note_lane(b, r, place->element);
+    memcpy(b->output, place->word, sizeof b->output);
+    memcpy(b->value, place->word, sizeof b->value);
+    name_output(b, r, place->at);
+}
+
+/* Runs the narrowed call with both and notes where they differ first. */
+static int compare_call(struct hunt *hunt, struct error *error)
+{
+    uint8_t *image[2] = {replay_image(hunt->replay), replay_image(hunt->replay)};
+    int result = image[0] && image[1] ? 0 : error_set(error, "out of memory for the call of a routine");
+    for (int i = 0; i < 2 && !result; i++)
+        replay_run(hunt->replay, hunt->routine[i], image[i]);
+    if (!result && replay_differs(hunt->replay, image[0], image[1], &hunt->place))
+        note_place(hunt->bisection, hunt->replay, &hunt->place);
+    free(image[0]);
+    free(image[1]);
+    return result;
+}
+
+static int examine_narrowed(struct hunt *hunt, struct error *error)
+{
+    hunt->ir = ir_take(hunt->replay->unit, hunt->replay->key, error);
+    hunt->interpreter = interpreter_create();
+    int result = hunt->ir ? 0 : -1;
+    if (!result && (!hunt->interpreter || replay_reserve(hunt->replay, probe_rows(hunt->ir))))
+        result = error_set(error, "out of memory for the values of %u operations", hunt->ir->count);
+    if (!result)
+        result = find_operation(hunt, error);
+    interpreter_free(hunt->interpreter);
+    if (hunt->ir)
+        ir_give(hunt->ir);
+    return result;
+}
+
+static int examine(struct search *search, const struct pair *pair)
+{
+    struct bisection *b = search->bisection;
+    struct replay *replay = &search->replay;
+    struct hunt hunt = {.bisection = b,
+                        .routine = {pair->side[0], pair->side[1]},
+                        .replay = replay,
+                        .arena = search->device->arena};
+    b->outcome = BISECT_CALL;
+    b->unit = replay->unit;
+    key_print(replay->unit, replay->key, b->key);
+    int narrowed = replay_narrow(replay, pair->side[0], pair->side[1]);
+    if (narrowed < 0)
+        return error_set(search->error, "out of memory for the call of a routine");
+    if (compare_call(&hunt, search->error))
+        return -1;
+    if (!narrowed) {
+        snprintf(b->reason, sizeof b->reason,
+                 "it takes more than one %s to make them differ, of %u in the call",
+                 replay->unit == UNIT_PIXEL ? "block" : "group of 16", replay->count);
+        return 0;
+    }
+    return examine_narrowed(&hunt, search->error);
+}
+
+/* --- The stream ----------------------------------------------------------------------------------------- */
+
+static bool is_draw(const struct stream *stream, uint32_t position)
+{
+    enum call_type type = stream->calls[stream->executed[position]].type;
+    return type == CALL_DRAW || type == CALL_DRAW_INDEXED || type == CALL_DRAW_MESH;
+}
+
+/* The stream with a frame for each draw: `frames` has room for all of its calls and two more. */
+static struct stream draw_by_draw(const struct stream *stream, uint32_t *frames)
+{
+    struct stream view = *stream;
+    view.frames = frames;
+    view.frame_count = 0;
+    frames[0] = 0;
+    for (uint32_t i = 0; i < stream->executed_count; i++)
+        if (is_draw(stream, i))
+            frames[++view.frame_count] = i + 1;
+    return view;
+}
+
+/* The frame, and the draw within it, of a draw of the stream. */
+static void number_draw(const struct stream *stream, uint32_t position, struct bisection *b)
+{
+    while (b->frame + 1 < stream->frame_count && stream->frames[b->frame + 1] <= position)
+        b->frame++;
+    for (uint32_t i = stream->frames[b->frame]; i < position; i++)
+        b->draw_of_frame += is_draw(stream, i);
+}
+
+static int play(struct search *search, const struct stream *stream, struct stream *view, struct error *error)
+{
+    struct player *player;
+    int result = stream_prepare(view, search->device, &player, error);
+    for (uint32_t i = 0; i < view->frame_count && !result && !search->found && !search->failed; i++) {
+        search->watches = search->options->draw < 0 || search->options->draw == i;
+        result = player_frame(player, i, error);
+        if (search->found) {
+            search->bisection->draw = i;
+            number_draw(stream, view->frames[i + 1] - 1, search->bisection);
+        }
+    }
+    player_free(player);
+    return result || search->failed ? -1 : 0;
+}
+
+static int search_stream(struct search *search, const struct stream *stream, struct error *error)
+{
+    const struct device_options options = {.threads = 1};
+    uint32_t *frames = malloc((stream->executed_count + 2) * sizeof *frames);
+    if (!frames)
+        return error_set(error, "out of memory for %u calls", stream->executed_count);
+    struct stream view = draw_by_draw(stream, frames);
+    search->pair = engine_pair;
+    search->pair.options = search;
+    search->pair.without_arena = search->engine[0]->without_arena && search->engine[1]->without_arena;
+    int result = 0;
+    if (search->options->draw >= (int64_t)view.frame_count)
+        result = error_set(error, "there is no draw %u, the stream has %u", (unsigned)search->options->draw,
+                           view.frame_count);
+    else if (device_create(&search->pair, &options, &search->device, error))
+        result = -1;
+    if (!result) {
+        result = play(search, stream, &view, error);
+        device_destroy(search->device);
+    }
+    free(frames);
+    return result;
+}
+
+int bisect(const struct stream *stream, const struct engine *reference, const struct engine *other,
+           const struct bisect_options *options, struct bisection *bisection, struct error *error)
+{
+    static const struct bisect_options any = {BISECT_ANY, BISECT_ANY, BISECT_ANY};
+    struct search search = {.engine = {reference, other},
+                            .options = options ? options : &any,
+                            .bisection = bisection,
+                            .error = error};
+    *bisection = (struct bisection){.engine = {reference, other}};
+    for (int i = 0; i < 2; i++) {
+        const char *why =
+            engine_unavailable(search.engine[i]); /* one call: the reason may change between two */
+        if (why)
+            return error_set(error, "engine %s: %s", search.engine[i]->name, why);
+        if (tiered_engine(search.engine[i], 0))
+            return error_set(error, "engine %s: its routines are those of %s and %s, which can be bisected",
+                             search.engine[i]->name, tiered_engine(search.engine[i], 0)->name,
+                             tiered_engine(search.engine[i], 1)->name);
+    }
+    return search_stream(&search, stream, error);
+}

@@ -1,0 +1,136 @@
+#include "command/fuzz/case/case.h"
+
+#include "command/fuzz/case/case_part.h"
+#include "command/fuzz/case/shader.h"
+
+void case_number(struct maker *maker, float least, float most)
+{
+    text_add(maker->text, " %.9g", (double)random_float(&maker->random, least, most));
+}
+
+void case_numbers(struct maker *maker, unsigned count, float least, float most)
+{
+    while (count--)
+        case_number(maker, least, most);
+}
+
+void case_color(struct maker *maker)
+{
+    text_add(maker->text, " 0x%08x", (uint32_t)random_u64(&maker->random));
+}
+
+static void add_clear(struct maker *maker)
+{
+    text_add(maker->text, "clear color");
+    case_numbers(maker, 4, 0, 1);
+    if (maker->has_depth)
+        text_add(maker->text, " depth %.9g", (double)random_float(&maker->random, 0.5f, 1));
+    if (maker->has_stencil)
+        text_add(maker->text, " stencil %u", random_below(&maker->random, 256));
+    text_add(maker->text, "\n");
+}
+
+/* --- Draws ---------------------------------------------------------------------------------------------- */
+
+enum { PRIMITIVES = TRIPTYCH_PRIMITIVE_COUNT };
+
+static const struct {
+    const char *word;
+    unsigned first, each; /* vertices of the first primitive, of each other */
+} primitives[PRIMITIVES] = {
+    [TRIPTYCH_TRIANGLE_LIST] = {"triangles", 3, 3}, [TRIPTYCH_TRIANGLE_STRIP] = {"strip", 3, 1},
+    [TRIPTYCH_TRIANGLE_FAN] = {"fan", 3, 1},        [TRIPTYCH_POINT_LIST] = {"points", 1, 1},
+    [TRIPTYCH_LINE_LIST] = {"lines", 2, 2},         [TRIPTYCH_LINE_STRIP] = {"linestrip", 2, 1}};
+
+static void add_draw(struct maker *maker)
+{
+    struct random *random = &maker->random;
+    unsigned p = random_chance(random, 3) ? random_below(random, PRIMITIVES) : random_below(random, 3);
+    bool indexed = maker->indices && (maker->instanced || !random_chance(random, 4));
+    unsigned corners = indexed ? maker->indices : maker->vertices;
+    unsigned most = (corners - primitives[p].first) / primitives[p].each + 1;
+    text_add(maker->text, indexed ? "draw-indexed %s 0 0 %u\n" : "draw %s 0 %u\n", primitives[p].word,
+             random_chance(random, 3) ? 1 + random_below(random, most) : most);
+}
+
+static void change_something(struct maker *maker)
+{
+    case_states(maker, random_below(&maker->random, 6));
+    if (random_chance(&maker->random, 6))
+        case_copy(maker);
+    if (random_chance(&maker->random, 6))
+        case_change(maker);
+    if (random_chance(&maker->random, 8))
+        case_samplers(maker);
+    if (random_chance(&maker->random, 8))
+        case_switch_shaders(maker);
+}
+
+/* The target is read where it is drawn to: what one draw leaves the next ones blend with and compare with. */
+static void add_draws(struct maker *maker)
+{
+    unsigned draws = 1 + random_below(&maker->random, 3);
+    bool query = random_chance(&maker->random, 4);
+    if (query)
+        text_add(maker->text, "begin-query q0\n");
+    for (unsigned d = 0; d < draws; d++) {
+        if (d)
+            change_something(maker);
+        add_draw(maker);
+    }
+    if (query)
+        text_add(maker->text, "end-query q0\n");
+}
+
+/* Draws to a texture, which later draws may sample. */
+static void add_pass(struct maker *maker)
+{
+    if (!random_chance(&maker->random, 8) || !case_attach(maker))
+        return;
+    text_add(maker->text, "clear color");
+    case_numbers(maker, 4, 0, 1);
+    text_add(maker->text, "\n");
+    add_draw(maker);
+    text_add(maker->text, "attach none\n");
+    case_samplers(maker);
+}
+
+/* --- The whole ------------------------------------------------------------------------------------------ */
+
+/* The writers of shaders add the elements that shaders need. */
+static void choose(struct maker *maker)
+{
+    struct random *random = &maker->random;
+    maker->wild = random_chance(random, 5);
+    maker->window = random_chance(random, 8);
+    maker->stages =
+        random_chance(random, 3) ? random_below(random, TRIPTYCH_STAGES + 1) : 1 + random_below(random, 2);
+    maker->samplers = (1u << maker->stages) - 1;
+    for (unsigned i = 0; i < TRIPTYCH_SAMPLERS; i++)
+        maker->sampler_type[i] = ANY_TEXTURE;
+}
+
+void case_write(struct random *random, struct text *text)
+{
+    struct maker maker = {.random = *random, .text = text};
+    struct fuzz_shader made[TRIPTYCH_SHADER_STAGE_COUNT];
+    choose(&maker);
+    text_add(text, "triptych 1\n");
+    case_target(&maker);
+    case_shaders(&maker, made);
+    case_textures(&maker);
+    text_add(text, "query q0\n");
+    case_vertices(&maker);
+    case_window(&maker);
+    case_transforms(&maker);
+    case_lights(&maker);
+    case_constants(&maker);
+    case_samplers(&maker);
+    case_stages(&maker);
+    case_features(&maker);
+    case_states(&maker, random_chance(&maker.random, 4) ? 0 : random_below(&maker.random, 24));
+    add_pass(&maker);
+    add_clear(&maker);
+    add_draws(&maker);
+    *random = maker.random;
+}

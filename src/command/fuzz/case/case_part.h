@@ -1,0 +1,65 @@
+/* The maker: the state that the writers of a case share, and what has been written. */
+#ifndef COMMAND_FUZZ_CASE_CASE_PART_H
+#define COMMAND_FUZZ_CASE_CASE_PART_H
+
+#include "command/fuzz/case/random.h"
+#include "command/fuzz/case/text.h"
+#include "triptych.h"
+
+enum { CASE_TEXTURES = 6, ANY_TEXTURE = TRIPTYCH_TEXTURE_TYPE_COUNT };
+
+struct fuzz_shader;
+
+struct case_texture {
+    enum triptych_texture_type type;
+    unsigned size; /* of a side */
+    bool target;   /* can be drawn to */
+    bool mips;
+    unsigned update_words; /* of the buffer that can replace a face's first level; 0: there is none */
+};
+
+struct maker {
+    struct random random;
+    struct text *text;
+    unsigned width, height; /* of the target */
+    bool has_depth, has_stencil;
+    unsigned targets, samples;
+    bool wild;   /* vertices and matrices hold anything */
+    bool window; /* vertices are in pixels of the target */
+    unsigned vertices, indices;
+    bool instanced; /* which only draws with indices can be */
+    struct case_texture texture[CASE_TEXTURES];
+    unsigned textures;
+    uint64_t elements; /* of vertices that a shader needs: enum stream_element, a bit each */
+    const struct fuzz_shader *shader[TRIPTYCH_SHADER_STAGE_COUNT]; /* null: the fixed function */
+    unsigned stages;                                               /* texture stages in use */
+    uint32_t samplers;                                             /* in use, a bit each */
+    unsigned sampler_type[TRIPTYCH_SAMPLERS]; /* the type that a shader needs, or ANY_TEXTURE */
+};
+
+/* The parts, in the order in which a case has them; names are made of the maker's counts. */
+void case_target(struct maker *);
+void case_shaders(struct maker *, struct fuzz_shader *made); /* one per stage */
+void case_textures(struct maker *);
+void case_vertices(struct maker *);
+void case_transforms(struct maker *);
+void case_lights(struct maker *);
+void case_window(struct maker *);
+void case_features(struct maker *);
+void case_states(struct maker *, unsigned changes);
+void case_constants(struct maker *);
+void case_samplers(struct maker *);
+void case_stages(struct maker *);
+
+/* Changes between draws. case_attach returns true if draws go to a texture from here on. */
+bool case_attach(struct maker *);
+void case_copy(struct maker *);
+void case_change(struct maker *);
+void case_switch_shaders(struct maker *);
+
+/* Forms of values: " 0.25", four of them, " 0xAARRGGBB". */
+void case_number(struct maker *, float least, float most);
+void case_numbers(struct maker *, unsigned count, float least, float most);
+void case_color(struct maker *);
+
+#endif

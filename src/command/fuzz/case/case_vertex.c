@@ -1,0 +1,220 @@
+/* Vertices and indices of random kinds: any elements in any types that a declaration can have, values from
+ * plausible to anything. Wild ones lie in a buffer of words, since text has no NaN. */
+#include "base/bits.h"
+#include "command/fuzz/case/case_part.h"
+
+#include "contract/key.h"
+#include "command/stream/stream.h"
+#include "capture/word.h"
+
+#include <math.h>
+
+enum { VERTICES = 12, ELEMENTS = 24 };
+
+struct element {
+    unsigned number; /* enum stream_element */
+    enum triptych_format format;
+};
+
+/* --- Which elements ------------------------------------------------------------------------------------- */
+
+static enum triptych_format random_type(struct maker *maker)
+{
+    return random_chance(&maker->random, 2)
+               ? TRIPTYCH_FORMAT_FLOAT1 + random_below(&maker->random, 4)
+               : (enum triptych_format)(1 + random_below(&maker->random, TRIPTYCH_FORMAT_COUNT - 1));
+}
+
+/* Positions are of four components as a rule: what has fewer cannot be behind the eye. */
+static struct element position_element(struct maker *maker)
+{
+    if (maker->window)
+        return (struct element){TRIPTYCH_POSITIONT, TRIPTYCH_FORMAT_FLOAT4};
+    enum triptych_format usual =
+        random_chance(&maker->random, 3) ? TRIPTYCH_FORMAT_FLOAT3 : TRIPTYCH_FORMAT_FLOAT4;
+    return (struct element){TRIPTYCH_POSITION,
+                            random_chance(&maker->random, 12) ? random_type(maker) : usual};
+}
+
+static unsigned choose_elements(struct maker *maker, struct element elements[ELEMENTS])
+{
+    unsigned count = 0, one_in = 2 + random_below(&maker->random, 3);
+    elements[count++] = position_element(maker);
+    for (unsigned e = 0; e < STREAM_ELEMENTS && count < ELEMENTS; e++) {
+        bool common = e == TRIPTYCH_DIFFUSE || e == TRIPTYCH_TEXCOORD || e == TRIPTYCH_NORMAL;
+        bool wanted = maker->elements >> e & 1 ? !random_chance(&maker->random, 12)
+                                               : random_chance(&maker->random, common ? 2 : 4 * one_in);
+        if (wanted && e != TRIPTYCH_POSITION && e != TRIPTYCH_POSITIONT)
+            elements[count++] = (struct element){e, random_type(maker)};
+    }
+    return count;
+}
+
+/* --- Values --------------------------------------------------------------------------------------------- */
+
+/* In clip space, since most transforms are identities, or in pixels. */
+static void random_position(struct maker *maker, float position[4])
+{
+    static const float odd[] = {-1, 0, 1e-3f, 100};
+    if (maker->window) {
+        position[0] = random_float(&maker->random, -3, (float)maker->width + 3);
+        position[1] = random_float(&maker->random, -3, (float)maker->height + 3);
+        position[2] = random_float(&maker->random, 0, 1);
+        position[3] = random_float(&maker->random, 0.125f, 2);
+        return;
+    }
+    float w = random_chance(&maker->random, 2) ? 1 : random_float(&maker->random, 0.25f, 4);
+    if (random_chance(&maker->random, 16))
+        w = odd[random_below(&maker->random, 4)];
+    for (int c = 0; c < 3; c++)
+        position[c] = w * random_float(&maker->random, c == 2 ? -0.125f : -1.5f, c == 2 ? 1.125f : 1.5f);
+    position[3] = w;
+}
+
+static float element_value(struct maker *maker, unsigned element, unsigned c, const float position[4])
+{
+    if (element == TRIPTYCH_POSITION || element == TRIPTYCH_POSITIONT)
+        return position[c];
+    if (element == TRIPTYCH_POINT_SIZE)
+        return random_float(&maker->random, 0, 6);
+    return random_float(&maker->random, element == TRIPTYCH_DIFFUSE ? 0 : -1, 2);
+}
+
+/* Integer fields: their own range, as the text format needs it. Indices of matrices stay below the number of
+ * transforms. */
+static void add_field(struct maker *maker, unsigned element, const struct vertex_type *type)
+{
+    int32_t half = 1 << (type->bits - 1);
+    if (type->encoding == ENCODING_HALF)
+        case_number(maker, -2, 2);
+    else if (type->encoding == ENCODING_SIGNED)
+        text_add(maker->text, " %d", random_between(&maker->random, -half, half - 1));
+    else if (element == TRIPTYCH_INDICES)
+        text_add(maker->text, " %u", random_below(&maker->random, 4));
+    else
+        text_add(maker->text, " %u", random_below(&maker->random, 2u * (uint32_t)half));
+}
+
+static void add_typed(struct maker *maker, const struct element *element, const float position[4])
+{
+    const struct vertex_type *type = &key_vertex_types[element->format];
+    if (type->encoding == ENCODING_COLOR) {
+        case_color(maker);
+        return;
+    }
+    for (unsigned c = 0; c < type->components; c++)
+        if (type->encoding == ENCODING_FLOAT)
+            text_add(maker->text, " %.9g", (double)element_value(maker, element->number, c, position));
+        else
+            add_field(maker, element->number, type);
+}
+
+static void add_words(struct maker *maker, const struct element *element, const float position[4])
+{
+    const struct vertex_type *type = &key_vertex_types[element->format];
+    for (unsigned w = 0; w < type->bytes / 4u; w++) {
+        float value = element_value(maker, element->number, w, position);
+        uint32_t bits = bits_of_float(value);
+        if (type->encoding != ENCODING_FLOAT)
+            bits = (uint32_t)random_u64(&maker->random);
+        else if (random_chance(&maker->random, 8))
+            bits = random_wild_bits(&maker->random);
+        text_add(maker->text, " %u", bits);
+    }
+}
+
+/* --- Resources ------------------------------------------------------------------------------------------ */
+
+static void add_elements(struct maker *maker, const struct element *elements, unsigned count)
+{
+    for (unsigned e = 0; e < count; e++)
+        text_add(maker->text, " %s:%s", word_text(WORDS_ATTRIBUTE, elements[e].number),
+                 word_text(WORDS_FORMAT, elements[e].format));
+}
+
+static void add_block(struct maker *maker, const struct element *elements, unsigned count)
+{
+    text_add(maker->text, " {\n");
+    for (unsigned v = 0; v < maker->vertices; v++) {
+        float position[4];
+        random_position(maker, position);
+        for (unsigned e = 0; e < count; e++)
+            (maker->wild ? add_words : add_typed)(maker, &elements[e], position);
+        text_add(maker->text, "\n");
+    }
+    text_add(maker->text, "}\n");
+}
+
+static unsigned stride_of(const struct element *elements, unsigned count)
+{
+    unsigned bytes = 0;
+    for (unsigned e = 0; e < count; e++)
+        bytes += key_vertex_types[elements[e].format].bytes;
+    return bytes;
+}
+
+/* Elements first to first + count - 1 as a resource of their own. */
+static void add_resource(struct maker *maker, unsigned number, const struct element *elements, unsigned count)
+{
+    if (maker->wild) {
+        text_add(maker->text, "buffer v%u u32", number);
+    } else {
+        text_add(maker->text, "vertices v%u", number);
+        add_elements(maker, elements, count);
+    }
+    add_block(maker, elements, count);
+}
+
+/* Each part of the elements in a stream of its own. */
+static void bind_streams(struct maker *maker, const struct element *elements, const unsigned part[2])
+{
+    text_add(maker->text, "declare");
+    add_elements(maker, elements, part[0]);
+    if (part[1])
+        text_add(maker->text, " 1");
+    add_elements(maker, elements + part[0], part[1]);
+    text_add(maker->text, "\nbind stream 0 v0 0 %u\n", stride_of(elements, part[0]));
+    if (part[1])
+        text_add(maker->text, "bind stream 1 v1 0 %u\n", stride_of(elements + part[0], part[1]));
+}
+
+static void add_indices(struct maker *maker)
+{
+    maker->indices = 3 * (1 + random_below(&maker->random, 4));
+    text_add(maker->text, "indices i0 %u {", random_chance(&maker->random, 2) ? 16 : 32);
+    for (unsigned i = 0; i < maker->indices; i++)
+        text_add(maker->text, " %u", random_below(&maker->random, maker->vertices));
+    text_add(maker->text, " }\nbind indices i0\n");
+}
+
+/* The second stream steps with instances. There are no more instances than vertices. */
+static void add_instances(struct maker *maker)
+{
+    maker->instanced = true;
+    text_add(maker->text, "frequency 0 indexed %u\nfrequency 1 instance %u\n",
+             1 + random_below(&maker->random, maker->vertices < 4 ? maker->vertices : 4),
+             1 + random_below(&maker->random, 2));
+}
+
+void case_vertices(struct maker *maker)
+{
+    struct element elements[ELEMENTS];
+    maker->vertices = 3 + random_below(&maker->random, VERTICES - 2);
+    unsigned count = choose_elements(maker, elements), part[2] = {count, 0};
+    if (count > 1 && random_chance(&maker->random, 5)) {
+        part[0] = 1 + random_below(&maker->random, count - 1);
+        part[1] = count - part[0];
+    }
+    add_resource(maker, 0, elements, part[0]);
+    if (part[1])
+        add_resource(maker, 1, elements + part[0], part[1]);
+    if (part[1] || maker->wild)
+        bind_streams(maker, elements, part);
+    else
+        text_add(maker->text, "bind vertices v0\n");
+    maker->indices = 0;
+    if (random_chance(&maker->random, 3))
+        add_indices(maker);
+    if (part[1] && maker->indices && random_chance(&maker->random, 2))
+        add_instances(maker);
+}

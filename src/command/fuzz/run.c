@@ -1,0 +1,290 @@
+#include "command/fuzz/run.h"
+
+#include "render/device/device.h"
+#include "render/texture/texture.h"
+#include "command/stream/stream.h"
+
+#include <inttypes.h>
+#include <stdarg.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+const char *const outcome_name[OUTCOME_COUNT] = {
+    [OUTCOME_SAME] = "same",       [OUTCOME_REFUSED] = "refused",
+    [OUTCOME_LIMITED] = "limited", [OUTCOME_DIFFERENT] = "different",
+    [OUTCOME_FAILED] = "failed",   [OUTCOME_CRASHED] = "crashed",
+    [OUTCOME_HUNG] = "hung"};
+
+enum { QUERIES = 64, CACHE_BYTES_FUZZ = 4 << 20 };
+
+struct runner {
+    struct runner_options options;
+    struct triptych_device *device[RUNNER_ENGINES];
+    struct player *player[RUNNER_ENGINES]; /* of the case */
+    uint32_t *words;                       /* what the reference drew: tiles, depths, texels, in that order */
+    size_t capacity, count;
+    uint64_t queries[QUERIES];
+    unsigned query_count;
+};
+
+static enum outcome find(struct finding *finding, enum outcome outcome, const char *format, ...)
+    __attribute__((format(printf, 3, 4)));
+static enum outcome find(struct finding *finding, enum outcome outcome, const char *format, ...)
+{
+    va_list arguments;
+    va_start(arguments, format);
+    vsnprintf(finding->what, sizeof finding->what, format, arguments);
+    va_end(arguments);
+    return finding->outcome = outcome;
+}
+
+/* --- Devices -------------------------------------------------------------------------------------------- */
+
+struct runner *runner_create(const struct runner_options *options, struct error *error)
+{
+    struct runner *runner = calloc(1, sizeof *runner);
+    struct device_options device = {.cache_bytes = CACHE_BYTES_FUZZ};
+    if (!runner) {
+        error_set(error, "out of memory for a runner");
+        return NULL;
+    }
+    runner->options = *options;
+    for (unsigned i = 0; i < options->threads; i++)
+        device.threads = options->thread[i] > device.threads ? options->thread[i] : device.threads;
+    for (unsigned i = 0; i < options->engines; i++)
+        if (device_create(options->engine[i], &device, &runner->device[i], error)) {
+            runner_destroy(runner);
+            return NULL;
+        }
+    return runner;
+}
+
+void runner_destroy(struct runner *runner)
+{
+    if (!runner)
+        return;
+    for (unsigned i = 0; i < runner->options.engines; i++)
+        device_destroy(runner->device[i]);
+    free(runner->words);
+    free(runner);
+}
+
+uint64_t runner_pixels(const struct runner *runner)
+{
+    struct triptych_statistics statistics;
+    device_get_statistics(runner->device[0], &statistics);
+    return statistics.pixels_shaded;
+}
+
+/* --- What was drawn ------------------------------------------------------------------------------------- */
+
+/* A run of words of a device, and what they are. */
+struct section {
+    const char *what;
+    const uint32_t *words;
+    size_t count;
+    uint32_t item, planes; /* tile or texture number, planes of a tile and sample */
+};
+
+typedef int section_visitor(void *user, const struct section *section);
+
+/* Visits the words of a device, in an order that depends only on the stream. Stops at a result that is not
+ * 0. */
+static int visit_sections(struct triptych_device *device, section_visitor *visit, void *user)
+{
+    struct target *target = device_target(device);
+    int stop = 0;
+    for (uint32_t tile = 0; tile < target->columns * target->rows && !stop; tile++) {
+        struct section color = {"colour", target_fill_color(target, tile),
+                                (size_t)target->samples * target->planes * TILE_PIXELS, tile, target->planes};
+        if (target->planes)
+            stop = visit(user, &color);
+        if (target->depth && !stop) {
+            struct section depth = {"depth and stencil", target_fill_depth(target, tile),
+                                    (size_t)target->samples * TILE_PIXELS, tile, 1};
+            stop = visit(user, &depth);
+        }
+    }
+    uint32_t number = 0;
+    for (struct triptych_texture *texture = device->resources.textures; texture && !stop;
+         texture = texture->next) {
+        struct section texels = {"texture", texture->texels, texture_storage_bytes(texture) / 4, number++, 0};
+        stop = visit(user, &texels);
+    }
+    return stop;
+}
+
+static int keep_section(void *user, const struct section *section)
+{
+    struct runner *runner = user;
+    if (runner->count + section->count > runner->capacity) {
+        size_t capacity = 2 * (runner->count + section->count);
+        uint32_t *larger = realloc(runner->words, capacity * sizeof *larger);
+        if (!larger)
+            return -1;
+        runner->words = larger;
+        runner->capacity = capacity;
+    }
+    memcpy(runner->words + runner->count, section->words, section->count * sizeof *section->words);
+    runner->count += section->count;
+    return 0;
+}
+
+struct comparison {
+    const struct runner *runner;
+    const struct target *target;
+    size_t at; /* in the reference's words */
+    struct finding *finding;
+};
+
+/* Where a word of a tile lies: the pixel in the target, the sample and the plane. */
+static void describe_pixel(const struct comparison *comparison, const struct section *section, size_t word,
+                           char text[96])
+{
+    uint32_t pixel = word % TILE_PIXELS, block = pixel / 16, lane = pixel % 16,
+             plane = (uint32_t)(word / TILE_PIXELS);
+    uint32_t columns = comparison->target->columns, blocks = TILE_SIZE / 4;
+    uint32_t x = section->item % columns * TILE_SIZE + block % blocks * 4 + (lane & 1) + 2 * (lane >> 2 & 1);
+    uint32_t y =
+        section->item / columns * TILE_SIZE + block / blocks * 4 + (lane >> 1 & 1) + 2 * (lane >> 3 & 1);
+    snprintf(text, 96, "%s of pixel %u,%u, sample %u, plane %u", section->what, x, y, plane / section->planes,
+             plane % section->planes);
+}
+
+static int compare_section(void *user, const struct section *section)
+{
+    struct comparison *comparison = user;
+    const uint32_t *expected = comparison->runner->words + comparison->at;
+    char place[96];
+    comparison->at += section->count;
+    if (comparison->at > comparison->runner->count) {
+        find(comparison->finding, OUTCOME_DIFFERENT, "%s %u is missing in the reference", section->what,
+             section->item);
+        return 1;
+    }
+    if (!memcmp(expected, section->words, section->count * sizeof *expected))
+        return 0;
+    size_t i = 0;
+    while (expected[i] == section->words[i])
+        i++;
+    if (section->planes)
+        describe_pixel(comparison, section, i, place);
+    else
+        snprintf(place, sizeof place, "word %zu of texture %u from the last", i, section->item);
+    find(comparison->finding, OUTCOME_DIFFERENT, "%s: %08x, expected %08x", place, section->words[i],
+         expected[i]);
+    return 1;
+}
+
+/* --- One configuration ---------------------------------------------------------------------------------- */
+
+static void keep_queries(struct runner *runner)
+{
+    struct query_count count;
+    runner->query_count = 0;
+    while (runner->query_count < QUERIES && player_query(runner->player[0], runner->query_count, &count))
+        runner->queries[runner->query_count++] = count.passed;
+}
+
+static enum outcome compare_queries(const struct runner *runner, unsigned engine, struct finding *finding)
+{
+    struct query_count count;
+    for (unsigned i = 0; i < runner->query_count; i++)
+        if (!player_query(runner->player[engine], i, &count) || count.passed != runner->queries[i])
+            return find(finding, OUTCOME_DIFFERENT, "query %s counted %" PRIu64 ", expected %" PRIu64,
+                        count.name, count.passed, runner->queries[i]);
+    return OUTCOME_SAME;
+}
+
+/* Recordings and plans have a largest size (ir/pool.c, engines/stitch/plan.c), each its own, and the
+ * emulator has none. */
+static bool is_limit(const char *reason)
+{
+    return strstr(reason, "routine takes more than") || strstr(reason, "exceeds its room of");
+}
+
+static enum outcome play_reference(struct runner *runner, uint32_t frame, struct finding *finding)
+{
+    struct error error = {{0}};
+    finding->engine = runner->options.engine[0];
+    finding->threads = runner->options.thread[0];
+    device_limit_threads(runner->device[0], finding->threads);
+    if (player_frame(runner->player[0], frame, &error))
+        return find(finding, OUTCOME_REFUSED, "%s", error.text);
+    runner->count = 0;
+    if (visit_sections(runner->device[0], keep_section, runner))
+        return find(finding, OUTCOME_REFUSED, "out of memory for what was drawn");
+    keep_queries(runner);
+    return OUTCOME_SAME;
+}
+
+static enum outcome play_other(struct runner *runner, uint32_t frame, unsigned engine, unsigned threads,
+                               struct finding *finding)
+{
+    struct error error = {{0}};
+    struct triptych_device *device = runner->device[engine];
+    struct comparison comparison = {runner, device_target(device), 0, finding};
+    finding->engine = runner->options.engine[engine];
+    finding->threads = threads;
+    device_limit_threads(device, threads);
+    if (player_frame(runner->player[engine], frame, &error))
+        return find(finding, is_limit(error.text) ? OUTCOME_LIMITED : OUTCOME_FAILED, "%s", error.text);
+    if (visit_sections(device, compare_section, &comparison))
+        return OUTCOME_DIFFERENT;
+    if (comparison.at != runner->count)
+        return find(finding, OUTCOME_DIFFERENT, "%zu words, expected %zu", comparison.at, runner->count);
+    return compare_queries(runner, engine, finding);
+}
+
+/* --- One case ------------------------------------------------------------------------------------------- */
+
+static enum outcome play_frame(struct runner *runner, uint32_t frame, struct finding *finding)
+{
+    const struct runner_options *options = &runner->options;
+    enum outcome outcome = play_reference(runner, frame, finding), limited = OUTCOME_SAME;
+    for (unsigned e = 0; e < options->engines && !outcome; e++)
+        for (unsigned t = e ? 0 : 1; t < options->threads && !outcome; t++) {
+            outcome = play_other(runner, frame, e, options->thread[t], finding);
+            if (outcome == OUTCOME_LIMITED) {
+                limited = outcome;
+                outcome = OUTCOME_SAME;
+                break;
+            }
+        }
+    return outcome ? outcome : limited;
+}
+
+static enum outcome play(struct runner *runner, const struct stream *stream, struct finding *finding)
+{
+    struct error error = {{0}};
+    enum outcome outcome = OUTCOME_SAME, limited = OUTCOME_SAME;
+    for (unsigned e = 0; e < runner->options.engines; e++)
+        if (stream_prepare(stream, runner->device[e], &runner->player[e], &error))
+            return find(finding, OUTCOME_REFUSED, "%s", error.text);
+    for (uint32_t frame = 0; frame < stream->frame_count && !outcome; frame++) {
+        outcome = play_frame(runner, frame, finding);
+        if (outcome == OUTCOME_LIMITED) {
+            limited = outcome;
+            outcome = OUTCOME_SAME;
+        }
+    }
+    return outcome ? outcome : limited;
+}
+
+enum outcome runner_run(struct runner *runner, const char *path, const char *text, size_t bytes,
+                        struct finding *finding)
+{
+    struct error error = {{0}};
+    struct stream *stream;
+    *finding = (struct finding){.outcome = OUTCOME_SAME};
+    if (stream_parse(path, text, bytes, &stream, &error))
+        return find(finding, OUTCOME_REFUSED, "%s", error.text);
+    enum outcome outcome = play(runner, stream, finding);
+    for (unsigned e = 0; e < runner->options.engines; e++) {
+        player_free(runner->player[e]);
+        runner->player[e] = NULL;
+    }
+    stream_free(stream);
+    return finding->outcome = outcome;
+}

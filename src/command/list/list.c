@@ -1,0 +1,170 @@
+/* `triptych list`: engines, states, shaders, formats and processor features, as tables or as JSON.
+ *
+ * Each subject fills a JSON array of objects. The table for people is made from the same objects, one column
+ * per member, so that the two agree. States and shaders do not fit one table and print themselves
+ * (command/list/states.h, command/list/shaders.h). */
+#include "machine/cpu.h"
+#include "render/texture/format.h"
+#include "engines/list.h"
+#include "engines/specialize/passes/pass.h"
+#include "command/support/json.h"
+#include "command/support/option.h"
+#include "command/list/shaders.h"
+#include "command/list/states.h"
+#include "command/support/table.h"
+#include "triptych.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+static void add_text(cJSON *row, const char *name, const char *text)
+{
+    cJSON_AddStringToObject(row, name, text);
+}
+
+static cJSON *add_row(cJSON *rows)
+{
+    cJSON *row = cJSON_CreateObject();
+    cJSON_AddItemToArray(rows, row);
+    return row;
+}
+
+static void list_engines(cJSON *rows)
+{
+    for (unsigned i = 0; triptych_engine_name(i); i++) {
+        const char *reason = triptych_engine_unavailable(i);
+        cJSON *row = add_row(rows);
+        add_text(row, "engine", triptych_engine_name(i));
+        if (triptych_engine_width(i))
+            cJSON_AddNumberToObject(row, "width", triptych_engine_width(i));
+        else
+            add_text(row, "width", "chosen");
+        add_text(row, "here", reason ? reason : "available");
+        add_text(row, "runs", engine_at(i)->on_request ? "if named" : "always");
+        add_text(row, "description", triptych_engine_description(i));
+    }
+}
+
+static void list_cpu(cJSON *rows)
+{
+    const struct cpu *cpu = cpu_native();
+    cJSON *row = add_row(rows);
+    add_text(row, "what", "model");
+    add_text(row, "here", cpu->model);
+    add_text(row, "meaning", "brand string of the processor");
+    for (unsigned i = 0; i < CPU_FEATURE_COUNT; i++) {
+        row = add_row(rows);
+        add_text(row, "what", cpu_feature_name(i));
+        add_text(row, "here", cpu->has[i] ? "yes" : cpu->hidden[i] ? "hidden" : "no");
+        add_text(row, "meaning", cpu_feature_meaning(i));
+    }
+}
+
+static void list_passes(cJSON *rows)
+{
+    for (unsigned i = 0; pass_name(i); i++) {
+        cJSON *row = add_row(rows);
+        add_text(row, "pass", pass_name(i));
+        add_text(row, "meaning", pass_description(i));
+    }
+}
+
+static void list_formats(cJSON *rows)
+{
+    static const struct {
+        unsigned role;
+        const char *word;
+    } roles[] = {
+        {ROLE_TEXTURE, "texture"}, {ROLE_TARGET, "target"}, {ROLE_DEPTH, "depth"}, {ROLE_COMPARE, "compare"}};
+    const struct format *format;
+    for (unsigned i = 0; (format = format_at(i)); i++) {
+        char text[64] = "";
+        for (unsigned r = 0; r < sizeof roles / sizeof *roles; r++)
+            if (format->roles & roles[r].role)
+                snprintf(text + strlen(text), sizeof text - strlen(text), "%s%s", text[0] ? " " : "",
+                         roles[r].word);
+        cJSON *row = add_row(rows);
+        add_text(row, "format", format->name);
+        cJSON_AddNumberToObject(row, "number", format->number);
+        cJSON_AddNumberToObject(row, "bytes", format->bytes);
+        cJSON_AddNumberToObject(row, "texels", format->side * format->side);
+        add_text(row, "stored", format->storage == STORAGE_RGBA8 ? "rgba8" : "float4");
+        add_text(row, "roles", text[0] ? text : "not supported");
+    }
+}
+
+/* A subject that does not fit one table has its own functions to print it. */
+static const struct subject {
+    const char *name;
+    void (*list)(cJSON *rows);
+    void (*print)(FILE *out);
+    void (*print_markdown)(FILE *out);
+} subjects[] = {
+    {"engines", list_engines, NULL, NULL},
+    {"states", states_list, states_print, states_print_markdown},
+    {"shaders", shaders_list, shaders_print, shaders_print_markdown},
+    {"formats", list_formats, NULL, NULL},
+    {"cpu", list_cpu, NULL, NULL},
+    {"passes", list_passes, NULL, NULL},
+};
+
+static void print_table(const cJSON *rows)
+{
+    struct table table = {0};
+    const cJSON *row, *cell;
+    cJSON_ArrayForEach(cell, rows->child)
+        table_column(&table, cell->string, cJSON_IsNumber(cell) ? TABLE_RIGHT : TABLE_LEFT);
+    cJSON_ArrayForEach(row, rows) cJSON_ArrayForEach(cell, row)
+    {
+        if (cJSON_IsNumber(cell))
+            table_cell(&table, "%.0f", cell->valuedouble);
+        else
+            table_cell(&table, "%s", cell->valuestring);
+    }
+    table_print(&table, 0, stdout);
+}
+
+static int print_rows(const struct command *self, const struct subject *subject, bool json)
+{
+    cJSON *rows = cJSON_CreateArray();
+    subject->list(rows);
+    char *text = json ? json_text(self, rows) : NULL;
+    if (text)
+        puts(text);
+    else if (!json && tool_report_is_complete())
+        print_table(rows);
+    cJSON_Delete(rows);
+    cJSON_free(text);
+    return json && !text ? STATUS_BAD : STATUS_OK;
+}
+
+static int print(const struct command *self, const struct subject *subject, bool json, bool markdown)
+{
+    if (markdown && (json || !subject->print_markdown))
+        return tool_fail(self, json ? "--markdown and --json are both given, expected one of them"
+                                    : "--markdown is for states and shaders only");
+    if (markdown)
+        subject->print_markdown(stdout);
+    else if (!json && subject->print)
+        subject->print(stdout);
+    else
+        return print_rows(self, subject, json);
+    return STATUS_OK;
+}
+
+int command_list(const struct command *self, int count, char **arguments)
+{
+    bool json = false, markdown = false;
+    const struct option options[] = {
+        {"json", NULL, "as JSON, an array of objects", OPTION_FLAG, &json, 0, 0},
+        {"markdown", NULL, "states or shaders as a page of documentation", OPTION_FLAG, &markdown, 0, 0},
+    };
+    struct operands operands = {.least = 1, .most = 1};
+    enum options_result result = options_read(self, options, 2, NULL, count, arguments, &operands);
+    if (result != OPTIONS_GO)
+        return options_status(result);
+    for (size_t i = 0; i < sizeof subjects / sizeof *subjects; i++)
+        if (!strcmp(operands.value[0], subjects[i].name))
+            return print(self, subjects + i, json, markdown);
+    return tool_fail(self, "cannot list \"%s\", expected %s", operands.value[0], self->summary);
+}

@@ -1,0 +1,183 @@
+/* Resources of a follower: buffers for the state, textures that are drawn to, queries, releases. */
+#include "command/stream/follow_part.h"
+#include "render/target/surface.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+/* Returns the entry of a resource; null if memory is short. */
+static struct followed *follower_resource(struct follower *follower, uint32_t number)
+{
+    if (number >= follower->resource_count) {
+        uint32_t most = follower->stream->resource_count, twice = 2 * follower->resource_count;
+        uint32_t count = most > twice ? most : twice;
+        struct followed *larger = realloc(follower->resources, count * sizeof *larger);
+        if (!larger)
+            return NULL;
+        memset(larger + follower->resource_count, 0, (count - follower->resource_count) * sizeof *larger);
+        follower->resources = larger;
+        follower->resource_count = count;
+    }
+    return &follower->resources[number];
+}
+
+struct triptych_buffer *follower_buffer(struct follower *follower, uint32_t resource, struct error *error)
+{
+    struct followed *entry = follower_resource(follower, resource);
+    const struct resource *data = &follower->stream->resources[resource];
+    if (entry && !entry->stand_in) {
+        entry->stand_in = calloc(1, sizeof *entry->stand_in);
+        if (entry->stand_in) {
+            entry->stand_in->resource = resource;
+            entry->stand_in->buffer.data =
+                (uint8_t *)(uintptr_t)resource_data(data, &entry->stand_in->buffer.bytes);
+        }
+    }
+    if (entry && entry->stand_in)
+        return &entry->stand_in->buffer;
+    error_set(error, "not enough memory");
+    return NULL;
+}
+
+/* --- Surfaces ------------------------------------------------------------------------------------------- */
+
+/* Returns a surface of a texture without texels, for checks. It is null for the target. */
+static struct triptych_surface shape_of(const struct stream *stream, const struct call_surface *surface,
+                                        struct triptych_texture *shape)
+{
+    struct triptych_surface r = {NULL, surface->level, surface->slice};
+    if (surface->resource == NO_RESOURCE)
+        return r;
+    texture_describe(&stream->resources[surface->resource].texture, shape, NULL);
+    r.texture = shape;
+    return r;
+}
+
+static int check_attach(const struct stream *stream, const struct call *call,
+                        struct triptych_target_description *description, struct error *error)
+{
+    struct triptych_texture shape[TRIPTYCH_TARGETS + 1];
+    struct triptych_target_textures textures = {.depth_format = call->attach.depth_format};
+    for (int t = 0; t < TRIPTYCH_TARGETS; t++) {
+        const struct call_surface *color = call->attach.color;
+        int first = 0; /* of the same texture */
+        while (color[first].resource != color[t].resource)
+            first++;
+        textures.color[t] = shape_of(stream, &color[t], &shape[first]);
+    }
+    textures.depth = shape_of(stream, &call->attach.depth, &shape[TRIPTYCH_TARGETS]);
+    return surfaces_describe(&textures, description, error) ? -1 : 0;
+}
+
+int follow_copy(struct follower *follower, const struct call *call, struct error *error)
+{
+    struct triptych_texture shape[2];
+    struct triptych_surface surface[2];
+    struct surface_copy copy = {.filter = call->copy.filter};
+    for (int i = 0; i < 2; i++) {
+        surface[i] = shape_of(follower->stream, &call->copy.surface[i], &shape[i]);
+        copy.surface[i] = &surface[i];
+        copy.part[i] = call->copy.part[i];
+    }
+    return surface_check_copy(&copy, &follower->target, error) ? -1 : 0;
+}
+
+int follow_attach(struct follower *follower, const struct call *call, struct error *error)
+{
+    struct triptych_target_description description = follower->target;
+    if (call->attach.some && check_attach(follower->stream, call, &description, error))
+        return -1;
+    follower_draw_to(follower, &description);
+    for (int t = 0; t < TRIPTYCH_TARGETS; t++)
+        follower->attached[t] = call->attach.some ? call->attach.color[t].resource : NO_RESOURCE;
+    follower->attached[TRIPTYCH_TARGETS] = call->attach.some ? call->attach.depth.resource : NO_RESOURCE;
+    return 0;
+}
+
+/* --- Queries -------------------------------------------------------------------------------------------- */
+
+/* Queries begin and end in one frame, so that each frame has its own results. */
+static int follow_query(struct follower *follower, const struct call *call, struct error *error)
+{
+    const char *name = follower->stream->resources[call->resource].name;
+    struct followed *query = follower_resource(follower, call->resource);
+    if (!query)
+        return error_set(error, "not enough memory");
+    if (call->type == CALL_BEGIN_QUERY && query->begun)
+        return error_set(error, "found query %s begun again, expected end-query %s before it", name, name);
+    if (call->type == CALL_END_QUERY && !query->begun)
+        return error_set(error, "found query %s not begun, expected begin-query %s before it", name, name);
+    query->begun = call->type == CALL_BEGIN_QUERY;
+    query->beginning = call->position;
+    follower->begun += query->begun ? 1 : UINT32_MAX;
+    return 0;
+}
+
+int follow_begin_query(struct follower *follower, const struct call *call, struct error *error)
+{
+    return follow_query(follower, call, error);
+}
+
+int follow_end_query(struct follower *follower, const struct call *call, struct error *error)
+{
+    return follow_query(follower, call, error);
+}
+
+int follower_frame(struct follower *follower, struct error *error)
+{
+    for (uint32_t i = 0; i < follower->resource_count && follower->begun; i++)
+        if (follower->resources[i].begun) {
+            struct error reason = {{0}};
+            const char *name = follower->stream->resources[i].name;
+            error_set(&reason, "found query %s begun and not ended, expected end-query %s in its frame", name,
+                      name);
+            const struct call begin = {.type = CALL_BEGIN_QUERY,
+                                       .position = follower->resources[i].beginning};
+            return stream_fail(follower->stream, &begin, reason.text, error);
+        }
+    return 0;
+}
+
+/* --- Releases ------------------------------------------------------------------------------------------- */
+
+/* Returns the binding that uses the resource, or null. */
+static const char *holder(const struct follower *follower, uint32_t number)
+{
+    const struct state *state = &follower->state;
+    const struct followed *entry = &follower->resources[number];
+    for (unsigned i = 0; i < STREAM_COUNT && entry->stand_in; i++)
+        if (state->stream[i].buffer == &entry->stand_in->buffer)
+            return "bound as vertices";
+    for (unsigned i = 0; i < TRIPTYCH_SAMPLERS; i++)
+        if (follower->texture[i] == number)
+            return "bound as a texture";
+    for (unsigned i = 0; i < SHADER_STAGES; i++)
+        if (follower->shader[i] == number)
+            return "set as a shader";
+    for (unsigned i = 0; i <= TRIPTYCH_TARGETS; i++)
+        if (follower->attached[i] == number)
+            return "attached";
+    if (follower->indices == number)
+        return "bound as indices";
+    return entry->begun ? "begun" : NULL;
+}
+
+int follow_release(struct follower *follower, const struct call *call, struct error *error)
+{
+    struct followed *entry = follower_resource(follower, call->resource);
+    if (!entry)
+        return error_set(error, "not enough memory");
+    const char *held = holder(follower, call->resource);
+    if (held)
+        return error_set(error, "found '%s' %s, expected a resource that nothing uses",
+                         follower->stream->resources[call->resource].name, held);
+    free(entry->stand_in);
+    *entry = (struct followed){.released = true};
+    return 0;
+}
+
+void follower_define(struct follower *follower, uint32_t number)
+{
+    if (number < follower->resource_count)
+        follower->resources[number] = (struct followed){.released = false};
+}

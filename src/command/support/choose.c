@@ -1,0 +1,133 @@
+#include "command/support/choose.h"
+#include "engines/list.h"
+#include "command/support/option.h"
+#include "triptych.h"
+
+#include <stdio.h>
+#include <string.h>
+
+enum { NAME_CAPACITY = 64, THREADS_MAXIMUM = 256 };
+
+static int unknown_engine(const struct command *self, const char *name)
+{
+    char names[512] = "";
+    for (unsigned i = 0; triptych_engine_name(i); i++)
+        snprintf(names + strlen(names), sizeof names - strlen(names), "%s%s", i ? ", " : "",
+                 triptych_engine_name(i));
+    return tool_fail(self, "unknown engine \"%s\", expected one of: %s", name, names);
+}
+
+static bool find_engine(const char *name, unsigned *index)
+{
+    for (unsigned i = 0; triptych_engine_name(i); i++)
+        if (!strcmp(triptych_engine_name(i), name)) {
+            *index = i;
+            return true;
+        }
+    return false;
+}
+
+/* Returns true if `engine` is `name` itself or its variant `name`-WIDTH. */
+static bool is_variant(unsigned engine, const char *name)
+{
+    char variant[NAME_CAPACITY];
+    snprintf(variant, sizeof variant, "%s-%u", name, triptych_engine_width(engine));
+    return !strcmp(triptych_engine_name(engine), name) || !strcmp(triptych_engine_name(engine), variant);
+}
+
+/* Returns true if the engine has no width in its name and another engine has the same name with the width. */
+static bool has_twin(unsigned engine)
+{
+    char twin[NAME_CAPACITY];
+    unsigned index;
+    snprintf(twin, sizeof twin, "%s-%u", triptych_engine_name(engine), triptych_engine_width(engine));
+    return find_engine(twin, &index);
+}
+
+static int find_variant(const struct command *self, const char *name, unsigned width, unsigned *index)
+{
+    char widths[128] = "";
+    for (unsigned i = 0; triptych_engine_name(i); i++) {
+        if (!is_variant(i, name))
+            continue;
+        if (triptych_engine_width(i) == width)
+            return *index = i, STATUS_OK;
+        if (has_twin(i) || !triptych_engine_width(i))
+            continue;
+        snprintf(widths + strlen(widths), sizeof widths - strlen(widths), "%s%u", widths[0] ? ", " : "",
+                 triptych_engine_width(i));
+    }
+    return tool_fail(self, "engine %s has no width %u, expected one of: %s", name, width, widths);
+}
+
+int choose_engine(const struct command *self, const char *name, unsigned width, unsigned *index)
+{
+    if (!find_engine(name, index))
+        return unknown_engine(self, name);
+    if (width && find_variant(self, name, width, index))
+        return STATUS_BAD;
+    const char *reason = triptych_engine_unavailable(*index);
+    if (reason)
+        return tool_fail(self, "engine %s cannot run here: %s", triptych_engine_name(*index), reason);
+    return STATUS_OK;
+}
+
+static bool is_chosen(const struct choice *choice, unsigned value)
+{
+    for (unsigned i = 0; i < choice->count; i++)
+        if (choice->index[i] == value)
+            return true;
+    return false;
+}
+
+static int add(const struct command *self, struct choice *choice, unsigned value, const char *text)
+{
+    if (is_chosen(choice, value))
+        return tool_fail(self, "\"%s\" is listed twice", text);
+    if (choice->count == CHOICE_CAPACITY)
+        return tool_fail(self, "more than %d values in a list", CHOICE_CAPACITY);
+    choice->index[choice->count++] = value;
+    return STATUS_OK;
+}
+
+/* The reason is copied, because a second call might find another one, or none. */
+static int add_if_available(const struct command *self, struct choice *choice, unsigned engine)
+{
+    const char *reason = triptych_engine_unavailable(engine);
+    if (!reason)
+        return add(self, choice, engine, triptych_engine_name(engine));
+    unsigned i = choice->left_out_count++;
+    choice->left_out[i].index = engine;
+    snprintf(choice->left_out[i].reason, sizeof choice->left_out[i].reason, "%s", reason);
+    return STATUS_OK;
+}
+
+int choose_engines(const struct command *self, const char *list, struct choice *choice)
+{
+    choice->count = choice->left_out_count = 0;
+    for (unsigned i = 0; !list && triptych_engine_name(i); i++)
+        if (!engine_at(i)->on_request && add_if_available(self, choice, i))
+            return STATUS_BAD;
+    char name[NAME_CAPACITY];
+    while ((list = option_next_item(list, name, sizeof name))) {
+        unsigned index = 0;
+        if (choose_engine(self, name, 0, &index) || add(self, choice, index, name))
+            return STATUS_BAD;
+    }
+    return STATUS_OK;
+}
+
+int choose_threads(const struct command *self, const char *list, struct choice *threads)
+{
+    threads->count = 0;
+    char text[NAME_CAPACITY];
+    while ((list = option_next_item(list, text, sizeof text))) {
+        unsigned count;
+        if (!option_read_number(text, 1, THREADS_MAXIMUM, &count))
+            return tool_fail(self, "\"%s\" is not a number of threads, expected 1 to %d", text,
+                             THREADS_MAXIMUM);
+        if (add(self, threads, count, text))
+            return STATUS_BAD;
+    }
+    return STATUS_OK;
+}

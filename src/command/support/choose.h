@@ -1,0 +1,33 @@
+/* Engines, widths and thread counts on the command line. */
+#ifndef COMMAND_SUPPORT_CHOOSE_H
+#define COMMAND_SUPPORT_CHOOSE_H
+
+#include "base/error.h"
+#include "command/support/tool.h"
+
+enum { CHOICE_CAPACITY = 32 };
+
+struct choice {
+    unsigned count;
+    unsigned index[CHOICE_CAPACITY]; /* arguments of triptych_engine_name() */
+    unsigned left_out_count;         /* engines that are omitted because they cannot run here */
+    struct {
+        unsigned index;
+        char reason[ERROR_CAPACITY];
+    } left_out[CHOICE_CAPACITY];
+};
+
+/* Finds the engine of that name. `width`, unless 0, selects the engine's variant of that width: itself
+ * or the engine NAME-WIDTH. Returns 0, or STATUS_BAD after printing the alternatives or why it cannot run
+ * here. */
+int choose_engine(const struct command *self, const char *name, unsigned width, unsigned *index);
+
+/* Reads a comma-separated list of engines, each once. All must be able to run here. A null list means every
+ * engine that can run here and is not on request only (engine.on_request); those that cannot run are in
+ * left_out. */
+int choose_engines(const struct command *self, const char *list, struct choice *choice);
+
+/* Reads a comma-separated list of thread counts. */
+int choose_threads(const struct command *self, const char *list, struct choice *threads);
+
+#endif

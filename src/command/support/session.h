@@ -1,0 +1,63 @@
+/* A device that plays one stream frame by frame, and copies of the targets that it drew. */
+#ifndef COMMAND_SUPPORT_SESSION_H
+#define COMMAND_SUPPORT_SESSION_H
+
+#include "image/compare.h"
+#include "command/stream/stream.h"
+#include "command/support/tool.h"
+
+#include <stdbool.h>
+
+/* Reads and checks a stream. Returns null after printing the reason. */
+struct stream *session_load(const struct command *self, const char *path);
+
+/* The same for a stream whose frames are played in order. Frames of a recording are read while they are
+ * played; the stream in memory has only their number (command/container/reader.h). */
+struct stream *session_load_frames(const struct command *self, const char *path);
+
+/* A zero session is closed. The stream must outlive the session. */
+struct session {
+    const struct command *self;
+    const struct stream *stream;
+    triptych_device *device;
+    struct player *player;
+    bool told; /* the warning about TRIPTYCH_DEBUG was printed */
+};
+
+/* Opens a session with the engine of that number (triptych_engine_name). Functions that return int return 0,
+ * or STATUS_BAD after printing the reason. A session must be closed even after a failure. */
+int session_open(const struct command *self, const struct stream *stream, unsigned engine, unsigned threads,
+                 struct session *session);
+/* The same with routine calls measured if `measure` is true (struct triptych_options). */
+int session_open_measured(const struct command *self, const struct stream *stream, unsigned engine,
+                          unsigned threads, bool measure, struct session *session);
+void session_close(struct session *session);
+
+/* Plays a frame, numbered from 0, and waits until it is drawn. */
+int session_play(const struct command *self, struct session *session, unsigned frame);
+
+/* The i-th of `count` frames spread evenly over `all` frames, the first and the last included. */
+unsigned session_spread(unsigned i, unsigned count, unsigned all);
+
+/* A copy of a device's target, or of all its samples, stored as one image below the other. A zero readback is
+ * empty. Memory is reused from one readback to the next. */
+struct readback {
+    unsigned width, height;
+    bool has_depth, has_stencil;
+    uint32_t *color;
+    float *depth;
+    uint8_t *stencil;
+    float *numbers;   /* four per pixel and target, if RGBA8 does not hold them exactly; else null */
+    unsigned targets; /* the number of targets in `numbers` */
+    size_t capacity;  /* in pixels, of all arrays but `numbers` */
+    struct query_count *queries;
+    unsigned query_count;
+};
+
+enum readback_what { READBACK_PIXELS, READBACK_SAMPLES };
+int readback_take(const struct command *self, const struct session *session, enum readback_what what,
+                  struct readback *readback);
+void readback_free(struct readback *readback);
+struct picture readback_picture(const struct readback *readback);
+
+#endif

@@ -1,0 +1,232 @@
+/* The lines of the text: calls, definitions and sequences. A call is appended to the stream after its line
+ * was read without an error. */
+#include "command/stream/expand.h"
+#include "command/stream/follow.h"
+#include "command/stream/functions.h"
+#include "command/text/parse.h"
+
+#include <locale.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+/* --- Names ---------------------------------------------------------------------------------------------- */
+
+static int is_name(const struct token *token)
+{
+    return token->type == TOKEN_WORD && stream_build_is_name(token->text, token->length);
+}
+
+int parse_new_name(struct parser *parser, enum resource_type type, struct resource **resource)
+{
+    const struct token *token = &parser->lex.token;
+    struct error reason = {{0}};
+    if (!is_name(token))
+        return lex_expected(&parser->lex,
+                            "a name: a letter or _, then letters, digits, _ - . (at most %d bytes)",
+                            LIMIT_NAME_BYTES);
+    if (stream_build_resource(&parser->build, token->text, token->length, type, resource, &reason))
+        return lex_fail(&parser->lex, token, "%s", reason.text);
+    return lex_next(&parser->lex);
+}
+
+int parse_name(struct parser *parser, unsigned types, const char *what, uint32_t *resource)
+{
+    const struct token *token = &parser->lex.token;
+    uint32_t number =
+        is_name(token) ? stream_build_find(&parser->build, token->text, token->length) : NO_RESOURCE;
+    if (number == NO_RESOURCE || !(types >> parser->stream->resources[number].type & 1))
+        return lex_expected(&parser->lex, "the name of %s defined before", what);
+    *resource = number;
+    return lex_next(&parser->lex);
+}
+
+/* --- Sequences ------------------------------------------------------------------------------------------ */
+
+int parse_sequence(struct parser *parser, struct call *call, unsigned word)
+{
+    struct resource *sequence;
+    (void)word;
+    if (parse_new_name(parser, RESOURCE_SEQUENCE, &sequence))
+        return -1;
+    call->resource = parser->stream->resource_count - 1;
+    return 0;
+}
+
+static int parse_end(struct parser *parser)
+{
+    stream_build_end(&parser->build);
+    return 0;
+}
+
+int parse_play(struct parser *parser, struct call *call, unsigned word)
+{
+    struct token place = parser->lex.token;
+    struct error reason = {{0}};
+    (void)word;
+    if (parse_name(parser, 1 << RESOURCE_SEQUENCE, "a sequence", &call->resource))
+        return -1;
+    if (stream_build_play(&parser->build, call->resource, &reason))
+        return lex_fail(&parser->lex, &place, "%s", reason.text);
+    return 0;
+}
+
+/* --- Lines ---------------------------------------------------------------------------------------------- */
+
+/* Lines that are not calls: definitions, which must be outside sequences, and the end of a sequence. */
+static const struct definition {
+    const char *word;
+    int (*parse)(struct parser *parser);
+} definitions[] = {
+    {"texture", parse_texture}, {"vertices", parse_vertices}, {"indices", parse_indices},
+    {"buffer", parse_buffer},   {"mesh", parse_mesh},         {"shader", parse_shader},
+    {"query", parse_query},     {"end", parse_end},
+};
+
+enum { DEFINITIONS = sizeof definitions / sizeof *definitions };
+
+static bool is_inside(const struct parser *parser)
+{
+    return parser->build.sequence != NO_RESOURCE;
+}
+
+static bool allows_definition(const struct parser *parser, const struct definition *definition)
+{
+    return is_inside(parser) == (definition->parse == parse_end);
+}
+
+/* Word number `i` among those that begin the lines of a type of calls; null if there is none, or not here. */
+static const char *call_line_word(const struct parser *parser, unsigned type, unsigned i)
+{
+    const struct call_row *row = call_row(type);
+    const char *const *words = calls_functions[type].words;
+    if (!row || row->traits & CALL_SHARES_LINE || (row->traits & CALL_OUTSIDE && is_inside(parser)))
+        return NULL;
+    if (!words[0])
+        return i ? NULL : row->word;
+    return i < STREAM_WORDS ? words[i] : NULL;
+}
+
+static int expect_line(struct parser *parser)
+{
+    char words[1024] = "";
+    size_t at = 0;
+    const char *word;
+    for (unsigned type = 0; type < CALL_TYPES; type++)
+        for (unsigned i = 0; (word = call_line_word(parser, type, i)); i++)
+            at += (size_t)snprintf(words + at, sizeof words - at, "%s%s", at ? ", " : "", word);
+    for (int i = 0; i < DEFINITIONS; i++)
+        if (allows_definition(parser, &definitions[i]))
+            at += (size_t)snprintf(words + at, sizeof words - at, ", %s", definitions[i].word);
+    return lex_expected(&parser->lex, "a call%s: %s", is_inside(parser) ? " of a sequence" : "", words);
+}
+
+int parse_add_call(struct parser *parser, const struct call *call, const struct token *place)
+{
+    struct error reason = {{0}};
+    if (stream_build_call(&parser->build, call, &reason))
+        return lex_fail(&parser->lex, place, "%s", reason.text);
+    return 0;
+}
+
+static int parse_call(struct parser *parser, enum call_type type, unsigned word)
+{
+    struct token place = parser->lex.token;
+    struct call call = {.type = type, .resource = NO_RESOURCE};
+    call.position.text.line = place.line;
+    call.position.text.column = place.column;
+    if (lex_next(&parser->lex))
+        return -1;
+    int result = calls_functions[type].parse ? calls_functions[type].parse(parser, &call, word)
+                                             : parse_regular(parser, &call, 0);
+    return result || lex_line_end(&parser->lex) ? -1 : parse_add_call(parser, &call, &place);
+}
+
+static int parse_line(struct parser *parser)
+{
+    struct lexer *lex = &parser->lex;
+    const char *word;
+    for (unsigned type = 0; type < CALL_TYPES; type++)
+        for (unsigned i = 0; (word = call_line_word(parser, type, i)); i++)
+            if (lex_is(lex, word))
+                return parse_call(parser, (enum call_type)type, i);
+    for (int i = 0; i < DEFINITIONS; i++)
+        if (lex_is(lex, definitions[i].word) && allows_definition(parser, &definitions[i]))
+            return lex_next(lex) || definitions[i].parse(parser) || lex_line_end(lex) ? -1 : 0;
+    return expect_line(parser);
+}
+
+static int parse_header(struct parser *parser)
+{
+    struct lexer *lex = &parser->lex;
+    if (!lex_is(lex, "triptych"))
+        return lex_expected(lex, "the first line: triptych 1");
+    if (lex_next(lex))
+        return -1;
+    if (!lex_is(lex, "1"))
+        return lex_expected(lex, "version 1 of the format");
+    return lex_next(lex) ? -1 : lex_line_end(lex);
+}
+
+static int parse_all(struct parser *parser)
+{
+    struct lexer *lex = &parser->lex;
+    if (parse_header(parser) || lex_skip_lines(lex))
+        return -1;
+    while (lex->token.type != TOKEN_END)
+        if (parse_line(parser) || lex_skip_lines(lex))
+            return -1;
+    if (parser->build.sequence != NO_RESOURCE)
+        return lex_expected(lex, "the end of sequence %s",
+                            parser->stream->resources[parser->build.sequence].name);
+    if (!parser->build.executed)
+        return lex_expected(lex, "at least one call");
+    if (stream_expand(parser->stream, parser->build.executed, lex->error))
+        return -1;
+    if (!parser->stream->frame_count)
+        return lex_expected(lex, "at least one call that is executed");
+    return follower_check(parser->stream, lex->error);
+}
+
+/* --- Streams -------------------------------------------------------------------------------------------- */
+
+static int parse_in_locale(struct stream *stream, const char *text, size_t bytes, struct error *error)
+{
+    struct parser parser = {.stream = stream};
+    stream_build_start(&parser.build, stream);
+    int result = lex_start(&parser.lex, stream->path, text, bytes, error);
+    if (!result)
+        result = parse_all(&parser);
+    stream_build_free(&parser.build);
+    return result;
+}
+
+static int parse_text(struct stream *stream, const char *text, size_t bytes, struct error *error)
+{
+    locale_t locale = newlocale(LC_NUMERIC_MASK, "C", NULL);
+    if (!locale)
+        return error_set(error, "%s: not enough memory", stream->path);
+    locale_t before = uselocale(locale);
+    int result = parse_in_locale(stream, text, bytes, error);
+    uselocale(before);
+    freelocale(locale);
+    return result;
+}
+
+int parse_stream(const char *path, const char *text, size_t bytes, struct stream **stream,
+                 struct error *error)
+{
+    struct stream *made = calloc(1, sizeof *made);
+    int result = -1;
+    if (made)
+        made->path = strdup(path);
+    if (made && made->path)
+        result = parse_text(made, text, bytes, error);
+    else
+        error_set(error, "%s: not enough memory", path);
+    if (result)
+        stream_free(made);
+    else
+        *stream = made;
+    return result;
+}

@@ -1,0 +1,105 @@
+/* Calls that name surfaces of textures: attach and copy. */
+#include "command/text/parse.h"
+
+#include <string.h>
+
+static int parse_option(struct parser *parser, const char *word, uint32_t *number)
+{
+    int64_t value;
+    if (!lex_is(&parser->lex, word))
+        return 0;
+    if (lex_next(&parser->lex) || lex_integer(&parser->lex, word, 0, TRIPTYCH_TEXTURE_MAXIMUM, &value))
+        return -1;
+    *number = (uint32_t)value;
+    return 0;
+}
+
+/* Reads TEXTURE [level L] [slice S]. */
+static int parse_surface(struct parser *parser, struct call_surface *surface)
+{
+    if (parse_name(parser, 1 << RESOURCE_TEXTURE, "a texture", &surface->resource))
+        return -1;
+    return parse_option(parser, "level", &surface->level) || parse_option(parser, "slice", &surface->slice)
+               ? -1
+               : 0;
+}
+
+/* Reads the surface after `color`. `none` skips a colour before others. */
+static int parse_color(struct parser *parser, struct call_surface *surface)
+{
+    if (lex_next(&parser->lex))
+        return -1;
+    if (lex_is(&parser->lex, "none"))
+        return lex_next(&parser->lex);
+    return parse_surface(parser, surface);
+}
+
+/* attach none, or attach [color SURFACE]... [depth SURFACE | depthformat FORMAT] */
+int parse_attach(struct parser *parser, struct call *call, unsigned word)
+{
+    struct lexer *lex = &parser->lex;
+    unsigned colors = 0, format;
+    (void)word;
+    call->attach.depth.resource = NO_RESOURCE;
+    for (int t = 0; t < TRIPTYCH_TARGETS; t++)
+        call->attach.color[t].resource = NO_RESOURCE;
+    if (lex_is(lex, "none"))
+        return lex_next(lex);
+    call->attach.some = true;
+    while (lex_is(lex, "color") && colors < TRIPTYCH_TARGETS)
+        if (parse_color(parser, &call->attach.color[colors++]))
+            return -1;
+    if (lex_is(lex, "depth"))
+        return lex_next(lex) ? -1 : parse_surface(parser, &call->attach.depth);
+    if (!colors)
+        return lex_expected(lex, "none, color TEXTURE or depth TEXTURE");
+    if (!lex_is(lex, "depthformat"))
+        return 0;
+    if (lex_next(lex) || parse_word(parser, WORDS_DEPTH, "a depth format", &format))
+        return -1;
+    call->attach.depth_format = (enum triptych_depth_format)format;
+    return 0;
+}
+
+/* [part X Y WIDTH HEIGHT] */
+static int parse_part(struct parser *parser, struct triptych_rectangle *part)
+{
+    int64_t n[4];
+    if (!lex_is(&parser->lex, "part"))
+        return 0;
+    if (lex_next(&parser->lex))
+        return -1;
+    for (int i = 0; i < 4; i++)
+        if (lex_integer(&parser->lex, "part X Y WIDTH HEIGHT", i < 2 ? 0 : 1, TRIPTYCH_TARGET_MAXIMUM, &n[i]))
+            return -1;
+    *part = (struct triptych_rectangle){(unsigned)n[0], (unsigned)n[1], (unsigned)n[2], (unsigned)n[3]};
+    return 0;
+}
+
+/* Reads a surface, or `target [slice N]`, colour N of the target. */
+static int parse_copy_end(struct parser *parser, struct call_surface *surface,
+                          struct triptych_rectangle *part)
+{
+    surface->resource = NO_RESOURCE;
+    if (lex_is(&parser->lex, "target")) {
+        if (lex_next(&parser->lex) || parse_option(parser, "slice", &surface->slice))
+            return -1;
+    } else if (parse_surface(parser, surface)) {
+        return -1;
+    }
+    return parse_part(parser, part);
+}
+
+int parse_copy(struct parser *parser, struct call *call, unsigned word)
+{
+    struct lexer *lex = &parser->lex;
+    (void)word;
+    if (parse_copy_end(parser, &call->copy.surface[0], &call->copy.part[0]))
+        return -1;
+    if (!lex_is(lex, "to"))
+        return lex_expected(lex, "level, slice, part, or to");
+    if (lex_next(lex) || parse_copy_end(parser, &call->copy.surface[1], &call->copy.part[1]))
+        return -1;
+    call->copy.filter = lex_is(lex, "linear") ? TRIPTYCH_COPY_LINEAR : TRIPTYCH_COPY_POINT;
+    return call->copy.filter == TRIPTYCH_COPY_LINEAR ? lex_next(lex) : 0;
+}

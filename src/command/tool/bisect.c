@@ -1,0 +1,154 @@
+/* `triptych bisect`: the first operation of the specification whose value differs between two engines. */
+#include "command/fuzz/bisect/bisect.h"
+
+#include "engines/list.h"
+#include "command/support/choose.h"
+#include "command/support/json.h"
+#include "command/support/option.h"
+#include "command/support/session.h"
+#include "triptych.h"
+
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+enum { NUMBER_MAXIMUM = 4194304, NONE = NUMBER_MAXIMUM + 1, PIXEL_MAXIMUM = 8192, NAME_CAPACITY = 16 };
+
+/* Reads `X,Y`. */
+static int read_pixel(const struct command *self, const char *text, struct bisect_options *options)
+{
+    char piece[NAME_CAPACITY];
+    unsigned place[2], count = 0;
+    const char *next = option_next_item(text, piece, sizeof piece);
+    while (next && count < 2 && option_read_number(piece, 0, PIXEL_MAXIMUM - 1, place + count)) {
+        count++;
+        next = option_next_item(next, piece, sizeof piece);
+    }
+    if (count == 2 && !next) {
+        options->x = (int32_t)place[0];
+        options->y = (int32_t)place[1];
+        return STATUS_OK;
+    }
+    return tool_fail(self, "--pixel is \"%s\", expected X,Y, each from 0 to %d", text, PIXEL_MAXIMUM - 1);
+}
+
+static cJSON *values(const struct bisection *b, const uint32_t value[2])
+{
+    cJSON *object = cJSON_CreateObject();
+    char bits[16];
+    for (int i = 0; i < 2; i++) {
+        snprintf(bits, sizeof bits, "%08x", value[i]);
+        cJSON_AddStringToObject(object, b->engine[i]->name, bits);
+    }
+    return object;
+}
+
+static void add_text(cJSON *json, const char *name, const char *text)
+{
+    if (text && *text)
+        cJSON_AddStringToObject(json, name, text);
+}
+
+static cJSON *report(const char *path, const struct bisection *b)
+{
+    static const char *const outcomes[] = {[BISECT_SAME] = "same",
+                                           [BISECT_CALL] = "call",
+                                           [BISECT_NARROWED] = "narrowed",
+                                           [BISECT_FOUND] = "found"};
+    cJSON *json = cJSON_CreateObject();
+    add_text(json, "stream", path);
+    add_text(json, "outcome", outcomes[b->outcome]);
+    if (b->outcome == BISECT_SAME)
+        return json;
+    add_text(json, "unit", unit_name[b->unit]);
+    add_text(json, "key", b->key);
+    cJSON_AddNumberToObject(json, "draw", (double)b->draw);
+    cJSON_AddNumberToObject(json, "frame", b->frame);
+    cJSON_AddNumberToObject(json, "draw_of_frame", b->draw_of_frame);
+    cJSON_AddNumberToObject(json, "lane", b->lane);
+    if (b->unit == UNIT_PIXEL) {
+        cJSON_AddNumberToObject(json, "x", b->x);
+        cJSON_AddNumberToObject(json, "y", b->y);
+    }
+    add_text(json, "place", b->place);
+    add_text(json, "operation", b->operation);
+    if (b->operation)
+        cJSON_AddItemToObject(json, "values", values(b, b->value));
+    add_text(json, "output", b->output_name);
+    cJSON_AddItemToObject(json, "outputs", values(b, b->output));
+    add_text(json, "pass", b->pass);
+    add_text(json, "fragment", b->fragment);
+    add_text(json, "reason", b->reason);
+    return json;
+}
+
+static int tell(const struct command *self, const char *path, const struct bisection *b,
+                const char *json_path)
+{
+    struct text text = {0};
+    int status = b->outcome == BISECT_SAME ? STATUS_OK : STATUS_DIFFERENT;
+    bisection_print(b, &text);
+    tool_progress(NULL);
+    if (text.failed)
+        status = tool_fail(self, "no memory for the report");
+    else
+        fputs(text.data, stdout);
+    text_free(&text);
+    if (!json_path)
+        return status;
+    cJSON *json = report(path, b);
+    if (json_write(self, json, json_path))
+        status = STATUS_BAD;
+    cJSON_Delete(json);
+    return status;
+}
+
+static int find(const struct command *self, const char *path, const struct choice *engines,
+                const struct bisect_options *options, const char *json_path)
+{
+    struct error error = {""};
+    struct bisection bisection;
+    struct stream *stream = session_load(self, path);
+    if (!stream)
+        return STATUS_BAD;
+    tool_progress("comparing %s and %s on %s", engine_at(engines->index[0])->name,
+                  engine_at(engines->index[1])->name, path);
+    int bad = bisect(stream, engine_at(engines->index[0]), engine_at(engines->index[1]), options, &bisection,
+                     &error);
+    int status = bad ? tool_fail(self, "%s: %s", path, error.text) : tell(self, path, &bisection, json_path);
+    stream_free(stream);
+    return status;
+}
+
+static const char notes[] = "The routines of both engines run on the same inputs, draw by draw, until the "
+                            "outputs differ. Then every value\n"
+                            "that they compute is compared. The first engine is the reference. Exit status "
+                            "1: a difference was found.";
+
+int command_bisect(const struct command *self, int count, char **arguments)
+{
+    const char *list = "emulate,specialize", *pixel = NULL, *json_path = NULL;
+    unsigned draw = NONE;
+    const struct option options[] = {
+        {"engines", "A,B", "the two engines; emulate,specialize", OPTION_TEXT, &list, 0, 0},
+        {"draw", "N", "examine only this draw of the stream, numbered from 0", OPTION_NUMBER, &draw, 0,
+         NUMBER_MAXIMUM},
+        {"pixel", "X,Y", "examine only this pixel", OPTION_TEXT, &pixel, 0, 0},
+        {"json", "FILE", "also write the report to FILE", OPTION_TEXT, &json_path, 0, 0},
+    };
+    struct operands operands = {.least = 1, .most = 1};
+    struct bisect_options wanted = {BISECT_ANY, BISECT_ANY, BISECT_ANY};
+    struct choice engines;
+    enum options_result result =
+        options_read(self, options, sizeof options / sizeof *options, notes, count, arguments, &operands);
+    if (result != OPTIONS_GO)
+        return options_status(result);
+    if (choose_engines(self, list, &engines) || tool_check_output(self, json_path) ||
+        (pixel && read_pixel(self, pixel, &wanted)))
+        return STATUS_BAD;
+    if (engines.count != 2)
+        return tool_fail(self, "--engines names %u, expected two", engines.count);
+    if (draw != NONE)
+        wanted.draw = draw;
+    return find(self, operands.value[0], &engines, &wanted, json_path);
+}

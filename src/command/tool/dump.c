@@ -1,0 +1,251 @@
+/* `triptych dump`: how an engine makes the routine of one draw call.
+ *
+ * The key comes from the renderer: a device executes the states that precede the draw, and the draw itself,
+ * but no other draws. The only routines that it builds are then those of the draw. */
+#include "machine/code.h"
+#include "contract/key.h"
+#include "engines/external/external.h"
+#include "engines/specialize/specialize.h"
+#include "shader/program/program.h"
+#include "engines/stitch/stitch.h"
+#include "engines/tiered/tiered.h"
+#include "command/support/choose.h"
+#include "command/support/option.h"
+#include "command/support/session.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+enum { NUMBER_MAXIMUM = 4194304, WIDTH_MAXIMUM = 256, ARENA_BYTES = 8 << 20 };
+
+struct settings {
+    const char *engine, *unit, *show;
+    unsigned frame, draw, width;
+};
+
+static int dump_jit(const struct engine *engine, struct code_arena *arena, enum unit unit,
+                    const union key *key, const char *show, struct error *error)
+{
+    (void)arena;
+    return specialize_dump(engine, unit, key, show ? show : "key,asm", stdout, error);
+}
+
+/* Stitched routines have no stages to choose from; their fragments are shown. */
+static int dump_stitch(const struct engine *engine, struct code_arena *arena, enum unit unit,
+                       const union key *key, const char *show, struct error *error)
+{
+    if (show)
+        return error_set(error, "--show is \"%s\", expected none: a routine of %s has no stages", show,
+                         engine->name);
+    return stitch_dump(engine, arena, unit, key, stdout, error);
+}
+
+/* Shows both tiers in order. */
+static int dump_tiered(const struct engine *engine, struct code_arena *arena, enum unit unit,
+                       const union key *key, const char *show, struct error *error)
+{
+    return dump_stitch(tiered_engine(engine, 0), arena, unit, key, NULL, error) ||
+           dump_jit(tiered_engine(engine, 1), arena, unit, key, show, error);
+}
+
+static int dump_external(const struct engine *engine, struct code_arena *arena, enum unit unit,
+                         const union key *key, const char *show, struct error *error)
+{
+    (void)engine, (void)arena;
+    return external_dump(unit, key, show ? show : "key,text,asm", stdout, error);
+}
+
+static const struct dumper {
+    const struct engine *engine;
+    int (*dump)(const struct engine *engine, struct code_arena *arena, enum unit unit, const union key *key,
+                const char *show, struct error *error);
+} dumpers[] = {
+#define SPECIALIZE(id, ...) {&engine_##id, dump_jit},
+#include "def/engine/specialize.def"
+#undef SPECIALIZE
+    {&engine_stitch, dump_stitch}, {&engine_stitch_operation, dump_stitch}, {&engine_external, dump_external},
+    {&engine_tiered, dump_tiered}, {&engine_tiered_swap, dump_tiered},
+};
+
+static const struct dumper *find_dumper(const struct command *self, unsigned engine)
+{
+    char names[256] = "";
+    for (size_t i = 0; i < sizeof dumpers / sizeof *dumpers; i++) {
+        if (!strcmp(dumpers[i].engine->name, triptych_engine_name(engine)))
+            return dumpers + i;
+        snprintf(names + strlen(names), sizeof names - strlen(names), "%s%s", i ? ", " : "",
+                 dumpers[i].engine->name);
+    }
+    return tool_fail(self, "engine %s makes no code, expected one of: %s", triptych_engine_name(engine),
+                     names),
+           NULL;
+}
+
+static bool is_draw(const struct stream *stream, uint32_t position)
+{
+    enum call_type type = stream->calls[stream->executed[position]].type;
+    return type == CALL_DRAW || type == CALL_DRAW_INDEXED || type == CALL_DRAW_MESH;
+}
+
+static bool is_clear(const struct stream *stream, uint32_t position)
+{
+    return stream->calls[stream->executed[position]].type == CALL_CLEAR;
+}
+
+/* The index in `executed` of that draw of the frame. */
+static int find_draw(const struct command *self, const struct stream *stream, const struct settings *settings,
+                     uint32_t *position)
+{
+    if (settings->frame >= stream->frame_count)
+        return tool_fail(self, "%s has no frame %u, its last is %u", stream->path, settings->frame,
+                         stream->frame_count - 1);
+    unsigned draws = 0;
+    for (uint32_t i = stream->frames[settings->frame]; i < stream->frames[settings->frame + 1]; i++)
+        if (is_draw(stream, i) && draws++ == settings->draw)
+            return *position = i, STATUS_OK;
+    return tool_fail(self, "%s: frame %u has no draw %u, it has %u, from 0", stream->path, settings->frame,
+                     settings->draw, draws);
+}
+
+/* A copy of the stream with one frame: all calls up to the draw, without other draws and clears. The arrays
+ * `executed` and `frames` belong to the copy; the rest is shared. */
+static struct stream single_draw(const struct stream *stream, uint32_t draw, uint32_t *executed,
+                                 uint32_t frames[static 2])
+{
+    struct stream view = *stream;
+    view.executed = executed;
+    view.executed_count = 0;
+    for (uint32_t i = 0; i <= draw; i++)
+        if (i == draw || (!is_draw(stream, i) && !is_clear(stream, i)))
+            executed[view.executed_count++] = stream->executed[i];
+    view.frames = frames;
+    view.frame_count = 1;
+    frames[0] = 0;
+    frames[1] = view.executed_count;
+    return view;
+}
+
+/* The key of the unit's routine, among those that the session's device has built. */
+static int find_key(const struct command *self, const struct session *session, enum unit unit, union key *key)
+{
+    struct triptych_routine_info info;
+    for (unsigned i = 0; triptych_get_routine(session->device, i, &info); i++) {
+        const char *where;
+        if (strcmp(info.unit, unit_name[unit]))
+            continue;
+        if (key_parse(unit, info.key, key, &where))
+            return tool_fail(self, "the key of routine %u does not read back at \"%s\"", info.number, where);
+        return STATUS_OK;
+    }
+    return tool_fail(self, "the draw has no %s routine: nothing of it is drawn", unit_name[unit]);
+}
+
+static int read_key(const struct command *self, const struct stream *stream, uint32_t draw, unsigned engine,
+                    enum unit unit, union key *key)
+{
+    uint32_t frames[2], *executed = malloc((draw + 1) * sizeof *executed);
+    if (!executed)
+        return tool_fail(self, "no memory for %u calls", draw + 1);
+    struct stream view = single_draw(stream, draw, executed, frames);
+    struct session session = {0};
+    int status = session_open(self, &view, engine, 1, &session);
+    if (!status)
+        status = session_play(self, &session, 0);
+    if (!status)
+        status = find_key(self, &session, unit, key);
+    session_close(&session);
+    free(executed);
+    return status;
+}
+
+/* Prints the shader that the key numbers, if there is one. */
+static int print_shader(enum unit unit, const union key *key, struct error *error)
+{
+    const struct program *program = key_shader(unit, key);
+    struct shader *shader = NULL;
+    char *text = NULL;
+    size_t bytes;
+    if (!program)
+        return 0;
+    if (shader_read("shader", program->tokens, program->token_count * sizeof *program->tokens, &shader,
+                    error))
+        return -1;
+    int bad = shader_print(shader, &text, &bytes, error);
+    if (!bad)
+        printf("shader %u, %u instruction slots, %u steps:\n%s\n", program->number, program->slots,
+               program->steps, text);
+    free(text);
+    shader_free(shader);
+    return bad;
+}
+
+static int dump_key(const struct command *self, const struct dumper *dumper, enum unit unit,
+                    const union key *key, const char *show)
+{
+    struct error error = {""};
+    struct code_arena *arena = code_create(ARENA_BYTES, NULL, &error);
+    tool_progress(NULL);
+    int bad = !arena || print_shader(unit, key, &error) ||
+              dumper->dump(dumper->engine, arena, unit, key, show, &error);
+    code_destroy(arena);
+    return bad ? tool_fail(self, "%s", error.text) : STATUS_OK;
+}
+
+static int dump(const struct command *self, const char *path, const struct settings *settings,
+                unsigned engine, enum unit unit)
+{
+    const struct dumper *dumper = find_dumper(self, engine);
+    struct stream *stream = dumper ? session_load(self, path) : NULL;
+    if (!stream)
+        return STATUS_BAD;
+    uint32_t draw = 0;
+    union key key;
+    int status = find_draw(self, stream, settings, &draw);
+    if (!status)
+        status = read_key(self, stream, draw, engine, unit, &key);
+    if (!status)
+        status = dump_key(self, dumper, unit, &key, settings->show);
+    stream_free(stream);
+    return status;
+}
+
+static int find_unit(const struct command *self, const char *name, enum unit *unit)
+{
+    for (*unit = 0; *unit < UNIT_COUNT; ++*unit)
+        if (!strcmp(name, unit_name[*unit]))
+            return STATUS_OK;
+    return tool_fail(self, "--unit is \"%s\", expected %s, %s or %s", name, unit_name[0], unit_name[1],
+                     unit_name[2]);
+}
+
+static const char notes[] = "The text of the draw's shader comes first. Stages of specialize: key, record "
+                            "(the operations as recorded), the\n"
+                            "name of a pass (the operations after it; triptych list passes), intervals "
+                            "(registers), asm (the code), all.\n"
+                            "Stages of external: key, vector (the operations that the text is made from), "
+                            "text (C), asm, all. The stitching\n"
+                            "engines show their fragments, holes and code.";
+
+int command_dump(const struct command *self, int count, char **arguments)
+{
+    struct settings settings = {.engine = "specialize", .unit = "pixel"};
+    const struct option options[] = {
+        {"draw", "N", "which draw of the frame, from 0; 0", OPTION_NUMBER, &settings.draw, 0, NUMBER_MAXIMUM},
+        {"frame", "N", "which frame, from 0; 0", OPTION_NUMBER, &settings.frame, 0, NUMBER_MAXIMUM},
+        {"unit", "UNIT", "vertex, setup or pixel; pixel", OPTION_TEXT, &settings.unit, 0, 0},
+        {"show", "LIST", "stages, separated by commas; key,asm", OPTION_TEXT, &settings.show, 0, 0},
+        {"engine", "NAME", "engine of the routine; specialize", OPTION_TEXT, &settings.engine, 0, 0},
+        {"width", "LANES", "lanes of the engine's variant", OPTION_NUMBER, &settings.width, 1, WIDTH_MAXIMUM},
+    };
+    struct operands operands = {.least = 1, .most = 1};
+    enum options_result result =
+        options_read(self, options, sizeof options / sizeof *options, notes, count, arguments, &operands);
+    if (result != OPTIONS_GO)
+        return options_status(result);
+    unsigned engine;
+    enum unit unit;
+    if (find_unit(self, settings.unit, &unit) ||
+        choose_engine(self, settings.engine, settings.width, &engine))
+        return STATUS_BAD;
+    return dump(self, operands.value[0], &settings, engine, unit);
+}

@@ -1,0 +1,278 @@
+/* `triptych fuzz`: draws random cases with every engine, width and number of threads (docs/fuzzing.md). */
+#include "base/file.h"
+#include "engines/list.h"
+#include "command/fuzz/bisect/bisect.h"
+#include "command/fuzz/campaign.h"
+#include "command/support/choose.h"
+#include "command/support/interrupt.h"
+#include "command/support/json.h"
+#include "command/bench/machine.h"
+#include "command/support/option.h"
+
+#include <inttypes.h>
+#include <stdio.h>
+#include <string.h>
+#include <unistd.h>
+
+enum { PATH_CAPACITY = 4096, NEVER = 0xffffffff };
+
+struct settings {
+    unsigned seed, first, count, jobs, enough, print;
+    double seconds, limit;
+    const char *engines, *threads, *folder, *json;
+};
+
+static uint64_t drawn(const struct campaign *campaign)
+{
+    return campaign->cases - campaign->outcomes[OUTCOME_REFUSED];
+}
+
+static bool watch(void *user, const struct campaign *campaign)
+{
+    const struct settings *settings = user;
+    tool_progress("%" PRIu64 " of %u cases, %.0f a second, %u findings", campaign->cases, settings->count,
+                  (double)campaign->cases / campaign->seconds, campaign->findings);
+    return interrupt_signal();
+}
+
+/* The reference of every comparison is the first engine, in whatever order the list is. */
+static int choose(const struct command *self, const struct settings *settings, struct runner_options *run)
+{
+    struct choice engines, threads;
+    unsigned reference;
+    if (choose_engines(self, settings->engines, &engines) ||
+        choose_threads(self, settings->threads, &threads) || choose_engine(self, "emulate", 0, &reference))
+        return STATUS_BAD;
+    run->engine[run->engines++] = engine_at(reference);
+    for (unsigned i = 0; i < engines.count; i++)
+        if (engines.index[i] != reference && run->engines < RUNNER_ENGINES)
+            run->engine[run->engines++] = engine_at(engines.index[i]);
+    if (threads.count > RUNNER_THREADS)
+        return tool_fail(self, "%u numbers of threads, expected at most %d", threads.count, RUNNER_THREADS);
+    run->threads = threads.count;
+    memcpy(run->thread, threads.index, threads.count * sizeof *run->thread);
+    return STATUS_OK;
+}
+
+/* --- Findings --- */
+
+static void describe(const struct settings *settings, const struct campaign_finding *found, char *text,
+                     size_t size)
+{
+    const struct finding *finding = &found->finding;
+    int length = snprintf(text, size, "seed %u case %" PRIu64 ": %s", settings->seed, found->number,
+                          outcome_name[finding->outcome]);
+    if (finding->engine)
+        length += snprintf(text + length, size - (size_t)length, ": %s with %u thread%s",
+                           finding->engine->name, finding->threads, finding->threads == 1 ? "" : "s");
+    snprintf(text + length, size - (size_t)length, ": %s", finding->what);
+}
+
+/* Saves the text as a stream whose first lines describe the failure. */
+static int save(const struct command *self, const struct settings *settings,
+                const struct campaign_finding *found, const char *description, const struct text *explanation,
+                const struct text *text)
+{
+    struct error error = {{0}};
+    struct text whole = {0};
+    char path[PATH_CAPACITY];
+    const char *rest = strchr(text->data, '\n');
+    snprintf(path, sizeof path, "%s/%u-%" PRIu64 ".tri", settings->folder, settings->seed, found->number);
+    text_add(&whole, "triptych 1\n# %s\n", description);
+    whole.failed |= explanation->failed;
+    for (const char *line = explanation->data; line && *line && !whole.failed; line = strchr(line, '\n') + 1)
+        text_add(&whole, "# %.*s\n", (int)strcspn(line, "\n"), line);
+    text_add(&whole, "%s", rest ? rest + 1 : "");
+    int bad = whole.failed ? error_set(&error, "%s: out of memory", path)
+                           : file_write(path, whole.data, whole.length, &error);
+    text_free(&whole);
+    if (bad)
+        return tool_fail(self, "%s", error.text);
+    printf("  %s\n", path);
+    return STATUS_OK;
+}
+
+/* Names the first operation that differs. Does nothing for other outcomes or if the operation cannot be
+ * found. */
+static void explain(const struct finding *finding, const struct engine *reference, const struct text *text,
+                    struct text *explanation)
+{
+    static struct bisection bisection;
+    static const struct bisect_options anywhere = {BISECT_ANY, BISECT_ANY, BISECT_ANY};
+    struct error error = {{0}};
+    struct stream *stream;
+    if (finding->outcome != OUTCOME_DIFFERENT || finding->engine == reference ||
+        stream_parse("case", text->data, text->length, &stream, &error))
+        return;
+    if (bisect(stream, reference, finding->engine, &anywhere, &bisection, &error))
+        text_add(explanation, "%s\n", error.text);
+    else
+        bisection_print(&bisection, explanation);
+    stream_free(stream);
+    printf("%s", explanation->data ? explanation->data : "");
+}
+
+/* Saves the reduced case, or the whole case with a note if it does not fail in a process of its own. */
+static int save_smallest(const struct command *self, const struct settings *settings,
+                         const struct campaign_options *options, const struct campaign_finding *found,
+                         const char *description, const struct text *text)
+{
+    struct error error = {{0}};
+    struct text smallest = {0}, explanation = {0};
+    tool_progress("case %" PRIu64 " is made small", found->number);
+    bool made = !campaign_minimize(options, &found->finding, text, &smallest, &error);
+    tool_progress(NULL);
+    if (!made)
+        printf("  not reduced: %s\n", error.text);
+    const struct text *rest = made ? &smallest : text;
+    explain(&found->finding, options->run.engine[0], rest, &explanation);
+    int bad = save(self, settings, found, description, &explanation, rest);
+    text_free(&explanation);
+    text_free(&smallest);
+    return bad;
+}
+
+static int report_finding(const struct command *self, const struct settings *settings,
+                          const struct campaign_options *options, const struct campaign_finding *found,
+                          cJSON *list)
+{
+    char description[2 * FINDING_TEXT];
+    struct text text = {0};
+    describe(settings, found, description, sizeof description);
+    printf("%s\n", description);
+    cJSON_AddItemToArray(list, cJSON_CreateString(description));
+    campaign_case(settings->seed, found->number, &text);
+    int bad = text.failed ? tool_fail(self, "out of memory for a case")
+                          : save_smallest(self, settings, options, found, description, &text);
+    text_free(&text);
+    return bad;
+}
+
+/* --- Report --- */
+
+static void summarize(const struct runner_options *run, const struct campaign *campaign)
+{
+    tool_progress(NULL);
+    printf("%" PRIu64 " cases, %u engines, %u numbers of threads: %.0f a second, %.1f pixels a case, %" PRIu64
+           " refused, %" PRIu64 " limited, %u findings%s\n",
+           campaign->cases, run->engines, run->threads, (double)campaign->cases / campaign->seconds,
+           (double)campaign->pixels / (double)(drawn(campaign) ? drawn(campaign) : 1),
+           campaign->outcomes[OUTCOME_REFUSED], campaign->outcomes[OUTCOME_LIMITED], campaign->findings,
+           campaign->interrupted ? ", interrupted" : "");
+}
+
+static cJSON *make_json(const struct settings *settings, const struct runner_options *run,
+                        const struct campaign *campaign, cJSON *findings)
+{
+    struct machine machine = machine_describe();
+    cJSON *json = cJSON_CreateObject(), *engines;
+    cJSON_AddItemToObject(json, "machine", machine_json(&machine));
+    cJSON_AddNumberToObject(json, "seed", settings->seed);
+    cJSON_AddNumberToObject(json, "first", settings->first);
+    engines = cJSON_AddArrayToObject(json, "engines");
+    for (unsigned i = 0; i < run->engines; i++)
+        cJSON_AddItemToArray(engines, cJSON_CreateString(run->engine[i]->name));
+    cJSON_AddNumberToObject(json, "seconds", campaign->seconds);
+    cJSON_AddNumberToObject(json, "pixels", (double)campaign->pixels);
+    cJSON_AddNumberToObject(json, "cases", (double)campaign->cases);
+    for (unsigned o = 0; o < OUTCOME_COUNT; o++)
+        cJSON_AddNumberToObject(json, outcome_name[o], (double)campaign->outcomes[o]);
+    cJSON_AddBoolToObject(json, "interrupted", campaign->interrupted);
+    cJSON_AddItemReferenceToObject(json, "findings", findings);
+    return json;
+}
+
+static int report(const struct command *self, const struct settings *settings,
+                  const struct campaign_options *options, const struct campaign *campaign)
+{
+    cJSON *findings = cJSON_CreateArray();
+    int status = campaign->findings ? STATUS_DIFFERENT : STATUS_OK;
+    for (unsigned i = 0; i < campaign->findings && status != STATUS_BAD; i++)
+        if (report_finding(self, settings, options, &campaign->finding[i], findings))
+            status = STATUS_BAD;
+    if (settings->json && status != STATUS_BAD) {
+        cJSON *json = make_json(settings, &options->run, campaign, findings);
+        if (json_write(self, json, settings->json))
+            status = STATUS_BAD;
+        cJSON_Delete(json);
+    }
+    cJSON_Delete(findings);
+    summarize(&options->run, campaign);
+    return status;
+}
+
+/* --- The command --- */
+
+static int print_case(const struct command *self, const struct settings *settings)
+{
+    struct text text = {0};
+    campaign_case(settings->seed, settings->print, &text);
+    int bad = text.failed;
+    if (!bad)
+        fwrite(text.data, 1, text.length, stdout);
+    text_free(&text);
+    return bad ? tool_fail(self, "out of memory for a case") : STATUS_OK;
+}
+
+static int fuzz(const struct command *self, struct settings *settings)
+{
+    static struct campaign campaign;
+    struct error error = {{0}};
+    struct campaign_options options = {.seed = settings->seed,
+                                       .first = settings->first,
+                                       .count = settings->count,
+                                       .seconds = settings->seconds,
+                                       .limit = settings->limit,
+                                       .jobs = settings->jobs,
+                                       .enough = settings->enough};
+    bool made;
+    if (choose(self, settings, &options.run) || tool_check_output(self, settings->json) ||
+        tool_make_folder(self, settings->folder, &made))
+        return STATUS_BAD;
+    interrupt_defer();
+    int bad =
+        campaign_run(&options, watch, settings, &campaign, &error) ? tool_fail(self, "%s", error.text) : 0;
+    int status = report(self, settings, &options, &campaign);
+    if (made)
+        rmdir(settings->folder); /* succeeds only if nothing was found */
+    return bad ? bad : campaign.interrupted && status != STATUS_BAD ? interrupt_status() : status;
+}
+
+static const char notes[] = "Case N of seed S is always the same draw stream. Failing cases are reduced and "
+                            "saved in the folder as streams.\n"
+                            "Exit status 1: there are findings. After SIGINT or SIGTERM it reports its "
+                            "findings; the status is 130 or 143.";
+
+int command_fuzz(const struct command *self, int count, char **arguments)
+{
+    struct settings settings = {.seed = 1,
+                                .count = 1000,
+                                .jobs = 1,
+                                .enough = 10,
+                                .print = NEVER,
+                                .limit = 60,
+                                .threads = "1,2",
+                                .folder = "findings"};
+    const struct option options[] = {
+        {"seed", "S", "seed of the campaign; 1", OPTION_NUMBER, &settings.seed, 0, NEVER},
+        {"first", "N", "first case; 0", OPTION_NUMBER, &settings.first, 0, NEVER},
+        {"count", "N", "number of cases; 1000", OPTION_NUMBER, &settings.count, 1, NEVER},
+        {"seconds", "T", "end after this time", OPTION_SECONDS, &settings.seconds, 0, 10000000},
+        {"engines", "LIST", "engines, separated by commas; all that can run here", OPTION_TEXT,
+         &settings.engines, 0, 0},
+        {"threads", "LIST", "numbers of threads; 1,2", OPTION_TEXT, &settings.threads, 0, 0},
+        {"jobs", "N", "processes; 1", OPTION_NUMBER, &settings.jobs, 1, CAMPAIGN_JOBS},
+        {"limit", "T", "most seconds per case; 60", OPTION_SECONDS, &settings.limit, 1, 100000},
+        {"findings", "N", "end after this number of findings; 10", OPTION_NUMBER, &settings.enough, 1,
+         CAMPAIGN_FINDINGS},
+        {"output", "DIR", "folder for findings; findings", OPTION_TEXT, &settings.folder, 0, 0},
+        {"json", "FILE", "write the results", OPTION_TEXT, &settings.json, 0, 0},
+        {"print", "N", "write case N to standard output instead", OPTION_NUMBER, &settings.print, 0, NEVER},
+    };
+    struct operands operands = {0};
+    enum options_result result =
+        options_read(self, options, sizeof options / sizeof *options, notes, count, arguments, &operands);
+    if (result != OPTIONS_GO)
+        return options_status(result);
+    return settings.print != NEVER ? print_case(self, &settings) : fuzz(self, &settings);
+}

@@ -1,0 +1,416 @@
+/* `triptych verify`: checks that every engine, width and thread count draws the same bytes.
+ *
+ * The reference is the emulator with one thread. It draws each frame once and keeps colours, depths and
+ * stencils. Every other configuration draws the same frame on its own device and is compared immediately, so
+ * memory does not grow with the number of frames. A configuration that differs is reported with its first
+ * differing frame and skips the stream's remaining frames.
+ *
+ * After a signal (interrupt.h), it reports the frames that all configurations have drawn. */
+#include "render/device/shuffle.h"
+#include "command/support/choose.h"
+#include "command/support/difference.h"
+#include "command/support/interrupt.h"
+#include "command/support/json.h"
+#include "command/bench/execution.h"
+#include "command/bench/machine.h"
+#include "command/support/option.h"
+#include "command/support/session.h"
+#include "triptych.h"
+
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <unistd.h>
+#include <xxhash.h>
+
+enum { STEM_CAPACITY = 64, PATH_CAPACITY = 4096, FRAMES_DEFAULT = 8, FRAMES_MAXIMUM = 65536 };
+
+static const char reference_engine[] = "emulate";
+
+struct configuration {
+    unsigned engine, threads;
+    struct session session;
+    bool differs;
+};
+
+struct settings {
+    struct choice engines, threads;
+    const char *folder; /* for pictures of differences, or null */
+    bool all_frames;
+    unsigned frames;  /* the number to draw, spread over a longer stream */
+    unsigned shuffle; /* seed of the order of tasks in all configurations but the reference; 0: in order */
+    cJSON *report;    /* an array of the streams, or null */
+    struct execution *executions; /* CHOICE_CAPACITY of them, indexed like `engines` */
+};
+
+/* The verification of one stream. */
+struct verification {
+    char name[STEM_CAPACITY];
+    const char *path;
+    unsigned frames, all; /* to draw; in the stream */
+    unsigned drawn;
+    struct configuration reference;
+    struct configuration *others;
+    unsigned count, different;
+    struct readback expected, got;
+    XXH3_state_t *digest; /* of the reference's pictures, frame by frame */
+    cJSON *differences;   /* or null */
+};
+
+static int open_configuration(const struct command *self, const struct stream *stream, unsigned engine,
+                              unsigned threads, struct configuration *configuration)
+{
+    *configuration = (struct configuration){.engine = engine, .threads = threads};
+    return session_open(self, stream, engine, threads, &configuration->session);
+}
+
+static int open_all(const struct command *self, const struct stream *stream, const struct settings *settings,
+                    struct verification *verification)
+{
+    unsigned engine;
+    verification->others =
+        calloc(settings->engines.count * settings->threads.count, sizeof *verification->others);
+    verification->digest = XXH3_createState();
+    if (!verification->others || !verification->digest)
+        return tool_fail(self, "no memory to verify %s", verification->path);
+    XXH3_64bits_reset(verification->digest);
+    if (choose_engine(self, reference_engine, 0, &engine) ||
+        open_configuration(self, stream, engine, 1, &verification->reference))
+        return STATUS_BAD;
+    for (unsigned i = 0; i < settings->engines.count; i++)
+        for (unsigned j = 0; j < settings->threads.count; j++) {
+            if (settings->engines.index[i] == engine && settings->threads.index[j] == 1)
+                continue;
+            struct configuration *other = verification->others + verification->count++;
+            if (open_configuration(self, stream, settings->engines.index[i], settings->threads.index[j],
+                                   other))
+                return STATUS_BAD;
+            device_shuffle(other->session.device, settings->shuffle);
+        }
+    if (!verification->count)
+        return tool_fail(
+            self, "%s with 1 thread is the reference itself, expected another engine or number of threads",
+            reference_engine);
+    return STATUS_OK;
+}
+
+/* Records what each engine executed, for the report. */
+static void note_executions(const struct settings *settings, const struct verification *verification)
+{
+    for (unsigned i = 0; i < settings->engines.count; i++) {
+        const unsigned engine = settings->engines.index[i];
+        if (verification->reference.engine == engine)
+            execution_add_device(&settings->executions[i], verification->reference.session.device);
+        for (unsigned j = 0; j < verification->count; j++)
+            if (verification->others[j].engine == engine)
+                execution_add_device(&settings->executions[i], verification->others[j].session.device);
+    }
+}
+
+static void close_all(struct verification *verification)
+{
+    session_close(&verification->reference.session);
+    for (unsigned i = 0; i < verification->count; i++)
+        session_close(&verification->others[i].session);
+    free(verification->others);
+    XXH3_freeState(verification->digest);
+    readback_free(&verification->expected);
+    readback_free(&verification->got);
+}
+
+static void add_difference(cJSON *differences, const struct configuration *configuration, unsigned frame,
+                           const struct difference *difference, const char *text)
+{
+    cJSON *json = cJSON_CreateObject();
+    cJSON_AddStringToObject(json, "engine", triptych_engine_name(configuration->engine));
+    cJSON_AddNumberToObject(json, "threads", configuration->threads);
+    cJSON_AddNumberToObject(json, "frame", frame);
+    cJSON_AddNumberToObject(json, "x", difference->x);
+    cJSON_AddNumberToObject(json, "y", difference->y);
+    cJSON_AddNumberToObject(json, "color_pixels", (double)difference->color_pixels);
+    cJSON_AddNumberToObject(json, "depth_pixels", (double)difference->depth_pixels);
+    cJSON_AddNumberToObject(json, "stencil_pixels", (double)difference->stencil_pixels);
+    cJSON_AddNumberToObject(json, "number_pixels", (double)difference->number_pixels);
+    cJSON_AddStringToObject(json, "what", text);
+    cJSON_AddItemToArray(differences, json);
+}
+
+static int save_picture(const struct command *self, const struct settings *settings,
+                        const struct verification *verification, const struct configuration *configuration,
+                        unsigned frame)
+{
+    char path[PATH_CAPACITY];
+    snprintf(path, sizeof path, "%s/%s-%s-%u-frame-%u.png", settings->folder, verification->name,
+             triptych_engine_name(configuration->engine), configuration->threads, frame);
+    struct picture expected = readback_picture(&verification->expected),
+                   got = readback_picture(&verification->got);
+    return difference_save(self, path, &expected, &got);
+}
+
+/* Describes the first query whose count differs. */
+static bool compare_queries(const struct readback *expected, const struct readback *got,
+                            char text[DIFFERENCE_TEXT])
+{
+    for (unsigned i = 0; i < expected->query_count; i++)
+        if (i >= got->query_count || expected->queries[i].passed != got->queries[i].passed) {
+            snprintf(text, DIFFERENCE_TEXT, "query %s: %llu and %llu samples passed",
+                     expected->queries[i].name, (unsigned long long)expected->queries[i].passed,
+                     (unsigned long long)(i < got->query_count ? got->queries[i].passed : 0));
+            return true;
+        }
+    return false;
+}
+
+static int compare_frame(const struct command *self, const struct settings *settings,
+                         struct verification *verification, struct configuration *configuration,
+                         unsigned frame)
+{
+    struct picture expected = readback_picture(&verification->expected),
+                   got = readback_picture(&verification->got);
+    struct difference difference;
+    char text[DIFFERENCE_TEXT];
+    if (compare_pictures(&expected, &got, &difference))
+        difference_describe(&expected, &difference, text);
+    else if (!compare_queries(&verification->expected, &verification->got, text))
+        return STATUS_OK;
+    configuration->differs = true;
+    tool_progress(NULL);
+    printf("%s: frame %u: %s with 1 thread and %s with %u differ: %s\n", verification->name, frame,
+           reference_engine, triptych_engine_name(configuration->engine), configuration->threads, text);
+    if (verification->differences)
+        add_difference(verification->differences, configuration, frame, &difference, text);
+    return settings->folder ? save_picture(self, settings, verification, configuration, frame) : STATUS_OK;
+}
+
+static int draw(const struct command *self, const struct verification *verification,
+                struct configuration *configuration, unsigned frame, struct readback *capture)
+{
+    tool_progress("%s: frame %u of %u: %s with %u threads", verification->name, frame, verification->all,
+                  triptych_engine_name(configuration->engine), configuration->threads);
+    return session_play(self, &configuration->session, frame) ||
+                   readback_take(self, &configuration->session, READBACK_SAMPLES, capture)
+               ? STATUS_BAD
+               : STATUS_OK;
+}
+
+static void add_frame(struct verification *verification)
+{
+    const struct readback *expected = &verification->expected;
+    size_t pixels = (size_t)expected->width * expected->height;
+    XXH3_64bits_update(verification->digest, expected->color, pixels * sizeof *expected->color);
+    if (expected->has_depth)
+        XXH3_64bits_update(verification->digest, expected->depth, pixels * sizeof *expected->depth);
+    if (expected->has_stencil)
+        XXH3_64bits_update(verification->digest, expected->stencil, pixels);
+    if (expected->numbers)
+        XXH3_64bits_update(verification->digest, expected->numbers,
+                           pixels * expected->targets * 4 * sizeof *expected->numbers);
+    for (unsigned i = 0; i < expected->query_count; i++)
+        XXH3_64bits_update(verification->digest, &expected->queries[i].passed,
+                           sizeof expected->queries[i].passed);
+    verification->drawn++;
+}
+
+static int compare_others(const struct command *self, const struct settings *settings,
+                          struct verification *verification, unsigned frame)
+{
+    for (unsigned i = 0; i < verification->count && !interrupt_signal(); i++) {
+        struct configuration *configuration = verification->others + i;
+        if (configuration->differs)
+            continue;
+        if (draw(self, verification, configuration, frame, &verification->got) ||
+            compare_frame(self, settings, verification, configuration, frame))
+            return STATUS_BAD;
+        verification->different += configuration->differs;
+    }
+    return STATUS_OK;
+}
+
+/* A frame counts as drawn when every configuration has drawn it. */
+static int verify_frame(const struct command *self, const struct settings *settings,
+                        struct verification *verification, unsigned frame)
+{
+    if (draw(self, verification, &verification->reference, frame, &verification->expected) ||
+        compare_others(self, settings, verification, frame))
+        return STATUS_BAD;
+    if (!interrupt_signal())
+        add_frame(verification);
+    return STATUS_OK;
+}
+
+static void add_stream(const struct settings *settings, struct verification *verification, const char *digest)
+{
+    cJSON *json = cJSON_CreateObject();
+    cJSON_AddStringToObject(json, "stream", verification->name);
+    cJSON_AddStringToObject(json, "path", verification->path);
+    cJSON_AddNumberToObject(json, "frames", verification->drawn);
+    cJSON_AddBoolToObject(json, "complete", verification->drawn == verification->frames);
+    cJSON_AddNumberToObject(json, "configurations", verification->count + 1);
+    cJSON_AddStringToObject(json, "xxh3", digest);
+    cJSON_AddBoolToObject(json, "identical", !verification->different);
+    cJSON_AddItemToObject(json, "differences", verification->differences);
+    cJSON_AddItemToArray(settings->report, json);
+}
+
+static void report(const struct settings *settings, struct verification *verification)
+{
+    char digest[24];
+    snprintf(digest, sizeof digest, "%016llx", (unsigned long long)XXH3_64bits_digest(verification->digest));
+    tool_progress(NULL);
+    if (!verification->different && verification->drawn)
+        printf("%s: identical, %u of %u frames, %u configurations, %u x %u, xxh3 %s\n", verification->name,
+               verification->drawn, verification->all, verification->count + 1, verification->expected.width,
+               verification->expected.height, digest);
+    fflush(stdout);
+    if (!settings->report)
+        return;
+    note_executions(settings, verification);
+    add_stream(settings, verification, digest);
+}
+
+static int verify_frames(const struct command *self, const struct stream *stream,
+                         const struct settings *settings, struct verification *verification)
+{
+    if (open_all(self, stream, settings, verification))
+        return STATUS_BAD;
+    for (unsigned i = 0; i < verification->frames && !interrupt_signal(); i++)
+        if (verify_frame(self, settings, verification,
+                         session_spread(i, verification->frames, verification->all)))
+            return STATUS_BAD;
+    return STATUS_OK;
+}
+
+/* The number of streams so far. */
+struct totals {
+    unsigned complete, different;
+};
+
+static int verify_stream(const struct command *self, const char *path, const struct settings *settings,
+                         struct totals *totals)
+{
+    struct stream *stream = session_load_frames(self, path);
+    if (!stream)
+        return STATUS_BAD;
+    struct verification verification = {.path = path, .all = stream->frame_count};
+    tool_path_stem(path, verification.name, sizeof verification.name);
+    verification.frames = verification.all;
+    if (!settings->all_frames && settings->frames < verification.all)
+        verification.frames = settings->frames;
+    if (settings->report)
+        verification.differences = cJSON_CreateArray();
+    int status = verify_frames(self, stream, settings, &verification);
+    if (!status) {
+        report(settings, &verification);
+        totals->different += verification.different != 0;
+        totals->complete += verification.drawn == verification.frames;
+    } else {
+        cJSON_Delete(verification.differences);
+    }
+    close_all(&verification);
+    stream_free(stream);
+    return status;
+}
+
+static void tell_left_out(const struct choice *engines)
+{
+    for (unsigned i = 0; i < engines->left_out_count; i++)
+        printf("left out %s: %s\n", triptych_engine_name(engines->left_out[i].index),
+               engines->left_out[i].reason);
+}
+
+static void summarize(const struct operands *operands, const struct settings *settings,
+                      const struct totals *totals)
+{
+    if (interrupt_signal())
+        printf("interrupted by %s: %u of ", interrupt_name(), totals->complete);
+    printf("%d streams, %u engines, ", operands->count, settings->engines.count);
+    if (totals->different)
+        printf("%u differ\n", totals->different);
+    else
+        puts("identical");
+}
+
+static int verify_all(const struct command *self, const struct operands *operands,
+                      const struct settings *settings, bool *identical)
+{
+    struct totals totals = {0};
+    for (int i = 0; i < operands->count && !interrupt_signal(); i++)
+        if (verify_stream(self, operands->value[i], settings, &totals))
+            return STATUS_BAD;
+    tell_left_out(&settings->engines);
+    summarize(operands, settings, &totals);
+    *identical = !totals.different;
+    if (interrupt_signal())
+        return interrupt_status();
+    return totals.different ? STATUS_DIFFERENT : STATUS_OK;
+}
+
+static int write_report(const struct command *self, const struct settings *settings, const char *path,
+                        bool identical, int status)
+{
+    struct machine machine = machine_describe();
+    cJSON *json = cJSON_CreateObject();
+    cJSON_AddItemToObject(json, "machine", machine_json(&machine));
+    cJSON_AddBoolToObject(json, "identical", identical);
+    if (interrupt_signal())
+        cJSON_AddStringToObject(json, "interrupted", interrupt_name());
+    cJSON *engines = cJSON_AddArrayToObject(json, "engines");
+    for (unsigned i = 0; i < settings->engines.count; i++) {
+        cJSON *engine = cJSON_CreateObject();
+        cJSON_AddStringToObject(engine, "engine", triptych_engine_name(settings->engines.index[i]));
+        execution_json(&settings->executions[i], engine);
+        cJSON_AddItemToArray(engines, engine);
+    }
+    cJSON_AddItemReferenceToObject(json, "streams", settings->report);
+    int bad = json_write(self, json, path);
+    cJSON_Delete(json);
+    return bad ? STATUS_BAD : status;
+}
+
+static const char notes[] =
+    "The reference is emulate with 1 thread. Every colour, depth and stencil byte of every other "
+    "configuration\n"
+    "must equal its bytes. Frames are numbered from 0. Last line: \"N streams, N engines, identical\", or "
+    "the number\n"
+    "of streams that differ. After SIGINT or SIGTERM it reports what it has drawn; the status is 130 or 143.";
+
+int command_verify(const struct command *self, int count, char **arguments)
+{
+    struct execution executions[CHOICE_CAPACITY] = {0};
+    struct settings settings = {.frames = FRAMES_DEFAULT, .executions = executions};
+    const char *engine_list = NULL, *thread_list = "1,2", *frames = NULL, *json = NULL;
+    const struct option options[] = {
+        {"engines", "LIST", "engines, separated by commas; all that can run here", OPTION_TEXT, &engine_list,
+         0, 0},
+        {"threads", "LIST", "numbers of threads; 1,2", OPTION_TEXT, &thread_list, 0, 0},
+        {"frames", "N|all", "number of frames, spread over the stream; 8", OPTION_TEXT, &frames, 0, 0},
+        {"shuffle", "SEED", "seed of random orders of batches and tiles in all but the reference; 0",
+         OPTION_NUMBER, &settings.shuffle, 0, INT32_MAX},
+        {"difference", "DIR", "folder for pictures of the differences", OPTION_TEXT, &settings.folder, 0, 0},
+        {"json", "FILE", "write the results", OPTION_TEXT, &json, 0, 0},
+    };
+    struct operands operands = {.least = 1, .most = ANY_NUMBER};
+    bool made, identical;
+    enum options_result result =
+        options_read(self, options, sizeof options / sizeof *options, notes, count, arguments, &operands);
+    if (result != OPTIONS_GO)
+        return options_status(result);
+    settings.all_frames = frames && !strcmp(frames, "all");
+    if (frames && !settings.all_frames && !option_read_number(frames, 1, FRAMES_MAXIMUM, &settings.frames))
+        return tool_fail(self, "--frames is \"%s\", expected all or a number from 1 to %d", frames,
+                         FRAMES_MAXIMUM);
+    if (choose_engines(self, engine_list, &settings.engines) ||
+        choose_threads(self, thread_list, &settings.threads) || tool_check_output(self, json) ||
+        tool_make_folder(self, settings.folder, &made))
+        return STATUS_BAD;
+
+    settings.report = json ? cJSON_CreateArray() : NULL;
+    interrupt_defer();
+    int status = verify_all(self, &operands, &settings, &identical);
+    if (json && status != STATUS_BAD)
+        status = write_report(self, &settings, json, identical, status);
+    cJSON_Delete(settings.report);
+    if (made)
+        rmdir(settings.folder); /* succeeds only if nothing differed */
+    return status;
+}

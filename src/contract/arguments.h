@@ -1,0 +1,48 @@
+/* The arguments of routines, one structure per unit.
+ *
+ * The caller owns all memory that the pointers refer to, and keeps it until the routine returns.
+ * contract/layout.h has the layouts. */
+#ifndef CONTRACT_ARGUMENTS_H
+#define CONTRACT_ARGUMENTS_H
+
+#include "contract/job.h"
+#include "contract/layout.h"
+
+/* For each lane i < count (a multiple of W or of 16, at most VERTEX_CAPACITY): shades vertex index[i] into
+ * lane i of out. */
+struct vertex_arguments {
+    const struct job *job;
+    const uint32_t *index;
+    float *out; /* SLOT_COUNT * VERTEX_CAPACITY words, 64-byte aligned */
+    uint32_t count;
+};
+
+/* For each lane i < count (a multiple of W or of 16, at most SETUP_CAPACITY): the triangle of batch vertices
+ * index[0][i], index[1][i], index[2][i], as *byte* offsets of their lanes (4 * lane), into record i of out.
+ *
+ * Lines and edges extend from vertex 0 to vertex 1; points and corners are at vertex 0. Edges and corners
+ * belong to the triangle of all three vertices. These four take flat colours from vertex index[3][i];
+ * index[4][i] is -1 if a line's last pixel is drawn, else 0. Rows that a primitive does not have are not
+ * read. */
+struct setup_arguments {
+    const struct job *job;
+    const uint32_t *index; /* SETUP_INDEX_ROWS rows of SETUP_CAPACITY words */
+    const float *vertices;
+    uint8_t *out; /* count records of the key's stride, 64-byte aligned */
+    uint32_t count;
+};
+
+/* For each of count (at least 1) entries in order: shades its covered pixels into the tile. */
+struct pixel_arguments {
+    const struct job *job;
+    const struct entry *entries;
+    const uint8_t *triangles;
+    struct lane_table *lanes;
+    uint32_t *
+        color; /* planes of TILE_PIXELS words, those of each target in turn (def/state/target.def), or of each
+                        sample; 64-byte aligned */
+    uint32_t *depth; /* TILE_PIXELS words (render/target/depth.h) of each sample in turn, 64-byte aligned */
+    uint32_t count;
+};
+
+#endif

@@ -1,0 +1,41 @@
+/* Values of the keys' fields about textures: kinds, filters, addressing. */
+#ifndef CONTRACT_KEY_SAMPLER_H
+#define CONTRACT_KEY_SAMPLER_H
+
+#include <stdint.h>
+
+/* The samplers of pixels, the first of them those of the texture stages; then the samplers of vertices. */
+enum { PIXEL_SAMPLERS = 16, VERTEX_SAMPLERS = 4, SAMPLERS = PIXEL_SAMPLERS + VERTEX_SAMPLERS };
+
+enum texture_kind { TEXTURE_NONE, TEXTURE_2D, TEXTURE_CUBE, TEXTURE_VOLUME, TEXTURE_KINDS };
+
+/* Texels are bytes, bytes whose colours are sRGB, binary32, or depth that a coordinate is compared with. */
+enum texel { TEXEL_BYTES, TEXEL_SRGB, TEXEL_FLOATS, TEXEL_COMPARE, TEXEL_COUNT };
+
+enum filter { FILTER_POINT, FILTER_LINEAR, FILTER_COUNT };
+enum minify { MINIFY_SAME, MINIFY_OTHER, MINIFY_ANISOTROPIC, MINIFY_COUNT };
+enum mip { MIP_NONE, MIP_POINT, MIP_LINEAR, MIP_COUNT };
+enum { ANISOTROPY_MAXIMUM = 16 };
+
+/* WRAP_POWER and MIRROR_POWER are for an axis whose size is a power of two: a mask replaces the floor. */
+enum address_mode {
+    ADDRESS_WRAP,
+    ADDRESS_WRAP_POWER,
+    ADDRESS_CLAMP,
+    ADDRESS_MIRROR,
+    ADDRESS_MIRROR_POWER,
+    ADDRESS_MIRROR_ONCE,
+    ADDRESS_BORDER,
+    ADDRESS_COUNT
+};
+
+/* One sampler of a key. */
+struct sampler_key {
+    uint8_t number;              /* 0 to SAMPLERS - 1 */
+    uint8_t kind, texel;         /* enum texture_kind, enum texel */
+    uint8_t filter, minify, mip; /* enum filter, enum minify, enum mip */
+    uint8_t anisotropy;          /* the largest number of taps; 0: one tap */
+    uint8_t address[3];          /* enum address_mode, of u, v and w */
+};
+
+#endif

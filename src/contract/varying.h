@@ -1,0 +1,79 @@
+/* Varyings: the values that vertices hand to pixels, interpolated; and how shaders' inputs and outputs map to
+ * them. */
+#ifndef CONTRACT_VARYING_H
+#define CONTRACT_VARYING_H
+
+#include <stdbool.h>
+#include <stdint.h>
+
+/* Texture stages. Each has a channel: one set of texture coordinates that travels from vertex to pixel. */
+enum { TEXTURE_STAGES = 8 };
+
+enum varying {
+#define VARYING(name, components, text) VARYING_##name,
+#include "def/state/varying.def"
+#undef VARYING
+    VARYING_COUNT
+};
+
+enum interpolation { INTERPOLATION_NONE, INTERPOLATION_SMOOTH, INTERPOLATION_FLAT, INTERPOLATION_COUNT };
+
+/* The components of each varying (def/state/varying.def), and its first slot in a vertex batch (layout.h). */
+extern const uint8_t varying_components[VARYING_COUNT];
+extern const uint8_t varying_slot[VARYING_COUNT];
+
+/* A channel's varyings: two texture coordinates, the third coordinate, and the divisor. */
+enum { VARYING_CHANNEL = VARYING_texcoord1 - VARYING_texcoord0 };
+static inline int varying_texcoord(int channel)
+{
+    return VARYING_texcoord0 + VARYING_CHANNEL * channel;
+}
+static inline int varying_third(int channel)
+{
+    return VARYING_third0 + VARYING_CHANNEL * channel;
+}
+static inline int varying_divisor(int channel)
+{
+    return VARYING_divisor0 + VARYING_CHANNEL * channel;
+}
+
+/* Returns true if it is any of a channel's three. */
+static inline bool varying_is_coordinate(int varying)
+{
+    return varying >= VARYING_texcoord0 && varying < VARYING_specular;
+}
+
+static inline bool varying_is_texcoord(int varying)
+{
+    return varying_is_coordinate(varying) && !((varying - VARYING_texcoord0) % VARYING_CHANNEL);
+}
+
+static inline bool varying_is_divisor(int varying)
+{
+    return varying >= VARYING_divisor0 && varying < VARYING_specular &&
+           !((varying - VARYING_divisor0) % VARYING_CHANNEL);
+}
+
+/* Ports: the varyings as shaders see them, of four components each. A channel's third coordinate and divisor
+ * are the third and the fourth component of its port; shaders divide by themselves. */
+enum { PORT_DIFFUSE, PORT_SPECULAR, PORT_CHANNEL, PORTS = PORT_CHANNEL + TEXTURE_STAGES };
+
+/* The varying that holds component c of a port, and the component of that varying. */
+static inline int port_varying(int port, int c)
+{
+    int channel = port - PORT_CHANNEL;
+    if (port < PORT_CHANNEL)
+        return port == PORT_DIFFUSE ? (int)VARYING_diffuse : (int)VARYING_specular;
+    return c < 2 ? varying_texcoord(channel) : c == 2 ? varying_third(channel) : varying_divisor(channel);
+}
+static inline int port_component(int port, int c)
+{
+    return port < PORT_CHANNEL || c < 2 ? c : 0;
+}
+
+/* The source of a port's component: the fixed function; none, so that it has its default; or component c of
+ * the vertex shader's output o, as LINK_OUTPUT + 4 * o + c. */
+enum { OUTPUTS = 16 };
+enum { LINK_FIXED, LINK_NONE, LINK_OUTPUT, LINK_COUNT = LINK_OUTPUT + 4 * OUTPUTS };
+
+#endif

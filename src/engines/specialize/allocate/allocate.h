@@ -1,0 +1,167 @@
+/* Register allocation: linear scan over live intervals (Poletto and Sarkar 1999). The program is one sequence
+ * of instructions, in which loops and regions are marks.
+ *
+ * The interval of a value runs from its definition to its last use. If the value is defined before a loop and
+ * used in it, the interval runs at least to the loop's end. Values that phis and joins unite form a web: one
+ * value with several definitions (coalesce.c). A value is in a register up to position `split`, and in memory
+ * after it. A value that is evicted later is stored at each of its definitions, so it does not matter whether
+ * the region of its eviction ran. A value from outside of a loop that is evicted in the loop is in memory
+ * from the loop's head on, because the next iteration executes all of the loop.
+ *
+ * The victim is the value whose next use is furthest away (Belady 1966); in programs with loops, the value
+ * with the longest relief for its estimated number of uses. Values whose intervals do not overlap share spill
+ * slots. Values that memory already holds need no slot: literals and slots of the constant table are in
+ * registers only as copies, a uniform is read again, and a load from memory that no routine writes is
+ * addressed where it is. Variables, if the profile keeps them, are in the stack frame.
+ *
+ * Vectors have 13 registers, or 29 of the 32 with AVX-512. With 16 lanes, masks have six registers of their
+ * own. */
+#ifndef ENGINES_SPECIALIZE_ALLOCATE_ALLOCATE_H
+#define ENGINES_SPECIALIZE_ALLOCATE_ALLOCATE_H
+
+#include "ir/ir.h"
+
+enum {
+    ALLOCATABLE = 13,    /* vector registers 0 to 12, and 16 to 31 if there are 32 */
+    SCRATCH_RESULT = 13, /* for results without a register */
+    SCRATCH_FIRST = 14,  /* two registers for operands that are loaded */
+    SCRATCH_SECOND = 15,
+    MASKS = 32,          /* the number of mask register 0; 33 to 38 are allocated */
+    MASK_RESULT = MASKS, /* mask register 0, which cannot mask an instruction */
+    MASK_SCRATCH = MASKS + 7,
+    REGISTERS = MASKS + 8,
+    NO_REGISTER = 255,
+    NO_SLOT = 0xffff,
+    NEVER = 0xffff,
+    SLOT_WORDS = IR_CAPACITY / 64 + 1,
+    LOOP_CAPACITY = IR_CAPACITY / 2 + 1 /* more loops than any program has */
+};
+
+/* The positions of a loop's ends, and the loop around it, 0: none. A loop's number is higher than those of
+ * the loops around it. */
+struct loop_extent {
+    uint16_t head, again, outer;
+};
+
+enum residence {
+    RESIDENCE_NONE,     /* no value, or an unused one */
+    RESIDENCE_REGISTER, /* in a register up to `split` */
+    RESIDENCE_MEMORY    /* in memory at every use */
+};
+
+/* Which registers are available, and how to choose among them. All zero: all registers, by the rules above.
+ * Tests remove registers and draw lots, because an allocation must be correct whatever is chosen. */
+struct register_file {
+    uint64_t without; /* bit r: register r is not available; this may be all of them */
+    uint64_t seed;    /* not 0: free registers, victims, slots and what is coalesced are drawn by lot */
+    bool wide;        /* there are 32 vector registers, and mask registers */
+};
+
+/* The registers that are allocated, a bit each. */
+#define NARROW_REGISTERS ((1ull << ALLOCATABLE) - 1)
+#define WIDE_REGISTERS   (NARROW_REGISTERS | 0xffff0000ull)
+#define MASK_REGISTERS   (0x7eull << MASKS)
+
+struct allocation {
+    uint64_t lots; /* the state of the generator of lots; 0: no lots are drawn */
+    bool wide;
+    uint8_t residence[IR_CAPACITY];
+    uint8_t reg[IR_CAPACITY];
+    /* By value: */
+    uint16_t split[IR_CAPACITY];    /* the last position at which it is in its register; NEVER: everywhere */
+    uint16_t slot[IR_CAPACITY];     /* its spill slot; NO_SLOT: not spilled, or read again from memory */
+    uint16_t last[IR_CAPACITY];     /* the last position at which it is alive; 0: unused */
+    uint32_t uses[IR_CAPACITY];     /* the number of uses */
+    uint16_t next[IR_CAPACITY][3];  /* by instruction and operand: the next use of the same value, 0: none */
+    uint16_t next_use[IR_CAPACITY]; /* the next use from the current position on, 0: none */
+    uint16_t expiring[IR_CAPACITY]; /* by position: a value whose last use it is, 0: none */
+    uint16_t expiring_next[IR_CAPACITY]; /* another value with the same last use, 0: none */
+    uint32_t weight[IR_CAPACITY]; /* in programs with loops: the estimated number of uses and definitions */
+    uint16_t recent[IR_CAPACITY]; /* in programs with loops: the latest use before the current position */
+    uint16_t
+        loop_at[IR_CAPACITY]; /* by position: the loop that begins or ends there, or that a phi belongs to */
+    uint16_t region_at[IR_CAPACITY]; /* by position: of a `when` its end, and of an `end` its `when` */
+    bool webs;                       /* false: each value is a web */
+    uint16_t web[IR_CAPACITY];       /* the first value of its web */
+    uint16_t member[IR_CAPACITY];    /* the next value of its web, 0: none */
+    uint16_t tail[IR_CAPACITY];      /* of a web: its last value */
+    uint16_t death[IR_CAPACITY];     /* while coalescing: the last position at which it is alive */
+    struct loop_extent loop[LOOP_CAPACITY];
+    uint64_t free_slot[SLOT_WORDS]; /* a bit for each slot that is free */
+    uint32_t slots;
+    uint32_t spills; /* the number of evicted values */
+};
+
+/* Returns true if the code of this operation can read the operand from memory. */
+bool allocate_folds(const struct ir_instruction *instruction, int operand);
+
+/* Returns true if the operands keep their registers until the result is complete. */
+bool allocate_keeps_operands(const struct ir_instruction *instruction);
+
+/* Returns true if a value is in memory from the start: a literal, a slot of the constant table. */
+static inline bool allocate_is_constant(const struct ir_instruction *instruction)
+{
+    return instruction->op == IR_literal || instruction->op == IR_constant;
+}
+
+/* Fills `allocation` for a valid, compacted program. */
+void allocate_registers(const struct ir *ir, struct allocation *allocation, const struct register_file *file);
+
+/* Returns true if the value's register is a mask register: the operation's result is a mask, or the operation
+ * passes a mask on. (The type of the instruction does not decide, because andn_m is also applied to
+ * integers.) */
+static inline bool allocate_is_mask(const struct allocation *allocation,
+                                    const struct ir_instruction *instruction)
+{
+    if (!allocation->wide || instruction->type != TYPE_msk)
+        return false;
+    switch (instruction->op) {
+    case IR_copy:
+    case IR_get:
+    case IR_phi:
+    case IR_join: return true;
+    default: return ir_op_information[instruction->op].result == TYPE_msk;
+    }
+}
+
+/* The file of vector registers 0 to count - 1 and half that number of mask registers, or all if `count` is
+ * ALLOCATABLE. */
+static inline struct register_file allocate_register_file(unsigned count, unsigned width)
+{
+    uint64_t with = ((1ull << count) - 1) | ((2ull << count / 2) - 1) << MASKS;
+    return (struct register_file){.without = count < ALLOCATABLE ? ~with : 0, .wide = width == 16};
+}
+
+/* Returns a number below `limit` if lots are drawn, else 0. */
+static inline unsigned allocate_lot(struct allocation *allocation, unsigned limit)
+{
+    uint64_t lots = allocation->lots;
+    if (!lots)
+        return 0;
+    lots ^= lots >> 12;
+    lots ^= lots << 25;
+    lots ^= lots >> 27;
+    allocation->lots = lots;
+    return (unsigned)((lots * 0x2545f4914f6cdd1dull >> 33) % limit);
+}
+
+/* The web of a value, named by its first value. A web's split, slot, uses and last use are those of its first
+ * value; `reg` of each definition is the register that its instruction writes. */
+static inline unsigned allocate_web(const struct allocation *allocation, unsigned value)
+{
+    return allocation->webs ? allocation->web[value] : value;
+}
+
+/* The outermost loop that begins after position `birth` and contains loop `inner` or is it, 0: none. */
+unsigned allocate_entered_loop(const struct allocation *allocation, unsigned birth, unsigned inner);
+
+/* The position of the `end` that a join follows. */
+uint32_t allocate_joined_end(const struct ir *ir, uint32_t join);
+
+/* Fills web, member and tail; loops and regions have been found (coalesce.c). */
+void allocate_coalesce(const struct ir *ir, struct allocation *allocation);
+
+/* Prints the live intervals as a chart. */
+void allocate_print(const struct ir *ir, const struct allocation *allocation, FILE *out);
+
+#endif

@@ -1,0 +1,96 @@
+#include "engines/specialize/build.h"
+
+#include "base/slab.h"
+#include "machine/mxcsr.h"
+#include "engines/specialize/specialize.h"
+
+/* The emitter's table of literals is zero in a new builder and after each build. */
+static struct slab builders = SLAB(sizeof(struct builder));
+
+struct builder *specialize_take(struct error *error)
+{
+    struct builder *builder = slab_take(&builders);
+    if (!builder)
+        error_set(error, "out of memory for building a routine (%zu bytes)", sizeof *builder);
+    return builder;
+}
+
+void specialize_give(struct builder *builder)
+{
+    slab_give(&builders, builder);
+}
+
+/* The context of an observer that verifies the result of each pass, and then calls the caller's observer. */
+struct check {
+    pass_observer *observer;
+    void *context;
+    struct error *error;
+    bool failed;
+};
+
+static void check_pass(void *context, enum pass pass, const struct ir *ir)
+{
+    struct check *check = context;
+    char name[48];
+    snprintf(name, sizeof name, "the result of pass %s", pass_name(pass));
+    if (!check->failed)
+        check->failed = ir_check(ir, name, check->error) != 0;
+    if (check->observer)
+        check->observer(check->context, pass, ir);
+}
+
+/* Returns 0, or -1 with the reason if the program is verified (IR_CHECKED) and not valid. */
+static int optimize_checked(struct builder *b, const struct build_options *options, pass_observer *observer,
+                            void *context, struct error *error)
+{
+    struct check check = {observer, context, error, false};
+    if (!IR_CHECKED) {
+        pass_run_all(&b->ir, &b->pass, options->profile, options->disabled, observer, context);
+        return 0;
+    }
+    if (ir_check(&b->ir, "the recording", error))
+        return -1;
+    pass_run_all(&b->ir, &b->pass, options->profile, options->disabled, check_pass, &check);
+    return check.failed ? -1 : ir_check(&b->ir, "the result of the passes", error);
+}
+
+static size_t build_phases(struct builder *b, const struct build_options *options, enum unit unit,
+                           const union key *key, pass_observer *observer, void *context, struct error *error)
+{
+    if (b->ir.overflow) {
+        error_set(error, "the %s routine takes more than %d operations", unit_name[unit], IR_CAPACITY - 1);
+        return 0;
+    }
+    b->pass.lanes = options->width;
+    if (optimize_checked(b, options, observer, context, error))
+        return 0;
+    struct register_file file = options->file;
+    file.wide = options->width == 16;
+    allocate_registers(&b->ir, &b->allocation, &file);
+    b->emitter.ir = &b->ir;
+    b->emitter.allocation = &b->allocation;
+    b->emitter.width = options->width;
+    b->emitter.length = emit_length_of(options->width);
+    return emit_routine(&b->emitter, unit, key, error);
+}
+
+size_t specialize_code(struct builder *b, const struct build_options *options, enum unit unit,
+                       const union key *key, pass_observer *observer, void *context, struct error *error)
+{
+    unsigned saved = mxcsr_enter();
+    ir_record(&b->ir, unit, key);
+    size_t bytes = build_phases(b, options, unit, key, observer, context, error);
+    mxcsr_leave(saved);
+    return bytes;
+}
+
+size_t specialize_recording(struct builder *b, const struct ir *ir, const struct build_options *options,
+                            enum unit unit, const union key *key, pass_observer *observer, void *context,
+                            struct error *error)
+{
+    unsigned saved = mxcsr_enter();
+    ir_duplicate(&b->ir, ir);
+    size_t bytes = build_phases(b, options, unit, key, observer, context, error);
+    mxcsr_leave(saved);
+    return bytes;
+}

@@ -1,0 +1,53 @@
+/* Building a routine: its phases in order, and the options of a build. */
+#ifndef ENGINES_SPECIALIZE_BUILD_H
+#define ENGINES_SPECIALIZE_BUILD_H
+
+#include "contract/engine.h"
+#include "engines/specialize/emit/emit.h"
+#include "engines/specialize/passes/pass.h"
+
+struct build_options {
+    unsigned width; /* 4, 8 or 16 */
+    enum profile profile;
+    uint32_t disabled; /* bit p: pass p does not run */
+    struct register_file file;
+};
+
+/* Returns the options of one of the specializer's engines, with the width that it chooses for the unit. */
+struct build_options specialize_options(const struct engine *engine, enum unit unit);
+
+/* Builds a routine with the given options, or returns null with the reason. The engine frees the routine. For
+ * tests: builds with few registers. */
+struct routine *specialize_routine(const struct engine *engine, const struct build_options *options,
+                                   struct code_arena *arena, enum unit unit, const union key *key,
+                                   struct error *error);
+
+/* The memory of one build. It is reused; a build allocates nothing else. */
+struct builder {
+    struct ir ir;
+    struct pass_memory pass;
+    struct allocation allocation;
+    struct emitter emitter;
+};
+
+/* Returns a builder, or null with the reason. Return it with specialize_give. */
+struct builder *specialize_take(struct error *error);
+void specialize_give(struct builder *builder);
+
+/* Records, optimises, allocates and encodes to builder->emitter.code, under the contract's MXCSR. Returns the
+ * number of bytes, or 0 with the reason. `observer` may be null. */
+size_t specialize_code(struct builder *builder, const struct build_options *options, enum unit unit,
+                       const union key *key, pass_observer *observer, void *context, struct error *error);
+
+/* The same, from a recording instead of the key's specification. */
+size_t specialize_recording(struct builder *builder, const struct ir *ir, const struct build_options *options,
+                            enum unit unit, const union key *key, pass_observer *observer, void *context,
+                            struct error *error);
+
+/* Builds a routine of one of the specializer's engines from a recording, without the passes whose bit is set
+ * in `disabled`. Returns null with the reason; the engine frees the routine. */
+struct routine *specialize_routine_of(const struct engine *engine, const struct ir *ir, uint32_t disabled,
+                                      pass_observer *observer, void *context, struct code_arena *arena,
+                                      enum unit unit, const union key *key, struct error *error);
+
+#endif

@@ -1,0 +1,132 @@
+/* Prints the phases of a build: the key, the recording, the program after each pass that changed it, the live
+ * intervals, and the machine code with the line of the specification of each instruction. */
+#include "base/bits.h"
+#include "machine/code.h"
+#include "machine/disassemble.h"
+#include "engines/specialize/build.h"
+#include "engines/specialize/specialize.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+struct dump {
+    const char *show;
+    FILE *out;
+    struct builder *builder;
+    uint32_t line; /* the next entry of the emitter's line table */
+};
+
+/* Returns true if `name` is one of the comma-separated words of `show`, or if `all` is. */
+static bool shows(const char *show, const char *name)
+{
+    size_t length = strlen(name);
+    for (const char *at = show; *at; at += strcspn(at, ","), at += *at == ',') {
+        size_t word = strcspn(at, ",");
+        if ((word == length && !memcmp(at, name, length)) || (word == 3 && !memcmp(at, "all", 3)))
+            return true;
+    }
+    return false;
+}
+
+static bool is_phase(const char *word, size_t length)
+{
+    static const char *const phases[] = {"all", "key", "record", "intervals", "asm"};
+    for (size_t i = 0; i < sizeof phases / sizeof phases[0]; i++)
+        if (strlen(phases[i]) == length && !memcmp(phases[i], word, length))
+            return true;
+    for (unsigned p = 0; p < PASS_COUNT; p++)
+        if (strlen(pass_name(p)) == length && !memcmp(pass_name(p), word, length))
+            return true;
+    return false;
+}
+
+static int check_words(const char *show, struct error *error)
+{
+    for (const char *at = show; *at; at += strcspn(at, ","), at += *at == ',') {
+        size_t length = strcspn(at, ",");
+        if (!is_phase(at, length))
+            return error_set(error, "found `%.*s`, expected key, record, a pass, intervals, asm or all",
+                             (int)length, at);
+    }
+    return 0;
+}
+
+static void after_pass(void *context, enum pass pass, const struct ir *ir)
+{
+    struct dump *dump = context;
+    if (!shows(dump->show, pass_name(pass)))
+        return;
+    fprintf(dump->out, "\n== after %s: %s\n", pass_name(pass), pass_description(pass));
+    ir_print(ir, dump->out);
+}
+
+/* Prints an instruction, and the line of the specification if it is not that of the instruction before. */
+static void print_line(void *context, size_t offset, size_t length, const char *text)
+{
+    struct dump *dump = context;
+    const struct emitter *m = &dump->builder->emitter;
+    const struct ir_instruction *i = NULL;
+    while (dump->line < m->lines && m->line[dump->line].offset <= offset)
+        i = &m->ir->instruction[m->line[dump->line++].instruction];
+    (void)length;
+    fprintf(dump->out, "%6zx  %-58s", offset, text);
+    if (i && i->line)
+        fprintf(dump->out, " ; %%%u %s %s:%u", (unsigned)(i - m->ir->instruction),
+                ir_op_information[i->op].name, m->ir->file[i->file], i->line);
+    fputc('\n', dump->out);
+}
+
+static void dump_code(struct dump *dump, size_t bytes)
+{
+    const struct emitter *m = &dump->builder->emitter;
+    fprintf(dump->out, "\n== asm: %u bytes of code, %zu of constants, %u spilled\n", m->code_bytes,
+            bytes - m->code_bytes, m->allocation->spills);
+    disassemble(m->code, m->code_bytes, 0, print_line, dump);
+    for (uint32_t i = 0; i < m->literals; i++) {
+        float value = bits_to_float(m->literal_bits[i]);
+        fprintf(dump->out, "%6x  constant 0x%08x (%.9g) in %u lanes%s\n",
+                (unsigned)m->labels[m->literal_label[i]], (unsigned)m->literal_bits[i], (double)value,
+                m->width, m->literal_lanes[i] ? "" : ", broadcast");
+    }
+}
+
+static int dump_phases(struct dump *dump, const struct build_options *options, enum unit unit,
+                       const union key *key, struct error *error)
+{
+    struct builder *b = dump->builder;
+    char text[KEY_TEXT_CAPACITY];
+    if (shows(dump->show, "key"))
+        fprintf(dump->out, "== key of the %s routine\n%s\n", unit_name[unit], key_print(unit, key, text));
+    if (shows(dump->show, "record")) {
+        ir_record(&b->ir, unit, key);
+        fprintf(dump->out, "\n== record: the spec's operations for this key\n");
+        ir_print(&b->ir, dump->out);
+    }
+    size_t bytes = specialize_code(b, options, unit, key, after_pass, dump, error);
+    if (!bytes)
+        return -1;
+    if (shows(dump->show, "intervals")) {
+        fprintf(dump->out, "\n== intervals: from definition to last use; = in a register, . in memory\n");
+        allocate_print(&b->ir, &b->allocation, dump->out);
+    }
+    if (shows(dump->show, "asm"))
+        dump_code(dump, bytes);
+    return 0;
+}
+
+int specialize_dump(const struct engine *engine, enum unit unit, const union key *key, const char *show,
+                    FILE *out, struct error *error)
+{
+    if (!specialize_is_engine(engine))
+        return error_set(error, "engine %s is not one of the specializer's", engine->name);
+    if (check_words(show, error))
+        return -1;
+    struct builder *b = specialize_take(error);
+    if (!b)
+        return -1;
+    const struct build_options options = specialize_options(engine, unit);
+    struct dump dump = {.show = show, .out = out, .builder = b};
+    int result = dump_phases(&dump, &options, unit, key, error);
+    specialize_give(b);
+    return result;
+}

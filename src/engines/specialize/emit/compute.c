@@ -1,0 +1,317 @@
+/* Code of operations that compute: the rows of def/op.def, and permute. The form of each is a row of
+ * def/engine/select.def.
+ *
+ * Operands in memory (literals, constants, spilled values, loads used once) are memory operands if the form
+ * has one, and are loaded into a scratch register otherwise. Three-operand encodings need no copies. A fused
+ * multiply-add overwrites one of its operands; which one shares the result's register decides between the
+ * forms 132, 213 and 231. Peephole rules: a selection with zero is a bitwise operation, a comparison
+ * exchanges its sides to read the right one from memory, and a test of 16 lanes for zero needs no second
+ * operand. */
+#include "engines/specialize/emit/emit.h"
+
+enum form {
+    FORM_NONE,
+    FORM_BINARY,
+    FORM_REVERSED,
+    FORM_COMPARE,
+    FORM_UNARY,
+    FORM_ROUND,
+    FORM_SHIFT,
+    FORM_NEGATE,
+    FORM_HALF,
+    FORM_MAD,
+    FORM_SELECT,
+    FORM_BLEND,
+    FORM_TEST,
+    FORM_MASKS
+};
+
+struct rule {
+    uint16_t instruction; /* enum x86_vector */
+    uint8_t form;
+    uint8_t immediate;
+};
+
+static const struct rule rules[IR_OP_COUNT] = {
+#define SELECT(op, form, instruction, immediate) [IR_##op] = {X86_##instruction, FORM_##form, immediate},
+#include "def/engine/select.def"
+};
+
+/* The rules that replace those for 16 lanes. */
+static const struct rule wide_rules[IR_OP_COUNT] = {
+#define SELECT_WIDE(op, form, instruction, immediate) [IR_##op] = {X86_##instruction, FORM_##form, immediate},
+#include "def/engine/select.def"
+};
+
+static void select_binary(struct emitter *m, const struct rule *rule, unsigned left, unsigned right,
+                          bool commutes)
+{
+    struct location a = emit_locate(m, left), b = emit_locate(m, right);
+    if (commutes && a.reg == NO_REGISTER && a.addressable && b.reg != NO_REGISTER) {
+        struct location swapped = a;
+        a = b;
+        b = swapped;
+    }
+    unsigned first = emit_need_register(m, &a, SCRATCH_FIRST);
+    if (emit_folds(m, rule->instruction, &b))
+        encode_rrm(&m->encoder, rule->instruction, m->length, emit_result_register(m), first, b.address);
+    else
+        encode_rrr(&m->encoder, rule->instruction, m->length, emit_result_register(m), first,
+                   emit_need_register(m, &b, SCRATCH_SECOND));
+}
+
+static unsigned swapped_predicate(unsigned predicate)
+{
+    switch (predicate) {
+    case X86_CMP_LT: return X86_CMP_GT;
+    case X86_CMP_LE: return X86_CMP_GE;
+    default: return predicate;
+    }
+}
+
+static void select_compare(struct emitter *m, const struct rule *rule, const struct ir_instruction *i)
+{
+    struct location a = emit_locate(m, i->operand[0]), b = emit_locate(m, i->operand[1]);
+    unsigned predicate = rule->immediate;
+    if (a.reg == NO_REGISTER && a.addressable && b.reg != NO_REGISTER) {
+        struct location swapped = a;
+        a = b;
+        b = swapped;
+        predicate = swapped_predicate(predicate);
+    }
+    unsigned first = emit_need_register(m, &a, SCRATCH_FIRST);
+    if (emit_folds(m, rule->instruction, &b))
+        encode_rrmi(&m->encoder, rule->instruction, m->length, emit_result_register(m), first, b.address,
+                    predicate);
+    else
+        encode_rrri(&m->encoder, rule->instruction, m->length, emit_result_register(m), first,
+                    emit_need_register(m, &b, SCRATCH_SECOND), predicate);
+}
+
+static unsigned swapped_mask_predicate(const struct rule *rule, unsigned predicate)
+{
+    if (rule->instruction == X86_vcmpps_mask)
+        return swapped_predicate(predicate);
+    return predicate == X86_VPCMP_GT ? X86_VPCMP_LT : predicate;
+}
+
+static void select_compare_masks(struct emitter *m, const struct rule *rule, const struct ir_instruction *i)
+{
+    struct location a = emit_locate(m, i->operand[0]), b = emit_locate(m, i->operand[1]);
+    unsigned predicate = rule->immediate, to = emit_result_register(m) - MASKS, right = i->operand[1];
+    if (a.reg == NO_REGISTER && a.addressable && b.reg != NO_REGISTER) {
+        struct location swapped = a;
+        right = i->operand[0];
+        a = b;
+        b = swapped;
+        predicate = swapped_mask_predicate(rule, predicate);
+    }
+    unsigned first = emit_need_register(m, &a, SCRATCH_FIRST);
+    if (rule->instruction == X86_vpcmpd_mask && predicate == X86_VPCMP_EQ && emit_is_zero(m, right))
+        encode_rrr(&m->encoder, X86_vptestnmd, m->length, to, first, first);
+    else if (emit_folds(m, rule->instruction, &b))
+        encode_rrmi(&m->encoder, rule->instruction, m->length, to, first, b.address, predicate);
+    else
+        encode_rrri(&m->encoder, rule->instruction, m->length, to, first,
+                    emit_need_register(m, &b, SCRATCH_SECOND), predicate);
+}
+
+/* The result's register is written last, so it can hold the second operand. */
+static void select_masks(struct emitter *m, const struct rule *rule, const struct ir_instruction *i)
+{
+    bool reversed = rule->instruction == X86_kandnw;
+    struct location a = emit_locate(m, i->operand[reversed]), b = emit_locate(m, i->operand[!reversed]);
+    unsigned first = emit_need_mask(m, &a, MASK_SCRATCH), second = emit_need_mask(m, &b, MASK_RESULT);
+    encode_rrr(&m->encoder, rule->instruction, X86_256, emit_result_register(m) - MASKS, first, second);
+}
+
+static void select_unary(struct emitter *m, const struct rule *rule, const struct ir_instruction *i)
+{
+    struct location a = emit_locate(m, i->operand[0]);
+    unsigned to = emit_result_register(m);
+    bool in_memory = emit_folds(m, rule->instruction, &a);
+    unsigned from = in_memory ? 0 : emit_need_register(m, &a, SCRATCH_FIRST);
+    if (rule->form == FORM_ROUND && in_memory)
+        encode_rmi(&m->encoder, rule->instruction, m->length, to, a.address, rule->immediate);
+    else if (rule->form == FORM_ROUND)
+        encode_rri(&m->encoder, rule->instruction, m->length, to, from, rule->immediate);
+    else if (in_memory)
+        encode_rm(&m->encoder, rule->instruction, m->length, to, a.address);
+    else
+        encode_rr(&m->encoder, rule->instruction, m->length, to, from);
+}
+
+static void select_shift(struct emitter *m, const struct rule *rule, const struct ir_instruction *i)
+{
+    struct location a = emit_locate(m, i->operand[0]);
+    unsigned from = emit_need_register(m, &a, SCRATCH_FIRST);
+    encode_rri(&m->encoder, rule->instruction, m->length, emit_result_register(m), from, (unsigned)i->k);
+}
+
+static void select_negate(struct emitter *m, const struct ir_instruction *i)
+{
+    struct location a = emit_locate(m, i->operand[0]);
+    unsigned from = emit_need_register(m, &a, SCRATCH_FIRST);
+    encode_rrm(&m->encoder, X86_vxorps, m->length, emit_result_register(m), from,
+               emit_literal_address(m, INT32_MIN, emit_is_wide(m) ? LITERAL_ONCE : LITERAL_LANES));
+}
+
+static void select_half(struct emitter *m, const struct rule *rule, const struct ir_instruction *i)
+{
+    struct location a = emit_locate(m, i->operand[0]);
+    unsigned from = emit_need_register(m, &a, SCRATCH_FIRST);
+    encode_rri(&m->encoder, rule->instruction, m->length, SCRATCH_SECOND, from, rule->immediate);
+    encode_rr(&m->encoder, X86_vcvtph2ps, m->length, emit_result_register(m), SCRATCH_SECOND);
+}
+
+/* mask ? b : c. If b or c is zero, one bitwise operation suffices. */
+static void select_select(struct emitter *m, const struct ir_instruction *i)
+{
+    struct location mask = emit_locate(m, i->operand[0]);
+    unsigned to = emit_result_register(m);
+    unsigned test = emit_need_register(m, &mask, SCRATCH_FIRST);
+    bool zero_else = emit_is_zero(m, i->operand[2]), zero_then = emit_is_zero(m, i->operand[1]);
+    if (zero_else || zero_then) {
+        struct location other = emit_locate(m, i->operand[zero_else ? 1 : 2]);
+        enum x86_vector operation = zero_else ? X86_vandps : X86_vandnps;
+        if (other.reg == NO_REGISTER && other.addressable)
+            encode_rrm(&m->encoder, operation, m->length, to, test, other.address);
+        else
+            encode_rrr(&m->encoder, operation, m->length, to, test,
+                       emit_need_register(m, &other, SCRATCH_SECOND));
+        return;
+    }
+    struct location then = emit_locate(m, i->operand[1]), otherwise = emit_locate(m, i->operand[2]);
+    unsigned base = emit_need_register(m, &otherwise, SCRATCH_SECOND);
+    if (then.reg == NO_REGISTER && then.addressable)
+        encode_rrmr(&m->encoder, X86_vblendvps, m->length, to, base, then.address, test);
+    else
+        encode_rrrr(&m->encoder, X86_vblendvps, m->length, to, base,
+                    emit_need_register(m, &then, SCRATCH_RESULT), test);
+}
+
+/* mask ? b : 0. */
+static void select_or_zero(struct emitter *m, const struct location *mask, struct location *then)
+{
+    enum x86_vector how = then->address.broadcast ? X86_vbroadcastss : X86_vmovups;
+    unsigned to = emit_result_register(m);
+    if (then->reg == NO_REGISTER && then->addressable) {
+        then->address.broadcast = 0;
+        encode_rm(&m->encoder, how, m->length, zeroed(to, emit_need_mask(m, mask, MASK_SCRATCH)),
+                  then->address);
+        return;
+    }
+    unsigned from = emit_need_register(m, then, SCRATCH_RESULT);
+    encode_rr(&m->encoder, X86_vmovaps, m->length, zeroed(to, emit_need_mask(m, mask, MASK_SCRATCH)), from);
+}
+
+/* mask ? b : c by a mask register. The mask is brought to a register last, because b and c may be masks
+ * themselves, which pass through the same scratch registers. */
+static void select_blend(struct emitter *m, const struct ir_instruction *i)
+{
+    struct location mask = emit_locate(m, i->operand[0]), then = emit_locate(m, i->operand[1]),
+                    otherwise = emit_locate(m, i->operand[2]);
+    unsigned to = emit_result_register(m);
+    if (emit_is_zero(m, i->operand[2])) {
+        select_or_zero(m, &mask, &then);
+        return;
+    }
+    unsigned base = emit_need_register(m, &otherwise, SCRATCH_SECOND);
+    if (emit_is_zero(m, i->operand[1])) {
+        unsigned k = emit_need_mask(m, &mask, MASK_SCRATCH);
+        if (base != to)
+            encode_copy(&m->encoder, m->length, to, base);
+        encode_rrr(&m->encoder, X86_vxorps, m->length, masked(to, k), to, to);
+    } else if (emit_folds(m, X86_vblendmps, &then)) {
+        unsigned k = emit_need_mask(m, &mask, MASK_SCRATCH);
+        encode_rrm(&m->encoder, X86_vblendmps, m->length, masked(to, k), base, then.address);
+    } else {
+        unsigned from = emit_need_register(m, &then, SCRATCH_RESULT);
+        unsigned k = emit_need_mask(m, &mask, MASK_SCRATCH);
+        encode_rrr(&m->encoder, X86_vblendmps, m->length, masked(to, k), base, from);
+    }
+}
+
+/* to = to * x + y: the result's register holds a factor. x or y may be in memory. */
+static void multiply_in_place(struct emitter *m, unsigned to, const struct location *x,
+                              const struct location *y)
+{
+    if (y->reg == NO_REGISTER && y->addressable) {
+        encode_rrm(&m->encoder, X86_vfmadd213ps, m->length, to, emit_need_register(m, x, SCRATCH_FIRST),
+                   y->address);
+        return;
+    }
+    unsigned addend = emit_need_register(m, y, SCRATCH_SECOND);
+    if (x->reg == NO_REGISTER && x->addressable)
+        encode_rrm(&m->encoder, X86_vfmadd132ps, m->length, to, addend, x->address);
+    else
+        encode_rrr(&m->encoder, X86_vfmadd213ps, m->length, to, emit_need_register(m, x, SCRATCH_FIRST),
+                   addend);
+}
+
+/* to = a * b + to: the result's register holds the addend. a or b may be in memory. */
+static void add_in_place(struct emitter *m, unsigned to, const struct location *a, const struct location *b)
+{
+    if (a->reg == NO_REGISTER && a->addressable && b->reg != NO_REGISTER) {
+        const struct location *swapped = a;
+        a = b;
+        b = swapped;
+    }
+    unsigned first = emit_need_register(m, a, SCRATCH_FIRST);
+    if (b->reg == NO_REGISTER && b->addressable)
+        encode_rrm(&m->encoder, X86_vfmadd231ps, m->length, to, first, b->address);
+    else
+        encode_rrr(&m->encoder, X86_vfmadd231ps, m->length, to, first,
+                   emit_need_register(m, b, SCRATCH_SECOND));
+}
+
+static void select_mad(struct emitter *m, const struct ir_instruction *i)
+{
+    struct location a = emit_locate(m, i->operand[0]), b = emit_locate(m, i->operand[1]),
+                    c = emit_locate(m, i->operand[2]);
+    unsigned to = emit_result_register(m);
+    if (c.reg == to && a.reg != to && b.reg != to)
+        add_in_place(m, to, &a, &b);
+    else if (a.reg == to && c.reg != to)
+        multiply_in_place(m, to, &b, &c);
+    else if (b.reg == to && c.reg != to)
+        multiply_in_place(m, to, &a, &c);
+    else if (a.reg == to || b.reg == to) {
+        /* The addend and a factor are the same value. */
+        struct location addend = {.value = c.value, .reg = SCRATCH_SECOND};
+        encode_copy(&m->encoder, m->length, SCRATCH_SECOND, c.reg);
+        multiply_in_place(m, to, a.reg == to ? &b : &a, &addend);
+    } else if (a.reg == NO_REGISTER && c.reg != NO_REGISTER) {
+        emit_bring(m, to, &a);
+        multiply_in_place(m, to, &b, &c);
+    } else if (b.reg == NO_REGISTER && c.reg != NO_REGISTER) {
+        emit_bring(m, to, &b);
+        multiply_in_place(m, to, &a, &c);
+    } else {
+        emit_bring(m, to, &c);
+        add_in_place(m, to, &a, &b);
+    }
+}
+
+void emit_computed(struct emitter *m, const struct ir_instruction *i)
+{
+    const struct rule *rule = &rules[i->op], *wide = &wide_rules[i->op];
+    if (emit_is_wide(m) && wide->form && (wide->form != FORM_MASKS || i->type == TYPE_msk))
+        rule = wide;
+    bool commutes = ir_properties(i) & IR_COMMUTES;
+    switch (rule->form) {
+    case FORM_BINARY: select_binary(m, rule, i->operand[0], i->operand[1], commutes); break;
+    case FORM_REVERSED: select_binary(m, rule, i->operand[1], i->operand[0], false); break;
+    case FORM_COMPARE: select_compare(m, rule, i); break;
+    case FORM_UNARY:
+    case FORM_ROUND: select_unary(m, rule, i); break;
+    case FORM_SHIFT: select_shift(m, rule, i); break;
+    case FORM_NEGATE: select_negate(m, i); break;
+    case FORM_HALF: select_half(m, rule, i); break;
+    case FORM_MAD: select_mad(m, i); break;
+    case FORM_SELECT: select_select(m, i); break;
+    case FORM_BLEND: select_blend(m, i); break;
+    case FORM_TEST: select_compare_masks(m, rule, i); break;
+    case FORM_MASKS: select_masks(m, rule, i); break;
+    }
+}

@@ -1,0 +1,198 @@
+/* From the allocated program to machine code: the stack frame with the loop over the elements, the body, and
+ * the literals. */
+#ifndef ENGINES_SPECIALIZE_EMIT_EMIT_H
+#define ENGINES_SPECIALIZE_EMIT_EMIT_H
+
+#include "debug/code.h"
+#include "contract/engine.h"
+#include "engines/specialize/allocate/allocate.h"
+#include "engines/specialize/emit/encode.h"
+
+#include <assert.h>
+
+/* Large enough for a routine of IR_CAPACITY instructions of ordinary length. As with the arrays of the IR,
+ * pages that a routine does not reach are never touched. */
+enum {
+    CODE_CAPACITY = 4 << 20,          /* bytes of one routine with its literals */
+    FIXUP_CAPACITY = 4 * IR_CAPACITY, /* most instructions need at most two, a window seven */
+    LITERAL_CAPACITY = 8192,
+    LITERAL_TABLE = 2 * LITERAL_CAPACITY, /* a power of two */
+    REGION_CAPACITY = 16384,
+    REGION_DEPTH = 1024,
+    SPILL_CAPACITY = 32768 /* slots: with 16 lanes, 2 MiB of the stack */
+};
+
+static_assert((int)CODE_CAPACITY <= (int)ROUTINE_BYTES_MAXIMUM, "code that fits a build fits a routine");
+
+/* The first bytes of the stack frame, from rsp on: two MXCSR words, and room for the lanes of one value. */
+enum { FRAME_SAVED_MXCSR = 0, FRAME_CONTRACT_MXCSR = 4, FRAME_LANES = 64, FRAME_HEAD = 128 };
+
+/* Labels of the frame's code; those of regions and literals follow. */
+enum frame_label { LABEL_LOOP, LABEL_CHUNK, LABEL_SKIP, LABEL_DONE, LABEL_PAGE, LABEL_FREE };
+
+/* Each window and each reciprocal uses two. */
+enum { LABEL_CAPACITY = LABEL_FREE + LITERAL_CAPACITY + 2 * REGION_CAPACITY + 2 * IR_CAPACITY };
+
+/* The code from an offset on belongs to an instruction, or to the frame. */
+struct code_line {
+    uint32_t offset;
+    uint16_t instruction; /* its number; 0: the frame */
+    uint16_t frame_line;  /* for the frame: the line in frame.c */
+};
+
+enum { UNWIND_CAPACITY = 32 };
+
+/* Where a value is at the current position. */
+struct location {
+    unsigned value;
+    uint8_t reg;      /* NO_REGISTER: in memory, at `address` */
+    bool addressable; /* in memory, with all lanes or to be broadcast: `address` can be an operand */
+    bool mask;        /* in memory, with one bit for each lane */
+    struct address address;
+};
+
+/* The move of a value to a phi or a join, whose destination is a register, a slot, or both. */
+struct move {
+    struct location from;
+    uint8_t to;     /* NO_REGISTER: only the slot */
+    bool mask;      /* the value is a mask */
+    uint16_t slot;  /* NO_SLOT: only the register */
+    uint16_t waits; /* the number of other moves that read its destination */
+};
+
+/* The state of emission. It is large, and reused from build to build. */
+struct emitter {
+    const struct ir *ir;
+    const struct allocation *allocation;
+    struct encoder encoder;
+    enum vector_length length;
+    unsigned width;    /* lanes: 4, 8 or 16 */
+    uint32_t position; /* of the instruction whose code is written */
+    uint32_t
+        selected; /* the code of all instructions before this one is written; groups are written together */
+    uint32_t literals;
+    uint32_t regions;
+    const char *exceeded; /* names what there is too much of, or null */
+    int exceeded_limit;
+    uint32_t lines;
+    uint32_t code_bytes;     /* without the literals */
+    int32_t frame_constants; /* offset from rsp of the constant table, then of spill slots and variables */
+    int32_t frame_slots;
+    int32_t frame_variables;
+    int32_t constants; /* offset in the job of the pointer to the shader's constants; 0: no shader */
+    int32_t literal_bits[LITERAL_CAPACITY];
+    uint8_t literal_lanes[LITERAL_CAPACITY]; /* enum literal_kind */
+    uint32_t literal_label[LITERAL_CAPACITY];
+    uint16_t literal_table[LITERAL_TABLE]; /* by hash: 1 + the literal's number, 0: none; 0 between builds */
+    uint32_t region_label[REGION_DEPTH];
+    uint32_t region_depth;
+    uint32_t moves; /* those that are not yet written */
+    struct move move[VARIABLES];
+    uint32_t unwinds;
+    struct debug_unwind unwind[UNWIND_CAPACITY]; /* of the prologue and the epilogue */
+    struct code_line line[IR_CAPACITY + 64];
+    int32_t labels[LABEL_CAPACITY];
+    struct fixup fixups[FIXUP_CAPACITY];
+    uint8_t code[CODE_CAPACITY];
+};
+
+/* Writes the routine of a unit into emitter->code. Returns the number of bytes, or 0 with the reason. */
+size_t emit_routine(struct emitter *emitter, enum unit unit, const union key *key, struct error *error);
+
+/* Notes that the routine has too many of something, so that it is not built. */
+static inline void emit_note_exceeded(struct emitter *emitter, const char *what, int limit)
+{
+    emitter->exceeded = what;
+    emitter->exceeded_limit = limit;
+}
+
+/* Writes the code of the whole program (select.c). */
+void emit_body(struct emitter *emitter);
+
+/* Writes the code of the instructions from emitter->position up to `end`, which becomes the position. With
+ * `lines`, notes where the code of each begins. */
+void emit_instructions(struct emitter *emitter, uint32_t end, bool lines);
+
+/* Writes the code of an operation that computes (compute.c). */
+void emit_computed(struct emitter *emitter, const struct ir_instruction *instruction);
+
+/* Stores the value of the current instruction to its spill slot, if it has one. */
+void emit_store_spilled(struct emitter *emitter);
+
+/* The general-purpose register that holds each base (frame.c). */
+extern const uint8_t emit_base_register[BASE_COUNT];
+
+/* The vector length of a number of lanes: 4, 8 or 16. */
+static inline enum vector_length emit_length_of(unsigned width)
+{
+    return width == 4 ? X86_128 : width == 8 ? X86_256 : X86_512;
+}
+
+/* Returns true if there are 16 lanes: the code has EVEX encodings, mask registers and broadcast operands. */
+static inline bool emit_is_wide(const struct emitter *emitter)
+{
+    return emitter->width == 16;
+}
+
+/* The layout of a literal after the code: one word to be broadcast; the same word for each lane; or for lane
+ * l, l times the word. */
+enum literal_kind { LITERAL_ONCE, LITERAL_LANES, LITERAL_MULTIPLES };
+struct address emit_literal_address(struct emitter *emitter, int32_t bits, enum literal_kind kind);
+
+/* emit_locate returns where a value is at the current position; emit_need_register returns its vector
+ * register, `scratch` if it has to be loaded or is a mask; emit_result_register returns the register of the
+ * current instruction's result (location.c). */
+struct location emit_locate(struct emitter *emitter, unsigned value);
+unsigned emit_need_register(struct emitter *emitter, const struct location *location, unsigned scratch);
+unsigned emit_result_register(const struct emitter *emitter);
+
+/* The same for a mask register. The result is the number by which instructions name it, 0 to 7. */
+unsigned emit_need_mask(struct emitter *emitter, const struct location *location, unsigned scratch);
+
+/* Brings a value into the register `to`, of either kind. The code does not change flags. */
+void emit_bring(struct emitter *emitter, unsigned to, const struct location *location);
+
+/* Stores a register of either kind. */
+void emit_store_register(struct emitter *emitter, struct address to, unsigned reg);
+
+/* The address of entry `slot` of the array that begins at an offset in the frame; of a spill slot. */
+struct address emit_frame_address(const struct emitter *emitter, int32_t start, unsigned slot);
+struct address emit_slot_address(const struct emitter *emitter, unsigned slot);
+
+/* Returns true if a value is the literal 0. */
+bool emit_is_zero(const struct emitter *emitter, unsigned value);
+
+/* Returns true if an instruction can read the value from memory; `location` then has the address.
+ * Instructions on 16-bit elements cannot broadcast, so the address becomes that of a literal with all lanes.
+ */
+bool emit_folds(struct emitter *emitter, enum x86_vector instruction, struct location *location);
+
+/* Write the code of the ends of regions and loops (region.c). */
+void emit_when(struct emitter *emitter, const struct ir_instruction *instruction);
+void emit_end(struct emitter *emitter);
+void emit_loop(struct emitter *emitter);
+void emit_again(struct emitter *emitter, const struct ir_instruction *instruction);
+
+/* Note the moves at the current position, an `again`, to the phis of its loop; and, at a `when` (operand 0)
+ * or an `end` (operand 1), to the joins after the region's `end` (move.c). */
+void emit_note_next_moves(struct emitter *emitter);
+void emit_note_join_moves(struct emitter *emitter, uint32_t end, int operand);
+
+/* Writes the noted moves, as if they were simultaneous. The code does not change flags. */
+void emit_write_moves(struct emitter *emitter);
+
+/* Writes the gather at the current position, together with the following ones that read the next words of the
+ * same elements (gather.c). */
+void emit_gather(struct emitter *emitter, const struct ir_instruction *instruction);
+
+/* Writes the window at the current position and the instructions that belong to it (gather_window.c). Writes
+ * nothing if the allocation does not allow a window; the instructions then follow as usual. */
+void emit_window(struct emitter *emitter, const struct ir_instruction *instruction);
+
+/* Writes the scatter at the current position, together with the following ones of neighbouring words
+ * (scatter.c). */
+void emit_scatter(struct emitter *emitter, const struct ir_instruction *instruction);
+
+/* Note that the code from here on belongs to an instruction; to the frame, at a line of frame.c. */
+void emit_note_line(struct emitter *emitter, uint32_t instruction);
+#endif

@@ -1,0 +1,400 @@
+/* The code around the body of a routine: prologue, loop over the elements, epilogue, literals.
+ *
+ * Registers: rdi has the address of the arguments, the bases have fixed registers (below), rax, r12 and r13
+ * are scratch, and rbx has the coverage of a block that is still ahead. Of the callee-saved registers, rbp,
+ * rbx, r12 and r13 are used, and r14 if the key has a shader.
+ *
+ * Stack frame, from rsp on, aligned to 64 bytes: the saved MXCSR, the contract's MXCSR, room for one value,
+ * the constant table, the spill slots and the variables. Each entry has W words, one for each lane. With 16
+ * lanes there is no constant table: instructions broadcast the words from the job. Literals follow the code
+ * and are addressed relative to rip, so a routine can be copied anywhere.
+ *
+ * The pixel loop iterates over entries, and in each 4x4 block over chunks of W lanes. Chunks without coverage
+ * are skipped, and the block ends when no coverage is ahead. With 16 lanes a block is one chunk. */
+#include "base/hash.h"
+#include "machine/mxcsr.h"
+#include "engines/specialize/emit/emit.h"
+#include "shader/program/program.h"
+
+#include <assert.h>
+#include <stddef.h>
+
+#define CALL     X86_RDI
+#define JOB      X86_R8
+#define INPUT    X86_RSI
+#define OUTPUT   X86_RDX
+#define VERTICES X86_RCX
+#define ENTRY    X86_RSI
+#define TRIANGLE X86_RDX
+#define LANES    X86_RCX
+#define COLOR    X86_R9
+#define DEPTH    X86_R10
+#define CONSTANT X86_R14
+#define LIMIT    X86_R11 /* end of the input */
+#define AHEAD    X86_RBX /* coverage of the chunks that are still ahead */
+
+const uint8_t emit_base_register[BASE_COUNT] = {
+#define BASE(name, meaning) [BASE_##name] = name,
+#include "def/base.def"
+#undef BASE
+};
+
+static void note(struct emitter *m, uint32_t instruction, unsigned line)
+{
+    if (m->lines < sizeof m->line / sizeof m->line[0])
+        m->line[m->lines++] =
+            (struct code_line){(uint32_t)encode_size(&m->encoder), (uint16_t)instruction, (uint16_t)line};
+}
+
+void emit_note_line(struct emitter *m, uint32_t instruction)
+{
+    note(m, instruction, 0);
+}
+
+static void emit_note_frame_line(struct emitter *m, unsigned line)
+{
+    note(m, 0, line);
+}
+
+/* Notes a rule for unwinding from here on. */
+static void note_unwind(struct emitter *m, enum debug_rule rule, unsigned reg, int32_t value)
+{
+    assert(m->unwinds < UNWIND_CAPACITY);
+    m->unwind[m->unwinds++] = (struct debug_unwind){.offset = (uint32_t)encode_size(&m->encoder),
+                                                    .rule = (uint8_t)rule,
+                                                    .reg = (uint8_t)reg,
+                                                    .value = value};
+}
+
+static uint32_t hash_literal(int32_t bits, unsigned kind)
+{
+    return (((uint32_t)bits + kind) * 0x9e3779b1u) >> (32 - __builtin_ctz(LITERAL_TABLE));
+}
+
+static struct hash_table literal_table(struct emitter *m)
+{
+    return (struct hash_table){m->literal_table, LITERAL_TABLE - 1, false};
+}
+
+struct wanted_literal {
+    const struct emitter *m;
+    int32_t bits;
+    unsigned kind;
+};
+
+static bool is_literal(const void *context, uint32_t number)
+{
+    const struct wanted_literal *wanted = context;
+    return wanted->m->literal_bits[number - 1] == wanted->bits &&
+           wanted->m->literal_lanes[number - 1] == wanted->kind;
+}
+
+/* Finds or adds a literal. Returns its number, from 1. */
+static uint32_t find_literal(struct emitter *m, int32_t bits, enum literal_kind kind)
+{
+    const struct wanted_literal wanted = {m, bits, kind};
+    uint32_t slot = hash_find(literal_table(m), hash_literal(bits, kind), is_literal, &wanted);
+    uint32_t number = hash_get(literal_table(m), slot);
+    if (number)
+        return number;
+    if (m->literals == LITERAL_CAPACITY) {
+        emit_note_exceeded(m, "literals", LITERAL_CAPACITY);
+        return 1;
+    }
+    m->literal_bits[m->literals] = bits;
+    m->literal_lanes[m->literals] = (uint8_t)kind;
+    m->literal_label[m->literals] = encode_add_label(&m->encoder);
+    hash_set(literal_table(m), slot, ++m->literals);
+    return m->literals;
+}
+
+struct address emit_literal_address(struct emitter *m, int32_t bits, enum literal_kind kind)
+{
+    struct address address = address_label(m->literal_label[find_literal(m, bits, kind) - 1], 0);
+    address.broadcast = kind == LITERAL_ONCE;
+    return address;
+}
+
+/* Empties the hash table in the reverse order of insertion, so that each literal is still found where probing
+ * put it. */
+static void forget_literals(struct emitter *m)
+{
+    for (uint32_t i = m->literals; i > 0; i--) {
+        const struct wanted_literal wanted = {m, m->literal_bits[i - 1], m->literal_lanes[i - 1]};
+        uint32_t hash = hash_literal(wanted.bits, wanted.kind);
+        hash_set(literal_table(m), hash_find(literal_table(m), hash, is_literal, &wanted), 0);
+    }
+}
+
+static void load(struct emitter *m, enum gpr to, size_t field)
+{
+    encode_gpr_rm(&m->encoder, X86_mov, X86_64, to, address_at(CALL, (int32_t)field));
+}
+
+static void broadcast_constants(struct emitter *m)
+{
+    for (uint32_t c = 0; !emit_is_wide(m) && c < m->ir->constant_count; c++) {
+        const struct ir_constant *constant = &m->ir->constant[c];
+        struct address slot = address_at(X86_RSP, m->frame_constants + (int32_t)(c * m->width * 4));
+        encode_rm(&m->encoder, X86_vbroadcastss, m->length, 0,
+                  address_at(emit_base_register[constant->base], constant->offset));
+        encode_mr(&m->encoder, X86_vmovaps_store, m->length, slot, 0);
+    }
+}
+
+enum { PAGE = 4096, UNROLLED_PAGES = 16 };
+
+/* Touches every page of the frame, from the highest on, since the stack grows only when its guard page is
+ * touched. */
+static void probe_stack(struct emitter *m, int32_t bytes)
+{
+    for (int32_t page = PAGE; page < bytes; page += PAGE)
+        encode_gpr_mi(&m->encoder, X86_mov, X86_32, address_at(X86_RSP, -page), 0);
+}
+
+/* The same in a loop that moves rsp along, for large frames: a system may refuse to grow the stack for an
+ * access far below rsp. */
+static void descend_stack(struct emitter *m, int32_t bytes)
+{
+    struct encoder *e = &m->encoder;
+    encode_gpr_rm(e, X86_lea, X86_64, X86_RAX, address_at(X86_RSP, -bytes));
+    encode_label(e, LABEL_PAGE);
+    encode_gpr_ri(e, X86_sub, X86_64, X86_RSP, PAGE);
+    encode_gpr_mi(e, X86_mov, X86_32, address_at(X86_RSP, 0), 0);
+    encode_gpr_rr(e, X86_cmp, X86_64, X86_RSP, X86_RAX);
+    encode_jump_if(e, X86_IF_nbe, LABEL_PAGE);
+    encode_gpr_rr(e, X86_mov, X86_64, X86_RSP, X86_RAX);
+}
+
+static void reserve_frame(struct emitter *m, int32_t bytes)
+{
+    if (bytes > UNROLLED_PAGES * PAGE) {
+        descend_stack(m, bytes);
+        return;
+    }
+    probe_stack(m, bytes);
+    encode_gpr_ri(&m->encoder, X86_sub, X86_64, X86_RSP, bytes);
+}
+
+/* The callee-saved registers, in the order in which they are saved below rbp. The last one is saved only if
+ * the key has a shader. */
+static const uint8_t saved[] = {AHEAD, X86_R12, X86_R13, CONSTANT};
+
+static int saved_registers(const struct emitter *m)
+{
+    return (int)sizeof saved - !m->constants;
+}
+
+static void prologue(struct emitter *m, size_t job_field)
+{
+    struct encoder *e = &m->encoder;
+    m->frame_constants = FRAME_HEAD;
+    m->frame_slots =
+        m->frame_constants + (int32_t)(emit_is_wide(m) ? 0 : m->ir->constant_count * m->width * 4);
+    m->frame_variables = m->frame_slots + (int32_t)(m->allocation->slots * m->width * 4);
+    int32_t bytes = m->frame_variables + (int32_t)(m->ir->variables * m->width * 4);
+    emit_note_frame_line(m, __LINE__);
+    encode_gpr_r(e, X86_push, X86_64, X86_RBP);
+    note_unwind(m, DEBUG_CFA, X86_RSP, 16);
+    note_unwind(m, DEBUG_SAVED, X86_RBP, 16);
+    encode_gpr_rr(e, X86_mov, X86_64, X86_RBP, X86_RSP);
+    note_unwind(m, DEBUG_CFA, X86_RBP, 16);
+    for (int i = 0; i < saved_registers(m); i++) {
+        encode_gpr_r(e, X86_push, X86_64, saved[i]);
+        note_unwind(m, DEBUG_SAVED, saved[i], 24 + 8 * i);
+    }
+    reserve_frame(m, bytes);
+    encode_gpr_ri(e, X86_and, X86_64, X86_RSP, -64);
+    encode_m(e, X86_vstmxcsr, address_at(X86_RSP, FRAME_SAVED_MXCSR));
+    encode_gpr_mi(e, X86_mov, X86_32, address_at(X86_RSP, FRAME_CONTRACT_MXCSR), MXCSR_CONTRACT);
+    encode_m(e, X86_vldmxcsr, address_at(X86_RSP, FRAME_CONTRACT_MXCSR));
+    load(m, JOB, job_field);
+    if (m->constants)
+        encode_gpr_rm(e, X86_mov, X86_64, CONSTANT, address_at(JOB, m->constants));
+    broadcast_constants(m);
+}
+
+static void epilogue(struct emitter *m)
+{
+    struct encoder *e = &m->encoder;
+    emit_note_frame_line(m, __LINE__);
+    encode_m(e, X86_vldmxcsr, address_at(X86_RSP, FRAME_SAVED_MXCSR));
+    encode_none(e, X86_vzeroupper);
+    for (int i = 0; i < saved_registers(m); i++) {
+        encode_gpr_rm(e, X86_mov, X86_64, saved[i], address_at(X86_RBP, -8 - 8 * i));
+        note_unwind(m, DEBUG_RESTORED, saved[i], 0);
+    }
+    encode_gpr_rr(e, X86_mov, X86_64, X86_RSP, X86_RBP);
+    encode_gpr_r(e, X86_pop, X86_64, X86_RBP);
+    note_unwind(m, DEBUG_CFA, X86_RSP, 8);
+    note_unwind(m, DEBUG_RESTORED, X86_RBP, 0);
+    encode_return(e);
+}
+
+/* LIMIT = INPUT + count * 2^shift, the size of an element. */
+static void load_limit(struct emitter *m, size_t count_field, unsigned shift)
+{
+    struct encoder *e = &m->encoder;
+    encode_gpr_rm(e, X86_mov, X86_32, LIMIT, address_at(CALL, (int32_t)count_field));
+    encode_gpr_ri(e, X86_shl, X86_64, LIMIT, (int32_t)shift);
+    encode_gpr_rr(e, X86_add, X86_64, LIMIT, INPUT);
+}
+
+static void begin_loop(struct emitter *m)
+{
+    encode_gpr_rr(&m->encoder, X86_cmp, X86_64, INPUT, LIMIT);
+    encode_jump_if(&m->encoder, X86_IF_nb, LABEL_DONE);
+    encode_align(&m->encoder, 16);
+    encode_label(&m->encoder, LABEL_LOOP);
+}
+
+static void end_loop(struct emitter *m)
+{
+    encode_gpr_rr(&m->encoder, X86_cmp, X86_64, INPUT, LIMIT);
+    encode_jump_if(&m->encoder, X86_IF_b, LABEL_LOOP);
+    encode_label(&m->encoder, LABEL_DONE);
+}
+
+static void vertex_loop(struct emitter *m)
+{
+    int32_t step = (int32_t)m->width * 4;
+    emit_note_frame_line(m, __LINE__);
+    load(m, INPUT, offsetof(struct vertex_arguments, index));
+    load(m, OUTPUT, offsetof(struct vertex_arguments, out));
+    load_limit(m, offsetof(struct vertex_arguments, count), 2);
+    begin_loop(m);
+    emit_body(m);
+    emit_note_frame_line(m, __LINE__);
+    encode_gpr_ri(&m->encoder, X86_add, X86_64, INPUT, step);
+    encode_gpr_ri(&m->encoder, X86_add, X86_64, OUTPUT, step);
+    end_loop(m);
+}
+
+static void setup_loop(struct emitter *m, const struct setup_key *key)
+{
+    int32_t stride = layout_of_setup(key).stride;
+    emit_note_frame_line(m, __LINE__);
+    load(m, INPUT, offsetof(struct setup_arguments, index));
+    load(m, OUTPUT, offsetof(struct setup_arguments, out));
+    load(m, VERTICES, offsetof(struct setup_arguments, vertices));
+    load_limit(m, offsetof(struct setup_arguments, count), 2);
+    begin_loop(m);
+    emit_body(m);
+    emit_note_frame_line(m, __LINE__);
+    encode_gpr_ri(&m->encoder, X86_add, X86_64, INPUT, (int32_t)m->width * 4);
+    encode_gpr_ri(&m->encoder, X86_add, X86_64, OUTPUT, (int32_t)m->width * stride);
+    end_loop(m);
+}
+
+/* Loads the bases of an entry's block. */
+static void begin_block(struct emitter *m)
+{
+    struct encoder *e = &m->encoder;
+    encode_gpr_rm(e, X86_mov, X86_32, TRIANGLE, address_at(ENTRY, offsetof(struct entry, triangle)));
+    encode_gpr_rm(e, X86_add, X86_64, TRIANGLE,
+                  address_at(CALL, offsetof(struct pixel_arguments, triangles)));
+    encode_gpr_rm(e, X86_movzx16, X86_32, X86_RAX, address_at(ENTRY, offsetof(struct entry, block)));
+    encode_gpr_ri(e, X86_shl, X86_32, X86_RAX, 6); /* a block is 16 words */
+    load(m, COLOR, offsetof(struct pixel_arguments, color));
+    encode_gpr_rr(e, X86_add, X86_64, COLOR, X86_RAX);
+    load(m, DEPTH, offsetof(struct pixel_arguments, depth));
+    encode_gpr_rr(e, X86_add, X86_64, DEPTH, X86_RAX);
+}
+
+static void walk_chunks(struct emitter *m)
+{
+    struct encoder *e = &m->encoder;
+    int32_t step = (int32_t)m->width * 4;
+    load(m, LANES, offsetof(struct pixel_arguments, lanes));
+    encode_gpr_rm(e, X86_movzx16, X86_32, AHEAD, address_at(ENTRY, offsetof(struct entry, coverage)));
+    encode_label(e, LABEL_CHUNK);
+    encode_gpr_ri(e, X86_test, X86_32, AHEAD, (1 << m->width) - 1);
+    encode_jump_if(e, X86_IF_z, LABEL_SKIP);
+    emit_body(m);
+    emit_note_frame_line(m, __LINE__);
+    encode_label(e, LABEL_SKIP);
+    encode_gpr_ri(e, X86_add, X86_64, COLOR, step);
+    encode_gpr_ri(e, X86_add, X86_64, DEPTH, step);
+    encode_gpr_ri(e, X86_add, X86_64, LANES, step);
+    encode_gpr_ri(e, X86_shr, X86_32, AHEAD, (int32_t)m->width);
+    encode_jump_if(e, X86_IF_nz, LABEL_CHUNK);
+}
+
+/* Every entry has coverage. */
+static void pixel_loop(struct emitter *m)
+{
+    emit_note_frame_line(m, __LINE__);
+    load(m, ENTRY, offsetof(struct pixel_arguments, entries));
+    load_limit(m, offsetof(struct pixel_arguments, count), 4);
+    if (emit_is_wide(m))
+        load(m, LANES, offsetof(struct pixel_arguments, lanes));
+    begin_loop(m);
+    begin_block(m);
+    if (emit_is_wide(m)) {
+        emit_body(m);
+        emit_note_frame_line(m, __LINE__);
+    } else
+        walk_chunks(m);
+    encode_gpr_ri(&m->encoder, X86_add, X86_64, ENTRY, sizeof(struct entry));
+    end_loop(m);
+}
+
+/* Writes the literals: first those with all lanes, which are aligned. */
+static void constant_pool(struct emitter *m)
+{
+    int32_t lanes[LANES_MAXIMUM];
+    for (unsigned once = 0; once < 2; once++)
+        for (uint32_t i = 0; i < m->literals; i++) {
+            if ((m->literal_lanes[i] == LITERAL_ONCE) != once)
+                continue;
+            for (unsigned lane = 0; lane < m->width; lane++)
+                lanes[lane] =
+                    m->literal_bits[i] * (m->literal_lanes[i] == LITERAL_MULTIPLES ? (int32_t)lane : 1);
+            encode_label(&m->encoder, m->literal_label[i]);
+            encode_data(&m->encoder, lanes, (once ? 1 : m->width) * sizeof lanes[0]);
+        }
+}
+
+static size_t job_field(enum unit unit)
+{
+    static const size_t field[UNIT_COUNT] = {offsetof(struct vertex_arguments, job),
+                                             offsetof(struct setup_arguments, job),
+                                             offsetof(struct pixel_arguments, job)};
+    return field[unit];
+}
+
+/* The offset in the job of the pointer to the shader's constants; 0 if the key has no shader. */
+static int32_t constants_field(enum unit unit, const union key *key)
+{
+    const struct program *program = key_shader(unit, key);
+    return program ? (int32_t)(offsetof(struct job, constants) + program->model->stage * sizeof(float *)) : 0;
+}
+
+size_t emit_routine(struct emitter *m, enum unit unit, const union key *key, struct error *error)
+{
+    encode_start(&m->encoder, m->code, sizeof m->code, m->labels, LABEL_FREE, m->fixups, FIXUP_CAPACITY);
+    m->literals = m->lines = m->unwinds = m->regions = m->region_depth = 0;
+    m->exceeded = NULL;
+    if (m->allocation->slots > SPILL_CAPACITY)
+        emit_note_exceeded(m, "spill slots", SPILL_CAPACITY);
+    m->constants = constants_field(unit, key);
+    prologue(m, job_field(unit));
+    switch (unit) {
+    case UNIT_VERTEX: vertex_loop(m); break;
+    case UNIT_SETUP: setup_loop(m, &key->setup); break;
+    default: pixel_loop(m); break;
+    }
+    epilogue(m);
+    m->code_bytes = (uint32_t)encode_size(&m->encoder);
+    encode_align(&m->encoder, 64);
+    constant_pool(m);
+    forget_literals(m);
+    if (m->exceeded) {
+        error_set(error, "the %s routine has too many %s, expected at most %d", unit_name[unit], m->exceeded,
+                  m->exceeded_limit);
+        return 0;
+    }
+    if (encode_finish(&m->encoder, error))
+        return 0;
+    return encode_size(&m->encoder);
+}

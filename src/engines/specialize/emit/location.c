@@ -1,0 +1,142 @@
+/* Locations of values, and the code that brings them to registers.
+ *
+ * A value is in its allocated register up to the position at which it is evicted. After it, and if it never
+ * had a register, it is in memory: a literal after the code, a slot of the constant table, a spill slot, or
+ * the word that it was loaded from. With 16 lanes a mask may be in a mask register, and a value that is the
+ * same in all lanes is one word in memory. */
+#include "engines/specialize/emit/emit.h"
+
+struct address emit_frame_address(const struct emitter *m, int32_t start, unsigned slot)
+{
+    return address_at(X86_RSP, start + (int32_t)(slot * m->width * 4));
+}
+
+struct address emit_slot_address(const struct emitter *m, unsigned slot)
+{
+    return emit_frame_address(m, m->frame_slots, slot);
+}
+
+/* A slot of the constant table; with 16 lanes, the word that the slot would be filled from. */
+static struct address constant_address(const struct emitter *m, unsigned slot)
+{
+    const struct ir_constant *constant = &m->ir->constant[slot];
+    if (!emit_is_wide(m))
+        return emit_frame_address(m, m->frame_constants, slot);
+    struct address address = address_at(emit_base_register[constant->base], constant->offset);
+    address.broadcast = 1;
+    return address;
+}
+
+static struct location memory_location(struct emitter *m, unsigned value)
+{
+    const struct ir_instruction *i = &m->ir->instruction[value];
+    if (i->op == IR_copy && allocate_is_constant(&m->ir->instruction[i->operand[0]]))
+        i = &m->ir->instruction[value = i->operand[0]];
+    unsigned slot = m->allocation->slot[allocate_web(m->allocation, value)];
+    struct location p = {.value = value, .reg = NO_REGISTER, .addressable = true};
+    if (i->op == IR_literal)
+        p.address = emit_literal_address(m, i->k, emit_is_wide(m) ? LITERAL_ONCE : LITERAL_LANES);
+    else if (i->op == IR_constant)
+        p.address = constant_address(m, (unsigned)i->k);
+    else if (slot != NO_SLOT) {
+        p.address = emit_slot_address(m, slot);
+        p.mask = allocate_is_mask(m->allocation, i);
+        p.addressable = !p.mask;
+    } else {
+        p.address = address_at(emit_base_register[i->base], i->k);
+        p.address.broadcast = i->op == IR_uniform && emit_is_wide(m);
+        p.addressable = i->op == IR_load || emit_is_wide(m);
+    }
+    return p;
+}
+
+struct location emit_locate(struct emitter *m, unsigned value)
+{
+    const struct allocation *a = m->allocation;
+    unsigned web = allocate_web(a, value);
+    if (a->residence[value] == RESIDENCE_REGISTER && m->position <= a->split[web])
+        return (struct location){.value = value, .reg = a->reg[web]};
+    return memory_location(m, value);
+}
+
+bool emit_is_zero(const struct emitter *m, unsigned value)
+{
+    return m->ir->instruction[value].op == IR_literal && !m->ir->instruction[value].k;
+}
+
+static void bring_mask(struct emitter *m, unsigned to, const struct location *p)
+{
+    struct encoder *e = &m->encoder;
+    if (p->reg != NO_REGISTER && p->reg >= MASKS) {
+        if (p->reg != to)
+            encode_rr(e, X86_kmovw, X86_128, to - MASKS, p->reg - MASKS);
+    } else if (p->reg == NO_REGISTER && p->mask)
+        encode_rm(e, X86_kmovw, X86_128, to - MASKS, p->address);
+    else
+        encode_rr(e, X86_vpmovd2m, m->length, to - MASKS, emit_need_register(m, p, SCRATCH_FIRST));
+}
+
+static void bring_memory(struct emitter *m, unsigned to, const struct location *p)
+{
+    struct address from = p->address;
+    enum x86_vector how = p->addressable && !from.broadcast ? X86_vmovups : X86_vbroadcastss;
+    from.broadcast = 0;
+    if (emit_is_zero(m, p->value))
+        encode_rrr(&m->encoder, X86_vxorps, m->length, to, to, to);
+    else
+        encode_rm(&m->encoder, how, m->length, to, from);
+}
+
+void emit_bring(struct emitter *m, unsigned to, const struct location *p)
+{
+    if (to >= MASKS)
+        bring_mask(m, to, p);
+    else if (p->mask || (p->reg >= MASKS && p->reg != NO_REGISTER))
+        encode_rr(&m->encoder, X86_vpmovm2d, m->length, to, emit_need_mask(m, p, MASK_SCRATCH));
+    else if (p->reg == NO_REGISTER)
+        bring_memory(m, to, p);
+    else if (p->reg != to)
+        encode_copy(&m->encoder, m->length, to, p->reg);
+}
+
+unsigned emit_need_register(struct emitter *m, const struct location *p, unsigned scratch)
+{
+    if (p->reg < MASKS)
+        return p->reg;
+    emit_bring(m, scratch, p);
+    return scratch;
+}
+
+unsigned emit_need_mask(struct emitter *m, const struct location *p, unsigned scratch)
+{
+    if (p->reg != NO_REGISTER && p->reg >= MASKS)
+        return p->reg - MASKS;
+    emit_bring(m, scratch, p);
+    return scratch - MASKS;
+}
+
+void emit_store_register(struct emitter *m, struct address to, unsigned reg)
+{
+    if (reg >= MASKS)
+        encode_mr(&m->encoder, X86_kmovw_store, X86_128, to, reg - MASKS);
+    else
+        encode_mr(&m->encoder, X86_vmovaps_store, m->length, to, reg);
+}
+
+bool emit_folds(struct emitter *m, enum x86_vector instruction, struct location *p)
+{
+    if (p->reg != NO_REGISTER || !p->addressable)
+        return false;
+    if (p->address.broadcast && !encode_broadcasts(instruction)) {
+        const struct ir_instruction *i = &m->ir->instruction[p->value];
+        if (i->op != IR_literal)
+            return false;
+        p->address = emit_literal_address(m, i->k, LITERAL_LANES);
+    }
+    return true;
+}
+
+unsigned emit_result_register(const struct emitter *m)
+{
+    return m->allocation->reg[m->position];
+}

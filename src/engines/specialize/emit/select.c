@@ -1,0 +1,151 @@
+/* The body of a routine: code for each IR instruction, in order. Operations that compute, gathers, scatters,
+ * windows and regions have files of their own.
+ *
+ * Lanes are in memory order, so loads and stores are plain moves. */
+#include "engines/specialize/emit/emit.h"
+
+static void select_variable(struct emitter *m, const struct ir_instruction *i)
+{
+    struct address variable = emit_frame_address(m, m->frame_variables, (unsigned)i->k);
+    bool mask = emit_is_wide(m) && i->type == TYPE_msk;
+    struct location value = emit_locate(m, i->operand[0]);
+    if (i->op == IR_get && mask)
+        encode_rm(&m->encoder, X86_kmovw, X86_128, emit_result_register(m) - MASKS, variable);
+    else if (i->op == IR_get)
+        encode_rm(&m->encoder, X86_vmovaps, m->length, emit_result_register(m), variable);
+    else
+        emit_store_register(m, variable,
+                            mask ? MASKS + emit_need_mask(m, &value, MASK_SCRATCH)
+                                 : emit_need_register(m, &value, SCRATCH_FIRST));
+}
+
+static void select_memory(struct emitter *m, const struct ir_instruction *i)
+{
+    struct address at = address_at(emit_base_register[i->base], i->k);
+    if (i->op == IR_store) {
+        struct location value = emit_locate(m, i->operand[0]);
+        encode_mr(&m->encoder, X86_vmovups_store, m->length, at,
+                  emit_need_register(m, &value, SCRATCH_FIRST));
+    } else
+        encode_rm(&m->encoder, i->op == IR_load ? X86_vmovups : X86_vbroadcastss, m->length,
+                  emit_result_register(m), at);
+}
+
+static void select_store_where(struct emitter *m, const struct ir_instruction *i)
+{
+    struct location value = emit_locate(m, i->operand[0]), mask = emit_locate(m, i->operand[1]);
+    struct address at = address_at(emit_base_register[i->base], i->k);
+    unsigned from = emit_need_register(m, &value, SCRATCH_FIRST);
+    at.mask = (uint8_t)emit_need_mask(m, &mask, MASK_SCRATCH);
+    encode_mr(&m->encoder, X86_vmovups_store, m->length, at, from);
+}
+
+enum { ONE = 0x3f800000 };
+
+/* The address of a literal's single word, for an instruction that broadcasts it. */
+static struct address literal_word(struct emitter *m, int32_t bits)
+{
+    struct address word = emit_literal_address(m, bits, LITERAL_ONCE);
+    word.broadcast = 0;
+    return word;
+}
+
+/* 1 / plane. If the three words of the plane are 1, 0 and 0, the result is 1 at every pixel and the division
+ * is skipped. */
+static void select_reciprocal(struct emitter *m, const struct ir_instruction *i)
+{
+    struct encoder *e = &m->encoder;
+    struct location x = emit_locate(m, i->operand[0]), y = emit_locate(m, i->operand[1]);
+    struct address value = address_at(emit_base_register[i->base], i->k), dx = value, dy = value;
+    uint32_t divide = encode_add_label(e), done = encode_add_label(e);
+    unsigned to = emit_result_register(m);
+    dx.displacement += (int32_t)offsetof(struct plane, dx);
+    dy.displacement += (int32_t)offsetof(struct plane, dy);
+    encode_rm(e, X86_vbroadcastss, m->length, to, literal_word(m, ONE));
+    encode_gpr_mi(e, X86_cmp, X86_64, dx, 0);
+    encode_jump_if(e, X86_IF_nz, divide);
+    encode_gpr_mi(e, X86_cmp, X86_32, value, ONE);
+    encode_jump_if(e, X86_IF_z, done);
+    encode_label(e, divide);
+    encode_rm(e, X86_vbroadcastss, m->length, SCRATCH_SECOND, value);
+    dx.broadcast = dy.broadcast = 1;
+    encode_rrm(e, X86_vfmadd231ps, m->length, SCRATCH_SECOND, emit_need_register(m, &y, SCRATCH_FIRST), dy);
+    encode_rrm(e, X86_vfmadd231ps, m->length, SCRATCH_SECOND, emit_need_register(m, &x, SCRATCH_FIRST), dx);
+    encode_rrr(e, X86_vdivps, m->length, to, to, SCRATCH_SECOND);
+    encode_label(e, done);
+}
+
+static void select_copy(struct emitter *m, const struct ir_instruction *i)
+{
+    struct location source = emit_locate(m, i->operand[0]);
+    emit_bring(m, emit_result_register(m), &source);
+}
+
+static void select_instruction(struct emitter *m, const struct ir_instruction *i)
+{
+    switch (i->op) {
+    case IR_gather: emit_gather(m, i); break;
+    case IR_reciprocal: select_reciprocal(m, i); break;
+    case IR_store_where: select_store_where(m, i); break;
+    case IR_coverage:
+        encode_rm(&m->encoder, X86_kmovw, X86_128, emit_result_register(m) - MASKS,
+                  address_at(emit_base_register[i->base], i->k));
+        break;
+    case IR_window: emit_window(m, i); break;
+    case IR_scatter: emit_scatter(m, i); break;
+    case IR_when: emit_when(m, i); break;
+    case IR_end: emit_end(m); break;
+    case IR_loop: emit_loop(m); break;
+    case IR_again: emit_again(m, i); break;
+    case IR_set:
+    case IR_get: select_variable(m, i); break;
+    case IR_load:
+    case IR_uniform:
+    case IR_store: select_memory(m, i); break;
+    case IR_copy:
+    case IR_phi: select_copy(m, i); break;
+    case IR_next:
+    case IR_join: break; /* moves at the region's end */
+    default: emit_computed(m, i); break;
+    }
+}
+
+/* Returns true if the instruction's code writes its register. Joins are written by moves, and a phi whose
+ * first value is of its own web needs no code. */
+static bool writes_result(const struct emitter *m, const struct ir_instruction *i)
+{
+    const struct allocation *a = m->allocation;
+    return i->op != IR_join &&
+           (i->op != IR_phi || allocate_web(a, m->position) != allocate_web(a, i->operand[0]));
+}
+
+void emit_store_spilled(struct emitter *m)
+{
+    unsigned slot = m->allocation->slot[allocate_web(m->allocation, m->position)];
+    if (slot != NO_SLOT)
+        emit_store_register(m, emit_slot_address(m, slot), emit_result_register(m));
+}
+
+void emit_instructions(struct emitter *m, uint32_t end, bool lines)
+{
+    m->selected = 0;
+    for (; m->position < end && !m->exceeded; m->position++) {
+        const struct ir_instruction *i = &m->ir->instruction[m->position];
+        bool effect = ir_properties(i) & IR_EFFECT;
+        if (!effect && (m->allocation->residence[m->position] != RESIDENCE_REGISTER || !writes_result(m, i)))
+            continue;
+        if (m->position >= m->selected) {
+            if (lines)
+                emit_note_line(m, m->position);
+            select_instruction(m, i);
+        }
+        if (!effect)
+            emit_store_spilled(m);
+    }
+}
+
+void emit_body(struct emitter *m)
+{
+    m->position = 1;
+    emit_instructions(m, m->ir->count, true);
+}

@@ -1,0 +1,177 @@
+/* The specializer's engines: one code generator for 4, 8 and 16 lanes with the default profile, and for 8
+ * lanes with only the passes of the thesis. */
+#include "machine/code.h"
+#include "machine/cpu.h"
+#include "debug/code.h"
+#include "engines/specialize/build.h"
+#include "engines/specialize/specialize.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+/* Copies the built code into the arena. */
+static int install(struct code_arena *arena, const struct builder *b, size_t bytes, struct routine *routine,
+                   struct error *error)
+{
+    struct code_span span;
+    if (!arena)
+        return error_set(error, "generated code needs executable memory");
+    if (code_reserve(arena, bytes, &span, error))
+        return -1;
+    memcpy(span.writable, b->emitter.code, bytes);
+    routine->code = code_commit(arena, &span, bytes);
+    memcpy(&routine->run, &routine->code, sizeof routine->run);
+    routine->code_bytes = (uint32_t)bytes;
+    routine->constant_bytes = (uint32_t)bytes - b->emitter.code_bytes;
+    routine->parts = b->ir.count - 1;
+    routine->spills = b->allocation.spills;
+    return 0;
+}
+
+/* An order for a routine, with the observer of its passes. */
+struct order {
+    const struct ir *ir; /* null: record the specification for the key */
+    struct build_options options;
+    pass_observer *observer;
+    void *context;
+};
+
+static struct routine *build_with(const struct engine *engine, const struct order *order,
+                                  struct code_arena *arena, enum unit unit, const union key *key,
+                                  struct error *error)
+{
+    struct builder *b = specialize_take(error);
+    struct routine *routine = b ? calloc(1, sizeof *routine) : NULL;
+    if (!routine) {
+        error_set(error, "out of memory for a routine");
+        goto failed;
+    }
+    routine->engine = engine;
+    routine->unit = unit;
+    routine->key = *key;
+    size_t bytes = order->ir ? specialize_recording(b, order->ir, &order->options, unit, key, order->observer,
+                                                    order->context, error)
+                             : specialize_code(b, &order->options, unit, key, NULL, NULL, error);
+    if (!bytes || install(arena, b, bytes, routine, error))
+        goto failed;
+    specialize_give(b);
+    return routine;
+failed:
+    if (b)
+        specialize_give(b);
+    free(routine);
+    return NULL;
+}
+
+static void free_routine(struct code_arena *arena, struct routine *routine)
+{
+    struct code_span span = {.writable = code_writable(arena, routine->code),
+                             .executable = routine->code,
+                             .bytes = routine->code_bytes};
+    code_free(arena, &span);
+    free(routine);
+}
+
+static void describe_code(const struct builder *b, struct debug_code *code)
+{
+    const struct emitter *m = &b->emitter;
+    code->folder = "src";
+    code->bytes = m->code_bytes;
+    for (uint32_t i = 0; i < m->lines; i++) {
+        const struct code_line *line = m->line + i;
+        const struct ir_instruction *instruction = &b->ir.instruction[line->instruction];
+        if (line->instruction)
+            debug_add_source(code, line->offset, b->ir.file[instruction->file], instruction->line);
+        else
+            debug_add_source(code, line->offset, "engines/specialize/emit/frame.c", line->frame_line);
+    }
+    for (uint32_t i = 0; i < m->unwinds; i++)
+        debug_add_unwind(code, m->unwind[i].offset, m->unwind[i].rule, m->unwind[i].reg, m->unwind[i].value);
+}
+
+static int describe(const struct routine *routine, struct debug_code *code, struct error *error)
+{
+    struct builder *b = specialize_take(error);
+    if (!b)
+        return -1;
+    const struct build_options options = specialize_options(routine->engine, routine->unit);
+    size_t bytes = specialize_code(b, &options, routine->unit, &routine->key, NULL, NULL, error);
+    int result = bytes ? 0 : -1;
+    if (bytes && (bytes != routine->code_bytes || memcmp(b->emitter.code, routine->code, bytes)))
+        result =
+            error_set(error, "a %s routine was built twice and is not the same", unit_name[routine->unit]);
+    if (!result)
+        describe_code(b, code);
+    specialize_give(b);
+    return result;
+}
+
+/* --- The engines: def/engine/specialize.def ------------------------------------------------------------ */
+
+/* Sixteen lanes with AVX-512, except for setup: it gathers and scatters lane by lane, whatever the width. */
+static unsigned best_width(enum unit unit)
+{
+    return unit == UNIT_SETUP || cpu_lacks_avx512() ? 8 : 16;
+}
+
+static const char *unavailable(const struct engine *self)
+{
+    const char *reason = cpu_lacks_avx2_fma();
+    if (!reason)
+        reason = code_unavailable();
+    return reason || self->width < 16 ? reason : cpu_lacks_avx512();
+}
+
+static struct routine *build(const struct engine *self, struct code_arena *arena, enum unit unit,
+                             const union key *key, struct error *error)
+{
+    const struct order order = {.options = specialize_options(self, unit)};
+    struct routine *routine = build_with(self, &order, arena, unit, key, error);
+    if (routine)
+        routine->lanes = order.options.width;
+    return routine;
+}
+
+bool specialize_is_engine(const struct engine *engine)
+{
+    return engine->build == build;
+}
+
+struct build_options specialize_options(const struct engine *engine, enum unit unit)
+{
+    struct build_options options = *(const struct build_options *)engine->options;
+    if (!options.width)
+        options.width = best_width(unit);
+    return options;
+}
+
+#define SPECIALIZE(id, text, lanes, passes, meaning)                                                         \
+    const struct engine engine_##id = {                                                                      \
+        .name = text,                                                                                        \
+        .description = meaning,                                                                              \
+        .width = lanes,                                                                                      \
+        .options = &(const struct build_options){.width = lanes, .profile = PROFILE_##passes},               \
+        .unavailable = unavailable,                                                                          \
+        .build = build,                                                                                      \
+        .free = free_routine,                                                                                \
+        .describe = describe,                                                                                \
+    };
+#include "def/engine/specialize.def"
+#undef SPECIALIZE
+
+struct routine *specialize_routine_of(const struct engine *engine, const struct ir *ir, uint32_t disabled,
+                                      pass_observer *observer, void *context, struct code_arena *arena,
+                                      enum unit unit, const union key *key, struct error *error)
+{
+    struct order order = {ir, specialize_options(engine, unit), observer, context};
+    order.options.disabled |= disabled;
+    return build_with(engine, &order, arena, unit, key, error);
+}
+
+struct routine *specialize_routine(const struct engine *engine, const struct build_options *options,
+                                   struct code_arena *arena, enum unit unit, const union key *key,
+                                   struct error *error)
+{
+    const struct order order = {.options = *options};
+    return build_with(engine, &order, arena, unit, key, error);
+}

@@ -1,0 +1,107 @@
+/* The passes in order, repeated until nothing changes (thesis, section 3.4).
+ *
+ * A pass runs again only if it, or another pass that wakes it, has changed something since its last run;
+ * without this rule the last rounds of a fixpoint would inspect the whole program to find nothing. At the end
+ * the program is compacted. */
+#include "engines/specialize/passes/pass.h"
+
+#include <string.h>
+
+enum group { THESIS, FULL, ONCE };
+enum wakes { NONE, OTHERS, ALL };
+
+static const struct {
+    const char *name;
+    pass_function *run;
+    enum group group;
+    enum wakes wakes;
+    const char *meaning;
+} passes[PASS_COUNT] = {
+#define PASS(name, profile, wakes, meaning) {#name, pass_##name, profile, wakes, meaning},
+#include "def/engine/pass.def"
+#undef PASS
+};
+
+const char *pass_name(unsigned i)
+{
+    return i < PASS_COUNT ? passes[i].name : NULL;
+}
+
+const char *pass_description(unsigned i)
+{
+    return i < PASS_COUNT ? passes[i].meaning : NULL;
+}
+
+uint32_t pass_rebuild(const struct ir *ir, struct pass_memory *memory)
+{
+    memory->map[0] = 0;
+    memory->rebuilt[0] = ir->instruction[0];
+    return 1;
+}
+
+void pass_replace(struct ir *ir, const struct pass_memory *memory, uint32_t count)
+{
+    memcpy(ir->instruction, memory->rebuilt, count * sizeof *memory->rebuilt);
+    ir->count = count;
+}
+
+static bool is_enabled(unsigned pass, enum profile profile, uint32_t disabled)
+{
+    return !(disabled >> pass & 1) && (passes[pass].group == THESIS || profile == PROFILE_FULL);
+}
+
+/* The enabled passes of the fixpoint, or the enabled ones that run once after it; bit p: pass p. */
+static uint32_t select_passes(bool once, enum profile profile, uint32_t disabled)
+{
+    uint32_t selected = 0;
+    for (unsigned p = 0; p < PASS_COUNT; p++)
+        selected |= (uint32_t)((passes[p].group == ONCE) == once && is_enabled(p, profile, disabled)) << p;
+    return selected;
+}
+
+/* The passes that `pass` wakes when it has changed something; bit p: pass p. */
+static uint32_t woken(unsigned pass, uint32_t repeated)
+{
+    switch (passes[pass].wakes) {
+    case ALL: return repeated;
+    case OTHERS: return repeated & ~(1u << pass);
+    default: return 0;
+    }
+}
+
+struct run {
+    struct ir *ir;
+    struct pass_memory *memory;
+    pass_observer *observer;
+    void *context;
+};
+
+/* Runs the waiting passes in order, and those that are woken by an earlier row. Returns those that still
+ * wait. */
+static uint32_t run_round(const struct run *run, uint32_t waiting, uint32_t repeated)
+{
+    for (unsigned p = 0; p < PASS_COUNT; p++) {
+        if (!(waiting >> p & 1))
+            continue;
+        waiting &= ~(1u << p);
+        if (!passes[p].run(run->ir, run->memory))
+            continue;
+        waiting |= woken(p, repeated);
+        if (run->observer)
+            run->observer(run->context, p, run->ir);
+    }
+    return waiting;
+}
+
+unsigned pass_run_all(struct ir *ir, struct pass_memory *memory, enum profile profile, uint32_t disabled,
+                      pass_observer *observer, void *context)
+{
+    const struct run run = {ir, memory, observer, context};
+    uint32_t repeated = select_passes(false, profile, disabled);
+    unsigned rounds = 0;
+    for (uint32_t waiting = repeated; waiting; rounds++)
+        waiting = run_round(&run, waiting, repeated);
+    run_round(&run, select_passes(true, profile, disabled), 0);
+    ir_compact(ir, memory->map);
+    return rounds;
+}

@@ -1,0 +1,78 @@
+/* The passes over the IR and their list, def/engine/pass.def. The file of each pass states its preconditions
+ * and postconditions.
+ *
+ * Every pass keeps the IR valid (ir_verify) and its results identical to the bit, and returns the number of
+ * instructions that it changed. */
+#ifndef ENGINES_SPECIALIZE_PASSES_PASS_H
+#define ENGINES_SPECIALIZE_PASSES_PASS_H
+
+#include "ir/ir.h"
+
+#include <assert.h>
+
+enum pass {
+#define PASS(name, ...) PASS_##name,
+#include "def/engine/pass.def"
+#undef PASS
+    PASS_COUNT
+};
+
+enum profile { PROFILE_THESIS, PROFILE_FULL };
+
+enum {
+    PASS_LOOPS = IR_CAPACITY / 2 + 1, /* more loops than any program has */
+    PASS_SCRATCH = 4 << 20            /* bytes */
+};
+
+/* The memory of the passes, one for each build. Every pass keeps its working data in a structure of its own
+ * in `scratch` (pass_scratch). */
+struct pass_memory {
+    unsigned lanes; /* of the routine: 4, 8 or 16; 0: unknown */
+    struct ir_instruction
+        rebuilt[IR_CAPACITY];  /* the new program, while a pass inserts or moves instructions */
+    uint16_t map[IR_CAPACITY]; /* from old numbers to those of the new program */
+    _Alignas(64) uint8_t scratch[PASS_SCRATCH];
+};
+
+/* Returns the scratch memory, as the structure of the pass that runs. Its contents are undefined. */
+static inline void *pass_scratch(struct pass_memory *memory, size_t bytes)
+{
+    assert(bytes <= sizeof memory->scratch);
+    return memory->scratch;
+}
+
+/* Building a new program in memory->rebuilt: pass_rebuild begins it with the nop and returns its count of
+ * instructions; pass_append adds instruction `number` of the old program, with its operands renumbered;
+ * pass_replace copies the first `count` instructions over the old program. */
+uint32_t pass_rebuild(const struct ir *ir, struct pass_memory *memory);
+void pass_replace(struct ir *ir, const struct pass_memory *memory, uint32_t count);
+
+static inline void pass_append(const struct ir *ir, struct pass_memory *memory, uint32_t number,
+                               uint32_t *count)
+{
+    struct ir_instruction *to = &memory->rebuilt[*count];
+    *to = ir->instruction[number];
+    for (int o = 0; o < 3; o++)
+        to->operand[o] = memory->map[to->operand[o]];
+    memory->map[number] = (uint16_t)(*count)++;
+}
+
+typedef unsigned pass_function(struct ir *ir, struct pass_memory *memory);
+
+#define PASS(name, ...) pass_function pass_##name;
+#include "def/engine/pass.def"
+#undef PASS
+
+/* The name of pass i and one line about it; null past the last. */
+const char *pass_name(unsigned i);
+const char *pass_description(unsigned i);
+
+/* Called after each pass that changed something. */
+typedef void pass_observer(void *context, enum pass pass, const struct ir *ir);
+
+/* Runs the profile's passes except those whose bit is set in `disabled`, and compacts the program. Returns
+ * the number of rounds. */
+unsigned pass_run_all(struct ir *ir, struct pass_memory *memory, enum profile profile, uint32_t disabled,
+                      pass_observer *observer, void *context);
+
+#endif

@@ -1,0 +1,269 @@
+/* Strength reduction (thesis, section 3.4), restated for IEEE arithmetic.
+ *
+ * The rules of the thesis are y * 1 = y, y + 0 = y, y * 0 = 0 and y - y = 0. Only the first is an identity of
+ * IEEE binary32: -0 + 0 is +0, and infinity * 0 and infinity - infinity are NaN. Where denormals are flushed
+ * the first is not an identity either: y * 1 of a denormal is a zero. So each rule is applied where the
+ * operands' ranges prove it (range.c). Clamps that the range already satisfies are removed too, and
+ * selections, mask operations and integer operations with a neutral operand.
+ *
+ * A rule makes its instruction a copy of an operand, a literal, or a cheaper operation; copy propagation does
+ * the rest. Most rules test for a literal first, so few ranges are needed, and ranges are computed on demand.
+ */
+#include "engines/specialize/passes/pass.h"
+#include "engines/specialize/passes/range.h"
+
+#include "contract/lane.h"
+
+enum { PLUS_ZERO = 0, ONE = 0x3f800000 };
+#define MINUS_ZERO INT32_MIN
+
+static_assert(sizeof(struct range_memory) <= PASS_SCRATCH, "scratch memory is large enough");
+
+/* An instruction in its program, and the ranges of its operands. */
+struct view {
+    const struct ir *ir;
+    struct range_memory *memory;
+    const struct ir_instruction *instruction;
+};
+
+static struct range operand_range(const struct view *view, int operand)
+{
+    range_demand(view->ir, view->memory, view->instruction->operand[operand]);
+    return range_of_operand(view->ir, view->memory, view->instruction, operand);
+}
+
+static bool is_literal(const struct view *view, unsigned value, int32_t bits)
+{
+    const struct ir_instruction *i = &view->ir->instruction[value];
+    return i->op == IR_literal && i->k == bits;
+}
+
+static bool is_finite(struct range r)
+{
+    return !r.nan && r.low > -INFINITY && r.high < INFINITY;
+}
+
+static bool is_sign_clear(struct range r)
+{
+    return r.low >= 0 && !r.minus_zero;
+}
+
+static bool become_copy(struct ir_instruction *i, unsigned source)
+{
+    i->op = IR_copy;
+    i->operand[0] = (uint16_t)source;
+    i->operand[1] = i->operand[2] = 0;
+    i->k = 0;
+    return true;
+}
+
+static bool become_literal(struct ir_instruction *i, int32_t bits)
+{
+    i->op = IR_literal;
+    i->operand[0] = i->operand[1] = i->operand[2] = 0;
+    i->k = bits;
+    return true;
+}
+
+static bool become(struct ir_instruction *i, enum ir_op op, unsigned a, unsigned b)
+{
+    i->op = (uint8_t)op;
+    i->operand[0] = (uint16_t)a;
+    i->operand[1] = (uint16_t)b;
+    i->operand[2] = 0;
+    return true;
+}
+
+/* Returns true if arithmetic that keeps y's value keeps its bits: it would flush a denormal. */
+static bool keeps_bits(struct range y)
+{
+    return !y.denormal;
+}
+
+/* Returns true if y + 0 = y. */
+static bool keeps_zero(struct range y)
+{
+    return !y.minus_zero && !y.nan && keeps_bits(y);
+}
+
+/* y + 0 = y unless y is -0; y + -0 = y; y + -x = y - x. */
+static bool reduce_add(const struct view *view, struct ir_instruction *i)
+{
+    for (int o = 0; o < 2; o++) {
+        unsigned zero = i->operand[1 - o];
+        if ((is_literal(view, zero, PLUS_ZERO) && keeps_zero(operand_range(view, o))) ||
+            (is_literal(view, zero, MINUS_ZERO) && keeps_bits(operand_range(view, o))))
+            return become_copy(i, i->operand[o]);
+    }
+    for (int o = 0; o < 2; o++) {
+        const struct ir_instruction *negated = &view->ir->instruction[i->operand[1 - o]];
+        if (negated->op == IR_neg_f)
+            return become(i, IR_sub_f, i->operand[o], negated->operand[0]);
+    }
+    return false;
+}
+
+/* y - 0 = y; y - y = 0 when y is finite. */
+static bool reduce_sub(const struct view *view, struct ir_instruction *i)
+{
+    unsigned a = i->operand[0], b = i->operand[1];
+    if (is_literal(view, b, PLUS_ZERO) && keeps_bits(operand_range(view, 0)))
+        return become_copy(i, a);
+    if (a == b && is_finite(operand_range(view, 0)))
+        return become_literal(i, PLUS_ZERO);
+    return false;
+}
+
+/* y * 1 = y; y * 0 = 0 when y is finite and its sign clear. */
+static bool reduce_mul(const struct view *view, struct ir_instruction *i)
+{
+    for (int o = 0; o < 2; o++) {
+        unsigned x = i->operand[1 - o];
+        if (is_literal(view, x, ONE) && keeps_bits(operand_range(view, o)))
+            return become_copy(i, i->operand[o]);
+        if (is_literal(view, x, PLUS_ZERO) && is_finite(operand_range(view, o)) &&
+            is_sign_clear(operand_range(view, o)))
+            return become_literal(i, PLUS_ZERO);
+    }
+    return false;
+}
+
+/* y * 1 + z = y + z; y * z + -0 = y * z; y * 0 + z = z when y is finite and z is not -0. */
+static bool reduce_mad(const struct view *view, struct ir_instruction *i)
+{
+    unsigned z = i->operand[2];
+    for (int o = 0; o < 2; o++) {
+        unsigned x = i->operand[1 - o];
+        if (is_literal(view, x, ONE))
+            return become(i, IR_add_f, i->operand[o], z);
+        if (is_literal(view, x, PLUS_ZERO) && is_finite(operand_range(view, o)) &&
+            keeps_zero(operand_range(view, 2)))
+            return become_copy(i, z);
+    }
+    return is_literal(view, z, MINUS_ZERO) ? become(i, IR_mul_f, i->operand[0], i->operand[1]) : false;
+}
+
+/* min and max whose result is always the same operand. Of equal operands the result is b, which matters only
+ * if they are zeros of different signs. */
+static bool reduce_extreme(const struct view *view, struct ir_instruction *i, bool minimum)
+{
+    const struct range a = operand_range(view, 0), b = operand_range(view, 1);
+    if (a.nan || b.nan || a.denormal || b.denormal ||
+        ((a.minus_zero || b.minus_zero) && a.low <= 0 && a.high >= 0))
+        return false;
+    if (minimum ? a.high <= b.low : a.low >= b.high)
+        return become_copy(i, i->operand[0]);
+    if (minimum ? b.high <= a.low : b.low >= a.high)
+        return become_copy(i, i->operand[1]);
+    return false;
+}
+
+static bool reduce_select(const struct view *view, struct ir_instruction *i)
+{
+    if (i->operand[1] == i->operand[2] || is_literal(view, i->operand[0], -1))
+        return become_copy(i, i->operand[1]);
+    return is_literal(view, i->operand[0], 0) ? become_copy(i, i->operand[2]) : false;
+}
+
+/* y op neutral = y, on either side. */
+static bool reduce_neutral(const struct view *view, struct ir_instruction *i, int32_t neutral)
+{
+    for (int o = 0; o < 2; o++)
+        if (is_literal(view, i->operand[1 - o], neutral))
+            return become_copy(i, i->operand[o]);
+    return false;
+}
+
+/* y op absorbing = absorbing, on either side. */
+static bool reduce_absorbing(const struct view *view, struct ir_instruction *i, int32_t absorbing)
+{
+    if (is_literal(view, i->operand[0], absorbing) || is_literal(view, i->operand[1], absorbing))
+        return become_literal(i, absorbing);
+    return false;
+}
+
+/* `not x and y` becomes andn_m, which works on all bits. */
+static bool reduce_and(const struct view *view, struct ir_instruction *i)
+{
+    for (int o = 0; o < 2; o++) {
+        const struct ir_instruction *complement = &view->ir->instruction[i->operand[o]];
+        if (complement->op == IR_xor_i && is_literal(view, complement->operand[1], -1))
+            return become(i, IR_andn_m, i->operand[1 - o], complement->operand[0]);
+    }
+    if (i->operand[0] == i->operand[1])
+        return become_copy(i, i->operand[0]);
+    return reduce_neutral(view, i, -1) || reduce_absorbing(view, i, 0);
+}
+
+static bool reduce_or(const struct view *view, struct ir_instruction *i)
+{
+    if (i->operand[0] == i->operand[1])
+        return become_copy(i, i->operand[0]);
+    return reduce_neutral(view, i, 0) || reduce_absorbing(view, i, -1);
+}
+
+static bool reduce_difference(struct ir_instruction *i)
+{
+    return i->operand[0] == i->operand[1] ? become_literal(i, 0) : false;
+}
+
+static bool reduce_shift(const struct view *view, struct ir_instruction *i)
+{
+    if (!i->k)
+        return become_copy(i, i->operand[0]);
+    return is_literal(view, i->operand[0], 0) ? become_literal(i, 0) : false;
+}
+
+static bool reduce(const struct view *view, struct ir_instruction *i)
+{
+    switch (i->op) {
+    case IR_add_f: return reduce_add(view, i);
+    case IR_sub_f: return reduce_sub(view, i);
+    case IR_mul_f: return reduce_mul(view, i);
+    case IR_mad_f: return reduce_mad(view, i);
+    case IR_div_f:
+        if (is_literal(view, i->operand[1], ONE) && keeps_bits(operand_range(view, 0)))
+            return become_copy(i, i->operand[0]);
+        return false;
+    case IR_min_f:
+    case IR_min_i: return reduce_extreme(view, i, true);
+    case IR_max_f:
+    case IR_max_i: return reduce_extreme(view, i, false);
+    case IR_select_f:
+    case IR_select_i: return reduce_select(view, i);
+    case IR_add_i:
+    case IR_add_x: return reduce_neutral(view, i, 0);
+    case IR_mul_i: return reduce_neutral(view, i, 1) || reduce_absorbing(view, i, 0);
+    case IR_mul_x: return reduce_neutral(view, i, 0x10001) || reduce_absorbing(view, i, 0);
+    case IR_and_i:
+    case IR_and_m: return reduce_and(view, i);
+    case IR_or_i:
+    case IR_or_m: return reduce_or(view, i);
+    case IR_xor_i: return reduce_difference(i) || reduce_neutral(view, i, 0);
+    case IR_sub_i:
+    case IR_sub_x:
+        if (is_literal(view, i->operand[1], 0))
+            return become_copy(i, i->operand[0]);
+        return reduce_difference(i);
+    case IR_shl_i:
+    case IR_shr_i:
+    case IR_ushr_i:
+    case IR_shl_x:
+    case IR_ushr_x: return reduce_shift(view, i);
+    default: return false;
+    }
+}
+
+unsigned pass_reduce(struct ir *ir, struct pass_memory *memory)
+{
+    unsigned changes = 0;
+    struct view view = {.ir = ir, .memory = pass_scratch(memory, sizeof *view.memory)};
+    range_begin(ir, view.memory);
+    for (uint32_t number = 1; number < ir->count; number++) {
+        struct ir_instruction *i = &ir->instruction[number];
+        view.instruction = i;
+        if (ir_properties(i) & IR_COMPUTES)
+            changes += reduce(&view, i);
+    }
+    return changes;
+}

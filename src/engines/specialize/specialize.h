@@ -1,0 +1,22 @@
+/* The specializer: records the specification for one key, optimises the recording, allocates registers and
+ * encodes x86-64. */
+#ifndef ENGINES_SPECIALIZE_SPECIALIZE_H
+#define ENGINES_SPECIALIZE_SPECIALIZE_H
+
+#include "contract/engine.h"
+
+#include <stdio.h>
+
+#define SPECIALIZE(id, ...) extern const struct engine engine_##id;
+#include "def/engine/specialize.def"
+#undef SPECIALIZE
+
+/* Returns true if an engine is one of these. */
+bool specialize_is_engine(const struct engine *engine);
+
+/* Builds a routine with one of these engines and prints the phases that `show` lists, separated by commas:
+ * key, record, a pass's name (pass_name), intervals, asm; or all. Returns 0, or -1 with the reason. */
+int specialize_dump(const struct engine *engine, enum unit unit, const union key *key, const char *show,
+                    FILE *out, struct error *error);
+
+#endif

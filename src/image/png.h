@@ -1,0 +1,26 @@
+/* PNG pictures as rows of RGBA8 words from the top: red in the lowest byte, colours not multiplied by alpha.
+ */
+#ifndef IMAGE_PNG_H
+#define IMAGE_PNG_H
+
+#include "base/error.h"
+
+#include <stddef.h>
+#include <stdint.h>
+
+enum { PNG_SIDE_MAXIMUM = 8192 };
+
+/* Reads any PNG: palettes, grey, 16 bits a channel (rounded to 8), transparency, interlacing. No gamma or
+ * colour profile is applied. The caller frees *rgba, which is null on failure. Fails if the file is not a
+ * PNG, is damaged or cut off, or has more than PNG_SIDE_MAXIMUM pixels a side. Returns 0, or -1 with a reason
+ * that begins with the path. */
+int png_load(const char *path, unsigned *width, unsigned *height, uint32_t **rgba, struct error *error);
+
+/* The same for a file in memory; `path` begins the reason. */
+int png_decode(const char *path, const void *data, size_t bytes, unsigned *width, unsigned *height,
+               uint32_t **rgba, struct error *error);
+
+/* Writes an RGBA8 PNG, atomically (base/file.h). Returns 0, or -1 with the reason. */
+int png_save(const char *path, unsigned width, unsigned height, const uint32_t *rgba, struct error *error);
+
+#endif

@@ -1,0 +1,59 @@
+/* Derivation, whole: the pixel key first, then what it needs of setup, then what both need of vertices. */
+#include "base/minmax.h"
+#include "render/derive/derive_part.h"
+#include "contract/key_query.h"
+
+#include <math.h>
+#include <string.h>
+
+_Static_assert((int)ATTRIBUTE_FORMAT_COUNT == (int)TRIPTYCH_FORMAT_COUNT,
+               "formats agree with the public ones");
+_Static_assert((int)ATTRIBUTE_COUNT == (int)TRIPTYCH_ATTRIBUTE_COUNT,
+               "attributes agree with the public ones");
+_Static_assert((int)LIGHT_COUNT == (int)TRIPTYCH_LIGHTS, "as many lights as the public ones");
+_Static_assert((int)LIGHT_POINT == TRIPTYCH_LIGHT_POINT + 1, "light types follow the public ones");
+_Static_assert((int)TARGET_SIZE_MAXIMUM == (int)TRIPTYCH_TARGET_MAXIMUM, "one limit of the target");
+
+/* As pixel_writes_stencil, before the format is in the key. */
+static bool key_changes_stencil(const struct pixel_key *key)
+{
+    bool changes = false;
+    for (int i = 0; i < key->stencil; i++)
+        changes |= key->stencil_fail[i] || key->stencil_depth_fail[i] || key->stencil_pass[i];
+    return changes;
+}
+
+bool derive_effective(const struct pixel_key *key)
+{
+    return pixel_write_mask(key) || key->depth_write || key->count || key_changes_stencil(key);
+}
+
+void derive_keys(const struct state *state, enum primitive primitive, union key key[UNIT_COUNT])
+{
+    memset(key, 0, UNIT_COUNT * sizeof *key);
+    derive_pixel(state, primitive, &key[UNIT_PIXEL].pixel);
+    derive_setup(state, primitive, &key[UNIT_PIXEL].pixel, &key[UNIT_SETUP].setup);
+    derive_vertex(state, &key[UNIT_PIXEL].pixel, &key[UNIT_SETUP].setup, &key[UNIT_VERTEX].vertex);
+}
+
+/* The first column whose centre is at `edge` or after it. */
+static int32_t first_centre(const struct state *state, double edge)
+{
+    return (int32_t)ceil(edge - pixel_centre(state));
+}
+
+struct rectangle derive_scissor(const struct state *state)
+{
+    double x = (double)state->viewport.x, y = (double)state->viewport.y;
+    struct rectangle r = {first_centre(state, x), first_centre(state, y),
+                          first_centre(state, x + (double)state->viewport.width),
+                          first_centre(state, y + (double)state->viewport.height)};
+    if (!GET(state, scissortestenable))
+        return r;
+    const struct scissor *s = &state->scissor;
+    r.x0 = max_i32((int32_t)s->x, r.x0);
+    r.y0 = max_i32((int32_t)s->y, r.y0);
+    r.x1 = max_i32(r.x0, min_i32((int32_t)(s->x + s->width), r.x1));
+    r.y1 = max_i32(r.y0, min_i32((int32_t)(s->y + s->height), r.y1));
+    return r;
+}

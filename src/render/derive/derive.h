@@ -1,0 +1,92 @@
+/* From the state to the keys of the three units, for which routines are built, and to the job, with which
+ * they are called.
+ *
+ * Keys are normalised: states that draw the same have the same keys, so one routine serves them all, and
+ * no operation is generated whose result is not read. The comments of the files explain each normalisation
+ * and why it is exact. The job is filled in for these keys: parts that they do not use are zero. */
+#ifndef RENDER_DERIVE_DERIVE_H
+#define RENDER_DERIVE_DERIVE_H
+
+#include "contract/job.h"
+#include "render/raster/raster_sample.h"
+#include "render/state/state.h"
+
+#include <stdbool.h>
+
+/* Farthest from the window's origin that a projected vertex may lie, in pixels; beyond it the clipper cuts.
+ */
+#define GUARD_BAND_PIXELS 16383.0
+
+/* The keys of draws of a primitive, indexed by enum unit. */
+void derive_keys(const struct state *state, enum primitive primitive, union key key[UNIT_COUNT]);
+
+/* The primitive that setup processes, given the one that is drawn and the fill mode. */
+enum primitive derive_primitive(const struct state *state, enum triptych_primitive primitive);
+
+/* How the rasterizer covers them, and the bits of clip codes that count for nothing: all but those that keep
+ * positions finite and in reach while clipping is off. */
+enum raster_shape derive_shape(enum primitive primitive);
+uint32_t derive_clip_ignored(const struct state *state);
+
+/* Returns true if lines draw their last pixel. */
+bool derive_last_pixel(const struct state *state);
+
+/* The slots of texture coordinates that take the shorter way around (struct draw). */
+uint64_t derive_wrapped(const struct state *state, const struct pixel_key *pixel);
+bool derive_flat(const struct state *state);
+
+/* Returns true if a draw with this key can change the target. */
+bool derive_effective(const struct pixel_key *key);
+
+/* The element that input v# of the vertex shader reads, or null if none is declared with its usage. */
+const struct state_element *derive_input(const struct state *state, const struct vertex_key *key,
+                                         unsigned number);
+
+/* The units of derivation: the parts of the job, the rest of a draw, the vertices, and the keys. */
+enum derived_part {
+#define JOB_PART(name, keys, first, last, meaning) PART_##name,
+#include "def/job_part.def"
+#undef JOB_PART
+    JOB_PARTS,
+    PART_SETTING = JOB_PARTS, /* struct draw: how it is covered and clipped */
+    PART_VERTICES,            /* how many vertices there are */
+    PART_KEYS,
+    DERIVED_PARTS
+};
+
+/* Sets of parts have bit 1 << part. */
+#define PARTS(name) (1u << PART_##name)
+enum { PARTS_OF_JOB = (1 << JOB_PARTS) - 1, PARTS_ALL = (1 << DERIVED_PARTS) - 1 };
+
+/* The parts of the job that depend on a unit's key besides the state. */
+unsigned derive_parts_of_key(enum unit unit);
+
+/* The values for these keys, but for the palette and the constants of shaders. Attributes' data and stride
+ * come from the streams as bound; those of a stream that steps with the instance are instance 0's, with
+ * stride 0, those of a stream without buffer null. */
+void derive_job(const struct state *state, const struct vertex_key *vertex, const struct pixel_key *pixel,
+                struct job *job);
+
+/* Derives these parts of a job anew, for keys that are those of the others. */
+void derive_job_parts(const struct state *state, const struct vertex_key *vertex,
+                      const struct pixel_key *pixel, unsigned parts, struct job *job);
+
+/* The bytes of a job that the routines for these keys read, as runs from its start. */
+struct live_job {
+    unsigned count;
+    struct {
+        uint16_t begin, end;
+    } run[JOB_PARTS + 1];
+};
+void derive_live(const struct vertex_key *vertex, const struct pixel_key *pixel, struct live_job *live);
+
+/* The palette of indexed vertex blending, which the caller keeps for as long as the job is used. */
+void derive_palette(const struct state *state, struct palette_entry palette[WORLD_MATRICES]);
+
+/* How draws take samples. */
+struct sampling derive_sampling(const struct state *state);
+
+/* The pixels whose centres lie inside the viewport and, if its test is on, the scissor rectangle. */
+struct rectangle derive_scissor(const struct state *state);
+
+#endif

@@ -1,0 +1,153 @@
+/* Blending: factors and operations reduced to the fewest that draw the same. */
+#include "render/derive/derive_part.h"
+#include "contract/key_query.h"
+
+/* One channel's blending, as the key has it. */
+struct blending {
+    uint8_t blend, source, target;
+};
+
+/* Properties that the written targets share: they store negative values; they store alpha. */
+struct room {
+    bool below_zero, alpha;
+};
+
+/* Direct3D's numbers up to INVDESTCOLOR are ours and 1; the later ones are in another order. */
+static uint8_t derive_factor(uint32_t factor)
+{
+    if (factor <= SRCBLEND_invdestcolor)
+        return (uint8_t)(factor - SRCBLEND_zero);
+    if (factor == SRCBLEND_srcalphasat)
+        return FACTOR_SATURATED_ALPHA;
+    return (uint8_t)(factor - SRCBLEND_blendfactor + FACTOR_CONSTANT);
+}
+
+/* A difference with a zero term is a sum or, where targets do not store negative values, zero. A sum of
+ * only the new colour is a copy. */
+static struct blending reduce_blending(struct blending b, struct room room)
+{
+    if (b.blend == BLEND_MINIMUM || b.blend == BLEND_MAXIMUM)
+        return (struct blending){.blend = b.blend};
+    if (b.blend == BLEND_SUBTRACT && b.source == FACTOR_ZERO && !room.below_zero)
+        b.target = FACTOR_ZERO;
+    if (b.blend == BLEND_REVERSE_SUBTRACT && b.target == FACTOR_ZERO && !room.below_zero)
+        b.source = FACTOR_ZERO;
+    if ((b.blend == BLEND_SUBTRACT && b.target == FACTOR_ZERO) ||
+        (b.blend == BLEND_REVERSE_SUBTRACT && b.source == FACTOR_ZERO))
+        b.blend = BLEND_ADD;
+    if (b.blend == BLEND_ADD && b.source == FACTOR_ONE && b.target == FACTOR_ZERO)
+        return (struct blending){BLEND_COPY, 0, 0};
+    return b;
+}
+
+/* The target's alpha is 1 where there is none. */
+static uint8_t known_factor(uint8_t factor, struct room room)
+{
+    if (room.alpha)
+        return factor;
+    switch (factor) {
+    case FACTOR_TARGET_ALPHA: return FACTOR_ONE;
+    case FACTOR_INVERSE_TARGET_ALPHA: return FACTOR_ZERO;
+    case FACTOR_SATURATED_ALPHA: return room.below_zero ? factor : FACTOR_ZERO;
+    default: return factor;
+    }
+}
+
+/* The BOTH factors override the target's (Direct3D 9, D3DBLEND). */
+static struct blending make_blending(uint32_t operation, uint32_t source, uint32_t target, struct room room)
+{
+    if (source == SRCBLEND_bothsrcalpha || source == SRCBLEND_bothinvsrcalpha) {
+        int inverse = source == SRCBLEND_bothinvsrcalpha;
+        source = inverse ? SRCBLEND_invsrcalpha : SRCBLEND_srcalpha;
+        target = inverse ? SRCBLEND_srcalpha : SRCBLEND_invsrcalpha;
+    }
+    struct blending b = {(uint8_t)(operation - BLENDOP_add + BLEND_ADD),
+                         known_factor(derive_factor(source), room),
+                         known_factor(derive_factor(target), room)};
+    return reduce_blending(b, room);
+}
+
+/* The factor that is the same for alpha: its colour is itself. */
+static uint8_t alpha_factor(uint8_t factor)
+{
+    if (factor == FACTOR_SOURCE_COLOR || factor == FACTOR_INVERSE_SOURCE_COLOR)
+        return factor - FACTOR_SOURCE_COLOR + FACTOR_SOURCE_ALPHA;
+    if (factor == FACTOR_TARGET_COLOR || factor == FACTOR_INVERSE_TARGET_COLOR)
+        return factor - FACTOR_TARGET_COLOR + FACTOR_TARGET_ALPHA;
+    return factor == FACTOR_SATURATED_ALPHA ? FACTOR_ONE : factor;
+}
+
+/* The blending that is the same for alpha, unless it would be rounded otherwise. */
+static struct blending alpha_blending(struct blending b, struct room room)
+{
+    struct blending r = {b.blend, alpha_factor(b.source), alpha_factor(b.target)};
+    int same = blend_is_lerp(r.blend, r.source, r.target) == blend_is_lerp(b.blend, b.source, b.target);
+    return b.blend == BLEND_COPY || !same ? b : reduce_blending(r, room);
+}
+
+static bool same_blending(struct blending a, struct blending b)
+{
+    return a.blend == b.blend && a.source == b.source && a.target == b.target;
+}
+
+static bool keeps_target(struct blending b)
+{
+    return b.blend == BLEND_ADD && b.source == FACTOR_ZERO && b.target == FACTOR_ONE;
+}
+
+static void store_blending(struct pixel_key *key, int channel, struct blending b)
+{
+    key->blend[channel] = b.blend;
+    key->source_factor[channel] = b.source;
+    key->target_factor[channel] = b.target;
+}
+
+/* Of the targets that the masks, as they are, have. */
+static struct room targets_room(const struct state *state, const struct pixel_key *key)
+{
+    struct room room = {false, false};
+    for (int t = 0; t < TARGETS; t++)
+        if (key->write_mask[t]) {
+            room.below_zero |= !storage_bits[key->target[t]][0];
+            room.alpha |= (state->target[t].channels & MASK_ALPHA) != 0;
+        }
+    return room;
+}
+
+static void keep_channels(struct pixel_key *key, int channels)
+{
+    for (int t = 0; t < TARGETS; t++)
+        key->write_mask[t] &= channels;
+}
+
+/* Channels that stay as they are need not be written; those that are not written are blended like the others.
+ */
+void derive_blend(const struct state *state, struct pixel_key *key)
+{
+    struct blending color = {BLEND_COPY, 0, 0}, alpha;
+    struct room room = targets_room(state, key);
+    if (GET(state, alphablendenable))
+        color = make_blending(GET(state, blendop), GET(state, srcblend), GET(state, destblend), room);
+    alpha = color;
+    if (GET(state, alphablendenable) && GET(state, separatealphablendenable))
+        alpha = alpha_blending(make_blending(GET(state, blendopalpha), GET(state, srcblendalpha),
+                                             GET(state, destblendalpha), room),
+                               room);
+    if (keeps_target(color))
+        keep_channels(key, MASK_ALPHA);
+    if (keeps_target(alpha))
+        keep_channels(key, MASK_COLOR);
+    int written = pixel_write_mask(key);
+    if (!(written & MASK_ALPHA) || same_blending(alpha, alpha_blending(color, room)))
+        alpha = color;
+    if (!(written & MASK_COLOR))
+        color = alpha;
+    store_blending(key, BLEND_COLOR, color);
+    store_blending(key, BLEND_ALPHA, alpha);
+}
+
+void derive_no_blend(struct pixel_key *key)
+{
+    store_blending(key, BLEND_COLOR, (struct blending){BLEND_COPY, 0, 0});
+    store_blending(key, BLEND_ALPHA, (struct blending){BLEND_COPY, 0, 0});
+}

@@ -1,0 +1,143 @@
+/* Depth, stencil and samples: which tests there are, and what can come of them. */
+#include "render/derive/derive_part.h"
+#include "contract/key_query.h"
+
+#include <string.h>
+
+/* EQUAL never changes the stored depth: both are as the format stores them, and in 0..1 without denormals or
+ * -0 equal means the same bits. NEVER changes nothing at all. */
+static void derive_depth_test(const struct state *state, struct pixel_key *key)
+{
+    key->depth_function = COMPARE_ALWAYS;
+    if (!GET(state, zenable) || !depth_formats[state->depth_format].depth_bits)
+        return;
+    key->depth_function = (uint8_t)(GET(state, zfunc) - COMPARE_never);
+    key->depth_write = GET(state, zwriteenable) && key->depth_function != COMPARE_EQUAL;
+}
+
+/* One winding's test. */
+struct side {
+    uint8_t function, fail, depth_fail, pass;
+};
+
+static struct side make_side(uint32_t function, uint32_t fail, uint32_t depth_fail, uint32_t pass)
+{
+    return (struct side){(uint8_t)(function - COMPARE_never), (uint8_t)(fail - STENCILOP_keep),
+                         (uint8_t)(depth_fail - STENCILOP_keep), (uint8_t)(pass - STENCILOP_keep)};
+}
+
+/* Equal operations need no decision between them: what cannot happen is made equal to what can. */
+static struct side reduce_side(const struct state *state, struct side s, uint8_t depth_function)
+{
+    uint32_t bits = stencil_mask(state->depth_format);
+    if (!(GET(state, stencilmask) & bits)) { /* 0 is compared with 0 */
+        int equal = s.function == COMPARE_EQUAL || s.function == COMPARE_LESS_EQUAL ||
+                    s.function == COMPARE_GREATER_EQUAL || s.function == COMPARE_ALWAYS;
+        s.function = equal ? COMPARE_ALWAYS : COMPARE_NEVER;
+    }
+    if (!(GET(state, stencilwritemask) & bits))
+        return (struct side){s.function, STENCIL_KEEP, STENCIL_KEEP, STENCIL_KEEP};
+    if (s.function == COMPARE_NEVER)
+        return (struct side){s.function, s.fail, s.fail, s.fail};
+    if (depth_function == COMPARE_ALWAYS)
+        s.depth_fail = s.pass;
+    if (depth_function == COMPARE_NEVER)
+        s.pass = s.depth_fail;
+    if (s.function == COMPARE_ALWAYS)
+        s.fail = s.pass;
+    return s;
+}
+
+static void store_side(struct pixel_key *key, int i, struct side s)
+{
+    key->stencil_function[i] = s.function;
+    key->stencil_fail[i] = s.fail;
+    key->stencil_depth_fail[i] = s.depth_fail;
+    key->stencil_pass[i] = s.pass;
+}
+
+void derive_no_stencil(struct pixel_key *key)
+{
+    key->stencil = STENCIL_OFF;
+    for (int i = 0; i < STENCIL_SIDES; i++)
+        store_side(key, i, (struct side){0});
+}
+
+static bool same_side(struct side a, struct side b)
+{
+    return a.function == b.function && a.fail == b.fail && a.depth_fail == b.depth_fail && a.pass == b.pass;
+}
+
+/* Lines and points go by the first test. Two are one where only one winding is drawn, or both are alike; a
+ * test that passes everything and changes nothing is none. */
+static void derive_stencil(const struct state *state, enum primitive primitive, struct pixel_key *key)
+{
+    static const struct side nothing = {COMPARE_ALWAYS, STENCIL_KEEP, STENCIL_KEEP, STENCIL_KEEP};
+    if (!GET(state, stencilenable) || !stencil_mask(state->depth_format))
+        return;
+    struct side side = make_side(GET(state, stencilfunc), GET(state, stencilfail), GET(state, stencilzfail),
+                                 GET(state, stencilpass));
+    struct side first = reduce_side(state, side, key->depth_function), second = first;
+    if (GET(state, twosidedstencilmode) && primitive_has_area(primitive) &&
+        GET(state, cullmode) != CULLMODE_ccw) {
+        side = make_side(GET(state, ccw_stencilfunc), GET(state, ccw_stencilfail),
+                         GET(state, ccw_stencilzfail), GET(state, ccw_stencilpass));
+        second = reduce_side(state, side, key->depth_function);
+        first = GET(state, cullmode) == CULLMODE_cw ? second : first;
+    }
+    if (same_side(first, nothing) && same_side(second, nothing))
+        return;
+    key->stencil = same_side(first, second) ? STENCIL_ONE : STENCIL_TWO;
+    store_side(key, SIDE_CLOCKWISE, first);
+    if (key->stencil == STENCIL_TWO)
+        store_side(key, SIDE_COUNTERCLOCKWISE, second);
+}
+
+void derive_depth(const struct state *state, enum primitive primitive, struct pixel_key *key)
+{
+    derive_depth_test(state, key);
+    derive_stencil(state, primitive, key);
+}
+
+/* Returns true if a pixel can pass all tests. */
+bool derive_passes(const struct pixel_key *key)
+{
+    int stencil = !key->stencil;
+    for (int i = 0; i < key->stencil; i++)
+        stencil |= key->stencil_function[i] != COMPARE_NEVER;
+    return stencil && key->depth_function != COMPARE_NEVER && key->alpha_discard != COMPARE_ALWAYS;
+}
+
+/* Returns true if depth affects the result. */
+static bool depth_matters(const struct pixel_key *key)
+{
+    bool matters = pixel_write_mask(key) || key->depth_write || key->count;
+    for (int i = 0; i < key->stencil; i++)
+        matters |= key->stencil_pass[i] != key->stencil_depth_fail[i];
+    return matters;
+}
+
+struct sampling derive_sampling(const struct state *state)
+{
+    if (!state->samples)
+        return (struct sampling){.mask = 1};
+    return (struct sampling){
+        .samples = state->samples,
+        .centers = !GET(state, multisampleantialias),
+        .mask = (uint8_t)(GET(state, multisamplemask) & ((1u << (1 << state->samples)) - 1))};
+}
+
+/* When it is known what is tested and written. */
+void derive_depth_format(const struct state *state, struct pixel_key *key)
+{
+    struct sampling sampling = derive_sampling(state);
+    if (derive_effective(key)) {
+        key->samples = sampling.samples;
+        key->sample_centers = sampling.centers;
+    }
+    if (!depth_matters(key))
+        key->depth_function = COMPARE_ALWAYS;
+    key->depth_w = pixel_tests_depth(key) && GET(state, zenable) == ZBUFFER_usew;
+    if (pixel_tests_depth(key) || key->stencil)
+        key->depth_format = (uint8_t)depth_formats[state->depth_format].storage;
+}

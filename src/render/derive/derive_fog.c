@@ -1,0 +1,50 @@
+/* Fog: where its factor comes from (a vertex shader that gives none has no fog of its own), and the
+ * constants of its formula (spec/pixel/fog.h). */
+#include "render/derive/derive_part.h"
+#include "shader/program/program.h"
+
+#include <math.h>
+
+/* Table fog's distance is w where the projection makes w a distance, and depth where w stays 1 (Direct3D 9,
+ * "Eye-Relative vs. Z-based Depth"). */
+static bool fog_by_w(const struct state *state)
+{
+    const float(*m)[4] = state->transform[TRIPTYCH_TRANSFORM_PROJECTION];
+    return m[0][3] != 0 || m[1][3] != 0 || m[2][3] != 0 || m[3][3] != 1;
+}
+
+void derive_fog(const struct state *state, struct pixel_key *key)
+{
+    static const uint8_t by_depth[] = {[FOGMODE_none] = FOG_VARYING,
+                                       [FOGMODE_exp] = FOG_EXP_Z,
+                                       [FOGMODE_exp2] = FOG_EXP2_Z,
+                                       [FOGMODE_linear] = FOG_LINEAR_Z};
+    if (!GET(state, fogenable))
+        return;
+    const struct program *vertex = derive_vertex_program(state);
+    key->fog = by_depth[GET(state, fogtablemode)];
+    if (key->fog == FOG_VARYING && vertex && !derive_shader_gives(vertex, USAGE_FOG))
+        key->fog = FOG_NONE;
+    if (key->fog == FOG_VARYING)
+        key->varying[VARYING_fog] = INTERPOLATION_SMOOTH;
+    else if (fog_by_w(state))
+        key->fog += FOG_LINEAR_W - FOG_LINEAR_Z;
+}
+
+/* Distances at which fog starts and ends; the same for both ends: all beyond is fog. */
+void derive_fog_formula(const struct state *state, uint32_t mode, float *scale, float *offset)
+{
+    double start = (double)GET_FLOAT(state, fogstart), end = (double)GET_FLOAT(state, fogend),
+           density = (double)GET_FLOAT(state, fogdensity);
+    double log2_e = 1.4426950408889634;
+    *offset = 0;
+    switch (mode) {
+    case FOGMODE_exp: *scale = derive_narrow(-density * log2_e); return;
+    case FOGMODE_exp2: *scale = derive_narrow(density * sqrt(log2_e)); return;
+    case FOGMODE_linear:
+        *scale = derive_narrow(end != start ? -1 / (end - start) : -0x1p64);
+        *offset = derive_narrow(end != start ? end / (end - start) : end * 0x1p64);
+        return;
+    default: *scale = 0;
+    }
+}

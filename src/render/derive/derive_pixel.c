@@ -1,0 +1,94 @@
+/* The pixel key: which tests, values and channels the pixel routine has, in the order that lets each rule out
+ * what follows. */
+#include "render/derive/derive_part.h"
+#include "contract/key_query.h"
+#include "shader/program/program.h"
+
+#include <string.h>
+
+/* The test discards the opposite of what it keeps. */
+static uint8_t derive_alpha_discard(const struct state *state)
+{
+    return GET(state, alphatestenable) ? (uint8_t)(COMPARE_always - GET(state, alphafunc)) : COMPARE_NEVER;
+}
+
+/* Diffuse is read as such, as the current colour that no stage has written yet, or as the result. */
+static bool reads_diffuse(const struct pixel_key *key)
+{
+    bool written = false;
+    for (int i = 0; i < key->stages; i++) {
+        if (stage_reads(key, i, SOURCE_DIFFUSE) ||
+            (!written && !derive_stage_passes(key, i) && stage_reads(key, i, SOURCE_CURRENT)))
+            return true;
+        written |= !key->temporary[i] && !derive_stage_passes(key, i);
+    }
+    return !written;
+}
+
+static bool reads_specular(const struct pixel_key *key)
+{
+    for (int i = 0; i < key->stages; i++)
+        if (stage_reads(key, i, SOURCE_SPECULAR))
+            return true;
+    return key->specular;
+}
+
+/* Nothing varies over a point but a sprite's texture coordinates: what is flat is exact, and costs less. */
+static void flatten(const struct state *state, struct pixel_key *key)
+{
+    for (int v = 0; v < VARYING_COUNT; v++)
+        if (key->varying[v] && !(varying_is_coordinate(v) && GET(state, pointspriteenable)))
+            key->varying[v] = INTERPOLATION_FLAT;
+}
+
+static void derive_stages(const struct state *state, enum primitive primitive, struct pixel_key *key)
+{
+    derive_stage(state, key);
+    derive_texture(state, key);
+    if (pixel_write_mask(key) & MASK_COLOR) {
+        key->specular = GET(state, specularenable) != 0;
+        derive_fog(state, key);
+    }
+    uint8_t shading = derive_flat(state) ? INTERPOLATION_FLAT : INTERPOLATION_SMOOTH;
+    if (reads_diffuse(key))
+        key->varying[VARYING_diffuse] = shading;
+    if (reads_specular(key))
+        key->varying[VARYING_specular] = shading;
+    if (primitive_is_point(primitive))
+        flatten(state, key);
+}
+
+void derive_pixel(const struct state *state, enum primitive primitive, struct pixel_key *key)
+{
+    const struct program *program = derive_pixel_program(state);
+    derive_depth(state, primitive, key);
+    derive_targets(state, key);
+    key->alpha_discard = derive_alpha_discard(state);
+    key->kills = program && program->interface.kills;
+    key->count = state->counting;
+    derive_blend(state, key);
+    if (!derive_passes(key)) {
+        key->depth_write = key->count = 0;
+        memset(key->write_mask, 0, sizeof key->write_mask);
+    }
+    if (key->alpha_discard == COMPARE_ALWAYS)
+        derive_no_stencil(key);
+    if (!derive_effective(key)) { /* one key for all that draw nothing */
+        derive_no_stencil(key);
+        key->depth_function = COMPARE_ALWAYS;
+        key->alpha_discard = COMPARE_NEVER;
+        key->kills = 0;
+    }
+    derive_depth_format(state, key);
+    key->depth_output = program && program->interface.depth && pixel_tests_depth(key);
+    key->depth_w &= !key->depth_output;
+    derive_storage(state, key);
+    if (!pixel_write_mask(key))
+        derive_no_blend(key);
+    if (!pixel_shades(key))
+        return;
+    if (program)
+        derive_pixel_shader(state, program, primitive, key);
+    else
+        derive_stages(state, primitive, key);
+}

@@ -1,0 +1,196 @@
+/* The setup key, and the other states that apply between vertices and pixels: fill modes, culling, depth
+ * bias, clipping.
+ *
+ * Fill modes apply only to triangles. So do culling and depth bias (Direct3D 9, Depth Bias): they are
+ * removed from the keys of lines and points, but not from the keys of a triangle's edges and corners. */
+#include "base/bits.h"
+#include "render/derive/derive_part.h"
+#include "contract/key_query.h"
+#include "shader/program/program.h"
+
+#include <math.h>
+
+enum primitive derive_primitive(const struct state *state, enum triptych_primitive primitive)
+{
+    switch (primitive) {
+    case TRIPTYCH_POINT_LIST: return PRIMITIVE_POINT;
+    case TRIPTYCH_LINE_LIST:
+    case TRIPTYCH_LINE_STRIP: return PRIMITIVE_LINE;
+    default: break;
+    }
+    switch (GET(state, fillmode)) {
+    case FILLMODE_point: return PRIMITIVE_CORNER;
+    case FILLMODE_wireframe: return PRIMITIVE_EDGE;
+    default: return PRIMITIVE_TRIANGLE;
+    }
+}
+
+enum raster_shape derive_shape(enum primitive primitive)
+{
+    static const uint8_t shape[PRIMITIVE_COUNT] = {[PRIMITIVE_LINE] = SHAPE_LINE,
+                                                   [PRIMITIVE_EDGE] = SHAPE_LINE,
+                                                   [PRIMITIVE_POINT] = SHAPE_POINT,
+                                                   [PRIMITIVE_CORNER] = SHAPE_POINT};
+    return shape[primitive];
+}
+
+/* Without clipping, depth is limited by the pixel routine, and the sides by the scissor rectangle as ever. */
+uint32_t derive_clip_ignored(const struct state *state)
+{
+    return GET(state, clipping) ? 0 : CLIP_DEPTH | CLIP_USER_ALL;
+}
+
+bool derive_last_pixel(const struct state *state)
+{
+    return GET(state, lastpixel) != 0;
+}
+
+/* Phong shading is Gouraud shading in Direct3D 9. */
+bool derive_flat(const struct state *state)
+{
+    return GET(state, shademode) == SHADEMODE_flat;
+}
+
+static uint8_t derive_depth_bias(const struct state *state)
+{
+    if (GET_FLOAT(state, slopescaledepthbias) != 0)
+        return DEPTH_BIAS_SLOPE;
+    return GET_FLOAT(state, depthbias) != 0 ? DEPTH_BIAS_CONSTANT : DEPTH_BIAS_NONE;
+}
+
+static bool smooth_varyings(const struct pixel_key *key)
+{
+    for (int v = 0; v < VARYING_COUNT; v++)
+        if (key->varying[v] == INTERPOLATION_SMOOTH)
+            return true;
+    return false;
+}
+
+enum point_size derive_point_size(const struct state *state, enum primitive primitive)
+{
+    bool window = state->element[ATTRIBUTE_POSITIONT].format != TRIPTYCH_FORMAT_NONE;
+    const struct program *program = derive_vertex_program(state);
+    if (!primitive_is_point(primitive))
+        return POINT_SIZE_CONSTANT;
+    if (program) /* it does what pointscaleenable does by itself */
+        return derive_shader_gives(program, USAGE_PSIZE) ? POINT_SIZE_VERTEX : POINT_SIZE_CONSTANT;
+    if (GET(state, pointscaleenable) && !window)
+        return POINT_SIZE_SCALED;
+    return state->element[ATTRIBUTE_POINT_SIZE].format ? POINT_SIZE_VERTEX : POINT_SIZE_CONSTANT;
+}
+
+static bool reads_face(const struct state *state, const struct pixel_key *pixel)
+{
+    return key_program(pixel->shader) && derive_pixel_program(state)->interface.face;
+}
+
+void derive_setup(const struct state *state, enum primitive primitive, const struct pixel_key *pixel,
+                  struct setup_key *key)
+{
+    key->primitive = (uint8_t)primitive;
+    key->window = state->element[ATTRIBUTE_POSITIONT].format != TRIPTYCH_FORMAT_NONE;
+    key->depth = (uint8_t)pixel_reads_depth(pixel);
+    key->w = pixel_reads_w(pixel) && (primitive_is_point(primitive) || !smooth_varyings(pixel));
+    memcpy(key->varying, pixel->varying, sizeof key->varying);
+    key->point_size = derive_point_size(state, primitive) != POINT_SIZE_CONSTANT;
+    if (!primitive_has_area(primitive))
+        return;
+    key->cull = (uint8_t)(GET(state, cullmode) - CULLMODE_none);
+    key->facing = pixel->stencil == STENCIL_TWO || reads_face(state, pixel);
+    if (key->depth)
+        key->depth_bias = derive_depth_bias(state);
+}
+
+/* --- The job's part --- */
+
+/* Minor of row i and column j. */
+static double minor(const double m[4][4], int i, int j)
+{
+    double s[3][3];
+    for (int r = 0, a = 0; r < 4; r++) {
+        if (r == i)
+            continue;
+        for (int c = 0, b = 0; c < 4; c++)
+            if (c != j)
+                s[a][b++] = m[r][c];
+        a++;
+    }
+    return s[0][0] * (s[1][1] * s[2][2] - s[1][2] * s[2][1]) -
+           s[0][1] * (s[1][0] * s[2][2] - s[1][2] * s[2][0]) +
+           s[0][2] * (s[1][0] * s[2][1] - s[1][1] * s[2][0]);
+}
+
+static double cofactor(const double m[4][4], int i, int j)
+{
+    return (i + j) & 1 ? -minor(m, i, j) : minor(m, i, j);
+}
+
+/* A plane of world space in clip space. With v' = v * M a point is inside where v . p >= 0, that is where
+ * v' . (M^-1 p) is: the plane times the inverse, as a column. The length of a plane means nothing: it is made
+ * such that no coefficient exceeds 1. Without an inverse the plane is zero, and everything inside. */
+static void transform_plane(const float plane[4], const double m[4][4], float result[4])
+{
+    double determinant = 0, most = 0, p[4] = {0};
+    for (int j = 0; j < 4; j++)
+        determinant += m[0][j] * cofactor(m, 0, j);
+    for (int i = 0; i < 4; i++) {
+        for (int j = 0; j < 4; j++)
+            p[i] += cofactor(m, j, i) * (double)plane[j];
+        p[i] = determinant < 0 ? -p[i] : p[i];
+        most = fmax(most, fabs(p[i]));
+    }
+    bool usable = determinant != 0 && isfinite(determinant) && most > 0 && isfinite(most);
+    for (int i = 0; i < 4; i++)
+        result[i] = usable ? (float)(p[i] / most) : 0;
+}
+
+/* Direct3D 9, Point Sprites: the maximum is looked at first, and the device has one of its own. */
+static float point_size(const struct state *state)
+{
+    float most = fminf(GET_FLOAT(state, pointsize_max), POINT_SIZE_MAXIMUM),
+          size = GET_FLOAT(state, pointsize);
+    if (size > most)
+        return most;
+    return size < GET_FLOAT(state, pointsize_min) ? fminf(GET_FLOAT(state, pointsize_min), POINT_SIZE_MAXIMUM)
+                                                  : size;
+}
+
+static float point_limit(uint32_t bits)
+{
+    return fminf(bits_to_float(bits), POINT_SIZE_MAXIMUM);
+}
+
+static void fill_point_limits(const struct state *state, struct job *job)
+{
+    job->point_least = point_limit(GET(state, pointsize_min));
+    job->point_most = point_limit(GET(state, pointsize_max));
+}
+
+static void fill_point_scale(const struct state *state, struct job *job)
+{
+    job->point_scale[0] = GET_FLOAT(state, pointscale_a);
+    job->point_scale[1] = GET_FLOAT(state, pointscale_b);
+    job->point_scale[2] = GET_FLOAT(state, pointscale_c);
+    job->viewport_height = state->viewport.height;
+}
+
+void derive_setup_job(const struct state *state, const struct vertex_key *vertex, struct job *job)
+{
+    job->depth_bias = GET_FLOAT(state, depthbias);
+    job->depth_bias_slope = GET_FLOAT(state, slopescaledepthbias);
+    job->point_size = vertex->point_size  ? GET_FLOAT(state, pointsize)
+                      : vertex->size_link ? 0
+                                          : point_size(state);
+    if (vertex->point_size || vertex->size_link)
+        fill_point_limits(state, job);
+    if (vertex->point_size)
+        fill_point_scale(state, job);
+}
+
+void derive_clip_planes(const struct state *state, const struct vertex_key *vertex,
+                        const double view_projection[4][4], struct job *job)
+{
+    for (int i = 0, n = 0; n < vertex->clip_planes; i++)
+        if (GET(state, clipplaneenable) >> i & 1)
+            transform_plane(state->clip_plane[i], view_projection, job->clip_plane[n++]);
+}

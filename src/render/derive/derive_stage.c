@@ -1,0 +1,248 @@
+/* Texture stages: Direct3D 9's 26 operations are reduced to the 11 of spec/pixel/stage.h, and the stages
+ * to those that affect the result. */
+#include "render/derive/derive_part.h"
+#include "contract/key_query.h"
+
+#include <string.h>
+
+/* One half of a stage as the state has it: an operation of Direct3D 9 and arguments 1, 2 and 0. */
+struct half_stage {
+    uint32_t operation;
+    uint32_t argument[STAGE_ARGUMENTS];
+};
+
+enum {
+    COMPLEMENT = ARGUMENT_diffuse_complement,
+    REPLICATE = ARGUMENT_diffuse_alphareplicate,
+    SELECTED = COMPLEMENT - 1 /* the bits that name the source */
+};
+
+static uint8_t derive_argument(uint32_t argument)
+{
+    static const uint8_t source[] = {
+        [ARGUMENT_diffuse] = SOURCE_DIFFUSE,   [ARGUMENT_current] = SOURCE_CURRENT,
+        [ARGUMENT_texture] = SOURCE_TEXTURE,   [ARGUMENT_tfactor] = SOURCE_FACTOR,
+        [ARGUMENT_specular] = SOURCE_SPECULAR, [ARGUMENT_temp] = SOURCE_TEMPORARY,
+        [ARGUMENT_constant] = SOURCE_CONSTANT};
+    unsigned flags =
+        (argument & COMPLEMENT ? ARGUMENT_COMPLEMENT : 0) + (argument & REPLICATE ? ARGUMENT_REPLICATE : 0);
+    return (uint8_t)(source[argument & SELECTED] + flags);
+}
+
+/* Where an argument of a reduced operation comes from: argument 1, 2 or 0 of the state, or a source; with
+ * REPLICATE to be set, COMPLEMENT to be turned. */
+enum { FIRST, SECOND, THIRD, DIFFUSE, CURRENT, TEXTURE, FACTOR, ORIGIN = 7 };
+
+/* Operations that are others with particular arguments: blends are interpolations by an alpha, and all that
+ * end in an addition of a product are one. ADDSMOOTH, a + b - a * b, is a + (1 - a) * b, and rounds alike. */
+static const struct reduction {
+    uint8_t stage;
+    uint8_t argument[STAGE_ARGUMENTS];
+} reductions[] = {
+    [TEXTUREOP_disable] = {STAGE_SELECT, {CURRENT}},
+    [TEXTUREOP_selectarg1] = {STAGE_SELECT, {FIRST}},
+    [TEXTUREOP_selectarg2] = {STAGE_SELECT, {SECOND}},
+    [TEXTUREOP_premodulate] = {STAGE_SELECT, {FIRST}},
+    [TEXTUREOP_modulate] = {STAGE_MODULATE, {FIRST, SECOND}},
+    [TEXTUREOP_modulate2x] = {STAGE_MODULATE_2X, {FIRST, SECOND}},
+    [TEXTUREOP_modulate4x] = {STAGE_MODULATE_4X, {FIRST, SECOND}},
+    [TEXTUREOP_add] = {STAGE_ADD, {FIRST, SECOND}},
+    [TEXTUREOP_addsigned] = {STAGE_ADD_SIGNED, {FIRST, SECOND}},
+    [TEXTUREOP_addsigned2x] = {STAGE_ADD_SIGNED_2X, {FIRST, SECOND}},
+    [TEXTUREOP_subtract] = {STAGE_SUBTRACT, {FIRST, SECOND}},
+    [TEXTUREOP_addsmooth] = {STAGE_MULTIPLY_ADD, {FIRST | COMPLEMENT, SECOND, FIRST}},
+    [TEXTUREOP_blenddiffusealpha] = {STAGE_LERP, {FIRST, SECOND, DIFFUSE | REPLICATE}},
+    [TEXTUREOP_blendtexturealpha] = {STAGE_LERP, {FIRST, SECOND, TEXTURE | REPLICATE}},
+    [TEXTUREOP_blendfactoralpha] = {STAGE_LERP, {FIRST, SECOND, FACTOR | REPLICATE}},
+    [TEXTUREOP_blendcurrentalpha] = {STAGE_LERP, {FIRST, SECOND, CURRENT | REPLICATE}},
+    [TEXTUREOP_blendtexturealphapm] = {STAGE_MULTIPLY_ADD, {TEXTURE | COMPLEMENT | REPLICATE, SECOND, FIRST}},
+    [TEXTUREOP_modulatealpha_addcolor] = {STAGE_MULTIPLY_ADD, {FIRST | REPLICATE, SECOND, FIRST}},
+    [TEXTUREOP_modulatecolor_addalpha] = {STAGE_MULTIPLY_ADD, {FIRST, SECOND, FIRST | REPLICATE}},
+    [TEXTUREOP_modulateinvalpha_addcolor] = {STAGE_MULTIPLY_ADD,
+                                             {FIRST | COMPLEMENT | REPLICATE, SECOND, FIRST}},
+    [TEXTUREOP_modulateinvcolor_addalpha] = {STAGE_MULTIPLY_ADD,
+                                             {FIRST | COMPLEMENT, SECOND, FIRST | REPLICATE}},
+    [TEXTUREOP_bumpenvmap] = {STAGE_SELECT, {CURRENT}}, /* what it does it does to the next stage */
+    [TEXTUREOP_bumpenvmapluminance] = {STAGE_SELECT, {CURRENT}},
+    [TEXTUREOP_dotproduct3] = {STAGE_DOT, {FIRST, SECOND}},
+    [TEXTUREOP_multiplyadd] = {STAGE_MULTIPLY_ADD, {FIRST, SECOND, THIRD}},
+    [TEXTUREOP_lerp] = {STAGE_LERP, {FIRST, SECOND, THIRD}},
+};
+
+static uint32_t reduced_argument(const struct half_stage *half, unsigned which)
+{
+    unsigned origin = which & ORIGIN;
+    uint32_t argument = origin < DIFFUSE ? half->argument[origin] : ARGUMENT_diffuse + origin - DIFFUSE;
+    return (argument | (which & REPLICATE)) ^ (which & COMPLEMENT);
+}
+
+/* Returns true if the operation reads a texture that is not bound. Such a half of a stage passes the
+ * current colour, as drivers do; Direct3D 9 leaves it undefined. */
+static bool lacks_texture(const struct half_stage *half, bool bound)
+{
+    const struct reduction *reduction = &reductions[half->operation];
+    for (int i = 0; i < stage_arguments[reduction->stage] && !bound; i++)
+        if ((reduced_argument(half, reduction->argument[i]) & SELECTED) == ARGUMENT_texture)
+            return true;
+    return false;
+}
+
+/* `flags` are those that mean something: alpha replicated is alpha. */
+static uint8_t derive_half(const struct half_stage *half, uint32_t flags, uint8_t argument[STAGE_ARGUMENTS])
+{
+    const struct reduction *reduction = &reductions[half->operation];
+    for (int i = 0; i < stage_arguments[reduction->stage]; i++) {
+        uint32_t reduced = reduced_argument(half, reduction->argument[i]);
+        argument[i] = derive_argument(reduced & (SELECTED | flags));
+    }
+    return reduction->stage;
+}
+
+/* The two halves of a stage. */
+struct whole_stage {
+    struct half_stage color, alpha;
+};
+
+static struct whole_stage stage_states(const struct state *state, int i)
+{
+    struct whole_stage r = {
+        {STAGE(state, i, colorop),
+         {STAGE(state, i, colorarg1), STAGE(state, i, colorarg2), STAGE(state, i, colorarg0)}},
+        {STAGE(state, i, alphaop),
+         {STAGE(state, i, alphaarg1), STAGE(state, i, alphaarg2), STAGE(state, i, alphaarg0)}}};
+    bool bound = state->texture[i] != NULL;
+    if (lacks_texture(&r.color, bound))
+        r.color.operation = TEXTUREOP_disable;
+    if (lacks_texture(&r.alpha, bound))
+        r.alpha.operation = TEXTUREOP_disable;
+    return r;
+}
+
+/* The displacement that a stage applies to the next stage's texture coordinates. */
+static uint8_t derive_bump(const struct state *state, int i)
+{
+    uint32_t operation = STAGE(state, i, colorop);
+    if (!state->texture[i])
+        return BUMP_NONE;
+    return operation == TEXTUREOP_bumpenvmap            ? BUMP_DISPLACED
+           : operation == TEXTUREOP_bumpenvmapluminance ? BUMP_LUMINANCE
+                                                        : BUMP_NONE;
+}
+
+static bool is_bump(const struct whole_stage *stage)
+{
+    return stage->color.operation == TEXTUREOP_bumpenvmap ||
+           stage->color.operation == TEXTUREOP_bumpenvmapluminance;
+}
+
+static void derive_one(const struct state *state, int i, struct pixel_key *key)
+{
+    struct whole_stage stage = stage_states(state, i);
+    if (is_bump(&stage))
+        stage.alpha.operation = TEXTUREOP_disable;
+    uint8_t *color = key->color_argument + STAGE_ARGUMENTS * i,
+            *alpha = key->alpha_argument + STAGE_ARGUMENTS * i;
+    key->color_stage[i] = derive_half(&stage.color, COMPLEMENT | REPLICATE, color);
+    if (key->color_stage[i] != STAGE_DOT)
+        key->alpha_stage[i] = derive_half(&stage.alpha, COMPLEMENT, alpha);
+    key->temporary[i] = STAGE(state, i, resultarg) == ARGUMENT_temp && !is_bump(&stage);
+    if (i + 1 == TEXTURE_STAGES || !state->texture[i + 1])
+        return;
+    key->bump[i + 1] = derive_bump(state, i);
+    if (stage.color.operation == TEXTUREOP_premodulate)
+        key->premodulate[i + 1] |= PREMODULATE_COLOR;
+    if (stage.alpha.operation == TEXTUREOP_premodulate && key->color_stage[i] != STAGE_DOT)
+        key->premodulate[i + 1] |= PREMODULATE_ALPHA;
+}
+
+static void clear_stage(struct pixel_key *key, int i)
+{
+    key->color_stage[i] = key->alpha_stage[i] = STAGE_SELECT;
+    memset(key->color_argument + STAGE_ARGUMENTS * i, 0, STAGE_ARGUMENTS);
+    memset(key->alpha_argument + STAGE_ARGUMENTS * i, 0, STAGE_ARGUMENTS);
+    key->temporary[i] = key->premodulate[i] = key->bump[i] = 0;
+}
+
+/* Makes a stage one that leaves everything as it is. */
+static void pass_stage(struct pixel_key *key, int i)
+{
+    clear_stage(key, i);
+    key->color_argument[STAGE_ARGUMENTS * i] = key->alpha_argument[STAGE_ARGUMENTS * i] = SOURCE_CURRENT;
+}
+
+bool derive_stage_passes(const struct pixel_key *key, int i)
+{
+    return key->color_stage[i] == STAGE_SELECT && stage_is_joint(key, i) && !key->temporary[i] &&
+           !key->premodulate[i] && key->color_argument[STAGE_ARGUMENTS * i] == SOURCE_CURRENT;
+}
+
+/* Stages whose results are not read pass their input through. */
+static void drop_dead_stages(struct pixel_key *key)
+{
+    bool current = true, temporary = false;
+    for (int i = key->stages - 1; i >= 0; i--) {
+        bool *result = key->temporary[i] ? &temporary : &current;
+        if (!*result) {
+            pass_stage(key, i);
+            continue;
+        }
+        *result = false;
+        current |= stage_reads(key, i, SOURCE_CURRENT);
+        temporary |= stage_reads(key, i, SOURCE_TEMPORARY);
+    }
+}
+
+/* Before a stage has written the current colour, it is diffuse. Premodulation is removed if no stage reads
+ * its result. */
+static void name_diffuse(struct pixel_key *key)
+{
+    bool written = false;
+    for (int i = 0; i < key->stages; i++) {
+        if (!stage_reads(key, i, SOURCE_CURRENT))
+            key->premodulate[i] = 0;
+        if (derive_stage_passes(key, i))
+            continue;
+        for (int j = 0; j < STAGE_ARGUMENTS && !written && !key->premodulate[i]; j++) {
+            uint8_t *color = key->color_argument + STAGE_ARGUMENTS * i + j,
+                    *alpha = key->alpha_argument + STAGE_ARGUMENTS * i + j;
+            *color -= *color % SOURCE_COUNT == SOURCE_CURRENT ? SOURCE_CURRENT - SOURCE_DIFFUSE : 0;
+            *alpha -= *alpha % SOURCE_COUNT == SOURCE_CURRENT ? SOURCE_CURRENT - SOURCE_DIFFUSE : 0;
+        }
+        written |= !key->temporary[i];
+    }
+}
+
+/* Where only alpha is read, colour may be computed as alpha is. */
+static void keep_alpha_only(struct pixel_key *key)
+{
+    for (int i = 0; i < key->stages; i++)
+        if (key->color_stage[i] == STAGE_DOT)
+            return;
+    memcpy(key->color_stage, key->alpha_stage, sizeof key->color_stage);
+    memcpy(key->color_argument, key->alpha_argument, sizeof key->color_argument);
+    for (int i = 0; i < key->stages; i++)
+        if (key->premodulate[i])
+            key->premodulate[i] =
+                key->premodulate[i] & PREMODULATE_ALPHA ? PREMODULATE_COLOR | PREMODULATE_ALPHA : 0;
+}
+
+/* The result of zero stages. */
+static bool selects_diffuse(const struct pixel_key *key)
+{
+    return key->stages == 1 && key->color_stage[0] == STAGE_SELECT && stage_is_joint(key, 0) &&
+           !key->temporary[0] && key->color_argument[0] == SOURCE_DIFFUSE;
+}
+
+void derive_stage(const struct state *state, struct pixel_key *key)
+{
+    while (key->stages < TEXTURE_STAGES && STAGE(state, key->stages, colorop) != TEXTUREOP_disable)
+        derive_one(state, key->stages++, key);
+    if (key->stages < TEXTURE_STAGES)
+        key->premodulate[key->stages] = key->bump[key->stages] = 0;
+    if (!pixel_write_mask(key))
+        keep_alpha_only(key);
+    drop_dead_stages(key);
+    name_diffuse(key);
+    while (key->stages && (derive_stage_passes(key, key->stages - 1) || selects_diffuse(key)))
+        clear_stage(key, --key->stages);
+}

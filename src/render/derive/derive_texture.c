@@ -1,0 +1,229 @@
+/* Samplers: addressing and filters as the textures bound need them, and the channels that coordinates come
+ * in. */
+#include "render/derive/derive_part.h"
+#include "contract/key_query.h"
+
+static uint8_t derive_address(uint32_t address, uint32_t size)
+{
+    int power = !(size & (size - 1));
+    switch (address) {
+    case ADDRESS_mirror: return power ? ADDRESS_MIRROR_POWER : ADDRESS_MIRROR;
+    case ADDRESS_clamp: return ADDRESS_CLAMP;
+    case ADDRESS_border: return ADDRESS_BORDER;
+    case ADDRESS_mirroronce: return ADDRESS_MIRROR_ONCE;
+    default: return power ? ADDRESS_WRAP_POWER : ADDRESS_WRAP;
+    }
+}
+
+/* Anisotropic magnification is linear. */
+static uint8_t derive_filter(uint32_t filter)
+{
+    return filter == FILTER_linear || filter == FILTER_anisotropic ? FILTER_LINEAR : FILTER_POINT;
+}
+
+static void derive_minify(const struct state *state, struct sampler_key *key)
+{
+    uint32_t taps = SAMPLER(state, key->number, maxanisotropy);
+    uint32_t filter = SAMPLER(state, key->number, minfilter);
+    if (filter == FILTER_anisotropic && taps > 1 && key->number < PIXEL_SAMPLERS) {
+        key->minify = MINIFY_ANISOTROPIC;
+        key->anisotropy = (uint8_t)taps;
+    } else if (derive_filter(filter) != key->filter)
+        key->minify = MINIFY_OTHER;
+}
+
+/* Without a second level that may be sampled there is nothing to choose from. */
+static uint8_t derive_mip(const struct state *state, int number)
+{
+    if (derive_first_level(state, number) + 1 == state->texture[number]->levels)
+        return MIP_NONE;
+    return (uint8_t)(MIP_NONE + SAMPLER(state, number, mipfilter) - MIPFILTER_none);
+}
+
+static void derive_addresses(const struct state *state, struct sampler_key *key)
+{
+    int number = key->number;
+    const struct triptych_texture *texture = state->texture[number];
+    const struct texture_level *level = &texture->level[0];
+    if (texture->type == TRIPTYCH_TEXTURE_CUBE) {
+        key->address[0] = key->address[1] = ADDRESS_CLAMP;
+        return;
+    }
+    if (!key->mip)
+        level = &texture->level[derive_first_level(state, number)];
+    key->address[0] = derive_address(SAMPLER(state, number, addressu), (uint32_t)level->width);
+    key->address[1] = derive_address(SAMPLER(state, number, addressv), (uint32_t)level->height);
+    if (texture->type == TRIPTYCH_TEXTURE_VOLUME)
+        key->address[2] = derive_address(SAMPLER(state, number, addressw), (uint32_t)level->depth);
+}
+
+/* sRGB is for texels of bytes; others are linear. */
+static uint8_t derive_texel(const struct state *state, int number)
+{
+    const struct format *format = state->texture[number]->format;
+    if (format->storage == STORAGE_RGBA8)
+        return SAMPLER(state, number, srgbtexture) ? TEXEL_SRGB : TEXEL_BYTES;
+    return format->roles & ROLE_COMPARE ? TEXEL_COMPARE : TEXEL_FLOATS;
+}
+
+/* All zero but for the number where nothing is bound. */
+static struct sampler_key derive_sampler(const struct state *state, int number)
+{
+    struct sampler_key key = {.number = (uint8_t)number};
+    if (!state->texture[number])
+        return key;
+    key.kind = (uint8_t)(TEXTURE_2D + state->texture[number]->type);
+    key.texel = derive_texel(state, number);
+    key.filter = derive_filter(SAMPLER(state, number, magfilter));
+    derive_minify(state, &key);
+    key.mip = derive_mip(state, number);
+    derive_addresses(state, &key);
+    return key;
+}
+
+void derive_pixel_sampler(const struct state *state, int i, struct pixel_key *key)
+{
+    struct sampler_key sampler = derive_sampler(state, i);
+    key->texture[i] = sampler.kind;
+    key->texel[i] = sampler.texel;
+    key->filter[i] = sampler.filter;
+    key->minify[i] = sampler.minify;
+    key->mip[i] = sampler.mip;
+    key->anisotropy[i] = sampler.anisotropy;
+    key->address_u[i] = sampler.address[0];
+    key->address_v[i] = sampler.address[1];
+    key->address_w[i] = sampler.address[2];
+}
+
+void derive_vertex_sampler(const struct state *state, int i, struct vertex_key *key)
+{
+    struct sampler_key sampler = derive_sampler(state, PIXEL_SAMPLERS + i);
+    key->texture[i] = sampler.kind;
+    key->texel[i] = sampler.texel;
+    key->filter[i] = sampler.filter;
+    key->minify[i] = sampler.minify;
+    key->mip[i] = sampler.mip;
+    key->address_u[i] = sampler.address[0];
+    key->address_v[i] = sampler.address[1];
+    key->address_w[i] = sampler.address[2];
+}
+
+/* maxmiplevel is that of mip filters: without one the first level is sampled. */
+uint32_t derive_first_level(const struct state *state, int number)
+{
+    uint32_t last = state->texture[number]->levels - 1, first = SAMPLER(state, number, maxmiplevel);
+    if (SAMPLER(state, number, mipfilter) == MIPFILTER_none)
+        return 0;
+    return first < last ? first : last;
+}
+
+/* With a matrix a stage has coordinates of its own, and vertex shaders give each stage its own. */
+static bool same_coordinates(const struct state *state, int a, int b)
+{
+    if (derive_vertex_program(state))
+        return false;
+    uint32_t flags = STAGE(state, a, texturetransformflags);
+    return STAGE(state, a, texcoordindex) == STAGE(state, b, texcoordindex) &&
+           flags == STAGE(state, b, texturetransformflags) && !(flags & TEXTURETRANSFORM_COUNT_MASK);
+}
+
+/* The last of three or four coordinates divides the others (Direct3D 9, D3DTTFF_PROJECTED); without a count
+ * it is the fourth, and with one or two coordinates nothing is left to be divided. */
+uint8_t derive_projection(const struct state *state, int stage)
+{
+    uint32_t flags = STAGE(state, stage, texturetransformflags), count = flags & TEXTURETRANSFORM_COUNT_MASK;
+    if (!(flags & TEXTURETRANSFORM_disable_projected) || (count && count < 3))
+        return PROJECTED_NONE;
+    return count == 3 ? PROJECTED_THIRD : PROJECTED_FOURTH;
+}
+
+/* Stages with the same coordinates share a channel; channels are numbered in the order of their first stages.
+ */
+static void derive_channel(const struct state *state, int stage, struct pixel_key *key)
+{
+    uint8_t next = 0;
+    for (int i = 0; i < stage; i++) {
+        if (!key->texture[i])
+            continue;
+        if (same_coordinates(state, i, stage)) {
+            key->coordinates[stage] = key->coordinates[i];
+            return;
+        }
+        if (key->coordinates[i] >= next)
+            next = key->coordinates[i] + 1;
+    }
+    key->coordinates[stage] = next;
+    key->varying[varying_texcoord(next)] = INTERPOLATION_SMOOTH;
+    if (derive_projection(state, stage) != PROJECTED_NONE)
+        key->varying[varying_divisor(next)] = INTERPOLATION_SMOOTH;
+}
+
+/* For the stage itself, or for the one after it. */
+static bool needs_texture(const struct pixel_key *key, int i)
+{
+    return stage_reads(key, i, SOURCE_TEXTURE) || key->premodulate[i] ||
+           (i + 1 < key->stages && key->bump[i + 1]);
+}
+
+void derive_texture(const struct state *state, struct pixel_key *key)
+{
+    for (int i = key->stages - 1; i >= 0; i--)
+        if (!needs_texture(key, i))
+            key->bump[i] = BUMP_NONE;
+    for (int i = 0; i < key->stages; i++) {
+        key->float_color |= key->bump[i] != BUMP_NONE;
+        if (!needs_texture(key, i))
+            continue;
+        derive_pixel_sampler(state, i, key);
+        key->float_color |= key->texel[i] != TEXEL_BYTES;
+        derive_channel(state, i, key);
+        if (key->texture[i] != TEXTURE_2D || key->texel[i] == TEXEL_COMPARE)
+            key->varying[varying_third(key->coordinates[i])] = INTERPOLATION_SMOOTH;
+    }
+}
+
+int derive_channel_stage(const struct pixel_key *key, int channel)
+{
+    for (int i = 0; i < key->stages; i++)
+        if (key->texture[i] && key->coordinates[i] == channel)
+            return i;
+    return -1;
+}
+
+/* Direct3D 9's WRAP states by set of coordinates; only shaders have sets from 8 on. */
+static uint32_t wrapped_coordinates(const struct state *state, uint32_t set)
+{
+    static const uint8_t row[TRIPTYCH_USAGE_INDICES] = {
+        TRIPTYCH_STATE_wrap0,  TRIPTYCH_STATE_wrap1,  TRIPTYCH_STATE_wrap2,  TRIPTYCH_STATE_wrap3,
+        TRIPTYCH_STATE_wrap4,  TRIPTYCH_STATE_wrap5,  TRIPTYCH_STATE_wrap6,  TRIPTYCH_STATE_wrap7,
+        TRIPTYCH_STATE_wrap8,  TRIPTYCH_STATE_wrap9,  TRIPTYCH_STATE_wrap10, TRIPTYCH_STATE_wrap11,
+        TRIPTYCH_STATE_wrap12, TRIPTYCH_STATE_wrap13, TRIPTYCH_STATE_wrap14, TRIPTYCH_STATE_wrap15};
+    return state->value[row[set % TRIPTYCH_USAGE_INDICES]];
+}
+
+/* The set that a channel's coordinates wrap by: the texcoord of a shader, or that of the vertex. */
+static int wrapped_set(const struct state *state, const struct pixel_key *pixel, int channel)
+{
+    int set = derive_channel_set(state, pixel, channel);
+    if (set < 0 || set >= TEXTURE_STAGES || derive_vertex_program(state))
+        return set;
+    return (int)(STAGE(state, set, texcoordindex) & (TEXCOORD_SETS - 1));
+}
+
+/* A stage's fourth coordinate is a divisor, and what is divided does not turn around; shaders have four
+ * like any. */
+uint64_t derive_wrapped(const struct state *state, const struct pixel_key *pixel)
+{
+    uint64_t slots = 0;
+    bool shader = key_program(pixel->shader) != 0;
+    for (int channel = 0; channel < TEXTURE_STAGES; channel++) {
+        int set = wrapped_set(state, pixel, channel);
+        if (set < 0 || (!shader && pixel->varying[varying_divisor(channel)]))
+            continue;
+        uint64_t bits = wrapped_coordinates(state, (uint32_t)set);
+        slots |= (bits & 3) << varying_slot[varying_texcoord(channel)];
+        slots |= (bits >> 2 & 1) << varying_slot[varying_third(channel)];
+        slots |= (bits >> 3 & shader) << varying_slot[varying_divisor(channel)];
+    }
+    return slots;
+}

@@ -1,0 +1,377 @@
+/* Three structures over the same entries: hash buckets for lookup, a list by number for reports, and a
+ * list of the idle entries, which are not in use, for eviction. */
+#include "render/device/cache.h"
+
+#include "base/clock.h"
+#include "render/tile/hidden.h"
+
+#include "machine/code.h"
+#include "debug/debug.h"
+
+#include <errno.h>
+#include <inttypes.h>
+#include <pthread.h>
+#include <stdio.h>
+#include <stdlib.h>
+
+struct link {
+    struct link *previous, *next;
+};
+
+struct cache_entry {
+    struct link idle;     /* while there are no references */
+    struct link numbered; /* on cache.numbered */
+    struct cache_entry *chain;
+    struct packed_key key;
+    uint64_t hash;
+    size_t price;
+    uint32_t references;
+    enum unit unit;
+    struct routine *routine;
+    struct routine_time time;
+    struct debug_record *record; /* null: no listener was notified */
+};
+
+struct cache {
+    pthread_mutex_t lock;
+    const struct engine *engine;
+    struct code_arena *arena;
+    size_t budget;
+    bool measures;
+    unsigned listeners;
+    struct error debug_error;
+    uint32_t next_number;
+    struct link idle;            /* last used first */
+    struct link numbered;        /* oldest first */
+    struct cache_entry **bucket; /* bucket_count of them, a power of two */
+    size_t bucket_count;
+    struct cache_statistics statistics;
+};
+
+enum { FIRST_BUCKETS = 64 };
+
+#define ENTRY_OF(link, member)                                                                               \
+    ((struct cache_entry *)(void *)((char *)(link)-offsetof(struct cache_entry, member)))
+
+static void list_initialize(struct link *list)
+{
+    list->previous = list->next = list;
+}
+
+static void list_remove(struct link *link)
+{
+    link->previous->next = link->next;
+    link->next->previous = link->previous;
+}
+
+static void list_insert_after(struct link *place, struct link *link)
+{
+    link->previous = place;
+    link->next = place->next;
+    place->next->previous = link;
+    place->next = link;
+}
+
+struct cache *cache_create(const struct engine *engine, struct code_arena *arena, size_t budget,
+                           struct error *error)
+{
+    struct cache *cache = calloc(1, sizeof *cache);
+    struct cache_entry **bucket = calloc(FIRST_BUCKETS, sizeof *bucket);
+    if (!cache || !bucket) {
+        free(cache);
+        free(bucket);
+        error_set(error, "out of memory for the routine cache");
+        return NULL;
+    }
+    pthread_mutex_init(&cache->lock, NULL);
+    cache->engine = engine;
+    cache->arena = arena;
+    cache->budget = budget;
+    cache->bucket = bucket;
+    cache->bucket_count = FIRST_BUCKETS;
+    list_initialize(&cache->idle);
+    list_initialize(&cache->numbered);
+    return cache;
+}
+
+void cache_measure(struct cache *cache)
+{
+    cache->measures = true;
+}
+
+void cache_debug(struct cache *cache, unsigned listeners)
+{
+    cache->listeners = listeners;
+}
+
+void cache_debug_error(struct cache *cache, struct error *error)
+{
+    pthread_mutex_lock(&cache->lock);
+    *error = cache->debug_error;
+    pthread_mutex_unlock(&cache->lock);
+}
+
+/* Notifies the listeners of a routine that has its number. */
+static void tell(struct cache *cache, struct cache_entry *entry)
+{
+    const struct routine *routine = entry->routine;
+    struct debug_code code = {.code = routine->code};
+    if (!cache->listeners || !cache->engine->describe)
+        return;
+    int length = snprintf(code.name, sizeof code.name, "triptych_%s_%u_%s_%016" PRIx64,
+                          unit_name[entry->unit], routine->number, cache->engine->name, entry->hash);
+    for (int i = 0; i < length; i++)
+        if (code.name[i] == '-')
+            code.name[i] = '_';
+    if (!cache->engine->describe(routine, &code, &cache->debug_error))
+        entry->record = debug_add(cache->listeners, &code, &cache->debug_error);
+    debug_code_free(&code);
+}
+
+static struct cache_entry **bucket_of(struct cache *cache, uint64_t hash)
+{
+    return cache->bucket + (hash & (cache->bucket_count - 1));
+}
+
+/* Where the pointer to the entry is, or would be. */
+static struct cache_entry **find(struct cache *cache, enum unit unit, const struct packed_key *key,
+                                 uint64_t hash)
+{
+    struct cache_entry **at = bucket_of(cache, hash);
+    while (*at && !((*at)->hash == hash && (*at)->unit == unit && key_equal(&(*at)->key, key)))
+        at = &(*at)->chain;
+    return at;
+}
+
+/* Evicts the routine that has been idle for the longest time, if there is one. */
+static bool evict_oldest(struct cache *cache)
+{
+    if (cache->idle.previous == &cache->idle)
+        return false;
+    int reason = errno; /* of a failure for which this makes room */
+    struct cache_entry *entry = ENTRY_OF(cache->idle.previous, idle);
+    struct cache_entry **at = bucket_of(cache, entry->hash);
+    while (*at != entry)
+        at = &(*at)->chain;
+    *at = entry->chain;
+    list_remove(&entry->idle);
+    list_remove(&entry->numbered);
+    cache->statistics.bytes -= entry->price;
+    cache->statistics.routines--;
+    cache->statistics.evictions++;
+    debug_remove(entry->record);
+    cache->engine->free(cache->arena, entry->routine);
+    free(entry);
+    errno = reason;
+    return true;
+}
+
+static void evict_idle(struct cache *cache)
+{
+    while (evict_oldest(cache))
+        ;
+}
+
+static void evict_to_budget(struct cache *cache)
+{
+    while (cache->statistics.bytes > cache->budget && cache->statistics.routines > 1 && evict_oldest(cache))
+        ;
+}
+
+void cache_destroy(struct cache *cache)
+{
+    if (!cache)
+        return;
+    evict_idle(cache);
+    pthread_mutex_destroy(&cache->lock);
+    free(cache->bucket);
+    free(cache);
+}
+
+/* Doubles the table; when memory is short chains get longer instead. */
+static void grow(struct cache *cache)
+{
+    size_t count = cache->bucket_count * 2;
+    struct cache_entry **bucket = calloc(count, sizeof *bucket);
+    if (!bucket)
+        return;
+    for (size_t i = 0; i < cache->bucket_count; i++)
+        for (struct cache_entry *entry = cache->bucket[i], *next; entry; entry = next) {
+            next = entry->chain;
+            struct cache_entry **at = bucket + (entry->hash & (count - 1));
+            entry->chain = *at;
+            *at = entry;
+        }
+    free(cache->bucket);
+    cache->bucket = bucket;
+    cache->bucket_count = count;
+}
+
+/* Returns true if the last build found no hole in the arena but may find one now, because routines were
+ * evicted. */
+static bool make_room(struct cache *cache)
+{
+    size_t wanted = cache->arena ? code_refused(cache->arena) : 0;
+    if (!wanted)
+        return false;
+    do
+        if (!evict_oldest(cache))
+            return false;
+    while (code_statistics(cache->arena).largest_free < wanted);
+    return true;
+}
+
+static struct routine *try_build(struct cache *cache, enum unit unit, const union key *key,
+                                 struct error *error)
+{
+    uint64_t start = clock_ns();
+    errno = 0;
+    struct routine *routine = engine_build(cache->engine, cache->arena, unit, key, error);
+    if (routine)
+        routine->build_ns = clock_ns() - start;
+    return routine;
+}
+
+/* Otherwise memory is short: the last attempt has the memory of all idle routines. */
+static struct routine *build(struct cache *cache, enum unit unit, const union key *key, struct error *error)
+{
+    struct routine *routine;
+    do {
+        struct error first = {{0}};
+        routine = try_build(cache, unit, key, &first);
+    } while (!routine && make_room(cache));
+    if (routine)
+        return routine;
+    evict_idle(cache);
+    return try_build(cache, unit, key, error);
+}
+
+/* The number that element counts are padded to a multiple of, for routines that do not specify one. */
+static uint32_t padded_to(const struct engine *engine)
+{
+    return engine->width && engine->width < LANES_MAXIMUM ? (uint32_t)engine->width : LANES_MAXIMUM;
+}
+
+static struct cache_entry *insert(struct cache *cache, enum unit unit, const union key *key,
+                                  const struct packed_key *packed, uint64_t hash, struct error *error)
+{
+    struct cache_entry *entry = calloc(1, sizeof *entry);
+    if (!entry) {
+        error_set(error, "out of memory for a %s routine", unit_name[unit]);
+        return NULL;
+    }
+    entry->routine = build(cache, unit, key, error);
+    if (!entry->routine) {
+        free(entry);
+        return NULL;
+    }
+    entry->routine->number = ++cache->next_number;
+    if (!entry->routine->lanes)
+        entry->routine->lanes = padded_to(cache->engine);
+    entry->routine->hits = 0;
+    entry->routine->entry = entry;
+    if (unit == UNIT_PIXEL) {
+        entry->routine->traits = (uint16_t)hidden_traits(&key->pixel);
+        entry->routine->depth_plane = layout_of_pixel(&key->pixel).depth;
+    }
+    entry->routine->time = cache->measures ? &entry->time : NULL;
+    entry->unit = unit;
+    entry->key = *packed;
+    entry->hash = hash;
+    entry->price =
+        entry->routine->code_bytes + entry->routine->data_bytes + sizeof *entry + sizeof *entry->routine;
+    if (cache->statistics.routines >= cache->bucket_count)
+        grow(cache);
+    struct cache_entry **at = bucket_of(cache, hash);
+    entry->chain = *at;
+    *at = entry;
+    list_insert_after(cache->numbered.previous, &entry->numbered);
+    cache->statistics.bytes += entry->price;
+    cache->statistics.routines++;
+    tell(cache, entry);
+    return entry;
+}
+
+static struct cache_entry *acquire(struct cache *cache, enum unit unit, const union key *key,
+                                   struct error *error)
+{
+    struct packed_key packed = key_pack(unit, key);
+    uint64_t hash = key_hash(unit, &packed);
+    struct cache_entry *entry = *find(cache, unit, &packed, hash);
+    if (entry) {
+        cache->statistics.hits++;
+        entry->routine->hits++;
+        if (!entry->references)
+            list_remove(&entry->idle);
+    } else {
+        cache->statistics.misses++;
+        entry = insert(cache, unit, key, &packed, hash, error);
+    }
+    if (entry)
+        entry->references++;
+    evict_to_budget(cache);
+    return entry;
+}
+
+const struct routine *cache_acquire(struct cache *cache, enum unit unit, const union key *key,
+                                    struct error *error)
+{
+    pthread_mutex_lock(&cache->lock);
+    struct cache_entry *entry = acquire(cache, unit, key, error);
+    pthread_mutex_unlock(&cache->lock);
+    return entry ? entry->routine : NULL;
+}
+
+void cache_retain(struct cache *cache, const struct routine *routine)
+{
+    pthread_mutex_lock(&cache->lock);
+    routine->entry->references++;
+    pthread_mutex_unlock(&cache->lock);
+}
+
+void cache_release(struct cache *cache, const struct routine *routine)
+{
+    pthread_mutex_lock(&cache->lock);
+    struct cache_entry *entry = routine->entry;
+    if (!--entry->references)
+        list_insert_after(&cache->idle, &entry->idle);
+    evict_to_budget(cache);
+    pthread_mutex_unlock(&cache->lock);
+}
+
+void cache_add_hits(struct cache *cache, const struct routine *routine, uint64_t hits)
+{
+    pthread_mutex_lock(&cache->lock);
+    cache->statistics.hits += hits;
+    routine->entry->routine->hits += hits;
+    pthread_mutex_unlock(&cache->lock);
+}
+
+bool cache_is_crowded(struct cache *cache)
+{
+    pthread_mutex_lock(&cache->lock);
+    bool crowded = cache->statistics.bytes / 2 > cache->budget;
+    pthread_mutex_unlock(&cache->lock);
+    return crowded;
+}
+
+struct cache_statistics cache_statistics(struct cache *cache)
+{
+    pthread_mutex_lock(&cache->lock);
+    struct cache_statistics statistics = cache->statistics;
+    pthread_mutex_unlock(&cache->lock);
+    return statistics;
+}
+
+bool cache_get(struct cache *cache, size_t i, struct routine *routine)
+{
+    pthread_mutex_lock(&cache->lock);
+    struct link *link = cache->numbered.next;
+    for (; i && link != &cache->numbered; i--)
+        link = link->next;
+    bool found = link != &cache->numbered;
+    if (found)
+        *routine = *ENTRY_OF(link, numbered)->routine;
+    pthread_mutex_unlock(&cache->lock);
+    return found;
+}

@@ -1,0 +1,73 @@
+/* Destruction of buffers, textures and queries. Queued draws that may read them are rendered first, and
+ * they are unbound. */
+#include "render/device/device.h"
+
+#include <stdlib.h>
+
+static enum triptych_result not_ours(struct error *error, const char *what)
+{
+    error_set(error, "%s to destroy: expected one of this device", what);
+    return TRIPTYCH_BAD_ARGUMENT;
+}
+
+static void unbind_buffer(struct state *state, const struct triptych_buffer *buffer)
+{
+    for (unsigned i = 0; i < STREAM_COUNT; i++)
+        if (state->stream[i].buffer == buffer)
+            state->stream[i].buffer = NULL;
+    if (state->indices == buffer) {
+        state->indices = NULL;
+        state->index_bits = 0;
+    }
+}
+
+enum triptych_result device_buffer_destroy(struct triptych_device *device, struct triptych_buffer *buffer,
+                                           struct error *error)
+{
+    struct triptych_buffer **at = &device->resources.buffers;
+    while (*at && *at != buffer)
+        at = &(*at)->next;
+    if (!*at)
+        return not_ours(error, "buffer");
+    device_finish(device);
+    unbind_buffer(&device->state, buffer);
+    device_state_changed(device, PARTS_ALL);
+    *at = buffer->next;
+    buffer_destroy(buffer);
+    return TRIPTYCH_OK;
+}
+
+enum triptych_result device_texture_destroy(struct triptych_device *device, struct triptych_texture *texture,
+                                            struct error *error)
+{
+    struct triptych_texture **at = &device->resources.textures;
+    while (*at && *at != texture)
+        at = &(*at)->next;
+    if (!*at)
+        return not_ours(error, "texture");
+    device_finish(device);
+    if (device_draws_to(device, texture))
+        device_set_target_textures(device, NULL, error);
+    for (unsigned i = 0; i < TRIPTYCH_SAMPLERS; i++)
+        if (device->state.texture[i] == texture)
+            device->state.texture[i] = NULL;
+    device_state_changed(device, PARTS_ALL);
+    *at = texture->next;
+    texture_destroy(texture);
+    return TRIPTYCH_OK;
+}
+
+enum triptych_result device_query_destroy(struct triptych_device *device, struct triptych_query *query,
+                                          struct error *error)
+{
+    struct queries *queries = &device->queries;
+    struct triptych_query **at = &queries->first;
+    while (*at && *at != query)
+        at = &(*at)->next;
+    if (!*at)
+        return not_ours(error, "query");
+    queries->counting -= query->phase == QUERY_BEGUN;
+    *at = query->next;
+    free(query);
+    return TRIPTYCH_OK;
+}

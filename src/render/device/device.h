@@ -1,0 +1,316 @@
+/* The device: the state, what the application made, the routine cache, and the queue that collects and
+ * renders.
+ *
+ * The functions are those of triptych.h without its checks of null pointers; each gives its result and the
+ * reason, and changes nothing when it fails. The engine is the caller's choice (engines/list.h). */
+#ifndef RENDER_DEVICE_DEVICE_H
+#define RENDER_DEVICE_DEVICE_H
+
+#include "render/device/cache.h"
+#include "render/derive/change.h"
+#include "render/draw/constant.h"
+#include "render/device/derived.h"
+#include "render/device/routines.h"
+#include "render/queue/queue.h"
+#include "render/draw/query.h"
+#include "render/device/shuffle.h"
+#include "render/state/state.h"
+#include "render/target/surface.h"
+#include "shader/shader.h"
+
+#include <errno.h>
+
+/* Called for each draw that is recorded: its number, from 0, and its keys, indexed by enum unit. */
+typedef void device_draw_callback(void *user, uint64_t number, const union key key[UNIT_COUNT]);
+
+struct triptych_shader {
+    struct triptych_device *device;
+    struct triptych_shader *next; /* of the device's */
+    const struct program *program;
+    void *source; /* what it was made of, for recordings */
+    size_t source_bytes;
+    bool source_is_text;
+    uint32_t recorded; /* its number while calls are recorded */
+};
+
+/* The target. While textures are drawn to, the target that was set is parked. */
+struct device_binding {
+    struct target target;
+    struct target parked;
+    struct triptych_target_textures textures; /* valid while draws_to_textures is set */
+    bool draws_to_textures;
+};
+
+/* Objects that the application has created and not destroyed: lists, linked by `next`. */
+struct device_resources {
+    struct triptych_buffer *buffers;
+    struct triptych_texture *textures;
+    struct triptych_shader *shaders;
+};
+
+/* The resources of the draws that are rendered in the background. */
+struct device_background {
+    struct held *held;
+    uint32_t held_count;
+    struct palette *palettes;
+    uint32_t commands; /* 0: nothing is rendered in the background */
+};
+
+/* Draw calls, and the triangles in them. */
+struct device_counts {
+    uint64_t draws, triangles;
+};
+
+struct device_hook {
+    device_draw_callback *on_draw; /* null: none */
+    void *user;
+};
+
+struct device_errors {
+    struct error last;  /* of the last public call that failed */
+    struct error debug; /* why something of options.debug cannot be done */
+    struct error told;  /* the last answer of triptych_debug_error */
+};
+
+struct triptych_device {
+    /* Execution. */
+    const struct engine *engine;
+    struct code_arena *arena; /* null when the engine generates no code */
+    struct cache *cache;
+    struct pool *pool;
+    struct queue *queue;
+    uint64_t epoch; /* increases when the queue is emptied */
+    struct device_background rendered;
+
+    struct device_binding binding;
+
+    /* State and objects of the application. */
+    struct state state;
+    struct shader_registers registers[SHADER_STAGES]; /* the state's */
+    struct triptych_shader *shader[SHADER_STAGES];    /* those that are set */
+    struct device_resources resources;
+    struct queries queries;
+
+    /* The parts that draws are built from. */
+    struct device_derived derived;
+    struct constants constants; /* of queued draws */
+    bool integers_checked;      /* state_check_integers has passed since shaders and integers have changed */
+    struct device_routines routines;
+
+    struct device_counts counts;
+    struct recorder *recorder; /* of calls (capture/record.h), or null */
+    struct device_hook hook;
+    struct device_errors errors;
+    char key_text[KEY_TEXT_CAPACITY]; /* of the last routine reported */
+};
+
+/* The target, or the target of the textures that are drawn to; its width is 0 when there is none. */
+static inline struct target *device_target(struct triptych_device *device)
+{
+    return &device->binding.target;
+}
+
+/* The target that was set, even while textures are drawn to. */
+static inline struct target *device_main_target(struct triptych_device *device)
+{
+    return device->binding.draws_to_textures ? &device->binding.parked : &device->binding.target;
+}
+
+/* The textures that are drawn to; null: none. */
+static inline const struct triptych_target_textures *
+device_drawn_textures(const struct triptych_device *device)
+{
+    return device->binding.draws_to_textures ? &device->binding.textures : NULL;
+}
+
+struct device_options {
+    unsigned threads;   /* 0: one for each processor */
+    size_t cache_bytes; /* 0: CACHE_BYTES */
+    size_t code_bytes;  /* of the code arena; 0: enough for the cache and the largest routines */
+    bool measure;       /* the calls of routines are timed */
+    const char *debug;  /* words of def/debug.def, comma-separated; null: none */
+    pool_create_thread *create_thread; /* null: pthread_create */
+    uint32_t arena_bytes;              /* of the arena of the queue; 0: ARENA_BYTES */
+};
+
+/* The result of a failed function before which errno was 0: out of memory, or `otherwise`. */
+static inline enum triptych_result device_refusal(enum triptych_result otherwise)
+{
+    return errno == ENOMEM ? TRIPTYCH_NO_MEMORY : otherwise;
+}
+
+enum { CACHE_BYTES = 16 << 20, CACHE_BYTES_MAXIMUM = 1 << 30 };
+
+enum triptych_result device_create(const struct engine *engine, const struct device_options *options,
+                                   struct triptych_device **device, struct error *error);
+void device_destroy(struct triptych_device *device);
+
+enum triptych_result device_set_target(struct triptych_device *device,
+                                       const struct triptych_target_description *description,
+                                       struct error *error);
+/* Fails if there is no target. */
+enum triptych_result device_has_target(const struct triptych_device *device, struct error *error);
+/* Fails if the description is not valid. */
+enum triptych_result device_check_target(const struct triptych_target_description *description,
+                                         struct error *error);
+
+/* Drawing to textures (render/device/surfaces.c); null goes back. */
+enum triptych_result device_set_target_textures(struct triptych_device *device,
+                                                const struct triptych_target_textures *textures,
+                                                struct error *error);
+void device_leave_textures(struct triptych_device *device);
+bool device_draws_to(const struct triptych_device *device, const struct triptych_texture *texture);
+
+/* Before texels are read or changed by others than draws: renders what is recorded if it may use or draw the
+ * texture, and stores what was drawn. After a change: what is drawn to begins with it. */
+void device_store_texture(struct triptych_device *device, const struct triptych_texture *texture);
+void device_load_texture(struct triptych_device *device, const struct triptych_texture *texture);
+
+enum triptych_result device_copy(struct triptych_device *device, const struct surface_copy *copy,
+                                 struct error *error);
+enum triptych_result device_read_surface(struct triptych_device *device,
+                                         const struct triptych_surface *surface, uint32_t *rgba,
+                                         struct error *error);
+enum triptych_result device_read_surface_numbers(struct triptych_device *device,
+                                                 const struct triptych_surface *surface, float *numbers,
+                                                 struct error *error);
+
+/* The contents of the target and of a texture, as they are stored (render/device/contents.c). */
+size_t device_contents_bytes(const struct triptych_device *device);
+enum triptych_result device_read_contents(struct triptych_device *device, void *data, struct error *error);
+enum triptych_result device_write_contents(struct triptych_device *device, const void *data, size_t bytes,
+                                           struct error *error);
+void device_read_texels(struct triptych_device *device, struct triptych_texture *texture, void *data);
+enum triptych_result device_write_texels(struct triptych_device *device, struct triptych_texture *texture,
+                                         const void *data, size_t bytes, struct error *error);
+
+/* Direct access to the state is for changes; they must be followed by this, with the parts that may have
+ * changed (render/derive/change.h). */
+static inline void device_state_changed(struct triptych_device *device, unsigned parts)
+{
+    device->derived.stale |= parts;
+}
+
+/* Queues a checked draw of what is derived, all instances one after the other; `source` has what depends
+ * on the call. */
+enum triptych_result device_enqueue(struct triptych_device *device, const struct draw *source,
+                                    uint32_t instances, struct error *error);
+
+/* The place of the next command; renders what is recorded if there is no other. */
+struct command *device_next_command(struct triptych_device *device);
+
+/* Reports hits to the cache that it has not counted yet. */
+void device_count_hits(struct triptych_device *device);
+
+/* Vertices or indices that `count` primitives take; count is not 0. */
+uint64_t device_corners(enum triptych_primitive primitive, uint32_t count);
+
+/* Records `count` primitives: from vertex `first` on, or with the bound indices from `first` on, plus base.
+ */
+enum triptych_result device_draw(struct triptych_device *device, enum triptych_primitive primitive,
+                                 uint32_t first, uint32_t count, struct error *error);
+enum triptych_result device_draw_indexed(struct triptych_device *device, enum triptych_primitive primitive,
+                                         int32_t base, uint32_t first, uint32_t count, struct error *error);
+/* The arguments of a clear: flags as in triptych.h, and the values that they name. */
+struct clear_values {
+    unsigned flags;
+    const float *color; /* four */
+    float depth;
+    unsigned stencil;
+};
+enum triptych_result device_clear(struct triptych_device *device, const struct clear_values *values,
+                                  struct error *error);
+
+enum triptych_result device_query_begin(struct triptych_device *device, struct triptych_query *query,
+                                        struct error *error);
+enum triptych_result device_query_end(struct triptych_device *device, struct triptych_query *query,
+                                      struct error *error);
+enum triptych_result device_query_result(struct triptych_device *device, struct triptych_query *query,
+                                         uint64_t *result, struct error *error);
+
+/* From now on rendering uses at most `threads` of the device's threads; 0: all. Tools compare numbers of
+ * threads with it, without building routines again. */
+void device_limit_threads(struct triptych_device *device, unsigned threads);
+
+/* Renders everything recorded. Cannot fail. */
+void device_finish(struct triptych_device *device);
+/* The same, but where there are threads it may only have begun when this returns: what is recorded next
+ * does not wait. */
+void device_start(struct triptych_device *device);
+/* Returns true if draws that are not rendered yet sample the texture. */
+bool device_uses(const struct triptych_device *device, const struct triptych_texture *texture);
+/* The number of queued commands that are not known to be rendered. */
+uint32_t device_commands(const struct triptych_device *device);
+/* Drops everything that is queued. */
+void device_forget(struct triptych_device *device);
+
+/* Finishes and copies the target, if there is one. */
+enum triptych_result device_read_target(struct triptych_device *device, unsigned t, uint32_t *rgba,
+                                        struct error *error);
+enum triptych_result device_read_target_numbers(struct triptych_device *device, unsigned t, float *numbers,
+                                                struct error *error);
+enum triptych_result device_read_depth(struct triptych_device *device, float *depth, struct error *error);
+enum triptych_result device_read_stencil(struct triptych_device *device, uint8_t *stencil,
+                                         struct error *error);
+
+/* Changes a texture, after rendering what is recorded if some of that reads it. Arguments are not null, but
+ * for the box. */
+enum triptych_result device_texture_create(struct triptych_device *device,
+                                           const struct triptych_texture_description *description,
+                                           struct triptych_texture **texture, struct error *error);
+enum triptych_result device_texture_update(struct triptych_device *device, struct triptych_texture *texture,
+                                           unsigned face, unsigned level, const struct triptych_box *box,
+                                           const void *data, size_t row_pitch, size_t slice_pitch,
+                                           struct error *error);
+void device_texture_generate_mips(struct triptych_device *device, struct triptych_texture *texture);
+
+/* render/device/destroy.c; arguments are not null. */
+enum triptych_result device_buffer_destroy(struct triptych_device *device, struct triptych_buffer *buffer,
+                                           struct error *error);
+enum triptych_result device_texture_destroy(struct triptych_device *device, struct triptych_texture *texture,
+                                            struct error *error);
+enum triptych_result device_query_destroy(struct triptych_device *device, struct triptych_query *query,
+                                          struct error *error);
+
+/* Shaders (render/device/shader.c): from a decoded one, which is validated and may be freed; null sets
+ * none. */
+enum triptych_result device_shader_create(struct triptych_device *device, const struct shader *shader,
+                                          struct triptych_shader **result, struct error *error);
+/* Keeps a copy of what the shader was made of. */
+enum triptych_result device_shader_keep(struct triptych_shader *shader, const void *source, size_t bytes,
+                                        bool is_text, struct error *error);
+enum triptych_result device_shader_destroy(struct triptych_device *device, struct triptych_shader *shader,
+                                           struct error *error);
+void device_free_shaders(struct triptych_device *device);
+enum triptych_result device_set_shader(struct triptych_device *device, enum shader_stage stage,
+                                       struct triptych_shader *shader, struct error *error);
+enum triptych_result device_set_floats(struct triptych_device *device, enum triptych_shader_stage stage,
+                                       unsigned first, const float *values, unsigned count,
+                                       struct error *error);
+enum triptych_result device_set_integers(struct triptych_device *device, enum triptych_shader_stage stage,
+                                         unsigned first, const int32_t *values, unsigned count,
+                                         struct error *error);
+enum triptych_result device_set_booleans(struct triptych_device *device, enum triptych_shader_stage stage,
+                                         unsigned first, const int32_t *values, unsigned count,
+                                         struct error *error);
+/* Fails if draws must not run with the current integer constants. */
+enum triptych_result device_check_integers(struct triptych_device *device, struct error *error);
+
+/* One sample's of colour target 0 and of depth and stencil; what is null is not read. */
+enum triptych_result device_read_sample(struct triptych_device *device, unsigned sample, uint32_t *rgba,
+                                        float *depth, uint8_t *stencil, struct error *error);
+
+/* The first reason why an option of options.debug has no effect; empty when all have. */
+void device_debug_error(struct triptych_device *device, struct error *error);
+
+void device_get_statistics(const struct triptych_device *device, struct triptych_statistics *statistics);
+
+/* For tools: a function that is called for each draw (null: none), and the parts that the device works
+ * with. */
+void device_on_draw(struct triptych_device *device, device_draw_callback *callback, void *user);
+/* For tests: the engine of a device. */
+const struct engine *device_engine(const struct triptych_device *device);
+/* For tests: the arena of a device. */
+struct code_arena *device_arena(const struct triptych_device *device);
+
+#endif

@@ -1,0 +1,279 @@
+/* The device's draws and clears: what they need is checked, then they are recorded as they are, with the
+ * routines and the job that the state derives to. Queries count what lies between. */
+#include "machine/mxcsr.h"
+#include "contract/lane.h"
+#include "render/derive/derive.h"
+#include "render/device/device.h"
+
+#include <float.h>
+#include <inttypes.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+/* --- Checking a draw --- */
+
+uint64_t device_corners(enum triptych_primitive primitive, uint32_t count)
+{
+    switch (primitive) {
+    case TRIPTYCH_TRIANGLE_LIST: return 3 * (uint64_t)count;
+    case TRIPTYCH_LINE_LIST: return 2 * (uint64_t)count;
+    case TRIPTYCH_LINE_STRIP: return (uint64_t)count + 1;
+    case TRIPTYCH_POINT_LIST: return count;
+    case TRIPTYCH_TRIANGLE_STRIP:
+    case TRIPTYCH_TRIANGLE_FAN:
+    case TRIPTYCH_PRIMITIVE_COUNT: break;
+    }
+    return (uint64_t)count + 2;
+}
+
+/* Fails if vertices of a draw lie outside of the buffer of an element: those up to `last`, or one for each
+ * instance. */
+static enum triptych_result check_element(const struct state *state, const struct state_element *element,
+                                          const char *name, uint64_t last, struct error *error)
+{
+    const struct state_stream *stream = state->stream + element->stream;
+    if (stream->frequency == TRIPTYCH_FREQUENCY_INSTANCE)
+        last = (state_instances(state) - 1) / stream->count;
+    if (!stream->buffer) {
+        error_set(error, "%s: no buffer in stream %u, expected set_stream first", name, element->stream);
+        return TRIPTYCH_BAD_CALL;
+    }
+    size_t begin = stream->offset + element->offset, bytes = key_vertex_types[element->format].bytes;
+    if (begin + bytes > stream->buffer->bytes) {
+        error_set(error, "%s: lies at byte %zu past its buffer of %zu bytes", name, begin,
+                  stream->buffer->bytes);
+        return TRIPTYCH_BAD_CALL;
+    }
+    uint64_t most = state_last_vertex(state, element);
+    if (last > most) {
+        error_set(error, "vertex %" PRIu64 ": %s lies past its buffer, which ends with vertex %" PRIu64, last,
+                  name, most);
+        return TRIPTYCH_BAD_CALL;
+    }
+    return TRIPTYCH_OK;
+}
+
+/* The same for everything that the vertex routine reads. device->derived.vertices decides most cases; the
+ * search for the element that is too short is slower. */
+static enum triptych_result check_vertices(const struct triptych_device *device, uint64_t last,
+                                           struct error *error)
+{
+    const struct state *state = &device->state;
+    const struct vertex_key *key = &device->derived.key[UNIT_VERTEX].vertex;
+    enum triptych_result result = TRIPTYCH_OK;
+    if (last < device->derived.vertices)
+        return result;
+    for (int i = 0; i < ATTRIBUTE_COUNT && result == TRIPTYCH_OK; i++)
+        if (key->attribute[i] != ATTRIBUTE_FORMAT_NONE)
+            result = check_element(state, state->element + i, state_attribute_name[i], last, error);
+    for (unsigned i = 0; i < INPUTS && result == TRIPTYCH_OK; i++) {
+        const struct state_element *element = derive_input(state, key, i);
+        char name[8];
+        if (!element)
+            continue;
+        snprintf(name, sizeof name, "v%u", i);
+        result = check_element(state, element, name, last, error);
+    }
+    return result;
+}
+
+static enum triptych_result check_draw(struct triptych_device *device, enum triptych_primitive primitive,
+                                       struct error *error)
+{
+    if ((unsigned)primitive >= TRIPTYCH_PRIMITIVE_COUNT) {
+        error_set(
+            error,
+            "primitive %u: expected a triangle list (0), strip (1) or fan (2), a point list (3), a line "
+            "list (4) or strip (5)",
+            (unsigned)primitive);
+        return TRIPTYCH_BAD_ARGUMENT;
+    }
+    enum triptych_result result = device_has_target(device, error);
+    if (result == TRIPTYCH_OK && !device->state.program[STAGE_VERTEX] &&
+        !device->state.element[ATTRIBUTE_POSITION].format &&
+        !device->state.element[ATTRIBUTE_POSITIONT].format) {
+        error_set(error, "no position: expected an element for it");
+        return TRIPTYCH_BAD_CALL;
+    }
+    return result == TRIPTYCH_OK ? device_check_integers(device, error) : result;
+}
+
+/* Direct3D 9 steps by instances in indexed draws only. */
+static enum triptych_result check_no_instances(const struct triptych_device *device, struct error *error)
+{
+    for (unsigned i = 0; i < TRIPTYCH_STREAMS && device->derived.steps; i++)
+        if (device->state.stream[i].frequency != TRIPTYCH_FREQUENCY_VERTEX) {
+            error_set(error, "stream %u: its frequency is by instance, expected an indexed draw", i);
+            return TRIPTYCH_BAD_CALL;
+        }
+    return TRIPTYCH_OK;
+}
+
+static enum triptych_result check_sequence(const struct triptych_device *device, uint64_t first,
+                                           uint64_t corners, struct error *error)
+{
+    if (first + corners - 1 > UINT32_MAX) {
+        error_set(error, "vertices %" PRIu64 " to %" PRIu64 ": expected them below 2^32", first,
+                  first + corners - 1);
+        return TRIPTYCH_BAD_CALL;
+    }
+    return check_vertices(device, first + corners - 1, error);
+}
+
+static enum triptych_result check_indices(const struct triptych_device *device, int32_t base, uint64_t first,
+                                          uint64_t corners, struct error *error)
+{
+    struct triptych_buffer *buffer = device->state.indices;
+    uint32_t bits = device->state.index_bits;
+    uint64_t room = buffer->bytes / (bits / 8);
+    if (first + corners > room) {
+        error_set(error,
+                  "indices %" PRIu64 " to %" PRIu64 ": expected them in the buffer of %" PRIu64 " indices",
+                  first, first + corners - 1, room);
+        return TRIPTYCH_BAD_CALL;
+    }
+    const struct index_range *range = buffer_index_range(buffer, bits, (uint32_t)first, (uint32_t)corners);
+    int64_t lowest = (int64_t)base + range->minimum, highest = (int64_t)base + range->maximum;
+    if (lowest < 0 || highest > UINT32_MAX) {
+        error_set(error, "vertices %" PRId64 " to %" PRId64 ": expected them from 0 to 2^32 - 1", lowest,
+                  highest);
+        return TRIPTYCH_BAD_CALL;
+    }
+    return check_vertices(device, (uint64_t)highest, error);
+}
+/* A texture that is drawn to cannot be sampled: its current texels are in the tiles. */
+static enum triptych_result check_feedback(const struct triptych_device *device, struct error *error)
+{
+    for (int i = 0; i < SAMPLERS && device->binding.draws_to_textures; i++)
+        if (device_derived_samples(&device->derived, i) &&
+            device_draws_to(device, device->state.texture[i])) {
+            error_set(error, "texture of sampler %d is drawn to: expected another one, or none", i);
+            return TRIPTYCH_BAD_CALL;
+        }
+    return TRIPTYCH_OK;
+}
+/* --- Draws --- */
+
+/* Records a checked draw. The source's primitive, count, indices and base are filled in. */
+static enum triptych_result enqueue(struct triptych_device *device, const struct draw *source,
+                                    struct error *error)
+{
+    uint32_t instances = source->indices ? state_instances(&device->state) : 1;
+    if (check_feedback(device, error) != TRIPTYCH_OK)
+        return TRIPTYCH_BAD_CALL;
+    if (source->count && derive_effective(&device->derived.key[UNIT_PIXEL].pixel)) {
+        enum triptych_result result = device_enqueue(device, source, instances, error);
+        if (result != TRIPTYCH_OK)
+            return result;
+    }
+    if (device->hook.on_draw)
+        device->hook.on_draw(device->hook.user, device->counts.draws, device->derived.key);
+    device->counts.draws++;
+    device->counts.triangles += (uint64_t)source->count * instances;
+    return TRIPTYCH_OK;
+}
+
+enum triptych_result device_draw(struct triptych_device *device, enum triptych_primitive primitive,
+                                 uint32_t first, uint32_t count, struct error *error)
+{
+    enum triptych_result result = check_draw(device, primitive, error);
+    if (result != TRIPTYCH_OK)
+        return result;
+    result = device_derived_update(&device->derived, &device->state, primitive, error);
+    if (result == TRIPTYCH_OK)
+        result = check_no_instances(device, error);
+    if (count && result == TRIPTYCH_OK)
+        result = check_sequence(device, first, device_corners(primitive, count), error);
+    struct draw draw = {.primitive = primitive, .count = count, .base = first};
+    return result == TRIPTYCH_OK ? enqueue(device, &draw, error) : result;
+}
+
+enum triptych_result device_draw_indexed(struct triptych_device *device, enum triptych_primitive primitive,
+                                         int32_t base, uint32_t first, uint32_t count, struct error *error)
+{
+    const struct state *state = &device->state;
+    enum triptych_result result = check_draw(device, primitive, error);
+    if (result == TRIPTYCH_OK && !state->indices) {
+        error_set(error, "no indices: expected set_indices first");
+        result = TRIPTYCH_BAD_CALL;
+    }
+    if (result != TRIPTYCH_OK)
+        return result;
+    result = device_derived_update(&device->derived, &device->state, primitive, error);
+    if (count && result == TRIPTYCH_OK)
+        result = check_indices(device, base, first, device_corners(primitive, count), error);
+    struct draw draw = {.primitive = primitive, .count = count, .base = (uint32_t)base};
+    draw.index_bits = state->index_bits;
+    draw.indices = count ? state->indices->data + (size_t)first * (state->index_bits / 8) : NULL;
+    return result == TRIPTYCH_OK ? enqueue(device, &draw, error) : result;
+}
+
+enum triptych_result device_clear(struct triptych_device *device, const struct clear_values *values,
+                                  struct error *error)
+{
+    enum triptych_depth_format format = device->binding.target.depth_format;
+    enum triptych_result result = device_has_target(device, error);
+    if (result == TRIPTYCH_OK)
+        result = state_check_clear(format, values->flags, values->color, values->depth, error);
+    if (result != TRIPTYCH_OK || !values->flags)
+        return result;
+    struct command *command = device_next_command(device);
+    struct clear *clear = &command->clear;
+    command->kind = COMMAND_CLEAR;
+    *clear = (struct clear){.area = derive_scissor(&device->state),
+                            .set_color = values->flags & TRIPTYCH_CLEAR_COLOR};
+    unsigned saved = mxcsr_enter();
+    if (clear->set_color)
+        target_clear_words(&device->binding.target, values->color, clear->color);
+    if (values->flags & TRIPTYCH_CLEAR_DEPTH) {
+        /* The pipeline has neither denormals nor -0 in depth. */
+        clear->depth = depth_encode(format, values->depth >= FLT_MIN ? values->depth : 0);
+        clear->depth_mask = depth_mask(format);
+    }
+    mxcsr_leave(saved);
+    if (values->flags & TRIPTYCH_CLEAR_STENCIL) {
+        clear->depth |= values->stencil & stencil_mask(format);
+        clear->depth_mask |= stencil_mask(format);
+    }
+    device->queue->commands.count++;
+    return TRIPTYCH_OK;
+}
+/* --- Queries --- */
+
+/* Draws count pixels while any query needs it. */
+static void count_while_asked(struct triptych_device *device)
+{
+    bool counting = device->queries.counting;
+    if (device->state.counting != counting)
+        device_state_changed(device, PARTS_ALL);
+    device->state.counting = counting;
+}
+
+enum triptych_result device_query_begin(struct triptych_device *device, struct triptych_query *query,
+                                        struct error *error)
+{
+    enum triptych_result result = query_begin(&device->queries, query, device_commands(device), error);
+    count_while_asked(device);
+    return result;
+}
+
+enum triptych_result device_query_end(struct triptych_device *device, struct triptych_query *query,
+                                      struct error *error)
+{
+    enum triptych_result result = query_end(&device->queries, query, device_commands(device), error);
+    count_while_asked(device);
+    return result;
+}
+
+enum triptych_result device_query_result(struct triptych_device *device, struct triptych_query *query,
+                                         uint64_t *result, struct error *error)
+{
+    if (query->phase == QUERY_IDLE || query->phase == QUERY_BEGUN) {
+        error_set(error, "result of a query that has not ended: expected its end first");
+        return TRIPTYCH_BAD_CALL;
+    }
+    device_finish(device);
+    *result = query->result;
+    return TRIPTYCH_OK;
+}

@@ -1,0 +1,174 @@
+/* From a checked draw to the queue: the routines of its keys, its job, its command.
+ *
+ * A job is shared by all draws between which neither a part of it nor a constant has changed. */
+#include "machine/prefetch.h"
+#include "render/device/device.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+/* Builds that check themselves (make CHECK_IR=1, and any with sanitizers) compare what is derived part by
+ * part with a derivation from scratch, and overwrite the bytes of jobs that must not be read. */
+enum {
+#ifdef TRIPTYCH_CHECK_IR
+    JOBS_CHECKED = 1
+#else
+    JOBS_CHECKED = 0
+#endif
+};
+
+/* --- Routines --- */
+
+/* Renders what is recorded, or begins to, while the draw's routines stay held. */
+static void render_before(struct triptych_device *device, void (*render)(struct triptych_device *))
+{
+    const struct routine *kept[UNIT_COUNT];
+    for (int unit = 0; unit < UNIT_COUNT; unit++) {
+        kept[unit] = device->derived.draw.routine[unit];
+        cache_retain(device->cache, kept[unit]);
+    }
+    render(device);
+    for (int unit = 0; unit < UNIT_COUNT; unit++)
+        device_routines_hold(&device->routines, unit, kept[unit], device->derived.draw.routine);
+}
+
+static int use_routines(struct triptych_device *device, struct error *error)
+{
+    return device_routines_use(&device->routines, device->cache, device->derived.key,
+                               device->derived.draw.routine, error);
+}
+
+/* Recorded draws hold routines; rendering these draws makes room, where there is none or others might soon
+ * have none. */
+static int prepare_routines(struct triptych_device *device, struct error *error)
+{
+    bool recorded = device->queue->commands.count;
+    struct error first;
+    error_clear(&first);
+    int asked = use_routines(device, recorded ? &first : error);
+    if (recorded && asked > 0 && cache_is_crowded(device->cache))
+        render_before(device, device_finish);
+    if (recorded && asked < 0) {
+        device_finish(device);
+        asked = use_routines(device, error);
+    }
+    return asked < 0 ? -1 : 0;
+}
+
+/* --- Jobs --- */
+
+/* The textures that draws sample must not change before these are rendered. */
+static void mark_textures(struct triptych_device *device)
+{
+    for (int i = 0; i < SAMPLERS; i++)
+        if (device_derived_samples(&device->derived, i))
+            device->state.texture[i]->epoch = device->epoch;
+}
+
+/* Elements of streams that step with the instance: the same vertex for the whole of it. */
+static void step_element(const struct state *state, const struct state_element *element, uint32_t instance,
+                         struct attribute_job *job)
+{
+    const struct state_stream *stream = state->stream + element->stream;
+    if (job->data && stream->frequency == TRIPTYCH_FREQUENCY_INSTANCE)
+        job->data += (size_t)(instance / stream->count) * stream->stride;
+}
+
+static void step_instance(const struct triptych_device *device, uint32_t instance, struct job *job)
+{
+    const struct state *state = &device->state;
+    const struct vertex_key *key = &device->derived.key[UNIT_VERTEX].vertex;
+    for (unsigned i = key_next(key->attribute, 0, ATTRIBUTE_COUNT); i < ATTRIBUTE_COUNT;
+         i = key_next(key->attribute, i + 1, ATTRIBUTE_COUNT))
+        step_element(state, state->element + i, instance, &job->attribute[i]);
+    for (unsigned i = 0; i < INPUTS; i++) {
+        const struct state_element *element = derive_input(state, key, i);
+        if (element)
+            step_element(state, element, instance, &job->input[i]);
+    }
+}
+
+/* Buffers of the queue are reused, and the cache of the core that rendered them still holds their lines.
+ * So jobs and commands are prefetched this many draws ahead of writing. */
+enum { JOBS_AHEAD = 4, COMMANDS_AHEAD = 8 };
+
+/* Later jobs are likely to need the same lines, so these are prefetched. The rest of the job is not read;
+ * builds that check themselves fill it, so that a read of it would change the picture. */
+static void copy_live(struct job *to, const struct job *from, const struct live_job *live)
+{
+    if (JOBS_CHECKED)
+        memset(to, 0xbb, sizeof *to);
+    for (unsigned i = 0; i < live->count; i++) {
+        size_t begin = live->run[i].begin, end = live->run[i].end;
+        memcpy((char *)to + begin, (const char *)from + begin, end - begin);
+        prefetch_to_write((const char *)(to + JOBS_AHEAD) + begin, end - begin);
+    }
+}
+
+/* Blocks of constants, one by one: loaded as one vector they would have to wait for the stores of both. */
+static struct job *new_job(struct triptych_device *device, const float *vertex, const float *pixel)
+{
+    struct job *job = queue_next_job(device->queue);
+    device->queue->commands.jobs++;
+    copy_live(job, &device->derived.job, &device->derived.live);
+    job->constants[STAGE_VERTEX] = vertex;
+    job->constants[STAGE_PIXEL] = pixel;
+    return job;
+}
+
+/* The job of an instance: that of the draw before, if it is the same. Instances after the first have their
+ * own. */
+static const struct job *make_job(struct triptych_device *device, uint32_t instance)
+{
+    const float *vertex = constants_block(&device->constants, &device->state, STAGE_VERTEX);
+    const float *pixel = constants_block(&device->constants, &device->state, STAGE_PIXEL);
+    const struct job *last = device->derived.draw.job;
+    if (!last)
+        mark_textures(device);
+    if (instance) {
+        struct job *job = new_job(device, vertex, pixel);
+        step_instance(device, instance, job);
+        return job;
+    }
+    if (!last || last->constants[STAGE_VERTEX] != vertex || last->constants[STAGE_PIXEL] != pixel)
+        device->derived.draw.job = new_job(device, vertex, pixel);
+    return device->derived.draw.job;
+}
+
+/* --- The queue --- */
+
+struct command *device_next_command(struct triptych_device *device)
+{
+    if (!queue_next(device->queue))
+        device_start(device);
+    return queue_next(device->queue);
+}
+
+static void enqueue_instance(struct triptych_device *device, const struct draw *source, uint32_t instance)
+{
+    if (!queue_next(device->queue) || !constants_fit(&device->constants, &device->state))
+        render_before(device, device_start);
+    struct command *command = queue_next(device->queue);
+    prefetch_to_write(command + COMMANDS_AHEAD, sizeof *command);
+    command->kind = COMMAND_DRAW;
+    command->draw = device->derived.draw;
+    command->draw.job = make_job(device, instance); /* which may be new to device->derived.draw, too */
+    command->draw.primitive = source->primitive;
+    command->draw.count = source->count;
+    command->draw.indices = source->indices;
+    command->draw.index_bits = source->index_bits;
+    command->draw.base = source->base;
+    device->queue->commands.count++;
+}
+
+enum triptych_result device_enqueue(struct triptych_device *device, const struct draw *source,
+                                    uint32_t instances, struct error *error)
+{
+    if (JOBS_CHECKED && !device_derived_is_exact(&device->derived, &device->state))
+        abort();
+    if (prepare_routines(device, error))
+        return device_refusal(TRIPTYCH_ENGINE_FAILED);
+    for (uint32_t i = 0; i < instances; i++)
+        enqueue_instance(device, source, i);
+    return TRIPTYCH_OK;
+}

@@ -1,0 +1,107 @@
+/* Reading the target, one sample or resolved, in rows. All arguments are checked before anything is read. */
+#include "render/device/device.h"
+
+#include <stdatomic.h>
+
+/* Rows of tiles are read by several threads, into those of the images that are not null. */
+struct reading {
+    const struct target *target;
+    unsigned t; /* which colour */
+    int sample; /* or SAMPLE_RESOLVED */
+    uint32_t *color;
+    float *numbers;
+    float *depth;
+    uint8_t *stencil;
+    _Atomic uint32_t next_row;
+};
+
+static void read_task(void *user, unsigned worker)
+{
+    struct reading *r = user;
+    uint32_t row;
+    (void)worker;
+    while ((row = atomic_fetch_add(&r->next_row, 1)) < r->target->rows) {
+        if (r->color)
+            target_read_color(r->target, r->t, r->sample, row, r->color, r->target->width);
+        if (r->numbers)
+            target_read_numbers(r->target, r->t, r->sample, row, r->numbers, r->target->width);
+        if (r->depth)
+            target_read_depth(r->target, r->sample, row, r->depth);
+        if (r->stencil)
+            target_read_stencil(r->target, r->sample, row, r->stencil);
+    }
+}
+
+static enum triptych_result lacks(const struct target *target, const char *what, struct error *error)
+{
+    error_set(error, "the target's depth format is %s: expected one with %s",
+              depth_formats[target->depth_format].name, what);
+    return TRIPTYCH_BAD_CALL;
+}
+
+static enum triptych_result check_reading(const struct target *target, const struct reading *r,
+                                          struct error *error)
+{
+    if (r->sample != SAMPLE_RESOLVED && (unsigned)r->sample >= target->samples) {
+        error_set(error, "sample %u: the target has %u per pixel", (unsigned)r->sample, target->samples);
+        return TRIPTYCH_BAD_ARGUMENT;
+    }
+    if ((r->color || r->numbers) && (r->t >= TARGETS || !target->colors[r->t].format)) {
+        error_set(error, "colour target %u: the target has none of that number", r->t);
+        return TRIPTYCH_BAD_ARGUMENT;
+    }
+    if (r->depth && !target->depth)
+        return lacks(target, "depth", error);
+    if (r->stencil && !stencil_mask(target->depth_format))
+        return lacks(target, "stencil", error);
+    return TRIPTYCH_OK;
+}
+
+static enum triptych_result read_target(struct triptych_device *device, struct reading *reading,
+                                        struct error *error)
+{
+    enum triptych_result result = device_has_target(device, error);
+    if (result == TRIPTYCH_OK)
+        result = check_reading(&device->binding.target, reading, error);
+    if (result != TRIPTYCH_OK)
+        return result;
+    device_finish(device);
+    reading->target = &device->binding.target;
+    pool_run(device->pool, 0, device->binding.target.rows, POOL_ALL, read_task, reading);
+    return TRIPTYCH_OK;
+}
+
+enum triptych_result device_read_target(struct triptych_device *device, unsigned t, uint32_t *rgba,
+                                        struct error *error)
+{
+    struct reading reading = {.t = t, .sample = SAMPLE_RESOLVED, .color = rgba};
+    return read_target(device, &reading, error);
+}
+
+enum triptych_result device_read_target_numbers(struct triptych_device *device, unsigned t, float *numbers,
+                                                struct error *error)
+{
+    struct reading reading = {.t = t, .sample = SAMPLE_RESOLVED, .numbers = numbers};
+    return read_target(device, &reading, error);
+}
+
+enum triptych_result device_read_depth(struct triptych_device *device, float *depth, struct error *error)
+{
+    struct reading reading = {.sample = SAMPLE_RESOLVED, .depth = depth};
+    return read_target(device, &reading, error);
+}
+
+enum triptych_result device_read_stencil(struct triptych_device *device, uint8_t *stencil,
+                                         struct error *error)
+{
+    struct reading reading = {.sample = SAMPLE_RESOLVED, .stencil = stencil};
+    return read_target(device, &reading, error);
+}
+
+enum triptych_result device_read_sample(struct triptych_device *device, unsigned sample, uint32_t *rgba,
+                                        float *depth, uint8_t *stencil, struct error *error)
+{
+    int number = sample < INT32_MAX ? (int)sample : INT32_MAX;
+    struct reading reading = {.sample = number, .color = rgba, .depth = depth, .stencil = stencil};
+    return read_target(device, &reading, error);
+}

@@ -1,0 +1,99 @@
+/* When the queue is rendered.
+ *
+ *   device_finish   now, with all threads, because the caller reads the target or changes what draws use
+ *   device_start    from now on, in the background, because the buffer is full; the other one is filled
+ *                   meanwhile
+ *
+ * At most one buffer is rendered at a time. The routines, constants and palettes of its draws are released
+ * when it is known to be rendered: when the next one begins, or when the device's thread waits for it.
+ * Only the device's thread does this. */
+#include "render/device/device.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+/* Waits for what is rendered in the background. */
+static void await_rendered(struct triptych_device *device)
+{
+    if (!device->rendered.commands)
+        return;
+    queue_wait(device->queue);
+    queries_rendered(&device->queries, device->queue->round.passed, device->rendered.commands);
+    for (uint32_t i = 0; i < device->rendered.held_count; i++)
+        cache_release(device->cache, device->rendered.held[i].routine);
+    device_free_palettes(device->rendered.palettes);
+    device->rendered.palettes = NULL;
+    device->rendered.held_count = device->rendered.commands = 0;
+}
+
+/* Empties the queue, after its draws are rendered or dropped. */
+static void empty(struct triptych_device *device)
+{
+    device_routines_let_go(&device->routines, device->cache, 0, device->derived.draw.routine);
+    device->derived.draw.job = NULL;
+    device->queue->commands.count = device->queue->commands.jobs = 0;
+    constants_reset(&device->constants);
+    device_free_palettes(device_derived_take_palettes(&device->derived));
+    device->epoch++;
+}
+
+void device_finish(struct triptych_device *device)
+{
+    struct queue *queue = device->queue;
+    uint32_t commands = queue->commands.count;
+    await_rendered(device);
+    if (commands)
+        queue_render(queue, &device->binding.target);
+    queries_rendered(&device->queries, queue->round.passed, commands);
+    empty(device);
+}
+
+void device_forget(struct triptych_device *device)
+{
+    await_rendered(device);
+    empty(device);
+}
+
+void device_start(struct triptych_device *device)
+{
+    struct queue *queue = device->queue;
+    uint32_t commands = queue->commands.count;
+    if (!commands || !queue_has_threads(queue)) {
+        device_finish(device);
+        return;
+    }
+    await_rendered(device);
+    queue_start(queue, &device->binding.target);
+    device_routines_count_hits(&device->routines, device->cache);
+    device->rendered.held_count = device->routines.count;
+    device->rendered.held = device_routines_exchange(&device->routines);
+    device->rendered.commands = commands;
+    device->rendered.palettes = device_derived_take_palettes(&device->derived);
+    memset(device->derived.draw.routine, 0, sizeof device->derived.draw.routine);
+    device->derived.draw.job = NULL;
+    constants_exchange(&device->constants);
+    device->epoch++;
+}
+
+bool device_uses(const struct triptych_device *device, const struct triptych_texture *texture)
+{
+    return texture->epoch == device->epoch ||
+           (device->rendered.commands && texture->epoch == device->epoch - 1);
+}
+
+uint32_t device_commands(const struct triptych_device *device)
+{
+    return device->rendered.commands + device->queue->commands.count;
+}
+
+void device_limit_threads(struct triptych_device *device, unsigned threads)
+{
+    await_rendered(device);
+    pool_limit(device->pool, threads);
+}
+
+void device_shuffle(struct triptych_device *device, uint64_t seed)
+{
+    await_rendered(device);
+    queue_shuffle(device->queue, seed);
+}

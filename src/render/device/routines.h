@@ -1,0 +1,45 @@
+/* Routines that queued draws use. Each is held once for all draws that use it between two renderings, not
+ * once for each draw; while it is held, the cache does not evict it. */
+#ifndef RENDER_DEVICE_ROUTINES_H
+#define RENDER_DEVICE_ROUTINES_H
+
+#include "render/device/cache.h"
+#include "render/queue/commands.h"
+
+struct held {
+    const struct routine *routine;
+    uint64_t hits; /* of draws for which the cache was not searched */
+};
+
+struct device_routines {
+    struct held *held; /* one of the two rows of `rows` */
+    uint32_t count;
+    uint32_t in_use[UNIT_COUNT]; /* which of them the draw's routines are */
+    struct held rows[2][QUEUE_COMMANDS * UNIT_COUNT];
+};
+
+/* Starts with an empty row. */
+void device_routines_initialize(struct device_routines *routines);
+
+/* Makes `routine`, which is indexed by enum unit, the routines of the keys. Returns how many of them the
+ * cache was searched for, or -1 with the reason, and then no more are held than before. */
+int device_routines_use(struct device_routines *routines, struct cache *cache,
+                        const union key key[UNIT_COUNT], const struct routine *routine[UNIT_COUNT],
+                        struct error *error);
+
+/* Holds a routine that the caller has acquired or retained, and makes it the draw's. */
+void device_routines_hold(struct device_routines *routines, enum unit unit, const struct routine *held,
+                          const struct routine *routine[UNIT_COUNT]);
+
+/* Releases those that were held last, down to `count`. */
+void device_routines_let_go(struct device_routines *routines, struct cache *cache, uint32_t count,
+                            const struct routine *routine[UNIT_COUNT]);
+
+/* Reports hits to the cache that it has not counted. */
+void device_routines_count_hits(struct device_routines *routines, struct cache *cache);
+
+/* Empties the row in use without releasing its routines, and returns it; the other row is in use from now
+ * on. */
+struct held *device_routines_exchange(struct device_routines *routines);
+
+#endif

@@ -1,0 +1,41 @@
+/* The commands of a device that are not rendered yet: draws and clears, self-contained.
+ *
+ * A draw is a snapshot: the data that it refers to does not change until it is rendered. Draws between
+ * which nothing has changed share their job. */
+#ifndef RENDER_DRAW_COMMAND_H
+#define RENDER_DRAW_COMMAND_H
+
+#include "contract/engine.h"
+#include "render/raster/raster_sample.h"
+#include "render/target/target.h"
+#include "triptych.h"
+
+struct draw {
+    const struct job *job;
+    const struct routine *routine[UNIT_COUNT];
+    struct rectangle scissor;
+    enum triptych_primitive primitive;
+    uint32_t count;      /* primitives */
+    const void *indices; /* the first one; null: vertices in order */
+    uint32_t index_bits; /* 16 or 32; 0: vertices in order */
+    uint32_t base;       /* added to each index, modulo 2^32 */
+    uint32_t stride;     /* bytes of a record */
+    enum raster_shape shape;
+    struct sampling sampling;
+    uint32_t clip_ignored; /* bits of clip codes that do not count */
+    uint64_t
+        wrapped; /* bit s: the values of slot s (enum vertex_slot) at a triangle's second and third corner are
+                    moved by whole numbers to within 1/2 of the first's (Direct3D 9's texture wrapping) */
+    bool last_pixel; /* lines draw their last */
+    bool flat;       /* of edges and corners: colours are the triangle's first vertex' */
+};
+
+struct command {
+    enum { COMMAND_DRAW, COMMAND_CLEAR } kind;
+    union {
+        struct draw draw;
+        struct clear clear;
+    };
+};
+
+#endif

@@ -1,0 +1,335 @@
+#include "render/geometry/bin.h"
+
+#include "base/minmax.h"
+#include "render/raster/raster_part.h"
+
+#include <sys/mman.h>
+
+_Static_assert(sizeof(struct bin_cell) == ARENA_ALIGNMENT, "a cell is a cache line");
+_Static_assert(TARGET_TILES_MAXIMUM <= UINT16_MAX + 1, "tiles fit the cell's field");
+
+/* The most cells that `pairs` of a triangle and a tile can need, when `tiles` tiles may each have a cell that
+ * is not full. */
+#define CELLS(pairs, tiles) ((pairs) / BIN_CELL_TRIANGLES + (tiles))
+
+/* One group of triangles always fits the empty arena, so every round gets ahead. */
+_Static_assert((size_t)CELLS(SETUP_CAPACITY *TARGET_TILES_MAXIMUM, TARGET_TILES_MAXIMUM) *
+                           sizeof(struct bin_cell) +
+                       2 * ARENA_BLOCK <
+                   ARENA_BYTES,
+               "the arena holds the largest group of triangles");
+
+int arena_create(struct arena *arena, uint32_t bytes, struct error *error)
+{
+    int flags = MAP_PRIVATE | MAP_ANONYMOUS | MAP_NORESERVE;
+    void *base = mmap(NULL, bytes, PROT_READ | PROT_WRITE, flags, -1, 0);
+    if (base == MAP_FAILED)
+        return error_set(error, "out of memory for the triangle arena (%u KiB)", bytes >> 10);
+    arena->base = base;
+    arena->capacity = bytes;
+    arena->shared = false;
+    arena_reset(arena);
+    return 0;
+}
+
+void arena_destroy(struct arena *arena)
+{
+    if (arena->base)
+        munmap(arena->base, arena->capacity);
+    arena->base = NULL;
+}
+
+void arena_reset(struct arena *arena)
+{
+    atomic_store_explicit(&arena->used, ARENA_ALIGNMENT, memory_order_relaxed);
+}
+
+/* Takes `bytes` off the arena; 0 when there are not as many left. */
+static uint32_t take(struct arena *arena, uint32_t bytes)
+{
+    uint32_t used = atomic_load_explicit(&arena->used, memory_order_relaxed);
+    do
+        if (bytes > arena->capacity - used)
+            return 0;
+    while (!atomic_compare_exchange_weak_explicit(&arena->used, &used, used + bytes, memory_order_relaxed,
+                                                  memory_order_relaxed));
+    return used;
+}
+
+void bin_begin_round(struct bin_writer *writer, struct arena *arena, uint32_t columns, uint32_t rows)
+{
+    writer->arena = arena;
+    writer->at = writer->end = writer->asked = 0;
+    writer->columns = columns;
+    writer->rows = rows;
+}
+
+void bin_begin_chunk(struct bin_writer *writer, uint32_t chunk)
+{
+    writer->chunk = chunk;
+    writer->heads = writer->wide = writer->covered = 0;
+    writer->pixels = 0;
+}
+
+uint32_t bin_end_chunk(struct bin_writer *writer)
+{
+    for (uint32_t head = writer->heads; head; head = bin_cell(writer->arena, head)->sibling)
+        writer->open[bin_cell(writer->arena, head)->tile] = 0;
+    return writer->heads;
+}
+
+uint8_t *bin_reserve(struct bin_writer *writer, uint32_t bytes)
+{
+    if (bytes > writer->end - writer->at) {
+        uint32_t block = bytes > ARENA_BLOCK ? bytes : ARENA_BLOCK;
+        uint32_t start = take(writer->arena, block);
+        if (!start)
+            return NULL;
+        writer->at = start;
+        writer->end = start + block;
+    }
+    return writer->arena->base + writer->at;
+}
+
+static struct bin_cell *new_cell(struct bin_writer *writer, uint32_t tile)
+{
+    struct bin_cell *cell = bin_cell(writer->arena, writer->at);
+    cell->next = 0;
+    cell->count = 0;
+    cell->tile = (uint16_t)tile;
+    writer->open[tile] = writer->at;
+    writer->at += sizeof *cell;
+    return cell;
+}
+
+static void append(struct bin_writer *writer, uint32_t tile, uint32_t triangle)
+{
+    uint32_t open = writer->open[tile];
+    struct bin_cell *cell;
+    if (!open) {
+        cell = new_cell(writer, tile);
+        cell->sibling = writer->heads;
+        cell->later = 0;
+        cell->chunk = writer->chunk;
+        writer->heads = writer->open[tile];
+    } else if (bin_cell(writer->arena, open)->count == BIN_CELL_TRIANGLES) {
+        cell = new_cell(writer, tile);
+        bin_cell(writer->arena, open)->next = writer->open[tile];
+    } else {
+        cell = bin_cell(writer->arena, open);
+    }
+    cell->triangle[cell->count++] = triangle;
+}
+
+static void append_to_tiles(struct bin_writer *writer, const struct rectangle *tiles,
+                            const struct rectangle *scissor, enum raster_shape shape,
+                            const struct sampling *sampling, uint32_t triangle)
+{
+    const uint8_t *record = writer->arena->base + triangle;
+    struct sampled_raster raster;
+    raster_sampled_prepare(&raster, sampling, shape, (const struct triangle_head *)(const void *)record,
+                           scissor);
+    bool covers = shape == SHAPE_TRIANGLE && !sampling->samples && raster.count;
+    for (int32_t row = tiles->y0; row < tiles->y1; row++)
+        for (int32_t column = tiles->x0; column < tiles->x1; column++) {
+            if (!raster_sampled_touches(&raster, column, row))
+                continue;
+            uint32_t all = covers && raster_covers(&raster.raster[0], column, row) ? BIN_COVERS : 0;
+            append(writer, (uint32_t)row * writer->columns + (uint32_t)column, triangle | all);
+            writer->covered += all;
+        }
+}
+
+bool bin_covers(const struct arena *arena, uint32_t head)
+{
+    for (uint32_t at = head; at; at = bin_cell(arena, at)->next)
+        for (uint32_t i = 0; i < bin_cell(arena, at)->count; i++)
+            if (bin_cell(arena, at)->triangle[i] & BIN_COVERS)
+                return true;
+    return false;
+}
+
+/* --- Triangles that reach far --- */
+
+static struct rectangle tiles_of_all(const struct bin_writer *writer, uint32_t count)
+{
+    struct rectangle all = writer->tiles[0];
+    for (uint32_t i = 1; i < count; i++) {
+        const struct rectangle *tiles = writer->tiles + i;
+        all = (struct rectangle){min_i32(all.x0, tiles->x0), min_i32(all.y0, tiles->y0),
+                                 max_i32(all.x1, tiles->x1), max_i32(all.y1, tiles->y1)};
+    }
+    return all;
+}
+
+/* Returns true if the visible triangles of a group, the first of its chunk, get no cells; `tiles` are
+ * those that all of them meet. */
+static bool are_wide(const struct bin_writer *writer, uint32_t visible, struct rectangle *tiles)
+{
+    if (!visible || visible > WIDE_TRIANGLES || writer->heads || writer->wide)
+        return false;
+    for (uint32_t i = 0; i < visible; i++)
+        if (writer->tile[i] != MANY_TILES)
+            return false;
+    *tiles = tiles_of_all(writer, visible);
+    uint32_t count = (uint32_t)((tiles->x1 - tiles->x0) * (tiles->y1 - tiles->y0));
+    return count >= WIDE_TILES && count * WIDE_PART >= writer->columns * writer->rows;
+}
+
+/* Returns false when the arena is full. */
+static bool keep_wide(struct bin_writer *writer, uint32_t triangle, uint32_t stride, uint32_t visible,
+                      const struct rectangle *tiles, const struct rectangle *scissor)
+{
+    const uint32_t bytes = (sizeof(struct wide) + ARENA_ALIGNMENT - 1) & -(uint32_t)ARENA_ALIGNMENT;
+    struct wide *wide = (struct wide *)(void *)bin_reserve(writer, bytes);
+    if (!wide)
+        return false;
+    wide->tiles = *tiles;
+    wide->count = 0;
+    for (uint32_t i = 0; i < visible; i++, triangle += stride) {
+        const uint8_t *record = writer->arena->base + triangle;
+        wide->triangle[wide->count].offset = triangle;
+        wide->count += raster_prepare(&wide->triangle[wide->count].raster,
+                                      (const struct triangle_head *)(const void *)record, scissor);
+    }
+    writer->wide = writer->at;
+    writer->at += bytes;
+    return true;
+}
+
+static bool meets_tile(const struct rectangle *bounds, int32_t column, int32_t row)
+{
+    int32_t x = column * TILE_SIZE, y = row * TILE_SIZE;
+    return bounds->x0 < x + TILE_SIZE && bounds->y0 < y + TILE_SIZE && bounds->x1 > x && bounds->y1 > y;
+}
+
+void bin_wide_cell(const struct wide *wide, uint32_t tile_column, uint32_t tile_row, struct bin_cell *cell)
+{
+    int32_t column = (int32_t)tile_column, row = (int32_t)tile_row;
+    cell->count = 0;
+    cell->next = 0;
+    for (uint32_t i = 0; i < wide->count; i++) {
+        const struct raster *raster = &wide->triangle[i].raster;
+        if (!meets_tile(&raster->bounds, column, row) || !raster_touches(raster, column, row))
+            continue;
+        uint32_t all = raster_covers(raster, column, row) ? BIN_COVERS : 0;
+        cell->triangle[cell->count++] = wide->triangle[i].offset | all;
+    }
+}
+
+/* --- Records --- */
+
+/* The numbers of the records that setup left visible. About half are not, in an unpredictable order, so
+ * the loop has no branch for it. */
+static uint32_t list_visible(const uint8_t *record, uint32_t count, uint32_t stride, uint16_t *list)
+{
+    uint32_t visible = 0;
+    for (uint32_t i = 0; i < count; i++, record += stride) {
+        list[visible] = (uint16_t)i;
+        visible += ((const struct triangle_head *)(const void *)record)->visible != 0;
+    }
+    return visible;
+}
+
+/* How bounds are found. */
+struct bounding {
+    enum raster_shape shape;
+    const struct sampling *sampling;
+    const struct rectangle *scissor;
+    struct box limit; /* the scissor */
+    bool plain;       /* triangles with one sample a pixel */
+};
+
+/* Where the bounds put triangle i of the group; returns how many tiles they meet. */
+static uint32_t place_rectangle(struct bin_writer *writer, uint32_t i, const struct rectangle *bounds)
+{
+    struct rectangle tiles = raster_tiles(bounds);
+    uint32_t count = (uint32_t)((tiles.x1 - tiles.x0) * (tiles.y1 - tiles.y0));
+    writer->pixels += (uint64_t)((bounds->x1 - bounds->x0) * (bounds->y1 - bounds->y0));
+    writer->tiles[i] = tiles;
+    writer->tile[i] = count > 1 ? MANY_TILES : (uint32_t)tiles.y0 * writer->columns + (uint32_t)tiles.x0;
+    return count;
+}
+
+static inline uint32_t place_box(struct bin_writer *writer, uint32_t i, const struct box *box)
+{
+    enum { TILE_BITS = 6 };
+    _Static_assert(1 << TILE_BITS == TILE_SIZE, "bits of a tile's side");
+    __m128i first = _mm_srai_epi16(box->low, TILE_BITS);
+    __m128i last = _mm_srai_epi16(_mm_add_epi16(box->high, _mm_set1_epi16(-1)), TILE_BITS);
+    if (of_both(_mm_cmpeq_epi16(first, last))) {
+        writer->tile[i] = (uint32_t)box_y(first) * writer->columns + (uint32_t)box_x(first);
+        return 1;
+    }
+    struct rectangle bounds = {box_x(box->low), box_y(box->low), box_x(box->high), box_y(box->high)};
+    return place_rectangle(writer, i, &bounds);
+}
+
+/* Returns 0 when the record touches no pixel of the scissor rectangle. */
+static inline uint32_t place(struct bin_writer *writer, const struct bounding *how, uint32_t i,
+                             const uint8_t *record)
+{
+    const struct triangle_head *head = (const struct triangle_head *)(const void *)record;
+    struct rectangle bounds;
+    if (how->plain) {
+        struct box box = triangle_box(head, &how->limit);
+        return box_is_empty(&box) ? 0 : place_box(writer, i, &box);
+    }
+    if (!raster_sampled_bounds(how->sampling, how->shape, head, how->scissor, &bounds))
+        return 0;
+    return place_rectangle(writer, i, &bounds);
+}
+
+static inline void copy_record(uint8_t *to, const uint8_t *from, uint32_t stride)
+{
+    for (uint32_t i = 0; i < stride; i += sizeof(__m128i))
+        _mm_store_si128((__m128i *)(void *)(to + i),
+                        _mm_load_si128((const __m128i *)(const void *)(from + i)));
+}
+
+/* Moves the records that may touch a pixel to the front, their tiles to the writer; counts the pairs of
+ * such a triangle and a tile. */
+static uint32_t keep_visible(struct bin_writer *writer, uint32_t count, uint32_t stride,
+                             const struct bounding *how, uint32_t *pairs)
+{
+    uint16_t list[SETUP_CAPACITY];
+    uint8_t *start = writer->arena->base + writer->at, *kept = start;
+    uint32_t candidates = list_visible(start, count, stride, list), visible = 0;
+    *pairs = 0;
+    for (uint32_t i = 0; i < candidates; i++) {
+        const uint8_t *record = start + list[i] * stride;
+        uint32_t tiles = place(writer, how, visible, record);
+        if (!tiles)
+            continue;
+        *pairs += tiles;
+        if (kept != record)
+            copy_record(kept, record, stride);
+        kept += stride;
+        visible++;
+    }
+    return visible;
+}
+
+int bin_records(struct bin_writer *writer, uint32_t count, uint32_t stride, enum raster_shape shape,
+                const struct sampling *sampling, const struct rectangle *scissor)
+{
+    struct bounding how = {shape, sampling, scissor, box_of(scissor),
+                           shape == SHAPE_TRIANGLE && (!sampling->samples || sampling->centers)};
+    uint32_t pairs, triangle = writer->at, visible = keep_visible(writer, count, stride, &how, &pairs);
+    writer->at += visible * stride;
+    writer->pixels += (uint64_t)visible * PIXELS_GUESSED;
+    struct rectangle all;
+    if (shape == SHAPE_TRIANGLE && !sampling->samples && are_wide(writer, visible, &all))
+        return keep_wide(writer, triangle, stride, visible, &all, scissor) ? (int)visible : -1;
+    uint32_t tiles = writer->columns * writer->rows;
+    uint32_t cells = CELLS(pairs, pairs < tiles ? pairs : tiles);
+    if (!bin_reserve(writer, cells * (uint32_t)sizeof(struct bin_cell)))
+        return -1;
+    for (uint32_t i = 0; i < visible; i++, triangle += stride) {
+        if (writer->tile[i] != MANY_TILES)
+            append(writer, writer->tile[i], triangle);
+        else
+            append_to_tiles(writer, writer->tiles + i, scissor, shape, sampling, triangle);
+    }
+    return (int)visible;
+}

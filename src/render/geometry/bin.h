@@ -1,0 +1,125 @@
+/* Bins: the triangles that touch each tile, in drawing order; and the arena that stores them.
+ *
+ * The arena is one region for triangle records and bins, addressed by 32-bit byte offsets; 0 is reserved.
+ * Threads take blocks of it and divide them without synchronisation. All of it is freed together, after the
+ * tiles have been rendered. It never grows: when it is full, everything complete is rendered and the rest
+ * starts again.
+ *
+ * Geometry is processed in chunks (render/queue/queue.h). For each tile that a chunk touches there is a chain
+ * of cells with the offsets of its triangles' records. The head cells of these chains are chained too: those
+ * of one chunk while it is written (`sibling`), and those of one tile, in the order of chunks, when all
+ * chunks are complete (`later`).
+ *
+ * A chunk that begins with a few triangles that reach over much of the target has no cells for these. They
+ * would need a cell for every tile, written by one thread and linked by one. Instead the chunk lists them
+ * (`struct wide`), and each tile tests whether they touch it. */
+#ifndef RENDER_GEOMETRY_BIN_H
+#define RENDER_GEOMETRY_BIN_H
+
+#include "base/error.h"
+#include "render/raster/raster_sample.h"
+
+#include <stdatomic.h>
+
+enum {
+    ARENA_BYTES = 64 << 20,
+    ARENA_BLOCK = 256 << 10,
+    ARENA_ALIGNMENT = 64,
+    BIN_CELL_TRIANGLES = 11,
+    MANY_TILES = 0x7fffffff,
+    PIXELS_GUESSED = 256,
+    WIDE_TRIANGLES = 8, /* of a chunk, at most */
+    WIDE_TILES = 16,    /* that they meet, at least, and this part of the target: */
+    WIDE_PART = 4,
+    TARGET_TILES_MAXIMUM = (TARGET_SIZE_MAXIMUM / TILE_SIZE) * (TARGET_SIZE_MAXIMUM / TILE_SIZE)
+};
+
+struct arena {
+    uint8_t *base;
+    uint32_t capacity; /* bytes */
+    bool shared;       /* other threads read and write in it, too */
+    _Atomic uint32_t used;
+};
+
+struct bin_cell {
+    uint32_t next;    /* the cell with the following triangles */
+    uint32_t sibling; /* of a head: another tile's head of the same chunk */
+    uint32_t later;   /* of a head: the tile's head of a later chunk */
+    uint32_t chunk;   /* of a head */
+    uint16_t tile;
+    uint16_t count;
+    uint32_t
+        triangle[BIN_CELL_TRIANGLES]; /* offsets of records, with BIN_COVERS in those that cover the tile */
+};
+
+/* Offsets are multiples of ARENA_ALIGNMENT. Not all triangles that cover a tile have the bit: those that
+ * setup leaves in several tiles, of one sample. */
+enum { BIN_COVERS = 1 };
+
+/* The triangles that a chunk begins with and that are in no cells. */
+struct wide {
+    struct rectangle tiles; /* that their bounds meet */
+    uint32_t count;
+    struct {
+        uint32_t offset; /* of its record */
+        struct raster raster;
+    } triangle[WIDE_TRIANGLES];
+};
+
+/* One thread's way into the arena, and the chunk it is writing. */
+struct bin_writer {
+    struct arena *arena;
+    uint32_t at, end;       /* what is left of its block */
+    uint32_t asked;         /* the end of what is prefetched */
+    uint32_t columns, rows; /* of the target, in tiles */
+    uint32_t chunk;
+    uint32_t heads;   /* first head cell of the chunk */
+    uint32_t wide;    /* its struct wide; 0: it has none */
+    uint32_t covered; /* how many tiles its triangles cover, each counted for itself */
+    uint64_t
+        pixels; /* estimate: the pixels of bounds that meet several tiles, and a constant for each triangle */
+    uint32_t open[TARGET_TILES_MAXIMUM]; /* the tile's last cell of the chunk */
+    uint32_t tile[SETUP_CAPACITY];       /* that holds the bounds of a triangle of the group; or MANY_TILES */
+    struct rectangle tiles[SETUP_CAPACITY]; /* and these are the tiles that they meet */
+};
+
+/* An arena of `bytes`: ARENA_BYTES, or less in tests of a full arena. Too few bytes may not suffice for
+ * one group of triangles on a large target. Returns 0, or -1 with the reason when the system refuses the
+ * memory. */
+int arena_create(struct arena *arena, uint32_t bytes, struct error *error);
+void arena_destroy(struct arena *arena);
+void arena_reset(struct arena *arena);
+
+static inline struct bin_cell *bin_cell(const struct arena *arena, uint32_t offset)
+{
+    return (struct bin_cell *)(void *)(arena->base + offset);
+}
+
+static inline struct wide *bin_wide(const struct arena *arena, uint32_t offset)
+{
+    return (struct wide *)(void *)(arena->base + offset);
+}
+
+/* Those of a wide chunk's triangles that may touch the tile (column, row), as a cell. */
+void bin_wide_cell(const struct wide *wide, uint32_t column, uint32_t row, struct bin_cell *cell);
+
+/* Returns true if any triangle of the chain that begins with this cell covers the tile. */
+bool bin_covers(const struct arena *arena, uint32_t head);
+
+/* Before a round of chunks: forgets the block, whose arena has been reset. */
+void bin_begin_round(struct bin_writer *writer, struct arena *arena, uint32_t columns, uint32_t rows);
+
+void bin_begin_chunk(struct bin_writer *writer, uint32_t chunk);
+/* Returns the chunk's first head cell, 0 when nothing is visible. */
+uint32_t bin_end_chunk(struct bin_writer *writer);
+
+/* Room for `bytes` at writer->at, aligned; null when the arena is full. */
+uint8_t *bin_reserve(struct bin_writer *writer, uint32_t bytes);
+
+/* Takes the `count` records of `stride` bytes that setup has written at writer->at: drops those that touch no
+ * pixel of the scissor rectangle, keeps and bins the others. Returns how many it kept, or -1 when the arena
+ * is full: then none is binned. */
+int bin_records(struct bin_writer *writer, uint32_t count, uint32_t stride, enum raster_shape shape,
+                const struct sampling *sampling, const struct rectangle *scissor);
+
+#endif

@@ -1,0 +1,95 @@
+#include "render/queue/queue.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+static int create_parts(struct queue *queue, uint32_t arena_bytes, struct error *error)
+{
+    unsigned workers = pool_workers(queue->phase.pool);
+    queue->round.passed = queue_allocate(QUEUE_COMMANDS * sizeof *queue->round.passed);
+    queue->worker = queue_allocate(workers * sizeof *queue->worker);
+    if (!queue->round.passed || !queue->worker || queue_commands_create(&queue->commands, workers > 1))
+        return -1;
+    return arena_create(&queue->round.arena, arena_bytes ? arena_bytes : ARENA_BYTES, error);
+}
+
+struct queue *queue_create(struct pool *pool, uint32_t arena_bytes, struct error *error)
+{
+    struct queue *queue = queue_allocate(sizeof *queue);
+    if (queue)
+        queue->phase.pool = pool;
+    if (!queue || create_parts(queue, arena_bytes, error)) {
+        error_set(error, "out of memory for the renderer's queue");
+        queue_destroy(queue);
+        return NULL;
+    }
+    return queue;
+}
+
+void queue_destroy(struct queue *queue)
+{
+    if (!queue)
+        return;
+    arena_destroy(&queue->round.arena);
+    queue_commands_destroy(&queue->commands);
+    free(queue->round.passed);
+    free(queue->worker);
+    free(queue);
+}
+
+static void begin_rendering(struct queue *queue, struct target *target)
+{
+    queue->round.target = target;
+    queue->round.farthest = depth_encode(target->depth_format, 1);
+    queue->round.command = queue->commands.command;
+    queue->rendered_commands = queue->commands.count;
+    memset(queue->round.passed, 0, queue->commands.count * sizeof *queue->round.passed);
+    queue->commands.count = queue->commands.jobs = 0;
+}
+
+static void add_statistics(struct queue *queue)
+{
+    struct queue_statistics *all = &queue->statistics, *unseen = &queue->unseen;
+    for (unsigned i = 0; i < pool_workers(queue->phase.pool); i++) {
+        struct queue_worker *worker = queue->worker + i;
+        all->pixels_shaded += worker->tile.pixels_shaded;
+        all->geometry_ns += worker->geometry_ns;
+        all->tiles_ns += worker->tiles_ns;
+        worker->tile.pixels_shaded = worker->geometry_ns = worker->tiles_ns = 0;
+    }
+    all->vertices_shaded += unseen->vertices_shaded;
+    all->triangles_set_up += unseen->triangles_set_up;
+    all->triangles_visible += unseen->triangles_visible;
+    all->rounds += unseen->rounds;
+    all->starved_rounds += unseen->starved_rounds;
+    *unseen = (struct queue_statistics){0};
+}
+
+void queue_render(struct queue *queue, struct target *target)
+{
+    begin_rendering(queue, target);
+    queue_render_rounds(queue, 0);
+    add_statistics(queue);
+}
+
+bool queue_has_threads(const struct queue *queue)
+{
+    return queue->commands.other.command && pool_limited(queue->phase.pool) > 1;
+}
+
+void queue_start(struct queue *queue, struct target *target)
+{
+    begin_rendering(queue, target);
+    queue_commands_exchange(&queue->commands);
+    queue->rendering = true;
+    pool_start(queue->phase.pool, queue_render_rounds, queue);
+}
+
+void queue_wait(struct queue *queue)
+{
+    if (!queue->rendering)
+        return;
+    pool_wait(queue->phase.pool);
+    queue->rendering = false;
+    add_statistics(queue);
+}

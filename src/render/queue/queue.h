@@ -1,0 +1,108 @@
+/* The queue: the commands that the device has queued, and the rounds that render them.
+ *
+ * With threads there are two buffers of commands: one is rendered in the background while the other is
+ * filled.
+ *
+ * A round takes commands from the queue in order, cuts draws into chunks of primitives, and runs two phases
+ * on the pool (render/queue/phase.h). Geometry: threads take chunks in any order, and write each into its own
+ * bins in the arena. Tiles: the bins of the chunks are linked, tile by tile, in the order of the chunks
+ * (render/tile/round.h); then threads take tiles, and one thread renders each of them in that order. So the
+ * image does not depend on which thread did what.
+ *
+ * A round ends early when its records outgrow the caches: the tile phase then finds in them what geometry has
+ * written, and the next round writes to the same addresses.
+ *
+ * When the arena is full, the chunk that ran out of it stops where it is, later chunks are given up, and
+ * the next round begins at the first primitive that is not done. So memory is bounded, whatever is drawn. */
+#ifndef RENDER_QUEUE_QUEUE_H
+#define RENDER_QUEUE_QUEUE_H
+
+#include "render/geometry/batch.h"
+#include "render/queue/commands.h"
+#include "render/queue/phase.h"
+#include "render/queue/pool.h"
+#include "render/tile/tile.h"
+
+enum { CHUNK_PRIMITIVES = 2048 };
+
+_Static_assert((int)ROUND_CHUNKS <= (int)PHASE_TASKS_MAXIMUM, "a phase may have a task for each chunk");
+_Static_assert((int)TARGET_TILES_MAXIMUM <= (int)PHASE_TASKS_MAXIMUM, "and one for each tile");
+
+struct queue_worker {
+    struct batch batch;
+    struct bin_writer bins;
+    struct tile_worker tile;
+    uint64_t geometry_ns, tiles_ns;
+};
+
+struct queue_statistics {
+    uint64_t vertices_shaded, triangles_set_up, triangles_visible, pixels_shaded;
+    uint64_t geometry_ns, tiles_ns; /* sums over all threads */
+    uint64_t rounds;
+    uint64_t starved_rounds; /* rounds that completed no primitive */
+};
+
+/* The tasks of the geometry phase: runs of chunks. */
+struct queue_chunks {
+    uint32_t first[ROUND_CHUNKS + 1]; /* the first chunk of each task, and the end of the last */
+    uint32_t tasks;
+    uint32_t primitives;
+};
+
+struct queue {
+    /* The buffer that is filled, in cache lines that no other thread accesses. */
+    alignas(64) struct queue_commands commands;
+
+    /* The buffer that is rendered. */
+    alignas(64) uint32_t rendered_commands;
+    bool rendering;              /* in the background, and queue_wait has not been called yet */
+    struct queue_worker *worker; /* one for each thread of the pool */
+    struct round round;
+    struct queue_chunks chunks;
+    struct phase phase;
+
+    struct queue_statistics statistics; /* of all that queue_render and queue_wait have seen end */
+    struct queue_statistics unseen;     /* of what they have not */
+};
+
+/* A queue whose rendering runs on `pool`, with an arena of `arena_bytes` (render/geometry/bin.h; 0:
+ * ARENA_BYTES). Null with the reason when memory is short. */
+struct queue *queue_create(struct pool *pool, uint32_t arena_bytes, struct error *error);
+void queue_destroy(struct queue *queue);
+
+/* Room for the next job; there is room for one with each command. The job counts once queue->commands.jobs
+ * is increased. */
+static inline struct job *queue_next_job(struct queue *queue)
+{
+    return queue->commands.job + queue->commands.jobs;
+}
+
+/* Room for the next command; null when the buffer is full. It counts once queue->commands.count is
+ * increased. */
+static inline struct command *queue_next(struct queue *queue)
+{
+    struct queue_commands *commands = &queue->commands;
+    return commands->count < QUEUE_COMMANDS ? commands->command + commands->count : NULL;
+}
+
+/* Renders all queued commands, in order, into the target, and empties the queue. queue->round.passed then
+ * has the counts of these commands. Nothing may be rendered in the background. */
+void queue_render(struct queue *queue, struct target *target);
+
+/* The same in the background. Until queue_wait the caller must not access the target, nor change what the
+ * commands refer to. queue_has_threads must be true. */
+void queue_start(struct queue *queue, struct target *target);
+bool queue_has_threads(const struct queue *queue);
+/* Returns when what was started is rendered. */
+void queue_wait(struct queue *queue);
+
+/* Renders all rounds, as worker `number` of the pool (render/queue/rounds.c); `user` is the queue. */
+void queue_render_rounds(void *user, unsigned number);
+
+/* From now on tasks are handed out in a random order, from this seed; 0: in order. */
+static inline void queue_shuffle(struct queue *queue, uint64_t seed)
+{
+    queue->phase.shuffle = seed;
+}
+
+#endif

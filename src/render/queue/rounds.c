@@ -1,0 +1,206 @@
+/* The rounds of a queue: commands are cut into chunks, whose geometry is processed before their tiles are
+ * rendered. */
+#include "render/queue/queue.h"
+
+#include <string.h>
+
+/* --- How long a phase takes ---
+ *
+ * Least nanoseconds that it takes one thread, by what is known of it; shaders may take any time. */
+
+enum {
+    CHUNK_NS = 100,
+    PRIMITIVE_NS = 40,
+    TILE_NS = 40, /* half of that with nothing but a clear */
+    WIDE_NS = 5,  /* for each tile and chunk that is everywhere */
+    PIXELS_OF_NS = 8
+};
+
+static uint64_t geometry_ns(const struct queue *queue)
+{
+    return (uint64_t)queue->round.chunks * CHUNK_NS + (uint64_t)queue->chunks.primitives * PRIMITIVE_NS;
+}
+
+static uint64_t tiles_ns(const struct round *round)
+{
+    uint64_t cells = round->busy_count + (uint64_t)round->tiles;
+    uint64_t everywhere = (uint64_t)round->everywhere_count * round->tiles;
+    return cells * (TILE_NS / 2) + everywhere * WIDE_NS + round->pixels / PIXELS_OF_NS;
+}
+
+/* --- Chunks --- */
+
+enum {
+    TASK_PRIMITIVES = 64, /* least primitives of a task, if the round has that number */
+    ROUND_BYTES =
+        1 << 20,       /* of the arena, for each thread: chunks that begin beyond belong to the next round */
+    COMMANDS_AHEAD = 8 /* commands are prefetched this many ahead: another core's cache may hold them */
+};
+
+static void prefetch_command(const struct queue *queue, uint32_t number)
+{
+    const char *command = (const char *)(queue->round.command + number);
+    if (number >= queue->rendered_commands)
+        return;
+    __builtin_prefetch(command);
+    __builtin_prefetch(command + sizeof(struct command) - 1);
+}
+
+/* Adds a chunk to the round, and to the last task if this has few primitives (*of_task). */
+static void add_chunk(struct queue *queue, struct cursor at, uint32_t count, uint32_t *of_task)
+{
+    uint32_t number = queue->round.chunks++;
+    queue->round.chunk[number] = (struct chunk){.command = at.command, .first = at.primitive, .count = count};
+    queue->chunks.primitives += count;
+    if (!number || *of_task >= TASK_PRIMITIVES || queue->phase.shuffle) {
+        queue->chunks.first[queue->chunks.tasks++] = number;
+        *of_task = 0;
+    }
+    *of_task += count;
+}
+
+/* Cuts the commands from the cursor on into up to `limit` chunks. */
+static void make_chunks(struct queue *queue, struct cursor at, uint32_t limit)
+{
+    uint32_t of_task = 0;
+    queue->round.chunks = queue->chunks.tasks = queue->chunks.primitives = 0;
+    while (at.command < queue->rendered_commands && queue->round.chunks < limit) {
+        const struct command *command = queue->round.command + at.command;
+        uint32_t left = command->kind == COMMAND_DRAW ? command->draw.count - at.primitive : 0;
+        prefetch_command(queue, at.command + COMMANDS_AHEAD);
+        uint32_t count = left < CHUNK_PRIMITIVES ? left : CHUNK_PRIMITIVES;
+        add_chunk(queue, at, count, &of_task);
+        at.primitive += count;
+        if (count == left) {
+            at.command++;
+            at.primitive = 0;
+        }
+    }
+    queue->chunks.first[queue->chunks.tasks] = queue->round.chunks;
+}
+
+/* --- Geometry --- */
+
+/* Keeps compilers from loading two numbers as one vector that were stored one by one just before: the load
+ * would wait for both stores, and for all stores before them, to reach the cache. */
+static inline uint64_t scalar(uint64_t x)
+{
+    __asm__("" : "+r"(x));
+    return x;
+}
+
+static void process_chunk(struct queue *queue, struct queue_worker *worker, uint32_t number)
+{
+    struct chunk *chunk = queue->round.chunk + number;
+    const struct command *command = queue->round.command + chunk->command;
+    if (command->kind != COMMAND_DRAW)
+        return;
+    memset(&worker->batch.counts, 0, sizeof worker->batch.counts);
+    bin_begin_chunk(&worker->bins, number);
+    chunk->done = batch_primitives(&worker->batch, &command->draw, chunk->first, chunk->count, &worker->bins);
+    chunk->heads = bin_end_chunk(&worker->bins);
+    chunk->wide = worker->bins.wide;
+    chunk->covered = worker->bins.covered;
+    chunk->pixels = worker->bins.pixels;
+    chunk->counts = (struct batch_counts){scalar(worker->batch.counts.vertices_shaded),
+                                          scalar(worker->batch.counts.triangles_set_up),
+                                          scalar(worker->batch.counts.triangles_visible)};
+    if (chunk->done < chunk->count)
+        round_stop_at(&queue->round, number);
+}
+
+static bool round_is_full(const struct queue *queue)
+{
+    uint64_t used = atomic_load_explicit(&queue->round.arena.used, memory_order_relaxed);
+    return used > (uint64_t)ROUND_BYTES * pool_limited(queue->phase.pool);
+}
+
+/* The first chunk is always processed, so that every round gets ahead. */
+static void process_task(struct queue *queue, struct queue_worker *worker, uint32_t task,
+                         uint64_t *primitives)
+{
+    for (uint32_t chunk = queue->chunks.first[task]; chunk < queue->chunks.first[task + 1]; chunk++) {
+        if (chunk && round_is_full(queue))
+            round_stop_at(&queue->round, chunk);
+        if (chunk < atomic_load(&queue->round.first_stopped))
+            process_chunk(queue, worker, chunk);
+        *primitives += queue->round.chunk[chunk].count;
+    }
+}
+
+static void geometry_task(void *user, unsigned number)
+{
+    struct queue *queue = user;
+    struct queue_worker *worker = queue->worker + number;
+    const struct target *target = queue->round.target;
+    uint32_t tasks = queue->chunks.tasks;
+    uint64_t primitives = 0;
+    struct stint stint = phase_begin_stint(&queue->phase, number, primitives);
+    bin_begin_round(&worker->bins, &queue->round.arena, target->columns, target->rows);
+    for (uint32_t i; (i = atomic_fetch_add(&queue->phase.next_task, 1)) < tasks;) {
+        process_task(queue, worker, phase_task(&queue->phase, i), &primitives);
+        phase_look_at_clock(&queue->phase, &stint, tasks - i - 1, primitives);
+    }
+    worker->geometry_ns += phase_end_stint(&stint);
+}
+
+/* --- Tiles --- */
+
+static void tiles_task(void *user, unsigned number)
+{
+    struct queue *queue = user;
+    const struct round *round = &queue->round;
+    struct tile_worker *tile = &queue->worker[number].tile;
+    struct stint stint = phase_begin_stint(&queue->phase, number, tile->pixels_shaded);
+    uint32_t first, count;
+    tile->lanes = lane_table;
+    while ((count = phase_take(&queue->phase, number, &first))) {
+        for (uint32_t i = first; i < first + count; i++) {
+            tile_render(tile, round, round_tile(round, phase_task(&queue->phase, i)));
+            phase_look_at_clock(&queue->phase, &stint, round->tiles - first - count, tile->pixels_shaded);
+        }
+    }
+    queue->worker[number].tiles_ns += phase_end_stint(&stint);
+}
+
+/* --- Rounds --- */
+
+static void count_round(struct queue *queue)
+{
+    queue->unseen.vertices_shaded += queue->round.counts.vertices_shaded;
+    queue->unseen.triangles_set_up += queue->round.counts.triangles_set_up;
+    queue->unseen.triangles_visible += queue->round.counts.triangles_visible;
+    queue->unseen.rounds++;
+}
+
+static struct cursor render_round(struct queue *queue, struct cursor at, uint32_t limit)
+{
+    struct round *round = &queue->round;
+    make_chunks(queue, at, limit);
+    arena_reset(&round->arena);
+    round->arena.shared = pool_limited(queue->phase.pool) > 1;
+    atomic_store(&round->first_stopped, UINT32_MAX);
+    phase_run(&queue->phase, queue->chunks.tasks, geometry_ns(queue), geometry_task, queue);
+    struct cursor end = round_link(round);
+    phase_make_parts(&queue->phase, round->tiles, tiles_ns(round));
+    phase_run(&queue->phase, round->tiles, tiles_ns(round), tiles_task, queue);
+    count_round(queue);
+    return end;
+}
+
+/* Threads that work on later chunks may take all of the arena before the first chunk gets any of it. Then
+ * the first chunk has a round of its own. */
+void queue_render_rounds(void *user, unsigned number)
+{
+    struct queue *queue = user;
+    struct cursor at = {0, 0};
+    uint32_t limit = ROUND_CHUNKS;
+    queue->phase.leader = number;
+    while (at.command < queue->rendered_commands) {
+        struct cursor before = at;
+        at = render_round(queue, at, limit);
+        bool ahead = at.command != before.command || at.primitive != before.primitive;
+        limit = ahead ? ROUND_CHUNKS : 1;
+        queue->unseen.starved_rounds += !ahead;
+    }
+}

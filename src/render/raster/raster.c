@@ -1,0 +1,264 @@
+/* Triangles: their bounds, the tiles that they touch, and their blocks in a tile.
+ *
+ * Tiny triangles are rasterized here, with 16-bit edge functions, where the processor allows it in
+ * assembly; all others in render/raster/raster_any.c, which explains edge functions and the rule for
+ * centres on an edge. */
+#include "render/raster/raster_part.h"
+
+#include "machine/cpu.h"
+
+/* The bounding box of the centres that a visible triangle may cover, cut to the rectangle. Returns whether
+ * anything is left. */
+static bool raster_bounds(const struct triangle_head *head, const struct rectangle *limit,
+                          struct rectangle *bounds)
+{
+    struct rectangle window = window_bounds(head);
+    return bound(&window, limit, bounds);
+}
+
+bool raster_prepare(struct raster *raster, const struct triangle_head *head, const struct rectangle *scissor)
+{
+    if (!head->visible || !raster_bounds(head, scissor, &raster->bounds))
+        return false;
+    for (int i = 0; i < 3; i++)
+        raster->c[i] = edge(head, i, i < 2 ? i + 1 : 0, 0, 0, &raster->a[i], &raster->b[i]);
+    return true;
+}
+
+struct rectangle raster_tiles(const struct rectangle *b)
+{
+    return (struct rectangle){b->x0 / TILE_SIZE, b->y0 / TILE_SIZE, (b->x1 + TILE_SIZE - 1) / TILE_SIZE,
+                              (b->y1 + TILE_SIZE - 1) / TILE_SIZE};
+}
+
+bool raster_touches(const struct raster *raster, int column, int row)
+{
+    for (int i = 0; i < 3; i++) {
+        int64_t a = raster->a[i], b = raster->b[i];
+        int64_t x = column * TILE_SIZE + (a > 0 ? TILE_SIZE - 1 : 0);
+        int64_t y = row * TILE_SIZE + (b > 0 ? TILE_SIZE - 1 : 0);
+        if (raster->c[i] + a * x + b * y < 0)
+            return false;
+    }
+    return true;
+}
+
+bool raster_covers(const struct raster *raster, int column, int row)
+{
+    const struct rectangle *bounds = &raster->bounds;
+    int x0 = column * TILE_SIZE, y0 = row * TILE_SIZE, last = TILE_SIZE - 1;
+    if (bounds->x0 > x0 || bounds->y0 > y0 || bounds->x1 < x0 + TILE_SIZE || bounds->y1 < y0 + TILE_SIZE)
+        return false;
+    for (int i = 0; i < 3; i++) {
+        int64_t a = raster->a[i], b = raster->b[i];
+        int64_t x = x0 + (a < 0 ? last : 0), y = y0 + (b < 0 ? last : 0);
+        if (raster->c[i] + a * x + b * y < 0)
+            return false;
+    }
+    return true;
+}
+
+/* --- Tiny triangles ---
+ *
+ * Up to 21 pixels, |a| and |b| are less than 21 * 256 = 5376, and p = a i + b j with i, j from 0 to 3 is
+ * between -P and P with P = 6 * 5376 = 32256. So 16 bits suffice, which gives eight signs with one
+ * operation: let v be the value at a block's first pixel and s = v limited to 16 bits, 32767 at most and
+ * -32768 at least, and the sum of s and p be limited in the same way, which keeps its sign. If v > 32767,
+ * v + p and s + p > 32767 - P > 0; if v < -32768, both are less than P - 32768 < 0; otherwise they are
+ * equal. */
+
+enum {
+    TINY_PIXELS = 20
+}; /* between the first centres after the vertices: the vertices are less than 21 pixels apart */
+
+struct tiny {
+    __m128i
+        pixel[3][2]; /* of the block's upper and lower half less the value at its first pixel, edge by edge */
+    __m128i value;   /* of the edges at the first pixel of the row's first block */
+    __m128i across, down; /* steps to the next block */
+};
+
+/* The pairs (a, b) of one edge in 32-bit lanes: a dx + b dy of eight pixels, y being that of the first. */
+static inline __m128i half_block(__m128i edge, int16_t y)
+{
+    int16_t z = (int16_t)(y + 1);
+    __m128i left = _mm_madd_epi16(edge, _mm_set_epi16(z, 1, z, 0, y, 1, y, 0));
+    return _mm_packs_epi32(left, _mm_madd_epi16(edge, _mm_set_epi16(z, 3, z, 2, y, 3, y, 2)));
+}
+
+static inline __m128i rotated(__m128i v)
+{
+    return _mm_shuffle_epi32(v, _MM_SHUFFLE(3, 0, 2, 1));
+}
+
+/* Pairs of the low halves of 32-bit lanes. */
+static inline __m128i word_pairs(__m128i first, __m128i second)
+{
+    __m128i words = _mm_packs_epi32(first, second);
+    return _mm_unpacklo_epi16(words, _mm_unpackhi_epi64(words, words));
+}
+
+/* `x` and `y`: the first pixel of the first block, in the window. */
+static inline void make_tiny(struct tiny *t, const struct triangle_head *head, int32_t x, int32_t y)
+{
+    __m128i px = _mm_loadu_si128((const __m128i *)(const void *)head->x); /* the fourth lane is not used */
+    __m128i py = _mm_loadu_si128((const __m128i *)(const void *)head->y);
+    __m128i a = _mm_sub_epi32(py, rotated(py)), b = _mm_sub_epi32(rotated(px), px);
+    __m128i dx = _mm_sub_epi32(_mm_set1_epi32(x * SUBPIXELS + CENTRE), px);
+    __m128i dy = _mm_sub_epi32(_mm_set1_epi32(y * SUBPIXELS + CENTRE), py);
+    __m128i zero = _mm_setzero_si128(), edges = word_pairs(a, b);
+    __m128i top = _mm_and_si128(_mm_cmpeq_epi32(a, zero), _mm_cmpgt_epi32(b, zero));
+    __m128i top_left = _mm_or_si128(_mm_cmpgt_epi32(a, zero), top);
+    __m128i value = _mm_madd_epi16(edges, word_pairs(dx, dy)),
+            rule = _mm_xor_si128(top_left, _mm_set1_epi32(-1));
+    t->value = _mm_srai_epi32(_mm_add_epi32(value, rule), SUBPIXEL_BITS);
+    t->across = _mm_slli_epi32(a, 2);
+    t->down = _mm_slli_epi32(b, 2);
+    t->pixel[0][0] = half_block(ALL_LANES(edges, 0), 0);
+    t->pixel[0][1] = half_block(ALL_LANES(edges, 0), 2);
+    t->pixel[1][0] = half_block(ALL_LANES(edges, 1), 0);
+    t->pixel[1][1] = half_block(ALL_LANES(edges, 1), 2);
+    t->pixel[2][0] = half_block(ALL_LANES(edges, 2), 0);
+    t->pixel[2][1] = half_block(ALL_LANES(edges, 2), 2);
+}
+
+/* Signs of eight pixels, the edges' values at the block's first being in all lanes. */
+static inline __m128i tiny_signs(const struct tiny *t, const __m128i at[3], int half)
+{
+    __m128i e0 = _mm_adds_epi16(at[0], t->pixel[0][half]);
+    __m128i e1 = _mm_adds_epi16(at[1], t->pixel[1][half]);
+    __m128i e2 = _mm_adds_epi16(at[2], t->pixel[2][half]);
+    return _mm_or_si128(_mm_or_si128(e0, e1), e2);
+}
+
+static inline uint32_t tiny_coverage(const struct tiny *t, __m128i value)
+{
+    __m128i words = _mm_packs_epi32(value, value), pairs = _mm_unpacklo_epi16(words, words);
+    __m128i at[3] = {ALL_LANES(pairs, 0), ALL_LANES(pairs, 1), ALL_LANES(pairs, 2)};
+    __m128i signs = _mm_packs_epi16(tiny_signs(t, at, 0), tiny_signs(t, at, 1));
+    return ~(uint32_t)_mm_movemask_epi8(signs) & WHOLE_BLOCK;
+}
+
+/* Blocks from first to last, of the tile, in columns and rows. */
+struct blocks {
+    uint32_t x0, y0, x1, y1;
+};
+
+/* Emits the blocks of a tiny triangle's bounds, which lie within the scissor. Returns the end of the
+ * entries. */
+static inline __attribute__((always_inline)) struct entry *emit_tiny(const struct raster_site *site,
+                                                                     const struct triangle_head *head,
+                                                                     const struct blocks *in,
+                                                                     uint32_t triangle, struct entry *next)
+{
+    struct tiny t;
+    make_tiny(&t, head, site->x + (int32_t)in->x0 * BLOCK_SIZE, site->y + (int32_t)in->y0 * BLOCK_SIZE);
+    __m128i same = entry_triangle(triangle);
+    const __m128i *last_row = site->row + in->y1, *last_column = site->column + in->x1;
+    for (const __m128i *row = site->row + in->y0; row <= last_row; row++) {
+        __m128i value = t.value, here = _mm_or_si128(same, *row);
+        for (const __m128i *column = site->column + in->x0; column <= last_column; column++) {
+            uint32_t coverage = tiny_coverage(&t, value);
+            __m128i covered =
+                _mm_slli_si128(_mm_cvtsi32_si128((int)coverage), offsetof(struct entry, coverage));
+            _mm_storeu_si128((__m128i *)(void *)next, _mm_or_si128(_mm_or_si128(here, *column), covered));
+            next += coverage != 0;
+            value = _mm_add_epi32(value, t.across);
+        }
+        t.value = _mm_add_epi32(t.value, t.down);
+    }
+    return next;
+}
+
+static bool has_kernel(void)
+{
+    const bool *has = cpu_native()->has;
+    return has[CPU_avx512f] && has[CPU_avx512dq] && has[CPU_avx512bw] && has[CPU_avx512vl];
+}
+
+void raster_enter(struct raster_site *site, const struct rectangle *scissor, int column, int row)
+{
+    struct rectangle tile = tile_rectangle(column, row), limit = *scissor;
+    intersect(&limit, &tile);
+    site->limit = box_of(&limit);
+    site->scissor = *scissor;
+    site->whole = limit.x0 == tile.x0 && limit.y0 == tile.y0 && limit.x1 == tile.x1 && limit.y1 == tile.y1;
+    site->kernel = has_kernel();
+    site->x = tile.x0;
+    site->y = tile.y0;
+    site->row[ROW_BLOCKS] = _mm_setzero_si128();
+    for (int i = 0; i < ROW_BLOCKS; i++) {
+        struct entry across = {.x = (float)(tile.x0 + i * BLOCK_SIZE), .block = (uint16_t)i};
+        struct entry down = {.y = (float)(tile.y0 + i * BLOCK_SIZE), .block = (uint16_t)(i * ROW_BLOCKS)};
+        site->column[i] = _mm_loadu_si128((const __m128i *)(const void *)&across);
+        site->row[i] = _mm_loadu_si128((const __m128i *)(const void *)&down);
+    }
+}
+
+/* A triangle whose bounds in the tile are not empty, and whole. */
+static inline struct entry *raster_one(const struct raster_site *site, const struct triangle_head *head,
+                                       uint32_t triangle, struct entry *entries)
+{
+    struct box window = whole_box(head), box = cut_box(&window, &site->limit);
+    if (box_is_empty(&box))
+        return entries;
+    __m128i extent = _mm_subs_epi16(window.high, window.low);
+    if (!site->whole || !of_both(_mm_cmplt_epi16(extent, _mm_set1_epi16(TINY_PIXELS + 1))))
+        return entries + raster_any(site, head, triangle, entries);
+    __m128i in_tile = _mm_set1_epi16(ROW_BLOCKS - 1), last = _mm_sub_epi16(box.high, _mm_set1_epi16(1));
+    __m128i low = _mm_and_si128(_mm_srai_epi16(box.low, 2), in_tile);
+    __m128i high = _mm_and_si128(_mm_srai_epi16(last, 2), in_tile);
+    struct blocks in = {(uint32_t)_mm_extract_epi16(low, 0), (uint32_t)_mm_extract_epi16(low, 4),
+                        (uint32_t)_mm_extract_epi16(high, 0), (uint32_t)_mm_extract_epi16(high, 4)};
+    return emit_tiny(site, head, &in, triangle, entries);
+}
+
+uint32_t raster_list(const struct raster_site *site, const uint8_t *records, const uint32_t *offset,
+                     uint32_t count, struct entry *entries, uint32_t *used)
+{
+    struct entry *next = entries + *used;
+    const struct entry *last = entries + PIXEL_ENTRIES - TILE_BLOCKS;
+    bool kernel = site->whole && site->kernel;
+    uint32_t i = 0;
+    while (i < count && next <= last) {
+        if (kernel) {
+            struct raster_progress now = raster_tiny_avx512(site, records, offset + i, count - i, next, last);
+            next = now.next;
+            i = count - (uint32_t)now.left;
+        }
+        if (i == count || next > last)
+            break;
+        next = raster_one(site, (const struct triangle_head *)(const void *)(records + offset[i]), offset[i],
+                          next);
+        i++;
+    }
+    *used = (uint32_t)(next - entries);
+    return i;
+}
+
+uint32_t raster_whole(const struct raster_site *site, uint32_t triangle, struct entry *entries)
+{
+    __m128i *next = (__m128i *)(void *)entries;
+    __m128i covered = _mm_slli_si128(_mm_cvtsi32_si128(WHOLE_BLOCK), offsetof(struct entry, coverage));
+    __m128i same = _mm_or_si128(entry_triangle(triangle), covered);
+    for (int row = 0; row < ROW_BLOCKS; row++) {
+        __m128i here = _mm_or_si128(same, site->row[row]);
+        for (int column = 0; column < ROW_BLOCKS; column++)
+            _mm_storeu_si128(next++, _mm_or_si128(here, site->column[column]));
+    }
+    return TILE_BLOCKS;
+}
+
+uint32_t raster_tile(const struct triangle_head *head, const struct rectangle *scissor, int column, int row,
+                     uint32_t triangle, struct entry *entries)
+{
+    struct raster_site site;
+    raster_enter(&site, scissor, column, row);
+    return head->visible ? (uint32_t)(raster_one(&site, head, triangle, entries) - entries) : 0;
+}
+
+const struct rasterizer raster_shapes[SHAPE_COUNT] = {
+    [SHAPE_TRIANGLE] = {raster_bounds, raster_prepare, raster_tile},
+    [SHAPE_LINE] = {raster_line_bounds, raster_line_prepare, raster_line_tile},
+    [SHAPE_POINT] = {raster_point_bounds, raster_point_prepare, raster_point_tile},
+};

@@ -1,0 +1,104 @@
+/* The contents of a target as they are stored, for captures that begin late. Nothing is rounded, resolved or
+ * lost, in any format and with any number of samples.
+ *
+ * Contents are pixels row by row; of each pixel its samples; of each sample the words of all colours, then
+ * the word of depth and stencil. Words that no drawing can write are replaced by words that drawing can
+ * write. */
+#include "machine/mxcsr.h"
+#include "render/target/target.h"
+
+#include <string.h>
+
+static uint32_t colour_planes(const struct triptych_target_description *description)
+{
+    uint32_t planes = 0;
+    for (unsigned t = 0; t < TARGETS; t++) {
+        const struct format *format = target_format(description, t);
+        planes += format ? storage_planes[format->target] : 0;
+    }
+    return planes;
+}
+
+size_t target_contents_bytes(const struct triptych_target_description *description)
+{
+    enum triptych_depth_format depth = description->depth_format;
+    uint32_t samples = description->samples ? description->samples : 1;
+    uint32_t words = colour_planes(description) + (depth_mask(depth) || stencil_mask(depth));
+    return (size_t)description->width * description->height * samples * words * sizeof(uint32_t);
+}
+
+/* The words of a pixel: a colour's planes, and depth's, each once for every sample. */
+struct pixel {
+    uint32_t *color, *depth;
+};
+
+static struct pixel find_pixel(struct target *target, uint32_t x, uint32_t y)
+{
+    uint32_t tile = y / TILE_SIZE * target->columns + x / TILE_SIZE;
+    uint32_t word = pixel_word(x % TILE_SIZE, y % TILE_SIZE);
+    return (struct pixel){target_fill_color(target, tile) + word,
+                          target->depth ? target_fill_depth(target, tile) + word : NULL};
+}
+
+static uint32_t valid_depth(enum triptych_depth_format format, uint32_t word)
+{
+    uint32_t kept = word & (depth_mask(format) | stencil_mask(format));
+    float depth = depth_decode(format, kept);
+    if (depth_formats[format].storage != DEPTH_FLOAT && depth_formats[format].storage != DEPTH_FLOAT24)
+        return kept;
+    if (depth > 0 && depth <= 1)
+        return kept;
+    return (kept & stencil_mask(format)) | depth_encode(format, depth > 1 ? 1 : 0);
+}
+
+static void write_pixel(struct target *target, uint32_t x, uint32_t y, const uint8_t **data)
+{
+    struct pixel pixel = find_pixel(target, x, y);
+    target_forget_depth(target, y / TILE_SIZE * target->columns + x / TILE_SIZE);
+    for (uint32_t sample = 0; sample < target->samples; sample++) {
+        for (uint32_t plane = 0; plane < target->planes; plane++, *data += sizeof(uint32_t))
+            memcpy(pixel.color + (sample * target->planes + plane) * TILE_PIXELS, *data, sizeof(uint32_t));
+        if (!pixel.depth)
+            continue;
+        uint32_t word;
+        memcpy(&word, *data, sizeof word);
+        pixel.depth[sample * TILE_PIXELS] = valid_depth(target->depth_format, word);
+        *data += sizeof word;
+    }
+}
+
+/* Not inlined: the compiler may move arithmetic over a change of MXCSR, but not a call. */
+__attribute__((noinline)) static void write_pixels(struct target *target, const uint8_t *data)
+{
+    for (uint32_t y = 0; y < target->height; y++)
+        for (uint32_t x = 0; x < target->width; x++)
+            write_pixel(target, x, y, &data);
+}
+
+static void read_pixel(struct target *target, uint32_t x, uint32_t y, uint8_t **data)
+{
+    struct pixel pixel = find_pixel(target, x, y);
+    for (uint32_t sample = 0; sample < target->samples; sample++) {
+        for (uint32_t plane = 0; plane < target->planes; plane++, *data += sizeof(uint32_t))
+            memcpy(*data, pixel.color + (sample * target->planes + plane) * TILE_PIXELS, sizeof(uint32_t));
+        if (!pixel.depth)
+            continue;
+        memcpy(*data, pixel.depth + sample * TILE_PIXELS, sizeof(uint32_t));
+        *data += sizeof(uint32_t);
+    }
+}
+
+void target_read_contents(struct target *target, void *data)
+{
+    uint8_t *at = data;
+    for (uint32_t y = 0; y < target->height; y++)
+        for (uint32_t x = 0; x < target->width; x++)
+            read_pixel(target, x, y, &at);
+}
+
+void target_write_contents(struct target *target, const void *data)
+{
+    unsigned saved = mxcsr_enter();
+    write_pixels(target, data);
+    mxcsr_leave(saved);
+}

@@ -1,0 +1,79 @@
+#include "render/target/depth.h"
+
+#include "base/bits.h"
+#include "contract/lane.h"
+
+enum { STENCIL_BITS = 8, FRACTION_BITS = 20, FRACTION_SHIFT = 23 - FRACTION_BITS };
+
+const struct depth_format depth_formats[TRIPTYCH_DEPTH_COUNT] = {
+#define DEPTH_FORMAT(name, storage, depth, stencil, meaning) {DEPTH_##storage, depth, stencil, #name},
+#include "def/state/depth_format.def"
+#undef DEPTH_FORMAT
+};
+
+uint32_t depth_mask(enum triptych_depth_format format)
+{
+    const struct depth_format *f = depth_formats + format;
+    if (!f->depth_bits)
+        return 0;
+    return f->storage == DEPTH_UNORM || f->storage == DEPTH_FLOAT24 ? 0xffffff00 : 0xffffffff;
+}
+
+uint32_t stencil_mask(enum triptych_depth_format format)
+{
+    return (1u << depth_formats[format].stencil_bits) - 1;
+}
+
+float depth_maximum(enum triptych_depth_format format)
+{
+    const struct depth_format *f = depth_formats + format;
+    return f->storage == DEPTH_UNORM ? (float)((1u << f->depth_bits) - 1) : 0;
+}
+
+static uint32_t encode_unorm32(float depth)
+{
+    float scaled = depth * 65536.0f;
+    int32_t high = lane_truncate(scaled);
+    int32_t low = lane_round((scaled - (float)high) * 65536.0f);
+    return ((uint32_t)high << 16) + (uint32_t)low - (depth > 0.5f);
+}
+
+static uint32_t encode_float24(float depth)
+{
+    uint32_t bits = bits_of_float(depth);
+    if (depth < DEPTH_FLOAT24_NORMAL)
+        return (uint32_t)lane_round(depth * DEPTH_FLOAT24_UNITS);
+    bits += (1u << (FRACTION_SHIFT - 1)) - 1 + (bits >> FRACTION_SHIFT & 1);
+    return (bits - DEPTH_FLOAT24_BIAS) >> FRACTION_SHIFT;
+}
+
+uint32_t depth_encode(enum triptych_depth_format format, float depth)
+{
+    switch (depth_formats[format].storage) {
+    case DEPTH_UNORM: return (uint32_t)lane_round(depth * depth_maximum(format)) << STENCIL_BITS;
+    case DEPTH_UNORM32: return encode_unorm32(depth);
+    case DEPTH_FLOAT24: return encode_float24(depth) << STENCIL_BITS;
+    case DEPTH_FLOAT:
+    case DEPTH_STORAGE_COUNT: break;
+    }
+    return bits_of_float(depth);
+}
+
+static float decode_float24(uint32_t code)
+{
+    if (!(code >> FRACTION_BITS))
+        return (float)code / DEPTH_FLOAT24_UNITS;
+    return bits_to_float((code << FRACTION_SHIFT) + DEPTH_FLOAT24_BIAS);
+}
+
+float depth_decode(enum triptych_depth_format format, uint32_t word)
+{
+    switch (depth_formats[format].storage) {
+    case DEPTH_UNORM: return (float)((word >> STENCIL_BITS) / (double)depth_maximum(format));
+    case DEPTH_UNORM32: return (float)(word / 4294967295.0);
+    case DEPTH_FLOAT24: return decode_float24(word >> STENCIL_BITS);
+    case DEPTH_FLOAT:
+    case DEPTH_STORAGE_COUNT: break;
+    }
+    return bits_to_float(word);
+}

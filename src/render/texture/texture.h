@@ -1,0 +1,92 @@
+/* Textures: chains of levels in one allocation, in the storage of their format (render/texture/format.h).
+ *
+ *   face 0: level 0, level 1, ... | face 1: ... | ...        a cube has six faces, others one
+ *   level:  slice 0, slice 1, ...                            a volume has its depth of them, others one
+ *   slice:  rows of texels from the top, each padded with a copy of its first texel
+ *
+ * The padding lets linear filtering load two neighbours of a row with one access, even where the row wraps
+ * around. Code that changes texels must call texture_close_rows, which writes the padding. Only routines and
+ * this folder access it.
+ *
+ * After the last texel there is a margin that may be read and has no meaning (contract/job.h).
+ *
+ * The size of level l is that of level 0 divided by 2^l, rounded down, at least 1. Every texel's index within
+ * the allocation is below 2^30, so that generated code addresses words with 32 bits.
+ *
+ * Contents change only while no queued draw reads them: see render/device/device.h. */
+#ifndef RENDER_TEXTURE_TEXTURE_H
+#define RENDER_TEXTURE_TEXTURE_H
+
+#include "base/error.h"
+#include "render/texture/format.h"
+#include "contract/job.h"
+#include "triptych.h"
+
+enum { TEXTURE_LEVELS = 14, CUBE_FACES = 6 };
+
+struct triptych_texture {
+    struct triptych_texture *next;
+    const struct format *format;
+    enum triptych_texture_type type;
+    uint32_t width, height, depth; /* of level 0 */
+    uint32_t levels, faces;
+    uint32_t face_texels; /* from a face to the next, rows' ends included */
+    uint32_t *texels;     /* 64-byte aligned */
+    struct texture_level level[TEXTURE_LEVELS];
+    uint32_t recorded; /* its number while calls are recorded */
+    uint64_t epoch;    /* the device's, when a draw was last queued that may read it */
+};
+
+/* Everything of a texture but its texels: what a description means, without the memory. */
+enum triptych_result texture_describe(const struct triptych_texture_description *description,
+                                      struct triptych_texture *texture, struct error *error);
+
+/* A texture as described, every texel what zeros in its format mean. Refused, with the reason: what Direct3D
+ * 9 does not allow, and storage of more than 4 GiB. */
+enum triptych_result texture_create(const struct triptych_texture_description *description,
+                                    struct triptych_texture **texture, struct error *error);
+void texture_destroy(struct triptych_texture *texture);
+
+/* Bytes of texels in the format's form, for the smallest pitches: of a row of blocks of `width` texels, and
+ * of `rows` of it. */
+size_t texture_row_bytes(const struct format *format, uint32_t width);
+
+/* Bytes of a level of one face in the format's form, without gaps. */
+size_t texture_level_bytes(const struct triptych_texture *texture, unsigned level);
+
+/* Texels of a level of one face. */
+size_t texture_level_count(const struct texture_level *level);
+
+/* Bytes of all texels, face by face and level by level, in the storage of the format without gaps; and a
+ * copy of them. */
+size_t texture_texel_bytes(const struct triptych_texture *texture);
+void texture_read_texels(const struct triptych_texture *texture, void *data);
+void texture_write_texels(struct triptych_texture *texture, const void *data);
+
+/* Bytes that the texels take. */
+size_t texture_storage_bytes(const struct triptych_texture *texture);
+
+/* Writes the padding of `rows` rows of a level: a copy of each row's first texel, after its last. The
+ * first row begins at `texels`. */
+void texture_close_rows(const struct triptych_texture *texture, const struct texture_level *level,
+                        void *texels, size_t rows);
+
+/* Checks a change of `box` (null: all of the level), and makes it. */
+enum triptych_result texture_check_update(const struct triptych_texture *texture, unsigned face,
+                                          unsigned level, const struct triptych_box *box, size_t row_pitch,
+                                          size_t slice_pitch, struct error *error);
+void texture_update(struct triptych_texture *texture, unsigned face, unsigned level,
+                    const struct triptych_box *box, const void *data, size_t row_pitch, size_t slice_pitch);
+
+/* Makes every level but the first from the one above it (render/texture/mip.c). */
+void texture_generate_mips(struct triptych_texture *texture);
+
+/* The first texel of a face's level. */
+static inline void *texture_level_texels(const struct triptych_texture *texture, unsigned face,
+                                         unsigned level)
+{
+    size_t index = (size_t)face * texture->face_texels + (size_t)texture->level[level].offset;
+    return (uint8_t *)texture->texels + index * format_texel_bytes(texture->format);
+}
+
+#endif

@@ -1,0 +1,101 @@
+#include "render/tile/round.h"
+
+#include "render/tile/hidden.h"
+
+#include <string.h>
+
+void round_stop_at(struct round *round, uint32_t chunk)
+{
+    uint32_t first = atomic_load(&round->first_stopped);
+    while (chunk < first && !atomic_compare_exchange_weak(&round->first_stopped, &first, chunk))
+        ;
+}
+
+/* Appends the bins of a chunk to those of the tiles. */
+static void link_chunk(struct round *round, const struct chunk *chunk)
+{
+    for (uint32_t head = chunk->heads; head; head = bin_cell(&round->arena, head)->sibling) {
+        uint32_t tile = bin_cell(&round->arena, head)->tile;
+        if (!round->tile_first[tile]) {
+            round->tile_first[tile] = head;
+            round->busy[round->busy_count++] = (uint16_t)tile;
+        } else {
+            bin_cell(&round->arena, round->tile_last[tile])->later = head;
+        }
+        round->tile_last[tile] = head;
+    }
+}
+
+/* Returns true if the chunk's draw overwrites everything that one of its triangles covers. */
+static bool overwrites(const struct round *round, const struct chunk *chunk)
+{
+    const struct routine *routine = round->command[chunk->command].draw.routine[UNIT_PIXEL];
+    return routine->traits & PIXEL_OVERWRITES_ALL &&
+           hidden_writes_all_targets(&routine->key.pixel, round->target);
+}
+
+/* Notes the bins of a chunk that overwrite their tiles. */
+static void link_covered(struct round *round, uint32_t number)
+{
+    const struct chunk *chunk = round->chunk + number;
+    if (!overwrites(round, chunk))
+        return;
+    for (uint32_t head = chunk->heads; head; head = bin_cell(&round->arena, head)->sibling)
+        if (bin_covers(&round->arena, head))
+            round->tile_start[bin_cell(&round->arena, head)->tile] = number + 1;
+}
+
+static void link_everywhere(struct round *round, uint32_t number)
+{
+    const struct chunk *chunk = round->chunk + number;
+    round->everywhere[round->everywhere_count++] = number;
+    if (chunk->wide && overwrites(round, chunk))
+        round->wide_start[round->wide_starts++] = number;
+}
+
+static void begin_linking(struct round *round)
+{
+    uint32_t tiles = round->target->columns * round->target->rows;
+    memset(round->tile_first, 0, tiles * sizeof *round->tile_first);
+    memset(round->tile_start, 0, tiles * sizeof *round->tile_start);
+    round->everywhere_count = round->wide_starts = round->busy_count = 0;
+    round->pixels = 0;
+    round->counts = (struct batch_counts){0};
+}
+
+static void count_chunk(struct round *round, const struct chunk *chunk)
+{
+    round->pixels += chunk->pixels;
+    round->counts.vertices_shaded += chunk->counts.vertices_shaded;
+    round->counts.triangles_set_up += chunk->counts.triangles_set_up;
+    round->counts.triangles_visible += chunk->counts.triangles_visible;
+}
+
+/* The first primitive after what is done of a chunk. */
+static struct cursor chunk_end(const struct round *round, const struct chunk *chunk)
+{
+    const struct command *command = round->command + chunk->command;
+    uint32_t end = chunk->first + chunk->done;
+    if (command->kind == COMMAND_CLEAR || end == command->draw.count)
+        return (struct cursor){chunk->command + 1, 0};
+    return (struct cursor){chunk->command, end};
+}
+
+struct cursor round_link(struct round *round)
+{
+    uint32_t stopped = atomic_load(&round->first_stopped);
+    struct cursor end = {0, 0};
+    begin_linking(round);
+    for (uint32_t i = 0; i < round->chunks && i <= stopped; i++) {
+        const struct chunk *chunk = round->chunk + i;
+        if (round_command(round, i)->kind == COMMAND_CLEAR || chunk->wide)
+            link_everywhere(round, i);
+        link_chunk(round, chunk);
+        if (chunk->covered)
+            link_covered(round, i);
+        count_chunk(round, chunk);
+        end = chunk_end(round, chunk);
+    }
+    round->tiles = round->everywhere_count ? round->target->columns * round->target->rows : round->busy_count;
+    return end;
+}

@@ -1,0 +1,457 @@
+#include "render/tile/tile.h"
+#include "contract/key_query.h"
+
+#include "render/raster/raster_part.h"
+#include "render/tile/hidden.h"
+
+#include <string.h>
+
+/* The number of set bits in the entries' coverages, four entries at a time (Warren, Hacker's Delight,
+ * 5-1). Up to three entries after the last are read. */
+static uint64_t count_pixels(const struct entry *entry, uint32_t count)
+{
+    const __m128i *at = (const __m128i *)(const void *)entry;
+    __m128i total = _mm_setzero_si128();
+    for (uint32_t i = 0; i < count; i += 4, at += 4) {
+        /* The third words of four entries: coverage below, block above. */
+        __m128i low = _mm_unpackhi_epi32(_mm_load_si128(at), _mm_load_si128(at + 1));
+        __m128i high = _mm_unpackhi_epi32(_mm_load_si128(at + 2), _mm_load_si128(at + 3));
+        __m128i x = _mm_and_si128(_mm_unpacklo_epi64(low, high), _mm_set1_epi32(WHOLE_BLOCK));
+        __m128i some = _mm_cmplt_epi32(_mm_set_epi32(3, 2, 1, 0), _mm_set1_epi32((int)(count - i)));
+        x = _mm_and_si128(x, some);
+        x = _mm_sub_epi16(x, _mm_and_si128(_mm_srli_epi16(x, 1), _mm_set1_epi8(0x55)));
+        x = _mm_add_epi16(_mm_and_si128(x, _mm_set1_epi8(0x33)),
+                          _mm_and_si128(_mm_srli_epi16(x, 2), _mm_set1_epi8(0x33)));
+        x = _mm_and_si128(_mm_add_epi16(x, _mm_srli_epi16(x, 4)), _mm_set1_epi8(0x0f));
+        total = _mm_add_epi64(total, _mm_sad_epu8(x, _mm_setzero_si128()));
+    }
+    total = _mm_add_epi64(total, _mm_unpackhi_epi64(total, total));
+    return (uint64_t)_mm_cvtsi128_si64(total);
+}
+
+/* Adds the count of the call to the draw's sum. The order of threads does not matter. */
+static void take_count(struct tile_worker *worker, const struct round *round)
+{
+    uint64_t sum = 0;
+    for (int lane = 0; lane < LANES_MAXIMUM; lane++)
+        sum += (uint32_t)worker->lanes.passed[lane];
+    memset(worker->lanes.passed, 0, sizeof worker->lanes.passed);
+    atomic_fetch_add_explicit(round->passed + worker->command, sum, memory_order_relaxed);
+}
+
+/* Runs the pixel routine over the entries. */
+static void run_pixels(struct tile_worker *worker, const struct round *round, uint32_t tile)
+{
+    struct target *target = round->target;
+    struct pixel_arguments call = {
+        .job = worker->draw->job,
+        .entries = worker->entries.entry,
+        .triangles = round->arena.base,
+        .lanes = &worker->lanes,
+        .color = target_tile_color(target, tile),
+        .count = worker->count,
+    };
+    /* Without depth the routine does not read this, but the address must be valid. */
+    call.depth = target->depth ? target_tile_depth(target, tile) : call.color;
+    uint64_t pixels = count_pixels(worker->entries.entry, worker->count);
+    routine_run(worker->draw->routine[UNIT_PIXEL], &call, pixels);
+    worker->pixels_shaded += pixels;
+    worker->count = 0;
+}
+
+static void shade(struct tile_worker *worker, const struct round *round, uint32_t tile)
+{
+    if (!worker->count)
+        return;
+    const struct pixel_key *key = &worker->draw->routine[UNIT_PIXEL]->key.pixel;
+    if (pixel_write_mask(key))
+        target_fill_color(round->target, tile);
+    if (pixel_tests_depth(key) || pixel_stencil(key))
+        target_fill_depth(round->target, tile);
+    run_pixels(worker, round, tile);
+    if (key->count)
+        take_count(worker, round);
+}
+
+/* --- Work that can be skipped --- */
+
+/* A triangle in a tile, and how its depth there compares with the stored one. */
+struct meeting {
+    const struct triangle_head *head;
+    uint32_t triangle; /* offset of its record */
+    bool covers;       /* the whole tile */
+    bool constant;     /* its depth */
+    struct depth_range depths;
+    enum depth_verdict verdict;
+};
+
+static int32_t tile_start(uint32_t number)
+{
+    return (int32_t)number * TILE_SIZE;
+}
+
+/* The pixels of the tile that the triangle's own bounds meet. */
+static struct rectangle meeting_area(const struct round *round, uint32_t tile, const struct draw *draw,
+                                     const struct triangle_head *head)
+{
+    int32_t x = tile_start(tile % round->target->columns), y = tile_start(tile / round->target->columns);
+    struct rectangle limit = {x, y, x + TILE_SIZE, y + TILE_SIZE}, area;
+    return raster_shapes[draw->shape].bounds(head, &limit, &area) ? area : limit;
+}
+
+static void compare_depths(struct meeting *m, const struct round *round, uint32_t tile,
+                           const struct draw *draw)
+{
+    const struct routine *routine = draw->routine[UNIT_PIXEL];
+    const uint8_t *plane = (const uint8_t *)m->head + routine->depth_plane;
+    struct rectangle area = meeting_area(round, tile, draw, m->head);
+    m->depths = hidden_depths(m->head, (const struct plane *)(const void *)plane, &area,
+                              round->target->depth_format, &m->constant);
+    m->verdict =
+        hidden_verdict(routine->key.pixel.depth_function, m->depths, round->target->clear[tile].range);
+}
+
+/* Returns true if the tile can store one value instead of its words: no word that is not written must
+ * survive. */
+static bool can_be_uniform(const struct target *target, const struct tile_clear *clear,
+                           const struct pixel_key *key)
+{
+    return hidden_writes_all_targets(key, target) &&
+           (!key->depth_write || clear->depth_pending || !stencil_mask(target->depth_format));
+}
+
+/* Shades one block of a triangle whose pixels are all equal, and stores its words for the whole tile. */
+static void shade_uniform(struct tile_worker *worker, const struct round *round, uint32_t tile,
+                          const struct meeting *m)
+{
+    struct target *target = round->target;
+    struct tile_clear *clear = target->clear + tile;
+    const struct pixel_key *key = &worker->draw->routine[UNIT_PIXEL]->key.pixel;
+    const uint32_t *color = target_tile_color(target, tile);
+    uint32_t *depth = pixel_tests_depth(key) ? target_tile_depth(target, tile) : NULL;
+    for (int i = 0; depth && clear->depth_pending && i < BLOCK_PIXELS; i++)
+        depth[i] = clear->depth;
+    worker->entries.entry[0] = (struct entry){.x = (float)tile_start(tile % target->columns),
+                                              .y = (float)tile_start(tile / target->columns),
+                                              .coverage = UINT16_MAX,
+                                              .triangle = m->triangle};
+    worker->count = 1;
+    run_pixels(worker, round, tile);
+    for (uint32_t p = 0; p < target->planes; p++)
+        clear->color[p] = color[p * TILE_PIXELS];
+    clear->color_pending = true;
+    if (!key->depth_write)
+        return;
+    clear->depth = depth[0];
+    clear->depth_pending = true;
+    clear->range = m->depths;
+}
+
+/* Updates the bounds of the tile's depth for the triangle. */
+static void note_depths(struct tile_worker *worker, const struct round *round, uint32_t tile,
+                        const struct meeting *m)
+{
+    const struct routine *routine = worker->draw->routine[UNIT_PIXEL];
+    int function = routine->key.pixel.depth_function;
+    struct depth_range *range = &round->target->clear[tile].range;
+    if (!(routine->traits & PIXEL_WRITES_DEPTH))
+        return;
+    if (m->covers && routine->traits & PIXEL_DEPTH_KNOWN && !pixel_waits(&routine->key.pixel)) {
+        *range = hidden_narrowed(function, *range, m->depths);
+    } else if (!worker->widened) {
+        *range = hidden_widened(function, *range, (struct depth_range){0, UINT32_MAX});
+        worker->widened = true;
+    }
+}
+
+/* Returns true if the triangle does not have to be rasterized. */
+static bool is_dealt_with(struct tile_worker *worker, const struct round *round, uint32_t tile,
+                          struct meeting *m)
+{
+    const struct routine *routine = worker->draw->routine[UNIT_PIXEL];
+    const struct tile_clear *clear = round->target->clear + tile;
+    bool tests = pixel_tests_depth(&routine->key.pixel);
+    m->verdict = tests ? DEPTH_UNDECIDED : DEPTH_PASSES;
+    m->constant = true;
+    if (routine->traits & PIXEL_DEPTH_KNOWN)
+        compare_depths(m, round, tile, worker->draw);
+    if (m->verdict == DEPTH_FAILS)
+        return true;
+    bool uniform = m->covers && routine->traits & PIXEL_UNIFORM && m->verdict == DEPTH_PASSES &&
+                   (m->constant || !routine->key.pixel.depth_write) &&
+                   can_be_uniform(round->target, clear, &routine->key.pixel);
+    if (uniform) {
+        shade(worker, round, tile);
+        shade_uniform(worker, round, tile, m);
+    }
+    return uniform;
+}
+
+/* Returns true if a test of the triangle may succeed: it covers the tile, or the bounds of the depth are
+ * narrower than at first. */
+static bool asks(const struct tile_worker *worker, const struct round *round, uint32_t tile, bool covers)
+{
+    const struct depth_range *range = &round->target->clear[tile].range;
+    const struct routine *routine = worker->draw->routine[UNIT_PIXEL];
+    if (covers || !(routine->traits & PIXEL_DEPTH_KNOWN))
+        return covers;
+    switch (routine->key.pixel.depth_function) {
+    case COMPARE_LESS:
+    case COMPARE_LESS_EQUAL: return range->most < round->farthest;
+    case COMPARE_GREATER:
+    case COMPARE_GREATER_EQUAL: return range->least > 0;
+    default: return false;
+    }
+}
+
+/* --- A tile --- */
+
+/* Prefetches a cell's records, with the planes at their start, and the next cell. The cache of the core
+ * that ran the geometry may hold them. */
+static void prefetch_cell(const struct arena *arena, uint32_t offset)
+{
+    const struct bin_cell *cell = bin_cell(arena, offset);
+    __builtin_prefetch(arena->base + cell->next);
+    for (uint32_t i = 0; i < cell->count; i++) {
+        __builtin_prefetch(arena->base + cell->triangle[i]);
+        __builtin_prefetch(arena->base + cell->triangle[i] + 64);
+    }
+}
+
+/* Makes the site ready, before anything is rasterized. */
+static void enter_site(struct tile_worker *worker, const struct round *round, uint32_t tile)
+{
+    if (!worker->entered)
+        raster_enter(&worker->site, &worker->draw->scissor, (int)(tile % round->target->columns),
+                     (int)(tile / round->target->columns));
+    worker->entered = true;
+}
+
+/* Triangles with one sample a pixel. None has BIN_COVERS. */
+static void rasterize_triangles(struct tile_worker *worker, const struct round *round, uint32_t tile,
+                                const uint32_t *triangle, uint32_t count)
+{
+    if (count)
+        enter_site(worker, round, tile);
+    for (uint32_t done = 0; count;) {
+        done += raster_list(&worker->site, round->arena.base, triangle + done, count - done,
+                            worker->entries.entry, &worker->count);
+        if (done == count)
+            return;
+        shade(worker, round, tile);
+    }
+}
+
+/* A triangle that covers the tile, which the scissor leaves whole. */
+static void rasterize_whole(struct tile_worker *worker, const struct round *round, uint32_t tile,
+                            uint32_t triangle)
+{
+    if (worker->count + TILE_BLOCKS > PIXEL_ENTRIES)
+        shade(worker, round, tile);
+    worker->count += raster_whole(&worker->site, triangle, worker->entries.entry + worker->count);
+}
+
+/* The same from number `from` on; each triangle is tested first if that may be worth it. */
+static void rasterize_seen(struct tile_worker *worker, const struct round *round, uint32_t tile,
+                           const struct bin_cell *cell, uint32_t from)
+{
+    uint32_t seen[BIN_CELL_TRIANGLES], count = 0;
+    for (uint32_t i = from; i < cell->count; i++) {
+        uint32_t triangle = cell->triangle[i] & ~(uint32_t)BIN_COVERS;
+        struct meeting m = {.head =
+                                (const struct triangle_head *)(const void *)(round->arena.base + triangle),
+                            .triangle = triangle,
+                            .covers = cell->triangle[i] & BIN_COVERS};
+        if (m.covers) {
+            rasterize_triangles(worker, round, tile, seen, count);
+            count = 0;
+        }
+        if (asks(worker, round, tile, m.covers) && is_dealt_with(worker, round, tile, &m))
+            continue;
+        note_depths(worker, round, tile, &m);
+        enter_site(worker, round, tile);
+        if (m.covers && worker->site.whole)
+            rasterize_whole(worker, round, tile, triangle);
+        else
+            seen[count++] = triangle;
+    }
+    rasterize_triangles(worker, round, tile, seen, count);
+}
+
+static void rasterize_any(struct tile_worker *worker, const struct round *round, uint32_t tile,
+                          const struct bin_cell *cell)
+{
+    const uint8_t *base = round->arena.base;
+    const struct draw *draw = worker->draw;
+    int column = (int)(tile % round->target->columns), row = (int)(tile / round->target->columns);
+    for (uint32_t i = 0; i < cell->count; i++) {
+        uint32_t triangle = cell->triangle[i];
+        if (worker->count + TILE_BLOCKS > PIXEL_ENTRIES)
+            shade(worker, round, tile);
+        worker->count += raster_sampled_tile(
+            &draw->sampling, draw->shape, (const struct triangle_head *)(const void *)(base + triangle),
+            &draw->scissor, column, row, triangle, &worker->entries, worker->count);
+    }
+}
+
+/* Returns true if any triangle of the cell covers the tile. */
+static bool cell_covers(const struct bin_cell *cell)
+{
+    uint32_t all = 0;
+    for (uint32_t i = 0; i < cell->count; i++)
+        all |= cell->triangle[i];
+    return all & BIN_COVERS;
+}
+
+/* The triangles of a cell from number `from` on. */
+static void rasterize_cell(struct tile_worker *worker, const struct round *round, uint32_t tile,
+                           const struct bin_cell *cell, uint32_t from)
+{
+    const struct draw *draw = worker->draw;
+    const struct meeting any = {.covers = false};
+    bool plain = draw->shape == SHAPE_TRIANGLE && !draw->sampling.samples;
+    if (plain && (cell_covers(cell) || asks(worker, round, tile, false))) {
+        rasterize_seen(worker, round, tile, cell, from);
+        return;
+    }
+    note_depths(worker, round, tile, &any);
+    if (plain)
+        rasterize_triangles(worker, round, tile, cell->triangle, cell->count);
+    else
+        rasterize_any(worker, round, tile, cell);
+}
+
+/* The last triangle of the chain that covers the tile: its cell, and its number there. */
+static uint32_t last_covering(const struct round *round, uint32_t head, uint32_t *number)
+{
+    uint32_t found = head;
+    *number = 0;
+    for (uint32_t at = head; at; at = bin_cell(&round->arena, at)->next)
+        for (uint32_t i = 0; i < bin_cell(&round->arena, at)->count; i++)
+            if (bin_cell(&round->arena, at)->triangle[i] & BIN_COVERS) {
+                found = at;
+                *number = i;
+            }
+    return found;
+}
+
+/* Returns true if everything that the chunk draws before its last covering triangle is overwritten by it. */
+static bool starts_at_last(const struct tile_worker *worker, uint32_t chunk, uint32_t start)
+{
+    return chunk + 1 == start && worker->draw->routine[UNIT_PIXEL]->traits & PIXEL_COLORS_ONLY;
+}
+
+/* The chain of one chunk. */
+static void rasterize_chain(struct tile_worker *worker, const struct round *round, uint32_t tile,
+                            uint32_t head, uint32_t start)
+{
+    uint32_t at = head, from = 0;
+    if (starts_at_last(worker, bin_cell(&round->arena, head)->chunk, start))
+        at = last_covering(round, head, &from);
+    for (; at; from = 0) {
+        const struct bin_cell *cell = bin_cell(&round->arena, at);
+        uint32_t next = cell->next ? cell->next : bin_cell(&round->arena, head)->later;
+        if (next)
+            prefetch_cell(&round->arena, next);
+        rasterize_cell(worker, round, tile, cell, from);
+        at = cell->next;
+    }
+}
+
+static bool same_rectangle(const struct rectangle *a, const struct rectangle *b)
+{
+    return !memcmp(a, b, sizeof *a);
+}
+
+/* The following entries belong to this draw. */
+static void begin_draw(struct tile_worker *worker, const struct round *round, uint32_t tile, uint32_t command)
+{
+    if (worker->draw == &round->command[command].draw)
+        return;
+    shade(worker, round, tile);
+    worker->draw = &round->command[command].draw;
+    worker->command = command;
+    worker->widened = false;
+    worker->entered &= same_rectangle(&worker->site.scissor, &worker->draw->scissor);
+}
+
+/* The triangles of a chunk that are in no bins. */
+static void rasterize_wide(struct tile_worker *worker, const struct round *round, uint32_t tile,
+                           uint32_t number, uint32_t start)
+{
+    const struct chunk *chunk = round->chunk + number;
+    struct bin_cell cell;
+    uint32_t from = 0;
+    bin_wide_cell(bin_wide(&round->arena, chunk->wide), tile % round->target->columns,
+                  tile / round->target->columns, &cell);
+    if (!cell.count)
+        return;
+    begin_draw(worker, round, tile, chunk->command);
+    for (uint32_t i = 0; i < cell.count && starts_at_last(worker, number, start); i++)
+        if (cell.triangle[i] & BIN_COVERS)
+            from = i;
+    rasterize_cell(worker, round, tile, &cell, from);
+}
+
+/* --- Overwritten draws --- */
+
+/* 1 + the last chunk with a triangle that overwrites the tile; 0: there is none. */
+static uint32_t find_start(const struct round *round, uint32_t tile)
+{
+    uint32_t start = round->tile_start[tile];
+    for (uint32_t i = round->wide_starts; i-- > 0 && round->wide_start[i] >= start;) {
+        uint32_t number = round->wide_start[i];
+        struct bin_cell cell;
+        bin_wide_cell(bin_wide(&round->arena, round->chunk[number].wide), tile % round->target->columns,
+                      tile / round->target->columns, &cell);
+        if (cell_covers(&cell))
+            return number + 1;
+    }
+    return start;
+}
+
+/* Returns true if everything that the chunk draws to the tile is overwritten. */
+static bool is_overwritten(const struct round *round, uint32_t chunk, uint32_t start)
+{
+    return chunk + 1 < start &&
+           round_command(round, chunk)->draw.routine[UNIT_PIXEL]->traits & PIXEL_COLORS_ONLY;
+}
+
+/* A chunk that is in all tiles. Where the tile is overwritten later, the colour of a clear does not
+ * matter. */
+static void render_everywhere(struct tile_worker *worker, const struct round *round, uint32_t tile,
+                              uint32_t chunk, uint32_t start)
+{
+    const struct command *command = round_command(round, chunk);
+    if (command->kind == COMMAND_CLEAR) {
+        struct clear clear = command->clear;
+        shade(worker, round, tile);
+        clear.set_color &= chunk + 1 >= start;
+        target_clear_tile(round->target, tile, &clear);
+    } else if (!is_overwritten(round, chunk, start)) {
+        rasterize_wide(worker, round, tile, chunk, start);
+    }
+}
+
+void tile_render(struct tile_worker *worker, const struct round *round, uint32_t tile)
+{
+    uint32_t next = 0, start = find_start(round, tile), end = round->everywhere_count;
+    worker->count = 0;
+    worker->draw = NULL;
+    worker->entered = false;
+    if (round->tile_first[tile])
+        prefetch_cell(&round->arena, round->tile_first[tile]);
+    for (uint32_t head = round->tile_first[tile]; head; head = bin_cell(&round->arena, head)->later) {
+        uint32_t chunk = bin_cell(&round->arena, head)->chunk;
+        __builtin_prefetch(round->arena.base + bin_cell(&round->arena, head)->later);
+        while (next < end && round->everywhere[next] <= chunk)
+            render_everywhere(worker, round, tile, round->everywhere[next++], start);
+        if (is_overwritten(round, chunk, start))
+            continue;
+        begin_draw(worker, round, tile, round->chunk[chunk].command);
+        rasterize_chain(worker, round, tile, head, start);
+    }
+    while (next < end)
+        render_everywhere(worker, round, tile, round->everywhere[next++], start);
+    shade(worker, round, tile);
+}

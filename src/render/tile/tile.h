@@ -1,0 +1,24 @@
+/* One tile: reads its bin in drawing order, rasterizes, and calls the pixel routines on lists of 4x4
+ * blocks. */
+#ifndef RENDER_TILE_TILE_H
+#define RENDER_TILE_TILE_H
+
+#include "render/tile/round.h"
+
+/* One thread's workspace. */
+struct tile_worker {
+    alignas(64) struct entry_list entries;
+    struct lane_table lanes; /* lane_table: its counters are zero between calls */
+    uint32_t count;
+    const struct draw *draw; /* whose entries these are */
+    struct raster_site site; /* the tile in the draw's scissor rectangle, once anything is rasterized */
+    bool entered;            /* that it is so */
+    uint32_t command;        /* its number */
+    bool widened;            /* what is known of the tile's depth allows for what the draw writes */
+    uint64_t pixels_shaded;
+};
+
+/* Renders the chunks of a linked round into tile number `tile`. */
+void tile_render(struct tile_worker *worker, const struct round *round, uint32_t tile);
+
+#endif

@@ -1,0 +1,132 @@
+/* Targets in the float path: blending, quantization and write, as target.h defines them. */
+#ifndef SPEC_PIXEL_FLOAT_TARGET_H
+#define SPEC_PIXEL_FLOAT_TARGET_H
+
+#include "contract/language.h"
+#include "spec/math/float_color.h"
+#include "spec/math/srgb.h"
+#include "spec/pixel/float_blend.h"
+#include "spec/pixel/target.h"
+#include "spec/pixel/write.h"
+
+static inline struct float_color load_planes(struct env *e, int offset)
+{
+    struct float_color r;
+    for (int c = 0; c < 4; c++)
+        r.channel[c] = load_f(E, BASE_COLOR, offset + c * TILE_PLANE_BYTES);
+    return r;
+}
+
+/* A channel as its stored code q of n bits. */
+static inline itg target_level(struct env *e, const struct pixel_key *k, int target, int c, flt value)
+{
+    int bits = storage_bits[target][c];
+    flt levels = lit_f(E, (float)((1 << bits) - 1));
+    flt limited = saturate(E, value);
+    if (!k->dither || c == 3 || !storage_is_narrow(target)) {
+        flt scaled = mul_f(E, limited, levels);
+        return round_i(E, scaled);
+    }
+    itg both = load_i(E, BASE_LANES, (int)offsetof(struct lane_table, dither));
+    itg low = and_i(E, both, lit_i(E, 0xffff));
+    flt number = float_f(E, low);
+    flt threshold = div_f(E, number, lit_f(E, 255.0f));
+    flt sum = mad_f(E, limited, levels, threshold);
+    return trunc_i(E, sum);
+}
+
+static inline itg target_byte(struct env *e, const struct pixel_key *k, int target, int c, flt value)
+{
+    int bits = storage_bits[target][c];
+    if (target == TARGET_SRGB && c < 3) {
+        flt limited = saturate(E, value);
+        return srgb_encode(E, limited);
+    }
+    itg level = target_level(E, k, target, c, value);
+    if (bits == 8)
+        return level;
+    itg scaled = mul_i(E, level, lit_i(E, expansion_scale(bits)));
+    itg biased = add_i(E, scaled, lit_i(E, expansion_bias(bits)));
+    return ushr_i(E, biased, 6);
+}
+
+static inline flt target_float(struct env *e, const struct pixel_key *k, int target, int c, flt value)
+{
+    if (storage_bits[target][c]) {
+        itg level = target_level(E, k, target, c, value);
+        flt number = float_f(E, level);
+        return div_f(E, number, lit_f(E, (float)((1 << storage_bits[target][c]) - 1)));
+    }
+    if (target == TARGET_HALF)
+        value = half_f(E, value);
+    msk nan = ne_f(E, value, value);
+    flt one_nan = bits_f(E, lit_i(E, 0x7fc00000));
+    return select_f(E, nan, one_nan, value);
+}
+
+static inline struct float_color target_unpack(struct env *e, int target, itg word)
+{
+    struct float_color r = float_unpack(E, word);
+    for (int c = 0; c < 3 && target == TARGET_SRGB; c++) {
+        itg byte = word_byte(E, word, c);
+        r.channel[c] = srgb_decode(E, byte);
+    }
+    return r;
+}
+
+static inline itg target_pack(struct env *e, const struct pixel_key *k, int target,
+                              const struct float_color *color)
+{
+    itg word = target_byte(E, k, target, 0, color->channel[0]);
+    for (int c = 1; c < 4; c++) {
+        itg byte = target_byte(E, k, target, c, color->channel[c]);
+        itg place = shl_i(E, byte, 8 * c);
+        word = or_i(E, word, place);
+    }
+    return word;
+}
+
+static inline struct float_color float_blend_clamped(struct env *e, const struct pixel_key *k, int target,
+                                                     struct float_color color, const struct float_color *old)
+{
+    for (int c = 0; c < 4 && storage_bits[target][c]; c++)
+        color.channel[c] = saturate(E, color.channel[c]);
+    return float_blend(E, k, &color, old);
+}
+
+static inline void write_float_word(struct env *e, const struct pixel_key *k, int t, int sample, msk live,
+                                    struct float_color color)
+{
+    int target = k->target[t], offset = target_offset(k, t, sample);
+    itg stored = load_i(E, BASE_COLOR, offset);
+    struct float_color old = target_unpack(E, target, stored);
+    struct float_color blended = float_blend_clamped(E, k, target, color, &old);
+    itg word = target_pack(E, k, target, &blended);
+    write_word(E, k->write_mask[t], offset, live, word, stored);
+}
+
+static inline void write_float_planes(struct env *e, const struct pixel_key *k, int t, int sample, msk live,
+                                      struct float_color color)
+{
+    int target = k->target[t], offset = target_offset(k, t, sample);
+    struct float_color old = load_planes(E, offset);
+    struct float_color blended = float_blend_clamped(E, k, target, color, &old);
+    for (int c = 0; c < 4; c++) {
+        if (!(k->write_mask[t] >> c & 1))
+            continue;
+        flt value = target_float(E, k, target, c, blended.channel[c]);
+        flt merged = select_f(E, live, value, old.channel[c]);
+        store_f(E, BASE_COLOR, offset + c * TILE_PLANE_BYTES, merged);
+    }
+}
+
+static inline void write_float_target(struct env *e, const struct pixel_key *k, int t, int sample, msk live,
+                                      struct float_color color)
+{
+    if (storage_planes[k->target[t]] == 1)
+        write_float_word(E, k, t, sample, live, color);
+    else
+        write_float_planes(E, k, t, sample, live, color);
+}
+
+#endif

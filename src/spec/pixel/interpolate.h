@@ -1,0 +1,70 @@
+/* Interpolation: plane equations are evaluated at the pixel's centre, never accumulated along a span.
+ *
+ * value + (dy * (y - origin_y) then dx * (x - origin_x)) by fused multiply-adds in that order. The distances
+ * are exact: multiples of 1/256 below 2^15. The plane of a smooth varying has a/w; it is multiplied by w = 1
+ * / (plane of 1/w). */
+#ifndef SPEC_PIXEL_INTERPOLATE_H
+#define SPEC_PIXEL_INTERPOLATE_H
+
+#include "contract/language.h"
+
+struct pixel_position {
+    flt x, y;         /* distance from the triangle's origin in pixels */
+    int sample;       /* of this position; 0 at the centre */
+    const flt *depth; /* output by a shader, 0 to 1; null before the shader has run, or if it outputs none */
+};
+
+static inline struct pixel_position pixel_position(struct env *e)
+{
+    struct pixel_position at;
+    at.sample = 0;
+    at.depth = NULL;
+    flt block_x = uniform_f(E, BASE_ENTRY, (int)offsetof(struct entry, x));
+    flt lane_x = load_f(E, BASE_LANES, (int)offsetof(struct lane_table, x));
+    flt origin_x = uniform_f(E, BASE_TRIANGLE, (int)offsetof(struct triangle_head, origin_x));
+    flt corner_x = sub_f(E, block_x, origin_x);
+    at.x = add_f(E, corner_x, lane_x);
+    flt block_y = uniform_f(E, BASE_ENTRY, (int)offsetof(struct entry, y));
+    flt lane_y = load_f(E, BASE_LANES, (int)offsetof(struct lane_table, y));
+    flt origin_y = uniform_f(E, BASE_TRIANGLE, (int)offsetof(struct triangle_head, origin_y));
+    flt corner_y = sub_f(E, block_y, origin_y);
+    at.y = add_f(E, corner_y, lane_y);
+    return at;
+}
+
+static inline flt evaluate_plane(struct env *e, const struct pixel_position *at, int plane)
+{
+    flt value = uniform_f(E, BASE_TRIANGLE, plane + (int)offsetof(struct plane, value));
+    flt dy = uniform_f(E, BASE_TRIANGLE, plane + (int)offsetof(struct plane, dy));
+    flt row = mad_f(E, at->y, dy, value);
+    flt dx = uniform_f(E, BASE_TRIANGLE, plane + (int)offsetof(struct plane, dx));
+    return mad_f(E, at->x, dx, row);
+}
+
+static inline flt pixel_w(struct env *e, const struct pixel_position *at,
+                          const struct triangle_layout *layout)
+{
+    flt reciprocal = evaluate_plane(E, at, layout->reciprocal_w);
+    return div_f(E, lit_f(E, 1.0f), reciprocal);
+}
+
+/* Component c of a varying as the record has it: divided by w if it is smooth. */
+static inline flt interpolate_over_w(struct env *e, const struct pixel_key *k,
+                                     const struct triangle_layout *layout, const struct pixel_position *at,
+                                     int varying, int c)
+{
+    int first = layout->varying[varying];
+    if (k->varying[varying] == INTERPOLATION_FLAT)
+        return uniform_f(E, BASE_TRIANGLE, first + (int)sizeof(float) * c);
+    return evaluate_plane(E, at, first + (int)sizeof(struct plane) * c);
+}
+
+/* Component c of a varying at the pixel. Only smooth varyings use w. */
+static inline flt interpolate(struct env *e, const struct pixel_key *k, const struct triangle_layout *layout,
+                              const struct pixel_position *at, flt w, int varying, int c)
+{
+    flt value = interpolate_over_w(E, k, layout, at, varying, c);
+    return k->varying[varying] == INTERPOLATION_FLAT ? value : mul_f(E, value, w);
+}
+
+#endif

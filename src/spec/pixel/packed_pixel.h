@@ -1,0 +1,91 @@
+/* Shading in packed bytes: texture stages, specular colour, fog, alpha test, and the writes to all targets.
+ */
+#ifndef SPEC_PIXEL_PACKED_PIXEL_H
+#define SPEC_PIXEL_PACKED_PIXEL_H
+
+#include "contract/language.h"
+#include "spec/math/color.h"
+#include "spec/pixel/alpha.h"
+#include "spec/pixel/fog.h"
+#include "spec/pixel/interpolate.h"
+#include "spec/pixel/source.h"
+#include "spec/pixel/stage.h"
+#include "spec/pixel/target.h"
+#include "spec/texture/detail.h"
+#include "spec/texture/sample.h"
+
+/* An interpolated colour; white if the key has none. */
+static inline struct color interpolated_color(struct env *e, const struct pixel_source *s, int varying)
+{
+    struct color r;
+    flt channel[4];
+    r.rb = r.ga = lit_x(E, 255);
+    if (!s->k->varying[varying])
+        return r;
+    for (int c = 0; c < 4; c++)
+        channel[c] = interpolate(E, s->k, s->layout, &s->color_at, s->color_w, varying, c);
+    return color_quantize(E, channel);
+}
+
+static inline struct color stage_texture(struct env *e, const struct pixel_source *s, int stage)
+{
+    flt v[3];
+    struct sampler_key k = pixel_sampler(s->k, stage);
+    struct lookup how = {.from = DETAIL_QUAD};
+    stage_coordinates(E, s, stage, v);
+    return sample(E, &k, v, &how);
+}
+
+static inline struct color shade_stages(struct env *e, const struct pixel_source *s)
+{
+    struct stage_values v;
+    v.diffuse = interpolated_color(E, s, VARYING_diffuse);
+    v.specular = interpolated_color(E, s, VARYING_specular);
+    v.current = v.diffuse;
+    v.temporary.rb = v.temporary.ga = lit_x(E, 0);
+    for (int i = 0; i < s->k->stages; i++) {
+        v.texture.rb = v.texture.ga = lit_x(E, 255);
+        if (s->k->texture[i])
+            v.texture = stage_texture(E, s, i);
+        stage(E, s->k, i, &v);
+    }
+    if (s->k->specular)
+        v.current = add_specular(E, v.current, v.specular);
+    return v.current;
+}
+
+static inline struct color apply_fog(struct env *e, const struct pixel_source *s, struct color color)
+{
+    if (!s->k->fog)
+        return color;
+    flt distance = fog_distance(E, s->k, s->layout, s->at, s->w);
+    fix factor = fog_factor(E, s->k->fog, distance);
+    return fog_blend(E, color, factor);
+}
+
+/* Tests and writes the colours of the targets. `step` is 0 if all targets have the first colour, 1 if each
+ * has its own. */
+static inline void finish_packed(struct env *e, const struct pixel_source *s, const struct color *color,
+                                 int step, msk live)
+{
+    const struct pixel_key *k = s->k;
+    if (k->alpha_discard) {
+        itg ga = int_of(E, color->ga);
+        itg alpha = ushr_i(E, ga, 16);
+        live = alpha_test(E, k->alpha_discard, alpha, live);
+    }
+    finish_tests(E, s, live);
+    for (int i = 0; i < s->samples->count; i++)
+        for (int t = 0; t < TARGETS; t++)
+            if (k->write_mask[t])
+                write_target(E, k, t, i, s->samples->live[i], color[step * t]);
+}
+
+static inline void shade_packed(struct env *e, const struct pixel_source *s, msk live)
+{
+    struct color color = shade_stages(E, s);
+    color = apply_fog(E, s, color);
+    finish_packed(E, s, &color, 0, live);
+}
+
+#endif

@@ -1,0 +1,369 @@
+/* Texture sampling: from coordinates to a colour. Its parts are addressing (address.h), levels of detail
+ * (detail.h) and the faces of cubes (cube.h). This file has the filters of textures of bytes, in integers;
+ * sample_float.h has those of all others.
+ *
+ * A linear filter blends the two texels of each axis by the position's fraction of 256, along u first, then
+ * v, then w, then between two levels. Each step is round((a * (256 - f) + b * f) / 256) of each channel. The
+ * mean of N anisotropic taps is floor((2 * sum + N) / 2N), halves rounded up. The taps are taken in a loop
+ * that ends when no lane has another one. */
+#ifndef SPEC_TEXTURE_SAMPLE_H
+#define SPEC_TEXTURE_SAMPLE_H
+
+#include "contract/language.h"
+#include "spec/math/color.h"
+#include "spec/texture/address.h"
+#include "spec/texture/cube.h"
+#include "spec/texture/detail.h"
+
+/* The inputs of sampling. */
+struct sampler {
+    const struct sampler_key *k;
+    int axes; /* of its images: 2 or 3 */
+    struct tap tap;
+    struct detail detail;
+    itg face; /* cube: its number */
+    flt coordinate[3];
+    flt reference; /* compared with texels of depth */
+};
+
+static inline int has_border(const struct sampler *s, int axis)
+{
+    return s->k->address[axis] == ADDRESS_BORDER;
+}
+
+/* The number of the first texel of a row, by taps down and through the slices. */
+static inline itg texel_row(struct env *e, const struct sampler *s, const struct level *l,
+                            const struct axis *axis, int j, int k, itg pitch)
+{
+    itg row = dot_i(E, axis[1].index[j], pitch);
+    if (s->axes == 3) {
+        itg slice_texels =
+            l->each ? l->slice_texels : uniform_i(E, BASE_JOB, TEXTURE_FIELD(l->number, slice_texels));
+        itg slice = mul_i(E, axis[2].index[k], slice_texels);
+        row = add_i(E, row, slice);
+    }
+    return l->placed ? add_i(E, row, l->offset) : row;
+}
+
+/* --- Bytes --------------------------------------------------------------------------------------------- */
+
+/* The texel; or the border colour if an axis has a border and addressing changed its index. */
+static inline itg border_texel(struct env *e, int number, const struct axis *axis, int tap, itg texel)
+{
+    msk inside = eq_i(E, axis->wanted[tap], axis->index[tap]);
+    itg border = uniform_i(E, BASE_JOB, TEXTURE_FIELD(number, border));
+    return select_i(E, inside, texel, border);
+}
+
+/* The texel of column tap `i`, row tap `j` and slice tap `k`, whose row starts at texel number `row`. */
+static inline itg texel(struct env *e, const struct sampler *s, const struct axis *axis, int i, int j, int k,
+                        itg row)
+{
+    const int tap[3] = {i, j, k};
+    itg index = add_i(E, row, axis[0].index[i]);
+    itg word = gather_i(E, BASE_JOB, TEXTURE_FIELD(s->k->number, texels), index, 4, 0);
+    for (int a = 0; a < s->axes; a++)
+        if (has_border(s, a))
+            word = border_texel(E, s->k->number, &axis[a], tap[a], word);
+    return word;
+}
+
+/* The texels of two rows that are blended along u and v. All are gathered together, since they are
+ * neighbours. */
+static inline void texel_square(struct env *e, const struct sampler *s, const struct axis *axis, int k,
+                                const itg row[2], itg texels[2][2])
+{
+    int field = TEXTURE_FIELD(s->k->number, texels);
+    if (!axis[0].adjoining) {
+        for (int j = 0; j < 2; j++)
+            for (int i = 0; i < 2; i++)
+                texels[j][i] = texel(E, s, axis, i, j, k, row[j]);
+        return;
+    }
+    itg upper = add_i(E, row[0], axis[0].index[0]);
+    itg lower = add_i(E, row[1], axis[0].index[0]);
+    texels[0][0] = gather_i(E, BASE_JOB, field, upper, 4, 0);
+    texels[0][1] = gather_i(E, BASE_JOB, field, upper, 4, 4);
+    texels[1][0] = gather_i(E, BASE_JOB, field, lower, 4, 0);
+    texels[1][1] = gather_i(E, BASE_JOB, field, lower, 4, 4);
+}
+
+static inline fix lerp_256(struct env *e, fix a, fix b, fix inverse, fix weight)
+{
+    fix left = mul_x(E, a, inverse);
+    fix right = mul_x(E, b, weight);
+    fix sum = add_x(E, left, right);
+    fix rounded = add_x(E, sum, lit_x(E, 128));
+    return ushr_x(E, rounded, 8);
+}
+
+static inline struct color lerp_colors(struct env *e, struct color a, struct color b, fix inverse, fix weight)
+{
+    struct color r;
+    r.rb = lerp_256(E, a.rb, b.rb, inverse, weight);
+    r.ga = lerp_256(E, a.ga, b.ga, inverse, weight);
+    return r;
+}
+
+static inline struct color lerp_texels(struct env *e, itg a, itg b, fix inverse, fix weight)
+{
+    struct color left = color_unpack(E, a);
+    struct color right = color_unpack(E, b);
+    return lerp_colors(E, left, right, inverse, weight);
+}
+
+/* Four texels of the slice of tap `k`. */
+static inline struct color sample_slice(struct env *e, const struct sampler *s, const struct level *l,
+                                        const struct axis *axis, int k, itg pitch)
+{
+    itg row[2], texels[2][2];
+    row[0] = texel_row(E, s, l, axis, 0, k, pitch);
+    row[1] = texel_row(E, s, l, axis, 1, k, pitch);
+    texel_square(E, s, axis, k, row, texels);
+    fix inverse_u = sub_x(E, lit_x(E, 256), axis[0].weight);
+    fix inverse_v = sub_x(E, lit_x(E, 256), axis[1].weight);
+    struct color upper = lerp_texels(E, texels[0][0], texels[0][1], inverse_u, axis[0].weight);
+    struct color lower = lerp_texels(E, texels[1][0], texels[1][1], inverse_u, axis[0].weight);
+    return lerp_colors(E, upper, lower, inverse_v, axis[1].weight);
+}
+
+static inline struct color sample_image(struct env *e, const struct sampler *s, const struct level *l)
+{
+    struct axis axis[3];
+    struct tap tap = s->tap;
+    tap.pairs = !has_border(s, 1) && (s->axes == 2 || !has_border(s, 2));
+    for (int a = 0; a < s->axes; a++)
+        address_axis(E, l, &tap, s->k->address[a], a, s->coordinate[a], &axis[a]);
+    itg pitch = level_pitch(E, l);
+    if (!s->tap.linear) {
+        itg row = texel_row(E, s, l, axis, 0, 0, pitch);
+        itg word = texel(E, s, axis, 0, 0, 0, row);
+        return color_unpack(E, word);
+    }
+    struct color near = sample_slice(E, s, l, axis, 0, pitch);
+    if (s->axes == 2)
+        return near;
+    struct color far = sample_slice(E, s, l, axis, 1, pitch);
+    fix inverse = sub_x(E, lit_x(E, 256), axis[2].weight);
+    return lerp_colors(E, near, far, inverse, axis[2].weight);
+}
+
+/* --- Levels -------------------------------------------------------------------------------------------- */
+
+/* Image number `i` of those that are blended: from the job, or each lane's own; of a cube, of its face. */
+static inline void sampler_level(struct env *e, const struct sampler *s, int i, struct level *r)
+{
+    r->number = s->k->number;
+    r->each = r->placed = 0;
+    if (s->k->mip)
+        gather_level(E, s->k->number, s->detail.level[i], s->axes, r);
+    if (s->k->kind != TEXTURE_CUBE)
+        return;
+    itg face_texels = uniform_i(E, BASE_JOB, TEXTURE_FIELD(s->k->number, face_texels));
+    itg face = mul_i(E, s->face, face_texels);
+    r->offset = r->placed ? add_i(E, r->offset, face) : face;
+    r->placed = 1;
+}
+
+static inline struct color sample_levels(struct env *e, const struct sampler *s)
+{
+    struct level level;
+    sampler_level(E, s, 0, &level);
+    struct color color = sample_image(E, s, &level);
+    if (!s->k->mip || s->detail.images == 1)
+        return color;
+    sampler_level(E, s, 1, &level);
+    struct color further = sample_image(E, s, &level);
+    fix weight = both_halves(E, s->detail.fraction);
+    fix inverse = sub_x(E, lit_x(E, 256), weight);
+    return lerp_colors(E, color, further, inverse, weight);
+}
+
+/* --- Coordinates --------------------------------------------------------------------------------------- */
+
+/* The lanes with a linear filter: by magfilter, or by the other filter where texels are smaller than pixels.
+ */
+static inline void choose_filter(struct env *e, struct sampler *s)
+{
+    int mag = s->k->filter == FILTER_LINEAR, minify = s->k->minify;
+    int min = minify == MINIFY_SAME ? mag : minify == MINIFY_ANISOTROPIC || !mag;
+    s->tap.linear = mag || min;
+    s->tap.mixed = mag != min;
+    if (s->tap.mixed && min)
+        s->tap.smooth = s->detail.minified;
+    else if (s->tap.mixed)
+        s->tap.smooth = andn_m(E, lit_m(E, -1), s->detail.minified);
+}
+
+static inline void project_cube(struct env *e, struct sampler *s, const flt v[3], struct changes *changes)
+{
+    struct cube_face face = cube_face(E, v);
+    struct cube_vector at = cube_turn(E, &face, v);
+    flt s_ratio = div_f(E, at.s, at.m);
+    flt t_ratio = div_f(E, at.t, at.m);
+    s->face = face.number;
+    s->coordinate[0] = cube_coordinate(E, s_ratio);
+    s->coordinate[1] = cube_coordinate(E, t_ratio);
+    if (!changes)
+        return;
+    flt *const change[2] = {changes->across, changes->down};
+    for (int i = 0; i < 2; i++) {
+        struct cube_vector d = cube_turn(E, &face, change[i]);
+        change[i][0] = cube_difference(E, s_ratio, d.s, d.m, at.m);
+        change[i][1] = cube_difference(E, t_ratio, d.t, d.m, at.m);
+    }
+}
+
+/* Coordinates u, v and, if the texture needs it, a third: w, z of a cube's vector, or the reference depth. */
+static inline void sampler_begin(struct env *e, struct sampler *s, const struct sampler_key *k,
+                                 const flt v[3], const struct lookup *how)
+{
+    struct changes changes;
+    int cube = k->kind == TEXTURE_CUBE;
+    int measured = needs_detail(k) && how->from != DETAIL_GIVEN;
+    s->k = k;
+    s->axes = k->kind == TEXTURE_VOLUME ? 3 : 2;
+    if (measured && how->from == DETAIL_CHANGES)
+        changes = how->changes;
+    else if (measured)
+        quad_changes(E, v, cube ? 3 : s->axes, &changes);
+    if (cube)
+        project_cube(E, s, v, measured ? &changes : NULL);
+    else
+        for (int a = 0; a < s->axes; a++)
+            s->coordinate[a] = v[a];
+    if (measured) {
+        measure_changes(E, k->number, s->axes, &changes);
+        detail(E, k, s->axes, how, &changes, &s->detail);
+    } else if (needs_detail(k))
+        given_detail(E, k, how->amount, &s->detail);
+    choose_filter(E, s);
+    s->reference = v[2];
+}
+
+/* Variables of the taps' loop: the number of the tap, the lanes that take it, and the sums, of two pairs of
+ * channels or of up to four. A variable has one type in a whole routine, which may sample textures of both
+ * kinds. */
+enum { VARIABLE_TAP = VARIABLES - 8, VARIABLE_TAPPED, VARIABLE_PAIR_SUM, VARIABLE_SUM = VARIABLES - 4 };
+
+/* Moves the coordinates of `to` to tap i of 1 to N; `apart` is 1 / (N + 1). */
+static inline void move_to_tap(struct env *e, const struct sampler *s, flt i, flt apart, struct sampler *to)
+{
+    flt along = mad_f(E, i, apart, lit_f(E, -0.5f));
+    for (int a = 0; a < s->axes; a++)
+        to->coordinate[a] = mad_f(E, s->detail.step[a], along, s->coordinate[a]);
+}
+
+static inline flt taps_apart(struct env *e, const struct sampler *s)
+{
+    flt spaces = add_f(E, s->detail.taps, lit_f(E, 1.0f));
+    return div_f(E, lit_f(E, 1.0f), spaces);
+}
+
+static inline void begin_taps(struct env *e)
+{
+    set_f(E, VARIABLE_TAP, lit_f(E, 1.0f));
+    set_m(E, VARIABLE_TAPPED, lit_m(E, -1));
+}
+
+/* Advances to the next tap, while any lane has one. */
+static inline void next_tap(struct env *e, const struct sampler *s)
+{
+    flt i = get_f(E, VARIABLE_TAP);
+    flt next = add_f(E, i, lit_f(E, 1.0f));
+    msk more = le_f(E, next, s->detail.taps);
+    set_f(E, VARIABLE_TAP, next);
+    set_m(E, VARIABLE_TAPPED, more);
+}
+
+static inline fix fix_where(struct env *e, msk mask, fix value)
+{
+    itg kept = mask_i(E, mask);
+    itg bits = int_of(E, value);
+    itg r = and_i(E, bits, kept);
+    return fix_of(E, r);
+}
+
+/* floor((2 * sum + N) / 2N) of both halves. The numbers are small, so the quotient cannot round up to a whole
+ * number. */
+static inline fix divide_taps(struct env *e, fix sum, itg taps)
+{
+    itg both = int_of(E, sum);
+    itg half[2], result[2];
+    half[0] = and_i(E, both, lit_i(E, 0xffff));
+    half[1] = ushr_i(E, both, 16);
+    itg doubled = add_i(E, taps, taps);
+    flt divisor = float_f(E, doubled);
+    for (int i = 0; i < 2; i++) {
+        itg twice = add_i(E, half[i], half[i]);
+        itg numerator = add_i(E, twice, taps);
+        flt dividend = float_f(E, numerator);
+        flt quotient = div_f(E, dividend, divisor);
+        result[i] = trunc_i(E, quotient);
+    }
+    itg high = shl_i(E, result[1], 16);
+    itg joined = or_i(E, result[0], high);
+    return fix_of(E, joined);
+}
+
+static inline void add_tap(struct env *e, int variable, msk counts, fix value)
+{
+    fix counted = fix_where(E, counts, value);
+    itg before = get_i(E, variable);
+    fix sum = fix_of(E, before);
+    sum = add_x(E, sum, counted);
+    itg after = int_of(E, sum);
+    set_i(E, variable, after);
+}
+
+static inline fix mean_of_taps(struct env *e, int variable, itg taps)
+{
+    itg bits = get_i(E, variable);
+    fix sum = fix_of(E, bits);
+    return divide_taps(E, sum, taps);
+}
+
+static inline struct color sample_anisotropic(struct env *e, const struct sampler *s)
+{
+    flt apart = taps_apart(E, s);
+    struct sampler tap = *s;
+    begin_taps(E);
+    set_i(E, VARIABLE_PAIR_SUM, lit_i(E, 0));
+    set_i(E, VARIABLE_PAIR_SUM + 1, lit_i(E, 0));
+    LOOP(E, VARIABLE_TAPPED)
+    {
+        flt i = get_f(E, VARIABLE_TAP);
+        msk counts = get_m(E, VARIABLE_TAPPED);
+        move_to_tap(E, s, i, apart, &tap);
+        struct color color = sample_levels(E, &tap);
+        add_tap(E, VARIABLE_PAIR_SUM, counts, color.rb);
+        add_tap(E, VARIABLE_PAIR_SUM + 1, counts, color.ga);
+        next_tap(E, s);
+    }
+    itg taps = round_i(E, s->detail.taps);
+    struct color r;
+    r.rb = mean_of_taps(E, VARIABLE_PAIR_SUM, taps);
+    r.ga = mean_of_taps(E, VARIABLE_PAIR_SUM + 1, taps);
+    return r;
+}
+
+/* Without changes there is no longer one, so an anisotropic filter takes one tap, filtered linearly. */
+static inline struct sampler_key lookup_sampler(const struct sampler_key *k, const struct lookup *how)
+{
+    struct sampler_key r = *k;
+    if (how->from == DETAIL_GIVEN && k->minify == MINIFY_ANISOTROPIC)
+        r.minify = k->filter == FILTER_LINEAR ? MINIFY_SAME : MINIFY_OTHER;
+    return r;
+}
+
+/* Samples a texture of bytes. */
+static inline struct color sample(struct env *e, const struct sampler_key *key, const flt v[3],
+                                  const struct lookup *how)
+{
+    struct sampler_key k = lookup_sampler(key, how);
+    struct sampler s;
+    sampler_begin(E, &s, &k, v, how);
+    return k.minify == MINIFY_ANISOTROPIC ? sample_anisotropic(E, &s) : sample_levels(E, &s);
+}
+
+#endif

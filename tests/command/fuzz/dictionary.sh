@@ -1,0 +1,43 @@
+#!/usr/bin/env bash
+# The words of a target's language for libFuzzer's -dict, from the tables by way of `triptych list` and from
+# the repository's own files; nothing for targets of bytes.
+#
+#   COMMAND=build/triptych tests/command/fuzz/dictionary.sh TARGET
+set -uo pipefail
+cd "$(dirname "$0")/../../.."
+
+# Strings in the JSON of a list, but not their descriptions.
+listed() # WHAT
+{
+    "$COMMAND" list "$1" --json | grep -vE '"(meaning|test|keys|supported|kind|what)":' |
+        grep -oE '"[^"]*"(,|$)' | grep -oE '[A-Za-z0-9_.+-]+'
+}
+
+# Words of files of the language, numbers left out.
+used() # FILE...
+{
+    cat "$@" | sed 's/#.*//; s,//.*,,' | grep -oE '[A-Za-z_][A-Za-z0-9_]*(-[a-z]+)*' | sort | uniq -c |
+        awk '$1 > 2 { print $2 }'
+}
+
+quoted() # words on standard input
+{
+    sort -u | sed 's/.*/"&"/'
+}
+
+shader_words() { { listed shaders && used $(find tests/data/shaders -type f); } | quoted; }
+
+case $1 in
+text)
+    { listed states && listed formats && used tests/*/*.tri bench/streams/*.tri; } | quoted
+    printf '%s\n' '"\x0a"' '" { "' '" }\x0a"' '"\x0atarget 16 16\x0a"' '"65536"' '"4294967295"' '"-1"' \
+        '"1e39"' '"nan"'
+    ;;
+shader) shader_words ;;
+bezier) printf '"%s"\n' BBP STBBP BEZ333 CBEZ333 BEZ333_ST CBEZ333_ST 1e38 1e-45 0.5 -1 ;;
+dds) listed formats | grep -E '^[A-Z0-9]{4}$' | quoted ;;
+model) printf '"%s"\n' 'v ' 'vn ' 'vt ' 'f ' mtllib 'element vertex ' 'element face ' \
+    'property list uchar int ' solid facet \
+    vertex OFF Mesh Frame glTF accessors bufferViews byteLength COLLADA 4294967295 -1 1e38 nan ;;
+png) printf '"%s"\n' IHDR PLTE IDAT IEND tRNS gAMA iCCP zTXt iTXt sPLT ;;
+esac

@@ -1,0 +1,78 @@
+#!/usr/bin/env bash
+# Fills a folder with what a target may begin from: the repository's own small files of its format.
+#
+#   COMMAND=build/triptych tests/command/fuzz/seeds.sh TARGET FOLDER
+set -uo pipefail
+cd "$(dirname "$0")/../../.."
+target=$1 folder=$2
+mkdir -p "$folder"
+
+copy() # FILE... : those of up to 16 KiB
+{
+    local file
+    for file in "$@"; do
+        [[ $(stat -Lc %s "$file") -gt 16384 ]] || cp "$file" "$folder/$(tr / - <<<"$file")"
+    done
+}
+
+# A stream with a small target, so that it is played.
+shrink() # FILE
+{
+    sed -E 's/^( *target) [0-9]+ [0-9]+/\1 16 16/; s/^( *viewport) ([^ ]+ ){4}/\1 0 0 16 16 /
+        s/^( *scissor) ([^ ]+ ){3}[^ ]+/\1 0 0 16 16/' "$1"
+}
+
+# Small streams without files, each in turn in the folder's seed.tri.
+each_stream() # COMMAND...
+{
+    local file
+    for file in $(grep -LE 'file|bezier' tests/data/streams/*.tri tests/data/shading/*.tri); do
+        [[ $(stat -c %s "$file") -le 8192 ]] || continue
+        shrink "$file" >"$folder/seed.tri"
+        "$@" "$folder/seed.tri" "$folder/$(basename "$file" .tri).trib" >/dev/null 2>&1
+    done
+    rm -f "$folder"/seed.*
+}
+
+record() # STREAM RECORDING
+{
+    TRIPTYCH_RECORD=$2 "$COMMAND" render "$1" --engine emulate --out "$1.png"
+}
+
+case $target in
+text)
+    rm -f "$folder"/small-*
+    copy tests/*/*.tri bench/streams/*.tri
+    for file in "$folder"/*.tri; do
+        shrink "$file" >"$folder/small-${file##*/}"
+    done
+    ;;
+container) each_stream "$COMMAND" convert ;;
+recording) # the calls of the interface that drawing makes
+    each_stream record
+    find "$folder" -size +16k -delete
+    ;;
+shader) copy $(find tests/data/shaders -type f) ;;
+bytecode)
+    for file in $(find tests/data/shaders -type f); do
+        "$COMMAND" shader assemble "$file" --out "$folder/$(basename "$file").o" >/dev/null 2>&1
+    done
+    ;;
+png) copy $(find tests bench -name "*.png") ;;
+dds) copy $(find tests bench -name '*.dds') ;;
+model) # the format's number and whether there are bones, then the file
+    formats=($(sed -n '/formats\[\] = {/,/};/p' tests/command/fuzz/targets/model.c | grep -oE '"[a-z0-9]+"' |
+        tr -d '"'))
+    for number in "${!formats[@]}"; do
+        for file in $(find -L build/assimp/models -iname "*.${formats[number]}" -size -8k | sort |
+            head -n 8); do
+            { printf "\\x$(printf %02x "$number")\\1" && cat "$file"; } >"$folder/$(basename "$file")"
+        done
+    done
+    ;;
+bezier)
+    for file in $(find bench -name '*.bez'); do
+        { printf '\1\0\0\0\0' && head -n 40 "$file"; } >"$folder/$(basename "$file")"
+    done
+    ;;
+esac

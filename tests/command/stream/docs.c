@@ -1,0 +1,84 @@
+/* docs/streams.md keeps its word: its example is a stream, its limits and its words are the tables'. */
+#include "base/file.h"
+#include "command/stream/stream.h"
+
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <unity.h>
+
+static struct error error;
+static char *page;
+
+void setUp(void)
+{
+    size_t bytes;
+    error_clear(&error);
+    TEST_ASSERT_EQUAL_INT_MESSAGE(0, file_read("docs/streams.md", 1 << 20, &page, &bytes, &error),
+                                  error.text);
+}
+
+void tearDown(void)
+{
+    free(page);
+}
+
+static void the_example_is_a_stream_of_two_frames(void)
+{
+    struct stream *stream;
+    const char *start = strstr(page, "```\ntriptych 1\n");
+    TEST_ASSERT_NOT_NULL(start);
+    const char *end = strstr(start + 4, "```");
+    TEST_ASSERT_NOT_NULL(end);
+    int result =
+        stream_parse("bench/streams/example.tri", start + 4, (size_t)(end - start - 4), &stream, &error);
+    TEST_ASSERT_EQUAL_INT_MESSAGE(0, result, error.text);
+    TEST_ASSERT_EQUAL_UINT(2, stream->frame_count);
+    stream_free(stream);
+}
+
+static void the_limits_are_those_of_the_table(void)
+{
+    static const struct {
+        const char *what;
+        unsigned value;
+    } rows[] = {
+#define LIMIT(name, value, what) {what, value},
+#include "command/stream/limit.def"
+#undef LIMIT
+    };
+    const char *at = strstr(page, "## Limits");
+    size_t count = 0;
+    for (size_t i = 0; i < sizeof rows / sizeof *rows; i++) {
+        char row[128];
+        snprintf(row, sizeof row, "\n| %s | %u |\n", rows[i].what, rows[i].value);
+        TEST_ASSERT_NOT_NULL_MESSAGE(strstr(at, row), row);
+    }
+    for (const char *row = strstr(at, "\n| "); row && row < strstr(at, "## Canonical");
+         row = strstr(row + 1, "\n| "))
+        count++;
+    TEST_ASSERT_EQUAL_UINT64(sizeof rows / sizeof *rows + 2, count); /* and the heading's two */
+}
+
+static void every_word_is_mentioned(void)
+{
+    static const char *const words[] = {
+#define WORD(list, word, value) #word,
+#include "capture/word.def"
+#undef WORD
+#define ELEMENT(word, usage, index) #word,
+#include "capture/element.def"
+#undef ELEMENT
+    };
+    for (size_t i = 0; i < sizeof words / sizeof *words; i++)
+        TEST_ASSERT_NOT_NULL_MESSAGE(strstr(page, words[i]), words[i]);
+}
+
+int main(void)
+{
+    UNITY_BEGIN();
+    RUN_TEST(the_example_is_a_stream_of_two_frames);
+    RUN_TEST(the_limits_are_those_of_the_table);
+    RUN_TEST(every_word_is_mentioned);
+    return UNITY_END();
+}

@@ -1,0 +1,75 @@
+/* Every engine of the specializer writes the same bytes as the emulator, for random keys and inputs of every
+ * unit. TRIPTYCH_SEED selects others. */
+#include "machine/code.h"
+#include "emu/emulate/emulate.h"
+#include "engines/specialize/specialize.h"
+#include "tests/support/routine/differential.h"
+#include "tests/support/system/seed.h"
+#include <unity.h>
+
+static struct code_arena *arena;
+static struct differential *differential;
+
+void setUp(void)
+{
+    struct error error = {{0}};
+    arena = code_create(0, NULL, &error);
+    TEST_ASSERT_NOT_NULL_MESSAGE(arena, error.text);
+    differential = differential_create(arena);
+    TEST_ASSERT_NOT_NULL(differential);
+}
+
+void tearDown(void)
+{
+    differential_destroy(differential);
+    code_destroy(arena);
+}
+
+static void compare_units(const struct engine *engine)
+{
+    enum { ROUNDS = 1000 };
+    if (engine_unavailable(engine))
+        TEST_IGNORE_MESSAGE(engine_unavailable(engine));
+    for (int unit = 0; unit < UNIT_COUNT; unit++) {
+        const char *difference = differential_rounds(differential, &engine_emulate, engine, unit, NULL,
+                                                     test_seed() + (uint64_t)unit, test_share(ROUNDS));
+        if (difference)
+            TEST_FAIL_MESSAGE(difference);
+    }
+}
+
+static void test_eight_lanes_equal_the_emulator(void)
+{
+    compare_units(&engine_specialize_8);
+}
+
+static void test_four_lanes_equal_the_emulator(void)
+{
+    compare_units(&engine_specialize_4);
+}
+
+static void test_sixteen_lanes_equal_the_emulator(void)
+{
+    compare_units(&engine_specialize_16);
+}
+
+static void test_automatic_lanes_equal_the_emulator(void)
+{
+    compare_units(&engine_specialize);
+}
+
+static void test_thesis_profile_equals_the_emulator(void)
+{
+    compare_units(&engine_specialize_thesis);
+}
+
+int main(void)
+{
+    UNITY_BEGIN();
+    RUN_TEST(test_eight_lanes_equal_the_emulator);
+    RUN_TEST(test_four_lanes_equal_the_emulator);
+    RUN_TEST(test_sixteen_lanes_equal_the_emulator);
+    RUN_TEST(test_automatic_lanes_equal_the_emulator);
+    RUN_TEST(test_thesis_profile_equals_the_emulator);
+    return UNITY_END();
+}

@@ -1,0 +1,311 @@
+/* Allocation under pressure: random programs, and routines of random keys, of all shaders of
+ * tests/data/shaders, of random shaders and of all streams, compiled with few registers and with choices
+ * drawn by lot. The test proves that their code reads the right values (tests/support/routine/placement.h),
+ * and compares results with the interpreter, or with the same routine without pressure.
+ *
+ * TRIPTYCH_SEED chooses other programs, registers and lots. */
+#include "base/bits.h"
+#include "machine/code.h"
+#include "machine/cpu.h"
+#include "machine/mxcsr.h"
+#include "contract/lane.h"
+#include "engines/specialize/specialize.h"
+#include "tests/support/routine/differential.h"
+#include "tests/support/routine/placement.h"
+#include "tests/support/shader/program.h"
+#include "tests/support/routine/routines.h"
+#include "tests/support/system/seed.h"
+#include <unity.h>
+
+#include <stdio.h>
+#include <string.h>
+
+enum { PROGRAMS = 1500 };
+
+static struct code_arena *arena;
+static struct builder *builder;
+static struct program_data given, expected, got;
+static char message[700];
+
+void setUp(void)
+{
+    struct error error = {{0}};
+    if (!cpu_has_avx2_fma())
+        TEST_IGNORE_MESSAGE("needs AVX2 and FMA");
+    arena = code_create(0, NULL, &error);
+    builder = specialize_take(&error);
+    TEST_ASSERT_NOT_NULL_MESSAGE(arena, error.text);
+    TEST_ASSERT_NOT_NULL_MESSAGE(builder, error.text);
+}
+
+void tearDown(void)
+{
+    if (builder)
+        specialize_give(builder);
+    code_destroy(arena);
+    arena = NULL;
+    builder = NULL;
+}
+
+/* Removes random registers from a set until `count` are left. Returns the set. */
+static uint64_t random_registers(uint64_t registers, unsigned size, uint64_t *seed)
+{
+    for (unsigned left = (unsigned)__builtin_popcountll(registers); left > size; left--) {
+        uint64_t from = registers;
+        for (unsigned n = program_random(seed) % left; n; n--) /* removes the n-th of the rest */
+            from &= from - 1;
+        registers &= ~(from & -from);
+    }
+    return registers;
+}
+
+/* Any subset of the registers, masks included. */
+static struct register_file random_file(unsigned width, uint64_t *seed)
+{
+    static const uint8_t sizes[] = {13, 29, 8, 5, 3, 2, 1, 0}, masks[] = {6, 6, 3, 2, 1, 0};
+    struct register_file file = {.wide = width == 16};
+    unsigned size = sizes[program_random(seed) % sizeof sizes];
+    unsigned count = masks[program_random(seed) % sizeof masks];
+    file.without = ~(random_registers(file.wide ? WIDE_REGISTERS : NARROW_REGISTERS, size, seed) |
+                     random_registers(MASK_REGISTERS, count, seed));
+    file.seed = program_random(seed) % 4 ? program_random(seed) : 0;
+    return file;
+}
+
+static void fail(uint64_t number, unsigned width, const struct register_file *file, const char *what)
+{
+    snprintf(message, sizeof message, "program %llu, %u lanes, without registers 0x%llx, lots %llu: %s",
+             (unsigned long long)number, width, (unsigned long long)file->without,
+             (unsigned long long)file->seed, what);
+    TEST_FAIL_MESSAGE(message);
+}
+
+static void expect_same(uint64_t number, unsigned width, const struct register_file *file)
+{
+    char what[120];
+    int at = program_difference(&expected, &got);
+    if (at < 0)
+        return;
+    snprintf(what, sizeof what, "lane %d of slot %d: expected %08x, got %08x", at % VERTEX_CAPACITY,
+             at / VERTEX_CAPACITY, bits_of_float(expected.output[at]), bits_of_float(got.output[at]));
+    fail(number, width, file, what);
+}
+
+typedef void generator(struct ir *, unsigned length, uint64_t *seed);
+
+/* Makes program `number`, optimises it with some set of passes, and computes its results. Returns the lanes.
+ */
+static unsigned prepare(generator *make, uint64_t number, unsigned longest, uint64_t *seed)
+{
+    static const uint32_t disabled[] = {0, ~0u, 0, 1};
+    unsigned width = program_width(number);
+    *seed = test_seed() + number * 0x9e3779b97f4a7c15ull;
+    *seed |= !*seed;
+    make(&builder->ir, 3 + program_random(seed) % longest, seed);
+    TEST_ASSERT_NULL(ir_verify(&builder->ir));
+    program_fill(&given, seed);
+    expected = given;
+    program_interpret(&builder->ir, &expected, width);
+    unsigned saved = mxcsr_enter();
+    builder->pass.lanes = width;
+    pass_run_all(&builder->ir, &builder->pass, PROFILE_FULL, disabled[program_random(seed) % 4], NULL, NULL);
+    mxcsr_leave(saved);
+    return width;
+}
+
+static void try_program(generator *make, uint64_t number, unsigned longest)
+{
+    struct error error = {{0}};
+    uint64_t seed;
+    unsigned width = prepare(make, number, longest, &seed);
+    struct register_file file = random_file(width, &seed);
+    got = given;
+    if (program_compile_with(builder, arena, width, &file, &got, &error))
+        fail(number, width, &file, error.text);
+    const char *wrong = placement_check(builder);
+    if (wrong)
+        fail(number, width, &file, wrong);
+    expect_same(number, width, &file);
+}
+
+static void test_straight_programs(void)
+{
+    for (uint64_t n = 1; n <= test_share(PROGRAMS); n++)
+        try_program(program_make, n, 100);
+}
+
+static void test_programs_with_loops_and_variables(void)
+{
+    for (uint64_t n = 1; n <= test_share(PROGRAMS); n++)
+        try_program(program_make_loops, n, 40);
+}
+
+static void test_programs_with_forms_that_recordings_lack(void)
+{
+    for (uint64_t n = 1; n <= test_share(PROGRAMS); n++)
+        try_program(program_make_wild, n, 50);
+}
+
+/* --- Routines ------------------------------------------------------------------------------------------ */
+
+static struct differential *differential;
+static struct build_options options;
+static uint64_t lots;
+static unsigned visited;
+
+static struct routine *build_under_pressure(const struct engine *self, struct code_arena *where,
+                                            enum unit unit, const union key *key, struct error *error)
+{
+    (void)self;
+    return specialize_routine(&engine_specialize, &options, where, unit, key, error);
+}
+
+/* With the default allocation, and with registers and choices by lot. Every third routine is executed. */
+static void check_routine(void *context, enum unit unit, const union key *key)
+{
+    struct engine pressed = engine_specialize;
+    const struct engine *engines[] = {&engine_specialize, &pressed};
+    struct error error = {{0}};
+    char text[KEY_TEXT_CAPACITY];
+    static char complaint[KEY_TEXT_CAPACITY + 1000];
+    (void)context;
+    pressed.name = "specialize under pressure";
+    pressed.build = build_under_pressure;
+    options = (struct build_options){.width = program_width(visited), .profile = PROFILE_FULL};
+    for (int pressure = 0; pressure < 2; pressure++) {
+        const char *wrong = error.text;
+        if (specialize_code(builder, &options, unit, key, NULL, NULL, &error))
+            wrong = placement_check(builder);
+        snprintf(complaint, sizeof complaint, "%u lanes, without registers 0x%llx, lots %llu: %s; %s key: %s",
+                 options.width, (unsigned long long)options.file.without,
+                 (unsigned long long)options.file.seed, wrong ? wrong : "", unit_name[unit],
+                 key_print(unit, key, text));
+        TEST_ASSERT_NULL_MESSAGE(wrong, complaint);
+        unsigned width = program_width(program_random(&lots));
+        options = (struct build_options){.width = width,
+                                         .profile = program_random(&lots) % 4 ? PROFILE_FULL : PROFILE_THESIS,
+                                         .file = random_file(width, &lots)};
+    }
+    const char *found = visited++ % 3 ? NULL : differential_run(differential, engines, 2, unit, key, lots);
+    if (found)
+        TEST_FAIL_MESSAGE(found);
+}
+
+static void test_routines(void)
+{
+    visited = 0;
+    lots = test_seed();
+    differential = differential_create(arena);
+    TEST_ASSERT_NOT_NULL(differential);
+    visit_random_keys(test_share(450), lots, check_routine, NULL);
+    visit_shaders(lots, check_routine, NULL);
+    visit_random_shaders(test_share(200), lots, check_routine, NULL);
+    visit_streams(check_routine, NULL);
+    differential_destroy(differential);
+    TEST_ASSERT_GREATER_THAN(test_share(1000), visited);
+}
+
+/* --- Sabotage ------------------------------------------------------------------------------------------ */
+
+enum { ANOTHER_REGISTER, ANOTHER_SLOT, NO_RELOAD, NO_STORE, LOST_INSTRUCTION, DAMAGES };
+
+/* A value that is in a register at first; a spilled one if the damage concerns spills. */
+static unsigned choose_victim(unsigned damage, uint64_t *seed)
+{
+    const struct allocation *a = &builder->allocation;
+    for (unsigned tries = 0; tries < 200; tries++) {
+        unsigned value = 1 + program_random(seed) % (builder->ir.count - 1);
+        if (a->residence[value] != RESIDENCE_REGISTER || allocate_web(a, value) != value)
+            continue;
+        if (damage == ANOTHER_REGISTER || damage == LOST_INSTRUCTION || a->slot[value] != NO_SLOT)
+            return value;
+    }
+    return 0;
+}
+
+/* The encoder does not accept a gather whose result is its index. */
+static int gathers_can_be_encoded(void)
+{
+    const struct allocation *a = &builder->allocation;
+    for (uint32_t n = 1; n < builder->ir.count; n++)
+        if (builder->ir.instruction[n].op == IR_gather && a->reg[n] != NO_REGISTER &&
+            a->reg[n] == a->reg[allocate_web(a, builder->ir.instruction[n].operand[0])])
+            return 0;
+    return 1;
+}
+
+static int damage_allocation(unsigned damage, uint64_t *seed)
+{
+    struct allocation *a = &builder->allocation;
+    unsigned victim = choose_victim(damage, seed), first;
+    if (!victim)
+        return 0;
+    switch (damage) {
+    case ANOTHER_REGISTER:
+        first = a->reg[victim] < MASKS ? 0 : MASKS + 1;
+        a->reg[victim] = (uint8_t)(first + (a->reg[victim] - first + 1 + program_random(seed) % 2) % 3);
+        break;
+    case ANOTHER_SLOT: a->slot[victim] = (uint16_t)(program_random(seed) % a->slots); break;
+    case NO_RELOAD: a->split[victim] = NEVER; break;
+    case NO_STORE: a->slot[victim] = NO_SLOT; break;
+    }
+    return gathers_can_be_encoded();
+}
+
+/* Replaces the code of one operation by nops. */
+static int lose_instruction(uint64_t *seed)
+{
+    struct emitter *m = &builder->emitter;
+    const struct code_line *line = &m->line[1 + program_random(seed) % (m->lines - 2)];
+    unsigned op = builder->ir.instruction[line->instruction].op;
+    uint32_t length = line[1].offset - line->offset;
+    if (!line->instruction || !length || op == IR_when || op == IR_again || op == IR_end || op == IR_loop)
+        return 0;
+    memset(m->code + line->offset, 0x90, length);
+    return 1;
+}
+
+/* Damage that is not detected must not change results. Returns true if it was detected. */
+static int is_noticed(uint64_t number, unsigned damage, unsigned *tried)
+{
+    struct error error = {{0}};
+    uint64_t seed;
+    unsigned width = prepare(number % 2 ? program_make : program_make_loops, number, 40, &seed);
+    struct register_file file = allocate_register_file(3, width);
+    allocate_registers(&builder->ir, &builder->allocation, &file);
+    if (damage != LOST_INSTRUCTION && !damage_allocation(damage, &seed))
+        return 0;
+    size_t bytes = program_emit(builder, width, &error);
+    TEST_ASSERT_MESSAGE(bytes, error.text);
+    if (damage == LOST_INSTRUCTION && !lose_instruction(&seed))
+        return 0;
+    ++*tried;
+    if (placement_check(builder))
+        return 1;
+    got = given;
+    TEST_ASSERT_EQUAL_MESSAGE(0, program_run(builder, bytes, arena, &got, &error), error.text);
+    expect_same(number, width, &file);
+    return 0;
+}
+
+static void test_damage_is_detected(void)
+{
+    for (unsigned damage = 0; damage < DAMAGES; damage++) {
+        unsigned tried = 0, noticed = 0;
+        for (uint64_t n = 1; n <= 400; n++)
+            noticed += (unsigned)is_noticed(n, damage, &tried);
+        TEST_ASSERT_GREATER_THAN(100, tried);
+        TEST_ASSERT_GREATER_OR_EQUAL(damage == LOST_INSTRUCTION ? tried * 9 / 10 : tried / 3, noticed);
+    }
+}
+
+int main(void)
+{
+    UNITY_BEGIN();
+    RUN_TEST(test_straight_programs);
+    RUN_TEST(test_programs_with_loops_and_variables);
+    RUN_TEST(test_programs_with_forms_that_recordings_lack);
+    RUN_TEST(test_routines);
+    RUN_TEST(test_damage_is_detected);
+    return UNITY_END();
+}

@@ -1,0 +1,63 @@
+#!/usr/bin/env bash
+# Every header of src/ and emu/ compiles by itself, with gcc and clang: it includes all that it uses. Headers
+# of the specification are compiled with the binding that does nothing (contract/language.h). Two headers are
+# exceptions: emu/emulate/quad.h is the middle of bind.h, and src/engines/external/vector.h is a text for the
+# system's compiler. The compilation database has an entry for every C source and every header of the
+# specification.
+set -u
+cd "$(dirname "$0")/.." || exit 1
+failed=0
+scratch=$(mktemp -d)
+trap 'rm -rf "$scratch"' EXIT
+
+compilers=()
+for compiler in gcc clang; do
+    command -v "$compiler" >/dev/null && compilers+=("$compiler")
+done
+
+# compile COMPILER HEADER: the header as the only include of a file.
+compile() {
+    printf '#include "%s"\n' "$2" |
+        "$1" -std=gnu17 -Wall -Wextra -Werror -Isrc -I. -x c -fsyntax-only - >"$scratch/$1.${2//\//_}" 2>&1 ||
+        echo "$1 $2"
+}
+export -f compile
+export scratch
+
+# check NAME HEADER...: all of them compile with every compiler.
+check() {
+    local name=$1 bad
+    shift
+    for compiler in "${compilers[@]}"; do
+        bad=$(printf '%s\n' "$@" | xargs -P "$(nproc)" -I{} bash -c 'compile "$0" "$1"' "$compiler" {})
+        if [ -z "$bad" ] && [ $# -gt 0 ]; then
+            echo "ok $name, $compiler"
+            continue
+        fi
+        echo "FAIL $name, $compiler"
+        printf '%s\n' "$bad" >&2
+        printf '%s\n' "$bad" | head -3 | while read -r _ header; do cat "$scratch/$compiler.${header//\//_}"; done >&2
+        failed=1
+    done
+}
+
+mapfile -t specification < <(find src/spec -name '*.h' | sort)
+check "each header of the specification compiles alone" "${specification[@]}"
+
+mapfile -t others < <(find src emu -name '*.h' ! -path 'src/spec/*' \
+    ! -path emu/emulate/quad.h ! -path src/engines/external/vector.h | sort)
+check "each other header compiles alone" "${others[@]}"
+
+database=$BUILD/compile_commands.json
+make -s BUILD="$BUILD" "$database" >"$scratch/make" 2>&1
+missing=$(find src emu tests bench -name '*.c' -o -path 'src/spec/*.h' | while read -r file; do
+    grep -qF "\"file\": \"$file\"" "$database" || echo "$file"
+done)
+if [ -z "$missing" ] && grep -q '^\]$' "$database"; then
+    echo "ok the compilation database names every source"
+else
+    echo "FAIL the compilation database names every source"
+    printf '%s\n' "$missing" >&2
+    failed=1
+fi
+exit $failed

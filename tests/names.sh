@@ -1,0 +1,57 @@
+#!/usr/bin/env bash
+# Extern names: each begins with a prefix of its folder's row in src/README.md.
+#
+# A name belongs to the row with the longest prefix that it begins with. That row must be the row of the
+# folder that defines it. Exceptions: engine_NAME objects are engines, command_NAME functions are subcommands,
+# names that triptych.h declares are the public interface, and names with two underscores belong to the
+# system's interfaces.
+set -u
+cd "$(dirname "$0")/.." || exit 1
+build=${BUILD:-build}
+work=$(mktemp -d)
+trap 'rm -rf "$work"' EXIT
+failed=0
+
+report() # NAME FILE: the file holds the violations; none may be left
+{
+    if [[ -s $2 ]]; then
+        echo "FAIL $1"
+        cat "$2" >&2
+        failed=1
+    else
+        echo "ok $1"
+    fi
+}
+
+if [[ -n ${SLOW:-} ]]; then
+    echo "ok extern names: not looked up in an instrumented build, whose objects have names of the instrumentation"
+    exit 0
+fi
+
+# Rows as "FOLDER PREFIX...".
+awk -F'|' '/^\| `/ { gsub(/[` ]+/, " ", $2); gsub(/`/, "", $5); print $2, $5 }' src/README.md >"$work/rows"
+
+awk '{ for (i = 2; i <= NF; i++) { if ($i in row) print $i ": in the rows of " row[$i] " and " $1; row[$i] = $1 } }' \
+    "$work/rows" >"$work/twice"
+report "no prefix is in two rows" "$work/twice"
+
+# Names as "FOLDER NAME OBJECT", of objects whose source exists.
+find src emu asm -type f \( -name '*.c' -o -name '*.asm' \) | sort | while read -r source; do
+    object=$build/object/${source%.*}.o
+    [[ -f $object ]] && nm --extern-only --defined-only "$object" 2>/dev/null |
+        awk -v folder="${source%/*}" -v source="$source" 'NF == 3 { print folder, $3, source }'
+done >"$work/names"
+
+awk '
+FILENAME == ARGV[1] { for (i = 2; i <= NF; i++) owner[$i] = $1; next }
+FILENAME == ARGV[2] { public[$1] = 1; next }
+$2 ~ /^__/ || $2 == "main" || $2 ~ /^(engine|command)_/ || $2 in public { next }
+{
+    for (n = length($2); n > 0 && !(substr($2, 1, n) in owner); n--);
+    found = n ? owner[substr($2, 1, n)] : ""
+    if (found != $1)
+        print $3 ": " $2 (found ? ", whose prefix belongs to " found : ", which has no prefix of the map")
+}' "$work/rows" <(grep -oE '\btriptych_[a-z0-9_]+' src/triptych.h | sort -u) "$work/names" >"$work/strange"
+[[ -s $work/names ]] || echo "no object has a name: is $build built?" >"$work/strange"
+report "every extern name begins with a prefix of its folder" "$work/strange"
+exit $failed

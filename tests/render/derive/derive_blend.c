@@ -1,0 +1,239 @@
+/* Derivation of pixel keys: what blending, the write masks and the targets leave in a key. */
+#include "tests/support/picture/derivation.h"
+#include "contract/key_query.h"
+
+void setUp(void)
+{
+    derivation_begin();
+}
+
+void tearDown(void)
+{
+}
+
+static void set_blending(const char *operation, const char *source, const char *target)
+{
+    SET(alphablendenable, "true");
+    SET(blendop, operation);
+    SET(srcblend, source);
+    SET(destblend, target);
+}
+
+static void set_alpha_blending(const char *operation, const char *source, const char *target)
+{
+    SET(separatealphablendenable, "true");
+    SET(blendopalpha, operation);
+    SET(srcblendalpha, source);
+    SET(destblendalpha, target);
+}
+
+static void expect_blending(int channel, int blend, int source, int target)
+{
+    const struct pixel_key *pixel = &key[UNIT_PIXEL].pixel;
+    derive();
+    TEST_ASSERT_EQUAL_INT(blend, pixel->blend[channel]);
+    TEST_ASSERT_EQUAL_INT(source, pixel->source_factor[channel]);
+    TEST_ASSERT_EQUAL_INT(target, pixel->target_factor[channel]);
+}
+
+static void blending_is_reduced_to_what_it_does(void)
+{
+    static const struct {
+        const char *operation, *source, *target;
+        int blend, source_factor, target_factor;
+    } cases[] = {
+        {"add", "one", "zero", BLEND_COPY, 0, 0},
+        {"subtract", "one", "zero", BLEND_COPY, 0, 0},
+        {"add", "one", "invsrcalpha", BLEND_ADD, FACTOR_ONE, FACTOR_INVERSE_SOURCE_ALPHA},
+        {"add", "srcalpha", "invsrcalpha", BLEND_ADD, FACTOR_SOURCE_ALPHA, FACTOR_INVERSE_SOURCE_ALPHA},
+        {"add", "bothsrcalpha", "one", BLEND_ADD, FACTOR_SOURCE_ALPHA, FACTOR_INVERSE_SOURCE_ALPHA},
+        {"add", "bothinvsrcalpha", "one", BLEND_ADD, FACTOR_INVERSE_SOURCE_ALPHA, FACTOR_SOURCE_ALPHA},
+        {"add", "srcalphasat", "invblendfactor", BLEND_ADD, FACTOR_SATURATED_ALPHA, FACTOR_INVERSE_CONSTANT},
+        {"add", "blendfactor", "invdestcolor", BLEND_ADD, FACTOR_CONSTANT, FACTOR_INVERSE_TARGET_COLOR},
+        {"subtract", "destcolor", "zero", BLEND_ADD, FACTOR_TARGET_COLOR, FACTOR_ZERO},
+        {"subtract", "zero", "destcolor", BLEND_ADD, FACTOR_ZERO, FACTOR_ZERO},
+        {"revsubtract", "zero", "srccolor", BLEND_ADD, FACTOR_ZERO, FACTOR_SOURCE_COLOR},
+        {"revsubtract", "srccolor", "zero", BLEND_ADD, FACTOR_ZERO, FACTOR_ZERO},
+        {"subtract", "one", "one", BLEND_SUBTRACT, FACTOR_ONE, FACTOR_ONE},
+        {"min", "srcalpha", "invdestalpha", BLEND_MINIMUM, 0, 0},
+        {"max", "zero", "zero", BLEND_MAXIMUM, 0, 0},
+    };
+    for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
+        set_blending(cases[i].operation, cases[i].source, cases[i].target);
+        for (int c = 0; c < BLEND_CHANNELS; c++)
+            expect_blending(c, cases[i].blend, cases[i].source_factor, cases[i].target_factor);
+        SET(alphablendenable, "false");
+        expect_blending(BLEND_COLOR, BLEND_COPY, 0, 0);
+        expect_blending(BLEND_ALPHA, BLEND_COPY, 0, 0);
+    }
+}
+
+static void separate_same_alpha(void)
+{
+    set_alpha_blending("add", "srcalpha", "invsrcalpha");
+}
+
+static void separate_own_colour(void)
+{
+    set_alpha_blending("add", "srccolor", "invsrccolor");
+}
+
+static void alpha_that_is_blended_like_colour_is_not_apart(void)
+{
+    set_blending("add", "srcalpha", "invsrcalpha");
+    expect_same_keys(separate_same_alpha);
+    expect_same_keys(separate_own_colour);
+    set_alpha_blending("add", "one", "invsrcalpha");
+    expect_blending(BLEND_COLOR, BLEND_ADD, FACTOR_SOURCE_ALPHA, FACTOR_INVERSE_SOURCE_ALPHA);
+    expect_blending(BLEND_ALPHA, BLEND_ADD, FACTOR_ONE, FACTOR_INVERSE_SOURCE_ALPHA);
+    SET(separatealphablendenable, "false");
+    expect_blending(BLEND_ALPHA, BLEND_ADD, FACTOR_SOURCE_ALPHA, FACTOR_INVERSE_SOURCE_ALPHA);
+}
+
+/* The two products of (srccolor, invsrcalpha) are rounded each, those of (srcalpha, invsrcalpha) together. */
+static void alpha_that_is_rounded_otherwise_is_apart(void)
+{
+    set_blending("add", "srccolor", "invsrcalpha");
+    set_alpha_blending("add", "srcalpha", "invsrcalpha");
+    expect_blending(BLEND_COLOR, BLEND_ADD, FACTOR_SOURCE_COLOR, FACTOR_INVERSE_SOURCE_ALPHA);
+    expect_blending(BLEND_ALPHA, BLEND_ADD, FACTOR_SOURCE_ALPHA, FACTOR_INVERSE_SOURCE_ALPHA);
+    set_alpha_blending("add", "srccolor", "invsrcalpha");
+    expect_blending(BLEND_ALPHA, BLEND_ADD, FACTOR_SOURCE_COLOR, FACTOR_INVERSE_SOURCE_ALPHA);
+}
+
+static void change_alpha_blending(void)
+{
+    set_alpha_blending("max", "one", "one");
+}
+
+static void change_colour_blending(void)
+{
+    set_blending("revsubtract", "destcolor", "one");
+}
+
+static void channels_that_are_not_written_are_blended_like_the_others(void)
+{
+    set_blending("add", "srcalpha", "one");
+    set_value(TRIPTYCH_STATE_colorwriteenable, 7);
+    expect_same_keys(change_alpha_blending);
+    set_value(TRIPTYCH_STATE_colorwriteenable, 8);
+    expect_same_keys(change_colour_blending);
+    set_value(TRIPTYCH_STATE_colorwriteenable, 0);
+    expect_same_keys(separate_own_colour);
+}
+
+static void channels_that_keep_what_is_stored_are_not_written(void)
+{
+    set_blending("add", "zero", "one");
+    derive();
+    TEST_ASSERT_EQUAL_INT(0, key[UNIT_PIXEL].pixel.write_mask[0]);
+    set_alpha_blending("add", "one", "one");
+    derive();
+    TEST_ASSERT_EQUAL_INT(8, key[UNIT_PIXEL].pixel.write_mask[0]);
+    set_blending("add", "one", "one");
+    set_alpha_blending("revsubtract", "zero", "one");
+    derive();
+    TEST_ASSERT_EQUAL_INT(7, key[UNIT_PIXEL].pixel.write_mask[0]);
+}
+
+static void change_blend_factor(void)
+{
+    set_value(TRIPTYCH_STATE_blendfactor, 0x80402010);
+}
+
+static void the_blend_factor_is_only_in_the_job(void)
+{
+    set_blending("add", "blendfactor", "one");
+    expect_same_keys(change_blend_factor);
+    derive();
+    TEST_ASSERT_EQUAL_HEX32(0x80102040, job.blend_constant);
+}
+
+/* --- Targets --- */
+
+static void set_targets(enum triptych_surface_format first, enum triptych_surface_format second)
+{
+    const struct triptych_target_description description = {
+        .width = 640, .height = 480, .color_format = {first, second}};
+    state_set_target(&state, &description);
+}
+
+static void alpha_of_targets_without_one_is_known(void)
+{
+    set_targets(TRIPTYCH_SURFACE_X8R8G8B8, TRIPTYCH_SURFACE_R5G6B5);
+    set_blending("add", "destalpha", "invdestalpha");
+    expect_blending(BLEND_COLOR, BLEND_COPY, 0, 0);
+    TEST_ASSERT_EQUAL_INT(7, key[UNIT_PIXEL].pixel.write_mask[0]);
+    set_blending("add", "srcalphasat", "one");
+    derive();
+    TEST_ASSERT_EQUAL_INT(0, pixel_write_mask(&key[UNIT_PIXEL].pixel));
+    set_targets(TRIPTYCH_SURFACE_X8R8G8B8, TRIPTYCH_SURFACE_A1R5G5B5);
+    set_blending("add", "destalpha", "invdestalpha");
+    expect_blending(BLEND_COLOR, BLEND_ADD, FACTOR_TARGET_ALPHA, FACTOR_INVERSE_TARGET_ALPHA);
+}
+
+/* 0 - s * f is not 0 where there is room for it. */
+static void differences_below_zero_stay_where_there_is_room(void)
+{
+    set_blending("subtract", "zero", "one");
+    set_targets(TRIPTYCH_SURFACE_A8R8G8B8, 0);
+    expect_blending(BLEND_COLOR, BLEND_ADD, FACTOR_ZERO, FACTOR_ZERO);
+    set_targets(TRIPTYCH_SURFACE_A8R8G8B8, TRIPTYCH_SURFACE_A16B16G16R16F);
+    expect_blending(BLEND_COLOR, BLEND_SUBTRACT, FACTOR_ZERO, FACTOR_ONE);
+    set_value(TRIPTYCH_STATE_colorwriteenable1, 0);
+    expect_blending(BLEND_COLOR, BLEND_ADD, FACTOR_ZERO, FACTOR_ZERO);
+}
+
+/* Of a target that is not written only its number of planes matters, and nothing of those after the last
+ * written one. */
+static void targets_that_are_not_written_are_places(void)
+{
+    const struct pixel_key *pixel = &key[UNIT_PIXEL].pixel;
+    set_targets(TRIPTYCH_SURFACE_R5G6B5, TRIPTYCH_SURFACE_A16B16G16R16F);
+    SET(ditherenable, "true");
+    derive();
+    TEST_ASSERT_EQUAL_INT(TARGET_565, pixel->target[0]);
+    TEST_ASSERT_EQUAL_INT(TARGET_HALF, pixel->target[1]);
+    TEST_ASSERT_EQUAL_INT(7, pixel->write_mask[0]);
+    TEST_ASSERT_TRUE(pixel->float_color && pixel->dither);
+    set_value(TRIPTYCH_STATE_colorwriteenable, 8);
+    derive();
+    TEST_ASSERT_EQUAL_INT(TARGET_8888, pixel->target[0]);
+    TEST_ASSERT_EQUAL_INT(0, pixel->write_mask[0]);
+    TEST_ASSERT_TRUE(pixel->float_color && !pixel->dither);
+    set_value(TRIPTYCH_STATE_colorwriteenable, 1);
+    set_value(TRIPTYCH_STATE_colorwriteenable1, 0);
+    derive();
+    TEST_ASSERT_EQUAL_INT(TARGET_565, pixel->target[0]);
+    TEST_ASSERT_EQUAL_INT(0, pixel->target[1]);
+    TEST_ASSERT_TRUE(!pixel->float_color && pixel->dither);
+}
+
+static void only_colour_is_encoded(void)
+{
+    const struct pixel_key *pixel = &key[UNIT_PIXEL].pixel;
+    SET(srgbwriteenable, "true");
+    derive();
+    TEST_ASSERT_EQUAL_INT(TARGET_SRGB, pixel->target[0]);
+    TEST_ASSERT_TRUE(pixel->float_color);
+    set_value(TRIPTYCH_STATE_colorwriteenable, 8);
+    derive();
+    TEST_ASSERT_EQUAL_INT(TARGET_8888, pixel->target[0]);
+    TEST_ASSERT_FALSE(pixel->float_color);
+}
+
+int main(void)
+{
+    UNITY_BEGIN();
+    RUN_TEST(blending_is_reduced_to_what_it_does);
+    RUN_TEST(alpha_that_is_blended_like_colour_is_not_apart);
+    RUN_TEST(alpha_that_is_rounded_otherwise_is_apart);
+    RUN_TEST(channels_that_are_not_written_are_blended_like_the_others);
+    RUN_TEST(channels_that_keep_what_is_stored_are_not_written);
+    RUN_TEST(the_blend_factor_is_only_in_the_job);
+    RUN_TEST(alpha_of_targets_without_one_is_known);
+    RUN_TEST(differences_below_zero_stay_where_there_is_room);
+    RUN_TEST(targets_that_are_not_written_are_places);
+    RUN_TEST(only_colour_is_encoded);
+    return UNITY_END();
+}

@@ -1,0 +1,188 @@
+/* The order in which chunks and tiles are handed out: random from a seed, and the image, the depths and
+ * the counts of queries are the same. Every draw is blended over what was there, so that a tile whose bins
+ * were in another order would show it; an arena of little more than a block makes chunks fail in the
+ * middle of a round. */
+#include "render/device/device.h"
+#include "emu/emulate/emulate.h"
+
+#include <stdlib.h>
+#include <string.h>
+#include <unity.h>
+
+enum { SIZE = 200, TILES = 16, DRAWS = 7, LARGE = 60, SMALL = 2 * CHUNK_PRIMITIVES + 100 };
+
+struct vertex {
+    float position[4];
+    uint32_t color;
+};
+
+struct result {
+    uint32_t image[SIZE * SIZE];
+    float depth[SIZE * SIZE];
+    uint64_t passed[DRAWS];
+};
+
+static triptych_device *device;
+static struct result expected, got;
+
+#define OK(call) TEST_ASSERT_EQUAL_INT_MESSAGE(TRIPTYCH_OK, call, triptych_error(device))
+
+static void close_device(void)
+{
+    device_destroy(device);
+    device = NULL;
+}
+
+static void open_device(unsigned threads, uint32_t arena_bytes, uint64_t seed)
+{
+    close_device();
+    TEST_ASSERT_EQUAL_INT(
+        TRIPTYCH_OK, device_create(&engine_emulate,
+                                   &(struct device_options){.threads = threads, .arena_bytes = arena_bytes},
+                                   &device, NULL));
+    device_shuffle(device, seed);
+    OK(triptych_set_target(device, SIZE, SIZE));
+    OK(triptych_set_state(device, TRIPTYCH_STATE_lighting, 0));
+    OK(triptych_set_state(device, TRIPTYCH_STATE_cullmode, 1));
+    OK(triptych_set_state(device, TRIPTYCH_STATE_alphablendenable, 1));
+    OK(triptych_set_state(device, TRIPTYCH_STATE_srcblend, 5));
+    OK(triptych_set_state(device, TRIPTYCH_STATE_destblend, 6));
+}
+
+void setUp(void)
+{
+}
+
+void tearDown(void)
+{
+    close_device();
+}
+
+static uint32_t next_random(uint32_t *seed)
+{
+    *seed = *seed * 1664525 + 1013904223;
+    return *seed >> 8;
+}
+
+static float random_float(uint32_t *seed, float low, float high)
+{
+    return low + (high - low) * (float)next_random(seed) / (1 << 24);
+}
+
+/* `count` triangles with corners up to `size` from the first. */
+static void draw_triangles(uint32_t *seed, uint32_t count, float size)
+{
+    struct vertex *vertex = malloc(3 * count * sizeof *vertex);
+    TEST_ASSERT_NOT_NULL(vertex);
+    for (uint32_t i = 0; i < 3 * count; i++) {
+        const float *first = vertex[i - i % 3].position;
+        for (int c = 0; c < 3; c++)
+            vertex[i].position[c] =
+                i % 3 ? first[c] + random_float(seed, -size, size) : random_float(seed, -1, 1);
+        vertex[i].position[3] = 1;
+        vertex[i].color = next_random(seed) << 8 | next_random(seed);
+    }
+    triptych_buffer *buffer;
+    OK(triptych_buffer_create(device, vertex, 3 * count * sizeof *vertex, &buffer));
+    free(vertex);
+    struct triptych_element position = {TRIPTYCH_FORMAT_FLOAT4, buffer, 0, sizeof *vertex};
+    struct triptych_element color = {TRIPTYCH_FORMAT_COLOR, buffer, 16, sizeof *vertex};
+    OK(triptych_set_element(device, TRIPTYCH_POSITION, &position));
+    OK(triptych_set_element(device, TRIPTYCH_DIFFUSE, &color));
+    OK(triptych_draw(device, TRIPTYCH_TRIANGLE_LIST, 0, count));
+}
+
+/* Few large triangles and several chunks of small ones in turn, a clear of depths between them. */
+static void draw_scene(struct result *result)
+{
+    triptych_query *query[DRAWS];
+    uint32_t seed = 11;
+    memset(result, 0, sizeof *result);
+    for (int d = 0; d < DRAWS; d++) {
+        OK(triptych_query_create(device, TRIPTYCH_QUERY_OCCLUSION, &query[d]));
+        OK(triptych_query_begin(device, query[d]));
+        draw_triangles(&seed, d % 2 ? SMALL : LARGE, d % 2 ? 0.06f : 0.7f);
+        OK(triptych_query_end(device, query[d]));
+        if (d == 3)
+            OK(triptych_clear(device, NULL, 0.6f));
+    }
+    OK(triptych_read_color(device, result->image));
+    OK(triptych_read_depth(device, result->depth));
+    for (int d = 0; d < DRAWS; d++)
+        OK(triptych_query_result(device, query[d], &result->passed[d]));
+}
+
+static void expect_the_same(const char *what)
+{
+    TEST_ASSERT_EQUAL_MEMORY_MESSAGE(&expected, &got, sizeof got, what);
+}
+
+static void any_order_of_tasks_gives_the_same_image(void)
+{
+    open_device(1, 0, 0);
+    draw_scene(&expected);
+    TEST_ASSERT_TRUE(expected.passed[0] > SIZE && expected.passed[DRAWS - 1] > SIZE);
+    for (unsigned threads = 1; threads <= 3; threads += 2)
+        for (uint64_t seed = 1; seed <= 3; seed++) {
+            open_device(threads, 0, seed);
+            draw_scene(&got);
+            expect_the_same("with an arena as large as ever");
+        }
+}
+
+static void any_order_of_tasks_gives_the_same_image_when_the_arena_fills_up(void)
+{
+    open_device(1, 0, 0);
+    draw_scene(&expected);
+    for (unsigned threads = 1; threads <= 3; threads += 2) {
+        open_device(threads, ARENA_BLOCK * 5 / 4, 4 + threads);
+        draw_scene(&got);
+        expect_the_same("with an arena of little more than a block");
+        TEST_ASSERT_TRUE(device->queue->statistics.rounds > 3);
+    }
+}
+
+/* Which tiles the last phase took, by turns. */
+static void copy_order(uint16_t order[TILES])
+{
+    static bool seen[TILES];
+    memset(seen, 0, sizeof seen);
+    for (int i = 0; i < TILES; i++) {
+        order[i] = device->queue->phase.order[i];
+        TEST_ASSERT_TRUE(order[i] < TILES && !seen[order[i]]);
+        seen[order[i]] = true;
+    }
+}
+
+static void clear_every_tile(void)
+{
+    OK(triptych_clear(device, NULL, 0.6f));
+    OK(triptych_finish(device));
+}
+
+static void orders_hold_every_task_once_and_change_with_seed_and_phase(void)
+{
+    uint16_t first[TILES], second[TILES], again[TILES], in_order[TILES];
+    for (int i = 0; i < TILES; i++)
+        in_order[i] = (uint16_t)i;
+    open_device(2, 0, 7);
+    clear_every_tile();
+    copy_order(first);
+    clear_every_tile();
+    copy_order(second);
+    open_device(1, 0, 7);
+    clear_every_tile();
+    copy_order(again);
+    TEST_ASSERT_EQUAL_MEMORY(first, again, sizeof first);
+    TEST_ASSERT_TRUE(memcmp(first, second, sizeof first) != 0);
+    TEST_ASSERT_TRUE(memcmp(first, in_order, sizeof first) != 0);
+}
+
+int main(void)
+{
+    UNITY_BEGIN();
+    RUN_TEST(any_order_of_tasks_gives_the_same_image);
+    RUN_TEST(any_order_of_tasks_gives_the_same_image_when_the_arena_fills_up);
+    RUN_TEST(orders_hold_every_task_once_and_change_with_seed_and_phase);
+    return UNITY_END();
+}

@@ -1,0 +1,494 @@
+/* Primitive assembly and batching, with routines that only record their arguments. */
+#include "render/geometry/batch.h"
+
+#include <stdlib.h>
+#include <string.h>
+#include <unity.h>
+
+enum { LOG_CAPACITY = 20000 };
+
+/* The arguments of the setup routine: vertex numbers of each triangle, in order. */
+static uint32_t triangle_log[LOG_CAPACITY][3];
+static struct {
+    uint32_t provoking, last_pixel;
+} other_log[LOG_CAPACITY]; /* and of primitives that are not triangles */
+static uint32_t vertex_calls, vertices_padded, triangles_padded;
+static uint32_t *clip_codes; /* of each vertex number; null: all inside */
+static struct arena arena;
+static struct bin_writer *bins;
+static struct batch *batch;
+static struct job job;
+static struct draw draw;
+static uint32_t heads;
+
+/* The vertex's number becomes its x, which survives in the batch for setup to find. */
+static void log_vertices(const void *arguments, const struct routine *routine)
+{
+    const struct vertex_arguments *call = arguments;
+    TEST_ASSERT_EQUAL_UINT32(0, call->count % routine->lanes);
+    TEST_ASSERT_TRUE(call->count <= VERTEX_CAPACITY);
+    vertex_calls++;
+    vertices_padded += call->count;
+    for (uint32_t i = 0; i < call->count; i++) {
+        uint32_t code = clip_codes ? clip_codes[call->index[i]] : 0;
+        call->out[SLOT_X * VERTEX_CAPACITY + i] = (float)call->index[i];
+        memcpy(call->out + SLOT_CODE * VERTEX_CAPACITY + i, &code, sizeof code);
+    }
+}
+
+/* Every triangle covers the first pixel of the target and a few beside it. */
+static void log_triangles(const void *arguments, const struct routine *routine)
+{
+    const struct setup_arguments *call = arguments;
+    TEST_ASSERT_EQUAL_UINT32(0, call->count % routine->lanes);
+    TEST_ASSERT_TRUE(call->count <= SETUP_CAPACITY);
+    triangles_padded += call->count;
+    uint32_t first =
+        (uint32_t)batch->counts.triangles_set_up; /* the padding of earlier groups is overwritten */
+    for (uint32_t i = 0; i < call->count; i++) {
+        struct triangle_head head = {.visible = -1, .x = {0, 2560, 0}, .y = {128, 128, 2560}};
+        memcpy(call->out + (size_t)i * draw.stride, &head, sizeof head);
+        for (int v = 0; v < 3 && first + i < LOG_CAPACITY; v++)
+            triangle_log[first + i][v] =
+                (uint32_t)call->vertices[SLOT_X * VERTEX_CAPACITY + call->index[v * SETUP_CAPACITY + i] / 4];
+        if (routine->key.setup.primitive != PRIMITIVE_TRIANGLE && first + i < LOG_CAPACITY) {
+            uint32_t provoking = call->index[3 * SETUP_CAPACITY + i] / 4;
+            other_log[first + i].provoking = (uint32_t)call->vertices[SLOT_X * VERTEX_CAPACITY + provoking];
+            other_log[first + i].last_pixel = call->index[4 * SETUP_CAPACITY + i];
+        }
+    }
+}
+
+static struct routine vertex_routine = {.run = log_vertices, .unit = UNIT_VERTEX, .lanes = LANES_MAXIMUM};
+static struct routine setup_routine = {.run = log_triangles, .unit = UNIT_SETUP, .lanes = LANES_MAXIMUM};
+
+void setUp(void)
+{
+    TEST_ASSERT_EQUAL_INT(0, arena_create(&arena, ARENA_BYTES, NULL));
+    bins = calloc(1, sizeof *bins);
+    batch = aligned_alloc(64, (sizeof *batch + 63) / 64 * 64);
+    TEST_ASSERT_TRUE(bins && batch);
+    memset(batch, 0, sizeof *batch);
+    memset(&draw, 0, sizeof draw);
+    draw.job = &job;
+    job.guard_x = job.guard_y = 10;
+    draw.routine[UNIT_VERTEX] = &vertex_routine;
+    draw.routine[UNIT_SETUP] = &setup_routine;
+    draw.scissor = (struct rectangle){0, 0, 128, 64};
+    draw.stride = 64;
+    setup_routine.key.setup.primitive = PRIMITIVE_TRIANGLE;
+    clip_codes = NULL;
+    vertex_calls = vertices_padded = triangles_padded = 0;
+    vertex_routine.lanes = setup_routine.lanes = LANES_MAXIMUM;
+}
+
+void tearDown(void)
+{
+    free(batch);
+    free(bins);
+    arena_destroy(&arena);
+}
+
+static uint32_t run(uint32_t first, uint32_t count)
+{
+    bin_begin_round(bins, &arena, 2, 1);
+    bin_begin_chunk(bins, 7);
+    uint32_t done = batch_primitives(batch, &draw, first, count, bins);
+    heads = bin_end_chunk(bins);
+    return done;
+}
+
+static void expect_triangle(uint32_t i, uint32_t a, uint32_t b, uint32_t c)
+{
+    const uint32_t expected[3] = {a, b, c};
+    TEST_ASSERT_EQUAL_UINT32_ARRAY(expected, triangle_log[i], 3);
+}
+
+static void lists_take_three_vertices_each(void)
+{
+    draw.primitive = TRIPTYCH_TRIANGLE_LIST;
+    draw.base = 100;
+    TEST_ASSERT_EQUAL_UINT32(4, run(0, 4));
+    TEST_ASSERT_EQUAL_UINT64(4, batch->counts.triangles_set_up);
+    TEST_ASSERT_EQUAL_UINT64(12, batch->counts.vertices_shaded);
+    for (uint32_t i = 0; i < 4; i++)
+        expect_triangle(i, 100 + 3 * i, 101 + 3 * i, 102 + 3 * i);
+}
+
+static void strips_keep_the_winding_and_begin_with_their_own_vertex(void)
+{
+    draw.primitive = TRIPTYCH_TRIANGLE_STRIP;
+    TEST_ASSERT_EQUAL_UINT32(4, run(0, 4));
+    TEST_ASSERT_EQUAL_UINT64(6, batch->counts.vertices_shaded);
+    expect_triangle(0, 0, 1, 2);
+    expect_triangle(1, 1, 3, 2);
+    expect_triangle(2, 2, 3, 4);
+    expect_triangle(3, 3, 5, 4);
+}
+
+static void fans_share_their_first_vertex(void)
+{
+    draw.primitive = TRIPTYCH_TRIANGLE_FAN;
+    TEST_ASSERT_EQUAL_UINT32(3, run(0, 3));
+    TEST_ASSERT_EQUAL_UINT64(5, batch->counts.vertices_shaded);
+    expect_triangle(0, 1, 2, 0);
+    expect_triangle(1, 2, 3, 0);
+    expect_triangle(2, 3, 4, 0);
+}
+
+static void draw_as(enum triptych_primitive primitive, enum primitive kind, enum raster_shape shape)
+{
+    draw.primitive = primitive;
+    draw.shape = shape;
+    setup_routine.key.setup.primitive = (uint8_t)kind;
+}
+
+static void expect_line(uint32_t i, uint32_t a, uint32_t b, bool last_pixel)
+{
+    TEST_ASSERT_EQUAL_UINT32(a, triangle_log[i][0]);
+    TEST_ASSERT_EQUAL_UINT32(b, triangle_log[i][1]);
+    TEST_ASSERT_EQUAL_HEX32(last_pixel ? UINT32_MAX : 0, other_log[i].last_pixel);
+}
+
+static void lines_and_points_take_two_vertices_and_one(void)
+{
+    draw.last_pixel = true;
+    draw.count = 4;
+    draw_as(TRIPTYCH_LINE_LIST, PRIMITIVE_LINE, SHAPE_LINE);
+    TEST_ASSERT_EQUAL_UINT32(4, run(0, 4));
+    TEST_ASSERT_EQUAL_UINT64(8, batch->counts.vertices_shaded);
+    for (uint32_t i = 0; i < 4; i++) {
+        expect_line(i, 2 * i, 2 * i + 1, true);
+        TEST_ASSERT_EQUAL_UINT32(2 * i, other_log[i].provoking);
+    }
+    batch->counts = (struct batch_counts){0};
+    draw_as(TRIPTYCH_LINE_STRIP, PRIMITIVE_LINE, SHAPE_LINE);
+    TEST_ASSERT_EQUAL_UINT32(4, run(0, 4));
+    TEST_ASSERT_EQUAL_UINT64(5, batch->counts.vertices_shaded);
+    for (uint32_t i = 0; i < 4; i++)
+        expect_line(i, i, i + 1, i == 3);
+    batch->counts = (struct batch_counts){0};
+    draw_as(TRIPTYCH_POINT_LIST, PRIMITIVE_POINT, SHAPE_POINT);
+    TEST_ASSERT_EQUAL_UINT32(4, run(0, 4));
+    TEST_ASSERT_EQUAL_UINT64(4, batch->counts.triangles_set_up);
+    for (uint32_t i = 0; i < 4; i++) {
+        TEST_ASSERT_EQUAL_UINT32(i, triangle_log[i][0]);
+        TEST_ASSERT_EQUAL_UINT32(i, other_log[i].provoking);
+    }
+}
+
+/* Three edges, or corners, each with the other vertices of the triangle, from which setup finds the
+ * winding. */
+static void parts_of_triangles_come_with_their_triangle(void)
+{
+    draw_as(TRIPTYCH_TRIANGLE_STRIP, PRIMITIVE_EDGE, SHAPE_LINE);
+    for (int corners = 0; corners < 3; corners++) {
+        batch->counts = (struct batch_counts){0};
+        draw.flat = corners == 2;
+        if (corners)
+            draw_as(TRIPTYCH_TRIANGLE_STRIP, PRIMITIVE_CORNER, SHAPE_POINT);
+        TEST_ASSERT_EQUAL_UINT32(2, run(0, 2));
+        TEST_ASSERT_EQUAL_UINT64(6, batch->counts.triangles_set_up);
+        expect_triangle(0, 0, 1, 2);
+        expect_triangle(1, 1, 2, 0);
+        expect_triangle(2, 2, 0, 1);
+        expect_triangle(3, 1, 3, 2);
+        expect_triangle(4, 3, 2, 1);
+        expect_triangle(5, 2, 1, 3);
+        for (int i = 0; i < 6; i++)
+            TEST_ASSERT_EQUAL_UINT32(corners == 1 ? triangle_log[i][0] : (uint32_t)i / 3,
+                                     other_log[i].provoking);
+    }
+}
+
+/* More parts than a group for setup has room for: none is missing, none comes twice. */
+static void many_parts_are_cut_into_groups(void)
+{
+    draw_as(TRIPTYCH_TRIANGLE_LIST, PRIMITIVE_EDGE, SHAPE_LINE);
+    TEST_ASSERT_EQUAL_UINT32(1000, run(0, 1000));
+    TEST_ASSERT_EQUAL_UINT64(3000, batch->counts.triangles_set_up);
+    for (uint32_t i = 0; i < 1000; i++)
+        for (uint32_t k = 0; k < 3; k++)
+            expect_triangle(3 * i + k, 3 * i + k, 3 * i + (k + 1) % 3, 3 * i + (k + 2) % 3);
+}
+
+/* The sides of the frustum drop no line or point, depth and user planes do; ignored bits do nothing. */
+static void clip_codes_drop_lines_and_points(void)
+{
+    uint32_t codes[14] = {CLIP_LEFT, CLIP_LEFT, CLIP_NEAR, CLIP_NEAR, CLIP_USER, CLIP_USER, CLIP_INVALID,
+                          0,         CLIP_EYE,  CLIP_EYE,  CLIP_FAR,  CLIP_FAR,  0,         0};
+    clip_codes = codes;
+    draw_as(TRIPTYCH_LINE_LIST, PRIMITIVE_LINE, SHAPE_LINE);
+    TEST_ASSERT_EQUAL_UINT32(7, run(0, 7));
+    TEST_ASSERT_EQUAL_UINT64(2, batch->counts.triangles_set_up);
+    expect_line(0, 0, 1, false);
+    expect_line(1, 12, 13, false);
+    batch->counts = (struct batch_counts){0};
+    draw_as(TRIPTYCH_POINT_LIST, PRIMITIVE_POINT, SHAPE_POINT);
+    TEST_ASSERT_EQUAL_UINT32(14, run(0, 14));
+    TEST_ASSERT_EQUAL_UINT64(5, batch->counts.triangles_set_up);
+    TEST_ASSERT_EQUAL_UINT32(7, triangle_log[2][0]);
+    batch->counts = (struct batch_counts){0};
+    draw.clip_ignored = CLIP_DEPTH | CLIP_USER_ALL;
+    TEST_ASSERT_EQUAL_UINT32(14, run(0, 14));
+    TEST_ASSERT_EQUAL_UINT64(11, batch->counts.triangles_set_up);
+    batch->counts = (struct batch_counts){0};
+    draw_as(TRIPTYCH_TRIANGLE_LIST, PRIMITIVE_TRIANGLE, SHAPE_TRIANGLE);
+    codes[0] = codes[1] = codes[2] = CLIP_NEAR | CLIP_USER;
+    TEST_ASSERT_EQUAL_UINT32(1, run(0, 1));
+    TEST_ASSERT_EQUAL_UINT64(1, batch->counts.triangles_set_up);
+}
+
+static void a_run_may_begin_anywhere(void)
+{
+    draw.primitive = TRIPTYCH_TRIANGLE_STRIP;
+    run(3, 2);
+    expect_triangle(0, 3, 5, 4);
+    expect_triangle(1, 4, 5, 6);
+}
+
+static void indices_of_16_and_32_bits_are_moved_by_the_base(void)
+{
+    static const uint16_t short_index[] = {5, 65535, 7};
+    static const uint32_t long_index[] = {70000, 3, 80000};
+    draw.indices = short_index;
+    draw.index_bits = 16;
+    draw.base = (uint32_t)-5;
+    run(0, 1);
+    expect_triangle(0, 0, 65530, 2);
+    batch->counts = (struct batch_counts){0};
+    draw.indices = long_index;
+    draw.index_bits = 32;
+    draw.base = (uint32_t)-3;
+    run(0, 1);
+    expect_triangle(0, 69997, 0, 79997);
+}
+
+/* A grid of 15 x 15 vertices fits one batch: each is shaded once, and again when it is drawn again. */
+static void shared_vertices_are_shaded_once_a_batch(void)
+{
+    static uint16_t index[14 * 14 * 6];
+    uint16_t *to = index;
+    for (uint16_t y = 0; y < 14; y++)
+        for (uint16_t x = 0; x < 14; x++) {
+            uint16_t a = (uint16_t)(15 * y + x), quad[6] = {a, a + 1, a + 15, a + 1, a + 16, a + 15};
+            memcpy(to, quad, sizeof quad);
+            to += 6;
+        }
+    draw.indices = index;
+    draw.index_bits = 16;
+    TEST_ASSERT_EQUAL_UINT32(392, run(0, 392));
+    TEST_ASSERT_EQUAL_UINT32(1, vertex_calls);
+    TEST_ASSERT_EQUAL_UINT64(225, batch->counts.vertices_shaded);
+    TEST_ASSERT_EQUAL_UINT64(392, batch->counts.triangles_set_up);
+    TEST_ASSERT_EQUAL_UINT32(240, vertices_padded);
+    for (uint32_t i = 0; i < 392; i++)
+        expect_triangle(i, index[3 * i], index[3 * i + 1], index[3 * i + 2]);
+    batch->counts = (struct batch_counts){0};
+    run(0, 392);
+    TEST_ASSERT_EQUAL_UINT64(225, batch->counts.vertices_shaded);
+}
+
+/* The lanes after the last vertex repeat it, so that nothing else is computed. */
+static void calls_are_padded_to_the_lanes_of_a_routine(void)
+{
+    draw.primitive = TRIPTYCH_TRIANGLE_LIST;
+    for (uint32_t lanes = 1; lanes <= LANES_MAXIMUM; lanes *= 2) {
+        vertices_padded = triangles_padded = 0;
+        vertex_routine.lanes = setup_routine.lanes = lanes;
+        batch->counts = (struct batch_counts){0};
+        TEST_ASSERT_EQUAL_UINT32(3, run(0, 3));
+        TEST_ASSERT_EQUAL_UINT32((9 + lanes - 1) / lanes * lanes, vertices_padded);
+        TEST_ASSERT_EQUAL_UINT32((3 + lanes - 1) / lanes * lanes, triangles_padded);
+        for (uint32_t i = 0; i < 3; i++)
+            expect_triangle(i, 3 * i, 3 * i + 1, 3 * i + 2);
+    }
+}
+
+static void long_runs_are_cut_into_batches(void)
+{
+    TEST_ASSERT_EQUAL_UINT32(1000, run(0, 1000));
+    TEST_ASSERT_EQUAL_UINT64(1000, batch->counts.triangles_set_up);
+    TEST_ASSERT_EQUAL_UINT64(1000, batch->counts.triangles_visible);
+    TEST_ASSERT_EQUAL_UINT64(3000, batch->counts.vertices_shaded);
+    for (uint32_t i = 0; i < 1000; i++)
+        expect_triangle(i, 3 * i, 3 * i + 1, 3 * i + 2);
+}
+
+/* More triangles than one batch of few vertices may hold. */
+static void many_triangles_of_few_vertices_are_cut_too(void)
+{
+    static uint16_t index[3 * 1500];
+    for (uint16_t i = 0; i < 4500; i++)
+        index[i] = i % 5;
+    draw.indices = index;
+    draw.index_bits = 16;
+    TEST_ASSERT_EQUAL_UINT32(1500, run(0, 1500));
+    TEST_ASSERT_EQUAL_UINT64(1500, batch->counts.triangles_set_up);
+    TEST_ASSERT_EQUAL_UINT64(15, batch->counts.vertices_shaded);
+}
+
+static void clip_codes_drop_what_cannot_be_seen(void)
+{
+    uint32_t codes[15] = {
+        CLIP_LEFT,
+        CLIP_LEFT,
+        CLIP_LEFT | CLIP_TOP, /* all left: dropped */
+        CLIP_LEFT,
+        CLIP_RIGHT,
+        CLIP_TOP, /* nothing in common: kept */
+        CLIP_INVALID,
+        0,
+        0, /* not a number: dropped */
+        0,
+        0,
+        0, /* inside */
+        CLIP_EYE | CLIP_NEAR,
+        CLIP_NEAR,
+        CLIP_NEAR, /* all outside: dropped */
+    };
+    clip_codes = codes;
+    TEST_ASSERT_EQUAL_UINT32(5, run(0, 5));
+    TEST_ASSERT_EQUAL_UINT64(2, batch->counts.triangles_set_up);
+    expect_triangle(0, 3, 4, 5);
+    expect_triangle(1, 9, 10, 11);
+}
+
+static uint32_t random_below(uint32_t bound) /* Park and Miller */
+{
+    static uint32_t state = 1;
+    state = (uint32_t)((uint64_t)state * 48271 % 2147483647);
+    return state % bound;
+}
+
+/* Vertices inside, beside one side or another, or invalid, of lists with indices and without. The set of
+ * triangles that are set up equals a decision for each triangle by itself, in order, whichever path its batch
+ * took. */
+static void triangles_are_dropped_as_in_batches_of_one(void)
+{
+    enum { VERTICES = 3000, TRIANGLES = VERTICES / 3, BASE = 7 };
+    static const uint32_t side[] = {CLIP_LEFT, CLIP_RIGHT, CLIP_TOP, CLIP_BOTTOM | CLIP_LEFT, CLIP_INVALID};
+    static uint32_t codes[BASE + VERTICES], index[VERTICES];
+    static uint16_t short_index[VERTICES];
+    uint32_t dropped = 0;
+    clip_codes = codes;
+    draw.base = BASE;
+    for (uint32_t round = 0; round < 60; round++) {
+        uint32_t kinds = round % 6, reach = 1 + random_below(400), expected = 0;
+        draw.index_bits = round / 6 % 3 * 16;
+        draw.indices = draw.index_bits == 16 ? (const void *)short_index : draw.index_bits ? index : NULL;
+        for (uint32_t i = 0; i < VERTICES; i++) {
+            codes[BASE + i] = kinds && random_below(4) ? side[random_below(kinds)] : 0;
+            if (round % 6 == 1 && i % 1024 < 512)
+                codes[BASE + i] = CLIP_LEFT; /* whole batches */
+            index[i] = draw.index_bits ? (i / 2 + random_below(reach)) % VERTICES : i;
+            short_index[i] = (uint16_t)index[i];
+        }
+        batch->counts = (struct batch_counts){0};
+        TEST_ASSERT_EQUAL_UINT32(TRIANGLES, run(0, TRIANGLES));
+        for (uint32_t i = 0; i < TRIANGLES; i++) {
+            uint32_t a = BASE
+            +index[3 * i], b = BASE
+            +index[3 * i + 1], c = BASE
+            +index[3 * i + 2];
+            if ((codes[a] & codes[b] & codes[c] & CLIP_FRUSTUM) ||
+                ((codes[a] | codes[b] | codes[c]) & CLIP_INVALID))
+                continue;
+            expect_triangle(expected++, a, b, c);
+        }
+        TEST_ASSERT_EQUAL_UINT64(expected, batch->counts.triangles_set_up);
+        dropped += TRIANGLES - expected;
+    }
+    TEST_ASSERT_GREATER_THAN_UINT32(1000, dropped);
+}
+
+/* How many triangles are in a tile's bin; they must be in order. */
+static uint32_t binned(uint32_t tile)
+{
+    uint32_t count = 0, last = 0;
+    for (uint32_t head = heads; head; head = bin_cell(&arena, head)->sibling) {
+        if (bin_cell(&arena, head)->tile != tile)
+            continue;
+        TEST_ASSERT_EQUAL_UINT32(7, bin_cell(&arena, head)->chunk);
+        for (uint32_t cell = head; cell; cell = bin_cell(&arena, cell)->next)
+            for (uint32_t i = 0; i < bin_cell(&arena, cell)->count; i++, count++) {
+                TEST_ASSERT_TRUE(bin_cell(&arena, cell)->triangle[i] > last);
+                last = bin_cell(&arena, cell)->triangle[i];
+            }
+    }
+    return count;
+}
+
+static void bins_hold_each_visible_triangle_once_in_order(void)
+{
+    run(0, 1000);
+    TEST_ASSERT_EQUAL_UINT32(1000, binned(0));
+    TEST_ASSERT_EQUAL_UINT32(0, binned(1));
+}
+
+static void what_misses_the_scissor_rectangle_is_not_kept(void)
+{
+    draw.scissor = (struct rectangle){64, 0, 128, 64};
+    run(0, 100);
+    TEST_ASSERT_EQUAL_UINT64(100, batch->counts.triangles_set_up);
+    TEST_ASSERT_EQUAL_UINT64(0, batch->counts.triangles_visible);
+    TEST_ASSERT_EQUAL_UINT32(0, heads);
+}
+
+/* With room for some of the groups only: what is done is in the bins, the rest is not, and going on from
+ * there gives the rest. */
+static void a_full_arena_stops_at_a_primitive_and_goes_on_from_it(void)
+{
+    atomic_store(&arena.used, ARENA_BYTES - ARENA_BLOCK);
+    uint32_t total = 10000, done = run(0, total);
+    TEST_ASSERT_TRUE(done > 0 && done < total);
+    TEST_ASSERT_EQUAL_UINT32(done, binned(0));
+    atomic_store(&arena.used, ARENA_BYTES);
+    TEST_ASSERT_EQUAL_UINT32(0, run(done, total - done));
+    TEST_ASSERT_EQUAL_UINT32(0, heads);
+    arena_reset(&arena);
+    TEST_ASSERT_EQUAL_UINT32(total - done, run(done, total - done));
+    TEST_ASSERT_EQUAL_UINT32(total - done, binned(0));
+}
+
+/* The same of edges, three records to a primitive: it never stops between them. */
+static void a_full_arena_never_stops_within_a_triangle(void)
+{
+    uint32_t total = 4000, first = 0, edges = 0, stops = 0;
+    draw_as(TRIPTYCH_TRIANGLE_LIST, PRIMITIVE_EDGE, SHAPE_LINE);
+    while (first < total) {
+        atomic_store(&arena.used, ARENA_BYTES - ARENA_BLOCK);
+        uint32_t done = run(first, total - first);
+        TEST_ASSERT_TRUE(done > 0);
+        edges += binned(0);
+        first += done;
+        TEST_ASSERT_EQUAL_UINT32(3 * first, edges);
+        stops += first < total;
+    }
+    TEST_ASSERT_GREATER_THAN_UINT32(0, stops);
+}
+
+int main(void)
+{
+    UNITY_BEGIN();
+    RUN_TEST(lists_take_three_vertices_each);
+    RUN_TEST(strips_keep_the_winding_and_begin_with_their_own_vertex);
+    RUN_TEST(fans_share_their_first_vertex);
+    RUN_TEST(lines_and_points_take_two_vertices_and_one);
+    RUN_TEST(parts_of_triangles_come_with_their_triangle);
+    RUN_TEST(many_parts_are_cut_into_groups);
+    RUN_TEST(clip_codes_drop_lines_and_points);
+    RUN_TEST(a_run_may_begin_anywhere);
+    RUN_TEST(indices_of_16_and_32_bits_are_moved_by_the_base);
+    RUN_TEST(shared_vertices_are_shaded_once_a_batch);
+    RUN_TEST(calls_are_padded_to_the_lanes_of_a_routine);
+    RUN_TEST(long_runs_are_cut_into_batches);
+    RUN_TEST(many_triangles_of_few_vertices_are_cut_too);
+    RUN_TEST(clip_codes_drop_what_cannot_be_seen);
+    RUN_TEST(triangles_are_dropped_as_in_batches_of_one);
+    RUN_TEST(bins_hold_each_visible_triangle_once_in_order);
+    RUN_TEST(what_misses_the_scissor_rectangle_is_not_kept);
+    RUN_TEST(a_full_arena_stops_at_a_primitive_and_goes_on_from_it);
+    RUN_TEST(a_full_arena_never_stops_within_a_triangle);
+    return UNITY_END();
+}

@@ -1,0 +1,387 @@
+/* Surfaces of textures on every engine: drawn to, sampled afterwards, read, copied and scaled. */
+#include "tests/support/picture/canvas.h"
+
+#include <math.h>
+#include <stdio.h>
+#include <string.h>
+
+static float numbers[SIZE * SIZE][4];
+static uint32_t other[SIZE * SIZE];
+
+void setUp(void)
+{
+}
+
+void tearDown(void)
+{
+    close_canvas();
+}
+
+static triptych_texture *make(enum triptych_texture_type type, enum triptych_surface_format format,
+                              unsigned size, unsigned depth, unsigned levels)
+{
+    struct triptych_texture_description description = {type, format, size, size, depth, levels};
+    triptych_texture *texture;
+    OK(triptych_texture_define(device, &description, &texture));
+    return texture;
+}
+
+static triptych_texture *make_flat(enum triptych_surface_format format)
+{
+    return make(TRIPTYCH_TEXTURE_2D, format, SIZE, 1, 1);
+}
+
+static void draw_to(triptych_texture *texture, unsigned level, unsigned slice)
+{
+    struct triptych_target_textures textures = {.color = {{texture, level, slice}}};
+    OK(triptych_set_target_textures(device, &textures));
+}
+
+static void draw_to_target(void)
+{
+    OK(triptych_set_target_textures(device, NULL));
+}
+
+static void sample(triptych_texture *texture)
+{
+    OK(triptych_set_texture(device, 0, texture));
+    set_stage(0, TRIPTYCH_STAGE_colorop, "selectarg1");
+    set_stage(0, TRIPTYCH_STAGE_alphaop, "selectarg1");
+}
+
+static void expect_image(const uint32_t *expected, const char *what)
+{
+    for (int p = 0; p < SIZE * SIZE; p++)
+        expect_pixel(p % SIZE, p / SIZE, expected[p], what);
+}
+
+/* --- Drawing to textures --- */
+
+/* Twice over: what is drawn to a texture is sampled to draw to the next one. */
+static void check_chain(void)
+{
+    triptych_texture *first = make_flat(TRIPTYCH_SURFACE_A8R8G8B8),
+                     *second = make_flat(TRIPTYCH_SURFACE_A8R8G8B8);
+    clear_to(0x12345678);
+    bind_random_texture(SIZE, SIZE);
+    draw_to(first, 0, 0);
+    draw_square(0, 0xffffffff, NULL, 0, 0, 1, 1);
+    draw_to(second, 0, 0);
+    sample(first);
+    draw_square(0, 0xffffffff, NULL, 0, 1, 1, 0); /* upside down */
+    draw_to_target();
+    OK(triptych_read_color(device, image));
+    for (int p = 0; p < SIZE * SIZE; p++)
+        expect_pixel(p % SIZE, p / SIZE, 0x12345678, "the target");
+    sample(second);
+    draw_square(0, 0xffffffff, NULL, 0, 1, 1, 0);
+    OK(triptych_read_color(device, image));
+    expect_image(texel, "through two textures");
+}
+
+static void test_what_was_drawn_is_sampled(void)
+{
+    on_every_engine(check_chain);
+}
+
+/* Draws to a texture keep what is there, and a draw recorded before one is drawn to samples what was there.
+ */
+static void check_order(void)
+{
+    triptych_texture *texture = make_flat(TRIPTYCH_SURFACE_A8R8G8B8);
+    bind_random_texture(SIZE, SIZE);
+    draw_to(texture, 0, 0);
+    draw_square(0, 0xffffffff, NULL, 0, 0, 1, 1);
+    draw_to_target();
+    sample(texture);
+    draw_square(0, 0xffffffff, NULL, 0, 0, 1, 1);
+    draw_to(texture, 0, 0);
+    OK(triptych_set_scissor(device, 0, 0, SIZE, SIZE / 2));
+    set(TRIPTYCH_STATE_scissortestenable, "true");
+    OK(triptych_clear(device, (const float[4]){1, 1, 1, 1}, 1));
+    set(TRIPTYCH_STATE_scissortestenable, "false");
+    draw_to_target();
+    OK(triptych_read_color(device, image));
+    expect_image(texel, "before the clear");
+    draw_square(0, 0xffffffff, NULL, 0, 0, 1, 1);
+    OK(triptych_read_color(device, image));
+    for (int p = 0; p < SIZE * SIZE; p++)
+        expect_pixel(p % SIZE, p / SIZE, p < SIZE * SIZE / 2 ? 0xffffffff : texel[p], "after it");
+}
+
+static void test_draws_see_textures_as_they_were(void)
+{
+    on_every_engine(check_order);
+}
+
+static float shade(unsigned type, unsigned level, unsigned slice)
+{
+    return (float)(1 + type * 37 + level * 20 + slice) / 255.0f;
+}
+
+/* Every level and slice of cubes and volumes is an image of its own. */
+static void check_slices(void)
+{
+    triptych_texture *texture[3] = {make(TRIPTYCH_TEXTURE_2D, TRIPTYCH_SURFACE_A8R8G8B8, 16, 1, 3),
+                                    make(TRIPTYCH_TEXTURE_CUBE, TRIPTYCH_SURFACE_A8R8G8B8, 16, 1, 3),
+                                    make(TRIPTYCH_TEXTURE_VOLUME, TRIPTYCH_SURFACE_A32B32G32R32F, 16, 16, 3)};
+    const unsigned slices[3][3] = {{1, 1, 1}, {6, 6, 6}, {16, 8, 4}};
+    for (unsigned type = 0; type < 3; type++)
+        for (unsigned level = 0; level < 3; level++)
+            for (unsigned slice = 0; slice < slices[type][level]; slice++) {
+                float color[4] = {shade(type, level, slice), 0.2f, 0, 1};
+                draw_to(texture[type], level, slice);
+                OK(triptych_clear(device, color, 1));
+            }
+    draw_to_target();
+    for (unsigned type = 0; type < 3; type++)
+        for (unsigned level = 0; level < 3; level++)
+            for (unsigned slice = 0; slice < slices[type][level]; slice++) {
+                struct triptych_surface surface = {texture[type], level, slice};
+                OK(triptych_read_surface_numbers(device, &surface, numbers[0]));
+                for (unsigned i = 0; i < (16u >> level) * (16u >> level); i++)
+                    TEST_ASSERT_TRUE(numbers[i][0] == shade(type, level, slice));
+            }
+}
+
+static void test_every_level_and_slice_is_drawn_to(void)
+{
+    on_every_engine(check_slices);
+}
+
+/* Two colours of different formats and a depth texture, left and taken up again. */
+static void check_several(void)
+{
+    triptych_texture *bytes = make_flat(TRIPTYCH_SURFACE_R5G6B5),
+                     *halves = make_flat(TRIPTYCH_SURFACE_A16B16G16R16F),
+                     *depth = make_flat(TRIPTYCH_SURFACE_D24S8);
+    struct triptych_target_textures textures = {.color = {{bytes, 0, 0}, {halves, 0, 0}},
+                                                .depth = {depth, 0, 0}};
+    OK(triptych_set_target_textures(device, &textures));
+    set(TRIPTYCH_STATE_zenable, "true");
+    OK(triptych_clear(device, (const float[4]){0, 0, 0, 0}, 1));
+    OK(triptych_set_viewport(device, &(struct triptych_viewport){0, 0, SIZE, SIZE / 2, 0, 1}));
+    draw_square(0.25f, 0xffff0000, NULL, 0, 0, 1, 1);
+    draw_to_target();
+    OK(triptych_set_target_textures(device, &textures));
+    draw_square(0.5f, 0xff00ff00, NULL, 0, 0, 1, 1);
+    for (int t = 0; t < 2; t++) {
+        OK(triptych_read_target_numbers(device, (unsigned)t, numbers[0]));
+        for (int p = 0; p < SIZE * SIZE; p++) {
+            TEST_ASSERT_TRUE(numbers[p][0] == (p < SIZE * SIZE / 2 ? 1 : 0));
+            TEST_ASSERT_TRUE(numbers[p][1] == (p < SIZE * SIZE / 2 ? 0 : 1));
+        }
+    }
+    struct triptych_surface surface = {depth, 0, 0};
+    OK(triptych_read_surface_numbers(device, &surface, numbers[0]));
+    for (int p = 0; p < SIZE * SIZE; p++)
+        for (int c = 0; c < 4; c++)
+            TEST_ASSERT_TRUE(fabsf(numbers[p][c] - (p < SIZE * SIZE / 2 ? 0.25f : 0.5f)) < 1e-7f);
+    draw_to_target();
+}
+
+static void test_colours_and_depth_stay_in_their_textures(void)
+{
+    on_every_engine(check_several);
+}
+
+/* Only depth: the way of shadow maps. */
+static void check_only_depth(void)
+{
+    triptych_texture *depth = make_flat(TRIPTYCH_SURFACE_D24X8);
+    struct triptych_target_textures textures = {.depth = {depth, 0, 0}};
+    struct triptych_surface surface = {depth, 0, 0};
+    OK(triptych_set_target_textures(device, &textures));
+    set(TRIPTYCH_STATE_zenable, "true");
+    OK(triptych_clear(device, NULL, 1));
+    draw_square(0.75f, 0xffffffff, NULL, 0, 0, 1, 1);
+    draw_to_target();
+    OK(triptych_read_surface_numbers(device, &surface, numbers[0]));
+    for (int p = 0; p < SIZE * SIZE; p++)
+        TEST_ASSERT_TRUE(fabsf(numbers[p][0] - 0.75f) < 1e-7f);
+}
+
+static void test_depth_is_drawn_without_colour(void)
+{
+    on_every_engine(check_only_depth);
+}
+
+/* An update of a texture that is drawn to is in order with draws before and after it. */
+static void check_update(void)
+{
+    static uint32_t row[SIZE];
+    triptych_texture *texture = make_flat(TRIPTYCH_SURFACE_A8B8G8R8);
+    struct triptych_surface surface = {texture, 0, 0};
+    const struct triptych_box box = {0, 3, 0, SIZE, 1, 1};
+    for (int x = 0; x < SIZE; x++)
+        row[x] = random_word();
+    draw_to(texture, 0, 0);
+    OK(triptych_clear(device, (const float[4]){0, 0, 1, 1}, 1));
+    OK(triptych_texture_update(device, texture, 0, 0, &box, row, sizeof row, 0));
+    OK(triptych_set_scissor(device, 0, 0, SIZE / 2, SIZE));
+    set(TRIPTYCH_STATE_scissortestenable, "true");
+    OK(triptych_clear(device, (const float[4]){1, 0, 0, 1}, 1));
+    OK(triptych_read_surface(device, &surface, image));
+    for (int y = 0; y < SIZE; y++)
+        for (int x = 0; x < SIZE; x++)
+            expect_pixel(x, y, x < SIZE / 2 ? 0xff0000ff : y == 3 ? row[x] : 0xffff0000, "updated");
+    draw_to_target();
+}
+
+static void test_updates_are_in_order_with_draws(void)
+{
+    on_every_engine(check_update);
+}
+
+/* --- Copies --- */
+
+static const struct triptych_surface the_target;
+
+static void draw_random(void)
+{
+    bind_random_texture(SIZE, SIZE);
+    draw_square(0, 0xffffffff, NULL, 0, 0, 1, 1);
+}
+
+static void check_copies(void)
+{
+    triptych_texture *texture = make_flat(TRIPTYCH_SURFACE_A8R8G8B8);
+    struct triptych_surface surface = {texture, 0, 0};
+    draw_random();
+    OK(triptych_copy(device, &the_target, NULL, &surface, NULL, TRIPTYCH_COPY_POINT));
+    OK(triptych_read_surface(device, &surface, image));
+    expect_image(texel, "the target's copy");
+    const struct triptych_rectangle from = {5, 6, 20, 10}, to = {30, 40, 20, 10};
+    OK(triptych_copy(device, &surface, &from, &the_target, &to, TRIPTYCH_COPY_LINEAR));
+    OK(triptych_read_color(device, image));
+    for (unsigned y = 0; y < SIZE; y++)
+        for (unsigned x = 0; x < SIZE; x++) {
+            int inside = x >= 30 && x < 50 && y >= 40 && y < 50;
+            expect_pixel((int)x, (int)y, inside ? texel[(y - 34) * SIZE + x - 25] : texel[y * SIZE + x],
+                         "part");
+        }
+}
+
+static void test_parts_are_copied_both_ways(void)
+{
+    on_every_engine(check_copies);
+}
+
+/* Twice as large by points; half as large, linearly, the mean of each four. */
+static void check_scaling(void)
+{
+    triptych_texture *texture = make_flat(TRIPTYCH_SURFACE_A32B32G32R32F);
+    struct triptych_surface surface = {texture, 0, 0};
+    const struct triptych_rectangle quarter = {0, 0, SIZE / 2, SIZE / 2};
+    draw_random();
+    OK(triptych_copy(device, &the_target, &quarter, &surface, NULL, TRIPTYCH_COPY_POINT));
+    OK(triptych_read_surface(device, &surface, image));
+    for (int p = 0; p < SIZE * SIZE; p++)
+        expect_pixel(p % SIZE, p / SIZE, texel[p / SIZE / 2 * SIZE + p % SIZE / 2], "twice as large");
+    OK(triptych_copy(device, &the_target, NULL, &surface, &quarter, TRIPTYCH_COPY_LINEAR));
+    OK(triptych_read_surface_numbers(device, &surface, numbers[0]));
+    for (int y = 0; y < SIZE / 2; y++)
+        for (int x = 0; x < SIZE / 2; x++)
+            for (int c = 0; c < 4; c++) {
+                double sum = 0;
+                for (int i = 0; i < 4; i++)
+                    sum += channel(texel[(2 * y + i / 2) * SIZE + 2 * x + i % 2], c) / 255.0;
+                TEST_ASSERT_TRUE(fabs(sum / 4 - (double)numbers[y * SIZE + x][c]) < 1e-6);
+            }
+}
+
+static void test_copies_are_scaled(void)
+{
+    on_every_engine(check_scaling);
+}
+
+static void check_conversion(void)
+{
+    triptych_texture *texture = make_flat(TRIPTYCH_SURFACE_X4R4G4B4);
+    struct triptych_surface surface = {texture, 0, 0};
+    draw_random();
+    OK(triptych_copy(device, &the_target, NULL, &surface, NULL, TRIPTYCH_COPY_POINT));
+    OK(triptych_read_surface(device, &surface, other));
+    for (int p = 0; p < SIZE * SIZE; p++) {
+        uint32_t word = 0xff000000;
+        for (int c = 0; c < 3; c++)
+            word |= (2 * channel(texel[p], c) * 15 + 255) / 510 * 17 << 8 * c;
+        image[p] = other[p];
+        expect_pixel(p % SIZE, p / SIZE, word, "four bits");
+    }
+}
+
+static void test_copies_are_converted(void)
+{
+    on_every_engine(check_conversion);
+}
+
+/* --- Errors --- */
+
+static void expect_refused(enum triptych_result expected, enum triptych_result got, const char *reason)
+{
+    TEST_ASSERT_EQUAL_INT(expected, got);
+    TEST_ASSERT_EQUAL_STRING(reason, triptych_error(device));
+}
+
+static void check_refusals(void)
+{
+    triptych_texture *small = make(TRIPTYCH_TEXTURE_2D, TRIPTYCH_SURFACE_A8R8G8B8, 8, 1, 1),
+                     *flat = make_flat(TRIPTYCH_SURFACE_A8R8G8B8),
+                     *luminance = make_flat(TRIPTYCH_SURFACE_L8), *depth = make_flat(TRIPTYCH_SURFACE_D16);
+    struct triptych_target_textures none = {0}, uneven = {.color = {{flat, 0, 0}, {small, 0, 0}}},
+                                    level = {.color = {{flat, 1, 0}}}, slice = {.color = {{flat, 0, 1}}},
+                                    format = {.color = {{luminance, 0, 0}}},
+                                    twice = {.color = {{flat, 0, 0}, {NULL, 0, 0}, {flat, 0, 0}}};
+    expect_refused(TRIPTYCH_BAD_ARGUMENT, triptych_set_target_textures(device, &none),
+                   "no texture to draw to: expected at least one");
+    expect_refused(TRIPTYCH_BAD_ARGUMENT, triptych_set_target_textures(device, &uneven),
+                   "colour target 1 of 8x8 texels: expected 64x64, the size of the others");
+    expect_refused(TRIPTYCH_BAD_ARGUMENT, triptych_set_target_textures(device, &level),
+                   "colour target 0: level 1 of a texture with 1");
+    expect_refused(TRIPTYCH_BAD_ARGUMENT, triptych_set_target_textures(device, &slice),
+                   "colour target 0: slice 1 of a level with 1");
+    expect_refused(TRIPTYCH_UNSUPPORTED, triptych_set_target_textures(device, &format),
+                   "colour target 0: format L8 cannot be drawn to");
+    expect_refused(TRIPTYCH_BAD_ARGUMENT, triptych_set_target_textures(device, &twice),
+                   "colour targets 0 and 2: the same surface, expected another one");
+    const struct triptych_surface surface = {flat, 0, 0}, deep = {depth, 0, 0}, grey = {luminance, 0, 0};
+    const struct triptych_rectangle outside = {60, 0, 5, 1};
+    expect_refused(TRIPTYCH_BAD_ARGUMENT,
+                   triptych_copy(device, &surface, &outside, &the_target, NULL, TRIPTYCH_COPY_POINT),
+                   "source of a copy: 5x1 pixels at 60, 0: expected a part of 64x64");
+    expect_refused(TRIPTYCH_UNSUPPORTED,
+                   triptych_copy(device, &deep, NULL, &surface, NULL, TRIPTYCH_COPY_POINT),
+                   "source of a copy: format D16 is one of depth");
+    expect_refused(TRIPTYCH_UNSUPPORTED,
+                   triptych_copy(device, &surface, NULL, &grey, NULL, TRIPTYCH_COPY_POINT),
+                   "target of a copy: format L8 cannot be drawn to");
+    sample(flat);
+    draw_square(0, 0xffffffff, NULL, 0, 0, 1, 1);
+    draw_to(flat, 0, 0);
+    expect_refused(TRIPTYCH_BAD_CALL, triptych_draw(device, TRIPTYCH_TRIANGLE_STRIP, 0, 2),
+                   "texture of sampler 0 is drawn to: expected another one, or none");
+    draw_to_target();
+    OK(triptych_draw(device, TRIPTYCH_TRIANGLE_STRIP, 0, 2));
+}
+
+static void test_what_cannot_be_is_refused(void)
+{
+    on_every_engine(check_refusals);
+}
+
+int main(void)
+{
+    UNITY_BEGIN();
+    RUN_TEST(test_what_was_drawn_is_sampled);
+    RUN_TEST(test_draws_see_textures_as_they_were);
+    RUN_TEST(test_every_level_and_slice_is_drawn_to);
+    RUN_TEST(test_colours_and_depth_stay_in_their_textures);
+    RUN_TEST(test_depth_is_drawn_without_colour);
+    RUN_TEST(test_updates_are_in_order_with_draws);
+    RUN_TEST(test_parts_are_copied_both_ways);
+    RUN_TEST(test_copies_are_scaled);
+    RUN_TEST(test_copies_are_converted);
+    RUN_TEST(test_what_cannot_be_is_refused);
+    return UNITY_END();
+}

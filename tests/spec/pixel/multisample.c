@@ -1,0 +1,449 @@
+/* Multisampling, on every engine: the coverage, depth, stencil and colour of every sample against exact
+ * arithmetic, the centroid of colours, the masks, the average, and what queries count. Positions are whole
+ * sixteenths of a pixel, so that nothing here is rounded. */
+#include "tests/support/picture/canvas.h"
+
+#include <limits.h>
+#include <math.h>
+#include <stdio.h>
+#include <string.h>
+
+enum { SAMPLES = 8, UNIT = 16, EXTENT = SIZE * UNIT };
+
+/* The standard patterns, in sixteenths from the centre. */
+static const struct {
+    unsigned count;
+    int place[SAMPLES][2];
+} patterns[] = {{2, {{4, 4}, {-4, -4}}},
+                {4, {{-2, -6}, {6, -2}, {-6, 2}, {2, 6}}},
+                {8, {{1, -3}, {-1, 3}, {5, 1}, {-3, -5}, {-5, 5}, {-7, -1}, {3, 7}, {7, -7}}}};
+
+enum { PATTERNS = sizeof patterns / sizeof *patterns };
+
+struct corner {
+    int x, y; /* sixteenths of a pixel */
+    float z;
+    uint32_t color;
+};
+
+static uint32_t color[SAMPLES][SIZE * SIZE];
+static float depth[SAMPLES][SIZE * SIZE];
+static uint8_t stencil[SAMPLES][SIZE * SIZE];
+static unsigned pattern;
+
+void setUp(void)
+{
+}
+
+void tearDown(void)
+{
+    close_canvas();
+}
+
+static void use_samples(unsigned which)
+{
+    struct triptych_target_description description = {.width = SIZE,
+                                                      .height = SIZE,
+                                                      .depth_format = TRIPTYCH_DEPTH_d24s8,
+                                                      .samples = patterns[which].count};
+    pattern = which;
+    OK(triptych_set_target_description(device, &description));
+}
+
+static unsigned samples(void)
+{
+    return patterns[pattern].count;
+}
+
+static void read_all(void)
+{
+    for (unsigned i = 0; i < samples(); i++)
+        OK(triptych_read_sample(device, i, color[i], depth[i], stencil[i]));
+}
+
+struct vertex {
+    float x, y, z;
+    uint32_t color;
+};
+
+static void draw_triangle(const struct corner corner[3])
+{
+    struct vertex vertex[3];
+    triptych_buffer *buffer;
+    for (int i = 0; i < 3; i++)
+        vertex[i] = (struct vertex){(float)corner[i].x * 2 / EXTENT - 1, 1 - (float)corner[i].y * 2 / EXTENT,
+                                    corner[i].z, corner[i].color};
+    OK(triptych_buffer_create(device, vertex, sizeof vertex, &buffer));
+    struct triptych_element position = {TRIPTYCH_FORMAT_FLOAT3, buffer, 0, sizeof vertex[0]};
+    struct triptych_element diffuse = {TRIPTYCH_FORMAT_COLOR, buffer, offsetof(struct vertex, color),
+                                       sizeof vertex[0]};
+    OK(triptych_set_element(device, TRIPTYCH_POSITION, &position));
+    OK(triptych_set_element(device, TRIPTYCH_DIFFUSE, &diffuse));
+    OK(triptych_draw(device, TRIPTYCH_TRIANGLE_LIST, 0, 1));
+}
+
+/* --- What is covered ----------------------------------------------------------------------------------- */
+
+/* Twice the area of a, b and the point; the point is left of a -> b on the screen where it is positive. */
+static int64_t cross(const struct corner *a, const struct corner *b, int x, int y)
+{
+    return (int64_t)(b->x - a->x) * (y - a->y) - (int64_t)(b->y - a->y) * (x - a->x);
+}
+
+/* Inside, or on an edge that is a left or a top one of a triangle that is clockwise on the screen. */
+static int covers(const struct corner t[3], int x, int y)
+{
+    int turned = cross(&t[0], &t[1], t[2].x, t[2].y) < 0;
+    for (int i = 0; i < 3; i++) {
+        const struct corner *a = &t[turned ? (3 - i) % 3 : i], *b = &t[turned ? (2 - i) % 3 : (i + 1) % 3];
+        int64_t side = cross(a, b, x, y);
+        int owns = b->y < a->y || (b->y == a->y && b->x > a->x);
+        if (side < 0 || (side == 0 && !owns))
+            return 0;
+    }
+    return 1;
+}
+
+static void sample_place(unsigned sample, int p, int at[2])
+{
+    at[0] = p % SIZE * UNIT + UNIT / 2 + patterns[pattern].place[sample][0];
+    at[1] = p / SIZE * UNIT + UNIT / 2 + patterns[pattern].place[sample][1];
+}
+
+static int covers_sample(const struct corner t[3], unsigned sample, int p)
+{
+    int at[2];
+    sample_place(sample, p, at);
+    return covers(t, at[0], at[1]);
+}
+
+static int covers_centre(const struct corner t[3], int p)
+{
+    return covers(t, p % SIZE * UNIT + UNIT / 2, p / SIZE * UNIT + UNIT / 2);
+}
+
+static struct corner random_corner(int reach)
+{
+    return (struct corner){(int)(random_word() % (unsigned)(EXTENT + 2 * reach)) - reach,
+                           (int)(random_word() % (unsigned)(EXTENT + 2 * reach)) - reach, 0.5f, 0xffffffff};
+}
+
+/* Large and small ones, some beyond the target, of one colour. */
+static void random_triangle(struct corner t[3])
+{
+    uint32_t packed = random_word();
+    do {
+        int small = random_word() % 2;
+        t[0] = random_corner(small ? 0 : 300);
+        for (int i = 1; i < 3; i++) {
+            t[i] = random_corner(300);
+            if (small) {
+                t[i].x = t[0].x + (int)(random_word() % 80) - 40;
+                t[i].y = t[0].y + (int)(random_word() % 80) - 40;
+            }
+        }
+    } while (!cross(&t[0], &t[1], t[2].x, t[2].y));
+    for (int i = 0; i < 3; i++)
+        t[i].color = packed;
+}
+
+static void expect_color(unsigned sample, int p, uint32_t expected, const char *what)
+{
+    char text[160];
+    if (color[sample][p] == expected)
+        return;
+    snprintf(text, sizeof text, "%s: %u samples, sample %u of pixel (%d, %d): expected %08x, got %08x", what,
+             samples(), sample, p % SIZE, p / SIZE, expected, color[sample][p]);
+    TEST_FAIL_MESSAGE(text);
+}
+
+/* Each triangle adds one to the stencil of what it covers. */
+static void check_coverage(void)
+{
+    for (unsigned which = 0; which < PATTERNS; which++) {
+        static uint32_t expected[SAMPLES][SIZE * SIZE];
+        static uint8_t count[SAMPLES][SIZE * SIZE];
+        uint64_t passed = 0, result;
+        triptych_query *query;
+        use_samples(which);
+        memset(expected, 0, sizeof expected);
+        memset(count, 0, sizeof count);
+        set(TRIPTYCH_STATE_stencilenable, "true");
+        set(TRIPTYCH_STATE_stencilpass, "incr");
+        OK(triptych_query_create(device, TRIPTYCH_QUERY_OCCLUSION, &query));
+        OK(triptych_query_begin(device, query));
+        for (int round = 0; round < 40; round++) {
+            struct corner t[3];
+            random_triangle(t);
+            draw_triangle(t);
+            for (unsigned i = 0; i < samples(); i++)
+                for (int p = 0; p < SIZE * SIZE; p++)
+                    if (covers_sample(t, i, p)) {
+                        expected[i][p] = image_word(t[0].color);
+                        count[i][p]++;
+                        passed++;
+                    }
+        }
+        OK(triptych_query_end(device, query));
+        read_all();
+        for (unsigned i = 0; i < samples(); i++) {
+            for (int p = 0; p < SIZE * SIZE; p++)
+                expect_color(i, p, expected[i][p], "coverage");
+            TEST_ASSERT_EQUAL_UINT8_ARRAY(count[i], stencil[i], SIZE * SIZE);
+        }
+        OK(triptych_query_result(device, query, &result));
+        TEST_ASSERT_EQUAL_UINT64(passed, result);
+        set(TRIPTYCH_STATE_stencilenable, "false");
+    }
+}
+
+static void test_every_sample_has_its_own_coverage(void)
+{
+    on_every_engine(check_coverage);
+}
+
+/* --- Masks --------------------------------------------------------------------------------------------- */
+
+static void check_masks(void)
+{
+    for (unsigned round = 0; round < 24; round++) {
+        struct corner t[3];
+        uint32_t mask = round < 4 ? 0 : random_word();
+        int centres = (int)(round & 1);
+        use_samples(round % PATTERNS);
+        OK(triptych_set_state(device, TRIPTYCH_STATE_multisamplemask, mask));
+        set(TRIPTYCH_STATE_multisampleantialias, centres ? "false" : "true");
+        random_triangle(t);
+        draw_triangle(t);
+        read_all();
+        for (unsigned i = 0; i < samples(); i++)
+            for (int p = 0; p < SIZE * SIZE; p++) {
+                int covered = (mask >> i & 1) && (centres ? covers_centre(t, p) : covers_sample(t, i, p));
+                expect_color(i, p, covered ? image_word(t[0].color) : 0, centres ? "centres" : "mask");
+            }
+    }
+}
+
+static void test_masks_take_samples_away(void)
+{
+    on_every_engine(check_masks);
+}
+
+/* --- Depth --------------------------------------------------------------------------------------------- */
+
+/* 2^-20 a sixteenth across and a third of that down: what the corners have, in double precision. */
+static double plane_at(const struct corner t[3], int x, int y)
+{
+    double area = (double)cross(&t[0], &t[1], t[2].x, t[2].y);
+    double b = (double)cross(&t[2], &t[0], x, y) / area, c = (double)cross(&t[0], &t[1], x, y) / area;
+    return (double)t[0].z * (1 - b - c) + (double)t[1].z * b + (double)t[2].z * c;
+}
+
+static void check_depths(void)
+{
+    for (unsigned which = 0; which < PATTERNS; which++)
+        for (int centres = 0; centres < 2; centres++) {
+            struct corner t[3] = {
+                {-200, -300, 0, 0xffffffff}, {3000, 100, 1, 0xffffffff}, {300, 3000, 0.5f, 0xffffffff}};
+            use_samples(which);
+            set(TRIPTYCH_STATE_zenable, "true");
+            set(TRIPTYCH_STATE_zfunc, "less");
+            set(TRIPTYCH_STATE_multisampleantialias, centres ? "false" : "true");
+            OK(triptych_clear_buffers(device, TRIPTYCH_CLEAR_DEPTH | TRIPTYCH_CLEAR_COLOR,
+                                      (const float[4]){0, 0, 0, 0}, 0.25f, 0));
+            draw_triangle(t);
+            read_all();
+            for (unsigned i = 0; i < samples(); i++)
+                for (int p = 0; p < SIZE * SIZE; p++) {
+                    int at[2];
+                    sample_place(i, p, at);
+                    if (centres) {
+                        at[0] = p % SIZE * UNIT + UNIT / 2;
+                        at[1] = p / SIZE * UNIT + UNIT / 2;
+                    }
+                    double z = plane_at(t, at[0], at[1]);
+                    int covered = covers(t, at[0], at[1]);
+                    if (fabs(z - 0.25) < 0x1p-20)
+                        continue;
+                    TEST_ASSERT_FLOAT_WITHIN(0x1p-22f, covered && z < 0.25 ? z : 0.25, depth[i][p]);
+                    expect_color(i, p, covered && z < 0.25 ? 0xffffffff : 0, "depth");
+                }
+            set(TRIPTYCH_STATE_zenable, "false");
+        }
+}
+
+static void test_depth_is_each_samples_own(void)
+{
+    on_every_engine(check_depths);
+}
+
+/* --- Colour -------------------------------------------------------------------------------------------- */
+
+/* Red rises across the triangle from 0 to 255: a sample's colour is that of the pixel's centroid. */
+static void check_centroids(void)
+{
+    for (unsigned which = 0; which < PATTERNS; which++)
+        for (int centres = 0; centres < 2; centres++) {
+            struct corner t[3] = {
+                {5, 9, 0, 0xff000000}, {EXTENT - 3, 300, 1, 0xffff0000}, {200, EXTENT - 7, 0, 0xff000000}};
+            use_samples(which);
+            set(TRIPTYCH_STATE_multisampleantialias, centres ? "false" : "true");
+            draw_triangle(t);
+            read_all();
+            for (int p = 0; p < SIZE * SIZE; p++) {
+                unsigned first = samples(), covered = 0;
+                for (unsigned i = samples(); i-- > 0;)
+                    if (covers_sample(t, i, p)) {
+                        first = i;
+                        covered++;
+                    }
+                if (centres ? !covers_centre(t, p) : !covered)
+                    continue;
+                int at[2] = {p % SIZE * UNIT + UNIT / 2, p / SIZE * UNIT + UNIT / 2};
+                if (covered < samples() && !centres)
+                    sample_place(first, p, at);
+                double red = plane_at(t, at[0], at[1]) * 255;
+                for (unsigned i = 0; i < samples(); i++)
+                    if (centres || covers_sample(t, i, p)) {
+                        TEST_ASSERT_TRUE(fabs(red - channel(color[i][p], 0)) <= 0.5001);
+                        TEST_ASSERT_EQUAL_HEX32(0xff000000, color[i][p] & 0xffffff00);
+                    }
+            }
+        }
+}
+
+static void test_colours_are_the_centroids(void)
+{
+    on_every_engine(check_centroids);
+}
+
+static unsigned rounded(unsigned product)
+{
+    return (unsigned)floor(product / 255.0 + 0.5);
+}
+
+/* Triangles blended over one another, additively and by their alpha; alpha below 64 is discarded. */
+static void check_blending(void)
+{
+    for (unsigned which = 0; which < PATTERNS; which++) {
+        static uint32_t expected[SAMPLES][SIZE * SIZE];
+        use_samples(which);
+        memset(expected, 0, sizeof expected);
+        set(TRIPTYCH_STATE_alphablendenable, "true");
+        set(TRIPTYCH_STATE_srcblend, "srcalpha");
+        set(TRIPTYCH_STATE_destblend, "one");
+        set(TRIPTYCH_STATE_alphatestenable, "true");
+        set(TRIPTYCH_STATE_alphafunc, "greaterequal");
+        OK(triptych_set_state(device, TRIPTYCH_STATE_alpharef, 64));
+        for (int round = 0; round < 12; round++) {
+            struct corner t[3];
+            random_triangle(t);
+            draw_triangle(t);
+            uint32_t word = image_word(t[0].color), alpha = channel(word, 3);
+            for (unsigned i = 0; i < samples() && alpha >= 64; i++)
+                for (int p = 0; p < SIZE * SIZE; p++) {
+                    uint32_t new = 0;
+                    for (int c = 0; c < 4; c++) {
+                        unsigned sum = rounded(channel(word, c) * alpha) + channel(expected[i][p], c);
+                        new |= (sum > 255 ? 255 : sum) << 8 * c;
+                    }
+                    expected[i][p] = covers_sample(t, i, p) ? new : expected[i][p];
+                }
+        }
+        read_all();
+        OK(triptych_read_color(device, image));
+        for (int p = 0; p < SIZE * SIZE; p++) {
+            uint32_t average = 0;
+            for (unsigned i = 0; i < samples(); i++)
+                expect_color(i, p, expected[i][p], "blending");
+            for (int c = 0; c < 4; c++) {
+                unsigned sum = samples() / 2;
+                for (unsigned i = 0; i < samples(); i++)
+                    sum += channel(expected[i][p], c);
+                average |= sum / samples() << 8 * c;
+            }
+            expect_pixel(p % SIZE, p / SIZE, average, "the average");
+        }
+    }
+}
+
+static void test_samples_are_blended_apart_and_averaged(void)
+{
+    on_every_engine(check_blending);
+}
+
+/* Two halves of a square share every sample of the diagonal out among themselves. */
+static void check_shared_edges(void)
+{
+    struct corner a = {0, 0, 0, 0x01010101}, b = {EXTENT, 0, 0, 0x01010101}, c = {0, EXTENT, 0, 0x01010101},
+                  d = {EXTENT, EXTENT, 0, 0x01010101};
+    set(TRIPTYCH_STATE_alphablendenable, "true");
+    set(TRIPTYCH_STATE_srcblend, "one");
+    set(TRIPTYCH_STATE_destblend, "one");
+    for (unsigned which = 0; which < PATTERNS; which++) {
+        use_samples(which);
+        for (int round = 0; round < 4; round++) {
+            struct corner middle = random_corner(0);
+            middle.z = 0;
+            middle.color = 0x01010101;
+            draw_triangle((const struct corner[3]){a, b, middle});
+            draw_triangle((const struct corner[3]){b, d, middle});
+            draw_triangle((const struct corner[3]){d, c, middle});
+            draw_triangle((const struct corner[3]){c, a, middle});
+        }
+        read_all();
+        for (unsigned i = 0; i < samples(); i++)
+            for (int p = 0; p < SIZE * SIZE; p++)
+                expect_color(i, p, 0x04040404, "fans");
+    }
+}
+
+static void test_triangles_share_samples_out_among_themselves(void)
+{
+    on_every_engine(check_shared_edges);
+}
+
+/* --- Refusals ------------------------------------------------------------------------------------------ */
+
+static void check_refusals(void)
+{
+    struct triptych_target_description description = {.width = 4, .height = 4, .samples = 3};
+    TEST_ASSERT_EQUAL_INT(TRIPTYCH_BAD_ARGUMENT, triptych_set_target_description(device, &description));
+    TEST_ASSERT_EQUAL_STRING("3 samples per pixel: expected 1, 2, 4 or 8", triptych_error(device));
+    description.samples = 4;
+    description.color_format[1] = TRIPTYCH_SURFACE_A8R8G8B8;
+    TEST_ASSERT_EQUAL_INT(TRIPTYCH_BAD_ARGUMENT, triptych_set_target_description(device, &description));
+    TEST_ASSERT_EQUAL_STRING("colour target 1: expected only one with several samples per pixel",
+                             triptych_error(device));
+    use_samples(0);
+    TEST_ASSERT_EQUAL_INT(TRIPTYCH_BAD_ARGUMENT, triptych_read_sample(device, 2, color[0], NULL, NULL));
+    TEST_ASSERT_EQUAL_STRING("sample 2: the target has 2 per pixel", triptych_error(device));
+    TEST_ASSERT_EQUAL_INT(TRIPTYCH_BAD_ARGUMENT,
+                          triptych_read_sample(device, UINT_MAX, color[0], NULL, NULL));
+    OK(triptych_set_target_description(
+        device, &(struct triptych_target_description){
+                    .width = 1, .height = 1, .samples = 2, .depth_format = TRIPTYCH_DEPTH_d16}));
+    depth[0][0] = 7;
+    TEST_ASSERT_EQUAL_INT(TRIPTYCH_BAD_CALL, triptych_read_sample(device, 0, NULL, depth[0], stencil[0]));
+    TEST_ASSERT_EQUAL_STRING("the target's depth format is d16: expected one with stencil",
+                             triptych_error(device));
+    TEST_ASSERT_EQUAL_FLOAT(7, depth[0][0]);
+}
+
+static void test_what_cannot_be_is_refused(void)
+{
+    on_every_engine(check_refusals);
+}
+
+int main(void)
+{
+    UNITY_BEGIN();
+    RUN_TEST(test_every_sample_has_its_own_coverage);
+    RUN_TEST(test_masks_take_samples_away);
+    RUN_TEST(test_depth_is_each_samples_own);
+    RUN_TEST(test_colours_are_the_centroids);
+    RUN_TEST(test_samples_are_blended_apart_and_averaged);
+    RUN_TEST(test_triangles_share_samples_out_among_themselves);
+    RUN_TEST(test_what_cannot_be_is_refused);
+    return UNITY_END();
+}

@@ -1,0 +1,293 @@
+/* Stencil, on every engine: every comparison and operation, both windings, masks, the order of alpha, stencil
+ * and depth test, formats of 1, 4 and 8 bits, and clears. The expected contents are followed here, pixel by
+ * pixel, from the definition in spec/pixel/stencil.h. */
+#include "tests/support/picture/canvas.h"
+
+#include <stdio.h>
+#include <string.h>
+
+enum { CELL = 8, CELLS = SIZE / CELL, ROUNDS = 90 };
+
+struct side {
+    uint32_t function, fail, depth_fail, pass; /* Direct3D 9's numbers */
+};
+
+/* All that decides what a draw does. */
+struct setting {
+    struct side side[2]; /* clockwise, counter-clockwise */
+    uint32_t reference, mask, write_mask, depth_function;
+    int two_sided, depth_on, depth_writes, alpha_test, counterclockwise, color_writes;
+};
+
+static uint8_t stencil[SIZE * SIZE], got[SIZE * SIZE];
+static float depth[SIZE * SIZE], got_depth[SIZE * SIZE];
+static uint32_t color[SIZE * SIZE];
+static uint32_t maximum; /* of the format's stencil */
+
+void setUp(void)
+{
+}
+
+void tearDown(void)
+{
+    close_canvas();
+}
+
+static void put(enum triptych_state state, uint32_t value)
+{
+    OK(triptych_set_state(device, state, value));
+}
+
+static void use_format(enum triptych_depth_format format)
+{
+    struct triptych_target_description description = {.width = SIZE, .height = SIZE, .depth_format = format};
+    OK(triptych_set_target_description(device, &description));
+    maximum = (1u << triptych_stencil_bits(format)) - 1;
+}
+
+/* Every cell of the target with a stencil, depth 0.25, 0.5 or 0.75 and a colour of its own. */
+static void fill_cells(void)
+{
+    put(TRIPTYCH_STATE_scissortestenable, 1);
+    for (unsigned y = 0; y < CELLS; y++)
+        for (unsigned x = 0; x < CELLS; x++) {
+            uint32_t value = random_word() % 300, word = random_word() & 0x00ffffff;
+            float z = 0.25f * (float)(1 + random_word() % 3), channels[4];
+            for (int c = 0; c < 4; c++)
+                channels[c] = (float)channel(word, c) / 255.0f;
+            OK(triptych_set_scissor(device, x * CELL, y * CELL, CELL, CELL));
+            OK(triptych_clear_buffers(device, 7, channels, z, value));
+            for (unsigned i = 0; i < CELL * CELL; i++) {
+                unsigned p = (y * CELL + i / CELL) * SIZE + x * CELL + i % CELL;
+                stencil[p] = (uint8_t)(value & maximum);
+                depth[p] = z;
+                color[p] = word;
+            }
+        }
+    put(TRIPTYCH_STATE_scissortestenable, 0);
+}
+
+static int compares(uint32_t function, double a, double b)
+{
+    int order = a < b ? 1 : a == b ? 2 : 4;
+    return (function - 1) & order ? 1 : 0;
+}
+
+static uint32_t operated(uint32_t operation, uint32_t s, uint32_t reference)
+{
+    switch (operation) {
+    case 1: return s;
+    case 2: return 0;
+    case 3: return reference & maximum;
+    case 4: return s == maximum ? s : s + 1;
+    case 5: return s ? s - 1 : 0;
+    case 6: return maximum - s;
+    case 7: return s == maximum ? 0 : s + 1;
+    default: return s ? s - 1 : maximum;
+    }
+}
+
+static void expect_drawn(const struct setting *s, uint32_t word, float z, int p)
+{
+    const struct side *side = &s->side[s->two_sided && s->counterclockwise];
+    if (s->alpha_test && (texel[p] >> 24) < 128)
+        return;
+    uint32_t mask = s->mask & maximum, old = stencil[p];
+    int passes = compares(side->function, s->reference & mask, old & mask);
+    int nearer = !s->depth_on || compares(s->depth_function, (double)z, (double)depth[p]);
+    uint32_t operation = !passes ? side->fail : !nearer ? side->depth_fail : side->pass;
+    uint32_t new = operated(operation, old, s->reference);
+    stencil[p] = (uint8_t)((old & ~s->write_mask) | (new & s->write_mask &maximum));
+    if (!passes || !nearer)
+        return;
+    if (s->depth_on && s->depth_writes)
+        depth[p] = z;
+    if (s->color_writes)
+        color[p] = s->alpha_test ? texel[p] : word;
+}
+
+/* Only the diffuse colour, whatever is bound. */
+static void unbind_texture(void)
+{
+    set_stage(0, TRIPTYCH_STAGE_colorop, "selectarg2");
+    set_stage(0, TRIPTYCH_STAGE_alphaop, "selectarg2");
+}
+
+static struct side random_side(void)
+{
+    return (struct side){1 + random_word() % 8, 1 + random_word() % 8, 1 + random_word() % 8,
+                         1 + random_word() % 8};
+}
+
+static uint32_t random_mask(void)
+{
+    return random_word() % 4 ? 0xffffffff : random_word() & random_word();
+}
+
+static struct setting random_setting(void)
+{
+    return (struct setting){.side = {random_side(), random_side()},
+                            .reference = random_word() % 3 ? random_word() % 16 : random_word() % 256,
+                            .mask = random_mask(),
+                            .write_mask = random_mask(),
+                            .depth_function = 1 + random_word() % 8,
+                            .two_sided = (int)(random_word() & 1),
+                            .depth_on = random_word() % 4 != 0,
+                            .depth_writes = (int)(random_word() & 1),
+                            .alpha_test = random_word() % 3 == 0,
+                            .counterclockwise = (int)(random_word() & 1),
+                            .color_writes = random_word() % 4 != 0};
+}
+
+static void apply(const struct setting *s)
+{
+    float mirror[4][4] = {{s->counterclockwise ? -1 : 1}, {[1] = 1}, {[2] = 1}, {[3] = 1}};
+    OK(triptych_set_transform(device, TRIPTYCH_TRANSFORM_WORLD, (const float(*)[4])mirror));
+    put(TRIPTYCH_STATE_stencilenable, 1);
+    put(TRIPTYCH_STATE_stencilfunc, s->side[0].function);
+    put(TRIPTYCH_STATE_stencilfail, s->side[0].fail);
+    put(TRIPTYCH_STATE_stencilzfail, s->side[0].depth_fail);
+    put(TRIPTYCH_STATE_stencilpass, s->side[0].pass);
+    put(TRIPTYCH_STATE_ccw_stencilfunc, s->side[1].function);
+    put(TRIPTYCH_STATE_ccw_stencilfail, s->side[1].fail);
+    put(TRIPTYCH_STATE_ccw_stencilzfail, s->side[1].depth_fail);
+    put(TRIPTYCH_STATE_ccw_stencilpass, s->side[1].pass);
+    put(TRIPTYCH_STATE_twosidedstencilmode, (uint32_t)s->two_sided);
+    put(TRIPTYCH_STATE_stencilref, s->reference);
+    put(TRIPTYCH_STATE_stencilmask, s->mask);
+    put(TRIPTYCH_STATE_stencilwritemask, s->write_mask);
+    put(TRIPTYCH_STATE_zenable, (uint32_t)s->depth_on);
+    put(TRIPTYCH_STATE_zfunc, s->depth_function);
+    put(TRIPTYCH_STATE_zwriteenable, (uint32_t)s->depth_writes);
+    put(TRIPTYCH_STATE_alphatestenable, (uint32_t)s->alpha_test);
+    put(TRIPTYCH_STATE_alphafunc, 7);
+    put(TRIPTYCH_STATE_alpharef, 128);
+    put(TRIPTYCH_STATE_colorwriteenable, s->color_writes ? 15 : 0);
+    if (s->alpha_test)
+        bind_random_texture(SIZE, SIZE);
+    else
+        unbind_texture();
+}
+
+/* Depths are multiples of a quarter: what a format makes of them is within its own step. */
+static void expect_contents(const struct setting *s, const char *format)
+{
+    char what[256];
+    snprintf(
+        what, sizeof what,
+        "%s: functions %u %u, fail %u %u, depth fail %u %u, pass %u %u, reference %u mask %x write mask %x, "
+        "two-sided %d, counter-clockwise %d, depth %d %u, alpha test %d",
+        format, s->side[0].function, s->side[1].function, s->side[0].fail, s->side[1].fail,
+        s->side[0].depth_fail, s->side[1].depth_fail, s->side[0].pass, s->side[1].pass, s->reference, s->mask,
+        s->write_mask, s->two_sided, s->counterclockwise, s->depth_on, s->depth_function, s->alpha_test);
+    OK(triptych_read_stencil(device, got));
+    OK(triptych_read_depth(device, got_depth));
+    OK(triptych_read_color(device, image));
+    for (int p = 0; p < SIZE * SIZE; p++) {
+        if (stencil[p] != got[p])
+            TEST_ASSERT_EQUAL_UINT8_MESSAGE(stencil[p], got[p], what);
+        if (depth[p] != got_depth[p])
+            TEST_ASSERT_FLOAT_WITHIN_MESSAGE(0x1p-14f, depth[p], got_depth[p], what);
+        expect_pixel(p % SIZE, p / SIZE, color[p], what);
+    }
+}
+
+static void draw_and_follow(const struct setting *s)
+{
+    float z = 0.25f * (float)(1 + random_word() % 3);
+    uint32_t packed = random_word();
+    apply(s);
+    if (s->counterclockwise)
+        draw_square(z, packed, NULL, 1, 0, 0, 1);
+    else
+        draw_square(z, packed, NULL, 0, 0, 1, 1);
+    for (int p = 0; p < SIZE * SIZE; p++)
+        expect_drawn(s, image_word(packed), z, p);
+}
+
+static void check_operations(void)
+{
+    static const enum triptych_depth_format formats[] = {TRIPTYCH_DEPTH_d24s8, TRIPTYCH_DEPTH_d24x4s4,
+                                                         TRIPTYCH_DEPTH_d15s1, TRIPTYCH_DEPTH_d24fs8};
+    for (int round = 0; round < ROUNDS; round++) {
+        enum triptych_depth_format format = formats[round % 9 < 6 ? 0 : round % 9 - 5];
+        use_format(format);
+        fill_cells();
+        struct setting setting = random_setting();
+        for (int draw = 0; draw < 2; draw++)
+            draw_and_follow(&setting);
+        expect_contents(&setting, triptych_depth_format_name(format));
+    }
+}
+
+static void test_tests_and_operations_are_as_defined(void)
+{
+    on_every_engine(check_operations);
+}
+
+/* Culling leaves one winding, whose states are those of two-sided mode all the same. */
+static void check_culled(void)
+{
+    for (int counterclockwise = 0; counterclockwise < 2; counterclockwise++) {
+        struct setting setting = {.side = {{8, 1, 1, 7}, {8, 1, 1, 4}},
+                                  .reference = 0,
+                                  .mask = 255,
+                                  .write_mask = 255,
+                                  .depth_function = 8,
+                                  .two_sided = 1,
+                                  .counterclockwise = counterclockwise,
+                                  .color_writes = 1};
+        setting.side[1].pass = 8; /* decr */
+        use_format(TRIPTYCH_DEPTH_d24s8);
+        fill_cells();
+        set(TRIPTYCH_STATE_cullmode, counterclockwise ? "cw" : "ccw");
+        draw_and_follow(&setting);
+        expect_contents(&setting, "culled");
+        set(TRIPTYCH_STATE_cullmode, counterclockwise ? "ccw" : "cw");
+        apply(&setting);
+        draw_square(0.25f, 0xffffffff, NULL, 0, 0, 1, 1);
+        expect_contents(&setting, "culled away");
+        set(TRIPTYCH_STATE_cullmode, "none");
+    }
+}
+
+static void test_culling_leaves_one_windings_states(void)
+{
+    on_every_engine(check_culled);
+}
+
+/* Formats without stencil take the states and ignore them. */
+static void check_without(void)
+{
+    static const enum triptych_depth_format formats[] = {TRIPTYCH_DEPTH_d16, TRIPTYCH_DEPTH_d32,
+                                                         TRIPTYCH_DEPTH_d24x8, TRIPTYCH_DEPTH_d32f_lockable,
+                                                         TRIPTYCH_DEPTH_none};
+    for (size_t i = 0; i < sizeof formats / sizeof *formats; i++) {
+        use_format(formats[i]);
+        put(TRIPTYCH_STATE_stencilenable, 1);
+        put(TRIPTYCH_STATE_stencilfunc, 1);
+        OK(triptych_clear_buffers(device, TRIPTYCH_CLEAR_COLOR, (const float[4]){0, 0, 0, 0}, 0, 0));
+        draw_square(0.5f, 0xff336699, NULL, 0, 0, 1, 1);
+        OK(triptych_read_color(device, image));
+        for (int p = 0; p < SIZE * SIZE; p++)
+            expect_pixel(p % SIZE, p / SIZE, image_word(0xff336699), "a target without stencil");
+        TEST_ASSERT_EQUAL_INT(TRIPTYCH_BAD_CALL, triptych_read_stencil(device, got));
+        TEST_ASSERT_NOT_NULL(strstr(triptych_error(device), "expected one with stencil"));
+        TEST_ASSERT_EQUAL_INT(TRIPTYCH_BAD_CALL,
+                              triptych_clear_buffers(device, TRIPTYCH_CLEAR_STENCIL, NULL, 0, 0));
+    }
+}
+
+static void test_formats_without_stencil_have_no_test(void)
+{
+    on_every_engine(check_without);
+}
+
+int main(void)
+{
+    UNITY_BEGIN();
+    RUN_TEST(test_tests_and_operations_are_as_defined);
+    RUN_TEST(test_culling_leaves_one_windings_states);
+    RUN_TEST(test_formats_without_stencil_have_no_test);
+    return UNITY_END();
+}

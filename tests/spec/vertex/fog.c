@@ -1,0 +1,137 @@
+/* Table fog: the factor of each formula at known depths and distances, and how it blends. */
+#include "tests/support/picture/canvas.h"
+
+#include <math.h>
+#include <stdio.h>
+
+void setUp(void)
+{
+}
+
+void tearDown(void)
+{
+    close_canvas();
+}
+
+static const char *const mode_words[] = {"linear", "exp", "exp2"};
+
+struct fog {
+    int mode; /* of mode_words */
+    float start, end, density;
+};
+
+static void set_float(enum triptych_state state, float value)
+{
+    OK(triptych_set_state(device, state, triptych_float_bits(value)));
+}
+
+/* Direct3D 9's formulas, not yet clamped. */
+static double fog_factor(const struct fog *fog, double d)
+{
+    double start = (double)fog->start, end = (double)fog->end, density = (double)fog->density;
+    switch (fog->mode) {
+    case 0: return (end - d) / (end - start);
+    case 1: return exp(-d * density);
+    default: return exp(-(d * density) * (d * density));
+    }
+}
+
+static uint32_t fogged(uint32_t color, uint32_t fog, int factor)
+{
+    uint32_t word = color & 0xff000000;
+    for (int c = 0; c < 3; c++)
+        word |=
+            (uint32_t)floor(
+                (channel(color, c) * (unsigned)factor + channel(fog, c) * (unsigned)(255 - factor)) / 255.0 +
+                0.5)
+            << 8 * c;
+    return word;
+}
+
+/* A square at one distance, whose factor must not be too near to where it is rounded. */
+static void check_square(const struct fog *fog, double distance, float z)
+{
+    double scaled = 255 * fmax(0, fmin(1, fog_factor(fog, distance)));
+    if (fabs(scaled - floor(scaled) - 0.5) < 0.01)
+        return;
+    uint32_t color = random_word(), fog_color = random_word();
+    char what[96];
+    snprintf(what, sizeof what, "%s fog at %g", mode_words[fog->mode], distance);
+    set(TRIPTYCH_STATE_fogtablemode, mode_words[fog->mode]);
+    set_float(TRIPTYCH_STATE_fogstart, fog->start);
+    set_float(TRIPTYCH_STATE_fogend, fog->end);
+    set_float(TRIPTYCH_STATE_fogdensity, fog->density);
+    OK(triptych_set_state(device, TRIPTYCH_STATE_fogcolor, fog_color));
+    draw_square(z, color, NULL, 0, 0, 1, 1);
+    OK(triptych_read_color(device, image));
+    uint32_t expected = fogged(image_word(color), image_word(fog_color), (int)floor(scaled + 0.5));
+    for (int p = 0; p < SIZE * SIZE; p += 37)
+        expect_pixel(p % SIZE, p / SIZE, expected, what);
+}
+
+static struct fog random_fog(int mode, double range)
+{
+    float start = (float)random_between(-0.2 * range, 0.5 * range);
+    return (struct fog){mode, start, start + (float)random_between(0.05 * range, range),
+                        (float)(random_between(0, 4) / range)};
+}
+
+/* Without perspective the distance is depth. */
+static void check_depth_fog(void)
+{
+    set(TRIPTYCH_STATE_fogenable, "true");
+    for (int i = 0; i < 120; i++) {
+        struct fog fog = random_fog(i % 3, 1);
+        float z = (float)random_between(0, 1);
+        check_square(&fog, (double)z, z);
+    }
+}
+
+/* A square at distance w fills the target, whatever w is. */
+static void check_distance_fog(void)
+{
+    set(TRIPTYCH_STATE_fogenable, "true");
+    for (int i = 0; i < 120; i++) {
+        struct fog fog = random_fog(i % 3, 60);
+        float w = (float)random_between(1, 100);
+        float projection[4][4] = {{w, 0, 0, 0}, {0, w, 0, 0}, {0, 0, 0.5f, 1}, {0, 0, 0, 0}};
+        OK(triptych_set_transform(device, TRIPTYCH_TRANSFORM_PROJECTION, (const float(*)[4])projection));
+        check_square(&fog, (double)w, w);
+    }
+}
+
+/* Formula and colour mean nothing while fog is off. */
+static void check_no_fog(void)
+{
+    struct fog fog = {0, 0, 0.0001f, 1};
+    OK(triptych_set_state(device, TRIPTYCH_STATE_fogcolor, 0xff00ff00));
+    set_float(TRIPTYCH_STATE_fogend, fog.end);
+    set(TRIPTYCH_STATE_fogtablemode, "linear");
+    draw_square(0.5f, 0x80402010, NULL, 0, 0, 1, 1);
+    OK(triptych_read_color(device, image));
+    expect_pixel(0, 0, image_word(0x80402010), "fog that is off");
+}
+
+static void test_fog_by_depth(void)
+{
+    on_every_engine(check_depth_fog);
+}
+
+static void test_fog_by_distance(void)
+{
+    on_every_engine(check_distance_fog);
+}
+
+static void test_fog_that_is_off(void)
+{
+    on_every_engine(check_no_fog);
+}
+
+int main(void)
+{
+    UNITY_BEGIN();
+    RUN_TEST(test_fog_by_depth);
+    RUN_TEST(test_fog_by_distance);
+    RUN_TEST(test_fog_that_is_off);
+    return UNITY_END();
+}

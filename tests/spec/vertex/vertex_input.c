@@ -1,0 +1,389 @@
+/* Vertex input on every engine: what each type in memory is as numbers, vertices that are in the window
+ * already, streams, instances and flexible vertex formats. Expected values come from the definition in
+ * double. */
+#include "tests/support/picture/canvas.h"
+#include "tests/support/picture/shading.h"
+
+#include "base/half.h"
+
+#include <math.h>
+#include <stdio.h>
+#include <string.h>
+
+void setUp(void)
+{
+}
+
+void tearDown(void)
+{
+    close_canvas();
+    shading_close();
+}
+
+/* --- Types --------------------------------------------------------------------------------------------- */
+
+enum { VERTICES = 64, WORDS = 4 };
+
+static uint32_t memory[VERTICES * WORDS];
+
+static double binary16(unsigned half)
+{
+    int exponent = half >> 10 & 31, mantissa = half & 1023;
+    double sign = half & 0x8000 ? -1 : 1;
+    if (exponent == 31)
+        return mantissa ? NAN : sign * INFINITY;
+    return sign * (exponent ? ldexp(1024 + mantissa, exponent - 25) : ldexp(mantissa, -24));
+}
+
+static int sixteen(const uint32_t *words, int i)
+{
+    return (int)(words[i / 2] >> 16 * (i % 2) & 0xffff);
+}
+
+static int as_signed(int value, int bits)
+{
+    return value >= 1 << (bits - 1) ? value - (1 << bits) : value;
+}
+
+static int ten(const uint32_t *words, int i)
+{
+    return (int)(words[0] >> 10 * i & 1023);
+}
+
+static int byte(const uint32_t *words, int i)
+{
+    return (int)(words[0] >> 8 * i & 255);
+}
+
+/* Component c as Direct3D 9's D3DDECLTYPE defines it. */
+static double component(enum triptych_format format, const uint32_t *w, int c)
+{
+    static const uint8_t color_byte[4] = {2, 1, 0, 3};
+    float number;
+    int count = key_vertex_types[format].components;
+    if (c >= count)
+        return c == 3;
+    switch (format) {
+    case TRIPTYCH_FORMAT_COLOR: return byte(w, color_byte[c]) / 255.0;
+    case TRIPTYCH_FORMAT_UBYTE4: return byte(w, c);
+    case TRIPTYCH_FORMAT_UBYTE4N: return byte(w, c) / 255.0;
+    case TRIPTYCH_FORMAT_SHORT2:
+    case TRIPTYCH_FORMAT_SHORT4: return as_signed(sixteen(w, c), 16);
+    case TRIPTYCH_FORMAT_SHORT2N:
+    case TRIPTYCH_FORMAT_SHORT4N: return as_signed(sixteen(w, c), 16) / 32767.0;
+    case TRIPTYCH_FORMAT_USHORT2N:
+    case TRIPTYCH_FORMAT_USHORT4N: return sixteen(w, c) / 65535.0;
+    case TRIPTYCH_FORMAT_UDEC3: return ten(w, c);
+    case TRIPTYCH_FORMAT_DEC3N: return as_signed(ten(w, c), 10) / 511.0;
+    case TRIPTYCH_FORMAT_FLOAT16_2:
+    case TRIPTYCH_FORMAT_FLOAT16_4: return binary16((unsigned)sixteen(w, c));
+    default: memcpy(&number, w + c, sizeof number); return (double)number;
+    }
+}
+
+/* Within one unit in the last place; integers, binary16 and the ends of ranges are exact. */
+static void expect_component(enum triptych_format format, const uint32_t *w, int c, float got)
+{
+    double expected = component(format, w, c);
+    int normalised = key_vertex_types[format].scale != 1;
+    double tolerance = normalised && expected != 0 && fabs(expected) != 1 ? fabs(expected) * 0x1p-23 : 0;
+    char message[128];
+    snprintf(message, sizeof message, "%s component %d of %08x %08x: expected %.9g, got %.9g",
+             key_vertex_types[format].word, c, (unsigned)w[0], (unsigned)w[1], expected, (double)got);
+    if (isnan(expected) ? !isnan(got)
+                        : !(fabs(expected - (double)got) <= tolerance) && expected != (double)got)
+        TEST_FAIL_MESSAGE(message);
+}
+
+static void fill_memory(enum triptych_format format)
+{
+    static const uint32_t edges[] = {0,          0xffffffff, 0x80008000, 0x7fff7fff, 0x80018001,
+                                     0x00010001, 0x7c007bff, 0xfc00fbff, 0x04000001, 0x03ff83ff,
+                                     0x3c00bc00, 0x1ff7fdff, 0x20080200, 0x3fffffff, 0x7e017c01};
+    enum { EDGES = sizeof edges / sizeof *edges };
+    for (int i = 0; i < VERTICES * WORDS; i++) {
+        float number = (float)random_between(-100, 100);
+        memory[i] = i / WORDS < EDGES ? edges[(i / WORDS + i % WORDS) % EDGES] : random_word();
+        if (key_vertex_types[format].encoding == ENCODING_FLOAT)
+            memcpy(&memory[i], &number, sizeof number);
+    }
+}
+
+/* Vertices in the window pass through as they were fetched. */
+static void check_types(void)
+{
+    for (int format = 1; format < TRIPTYCH_FORMAT_COUNT; format++) {
+        fill_memory(format);
+        shading_bind(TRIPTYCH_POSITIONT, format, memory, WORDS * 4);
+        shade(VERTICES);
+        for (uint32_t v = 0; v < VERTICES; v++)
+            for (int c = 0; c < 4; c++)
+                expect_component(format, memory + v * WORDS, c, shaded_slot(SLOT_X + c, v));
+    }
+}
+
+static void test_each_type_has_the_values_of_direct3d(void)
+{
+    shading_on_every_engine(check_types);
+}
+
+/* All of them, against the conversion that texture and vertex files are written with. */
+static void check_halves(void)
+{
+    static uint16_t half[VERTEX_CAPACITY * 4];
+    for (uint32_t first = 0; first < 65536; first += VERTEX_CAPACITY * 4) {
+        for (uint32_t i = 0; i < VERTEX_CAPACITY * 4; i++)
+            half[i] = (uint16_t)(first + i);
+        shading_bind(TRIPTYCH_POSITIONT, TRIPTYCH_FORMAT_FLOAT16_4, half, 8);
+        shade(VERTEX_CAPACITY);
+        for (uint32_t i = 0; i < VERTEX_CAPACITY * 4; i++) {
+            float got = shaded_slot(SLOT_X + (int)(i % 4), i / 4), expected = half_to_float(half[i]);
+            double exact = binary16(half[i]);
+            TEST_ASSERT_EQUAL_HEX32_MESSAGE(0, memcmp(&got, &expected, sizeof got), "binary16");
+            TEST_ASSERT_TRUE(isnan(exact) ? isnan(got) : exact == (double)got);
+            TEST_ASSERT_TRUE(isnan(exact) || float_to_half(got) == half[i]);
+        }
+    }
+}
+
+static void test_every_binary16_is_converted_exactly(void)
+{
+    shading_on_every_engine(check_halves);
+}
+
+/* A position of four components is divided by its w, whatever its type; others have w = 1. */
+static void check_fourth_component(void)
+{
+    static const int16_t shorts[4] = {10, 20, 30, 4};
+    shading_bind(TRIPTYCH_POSITION, TRIPTYCH_FORMAT_SHORT4, shorts, 8);
+    shade(1);
+    for (int c = 0; c < 4; c++)
+        TEST_ASSERT_EQUAL_FLOAT(shorts[c], shaded_slot(SLOT_X + c, 0));
+    shading_bind(TRIPTYCH_POSITION, TRIPTYCH_FORMAT_SHORT2, shorts, 8);
+    shade(1);
+    TEST_ASSERT_EQUAL_FLOAT(0, shaded_slot(SLOT_Z, 0));
+    TEST_ASSERT_EQUAL_FLOAT(1, shaded_slot(SLOT_W, 0));
+}
+
+static void test_positions_of_four_components_have_a_w(void)
+{
+    shading_on_every_engine(check_fourth_component);
+}
+
+/* --- Vertices in the window ---------------------------------------------------------------------------- */
+
+struct window_vertex {
+    float x, y, z, reciprocal_w;
+    uint32_t color;
+};
+
+static triptych_buffer *buffer_of(const void *data, size_t bytes)
+{
+    triptych_buffer *buffer;
+    OK(triptych_buffer_create(device, data, bytes, &buffer));
+    return buffer;
+}
+
+static void draw_window(const struct window_vertex *vertices, uint32_t count)
+{
+    enum { XYZRHW_DIFFUSE = 0x004 | 0x040 };
+    OK(triptych_set_fvf(device, XYZRHW_DIFFUSE));
+    OK(triptych_set_stream(device, 0, buffer_of(vertices, count * sizeof *vertices), 0, sizeof *vertices));
+    OK(triptych_draw(device, TRIPTYCH_TRIANGLE_STRIP, 0, count - 2));
+    OK(triptych_read_color(device, image));
+}
+
+static void draw_rectangle(float x0, float y0, float x1, float y1, float z, float reciprocal_w)
+{
+    const struct window_vertex vertices[4] = {{x0, y0, z, reciprocal_w, 0xff204060},
+                                              {x1, y0, z, reciprocal_w, 0xff204060},
+                                              {x0, y1, z, reciprocal_w, 0xff204060},
+                                              {x1, y1, z, reciprocal_w, 0xff204060}};
+    draw_window(vertices, 4);
+}
+
+static void expect_rectangle(int x0, int y0, int x1, int y1, const char *what)
+{
+    for (int y = 0; y < SIZE; y++)
+        for (int x = 0; x < SIZE; x++) {
+            int inside = x >= x0 && x < x1 && y >= y0 && y < y1;
+            expect_pixel(x, y, inside ? image_word(0xff204060) : 0xff000000, what);
+        }
+}
+
+/* Neither matrices nor lights nor the viewport's scale change them. */
+static void check_window_positions(void)
+{
+    float matrix[4][4] = {{3, 1, 4, 1}, {5, 9, 2, 6}, {5, 3, 5, 8}, {9, 7, 9, 3}};
+    float depth[SIZE * SIZE];
+    set(TRIPTYCH_STATE_lighting, "true");
+    set(TRIPTYCH_STATE_zenable, "true");
+    OK(triptych_set_transform(device, TRIPTYCH_TRANSFORM_WORLD, matrix));
+    OK(triptych_set_transform(device, TRIPTYCH_TRANSFORM_PROJECTION, matrix));
+    clear_to(0xff000000);
+    draw_rectangle(7, 11, 33, 50, 0.375f, 0.3f);
+    expect_rectangle(7, 11, 33, 50, "window");
+    OK(triptych_read_depth(device, depth));
+    TEST_ASSERT_EQUAL_FLOAT(0.375f, depth[20 * SIZE + 20]);
+    TEST_ASSERT_EQUAL_FLOAT(1, depth[5 * SIZE + 5]);
+    OK(triptych_set_viewport(device, &(struct triptych_viewport){16, 16, 32, 32, 0.5f, 0.6f}));
+    OK(triptych_clear(device, (float[4]){0, 0, 0, 1}, 1));
+    draw_rectangle(20, 0, 60, 64, 0.25f, 7);
+    for (int y = 16; y < 48; y++)
+        for (int x = 16; x < 48; x++)
+            expect_pixel(x, y, x >= 20 ? image_word(0xff204060) : 0xff000000, "viewport");
+    OK(triptych_read_depth(device, depth));
+    TEST_ASSERT_EQUAL_FLOAT(0.25f, depth[20 * SIZE + 20]);
+}
+
+static void test_vertices_in_the_window_are_drawn_where_they_are(void)
+{
+    on_every_engine(check_window_positions);
+}
+
+/* Far outside of the guard band the clipper cuts; what is left has the colours of the whole. */
+static void check_far_windows(void)
+{
+    static const float far[] = {20000, 1e6f, 1e9f, 1e30f};
+    for (int i = 0; i < 4; i++) {
+        clear_to(0xff000000);
+        draw_rectangle(-far[i], -far[i], far[i], far[i], 0.5f, 1);
+        expect_rectangle(0, 0, SIZE, SIZE, "far");
+        clear_to(0xff000000);
+        draw_rectangle(10, -far[i], far[i], 40, 0.5f, 3);
+        expect_rectangle(10, 0, SIZE, 40, "far to the right");
+    }
+}
+
+static void test_vertices_far_outside_of_the_window_are_clipped(void)
+{
+    on_every_engine(check_far_windows);
+}
+
+/* Colour along x between two ends with 1/w: linear in 1/w, and the same when the right end is cut off far
+ * away. */
+static void check_perspective(double left, double right, float end)
+{
+    struct window_vertex v[4];
+    for (int i = 0; i < 4; i++)
+        v[i] = (struct window_vertex){.x = i & 1 ? end : 0,
+                                      .y = i & 2 ? SIZE : 0,
+                                      .z = 0.5f,
+                                      .reciprocal_w = (float)(i & 1 ? right : left),
+                                      .color = i & 1 ? 0xffffffff : 0xff000000};
+    clear_to(0xff000000);
+    draw_window(v, 4);
+    for (int x = 0; x < SIZE; x++) {
+        double t = (x + 0.5) / (double)end, value = t * right / (left + t * (right - left));
+        double got = channel(image[8 * SIZE + x], 0);
+        TEST_ASSERT_DOUBLE_WITHIN(0.51, 255 * value, got);
+    }
+}
+
+static void check_perspectives(void)
+{
+    check_perspective(1, 1, SIZE);
+    check_perspective(1, 0.125, SIZE);
+    check_perspective(0.01, 2, SIZE);
+    check_perspective(1, 1, 40000);
+    check_perspective(1, 900, 40000);
+}
+
+static void test_colours_in_the_window_are_perspective_by_their_reciprocal_w(void)
+{
+    on_every_engine(check_perspectives);
+}
+
+/* --- Streams ------------------------------------------------------------------------------------------- */
+
+/* Eight instances, two of each colour, added up. */
+static void check_instances(void)
+{
+    enum { INSTANCES = 8 };
+    static const uint32_t color[INSTANCES / 2] = {0xff112233, 0xff445566, 0xff778899, 0xffaabbcc};
+    static const uint16_t index[4] = {0, 1, 2, 3};
+    static const struct triptych_declaration_element elements[] = {
+        {0, 0, TRIPTYCH_FORMAT_FLOAT4, TRIPTYCH_USAGE_POSITION, 0},
+        {1, 0, TRIPTYCH_FORMAT_COLOR, TRIPTYCH_USAGE_COLOR, 0},
+        {2, 4, TRIPTYCH_FORMAT_FLOAT1, TRIPTYCH_USAGE_TANGENT, 0}};
+    const float square[4][4] = {{-1, 1, 0, 1}, {1, 1, 0, 1}, {-1, -1, 0, 1}, {1, -1, 0, 1}};
+    OK(triptych_set_declaration(device, elements, 3));
+    OK(triptych_set_stream(device, 0, buffer_of(square, sizeof square), 0, sizeof square[0]));
+    OK(triptych_set_stream(device, 1, buffer_of(color, sizeof color), 0, 4));
+    OK(triptych_set_stream_frequency(device, 0, TRIPTYCH_FREQUENCY_INDEXED, INSTANCES));
+    OK(triptych_set_stream_frequency(device, 1, TRIPTYCH_FREQUENCY_INSTANCE, 2));
+    OK(triptych_set_indices(device, buffer_of(index, sizeof index), 16));
+    set(TRIPTYCH_STATE_alphablendenable, "true");
+    set(TRIPTYCH_STATE_srcblend, "one");
+    set(TRIPTYCH_STATE_destblend, "one");
+    clear_to(0xff000000);
+    OK(triptych_draw_indexed(device, TRIPTYCH_TRIANGLE_STRIP, 0, 0, 2));
+    OK(triptych_read_color(device, image));
+    uint32_t expected = 0xff000000;
+    for (int c = 0; c < 3; c++) {
+        unsigned sum = 0;
+        for (int i = 0; i < INSTANCES / 2; i++)
+            sum += 2 * channel(image_word(color[i]), c);
+        expected |= (sum > 255 ? 255 : sum) << 8 * c;
+    }
+    expect_pixel(3, 3, expected, "all instances, added");
+    struct triptych_statistics statistics;
+    triptych_get_statistics(device, &statistics);
+    TEST_ASSERT_EQUAL_UINT64(2 * INSTANCES, statistics.triangles);
+    TEST_ASSERT_EQUAL_INT(TRIPTYCH_BAD_CALL, triptych_draw(device, TRIPTYCH_TRIANGLE_STRIP, 0, 2));
+    OK(triptych_set_stream_frequency(device, 0, TRIPTYCH_FREQUENCY_INDEXED, INSTANCES + 1));
+    TEST_ASSERT_EQUAL_INT(TRIPTYCH_BAD_CALL, triptych_draw_indexed(device, TRIPTYCH_TRIANGLE_STRIP, 0, 0, 2));
+    OK(triptych_set_stream(device, 1, NULL, 0, 0));
+    TEST_ASSERT_EQUAL_INT(TRIPTYCH_BAD_CALL, triptych_draw_indexed(device, TRIPTYCH_TRIANGLE_STRIP, 0, 0, 2));
+}
+
+static void test_instances_step_through_their_streams(void)
+{
+    on_every_engine(check_instances);
+}
+
+/* Every instance is one point three times: nothing is drawn. By vertex the corners differ. */
+static void check_instance_positions(void)
+{
+    enum { INSTANCES = 8 };
+    float column[INSTANCES][4];
+    uint32_t color[4] = {0xff102030, 0xff102030, 0xff102030, 0xff102030};
+    static const uint16_t index[3] = {0, 1, 2};
+    static const struct triptych_declaration_element elements[] = {
+        {3, 0, TRIPTYCH_FORMAT_FLOAT4, TRIPTYCH_USAGE_POSITIONT, 0},
+        {0, 0, TRIPTYCH_FORMAT_COLOR, TRIPTYCH_USAGE_COLOR, 0}};
+    for (int i = 0; i < INSTANCES; i++)
+        memcpy(column[i], (float[4]){(float)i, 0, 0, 1}, sizeof column[i]);
+    OK(triptych_set_declaration(device, elements, 2));
+    OK(triptych_set_stream(device, 0, buffer_of(color, sizeof color), 0, 4));
+    OK(triptych_set_stream(device, 3, buffer_of(column, sizeof column), 0, sizeof column[0]));
+    OK(triptych_set_stream_frequency(device, 0, TRIPTYCH_FREQUENCY_INDEXED, INSTANCES));
+    OK(triptych_set_stream_frequency(device, 3, TRIPTYCH_FREQUENCY_INSTANCE, 1));
+    OK(triptych_set_indices(device, buffer_of(index, sizeof index), 16));
+    clear_to(0xff000000);
+    OK(triptych_draw_indexed(device, TRIPTYCH_TRIANGLE_LIST, 0, 0, 1));
+    OK(triptych_read_color(device, image));
+    expect_rectangle(0, 0, 0, 0, "three corners at one place");
+    OK(triptych_set_stream_frequency(device, 3, TRIPTYCH_FREQUENCY_VERTEX, 1));
+    OK(triptych_set_stream_frequency(device, 0, TRIPTYCH_FREQUENCY_VERTEX, 1));
+    OK(triptych_draw_indexed(device, TRIPTYCH_TRIANGLE_LIST, 0, 0, 1));
+}
+
+static void test_an_instances_position_is_the_same_for_all_its_corners(void)
+{
+    on_every_engine(check_instance_positions);
+}
+
+int main(void)
+{
+    UNITY_BEGIN();
+    RUN_TEST(test_each_type_has_the_values_of_direct3d);
+    RUN_TEST(test_every_binary16_is_converted_exactly);
+    RUN_TEST(test_positions_of_four_components_have_a_w);
+    RUN_TEST(test_vertices_in_the_window_are_drawn_where_they_are);
+    RUN_TEST(test_vertices_far_outside_of_the_window_are_clipped);
+    RUN_TEST(test_colours_in_the_window_are_perspective_by_their_reciprocal_w);
+    RUN_TEST(test_instances_step_through_their_streams);
+    RUN_TEST(test_an_instances_position_is_the_same_for_all_its_corners);
+    return UNITY_END();
+}

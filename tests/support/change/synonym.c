@@ -1,0 +1,47 @@
+#include "synonym.h"
+
+#include <stddef.h>
+#include <string.h>
+
+/* Words of a state with the same meaning, after their common prefix is removed. */
+static const struct {
+    const char *state, *ending, *other, *reason;
+} synonyms[] = {
+    {"shademode", "gouraud", "phong", "Direct3D 9 draws Phong shading as Gouraud shading"},
+    {"srcblendalpha", "color", "alpha", "of alpha, the colour is alpha"},
+    {"destblendalpha", "color", "alpha", "of alpha, the colour is alpha"},
+    {"srcblendalpha", "one", "srcalphasat", "for alpha, the factor is 1"},
+    {"destblendalpha", "one", "srcalphasat", "for alpha, the factor is 1"},
+    {"alphaarg", "", "_alphareplicate", "alpha replicated is alpha"},
+    {"texturetransformflags", "", "_projected",
+     "the last of three or four coordinates divides, not of fewer"},
+    {"magfilter", "none", "point", "no filter is the nearest texel"},
+    {"minfilter", "none", "point", "no filter is the nearest texel"},
+    {"magfilter", "linear", "anisotropic", "a magnified texel has no long side"},
+};
+
+enum { SYNONYMS = sizeof synonyms / sizeof *synonyms };
+
+static bool synonym_needed[SYNONYMS];
+
+bool synonym_are(const char *state, const char *a, const char *b)
+{
+    bool result = false;
+    while (*a && *a == *b)
+        a++, b++;
+    for (unsigned i = 0; i < SYNONYMS; i++) {
+        const char *x = synonyms[i].ending, *y = synonyms[i].other;
+        bool same = (!strcmp(a, x) && !strcmp(b, y)) || (!strcmp(a, y) && !strcmp(b, x));
+        if (same && !strncmp(state, synonyms[i].state, strlen(synonyms[i].state)))
+            synonym_needed[i] = result = true;
+    }
+    return result;
+}
+
+const char *synonym_unneeded(void)
+{
+    for (unsigned i = 0; i < SYNONYMS; i++)
+        if (!synonym_needed[i])
+            return synonyms[i].reason;
+    return NULL;
+}

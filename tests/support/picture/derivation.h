@@ -1,0 +1,39 @@
+/* The fixture of the tests of derivation: a state that draws lit triangles of 640 x 480 with every common
+ * attribute, and what is derived from it. */
+#ifndef TESTS_SUPPORT_PICTURE_DERIVATION_H
+#define TESTS_SUPPORT_PICTURE_DERIVATION_H
+
+#include "render/derive/derive.h"
+
+#include <unity.h>
+
+extern struct state state;
+extern struct triptych_buffer buffer;   /* of the attributes */
+extern struct triptych_texture texture; /* 64 x 48, one level, not bound */
+extern union key key[UNIT_COUNT];
+extern struct job job;
+
+/* Sets all of these to what every test begins with. */
+void derivation_begin(void);
+
+/* Attribute at offset 16 of vertices of 32 bytes. */
+void bind_attribute(enum triptych_attribute attribute, enum triptych_format format);
+
+#define SET(name, word)            set_word(TRIPTYCH_RENDER_STATES, 0, TRIPTYCH_STATE_##name, word)
+#define SET_SAMPLER(i, name, word) set_word(TRIPTYCH_SAMPLER_STATES, i, TRIPTYCH_SAMPLER_##name, word)
+#define SET_STAGE(i, name, word)   set_word(TRIPTYCH_STAGE_STATES, i, TRIPTYCH_STAGE_##name, word)
+
+void set_word(enum triptych_state_table table, unsigned i, unsigned row, const char *word);
+void set_value(enum triptych_state which, uint32_t value);
+
+/* Makes the texture another one. */
+void describe_texture(enum triptych_texture_type type, unsigned width, unsigned height, unsigned depth,
+                      unsigned levels);
+
+/* Keys and job of triangles. */
+void derive(void);
+
+/* Derives, changes nothing but a state by `change`, and expects the same keys. */
+void expect_same_keys(void (*change)(void));
+
+#endif

@@ -1,0 +1,38 @@
+/* Situations: states in which a draw can happen, described in a few words, without a device.
+ *
+ * A description is a row of statements:
+ *   state NAME VALUE               VALUE is one of the state's words, or a number
+ *   sampler I NAME VALUE
+ *   stage I NAME VALUE
+ *   texture I TYPE FORMAT SIZE     2d, cube or volume; `texture I none` unbinds
+ *   light I TYPE                   directional or point
+ *   attribute NAME FORMAT          a row of def/state/attribute.def, of def/state/vertex_type.def or none
+ *   target I STORAGE CHANNELS      a row of def/state/target.def, bits as in a write mask
+ *   depth FORMAT                   a row of def/state/depth_format.def
+ *   samples N                      2^N per pixel
+ *   projection NAME                perspective, as it is at first, or parallel
+ *   draw PRIMITIVE                 triangles, as it is at first, lines or points
+ *   vertex NAME, pixel NAME        a shader, a row of tests/support/shader/programs.def; none: the fixed
+ *                                  function
+ *   booleans STAGE BITS            constants: 0 of vertices, 1 of pixels
+ * At first, every attribute is given that does not change the purpose of the others. Everything that is not a
+ * numbered state has distinct values: materials, matrices, clip planes, a scissor rectangle
+ * inside the viewport. */
+#ifndef TESTS_SUPPORT_PICTURE_SITUATION_H
+#define TESTS_SUPPORT_PICTURE_SITUATION_H
+
+#include "render/derive/derive.h"
+
+struct situation {
+    struct state state;
+    enum triptych_primitive drawn;
+};
+
+/* Starts with the state above. */
+void situation_start(struct situation *situation);
+
+/* Follows a description. Returns null; or, if it needs a feature that is not supported, the reason. Anything
+ * else that is wrong in it ends the test. */
+const char *situation_add(struct situation *situation, const char *description);
+
+#endif

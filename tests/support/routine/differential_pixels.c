@@ -1,0 +1,286 @@
+/* Random triangles, textures and targets of a pixel routine, and the textures of a vertex routine. */
+#include "differential_part.h"
+#include "contract/key_query.h"
+
+#include "base/bits.h"
+#include "render/target/depth.h"
+
+#include <string.h>
+
+static void make_plane(struct differential *d, uint8_t *record, size_t offset, float low, float high)
+{
+    float slope = differential_below(d, 4) ? 0.1f : 1.25f;
+    struct plane plane = {differential_number(d, low, high), differential_number(d, -slope, slope),
+                          differential_number(d, -slope, slope)};
+    memcpy(record + offset, &plane, sizeof plane);
+}
+
+static void make_varying(struct differential *d, uint8_t *record, const struct pixel_key *key, int varying)
+{
+    float reach = !varying_is_texcoord(varying) ? 0.25f : differential_below(d, 4) ? 3 : 300;
+    for (size_t c = 0; c < varying_components[varying]; c++) {
+        float flat = differential_number(d, -reach, 1 + reach);
+        size_t first = d->layout.varying[varying];
+        if (key->varying[varying] == INTERPOLATION_FLAT)
+            memcpy(record + first + sizeof flat * c, &flat, sizeof flat);
+        else if (key->varying[varying] == INTERPOLATION_SMOOTH)
+            make_plane(d, record, first + sizeof(struct plane) * c, -reach, 1 + reach);
+    }
+}
+
+/* The plane of 1/w. In half of the triangles, it has no slope in one or both directions, and is often 1. */
+static void make_reciprocal(struct differential *d, uint8_t *record)
+{
+    static const float some[] = {1, 1, 0.5f, 2};
+    struct plane plane;
+    make_plane(d, record, d->layout.reciprocal_w, 0.2f, 2);
+    memcpy(&plane, record + d->layout.reciprocal_w, sizeof plane);
+    unsigned kind = differential_below(d, 8);
+    if (kind < 4)
+        plane = (struct plane){some[kind], kind == 1 ? plane.dx : 0, 0};
+    else if (kind == 4)
+        plane = (struct plane){1, 0, plane.dy};
+    memcpy(record + d->layout.reciprocal_w, &plane, sizeof plane);
+}
+
+static void make_triangles(struct differential *d, const struct pixel_key *key)
+{
+    for (int i = 0; i < TRIANGLES; i++) {
+        uint8_t *record = d->triangles + i * d->layout.stride;
+        differential_fill_numbers(d, record, d->layout.stride, -4, 4);
+        struct triangle_head *head = (void *)record;
+        head->visible = differential_below(d, 2) ? 1 : -1;
+        head->origin_x = differential_between(d, -20, 84);
+        head->origin_y = differential_between(d, -20, 84);
+        if (d->layout.depth)
+            make_plane(d, record, d->layout.depth, -0.25f, 1.25f);
+        if (d->layout.smooth)
+            make_reciprocal(d, record);
+        for (int v = 0; v < VARYING_COUNT; v++)
+            make_varying(d, record, key, v);
+    }
+}
+
+static uint16_t random_coverage(struct differential *d)
+{
+    static const uint16_t some[] = {0xffff, 0x00ff, 0xff00, 0x8001, 0x0100, 0xf000};
+    uint16_t sparse = (uint16_t)(differential_word(d) & differential_word(d));
+    if (differential_below(d, 2))
+        return some[differential_below(d, sizeof some / sizeof *some)];
+    return sparse ? sparse : 1;
+}
+
+/* The samples of a covered pixel: often all, never none. */
+static void make_samples(struct differential *d, const struct pixel_key *key, int i)
+{
+    struct sample_coverage *coverage = &d->entries.coverage[i];
+    uint16_t any = d->entries.entry[i].coverage, left = any;
+    int samples = 1 << key->samples, whole = !differential_below(d, 3);
+    memset(coverage, 0, sizeof *coverage);
+    for (int s = 0; s < samples; s++) {
+        coverage->sample[s] = whole ? any : any & (uint16_t)differential_word(d);
+        left &= (uint16_t)~coverage->sample[s];
+    }
+    coverage->sample[differential_below(d, (uint32_t)samples)] |= left;
+}
+
+/* Four in five entries begin a new block. The others shade the previous block again. */
+static void make_entries(struct differential *d, const struct pixel_key *key)
+{
+    float left = 64 * (float)differential_below(d, 3), top = 64 * (float)differential_below(d, 3);
+    d->count = 1 + differential_below(d, ENTRIES);
+    for (int i = 0; i < ENTRIES; i++) {
+        uint16_t block =
+            i % 5 ? (uint16_t)differential_below(d, TILE_BLOCKS) : d->entries.entry[i ? i - 1 : 0].block;
+        d->entries.entry[i] = (struct entry){.x = left + (float)(block % 16 * 4),
+                                             .y = top + (float)(block / 16 * 4),
+                                             .coverage = random_coverage(d),
+                                             .block = block,
+                                             .triangle = differential_below(d, TRIANGLES) * d->layout.stride};
+        make_samples(d, key, i);
+    }
+}
+
+static int32_t texture_side(struct differential *d, int small, int address)
+{
+    int power = address == ADDRESS_WRAP_POWER || address == ADDRESS_MIRROR_POWER;
+    return power ? 1 << differential_below(d, small ? 5 : 7)
+                 : 1 + (int32_t)differential_below(d, small ? SMALL_SIDE : TEXTURE_SIDE);
+}
+
+static int32_t half(int32_t side, int level)
+{
+    return side >> level ? side >> level : 1;
+}
+
+/* Fills in the levels of one face. Returns its texels. */
+static int32_t make_levels(const int32_t side[3], struct texture_level levels[LEVELS])
+{
+    int32_t offset = 0;
+    for (int l = 0; l < LEVELS; l++) {
+        struct texture_level *level = &levels[l];
+        *level = (struct texture_level){.offset = offset,
+                                        .width = half(side[0], l),
+                                        .height = half(side[1], l),
+                                        .depth = half(side[2], l)};
+        level->pitch = level->width + 1;
+        level->slice_texels = level->pitch * level->height;
+        offset += level->slice_texels * level->depth;
+    }
+    return offset;
+}
+
+/* The range of levels that may be sampled. A texture without levels has only the first. */
+static void make_detail(struct differential *d, int sampler)
+{
+    struct texture_job *texture = &d->job.texture[sampler];
+    uint32_t last = differential_below(d, LEVELS);
+    texture->levels = d->levels[sampler];
+    texture->first_level_256 = 256 * (int32_t)differential_below(d, last + 1);
+    texture->last_level_256 = 256 * (int32_t)last;
+    texture->lod_bias_256 = differential_number(d, -256 * 4, 256 * 4);
+    texture->lod_offset = differential_number(d, -256 * 14, 256);
+}
+
+/* The padding after the image's last row ends with the last word before the fence. The padding of a row
+ * differs from the row's first texels, so an engine must read the same ones as the specification. */
+static void make_texture(struct differential *d, struct sampler_key key)
+{
+    struct texture_job *texture = &d->job.texture[key.number];
+    int kind = key.kind, words = key.texel >= TEXEL_FLOATS ? 4 : 1;
+    int small = kind == TEXTURE_VOLUME || words > 1;
+    const int32_t side[3] = {texture_side(d, small, key.address[0]), texture_side(d, small, key.address[1]),
+                             kind == TEXTURE_VOLUME ? texture_side(d, small, key.address[2]) : 1};
+    int32_t chain = make_levels(side, d->levels[key.number]), image = (side[0] + 1) * side[1] * side[2];
+    texture->face_texels = key.mip ? chain : image;
+    int32_t texels = kind == TEXTURE_CUBE ? 6 * texture->face_texels : texture->face_texels;
+    int32_t margin = TEXTURE_MARGIN_ROWS * (side[0] + 1) + TEXTURE_MARGIN_TEXELS;
+    texture->texels = (const uint32_t *)(void *)(d->texels + TEXTURE_BYTES) - words * (texels + margin);
+    texture->width = side[0];
+    texture->height = side[1];
+    texture->depth = side[2];
+    texture->width_256 = 256 * (float)side[0];
+    texture->height_256 = 256 * (float)side[1];
+    texture->depth_256 = 256 * (float)side[2];
+    texture->last_u = side[0] - 1;
+    texture->last_v = side[1] - 1;
+    texture->last_w = side[2] - 1;
+    texture->pitch = side[0] + 1;
+    texture->last_u_256 = 256 * texture->last_u;
+    texture->last_v_256 = 256 * texture->last_v;
+    texture->last_w_256 = 256 * texture->last_w;
+    texture->slice_texels = texture->pitch * side[1];
+    texture->border = differential_word(d);
+    make_detail(d, key.number);
+}
+
+static void make_textures(struct differential *d, const struct pixel_key *key)
+{
+    differential_fill_words(d, d->texels, TEXTURE_BYTES);
+    for (int i = 0; i < PIXEL_SAMPLERS; i++)
+        make_texture(d, pixel_sampler(key, i));
+    for (int i = 0; i < TEXTURE_STAGES; i++) {
+        d->job.stage_constant[i] = differential_word(d);
+        differential_fill_numbers(d, &d->job.bump[i], sizeof d->job.bump[i], -0.5f, 0.5f);
+    }
+    d->job.texture_factor = differential_word(d);
+}
+
+void differential_vertex_textures(struct differential *d, const struct vertex_key *key)
+{
+    if (key_next(key->texture, 0, VERTEX_SAMPLERS) == VERTEX_SAMPLERS)
+        return;
+    differential_fill_words(d, d->texels, TEXTURE_BYTES);
+    for (int i = 0; i < VERTEX_SAMPLERS; i++)
+        make_texture(d, vertex_sampler(key, i));
+}
+
+static void make_fog(struct differential *d, const struct pixel_key *key)
+{
+    int linear = key->fog == FOG_LINEAR_Z || key->fog == FOG_LINEAR_W;
+    d->job.fog_color = differential_word(d);
+    d->job.fog_scale = differential_number(d, -2, linear ? 2 : 0);
+    d->job.fog_offset = differential_number(d, -1, 2);
+}
+
+/* A depth in the format of the key's storage class. */
+static uint32_t depth_word(struct differential *d, const struct pixel_key *key, float depth)
+{
+    static const enum triptych_depth_format format[DEPTH_STORAGE_COUNT] = {
+        TRIPTYCH_DEPTH_d32f_lockable, TRIPTYCH_DEPTH_d24s8, TRIPTYCH_DEPTH_d24fs8, TRIPTYCH_DEPTH_d32};
+    int limited = depth >= 0 && depth <= 1;
+    uint32_t stencil = key->depth_format == DEPTH_UNORM || key->depth_format == DEPTH_FLOAT24
+                           ? differential_below(d, 256)
+                           : 0;
+    if (key->depth_format != DEPTH_FLOAT)
+        return depth_encode(format[key->depth_format], limited ? depth : 0) | stencil;
+    return bits_of_float(depth);
+}
+
+/* Planes that pass exactly through stored depths, so that EQUAL succeeds for some pixels. */
+static void meet_stored_depths(struct differential *d, const struct pixel_key *key)
+{
+    struct plane plane = {0.5f, 0, 0};
+    for (int i = 0; i < TRIANGLES; i++)
+        memcpy(d->triangles + i * d->layout.stride + d->layout.depth, &plane, sizeof plane);
+    for (int i = 0; i < TILE_PIXELS << key->samples; i++)
+        d->initial.depth[i] = depth_word(d, key, 0.25f * (float)(1 + differential_below(d, 3)));
+}
+
+/* Values with few and with many bits. They often equal the reference. */
+static void make_stencil_job(struct differential *d)
+{
+    struct job *job = &d->job;
+    job->depth_maximum = 16777215;
+    job->w_scale = differential_number(d, -0.1f, 1.5f);
+    job->w_offset = differential_number(d, -0.5f, 0.5f);
+    job->stencil_maximum = differential_below(d, 4) ? 255 : 15;
+    job->stencil_reference = (int32_t)differential_below(d, 256) & job->stencil_maximum;
+    job->stencil_mask =
+        (int32_t)(differential_below(d, 2) ? 255 : differential_below(d, 8)) & job->stencil_maximum;
+    job->stencil_write_mask =
+        (int32_t)(differential_below(d, 2) ? 255 : differential_below(d, 256)) & job->stencil_maximum;
+}
+
+/* Often an alpha of saturated colours, or the next value. */
+static int32_t alpha_reference(struct differential *d)
+{
+    static const uint8_t some[] = {0, 1, 127, 128, 254, 255};
+    return differential_below(d, 2) ? some[differential_below(d, sizeof some)]
+                                    : (int32_t)differential_below(d, 256);
+}
+
+/* Words, or planes of numbers. */
+static void make_targets(struct differential *d, const struct pixel_key *key)
+{
+    uint32_t *plane = d->initial.color;
+    for (int t = 0; t < (key->samples ? 1 : TARGETS); t++)
+        for (int p = 0; p < storage_planes[key->target[t]] << key->samples; p++, plane += TILE_PIXELS)
+            if (storage_planes[key->target[t]] > 1)
+                differential_fill_numbers(d, plane, TILE_PLANE_BYTES, -0.5f, 1.5f);
+            else
+                differential_fill_words(d, plane, TILE_PLANE_BYTES);
+}
+
+void differential_pixel_inputs(struct differential *d, const struct pixel_key *key)
+{
+    d->job.alpha_reference = alpha_reference(d);
+    d->job.blend_constant = differential_word(d);
+    make_stencil_job(d);
+    d->layout = layout_of_pixel(key);
+    make_triangles(d, key);
+    make_entries(d, key);
+    make_textures(d, key);
+    make_fog(d, key);
+    make_targets(d, key);
+    for (int i = 0; i < TILE_PIXELS << key->samples; i++)
+        d->initial.depth[i] = depth_word(d, key,
+                                         differential_below(d, 3) ? differential_number(d, 0, 1)
+                                                                  : (float)differential_below(d, 2));
+    struct lane_table lanes = lane_table;
+    for (int lane = 0; lane < LANES_MAXIMUM; lane++)
+        lanes.passed[lane] = (int32_t)differential_below(d, 1000);
+    memcpy(d->initial.lanes + 4, &lanes, sizeof lanes);
+    if (d->layout.depth && !differential_below(d, 3))
+        meet_stored_depths(d, key);
+}

@@ -1,0 +1,390 @@
+#include "placement_part.h"
+
+#include <string.h>
+
+/* --- Memory ------------------------------------------------------------------------------------------ */
+
+/* The largest number of operations of a window: its own, two rows, two indices and four gathers. */
+enum { WINDOW_OPERANDS = 3 + 4 + 4 + 4 };
+
+static bool gathers(const struct ir_instruction *i)
+{
+    return i->op == IR_gather || i->op == IR_window;
+}
+
+static int lane_bytes(const struct check *c)
+{
+    return (int)c->m->width * 4;
+}
+
+/* Returns true if one element is read for all lanes. */
+static bool is_broadcast(const struct check *c)
+{
+    return c->instruction.avx.broadcast.mode != ZYDIS_BROADCAST_MODE_INVALID;
+}
+
+/* The literal at an offset of the code, stored for each lane or as one word for all. */
+static struct content literal_at(struct check *c, int64_t offset)
+{
+    for (uint32_t n = 0; n < c->m->literals; n++)
+        if (c->m->labels[c->m->literal_label[n]] == offset && (is_broadcast(c) || c->m->literal_lanes[n]))
+            return (struct content){.origin = FROM_LITERAL, .number = c->m->literal_bits[n]};
+    placement_wrong(c, "reads 0x%llx, where no literal begins", (long long)offset);
+    return (struct content){.origin = FROM_ELSEWHERE};
+}
+
+/* The location of a slot or of the room for lanes; -1: something else in the stack frame. */
+static int place_in_frame(struct check *c, int64_t displacement)
+{
+    int64_t slot = displacement - c->m->frame_slots;
+    if (displacement >= FRAME_LANES && displacement < FRAME_HEAD)
+        return LANES;
+    if (slot < 0 || displacement >= c->m->frame_variables)
+        return -1;
+    if (slot % lane_bytes(c))
+        placement_wrong(c, "a slot is reached in its middle, at %lld", (long long)displacement);
+    return SLOTS + (int)(slot / lane_bytes(c));
+}
+
+static struct content read_frame(struct check *c, int64_t displacement)
+{
+    int place = place_in_frame(c, displacement);
+    int64_t from = displacement - c->m->frame_constants;
+    if (place >= 0)
+        return c->now.at[place];
+    if (displacement >= c->m->frame_variables)
+        return (struct content){.origin = FROM_VARIABLE,
+                                .number = (int32_t)((displacement - c->m->frame_variables) / lane_bytes(c))};
+    if (from < 0 || from % lane_bytes(c) || emit_is_wide(c->m))
+        placement_wrong(c, "reads the frame at %lld", (long long)displacement);
+    return (struct content){.origin = FROM_CONSTANT, .number = (int32_t)(from / lane_bytes(c))};
+}
+
+static int general_number(ZydisRegister r)
+{
+    return r >= ZYDIS_REGISTER_RAX && r <= ZYDIS_REGISTER_R15 ? (int)(r - ZYDIS_REGISTER_RAX) : -1;
+}
+
+/* With 16 lanes, constants in the stack frame are read from their source. */
+static bool find_constant(const struct check *c, int base, int64_t displacement, struct content *p)
+{
+    for (uint32_t n = 0; emit_is_wide(c->m) && n < c->ir->constant_count; n++)
+        if (emit_base_register[c->ir->constant[n].base] == base &&
+            c->ir->constant[n].offset == displacement) {
+            *p = (struct content){.origin = FROM_CONSTANT, .number = (int32_t)n};
+            return true;
+        }
+    return false;
+}
+
+/* A whole row of lanes, or one word that is broadcast. */
+static struct content read_memory(struct check *c, const ZydisDecodedOperand *o, enum origin origin)
+{
+    struct content constant;
+    const struct ir_instruction *i = placement_operation(c, c->number);
+    int base = general_number(o->mem.base);
+    if (o->mem.base == ZYDIS_REGISTER_RIP)
+        return literal_at(c, (int64_t)c->offset + c->instruction.length + o->mem.disp.value);
+    if (base == X86_RSP)
+        return read_frame(c, o->mem.disp.value);
+    if (o->mem.index != ZYDIS_REGISTER_NONE || base == X86_RAX) {
+        if (!gathers(i))
+            placement_wrong(c, "gathers");
+        return (struct content){.origin = FROM_ELSEWHERE, .made_in = c->visit};
+    }
+    if (is_broadcast(c))
+        origin = FROM_WORD;
+    if (origin == FROM_WORD && find_constant(c, base, o->mem.disp.value, &constant))
+        return constant;
+    return (struct content){
+        .origin = (uint8_t)origin, .base = (uint8_t)base, .number = (int32_t)o->mem.disp.value};
+}
+
+/* A store of lanes to the address of the operation, or of a value to the stack frame. */
+static void write_memory(struct check *c, const ZydisDecodedOperand *o, const struct content *p)
+{
+    const struct ir_instruction *i = placement_operation(c, c->number);
+    int base = general_number(o->mem.base);
+    int64_t at = o->mem.disp.value;
+    if (base == X86_RSP) {
+        int place = place_in_frame(c, at);
+        if (place >= 0)
+            place_assign(&c->now.at[place], p);
+        else if (i->op != IR_set || at != c->m->frame_variables + i->k * lane_bytes(c))
+            placement_wrong(c, "writes to the frame at %lld", (long long)at);
+        else {
+            place_expect(c, p, "for variable", i->k);
+            c->stores++;
+        }
+        return;
+    }
+    bool meant = i->op == IR_store || i->op == IR_store_where
+                     ? at == i->k
+                     : i->op == IR_scatter && (!i->field ? at == i->k : (at - i->k) % i->field == 0);
+    if (!meant || base != emit_base_register[i->base] || o->mem.index != ZYDIS_REGISTER_NONE)
+        placement_wrong(c, "stores to %lld", (long long)at);
+    place_expect(c, p, "to store at", (long)at);
+    c->stores++;
+}
+
+/* --- Instructions ------------------------------------------------------------------------------------ */
+
+/* The number of a register as in allocation: vectors, then masks; -1: neither. */
+static int vector_number(ZydisRegister r)
+{
+    if (r >= ZYDIS_REGISTER_XMM0 && r <= ZYDIS_REGISTER_XMM31)
+        return (int)(r - ZYDIS_REGISTER_XMM0);
+    if (r >= ZYDIS_REGISTER_YMM0 && r <= ZYDIS_REGISTER_YMM31)
+        return (int)(r - ZYDIS_REGISTER_YMM0);
+    if (r >= ZYDIS_REGISTER_K0 && r <= ZYDIS_REGISTER_K7)
+        return (int)(r - ZYDIS_REGISTER_K0) + MASKS;
+    return r >= ZYDIS_REGISTER_ZMM0 && r <= ZYDIS_REGISTER_ZMM31 ? (int)(r - ZYDIS_REGISTER_ZMM0) : -1;
+}
+
+static int operand_vector(const ZydisDecodedOperand *o)
+{
+    return o->type == ZYDIS_OPERAND_TYPE_REGISTER ? vector_number(o->reg.value) : -1;
+}
+
+/* The next operations that one selection covers: gathers and scatters by rows, and the operations after a
+ * window. */
+uint32_t placement_selected_end(const struct check *c)
+{
+    uint32_t end = c->number + 1, next = c->line + 1 < c->m->lines ? c->m->line[c->line + 1].instruction : 0;
+    unsigned op = placement_operation(c, c->number)->op;
+    if (op == IR_window)
+        return end + (c->coded ? placement_operation(c, c->number)->scale : 0);
+    while ((op == IR_gather || op == IR_scatter) && end < c->ir->count && end != next &&
+           placement_operation(c, end)->op == op)
+        end++;
+    return end;
+}
+
+/* The operands of a window are its own and those of the operations that it covers, except values that they
+ * compute themselves. */
+static int window_operands(const struct check *c, unsigned operand[WINDOW_OPERANDS])
+{
+    int count = 0;
+    for (uint32_t n = c->number; n < placement_selected_end(c); n++)
+        for (int o = 0; o < ir_op_information[placement_operation(c, n)->op].operands; o++) {
+            unsigned value = placement_operation(c, n)->operand[o];
+            if (value < c->number)
+                operand[count++] = value;
+        }
+    return count;
+}
+
+int placement_operands(const struct check *c)
+{
+    unsigned op = placement_operation(c, c->number)->op, operand[WINDOW_OPERANDS];
+    if (op == IR_window)
+        return window_operands(c, operand);
+    return op == IR_scatter && c->coded ? (int)(placement_selected_end(c) - c->number)
+                                        : ir_op_information[op].operands;
+}
+
+unsigned placement_operand(const struct check *c, int o)
+{
+    const struct ir_instruction *i = placement_operation(c, c->number);
+    unsigned operand[WINDOW_OPERANDS];
+    if (i->op == IR_window)
+        return window_operands(c, operand), operand[o];
+    return i->op == IR_scatter ? i[o].operand[0] : i->operand[o];
+}
+
+/* A register receives an intermediate result, or the value that is allocated to it. */
+static void write_register(struct check *c, unsigned reg, const struct content *p)
+{
+    place_assign(&c->now.at[reg], p);
+    for (uint32_t n = c->number; n < placement_selected_end(c); n++)
+        if (c->b->allocation.residence[n] == RESIDENCE_REGISTER && c->b->allocation.reg[n] == reg &&
+            (p->made_in == c->visit || place_holds(c, p, n))) {
+            place_add(&c->now.at[reg], n);
+            if (!place_lasts(placement_operation(c, n)))
+                c->now.at[reg].origin = FROM_NOTHING;
+        }
+}
+
+static bool is_full(const struct check *c, const ZydisDecodedOperand *o)
+{
+    return o->size == c->m->width * 32;
+}
+
+/* Moves of masks between locations, or to lanes and back. */
+static bool copies_mask(const struct check *c)
+{
+    ZydisMnemonic m = c->instruction.mnemonic;
+    return m == ZYDIS_MNEMONIC_KMOVW || m == ZYDIS_MNEMONIC_VPMOVM2D || m == ZYDIS_MNEMONIC_VPMOVD2M;
+}
+
+/* Moves of whole registers between locations. */
+static bool is_copy(const struct check *c)
+{
+    ZydisMnemonic m = c->instruction.mnemonic;
+    if (c->mask)
+        return false;
+    if (copies_mask(c))
+        return true;
+    if (m == ZYDIS_MNEMONIC_VBROADCASTSS)
+        return is_full(c, &c->operand[0]) && c->operand[1].type == ZYDIS_OPERAND_TYPE_MEMORY;
+    return (m == ZYDIS_MNEMONIC_VMOVAPS || m == ZYDIS_MNEMONIC_VMOVUPS) && is_full(c, &c->operand[0]) &&
+           is_full(c, &c->operand[1]);
+}
+
+static void run_copy(struct check *c)
+{
+    const ZydisDecodedOperand *to = &c->operand[0], *from = &c->operand[1];
+    bool broadcast = c->instruction.mnemonic == ZYDIS_MNEMONIC_VBROADCASTSS;
+    struct content p = operand_vector(from) >= 0 ? c->now.at[operand_vector(from)]
+                                                 : read_memory(c, from, broadcast ? FROM_WORD : FROM_LANES);
+    bool masks = c->instruction.mnemonic == ZYDIS_MNEMONIC_KMOVW;
+    if (placement_operation(c, c->number)->op == IR_coverage && operand_vector(from) < 0)
+        p = (struct content){.made_in = c->visit, .bits = masks};
+    else if (operand_vector(from) < 0 && p.bits != masks && p.origin != FROM_VARIABLE)
+        placement_wrong(c, masks ? "reads lanes as a mask" : "reads a mask as lanes");
+    place_note_operands(c, &p);
+    if (placement_operation(c, c->number)->op == IR_reciprocal && p.origin == FROM_LITERAL)
+        p = (struct content){.made_in = c->visit}; /* its result, where it need not divide */
+    p.bits = masks || c->instruction.mnemonic == ZYDIS_MNEMONIC_VPMOVD2M;
+    if (operand_vector(to) >= 0)
+        write_register(c, (unsigned)operand_vector(to), &p);
+    else
+        write_memory(c, to, &p);
+}
+
+/* Instructions that set all bits to zero or one, whatever the operands are. */
+static bool makes_constant(const struct check *c)
+{
+    ZydisMnemonic m = c->instruction.mnemonic;
+    if ((m != ZYDIS_MNEMONIC_VXORPS && m != ZYDIS_MNEMONIC_VPCMPEQD) || c->mask)
+        return false;
+    int reg = operand_vector(&c->operand[0]);
+    return reg >= 0 && operand_vector(&c->operand[1]) == reg && operand_vector(&c->operand[2]) == reg;
+}
+
+static void run_constant(struct check *c)
+{
+    const struct content *before = &c->now.at[operand_vector(&c->operand[1])];
+    bool zero = c->instruction.mnemonic == ZYDIS_MNEMONIC_VXORPS;
+    struct content p = {.origin = FROM_LITERAL, .number = zero ? 0 : -1};
+    /* A gather's mask and the register that it merges into; an operation with the same register twice. */
+    if (gathers(placement_operation(c, c->number)) || (!zero && place_note_operands(c, before)))
+        p.made_in = c->visit;
+    write_register(c, (unsigned)operand_vector(&c->operand[0]), &p);
+}
+
+static void read_operand(struct check *c, const ZydisDecodedOperand *o)
+{
+    const struct ir_instruction *i = placement_operation(c, c->number);
+    if (operand_vector(o) >= 0)
+        place_expect(c, &c->now.at[operand_vector(o)], "register", operand_vector(o));
+    if (o->type != ZYDIS_OPERAND_TYPE_MEMORY || o->mem.type == ZYDIS_MEMOP_TYPE_AGEN)
+        return;
+    if (vector_number(o->mem.index) >= 0)
+        place_expect(c, &c->now.at[vector_number(o->mem.index)], "index", vector_number(o->mem.index));
+    struct content p = read_memory(c, o, FROM_LANES);
+    if (p.bits)
+        placement_wrong(c, "reads a mask as lanes");
+    if (gathers(i) && p.origin == FROM_LANES) { /* its pointer, a window's pitch, or the word of one lane */
+        const struct ir_instruction *index = placement_operation(c, i->operand[0]);
+        int64_t lane = p.number - index->k;
+        if (p.base == emit_base_register[i->base] &&
+            (p.number == i->field || (i->op == IR_window && p.number == i->k)))
+            return;
+        if (index->op == IR_load && p.base == emit_base_register[index->base] && lane >= 0 &&
+            lane < lane_bytes(c)) {
+            c->read |= 1;
+            return;
+        }
+    }
+    place_expect(c, &p, "memory at", (long)o->mem.disp.value);
+}
+
+/* Reads the operands of the instruction, and records intermediate results. */
+static void run_other(struct check *c)
+{
+    for (unsigned n = 0; n < c->instruction.operand_count; n++)
+        if (c->operand[n].actions & ZYDIS_OPERAND_ACTION_MASK_READ)
+            read_operand(c, &c->operand[n]);
+    for (unsigned n = 0; n < c->instruction.operand_count; n++) {
+        const ZydisDecodedOperand *o = &c->operand[n];
+        struct content p = {.made_in = c->visit, .bits = operand_vector(o) >= MASKS};
+        if (!(o->actions & ZYDIS_OPERAND_ACTION_MASK_WRITE))
+            continue;
+        if (operand_vector(o) >= 0)
+            write_register(c, (unsigned)operand_vector(o), &p);
+        else if (o->type == ZYDIS_OPERAND_TYPE_MEMORY)
+            write_memory(c, o, &p);
+    }
+}
+
+/* The mask of an instruction is listed after its destination; k0 means no mask. */
+static void take_mask(struct check *c)
+{
+    c->mask = 0;
+    if (c->instruction.encoding != ZYDIS_INSTRUCTION_ENCODING_EVEX || c->instruction.operand_count < 2 ||
+        c->operand[1].encoding != ZYDIS_OPERAND_ENCODING_MASK)
+        return;
+    c->mask = (unsigned)(c->operand[1].reg.value - ZYDIS_REGISTER_K0);
+    c->instruction.operand_count--;
+    memmove(c->operand + 1, c->operand + 2, (c->instruction.operand_count - 1u) * sizeof c->operand[0]);
+    if (c->mask)
+        place_expect(c, &c->now.at[MASKS + c->mask], "mask", c->mask);
+}
+
+static void run_instruction(struct check *c)
+{
+    ZydisInstructionCategory category = c->instruction.meta.category;
+    take_mask(c);
+    if (c->instruction.mnemonic == ZYDIS_MNEMONIC_NOP)
+        return;
+    if (category == ZYDIS_CATEGORY_COND_BR || category == ZYDIS_CATEGORY_UNCOND_BR)
+        placement_run_jump(c);
+    else if (is_copy(c))
+        run_copy(c);
+    else if (makes_constant(c))
+        run_constant(c);
+    else
+        run_other(c);
+}
+
+static void arrive(struct check *c)
+{
+    for (unsigned n = 0; n < LOCAL_JUMPS; n++) {
+        if (!c->local[n].reached || c->local_to[n] != c->offset)
+            continue;
+        places_merge(c, &c->now, &c->local[n]);
+        c->local[n].reached = false;
+    }
+}
+
+/* The code that was selected for the current operation, if any. */
+void placement_run_code(struct check *c)
+{
+    c->visit++;
+    c->coded = false;
+    c->read = c->stores = 0;
+    while (c->line < c->m->lines && c->m->line[c->line].instruction < c->number)
+        c->line++;
+    if (c->line + 1 >= c->m->lines || c->m->line[c->line].instruction != c->number)
+        return;
+    size_t end = c->m->line[c->line + 1].offset;
+    c->coded = placement_operation(c, c->number)->op != IR_window || end > c->m->line[c->line].offset;
+    for (c->offset = c->m->line[c->line].offset; c->offset < end && !c->wrong;
+         c->offset += c->instruction.length) {
+        arrive(c);
+        if (!ZYAN_SUCCESS(ZydisDecoderDecodeFull(&c->decoder, c->m->code + c->offset, end - c->offset,
+                                                 &c->instruction, c->operand))) {
+            placement_wrong(c, "is not an instruction");
+            return;
+        }
+        if (c->now.reached)
+            run_instruction(c);
+        else
+            placement_wrong(c, "cannot be reached");
+    }
+    arrive(c);
+    for (unsigned n = 0; n < LOCAL_JUMPS; n++)
+        if (c->local[n].reached)
+            placement_wrong(c, "jumps out of its code");
+}

@@ -1,0 +1,95 @@
+#!/bin/bash
+# Makes sure that the Debian packages a target needs are installed, and installs those that are not.
+#
+#   tests/support/scripts/dependencies.sh GROUP...    groups: build test bench peers format fuzz
+#   tests/support/scripts/dependencies.sh --list
+#
+# Silent when there is nothing to do. Ends non-zero, after naming the packages and their reasons, when a
+# package is missing and cannot be installed. This table is the only list of the project's dependencies.
+set -euo pipefail
+
+packages='
+gcc                build   compiles the project (and the external engine, at run time)
+libc6-dev          build   the C library, the mathematics library and threads
+nasm               build   assembles the fragments and kernels in asm/
+pkg-config         build   finds the compiler flags of the libraries below
+libpng-dev         build   reads and writes PNG pictures
+libopenexr-dev     build   reads and writes EXR pictures (the C core, OpenEXRCore)
+libzydis-dev       build   disassembles generated code, and checks its encoding independently
+libxxhash-dev      build   hashes keys, chunks and pictures
+libzstd-dev        build   compresses recorded streams
+libcjson-dev       build   writes and reads JSON reports
+libassimp-dev      build   imports 3D models into draw streams
+glmark2-data       build   the models and textures of the draw streams
+assimp-testmodels  test    the animated model of a scene
+python3            test    writes measured figures into the pages, and checks them
+patch              test    applies the additions of tests/extend to copies
+gdb                test    debugs generated code: names, lines and callers of every instruction
+clang              test    compiles everything a second time, for its warnings
+hyperfine          bench   measures whole processes
+gnuplot-nox        bench   draws the charts
+libegl-dev         peers  headers of EGL, for the renderers that are measured against
+libgles-dev        peers  the headers of GLES2, and its library
+libegl1            peers  finds the EGL of a vendor
+libegl-mesa0       peers  EGL of Mesa
+libgl1-mesa-dri    peers  softpipe and llvmpipe of Mesa
+libclang-rt-14-dev fuzz    libFuzzer and the sanitizers of clang, for readers of untrusted input
+clang-format       format  formats the C sources
+'
+
+describe() # PACKAGE... : their rows of the table, without the group
+{
+    local package group reason
+    while read -r package group reason; do
+        [[ " $* " == *" $package "* ]] && printf '  %-17s %s\n' "$package" "$reason"
+    done <<<"$packages"
+    return 0
+}
+
+stop() # REASON
+{
+    printf '%s\n' "dependencies: $1" >&2
+    exit 1
+}
+
+if [[ ${1-} == --list ]]; then
+    while read -r package group reason; do
+        [[ -z $package ]] || printf '%-17s %-7s %s\n' "$package" "$group" "$reason"
+    done <<<"$packages"
+    exit 0
+fi
+
+wanted=()
+while read -r package group reason; do
+    if [[ -n $package && " $* " == *" $group "* ]]; then wanted+=("$package"); fi
+done <<<"$packages"
+
+if ! command -v apt-get >/dev/null || ! command -v dpkg-query >/dev/null; then
+    describe "${wanted[@]}" >&2
+    stop 'this is no Debian (no apt-get, no dpkg-query), so the packages above cannot be installed from here'
+fi
+
+# dpkg-query fails for names it has never heard of, which is an answer too.
+installed=$(dpkg-query -W -f '${db:Status-Status} ${Package}\n' "${wanted[@]}" 2>/dev/null |
+    sed -n 's/^installed //p') || true
+missing=()
+for package in "${wanted[@]}"; do
+    grep -qxF "$package" <<<"$installed" || missing+=("$package")
+done
+((${#missing[@]})) || exit 0
+
+printf 'Installing with apt-get:\n'
+describe "${missing[@]}"
+
+administrator=(env DEBIAN_FRONTEND=noninteractive)
+if ((EUID)); then
+    command -v sudo >/dev/null ||
+        stop 'installing needs root: run as root, or install sudo, or install the packages above yourself'
+    administrator=(sudo "${administrator[@]}")
+fi
+# A third party's unreachable source makes update fail without mattering here: installing decides.
+"${administrator[@]}" apt-get update -qq ||
+    printf '%s\n' 'dependencies: apt-get update had failures, trying with what is there' >&2
+"${administrator[@]}" apt-get install -y -qq --no-install-recommends -o Dpkg::Use-Pty=0 \
+    -o DPkg::Lock::Timeout=300 "${missing[@]}" ||
+    stop "apt-get could not install: ${missing[*]}"

@@ -1,0 +1,11 @@
+/* Programs of tests/support/shader/programs.def, made when they are first requested. */
+#ifndef TESTS_SUPPORT_SHADER_PROGRAMS_H
+#define TESTS_SUPPORT_SHADER_PROGRAMS_H
+
+#include "shader/program/program.h"
+
+/* By number from 0, or null after the last; and by name, which must be one of them. */
+const struct program *sample_program(unsigned i);
+const struct program *sample_named(const char *name);
+
+#endif

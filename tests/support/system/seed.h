@@ -1,0 +1,28 @@
+/* Where random tests begin, and how many cases they try: the seed in TRIPTYCH_SEED, for long runs (make
+ * soak), or the same every time. */
+#ifndef TESTS_SUPPORT_SYSTEM_SEED_H
+#define TESTS_SUPPORT_SYSTEM_SEED_H
+
+#include <stdint.h>
+#include <stdlib.h>
+
+/* Never 0. */
+static inline uint64_t test_seed(void)
+{
+    const char *given = getenv("TRIPTYCH_SEED");
+    uint64_t number = given ? strtoull(given, NULL, 10) : 0;
+    return 0x9e3779b97f4a7c15 ^ number * 0xbf58476d1ce4e5b9;
+}
+
+/* The number of random cases that a build with sanitizers tries, of `count`. Sanitizers do not instrument
+ * generated code, and the plain build tries all cases. */
+static inline unsigned test_share(unsigned count)
+{
+#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
+    return (count + 3) / 4;
+#else
+    return count;
+#endif
+}
+
+#endif
