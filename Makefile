@@ -54,6 +54,9 @@ PROGRAMS := $(patsubst %.c,$(BUILD)/%,$(call only,$(PROGRAM_SOURCES)))
 SCRIPTS  := $(call only,$(wildcard tests/*.sh))
 COMMAND  := $(if $(TOOL_SOURCES),$(BUILD)/triptych)
 
+# The sources of tests by their names. A name without a source is an error.
+tests = $(foreach t,$(1),$(or $(wildcard tests/$(t).c),$(error there is no test tests/$(t).c)))
+
 # --- Flags --------------------------------------------------------------------------------------------------
 
 # pkg-config runs at the first use of these variables, because `make test` installs pkg-config.
@@ -192,7 +195,8 @@ $(BUILD)/triptych: $(TOOL_OBJECTS) $(BUILD)/libtriptych.a $(BUILD)/command.list
 # Two kinds of tests link archives in every build: tests that replace functions of the library, because a
 # shared object calls its own functions, and tests that use symbols of assembly, because a shared object hides
 # these.
-apart    := $(addprefix $(BUILD)/tests/,render/device/cache render/raster/tiny contract/convention contract/stack command/fuzz/bisect command/fuzz/inputs command/tool/verify engines/stitch/%)
+apart    := $(patsubst %.c,$(BUILD)/%,$(call tests,render/device/cache render/raster/tiny contract/convention \
+  contract/stack command/fuzz/bisect command/fuzz/inputs command/tool/verify)) $(BUILD)/tests/engines/stitch/%
 archives := $(addprefix $(BUILD)/,support.a command.a libtriptych.a)
 found_beside = '-Wl,-rpath,$$ORIGIN/..'
 
@@ -220,8 +224,8 @@ $(BUILD)/peers/drive $(BUILD)/peers/triptych $(BUILD)/peers/gles:
 	$(call say,LD)$(link) $(filter %.o,$^) $(filter %.a,$^) $(if $(filter %.a,$^),$(tool_libraries),-ldl) -o $@
 
 ifeq ($(instrument),coverage)
-$(BUILD)/triptych: private override LDFLAGS += -Wl,--wrap=_exit $(BUILD)/object/tests/support/end.o
-$(BUILD)/triptych: $(BUILD)/object/tests/support/end.o
+$(BUILD)/triptych: private override LDFLAGS += -Wl,--wrap=_exit $(BUILD)/object/tests/support/system/end.o
+$(BUILD)/triptych: $(BUILD)/object/tests/support/system/end.o
 endif
 
 # This test changes the pictures of engines, so that the verification must fail.
@@ -315,8 +319,8 @@ test:
 
 # Programs that run under ThreadSanitizer, besides tests/threads.sh: those that test threads or data that
 # threads share.
-threaded = $(patsubst %.c,$(BUILD)/thread/%,$(call only,$(patsubst %,tests/%.c,machine/code render/queue/background render/device/cache render/queue/pool \
-  render/queue/shuffle command/stream/threads)))
+threaded = $(patsubst %.c,$(BUILD)/thread/%,$(call only,$(call tests,machine/code render/device/background \
+  render/device/cache render/device/shuffle render/queue/pool command/stream/threads)))
 
 # `make test` runs ThreadSanitizer on small streams. This target runs it on all streams, with more threads.
 check-threads:
