@@ -76,7 +76,15 @@ awk '{ for (i = 2; i <= NF; i++) { seen = 0; pattern = $i; sub(/\*$/, "", patter
 report 'every row names only rows above it' "$work/order"
 report 'every include names a file of the repository' "$work/missing"
 
-# The public header is allowed everywhere. 
+# A map that allows more than what is used does not say who depends on whom.
+rules '{ a = folder_of($1); b = folder_of($2); r = rule(a); n = split(allowed[r], part, " ")
+        for (i = 1; i <= n; i++) if (fits(b, part[i])) used[r, part[i]] }
+    END { for (r = 1; r <= rows; r++) { n = split(allowed[r], part, " ")
+        for (i = 1; i <= n; i++) if (!((r, part[i]) in used)) print name[r] ": allows " part[i] ", and does not include it" } }' \
+    "$work/edges" >"$work/unused"
+report 'every row of src/README.md allows only what is used' "$work/unused"
+
+# The public header is allowed everywhere.
 rules '{ a = folder_of($1); b = folder_of($2); r = rule(a) }
     a != b && $2 != "src/triptych.h" && !allows(r, b) { print a "\t" $1 ": includes " $2 }' "$work/edges" >"$work/forbidden"
 while read -r folder; do

@@ -6,9 +6,9 @@
 # Builds the command in BUILD/COMPILER-LEVEL for each combination, all warnings being errors. Each build
 # draws the first frame of all streams with all engines and two threads (`triptych verify`: they agree with
 # each other), compares the emulator's pictures with the goldens, and at level 2 also draws some streams with
-# the external engine, whose compiler is then the same. The digests that verify prints are over all bytes of a
-# frame: colours of every target and sample, depths, stencils and the counts of queries. They have to be the
-# same in all combinations.
+# the external engine, whose compiler is then the same. The digests that verify prints are over all bytes of
+# a frame: colours of every target and sample, depths, stencils and the counts of queries. They have to be
+# the same in all combinations.
 #
 # Prints a row per combination, writes the table to results/matrix.txt, and ends non-zero after any
 # difference.

@@ -8,8 +8,8 @@
  *
  * While they watch they remember what is allocated and not freed again, so that a test needs no sanitizer
  * to see what was lost. With TRIPTYCH_FAULT_SITES=FILE the addresses of the program's code that was
- * refused something are appended to the file, one a line, from the program's start: tests/support/scripts/faults.sh
- * compares them with the sources. */
+ * refused something are appended to the file, one a line, from the program's start. faults.sh in
+ * tests/support/scripts compares them with the sources. */
 #ifndef TESTS_SUPPORT_SYSTEM_FAULT_H
 #define TESTS_SUPPORT_SYSTEM_FAULT_H
 
