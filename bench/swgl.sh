@@ -99,7 +99,7 @@ clang++ -std=c++20 -O2 -DNDEBUG -fno-exceptions -fno-rtti -fno-math-errno -ffast
     -fno-finite-math-only -w -I"$sources" -I"$folder/shaders" -Ibench/peers -c bench/peers/swgl.cc -o \
         "$folder/swgl.o"
 for part in peer workload; do
-    clang -std=gnu17 -O2 -c "bench/peers/$part.c" -o "$folder/$part.o"
+    clang -std=gnu17 -O2 -Isrc -c "bench/peers/$part.c" -o "$folder/$part.o"
 done
 clang++ "$folder"/{swgl,peer,workload}.o -pthread -o "$folder/renderer"
 printf 'hello\n' | "$folder/renderer" span
