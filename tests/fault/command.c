@@ -1,10 +1,10 @@
 /* Refuses each memory request of a command once: while it reads, draws, compares and reports.
  *
- * Each command line runs undisturbed. Then it runs with its n-th request refused, for n = 1, 2, 3 ..., and
- * with that and all later requests refused. A run must end with the result of the undisturbed run; or with
- * status 2, one line that reports that memory is short, and the output file as it was before. There may be no
- * leak and no open file. Of requests with the same five callers only the first is refused, unless
- * TRIPTYCH_SOAK is set. */
+ * Each command line first runs undisturbed. Then it runs with its n-th request refused, for n = 1, 2, 3 ...,
+ * and with the n-th and all later requests refused. There are two correct ends: the result of the undisturbed
+ * run; or status 2 with one line that reports the lack of memory and with an unchanged output file. A run
+ * must not leak memory or leave a file open. Only the first of the requests with the same five callers is
+ * refused, unless TRIPTYCH_SOAK is set. */
 #define _GNU_SOURCE
 #include "tests/support/system/fault.h"
 
@@ -20,14 +20,14 @@
 
 enum { ARGUMENTS = 16, SEEN = 1 << 14, OUTPUT = 1 << 20, CALLERS = 5 };
 
-static char folder[] = "/dev/shm/triptych-fault-XXXXXX"; /* where nothing waits for a disk */
+static char folder[] = "/dev/shm/triptych-fault-XXXXXX"; /* in memory, because disks are slow */
 static char output[128], container[128];
 static bool soak;
 static unsigned long runs;
 
 /* --- Time ----------------------------------------------------------------------------------------------- */
 
-/* A measurement takes a number of repetitions and not half a second. */
+/* Replaces the clock, so that a measurement ends after a number of calls instead of half a second. */
 int clock_gettime(clockid_t clock, struct timespec *time)
 {
     static _Atomic uint64_t ns;
@@ -109,9 +109,9 @@ static void run(const char *line, struct outcome *outcome, unsigned long at, boo
     runs++;
 }
 
-/* --- What is seen of requests --------------------------------------------------------------------------- */
+/* --- Choice of requests --------------------------------------------------------------------------------- */
 
-/* Shared with forks, whose requests go on with the numbers that they began with. */
+/* In memory that forks share. A child process continues to count requests from its parent's number. */
 static struct {
     uint64_t stack[SEEN];
     unsigned long chosen[SEEN]; /* the requests of a run to refuse */
@@ -140,7 +140,7 @@ static uint64_t survey(void *const *frames, int count)
     return 0;
 }
 
-/* --- Judging -------------------------------------------------------------------------------------------- */
+/* --- Checks of a run ------------------------------------------------------------------------------------ */
 
 static unsigned open_files(void)
 {
@@ -162,13 +162,13 @@ static unsigned files_in_folder(void)
     return count;
 }
 
-/* Compares results. Measurements differ each time; a container without memory to compress a chunk is larger
- * and has the same contents; a record that a debugger does not get is reported in a line. */
+/* How results are compared. Measurements differ in each run. A container is larger if memory for compression
+ * was refused, but has the same contents. A missing record for a debugger is reported in a line. */
 enum comparison { EXACT, MEASURES, CONTAINER, DEBUGGING };
 
 static char *expected_text;
 
-/* The text of the container at `output`; null if it does not read. */
+/* Returns the container at `output` as text, or null if it cannot be read. */
 static char *text_of_container(void)
 {
     char path[160], *text = NULL, *arguments[] = {"triptych", "convert", output, path};
@@ -203,7 +203,8 @@ static bool same_result(enum comparison comparison)
            same_contents(comparison);
 }
 
-/* `elsewhere`: the request was one of the process that reads models, which may have ended of it. */
+/* Returns true if the failure is correct. `elsewhere`: the refused request was made by the process that reads
+ * models, and may have ended that process. */
 static bool failed_well(enum comparison comparison, bool elsewhere)
 {
     const char *end = strchr(got.error, '\n');
@@ -236,7 +237,7 @@ static void refuse_each(const char *line, enum comparison comparison, int status
 {
     char message[5000];
     seen->choices = 0;
-    run(line, &expected, 0, false); /* what the process keeps */
+    run(line, &expected, 0, false); /* allocates the memory that the process keeps */
     fault.seen = survey;
     run(line, &expected, 0, false);
     fault.seen = NULL;
@@ -293,7 +294,7 @@ static void test_reading_and_writing_streams(void)
     }
 }
 
-/* The same of containers, which are made first; one with files of textures, one with a shader. */
+/* The same with containers. One has texture files, one has a shader. The test writes them first. */
 static void test_containers(void)
 {
     static char *const streams[] = {"tests/data/streams/shaders.tri", "tests/data/scenes/cube-map.tri",
@@ -314,7 +315,7 @@ static void test_containers(void)
     unlink(container);
 }
 
-/* A capture of an application, read piece by piece, with objects that are made and destroyed. */
+/* A capture of an application that creates and destroys objects. It is read in pieces. */
 static void test_recordings(void)
 {
     char line[512],
@@ -330,7 +331,7 @@ static void test_recordings(void)
     unlink(container);
 }
 
-/* A record that a debugger cannot get is left out. */
+/* A routine's record for debuggers is left out if its memory is refused. */
 static void test_debuggers(void)
 {
     setenv("TRIPTYCH_DEBUG", "gdb,unwind", 1);

@@ -1,9 +1,9 @@
-/* Refuses each request of a device once: each memory block, mapping and thread of each call of the interface,
- * by itself and together with all later ones.
+/* Refuses each request of a device once: each memory block, mapping and thread that a call of the interface
+ * requests. It refuses the request by itself, and together with all later requests.
  *
- * A call that fails has changed nothing. It is repeated with the next request refused, until it requests
- * nothing more. The picture at the end must be that of an undisturbed device. If a call goes on without a
- * refused request, its later requests are refused when the scene is drawn again. */
+ * A call that fails must change nothing. The test repeats it and refuses its next request, until no request
+ * is left to refuse. The picture at the end must be the picture of an undisturbed device. If a call succeeds
+ * although a request was refused, its later requests are refused when the scene is drawn again. */
 #define _GNU_SOURCE
 #include "tests/support/system/fault.h"
 
@@ -26,7 +26,7 @@ static struct {
     bool injecting, onwards, more;
     unsigned call;
     unsigned long next[CALLS];
-    unsigned long refused, gone_on; /* calls that failed, and that went on without */
+    unsigned long refused, gone_on; /* calls that failed, and calls that succeeded in spite of a refusal */
 } sweep;
 
 void setUp(void)
@@ -51,7 +51,7 @@ static void begin_call(void)
         fault_arm(sweep.next[sweep.call], sweep.onwards);
 }
 
-/* Judges a result; whether the call is to be made again. */
+/* Checks the result of a call. Returns true if the call must be repeated. */
 static bool again(enum triptych_result result, const char *text)
 {
     bool refused = fault.armed && fault.refused;
@@ -113,7 +113,7 @@ static void read_target(bool stencil)
     add_to_digest(stencils, sizeof stencils);
 }
 
-/* --- What is drawn -------------------------------------------------------------------------------------- */
+/* --- Scenes --------------------------------------------------------------------------------------------- */
 
 struct vertex {
     float position[3];
@@ -189,8 +189,8 @@ static void sample(unsigned stage, triptych_texture *texture, uint32_t filter)
     TRY(triptych_set_sampler_state(device, stage, TRIPTYCH_SAMPLER_mipfilter, filter));
 }
 
-/* Textures of three kinds, several samples a pixel, indices, a query, an image of the picture in a
- * texture. */
+/* A scene with textures of three kinds, several samples a pixel, indices, a query, and a texture that
+ * receives the picture. */
 static void draw_fixed_function(unsigned threads)
 {
     static const uint16_t indices[] = {0, 5, 9, 14, 3, 8, 21, 30, 2, 11, 17, 26};
@@ -224,7 +224,8 @@ static void draw_fixed_function(unsigned threads)
     read_target(true);
 }
 
-/* A texture is drawn to, copied and read; matrices are chosen by vertices; many draws of a small cache. */
+/* A scene that draws to a texture, copies it and samples it; vertices that choose matrices; and many draws
+ * with a small cache of routines. */
 static void draw_to_textures(unsigned threads)
 {
     static uint32_t read[64 * 64];
@@ -268,10 +269,10 @@ static void shade(const char *vertex, const char *pixel)
     TRY(triptych_set_pixel_shader(device, shader[1]));
 }
 
-/* Shaders with loops, calls, constants of all kinds and a lookup; from text and from bytecode. */
+/* A scene with shaders from text and from bytecode: loops, calls, constants of all kinds and a lookup. */
 static void draw_with_shaders(unsigned threads)
 {
-    /* with a constant table that names c0 */
+    /* It contains a constant table with a name for c0. */
     static const uint32_t bytecode[] = {
         0xffff0200, 0x000efffe, 0x42415443, 28,         0,          0xffff0200, 1,          28,
         0,          0,          48,         0x00000002, 1,          0,          0,          0x00000043,
@@ -306,7 +307,8 @@ static void draw_with_shaders(unsigned threads)
     read_target(false);
 }
 
-/* Every kind of primitive, edges instead of faces, user planes, what crosses the eye's plane. */
+/* A scene with every kind of primitive, edges instead of faces, user clip planes, and triangles that cross
+ * the plane of the eye. */
 static void draw_lines_and_points(unsigned threads)
 {
     static const float perspective[4][4] = {{1, 0, 0, 0}, {0, 1, 0, 0}, {0, 0, 1, 2}, {0, 0, -0.2f, -0.3f}};
@@ -328,7 +330,7 @@ static void draw_lines_and_points(unsigned threads)
     read_target(false);
 }
 
-/* Instances whose routines fall out of a cache without room while they are recorded. */
+/* A scene with instances. The cache has no room, so routines are evicted while the draws are recorded. */
 static void draw_instances(unsigned threads)
 {
     static const uint16_t indices[] = {0, 7, 19, 4, 25, 31};
@@ -362,7 +364,7 @@ static void draw_instances(unsigned threads)
     read_target(false);
 }
 
-/* More routines than the table of the cache has places at first. */
+/* A scene with more routines than the first size of the cache's hash table. */
 static void draw_with_many_states(unsigned threads)
 {
     open_device(threads, 0);
@@ -394,7 +396,8 @@ static uint64_t draw_scene(scene *draw, unsigned threads)
     return digest;
 }
 
-/* Recordings and plans are kept for the whole process and exist after a scene was drawn once. */
+/* Draws the scene until no request is left to refuse. The memory of recordings and plans is kept until the
+ * process ends, so the scene requests it only the first time. */
 static void refuse_everything(scene *draw, unsigned threads, bool onwards)
 {
     uint64_t expected = 0;
@@ -428,7 +431,7 @@ static void on_engines(scene *draw)
         if (triptych_engine_unavailable(i) ||
             (engine_at(i)->on_request && (!soak || !strcmp(engine, "external"))))
             continue;
-        refuse_everything(draw, 1, true); /* first: the call fails, so nothing is kept yet */
+        refuse_everything(draw, 1, true); /* first, because calls then fail before memory is kept */
         refuse_everything(draw, 1, false);
         if (soak || !strcmp(engine, "specialize"))
             refuse_everything(draw, 2, false);

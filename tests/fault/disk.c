@@ -1,6 +1,6 @@
-/* Files are whole or as they were: whatever fails while one is written, however few bytes a write takes,
- * and wherever the process is killed. Everything that the command writes is tried, with each call of the
- * system in turn. */
+/* A file is either complete or unchanged, whatever happens while it is written: a system call fails, writes
+ * store only some bytes, or the process is killed. The tests write every kind of file that the command
+ * writes, with a fault at each system call in turn. */
 #define _GNU_SOURCE
 #include "tests/support/system/fault_file.h"
 
@@ -21,7 +21,7 @@
 
 enum { CONTENTS = 1 << 20, ARGUMENTS = 16, SIDE = 40 };
 
-static char folder[] = "/dev/shm/triptych-disk-XXXXXX"; /* where nothing waits for a disk */
+static char folder[] = "/dev/shm/triptych-disk-XXXXXX"; /* in memory, because disks are slow */
 static char path[128];
 static char said[4096]; /* on standard output and standard error */
 
@@ -50,7 +50,8 @@ static bool same(const struct contents *a, const struct contents *b)
     return a->bytes == b->bytes && (a->bytes == SIZE_MAX || !memcmp(a->data, b->data, a->bytes));
 }
 
-/* Temporary files, with the names that base/file.h specifies. Fails on any other file in the folder. */
+/* Returns the number of temporary files, whose names base/file.h specifies. Fails if the folder has any other
+ * file. */
 static unsigned leftovers(bool remove_them)
 {
     unsigned count = 0;
@@ -121,7 +122,7 @@ static int write_exr(const char *line)
     return result;
 }
 
-/* A command line; the word OUT is replaced by the path. */
+/* Runs a command line whose word OUT is replaced by the path. */
 static int run_command(const char *line)
 {
     char words[1024], *arguments[ARGUMENTS] = {"triptych"};
@@ -150,7 +151,7 @@ static int run_command(const char *line)
     said[fread(said, 1, sizeof said - 1, telling)] = 0;
     fclose(telling);
     file_fault.armed = armed;
-    return status == 1 ? 0 : status; /* pictures that differ are painted */
+    return status == 1 ? 0 : status; /* 1: the pictures differ, and the difference picture is written */
 }
 
 static const struct {
@@ -182,7 +183,7 @@ static void use(unsigned i)
     snprintf(path, sizeof path, "%s/%s", folder, writers[i].file);
 }
 
-/* Arms, writes, and returns what the writer did; `calls` there were. */
+/* Arms the fault and writes. Returns the writer's result, and in `calls` the number of system calls. */
 static int attempt(unsigned i, enum file_fault fault, int reason, unsigned long at, unsigned long *calls)
 {
     file_fault_arm(fault, reason, at);
@@ -191,8 +192,8 @@ static int attempt(unsigned i, enum file_fault fault, int reason, unsigned long 
     return result;
 }
 
-/* The contents of an undisturbed file, after two runs with equal contents; false if the writer writes
- * nothing. */
+/* Writes without a fault, twice, and checks that the contents are equal. Returns false if the writer writes
+ * no file. */
 static bool write_undisturbed(unsigned i, unsigned long *calls)
 {
     if (path[0])
@@ -219,7 +220,8 @@ void tearDown(void)
     strcpy(strrchr(folder, '-'), "-XXXXXX");
 }
 
-/* Reports with a time in them are not the same twice: whole is what ends well. */
+/* Returns true if the file is complete. Reports that contain times differ in each run, so only their end is
+ * checked. */
 static bool is_whole(void)
 {
     return same(&now, &after) || (now.bytes != SIZE_MAX && !same(&now, &before) && now.bytes > 100 &&
@@ -244,7 +246,7 @@ static void judge_failure(unsigned i, int reason, unsigned long at, int result)
     TEST_ASSERT_EQUAL_UINT_MESSAGE(0, leftovers(false), message);
 }
 
-/* Errors of close included: data may be lost as late as that. */
+/* This includes errors of close, which may report that data were lost. */
 static void test_each_call_that_fails_before_the_new_name_is_reported(void)
 {
     unsigned long calls, at = 0;
@@ -258,7 +260,7 @@ static void test_each_call_that_fails_before_the_new_name_is_reported(void)
     TEST_ASSERT_GREATER_OR_EQUAL_UINT(5, at); /* open, write, fsync, close */
 }
 
-/* Where the folder is synced nothing depends on it any more. */
+/* After the rename only the folder is synced; errors there do not fail the command. */
 static void test_each_call_that_fails_leaves_the_old_file_or_the_new_one(void)
 {
     static const int reasons[] = {ENOSPC, EIO, EDQUOT};
@@ -290,7 +292,7 @@ static void test_short_and_interrupted_writes_are_continued(void)
             for (unsigned long at = 1; at <= calls; at++) {
                 put_before(true);
                 int result = attempt(i, faults[f].fault, faults[f].reason, at, &ignored);
-                /* interrupted elsewhere it may fail, but well */
+                /* a fault of another call than write may fail, with a correct error */
                 bool is_write = file_fault.name && !strcmp(file_fault.name, "write");
                 read_contents(&now);
                 bool failed_well = faults[f].reason && !is_write && result && same(&now, &before);
@@ -316,7 +318,7 @@ static void test_a_write_that_stores_nothing_fails(void)
 
 /* --- Killed --------------------------------------------------------------------------------------------- */
 
-/* Writes in a process of its own; returns whether that was killed. */
+/* Writes in a child process. Returns true if the child was killed. */
 static bool write_and_be_killed(unsigned i, enum file_fault fault, unsigned long at)
 {
     unsigned long calls;
@@ -353,7 +355,7 @@ static void test_killed_at_each_call_leaves_the_old_file_or_the_new_one(void)
         }
 }
 
-/* A process writes one contents and then the other, for ever; it is killed at some time. */
+/* A child process writes two different contents in turn, without end, and is killed at any time. */
 static void test_killed_at_any_time_leaves_one_of_two_files(void)
 {
     enum { ROUNDS = 40, BYTES = 200000 };
@@ -385,7 +387,7 @@ static void test_killed_at_any_time_leaves_one_of_two_files(void)
 
 /* --- Full ----------------------------------------------------------------------------------------------- */
 
-/* In a process of its own with a file system of 64 KiB mounted on the folder. */
+/* Runs in a child process that mounts a file system of 64 KiB on the folder. */
 static int fill_the_disk(void)
 {
     static char filling[4096];

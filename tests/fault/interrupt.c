@@ -1,5 +1,5 @@
-/* Interrupted commands: finished work is reported whole, and unfinished work leaves nothing. The command runs
- * in its own process, which gets the signal after its start. */
+/* Interrupted commands: finished work is reported completely, and unfinished work leaves no file. The command
+ * runs in its own process, which receives a signal some time after its start. */
 #define _GNU_SOURCE
 #include "base/file.h"
 #include "base/leftover.h"
@@ -103,7 +103,7 @@ static pid_t start(const char *line)
     _exit(status);
 }
 
-/* Waits until there is such a file with something in it, or a folder. */
+/* Waits until a file with this name exists and is not empty, or until a folder with this name exists. */
 static void await(const char *name)
 {
     char path[256];
@@ -114,7 +114,7 @@ static void await(const char *name)
     sleep_ms(100);
 }
 
-/* Its status as the shell has it. */
+/* Waits for the process and returns its status as a shell does. */
 static int end(pid_t process)
 {
     int status;
@@ -145,7 +145,7 @@ static cJSON *read_report(void)
 
 /* --- Tests ---------------------------------------------------------------------------------------------- */
 
-/* Returns whether a stream was left in the middle: the request may also come between two. */
+/* Returns 1 if the signal interrupted a stream in the middle, and 0 if it arrived between two streams. */
 static int interrupt_verification(int number, const char *name)
 {
     char last[128];
@@ -185,7 +185,7 @@ static void stop_verification(int number, const char *name)
     TEST_FAIL_MESSAGE("no verification was interrupted in the middle of a stream");
 }
 
-static void test_a_verification_reports_what_it_has_drawn(void)
+static void test_an_interrupted_verification_reports_the_compared_streams(void)
 {
     stop_verification(SIGINT, "SIGINT");
 }
@@ -230,7 +230,7 @@ static void test_fuzzing_reports_the_cases_so_far(void)
     TEST_ASSERT_EQUAL_UINT(0, count_files("findings"));
 }
 
-/* A frame that takes for ever: the first signal waits for it, the second does not. */
+/* The frame never ends. After the first signal the command waits for it, after the second it does not. */
 static void test_a_second_signal_ends_immediately(void)
 {
     write_stream("4096 4096", "draw triangles 0 1\n", 10000);
@@ -244,7 +244,7 @@ static void test_a_second_signal_ends_immediately(void)
     TEST_ASSERT_EQUAL_UINT(0, count_files("report*"));
 }
 
-/* Commands without anything to report end by the signal. */
+/* The signal ends commands that have nothing to report. */
 static void test_rendering_ends_by_the_signal_and_leaves_nothing(void)
 {
     char line[256];
@@ -257,7 +257,7 @@ static void test_rendering_ends_by_the_signal_and_leaves_nothing(void)
     TEST_ASSERT_EQUAL_UINT(0, count_files("picture*"));
 }
 
-/* In the middle of a file: it waits in front of its name until the signal has come. */
+/* The child writes a file again and again, so the signal arrives during a write. */
 static void test_a_signal_while_a_file_is_written_removes_the_temporary_file(void)
 {
     fflush(NULL);
@@ -282,7 +282,7 @@ static void test_a_signal_while_a_file_is_written_removes_the_temporary_file(voi
 
 /* --- The compiler's folders ----------------------------------------------------------------------------- */
 
-/* A compiler that does not end before its input does. */
+/* Makes a compiler that does not end during the test. */
 static void make_slow_compiler(void)
 {
     char path[128];
@@ -293,7 +293,7 @@ static void make_slow_compiler(void)
     setenv("TRIPTYCH_CC", path, 1);
 }
 
-/* Starts a compilation that hangs, beside others, and waits for its folder. */
+/* Starts a compilation that hangs, while `others` other ones run, and waits for its folder. */
 static pid_t start_compiling(unsigned others)
 {
     fflush(NULL);
@@ -331,14 +331,16 @@ static void test_a_signal_while_compiling_removes_the_folder(void)
     TEST_ASSERT_EQUAL_UINT(0, count_files("triptych-*"));
 }
 
-/* The next process removes the folders that SIGKILL leaves, but none that is in use. */
+/* The next process removes the folders of processes that SIGKILL ended, and does not remove folders in
+ * use. */
 static void test_folders_of_processes_that_were_killed_are_removed_by_the_next_one(void)
 {
     char line[128];
     make_slow_compiler();
     end_compiling(start_compiling(0), SIGKILL);
     TEST_ASSERT_EQUAL_UINT(1, count_files("triptych-*-*/routine.c"));
-    snprintf(line, sizeof line, "rm %s/triptych-*-*/messages", folder); /* what the next one is known by */
+    /* start_compiling() recognizes the next folder by this file. */
+    snprintf(line, sizeof line, "rm %s/triptych-*-*/messages", folder);
     TEST_ASSERT_EQUAL_INT(0, system(line));
     pid_t other = start_compiling(0);
     TEST_ASSERT_EQUAL_UINT(1, count_files("triptych-*-*"));
@@ -371,7 +373,7 @@ static void test_leftovers_are_files_then_folders_and_forgotten_ones_stay(void)
 int main(void)
 {
     UNITY_BEGIN();
-    RUN_TEST(test_a_verification_reports_what_it_has_drawn);
+    RUN_TEST(test_an_interrupted_verification_reports_the_compared_streams);
     RUN_TEST(test_sigterm_and_sighup_are_requests_too);
     RUN_TEST(test_a_measurement_reports_the_streams_that_are_done);
     RUN_TEST(test_fuzzing_reports_the_cases_so_far);

@@ -1,6 +1,6 @@
-/* Memory is bounded by what the application holds and by budgets, not by how much is drawn: the most that
- * a process has had resident when it has drawn many triangles, states, shaders or constants is what it had
- * after a few, but for the buffers it made.
+/* The application's objects and the budgets bound the used memory; the number of draws does not. A process
+ * that draws many triangles, states, shaders or constants has the same largest resident size as a process
+ * that draws a few, except for additional buffers.
  *
  * Each measurement is a process of its own. With TRIPTYCH_SOAK set: 10 million triangles and 100,000
  * states. */
@@ -43,7 +43,7 @@ void tearDown(void)
 {
 }
 
-/* Sanitizers keep what was freed. */
+/* Sanitizers keep freed memory. */
 #if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
 enum { INSTRUMENTED = 1 };
 #elif defined(__has_feature)
@@ -83,7 +83,7 @@ static void open_device(void)
     OK(triptych_clear(device, (const float[4]){0}, 1));
 }
 
-/* The largest resident size of a process that does that work. */
+/* Returns the largest resident size, in KiB, of a process that does this work. */
 static long measure(workload *work, unsigned long amount)
 {
     int ends[2], status;
@@ -108,7 +108,8 @@ static long measure(workload *work, unsigned long amount)
     return peak;
 }
 
-/* `held_kib`: what the larger amount's buffers take more. */
+/* Fails if the larger amount of work needs more memory than the smaller one, apart from `held_kib` KiB of
+ * additional buffers. */
 static void expect_bounded(workload *work, unsigned long few, unsigned long many, long held_kib)
 {
     char message[256];
@@ -148,7 +149,7 @@ static uint16_t corner(unsigned long i)
     return (uint16_t)(first + (i % 3 == 1) + (i % 3 == 2) * GRID);
 }
 
-/* One call that draws them all: the indices are the application's. */
+/* One call draws all triangles. The indices are in a buffer of the application. */
 static void draw_at_once(unsigned long triangles)
 {
     uint16_t *indices = malloc(triangles * 3 * sizeof *indices);
@@ -162,7 +163,7 @@ static void draw_at_once(unsigned long triangles)
     OK(triptych_draw_indexed(device, TRIPTYCH_TRIANGLE_LIST, 0, 0, (uint32_t)triangles));
 }
 
-/* Draws of ten thousand each. */
+/* Each call draws ten thousand triangles. */
 static void draw_in_parts(unsigned long triangles)
 {
     enum { PART = 10000 };
@@ -177,7 +178,7 @@ static void draw_in_parts(unsigned long triangles)
         OK(triptych_draw_indexed(device, TRIPTYCH_TRIANGLE_LIST, 0, 0, PART));
 }
 
-/* The indices lie in memory twice while they are copied. */
+/* While the indices are copied, memory contains them twice. */
 static void test_a_draw_of_many_triangles(void)
 {
     unsigned long few = FILLING, many = soak ? 10000000 : 2 * FILLING;
@@ -200,7 +201,7 @@ static unsigned digit(unsigned long *number, unsigned base)
     return value;
 }
 
-/* Nearly all numbers below 151,200 have keys of their own: five of six are counted on. */
+/* Nearly all numbers below 151,200 give different keys. The test requires five of six. */
 static void set_state(unsigned long number)
 {
     OK(triptych_set_state(device, TRIPTYCH_STATE_srcblend, 1 + digit(&number, 10)));
@@ -234,7 +235,7 @@ static void test_many_states(void)
     static const char *const engines[] = {"specialize", "stitch", "stitch-operation", "batch", "emulate"};
     for (unsigned i = 0; i < sizeof engines / sizeof *engines; i++) {
         engine = engines[i];
-        cache_bytes = soak ? 0 : 256 << 10; /* full of the smaller amount */
+        cache_bytes = soak ? 0 : 256 << 10; /* the smaller amount fills it */
         if (soak || i < 2)
             expect_bounded(draw_with_states, soak ? 40000 : 1000, soak ? 120000 : 4000, 0);
     }
@@ -282,7 +283,7 @@ static void test_many_constants(void)
     expect_bounded(draw_with_constants, 4000, soak ? 1000000 : 20000, 0);
 }
 
-/* --- Things that are made and destroyed ----------------------------------------------------------------- */
+/* --- Objects that are created and destroyed ------------------------------------------------------------- */
 
 static void make_and_destroy(unsigned long count)
 {

@@ -1,5 +1,5 @@
-/* Refuses each request of the recorder once. Drawing goes on as without it. At the end there is a whole
- * capture that plays to the same picture, or none and a line with the reason. */
+/* Refuses each request of the recorder once. The draws must succeed. In the end there must be either a
+ * complete capture that plays to the same picture, or no capture and a line with the reason. */
 #define _GNU_SOURCE
 #include "tests/support/system/fault.h"
 
@@ -30,7 +30,7 @@ void tearDown(void)
     unlink(path);
 }
 
-/* A call that is refused memory has changed nothing and is made again: the request's turn is over. */
+/* A call whose request is refused must change nothing. It is repeated; the refusal does not happen again. */
 #define DO(call)                                                                                             \
     do {                                                                                                     \
         enum triptych_result result = call;                                                                  \
@@ -56,8 +56,8 @@ static void draw_once(float depth)
     DO(triptych_buffer_destroy(device, element.buffer));
 }
 
-/* Recording begins in the middle of things; much is made and destroyed after that. Returns the result of
- * its end. */
+/* Draws a scene. The recording begins when objects already exist, and many are created and destroyed after
+ * that. Returns the result of the recording's end, and in `started` the result of its start. */
 static enum triptych_result draw(enum triptych_result *started)
 {
     static const char text[] =
@@ -129,7 +129,7 @@ static unsigned files(void)
     return count;
 }
 
-/* Returns whether the run was refused anything. */
+/* Returns true if a request of the run was refused. */
 static bool refuse(unsigned long at)
 {
     char message[600];
@@ -185,7 +185,8 @@ static void remove_files(void)
     closedir(entries);
 }
 
-/* A device that is to be recorded from its creation on is created with its recording or not at all. */
+/* If the environment requests a recording of a device, the device is created with its recording or not at
+ * all. */
 static void test_devices_that_the_environment_records(void)
 {
     struct triptych_options options = {.engine = "emulate", .threads = 1};
@@ -202,7 +203,7 @@ static void test_devices_that_the_environment_records(void)
             TEST_ASSERT_NULL(device);
             TEST_ASSERT_EQUAL_UINT_MESSAGE(0, files(), reason);
         }
-        result = fault.refused && !result ? TRIPTYCH_NO_MEMORY : result; /* it went on without */
+        result = fault.refused && !result ? TRIPTYCH_NO_MEMORY : result; /* it may succeed after a refusal */
         triptych_device_destroy(device);
         device = NULL;
         const char *lost = fault_lost();

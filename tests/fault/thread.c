@@ -1,5 +1,5 @@
-/* Threads that the system refuses: a device has the threads that it gets, at least that of its caller, and
- * draws the same picture. */
+/* The system refuses threads. A device then has fewer threads, at least the thread of its caller, and draws
+ * the same picture. */
 #define _GNU_SOURCE
 #include "tests/support/system/fault.h"
 
@@ -24,8 +24,8 @@ void tearDown(void)
     fault_disarm();
 }
 
-/* A picture by a device whose thread number `at`, from 1, and perhaps all later ones are refused; 0: none
- * is. Returns how many threads it has. */
+/* Draws a picture with a device. Its request number `at` for a thread (from 1; 0: none) is refused, and with
+ * `onwards` all later ones are too. Returns the number of threads of the device. */
 static unsigned draw(const char *engine, unsigned long at, bool onwards, uint32_t *image)
 {
     static const float corners[6][3] = {{-1, -1, 0}, {0, 1, 0.5f}, {1, -0.9f, 1},
@@ -53,7 +53,7 @@ static unsigned draw(const char *engine, unsigned long at, bool onwards, uint32_
     return workers;
 }
 
-static void test_a_device_has_the_threads_that_it_gets(void)
+static void test_a_device_without_a_refused_thread_draws_the_same_picture(void)
 {
     static const char *const engines[] = {"emulate", "specialize"};
     for (unsigned e = 0; e < 2; e++) {
@@ -93,7 +93,7 @@ static void test_a_limit_of_the_system(void)
 int main(void)
 {
     UNITY_BEGIN();
-    RUN_TEST(test_a_device_has_the_threads_that_it_gets);
+    RUN_TEST(test_a_device_without_a_refused_thread_draws_the_same_picture);
     RUN_TEST(test_a_limit_of_the_system);
     return UNITY_END();
 }

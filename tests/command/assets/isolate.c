@@ -1,4 +1,4 @@
-/* Work in a separate process: answers arrive complete, and every failure is an error of one line. */
+/* Work in a separate process: answers arrive complete, and every failure gives an error of one line. */
 #include "command/assets/isolate.h"
 
 #include "command/assets/mesh.h"

@@ -65,7 +65,7 @@ static void test_p99_is_the_nearest_rank(void)
     TEST_ASSERT_EQUAL_DOUBLE(50, summary_of(values, 50).p99);
 }
 
-/* The merge outwards from the median gives what sorting the distances gives. */
+/* Merging outwards from the median gives the same result as sorting the distances. */
 static void test_deviation_is_the_median_of_the_distances(void)
 {
     srand(1);

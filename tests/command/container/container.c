@@ -1,6 +1,6 @@
-/* The container: a stream written and read again is the same stream, in memory and in text, and no file that
- * was damaged, truncated or made by another program gives more than a line of reason or a stream that the
- * text could express. */
+/* The container. A stream that is written and read again is the same stream, in memory and as text. A file
+ * that is damaged, truncated or made by another program gives one line with the reason, or a stream that text
+ * can express. */
 #include "base/file.h"
 #include "capture/chunk.h"
 #include "command/container/container.h"
@@ -59,7 +59,7 @@ static struct bytes load(const char *path)
     return bytes;
 }
 
-/* The container of a text. */
+/* Converts a stream's text to a container. */
 static struct bytes pack(const char *text)
 {
     struct stream *stream = parse("a.tri", text, strlen(text));
@@ -86,7 +86,7 @@ static void expect_refused(const void *data, size_t count, const char *reason)
     TEST_ASSERT_NOT_NULL_MESSAGE(strstr(error.text, reason), error.text);
 }
 
-/* --- Coming back ------------------------------------------------------------------------------------------
+/* --- Written and read again -------------------------------------------------------------------------------
  */
 
 static void expect_round_trip(const char *path)
@@ -147,8 +147,8 @@ static void streams_of_the_project_come_back(void)
 /* --- Files ------------------------------------------------------------------------------------------------
  */
 
-/* A name that is a file's only as long as the file is what it was. */
-static void what_a_file_held_stays_when_it_changes(void)
+/* Data is written with the name of its file only while the file has this data. */
+static void data_from_a_file_stay_when_the_file_changes(void)
 {
     static const char asm_text[] = "vs_2_0\ndcl_position v0\nmov oPos, v0\n";
     static const char other_text[] = "vs_2_0\ndcl_position v0\nmov oPos, -v0\n";
@@ -225,7 +225,7 @@ static void every_flipped_bit_is_noticed(void)
     free(bytes.data);
 }
 
-/* A stream that a damaged container gives can be written, and the text is read as the same. */
+/* Fails unless a stream from a damaged container can be written as text that reads as the same stream. */
 static void expect_sound(struct stream *stream)
 {
     char *text = write_text(stream, "a.trib"), *twice;
@@ -252,7 +252,7 @@ static void a_reader_that_ignores_checksums_is_safe(void)
     free(bytes.data);
 }
 
-/* The records of a container, all in one piece. */
+/* Returns the records of all chunks of a container. */
 static struct bytes unpack(const struct bytes *container)
 {
     struct chunk_reader reader;
@@ -289,7 +289,7 @@ static void put_chunk(struct bytes *bytes, const char *type, uint32_t number, co
     bytes->count += CHUNK_HEADER + count;
 }
 
-/* Contents as a container whose checksums are right. */
+/* Returns a container of these contents with correct checksums. */
 static struct bytes repack(const char *contents, size_t count)
 {
     static const char header[CHUNK_FILE_HEADER + 1] = "\x8dTRIB\r\n\x1a\1\0\0\0\0\0\0\0", end[CHUNK_END];
@@ -353,7 +353,7 @@ static void other_versions_and_files_are_refused(void)
     free(longer);
 }
 
-/* Sizes of a header, checked before anything is allocated or read for them. */
+/* Sizes in a header are checked before memory is allocated or data are read for them. */
 static void sizes_that_no_chunk_has_are_refused(void)
 {
     struct bytes bytes = pack(small);
@@ -380,7 +380,7 @@ static void sizes_that_no_chunk_has_are_refused(void)
     free(bytes.data);
 }
 
-/* A file of a few hundred bytes may claim what it likes: memory is taken as data come. */
+/* A small file may contain large sizes. Memory is allocated only for data that the file has. */
 static void missing_resources_take_no_memory(void)
 {
     static const struct {
@@ -446,7 +446,7 @@ static void a_frame_that_is_not_whole_is_left_out(void)
     free(made.data);
 }
 
-/* A definition that is wrong, or a sequence that does not end, after the last frame. */
+/* After the last frame is a wrong definition, or a sequence without an end. */
 static void a_wrong_record_is_left_out_with_all_after_it(void)
 {
     static const struct {
@@ -481,7 +481,7 @@ int main(void)
     UNITY_BEGIN();
     RUN_TEST(every_call_comes_back);
     RUN_TEST(streams_of_the_project_come_back);
-    RUN_TEST(what_a_file_held_stays_when_it_changes);
+    RUN_TEST(data_from_a_file_stay_when_the_file_changes);
     RUN_TEST(a_mesh_without_its_file_is_written_as_data);
     RUN_TEST(every_truncation_is_refused);
     RUN_TEST(every_flipped_bit_is_noticed);

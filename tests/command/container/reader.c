@@ -1,5 +1,5 @@
-/* Recordings read as they are played: the same pictures as when they are read whole, in whatever order, in
- * memory that does not grow with their length. */
+/* Recordings that are read during playing. They give the same pictures as recordings that are read as a
+ * whole, in any order of frames, and the memory does not grow with their length. */
 #include "capture/chunk.h"
 #include "base/file.h"
 #include "command/container/reader.h"
@@ -54,8 +54,8 @@ static uint64_t digest(triptych_device *of)
     return XXH3_64bits(pixels, sizeof pixels);
 }
 
-/* Frames that differ, and clear what was before them. Every frame has resources of its own, every other keeps
- * its texture for the next. */
+/* Records frames that clear the target and have different pictures. Every frame creates its own resources.
+ * Every second frame keeps its texture for the next one. */
 static void record_frames(uint64_t expected[FRAMES])
 {
     static const float black[4] = {0, 0, 0, 1};
@@ -119,7 +119,7 @@ static void frames_are_the_same_in_any_order(void)
     stream_free(stream);
 }
 
-/* A hundred megabytes of buffers come and go. */
+/* The recording creates and destroys buffers of a hundred megabytes in sum. */
 static void memory_does_not_grow_with_the_length(void)
 {
     enum { MEGABYTE = 1 << 20, COUNT = 100, BOUND = 12 };

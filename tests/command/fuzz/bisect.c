@@ -1,5 +1,5 @@
-/* Bugs are planted in engines, one at a time, and the bisector must name the operation and its line. They
- * are planted at link time (Makefile: --wrap), so the engines are those of the library. */
+/* Each test plants a bug in an engine, and the bisector must name the operation and its line. The linker
+ * plants the bugs (Makefile: --wrap), so the engines are those of the library. */
 #include "command/fuzz/bisect/bisect.h"
 #include "engines/list.h"
 #include "engines/external/external.h"
@@ -19,13 +19,13 @@
 /* The bug that is planted now, if any. */
 static struct {
     enum ir_op batch_op, batch_becomes;   /* steps of the batch interpreter */
-    enum ir_op reduce_op, reduce_becomes; /* pass reduce makes one of the other, the last one */
-    unsigned reduce_at;                   /* of the instructions that are such: from 0 */
+    enum ir_op reduce_op, reduce_becomes; /* pass reduce replaces the first operation by the second */
+    unsigned reduce_at;                   /* in this instruction of those with the operation, from 0 */
     bool dead_drops_store;
     bool multiply_adds; /* the specializer's encoder writes vpaddw for vpmullw */
     bool shy;           /* the bug in the specializer is absent when passes receive probes */
     const struct fragment *fragment, *fragment_becomes;
-    int32_t argument;                /* added to the fragment's first */
+    int32_t argument;                /* added to the fragment's first argument */
     const char *text, *text_becomes; /* of the external engine */
 } plant;
 
@@ -136,14 +136,14 @@ void tearDown(void)
     "-1 -1 0.25 1 0xffff8040 0 1\n-1 1 0.25 1 0xff20ff60 0 0\n1 -1 0.75 1 0xff4020ff 1 1\n}\n"               \
     "state lighting false\nstate cullmode none\nbind vertices corner\n"
 
-/* Texture times diffuse; the first draw is behind the viewer and draws nothing. */
+/* Texture times diffuse. The first draw is behind the viewer and covers no pixel. */
 static const char modulate[] = VERTICES "texture t 2 2 { ffc08040 ff4080c0 ff204060 fff0f0f0 }\n"
                                         "clear color 0 0 0 1 depth 1\n"
                                         "transform world translate 0 0 -9\ndraw triangles 0 1\n"
                                         "transform world identity\nframe\n"
                                         "bind texture t\ndraw triangles 0 1\n";
 
-/* A loop of five passes; what is taken the fraction of is an integer in the first. */
+/* A loop of five passes. The operand of the fraction is an integer in the first pass. */
 static const char looping[] = VERTICES "shader loops {\n"
                                        "ps_3_0\n"
                                        "defi i0, 5, 0, 1, 0\n"
@@ -297,7 +297,7 @@ static void a_store_that_a_pass_drops_is_named(void)
     TEST_ASSERT_NOT_NULL_MESSAGE(strstr(found.reason, "whether"), printed.data);
 }
 
-static void a_fault_of_the_encoder_is_not_that_of_a_pass(void)
+static void a_fault_of_the_encoder_is_not_attributed_to_a_pass(void)
 {
     NEEDS("specialize");
     plant.multiply_adds = true;
@@ -306,9 +306,9 @@ static void a_fault_of_the_encoder_is_not_that_of_a_pass(void)
     TEST_ASSERT_NOT_NULL_MESSAGE(strstr(found.pass, "no pass"), printed.data);
 }
 
-/* Looking makes the difference disappear: the pass is known all the same, and where the first wrong word is
- * stored. */
-static void a_pass_that_is_right_when_it_is_looked_at(void)
+/* With probes the difference disappears. The bisector still names the pass, and the store of the first wrong
+ * word. */
+static void a_pass_that_is_right_when_it_is_probed(void)
 {
     NEEDS("specialize");
     plant.reduce_op = IR_mul_x;
@@ -321,8 +321,8 @@ static void a_pass_that_is_right_when_it_is_looked_at(void)
     TEST_ASSERT_EQUAL_STRING("store", found.operation);
 }
 
-/* The same after the passes: their result can be probed without them. */
-static void code_that_is_right_when_its_recording_is_looked_at(void)
+/* The same with a bug after the passes: the result of the passes can be probed. */
+static void code_that_is_right_when_its_recording_is_probed(void)
 {
     NEEDS("specialize");
     plant.multiply_adds = plant.shy = true;
@@ -332,8 +332,8 @@ static void code_that_is_right_when_its_recording_is_looked_at(void)
     TEST_ASSERT_NOT_NULL_MESSAGE(strstr(found.reason, "what the passes leave"), printed.data);
 }
 
-/* The stages of the stitcher are the reference. They are right, so the values of the recording are used as
- * theirs. */
+/* The stage fragments of the stitcher are the reference. They are correct, so the bisector uses the values of
+ * the recording as theirs. */
 static void against_stage_fragments(void)
 {
     NEEDS("stitch");
@@ -420,7 +420,7 @@ static void a_stage_fragment_of_the_setup_routine(void)
     TEST_ASSERT_EQUAL_INT(UNIT_SETUP, found.unit);
 }
 
-static void what_is_printed_begins_with_the_line(void)
+static void the_report_begins_with_the_line(void)
 {
     plant.batch_op = IR_mul_x;
     plant.batch_becomes = IR_add_x;
@@ -431,7 +431,7 @@ static void what_is_printed_begins_with_the_line(void)
     TEST_ASSERT_NOT_NULL(strstr(printed.data, "key of the pixel routine: depth_function"));
 }
 
-/* The command itself, quietly; its report is read back. */
+/* Runs the command without its output, and reads its report. */
 static void the_command_writes_a_report(void)
 {
     static const struct command self = {"bisect", "STREAM", "", NULL};
@@ -483,9 +483,9 @@ int main(void)
     RUN_TEST(the_first_pass_of_a_loop_in_which_it_differs);
     RUN_TEST(a_pass_that_is_wrong_is_named_with_the_operation);
     RUN_TEST(a_store_that_a_pass_drops_is_named);
-    RUN_TEST(a_fault_of_the_encoder_is_not_that_of_a_pass);
-    RUN_TEST(a_pass_that_is_right_when_it_is_looked_at);
-    RUN_TEST(code_that_is_right_when_its_recording_is_looked_at);
+    RUN_TEST(a_fault_of_the_encoder_is_not_attributed_to_a_pass);
+    RUN_TEST(a_pass_that_is_right_when_it_is_probed);
+    RUN_TEST(code_that_is_right_when_its_recording_is_probed);
     RUN_TEST(against_stage_fragments);
     RUN_TEST(an_operation_fragment);
     RUN_TEST(the_specializer_against_the_stitcher);
@@ -494,7 +494,7 @@ int main(void)
     RUN_TEST(a_stage_fragment_whose_result_is_compared);
     RUN_TEST(a_stage_fragment_of_the_vertex_routine);
     RUN_TEST(a_stage_fragment_of_the_setup_routine);
-    RUN_TEST(what_is_printed_begins_with_the_line);
+    RUN_TEST(the_report_begins_with_the_line);
     RUN_TEST(the_command_writes_a_report);
     return UNITY_END();
 }

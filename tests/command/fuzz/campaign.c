@@ -1,5 +1,5 @@
-/* Campaigns: random cases are valid, the same every time, and draw something; engines that are wrong are
- * found whatever they do wrong, and what is found is made small. */
+/* Campaigns. Random cases are valid, the same in every run, and cover pixels. A campaign finds a wrong engine
+ * by its pictures, crashes or hangs, and minimises the cases that it finds. */
 #include "engines/list.h"
 #include "command/fuzz/campaign.h"
 #include "command/fuzz/case/case.h"
@@ -126,7 +126,7 @@ static void crashes_and_hangs_are_found_and_the_campaign_goes_on(void)
     TEST_ASSERT_EQUAL_STRING("ends with signal 6, Aborted", campaign.finding[0].finding.what);
 }
 
-static void what_is_found_is_made_small(void)
+static void found_cases_are_minimised(void)
 {
     struct text smallest = {0};
     struct campaign_options options = options_with(wrong_engine(WRONG_COLOR));
@@ -148,6 +148,6 @@ int main(void)
     RUN_TEST(cases_are_valid_and_draw);
     RUN_TEST(wrong_colors_and_depths_are_found);
     RUN_TEST(crashes_and_hangs_are_found_and_the_campaign_goes_on);
-    RUN_TEST(what_is_found_is_made_small);
+    RUN_TEST(found_cases_are_minimised);
     return UNITY_END();
 }

@@ -3,15 +3,15 @@
 #
 #   COMMAND=build/triptych tests/command/fuzz/campaign.sh BUILD SECONDS JOBS TARGET...
 #
-# A target begins from its corpus in tests/data/corpus, the repository's files of its format (seeds.sh) and
-# what earlier runs of this build left in BUILD/inputs/TARGET. It ends after SECONDS, or at its first finding:
-# a broken promise, what the sanitizers see, more than ten seconds or two gigabytes. The input is left in
-# BUILD/findings; it goes to the corpus, under a name that describes it, before the fault is mended. Logs are
-# BUILD/logs/TARGET.log.
+# A target starts from its corpus in tests/data/corpus, the repository's files of its format (seeds.sh), and
+# the inputs of earlier runs in BUILD/inputs/TARGET. It ends after SECONDS or at its first finding. A finding
+# is a failed check, a report of a sanitizer, or a run that needs more than ten seconds or two gigabytes. Its
+# input is written to BUILD/findings. Before the fault is fixed, add this input to the corpus with a name that
+# describes it. Logs are BUILD/logs/TARGET.log.
 #
-# MERGE=1 makes the corpus anew instead, as small as it can be with the same coverage.
+# MERGE=1 makes a new corpus instead, the smallest with the same coverage.
 #
-# Prints a line per target, and ends non-zero after a finding.
+# Prints a line for each target, and ends non-zero after a finding.
 set -uo pipefail
 cd "$(dirname "$0")/../../.."
 
@@ -20,7 +20,7 @@ shift 3
 export build seconds
 export UBSAN_OPTIONS=print_stacktrace=1
 
-# A field of libFuzzer's final statistics; the last value of a column of its progress lines.
+# Print a field of libFuzzer's final statistics, and the last value of a column of its progress lines.
 statistic() { sed -n "s/^stat::$2: *//p" "$1"; }
 column() { grep -oE "$2: [0-9]+" "$1" | tail -n 1 | cut -d' ' -f2; }
 
@@ -44,8 +44,7 @@ fuzz() # TARGET
     return $status
 }
 
-# From inputs of up to LENGTH bytes. Regressions, whose names begin with no checksum, stay whatever they
-# cover.
+# Uses inputs of up to LENGTH bytes. Regressions, whose names do not begin with a checksum, always stay.
 merge() # TARGET
 {
     local target=$1 corpus=tests/data/corpus/$1 small=$build/small/$1 kept=$build/kept/$1

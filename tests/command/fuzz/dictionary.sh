@@ -1,19 +1,19 @@
 #!/usr/bin/env bash
-# The words of a target's language for libFuzzer's -dict, from the tables by way of `triptych list` and from
-# the repository's own files; nothing for targets of bytes.
+# Prints the words of a target's language for libFuzzer's -dict. They come from the tables (`triptych list`)
+# and from the repository's own files. Prints nothing for targets that read binary data.
 #
 #   COMMAND=build/triptych tests/command/fuzz/dictionary.sh TARGET
 set -uo pipefail
 cd "$(dirname "$0")/../../.."
 
-# Strings in the JSON of a list, but not their descriptions.
+# Prints the strings in the JSON of a list, except the descriptions.
 listed() # WHAT
 {
     "$COMMAND" list "$1" --json | grep -vE '"(meaning|test|keys|supported|kind|what)":' |
         grep -oE '"[^"]*"(,|$)' | grep -oE '[A-Za-z0-9_.+-]+'
 }
 
-# Words of files of the language, numbers left out.
+# Prints the words of files of the language, without numbers.
 used() # FILE...
 {
     cat "$@" | sed 's/#.*//; s,//.*,,' | grep -oE '[A-Za-z_][A-Za-z0-9_]*(-[a-z]+)*' | sort | uniq -c |

@@ -1,6 +1,6 @@
-/* Every fuzz target over every input of its corpus: what fuzzers found to be interesting, and what once
- * was a finding. A target ends the program when a promise is broken, so the input's name is printed
- * before. */
+/* Runs every fuzz target on every input of its corpus. The corpus has inputs that increased a fuzzer's
+ * coverage and inputs of earlier findings. A target ends the program if a check fails, so the input's name is
+ * printed before it runs. */
 #include "tests/command/fuzz/targets/target.h"
 
 #include <dirent.h>
@@ -25,7 +25,7 @@ static void run_file(const char *path)
     fseek(file, 0, SEEK_END);
     long bytes = ftell(file);
     rewind(file);
-    /* No larger than it is, for the sanitizer. */
+    /* Exactly as large as the input, so that the sanitizer finds reads after its end. */
     data = malloc(bytes ? (size_t)bytes : 1);
     TEST_ASSERT_NOT_NULL(data);
     TEST_ASSERT_EQUAL_UINT64(bytes, fread(data, 1, (size_t)bytes, file));

@@ -1,5 +1,5 @@
-/* Minimising: what is left is the minimum, and it always fails; with predicates whose answer is known, and
- * with the stream reader as the judge of what a stream is. */
+/* Minimising: the result is the minimum, and it always fails. The tests use predicates with known results,
+ * and the stream reader to decide if a text is a stream. */
 #include "command/fuzz/reduce/minimize.h"
 #include "command/fuzz/case/random.h"
 #include "command/stream/stream.h"
@@ -32,7 +32,7 @@ static int shrink(const char *text, minimize_test *still_fails, void *user)
 
 /* --- Predicates ----------------------------------------------------------------------------------------- */
 
-/* Fails while it has all of the texts. */
+/* The case fails if the text contains all of the strings. */
 static bool has_all(void *user, const char *text, size_t bytes)
 {
     tests++;
@@ -43,7 +43,7 @@ static bool has_all(void *user, const char *text, size_t bytes)
     return true;
 }
 
-/* The same, and it is a stream. */
+/* The case fails if the text contains all of the strings and is a stream. */
 static bool is_stream_with_all(void *user, const char *text, size_t bytes)
 {
     struct stream *stream;
@@ -54,7 +54,7 @@ static bool is_stream_with_all(void *user, const char *text, size_t bytes)
     return true;
 }
 
-/* A stream that draws something by calls of the type that `user` is. */
+/* The case fails if the text is a stream that covers a pixel by calls of the type `user`. */
 static bool draws(void *user, const char *text, size_t bytes)
 {
     struct stream *stream;
@@ -121,7 +121,7 @@ static void the_number_of_tries_is_bounded(void)
 
 /* --- Any predicate -------------------------------------------------------------------------------------- */
 
-/* Fails by a hash of what it has of some lines: neither monotonous nor reasonable. */
+/* The case fails depending on a hash of the lines that the text has. This predicate is not monotonic. */
 struct odd {
     uint64_t seed;
     struct text last;
@@ -280,7 +280,7 @@ static void the_same_text_gives_the_same_result(void)
     TEST_ASSERT_EQUAL_UINT(tries, made.tries);
 }
 
-/* A text of its own is its own minimum. */
+/* A minimum is its own minimum. */
 static void making_it_smaller_again_changes_nothing(void)
 {
     shrink(whole, is_stream_with_all, TEXTS("rep", "draw-indexed", "stencil"));

@@ -1,6 +1,6 @@
-/* Looking into routines: every engine's values are the recording's, operation by operation, in all
- * routines of some streams; those of the emulator, which is traced, and those that probes in the recording
- * show. */
+/* The values of each operation in a routine. In all routines of some streams, every engine must compute the
+ * values of the recording, operation by operation. The emulator's values come from a trace, and those of the
+ * other engines from probes in the recording. */
 #include "render/device/device.h"
 #include "engines/list.h"
 #include "command/fuzz/bisect/probe.h"
@@ -12,7 +12,8 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* An engine that draws as emulate does, and looks into the same routine of others at its first call. */
+/* An engine that draws as emulate does. At the first call of a routine, it compares the values of the other
+ * engines in the same routine. */
 struct looked {
     struct routine routine;
     struct routine *emulate;
@@ -162,7 +163,7 @@ void tearDown(void)
 {
 }
 
-/* Other streams can be named. */
+/* Operands are paths of other streams. */
 int main(int count, char **arguments)
 {
     static const char *const few[] = {"tests/data/streams/shaders.tri", "tests/data/streams/lines.tri",

@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# Fills a folder with what a target may begin from: the repository's own small files of its format.
+# Fills a folder with first inputs of a target: the repository's own small files of its format.
 #
 #   COMMAND=build/triptych tests/command/fuzz/seeds.sh TARGET FOLDER
 set -uo pipefail

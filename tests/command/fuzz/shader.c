@@ -1,6 +1,6 @@
-/* The writer of random shaders: what it writes is valid, mostly at the first try; every instruction of
- * every model turns up, as do modifiers, registers and what flow control there is; the numbers decide, and
- * nothing else; it is quick. */
+/* The writer of random shaders. Its shaders are valid, mostly at the first try. They contain every
+ * instruction, modifier, register and kind of flow control of every model. Only the random numbers determine
+ * a shader, and the writer is quick. */
 #include "command/fuzz/case/shader.h"
 #include "shader/program/program.h"
 
@@ -79,7 +79,7 @@ static void text_assembles_to_the_same_tokens(void)
         }
 }
 
-/* --- What turns up -------------------------------------------------------------------------------------- */
+/* --- Contents ------------------------------------------------------------------------------------------- */
 
 struct seen {
     unsigned operation[SHADER_COUNT], modifier[MODIFIER_COUNT], comparison[8], kind[8], usage[16];
@@ -190,7 +190,7 @@ static void expect_all(const struct shader_model *model, const struct seen *seen
             expect_seen(model, shader_word_name(shader_usages, usage), seen->usage[usage]);
 }
 
-static void everything_turns_up_in_every_model(void)
+static void shaders_of_every_model_contain_everything(void)
 {
     for (unsigned model = 0; model < MODEL_COUNT; model++) {
         struct seen seen;
@@ -206,15 +206,15 @@ static void everything_turns_up_in_every_model(void)
     }
 }
 
-/* --- How ------------------------------------------------------------------------------------------------ */
+/* --- Lengths and numbers -------------------------------------------------------------------------------- */
 
 static int compare_numbers(const void *a, const void *b)
 {
     return *(const int *)a - *(const int *)b;
 }
 
-/* Refusals cost time, and what is discarded is not random; and most shaders are short, so that there can
- * be many. */
+/* Refused shaders cost time and make the rest less random. Most shaders must be short, so that a campaign can
+ * draw many. */
 static void few_are_refused_and_most_are_short(void)
 {
     for (unsigned model = 0; model < MODEL_COUNT; model++) {
@@ -246,7 +246,7 @@ static void few_are_refused_and_most_are_short(void)
     }
 }
 
-static void the_numbers_decide(void)
+static void equal_numbers_give_equal_shaders_and_others_different_ones(void)
 {
     const struct fuzz_shader_options options = {0};
     for (unsigned number = 0; number < 200; number++) {
@@ -274,7 +274,7 @@ static bool is_given(const struct shader_interface *vertex, const struct shader_
     return false;
 }
 
-static void pairs_meet_partly(void)
+static void a_pixel_shader_reads_some_outputs_of_its_vertex_shader(void)
 {
     unsigned met = 0, missed = 0, third = 0, mixed = 0;
     const struct fuzz_shader_options options = {0};
@@ -304,9 +304,9 @@ int main(void)
     UNITY_BEGIN();
     RUN_TEST(shaders_are_valid_programs);
     RUN_TEST(text_assembles_to_the_same_tokens);
-    RUN_TEST(everything_turns_up_in_every_model);
+    RUN_TEST(shaders_of_every_model_contain_everything);
     RUN_TEST(few_are_refused_and_most_are_short);
-    RUN_TEST(the_numbers_decide);
-    RUN_TEST(pairs_meet_partly);
+    RUN_TEST(equal_numbers_give_equal_shaders_and_others_different_ones);
+    RUN_TEST(a_pixel_shader_reads_some_outputs_of_its_vertex_shader);
     return UNITY_END();
 }

@@ -65,7 +65,7 @@ static int holds(const uint32_t picture[PIXELS], uint32_t color)
     return count;
 }
 
-/* Every frame clears, and depends on the states of all before it. */
+/* Every frame clears, and depends on the states that all earlier frames set. */
 static const char standing[] =
     "triptych 1\n"
     "target 24 16\n"
@@ -99,7 +99,8 @@ static void frames_in_any_order_are_the_frames_in_order(void)
     TEST_ASSERT_EQUAL_INT(PIXELS, holds(expected[3], 0xff000000)); /* culled */
 }
 
-/* Without clears a frame builds on the picture before it; by itself it starts from an empty target. */
+/* Without a clear, a frame draws over the previous picture. A frame that is played by itself starts from an
+ * empty target. */
 static void earlier_draws_are_left_out_when_one_frame_is_played(void)
 {
     static uint32_t picture[PIXELS];
@@ -148,7 +149,7 @@ static void a_replayed_target_is_empty_unless_it_is_cleared_as_a_whole(void)
     }
 }
 
-/* The state that is left over from another stream on the same device does not matter. */
+/* The state that another stream left on the same device has no effect. */
 static void a_stream_starts_from_the_defaults(void)
 {
     static uint32_t expected[PIXELS], picture[PIXELS];
@@ -225,7 +226,7 @@ static void changed_textures_are_themselves_again_when_a_frame_is_replayed(void)
         play(2, picture);
         TEST_ASSERT_EQUAL_INT(PIXELS, holds(picture, 0xff605040));
     }
-    play(2, picture); /* the frame by itself: the change of the previous frame counts */
+    play(2, picture); /* the frame by itself: it has the change of the previous frame */
     TEST_ASSERT_EQUAL_INT(PIXELS, holds(picture, 0xff605040));
 }
 
@@ -264,9 +265,9 @@ static void constants_are_those_of_their_draw_and_their_frame(void)
     }
 }
 
-/* A tangent comes to the shader from vertices and from a declared stream, and goes when vertices have
- * none. */
-static void what_only_shaders_read_is_bound_and_unbound(void)
+/* The shader reads a tangent from vertices and from a declared stream. If vertices have no tangent, none is
+ * bound. */
+static void elements_that_only_shaders_read_are_bound_and_unbound(void)
 {
     static uint32_t picture[PIXELS];
     load("triptych 1\ntarget 24 16\nstate cullmode none\n"
@@ -321,7 +322,7 @@ static void the_callback_receives_every_frame_and_can_stop(void)
     TEST_ASSERT_EQUAL_INT(-1, stream_play(stream, device, 5, 6, NULL, NULL, &error));
 }
 
-static void test_a_frame_goes_on_from_what_was_left(void)
+static void test_a_frame_continues_from_the_contents_of_the_target(void)
 {
     uint32_t once[PIXELS], again[PIXELS];
     load("triptych 1\ntarget 24 16\nvertices v position:float2 {\n-1 -1\n-1 1\n1 1\n}\nstate lighting false\n"
@@ -349,9 +350,9 @@ int main(void)
     RUN_TEST(elements_in_buffers_draw_what_vertices_draw);
     RUN_TEST(changed_textures_are_themselves_again_when_a_frame_is_replayed);
     RUN_TEST(constants_are_those_of_their_draw_and_their_frame);
-    RUN_TEST(what_only_shaders_read_is_bound_and_unbound);
+    RUN_TEST(elements_that_only_shaders_read_are_bound_and_unbound);
     RUN_TEST(a_frame_past_the_last_is_refused);
     RUN_TEST(the_callback_receives_every_frame_and_can_stop);
-    RUN_TEST(test_a_frame_goes_on_from_what_was_left);
+    RUN_TEST(test_a_frame_continues_from_the_contents_of_the_target);
     return UNITY_END();
 }

@@ -1,4 +1,5 @@
-/* docs/streams.md keeps its word: its example is a stream, its limits and its words are the tables'. */
+/* docs/streams.md is correct: its example is a valid stream, and its limits and words are those of the
+ * tables. */
 #include "base/file.h"
 #include "command/stream/stream.h"
 

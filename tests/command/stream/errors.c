@@ -59,7 +59,7 @@ static void expect_bad(const char *text, size_t bytes, const struct bad *bad)
     TEST_ASSERT_NULL_MESSAGE(strchr(error.text, '\n'), error.text);
 }
 
-static void a_text_other_than_a_stream_is_refused_at_its_position(void)
+static void a_text_that_is_not_a_stream_is_refused_at_its_position(void)
 {
     for (size_t i = 0; i < sizeof whole / sizeof *whole; i++)
         expect_bad(whole[i].text, strlen(whole[i].text), &whole[i]);
@@ -137,7 +137,7 @@ static void a_line_of_the_limit_is_read(void)
     free(text);
 }
 
-/* Eight sequences, each playing the one before `plays` times. */
+/* Returns a text of sequences. Each one plays the previous one `plays` times. */
 static char *nest(int sequences, int plays)
 {
     char *text = malloc(1 << 20), *at = stpcpy(text, "triptych 1\nsequence s0\nstate lighting false\nend\n");
@@ -169,7 +169,7 @@ static void sequences_cannot_explode(void)
 int main(void)
 {
     UNITY_BEGIN();
-    RUN_TEST(a_text_other_than_a_stream_is_refused_at_its_position);
+    RUN_TEST(a_text_that_is_not_a_stream_is_refused_at_its_position);
     RUN_TEST(every_bad_line_is_refused_at_its_place);
     RUN_TEST(a_zero_byte_is_refused);
     RUN_TEST(long_words_are_shown_cut_and_long_paths_from_their_end);

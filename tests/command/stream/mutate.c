@@ -1,5 +1,6 @@
-/* Streams damaged at random: each is refused with one line at a place, or is a stream, which then survives
- * being written and read and, every so often, being played. The sanitizers watch. The seed is fixed. */
+/* Randomly damaged streams. Each is refused with one line at a position, or is a valid stream. Valid streams
+ * are written and read again, and some are played. Builds with sanitizers check the memory accesses. The seed
+ * is fixed. */
 #include "base/file.h"
 #include "command/stream/stream.h"
 
@@ -33,7 +34,8 @@ static uint32_t next_random(uint32_t below)
     return (uint32_t)((seed * 0x2545f4914f6cdd1d) >> 32) % below;
 }
 
-/* Replacements of a byte, word or line. Words of the format reach deeper into the reader than noise. */
+/* Replacements of a byte, word or line. Words of the format reach more code of the reader than random
+ * bytes. */
 static const char *const pieces[] = {
     "0",
     "1",
@@ -112,7 +114,7 @@ static size_t word_end(const char *text, size_t bytes, size_t at)
     return at;
 }
 
-/* One change; the text has room for it. */
+/* Makes one random change, for which the buffer has room. Returns the new length. */
 static size_t mutate(char *text, size_t bytes)
 {
     static const size_t piece_count = sizeof pieces / sizeof *pieces;
@@ -211,7 +213,7 @@ static void survive(const char *path, int mutations)
             expect_plays(stream);
         stream_free(stream);
     }
-    /* The mutations reach both outcomes, else they are too harsh or too kind to prove anything. */
+    /* If nearly all mutations had the same outcome, the test would prove little. */
     TEST_ASSERT_TRUE(good > mutations / 50);
     TEST_ASSERT_TRUE(bad > mutations / 50);
     free(original);

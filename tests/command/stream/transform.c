@@ -1,5 +1,4 @@
-/* The operations of `transform`: where they take points, in what order they are multiplied, which way round.
- */
+/* The operations of `transform`: the images of points, the order of multiplication, and the handedness. */
 #include "command/stream/stream.h"
 
 #include <math.h>
@@ -29,7 +28,7 @@ static void transform(const char *operations)
     stream_free(stream);
 }
 
-/* The point's image after the division by w, row vector times matrix. */
+/* Expects this image of a point: the row vector times the matrix, divided by w. */
 static void expect_image(double x, double y, double z, double to_x, double to_y, double to_z)
 {
     const double p[4] = {x, y, z, 1}, expected[3] = {to_x, to_y, to_z};
@@ -106,7 +105,8 @@ static void orthographic_boxes_map_to_the_clip_volume(void)
 
 /* --- Constants of shaders ------------------------------------------------------------------------------- */
 
-/* Fills `matrix` with the constants that the last call of a text makes with the transforms before it. */
+/* Fills `matrix` with the shader constants that the last call of the text sets from the transforms before
+ * it. */
 static void constants(const char *text)
 {
     struct stream *stream;
@@ -125,7 +125,7 @@ static void constants(const char *text)
     stream_free(stream);
 }
 
-/* The result of m4x4 for a point: its products with the constants. */
+/* Expects this result of m4x4 for a point: its dot products with the constants. */
 static void expect_products(double x, double y, double z, double to_x, double to_y, double to_z)
 {
     const double p[4] = {x, y, z, 1}, expected[4] = {to_x, to_y, to_z, 1};
@@ -175,7 +175,7 @@ static void inverses_undo_what_the_matrix_does(void)
     TEST_ASSERT_EQUAL_FLOAT(0.125f, matrix[3][2]);
 }
 
-/* Normals stay perpendicular to what they are normals of. */
+/* Normals stay perpendicular to their surface. */
 static void the_inverse_transposed_is_for_normals(void)
 {
     constants("transform world scale 1 4 1\nvertexconstant 0 transform world inverse transposed count 3");

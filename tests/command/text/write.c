@@ -82,7 +82,7 @@ static void expect_same_resource(const struct resource *a, const struct resource
     }
 }
 
-/* Only positions in the text may differ. */
+/* Fails unless the calls are equal except for their positions in the text. */
 static void expect_same_call(struct call a, struct call b)
 {
     a.position = b.position = (struct call_position){0};

@@ -1,9 +1,9 @@
-/* Deriving the state part by part gives the same as deriving it from scratch, byte by byte, whatever changes.
+/* Deriving the changed parts of the state gives the same bytes as deriving all of it, whatever changes.
  *
  * In every situation of tests/support/picture/situation.def every setter of the interface is called, and
  * every state of the tables is set to each of its values. After each call the device derives the parts
- * that the setter names, and then everything. In the other direction, omitting a part must make a
- * difference in some situation: no setter names too many parts, and the comparison detects each of them. */
+ * that the setter names, and then everything. The opposite is checked too: if a named part is omitted, some
+ * situation must differ. So no setter names too many parts, and the comparison detects each of them. */
 #include "render/device/device.h"
 #include "tests/support/change/setting.h"
 #include "tests/support/picture/situation.h"
@@ -43,7 +43,7 @@ void tearDown(void)
     setting_end();
 }
 
-/* The device's state becomes the situation's; false if that is not supported. */
+/* Sets the device's state to the situation's. Returns false if the situation is not supported. */
 static bool enter(const char *description)
 {
     static struct situation situation;
@@ -82,7 +82,7 @@ static void take(struct derived *derived)
     derived->job.palette = NULL;
 }
 
-/* Palettes pile up while nothing is rendered. */
+/* Derives, and frees the palettes, which otherwise stay until something is rendered. */
 static void derive(struct derived *derived)
 {
     OK(device_derived_update(&setting_device->derived, &setting_device->state, drawn,
@@ -166,7 +166,8 @@ static void every_setter_in_every_situation(void)
         report_unneeded(settings[i].name, named[i], needed[i]);
 }
 
-/* The values that are tried: all words, or those of a list of numbers that are in the range. */
+/* Returns candidate number i of a kind: one of its words, or a number of a list if it is in the kind's
+ * range. */
 static bool candidate(const struct triptych_kind *kind, unsigned i, uint32_t *value)
 {
     static const uint32_t numbers[] = {0, 1, 2, 3, 5, 8, 15, 128, 255, 0x12345678, 0x80ff4020, 0xffffffff};
@@ -192,7 +193,7 @@ static enum triptych_result set_value(enum triptych_state_table table, unsigned 
                                             : triptych_set_state(setting_device, row, value);
 }
 
-/* Sets a place to each of its values and back. */
+/* Sets a state to each of its values and back. */
 static void try_values(const char *situation, enum triptych_state_table table, unsigned i, unsigned row,
                        unsigned *named, unsigned *needed)
 {
@@ -229,7 +230,7 @@ static void every_state_in_every_situation(void)
 }
 
 /* States whose changes exclude the keys are those that the tables list as in no key. */
-static void what_leaves_keys_alone_is_in_no_key(void)
+static void states_that_exclude_the_keys_are_in_no_key(void)
 {
     for (unsigned table = 0; table < TRIPTYCH_STATE_TABLE_COUNT; table++)
         for (unsigned row = 0; triptych_state_at(table, row); row++)
@@ -261,7 +262,7 @@ static void change_at_random(uint64_t *seed)
         set_value(table, random_below(seed, triptych_table_size(table)) % 4, row, value);
 }
 
-/* Several changes between two draws, of one thing more than once. */
+/* Makes several changes between two draws, some of them to the same state. */
 static void random_changes(void)
 {
     uint64_t seed = 20;
@@ -280,7 +281,7 @@ static void random_changes(void)
 int main(void)
 {
     UNITY_BEGIN();
-    RUN_TEST(what_leaves_keys_alone_is_in_no_key);
+    RUN_TEST(states_that_exclude_the_keys_are_in_no_key);
     RUN_TEST(every_setter_in_every_situation);
     RUN_TEST(every_state_in_every_situation);
     RUN_TEST(random_changes);

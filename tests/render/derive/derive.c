@@ -1,5 +1,5 @@
-/* Derivation of pixel keys, and of what they need of setup and vertices: states that draw the same have
- * the same keys. */
+/* Derivation of pixel keys, and of the fields of setup and vertex keys that depend on them. States that draw
+ * the same pixels have the same keys. */
 #include "tests/support/picture/derivation.h"
 #include "contract/key_query.h"
 
@@ -182,7 +182,8 @@ static void an_alpha_test_that_never_passes_draws_nothing(void)
     TEST_ASSERT_EQUAL_MEMORY(nothing, key, sizeof nothing);
 }
 
-/* Only depth is written, and alpha decides where: its varyings are needed, its blending is not. */
+/* Only depth is written, and the alpha test decides which pixels. The varyings of alpha are needed, blending
+ * is not. */
 static void depth_after_an_alpha_test_needs_colours(void)
 {
     state.texture[0] = &texture;
@@ -221,7 +222,7 @@ static void where_only_alpha_is_read_the_colour_stage_is_dead(void)
 
 /* --- Targets --- */
 
-/* A stage that only displaces is sampled for the next one, which must need it. */
+/* The texture of a bump map stage is sampled only if the next stage needs its offsets. */
 static void bump_maps_are_sampled_for_the_next_stage(void)
 {
     const struct pixel_key *pixel = &key[UNIT_PIXEL].pixel;
@@ -402,7 +403,7 @@ static void without_lights_normals_are_dead(void)
     TEST_ASSERT_EQUAL_INT(ATTRIBUTE_FORMAT_NONE, key[UNIT_VERTEX].vertex.attribute[ATTRIBUTE_DIFFUSE]);
 }
 
-static void formats_are_cut_to_what_is_read(void)
+static void formats_have_only_the_components_that_are_read(void)
 {
     state.texture[0] = &texture;
     state.light_enabled[0] = 1;
@@ -444,6 +445,6 @@ int main(void)
     RUN_TEST(flat_shading_concerns_diffuse_only);
     RUN_TEST(lights_are_packed_to_the_front);
     RUN_TEST(without_lights_normals_are_dead);
-    RUN_TEST(formats_are_cut_to_what_is_read);
+    RUN_TEST(formats_have_only_the_components_that_are_read);
     return UNITY_END();
 }

@@ -1,4 +1,4 @@
-/* Derivation of pixel keys: what blending, the write masks and the targets leave in a key. */
+/* Derivation of pixel keys: the fields of blending, write masks and targets. */
 #include "tests/support/picture/derivation.h"
 #include "contract/key_query.h"
 
@@ -36,7 +36,7 @@ static void expect_blending(int channel, int blend, int source, int target)
     TEST_ASSERT_EQUAL_INT(target, pixel->target_factor[channel]);
 }
 
-static void blending_is_reduced_to_what_it_does(void)
+static void blendings_with_equal_results_have_equal_keys(void)
 {
     static const struct {
         const char *operation, *source, *target;
@@ -78,7 +78,7 @@ static void separate_own_colour(void)
     set_alpha_blending("add", "srccolor", "invsrccolor");
 }
 
-static void alpha_that_is_blended_like_colour_is_not_apart(void)
+static void alpha_that_is_blended_like_colour_has_no_key_field_of_its_own(void)
 {
     set_blending("add", "srcalpha", "invsrcalpha");
     expect_same_keys(separate_same_alpha);
@@ -90,8 +90,9 @@ static void alpha_that_is_blended_like_colour_is_not_apart(void)
     expect_blending(BLEND_ALPHA, BLEND_ADD, FACTOR_SOURCE_ALPHA, FACTOR_INVERSE_SOURCE_ALPHA);
 }
 
-/* The two products of (srccolor, invsrcalpha) are rounded each, those of (srcalpha, invsrcalpha) together. */
-static void alpha_that_is_rounded_otherwise_is_apart(void)
+/* The two products of (srccolor, invsrcalpha) are rounded separately, those of (srcalpha, invsrcalpha)
+ * together. */
+static void alpha_that_is_rounded_differently_has_key_fields_of_its_own(void)
 {
     set_blending("add", "srccolor", "invsrcalpha");
     set_alpha_blending("add", "srcalpha", "invsrcalpha");
@@ -122,7 +123,7 @@ static void channels_that_are_not_written_are_blended_like_the_others(void)
     expect_same_keys(separate_own_colour);
 }
 
-static void channels_that_keep_what_is_stored_are_not_written(void)
+static void channels_that_keep_the_stored_value_are_not_written(void)
 {
     set_blending("add", "zero", "one");
     derive();
@@ -172,8 +173,8 @@ static void alpha_of_targets_without_one_is_known(void)
     expect_blending(BLEND_COLOR, BLEND_ADD, FACTOR_TARGET_ALPHA, FACTOR_INVERSE_TARGET_ALPHA);
 }
 
-/* 0 - s * f is not 0 where there is room for it. */
-static void differences_below_zero_stay_where_there_is_room(void)
+/* In formats with negative values, 0 - s * f is not 0. */
+static void differences_below_zero_stay_in_formats_with_negative_values(void)
 {
     set_blending("subtract", "zero", "one");
     set_targets(TRIPTYCH_SURFACE_A8R8G8B8, 0);
@@ -184,9 +185,9 @@ static void differences_below_zero_stay_where_there_is_room(void)
     expect_blending(BLEND_COLOR, BLEND_ADD, FACTOR_ZERO, FACTOR_ZERO);
 }
 
-/* Of a target that is not written only its number of planes matters, and nothing of those after the last
- * written one. */
-static void targets_that_are_not_written_are_places(void)
+/* The key of a target that is not written contains only its number of planes. Targets after the last written
+ * one are not in the key. */
+static void targets_that_are_not_written_have_only_their_planes_in_the_key(void)
 {
     const struct pixel_key *pixel = &key[UNIT_PIXEL].pixel;
     set_targets(TRIPTYCH_SURFACE_R5G6B5, TRIPTYCH_SURFACE_A16B16G16R16F);
@@ -225,15 +226,15 @@ static void only_colour_is_encoded(void)
 int main(void)
 {
     UNITY_BEGIN();
-    RUN_TEST(blending_is_reduced_to_what_it_does);
-    RUN_TEST(alpha_that_is_blended_like_colour_is_not_apart);
-    RUN_TEST(alpha_that_is_rounded_otherwise_is_apart);
+    RUN_TEST(blendings_with_equal_results_have_equal_keys);
+    RUN_TEST(alpha_that_is_blended_like_colour_has_no_key_field_of_its_own);
+    RUN_TEST(alpha_that_is_rounded_differently_has_key_fields_of_its_own);
     RUN_TEST(channels_that_are_not_written_are_blended_like_the_others);
-    RUN_TEST(channels_that_keep_what_is_stored_are_not_written);
+    RUN_TEST(channels_that_keep_the_stored_value_are_not_written);
     RUN_TEST(the_blend_factor_is_only_in_the_job);
     RUN_TEST(alpha_of_targets_without_one_is_known);
-    RUN_TEST(differences_below_zero_stay_where_there_is_room);
-    RUN_TEST(targets_that_are_not_written_are_places);
+    RUN_TEST(differences_below_zero_stay_in_formats_with_negative_values);
+    RUN_TEST(targets_that_are_not_written_have_only_their_planes_in_the_key);
     RUN_TEST(only_colour_is_encoded);
     return UNITY_END();
 }

@@ -1,5 +1,5 @@
-/* Derivation of depth, stencil and samples: states that draw the same have the same keys, and references
- * and masks are only in the job. */
+/* Derivation of depth, stencil and samples. States that draw the same pixels have the same keys, and
+ * references and masks are only in the job. */
 #include "render/derive/derive.h"
 
 #include "render/target/depth.h"
@@ -89,7 +89,7 @@ static void expect_side(int side, int function, int fail, int depth_fail, int pa
     TEST_ASSERT_EQUAL_INT(pass, pixel->stencil_pass[side]);
 }
 
-static void a_test_that_passes_and_keeps_everything_is_none(void)
+static void a_test_that_passes_and_keeps_everything_is_disabled_in_the_key(void)
 {
     set_side("always", "zero", "keep", "keep");
     derive();
@@ -116,7 +116,7 @@ static void a_format_without_stencil_has_no_test(void)
     }
 }
 
-static void operations_that_cannot_happen_are_those_that_can(void)
+static void operations_that_cannot_happen_do_not_change_the_key(void)
 {
     set_side("less", "zero", "incr", "decr");
     derive();
@@ -140,7 +140,7 @@ static void operations_that_cannot_happen_are_those_that_can(void)
     TEST_ASSERT_EQUAL_INT(0, pixel->write_mask[0]);
 }
 
-static void two_sides_are_one_where_they_do_not_differ(void)
+static void two_equal_sides_have_the_key_of_one(void)
 {
     set_side("equal", "keep", "keep", "incr");
     set_other_side("equal", "keep", "keep", "incr");
@@ -228,7 +228,7 @@ static void the_format_is_in_the_key_where_it_is_read(void)
     TEST_ASSERT_EQUAL_FLOAT(65535, job.depth_maximum);
 }
 
-static void reference_and_masks_are_the_jobs_and_as_wide_as_the_stencil(void)
+static void reference_and_masks_are_in_the_job_with_the_bits_of_the_stencil(void)
 {
     union key before[UNIT_COUNT];
     set_side("less", "zero", "incr", "decr");
@@ -265,14 +265,14 @@ static void samples_come_from_the_target(void)
 int main(void)
 {
     UNITY_BEGIN();
-    RUN_TEST(a_test_that_passes_and_keeps_everything_is_none);
+    RUN_TEST(a_test_that_passes_and_keeps_everything_is_disabled_in_the_key);
     RUN_TEST(a_format_without_stencil_has_no_test);
-    RUN_TEST(operations_that_cannot_happen_are_those_that_can);
-    RUN_TEST(two_sides_are_one_where_they_do_not_differ);
+    RUN_TEST(operations_that_cannot_happen_do_not_change_the_key);
+    RUN_TEST(two_equal_sides_have_the_key_of_one);
     RUN_TEST(culling_leaves_one_side);
     RUN_TEST(a_draw_that_only_changes_stencil_has_an_effect);
     RUN_TEST(the_format_is_in_the_key_where_it_is_read);
-    RUN_TEST(reference_and_masks_are_the_jobs_and_as_wide_as_the_stencil);
+    RUN_TEST(reference_and_masks_are_in_the_job_with_the_bits_of_the_stencil);
     RUN_TEST(samples_come_from_the_target);
     return UNITY_END();
 }

@@ -1,4 +1,4 @@
-/* Derivation of the job: the values that routines read are right for the state. */
+/* Derivation of the job: the values that routines read are correct for the state. */
 #include "tests/support/picture/derivation.h"
 
 #include <math.h>
@@ -143,7 +143,7 @@ static void directional_lights_point_to_the_light_in_camera_space(void)
     TEST_ASSERT_EQUAL_FLOAT(0, job.light[0].position[2]);
 }
 
-static void base_colour_collects_what_no_vertex_changes(void)
+static void base_colour_is_the_sum_of_constant_terms(void)
 {
     state.value[TRIPTYCH_STATE_ambient] = 0x00ff8000;
     SET(colorvertex, "false");
@@ -191,7 +191,7 @@ int main(void)
     RUN_TEST(matrices_multiply_in_row_order);
     RUN_TEST(the_normal_matrix_keeps_normals_perpendicular);
     RUN_TEST(directional_lights_point_to_the_light_in_camera_space);
-    RUN_TEST(base_colour_collects_what_no_vertex_changes);
+    RUN_TEST(base_colour_is_the_sum_of_constant_terms);
     RUN_TEST(the_job_does_not_depend_on_the_callers_rounding);
     return UNITY_END();
 }

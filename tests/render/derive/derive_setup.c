@@ -64,7 +64,7 @@ static void depth_bias_has_only_the_terms_that_are_needed(void)
     TEST_ASSERT_EQUAL_INT(DEPTH_BIAS_NONE, key[UNIT_SETUP].setup.depth_bias);
 }
 
-static void points_are_flat_but_for_a_sprites_coordinates(void)
+static void points_are_flat_except_for_the_coordinates_of_sprites(void)
 {
     state.texture[0] = &texture;
     state.light_enabled[0] = 1;
@@ -82,7 +82,7 @@ static void points_are_flat_but_for_a_sprites_coordinates(void)
     }
 }
 
-/* World planes against a camera that moves the world by (0, 0, 4) and a projection that makes w of z. */
+/* Planes in world space. The camera moves the world by (0, 0, 4), and the projection sets w to z. */
 static void clip_planes_are_packed_and_in_clip_space(void)
 {
     static const float move[4][4] = {{1, 0, 0, 0}, {0, 1, 0, 0}, {0, 0, 1, 0}, {0, 0, 4, 1}};
@@ -153,7 +153,7 @@ int main(void)
     RUN_TEST(fill_modes_are_for_triangles);
     RUN_TEST(culling_and_depth_bias_are_for_triangles_and_their_parts);
     RUN_TEST(depth_bias_has_only_the_terms_that_are_needed);
-    RUN_TEST(points_are_flat_but_for_a_sprites_coordinates);
+    RUN_TEST(points_are_flat_except_for_the_coordinates_of_sprites);
     RUN_TEST(clip_planes_are_packed_and_in_clip_space);
     RUN_TEST(conventions_move_the_window_and_the_depth);
     RUN_TEST(w_buffers_use_the_depth_range);

@@ -65,7 +65,7 @@ static void booleans_that_are_not_read_are_in_no_key(void)
     TEST_ASSERT_FALSE(changed(UNIT_PIXEL));
 }
 
-static void how_products_are_meant_is_in_keys_of_shaders_only(void)
+static void the_convention_of_products_is_in_keys_of_shaders_only(void)
 {
     begin("");
     situation.state.convention[TRIPTYCH_MULTIPLY] = TRIPTYCH_MULTIPLY_LEGACY;
@@ -109,7 +109,7 @@ static void inputs_are_what_the_shader_reads_of_the_declaration(void)
     TEST_ASSERT_EQUAL_INT(ATTRIBUTE_FORMAT_NONE, vertex()->input[1]);
 }
 
-/* t0 of both, and nothing of what else vertex_loops gives. */
+/* Both shaders have t0. The other outputs of vertex_loops have no link. */
 static void outputs_that_are_not_requested_have_no_link(void)
 {
     begin("vertex vertex_loops pixel pixel_deep");
@@ -134,9 +134,8 @@ static void samplers_are_those_that_the_shader_samples(void)
     TEST_ASSERT_EQUAL_INT(TEXTURE_NONE, pixel()->texture[15]);
 }
 
-/* t0 is looked up with both samplers, divided by its fourth component with the second, and read by nothing
- * else. */
-static void third_coordinates_travel_where_a_texture_has_use_for_them(void)
+/* Only lookups with the two samplers read t0. The second lookup divides by its fourth component. */
+static void third_coordinates_are_linked_where_a_texture_reads_them(void)
 {
     begin("pixel pixel_four texture 0 2d A8R8G8B8 64 texture 1 2d A8R8G8B8 64");
     TEST_ASSERT_EQUAL_INT(INTERPOLATION_SMOOTH, pixel()->varying[VARYING_texcoord0]);
@@ -164,12 +163,12 @@ int main(void)
 {
     UNITY_BEGIN();
     RUN_TEST(booleans_that_are_not_read_are_in_no_key);
-    RUN_TEST(how_products_are_meant_is_in_keys_of_shaders_only);
+    RUN_TEST(the_convention_of_products_is_in_keys_of_shaders_only);
     RUN_TEST(a_pixel_shader_without_effect_is_removed);
     RUN_TEST(inputs_are_what_the_shader_reads_of_the_declaration);
     RUN_TEST(outputs_that_are_not_requested_have_no_link);
     RUN_TEST(samplers_are_those_that_the_shader_samples);
-    RUN_TEST(third_coordinates_travel_where_a_texture_has_use_for_them);
+    RUN_TEST(third_coordinates_are_linked_where_a_texture_reads_them);
     RUN_TEST(targets_without_a_colour_are_not_written);
     return UNITY_END();
 }

@@ -1,4 +1,4 @@
-/* Derivation of vertex keys: what no vertex's result depends on is not in the key. */
+/* Derivation of vertex keys: a state that affects no vertex is not in the key. */
 #include "render/derive/derive_part.h"
 
 #include <unity.h>
@@ -91,7 +91,7 @@ static void without_vertex_colours_sources_are_dead(void)
     TEST_ASSERT_EQUAL_INT(ATTRIBUTE_FORMAT_NONE, key[UNIT_VERTEX].vertex.attribute[ATTRIBUTE_DIFFUSE]);
 }
 
-static void reflectances_come_from_the_colours_that_are_there(void)
+static void reflectances_come_from_the_colours_that_vertices_have(void)
 {
     change_sources();
     const struct vertex_key *vertex = derive();
@@ -162,7 +162,7 @@ static void change_what_transforms(void)
     bind(TRIPTYCH_POSITION, TRIPTYCH_FORMAT_FLOAT4);
 }
 
-static void in_the_window_nothing_transforms_or_lights(void)
+static void vertices_in_window_coordinates_are_not_transformed_or_lit(void)
 {
     bind(TRIPTYCH_POSITIONT, TRIPTYCH_FORMAT_FLOAT4);
     SET(fogenable, 1);
@@ -178,10 +178,10 @@ int main(void)
     RUN_TEST(without_specular_light_its_states_are_dead);
     RUN_TEST(the_materials_power_is_staged_where_it_is_simple);
     RUN_TEST(without_vertex_colours_sources_are_dead);
-    RUN_TEST(reflectances_come_from_the_colours_that_are_there);
+    RUN_TEST(reflectances_come_from_the_colours_that_vertices_have);
     RUN_TEST(a_spots_falloff_is_staged_where_it_is_one);
     RUN_TEST(without_fog_and_with_table_fog_vertex_fog_is_dead);
     RUN_TEST(without_blending_its_attributes_are_dead);
-    RUN_TEST(in_the_window_nothing_transforms_or_lights);
+    RUN_TEST(vertices_in_window_coordinates_are_not_transformed_or_lit);
     return UNITY_END();
 }

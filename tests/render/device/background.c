@@ -1,5 +1,5 @@
-/* Rendering in the background while draws are recorded: the same image, depths and counts of queries as
- * with one thread, whatever changes between the draws; and when other threads are woken, and when not. */
+/* Rendering in the background while draws are recorded. The image, depths and counts of queries are those of
+ * one thread, whatever changes between the draws. Other tests check when threads are woken. */
 #include "render/device/device.h"
 #include "emu/emulate/emulate.h"
 #include "engines/list.h"
@@ -19,7 +19,7 @@ struct result {
 
 static triptych_device *device;
 static struct result expected, got;
-static uint32_t in_background; /* draws after which something was being rendered */
+static uint32_t in_background; /* the number of draws after which a background round was running */
 
 #define OK(call) TEST_ASSERT_EQUAL_INT_MESSAGE(TRIPTYCH_OK, call, triptych_error(device))
 
@@ -86,7 +86,7 @@ static void place(uint32_t *seed)
     OK(triptych_set_shader_floats(device, TRIPTYCH_SHADER_VERTEX, 6, color, 1));
 }
 
-/* Keys that change and come back. */
+/* Changes states so that keys change, and earlier keys occur again. */
 static void change_states(uint32_t *seed)
 {
     OK(triptych_set_state(device, TRIPTYCH_STATE_alphablendenable, 1));
@@ -114,8 +114,8 @@ static triptych_texture *make_texture(uint32_t *seed)
     return texture;
 }
 
-/* Resources change while draws that use them may be rendered in the background: the texture of the first
- * draws, when the newest draws do not use it, and later when they do. */
+/* Changes a texture while draws that use it may be rendered in the background: first when the newest draws do
+ * not use it, and later when they do. */
 static void change_texture(triptych_texture *texture, uint32_t i, uint32_t *seed)
 {
     if (i == QUEUE_COMMANDS - 10)
@@ -200,7 +200,7 @@ static void a_small_arena_takes_many_rounds_in_the_background(void)
     TEST_ASSERT_TRUE(in_background > 0);
 }
 
-/* Nothing waits for the draws but the end. */
+/* Nothing waits for the draws before the device is destroyed. */
 static void a_device_may_be_destroyed_meanwhile(void)
 {
     uint32_t seed = 5;
@@ -227,7 +227,7 @@ static void limited_to_one_thread_nothing_is_in_the_background(void)
 
 /* --- Which threads are woken --- */
 
-static void let_everybody_sleep(void)
+static void let_workers_sleep(void)
 {
     nanosleep(&(struct timespec){.tv_nsec = 20 * 1000 * 1000}, NULL);
 }
@@ -242,22 +242,22 @@ static void draw_square(float x, float y, float size)
     OK(triptych_finish(device));
 }
 
-/* Within a tile, so that there is nothing to share out however long it takes. */
+/* The draw is within one tile, so other threads have no work. */
 static void a_small_draw_wakes_no_thread(void)
 {
     open_device(&engine_emulate, &(struct device_options){.threads = 4});
-    let_everybody_sleep();
+    let_workers_sleep();
     for (int i = 0; i < 50; i++)
         draw_square(-0.8f, 0.8f, 0.01f);
     TEST_ASSERT_EQUAL_UINT64(0, pool_wakes(device->pool));
 }
 
-/* Threads that have not come to sleep yet need not be woken: again, then. */
+/* Threads that do not sleep yet are not woken, so the test draws again. */
 static void a_large_draw_wakes_threads(void)
 {
     open_device(&engine_emulate, &(struct device_options){.threads = 4});
     for (int i = 0; i < 500 && !pool_wakes(device->pool); i++) {
-        let_everybody_sleep();
+        let_workers_sleep();
         for (int layer = 0; layer < 4; layer++)
             draw_square(0, 0, 1);
     }

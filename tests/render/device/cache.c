@@ -1,5 +1,5 @@
-/* The routine cache, over an engine that counts: exactness, order and budget of eviction, safety in flight.
- */
+/* The routine cache, with an engine that counts its builds: equality of keys, order and budget of eviction,
+ * and routines that recorded draws use. */
 #include "render/device/cache.h"
 
 #include <pthread.h>
@@ -88,7 +88,7 @@ static int present(int n)
     return 0;
 }
 
-/* A cache with room for `routines` of the counting engine's. */
+/* Creates a cache with room for this number of routines of the counting engine. */
 static void start(int routines)
 {
     cache = cache_create(&engine, NULL, (size_t)routines * (CODE_BYTES + 1000), &error);
@@ -170,7 +170,7 @@ static void the_least_recently_used_leaves_first(void)
     TEST_ASSERT_EQUAL_INT(2, freed);
 }
 
-static void what_is_in_use_stays_whatever_it_costs(void)
+static void routines_in_use_stay_even_above_the_budget(void)
 {
     start(2);
     const struct routine *held[5];
@@ -220,7 +220,7 @@ static void one_routine_larger_than_the_budget_still_works(void)
     TEST_ASSERT_TRUE(present(1) && !present(0));
 }
 
-static void a_refusal_gives_the_reason_and_leaves_no_trace(void)
+static void a_refusal_gives_the_reason_and_changes_nothing(void)
 {
     start(4);
     refuse = 1;
@@ -278,7 +278,7 @@ static void hundreds_of_keys_are_all_found_again(void)
     TEST_ASSERT_EQUAL_INT(first_built, built);
 }
 
-/* Threads that acquire, use and release while the budget evicts all the time. */
+/* A thread that acquires, uses and releases routines. The small budget evicts routines all the time. */
 static void *churn(void *argument)
 {
     unsigned seed = (unsigned)(uintptr_t)argument;
@@ -318,10 +318,10 @@ int main(void)
     RUN_TEST(units_with_equal_bytes_are_different_routines);
     RUN_TEST(keys_with_equal_hashes_are_different_routines);
     RUN_TEST(the_least_recently_used_leaves_first);
-    RUN_TEST(what_is_in_use_stays_whatever_it_costs);
+    RUN_TEST(routines_in_use_stay_even_above_the_budget);
     RUN_TEST(a_routine_leaves_when_its_last_user_has_released_it);
     RUN_TEST(one_routine_larger_than_the_budget_still_works);
-    RUN_TEST(a_refusal_gives_the_reason_and_leaves_no_trace);
+    RUN_TEST(a_refusal_gives_the_reason_and_changes_nothing);
     RUN_TEST(the_last_try_has_the_memory_of_all_idle_routines);
     RUN_TEST(routines_have_numbers_hits_and_build_times);
     RUN_TEST(hundreds_of_keys_are_all_found_again);

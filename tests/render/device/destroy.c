@@ -1,5 +1,5 @@
-/* Buffers, textures and queries that are destroyed: what was recorded with them is drawn as it would have
- * been, and nothing refers to them afterwards (the sanitizers watch). */
+/* Destroyed buffers, textures and queries. Draws that were recorded with them are unchanged, and nothing
+ * refers to the objects afterwards; builds with sanitizers check this. */
 #include "render/device/device.h"
 #include "emu/emulate/emulate.h"
 

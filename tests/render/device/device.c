@@ -1,4 +1,4 @@
-/* The renderer as a whole, through the public interface, with the emulator: what is drawn, and in what
+/* The whole renderer through the public interface, with the emulator: the pixels of draws, and their
  * order. */
 #include "render/device/device.h"
 
@@ -146,8 +146,8 @@ static void a_rectangle_has_exactly_its_pixels(void)
     TEST_ASSERT_EQUAL_UINT64(127 * 72, statistics.pixels_shaded);
 }
 
-/* The lower left half of a square: pixels whose centre is under the diagonal; of those on it, a left edge's
- * are in. */
+/* The triangle is the lower left half of a square. It covers the pixels whose centres are below the diagonal,
+ * or on it if the diagonal is a left edge. */
 static void a_triangle_covers_half_of_its_square(void)
 {
     struct vertex vertex[3] = {at(0, 0, 0, RED_ARGB), at(100, 100, 0, RED_ARGB), at(0, 100, 0, RED_ARGB)};
@@ -172,8 +172,8 @@ static void a_gradient_has_the_right_value_at_every_pixel(void)
         }
 }
 
-/* Colour over w and 1/w are linear on the screen: halfway between w = 1 and w = 3 lies a quarter of the way.
- */
+/* Colour / w and 1/w are linear on the screen. Halfway between w = 1 and w = 3 on the screen is a quarter of
+ * the way between the colours. */
 static void interpolation_is_perspective_correct(void)
 {
     struct vertex vertex[6] = {at(0, 0, 0, 0xff000000),     at(200, 0, 0, 0xffff0000),
@@ -278,7 +278,7 @@ static void culling_goes_by_the_winding_on_the_screen(void)
 
 /* --- Clears and the viewport --- */
 
-static void clears_come_in_their_turn_and_stay_in_the_viewport(void)
+static void clears_are_in_order_with_draws_and_stay_in_the_viewport(void)
 {
     draw_rectangle(0, 0, 200, 200, 0.5f, RED_ARGB);
     OK(triptych_set_viewport(device, &(struct triptych_viewport){30, 40, 100, 64, 0, 1}));
@@ -315,7 +315,7 @@ static void nothing_is_drawn_outside_the_viewport(void)
     TEST_ASSERT_EQUAL_HEX32(RED, pixel(102, 110));
 }
 
-static void a_new_target_forgets_the_old_one(void)
+static void a_new_target_starts_without_the_old_contents(void)
 {
     draw_rectangle(0, 0, 200, 200, 0.5f, RED_ARGB);
     OK(triptych_set_target(device, 1, 1));
@@ -357,10 +357,10 @@ int main(void)
     RUN_TEST(flat_shading_takes_the_first_vertex);
     RUN_TEST(clipping_at_the_eye_leaves_no_hole);
     RUN_TEST(culling_goes_by_the_winding_on_the_screen);
-    RUN_TEST(clears_come_in_their_turn_and_stay_in_the_viewport);
+    RUN_TEST(clears_are_in_order_with_draws_and_stay_in_the_viewport);
     RUN_TEST(clear_colours_round_as_the_pipelines);
     RUN_TEST(nothing_is_drawn_outside_the_viewport);
-    RUN_TEST(a_new_target_forgets_the_old_one);
+    RUN_TEST(a_new_target_starts_without_the_old_contents);
     RUN_TEST(later_changes_do_not_reach_a_recorded_draw);
     return UNITY_END();
 }

@@ -1,5 +1,4 @@
-/* The public interface of a device, with the emulator: what is refused, what hooks receive, and what is
- * reported. */
+/* The public interface of a device, with the emulator: refusals, the arguments of hooks, and reports. */
 #include "render/device/device.h"
 
 #include "emu/emulate/emulate.h"
@@ -171,7 +170,7 @@ static void vertices_must_lie_in_their_buffers(void)
     OK(triptych_draw_indexed(device, TRIPTYCH_TRIANGLE_LIST, -1, 3, 0));
 }
 
-/* An attribute that this draw does not read may be anything. */
+/* An attribute that this draw does not read may be invalid. */
 static void attributes_that_are_not_read_are_not_checked(void)
 {
     float normal[3] = {0, 0, 1};
@@ -241,7 +240,7 @@ static void hear(void *user, uint64_t number, const union key key[UNIT_COUNT])
     memcpy(heard_key, key, sizeof heard_key);
 }
 
-static void tools_hear_of_each_draw_and_its_keys(void)
+static void hooks_receive_each_draw_and_its_keys(void)
 {
     heard = 0;
     device_on_draw(device, hear, &heard);
@@ -328,7 +327,7 @@ int main(void)
     RUN_TEST(null_arguments_are_refused);
     RUN_TEST(clear_values_are_checked);
     RUN_TEST(engines_are_chosen_by_name);
-    RUN_TEST(tools_hear_of_each_draw_and_its_keys);
+    RUN_TEST(hooks_receive_each_draw_and_its_keys);
     RUN_TEST(routines_report_their_identity);
     RUN_TEST(calls_are_measured_where_enabled);
     RUN_TEST(draws_without_effect_build_nothing);

@@ -1,5 +1,5 @@
-/* The renderer as a whole, through the public interface, with the emulator: the image does not depend on the
- * number of threads, on the moment of rendering or on rounds, and memory is bounded. */
+/* The whole renderer through the public interface, with the emulator. The image does not depend on the number
+ * of threads, the time of rendering or the rounds, and memory is bounded. */
 #include "render/device/device.h"
 
 #include "emu/emulate/emulate.h"
@@ -173,7 +173,7 @@ static void the_image_does_not_depend_on_the_number_of_threads(void)
     }
 }
 
-/* Rendering everything together, or each draw by itself, makes no difference. */
+/* Rendering all draws together or each draw by itself gives the same image. */
 static void the_image_does_not_depend_on_when_it_is_rendered(void)
 {
     static uint32_t first_image[SIZE * SIZE];
@@ -187,8 +187,7 @@ static void the_image_does_not_depend_on_when_it_is_rendered(void)
     TEST_ASSERT_EQUAL_MEMORY(first_image, image, sizeof image);
 }
 
-/* An arena of little more than one block: threads take it from one another, and the scene takes many rounds.
- */
+/* The arena has little more than one block. The threads compete for it, and the scene needs many rounds. */
 static void the_image_does_not_depend_on_the_size_of_the_arena(void)
 {
     static uint32_t first_image[SIZE * SIZE];
@@ -207,8 +206,8 @@ static void the_image_does_not_depend_on_the_size_of_the_arena(void)
         }
 }
 
-/* The emulator, except that the batch with vertex 0, the first time, takes as long as another chunk to
- * fill the arena; ten seconds are enough for that on any machine. */
+/* The emulator, except that the first batch with vertex 0 waits until another chunk has filled the arena, for
+ * at most ten seconds. */
 static routine_function *emulate_vertices;
 static bool lingered;
 
@@ -234,7 +233,7 @@ static struct routine *build_lingering(const struct engine *self, struct code_ar
     return routine;
 }
 
-/* One thread lingers over the first chunk while the other takes the whole arena for the second. */
+/* One thread waits in the first chunk while the other one uses the whole arena for the second chunk. */
 static void a_starved_chunk_is_rendered_in_a_round_of_its_own(void)
 {
     enum { TRIANGLES = 2 * CHUNK_PRIMITIVES };
@@ -288,7 +287,7 @@ static size_t resident_peak(void)
     return (size_t)usage.ru_maxrss * 1024;
 }
 
-/* One draw that takes more than the arena; its last triangle is the one that stays on top. */
+/* One draw needs more than the arena. Its last triangle is visible. */
 static void one_huge_draw_is_rendered_in_rounds(void)
 {
     enum { TRIANGLES = 700000 };

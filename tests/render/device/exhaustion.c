@@ -1,5 +1,5 @@
-/* When there is no more room for code, routines leave: draws never fail for it, whatever the sizes, and
- * what is in use is untouched. */
+/* If the arena for code is full, routines are evicted. Draws never fail for this reason, whatever the sizes
+ * of routines, and routines in use are not evicted. */
 #include "machine/code.h"
 #include "render/device/device.h"
 #include "engines/list.h"
@@ -17,7 +17,7 @@ static struct code_arena *arena;
 static struct cache *cache;
 static struct error error;
 static uint32_t random_state;
-static uint32_t next_bytes; /* of the next routine */
+static uint32_t next_bytes; /* the size of the next routine */
 
 static uint32_t random_below(uint32_t limit)
 {
@@ -25,7 +25,7 @@ static uint32_t random_below(uint32_t limit)
     return (uint32_t)((uint64_t)random_state * limit >> 32);
 }
 
-/* As many routines of 100 bytes as of 100 thousand. */
+/* Returns a random size whose logarithm is uniformly distributed. */
 static uint32_t random_bytes(void)
 {
     uint32_t bytes = SMALLEST << random_below(11);
@@ -88,7 +88,7 @@ void tearDown(void)
     arena = NULL;
 }
 
-/* A key that was not used before, for a long time. */
+/* Acquires a routine with a key that was not used in a long time. */
 static const struct routine *acquire_new(uint32_t bytes)
 {
     static uint32_t number;
@@ -130,8 +130,8 @@ static void random_sizes_never_fail_however_long(void)
     TEST_ASSERT_TRUE(cache_statistics(cache).evictions > ROUTINES / 2);
 }
 
-/* The worst case of a draw: two routines of the largest size lie anywhere, and there is a hole for the
- * third. */
+/* The worst case of a draw: two of its routines have the largest size and are anywhere in the arena. The
+ * third routine still finds a hole. */
 static void two_of_the_largest_leave_room_for_a_third_wherever_they_are(void)
 {
     start((size_t)1 << 30);
@@ -150,7 +150,7 @@ static void two_of_the_largest_leave_room_for_a_third_wherever_they_are(void)
     }
 }
 
-/* Only as many leave as it takes: those that were used last are found again. */
+/* Only the necessary number of routines is evicted. The most recently used routines stay. */
 static void a_full_arena_loses_the_oldest_only(void)
 {
     enum { BYTES = ARENA / 64 };
@@ -182,7 +182,7 @@ static void more_than_the_arena_is_refused_and_evicts_nothing(void)
 
 enum { STATES = 1500, STATES_EACH = 100 };
 
-/* As many states as there are in `image` sets of STATES_EACH; the frame holds up to 1024 draws of them. */
+/* Draws STATES states, in pictures of STATES_EACH states. The queue contains up to 1024 of these draws. */
 static void render_all(const struct engine *engine, const struct device_options *options,
                        struct varied_image *image)
 {
@@ -218,7 +218,7 @@ static void check_engines(const struct device_options *options)
     }
 }
 
-/* Recorded draws hold what fills the arena. */
+/* The routines of recorded draws, which cannot be evicted, fill the arena. */
 static void thousands_of_states_are_drawn_with_a_tiny_arena(void)
 {
     check_engines(
@@ -230,8 +230,8 @@ static void thousands_of_states_are_drawn_with_a_tiny_budget(void)
     check_engines(&(struct device_options){.threads = 2, .cache_bytes = 20000});
 }
 
-/* Of 100 draws, a budget of one routine leaves not 300 in use. */
-static void a_small_budget_bounds_what_recorded_draws_hold(void)
+/* With a budget of one routine, 100 recorded draws do not use 300 routines simultaneously. */
+static void a_small_budget_bounds_the_routines_of_recorded_draws(void)
 {
     triptych_device *device;
     const struct device_options options = {.threads = 1, .cache_bytes = 20000};
@@ -280,7 +280,7 @@ int main(void)
     RUN_TEST(more_than_the_arena_is_refused_and_evicts_nothing);
     RUN_TEST(thousands_of_states_are_drawn_with_a_tiny_arena);
     RUN_TEST(thousands_of_states_are_drawn_with_a_tiny_budget);
-    RUN_TEST(a_small_budget_bounds_what_recorded_draws_hold);
+    RUN_TEST(a_small_budget_bounds_the_routines_of_recorded_draws);
     RUN_TEST(a_routine_larger_than_the_arena_is_refused_and_nothing_is_drawn);
     return UNITY_END();
 }

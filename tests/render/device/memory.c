@@ -35,7 +35,7 @@ void tearDown(void)
 {
 }
 
-/* --- Never both --- */
+/* --- Never writable and executable --- */
 
 struct mappings {
     unsigned all, writable_and_executable, code_writable, code_executable;
@@ -74,7 +74,7 @@ static void *watch(void *unused)
     return unused;
 }
 
-/* Builds, evicts and runs until the watcher has looked so often. */
+/* Builds, evicts and runs routines until the watcher has read the mappings `looks` times. */
 static void draw_watched(triptych_device *device, unsigned looks)
 {
     unsigned until = atomic_load(&readings) + looks, n = 0;
@@ -86,7 +86,7 @@ static void draw_watched(triptych_device *device, unsigned looks)
     } while (atomic_load(&readings) < until);
 }
 
-static void no_mapping_is_writable_and_executable_while_all_engines_live_and_build(void)
+static void no_mapping_is_writable_and_executable_while_all_engines_build(void)
 {
     triptych_device *devices[DEVICES];
     unsigned count = 0, arenas = 0;
@@ -128,7 +128,8 @@ static void ask_for_both(const void *unused)
     mmap(NULL, 4096, PROT_READ | PROT_WRITE | PROT_EXEC, MAP_PRIVATE | MAP_ANONYMOUS, -1, 0);
 }
 
-/* The kernel ends a process that requests both: first a test that it does, then that no engine is ended. */
+/* Under this filter, the kernel ends a process that requests memory with both permissions. First the test
+ * checks the filter, then that no engine is ended. */
 static void render_under_guard(const void *debug)
 {
     const struct device_options options = {.threads = 2, .cache_bytes = 20000, .debug = debug};
@@ -145,7 +146,7 @@ static void render_under_guard(const void *debug)
     unlink(map);
 }
 
-static void no_memory_is_requested_that_is_both(void)
+static void no_engine_requests_memory_that_is_writable_and_executable(void)
 {
     fflush(stdout);
     pid_t child = fork();
@@ -215,7 +216,7 @@ static void engines_work_without_executable_memory_or_report_why_not(void)
         sandbox_child(check_engines, sandbox_refusals + i);
 }
 
-/* A process that goes into its sandbox when its devices are made. */
+/* Creates devices, and then enters the sandbox. */
 static void enter_late(const void *unused)
 {
     triptych_device *devices[DEVICES];
@@ -238,7 +239,7 @@ static void enter_late(const void *unused)
     }
 }
 
-static void devices_made_before_the_refusal_go_on(void)
+static void devices_made_before_the_refusal_continue_to_work(void)
 {
     sandbox_child(enter_late, NULL);
 }
@@ -246,9 +247,9 @@ static void devices_made_before_the_refusal_go_on(void)
 int main(void)
 {
     UNITY_BEGIN();
-    RUN_TEST(no_mapping_is_writable_and_executable_while_all_engines_live_and_build);
-    RUN_TEST(no_memory_is_requested_that_is_both);
+    RUN_TEST(no_mapping_is_writable_and_executable_while_all_engines_build);
+    RUN_TEST(no_engine_requests_memory_that_is_writable_and_executable);
     RUN_TEST(engines_work_without_executable_memory_or_report_why_not);
-    RUN_TEST(devices_made_before_the_refusal_go_on);
+    RUN_TEST(devices_made_before_the_refusal_continue_to_work);
     return UNITY_END();
 }

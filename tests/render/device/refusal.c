@@ -1,5 +1,5 @@
-/* Values out of their ranges, in calls that take a number: refused with the number and what was expected
- * instead, and what was set before stays. */
+/* Calls with a number out of its range are refused. The reason contains the number and the expected range,
+ * and the state does not change. */
 #include "triptych.h"
 
 #include <string.h>
@@ -36,7 +36,7 @@ void tearDown(void)
     triptych_device_destroy(device);
 }
 
-/* Returns true if everything is still as setUp left it: the triangle covers the target. */
+/* Fails unless the state is still that of setUp(), in which the triangle covers the target. */
 static void expect_unchanged(void)
 {
     uint32_t image[64];

@@ -1,6 +1,5 @@
-/* Shaders and their constants in the device: what is refused, which constants a queued draw has, how many
- * parts a change derives again, and that memory is bounded. The pictures of shaders are tested in
- * tests/spec. */
+/* Shaders and their constants in the device: refusals, the constants of a queued draw, the number of parts
+ * that a change derives again, and the bounds of memory. tests/spec tests the pictures of shaders. */
 #include "render/device/device.h"
 
 #include "emu/emulate/emulate.h"
@@ -76,7 +75,7 @@ static void expect_refused(enum triptych_result expected, enum triptych_result g
     TEST_ASSERT_EQUAL_STRING(reason, triptych_error(device));
 }
 
-/* --- Making --- */
+/* --- Creation --- */
 
 static void text_and_bytecode_make_the_same_program(void)
 {
@@ -95,7 +94,7 @@ static void text_and_bytecode_make_the_same_program(void)
     TEST_ASSERT_EQUAL_STRING("vs_1_1", triptych_shader_get_model(b));
 }
 
-static void bad_shaders_are_refused_with_their_place(void)
+static void bad_shaders_are_refused_with_the_position(void)
 {
     static const char bad[] = "ps_2_0\nmov oC0, q0\n", invalid[] = "ps_2_0\nmov oC0, r0\n";
     static const uint32_t cut[] = {0xffff0200}, unknown[] = {0xffff0200, 0x0000fff0, 0x0000ffff};
@@ -206,7 +205,7 @@ static void draws_share_a_block_until_a_constant_of_it_changes(void)
     TEST_ASSERT_TRUE(recorded(1) != recorded(2));
 }
 
-static void a_constant_that_is_set_for_another_shader_is_seen_by_it(void)
+static void a_constant_that_is_set_for_another_shader_is_read_by_it(void)
 {
     triptych_shader *many = assemble(add_text), *few = assemble(two_text);
     OK(triptych_set_vertex_shader(device, many));
@@ -241,12 +240,13 @@ static void constants_change_no_key(void)
     TEST_ASSERT_EQUAL_HEX16(0x00f8, device->state.booleans[STAGE_VERTEX]);
 }
 
-/* Each with a constant of its own; the memory is that of a queue's draws, and the device's does not grow. */
+/* Each draw has another constant. The memory is that of the draws in one queue, and the device's memory does
+ * not grow. */
 static void a_hundred_thousand_draws_stay_within_the_memory_of_constants(void)
 {
     size_t most = 0;
     set_vertex(add_text);
-    OK(triptych_set_state(device, TRIPTYCH_STATE_cullmode, 2)); /* no pixels: the draws are what counts */
+    OK(triptych_set_state(device, TRIPTYCH_STATE_cullmode, 2)); /* the draws cover no pixels, to be quick */
     for (int i = 0; i < 100000; i++) {
         set_float(3, (float)i);
         draw();
@@ -349,7 +349,7 @@ static void another_shader_of_the_same_program_keeps_it(void)
     draw();
 }
 
-static void a_device_takes_its_shaders_with_it(void)
+static void a_destroyed_device_destroys_its_shaders(void)
 {
     uint32_t number = assemble(add_text)->program->number;
     set_vertex(add_text);
@@ -362,13 +362,13 @@ int main(void)
 {
     UNITY_BEGIN();
     RUN_TEST(text_and_bytecode_make_the_same_program);
-    RUN_TEST(bad_shaders_are_refused_with_their_place);
+    RUN_TEST(bad_shaders_are_refused_with_the_position);
     RUN_TEST(null_arguments_are_refused);
     RUN_TEST(a_shader_is_of_its_stage_and_its_device);
     RUN_TEST(constants_past_the_last_are_refused);
     RUN_TEST(a_recorded_draw_keeps_its_constants);
     RUN_TEST(draws_share_a_block_until_a_constant_of_it_changes);
-    RUN_TEST(a_constant_that_is_set_for_another_shader_is_seen_by_it);
+    RUN_TEST(a_constant_that_is_set_for_another_shader_is_read_by_it);
     RUN_TEST(constants_change_no_key);
     RUN_TEST(a_hundred_thousand_draws_stay_within_the_memory_of_constants);
     RUN_TEST(full_memory_of_constants_renders_what_is_recorded);
@@ -377,6 +377,6 @@ int main(void)
     RUN_TEST(loops_that_would_run_too_long_refuse_the_draw);
     RUN_TEST(a_shader_is_destroyed_when_its_draws_are_rendered);
     RUN_TEST(another_shader_of_the_same_program_keeps_it);
-    RUN_TEST(a_device_takes_its_shaders_with_it);
+    RUN_TEST(a_destroyed_device_destroys_its_shaders);
     return UNITY_END();
 }

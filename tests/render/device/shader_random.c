@@ -1,7 +1,8 @@
-/* Random variants of the shaders of tests/data/shaders. Damaged shaders that are still valid are drawn
- * once, with random constants and textures of all kinds, and now and then by all engines. Undamaged pairs
- * are drawn by all engines in random states. All pictures of a case are the same, nothing crashes and
- * every draw ends; the sanitizers check the rest. The seed is fixed unless TRIPTYCH_SEED is set. */
+/* Random variants of the shaders of tests/data/shaders. Damaged shaders that are still valid are drawn once,
+ * with random constants and textures of all kinds; some of them are drawn by all engines. Undamaged pairs are
+ * drawn by all engines in random states. All pictures of a case must be the same, nothing crashes, and every
+ * draw ends. Builds with sanitizers check the memory accesses. The seed is fixed unless TRIPTYCH_SEED is
+ * set. */
 #include "render/device/device.h"
 #include "engines/list.h"
 #include "tests/support/system/seed.h"
@@ -56,7 +57,7 @@ static void create_textures(struct drawing *drawing)
     }
 }
 
-/* Four floats for every input that a shader may read. */
+/* Creates vertices with four floats for every input that a shader may read. */
 static void create_vertices(triptych_device *device)
 {
     enum { ELEMENTS = 18, VERTICES = 4 };
@@ -125,7 +126,7 @@ static void set_constants(uint64_t random)
     seed = random;
     for (int i = 0; i < 4 * CONSTANTS; i++)
         floats[i / 4][i % 4] =
-            random_float() / 8 + (i < 16 && i % 5 == 0); /* about what leaves vertices in view */
+            random_float() / 8 + (i < 16 && i % 5 == 0); /* near the unit matrix: vertices are in view */
     for (int i = 0; i < 16; i++) {
         booleans[i] = (int32_t)shader_random(&seed, 2);
         for (int c = 0; c < 4; c++)
@@ -149,7 +150,7 @@ static void expect_one_line(const char *reason)
     TEST_ASSERT_NULL_MESSAGE(strchr(reason, '\n'), reason);
 }
 
-/* Returns whether it could be drawn. */
+/* Returns true if the draw succeeded. */
 static bool draw(struct drawing *drawing, const struct shader *shader)
 {
     static const float black[4] = {0};
@@ -217,7 +218,8 @@ static void damaged_shaders_are_drawn_or_refused(void)
     TEST_ASSERT_GREATER_THAN_UINT32(1000, valid);
 }
 
-/* Through the interface: words of the bytecode that are other ones, bits of them, words that are gone. */
+/* Bytecode in which a word or a bit is replaced or the last words are missing is given to the public
+ * interface. */
 static void damaged_bytecode_is_drawn_or_refused(void)
 {
     glob_t files;
@@ -259,8 +261,8 @@ static void damaged_bytecode_is_drawn_or_refused(void)
 
 /* --- States --- */
 
-/* A supported value of a state, of some kinds: where there is a word for each, and of colours and masks
- * any bits. */
+/* Chooses a supported value of a state: one of its words, or any bits of a colour or mask. Returns false for
+ * other kinds. */
 static bool choose_value(const struct triptych_kind *kind, uint32_t *number)
 {
     const struct triptych_value *value;
@@ -335,7 +337,7 @@ static void set_random_target(void)
     }
 }
 
-/* The pictures of a pair of shaders as every engine draws it. Either may be null. */
+/* Draws a pair of shaders with every engine and compares the pictures. Either shader may be null. */
 static bool draw_pair(const struct shader *vertex, const struct shader *pixel)
 {
     static const float black[4] = {0};

@@ -1,7 +1,7 @@
-/* The order in which chunks and tiles are handed out: random from a seed, and the image, the depths and
- * the counts of queries are the same. Every draw is blended over what was there, so that a tile whose bins
- * were in another order would show it; an arena of little more than a block makes chunks fail in the
- * middle of a round. */
+/* Workers receive chunks and tiles in a random order, given by a seed. The image, the depths and the counts
+ * of queries must be the same in any order. Every draw is blended over earlier ones, so that a wrong order of
+ * a bin changes the image. An arena of little more than a block makes chunks fail in the middle of a
+ * round. */
 #include "render/device/device.h"
 #include "emu/emulate/emulate.h"
 
@@ -92,7 +92,8 @@ static void draw_triangles(uint32_t *seed, uint32_t count, float size)
     OK(triptych_draw(device, TRIPTYCH_TRIANGLE_LIST, 0, count));
 }
 
-/* Few large triangles and several chunks of small ones in turn, a clear of depths between them. */
+/* Draws a few large triangles and several chunks of small ones in turn, with a clear of depth between
+ * them. */
 static void draw_scene(struct result *result)
 {
     triptych_query *query[DRAWS];
@@ -142,7 +143,7 @@ static void any_order_of_tasks_gives_the_same_image_when_the_arena_fills_up(void
     }
 }
 
-/* Which tiles the last phase took, by turns. */
+/* Copies the order in which the last phase processed tiles. */
 static void copy_order(uint16_t order[TILES])
 {
     static bool seen[TILES];
@@ -160,7 +161,7 @@ static void clear_every_tile(void)
     OK(triptych_finish(device));
 }
 
-static void orders_hold_every_task_once_and_change_with_seed_and_phase(void)
+static void orders_contain_every_task_once_and_change_with_seed_and_phase(void)
 {
     uint16_t first[TILES], second[TILES], again[TILES], in_order[TILES];
     for (int i = 0; i < TILES; i++)
@@ -183,6 +184,6 @@ int main(void)
     UNITY_BEGIN();
     RUN_TEST(any_order_of_tasks_gives_the_same_image);
     RUN_TEST(any_order_of_tasks_gives_the_same_image_when_the_arena_fills_up);
-    RUN_TEST(orders_hold_every_task_once_and_change_with_seed_and_phase);
+    RUN_TEST(orders_contain_every_task_once_and_change_with_seed_and_phase);
     return UNITY_END();
 }

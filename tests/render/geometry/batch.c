@@ -21,7 +21,7 @@ static struct job job;
 static struct draw draw;
 static uint32_t heads;
 
-/* The vertex's number becomes its x, which survives in the batch for setup to find. */
+/* Writes the number of each vertex to its x, which setup reads from the batch. */
 static void log_vertices(const void *arguments, const struct routine *routine)
 {
     const struct vertex_arguments *call = arguments;
@@ -36,7 +36,7 @@ static void log_vertices(const void *arguments, const struct routine *routine)
     }
 }
 
-/* Every triangle covers the first pixel of the target and a few beside it. */
+/* Records triangles and lets each one cover the first pixel of the target and a few next to it. */
 static void log_triangles(const void *arguments, const struct routine *routine)
 {
     const struct setup_arguments *call = arguments;
@@ -177,8 +177,8 @@ static void lines_and_points_take_two_vertices_and_one(void)
     }
 }
 
-/* Three edges, or corners, each with the other vertices of the triangle, from which setup finds the
- * winding. */
+/* A triangle gives three edges or three corners. Each has the other vertices of the triangle, from which
+ * setup computes the winding. */
 static void parts_of_triangles_come_with_their_triangle(void)
 {
     draw_as(TRIPTYCH_TRIANGLE_STRIP, PRIMITIVE_EDGE, SHAPE_LINE);
@@ -201,7 +201,7 @@ static void parts_of_triangles_come_with_their_triangle(void)
     }
 }
 
-/* More parts than a group for setup has room for: none is missing, none comes twice. */
+/* There are more parts than fit in a group for setup. Each part occurs once. */
 static void many_parts_are_cut_into_groups(void)
 {
     draw_as(TRIPTYCH_TRIANGLE_LIST, PRIMITIVE_EDGE, SHAPE_LINE);
@@ -212,7 +212,8 @@ static void many_parts_are_cut_into_groups(void)
             expect_triangle(3 * i + k, 3 * i + k, 3 * i + (k + 1) % 3, 3 * i + (k + 2) % 3);
 }
 
-/* The sides of the frustum drop no line or point, depth and user planes do; ignored bits do nothing. */
+/* The side planes of the frustum drop no line or point. The depth planes and user planes do. Ignored bits
+ * have no effect. */
 static void clip_codes_drop_lines_and_points(void)
 {
     uint32_t codes[14] = {CLIP_LEFT, CLIP_LEFT, CLIP_NEAR, CLIP_NEAR, CLIP_USER, CLIP_USER, CLIP_INVALID,
@@ -264,7 +265,7 @@ static void indices_of_16_and_32_bits_are_moved_by_the_base(void)
     expect_triangle(0, 69997, 0, 79997);
 }
 
-/* A grid of 15 x 15 vertices fits one batch: each is shaded once, and again when it is drawn again. */
+/* A grid of 15 x 15 vertices fits in one batch. Each vertex is shaded once for each draw. */
 static void shared_vertices_are_shaded_once_a_batch(void)
 {
     static uint16_t index[14 * 14 * 6];
@@ -289,7 +290,7 @@ static void shared_vertices_are_shaded_once_a_batch(void)
     TEST_ASSERT_EQUAL_UINT64(225, batch->counts.vertices_shaded);
 }
 
-/* The lanes after the last vertex repeat it, so that nothing else is computed. */
+/* The lanes after the last vertex repeat this vertex. */
 static void calls_are_padded_to_the_lanes_of_a_routine(void)
 {
     draw.primitive = TRIPTYCH_TRIANGLE_LIST;
@@ -315,7 +316,7 @@ static void long_runs_are_cut_into_batches(void)
         expect_triangle(i, 3 * i, 3 * i + 1, 3 * i + 2);
 }
 
-/* More triangles than one batch of few vertices may hold. */
+/* The triangles have few vertices, but there are more of them than a batch may contain. */
 static void many_triangles_of_few_vertices_are_cut_too(void)
 {
     static uint16_t index[3 * 1500];
@@ -328,7 +329,7 @@ static void many_triangles_of_few_vertices_are_cut_too(void)
     TEST_ASSERT_EQUAL_UINT64(15, batch->counts.vertices_shaded);
 }
 
-static void clip_codes_drop_what_cannot_be_seen(void)
+static void clip_codes_drop_invisible_triangles(void)
 {
     uint32_t codes[15] = {
         CLIP_LEFT,
@@ -361,9 +362,8 @@ static uint32_t random_below(uint32_t bound) /* Park and Miller */
     return state % bound;
 }
 
-/* Vertices inside, beside one side or another, or invalid, of lists with indices and without. The set of
- * triangles that are set up equals a decision for each triangle by itself, in order, whichever path its batch
- * took. */
+/* The vertices of lists with and without indices are inside, outside of one or another plane, or invalid. The
+ * triangles that are set up are the same, in the same order, as if each was in a batch of its own. */
 static void triangles_are_dropped_as_in_batches_of_one(void)
 {
     enum { VERTICES = 3000, TRIANGLES = VERTICES / 3, BASE = 7 };
@@ -402,7 +402,7 @@ static void triangles_are_dropped_as_in_batches_of_one(void)
     TEST_ASSERT_GREATER_THAN_UINT32(1000, dropped);
 }
 
-/* How many triangles are in a tile's bin; they must be in order. */
+/* Returns the number of triangles in a tile's bin. Fails unless they are in order. */
 static uint32_t binned(uint32_t tile)
 {
     uint32_t count = 0, last = 0;
@@ -426,7 +426,7 @@ static void bins_hold_each_visible_triangle_once_in_order(void)
     TEST_ASSERT_EQUAL_UINT32(0, binned(1));
 }
 
-static void what_misses_the_scissor_rectangle_is_not_kept(void)
+static void triangles_outside_of_the_scissor_rectangle_are_dropped(void)
 {
     draw.scissor = (struct rectangle){64, 0, 128, 64};
     run(0, 100);
@@ -435,8 +435,8 @@ static void what_misses_the_scissor_rectangle_is_not_kept(void)
     TEST_ASSERT_EQUAL_UINT32(0, heads);
 }
 
-/* With room for some of the groups only: what is done is in the bins, the rest is not, and going on from
- * there gives the rest. */
+/* The arena has room for some of the groups. The bins contain the finished primitives and no others, and
+ * continuing from there gives the others. */
 static void a_full_arena_stops_at_a_primitive_and_goes_on_from_it(void)
 {
     atomic_store(&arena.used, ARENA_BYTES - ARENA_BLOCK);
@@ -451,7 +451,7 @@ static void a_full_arena_stops_at_a_primitive_and_goes_on_from_it(void)
     TEST_ASSERT_EQUAL_UINT32(total - done, binned(0));
 }
 
-/* The same of edges, three records to a primitive: it never stops between them. */
+/* The same with edges. A primitive has three records, and the batch never stops between them. */
 static void a_full_arena_never_stops_within_a_triangle(void)
 {
     uint32_t total = 4000, first = 0, edges = 0, stops = 0;
@@ -484,10 +484,10 @@ int main(void)
     RUN_TEST(calls_are_padded_to_the_lanes_of_a_routine);
     RUN_TEST(long_runs_are_cut_into_batches);
     RUN_TEST(many_triangles_of_few_vertices_are_cut_too);
-    RUN_TEST(clip_codes_drop_what_cannot_be_seen);
+    RUN_TEST(clip_codes_drop_invisible_triangles);
     RUN_TEST(triangles_are_dropped_as_in_batches_of_one);
     RUN_TEST(bins_hold_each_visible_triangle_once_in_order);
-    RUN_TEST(what_misses_the_scissor_rectangle_is_not_kept);
+    RUN_TEST(triangles_outside_of_the_scissor_rectangle_are_dropped);
     RUN_TEST(a_full_arena_stops_at_a_primitive_and_goes_on_from_it);
     RUN_TEST(a_full_arena_never_stops_within_a_triangle);
     return UNITY_END();

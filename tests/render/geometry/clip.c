@@ -1,7 +1,7 @@
-/* The clipper against a reference that clips in double precision, without lanes, codes or an order of
- * vertices; and against the properties that the pipeline relies on: new vertices inside of the planes,
- * identical on shared edges, values of the provoking vertex in flat slots, originals unchanged, and enough
- * room. */
+/* The clipper is compared with a reference in double precision that does not use lanes, codes or an order of
+ * vertices. The tests also check the properties that the pipeline needs: new vertices are inside of the
+ * planes and identical on shared edges, flat slots have the values of the provoking vertex, the original
+ * vertices do not change, and the number of lanes suffices. */
 #include "render/geometry/clip.h"
 #include "tests/support/geometry/clipping.h"
 
@@ -57,7 +57,7 @@ static double reference_distance(int plane, const double p[SLOT_COUNT])
     return (double)u[0] * p[SLOT_X] + (double)u[1] * p[SLOT_Y] + (double)u[2] * p[SLOT_Z] + (double)u[3] * w;
 }
 
-/* All planes, whatever the codes are, last plane first. */
+/* Clips at all planes, independently of codes, beginning with the last plane. */
 static struct reference reference_clip(const uint32_t lane[3])
 {
     struct reference r = {.count = 3};
@@ -82,11 +82,11 @@ static struct reference reference_clip(const uint32_t lane[3])
     return r;
 }
 
-/* Twice the area of a polygon's projection into the plane of two slots, as a fan; with it go its moments
- * against a third slot: equal moments of all varyings mean that the same function is interpolated over the
- * same area. */
+/* Twice the area of a polygon's projection onto the plane of two slots, computed as a fan, and the moments of
+ * all slots over these areas. If two polygons have equal areas and moments, the same functions are
+ * interpolated over the same area. */
 struct moments {
-    double area[3]; /* in x y, y z and z w: a polygon edge-on to one is not to all */
+    double area[3]; /* in x y, y z and z w, because a polygon may be perpendicular to one of these planes */
     double moment[SLOT_COUNT];
 };
 
@@ -204,7 +204,8 @@ static void test_ignored_planes_do_not_cut(void)
 
 /* --- Properties of the vertices --- */
 
-/* Of the guard planes, which are products, the limit may be missed by the rounding of the product. */
+/* Expects a vertex inside of all planes. The limits of the guard planes are products, and the vertex may be
+ * outside by the rounding error of the product. */
 static void expect_inside(uint32_t lane)
 {
     float x = *clipping_word(SLOT_X, lane), y = *clipping_word(SLOT_Y, lane),
@@ -247,7 +248,7 @@ static void test_vertices_are_finite_and_inside_for_extreme_coordinates(void)
 {
     expect_vertices_inside(CLIPPING_EXTREME, 100000);
     expect_vertices_inside(CLIPPING_DEEP, 50000);
-    for (int round = 0; round < 20000; round++) { /* the largest floats there are */
+    for (int round = 0; round < 20000; round++) { /* with the largest floats */
         static const uint32_t lane[3] = {1, 2, 5};
         static const float coordinate[] = {FLT_MAX, -FLT_MAX, FLT_MAX / 16, FLT_MIN, 1, 0, CLIP_EYE_W};
         for (int i = 0; i < 3; i++)
@@ -262,8 +263,8 @@ static void test_vertices_are_finite_and_inside_for_extreme_coordinates(void)
     }
 }
 
-/* A fourteenth of the way from w to w + 7 units is a tie between two floats, and a fourteenth is not a
- * double: the errors of z and w decide to which side each of them goes. */
+/* A fourteenth of the way from w to w + 7 units is exactly between two floats. A fourteenth is not a double,
+ * so the errors of z and w would decide how each of them is rounded. */
 static void test_vertices_on_the_far_plane_have_z_equal_to_w(void)
 {
     for (int round = 1; round <= 4000; round++) {
@@ -284,7 +285,7 @@ static void test_a_triangle_inside_comes_back_as_it_is(void)
 {
     static const uint32_t lane[3] = {9, 4, 6};
     clipping_put(9, 0, 0, 0.5f, 1);
-    clipping_put(4, 1.5f, 0, 0, 1); /* right of the frustum: not the clipper's business */
+    clipping_put(4, 1.5f, 0, 0, 1); /* right of the frustum, where the clipper does not cut */
     clipping_put(6, 0, 1, 1, 1);
     struct clipper clipper = clipping_clipper();
     uint32_t triangle[CLIP_TRIANGLES_MAXIMUM][3];
@@ -325,10 +326,11 @@ static bool same_vertex(uint32_t a, uint32_t b)
     return true;
 }
 
-/* New vertices of the shared edge are recognised by a varying that is 0 at both its ends and 1 elsewhere. */
+/* A varying that is 0 at both ends of the shared edge and 1 at the other vertices identifies new vertices of
+ * this edge. */
 enum { MARK = SLOT_texcoord0 };
 
-/* The new lanes from `first` to `last` that lie on the edge; returns how many. */
+/* Stores the new lanes from `first` to `last` that are on the edge. Returns their number. */
 static int lanes_on_edge(uint32_t first, uint32_t last, uint32_t found[CLIPPING_LANES])
 {
     int count = 0;
@@ -348,8 +350,8 @@ static void expect_subset(int n, const uint32_t a[], int m, const uint32_t b[])
     }
 }
 
-/* Two triangles with the edge 0-1, which the second walks the other way and from any vertex on. If all
- * of the first triangle is next to the edge, it may have more vertices that look as if they were on it. */
+/* Clips two triangles with the edge 0-1. The second has the opposite direction and starts at any vertex. If
+ * the first triangle is very narrow (`degenerate`), it may have more vertices that seem to be on the edge. */
 static int compare_shared_edge(int round, bool degenerate)
 {
     for (uint32_t lane = 0; lane < 4; lane++)
@@ -386,8 +388,8 @@ static void test_triangles_that_share_an_edge_get_identical_vertices_on_it(void)
     TEST_ASSERT_GREATER_THAN_INT(500, twice);
 }
 
-/* The edge is one unit in the last place from a plane: rounding puts new vertices on either side of it, and
- * only one of the triangles has a vertex that is outside. */
+/* The edge is one unit in the last place from a plane. Rounding puts new vertices on both sides of the plane,
+ * and only one of the triangles has a vertex outside. */
 static void test_shared_edges_along_a_plane_get_identical_vertices(void)
 {
     int shared = 0;

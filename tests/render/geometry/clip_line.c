@@ -1,6 +1,6 @@
-/* The clipper on lines, on the edges of polygons and on flat values, and its use of lanes: what is inside of
- * all planes stays, values of the provoking vertex are in flat slots, originals are unchanged, and there is
- * enough room. */
+/* The clipper on lines, edges of polygons and flat values, and its use of lanes. The part inside of all
+ * planes stays, flat slots have the values of the provoking vertex, the original vertices do not change, and
+ * the number of lanes suffices. */
 #include "render/geometry/clip.h"
 #include "tests/support/geometry/clipping.h"
 
@@ -33,8 +33,8 @@ static double reference_distance(int plane, const double p[SLOT_COUNT])
     return (double)u[0] * p[SLOT_X] + (double)u[1] * p[SLOT_Y] + (double)u[2] * p[SLOT_Z] + (double)u[3] * w;
 }
 
-/* Red, green and blue hold how much of each corner a vertex is: on an edge of the triangle one of them is
- * exactly zero. */
+/* Returns true if two vertices are on the same edge of the triangle. Red, green and blue are the barycentric
+ * coordinates of a vertex, and on an edge one of them is exactly zero. */
 static bool on_edge(uint32_t a, uint32_t b)
 {
     for (int c = 0; c < 3; c++)
@@ -70,7 +70,8 @@ static void test_polygons_mark_their_corners_and_edges(void)
 
 /* --- Lines --- */
 
-/* From which t to which t of the way from lane 0 to lane 1 all planes have it inside. */
+/* Computes the interval of t in which the line, from lane 0 at t = 0 to lane 1 at t = 1, is inside of all
+ * planes. Returns false if it is empty. */
 static bool line_interval(const uint32_t lane[2], double interval[2])
 {
     interval[0] = 0;
@@ -105,7 +106,7 @@ static void expect_at(const uint32_t lane[2], double t, uint32_t got)
         }
 }
 
-static void test_lines_keep_what_is_inside_of_all_planes(void)
+static void test_lines_keep_the_part_inside_of_all_planes(void)
 {
     int kept = 0, dropped = 0;
     for (int round = 0; round < 40000; round++) {
@@ -119,7 +120,7 @@ static void test_lines_keep_what_is_inside_of_all_planes(void)
         int count = clip_line(&clipper, lane, left);
         bool any = line_interval(lane, interval);
         if (any && interval[1] - interval[0] < 1e-5)
-            continue; /* rounding may decide */
+            continue; /* rounding decides if the line is visible */
         TEST_ASSERT_EQUAL_INT(any, count);
         for (int i = 0; i < 2 && any; i++)
             expect_at(lane, interval[i], left[i]);
@@ -244,8 +245,8 @@ static void test_running_out_of_lanes_changes_nothing_and_can_be_retried(void)
     TEST_ASSERT_GREATER_THAN_INT(1000, refused);
 }
 
-/* Codes are taken at their word: whatever they are, the polygon stays within its maximum and the originals.
- */
+/* The clipper does not check codes. With any codes, the polygon has at most its maximum of vertices, inside
+ * of the original triangle. */
 static void test_contradictory_codes_stay_within_the_maximum(void)
 {
     for (int round = 0; round < 100000; round++) {
@@ -270,7 +271,7 @@ int main(void)
 {
     UNITY_BEGIN();
     RUN_TEST(test_polygons_mark_their_corners_and_edges);
-    RUN_TEST(test_lines_keep_what_is_inside_of_all_planes);
+    RUN_TEST(test_lines_keep_the_part_inside_of_all_planes);
     RUN_TEST(test_lines_that_find_no_lanes_change_nothing);
     RUN_TEST(test_cut_lines_have_the_flat_values_of_their_first_vertex);
     RUN_TEST(test_the_fan_begins_with_the_flat_values_of_vertex_0);

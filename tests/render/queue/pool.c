@@ -1,5 +1,5 @@
-/* The thread pool: which workers join a round, and how often; the background; the floating-point
- * environment of the contract. */
+/* The thread pool: the workers that join a round, the background, and the floating-point environment of the
+ * contract. */
 #include "render/queue/pool.h"
 
 #include "machine/mxcsr.h"
@@ -66,7 +66,7 @@ static void gather_all(unsigned workers, unsigned expected, enum pool_call call)
     TEST_ASSERT_EQUAL_UINT32(expected, present);
 }
 
-static void let_everybody_sleep(void)
+static void let_workers_sleep(void)
 {
     nanosleep(&(struct timespec){.tv_nsec = 20 * 1000 * 1000}, NULL);
 }
@@ -76,14 +76,14 @@ static void all_sleeping_workers_that_are_invited_join(void)
     pool = pool_create(7, NULL, NULL);
     for (int i = 0; i < 20; i++) {
         if (i % 2)
-            let_everybody_sleep();
+            let_workers_sleep();
         gather_all(7, 7, POOL_ALL);
     }
     for (int w = 0; w < 7; w++)
         TEST_ASSERT_EQUAL_UINT32(20, runs[w]);
 }
 
-static void no_more_come_than_are_called(void)
+static void no_more_workers_join_than_are_called(void)
 {
     pool = pool_create(7, NULL, NULL);
     for (unsigned i = 0; i < 200; i++)
@@ -124,7 +124,7 @@ static void others_can_be_called_in_the_middle_of_a_round(void)
     pool = pool_create(4, NULL, NULL);
     for (int i = 0; i < 100; i++) {
         if (i % 20 == 0)
-            let_everybody_sleep();
+            let_workers_sleep();
         present = 0;
         awaited = 3;
         pool_run(pool, 0, 3, i % 2 ? POOL_ALONE : POOL_AWAKE, call_the_others, &pool);
@@ -135,7 +135,7 @@ static void others_can_be_called_in_the_middle_of_a_round(void)
 static void a_round_for_the_caller_wakes_no_thread(void)
 {
     pool = pool_create(3, NULL, NULL);
-    let_everybody_sleep();
+    let_workers_sleep();
     uint64_t before = pool_wakes(pool);
     for (int i = 0; i < 100; i++)
         pool_run(pool, 0, 3, i % 2 ? POOL_ALONE : POOL_AWAKE, count_run, &pool);
@@ -188,7 +188,7 @@ static void the_thread_that_waits_for_the_background_is_one_of_its_workers(void)
     pool = pool_create(3, NULL, NULL);
     for (int i = 0; i < 4; i++) {
         if (i % 2)
-            let_everybody_sleep();
+            let_workers_sleep();
         awaited = 3;
         rounds_begun = 0;
         pool_start(pool, lead_rounds, &pool);
@@ -197,7 +197,7 @@ static void the_thread_that_waits_for_the_background_is_one_of_its_workers(void)
         for (int w = 0; w < 3; w++)
             TEST_ASSERT_EQUAL_UINT32(50 * (i + 1), runs[w]);
     }
-    pool_wait(pool); /* for nothing */
+    pool_wait(pool); /* returns because nothing runs */
 }
 
 static void wait_for_go(void *user, unsigned worker)
@@ -207,7 +207,7 @@ static void wait_for_go(void *user, unsigned worker)
         sched_yield();
 }
 
-static void the_background_runs_while_its_starter_does_something_else(void)
+static void the_background_runs_while_its_caller_does_other_work(void)
 {
     pool = pool_create(2, NULL, NULL);
     go_on = false;
@@ -245,17 +245,17 @@ int main(void)
 {
     UNITY_BEGIN();
     RUN_TEST(the_caller_waits_for_all_that_joined);
-    if (Unity.TestFailures) /* with workers that are still in an earlier round the others would hang */
+    if (Unity.TestFailures) /* a worker may still be in an earlier round, and other tests would hang */
         return UNITY_END();
     RUN_TEST(the_caller_runs_every_round_and_others_no_more_than_once);
     RUN_TEST(all_sleeping_workers_that_are_invited_join);
-    RUN_TEST(no_more_come_than_are_called);
+    RUN_TEST(no_more_workers_join_than_are_called);
     RUN_TEST(others_can_be_called_in_the_middle_of_a_round);
     RUN_TEST(a_round_for_the_caller_wakes_no_thread);
     RUN_TEST(a_limit_holds_until_it_is_lifted);
     RUN_TEST(tasks_run_in_the_contracts_environment_and_the_callers_is_restored);
     RUN_TEST(the_thread_that_waits_for_the_background_is_one_of_its_workers);
-    RUN_TEST(the_background_runs_while_its_starter_does_something_else);
+    RUN_TEST(the_background_runs_while_its_caller_does_other_work);
     RUN_TEST(refused_threads_make_a_smaller_pool);
     RUN_TEST(zero_means_one_worker_for_each_processor);
     return UNITY_END();

@@ -1,9 +1,8 @@
-/* The rasterizer against a brute-force oracle: every pixel's exact edge functions in 64 bits.
+/* The rasterizer is compared with a brute-force oracle: the exact edge functions of every pixel in 64 bits.
  *
- * The oracle's rule for centres on an edge is not the rasterizer's: the centre is thought to be moved to the
- * right by an infinitesimal and down by a smaller one, and must then be inside. A third account of the rule
- * is the test of meshes, which only counts: every centre inside a closed mesh is covered by exactly one
- * triangle. */
+ * The oracle has its own rule for centres on an edge: the centre is moved to the right by an infinitesimal
+ * and down by a smaller one, and must then be inside. The test of meshes (raster_mesh.c) checks the rule in a
+ * third way: it only counts that exactly one triangle covers each centre inside of a closed mesh. */
 #include "render/raster/raster.h"
 #include "tests/support/geometry/covered.h"
 
@@ -51,7 +50,7 @@ static bool inside_edge(const struct triangle_head *h, int p, int q, int32_t x, 
     int64_t cross = ex * sy - ey * sx;
     if (cross != 0)
         return cross > 0;
-    return ey != 0 ? ey < 0 : ex > 0; /* the sign of the change by a step right, then down */
+    return ey != 0 ? ey < 0 : ex > 0; /* the sign of the change for a step right, or if it is 0, down */
 }
 
 static bool inside_triangle(const struct triangle_head *h, int32_t x, int32_t y)
@@ -81,7 +80,8 @@ static int32_t limited(int64_t v)
     return (int32_t)(v < -WINDOW_MAXIMUM ? -WINDOW_MAXIMUM : v > WINDOW_MAXIMUM ? WINDOW_MAXIMUM : v);
 }
 
-/* Vertices within `reach` of (x, y), everything in 1/256 pixel, on multiples of `grid` plus `offset`. */
+/* Chooses vertices within `reach` of (x, y), at multiples of `grid` plus `offset`. All units are 1/256
+ * pixel. */
 static void scatter(struct triangle_head *h, int32_t x, int32_t y, int32_t reach, int32_t grid,
                     int32_t offset)
 {
@@ -108,7 +108,7 @@ enum shape {
     SHAPES
 };
 
-/* Vertices mostly at the corners of a box, as far from one another as its size allows. */
+/* Chooses vertices mostly at the corners of a box. */
 static void box_corners(struct triangle_head *h, int32_t x, int32_t y, int32_t width, int32_t height)
 {
     for (int i = 0; i < 3; i++) {
@@ -151,7 +151,7 @@ static void random_head(struct triangle_head *h, enum shape shape, int32_t x, in
         h->y[0] = limited(h->y[0] + between(-1, 1));
         break;
     }
-    case CORNERS: /* vertices at the limits: the largest steps there are */
+    case CORNERS: /* vertices at the limits, which give the largest steps */
         for (int i = 0; i < 3; i++) {
             h->x[i] = draw() & 1 ? WINDOW_MAXIMUM : -WINDOW_MAXIMUM;
             h->y[i] = draw() & 1 ? WINDOW_MAXIMUM : -WINDOW_MAXIMUM;
@@ -163,7 +163,8 @@ static void random_head(struct triangle_head *h, enum shape shape, int32_t x, in
     }
 }
 
-/* A rectangle of the target about (x, y) pixels, `size` at most; now and then at the target's edges. */
+/* A rectangle of the target near pixel (x, y), at most `size` pixels wide and high; sometimes at the target's
+ * edges. */
 static struct rectangle random_cut(int32_t x, int32_t y, int32_t size)
 {
     struct rectangle r = {x - between(0, size / 2), y - between(0, size / 2), x + between(0, size / 2),
@@ -177,7 +178,7 @@ static struct rectangle random_cut(int32_t x, int32_t y, int32_t size)
     return r;
 }
 
-/* One to four whole tiles about (x, y): nothing is cut off but by the tiles' sides. */
+/* One to four whole tiles near pixel (x, y), so that only the tiles' sides cut triangles. */
 static struct rectangle whole_tiles(int32_t x, int32_t y)
 {
     struct rectangle r = {x & -TILE_SIZE, y & -TILE_SIZE, (x & -TILE_SIZE) + TILE_SIZE,
@@ -187,7 +188,8 @@ static struct rectangle whole_tiles(int32_t x, int32_t y)
     return r;
 }
 
-/* With a cut size of 0 in whole tiles. */
+/* Compares random triangles with the oracle, in random rectangles of `cut_size`, or in whole tiles if it is
+ * 0. */
 static void compare_shape(enum shape shape, int triangles, int32_t cut_size)
 {
     uint64_t covered = 0;
@@ -206,7 +208,7 @@ static void compare_shape(enum shape shape, int triangles, int32_t cut_size)
             covered += a.count[p];
         free(a.count);
     }
-    TEST_ASSERT_GREATER_THAN_UINT64(0, covered); /* the shape is not beside the point */
+    TEST_ASSERT_GREATER_THAN_UINT64(0, covered); /* some of the triangles are in the rectangles */
 }
 
 static void test_tiny_triangles_equal_the_oracle(void)
@@ -285,7 +287,7 @@ static void test_left_and_top_edges_belong_to_the_triangle_right_and_bottom_ones
                              coverage_of(&lower_right, whole)); /* 1 + 2 + 3: the diagonal is its left edge */
 }
 
-static void test_what_is_not_visible_or_misses_the_scissor_is_rejected(void)
+static void test_triangles_that_are_invisible_or_outside_of_the_scissor_are_rejected(void)
 {
     struct triangle_head h = {-1, {0, 4096, 0}, {0, 0, 4096}, 0, 0};
     struct raster r;
@@ -323,8 +325,8 @@ static int by_block(const void *a, const void *b)
     return ((const struct entry *)a)->block - ((const struct entry *)b)->block;
 }
 
-/* A list gives what its triangles give one by one, blocks of a triangle in any order, and stops before one
- * that might not find room. */
+/* A list of triangles gives the same entries as its triangles one by one, except for the order of a
+ * triangle's blocks. It stops before a triangle whose entries might not fit. */
 static void test_lists_are_their_triangles_one_after_the_other(void)
 {
     enum { RECORDS = 11, STRIDE = 64 };
@@ -409,7 +411,7 @@ int main(void)
 {
     UNITY_BEGIN();
     RUN_TEST(test_left_and_top_edges_belong_to_the_triangle_right_and_bottom_ones_do_not);
-    RUN_TEST(test_what_is_not_visible_or_misses_the_scissor_is_rejected);
+    RUN_TEST(test_triangles_that_are_invisible_or_outside_of_the_scissor_are_rejected);
     RUN_TEST(test_a_covered_tile_is_256_whole_blocks);
     RUN_TEST(test_tiny_triangles_equal_the_oracle);
     RUN_TEST(test_triangles_of_a_few_blocks_equal_the_oracle);

@@ -1,5 +1,5 @@
-/* Lines against the definition itself (tests/support/picture/diamond.h): short and long ones, on and
- * beside the places where ties are, in parts, and through the binner's tests. */
+/* Lines are compared with their definition (tests/support/picture/diamond.h): short and long lines, lines at
+ * and near positions of ties, lines in parts, and lines that the binner's tests accept. */
 #include "render/raster/raster.h"
 #include "tests/support/picture/diamond.h"
 
@@ -113,7 +113,7 @@ static struct triangle_head line(int32_t x0, int32_t y0, int32_t x1, int32_t y1,
 
 static const struct rectangle whole = {0, 0, TARGET_SIZE_MAXIMUM, TARGET_SIZE_MAXIMUM};
 
-/* A position in the area: any, or on the middles and borders of pixels, where ties are. */
+/* A position in the area: any, or on the centres and borders of pixels, where ties occur. */
 static int32_t position(int32_t first, int32_t pixels)
 {
     static const int32_t grid[] = {1, 1, 32, 64, 128, 256};
@@ -158,7 +158,7 @@ static void test_all_short_lines_on_a_grid_cover_the_defined_pixels(void)
             }
 }
 
-/* Far ends: the largest positions, seen through an area somewhere on the line. */
+/* The ends have the largest possible positions. The test compares an area somewhere on the line. */
 static void test_lines_from_far_away_are_exact(void)
 {
     for (int i = 0; i < 250; i++) {
@@ -175,7 +175,7 @@ static void test_lines_from_far_away_are_exact(void)
     }
 }
 
-/* Every pixel of the whole by exactly one part, whichever way the parts are cut. */
+/* Exactly one part covers each pixel of the line, whichever way the line is cut. */
 static void test_a_line_in_parts_covers_its_pixels_once(void)
 {
     area_x = area_y = 0;
@@ -195,8 +195,8 @@ static void test_a_line_in_parts_covers_its_pixels_once(void)
     }
 }
 
-/* There and back without last pixels: a closed strip whose ends lie at pixels' centres covers each of its
- * inner pixels on both ways, and each end's pixel once. */
+/* Lines to a point and back, without their last pixels. The ends of this closed strip are at centres of
+ * pixels. It covers each inner pixel twice, and the pixel of each end once. */
 static void test_corners_of_a_closed_strip_are_covered_once(void)
 {
     static const int32_t corner[5][2] = {{10, 10}, {30, 10}, {30, 25}, {10, 25}, {10, 10}};
@@ -249,7 +249,7 @@ static void test_invisible_lines_and_lines_without_length_cover_nothing(void)
     TEST_ASSERT_FALSE(raster_line_prepare(&r, &h, &whole));
 }
 
-/* Tiles that the binner omits have no pixels, over all of a large target. */
+/* Tiles of a large target that the binner omits have no pixels. */
 static void test_tiles_that_are_left_out_are_empty(void)
 {
     for (int i = 0; i < 40; i++) {

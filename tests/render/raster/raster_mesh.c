@@ -1,4 +1,4 @@
-/* The rasterizer and meshes: every centre inside of a closed mesh is covered by exactly one triangle. */
+/* The rasterizer and meshes: exactly one triangle covers each centre inside of a closed mesh. */
 #include "render/raster/raster.h"
 #include "tests/support/geometry/covered.h"
 
@@ -74,7 +74,8 @@ static void expect_ones(const struct covered *a, int32_t border, const char *wha
             }
 }
 
-/* A grid of vertices moved by less than would fold a cell, each cell cut along either diagonal. */
+/* Moves the vertices of a grid by less than the distance that would fold a cell. Each cell is cut along one
+ * of its diagonals. */
 static void test_pixels_inside_a_mesh_are_covered_once(void)
 {
     static const int32_t cell[] = {192, 256, 1024, 5000};
@@ -103,7 +104,8 @@ static void test_pixels_inside_a_mesh_are_covered_once(void)
     }
 }
 
-/* A convex quadrilateral around the area, fanned from a random point in it, corners as far as they go. */
+/* A fan from a random point inside of a convex quadrilateral. The quadrilateral contains the area, and its
+ * corners have the largest positions. */
 static void test_pixels_inside_a_fan_are_covered_once(void)
 {
     enum { SPOKES = 12, EXTENT = 96 };
@@ -128,7 +130,7 @@ static void test_pixels_inside_a_fan_are_covered_once(void)
     }
 }
 
-/* A strip between two chains that move to the right; what it covers is once, and nothing is covered twice. */
+/* A strip between two chains of points that move to the right. No pixel is covered twice. */
 static void test_pixels_of_a_strip_are_covered_at_most_once(void)
 {
     enum { LENGTH = 60 };

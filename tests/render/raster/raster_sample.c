@@ -1,5 +1,6 @@
-/* Coverage of samples: every sample of every pixel has the coverage of the shape moved the other way,
- * tested one pixel at a time; bounds and tiles omit none; entries are in the order of blocks. */
+/* Coverage of samples. A sample is covered if the pixel's centre is covered after the shape is moved by the
+ * negative offset of the sample; the tests check this for each pixel. Bounds and tiles omit no covered
+ * sample, and entries are in the order of blocks. */
 #include "render/raster/raster_sample.h"
 
 #include <stdlib.h>
@@ -62,7 +63,7 @@ static struct triangle_head random_head(enum raster_shape shape)
     return head;
 }
 
-/* Returns true if the shape covers the pixel when it is moved so that the sample lies at the centre. */
+/* Returns 1 if the shape covers the pixel's centre after it is moved so that the sample is at the centre. */
 static int covers(const struct sampling *sampling, enum raster_shape shape, const struct triangle_head *head,
                   const struct rectangle *scissor, int sample, int x, int y)
 {
@@ -102,7 +103,7 @@ static void take_entries(uint32_t count, int column, int row)
     }
 }
 
-/* All tiles that bounds and touches let through. */
+/* Rasterizes all tiles that the tests of bounds and tiles do not reject. */
 static void rasterize(const struct sampling *sampling, enum raster_shape shape,
                       const struct triangle_head *head, const struct rectangle *scissor)
 {

@@ -1,6 +1,5 @@
-/* The kernel for tiny triangles, called through the checked trampoline: it keeps the calling convention,
- * and its results there are those of a plain call. tests/render/raster/raster.c checks the results
- * themselves. */
+/* The kernel for tiny triangles is called through the checked trampoline. It keeps the calling convention,
+ * and its results are those of a plain call. tests/render/raster/raster.c checks the results. */
 #include "render/raster/raster.h"
 #include "tests/support/routine/trampoline.h"
 #include "tests/support/system/seed.h"

@@ -1,5 +1,5 @@
-/* Declarations, streams and vertex formats: where attributes come to lie, and what is refused without a
- * trace. */
+/* Declarations, streams and vertex formats: the positions of attributes, and calls that are refused and
+ * change nothing. */
 #include "contract/key.h"
 #include "render/state/state.h"
 
@@ -29,7 +29,7 @@ static void expect_element(enum triptych_attribute attribute, enum triptych_form
     TEST_ASSERT_EQUAL_UINT_MESSAGE(offset, element->offset, state_attribute_name[attribute]);
 }
 
-static void a_declaration_determines_where_each_attribute_lies(void)
+static void a_declaration_determines_the_position_of_each_attribute(void)
 {
     static const struct triptych_declaration_element elements[] = {
         {0, 0, TRIPTYCH_FORMAT_FLOAT3, TRIPTYCH_USAGE_POSITION, 0},
@@ -181,7 +181,7 @@ static void the_last_vertex_is_the_last_whole_one(void)
 int main(void)
 {
     UNITY_BEGIN();
-    RUN_TEST(a_declaration_determines_where_each_attribute_lies);
+    RUN_TEST(a_declaration_determines_the_position_of_each_attribute);
     RUN_TEST(a_bad_declaration_changes_nothing);
     RUN_TEST(vertex_formats_are_declarations_of_stream_0);
     RUN_TEST(weights_and_indices_share_the_betas);

@@ -1,5 +1,5 @@
-/* Samplers' part of the keys and the job: settings that sample alike have one key, levels and types have what
- * the routine needs. */
+/* The part of samplers in keys and job. Settings that give equal samples have one key, and the job has the
+ * levels that the routine needs. */
 #include "render/derive/derive.h"
 #include "render/texture/format.h"
 
@@ -158,7 +158,7 @@ static void more_anisotropy(void)
     SET_NUMBER(maxanisotropy, 16);
 }
 
-static void anisotropy_that_is_not_used_is_dead(void)
+static void anisotropy_that_is_not_used_does_not_change_the_key(void)
 {
     expect_same(more_anisotropy);
     TEST_ASSERT_EQUAL_INT(MINIFY_SAME, key[UNIT_PIXEL].pixel.minify[0]);
@@ -236,7 +236,7 @@ int main(void)
     RUN_TEST(without_a_filter_between_levels_the_first_is_sampled);
     RUN_TEST(bias_and_the_first_level_are_only_in_the_job);
     RUN_TEST(anisotropy_of_one_is_linear);
-    RUN_TEST(anisotropy_that_is_not_used_is_dead);
+    RUN_TEST(anisotropy_that_is_not_used_does_not_change_the_key);
     RUN_TEST(cubes_are_clamped_whatever_is_set);
     RUN_TEST(only_volumes_address_w);
     RUN_TEST(srgb_is_for_bytes);

@@ -1,4 +1,4 @@
-/* The state: defaults, words, and what is refused with which reason. */
+/* The state: defaults, words, and refusals with their reasons. */
 #include "base/file.h"
 #include "render/state/state.h"
 

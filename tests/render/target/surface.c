@@ -1,4 +1,4 @@
-/* Surfaces of textures on every engine: drawn to, sampled afterwards, read, copied and scaled. */
+/* Surfaces of textures on every engine: draws to them, samples of them, reads, copies and scaling. */
 #include "tests/support/picture/canvas.h"
 
 #include <math.h>
@@ -57,7 +57,7 @@ static void expect_image(const uint32_t *expected, const char *what)
 
 /* --- Drawing to textures --- */
 
-/* Twice over: what is drawn to a texture is sampled to draw to the next one. */
+/* Draws to a texture, and samples it for a draw to the next texture, twice. */
 static void check_chain(void)
 {
     triptych_texture *first = make_flat(TRIPTYCH_SURFACE_A8R8G8B8),
@@ -79,13 +79,13 @@ static void check_chain(void)
     expect_image(texel, "through two textures");
 }
 
-static void test_what_was_drawn_is_sampled(void)
+static void test_a_texture_that_was_drawn_to_is_sampled(void)
 {
     on_every_engine(check_chain);
 }
 
-/* Draws to a texture keep what is there, and a draw recorded before one is drawn to samples what was there.
- */
+/* A draw to a texture keeps its other pixels. A draw that was recorded before a texture is drawn to samples
+ * the earlier texels. */
 static void check_order(void)
 {
     triptych_texture *texture = make_flat(TRIPTYCH_SURFACE_A8R8G8B8);
@@ -109,7 +109,7 @@ static void check_order(void)
         expect_pixel(p % SIZE, p / SIZE, p < SIZE * SIZE / 2 ? 0xffffffff : texel[p], "after it");
 }
 
-static void test_draws_see_textures_as_they_were(void)
+static void test_draws_sample_textures_as_they_were(void)
 {
     on_every_engine(check_order);
 }
@@ -149,7 +149,8 @@ static void test_every_level_and_slice_is_drawn_to(void)
     on_every_engine(check_slices);
 }
 
-/* Two colours of different formats and a depth texture, left and taken up again. */
+/* Draws to two colour textures of different formats and a depth texture, then to others, then to the first
+ * again. */
 static void check_several(void)
 {
     triptych_texture *bytes = make_flat(TRIPTYCH_SURFACE_R5G6B5),
@@ -185,7 +186,7 @@ static void test_colours_and_depth_stay_in_their_textures(void)
     on_every_engine(check_several);
 }
 
-/* Only depth: the way of shadow maps. */
+/* Draws only depth, as for shadow maps. */
 static void check_only_depth(void)
 {
     triptych_texture *depth = make_flat(TRIPTYCH_SURFACE_D24X8);
@@ -206,7 +207,7 @@ static void test_depth_is_drawn_without_colour(void)
     on_every_engine(check_only_depth);
 }
 
-/* An update of a texture that is drawn to is in order with draws before and after it. */
+/* An update of a texture that is drawn to takes effect after earlier draws and before later ones. */
 static void check_update(void)
 {
     static uint32_t row[SIZE];
@@ -267,7 +268,8 @@ static void test_parts_are_copied_both_ways(void)
     on_every_engine(check_copies);
 }
 
-/* Twice as large by points; half as large, linearly, the mean of each four. */
+/* Copies at twice the size with point filtering, and at half the size with linear filtering, which gives the
+ * mean of each four pixels. */
 static void check_scaling(void)
 {
     triptych_texture *texture = make_flat(TRIPTYCH_SURFACE_A32B32G32R32F);
@@ -365,7 +367,7 @@ static void check_refusals(void)
     OK(triptych_draw(device, TRIPTYCH_TRIANGLE_STRIP, 0, 2));
 }
 
-static void test_what_cannot_be_is_refused(void)
+static void test_invalid_surfaces_and_copies_are_refused(void)
 {
     on_every_engine(check_refusals);
 }
@@ -373,8 +375,8 @@ static void test_what_cannot_be_is_refused(void)
 int main(void)
 {
     UNITY_BEGIN();
-    RUN_TEST(test_what_was_drawn_is_sampled);
-    RUN_TEST(test_draws_see_textures_as_they_were);
+    RUN_TEST(test_a_texture_that_was_drawn_to_is_sampled);
+    RUN_TEST(test_draws_sample_textures_as_they_were);
     RUN_TEST(test_every_level_and_slice_is_drawn_to);
     RUN_TEST(test_colours_and_depth_stay_in_their_textures);
     RUN_TEST(test_depth_is_drawn_without_colour);
@@ -382,6 +384,6 @@ int main(void)
     RUN_TEST(test_parts_are_copied_both_ways);
     RUN_TEST(test_copies_are_scaled);
     RUN_TEST(test_copies_are_converted);
-    RUN_TEST(test_what_cannot_be_is_refused);
+    RUN_TEST(test_invalid_surfaces_and_copies_are_refused);
     return UNITY_END();
 }

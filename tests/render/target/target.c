@@ -1,4 +1,5 @@
-/* The target: the place of each pixel in its tile, clears of any part, and reading images of any size. */
+/* The target: the position of each pixel in its tile, clears of any part, and images of any size that are
+ * read. */
 #include "render/target/target.h"
 
 #include "base/bits.h"
@@ -54,7 +55,8 @@ static void read_all(void)
     }
 }
 
-/* The position of a pixel of the target by contract/layout.h: tile, and word in it. */
+/* The position of a pixel according to contract/layout.h: the number of its tile, and of its word in the
+ * tile. */
 static uint32_t tile_of(uint32_t x, uint32_t y)
 {
     return y / TILE_SIZE * target.columns + x / TILE_SIZE;
@@ -92,7 +94,7 @@ static void apply(const struct clear *clear)
         target_clear_tile(&target, tile, clear);
 }
 
-/* Clears of random rectangles, of colour, depth or both, against pixels set one by one. */
+/* Clears random rectangles of colour, depth or both, and compares with pixels that are set one by one. */
 static void clears_set_their_pixels_and_no_others(void)
 {
     uint32_t seed = 9;
@@ -134,7 +136,7 @@ static void clears_set_their_pixels_and_no_others(void)
     }
 }
 
-/* Clears of random rectangles, of depth, stencil or both, which share a word. */
+/* Clears random rectangles of depth, stencil or both, which share a word. */
 static void depth_and_stencil_are_cleared_apart(void)
 {
     uint32_t seed = 5;
@@ -177,8 +179,7 @@ static void depth_and_stencil_are_cleared_apart(void)
     free(z);
 }
 
-/* Every code of a format is the code of the depth that it represents; and codes are in the order of
- * depths. */
+/* The depth that a code represents has this code again. Larger depths have larger codes. */
 static void depth_codes_survive_reading(void)
 {
     static const struct {

@@ -1,5 +1,5 @@
-/* Formats: texels of every supported one, worked out by hand from Direct3D 9's documentation, and the way
- * back. */
+/* Formats: texels of every supported format, computed by hand from Direct3D 9's documentation, decoded and
+ * encoded. */
 #include "render/texture/format.h"
 
 #include <math.h>
@@ -24,7 +24,7 @@ static const struct format *named(const char *name)
 
 /* --- Packed texels --- */
 
-/* A texel's bytes in memory and what it reads as, as a word with alpha on top and red in the low byte. */
+/* A texel's bytes in memory, and its decoded word with alpha in the high byte and red in the low byte. */
 static const struct byte_case {
     const char *format;
     uint8_t data[4];
@@ -160,7 +160,7 @@ static void test_names_and_numbers_find_their_row_and_no_two_are_the_same(void)
 }
 
 /* Channels lie within the block and do not overlap, except that one place may be read as several channels. */
-static void test_channels_lie_side_by_side_within_the_block(void)
+static void test_channels_are_within_the_block_and_do_not_overlap(void)
 {
     for (unsigned i = 0; format_at(i); i++) {
         const struct format *format = format_at(i);
@@ -177,7 +177,7 @@ static void test_channels_lie_side_by_side_within_the_block(void)
     }
 }
 
-/* --- There and back --- */
+/* --- Encoding --- */
 
 static uint64_t seed = 1;
 
@@ -189,9 +189,9 @@ static uint32_t random_word(void)
     return (uint32_t)(seed * 0x2545f4914f6cdd1dull >> 32);
 }
 
-/* Random blocks decoded are values of the format, so that decoding them again after encoding gives the same.
- */
-static void test_encoding_what_was_decoded_gives_the_same_texels(void)
+/* Decoded random blocks are values of the format, so encoding and decoding them again does not change
+ * them. */
+static void test_encoding_decoded_texels_gives_the_same_texels(void)
 {
     for (unsigned i = 0; format_at(i); i++) {
         const struct format *format = format_at(i);
@@ -372,8 +372,8 @@ int main(void)
     RUN_TEST(test_texels_of_more_than_8_bits_or_of_signs);
     RUN_TEST(test_no_format_of_textures_is_left_out_above);
     RUN_TEST(test_names_and_numbers_find_their_row_and_no_two_are_the_same);
-    RUN_TEST(test_channels_lie_side_by_side_within_the_block);
-    RUN_TEST(test_encoding_what_was_decoded_gives_the_same_texels);
+    RUN_TEST(test_channels_are_within_the_block_and_do_not_overlap);
+    RUN_TEST(test_encoding_decoded_texels_gives_the_same_texels);
     RUN_TEST(test_encoding_rounds_to_nearest_and_limits);
     RUN_TEST(test_rows_keep_their_pitch_and_stride);
     RUN_TEST(test_dxt1_of_four_colors);

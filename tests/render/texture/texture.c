@@ -1,5 +1,5 @@
-/* Texture objects: how levels, faces and slices lie in memory, changes of parts, mip levels by the
- * definition, what is refused, and the order of changes and draws. */
+/* Texture objects: the positions of levels, faces and slices in memory, updates of parts, mip levels,
+ * refusals, and the order of updates and draws. */
 #include "render/texture/texture.h"
 #include "tests/support/picture/canvas.h"
 
@@ -85,7 +85,7 @@ static void test_contents_start_as_zeros_of_the_format(void)
         TEST_ASSERT_EQUAL_MEMORY(expected, texture->texels + 4 * i, sizeof expected);
 }
 
-/* --- What is refused --- */
+/* --- Refusals --- */
 
 static void test_bad_descriptions_are_refused_with_a_reason(void)
 {
@@ -171,7 +171,8 @@ static void test_an_update_changes_its_box_and_nothing_else(void)
 
 /* --- Mip levels --- */
 
-/* The definition as areas: what part of source texel j lies within target texel i, when n become m. */
+/* The definition by areas: returns the part of source texel j that is within target texel i, if n source
+ * texels become m target texels. */
 static double covered(unsigned i, unsigned j, unsigned n, unsigned m)
 {
     double low = fmax((double)i * n / m, j), high = fmin((double)(i + 1) * n / m, j + 1);
@@ -237,7 +238,7 @@ static void test_mips_are_means_by_area_whatever_the_size(void)
     check_mips();
 }
 
-/* --- Rows' ends --- */
+/* --- Ends of rows --- */
 
 static void expect_closed_rows(void)
 {
@@ -308,8 +309,8 @@ static void test_mips_round_halves_up_and_each_face_has_its_own(void)
 
 /* --- Order --- */
 
-/* A square of one texel's colour, changed between draws that cover half the target each; nothing is rendered
- * before the end unless the change makes it so. */
+/* Draws squares with the colour of one texel, which changes between draws that cover half the target each.
+ * The device renders them only at the end, or earlier if the change requires it. */
 static void check_order(void)
 {
     const uint32_t before = 0xff112233, after = 0xff445566;
@@ -332,7 +333,7 @@ static void check_order(void)
     expect_pixel(SIZE / 2, SIZE / 2, after, "drawn after the change");
 }
 
-static void test_draws_read_what_was_there_when_they_were_recorded(void)
+static void test_draws_read_the_texels_of_the_time_of_their_recording(void)
 {
     on_every_engine(check_order);
 }
@@ -375,7 +376,7 @@ int main(void)
     RUN_TEST(test_rows_end_with_their_first_texel_after_every_change);
     RUN_TEST(test_texels_are_copied_without_the_ends);
     RUN_TEST(test_mips_round_halves_up_and_each_face_has_its_own);
-    RUN_TEST(test_draws_read_what_was_there_when_they_were_recorded);
+    RUN_TEST(test_draws_read_the_texels_of_the_time_of_their_recording);
     RUN_TEST(test_calls_that_fail_report_why);
     return UNITY_END();
 }

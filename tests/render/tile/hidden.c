@@ -1,5 +1,6 @@
-/* Skipping hidden work changes nothing: the functions against their definitions, and whole scenes of large
- * triangles against the same scenes in strips so narrow that no triangle ever covers a tile. */
+/* Skipping hidden work changes no pixel. The tests compare the functions with their definitions, and scenes
+ * of large triangles with the same scenes cut into strips. The strips are so narrow that no triangle covers a
+ * tile. */
 #include "render/tile/hidden.h"
 
 #include "render/device/device.h"
@@ -105,7 +106,7 @@ static bool in_range(struct depth_range range, uint32_t word)
     return word >= range.least && word <= range.most;
 }
 
-/* All ranges within 0 to 4, and all words in them. */
+/* Checks all ranges from 0 to 4, with all words in them. */
 static void check_ranges(int function, struct depth_range new, struct depth_range stored)
 {
     enum depth_verdict verdict = hidden_verdict(function, new, stored);
@@ -178,7 +179,7 @@ static void set(enum triptych_state state, uint32_t value)
     BOTH(triptych_set_state(device[which], state, value));
 }
 
-/* States that decide whether something may be left out: mostly so that it may. */
+/* Sets random states on which skipping depends. Most of them allow it. */
 static void set_states(bool stencil)
 {
     set(TRIPTYCH_STATE_zenable, below(4) > 0);
@@ -209,7 +210,7 @@ static struct triptych_rectangle random_area(void)
     return r;
 }
 
-/* A triangle over all of the target and more; its depth is one of few, or a slope. */
+/* Binds a triangle that is larger than the target. Its depth is one of a few values, or a slope. */
 static void bind_triangle(void)
 {
     float z[3];
@@ -231,7 +232,7 @@ static void bind_triangle(void)
 
 typedef void action(int which);
 
-/* In one go, and strip by strip. */
+/* Acts on the first device for the whole area, and on the second strip by strip. */
 static void act(const struct triptych_rectangle *area, action *does)
 {
     OK(0, triptych_set_scissor(device[0], area->x, area->y, area->width, area->height));
@@ -317,7 +318,7 @@ static void large_triangles_draw_what_strips_of_them_draw(void)
     }
 }
 
-/* --- What it saves --- */
+/* --- Skipped pixels --- */
 
 static uint64_t pixels_shaded(void)
 {
@@ -339,7 +340,7 @@ static void fill(float z)
     OK(0, triptych_finish(device[0]));
 }
 
-/* A target of 3 x 2 whole tiles, and nothing else. */
+/* Opens a device with a target of 3 x 2 whole tiles. */
 static void open_tiles(void)
 {
     const struct device_options options = {.threads = 1};
@@ -371,7 +372,7 @@ static void uniform_tiles_shade_one_block(void)
     triptych_device_destroy(device[0]);
 }
 
-static void what_is_overwritten_is_not_shaded(void)
+static void overwritten_pixels_are_not_shaded(void)
 {
     open_tiles();
     OK(0, triptych_set_state(device[0], TRIPTYCH_STATE_zenable, 0));
@@ -398,6 +399,6 @@ int main(void)
     RUN_TEST(large_triangles_draw_what_strips_of_them_draw);
     RUN_TEST(hidden_tiles_are_not_shaded);
     RUN_TEST(uniform_tiles_shade_one_block);
-    RUN_TEST(what_is_overwritten_is_not_shaded);
+    RUN_TEST(overwritten_pixels_are_not_shaded);
     return UNITY_END();
 }

@@ -30,7 +30,7 @@ static bool other_temporaries(const struct pixel_key *a, const struct pixel_key 
     return memcmp(a->temporary, b->temporary, sizeof a->temporary) != 0;
 }
 
-/* A difference in a stage that is not the last. */
+/* Returns true if a stage before the last only copies an argument. */
 static bool copies(const struct pixel_key *key)
 {
     bool result = false;

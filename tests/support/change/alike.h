@@ -1,4 +1,4 @@
-/* Reasons for which different keys may have the same code. */
+/* The reasons why different keys may have the same code. */
 #ifndef TESTS_SUPPORT_CHANGE_ALIKE_H
 #define TESTS_SUPPORT_CHANGE_ALIKE_H
 
@@ -7,7 +7,7 @@
 /* Returns true if a reason applies, and marks the reason as needed. */
 bool alike_keys(enum unit unit, const union key *a, const union key *b);
 
-/* The first reason that no two keys needed, or NULL. */
+/* Returns the first reason that no two keys needed, or null. */
 const char *alike_unneeded(void);
 
 #endif

@@ -1,4 +1,4 @@
-/* All different keys that were derived so far. */
+/* The set of all keys that were derived so far. */
 #ifndef TESTS_SUPPORT_CHANGE_KNOWN_H
 #define TESTS_SUPPORT_CHANGE_KNOWN_H
 

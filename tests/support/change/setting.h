@@ -1,4 +1,4 @@
-/* Every setter of the interface, with variants of what it sets, and the device that they set. */
+/* Every setter of the interface, with variants of the values that it sets, and the device that is set. */
 #ifndef TESTS_SUPPORT_CHANGE_SETTING_H
 #define TESTS_SUPPORT_CHANGE_SETTING_H
 
@@ -11,15 +11,15 @@ extern triptych_device *setting_device;
 struct setting {
     const char *name;
     void (*set)(unsigned variant);
-    unsigned never_needed; /* parts that matter for what none of the situations has */
+    unsigned never_needed; /* bits of parts that the setter changes but that no situation needs */
 };
 
 extern const struct setting settings[SETTINGS];
 
-/* One of the setters. It begins and ends a query. */
+/* One of the setters: it begins and ends a query. */
 void setting_count_pixels(unsigned variant);
 
-/* Creates the device, and what is set in it. */
+/* Creates the device and the objects that the setters set. */
 void setting_begin(void);
 
 void setting_end(void);

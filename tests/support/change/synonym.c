@@ -3,7 +3,8 @@
 #include <stddef.h>
 #include <string.h>
 
-/* Words of a state with the same meaning, after their common prefix is removed. */
+/* Pairs of words of a state that have the same meaning. The words' common prefix is left out. `state` is the
+ * beginning of the state's name. */
 static const struct {
     const char *state, *ending, *other, *reason;
 } synonyms[] = {

@@ -7,7 +7,7 @@
 /* Returns true if two words of the state are a row of the table, and marks the row as needed. */
 bool synonym_are(const char *state, const char *a, const char *b);
 
-/* The reason of the first row that no two words needed, or NULL. */
+/* Returns the reason of the first row that no two words needed, or null. */
 const char *synonym_unneeded(void);
 
 #endif

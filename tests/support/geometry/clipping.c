@@ -19,7 +19,7 @@ void clipping_begin(void)
 {
     clipping_state = CLIPPING_SEED;
     clipping_saved = mxcsr_enter();
-    memset(clipping_batch, 0xff, sizeof clipping_batch); /* no lane is what it should be by chance */
+    memset(clipping_batch, 0xff, sizeof clipping_batch); /* so that no lane is correct by chance */
     clipping_job.guard_x = 16.0f;
     clipping_job.guard_y = 12.5f;
     memset(clipping_job.clip_plane, 0, sizeof clipping_job.clip_plane);

@@ -29,7 +29,8 @@ float clipping_uniform(float low, float high);
 
 float *clipping_word(int slot, uint32_t lane);
 
-/* As in spec/vertex/clip.h: every test is for inside, in float. */
+/* Returns the clip code, computed in float as in spec/vertex/clip.h: a bit is set unless the test for
+ * "inside" succeeds. */
 uint32_t clipping_code_of(float x, float y, float z, float w);
 
 uint32_t clipping_code(uint32_t lane);

@@ -1,4 +1,4 @@
-/* How often triangles cover each pixel of a scissor rectangle, drawn as the renderer draws them. */
+/* Counts how often triangles cover each pixel of a scissor rectangle, with the renderer's rasterizer. */
 #ifndef TESTS_SUPPORT_GEOMETRY_COVERED_H
 #define TESTS_SUPPORT_GEOMETRY_COVERED_H
 
@@ -18,10 +18,10 @@ void covered_fail(const struct triangle_head *h, const struct rectangle *cut, in
 
 void covered_count_tile(struct covered *a, const struct triangle_head *h, int column, int row);
 
-/* As the binner does: only the tiles that are not rejected. */
+/* Counts the pixels of a triangle in the tiles that the binner would not reject. */
 void covered_count(struct covered *a, const struct triangle_head *h);
 
-/* Makes the area positive by an exchange; returns false for triangles without area. */
+/* Makes the area positive by an exchange of two vertices. Returns false for triangles without area. */
 bool covered_orient(struct triangle_head *h);
 
 #endif

@@ -1,5 +1,5 @@
-/* The fixture of the tests of derivation: a state that draws lit triangles of 640 x 480 with every common
- * attribute, and what is derived from it. */
+/* The fixture of the tests of derivation: the state of a draw of lit triangles with every common attribute to
+ * a target of 640 x 480, and the keys and the job of this state. */
 #ifndef TESTS_SUPPORT_PICTURE_DERIVATION_H
 #define TESTS_SUPPORT_PICTURE_DERIVATION_H
 
@@ -8,15 +8,15 @@
 #include <unity.h>
 
 extern struct state state;
-extern struct triptych_buffer buffer;   /* of the attributes */
+extern struct triptych_buffer buffer;   /* the attributes' data */
 extern struct triptych_texture texture; /* 64 x 48, one level, not bound */
 extern union key key[UNIT_COUNT];
 extern struct job job;
 
-/* Sets all of these to what every test begins with. */
+/* Sets all of these to their values at the beginning of a test. */
 void derivation_begin(void);
 
-/* Attribute at offset 16 of vertices of 32 bytes. */
+/* Binds an attribute at offset 16 of vertices of 32 bytes. */
 void bind_attribute(enum triptych_attribute attribute, enum triptych_format format);
 
 #define SET(name, word)            set_word(TRIPTYCH_RENDER_STATES, 0, TRIPTYCH_STATE_##name, word)
@@ -26,14 +26,14 @@ void bind_attribute(enum triptych_attribute attribute, enum triptych_format form
 void set_word(enum triptych_state_table table, unsigned i, unsigned row, const char *word);
 void set_value(enum triptych_state which, uint32_t value);
 
-/* Makes the texture another one. */
+/* Changes the texture's description. */
 void describe_texture(enum triptych_texture_type type, unsigned width, unsigned height, unsigned depth,
                       unsigned levels);
 
-/* Keys and job of triangles. */
+/* Derives keys and job for triangles. */
 void derive(void);
 
-/* Derives, changes nothing but a state by `change`, and expects the same keys. */
+/* Derives, calls `change` to change the state, and fails unless the keys are the same. */
 void expect_same_keys(void (*change)(void));
 
 #endif

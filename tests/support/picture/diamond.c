@@ -1,6 +1,6 @@
 /* A diamond is the union of four convex pieces: its open inside, its two lower sides, and for steep lines its
- * right corner. Each is a list of linear conditions; along a line from t = 0 to 1 they are linear in t, and
- * whether some t fulfils them all is decided with fractions. */
+ * right corner. Each piece is a list of linear conditions on the point. Along a line from t = 0 to 1 they are
+ * linear in t, so exact fractions decide if some t fulfils all of them. */
 #include "tests/support/picture/diamond.h"
 
 #include <stdbool.h>
@@ -12,7 +12,8 @@ struct condition {
     bool strict;
 };
 
-/* Returns true if some t from 0 to 1 fulfils all of them: the interval is cut, its ends are fractions. */
+/* Returns true if some t from 0 to 1 fulfils all conditions. Each condition cuts the interval of t, whose
+ * ends are fractions. */
 static bool feasible(const struct condition *c, int count)
 {
     int64_t low = 0, low_over = 1, high = 1, high_over = 1;
@@ -35,8 +36,8 @@ static bool feasible(const struct condition *c, int count)
     return length > 0 || (length == 0 && !low_open && !high_open);
 }
 
-/* p * dx + q * dy < limit, or <=, where dx and dy are the distances of the line's point from the pixel's
- * centre. */
+/* Returns the condition p * dx + q * dy < limit, or <= limit. dx and dy are the distances from the pixel's
+ * centre to the line's point. */
 static struct condition condition(const struct diamond_line *l, int32_t x, int32_t y, int p, int q, int limit,
                                   bool strict)
 {

@@ -1,5 +1,5 @@
-/* Squares drawn by shaders, on the canvas: vertices with any elements, whose values are the same at all four
- * corners unless a test sets otherwise, and targets read as numbers. */
+/* Squares on the canvas, drawn by shaders. Vertices have any elements, and each corner has its own values.
+ * Targets are read as numbers. */
 #ifndef TESTS_SUPPORT_PICTURE_DRAWN_H
 #define TESTS_SUPPORT_PICTURE_DRAWN_H
 
@@ -14,15 +14,15 @@ struct drawn_element {
     float value[4][4]; /* at the upper left, upper right, lower left, lower right */
 };
 
-extern float drawn_position[4][4];  /* the whole target at depth 0.5 when a test begins with drawn_begin */
-extern float drawn[SIZE * SIZE][4]; /* where read_numbers reads to */
+extern float drawn_position[4][4];  /* drawn_begin sets it to the whole target at depth 0.5 */
+extern float drawn[SIZE * SIZE][4]; /* the result of read_numbers */
 
 void drawn_begin(void);
 
 /* Sets both shaders from text; null: the fixed function. */
 void use_shaders(const char *vertex, const char *pixel);
 
-/* An element that is the same everywhere. */
+/* Returns an element with the same value at all corners. */
 struct drawn_element drawn_constant(enum triptych_usage usage, unsigned index, float x, float y, float z,
                                     float w);
 
@@ -30,7 +30,7 @@ struct drawn_element drawn_constant(enum triptych_usage usage, unsigned index, f
 void draw_declared(enum triptych_usage position, const struct drawn_element *elements, unsigned count);
 void draw_points(const struct drawn_element *elements, unsigned count);
 
-/* A target that keeps numbers as they are. */
+/* Sets a target whose channels are binary32, so that it stores the shader's results without rounding. */
 void use_float_target(void);
 
 /* Reads target t; fails unless the pixel has these channels. */

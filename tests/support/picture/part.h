@@ -1,15 +1,15 @@
-/* A small part of a target of numbers, drawn by shaders with the same coordinates at every pixel. */
+/* A small part of a binary32 target, drawn by shaders with the same coordinates at every pixel. */
 #ifndef TESTS_SUPPORT_PICTURE_PART_H
 #define TESTS_SUPPORT_PICTURE_PART_H
 
 #include "drawn.h"
 
-enum { PART = 8 }; /* pixels at the upper left that are drawn */
+enum { PART = 8 }; /* the part has PART x PART pixels, at the upper left of the target */
 
-/* Places the square on the part. */
+/* Sets the positions of the square to the part. */
 void part_place(void);
 
-/* The same, on a target that keeps numbers as they are. */
+/* The same, on a new binary32 target. */
 void part_begin(void);
 
 /* Draws with the same two sets of coordinates everywhere, and reads the numbers. */

@@ -5,7 +5,7 @@
 #include "render/device/device.h"
 #include "emu/emulate/bind.h"
 #include "shader/program/program.h"
-/* The routines are read along and not used. */
+/* The header defines the three routines too, which are not used here. */
 #pragma GCC diagnostic ignored "-Wunused-function"
 #include "spec/spec.h"
 
@@ -15,7 +15,7 @@
 #include <string.h>
 #include <unity.h>
 
-/* The values that a draw would have derived. */
+/* The values that a draw derives. */
 struct derived {
     struct vertex_key vertex;
     struct pixel_key pixel;

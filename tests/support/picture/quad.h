@@ -1,6 +1,6 @@
-/* One quad of pixels, or four vertices, shaded by the specification's machine under the emulator's binding:
- * registers go in as they are, and come out before anything else is done to them. Textures, samplers and bump
- * matrices are those of a device. */
+/* One quad of pixels, or four vertices, shaded by the shader part of the specification under the emulator's
+ * binding. The test sets the input registers directly and reads the output registers before any later step.
+ * Textures, samplers and bump matrices are those of a device. */
 #ifndef TESTS_SUPPORT_PICTURE_QUAD_H
 #define TESTS_SUPPORT_PICTURE_QUAD_H
 
@@ -10,7 +10,7 @@
 
 enum { QUAD_LANES = 4, QUAD_REGISTERS = 8, QUAD_CONSTANTS = 32 };
 
-/* By register, component and lane; lanes are the quad's pixels by rows. */
+/* Registers by number, component and lane. Lanes are the quad's pixels by rows. */
 struct quad {
     float v[QUAD_REGISTERS][4][QUAD_LANES]; /* both v# and t# */
     float constant[QUAD_CONSTANTS][4];
@@ -30,7 +30,7 @@ void quad_shade(const triptych_device *device, const char *text, const struct qu
 void quad_set_lanes(struct quad *quad, int r, int c, float value);
 void quad_set(struct quad *quad, int r, float x, float y, float z, float w);
 
-/* Fails unless the color of the lane, or of every lane, is the expected one; any NaN equals another. */
+/* Fail unless the colour of the lane, or of every lane, is the expected one. Any NaN equals any other. */
 void quad_expect(const struct quad_result *result, int lane, const float expected[4], const char *what);
 void quad_expect_all(const struct quad_result *result, const float expected[4], const char *what);
 

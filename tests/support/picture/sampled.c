@@ -76,7 +76,7 @@ uint32_t sampled_word(int face, int level, int index)
 
 /* --- The definition ------------------------------------------------------------------------------------ */
 
-static int unsure; /* the pixel is too near to another texel or level */
+static int unsure; /* rounding decides between two texels or levels of the pixel */
 
 static long nearest(double value, double margin)
 {
@@ -95,7 +95,7 @@ static int clamped(long index, int size)
     return index < 0 ? 0 : index >= size ? size - 1 : (int)index;
 }
 
-/* The index in the image, or -1 for the border. */
+/* Returns the index in the image, or -1 for the border. */
 static int addressed(long index, int size, int mode)
 {
     int within_two = modulo(index, 2 * size);
@@ -136,7 +136,7 @@ static uint32_t texel_at(int face, int level, const long index[3])
     return store[face][level][(at[2] * level_side(level, 1) + at[1]) * level_side(level, 0) + at[0]];
 }
 
-/* Blends along the axes below `axis`; the others' indices are those of `index`. */
+/* Blends along the first `axis` axes. `index` has the indices of the other axes. */
 static uint32_t blend_axes(int face, int level, int axis, long index[3], const unsigned weight[3])
 {
     if (axis == 0)
@@ -190,7 +190,7 @@ static long lambda_of(double rho)
     return rho > 0 ? nearest(lambda, 2e-2) : -1000000;
 }
 
-/* From coordinates of a face and their changes to the next pixel across and down. */
+/* Returns the expected texel for coordinates of a face and their changes to the next pixel in x and in y. */
 static uint32_t expected_sample(int face, const double at[3], const double across[3], const double down[3])
 {
     double a = length_of(across), d = length_of(down), rho = fmax(a, d);
@@ -217,7 +217,7 @@ static uint32_t expected_sample(int face, const double at[3], const double acros
     return word;
 }
 
-/* The face that a vector meets; turns vectors to its s, t and m. */
+/* Returns the face of a vector, and replaces the vectors by their s, t and m on this face. */
 static int cube_face(const double v[3])
 {
     double x = fabs(v[0]), y = fabs(v[1]), z = fabs(v[2]);

@@ -1,5 +1,5 @@
-/* Pictures of a sampled texture, computed a second time in doubles and integers, from coordinates that are
- * exact in binary; where a cube's are not, pixels too near to the next texel are left out. */
+/* Pictures of a sampled texture, computed a second time in doubles and integers. The coordinates are exact in
+ * binary, except on cubes. There, pixels are left out if rounding decides which texel they have. */
 #ifndef TESTS_SUPPORT_PICTURE_SAMPLED_H
 #define TESTS_SUPPORT_PICTURE_SAMPLED_H
 
@@ -16,7 +16,7 @@ enum {
 };
 enum { SAMPLED_MIP_NO, SAMPLED_MIP_NEAREST, SAMPLED_MIP_BOTH };
 
-/* A texture as it is bound, and how it is sampled. */
+/* The bound texture, and the states of its sampler. */
 struct sampled {
     enum triptych_texture_type type;
     int size[3], levels, faces;
@@ -26,27 +26,28 @@ struct sampled {
 };
 extern struct sampled sampled;
 
-/* Coordinates at the centre of the target, and their changes across and down the whole of it. */
+/* Coordinates at the centre of the target, and their changes over its whole width and height. */
 struct sampled_coordinates {
     double centre[3], across[3], down[3];
 };
 
-/* Texels larger than pixels, and smaller ones, in directions of their own. */
+/* Coordinates that make texels larger than pixels, and smaller ones. No axis is parallel to those of
+ * pixels. */
 extern const struct sampled_coordinates sampled_magnified, sampled_minified;
 
-/* Defines and binds a texture of random texels; all else of `sampled` is 0. */
+/* Defines and binds a texture of random texels, and sets the other members of `sampled` to 0. */
 void sampled_define(enum triptych_texture_type type, int width, int height, int depth, int levels);
 
-/* The texel's word. */
+/* Returns the word of a texel. */
 uint32_t sampled_word(int face, int level, int index);
 
 /* Draws with the sampling of `sampled`, and reads the picture. */
 void sampled_show(const struct sampled_coordinates *c);
 
-/* The same; fails unless each pixel that is not left out is the expected one. */
+/* The same. Fails unless each pixel has the expected word, except pixels that are left out. */
 void sampled_check(const struct sampled_coordinates *c);
 
-/* Fails if more than the share of the pixels since the last call was left out. */
+/* Fails if more than this share of the pixels was left out since the last call. */
 void sampled_expect_few_left_out(double share);
 
 #endif

@@ -35,7 +35,7 @@ static unsigned number(struct reader *r, unsigned limit)
     return (unsigned)value;
 }
 
-/* The next word's place in a list. */
+/* Returns the index of the next word in a list. */
 static unsigned choice(struct reader *r, const char *const *words, unsigned count)
 {
     next(r);
@@ -87,7 +87,7 @@ static enum triptych_result set_stage(struct reader *r)
     return set_value(r, TRIPTYCH_STAGE_STATES);
 }
 
-/* A texture of this description without texels, the same at every call. */
+/* Returns a texture of this description without texels. Equal descriptions give the same texture. */
 static struct triptych_texture *texture_of(const struct triptych_texture_description *description)
 {
     static uint32_t texel[4];
@@ -273,7 +273,8 @@ static void bind_attributes(struct situation *situation)
         bind(situation, TRIPTYCH_TEXCOORD + i, TRIPTYCH_FORMAT_FLOAT4);
 }
 
-/* Rotated, moved and scaled by different amounts: no element is like another's default. */
+/* Sets matrices that rotate, move and scale by different amounts, so that no element has its default
+ * value. */
 static void transform(struct situation *situation)
 {
     static const float world[4][4] = {{0, 2, 0, 0}, {-2, 0, 0, 0}, {0, 0, 2, 0}, {1, 2, 3, 1}};

@@ -1,4 +1,4 @@
-/* Situations: states in which a draw can happen, described in a few words, without a device.
+/* Situations: states in which a draw can happen. A short text describes each, and no device is needed.
  *
  * A description is a row of statements:
  *   state NAME VALUE               VALUE is one of the state's words, or a number
@@ -15,8 +15,8 @@
  *   vertex NAME, pixel NAME        a shader, a row of tests/support/shader/programs.def; none: the fixed
  *                                  function
  *   booleans STAGE BITS            constants: 0 of vertices, 1 of pixels
- * At first, every attribute is given that does not change the purpose of the others. Everything that is not a
- * numbered state has distinct values: materials, matrices, clip planes, a scissor rectangle
+ * At first, a situation has every attribute that does not change the purpose of other attributes. Everything
+ * that is not a numbered state has distinct values: materials, matrices, clip planes, and a scissor rectangle
  * inside the viewport. */
 #ifndef TESTS_SUPPORT_PICTURE_SITUATION_H
 #define TESTS_SUPPORT_PICTURE_SITUATION_H
@@ -28,11 +28,11 @@ struct situation {
     enum triptych_primitive drawn;
 };
 
-/* Starts with the state above. */
+/* Sets the situation to this first state. */
 void situation_start(struct situation *situation);
 
-/* Follows a description. Returns null; or, if it needs a feature that is not supported, the reason. Anything
- * else that is wrong in it ends the test. */
+/* Executes a description. Returns null, or the reason if it needs a feature that is not supported. Any other
+ * error in the description fails the test. */
 const char *situation_add(struct situation *situation, const char *description);
 
 #endif

@@ -21,7 +21,7 @@ static int slices_of(const struct model_texture *t, int level)
 
 /* --- Making -------------------------------------------------------------------------------------------- */
 
-/* One image of a face or a slice, as it goes to the device. */
+/* Writes one image of a face or a slice to the device's texture. */
 static void update(struct model_texture *t, triptych_device *to, int level, int slice)
 {
     static uint8_t bytes[MODEL_SIDE * MODEL_SIDE * 4];
@@ -117,7 +117,7 @@ int model_face(const double v[3], double place[2])
 
 /* --- Filters ------------------------------------------------------------------------------------------- */
 
-/* a and b by the fraction of 256. */
+/* Returns a + (b - a) * fraction / 256, rounded as the specification rounds bytes or binary32 texels. */
 static float blend(const struct model_texture *t, float a, float b, int fraction)
 {
     if (!t->floats)

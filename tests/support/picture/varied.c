@@ -37,7 +37,7 @@ void varied_begin(triptych_device *device)
     bind(device, buffer);
 }
 
-/* State 0 and those next to it draw something. */
+/* State 0 and the states next to it cover pixels. */
 void varied_draw(triptych_device *device, unsigned n)
 {
     OK(triptych_set_state(device, TRIPTYCH_STATE_srcblend, 1 + (n + 4) % 9));

@@ -1,5 +1,5 @@
-/* A picture of a few pixels, drawn in any of VARIED_STATES different states: for tests that need many
- * routines, or a few small ones. */
+/* A picture of a few pixels, drawn in any of VARIED_STATES different states, for tests that need many or
+ * small routines. */
 #ifndef TESTS_SUPPORT_PICTURE_VARIED_H
 #define TESTS_SUPPORT_PICTURE_VARIED_H
 
@@ -12,15 +12,15 @@ struct varied_image {
     float depth[VARIED_SIZE * VARIED_SIZE];
 };
 
-/* Sets the target and what all draws have in common; fails the test when something is refused. */
+/* Sets the target and the state that all draws have in common. Fails the test if a call fails. */
 void varied_begin(triptych_device *device);
 
-/* Draws in state n, over what is there. */
+/* Draws in state n without a clear. */
 void varied_draw(triptych_device *device, unsigned n);
 
 void varied_read(triptych_device *device, struct varied_image *image);
 
-/* The same of `count` states from n on, by a new device of the engine. */
+/* Draws in `count` states from n on, with a new device of the engine. */
 void varied_render(const struct engine *engine, const struct device_options *options, unsigned n,
                    unsigned count, struct varied_image *image);
 

@@ -1,5 +1,4 @@
-/* An instruction that the encoder wrote, read again by a disassembler: each requirement that it does not meet
- * fails the test. */
+/* Disassembles an instruction that the encoder wrote, and fails the test if a requirement is not met. */
 #ifndef TESTS_SUPPORT_ROUTINE_DECODED_H
 #define TESTS_SUPPORT_ROUTINE_DECODED_H
 

@@ -1,14 +1,15 @@
-/* Copies of the emulator with one fault each, for tests of the tools that find faults. */
+/* Copies of the emulator with one fault each, for tests of the tools that find faults. The fault happens in
+ * each call of a pixel routine. */
 #ifndef TESTS_SUPPORT_ROUTINE_WRONG_H
 #define TESTS_SUPPORT_ROUTINE_WRONG_H
 
 #include "contract/engine.h"
 
 enum wrong {
-    WRONG_COLOR, /* draws with the alpha test have one bit more in a pixel */
-    WRONG_DEPTH, /* draws with stencil have one bit less in depth */
-    WRONG_CRASH, /* the same: ends the process */
-    WRONG_HANG,  /* never returns */
+    WRONG_COLOR, /* one bit of a pixel is wrong */
+    WRONG_DEPTH, /* one bit of a depth is wrong */
+    WRONG_CRASH, /* the call ends the process */
+    WRONG_HANG,  /* the call never returns */
     WRONG_COUNT
 };
 

@@ -3,9 +3,9 @@
 #
 #   tests/support/scripts/coverage.sh BUILD LEAST
 #
-# Prints a row per file of src/ and emu/ and the total, lines that are code and lines of them that ran; ends
-# non-zero when less than LEAST per cent did. A header that several objects include counts once: a line ran if
-# it ran in any of them.
+# Prints a row for each file of src/ and emu/ and for the total: the number of lines with code, and how many
+# of them ran. Ends non-zero if less than LEAST per cent ran. A header that several objects include counts
+# once: a line ran if it ran in any of them.
 # LINES=1 prints the lines that did not run instead.
 set -euo pipefail
 cd "$(dirname "$0")/../../.."

@@ -69,7 +69,7 @@ if ! command -v apt-get >/dev/null || ! command -v dpkg-query >/dev/null; then
     stop 'this is no Debian (no apt-get, no dpkg-query), so the packages above cannot be installed from here'
 fi
 
-# dpkg-query fails for names it has never heard of, which is an answer too.
+# dpkg-query fails for packages that it does not have in its list; these are not installed.
 installed=$(dpkg-query -W -f '${db:Status-Status} ${Package}\n' "${wanted[@]}" 2>/dev/null |
     sed -n 's/^installed //p') || true
 missing=()
@@ -87,7 +87,7 @@ if ((EUID)); then
         stop 'installing needs root: run as root, or install sudo, or install the packages above yourself'
     administrator=(sudo "${administrator[@]}")
 fi
-# A third party's unreachable source makes update fail without mattering here: installing decides.
+# An unreachable third-party source makes the update fail. That is not an error if the installation succeeds.
 "${administrator[@]}" apt-get update -qq ||
     printf '%s\n' 'dependencies: apt-get update had failures, trying with what is there' >&2
 "${administrator[@]}" apt-get install -y -qq --no-install-recommends -o Dpkg::Use-Pty=0 \

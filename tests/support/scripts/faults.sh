@@ -1,13 +1,13 @@
 #!/bin/bash
-# Refuses everything once: the tests of tests/fault with every request and every call, and checks that each
-# place of src/ and emu/ that requests memory was refused it.
+# Runs the tests of tests/fault with a fault at every request and every call, and checks that each place of
+# src/ and emu/ that requests memory had a request refused.
 #
 #   tests/support/scripts/faults.sh BUILD
 #
-# A place is a line that calls one of the functions below; it has been refused when code of that line, or of
-# the few around it that a statement takes, was. EXCEPT names what the tests cannot reach, with the reason.
-# Prints what the tests print, the places that were never refused, and a summary. Ends non-zero when
-# something failed.
+# A place is a line that calls one of the functions below. It had a refusal if the code of this line, or of a
+# line next to it (a statement can have several lines), had one. EXCEPT names the files that the tests cannot
+# reach, with the reason. Prints the tests' output, the places that never had a refusal, and a summary. Ends
+# non-zero if something failed.
 set -uo pipefail
 cd "$(dirname "$0")/../../.."
 
@@ -27,7 +27,7 @@ for name in device record command thread disk interrupt memory; do
     : >"$sites"
     TRIPTYCH_SOAK=1 TRIPTYCH_FAULT_SITES=$sites "$build/tests/fault/$name" || failed=1
     [[ -s $sites ]] || continue
-    # Return addresses: the call is in front of them.
+    # These are return addresses: the call is before them.
     while read -r address; do printf '0x%x\n' $((address - 1)); done <"$sites" |
         addr2line -i -e "$build/tests/fault/$name" |
             sed -En 's/ \(discriminator.*//; s,^.*/((src|emu)/[^/]*/?[^/]*:[0-9]+)$,\1,p' >>"$refused"

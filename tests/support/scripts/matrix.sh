@@ -1,16 +1,16 @@
 #!/bin/bash
-# The same bytes from every compiler, at every level of optimisation, with and without AVX-512:
+# Checks that every compiler gives the same bytes, at every level of optimisation, with and without AVX-512:
 #
 #   tests/support/scripts/matrix.sh BUILD
 #
-# Builds the command in BUILD/COMPILER-LEVEL for each combination, all warnings being errors. Each build
-# draws the first frame of all streams with all engines and two threads (`triptych verify`: they agree with
-# each other), compares the emulator's pictures with the goldens, and at level 2 also draws some streams with
-# the external engine, whose compiler is then the same. The digests that verify prints are over all bytes of
-# a frame: colours of every target and sample, depths, stencils and the counts of queries. They have to be
-# the same in all combinations.
+# Builds the command in BUILD/COMPILER-LEVEL for each combination, with all warnings as errors. Each build
+# draws the first frame of all streams with all engines and two threads (`triptych verify` compares them), and
+# compares the emulator's pictures with the goldens. At level 2 it also draws some streams with the external
+# engine, which then uses the same compiler. The digests that verify prints include all bytes of a frame:
+# colours of every target and sample, depths, stencils and the counts of queries. They must be the same in all
+# combinations.
 #
-# Prints a row per combination, writes the table to results/matrix.txt, and ends non-zero after any
+# Prints a row for each combination, and writes the table to results/matrix.txt. Ends non-zero after any
 # difference.
 set -uo pipefail
 cd "$(dirname "$0")/../../.."

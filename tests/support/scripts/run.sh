@@ -1,18 +1,18 @@
 #!/bin/bash
-# Runs the tests of one or more builds and sums them up.
+# Runs the tests of one or more builds and prints a summary.
 #
 #   tests/support/scripts/run.sh FILTER BUILD...
 #
 # A build's tests are its Unity programs, BUILD/tests/**, one for every source tests/**/*.c outside
 # tests/support/ and tests/command/fuzz/targets/, and the executable scripts tests/*.sh, which print a line
-# "ok NAME" or "FAIL NAME" per test and are given TRIPTYCH (the command), BUILD (the build), SANITIZE=1 if the
-# build is instrumented for sanitizers, and SLOW=1 if it is instrumented for anything. A build that watches
-# threads has only some programs; these are run, and threads.sh.
+# "ok NAME" or "FAIL NAME" for each test. Their environment contains TRIPTYCH (the command), BUILD (the
+# build), SANITIZE=1 if the build is instrumented for sanitizers, and SLOW=1 if it is instrumented in any way.
+# A build with the thread sanitizer has only some programs; these and threads.sh are run.
 # FILTER keeps the tests whose path contains it.
 #
-# Prints a line per program as it ends, the output of a failing one, and last of all "N passed, N failed". A
-# program that crashes, hangs, runs no test, or ends with a status that contradicts what it printed counts as
-# one more failure. Exits non-zero after any failure, and when nothing ran.
+# Prints a line when a program ends, the output of failing programs, and at the end "N passed, N failed". A
+# program counts as one more failure if it crashes, hangs, runs no test, or ends with a status that
+# contradicts its output. Exits non-zero after any failure, or if nothing ran.
 set -uo pipefail
 cd "$(dirname "$0")/../../.."
 ulimit -c 0
@@ -39,7 +39,7 @@ run_one() # NUMBER BUILD TEST : reports, and leaves "PASSED FAILED" in the resul
         grep -q -e -fsanitize "$build/flags" && export SANITIZE=1 SLOW=1
         grep -q -e --coverage "$build/flags" && export SLOW=1
     fi
-    # The group swallows bash's own notice of a signal.
+    # The braces redirect bash's own message about a signal.
     { timeout -k 10 "$limit" "${program[@]}" >"$output" 2>&1 </dev/null || status=$?; } 2>/dev/null
 
     if [[ $test == *.sh ]]; then
@@ -74,7 +74,7 @@ run_one() # NUMBER BUILD TEST : reports, and leaves "PASSED FAILED" in the resul
 }
 export -f run_one
 
-# Scripts first, for the longest tests are among them.
+# Scripts are first because the longest tests are scripts.
 tests=()
 while IFS= read -r test; do
     [[ $test != *"$filter"* ]] || tests+=("$test")
@@ -97,7 +97,7 @@ done
 
 passed=0 failed=0
 for ((i = 0; i < count; i++)); do
-    good=0 bad=1 # if the run left no result at all
+    good=0 bad=1 # if the run wrote no result
     [[ ! -f $results/$i.counts ]] || read -r good bad <"$results/$i.counts"
     passed=$((passed + good)) failed=$((failed + bad))
 done

@@ -1,15 +1,16 @@
 #!/bin/bash
-# Random tests with seed after seed, for the requested time:
+# Runs random tests with one seed after another, for the requested time:
 #
 #   tests/support/scripts/soak.sh SECONDS BUILD INSTRUMENTED [FIRST]
 #
-# With each of the seeds FIRST (1), FIRST + 1 ...: a campaign of `triptych fuzz` on BUILD, as long as a
-# minute, a shorter one on INSTRUMENTED, and there the programs that draw their numbers from TRIPTYCH_SEED
-# (tests/support/system/seed.h). Findings stay in INSTRUMENTED/soak: streams that show a difference, reduced,
-# and the output of programs. A failure ends nothing; a program that takes more than five minutes hangs.
-# Prints a line per seed, on a terminal what is at work meanwhile, and last of all a summary, also when it is
-# interrupted.
-# Ends non-zero when something failed.
+# For each of the seeds FIRST (default 1), FIRST + 1 ... it runs a campaign of `triptych fuzz` on BUILD, at
+# most a minute long; a shorter campaign on INSTRUMENTED; and the programs of INSTRUMENTED that use
+# TRIPTYCH_SEED (tests/support/system/seed.h). Findings are written to INSTRUMENTED/soak: reduced streams that
+# show a difference, and the output of failing programs. A failure does not end the run. A program that needs
+# more than five minutes counts as hanging.
+#
+# Prints a line for each seed, on a terminal also the current step, and at the end or after an interrupt a
+# summary. Ends non-zero if something failed.
 set -uo pipefail
 cd "$(dirname "$0")/../../.."
 

@@ -3,9 +3,9 @@
 #
 #   tests/support/scripts/unity.sh DIRECTORY
 #
-# No Debian binary package holds Unity; cJSON's source package carries it in tests/unity. It is fetched with
-# the machine's own apt sources (mirror, keys, proxy), read as deb-src into a private apt directory, so that
-# nothing in /etc/apt is touched and no privilege is needed. apt checks the signature and the hashes.
+# No Debian binary package contains Unity, but cJSON's source package does, in tests/unity. The script uses
+# the machine's own apt sources (mirror, keys, proxy), reads them as deb-src and puts them into a private apt
+# directory. So /etc/apt does not change, and no privilege is needed. apt checks the signature and the hashes.
 set -euo pipefail
 
 target=$1
@@ -24,8 +24,8 @@ trap 'rm -rf "$work"' EXIT
 mkdir -p "$work"/{state/lists/partial,cache/archives/partial,sources,download,unpacked}
 
 # --- The machine's Debian sources, as deb-src ---------------------------------------------------------------
-# Kept: entries with a component "main" of this release, its updates or its security updates. That leaves out
-# third parties, which may be unreachable and have no cJSON.
+# Only entries with a component "main" of this release, its updates or its security updates are used. Sources
+# of third parties may be unreachable and do not have cJSON.
 
 release=$(. /etc/os-release && printf '%s' "${VERSION_CODENAME:-}")
 suites="^(${release:-none}|stable|oldstable|testing|unstable|sid)((-|/)(security|updates))?/?$"
@@ -52,7 +52,8 @@ done | sort -u >"$work/sources/machine.list"
 
 for file in /etc/apt/sources.list.d/*.sources; do
     [[ -r $file ]] || continue
-    # Stanzas "Field: value", continued on indented lines, apart by empty lines; # lines are comments.
+    # Stanzas of "Field: value" are separated by empty lines. Indented lines continue a field. Lines with #
+    # are comments.
     awk -v suites="$suites" '
         function flush(    count, part, i, suite, kept, main) {
             count = split(value["suites"], part, /[ \t\n]+/)
@@ -88,7 +89,7 @@ options=(-qq
 ((EUID)) || options+=(-o APT::Sandbox::User=root)
 
 printf 'Fetching Unity from the source package of cJSON\n'
-# One failing archive of several does not matter; the download decides.
+# The update fails if one of several archives fails. That is not an error if the download succeeds.
 apt-get "${options[@]}" update >"$work/log" 2>&1 || true
 if ! (cd "$work/download" && apt-get "${options[@]}" source --download-only cjson) >>"$work/log" 2>&1; then
     cat "$work/log" >&2
@@ -100,5 +101,5 @@ archives=("$work"/download/cjson_*.orig.tar.*[!c])
 tar -xf "${archives[0]}" -C "$work/unpacked" --wildcards --strip-components=3 '*/tests/unity/*'
 [[ -f $work/unpacked/src/unity.c ]] || stop "no tests/unity/src/unity.c in ${archives[0]##*/}"
 
-# Renaming is the last step, so that an interrupted fetch leaves nothing that looks complete.
+# The rename is the last step, so that an interrupted fetch leaves no folder that looks complete.
 mv -T "$work/unpacked" "$target" 2>/dev/null || [[ -f $target/src/unity.c ]] || stop "cannot write $target"

@@ -87,7 +87,7 @@ static uint32_t gather_word(const struct interpreter *in, const struct ir_instru
     return word;
 }
 
-/* The end of the region that a join follows. */
+/* Returns the number of the `end` of the region before a join. */
 static uint32_t joined_end(const struct ir *ir, uint32_t number)
 {
     while (ir->instruction[number].op != IR_end)
@@ -138,7 +138,7 @@ static int any_lane(const struct interpreter *in, unsigned mask)
     return any != 0;
 }
 
-/* All phis of the loop that ends at `again` become their next values. */
+/* Sets all phis of the loop that ends at `again` to their next values. */
 static void give_next(struct interpreter *in, uint32_t again)
 {
     for (uint32_t n = again - 1; in->ir->instruction[n].op == IR_next || in->ir->instruction[n].op == IR_nop;
@@ -150,7 +150,7 @@ static void give_next(struct interpreter *in, uint32_t again)
     }
 }
 
-/* Where control goes on from a region's beginning or end. */
+/* Returns the number of the instruction that is executed after the beginning or end of a region. */
 static uint32_t follow(struct interpreter *in, uint32_t number)
 {
     const struct ir_instruction *i = &in->ir->instruction[number];

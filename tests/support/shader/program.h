@@ -1,7 +1,8 @@
-/* Small IR programs over arrays: made at random, interpreted straight from the table, compiled and run.
+/* Small random IR programs over arrays: they are interpreted by the expressions of def/op.def, and compiled
+ * and run by the specializer.
  *
  * A program reads words from INPUT (ARRAYS arrays of LANES words) and from the job, gathers from tables, and
- * stores to slots of OUTPUT; it is what a vertex routine is, so the vertex frame runs it. */
+ * stores to slots of OUTPUT. It has the form of a vertex routine, so the vertex frame runs it. */
 #ifndef TESTS_SUPPORT_SHADER_PROGRAM_H
 #define TESTS_SUPPORT_SHADER_PROGRAM_H
 
@@ -13,55 +14,57 @@ enum { PROGRAM_LANES = 64, PROGRAM_ARRAYS = 4, PROGRAM_STORES = 8, PROGRAM_TABLE
 struct program_data {
     struct job job;
     uint32_t input[PROGRAM_ARRAYS * PROGRAM_LANES];
-    uint32_t table
-        [PROGRAM_TABLE]; /* what is gathered from, by pointers in the job's attributes and first texture */
+    uint32_t table[PROGRAM_TABLE]; /* for gathers: the job's attributes and first texture point to it */
     alignas(64) float output[SLOT_COUNT * VERTEX_CAPACITY];
 };
 
 uint32_t program_random(uint64_t *seed);
 
-/* Lanes that this machine has code for, in turn. */
+/* Returns a number of lanes that this machine can execute; consecutive numbers choose them in turn. */
 unsigned program_width(uint64_t number);
 
-/* The bits of an edge of binary32 or of integers, or of an ordinary float. */
+/* Returns the bits of an edge value of binary32 or of integers, or of an ordinary float. */
 uint32_t program_word(uint64_t *seed);
 
-/* Fills input, job and table with edges and ordinary values. `data`, or a copy of it made while it exists,
- * can be run. */
+/* Fills input, job and table with edge values and ordinary values. Programs can run on `data` and on copies
+ * of it. The copies contain pointers into `data`, which must exist as long as they do. */
 void program_fill(struct program_data *data, uint64_t *seed);
 
-/* A valid program of about `length` operations, regions included. */
+/* Makes a valid program of about `length` operations, with regions. */
 void program_make(struct ir *ir, unsigned length, uint64_t *seed);
 
-/* The same with nested regions, loops of up to three passes that end lane by lane, and variables. */
+/* The same with nested regions, variables, and loops whose lanes end after up to three passes each. */
 void program_make_loops(struct ir *ir, unsigned length, uint64_t *seed);
 
-/* Either, with operations that no recording has but the intermediate representation allows: values of loops
- * that are used after them, and in OUTPUT scattered words, words broadcast from there, and lanes that are not
- * where they were stored, which depends on how many lanes run together. */
+/* One of the two kinds, with operations that the IR allows and that recordings do not contain: values of
+ * loops that are used after the loop, scattered stores to OUTPUT, broadcasts from it, and loads of OUTPUT at
+ * other lanes than those that were stored. The results of such loads depend on the number of lanes that run
+ * together. */
 void program_make_wild(struct ir *ir, unsigned length, uint64_t *seed);
 
-/* Runs every lane through the IR by def/op.def's expressions, under the contract's MXCSR. */
+/* Executes the program with the expressions of def/op.def, under the contract's MXCSR. */
 void program_interpret(const struct ir *ir, struct program_data *data, unsigned width);
 
-/* The same; the observer receives every value of every lane. */
+/* The same. The observer receives every value of every lane, with the number of its instruction. */
 typedef void program_observer(void *context, uint32_t number, uint32_t value);
 void program_observe(const struct ir *ir, struct program_data *data, unsigned width,
                      program_observer *observer, void *context);
 
-/* Allocates with `registers`, encodes for `width` lanes and runs. Returns 0, or -1 with the reason. */
+/* Allocates with `registers` registers, encodes for `width` lanes, and runs the code. Returns 0, or -1 with
+ * the reason in `error`. */
 int program_compile_and_run(struct builder *builder, struct code_arena *arena, unsigned width,
                             unsigned registers, struct program_data *data, struct error *error);
 
 int program_compile_with(struct builder *builder, struct code_arena *arena, unsigned width,
                          const struct register_file *file, struct program_data *data, struct error *error);
 
-/* Its parts: encodes what has been allocated, and returns the bytes or 0; runs them. */
+/* The two parts of these functions. program_emit() encodes a program that has its registers, and returns the
+ * number of bytes, or 0 with the reason. program_run() runs them. */
 size_t program_emit(struct builder *builder, unsigned width, struct error *error);
 int program_run(const struct builder *builder, size_t bytes, struct code_arena *arena,
                 struct program_data *data, struct error *error);
 
-/* Index of the first output word that differs (two NaN are equal), or -1. */
+/* Returns the index of the first output word that differs (two NaN are equal), or -1. */
 int program_difference(const struct program_data *a, const struct program_data *b);
 
 #endif

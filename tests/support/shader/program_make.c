@@ -1,18 +1,18 @@
-/* Random programs. Every operation of def/op.def, every kind of memory access that a vertex routine may make,
- * stores that later loads read back, regions, loops and variables.
+/* Random programs. They contain every operation of def/op.def, every kind of memory access that a vertex
+ * routine may make, stores that later loads read back, regions, loops and variables.
  *
- * Two things are left out because their outcome is not defined: which NaN an operation gives (so a flt is not
- * cast, and not read back as another type), and what a variable holds that was never set. */
+ * Results must be defined, so two things are left out. The bits of a NaN are not defined, so a flt is not
+ * cast and not read back as another type. The value of a variable that was never set is not read. */
 #include "program.h"
 
 #include <string.h>
 
-/* Values made so far, by type, and how many of them belong to open regions. */
+/* The values made so far that later instructions may read, by type. */
 struct maker {
     struct ir *ir;
     uint64_t *seed;
     uint32_t limit; /* no region is opened after this number of instructions */
-    int wild;       /* what no recording has, too */
+    int wild;       /* operations that recordings do not contain are made too */
     uint16_t value[TYPE_msk + 1][IR_CAPACITY];
     unsigned count[TYPE_msk + 1];
 };
@@ -43,7 +43,8 @@ static void make_source(struct maker *maker, enum ir_type type)
     keep(maker, type, ir_append(maker->ir, i));
 }
 
-/* A mask's lanes must be all ones or zero: only comparisons and literals make one from nothing. */
+/* A literal mask. The lanes of a mask must be all ones or all zeros, so masks come only from comparisons and
+ * such literals. */
 static void make_mask(struct maker *maker)
 {
     struct ir_instruction i = {.type = TYPE_msk, .op = IR_literal};
@@ -78,7 +79,8 @@ static void make_permutation(struct maker *maker)
     keep(maker, TYPE_flt, ir_append(maker->ir, i));
 }
 
-/* One to five gathers of neighbouring words: by rows, when registers allow. */
+/* One to five gathers of neighbouring words, which are compiled as loads of rows if enough registers are
+ * free. */
 static void make_row(struct maker *maker, uint16_t index)
 {
     unsigned attribute = program_random(maker->seed) % 2, count = 1 + program_random(maker->seed) % 5;
@@ -100,7 +102,7 @@ static uint16_t make_index(struct maker *maker, int32_t last)
     return ir_append(maker->ir, i);
 }
 
-/* From the job itself, without a pointer. */
+/* A gather from the job itself, without a pointer. */
 static void make_direct_gather(struct maker *maker)
 {
     enum { WORDS = 16, LAST_PLACES = 48 };
@@ -121,7 +123,7 @@ static uint16_t make_integers(struct maker *maker, enum ir_op op, uint16_t a, ui
                      (struct ir_instruction){.op = (uint8_t)op, .type = TYPE_itg, .operand = {a, b}});
 }
 
-/* The texel x + y * pitch, and with `pair` its neighbour. */
+/* Gathers the texel x + y * pitch, and with `pair` its neighbour. */
 static void make_texel(struct maker *maker, uint16_t index, int pair)
 {
     struct ir_instruction i = {.op = IR_gather,
@@ -136,7 +138,8 @@ static void make_texel(struct maker *maker, uint16_t index, int pair)
         keep(maker, TYPE_itg, ir_append(maker->ir, i));
 }
 
-/* One texel, or four neighbours, near each other in all lanes or not. The rows are mostly y and y + 1. */
+/* Gathers of one texel or of four neighbours. The lanes' texels are near each other or not. The rows are
+ * mostly y and y + 1. */
 static void make_texels(struct maker *maker)
 {
     static const int8_t most[] = {1, 3, 7};
@@ -157,7 +160,7 @@ static void make_texels(struct maker *maker)
         make_texel(maker, indices[row], pair);
 }
 
-/* From one place of one table, or of two, or texels. */
+/* Gathers of rows from one or two tables, or of texels. */
 static void make_gathers(struct maker *maker)
 {
     enum { LAST_PLACE = 0x3fc };
@@ -175,8 +178,8 @@ static void make_gathers(struct maker *maker)
         make_row(maker, index);
 }
 
-/* Not from flt: which NaN an operation gives is not defined (operands may change places), and a cast would
- * show it. */
+/* Casts do not start from flt. The NaN of an operation is not defined, because its operands may change
+ * places, and a cast would show its bits. */
 static void make_cast(struct maker *maker)
 {
     enum ir_type from = TYPE_itg + program_random(maker->seed) % 3;
@@ -185,7 +188,7 @@ static void make_cast(struct maker *maker)
     keep(maker, to, ir_append(maker->ir, i));
 }
 
-/* Slots of OUTPUT below FLOAT_SLOTS may hold floats, the others do not. */
+/* Only slots of OUTPUT below FLOAT_SLOTS may contain floats. */
 enum { FLOAT_SLOTS = PROGRAM_STORES * 5 / 8 };
 
 static int32_t slot_for(struct maker *maker, enum ir_type type)
@@ -195,7 +198,7 @@ static int32_t slot_for(struct maker *maker, enum ir_type type)
     return (int32_t)(first + program_random(maker->seed) % (end - first)) * VERTEX_SLOT_BYTES;
 }
 
-/* All lanes side by side, or at a stride within the slot. */
+/* A store of all lanes next to each other, or at a stride within the slot. */
 static void make_store(struct maker *maker)
 {
     static const int8_t strides[] = {4, 8, 12, -4};
@@ -210,7 +213,7 @@ static void make_store(struct maker *maker)
     ir_append(maker->ir, i);
 }
 
-/* The stored value, or the one before: a load must not move over a store. */
+/* Loads before and after a second store to the same slot: a load must not be moved across a store. */
 static void make_reload(struct maker *maker)
 {
     enum ir_type type = TYPE_flt + program_random(maker->seed) % 2;
@@ -230,7 +233,7 @@ static void make_reload(struct maker *maker)
     keep(maker, type, ir_append(maker->ir, i));
 }
 
-/* Some lanes keep what was there, or get what is somewhere else. */
+/* A store in which some lanes keep the previous value or get another one. */
 static void make_merge(struct maker *maker)
 {
     int32_t slot = slot_for(maker, TYPE_itg);
@@ -270,7 +273,7 @@ static void make_region(struct maker *maker, unsigned length)
     memcpy(maker->count, outside, sizeof outside);
 }
 
-/* An empty program with some values of each type to begin with. */
+/* Starts a program with some values of each type. */
 static void begin(struct maker *maker, struct ir *ir, uint64_t *seed, int wild)
 {
     maker->ir = ir;
@@ -321,7 +324,7 @@ void program_make(struct ir *ir, unsigned length, uint64_t *seed)
 
 /* --- With control flow ------------------------------------------------------------------------------- */
 
-/* Of each type that variables have, some, numbered in turn; then a counter for each depth of loops. */
+/* Variables: SHARED_VARIABLES numbers, whose types alternate, then one counter for each depth of loops. */
 enum { SHARED_VARIABLES = 12, LOOP_DEPTH = 3, REGION_DEPTHS = 5, COUNTERS = SHARED_VARIABLES };
 
 static enum ir_type variable_type(unsigned variable)
@@ -345,7 +348,7 @@ static uint16_t make_get(struct maker *maker, unsigned variable, enum ir_type ty
     return value;
 }
 
-/* Two or three variables of one type change places. */
+/* Exchanges the values of two or three variables of one type. */
 static void make_exchange(struct maker *maker, unsigned variable, enum ir_type type)
 {
     unsigned second = (variable + 4) % SHARED_VARIABLES, third = (variable + 8) % SHARED_VARIABLES;
@@ -379,7 +382,8 @@ static void make_access(struct maker *maker)
 
 static void make_body(struct maker *maker, unsigned length, unsigned depth, unsigned loops);
 
-/* counter = bound & 3 or so; loop ... counter -= 1; again 0 < counter [and some mask]. */
+/* Makes a loop with a counter in each lane, at most 3: counter = bound; loop ... counter -= 1; again while
+ * 0 < counter, and in some loops while another mask is set. */
 static void make_loop(struct maker *maker, unsigned length, unsigned depth, unsigned loops)
 {
     struct ir_instruction three = {.op = IR_literal, .type = TYPE_itg, .k = 3};

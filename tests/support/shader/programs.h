@@ -4,7 +4,7 @@
 
 #include "shader/program/program.h"
 
-/* By number from 0, or null after the last; and by name, which must be one of them. */
+/* Returns a program by its number from 0, or null after the last one; or by its name, which must exist. */
 const struct program *sample_program(unsigned i);
 const struct program *sample_named(const char *name);
 

@@ -19,7 +19,7 @@ struct shader *shader_blank(const struct shader_model *model)
     return shader;
 }
 
-/* A register that the model has, of a file the operand's kind is about. */
+/* Chooses a register file of the model that fits the kind of operand. */
 static enum shader_file choose_file(const struct shader_model *model, enum shader_operand_kind kind,
                                     uint64_t *random)
 {

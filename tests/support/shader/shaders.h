@@ -4,19 +4,19 @@
 
 #include "shader/shader.h"
 
-/* A model with nothing in it. */
+/* Returns a shader of the model without instructions. */
 struct shader *shader_blank(const struct shader_model *model);
 
-/* Adds an instruction of the row with random operands that the model's readers take: right kinds of
- * registers, any numbers, masks, swizzles and modifiers; `random` is the generator's state, not zero. The row
- * must be in the model's column. */
+/* Adds an instruction with random operands that the model's readers accept. Registers have the right kinds;
+ * numbers, masks, swizzles and modifiers are arbitrary. `random` is the generator's state, not zero. The
+ * model must have the instruction. */
 void shader_add_random(struct shader *shader, enum shader_opcode opcode, uint64_t *random);
 
-/* Changes an operand, copies an instruction over another, or cuts the end off: most rules are one step away.
- */
+/* Changes an operand, copies an instruction over another, or removes the last instructions. One such change
+ * is enough to break most rules of a model. */
 void shader_damage(struct shader *shader, uint64_t *random);
 
-/* A number below `below` (xorshift64*). */
+/* Returns a random number less than `below` (xorshift64*). */
 uint32_t shader_random(uint64_t *random, uint32_t below);
 
 #endif

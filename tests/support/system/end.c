@@ -1,6 +1,6 @@
-/* In a build that counts what is executed, the command's processes that end by _exit, as those do that
- * draw random cases, write their counters first: the linker puts this instead of _exit (see the Makefile).
- * Not where files may not grow: a signal would end the process in the middle. */
+/* _exit for a build that counts executed lines. The linker replaces _exit by this function (see the
+ * Makefile). Processes that end by _exit, for example those that draw random cases, write their counters
+ * first. A process with a limit on the size of files does not: a signal would end it during the write. */
 #include <sys/resource.h>
 
 void __gcov_dump(void) __attribute__((weak));

@@ -1,4 +1,4 @@
-/* A stream with every call and every kind of resource that need no files. */
+/* A stream with every call and every kind of resource that needs no file. */
 #ifndef TESTS_SUPPORT_SYSTEM_EVERYTHING_H
 #define TESTS_SUPPORT_SYSTEM_EVERYTHING_H
 

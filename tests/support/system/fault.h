@@ -1,15 +1,15 @@
-/* Refusals on purpose: memory, mappings and threads that the system does not give.
+/* Refuses requests for memory, mappings and threads, as a system without free memory does.
  *
- * A test program that includes this file (one source file a program) has an allocator of its own: the
- * functions below take the place of the C library's in the whole process, libraries and the C library
- * itself included, and pass on to what they replace. While they are armed they count, and refuse the n-th
- * request, or that and all later ones. C++ libraries (Assimp) are left alone: nothing of theirs is ours to
- * mend.
+ * One source file of a test program includes this file. The functions below then replace those of the C
+ * library in the whole process, including its libraries and the C library itself, and call the functions that
+ * they replace. While they are armed, they count requests and refuse the n-th request, or the n-th and all
+ * later ones. Requests of C++ libraries (Assimp) are neither counted nor refused, because these libraries are
+ * not a part of this project.
  *
- * While they watch they remember what is allocated and not freed again, so that a test needs no sanitizer
- * to see what was lost. With TRIPTYCH_FAULT_SITES=FILE the addresses of the program's code that was
- * refused something are appended to the file, one a line, from the program's start. faults.sh in
- * tests/support/scripts compares them with the sources. */
+ * While they watch, the functions record each block that is allocated and not yet freed, so that a test finds
+ * leaks without a sanitizer. If the environment contains TRIPTYCH_FAULT_SITES=FILE, the program appends to
+ * FILE the addresses of its code whose requests were refused, one a line, relative to the program's start.
+ * tests/support/scripts/faults.sh compares them with the sources. */
 #ifndef TESTS_SUPPORT_SYSTEM_FAULT_H
 #define TESTS_SUPPORT_SYSTEM_FAULT_H
 
@@ -37,39 +37,38 @@ enum { FAULT_FRAMES = 24, FAULT_SITES = 4096, FAULT_BLOCKS = 1 << 16, FAULT_FORE
 
 static struct fault {
     atomic_flag lock;
-    bool armed, onwards; /* `onwards`: not only request number `at` is refused but all after it */
+    bool armed, onwards; /* `onwards`: all requests from number `at` on are refused, not only this one */
     bool only_threads;   /* memory is neither counted nor refused */
     bool watching;
-    pthread_t thread;    /* that armed it */
+    pthread_t thread;    /* the thread that armed it */
     unsigned long count; /* requests since it was armed, from 1 */
     unsigned long at;
     unsigned long refused; /* requests */
     unsigned long total;   /* refused since the program began */
-    uint64_t stack;        /* what led to the last one refused, hashed */
+    uint64_t stack;        /* result of `seen` for the last request: a hash of the calls that led to it */
     struct {
         uintptr_t begin, end;
     } foreign[FAULT_FOREIGN];
     unsigned foreigners;
-    /* Blocks alive that were allocated while watching: open addressing. */
+    /* Blocks that were allocated while watching and are not freed: a hash table with open addressing. */
     struct {
         uintptr_t address;
         void *caller;
     } block[FAULT_BLOCKS];
     unsigned blocks;
-    uint64_t (*seen)(void *const *frames,
-                     int count); /* of each request, before it is granted or refused; or null */
+    uint64_t (*seen)(void *const *frames, int count); /* if not null, called for each request */
 } fault = {.lock = ATOMIC_FLAG_INIT};
 
-/* In each thread: it is deciding, and requests of the unwinder meanwhile are granted. */
+/* True while the thread decides about a request. Requests of the unwinder in this time are granted. */
 static _Thread_local bool fault_inside;
 
-/* Refusals in forks count too. */
+/* In memory that forks share, because refusals in child processes count too. */
 static struct fault_sites {
     unsigned count;
     void *site[FAULT_SITES];
 } * fault_sites;
 
-/* --- What is replaced ----------------------------------------------------------------------------------- */
+/* --- The replaced functions ----------------------------------------------------------------------------- */
 
 #if defined(__has_feature)
 #if __has_feature(address_sanitizer) || __has_feature(thread_sanitizer)
@@ -129,7 +128,7 @@ static bool fault_is_ours(const void *address)
     return (const char *)address >= &__executable_start && (const char *)address < &etext;
 }
 
-/* The frames from the caller of the replaced function on. */
+/* Stores return addresses, from the caller of the replaced function outwards, and returns their number. */
 static int fault_backtrace(const void *caller, void **frames)
 {
     void *all[FAULT_FRAMES + 8];
@@ -162,7 +161,7 @@ static FAULT_PLAIN __attribute__((noinline)) bool fault_refuses(void *caller)
     if (!fault.armed || fault.only_threads || fault_inside || fault_is_foreign(caller))
         return false;
 #ifdef FAULT_SANITIZED
-    if (!pthread_equal(pthread_self(), fault.thread)) /* the sanitizers' own needs when a thread begins */
+    if (!pthread_equal(pthread_self(), fault.thread)) /* a sanitizer allocates when a thread begins */
         return false;
 #endif
     fault_inside = true;
@@ -175,7 +174,7 @@ static FAULT_PLAIN __attribute__((noinline)) bool fault_refuses(void *caller)
         int count = fault_backtrace(caller, frames);
         if (fault.seen)
             fault.stack = fault.seen(frames, count);
-        for (int i = 0; i < count && i < 4; i++) /* requests of the C library on their behalf */
+        for (int i = 0; i < count && i < 4; i++) /* the C library may allocate for a C++ library */
             refuses &= !fault_is_foreign(frames[i]);
         fault_lock();
         if (refuses)
@@ -233,7 +232,7 @@ static FAULT_PLAIN void *fault_allocated(void *block, void *caller)
     return block;
 }
 
-/* Later entries of a cluster move up, so that no search ends too early. */
+/* Empties an entry, and moves later entries of its cluster up so that a search does not end at the gap. */
 static FAULT_PLAIN void fault_remove(unsigned at)
 {
     for (unsigned next = at;;) {
@@ -270,7 +269,7 @@ __attribute__((unused)) static void fault_watch(void)
     fault.watching = true;
 }
 
-/* Stops watching; what is still allocated, in words, or null. */
+/* Stops watching. Returns a description of the blocks that are still allocated, or null if there are none. */
 __attribute__((unused)) static const char *fault_lost(void)
 {
     static char text[512];
@@ -344,7 +343,7 @@ FAULT_EXPORT void free(void *block)
     FAULT_REAL(free)(block);
 }
 
-/* Those of the sanitizers do not call malloc. */
+/* strndup and strdup are replaced because those of the sanitizers do not call malloc. */
 FAULT_EXPORT char *strndup(const char *text, size_t most)
 {
     size_t length = strnlen(text, most);
@@ -401,7 +400,7 @@ FAULT_EXPORT int pthread_create(pthread_t *thread, const pthread_attr_t *attribu
     return refuses ? EAGAIN : real(thread, attributes, run, argument);
 }
 
-/* Memory that forks share, all zeros. */
+/* Returns memory that forks share, all zeros. */
 static void *fault_shared(size_t bytes)
 {
     return (void *)syscall(SYS_mmap, NULL, bytes, PROT_READ | PROT_WRITE, MAP_SHARED | MAP_ANONYMOUS, -1, 0);
@@ -429,12 +428,12 @@ static int fault_find_foreign(struct dl_phdr_info *info, size_t size, void *user
     return 0;
 }
 
-/* The sanitizer recognizes the memory of the dynamic linker by its caller, which is the allocator above
- * here. */
+/* The leak sanitizer recognizes memory of the dynamic linker by the caller of malloc. That caller is the
+ * malloc above here, so fault_begin() disables the search for leaks while the linker allocates. */
 extern void __lsan_disable(void) __attribute__((weak));
 extern void __lsan_enable(void) __attribute__((weak));
 
-/* The first unwinding of a process loads a library. */
+/* Unwinds once, because the first unwinding of a process loads a library. */
 __attribute__((constructor)) static void fault_begin(void)
 {
     void *frames[4];

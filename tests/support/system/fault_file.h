@@ -1,8 +1,9 @@
-/* Disks that are full, writes that are short, processes that are killed in between.
+/* Injects faults into file operations: full disks, short writes, and processes that are killed in between.
  *
- * A test program that includes this file (one source file a program) has its own open, write, fsync,
- * fchmod, close, rename and unlink, which do what the C library's do; what the C library does for itself
- * (printf) stays its own. While they are armed they count, and something happens to the n-th call. */
+ * The functions open, write, fsync, fchmod, close, rename and unlink below replace those of the C library in
+ * the test program. One source file of the program includes this file. Calls inside the C library, for
+ * example in printf, are not replaced. While the functions are armed they count their calls, and the fault
+ * happens to the n-th call. */
 #ifndef TESTS_SUPPORT_SYSTEM_FAULT_FILE_H
 #define TESTS_SUPPORT_SYSTEM_FAULT_FILE_H
 
@@ -21,12 +22,12 @@
 
 enum file_fault {
     FILE_FAULT_NONE,
-    FILE_FAULT_ERROR,  /* the call fails with `reason` and does nothing */
-    FILE_FAULT_SHORT,  /* a write stores a part; other calls succeed */
-    FILE_FAULT_BYTES,  /* that write and all later ones store one byte each */
+    FILE_FAULT_ERROR,  /* the call fails with `reason` and does nothing; but close() closes the file */
+    FILE_FAULT_SHORT,  /* a write stores half of its bytes; other calls succeed */
+    FILE_FAULT_BYTES,  /* this write and all later ones store one byte each */
     FILE_FAULT_ZERO,   /* a write stores nothing and returns 0 */
-    FILE_FAULT_KILL,   /* the process is killed before it */
-    FILE_FAULT_KILLED, /* the process is killed after it, or in the middle of a write */
+    FILE_FAULT_KILL,   /* the process is killed before the call */
+    FILE_FAULT_KILLED, /* the process is killed after the call, or after the first half of a write */
 };
 
 static struct {
@@ -34,7 +35,7 @@ static struct {
     enum file_fault fault;
     int reason;
     unsigned long at, count;
-    const char *name; /* of the function that it happened to */
+    const char *name; /* of the function that had the fault; null: none yet */
 } file_fault;
 
 static void file_fault_arm(enum file_fault fault, int reason, unsigned long at)
@@ -47,14 +48,14 @@ static void file_fault_arm(enum file_fault fault, int reason, unsigned long at)
     file_fault.armed = true;
 }
 
-/* Disarms; returns how many calls there were. */
+/* Disarms, and returns the number of calls since file_fault_arm(). */
 static unsigned long file_fault_end(void)
 {
     file_fault.armed = false;
     return file_fault.count;
 }
 
-/* The fault of this call. */
+/* Counts a call of the function `name` and returns its fault. */
 static enum file_fault file_fault_next(const char *name)
 {
     if (!file_fault.armed)
@@ -69,7 +70,7 @@ static enum file_fault file_fault_next(const char *name)
     return file_fault.fault;
 }
 
-/* The call with what happens to it; its result, the file's call has not been made when it fails. */
+/* Makes the system call `number`, with its fault if it has one. Returns its result, or -1 with errno. */
 static long file_fault_call(const char *name, long number, long a, long b, long c)
 {
     enum file_fault fault = file_fault_next(name);
@@ -80,7 +81,7 @@ static long file_fault_call(const char *name, long number, long a, long b, long 
         raise(SIGKILL);
     if (fault != FILE_FAULT_ERROR)
         return result;
-    errno = file_fault.reason; /* the file is closed all the same */
+    errno = file_fault.reason; /* after the close: Linux closes the file even if close() fails */
     return -1;
 }
 

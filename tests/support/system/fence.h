@@ -1,14 +1,15 @@
-/* Memory that ends where an unreadable page begins: generated code that reads past the end crashes there. */
+/* Memory that ends at an unreadable page, so that generated code that reads past the end crashes. */
 #ifndef TESTS_SUPPORT_SYSTEM_FENCE_H
 #define TESTS_SUPPORT_SYSTEM_FENCE_H
 
 #include <stddef.h>
 #include <stdint.h>
 
-/* `bytes` of zeros, the last of them before the fence; null when the system refuses. */
+/* Allocates `bytes` zeros whose last byte is next to the unreadable page. Returns null if the system
+ * refuses. */
 uint8_t *fence(size_t bytes);
 
-/* Gives them back; null is allowed. */
+/* Frees memory of fence() with the same `bytes`; `memory` may be null. */
 void unfence(uint8_t *memory, size_t bytes);
 
 #endif

@@ -16,7 +16,7 @@
 #include <unity.h>
 
 const struct sandbox sandbox_refusals[SANDBOX_REFUSALS] = {
-    {.protection = PROT_EXEC, .error = EPERM},  /* seccomp, as sandboxes have it */
+    {.protection = PROT_EXEC, .error = EPERM},  /* the seccomp filter of a sandbox */
     {.protection = PROT_EXEC, .error = EACCES}, /* SELinux without execmem */
     {.protection = PROT_EXEC,
      .shared = 1,
@@ -43,7 +43,7 @@ static void load(struct filter *filter, size_t offset)
     add(filter, (struct sock_filter)BPF_STMT(BPF_LD | BPF_W | BPF_ABS, (uint32_t)offset));
 }
 
-static size_t argument(int i) /* its lower half */
+static size_t argument(int i) /* the offset of its lower half */
 {
     return offsetof(struct seccomp_data, args) + (size_t)i * sizeof(uint64_t);
 }
@@ -80,7 +80,7 @@ static void make_filter(struct filter *filter, const struct sandbox *sandbox)
 {
     filter->count = 0;
     load(filter, offsetof(struct seccomp_data, arch));
-    unless_equal(filter, AUDIT_ARCH_X86_64, 0); /* there is no other here */
+    unless_equal(filter, AUDIT_ARCH_X86_64, 0); /* skips nothing: other architectures do not occur */
     if (sandbox->protection) {
         refuse_protection(filter, sandbox, SYS_mmap);
         if (!sandbox->shared) {
@@ -105,7 +105,7 @@ void sandbox_enter(const struct sandbox *sandbox)
     TEST_ASSERT_EQUAL_INT_MESSAGE(0, prctl(PR_SET_SECCOMP, SECCOMP_MODE_FILTER, &program), strerror(errno));
 }
 
-/* Unity's message about a failure goes to the parent, which fails with it. */
+/* Unity's message about a failure goes to `output`. The parent reads it and fails with this message. */
 static void run_child(void (*act)(const void *argument), const void *argument, int output)
 {
     dup2(output, STDOUT_FILENO);

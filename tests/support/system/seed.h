@@ -1,12 +1,12 @@
-/* Where random tests begin, and how many cases they try: the seed in TRIPTYCH_SEED, for long runs (make
- * soak), or the same every time. */
+/* The seed of random tests and the number of their cases. Long runs (make soak) set the environment variable
+ * TRIPTYCH_SEED; without it, the seed is the same in every run. */
 #ifndef TESTS_SUPPORT_SYSTEM_SEED_H
 #define TESTS_SUPPORT_SYSTEM_SEED_H
 
 #include <stdint.h>
 #include <stdlib.h>
 
-/* Never 0. */
+/* Returns the seed, never 0. */
 static inline uint64_t test_seed(void)
 {
     const char *given = getenv("TRIPTYCH_SEED");
@@ -14,8 +14,8 @@ static inline uint64_t test_seed(void)
     return 0x9e3779b97f4a7c15 ^ number * 0xbf58476d1ce4e5b9;
 }
 
-/* The number of random cases that a build with sanitizers tries, of `count`. Sanitizers do not instrument
- * generated code, and the plain build tries all cases. */
+/* Returns the number of random cases to try: `count`, or a quarter of it in a build with sanitizers. These do
+ * not instrument generated code, and the plain build tries all cases. */
 static inline unsigned test_share(unsigned count)
 {
 #if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)

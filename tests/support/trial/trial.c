@@ -55,7 +55,7 @@ static void __attribute__((constructor)) make_sets(void)
 
 float trial_round(double value)
 {
-    /* Tiny is what would be below FLT_MIN if rounded to 24 bits all the same. */
+    /* A value is flushed if it is less than FLT_MIN after rounding to 24 bits with an unbounded exponent. */
     if (fabs(value) < 1 && fabsf((float)(value * 0x1p64)) < FLT_MIN * 0x1p64f)
         return copysignf(0, (float)value);
     return (float)value;
@@ -95,15 +95,14 @@ static void append_number(char *text, const char *format, unsigned number)
     append(text, line);
 }
 
-/* How a shader of a model gets its operands and gives its results. */
+/* The lines by which a shader of a model reads its operands and writes its results. */
 struct frame {
     const char *coordinates;           /* a line, or null */
     const char *declare, *give, *take; /* lines for an operand, or a result, by its number; null: none */
-    const char
-        *names[TRIAL_OPERANDS]; /* of operands in the body: of ps_1_x, which has no need to move them */
+    const char *names[TRIAL_OPERANDS]; /* of operands in the body, in ps_1_x, which does not move them */
 };
 
-/* Operands are inputs; of pixel shaders in draws, texels. */
+/* Operands are inputs, or texels for pixel shaders in draws (`textured`). */
 static struct frame frame_of(const struct shader_model *model, int textured)
 {
     int third = shader_major(model) == 3;
@@ -221,7 +220,7 @@ static const struct program *make_program(const char *text)
 /* --- Comparison -------------------------------------------------------------------------------------------
  */
 
-/* How far results may be from what is expected. */
+/* The largest allowed difference from the expected result. */
 struct tolerance {
     double relative, absolute;
 };
@@ -276,7 +275,7 @@ unsigned trial_cell(const struct program *program, unsigned result)
 
 typedef void machine_way(const struct trial_memory *memory, const float *input, float *output);
 
-/* Four sets at a time. The last group repeats sets if their number is not a multiple of four. */
+/* Runs sets in groups of four. The last group repeats sets if their number is not a multiple of four. */
 static void run_machine(const struct trial_memory *memory, machine_way *way, unsigned first,
                         struct trial_results got[TRIAL_LANES])
 {

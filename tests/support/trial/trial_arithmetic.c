@@ -5,7 +5,7 @@
 #include <string.h>
 
 /* --- References -------------------------------------------------------------------------------------------
- * Of one result, from the operands a, b and c. */
+ * Each computes one result from the operands a, b and c. */
 
 typedef const struct trial_operands *operands;
 
@@ -76,7 +76,7 @@ static double logarithm(double a)
     return a == 0 ? -FLT_MAX : log2(fabs(a));
 }
 
-/* As the definition has it, by way of a logarithm in binary32. */
+/* As the definition does, with a logarithm that is rounded to binary32. */
 static double power(const struct trial *t, double a, double b)
 {
     return b == 0 ? 1 : exp2(rounded(times(t, rounded(logarithm(a)), b)));
@@ -117,7 +117,7 @@ static void dp2add_reference(const struct trial *t, operands o, double r[TRIAL_R
     replicate(plus_times(t, A(1), B(1), sum), r[0]);
 }
 
-/* The rows are b, c, b backwards and c with its components moved on. */
+/* The rows are b, c, b reversed, and c with its components rotated (see ROWS). */
 static void matrix(const struct trial *t, operands o, int count, int rows, double r[4])
 {
     double a[4], row[4][4];
@@ -184,7 +184,7 @@ static void dst_reference(const struct trial *t, operands o, double r[TRIAL_RESU
     r[0][3] = B(3);
 }
 
-/* vs_1_1's */
+/* frc in vs_1_1 */
 static void frc_xy_reference(const struct trial *t, operands o, double r[TRIAL_RESULTS][4])
 {
     (void)t;

@@ -1,5 +1,5 @@
-/* The arithmetic instructions of shaders: a row for each with its definition in docs/shader-semantics.md,
- * computed in double precision. */
+/* The arithmetic instructions of shaders: a row for each. Its reference computes the definition in
+ * docs/shader-semantics.md in double precision. */
 #ifndef TESTS_SUPPORT_TRIAL_TRIAL_ARITHMETIC_H
 #define TESTS_SUPPORT_TRIAL_TRIAL_ARITHMETIC_H
 
@@ -13,7 +13,7 @@
     "def c20, -1.5500992e-006, -2.1701389e-005, 0.0026041667, 0.00026041668\n"                               \
     "def c21, -0.020833334, -0.12500000, 1.0, 0.50000000\n"
 
-/* Flags: tried on ordinary numbers only, in models 1 only, in models 2 and 3 only. */
+/* Flags of a row: only ordinary numbers, only in models 1, only in models 2 and 3. */
 enum { ARITHMETIC_ORDINARY = 1, ARITHMETIC_ONLY_1 = 2, ARITHMETIC_NOT_1 = 4 };
 
 enum { ARITHMETIC_ROWS = 38, ARITHMETIC_MODELS = 7 };
@@ -33,7 +33,7 @@ extern const struct arithmetic_row arithmetic_rows[ARITHMETIC_ROWS];
 /* Numbers of models of every generation. */
 extern const int arithmetic_models[ARITHMETIC_MODELS];
 
-/* Four lines instead of one with @. */
+/* Copies `body` to `text`, with four lines instead of each line with @. */
 void arithmetic_unfold(const char *body, char *text, size_t bytes);
 
 #endif

@@ -2,7 +2,7 @@
 
 #include "machine/mxcsr.h"
 #include "emu/emulate/bind.h"
-/* The routines are read along and not used. */
+/* The header defines the three routines too, which are not used here. */
 #pragma GCC diagnostic ignored "-Wunused-function"
 #include "spec/spec.h"
 

@@ -3,13 +3,13 @@
 #include "machine/mxcsr.h"
 #include "ir/bind.h"
 #include "engines/specialize/build.h"
-/* The routines are read along and not used. */
+/* The header defines the three routines too, which are not used here. */
 #pragma GCC diagnostic ignored "-Wunused-function"
 #include "spec/spec.h"
 
 #include "tests/support/trial/trial_spec.h"
 
-static struct builder *builder; /* kept: it goes with the process */
+static struct builder *builder; /* one for all trials, never freed */
 static uint32_t value[IR_CAPACITY], variable[VARIABLES];
 static uint32_t next[IR_CAPACITY]; /* of each phi */
 static uint8_t ran[IR_CAPACITY];   /* of each `end`: whether its region ran the last time */
@@ -59,7 +59,7 @@ static uint32_t word_at(const uint8_t *address)
     return word;
 }
 
-/* After a region that ran or was skipped. */
+/* Sets the joins after a region that ran or was skipped. */
 static uint32_t skip(const struct ir *ir, uint32_t when, int runs)
 {
     uint32_t end = ir_other_end(ir, when);
@@ -67,7 +67,7 @@ static uint32_t skip(const struct ir *ir, uint32_t when, int runs)
     return runs ? when + 1 : end + 1;
 }
 
-/* The loop's next pass: its phis become their next values simultaneously. */
+/* Starts the loop's next pass: its phis simultaneously become their next values. */
 static uint32_t repeat(const struct ir *ir, uint32_t again)
 {
     for (uint32_t n = again - 1; ir->instruction[n].op == IR_next || ir->instruction[n].op == IR_nop; n--)
@@ -88,7 +88,7 @@ static const uint8_t *place(const struct ir_instruction *i)
     return base[i->base] + i->k;
 }
 
-/* One instruction in one lane; the number of the next one. */
+/* Executes one instruction in one lane. Returns the number of the next instruction. */
 static uint32_t interpret(const struct ir *ir, uint32_t number, unsigned lane)
 {
     const struct ir_instruction *i = &ir->instruction[number];

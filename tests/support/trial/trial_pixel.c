@@ -1,5 +1,5 @@
-/* A trial's pixel shader by whole draws: one pixel a set of operands, which come out of textures of binary32,
- * and the results into targets of binary32. */
+/* Runs a trial's pixel shader by whole draws, one pixel for each set of operands. The operands are texels of
+ * binary32 textures, and the results go to binary32 targets. */
 #include "tests/support/picture/canvas.h"
 #include "tests/support/trial/trial.h"
 
@@ -11,11 +11,11 @@
 
 enum { ENGINES = 32, TARGETS_USED = 4 };
 
-/* Kept for all trials: they go with the process. */
+/* One for all trials, never freed. */
 static struct painter {
     triptych_device *device;
     triptych_texture *operand[TRIAL_OPERANDS];
-    struct trial_operands held[SIZE * SIZE]; /* what the textures hold */
+    struct trial_operands held[SIZE * SIZE]; /* the textures' texels */
     unsigned sets;
 } painters[ENGINES];
 
@@ -101,7 +101,7 @@ static void set_constants(const struct trial *trial)
                                trial->legacy ? TRIPTYCH_MULTIPLY_LEGACY : TRIPTYCH_MULTIPLY_IEEE));
 }
 
-/* The vertex shader that a pixel shader of the model goes with. */
+/* Returns a vertex shader that can be used with a pixel shader of the model. */
 static const char *companion(const struct shader_model *model)
 {
     if (shader_major(model) == 3)

@@ -1,4 +1,4 @@
-/* A trial in the specification's words: include it after a binding and spec/spec.h. */
+/* A trial in the specification's language. Include it after a binding and spec/spec.h. */
 
 static void trial_run(struct env *e, const struct trial_memory *memory)
 {

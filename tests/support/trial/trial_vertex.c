@@ -1,5 +1,5 @@
-/* A trial's vertex shader as a routine of an engine: operands are the inputs v1 to v3, results leave through
- * the channels of texture coordinates. */
+/* Runs a trial's vertex shader as a routine of an engine. Operands are the inputs v1 to v3, and results are
+ * the texture coordinates of the vertices. */
 #include "tests/support/trial/trial.h"
 
 #include "machine/code.h"
@@ -14,7 +14,7 @@ enum { BATCH = VERTEX_CAPACITY, CODE_BYTES = 1 << 24 };
 static alignas(64) float batch[SLOT_COUNT * VERTEX_CAPACITY];
 static struct code_arena *arena;
 
-/* The arena is kept for all trials: it goes with the process. */
+/* All trials use one arena, which is never freed. */
 static void open_arena(void)
 {
     struct error error = {{0}};

@@ -1,4 +1,4 @@
-/* The tokens of shaders. */
+/* Shaders as bytecode. */
 #include "shader/shader.h"
 #include "tests/command/fuzz/targets/sound.h"
 #include "tests/command/fuzz/targets/target.h"

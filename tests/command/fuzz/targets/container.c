@@ -1,5 +1,5 @@
-/* Draw streams as containers: as they are; with all checksums put right, or as the contents of one; and
- * what can be salvaged of them. */
+/* Draw streams as containers. Each input is read unchanged; with all checksums corrected, or as the contents
+ * of a container; and by salvaging. */
 #include "command/container/container.h"
 #include "tests/command/fuzz/targets/frame.h"
 #include "tests/command/fuzz/targets/survive.h"

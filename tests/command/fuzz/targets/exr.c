@@ -1,6 +1,6 @@
-/* EXR pictures. Nothing reads them here, so this is the writer: pictures, channels and names of any kind
- * are refused, or come back bit for bit from OpenEXRCore. The first bytes are the shape, the rest the
- * values. */
+/* The writer of EXR pictures; the project has no reader. Pictures, channels and names of any kind are
+ * refused, or OpenEXRCore reads them back with the same bits. The first bytes of the input are the shape, the
+ * rest are the values. */
 #include "image/exr.h"
 
 #include "base/half.h"
@@ -21,7 +21,7 @@ struct picture {
     float *values;
 };
 
-/* Sides are small or, seldom, just around the limit. */
+/* Sides are small, or in rare cases near the limit. */
 static unsigned choose_side(struct choices *c)
 {
     unsigned side = choose(c, SIDE + 4);
@@ -45,7 +45,7 @@ static void choose_picture(struct picture *p, struct choices *c)
     p->values = calloc(pixels * step + CHANNELS, sizeof *p->values);
     expect(p->values, "memory");
     size_t left = (size_t)(c->end - c->at), room = pixels * step * sizeof *p->values;
-    for (size_t at = 0; left && at < room; at += left) /* again and again */
+    for (size_t at = 0; left && at < room; at += left) /* repeats the input */
         memcpy((char *)p->values + at, c->at, left < room - at ? left : room - at);
     for (size_t i = 0; i < p->count; i++)
         p->channels[i].values = p->values + i % step;

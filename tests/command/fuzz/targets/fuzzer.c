@@ -1,4 +1,5 @@
-/* libFuzzer's side: the program is called by a target's name, by as many links as there are targets. */
+/* The entry points for libFuzzer. The program runs the target whose name it is called by; each target has a
+ * link to the program. */
 #include "tests/command/fuzz/targets/target.h"
 
 #include <string.h>

@@ -1,8 +1,9 @@
-/* A new process for every import costs a fuzzer the copying of page tables, which are large with sanitizers.
- * This process exists until it dies, or for LIFE imports. Requests and answers are in memory that both
- * processes share; a byte each way announces them. The end of the pipe is the end of the process.
+/* A process that imports many models. A new process for every import would copy its page tables, which are
+ * large with sanitizers. This process exists until it crashes, or for LIFE imports. Requests and answers are
+ * in memory that both processes share, and a byte through a pipe announces each. If the parent closes the
+ * pipe, the process ends.
  *
- * Coverage is sent back too, so that libFuzzer observes the way of a scene to a mesh: the edge counters
+ * Coverage is sent back too, so that libFuzzer observes how a scene becomes a mesh: the edge counters
  * (section __sancov_cntrs, absent in other builds) are added to those of the parent.
  *
  * A crash in the library is expected. The linker puts functions before the two in which Assimp reads and
@@ -64,14 +65,14 @@ const char *__asan_default_options(void);
 void __asan_on_error(void);
 void __sanitizer_set_death_callback(void (*callback)(void)) __attribute__((weak));
 
-/* Refused memory is refused as in the C library: imports may allocate little. Freed memory is kept from use
- * for a shorter time than usual, because a fork takes longer the larger a process is. */
+/* malloc returns null if memory is refused, as in the C library, because imports have a limit. Freed memory
+ * is reused earlier than usual, because a fork of a larger process needs more time. */
 const char *__asan_default_options(void)
 {
     return "allocator_may_return_null=1:quarantine_size_mb=32";
 }
 
-/* A fault of Assimp's heap needs no report, for which a symbolizer would be started. */
+/* Ends the process without a report if Assimp damages the heap. A report would start a symbolizer. */
 void __asan_on_error(void)
 {
     if (exchange && exchange->in_assimp)
@@ -260,7 +261,7 @@ static void add_counter(uint8_t *counter, uint8_t more)
     *counter = (uint8_t)(sum < 255 ? sum : 255);
 }
 
-/* Nearly all are 0. */
+/* Adds the importer's counters. Nearly all of them are 0. */
 static void add_coverage(void)
 {
     size_t bytes = covered ? counter_bytes() : 0;

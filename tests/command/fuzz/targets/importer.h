@@ -7,20 +7,20 @@
 #include <stdbool.h>
 
 enum import_end {
-    IMPORT_ANSWERED, /* the answer's data is the caller's, and no larger than it is */
+    IMPORT_ANSWERED, /* the caller frees the answer's data, whose memory has exactly their size */
     IMPORT_REFUSED,  /* with a reason */
-    IMPORT_DIED      /* or took too long; the next one gets a new process */
+    IMPORT_DIED      /* the process crashed or needed too long; the next import starts a new process */
 };
 
-/* Before each input; Assimp is not running then. */
+/* Call this before each input. It records that Assimp is not running. */
 void importer_prepare(void);
 
 /* Imports a file as its own process does (command/assets/import.c), in a process that has imported other
  * files before. */
 enum import_end importer_run(const char *path, bool bones, struct answer *answer, struct error *error);
 
-/* Returns true if the last process that died, of this kind or of isolate.h's, was in Assimp then. If not, the
- * code of this repository crashed. */
+/* Returns 1 if the last process that died, one of this file or of isolate.h, was executing Assimp. Otherwise
+ * the code of this repository crashed. */
 int importer_died_in_assimp(void);
 
 #endif

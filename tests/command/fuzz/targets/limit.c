@@ -48,7 +48,7 @@ int __wrap_mesh_make(struct resource *resource, const struct resource *caster, s
     return __real_mesh_make(resource, caster, error);
 }
 
-/* Nothing of the machine is read, whatever a stream names. */
+/* Refuses to read files, so that a stream cannot read files of the machine. */
 int __wrap_file_read(const char *path, size_t limit, char **data, size_t *bytes, struct error *error)
 {
     if (fuzz_files && (!strncmp(path, "/proc/self/fd/", 14) || strstr(path, "/fuzz-")))

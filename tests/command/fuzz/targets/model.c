@@ -1,8 +1,9 @@
-/* Files of other formats: through Assimp, into a mesh, and from process to process. The first byte chooses
- * the format of the file's name. The second chooses if bones are read, and if the file gets a process of its
- * own, as usual, or one that has read others before (importer.h). Assimp crashes, hangs and exhausts memory;
- * each is a refusal, noted with its reason. If other code crashes, the file gets its own process, so that the
- * damage of another file is not taken for a finding. */
+/* Model files of other formats: Assimp reads them, they become a mesh, and a process sends the mesh to
+ * another. The first byte of the input chooses the format of the file's name. The second byte chooses if
+ * bones are read, and if the file is read by its own process, as usual, or by a process that has read other
+ * files (importer.h). Assimp may crash, hang or exhaust memory. Each of these is a refusal, noted with its
+ * reason. If other code crashes, the file is read again by its own process, because an earlier file may have
+ * damaged the memory. */
 #include "command/assets/mesh.h"
 #include "command/assets/transfer.h"
 #include "tests/command/fuzz/targets/importer.h"
@@ -31,7 +32,7 @@ static uint32_t size_of(uint32_t count)
     return count ? 32 - (uint32_t)__builtin_clz(count) : 0;
 }
 
-/* As mesh_read_model does it. */
+/* Imports in a process of its own, as mesh_read_model() does. */
 static int import_alone(struct mesh *mesh, const char *path, bool bones, struct error *error)
 {
     static const struct isolate_limits limits = {

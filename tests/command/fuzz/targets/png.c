@@ -1,4 +1,5 @@
-/* PNG pictures. Checksums stop most damage at the door, so a copy with the right ones is tried as well. */
+/* PNG pictures. Wrong checksums make the reader refuse most damaged files, so a copy with correct checksums
+ * is read too. */
 #include "image/png.h"
 #include "tests/command/fuzz/targets/target.h"
 
@@ -11,7 +12,7 @@ static uint32_t word(const uint8_t *at)
     return (uint32_t)at[0] << 24 | (uint32_t)at[1] << 16 | (uint32_t)at[2] << 8 | at[3];
 }
 
-/* The CRC of PNG, bit by bit. */
+/* Computes the CRC of PNG bit by bit. */
 static uint32_t checksum(const uint8_t *data, size_t bytes)
 {
     uint32_t sum = 0xffffffff;
@@ -35,7 +36,7 @@ static void mend_checksums(uint8_t *data, size_t bytes)
     }
 }
 
-/* All of the pixels are there. */
+/* Decodes the picture and checks that it has all pixels. */
 static void decode(const uint8_t *data, size_t bytes)
 {
     struct error error = {{0}};
@@ -56,7 +57,7 @@ static void decode(const uint8_t *data, size_t bytes)
     free(rgba);
 }
 
-/* Pictures that take a second to unpack teach nothing. */
+/* Returns 1 if the picture is small. Large pictures need a second each and reach no other code. */
 static int is_small(const uint8_t *data, size_t bytes)
 {
     return bytes < SIGNATURE + CHUNK + 13 ||

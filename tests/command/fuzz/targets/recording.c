@@ -1,5 +1,5 @@
-/* Recordings, read record after record as they are played, with what is alive in memory and nothing else.
- * Small ones are played. */
+/* Recordings, read record by record as during playing. Memory contains only the objects that exist at the
+ * current record. Small recordings are played. */
 #include "command/container/reader.h"
 
 #include "shader/program/program.h"
@@ -9,7 +9,8 @@
 
 enum { STEPS = 4096 };
 
-/* To the end, or to where it is refused. Returns whether all of it is read and small enough to be played. */
+/* Reads to the end or to a refusal. Returns 1 if all of the recording was read and is small enough to be
+ * played. */
 static int walk(struct stream_reader *reader, const char *path)
 {
     int small = 1;

@@ -1,4 +1,4 @@
-/* The text of shaders. */
+/* Shaders as text. */
 #include "shader/shader.h"
 #include "tests/command/fuzz/targets/sound.h"
 #include "tests/command/fuzz/targets/target.h"

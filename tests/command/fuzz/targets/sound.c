@@ -6,7 +6,7 @@
 
 #include <string.h>
 
-/* The same shader by way of text or of tokens has the same tokens. */
+/* Fails unless the shader, after a conversion to text or tokens and back, has the same tokens. */
 static void expect_same(struct shader *again, const uint32_t *tokens, size_t count)
 {
     struct error error = {{0}};
@@ -19,7 +19,7 @@ static void expect_same(struct shader *again, const uint32_t *tokens, size_t cou
     shader_free(again);
 }
 
-/* Text of text is the same text. */
+/* Fails unless the shader's text, assembled and printed again, is the same text. */
 static void expect_text(const struct shader *shader, const uint32_t *tokens, size_t count)
 {
     struct error error = {{0}};
@@ -35,7 +35,7 @@ static void expect_text(const struct shader *shader, const uint32_t *tokens, siz
     free(text_again);
 }
 
-/* The inputs of a program at a draw: integers in range and out of range, constants. */
+/* Fills the inputs of a program at a draw: constants, and integers in and out of their range. */
 static void expect_program(const struct program *program)
 {
     static const int32_t integers[TRIPTYCH_SHADER_INTEGERS][4] = {

@@ -1,11 +1,11 @@
-/* The checks of the targets of shaders on a shader that a reader accepted (sound.c). */
+/* Checks of a shader that a reader accepted, for the fuzz targets of shaders (sound.c). */
 #ifndef TESTS_COMMAND_FUZZ_TARGETS_SOUND_H
 #define TESTS_COMMAND_FUZZ_TARGETS_SOUND_H
 
 #include "shader/shader.h"
 
-/* The shader goes to tokens and text and back and stays what it is, the validator has one opinion on it,
- * and a valid one becomes a program or is refused with a line. */
+/* Converts the shader to tokens and to text and back, which must not change it. The validator must give the
+ * same result for each form. A valid shader must become a program or be refused with one line. */
 void expect_sound(const struct shader *shader);
 
 #endif

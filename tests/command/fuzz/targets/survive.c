@@ -41,7 +41,7 @@ static void expect_equal_resources(const struct stream *a, const struct stream *
     }
 }
 
-/* The same stream as text, whichever form it came in. */
+/* Fails unless the stream has this text, whether it was read from text or from a container. */
 static void expect_text(const struct stream *stream, const char *once, size_t bytes)
 {
     struct error error = {{0}};
@@ -84,7 +84,7 @@ static void expect_survives_container(const struct stream *stream, const char *o
     stream_free(again);
 }
 
-/* Loops can execute a million instructions a pixel, within the rules. */
+/* Returns 1 if the program is short. Valid loops can execute a million instructions for each pixel. */
 static int is_short(const struct program *program)
 {
     for (uint32_t i = 0; i < program->steps; i++) {

@@ -1,11 +1,11 @@
-/* The checks of the targets of streams on a stream that a reader accepted (survive.c). */
+/* Checks of a stream that a reader accepted, for the fuzz targets of streams (survive.c). */
 #ifndef TESTS_COMMAND_FUZZ_TARGETS_SURVIVE_H
 #define TESTS_COMMAND_FUZZ_TARGETS_SURVIVE_H
 
 #include "command/stream/stream.h"
 
-/* As text and as a container it is the same stream with every byte of its resources, and the engine that
- * needs no generated code plays it, if it is small. */
+/* Writes the stream as text and as a container and reads it again, which must not change it or any byte of
+ * its resources. If the stream is small, an engine without generated code plays it. */
 void expect_survives(const struct stream *stream);
 
 /* Returns true if playing it takes at most about a millisecond. */

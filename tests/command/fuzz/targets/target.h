@@ -1,10 +1,10 @@
-/* Fuzz targets: functions that take any bytes for a reader of untrusted input, and what the reader must do
- * with them: refuse them with one line, or take them for something that survives what is done with such
- * things. Plain C: the Unity program tests/command/fuzz/inputs.c runs every target over its corpus,
- * libFuzzer (fuzzer.c) over what it makes up.
+/* Fuzz targets. A target is a function that gives any bytes to a reader of untrusted input. The reader must
+ * refuse them with one line, or return an object with which the usual operations succeed. The targets are
+ * plain C. The Unity program tests/command/fuzz/inputs.c runs every target on its corpus, and libFuzzer
+ * (fuzzer.c) runs it on generated inputs.
  *
- * A broken promise aborts with a line, so that a fuzzer keeps the input; the rest is for the sanitizers to
- * see. */
+ * A failed check prints a line and aborts, so that a fuzzer stores the input. Sanitizers find other
+ * faults. */
 #ifndef TESTS_COMMAND_FUZZ_TARGETS_TARGET_H
 #define TESTS_COMMAND_FUZZ_TARGETS_TARGET_H
 
@@ -20,7 +20,7 @@ struct fuzz_target {
     void (*run)(const uint8_t *data, size_t bytes);
 };
 
-/* All targets, by name; null past the last. */
+/* Returns target number i, in the order of names, or null after the last one. */
 const struct fuzz_target *fuzz_target_at(unsigned i);
 const struct fuzz_target *fuzz_target_named(const char *name);
 
@@ -34,16 +34,17 @@ const struct fuzz_target *fuzz_target_named(const char *name);
         }                                                                                                    \
     while (0)
 
-/* A refusal: one line that begins with `path`. */
+/* Fails unless the error is a refusal: one line that begins with `path`. */
 void expect_refusal(const struct error *error, const char *path);
 
-/* A refusal at a place: PATH:LINE:COLUMN: */
+/* Fails unless the error is a refusal at a position: a line that begins with PATH:LINE:COLUMN: */
 void expect_refusal_at(const struct error *error, const char *path);
 
-/* The path of a file that holds the bytes until the next call; no disk is involved. */
+/* Returns the path of a file in memory that contains the bytes until the next call. */
 const char *fuzz_file(const uint8_t *data, size_t bytes);
 
-/* A path for a file with that ending, of memory where the system has such; the caller removes the file. */
+/* Returns a path with that ending for a file, in memory if the system has such files. The caller removes the
+ * file. */
 const char *fuzz_path(const char *ending);
 
 /* Reports an event to the fuzzer that makes more inputs of its kind worthwhile. Uninstrumented libraries are

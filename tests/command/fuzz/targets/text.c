@@ -1,4 +1,4 @@
-/* Draw streams as text: refused at a place, or a stream that survives what is done with streams. */
+/* Draw streams as text: the reader refuses them at a position, or returns a stream that passes survive.h. */
 #include "capture/chunk.h"
 #include "command/stream/stream.h"
 #include "tests/command/fuzz/targets/survive.h"
