@@ -1,6 +1,7 @@
 #!/usr/bin/env bash
 # No line of C or assembly has more than 110 columns, and no comment of a table, a script or the Makefile.
 # Rows of tables, recipes and the texts that scripts print may be longer, since their parts belong together.
+# Runs once.
 set -u
 cd "$(dirname "$0")/.." || exit 1
 

@@ -10,6 +10,7 @@
 #
 # The sources are built once without optimization, in BUILD/extend; each copy begins with those objects, so it
 # compiles only what its patch affects.
+# Runs once.
 set -u
 cd "$(dirname "$0")/.." || exit 1
 kinds=(api-call render-state texture-format shader-instruction ir-operation pass engine)

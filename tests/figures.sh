@@ -1,6 +1,7 @@
 #!/bin/bash
 # The measured figures of README.md and docs/ are those of results/, and a change of either is found.
 # Prints a line "ok NAME" or "FAIL NAME" for each test; the reasons go to stderr.
+# Runs once.
 set -uo pipefail
 cd "$(dirname "$0")/.." || exit 1
 

@@ -4,6 +4,7 @@
 # exceptions: emu/emulate/quad.h is the middle of bind.h, and src/engines/external/vector.h is a text for the
 # system's compiler. The compilation database has an entry for every C source and every header of the
 # specification.
+# Runs once.
 set -u
 cd "$(dirname "$0")/.." || exit 1
 failed=0

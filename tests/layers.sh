@@ -3,6 +3,7 @@
 # allows, and every row names only rows above it. A cycle of includes between files is found separately.
 # Prints a line "ok NAME" or "FAIL NAME" for each folder and for each of the other rules; the reasons go to
 # stderr.
+# Runs once.
 set -u
 cd "$(dirname "$0")/.." || exit 1
 work=$(mktemp -d)

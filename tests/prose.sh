@@ -11,6 +11,7 @@
 #   tests/prose.sh [FILE|FOLDER]...     these, or README.md, docs and every folder of sources; prints a line
 #                                       for each
 #   tests/prose.sh --list               the habits and what to write instead
+# Runs once.
 set -uo pipefail
 cd "$(dirname "$0")/.." || exit 1
 
