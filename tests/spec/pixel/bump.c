@@ -1,5 +1,5 @@
-/* Bump mapping on every engine: displaced coordinates meet the texels that the matrix determines, and
- * luminance darkens them. Displacements are whole texels, so that every expected texel is known. */
+/* Bump mapping on every engine: the matrix determines the texels that displaced coordinates sample, and
+ * luminance darkens them. Displacements are whole texels, so that the test can compute every texel. */
 #include "tests/support/picture/canvas.h"
 
 #include <math.h>
@@ -176,7 +176,7 @@ static void test_displacements_chain(void)
     on_every_engine(check_chain);
 }
 
-/* Without one of the two textures nothing is displaced. */
+/* If one of the two textures is missing, coordinates are not displaced. */
 static void check_missing(void)
 {
     make_bumps();

@@ -1,5 +1,5 @@
-/* Depth as each format stores it, on every engine: what is written, what is compared, and a w-buffer's depth,
- * against arithmetic of more precision. */
+/* Depth in each format, on every engine: the stored values, comparisons, and the depth of a w-buffer,
+ * compared with arithmetic of more precision. */
 #include "tests/support/picture/canvas.h"
 
 #include <math.h>
@@ -24,7 +24,7 @@ static void use_format(enum triptych_depth_format format)
     OK(triptych_clear(device, (const float[4]){0, 0, 0, 0}, 1));
 }
 
-/* The integer, or the number of the floating-point value, that encodes a depth. */
+/* Returns the code of a depth: its integer, or the ordinal number of its floating-point value. */
 static double code_of(enum triptych_depth_format format, float z)
 {
     int exponent;
@@ -108,12 +108,12 @@ static void check_formats(void)
                 check_format((enum triptych_depth_format)i);
 }
 
-static void test_depth_is_stored_and_compared_as_the_format_has_it(void)
+static void test_depth_is_stored_and_compared_with_the_formats_precision(void)
 {
     on_every_engine(check_formats);
 }
 
-/* Without a surface everything passes and nothing is written. */
+/* Without a depth surface all pixels pass, and no depth is written. */
 static void check_no_depth(void)
 {
     struct triptych_target_description description = {
@@ -135,7 +135,8 @@ static void test_a_target_without_depth_has_no_depth_test(void)
     on_every_engine(check_no_depth);
 }
 
-/* A square that leans away from the eye at 45 degrees: its w at pixel row y, from the plane it lies in. */
+/* The square is tilted away from the eye by 45 degrees. The test computes w of each pixel row from its
+ * plane. */
 enum { NEAR = 2, FAR = 10 };
 
 static void check_w_buffer(void)
@@ -176,7 +177,7 @@ static void test_a_w_buffer_is_linear_between_near_and_far(void)
 int main(void)
 {
     UNITY_BEGIN();
-    RUN_TEST(test_depth_is_stored_and_compared_as_the_format_has_it);
+    RUN_TEST(test_depth_is_stored_and_compared_with_the_formats_precision);
     RUN_TEST(test_a_target_without_depth_has_no_depth_test);
     RUN_TEST(test_a_w_buffer_is_linear_between_near_and_far);
     return UNITY_END();

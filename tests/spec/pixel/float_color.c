@@ -1,5 +1,5 @@
-/* Colours in binary32, on every engine: stages, specular, alpha test, fog and blending over targets of
- * floating point, and what targets of more than 8 bits keep. Expected values are worked out here with the
+/* Colours in binary32, on every engine: stages, specular, alpha test, fog and blending with floating-point
+ * targets, and the precision of targets of more than 8 bits. Expected values are computed here with the
  * operations of the definitions. */
 #include "base/half.h"
 #include "tests/support/picture/canvas.h"
@@ -57,7 +57,7 @@ static float fraction(uint32_t word, int c)
 
 static uint32_t factor; /* an image's word */
 
-/* Argument 1 the texture, 2 the factor, 0 the factor's complement. */
+/* Argument 1 is the texture, argument 2 the factor, and argument 0 the complement of the factor. */
 static float operate(const char *word, const float a[4], const float b[4], int c)
 {
     float x = a[c], y = b[c], z = 1 - b[c];
@@ -134,7 +134,7 @@ static void test_stages_are_not_rounded(void)
     on_every_engine(check_operations);
 }
 
-/* Specular is added after the stages, at most to 1; alpha stays. */
+/* Specular is added after the stages, and the sum is at most 1. Alpha does not change. */
 static void check_specular(void)
 {
     static const float specular[4][4] = {{0.25f, 0.5f, 0.125f, 1},
@@ -163,7 +163,7 @@ static void test_specular_is_added_after_the_stages(void)
 
 /* --- Alpha test, fog ----------------------------------------------------------------------------------- */
 
-/* The same pixels pass as with packed colours: alpha is a byte of the texture. */
+/* The same pixels pass as with packed colours, because alpha is a byte of the texture. */
 static void check_alpha_test(void)
 {
     open_target(TRIPTYCH_SURFACE_A32B32G32R32F);
@@ -189,7 +189,7 @@ static void test_alpha_is_tested_as_a_byte(void)
     on_every_engine(check_alpha_test);
 }
 
-/* Without perspective the distance is depth, and a quarter of it is exact. */
+/* Without perspective, the fog distance is the depth, and its quarters are exact. */
 static void check_fog(void)
 {
     open_target(TRIPTYCH_SURFACE_A32B32G32R32F);
@@ -207,7 +207,7 @@ static void check_fog(void)
         }
 }
 
-static void test_fog_blends_what_is_not_rounded(void)
+static void test_fog_blends_colours_that_are_not_rounded(void)
 {
     on_every_engine(check_fog);
 }
@@ -250,7 +250,8 @@ static float blended(uint32_t operation, uint32_t source, uint32_t target, const
     }
 }
 
-/* The precision of a format: `kind` 32 and -16 floating point, otherwise bits. */
+/* Rounds a value to a channel's precision: binary32 if `bits` is 32, binary16 if it is -16, otherwise this
+ * number of bits. */
 static float kept(int bits, float value)
 {
     if (bits == 32)
@@ -261,7 +262,7 @@ static float kept(int bits, float value)
     return rintf(saturated(value) * levels) / levels;
 }
 
-/* The target begins with values of its own; new colours are a texture's. */
+/* Fills the target with values, draws a texture over them with a blending, and checks every pixel. */
 static void expect_blended(const int bits[4], uint32_t operation, uint32_t source, uint32_t target)
 {
     char what[64];
@@ -326,7 +327,8 @@ static void test_blending_is_as_defined(void)
     on_every_engine(check_blending);
 }
 
-/* Sums leave 0..1 where the target has room for them, and are infinite where binary16 ends. */
+/* In floating-point targets, sums may be outside of 0 to 1. Beyond the range of binary16 they are
+ * infinite. */
 static void check_range(void)
 {
     static const float start[4] = {60000, -3, 0.25f, 65504};
@@ -357,7 +359,7 @@ int main(void)
     RUN_TEST(test_stages_are_not_rounded);
     RUN_TEST(test_specular_is_added_after_the_stages);
     RUN_TEST(test_alpha_is_tested_as_a_byte);
-    RUN_TEST(test_fog_blends_what_is_not_rounded);
+    RUN_TEST(test_fog_blends_colours_that_are_not_rounded);
     RUN_TEST(test_blending_is_as_defined);
     RUN_TEST(test_floating_point_is_not_clamped);
     return UNITY_END();

@@ -1,6 +1,6 @@
-/* Multisampling, on every engine: the coverage, depth, stencil and colour of every sample against exact
- * arithmetic, the centroid of colours, the masks, the average, and what queries count. Positions are whole
- * sixteenths of a pixel, so that nothing here is rounded. */
+/* Multisampling, on every engine: the coverage, depth, stencil and colour of every sample, compared with
+ * exact arithmetic, and the centroids of colours, masks, averages and counts of queries. Positions are whole
+ * sixteenths of a pixel, so that the test does not round. */
 #include "tests/support/picture/canvas.h"
 
 #include <limits.h>
@@ -84,13 +84,15 @@ static void draw_triangle(const struct corner corner[3])
 
 /* --- What is covered ----------------------------------------------------------------------------------- */
 
-/* Twice the area of a, b and the point; the point is left of a -> b on the screen where it is positive. */
+/* Returns twice the signed area of a, b and the point. It is positive if the point is to the left of a -> b
+ * on the screen. */
 static int64_t cross(const struct corner *a, const struct corner *b, int x, int y)
 {
     return (int64_t)(b->x - a->x) * (y - a->y) - (int64_t)(b->y - a->y) * (x - a->x);
 }
 
-/* Inside, or on an edge that is a left or a top one of a triangle that is clockwise on the screen. */
+/* Returns 1 if the point is inside of the triangle, or on a left or top edge. The triangle is clockwise on
+ * the screen. */
 static int covers(const struct corner t[3], int x, int y)
 {
     int turned = cross(&t[0], &t[1], t[2].x, t[2].y) < 0;
@@ -157,7 +159,7 @@ static void expect_color(unsigned sample, int p, uint32_t expected, const char *
     TEST_FAIL_MESSAGE(text);
 }
 
-/* Each triangle adds one to the stencil of what it covers. */
+/* Each triangle increments the stencil of the samples that it covers. */
 static void check_coverage(void)
 {
     for (unsigned which = 0; which < PATTERNS; which++) {
@@ -224,14 +226,14 @@ static void check_masks(void)
     }
 }
 
-static void test_masks_take_samples_away(void)
+static void test_masks_exclude_samples(void)
 {
     on_every_engine(check_masks);
 }
 
 /* --- Depth --------------------------------------------------------------------------------------------- */
 
-/* 2^-20 a sixteenth across and a third of that down: what the corners have, in double precision. */
+/* Returns the depth at a point from the depths of the corners, in double precision. */
 static double plane_at(const struct corner t[3], int x, int y)
 {
     double area = (double)cross(&t[0], &t[1], t[2].x, t[2].y);
@@ -279,7 +281,7 @@ static void test_depth_is_each_samples_own(void)
 
 /* --- Colour -------------------------------------------------------------------------------------------- */
 
-/* Red rises across the triangle from 0 to 255: a sample's colour is that of the pixel's centroid. */
+/* Red increases from 0 to 255 across the triangle. All samples of a pixel have the colour of its centroid. */
 static void check_centroids(void)
 {
     for (unsigned which = 0; which < PATTERNS; which++)
@@ -322,7 +324,7 @@ static unsigned rounded(unsigned product)
     return (unsigned)floor(product / 255.0 + 0.5);
 }
 
-/* Triangles blended over one another, additively and by their alpha; alpha below 64 is discarded. */
+/* Draws overlapping triangles that are blended additively and by alpha. Alpha below 64 is discarded. */
 static void check_blending(void)
 {
     for (unsigned which = 0; which < PATTERNS; which++) {
@@ -367,12 +369,12 @@ static void check_blending(void)
     }
 }
 
-static void test_samples_are_blended_apart_and_averaged(void)
+static void test_samples_are_blended_separately_and_averaged(void)
 {
     on_every_engine(check_blending);
 }
 
-/* Two halves of a square share every sample of the diagonal out among themselves. */
+/* Each sample on the diagonal of a square belongs to one of the square's two triangles. */
 static void check_shared_edges(void)
 {
     struct corner a = {0, 0, 0, 0x01010101}, b = {EXTENT, 0, 0, 0x01010101}, c = {0, EXTENT, 0, 0x01010101},
@@ -398,7 +400,7 @@ static void check_shared_edges(void)
     }
 }
 
-static void test_triangles_share_samples_out_among_themselves(void)
+static void test_each_sample_belongs_to_one_of_two_triangles(void)
 {
     on_every_engine(check_shared_edges);
 }
@@ -430,7 +432,7 @@ static void check_refusals(void)
     TEST_ASSERT_EQUAL_FLOAT(7, depth[0][0]);
 }
 
-static void test_what_cannot_be_is_refused(void)
+static void test_invalid_numbers_of_samples_and_formats_are_refused(void)
 {
     on_every_engine(check_refusals);
 }
@@ -439,11 +441,11 @@ int main(void)
 {
     UNITY_BEGIN();
     RUN_TEST(test_every_sample_has_its_own_coverage);
-    RUN_TEST(test_masks_take_samples_away);
+    RUN_TEST(test_masks_exclude_samples);
     RUN_TEST(test_depth_is_each_samples_own);
     RUN_TEST(test_colours_are_the_centroids);
-    RUN_TEST(test_samples_are_blended_apart_and_averaged);
-    RUN_TEST(test_triangles_share_samples_out_among_themselves);
-    RUN_TEST(test_what_cannot_be_is_refused);
+    RUN_TEST(test_samples_are_blended_separately_and_averaged);
+    RUN_TEST(test_each_sample_belongs_to_one_of_two_triangles);
+    RUN_TEST(test_invalid_numbers_of_samples_and_formats_are_refused);
     return UNITY_END();
 }

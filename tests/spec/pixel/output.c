@@ -1,5 +1,5 @@
-/* Operations on a shaded pixel, on every engine: alpha test, late depth write, scissor, blending. Each
- * expected value is worked out here from the definition. */
+/* Operations on a shaded pixel, on every engine: alpha test, late depth write, scissor and blending. Each
+ * expected value is computed here from the definition. */
 #include "tests/support/picture/canvas.h"
 #include "tests/support/system/seed.h"
 
@@ -146,7 +146,7 @@ static void check_new_target(void)
     expect_scissored(0, 0, SIZE, SIZE, 0x12345678, 0, "a clear of a new target");
 }
 
-static void test_the_scissor_rectangle_holds_draws_and_clears(void)
+static void test_the_scissor_rectangle_limits_draws_and_clears(void)
 {
     on_every_engine(check_scissor);
 }
@@ -246,14 +246,14 @@ static void set_alpha_blending(struct blending b)
     OK(triptych_set_state(device, TRIPTYCH_STATE_destblendalpha, b.target));
 }
 
-/* The i-th of all; returns 0 where the target's factor is one that only sources have. */
+/* Makes blending number i. Returns 0 if its target factor is allowed only as a source factor. */
 static int make_blending(unsigned i, struct blending *b)
 {
     *b = (struct blending){1 + i / 225, 1 + i / 15 % 15, 1 + i % 15};
     return b->target != 12 && b->target != 13;
 }
 
-/* Words with channels at both ends of their range as often as between. */
+/* Makes words whose channels are as often at the ends of their range as between them. */
 static void make_texture(uint32_t *words, triptych_texture **texture)
 {
     for (int p = 0; p < SIZE * SIZE; p++) {
@@ -315,7 +315,7 @@ static void test_blending_is_as_defined(void)
     on_every_engine(check_blending_alike);
 }
 
-static void test_alpha_is_blended_apart(void)
+static void test_alpha_is_blended_separately(void)
 {
     on_every_engine(check_blending_apart);
 }
@@ -325,9 +325,9 @@ int main(void)
     UNITY_BEGIN();
     RUN_TEST(test_alpha_decides_colour_and_depth);
     RUN_TEST(test_the_depth_comparison_comes_before_the_alpha_test);
-    RUN_TEST(test_the_scissor_rectangle_holds_draws_and_clears);
+    RUN_TEST(test_the_scissor_rectangle_limits_draws_and_clears);
     RUN_TEST(test_a_new_target_is_the_scissor_rectangle);
     RUN_TEST(test_blending_is_as_defined);
-    RUN_TEST(test_alpha_is_blended_apart);
+    RUN_TEST(test_alpha_is_blended_separately);
     return UNITY_END();
 }

@@ -1,6 +1,6 @@
-/* Pictures whose every pixel follows from the definition, on every engine: texel grids, bilinear weights,
- * addressing, stages, blending, masks, depth functions, and lighting against double precision. Nothing here
- * is taken from a render: expected values are worked out below, in integers where the contract is integer. */
+/* Pictures whose pixels are all computed from the definition, on every engine: texel grids, bilinear weights,
+ * addressing, stages, blending, masks, depth functions, and lighting in double precision. No expected value
+ * comes from an engine. Where the contract uses integers, the test does too. */
 #include "tests/support/picture/canvas.h"
 
 #include <math.h>
@@ -46,7 +46,7 @@ static int addressed(int index, int size, enum addressing mode)
     }
 }
 
-/* A texture as it was drawn: its size, and how each axis is addressed. */
+/* The size of a drawn texture, and the addressing of each axis. */
 struct sampled {
     int width, height;
     enum addressing u, v;
@@ -58,8 +58,8 @@ static uint32_t texel_at(const struct sampled *s, int column, int row)
     return x < 0 || y < 0 ? border : texel[y * s->width + x];
 }
 
-/* The position in 1/256 texel of pixel `i` when coordinates run from `low` to `high`; exact for what is drawn
- * here. */
+/* Returns the position of pixel i in 1/256 texel if coordinates go from `low` to `high`. It is exact for the
+ * draws of this file. */
 static int texel_position(int i, double low, double high, int size)
 {
     double coordinate = low + (high - low) * (i + 0.5) / SIZE;
@@ -144,8 +144,8 @@ static void check_textures(void)
             }
 }
 
-/* Coordinates too large for the fixed point lose their place in the image; they still give a texel of it, the
- * same on every engine, and the border colour with a border. */
+/* Coordinates that are too large for the fixed-point format select any texel of the image, the same on every
+ * engine. With border addressing they give the border colour. */
 static void check_extreme_coordinates(void)
 {
     static const float extremes[] = {3e9f, -3e9f, 1e38f, -1e38f};
@@ -384,7 +384,7 @@ static void check_one_lighting(unsigned lights, int normalize)
     }
 }
 
-/* The square is so small in the world that all of it is lit as the origin is. */
+/* The square is so small in the world that all of its points have the lighting of the origin. */
 static void check_lighting(void)
 {
     const float large[4][4] = {{0x1p20f}, {0, 0x1p20f}, {0, 0, 1}, {0, 0, 0.5f, 1}};

@@ -1,5 +1,5 @@
-/* Occlusion queries count exactly the pixels that pass alpha, stencil and depth test, on every engine, with
- * any number of threads, over any number of draws; and what the calls refuse. */
+/* Occlusion queries count exactly the pixels that pass the alpha, stencil and depth tests, on every engine,
+ * with any number of threads and draws. Calls in the wrong order are refused. */
 #include "tests/support/picture/canvas.h"
 
 #include <string.h>
@@ -57,7 +57,7 @@ static void check_counts(void)
     OK(triptych_query_end(device, second));
     OK(triptych_set_state(device, TRIPTYCH_STATE_colorwriteenable, 0));
     set(TRIPTYCH_STATE_zwriteenable, "false");
-    draw_part(0.125f, 10, 10, 11, 11); /* 121; nothing else remains of them */
+    draw_part(0.125f, 10, 10, 11, 11); /* 121 */
     OK(triptych_query_end(device, whole));
     draw_part(0.125f, 0, 0, 11, 11);
     TEST_ASSERT_EQUAL_UINT(600, result_of(first));
@@ -69,12 +69,12 @@ static void check_counts(void)
     TEST_ASSERT_EQUAL_UINT(0, result_of(first));
 }
 
-static void test_what_passes_is_counted(void)
+static void test_pixels_that_pass_are_counted(void)
 {
     on_every_engine(check_counts);
 }
 
-/* Alpha of 64 values, a stencil in the left half, depth in the upper one. */
+/* The picture has 64 values of alpha, a stencil in its left half, and a nearer depth in its upper half. */
 static void check_tests(void)
 {
     triptych_query *query = make_query();
@@ -180,7 +180,7 @@ static void test_calls_out_of_order_are_refused(void)
 int main(void)
 {
     UNITY_BEGIN();
-    RUN_TEST(test_what_passes_is_counted);
+    RUN_TEST(test_pixels_that_pass_are_counted);
     RUN_TEST(test_every_test_reduces_the_count);
     RUN_TEST(test_queries_span_any_number_of_draws);
     RUN_TEST(test_calls_out_of_order_are_refused);

@@ -19,7 +19,7 @@ void tearDown(void)
     close_canvas();
 }
 
-/* As many codes begin at the value or before it. */
+/* Returns the code of a value: the number of codes, after 0, that begin at the value or before it. */
 static unsigned encoded(float value)
 {
     unsigned code = 0;
@@ -39,8 +39,7 @@ static void expect_code(struct env *e, float value, int code)
     TEST_FAIL_MESSAGE(message);
 }
 
-/* Around every value that begins a code, and a sweep over all exponents; everything is in the interface's
- * range of 0 to 1. */
+/* Tests values near the start of every code, and values with all exponents, from 0 to 1. */
 static void test_encoding_is_correctly_rounded(void)
 {
     struct job job = {.srgb = &srgb_tables};
@@ -81,7 +80,7 @@ static void test_red_green_and_blue_are_encoded_and_alpha_is_not(void)
     on_every_engine(check_encoded_channels);
 }
 
-/* The target holds random codes; the colours that they encode are blended. */
+/* The target contains random codes. Blending uses the colours that they encode. */
 static void check_blending(void)
 {
     static uint32_t under[SIZE * SIZE];

@@ -1,6 +1,6 @@
-/* Texture stages, one and chains of them: every operation and argument, the temporary colour, premodulation
- * and unbound textures. The expected pixels are computed from Direct3D
- * 9's formulas, one by one, on integers. */
+/* Single texture stages and chains of stages: every operation and argument, the temporary colour,
+ * premodulation and unbound textures. The expected pixels are computed one by one from Direct3D 9's formulas,
+ * on integers. */
 #include "tests/support/picture/canvas.h"
 #include "contract/key_query.h"
 #include "tests/support/system/seed.h"
@@ -34,7 +34,7 @@ struct half_stage {
     struct argument argument[3]; /* 0, 1, 2 */
 };
 
-/* The words that a pixel's arguments come from, by source. */
+/* The sources of a pixel's arguments. Each has a word. */
 enum { DIFFUSE, CURRENT, TEXTURE, FACTOR, SPECULAR, TEMPORARY, CONSTANT, SOURCES };
 typedef const uint32_t sources[SOURCES];
 
@@ -164,7 +164,7 @@ static void set_whole(unsigned i, const struct whole_stage *stage)
     OK(triptych_set_texture(device, i, textures[stage->texture]));
 }
 
-/* The current colour where the stage before premodulates. */
+/* Returns the current colour, multiplied by the texture if the previous stage premodulates. */
 static uint32_t premodulated(const struct whole_stage *before, uint32_t current, uint32_t texture)
 {
     uint32_t word = 0;
@@ -268,7 +268,7 @@ static void check_stages(void)
     }
 }
 
-/* Half of the stages read the current colour, so that the earlier ones matter. */
+/* Half of the stages read the current colour, so that earlier stages affect the result. */
 static void check_chains(void)
 {
     struct whole_stage stage[TRIPTYCH_STAGES];
@@ -285,7 +285,7 @@ static void check_chains(void)
     }
 }
 
-/* Two pictures modulated, added, and blended by alpha: what most chains are. */
+/* The most frequent chains: two textures, modulated, added, or blended by alpha. */
 static void check_usual_chains(void)
 {
     static const char *const usual[] = {"selectarg1", "modulate", "add", "modulate2x", "blendtexturealpha"};
@@ -303,7 +303,7 @@ static void check_usual_chains(void)
     }
 }
 
-/* Without a texture what of a stage reads it is off, and what does not is on. */
+/* Without a texture, the half of a stage that reads it is off, and a half that does not read it is on. */
 static void check_stages_without_texture(void)
 {
     static const struct {

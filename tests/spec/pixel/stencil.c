@@ -1,6 +1,6 @@
 /* Stencil, on every engine: every comparison and operation, both windings, masks, the order of alpha, stencil
- * and depth test, formats of 1, 4 and 8 bits, and clears. The expected contents are followed here, pixel by
- * pixel, from the definition in spec/pixel/stencil.h. */
+ * and depth tests, formats of 1, 4 and 8 bits, and clears. The test computes the expected contents of every
+ * pixel from the definition in spec/pixel/stencil.h. */
 #include "tests/support/picture/canvas.h"
 
 #include <stdio.h>
@@ -12,7 +12,7 @@ struct side {
     uint32_t function, fail, depth_fail, pass; /* Direct3D 9's numbers */
 };
 
-/* All that decides what a draw does. */
+/* All states on which the effect of a draw depends. */
 struct setting {
     struct side side[2]; /* clockwise, counter-clockwise */
     uint32_t reference, mask, write_mask, depth_function;
@@ -45,7 +45,7 @@ static void use_format(enum triptych_depth_format format)
     maximum = (1u << triptych_stencil_bits(format)) - 1;
 }
 
-/* Every cell of the target with a stencil, depth 0.25, 0.5 or 0.75 and a colour of its own. */
+/* Fills every cell of the target with its own stencil, depth (0.25, 0.5 or 0.75) and colour. */
 static void fill_cells(void)
 {
     put(TRIPTYCH_STATE_scissortestenable, 1);
@@ -106,7 +106,7 @@ static void expect_drawn(const struct setting *s, uint32_t word, float z, int p)
         color[p] = s->alpha_test ? texel[p] : word;
 }
 
-/* Only the diffuse colour, whatever is bound. */
+/* Unbinds the texture, so that pixels have the diffuse colour. */
 static void unbind_texture(void)
 {
     set_stage(0, TRIPTYCH_STAGE_colorop, "selectarg2");
@@ -169,7 +169,8 @@ static void apply(const struct setting *s)
         unbind_texture();
 }
 
-/* Depths are multiples of a quarter: what a format makes of them is within its own step. */
+/* Expects these contents. Depths are multiples of a quarter, and a format changes them by less than its
+ * step. */
 static void expect_contents(const struct setting *s, const char *format)
 {
     char what[256];
@@ -225,7 +226,7 @@ static void test_tests_and_operations_are_as_defined(void)
     on_every_engine(check_operations);
 }
 
-/* Culling leaves one winding, whose states are those of two-sided mode all the same. */
+/* Culling removes one winding. The other one still uses its own states of two-sided mode. */
 static void check_culled(void)
 {
     for (int counterclockwise = 0; counterclockwise < 2; counterclockwise++) {
@@ -256,7 +257,7 @@ static void test_culling_leaves_one_windings_states(void)
     on_every_engine(check_culled);
 }
 
-/* Formats without stencil take the states and ignore them. */
+/* Formats without stencil ignore the stencil states. */
 static void check_without(void)
 {
     static const enum triptych_depth_format formats[] = {TRIPTYCH_DEPTH_d16, TRIPTYCH_DEPTH_d32,

@@ -68,7 +68,7 @@ static float saturated(float value)
     return value > 0 ? value < 1 ? value : 1 : 0;
 }
 
-/* The byte of a code of less than 8 bits is the nearest of all bytes. */
+/* Returns the byte of a channel of less than 8 bits: the nearest byte to its value. */
 static float kept(int bits, float value)
 {
     if (bits == NONE)
@@ -103,7 +103,7 @@ static void expect_pixels(unsigned t, const struct kind *kind, uint32_t mask, co
         }
 }
 
-/* The same as bytes. */
+/* Compares the same values as bytes. */
 static void expect_bytes(const char *what)
 {
     OK(triptych_read_target(device, 0, image));
@@ -160,7 +160,7 @@ static void test_clears_are_converted_to_the_format(void)
     on_every_engine(check_clears);
 }
 
-/* Without alpha the factor is 1: the colour itself arrives. */
+/* Without alpha in the target the factor is 1, so the target gets the colour itself. */
 static void check_missing_alpha(void)
 {
     static const float black[4];
@@ -221,7 +221,7 @@ static void test_every_target_has_its_mask_and_format(void)
     on_every_engine(check_targets);
 }
 
-/* Every target is blended with what is in it: twice the same half makes three quarters. */
+/* Every target is blended with its own contents. Two draws with a factor of one half give three quarters. */
 static void check_blended_targets(void)
 {
     const struct kind *kind[4] = {&kinds[0], &kinds[18], &kinds[12], NULL};
@@ -275,7 +275,7 @@ static void check_dither(const struct kind *const kind[4])
         expect_number(0, p, 3, kept(kind[0]->bits[3], (float)(texel[p] >> 24) / 255.0f), "alpha");
 }
 
-/* With packed colours, and with those in binary32 that a second target brings. */
+/* Checks packed colours, and binary32 colours, which the pipeline uses if a second target needs them. */
 static void check_dithers(void)
 {
     for (int i = 4; i < 9; i++) {
@@ -324,7 +324,7 @@ static void check_refusals(void)
     OK(triptych_read_color(device, image)); /* the target of before is there */
 }
 
-static void test_what_cannot_be_a_target_is_refused(void)
+static void test_surfaces_that_cannot_be_targets_are_refused(void)
 {
     on_every_engine(check_refusals);
 }
@@ -339,6 +339,6 @@ int main(void)
     RUN_TEST(test_every_target_is_blended_with_its_own);
     RUN_TEST(test_few_bits_are_dithered_by_place);
     RUN_TEST(test_levels_are_not_changed_by_dithering);
-    RUN_TEST(test_what_cannot_be_a_target_is_refused);
+    RUN_TEST(test_surfaces_that_cannot_be_targets_are_refused);
     return UNITY_END();
 }

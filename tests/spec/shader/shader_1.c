@@ -1,5 +1,6 @@
-/* The arithmetic of ps_1_1 to ps_1_4: the same instructions over narrow registers, whose constants stay
- * within -1 and 1 and whose results stay within -8 and 8. */
+/* The arithmetic of ps_1_1 to ps_1_4: the same instructions with registers of a limited range. Constants are
+ * limited to
+ * -1 to 1, and results to -8 to 8. */
 #include "tests/support/trial/trial.h"
 
 #include <math.h>
@@ -23,7 +24,7 @@ static double at(operands o, int operand, int c)
     return trial_flush(o->v[operand][c]);
 }
 
-/* Of constants beyond 1 the nearest of -1 and 1 is seen. */
+/* Returns a constant as the shader reads it, limited to -1 to 1. */
 static double constant(int row, int c)
 {
     return fmin(fmax((double)constants[row][c], -1), 1);
@@ -117,7 +118,7 @@ COMPONENTS(cnd_alpha, within(first(o, 3)) > 0.5 ? y : B)
 COMPONENTS(dp3, dot(t, o, 3))
 COMPONENTS(dp4, dot(t, o, 4))
 
-/* Sixteen times a number: wider than what registers hold, hence cut off on the way. */
+/* Sixteen times a number, which exceeds the range of registers and is limited after each step. */
 COMPONENTS(grown, within(within(x * 4) * 4) * 0.25)
 
 static const struct row {
@@ -141,7 +142,7 @@ static const struct row {
     {SHADER_MOV, "mov_x4 r0, $1\nmov_x4 r0, r0\nmov_d2 r0, r0\nmov_d2 r0, r0", grown_reference, 15},
 };
 
-/* Constants are the draw's, or defined by the shader: beyond 1 they end there all the same. */
+/* Constants are set by the draw or defined by the shader. Both are limited to -1 to 1. */
 static void try_row(const struct row *row, int model, const char *body, int legacy,
                     const struct trial_operands *sets, unsigned count, int alone)
 {
@@ -175,7 +176,8 @@ static void the_machine_computes_the_definitions(void)
 
 enum { SETS = 120 };
 
-/* Operands of draws are texels, themselves results within -8 and 8; these are, with the edges among them. */
+/* Returns the sets of operands within -8 and 8, with edge values. Operands of draws are texels, which are
+ * limited to this range. */
 static const struct trial_operands *narrow_sets(void)
 {
     static struct trial_operands sets[SETS];
@@ -221,7 +223,7 @@ static void try_modified(const struct row *row, int model, int alone)
     try_row(row, model, body, 0, narrow_sets(), SETS, alone);
 }
 
-/* Engines see the shifts that all models have, in ps_1_1 and ps_1_4. */
+/* Tries all results. Engines are tried in ps_1_1 and ps_1_4, with the shifts that all models have. */
 static void try_results(const struct row *row, int model)
 {
     for (shift = -3; shift <= 3; shift++)
@@ -239,7 +241,7 @@ static void try_sources(const struct row *row, int model)
     modifier = MODIFIER_NONE;
 }
 
-static void every_instruction_takes_every_modifier(void)
+static void every_instruction_works_with_every_modifier(void)
 {
     for (unsigned i = 0; i < sizeof rows / sizeof *rows; i++)
         for (int model = 0; model < 4; model++)
@@ -273,6 +275,6 @@ int main(void)
     RUN_TEST(every_instruction_of_these_models_has_a_row);
     RUN_TEST(the_machine_computes_the_definitions);
     RUN_TEST(engines_compute_the_definitions);
-    RUN_TEST(every_instruction_takes_every_modifier);
+    RUN_TEST(every_instruction_works_with_every_modifier);
     return UNITY_END();
 }

@@ -1,6 +1,6 @@
-/* The results of the arithmetic instructions of shaders: each of them over all pairs of the edges of binary32
- * and over ordinary numbers, in models of every generation, against the definitions of
- * docs/shader-semantics.md in double precision. */
+/* The results of the arithmetic instructions of shaders, in models of every generation. Each instruction is
+ * tried with all pairs of edge values of binary32 and with ordinary numbers, and compared with its definition
+ * in docs/shader-semantics.md in double precision. */
 #include "tests/support/trial/trial_arithmetic.h"
 
 #include <float.h>
@@ -25,8 +25,9 @@ static double at(operands o, int operand, int c)
 #define B(c) at(o, 1, c)
 #define C(c) at(o, 2, c)
 
-/* Rules and readings of the models differ in all of them, the machine code that comes of an instruction does
- * not: the machine is tried in each model, engines in one of each generation. */
+/* Returns 1 if engines are tried in the model. All models differ in their rules, so the way `emulated` is
+ * tried in each. The code of an instruction is the same within a generation, so engines are tried in one
+ * model of each. */
 static int is_for_engines(const struct shader_model *model)
 {
     return model->column != COLUMN_VS_2_X && model->column != COLUMN_PS_2_X;
@@ -65,7 +66,8 @@ static void with_legacy_multiplication_zeros_give_zero(void)
     try_all(1);
 }
 
-/* Each set of operands a shader of its own, which folds its constants: on all ways for some of them. */
+/* Makes a shader for each set of operands, in which compilers can fold the constants. Some shaders are
+ * executed in all ways. */
 static void try_literals(const struct arithmetic_row *row, const struct shader_model *model, unsigned step,
                          int alone)
 {
@@ -99,7 +101,7 @@ static void constants_that_are_known_compute_the_same(void)
 
 /* The result of lit of x, y and w: the second operand's y and z. */
 static const struct trial_operands lights[] = {
-    {{{1, 0, 9, 0}, {0, 1, 0}}}, /* 0 to the power 0 is not seen */
+    {{{1, 0, 9, 0}, {0, 1, 0}}}, /* the result does not contain 0 to the power 0 */
     {{{1, -0.0f, 9, 0}, {0, 1, 0}}},
     {{{1, -1, 9, 2}, {0, 1, 0}}},
     {{{0, 1, 9, 1}, {0, 0, 0}}},
@@ -138,7 +140,8 @@ static void light_at_the_edges(void)
     }
 }
 
-/* Angles by hand: zeros, right and straight angles as binary32 has them, beyond 2^25, and none at all. */
+/* Angles with results computed by hand: zeros, right and straight angles in binary32, angles beyond 2^25, and
+ * values that are not numbers. */
 static const struct trial_operands angles[] = {
     {{{0.0f, 1, 0}}},
     {{{-0.0f, 1, -0.0f}}},

@@ -29,8 +29,8 @@ static double at(operands o, int operand, int c)
 static const struct arithmetic_row *masked_row;
 static unsigned mask;
 
-/* Components outside of the mask are those of the third operand; where four lines made one component each,
- * one of x makes all. */
+/* Components outside of the mask are those of the third operand. If the row has four lines with one component
+ * each, its x is the result of all components. */
 static void masked_reference(const struct trial *t, operands o, double r[TRIAL_RESULTS][4])
 {
     double whole[TRIAL_RESULTS][4];
@@ -93,7 +93,7 @@ static void masks_do_not_change_the_other_components(void)
 }
 
 /* --- Modifiers --------------------------------------------------------------------------------------------
- * Every instruction with what can be written at it: of the result, of its first source, and a predicate. */
+ * Every instruction with modifiers of its result and of its first source, and with a predicate. */
 
 enum dress { SATURATED, PARTIAL, NEGATED, MAGNITUDE, NEGATED_MAGNITUDE, PREDICATED, DRESSES };
 
@@ -117,7 +117,7 @@ static double saturated(double value)
     return value > 0 ? value < 1 ? value : 1 : 0;
 }
 
-/* sincos of models 2 takes a predicate for all components only. */
+/* In models 2, sincos accepts only a predicate for all components. */
 static int predicate_component(int c)
 {
     return dressed_row->opcode == SHADER_SINCOS_2 ? 1 : c;
@@ -142,7 +142,7 @@ static void dressed_reference(const struct trial *t, operands o, double r[TRIAL_
     }
 }
 
-/* One line with the instruction, and which components it writes. */
+/* Writes one line with the instruction and its modifiers, and records the components that it writes. */
 static void dress_line(const char *line, size_t length, const char *name, char *text)
 {
     const char *result = line + strlen(name), *source = strstr(result, " r1"), *comma = strchr(result, ',');
@@ -158,7 +158,7 @@ static void dress_line(const char *line, size_t length, const char *name, char *
             source + 3);
 }
 
-/* Every line that has the row's instruction; a predicate comes first. */
+/* Changes every line that has the row's instruction. A predicate is set in a line before. */
 static void dress_body(const char *body, const char *name, char *text)
 {
     written = 0;
@@ -210,7 +210,7 @@ static void try_dressed(const struct arithmetic_row *row, const struct shader_mo
     }
 }
 
-static void every_instruction_takes_every_modifier(void)
+static void every_instruction_works_with_every_modifier(void)
 {
     for (unsigned m = 0; m < ARITHMETIC_MODELS; m++)
         for (unsigned i = 0; i < ARITHMETIC_ROWS; i++)
@@ -220,7 +220,7 @@ static void every_instruction_takes_every_modifier(void)
 int main(void)
 {
     UNITY_BEGIN();
-    RUN_TEST(every_instruction_takes_every_modifier);
+    RUN_TEST(every_instruction_works_with_every_modifier);
     RUN_TEST(masks_do_not_change_the_other_components);
     return UNITY_END();
 }

@@ -1,5 +1,5 @@
-/* Discarded pixels and depth of pixel shaders, on every engine: what remains in colour, depth and stencil,
- * with every format of depth. */
+/* Discarded pixels and the depth that pixel shaders write, on every engine: the contents of colour, depth and
+ * stencil, with every depth format. */
 #include "tests/support/picture/drawn.h"
 
 #include <math.h>
@@ -26,9 +26,9 @@ static void draw(void)
     draw_declared(TRIPTYCH_USAGE_POSITION, NULL, 0);
 }
 
-/* --- What is left of pixels ---------------------------------------------------------------------------- */
+/* --- Discarded pixels ---------------------------------------------------------------------------------- */
 
-/* Discards the left half: x of texcoord 0 runs from -1 to 1. */
+/* The element by which shaders discard the left half: its x goes from -1 to 1. */
 static const struct drawn_element sides = {
     TRIPTYCH_USAGE_TEXCOORD, 0, {{-1, 1, 1, 1}, {1, 1, 1, 1}, {-1, 1, 1, 1}, {1, 1, 1, 1}}};
 static const char with_sides[] = "vs_2_0\ndcl_position v0\ndcl_texcoord v1\nmov oPos, v0\nmov oT0, v1\n";
@@ -101,12 +101,12 @@ static void check_kill(void)
     }
 }
 
-static void test_discarded_pixels_leave_nothing(void)
+static void test_discarded_pixels_write_nothing(void)
 {
     on_every_engine(check_kill);
 }
 
-/* Nothing is written but depth, and pixels are discarded all the same. */
+/* Only depth is written, and pixels are discarded too. */
 static void check_only_kill(void)
 {
     set(TRIPTYCH_STATE_zenable, "true");
@@ -133,14 +133,14 @@ static void check_only_kill(void)
     TEST_ASSERT_EQUAL_HEX32(0, image[SIZE / 2 + 17]); /* alpha 0.5 and more */
 }
 
-static void test_discarding_needs_no_colour_and_meets_the_alpha_test(void)
+static void test_discarding_works_without_colour_and_with_the_alpha_test(void)
 {
     on_every_engine(check_only_kill);
 }
 
 /* --- Depth --------------------------------------------------------------------------------------------- */
 
-/* Depth from 0 to 1 over the target, beyond it at the ends, tested against 0.5. */
+/* Depth goes from 0 to 1 over the target, exceeds this range at the ends, and is compared with 0.5. */
 static const struct drawn_element slope = {
     TRIPTYCH_USAGE_TEXCOORD, 0, {{-0.5f, 1, 1, 1}, {1.5f, 1, 1, 1}, {-0.5f, 1, 1, 1}, {1.5f, 1, 1, 1}}};
 static const char *const deep[] = {
@@ -196,12 +196,12 @@ static void check_depth(void)
     }
 }
 
-static void test_depth_that_a_shader_gives_is_tested_and_written(void)
+static void test_depth_that_a_shader_writes_is_tested_and_stored(void)
 {
     on_every_engine(check_depth);
 }
 
-/* Without the stencil, with formats of depth only, and NaN. */
+/* Targets with depth formats without stencil, and a depth of NaN. */
 static void check_only_depth(void)
 {
     static const enum triptych_depth_format formats[] = {TRIPTYCH_DEPTH_d16, TRIPTYCH_DEPTH_d32f_lockable,
@@ -234,9 +234,9 @@ static void test_shaded_depth_has_every_format(void)
 int main(void)
 {
     UNITY_BEGIN();
-    RUN_TEST(test_discarded_pixels_leave_nothing);
-    RUN_TEST(test_discarding_needs_no_colour_and_meets_the_alpha_test);
-    RUN_TEST(test_depth_that_a_shader_gives_is_tested_and_written);
+    RUN_TEST(test_discarded_pixels_write_nothing);
+    RUN_TEST(test_discarding_works_without_colour_and_with_the_alpha_test);
+    RUN_TEST(test_depth_that_a_shader_writes_is_tested_and_stored);
     RUN_TEST(test_shaded_depth_has_every_format);
     return UNITY_END();
 }

@@ -1,6 +1,6 @@
-/* The edges of what pixel shaders leave, worked out by hand, in whole draws on every engine: what kills,
- * what is written, what registers of ps_1_x hold, depths, places, and NaN in targets of every format that
- * can hold one. */
+/* Edge cases of the results of pixel shaders, in whole draws on every engine: texkill, masked writes, the
+ * range of registers of ps_1_x, depths, positions, and NaN in targets of every format with NaN. The expected
+ * values are computed by hand. */
 #include "base/bits.h"
 #include "tests/support/picture/part.h"
 
@@ -31,7 +31,7 @@ static void set_pixel_constant(unsigned number, float x, float y, float z, float
     OK(triptych_set_shader_floats(device, TRIPTYCH_SHADER_PIXEL, number, (const float[4]){x, y, z, w}, 1));
 }
 
-/* --- What kills ---------------------------------------------------------------------------------------- */
+/* --- texkill ------------------------------------------------------------------------------------------- */
 
 static void expect_killed(int killed, const char *text, int c, float value)
 {
@@ -41,7 +41,7 @@ static void expect_killed(int killed, const char *text, int c, float value)
     part_expect(killed ? (const float[4]){0.25f, 0.25f, 0.25f, 0.25f} : (const float[4]){1, 1, 1, 1}, what);
 }
 
-/* Constants come as they are; coordinates that are interpolated must be numbers. */
+/* Constants may have any bits. Interpolated coordinates must be numbers. */
 static void check_kills(void)
 {
     static const struct {
@@ -79,7 +79,7 @@ static void test_components_below_zero_kill(void)
     on_every_engine(check_kills);
 }
 
-/* --- What is written ----------------------------------------------------------------------------------- */
+/* --- Written components -------------------------------------------------------------------------------- */
 
 static void bind_value(unsigned sampler, float x, float y, float z, float w)
 {
@@ -91,8 +91,8 @@ static void bind_value(unsigned sampler, float x, float y, float z, float w)
     OK(triptych_set_texture(device, sampler, single));
 }
 
-/* Lookups and differences under masks, swizzles and predicates. The texel is 1 2 3 4, what was there 5 6 7 8.
- */
+/* Lookups and differences with masks, swizzles and predicates. The texel is 1 2 3 4, and the register
+ * contains 5 6 7 8 before. */
 static void check_written(void)
 {
     static const struct {
@@ -137,7 +137,8 @@ static void test_results_are_masked_swizzled_and_predicated(void)
     on_every_engine(check_written);
 }
 
-/* 0 times NaN or infinity: NaN, which ps_1_x keeps as -8, or 0 with legacy multiplication. */
+/* 0 times NaN or infinity is NaN, which becomes -8 in registers of ps_1_x. With legacy multiplication it is
+ * 0. */
 static void check_legacy(void)
 {
     static const float nans[4] = {NAN, NAN, NAN, 1};
@@ -203,14 +204,14 @@ static void check_narrow(void)
     }
 }
 
-static void test_registers_of_ps_1_x_are_narrow(void)
+static void test_registers_of_ps_1_x_have_a_limited_range(void)
 {
     on_every_engine(check_narrow);
 }
 
 /* --- Depth --------------------------------------------------------------------------------------------- */
 
-/* Quotients are 1 by zeros of either sign, clamped, and take no bias. */
+/* Quotients by zeros of either sign are 1. Depths are clamped, and depth bias does not change them. */
 static void check_depths(void)
 {
     static const char *const texts[] = {
@@ -251,9 +252,9 @@ static void test_depths_are_quotients(void)
     on_every_engine(check_depths);
 }
 
-/* --- Place and face ------------------------------------------------------------------------------------ */
+/* --- Position and face --------------------------------------------------------------------------------- */
 
-/* vPos is whole however many samples there are, and its z and w are x and y again. */
+/* vPos consists of integers with any number of samples. Its z and w are x and y again. */
 static void check_places(void)
 {
     for (unsigned samples = 1; samples <= 4; samples *= 4) {
@@ -272,12 +273,12 @@ static void check_places(void)
     }
 }
 
-static void test_places_are_whole(void)
+static void test_positions_are_integers(void)
 {
     on_every_engine(check_places);
 }
 
-/* Lines have no back, whichever way they go. */
+/* Lines have no back side, whatever their direction. */
 static void check_lines(void)
 {
     use_float_target();
@@ -362,7 +363,7 @@ static void check_nan(void)
             check_nan_in(format, samples);
 }
 
-static void test_there_is_one_nan_in_targets(void)
+static void test_targets_store_every_nan_with_the_same_bits(void)
 {
     on_every_engine(check_nan);
 }
@@ -373,10 +374,10 @@ int main(void)
     RUN_TEST(test_components_below_zero_kill);
     RUN_TEST(test_results_are_masked_swizzled_and_predicated);
     RUN_TEST(test_legacy_multiplication_holds_for_rows_of_stages);
-    RUN_TEST(test_registers_of_ps_1_x_are_narrow);
+    RUN_TEST(test_registers_of_ps_1_x_have_a_limited_range);
     RUN_TEST(test_depths_are_quotients);
-    RUN_TEST(test_places_are_whole);
+    RUN_TEST(test_positions_are_integers);
     RUN_TEST(test_lines_are_fronts);
-    RUN_TEST(test_there_is_one_nan_in_targets);
+    RUN_TEST(test_targets_store_every_nan_with_the_same_bits);
     return UNITY_END();
 }

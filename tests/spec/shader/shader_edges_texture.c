@@ -1,5 +1,5 @@
-/* The edges of what pixel shaders do with textures, worked out by hand, in whole draws on every engine:
- * levels and biases at their limits, divisors of zero, and samplers without a texture. */
+/* Edge cases of textures in pixel shaders, in whole draws on every engine: levels and biases at their limits,
+ * divisors of zero, and samplers without a texture. The expected values are computed by hand. */
 #include "base/bits.h"
 #include "tests/support/picture/part.h"
 #include "tests/support/picture/texture_model.h"
@@ -33,7 +33,7 @@ static void set_pixel_constant(unsigned number, float x, float y, float z, float
 
 /* --- Levels -------------------------------------------------------------------------------------------- */
 
-/* 8 texels a side; those of level n are n + 1 in all channels. */
+/* Binds a texture of 8 x 8 texels. Texels of level n have n + 1 in all channels. */
 static void bind_levels(unsigned sampler)
 {
     static float texels[64][4];
@@ -58,8 +58,7 @@ static void expect_level(float level, const char *what)
     part_expect((const float[4]){level + 1, level + 1, level + 1, level + 1}, what);
 }
 
-/* From pixel to pixel u changes by a power of two, so that the level without a bias is its exponent plus 3.
- */
+/* u changes by a power of two from pixel to pixel. Without a bias, the level is the exponent plus 3. */
 static void check_biases(void)
 {
     static const char *const texts[] = {"ps_2_0\ndcl_2d s2\ndcl t0\nmov r0, t0\nmov r0.w, c0.x\n"
@@ -148,8 +147,8 @@ static void test_given_levels_are_limited_by_the_sampler(void)
     on_every_engine(check_levels);
 }
 
-/* texldd with the differences that the quad has is texld, to the bit. Coordinates bend, so that quads differ.
- */
+/* texldd with the differences of the quad gives the bits of texld. The coordinates are not linear, so that
+ * quads differ. */
 static void check_changes(void)
 {
     static const char *const texts[] = {
@@ -198,8 +197,8 @@ static void test_given_changes_equal_those_of_the_quad(void)
 
 /* --- Divisors ------------------------------------------------------------------------------------------ */
 
-/* By zeros of either sign coordinates are multiplied by FLT_MAX: 0 stays, and the least number ends at the
- * edge of its sign. */
+/* If the divisor is zero, of either sign, coordinates are multiplied by FLT_MAX. 0 stays 0, and the smallest
+ * number becomes the edge of the texture on the side of its sign. */
 static void check_divisors(void)
 {
     static const struct {
@@ -234,7 +233,7 @@ static void check_divisors(void)
             const float at[4] = {cases[i].u, cases[i].v, 0, cases[i].divisor};
             char what[100];
             if (t >= 2 && isinf(cases[i].divisor))
-                continue; /* interpolated it is NaN */
+                continue; /* interpolation makes it NaN */
             snprintf(what, sizeof what, "%.30s: %g, %g by %g", texts[t], (double)at[0], (double)at[1],
                      (double)at[3]);
             set_pixel_constant(0, at[0], at[1], at[2], at[3]);
@@ -244,7 +243,7 @@ static void check_divisors(void)
     }
 }
 
-static void test_divisors_of_zero_are_the_least_that_can_be(void)
+static void test_divisors_of_zero_multiply_by_the_largest_number(void)
 {
     on_every_engine(check_divisors);
 }
@@ -272,7 +271,7 @@ static void check_unbound(void)
     }
 }
 
-static void test_without_a_texture_there_is_opaque_black(void)
+static void test_samplers_without_a_texture_return_opaque_black(void)
 {
     on_every_engine(check_unbound);
 }
@@ -283,7 +282,7 @@ int main(void)
     RUN_TEST(test_biases_end_at_the_limits_of_the_model);
     RUN_TEST(test_given_levels_are_limited_by_the_sampler);
     RUN_TEST(test_given_changes_equal_those_of_the_quad);
-    RUN_TEST(test_divisors_of_zero_are_the_least_that_can_be);
-    RUN_TEST(test_without_a_texture_there_is_opaque_black);
+    RUN_TEST(test_divisors_of_zero_multiply_by_the_largest_number);
+    RUN_TEST(test_samplers_without_a_texture_return_opaque_black);
     return UNITY_END();
 }

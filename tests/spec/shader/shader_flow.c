@@ -1,5 +1,5 @@
-/* Flow control of shaders: conditions, predicates and subroutines, where lanes part and where they stay
- * together, against the same decisions taken in C for each set of operands. */
+/* Flow control of shaders: conditions, predicates and subroutines, with lanes that diverge and lanes that do
+ * not. The results are compared with the same decisions in C for each set of operands. */
 #include "tests/support/trial/trial_flow.h"
 
 #include <stdio.h>
@@ -67,7 +67,7 @@ static void chosen_by_comparison(const struct trial *trial, operands o, double r
     }
 }
 
-/* All six over all pairs of edges: every one but _ne is false where a NaN is compared. */
+/* All six comparisons of all pairs of edge values. With a NaN, all comparisons except _ne are false. */
 static void comparisons_choose_lane_by_lane(void)
 {
     for (comparison = 1; comparison <= 6; comparison++) {
@@ -104,8 +104,8 @@ static void predicates_choose(void)
     flow_on_all(flow_dynamically, FLOW_DYNAMICALLY, trial, chosen_by_predicate);
 }
 
-/* x: how many thresholds from -4 up in steps of 1/3 the operand is above of, up to 24; y: 100 and the depth
- * at which it was not; z: what the innermost left. */
+/* x is the number of thresholds, -4 and up in steps of 1/3, that the operand exceeds, at most 24. y is 100
+ * plus the depth of the first threshold that it does not exceed. z is set in the innermost condition. */
 static void nested_24(const struct trial *trial, operands o, double r[TRIAL_RESULTS][4])
 {
     (void)trial;
@@ -132,7 +132,7 @@ static void conditions_nest_24_deep(void)
     flow_on_all(flow_dynamically, FLOW_DYNAMICALLY, trial, nested_24);
 }
 
-/* Registers that are not values: an address and a predicate, set on one side only. */
+/* An address and a predicate are set on one side of the condition only. */
 static void set_on_one_side(const struct trial *trial, operands o, double r[TRIAL_RESULTS][4])
 {
     int above = at(o, 0, 0) > at(o, 1, 0);
@@ -147,7 +147,7 @@ static void set_on_one_side(const struct trial *trial, operands o, double r[TRIA
 static const float rows[8][4] = {{10, 11, 12, 13}, {20, 21, 22, 23}, {30, 31, 32, 33}, {40, 41, 42, 43},
                                  {50, 51, 52, 53}, {60, 61, 62, 63}, {70, 71, 72, 73}, {80, 81, 82, 83}};
 
-static void addresses_and_predicates_part_too(void)
+static void addresses_and_predicates_diverge_too(void)
 {
     static const char *const models[] = {"vs_2_x", "vs_3_0"};
     struct trial trial =
@@ -218,8 +218,8 @@ static void called_inside(const struct trial *trial, operands o, double r[TRIAL_
     }
 }
 
-/* Their writes follow the condition and the loop around the calls. */
-static void conditional_calls_inside_of_conditions_and_loops_leave_what_they_wrote(void)
+/* The condition and the loop around the calls decide in which lanes the subroutines write. */
+static void conditional_calls_inside_of_conditions_and_loops_write_in_their_lanes(void)
 {
     struct trial trial = flow_trial(NULL,
                                     "mov r0, r1\nsetp_lt p0, r1, r2\nif_lt r1.z, r2.z\ncallnz l0, p0.y\n"
@@ -250,7 +250,7 @@ static void subroutines_call_4_deep(void)
     flow_on_all(flow_dynamically, FLOW_DYNAMICALLY, trial, called_4_deep);
 }
 
-/* A subroutine in a loop that some lanes leave, called where lanes have parted. */
+/* A subroutine contains a loop that some lanes leave, and is called where lanes have diverged. */
 static void called_in_loop(const struct trial *trial, operands o, double r[TRIAL_RESULTS][4])
 {
     (void)trial;
@@ -281,10 +281,10 @@ int main(void)
     RUN_TEST(comparisons_choose_lane_by_lane);
     RUN_TEST(predicates_choose);
     RUN_TEST(conditions_nest_24_deep);
-    RUN_TEST(addresses_and_predicates_part_too);
+    RUN_TEST(addresses_and_predicates_diverge_too);
     RUN_TEST(subroutines_run_where_they_are_called);
     RUN_TEST(predicates_call_lane_by_lane);
-    RUN_TEST(conditional_calls_inside_of_conditions_and_loops_leave_what_they_wrote);
+    RUN_TEST(conditional_calls_inside_of_conditions_and_loops_write_in_their_lanes);
     RUN_TEST(subroutines_call_4_deep);
     RUN_TEST(subroutines_in_loops_run_in_lanes_that_remain);
     return UNITY_END();

@@ -1,5 +1,5 @@
 /* The error bounds of the scalar functions of shaders (docs/shader-semantics.md) over the whole range of
- * binary32, against double precision, and what they make of its edges. */
+ * binary32, compared with double precision, and the results at its edges. */
 #include "base/bits.h"
 #include "machine/mxcsr.h"
 #include "emu/emulate/bind.h"
@@ -7,7 +7,7 @@
 #include <math.h>
 #include <unity.h>
 
-/* The routines are read along and not used. */
+/* The header defines the three routines too, which are not used here. */
 #pragma GCC diagnostic ignored "-Wunused-function"
 #include "spec/spec.h"
 
@@ -24,7 +24,7 @@ void tearDown(void)
     mxcsr_leave(saved);
 }
 
-/* Compilers do not flush denormals when they fold constants. */
+/* The argument is volatile, because compilers do not flush denormals when they fold constants. */
 static float evaluate(flt function(struct env *, flt), float x)
 {
     volatile float unknown = x;
@@ -42,7 +42,7 @@ static double relative_error(float got, double expected)
     return fabs((double)got - expected) / fabs(expected);
 }
 
-/* From the least normal number to the greatest, some 100,000 of them. */
+/* About 100,000 numbers from the smallest normal number to the largest. */
 #define EACH_NUMBER(bits) for (uint32_t bits = 0x00800000; bits < 0x7f800000; bits += 21013)
 
 static void exponentials_have_23_bits(void)
@@ -66,7 +66,7 @@ static void logarithms_have_22_bits(void)
     TEST_ASSERT_TRUE(worst < 2.1e-7);
 }
 
-/* Wherever the result is neither zero nor infinite. */
+/* This holds if the result is neither zero nor infinite. */
 static void powers_have_15_bits(void)
 {
     double worst = 0;

@@ -1,5 +1,5 @@
-/* How the halves of a draw meet, on every engine: vertex and pixel shaders of any models and the fixed
- * function on either side, inputs without an output, and how values are interpolated. */
+/* The link between the vertex and the pixel side of a draw, on every engine: shaders of any models and the
+ * fixed function on both sides, inputs without an output, and interpolation. */
 #include "tests/support/picture/drawn.h"
 
 #include <stdio.h>
@@ -21,7 +21,7 @@ struct half {
     const char *name, *text;
 };
 
-/* Each gives color 0 and texcoord 0 as they come. */
+/* Each of these passes colour 0 and texture coordinates 0 on without a change. */
 static const struct half vertex_halves[] = {
     {"fixed function", NULL},
     {"vs_1_1",
@@ -75,13 +75,13 @@ static void check_pairs(void)
         check_half(&coordinate_halves[p], (const float[4]){0.125f, 0.375f, 0.625f, 1});
 }
 
-static void test_all_models_and_the_fixed_function_meet(void)
+static void test_all_models_and_the_fixed_function_are_linked(void)
 {
     on_every_engine(check_pairs);
 }
 
-/* A texel per set of coordinates: stages take that of their number, whatever texcoordindex and the matrices
- * are. */
+/* Each set of coordinates selects another texel. With a vertex shader, a stage has the set of its own number,
+ * whatever texcoordindex and the matrices are. */
 static void check_stage_coordinates(void)
 {
     static const float turned[4][4] = {{0, 1, 0, 0}, {1, 0, 0, 0}, {0, 0, 1, 0}, {0, 0, 0, 1}};
@@ -110,12 +110,12 @@ static void check_stage_coordinates(void)
     expect_pixel(3, 3, 0xff400000, "the first stage");
 }
 
-static void test_stages_take_the_coordinates_of_their_number(void)
+static void test_stages_have_the_coordinates_of_their_number(void)
 {
     on_every_engine(check_stage_coordinates);
 }
 
-/* With `projected` the last of three, or the fourth, divides also what a vertex shader gives. */
+/* With `projected`, the outputs of a vertex shader are divided too, by the third or the fourth component. */
 static void check_projected_stage(void)
 {
     uint32_t words[4] = {0xff000010, 0xff000020, 0xff000030, 0xff000040};
@@ -141,7 +141,7 @@ static void check_projected_stage(void)
     }
 }
 
-static void test_projected_stages_divide_what_shaders_give(void)
+static void test_projected_stages_divide_the_outputs_of_shaders(void)
 {
     on_every_engine(check_projected_stage);
 }
@@ -177,7 +177,7 @@ static void check_defaults(void)
     EXPECT_CENTRE("what the fixed function does not have", 0, 0, 0, 2);
 }
 
-static void test_what_is_not_given_has_its_default(void)
+static void test_inputs_without_an_output_have_their_default(void)
 {
     on_every_engine(check_defaults);
 }
@@ -234,8 +234,8 @@ static void check_clamped(void)
     EXPECT_CENTRE("coordinates", 2, -1, 0.5f, 3);
 }
 
-/* Clamped where it is made: at the middle between 2 and -1 there is 0.5 either way, at a quarter there is
- * not. */
+/* Colours are clamped at the vertices. In the middle between 2 and -1 the colour is 0.5 with and without
+ * clamping, but at a quarter it differs. */
 static void check_clamped_at_vertices(void)
 {
     struct drawn_element ramp = {
@@ -262,7 +262,7 @@ static void test_colours_are_clamped_below_3_0_at_both_ends(void)
 
 /* --- Ports --------------------------------------------------------------------------------------------- */
 
-/* Ten inputs of ten usages, in an order of their own on either side; each is weighted by another power of
+/* There are ten inputs of ten usages, in a different order on each side. Each is weighted by another power of
  * two. */
 static void check_ten(void)
 {
@@ -307,13 +307,13 @@ static void check_ten(void)
     }
 }
 
-static void test_ten_inputs_of_any_usage_arrive(void)
+static void test_ten_inputs_of_any_usage_are_linked(void)
 {
     on_every_engine(check_ten);
 }
 
-/* Two usages in one register, the same way on both sides, and an input that is addressed by the loop's
- * counter. */
+/* Two usages are in one register, in the same components on both sides. The loop's counter addresses an
+ * input. */
 static void check_packed_registers(void)
 {
     struct drawn_element elements[2] = {drawn_constant(TRIPTYCH_USAGE_TEXCOORD, 3, 1, 2, 3, 4),
@@ -340,7 +340,7 @@ static void test_registers_hold_several_usages_and_are_indexed(void)
     on_every_engine(check_packed_registers);
 }
 
-/* --- Travelling ---------------------------------------------------------------------------------------- */
+/* --- Interpolation ------------------------------------------------------------------------------------- */
 
 static void check_flat(void)
 {
@@ -366,7 +366,7 @@ static void check_flat(void)
     }
 }
 
-static void test_flat_shading_is_of_colours(void)
+static void test_flat_shading_affects_colours_only(void)
 {
     on_every_engine(check_flat);
 }
@@ -402,7 +402,7 @@ static void test_sprites_replace_coordinates_only(void)
     on_every_engine(check_sprites);
 }
 
-/* With wrapping the short way from 0.9 to 0.1 goes over 1. */
+/* With wrapping, the shorter way from 0.9 to 0.1 passes 1. */
 static void check_wrap(void)
 {
     struct drawn_element ends = {TRIPTYCH_USAGE_TEXCOORD,
@@ -437,15 +437,15 @@ static void test_coordinates_of_shaders_wrap(void)
 int main(void)
 {
     UNITY_BEGIN();
-    RUN_TEST(test_all_models_and_the_fixed_function_meet);
-    RUN_TEST(test_stages_take_the_coordinates_of_their_number);
-    RUN_TEST(test_projected_stages_divide_what_shaders_give);
-    RUN_TEST(test_what_is_not_given_has_its_default);
+    RUN_TEST(test_all_models_and_the_fixed_function_are_linked);
+    RUN_TEST(test_stages_have_the_coordinates_of_their_number);
+    RUN_TEST(test_projected_stages_divide_the_outputs_of_shaders);
+    RUN_TEST(test_inputs_without_an_output_have_their_default);
     RUN_TEST(test_specular_colours_are_added_after_stages_only);
     RUN_TEST(test_colours_are_clamped_below_3_0_at_both_ends);
-    RUN_TEST(test_ten_inputs_of_any_usage_arrive);
+    RUN_TEST(test_ten_inputs_of_any_usage_are_linked);
     RUN_TEST(test_registers_hold_several_usages_and_are_indexed);
-    RUN_TEST(test_flat_shading_is_of_colours);
+    RUN_TEST(test_flat_shading_affects_colours_only);
     RUN_TEST(test_sprites_replace_coordinates_only);
     RUN_TEST(test_coordinates_of_shaders_wrap);
     return UNITY_END();

@@ -1,5 +1,5 @@
-/* Loops of shaders: how many passes they have, their counters, and lanes that leave them by themselves,
- * against the same decisions taken in C for each set of operands. */
+/* Loops of shaders: the numbers of passes, counters, and lanes that leave a loop before others. The results
+ * are compared with the same decisions in C for each set of operands. */
 #include "tests/support/trial/trial_flow.h"
 
 #include <stdio.h>
@@ -42,7 +42,7 @@ static const float rows[8][4] = {{10, 11, 12, 13}, {20, 21, 22, 23}, {30, 31, 32
 
 static int32_t integers[4][4];
 
-/* Horner's rule, so that order shows: r = r / 2 + 1, `count` times. */
+/* Computes r = r / 2 + 1, `count` times; the result depends on the order. */
 static void repeated(const struct trial *trial, operands o, double r[TRIAL_RESULTS][4])
 {
     (void)trial;
@@ -111,8 +111,8 @@ static void counted(const struct trial *trial, operands o, double r[TRIAL_RESULT
             r[0][c] = rounded(trial_fused(r[0][c], 0.5, row_at(trial, index + 1, c)));
 }
 
-/* Count, start and step: up, down below the first constant, without a step, past the last constant, not at
- * all. */
+/* The loops have these counts, starts and steps: upwards, down below the first constant, without a step, past
+ * the last constant, and without a pass. */
 static void loop_counts_from_its_start_by_its_step(void)
 {
     static const char *const models[] = {"vs_2_0", "vs_2_x", "vs_3_0"};
@@ -166,7 +166,8 @@ static void the_counter_is_the_innermost_loops(void)
 
 /* --- Leaving loops ------------------------------------------------------------------------------------- */
 
-/* x: passes begun; y: passes finished; each lane leaves when it has begun more than its first operand. */
+/* x is the number of started passes, and y the number of finished ones. A lane leaves the loop when it has
+ * started more passes than its first operand. */
 static void left(const struct trial *trial, operands o, double r[TRIAL_RESULTS][4])
 {
     (void)trial;
@@ -223,8 +224,8 @@ static void all_lanes_can_leave_in_the_first_pass(void)
     }
 }
 
-/* All six over all pairs of edges, where every one but _ne stays with a NaN: left in the first pass if it
- * holds, in the third if not. */
+/* All six comparisons of all pairs of edge values. A lane leaves in the first pass if the comparison is true,
+ * and in the third pass if not. With a NaN, all comparisons except _ne are false. */
 static void left_by_comparison(const struct trial *trial, operands o, double r[TRIAL_RESULTS][4])
 {
     (void)trial;
@@ -249,8 +250,8 @@ static void comparisons_leave_lane_by_lane(void)
     }
 }
 
-/* A lane that left the inner loop goes on in the outer one, until it leaves that; x counts inner passes, y
- * outer ones. */
+/* A lane that left the inner loop continues in the outer one until it leaves that too. x counts inner passes,
+ * y outer ones. */
 static void left_twice(const struct trial *trial, operands o, double r[TRIAL_RESULTS][4])
 {
     (void)trial;

@@ -26,7 +26,8 @@ static int is_first(const char *model)
     return !strncmp(model, "ps_1", 4);
 }
 
-/* Textures of ps_1_x give what is within -8 and 8; only the machine accepts any value. */
+/* Expects results of the first operand. Texels in ps_1_x are limited to -8 to 8, so other values are tried
+ * only in the way `emulated`. */
 static void expect_of_first(struct trial trial, trial_reference *reference)
 {
     static struct trial_operands within[64];
@@ -92,7 +93,7 @@ static void modified_reference(const struct trial *trial, operands o, double r[T
 
 /* Every modifier of values in every model that has it; _dz and _dw divide coordinates
  * (tests/spec/shader/shader_texture_stage.c). */
-static void modifiers_change_what_is_read(void)
+static void modifiers_change_the_operand(void)
 {
     unsigned tried = 0;
     for (int m = 0; m < MODEL_COUNT; m++)
@@ -162,7 +163,7 @@ static void try_swizzles(const char *model, unsigned count, int alone)
     trial_expect(&trial, swizzled_reference);
 }
 
-static void every_swizzle_takes_the_components_it_names(void)
+static void every_swizzle_reads_the_components_that_it_names(void)
 {
     static const char *const any[] = {"vs_1_1", "vs_2_0", "vs_3_0", "ps_2_x", "ps_3_0"};
     for (unsigned m = 0; m < sizeof any / sizeof *any; m++)
@@ -191,7 +192,7 @@ static void masked_reference(const struct trial *trial, operands o, double r[TRI
             r[i][c] = swizzles[i] >> c & 1 ? at(o, 0, (int)c) + at(o, 1, (int)c) : at(o, 2, (int)c);
 }
 
-static void every_mask_keeps_what_it_does_not_name(void)
+static void every_mask_keeps_the_components_that_it_does_not_name(void)
 {
     static const char *const models[] = {"vs_1_1", "vs_3_0", "ps_2_0", "ps_3_0"};
     for (unsigned m = 0; m < sizeof models / sizeof *models; m++)
@@ -246,7 +247,7 @@ static void saturated_reference(const struct trial *trial, operands o, double r[
     }
 }
 
-static void saturation_ends_at_0_and_1_and_takes_nan_to_0(void)
+static void saturation_limits_to_0_and_1_and_changes_nan_to_0(void)
 {
     static const char *const models[] = {"vs_3_0", "ps_2_0", "ps_2_x", "ps_3_0"};
     for (unsigned m = 0; m < sizeof models / sizeof *models; m++) {
@@ -255,7 +256,7 @@ static void saturation_ends_at_0_and_1_and_takes_nan_to_0(void)
     }
 }
 
-/* Partial precision is as good as the whole. */
+/* Partial precision has the results of full precision. */
 static void partial_reference(const struct trial *trial, operands o, double r[TRIAL_RESULTS][4])
 {
     (void)trial;
@@ -317,7 +318,8 @@ static int holds(double a, double b)
     }
 }
 
-/* Component by component; the opposite, of two of them; by one for all. */
+/* The results with a predicate for each component, with its negation and a swizzle, and with one component
+ * for all. */
 static void predicated_reference(const struct trial *trial, operands o, double r[TRIAL_RESULTS][4])
 {
     (void)trial;
@@ -345,8 +347,8 @@ static void predicates_choose_component_by_component(void)
         }
 }
 
-/* Two components of the predicate are of one comparison, two of another, the last one set where the first
- * was. */
+/* One comparison sets two components of the predicate, and another sets the other two. The last one is set
+ * only where the first is true. */
 static void kept_reference(const struct trial *trial, operands o, double r[TRIAL_RESULTS][4])
 {
     (void)trial;
@@ -385,7 +387,7 @@ static void paired_reference(const struct trial *trial, operands o, double r[TRI
     r[0][3] = within_8(trial, a[2] + b[3]);
 }
 
-/* The second of a pair reads what was there before the first wrote. */
+/* The second instruction of a pair reads the registers as they were before the first one wrote. */
 static void pairs_read_before_either_writes(void)
 {
     static const char *const models[] = {"ps_1_1", "ps_1_2", "ps_1_3", "ps_1_4"};
@@ -401,13 +403,13 @@ static void pairs_read_before_either_writes(void)
 int main(void)
 {
     UNITY_BEGIN();
-    RUN_TEST(modifiers_change_what_is_read);
+    RUN_TEST(modifiers_change_the_operand);
     RUN_TEST(each_source_has_its_own_modifier_and_swizzle);
-    RUN_TEST(every_swizzle_takes_the_components_it_names);
+    RUN_TEST(every_swizzle_reads_the_components_that_it_names);
     RUN_TEST(ps_2_0_has_eight_swizzles);
-    RUN_TEST(every_mask_keeps_what_it_does_not_name);
+    RUN_TEST(every_mask_keeps_the_components_that_it_does_not_name);
     RUN_TEST(sources_are_read_before_the_result_is_written);
-    RUN_TEST(saturation_ends_at_0_and_1_and_takes_nan_to_0);
+    RUN_TEST(saturation_limits_to_0_and_1_and_changes_nan_to_0);
     RUN_TEST(partial_precision_changes_nothing);
     RUN_TEST(results_are_shifted_and_then_saturated);
     RUN_TEST(predicates_choose_component_by_component);

@@ -38,7 +38,7 @@ static unsigned count_words(uint32_t word)
 
 /* --- Vertices ------------------------------------------------------------------------------------------ */
 
-/* The plane x >= 0 in clip space, though the matrices turn the world around. */
+/* The plane x >= 0 is in clip space, and the matrices, which would reverse it, have no effect. */
 static void check_clip_planes(void)
 {
     static const float turned[4][4] = {{0, 1, 0, 0}, {1, 0, 0, 0}, {0, 0, 1, 0}, {0, 0, 0, 1}};
@@ -66,7 +66,8 @@ static void test_clip_planes_are_in_clip_space(void)
     on_every_engine(check_clip_planes);
 }
 
-/* Depth 0.5 of -1 to 1 is 0.75; -1 is the nearest, and planes keep to the same range. */
+/* In the range from -1 to 1, depth 0.5 becomes 0.75 and -1 is the nearest depth. Clip planes use the same
+ * range. */
 static void check_depth_range(void)
 {
     OK(triptych_set_convention(device, TRIPTYCH_DEPTH_RANGE, TRIPTYCH_DEPTH_RANGE_MINUS));
@@ -128,7 +129,7 @@ static void check_point_size(void)
     drawn_begin();
 }
 
-static void test_points_have_the_size_that_the_shader_gives(void)
+static void test_points_have_the_size_that_the_shader_writes(void)
 {
     on_every_engine(check_point_size);
 }
@@ -166,7 +167,7 @@ static void check_fog(void)
         expect_fog(plain, pixels[i], 0, whole, "no factor");
     }
     expect_fog(fogged_3, third, 0.2f, whole, "ps_3_0");
-    OK(triptych_set_state(device, TRIPTYCH_STATE_fogvertexmode, 3)); /* the shader's own is what counts */
+    OK(triptych_set_state(device, TRIPTYCH_STATE_fogvertexmode, 3)); /* the shader's fog replaces it */
     expect_fog(fogged, red, 0.2f, part, "a mode of vertices");
     set(TRIPTYCH_STATE_fogtablemode, "linear");
     OK(triptych_set_state(device, TRIPTYCH_STATE_fogstart, triptych_float_bits(0)));
@@ -224,7 +225,7 @@ static void check_targets(void)
     expect_target(3, 0.5f, 0.5f, 0.5f, 0.5f);
 }
 
-/* All of 8 bits: each is blended with its own colour, and only the first is fogged. */
+/* All targets have 8 bits a channel. Each is blended with its own colour, and only the first has fog. */
 static void check_packed_targets(void)
 {
     struct triptych_target_description description = {
@@ -262,7 +263,7 @@ static void test_targets_have_colours_of_their_own(void)
     on_every_engine(check_packed_targets);
 }
 
-/* --- Places -------------------------------------------------------------------------------------------- */
+/* --- Position and face --------------------------------------------------------------------------------- */
 
 static void check_place(void)
 {
@@ -316,14 +317,13 @@ static void test_pixels_read_their_face(void)
     on_every_engine(check_face);
 }
 
-/* One sample in four of the pixels along the diagonal: centres lie outside, where a ramp goes beyond its
- * ends. */
+/* The triangle covers one of the four samples of each pixel on the diagonal. The pixels' centres are outside,
+ * where a ramp exceeds its ends. */
 static void check_centroid(void)
 {
     struct triptych_target_description description = {
         .width = SIZE, .height = SIZE, .color_format = {TRIPTYCH_SURFACE_A8R8G8B8}, .samples = 4};
-    /* x + y of a triangle whose third side passes by the pixels' centres at a small distance, which is 0
-     * there */
+    /* The third side of the triangle passes the pixels' centres at a small distance, where x + y is 0. */
     float reach = 2 - 0.25f / SIZE * 2;
     struct drawn_element ramp = {TRIPTYCH_USAGE_TEXCOORD, 0, {{0}, {0, 0, 0, 1}, {0, 0, 0, 1}, {0}}};
     float corners[4][4] = {
@@ -354,7 +354,7 @@ static void check_centroid(void)
     drawn_begin();
 }
 
-static void test_centroids_lie_inside(void)
+static void test_centroids_are_inside(void)
 {
     on_every_engine(check_centroid);
 }
@@ -364,11 +364,11 @@ int main(void)
     UNITY_BEGIN();
     RUN_TEST(test_clip_planes_are_in_clip_space);
     RUN_TEST(test_clip_depth_follows_the_convention);
-    RUN_TEST(test_points_have_the_size_that_the_shader_gives);
+    RUN_TEST(test_points_have_the_size_that_the_shader_writes);
     RUN_TEST(test_fog_is_applied_below_3_0);
     RUN_TEST(test_targets_have_colours_of_their_own);
     RUN_TEST(test_pixels_read_their_position);
     RUN_TEST(test_pixels_read_their_face);
-    RUN_TEST(test_centroids_lie_inside);
+    RUN_TEST(test_centroids_are_inside);
     return UNITY_END();
 }

@@ -1,5 +1,5 @@
-/* Properties of pixel shaders only, in whole draws on every engine: their place and face, several outputs,
- * depth, inputs by a loop's counter, and what becomes of numbers that are stored. */
+/* Properties that only pixel shaders have, in whole draws on every engine: position and face, several
+ * outputs, depth, inputs that a loop's counter addresses, and the conversion of stored numbers. */
 #include "tests/support/picture/drawn.h"
 
 #include <math.h>
@@ -24,7 +24,7 @@ static void draw_through(const char *pixel)
     draw_declared(TRIPTYCH_USAGE_POSITION, NULL, 0);
 }
 
-/* --- Place and face ------------------------------------------------------------------------------------ */
+/* --- Position and face --------------------------------------------------------------------------------- */
 
 static void check_place(void)
 {
@@ -37,7 +37,7 @@ static void check_place(void)
             expect_numbers(x, y, (const float[4]){(float)y, (float)x * 0.5f + 1, 7, 8}, "vPos");
 }
 
-static void test_the_place_is_whole_pixels_from_the_upper_left(void)
+static void test_the_position_is_in_whole_pixels_from_the_upper_left(void)
 {
     on_every_engine(check_place);
 }
@@ -166,7 +166,7 @@ static void check_indexed(void)
     EXPECT_CENTRE("v[aL]", 123, 1122, 11100, 123);
 }
 
-static void test_inputs_are_found_by_the_counter(void)
+static void test_the_counter_addresses_inputs(void)
 {
     on_every_engine(check_indexed);
 }
@@ -204,7 +204,7 @@ static void check_stored(void)
         TEST_ASSERT_EQUAL_HEX32(0x7fc00000, stored_bits(c));
 }
 
-static void test_nan_is_stored_as_one_and_other_bits_as_they_are(void)
+static void test_every_nan_has_the_same_bits_and_other_bits_are_unchanged(void)
 {
     on_every_engine(check_stored);
 }
@@ -212,11 +212,11 @@ static void test_nan_is_stored_as_one_and_other_bits_as_they_are(void)
 int main(void)
 {
     UNITY_BEGIN();
-    RUN_TEST(test_the_place_is_whole_pixels_from_the_upper_left);
+    RUN_TEST(test_the_position_is_in_whole_pixels_from_the_upper_left);
     RUN_TEST(test_the_face_is_1_or_minus_1);
     RUN_TEST(test_each_output_has_its_target);
     RUN_TEST(test_depth_of_the_shader_is_clamped_tested_and_stored);
-    RUN_TEST(test_inputs_are_found_by_the_counter);
-    RUN_TEST(test_nan_is_stored_as_one_and_other_bits_as_they_are);
+    RUN_TEST(test_the_counter_addresses_inputs);
+    RUN_TEST(test_every_nan_has_the_same_bits_and_other_bits_are_unchanged);
     return UNITY_END();
 }

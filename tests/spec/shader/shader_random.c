@@ -1,5 +1,5 @@
-/* Random shaders of many instructions, with conditions, loops, breaks, predication, relative addresses,
- * modifiers and masks, mean the same in every way and on every engine, to the bit. */
+/* Random shaders of many instructions give the same bits in every way and on every engine. They have
+ * conditions, loops, breaks, predication, relative addresses, modifiers and masks. */
 #include "command/fuzz/case/shader.h"
 #include "tests/support/system/seed.h"
 #include "tests/support/trial/trial.h"
@@ -21,7 +21,7 @@ void tearDown(void)
 {
 }
 
-/* Registers that the trial gives nothing to begin with something. */
+/* Adds instructions that initialize the registers that the trial does not set. */
 static void add_beginning(struct text *text, const struct shader_model *model)
 {
     for (unsigned r = 0; r < REGISTERS; r++)
@@ -30,7 +30,7 @@ static void add_beginning(struct text *text, const struct shader_model *model)
     text_add(text, "setp_ge p0, r1, r2\n%s", model->stage == STAGE_VERTEX ? "mova a0, r2\n" : "");
 }
 
-/* The definitions go in front of all other instructions, the trial's too. */
+/* Splits the lines into definitions, which must be before all other instructions, and the body. */
 static void split(const char *lines, struct text *setup, struct text *body)
 {
     for (const char *end; *lines; lines = end) {
@@ -91,13 +91,13 @@ static void try_shader(const char *name, unsigned number)
     text_free(&body);
 }
 
-static void random_vertex_shaders_mean_the_same_everywhere(void)
+static void random_vertex_shaders_give_the_same_results_everywhere(void)
 {
     for (unsigned number = 1; number <= SHADERS; number++)
         try_shader(number % 4 ? "vs_3_0" : "vs_2_x", number);
 }
 
-static void random_pixel_shaders_mean_the_same_everywhere(void)
+static void random_pixel_shaders_give_the_same_results_everywhere(void)
 {
     for (unsigned number = 1; number <= SHADERS; number++)
         try_shader(number % 4 ? "ps_3_0" : "ps_2_x", SHADERS + number);
@@ -106,7 +106,7 @@ static void random_pixel_shaders_mean_the_same_everywhere(void)
 int main(void)
 {
     UNITY_BEGIN();
-    RUN_TEST(random_vertex_shaders_mean_the_same_everywhere);
-    RUN_TEST(random_pixel_shaders_mean_the_same_everywhere);
+    RUN_TEST(random_vertex_shaders_give_the_same_results_everywhere);
+    RUN_TEST(random_pixel_shaders_give_the_same_results_everywhere);
     return UNITY_END();
 }

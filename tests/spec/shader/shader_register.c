@@ -1,4 +1,4 @@
-/* Registers that are addressed relatively, and how addresses come about. */
+/* Relative addresses of registers, and the instructions that compute them. */
 #include "tests/support/trial/trial.h"
 
 #include <float.h>
@@ -44,7 +44,8 @@ static const struct trial_operands addresses[] = {
 };
 enum { ADDRESSES = sizeof addresses / sizeof *addresses };
 
-/* Numbers beyond 32 bits, and NaN, are outside too. */
+/* Returns the constant at an index, and 0 outside of the constants. Numbers beyond 32 bits and NaN are
+ * outside. */
 static double row_at(double index, int c)
 {
     return index >= 0 && index < ROWS ? (double)rows[(int)index][c] : 0;
@@ -99,8 +100,8 @@ static void mov_to_the_address_of_vs_1_1_takes_the_floor(void)
     trial_expect(&trial, addressed);
 }
 
-/* The shader's own constants are where their numbers are; the draw's values of these registers are not seen.
- */
+/* Relative addresses also read constants that the shader defines. They hide the draw's values of these
+ * registers. */
 static void defined_rows(const struct trial *trial, operands o, double r[TRIAL_RESULTS][4])
 {
     addressed(trial, o, r);
@@ -124,7 +125,7 @@ static void defined_constants_are_addressed_too(void)
     trial_expect(&trial, defined_rows);
 }
 
-/* Rows of a matrix that lie outside are zeros, each for itself. */
+/* Each row of a matrix that is outside of the constants is zero. */
 static void matrix_rows(const struct trial *trial, operands o, double r[TRIAL_RESULTS][4])
 {
     (void)trial;
@@ -163,7 +164,7 @@ static void addressed_constants_are_modified_and_swizzled(void)
     trial_expect(&trial, modifiers_and_swizzles);
 }
 
-/* Components of the address that the predicate keeps, and those that only one side of an if sets. */
+/* The predicate keeps some components of the address, and only one side of an `if` sets others. */
 static void partly_addressed(const struct trial *trial, operands o, double r[TRIAL_RESULTS][4])
 {
     (void)trial;
@@ -217,11 +218,11 @@ static void inputs_are_addressed_by_the_counter(void)
     trial.sets = trial_ordinary_sets;
     trial_expect(&trial, summed_inputs);
     trial.model = "ps_3_0";
-    trial.alone = 1; /* draws have their operands elsewhere: tests/spec/shader/shader_pixel.c */
+    trial.alone = 1; /* operands of draws are not in inputs; tests/spec/shader/shader_pixel.c tests draws */
     trial_expect(&trial, summed_inputs);
 }
 
-/* aL is 20, -108 and -236, where no input is, then 2. */
+/* aL is 20, -108 and -236, which are not numbers of inputs, then 2. */
 static void summed_from_below(const struct trial *trial, operands o, double r[TRIAL_RESULTS][4])
 {
     (void)trial;
@@ -265,7 +266,7 @@ static void outputs_below_the_first_are_not_written(void)
     trial_expect(&trial, kept_outputs);
 }
 
-/* o1, o2 and o3 get the operands backwards; what is written to o61 goes nowhere. */
+/* o1, o2 and o3 get the operands in reverse order. A write to o61 has no effect. */
 static void given_outputs(const struct trial *trial, operands o, double r[TRIAL_RESULTS][4])
 {
     (void)trial;
@@ -288,7 +289,7 @@ static void outputs_are_addressed_by_the_counter(void)
     trial_expect(&trial, given_outputs);
 }
 
-/* By the predicate, component by component, and in the lanes that execute. */
+/* The predicate selects the written components. Only lanes that execute write. */
 static void partly_given_outputs(const struct trial *trial, operands o, double r[TRIAL_RESULTS][4])
 {
     (void)trial;

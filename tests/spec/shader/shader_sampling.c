@@ -1,5 +1,5 @@
-/* Shaders that sample, in whole draws on every engine: lookups of pixels and of vertices against a sampler
- * written a second time. Targets hold binary32, so that what is compared is what the shader gave. */
+/* Shaders that sample, in whole draws on every engine. Lookups in pixel and vertex shaders are compared with
+ * a second implementation of samplers. Targets are binary32, so that they contain the shader's results. */
 #include "base/bits.h"
 #include "tests/support/picture/drawn.h"
 #include "tests/support/picture/quad.h"
@@ -36,7 +36,7 @@ static double dyadic(double low, double high)
     return floor(random_between(low, high) * 1024) / 1024;
 }
 
-/* A part of a float target, so that engines without generated code need not take long. */
+/* Sets a small part of a binary32 target, because engines without generated code are slow. */
 static void begin_part(void)
 {
     use_float_target();
@@ -60,7 +60,8 @@ static struct model_sampler random_sampler(void)
 
 enum load { LOAD, LOAD_PROJECTED, LOAD_BIASED, LOAD_LEVEL, LOAD_CHANGES, LOADS };
 
-/* c0: the step from pixel to pixel, c1: the start, w what the instruction takes there; c2, c3: changes. */
+/* c0: the step from pixel to pixel; c1: the start, and in w the bias, level or divisor; c2 and c3: the
+ * changes. */
 static const char *const lookup[LOADS] = {
     "texld r1, r0, s11", "mul r0.xyz, r0, c1.w\nmov r0.w, c1.w\ntexldp r1, r0, s11",
     "mov r0.w, c1.w\ntexldb r1, r0, s11", "mov r0.w, c1.w\ntexldl r1, r0, s11",
@@ -90,7 +91,8 @@ static struct placing place_lookup(enum load load)
     return r;
 }
 
-/* On a face, coordinates run over 2 from edge to edge. */
+/* Returns the level of a lookup. On a face of a cube, the difference of coordinates from edge to edge is
+ * 2. */
 static int level_of(enum load load, const struct model_sampler *sampler, const struct placing *p)
 {
     double change[2][3] = {{0}}, scale = texture.type == TRIPTYCH_TEXTURE_CUBE ? 0.5 : 1;
@@ -165,7 +167,7 @@ static void set_number(unsigned number, enum triptych_sampler_state state, uint3
     OK(triptych_set_sampler_state(device, number, state, value));
 }
 
-/* Any kind and size, with texels of bytes, of binary32 or of depth, and all levels or one. */
+/* Binds a texture of any type and size, with bytes, binary32 or depth, and with all levels or one. */
 static enum triptych_texture_type bind_any_texture(unsigned number)
 {
     static uint32_t words[4 * 16 * 16 * 16];
@@ -217,7 +219,7 @@ static void set_any_states(unsigned number)
                bits_of_float(random_word() % 2 ? 0 : (float)random_between(-2, 2)));
 }
 
-/* Mostly ordinary numbers, now and then one that is none. */
+/* Returns an ordinary number, or sometimes a value that is not a number. */
 static float any_number(double reach)
 {
     static const float odd[] = {NAN, INFINITY, -INFINITY, 3.4e38f, -3.4e38f, 0, -0.0f, 1e-39f};
@@ -266,7 +268,8 @@ static void compare_quad(const char *text, int x, int y)
         }
 }
 
-/* Quads of the upper left triangle: those on the diagonal would mix two triangles' varyings. */
+/* Checks the quads of the upper left triangle. Quads on the diagonal are left out because they have pixels of
+ * two triangles. */
 static void check_any(void)
 {
     static const char *const loads[LOADS] = {"texld r0, v0, s7", "texldp r0, v0, s7", "texldb r0, v0, s7",
@@ -357,7 +360,7 @@ static const char displaced[] =
     "texldl o1, v0, s0\n";
 static const char given[] = "ps_3_0\ndcl_texcoord v0\nmov oC0, v0\n";
 
-/* A texture of vertices that changes after a draw is the old one there. */
+/* A draw reads the texture of its vertices as it was before a later change. */
 static void check_changed(void)
 {
     static const float first[4] = {1, 2, 3, 4}, second[4] = {5, 6, 7, 8};
@@ -399,7 +402,7 @@ static void check_feedback(void)
     draw_declared(TRIPTYCH_USAGE_POSITION, NULL, 0);
 }
 
-static void test_what_is_drawn_to_cannot_be_sampled_by_vertices(void)
+static void test_targets_cannot_be_sampled_by_vertices(void)
 {
     on_every_engine(check_feedback);
 }
@@ -427,7 +430,7 @@ int main(void)
     RUN_TEST(test_any_sampler_on_any_numbers);
     RUN_TEST(test_lookups_of_vertices);
     RUN_TEST(test_textures_of_vertices_can_change_between_draws);
-    RUN_TEST(test_what_is_drawn_to_cannot_be_sampled_by_vertices);
+    RUN_TEST(test_targets_cannot_be_sampled_by_vertices);
     RUN_TEST(test_unbound_samplers);
     return UNITY_END();
 }

@@ -1,7 +1,7 @@
-/* Shaders whose results depend on quads of pixels, in whole draws on every engine: ps_1_x's texture
- * instructions against the emulator's quads of shader_texture_stage.c, differences between neighbours,
- * killed pixels, levels in divergent flow, and depth. Targets hold binary32, so that what is compared is
- * what the shader gave. */
+/* Shaders whose results depend on quads of pixels, in whole draws on every engine: differences between
+ * neighbours, killed pixels, levels in divergent flow, and depth. The texture instructions of ps_1_x are
+ * compared with quads of the emulator, which shader_texture_stage.c tests. Targets are binary32, so that they
+ * contain the shader's results. */
 #include "base/bits.h"
 #include "contract/key.h"
 #include "tests/support/picture/drawn.h"
@@ -30,7 +30,7 @@ static double dyadic(double low, double high)
     return floor(random_between(low, high) * 1024) / 1024;
 }
 
-/* A part of a float target, so that engines without generated code need not take long. */
+/* Sets a small part of a binary32 target, because engines without generated code are slow. */
 static void begin_part(void)
 {
     use_float_target();
@@ -75,7 +75,8 @@ static void set_real(unsigned stage, enum triptych_stage_state state, double val
     OK(triptych_set_stage_state(device, stage, state, bits));
 }
 
-/* Planes and volumes, a cube in the last stage, every state that the instructions look at. */
+/* Binds 2D textures, volumes, and a cube in the last stage, and sets every state that the instructions
+ * read. */
 static void make_stages(void)
 {
     static const struct model_sampler linear = {.mag = 1, .min = 1, .mip = MODEL_MIP_LINEAR};
@@ -96,7 +97,7 @@ static const char pass[] =
     "vs_1_1\ndcl_position v0\ndcl_texcoord0 v1\ndcl_texcoord1 v2\ndcl_texcoord2 v3\ndcl_texcoord3 v4\n"
     "mov oPos, v0\nmov oT0, v1\nmov oT1, v2\nmov oT2, v3\nmov oT3, v4\n";
 
-/* The same coordinates everywhere, so that what reaches the pixels is exact. */
+/* Draws with the same coordinates at all pixels, so that interpolation is exact. */
 static void draw_quad(const char *text, struct quad *quad)
 {
     static const char *const flags[] = {"disable", "count3_projected", "count4_projected",
@@ -149,7 +150,7 @@ static void test_instructions_of_ps_1_x(void)
 
 /* --- Neighbours, killed pixels, depth ------------------------------------------------------------------ */
 
-/* Of x * x and y * x, in the quads of the target. */
+/* Checks the differences of x * x and y * x in the quads of the target. */
 static void check_differences(void)
 {
     begin_part();
@@ -191,7 +192,7 @@ static void test_killed_pixels_stay(void)
     on_every_engine(check_killed);
 }
 
-/* Each row of pixels has a level of its own; half of it takes none. */
+/* Each row of pixels has its own level. Half of its pixels do not execute the lookup. */
 static void check_divergent(void)
 {
     static const struct model_sampler sampler = {.mip = MODEL_MIP_POINT};
@@ -220,7 +221,7 @@ static void test_levels_in_divergent_flow(void)
     on_every_engine(check_divergent);
 }
 
-/* The depth that ps_1_x gives is the one that is stored, clamped. */
+/* The depth that ps_1_x writes is clamped and stored. */
 static void check_depth(void)
 {
     static const char *const text[] = {

@@ -1,6 +1,6 @@
-/* The lookups of texture instructions (docs/shader-semantics.md), one quad of registers at a time under the
- * emulator's binding, against a sampler written a second time and, at the edges, against values computed
- * here. */
+/* The lookups of texture instructions (docs/shader-semantics.md). The emulator's binding executes them for
+ * one quad of registers at a time. They are compared with a second implementation of samplers, and at the
+ * edges with values that are computed here. */
 #include "tests/support/picture/canvas.h"
 #include "tests/support/picture/quad.h"
 #include "tests/support/picture/texture_model.h"
@@ -64,7 +64,8 @@ static const char *load_text(enum load load)
     return text;
 }
 
-/* Coordinates that change evenly from lane to lane; on cubes all on one face, whose major component stays. */
+/* Makes coordinates that change evenly from lane to lane. On cubes all of them are on one face, and the major
+ * component does not change. */
 static void make_coordinates(double across[3], double down[3])
 {
     double start[3];
@@ -84,7 +85,7 @@ static void make_coordinates(double across[3], double down[3])
             quad.v[0][a][lane] = (float)(start[a] + lane % 2 * across[a] + lane / 2 * down[a]);
 }
 
-/* The changes of a place on a cube's face, from those of the vector. */
+/* Converts the changes of a cube's vector to changes of the coordinates on its face. */
 static void turn_changes(int lane, double change[3])
 {
     double v[3], moved[3], first[2], second[2];
@@ -209,7 +210,7 @@ static void test_lookups_in_volumes(void)
 
 static const struct model_sampler nearest_levels = {.mip = MODEL_MIP_POINT};
 
-/* The plane at v0's place in lane 0. */
+/* Expects the texel of the 2D texture at v0 in lane 0. */
 static void expect_level(const char *text, int lambda, const struct model_sampler *sampler, const char *what)
 {
     const double v[3] = {lane_value(0, 0, 0), lane_value(0, 1, 0), 0};
@@ -300,7 +301,7 @@ static void test_levels_are_clamped(void)
     }
 }
 
-/* Without changes nothing is anisotropic: it is filtered linearly, once. */
+/* A lookup with a given level has no changes, so it is filtered linearly instead of anisotropically. */
 static void test_given_levels_are_not_anisotropic(void)
 {
     const struct model_sampler sampler = {.min = 1, .mip = MODEL_MIP_LINEAR};
@@ -333,7 +334,7 @@ static void test_given_changes_can_be_anisotropic(void)
     }
 }
 
-/* NaN is far away: the last level, a single texel. */
+/* Coordinates of NaN give the last level, which has one texel. */
 static void test_coordinates_that_are_not_numbers(void)
 {
     static const float odd[] = {NAN, INFINITY, -INFINITY, FLT_MAX, -FLT_MAX};
@@ -346,7 +347,7 @@ static void test_coordinates_that_are_not_numbers(void)
     }
 }
 
-/* 0 times FLT_MAX is 0, everywhere alike: the first texel of the first level. */
+/* 0 times FLT_MAX is 0 in all lanes, which gives the first texel of the first level. */
 static void test_projection_by_zero_multiplies_by_the_largest_number(void)
 {
     make_plane(&nearest_levels);

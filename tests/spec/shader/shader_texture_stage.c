@@ -1,6 +1,6 @@
-/* The results of texture instructions that are not lookups (docs/shader-semantics.md), one quad of
- * registers at a time under the emulator's binding, against values computed here: differences of
- * neighbours, discarded pixels, and the instructions of ps_1_1 to ps_1_4. */
+/* The results of texture instructions that are not lookups (docs/shader-semantics.md), compared with values
+ * that are computed here: differences of neighbours, discarded pixels, and the instructions of ps_1_1 to
+ * ps_1_4. The emulator's binding executes them for one quad of registers at a time. */
 #include "contract/key.h"
 #include "tests/support/picture/canvas.h"
 #include "tests/support/picture/quad.h"
@@ -288,7 +288,7 @@ static void test_reflections(void)
     expect_texel("ps_1_1\ndef c1, -0.25, 0.75, -1.0, 0.0\ntex t0\ntexm3x3pad t1, t0\ntexm3x3pad t2, t0\n"
                  "texm3x3spec t3, t0, c1\nmov r0, t3\n",
                  0.75, -0.25, 1);
-    /* No normal: what is left is the opposite of the vector to the eye. */
+    /* Without a normal, the result is the negative of the vector to the eye. */
     quad_set(&quad, 1, 0, 0, 0, 1);
     quad_set(&quad, 2, 0, 0, 0, 0.25f);
     quad_set(&quad, 3, 0, 0, 0, -0.5f);

@@ -1,4 +1,4 @@
-/* The error bounds that spec/math/transcendental.h states, over whole ranges, against double precision. */
+/* The error bounds in spec/math/transcendental.h, checked over whole ranges with double precision. */
 #include "base/bits.h"
 #include "machine/mxcsr.h"
 #include "emu/emulate/bind.h"

@@ -1,5 +1,5 @@
-/* Sampling by its definition (src/spec/texture/address.h, cube.h, sample.h), on every engine: volumes and
- * cubes. */
+/* Sampling of volumes and cubes, compared with its definition (src/spec/texture/address.h, cube.h, sample.h)
+ * on every engine. */
 #include "tests/support/picture/sampled.h"
 
 void setUp(void)
@@ -54,7 +54,7 @@ static void check_cubes(void)
     sampled_expect_few_left_out(0.25);
 }
 
-static void test_cubes_show_the_face_that_the_vector_meets(void)
+static void test_cubes_return_texels_of_the_vectors_face(void)
 {
     on_every_engine(check_cubes);
 }
@@ -63,6 +63,6 @@ int main(void)
 {
     UNITY_BEGIN();
     RUN_TEST(test_volumes_blend_eight_texels);
-    RUN_TEST(test_cubes_show_the_face_that_the_vector_meets);
+    RUN_TEST(test_cubes_return_texels_of_the_vectors_face);
     return UNITY_END();
 }

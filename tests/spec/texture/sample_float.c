@@ -1,6 +1,6 @@
 /* Textures that are not bytes (src/spec/texture/sample_float.h), on every engine: every format through the
- * whole pipeline, filters in binary32, sRGB, depth to compare with. Targets are of bytes, so a channel is
- * right when it is the nearest of 255ths. */
+ * whole pipeline, filters in binary32, sRGB, and depth comparisons. Targets have bytes, so the correct value
+ * of a channel is the nearest multiple of 1/255. */
 #include "render/texture/format.h"
 #include "tests/support/picture/canvas.h"
 
@@ -30,7 +30,7 @@ static triptych_texture *make_texture(enum triptych_texture_type type, unsigned 
     return texture;
 }
 
-/* As draw_square, with a third coordinate that goes from w0 at the left to w1 at the right. */
+/* Draws as draw_square() does, with three coordinates that go from `low` to `high`. */
 static void draw_third(const float low[3], const float high[3])
 {
     struct {
@@ -60,7 +60,7 @@ static void set_filters(const char *min, const char *mag, const char *mip)
     set_sampler(0, TRIPTYCH_SAMPLER_mipfilter, mip);
 }
 
-/* The 255th that a value is stored as; NaN is 0. */
+/* Returns the byte that stores a value; NaN is 0. */
 static unsigned stored(double value)
 {
     return value > 0 ? value < 1 ? (unsigned)lrintf((float)value * 255.0f) : 255 : 0;
@@ -85,7 +85,7 @@ static uint8_t data[SIZE * SIZE * 16];
 static uint32_t words[SIZE * SIZE];
 static float numbers[SIZE * SIZE][4];
 
-/* Random bytes of the format, texel by texel on the target's pixels, are decoded as defined. */
+/* Draws random bytes of the format, one texel a pixel, and compares with the decoded texels. */
 static void check_format(const struct format *format)
 {
     size_t row = format_blocks(format, SIZE) * format->bytes;
@@ -114,7 +114,7 @@ static void check_formats(void)
             check_format(format_at(i));
 }
 
-static void test_every_format_shows_what_it_decodes_to(void)
+static void test_every_format_is_drawn_as_its_decoded_texels(void)
 {
     on_every_engine(check_formats);
 }
@@ -159,7 +159,7 @@ static void test_numbers_are_blended_without_steps(void)
     on_every_engine(check_linear);
 }
 
-/* Texels of infinity and NaN do not reach pixels that they have no weight for. */
+/* Texels of infinity and NaN do not affect pixels in which their weight is 0. */
 static void check_weights_of_nothing(void)
 {
     static const float row[4][4] = {
@@ -173,7 +173,7 @@ static void check_weights_of_nothing(void)
     expect_pixel(3, 3, 0x40404040, "beside infinity");
 }
 
-static void test_a_texel_without_weight_does_not_count(void)
+static void test_a_texel_of_weight_0_has_no_effect(void)
 {
     on_every_engine(check_weights_of_nothing);
 }
@@ -239,7 +239,7 @@ static void check_types(void)
     }
 }
 
-static void test_numbers_and_bytes_are_sampled_alike(void)
+static void test_numbers_and_bytes_are_sampled_equally(void)
 {
     on_every_engine(check_types);
 }
@@ -350,10 +350,10 @@ static void test_depth_is_compared_before_it_is_blended(void)
 int main(void)
 {
     UNITY_BEGIN();
-    RUN_TEST(test_every_format_shows_what_it_decodes_to);
+    RUN_TEST(test_every_format_is_drawn_as_its_decoded_texels);
     RUN_TEST(test_numbers_are_blended_without_steps);
-    RUN_TEST(test_a_texel_without_weight_does_not_count);
-    RUN_TEST(test_numbers_and_bytes_are_sampled_alike);
+    RUN_TEST(test_a_texel_of_weight_0_has_no_effect);
+    RUN_TEST(test_numbers_and_bytes_are_sampled_equally);
     RUN_TEST(test_srgb_is_decoded_before_it_is_blended);
     RUN_TEST(test_depth_is_compared_before_it_is_blended);
     return UNITY_END();

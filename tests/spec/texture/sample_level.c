@@ -1,5 +1,5 @@
-/* Sampling by its definition (src/spec/texture/detail.h, sample.h), on every engine: levels of detail,
- * filters that differ with the size of texels, anisotropy. */
+/* Sampling, compared with its definition (src/spec/texture/detail.h, sample.h) on every engine: levels of
+ * detail, different filters for magnification and minification, anisotropy. */
 #include "tests/support/picture/sampled.h"
 
 #include <math.h>
@@ -47,7 +47,8 @@ static void test_levels_follow_the_size_of_texels(void)
     on_every_engine(check_levels);
 }
 
-/* The exact scales: texels as large as pixels are magnified, and every doubling is one level further. */
+/* Tests exact scales. Texels of the size of pixels are magnified, and twice as many texels a pixel are the
+ * next level. */
 static void check_exact_levels(void)
 {
     sampled_define(TRIPTYCH_TEXTURE_2D, 64, 64, 1, 7);
@@ -74,7 +75,7 @@ static void test_every_doubling_is_a_level(void)
     on_every_engine(check_exact_levels);
 }
 
-/* Spaces between taps are exact in binary for 1, 3 and 7 taps. */
+/* The distances between taps are exact in binary for 1, 3 and 7 taps. */
 static void check_anisotropy(void)
 {
     static const struct sampled_coordinates views[] = {

@@ -1,5 +1,5 @@
-/* User clip planes and the state clipping, drawn by every engine: a pixel of a flat picture is kept when its
- * centre is on the inner side of every plane, worked out in double precision. */
+/* User clip planes and the state clipping, on every engine. A pixel of a flat picture stays if its centre is
+ * on the inner side of every plane, which the test computes in double precision. */
 #include "tests/support/picture/shape.h"
 
 #include <math.h>
@@ -40,7 +40,7 @@ static void random_planes(float plane[TRIPTYCH_CLIP_PLANES][4])
     }
 }
 
-/* Pixels within a 1/100 of a pixel of a plane may be either. */
+/* Pixels whose distance from a plane is at most 1/100 pixel may be inside or outside. */
 static void expect_kept(const float plane[][4], unsigned enabled, double z)
 {
     for (int p = 0; p < SIZE * SIZE; p++) {
@@ -68,14 +68,13 @@ static void check_planes(void)
     }
 }
 
-static void test_what_is_outside_of_an_enabled_plane_is_cut_away(void)
+static void test_parts_outside_of_an_enabled_plane_are_cut(void)
 {
     on_every_engine(check_planes);
 }
 
-/* The planes are in world space: neither the camera nor the object moves them against the world. World is
- * object moved by (0.25, -0.5); the camera turns it by 90 degrees and makes it half as large, and the
- * projection twice as large again. */
+/* The planes are in world space, independent of the camera and the object. The object is moved by (0.25,
+ * -0.5). The camera rotates by 90 degrees and scales by a half, and the projection scales by two. */
 static void check_spaces(void)
 {
     static const float world[4][4] = {{1, 0, 0, 0}, {0, 1, 0, 0}, {0, 0, 1, 0}, {0.25f, -0.5f, 0, 1}};
@@ -101,7 +100,7 @@ static void test_planes_are_in_world_space(void)
     on_every_engine(check_spaces);
 }
 
-/* A camera matrix that drops one axis has no inverse: the planes then cut nothing. */
+/* A camera matrix that drops one axis has no inverse. The planes then do not cut. */
 static void check_singular(void)
 {
     float flat[4][4];
@@ -122,7 +121,7 @@ static void test_without_an_inverse_nothing_is_cut(void)
     on_every_engine(check_singular);
 }
 
-/* Lines are cut, points are in or out by their centres, wireframes end where they are cut. */
+/* Lines and the edges of wireframes are cut. Points are inside or outside according to their centres. */
 static void check_lines_and_points(void)
 {
     static const float plane[TRIPTYCH_CLIP_PLANES][4] = {{1, 0, 0, 0.0078125f}}; /* x > 31.75 */
@@ -147,8 +146,8 @@ static void test_lines_are_cut_and_points_are_not(void)
     on_every_engine(check_lines_and_points);
 }
 
-/* Without clipping neither the planes nor near and far count; the viewport's sides do, and what is behind the
- * eye stays away. */
+/* With clipping off, user planes and the near and far planes have no effect. The viewport's sides still cut,
+ * and parts behind the eye are not drawn. */
 static void check_clipping_off(void)
 {
     static const float plane[TRIPTYCH_CLIP_PLANES][4] = {{0, 0, 0, -1}};
@@ -209,7 +208,7 @@ static void test_bad_planes_are_refused(void)
 int main(void)
 {
     UNITY_BEGIN();
-    RUN_TEST(test_what_is_outside_of_an_enabled_plane_is_cut_away);
+    RUN_TEST(test_parts_outside_of_an_enabled_plane_are_cut);
     RUN_TEST(test_planes_are_in_world_space);
     RUN_TEST(test_without_an_inverse_nothing_is_cut);
     RUN_TEST(test_lines_are_cut_and_points_are_not);

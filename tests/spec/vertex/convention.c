@@ -1,5 +1,5 @@
-/* The conventions, drawn by every engine: the pictures of Direct3D 9's rasterization rules, whose pixel
- * centres are at integers, and both ranges of clip depth. */
+/* The conventions, on every engine: the pictures of Direct3D 9's rasterization rules, whose pixel centres are
+ * at integers, and both ranges of clip depth. */
 #include "tests/support/picture/shape.h"
 
 #include <stdio.h>
@@ -44,8 +44,8 @@ static void expect_rectangle(int x0, int y0, int x1, int y1, const char *what)
             expect_pixel(x, y, x >= x0 && x < x1 && y >= y0 && y < y1 ? ~0u : 0, what);
 }
 
-/* With integer centres the documentation's rectangle from (0.5, 0.5) to (2.5, 4.5) and the one from (1, 1) to
- * (3, 5) fill the same pixels; with others they do not. */
+/* With centres at integers, the documentation's rectangle from (0.5, 0.5) to (2.5, 4.5) and the one from (1,
+ * 1) to (3, 5) cover the same pixels. With centres at halves they do not. */
 static void check_pixel_centers(void)
 {
     OK(triptych_set_convention(device, TRIPTYCH_PIXEL_CENTER, TRIPTYCH_PIXEL_CENTER_INTEGER));
@@ -70,8 +70,9 @@ static void test_pixel_centers_follow_the_convention(void)
     on_every_engine(check_pixel_centers);
 }
 
-/* Texture coordinates are taken at the centre: with centres at integers a texture of the target's size, drawn
- * from 0 to SIZE, is met at the texels' corners, and half a pixel further up and left at their centres. */
+/* Texture coordinates are interpolated to pixel centres. With centres at integers, a texture of the target's
+ * size that is drawn from 0 to SIZE is sampled at the corners of texels. If it is drawn half a pixel further
+ * up and left, it is sampled at their centres. */
 static void check_texels(void)
 {
     struct shape_vertex v[4] = {{-0.5f, -0.5f, 0, ~0u, 0, 0},
@@ -93,7 +94,7 @@ static void test_half_a_pixel_maps_texels_to_pixels(void)
     on_every_engine(check_texels);
 }
 
-/* A viewport of its own at (8, 16): the same pixels of it whatever the centres. */
+/* A viewport at (8, 16) covers the same pixels with both conventions. */
 static void check_viewport(void)
 {
     for (unsigned centre = 0; centre < 2; centre++) {

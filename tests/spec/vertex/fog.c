@@ -48,7 +48,7 @@ static uint32_t fogged(uint32_t color, uint32_t fog, int factor)
     return word;
 }
 
-/* A square at one distance, whose factor must not be too near to where it is rounded. */
+/* Draws a square at one distance, unless its fog factor is so near to a boundary that rounding decides. */
 static void check_square(const struct fog *fog, double distance, float z)
 {
     double scaled = 255 * fmax(0, fmin(1, fog_factor(fog, distance)));
@@ -100,7 +100,7 @@ static void check_distance_fog(void)
     }
 }
 
-/* Formula and colour mean nothing while fog is off. */
+/* Formula and colour have no effect while fog is off. */
 static void check_no_fog(void)
 {
     struct fog fog = {0, 0, 0.0001f, 1};

@@ -1,5 +1,5 @@
-/* Gathers read the addresses that they specify in every engine: a pointer anywhere in a job of 64 KiB, every
- * scale, 16-byte elements, displacements either way, places before the start. */
+/* Gathers read the addresses that they specify, in every engine: pointers anywhere in a job of 64 KiB, every
+ * scale, elements of 16 bytes, positive and negative displacements, and elements before the start. */
 #include "base/bits.h"
 #include "machine/code.h"
 #include "machine/cpu.h"
@@ -31,7 +31,7 @@ struct addressing {
     int field, scale, displacement;
 };
 
-/* Texels are chosen on both sides of the start, which is the table's middle. */
+/* Chooses texels before and after the start, which is the middle of the table. */
 static void fill(const struct addressing *how)
 {
     const uint32_t *start = table + TEXELS / 2 * CHANNELS;
@@ -77,14 +77,15 @@ static void emulate(const struct addressing *how)
     check(how, "emulate");
 }
 
-/* The channels one after the other, which is a row, or with a store between them, which is not. */
+/* Records the gathers of the four channels. If they follow each other, they are a row; with stores between
+ * them they are not. */
 static void record(struct ir *ir, const struct addressing *how, int rows)
 {
     uint16_t word[CHANNELS];
     ir_start(ir);
     uint16_t index =
         ir_append(ir, (struct ir_instruction){.op = IR_load, .type = TYPE_itg, .base = BASE_INPUT});
-    /* Not the load itself, whose gathers are made lane by lane. */
+    /* A sum instead of the loaded value itself, because gathers with such an index are made lane by lane. */
     uint16_t sum =
         ir_append(ir, (struct ir_instruction){.op = IR_add_i, .type = TYPE_itg, .operand = {index, index}});
     index = ir_append(ir, (struct ir_instruction){.op = IR_sub_i, .type = TYPE_itg, .operand = {sum, index}});

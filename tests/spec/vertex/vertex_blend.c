@@ -108,7 +108,7 @@ static void check_positions(int matrices, int indexed)
     }
 }
 
-/* Indices need their palette, which the device makes for its draws; here the test makes it. */
+/* Makes the palette that indices need. In a draw the device makes it. */
 static const struct palette_entry *make_palette(void)
 {
     derive_palette(&shading_state, palette);
@@ -135,7 +135,8 @@ static void test_positions_are_blended_by_weights(void)
     shading_on_every_engine(check_blending);
 }
 
-/* An index beyond the palette is its last, one below its first. */
+/* An index after the end of the palette selects its last matrix, and an index before its start the first
+ * one. */
 static void check_limits(void)
 {
     static const float wild[4] = {1e9f, -3, 255.4f, 300};
@@ -163,7 +164,7 @@ static void test_indices_are_limited_to_the_palette(void)
     shading_on_every_engine(check_limits);
 }
 
-/* One light along each axis: the colour is the blended normal's positive part. */
+/* One light along each axis, so that the colour is the positive part of the blended normal. */
 static void light_axes(void)
 {
     memset(&shading_state.material, 0, sizeof shading_state.material);
@@ -180,7 +181,7 @@ static void light_axes(void)
         view[i][i] = 1;
 }
 
-/* Matrices that turn and stretch along axes: the inverse transpose is obvious. */
+/* Matrices that rotate and stretch along axes, whose inverse transposes are simple. */
 static void check_normals(void)
 {
     static const float stretch[4][3] = {{2, 1, 1}, {1, 4, 1}, {1, 1, 0.5f}, {0.25f, 2, 1}};

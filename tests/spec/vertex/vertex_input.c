@@ -1,6 +1,6 @@
-/* Vertex input on every engine: what each type in memory is as numbers, vertices that are in the window
- * already, streams, instances and flexible vertex formats. Expected values come from the definition in
- * double. */
+/* Vertex input on every engine: the numbers that each type in memory represents, vertices in window
+ * coordinates, streams, instances and flexible vertex formats. Expected values are computed from the
+ * definition in double. */
 #include "tests/support/picture/canvas.h"
 #include "tests/support/picture/shading.h"
 
@@ -127,7 +127,7 @@ static void test_each_type_has_the_values_of_direct3d(void)
     shading_on_every_engine(check_types);
 }
 
-/* All of them, against the conversion that texture and vertex files are written with. */
+/* Compares all binary16 numbers with the conversion that writes texture and vertex files. */
 static void check_halves(void)
 {
     static uint16_t half[VERTEX_CAPACITY * 4];
@@ -211,7 +211,7 @@ static void expect_rectangle(int x0, int y0, int x1, int y1, const char *what)
         }
 }
 
-/* Neither matrices nor lights nor the viewport's scale change them. */
+/* Matrices, lights and the viewport's scale do not change vertices in window coordinates. */
 static void check_window_positions(void)
 {
     float matrix[4][4] = {{3, 1, 4, 1}, {5, 9, 2, 6}, {5, 3, 5, 8}, {9, 7, 9, 3}};
@@ -236,12 +236,12 @@ static void check_window_positions(void)
     TEST_ASSERT_EQUAL_FLOAT(0.25f, depth[20 * SIZE + 20]);
 }
 
-static void test_vertices_in_the_window_are_drawn_where_they_are(void)
+static void test_vertices_in_window_coordinates_are_not_moved(void)
 {
     on_every_engine(check_window_positions);
 }
 
-/* Far outside of the guard band the clipper cuts; what is left has the colours of the whole. */
+/* Far outside of the guard band the clipper cuts triangles. The colours of the rest do not change. */
 static void check_far_windows(void)
 {
     static const float far[] = {20000, 1e6f, 1e9f, 1e30f};
@@ -260,8 +260,8 @@ static void test_vertices_far_outside_of_the_window_are_clipped(void)
     on_every_engine(check_far_windows);
 }
 
-/* Colour along x between two ends with 1/w: linear in 1/w, and the same when the right end is cut off far
- * away. */
+/* The colour along x between two ends with different 1/w is perspective. It is the same if the right end is
+ * far away and cut off. */
 static void check_perspective(double left, double right, float end)
 {
     struct window_vertex v[4];
@@ -296,7 +296,7 @@ static void test_colours_in_the_window_are_perspective_by_their_reciprocal_w(voi
 
 /* --- Streams ------------------------------------------------------------------------------------------- */
 
-/* Eight instances, two of each colour, added up. */
+/* Draws eight instances, two of each colour, with additive blending. */
 static void check_instances(void)
 {
     enum { INSTANCES = 8 };
@@ -342,7 +342,8 @@ static void test_instances_step_through_their_streams(void)
     on_every_engine(check_instances);
 }
 
-/* Every instance is one point three times: nothing is drawn. By vertex the corners differ. */
+/* If positions step by instance, the three corners of a triangle are one point, and no pixel is covered. If
+ * they step by vertex, the corners differ. */
 static void check_instance_positions(void)
 {
     enum { INSTANCES = 8 };
@@ -380,7 +381,7 @@ int main(void)
     RUN_TEST(test_each_type_has_the_values_of_direct3d);
     RUN_TEST(test_every_binary16_is_converted_exactly);
     RUN_TEST(test_positions_of_four_components_have_a_w);
-    RUN_TEST(test_vertices_in_the_window_are_drawn_where_they_are);
+    RUN_TEST(test_vertices_in_window_coordinates_are_not_moved);
     RUN_TEST(test_vertices_far_outside_of_the_window_are_clipped);
     RUN_TEST(test_colours_in_the_window_are_perspective_by_their_reciprocal_w);
     RUN_TEST(test_instances_step_through_their_streams);

@@ -1,5 +1,5 @@
-/* Lighting and vertex fog on every engine, against Direct3D 9's formulas in double: lights of all kinds,
- * highlights, where reflectances come from, and fog by depth and by distance. */
+/* Lighting and vertex fog on every engine, compared with Direct3D 9's formulas in double: lights of all
+ * kinds, highlights, sources of reflectances, and fog by depth and by distance. */
 #include "tests/support/picture/canvas.h"
 #include "tests/support/picture/shading.h"
 
@@ -115,7 +115,7 @@ static void unit(double v[3])
         v[c] /= length;
 }
 
-/* A point or a direction by one of the matrices. */
+/* Multiplies a point (w = 1) or a direction (w = 0) by a matrix. */
 static void transformed(const double p[3], double w, enum triptych_transform which, double out[3])
 {
     float(*m)[4] = shading_state.transform[which];
@@ -138,8 +138,8 @@ static void to_camera(const float position[3], double out[3])
     transformed(world, 1, TRIPTYCH_TRANSFORM_VIEW, out);
 }
 
-/* Normals are planes: the transformed normal is orthogonal to whatever transformed vector the normal was
- * orthogonal to. The inverse transpose by solving three equations with Cramer's rule. */
+/* Transforms a normal. If a vector is orthogonal to the normal, the transformed vector is orthogonal to the
+ * transformed normal. This gives three equations, which Cramer's rule solves; it is the inverse transpose. */
 static void normal_to_camera(const float normal[3], double out[3])
 {
     double column[3][3], n[3], cross[3];
@@ -164,7 +164,7 @@ static void normal_to_camera(const float normal[3], double out[3])
         unit(out);
 }
 
-/* Attenuation and cone; *to_light is unit length. */
+/* Returns the product of attenuation and cone, and in `to_light` the unit vector to the light. */
 static double strength(const struct triptych_light *light, const double position[3], double to_light[3])
 {
     double direction[3], at[3], wide[3];
@@ -209,7 +209,7 @@ static double shine(const double normal[3], const double to_light[3], const doub
     return dot(normal, to_light) > 0 && cosine > 0 ? pow(cosine, (double)shading_state.material.power) : 0;
 }
 
-/* Where a reflectance comes from. */
+/* Returns the reflectance from its source: the material or a colour of the vertex. */
 static const float *reflectance(enum triptych_state source, const float *material, const struct vertex *v)
 {
     if (!shading_state.value[TRIPTYCH_STATE_colorvertex])
@@ -260,7 +260,7 @@ static double clamped(double value)
     return fmin(fmax(value, 0), 1);
 }
 
-/* Where a highlight or a cone ends there is an edge: a vertex whose cosines are next to it proves nothing. */
+/* Returns 1 if a cosine of the vertex is near the edge of a highlight or a cone, where rounding decides. */
 static int near_an_edge(const struct vertex *v)
 {
     double position[3], normal[3], to_light[3], wide[3], direction[3], at[3];
@@ -316,7 +316,8 @@ static void test_scenes_are_lit_by_the_formulas(void)
     shading_on_every_engine(check_random_scenes);
 }
 
-/* Without lighting the vertex's own colours; lit without colours the material's, whatever the sources. */
+/* Without lighting, a vertex has its own colours. With lighting and without vertex colours, it has those of
+ * the material, whatever the sources are. */
 static void check_sources_that_are_missing(void)
 {
     bind_vertices();
@@ -390,8 +391,7 @@ static void test_fog_follows_its_formulas(void)
     shading_on_every_engine(check_fog);
 }
 
-/* A vertex that is in the window already takes its fog from its specular alpha, and both colours as they are.
- */
+/* A vertex in window coordinates has its fog factor in its specular alpha. Its colours are not changed. */
 static void check_window_fog(void)
 {
     bind_vertices();
@@ -407,13 +407,13 @@ static void check_window_fog(void)
     }
 }
 
-static void test_vertices_in_the_window_bring_their_fog(void)
+static void test_vertices_in_window_coordinates_have_their_own_fog(void)
 {
     shading_on_every_engine(check_window_fog);
 }
 
-/* Where 1 / (a0 + d (a1 + d a2)) divides by zero, a light is as bright as it can be: it saturates what faces
- * it and takes nothing from other lights. */
+/* If 1 / (a0 + d (a1 + d a2)) divides by zero, a light has the largest brightness. It saturates surfaces that
+ * face it, and does not change the effect of other lights. */
 static void check_lights_without_attenuation(float a1, float x, float y, float z)
 {
     struct triptych_light *sun = &shading_state.light[0], *lamp = &shading_state.light[1];
@@ -457,6 +457,6 @@ int main(void)
     RUN_TEST(test_a_colour_that_is_missing_is_the_materials);
     RUN_TEST(test_lights_without_attenuation_leave_others_alone);
     RUN_TEST(test_fog_follows_its_formulas);
-    RUN_TEST(test_vertices_in_the_window_bring_their_fog);
+    RUN_TEST(test_vertices_in_window_coordinates_have_their_own_fog);
     return UNITY_END();
 }

@@ -174,7 +174,7 @@ static void test_coordinates_are_selected_generated_and_transformed(void)
     shading_on_every_engine(check_all);
 }
 
-/* Stages that take the same coordinates share them, unless a matrix makes them different. */
+/* Stages with the same coordinates share a varying, unless a matrix changes the coordinates. */
 static void check_sharing(void)
 {
     bind_vertices();
@@ -194,7 +194,7 @@ static void test_stages_with_matrices_have_coordinates_of_their_own(void)
     shading_on_every_engine(check_sharing);
 }
 
-/* A vertex without coordinates has 0 0, not what lies in memory; one in the window is not transformed. */
+/* A vertex without coordinates has 0 0. A vertex in window coordinates is not transformed. */
 static void check_none(void)
 {
     bind_vertices();
@@ -215,12 +215,13 @@ static void check_none(void)
     }
 }
 
-static void test_missing_coordinates_are_zero_and_the_windows_are_as_they_are(void)
+static void test_missing_coordinates_are_zero_and_those_in_the_window_are_unchanged(void)
 {
     shading_on_every_engine(check_none);
 }
 
-/* A picture: (u q, v q, q) with q rising from left to right, divided by q, is the texture as it is. */
+/* The coordinates (u q, v q, q), where q increases from left to right, are divided by q. The picture must be
+ * the texture without distortion. */
 static void check_projection(void)
 {
     float corner[4][3];
@@ -264,7 +265,7 @@ int main(void)
     UNITY_BEGIN();
     RUN_TEST(test_coordinates_are_selected_generated_and_transformed);
     RUN_TEST(test_stages_with_matrices_have_coordinates_of_their_own);
-    RUN_TEST(test_missing_coordinates_are_zero_and_the_windows_are_as_they_are);
+    RUN_TEST(test_missing_coordinates_are_zero_and_those_in_the_window_are_unchanged);
     RUN_TEST(test_projected_coordinates_are_divided_at_the_pixel);
     return UNITY_END();
 }

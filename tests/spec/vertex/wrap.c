@@ -1,8 +1,8 @@
-/* Texture wrapping: coordinates that take the shorter way around, on triangles whole and cut, lines and
- * edges.
+/* Texture wrapping: coordinates are interpolated along the shorter way around, on whole and cut triangles,
+ * lines and edges.
  *
- * The coordinates run from 7/8 to 1/8 over 64 pixels: with wrapping over 1/4 of the texture, which is 256
- * texels wide, a texel a pixel; without over 3/4 back. */
+ * The coordinates go from 7/8 to 1/8 over 64 pixels. The texture is 256 texels wide. With wrapping they go
+ * forwards over 1/4 of the texture, one texel a pixel; without wrapping they go backwards over 3/4. */
 #include "tests/support/picture/canvas.h"
 
 #include <stdio.h>
@@ -60,7 +60,7 @@ static void check_triangles(void)
     }
 }
 
-/* Turned: the wrapped coordinate is the second. */
+/* The same with the second coordinate. */
 static void check_second_coordinate(void)
 {
     triptych_texture *texture;
@@ -76,7 +76,7 @@ static void check_second_coordinate(void)
     }
 }
 
-/* A plane that cuts both triangles leaves the same coordinates on what it leaves. */
+/* If a plane cuts both triangles, the coordinates of the rest do not change. */
 static void check_cut_triangles(void)
 {
     static const float left[4] = {-1, 0, 0, 0}, right[4] = {1, 0, 0, 0.5f};
@@ -153,7 +153,8 @@ static void check_outlines(void)
     }
 }
 
-/* The square's upper and lower side, half as long as the target: two columns for a texel of 64. */
+/* Draws the upper and lower side of the square as lines. They are half as long as the target, so that the 64
+ * texels have half a pixel each. */
 static void check_lines(void)
 {
     triptych_texture *texture;

@@ -1,5 +1,4 @@
-/* A target of SIZE x SIZE pixels on each engine in turn, for pictures of which a test computes every
- * pixel. */
+/* A target of SIZE x SIZE pixels on each engine in turn, for tests that compute every pixel of a picture. */
 #ifndef TESTS_SUPPORT_PICTURE_CANVAS_H
 #define TESTS_SUPPORT_PICTURE_CANVAS_H
 
