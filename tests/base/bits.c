@@ -1,4 +1,5 @@
-/* Floats and their bits: known pairs, and every bit pattern of a stride comes back, NaNs included. */
+/* Floats and their bits: known pairs, and conversions of bit patterns at a stride to floats and back, NaN
+ * included. */
 #include "base/bits.h"
 
 #include <math.h>

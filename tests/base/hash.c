@@ -1,4 +1,5 @@
-/* Hash tables: what is entered is found, colliding items too, at both widths; growth keeps every number. */
+/* Hash tables of both widths find all entered items, also if their hashes collide. Growth keeps every
+ * number. */
 #include "base/hash.h"
 
 #include <stdlib.h>
@@ -51,7 +52,7 @@ static void check_width(struct hash_table table, uint32_t count)
     TEST_ASSERT_EQUAL_UINT32(0, hash_get(table, find(table, 1)));
 }
 
-static void test_narrow_and_wide_tables_find_what_they_hold(void)
+static void test_narrow_and_wide_tables_find_their_items(void)
 {
     static uint16_t narrow[256];
     static uint32_t wide[256];
@@ -95,7 +96,7 @@ static void test_a_growing_table_keeps_every_number(void)
 int main(void)
 {
     UNITY_BEGIN();
-    RUN_TEST(test_narrow_and_wide_tables_find_what_they_hold);
+    RUN_TEST(test_narrow_and_wide_tables_find_their_items);
     RUN_TEST(test_slots_are_at_least_twice_the_items);
     RUN_TEST(test_a_growing_table_keeps_every_number);
     return UNITY_END();

@@ -30,7 +30,7 @@ static void test_order_of_the_arguments_does_not_matter(void)
     TEST_ASSERT_EQUAL_FLOAT(2, max_f32(2, -1));
 }
 
-static void test_the_second_float_wins_beside_nan_and_between_zeros(void)
+static void test_the_result_is_the_second_float_if_one_is_nan_or_both_are_zero(void)
 {
     TEST_ASSERT_EQUAL_FLOAT(1, min_f32(NAN, 1));
     TEST_ASSERT_EQUAL_FLOAT(1, max_f32(NAN, 1));
@@ -43,6 +43,6 @@ int main(void)
 {
     UNITY_BEGIN();
     RUN_TEST(test_order_of_the_arguments_does_not_matter);
-    RUN_TEST(test_the_second_float_wins_beside_nan_and_between_zeros);
+    RUN_TEST(test_the_result_is_the_second_float_if_one_is_nan_or_both_are_zero);
     return UNITY_END();
 }

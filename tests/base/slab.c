@@ -24,7 +24,7 @@ static void test_a_new_block_is_zero_and_aligned(void)
     slab_give(&slab, block);
 }
 
-static void test_a_block_that_returns_keeps_every_byte(void)
+static void test_a_block_that_is_used_again_has_its_old_contents(void)
 {
     struct slab slab = SLAB(4099);
     uint8_t *block = slab_take(&slab);
@@ -66,7 +66,7 @@ static void *take_and_give(void *mark)
     return (void *)shared_blocks;
 }
 
-static void test_threads_never_hold_the_same_block(void)
+static void test_two_threads_never_have_the_same_block(void)
 {
     pthread_t thread[4];
     int mark[4] = {1, 2, 3, 4};
@@ -89,9 +89,9 @@ int main(void)
 {
     UNITY_BEGIN();
     RUN_TEST(test_a_new_block_is_zero_and_aligned);
-    RUN_TEST(test_a_block_that_returns_keeps_every_byte);
+    RUN_TEST(test_a_block_that_is_used_again_has_its_old_contents);
     RUN_TEST(test_the_last_block_given_is_taken_first);
-    RUN_TEST(test_threads_never_hold_the_same_block);
+    RUN_TEST(test_two_threads_never_have_the_same_block);
     RUN_TEST(test_refused_memory_is_null);
     return UNITY_END();
 }

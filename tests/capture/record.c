@@ -122,7 +122,8 @@ static void recordings_of_streams_draw_the_same(void)
         expect_recorded(streams[i], 0);
 }
 
-/* The state after earlier frames: pictures, textures that were drawn to and changed, all states. */
+/* The recording begins with the state after earlier frames: the picture, changed textures, textures that were
+ * drawn to, and all states. */
 static void recordings_may_begin_late(void)
 {
     unsigned found = 0;
@@ -215,8 +216,8 @@ static void unread_attributes_may_exceed_their_buffers(void)
     expect_frames(expected, 2);
 }
 
-/* Numbers of resources are used again: a recording of more than there are of them can be read. */
-static void resources_come_and_go(void)
+/* Numbers of destroyed resources are used again, so a recording can have more resources than numbers. */
+static void numbers_of_destroyed_resources_are_used_again(void)
 {
     uint64_t expected[3];
     begin_scene(1);
@@ -302,7 +303,7 @@ int main(void)
     RUN_TEST(recordings_may_begin_late);
     RUN_TEST(a_recording_may_begin_between_two_draws);
     RUN_TEST(unread_attributes_may_exceed_their_buffers);
-    RUN_TEST(resources_come_and_go);
+    RUN_TEST(numbers_of_destroyed_resources_are_used_again);
     RUN_TEST(there_is_no_file_before_the_end);
     RUN_TEST(wrong_calls_are_refused);
     RUN_TEST(a_full_disk_is_reported_at_the_end);

@@ -1,8 +1,8 @@
-/* Generated routines as callees: thousands of every engine that makes code of its own, in every unit, called
- * through the checked trampoline on random data. They keep the calling convention, do not write to what they
- * may only read nor beyond what they are to write, and agree with one another. Their code depends only on
- * their key: built again at another address, in another arena, after another routine, in another process,
- * they are the same bytes. */
+/* Generated routines as callees. The checked trampoline calls thousands of routines of every engine that
+ * generates code, in every unit, on random data. They keep the calling convention, do not write to their
+ * inputs or outside of their outputs, and agree with each other. Their code depends only on their key: a
+ * routine that is built again at another address, in another arena, after another routine or in another
+ * process has the same bytes. */
 #define _GNU_SOURCE
 #include "machine/code.h"
 #include "engines/list.h"
@@ -62,8 +62,8 @@ void tearDown(void)
 
 /* --- The harness ------------------------------------------------------------------------------------- */
 
-/* Functions that do one thing that they must not. */
-static void test_offences_are_noticed(void)
+/* Each function breaks one rule. */
+static void test_violations_are_reported(void)
 {
     static const struct {
         const char *name;
@@ -112,10 +112,11 @@ static struct routine *build(const struct engine *engine, struct code_arena *whe
     return routine;
 }
 
-/* The last keys that name no shader, which may be gone. */
+/* The last keys without a shader. A key with a shader may name one that no longer exists. */
 static union key between[UNIT_COUNT];
 
-/* A routine of another key comes between the two, and takes the place that the second would have. */
+/* Builds the key twice. Between them a routine of another key is built, so that the second build has another
+ * address. */
 static void expect_same_bytes(const struct engine *engine, enum unit unit, const union key *key)
 {
     static char message[KEY_TEXT_CAPACITY + 200];
@@ -148,7 +149,7 @@ static void check(void *context, enum unit unit, const union key *key)
 
 /* --- Another process --------------------------------------------------------------------------------- */
 
-/* The one address that code holds, of the stitcher's constants, is another in each process. */
+/* Clears the only address in code, that of the stitcher's constants, which differs between processes. */
 static void forget_address(uint8_t *code, size_t bytes)
 {
     const void *address = stitch_constants;
@@ -177,7 +178,7 @@ static uint64_t hash_of_many(void)
     return hash;
 }
 
-/* Where all addresses are others. */
+/* In another process all addresses differ. */
 static void test_another_process_makes_the_same_bytes(void)
 {
     unsigned long long other_hash = 0;
@@ -197,7 +198,7 @@ static int print_hash(void)
     return 0;
 }
 
-/* --- Many ---------------------------------------------------------------------------------------------- */
+/* --- Many routines ------------------------------------------------------------------------------------- */
 
 static void test_routines_of_random_keys(void)
 {
@@ -226,7 +227,7 @@ int main(int count, char **arguments)
     if (count > 1 && !strcmp(arguments[1], "hash"))
         return print_hash();
     UNITY_BEGIN();
-    RUN_TEST(test_offences_are_noticed);
+    RUN_TEST(test_violations_are_reported);
     RUN_TEST(test_another_process_makes_the_same_bytes);
     RUN_TEST(test_routines_of_random_keys);
     RUN_TEST(test_routines_of_the_shaders);

@@ -1,4 +1,4 @@
-/* Keys: packing and text lose nothing and refuse what is not a key. */
+/* Keys: packed and textual forms keep every field, and refuse input that is not a key. */
 #include "contract/key.h"
 
 #include <stdio.h>
@@ -42,7 +42,8 @@ static void text_gives_the_same_fields_back(void)
         }
 }
 
-/* A single digit changed changes the packed form: no digit overlaps another or falls out of the words. */
+/* A change of any single digit changes the packed form, so digits do not overlap and are inside of the
+ * words. */
 static void every_digit_matters(void)
 {
     for (int unit = 0; unit < UNIT_COUNT; unit++) {
@@ -105,7 +106,7 @@ static void fields_print_by_name(void)
     TEST_ASSERT_EQUAL_STRING("depth_function=3 varying=0,1", key_print(UNIT_PIXEL, &key, text));
 }
 
-static void bad_text_is_refused_where_it_is_bad(void)
+static void bad_text_is_refused_with_the_position(void)
 {
     static const struct {
         const char *text;
@@ -150,7 +151,7 @@ int main(void)
     RUN_TEST(hash_differs_between_units);
     RUN_TEST(the_zero_key_prints_as_default);
     RUN_TEST(fields_print_by_name);
-    RUN_TEST(bad_text_is_refused_where_it_is_bad);
+    RUN_TEST(bad_text_is_refused_with_the_position);
     RUN_TEST(the_fields_of_a_unit_stay_inside_its_key);
     return UNITY_END();
 }

@@ -1,6 +1,6 @@
-/* Generated routines with large frames on a stack that is nearly used up: they touch the guard page below it
- * and nothing further down, where another thread's memory may be. The guard page does not detect an access
- * beyond it. */
+/* Generated routines with large frames on a stack that is nearly full. They must touch the guard page below
+ * the stack before any memory further down, which may belong to another thread and where the guard page does
+ * not detect accesses. */
 #define _GNU_SOURCE
 #include "machine/code.h"
 #include "machine/mxcsr.h"
@@ -30,7 +30,7 @@ enum {
     TEXT = 8192
 };
 
-/* Below the guard page, the guard page, the stack. */
+/* In this order: the bytes below the guard page, the guard page, the stack. */
 static uint8_t *memory;
 static struct code_arena *arena;
 static struct error error;
@@ -55,8 +55,8 @@ void tearDown(void)
 
 /* --- A routine with a large frame ---------------------------------------------------------------------- */
 
-/* All temporaries are computed, changed under a condition, and then read from the last to the first: 128
- * values are alive together. Where an engine has variables, the same number of variables is alive too. */
+/* All temporaries are computed, changed under a condition, and then read from the last to the first, so that
+ * 128 values are live simultaneously. In engines with variables, the same number of variables is live too. */
 static const struct program *large_program(void)
 {
     static char text[TEXT];

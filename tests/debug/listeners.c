@@ -381,7 +381,7 @@ static void a_failed_registration_is_one_line(void)
 /* --- Enabling --------------------------------------------------------------------------------------------
  */
 
-static void ask_by_environment(const void *unused)
+static void enable_by_environment(const void *unused)
 {
     char reason[512];
     triptych_device *device;

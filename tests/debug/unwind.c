@@ -1,6 +1,6 @@
-/* Unwind information is correct at every instruction: routines of every engine and unit are executed one
- * instruction at a time, and at each one an unwinder of the tests and that of the process find the caller
- * with all its registers. */
+/* Unwind information is correct at every instruction. Routines of every engine and unit are executed one
+ * instruction at a time. At each instruction the tests' own unwinder and the unwinder of the process find the
+ * caller with all its registers. */
 #include "machine/code.h"
 #include "machine/cpu.h"
 #include "debug/debug.h"

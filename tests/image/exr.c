@@ -112,7 +112,7 @@ static void the_same_picture_is_the_same_bytes(void)
     free(second);
 }
 
-static void impossible_pictures_and_places_are_refused(void)
+static void impossible_pictures_and_paths_are_refused(void)
 {
     const struct exr_channel twice[2] = {{"Z", depth, 1, EXR_FLOAT}, {"Z", depth, 1, EXR_FLOAT}};
     TEST_ASSERT_EQUAL_INT(-1, exr_save(path, 0, 1, twice, 1, &error));
@@ -131,6 +131,6 @@ int main(void)
     UNITY_BEGIN();
     RUN_TEST(floats_come_back_bit_for_bit_and_halves_within_half_a_step);
     RUN_TEST(the_same_picture_is_the_same_bytes);
-    RUN_TEST(impossible_pictures_and_places_are_refused);
+    RUN_TEST(impossible_pictures_and_paths_are_refused);
     return UNITY_END();
 }

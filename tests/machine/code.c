@@ -119,7 +119,7 @@ static void poke(const uint8_t *code, uint8_t byte)
     TEST_ASSERT_EQUAL_INT(0, mprotect(start, page, PROT_READ | PROT_EXEC));
 }
 
-static void breakpoints_stay_in_their_routine_and_go_with_it(void)
+static void breakpoints_stay_in_their_routine_and_end_with_it(void)
 {
     code_destroy(arena);
     arena = code_create_for(CODE_TO_DEBUG, CAPACITY, NULL, &error);
@@ -148,7 +148,7 @@ static void breakpoints_stay_in_their_routine_and_go_with_it(void)
     TEST_ASSERT_EQUAL_STRING("rw-s", permissions);
 }
 
-static void code_to_profile_is_in_no_file_and_never_both(void)
+static void code_to_profile_is_in_no_file_and_never_writable_and_executable(void)
 {
     char permissions[5];
     code_destroy(arena);
@@ -281,7 +281,7 @@ static void eviction_keeps_a_full_arena_usable_for_ever(void)
 }
 
 /* A random sequence of operations, compared with a model that tracks the owner of every byte. */
-static void random_spans_never_overlap_and_all_comes_back(void)
+static void random_spans_never_overlap_and_all_memory_is_freed(void)
 {
     enum { SLOTS = 64, STEPS = 30000 };
     struct code_span slots[SLOTS] = {0};
@@ -409,7 +409,7 @@ static void assert_refusal(enum refusal refusal, const char *reason)
     }
 }
 
-static void every_refused_system_call_gives_its_reason_and_leaves_nothing(void)
+static void every_refused_system_call_gives_its_reason_and_leaks_nothing(void)
 {
     assert_refusal(REFUSE_FILE, "code arena: cannot create a memory file: Function not implemented");
     assert_refusal(REFUSE_SIZE,
@@ -482,18 +482,18 @@ int main(void)
     RUN_TEST(committed_code_runs_at_the_executable_address);
     RUN_TEST(views_translate_into_each_other);
     RUN_TEST(no_address_is_both_writable_and_executable);
-    RUN_TEST(code_to_profile_is_in_no_file_and_never_both);
-    RUN_TEST(breakpoints_stay_in_their_routine_and_go_with_it);
+    RUN_TEST(code_to_profile_is_in_no_file_and_never_writable_and_executable);
+    RUN_TEST(breakpoints_stay_in_their_routine_and_end_with_it);
     RUN_TEST(the_wrong_view_faults_and_the_right_one_does_not);
     RUN_TEST(freed_code_and_the_tail_of_code_trap);
     RUN_TEST(freeing_an_empty_span_does_nothing);
     RUN_TEST(a_commit_gives_the_rest_back);
     RUN_TEST(a_commit_moves_code_into_the_hole_that_an_eviction_left);
     RUN_TEST(eviction_keeps_a_full_arena_usable_for_ever);
-    RUN_TEST(random_spans_never_overlap_and_all_comes_back);
+    RUN_TEST(random_spans_never_overlap_and_all_memory_is_freed);
     RUN_TEST(a_span_that_does_not_fit_is_refused_with_the_numbers);
     RUN_TEST(capacity_is_whole_pages_and_64_mib_by_default);
-    RUN_TEST(every_refused_system_call_gives_its_reason_and_leaves_nothing);
+    RUN_TEST(every_refused_system_call_gives_its_reason_and_leaks_nothing);
     RUN_TEST(a_kernel_without_the_execute_flag_gets_a_second_request_without_it);
     RUN_TEST(threads_share_an_arena);
     return UNITY_END();

@@ -58,7 +58,7 @@ void tearDown(void)
 {
 }
 
-static void test_everything_agreed_is_everything_there(void)
+static void test_features_of_processor_and_system_are_all_reported(void)
 {
     struct cpu cpu = detect();
     TEST_ASSERT_TRUE(cpu.has[CPU_avx]);
@@ -92,7 +92,7 @@ static void test_xgetbv_is_not_executed_where_it_does_not_exist(void)
     TEST_ASSERT_FALSE(cpu.has[CPU_avx]);
 }
 
-static void test_leaves_beyond_the_last_are_not_believed(void)
+static void test_leaves_beyond_the_last_are_ignored(void)
 {
     fake.leaves = 6;
     struct cpu cpu = detect();
@@ -117,7 +117,7 @@ static struct cpu hide(const char *mask)
     return cpu;
 }
 
-static void test_what_the_mask_names_is_hidden(void)
+static void test_features_in_the_mask_are_hidden(void)
 {
     struct cpu cpu = hide("-fma,-avx512f");
     TEST_ASSERT_TRUE(cpu.has[CPU_avx]);
@@ -130,7 +130,7 @@ static void test_what_the_mask_names_is_hidden(void)
     TEST_ASSERT_TRUE(cpu.has[CPU_avx512f]);
 }
 
-static void test_what_builds_on_a_hidden_feature_is_hidden_too(void)
+static void test_features_that_need_a_hidden_feature_are_hidden_too(void)
 {
     fake.leaf7_ebx |= AVX512BW;
     struct cpu cpu = hide("-avx2");
@@ -181,14 +181,14 @@ static void test_this_machine_agrees_with_the_compiler(void)
 int main(void)
 {
     UNITY_BEGIN();
-    RUN_TEST(test_everything_agreed_is_everything_there);
+    RUN_TEST(test_features_of_processor_and_system_are_all_reported);
     RUN_TEST(test_a_system_that_does_not_save_ymm_hides_avx);
     RUN_TEST(test_a_system_that_does_not_save_zmm_hides_avx512_only);
     RUN_TEST(test_xgetbv_is_not_executed_where_it_does_not_exist);
-    RUN_TEST(test_leaves_beyond_the_last_are_not_believed);
+    RUN_TEST(test_leaves_beyond_the_last_are_ignored);
     RUN_TEST(test_the_model_is_trimmed_and_never_empty);
-    RUN_TEST(test_what_the_mask_names_is_hidden);
-    RUN_TEST(test_what_builds_on_a_hidden_feature_is_hidden_too);
+    RUN_TEST(test_features_in_the_mask_are_hidden);
+    RUN_TEST(test_features_that_need_a_hidden_feature_are_hidden_too);
     RUN_TEST(test_a_missing_feature_is_not_hidden);
     RUN_TEST(test_any_other_mask_hides_nothing);
     RUN_TEST(test_this_machine_agrees_with_the_compiler);

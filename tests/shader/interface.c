@@ -1,4 +1,4 @@
-/* Inputs, outputs and samplers of shaders of every age, in the words of usages. */
+/* Inputs, outputs and samplers of shaders of every generation, with the names of usages. */
 #include "shader/interface.h"
 
 #include <stdio.h>
@@ -45,7 +45,7 @@ static void expect_ports(const char *expected, const struct shader_port *ports, 
     TEST_ASSERT_EQUAL_STRING(expected, text);
 }
 
-static void a_vertex_shader_gives_fixed_outputs_as_usages(void)
+static void the_fixed_outputs_of_a_vertex_shader_have_usages(void)
 {
     describe("vs_1_1\ndcl_position v0\ndcl_texcoord2 v5.xy\nm4x4 oPos, v0, c4\nmov oT3.xy, v5\nmov oD1, c9\n"
              "mov oFog, c8.x\nmov oPts.x, c8.x\nmov r7, c0\nmov oT3.z, r7.x\n");
@@ -109,7 +109,7 @@ static void pixel_shaders_of_models_2_and_3_list_their_outputs(void)
 int main(void)
 {
     UNITY_BEGIN();
-    RUN_TEST(a_vertex_shader_gives_fixed_outputs_as_usages);
+    RUN_TEST(the_fixed_outputs_of_a_vertex_shader_have_usages);
     RUN_TEST(a_matrix_counts_with_all_its_rows);
     RUN_TEST(declared_outputs_share_registers);
     RUN_TEST(old_pixel_shaders_sample_by_stage);

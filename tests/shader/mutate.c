@@ -1,6 +1,6 @@
-/* Shaders damaged at random: text and tokens. Each is refused with one line at a place, or is a shader, which
- * then goes to tokens and text and back, and the validator has an opinion on it. The sanitizers watch. The
- * seed is fixed unless TRIPTYCH_SEED is set. */
+/* Randomly damaged shaders, as text and as tokens. Each is refused with one line at a position, or is a
+ * shader. A shader is converted to tokens and text and back, and the validator accepts or refuses it. Builds
+ * with sanitizers check the memory accesses. The seed is fixed unless TRIPTYCH_SEED is set. */
 #include "shader/shader.h"
 #include "tests/support/system/seed.h"
 #include "tests/support/shader/shaders.h"
@@ -44,7 +44,7 @@ static void expect_one_line(const char *path)
     TEST_ASSERT_NULL_MESSAGE(strchr(error.text, '\n'), error.text);
 }
 
-/* The validator accepts a shader or refuses it with a place. */
+/* The validator accepts a shader or refuses it with a position. */
 static void expect_opinion(const struct shader *shader)
 {
     error_clear(&error);
@@ -135,7 +135,7 @@ static void damaged_text_survives(void)
     TEST_ASSERT_TRUE(good > MUTATIONS && bad > MUTATIONS);
 }
 
-/* Bits, whole tokens, tokens gone or twice, and cut off. */
+/* Changes bits or whole tokens, removes or repeats a token, or removes the last ones. */
 static size_t mutate_tokens(uint32_t *tokens, size_t count)
 {
     size_t at = shader_random(&seed, (uint32_t)count);
@@ -164,7 +164,7 @@ static void damaged_tokens_survive(void)
             memcpy(changed, tokens, count * 4);
             for (uint32_t changes = 1 + shader_random(&seed, 2); changes; changes--)
                 count = mutate_tokens(changed, count);
-            /* No larger than it is, for the sanitizer. */
+            /* Exactly the size of the tokens, so that the sanitizer finds reads after their end. */
             changed = realloc(changed, count * 4);
             error_clear(&error);
             if (shader_read("tokens", changed, count * 4, &shader, &error)) {
@@ -182,7 +182,7 @@ static void damaged_tokens_survive(void)
     TEST_ASSERT_TRUE(good > MUTATIONS && bad > MUTATIONS);
 }
 
-/* Valid shaders, an operand or two of them changed: most rules are one step away. */
+/* In valid shaders an operand or two are changed, which is enough to break most rules. */
 static void damaged_valid_shaders_survive(void)
 {
     static const char *const texts[] = {

@@ -1,6 +1,6 @@
 /* The emulator's binding of every row of def/op.def: each lane, and each half of a pair, equals the row's
- * expression for the same lane of the operands. And the exact conversions and extremes that the
- * expressions rest on. */
+ * expression for the same lane of the operands. Further tests check the exact conversions and extremes that
+ * the expressions need. */
 #include "base/bits.h"
 #include "machine/cpu.h"
 #include "machine/mxcsr.h"
@@ -25,7 +25,8 @@ void tearDown(void)
     mxcsr_leave(saved);
 }
 
-/* Words for operand `position` of four lanes in round `round`: all pairs of edges meet. */
+/* Stores the words of operand `position` for four lanes in round `round`. The rounds contain all pairs of
+ * edge values. */
 static void take_words(uint32_t words[4], unsigned round, int position, int is_mask)
 {
     for (unsigned lane = 0; lane < 4; lane++) {
@@ -37,7 +38,7 @@ static void take_words(uint32_t words[4], unsigned round, int position, int is_m
     }
 }
 
-/* Which of two NaN an operation gives is not defined. */
+/* Returns 1 if the words are equal, or if both are NaN: the bits of a NaN are not defined. */
 static int same(uint32_t a, uint32_t b, int is_float)
 {
     return a == b || (is_float && isnan(bits_to_float(a)) && isnan(bits_to_float(b)));
@@ -173,7 +174,7 @@ static void test_minimum_and_maximum_give_the_second_operand_on_nan_and_on_equal
     TEST_ASSERT_EQUAL_HEX32(0x00000000, bits_of_float(lane_max(-0.0f, 0.0f)));
 }
 
-static void test_floor_takes_a_denormal_for_zero(void)
+static void test_floor_of_a_denormal_is_zero(void)
 {
     TEST_ASSERT_EQUAL_HEX32(0x80000000, bits_of_float(lane_floor(-0x1p-140f)));
     TEST_ASSERT_EQUAL_FLOAT(-2.0f, lane_floor(-1.25f));
@@ -195,7 +196,7 @@ int main(void)
     RUN_TEST(test_permutations_of_quads_fit_their_names);
     RUN_TEST(test_round_is_nearest_even_and_saturates_to_the_indefinite_integer);
     RUN_TEST(test_minimum_and_maximum_give_the_second_operand_on_nan_and_on_equal_zeros);
-    RUN_TEST(test_floor_takes_a_denormal_for_zero);
+    RUN_TEST(test_floor_of_a_denormal_is_zero);
     RUN_TEST(test_fused_multiply_add_rounds_once);
     return UNITY_END();
 }

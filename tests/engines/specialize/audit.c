@@ -420,7 +420,7 @@ static int by_hash(const void *a, const void *b)
     return hash_of(x) < hash_of(y) ? -1 : hash_of(x) > hash_of(y);
 }
 
-/* Complains of keys of a unit for which the compared member is the same. */
+/* Reports keys of a unit that have the same compared member. */
 static void expect_distinct(const char *what, size_t offset)
 {
     static char text[2][KEY_TEXT_CAPACITY];

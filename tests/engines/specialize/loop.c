@@ -124,7 +124,7 @@ static void test_machine_code_equals_the_interpreter(void)
     TEST_ASSERT_GREATER_THAN(1000, spills);
 }
 
-/* --- One by one ---------------------------------------------------------------------------------------- */
+/* --- Single passes ------------------------------------------------------------------------------------- */
 
 static struct env environment;
 

@@ -1,9 +1,9 @@
-/* Allocation under pressure: random programs, and routines of random keys, of all shaders of
- * tests/data/shaders, of random shaders and of all streams, compiled with few registers and with choices
- * drawn by lot. The test proves that their code reads the right values (tests/support/routine/placement.h),
- * and compares results with the interpreter, or with the same routine without pressure.
+/* Allocation under register pressure. Random programs, and routines of random keys, of all shaders of
+ * tests/data/shaders, of random shaders and of all streams are compiled with few registers and random
+ * choices. The test proves that their code reads the right values (tests/support/routine/placement.h), and
+ * compares results with the interpreter, or with the same routine without register pressure.
  *
- * TRIPTYCH_SEED chooses other programs, registers and lots. */
+ * TRIPTYCH_SEED selects other programs, registers and choices. */
 #include "base/bits.h"
 #include "machine/code.h"
 #include "machine/cpu.h"
@@ -160,7 +160,8 @@ static struct routine *build_under_pressure(const struct engine *self, struct co
     return specialize_routine(&engine_specialize, &options, where, unit, key, error);
 }
 
-/* With the default allocation, and with registers and choices by lot. Every third routine is executed. */
+/* Checks a routine with the default allocation, and with random registers and choices. Executes every third
+ * routine. */
 static void check_routine(void *context, enum unit unit, const union key *key)
 {
     struct engine pressed = engine_specialize;

@@ -1,6 +1,5 @@
-/* Passes under pressure: random sequences of passes on random programs. Any pass may follow any other, may be
- * repeated, and the final renumbering may occur anywhere. After each pass the program is valid and has the
- * same results.
+/* Random sequences of passes on random programs. Any pass may follow any other and may be repeated, and the
+ * final renumbering may occur anywhere. After each pass the program must be valid and have the same results.
  *
  * The first pass of a sequence depends on the program's number, so each pass is first equally often.
  * TRIPTYCH_SEED selects other programs and sequences. */

@@ -269,7 +269,7 @@ static void every_fragment_keeps_its_contract(void)
 }
 
 /* Fragments with one violation each: the harness reports all kinds. */
-static void offences_are_noticed(void)
+static void violations_are_reported(void)
 {
     static const struct {
         const char *name;
@@ -447,7 +447,7 @@ int main(void)
 {
     UNITY_BEGIN();
     RUN_TEST(every_fragment_keeps_its_contract);
-    RUN_TEST(offences_are_noticed);
+    RUN_TEST(violations_are_reported);
     RUN_TEST(routines_obey_the_calling_convention);
     RUN_TEST(argument_names_match_the_holes);
     RUN_TEST(a_form_with_an_operand_in_memory_follows_its_fragment);

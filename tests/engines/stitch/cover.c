@@ -141,7 +141,7 @@ static void listings_have_the_granularity_and_its_reason(void)
     free(stages);
 }
 
-static void reducing_covers_and_keeps_what_is_covered(void)
+static void a_reduced_key_is_covered_and_covered_keys_stay_the_same(void)
 {
     uint64_t seed = 0x5eed;
     for (int i = 0; i < 3000; i++) {
@@ -181,6 +181,6 @@ int main(void)
     RUN_TEST(the_other_granularity_is_the_operation_stitchers);
     RUN_TEST(covered_keys_are_joined_from_stages);
     RUN_TEST(listings_have_the_granularity_and_its_reason);
-    RUN_TEST(reducing_covers_and_keeps_what_is_covered);
+    RUN_TEST(a_reduced_key_is_covered_and_covered_keys_stay_the_same);
     return UNITY_END();
 }

@@ -42,7 +42,7 @@ static const uint8_t mark_code[16] = {0xc6, 0x04, 0x25, 0, 0, 0, 0, 1};
 static const struct fragment mark = {
     .name = "mark", .code = mark_code, .hole = &mark_hole, .bytes = 8, .holes = 1};
 
-/* Part i becomes part 2 i + 1. Jumps to it are redirected to its mark. */
+/* Returns the part with its new number 2 i + 1 after its mark. Jumps to it are redirected to the mark. */
 static struct part behind_mark(const struct part *part)
 {
     struct part result = *part;

@@ -112,7 +112,7 @@ static void join(const struct fragment *f, struct joined *joined)
     code_free(arena, &span);
 }
 
-/* --- What must be there ------------------------------------------------------------------------------ */
+/* --- Expected differences ---------------------------------------------------------------------------- */
 
 struct check {
     const struct fragment *fragment;

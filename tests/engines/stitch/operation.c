@@ -236,7 +236,7 @@ static void evaluate_row(const struct operation_row *operation, int k)
     mxcsr_leave(saved);
 }
 
-/* Tries registers of their own, the result in an operand's register, and an operand in memory. */
+/* Tries separate registers, the result in the register of an operand, and an operand in memory. */
 static void try_operation(const struct operation_row *operation, int round)
 {
     struct call call = {operation->fragment, {0}, operation->operands, 0};
@@ -292,7 +292,7 @@ static void multiplying_and_adding_in_place_is_the_same(void)
 }
 
 /* permute is not a row of op.def: lanes are exchanged within each four. */
-static void the_permutation_takes_the_lanes_it_names(void)
+static void the_permutation_reads_the_lanes_that_it_names(void)
 {
     for (int lanes = 0; lanes < 256; lanes++) {
         struct call call = {&fragment_permute, {lanes % VECTORS, (lanes + 1) / 2 % VECTORS}, 1, lanes};
@@ -323,7 +323,7 @@ void tearDown(void)
 int main(void)
 {
     UNITY_BEGIN();
-    RUN_TEST(the_permutation_takes_the_lanes_it_names);
+    RUN_TEST(the_permutation_reads_the_lanes_that_it_names);
     RUN_TEST(operation_fragments_compute_their_rows);
     RUN_TEST(multiplying_and_adding_in_place_is_the_same);
     return UNITY_END();

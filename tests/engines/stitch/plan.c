@@ -150,8 +150,8 @@ static void setup_plans_keep_the_contract(void)
     while (next_key(UNIT_SETUP, 0, field_end(UNIT_SETUP), &key));
 }
 
-/* Everything before the stage. The operations and arguments of stages are too many to combine with
- * everything else. */
+/* Checks plans with everything that is before the stage. Stages have too many operations and arguments to
+ * combine them with everything else. */
 static void check_beginnings(union key key)
 {
     do
@@ -282,8 +282,9 @@ static void note_program(const struct ir *ir)
     note_planned();
 }
 
-/* Loops and variables, negated products, constants. */
-static void plan_what_shaders_have(void)
+/* Plans programs with the features that only shaders have: loops and variables, negated products,
+ * constants. */
+static void plan_shader_features(void)
 {
     static struct ir ir;
     const struct program program = {.model = &shader_models[0]};
@@ -304,7 +305,7 @@ static void plan_what_shaders_have(void)
 /* Runs after the tests of plans above. Operations that the specification does not use are not planned. */
 static void every_fragment_is_planned_by_some_key(void)
 {
-    plan_what_shaders_have();
+    plan_shader_features();
 #define FRAGMENT(name, arguments, meaning)                                                                   \
     TEST_ASSERT_TRUE_MESSAGE(planned[&fragment_##name - __start_stitch_fragments], #name);
 #include "def/engine/fragment.def"
@@ -312,7 +313,7 @@ static void every_fragment_is_planned_by_some_key(void)
 }
 
 /* A plan without one part, or with two parts exchanged, is reported. */
-static void broken_plans_are_noticed(void)
+static void broken_plans_are_reported(void)
 {
     union key key = no_state;
     struct error error = {{0}};
@@ -397,7 +398,7 @@ int main(void)
     RUN_TEST(plans_of_many_stages_keep_the_contract);
     RUN_TEST(operation_plans_keep_the_contract);
     RUN_TEST(every_fragment_is_planned_by_some_key);
-    RUN_TEST(broken_plans_are_noticed);
+    RUN_TEST(broken_plans_are_reported);
     RUN_TEST(plans_that_exceed_a_capacity_are_refused);
     RUN_TEST(listings_show_parts_holes_and_instructions);
     return UNITY_END();

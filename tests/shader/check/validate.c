@@ -1,5 +1,5 @@
-/* The validator takes shaders that follow the rules of their models, and refuses those that break one, at
- * the place where they do. */
+/* The validator accepts shaders that follow the rules of their models. It refuses others with the position of
+ * the broken rule. */
 #include "shader/shader.h"
 
 #include <stdio.h>
@@ -17,7 +17,7 @@ void tearDown(void)
 {
 }
 
-/* The text's reason, or "" if it is valid. */
+/* Returns the reason for which the text is refused, or "" if it is valid. */
 static const char *reason_of(const char *text)
 {
     struct shader *shader;
@@ -93,13 +93,13 @@ static const char *const good[] = {
     "ps_3_0\nmov oDepth, c0.x\n",
 };
 
-static void shaders_that_follow_the_rules_are_taken(void)
+static void shaders_that_follow_the_rules_are_accepted(void)
 {
     for (size_t i = 0; i < sizeof good / sizeof *good; i++)
         TEST_ASSERT_EQUAL_STRING_MESSAGE("", reason_of(good[i]), good[i]);
 }
 
-/* The text around the statements: what makes them valid but for the one that is not. */
+/* The text around the statements. It is valid, and only the statement in it breaks a rule. */
 static const char vs1[] = "vs_1_1\ndcl_position v0\nmov oPos, v0\n%s\n";
 static const char vs2[] = "vs_2_0\ndcl_position v0\nmov oPos, v0\n%s\n";
 static const char vsx[] = "vs_2_x\ndcl_position v0\nmov oPos, v0\n%s\n";
@@ -115,7 +115,7 @@ static const char bare[] = "%s";
 static const struct {
     const char *frame, *text, *reason;
 } bad[] = {
-    /* rules that hold once or nowhere */
+    /* rules that none of the groups below has */
     {bare, "ps_1_4\ntexcrd r0.xyz, t0\nphase\ntexld r1, r0_dz\ntexld r2, r0_dz\ntexld r3, r0_dz\nmov r0, r1",
      "t:6:11: found the modifier '_dz' a third time, expected at most two"},
     {ps1, "mov r0.xyz, t0\n+nop", "t:5:1: found + before nop, expected arithmetic that pairs"},
@@ -371,7 +371,7 @@ static const struct {
      "t:8:11: found a texture read that depends on others 4 deep, expected at most 3 in ps_2_0"},
 };
 
-/* The statements instead of the frame's %s. */
+/* Replaces the frame's %s by the statements. */
 static void put_in(const char *frame, const char *statements, char text[1024])
 {
     const char *hole = strstr(frame, "%s");
@@ -391,7 +391,7 @@ static void shaders_that_break_a_rule_are_refused_where_they_do(void)
 int main(void)
 {
     UNITY_BEGIN();
-    RUN_TEST(shaders_that_follow_the_rules_are_taken);
+    RUN_TEST(shaders_that_follow_the_rules_are_accepted);
     RUN_TEST(shaders_that_break_a_rule_are_refused_where_they_do);
     return UNITY_END();
 }

@@ -1,5 +1,5 @@
-/* The limits of the validator: instruction slots, nesting and the registers that a shader uses are counted;
- * and reasons for bytecode name the token. */
+/* The limits of the validator: it counts instruction slots, nesting and the registers that a shader uses. For
+ * bytecode, its reasons name the token. */
 #include "shader/shader.h"
 
 #include <stdlib.h>
@@ -17,7 +17,7 @@ void tearDown(void)
 {
 }
 
-/* The text's reason, or "" if it is valid. */
+/* Returns the reason for which the text is refused, or "" if it is valid. */
 static const char *reason_of(const char *text)
 {
     struct shader *shader;
@@ -106,7 +106,7 @@ static void nesting_is_counted_and_never_overflows(void)
                     "t:6:7: found another label l0");
 }
 
-static void counts_are_what_the_shader_takes(void)
+static void counts_are_those_of_the_shader(void)
 {
     static const char text[] =
         "ps_3_0\ndcl_texcoord v0\ndcl_cube s0\ndcl_2d s1\ntexld r0, v0, s0\ntexldb r1, v0, s1\n"
@@ -145,7 +145,7 @@ int main(void)
     UNITY_BEGIN();
     RUN_TEST(slots_are_counted_to_the_last_one);
     RUN_TEST(nesting_is_counted_and_never_overflows);
-    RUN_TEST(counts_are_what_the_shader_takes);
+    RUN_TEST(counts_are_those_of_the_shader);
     RUN_TEST(reasons_in_bytecode_name_the_token);
     return UNITY_END();
 }

@@ -1,5 +1,5 @@
-/* Text and bytecode are equivalent: every instruction of every model, with every modifier, goes from a shader
- * to tokens and back, and to text and back, and is the same shader. */
+/* Text and bytecode are equivalent. Every instruction of every model, with every modifier, is converted to
+ * tokens and back and to text and back, and must be the same shader. */
 #include "shader/shader.h"
 #include "tests/support/shader/shaders.h"
 
@@ -39,7 +39,8 @@ static char *print(const struct shader *shader)
     return text;
 }
 
-/* The first line is the model's name, which bytecode does not keep of vs_2_a, ps_2_a and ps_2_b. */
+/* Returns the text after its first line, the model's name. Bytecode does not distinguish the names vs_2_a,
+ * ps_2_a and ps_2_b. */
 static const char *behind_version(const char *text)
 {
     return strchr(text, '\n') + 1;
@@ -74,7 +75,7 @@ static void expect_same(const struct shader *shader)
     shader_free(from_tokens);
 }
 
-static void every_instruction_of_every_model_goes_there_and_back(void)
+static void every_instruction_of_every_model_is_unchanged(void)
 {
     unsigned pairs = 0;
     for (unsigned m = 0; m < MODEL_COUNT; m++)
@@ -91,7 +92,7 @@ static void every_instruction_of_every_model_goes_there_and_back(void)
     TEST_ASSERT_TRUE(pairs > 700);
 }
 
-static void every_source_modifier_goes_there_and_back(void)
+static void every_source_modifier_is_unchanged(void)
 {
     for (unsigned m = 0; m < MODEL_COUNT; m++) {
         struct shader *shader = shader_blank(&shader_models[m]);
@@ -109,7 +110,7 @@ static void every_source_modifier_goes_there_and_back(void)
     }
 }
 
-static void every_result_modifier_goes_there_and_back(void)
+static void every_result_modifier_is_unchanged(void)
 {
     for (unsigned m = 0; m < MODEL_COUNT; m++) {
         struct shader *shader = shader_blank(&shader_models[m]);
@@ -127,7 +128,7 @@ static void every_result_modifier_goes_there_and_back(void)
     }
 }
 
-static void every_register_goes_there_and_back(void)
+static void every_register_is_unchanged(void)
 {
     for (unsigned m = 0; m < MODEL_COUNT; m++) {
         struct shader *shader = shader_blank(&shader_models[m]);
@@ -143,7 +144,7 @@ static void every_register_goes_there_and_back(void)
     }
 }
 
-static void special_numbers_go_there_and_back(void)
+static void special_numbers_are_unchanged(void)
 {
     static const uint32_t numbers[] = {0,          0x80000000, 1,          0x80000001, 0x007fffff,
                                        0x00800000, 0x7f7fffff, 0xff7fffff, 0x7f800000, 0xff800000,
@@ -207,11 +208,11 @@ static void a_constant_table_that_points_outside_is_refused(void)
 int main(void)
 {
     UNITY_BEGIN();
-    RUN_TEST(every_instruction_of_every_model_goes_there_and_back);
-    RUN_TEST(every_source_modifier_goes_there_and_back);
-    RUN_TEST(every_result_modifier_goes_there_and_back);
-    RUN_TEST(every_register_goes_there_and_back);
-    RUN_TEST(special_numbers_go_there_and_back);
+    RUN_TEST(every_instruction_of_every_model_is_unchanged);
+    RUN_TEST(every_source_modifier_is_unchanged);
+    RUN_TEST(every_result_modifier_is_unchanged);
+    RUN_TEST(every_register_is_unchanged);
+    RUN_TEST(special_numbers_are_unchanged);
     RUN_TEST(names_come_from_the_constant_table);
     RUN_TEST(a_constant_table_that_points_outside_is_refused);
     return UNITY_END();

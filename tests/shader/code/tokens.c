@@ -1,5 +1,5 @@
-/* Text becomes the tokens that the documentation of the token format prescribes: the expected values were
- * worked out by hand from d3d9types.h's fields. */
+/* Text becomes the tokens that the documentation of the token format requires. The expected values were
+ * computed by hand from the fields in d3d9types.h. */
 #include "shader/shader.h"
 
 #include <stdio.h>
@@ -20,7 +20,7 @@ void tearDown(void)
 
 static const struct sample {
     const char *model, *text;
-    uint32_t version, tokens[12]; /* what is between the version and the end; ends with END */
+    uint32_t version, tokens[12]; /* the tokens after the version; ends with END */
 } samples[] = {
 #define END 0xffff
     {"vs_1_1", "nop", 0xfffe0101, {0, END}},
@@ -140,7 +140,7 @@ static void expect_tokens(const struct sample *sample)
     shader_free(shader);
 }
 
-static void samples_assemble_to_the_tokens_worked_out_by_hand(void)
+static void samples_assemble_to_tokens_computed_by_hand(void)
 {
     for (unsigned i = 0; i < SAMPLE_COUNT; i++) {
         error_clear(&error);
@@ -148,7 +148,7 @@ static void samples_assemble_to_the_tokens_worked_out_by_hand(void)
     }
 }
 
-static void both_spellings_of_components_and_letters_are_one(void)
+static void both_spellings_of_components_and_letters_give_equal_tokens(void)
 {
     static const char first[] = "PS_1_4\nMAD_SAT R0.RGB, -T1_BX2.A, C2, 1 - R3.BGRA\n";
     static const char second[] = "ps.1.4\nmad_sat r0.xyz,-t1_bx2.w,c2,1-r3.zyxw // the same\n";
@@ -201,9 +201,9 @@ static void rows_differ_and_have_every_column(void)
                                          shader_registers[i].name);
 }
 
-/* The reference counts the version as an instruction, and gives if and callnz by predicate and dcl of
- * samplers pages of their own. */
-static void each_version_has_as_many_instructions_as_documented(void)
+/* The reference counts the version as an instruction, and has separate pages for `if` and `callnz` with a
+ * predicate and for `dcl` of samplers. */
+static void each_version_has_the_documented_number_of_instructions(void)
 {
     static const struct {
         unsigned model, count;
@@ -225,10 +225,10 @@ static void each_version_has_as_many_instructions_as_documented(void)
 int main(void)
 {
     UNITY_BEGIN();
-    RUN_TEST(samples_assemble_to_the_tokens_worked_out_by_hand);
-    RUN_TEST(both_spellings_of_components_and_letters_are_one);
+    RUN_TEST(samples_assemble_to_tokens_computed_by_hand);
+    RUN_TEST(both_spellings_of_components_and_letters_give_equal_tokens);
     RUN_TEST(every_opcode_of_the_header_has_a_row);
     RUN_TEST(rows_differ_and_have_every_column);
-    RUN_TEST(each_version_has_as_many_instructions_as_documented);
+    RUN_TEST(each_version_has_the_documented_number_of_instructions);
     return UNITY_END();
 }

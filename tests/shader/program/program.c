@@ -1,5 +1,6 @@
-/* The bound on the instructions of a run: counted with calls followed and loops' numbers, refused beyond
- * PROGRAM_EXECUTED, so that nothing that walks through a program takes forever. */
+/* The bound on the executed instructions of a program. They are counted with calls and with the numbers of
+ * passes of loops. Programs beyond PROGRAM_EXECUTED are refused, so that code that walks through a program
+ * always ends. */
 #include "shader/program/program.h"
 
 #include <stdio.h>
@@ -26,8 +27,8 @@ static const struct program *acquire(const char *text)
     return program;
 }
 
-/* Each of four subroutines calls the next one `times` times; `before` and `after` surround the main
- * program's call. */
+/* Returns a program in which each of four subroutines calls the next one `calls` times. `before` and `after`
+ * are the lines before and after the main program's call. */
 static const struct program *acquire_tree(unsigned calls, const char *before, const char *after)
 {
     static char text[1 << 16];
@@ -57,7 +58,8 @@ static void expect_accepted(const struct program *program)
     program_release(program);
 }
 
-/* Far beyond any model: refused by the first one too deep, and nothing grows with the rest. */
+/* The nesting is far deeper than any model allows. The first `if` that is too deep is refused, so memory does
+ * not grow with the others. */
 static void ten_thousand_nested_ifs_are_refused(void)
 {
     enum { DEPTH = 10000 };
@@ -85,7 +87,7 @@ static void loops_multiply(void)
     expect_refused(acquire_tree(28, "rep i1\n", "endrep\n"));
 }
 
-/* Engines that record walk through its body all the same. */
+/* Engines that record walk through the body of such a loop too. */
 static void a_loop_that_never_runs_is_counted_once(void)
 {
     expect_accepted(acquire_tree(28, "rep i0\n", "endrep\n"));

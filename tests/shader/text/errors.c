@@ -1,4 +1,4 @@
-/* Text and bytecode that are not shaders are refused with one line: the place, and the expected token. */
+/* Text and bytecode that are not shaders are refused with one line: the position, and the expected token. */
 #include "shader/shader.h"
 
 #include <stdio.h>
@@ -138,7 +138,7 @@ static const struct {
      "t:2:1: found 'abcdefghijklmnopqrstuvwxyzabcdefghijklmn...', expected"},
 };
 
-static void bad_texts_are_refused_at_their_place(void)
+static void bad_texts_are_refused_at_their_position(void)
 {
     TEST_ASSERT_TRUE(sizeof texts / sizeof *texts > 100);
     for (size_t i = 0; i < sizeof texts / sizeof *texts; i++) {
@@ -243,7 +243,7 @@ static unsigned code_length(const uint32_t *tokens)
     return length + 1;
 }
 
-static void bad_tokens_are_refused_at_their_place(void)
+static void bad_tokens_are_refused_at_their_position(void)
 {
     for (size_t i = 0; i < sizeof codes / sizeof *codes; i++) {
         struct shader *shader;
@@ -256,7 +256,7 @@ static void bad_tokens_are_refused_at_their_place(void)
     }
 }
 
-/* A shader of every sort of token, cut off before each. */
+/* A shader with every kind of token is truncated before each token. */
 static void bytecode_cut_off_anywhere_is_refused(void)
 {
     static const char text[] =
@@ -269,7 +269,7 @@ static void bytecode_cut_off_anywhere_is_refused(void)
     TEST_ASSERT_EQUAL_INT(0, shader_encode(shader, &tokens, &count, &error));
     shader_free(shader);
     for (size_t bytes = 0; bytes < 4 * count; bytes++) {
-        /* Exactly as large, so that the sanitizer finds reads beyond it. */
+        /* The memory has exactly the size of the bytes, so that the sanitizer finds reads after their end. */
         void *cut = malloc(bytes ? bytes : 1);
         memcpy(cut, tokens, bytes);
         error_clear(&error);
@@ -309,8 +309,8 @@ static void too_many_instructions_are_refused(void)
 int main(void)
 {
     UNITY_BEGIN();
-    RUN_TEST(bad_texts_are_refused_at_their_place);
-    RUN_TEST(bad_tokens_are_refused_at_their_place);
+    RUN_TEST(bad_texts_are_refused_at_their_position);
+    RUN_TEST(bad_tokens_are_refused_at_their_position);
     RUN_TEST(bytecode_cut_off_anywhere_is_refused);
     RUN_TEST(too_many_instructions_are_refused);
     return UNITY_END();

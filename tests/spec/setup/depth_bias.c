@@ -1,5 +1,5 @@
-/* Depth bias, drawn by every engine: m * slope + bias is added to every pixel's depth of a triangle, where m
- * is the greater of the triangle's depth gradients. Gradients here are exact in binary. */
+/* Depth bias, on every engine: m * slope + bias is added to the depth of every pixel of a triangle. m is the
+ * greater of the triangle's depth gradients. Gradients here are exact in binary. */
 #include "tests/support/picture/shape.h"
 
 #include <math.h>
@@ -13,8 +13,8 @@ void tearDown(void)
     close_canvas();
 }
 
-/* Depth changes by dx per pixel across and dy down, and is z at the target's middle; two triangles of the
- * whole target. */
+/* Draws two triangles over the whole target. Depth changes by dx per pixel to the right and dy per pixel
+ * down, and is z in the middle of the target. */
 static void draw_slope(float z, float dx, float dy)
 {
     struct shape_vertex v[4];
@@ -51,7 +51,7 @@ static void test_the_offset_is_added_to_every_depth(void)
     on_every_engine(check_offsets);
 }
 
-/* Its purpose: a decal on a surface, that would be hidden by a depth test of "less". */
+/* The usual application: a decal on a surface, which a depth test of "less" would hide. */
 static void check_decal(void)
 {
     set(TRIPTYCH_STATE_zenable, "true");

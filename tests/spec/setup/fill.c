@@ -1,6 +1,6 @@
-/* Fill modes, drawn by every engine: a triangle in wireframe is its three edges as lines (with the pixels of
- * tests/support/picture/diamond.h), as points its three corners, with the triangle's culling, colours and
- * depth bias. */
+/* Fill modes, on every engine. A triangle in wireframe is drawn as its three edges (lines with the pixels of
+ * tests/support/picture/diamond.h). In point mode it is drawn as its three corners. Both have the triangle's
+ * culling, colours and depth bias. */
 #include "tests/support/picture/diamond.h"
 #include "tests/support/picture/shape.h"
 
@@ -146,7 +146,8 @@ static void test_points_are_the_corners_of_visible_triangles(void)
     on_every_engine(check_points);
 }
 
-/* The edges that the near plane makes are not drawn, nor are corners in front of it. */
+/* Edges that clipping adds at the near plane are not drawn. Corners in front of the plane are not drawn
+ * either. */
 static void check_clipping(void)
 {
     struct shape_vertex v[3] = {
@@ -171,12 +172,12 @@ static void check_clipping(void)
     expect_corners(v, corners, 0.5, "a clipped triangle's corners");
 }
 
-static void test_what_clipping_makes_is_not_drawn(void)
+static void test_edges_that_clipping_adds_are_not_drawn(void)
 {
     on_every_engine(check_clipping);
 }
 
-/* The whole triangle's slope, 1/32 per pixel here, for its edges and corners, too. */
+/* Edges and corners have the depth bias of the whole triangle's slope, here 1/32 per pixel. */
 static void check_depth_bias(void)
 {
     static const char *const mode[] = {"solid", "wireframe", "point"};
@@ -201,7 +202,7 @@ static void test_edges_and_corners_have_the_triangles_depth_bias(void)
     on_every_engine(check_depth_bias);
 }
 
-/* More edges than one group for setup has room for. */
+/* There are more edges than fit in one group for setup. */
 static void check_many(void)
 {
     static struct shape_vertex v[63];
@@ -240,7 +241,7 @@ int main(void)
     RUN_TEST(test_wireframe_is_the_edges_of_visible_triangles);
     RUN_TEST(test_edges_have_the_triangles_colours);
     RUN_TEST(test_points_are_the_corners_of_visible_triangles);
-    RUN_TEST(test_what_clipping_makes_is_not_drawn);
+    RUN_TEST(test_edges_that_clipping_adds_are_not_drawn);
     RUN_TEST(test_edges_and_corners_have_the_triangles_depth_bias);
     RUN_TEST(test_every_edge_is_drawn_once);
     return UNITY_END();

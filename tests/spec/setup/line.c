@@ -1,5 +1,5 @@
-/* Lines, drawn by every engine: the pixels of the definition (tests/support/picture/diamond.h), and colour
- * and depth as they change along the line, worked out in double precision. */
+/* Lines, on every engine: the pixels of the definition (tests/support/picture/diamond.h), and colour and
+ * depth along the line, computed in double precision. */
 #include "tests/support/picture/diamond.h"
 #include "tests/support/picture/shape.h"
 
@@ -34,7 +34,8 @@ static struct shape_vertex random_vertex(void)
     return v;
 }
 
-/* How far along the line the centre of a pixel is, 0 at the start and 1 at the end, or a little beyond. */
+/* Returns the position of a pixel's centre along the line: 0 at the start, 1 at the end, or slightly outside
+ * of this range. */
 static double progress(const struct shape_vertex v[2], int x, int y)
 {
     double dx = (double)v[1].x - (double)v[0].x, dy = (double)v[1].y - (double)v[0].y;
@@ -95,7 +96,7 @@ static void test_lines_are_as_defined(void)
     on_every_engine(check_lines);
 }
 
-/* Each line adds 1: what is counted is how often each pixel is drawn. Only the last line of a strip has a
+/* Each line adds 1, so the test reads how often each pixel was drawn. Only the last line of a strip draws its
  * last pixel. */
 static void check_strips_and_lists(void)
 {
@@ -169,7 +170,7 @@ static void test_lines_are_clipped(void)
     on_every_engine(check_clipping);
 }
 
-/* Neither culling nor fill modes nor depth bias are for lines. */
+/* Culling, fill modes and depth bias do not affect lines. */
 static void check_triangles_states(void)
 {
     struct shape_vertex v[2] = {{8.5f, 10.5f, 0.25f, ~0u, 0, 0}, {40.5f, 10.5f, 0.25f, ~0u, 0, 0}};

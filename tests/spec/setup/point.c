@@ -1,4 +1,4 @@
-/* Points and point sprites, drawn by every engine: squares, whose every pixel follows from the definition. */
+/* Points and point sprites, on every engine: squares whose pixels are all computed from the definition. */
 #include "tests/support/picture/shape.h"
 
 #include <math.h>
@@ -84,7 +84,8 @@ static void test_sizes_are_limited(void)
     on_every_engine(check_size_limits);
 }
 
-/* A point of 8 pixels with a texture of 8 x 8 texels shows them; of 16 pixels each four times. */
+/* A point of 8 pixels with a texture of 8 x 8 texels has one texel in each pixel. A point of 16 pixels has
+ * each texel in four pixels. */
 static void check_sprites(void)
 {
     bind_random_texture(8, 8);
@@ -107,8 +108,8 @@ static void test_sprites_show_the_whole_texture_and_points_one_place(void)
     on_every_engine(check_sprites);
 }
 
-/* The same seen through a projection that makes w of z, with fog by w: coordinates do not change by it. The
- * point is at w = 2, half way into the fog, and (28, 16) is seen at (30, 24). */
+/* The same with a projection that sets w to z, and with fog by w. The coordinates do not change. The point is
+ * at w = 2, where the fog factor is one half, and (28, 16) is projected to (30, 24). */
 static void check_sprites_in_fog(void)
 {
     static const float projection[4][4] = {{1, 0, 0, 0}, {0, 1, 0, 0}, {0, 0, 1, 1}, {0, 0, 0, 0}};
@@ -134,9 +135,8 @@ static void test_sprites_keep_their_coordinates_in_perspective(void)
     on_every_engine(check_sprites_in_fog);
 }
 
-/* By its centre's depth a point is drawn or not; beside the viewport it is drawn as far as it reaches into
- * it.
- */
+/* The depth of its centre decides if a point is drawn. If the centre is next to the viewport, the part inside
+ * of the viewport is drawn. */
 static void check_clipping(void)
 {
     static const float outside[] = {-0.01f, 1.01f, -3, 7};
@@ -180,7 +180,7 @@ static void test_every_point_of_a_list_is_drawn(void)
     on_every_engine(check_lists);
 }
 
-/* Neither culling nor fill modes nor depth bias nor flat shading change a point. */
+/* Culling, fill modes, depth bias and flat shading do not change points. */
 static void check_triangles_states(void)
 {
     set(TRIPTYCH_STATE_zenable, "true");
