@@ -17,7 +17,7 @@ engines = distinct("engine")
 count = words(engines)
 width = 0.8 / count
 
-# From grey, the yardstick, to the colours of the contenders; distinct without colour vision too.
+# Grey for the emulator, and colours for the other engines that are distinct without colour vision too.
 colors = "#9a9a9a #e69f00 #d55e00 #56b4e9 #0072b2 #009e73 #cc79a7 #000000 #6a3d9a #8c510a #f0e442"
 
 set datafile separator comma

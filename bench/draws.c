@@ -1,12 +1,13 @@
-/* Draws per second: what it costs to draw one triangle of 8 pixels after one change of the state.
+/* Draws per second: the time to draw one triangle of 8 pixels after one change of the state.
  *
  *   draws [--engine NAME] [--threads N] [--draws N] [--passes N] [MODE]...
  *
  * Each mode is a way of changing the state between two draws (the table below). A pass makes all its draws
- * through the public interface and finishes, so everything is in the time: the set call, the draw call,
- * geometry, tiles, the flushes of the queue. Of several passes the median counts, the passes of the modes
- * taking turns; the first of each, which builds the routines, does not count. On a busy machine processor
- * time is more accurate than wall time. Each picture has a hash, the same with every engine. */
+ * through the public interface and finishes, so the time includes everything: the set call, the draw call,
+ * geometry, tiles, and the flushes of the queue. The modes take turns pass by pass, and the result is the
+ * median of a mode's passes. The first pass, which builds the routines, is not counted. On a busy machine
+ * processor time is more accurate than wall time. Each picture has a hash, which is the same with every
+ * engine. */
 #include "base/clock.h"
 #include "triptych.h"
 
@@ -113,7 +114,7 @@ static const struct mode {
 
 enum { MODES = sizeof modes / sizeof *modes };
 
-/* --- What is drawn -------------------------------------------------------------------------------------- */
+/* --- The scene ------------------------------------------------------------------------------------------ */
 
 static const char vertex_code[] = "vs_2_0\n"
                                   "dcl_position v0\n"
@@ -200,7 +201,7 @@ static void prepare(struct bench *bench, const struct mode *mode)
 }
 
 struct duration {
-    double seconds, used; /* on the clock, of processors */
+    double seconds, used; /* wall time, processor time */
 };
 
 static struct duration run(struct bench *bench, const struct mode *mode, uint32_t draws)

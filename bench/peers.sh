@@ -4,19 +4,20 @@
 #   bench/peers.sh [OPTION of bench/peers/drive.c]...
 #
 # In the environment:
-#   WORKLOAD=glob     which workloads (bench/peers/workload.def); all
-#   PEERS="name..."   which renderers, engines included, by glob; with the suffix -all on all cores. Default:
+#   WORKLOAD=glob     the workloads (bench/peers/workload.def). Default: all
+#   PEERS="name..."   the renderers and engines, by glob; the suffix -all means on all cores. Default:
 #                     softpipe, llvmpipe, swiftshader, swgl and swgl-span, emulate, batch, stitch, specialize,
 #                     and on all cores llvmpipe, swiftshader, stitch, specialize.
 #                     NAME=COMMAND is your program with the protocol of peer.h (spaces as commas).
-#   PASSES=n          5
-#   CLOCK=time        one core's times by the wall's clock; else by the processor's, which other processes
+#   PASSES=n          the number of passes. Default: 5
+#   CLOCK=time        wall time for the renderers on one core. Default: processor time, which other processes
 #                     disturb less
-#   PRIORITY=1        real-time priority of the renderers (chrt -f), for a machine that is busy with what can
+#   PRIORITY=1        real-time priority of the renderers (chrt -f), on a machine with other processes that
+# can
 #                     wait
 #   QUICK=1           one pass of short samples
-#   SWGL=program      what bench/swgl.sh builds
-#   SWIFTSHADER=dir   where ANGLE's libEGL.so and libGLESv2.so lie, with libvk_swiftshader.so
+#   SWGL=program      the program that bench/swgl.sh builds
+#   SWIFTSHADER=dir   the folder of ANGLE's libEGL.so and libGLESv2.so, with libvk_swiftshader.so
 #
 # Writes results/peers.txt, .json and .svg (RESULTS). Ends with 1 if a picture differs or a renderer failed,
 # and lists the missing renderers. The suffix -avx2 of an engine hides AVX-512 from it.
@@ -41,7 +42,7 @@ done
 # The first folder with all that ANGLE needs.
 swiftshader=
 for folder in ${SWIFTSHADER-} build/swiftshader /usr/lib/chromium /opt/google/chrome; do
-    # Stubs are small.
+    # Stubs of these libraries are smaller.
     if [[ -z $swiftshader && -s $folder/libEGL.so && -s $folder/libvk_swiftshader.so &&
         $(stat -c %s "$folder/libGLESv2.so" 2>/dev/null || echo 0) -gt 1000000 ]]; then
         swiftshader=$(realpath "$folder")
@@ -50,13 +51,13 @@ done
 
 swgl=${SWGL:-build/swgl/renderer}
 
-renderer() # NAME one|all : its line for the driver
+renderer() # NAME one|all : prints the renderer's line for the driver
 {
     local threads=1
     [[ $2 == one ]] || threads=$cores
     case $1 in
         softpipe) echo "$1 peer $2 $nice${mesa[*]} GALLIUM_DRIVER=softpipe $build/peers/gles softpipe" ;;
-        # With no threads of its own a context draws where it is called.
+        # With 0 threads, llvmpipe draws on the thread that calls it.
         llvmpipe)
             [[ $2 == one ]] && threads=0
             echo "$1 peer $2 $nice${mesa[*]} GALLIUM_DRIVER=llvmpipe LP_NUM_THREADS=$threads $build/peers/gles llvmpipe"

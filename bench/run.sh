@@ -5,11 +5,12 @@
 #
 #   bench.json, bench.csv   every stream with every engine, inside one process (triptych bench)
 #   bench.svg, bench.png    the table as a chart
-#   hyperfine.json          one stream with every engine, as whole processes: start, read, build, draw, write
+#   hyperfine.json          one stream with every engine, as whole processes, which start, read, build, draw
+# and write
 #   baselines.json, .csv    the engines that run only if named: other batch sizes and the system's compiler
 #                           (docs/baselines.md)
-#   builds.json             what building each routine takes, over the states of all streams of the project
-#   cold.json               what the first frames of a new device take, against the same frames again
+#   builds.json             the time to build each routine, over the states of all streams of the project
+#   cold.json               the times of the first frames of a new device, and of the same frames again
 #   verify.json             the comparison of all pictures
 #
 # The last step compares the pictures of all engines. Its last line is "N streams, N engines, identical";

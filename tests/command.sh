@@ -1,5 +1,5 @@
 #!/bin/bash
-# How the command behaves: its messages for bad input and usage, and the files that it leaves.
+# The behaviour of the command: its messages for bad input and usage, and the files that it writes.
 # Given BUILD, TRIPTYCH and SANITIZE by tests/support/scripts/run.sh.
 set -uo pipefail
 cd "$(dirname "$0")/.."
@@ -19,8 +19,8 @@ verdict() # NAME PROBLEM : ok when there is none
     fi
 }
 
-# Bad input or usage: exit status 2, nothing on stdout, one line on stderr that holds the pattern, and no new
-# file.
+# Bad input or usage: exit status 2, nothing on stdout, one line on stderr that matches the pattern, and no
+# new file.
 refuses() # NAME PATTERN ARGUMENT...
 {
     local name=$1 pattern=$2 status=0 problem=
@@ -43,7 +43,7 @@ refuses() # NAME PATTERN ARGUMENT...
     verdict "$name" "$problem"
 }
 
-# Good usage: exit status 0, nothing on stderr, stdout holds the pattern.
+# Good usage: exit status 0, nothing on stderr, stdout matches the pattern.
 answers() # NAME PATTERN ARGUMENT...
 {
     local name=$1 pattern=$2 status=0 problem=
@@ -329,8 +329,8 @@ done
 answers 'bench prints, and writes JSON and CSV' '^ +geometric mean ' bench "$work/good.tri" --repetitions 3 \
     --seconds 1 --json "$work/bench.json" --csv "$work/bench.csv"
 holds 'the CSV has one width' awk -F, 'NR == 1 { n = NF } NF != n { bad = 1 } END { exit bad || NR < 2 }' "$work/bench.csv"
-# The first frame builds the routines, in the warm-up; what is measured finds them, however often it is
-# repeated.
+# The first frame, in the warm-up, builds the routines. The measured frames find them in the cache, with any
+# number of repetitions.
 holds 'the hit rate is that of the runs measured' awk -F, '
     NR == 1 { for (i = 1; i <= NF; i++) if ($i == "hit_rate") column = i }
     NR > 1 && $column != 100 { bad = 1 }

@@ -1,7 +1,7 @@
 #!/bin/bash
-# Features of the processor that TRIPTYCH_CPU hides are used nowhere: they are listed as hidden, engines that
-# need them report why they cannot run, the others draw the same, and a list that is not understood is
-# refused. Given BUILD, TRIPTYCH and SANITIZE by tests/support/scripts/run.sh.
+# Features of the processor that TRIPTYCH_CPU hides are not used. They are listed as hidden, engines that need
+# them report why they cannot run, other engines draw the same bytes, and an invalid list is refused. Given
+# BUILD, TRIPTYCH and SANITIZE by tests/support/scripts/run.sh.
 set -uo pipefail
 cd "$(dirname "$0")/.."
 unset TRIPTYCH_CPU
@@ -78,7 +78,7 @@ makes_no_avx512() # ENGINE
     done
 }
 
-# Whatever the processor, without any feature the two interpreters are left.
+# Without any feature, only the two interpreters can run, on every processor.
 interpreters_only()
 {
     verifies -avx | tee "$work/verified" | grep -E '^1 streams, 2 engines, identical$' &&

@@ -33,7 +33,7 @@ if ! nice make -j"$(nproc)" BUILD="$objects" CFLAGS=-O0 all >"$work/log" 2>&1; t
     exit 1
 fi
 
-# Files of a copy: the sources with their times, so that make finds those older than the objects.
+# Copies the sources with their times, so that make finds them older than the objects.
 if [[ -e .git ]]; then
     git ls-files -z
 else

@@ -1,7 +1,7 @@
 #!/bin/bash
-# The random cases of one seed, always the same: all engines draw them alike with one thread and with two.
-# Given BUILD, TRIPTYCH and SLOW by tests/support/scripts/run.sh; slow builds draw fewer. Streams that show a
-# difference, made small, stay in BUILD/findings. `make soak` goes on with other seeds.
+# All engines draw the random cases of one seed equally, with one thread and with two. The cases are the same
+# in each run. Given BUILD, TRIPTYCH and SLOW by tests/support/scripts/run.sh; slow builds draw fewer. Streams
+# that show a difference are reduced and stored in BUILD/findings. `make soak` uses other seeds.
 set -uo pipefail
 cd "$(dirname "$0")/.."
 

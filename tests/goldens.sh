@@ -1,11 +1,12 @@
 #!/bin/bash
-# The first frame of every stream, of bench/streams or tests/data/streams, that has a golden picture,
-# tests/data/goldens/STREAM.png, equals it pixel for pixel; so does that of every scene of tests/data/scenes
-# its picture on the gallery's page, docs/images/gallery/STREAM.png, and that of every stream of
-# tests/data/shading its picture on the shader gallery's, docs/images/shaders/STREAM.png.
+# The first frame of a stream equals its golden picture in every pixel. Streams and pictures are:
+#   bench/streams, tests/data/streams   tests/data/goldens/STREAM.png, if it exists
+#   tests/data/scenes                   docs/images/gallery/STREAM.png, in the gallery
+#   tests/data/shading                  docs/images/shaders/STREAM.png, in the shader gallery
 # Given BUILD, TRIPTYCH and SANITIZE by tests/support/scripts/run.sh.
 #
-#   GOLDENS=write TRIPTYCH=build/triptych tests/goldens.sh STREAM...    makes the pictures anew: look at them
+#   GOLDENS=write TRIPTYCH=build/triptych tests/goldens.sh STREAM...    writes the pictures again: look at
+# them
 set -uo pipefail
 cd "$(dirname "$0")/.."
 
@@ -49,7 +50,7 @@ for stream in "${pages[@]}"; do
         failures=1
     fi
 done
-# With sanitizers every fourth is drawn: the plain build draws them all.
+# With sanitizers every fourth stream is drawn. The plain build draws all of them.
 number=0
 for stream in "${streams[@]}"; do
     [[ ${SANITIZE-} ]] && ((number++ % 4)) && continue

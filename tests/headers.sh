@@ -1,5 +1,6 @@
 #!/usr/bin/env bash
-# Every header of src/ and emu/ compiles by itself, with gcc and clang: it includes all that it uses. Headers
+# Every header of src/ and emu/ compiles by itself, with gcc and clang, so it includes everything that it
+# uses. Headers
 # of the specification are compiled with the binding that does nothing (contract/language.h). Two headers are
 # exceptions: emu/emulate/quad.h is the middle of bind.h, and src/engines/external/vector.h is a text for the
 # system's compiler. The compilation database has an entry for every C source and every header of the

@@ -29,7 +29,7 @@ stack_is_not_executable() # FILE...
     done
 }
 
-# The sanitizers' build has the command only, and what is instrumented is not for others.
+# The build with sanitizers has only the command, and instrumented libraries are not installed.
 if [[ ${SLOW-} ]]; then
     test_case 'stack is not executable' stack_is_not_executable "$TRIPTYCH"
     exit $failures

@@ -77,7 +77,7 @@ awk '{ for (i = 2; i <= NF; i++) { seen = 0; pattern = $i; sub(/\*$/, "", patter
 report 'every row names only rows above it' "$work/order"
 report 'every include names a file of the repository' "$work/missing"
 
-# A map that allows more than what is used does not say who depends on whom.
+# A row may not allow a folder that it does not use, so that the map shows the actual dependencies.
 rules '{ a = folder_of($1); b = folder_of($2); r = rule(a); n = split(allowed[r], part, " ")
         for (i = 1; i <= n; i++) if (fits(b, part[i])) used[r, part[i]] }
     END { for (r = 1; r <= rows; r++) { n = split(allowed[r], part, " ")

@@ -1,8 +1,8 @@
 #!/bin/bash
-# Any number of threads draws every stream alike, whatever the order in which batches and tiles are handed
-# out. In the build that watches threads (SANITIZE=thread) a race between them is a failure too; generated
-# code is not watched, the C around it and the interpreters are.
-# Given BUILD, TRIPTYCH and SANITIZE by tests/support/scripts/run.sh; THOROUGH=1 takes all streams (make
+# Any number of threads draws every stream equally, in any order of batches and tiles. In the build with the
+# thread sanitizer (SANITIZE=thread) a race between threads is a failure too. The sanitizer checks the C code
+# and the interpreters, but not generated code.
+# Given BUILD, TRIPTYCH and SANITIZE by tests/support/scripts/run.sh; THOROUGH=1 draws all streams (make
 # check-threads).
 set -uo pipefail
 cd "$(dirname "$0")/.."
@@ -13,7 +13,7 @@ seeds=(1 2 3)
 if [[ ${SANITIZE-} ]]; then
     seeds=(1)
 else
-    # Of many batches and tiles.
+    # Streams with many batches and tiles.
     streams+=(bench/streams/{bunny,street}.tri tests/data/scenes/{particles,shadow-volume}.tri tests/data/shading/light-loop.tri)
 fi
 engines=$("$TRIPTYCH" list engines | awk '$1 ~ /^(emulate|batch|stitch|specialize)$/ && $3 == "available" { print $1 }' |

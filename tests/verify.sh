@@ -1,7 +1,7 @@
 #!/bin/bash
-# All engines, widths and thread counts draw every stream alike, byte for byte.
-# Given BUILD, TRIPTYCH and SLOW by tests/support/scripts/run.sh; in slow builds fewer frames are drawn, and
-# only the streams that are made for tests: goldens.sh reads and draws the others there.
+# All engines, widths and thread counts draw the same bytes for every stream.
+# Given BUILD, TRIPTYCH and SLOW by tests/support/scripts/run.sh. Slow builds draw fewer frames, and only the
+# streams of the tests; goldens.sh draws the others in these builds.
 set -uo pipefail
 cd "$(dirname "$0")/.."
 
@@ -23,7 +23,7 @@ for stream in "${streams[@]}"; do
     fi
 done
 
-# Engines that are left out above: they run where they are named, for what they add is much time.
+# These engines are left out above because they are slow. They run only if they are named.
 few=(bench/streams/teapot-bilinear.tri tests/data/streams/{lights,multisampling,queries,render-to-texture}.tri
     tests/data/scenes/cube-map.tri tests/data/streams/shaders.tri tests/data/shading/light-loop.tri
     tests/data/regressions/anisotropic-words-and-numbers.tri)

@@ -3,7 +3,7 @@
 #   gnuplot -c bench/peers/chart.gnuplot TABLE.csv CHART.svg CHART.png TITLE
 #
 # The table's columns are stream, engine, speedup, least, most; rows are in the table's order, from the top. The axis is
-# logarithmic: equal lengths are equal factors. Bars reach from the least to the most of the passes.
+# logarithmic: equal lengths are equal factors. Bars go from the minimum to the maximum of the passes.
 
 table = ARG1
 distinct(name) = system(sprintf("awk -F, 'NR == 1 { for (i = 1; i <= NF; i++) if ($i == \"%s\") c = i; next } " . \

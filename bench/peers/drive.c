@@ -1,15 +1,15 @@
-/* The driver of `make peers`: starts the renderers (peer.h), has them measure the workloads in turns,
- * compares their pictures, and reports.
+/* The driver of `make peers`. It starts the renderers (peer.h), lets them measure the workloads in turns,
+ * compares their pictures, and writes the reports.
  *
  *   drive OPTION... <RENDERERS
  *
- * A line of standard input is a renderer: NAME engine|peer|special one|all COMMAND..., or missing REASON
- * instead of the command. Those of one core are bound to the last core that the driver may use.
+ * A line of standard input is a renderer: NAME engine|peer|special one|all COMMAND..., or `missing REASON`
+ * instead of the command. Renderers on one core are bound to the last core that the driver may use.
  *
- * For each workload, renderers take turns pass by pass, so that whatever else the machine does hits all
- * alike. A slow one has fewer passes, and frames with fewer layers. Every picture is compared with that of
- * the reference: an engine's must equal it, a peer's be near it. Ends with 1 if a picture is not or a
- * renderer failed. */
+ * For each workload, renderers take turns pass by pass, so that other processes of the machine disturb all of
+ * them equally. A slow renderer has fewer passes, and frames with fewer layers. Every picture is compared
+ * with the picture of the reference: an engine's picture must be equal, and a peer's picture similar. The
+ * status is 1 if a picture differs or a renderer failed. */
 #define _GNU_SOURCE /* sched_setaffinity */
 #include "base/clock.h"
 #include "drive.h"
@@ -25,7 +25,7 @@
 #include <unistd.h>
 
 static const double frame_most = 0.4;        /* seconds: slower ones are drawn with fewer layers */
-static const double share_tolerated = 0.005; /* of pixels: those at edges, where rules of coverage differ */
+static const double share_tolerated = 0.005; /* of pixels: at edges, rules of coverage differ */
 
 /* --- Processes ------------------------------------------------------------------------------------------ */
 
@@ -115,7 +115,7 @@ void run_start(struct run *run)
         if (launch(renderer) || ask(renderer, renderer->reason, "hello")) {
             land(renderer);
             renderer->command[0] = NULL;
-            run->bad = true; /* it was found, and does not run */
+            run->bad = true; /* it is installed, but does not run */
             continue;
         }
         snprintf(renderer->description, sizeof renderer->description, "%s", renderer->reason);
@@ -324,7 +324,8 @@ static void choose_workloads(struct run *run, const char *pattern)
         stop("no memory for %u workloads", run->count);
 }
 
-/* The engine that is reported on, on one core, for its pictures are soon drawn; else any engine, else any. */
+/* Chooses the reference: the reported engine on one core, which draws quickly; else any engine, else any
+ * renderer. */
 static void choose_reference(struct run *run)
 {
     int best = -1;

@@ -1,4 +1,4 @@
-/* A GLES2 renderer that is measured: NAME [FOLDER], the folder with ANGLE's libraries. */
+/* A GLES2 renderer that is measured: NAME [FOLDER]. FOLDER has ANGLE's libraries. */
 #include "gles_library.h"
 #include "gles_shader.h"
 #include "gles_texel.h"
@@ -40,7 +40,7 @@ static GLsizei index_count;
 static GLint place, row, constant, offset; /* uniforms that change between draws */
 static char reason[1024];
 
-/* Attributes of all vertex shaders: position, then what there is. */
+/* Attributes of all vertex shaders: the position, then up to two others. */
 enum { POSITION, FIRST, SECOND };
 
 const char *renderer_start(int count, char **arguments, char *description)
@@ -140,7 +140,7 @@ static void set_uniforms(void)
     set_arithmetic();
 }
 
-/* A program that has never been seen, in use. */
+/* Makes a program that the library has not compiled before, and uses it. */
 static const char *make_program(unsigned number)
 {
     GLint linked = 0;

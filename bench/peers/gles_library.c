@@ -20,7 +20,7 @@ static void *load(const char *folder, const char *name)
     return library;
 }
 
-/* Where the address of a function goes in `gl`. */
+/* The position of a function's address in `gl`. */
 static const struct entry {
     const char *name;
     size_t at;
@@ -48,7 +48,7 @@ static bool find_all(void *egl, void *gles)
     return found_all;
 }
 
-/* ANGLE has many back ends; Vulkan's device that is SwiftShader, without a window system. */
+/* Returns ANGLE's display for its Vulkan back end on SwiftShader, without a window system. */
 static EGLDisplay angle_display(void)
 {
     enum {

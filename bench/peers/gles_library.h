@@ -1,5 +1,5 @@
-/* EGL and GLES2 of a folder, or the system's: which of them is decided when the process runs, so nothing
- * is linked. */
+/* EGL and GLES2 from a folder or from the system. The process loads them at run time, so they are not
+ * linked. */
 #ifndef BENCH_PEERS_GLES_LIBRARY_H
 #define BENCH_PEERS_GLES_LIBRARY_H
 
@@ -19,8 +19,8 @@ struct gles {
 
 extern struct gles gl;
 
-/* Loads the libraries of `folder`, ANGLE's, or with null the system's, and makes a context with a surface
- * of that side and RGBA8 + depth 24 current. Returns a reason, or null. */
+/* Loads ANGLE's libraries from `folder`, or the system's if it is null. Makes a context current, with a
+ * surface of side x side pixels, RGBA8 and 24 bits of depth. Returns null, or a reason. */
 const char *gles_start(const char *folder, int side);
 
 #endif

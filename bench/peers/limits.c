@@ -10,7 +10,7 @@
 
 enum {
     TRIES = 5,
-    CHAINS = 12, /* multiply-adds that do not wait for one another */
+    CHAINS = 12, /* independent multiply-adds */
     ROUNDS = 40000,
     FIRST_BYTES = 16 << 10,
     SECOND_BYTES = 256 << 10,
@@ -22,7 +22,7 @@ static double now(void)
     return clock_seconds_of(CLOCK_THREAD_CPUTIME_ID);
 }
 
-/* Keeps the compiler from seeing through. */
+/* Prevents the compiler from optimizing the value. */
 #define HIDE(value)     __asm__ volatile("" : "+x"(value))
 #define HIDE_512(value) __asm__ volatile("" : "+v"(value))
 
@@ -82,7 +82,7 @@ __attribute__((target("avx2"))) static double stores(char *memory, size_t bytes,
     return (double)total / (now() - start);
 }
 
-/* Addresses that jump about a little, as those of a texture do. */
+/* Gathers from addresses that vary a little, as the addresses of texels do. */
 __attribute__((target("avx2"))) static double gathers(const char *memory, size_t bytes)
 {
     enum { STEPS = 100000 };

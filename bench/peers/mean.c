@@ -64,7 +64,8 @@ static struct mean mean_of(const struct run *run, const struct pair *pair)
     return mean;
 }
 
-/* Of a renderer: all cores against one, over the workloads whose layers are drawn. */
+/* Returns the mean speed-up of a renderer on all cores over one core, for the workloads without hidden
+ * layers. */
 static struct mean mean_of_cores(const struct run *run, unsigned all)
 {
     struct mean mean = {.name = run->renderers[all].name,

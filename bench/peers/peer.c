@@ -9,11 +9,11 @@ enum { COLD_MAXIMUM = 9, BUILDS_MAXIMUM = 200, READING_MOST = 5 };
 
 static const double cold_seconds = 0.3; /* in all, if one time took less */
 
-static const struct workload *workload;    /* that is open */
-static enum { NOTHING, LESS, FULL } drawn; /* by the last frame, if there is nothing else in the target */
+static const struct workload *workload;    /* the open one */
+static enum { NOTHING, LESS, FULL } drawn; /* the last frame; NOTHING: the target has other contents */
 static uint32_t pixels[PIXELS];
 
-/* Seconds: that pass, and that the processor works for this process. */
+/* Seconds of wall time, and of processor time of this process. */
 struct span {
     double time, work;
 };
@@ -47,7 +47,7 @@ static const char *draw(bool less)
     return renderer_frame(less);
 }
 
-/* --- Opening: the first time ---------------------------------------------------------------------------- */
+/* --- The first frame ------------------------------------------------------------------------------------ */
 
 /* Opens the workload and draws some of its pixels twice. */
 static const char *cold_once(const struct workload *wanted, struct span *cold, double *build_us)
@@ -96,7 +96,8 @@ static const char *open_workload(const struct workload *wanted, char *answer, si
 
 /* --- Measuring ------------------------------------------------------------------------------------------ */
 
-/* The first frame does not count, for the caches were another renderer's meanwhile, unless it is long. */
+/* Measures the time of a frame. The first frame is not counted unless it is long, because the caches contain
+ * the data of another renderer. */
 static const char *measure_frames(bool less, double seconds, struct span *each)
 {
     unsigned count = 0;
@@ -119,7 +120,7 @@ static const char *measure_frames(bool less, double seconds, struct span *each)
     return NULL;
 }
 
-/* Each time of a frame drawn anew, whose drawing does not count. */
+/* Measures the time to read a frame. Each time a new frame is drawn, whose time is not counted. */
 static const char *measure_reading(double seconds, struct span *each)
 {
     unsigned count = 0;

@@ -34,7 +34,7 @@ double ratio_value(const struct workload *workload, const struct cell *cell, enu
     return workload->rate == MS || ms <= 0 ? ms : workload->amount / ms;
 }
 
-/* The speed of the first over that of the second. */
+/* Returns the ratio of the speed of `first` to that of `second`. */
 static struct ratio compare(const struct cell *first, const struct cell *second, enum clocks a, enum clocks b)
 {
     double ratios[PASSES_MAXIMUM];
@@ -61,7 +61,7 @@ struct ratio ratio_speed_up(const struct run *run, unsigned w, unsigned all)
     return one < 0 ? (struct ratio){0} : compare(&run->cells[w][all], &run->cells[w][one], TIME, TIME);
 }
 
-/* The least seconds that a unit of work takes, by the resource that limits it. */
+/* Returns the lower bound of a unit's time, in seconds: that of the bottleneck resource. */
 static double bound_seconds(const struct workload *workload)
 {
     const struct limits *limits = limits_measured();

@@ -1,6 +1,6 @@
-/* Rates, times and ratios of what was measured. A ratio is one of speeds: above 1 the first renderer is
- * faster. It is taken pass by pass between samples of the same pass, and kept as the median with the least
- * and the most. */
+/* Rates, times and ratios of the measurements. A ratio is the speed of the first renderer divided by that of
+ * the second; above 1 the first is faster. It is computed for each pass, and stored as median, minimum and
+ * maximum. */
 #ifndef BENCH_PEERS_RATIO_H
 #define BENCH_PEERS_RATIO_H
 
@@ -25,14 +25,14 @@ double ratio_median_ms(const struct cell *cell, enum clocks clock);
 /* The workload's rate, or its time in milliseconds where enum rate is MS; 0 if not measured. */
 double ratio_value(const struct workload *workload, const struct cell *cell, enum clocks clock);
 
-/* The speed of renderer `first` over that of `second` on workload `w`; either may be -1. */
+/* The ratio of the speed of renderer `first` to that of `second` on workload `w`; either may be -1. */
 struct ratio ratio_between(const struct run *run, unsigned w, int first, int second);
 
-/* The speed of renderer `all`, on all cores, over that of the same renderer on one core, by the wall's
- * clock. */
+/* The ratio of the speed of renderer `all`, on all cores, to that of the same renderer on one core, by wall
+ * time. */
 struct ratio ratio_speed_up(const struct run *run, unsigned w, unsigned all);
 
-/* True if the workload is done faster than its pixels can be written: the renderer defers the work. */
+/* Returns true if the workload ends before its pixels can have been written: the renderer defers the work. */
 bool ratio_is_deferred(const struct workload *workload, const struct cell *cell, enum clocks clock);
 
 /* The fastest peer whose picture agrees and that does not defer the work; -1 if there is none. */

@@ -204,7 +204,7 @@ static void print_means(FILE *file, const struct run *run)
         }
 }
 
-/* The middle of all workloads' cold builds. */
+/* Prints the medians of the build times of all workloads. */
 static void print_builds(FILE *file, const struct run *run)
 {
     for (unsigned i = 0; i < run->renderer_count; i++) {

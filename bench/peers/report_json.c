@@ -1,4 +1,4 @@
-/* All that was measured as JSON, and the chart's table as CSV. */
+/* All measurements as JSON, and the chart's table as CSV. */
 #include "drive.h"
 #include "mean.h"
 #include "ratio.h"

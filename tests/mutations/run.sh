@@ -5,14 +5,14 @@
 #                                     of its words
 #   tests/mutations/run.sh --fit      only lists the rows that no longer fit their files
 #
-# A row is a bug: whole lines of a file, which must occur in it exactly once, their replacement, and the test
-# that must find it: a text as `make check ONLY=text` takes it, or `fuzz`, five minutes of `triptych fuzz`.
-# Each is planted in a copy of the tree, in BUILD/mutations/tree, which keeps its objects; what must find it
-# has passed without it before.
+# A row is a bug. It has whole lines of a file, which must occur there exactly once; their replacement; and
+# the finder, the test that must find the bug. A finder is a text as in `make check ONLY=text`, or `fuzz`,
+# five minutes of `triptych fuzz`. Each bug is planted in a copy of the tree, BUILD/mutations/tree, which
+# keeps its objects. The finder must pass without the bug.
 #
-# Prints for each row "found" or "GOT AWAY", with what found it and how long that took, and keeps that in
-# BUILD/mutations/NAME.result, from which results/mutations.md is written once every row has one. Exits with
-# 1 if any got away, no longer fits its file, or does not build, and if a test fails without a bug.
+# Prints "found" or "GOT AWAY" for each row, with the finder and its time, and stores this in
+# BUILD/mutations/NAME.result. When every row has a result, results/mutations.md is written from them. Exits
+# with 1 if a bug was not found, does not fit its file or does not build, or if a finder fails without a bug.
 set -uo pipefail
 cd "$(dirname "$0")/../.." || exit 1
 export LC_ALL=C
@@ -22,7 +22,7 @@ build=${BUILD:-build}
 home=$build/mutations tree=$build/mutations/tree
 table=tests/mutations/table.txt
 limit=300  # seconds of fuzzing
-longest=600 # of a test, after which it hangs, which is found too
+longest=600 # seconds of a test; a longer one hangs, and the bug counts as found
 trouble=0
 
 mkdir -p "$tree/build"
@@ -91,7 +91,7 @@ restore()
 
 # --- Building and looking
 
-# build FINDER: the programs that it takes, and the command if it is a script or the fuzzer.
+# build FINDER: builds its programs, and the command if it is a script or the fuzzer.
 build()
 {
     local goals="ONLY=$1 programs" script
@@ -103,7 +103,7 @@ build()
     nice make -C "$tree" -j"$(nproc)" BUILD=build $goals >"$home/build.log" 2>&1
 }
 
-# look FINDER: whether everything is as it should be.
+# look FINDER: runs it; succeeds if it finds nothing.
 look()
 {
     if [[ $1 == fuzz ]]; then

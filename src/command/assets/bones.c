@@ -209,7 +209,7 @@ int bones_add(struct mesh *mesh, const char *path, const struct aiMesh *source, 
     int number = 0;
     copy_matrix(matrix, place);
     if (skeleton_invert(place, from_rest))
-        return error_set(error, "%s: node '%s' flattens what it shows", path, node->mName.data);
+        return error_set(error, "%s: the matrix of node '%s' has no inverse", path, node->mName.data);
     for (unsigned i = 0; i < source->mNumBones; i++) {
         const struct aiBone *bone = source->mBones[i];
         number = add_bone(mesh->skeleton, path, bone->mName.data, &bone->mOffsetMatrix, from_rest, error);

@@ -163,20 +163,15 @@ static void free_bench(struct bench *bench)
 }
 
 static const char notes[] =
-    "Per stream and engine: a warm-up of up to a tenth of the seconds, then runs until the repetitions are "
-    "done or\n"
-    "the next one would exceed the seconds, but at least 3. A run plays the frames, again if that took less "
-    "than a\n"
-    "tenth of a second. Reported are medians, min, max and the median absolute deviation (mad). ns/vertex "
-    "is\n"
-    "geometry time per vertex shaded, ns/pixel tile time per pixel shaded, both summed over threads; "
-    "ms/frame is\n"
-    "wall time. \"x\" columns: times the speed of emulate (or, without it, of the first engine).\n"
-    "With --builds every routine that the streams' draws need is built once in each repetition; shown are "
-    "the "
-    "medians of\n"
-    "each routine's, and of what a draw's set of three takes.\n"
-    "SIGINT or SIGTERM ends it with a report of the streams that are done, and status 130 or 143.";
+    "Each engine draws each stream: first a warm-up of up to a tenth of the seconds, then runs. Runs end\n"
+    "when the repetitions are done or the next run would exceed the seconds; there are at least 3. A run\n"
+    "plays the frames, and repeats them until it has taken a tenth of a second. The report has medians,\n"
+    "min, max and the median absolute deviation (mad). ns/vertex is geometry time per shaded vertex,\n"
+    "ns/pixel is tile time per shaded pixel, both summed over threads. ms/frame is wall time. \"x\"\n"
+    "columns: times the speed of emulate or, without it, of the first engine.\n"
+    "With --builds, each repetition builds every routine that the streams' draws need once. The report has\n"
+    "the medians for single routines and for the three routines of a draw.\n"
+    "SIGINT or SIGTERM ends it with a report of the finished streams, and status 130 or 143.";
 
 int command_bench(const struct command *self, int count, char **arguments)
 {

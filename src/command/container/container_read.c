@@ -288,7 +288,8 @@ static int add_call(struct whole *whole, struct call *call, struct error *error)
     struct error reason = {{0}};
     int inside = whole->build.sequence != NO_RESOURCE;
     if (inside && call_row(call->type)->traits & CALL_OUTSIDE)
-        return stream_fail(whole->stream, call, "found in a sequence, expected it outside", error);
+        return stream_fail(whole->stream, call, "found in a sequence, expected it outside of sequences",
+                           error);
     if (translate(whole, call, &reason) || valid_call(whole->stream, call, &reason) ||
         (call->type == CALL_PLAY && stream_build_play(&whole->build, call->resource, &reason)) ||
         stream_build_call(&whole->build, call, &reason))

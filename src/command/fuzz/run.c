@@ -214,7 +214,7 @@ static enum outcome play_reference(struct runner *runner, uint32_t frame, struct
         return find(finding, OUTCOME_REFUSED, "%s", error.text);
     runner->count = 0;
     if (visit_sections(runner->device[0], keep_section, runner))
-        return find(finding, OUTCOME_REFUSED, "out of memory for what was drawn");
+        return find(finding, OUTCOME_REFUSED, "out of memory for the picture");
     keep_queries(runner);
     return OUTCOME_SAME;
 }

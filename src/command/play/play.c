@@ -240,7 +240,7 @@ int player_go_on(struct player *player, uint32_t frame, struct error *error)
 {
     const struct stream *stream = player->stream;
     if (player->reader || player->next == NOWHERE || frame >= stream->frame_count)
-        return error_set(error, "%s: frame %" PRIu32 " cannot go on from what was drawn last", stream->path,
+        return error_set(error, "%s: frame %" PRIu32 " cannot continue the last picture", stream->path,
                          frame);
     return perform(player, frame, error);
 }

@@ -89,7 +89,9 @@ int valid_shader(const struct stream *stream, const struct call *call, struct er
 int valid_bind_indices(const struct stream *stream, const struct call *call, struct error *error)
 {
     if (call->resource == NO_RESOURCE)
-        return call->bind_indices.bits ? error_set(error, "found bits of no indices, expected indices") : 0;
+        return call->bind_indices.bits
+                   ? error_set(error, "found a number of bits without indices, expected indices")
+                   : 0;
     const struct resource *resource = &stream->resources[call->resource];
     bool bytes = resource->type == RESOURCE_BUFFER && resource->value_type == VALUE_BYTES;
     if (bytes != (call->bind_indices.bits != 0))
@@ -107,8 +109,9 @@ int valid_attach(const struct stream *stream, const struct call *call, struct er
     for (int t = 0; t < TRIPTYCH_TARGETS; t++)
         given |= call->attach.color[t].resource != NO_RESOURCE;
     if (given != call->attach.some)
-        return error_set(error, "found %s, expected textures to draw to, or none at all",
-                         given ? "textures of no target" : "no texture");
+        return error_set(error, "found %s, expected %s",
+                         given ? "attach none with textures" : "attach without a texture",
+                         given ? "none" : "at least one, or attach none");
     if (format && (!call->attach.some || call->attach.depth.resource != NO_RESOURCE))
         return error_set(error, "found a depth format beside a depth texture, expected one of them");
     return 0;

@@ -259,8 +259,7 @@ static int bind_element(struct parser *parser, struct call *call)
     if (parse_word(parser, WORDS_ATTRIBUTE, "an attribute", &attribute))
         return -1;
     if (attribute >= TRIPTYCH_ATTRIBUTE_COUNT)
-        return lex_fail(lex, &place,
-                        "found '%s', expected an attribute, or declare for what only shaders read",
+        return lex_fail(lex, &place, "found '%s', expected an attribute, or declare for other elements",
                         word_text(WORDS_ATTRIBUTE, attribute));
     call->element.attribute = (enum triptych_attribute)attribute;
     call->element.format = TRIPTYCH_FORMAT_NONE;

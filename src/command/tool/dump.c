@@ -134,10 +134,10 @@ static int find_key(const struct command *self, const struct session *session, e
         if (strcmp(info.unit, unit_name[unit]))
             continue;
         if (key_parse(unit, info.key, key, &where))
-            return tool_fail(self, "the key of routine %u does not read back at \"%s\"", info.number, where);
+            return tool_fail(self, "the key of routine %u cannot be read at \"%s\"", info.number, where);
         return STATUS_OK;
     }
-    return tool_fail(self, "the draw has no %s routine: nothing of it is drawn", unit_name[unit]);
+    return tool_fail(self, "the draw has no %s routine: it covers no pixels", unit_name[unit]);
 }
 
 static int read_key(const struct command *self, const struct stream *stream, uint32_t draw, unsigned engine,

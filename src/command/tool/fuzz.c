@@ -119,7 +119,7 @@ static int save_smallest(const struct command *self, const struct settings *sett
 {
     struct error error = {{0}};
     struct text smallest = {0}, explanation = {0};
-    tool_progress("case %" PRIu64 " is made small", found->number);
+    tool_progress("reducing case %" PRIu64, found->number);
     bool made = !campaign_minimize(options, &found->finding, text, &smallest, &error);
     tool_progress(NULL);
     if (!made)

@@ -100,7 +100,7 @@ static void two_words_far_apart_in_one_statement(void)
 static void what_does_not_fail_is_refused(void)
 {
     TEST_ASSERT_EQUAL_INT(-1, shrink(plain, has_all, TEXTS("epsilon")));
-    TEST_ASSERT_EQUAL_STRING("the stream to be made smaller does not fail", error.text);
+    TEST_ASSERT_EQUAL_STRING("the stream to reduce does not fail", error.text);
     TEST_ASSERT_NULL(smallest.data);
     TEST_ASSERT_EQUAL_INT(-1, shrink("", has_all, TEXTS("epsilon")));
 }

@@ -192,18 +192,17 @@ static void note_store(struct hunt *hunt)
     }
 }
 
-/* No value differs: then it is the store, unless there is more than has been seen. */
+/* No observed value differs. Then the store is wrong, unless some values were not observed. */
 static void note_nothing(struct hunt *hunt, int wrong, uint32_t unseen)
 {
     struct bisection *b = hunt->bisection;
-    const char *why = "all %u values are the same: it is how they are stored, or whether";
+    const char *why = "all %u values are equal: a store is wrong or missing";
     if (hunt->probing.events.cut)
-        why = "the values of the first %u operations are the same, and it goes on for longer";
+        why = "the values of the first %u operations are equal; later ones were not observed";
     else if (unseen)
-        why = "of %u values none that can be seen differs: looking makes the difference disappear";
+        why = "of %u values, none that was observed differs: probes make the difference disappear";
     else if (wrong >= 0 && probe_reading(hunt->routine[wrong]) == READING_TRACED)
-        why = "%u values: the emulator's reading of the specification, compiled once more, gives the right "
-              "ones";
+        why = "all %u values are equal in a second compilation of the emulator, with which they are traced";
     else
         b->outcome = BISECT_FOUND;
 #pragma GCC diagnostic push
@@ -212,7 +211,7 @@ static void note_nothing(struct hunt *hunt, int wrong, uint32_t unseen)
 #pragma GCC diagnostic pop
 }
 
-/* The first event at which both are seen and differ, in the order of execution. */
+/* Finds the first event, in the order of execution, whose two values were observed and differ. */
 static void compare_events(struct hunt *hunt, int wrong)
 {
     const struct event_list *events = &hunt->probing.events;
@@ -230,7 +229,7 @@ static void compare_events(struct hunt *hunt, int wrong)
             hunt_note(hunt, hunt->ir, events, n, lane, value);
             if (unseen)
                 snprintf(hunt->bisection->reason, sizeof hunt->bisection->reason,
-                         "%u values before it are not seen: looking at them makes the difference disappear",
+                         "%u values before it were not observed: probes there make the difference disappear",
                          unseen);
             return;
         }
@@ -398,8 +397,7 @@ static int examine(struct search *search, const struct pair *pair)
     if (compare_call(&hunt, search->error))
         return -1;
     if (!narrowed) {
-        snprintf(b->reason, sizeof b->reason,
-                 "it takes more than one %s to make them differ, of %u in the call",
+        snprintf(b->reason, sizeof b->reason, "no single %s of the %u in the call makes the outputs differ",
                  replay->unit == UNIT_PIXEL ? "block" : "group of 16", replay->count);
         return 0;
     }

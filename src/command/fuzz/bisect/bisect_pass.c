@@ -59,7 +59,7 @@ static int probe_last_form(struct look *look, const struct routine *routine, str
                 continue;
             hunt_note(hunt, look->last, &probing.events, n, lane, value);
             snprintf(hunt->bisection->reason, sizeof hunt->bisection->reason,
-                     "seen in what the passes leave: probes in the recording make the difference disappear");
+                     "found after the passes: probes in the recording make the difference disappear");
             break;
         }
     observation_free(&seen);

@@ -78,7 +78,7 @@ void bisection_print(const struct bisection *b, struct text *out)
     text_add(out, "  frame %u, draw %u of it\n  key of the %s routine: %s\n", b->frame, b->draw_of_frame,
              unit_name[b->unit], b->key);
     if (*b->pass)
-        text_add(out, "  brought in by: %s\n", b->pass);
+        text_add(out, "  caused by: %s\n", b->pass);
     if (*b->fragment)
         text_add(out, "  first fragment whose result differs: %s\n", b->fragment);
     if (*b->reason)

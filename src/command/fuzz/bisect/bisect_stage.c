@@ -333,7 +333,7 @@ static void note_fragment(struct stage_hunt *h, unsigned part)
     if (before)
         snprintf(b->place, sizeof b->place, "%s:%u", ir->file[i->file], i->line);
     snprintf(b->reason, sizeof b->reason,
-             "a fragment has no operations inside: the place is that of the last value (%s) before it",
+             "a fragment is not divided into operations: the line is that of the last value (%s) before it",
              ir_op_information[i->op].name);
 }
 
@@ -360,7 +360,7 @@ static int look(struct stage_hunt *h, const struct routine *routine, struct erro
             note_fragment(h, (unsigned)find_culprit(h, needed));
         } else {
             snprintf(hunt->bisection->reason, sizeof hunt->bisection->reason,
-                     "no fragment is seen to write what differs");
+                     "no fragment was observed that writes the differing output");
         }
     }
     free(needed);

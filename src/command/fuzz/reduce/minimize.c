@@ -39,7 +39,7 @@ int minimize(const char *text, size_t bytes, minimize_test *still_fails, void *u
     int result =
         reduction_start(&reduction, text, bytes, still_fails, user, tries ? tries : MINIMIZE_TRIES, error);
     if (!result && (!reduction.count || !begin(&reduction, text, bytes)))
-        result = error_set(error, "the stream to be made smaller does not fail");
+        result = error_set(error, "the stream to reduce does not fail");
     if (!result) {
         unsigned rounds = go_round(&reduction);
         if (minimized)
@@ -49,7 +49,7 @@ int minimize(const char *text, size_t bytes, minimize_test *still_fails, void *u
     }
     if (!result && (reduction.failed || smallest->failed)) {
         text_free(smallest);
-        result = error_set(error, "out of memory while making a stream smaller");
+        result = error_set(error, "out of memory while reducing a stream");
     }
     reduction_free(&reduction);
     return result;
