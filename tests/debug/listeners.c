@@ -405,7 +405,7 @@ static void enable_by_environment(const void *unused)
 
 static void the_environment_enables_listeners_without_options(void)
 {
-    sandbox_child(ask_by_environment, NULL);
+    sandbox_child(enable_by_environment, NULL);
 }
 
 static void every_word_is_accepted_and_no_part_of_one(void)
