@@ -112,19 +112,30 @@ picture=$work/picture.png
 # --- Usage --------------------------------------------------------------------------------------------------
 
 answers 'help' 'usage: triptych' --help
+answers 'help by its short name' 'usage: triptych' -h
+answers 'help as a command' '^usage: triptych COMMAND ' help
 answers 'version' '^triptych [0-9]+\.[0-9]+\.[0-9]+$' --version
 for command in $("$TRIPTYCH" --help | sed -nE 's/^  ([a-z]+) .*/\1/p'); do
     answers "help of $command" "^usage: triptych $command " "$command" --help
+    answers "help of $command by its short name" "^usage: triptych $command " "$command" -h
+    answers "help of $command by the command" "^usage: triptych $command " help "$command"
     refuses "unknown option of $command" "triptych $command: unknown option --colour" "$command" --colour x
 done
 refuses 'unknown command' 'unknown command "paint".*render' paint
+refuses 'misspelled command' 'did you mean "render"\?$' rendr
+refuses 'misspelled command of help' 'COMMAND is "rendr".*did you mean "render"\?$' help rendr
+refuses 'misspelled option' 'unknown option --eingine.*did you mean --engine\?$' render --eingine emulate
+refuses 'misspelled option of the program' 'did you mean "--version"\?$' --versoin
+refuses 'misspelled engine' 'did you mean "specialize"\?$' render "$work/good.tri" --engine specialise
+refuses 'misspelled engine in a list' 'did you mean "stitch"\?$' verify "$work/good.tri" --engines emulate,stich
+refuses 'misspelled action' 'did you mean "validate"\?$' shader valdate "$work/good.shader"
 refuses 'unknown option in front of the command' 'unknown option "--verbose"' --verbose
 refuses 'no operand' 'expected STREAM' render --out "$work/out/picture.png"
 refuses 'too many operands' 'unexpected "b"' render a b
 refuses 'option without its value' '--out has no value' render "$work/good.tri" --out
 refuses 'number out of range' '--threads is "0", expected' render "$work/good.tri" --threads 0
 refuses 'number that is none' '--threads is "two", expected' render "$work/good.tri" --threads two
-refuses 'unknown engine' 'unknown engine "turbo".*emulate' \
+refuses 'unknown engine' '--engine is "turbo", expected one of: emulate' \
     render "$work/good.tri" --engine turbo --out "$work/out/picture.png"
 refuses 'width that the engine has not' 'emulate has no width 5, expected one of: 4' \
     render "$work/good.tri" --engine emulate --width 5 --out "$work/out/picture.png"
@@ -132,7 +143,7 @@ refuses 'unknown engine in a list' 'unknown engine "turbo"' verify "$work/good.t
 refuses 'engine listed twice' '"emulate" is listed twice' verify "$work/good.tri" --engines emulate,emulate
 refuses 'bad list of threads' '"x" is not a number of threads' verify "$work/good.tri" --threads 1,x
 refuses 'bad number of frames' '--frames is "some"' verify "$work/good.tri" --frames some
-refuses 'unknown list' 'cannot list "cats"' list cats
+refuses 'unknown list' 'WHAT is "cats", expected one of: engines' list cats
 
 # --- Lists --------------------------------------------------------------------------------------------------
 
@@ -181,7 +192,7 @@ answers 'validate a shader' '^valid ps_2_0: 4 instructions, 2 slots$' shader val
 answers 'validate as JSON' '"slots":.*2' shader validate "$work/valid.shader" --json
 refuses 'shader that breaks a rule' 'good.code: token 1: found \+ without an instruction to pair with' \
     shader validate "$work/good.code" --json --out "$work/out/report"
-refuses 'unknown action' 'unknown action "compile", expected one of: assemble' shader compile "$work/good.shader"
+refuses 'unknown action' 'ACTION is "compile", expected one of: assemble' shader compile "$work/good.shader"
 refuses 'no shader' 'expected ACTION' shader assemble
 refuses 'missing shader' 'none.shader: .*No such file' shader assemble "$work/none.shader"
 printf 'vs_1_1\nmov r0\n' >"$work/bad.shader"
@@ -367,7 +378,7 @@ if "$TRIPTYCH" list engines | grep -q '^specialize .* available '; then
     answers 'dump of every stage' '== asm' dump "$work/good.tri" --show all
     refuses 'dump of a missing draw' 'frame 0 has no draw 1, it has 1' dump "$work/good.tri" --draw 1
     refuses 'dump of a missing frame' 'no frame 7, its last is 1' dump "$work/good.tri" --frame 7
-    refuses 'dump of an unknown unit' '--unit is "texel", expected vertex, setup or pixel' \
+    refuses 'dump of an unknown unit' '--unit is "texel", expected one of: vertex, setup, pixel' \
         dump "$work/good.tri" --unit texel
     refuses 'dump of an unknown stage' 'asm2' dump "$work/good.tri" --show asm2
     refuses 'dump of an unknown stage of external' 'expected key, vector, text, asm or all' \

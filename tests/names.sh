@@ -2,7 +2,7 @@
 # Extern names: each begins with a prefix of its folder's row in src/README.md.
 #
 # A name belongs to the row with the longest prefix that it begins with. That row must be the row of the
-# folder that defines it. Exceptions: engine_NAME objects are engines, command_NAME functions are subcommands,
+# folder that defines it. Exceptions: engine_NAME objects are engines, command_NAME objects are subcommands,
 # names that triptych.h declares are the public interface, and names with two underscores belong to the
 # system's interfaces.
 set -u

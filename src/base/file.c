@@ -11,6 +11,8 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
+const char file_standard_input[] = "/dev/stdin", file_standard_output[] = "/dev/stdout";
+
 static int fail(struct error *error, const char *path, const char *doing)
 {
     char reason[128] = "unknown reason";
@@ -62,13 +64,19 @@ static int read_all(int descriptor, const char *path, size_t limit, struct conte
     }
 }
 
+static int open_to_read(const char *path)
+{
+    return strcmp(path, file_standard_input) ? open(path, O_RDONLY | O_CLOEXEC)
+                                             : fcntl(STDIN_FILENO, F_DUPFD_CLOEXEC, 0);
+}
+
 int file_read(const char *path, size_t limit, char **data, size_t *bytes, struct error *error)
 {
     struct contents contents = {0};
     struct stat status;
     *data = NULL;
     *bytes = 0;
-    int descriptor = open(path, O_RDONLY | O_CLOEXEC);
+    int descriptor = open_to_read(path);
     if (descriptor < 0)
         return fail(error, path, "cannot open");
     /* Only a hint, which saves reallocation: the file may change. */
@@ -167,7 +175,9 @@ static int begin_beside(struct file_output *output, mode_t mode)
 /* A symbolic link is followed, so that the file that it names is replaced and not the link. */
 static int begin(struct file_output *output, const struct stat *existing)
 {
-    if (existing && !S_ISREG(existing->st_mode))
+    if (!strcmp(output->name, file_standard_output))
+        output->descriptor = fcntl(STDOUT_FILENO, F_DUPFD_CLOEXEC, 0);
+    else if (existing && !S_ISREG(existing->st_mode))
         output->descriptor = open(output->name, O_WRONLY | O_CLOEXEC);
     else
         output->path = existing ? realpath(output->name, NULL) : strdup(output->name);

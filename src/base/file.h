@@ -8,6 +8,11 @@
 
 #include <stddef.h>
 
+/* The paths of the standard streams, "/dev/stdin" and "/dev/stdout". These functions use the open descriptors
+ * for them. Opening the paths would replace a file that standard output is redirected to, and would fail for
+ * a socket. */
+extern const char file_standard_input[], file_standard_output[];
+
 /* Reads the whole file into *data, which the caller frees. A zero byte, not counted in *bytes, follows the
  * contents. Fails if the file has more than `limit` bytes. On failure *data is null. */
 int file_read(const char *path, size_t limit, char **data, size_t *bytes, struct error *error);

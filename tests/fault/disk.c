@@ -446,7 +446,7 @@ static void test_a_disk_that_is_really_full(void)
 static void test_standard_output_that_is_full(void)
 {
     static const char *const lines[] = {
-#define COMMAND(name, operands, summary) #name " --help",
+#define COMMAND(name) #name " --help",
 #include "command/support/command.def"
 #undef COMMAND
         "--help",

@@ -26,6 +26,7 @@ enum { REPETITIONS_MINIMUM = 3, FRAMES_MAXIMUM = 65536, SECONDS_MAXIMUM = 86400 
 static const double warm_up_share = 0.1; /* of an engine's seconds */
 
 struct settings {
+    const char *engines, *json, *csv;
     unsigned threads, repetitions, frames; /* frames 0: all */
     double seconds;
     bool shaders; /* a table of each shader */
@@ -173,64 +174,82 @@ static const char notes[] =
     "the medians for single routines and for the three routines of a draw.\n"
     "SIGINT or SIGTERM ends it with a report of the finished streams, and status 130 or 143.";
 
-int command_bench(const struct command *self, int count, char **arguments)
+/* The usual measurement: every engine in turns. */
+static int bench_frames(const struct command *self, const struct operands *operands,
+                        const struct choice *engines, const struct settings *settings)
 {
-    struct settings settings = {.threads = 1, .repetitions = 15, .seconds = 10};
-    const char *engine_list = NULL, *json = NULL, *csv = NULL;
-    const struct option options[] = {
-        {"engines", "LIST", "engines, separated by commas; all that can run here", OPTION_TEXT, &engine_list,
-         0, 0},
-        {"threads", "N", "rendering threads of each device; 1", OPTION_NUMBER, &settings.threads, 1, 256},
-        {"repetitions", "N", "runs measured at most; 15", OPTION_NUMBER, &settings.repetitions,
-         REPETITIONS_MINIMUM, REPETITIONS_MAXIMUM},
-        {"seconds", "S", "time of an engine on a stream; 10", OPTION_SECONDS, &settings.seconds, 0,
-         SECONDS_MAXIMUM},
-        {"frames", "N", "frames of a run, spread over the stream; all", OPTION_NUMBER, &settings.frames, 1,
-         FRAMES_MAXIMUM},
-        {"shaders", NULL, "measure each routine's calls; tables by shader and by length", OPTION_FLAG,
-         &settings.shaders, 0, 0},
-        {"builds", NULL, "measure instead the time to build the streams' routines", OPTION_FLAG,
-         &settings.builds, 0, 0},
-        {"cold", NULL, "measure instead the first frames of a new device", OPTION_FLAG, &settings.cold, 0, 0},
-        {"json", "FILE", "write everything, each run included", OPTION_TEXT, &json, 0, 0},
-        {"csv", "FILE", "write a row per stream and engine", OPTION_TEXT, &csv, 0, 0},
-    };
-    struct operands operands = {.least = 1, .most = ANY_NUMBER};
-    enum options_result result =
-        options_read(self, options, sizeof options / sizeof *options, notes, count, arguments, &operands);
-    if (result != OPTIONS_GO)
-        return options_status(result);
-    struct choice engines;
-    if (choose_engines(self, engine_list, &engines) || tool_check_output(self, json) ||
-        tool_check_output(self, csv))
-        return STATUS_BAD;
-
-    if (settings.builds) {
-        interrupt_defer();
-        return bench_builds(self, operands.value, (unsigned)operands.count, &engines, settings.repetitions,
-                            json);
-    }
-    if (settings.cold) {
-        interrupt_defer();
-        return bench_cold(self, operands.value, (unsigned)operands.count, &engines, settings.threads,
-                          settings.repetitions, settings.frames, json);
-    }
-    struct bench bench = {machine_describe(), settings.threads, settings.shaders, 0, NULL};
-    unsigned count_streams = (unsigned)operands.count;
-    bench.streams = calloc(count_streams, sizeof *bench.streams);
+    struct bench bench = {machine_describe(), settings->threads, settings->shaders, 0, NULL};
+    unsigned count = (unsigned)operands->count;
+    bench.streams = calloc(count, sizeof *bench.streams);
     if (!bench.streams)
-        return tool_fail(self, "no memory for %u streams", count_streams);
-    interrupt_defer();
-    int status = bench_all(self, operands.value, count_streams, &engines, &settings, &bench);
-    if (!status && json && bench.stream_count)
-        status = bench_write_json(self, &bench, json);
-    if (!status && csv && bench.stream_count)
-        status = bench_write_csv(self, &bench, csv);
+        return tool_fail(self, "no memory for %u streams", count);
+    int status = bench_all(self, operands->value, count, engines, settings, &bench);
+    if (!status && settings->json && bench.stream_count)
+        status = bench_write_json(self, &bench, settings->json);
+    if (!status && settings->csv && bench.stream_count)
+        status = bench_write_csv(self, &bench, settings->csv);
     if (!status && interrupt_signal()) {
-        printf("\ninterrupted by %s: %u of %u streams\n", interrupt_name(), bench.stream_count,
-               count_streams);
+        printf("\ninterrupted by %s: %u of %u streams\n", interrupt_name(), bench.stream_count, count);
         status = interrupt_status();
     }
     free_bench(&bench);
     return status;
 }
+
+static int run(const struct command *self, void *data, const struct operands *operands)
+{
+    const struct settings *settings = data;
+    struct choice engines;
+    unsigned count = (unsigned)operands->count;
+    if (choose_engines(self, settings->engines, &engines) || tool_check_output(self, settings->json) ||
+        tool_check_output(self, settings->csv))
+        return STATUS_BAD;
+    interrupt_defer();
+    if (settings->builds)
+        return bench_builds(self, operands->value, count, &engines, settings->repetitions, settings->json);
+    if (settings->cold)
+        return bench_cold(self, operands->value, count, &engines, settings->threads, settings->repetitions,
+                          settings->frames, settings->json);
+    return bench_frames(self, operands, &engines, settings);
+}
+
+static const struct settings defaults = {.threads = 1, .repetitions = 15, .seconds = 10};
+
+static const struct option options[] = {
+    {"engines", "LIST", "engines, separated by commas; all that can run here",
+     OPTION_IS_LIST(struct settings, engines), .words = triptych_engine_name},
+    {"threads", "N", "rendering threads of each device; 1", OPTION_IS_NUMBER(struct settings, threads),
+     .least = 1, .most = 256},
+    {"repetitions", "N", "runs measured at most; 15", OPTION_IS_NUMBER(struct settings, repetitions),
+     .least = REPETITIONS_MINIMUM, .most = REPETITIONS_MAXIMUM},
+    {"seconds", "S", "time of an engine on a stream; 10", OPTION_IS_SECONDS(struct settings, seconds),
+     .most = SECONDS_MAXIMUM},
+    {"frames", "N", "frames of a run, spread over the stream; all", OPTION_IS_NUMBER(struct settings, frames),
+     .least = 1, .most = FRAMES_MAXIMUM},
+    {"shaders", NULL, "measure each routine's calls; tables by shader and by length",
+     OPTION_IS_FLAG(struct settings, shaders)},
+    {"builds", NULL, "measure instead the time to build the streams' routines",
+     OPTION_IS_FLAG(struct settings, builds)},
+    {"cold", NULL, "measure instead the first frames of a new device", OPTION_IS_FLAG(struct settings, cold)},
+    {"json", "FILE", "write everything, each run included", OPTION_IS_FILE(struct settings, json),
+     .extension = "json"},
+    {"csv", "FILE", "write a row per stream and engine", OPTION_IS_FILE(struct settings, csv),
+     .extension = "csv"},
+    {0},
+};
+
+static const struct operand operands[] = {
+    {"STREAM", "a draw stream", .kind = OPERAND_INPUT, .extension = "tri trib", .repeated = true},
+    {0},
+};
+
+const struct command command_bench = {
+    .name = "bench",
+    .summary = "measure the engines against each other",
+    .options = options,
+    .operands = operands,
+    .notes = notes,
+    .defaults = &defaults,
+    .settings_bytes = sizeof defaults,
+    .run = run,
+};

@@ -152,19 +152,38 @@ static int print(const struct command *self, const struct subject *subject, bool
     return STATUS_OK;
 }
 
-int command_list(const struct command *self, int count, char **arguments)
+struct settings {
+    bool json, markdown;
+};
+
+static int run(const struct command *self, void *data, const struct operands *operands)
 {
-    bool json = false, markdown = false;
-    const struct option options[] = {
-        {"json", NULL, "as JSON, an array of objects", OPTION_FLAG, &json, 0, 0},
-        {"markdown", NULL, "states or shaders as a page of documentation", OPTION_FLAG, &markdown, 0, 0},
-    };
-    struct operands operands = {.least = 1, .most = 1};
-    enum options_result result = options_read(self, options, 2, NULL, count, arguments, &operands);
-    if (result != OPTIONS_GO)
-        return options_status(result);
-    for (size_t i = 0; i < sizeof subjects / sizeof *subjects; i++)
-        if (!strcmp(operands.value[0], subjects[i].name))
-            return print(self, subjects + i, json, markdown);
-    return tool_fail(self, "cannot list \"%s\", expected %s", operands.value[0], self->summary);
+    const struct settings *settings = data;
+    return print(self, subjects + operands->word, settings->json, settings->markdown);
 }
+
+static const char *subject_at(unsigned index)
+{
+    return index < sizeof subjects / sizeof *subjects ? subjects[index].name : NULL;
+}
+
+static const struct option options[] = {
+    {"json", NULL, "as JSON, an array of objects", OPTION_IS_FLAG(struct settings, json)},
+    {"markdown", NULL, "states or shaders as a page of documentation",
+     OPTION_IS_FLAG(struct settings, markdown)},
+    {0},
+};
+
+static const struct operand operands[] = {
+    {"WHAT", "engines, states, shaders, formats, cpu or passes", .kind = OPERAND_WORD, .words = subject_at},
+    {0},
+};
+
+const struct command command_list = {
+    .name = "list",
+    .summary = "engines, states, shaders, formats, cpu or passes",
+    .options = options,
+    .operands = operands,
+    .settings_bytes = sizeof(struct settings),
+    .run = run,
+};

@@ -8,23 +8,17 @@
 
 enum { NAME_CAPACITY = 64, THREADS_MAXIMUM = 256 };
 
-static int unknown_engine(const struct command *self, const char *name)
+static const char *engine_at_index(const void *list, unsigned index)
 {
-    char names[512] = "";
-    for (unsigned i = 0; triptych_engine_name(i); i++)
-        snprintf(names + strlen(names), sizeof names - strlen(names), "%s%s", i ? ", " : "",
-                 triptych_engine_name(i));
-    return tool_fail(self, "unknown engine \"%s\", expected one of: %s", name, names);
+    (void)list;
+    return triptych_engine_name(index);
 }
+
+static const struct words engine_names = {engine_at_index, NULL};
 
 static bool find_engine(const char *name, unsigned *index)
 {
-    for (unsigned i = 0; triptych_engine_name(i); i++)
-        if (!strcmp(triptych_engine_name(i), name)) {
-            *index = i;
-            return true;
-        }
-    return false;
+    return words_find(engine_names, name, strlen(name), index);
 }
 
 /* Returns true if `engine` is `name` itself or its variant `name`-WIDTH. */
@@ -63,7 +57,7 @@ static int find_variant(const struct command *self, const char *name, unsigned w
 int choose_engine(const struct command *self, const char *name, unsigned width, unsigned *index)
 {
     if (!find_engine(name, index))
-        return unknown_engine(self, name);
+        return tool_fail_word(self, "unknown engine", name, engine_names);
     if (width && find_variant(self, name, width, index))
         return STATUS_BAD;
     const char *reason = triptych_engine_unavailable(*index);

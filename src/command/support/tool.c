@@ -1,4 +1,6 @@
 #include "command/support/tool.h"
+#include "base/file.h"
+#include "command/support/command.h"
 
 #include <errno.h>
 #include <stdarg.h>
@@ -7,9 +9,10 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
-enum { PATH_CAPACITY = 4096 };
+enum { PATH_CAPACITY = 4096, CHOICES_CAPACITY = 1024 };
 
 static bool incomplete, failed;
+static FILE *output; /* `stdout` as it was before tool_print_to_error, or null */
 
 static void print_failure(const struct command *self, const char *format, va_list arguments)
 {
@@ -26,6 +29,14 @@ int tool_fail(const struct command *self, const char *format, ...)
     print_failure(self, format, arguments);
     va_end(arguments);
     return STATUS_BAD;
+}
+
+int tool_fail_word(const struct command *self, const char *what, const char *given, struct words words)
+{
+    char choices[CHOICES_CAPACITY], suggestion[WORDS_SUGGESTION];
+    words_join(words, choices, sizeof choices);
+    return tool_fail(self, "%s \"%s\", expected one of: %s%s", what, given, choices,
+                     words_suggest(words, given, strlen(given), suggestion));
 }
 
 void tool_fail_at_end(const struct command *self, const char *format, ...)
@@ -57,6 +68,21 @@ bool tool_report_is_complete(void)
     return !incomplete;
 }
 
+/* glibc documents that `stdout` is a variable that can be set. */
+void tool_print_to_error(void)
+{
+    if (!output)
+        output = stdout;
+    stdout = stderr;
+}
+
+void tool_print_to_output(void)
+{
+    if (output)
+        stdout = output;
+    output = NULL;
+}
+
 void tool_progress(const char *format, ...)
 {
     static bool shown;
@@ -77,7 +103,7 @@ int tool_check_output(const struct command *self, const char *path)
 {
     char folder[PATH_CAPACITY];
     struct stat found;
-    if (!path)
+    if (!path || !strcmp(path, file_standard_output))
         return STATUS_OK;
     if (!stat(path, &found)) {
         if (S_ISDIR(found.st_mode))

@@ -5,6 +5,8 @@
 #ifndef COMMAND_SUPPORT_TOOL_H
 #define COMMAND_SUPPORT_TOOL_H
 
+#include "base/words.h"
+
 #include <stdbool.h>
 
 enum status {
@@ -13,20 +15,13 @@ enum status {
     STATUS_BAD = 2        /* bad input or usage, or a refusal by the system */
 };                        /* or 128 + the number of the signal that interrupted the command (interrupt.h) */
 
-struct command {
-    const char *name;
-    const char *operands; /* as the help shows them */
-    const char *summary;
-    int (*run)(const struct command *self, int count, char **arguments); /* the arguments after the name */
-};
-
-#define COMMAND(name, operands, summary)                                                                     \
-    int command_##name(const struct command *self, int count, char **arguments);
-#include "command/support/command.def"
-#undef COMMAND
+struct command; /* command.h */
 
 /* Prints the reason and returns STATUS_BAD. */
 int tool_fail(const struct command *self, const char *format, ...) __attribute__((format(printf, 2, 3)));
+
+/* The same for a word that is not in a list: `WHAT "GIVEN", expected one of: A, B, C; did you mean "B"?`. */
+int tool_fail_word(const struct command *self, const char *what, const char *given, struct words words);
 
 /* The same for callers that cannot return a status: the program will exit with STATUS_BAD in any case. */
 void tool_fail_at_end(const struct command *self, const char *format, ...)
@@ -46,6 +41,11 @@ int tool_make_folder(const struct command *self, const char *path, bool *made);
 void tool_report_begin(void);
 void tool_report_mark_incomplete(void);
 bool tool_report_is_complete(void);
+
+/* From this call on, all that is printed to `stdout` goes to standard error, because a file is written to
+ * standard output. tool_print_to_output undoes it. */
+void tool_print_to_error(void);
+void tool_print_to_output(void);
 
 /* Replaces the line of progress. Null clears it. */
 void tool_progress(const char *format, ...) __attribute__((format(printf, 1, 2)));

@@ -125,30 +125,51 @@ static const char notes[] = "The routines of both engines run on the same inputs
                             "that they compute is compared. The first engine is the reference. Exit status "
                             "1: a difference was found.";
 
-int command_bisect(const struct command *self, int count, char **arguments)
+struct settings {
+    const char *engines, *pixel, *json;
+    unsigned draw;
+};
+
+static int run(const struct command *self, void *data, const struct operands *operands)
 {
-    const char *list = "emulate,specialize", *pixel = NULL, *json_path = NULL;
-    unsigned draw = NONE;
-    const struct option options[] = {
-        {"engines", "A,B", "the two engines; emulate,specialize", OPTION_TEXT, &list, 0, 0},
-        {"draw", "N", "examine only this draw of the stream, numbered from 0", OPTION_NUMBER, &draw, 0,
-         NUMBER_MAXIMUM},
-        {"pixel", "X,Y", "examine only this pixel", OPTION_TEXT, &pixel, 0, 0},
-        {"json", "FILE", "also write the report to FILE", OPTION_TEXT, &json_path, 0, 0},
-    };
-    struct operands operands = {.least = 1, .most = 1};
+    const struct settings *settings = data;
     struct bisect_options wanted = {BISECT_ANY, BISECT_ANY, BISECT_ANY};
     struct choice engines;
-    enum options_result result =
-        options_read(self, options, sizeof options / sizeof *options, notes, count, arguments, &operands);
-    if (result != OPTIONS_GO)
-        return options_status(result);
-    if (choose_engines(self, list, &engines) || tool_check_output(self, json_path) ||
-        (pixel && read_pixel(self, pixel, &wanted)))
+    if (choose_engines(self, settings->engines, &engines) || tool_check_output(self, settings->json) ||
+        (settings->pixel && read_pixel(self, settings->pixel, &wanted)))
         return STATUS_BAD;
     if (engines.count != 2)
         return tool_fail(self, "--engines names %u, expected two", engines.count);
-    if (draw != NONE)
-        wanted.draw = draw;
-    return find(self, operands.value[0], &engines, &wanted, json_path);
+    if (settings->draw != NONE)
+        wanted.draw = settings->draw;
+    return find(self, operands->value[0], &engines, &wanted, settings->json);
 }
+
+static const struct settings defaults = {.engines = "emulate,specialize", .draw = NONE};
+
+static const struct option options[] = {
+    {"engines", "A,B", "the two engines; emulate,specialize", OPTION_IS_LIST(struct settings, engines),
+     .words = triptych_engine_name},
+    {"draw", "N", "examine only this draw of the stream, numbered from 0",
+     OPTION_IS_NUMBER(struct settings, draw), .most = NUMBER_MAXIMUM},
+    {"pixel", "X,Y", "examine only this pixel", OPTION_IS_TEXT(struct settings, pixel)},
+    {"json", "FILE", "also write the report to FILE", OPTION_IS_FILE(struct settings, json),
+     .extension = "json"},
+    {0},
+};
+
+static const struct operand operands[] = {
+    {"STREAM", "a draw stream", .kind = OPERAND_INPUT, .extension = "tri trib"},
+    {0},
+};
+
+const struct command command_bisect = {
+    .name = "bisect",
+    .summary = "name the first operation whose value differs between two engines",
+    .options = options,
+    .operands = operands,
+    .notes = notes,
+    .defaults = &defaults,
+    .settings_bytes = sizeof defaults,
+    .run = run,
+};

@@ -24,30 +24,46 @@ static int report(const struct command *self, char **paths, const struct picture
     return painting && difference_save(self, painting, picture, picture + 1) ? STATUS_BAD : STATUS_DIFFERENT;
 }
 
-int command_compare(const struct command *self, int count, char **arguments)
-{
-    const char *painting = NULL;
-    const struct option options[] = {
-        {"difference", "FILE.png", "picture to write of the differences, in red", OPTION_TEXT, &painting, 0,
-         0},
-    };
-    struct operands operands = {.least = 2, .most = 2};
-    enum options_result result = options_read(self, options, 1, NULL, count, arguments, &operands);
-    if (result != OPTIONS_GO)
-        return options_status(result);
+struct settings {
+    const char *painting;
+};
 
+static int run(const struct command *self, void *data, const struct operands *operands)
+{
+    const struct settings *settings = data;
     struct error error = {""};
     struct picture picture[2] = {{0}};
     uint32_t *rgba[2] = {NULL, NULL};
     int status = STATUS_OK;
     for (int i = 0; i < 2 && !status; i++) {
-        if (png_load(operands.value[i], &picture[i].width, &picture[i].height, &rgba[i], &error))
+        if (png_load(operands->value[i], &picture[i].width, &picture[i].height, &rgba[i], &error))
             status = tool_fail(self, "%s", error.text);
         picture[i].color = rgba[i];
     }
     if (!status)
-        status = report(self, operands.value, picture, painting);
+        status = report(self, operands->value, picture, settings->painting);
     free(rgba[0]);
     free(rgba[1]);
     return status;
 }
+
+static const struct option options[] = {
+    {"difference", "FILE.png", "picture to write of the differences, in red",
+     OPTION_IS_FILE(struct settings, painting), .extension = "png"},
+    {0},
+};
+
+static const struct operand operands[] = {
+    {"FIRST", "a PNG picture", .kind = OPERAND_INPUT, .extension = "png"},
+    {"SECOND", "a PNG picture", .kind = OPERAND_INPUT, .extension = "png"},
+    {0},
+};
+
+const struct command command_compare = {
+    .name = "compare",
+    .summary = "compare two pictures pixel by pixel",
+    .options = options,
+    .operands = operands,
+    .settings_bytes = sizeof(struct settings),
+    .run = run,
+};

@@ -27,28 +27,45 @@ static const struct form *find_form(const struct command *self, const char *path
     return tool_fail(self, "%s: unknown kind of stream, expected %s", path, known), NULL;
 }
 
-int command_convert(const struct command *self, int count, char **arguments)
+struct settings {
+    bool salvage;
+};
+
+static int run(const struct command *self, void *data, const struct operands *operands)
 {
-    bool salvage = false;
-    const struct option options[] = {
-        {"salvage", NULL, "keep the complete frames before the damage in a container", OPTION_FLAG, &salvage,
-         0, 0},
-    };
-    struct operands operands = {.least = 2, .most = 2};
-    enum options_result result =
-        options_read(self, options, sizeof options / sizeof *options, NULL, count, arguments, &operands);
-    if (result != OPTIONS_GO)
-        return options_status(result);
-    const char *input = operands.value[0], *output = operands.value[1];
+    const struct settings *settings = data;
+    const char *input = operands->value[0], *output = operands->value[1];
     const struct form *to = find_form(self, output);
     if (!to || tool_check_output(self, output))
         return STATUS_BAD;
     struct stream *stream;
     struct error error = {""};
-    if (salvage ? container_read(input, CONTAINER_SALVAGE, &stream, &error)
-                : stream_read(input, &stream, &error))
+    if (settings->salvage ? container_read(input, CONTAINER_SALVAGE, &stream, &error)
+                          : stream_read(input, &stream, &error))
         return tool_fail(self, "%s", error.text);
     int bad = to->save(stream, output, &error);
     stream_free(stream);
     return bad ? tool_fail(self, "%s", error.text) : STATUS_OK;
 }
+
+static const struct option options[] = {
+    {"salvage", NULL, "keep the complete frames before the damage in a container",
+     OPTION_IS_FLAG(struct settings, salvage)},
+    {0},
+};
+
+static const struct operand operands[] = {
+    {"INPUT", "a draw stream in any form", .kind = OPERAND_INPUT, .extension = "tri trib"},
+    {"OUTPUT", "FILE.tri: canonical text; FILE.trib: a container", .kind = OPERAND_OUTPUT,
+     .extension = "tri trib"},
+    {0},
+};
+
+const struct command command_convert = {
+    .name = "convert",
+    .summary = "rewrite a stream in another form",
+    .options = options,
+    .operands = operands,
+    .settings_bytes = sizeof(struct settings),
+    .run = run,
+};

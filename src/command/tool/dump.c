@@ -12,6 +12,7 @@
 #include "command/support/choose.h"
 #include "command/support/option.h"
 #include "command/support/session.h"
+#include "triptych.h"
 
 #include <stdlib.h>
 #include <string.h>
@@ -19,8 +20,8 @@
 enum { NUMBER_MAXIMUM = 4194304, WIDTH_MAXIMUM = 256, ARENA_BYTES = 8 << 20 };
 
 struct settings {
-    const char *engine, *unit, *show;
-    unsigned frame, draw, width;
+    const char *engine, *show;
+    unsigned frame, draw, width, unit;
 };
 
 static int dump_jit(const struct engine *engine, struct code_arena *arena, enum unit unit,
@@ -209,15 +210,6 @@ static int dump(const struct command *self, const char *path, const struct setti
     return status;
 }
 
-static int find_unit(const struct command *self, const char *name, enum unit *unit)
-{
-    for (*unit = 0; *unit < UNIT_COUNT; ++*unit)
-        if (!strcmp(name, unit_name[*unit]))
-            return STATUS_OK;
-    return tool_fail(self, "--unit is \"%s\", expected %s, %s or %s", name, unit_name[0], unit_name[1],
-                     unit_name[2]);
-}
-
 static const char notes[] = "The text of the draw's shader comes first. Stages of specialize: key, record "
                             "(the operations as recorded), the\n"
                             "name of a pass (the operations after it; triptych list passes), intervals "
@@ -226,26 +218,49 @@ static const char notes[] = "The text of the draw's shader comes first. Stages o
                             "text (C), asm, all. The stitching\n"
                             "engines show their fragments, holes and code.";
 
-int command_dump(const struct command *self, int count, char **arguments)
+static int run(const struct command *self, void *data, const struct operands *operands)
 {
-    struct settings settings = {.engine = "specialize", .unit = "pixel"};
-    const struct option options[] = {
-        {"draw", "N", "which draw of the frame, from 0; 0", OPTION_NUMBER, &settings.draw, 0, NUMBER_MAXIMUM},
-        {"frame", "N", "which frame, from 0; 0", OPTION_NUMBER, &settings.frame, 0, NUMBER_MAXIMUM},
-        {"unit", "UNIT", "vertex, setup or pixel; pixel", OPTION_TEXT, &settings.unit, 0, 0},
-        {"show", "LIST", "stages, separated by commas; key,asm", OPTION_TEXT, &settings.show, 0, 0},
-        {"engine", "NAME", "engine of the routine; specialize", OPTION_TEXT, &settings.engine, 0, 0},
-        {"width", "LANES", "lanes of the engine's variant", OPTION_NUMBER, &settings.width, 1, WIDTH_MAXIMUM},
-    };
-    struct operands operands = {.least = 1, .most = 1};
-    enum options_result result =
-        options_read(self, options, sizeof options / sizeof *options, notes, count, arguments, &operands);
-    if (result != OPTIONS_GO)
-        return options_status(result);
+    const struct settings *settings = data;
     unsigned engine;
-    enum unit unit;
-    if (find_unit(self, settings.unit, &unit) ||
-        choose_engine(self, settings.engine, settings.width, &engine))
+    if (choose_engine(self, settings->engine, settings->width, &engine))
         return STATUS_BAD;
-    return dump(self, operands.value[0], &settings, engine, unit);
+    return dump(self, operands->value[0], settings, engine, (enum unit)settings->unit);
 }
+
+static const char *unit_at(unsigned index)
+{
+    return index < UNIT_COUNT ? unit_name[index] : NULL;
+}
+
+static const struct settings defaults = {.engine = "specialize", .unit = UNIT_PIXEL};
+
+static const struct option options[] = {
+    {"draw", "N", "which draw of the frame, from 0; 0", OPTION_IS_NUMBER(struct settings, draw),
+     .most = NUMBER_MAXIMUM},
+    {"frame", "N", "which frame, from 0; 0", OPTION_IS_NUMBER(struct settings, frame),
+     .most = NUMBER_MAXIMUM},
+    {"unit", "UNIT", "vertex, setup or pixel; pixel", OPTION_IS_INDEX(struct settings, unit),
+     .words = unit_at},
+    {"show", "LIST", "stages, separated by commas; key,asm", OPTION_IS_LIST(struct settings, show)},
+    {"engine", "NAME", "engine of the routine; specialize", OPTION_IS_WORD(struct settings, engine),
+     .words = triptych_engine_name},
+    {"width", "LANES", "lanes of the engine's variant", OPTION_IS_NUMBER(struct settings, width), .least = 1,
+     .most = WIDTH_MAXIMUM},
+    {0},
+};
+
+static const struct operand operands[] = {
+    {"STREAM", "a draw stream", .kind = OPERAND_INPUT, .extension = "tri trib"},
+    {0},
+};
+
+const struct command command_dump = {
+    .name = "dump",
+    .summary = "show how the routine of one draw call is made",
+    .options = options,
+    .operands = operands,
+    .notes = notes,
+    .defaults = &defaults,
+    .settings_bytes = sizeof defaults,
+    .run = run,
+};

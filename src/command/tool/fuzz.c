@@ -8,6 +8,7 @@
 #include "command/support/json.h"
 #include "command/bench/machine.h"
 #include "command/support/option.h"
+#include "triptych.h"
 
 #include <inttypes.h>
 #include <stdio.h>
@@ -243,36 +244,49 @@ static const char notes[] = "Case N of seed S is always the same draw stream. Fa
                             "Exit status 1: there are findings. After SIGINT or SIGTERM it reports its "
                             "findings; the status is 130 or 143.";
 
-int command_fuzz(const struct command *self, int count, char **arguments)
+static int run(const struct command *self, void *data, const struct operands *operands)
 {
-    struct settings settings = {.seed = 1,
-                                .count = 1000,
-                                .jobs = 1,
-                                .enough = 10,
-                                .print = NEVER,
-                                .limit = 60,
-                                .threads = "1,2",
-                                .folder = "findings"};
-    const struct option options[] = {
-        {"seed", "S", "seed of the campaign; 1", OPTION_NUMBER, &settings.seed, 0, NEVER},
-        {"first", "N", "first case; 0", OPTION_NUMBER, &settings.first, 0, NEVER},
-        {"count", "N", "number of cases; 1000", OPTION_NUMBER, &settings.count, 1, NEVER},
-        {"seconds", "T", "end after this time", OPTION_SECONDS, &settings.seconds, 0, 10000000},
-        {"engines", "LIST", "engines, separated by commas; all that can run here", OPTION_TEXT,
-         &settings.engines, 0, 0},
-        {"threads", "LIST", "numbers of threads; 1,2", OPTION_TEXT, &settings.threads, 0, 0},
-        {"jobs", "N", "processes; 1", OPTION_NUMBER, &settings.jobs, 1, CAMPAIGN_JOBS},
-        {"limit", "T", "most seconds per case; 60", OPTION_SECONDS, &settings.limit, 1, 100000},
-        {"findings", "N", "end after this number of findings; 10", OPTION_NUMBER, &settings.enough, 1,
-         CAMPAIGN_FINDINGS},
-        {"output", "DIR", "folder for findings; findings", OPTION_TEXT, &settings.folder, 0, 0},
-        {"json", "FILE", "write the results", OPTION_TEXT, &settings.json, 0, 0},
-        {"print", "N", "write case N to standard output instead", OPTION_NUMBER, &settings.print, 0, NEVER},
-    };
-    struct operands operands = {0};
-    enum options_result result =
-        options_read(self, options, sizeof options / sizeof *options, notes, count, arguments, &operands);
-    if (result != OPTIONS_GO)
-        return options_status(result);
-    return settings.print != NEVER ? print_case(self, &settings) : fuzz(self, &settings);
+    struct settings *settings = data;
+    (void)operands;
+    return settings->print != NEVER ? print_case(self, settings) : fuzz(self, settings);
 }
+
+static const struct settings defaults = {.seed = 1,
+                                         .count = 1000,
+                                         .jobs = 1,
+                                         .enough = 10,
+                                         .print = NEVER,
+                                         .limit = 60,
+                                         .threads = "1,2",
+                                         .folder = "findings"};
+
+static const struct option options[] = {
+    {"seed", "S", "seed of the campaign; 1", OPTION_IS_NUMBER(struct settings, seed), .most = NEVER},
+    {"first", "N", "first case; 0", OPTION_IS_NUMBER(struct settings, first), .most = NEVER},
+    {"count", "N", "number of cases; 1000", OPTION_IS_NUMBER(struct settings, count), .least = 1,
+     .most = NEVER},
+    {"seconds", "T", "end after this time", OPTION_IS_SECONDS(struct settings, seconds), .most = 10000000},
+    {"engines", "LIST", "engines, separated by commas; all that can run here",
+     OPTION_IS_LIST(struct settings, engines), .words = triptych_engine_name},
+    {"threads", "LIST", "numbers of threads; 1,2", OPTION_IS_LIST(struct settings, threads)},
+    {"jobs", "N", "processes; 1", OPTION_IS_NUMBER(struct settings, jobs), .least = 1, .most = CAMPAIGN_JOBS},
+    {"limit", "T", "most seconds per case; 60", OPTION_IS_SECONDS(struct settings, limit), .least = 1,
+     .most = 100000},
+    {"findings", "N", "end after this number of findings; 10", OPTION_IS_NUMBER(struct settings, enough),
+     .least = 1, .most = CAMPAIGN_FINDINGS},
+    {"output", "DIR", "folder for findings; findings", OPTION_IS_FOLDER(struct settings, folder)},
+    {"json", "FILE", "write the results", OPTION_IS_FILE(struct settings, json), .extension = "json"},
+    {"print", "N", "write case N to standard output instead", OPTION_IS_NUMBER(struct settings, print),
+     .most = NEVER},
+    {0},
+};
+
+const struct command command_fuzz = {
+    .name = "fuzz",
+    .summary = "draw random cases with every engine and compare",
+    .options = options,
+    .notes = notes,
+    .defaults = &defaults,
+    .settings_bytes = sizeof defaults,
+    .run = run,
+};

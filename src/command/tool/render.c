@@ -4,8 +4,8 @@
 #include "command/support/choose.h"
 #include "command/support/option.h"
 #include "command/support/session.h"
+#include "triptych.h"
 
-#include <stdio.h>
 #include <inttypes.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -121,30 +121,46 @@ static int render(const struct command *self, const char *path, const struct set
     return status;
 }
 
-int command_render(const struct command *self, int count, char **arguments)
+static int run(const struct command *self, void *data, const struct operands *operands)
 {
-    struct settings settings = {.engine = "specialize"};
-    const struct option options[] = {
-        {"engine", "NAME", "engine (triptych list engines); specialize", OPTION_TEXT, &settings.engine, 0, 0},
-        {"width", "LANES", "lanes of the engine's variant", OPTION_NUMBER, &settings.width, 1, WIDTH_MAXIMUM},
-        {"out", "FILE", "FILE.png: colour; FILE.exr: colour, depth and stencil", OPTION_TEXT, &settings.out,
-         0, 0},
-        {"frame", "N", "which frame, from 0; 0", OPTION_NUMBER, &settings.frame, 0, FRAME_MAXIMUM},
-        {"threads", "N", "rendering threads; one per core", OPTION_NUMBER, &settings.threads, 1,
-         THREADS_MAXIMUM},
-    };
-    struct operands operands = {.least = 1, .most = 1};
-    enum options_result result =
-        options_read(self, options, sizeof options / sizeof *options, NULL, count, arguments, &operands);
-    if (result != OPTIONS_GO)
-        return options_status(result);
-    if (!settings.out)
+    const struct settings *settings = data;
+    if (!settings->out)
         return tool_fail(self, "--out is missing, expected --out FILE.png or --out FILE.exr");
-    const struct picture_kind *kind = find_kind(settings.out);
+    const struct picture_kind *kind = find_kind(settings->out);
     if (!kind)
-        return tool_fail(self, "%s: unknown kind of picture, expected .png or .exr", settings.out);
+        return tool_fail(self, "%s: unknown kind of picture, expected .png or .exr", settings->out);
     unsigned engine;
-    if (choose_engine(self, settings.engine, settings.width, &engine))
+    if (choose_engine(self, settings->engine, settings->width, &engine))
         return STATUS_BAD;
-    return render(self, operands.value[0], &settings, engine, kind);
+    return render(self, operands->value[0], settings, engine, kind);
 }
+
+static const struct settings defaults = {.engine = "specialize"};
+
+static const struct option options[] = {
+    {"engine", "NAME", "engine (triptych list engines); specialize", OPTION_IS_WORD(struct settings, engine),
+     .words = triptych_engine_name},
+    {"width", "LANES", "lanes of the engine's variant", OPTION_IS_NUMBER(struct settings, width), .least = 1,
+     .most = WIDTH_MAXIMUM},
+    {"out", "FILE", "FILE.png: colour; FILE.exr: colour, depth and stencil",
+     OPTION_IS_FILE(struct settings, out), .extension = "png exr"},
+    {"frame", "N", "which frame, from 0; 0", OPTION_IS_NUMBER(struct settings, frame), .most = FRAME_MAXIMUM},
+    {"threads", "N", "rendering threads; one per core", OPTION_IS_NUMBER(struct settings, threads),
+     .least = 1, .most = THREADS_MAXIMUM},
+    {0},
+};
+
+static const struct operand operands[] = {
+    {"STREAM", "a draw stream", .kind = OPERAND_INPUT, .extension = "tri trib"},
+    {0},
+};
+
+const struct command command_render = {
+    .name = "render",
+    .summary = "draw a frame with one engine and write it as a picture",
+    .options = options,
+    .operands = operands,
+    .defaults = &defaults,
+    .settings_bytes = sizeof defaults,
+    .run = run,
+};

@@ -133,43 +133,50 @@ static const struct action {
     {"validate", validate},
 };
 
-static const struct action *find_action(const struct command *self, const char *name)
-{
-    char names[64] = "";
-    for (size_t i = 0; i < sizeof actions / sizeof *actions; i++) {
-        if (!strcmp(name, actions[i].name))
-            return &actions[i];
-        snprintf(names + strlen(names), sizeof names - strlen(names), "%s%s", i ? ", " : "", actions[i].name);
-    }
-    return tool_fail(self, "unknown action \"%s\", expected one of: %s", name, names), NULL;
-}
-
 static const char notes[] =
     "FILE is the text or the bytecode of a shader (docs/shaders.md).\n"
     "assemble      writes its tokens: little-endian to the file of --out, or as text\n"
     "disassemble   writes its text\n"
     "validate      checks that a device can run it, and reports its use of the model's limits";
 
-int command_shader(const struct command *self, int count, char **arguments)
+static int run(const struct command *self, void *data, const struct operands *operands)
 {
-    struct settings settings = {0};
-    const struct option options[] = {
-        {"out", "FILE", "where to write the result; standard output", OPTION_TEXT, &settings.output, 0, 0},
-        {"json", NULL, "the result as JSON", OPTION_FLAG, &settings.json, 0, 0},
-    };
-    struct operands operands = {.least = 2, .most = 2};
-    enum options_result result = options_read(self, options, 2, notes, count, arguments, &operands);
-    if (result != OPTIONS_GO)
-        return options_status(result);
-    const struct action *action = find_action(self, operands.value[0]);
+    struct settings *settings = data;
     struct shader *shader;
     struct error error = {""};
-    if (!action || tool_check_output(self, settings.output))
+    if (tool_check_output(self, settings->output))
         return STATUS_BAD;
-    settings.path = operands.value[1];
-    if (shader_load(settings.path, &shader, &error))
+    settings->path = operands->value[1];
+    if (shader_load(settings->path, &shader, &error))
         return tool_fail(self, "%s", error.text);
-    int status = action->run(self, &settings, shader);
+    int status = actions[operands->word].run(self, settings, shader);
     shader_free(shader);
     return status;
 }
+
+static const char *action_at(unsigned index)
+{
+    return index < sizeof actions / sizeof *actions ? actions[index].name : NULL;
+}
+
+static const struct option options[] = {
+    {"out", "FILE", "where to write the result; standard output", OPTION_IS_FILE(struct settings, output)},
+    {"json", NULL, "the result as JSON", OPTION_IS_FLAG(struct settings, json)},
+    {0},
+};
+
+static const struct operand operands[] = {
+    {"ACTION", "assemble, disassemble or validate", .kind = OPERAND_WORD, .words = action_at},
+    {"FILE", "the text or the bytecode of a shader", .kind = OPERAND_INPUT},
+    {0},
+};
+
+const struct command command_shader = {
+    .name = "shader",
+    .summary = "assemble, disassemble or validate a shader",
+    .options = options,
+    .operands = operands,
+    .notes = notes,
+    .settings_bytes = sizeof(struct settings),
+    .run = run,
+};

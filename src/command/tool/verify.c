@@ -34,6 +34,7 @@ struct configuration {
 };
 
 struct settings {
+    const char *engine_list, *thread_list, *frames_text, *json;
     struct choice engines, threads;
     const char *folder; /* for pictures of differences, or null */
     bool all_frames;
@@ -374,43 +375,67 @@ static const char notes[] =
     "the number\n"
     "of streams that differ. After SIGINT or SIGTERM it reports what it has drawn; the status is 130 or 143.";
 
-int command_verify(const struct command *self, int count, char **arguments)
+static int read_settings(const struct command *self, struct settings *settings)
 {
-    struct execution executions[CHOICE_CAPACITY] = {0};
-    struct settings settings = {.frames = FRAMES_DEFAULT, .executions = executions};
-    const char *engine_list = NULL, *thread_list = "1,2", *frames = NULL, *json = NULL;
-    const struct option options[] = {
-        {"engines", "LIST", "engines, separated by commas; all that can run here", OPTION_TEXT, &engine_list,
-         0, 0},
-        {"threads", "LIST", "numbers of threads; 1,2", OPTION_TEXT, &thread_list, 0, 0},
-        {"frames", "N|all", "number of frames, spread over the stream; 8", OPTION_TEXT, &frames, 0, 0},
-        {"shuffle", "SEED", "seed of random orders of batches and tiles in all but the reference; 0",
-         OPTION_NUMBER, &settings.shuffle, 0, INT32_MAX},
-        {"difference", "DIR", "folder for pictures of the differences", OPTION_TEXT, &settings.folder, 0, 0},
-        {"json", "FILE", "write the results", OPTION_TEXT, &json, 0, 0},
-    };
-    struct operands operands = {.least = 1, .most = ANY_NUMBER};
-    bool made, identical;
-    enum options_result result =
-        options_read(self, options, sizeof options / sizeof *options, notes, count, arguments, &operands);
-    if (result != OPTIONS_GO)
-        return options_status(result);
-    settings.all_frames = frames && !strcmp(frames, "all");
-    if (frames && !settings.all_frames && !option_read_number(frames, 1, FRAMES_MAXIMUM, &settings.frames))
+    const char *frames = settings->frames_text;
+    settings->all_frames = frames && !strcmp(frames, "all");
+    if (frames && !settings->all_frames && !option_read_number(frames, 1, FRAMES_MAXIMUM, &settings->frames))
         return tool_fail(self, "--frames is \"%s\", expected all or a number from 1 to %d", frames,
                          FRAMES_MAXIMUM);
-    if (choose_engines(self, engine_list, &settings.engines) ||
-        choose_threads(self, thread_list, &settings.threads) || tool_check_output(self, json) ||
-        tool_make_folder(self, settings.folder, &made))
+    if (choose_engines(self, settings->engine_list, &settings->engines) ||
+        choose_threads(self, settings->thread_list, &settings->threads) ||
+        tool_check_output(self, settings->json))
         return STATUS_BAD;
+    return STATUS_OK;
+}
 
-    settings.report = json ? cJSON_CreateArray() : NULL;
+static int run(const struct command *self, void *data, const struct operands *operands)
+{
+    struct settings *settings = data;
+    struct execution executions[CHOICE_CAPACITY] = {0};
+    bool made, identical;
+    if (read_settings(self, settings) || tool_make_folder(self, settings->folder, &made))
+        return STATUS_BAD;
+    settings->executions = executions;
+    settings->report = settings->json ? cJSON_CreateArray() : NULL;
     interrupt_defer();
-    int status = verify_all(self, &operands, &settings, &identical);
-    if (json && status != STATUS_BAD)
-        status = write_report(self, &settings, json, identical, status);
-    cJSON_Delete(settings.report);
+    int status = verify_all(self, operands, settings, &identical);
+    if (settings->json && status != STATUS_BAD)
+        status = write_report(self, settings, settings->json, identical, status);
+    cJSON_Delete(settings->report);
     if (made)
-        rmdir(settings.folder); /* succeeds only if nothing differed */
+        rmdir(settings->folder); /* succeeds only if nothing differed */
     return status;
 }
+
+static const struct settings defaults = {.frames = FRAMES_DEFAULT, .thread_list = "1,2"};
+
+static const struct option options[] = {
+    {"engines", "LIST", "engines, separated by commas; all that can run here",
+     OPTION_IS_LIST(struct settings, engine_list), .words = triptych_engine_name},
+    {"threads", "LIST", "numbers of threads; 1,2", OPTION_IS_LIST(struct settings, thread_list)},
+    {"frames", "N|all", "number of frames, spread over the stream; 8",
+     OPTION_IS_TEXT(struct settings, frames_text)},
+    {"shuffle", "SEED", "seed of random orders of batches and tiles in all but the reference; 0",
+     OPTION_IS_NUMBER(struct settings, shuffle), .most = INT32_MAX},
+    {"difference", "DIR", "folder for pictures of the differences",
+     OPTION_IS_FOLDER(struct settings, folder)},
+    {"json", "FILE", "write the results", OPTION_IS_FILE(struct settings, json), .extension = "json"},
+    {0},
+};
+
+static const struct operand operands[] = {
+    {"STREAM", "a draw stream", .kind = OPERAND_INPUT, .extension = "tri trib", .repeated = true},
+    {0},
+};
+
+const struct command command_verify = {
+    .name = "verify",
+    .summary = "check that all engines, widths and thread counts give the same bytes",
+    .options = options,
+    .operands = operands,
+    .notes = notes,
+    .defaults = &defaults,
+    .settings_bytes = sizeof defaults,
+    .run = run,
+};

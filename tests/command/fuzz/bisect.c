@@ -7,6 +7,7 @@
 #include "engines/specialize/passes/pass.h"
 #include "engines/stitch/plan.h"
 #include "command/support/tool.h"
+#include "command/tool/command_line.h"
 
 #include <fcntl.h>
 #include <stdlib.h>
@@ -434,7 +435,6 @@ static void the_report_begins_with_the_line(void)
 /* Runs the command without its output, and reads its report. */
 static void the_command_writes_a_report(void)
 {
-    static const struct command self = {"bisect", "STREAM", "", NULL};
     char folder[] = "/tmp/bisect-XXXXXX", stream[64], report[64], text[4096] = "";
     TEST_ASSERT_NOT_NULL(mkdtemp(folder));
     snprintf(stream, sizeof stream, "%s/case.tri", folder);
@@ -447,8 +447,9 @@ static void the_command_writes_a_report(void)
     dup2(nowhere, STDOUT_FILENO);
     plant.batch_op = IR_mul_x;
     plant.batch_becomes = IR_add_x;
-    char *arguments[] = {stream, "--engines", "emulate,batch", "--pixel", "7,20", "--json", report};
-    int status = command_bisect(&self, sizeof arguments / sizeof *arguments, arguments);
+    char *arguments[] = {"triptych", "bisect", stream,   "--engines", "emulate,batch",
+                         "--pixel",  "7,20",   "--json", report};
+    int status = command_line_run(sizeof arguments / sizeof *arguments, arguments);
     fflush(stdout);
     dup2(kept, STDOUT_FILENO);
     close(kept);

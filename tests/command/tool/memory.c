@@ -2,6 +2,7 @@
  * one line and exits with status 2. */
 #include "tests/support/system/sandbox.h"
 #include "command/support/tool.h"
+#include "command/tool/command_line.h"
 
 #include <errno.h>
 #include <stdio.h>
@@ -24,9 +25,9 @@ static char picture[] = "/tmp/triptych-memory-XXXXXX.png";
 
 static int run_render(char *engine)
 {
-    static const struct command self = {"render", "STREAM", "", command_render};
-    char *arguments[] = {"tests/data/streams/frames.tri", "--engine", engine, "--out", picture};
-    return command_render(&self, sizeof arguments / sizeof *arguments, arguments);
+    char *arguments[] = {"triptych", "render", "tests/data/streams/frames.tri", "--engine", engine,
+                         "--out",    picture};
+    return command_line_run(sizeof arguments / sizeof *arguments, arguments);
 }
 
 /* Runs the command with standard error in a file, and reads the file. */

@@ -1,6 +1,7 @@
 /* `triptych verify` finds planted differences: the linker wraps the functions that read a target (see the
  * Makefile), and the wrappers change one word of one picture. */
 #include "command/support/tool.h"
+#include "command/tool/command_line.h"
 #include "triptych.h"
 
 #include <unity.h>
@@ -73,10 +74,9 @@ static cJSON *report;
 
 static int verify_stream(char *stream)
 {
-    static const struct command self = {"verify", "STREAM...", "", command_verify};
-    char *arguments[] = {stream, "--engines",    "emulate", "--threads", "1,2",      "--frames",
-                         "all",  "--difference", folder,    "--json",    report_path};
-    int status = command_verify(&self, sizeof arguments / sizeof *arguments, arguments);
+    char *arguments[] = {"triptych", "verify", stream,         "--engines", "emulate", "--threads", "1,2",
+                         "--frames", "all",    "--difference", folder,      "--json",  report_path};
+    int status = command_line_run(sizeof arguments / sizeof *arguments, arguments);
     char text[16384] = "";
     FILE *file = fopen(report_path, "r");
     TEST_ASSERT_NOT_NULL(file);
