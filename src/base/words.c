@@ -8,20 +8,24 @@
 
 enum { WORD_MAXIMUM = 64, PREFIX_MINIMUM = 3 };
 
-static const char *array_at(const void *list, unsigned index)
+const char *words_row(const struct words *words, unsigned index)
 {
-    return ((const char *const *)list)[index];
+    const char *rows = words->list;
+    return index < words->count ? *(const char *const *)(const void *)(rows + index * words->stride) : NULL;
 }
 
 struct words words_of_array(const char *const *array)
 {
-    return (struct words){array_at, array};
+    unsigned count = 0;
+    while (array[count])
+        count++;
+    return (struct words){words_row, array, count, sizeof *array};
 }
 
 const char *words_find(struct words words, const char *given, size_t length, unsigned *index)
 {
     const char *word;
-    for (unsigned i = 0; (word = words.at(words.list, i)); i++)
+    for (unsigned i = 0; (word = words.at(&words, i)); i++)
         if (*word && strlen(word) == length && !memcmp(word, given, length))
             return *index = i, word;
     return NULL;
@@ -65,7 +69,7 @@ static unsigned distance(const char *a, size_t a_length, const char *b, size_t b
 static unsigned distance_if_similar(const char *word, const char *given, size_t length)
 {
     size_t longer = strlen(word);
-    if (longer > WORD_MAXIMUM)
+    if (longer > WORD_MAXIMUM || (longer == length && !memcmp(word, given, length)))
         return WORD_MAXIMUM;
     if (length >= PREFIX_MINIMUM && begins_with(word, given, length))
         return 1;
@@ -84,7 +88,7 @@ const char *words_nearest(struct words words, const char *given, size_t length)
     unsigned least = WORD_MAXIMUM;
     if (length > WORD_MAXIMUM)
         return NULL;
-    for (unsigned i = 0; (word = words.at(words.list, i)); i++) {
+    for (unsigned i = 0; (word = words.at(&words, i)); i++) {
         unsigned apart = *word ? distance_if_similar(word, given, length) : WORD_MAXIMUM;
         if (apart < least) {
             least = apart;
@@ -102,7 +106,7 @@ void words_join(struct words words, char *text, size_t capacity)
     const char *word;
     size_t length = 0;
     *text = 0;
-    for (unsigned i = 0; (word = words.at(words.list, i)); i++) {
+    for (unsigned i = 0; (word = words.at(&words, i)); i++) {
         size_t needed = strlen(word) + 2;
         if (!*word)
             continue;

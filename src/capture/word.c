@@ -2,7 +2,6 @@
 
 #include "capture/call.h"
 
-#include <stdio.h>
 #include <string.h>
 
 static const struct row {
@@ -49,10 +48,12 @@ int word_value(enum word_list list, const char *text, size_t length, unsigned *v
     return -1;
 }
 
-void word_choices(enum word_list list, char *out, size_t size)
+static const char *choice_at(const struct words *words, unsigned index)
 {
-    size_t at = 0;
-    for (int i = 0; i < ROWS; i++)
-        if (rows[i].list == list && at < size)
-            at += (size_t)snprintf(out + at, size - at, "%s%s", at ? ", " : "", rows[i].word);
+    return index >= ROWS ? NULL : rows[index].list == words->count ? rows[index].word : "";
+}
+
+struct words word_list(enum word_list list)
+{
+    return (struct words){.at = choice_at, .count = list};
 }

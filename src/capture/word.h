@@ -3,6 +3,8 @@
 #ifndef CAPTURE_WORD_H
 #define CAPTURE_WORD_H
 
+#include "base/words.h"
+
 #include <stddef.h>
 
 enum word_list {
@@ -30,7 +32,7 @@ const char *word_text(enum word_list list, unsigned value);
 /* Finds the word; returns -1 if the list does not have it. */
 int word_value(enum word_list list, const char *text, size_t length, unsigned *value);
 
-/* Writes the words of a list: "position, normal, ..." */
-void word_choices(enum word_list list, char *out, size_t size);
+/* The words of a list, for reasons. */
+struct words word_list(enum word_list list);
 
 #endif

@@ -1,4 +1,5 @@
 #include "debug/debug.h"
+#include "base/words.h"
 
 #include <stdio.h>
 #include <stdlib.h>
@@ -22,10 +23,11 @@ static const struct debug_interface *const interfaces[DEBUG_LISTENERS] = {
 
 static int unknown_word(const char *word, int length, struct error *error)
 {
-    char all[128] = "";
-    for (int i = 0; i < DEBUG_LISTENERS; i++)
-        snprintf(all + strlen(all), sizeof all - strlen(all), "%s%s", i ? ", " : "", words[i]);
-    return error_set(error, "debug is \"%.*s\", expected one or more of: %s", length, word, all);
+    const struct words listeners = WORDS_OF_ROWS(words);
+    char all[128];
+    words_join(listeners, all, sizeof all);
+    error_set(error, "debug is \"%.*s\", expected one or more of: %s", length, word, all);
+    return words_suggest_in(listeners, word, (size_t)length, error);
 }
 
 int debug_read(const char *list, unsigned *listeners, struct error *error)

@@ -1,4 +1,5 @@
 #include "machine/cpu.h"
+#include "base/words.h"
 
 #include <cpuid.h>
 #include <pthread.h>
@@ -74,14 +75,17 @@ static unsigned find_feature(const char *name, size_t length)
     return i;
 }
 
-static int refuse_mask(const char *mask, struct error *error)
+/* The words have no sign, in `features` or in the suggestion. */
+static int refuse_mask(const char *mask, const char *wrong, struct error *error)
 {
     char names[ERROR_CAPACITY] = "";
     for (unsigned i = 0; i < CPU_FEATURE_COUNT; i++)
         snprintf(names + strlen(names), sizeof names - strlen(names), "%s-%s", i ? ", " : "",
                  features[i].name);
-    return error_set(error, "TRIPTYCH_CPU is \"%.80s\", expected what to hide, separated by commas, of %s",
-                     mask, names);
+    error_set(error, "TRIPTYCH_CPU is \"%.80s\", expected what to hide, separated by commas, of %s", mask,
+              names);
+    wrong += *wrong == '-';
+    return words_suggest_in(WORDS_OF_ROWS(features), wrong, strcspn(wrong, ","), error);
 }
 
 int cpu_hide(struct cpu *cpu, const char *mask, struct error *error)
@@ -91,7 +95,7 @@ int cpu_hide(struct cpu *cpu, const char *mask, struct error *error)
         size_t length = strcspn(at, ",");
         unsigned feature = at[0] == '-' ? find_feature(at + 1, length - 1) : CPU_FEATURE_COUNT;
         if (feature == CPU_FEATURE_COUNT || (at[length] && !at[length + 1]))
-            return refuse_mask(mask, error);
+            return refuse_mask(mask, at, error);
         hide[feature] = true;
         at += length + (at[length] == ',');
     }

@@ -41,6 +41,7 @@ static void a_word_that_is_not_similar_is_not_suggested(void)
     TEST_ASSERT_NULL(nearest("x"));
     TEST_ASSERT_NULL(nearest(""));
     TEST_ASSERT_NULL(nearest("te"));
+    TEST_ASSERT_NULL(nearest("texture"));
 }
 
 static void the_first_of_equally_near_words_is_suggested(void)

@@ -28,7 +28,7 @@ int lex_fail(struct lexer *lexer, const struct token *token, const char *reason,
     return -1;
 }
 
-int lex_expected(struct lexer *lexer, const char *expected, ...)
+static void expected_in(struct lexer *lexer, const char *expected, va_list arguments)
 {
     const struct token *token = &lexer->token;
     char quoted[POSITION_QUOTED];
@@ -36,10 +36,27 @@ int lex_expected(struct lexer *lexer, const char *expected, ...)
                         : token->type == TOKEN_END
                             ? "the end of the file"
                             : position_quote(token->text, token->length, POSITION_SHOWN, quoted);
+    position_expected(lexer->error, position_of(lexer, token), found, expected, arguments);
+}
+
+int lex_expected(struct lexer *lexer, const char *expected, ...)
+{
     va_list arguments;
     va_start(arguments, expected);
-    position_expected(lexer->error, position_of(lexer, token), found, expected, arguments);
+    expected_in(lexer, expected, arguments);
     va_end(arguments);
+    return -1;
+}
+
+int lex_expected_word(struct lexer *lexer, struct words words, const char *expected, ...)
+{
+    const struct token *token = &lexer->token;
+    va_list arguments;
+    va_start(arguments, expected);
+    expected_in(lexer, expected, arguments);
+    va_end(arguments);
+    if (token->type == TOKEN_WORD)
+        words_suggest_in(words, token->text, token->length, lexer->error);
     return -1;
 }
 

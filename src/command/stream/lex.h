@@ -7,6 +7,7 @@
 #define COMMAND_STREAM_LEX_H
 
 #include "base/error.h"
+#include "base/words.h"
 
 #include <stddef.h>
 #include <stdint.h>
@@ -40,6 +41,10 @@ int lex_next(struct lexer *lexer);
 
 /* Sets "PATH:LINE:COLUMN: found TOKEN, expected EXPECTED" for the current token. Returns -1. */
 int lex_expected(struct lexer *lexer, const char *expected, ...) __attribute__((format(printf, 2, 3)));
+
+/* The same for a word that is not in a list: adds the nearest word of the list to the reason. */
+int lex_expected_word(struct lexer *lexer, struct words words, const char *expected, ...)
+    __attribute__((format(printf, 3, 4)));
 
 /* Sets "PATH:LINE:COLUMN: REASON" for a token. Returns -1. */
 int lex_fail(struct lexer *lexer, const struct token *place, const char *reason, ...)

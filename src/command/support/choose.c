@@ -8,13 +8,13 @@
 
 enum { NAME_CAPACITY = 64, THREADS_MAXIMUM = 256 };
 
-static const char *engine_at_index(const void *list, unsigned index)
+static const char *engine_at_index(const struct words *words, unsigned index)
 {
-    (void)list;
+    (void)words;
     return triptych_engine_name(index);
 }
 
-static const struct words engine_names = {engine_at_index, NULL};
+static const struct words engine_names = {.at = engine_at_index};
 
 static bool find_engine(const char *name, unsigned *index)
 {

@@ -71,28 +71,28 @@ void options_print_help(const struct command *self, FILE *out)
 
 /* --- Words ---------------------------------------------------------------------------------------------- */
 
-static const char *option_name_at(const void *list, unsigned index)
+static const char *option_name_at(const struct words *words, unsigned index)
 {
     static const char help[] = "help";
-    const struct option *options = list;
+    const struct option *options = words->list;
     unsigned i = 0;
     while (i < index && options && options[i].name)
         i++;
     return options && options[i].name ? options[i].name : i == index ? help : NULL;
 }
 
-static const char *word_at(const void *list, unsigned index)
+static const char *word_at(const struct words *words, unsigned index)
 {
-    option_words *const *words = list;
-    return (*words)(index);
+    option_words *const *at = words->list;
+    return (*at)(index);
 }
 
 static int unknown_option(const struct command *self, const char *given)
 {
-    struct words names = {option_name_at, self->options};
+    struct words names = {option_name_at, .list = self->options};
     char list[512] = "";
     const char *name;
-    for (unsigned i = 0; (name = names.at(names.list, i)); i++)
+    for (unsigned i = 0; (name = names.at(&names, i)); i++)
         snprintf(list + strlen(list), sizeof list - strlen(list), "%s--%s", i ? ", " : "", name);
     const char *bare = given + strspn(given, "-"), *near = words_nearest(names, bare, strcspn(bare, "="));
     return tool_fail(self, "unknown option %s, expected one of: %s%s%s%s", given, list,
@@ -103,7 +103,7 @@ static int unknown_option(const struct command *self, const char *given)
 static int find_word(const struct command *self, const char *what, option_words *words, const char *given,
                      unsigned *index)
 {
-    struct words list = {word_at, &words};
+    struct words list = {word_at, .list = &words};
     return words_find(list, given, strlen(given), index) ? STATUS_OK
                                                          : tool_fail_word(self, what, given, list);
 }

@@ -30,13 +30,25 @@ int parse_new_name(struct parser *parser, enum resource_type type, struct resour
     return lex_next(&parser->lex);
 }
 
+/* The names of resources of some types, a mask of 1 << type. */
+static const char *name_choice(const struct words *words, unsigned index)
+{
+    const struct stream *stream = words->list;
+    if (index >= stream->resource_count)
+        return NULL;
+    const struct resource *resource = stream->resources + index;
+    return words->count >> resource->type & 1 ? resource->name : "";
+}
+
 int parse_name(struct parser *parser, unsigned types, const char *what, uint32_t *resource)
 {
     const struct token *token = &parser->lex.token;
     uint32_t number =
         is_name(token) ? stream_build_find(&parser->build, token->text, token->length) : NO_RESOURCE;
     if (number == NO_RESOURCE || !(types >> parser->stream->resources[number].type & 1))
-        return lex_expected(&parser->lex, "the name of %s defined before", what);
+        return lex_expected_word(&parser->lex,
+                                 (struct words){.at = name_choice, .list = parser->stream, .count = types},
+                                 "the name of %s defined before", what);
     *resource = number;
     return lex_next(&parser->lex);
 }
@@ -107,18 +119,26 @@ static const char *call_line_word(const struct parser *parser, unsigned type, un
     return i < STREAM_WORDS ? words[i] : NULL;
 }
 
+/* The words that begin lines here: STREAM_WORDS places for each type of calls, then the definitions. */
+static const char *line_choice(const struct words *words, unsigned index)
+{
+    const struct parser *parser = words->list;
+    unsigned type = index / STREAM_WORDS, definition = index - CALL_TYPES * STREAM_WORDS;
+    if (type >= CALL_TYPES)
+        return definition >= DEFINITIONS                             ? NULL
+               : allows_definition(parser, definitions + definition) ? definitions[definition].word
+                                                                     : "";
+    const char *word = call_line_word(parser, type, index % STREAM_WORDS);
+    return word ? word : "";
+}
+
 static int expect_line(struct parser *parser)
 {
-    char words[1024] = "";
-    size_t at = 0;
-    const char *word;
-    for (unsigned type = 0; type < CALL_TYPES; type++)
-        for (unsigned i = 0; (word = call_line_word(parser, type, i)); i++)
-            at += (size_t)snprintf(words + at, sizeof words - at, "%s%s", at ? ", " : "", word);
-    for (int i = 0; i < DEFINITIONS; i++)
-        if (allows_definition(parser, &definitions[i]))
-            at += (size_t)snprintf(words + at, sizeof words - at, ", %s", definitions[i].word);
-    return lex_expected(&parser->lex, "a call%s: %s", is_inside(parser) ? " of a sequence" : "", words);
+    struct words words = {.at = line_choice, .list = parser};
+    char choices[1024];
+    words_join(words, choices, sizeof choices);
+    return lex_expected_word(&parser->lex, words, "a call%s: %s", is_inside(parser) ? " of a sequence" : "",
+                             choices);
 }
 
 int parse_add_call(struct parser *parser, const struct call *call, const struct token *place)

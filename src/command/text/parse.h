@@ -17,6 +17,9 @@ struct parser {
 /* Reads a word of a list. `what` names it in the reason. */
 int parse_word(struct parser *parser, enum word_list list, const char *what, unsigned *value);
 
+/* Reports that `what`, the name of a format with that role or with any (0), was expected. Returns -1. */
+int parse_expect_format(struct parser *parser, unsigned role, const char *what);
+
 /* A word followed by numbers, at most once in its call. */
 struct parse_field {
     const char *word;

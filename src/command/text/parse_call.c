@@ -16,8 +16,8 @@ int parse_word(struct parser *parser, enum word_list list, const char *what, uns
     if (token->type == TOKEN_WORD && !word_value(list, token->text, token->length, value))
         return lex_next(&parser->lex);
     char choices[384];
-    word_choices(list, choices, sizeof choices);
-    return lex_expected(&parser->lex, "%s: %s", what, choices);
+    words_join(word_list(list), choices, sizeof choices);
+    return lex_expected_word(&parser->lex, word_list(list), "%s: %s", what, choices);
 }
 
 int parse_integer(struct parser *parser, const char *what, int64_t high, uint32_t *value)
@@ -32,6 +32,7 @@ int parse_integer(struct parser *parser, const char *what, int64_t high, uint32_
 int parse_fields(struct parser *parser, struct parse_field *fields, size_t count)
 {
     struct lexer *lex = &parser->lex;
+    const struct words words = {words_row, fields, (unsigned)count, sizeof *fields};
     while (lex->token.type != TOKEN_LINE_END && lex->token.type != TOKEN_END) {
         char choices[128] = "";
         size_t at = 0, i = 0;
@@ -41,7 +42,7 @@ int parse_fields(struct parser *parser, struct parse_field *fields, size_t count
             if (!fields[j].given)
                 at += (size_t)snprintf(choices + at, sizeof choices - at, "%s, ", fields[j].word);
         if (i == count)
-            return lex_expected(lex, "%sor the end of the line", choices);
+            return lex_expected_word(lex, words, "%sor the end of the line", choices);
         fields[i].given = true;
         if (lex_next(lex) || lex_numbers(lex, fields[i].word, fields[i].numbers, fields[i].count))
             return -1;
@@ -50,6 +51,18 @@ int parse_fields(struct parser *parser, struct parse_field *fields, size_t count
 }
 
 /* --- Calls ---------------------------------------------------------------------------------------------- */
+
+static const char *format_choice(const struct words *words, unsigned index)
+{
+    const struct format *format = format_at(index);
+    return !format ? NULL : (format->roles & words->count) == words->count ? format->name : "";
+}
+
+int parse_expect_format(struct parser *parser, unsigned role, const char *what)
+{
+    struct words formats = {.at = format_choice, .count = role};
+    return lex_expected_word(&parser->lex, formats, "%s", what);
+}
 
 static int parse_depth_format(struct parser *parser, struct triptych_target_description *target)
 {
@@ -72,7 +85,7 @@ static int parse_color_formats(struct parser *parser, struct triptych_target_des
         if (!format && t)
             return 0;
         if (!format || !(format->roles & ROLE_TARGET))
-            return lex_expected(lex, "the name of a format that can be a target");
+            return parse_expect_format(parser, ROLE_TARGET, "the name of a format that can be a target");
         target->color_format[t] = (enum triptych_surface_format)format->number;
         if (lex_next(lex))
             return -1;
@@ -289,7 +302,8 @@ int parse_bind(struct parser *parser, struct call *call, unsigned word)
             call->type = rows[i].type;
             return lex_next(&parser->lex) ? -1 : rows[i].parse(parser, call);
         }
-    return lex_expected(&parser->lex, "texture, vertices, indices, element or stream");
+    return lex_expected_word(&parser->lex, WORDS_OF_ROWS(rows),
+                             "texture, vertices, indices, element or stream");
 }
 
 /* All values are read as numbers. The stencil must be an integer. */

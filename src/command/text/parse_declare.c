@@ -13,15 +13,20 @@ static int parse_format(struct parser *parser, const char *text, size_t length, 
         *format = (enum triptych_format)type;
         return 0;
     }
-    word_choices(WORDS_FORMAT, choices, sizeof choices);
-    return lex_expected(&parser->lex, "a format: %s", choices);
+    words_join(word_list(WORDS_FORMAT), choices, sizeof choices);
+    lex_expected(&parser->lex, "a format: %s", choices);
+    return words_suggest_in(word_list(WORDS_FORMAT), text, length, parser->lex.error);
 }
 
 static int expect_attribute(struct parser *parser)
 {
+    const struct token *token = &parser->lex.token;
+    const char *colon = memchr(token->text, ':', token->length);
     char choices[384];
-    word_choices(WORDS_ATTRIBUTE, choices, sizeof choices);
-    return lex_expected(&parser->lex, "ATTRIBUTE:FORMAT with %s", choices);
+    words_join(word_list(WORDS_ATTRIBUTE), choices, sizeof choices);
+    lex_expected(&parser->lex, "ATTRIBUTE:FORMAT with %s", choices);
+    return words_suggest_in(word_list(WORDS_ATTRIBUTE), token->text,
+                            colon ? (size_t)(colon - token->text) : token->length, parser->lex.error);
 }
 
 int parse_attribute(struct parser *parser, size_t length, unsigned *element, enum triptych_format *format)
@@ -151,7 +156,8 @@ int parse_fvf(struct parser *parser, struct call *call, unsigned word)
         while (i < FVF_PARTS && !lex_is(lex, fvf_parts[i].word))
             i++;
         if (i == FVF_PARTS)
-            return lex_expected(lex, "parts of a vertex format: xyz, normal, diffuse, tex1 and the like");
+            return lex_expected_word(lex, WORDS_OF_ROWS(fvf_parts),
+                                     "parts of a vertex format: xyz, normal, diffuse, tex1 and the like");
         if (given & fvf_parts[i].mask)
             return lex_expected(lex, "one part of its kind");
         given |= fvf_parts[i].mask;

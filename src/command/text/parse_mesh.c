@@ -107,7 +107,8 @@ static int parse_options(struct parser *parser, struct mesh_options *out)
                 at += (size_t)snprintf(choices + at, sizeof choices - at, "%s%s", at ? ", " : "",
                                        options[j].word);
         if (i == OPTIONS)
-            return lex_expected(lex, "%s%sthe end of the line", choices, at ? ", or " : "");
+            return lex_expected_word(lex, WORDS_OF_ROWS(options), "%s%sthe end of the line", choices,
+                                     at ? ", or " : "");
         left &= ~(1u << i);
         if (lex_next(lex) || options[i].parse(parser, out))
             return -1;

@@ -10,27 +10,40 @@
 
 /* --- States --------------------------------------------------------------------------------------------- */
 
+static const char *state_choice(const struct words *words, unsigned index)
+{
+    const struct triptych_state_row *state =
+        triptych_state_at((enum triptych_state_table)words->count, index);
+    return state ? state->name : NULL;
+}
+
 static int parse_row(struct parser *parser, enum triptych_state_table table, uint32_t *row)
 {
     const struct triptych_state_row *state;
     for (*row = 0; (state = triptych_state_at(table, *row)); ++*row)
         if (lex_is(&parser->lex, state->name))
             return lex_next(&parser->lex);
+    struct words states = {.at = state_choice, .count = table};
     if (table == TRIPTYCH_RENDER_STATES)
-        return lex_expected(&parser->lex, "the name of a state");
-    return lex_expected(&parser->lex, "the name of a %s state", triptych_table_name(table));
+        return lex_expected_word(&parser->lex, states, "the name of a state");
+    return lex_expected_word(&parser->lex, states, "the name of a %s state", triptych_table_name(table));
+}
+
+static const char *value_choice(const struct words *words, unsigned index)
+{
+    const struct triptych_state_row *state = words->list;
+    const struct triptych_value *value = triptych_value_at(state->kind, index);
+    return !value ? NULL : value->support == TRIPTYCH_SUPPORT_YES ? value->word : "";
 }
 
 /* Reports the words of a state that fit into the reason. */
-static int expect_state_word(struct parser *parser, const struct triptych_state_row *state)
+static int expect_value(struct parser *parser, const struct triptych_state_row *state)
 {
-    const struct triptych_value *value;
-    char choices[384] = "";
-    size_t at = 0;
-    for (unsigned i = 0; (value = triptych_value_at(state->kind, i)) && at < sizeof choices; i++)
-        if (value->support == TRIPTYCH_SUPPORT_YES)
-            at += (size_t)snprintf(choices + at, sizeof choices - at, "%s%s", at ? ", " : "", value->word);
-    return lex_expected(&parser->lex, "a value of %s: %s", state->name, at ? choices : "a number");
+    struct words values = {.at = value_choice, .list = state};
+    char choices[384];
+    words_join(values, choices, sizeof choices);
+    return lex_expected_word(&parser->lex, values, "a value of %s: %s", state->name,
+                             *choices ? choices : "a number");
 }
 
 static int parse_real(struct parser *parser, const char *what, uint32_t *value)
@@ -51,7 +64,7 @@ static int parse_value(struct parser *parser, const struct triptych_state_row *s
     if (state->kind->notation == TRIPTYCH_NOTATION_REAL)
         return parse_real(parser, state->name, value);
     if (lex->token.type != TOKEN_WORD || lex->token.length > LIMIT_NAME_BYTES)
-        return expect_state_word(parser, state);
+        return expect_value(parser, state);
     memcpy(word, lex->token.text, lex->token.length);
     word[lex->token.length] = 0;
     if (!triptych_value_number(state->kind, word, value))
@@ -60,7 +73,7 @@ static int parse_value(struct parser *parser, const struct triptych_state_row *s
         return lex_color(lex, state->name, value);
     if (word[0] >= '0' && word[0] <= '9')
         return parse_integer(parser, state->name, UINT32_MAX, value);
-    return expect_state_word(parser, state);
+    return expect_value(parser, state);
 }
 
 /* The words are the names of the tables, in their order. */
@@ -91,6 +104,13 @@ int parse_convention(struct parser *parser, struct call *call, unsigned word)
 
 /* --- Transforms ----------------------------------------------------------------------------------------- */
 
+static const char *operation_choice(const struct words *words, unsigned index)
+{
+    const struct transform_operation *operation = transform_operation(index);
+    (void)words;
+    return operation ? operation->word : NULL;
+}
+
 int parse_operation(struct parser *parser, double made[4][4])
 {
     struct lexer *lex = &parser->lex;
@@ -101,8 +121,9 @@ int parse_operation(struct parser *parser, double made[4][4])
     while ((operation = transform_operation(i)) && !lex_is(lex, operation->word))
         i++;
     if (!operation)
-        return lex_expected(
-            lex, "identity, matrix, translate, scale, rotate, lookat, perspective or orthographic");
+        return lex_expected_word(
+            lex, (struct words){.at = operation_choice},
+            "identity, matrix, translate, scale, rotate, lookat, perspective or orthographic");
     if (lex_next(lex))
         return -1;
     for (size_t a = 0; a < operation->count; a++)
@@ -302,7 +323,7 @@ int parse_light(struct parser *parser, struct call *call, unsigned word)
             return lex_next(lex) ? -1 : parse_chosen_fields(parser, fields, types[type].fields);
         }
     if (!lex_is(lex, "on") && !lex_is(lex, "off"))
-        return lex_expected(lex, "directional, point, spot, on or off");
+        return lex_expected_word(lex, WORDS_OF_ROWS(types), "directional, point, spot, on or off");
     call->type = CALL_ENABLE_LIGHT;
     call->light = (struct call_light){0};
     call->enable_light.index = index;

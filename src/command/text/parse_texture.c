@@ -218,7 +218,7 @@ static int assemble_source(struct parser *parser, struct resource *resource,
         if (lex_is(&parser->lex, sources[i].word))
             source = &sources[i];
     if (!source)
-        return lex_expected(&parser->lex, "the contents: %s", source_words);
+        return lex_expected_word(&parser->lex, WORDS_OF_ROWS(sources), "the contents: %s", source_words);
     if (source->encodes && shape->format->coding != CODING_PACKED)
         return lex_fail(&parser->lex, &place, "found '%s', expected empty or bytes for format %s",
                         source->word, shape->format->name);
@@ -286,7 +286,7 @@ static int parse_typed(struct parser *parser, struct resource *resource)
     const struct format *format =
         lex->token.type == TOKEN_WORD ? format_named(lex->token.text, lex->token.length) : NULL;
     if (!format)
-        return lex_expected(lex, "the name of a format of Direct3D 9, without D3DFMT_");
+        return parse_expect_format(parser, 0, "the name of a format of Direct3D 9, without D3DFMT_");
     resource->texture.type = (enum triptych_texture_type)type;
     resource->texture.format = (enum triptych_surface_format)format->number;
     if (lex_next(lex) || parse_sides(parser, &resource->texture) || parse_levels(parser, resource))
@@ -311,7 +311,8 @@ int parse_texture(struct parser *parser)
         !word_value(WORDS_TEXTURETYPE, lex->token.text, lex->token.length, &type))
         return parse_typed(parser, resource);
     if (lex->token.type != TOKEN_WORD || lex->token.text[0] > '9')
-        return lex_expected(lex, "file \"PATH\", WIDTH HEIGHT { color... }, 2d, cube or volume");
+        return lex_expected_word(lex, word_list(WORDS_TEXTURETYPE),
+                                 "file \"PATH\", WIDTH HEIGHT { color... }, 2d, cube or volume");
     return parse_image(parser, resource);
 }
 

@@ -48,11 +48,11 @@ void command_line_print_help(FILE *out)
     fprintf(out, "\n%s\n", command_line_notes);
 }
 
-static const char *word_at(const void *list, unsigned index)
+static const char *word_at(const struct words *words, unsigned index)
 {
     static const char *const options[] = {"--help", "--version"};
     unsigned i = index - COMMAND_COUNT;
-    (void)list;
+    (void)words;
     return index < COMMAND_COUNT                  ? commands[index]->name
            : i < sizeof options / sizeof *options ? options[i]
                                                   : NULL;
@@ -94,7 +94,7 @@ static int run(int count, char **arguments)
         return puts("triptych " TRIPTYCH_VERSION), STATUS_OK;
     if (cpu_native_error())
         return tool_fail(&program, "%s", cpu_native_error());
-    struct words words = {word_at, NULL};
+    struct words words = {.at = word_at};
     if (!words_find(words, first, strlen(first), &index))
         return tool_fail_word(&program, first[0] == '-' ? "unknown option" : "unknown command", first, words);
     return run_command(commands[index], count - 2, arguments + 2);

@@ -1,4 +1,5 @@
 /* Prints the steps of building an external routine: its key, its text, its compiled code. */
+#include "base/words.h"
 #include "machine/disassemble.h"
 #include "engines/external/external.h"
 
@@ -17,9 +18,11 @@ static int read_show(const char *show, unsigned *wanted, struct error *error)
         size_t length = strcspn(show, ","), i = 0, count = sizeof words / sizeof *words;
         while (i < count && (strlen(words[i].name) != length || strncmp(words[i].name, show, length)))
             i++;
-        if (i == count)
-            return error_set(error, "--show has \"%.*s\", expected key, vector, text, asm or all",
-                             (int)length, show);
+        if (i == count) {
+            error_set(error, "--show has \"%.*s\", expected key, vector, text, asm or all", (int)length,
+                      show);
+            return words_suggest_in(WORDS_OF_ROWS(words), show, length, error);
+        }
         *wanted |= words[i].what;
         show += length;
         if (!*show)

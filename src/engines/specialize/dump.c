@@ -1,6 +1,7 @@
 /* Prints the phases of a build: the key, the recording, the program after each pass that changed it, the live
  * intervals, and the machine code with the line of the specification of each instruction. */
 #include "base/bits.h"
+#include "base/words.h"
 #include "machine/code.h"
 #include "machine/disassemble.h"
 #include "engines/specialize/build.h"
@@ -28,25 +29,30 @@ static bool shows(const char *show, const char *name)
     return false;
 }
 
-static bool is_phase(const char *word, size_t length)
+const char *specialize_phase_name(unsigned index)
 {
     static const char *const phases[] = {"all", "key", "record", "intervals", "asm"};
-    for (size_t i = 0; i < sizeof phases / sizeof phases[0]; i++)
-        if (strlen(phases[i]) == length && !memcmp(phases[i], word, length))
-            return true;
-    for (unsigned p = 0; p < PASS_COUNT; p++)
-        if (strlen(pass_name(p)) == length && !memcmp(pass_name(p), word, length))
-            return true;
-    return false;
+    const unsigned count = sizeof phases / sizeof *phases;
+    return index < count ? phases[index] : index - count < PASS_COUNT ? pass_name(index - count) : NULL;
+}
+
+static const char *phase_choice(const struct words *words, unsigned index)
+{
+    (void)words;
+    return specialize_phase_name(index);
 }
 
 static int check_words(const char *show, struct error *error)
 {
+    const struct words phases = {.at = phase_choice};
     for (const char *at = show; *at; at += strcspn(at, ","), at += *at == ',') {
         size_t length = strcspn(at, ",");
-        if (!is_phase(at, length))
-            return error_set(error, "found `%.*s`, expected key, record, a pass, intervals, asm or all",
-                             (int)length, at);
+        unsigned index;
+        if (words_find(phases, at, length, &index))
+            continue;
+        error_set(error, "found `%.*s`, expected key, record, a pass, intervals, asm or all", (int)length,
+                  at);
+        return words_suggest_in(phases, at, length, error);
     }
     return 0;
 }

@@ -14,6 +14,9 @@
 /* Returns true if an engine is one of these. */
 bool specialize_is_engine(const struct engine *engine);
 
+/* The words of specialize_dump: the word of that index, null after the last. */
+const char *specialize_phase_name(unsigned index);
+
 /* Builds a routine with one of these engines and prints the phases that `show` lists, separated by commas:
  * key, record, a pass's name (pass_name), intervals, asm; or all. Returns 0, or -1 with the reason. */
 int specialize_dump(const struct engine *engine, enum unit unit, const union key *key, const char *show,

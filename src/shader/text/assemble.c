@@ -30,7 +30,9 @@ static int read_version(struct assembler *assembler)
         if (scan_piece_is((struct scan_piece){name, strlen(name)}, shader_models[i].name))
             assembler->shader->model = &shader_models[i];
     if (!assembler->shader->model)
-        return scan_expected(scanner, "a version, vs_1_1 to vs_3_0 or ps_1_1 to ps_3_0");
+        return scan_expected_word(scanner, WORDS_OF_ROWS(shader_models),
+                                  (struct scan_piece){place.text, (size_t)(end - place.text)},
+                                  "a version, vs_1_1 to vs_3_0 or ps_1_1 to ps_3_0");
     while (scanner->token.text < end)
         if (scan_next(scanner))
             return -1;
@@ -54,6 +56,14 @@ static enum shader_opcode find_operation(struct scan_piece name, bool comparison
         *elsewhere = true;
     }
     return SHADER_COUNT;
+}
+
+/* The instructions of a model. */
+static const char *operation_choice(const struct words *words, unsigned index)
+{
+    return index >= SHADER_COUNT                                       ? NULL
+           : shader_slots(&shader_operations[index], words->list) >= 0 ? shader_operations[index].name
+                                                                       : "";
 }
 
 /* The number of the word that the piece begins with; -1 if none. The word must be followed by digits only. */
@@ -105,34 +115,62 @@ static int read_declaration(struct assembler *assembler, struct scan_piece *rest
     return 0;
 }
 
-static int read_results(struct assembler *assembler, struct scan_piece rest, struct shader_operand *result)
+static const struct result_modifier {
+    const char *name;
+    uint8_t modifier;
+    int8_t shift;
+} result_modifiers[] = {
+    {"sat", RESULT_SATURATE, 0},
+    {"pp", RESULT_PARTIAL, 0},
+    {"centroid", RESULT_CENTROID, 0},
+    {"x2", 0, 1},
+    {"x4", 0, 2},
+    {"x8", 0, 3},
+    {"d2", 0, -1},
+    {"d4", 0, -2},
+    {"d8", 0, -3},
+};
+
+enum { RESULT_MODIFIERS = sizeof result_modifiers / sizeof *result_modifiers };
+
+/* Words that may follow dcl: modifiers, then kinds, then usages. */
+static const char *declaration_choice(const struct words *words, unsigned index)
 {
-    static const struct {
-        const char *name;
-        uint8_t modifier;
-        int8_t shift;
-    } rows[] = {
-        {"sat", RESULT_SATURATE, 0},
-        {"pp", RESULT_PARTIAL, 0},
-        {"centroid", RESULT_CENTROID, 0},
-        {"x2", 0, 1},
-        {"x4", 0, 2},
-        {"x8", 0, 3},
-        {"d2", 0, -1},
-        {"d4", 0, -2},
-        {"d8", 0, -3},
-    };
+    (void)words;
+    if (index < RESULT_MODIFIERS)
+        return result_modifiers[index].name;
+    index -= RESULT_MODIFIERS;
+    for (const struct shader_word *kind = shader_kinds; kind->name; kind++, index--)
+        if (!index)
+            return kind->name;
+    for (const struct shader_word *usage = shader_usages; usage->name; usage++, index--)
+        if (!index)
+            return usage->name;
+    return NULL;
+}
+
+static int unknown_modifier(struct assembler *assembler, struct scan_piece piece, enum shader_opcode opcode)
+{
+    struct words words =
+        opcode == SHADER_DCL ? (struct words){.at = declaration_choice} : WORDS_OF_ROWS(result_modifiers);
+    bad_piece(assembler, piece, "a modifier, like _sat");
+    return words_suggest_in(words, piece.text, piece.length, assembler->scanner.error);
+}
+
+static int read_results(struct assembler *assembler, struct scan_piece rest, enum shader_opcode opcode,
+                        struct shader_operand *result)
+{
     while (rest.length) {
         struct scan_piece piece = scan_piece_next(&rest);
-        size_t i = 0;
-        while (i < sizeof rows / sizeof *rows && !scan_piece_is(piece, rows[i].name))
-            i++;
-        if (i == sizeof rows / sizeof *rows)
-            return bad_piece(assembler, piece, "a modifier, like _sat");
-        if ((rows[i].modifier & result->modifier) || (rows[i].shift && result->shift))
+        const struct result_modifier *row = result_modifiers;
+        while (row < result_modifiers + RESULT_MODIFIERS && !scan_piece_is(piece, row->name))
+            row++;
+        if (row == result_modifiers + RESULT_MODIFIERS)
+            return unknown_modifier(assembler, piece, opcode);
+        if ((row->modifier & result->modifier) || (row->shift && result->shift))
             return bad_piece(assembler, piece, "each modifier once");
-        result->modifier |= rows[i].modifier;
-        result->shift += rows[i].shift;
+        result->modifier |= row->modifier;
+        result->shift += row->shift;
     }
     return 0;
 }
@@ -156,7 +194,8 @@ static int read_word(struct assembler *assembler, struct shader_instruction *ins
         return scan_fail(scanner, &scanner->token, 0, "found '%.*s', which %s does not have",
                          (int)scanner->token.length, scanner->token.text, model->name);
     if (opcode == SHADER_COUNT)
-        return scan_expected(scanner, "an instruction of %s", model->name);
+        return scan_expected_word(scanner, (struct words){.at = operation_choice, .list = model}, name,
+                                  "an instruction of %s", model->name);
     instruction->opcode = (uint8_t)opcode;
     if (instruction->comparison)
         rest = after;
@@ -164,7 +203,7 @@ static int read_word(struct assembler *assembler, struct shader_instruction *ins
         return -1;
     if (rest.length && !shader_operations[opcode].destination)
         return bad_piece(assembler, rest, "no modifier: nothing is written");
-    return read_results(assembler, rest, result) ? -1 : scan_next(scanner);
+    return read_results(assembler, rest, opcode, result) ? -1 : scan_next(scanner);
 }
 
 /* --- The rest of a statement --------------------------------------------------------------------------- */

@@ -50,6 +50,14 @@ static enum shader_file find_register(struct scan_piece piece, const struct shad
     return elsewhere;
 }
 
+/* The registers of a model. */
+static const char *register_choice(const struct words *words, unsigned index)
+{
+    return index >= FILE_COUNT                                  ? NULL
+           : index && shader_register_count(index, words->list) ? shader_registers[index].name
+                                                                : "";
+}
+
 /* Reads a register's file and number from the first piece of `rest`. */
 static int read_register(struct assembler *assembler, struct scan_piece *rest, struct shader_operand *operand,
                          bool *numbered)
@@ -64,7 +72,8 @@ static int read_register(struct assembler *assembler, struct scan_piece *rest, s
     struct scan_piece piece = scan_piece_next(rest);
     enum shader_file file = find_register(piece, model, &number, &none);
     if (!file)
-        return scan_expected(scanner, "a register of %s", model->name);
+        return scan_expected_word(scanner, (struct words){.at = register_choice, .list = model}, piece,
+                                  "a register of %s", model->name);
     if (!shader_register_count(file, model))
         return scan_fail(scanner, &scanner->token, 0,
                          "found '%.*s', which %s does not have, expected a register", (int)piece.length,
@@ -241,6 +250,16 @@ static int read_sign(struct assembler *assembler, const char **before)
     return (*before)[0] == '1' ? scan_sign(scanner, '-') : 0;
 }
 
+/* The modifiers after a register in a model. */
+static const char *modifier_choice(const struct words *words, unsigned index)
+{
+    const struct shader_model *model = words->list;
+    if (index >= MODIFIER_COUNT)
+        return NULL;
+    const struct shader_modifier *row = &shader_modifiers[index];
+    return row->columns[model->column] == '.' ? "" : row->after + (*row->after == '_');
+}
+
 /* The modifier with that sign before the register and that name after it. */
 static int find_modifier(struct assembler *assembler, const struct scan_token *place, const char *before,
                          struct scan_piece behind, uint8_t *modifier)
@@ -257,9 +276,10 @@ static int find_modifier(struct assembler *assembler, const struct scan_token *p
         *modifier = (uint8_t)i;
         return 0;
     }
-    return scan_fail(&assembler->scanner, place, 0, "found the modifier '%s%s%.*s', which %s does not have",
-                     before, behind.length ? "_" : "", (int)behind.length, behind.text,
-                     assembler->shader->model->name);
+    scan_fail(&assembler->scanner, place, 0, "found the modifier '%s%s%.*s', which %s does not have", before,
+              behind.length ? "_" : "", (int)behind.length, behind.text, assembler->shader->model->name);
+    return words_suggest_in((struct words){.at = modifier_choice, .list = assembler->shader->model},
+                            behind.text, behind.length, assembler->scanner.error);
 }
 
 int assemble_source(struct assembler *assembler, struct shader_operand *operand)

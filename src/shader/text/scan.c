@@ -30,7 +30,7 @@ int scan_fail(struct scanner *scanner, const struct scan_token *token, size_t of
     return -1;
 }
 
-int scan_expected(struct scanner *scanner, const char *expected, ...)
+static void expected_in(struct scanner *scanner, const char *expected, va_list arguments)
 {
     const struct scan_token *token = &scanner->token;
     char quoted[POSITION_QUOTED];
@@ -38,11 +38,26 @@ int scan_expected(struct scanner *scanner, const char *expected, ...)
                         : token->type == SCAN_END
                             ? "the end of the text"
                             : position_quote(token->text, token->length, SHOWN_BYTES, quoted);
+    position_expected(scanner->error, position_of(scanner, token, 0), found, expected, arguments);
+}
+
+int scan_expected(struct scanner *scanner, const char *expected, ...)
+{
     va_list arguments;
     va_start(arguments, expected);
-    position_expected(scanner->error, position_of(scanner, token, 0), found, expected, arguments);
+    expected_in(scanner, expected, arguments);
     va_end(arguments);
     return -1;
+}
+
+int scan_expected_word(struct scanner *scanner, struct words words, struct scan_piece piece,
+                       const char *expected, ...)
+{
+    va_list arguments;
+    va_start(arguments, expected);
+    expected_in(scanner, expected, arguments);
+    va_end(arguments);
+    return words_suggest_in(words, piece.text, piece.length, scanner->error);
 }
 
 /* --- Tokens -------------------------------------------------------------------------------------------- */

@@ -7,6 +7,7 @@
 #define SHADER_TEXT_SCAN_H
 
 #include "base/error.h"
+#include "base/words.h"
 
 #include <stdbool.h>
 #include <stddef.h>
@@ -19,6 +20,12 @@ struct scan_token {
     const char *text;
     size_t length;
     uint32_t line, column; /* from 1; columns are bytes */
+};
+
+/* A run of a word's bytes that ends at `_` or at the word's end. */
+struct scan_piece {
+    const char *text;
+    size_t length;
 };
 
 struct scanner {
@@ -39,6 +46,10 @@ int scan_next(struct scanner *scanner);
 /* Sets "PATH:LINE:COLUMN: found TOKEN, expected EXPECTED" for the current token. Returns -1. */
 int scan_expected(struct scanner *scanner, const char *expected, ...) __attribute__((format(printf, 2, 3)));
 
+/* The same for a piece of the token that is not in a list: adds the nearest word of the list to the reason. */
+int scan_expected_word(struct scanner *scanner, struct words words, struct scan_piece piece,
+                       const char *expected, ...) __attribute__((format(printf, 4, 5)));
+
 /* Sets "PATH:LINE:COLUMN: REASON" for a place `offset` bytes after the token's beginning. Returns -1. */
 int scan_fail(struct scanner *scanner, const struct scan_token *place, size_t offset, const char *reason, ...)
     __attribute__((format(printf, 4, 5)));
@@ -57,12 +68,6 @@ int scan_number(struct scanner *scanner, const char *what, uint32_t *bits);
 
 /* A whole decimal number from 0 to `high`. */
 int scan_whole(struct scanner *scanner, const char *what, uint32_t high, uint32_t *whole);
-
-/* A run of a word's bytes that ends at `_` or at the word's end. */
-struct scan_piece {
-    const char *text;
-    size_t length;
-};
 
 /* Returns true if the piece is the name, in small letters or large. */
 bool scan_piece_is(struct scan_piece piece, const char *name);
