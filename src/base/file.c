@@ -13,6 +13,11 @@
 
 const char file_standard_input[] = "/dev/stdin", file_standard_output[] = "/dev/stdout";
 
+bool file_is_standard(const char *path)
+{
+    return !strcmp(path, file_standard_input) || !strcmp(path, file_standard_output);
+}
+
 static int fail(struct error *error, const char *path, const char *doing)
 {
     char reason[128] = "unknown reason";

@@ -6,12 +6,17 @@
 
 #include "base/error.h"
 
+#include <stdbool.h>
 #include <stddef.h>
 
 /* The paths of the standard streams, "/dev/stdin" and "/dev/stdout". These functions use the open descriptors
  * for them. Opening the paths would replace a file that standard output is redirected to, and would fail for
  * a socket. */
 extern const char file_standard_input[], file_standard_output[];
+
+/* Returns true if the path is one of them. Paths that are relative to such a file are relative to the current
+ * folder. */
+bool file_is_standard(const char *path);
 
 /* Reads the whole file into *data, which the caller frees. A zero byte, not counted in *bytes, follows the
  * contents. Fails if the file has more than `limit` bytes. On failure *data is null. */

@@ -1,5 +1,7 @@
 #include "image/compare.h"
+#include "base/minmax.h"
 
+#include <math.h>
 #include <stddef.h>
 #include <string.h>
 
@@ -90,6 +92,37 @@ bool compare_pictures(const struct picture *first, const struct picture *second,
             difference->color_distance = apart;
     }
     return true;
+}
+
+static uint32_t square_sum(uint32_t a, uint32_t b)
+{
+    uint32_t sum = 0;
+    for (int shift = 0; shift < 32; shift += 8) {
+        int channel = (int)(a >> shift & 255) - (int)(b >> shift & 255);
+        sum += (uint32_t)(channel * channel);
+    }
+    return sum;
+}
+
+struct compare_distance compare_distance(const struct picture *first, const struct picture *second,
+                                         uint32_t tolerance)
+{
+    struct compare_distance result = {0};
+    const size_t count = (size_t)first->width * first->height;
+    uint64_t squares = 0;
+    for (size_t i = 0; i < count; i++) {
+        uint32_t apart = distance(first->color[i], second->color[i]);
+        result.pixels += apart > tolerance;
+        result.largest = max_u32(result.largest, apart);
+        squares += square_sum(first->color[i], second->color[i]);
+    }
+    result.mean_square = count ? (double)squares / (4 * (double)count) : 0;
+    return result;
+}
+
+double compare_psnr(const struct compare_distance *distance)
+{
+    return 10 * log10(255.0 * 255 / distance->mean_square);
 }
 
 enum { DARKENING = 4, FAINTEST_DIFFERENCE = 96 };

@@ -34,6 +34,19 @@ struct difference {
 bool compare_pictures(const struct picture *first, const struct picture *second,
                       struct difference *difference);
 
+/* How far apart the colours of two pictures are. */
+struct compare_distance {
+    uint64_t pixels;    /* those whose difference in one channel is more than the tolerance */
+    uint32_t largest;   /* the largest difference of one channel, 0 to 255 */
+    double mean_square; /* of the differences of all four channels of all pixels */
+};
+
+struct compare_distance compare_distance(const struct picture *first, const struct picture *second,
+                                         uint32_t tolerance);
+
+/* The peak signal-to-noise ratio in decibels: 10 log10 (255^2 / mean square). Infinite for equal colours. */
+double compare_psnr(const struct compare_distance *distance);
+
 /* Paints width * height opaque RGBA8 words. Equal pixels have the first picture's brightness, darkened.
  * Pixels of different colour are red, brighter the larger the distance. Pixels that differ only in depth,
  * stencil or numbers are blue. */

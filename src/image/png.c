@@ -179,7 +179,8 @@ static int encode(struct job *job, const uint32_t *rgba)
     return 0;
 }
 
-int png_save(const char *path, unsigned width, unsigned height, const uint32_t *rgba, struct error *error)
+int png_encode(const char *path, unsigned width, unsigned height, const uint32_t *rgba, void **data,
+               size_t *bytes, struct error *error)
 {
     struct job job = {.path = path, .error = error, .width = width, .height = height};
     int result = -1;
@@ -190,8 +191,21 @@ int png_save(const char *path, unsigned width, unsigned height, const uint32_t *
     else
         result = encode(&job, rgba);
     png_destroy_write_struct(&job.png, &job.info);
+    *data = result ? NULL : job.data;
+    *bytes = job.bytes;
     if (!result)
-        result = file_write(path, job.data, job.bytes, error);
+        job.data = NULL;
     free_job(&job);
+    return result;
+}
+
+int png_save(const char *path, unsigned width, unsigned height, const uint32_t *rgba, struct error *error)
+{
+    void *data;
+    size_t bytes;
+    if (png_encode(path, width, height, rgba, &data, &bytes, error))
+        return -1;
+    int result = file_write(path, data, bytes, error);
+    free(data);
     return result;
 }

@@ -13,7 +13,7 @@
 
 char *asset_path(const char *stream_path, const char *path)
 {
-    const char *slash = strrchr(stream_path, '/');
+    const char *slash = file_is_standard(stream_path) ? NULL : strrchr(stream_path, '/');
     size_t folder = slash && path[0] != '/' ? (size_t)(slash - stream_path) + 1 : 0;
     char *joined = malloc(folder + strlen(path) + 1);
     if (joined) {

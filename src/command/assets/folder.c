@@ -1,4 +1,5 @@
 #include "command/assets/folder.h"
+#include "base/file.h"
 
 #include <errno.h>
 #include <stdbool.h>
@@ -9,7 +10,7 @@
 /* The real path of the folder that contains a file; the caller frees it. */
 static char *real_folder(const char *path)
 {
-    const char *slash = strrchr(path, '/');
+    const char *slash = file_is_standard(path) ? NULL : strrchr(path, '/');
     char *folder = slash ? strndup(path, slash == path ? 1 : (size_t)(slash - path)) : strdup(".");
     char *real = folder ? realpath(folder, NULL) : NULL;
     free(folder);

@@ -36,6 +36,9 @@ void session_close(struct session *session);
 /* Plays a frame, numbered from 0, and waits until it is drawn. */
 int session_play(const struct command *self, struct session *session, unsigned frame);
 
+/* Returns true if executed[position] draws primitives. */
+bool session_is_draw(const struct stream *stream, uint32_t position);
+
 /* The i-th of `count` frames spread evenly over `all` frames, the first and the last included. */
 unsigned session_spread(unsigned i, unsigned count, unsigned all);
 

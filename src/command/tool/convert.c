@@ -1,42 +1,63 @@
 /* `triptych convert`: rewrites a stream. The first bytes of the input determine its form; the extension of
  * the output's name determines the other. */
+#include "base/file.h"
 #include "command/container/container.h"
 #include "command/support/option.h"
 
 #include <stdio.h>
 #include <string.h>
+#include <unistd.h>
 
-static const struct form {
-    const char *extension;
-    int (*save)(const struct stream *stream, const char *path, struct error *error);
-} forms[] = {
-    {".tri", stream_save},     /* canonical text */
-    {".trib", container_save}, /* container */
-};
-
-static const struct form *find_form(const struct command *self, const char *path)
-{
-    char known[64] = "";
-    const char *dot = strrchr(path, '.');
-    for (size_t i = 0; i < sizeof forms / sizeof *forms; i++) {
-        if (dot && !strcmp(dot, forms[i].extension))
-            return forms + i;
-        snprintf(known + strlen(known), sizeof known - strlen(known), "%s%s", i ? " or " : "",
-                 forms[i].extension);
-    }
-    return tool_fail(self, "%s: unknown kind of stream, expected %s", path, known), NULL;
-}
+enum { FORM_BY_NAME = 0xffff };
 
 struct settings {
     bool salvage;
+    unsigned form;
 };
+
+static const struct form {
+    const char *name; /* its extension is the same */
+    int (*save)(const struct stream *stream, const char *path, struct error *error);
+} forms[] = {
+    {"tri", stream_save},     /* canonical text */
+    {"trib", container_save}, /* container */
+};
+
+enum { FORMS = sizeof forms / sizeof *forms };
+
+static const char *form_at(unsigned index)
+{
+    return index < FORMS ? forms[index].name : NULL;
+}
+
+/* Standard output has no extension: its default is the first form. */
+static const struct form *find_form(const struct command *self, const char *path, unsigned form)
+{
+    const char *dot = strrchr(path, '.');
+    char suggestion[WORDS_SUGGESTION] = "";
+    if (form == FORM_BY_NAME && file_is_standard(path))
+        form = 0;
+    if (form != FORM_BY_NAME || (dot && words_find(WORDS_OF_ROWS(forms), dot + 1, strlen(dot + 1), &form)))
+        return forms + form;
+    if (dot)
+        words_suggest(WORDS_OF_ROWS(forms), dot + 1, strlen(dot + 1), suggestion);
+    return tool_fail(self, "%s: unknown kind of stream, expected .tri or .trib%s", path, suggestion), NULL;
+}
+
+static int check_output(const struct command *self, const char *path, const struct form *form)
+{
+    if (!strcmp(path, file_standard_output) && form->save == container_save && isatty(STDOUT_FILENO))
+        return tool_fail(self,
+                         "OUTPUT is \"-\", expected a file or a pipe: a container is not for a terminal");
+    return tool_check_output(self, path);
+}
 
 static int run(const struct command *self, void *data, const struct operands *operands)
 {
     const struct settings *settings = data;
     const char *input = operands->value[0], *output = operands->value[1];
-    const struct form *to = find_form(self, output);
-    if (!to || tool_check_output(self, output))
+    const struct form *to = find_form(self, output, settings->form);
+    if (!to || check_output(self, output, to))
         return STATUS_BAD;
     struct stream *stream;
     struct error error = {""};
@@ -48,7 +69,11 @@ static int run(const struct command *self, void *data, const struct operands *op
     return bad ? tool_fail(self, "%s", error.text) : STATUS_OK;
 }
 
+static const struct settings defaults = {.form = FORM_BY_NAME};
+
 static const struct option options[] = {
+    {"format", "FORM", "tri or trib; by the extension of OUTPUT, tri for -",
+     OPTION_IS_INDEX(struct settings, form), .words = form_at},
     {"salvage", NULL, "keep the complete frames before the damage in a container",
      OPTION_IS_FLAG(struct settings, salvage)},
     {0},
@@ -66,6 +91,7 @@ const struct command command_convert = {
     .summary = "rewrite a stream in another form",
     .options = options,
     .operands = operands,
-    .settings_bytes = sizeof(struct settings),
+    .defaults = &defaults,
+    .settings_bytes = sizeof defaults,
     .run = run,
 };

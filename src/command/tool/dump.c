@@ -82,12 +82,6 @@ static const struct dumper *find_dumper(const struct command *self, unsigned eng
            NULL;
 }
 
-static bool is_draw(const struct stream *stream, uint32_t position)
-{
-    enum call_type type = stream->calls[stream->executed[position]].type;
-    return type == CALL_DRAW || type == CALL_DRAW_INDEXED || type == CALL_DRAW_MESH;
-}
-
 static bool is_clear(const struct stream *stream, uint32_t position)
 {
     return stream->calls[stream->executed[position]].type == CALL_CLEAR;
@@ -102,7 +96,7 @@ static int find_draw(const struct command *self, const struct stream *stream, co
                          stream->frame_count - 1);
     unsigned draws = 0;
     for (uint32_t i = stream->frames[settings->frame]; i < stream->frames[settings->frame + 1]; i++)
-        if (is_draw(stream, i) && draws++ == settings->draw)
+        if (session_is_draw(stream, i) && draws++ == settings->draw)
             return *position = i, STATUS_OK;
     return tool_fail(self, "%s: frame %u has no draw %u, it has %u, from 0", stream->path, settings->frame,
                      settings->draw, draws);
@@ -117,7 +111,7 @@ static struct stream single_draw(const struct stream *stream, uint32_t draw, uin
     view.executed = executed;
     view.executed_count = 0;
     for (uint32_t i = 0; i <= draw; i++)
-        if (i == draw || (!is_draw(stream, i) && !is_clear(stream, i)))
+        if (i == draw || (!session_is_draw(stream, i) && !is_clear(stream, i)))
             executed[view.executed_count++] = stream->executed[i];
     view.frames = frames;
     view.frame_count = 1;

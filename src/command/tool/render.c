@@ -1,9 +1,11 @@
-/* `triptych render`: draws one frame of a stream with one engine and saves it as a picture. */
-#include "image/exr.h"
-#include "image/png.h"
+/* `triptych render`: draws frames of a stream with one engine and saves them as pictures.
+ *
+ * The draws of a frame are played like frames: the view of the stream that --draws uses has a frame up to each
+ * draw, so the player continues from one to the next. */
 #include "command/support/choose.h"
 #include "command/support/option.h"
 #include "command/support/session.h"
+#include "command/support/sink.h"
 #include "triptych.h"
 
 #include <inttypes.h>
@@ -11,140 +13,208 @@
 #include <stdlib.h>
 #include <string.h>
 
-enum { FRAME_MAXIMUM = 65535, THREADS_MAXIMUM = 256, WIDTH_MAXIMUM = 256, CHANNELS = 4 };
+enum { NUMBER_MAXIMUM = 4194304, THREADS_MAXIMUM = 256, WIDTH_MAXIMUM = 256, RATE_DEFAULT = 30 };
 
-static int save_png(const char *path, const struct readback *capture, struct error *error)
-{
-    return png_save(path, capture->width, capture->height, capture->color, error);
-}
-
-enum { COLORS = CHANNELS * TRIPTYCH_TARGETS, NAME_CAPACITY = 24 };
-
-/* Bytes become numbers from 0 to 1 in binary16, from which they can be recovered. Numbers and depth keep
- * their 32 bits. Names of channels of targets after the first begin with the target's number. */
-static size_t color_channels(const struct readback *capture, const float *values,
-                             struct exr_channel channels[COLORS], char names[COLORS][NAME_CAPACITY])
-{
-    static const char letters[] = "RGBA";
-    unsigned targets = capture->numbers ? capture->targets : 1, count = targets * CHANNELS;
-    for (unsigned i = 0; i < count; i++) {
-        if (i < CHANNELS)
-            snprintf(names[i], NAME_CAPACITY, "%c", letters[i]);
-        else
-            snprintf(names[i], NAME_CAPACITY, "target%u.%c", i / CHANNELS, letters[i % CHANNELS]);
-        channels[i] =
-            (struct exr_channel){names[i], values + i, count, capture->numbers ? EXR_FLOAT : EXR_HALF};
-    }
-    return count;
-}
-
-/* Stencil is a channel of numbers from 0 to 255. */
-static int save_exr(const char *path, const struct readback *capture, struct error *error)
-{
-    size_t pixels = (size_t)capture->width * capture->height;
-    float *values = malloc(pixels * (CHANNELS + 1) * sizeof *values);
-    if (!values)
-        return error_set(error, "%s: no memory for %zu pixels", path, pixels);
-    for (size_t i = 0; i < pixels; i++)
-        for (unsigned channel = 0; channel < CHANNELS; channel++)
-            values[i * CHANNELS + channel] = (float)(capture->color[i] >> 8 * channel & 255) / 255;
-    struct exr_channel channels[COLORS + 2];
-    char names[COLORS][NAME_CAPACITY];
-    size_t count = color_channels(capture, capture->numbers ? capture->numbers : values, channels, names);
-    if (capture->has_depth)
-        channels[count++] = (struct exr_channel){"Z", capture->depth, 1, EXR_FLOAT};
-    float *stencil = values + pixels * CHANNELS;
-    for (size_t i = 0; i < pixels && capture->has_stencil; i++)
-        stencil[i] = capture->stencil[i];
-    if (capture->has_stencil)
-        channels[count++] = (struct exr_channel){"stencil", stencil, 1, EXR_HALF};
-    int bad = exr_save(path, capture->width, capture->height, channels, count, error);
-    free(values);
-    return bad;
-}
-
-static const struct picture_kind {
-    const char *extension;
-    int (*save)(const char *path, const struct readback *capture, struct error *error);
-} kinds[] = {
-    {".png", save_png}, /* colour and alpha */
-    {".exr", save_exr}, /* colour, alpha, depth, stencil */
-};
-
-static const struct picture_kind *find_kind(const char *path)
-{
-    const char *dot = strrchr(path, '.');
-    for (size_t i = 0; dot && i < sizeof kinds / sizeof *kinds; i++)
-        if (!strcmp(dot, kinds[i].extension))
-            return kinds + i;
-    return NULL;
-}
+enum { UNSET = UINT32_MAX };
 
 struct settings {
-    const char *engine, *out;
-    unsigned frame, threads, width;
+    const char *engine, *out, *frames, *draws;
+    unsigned frame, threads, width, form, columns, rate;
 };
 
-static int render_frame(const struct command *self, const struct stream *stream,
-                        const struct settings *settings, unsigned engine, struct readback *capture)
+/* The pictures to draw: frames `first` to `last` of the stream, which may be a view (view_draws). The files are
+ * numbered from `number` on. */
+struct task {
+    const struct stream *stream;
+    unsigned first, last, number;
+    const char *what; /* a picture of: "frame" or "draw" */
+    bool several;     /* a range is given */
+};
+
+/* --- Ranges --------------------------------------------------------------------------------------------- */
+
+/* Reads `N`, `A-B`, `A..B` or `all`, of `count` numbers from 0. */
+static int read_range(const struct command *self, const char *option, const char *text, unsigned count,
+                      struct task *task)
 {
+    char first[12];
+    const char *dots = strstr(text, "..");
+    size_t length = dots ? (size_t)(dots - text) : strcspn(text, "-");
+    const char *last = text[length] ? text + length + (dots ? 2 : 1) : text;
+    task->several = true;
+    task->first = 0;
+    task->last = count - 1;
+    if (!strcmp(text, "all"))
+        return STATUS_OK;
+    snprintf(first, sizeof first, "%.*s", (int)(length < sizeof first ? length : 0), text);
+    if (option_read_number(first, 0, count - 1, &task->first) &&
+        option_read_number(last, task->first, count - 1, &task->last))
+        return STATUS_OK;
+    return tool_fail(self, "--%s is \"%s\", expected all, N or A-B of numbers from 0 to %u", option, text,
+                     count - 1);
+}
+
+/* --- Draws ---------------------------------------------------------------------------------------------- */
+
+/* A copy of the stream whose frames from `frame` on end after each draw of that frame. `ends` has room for
+ * one more than all frames and draws. The rest is shared. */
+static struct stream view_draws(const struct stream *stream, unsigned frame, uint32_t *ends, unsigned *draws)
+{
+    struct stream view = *stream;
+    memcpy(ends, stream->frames, (frame + 1) * sizeof *ends);
+    *draws = 0;
+    for (uint32_t i = stream->frames[frame]; i < stream->frames[frame + 1]; i++)
+        if (session_is_draw(stream, i))
+            ends[frame + ++*draws] = i + 1;
+    view.frames = ends;
+    view.frame_count = frame + *draws;
+    return view;
+}
+
+/* --- Drawing -------------------------------------------------------------------------------------------- */
+
+static void print_queries(const struct task *task, unsigned number, const struct readback *readback)
+{
+    for (unsigned i = 0; i < readback->query_count; i++) {
+        if (task->several)
+            printf("%s %u: ", task->what, number);
+        printf("%s: %" PRIu64 " samples passed\n", readback->queries[i].name, readback->queries[i].passed);
+    }
+}
+
+static int draw_all(const struct command *self, const struct task *task, struct session *session,
+                    struct sink *sink)
+{
+    struct readback readback = {0};
+    int status = STATUS_OK;
+    for (unsigned frame = task->first; frame <= task->last && !status; frame++) {
+        unsigned number = task->number + frame - task->first;
+        if (task->several)
+            tool_progress("%s %u, of %u to %u", task->what, number, task->number,
+                          task->number + task->last - task->first);
+        status = session_play(self, session, frame) ||
+                 readback_take(self, session, READBACK_PIXELS, &readback) || sink_add(sink, &readback);
+        if (!status)
+            print_queries(task, number, &readback);
+    }
+    tool_progress(NULL);
+    readback_free(&readback);
+    return status ? STATUS_BAD : STATUS_OK;
+}
+
+static int draw_task(const struct command *self, const struct task *task, const struct settings *settings,
+                     unsigned engine)
+{
+    const struct sink_options options = {.path = settings->out,
+                                         .form = settings->form,
+                                         .columns = settings->columns,
+                                         .rate = settings->rate,
+                                         .first = task->number,
+                                         .count = task->last - task->first + 1,
+                                         .numbered = task->several};
     struct session session = {0};
-    int status = session_open(self, stream, engine, settings->threads, &session);
+    struct sink sink;
+    if (sink_open(self, &options, &sink))
+        return STATUS_BAD;
+    int status = session_open(self, task->stream, engine, settings->threads, &session);
     if (!status)
-        status = session_play(self, &session, settings->frame);
-    if (!status)
-        status = readback_take(self, &session, READBACK_PIXELS, capture);
+        status = draw_all(self, task, &session, &sink);
     session_close(&session);
+    return sink_close(&sink, status);
+}
+
+static int check_frame(const struct command *self, const struct stream *stream, unsigned frame)
+{
+    return frame < stream->frame_count ? STATUS_OK
+                                       : tool_fail(self, "%s has no frame %u, its last is %u", stream->path,
+                                                   frame, stream->frame_count - 1);
+}
+
+static int draw_frames(const struct command *self, const struct stream *stream,
+                       const struct settings *settings, unsigned engine)
+{
+    unsigned frame = settings->frame == UNSET ? 0 : settings->frame;
+    struct task task = {.stream = stream, .first = frame, .last = frame, .what = "frame"};
+    if (settings->frames ? read_range(self, "frames", settings->frames, stream->frame_count, &task)
+                         : check_frame(self, stream, frame))
+        return STATUS_BAD;
+    task.number = task.first;
+    return draw_task(self, &task, settings, engine);
+}
+
+static int draw_draws(const struct command *self, const struct stream *stream,
+                      const struct settings *settings, unsigned engine)
+{
+    unsigned frame = settings->frame == UNSET ? 0 : settings->frame, draws;
+    struct task task = {.what = "draw"};
+    if (check_frame(self, stream, frame))
+        return STATUS_BAD;
+    uint32_t *ends = malloc((stream->executed_count + frame + 2) * sizeof *ends);
+    if (!ends)
+        return tool_fail(self, "no memory for the draws of frame %u", frame);
+    struct stream view = view_draws(stream, frame, ends, &draws);
+    int status = draws ? read_range(self, "draws", settings->draws, draws, &task)
+                       : tool_fail(self, "%s: frame %u has no draws", stream->path, frame);
+    task.stream = &view;
+    task.number = task.first;
+    task.first += frame;
+    task.last += frame;
+    if (!status)
+        status = draw_task(self, &task, settings, engine);
+    free(ends);
     return status;
 }
 
-static int render(const struct command *self, const char *path, const struct settings *settings,
-                  unsigned engine, const struct picture_kind *kind)
+/* --- The command ---------------------------------------------------------------------------------------- */
+
+static int check_settings(const struct command *self, const struct settings *settings)
 {
-    struct stream *stream = session_load_frames(self, path);
-    if (!stream)
-        return STATUS_BAD;
-    struct readback capture = {0};
-    struct error error = {""};
-    int status = STATUS_OK;
-    if (settings->frame >= stream->frame_count)
-        status = tool_fail(self, "%s has no frame %u, its last is %u", path, settings->frame,
-                           stream->frame_count - 1);
-    if (!status)
-        status = render_frame(self, stream, settings, engine, &capture);
-    if (!status && kind->save(settings->out, &capture, &error))
-        status = tool_fail(self, "%s", error.text);
-    for (unsigned i = 0; i < capture.query_count && !status; i++)
-        printf("%s: %" PRIu64 " samples passed\n", capture.queries[i].name, capture.queries[i].passed);
-    readback_free(&capture);
-    stream_free(stream);
-    return status;
+    if (!settings->out)
+        return tool_fail(self, "--out is missing, expected --out FILE.png or --out FILE.exr");
+    if (settings->frames && (settings->draws || settings->frame != UNSET))
+        return tool_fail(self, "--frames and --%s are both given, expected one of them",
+                         settings->draws ? "draws" : "frame");
+    return STATUS_OK;
 }
 
 static int run(const struct command *self, void *data, const struct operands *operands)
 {
     const struct settings *settings = data;
-    if (!settings->out)
-        return tool_fail(self, "--out is missing, expected --out FILE.png or --out FILE.exr");
-    const struct picture_kind *kind = find_kind(settings->out);
-    if (!kind)
-        return tool_fail(self, "%s: unknown kind of picture, expected .png or .exr", settings->out);
     unsigned engine;
-    if (choose_engine(self, settings->engine, settings->width, &engine))
+    if (check_settings(self, settings) || choose_engine(self, settings->engine, settings->width, &engine))
         return STATUS_BAD;
-    return render(self, operands->value[0], settings, engine, kind);
+    const char *path = operands->value[0];
+    struct stream *stream = settings->draws ? session_load(self, path) : session_load_frames(self, path);
+    if (!stream)
+        return STATUS_BAD;
+    int status = settings->draws ? draw_draws(self, stream, settings, engine)
+                                 : draw_frames(self, stream, settings, engine);
+    stream_free(stream);
+    return status;
 }
 
-static const struct settings defaults = {.engine = "specialize"};
+static const struct settings defaults = {
+    .engine = "specialize", .frame = UNSET, .form = SINK_BY_NAME, .rate = RATE_DEFAULT};
 
 static const struct option options[] = {
     {"engine", "NAME", "engine (triptych list engines); specialize", OPTION_IS_WORD(struct settings, engine),
      .words = triptych_engine_name},
     {"width", "LANES", "lanes of the engine's variant", OPTION_IS_NUMBER(struct settings, width), .least = 1,
      .most = WIDTH_MAXIMUM},
-    {"out", "FILE", "FILE.png: colour; FILE.exr: colour, depth and stencil",
-     OPTION_IS_FILE(struct settings, out), .extension = "png exr"},
-    {"frame", "N", "which frame, from 0; 0", OPTION_IS_NUMBER(struct settings, frame), .most = FRAME_MAXIMUM},
+    {"out", "FILE", "FILE.png: colour; FILE.exr: colour, depth and stencil; FILE.apng or FILE.y4m: animation",
+     OPTION_IS_FILE(struct settings, out), .extension = "png exr apng y4m"},
+    {"format", "FORM", "png, exr, apng or y4m; by the extension of --out, png for -",
+     OPTION_IS_INDEX(struct settings, form), .words = sink_form_name},
+    {"frame", "N", "which frame, from 0; 0", OPTION_IS_NUMBER(struct settings, frame),
+     .most = NUMBER_MAXIMUM},
+    {"frames", "A-B|all", "several frames, to files named like f%04d.png",
+     OPTION_IS_TEXT(struct settings, frames)},
+    {"draws", "A-B|all", "a picture after each of these draws of the frame, from 0",
+     OPTION_IS_TEXT(struct settings, draws)},
+    {"sheet", "COLUMNS", "all pictures in one PNG, in rows of COLUMNS",
+     OPTION_IS_NUMBER(struct settings, columns), .least = 1, .most = 1024},
+    {"rate", "N", "frames a second of an animation; 30", OPTION_IS_NUMBER(struct settings, rate), .least = 1,
+     .most = ANIMATION_RATE_MAXIMUM},
     {"threads", "N", "rendering threads; one per core", OPTION_IS_NUMBER(struct settings, threads),
      .least = 1, .most = THREADS_MAXIMUM},
     {0},
@@ -155,11 +225,18 @@ static const struct operand operands[] = {
     {0},
 };
 
+static const char notes[] =
+    "Of several pictures, each has a file of its own, whose name contains its number as %d or %04d; or one\n"
+    "file has all: an animation, or the sheet of --sheet. A sheet is reduced if it has more than 8192 "
+    "pixels\n"
+    "a side. A file - is standard output, a stream - standard input.";
+
 const struct command command_render = {
     .name = "render",
-    .summary = "draw a frame with one engine and write it as a picture",
+    .summary = "draw frames with one engine and write them as pictures",
     .options = options,
     .operands = operands,
+    .notes = notes,
     .defaults = &defaults,
     .settings_bytes = sizeof defaults,
     .run = run,

@@ -15,8 +15,10 @@
 #include "command/bench/machine.h"
 #include "command/support/option.h"
 #include "command/support/session.h"
+#include "command/tool/golden.h"
 #include "triptych.h"
 
+#include <errno.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -35,6 +37,7 @@ struct configuration {
 
 struct settings {
     const char *engine_list, *thread_list, *frames_text, *json;
+    struct golden golden; /* without a folder: none */
     struct choice engines, threads;
     const char *folder; /* for pictures of differences, or null */
     bool all_frames;
@@ -56,6 +59,7 @@ struct verification {
     struct readback expected, got;
     XXH3_state_t *digest; /* of the reference's pictures, frame by frame */
     cJSON *differences;   /* or null */
+    cJSON *goldens;       /* or null */
 };
 
 static int open_configuration(const struct command *self, const struct stream *stream, unsigned engine,
@@ -88,7 +92,7 @@ static int open_all(const struct command *self, const struct stream *stream, con
                 return STATUS_BAD;
             device_shuffle(other->session.device, settings->shuffle);
         }
-    if (!verification->count)
+    if (!verification->count && !settings->golden.folder)
         return tool_fail(
             self, "%s with 1 thread is the reference itself, expected another engine or number of threads",
             reference_engine);
@@ -228,10 +232,13 @@ static int compare_others(const struct command *self, const struct settings *set
 }
 
 /* A frame counts as drawn when every configuration has drawn it. */
-static int verify_frame(const struct command *self, const struct settings *settings,
+static int verify_frame(const struct command *self, struct settings *settings,
                         struct verification *verification, unsigned frame)
 {
     if (draw(self, verification, &verification->reference, frame, &verification->expected) ||
+        (settings->golden.folder &&
+         golden_check(self, &settings->golden, &verification->reference.session, verification->name, frame,
+                      verification->frames == 1, verification->goldens)) ||
         compare_others(self, settings, verification, frame))
         return STATUS_BAD;
     if (!interrupt_signal())
@@ -250,6 +257,10 @@ static void add_stream(const struct settings *settings, struct verification *ver
     cJSON_AddStringToObject(json, "xxh3", digest);
     cJSON_AddBoolToObject(json, "identical", !verification->different);
     cJSON_AddItemToObject(json, "differences", verification->differences);
+    if (settings->golden.folder)
+        cJSON_AddItemToObject(json, "goldens", verification->goldens);
+    else
+        cJSON_Delete(verification->goldens);
     cJSON_AddItemToArray(settings->report, json);
 }
 
@@ -269,8 +280,8 @@ static void report(const struct settings *settings, struct verification *verific
     add_stream(settings, verification, digest);
 }
 
-static int verify_frames(const struct command *self, const struct stream *stream,
-                         const struct settings *settings, struct verification *verification)
+static int verify_frames(const struct command *self, const struct stream *stream, struct settings *settings,
+                         struct verification *verification)
 {
     if (open_all(self, stream, settings, verification))
         return STATUS_BAD;
@@ -286,7 +297,7 @@ struct totals {
     unsigned complete, different;
 };
 
-static int verify_stream(const struct command *self, const char *path, const struct settings *settings,
+static int verify_stream(const struct command *self, const char *path, struct settings *settings,
                          struct totals *totals)
 {
     struct stream *stream = session_load_frames(self, path);
@@ -297,15 +308,19 @@ static int verify_stream(const struct command *self, const char *path, const str
     verification.frames = verification.all;
     if (!settings->all_frames && settings->frames < verification.all)
         verification.frames = settings->frames;
-    if (settings->report)
+    if (settings->report) {
         verification.differences = cJSON_CreateArray();
+        verification.goldens = cJSON_CreateArray();
+    }
+    unsigned goldens_different = settings->golden.different;
     int status = verify_frames(self, stream, settings, &verification);
     if (!status) {
         report(settings, &verification);
-        totals->different += verification.different != 0;
+        totals->different += verification.different || settings->golden.different > goldens_different;
         totals->complete += verification.drawn == verification.frames;
     } else {
         cJSON_Delete(verification.differences);
+        cJSON_Delete(verification.goldens);
     }
     close_all(&verification);
     stream_free(stream);
@@ -324,6 +339,9 @@ static void summarize(const struct operands *operands, const struct settings *se
 {
     if (interrupt_signal())
         printf("interrupted by %s: %u of ", interrupt_name(), totals->complete);
+    if (settings->golden.folder && !settings->golden.update)
+        printf("%u goldens, %u differ or are missing\n", settings->golden.compared,
+               settings->golden.different);
     printf("%d streams, %u engines, ", operands->count, settings->engines.count);
     if (totals->different)
         printf("%u differ\n", totals->different);
@@ -331,8 +349,8 @@ static void summarize(const struct operands *operands, const struct settings *se
         puts("identical");
 }
 
-static int verify_all(const struct command *self, const struct operands *operands,
-                      const struct settings *settings, bool *identical)
+static int verify_all(const struct command *self, const struct operands *operands, struct settings *settings,
+                      bool *identical)
 {
     struct totals totals = {0};
     for (int i = 0; i < operands->count && !interrupt_signal(); i++)
@@ -386,15 +404,31 @@ static int read_settings(const struct command *self, struct settings *settings)
         choose_threads(self, settings->thread_list, &settings->threads) ||
         tool_check_output(self, settings->json))
         return STATUS_BAD;
+    if (!settings->golden.folder && (settings->golden.update || settings->golden.tolerance))
+        return tool_fail(self, "--%s is given without --golden",
+                         settings->golden.update ? "update" : "tolerance");
+    settings->golden.differences = settings->folder;
     return STATUS_OK;
+}
+
+/* A folder of goldens must exist, unless they are written. */
+static int check_goldens(const struct command *self, const struct settings *settings, bool *made)
+{
+    const char *folder = settings->golden.folder;
+    *made = false;
+    if (!folder || access(folder, R_OK | X_OK) == 0)
+        return STATUS_OK;
+    return settings->golden.update ? tool_make_folder(self, folder, made)
+                                   : tool_fail(self, "%s: cannot be read: %s", folder, strerror(errno));
 }
 
 static int run(const struct command *self, void *data, const struct operands *operands)
 {
     struct settings *settings = data;
     struct execution executions[CHOICE_CAPACITY] = {0};
-    bool made, identical;
-    if (read_settings(self, settings) || tool_make_folder(self, settings->folder, &made))
+    bool made, made_goldens, identical;
+    if (read_settings(self, settings) || check_goldens(self, settings, &made_goldens) ||
+        tool_make_folder(self, settings->folder, &made))
         return STATUS_BAD;
     settings->executions = executions;
     settings->report = settings->json ? cJSON_CreateArray() : NULL;
@@ -403,6 +437,9 @@ static int run(const struct command *self, void *data, const struct operands *op
     if (settings->json && status != STATUS_BAD)
         status = write_report(self, settings, settings->json, identical, status);
     cJSON_Delete(settings->report);
+    readback_free(&settings->golden.readback);
+    if (made_goldens)
+        rmdir(settings->golden.folder); /* succeeds only if nothing was drawn */
     if (made)
         rmdir(settings->folder); /* succeeds only if nothing differed */
     return status;
@@ -420,6 +457,12 @@ static const struct option options[] = {
      OPTION_IS_NUMBER(struct settings, shuffle), .most = INT32_MAX},
     {"difference", "DIR", "folder for pictures of the differences",
      OPTION_IS_FOLDER(struct settings, folder)},
+    {"golden", "DIR", "also compare with the pictures DIR/STREAM.png or DIR/STREAM-FRAME.png",
+     OPTION_IS_FOLDER(struct settings, golden.folder)},
+    {"tolerance", "N", "the difference to a golden of a channel that is allowed, of 255; 0",
+     OPTION_IS_NUMBER(struct settings, golden.tolerance), .most = 255},
+    {"update", NULL, "write the pictures of --golden instead of comparing them",
+     OPTION_IS_FLAG(struct settings, golden.update)},
     {"json", "FILE", "write the results", OPTION_IS_FILE(struct settings, json), .extension = "json"},
     {0},
 };
