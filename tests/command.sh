@@ -225,7 +225,7 @@ different_pictures_differ()
 }
 holds 'different pictures differ, and the difference is painted' different_pictures_differ
 
-refuses 'picture of an unknown kind' 'expected .png or .exr' \
+refuses 'picture of an unknown kind' 'expected .png, .exr, .apng or .y4m' \
     render "$work/good.tri" --engine emulate --out "$work/out/picture.jpg"
 refuses 'picture not named' '--out is missing' render "$work/good.tri" --engine emulate
 refuses 'output in a missing folder' "$work/out/none/picture.png: .*No such file" \

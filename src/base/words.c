@@ -14,14 +14,6 @@ const char *words_row(const struct words *words, unsigned index)
     return index < words->count ? *(const char *const *)(const void *)(rows + index * words->stride) : NULL;
 }
 
-struct words words_of_array(const char *const *array)
-{
-    unsigned count = 0;
-    while (array[count])
-        count++;
-    return (struct words){words_row, array, count, sizeof *array};
-}
-
 const char *words_find(struct words words, const char *given, size_t length, unsigned *index)
 {
     const char *word;

@@ -16,22 +16,19 @@ struct words {
     size_t stride;    /* the same */
 };
 
-/* The list of an array of structures whose first member is the word. */
+/* The list of an array of words, or of structures whose first member is the word. */
 #define WORDS_OF_ROWS(rows)                                                                                  \
     ((struct words){words_row, (rows), (unsigned)(sizeof(rows) / sizeof *(rows)), sizeof *(rows)})
 const char *words_row(const struct words *words, unsigned index);
-
-/* The list of a null-terminated array of texts. */
-struct words words_of_array(const char *const *array);
 
 /* Returns the first word that equals the given bytes, and its index; null, and the index unchanged, if there
  * is none. */
 const char *words_find(struct words words, const char *given, size_t length, unsigned *index);
 
-/* Returns another word that the given bytes most likely were meant to be, null if none is similar. The measure is
- * the restricted Damerau-Levenshtein distance: the number of letters to insert, delete, replace or exchange
- * with their neighbour, regardless of case. A word is similar up to a third of its length. A word that begins
- * with the given bytes, at least three, has the distance 1. */
+/* Returns another word that the given bytes most likely were meant to be, null if none is similar. The
+ * measure is the restricted Damerau-Levenshtein distance: the number of letters to insert, delete, replace or
+ * exchange with their neighbour, regardless of case. A word is similar up to a third of its length. A word
+ * that begins with the given bytes, at least three, has the distance 1. */
 const char *words_nearest(struct words words, const char *given, size_t length);
 
 /* Writes "a, b, c". If the list does not fit, it ends with ", ...". */

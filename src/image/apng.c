@@ -1,6 +1,6 @@
-/* Animated PNG: libpng encodes each frame as a picture, and its chunks are copied. Chunks of the animation are
- * added: acTL once, fcTL before each frame, and fdAT instead of IDAT in all frames but the first. Readers that
- * do not know animations show the first frame. */
+/* Animated PNG: libpng encodes each frame as a picture, and its chunks are copied. Chunks of the animation
+ * are added: acTL once, fcTL before each frame, and fdAT instead of IDAT in all frames but the first. Readers
+ * without support for animations show the first frame. */
 #include "image/animation_part.h"
 #include "image/png.h"
 

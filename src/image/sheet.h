@@ -1,7 +1,7 @@
 /* Contact sheets: pictures of one size in rows, row by row from the top left, without gaps.
  *
- * If the sheet would have more than PNG_SIDE_MAXIMUM pixels a side, all pictures are reduced by the least whole
- * factor with which it fits. Functions that return int return 0, or -1 with the reason. */
+ * If the sheet would have more than PNG_SIDE_MAXIMUM pixels a side, all pictures are reduced by the least
+ * whole factor with which it fits. Functions that return int return 0, or -1 with the reason. */
 #ifndef IMAGE_SHEET_H
 #define IMAGE_SHEET_H
 

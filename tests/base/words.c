@@ -11,12 +11,12 @@ void tearDown(void)
 {
 }
 
-static const char *const names[] = {"draw", "clear", "state", "",           "texture", "target",
-                                    "mov",  "mova",  "mul",   "tessfactor", NULL};
+static const char *const names[] = {"draw",   "clear", "state", "",    "texture",
+                                    "target", "mov",   "mova",  "mul", "tessfactor"};
 
 static const char *nearest(const char *given)
 {
-    return words_nearest(words_of_array(names), given, strlen(given));
+    return words_nearest(WORDS_OF_ROWS(names), given, strlen(given));
 }
 
 static void one_error_of_each_kind_is_recognised(void)
@@ -55,27 +55,27 @@ static void a_word_of_any_length_is_measured(void)
     char text[300];
     for (size_t length = 0; length < sizeof text; length++) {
         memset(text, 'a', length);
-        TEST_ASSERT_NULL(words_nearest(words_of_array(names), text, length));
+        TEST_ASSERT_NULL(words_nearest(WORDS_OF_ROWS(names), text, length));
     }
 }
 
 static void a_word_is_found_with_its_index(void)
 {
     unsigned index = 0;
-    TEST_ASSERT_EQUAL_STRING("texture", words_find(words_of_array(names), "texture 3", 7, &index));
+    TEST_ASSERT_EQUAL_STRING("texture", words_find(WORDS_OF_ROWS(names), "texture 3", 7, &index));
     TEST_ASSERT_EQUAL_UINT(4, index);
-    TEST_ASSERT_NULL(words_find(words_of_array(names), "textur", 6, &index));
-    TEST_ASSERT_NULL(words_find(words_of_array(names), "", 0, &index));
+    TEST_ASSERT_NULL(words_find(WORDS_OF_ROWS(names), "textur", 6, &index));
+    TEST_ASSERT_NULL(words_find(WORDS_OF_ROWS(names), "", 0, &index));
 }
 
 static void a_list_is_joined_up_to_the_capacity(void)
 {
     char text[64];
-    words_join(words_of_array(names), text, sizeof text);
+    words_join(WORDS_OF_ROWS(names), text, sizeof text);
     TEST_ASSERT_EQUAL_STRING("draw, clear, state, texture, target, mov, mova, mul, ...", text);
-    words_join(words_of_array(names), text, 20);
+    words_join(WORDS_OF_ROWS(names), text, 20);
     TEST_ASSERT_EQUAL_STRING("draw, clear, ...", text);
-    words_join((words_of_array((const char *const[]){NULL})), text, sizeof text);
+    words_join((struct words){.at = words_row}, text, sizeof text);
     TEST_ASSERT_EQUAL_STRING("", text);
 }
 
@@ -83,26 +83,26 @@ static void a_suggestion_is_a_question(void)
 {
     char text[WORDS_SUGGESTION];
     TEST_ASSERT_EQUAL_STRING("; did you mean \"clear\"?",
-                             words_suggest(words_of_array(names), "claer", 5, text));
-    TEST_ASSERT_EQUAL_STRING("", words_suggest(words_of_array(names), "paint", 5, text));
+                             words_suggest(WORDS_OF_ROWS(names), "claer", 5, text));
+    TEST_ASSERT_EQUAL_STRING("", words_suggest(WORDS_OF_ROWS(names), "paint", 5, text));
 }
 
 static void a_suggestion_takes_the_place_of_the_end_of_a_full_reason(void)
 {
     static const char end[] = "...; did you mean \"clear\"?";
     struct error error = {""};
-    TEST_ASSERT_EQUAL_INT(-1, words_suggest_in(words_of_array(names), "claer", 5, &error));
+    TEST_ASSERT_EQUAL_INT(-1, words_suggest_in(WORDS_OF_ROWS(names), "claer", 5, &error));
     TEST_ASSERT_EQUAL_STRING("; did you mean \"clear\"?", error.text);
     for (size_t length = sizeof error.text - 40; length < sizeof error.text; length++) {
         memset(error.text, 'a', length);
         error.text[length] = 0;
-        words_suggest_in(words_of_array(names), "claer", 5, &error);
+        words_suggest_in(WORDS_OF_ROWS(names), "claer", 5, &error);
         TEST_ASSERT_TRUE(strlen(error.text) < sizeof error.text);
         TEST_ASSERT_NOT_NULL(strstr(error.text, end + 3));
         if (length + strlen(end + 3) >= sizeof error.text)
             TEST_ASSERT_EQUAL_STRING(end, error.text + strlen(error.text) - strlen(end));
     }
-    TEST_ASSERT_EQUAL_INT(-1, words_suggest_in(words_of_array(names), "claer", 5, NULL));
+    TEST_ASSERT_EQUAL_INT(-1, words_suggest_in(WORDS_OF_ROWS(names), "claer", 5, NULL));
 }
 
 static void a_cut_does_not_split_a_character(void)
@@ -111,7 +111,7 @@ static void a_cut_does_not_split_a_character(void)
     for (size_t i = 0; i + 2 < sizeof error.text; i += 2)
         memcpy(error.text + i, "\xc3\xa9", 2);
     for (int shift = 0; shift < 2; shift++) {
-        words_suggest_in(words_of_array(names), "claer", 5, &error);
+        words_suggest_in(WORDS_OF_ROWS(names), "claer", 5, &error);
         const char *dots = strstr(error.text, "...");
         TEST_ASSERT_NOT_NULL(dots);
         TEST_ASSERT_EQUAL_HEX8(0xa9, (unsigned char)dots[-1]);

@@ -106,8 +106,8 @@ static int choose_form(struct sink *sink)
 
 /* --- Names ---------------------------------------------------------------------------------------------- */
 
-/* Finds the number in the path: its position, its length, and its width. Returns 0 if there is none, 1 if there
- * is one, and -1 if the path has another % as well. */
+/* Finds the number in the path: its position, its length, and its width. Returns 0 if there is none, 1 if
+ * there is one, and -1 if the path has another % as well. */
 static int find_number(const char *path, size_t *at, size_t *length, unsigned *width, bool *zeros)
 {
     enum { DIGITS = 2 };

@@ -1,6 +1,7 @@
 /* The files of rendered pictures: one for each picture, or one for all.
  *
- * The path of several files contains one number of the picture: %d, or with a width %4d, or with zeros %04d. */
+ * The path of several files contains one number of the picture: %d, or with a width %4d, or with zeros
+ * %04d. */
 #ifndef COMMAND_SUPPORT_SINK_H
 #define COMMAND_SUPPORT_SINK_H
 

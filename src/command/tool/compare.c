@@ -18,7 +18,8 @@ enum outcome { IDENTICAL, SIMILAR, DIFFERENT, DIFFERENT_SIZES };
 
 static const char *const outcome_names[] = {"identical", "similar", "different", "different sizes"};
 
-/* The result of a comparison. `difference` and `distance` are zero unless the outcome is SIMILAR or DIFFERENT. */
+/* The result of a comparison. `difference` and `distance` are zero unless the outcome is SIMILAR or
+ * DIFFERENT. */
 struct result {
     enum outcome outcome;
     struct difference difference;

@@ -18,8 +18,8 @@ static void put_words(option_words *words, FILE *out)
         fprintf(out, "%s%s", i ? " " : "", word);
 }
 
-/* A text between single quotes; `signs` get a backslash before them. In fish, \' is a quote; elsewhere the text
- * is interrupted. */
+/* A text between single quotes; `signs` get a backslash before them. In fish, \' is a quote; elsewhere the
+ * text is interrupted. */
 static void put_quoted(const char *text, const char *signs, bool fish, FILE *out)
 {
     for (; *text; text++) {

@@ -36,8 +36,8 @@ static size_t column_of(const char *line, size_t length)
     return length;
 }
 
-/* Prints a line of notes: a row of a table becomes an indented paragraph, others are filled. A line never begins
- * with a sign of the language. */
+/* Prints a line of notes: a row of a table becomes an indented paragraph, others are filled. A line never
+ * begins with a sign of the language. */
 static void put_note(const char *line, size_t length, FILE *out)
 {
     size_t column = column_of(line, length), rest = column;

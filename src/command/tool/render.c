@@ -1,7 +1,7 @@
 /* `triptych render`: draws frames of a stream with one engine and saves them as pictures.
  *
- * The draws of a frame are played like frames: the view of the stream that --draws uses has a frame up to each
- * draw, so the player continues from one to the next. */
+ * The draws of a frame are played like frames: the view of the stream that --draws uses has a frame up to
+ * each draw, so the player continues from one to the next. */
 #include "command/support/choose.h"
 #include "command/support/option.h"
 #include "command/support/session.h"
@@ -22,8 +22,8 @@ struct settings {
     unsigned frame, threads, width, form, columns, rate;
 };
 
-/* The pictures to draw: frames `first` to `last` of the stream, which may be a view (view_draws). The files are
- * numbered from `number` on. */
+/* The pictures to draw: frames `first` to `last` of the stream, which may be a view (view_draws). The files
+ * are numbered from `number` on. */
 struct task {
     const struct stream *stream;
     unsigned first, last, number;

@@ -46,7 +46,8 @@ int scan_next(struct scanner *scanner);
 /* Sets "PATH:LINE:COLUMN: found TOKEN, expected EXPECTED" for the current token. Returns -1. */
 int scan_expected(struct scanner *scanner, const char *expected, ...) __attribute__((format(printf, 2, 3)));
 
-/* The same for a piece of the token that is not in a list: adds the nearest word of the list to the reason. */
+/* The same for a piece of the token that is not in a list: adds the nearest word of the list to the
+ * reason. */
 int scan_expected_word(struct scanner *scanner, struct words words, struct scan_piece piece,
                        const char *expected, ...) __attribute__((format(printf, 4, 5)));
 
