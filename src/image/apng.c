@@ -86,7 +86,7 @@ static int put_data(struct animation *animation, const uint8_t *data, size_t byt
 
 /* --- Frames --- */
 
-/* What follows the header of a picture: all chunks of data. */
+/* Copies all chunks of data. `at` follows the header of the picture. */
 static int copy_data(struct animation *animation, const uint8_t *at, const uint8_t *end, struct error *error)
 {
     while (end - at >= LENGTH + TYPE + CHECK) {

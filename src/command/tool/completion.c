@@ -83,7 +83,7 @@ static const char bash_operands[] =
     "        fi\n"
     "    done\n";
 
-/* What follows an option, as a command of the script. */
+/* Prints the command of the script that completes the value of an option. */
 static void put_bash_value(const struct option *option, FILE *out)
 {
     if (option->words) {

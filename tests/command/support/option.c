@@ -55,10 +55,10 @@ static enum options_result read_words(int count, char **words)
 
 #define READ(...) read_words(sizeof(char *[]){__VA_ARGS__} / sizeof(char *), (char *[]){__VA_ARGS__})
 
-/* Reads with standard error in a file, which `told` receives. */
-static char told[1024];
+/* Reads with standard error in a file, whose text is `printed` afterwards. */
+static char printed[1024];
 
-static enum options_result read_telling(const struct command *command, int count, char **words)
+static enum options_result read_printing(const struct command *command, int count, char **words)
 {
     FILE *file = tmpfile();
     TEST_ASSERT_NOT_NULL(file);
@@ -68,19 +68,19 @@ static enum options_result read_telling(const struct command *command, int count
     dup2(before, STDERR_FILENO);
     close(before);
     rewind(file);
-    told[fread(told, 1, sizeof told - 1, file)] = 0;
+    printed[fread(printed, 1, sizeof printed - 1, file)] = 0;
     fclose(file);
     return result;
 }
 
-static void tells(const char *expected, const struct command *command, int count, char **words)
+static void refuses(const char *expected, const struct command *command, int count, char **words)
 {
-    TEST_ASSERT_EQUAL(OPTIONS_BAD, read_telling(command, count, words));
-    TEST_ASSERT_EQUAL_STRING(expected, told);
+    TEST_ASSERT_EQUAL(OPTIONS_BAD, read_printing(command, count, words));
+    TEST_ASSERT_EQUAL_STRING(expected, printed);
 }
 
-#define TELLS(expected, command, ...)                                                                        \
-    tells(expected, command, sizeof(char *[]){__VA_ARGS__} / sizeof(char *), (char *[]){__VA_ARGS__})
+#define REFUSES(expected, command, ...)                                                                      \
+    refuses(expected, command, sizeof(char *[]){__VA_ARGS__} / sizeof(char *), (char *[]){__VA_ARGS__})
 
 void setUp(void)
 {
@@ -136,21 +136,21 @@ static void test_a_standard_stream_has_one_use(void)
     tool_print_to_output();
     TEST_ASSERT_EQUAL_PTR(output, stdout);
     TEST_ASSERT_EQUAL(OPTIONS_BAD, result);
-    TELLS("triptych test: FIRST is \"-\", expected a file: standard input has another use\n", &self, "-",
-          "--input", "-");
+    REFUSES("triptych test: FIRST is \"-\", expected a file: standard input has another use\n", &self, "-",
+            "--input", "-");
 }
 
 static void test_a_misspelled_word_is_answered_with_the_nearest(void)
 {
-    TELLS("triptych test: --word is \"pixle\", expected one of: vertex, setup, pixel; did you mean "
-          "\"pixel\"?\n",
-          &self, "--word", "pixle");
-    TELLS("triptych test: --index is empty, expected UNIT\n", &self, "--index=", "a");
-    TELLS(
+    REFUSES("triptych test: --word is \"pixle\", expected one of: vertex, setup, pixel; did you mean "
+            "\"pixel\"?\n",
+            &self, "--word", "pixle");
+    REFUSES("triptych test: --index is empty, expected UNIT\n", &self, "--index=", "a");
+    REFUSES(
         "triptych test: UNIT is \"vert\", expected one of: vertex, setup, pixel; did you mean \"vertex\"?\n",
         &of_unit, "vert");
-    TEST_ASSERT_EQUAL(OPTIONS_BAD, read_telling(&self, 2, (char *[]){"--nmber=3", "a"}));
-    TEST_ASSERT_NOT_NULL_MESSAGE(strstr(told, "; did you mean --number?\n"), told);
+    TEST_ASSERT_EQUAL(OPTIONS_BAD, read_printing(&self, 2, (char *[]){"--nmber=3", "a"}));
+    TEST_ASSERT_NOT_NULL_MESSAGE(strstr(printed, "; did you mean --number?\n"), printed);
 }
 
 static void test_help_is_requested_by_two_names(void)
@@ -164,8 +164,8 @@ static void test_the_number_of_operands_is_checked(void)
     char usage[OPTIONS_USAGE];
     TEST_ASSERT_EQUAL_STRING("FIRST [REST...]", options_usage(&self, usage));
     TEST_ASSERT_EQUAL_STRING("UNIT [FILE]", options_usage(&of_unit, usage));
-    tells("triptych test: expected UNIT [FILE], got 0 of them\n", &of_unit, 0, NULL);
-    TELLS("triptych test: unexpected \"b\", expected only UNIT [FILE]\n", &of_unit, "pixel", "a", "b");
+    refuses("triptych test: expected UNIT [FILE], got 0 of them\n", &of_unit, 0, NULL);
+    REFUSES("triptych test: unexpected \"b\", expected only UNIT [FILE]\n", &of_unit, "pixel", "a", "b");
     TEST_ASSERT_EQUAL(OPTIONS_GO, READ("a", "b", "c", "d"));
     TEST_ASSERT_EQUAL_INT(4, operands.count);
 }
