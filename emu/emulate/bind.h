@@ -261,7 +261,7 @@ static inline void set_m(struct env *e, int variable, msk value)
     e->variable[variable].m = value;
 }
 
-static inline int any_lane(msk mask)
+static inline bool any_lane(msk mask)
 {
     return _mm_movemask_ps((__m128)mask.lane) != 0;
 }

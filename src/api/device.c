@@ -175,7 +175,7 @@ int triptych_format_is_bytes(enum triptych_surface_format number)
     return format && format->storage == STORAGE_RGBA8;
 }
 
-static int known_format(enum triptych_depth_format format)
+static bool known_format(enum triptych_depth_format format)
 {
     return (unsigned)format < TRIPTYCH_DEPTH_COUNT;
 }

@@ -4,6 +4,7 @@
 #include <errno.h>
 #include <fcntl.h>
 #include <stdatomic.h>
+#include <stdbool.h>
 #include <stdint.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -194,7 +195,7 @@ static int begin(struct file_output *output, const struct stat *existing)
 int file_begin(struct file_output *output, const char *path, struct error *error)
 {
     struct stat status;
-    int exists = !stat(path, &status);
+    bool exists = !stat(path, &status);
     *output = (struct file_output){.descriptor = -1, .leftover = -1};
     if (exists && S_ISDIR(status.st_mode))
         return error_set(error, "%s: is a folder, expected a file to write", path);

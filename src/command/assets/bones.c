@@ -216,7 +216,7 @@ int bones_add(struct mesh *mesh, const char *path, const struct aiMesh *source, 
         if (number < 0 || follow(mesh, path, bone, number, first, error))
             return -1;
     }
-    int unbound = source->mNumBones == 0;
+    bool unbound = source->mNumBones == 0;
     for (uint32_t v = first; !unbound && v < mesh->vertex_count; v++) {
         const float *weight = mesh->vertices[v].weight;
         unbound = !(weight[0] > 0 || weight[1] > 0 || weight[2] > 0 || weight[3] > 0);

@@ -99,7 +99,7 @@ static int read_header(const char *path, const uint8_t *data, struct triptych_te
                          word(data, AT_MASKS + 12));
     if (caps & CAPS2_CUBE && (caps & CAPS2_ALL_FACES) != CAPS2_ALL_FACES)
         return error_set(error, "%s: a DDS cube without some of its faces, expected all six", path);
-    int levels = word(data, AT_FLAGS) & HAS_LEVELS && word(data, AT_LEVELS);
+    bool levels = word(data, AT_FLAGS) & HAS_LEVELS && word(data, AT_LEVELS);
     *texture = (struct triptych_texture_description){
         .type = caps & CAPS2_CUBE     ? TRIPTYCH_TEXTURE_CUBE
                 : caps & CAPS2_VOLUME ? TRIPTYCH_TEXTURE_VOLUME

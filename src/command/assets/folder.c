@@ -51,12 +51,12 @@ static bool has_relative_face(const struct resource *resource)
     return false;
 }
 
-static int names_files(const struct stream *stream)
+static bool names_files(const struct stream *stream)
 {
     for (uint32_t i = 0; i < stream->resource_count; i++)
         if (is_relative(stream->resources[i].path) || has_relative_face(&stream->resources[i]))
-            return 1;
-    return 0;
+            return true;
+    return false;
 }
 
 int folder_prefix(const struct stream *stream, const char *path, char **prefix, struct error *error)

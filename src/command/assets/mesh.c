@@ -224,7 +224,7 @@ static void project_texcoord(struct mesh_vertex *vertex, enum texcoords kind, co
     vertex->texcoord[1] = (float)down;
 }
 
-static int crosses_seam(const struct mesh *mesh, const uint32_t corner[3])
+static bool crosses_seam(const struct mesh *mesh, const uint32_t corner[3])
 {
     float least = 1, most = 0;
     for (int c = 0; c < 3; c++) {

@@ -134,12 +134,12 @@ static int take_name(struct reader *reader, char **name)
     return 0;
 }
 
-static int are_finite(const float *numbers, size_t count)
+static bool are_finite(const float *numbers, size_t count)
 {
     for (size_t i = 0; i < count; i++)
         if (!isfinite(numbers[i]))
-            return 0;
-    return 1;
+            return false;
+    return true;
 }
 
 static int check_vertices(struct reader *reader, const struct mesh *mesh)

@@ -53,7 +53,7 @@ static int collect(const struct command *self, const char *path, struct collecti
 static int build_round(const struct engine *engine, struct collection *c, unsigned round, struct error *error)
 {
     struct code_arena *arena = engine->without_arena ? NULL : code_create(ARENA_BYTES, NULL, error);
-    int bad = !arena && !engine->without_arena;
+    bool bad = !arena && !engine->without_arena;
     size_t built = 0;
     for (; built < c->keys.count && !bad; built++) {
         const struct key_found *found = c->keys.found + built;

@@ -242,7 +242,7 @@ static int add_resource(struct whole *whole, struct record *record, struct error
     bool shadow = from->type == RESOURCE_MESH && from->options.source == MESH_SHADOW;
     uint32_t caster = shadow ? from->options.caster : 0;
     int length = name_resource(whole, record, name);
-    int sequence = from->type == RESOURCE_SEQUENCE;
+    bool sequence = from->type == RESOURCE_SEQUENCE;
     if (whole->build.sequence != NO_RESOURCE) {
         error_set(error, "found a definition in a sequence, expected calls");
     } else if (whole->slots[record->number] != NO_RESOURCE) {
@@ -286,7 +286,7 @@ static int translate(struct whole *whole, struct call *call, struct error *error
 static int add_call(struct whole *whole, struct call *call, struct error *error)
 {
     struct error reason = {{0}};
-    int inside = whole->build.sequence != NO_RESOURCE;
+    bool inside = whole->build.sequence != NO_RESOURCE;
     if (inside && call_row(call->type)->traits & CALL_OUTSIDE)
         return stream_fail(whole->stream, call, "found in a sequence, expected it outside of sequences",
                            error);
@@ -385,7 +385,7 @@ int container_parse(const char *path, const void *data, size_t bytes, unsigned f
     } else {
         for (uint32_t i = 0; i < NO_RESOURCE; i++)
             whole.slots[i] = NO_RESOURCE;
-        whole.stream->container = 1;
+        whole.stream->container = true;
         stream_build_start(&whole.build, whole.stream);
         result = read_whole(&whole, data, bytes, flags, error);
         stream_build_free(&whole.build);

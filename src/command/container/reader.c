@@ -26,13 +26,13 @@ struct stream_reader {
 /* --- Opening -------------------------------------------------------------------------------------------- */
 
 /* Returns true if the file can be read as it is played. */
-static int is_recording(int descriptor, const char *path)
+static bool is_recording(int descriptor, const char *path)
 {
     struct chunk_reader chunks;
     struct error ignored = {{0}};
     if (chunk_read_file(&chunks, path, descriptor, 0, &ignored))
-        return 0;
-    int recording = chunks.recording;
+        return false;
+    bool recording = chunks.recording;
     chunk_reader_free(&chunks);
     return recording;
 }
@@ -76,7 +76,7 @@ int container_open(const char *path, struct stream **stream, struct error *error
         close(descriptor);
         return error_set(error, "%s: not enough memory", path);
     }
-    *made = (struct stream){.path = copy, .container = 1, .streamed = 1, .descriptor = descriptor};
+    *made = (struct stream){.path = copy, .container = true, .streamed = true, .descriptor = descriptor};
     if (count_frames(made, &made->frame_count, error)) {
         stream_free(made);
         return -1;
@@ -117,7 +117,7 @@ struct stream_reader *reader_create(const struct stream *stream, struct error *e
     }
     reader->stream = stream;
     reader->window =
-        (struct stream){.path = stream->path, .container = 1, .frame_count = stream->frame_count};
+        (struct stream){.path = stream->path, .container = true, .frame_count = stream->frame_count};
     reader->chunks.descriptor = -1;
     if (!reader_rewind(reader, error))
         return reader;

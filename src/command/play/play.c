@@ -142,11 +142,11 @@ static bool is_overwritten(const struct stream *stream, uint32_t at, uint32_t en
 }
 
 /* Compares the colours. The first format of the second description may be 0, which means A8R8G8B8. */
-static int same_colors(const struct triptych_target_description *got,
-                       const struct triptych_target_description *wanted)
+static bool same_colors(const struct triptych_target_description *got,
+                        const struct triptych_target_description *wanted)
 {
-    int same = got->color_format[0] ==
-               (wanted->color_format[0] ? wanted->color_format[0] : TRIPTYCH_SURFACE_A8R8G8B8);
+    bool same = got->color_format[0] ==
+                (wanted->color_format[0] ? wanted->color_format[0] : TRIPTYCH_SURFACE_A8R8G8B8);
     for (unsigned t = 1; t < TRIPTYCH_TARGETS; t++)
         same &= got->color_format[t] == wanted->color_format[t];
     return same;
@@ -154,7 +154,7 @@ static int same_colors(const struct triptych_target_description *got,
 
 /* Keeps a target that the frame sets again. Otherwise replaying a frame would measure the creation of
  * targets. A target with the same description can stay if its pixels do not matter. */
-static enum triptych_result keep_target(struct player *player, const struct call *call, int *kept)
+static enum triptych_result keep_target(struct player *player, const struct call *call, bool *kept)
 {
     struct triptych_target_description target;
     enum triptych_result result = triptych_set_target_textures(player->device, NULL);
@@ -170,12 +170,12 @@ static enum triptych_result keep_target(struct player *player, const struct call
     return result ? result : triptych_set_viewport(player->device, &whole);
 }
 
-static enum triptych_result execute(struct player *player, uint32_t at, uint32_t end, int draws)
+static enum triptych_result execute(struct player *player, uint32_t at, uint32_t end, bool draws)
 {
     const struct stream *stream = player->stream;
     const struct call *call = &stream->calls[stream->executed[at]];
     enum triptych_result result = TRIPTYCH_OK;
-    int kept = 0;
+    bool kept = false;
     if (call->type == CALL_TARGET && draws && is_overwritten(stream, at, end))
         result = keep_target(player, call, &kept);
     if (!result && !kept)
@@ -188,7 +188,8 @@ static enum triptych_result execute(struct player *player, uint32_t at, uint32_t
 /* --- Frames --------------------------------------------------------------------------------------------- */
 
 /* Executes calls `first` to `last` - 1 of `executed`. The reason begins with the position of the call. */
-static int execute_range(struct player *player, uint32_t first, uint32_t last, int draws, struct error *error)
+static int execute_range(struct player *player, uint32_t first, uint32_t last, bool draws,
+                         struct error *error)
 {
     const struct stream *stream = player->stream;
     for (uint32_t i = first; i < last; i++)
@@ -206,7 +207,7 @@ static int seek(struct player *player, uint32_t frame, struct error *error)
     player->next = NOWHERE;
     if (player_reset(player))
         return error_set(error, "%s: %s", player->stream->path, triptych_error(player->device));
-    return execute_range(player, 0, player->stream->frames[frame], 0, error);
+    return execute_range(player, 0, player->stream->frames[frame], false, error);
 }
 
 static int perform(struct player *player, uint32_t frame, struct error *error)
@@ -216,7 +217,7 @@ static int perform(struct player *player, uint32_t frame, struct error *error)
     player->frame = frame;
     for (uint32_t i = 0; i < stream->resource_count; i++)
         player->handles[i].frame = NOWHERE;
-    if (execute_range(player, stream->frames[frame], stream->frames[frame + 1], 1, error))
+    if (execute_range(player, stream->frames[frame], stream->frames[frame + 1], true, error))
         return -1;
     if (triptych_finish(player->device))
         return error_set(error, "%s: frame %" PRIu32 ": %s", stream->path, frame,
@@ -245,7 +246,7 @@ int player_go_on(struct player *player, uint32_t frame, struct error *error)
     return perform(player, frame, error);
 }
 
-int player_query(struct player *player, uint32_t i, struct query_count *count)
+bool player_query(struct player *player, uint32_t i, struct query_count *count)
 {
     const struct stream *stream = player->stream;
     for (uint32_t r = 0; r < player->handle_count; r++) {
@@ -255,7 +256,7 @@ int player_query(struct player *player, uint32_t i, struct query_count *count)
         count->name = stream->resources[r].name;
         return !triptych_query_result(player->device, handles->query, &count->passed);
     }
-    return 0;
+    return false;
 }
 
 int stream_play(const struct stream *stream, triptych_device *device, uint32_t first, uint32_t last,

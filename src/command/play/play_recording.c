@@ -51,7 +51,7 @@ static void release(struct player *player, uint32_t number)
 /* Creates the buffer that the call binds, if it does not exist yet. */
 static int make_buffer(struct player *player, const struct call *call, struct error *error)
 {
-    int binds =
+    bool binds =
         call->type == CALL_BIND_INDICES || call->type == CALL_BIND_ELEMENT || call->type == CALL_BIND_STREAM;
     if (!binds || call->resource == NO_RESOURCE)
         return 0;
@@ -62,7 +62,7 @@ static int make_buffer(struct player *player, const struct call *call, struct er
     return player_create(player->device, resource, handles) ? fail(player, resource->name, error) : 0;
 }
 
-static int execute(struct player *player, const struct call *call, int draws, struct error *error)
+static int execute(struct player *player, const struct call *call, bool draws, struct error *error)
 {
     if (make_buffer(player, call, error))
         return -1;
@@ -74,7 +74,7 @@ static int execute(struct player *player, const struct call *call, int draws, st
 }
 
 /* Plays up to the end of the current frame. */
-static int play_frame(struct player *player, int draws, struct error *error)
+static int play_frame(struct player *player, bool draws, struct error *error)
 {
     struct step step;
     for (;;) {
@@ -112,12 +112,12 @@ int player_recorded_frame(struct player *player, uint32_t frame, struct error *e
             return -1;
     }
     for (; next < frame; next++)
-        if (play_frame(player, 0, error))
+        if (play_frame(player, false, error))
             return -1;
     player->frame = frame;
     for (uint32_t i = 0; i < player->handle_count; i++)
         player->handles[i].frame = NOWHERE;
-    if (play_frame(player, 1, error))
+    if (play_frame(player, true, error))
         return -1;
     if (triptych_finish(player->device))
         return fail(player, "finishing", error);

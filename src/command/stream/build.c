@@ -16,15 +16,15 @@ void stream_build_free(struct builder *builder)
 
 /* --- Names ---------------------------------------------------------------------------------------------- */
 
-int stream_build_is_name(const char *name, size_t length)
+bool stream_build_is_name(const char *name, size_t length)
 {
     if (!length || length > LIMIT_NAME_BYTES)
-        return 0;
+        return false;
     for (size_t i = 0; i < length; i++) {
         char c = name[i], letter = (char)(c | 32);
         bool first = (letter >= 'a' && letter <= 'z') || c == '_';
         if (!first && (i == 0 || !((c >= '0' && c <= '9') || c == '-' || c == '.')))
-            return 0;
+            return false;
     }
     return !(length == 4 && !memcmp(name, "none", 4));
 }

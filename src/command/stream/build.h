@@ -21,7 +21,7 @@ void stream_build_start(struct builder *builder, struct stream *stream);
 void stream_build_free(struct builder *builder); /* keeps the stream */
 
 /* Returns nonzero if the bytes can be a name. */
-int stream_build_is_name(const char *name, size_t length);
+bool stream_build_is_name(const char *name, size_t length);
 
 /* Returns the number of the resource with this name, or NO_RESOURCE. */
 uint32_t stream_build_find(const struct builder *builder, const char *name, size_t length);

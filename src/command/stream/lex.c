@@ -86,19 +86,19 @@ static size_t sequence_length(const unsigned char *at, size_t left)
     return 0;
 }
 
-static int is_text(unsigned char byte, int before_line_feed)
+static bool is_text(unsigned char byte, bool before_line_feed)
 {
     return (byte >= ' ' && byte != 0x7f) || byte == '\t' || byte == '\n' ||
            (byte == '\r' && before_line_feed);
 }
 
-int lex_is_utf8(const char *text, size_t bytes)
+bool lex_is_utf8(const char *text, size_t bytes)
 {
     size_t length;
     for (const char *at = text; at < text + bytes; at += length)
         if (!(length = sequence_length((const unsigned char *)at, (size_t)(text + bytes - at))))
-            return 0;
-    return 1;
+            return false;
+    return true;
 }
 
 static int check_text(struct lexer *lexer)
@@ -127,12 +127,12 @@ static int check_text(struct lexer *lexer)
 
 /* --- Tokens --------------------------------------------------------------------------------------------- */
 
-static int is_space(char c)
+static bool is_space(char c)
 {
     return c == ' ' || c == '\t' || c == '\r';
 }
 
-static int ends_word(char c)
+static bool ends_word(char c)
 {
     return is_space(c) || c == '\n' || c == '{' || c == '}' || c == '"' || c == '#';
 }
@@ -197,7 +197,7 @@ int lex_start(struct lexer *lexer, const char *path, const char *text, size_t by
     return lex_next(lexer);
 }
 
-int lex_is(const struct lexer *lexer, const char *word)
+bool lex_is(const struct lexer *lexer, const char *word)
 {
     return lexer->token.type == TOKEN_WORD && strlen(word) == lexer->token.length &&
            !memcmp(word, lexer->token.text, lexer->token.length);
@@ -244,7 +244,7 @@ int lex_skip_lines(struct lexer *lexer)
 /* --- Values --------------------------------------------------------------------------------------------- */
 
 /* The C library also reads "inf", "nan(1)" and the like, which have no place in a stream. */
-static int looks_like_number(const char *text)
+static bool looks_like_number(const char *text)
 {
     text += *text == '-' || *text == '+';
     text += *text == '.';
@@ -288,19 +288,19 @@ int lex_any_number(struct lexer *lexer, const char *what, float *number)
     return 0;
 }
 
-int lex_half_bits(const struct lexer *lexer, int64_t *bits)
+bool lex_half_bits(const struct lexer *lexer, int64_t *bits)
 {
     const struct token *token = &lexer->token;
     if (token->type != TOKEN_WORD || token->length != 9 || memcmp(token->text, "bits:", 5))
-        return 0;
+        return false;
     *bits = 0;
     for (int i = 5; i < 9; i++) {
         int digit = lex_hexadecimal_digit(token->text[i]);
         if (digit < 0)
-            return 0;
+            return false;
         *bits = *bits << 4 | digit;
     }
-    return 1;
+    return true;
 }
 
 int lex_double(struct lexer *lexer, const char *what, double *number)
@@ -325,7 +325,7 @@ int lex_numbers(struct lexer *lexer, const char *what, float *numbers, size_t co
 int lex_integer(struct lexer *lexer, const char *what, int64_t low, int64_t high, int64_t *integer)
 {
     const char *at = lexer->token.text, *end = at + lexer->token.length;
-    int negative = 0, good = lexer->token.type == TOKEN_WORD;
+    bool negative = false, good = lexer->token.type == TOKEN_WORD;
     int64_t value = 0;
     if (good && (*at == '-' || *at == '+'))
         negative = *at++ == '-';
@@ -354,7 +354,7 @@ int lex_color(struct lexer *lexer, const char *what, uint32_t *color)
     const char *text = lexer->token.text;
     size_t length = lexer->token.length;
     uint32_t value = 0;
-    int good = lexer->token.type == TOKEN_WORD;
+    bool good = lexer->token.type == TOKEN_WORD;
     if (good && length == 10 && text[0] == '0' && (text[1] | 32) == 'x') {
         text += 2;
         length -= 2;

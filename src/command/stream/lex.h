@@ -9,6 +9,7 @@
 #include "base/error.h"
 #include "base/words.h"
 
+#include <stdbool.h>
 #include <stddef.h>
 #include <stdint.h>
 
@@ -34,7 +35,7 @@ struct lexer {
 int lex_start(struct lexer *lexer, const char *path, const char *text, size_t bytes, struct error *error);
 
 /* Returns nonzero if the bytes are valid UTF-8 without control characters. */
-int lex_is_utf8(const char *text, size_t bytes);
+bool lex_is_utf8(const char *text, size_t bytes);
 
 /* Advances to the next token. Fails at a string that does not end on its line. */
 int lex_next(struct lexer *lexer);
@@ -50,7 +51,7 @@ int lex_expected_word(struct lexer *lexer, struct words words, const char *expec
 int lex_fail(struct lexer *lexer, const struct token *place, const char *reason, ...)
     __attribute__((format(printf, 3, 4)));
 
-int lex_is(const struct lexer *lexer, const char *word);
+bool lex_is(const struct lexer *lexer, const char *word);
 
 /* Read a finite number, an integer from `low` to `high`, or a colour 0xAARRGGBB. `what` names it in the
  * reason. */
@@ -58,8 +59,8 @@ int lex_number(struct lexer *lexer, const char *what, float *number);
 /* Reads any number. Infinities and NaN are written as bits: and the eight hexadecimal digits of a
  * binary32. */
 int lex_any_number(struct lexer *lexer, const char *what, float *number);
-/* Returns nonzero if the current token is bits: and the four digits of a binary16, and reads them. */
-int lex_half_bits(const struct lexer *lexer, int64_t *bits);
+/* Returns true if the current token is bits: and the four digits of a binary16, and reads them. */
+bool lex_half_bits(const struct lexer *lexer, int64_t *bits);
 int lex_double(struct lexer *lexer, const char *what, double *number);
 int lex_numbers(struct lexer *lexer, const char *what, float *numbers, size_t count);
 int lex_integer(struct lexer *lexer, const char *what, int64_t low, int64_t high, int64_t *integer);

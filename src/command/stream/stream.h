@@ -30,11 +30,11 @@ enum stream_limit {
 };
 
 struct stream {
-    char *path;    /* of the file; a name without a file if parsed from memory */
-    int container; /* it was read from a container */
+    char *path;     /* of the file; a name without a file if parsed from memory */
+    bool container; /* it was read from a container */
     /* only the number of frames is known: resources and calls are read from `descriptor` while they are
      * played (command/container/reader.h) */
-    int streamed;
+    bool streamed;
     int descriptor;
     struct resource *resources;
     uint32_t resource_count;
@@ -120,7 +120,7 @@ struct query_count {
 
 /* Reads query `i` of those that ended in that frame, in the order of their definitions. Returns 0 past the
  * last. */
-int player_query(struct player *player, uint32_t i, struct query_count *count);
+bool player_query(struct player *player, uint32_t i, struct query_count *count);
 
 /* Called after each frame. If it returns another value than 0, playing stops, and stream_play returns the
  * value. */

@@ -1,6 +1,7 @@
 #include "command/stream/transform.h"
 
 #include <math.h>
+#include <stdbool.h>
 #include <string.h>
 
 static const double pi = 3.14159265358979323846;
@@ -17,15 +18,15 @@ static void cross(const double a[3], const double b[3], double out[3])
     out[2] = a[0] * b[1] - a[1] * b[0];
 }
 
-/* Returns 0 if the vector is too short to have a direction. */
-static int normalize(double v[3])
+/* Returns false if the vector is too short to have a direction. */
+static bool normalize(double v[3])
 {
     double length = sqrt(dot(v, v));
     if (!(length > 1e-30))
-        return 0;
+        return false;
     for (int i = 0; i < 3; i++)
         v[i] /= length;
-    return 1;
+    return true;
 }
 
 static void set_identity(double m[4][4])

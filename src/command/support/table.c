@@ -39,7 +39,7 @@ static void print_row(const struct table *table, const char (*cell)[TABLE_CELL],
     fprintf(out, "%*s", (int)indent, "");
     for (unsigned i = 0; i < table->columns; i++) {
         /* Avoids spaces at the end of a line. */
-        int last_left = table->alignment[i] == TABLE_LEFT && i + 1 == table->columns;
+        bool last_left = table->alignment[i] == TABLE_LEFT && i + 1 == table->columns;
         int field = last_left ? 0 : table->alignment[i] == TABLE_LEFT ? -width[i] : width[i];
         fprintf(out, "%s%*s", i ? "  " : "", field, cell[i]);
     }

@@ -12,7 +12,7 @@
 
 /* --- Names ---------------------------------------------------------------------------------------------- */
 
-static int is_name(const struct token *token)
+static bool is_name(const struct token *token)
 {
     return token->type == TOKEN_WORD && stream_build_is_name(token->text, token->length);
 }

@@ -72,7 +72,7 @@ int parse_set_shader(struct parser *parser, struct call *call, unsigned word)
 
 /* --- Constants of matrices ------------------------------------------------------------------------------ */
 
-static int at_line_end(const struct parser *parser)
+static bool at_line_end(const struct parser *parser)
 {
     return parser->lex.token.type == TOKEN_LINE_END || parser->lex.token.type == TOKEN_END;
 }
@@ -97,7 +97,7 @@ static int parse_columns(struct parser *parser, uint32_t first, bool *inverse, b
     return at_line_end(parser) ? 0 : lex_expected(lex, "inverse, transposed, count N, in that order");
 }
 
-static int is_end_of_factors(const struct parser *parser)
+static bool is_end_of_factors(const struct parser *parser)
 {
     const struct lexer *lex = &parser->lex;
     return at_line_end(parser) || lex_is(lex, "inverse") || lex_is(lex, "transposed") || lex_is(lex, "count");

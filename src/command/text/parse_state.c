@@ -153,7 +153,7 @@ static int parse_round(struct parser *parser, const struct token *place, double 
 static int parse_transform_number(struct parser *parser, unsigned which, uint32_t *number)
 {
     const struct token *token = &parser->lex.token;
-    int given = token->type == TOKEN_WORD && token->text[0] >= '0' && token->text[0] <= '9';
+    bool given = token->type == TOKEN_WORD && token->text[0] >= '0' && token->text[0] <= '9';
     if (which == TRIPTYCH_TRANSFORM_TEXTURE0)
         return parse_integer(parser, "texture matrix", 7, number);
     if (which != TRIPTYCH_TRANSFORM_WORLD || !given)

@@ -12,8 +12,8 @@ struct writer {
     /* the path from the new text's folder to the old one, which relative paths begin with; "" if they are
      * equal */
     char *prefix;
-    int by_path; /* the files of the current resource have its data */
-    int starved; /* this could not be determined because memory is short */
+    bool by_path; /* the files of the current resource have its data */
+    bool starved; /* this could not be determined because memory is short */
 };
 
 /* Numbers, each after a space. */

@@ -43,7 +43,7 @@ static char *make_text(const struct ir *ir, enum unit unit, const union key *key
     char *text = NULL;
     FILE *out = memory_file_open();
     if (out) {
-        int bad = fputs(external_vector, out) < 0;
+        bool bad = fputs(external_vector, out) < 0;
         bad |= external_print(ir, unit, key, out);
         bad |= memory_file_close(out, &text, bytes);
         if (!bad)

@@ -349,7 +349,7 @@ static inline void variable_known(struct env *e, struct variable_state *variable
     variable->known_at = e->plan->operations;
 }
 
-static inline int variable_is_known(const struct env *e, const struct variable_state *variable)
+static inline bool variable_is_known(const struct env *e, const struct variable_state *variable)
 {
     return variable->value && variable->depth <= e->depth && e->region[variable->depth] == variable->region &&
            variable->known_at > e->loop[e->depth];

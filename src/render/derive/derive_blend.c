@@ -57,7 +57,7 @@ static uint8_t known_factor(uint8_t factor, struct room room)
 static struct blending make_blending(uint32_t operation, uint32_t source, uint32_t target, struct room room)
 {
     if (source == SRCBLEND_bothsrcalpha || source == SRCBLEND_bothinvsrcalpha) {
-        int inverse = source == SRCBLEND_bothinvsrcalpha;
+        bool inverse = source == SRCBLEND_bothinvsrcalpha;
         source = inverse ? SRCBLEND_invsrcalpha : SRCBLEND_srcalpha;
         target = inverse ? SRCBLEND_srcalpha : SRCBLEND_invsrcalpha;
     }
@@ -81,7 +81,7 @@ static uint8_t alpha_factor(uint8_t factor)
 static struct blending alpha_blending(struct blending b, struct room room)
 {
     struct blending r = {b.blend, alpha_factor(b.source), alpha_factor(b.target)};
-    int same = blend_is_lerp(r.blend, r.source, r.target) == blend_is_lerp(b.blend, b.source, b.target);
+    bool same = blend_is_lerp(r.blend, r.source, r.target) == blend_is_lerp(b.blend, b.source, b.target);
     return b.blend == BLEND_COPY || !same ? b : reduce_blending(r, room);
 }
 

@@ -102,7 +102,7 @@ void derive_depth(const struct state *state, enum primitive primitive, struct pi
 /* Returns true if a pixel can pass all tests. */
 bool derive_passes(const struct pixel_key *key)
 {
-    int stencil = !key->stencil;
+    bool stencil = !key->stencil;
     for (int i = 0; i < key->stencil; i++)
         stencil |= key->stencil_function[i] != COMPARE_NEVER;
     return stencil && key->depth_function != COMPARE_NEVER && key->alpha_discard != COMPARE_ALWAYS;

@@ -54,7 +54,7 @@ static void fill_spot(const struct triptych_light *light, const struct matrix *v
 static void fill_light(const struct triptych_light *light, const struct reflectances *reflectances,
                        const struct matrix *view, struct light_job *job)
 {
-    int directional = light->type == TRIPTYCH_LIGHT_DIRECTIONAL;
+    bool directional = light->type == TRIPTYCH_LIGHT_DIRECTIONAL;
     for (int c = 0; c < 3; c++) {
         job->diffuse[c] = derive_narrow((double)light->diffuse[c] * reflectances->diffuse[c]);
         job->specular[c] = derive_narrow((double)light->specular[c] * reflectances->specular[c]);
@@ -75,7 +75,8 @@ static void fill_base(const struct state *state, const struct vertex_key *key, c
 {
     const struct triptych_material *material = &state->material;
     const uint8_t *source = key->reflectance;
-    int separate = source[REFLECTANCE_DIFFUSE] || source[REFLECTANCE_AMBIENT] || source[REFLECTANCE_EMISSIVE];
+    bool separate =
+        source[REFLECTANCE_DIFFUSE] || source[REFLECTANCE_AMBIENT] || source[REFLECTANCE_EMISSIVE];
     for (int c = 0; c < 3; c++) {
         double emissive = source[REFLECTANCE_EMISSIVE] ? 0 : (double)material->emissive[c];
         double reflected = reflectance[c] * ambient[c];

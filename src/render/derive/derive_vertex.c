@@ -7,7 +7,7 @@ uint8_t derive_format(const struct state_element *element, int components)
 {
     int format = (int)element->format;
     int last = ATTRIBUTE_FORMAT_FLOAT1 + components - 1;
-    int floats = key_vertex_types[format].encoding == ENCODING_FLOAT;
+    bool floats = key_vertex_types[format].encoding == ENCODING_FLOAT;
     return (uint8_t)(floats && format > last ? last : format);
 }
 
@@ -112,7 +112,7 @@ static void derive_normal(const struct state *state, struct vertex_key *key)
     need(state, key, ATTRIBUTE_NORMAL, 3);
     if (key->tween)
         need(state, key, ATTRIBUTE_NORMAL1, 3);
-    int any = key->attribute[ATTRIBUTE_NORMAL] || key->attribute[ATTRIBUTE_NORMAL1];
+    bool any = key->attribute[ATTRIBUTE_NORMAL] || key->attribute[ATTRIBUTE_NORMAL1];
     key->normalize = any && GET(state, normalizenormals);
 }
 
@@ -217,7 +217,7 @@ static void derive_coordinates(const struct state *state, int stage, int channel
 /* A point sprite's texture coordinates are setup's. */
 static bool is_read(const struct setup_key *setup, int varying)
 {
-    int smooth = setup->varying[varying] == INTERPOLATION_SMOOTH;
+    bool smooth = setup->varying[varying] == INTERPOLATION_SMOOTH;
     return setup->varying[varying] != INTERPOLATION_NONE && !(smooth && primitive_is_point(setup->primitive));
 }
 

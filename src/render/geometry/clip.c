@@ -207,8 +207,8 @@ static void cut(const struct clipper *c, enum clip_plane plane, const struct pol
         int j = i + 1 < from->count ? i + 1 : 0;
         const struct point *p = &from->point[i];
         const struct point *q = &from->point[j];
-        int p_inside = inside >> i & 1;
-        int q_inside = inside >> j & 1;
+        bool p_inside = inside >> i & 1;
+        bool q_inside = inside >> j & 1;
         if (p_inside)
             to->point[to->count++] = *p;
         if (p_inside != q_inside) {

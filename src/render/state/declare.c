@@ -187,7 +187,7 @@ static void add_position(struct sequence *s, uint32_t fvf)
     if (position < FVF_XYZB1 || position > FVF_XYZB5)
         return;
     weights = (position - FVF_XYZB1) / 2 + 1;
-    int indexed = packed || position == FVF_XYZB5;
+    bool indexed = packed || position == FVF_XYZB5;
     if (indexed)
         weights--;
     if (weights)

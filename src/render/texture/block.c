@@ -32,12 +32,12 @@ static void expand_565(uint32_t word, unsigned channel[3])
 }
 
 /* `punch`: DXT1, where the order of the colours determines whether code 3 is transparent. */
-static void decode_colors(const uint8_t *block, int punch, uint32_t texels[16])
+static void decode_colors(const uint8_t *block, bool punch, uint32_t texels[16])
 {
     uint32_t word[2] = {read_16(block), read_16(block + 2)}, codes = read_32(block + 4);
     uint32_t color[4] = {0xff000000, 0xff000000, 0xff000000, 0xff000000};
     unsigned a[3], b[3];
-    int three = punch && word[0] <= word[1];
+    bool three = punch && word[0] <= word[1];
     expand_565(word[0], a);
     expand_565(word[1], b);
     for (int c = 0; c < 3; c++) {

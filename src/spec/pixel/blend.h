@@ -27,7 +27,7 @@ static inline struct color color_invert(struct env *e, struct color color, int u
 }
 
 /* Returns 1 if all channels have the same factor, which is then computed once. */
-static inline int factor_is_uniform(int factor)
+static inline bool factor_is_uniform(int factor)
 {
     return factor >= FACTOR_SOURCE_ALPHA && factor <= FACTOR_INVERSE_TARGET_ALPHA;
 }

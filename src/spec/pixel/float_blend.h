@@ -91,7 +91,8 @@ static inline struct float_color float_blend_channels(struct env *e, const struc
                                                       int first, int last, const struct float_color *s,
                                                       const struct float_color *d)
 {
-    int blend = k->blend[kind], extreme = blend == BLEND_MINIMUM || blend == BLEND_MAXIMUM;
+    int blend = k->blend[kind];
+    bool extreme = blend == BLEND_MINIMUM || blend == BLEND_MAXIMUM;
     int source_factor = extreme ? FACTOR_ONE : k->source_factor[kind];
     int target_factor = extreme ? FACTOR_ONE : k->target_factor[kind];
     if (blend == BLEND_COPY)

@@ -55,7 +55,7 @@ static inline fix floor_255(struct env *e, fix sum)
 }
 
 /* The thresholds of a pair. Alpha, if it is the upper one, is rounded and not dithered. */
-static inline fix dither_pair(struct env *e, int high_is_alpha)
+static inline fix dither_pair(struct env *e, bool high_is_alpha)
 {
     itg both = load_i(E, BASE_LANES, (int)offsetof(struct lane_table, dither));
     if (high_is_alpha) {
@@ -67,7 +67,7 @@ static inline fix dither_pair(struct env *e, int high_is_alpha)
 
 /* Quantizes the low channel to `low` bits and the high one to `high` bits. */
 static inline fix narrow_pair(struct env *e, const struct pixel_key *k, fix pair, int low, int high,
-                              int high_is_alpha)
+                              bool high_is_alpha)
 {
     fix levels = constant_pair(E, (1 << low) - 1, (1 << high) - 1);
     fix product = mul_x(E, pair, levels), q;

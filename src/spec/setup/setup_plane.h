@@ -157,7 +157,7 @@ static inline void record_varying(struct env *e, const struct setup_key *k,
                                   const struct triangle_layout *layout, const struct gradients *g,
                                   const struct corner p[3], int varying)
 {
-    int line = k->primitive != PRIMITIVE_TRIANGLE;
+    bool line = k->primitive != PRIMITIVE_TRIANGLE;
     struct corner flat = p[0];
     if (k->varying[varying] == INTERPOLATION_FLAT)
         flat = flat_corner(E, k, p, varying);

@@ -27,7 +27,7 @@ enum {
 struct machine {
     const struct program *program;
     unsigned booleans; /* bits of the Boolean constants */
-    int legacy;        /* 0 times anything is 0 */
+    bool legacy;       /* 0 times anything is 0 */
     flt cell[CELL_FLOATS];
     itg address[4];
     msk predicate[4];
@@ -35,7 +35,7 @@ struct machine {
     flt product[8]; /* by stage: a row of a matrix times a vector, of ps_1_1 to ps_1_3 */
 
     /* The lanes that execute, unless all do, and the values of changed cells in the other lanes. */
-    int masked;
+    bool masked;
     msk mask;
     struct cell_set changed;
     flt before[CELL_FLOATS];
@@ -60,8 +60,8 @@ struct machine {
 struct step {
     const struct shader_instruction *instruction;
     struct machine *machine;
-    int mask;   /* components of the result that are computed */
-    int legacy; /* multiplication is the legacy one */
+    int mask;    /* components of the result that are computed */
+    bool legacy; /* multiplication is the legacy one */
     struct vector4 source[SHADER_SOURCES];
     struct vector4 row[4]; /* of a matrix: the second source and the registers that follow it */
 };
@@ -142,7 +142,7 @@ static inline flt read_component(struct env *e, const struct machine *m, const s
 {
     unsigned index = o->index + (unsigned)row;
     const struct shader_model *model = m->program->model;
-    int written = shader_is_narrow(model) && model->column != COLUMN_PS_1_4;
+    bool written = shader_is_narrow(model) && model->column != COLUMN_PS_1_4;
     if (o->file == FILE_TEMPORARY)
         return m->cell[CELL_TEMPORARY + 4 * index + c];
     if (o->file == FILE_TEXTURE)
@@ -198,7 +198,7 @@ static inline struct vector4 read_source(struct env *e, const struct machine *m,
     return r;
 }
 
-static inline int is_value(const struct shader_operand *o)
+static inline bool is_value(const struct shader_operand *o)
 {
     return o->file && shader_registers[o->file].access & IS_FLOAT;
 }

@@ -20,7 +20,7 @@
 #include "spec/shader/shader.h"
 #include "spec/shader/shader_function.h"
 
-static inline int wants(const struct step *s, int c)
+static inline bool wants(const struct step *s, int c)
 {
     return s->mask >> c & 1;
 }
@@ -133,10 +133,10 @@ static inline struct vector4 execute_sgn(struct env *e, const struct step *s)
 }
 
 /* The second source where the limit is below the first (or equal to it, if `equal`), the third elsewhere. */
-static inline struct vector4 choose(struct env *e, const struct step *s, float limit, int equal)
+static inline struct vector4 choose(struct env *e, const struct step *s, float limit, bool equal)
 {
     struct vector4 r = s->source[0];
-    int all = swizzle_replicates(s->instruction->source[0].swizzle), compared = 0;
+    bool all = swizzle_replicates(s->instruction->source[0].swizzle), compared = false;
     msk holds;
     for (int c = 0; c < 4; c++) {
         if (!wants(s, c))
@@ -144,7 +144,7 @@ static inline struct vector4 choose(struct env *e, const struct step *s, float l
         if (!all || !compared)
             holds = equal ? le_f(E, lit_f(E, limit), s->source[0].v[c])
                           : lt_f(E, lit_f(E, limit), s->source[0].v[c]);
-        compared = 1;
+        compared = true;
         r.v[c] = select_f(E, holds, s->source[1].v[c], s->source[2].v[c]);
     }
     return r;
@@ -152,12 +152,12 @@ static inline struct vector4 choose(struct env *e, const struct step *s, float l
 
 static inline struct vector4 execute_cmp(struct env *e, const struct step *s)
 {
-    return choose(E, s, 0.0f, 1);
+    return choose(E, s, 0.0f, true);
 }
 
 static inline struct vector4 execute_cnd(struct env *e, const struct step *s)
 {
-    return choose(E, s, 0.5f, 0);
+    return choose(E, s, 0.5f, false);
 }
 
 /* --- Products of vectors ------------------------------------------------------------------------------- */

@@ -12,76 +12,76 @@
 #include "spec/shader/shader_texture.h"
 
 /* Computes the result of an instruction that is not flow control, before masks, shifts and saturation.
- * Returns 1 if there is a result to write, 0 if the instruction writes no register. */
-static inline int execute_instruction(struct env *e, struct step *s, struct vector4 *result)
+ * Returns true if there is a result to write, false if the instruction writes no register. */
+static inline bool execute_instruction(struct env *e, struct step *s, struct vector4 *result)
 {
     read_sources(E, s);
     switch ((enum shader_opcode)s->instruction->opcode) {
-    case SHADER_MOV: *result = s->source[0]; return 1;
-    case SHADER_ADD: *result = execute_add(E, s); return 1;
-    case SHADER_SUB: *result = execute_sub(E, s); return 1;
-    case SHADER_MAD: *result = execute_mad(E, s); return 1;
-    case SHADER_MUL: *result = execute_mul(E, s); return 1;
-    case SHADER_RCP: *result = execute_rcp(E, s); return 1;
-    case SHADER_RSQ: *result = execute_rsq(E, s); return 1;
-    case SHADER_DP3: *result = execute_dp3(E, s); return 1;
-    case SHADER_DP4: *result = execute_dp4(E, s); return 1;
-    case SHADER_MIN: *result = execute_min(E, s); return 1;
-    case SHADER_MAX: *result = execute_max(E, s); return 1;
-    case SHADER_SLT: *result = execute_slt(E, s); return 1;
-    case SHADER_SGE: *result = execute_sge(E, s); return 1;
-    case SHADER_EXP: *result = execute_exp(E, s); return 1;
-    case SHADER_LOG: *result = execute_log(E, s); return 1;
-    case SHADER_LIT: *result = execute_lit(E, s); return 1;
-    case SHADER_DST: *result = execute_dst(E, s); return 1;
-    case SHADER_LRP: *result = execute_lrp(E, s); return 1;
-    case SHADER_FRC: *result = execute_frc(E, s); return 1;
-    case SHADER_M4X4: *result = execute_m4x4(E, s); return 1;
-    case SHADER_M4X3: *result = execute_m4x3(E, s); return 1;
-    case SHADER_M3X4: *result = execute_m3x4(E, s); return 1;
-    case SHADER_M3X3: *result = execute_m3x3(E, s); return 1;
-    case SHADER_M3X2: *result = execute_m3x2(E, s); return 1;
-    case SHADER_POW: *result = execute_pow(E, s); return 1;
-    case SHADER_CRS: *result = execute_crs(E, s); return 1;
-    case SHADER_SGN: *result = execute_sgn(E, s); return 1;
-    case SHADER_ABS: *result = execute_abs(E, s); return 1;
-    case SHADER_NRM: *result = execute_nrm(E, s); return 1;
+    case SHADER_MOV: *result = s->source[0]; return true;
+    case SHADER_ADD: *result = execute_add(E, s); return true;
+    case SHADER_SUB: *result = execute_sub(E, s); return true;
+    case SHADER_MAD: *result = execute_mad(E, s); return true;
+    case SHADER_MUL: *result = execute_mul(E, s); return true;
+    case SHADER_RCP: *result = execute_rcp(E, s); return true;
+    case SHADER_RSQ: *result = execute_rsq(E, s); return true;
+    case SHADER_DP3: *result = execute_dp3(E, s); return true;
+    case SHADER_DP4: *result = execute_dp4(E, s); return true;
+    case SHADER_MIN: *result = execute_min(E, s); return true;
+    case SHADER_MAX: *result = execute_max(E, s); return true;
+    case SHADER_SLT: *result = execute_slt(E, s); return true;
+    case SHADER_SGE: *result = execute_sge(E, s); return true;
+    case SHADER_EXP: *result = execute_exp(E, s); return true;
+    case SHADER_LOG: *result = execute_log(E, s); return true;
+    case SHADER_LIT: *result = execute_lit(E, s); return true;
+    case SHADER_DST: *result = execute_dst(E, s); return true;
+    case SHADER_LRP: *result = execute_lrp(E, s); return true;
+    case SHADER_FRC: *result = execute_frc(E, s); return true;
+    case SHADER_M4X4: *result = execute_m4x4(E, s); return true;
+    case SHADER_M4X3: *result = execute_m4x3(E, s); return true;
+    case SHADER_M3X4: *result = execute_m3x4(E, s); return true;
+    case SHADER_M3X3: *result = execute_m3x3(E, s); return true;
+    case SHADER_M3X2: *result = execute_m3x2(E, s); return true;
+    case SHADER_POW: *result = execute_pow(E, s); return true;
+    case SHADER_CRS: *result = execute_crs(E, s); return true;
+    case SHADER_SGN: *result = execute_sgn(E, s); return true;
+    case SHADER_ABS: *result = execute_abs(E, s); return true;
+    case SHADER_NRM: *result = execute_nrm(E, s); return true;
     case SHADER_SINCOS_2:
-    case SHADER_SINCOS: *result = execute_sincos(E, s); return 1;
-    case SHADER_EXPP: *result = execute_expp(E, s); return 1;
-    case SHADER_LOGP: *result = execute_logp(E, s); return 1;
-    case SHADER_CND: *result = execute_cnd(E, s); return 1;
-    case SHADER_CMP: *result = execute_cmp(E, s); return 1;
-    case SHADER_DP2ADD: *result = execute_dp2add(E, s); return 1;
-    case SHADER_TEXLD: *result = execute_texld(E, s); return 1;
-    case SHADER_TEXLDP: *result = execute_texldp(E, s); return 1;
-    case SHADER_TEXLDB: *result = execute_texldb(E, s); return 1;
-    case SHADER_TEXLDL: *result = execute_texldl(E, s); return 1;
-    case SHADER_TEXLDD: *result = execute_texldd(E, s); return 1;
-    case SHADER_TEXLD_1_4: *result = execute_texld_1_4(E, s); return 1;
-    case SHADER_TEXCRD: *result = execute_texcrd(E, s); return 1;
-    case SHADER_BEM: *result = execute_bem(E, s); return 1;
-    case SHADER_DSX: *result = execute_dsx(E, s); return 1;
-    case SHADER_DSY: *result = execute_dsy(E, s); return 1;
-    case SHADER_TEX: *result = execute_tex(E, s); return 1;
-    case SHADER_TEXCOORD: *result = execute_texcoord(E, s); return 1;
-    case SHADER_TEXBEM: *result = execute_texbem(E, s); return 1;
-    case SHADER_TEXBEML: *result = execute_texbeml(E, s); return 1;
-    case SHADER_TEXREG2AR: *result = execute_texreg2ar(E, s); return 1;
-    case SHADER_TEXREG2GB: *result = execute_texreg2gb(E, s); return 1;
-    case SHADER_TEXREG2RGB: *result = execute_texreg2rgb(E, s); return 1;
-    case SHADER_TEXDP3: *result = execute_texdp3(E, s); return 1;
-    case SHADER_TEXDP3TEX: *result = execute_texdp3tex(E, s); return 1;
-    case SHADER_TEXM3X2TEX: *result = execute_texm3x2tex(E, s); return 1;
-    case SHADER_TEXM3X3: *result = execute_texm3x3(E, s); return 1;
-    case SHADER_TEXM3X3TEX: *result = execute_texm3x3tex(E, s); return 1;
-    case SHADER_TEXM3X3SPEC: *result = execute_texm3x3spec(E, s); return 1;
-    case SHADER_TEXM3X3VSPEC: *result = execute_texm3x3vspec(E, s); return 1;
-    case SHADER_TEXKILL: execute_texkill(E, s); return 0;
-    case SHADER_TEXDEPTH: execute_texdepth(E, s); return 0;
-    case SHADER_TEXM3X2DEPTH: execute_texm3x2depth(E, s); return 0;
-    case SHADER_TEXM3X2PAD: execute_texm3x2pad(E, s); return 0;
-    case SHADER_TEXM3X3PAD: execute_texm3x3pad(E, s); return 0;
+    case SHADER_SINCOS: *result = execute_sincos(E, s); return true;
+    case SHADER_EXPP: *result = execute_expp(E, s); return true;
+    case SHADER_LOGP: *result = execute_logp(E, s); return true;
+    case SHADER_CND: *result = execute_cnd(E, s); return true;
+    case SHADER_CMP: *result = execute_cmp(E, s); return true;
+    case SHADER_DP2ADD: *result = execute_dp2add(E, s); return true;
+    case SHADER_TEXLD: *result = execute_texld(E, s); return true;
+    case SHADER_TEXLDP: *result = execute_texldp(E, s); return true;
+    case SHADER_TEXLDB: *result = execute_texldb(E, s); return true;
+    case SHADER_TEXLDL: *result = execute_texldl(E, s); return true;
+    case SHADER_TEXLDD: *result = execute_texldd(E, s); return true;
+    case SHADER_TEXLD_1_4: *result = execute_texld_1_4(E, s); return true;
+    case SHADER_TEXCRD: *result = execute_texcrd(E, s); return true;
+    case SHADER_BEM: *result = execute_bem(E, s); return true;
+    case SHADER_DSX: *result = execute_dsx(E, s); return true;
+    case SHADER_DSY: *result = execute_dsy(E, s); return true;
+    case SHADER_TEX: *result = execute_tex(E, s); return true;
+    case SHADER_TEXCOORD: *result = execute_texcoord(E, s); return true;
+    case SHADER_TEXBEM: *result = execute_texbem(E, s); return true;
+    case SHADER_TEXBEML: *result = execute_texbeml(E, s); return true;
+    case SHADER_TEXREG2AR: *result = execute_texreg2ar(E, s); return true;
+    case SHADER_TEXREG2GB: *result = execute_texreg2gb(E, s); return true;
+    case SHADER_TEXREG2RGB: *result = execute_texreg2rgb(E, s); return true;
+    case SHADER_TEXDP3: *result = execute_texdp3(E, s); return true;
+    case SHADER_TEXDP3TEX: *result = execute_texdp3tex(E, s); return true;
+    case SHADER_TEXM3X2TEX: *result = execute_texm3x2tex(E, s); return true;
+    case SHADER_TEXM3X3: *result = execute_texm3x3(E, s); return true;
+    case SHADER_TEXM3X3TEX: *result = execute_texm3x3tex(E, s); return true;
+    case SHADER_TEXM3X3SPEC: *result = execute_texm3x3spec(E, s); return true;
+    case SHADER_TEXM3X3VSPEC: *result = execute_texm3x3vspec(E, s); return true;
+    case SHADER_TEXKILL: execute_texkill(E, s); return false;
+    case SHADER_TEXDEPTH: execute_texdepth(E, s); return false;
+    case SHADER_TEXM3X2DEPTH: execute_texm3x2depth(E, s); return false;
+    case SHADER_TEXM3X2PAD: execute_texm3x2pad(E, s); return false;
+    case SHADER_TEXM3X3PAD: execute_texm3x3pad(E, s); return false;
     /* Flow control and other destinations (execute_step), and declarations. */
     case SHADER_NOP:
     case SHADER_CALL:
@@ -108,7 +108,7 @@ static inline int execute_instruction(struct env *e, struct step *s, struct vect
     case SHADER_PHASE:
     case SHADER_COUNT: break;
     }
-    return 0;
+    return false;
 }
 
 static inline struct step step_of(struct machine *m, const struct shader_instruction *i)

@@ -45,14 +45,15 @@ static inline void load_cells(struct env *e, struct machine *m, const struct cel
 static inline void execute_where(struct env *e, struct machine *m, const struct program_step *step, msk lanes,
                                  uint32_t from, uint32_t to)
 {
-    int masked = m->masked, live = VARIABLE_LIVE + m->loops - 1;
+    bool masked = m->masked;
+    int live = VARIABLE_LIVE + m->loops - 1;
     msk mask = m->mask;
     settle(E, m);
     save_cells(E, m, &step->written);
     if (step->leaves)
         set_m(E, live, m->live);
     WHEN (E, lanes) {
-        m->masked = 1;
+        m->masked = true;
         m->mask = lanes;
         execute_steps(E, m, from, to);
         settle(E, m);
@@ -67,13 +68,13 @@ static inline void execute_where(struct env *e, struct machine *m, const struct 
         return;
     m->live = get_m(E, live);
     m->mask = masked ? and_m(E, mask, m->live) : m->live;
-    m->masked = 1;
+    m->masked = true;
 }
 
-static inline int is_set(const struct machine *m, const struct shader_operand *o)
+static inline bool is_set(const struct machine *m, const struct shader_operand *o)
 {
     const struct program_constant *defined = program_defined(m->program, FILE_BOOLEAN, o->index);
-    int value = defined ? defined->value[0] != 0 : m->booleans >> o->index & 1;
+    bool value = defined ? defined->value[0] != 0 : m->booleans >> o->index & 1;
     return value ^ (o->modifier == MODIFIER_NOT);
 }
 
@@ -96,7 +97,7 @@ static inline msk executing(struct env *e, const struct machine *m)
 static inline void execute_if(struct env *e, struct machine *m, uint32_t at)
 {
     const struct program_step *step = &m->program->step[at];
-    int has_else = step->match != step->end;
+    bool has_else = step->match != step->end;
     if (step->instruction.source[0].file == FILE_BOOLEAN) {
         if (is_set(m, &step->instruction.source[0]))
             execute_steps(E, m, at + 1, step->match);
@@ -176,7 +177,8 @@ static inline void execute_pass(struct env *e, struct machine *m, uint32_t at, i
 static inline void execute_loop(struct env *e, struct machine *m, uint32_t at)
 {
     const struct program_step *step = &m->program->step[at];
-    int loop = step->instruction.opcode == SHADER_LOOP, depth = m->loops, masked = m->masked;
+    bool loop = step->instruction.opcode == SHADER_LOOP, masked = m->masked;
+    int depth = m->loops;
     unsigned integer = step->instruction.source[loop].index;
     msk mask = m->mask, live = m->live;
     itg counter = m->counter;
@@ -246,7 +248,7 @@ static inline void execute_steps(struct env *e, struct machine *m, uint32_t from
 }
 
 /* A machine whose registers are all zero. The caller sets the inputs. */
-static inline void machine_begin(struct env *e, struct machine *m, const uint8_t booleans[2], int legacy)
+static inline void machine_begin(struct env *e, struct machine *m, const uint8_t booleans[2], bool legacy)
 {
     flt zero = lit_f(E, 0.0f);
     itg none = lit_i(E, 0);
@@ -264,7 +266,8 @@ static inline void machine_begin(struct env *e, struct machine *m, const uint8_t
     }
     m->counter = none;
     m->killed = m->mask = m->live = never;
-    m->masked = m->loops = 0;
+    m->masked = false;
+    m->loops = 0;
     m->changed = (struct cell_set){{0}};
     m->pixel = NULL;
     m->vertex = NULL;

@@ -106,7 +106,7 @@ static inline struct vector4 execute_texldp(struct env *e, const struct step *s)
 static inline struct vector4 execute_texldb(struct env *e, const struct step *s)
 {
     struct lookup how = {.from = DETAIL_BIASED};
-    int third = shader_major(s->machine->program->model) == 3;
+    bool third = shader_major(s->machine->program->model) == 3;
     how.amount = limit(E, s->source[0].v[3], third ? -16.0f : -3.0f, third ? 15.0f : 3.0f);
     return sample_source(E, s, &s->source[0], &how);
 }
@@ -158,7 +158,7 @@ static inline void execute_texkill(struct env *e, const struct step *s)
     const struct shader_model *model = s->machine->program->model;
     msk negative = lit_m(E, 0);
     for (unsigned c = 0; c < (shader_major(model) == 1 ? 3 : 4); c++) {
-        int coordinate = of->file == FILE_TEXTURE;
+        bool coordinate = of->file == FILE_TEXTURE;
         flt value =
             coordinate ? s->machine->coordinate[of->index][c] : read_component(E, s->machine, of, 0, c);
         msk here = lt_f(E, value, lit_f(E, 0.0f));

@@ -28,26 +28,26 @@
 #include "spec/math/color.h"
 
 struct axis {
-    itg index[2];  /* of the texel and, linear only, its neighbour */
-    itg wanted[2]; /* the same before addressing */
-    int adjoining; /* the neighbour follows the texel in memory; index[1] is not used */
-    itg fraction;  /* the fraction of the way to the neighbour, 0 to 255; linear only */
-    fix weight;    /* the same in both halves; linear only */
+    itg index[2];   /* of the texel and, linear only, its neighbour */
+    itg wanted[2];  /* the same before addressing */
+    bool adjoining; /* the neighbour follows the texel in memory; index[1] is not used */
+    itg fraction;   /* the fraction of the way to the neighbour, 0 to 255; linear only */
+    fix weight;     /* the same in both halves; linear only */
 };
 
 /* The filter of the lanes: linear if any lane is; mixed if only the lanes of `smooth` are. */
 struct tap {
-    int linear, mixed;
-    int pairs; /* neighbours may be read together with their texels */
+    bool linear, mixed;
+    bool pairs; /* neighbours may be read together with their texels */
     msk smooth;
 };
 
 /* The image that is sampled. If all lanes sample the same image, its description is in the job; if each lane
  * has a level of its own, it is in the fields here. Axes are u, v and w. */
 struct level {
-    int number; /* of the sampler */
-    int each;   /* the fields of this structure are used */
-    int placed; /* the image begins `offset` texels after the texture */
+    int number;  /* of the sampler */
+    bool each;   /* the fields of this structure are used */
+    bool placed; /* the image begins `offset` texels after the texture */
     itg offset, pitch;
     itg size[3], last[3];
     flt size_256[3];
@@ -199,7 +199,7 @@ static inline itg tap_fraction(struct env *e, const struct tap *tap, itg positio
 static inline void address_pairs(struct env *e, const struct level *l, const struct tap *tap, int address,
                                  int axis, itg position, struct axis *r)
 {
-    r->adjoining = 1;
+    r->adjoining = true;
     if (address == ADDRESS_CLAMP) {
         itg last_256 = level_last_256(E, l, axis);
         position = clamp_index(E, position, last_256);
@@ -230,7 +230,7 @@ static inline void address_axis(struct env *e, const struct level *l, const stru
         }
     }
     itg index = shr_i(E, position, 8);
-    r->adjoining = 0;
+    r->adjoining = false;
     r->index[0] = address_index(E, address, index, l, axis);
     r->wanted[0] = index;
     if (tap->linear) {

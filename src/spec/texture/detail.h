@@ -135,7 +135,7 @@ static inline void detail_levels(struct env *e, int number, int mip, itg lambda,
     d->level[1] = min_i(E, next, last_level);
 }
 
-static inline int needs_detail(const struct sampler_key *k)
+static inline bool needs_detail(const struct sampler_key *k)
 {
     return k->mip || k->minify;
 }
@@ -179,7 +179,7 @@ static inline void gather_level(struct env *e, int number, itg level, int axes, 
                                    offsetof(struct texture_level, depth)};
     int levels = TEXTURE_FIELD(number, levels);
     itg row = shl_i(E, level, 3); /* of 8 words */
-    r->each = r->placed = 1;
+    r->each = r->placed = true;
     r->offset = gather_i(E, BASE_JOB, levels, row, 4, (int)offsetof(struct texture_level, offset));
     r->pitch = gather_i(E, BASE_JOB, levels, row, 4, (int)offsetof(struct texture_level, pitch));
     for (int i = 0; i < axes; i++)

@@ -26,7 +26,7 @@ struct sampler {
     flt reference; /* compared with texels of depth */
 };
 
-static inline int has_border(const struct sampler *s, int axis)
+static inline bool has_border(const struct sampler *s, int axis)
 {
     return s->k->address[axis] == ADDRESS_BORDER;
 }
@@ -154,7 +154,7 @@ static inline struct color sample_image(struct env *e, const struct sampler *s, 
 static inline void sampler_level(struct env *e, const struct sampler *s, int i, struct level *r)
 {
     r->number = s->k->number;
-    r->each = r->placed = 0;
+    r->each = r->placed = false;
     if (s->k->mip)
         gather_level(E, s->k->number, s->detail.level[i], s->axes, r);
     if (s->k->kind != TEXTURE_CUBE)
@@ -162,7 +162,7 @@ static inline void sampler_level(struct env *e, const struct sampler *s, int i, 
     itg face_texels = uniform_i(E, BASE_JOB, TEXTURE_FIELD(s->k->number, face_texels));
     itg face = mul_i(E, s->face, face_texels);
     r->offset = r->placed ? add_i(E, r->offset, face) : face;
-    r->placed = 1;
+    r->placed = true;
 }
 
 static inline struct color sample_levels(struct env *e, const struct sampler *s)
@@ -185,8 +185,9 @@ static inline struct color sample_levels(struct env *e, const struct sampler *s)
  */
 static inline void choose_filter(struct env *e, struct sampler *s)
 {
-    int mag = s->k->filter == FILTER_LINEAR, minify = s->k->minify;
-    int min = minify == MINIFY_SAME ? mag : minify == MINIFY_ANISOTROPIC || !mag;
+    int minify = s->k->minify;
+    bool mag = s->k->filter == FILTER_LINEAR;
+    bool min = minify == MINIFY_SAME ? mag : minify == MINIFY_ANISOTROPIC || !mag;
     s->tap.linear = mag || min;
     s->tap.mixed = mag != min;
     if (s->tap.mixed && min)
@@ -219,8 +220,8 @@ static inline void sampler_begin(struct env *e, struct sampler *s, const struct 
                                  const flt v[3], const struct lookup *how)
 {
     struct changes changes;
-    int cube = k->kind == TEXTURE_CUBE;
-    int measured = needs_detail(k) && how->from != DETAIL_GIVEN;
+    bool cube = k->kind == TEXTURE_CUBE;
+    bool measured = needs_detail(k) && how->from != DETAIL_GIVEN;
     s->k = k;
     s->axes = k->kind == TEXTURE_VOLUME ? 3 : 2;
     if (measured && how->from == DETAIL_CHANGES)

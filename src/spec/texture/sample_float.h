@@ -128,7 +128,7 @@ static inline struct float_color float_image(struct env *e, const struct sampler
     struct axis axis[3];
     struct float_weight weight[3];
     struct tap tap = s->tap;
-    tap.pairs = 0;
+    tap.pairs = false;
     for (int a = 0; a < s->axes; a++)
         address_axis(E, l, &tap, s->k->address[a], a, s->coordinate[a], &axis[a]);
     itg pitch = level_pitch(E, l);

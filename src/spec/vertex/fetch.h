@@ -128,7 +128,7 @@ static inline struct vector4 fetch(struct env *e, const struct vertex_key *k, in
 }
 
 /* Returns true if the fourth component of a position can be other than 1. */
-static inline int has_fourth(const struct vertex_key *k, int attribute)
+static inline bool has_fourth(const struct vertex_key *k, int attribute)
 {
     return key_vertex_types[k->attribute[attribute]].components == 4;
 }

@@ -41,7 +41,7 @@ static inline flt light_value(struct env *e, int light, size_t field)
 }
 
 /* Returns true if any part of the diffuse result comes from the vertex, so that the two sums are separate. */
-static inline int light_separates(const struct vertex_key *k)
+static inline bool light_separates(const struct vertex_key *k)
 {
     return k->reflectance[REFLECTANCE_DIFFUSE] || k->reflectance[REFLECTANCE_AMBIENT] ||
            k->reflectance[REFLECTANCE_EMISSIVE];
@@ -199,7 +199,7 @@ static inline void light_to_camera(struct env *e, const struct vertex_key *k, co
 /* One of the vertex's colours, as a reflectance. */
 static inline struct vector4 light_vertex_color(struct env *e, const struct vertex_key *k, int which)
 {
-    int second = k->reflectance[which] == REFLECTANCE_SPECULAR_COLOR;
+    bool second = k->reflectance[which] == REFLECTANCE_SPECULAR_COLOR;
     return fetch(E, k, second ? ATTRIBUTE_SPECULAR : ATTRIBUTE_DIFFUSE, second ? 0.0f : 1.0f);
 }
 

@@ -35,7 +35,7 @@ static inline void skin_weights(struct env *e, const struct vertex_key *k, struc
 static inline void skin_indices(struct env *e, const struct vertex_key *k, struct skin *skin)
 {
     struct vector4 indices = fetch(E, k, ATTRIBUTE_INDICES, 0.0f);
-    int bytes = k->attribute[ATTRIBUTE_INDICES] == ATTRIBUTE_FORMAT_COLOR;
+    bool bytes = k->attribute[ATTRIBUTE_INDICES] == ATTRIBUTE_FORMAT_COLOR;
     for (int i = 0; i < k->matrices; i++) {
         flt index = bytes ? mul_f(E, indices.v[i], lit_f(E, 255.0f)) : indices.v[i];
         flt low = max_f(E, index, lit_f(E, 0.0f));

@@ -26,7 +26,7 @@ static inline void store_color(struct env *e, int slot, const struct vector4 *co
     }
 }
 
-static inline int in_window(const struct vertex_key *k)
+static inline bool in_window(const struct vertex_key *k)
 {
     return k->attribute[ATTRIBUTE_POSITIONT] != ATTRIBUTE_FORMAT_NONE;
 }

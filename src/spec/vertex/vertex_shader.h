@@ -29,8 +29,8 @@ static inline void shader_inputs(struct env *e, const struct vertex_key *k, stru
     }
 }
 
-/* Returns 1 for outputs that models below 3.0 clamp. */
-static inline int is_clamped(const struct machine *m, int link)
+/* Returns true for outputs that models below 3.0 clamp. */
+static inline bool is_clamped(const struct machine *m, int link)
 {
     int number = (link - LINK_OUTPUT) / 4;
     return shader_major(m->program->model) < 3 && (number < OUTPUT_COORDINATE || number == OUTPUT_FOG);

@@ -45,7 +45,7 @@ static struct range literal_range(const struct ir_instruction *i)
         if (value != value)
             return anything;
         /* By the bits: under DAZ a denormal compares equal to zero. */
-        int denormal = !(i->k & 0x7f800000) && i->k & 0x007fffff;
+        bool denormal = !(i->k & 0x7f800000) && i->k & 0x007fffff;
         return (struct range){value, value, 0, (uint8_t)(i->k < 0 && !(i->k & 0x7f800000)),
                               (uint8_t)denormal};
     }
