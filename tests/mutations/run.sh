@@ -70,8 +70,8 @@ copy_tree()
     make -C "$tree" -s build/glmark2 build/assimp
 }
 
-# plant NAME: replaces the lines in the copy; fails if they do not occur exactly once.
-plant()
+# planted NAME: prints the file with the bug; fails if the lines do not occur exactly once.
+planted()
 {
     local text rest
     text=$(cat "${file[$1]}" && echo .) || return 1
@@ -79,8 +79,15 @@ plant()
     rest=${text#*$'\n'"${old[$1]}"}
     [[ -n ${old[$1]} && $rest != "$text" && ${rest/$'\n'"${old[$1]}"/} == "$rest" ]] || return 1
     text=${text%%$'\n'"${old[$1]}"*}$'\n'${new[$1]}$rest
+    printf '%s' "${text#$'\n'}"
+}
+
+# plant NAME: replaces the lines in the copy.
+plant()
+{
+    planted "$1" >"$home/planted" || return 1
     rm -f "$tree/${file[$1]}"
-    printf '%s' "${text#$'\n'}" >"$tree/${file[$1]}"
+    cp "$home/planted" "$tree/${file[$1]}"
 }
 
 restore()
@@ -206,14 +213,13 @@ is_wanted()
 }
 
 read_table
-copy_tree
 if [[ $only == --fit ]]; then
     for name in "${names[@]}"; do
-        plant "$name" || { echo "$name does not fit ${file[$name]}" && trouble=1; }
-        restore "$name"
+        planted "$name" >/dev/null || { echo "$name does not fit ${file[$name]}" && trouble=1; }
     done
     exit $trouble
 fi
+copy_tree
 for name in "${names[@]}"; do
     is_wanted "$name" || continue
     try "$name" || trouble=1
