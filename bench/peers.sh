@@ -12,8 +12,7 @@
 #   PASSES=n          the number of passes. Default: 5
 #   CLOCK=time        wall time for the renderers on one core. Default: processor time, which other processes
 #                     disturb less
-#   PRIORITY=1        real-time priority of the renderers (chrt -f), on a machine with other processes that
-# can
+#   PRIORITY=1        real-time priority of the renderers (chrt -f), on a machine whose other processes can
 #                     wait
 #   QUICK=1           one pass of short samples
 #   SWGL=program      the program that bench/swgl.sh builds
