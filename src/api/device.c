@@ -72,7 +72,7 @@ enum triptych_result triptych_device_create(const struct triptych_options *optio
 
 void triptych_device_destroy(triptych_device *device)
 {
-    if (device && device->recorder)
+    if (device && device_recorder(device))
         record_stop(device, NULL);
     device_destroy(device);
 }

@@ -108,7 +108,7 @@ enum triptych_result triptych_texture_generate_mips(triptych_device *device, tri
     if (!api_begin_with(device, texture, "texture"))
         return TRIPTYCH_BAD_ARGUMENT;
     device_texture_generate_mips(device, texture);
-    record_mips(device, texture);
+    record_call(device, &(struct call){.type = CALL_MIPS, .resource = texture->recorded});
     return TRIPTYCH_OK;
 }
 

@@ -190,7 +190,7 @@ enum triptych_result triptych_set_fvf(triptych_device *device, uint32_t fvf)
         return TRIPTYCH_BAD_ARGUMENT;
     enum triptych_result result = state_set_fvf(&device->state, fvf, error);
     if (result == TRIPTYCH_OK)
-        record_fvf(device, fvf);
+        record_call(device, &(struct call){.type = CALL_FVF, .resource = NO_RESOURCE, .fvf.code = fvf});
     return api_changed(device, result, PARTS_ALL);
 }
 

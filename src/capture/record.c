@@ -9,11 +9,19 @@
 
 /* --- Records -------------------------------------------------------------------------------------------- */
 
-void record_append(struct recorder *recorder, const struct call *call)
+void record_call(struct triptych_device *device, const struct call *call)
 {
+    struct recorder *recorder = device_recorder(device);
+    if (!recorder)
+        return;
     record_write_call(&recorder->write, call);
     recorder->drawn =
         call->type != CALL_FRAME && (recorder->drawn || call_row(call->type)->traits & CALL_DRAWS);
+}
+
+void record_memory_is_short(struct triptych_device *device)
+{
+    record_write_fail(&device_recorder(device)->write, "not enough memory");
 }
 
 static uint32_t take_number(struct recorder *recorder)
@@ -26,21 +34,23 @@ static uint32_t take_number(struct recorder *recorder)
     return 0;
 }
 
-uint32_t record_define(struct recorder *recorder, const struct resource *resource)
+uint32_t record_define(struct triptych_device *device, const struct resource *resource)
 {
+    struct recorder *recorder = device_recorder(device);
     uint32_t number = take_number(recorder);
     record_write_definition(&recorder->write, number, resource);
     return number;
 }
 
-void record_release(struct recorder *recorder, uint32_t number)
+void record_release(struct triptych_device *device, uint32_t number)
 {
-    record_append(recorder, &(struct call){.type = CALL_RELEASE, .resource = number});
+    struct recorder *recorder = device_recorder(device);
+    record_call(device, &(struct call){.type = CALL_RELEASE, .resource = number});
     if (recorder->free_count == recorder->free_capacity) {
         uint32_t capacity = 2 * recorder->free_capacity + 64;
         uint32_t *larger = realloc(recorder->free_numbers, capacity * sizeof *larger);
         if (!larger) {
-            record_write_fail(&recorder->write, "not enough memory");
+            record_memory_is_short(device);
             return;
         }
         recorder->free_numbers = larger;
@@ -49,18 +59,18 @@ void record_release(struct recorder *recorder, uint32_t number)
     recorder->free_numbers[recorder->free_count++] = number;
 }
 
-uint32_t record_bytes(struct recorder *recorder, const void *data, size_t bytes)
+uint32_t record_bytes(struct triptych_device *device, const void *data, size_t bytes)
 {
     struct resource resource = {.type = RESOURCE_BUFFER, .value_type = VALUE_BYTES, .vertex_bytes = bytes};
     resource.vertices = (uint8_t *)(uintptr_t)data;
-    return record_define(recorder, &resource);
+    return record_define(device, &resource);
 }
 
 /* --- Beginning and end ---------------------------------------------------------------------------------- */
 
 enum triptych_result record_start(struct triptych_device *device, const char *path, struct error *error)
 {
-    if (device->recorder) {
+    if (device_recorder(device)) {
         error_set(error, "%s: calls are recorded already, expected record_stop before another recording",
                   path);
         return TRIPTYCH_BAD_CALL;
@@ -75,7 +85,7 @@ enum triptych_result record_start(struct triptych_device *device, const char *pa
         free(recorder);
         return device_refusal(TRIPTYCH_BAD_ARGUMENT);
     }
-    device->recorder = recorder;
+    device_set_recorder(device, recorder);
     record_beginning(device);
     return TRIPTYCH_OK;
 }
@@ -103,7 +113,7 @@ enum triptych_result record_from_environment(struct triptych_device *device, str
 
 enum triptych_result record_stop(struct triptych_device *device, struct error *error)
 {
-    struct recorder *recorder = device->recorder;
+    struct recorder *recorder = device_recorder(device);
     if (!recorder) {
         error_set(error, "no calls are recorded: expected record_start first");
         return TRIPTYCH_BAD_CALL;
@@ -111,7 +121,7 @@ enum triptych_result record_stop(struct triptych_device *device, struct error *e
     if (recorder->drawn)
         record_frame(device);
     record_open_queries(device, CALL_END_QUERY);
-    device->recorder = NULL;
+    device_set_recorder(device, NULL);
     int result = chunk_close(&recorder->write.chunks, error);
     free(recorder->write.codec.data);
     free(recorder->free_numbers);

@@ -57,7 +57,6 @@ void record_element(struct triptych_device *device, enum triptych_attribute attr
                     const struct triptych_element *element);
 void record_declaration(struct triptych_device *device, const struct triptych_declaration_element *elements,
                         unsigned count);
-void record_fvf(struct triptych_device *device, uint32_t fvf);
 void record_stream(struct triptych_device *device, unsigned stream, const triptych_buffer *buffer,
                    size_t offset, size_t stride);
 void record_frequency(struct triptych_device *device, unsigned stream, enum triptych_frequency frequency,
@@ -78,7 +77,6 @@ void record_draw_indexed(struct triptych_device *device, enum triptych_primitive
 void record_update(struct triptych_device *device, const triptych_texture *texture, unsigned face,
                    unsigned level, const struct triptych_box *box, const void *data, size_t row_pitch,
                    size_t slice_pitch);
-void record_mips(struct triptych_device *device, const triptych_texture *texture);
 void record_texels(struct triptych_device *device, const triptych_texture *texture, const void *data,
                    size_t bytes);
 void record_contents(struct triptych_device *device, const void *data, size_t bytes);

@@ -6,30 +6,24 @@
 #include <stdlib.h>
 #include <string.h>
 
-void record_call(struct triptych_device *device, const struct call *call)
-{
-    if (device->recorder)
-        record_append(device->recorder, call);
-}
-
 /* --- Resources ------------------------------------------------------------------------------------------ */
 
 void record_new_buffer(struct triptych_device *device, triptych_buffer *buffer)
 {
-    if (device->recorder)
-        buffer->recorded = record_bytes(device->recorder, buffer->data, buffer->bytes);
+    if (device_recorder(device))
+        buffer->recorded = record_bytes(device, buffer->data, buffer->bytes);
 }
 
 void record_new_texture(struct triptych_device *device, triptych_texture *texture)
 {
     struct resource resource = {.type = RESOURCE_TEXTURE, .source = TEXTURE_EMPTY};
-    if (!device->recorder)
+    if (!device_recorder(device))
         return;
     resource.texture = (struct triptych_texture_description){
         texture->type,  (enum triptych_surface_format)texture->format->number,
         texture->width, texture->height,
         texture->depth, texture->levels};
-    texture->recorded = record_define(device->recorder, &resource);
+    texture->recorded = record_define(device, &resource);
 }
 
 /* Prints canonical text. The front end needs a locale whose numbers have a decimal point. */
@@ -55,30 +49,26 @@ static int print_shader(const triptych_shader *made, struct resource *resource)
 void record_new_shader(struct triptych_device *device, triptych_shader *shader)
 {
     struct resource resource = {.type = RESOURCE_SHADER};
-    struct recorder *recorder = device->recorder;
-    if (!recorder)
+    if (!device_recorder(device))
         return;
     if (print_shader(shader, &resource))
-        codec_fail(&recorder->write.codec, "not enough memory");
-    shader->recorded = record_define(recorder, &resource);
+        record_memory_is_short(device);
+    shader->recorded = record_define(device, &resource);
     free(resource.code);
 }
 
 void record_new_query(struct triptych_device *device, triptych_query *query)
 {
-    if (device->recorder && query->type == TRIPTYCH_QUERY_OCCLUSION)
-        query->recorded = record_define(device->recorder, &(struct resource){.type = RESOURCE_QUERY});
+    if (device_recorder(device) && query->type == TRIPTYCH_QUERY_OCCLUSION)
+        query->recorded = record_define(device, &(struct resource){.type = RESOURCE_QUERY});
 }
 
 /* --- Ends of resources ---------------------------------------------------------------------------------- */
 
 void record_end_buffer(struct triptych_device *device, const triptych_buffer *buffer)
 {
-    const triptych_buffer *found = device->recorder ? device->resources.buffers : NULL;
-    const struct state *state = &device->state;
-    while (found && found != buffer)
-        found = found->next;
-    if (!found)
+    const struct state *state = device_state(device);
+    if (!device_recorder(device) || !device_has_buffer(device, buffer))
         return;
     for (unsigned i = 0; i < TRIPTYCH_STREAMS; i++)
         if (state->stream[i].buffer == buffer)
@@ -89,47 +79,39 @@ void record_end_buffer(struct triptych_device *device, const triptych_buffer *bu
             record_element(device, (enum triptych_attribute)a, &(struct triptych_element){0});
     if (state->indices == buffer)
         record_indices(device, NULL, 0);
-    record_release(device->recorder, buffer->recorded);
+    record_release(device, buffer->recorded);
 }
 
 void record_end_texture(struct triptych_device *device, const triptych_texture *texture)
 {
-    const triptych_texture *found = device->recorder ? device->resources.textures : NULL;
-    while (found && found != texture)
-        found = found->next;
-    if (!found)
+    if (!device_recorder(device) || !device_has_texture(device, texture))
         return;
     if (device_draws_to(device, texture))
         record_attach(device, NULL);
     for (unsigned i = 0; i < TRIPTYCH_SAMPLERS; i++)
-        if (device->state.texture[i] == texture)
+        if (device_state(device)->texture[i] == texture)
             record_bind_texture(device, i, NULL);
-    record_release(device->recorder, texture->recorded);
+    record_release(device, texture->recorded);
 }
 
 void record_end_shader(struct triptych_device *device, const triptych_shader *shader)
 {
-    const triptych_shader *found = device->recorder ? device->resources.shaders : NULL;
-    while (found && found != shader)
-        found = found->next;
-    if (!found)
+    if (!device_recorder(device) || !device_has_shader(device, shader))
         return;
     for (int stage = 0; stage < SHADER_STAGES; stage++)
-        if (device->shader[stage] == shader)
+        if (device_shader(device, (enum triptych_shader_stage)stage) == shader)
             record_shader(device, (enum shader_stage)stage, NULL);
-    record_release(device->recorder, shader->recorded);
+    record_release(device, shader->recorded);
 }
 
 void record_end_query(struct triptych_device *device, const triptych_query *query)
 {
-    const triptych_query *found = device->recorder ? device->queries.first : NULL;
-    while (found && found != query)
-        found = found->next;
-    if (!found || query->type != TRIPTYCH_QUERY_OCCLUSION)
+    if (!device_recorder(device) || !device_has_query(device, query) ||
+        query->type != TRIPTYCH_QUERY_OCCLUSION)
         return;
     if (query->phase == QUERY_BEGUN)
-        record_append(device->recorder, &(struct call){.type = CALL_END_QUERY, .resource = query->recorded});
-    record_release(device->recorder, query->recorded);
+        record_call(device, &(struct call){.type = CALL_END_QUERY, .resource = query->recorded});
+    record_release(device, query->recorded);
 }
 
 /* --- Targets -------------------------------------------------------------------------------------------- */
@@ -139,14 +121,14 @@ void record_target(struct triptych_device *device, const struct triptych_target_
 {
     struct call call = {.type = CALL_TARGET, .resource = NO_RESOURCE, .target = *description};
     unsigned last = TRIPTYCH_TARGETS - 1;
-    if (!device->recorder)
+    if (!device_recorder(device))
         return;
     while (last && !description->color_format[last])
         last--;
     for (unsigned t = 0; t <= last && last; t++)
         if (!call.target.color_format[t])
             call.target.color_format[t] = t ? TRIPTYCH_SURFACE_NULL : TRIPTYCH_SURFACE_A8R8G8B8;
-    record_append(device->recorder, &call);
+    record_call(device, &call);
 }
 
 static struct call_surface surface_of(const struct triptych_surface *surface)
@@ -159,7 +141,7 @@ static struct call_surface surface_of(const struct triptych_surface *surface)
 void record_attach(struct triptych_device *device, const struct triptych_target_textures *textures)
 {
     static const struct triptych_surface none;
-    if (!device->recorder)
+    if (!device_recorder(device))
         return;
     struct call call = {.type = CALL_ATTACH, .resource = NO_RESOURCE};
     call.attach.some = textures != NULL;
@@ -168,12 +150,12 @@ void record_attach(struct triptych_device *device, const struct triptych_target_
     call.attach.depth = surface_of(textures ? &textures->depth : &none);
     if (textures && !textures->depth.texture)
         call.attach.depth_format = textures->depth_format;
-    record_append(device->recorder, &call);
+    record_call(device, &call);
 }
 
 void record_copy(struct triptych_device *device, const struct surface_copy *copy)
 {
-    if (!device->recorder)
+    if (!device_recorder(device))
         return;
     struct call call = {.type = CALL_COPY, .resource = NO_RESOURCE, .copy.filter = copy->filter};
     for (int i = 0; i < 2; i++) {
@@ -183,21 +165,21 @@ void record_copy(struct triptych_device *device, const struct surface_copy *copy
         if (copy->part[i].width)
             call.copy.part[i] = copy->part[i];
     }
-    record_append(device->recorder, &call);
+    record_call(device, &call);
 }
 
 void record_viewport(struct triptych_device *device, const struct triptych_viewport *viewport)
 {
-    if (device->recorder)
-        record_append(device->recorder,
-                      &(struct call){.type = CALL_VIEWPORT, .resource = NO_RESOURCE, .viewport = *viewport});
+    if (device_recorder(device))
+        record_call(device,
+                    &(struct call){.type = CALL_VIEWPORT, .resource = NO_RESOURCE, .viewport = *viewport});
 }
 
 void record_scissor(struct triptych_device *device, unsigned x, unsigned y, unsigned width, unsigned height)
 {
-    if (device->recorder)
-        record_append(
-            device->recorder,
+    if (device_recorder(device))
+        record_call(
+            device,
             &(struct call){.type = CALL_SCISSOR, .resource = NO_RESOURCE, .scissor = {x, y, width, height}});
 }
 
@@ -206,13 +188,13 @@ void record_scissor(struct triptych_device *device, unsigned x, unsigned y, unsi
 void record_clear(struct triptych_device *device, const struct clear_values *values)
 {
     struct call call = {.type = CALL_CLEAR, .resource = NO_RESOURCE, .clear.flags = values->flags};
-    if (!device->recorder || !values->flags)
+    if (!device_recorder(device) || !values->flags)
         return;
     if (values->flags & TRIPTYCH_CLEAR_COLOR)
         memcpy(call.clear.color, values->color, sizeof call.clear.color);
     call.clear.depth = values->depth;
     call.clear.stencil = values->stencil & 255;
-    record_append(device->recorder, &call);
+    record_call(device, &call);
 }
 
 /* --- State ---------------------------------------------------------------------------------------------- */
@@ -220,81 +202,80 @@ void record_clear(struct triptych_device *device, const struct clear_values *val
 void record_value(struct triptych_device *device, enum triptych_state_table table, unsigned i, unsigned row,
                   uint32_t value)
 {
-    if (device->recorder)
-        record_append(
-            device->recorder,
-            &(struct call){.type = CALL_SET, .resource = NO_RESOURCE, .set = {table, i, row, value}});
+    if (device_recorder(device))
+        record_call(device,
+                    &(struct call){.type = CALL_SET, .resource = NO_RESOURCE, .set = {table, i, row, value}});
 }
 
 void record_convention(struct triptych_device *device, enum triptych_convention which, unsigned value)
 {
-    if (device->recorder)
-        record_append(
-            device->recorder,
+    if (device_recorder(device))
+        record_call(
+            device,
             &(struct call){.type = CALL_CONVENTION, .resource = NO_RESOURCE, .convention = {which, value}});
 }
 
 void record_clip_plane(struct triptych_device *device, unsigned i, const float plane[4])
 {
-    if (!device->recorder)
+    if (!device_recorder(device))
         return;
     struct call call = {.type = CALL_CLIP_PLANE, .resource = NO_RESOURCE, .clip_plane.index = i};
     memcpy(call.clip_plane.plane, plane, sizeof call.clip_plane.plane);
-    record_append(device->recorder, &call);
+    record_call(device, &call);
 }
 
 void record_transform(struct triptych_device *device, enum triptych_transform which, const float matrix[4][4])
 {
-    if (!device->recorder)
+    if (!device_recorder(device))
         return;
     struct call call = {.type = CALL_TRANSFORM, .resource = NO_RESOURCE, .transform.which = which};
     memcpy(call.transform.matrix, matrix, sizeof call.transform.matrix);
-    record_append(device->recorder, &call);
+    record_call(device, &call);
 }
 
 void record_material(struct triptych_device *device, const struct triptych_material *material)
 {
-    if (device->recorder)
-        record_append(device->recorder,
-                      &(struct call){.type = CALL_MATERIAL, .resource = NO_RESOURCE, .material = *material});
+    if (device_recorder(device))
+        record_call(device,
+                    &(struct call){.type = CALL_MATERIAL, .resource = NO_RESOURCE, .material = *material});
 }
 
 void record_light(struct triptych_device *device, unsigned index, const struct triptych_light *light)
 {
-    if (!device->recorder)
+    if (!device_recorder(device))
         return;
     struct call call = {.type = CALL_LIGHT, .resource = NO_RESOURCE};
     call.light.index = index;
     call.light.value = *light;
-    record_append(device->recorder, &call);
+    record_call(device, &call);
 }
 
 void record_enable_light(struct triptych_device *device, unsigned index, bool on)
 {
-    if (!device->recorder)
+    if (!device_recorder(device))
         return;
     struct call call = {.type = CALL_ENABLE_LIGHT, .resource = NO_RESOURCE};
     call.enable_light.index = index;
     call.enable_light.on = on;
-    record_append(device->recorder, &call);
+    record_call(device, &call);
 }
 
 void record_bind_texture(struct triptych_device *device, unsigned sampler, const triptych_texture *texture)
 {
-    if (!device->recorder)
+    if (!device_recorder(device))
         return;
     struct call call = {.type = CALL_BIND_TEXTURE, .bind_texture.sampler = sampler};
     call.resource = texture ? texture->recorded : NO_RESOURCE;
-    record_append(device->recorder, &call);
+    record_call(device, &call);
 }
 
 void record_shader(struct triptych_device *device, enum shader_stage stage, const triptych_shader *shader)
 {
-    if (!device->recorder)
+    if (!device_recorder(device))
         return;
     struct call call = {.type = CALL_SHADER, .shader.stage = (enum triptych_shader_stage)stage};
     call.resource = shader ? shader->recorded : NO_RESOURCE;
-    record_append(device->recorder, &call);
+    record_call(device, &call);
 }
 
 /* --- Constants ------------------------------------------------------------------------------------------ */
@@ -302,7 +283,7 @@ void record_shader(struct triptych_device *device, enum shader_stage stage, cons
 void record_floats(struct triptych_device *device, enum triptych_shader_stage stage, unsigned first,
                    const float *values, unsigned count)
 {
-    while (device->recorder && count) {
+    while (device_recorder(device) && count) {
         unsigned part = count < CONSTANTS_PER_CALL ? count : CONSTANTS_PER_CALL;
         struct call call = {.type = CALL_CONSTANTS, .resource = NO_RESOURCE};
         call.constants.stage = stage;
@@ -310,7 +291,7 @@ void record_floats(struct triptych_device *device, enum triptych_shader_stage st
         call.constants.first = first;
         call.constants.count = part;
         memcpy(call.constants.floats, values, part * sizeof *call.constants.floats);
-        record_append(device->recorder, &call);
+        record_call(device, &call);
         first += part;
         values += 4 * (size_t)part;
         count -= part;
@@ -320,14 +301,14 @@ void record_floats(struct triptych_device *device, enum triptych_shader_stage st
 void record_integers(struct triptych_device *device, enum triptych_shader_stage stage, unsigned first,
                      const int32_t *values, unsigned count)
 {
-    for (unsigned i = 0; i < count && device->recorder; i++) {
+    for (unsigned i = 0; i < count && device_recorder(device); i++) {
         struct call call = {.type = CALL_CONSTANTS, .resource = NO_RESOURCE};
         call.constants.stage = stage;
         call.constants.type = CONSTANTS_INTEGER;
         call.constants.first = first + i;
         call.constants.count = 1;
         memcpy(call.constants.integers, values + 4 * (size_t)i, sizeof *call.constants.integers);
-        record_append(device->recorder, &call);
+        record_call(device, &call);
     }
 }
 
@@ -335,7 +316,7 @@ void record_booleans(struct triptych_device *device, enum triptych_shader_stage 
                      const int32_t *values, unsigned count)
 {
     struct call call = {.type = CALL_CONSTANTS, .resource = NO_RESOURCE};
-    if (!device->recorder || !count)
+    if (!device_recorder(device) || !count)
         return;
     call.constants.stage = stage;
     call.constants.type = CONSTANTS_BOOLEAN;
@@ -343,7 +324,7 @@ void record_booleans(struct triptych_device *device, enum triptych_shader_stage 
     call.constants.count = count;
     for (unsigned i = 0; i < count; i++)
         call.constants.booleans[i] = values[i] != 0;
-    record_append(device->recorder, &call);
+    record_call(device, &call);
 }
 
 /* --- Textures ------------------------------------------------------------------------------------------- */
@@ -368,72 +349,66 @@ void record_update(struct triptych_device *device, const triptych_texture *textu
 {
     struct call call = {.type = CALL_UPDATE, .resource = texture->recorded};
     size_t bytes;
-    if (!device->recorder)
+    if (!device_recorder(device))
         return;
     const struct texture_level *whole = &texture->level[level];
     const struct triptych_box all = {
         0, 0, 0, (unsigned)whole->width, (unsigned)whole->height, (unsigned)whole->depth};
     uint8_t *packed = pack_rows(texture, box ? box : &all, data, row_pitch, slice_pitch, &bytes);
     if (!packed)
-        codec_fail(&device->recorder->write.codec, "not enough memory");
+        record_memory_is_short(device);
     call.update.face = face;
     call.update.level = level;
     call.update.box = box ? *box : (struct triptych_box){0};
-    call.update.source = record_bytes(device->recorder, packed, packed ? bytes : 0);
-    record_append(device->recorder, &call);
-    record_release(device->recorder, call.update.source);
+    call.update.source = record_bytes(device, packed, packed ? bytes : 0);
+    record_call(device, &call);
+    record_release(device, call.update.source);
     free(packed);
-}
-
-void record_mips(struct triptych_device *device, const triptych_texture *texture)
-{
-    if (device->recorder)
-        record_append(device->recorder, &(struct call){.type = CALL_MIPS, .resource = texture->recorded});
 }
 
 void record_texels(struct triptych_device *device, const triptych_texture *texture, const void *data,
                    size_t bytes)
 {
-    if (!device->recorder)
+    if (!device_recorder(device))
         return;
     struct call call = {.type = CALL_TEXELS, .resource = texture->recorded};
-    call.texels.source = record_bytes(device->recorder, data, bytes);
-    record_append(device->recorder, &call);
-    record_release(device->recorder, call.texels.source);
+    call.texels.source = record_bytes(device, data, bytes);
+    record_call(device, &call);
+    record_release(device, call.texels.source);
 }
 
 void record_contents(struct triptych_device *device, const void *data, size_t bytes)
 {
-    if (!device->recorder)
+    if (!device_recorder(device))
         return;
-    uint32_t number = record_bytes(device->recorder, data, bytes);
-    record_append(device->recorder, &(struct call){.type = CALL_CONTENTS, .resource = number});
-    record_release(device->recorder, number);
+    uint32_t number = record_bytes(device, data, bytes);
+    record_call(device, &(struct call){.type = CALL_CONTENTS, .resource = number});
+    record_release(device, number);
 }
 
 /* --- Queries and frames --------------------------------------------------------------------------------- */
 
 void record_query(struct triptych_device *device, triptych_query *query, int begin)
 {
-    if (device->recorder && query->type == TRIPTYCH_QUERY_OCCLUSION)
-        record_append(device->recorder, &(struct call){.type = begin ? CALL_BEGIN_QUERY : CALL_END_QUERY,
-                                                       .resource = query->recorded});
+    if (device_recorder(device) && query->type == TRIPTYCH_QUERY_OCCLUSION)
+        record_call(device, &(struct call){.type = begin ? CALL_BEGIN_QUERY : CALL_END_QUERY,
+                                           .resource = query->recorded});
 }
 
 void record_open_queries(struct triptych_device *device, enum call_type type)
 {
-    for (triptych_query *query = device->queries.first; query; query = query->next)
+    for (triptych_query *query = device_queries(device); query; query = query->next)
         if (query->type == TRIPTYCH_QUERY_OCCLUSION && query->phase == QUERY_BEGUN)
-            record_append(device->recorder, &(struct call){.type = type, .resource = query->recorded});
+            record_call(device, &(struct call){.type = type, .resource = query->recorded});
 }
 
 /* A query of a stream ends in its frame. A query that is open at the end of a frame begins again in the
  * next. */
 void record_frame(struct triptych_device *device)
 {
-    if (!device->recorder)
+    if (!device_recorder(device))
         return;
     record_open_queries(device, CALL_END_QUERY);
-    record_append(device->recorder, &(struct call){.type = CALL_FRAME, .resource = NO_RESOURCE});
+    record_call(device, &(struct call){.type = CALL_FRAME, .resource = NO_RESOURCE});
     record_open_queries(device, CALL_BEGIN_QUERY);
 }

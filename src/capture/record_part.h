@@ -14,24 +14,25 @@ struct recorder {
     bool drawn; /* since the last frame */
 };
 
-/* Writes a call. */
-void record_append(struct recorder *recorder, const struct call *call);
+/* The following functions need a device with a recorder. */
 
 /* Writes a definition with all its data. Returns its new number. */
-uint32_t record_define(struct recorder *recorder, const struct resource *resource);
+uint32_t record_define(struct triptych_device *device, const struct resource *resource);
 
 /* Releases a resource: no later call uses it. */
-void record_release(struct recorder *recorder, uint32_t number);
+void record_release(struct triptych_device *device, uint32_t number);
 
 /* Writes a buffer of bytes. The caller releases it. Returns its number. */
-uint32_t record_bytes(struct recorder *recorder, const void *data, size_t bytes);
+uint32_t record_bytes(struct triptych_device *device, const void *data, size_t bytes);
+
+/* Makes the recording fail because memory for a call is missing. */
+void record_memory_is_short(struct triptych_device *device);
 
 /* Elements that a declaration leaves out: bits of attributes, bits of the other elements. */
 struct left_out {
     uint64_t attributes, others;
 };
-void record_vertex_input(struct recorder *recorder, const struct state *state,
-                         const struct left_out *left_out);
+void record_vertex_input(struct triptych_device *device, const struct left_out *left_out);
 
 /* Writes a call of this type, which begins or ends a query, for each query that has begun. */
 void record_open_queries(struct triptych_device *device, enum call_type type);

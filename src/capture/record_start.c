@@ -19,20 +19,20 @@ static void write_texture(struct triptych_device *device, triptych_texture *text
         device_read_texels(device, texture, data);
         record_texels(device, texture, data, bytes);
     } else {
-        codec_fail(&device->recorder->write.codec, "not enough memory");
+        record_memory_is_short(device);
     }
     free(data);
 }
 
 static void write_resources(struct triptych_device *device)
 {
-    for (triptych_buffer *buffer = device->resources.buffers; buffer; buffer = buffer->next)
+    for (triptych_buffer *buffer = device_resources(device)->buffers; buffer; buffer = buffer->next)
         record_new_buffer(device, buffer);
-    for (triptych_texture *texture = device->resources.textures; texture; texture = texture->next)
+    for (triptych_texture *texture = device_resources(device)->textures; texture; texture = texture->next)
         write_texture(device, texture);
-    for (triptych_shader *shader = device->resources.shaders; shader; shader = shader->next)
+    for (triptych_shader *shader = device_resources(device)->shaders; shader; shader = shader->next)
         record_new_shader(device, shader);
-    for (triptych_query *query = device->queries.first; query; query = query->next)
+    for (triptych_query *query = device_queries(device); query; query = query->next)
         record_new_query(device, query);
 }
 
@@ -44,7 +44,7 @@ static void write_contents(struct triptych_device *device, struct target *target
     size_t bytes = target_contents_bytes(description);
     void *data = malloc(bytes);
     if (!data) {
-        codec_fail(&device->recorder->write.codec, "not enough memory");
+        record_memory_is_short(device);
         return;
     }
     target_read_contents(target, data);
@@ -66,7 +66,7 @@ static void write_main_target(struct triptych_device *device)
 static void write_targets(struct triptych_device *device)
 {
     struct triptych_target_description description;
-    const struct scissor *scissor = &device->state.scissor;
+    const struct scissor *scissor = &device_state(device)->scissor;
     write_main_target(device);
     if (device_drawn_textures(device)) {
         record_attach(device, device_drawn_textures(device));
@@ -75,7 +75,7 @@ static void write_targets(struct triptych_device *device)
     }
     if (!device_target(device)->width)
         return;
-    record_viewport(device, &device->state.viewport);
+    record_viewport(device, &device_state(device)->viewport);
     record_scissor(device, scissor->x, scissor->y, scissor->width, scissor->height);
 }
 
@@ -94,7 +94,7 @@ static void write_values(struct triptych_device *device)
         enum triptych_state_table table = (enum triptych_state_table)t;
         for (unsigned i = 0; i < triptych_table_size(table); i++)
             for (unsigned row = 0; triptych_state_at(table, row); row++) {
-                uint32_t value = value_of(&device->state, table, i, row);
+                uint32_t value = value_of(device_state(device), table, i, row);
                 if (value != triptych_state_default(table, row, i))
                     record_value(device, table, i, row, value);
             }
@@ -105,7 +105,7 @@ static void write_transforms(struct triptych_device *device)
 {
     static const float identity[4][4] = {{1, 0, 0, 0}, {0, 1, 0, 0}, {0, 0, 1, 0}, {0, 0, 0, 1}};
     static const float zero[4];
-    const struct state *state = &device->state;
+    const struct state *state = device_state(device);
     for (unsigned t = 0; t < TRIPTYCH_TRANSFORM_COUNT; t++)
         if (memcmp(state->transform[t], identity, sizeof identity))
             record_transform(device, (enum triptych_transform)t, (const float(*)[4])state->transform[t]);
@@ -120,7 +120,7 @@ static void write_transforms(struct triptych_device *device)
 /* The initial lights of a device differ from those of a stream. */
 static void write_lights(struct triptych_device *device)
 {
-    const struct state *state = &device->state;
+    const struct state *state = device_state(device);
     if (memcmp(&state->material, &call_default_material, sizeof state->material))
         record_material(device, &state->material);
     for (unsigned i = 0; i < TRIPTYCH_LIGHTS; i++) {
@@ -134,7 +134,7 @@ static void write_lights(struct triptych_device *device)
 static void write_constants(struct triptych_device *device, enum triptych_shader_stage stage)
 {
     static const uint8_t zero[16];
-    const struct shader_registers *registers = &device->registers[stage];
+    const struct shader_registers *registers = device_registers(device, stage);
     for (unsigned i = 0; i < TRIPTYCH_SHADER_FLOATS; i++)
         if (memcmp(registers->floats[i], zero, sizeof zero))
             record_floats(device, stage, i, registers->floats[i], 1);
@@ -142,23 +142,24 @@ static void write_constants(struct triptych_device *device, enum triptych_shader
         if (memcmp(registers->integers[i], zero, sizeof zero))
             record_integers(device, stage, i, registers->integers[i], 1);
     for (unsigned i = 0; i < TRIPTYCH_SHADER_BOOLEANS; i++)
-        if (device->state.booleans[stage] >> i & 1)
+        if (device_state(device)->booleans[stage] >> i & 1)
             record_booleans(device, stage, i, &(const int32_t){1}, 1);
 }
 
 static void write_shaders(struct triptych_device *device)
 {
-    for (int stage = 0; stage < SHADER_STAGES; stage++) {
-        if (device->shader[stage])
-            record_shader(device, (enum shader_stage)stage, device->shader[stage]);
-        write_constants(device, (enum triptych_shader_stage)stage);
+    for (int i = 0; i < SHADER_STAGES; i++) {
+        enum triptych_shader_stage stage = (enum triptych_shader_stage)i;
+        if (device_shader(device, stage))
+            record_shader(device, (enum shader_stage)i, device_shader(device, stage));
+        write_constants(device, stage);
     }
 }
 
 static void write_bindings(struct triptych_device *device)
 {
     static const struct left_out none;
-    const struct state *state = &device->state;
+    const struct state *state = device_state(device);
     for (unsigned i = 0; i < TRIPTYCH_SAMPLERS; i++)
         if (state->texture[i])
             record_bind_texture(device, i, state->texture[i]);
@@ -169,7 +170,7 @@ static void write_bindings(struct triptych_device *device)
         if (stream->frequency != TRIPTYCH_FREQUENCY_VERTEX)
             record_frequency(device, i, stream->frequency, stream->count);
     }
-    record_vertex_input(device->recorder, state, &none);
+    record_vertex_input(device, &none);
     if (state->indices)
         record_indices(device, state->indices, state->index_bits);
 }

@@ -12,7 +12,7 @@
 void record_element(struct triptych_device *device, enum triptych_attribute attribute,
                     const struct triptych_element *element)
 {
-    if (!device->recorder)
+    if (!device_recorder(device))
         return;
     struct call call = {.type = CALL_BIND_ELEMENT, .resource = NO_RESOURCE};
     call.element.attribute = attribute;
@@ -22,34 +22,27 @@ void record_element(struct triptych_device *device, enum triptych_attribute attr
         call.element.offset = (uint32_t)element->offset;
         call.element.stride = (uint32_t)element->stride;
     }
-    record_append(device->recorder, &call);
+    record_call(device, &call);
 }
 
 void record_declaration(struct triptych_device *device, const struct triptych_declaration_element *elements,
                         unsigned count)
 {
     struct call call = {.type = CALL_DECLARE, .resource = NO_RESOURCE, .declare.count = count};
-    for (unsigned i = 0; i < count && device->recorder; i++)
+    for (unsigned i = 0; i < count && device_recorder(device); i++)
         call.declare.element[i] = (struct call_declared){.usage = elements[i].usage & 15,
                                                          .usage_index = elements[i].usage_index & 15,
                                                          .format = elements[i].format & 31,
                                                          .stream = elements[i].stream & 15,
                                                          .words = elements[i].offset / 4 & 0x3fff};
-    if (device->recorder)
-        record_append(device->recorder, &call);
-}
-
-void record_fvf(struct triptych_device *device, uint32_t fvf)
-{
-    if (device->recorder)
-        record_append(device->recorder,
-                      &(struct call){.type = CALL_FVF, .resource = NO_RESOURCE, .fvf.code = fvf});
+    if (device_recorder(device))
+        record_call(device, &call);
 }
 
 void record_stream(struct triptych_device *device, unsigned stream, const triptych_buffer *buffer,
                    size_t offset, size_t stride)
 {
-    if (!device->recorder)
+    if (!device_recorder(device))
         return;
     struct call call = {.type = CALL_BIND_STREAM, .resource = NO_RESOURCE, .bind_stream.number = stream};
     if (buffer) {
@@ -57,28 +50,28 @@ void record_stream(struct triptych_device *device, unsigned stream, const tripty
         call.bind_stream.offset = (uint32_t)offset;
         call.bind_stream.stride = (uint32_t)stride;
     }
-    record_append(device->recorder, &call);
+    record_call(device, &call);
 }
 
 void record_frequency(struct triptych_device *device, unsigned stream, enum triptych_frequency frequency,
                       uint32_t count)
 {
-    if (device->recorder)
-        record_append(device->recorder, &(struct call){.type = CALL_FREQUENCY,
-                                                       .resource = NO_RESOURCE,
-                                                       .frequency = {stream, frequency, count}});
+    if (device_recorder(device))
+        record_call(device, &(struct call){.type = CALL_FREQUENCY,
+                                           .resource = NO_RESOURCE,
+                                           .frequency = {stream, frequency, count}});
 }
 
 void record_indices(struct triptych_device *device, const triptych_buffer *buffer, unsigned bits)
 {
-    if (!device->recorder)
+    if (!device_recorder(device))
         return;
     struct call call = {.type = CALL_BIND_INDICES, .resource = NO_RESOURCE};
     if (buffer) {
         call.resource = buffer->recorded;
         call.bind_indices.bits = bits;
     }
-    record_append(device->recorder, &call);
+    record_call(device, &call);
 }
 
 /* --- All that is declared ------------------------------------------------------------------------------- */
@@ -93,9 +86,9 @@ static struct call_declared declared_of(unsigned usage, unsigned usage_index,
                                   .words = element->offset / 4 & 0x3fff};
 }
 
-static void write_declaration(struct recorder *recorder, const struct state *state,
-                              const struct left_out *left_out)
+static void write_declaration(struct triptych_device *device, const struct left_out *left_out)
 {
+    const struct state *state = device_state(device);
     struct call call = {.type = CALL_DECLARE, .resource = NO_RESOURCE};
     for (unsigned a = 0; a < TRIPTYCH_ATTRIBUTE_COUNT; a++) {
         const struct state_element *element = &state->element[a];
@@ -107,13 +100,13 @@ static void write_declaration(struct recorder *recorder, const struct state *sta
         if (!(left_out->others >> i & 1))
             call.declare.element[call.declare.count++] =
                 declared_of(state->other[i].usage, state->other[i].usage_index, &state->other[i].element);
-    record_append(recorder, &call);
+    record_call(device, &call);
 }
 
-void record_vertex_input(struct recorder *recorder, const struct state *state,
-                         const struct left_out *left_out)
+void record_vertex_input(struct triptych_device *device, const struct left_out *left_out)
 {
-    write_declaration(recorder, state, left_out);
+    const struct state *state = device_state(device);
+    write_declaration(device, left_out);
     for (unsigned a = 0; a < TRIPTYCH_ATTRIBUTE_COUNT; a++) {
         const struct state_element *element = &state->element[a];
         const struct state_stream *stream = &state->stream[element->stream];
@@ -126,7 +119,7 @@ void record_vertex_input(struct recorder *recorder, const struct state *state,
         call.element.format = element->format;
         call.element.offset = (uint32_t)stream->offset;
         call.element.stride = (uint32_t)stream->stride;
-        record_append(recorder, &call);
+        record_call(device, &call);
     }
 }
 
@@ -160,19 +153,19 @@ static struct left_out find_left_out(const struct state *state, uint64_t last)
 static void add_draw(struct triptych_device *device, const struct call *call, uint32_t count, uint64_t last)
 {
     static const struct left_out none;
-    struct left_out left_out = count ? find_left_out(&device->state, last) : none;
+    struct left_out left_out = count ? find_left_out(device_state(device), last) : none;
     bool some = left_out.attributes || left_out.others;
     if (some)
-        record_vertex_input(device->recorder, &device->state, &left_out);
-    record_append(device->recorder, call);
+        record_vertex_input(device, &left_out);
+    record_call(device, call);
     if (some)
-        record_vertex_input(device->recorder, &device->state, &none);
+        record_vertex_input(device, &none);
 }
 
 void record_draw(struct triptych_device *device, enum triptych_primitive primitive, uint32_t first,
                  uint32_t count)
 {
-    if (!device->recorder)
+    if (!device_recorder(device))
         return;
     struct call call = {.type = CALL_DRAW, .resource = NO_RESOURCE};
     call.draw.primitive = primitive;
@@ -186,7 +179,7 @@ void record_draw_indexed(struct triptych_device *device, enum triptych_primitive
 {
     struct call call = {.type = CALL_DRAW_INDEXED, .resource = NO_RESOURCE};
     uint64_t last = 0;
-    if (!device->recorder)
+    if (!device_recorder(device))
         return;
     call.draw_indexed.primitive = primitive;
     call.draw_indexed.base = base;
@@ -194,7 +187,7 @@ void record_draw_indexed(struct triptych_device *device, enum triptych_primitive
     call.draw_indexed.count = count;
     if (count) {
         const struct index_range *range =
-            buffer_index_range(device->state.indices, device->state.index_bits, first,
+            buffer_index_range(device_state(device)->indices, device_state(device)->index_bits, first,
                                (uint32_t)device_corners(primitive, count));
         last = (uint64_t)((int64_t)base + range->maximum);
     }

@@ -10,6 +10,49 @@ static enum triptych_result not_ours(struct error *error, const char *what)
     return TRIPTYCH_BAD_ARGUMENT;
 }
 
+/* The links to an object in the device's lists, or those at the ends of the lists. */
+
+static struct triptych_buffer **find_buffer(struct triptych_device *device,
+                                            const struct triptych_buffer *buffer)
+{
+    struct triptych_buffer **at = &device->resources.buffers;
+    while (*at && *at != buffer)
+        at = &(*at)->next;
+    return at;
+}
+
+static struct triptych_texture **find_texture(struct triptych_device *device,
+                                              const struct triptych_texture *texture)
+{
+    struct triptych_texture **at = &device->resources.textures;
+    while (*at && *at != texture)
+        at = &(*at)->next;
+    return at;
+}
+
+static struct triptych_query **find_query(struct triptych_device *device, const struct triptych_query *query)
+{
+    struct triptych_query **at = &device->queries.first;
+    while (*at && *at != query)
+        at = &(*at)->next;
+    return at;
+}
+
+bool device_has_buffer(struct triptych_device *device, const struct triptych_buffer *buffer)
+{
+    return *find_buffer(device, buffer);
+}
+
+bool device_has_texture(struct triptych_device *device, const struct triptych_texture *texture)
+{
+    return *find_texture(device, texture);
+}
+
+bool device_has_query(struct triptych_device *device, const struct triptych_query *query)
+{
+    return *find_query(device, query);
+}
+
 static void unbind_buffer(struct state *state, const struct triptych_buffer *buffer)
 {
     for (unsigned i = 0; i < STREAM_COUNT; i++)
@@ -24,9 +67,7 @@ static void unbind_buffer(struct state *state, const struct triptych_buffer *buf
 enum triptych_result device_buffer_destroy(struct triptych_device *device, struct triptych_buffer *buffer,
                                            struct error *error)
 {
-    struct triptych_buffer **at = &device->resources.buffers;
-    while (*at && *at != buffer)
-        at = &(*at)->next;
+    struct triptych_buffer **at = find_buffer(device, buffer);
     if (!*at)
         return not_ours(error, "buffer");
     device_finish(device);
@@ -40,9 +81,7 @@ enum triptych_result device_buffer_destroy(struct triptych_device *device, struc
 enum triptych_result device_texture_destroy(struct triptych_device *device, struct triptych_texture *texture,
                                             struct error *error)
 {
-    struct triptych_texture **at = &device->resources.textures;
-    while (*at && *at != texture)
-        at = &(*at)->next;
+    struct triptych_texture **at = find_texture(device, texture);
     if (!*at)
         return not_ours(error, "texture");
     device_finish(device);
@@ -60,13 +99,10 @@ enum triptych_result device_texture_destroy(struct triptych_device *device, stru
 enum triptych_result device_query_destroy(struct triptych_device *device, struct triptych_query *query,
                                           struct error *error)
 {
-    struct queries *queries = &device->queries;
-    struct triptych_query **at = &queries->first;
-    while (*at && *at != query)
-        at = &(*at)->next;
+    struct triptych_query **at = find_query(device, query);
     if (!*at)
         return not_ours(error, "query");
-    queries->counting -= query->phase == QUERY_BEGUN;
+    device->queries.counting -= query->phase == QUERY_BEGUN;
     *at = query->next;
     free(query);
     return TRIPTYCH_OK;

@@ -123,6 +123,46 @@ device_drawn_textures(const struct triptych_device *device)
     return device->binding.draws_to_textures ? &device->binding.textures : NULL;
 }
 
+/* What a recording of a running device reads: the state, the constants and the shader of a stage (or null), and the
+ * first of the objects that exist, which are linked by `next`. */
+static inline const struct state *device_state(const struct triptych_device *device)
+{
+    return &device->state;
+}
+
+static inline const struct shader_registers *device_registers(const struct triptych_device *device,
+                                                              enum triptych_shader_stage stage)
+{
+    return &device->registers[stage];
+}
+
+static inline struct triptych_shader *device_shader(const struct triptych_device *device,
+                                                    enum triptych_shader_stage stage)
+{
+    return device->shader[stage];
+}
+
+static inline const struct device_resources *device_resources(const struct triptych_device *device)
+{
+    return &device->resources;
+}
+
+static inline struct triptych_query *device_queries(const struct triptych_device *device)
+{
+    return device->queries.first;
+}
+
+/* The recorder of the device's calls (capture/record.h), or null. */
+static inline struct recorder *device_recorder(const struct triptych_device *device)
+{
+    return device->recorder;
+}
+
+static inline void device_set_recorder(struct triptych_device *device, struct recorder *recorder)
+{
+    device->recorder = recorder;
+}
+
 struct device_options {
     unsigned threads;   /* 0: one for each processor */
     size_t cache_bytes; /* 0: CACHE_BYTES */
@@ -263,6 +303,12 @@ enum triptych_result device_texture_update(struct triptych_device *device, struc
                                            const void *data, size_t row_pitch, size_t slice_pitch,
                                            struct error *error);
 void device_texture_generate_mips(struct triptych_device *device, struct triptych_texture *texture);
+
+/* Return true if the object is one of the device's. */
+bool device_has_buffer(struct triptych_device *device, const struct triptych_buffer *buffer);
+bool device_has_texture(struct triptych_device *device, const struct triptych_texture *texture);
+bool device_has_query(struct triptych_device *device, const struct triptych_query *query);
+bool device_has_shader(struct triptych_device *device, const struct triptych_shader *shader);
 
 /* render/device/destroy.c; arguments are not null. */
 enum triptych_result device_buffer_destroy(struct triptych_device *device, struct triptych_buffer *buffer,

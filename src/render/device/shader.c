@@ -75,12 +75,23 @@ static void free_shader(struct triptych_shader *shader)
     free(shader);
 }
 
-enum triptych_result device_shader_destroy(struct triptych_device *device, struct triptych_shader *shader,
-                                           struct error *error)
+static struct triptych_shader **find(struct triptych_device *device, const struct triptych_shader *shader)
 {
     struct triptych_shader **at = &device->resources.shaders;
     while (*at && *at != shader)
         at = &(*at)->next;
+    return at;
+}
+
+bool device_has_shader(struct triptych_device *device, const struct triptych_shader *shader)
+{
+    return *find(device, shader);
+}
+
+enum triptych_result device_shader_destroy(struct triptych_device *device, struct triptych_shader *shader,
+                                           struct error *error)
+{
+    struct triptych_shader **at = find(device, shader);
     if (!*at) {
         error_set(error, "shader to destroy: expected one of this device");
         return TRIPTYCH_BAD_ARGUMENT;
