@@ -583,14 +583,22 @@ function screen() {
     call("viewport 0 0 1280 1024 0 1")
 }
 
-function animate(   f, t, x, y, z) {
-    for (f = 0; f < 60; f++) {
-        t = f / 59; x = 1.1 + 1.5 * sin(6.0 * t); y = 2.1 + 2.2 * t * t * (3 - 2 * t); z = 9.5 - 40 * t
-        print "transform projection perspective-rh 52 1.25 0.2 600"
-        print "transform view lookat-rh " triple(x, y, z) "  " triple(x * 0.3 - 0.9 + 1.5 * sin(4 * t),
-            2.5 - 0.9 * t, z - 16) "  0 1 0"
-        print "clear color 0 0 0 1 depth 1\nplay street\nframe"
-    }
+# Coordinates of the camera have two decimals.
+function rounded(sum) { return " (round(100 * " (sum ~ / / ? "(" sum ")" : sum) ") / 100)" }
+
+function animate() {
+    print "repeat 60"
+    call("let t = frame / (count - 1)")
+    call("let x = 1.1 + 1.5 * sin(6 * t)")
+    call("let y = 2.1 + 2.2 * t * t * (3 - 2 * t)")
+    call("let z = 9.5 - 40 * t")
+    call("transform projection perspective-rh 52 1.25 0.2 600")
+    call("transform view lookat-rh" rounded("x") rounded("y") rounded("z") " " \
+        rounded("x * 0.3 - 0.9 + 1.5 * sin(4 * t)") rounded("2.5 - 0.9 * t") rounded("z - 16") "  0 1 0")
+    call("clear color 0 0 0 1 depth 1")
+    call("play street")
+    call("frame")
+    print "end"
 }
 
 function prologue(   i) {

@@ -130,6 +130,7 @@ struct resource {
             uint32_t call;     /* the number of its CALL_SEQUENCE */
             uint32_t depth;    /* 1 + the depth of the deepest sequence that it plays */
             uint32_t executed; /* the calls and plays that one play of it executes */
+            uint32_t frames;   /* the frames that one play of it ends */
         };
     };
 };

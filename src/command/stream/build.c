@@ -134,6 +134,12 @@ static uint32_t *executed_here(struct builder *builder)
                                             : &builder->stream->resources[builder->sequence].executed;
 }
 
+static uint32_t *frames_here(struct builder *builder)
+{
+    return builder->sequence == NO_RESOURCE ? &builder->frames
+                                            : &builder->stream->resources[builder->sequence].frames;
+}
+
 int stream_build_play(struct builder *builder, uint32_t number, struct error *error)
 {
     struct resource *resources = builder->stream->resources;
@@ -150,6 +156,7 @@ int stream_build_play(struct builder *builder, uint32_t number, struct error *er
                              LIMIT_DEPTH);
     }
     *executed_here(builder) += played->executed;
+    *frames_here(builder) += played->frames;
     return 0;
 }
 
@@ -185,6 +192,8 @@ int stream_build_call(struct builder *builder, const struct call *call, struct e
         begin_sequence(builder, call);
         return 0;
     }
+    if (call->type == CALL_FRAME)
+        ++*frames_here(builder);
     /* Plays have added at most LIMIT_EXECUTED to a number of at most LIMIT_EXECUTED, so there is no
      * overflow. */
     if (++*executed_here(builder) > LIMIT_EXECUTED)

@@ -15,6 +15,7 @@ struct builder {
     size_t bytes;            /* bytes of all resources */
     uint32_t sequence;       /* the open sequence, or NO_RESOURCE */
     uint32_t executed;       /* calls that are executed, outside sequences */
+    uint32_t frames;         /* frames that ended, outside sequences */
 };
 
 void stream_build_start(struct builder *builder, struct stream *stream);

@@ -1,7 +1,7 @@
 #include "command/stream/lex.h"
 
 #include "base/position.h"
-#include "command/stream/stream.h"
+#include "command/stream/expression.h"
 
 #include <inttypes.h>
 #include <math.h>
@@ -149,6 +149,21 @@ static int read_string(struct lexer *lexer)
     return 0;
 }
 
+/* Ends after the parenthesis that closes the first one. */
+static int read_expression(struct lexer *lexer)
+{
+    unsigned open = 0;
+    for (const char *at = lexer->at; at < lexer->end && *at != '\n' && *at != '#'; at++) {
+        open += *at == '(';
+        open -= *at == ')';
+        if (!open) {
+            lexer->at = at + 1;
+            return 0;
+        }
+    }
+    return lex_fail(lexer, &lexer->token, "found an expression without an end, expected ) on the same line");
+}
+
 static void skip_spaces_and_comment(struct lexer *lexer)
 {
     while (lexer->at < lexer->end && is_space(*lexer->at))
@@ -177,6 +192,10 @@ int lex_next(struct lexer *lexer)
         token->type = TOKEN_STRING;
         if (read_string(lexer))
             return -1;
+    } else if (c == '(' && lexer->scope) {
+        token->type = TOKEN_EXPRESSION;
+        if (read_expression(lexer))
+            return -1;
     } else if (c == '\n' || c == '{' || c == '}') {
         token->type = c == '\n' ? TOKEN_LINE_END : c == '{' ? TOKEN_OPEN : TOKEN_CLOSE;
         lexer->at++;
@@ -201,6 +220,31 @@ bool lex_is(const struct lexer *lexer, const char *word)
 {
     return lexer->token.type == TOKEN_WORD && strlen(word) == lexer->token.length &&
            !memcmp(word, lexer->token.text, lexer->token.length);
+}
+
+bool lex_is_value(const struct lexer *lexer)
+{
+    return lexer->token.type == TOKEN_WORD || lexer->token.type == TOKEN_EXPRESSION;
+}
+
+bool lex_is_digits(const struct lexer *lexer)
+{
+    const struct token *token = &lexer->token;
+    return token->type == TOKEN_EXPRESSION ||
+           (token->type == TOKEN_WORD && *token->text >= '0' && *token->text <= '9');
+}
+
+int lex_rest(struct lexer *lexer, const char *at, struct token *rest)
+{
+    const char *end = at;
+    *rest = lexer->token;
+    rest->text = at;
+    rest->column = (uint32_t)(at - lexer->line_start) + 1;
+    while (end < lexer->end && *end != '\n' && *end != '\r' && *end != '#')
+        end++;
+    rest->length = (size_t)(end - at);
+    lexer->at = end;
+    return lex_next(lexer);
 }
 
 int lex_line_end(struct lexer *lexer)
@@ -261,8 +305,52 @@ static int copy_word(struct lexer *lexer, char word[NUMBER_BYTES])
     return 0;
 }
 
+/* Sets the reason of an expression whose value is not `expected`. */
+static int unexpected_value(struct lexer *lexer, double value, const char *expected, ...)
+{
+    char quoted[POSITION_QUOTED], found[POSITION_QUOTED + 48];
+    const struct token *token = &lexer->token;
+    snprintf(found, sizeof found, "%s, which is %.9g,",
+             position_quote(token->text, token->length, POSITION_SHOWN, quoted), value);
+    va_list arguments;
+    va_start(arguments, expected);
+    position_expected(lexer->error, position_of(lexer, token), found, expected, arguments);
+    va_end(arguments);
+    return -1;
+}
+
+/* Reads an expression whose value is finite in binary32. */
+static int read_real(struct lexer *lexer, const char *what, double *number)
+{
+    if (expression_value(lexer, &lexer->token, number))
+        return -1;
+    if (!isfinite((float)*number))
+        return unexpected_value(lexer, *number, "a number (%s) in the range of binary32", what);
+    return lex_next(lexer);
+}
+
+/* Reads an expression whose value is an integer from `low` to `high`. */
+static int read_whole(struct lexer *lexer, const char *what, int64_t low, int64_t high, int64_t *integer)
+{
+    double value;
+    if (expression_value(lexer, &lexer->token, &value))
+        return -1;
+    if (value != floor(value) || value < (double)low || value > (double)high)
+        return unexpected_value(lexer, value, "an integer (%s) from %" PRId64 " to %" PRId64, what, low,
+                                high);
+    *integer = (int64_t)value;
+    return lex_next(lexer);
+}
+
 int lex_number(struct lexer *lexer, const char *what, float *number)
 {
+    double value;
+    if (lexer->token.type == TOKEN_EXPRESSION) {
+        if (read_real(lexer, what, &value))
+            return -1;
+        *number = (float)value;
+        return 0;
+    }
     char word[NUMBER_BYTES], *end;
     if (copy_word(lexer, word) || !looks_like_number(word))
         return lex_expected(lexer, "a number (%s)", what);
@@ -305,6 +393,8 @@ bool lex_half_bits(const struct lexer *lexer, int64_t *bits)
 
 int lex_double(struct lexer *lexer, const char *what, double *number)
 {
+    if (lexer->token.type == TOKEN_EXPRESSION)
+        return read_real(lexer, what, number);
     char word[NUMBER_BYTES], *end;
     if (copy_word(lexer, word) || !looks_like_number(word))
         return lex_expected(lexer, "a number (%s)", what);
@@ -324,6 +414,8 @@ int lex_numbers(struct lexer *lexer, const char *what, float *numbers, size_t co
 
 int lex_integer(struct lexer *lexer, const char *what, int64_t low, int64_t high, int64_t *integer)
 {
+    if (lexer->token.type == TOKEN_EXPRESSION)
+        return read_whole(lexer, what, low, high, integer);
     const char *at = lexer->token.text, *end = at + lexer->token.length;
     bool negative = false, good = lexer->token.type == TOKEN_WORD;
     int64_t value = 0;
@@ -354,6 +446,13 @@ int lex_color(struct lexer *lexer, const char *what, uint32_t *color)
     const char *text = lexer->token.text;
     size_t length = lexer->token.length;
     uint32_t value = 0;
+    int64_t integer;
+    if (lexer->token.type == TOKEN_EXPRESSION) {
+        if (read_whole(lexer, what, 0, UINT32_MAX, &integer))
+            return -1;
+        *color = (uint32_t)integer;
+        return 0;
+    }
     bool good = lexer->token.type == TOKEN_WORD;
     if (good && length == 10 && text[0] == '0' && (text[1] | 32) == 'x') {
         text += 2;

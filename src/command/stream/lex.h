@@ -13,11 +13,21 @@
 #include <stddef.h>
 #include <stdint.h>
 
-enum token_type { TOKEN_WORD, TOKEN_STRING, TOKEN_OPEN, TOKEN_CLOSE, TOKEN_LINE_END, TOKEN_END };
+enum token_type {
+    TOKEN_WORD,
+    TOKEN_EXPRESSION,
+    TOKEN_STRING,
+    TOKEN_OPEN,
+    TOKEN_CLOSE,
+    TOKEN_LINE_END,
+    TOKEN_END
+};
+
+struct expression_scope;
 
 struct token {
     enum token_type type;
-    const char *text; /* strings include their quotes */
+    const char *text; /* strings include their quotes, expressions their parentheses */
     size_t length;
     uint32_t line, column; /* from 1; columns are bytes */
 };
@@ -26,18 +36,19 @@ struct lexer {
     const char *path;
     const char *at, *end, *line_start;
     uint32_t line;
-    struct token token; /* the current one */
+    struct token token;             /* the current one */
+    struct expression_scope *scope; /* null: the text has no expressions */
     struct error *error;
 };
 
-/* Starts at the first token. Fails if the text is not UTF-8, has control characters, or has a line that is
- * too long. The locale of the thread must have a decimal point. */
+/* Starts at the first token, without a scope. Fails if the text is not UTF-8, has control characters, or has
+ * a line that is too long. The locale of the thread must have a decimal point. */
 int lex_start(struct lexer *lexer, const char *path, const char *text, size_t bytes, struct error *error);
 
 /* Returns nonzero if the bytes are valid UTF-8 without control characters. */
 bool lex_is_utf8(const char *text, size_t bytes);
 
-/* Advances to the next token. Fails at a string that does not end on its line. */
+/* Advances to the next token. Fails at a string or an expression that does not end on its line. */
 int lex_next(struct lexer *lexer);
 
 /* Sets "PATH:LINE:COLUMN: found TOKEN, expected EXPECTED" for the current token. Returns -1. */
@@ -53,8 +64,14 @@ int lex_fail(struct lexer *lexer, const struct token *place, const char *reason,
 
 bool lex_is(const struct lexer *lexer, const char *word);
 
-/* Read a finite number, an integer from `low` to `high`, or a colour 0xAARRGGBB. `what` names it in the
- * reason. */
+/* Returns true if the current token can be a number: a word or an expression. */
+bool lex_is_value(const struct lexer *lexer);
+
+/* Returns true if the current token is an expression or begins with a digit. */
+bool lex_is_digits(const struct lexer *lexer);
+
+/* Read a finite number, an integer from `low` to `high`, or a colour 0xAARRGGBB, or an expression with such a
+ * value. `what` names it in the reason. */
 int lex_number(struct lexer *lexer, const char *what, float *number);
 /* Reads any number. Infinities and NaN are written as bits: and the eight hexadecimal digits of a
  * binary32. */
@@ -71,6 +88,10 @@ int lex_hexadecimal_digit(char c);
 
 /* Reads a string, which the caller frees. */
 int lex_string(struct lexer *lexer, const char *what, char **string);
+
+/* Sets *rest to the text from `at`, in the current line, up to the end of the line or a comment. Advances to
+ * the end of the line. */
+int lex_rest(struct lexer *lexer, const char *at, struct token *rest);
 
 /* Reads the end of the line. */
 int lex_line_end(struct lexer *lexer);

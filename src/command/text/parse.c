@@ -62,13 +62,18 @@ int parse_sequence(struct parser *parser, struct call *call, unsigned word)
     if (parse_new_name(parser, RESOURCE_SEQUENCE, &sequence))
         return -1;
     call->resource = parser->stream->resource_count - 1;
+    parser->sequence_variables = parser->scope.variable_count;
     return 0;
 }
 
+/* The end of the innermost repeat, or else of the sequence. */
 static int parse_end(struct parser *parser)
 {
+    if (parser->repeat_count)
+        return parse_end_repeat(parser);
     stream_build_end(&parser->build);
-    return 0;
+    parser->scope.variable_count = parser->sequence_variables;
+    return lex_line_end(&parser->lex);
 }
 
 int parse_play(struct parser *parser, struct call *call, unsigned word)
@@ -85,14 +90,19 @@ int parse_play(struct parser *parser, struct call *call, unsigned word)
 
 /* --- Lines ---------------------------------------------------------------------------------------------- */
 
-/* Lines that are not calls: definitions, which must be outside sequences, and the end of a sequence. */
+enum place { OUTSIDE, INSIDE, EVERYWHERE }; /* of sequences and repeats */
+
+/* Lines that are not calls. */
 static const struct definition {
     const char *word;
+    enum place place;
     int (*parse)(struct parser *parser);
 } definitions[] = {
-    {"texture", parse_texture}, {"vertices", parse_vertices}, {"indices", parse_indices},
-    {"buffer", parse_buffer},   {"mesh", parse_mesh},         {"shader", parse_shader},
-    {"query", parse_query},     {"end", parse_end},
+    {"texture", OUTSIDE, parse_texture},  {"vertices", OUTSIDE, parse_vertices},
+    {"indices", OUTSIDE, parse_indices},  {"buffer", OUTSIDE, parse_buffer},
+    {"mesh", OUTSIDE, parse_mesh},        {"shader", OUTSIDE, parse_shader},
+    {"query", OUTSIDE, parse_query},      {"let", EVERYWHERE, parse_let},
+    {"repeat", EVERYWHERE, parse_repeat}, {"end", INSIDE, parse_end},
 };
 
 enum { DEFINITIONS = sizeof definitions / sizeof *definitions };
@@ -104,7 +114,15 @@ static bool is_inside(const struct parser *parser)
 
 static bool allows_definition(const struct parser *parser, const struct definition *definition)
 {
-    return is_inside(parser) == (definition->parse == parse_end);
+    bool inside = is_inside(parser) || parser->repeat_count;
+    return definition->place == EVERYWHERE || definition->place == (inside ? INSIDE : OUTSIDE);
+}
+
+static bool allows_call(const struct parser *parser, const struct call_row *row, unsigned type)
+{
+    if (type == CALL_SEQUENCE && parser->repeat_count)
+        return false;
+    return !(row->traits & CALL_SHARES_LINE) && !(row->traits & CALL_OUTSIDE && is_inside(parser));
 }
 
 /* Word number `i` among those that begin the lines of a type of calls; null if there is none, or not here. */
@@ -112,7 +130,7 @@ static const char *call_line_word(const struct parser *parser, unsigned type, un
 {
     const struct call_row *row = call_row(type);
     const char *const *words = calls_functions[type].words;
-    if (!row || row->traits & CALL_SHARES_LINE || (row->traits & CALL_OUTSIDE && is_inside(parser)))
+    if (!row || !allows_call(parser, row, type))
         return NULL;
     if (!words[0])
         return i ? NULL : row->word;
@@ -137,8 +155,8 @@ static int expect_line(struct parser *parser)
     struct words words = {.at = line_choice, .list = parser};
     char choices[1024];
     words_join(words, choices, sizeof choices);
-    return lex_expected_word(&parser->lex, words, "a call%s: %s", is_inside(parser) ? " of a sequence" : "",
-                             choices);
+    const char *where = parser->repeat_count ? " of a repeat" : is_inside(parser) ? " of a sequence" : "";
+    return lex_expected_word(&parser->lex, words, "a call%s: %s", where, choices);
 }
 
 int parse_add_call(struct parser *parser, const struct call *call, const struct token *place)
@@ -166,13 +184,18 @@ static int parse_line(struct parser *parser)
 {
     struct lexer *lex = &parser->lex;
     const char *word;
+    parser->scope.builtin[EXPRESSION_frame] = parser->build.frames;
+    parser->scope.known[EXPRESSION_frame] = !is_inside(parser);
+    for (int i = 0; i < DEFINITIONS; i++)
+        if (lex_is(lex, definitions[i].word) && allows_definition(parser, &definitions[i]))
+            return lex_next(lex) || definitions[i].parse(parser) ||
+                           (definitions[i].place == OUTSIDE && lex_line_end(lex))
+                       ? -1
+                       : 0;
     for (unsigned type = 0; type < CALL_TYPES; type++)
         for (unsigned i = 0; (word = call_line_word(parser, type, i)); i++)
             if (lex_is(lex, word))
                 return parse_call(parser, (enum call_type)type, i);
-    for (int i = 0; i < DEFINITIONS; i++)
-        if (lex_is(lex, definitions[i].word) && allows_definition(parser, &definitions[i]))
-            return lex_next(lex) || definitions[i].parse(parser) || lex_line_end(lex) ? -1 : 0;
     return expect_line(parser);
 }
 
@@ -196,6 +219,9 @@ static int parse_all(struct parser *parser)
     while (lex->token.type != TOKEN_END)
         if (parse_line(parser) || lex_skip_lines(lex))
             return -1;
+    if (parser->repeat_count)
+        return lex_expected(lex, "the end of the repeat of line %u",
+                            parser->repeats[parser->repeat_count - 1].place.line);
     if (parser->build.sequence != NO_RESOURCE)
         return lex_expected(lex, "the end of sequence %s",
                             parser->stream->resources[parser->build.sequence].name);
@@ -214,7 +240,9 @@ static int parse_in_locale(struct stream *stream, const char *text, size_t bytes
 {
     struct parser parser = {.stream = stream};
     stream_build_start(&parser.build, stream);
+    expression_start(&parser.scope);
     int result = lex_start(&parser.lex, stream->path, text, bytes, error);
+    parser.lex.scope = &parser.scope;
     if (!result)
         result = parse_all(&parser);
     stream_build_free(&parser.build);

@@ -5,13 +5,28 @@
 
 #include "command/assets/asset.h"
 #include "command/stream/build.h"
+#include "command/stream/expression.h"
 #include "command/stream/lex.h"
 #include "capture/word.h"
+
+/* An open repeat. */
+struct repeat {
+    struct lexer body;  /* at its first token */
+    struct token place; /* of its line */
+    uint32_t count, left;
+    unsigned variables; /* that were set before it */
+    bool named;         /* the next one counts its repetitions */
+};
 
 struct parser {
     struct lexer lex;
     struct stream *stream;
     struct builder build;
+    struct expression_scope scope;
+    struct repeat repeats[LIMIT_REPEATS]; /* from the outermost one on */
+    unsigned repeat_count;
+    unsigned sequence_variables; /* that were set before the open sequence */
+    uint64_t repeated;           /* bytes that repeats have read again */
 };
 
 /* Reads a word of a list. `what` names it in the reason. */
@@ -94,6 +109,12 @@ int parse_sequence(struct parser *parser, struct call *call, unsigned word);
 /* Reads the text of a stream. */
 int parse_stream(const char *path, const char *text, size_t bytes, struct stream **stream,
                  struct error *error);
+
+/* Lines of repeats and variables, from the token after the first word to the next line. parse_end_repeat
+ * returns to the first line of the repeat until its repetitions are done. */
+int parse_repeat(struct parser *parser);
+int parse_end_repeat(struct parser *parser);
+int parse_let(struct parser *parser);
 
 /* Definitions, from the token after the first word to the end of the line. */
 int parse_texture(struct parser *parser);

@@ -3,7 +3,6 @@
 #include "render/texture/format.h"
 #include "command/text/parse.h"
 
-#include <ctype.h>
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
@@ -204,8 +203,7 @@ int parse_regular(struct parser *parser, struct call *call, unsigned first)
 /* The number of sampler 0 may be left out. */
 static int bind_texture(struct parser *parser, struct call *call)
 {
-    const struct token *token = &parser->lex.token;
-    bool given = token->type == TOKEN_WORD && isdigit((unsigned char)*token->text);
+    bool given = lex_is_digits(&parser->lex);
     return parse_regular(parser, call, given ? 0 : 1);
 }
 

@@ -126,7 +126,7 @@ int parse_declare(struct parser *parser, struct call *call, unsigned word)
     (void)word;
     uint32_t next[TRIPTYCH_STREAMS] = {0}, stream = 0;
     while (lex->token.type != TOKEN_LINE_END && lex->token.type != TOKEN_END)
-        if (lex->token.type == TOKEN_WORD && lex->token.text[0] >= '0' && lex->token.text[0] <= '9') {
+        if (lex_is_digits(lex)) {
             if (parse_integer(parser, "stream", TRIPTYCH_STREAMS - 1, &stream))
                 return -1;
         } else if (parse_declared(parser, call, stream, &next[stream])) {

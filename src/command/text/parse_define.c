@@ -76,7 +76,7 @@ static int parse_values(struct parser *parser, enum value_type type, const char 
     uint32_t value;
     if (open_block(parser) || lex_skip_lines(lex))
         return -1;
-    while (lex->token.type == TOKEN_WORD)
+    while (lex_is_value(lex))
         if (parse_value(parser, type, what, &value) || append(parser, block, &value) || lex_skip_lines(lex))
             return -1;
     if (lex->token.type != TOKEN_CLOSE)
@@ -205,7 +205,7 @@ static int parse_vertex_block(struct parser *parser, const struct layout *layout
         return lex_expected(lex, "the end of the line before the first vertex");
     if (lex_skip_lines(lex))
         return -1;
-    while (lex->token.type == TOKEN_WORD)
+    while (lex_is_value(lex))
         if (parse_vertex(parser, layout, order, block))
             return -1;
     if (lex->token.type != TOKEN_CLOSE)

@@ -61,7 +61,7 @@ static int parse_bones(struct parser *parser, struct mesh_options *options)
     return 0;
 }
 
-static int parse_repeat(struct parser *parser, struct mesh_options *options)
+static int parse_tiling(struct parser *parser, struct mesh_options *options)
 {
     for (int i = 0; i < 2; i++)
         if (parse_positive(parser, "repetition", &options->repeat[i]))
@@ -82,7 +82,7 @@ static const struct option {
     {"normals", 1 << MESH_FILE, parse_normals},
     {"subdivisions", 1 << MESH_BEZIER, parse_subdivisions},
     {"texcoords", FILES, parse_texcoords},
-    {"repeat", FILES | SHAPES, parse_repeat},
+    {"repeat", FILES | SHAPES, parse_tiling},
     {"bones", 1 << MESH_FILE, parse_bones},
     {"center", FILES, parse_center},
     {"fit", FILES, parse_fit},

@@ -63,6 +63,8 @@ static int parse_value(struct parser *parser, const struct triptych_state_row *s
     char word[LIMIT_NAME_BYTES + 1];
     if (state->kind->notation == TRIPTYCH_NOTATION_REAL)
         return parse_real(parser, state->name, value);
+    if (lex->token.type == TOKEN_EXPRESSION)
+        return parse_integer(parser, state->name, UINT32_MAX, value);
     if (lex->token.type != TOKEN_WORD || lex->token.length > LIMIT_NAME_BYTES)
         return expect_value(parser, state);
     memcpy(word, lex->token.text, lex->token.length);
@@ -152,8 +154,7 @@ static int parse_round(struct parser *parser, const struct token *place, double 
  * enumeration. */
 static int parse_transform_number(struct parser *parser, unsigned which, uint32_t *number)
 {
-    const struct token *token = &parser->lex.token;
-    bool given = token->type == TOKEN_WORD && token->text[0] >= '0' && token->text[0] <= '9';
+    bool given = lex_is_digits(&parser->lex);
     if (which == TRIPTYCH_TRANSFORM_TEXTURE0)
         return parse_integer(parser, "texture matrix", 7, number);
     if (which != TRIPTYCH_TRANSFORM_WORLD || !given)

@@ -29,7 +29,7 @@ static int parse_colors(struct parser *parser, size_t count, const char *item, u
         return lex_fail(lex, &place, "not enough memory");
     if (lex_next(lex) || lex_skip_lines(lex))
         return -1;
-    while (lex->token.type == TOKEN_WORD) {
+    while (lex_is_value(lex)) {
         if (at == count)
             return lex_expected(lex, "at most %zu %ss", count, item);
         if (lex_color(lex, item, &(*colors)[at++]) || lex_skip_lines(lex))
@@ -310,7 +310,7 @@ int parse_texture(struct parser *parser)
     if (lex->token.type == TOKEN_WORD &&
         !word_value(WORDS_TEXTURETYPE, lex->token.text, lex->token.length, &type))
         return parse_typed(parser, resource);
-    if (lex->token.type != TOKEN_WORD || lex->token.text[0] > '9')
+    if (!lex_is_value(lex) || lex->token.text[0] > '9')
         return lex_expected_word(lex, word_list(WORDS_TEXTURETYPE),
                                  "file \"PATH\", WIDTH HEIGHT { color... }, 2d, cube or volume");
     return parse_image(parser, resource);

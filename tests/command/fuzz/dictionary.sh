@@ -31,7 +31,8 @@ case $1 in
 text)
     { listed states && listed formats && used tests/*/*.tri bench/streams/*.tri; } | quoted
     printf '%s\n' '"\x0a"' '" { "' '" }\x0a"' '"\x0atarget 16 16\x0a"' '"65536"' '"4294967295"' '"-1"' \
-        '"1e39"' '"nan"'
+        '"1e39"' '"nan"' '"\x0arepeat 3 i\x0a"' '"\x0aend\x0a"' '"\x0alet a = "' '"(frame / count)"' '"(sin(i) * pi)"' \
+        '" % "' '"sqrt("' '"floor("' '"round("' '"min(1, "' '"color(1, 0, 0, 1)"'
     ;;
 shader) shader_words ;;
 bezier) printf '"%s"\n' BBP STBBP BEZ333 CBEZ333 BEZ333_ST CBEZ333_ST 1e38 1e-45 0.5 -1 ;;

@@ -38,6 +38,37 @@ static void the_example_is_a_stream_of_two_frames(void)
     stream_free(stream);
 }
 
+static void the_animation_with_repeats_has_24_frames_of_two_teapots(void)
+{
+    struct stream *stream;
+    unsigned draws = 0;
+    const char *section = strstr(page, "### Variables and expressions");
+    TEST_ASSERT_NOT_NULL(section);
+    const char *start = strstr(section, "```\ntriptych 1\n");
+    TEST_ASSERT_NOT_NULL(start);
+    const char *end = strstr(start + 4, "```");
+    TEST_ASSERT_NOT_NULL(end);
+    int result =
+        stream_parse("bench/streams/example.tri", start + 4, (size_t)(end - start - 4), &stream, &error);
+    TEST_ASSERT_EQUAL_INT_MESSAGE(0, result, error.text);
+    TEST_ASSERT_EQUAL_UINT(24, stream->frame_count);
+    for (uint32_t i = 0; i < stream->call_count; i++)
+        draws += stream->calls[i].type == CALL_DRAW_MESH;
+    TEST_ASSERT_EQUAL_UINT(48, draws);
+    stream_free(stream);
+}
+
+static void every_name_of_expressions_is_described(void)
+{
+    static const char *const names[] = {
+#define BUILTIN(name, where, meaning) "`" #name "`",
+#define FUNCTION(name, arguments, result, meaning) "`" #name "(",
+#include "command/stream/expression.def"
+    };
+    for (size_t i = 0; i < sizeof names / sizeof *names; i++)
+        TEST_ASSERT_NOT_NULL_MESSAGE(strstr(page, names[i]), names[i]);
+}
+
 static void the_limits_are_those_of_the_table(void)
 {
     static const struct {
@@ -79,6 +110,8 @@ int main(void)
 {
     UNITY_BEGIN();
     RUN_TEST(the_example_is_a_stream_of_two_frames);
+    RUN_TEST(the_animation_with_repeats_has_24_frames_of_two_teapots);
+    RUN_TEST(every_name_of_expressions_is_described);
     RUN_TEST(the_limits_are_those_of_the_table);
     RUN_TEST(every_word_is_mentioned);
     return UNITY_END();
