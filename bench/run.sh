@@ -28,7 +28,8 @@ streams=(bench/streams/*.tri)
 ((${#streams[@]})) || { echo 'bench: no draw streams in bench/streams' >&2 && exit 1; }
 mkdir -p "$results" "$build/bench"
 
-"$triptych" bench "${streams[@]}" --json "$results/bench.json" --csv "$results/bench.csv" "$@"
+"$triptych" bench "${streams[@]}" --json "$results/bench.json" --csv "$results/bench.csv" \
+    --chart "$results/bench.svg,$results/bench.png" "$@"
 
 baselines=$("$triptych" list engines |
     awk '$3 == "available" && $1 ~ /^(emulate|batch.*|specialize|external)$/ { print $1 }' | paste -sd, -)
@@ -56,7 +57,5 @@ done
 
 hyperfine --shell=none --style=basic --warmup 1 --min-runs 5 --export-json "$results/hyperfine.json" \
     "${processes[@]}"
-
-gnuplot -c bench/chart.gnuplot "$results/bench.csv" "$results/bench.svg" "$results/bench.png"
 
 "$triptych" verify "${streams[@]}" --frames all --json "$results/verify.json"

@@ -346,6 +346,40 @@ holds 'the hit rate is that of the runs measured' awk -F, '
     NR == 1 { for (i = 1; i <= NF; i++) if ($i == "hit_rate") column = i }
     NR > 1 && $column != 100 { bad = 1 }
     END { exit bad || NR < 2 || !column }' "$work/bench.csv"
+answers 'bench compares with the fastest engine' '^  (emulate|specialize) +[0-9.]+ +[0-9.]+ +[0-9.]+ +(slower|no difference shown)$' \
+    bench "$work/good.tri" --engines emulate,specialize --repetitions 5 --seconds 1 --frames 1 \
+    --json "$work/a.json" --chart "$work/chart.svg,$work/chart.png"
+holds 'the chart is an SVG' grep -q '^<svg' "$work/chart.svg"
+holds 'the chart names stream and engine' bash -c 'grep -q ">good<" "$0" && grep -q ">specialize<" "$0"' "$work/chart.svg"
+holds 'and a PNG' grep -qa 'PNG' "$work/chart.png"
+refuses 'chart of another kind' '[-]-chart is ".*x.gif", expected files whose names end with .svg or .png' \
+    bench "$work/good.tri" --chart "$work/out/x.gif"
+holds 'without gnuplot the chart is refused before anything is measured' bash -c '
+    PATH=/nonexistent "$0" bench "$1" --chart "$2/none.svg" >/dev/null 2>"$2/err"
+    [[ $? == 2 && ! -e $2/none.svg ]] && IFS= read -r line <"$2/err" &&
+    [[ $line == "triptych bench: --chart needs gnuplot, which is not in PATH"* ]]' "$TRIPTYCH" "$work/good.tri" "$work"
+answers 'a measurement compared with itself shows no difference' '^good +specialize +.* no difference shown$' \
+    bench --compare "$work/a.json" "$work/a.json" --json "$work/compare.json"
+holds 'and writes JSON' grep -q '"b_is":.*"no difference shown"' "$work/compare.json"
+python3 -c 'import json, sys
+a = json.load(open(sys.argv[1]))
+def write(path, samples, frames):
+    for run in a["streams"][0]["engines"]: run["samples"]["frame_ms"] = samples
+    a["streams"][0]["frames"] = frames
+    json.dump(a, open(path, "w"))
+write(sys.argv[2], [0.5, 0.55, 0.6, 0.65, 0.7], 1)
+write(sys.argv[3], [1, 1.1, 1.2, 1.3, 1.4], 7)
+write(sys.argv[1], [1, 1.1, 1.2, 1.3, 1.4], 1)' "$work/a.json" "$work/half.json" "$work/frames.json"
+answers 'half the time is faster' '^good +emulate +1[.]200 +0[.]600 +2[.]000 +1[.]571 +2[.]545 +faster$' \
+    bench --compare "$work/a.json" "$work/half.json"
+answers 'twice the time is slower' '^B is faster 0 times, slower 2 times, no difference is shown 0 times' \
+    bench --compare "$work/half.json" "$work/a.json"
+refuses 'comparison of other work' 'stream good: another frames, expected the same in both files' \
+    bench --compare "$work/a.json" "$work/frames.json"
+refuses 'comparison of one file' '[-]-compare has 1 operands, expected two files' bench --compare "$work/a.json"
+refuses 'comparison with a stream' 'good.tri: has no streams, expected a file that triptych bench' \
+    bench --compare "$work/a.json" "$work/good.tri"
+refuses 'comparison with a missing file' 'none.json: ' bench --compare "$work/a.json" "$work/none.json"
 answers 'bench of builds prints a row of sets for each engine' '^stitch +8 +AVX2 +set +1 ' bench "$work/good.tri" --builds \
     --engines stitch,emulate --repetitions 3 --json "$work/builds.json"
 holds 'and writes JSON' grep -q '"first_p99_us":' "$work/builds.json"

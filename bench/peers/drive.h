@@ -67,7 +67,7 @@ void run_measure(struct run *run);
 /* Write the tables as text, and all measurements as JSON. Return 0, or -1 if the file cannot be written. */
 int report_text(const struct run *run, FILE *file);
 int report_json(const struct run *run, const char *path);
-/* Writes the columns stream, engine and speedup (the ratio to llvmpipe) for bench/chart.gnuplot. */
+/* Writes the columns stream, engine and speedup (the ratio to llvmpipe) for bench/peers/chart.gnuplot. */
 int report_csv(const struct run *run, const char *path);
 
 /* The rates of the machine, from limits.c, in billions a second; 0: not known. */

@@ -213,6 +213,52 @@ static void test_a_measurement_reports_the_streams_that_are_done(void)
     cJSON_Delete(json);
 }
 
+static cJSON *read_interrupted_report(void)
+{
+    cJSON *json = read_report();
+    TEST_ASSERT_EQUAL_STRING("SIGINT", cJSON_GetStringValue(cJSON_GetObjectItem(json, "interrupted")));
+    return json;
+}
+
+/* Three runs of a tenth of a second are enough for a report. */
+static void test_a_measurement_reports_the_runs_of_the_stream_at_hand(void)
+{
+    pid_t process = start("bench tests/data/streams/odd-target.tri --engines specialize --repetitions 1000 "
+                          "--seconds 100 --json REPORT");
+    sleep_ms(4000);
+    TEST_ASSERT_EQUAL_INT(0, kill(process, SIGINT));
+    TEST_ASSERT_EQUAL_INT_MESSAGE(130, end(process), complained);
+    TEST_ASSERT_EQUAL_STRING("", complained);
+    TEST_ASSERT_NOT_NULL_MESSAGE(strstr(said, "\ninterrupted by SIGINT: 0 of 1 streams\n"), said);
+    cJSON *json = read_interrupted_report(), *streams = cJSON_GetObjectItem(json, "streams");
+    TEST_ASSERT_EQUAL_INT(1, cJSON_GetArraySize(streams));
+    cJSON *stream = cJSON_GetArrayItem(streams, 0);
+    TEST_ASSERT_TRUE(cJSON_IsTrue(cJSON_GetObjectItem(stream, "interrupted")));
+    cJSON *run = cJSON_GetArrayItem(cJSON_GetObjectItem(stream, "engines"), 0);
+    TEST_ASSERT_GREATER_OR_EQUAL(
+        3, cJSON_GetArraySize(cJSON_GetObjectItem(cJSON_GetObjectItem(run, "samples"), "frame_ms")));
+    cJSON_Delete(json);
+}
+
+static void test_a_measurement_without_a_result_writes_a_whole_report(void)
+{
+    static const char *const lines[] = {
+        "bench STREAM --engines emulate --seconds 1000 --json REPORT",
+        "bench --cold STREAM --engines emulate --repetitions 1000 --json REPORT",
+        "bench --builds tests/data/streams/lights.tri tests/data/streams/texture-operations.tri "
+        "--engines specialize --repetitions 1000 --json REPORT"};
+    for (size_t i = 0; i < sizeof lines / sizeof *lines; i++) {
+        pid_t process = start(lines[i]);
+        sleep_ms(500);
+        TEST_ASSERT_EQUAL_INT(0, kill(process, SIGINT));
+        TEST_ASSERT_EQUAL_INT_MESSAGE(130, end(process), complained);
+        TEST_ASSERT_EQUAL_STRING("", complained);
+        TEST_ASSERT_NOT_NULL_MESSAGE(strstr(said, "\ninterrupted by SIGINT"), said);
+        cJSON_Delete(read_interrupted_report());
+        unlink(report);
+    }
+}
+
 static void test_fuzzing_reports_the_cases_so_far(void)
 {
     char line[256];
@@ -376,6 +422,8 @@ int main(void)
     RUN_TEST(test_an_interrupted_verification_reports_the_compared_streams);
     RUN_TEST(test_sigterm_and_sighup_are_requests_too);
     RUN_TEST(test_a_measurement_reports_the_streams_that_are_done);
+    RUN_TEST(test_a_measurement_reports_the_runs_of_the_stream_at_hand);
+    RUN_TEST(test_a_measurement_without_a_result_writes_a_whole_report);
     RUN_TEST(test_fuzzing_reports_the_cases_so_far);
     RUN_TEST(test_a_second_signal_ends_immediately);
     RUN_TEST(test_rendering_ends_by_the_signal_and_leaves_nothing);

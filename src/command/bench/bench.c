@@ -5,13 +5,17 @@
  * device from warm-up to end, as an application would. Pictures are not read back.
  *
  * An engine stops early if its next repetition would exceed its share of seconds, but not before
- * REPETITIONS_MINIMUM: the emulator is slow, and a median needs several values.
+ * REPETITIONS_MINIMUM: the emulator is slow, and a median needs several values. Every second round is in the
+ * opposite order, so that a machine that steadily gets slower or faster does so for all engines.
  *
- * If interrupted (interrupt.h), the command reports the streams that are done. */
+ * If interrupted (interrupt.h), the command reports the streams that are done, and the one at hand if each
+ * engine has REPETITIONS_MINIMUM. */
 #include "command/bench/bench_builds.h"
 #include "command/bench/bench_cold.h"
+#include "command/bench/bench_compare.h"
 #include "command/bench/bench_report.h"
 #include "command/bench/bench_shaders.h"
+#include "command/bench/chart.h"
 #include "command/support/choose.h"
 #include "command/support/interrupt.h"
 #include "command/support/option.h"
@@ -26,12 +30,13 @@ enum { REPETITIONS_MINIMUM = 3, FRAMES_MAXIMUM = 65536, SECONDS_MAXIMUM = 86400 
 static const double warm_up_share = 0.1; /* of an engine's seconds */
 
 struct settings {
-    const char *engines, *json, *csv;
+    const char *engines, *json, *csv, *chart;
     unsigned threads, repetitions, frames; /* frames 0: all */
     double seconds;
     bool shaders; /* a table of each shader */
     bool builds;  /* routines are built, no picture is drawn */
     bool cold;    /* frames whose routines are not built yet */
+    bool compare; /* the operands are two files of earlier results */
 };
 
 static bool goes_on(const struct bench_run *run, const struct settings *settings)
@@ -62,10 +67,11 @@ static int start_runs(const struct command *self, const struct stream *stream, c
 static int repeat_all(const struct command *self, const struct settings *settings,
                       struct bench_stream *result)
 {
-    for (bool going_on = true; going_on;) {
+    bool going_on = true;
+    for (unsigned round = 0; going_on; round++) {
         going_on = false;
         for (unsigned i = 0; i < result->run_count && !interrupt_signal(); i++) {
-            struct bench_run *run = result->runs + i;
+            struct bench_run *run = result->runs + (round % 2 ? result->run_count - 1 - i : i);
             if (!goes_on(run, settings))
                 continue;
             going_on = true;
@@ -78,6 +84,15 @@ static int repeat_all(const struct command *self, const struct settings *setting
     return STATUS_OK;
 }
 
+/* Returns true if an interrupted stream can be reported. */
+static bool is_enough(const struct bench_stream *result, unsigned engines)
+{
+    bool enough = result->run_count == engines;
+    for (unsigned i = 0; i < result->run_count; i++)
+        enough = enough && result->runs[i].repetitions >= REPETITIONS_MINIMUM;
+    return enough;
+}
+
 static int finish_all(const struct command *self, struct bench_stream *result)
 {
     triptych_target_size(result->runs->session.device, &result->width, &result->height);
@@ -85,7 +100,12 @@ static int finish_all(const struct command *self, struct bench_stream *result)
         if (bench_run_finish(self, result->runs + i))
             return STATUS_BAD;
     for (unsigned i = 0; i < result->run_count; i++)
-        bench_run_rate(result->runs + result->baseline, result->runs + i);
+        if (result->runs[i].value[COLUMN_frame_ms] < result->runs[result->fastest].value[COLUMN_frame_ms])
+            result->fastest = i;
+    for (unsigned i = 0; i < result->run_count; i++)
+        if (bench_run_rate(self, result->runs + result->baseline, result->runs + result->fastest,
+                           result->runs + i))
+            return STATUS_BAD;
     return STATUS_OK;
 }
 
@@ -97,8 +117,9 @@ static void name_stream(const char *path, char name[STREAM_NAME])
         *at = '_';
 }
 
+/* Sets *done if the result can be reported. */
 static int bench_one(const struct command *self, const char *path, const struct choice *engines,
-                     const struct settings *settings, struct bench_stream *result)
+                     const struct settings *settings, struct bench_stream *result, bool *done)
 {
     result->path = path;
     name_stream(path, result->name);
@@ -111,7 +132,9 @@ static int bench_one(const struct command *self, const char *path, const struct 
     int status = start_runs(self, stream, engines, settings, result);
     if (!status)
         status = repeat_all(self, settings, result);
-    if (!status && !interrupt_signal())
+    result->interrupted = interrupt_signal();
+    *done = !status && (!result->interrupted || is_enough(result, engines->count));
+    if (*done)
         status = finish_all(self, result);
     for (unsigned i = 0; i < result->run_count; i++)
         session_close(&result->runs[i].session);
@@ -128,20 +151,23 @@ static void free_stream(struct bench_stream *stream)
 }
 
 /* Measures the streams until all `count` are done or the command is interrupted. bench->stream_count is the
- * number of streams that are done. */
+ * number of streams that are reported. */
 static int measure_all(const struct command *self, char **paths, unsigned count, const struct choice *engines,
                        const struct settings *settings, struct bench *bench)
 {
     while (bench->stream_count < count) {
+        bool done = false;
         struct bench_stream *stream = bench->streams + bench->stream_count;
-        int status = bench_one(self, paths[bench->stream_count], engines, settings, stream);
+        int status = bench_one(self, paths[bench->stream_count], engines, settings, stream, &done);
         tool_progress(NULL);
-        if (status || interrupt_signal())
+        if (status || !done)
             return free_stream(stream), status;
         if (!bench->stream_count++)
             bench_print_machine(bench);
         bench_print_stream(bench, stream);
         fflush(stdout);
+        if (interrupt_signal())
+            break;
     }
     return STATUS_OK;
 }
@@ -154,6 +180,13 @@ static int bench_all(const struct command *self, char **paths, unsigned count, c
         return status;
     bench_print_summary(bench);
     return settings->shaders ? bench_print_shaders(self, bench) : STATUS_OK;
+}
+
+/* The last stream may have fewer runs than requested. */
+static unsigned count_whole(const struct bench *bench)
+{
+    unsigned count = bench->stream_count;
+    return count && bench->streams[count - 1].interrupted ? count - 1 : count;
 }
 
 static void free_bench(struct bench *bench)
@@ -170,9 +203,13 @@ static const char notes[] =
     "min, max and the median absolute deviation (mad). ns/vertex is geometry time per shaded vertex,\n"
     "ns/pixel is tile time per shaded pixel, both summed over threads. ms/frame is wall time. \"x\"\n"
     "columns: times the speed of emulate or, without it, of the first engine.\n"
+    "low and high are an interval of 95 % (Mann-Whitney), over the quotients of each run of one engine and\n"
+    "each run of the other. If it contains 1, no difference is shown. It covers changes during this "
+    "command;\n"
+    "between two commands a machine can change more.\n"
     "With --builds, each repetition builds every routine that the streams' draws need once. The report has\n"
     "the medians for single routines and for the three routines of a draw.\n"
-    "SIGINT or SIGTERM ends it with a report of the finished streams, and status 130 or 143.";
+    "SIGINT or SIGTERM ends it with a report of the finished part, in the files too, and status 130 or 143.";
 
 /* The usual measurement: every engine in turns. */
 static int bench_frames(const struct command *self, const struct operands *operands,
@@ -184,12 +221,14 @@ static int bench_frames(const struct command *self, const struct operands *opera
     if (!bench.streams)
         return tool_fail(self, "no memory for %u streams", count);
     int status = bench_all(self, operands->value, count, engines, settings, &bench);
-    if (!status && settings->json && bench.stream_count)
+    if (!status && settings->json)
         status = bench_write_json(self, &bench, settings->json);
-    if (!status && settings->csv && bench.stream_count)
+    if (!status && settings->csv)
         status = bench_write_csv(self, &bench, settings->csv);
+    if (!status)
+        status = chart_write(self, &bench, settings->chart);
     if (!status && interrupt_signal()) {
-        printf("\ninterrupted by %s: %u of %u streams\n", interrupt_name(), bench.stream_count, count);
+        printf("\ninterrupted by %s: %u of %u streams\n", interrupt_name(), count_whole(&bench), count);
         status = interrupt_status();
     }
     free_bench(&bench);
@@ -201,8 +240,12 @@ static int run(const struct command *self, void *data, const struct operands *op
     const struct settings *settings = data;
     struct choice engines;
     unsigned count = (unsigned)operands->count;
-    if (choose_engines(self, settings->engines, &engines) || tool_check_output(self, settings->json) ||
-        tool_check_output(self, settings->csv))
+    if (settings->compare && count != 2)
+        return tool_fail(self, "--compare has %u operands, expected two files that --json wrote", count);
+    if (settings->compare)
+        return bench_compare(self, operands->value, settings->json);
+    if (choose_engines(self, settings->engines, &engines) || chart_check(self, settings->chart) ||
+        tool_check_output(self, settings->json) || tool_check_output(self, settings->csv))
         return STATUS_BAD;
     interrupt_defer();
     if (settings->builds)
@@ -235,11 +278,16 @@ static const struct option options[] = {
      .extension = "json"},
     {"csv", "FILE", "write a row per stream and engine", OPTION_IS_FILE(struct settings, csv),
      .extension = "csv"},
+    {"chart", "FILE", "draw the speed-ups with gnuplot: .svg or .png, several with commas",
+     OPTION_IS_FILE(struct settings, chart), .extension = "svg png"},
+    {"compare", NULL, "measure nothing, compare two files of --json: A.json B.json",
+     OPTION_IS_FLAG(struct settings, compare)},
     {0},
 };
 
 static const struct operand operands[] = {
-    {"STREAM", "a draw stream", .kind = OPERAND_INPUT, .extension = "tri trib", .repeated = true},
+    {"STREAM", "a draw stream; with --compare, a file of --json", .kind = OPERAND_INPUT,
+     .extension = "tri trib json", .repeated = true},
     {0},
 };
 

@@ -1,13 +1,16 @@
 /* Plays the streams only for their keys (keys.h): the distinct routines, and the distinct sets of three that
- * a draw needs. Then each engine builds all routines in rounds, in the order in which the streams need them.
- * Each round has a new arena. The figure of a routine is the median of its rounds, which other work on the
- * machine hardly changes. The figure of a set is the sum of its three routines. The first round is reported
- * separately: its caches and pages are cold. */
+ * a draw needs. Then the engines take turns in rounds: in each round every engine builds all routines, in the
+ * order in which the streams need them, in a new arena. The figure of a routine is the median of its rounds,
+ * which other work on the machine hardly changes. The figure of a set is the sum of its three routines. The
+ * first round is reported separately: its caches and pages are cold.
+ *
+ * If interrupted, the command reports the rounds that all engines have done. */
 #include "command/bench/bench_builds.h"
 
 #include "base/clock.h"
 #include "machine/code.h"
 #include "engines/list.h"
+#include "command/support/choose.h"
 #include "command/support/interrupt.h"
 #include "command/support/json.h"
 #include "command/list/keys.h"
@@ -22,18 +25,25 @@
 
 enum { ARENA_BYTES = 256 << 20 };
 
-/* A routine, with the engine at hand. */
+/* A routine of an engine. */
 struct sample {
     struct routine *routine;
     double *us; /* of each round */
     double median;
 };
 
+struct builder {
+    const struct engine *engine;
+    struct sample *sample; /* of each routine that was found */
+    double *us;            /* of all samples */
+    struct execution execution;
+};
+
 struct collection {
     struct keys keys;
-    struct sample *sample; /* of each that was found */
-    unsigned rounds;
-    struct execution execution; /* of the engine at hand */
+    unsigned rounds; /* to be done; later, those that are done */
+    unsigned builder_count;
+    struct builder builder[CHOICE_CAPACITY];
 };
 
 static int collect(const struct command *self, const char *path, struct collection *c)
@@ -50,24 +60,25 @@ static int collect(const struct command *self, const char *path, struct collecti
 
 /* --- Building ------------------------------------------------------------------------------------------- */
 
-static int build_round(const struct engine *engine, struct collection *c, unsigned round, struct error *error)
+static int build_round(struct builder *builder, const struct keys *keys, unsigned round, struct error *error)
 {
+    const struct engine *engine = builder->engine;
     struct code_arena *arena = engine->without_arena ? NULL : code_create(ARENA_BYTES, NULL, error);
     bool bad = !arena && !engine->without_arena;
     size_t built = 0;
-    for (; built < c->keys.count && !bad; built++) {
-        const struct key_found *found = c->keys.found + built;
-        struct sample *sample = c->sample + built;
+    for (; built < keys->count && !bad; built++) {
+        const struct key_found *found = keys->found + built;
+        struct sample *sample = builder->sample + built;
         double start = clock_seconds() * 1e6;
         sample->routine = engine_build(engine, arena, found->unit, &found->key, error);
         sample->us[round] = clock_seconds() * 1e6 - start;
         bad = !sample->routine;
         if (!bad && !round)
-            execution_add(&c->execution, sample->routine);
+            execution_add(&builder->execution, sample->routine);
     }
     for (size_t i = 0; i < built; i++)
-        if (c->sample[i].routine)
-            engine->free(arena, c->sample[i].routine);
+        if (builder->sample[i].routine)
+            engine->free(arena, builder->sample[i].routine);
     code_destroy(arena);
     return bad;
 }
@@ -84,25 +95,26 @@ static double of_round(const struct sample *sample, int round)
 }
 
 /* Of a kind, in a round or, if that is -1, by their medians. */
-static struct summary summarize_kind(const struct collection *c, unsigned kind, int round, double *values)
+static struct summary summarize_kind(const struct collection *c, const struct sample *samples, unsigned kind,
+                                     int round, double *values)
 {
     size_t count = 0;
     for (size_t i = 0; i < c->keys.count && kind < UNIT_COUNT; i++)
         if (c->keys.found[i].unit == kind)
-            values[count++] = of_round(c->sample + i, round);
+            values[count++] = of_round(samples + i, round);
     for (size_t i = 0; i < c->keys.sets && kind == UNIT_COUNT; i++, count++) {
         values[count] = 0;
         for (int unit = 0; unit < UNIT_COUNT; unit++)
-            values[count] += of_round(c->sample + c->keys.set[i].routine[unit], round);
+            values[count] += of_round(samples + c->keys.set[i].routine[unit], round);
     }
     return summary_of(values, count);
 }
 
-static void find_medians(struct collection *c, double *values)
+static void find_medians(const struct collection *c, struct sample *samples, double *values)
 {
     for (size_t i = 0; i < c->keys.count; i++) {
-        memcpy(values, c->sample[i].us, c->rounds * sizeof *values);
-        c->sample[i].median = summary_of(values, c->rounds).median;
+        memcpy(values, samples[i].us, c->rounds * sizeof *values);
+        samples[i].median = summary_of(values, c->rounds).median;
     }
 }
 
@@ -126,34 +138,55 @@ static cJSON *json_row(const struct engine *engine, const struct execution *exec
     return json;
 }
 
-static void report(const struct collection *c, const struct engine *engine, double *values,
+static void report(const struct collection *c, const struct builder *builder, double *values,
                    struct table *table, cJSON *rows)
 {
     char lanes[EXECUTION_TEXT];
+    const struct execution *execution = &builder->execution;
+    find_medians(c, builder->sample, values);
     for (unsigned kind = 0; kind <= UNIT_COUNT; kind++) {
-        struct summary first = summarize_kind(c, kind, 0, values);
-        struct summary all = summarize_kind(c, kind, -1, values);
+        struct summary first = summarize_kind(c, builder->sample, kind, 0, values);
+        struct summary all = summarize_kind(c, builder->sample, kind, -1, values);
         const double cells[] = {all.least, all.p10,      all.median, all.p90,   all.p99,
                                 all.most,  first.median, first.p99,  first.most};
-        table_cell(table, "%s", engine->name);
-        table_cell(table, "%s", execution_lanes(&c->execution, lanes));
-        table_cell(table, "%s", execution_set(&c->execution));
+        table_cell(table, "%s", builder->engine->name);
+        table_cell(table, "%s", execution_lanes(execution, lanes));
+        table_cell(table, "%s", execution_set(execution));
         table_cell(table, "%s", kind_name(kind));
         table_cell(table, "%zu", all.count);
         for (size_t i = 0; i < sizeof cells / sizeof *cells; i++)
             table_cell(table, "%.1f", cells[i]);
-        cJSON_AddItemToArray(rows, json_row(engine, &c->execution, kind, &all, &first));
+        cJSON_AddItemToArray(rows, json_row(builder->engine, execution, kind, &all, &first));
     }
 }
 
-static int measure(const struct command *self, const struct engine *engine, struct collection *c)
+/* Every second round is in the opposite order, as in bench.c. */
+static int measure(const struct command *self, struct collection *c)
 {
     struct error error = {""};
-    c->execution = (struct execution){0};
-    for (unsigned round = 0; round < c->rounds && !interrupt_signal(); round++) {
-        tool_progress("%s: round %u of %u", engine->name, round + 1, c->rounds);
-        if (build_round(engine, c, round, &error))
-            return tool_fail(self, "engine %s: %s", engine->name, error.text);
+    unsigned round = 0;
+    for (; round < c->rounds && !interrupt_signal(); round++)
+        for (unsigned i = 0; i < c->builder_count; i++) {
+            struct builder *builder = c->builder + (round % 2 ? c->builder_count - 1 - i : i);
+            tool_progress("round %u of %u: %s", round + 1, c->rounds, builder->engine->name);
+            if (build_round(builder, &c->keys, round, &error))
+                return tool_fail(self, "engine %s: %s", builder->engine->name, error.text);
+        }
+    c->rounds = round;
+    return STATUS_OK;
+}
+
+static int start_builders(const struct command *self, const struct choice *engines, struct collection *c)
+{
+    for (; c->builder_count < engines->count; c->builder_count++) {
+        struct builder *builder = c->builder + c->builder_count;
+        *builder = (struct builder){.engine = engine_at(engines->index[c->builder_count]),
+                                    .sample = calloc(c->keys.count + 1, sizeof *builder->sample),
+                                    .us = calloc(c->keys.count * c->rounds + 1, sizeof *builder->us)};
+        if (!builder->sample || !builder->us)
+            return c->builder_count++, tool_fail(self, "no memory for %zu routines", c->keys.count);
+        for (size_t i = 0; i < c->keys.count; i++)
+            builder->sample[i].us = builder->us + i * c->rounds;
     }
     return STATUS_OK;
 }
@@ -176,26 +209,20 @@ static int measure_all(const struct command *self, const struct choice *engines,
     struct table table = {0};
     size_t most = c->keys.sets > c->keys.count ? c->keys.sets : c->keys.count;
     double *values = calloc(most + c->rounds + 1, sizeof *values);
-    double *us = calloc(c->keys.count * c->rounds + 1, sizeof *us);
-    c->sample = calloc(c->keys.count + 1, sizeof *c->sample);
     int status =
-        values && us && c->sample ? STATUS_OK : tool_fail(self, "no memory for %zu routines", c->keys.count);
-    for (size_t i = 0; i < c->keys.count && !status; i++)
-        c->sample[i].us = us + i * c->rounds;
-    begin_table(&table);
-    for (unsigned i = 0; i < engines->count && !status && !interrupt_signal(); i++) {
-        const struct engine *engine = engine_at(engines->index[i]);
-        status = measure(self, engine, c);
-        if (status || interrupt_signal())
-            break;
-        find_medians(c, values);
-        report(c, engine, values, &table, rows);
-    }
+        values ? start_builders(self, engines, c) : tool_fail(self, "no memory for %zu routines", most);
+    if (!status)
+        status = measure(self, c);
     tool_progress(NULL);
+    begin_table(&table);
+    for (unsigned i = 0; i < c->builder_count && !status && c->rounds; i++)
+        report(c, c->builder + i, values, &table, rows);
     table_print(&table, 0, stdout);
+    for (unsigned i = 0; i < c->builder_count; i++) {
+        free(c->builder[i].sample);
+        free(c->builder[i].us);
+    }
     free(values);
-    free(us);
-    free(c->sample);
     return status;
 }
 
@@ -211,15 +238,22 @@ int bench_builds(const struct command *self, char **paths, unsigned count, const
     cJSON *report = cJSON_CreateObject();
     cJSON_AddItemToObject(report, "machine", machine_json(&machine));
     cJSON *rows = cJSON_AddArrayToObject(report, "builds");
-    if (!status && !interrupt_signal()) {
+    if (interrupt_signal())
+        c.rounds = 0;
+    if (!status && c.rounds) {
         printf("%u streams, %zu routines, %zu sets, %u rounds; commit %s, %s\n", count, c.keys.count,
                c.keys.sets, rounds, machine.commit, machine.date);
         status = measure_all(self, engines, &c, rows);
     }
-    if (!status && interrupt_signal())
-        status = interrupt_status();
+    cJSON_AddNumberToObject(report, "rounds", c.rounds);
+    if (interrupt_signal())
+        cJSON_AddStringToObject(report, "interrupted", interrupt_name());
     if (!status && json)
         status = json_write(self, report, json);
+    if (!status && interrupt_signal()) {
+        printf("\ninterrupted by %s: %u of %u rounds\n", interrupt_name(), c.rounds, rounds);
+        status = interrupt_status();
+    }
     cJSON_Delete(report);
     keys_free(&c.keys);
     return status;

@@ -5,7 +5,8 @@
  *
  * Two clocks: wall time, and the processor time of the thread that draws. Other work on a busy machine
  * changes the second clock less. It excludes background threads and other rendering threads. Engines take
- * turns; the results are medians over the repetitions. */
+ * turns; the results are medians over the repetitions. If interrupted, the command reports the repetitions
+ * that all engines have done. */
 #include "command/bench/bench_cold.h"
 
 #include "base/clock.h"
@@ -53,7 +54,7 @@ static double *time_of(double *ms, unsigned frame, enum clock clock, unsigned pa
 static int play_passes(const struct command *self, struct session *session, unsigned frames, double *ms)
 {
     for (unsigned pass = 0; pass < PASSES; pass++)
-        for (unsigned i = 0; i < frames; i++) {
+        for (unsigned i = 0; i < frames && !interrupt_signal(); i++) {
             double start[CLOCKS];
             for (int clock = 0; clock < CLOCKS; clock++)
                 start[clock] = now_ms(clock);
@@ -91,7 +92,7 @@ static int repeat(const struct command *self, const struct stream *stream, unsig
     if (!status)
         execution_add_device(execution, session.device);
     session_close(&session);
-    for (int clock = 0; clock < CLOCKS && !status; clock++)
+    for (int clock = 0; clock < CLOCKS && !status && !interrupt_signal(); clock++)
         note(settings->frames, ms, clock, repetition, &cold[clock]);
     return status;
 }
@@ -116,6 +117,7 @@ static void report_all(const struct choice *engines, unsigned repetitions, struc
 {
     for (unsigned i = 0; i < engines->count; i++) {
         cJSON *row = cJSON_CreateObject();
+        cJSON_AddNumberToObject(row, "repetitions", repetitions);
         const char *engine = triptych_engine_name(engines->index[i]);
         table_cell(&output->table, "%s", name);
         table_cell(&output->table, "%s", engine);
@@ -140,14 +142,17 @@ static int measure(const struct command *self, const struct stream *stream, cons
     for (unsigned i = 0; i < engines->count * CLOCKS && !status; i++, at += 3 * repetitions)
         cold[i / CLOCKS][i % CLOCKS] = (struct cold){at, at + repetitions, at + 2 * repetitions};
     tool_path_stem(stream->path, name, sizeof name);
-    for (unsigned r = 0; r < repetitions && !status && !interrupt_signal(); r++)
+    unsigned done = 0;
+    while (done < repetitions && !status && !interrupt_signal()) {
         for (unsigned i = 0; i < engines->count && !status; i++) {
-            tool_progress("%s: %s, run %u", name, triptych_engine_name(engines->index[i]), r + 1);
-            status = repeat(self, stream, engines->index[i], settings, ms, r, cold[i], &executions[i]);
+            tool_progress("%s: %s, run %u", name, triptych_engine_name(engines->index[i]), done + 1);
+            status = repeat(self, stream, engines->index[i], settings, ms, done, cold[i], &executions[i]);
         }
+        done += !interrupt_signal();
+    }
     tool_progress(NULL);
-    if (!status && !interrupt_signal())
-        report_all(engines, repetitions, cold, executions, name, output);
+    if (!status && done)
+        report_all(engines, done, cold, executions, name, output);
     free(ms);
     free(values);
     return status;
@@ -187,8 +192,14 @@ int bench_cold(const struct command *self, char **paths, unsigned count, const s
     cJSON_AddItemToObject(report, "machine", machine_json(&machine));
     cJSON_AddNumberToObject(report, "threads", threads);
     cJSON_AddItemToObject(report, "cold", output.rows);
+    if (interrupt_signal())
+        cJSON_AddStringToObject(report, "interrupted", interrupt_name());
     if (!status && json)
         status = json_write(self, report, json);
     cJSON_Delete(report);
-    return status || !interrupt_signal() ? status : interrupt_status();
+    if (!status && interrupt_signal()) {
+        printf("\ninterrupted by %s\n", interrupt_name());
+        status = interrupt_status();
+    }
+    return status;
 }

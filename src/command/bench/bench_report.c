@@ -22,6 +22,15 @@ static const struct {
 #undef COLUMN
 };
 
+/* A quotient; 0 is one that was not computed. */
+static void print_value(struct table *table, int decimals, double value)
+{
+    if (value > 0)
+        table_cell(table, "%.*f", decimals, value);
+    else
+        table_cell(table, "-");
+}
+
 void bench_print_machine(const struct bench *bench)
 {
     const struct machine *machine = &bench->machine;
@@ -29,12 +38,36 @@ void bench_print_machine(const struct bench *bench)
            machine->compiler, machine->commit, machine->date);
 }
 
+/* How many times the fastest engine's frame time each other one needs, and if that difference is shown. */
+static void print_order(const struct bench_stream *stream)
+{
+    struct table table = {0};
+    printf("times the frame time of %s, with an interval of %s\n",
+           triptych_engine_name(stream->runs[stream->fastest].engine), interval_method);
+    table_column(&table, "engine", TABLE_LEFT);
+    table_column(&table, "times", TABLE_RIGHT);
+    table_column(&table, "low", TABLE_RIGHT);
+    table_column(&table, "high", TABLE_RIGHT);
+    table_column(&table, "difference", TABLE_LEFT);
+    for (unsigned i = 0; i < stream->run_count; i++) {
+        const struct bench_run *run = stream->runs + i;
+        if (i == stream->fastest)
+            continue;
+        table_cell(&table, "%s", triptych_engine_name(run->engine));
+        print_value(&table, 2, run->slower.times);
+        print_value(&table, 2, run->slower.low);
+        print_value(&table, 2, run->slower.high);
+        table_cell(&table, "%s", interval_verdict(&run->slower, "faster", "slower"));
+    }
+    table_print(&table, 2, stdout);
+}
+
 void bench_print_stream(const struct bench *bench, const struct bench_stream *stream)
 {
     struct table table = {0};
     char lanes[EXECUTION_TEXT];
-    printf("\n%s: %u x %u, frames a run: %u, threads: %u\n", stream->name, stream->width, stream->height,
-           stream->frames, bench->threads);
+    printf("\n%s: %u x %u, frames a run: %u, threads: %u%s\n", stream->name, stream->width, stream->height,
+           stream->frames, bench->threads, stream->interrupted ? ", interrupted" : "");
     table_column(&table, "engine", TABLE_LEFT);
     table_column(&table, "lanes", TABLE_LEFT);
     table_column(&table, "set", TABLE_LEFT);
@@ -47,10 +80,14 @@ void bench_print_stream(const struct bench *bench, const struct bench_stream *st
         table_cell(&table, "%s", execution_lanes(execution, lanes));
         table_cell(&table, "%s", execution_set(execution));
         for (int j = 0; j < BENCH_COLUMNS; j++)
-            if (columns[j].heading[0])
+            if (columns[j].heading[0] && j < COLUMN_speedup_vertex)
                 table_cell(&table, "%.*f", columns[j].decimals, stream->runs[i].value[j]);
+            else if (columns[j].heading[0])
+                print_value(&table, columns[j].decimals, stream->runs[i].value[j]);
     }
     table_print(&table, 2, stdout);
+    if (stream->run_count > 1)
+        print_order(stream);
 }
 
 static void print_speedups(const struct bench *bench)
@@ -159,6 +196,10 @@ static cJSON *json_run(const struct bench_run *run)
     execution_json(&run->execution, json);
     for (int i = 0; i < BENCH_COLUMNS; i++)
         cJSON_AddNumberToObject(json, columns[i].name, run->value[i]);
+    cJSON_AddNumberToObject(json, "slower", run->slower.times);
+    cJSON_AddNumberToObject(json, "slower_low", run->slower.low);
+    cJSON_AddNumberToObject(json, "slower_high", run->slower.high);
+    cJSON_AddBoolToObject(json, "difference_shown", interval_shows_difference(&run->slower));
     cJSON *samples = cJSON_AddObjectToObject(json, "samples");
     for (int i = 0; i < MEASURE_COUNT; i++)
         cJSON_AddItemToObject(samples, names[i],
@@ -174,6 +215,9 @@ static cJSON *json_stream(const struct bench_stream *stream)
     cJSON_AddNumberToObject(json, "width", stream->width);
     cJSON_AddNumberToObject(json, "height", stream->height);
     cJSON_AddNumberToObject(json, "frames", stream->frames);
+    if (stream->interrupted)
+        cJSON_AddBoolToObject(json, "interrupted", true);
+    cJSON_AddStringToObject(json, "fastest", triptych_engine_name(stream->runs[stream->fastest].engine));
     cJSON *runs = cJSON_AddArrayToObject(json, "engines");
     for (unsigned i = 0; i < stream->run_count; i++)
         cJSON_AddItemToArray(runs, json_run(stream->runs + i));
@@ -215,6 +259,7 @@ int bench_write_json(const struct command *self, const struct bench *bench, cons
     cJSON *json = cJSON_CreateObject();
     cJSON_AddItemToObject(json, "machine", machine_json(&bench->machine));
     cJSON_AddNumberToObject(json, "threads", bench->threads);
+    cJSON_AddStringToObject(json, "interval", interval_method);
     if (interrupt_signal())
         cJSON_AddStringToObject(json, "interrupted", interrupt_name());
     cJSON *streams = cJSON_AddArrayToObject(json, "streams");

@@ -12,7 +12,8 @@ struct bench_stream {
     const char *path;
     unsigned width, height; /* of the target at the end */
     unsigned frames;        /* played in a repetition */
-    unsigned run_count, baseline;
+    unsigned run_count, baseline, fastest;
+    bool interrupted; /* it has fewer runs than requested */
     struct bench_run *runs;
 };
 

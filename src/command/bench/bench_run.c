@@ -2,6 +2,7 @@
 #include "base/clock.h"
 #include "contract/key.h"
 #include "shader/program/program.h"
+#include "command/support/interrupt.h"
 
 #include <stdlib.h>
 #include <string.h>
@@ -20,7 +21,7 @@ int bench_run_start(const struct command *self, const struct stream *stream, uns
         return STATUS_BAD;
     double end = clock_seconds() + seconds;
     unsigned frames = stream->frame_count;
-    for (unsigned i = 0; i < frames && (i == 0 || clock_seconds() < end); i++)
+    for (unsigned i = 0; i < frames && (i == 0 || clock_seconds() < end) && !interrupt_signal(); i++)
         if (session_play(self, &run->session, i))
             return STATUS_BAD;
     return STATUS_OK;
@@ -39,7 +40,9 @@ int bench_run_repeat(const struct command *self, unsigned frames, struct bench_r
     double start = clock_seconds();
     do {
         for (unsigned i = 0; i < frames; i++)
-            if (session_play(self, &run->session, session_spread(i, frames, all)))
+            if (interrupt_signal())
+                return STATUS_OK;
+            else if (session_play(self, &run->session, session_spread(i, frames, all)))
                 return STATUS_BAD;
         played += frames;
         run->last = clock_seconds() - start;
@@ -162,11 +165,25 @@ static void rate(const struct bench_run *baseline, struct bench_run *run, enum b
         run->value[speedup] = baseline->value[measured] / run->value[measured];
 }
 
-void bench_run_rate(const struct bench_run *baseline, struct bench_run *run)
+static int compare(const struct bench_run *a, const struct bench_run *b, struct interval *interval)
 {
+    return interval_of(a->samples[MEASURE_FRAME_MS], a->repetitions, b->samples[MEASURE_FRAME_MS],
+                       b->repetitions, interval);
+}
+
+int bench_run_rate(const struct command *self, const struct bench_run *baseline,
+                   const struct bench_run *fastest, struct bench_run *run)
+{
+    struct interval faster;
+    if (compare(baseline, run, &faster) || compare(run, fastest, &run->slower))
+        return tool_fail(self, "no memory to compare %u runs with %u", run->repetitions,
+                         baseline->repetitions);
+    run->value[COLUMN_speedup_low] = faster.low;
+    run->value[COLUMN_speedup_high] = faster.high;
     rate(baseline, run, COLUMN_speedup_vertex, COLUMN_vertex_ns);
     rate(baseline, run, COLUMN_speedup_pixel, COLUMN_pixel_ns);
     rate(baseline, run, COLUMN_speedup, COLUMN_frame_ms);
+    return STATUS_OK;
 }
 
 void bench_run_free(struct bench_run *run)

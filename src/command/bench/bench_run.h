@@ -4,6 +4,7 @@
 
 #include "shader/shader.h"
 #include "command/bench/execution.h"
+#include "command/bench/interval.h"
 #include "command/bench/summary.h"
 #include "command/support/session.h"
 
@@ -43,6 +44,7 @@ struct bench_run {
     double spent, last;             /* seconds: all measured repetitions, the last one */
     uint64_t hits, misses;          /* of the routine cache, in all measured repetitions */
     double value[BENCH_COLUMNS];    /* when finished */
+    struct interval slower;         /* when rated: frame times against the fastest run of the stream */
     struct execution execution;     /* when finished */
     size_t build_count;
     struct build *builds; /* when finished */
@@ -55,13 +57,15 @@ int bench_run_start(const struct command *self, const struct stream *stream, uns
                     unsigned threads, bool measure, double seconds, struct bench_run *run);
 
 /* Plays `frames` frames, evenly spread over the stream, again and again for a tenth of a second at least, and
- * records one sample of each measure. */
+ * records one sample of each measure. If interrupted (interrupt.h), it records none. */
 int bench_run_repeat(const struct command *self, unsigned frames, struct bench_run *run);
 
-/* Reads the engine's counters and routines, closes the session and computes the columns; the speed-ups are
- * against `baseline`, a finished run, which may be this one. */
+/* Reads the engine's counters and routines, closes the session and computes the columns except speed-ups. */
 int bench_run_finish(const struct command *self, struct bench_run *run);
-void bench_run_rate(const struct bench_run *baseline, struct bench_run *run);
+
+/* Compares a finished run with two others, which may be the same: the speed-ups are against `baseline`. */
+int bench_run_rate(const struct command *self, const struct bench_run *baseline,
+                   const struct bench_run *fastest, struct bench_run *run);
 
 /* Frees all that the run holds, at any time. */
 void bench_run_free(struct bench_run *run);

@@ -310,7 +310,7 @@ static int unexpected_value(struct lexer *lexer, double value, const char *expec
 {
     char quoted[POSITION_QUOTED], found[POSITION_QUOTED + 48];
     const struct token *token = &lexer->token;
-    snprintf(found, sizeof found, "%s, which is %.9g,",
+    snprintf(found, sizeof found, "%s, which is %.10g",
              position_quote(token->text, token->length, POSITION_SHOWN, quoted), value);
     va_list arguments;
     va_start(arguments, expected);

@@ -6,7 +6,7 @@
 #include <stdbool.h>
 #include <stdio.h>
 
-enum { TABLE_COLUMNS = 20, TABLE_CELL = 96 };
+enum { TABLE_COLUMNS = 24, TABLE_CELL = 96 };
 
 enum table_alignment { TABLE_LEFT, TABLE_RIGHT };
 

@@ -1,5 +1,5 @@
-/* Repeats and variables. A repeat does not become a call: its lines are read again for each repetition. So the
- * stream has the calls of a text with all repetitions written out. */
+/* Repeats and variables. A repeat does not become a call: its lines are read again for each repetition. So
+ * the stream has the calls of a text with all repetitions written out. */
 #include "command/text/parse.h"
 
 /* Gives the innermost repeat's names their values. Variables that were first set in it have none yet. */

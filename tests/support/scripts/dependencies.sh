@@ -27,7 +27,7 @@ patch              test    applies the additions of tests/extend to copies
 gdb                test    debugs generated code: names, lines and callers of every instruction
 clang              test    compiles everything a second time, for its warnings
 hyperfine          bench   measures whole processes
-gnuplot-nox        bench   draws the charts
+gnuplot-nox        test,bench draws the charts
 libegl-dev         peers  headers of EGL, for the renderers that are measured against
 libgles-dev        peers  the headers of GLES2, and its library
 libegl1            peers  finds the EGL of a vendor
@@ -61,7 +61,9 @@ fi
 
 wanted=()
 while read -r package group reason; do
-    if [[ -n $package && " $* " == *" $group "* ]]; then wanted+=("$package"); fi
+    for one in ${group//,/ }; do
+        if [[ " $* " == *" $one "* ]]; then wanted+=("$package") && break; fi
+    done
 done <<<"$packages"
 
 if ! command -v apt-get >/dev/null || ! command -v dpkg-query >/dev/null; then
