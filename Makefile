@@ -285,6 +285,20 @@ endef
 $(BUILD)/triptych.pc: Makefile FORCE
 	@$(shell mkdir -p $(@D))$(file >$@.new,$(pkgconfig))cmp -s $@.new $@ && rm $@.new || mv $@.new $@
 
+# Manual pages and completions of shells, from the tables of options.
+COMMANDS    := $(shell sed -n 's/^COMMAND(\(.*\))/\1/p' src/command/support/command.def)
+PAGES       := $(addprefix $(BUILD)/share/man/man1/triptych,.1 $(COMMANDS:%=-%.1))
+COMPLETIONS := $(addprefix $(BUILD)/share/,bash-completion/completions/triptych zsh/site-functions/_triptych \
+  fish/vendor_completions.d/triptych.fish)
+
+$(PAGES): $(BUILD)/share/man/man1/triptych%1: $(COMMAND)
+	@mkdir -p $(@D)
+	$(call say,GEN)$(COMMAND) help $(patsubst -%.,%,$(filter-out .,$*)) --as man >$@
+
+$(COMPLETIONS): $(COMMAND)
+	@mkdir -p $(@D)
+	$(call say,GEN)$(COMMAND) help --as $(firstword $(subst -, ,$(subst /, ,$(@:$(BUILD)/share/%=%)))) >$@
+
 # Models that draw streams use.
 build/glmark2 build/assimp:
 	@mkdir -p build
@@ -430,13 +444,14 @@ docs: all
 # commit.
 gallery: all
 	@GOLDENS=write TRIPTYCH=$(COMMAND) tests/goldens.sh $(wildcard tests/data/scenes/*.tri tests/data/shading/*.tri)
+	@$(COMMAND) render tests/data/scenes/shadow-volume.tri --engine emulate --draws all --sheet 5 --out docs/images/draws.png
 
 # The tables that the public header includes.
 PUBLIC_TABLES = $(addprefix src/,$(shell sed -n 's/^#include "\(.*\)"/\1/p' src/triptych.h))
 
 installed = $(DESTDIR)$(PREFIX)
 
-install: all
+install: all $(PAGES) $(COMPLETIONS)
 	install -d $(installed)/bin $(installed)/include/triptych $(installed)/lib/pkgconfig
 	install -m 755 $(COMMAND) $(installed)/bin/
 	install -m 644 src/triptych.h $(installed)/include/triptych/
@@ -445,6 +460,7 @@ install: all
 	install -m 755 $(BUILD)/$(SONAME) $(installed)/lib/
 	ln -sf $(SONAME) $(installed)/lib/libtriptych.so
 	install -m 644 $(BUILD)/triptych.pc $(installed)/lib/pkgconfig/
+	for file in $(patsubst $(BUILD)/%,%,$(PAGES) $(COMPLETIONS)); do install -D -m 644 $(BUILD)/$$file $(installed)/$$file || exit; done
 
 clean:
 	rm -rf $(BUILD)

@@ -114,6 +114,22 @@ command_runs()
     "$work/bin/triptych" --version
 }
 
+# The installed command lists the pages that must be there.
+manual_pages_are_installed()
+{
+    local page
+    for page in triptych $("$work/bin/triptych" --help | sed -nE 's/^  ([a-z]+) .*/triptych-\1/p'); do
+        grep -qi "^\.TH ${page//-/.*} 1 " "$work/share/man/man1/$page.1" || return 1
+    done
+}
+
+completions_are_installed()
+{
+    grep -q '^complete -F _triptych triptych$' "$work/share/bash-completion/completions/triptych" &&
+        grep -q '^#compdef triptych$' "$work/share/zsh/site-functions/_triptych" &&
+        grep -q '^complete -c triptych ' "$work/share/fish/vendor_completions.d/triptych.fish"
+}
+
 export PKG_CONFIG_PATH=$work/lib/pkgconfig
 test_case 'make install' installs
 test_case 'pkg-config file is the first thing made' pkgconfig_needs_no_build
@@ -122,6 +138,8 @@ test_case 'exported symbols are those of the header' exports_are_the_header
 test_case 'program with the shared library' shared_library_works
 test_case 'program with the static library' static_library_works
 test_case 'installed command runs' command_runs
+test_case 'manual pages are installed' manual_pages_are_installed
+test_case 'completions are installed' completions_are_installed
 test_case 'code needs no patching' code_needs_no_patching
 test_case 'stack is not executable' stack_is_not_executable "$work/lib/libtriptych.so" "$work/bin/triptych"
 exit $failures

@@ -163,6 +163,26 @@ static void test_the_picture_marks_only_differing_pixels(void)
     TEST_ASSERT_TRUE((painting[10] & 255) > (painting[9] & 255));
 }
 
+static void the_distance_is_that_of_all_channels(void)
+{
+    color[1][3] = color[0][3] ^ 0x80000000; /* alpha, by 128 */
+    color[1][4] += 2;
+    struct compare_distance distance = compare_distance(&first, &second, 1);
+    TEST_ASSERT_EQUAL_UINT64(2, distance.pixels);
+    TEST_ASSERT_EQUAL_UINT32(128, distance.largest);
+    TEST_ASSERT_EQUAL_DOUBLE((128.0 * 128 + 4) / (4 * PIXELS), distance.mean_square);
+    TEST_ASSERT_DOUBLE_WITHIN(1e-9, 10 * log10(65025 / distance.mean_square), compare_psnr(&distance));
+    TEST_ASSERT_EQUAL_UINT64(1, compare_distance(&first, &second, 2).pixels);
+    TEST_ASSERT_EQUAL_UINT64(0, compare_distance(&first, &second, 128).pixels);
+}
+
+static void equal_pictures_have_an_infinite_ratio(void)
+{
+    struct compare_distance distance = compare_distance(&first, &second, 0);
+    TEST_ASSERT_EQUAL_UINT64(0, distance.pixels);
+    TEST_ASSERT_TRUE(isinf(compare_psnr(&distance)));
+}
+
 int main(void)
 {
     UNITY_BEGIN();
@@ -175,5 +195,7 @@ int main(void)
     RUN_TEST(test_without_depths_only_colours_count);
     RUN_TEST(test_the_first_difference_is_described_and_all_are_counted);
     RUN_TEST(test_the_picture_marks_only_differing_pixels);
+    RUN_TEST(the_distance_is_that_of_all_channels);
+    RUN_TEST(equal_pictures_have_an_infinite_ratio);
     return UNITY_END();
 }

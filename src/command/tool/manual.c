@@ -145,7 +145,8 @@ static void print_command(const struct command *command, FILE *out)
 {
     char usage[OPTIONS_USAGE];
     put_title(command->name, command->summary, out);
-    fprintf(out, ".B triptych %s\n[\\fIOPTIONS\\fR] %s\n", command->name, options_usage(command, usage));
+    options_usage(command, usage);
+    fprintf(out, ".B triptych %s\n[\\fIOPTIONS\\fR]%s%s\n", command->name, *usage ? " " : "", usage);
     put_operands(command, out);
     put_options(command, out);
     if (command->notes) {

@@ -26,6 +26,7 @@ struct settings {
  * are numbered from `number` on. */
 struct task {
     const struct stream *stream;
+    unsigned start; /* the frame to play first; pictures begin with `first` */
     unsigned first, last, number;
     const char *what; /* a picture of: "frame" or "draw" */
     bool several;     /* a range is given */
@@ -87,6 +88,8 @@ static int draw_all(const struct command *self, const struct task *task, struct 
 {
     struct readback readback = {0};
     int status = STATUS_OK;
+    for (unsigned frame = task->start; frame < task->first && !status; frame++)
+        status = session_play(self, session, frame);
     for (unsigned frame = task->first; frame <= task->last && !status; frame++) {
         unsigned number = task->number + frame - task->first;
         if (task->several)
@@ -138,7 +141,7 @@ static int draw_frames(const struct command *self, const struct stream *stream,
     if (settings->frames ? read_range(self, "frames", settings->frames, stream->frame_count, &task)
                          : check_frame(self, stream, frame))
         return STATUS_BAD;
-    task.number = task.first;
+    task.number = task.start = task.first;
     return draw_task(self, &task, settings, engine);
 }
 
@@ -157,6 +160,7 @@ static int draw_draws(const struct command *self, const struct stream *stream,
                        : tool_fail(self, "%s: frame %u has no draws", stream->path, frame);
     task.stream = &view;
     task.number = task.first;
+    task.start = frame;
     task.first += frame;
     task.last += frame;
     if (!status)
@@ -226,10 +230,10 @@ static const struct operand operands[] = {
 };
 
 static const char notes[] =
-    "Of several pictures, each has a file of its own, whose name contains its number as %d or %04d; or one\n"
-    "file has all: an animation, or the sheet of --sheet. A sheet is reduced if it has more than 8192 "
-    "pixels\n"
-    "a side. A file - is standard output, a stream - standard input.";
+    "Several pictures have a file each, whose name contains the number of the picture as %d or %04d, or\n"
+    "one file for all: an animation, or the sheet of --sheet. A sheet is reduced if it has more than 8192\n"
+    "pixels a side. Of frames before the first, states are set and nothing is drawn. A file - is standard\n"
+    "output, a stream - standard input.";
 
 const struct command command_render = {
     .name = "render",

@@ -24,6 +24,9 @@ glmark2-data       build   the models and textures of the draw streams
 assimp-testmodels  test    the animated model of a scene
 python3            test    writes measured figures into the pages, and checks them
 patch              test    applies the additions of tests/extend to copies
+mandoc             test    checks the manual pages
+zsh                test    reads and executes its completion
+fish               test    the same for its own
 gdb                test    debugs generated code: names, lines and callers of every instruction
 clang              test    compiles everything a second time, for its warnings
 hyperfine          bench   measures whole processes
