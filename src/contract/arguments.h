@@ -23,13 +23,14 @@ struct vertex_arguments {
  * Lines and edges extend from vertex 0 to vertex 1; points and corners are at vertex 0. Edges and corners
  * belong to the triangle of all three vertices. These four take flat colours from vertex index[3][i];
  * index[4][i] is -1 if a line's last pixel is drawn, else 0. Rows that a primitive does not have are not
- * read. */
+ * read. Routines do not read `primitive`; engines that observe do (struct engine). */
 struct setup_arguments {
     const struct job *job;
     const uint32_t *index; /* SETUP_INDEX_ROWS rows of SETUP_CAPACITY words */
     const float *vertices;
     uint8_t *out; /* count records of the key's stride, 64-byte aligned */
     uint32_t count;
+    uint32_t primitive; /* of the draw, from 0: the batch begins with it */
 };
 
 /* For each of count (at least 1) entries in order: shades its covered pixels into the tile. */

@@ -86,6 +86,7 @@ struct engine {
     int width;               /* lanes W of its routines; 0: chosen for each routine */
     bool without_arena;      /* keeps no code in an arena */
     bool on_request;         /* runs only where it is named; skipped where all engines run */
+    bool observes;           /* it needs all work: each batch has one primitive, hidden pixels are shaded */
     const void *options;     /* the engine's own; null when it has none */
 
     /* Returns null when the engine can run here, else the reason in one line. The text is valid until the

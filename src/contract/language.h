@@ -13,6 +13,9 @@
  *   WHEN (E, mask)       a region that may be skipped when no lane of the mask is set
  *   LOOP (E, variable)   a region that is repeated while any lane of the mask variable is set
  *   get_ set_            variables, by number; only these leave a region or pass to the next round
+ *   OBSERVE (E, name, number, value)
+ *                        names a value by a row of def/observed.def; most bindings leave it out, and it then
+ *                        does nothing
  *
  * This file defines a binding that does nothing, if none was included before. With it each header of the
  * specification compiles by itself, so an editor can open it. */
@@ -134,5 +137,9 @@ static inline flt permute_f(UNUSED struct env *e, flt a, UNUSED int lanes)
 #undef ARGUMENT_msk
 #undef ARGUMENT_non
 
+#endif
+
+#ifndef OBSERVE
+#define OBSERVE(e, name, number, value)
 #endif
 #endif

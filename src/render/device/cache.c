@@ -271,7 +271,8 @@ static struct cache_entry *insert(struct cache *cache, enum unit unit, const uni
     entry->routine->hits = 0;
     entry->routine->entry = entry;
     if (unit == UNIT_PIXEL) {
-        entry->routine->traits = (uint16_t)hidden_traits(&key->pixel);
+        unsigned traits = hidden_traits(&key->pixel);
+        entry->routine->traits = (uint16_t)(cache->engine->observes ? traits & PIXEL_WRITES_DEPTH : traits);
         entry->routine->depth_plane = layout_of_pixel(&key->pixel).depth;
     }
     entry->routine->time = cache->measures ? &entry->time : NULL;

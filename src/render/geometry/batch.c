@@ -73,7 +73,7 @@ static bool set_up_group(struct batch *batch, uint32_t index[SETUP_INDEX_ROWS][S
         if (!out)
             return false;
         prefetch_records(batch->bins, padded * draw->stride);
-        struct setup_arguments call = {draw->job, index[0], batch->vertices, out, padded};
+        struct setup_arguments call = {draw->job, index[0], batch->vertices, out, padded, batch->first};
         routine_run(routine, &call, count);
         int visible =
             bin_records(batch->bins, count, draw->stride, draw->shape, &draw->sampling, &draw->scissor);
@@ -351,11 +351,12 @@ static bool end_batch(struct batch *batch)
 uint32_t batch_primitives(struct batch *batch, const struct draw *draw, uint32_t first, uint32_t count,
                           struct bin_writer *bins)
 {
+    bool single = draw->routine[UNIT_SETUP]->engine->observes;
     batch->draw = draw;
     batch->bins = bins;
     batch->done = first;
     for (uint32_t p = first; p < first + count;) {
-        p = batch_assemble(batch, p, first + count);
+        p = batch_assemble(batch, p, single ? p + 1 : first + count);
         if (!end_batch(batch))
             break;
     }

@@ -12,7 +12,10 @@
 static inline msk alpha_test(struct env *e, int discard, itg alpha, msk live)
 {
     itg reference = uniform_i(E, BASE_JOB, (int)offsetof(struct job, alpha_reference));
-    return keep_compared(E, COMPARE_ALWAYS - discard, alpha, reference, live);
+    msk passed = keep_compared(E, COMPARE_ALWAYS - discard, alpha, reference, live);
+    OBSERVE(E, alpha_value, 0, alpha);
+    OBSERVE(E, alpha, 0, passed);
+    return passed;
 }
 
 #endif

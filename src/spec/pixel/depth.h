@@ -128,6 +128,7 @@ static inline struct depth depth_pair(struct env *e, const struct pixel_key *k,
         r.new = *at->depth;
     else
         r.new = k->depth_w ? pixel_w_depth(E, at, layout) : pixel_depth(E, at, layout);
+    OBSERVE(E, depth_value, at->sample, r.new);
     if (k->depth_format == DEPTH_FLOAT) {
         r.stored = load_f(E, BASE_DEPTH, sample_word(at));
         r.code = r.stored_code = bits_i(E, r.stored);
@@ -183,6 +184,7 @@ static inline msk depth_test(struct env *e, const struct pixel_key *k, const str
         return live;
     struct depth depth = depth_pair(E, k, at, layout);
     live = depth_pass(E, k, &depth, live);
+    OBSERVE(E, depth, at->sample, live);
     if (writes)
         depth_write(E, k, at, &depth, live);
     return live;

@@ -54,6 +54,7 @@ static inline struct float_color float_stages(struct env *e, const struct pixel_
         v.texture = float_replicate(lit_f(E, 1.0f));
         if (s->k->texture[i])
             v.texture = float_texture(E, s, i, &before);
+        OBSERVE(E, texel_exact, i, v.texture);
         float_stage(E, s->k, i, &v);
     }
     if (s->k->specular)

@@ -143,6 +143,7 @@ static inline void float_stage(struct env *e, const struct pixel_key *k, int sta
             float_half(E, stage, k->alpha_stage[stage], alpha_arguments(k, stage), 3, 3, &read);
         result = float_join(result, alpha.channel[3]);
     }
+    OBSERVE(E, stage_exact, stage, result);
     if (k->temporary[stage])
         v->temporary = result;
     else

@@ -123,6 +123,7 @@ static inline void write_float_planes(struct env *e, const struct pixel_key *k, 
 static inline void write_float_target(struct env *e, const struct pixel_key *k, int t, int sample, msk live,
                                       struct float_color color)
 {
+    OBSERVE(E, color_exact, t, color);
     if (storage_planes[k->target[t]] == 1)
         write_float_word(E, k, t, sample, live, color);
     else

@@ -47,6 +47,7 @@ static inline struct color shade_stages(struct env *e, const struct pixel_source
         v.texture.rb = v.texture.ga = lit_x(E, 255);
         if (s->k->texture[i])
             v.texture = stage_texture(E, s, i);
+        OBSERVE(E, texel, i, v.texture);
         stage(E, s->k, i, &v);
     }
     if (s->k->specular)

@@ -39,13 +39,16 @@ static inline void spec_pixel(struct env *e, const struct pixel_key *k, const st
     struct pixel_position at = pixel_position(E);
     struct samples samples;
     pixel_samples(E, k, &at, &samples);
-    for (int i = 0; i < samples.count; i++)
+    for (int i = 0; i < samples.count; i++) {
+        OBSERVE(E, covered, i, samples.covered[i]);
         samples.live[i] = early_tests(E, k, &samples.at[i], layout, samples.covered[i]);
+    }
     if (!pixel_waits(k))
         count_passed(E, k, &samples);
     if (!pixel_shades(k))
         return;
     msk live = any_sample(E, &samples);
+    OBSERVE(E, shaded, 0, live);
     WHEN (E, live) {
         struct pixel_source source = pixel_source(E, k, layout, &at, &samples);
         if (e->program)

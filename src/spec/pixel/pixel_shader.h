@@ -121,8 +121,10 @@ static inline void shade_by_shader(struct env *e, const struct pixel_source *s, 
     shader_varyings(E, s, &m);
     shader_place(E, &m);
     machine_run(E, &m);
-    if (k->kills)
+    if (k->kills) {
         live = andn_m(E, live, m.killed);
+        OBSERVE(E, kept, 0, live);
+    }
     if (k->depth_output) {
         depth = clamp_depth(E, m.cell[CELL_DEPTH]);
         for (int i = 0; i < s->samples->count; i++)

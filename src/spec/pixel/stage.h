@@ -170,6 +170,7 @@ static inline void stage(struct env *e, const struct pixel_key *k, int stage, st
         struct color alpha = stage_half(E, stage, k->alpha_stage[stage], alpha_arguments(k, stage), &read);
         result = color_join(E, result, alpha);
     }
+    OBSERVE(E, stage, stage, result);
     if (k->temporary[stage])
         v->temporary = result;
     else

@@ -105,9 +105,11 @@ static inline msk stencil_depth_write(struct env *e, const struct pixel_key *k,
     itg stored = and_i(E, word, lit_i(E, 255));
     msk passed = stencil_test(E, k, stored, live);
     msk both = passed;
+    OBSERVE(E, stencil, at->sample, passed);
     if (pixel_tests_depth(k)) {
         depth = depth_pair(E, k, at, layout);
         both = depth_pass(E, k, &depth, passed);
+        OBSERVE(E, depth, at->sample, both);
     }
     itg new = stencil_update(E, k, stored, passed, both);
     itg high = and_i(E, word, lit_i(E, -256));
@@ -130,6 +132,7 @@ static inline msk stencil_depth_test(struct env *e, const struct pixel_key *k,
         itg word = load_i(E, BASE_DEPTH, sample_word(at));
         itg stored = and_i(E, word, lit_i(E, 255));
         live = stencil_test(E, k, stored, live);
+        OBSERVE(E, stencil, at->sample, live);
     }
     return depth_test(E, k, at, layout, writes, live);
 }

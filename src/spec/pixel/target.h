@@ -100,6 +100,7 @@ static inline void write_target(struct env *e, const struct pixel_key *k, int t,
                                 struct color color)
 {
     itg stored = load_i(E, BASE_COLOR, target_offset(k, t, sample));
+    OBSERVE(E, color, t, color);
     struct color blended = blend(E, k, color, stored);
     blended = narrow_color(E, k, k->target[t], blended);
     itg word = color_pack(E, blended);

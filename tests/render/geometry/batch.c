@@ -20,6 +20,7 @@ static struct batch *batch;
 static struct job job;
 static struct draw draw;
 static uint32_t heads;
+static uint32_t first_primitive; /* of the last setup call */
 
 /* Writes the number of each vertex to its x, which setup reads from the batch. */
 static void log_vertices(const void *arguments, const struct routine *routine)
@@ -43,6 +44,7 @@ static void log_triangles(const void *arguments, const struct routine *routine)
     TEST_ASSERT_EQUAL_UINT32(0, call->count % routine->lanes);
     TEST_ASSERT_TRUE(call->count <= SETUP_CAPACITY);
     triangles_padded += call->count;
+    first_primitive = call->primitive;
     uint32_t first =
         (uint32_t)batch->counts.triangles_set_up; /* the padding of earlier groups is overwritten */
     for (uint32_t i = 0; i < call->count; i++) {
@@ -60,7 +62,9 @@ static void log_triangles(const void *arguments, const struct routine *routine)
 }
 
 static struct routine vertex_routine = {.run = log_vertices, .unit = UNIT_VERTEX, .lanes = LANES_MAXIMUM};
-static struct routine setup_routine = {.run = log_triangles, .unit = UNIT_SETUP, .lanes = LANES_MAXIMUM};
+static struct engine engine;
+static struct routine setup_routine = {
+    .run = log_triangles, .engine = &engine, .unit = UNIT_SETUP, .lanes = LANES_MAXIMUM};
 
 void setUp(void)
 {
@@ -78,6 +82,7 @@ void setUp(void)
     draw.stride = 64;
     setup_routine.key.setup.primitive = PRIMITIVE_TRIANGLE;
     clip_codes = NULL;
+    engine.observes = false;
     vertex_calls = vertices_padded = triangles_padded = 0;
     vertex_routine.lanes = setup_routine.lanes = LANES_MAXIMUM;
 }
@@ -113,6 +118,18 @@ static void lists_take_three_vertices_each(void)
     TEST_ASSERT_EQUAL_UINT64(12, batch->counts.vertices_shaded);
     for (uint32_t i = 0; i < 4; i++)
         expect_triangle(i, 100 + 3 * i, 101 + 3 * i, 102 + 3 * i);
+}
+
+static void an_engine_that_observes_gets_each_primitive_by_itself(void)
+{
+    draw.primitive = TRIPTYCH_TRIANGLE_STRIP;
+    TEST_ASSERT_EQUAL_UINT32(4, run(3, 4));
+    TEST_ASSERT_EQUAL_UINT32(3, first_primitive);
+    TEST_ASSERT_EQUAL_UINT32(1, vertex_calls);
+    engine.observes = true;
+    TEST_ASSERT_EQUAL_UINT32(4, run(3, 4));
+    TEST_ASSERT_EQUAL_UINT32(6, first_primitive);
+    TEST_ASSERT_EQUAL_UINT32(5, vertex_calls);
 }
 
 static void strips_keep_the_winding_and_begin_with_their_own_vertex(void)
@@ -472,6 +489,7 @@ int main(void)
 {
     UNITY_BEGIN();
     RUN_TEST(lists_take_three_vertices_each);
+    RUN_TEST(an_engine_that_observes_gets_each_primitive_by_itself);
     RUN_TEST(strips_keep_the_winding_and_begin_with_their_own_vertex);
     RUN_TEST(fans_share_their_first_vertex);
     RUN_TEST(lines_and_points_take_two_vertices_and_one);

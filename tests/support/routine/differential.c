@@ -56,7 +56,7 @@ static const char *run(struct differential *d, const struct routine *routine, st
 {
     struct lane_table *lanes = (void *)(o->lanes + 4);
     struct vertex_arguments vertex = {&d->job, differential_indices(d), o->vertices, d->count};
-    struct setup_arguments setup = {&d->job, differential_indices(d), o->vertices, o->records, d->count};
+    struct setup_arguments setup = {&d->job, differential_indices(d), o->vertices, o->records, d->count, 0};
     struct pixel_arguments pixel = {&d->job,  d->entries.entry, d->triangles, lanes,
                                     o->color, o->depth,         d->count};
     const void *calls[UNIT_COUNT] = {&vertex, &setup, &pixel}, *code;
