@@ -29,6 +29,18 @@ enum triptych_result record_stop(struct triptych_device *device, struct error *e
 /* Begins the recording of a new device if the environment variable TRIPTYCH_RECORD is set. */
 enum triptych_result record_from_environment(struct triptych_device *device, struct error *error);
 
+/* --- The state ------------------------------------------------------------------------------------------ */
+
+/* Visits the calls that change the initial state of streams into that of the device: states, transforms, clip
+ * planes, conventions, material, lights, constants of shaders, each in the order of its numbers. Targets,
+ * viewport, scissor rectangle and all bindings are left out, because they name resources or depend on the
+ * target.
+ *
+ * Streams begin with the default of each state, identity transforms, zeros in constants and clip planes, the
+ * material and the lights call_default_..., and no bindings (docs/streams.md, Frames). */
+typedef void record_visitor(void *user, const struct call *call);
+void record_differences(const struct triptych_device *device, record_visitor *visit, void *user);
+
 /* --- Calls ---------------------------------------------------------------------------------------------- */
 
 /* Each is called after the device has executed the call. Without a recorder it does nothing. */

@@ -1,7 +1,4 @@
-/* The beginning of a recording: calls that bring a new device into the state of this one.
- *
- * Streams begin with the default of each state, identity transforms, zeros in constants and clip planes, the
- * material and the lights call_default_..., and no bindings (docs/streams.md, Frames). */
+/* The beginning of a recording: calls that bring a new device into the state of this one. */
 #include "capture/record_part.h"
 #include "render/target/target.h"
 
@@ -79,7 +76,19 @@ static void write_targets(struct triptych_device *device)
     record_scissor(device, scissor->x, scissor->y, scissor->width, scissor->height);
 }
 
-/* --- State ---------------------------------------------------------------------------------------------- */
+struct visit {
+    const struct triptych_device *device;
+    record_visitor *visit;
+    void *user;
+};
+
+static void take(const struct visit *v, struct call *call)
+{
+    call->resource = NO_RESOURCE;
+    v->visit(v->user, call);
+}
+
+/* --- States --------------------------------------------------------------------------------------------- */
 
 static uint32_t value_of(const struct state *state, enum triptych_state_table table, unsigned i, unsigned row)
 {
@@ -88,71 +97,135 @@ static uint32_t value_of(const struct state *state, enum triptych_state_table ta
     return table == TRIPTYCH_STAGE_STATES ? state->stage[i][row] : state->value[row];
 }
 
-static void write_values(struct triptych_device *device)
+static void visit_row(const struct visit *v, enum triptych_state_table table, unsigned i, unsigned row)
+{
+    uint32_t value = value_of(device_state(v->device), table, i, row);
+    if (value != triptych_state_default(table, row, i))
+        take(v, &(struct call){.type = CALL_SET, .set = {table, i, row, value}});
+}
+
+static void visit_values(const struct visit *v)
 {
     for (unsigned t = 0; t < TRIPTYCH_STATE_TABLE_COUNT; t++) {
         enum triptych_state_table table = (enum triptych_state_table)t;
         for (unsigned i = 0; i < triptych_table_size(table); i++)
-            for (unsigned row = 0; triptych_state_at(table, row); row++) {
-                uint32_t value = value_of(device_state(device), table, i, row);
-                if (value != triptych_state_default(table, row, i))
-                    record_value(device, table, i, row, value);
-            }
+            for (unsigned row = 0; triptych_state_at(table, row); row++)
+                visit_row(v, table, i, row);
     }
 }
 
-static void write_transforms(struct triptych_device *device)
+/* --- Transforms ----------------------------------------------------------------------------------------- */
+
+static void visit_transforms(const struct visit *v)
 {
     static const float identity[4][4] = {{1, 0, 0, 0}, {0, 1, 0, 0}, {0, 0, 1, 0}, {0, 0, 0, 1}};
-    static const float zero[4];
-    const struct state *state = device_state(device);
-    for (unsigned t = 0; t < TRIPTYCH_TRANSFORM_COUNT; t++)
-        if (memcmp(state->transform[t], identity, sizeof identity))
-            record_transform(device, (enum triptych_transform)t, (const float(*)[4])state->transform[t]);
-    for (unsigned i = 0; i < TRIPTYCH_CLIP_PLANES; i++)
-        if (memcmp(state->clip_plane[i], zero, sizeof zero))
-            record_clip_plane(device, i, state->clip_plane[i]);
-    for (unsigned i = 0; i < TRIPTYCH_CONVENTION_COUNT; i++)
-        if (state->convention[i])
-            record_convention(device, (enum triptych_convention)i, state->convention[i]);
-}
-
-/* The initial lights of a device differ from those of a stream. */
-static void write_lights(struct triptych_device *device)
-{
-    const struct state *state = device_state(device);
-    if (memcmp(&state->material, &call_default_material, sizeof state->material))
-        record_material(device, &state->material);
-    for (unsigned i = 0; i < TRIPTYCH_LIGHTS; i++) {
-        if (memcmp(&state->light[i], &call_default_light, sizeof state->light[i]))
-            record_light(device, i, &state->light[i]);
-        if (state->light_enabled[i])
-            record_enable_light(device, i, 1);
+    for (unsigned t = 0; t < TRIPTYCH_TRANSFORM_COUNT; t++) {
+        struct call call = {.type = CALL_TRANSFORM, .transform.which = (enum triptych_transform)t};
+        memcpy(call.transform.matrix, device_state(v->device)->transform[t], sizeof call.transform.matrix);
+        if (memcmp(call.transform.matrix, identity, sizeof identity))
+            take(v, &call);
     }
 }
 
-static void write_constants(struct triptych_device *device, enum triptych_shader_stage stage)
+static void visit_clip_planes(const struct visit *v)
+{
+    static const float zero[4];
+    for (unsigned i = 0; i < TRIPTYCH_CLIP_PLANES; i++) {
+        struct call call = {.type = CALL_CLIP_PLANE, .clip_plane.index = i};
+        memcpy(call.clip_plane.plane, device_state(v->device)->clip_plane[i], sizeof call.clip_plane.plane);
+        if (memcmp(call.clip_plane.plane, zero, sizeof zero))
+            take(v, &call);
+    }
+}
+
+static void visit_conventions(const struct visit *v)
+{
+    for (unsigned i = 0; i < TRIPTYCH_CONVENTION_COUNT; i++)
+        if (device_state(v->device)->convention[i])
+            take(v,
+                 &(struct call){.type = CALL_CONVENTION,
+                                .convention = {.which = i, .value = device_state(v->device)->convention[i]}});
+}
+
+/* --- Light ---------------------------------------------------------------------------------------------- */
+
+/* The initial lights of a device differ from those of a stream. */
+static void visit_lights(const struct visit *v)
+{
+    const struct state *state = device_state(v->device);
+    if (memcmp(&state->material, &call_default_material, sizeof state->material))
+        take(v, &(struct call){.type = CALL_MATERIAL, .material = state->material});
+    for (unsigned i = 0; i < TRIPTYCH_LIGHTS; i++) {
+        struct call light = {.type = CALL_LIGHT, .light = {i, state->light[i]}};
+        struct call enable = {.type = CALL_ENABLE_LIGHT, .enable_light = {.index = i, .on = true}};
+        if (memcmp(&state->light[i], &call_default_light, sizeof state->light[i]))
+            take(v, &light);
+        if (state->light_enabled[i])
+            take(v, &enable);
+    }
+}
+
+/* --- Constants ------------------------------------------------------------------------------------------ */
+
+static struct call constant(enum triptych_shader_stage stage, enum call_constant_type type, unsigned i)
+{
+    struct call call = {.type = CALL_CONSTANTS};
+    call.constants.stage = stage;
+    call.constants.type = type;
+    call.constants.first = i;
+    call.constants.count = 1;
+    return call;
+}
+
+static void visit_constants(const struct visit *v, enum triptych_shader_stage stage)
 {
     static const uint8_t zero[16];
-    const struct shader_registers *registers = device_registers(device, stage);
-    for (unsigned i = 0; i < TRIPTYCH_SHADER_FLOATS; i++)
+    const struct shader_registers *registers = device_registers(v->device, stage);
+    for (unsigned i = 0; i < TRIPTYCH_SHADER_FLOATS; i++) {
+        struct call call = constant(stage, CONSTANTS_FLOAT, i);
+        memcpy(call.constants.floats[0], registers->floats[i], sizeof zero);
         if (memcmp(registers->floats[i], zero, sizeof zero))
-            record_floats(device, stage, i, registers->floats[i], 1);
-    for (unsigned i = 0; i < TRIPTYCH_SHADER_INTEGERS; i++)
+            take(v, &call);
+    }
+    for (unsigned i = 0; i < TRIPTYCH_SHADER_INTEGERS; i++) {
+        struct call call = constant(stage, CONSTANTS_INTEGER, i);
+        memcpy(call.constants.integers[0], registers->integers[i], sizeof zero);
         if (memcmp(registers->integers[i], zero, sizeof zero))
-            record_integers(device, stage, i, registers->integers[i], 1);
-    for (unsigned i = 0; i < TRIPTYCH_SHADER_BOOLEANS; i++)
-        if (device_state(device)->booleans[stage] >> i & 1)
-            record_booleans(device, stage, i, &(const int32_t){1}, 1);
+            take(v, &call);
+    }
+    for (unsigned i = 0; i < TRIPTYCH_SHADER_BOOLEANS; i++) {
+        struct call call = constant(stage, CONSTANTS_BOOLEAN, i);
+        call.constants.booleans[0] = 1;
+        if (device_state(v->device)->booleans[stage] >> i & 1)
+            take(v, &call);
+    }
+}
+
+void record_differences(const struct triptych_device *device, record_visitor *visit, void *user)
+{
+    const struct visit v = {device, visit, user};
+    visit_values(&v);
+    visit_transforms(&v);
+    visit_clip_planes(&v);
+    visit_conventions(&v);
+    visit_lights(&v);
+    for (int stage = 0; stage < SHADER_STAGES; stage++)
+        visit_constants(&v, (enum triptych_shader_stage)stage);
+}
+
+/* --- The beginning -------------------------------------------------------------------------------------- */
+
+static void append(void *user, const struct call *call)
+{
+    record_call(user, call);
 }
 
 static void write_shaders(struct triptych_device *device)
 {
     for (int i = 0; i < SHADER_STAGES; i++) {
-        enum triptych_shader_stage stage = (enum triptych_shader_stage)i;
-        if (device_shader(device, stage))
-            record_shader(device, (enum shader_stage)i, device_shader(device, stage));
-        write_constants(device, stage);
+        const struct triptych_shader *shader = device_shader(device, (enum triptych_shader_stage)i);
+        if (shader)
+            record_shader(device, (enum shader_stage)i, shader);
     }
 }
 
@@ -180,9 +253,7 @@ void record_beginning(struct triptych_device *device)
     device_finish(device);
     write_resources(device);
     write_targets(device);
-    write_values(device);
-    write_transforms(device);
-    write_lights(device);
+    record_differences(device, append, device);
     write_shaders(device);
     write_bindings(device);
     record_open_queries(device, CALL_BEGIN_QUERY);

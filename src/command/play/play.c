@@ -246,6 +246,17 @@ int player_go_on(struct player *player, uint32_t frame, struct error *error)
     return perform(player, frame, error);
 }
 
+uint32_t player_resource(const struct player *player, const void *object)
+{
+    for (uint32_t i = 0; i < player->handle_count && object; i++) {
+        const struct handles *h = &player->handles[i];
+        if (object == h->vertices || object == h->indices || object == h->texture || object == h->shader ||
+            object == h->query)
+            return i;
+    }
+    return NO_RESOURCE;
+}
+
 bool player_query(struct player *player, uint32_t i, struct query_count *count)
 {
     const struct stream *stream = player->stream;

@@ -92,6 +92,9 @@ void stream_free(struct stream *stream);
 int stream_write(const struct stream *stream, const char *path, char **text, size_t *bytes,
                  struct error *error);
 
+/* Returns the canonical line of a call, without its end, which the caller frees; null if memory is short. */
+char *stream_write_call(const struct stream *stream, const struct call *call);
+
 /* stream_write to the file, whole or not at all. */
 int stream_save(const struct stream *stream, const char *path, struct error *error);
 
@@ -111,6 +114,10 @@ int player_frame(struct player *player, uint32_t frame, struct error *error);
 /* Executes the calls of any frame in the state that the last played frame has left, and finishes it. Not for
  * recordings. */
 int player_go_on(struct player *player, uint32_t frame, struct error *error);
+
+/* Returns the number of the resource whose object on the device this is: a buffer, texture, shader or query;
+ * NO_RESOURCE if it is none. */
+uint32_t player_resource(const struct player *player, const void *object);
 
 /* The result of a query in the frame that was played last. */
 struct query_count {

@@ -328,6 +328,24 @@ static void write_resource(struct writer *writer, const struct resource *resourc
 
 /* --- Streams -------------------------------------------------------------------------------------------- */
 
+char *stream_write_call(const struct stream *stream, const struct call *call)
+{
+    struct writer writer = {.stream = stream, .out = memory_file_open()};
+    locale_t locale = newlocale(LC_NUMERIC_MASK, "C", NULL);
+    char *text = NULL;
+    size_t bytes;
+    if (writer.out && locale) {
+        locale_t before = uselocale(locale);
+        write_call(&writer, call);
+        uselocale(before);
+    }
+    if (writer.out)
+        memory_file_close(writer.out, &text, &bytes);
+    if (locale)
+        freelocale(locale);
+    return text;
+}
+
 static int write_all(struct writer *writer, char **text, size_t *bytes)
 {
     writer->out = memory_file_open();

@@ -312,13 +312,12 @@ static void write_regular(struct writer *writer, const struct call *call)
         }
 }
 
-static void write_call(struct writer *writer, const struct call *call)
+void write_call(struct writer *writer, const struct call *call)
 {
     if (calls_functions[call->type].print)
         calls_functions[call->type].print(writer, call);
     else
         write_regular(writer, call);
-    fputc('\n', writer->out);
 }
 
 void write_calls(struct writer *writer)
@@ -336,6 +335,7 @@ void write_calls(struct writer *writer)
         if (end != UINT32_MAX)
             fputs("    ", writer->out);
         write_call(writer, call);
+        fputc('\n', writer->out);
         if (call->type == CALL_SEQUENCE)
             end = i + 1 + call->sequence.count;
     }

@@ -20,6 +20,9 @@ struct writer {
 void write_number(struct writer *writer, float number);
 void write_numbers(struct writer *writer, const float *numbers, size_t count);
 
+/* A call, without the end of its line. */
+void write_call(struct writer *writer, const struct call *call);
+
 /* All calls, one per line. */
 void write_calls(struct writer *writer);
 
