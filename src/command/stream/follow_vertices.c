@@ -92,26 +92,42 @@ static const char *buffer_name(const struct follower *follower, const struct tri
     return follower->stream->resources[((const struct stand_in *)(const void *)buffer)->resource].name;
 }
 
-/* Checks that vertices up to `last`, or all that the instances use, have the element. */
-static int check_element(const struct follower *follower, const struct state_element *element,
-                         const char *word, uint64_t last, struct error *error)
+/* The bound elements have numbers: the attributes, then the others. */
+static const struct state_element *element_at(const struct state *state, unsigned number)
 {
-    const struct state_stream *stream = &follower->state.stream[element->stream];
+    return number < TRIPTYCH_ATTRIBUTE_COUNT ? &state->element[number]
+                                             : &state->other[number - TRIPTYCH_ATTRIBUTE_COUNT].element;
+}
+
+static const char *element_word(const struct state *state, unsigned number)
+{
+    if (number < TRIPTYCH_ATTRIBUTE_COUNT)
+        return word_text(WORDS_ATTRIBUTE, number);
+    const struct state_other *other = &state->other[number - TRIPTYCH_ATTRIBUTE_COUNT];
+    return stream_element_word(other->usage, other->usage_index);
+}
+
+/* Checks that vertices up to `last`, or all that the instances use, have the element. */
+static int check_element(const struct follower *follower, unsigned number, uint64_t last, struct error *error)
+{
+    const struct state *state = &follower->state;
+    const struct state_element *element = element_at(state, number);
+    const struct state_stream *stream = &state->stream[element->stream];
     if (stream->frequency == TRIPTYCH_FREQUENCY_INSTANCE)
-        last = (state_instances(&follower->state) - 1) / stream->count;
+        last = (state_instances(state) - 1) / stream->count;
     if (!stream->buffer)
         return error_set(error, "found %s in stream %u with nothing bound, expected bind stream before it",
-                         word, element->stream);
+                         element_word(state, number), element->stream);
     const char *name = buffer_name(follower, stream->buffer);
     size_t end = stream->offset + element->offset + key_vertex_types[element->format].bytes;
     if (end > stream->buffer->bytes)
-        return error_set(error, "found %s at bytes up to %zu, expected at most %zu, those of %s", word, end,
-                         stream->buffer->bytes, name);
-    uint64_t most = state_last_vertex(&follower->state, element);
+        return error_set(error, "found %s at bytes up to %zu, expected at most %zu, those of %s",
+                         element_word(state, number), end, stream->buffer->bytes, name);
+    uint64_t most = state_last_vertex(state, element);
     if (last > most)
         return error_set(error,
                          "found vertex %" PRIu64 " drawn, expected at most %" PRIu64 ", the last %s in %s",
-                         last, most, word, name);
+                         last, most, element_word(state, number), name);
     return 0;
 }
 
@@ -119,16 +135,10 @@ static int check_element(const struct follower *follower, const struct state_ele
 static int check_vertices(const struct follower *follower, uint64_t last, struct error *error)
 {
     const struct state *state = &follower->state;
-    for (unsigned a = 0; a < TRIPTYCH_ATTRIBUTE_COUNT; a++)
-        if (state->element[a].format != TRIPTYCH_FORMAT_NONE &&
-            check_element(follower, &state->element[a], word_text(WORDS_ATTRIBUTE, a), last, error))
+    for (unsigned number = 0; number < TRIPTYCH_ATTRIBUTE_COUNT + state->others; number++)
+        if (element_at(state, number)->format != TRIPTYCH_FORMAT_NONE &&
+            check_element(follower, number, last, error))
             return -1;
-    for (unsigned i = 0; i < state->others; i++) {
-        const struct state_other *other = &state->other[i];
-        if (check_element(follower, &other->element, stream_element_word(other->usage, other->usage_index),
-                          last, error))
-            return -1;
-    }
     return 0;
 }
 
@@ -170,7 +180,8 @@ static int check_indices(struct follower *follower, int32_t base, uint64_t first
     if (first + count > room)
         return error_set(error, "found index %" PRIu64 " drawn, expected at most %" PRIu64 ", the last in %s",
                          first + count - 1, room - 1, resource->name);
-    struct error ignored = {{0}};
+    struct error ignored;
+    error_clear(&ignored);
     if (!resource->indices || (int64_t)base + least < 0 ||
         check_vertices(follower, (uint64_t)((int64_t)base + most), &ignored))
         if (index_extremes(follower, first, count, &least, &most, error))
