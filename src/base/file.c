@@ -3,6 +3,8 @@
 
 #include <errno.h>
 #include <fcntl.h>
+#include <pthread.h>
+#include <signal.h>
 #include <stdatomic.h>
 #include <stdbool.h>
 #include <stdint.h>
@@ -10,6 +12,7 @@
 #include <stdlib.h>
 #include <string.h>
 #include <sys/stat.h>
+#include <time.h>
 #include <unistd.h>
 
 const char file_standard_input[] = "/dev/stdin", file_standard_output[] = "/dev/stdout";
@@ -24,6 +27,11 @@ static int fail(struct error *error, const char *path, const char *doing)
     char reason[128] = "unknown reason";
     strerror_r(errno, reason, sizeof reason);
     return error_set(error, "%s: %s: %s", path, doing, reason);
+}
+
+static int fail_empty(struct error *error)
+{
+    return error_set(error, "\"\": is not a path, expected that of a file");
 }
 
 /* --- Reading --- */
@@ -82,6 +90,8 @@ int file_read(const char *path, size_t limit, char **data, size_t *bytes, struct
     struct stat status;
     *data = NULL;
     *bytes = 0;
+    if (!*path)
+        return fail_empty(error);
     int descriptor = open_to_read(path);
     if (descriptor < 0)
         return fail(error, path, "cannot open");
@@ -106,7 +116,7 @@ int file_read(const char *path, size_t limit, char **data, size_t *bytes, struct
 
 /* --- Writing --- */
 
-static int write_all(int descriptor, const char *data, size_t bytes)
+static int put_all(int descriptor, const char *data, size_t bytes)
 {
     while (bytes) {
         ssize_t put = write(descriptor, data, bytes);
@@ -120,6 +130,26 @@ static int write_all(int descriptor, const char *data, size_t bytes)
         bytes -= (size_t)put;
     }
     return 0;
+}
+
+/* The kernel sends SIGXFSZ to the thread that writes. It is blocked here, and removed if this call has caused
+ * it. */
+int file_put(int descriptor, const void *data, size_t bytes)
+{
+    static const struct timespec now;
+    sigset_t limit, before, pending;
+    sigemptyset(&limit);
+    sigaddset(&limit, SIGXFSZ);
+    sigemptyset(&pending);
+    sigpending(&pending);
+    pthread_sigmask(SIG_BLOCK, &limit, &before);
+    int result = put_all(descriptor, data, bytes);
+    int reason = errno;
+    if (result && reason == EFBIG && !sigismember(&pending, SIGXFSZ))
+        sigtimedwait(&limit, NULL, &now);
+    pthread_sigmask(SIG_SETMASK, &before, NULL);
+    errno = reason;
+    return result;
 }
 
 /* Opens a new file in the folder of `path`. Writes its path to `name`, of `size` bytes, and notes it as a
@@ -197,6 +227,8 @@ int file_begin(struct file_output *output, const char *path, struct error *error
     struct stat status;
     bool exists = !stat(path, &status);
     *output = (struct file_output){.descriptor = -1, .leftover = -1};
+    if (!*path)
+        return fail_empty(error);
     if (exists && S_ISDIR(status.st_mode))
         return error_set(error, "%s: is a folder, expected a file to write", path);
     output->name = strdup(path);
@@ -209,7 +241,7 @@ int file_begin(struct file_output *output, const char *path, struct error *error
 
 int file_append(struct file_output *output, const void *data, size_t bytes, struct error *error)
 {
-    return write_all(output->descriptor, data, bytes) ? fail(error, output->name, "cannot write") : 0;
+    return file_put(output->descriptor, data, bytes) ? fail(error, output->name, "cannot write") : 0;
 }
 
 /* On a network or full file system, close may be the first call that reports an error. */
@@ -217,7 +249,7 @@ static int finish(struct file_output *output)
 {
     int descriptor = output->descriptor;
     output->descriptor = -1;
-    int result = output->temporary ? fsync(descriptor) : 0;
+    int result = output->temporary && !output->unsynced ? fsync(descriptor) : 0;
     int reason = errno;
     if (close(descriptor) && !result)
         return -1;
@@ -232,7 +264,7 @@ int file_commit(struct file_output *output, struct error *error)
         file_discard(output);
         return -1;
     }
-    if (output->temporary)
+    if (output->temporary && !output->unsynced)
         synchronize_folder(output->temporary);
     release(output);
     return 0;

@@ -36,6 +36,7 @@ int file_write(const char *path, const void *data, size_t bytes, struct error *e
  * discards the output itself. */
 struct file_output {
     int descriptor;
+    bool unsynced;   /* may be set after file_begin: a crash of the system may lose the contents */
     int leftover;    /* of `temporary`: its number in base/leftover.h */
     char *name;      /* the caller's path, for messages */
     char *path;      /* the final path, links resolved */
@@ -46,5 +47,9 @@ int file_begin(struct file_output *output, const char *path, struct error *error
 int file_append(struct file_output *output, const void *data, size_t bytes, struct error *error);
 int file_commit(struct file_output *output, struct error *error);
 void file_discard(struct file_output *output);
+
+/* Writes all bytes to a descriptor. At a limit on file sizes (RLIMIT_FSIZE) errno is EFBIG, and the calling
+ * thread does not get the signal SIGXFSZ. Returns 0, or -1 with the reason in errno. */
+int file_put(int descriptor, const void *data, size_t bytes);
 
 #endif

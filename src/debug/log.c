@@ -1,4 +1,5 @@
 #include "debug/log.h"
+#include "base/file.h"
 
 #include <errno.h>
 #include <fcntl.h>
@@ -22,20 +23,6 @@ int log_open(struct log *log, const char *path, struct error *error)
     return result;
 }
 
-static int write_all(int file, const uint8_t *data, size_t count)
-{
-    while (count) {
-        ssize_t written = write(file, data, count);
-        if (written < 0 && errno == EINTR)
-            continue;
-        if (written <= 0)
-            return -1;
-        data += written;
-        count -= (size_t)written;
-    }
-    return 0;
-}
-
 int log_append(struct log *log, const struct bytes *record, struct error *error)
 {
     int result = 0;
@@ -43,7 +30,7 @@ int log_append(struct log *log, const struct bytes *record, struct error *error)
         return error_set(error, "%s: out of memory for a record", log->path);
     pthread_mutex_lock(&log->lock);
     off_t start = log->file && !log->broken ? lseek(log->file, 0, SEEK_CUR) : 0;
-    if (log->file && !log->broken && write_all(log->file, record->data, record->count)) {
+    if (log->file && !log->broken && file_put(log->file, record->data, record->count)) {
         result = error_set(error, "%s: %s; later routines are omitted", log->path, strerror(errno));
         log->broken = true;
         if (ftruncate(log->file, start))

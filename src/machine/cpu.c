@@ -1,3 +1,4 @@
+#define _GNU_SOURCE /* secure_getenv */
 #include "machine/cpu.h"
 #include "base/words.h"
 
@@ -127,7 +128,7 @@ static struct error native_error;
 
 static void detect_native(void)
 {
-    const char *mask = getenv("TRIPTYCH_CPU");
+    const char *mask = secure_getenv("TRIPTYCH_CPU");
     native = cpu_detect(&(struct cpu_system){native_identify, native_saved_state});
     if (mask)
         cpu_hide(&native, mask, &native_error);

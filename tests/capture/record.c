@@ -273,6 +273,8 @@ static void wrong_calls_are_refused(void)
     TEST_ASSERT_EQUAL_INT(TRIPTYCH_BAD_CALL, triptych_record_stop(device));
     TEST_ASSERT_NOT_NULL(strstr(triptych_error(device), "no calls are recorded"));
     TEST_ASSERT_EQUAL_INT(TRIPTYCH_BAD_ARGUMENT, triptych_record_start(device, NULL));
+    TEST_ASSERT_EQUAL_INT(TRIPTYCH_BAD_ARGUMENT, triptych_record_start(device, ""));
+    TEST_ASSERT_EQUAL_STRING("\"\": is not a path, expected that of a file", triptych_error(device));
     TEST_ASSERT_EQUAL_INT(TRIPTYCH_BAD_ARGUMENT, triptych_record_start(device, "/nowhere/a.trib"));
     TEST_ASSERT_NOT_NULL(strstr(triptych_error(device), "/nowhere/a.trib: cannot write"));
     good(triptych_record_start(device, file));

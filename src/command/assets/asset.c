@@ -85,7 +85,7 @@ int asset_load_face(struct resource *resource, const struct triptych_texture *sh
         return -1;
     int result = 0;
     if (width != shape->width || height != shape->height)
-        result = error_set(error, "%s: %ux%u pixels, expected %ux%u", path, width, height, shape->width,
+        result = error_set(error, "%s: %u x %u pixels, expected %u x %u", path, width, height, shape->width,
                            shape->height);
     if (!result)
         result = paint_texture(&face, &alone, error);

@@ -38,7 +38,7 @@ static int check_mesh(const struct resource *resource, struct error *error)
         least_down = 1;
     if (shape && ((int)o->cells[0] < least || (int)o->cells[1] < least_down || o->cells[0] > LIMIT_CELLS ||
                   o->cells[1] > LIMIT_CELLS))
-        return error_set(error, "found a shape of %ux%u cells, expected at most %d each way", o->cells[0],
+        return error_set(error, "found a shape of %u x %u cells, expected at most %d each way", o->cells[0],
                          o->cells[1], LIMIT_CELLS);
     if (!shape && (o->cells[0] || o->cells[1]))
         return error_set(error, "found cells of a mesh that is not a shape, expected none");

@@ -3,8 +3,14 @@
  * No file remains: the loaded object is mapped, and its file is deleted. If the process is killed while
  * the compiler runs, its folder TMPDIR/triptych-PROCESS-NUMBER remains. A process holds a lock on its
  * folder, and the lock ends with the process. The first compilation of a process removes the user's
- * folders without a lock. The compiler is started without a shell and inherits the environment. */
+ * folders without a lock. The compiler is started without a shell. It inherits the environment, with TMPDIR
+ * as an absolute path, because a relative one can look like an option on its command lines.
+ *
+ * A process with more rights than its user (setuid, setgid, capabilities: AT_SECURE) starts no compiler. Its
+ * environment is the user's, and compilers read dozens of variables. */
+#define _GNU_SOURCE /* secure_getenv */
 #include "engines/external/external.h"
+#include "base/file.h"
 #include "base/leftover.h"
 
 #include <dirent.h>
@@ -16,6 +22,7 @@
 #include <stdatomic.h>
 #include <stdlib.h>
 #include <string.h>
+#include <sys/auxv.h>
 #include <sys/file.h>
 #include <sys/mman.h>
 #include <sys/stat.h>
@@ -31,8 +38,9 @@ enum work_file { WORK_TEXT, WORK_OBJECT, WORK_MESSAGES, WORK_COUNT };
 static const char *const file_name[WORK_COUNT] = {"routine.c", "routine.so", "messages"};
 
 struct work {
-    char folder[PATH_CAPACITY];
-    char path[WORK_COUNT][PATH_CAPACITY + 16];
+    char temporary[PATH_CAPACITY]; /* the folder of temporary files, absolute */
+    char folder[PATH_CAPACITY + 32];
+    char path[WORK_COUNT][PATH_CAPACITY + 48];
     int lock; /* the folder, open */
     int leftover[WORK_COUNT + 1];
 };
@@ -41,7 +49,7 @@ extern char **environ;
 
 static const char *compiler(void)
 {
-    const char *name = getenv("TRIPTYCH_CC");
+    const char *name = secure_getenv("TRIPTYCH_CC");
     return name && *name ? name : "cc";
 }
 
@@ -49,7 +57,7 @@ static const char *compiler(void)
 static bool is_in_path(const char *name)
 {
     char path[PATH_CAPACITY];
-    const char *folders = getenv("PATH");
+    const char *folders = secure_getenv("PATH");
     for (folders = folders ? folders : ""; *folders; folders += *folders == ':') {
         int length = (int)strcspn(folders, ":");
         if (snprintf(path, sizeof path, "%.*s%s%s", length, folders, length ? "/" : "", name) <
@@ -61,9 +69,15 @@ static bool is_in_path(const char *name)
     return false;
 }
 
+static const char no_rights[] =
+    "needs to start a C compiler, which a process with more rights than its user (setuid) does not";
+
 const char *external_no_compiler(void)
 {
     const char *name = compiler();
+    if (getauxval(AT_SECURE))
+        return "needs to start a C compiler, which a process with more rights than its user (setuid) does "
+               "not";
     if (strchr(name, '/') ? !access(name, X_OK) : is_in_path(name))
         return NULL;
     return "needs a C compiler at run time: cc, or the program that TRIPTYCH_CC names";
@@ -89,10 +103,13 @@ const char *external_no_loading(void)
     return NULL;
 }
 
-static const char *temporary_folder(void)
+/* Absolute, or as the environment has it if it does not exist. */
+static void find_temporary_folder(char folder[static PATH_CAPACITY])
 {
-    const char *folder = getenv("TMPDIR");
-    return folder && *folder ? folder : "/tmp";
+    const char *given = secure_getenv("TMPDIR");
+    given = given && *given ? given : "/tmp";
+    if (!realpath(given, folder))
+        snprintf(folder, PATH_CAPACITY, "%s", given);
 }
 
 static void name_files(struct work *work)
@@ -139,7 +156,7 @@ static void close_work(const struct work *work)
 /* Removes the folders of processes that were killed. */
 static void remove_stale(struct work *work)
 {
-    DIR *folder = opendir(temporary_folder());
+    DIR *folder = opendir(work->temporary);
     struct dirent *entry;
     struct stat status;
     unsigned process, number;
@@ -147,7 +164,7 @@ static void remove_stale(struct work *work)
     while (folder && (entry = readdir(folder))) {
         end = 0;
         if (sscanf(entry->d_name, FOLDER_NAME "%n", &process, &number, &end) < 2 || entry->d_name[end] ||
-            snprintf(work->folder, sizeof work->folder, "%s/%s", temporary_folder(), entry->d_name) >=
+            snprintf(work->folder, sizeof work->folder, "%s/%s", work->temporary, entry->d_name) >=
                 (int)sizeof work->folder ||
             lstat(work->folder, &status) || status.st_uid != geteuid())
             continue;
@@ -163,9 +180,8 @@ static int make_folder(struct work *work, struct error *error)
 {
     static atomic_uint serial;
     for (int attempt = 0; attempt < 100; attempt++) {
-        if (snprintf(work->folder, sizeof work->folder, "%s/" FOLDER_NAME, temporary_folder(),
-                     (unsigned)getpid(), atomic_fetch_add(&serial, 1)) >= (int)sizeof work->folder)
-            return error_set(error, "TMPDIR is too long a path");
+        snprintf(work->folder, sizeof work->folder, "%s/" FOLDER_NAME, work->temporary, (unsigned)getpid(),
+                 atomic_fetch_add(&serial, 1));
         name_files(work);
         note_work(work);
         bool made = !mkdir(work->folder, 0700);
@@ -176,13 +192,14 @@ static int make_folder(struct work *work, struct error *error)
         if (!made && errno != EEXIST)
             break;
     }
-    return error_set(error, "%s: cannot make a folder for the compiler: %s", temporary_folder(),
+    return error_set(error, "%s: cannot make a folder for the compiler: %s", work->temporary,
                      strerror(errno));
 }
 
 static int open_work(struct work *work, struct error *error)
 {
     static atomic_flag cleaned = ATOMIC_FLAG_INIT;
+    find_temporary_folder(work->temporary);
     if (!atomic_flag_test_and_set(&cleaned))
         remove_stale(work);
     return make_folder(work, error);
@@ -194,25 +211,34 @@ static int write_text(const struct work *work, const char *text, size_t bytes, s
     int file = open(path, O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0600);
     if (file < 0)
         return error_set(error, "%s: %s", path, strerror(errno));
-    while (bytes) {
-        ssize_t written = write(file, text, bytes);
-        if (written < 0 && errno == EINTR)
-            continue;
-        if (written <= 0) {
-            errno = written ? errno : EIO;
-            break;
-        }
-        text += written;
-        bytes -= (size_t)written;
+    int result = file_put(file, text, bytes), number = errno;
+    if (close(file) && !result) {
+        result = -1;
+        number = errno;
     }
-    int number = errno;
-    if (close(file) && !bytes)
-        return error_set(error, "%s: %s", path, strerror(errno));
-    return bytes ? error_set(error, "%s: %s", path, strerror(number)) : 0;
+    return result ? error_set(error, "%s: %s", path, strerror(number)) : 0;
+}
+
+/* The environment with another TMPDIR, an entry of the caller. Free the result; null: memory is refused. */
+static char **make_environment(char *temporary)
+{
+    size_t count = 0;
+    while (environ[count])
+        count++;
+    char **made = malloc((count + 2) * sizeof *made), **at = made;
+    if (!made)
+        return NULL;
+    for (char **entry = environ; *entry; entry++)
+        if (strncmp(*entry, "TMPDIR=", 7))
+            *at++ = *entry;
+    *at++ = temporary;
+    *at = NULL;
+    return made;
 }
 
 /* Starts the compiler with empty input, discarded output, messages in a file, and default signals. */
-static int spawn(const struct work *work, char *const arguments[], pid_t *process)
+static int spawn_in(const struct work *work, char *const arguments[], char *const environment[],
+                    pid_t *process)
 {
     posix_spawn_file_actions_t files;
     posix_spawnattr_t attributes;
@@ -237,9 +263,19 @@ static int spawn(const struct work *work, char *const arguments[], pid_t *proces
         result = posix_spawn_file_actions_addopen(&files, STDERR_FILENO, work->path[WORK_MESSAGES],
                                                   O_WRONLY | O_CREAT | O_TRUNC, 0600);
     if (!result)
-        result = posix_spawnp(process, arguments[0], &files, &attributes, arguments, environ);
+        result = posix_spawnp(process, arguments[0], &files, &attributes, arguments, environment);
     posix_spawnattr_destroy(&attributes);
     posix_spawn_file_actions_destroy(&files);
+    return result;
+}
+
+static int spawn(const struct work *work, char *const arguments[], pid_t *process)
+{
+    char temporary[PATH_CAPACITY + 16];
+    snprintf(temporary, sizeof temporary, "TMPDIR=%s", work->temporary);
+    char **environment = make_environment(temporary);
+    int result = environment ? spawn_in(work, arguments, environment, process) : ENOMEM;
+    free(environment);
     return result;
 }
 
@@ -311,6 +347,10 @@ static int run_compiler(const struct work *work, struct error *error)
 
 void *external_compile(const char *text, size_t bytes, struct error *error)
 {
+    if (getauxval(AT_SECURE)) {
+        error_set(error, "%s", no_rights);
+        return NULL;
+    }
     struct work *work = malloc(sizeof *work);
     void *object = NULL;
     if (!work || open_work(work, error)) {

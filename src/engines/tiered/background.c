@@ -1,4 +1,5 @@
 #include "engines/tiered/background.h"
+#include "machine/thread.h"
 
 #include <signal.h>
 #include <stddef.h>
@@ -101,7 +102,7 @@ static void start(void)
     sigfillset(&all);
     pthread_sigmask(SIG_SETMASK, &all, &before);
     background_create_thread *create = b->create ? b->create : pthread_create;
-    bool exists = !create(&b->thread, NULL, work, NULL);
+    bool exists = !create(&b->thread, thread_attributes(), work, NULL);
     pthread_sigmask(SIG_SETMASK, &before, NULL);
     pthread_mutex_lock(&b->lock);
     b->exists = exists;

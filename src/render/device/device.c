@@ -158,7 +158,7 @@ enum triptych_result device_check_target(const struct triptych_target_descriptio
 {
     unsigned width = description->width, height = description->height;
     if (!width || !height || width > TARGET_SIZE_MAXIMUM || height > TARGET_SIZE_MAXIMUM) {
-        error_set(error, "target of %ux%u pixels: expected 1 to %d a side", width, height,
+        error_set(error, "target of %u x %u pixels: expected 1 to %d a side", width, height,
                   TARGET_SIZE_MAXIMUM);
         return TRIPTYCH_BAD_ARGUMENT;
     }

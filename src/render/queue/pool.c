@@ -2,6 +2,7 @@
 #include "render/queue/pool.h"
 
 #include "machine/mxcsr.h"
+#include "machine/thread.h"
 
 #include <emmintrin.h>
 #include <errno.h>
@@ -311,7 +312,7 @@ struct pool *pool_create(unsigned threads, pool_create_thread *create, struct er
         create = pthread_create;
     for (pool->workers = 1; pool->workers < threads; pool->workers++) {
         struct pool_worker *worker = pool->worker + pool->workers;
-        if (create(&worker->thread, NULL, work, worker))
+        if (create(&worker->thread, thread_attributes(), work, worker))
             break;
     }
     pool->limit = pool->workers;

@@ -229,7 +229,7 @@ enum triptych_result state_set_viewport(struct state *state, const struct tripty
     const struct triptych_viewport *v = viewport;
     if (!(v->width > 0 && within(0, v->x, target_width) && (double)v->x + v->width <= target_width) ||
         !(v->height > 0 && within(0, v->y, target_height) && (double)v->y + v->height <= target_height)) {
-        error_set(error, "viewport %gx%g at %g, %g: expected a part of the target of %ux%u pixels",
+        error_set(error, "viewport %g x %g at %g, %g: expected a part of the target of %u x %u pixels",
                   (double)v->width, (double)v->height, (double)v->x, (double)v->y, target_width,
                   target_height);
         return TRIPTYCH_BAD_ARGUMENT;
@@ -248,7 +248,8 @@ enum triptych_result state_set_scissor(struct state *state, struct scissor sciss
 {
     const struct scissor *s = &scissor;
     if ((uint64_t)s->x + s->width > target_width || (uint64_t)s->y + s->height > target_height) {
-        error_set(error, "scissor rectangle %ux%u at %u, %u: expected a part of the target of %ux%u pixels",
+        error_set(error,
+                  "scissor rectangle %u x %u at %u, %u: expected a part of the target of %u x %u pixels",
                   s->width, s->height, s->x, s->y, target_width, target_height);
         return TRIPTYCH_BAD_ARGUMENT;
     }

@@ -50,7 +50,7 @@ static enum triptych_result match_size(const struct triptych_surface *surface, c
     }
     if ((unsigned)level->width == description->width && (unsigned)level->height == description->height)
         return TRIPTYCH_OK;
-    error_set(error, "%s of %dx%d texels: expected %ux%u, the size of the others", what, level->width,
+    error_set(error, "%s of %d x %d texels: expected %u x %u, the size of the others", what, level->width,
               level->height, description->width, description->height);
     return TRIPTYCH_BAD_ARGUMENT;
 }
@@ -156,8 +156,8 @@ static enum triptych_result check_part(const char *what, const uint32_t size[2],
     if (!part->width || (part->height && part->x < size[0] && part->y < size[1] &&
                          part->width <= size[0] - part->x && part->height <= size[1] - part->y))
         return TRIPTYCH_OK;
-    error_set(error, "%s: %ux%u pixels at %u, %u: expected a part of %ux%u", what, part->width, part->height,
-              part->x, part->y, size[0], size[1]);
+    error_set(error, "%s: %u x %u pixels at %u, %u: expected a part of %u x %u", what, part->width,
+              part->height, part->x, part->y, size[0], size[1]);
     return TRIPTYCH_BAD_ARGUMENT;
 }
 

@@ -45,7 +45,7 @@ int target_create(struct target *target, const struct triptych_target_descriptio
     t.clear = malloc(tiles * sizeof *t.clear);
     if (!t.color || (has_depth && !t.depth) || !t.clear) {
         target_destroy(&t);
-        return error_set(error, "out of memory for a target of %ux%u pixels (%zu MiB)", description->width,
+        return error_set(error, "out of memory for a target of %u x %u pixels (%zu MiB)", description->width,
                          description->height, planes * TILE_PLANE_BYTES * (t.planes + has_depth) >> 20);
     }
     struct tile_clear clear = {

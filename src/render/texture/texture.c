@@ -47,12 +47,12 @@ static enum triptych_result check_size(const struct triptych_texture_description
     uint32_t most = d->type == TRIPTYCH_TEXTURE_VOLUME ? TRIPTYCH_VOLUME_MAXIMUM : TRIPTYCH_TEXTURE_MAXIMUM;
     uint32_t deep = d->type == TRIPTYCH_TEXTURE_VOLUME ? most : 1;
     if (!d->width || !d->height || d->width > most || d->height > most)
-        error_set(error, "texture of %ux%u texels: expected 1 to %u a side", d->width, d->height, most);
+        error_set(error, "texture of %u x %u texels: expected 1 to %u a side", d->width, d->height, most);
     else if (!d->depth || d->depth > deep)
         error_set(error, "%s texture of depth %u: expected 1%s", type_name[d->type], d->depth,
                   deep > 1 ? " to 2048" : "");
     else if (d->type == TRIPTYCH_TEXTURE_CUBE && d->width != d->height)
-        error_set(error, "cube texture of %ux%u texels: expected a square", d->width, d->height);
+        error_set(error, "cube texture of %u x %u texels: expected a square", d->width, d->height);
     else if (d->levels > full_chain(d))
         error_set(error, "texture of %u levels: expected at most %u, or 0 for all", d->levels, full_chain(d));
     else
@@ -112,7 +112,7 @@ static enum triptych_result allocate(struct triptych_texture *texture, struct er
     size_t rounded = (room + TEXTURE_ALIGNMENT - 1) & ~(size_t)(TEXTURE_ALIGNMENT - 1);
     texture->texels = aligned_alloc(TEXTURE_ALIGNMENT, rounded);
     if (!texture->texels) {
-        error_set(error, "out of memory for a texture of %ux%u texels", texture->width, texture->height);
+        error_set(error, "out of memory for a texture of %u x %u texels", texture->width, texture->height);
         return TRIPTYCH_NO_MEMORY;
     }
     clear_texels(texture, bytes);
@@ -213,7 +213,7 @@ static enum triptych_result check_box(const struct triptych_texture *texture, un
     if (is_part(box->x, box->width, l->width, side) && is_part(box->y, box->height, l->height, side) &&
         is_part(box->z, box->depth, l->depth, 1))
         return TRIPTYCH_OK;
-    error_set(error, "box of %ux%ux%u texels at %u, %u, %u: expected a part of level %u's %dx%dx%d%s",
+    error_set(error, "box of %u x %u x %u texels at %u, %u, %u: expected a part of level %u's %d x %d x %d%s",
               box->width, box->height, box->depth, box->x, box->y, box->z, level, l->width, l->height,
               l->depth, side > 1 ? ", of whole 4x4 blocks" : "");
     return TRIPTYCH_BAD_ARGUMENT;

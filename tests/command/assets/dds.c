@@ -172,7 +172,7 @@ static void damaged_files_are_refused(void)
     refuse("expected one of Direct3D 9's");
     make(4, 0, 8);
     set_fourcc("DXT1");
-    refuse("4x0 texels: expected 1 to 8192 a side");
+    refuse("4 x 0 texels: expected 1 to 8192 a side");
     make(4, 4, 8);
     set_fourcc("DXT1");
     set_levels(4);

@@ -125,7 +125,7 @@ static void expect_refused(enum triptych_result expected, enum triptych_result g
 static void targets_have_a_largest_size(void)
 {
     expect_refused(TRIPTYCH_BAD_ARGUMENT, triptych_set_target(device, 65536, 32768),
-                   "target of 65536x32768 pixels: expected 1 to 8192 a side");
+                   "target of 65536 x 32768 pixels: expected 1 to 8192 a side");
     unsigned width, height;
     triptych_target_size(device, &width, &height);
     TEST_ASSERT_EQUAL_UINT32(SIZE, width);

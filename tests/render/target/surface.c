@@ -338,7 +338,7 @@ static void check_refusals(void)
     expect_refused(TRIPTYCH_BAD_ARGUMENT, triptych_set_target_textures(device, &none),
                    "no texture to draw to: expected at least one");
     expect_refused(TRIPTYCH_BAD_ARGUMENT, triptych_set_target_textures(device, &uneven),
-                   "colour target 1 of 8x8 texels: expected 64x64, the size of the others");
+                   "colour target 1 of 8 x 8 texels: expected 64 x 64, the size of the others");
     expect_refused(TRIPTYCH_BAD_ARGUMENT, triptych_set_target_textures(device, &level),
                    "colour target 0: level 1 of a texture with 1");
     expect_refused(TRIPTYCH_BAD_ARGUMENT, triptych_set_target_textures(device, &slice),
@@ -351,7 +351,7 @@ static void check_refusals(void)
     const struct triptych_rectangle outside = {60, 0, 5, 1};
     expect_refused(TRIPTYCH_BAD_ARGUMENT,
                    triptych_copy(device, &surface, &outside, &the_target, NULL, TRIPTYCH_COPY_POINT),
-                   "source of a copy: 5x1 pixels at 60, 0: expected a part of 64x64");
+                   "source of a copy: 5 x 1 pixels at 60, 0: expected a part of 64 x 64");
     expect_refused(TRIPTYCH_UNSUPPORTED,
                    triptych_copy(device, &deep, NULL, &surface, NULL, TRIPTYCH_COPY_POINT),
                    "source of a copy: format D16 is one of depth");

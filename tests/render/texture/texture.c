@@ -99,12 +99,12 @@ static void test_bad_descriptions_are_refused_with_a_reason(void)
         {{0, TRIPTYCH_SURFACE_P8, 1, 1, 1, 1}, TRIPTYCH_UNSUPPORTED, "format P8 is not supported"},
         {{0, TRIPTYCH_SURFACE_D32F_LOCKABLE, 1, 1, 1, 1}, TRIPTYCH_UNSUPPORTED, "D32F_LOCKABLE"},
         {{1, TRIPTYCH_SURFACE_D16, 8, 8, 1, 1}, TRIPTYCH_BAD_ARGUMENT, "format D16 for a cube texture"},
-        {{0, TRIPTYCH_SURFACE_L8, 0, 1, 1, 1}, TRIPTYCH_BAD_ARGUMENT, "0x1 texels: expected 1 to 8192"},
-        {{0, TRIPTYCH_SURFACE_L8, 1, 8193, 1, 1}, TRIPTYCH_BAD_ARGUMENT, "1x8193 texels"},
+        {{0, TRIPTYCH_SURFACE_L8, 0, 1, 1, 1}, TRIPTYCH_BAD_ARGUMENT, "0 x 1 texels: expected 1 to 8192"},
+        {{0, TRIPTYCH_SURFACE_L8, 1, 8193, 1, 1}, TRIPTYCH_BAD_ARGUMENT, "1 x 8193 texels"},
         {{2, TRIPTYCH_SURFACE_L8, 2049, 1, 1, 1}, TRIPTYCH_BAD_ARGUMENT, "expected 1 to 2048 a side"},
         {{2, TRIPTYCH_SURFACE_L8, 1, 1, 2049, 1}, TRIPTYCH_BAD_ARGUMENT, "depth 2049: expected 1 to 2048"},
         {{0, TRIPTYCH_SURFACE_L8, 1, 1, 2, 1}, TRIPTYCH_BAD_ARGUMENT, "2d texture of depth 2: expected 1"},
-        {{1, TRIPTYCH_SURFACE_L8, 4, 2, 1, 1}, TRIPTYCH_BAD_ARGUMENT, "4x2 texels: expected a square"},
+        {{1, TRIPTYCH_SURFACE_L8, 4, 2, 1, 1}, TRIPTYCH_BAD_ARGUMENT, "4 x 2 texels: expected a square"},
         {{0, TRIPTYCH_SURFACE_L8, 4, 2, 1, 4}, TRIPTYCH_BAD_ARGUMENT, "4 levels: expected at most 3"},
         {{2, TRIPTYCH_SURFACE_L8, 2048, 2048, 2048, 1}, TRIPTYCH_BAD_ARGUMENT, "34376515584 bytes"},
     };
@@ -132,8 +132,8 @@ static void test_bad_updates_are_refused_with_a_reason(void)
     refuse(1, 0, (struct triptych_box){0, 0, 0, 8, 8, 4}, 16, 128,
            "face 1, level 0: expected 0 to 0, 0 to 1");
     refuse(0, 2, (struct triptych_box){0, 0, 0, 1, 1, 1}, 16, 128, "face 0, level 2");
-    refuse(0, 1, (struct triptych_box){1, 0, 0, 4, 4, 2}, 16, 128, "a part of level 1's 4x4x2");
-    refuse(0, 0, (struct triptych_box){0, 0, 0, 0, 1, 1}, 16, 128, "0x1x1 texels");
+    refuse(0, 1, (struct triptych_box){1, 0, 0, 4, 4, 2}, 16, 128, "a part of level 1's 4 x 4 x 2");
+    refuse(0, 0, (struct triptych_box){0, 0, 0, 0, 1, 1}, 16, 128, "0 x 1 x 1 texels");
     refuse(0, 0, (struct triptych_box){UINT32_MAX, 0, 0, 2, 1, 1}, 16, 128, "expected a part");
     refuse(0, 0, (struct triptych_box){0, 0, 0, 8, 8, 4}, 15, 128, "at least 16 for a row");
     refuse(0, 0, (struct triptych_box){0, 0, 0, 8, 8, 4}, 16, 127, "8 rows for a slice");
