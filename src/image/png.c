@@ -10,7 +10,9 @@
 #include <stdlib.h>
 #include <string.h>
 
-enum { PNG_FILE_MAXIMUM = 1 << 28, PNG_CHUNK_MAXIMUM = 1 << 24 };
+enum { PNG_FILE_MAXIMUM = 1 << 28, PNG_CHUNK_MAXIMUM = 1 << 24, PNG_CHUNK_WRITTEN = 1 << 16 };
+
+enum { LEVEL_OF_ALL_FILTERS = 6 };
 
 struct job {
     const char *path;
@@ -22,6 +24,7 @@ struct job {
     char *data; /* writing: the part of the file that is made */
     size_t bytes, capacity;
     unsigned width, height;
+    unsigned level; /* writing */
     uint32_t *rgba;
     png_bytepp rows;
 };
@@ -162,6 +165,15 @@ static void flush_nothing(png_structp png)
     (void)png;
 }
 
+/* The filter "up" suits pictures whose rows resemble the rows above. */
+static void set_compression(const struct job *job)
+{
+    png_set_compression_level(job->png, (int)job->level);
+    png_set_compression_buffer_size(job->png, PNG_CHUNK_WRITTEN);
+    if (job->level < LEVEL_OF_ALL_FILTERS)
+        png_set_filter(job->png, PNG_FILTER_TYPE_BASE, job->level ? PNG_FILTER_UP : PNG_FILTER_NONE);
+}
+
 static int encode(struct job *job, const uint32_t *rgba)
 {
     if (setjmp(png_jmpbuf(job->png)))
@@ -170,6 +182,7 @@ static int encode(struct job *job, const uint32_t *rgba)
     png_set_write_fn(job->png, job, write_bytes, flush_nothing);
     png_set_IHDR(job->png, job->info, job->width, job->height, 8, PNG_COLOR_TYPE_RGBA, PNG_INTERLACE_NONE,
                  PNG_COMPRESSION_TYPE_DEFAULT, PNG_FILTER_TYPE_DEFAULT);
+    set_compression(job);
     png_write_info(job->png, job->info);
     /* libpng takes rows that are not const, but writing only reads them. */
     if (make_rows(job, (uint32_t *)(uintptr_t)rgba))
@@ -179,10 +192,10 @@ static int encode(struct job *job, const uint32_t *rgba)
     return 0;
 }
 
-int png_encode(const char *path, unsigned width, unsigned height, const uint32_t *rgba, void **data,
-               size_t *bytes, struct error *error)
+int png_encode(const char *path, unsigned width, unsigned height, const uint32_t *rgba, unsigned level,
+               void **data, size_t *bytes, struct error *error)
 {
-    struct job job = {.path = path, .error = error, .width = width, .height = height};
+    struct job job = {.path = path, .error = error, .width = width, .height = height, .level = level};
     int result = -1;
     job.png = png_create_write_struct(PNG_LIBPNG_VER_STRING, &job, on_error, on_warning);
     job.info = job.png ? png_create_info_struct(job.png) : NULL;
@@ -199,13 +212,19 @@ int png_encode(const char *path, unsigned width, unsigned height, const uint32_t
     return result;
 }
 
-int png_save(const char *path, unsigned width, unsigned height, const uint32_t *rgba, struct error *error)
+int png_save_level(const char *path, unsigned width, unsigned height, const uint32_t *rgba, unsigned level,
+                   struct error *error)
 {
     void *data;
     size_t bytes;
-    if (png_encode(path, width, height, rgba, &data, &bytes, error))
+    if (png_encode(path, width, height, rgba, level, &data, &bytes, error))
         return -1;
     int result = file_write(path, data, bytes, error);
     free(data);
     return result;
+}
+
+int png_save(const char *path, unsigned width, unsigned height, const uint32_t *rgba, struct error *error)
+{
+    return png_save_level(path, width, height, rgba, PNG_LEVEL_DEFAULT, error);
 }

@@ -11,6 +11,8 @@
 #include <unistd.h>
 #include <unity.h>
 
+enum { SIDE = 64 };
+
 static char path[64];
 static struct error error;
 
@@ -68,6 +70,32 @@ static void rgba8_round_trips(void)
     static const uint32_t pixels[6] = {0xff0000ff, 0x8000ff00, 0x00ff0000, 0x12345678, 0, 0xffffffff};
     TEST_ASSERT_EQUAL_INT(0, png_save(path, 3, 2, pixels, &error));
     expect_pixels(3, 2, pixels);
+}
+
+/* The bytes of a picture with some detail, written at a level. */
+static size_t bytes_at_level(unsigned level)
+{
+    static uint32_t pixels[SIDE * SIDE];
+    char *data;
+    size_t bytes;
+    for (uint32_t i = 0; i < SIDE * SIDE; i++) {
+        uint32_t x = i % SIDE, y = i / SIDE, grain = i * 2654435761u >> 30;
+        pixels[i] = 0xff000000u | (x * x / 40 + y + grain) * 0x10101u;
+    }
+    TEST_ASSERT_EQUAL_INT(0, png_save_level(path, SIDE, SIDE, pixels, level, &error));
+    expect_pixels(SIDE, SIDE, pixels);
+    TEST_ASSERT_EQUAL_INT(0, file_read(path, 1 << 20, &data, &bytes, &error));
+    free(data);
+    return bytes;
+}
+
+static void every_level_has_the_same_pixels_and_higher_levels_fewer_bytes(void)
+{
+    for (unsigned level = 0; level <= PNG_LEVEL_MAXIMUM; level++)
+        TEST_ASSERT_GREATER_THAN_UINT64(0, bytes_at_level(level));
+    TEST_ASSERT_GREATER_THAN_UINT64(SIDE * SIDE * 4, bytes_at_level(0));
+    TEST_ASSERT_LESS_THAN_UINT64(bytes_at_level(0), bytes_at_level(PNG_LEVEL_DEFAULT));
+    TEST_ASSERT_LESS_THAN_UINT64(bytes_at_level(PNG_LEVEL_DEFAULT), bytes_at_level(PNG_LEVEL_MAXIMUM));
 }
 
 static void grey_repeats_in_all_channels_and_gamma_is_not_applied(void)
@@ -170,6 +198,7 @@ int main(void)
 {
     UNITY_BEGIN();
     RUN_TEST(rgba8_round_trips);
+    RUN_TEST(every_level_has_the_same_pixels_and_higher_levels_fewer_bytes);
     RUN_TEST(grey_repeats_in_all_channels_and_gamma_is_not_applied);
     RUN_TEST(one_bit_grey_is_black_and_white);
     RUN_TEST(palettes_give_their_colors_and_transparency);
