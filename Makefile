@@ -61,9 +61,10 @@ tests = $(foreach t,$(1),$(or $(wildcard tests/$(t).c),$(error there is no test 
 
 # pkg-config runs at the first use of these variables, because `make test` installs pkg-config.
 LIBRARY_PACKAGES := libpng OpenEXR libxxhash libzstd
-TOOL_PACKAGES    := libcjson assimp
+TOOL_PACKAGES    := libcjson
+LOADED_PACKAGES  := assimp
 package_includes = $(eval package_includes := $(patsubst -I%,-isystem %,$(filter -I%,\
-  $(shell pkg-config --cflags $(LIBRARY_PACKAGES) $(TOOL_PACKAGES)))))$(package_includes)
+  $(shell pkg-config --cflags $(LIBRARY_PACKAGES) $(TOOL_PACKAGES) $(LOADED_PACKAGES)))))$(package_includes)
 library_packages = $(eval library_packages := $(shell pkg-config --libs $(LIBRARY_PACKAGES)))$(library_packages)
 tool_packages    = $(eval tool_packages := $(shell pkg-config --libs $(TOOL_PACKAGES)))$(tool_packages)
 
@@ -71,6 +72,10 @@ tool_packages    = $(eval tool_packages := $(shell pkg-config --libs $(TOOL_PACK
 library_libraries = $(filter-out -lOpenEXR-% -lOpenEXRUtil% -lIex% -lIlmThread% -lImath%,$(library_packages)) \
   -lZydis -lZycore -pthread -lm
 tool_libraries = $(tool_packages) $(library_libraries)
+
+# The command loads Assimp when it imports a model, by the name that programs linked with it have.
+assimp_library = $(shell readelf -d "$$(pkg-config --variable=libdir assimp)/libassimp.so" | \
+  sed -n 's/.*(SONAME).*\[\(.*\)\]$$/\1/p')
 
 # Instrumented builds: SANITIZE=address (or 1) finds bad memory accesses and undefined behaviour.
 # SANITIZE=thread finds data races. SANITIZE=fuzzer is address for libFuzzer (CC=clang). COVERAGE=1 counts
@@ -102,7 +107,7 @@ SHARED := $(if $(SANITIZE),$(BUILD)/tests/shared.so)
 
 compile = $(CC) -std=gnu17 $(CFLAGS) -Wall -Wextra -Werror -ffp-contract=off -fPIC $(if $(SHARED),,-fvisibility=hidden) -pthread \
   $(INSTRUMENT) $(CHECKED) -Isrc -I. $(package_includes) $(CPPFLAGS)
-link = $(CC) $(CFLAGS) $(INSTRUMENT) -pthread -Wl,--as-needed,-z,relro,-z,now $(LDFLAGS)
+link = $(CC) $(CFLAGS) $(INSTRUMENT) -pthread -Wl,--as-needed,--build-id,-z,relro,-z,now $(LDFLAGS)
 
 # Debugging information is most of the size of the 150 test programs.
 compressed = -Wl,--compress-debug-sections=zlib
@@ -161,6 +166,8 @@ $(filter $(BUILD)/object/asm/%,$(LIBRARY_OBJECTS)): | $(ASM_INCLUDES)
 
 $(BUILD)/object/src/command/bench/machine.o: private CPPFLAGS += -DTRIPTYCH_COMMIT='"$(COMMIT)"'
 $(BUILD)/object/src/command/bench/machine.o: $(BUILD)/commit
+
+$(BUILD)/object/src/command/import/assimp.o: private CPPFLAGS += -DASSIMP_LIBRARY='"$(assimp_library)"'
 
 # The whole specification with a hook after each operation. It runs only for a few pixels of a failing case.
 $(BUILD)/object/src/command/fuzz/bisect/trace.o: private override CFLAGS += -O0
@@ -241,7 +248,7 @@ $(BUILD)/tests/command/fuzz/bisect: private override LDFLAGS += -Wl,--wrap=sched
 # Fuzz targets have limits of their own (tests/command/fuzz/targets/limit.c). They are linked into a test, and
 # into a program with libFuzzer's main that has a link for each target (CC=clang SANITIZE=fuzzer).
 fuzz_wraps = -Wl,--wrap=stream_build_account,--wrap=container_next,--wrap=mesh_make,--wrap=mesh_read_model,--wrap=file_read \
-  -Wl,--wrap=aiImportFileExWithProperties,--wrap=aiReleaseImport
+  -Wl,--wrap=assimp_import,--wrap=assimp_release
 
 $(BUILD)/tests/command/fuzz/inputs: $(TARGET_OBJECTS)
 $(BUILD)/tests/command/fuzz/inputs: private override LDFLAGS += $(fuzz_wraps)

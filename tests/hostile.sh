@@ -61,7 +61,7 @@ export -f limited
     printf '}\nbind vertices many\ndraw triangles 0 100\nframe\n'
 } >"$work/many.tri"
 
-# --- File sizes ----------------------------------------------------------------------------------------------
+# --- File sizes ------------------------------------------------------------------------------------------
 
 # 1,024 bytes.
 within=(bash -c 'limited -f 1 "$@"' limited)
@@ -83,7 +83,7 @@ bash -c 'limited -f 1 "$@" >"$0"' "$work/list" "$TRIPTYCH" list states 2>"$work/
 verdict 'standard output beyond it' "$(((status == 2)) && grep -q 'cannot write to standard output: File too large' \
     "$work/said" || echo "exit status $status")"
 
-# --- Stacks --------------------------------------------------------------------------------------------------
+# --- Stacks ----------------------------------------------------------------------------------------------
 
 # A sanitizer's process does not start on such a stack.
 if [[ ! ${SANITIZE-} ]]; then
@@ -95,7 +95,7 @@ if [[ ! ${SANITIZE-} ]]; then
         "$TRIPTYCH" render bench/streams/cat.tri --engine emulate --out "$work/cat.png"
 fi
 
-# --- Paths that look like options ----------------------------------------------------------------------------
+# --- Paths that look like options ------------------------------------------------------------------------
 
 if "$TRIPTYCH" list engines | grep -q '^external .* available'; then
     program=$(realpath "$TRIPTYCH") small=$(realpath "$stream")
@@ -111,7 +111,7 @@ refuses 'an empty path of a stream' 'render: "": is not a path, expected that of
     "$TRIPTYCH" render '' --out "$work/out/a.png"
 refuses 'an empty path of a picture' 'compare: "": is not a path' "$TRIPTYCH" compare '' "$work/kept.png"
 
-# --- More rights than the user -------------------------------------------------------------------------------
+# --- More rights than the user ---------------------------------------------------------------------------
 
 # A setuid program that another user starts. Only root can make one.
 if ((EUID)) || [[ ${SANITIZE-} ]] || ! command -v setpriv >/dev/null; then

@@ -9,6 +9,8 @@
 #include "tests/support/system/fault.h"
 
 #include "base/file.h"
+#include "command/import/assimp.h"
+#include "command/store/store.h"
 #include "command/tool/command_line.h"
 
 #include <dirent.h>
@@ -385,6 +387,27 @@ static void test_dumps_lists_and_shaders(void)
     refuse_each("shader validate tests/data/shaders/common/color.psa --json", EXACT, 0);
 }
 
+/* Meshes that are kept and found. */
+static void test_the_cache(void)
+{
+    char cache[64], remove[96];
+    snprintf(cache, sizeof cache, "%s-cache", folder);
+    snprintf(remove, sizeof remove, "rm -rf %s", cache);
+    setenv("XDG_CACHE_HOME", cache, 1);
+    store_off = false;
+    refuse_each("convert tests/data/streams/meshes.tri OUT.tri", EXACT, 0);
+    store_off = true;
+    TEST_ASSERT_EQUAL_INT(0, system(remove));
+}
+
+/* The library's own requests are not refused, and those of loading it are not made. */
+static void load_assimp(void)
+{
+    TEST_ASSERT_NOT_NULL(assimp_load("Assimp", NULL));
+    fault.foreigners = 0;
+    dl_iterate_phdr(fault_find_foreign, NULL);
+}
+
 int main(void)
 {
     soak = getenv("TRIPTYCH_SOAK") != NULL;
@@ -394,6 +417,8 @@ int main(void)
     UNITY_BEGIN();
     TEST_ASSERT_NOT_NULL(mkdtemp(folder));
     snprintf(container, sizeof container, "%s.trib", folder);
+    load_assimp();
+    store_off = true;
     RUN_TEST(test_reading_and_writing_streams);
     RUN_TEST(test_containers);
     RUN_TEST(test_recordings);
@@ -401,6 +426,7 @@ int main(void)
     RUN_TEST(test_pictures);
     RUN_TEST(test_verifying_and_measuring);
     RUN_TEST(test_dumps_lists_and_shaders);
+    RUN_TEST(test_the_cache);
     rmdir(folder);
     printf("%lu runs, %lu requests refused at %u places\n", runs, fault.total, fault_sites->count);
     return UNITY_END();

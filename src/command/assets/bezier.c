@@ -255,6 +255,8 @@ int mesh_read_bezier(struct mesh *mesh, const char *path, unsigned subdivisions,
     int result = lex_start(&bezier.lex, path, text, bytes, error);
     if (!result)
         result = read_patches(&bezier);
+    if (!result && store_add_main_file(&mesh->files, path, text, bytes))
+        result = error_set(error, "%s: not enough memory", path);
     free(text);
     return result;
 }

@@ -1,10 +1,10 @@
 /* Models of foreign formats, imported in a separate process.
  *
  * Assimp reads dozens of formats with hundreds of thousands of lines of C++. Damaged files crash it, let it
- * run forever or exhaust memory. So it runs in a fork (command/assets/isolate.h) that opens the file, imports
+ * run forever or exhaust memory. So it runs in a fork (command/import/isolate.h) that opens the file, imports
  * it and sends the mesh back as bytes. These bytes are checked like those of any file
  * (command/assets/transfer.h). A file that kills the fork is refused with an error. */
-#include "command/assets/isolate.h"
+#include "command/import/isolate.h"
 #include "command/assets/mesh.h"
 #include "command/assets/transfer.h"
 

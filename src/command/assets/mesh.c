@@ -2,6 +2,7 @@
 
 #include "capture/layout.h"
 #include "command/assets/asset.h"
+#include "command/assets/kept.h"
 #include "command/stream/build.h"
 #include "command/assets/weld.h"
 
@@ -24,6 +25,7 @@ void mesh_free(struct mesh *mesh)
     free(mesh->vertices);
     free(mesh->indices);
     skeleton_free(mesh->skeleton);
+    store_free_files(&mesh->files);
     *mesh = (struct mesh){0};
 }
 
@@ -182,7 +184,9 @@ static int make_flat_normals(struct mesh *mesh, const char *path, struct error *
     }
     free(moved);
     made.skeleton = mesh->skeleton;
+    made.files = mesh->files;
     mesh->skeleton = NULL;
+    mesh->files = (struct store_files){0};
     mesh_free(mesh);
     *mesh = made;
     return result;
@@ -374,11 +378,10 @@ static int pack(struct resource *resource, const struct mesh *mesh)
     return 0;
 }
 
-static int finish(struct resource *resource, struct mesh *mesh, const char *path, int result,
-                  struct error *error)
+/* Packs a finished mesh and frees it, also after a failure. */
+static int take(struct resource *resource, struct mesh *mesh, const char *path, int result,
+                struct error *error)
 {
-    if (!result)
-        result = mesh_finish(mesh, path, &resource->options, error);
     if (!result && pack(resource, mesh))
         result = no_memory(path, error);
     if (resource->skeleton)
@@ -387,15 +390,27 @@ static int finish(struct resource *resource, struct mesh *mesh, const char *path
     return result;
 }
 
+static int read_and_finish(struct mesh *mesh, const char *path, const struct mesh_options *options,
+                           struct error *error)
+{
+    int result = options->source == MESH_BEZIER ? mesh_read_bezier(mesh, path, options->subdivisions, error)
+                                                : mesh_read_model(mesh, path, options->bones, error);
+    return result ? result : mesh_finish(mesh, path, options, error);
+}
+
 int mesh_load(struct resource *resource, const char *path, struct error *error)
 {
     const struct mesh_options *options = &resource->options;
     struct mesh mesh = {0};
     if (asset_check_path(path, error))
         return -1;
-    int result = options->source == MESH_BEZIER ? mesh_read_bezier(&mesh, path, options->subdivisions, error)
-                                                : mesh_read_model(&mesh, path, options->bones, error);
-    return finish(resource, &mesh, path, result, error);
+    int result = 0;
+    if (!kept_find(path, options, &mesh)) {
+        result = read_and_finish(&mesh, path, options, error);
+        if (!result)
+            kept_add(path, options, &mesh);
+    }
+    return take(resource, &mesh, path, result, error);
 }
 
 int mesh_make(struct resource *resource, const struct resource *caster, struct error *error)
@@ -405,7 +420,9 @@ int mesh_make(struct resource *resource, const struct resource *caster, struct e
     struct mesh mesh = {0};
     int result = options->source == MESH_SHADOW ? mesh_make_shadow(&mesh, name, options, caster, error)
                                                 : mesh_make_shape(&mesh, name, options, error);
-    return finish(resource, &mesh, name, result, error);
+    if (!result)
+        result = mesh_finish(&mesh, name, options, error);
+    return take(resource, &mesh, name, result, error);
 }
 
 int mesh_check_indices(struct resource *resource, struct error *error)

@@ -8,6 +8,7 @@
 #define COMMAND_ASSETS_MESH_H
 
 #include "command/assets/skeleton.h"
+#include "command/store/files.h"
 #include "command/stream/stream.h"
 
 #include <stdbool.h>
@@ -26,6 +27,7 @@ struct mesh {
     uint32_t index_count, index_capacity;
     bool has_color, has_texcoord;
     struct skeleton *skeleton; /* or null */
+    struct store_files files;  /* all that determine it */
 };
 
 void mesh_free(struct mesh *mesh);

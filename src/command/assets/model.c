@@ -4,10 +4,11 @@
  * Assimp's matrices are for column vectors. Normals are transformed by the cofactors of the upper 3x3 matrix:
  * the inverse transpose up to a positive factor, which also exists for singular matrices. A mirroring node
  * reverses its triangles. */
+#include "command/import/assimp.h"
 #include "command/assets/bones.h"
 #include "command/assets/mesh.h"
+#include "command/import/reading.h"
 
-#include <assimp/cimport.h>
 #include <assimp/config.h>
 #include <assimp/postprocess.h>
 #include <assimp/scene.h>
@@ -108,13 +109,25 @@ static int add_mesh(struct mesh *mesh, const char *path, const struct aiMesh *so
     return 0;
 }
 
+/* a = a * b, with the order of additions that Assimp has. */
+static void multiply(struct aiMatrix4x4 *a, const struct aiMatrix4x4 *b)
+{
+    float x[4][4], y[4][4], product[4][4];
+    memcpy(x, a, sizeof x);
+    memcpy(y, b, sizeof y);
+    for (int i = 0; i < 4; i++)
+        for (int j = 0; j < 4; j++)
+            product[i][j] = x[i][0] * y[0][j] + x[i][1] * y[1][j] + x[i][2] * y[2][j] + x[i][3] * y[3][j];
+    memcpy(a, product, sizeof product);
+}
+
 static int add_node(struct mesh *mesh, const char *path, const struct aiScene *scene,
                     const struct aiNode *node, const struct aiMatrix4x4 *parent, struct error *error)
 {
     struct aiMatrix4x4 matrix = *parent;
     if (!node)
         return 0;
-    aiMultiplyMatrix4(&matrix, &node->mTransformation);
+    multiply(&matrix, &node->mTransformation);
     struct placement placement = make_placement(&matrix);
     for (unsigned i = 0; i < node->mNumMeshes; i++)
         if (node->mMeshes[i] < scene->mNumMeshes &&
@@ -127,10 +140,10 @@ static int add_node(struct mesh *mesh, const char *path, const struct aiScene *s
 }
 
 /* Assimp's reasons can have several lines; only the first is kept. */
-static int fail_import(const char *path, struct error *error)
+static int fail_import(const struct assimp *assimp, const char *path, struct error *error)
 {
     char reason[REASON_BYTES];
-    snprintf(reason, sizeof reason, "%s", aiGetErrorString());
+    snprintf(reason, sizeof reason, "%s", assimp->aiGetErrorString());
     for (char *c = reason; *c; c++)
         if ((unsigned char)*c < ' ')
             *c = ' ';
@@ -186,8 +199,7 @@ static int check_depth(const struct aiNode *node, int depth)
 static int add_scene(struct mesh *mesh, const char *path, const struct aiScene *scene, bool bones,
                      struct error *error)
 {
-    struct aiMatrix4x4 identity;
-    aiIdentityMatrix4(&identity);
+    const struct aiMatrix4x4 identity = {.a1 = 1, .b2 = 1, .c3 = 1, .d4 = 1};
     if (!scene->mRootNode)
         return error_set(error, "%s: no meshes", path);
     if (check_depth(scene->mRootNode, 0))
@@ -204,18 +216,28 @@ int mesh_import_model(struct mesh *mesh, const char *path, bool bones, struct er
     static const unsigned steps = aiProcess_Triangulate | aiProcess_JoinIdenticalVertices |
                                   aiProcess_SortByPType | aiProcess_FlipUVs | aiProcess_ImproveCacheLocality |
                                   aiProcess_FindInvalidData;
-    if (check_file(path, error))
+    const struct assimp *assimp = check_file(path, error) ? NULL : assimp_load(path, error);
+    if (!assimp)
         return -1;
-    struct aiPropertyStore *properties = aiCreatePropertyStore();
-    if (!properties)
-        return error_set(error, "%s: not enough memory", path);
-    aiSetImportPropertyInteger(properties, AI_CONFIG_PP_SBP_REMOVE,
-                               aiPrimitiveType_POINT | aiPrimitiveType_LINE);
-    const struct aiScene *scene = aiImportFileExWithProperties(path, steps, NULL, properties);
-    aiReleasePropertyStore(properties);
-    if (!scene)
-        return fail_import(path, error);
-    int result = add_scene(mesh, path, scene, bones, error);
-    aiReleaseImport(scene);
+    struct aiPropertyStore *properties = assimp->aiCreatePropertyStore();
+    struct reading *reading = properties ? reading_begin(path) : NULL;
+    const struct aiScene *scene = NULL;
+    int result = -1;
+    if (reading) {
+        assimp->aiSetImportPropertyInteger(properties, AI_CONFIG_PP_SBP_REMOVE,
+                                           aiPrimitiveType_POINT | aiPrimitiveType_LINE);
+        scene = assimp_import(assimp, path, steps, reading_functions(reading), properties);
+        if (reading_was_short_of_memory(reading))
+            error_set(error, "%s: not enough memory", path);
+        else
+            result = scene ? add_scene(mesh, path, scene, bones, error) : fail_import(assimp, path, error);
+        reading_end(reading, assimp->path, &mesh->files);
+    } else {
+        error_set(error, "%s: not enough memory", path);
+    }
+    if (scene)
+        assimp_release(assimp, scene);
+    if (properties)
+        assimp->aiReleasePropertyStore(properties);
     return result;
 }

@@ -1,5 +1,5 @@
-/* The format: head, vertices, indices; for a skeleton its head, then joints, bones and animations one by one.
- * A name is its length and its bytes. */
+/* The format: head, vertices, indices, files; for a skeleton its head, then joints, bones and animations one
+ * by one. A name is its length and its bytes. */
 #include "command/assets/transfer.h"
 
 #include <math.h>
@@ -9,11 +9,17 @@
 enum { MAGIC = 0x6873656d, NAME_BYTES = 4096 };
 
 struct head {
-    uint32_t magic, vertices, indices, has_color, has_texcoord, has_skeleton;
+    uint32_t magic, vertices, indices, has_color, has_texcoord, has_skeleton, files;
+};
+
+struct file_head {
+    uint32_t beside, part;
+    struct digest digest;
 };
 
 struct skeleton_head {
-    uint32_t joints, bones, animations;
+    uint32_t joints, bones, animations, zero;
+    double center[3], scale;
 };
 
 /* --- Writing --- */
@@ -22,6 +28,17 @@ static int add_name(struct answer *answer, const char *name)
 {
     uint32_t length = (uint32_t)strnlen(name, NAME_BYTES);
     return isolate_append(answer, &length, sizeof length) || isolate_append(answer, name, length);
+}
+
+static int add_files(struct answer *answer, const struct mesh *mesh)
+{
+    int bad = 0;
+    for (uint32_t i = 0; !bad && i < mesh->files.count; i++) {
+        const struct store_file *file = &mesh->files.file[i];
+        struct file_head head = {file->beside, file->part, file->digest};
+        bad = isolate_append(answer, &head, sizeof head) || add_name(answer, file->name);
+    }
+    return bad;
 }
 
 static int add_animation(struct answer *answer, const struct animation *animation)
@@ -42,7 +59,9 @@ static int add_animation(struct answer *answer, const struct animation *animatio
 
 static int add_skeleton(struct answer *answer, const struct skeleton *skeleton)
 {
-    struct skeleton_head head = {skeleton->joint_count, skeleton->bone_count, skeleton->animation_count};
+    struct skeleton_head head = {
+        skeleton->joint_count, skeleton->bone_count, skeleton->animation_count, 0, {0}, skeleton->scale};
+    memcpy(head.center, skeleton->center, sizeof head.center);
     int bad = isolate_append(answer, &head, sizeof head);
     for (uint32_t j = 0; !bad && j < head.joints; j++) {
         const struct joint *joint = &skeleton->joints[j];
@@ -62,11 +81,12 @@ int transfer_write(const struct mesh *mesh, struct answer *answer)
                         mesh->index_count,
                         mesh->has_color != 0,
                         mesh->has_texcoord != 0,
-                        mesh->skeleton != NULL};
+                        mesh->skeleton != NULL,
+                        mesh->files.count};
     int bad = isolate_append(answer, &head, sizeof head) ||
               isolate_append(answer, mesh->vertices, mesh->vertex_count * sizeof *mesh->vertices) ||
               isolate_append(answer, mesh->indices, mesh->index_count * sizeof *mesh->indices) ||
-              (mesh->skeleton && add_skeleton(answer, mesh->skeleton));
+              add_files(answer, mesh) || (mesh->skeleton && add_skeleton(answer, mesh->skeleton));
     return bad ? -1 : 0;
 }
 
@@ -226,9 +246,13 @@ static int take_skeleton(struct reader *reader, struct mesh *mesh)
     struct skeleton *skeleton = mesh->skeleton = calloc(1, sizeof *skeleton);
     if (!skeleton)
         return error_set(reader->error, "%s: not enough memory", reader->path);
-    skeleton->scale = 1;
-    if (take(reader, &head, sizeof head) || take_joints(reader, skeleton, head.joints) ||
-        take_bones(reader, skeleton, head.bones) ||
+    if (take(reader, &head, sizeof head))
+        return -1;
+    if (!isfinite(head.center[0] + head.center[1] + head.center[2] + head.scale))
+        return damaged(reader, "a skeleton's place is not finite");
+    memcpy(skeleton->center, head.center, sizeof head.center);
+    skeleton->scale = head.scale;
+    if (take_joints(reader, skeleton, head.joints) || take_bones(reader, skeleton, head.bones) ||
         make_room(reader, head.animations, sizeof *skeleton->animations, LEAST, &skeleton->animations))
         return -1;
     while (skeleton->animation_count < head.animations)
@@ -238,6 +262,26 @@ static int take_skeleton(struct reader *reader, struct mesh *mesh)
 }
 
 /* --- Meshes --- */
+
+static int take_files(struct reader *reader, struct mesh *mesh, uint32_t count)
+{
+    if (count > STORE_FILES_MAXIMUM)
+        return damaged(reader, "too many files");
+    for (uint32_t i = 0; i < count; i++) {
+        struct file_head head;
+        char *name = NULL;
+        int bad = take(reader, &head, sizeof head) || take_name(reader, &name);
+        if (!bad && head.part >= PART_COUNT)
+            bad = damaged(reader, "a wrong part of a file");
+        if (!bad &&
+            store_add_file(&mesh->files, &(struct store_file){name, head.beside, head.part, head.digest}))
+            bad = error_set(reader->error, "%s: not enough memory", reader->path);
+        free(name);
+        if (bad)
+            return -1;
+    }
+    return 0;
+}
 
 static int take_mesh(struct reader *reader, struct mesh *mesh)
 {
@@ -255,6 +299,8 @@ static int take_mesh(struct reader *reader, struct mesh *mesh)
     if (take_array(reader, head.indices, sizeof *mesh->indices, &mesh->indices))
         return -1;
     mesh->index_count = mesh->index_capacity = head.indices;
+    if (take_files(reader, mesh, head.files))
+        return -1;
     if (head.has_skeleton && take_skeleton(reader, mesh))
         return -1;
     return reader->left ? damaged(reader, "it continues after its end") : check_vertices(reader, mesh);

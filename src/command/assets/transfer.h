@@ -1,11 +1,11 @@
-/* A mesh with its skeleton as bytes, sent from the importing process (command/assets/isolate.h).
+/* A mesh with its skeleton as bytes, sent from the importing process (command/import/isolate.h).
  *
  * Both processes run the same program, so numbers and arrays are sent as they are in memory. A file may have
  * compromised the importing process, so the reader checks every value. */
 #ifndef COMMAND_ASSETS_TRANSFER_H
 #define COMMAND_ASSETS_TRANSFER_H
 
-#include "command/assets/isolate.h"
+#include "command/import/isolate.h"
 #include "command/assets/mesh.h"
 
 /* Returns 0, or -1 if memory is short. */

@@ -25,6 +25,9 @@ results=$(mktemp -d)
 trap 'rm -rf "$results"' EXIT
 export results
 
+# Tests have a cache of their own (src/command/store/store.h).
+export XDG_CACHE_HOME=$results/cache
+
 # Unity prints FILE:LINE:NAME:PASS or FILE:LINE:NAME:FAIL: REASON, then a summary, and ends with the number of
 # failures; a script ends with anything but 0 if something failed.
 run_one() # NUMBER BUILD TEST : reports, and leaves "PASSED FAILED" in the results

@@ -1,5 +1,6 @@
 /* Files of Bezier patches, made into meshes by every option. The first five bytes choose them. */
 #include "command/assets/mesh.h"
+#include "command/store/store.h"
 #include "tests/command/fuzz/targets/target.h"
 
 #include <math.h>
@@ -39,6 +40,7 @@ static void run(const uint8_t *data, size_t bytes)
     struct error error = {{0}};
     const char *path = fuzz_file(choices.at, (size_t)(choices.end - choices.at));
     fuzz_files = 1;
+    store_off = true;
     if (mesh_load(&mesh, path, &error))
         expect_refusal(&error, path);
     else

@@ -11,11 +11,11 @@
 #define _GNU_SOURCE
 #include "tests/command/fuzz/targets/importer.h"
 
+#include "command/import/assimp.h"
 #include "command/assets/mesh.h"
 #include "command/assets/transfer.h"
 #include "tests/command/fuzz/targets/target.h"
 
-#include <assimp/cimport.h>
 #include <fcntl.h>
 #include <poll.h>
 #include <pthread.h>
@@ -88,14 +88,12 @@ static void forget_callback(void)
 
 /* --- The code that is running ------------------------------------------------------------------------- */
 
-const struct aiScene *__real_aiImportFileExWithProperties(const char *path, unsigned steps,
-                                                          struct aiFileIO *files,
-                                                          const struct aiPropertyStore *properties);
-const struct aiScene *__wrap_aiImportFileExWithProperties(const char *path, unsigned steps,
-                                                          struct aiFileIO *files,
-                                                          const struct aiPropertyStore *properties);
-void __real_aiReleaseImport(const struct aiScene *scene);
-void __wrap_aiReleaseImport(const struct aiScene *scene);
+const struct aiScene *__real_assimp_import(const struct assimp *assimp, const char *path, unsigned steps,
+                                           struct aiFileIO *files, const struct aiPropertyStore *properties);
+const struct aiScene *__wrap_assimp_import(const struct assimp *assimp, const char *path, unsigned steps,
+                                           struct aiFileIO *files, const struct aiPropertyStore *properties);
+void __real_assimp_release(const struct assimp *assimp, const struct aiScene *scene);
+void __wrap_assimp_release(const struct assimp *assimp, const struct aiScene *scene);
 
 static void set_in_assimp(int in_assimp)
 {
@@ -103,20 +101,19 @@ static void set_in_assimp(int in_assimp)
         exchange->in_assimp = in_assimp;
 }
 
-const struct aiScene *__wrap_aiImportFileExWithProperties(const char *path, unsigned steps,
-                                                          struct aiFileIO *files,
-                                                          const struct aiPropertyStore *properties)
+const struct aiScene *__wrap_assimp_import(const struct assimp *assimp, const char *path, unsigned steps,
+                                           struct aiFileIO *files, const struct aiPropertyStore *properties)
 {
     set_in_assimp(1);
-    const struct aiScene *scene = __real_aiImportFileExWithProperties(path, steps, files, properties);
+    const struct aiScene *scene = __real_assimp_import(assimp, path, steps, files, properties);
     set_in_assimp(0);
     return scene;
 }
 
-void __wrap_aiReleaseImport(const struct aiScene *scene)
+void __wrap_assimp_release(const struct assimp *assimp, const struct aiScene *scene)
 {
     set_in_assimp(1);
-    __real_aiReleaseImport(scene);
+    __real_assimp_release(assimp, scene);
     set_in_assimp(0);
 }
 

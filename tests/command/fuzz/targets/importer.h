@@ -2,7 +2,7 @@
 #ifndef TESTS_COMMAND_FUZZ_TARGETS_IMPORTER_H
 #define TESTS_COMMAND_FUZZ_TARGETS_IMPORTER_H
 
-#include "command/assets/isolate.h"
+#include "command/import/isolate.h"
 
 #include <stdbool.h>
 

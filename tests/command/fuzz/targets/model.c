@@ -78,6 +78,7 @@ static void run(const uint8_t *data, size_t bytes)
     unsigned format = choose(&choices, FORMATS), way = choose(&choices, 16), bones = way & 1;
     importer_prepare();
     const char *path = write_model(format, choices.at, (size_t)(choices.end - choices.at));
+    fuzz_files = 1;
     if ((way < 15 ? import : import_alone)(&mesh, path, (int)bones, &error)) {
         expect(!mesh.vertices && !mesh.indices && !mesh.skeleton, "a refused mesh");
         expect_refusal(&error, path);
@@ -87,6 +88,7 @@ static void run(const uint8_t *data, size_t bytes)
                   (mesh.has_color ? 1u << 24 : 0) | (mesh.has_texcoord ? 1u << 25 : 0) | bones << 26);
         expect_finishes(&mesh, path);
     }
+    fuzz_files = 0;
     unlink(path);
     mesh_free(&mesh);
 }

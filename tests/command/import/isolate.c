@@ -1,5 +1,5 @@
 /* Work in a separate process: answers arrive complete, and every failure gives an error of one line. */
-#include "command/assets/isolate.h"
+#include "command/import/isolate.h"
 
 #include "command/assets/mesh.h"
 #include "command/assets/transfer.h"

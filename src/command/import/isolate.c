@@ -1,7 +1,7 @@
 /* The answer is sent as a head, then the reason or the bytes. The head has their length, because another fork
  * may hold the pipe open so that its end is not seen. */
 #define _GNU_SOURCE
-#include "command/assets/isolate.h"
+#include "command/import/isolate.h"
 
 #include "base/clock.h"
 

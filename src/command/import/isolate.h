@@ -7,8 +7,8 @@
  * The other threads of this process do not exist in the fork, so locks that they held stay locked. The C
  * library handles its own locks (allocation, streams). The work must not use the locks of devices, pools and
  * caches. Thread-safe. */
-#ifndef COMMAND_ASSETS_ISOLATE_H
-#define COMMAND_ASSETS_ISOLATE_H
+#ifndef COMMAND_IMPORT_ISOLATE_H
+#define COMMAND_IMPORT_ISOLATE_H
 
 #include "base/error.h"
 
