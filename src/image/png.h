@@ -24,8 +24,8 @@ int png_load(const char *path, unsigned *width, unsigned *height, uint32_t **rgb
 int png_decode(const char *path, const void *data, size_t bytes, unsigned *width, unsigned *height,
                uint32_t **rgba, struct error *error);
 
-/* Encodes an RGBA8 PNG of a level in memory, which the caller frees; `path` begins the reason. All of its chunks
- * of data are IDAT, and the first is IHDR. Returns 0, or -1 with the reason and *data null. */
+/* Encodes an RGBA8 PNG of a level in memory, which the caller frees; `path` begins the reason. All of its
+ * chunks of data are IDAT, and the first is IHDR. Returns 0, or -1 with the reason and *data null. */
 int png_encode(const char *path, unsigned width, unsigned height, const uint32_t *rgba, unsigned level,
                void **data, size_t *bytes, struct error *error);
 
