@@ -346,11 +346,25 @@ static void test_pictures(void)
     refuse_each("render tests/data/streams/queries.tri --engine emulate --out OUT.png", EXACT, 0);
     refuse_each("render tests/data/streams/target-formats.tri --engine specialize --threads 2 --out OUT.exr",
                 EXACT, 0);
+    refuse_each(
+        "render tests/data/scenes/shadow-volume.tri --engine emulate --draws 0-1 --rate 5 --out OUT.apng",
+        EXACT, 0);
+    refuse_each("render tests/data/streams/primitives.tri --engine emulate --frames 0 --out OUT.y4m", EXACT,
+                0);
+    refuse_each(
+        "render tests/data/streams/primitives.tri --engine emulate --frames all --sheet 2 --out OUT.png",
+        EXACT, 0);
     refuse_each("verify tests/data/streams/targets.tri --engines batch --threads 1 --frames 1", EXACT, 0);
     refuse_each("compare tests/data/goldens/queries.png tests/data/goldens/queries.png", EXACT, 0);
     refuse_each("compare tests/data/goldens/stencil-operations.png tests/data/goldens/texture-addressing.png "
                 "--difference OUT.png",
-                false, 1);
+                EXACT, 1);
+    refuse_each("compare tests/data/goldens/stencil-operations.png tests/data/goldens/texture-addressing.png "
+                "--tolerance 255 --json OUT.json",
+                EXACT, 0);
+    refuse_each("verify tests/data/streams/queries.tri --engines batch --threads 1 --frames 1 --golden "
+                "tests/data/goldens --json OUT.json",
+                EXACT, 0);
 }
 
 static void test_verifying_and_measuring(void)
@@ -381,6 +395,8 @@ static void test_dumps_lists_and_shaders(void)
     refuse_each("list states --json", EXACT, 0);
     refuse_each("list shaders --markdown", EXACT, 0);
     refuse_each("list formats", EXACT, 0);
+    refuse_each("help render --as man", EXACT, 0);
+    refuse_each("help --as zsh", EXACT, 0);
     refuse_each("fuzz --print 3", EXACT, 0);
     refuse_each("shader assemble tests/data/shaders/common/color.psa --json", EXACT, 0);
     refuse_each("shader disassemble tests/data/shaders/common/color.psa --out OUT.txt", EXACT, 0);

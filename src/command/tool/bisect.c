@@ -8,6 +8,7 @@
 #include "command/support/session.h"
 #include "triptych.h"
 
+#include <inttypes.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -103,6 +104,11 @@ static int tell(const struct command *self, const char *path, const struct bisec
     return status;
 }
 
+static void show_progress(uint64_t draw, uint64_t draws)
+{
+    tool_progress("draw %" PRIu64 " of %" PRIu64, draw, draws);
+}
+
 static int find(const struct command *self, const char *path, const struct choice *engines,
                 const struct bisect_options *options, const char *json_path)
 {
@@ -133,7 +139,8 @@ struct settings {
 static int run(const struct command *self, void *data, const struct operands *operands)
 {
     const struct settings *settings = data;
-    struct bisect_options wanted = {BISECT_ANY, BISECT_ANY, BISECT_ANY};
+    struct bisect_options wanted = {
+        .draw = BISECT_ANY, .x = BISECT_ANY, .y = BISECT_ANY, .progress = show_progress};
     struct choice engines;
     if (choose_engines(self, settings->engines, &engines) || tool_check_output(self, settings->json) ||
         (settings->pixel && read_pixel(self, settings->pixel, &wanted)))

@@ -61,9 +61,11 @@ static int run(const struct command *self, void *data, const struct operands *op
         return STATUS_BAD;
     struct stream *stream;
     struct error error = {""};
+    tool_progress("reading %s", input);
     if (settings->salvage ? container_read(input, CONTAINER_SALVAGE, &stream, &error)
                           : stream_read(input, &stream, &error))
         return tool_fail(self, "%s", error.text);
+    tool_progress("writing %s", output);
     int bad = to->save(stream, output, &error);
     stream_free(stream);
     return bad ? tool_fail(self, "%s", error.text) : STATUS_OK;

@@ -99,7 +99,7 @@ static void explain(const struct finding *finding, const struct engine *referenc
                     struct text *explanation)
 {
     static struct bisection bisection;
-    static const struct bisect_options anywhere = {BISECT_ANY, BISECT_ANY, BISECT_ANY};
+    static const struct bisect_options anywhere = {.draw = BISECT_ANY, .x = BISECT_ANY, .y = BISECT_ANY};
     struct error error = {{0}};
     struct stream *stream;
     if (finding->outcome != OUTCOME_DIFFERENT || finding->engine == reference ||

@@ -243,7 +243,7 @@ static void in_a_setup_routine(void)
 
 static void only_the_selected_pixel_is_compared(void)
 {
-    const struct bisect_options options = {BISECT_ANY, 7, 20};
+    const struct bisect_options options = {.draw = BISECT_ANY, .x = 7, .y = 20};
     plant.batch_op = IR_mul_x;
     plant.batch_becomes = IR_add_x;
     run(modulate, "emulate", "batch", &options);
@@ -254,7 +254,7 @@ static void only_the_selected_pixel_is_compared(void)
 
 static void only_the_selected_draw_is_compared(void)
 {
-    const struct bisect_options options = {0, BISECT_ANY, BISECT_ANY};
+    const struct bisect_options options = {.draw = 0, .x = BISECT_ANY, .y = BISECT_ANY};
     plant.batch_op = IR_mul_x;
     plant.batch_becomes = IR_add_x;
     run(modulate, "emulate", "batch", &options);

@@ -440,6 +440,8 @@ static int play(struct search *search, const struct stream *stream, struct strea
     int result = stream_prepare(view, search->device, &player, error);
     for (uint32_t i = 0; i < view->frame_count && !result && !search->found && !search->failed; i++) {
         search->watches = search->options->draw < 0 || search->options->draw == i;
+        if (search->options->progress)
+            search->options->progress(i, view->frame_count);
         result = player_frame(player, i, error);
         if (search->found) {
             search->bisection->draw = i;
@@ -477,7 +479,7 @@ static int search_stream(struct search *search, const struct stream *stream, str
 int bisect(const struct stream *stream, const struct engine *reference, const struct engine *other,
            const struct bisect_options *options, struct bisection *bisection, struct error *error)
 {
-    static const struct bisect_options any = {BISECT_ANY, BISECT_ANY, BISECT_ANY};
+    static const struct bisect_options any = {.draw = BISECT_ANY, .x = BISECT_ANY, .y = BISECT_ANY};
     struct search search = {.engine = {reference, other},
                             .options = options ? options : &any,
                             .bisection = bisection,

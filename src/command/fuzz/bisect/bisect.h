@@ -26,6 +26,7 @@ enum { BISECT_ANY = -1 };
 struct bisect_options {
     int64_t draw; /* from 0, of the whole stream: only this one; or BISECT_ANY */
     int32_t x, y; /* only this pixel; or BISECT_ANY */
+    void (*progress)(uint64_t draw, uint64_t draws); /* called before each draw; or null */
 };
 
 enum bisect_outcome {
