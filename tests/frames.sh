@@ -1,6 +1,6 @@
 #!/bin/bash
-# Many pictures in one process: frames, draws, animations, contact sheets; standard streams as files; comparison
-# with tolerance and with goldens. Given BUILD, TRIPTYCH and SANITIZE by tests/support/scripts/run.sh.
+# Many pictures in one process: frames, draws, animations, contact sheets; standard streams as files;
+# comparison with tolerance and with goldens. Given BUILD, TRIPTYCH and SANITIZE by tests/support/scripts/run.sh.
 set -uo pipefail
 cd "$(dirname "$0")/.."
 
