@@ -342,18 +342,19 @@ def limits():
 
 @text
 def means():
-    """The geometric means of the report, by pair of renderers and group of workloads."""
+    """The geometric means of the report, by pair of renderers, number of cores and group of workloads."""
     rows = [
         [
             f"`{entry['renderer']}`",
-            f"`{entry['against']}`" if "against" in entry else "best peer",
-            entry["text"],
+            f"`{entry['against']}`" if "against" in entry else "itself" if entry["group"] == "cores" else "best peer",
+            "one against all" if entry["group"] == "cores" else entry["cores"],
+            "without hidden layers" if entry["group"] == "cores" else entry["text"],
             f"{entry['mean']:.2f}",
             entry["workloads"],
         ]
         for entry in load("peers")["geometric_means"]
     ]
-    return markdown(["renderer", "against", "over", "times as fast", "workloads"], rows, 3)
+    return markdown(["renderer", "against", "cores", "over", "times as fast", "workloads"], rows, 4)
 
 
 # --- Checks and history ------------------------------------------------------------------------------------------------
