@@ -151,7 +151,7 @@ answers 'list engines' '^emulate ' list engines
 answers 'list states' '^zfunc +COMPARE +lessequal +SP +yes +the comparison' list states
 answers 'list states of stages' '^texcoordindex +TEXCOORDINDEX +0, 1, 2, ... +VP ' list states
 answers 'list words of states' '^CULLMODE +none cw ccw$' list states
-answers 'list states counts them' '^103 render states, [0-9]+ supported' list states
+answers 'list states counts them' "^$(grep -c '^STATE(' src/def/state/state.def) render states, [0-9]+ supported" list states
 answers 'list formats' '^X4R4G4B4 +30 +2 +1 +rgba8 +texture target$' list formats
 answers 'list shaders' '^mad dst, a, b, c +1 +1 +1 +1 +1 +1 +1 +1 +1 +1 +1 *$' list shaders
 answers 'list shaders as JSON' '"ps_1_4":.*2' list shaders --json

@@ -1,8 +1,10 @@
 #include "render/derive/change.h"
 
 /* The words of the column `change` of the tables of states. A change that only affects keys affects the
- * rest through them; only PART_SETTING is derived from states and keys together. */
+ * rest through them; only PART_SETTING is derived from states and keys together. A state with NONE never
+ * changes. */
 enum {
+    CHANGE_NONE = 0,
 #define JOB_PART(name, keys, first, last, meaning) CHANGE_##name = PARTS(name),
 #include "def/job_part.def"
 #undef JOB_PART
@@ -10,6 +12,8 @@ enum {
     CHANGE_KEYS = PARTS(KEYS) | PARTS(SETTING),
     CHANGE_ALL = PARTS_ALL
 };
+
+#define CHANGE_KEYS_AND(part) (CHANGE_KEYS | CHANGE_##part)
 
 #define CHANGE(number, name, kind, initial, units, change, ...) CHANGE_##change,
 
