@@ -1,13 +1,14 @@
 # Triptych's build: `make help` lists the targets.
 #
-# Sources are found, never listed. src/command is the command. All other sources in src, emu and asm are the
-# library. Each tests/**/*.c outside tests/support/ and tests/command/fuzz/targets/ is a Unity program with
-# its own main. Everything built is in $(BUILD). The Unity sources and links to the models of glmark2 and
-# Assimp are always in build/, because draw streams name their models by paths that begin with build/glmark2.
+# Sources are found, never listed. src/command and src/image are the command. All other sources in src, emu
+# and asm are the library. Each tests/**/*.c outside tests/support/ and tests/command/fuzz/targets/ is a Unity
+# program with its own main. Everything built is in $(BUILD). The Unity sources and links to the models of
+# glmark2 and Assimp are always in build/, because draw streams name their models by paths that begin with
+# build/glmark2.
 # `make test` runs this file again for each variant: plain, clang (CC=clang), sanitize (SANITIZE=address) and
 # thread (SANITIZE=thread). `make matrix` and `make coverage` run it for their own variants.
 
-VERSION := $(shell sed -n 's/^#define TRIPTYCH_VERSION "\(.*\)"/\1/p' src/triptych.h)
+VERSION := $(shell sed -n 's/^\#define TRIPTYCH_VERSION  *"\(.*\)"/\1/p' src/triptych.h)
 SONAME  := libtriptych.so.$(firstword $(subst ., ,$(VERSION)))
 
 ifeq ($(origin CC),default)
@@ -29,7 +30,7 @@ MAKEFLAGS += --no-builtin-rules --no-print-directory
 find = $(sort $(shell find $(1) -name '$(2)' 2>/dev/null))
 
 C_SOURCES       := $(call find,src emu,*.c)
-TOOL_SOURCES    := $(filter src/command/%,$(C_SOURCES))
+TOOL_SOURCES    := $(filter src/command/% src/image/%,$(C_SOURCES))
 LIBRARY_SOURCES := $(filter-out $(TOOL_SOURCES),$(C_SOURCES)) $(call find,asm,*.asm)
 TEST_SOURCES    := $(call find,tests,*.c)
 SUPPORT_SOURCES := $(filter tests/support/%,$(TEST_SOURCES))
@@ -54,14 +55,18 @@ PROGRAMS := $(patsubst %.c,$(BUILD)/%,$(call only,$(PROGRAM_SOURCES)))
 SCRIPTS  := $(call only,$(wildcard tests/*.sh))
 COMMAND  := $(if $(TOOL_SOURCES),$(BUILD)/triptych)
 
+# Compiler flags for the library: triptych.pc for the shared one, or for the only one that is installed, and
+# triptych-static.pc for the archive where both are installed.
+PKGCONFIG := $(BUILD)/triptych.pc $(BUILD)/triptych-static.pc
+
 # The sources of tests by their names. A name without a source is an error.
 tests = $(foreach t,$(1),$(or $(wildcard tests/$(t).c),$(error there is no test tests/$(t).c)))
 
 # --- Flags --------------------------------------------------------------------------------------------------
 
 # pkg-config runs at the first use of these variables, because `make test` installs pkg-config.
-LIBRARY_PACKAGES := libpng OpenEXR libxxhash libzstd
-TOOL_PACKAGES    := libcjson
+LIBRARY_PACKAGES := libxxhash libzstd
+TOOL_PACKAGES    := libpng OpenEXR libcjson
 LOADED_PACKAGES  := assimp
 package_includes = $(eval package_includes := $(patsubst -I%,-isystem %,$(filter -I%,\
   $(shell pkg-config --cflags $(LIBRARY_PACKAGES) $(TOOL_PACKAGES) $(LOADED_PACKAGES)))))$(package_includes)
@@ -69,9 +74,9 @@ library_packages = $(eval library_packages := $(shell pkg-config --libs $(LIBRAR
 tool_packages    = $(eval tool_packages := $(shell pkg-config --libs $(TOOL_PACKAGES)))$(tool_packages)
 
 # OpenEXR.pc also names the C++ libraries, and only the C core is used. Zydis has no .pc file in Debian.
-library_libraries = $(filter-out -lOpenEXR-% -lOpenEXRUtil% -lIex% -lIlmThread% -lImath%,$(library_packages)) \
-  -lZydis -lZycore -pthread -lm
-tool_libraries = $(tool_packages) $(library_libraries)
+other_libraries   := -lZydis -lZycore -pthread -lm
+library_libraries = $(library_packages) $(other_libraries)
+tool_libraries = $(filter-out -lOpenEXR-% -lOpenEXRUtil% -lIex% -lIlmThread% -lImath%,$(tool_packages)) $(library_libraries)
 
 # The command loads Assimp when it imports a model, by the name that programs linked with it have.
 assimp_library = $(shell readelf -d "$$(pkg-config --variable=libdir assimp)/libassimp.so" | \
@@ -106,7 +111,7 @@ endif
 SHARED := $(if $(SANITIZE),$(BUILD)/tests/shared.so)
 
 compile = $(CC) -std=gnu17 $(CFLAGS) -Wall -Wextra -Werror -ffp-contract=off -fPIC $(if $(SHARED),,-fvisibility=hidden) -pthread \
-  $(INSTRUMENT) $(CHECKED) -Isrc -I. $(package_includes) $(CPPFLAGS)
+  $(INSTRUMENT) $(CHECKED) -Isrc -I. -I$(BUILD)/include $(package_includes) $(CPPFLAGS)
 link = $(CC) $(CFLAGS) $(INSTRUMENT) -pthread -Wl,--as-needed,--build-id,-z,relro,-z,now $(LDFLAGS)
 
 # Debugging information is most of the size of the 150 test programs.
@@ -127,7 +132,8 @@ unity_flags = -isystem $(dir $(UNITY_SOURCE)) -DUNITY_INCLUDE_DOUBLE -DUNITY_USE
 
 .PHONY: all programs objects check test check-threads matrix coverage soak soak-faults soak-memory bench peers bench-shaders bench-draws mutations gallery verify-external docs fuzzers fuzz-input fuzz-input-smoke dependencies packages install clean format format-check compile_commands.json help FORCE
 
-all: $(BUILD)/libtriptych.a $(if $(SANITIZE),,$(BUILD)/libtriptych.so $(BUILD)/triptych.pc) $(COMMAND) build/glmark2 \
+all: $(BUILD)/libtriptych.a $(if $(SANITIZE),,$(BUILD)/libtriptych.so $(PKGCONFIG) \
+  $(BUILD)/include/triptych/triptych.h) $(COMMAND) build/glmark2 \
   build/assimp
 
 programs: $(PROGRAMS) $(if $(filter tests/peers.sh,$(SCRIPTS)),$(BUILD)/peers/drive $(BUILD)/peers/triptych)
@@ -148,12 +154,28 @@ $(BUILD)/object/%.o: %.asm $(BUILD)/flags
 	@mkdir -p $(@D)
 	$(call say,NASM,$<)$(assemble) -M -MP -MT $@ -MF $(@:.o=.d) $< && $(assemble) $< -o $@
 
+# The enumerations of the public header that follow from tables.
+WORDS       := $(BUILD)/include/triptych_words.h
+WORD_TABLES := $(patsubst %,src/def/state/%.def,kind state sampler_state stage_state value fvf attribute vertex_type \
+  format depth_format)
+
+$(WORDS): src/words.awk $(WORD_TABLES)
+	@mkdir -p $(@D)
+	$(call say,GEN)awk -f $< $(WORD_TABLES) >$@
+
+$(OBJECTS): | $(WORDS)
+
+# The header as it is installed: one file.
+$(BUILD)/include/triptych/triptych.h: src/triptych.h $(WORDS)
+	@mkdir -p $(@D)
+	$(call say,GEN)sed -e '/^#include "triptych_words.h"$$/ { r $(WORDS)' -e 'd; }' $< >$@
+
 # Offsets of C structures for assembly: asm/*/offset.c prints "@NAME value" into its own assembly text.
 ASM_INCLUDES := $(patsubst %.c,$(BUILD)/%.inc,$(call find,asm,offset.c)) $(BUILD)/asm/stitch/argument.inc
 
-$(BUILD)/asm/%.inc: asm/%.c $(BUILD)/flags
+$(BUILD)/asm/%.inc: asm/%.c $(BUILD)/flags | $(WORDS)
 	@mkdir -p $(@D)
-	$(call say,GEN)$(CC) -std=gnu17 -O1 -Wall -Wextra -Werror -Isrc -I. $(CPPFLAGS) -MMD -MP -MT $@ -MF $(@:.inc=.d) -S $< -o $(@:.inc=.s)
+	$(call say,GEN)$(CC) -std=gnu17 -O1 -Wall -Wextra -Werror -Isrc -I. -I$(BUILD)/include $(CPPFLAGS) -MMD -MP -MT $@ -MF $(@:.inc=.d) -S $< -o $(@:.inc=.s)
 	@sed -n 's/.*"@\([A-Z_]*\) \(-\{0,1\}[0-9]*\)".*/%define \1 \2/p' $(@:.inc=.s) >$@
 
 # The arguments of the stitcher's fragments by name: argument_FRAGMENT.NAME is the argument's number.
@@ -266,7 +288,7 @@ $(addprefix $(BUILD)/fuzz/,$(FUZZERS)): $(BUILD)/fuzz/inputs
 
 # Files with a text, rewritten only when the text changes. The text does not depend on the spelling of BUILD,
 # because one test installs from the build that other tests use at that time.
-$(BUILD)/flags: text = $(compile) $(unity_flags) $(link) $(assemble)
+$(BUILD)/flags: text = $(subst -I$(BUILD)/,-I,$(compile) $(unity_flags) $(link) $(assemble))
 $(BUILD)/library.list: text = $(LIBRARY_OBJECTS:$(BUILD)/%=%)
 $(BUILD)/command.list: text = $(TOOL_OBJECTS:$(BUILD)/%=%)
 $(BUILD)/support.list: text = $(SUPPORT_OBJECTS:$(BUILD)/%=%)
@@ -280,16 +302,29 @@ prefix=$(PREFIX)
 libdir=$${prefix}/lib
 includedir=$${prefix}/include
 
-Name: triptych
+Name: $(basename $(@F))
 Description: one graphics pipeline run by interchangeable execution engines with identical results
 Version: $(VERSION)
-Libs: -L$${libdir} -ltriptych
-Libs.private: $(library_libraries)
 Cflags: -I$${includedir}/triptych
+$(pkgconfig_libraries)
 endef
 
+define pkgconfig_shared
+Libs: -L$${libdir} -ltriptych
+Requires.private: $(LIBRARY_PACKAGES)
+Libs.private: $(other_libraries)
+endef
+
+define pkgconfig_static
+Libs: $${libdir}/libtriptych.a $(other_libraries)
+Requires: $(LIBRARY_PACKAGES)
+endef
+
+$(BUILD)/triptych.pc: pkgconfig_libraries = $(pkgconfig_shared)
+$(BUILD)/triptych-static.pc: pkgconfig_libraries = $(pkgconfig_static)
+
 # Make writes the file before it runs the lines of the recipe.
-$(BUILD)/triptych.pc: Makefile FORCE
+$(PKGCONFIG): Makefile FORCE
 	@$(shell mkdir -p $(@D))$(file >$@.new,$(pkgconfig))cmp -s $@.new $@ && rm $@.new || mv $@.new $@
 
 # Manual pages and completions of shells, from the tables of options.
@@ -454,20 +489,16 @@ gallery: all
 	@$(COMMAND) render tests/data/scenes/shadow-volume.tri --engine emulate --draws all --sheet 5 --out docs/images/draws.png
 	@GOLDENS=write TRIPTYCH=$(COMMAND) tests/inspect.sh
 
-# The tables that the public header includes.
-PUBLIC_TABLES = $(addprefix src/,$(shell sed -n 's/^#include "\(.*\)"/\1/p' src/triptych.h))
-
 installed = $(DESTDIR)$(PREFIX)
 
 install: all $(PAGES) $(COMPLETIONS)
 	install -d $(installed)/bin $(installed)/include/triptych $(installed)/lib/pkgconfig
 	install -m 755 $(COMMAND) $(installed)/bin/
-	install -m 644 src/triptych.h $(installed)/include/triptych/
-	for table in $(PUBLIC_TABLES:src/%=%); do install -D -m 644 src/$$table $(installed)/include/triptych/$$table || exit; done
+	install -m 644 $(BUILD)/include/triptych/triptych.h $(installed)/include/triptych/
 	install -m 644 $(BUILD)/libtriptych.a $(installed)/lib/
 	install -m 755 $(BUILD)/$(SONAME) $(installed)/lib/
 	ln -sf $(SONAME) $(installed)/lib/libtriptych.so
-	install -m 644 $(BUILD)/triptych.pc $(installed)/lib/pkgconfig/
+	install -m 644 $(PKGCONFIG) $(installed)/lib/pkgconfig/
 	for file in $(patsubst $(BUILD)/%,%,$(PAGES) $(COMPLETIONS)); do install -D -m 644 $(BUILD)/$$file $(installed)/$$file || exit; done
 
 clean:
@@ -480,7 +511,7 @@ comma := ,
 database_entry = {"directory": "$(CURDIR)", "file": "$(1)", \
   "command": "$(compile) $(if $(filter tests/%,$(1)),$(unity_flags)) -x c -c $(1)"}
 
-$(BUILD)/compile_commands.json: FORCE
+$(BUILD)/compile_commands.json: $(WORDS) FORCE
 	@mkdir -p $(@D)
 	@$(file >$@.new,[)$(foreach f,$(DATABASE_FILES),$(file >>$@.new,$(call database_entry,$(f))$(if \
 	  $(filter-out $(lastword $(DATABASE_FILES)),$(f)),$(comma))))$(file >>$@.new,])mv $@.new $@

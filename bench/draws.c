@@ -45,7 +45,7 @@ static void change_nothing(struct bench *bench, uint32_t i)
 static void change_factor(struct bench *bench, uint32_t i)
 {
     check(bench->device,
-          triptych_set_state(bench->device, TRIPTYCH_STATE_texturefactor, 0xff000000 | i * 0x010307));
+          triptych_set_state(bench->device, TRIPTYCH_STATE_TEXTUREFACTOR, 0xff000000 | i * 0x010307));
 }
 
 static void change_world(struct bench *bench, uint32_t i)
@@ -85,7 +85,7 @@ static void change_texture(struct bench *bench, uint32_t i)
 
 static void change_state(struct bench *bench, uint32_t i)
 {
-    check(bench->device, triptych_set_state(bench->device, TRIPTYCH_STATE_alphablendenable, i & 1));
+    check(bench->device, triptych_set_state(bench->device, TRIPTYCH_STATE_ALPHABLENDENABLE, i & 1));
 }
 
 static void change_stream(struct bench *bench, uint32_t i)
@@ -167,8 +167,8 @@ static void make(struct bench *bench, const struct triptych_options *options)
         {0, 0, TRIPTYCH_FORMAT_FLOAT3, TRIPTYCH_USAGE_POSITION, 0},
         {0, 12, TRIPTYCH_FORMAT_FLOAT3, TRIPTYCH_USAGE_NORMAL, 0}};
     check(device, triptych_set_declaration(device, elements, 2));
-    check(device, triptych_set_state(device, TRIPTYCH_STATE_cullmode, 1));
-    check(device, triptych_set_state(device, TRIPTYCH_STATE_zenable, 0));
+    check(device, triptych_set_state(device, TRIPTYCH_STATE_CULLMODE, 1));
+    check(device, triptych_set_state(device, TRIPTYCH_STATE_ZENABLE, 0));
     check(device, triptych_enable_light(device, 0, 1));
 }
 
@@ -189,15 +189,15 @@ static void prepare(struct bench *bench, const struct mode *mode)
     check(device, triptych_set_pixel_shader(device, mode->shaders ? bench->pixel_shader : NULL));
     check(device, triptych_set_stream(device, 0, bench->vertices, 0, 24));
     check(device, triptych_set_texture(device, 0, mode->textured ? bench->texture[0] : NULL));
-    check(device, triptych_set_state(device, TRIPTYCH_STATE_texturefactor, 0xff4080c0));
-    check(device, triptych_set_state(device, TRIPTYCH_STATE_alphablendenable, 0));
-    check(device, triptych_set_state(device, TRIPTYCH_STATE_lighting, (uint32_t)mode->lit));
-    check(device, triptych_set_stage_state(device, 0, TRIPTYCH_STAGE_colorop, mode->textured ? 4 : 2));
-    check(device, triptych_set_stage_state(device, 0, TRIPTYCH_STAGE_colorarg1,
+    check(device, triptych_set_state(device, TRIPTYCH_STATE_TEXTUREFACTOR, 0xff4080c0));
+    check(device, triptych_set_state(device, TRIPTYCH_STATE_ALPHABLENDENABLE, 0));
+    check(device, triptych_set_state(device, TRIPTYCH_STATE_LIGHTING, (uint32_t)mode->lit));
+    check(device, triptych_set_stage_state(device, 0, TRIPTYCH_STAGE_COLOROP, mode->textured ? 4 : 2));
+    check(device, triptych_set_stage_state(device, 0, TRIPTYCH_STAGE_COLORARG1,
                                            mode->textured ? 2
                                            : mode->lit    ? 0
                                                           : 3)); /* texture, diffuse or factor */
-    check(device, triptych_set_stage_state(device, 0, TRIPTYCH_STAGE_colorarg2, 3));
+    check(device, triptych_set_stage_state(device, 0, TRIPTYCH_STAGE_COLORARG2, 3));
 }
 
 struct duration {
@@ -224,7 +224,7 @@ static struct duration run(struct bench *bench, const struct mode *mode, uint32_
 static uint64_t hash_picture(struct bench *bench)
 {
     static uint32_t image[SIZE * SIZE];
-    check(bench->device, triptych_read_color(bench->device, image));
+    check(bench->device, triptych_read_color(bench->device, image, sizeof image));
     uint64_t hash = 0xcbf29ce484222325;
     for (size_t i = 0; i < SIZE * SIZE; i++)
         hash = (hash ^ image[i]) * 0x100000001b3;

@@ -30,7 +30,12 @@ extern "C" {
 #define TRIPTYCH_API
 #endif
 
-#define TRIPTYCH_VERSION "0.1.0"
+/* The version of this header. triptych_version() returns that of the library in the same form. Versions with
+ * the same major number are compatible, except that before 1.0.0 a new minor number may change anything. */
+#define TRIPTYCH_VERSION_MAJOR 0
+#define TRIPTYCH_VERSION_MINOR 2
+#define TRIPTYCH_VERSION_PATCH 0
+#define TRIPTYCH_VERSION       "0.2.0"
 
 enum triptych_result {
     TRIPTYCH_OK = 0,
@@ -48,28 +53,11 @@ typedef struct triptych_texture triptych_texture; /* 2D, cube or volume, with le
 typedef struct triptych_shader triptych_shader;   /* of vertices or pixels */
 typedef struct triptych_query triptych_query;     /* a measurement during rendering */
 
-/* States, in three tables: render states, sampler states and texture stage states. */
-enum triptych_state {
-#define STATE(number, name, ...) TRIPTYCH_STATE_##name,
-#include "def/state/state.def"
-#undef STATE
-    TRIPTYCH_STATE_COUNT
-};
+/* Enumerations that follow from tables: states and the words of their values, vertex attributes, and formats.
+ * `make` writes them from src/def/state, and joins them with this file when it installs it. */
+#include "triptych_words.h"
 
-enum triptych_sampler_state {
-#define SAMPLER_STATE(number, name, ...) TRIPTYCH_SAMPLER_##name,
-#include "def/state/sampler_state.def"
-#undef SAMPLER_STATE
-    TRIPTYCH_SAMPLER_STATE_COUNT
-};
-
-enum triptych_stage_state {
-#define STAGE_STATE(number, name, ...) TRIPTYCH_STAGE_##name,
-#include "def/state/stage_state.def"
-#undef STAGE_STATE
-    TRIPTYCH_STAGE_STATE_COUNT
-};
-
+/* States, in three tables. */
 enum triptych_state_table {
     TRIPTYCH_RENDER_STATES,
     TRIPTYCH_SAMPLER_STATES,
@@ -84,26 +72,16 @@ enum triptych_transform {
     TRIPTYCH_TRANSFORM_WORLD,
     TRIPTYCH_TRANSFORM_VIEW,
     TRIPTYCH_TRANSFORM_PROJECTION,
-    TRIPTYCH_TRANSFORM_TEXTURE0,                                 /* and 7 more */
-    TRIPTYCH_TRANSFORM_WORLD1 = TRIPTYCH_TRANSFORM_TEXTURE0 + 8, /* the second of 256 world matrices */
+    TRIPTYCH_TRANSFORM_TEXTURE0,
+    TRIPTYCH_TRANSFORM_TEXTURE1,
+    TRIPTYCH_TRANSFORM_TEXTURE2,
+    TRIPTYCH_TRANSFORM_TEXTURE3,
+    TRIPTYCH_TRANSFORM_TEXTURE4,
+    TRIPTYCH_TRANSFORM_TEXTURE5,
+    TRIPTYCH_TRANSFORM_TEXTURE6,
+    TRIPTYCH_TRANSFORM_TEXTURE7,
+    TRIPTYCH_TRANSFORM_WORLD1, /* the second of 256 world matrices */
     TRIPTYCH_TRANSFORM_COUNT = TRIPTYCH_TRANSFORM_WORLD1 + 255
-};
-
-/* Vertex attributes of the fixed-function pipeline. */
-enum triptych_attribute {
-#define ATTRIBUTE(name, word, usage, index, meaning) TRIPTYCH_##name,
-#include "def/state/attribute.def"
-#undef ATTRIBUTE
-    TRIPTYCH_ATTRIBUTE_COUNT
-};
-
-/* Memory formats of vertex attributes: Direct3D 9's D3DDECLTYPE, plus 1. */
-enum triptych_format {
-    TRIPTYCH_FORMAT_NONE, /* the attribute is absent */
-#define VERTEX_TYPE(name, word, components, encoding, bits, divisor, meaning) TRIPTYCH_FORMAT_##name,
-#include "def/state/vertex_type.def"
-#undef VERTEX_TYPE
-    TRIPTYCH_FORMAT_COUNT
 };
 
 /* Direct3D 9's D3DDECLUSAGE. */
@@ -133,13 +111,6 @@ enum triptych_frequency {
     TRIPTYCH_FREQUENCY_COUNT
 };
 
-/* Formats of textures and targets, by Direct3D 9's numbers. def/state/format.def describes them. */
-enum triptych_surface_format {
-#define FORMAT(name, number, ...) TRIPTYCH_SURFACE_##name = number,
-#include "def/state/format.def"
-#undef FORMAT
-};
-
 enum triptych_texture_type {
     TRIPTYCH_TEXTURE_2D,
     TRIPTYCH_TEXTURE_CUBE,
@@ -155,14 +126,6 @@ enum triptych_face {
     TRIPTYCH_FACE_NEGATIVE_Y,
     TRIPTYCH_FACE_POSITIVE_Z,
     TRIPTYCH_FACE_NEGATIVE_Z
-};
-
-/* Formats of the depth surface (def/state/depth_format.def). TRIPTYCH_DEPTH_none means no depth surface. */
-enum triptych_depth_format {
-#define DEPTH_FORMAT(name, ...) TRIPTYCH_DEPTH_##name,
-#include "def/state/depth_format.def"
-#undef DEPTH_FORMAT
-    TRIPTYCH_DEPTH_COUNT
 };
 
 /* Flags of triptych_clear_buffers. */
@@ -227,20 +190,30 @@ enum triptych_shader_stage { TRIPTYCH_SHADER_VERTEX, TRIPTYCH_SHADER_PIXEL, TRIP
  * vs_2_sw and ps_3_sw can read all floats and integers. */
 enum { TRIPTYCH_SHADER_FLOATS = 8192, TRIPTYCH_SHADER_INTEGERS = 2048, TRIPTYCH_SHADER_BOOLEANS = 16 };
 
+enum triptych_log_level {
+    TRIPTYCH_LOG_ERROR,  /* a call failed: the text is that of triptych_error() */
+    TRIPTYCH_LOG_WARNING /* the call succeeded, and probably not with the intended effect */
+};
+
+/* Receives a line about an event of a device, without a newline. The text is valid during the call. The
+ * function runs in the thread that called the device, and must not call functions of the device. */
+typedef void triptych_log_function(void *user, enum triptych_log_level level, const char *text);
+
 struct triptych_options {
     const char *engine; /* a name that triptych_engine_name() returns; null: "specialize" */
     unsigned threads;   /* rendering threads, including the caller's; 0: one per available processor */
     size_t cache_bytes; /* budget of the routine cache, beyond which unused routines are evicted; 0: 16 MiB */
     int measure;        /* nonzero: measure the time of each routine (triptych_get_routine) */
-    const char
-        /* Receivers of information about generated code: words of def/debug.def, separated by commas. Null:
-         * the value of the environment variable TRIPTYCH_DEBUG. */
-        *debug;
+    /* Receivers of information about generated code: gdb, unwind, perf, jitdump, separated by commas. Null:
+     * the value of the environment variable TRIPTYCH_DEBUG. */
+    const char *debug;
+    triptych_log_function *log; /* null: none */
+    void *log_user;             /* its first argument */
 };
 
 /* A render target: one to four colours and depth. Each colour format must be valid for targets
- * (def/state/format.def). Draws write all colours. A field that is 0 has the value that triptych_set_target
- * uses: one colour, A8R8G8B8. */
+ * (`triptych list formats`). Draws write all colours. A field that is 0 has the value that
+ * triptych_set_target uses: one colour, A8R8G8B8. */
 struct triptych_target_description {
     unsigned width, height; /* pixels, 1 to 8192 */
     enum triptych_depth_format depth_format;
@@ -352,6 +325,7 @@ struct triptych_kind {
     const char *name;
     enum triptych_notation notation;
     double first, last; /* the range, unless the notation is WORDS */
+    const char *prefix; /* of its words in this header, TRIPTYCH_PREFIX_WORD; "" without words */
 };
 
 struct triptych_value {
@@ -366,10 +340,9 @@ struct triptych_state_row {
     unsigned number; /* Direct3D 9's */
     const char *name;
     const struct triptych_kind *kind;
-    const char
-        /* The keys that contain it: letters of V vertex, S setup, P pixel. "job" if none does, "-" if it is
-         * ignored. */
-        *units;
+    /* The keys that contain it: letters of V vertex, S setup, P pixel. "job" if none does, "-" if it is
+     * ignored. */
+    const char *units;
     enum triptych_support support;
     const char *test; /* the test of the state, relative to the folder tests; "" if there is none */
     const char *meaning;
@@ -410,6 +383,9 @@ struct triptych_routine_info {
     const char *instruction_set;
 };
 
+/* Returns the version of the library: "MAJOR.MINOR.PATCH". */
+TRIPTYCH_API const char *triptych_version(void);
+
 /* Creates a device. On failure *device is null, and `reason`, which may be null, receives the reason in at
  * most `size` bytes. */
 TRIPTYCH_API enum triptych_result triptych_device_create(const struct triptych_options *options,
@@ -418,6 +394,8 @@ TRIPTYCH_API enum triptych_result triptych_device_create(const struct triptych_o
 TRIPTYCH_API void triptych_device_destroy(triptych_device *device);
 /* Returns the reason of the last failed call; an empty string if none has failed. */
 TRIPTYCH_API const char *triptych_error(const triptych_device *device);
+/* Sets the function that receives the events of the device from now on; null: none. */
+TRIPTYCH_API void triptych_set_log(triptych_device *device, triptych_log_function *log, void *user);
 
 /* Returns the first failure of an output that options.debug enables, such as a file that cannot be written;
  * an empty string if there is none. Such a failure does not affect other calls. The string is valid until the
@@ -431,6 +409,8 @@ TRIPTYCH_API const char *triptych_engine_name(unsigned i);
 TRIPTYCH_API const char *triptych_engine_description(unsigned i);
 TRIPTYCH_API unsigned triptych_engine_width(unsigned i);
 TRIPTYCH_API const char *triptych_engine_unavailable(unsigned i);
+/* The name of the engine of a device; null without device. */
+TRIPTYCH_API const char *triptych_get_engine(const triptych_device *);
 
 /* Sets the render target: colour RGBA8 and depth binary32, 1 to 8192 pixels per side. The contents start with
  * colour 0 and depth 1. The viewport becomes the whole target with depth 0 to 1, the scissor rectangle the
@@ -457,9 +437,9 @@ TRIPTYCH_API enum triptych_result triptych_copy(triptych_device *, const struct 
 
 /* Reads the texels of a surface as RGBA8 words or as four numbers each, like triptych_read_target. */
 TRIPTYCH_API enum triptych_result triptych_read_surface(triptych_device *, const struct triptych_surface *,
-                                                        uint32_t *rgba);
-TRIPTYCH_API enum triptych_result triptych_read_surface_numbers(triptych_device *,
-                                                                const struct triptych_surface *, float *rgba);
+                                                        uint32_t *rgba, size_t bytes);
+TRIPTYCH_API enum triptych_result
+triptych_read_surface_numbers(triptych_device *, const struct triptych_surface *, float *rgba, size_t bytes);
 
 /* Creates a buffer with a copy of `bytes` bytes, 1 to 2^31 - 1. Its contents never change. */
 TRIPTYCH_API enum triptych_result triptych_buffer_create(triptych_device *, const void *data, size_t bytes,
@@ -615,8 +595,10 @@ TRIPTYCH_API enum triptych_result triptych_query_destroy(triptych_device *, trip
 
 /* Recording: writes calls to a container (docs/container.md) while they are made, with the memory that they
  * read. A recording can start at any time, because it begins with the device's objects and state.
- * triptych_finish ends a frame of the recording. The file appears when the recording stops; a failure to
- * write is reported then, and there is no file. The destruction of the device stops its recording.
+ * triptych_end_frame ends a frame of the recording. The file appears when the recording stops; a failure to
+ * write is reported then, and there is no file. The destruction of the device stops its recording. A
+ * recording without triptych_end_frame is one frame. If pixels were read or rendering was finished several
+ * times, this is a warning (triptych_log_function).
  *
  * With the environment variable TRIPTYCH_RECORD=PATH, each device of the process is recorded from its
  * creation on. From the second device on, the file name has a number before the extension of the path. */
@@ -625,33 +607,99 @@ TRIPTYCH_API enum triptych_result triptych_record_stop(triptych_device *);
 
 /* Renders all pending draws. */
 TRIPTYCH_API enum triptych_result triptych_finish(triptych_device *);
+/* Ends a frame: renders all pending draws, and marks the end of the frame in a recording. A program that
+ * shows pictures calls it once per picture. */
+TRIPTYCH_API enum triptych_result triptych_end_frame(triptych_device *);
 
-/* Render all pending draws, then copy the target: width * height RGBA8 words, depth values from 0 to 1, or
- * stencil values. */
-TRIPTYCH_API enum triptych_result triptych_read_color(triptych_device *, uint32_t *rgba);
-TRIPTYCH_API enum triptych_result triptych_read_depth(triptych_device *, float *depth);
-TRIPTYCH_API enum triptych_result triptych_read_stencil(triptych_device *, uint8_t *stencil);
+/* Reads. Each function below renders all pending draws, then copies to an array of `bytes` bytes. An array
+ * that is too small is an error, and nothing is copied; the rest of a larger array is not changed.
+ *
+ * The target: width * height RGBA8 words, depth values from 0 to 1, or stencil values. */
+TRIPTYCH_API enum triptych_result triptych_read_color(triptych_device *, uint32_t *rgba, size_t bytes);
+TRIPTYCH_API enum triptych_result triptych_read_depth(triptych_device *, float *depth, size_t bytes);
+TRIPTYCH_API enum triptych_result triptych_read_stencil(triptych_device *, uint8_t *stencil, size_t bytes);
 /* Read colour target `t`, from 0, as RGBA8 words, with values clamped to 0..1 and rounded, or exactly, as
  * four numbers per pixel. */
-TRIPTYCH_API enum triptych_result triptych_read_target(triptych_device *, unsigned t, uint32_t *rgba);
-TRIPTYCH_API enum triptych_result triptych_read_target_numbers(triptych_device *, unsigned t, float *rgba);
+TRIPTYCH_API enum triptych_result triptych_read_target(triptych_device *, unsigned t, uint32_t *rgba,
+                                                       size_t bytes);
+TRIPTYCH_API enum triptych_result triptych_read_target_numbers(triptych_device *, unsigned t, float *rgba,
+                                                               size_t bytes);
 /* Reads one sample of each pixel of colour target 0. A null pointer skips its surface. The functions above
  * return the average of all samples' colours, with bytes rounded to nearest, halves up, and the depth and
  * stencil of sample 0. */
 TRIPTYCH_API enum triptych_result triptych_read_sample(triptych_device *, unsigned sample, uint32_t *rgba,
-                                                       float *depth, uint8_t *stencil);
+                                                       size_t rgba_bytes, float *depth, size_t depth_bytes,
+                                                       uint8_t *stencil, size_t stencil_bytes);
 /* Read and write the current target in its stored form, with every sample, depth and stencil. The size in
  * bytes is 0 without a target. Contents can be written to a target with the same description. */
 TRIPTYCH_API size_t triptych_contents_bytes(const triptych_device *);
-TRIPTYCH_API enum triptych_result triptych_read_contents(triptych_device *, void *data);
+TRIPTYCH_API enum triptych_result triptych_read_contents(triptych_device *, void *data, size_t bytes);
 TRIPTYCH_API enum triptych_result triptych_write_contents(triptych_device *, const void *data, size_t bytes);
 /* Read and write all texels of a texture in their stored form: face by face, level by level, RGBA8 words or
  * four binary32 numbers per texel. */
 TRIPTYCH_API size_t triptych_texture_texel_bytes(const triptych_texture *);
 TRIPTYCH_API enum triptych_result triptych_texture_read_texels(triptych_device *, triptych_texture *,
-                                                               void *data);
+                                                               void *data, size_t bytes);
 TRIPTYCH_API enum triptych_result triptych_texture_write_texels(triptych_device *, triptych_texture *,
                                                                 const void *data, size_t bytes);
+
+/* --- Getters -------------------------------------------------------------------------------------------- */
+
+/* Each function below returns what the function of the same name with `set` has set, or the initial value. It
+ * fails like that function for an index or a name that does not exist, and changes nothing then. */
+TRIPTYCH_API enum triptych_result triptych_get_state(triptych_device *, enum triptych_state, uint32_t *value);
+TRIPTYCH_API enum triptych_result triptych_get_sampler_state(triptych_device *, unsigned sampler,
+                                                             enum triptych_sampler_state, uint32_t *value);
+TRIPTYCH_API enum triptych_result triptych_get_stage_state(triptych_device *, unsigned stage,
+                                                           enum triptych_stage_state, uint32_t *value);
+TRIPTYCH_API enum triptych_result triptych_get_transform(triptych_device *, enum triptych_transform,
+                                                         float matrix[4][4]);
+/* Without a target all numbers are 0. */
+TRIPTYCH_API enum triptych_result triptych_get_viewport(triptych_device *, struct triptych_viewport *);
+TRIPTYCH_API enum triptych_result triptych_get_scissor(triptych_device *, struct triptych_rectangle *);
+TRIPTYCH_API enum triptych_result triptych_get_clip_plane(triptych_device *, unsigned i, float plane[4]);
+TRIPTYCH_API enum triptych_result triptych_get_convention(triptych_device *, enum triptych_convention,
+                                                          unsigned *value);
+TRIPTYCH_API enum triptych_result triptych_get_material(triptych_device *, struct triptych_material *);
+TRIPTYCH_API enum triptych_result triptych_get_light(triptych_device *, unsigned index,
+                                                     struct triptych_light *);
+TRIPTYCH_API enum triptych_result triptych_get_light_enable(triptych_device *, unsigned index, int *enable);
+/* Objects: null if none is set. */
+TRIPTYCH_API enum triptych_result triptych_get_texture(triptych_device *, unsigned sampler,
+                                                       triptych_texture **texture);
+TRIPTYCH_API enum triptych_result triptych_get_vertex_shader(triptych_device *, triptych_shader **shader);
+TRIPTYCH_API enum triptych_result triptych_get_pixel_shader(triptych_device *, triptych_shader **shader);
+/* `count` registers from `first` on, as the functions with `set` take them. */
+TRIPTYCH_API enum triptych_result triptych_get_shader_floats(triptych_device *, enum triptych_shader_stage,
+                                                             unsigned first, float *values, unsigned count);
+TRIPTYCH_API enum triptych_result triptych_get_shader_integers(triptych_device *, enum triptych_shader_stage,
+                                                               unsigned first, int32_t *values,
+                                                               unsigned count);
+TRIPTYCH_API enum triptych_result triptych_get_shader_booleans(triptych_device *, enum triptych_shader_stage,
+                                                               unsigned first, int32_t *values,
+                                                               unsigned count);
+/* The elements of the declaration or of the vertex format code, attributes first, without those that
+ * triptych_set_element has set. The array has room for TRIPTYCH_DECLARATION_ELEMENTS. */
+TRIPTYCH_API enum triptych_result
+triptych_get_declaration(triptych_device *, struct triptych_declaration_element *elements, unsigned *count);
+TRIPTYCH_API enum triptych_result triptych_get_stream(triptych_device *, unsigned stream,
+                                                      triptych_buffer **buffer, size_t *offset,
+                                                      size_t *stride);
+TRIPTYCH_API enum triptych_result triptych_get_stream_frequency(triptych_device *, unsigned stream,
+                                                                enum triptych_frequency *, uint32_t *count);
+/* The format is TRIPTYCH_FORMAT_NONE if the attribute is absent or belongs to a declaration. */
+TRIPTYCH_API enum triptych_result triptych_get_element(triptych_device *, enum triptych_attribute,
+                                                       struct triptych_element *);
+/* `bits` is 0 without a buffer. */
+TRIPTYCH_API enum triptych_result triptych_get_indices(triptych_device *, triptych_buffer **buffer,
+                                                       unsigned *bits);
+/* All textures are null while the target is not textures. */
+TRIPTYCH_API enum triptych_result triptych_get_target_textures(triptych_device *,
+                                                               struct triptych_target_textures *);
+/* The bytes of a buffer, and the description of a texture; 0 without an object. */
+TRIPTYCH_API size_t triptych_buffer_get_bytes(const triptych_buffer *);
+TRIPTYCH_API void triptych_texture_get_description(const triptych_texture *,
+                                                   struct triptych_texture_description *);
 /* Returns the description of the target, including the format of its first colour; all 0 without a target. */
 TRIPTYCH_API void triptych_get_target(const triptych_device *, struct triptych_target_description *);
 /* Returns nonzero if 8 unsigned bits per channel can represent all values of the format. */
@@ -670,7 +718,8 @@ TRIPTYCH_API int triptych_get_routine(triptych_device *, unsigned i, struct trip
  * - a table's name: "state", "sampler" or "stage";
  * - its size, the number of copies of each state: 1, TRIPTYCH_SAMPLERS or TRIPTYCH_STAGES;
  * - its rows, numbered like the enumerators of its states; null past the last;
- * - the default of row `row` of sampler or stage `i`. */
+ * - the default of row `row` of sampler or stage `i`.
+ * Rows and tables that do not exist give null or 0. */
 TRIPTYCH_API const char *triptych_table_name(enum triptych_state_table);
 TRIPTYCH_API unsigned triptych_table_size(enum triptych_state_table);
 TRIPTYCH_API const struct triptych_state_row *triptych_state_at(enum triptych_state_table, unsigned row);
@@ -679,7 +728,8 @@ TRIPTYCH_API uint32_t triptych_state_default(enum triptych_state_table, unsigned
 /* Kinds of values:
  * - kind `i`, and value `i` of a kind with words; null past the last;
  * - the value of a kind with a number, and its word; null if there is none;
- * - the number of a word; returns nonzero if there is none. */
+ * - the number of a word; returns nonzero if there is none.
+ * A null kind has no values. */
 TRIPTYCH_API const struct triptych_kind *triptych_kind_at(unsigned i);
 TRIPTYCH_API const struct triptych_value *triptych_value_at(const struct triptych_kind *, unsigned i);
 TRIPTYCH_API const struct triptych_value *triptych_value_find(const struct triptych_kind *, uint32_t number);

@@ -20,7 +20,7 @@ done
 # compile COMPILER HEADER: the header as the only include of a file.
 compile() {
     printf '#include "%s"\n' "$2" |
-        "$1" -std=gnu17 -Wall -Wextra -Werror -Isrc -I. -x c -fsyntax-only - >"$scratch/$1.${2//\//_}" 2>&1 ||
+        "$1" -std=gnu17 -Wall -Wextra -Werror -Isrc -I. -I"$BUILD/include" -x c -fsyntax-only - >"$scratch/$1.${2//\//_}" 2>&1 ||
         echo "$1 $2"
 }
 export -f compile

@@ -51,7 +51,7 @@ const char *renderer_open(const struct workload *workload)
 const char *renderer_limit(bool limited)
 {
     const char *reason = reason_of(triptych_set_scissor(device, 508, 508, 8, 8));
-    return reason ? reason : reason_of(triptych_set_state(device, TRIPTYCH_STATE_scissortestenable, limited));
+    return reason ? reason : reason_of(triptych_set_state(device, TRIPTYCH_STATE_SCISSORTESTENABLE, limited));
 }
 
 /* The first frame prepares the device; the others follow it without playing it again. */
@@ -63,7 +63,7 @@ const char *renderer_frame(bool less)
 const char *renderer_read(uint32_t *rgba, bool *upward)
 {
     *upward = false;
-    return reason_of(triptych_read_color(device, rgba));
+    return reason_of(triptych_read_color(device, rgba, PIXELS * sizeof *rgba));
 }
 
 const char *renderer_build(unsigned number)

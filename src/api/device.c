@@ -44,7 +44,10 @@ static enum triptych_result create(const struct triptych_options *options, tript
         if (options->debug)
             device_options.debug = options->debug;
     }
-    return device_create(engine, &device_options, device, error);
+    enum triptych_result result = device_create(engine, &device_options, device, error);
+    if (result == TRIPTYCH_OK && options)
+        triptych_set_log(*device, options->log, options->log_user);
+    return result;
 }
 
 enum triptych_result triptych_device_create(const struct triptych_options *options, triptych_device **device,
@@ -73,13 +76,24 @@ enum triptych_result triptych_device_create(const struct triptych_options *optio
 void triptych_device_destroy(triptych_device *device)
 {
     if (device && device_recorder(device))
-        record_stop(device, NULL);
+        record_close(device);
     device_destroy(device);
+}
+
+const char *triptych_version(void)
+{
+    return TRIPTYCH_VERSION;
 }
 
 const char *triptych_error(const triptych_device *device)
 {
     return device ? device->errors.last.text : "device is null";
+}
+
+void triptych_set_log(triptych_device *device, triptych_log_function *log, void *user)
+{
+    if (device)
+        device->log = (struct device_log){log, user};
 }
 
 const char *triptych_debug_error(triptych_device *device)
@@ -110,6 +124,11 @@ const char *triptych_engine_unavailable(unsigned i)
     return engine_at(i) ? engine_unavailable(engine_at(i)) : NULL;
 }
 
+const char *triptych_get_engine(const triptych_device *device)
+{
+    return device ? device_engine(device)->name : NULL;
+}
+
 /* --- Arguments and results ------------------------------------------------------------------------------ */
 
 static _Thread_local struct error call_error;
@@ -137,8 +156,10 @@ struct error *api_begin_with_both(triptych_device *device, bool first, const cha
 
 enum triptych_result api_finish(triptych_device *device, enum triptych_result result)
 {
-    if (result != TRIPTYCH_OK)
+    if (result != TRIPTYCH_OK) {
         device->errors.last = call_error;
+        device_report(device, TRIPTYCH_LOG_ERROR, device->errors.last.text);
+    }
     return result;
 }
 

@@ -152,6 +152,15 @@ enum triptych_result triptych_finish(triptych_device *device)
     if (!device)
         return TRIPTYCH_BAD_ARGUMENT;
     device_finish(device);
+    record_wait(device);
+    return TRIPTYCH_OK;
+}
+
+enum triptych_result triptych_end_frame(triptych_device *device)
+{
+    if (!device)
+        return TRIPTYCH_BAD_ARGUMENT;
+    device_finish(device);
     record_frame(device);
     return TRIPTYCH_OK;
 }

@@ -1,71 +1,83 @@
 /* Pixels, samples, and the stored contents of targets and textures. */
 #include "api/api.h"
 
-enum triptych_result triptych_read_color(triptych_device *device, uint32_t *rgba)
+/* Ends a function that reads pixels: a recording counts them. */
+static enum triptych_result finish_reading(triptych_device *device, enum triptych_result result)
 {
-    struct error *error = api_begin_with(device, rgba, "image");
-    if (!error)
-        return TRIPTYCH_BAD_ARGUMENT;
-    return api_finish(device, device_read_target(device, 0, rgba, error));
+    if (result == TRIPTYCH_OK)
+        record_wait(device);
+    return api_finish(device, result);
 }
 
-enum triptych_result triptych_read_target(triptych_device *device, unsigned t, uint32_t *rgba)
+enum triptych_result triptych_read_color(triptych_device *device, uint32_t *rgba, size_t bytes)
 {
     struct error *error = api_begin_with(device, rgba, "image");
     if (!error)
         return TRIPTYCH_BAD_ARGUMENT;
-    return api_finish(device, device_read_target(device, t, rgba, error));
+    return finish_reading(device, device_read_target(device, 0, rgba, bytes, error));
 }
 
-enum triptych_result triptych_read_target_numbers(triptych_device *device, unsigned t, float *rgba)
+enum triptych_result triptych_read_target(triptych_device *device, unsigned t, uint32_t *rgba, size_t bytes)
 {
     struct error *error = api_begin_with(device, rgba, "image");
     if (!error)
         return TRIPTYCH_BAD_ARGUMENT;
-    return api_finish(device, device_read_target_numbers(device, t, rgba, error));
+    return finish_reading(device, device_read_target(device, t, rgba, bytes, error));
+}
+
+enum triptych_result triptych_read_target_numbers(triptych_device *device, unsigned t, float *rgba,
+                                                  size_t bytes)
+{
+    struct error *error = api_begin_with(device, rgba, "image");
+    if (!error)
+        return TRIPTYCH_BAD_ARGUMENT;
+    return finish_reading(device, device_read_target_numbers(device, t, rgba, bytes, error));
 }
 
 enum triptych_result triptych_read_surface(triptych_device *device, const struct triptych_surface *surface,
-                                           uint32_t *rgba)
+                                           uint32_t *rgba, size_t bytes)
 {
     struct error *error = api_begin_with_both(device, surface, "surface", rgba, "image");
     if (!error)
         return TRIPTYCH_BAD_ARGUMENT;
-    return api_finish(device, device_read_surface(device, surface, rgba, error));
+    return finish_reading(device, device_read_surface(device, surface, rgba, bytes, error));
 }
 
 enum triptych_result triptych_read_surface_numbers(triptych_device *device,
-                                                   const struct triptych_surface *surface, float *rgba)
+                                                   const struct triptych_surface *surface, float *rgba,
+                                                   size_t bytes)
 {
     struct error *error = api_begin_with_both(device, surface, "surface", rgba, "image");
     if (!error)
         return TRIPTYCH_BAD_ARGUMENT;
-    return api_finish(device, device_read_surface_numbers(device, surface, rgba, error));
+    return finish_reading(device, device_read_surface_numbers(device, surface, rgba, bytes, error));
 }
 
-enum triptych_result triptych_read_depth(triptych_device *device, float *depth)
+enum triptych_result triptych_read_depth(triptych_device *device, float *depth, size_t bytes)
 {
     struct error *error = api_begin_with(device, depth, "image");
     if (!error)
         return TRIPTYCH_BAD_ARGUMENT;
-    return api_finish(device, device_read_depth(device, depth, error));
+    return finish_reading(device, device_read_depth(device, depth, bytes, error));
 }
 
-enum triptych_result triptych_read_stencil(triptych_device *device, uint8_t *stencil)
+enum triptych_result triptych_read_stencil(triptych_device *device, uint8_t *stencil, size_t bytes)
 {
     struct error *error = api_begin_with(device, stencil, "image");
     if (!error)
         return TRIPTYCH_BAD_ARGUMENT;
-    return api_finish(device, device_read_stencil(device, stencil, error));
+    return finish_reading(device, device_read_stencil(device, stencil, bytes, error));
 }
 
 enum triptych_result triptych_read_sample(triptych_device *device, unsigned sample, uint32_t *rgba,
-                                          float *depth, uint8_t *stencil)
+                                          size_t rgba_bytes, float *depth, size_t depth_bytes,
+                                          uint8_t *stencil, size_t stencil_bytes)
 {
     struct error *error = api_begin(device);
     if (!error)
         return TRIPTYCH_BAD_ARGUMENT;
-    return api_finish(device, device_read_sample(device, sample, rgba, depth, stencil, error));
+    const struct sample_images images = {rgba, rgba_bytes, depth, depth_bytes, stencil, stencil_bytes};
+    return finish_reading(device, device_read_sample(device, sample, &images, error));
 }
 
 /* --- Contents ------------------------------------------------------------------------------------------- */
@@ -75,12 +87,12 @@ size_t triptych_contents_bytes(const triptych_device *device)
     return device ? device_contents_bytes(device) : 0;
 }
 
-enum triptych_result triptych_read_contents(triptych_device *device, void *data)
+enum triptych_result triptych_read_contents(triptych_device *device, void *data, size_t bytes)
 {
     struct error *error = api_begin_with(device, data, "data");
     if (!error)
         return TRIPTYCH_BAD_ARGUMENT;
-    return api_finish(device, device_read_contents(device, data, error));
+    return finish_reading(device, device_read_contents(device, data, bytes, error));
 }
 
 enum triptych_result triptych_write_contents(triptych_device *device, const void *data, size_t bytes)
@@ -100,12 +112,15 @@ size_t triptych_texture_texel_bytes(const triptych_texture *texture)
 }
 
 enum triptych_result triptych_texture_read_texels(triptych_device *device, triptych_texture *texture,
-                                                  void *data)
+                                                  void *data, size_t bytes)
 {
-    if (!api_begin_with_both(device, texture, "texture", data, "data"))
+    struct error *error = api_begin_with_both(device, texture, "texture", data, "data");
+    if (!error)
         return TRIPTYCH_BAD_ARGUMENT;
-    device_read_texels(device, texture, data);
-    return TRIPTYCH_OK;
+    enum triptych_result result = device_check_room("texels", bytes, texture_texel_bytes(texture), error);
+    if (result == TRIPTYCH_OK)
+        device_read_texels(device, texture, data);
+    return api_finish(device, result);
 }
 
 enum triptych_result triptych_texture_write_texels(triptych_device *device, triptych_texture *texture,

@@ -19,10 +19,14 @@ static struct slab_link *link_of(const struct slab *slab, void *block)
     return (struct slab_link *)(void *)((uint8_t *)block + link_offset(slab));
 }
 
+static size_t block_bytes(const struct slab *slab)
+{
+    return link_offset(slab) + sizeof(struct slab_link);
+}
+
 static void *map_block(const struct slab *slab)
 {
-    size_t bytes = link_offset(slab) + sizeof(struct slab_link);
-    void *block = mmap(NULL, bytes, PROT_READ | PROT_WRITE, MAP_PRIVATE | MAP_ANONYMOUS, -1, 0);
+    void *block = mmap(NULL, block_bytes(slab), PROT_READ | PROT_WRITE, MAP_PRIVATE | MAP_ANONYMOUS, -1, 0);
     return block == MAP_FAILED ? NULL : block;
 }
 
@@ -46,4 +50,17 @@ void slab_give(struct slab *slab, void *block)
     link->next = slab->free;
     slab->free = link;
     pthread_mutex_unlock(&slab->lock);
+}
+
+void slab_clear(struct slab *slab)
+{
+    pthread_mutex_lock(&slab->lock);
+    struct slab_link *link = slab->free;
+    slab->free = NULL;
+    pthread_mutex_unlock(&slab->lock);
+    while (link) {
+        struct slab_link *next = link->next;
+        munmap(link->block, block_bytes(slab));
+        link = next;
+    }
 }

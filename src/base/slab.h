@@ -1,4 +1,4 @@
-/* Large blocks of one size that are reused and never returned to the system.
+/* Large blocks of one size that are reused. They return to the system when the library is unloaded.
  *
  * A new block is zero and its pages are not yet in memory, so a block may be far larger than the part that is
  * used (calloc would clear all of it when malloc reuses freed memory). A block that is returned keeps its
@@ -28,5 +28,15 @@ void *slab_take(struct slab *slab);
 
 /* Returns a block that slab_take returned; null is allowed. */
 void slab_give(struct slab *slab, void *block);
+
+/* Returns the blocks that are not in use to the system. */
+void slab_clear(struct slab *slab);
+
+/* At file scope: clears the slab when the library is unloaded or the process ends. */
+#define SLAB_CLEAR_AT_UNLOAD(slab)                                                                           \
+    __attribute__((destructor)) static void clear_at_unload(void)                                            \
+    {                                                                                                        \
+        slab_clear(&slab);                                                                                   \
+    }
 
 #endif

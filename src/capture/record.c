@@ -15,8 +15,9 @@ void record_call(struct triptych_device *device, const struct call *call)
     if (!recorder)
         return;
     record_write_call(&recorder->write, call);
-    recorder->drawn =
-        call->type != CALL_FRAME && (recorder->drawn || call_row(call->type)->traits & CALL_DRAWS);
+    bool draws = call_row(call->type)->traits & CALL_DRAWS;
+    recorder->drawn = call->type != CALL_FRAME && (recorder->drawn || draws);
+    recorder->waited = recorder->waited && !draws;
 }
 
 void record_memory_is_short(struct triptych_device *device)
@@ -107,8 +108,33 @@ enum triptych_result record_from_environment(struct triptych_device *device, str
     }
     snprintf(numbered, size, "%.*s-%u%s", (int)stem, path, number, path + stem);
     enum triptych_result result = record_start(device, number > 1 ? numbered : path, error);
+    if (result == TRIPTYCH_OK)
+        device_recorder(device)->from_environment = true;
     free(numbered);
     return result;
+}
+
+/* Reports an event. A program that is recorded by the environment may have no log function; then the standard
+ * error output receives the event. */
+static void report(const struct triptych_device *device, bool from_environment, enum triptych_log_level level,
+                   const char *text)
+{
+    device_report(device, level, text);
+    if (from_environment && !device_has_log(device))
+        fprintf(stderr, "triptych: %s\n", text);
+}
+
+static void warn_of_frames(const struct triptych_device *device)
+{
+    const struct recorder *recorder = device_recorder(device);
+    char text[ERROR_CAPACITY];
+    if (recorder->framed || recorder->waits < 2)
+        return;
+    snprintf(text, sizeof text,
+             "the recording is one frame, although pixels were read or finished %u times: expected "
+             "triptych_end_frame after each frame",
+             recorder->waits);
+    report(device, recorder->from_environment, TRIPTYCH_LOG_WARNING, text);
 }
 
 enum triptych_result record_stop(struct triptych_device *device, struct error *error)
@@ -118,6 +144,7 @@ enum triptych_result record_stop(struct triptych_device *device, struct error *e
         error_set(error, "no calls are recorded: expected record_start first");
         return TRIPTYCH_BAD_CALL;
     }
+    warn_of_frames(device);
     if (recorder->drawn)
         record_frame(device);
     record_open_queries(device, CALL_END_QUERY);
@@ -127,4 +154,13 @@ enum triptych_result record_stop(struct triptych_device *device, struct error *e
     free(recorder->free_numbers);
     free(recorder);
     return result ? TRIPTYCH_FILE_FAILED : TRIPTYCH_OK;
+}
+
+void record_close(struct triptych_device *device)
+{
+    bool from_environment = device_recorder(device)->from_environment;
+    struct error error;
+    error_clear(&error);
+    if (record_stop(device, &error) != TRIPTYCH_OK)
+        report(device, from_environment, TRIPTYCH_LOG_ERROR, error.text);
 }

@@ -8,8 +8,8 @@
  * - A query that spans frames becomes one query in each frame.
  *
  * A recording that starts late begins with the existing resources, their contents, the contents of the
- * targets, and all state that differs from the initial state of streams (record_start.c). triptych_finish
- * ends a frame.
+ * targets, and all state that differs from the initial state of streams (record_start.c). triptych_end_frame
+ * ends a frame. A recording that waited for pixels several times without it is reported as a warning.
  *
  * A failure to write is reported when the recording stops. Until then calls are executed as without a
  * recording. */
@@ -25,6 +25,9 @@ struct recorder;
  * recording also if it fails. */
 enum triptych_result record_start(struct triptych_device *device, const char *path, struct error *error);
 enum triptych_result record_stop(struct triptych_device *device, struct error *error);
+
+/* Ends the recording of a device before its destruction. A failure is reported to the log. */
+void record_close(struct triptych_device *device);
 
 /* Begins the recording of a new device if the environment variable TRIPTYCH_RECORD is set. */
 enum triptych_result record_from_environment(struct triptych_device *device, struct error *error);
@@ -94,6 +97,8 @@ void record_texels(struct triptych_device *device, const triptych_texture *textu
 void record_contents(struct triptych_device *device, const void *data, size_t bytes);
 void record_query(struct triptych_device *device, triptych_query *query, int begin);
 void record_frame(struct triptych_device *device);
+/* The application has waited for what it drew: read pixels or finished rendering. */
+void record_wait(struct triptych_device *device);
 
 /* New resources, and resources before their destruction. The latter are ignored if the device does not have
  * them. */

@@ -411,4 +411,14 @@ void record_frame(struct triptych_device *device)
     record_open_queries(device, CALL_END_QUERY);
     record_call(device, &(struct call){.type = CALL_FRAME, .resource = NO_RESOURCE});
     record_open_queries(device, CALL_BEGIN_QUERY);
+    device_recorder(device)->framed = true;
+}
+
+void record_wait(struct triptych_device *device)
+{
+    struct recorder *recorder = device_recorder(device);
+    if (!recorder || !recorder->drawn || recorder->waited)
+        return;
+    recorder->waited = true;
+    recorder->waits++;
 }

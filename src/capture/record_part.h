@@ -11,7 +11,11 @@ struct recorder {
     uint32_t *free_numbers;    /* numbers of released resources */
     uint32_t free_count, next; /* the first number that was never used */
     uint32_t free_capacity;
-    bool drawn; /* since the last frame */
+    bool drawn;            /* since the last frame */
+    bool framed;           /* the application has ended a frame */
+    bool from_environment; /* started by TRIPTYCH_RECORD */
+    uint32_t waits;        /* of the application, after draws */
+    bool waited;           /* since the last draw */
 };
 
 /* The following functions need a device with a recorder. */

@@ -22,8 +22,8 @@ static const struct row {
     {WORDS_FORMAT, #word, TRIPTYCH_FORMAT_##name},
 #include "def/state/vertex_type.def"
 #undef VERTEX_TYPE
-#define DEPTH_FORMAT(name, storage, depth_bits, stencil_bits, meaning)                                       \
-    {WORDS_DEPTH, #name, TRIPTYCH_DEPTH_##name},
+#define DEPTH_FORMAT(name, word, storage, depth_bits, stencil_bits, meaning)                                 \
+    {WORDS_DEPTH, #word, TRIPTYCH_DEPTH_##name},
 #include "def/state/depth_format.def"
 #undef DEPTH_FORMAT
 };

@@ -12,11 +12,10 @@
 const char *const unit_name[UNIT_COUNT] = {"vertex", "setup", "pixel"};
 
 const uint8_t stage_arguments[STAGE_COUNT] = {
-    [STAGE_SELECT] = 1,       [STAGE_MODULATE] = 2,   [STAGE_MODULATE_2X] = 2,   [STAGE_MODULATE_4X] = 2,
-    [STAGE_ADD] = 2,          [STAGE_ADD_SIGNED] = 2, [STAGE_ADD_SIGNED_2X] = 2, [STAGE_SUBTRACT] = 2,
-    [STAGE_MULTIPLY_ADD] = 3, [STAGE_LERP] = 3,       [STAGE_DOT] = 2,
+#define STAGE_OPERATION(name, arguments, meaning) arguments,
+#include "def/stage.def"
+#undef STAGE_OPERATION
 };
-static_assert(STAGE_COUNT == 11, "every stage has its number of arguments in stage_arguments");
 
 const struct program *key_shader(enum unit unit, const union key *key)
 {

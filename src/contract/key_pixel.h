@@ -48,20 +48,11 @@ enum stencil_operation {
 /* Samples per pixel are a power of two; the key has its exponent. */
 enum { SAMPLES_RADIX = 4, SAMPLES_MAXIMUM = 1 << (SAMPLES_RADIX - 1) };
 
-/* Operations of a texture stage: those that Direct3D 9's reduce to (render/derive). spec/pixel/stage.h
- * defines them. DOT gives all four channels. */
+/* Operations of a texture stage. */
 enum stage {
-    STAGE_SELECT,
-    STAGE_MODULATE,
-    STAGE_MODULATE_2X,
-    STAGE_MODULATE_4X,
-    STAGE_ADD,
-    STAGE_ADD_SIGNED,
-    STAGE_ADD_SIGNED_2X,
-    STAGE_SUBTRACT,
-    STAGE_MULTIPLY_ADD,
-    STAGE_LERP,
-    STAGE_DOT,
+#define STAGE_OPERATION(name, arguments, meaning) STAGE_##name,
+#include "def/stage.def"
+#undef STAGE_OPERATION
     STAGE_COUNT
 };
 

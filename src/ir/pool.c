@@ -4,6 +4,7 @@
 #include "ir/ir.h"
 
 static struct slab recordings = SLAB(sizeof(struct ir));
+SLAB_CLEAR_AT_UNLOAD(recordings)
 
 struct ir *ir_take(enum unit unit, const union key *key, struct error *error)
 {

@@ -50,6 +50,23 @@ static void test_the_last_block_given_is_taken_first(void)
     slab_give(&slab, NULL);
 }
 
+static void test_a_cleared_slab_gives_new_blocks(void)
+{
+    struct slab slab = SLAB(4099);
+    uint8_t *kept = slab_take(&slab), *given = slab_take(&slab);
+    memset(kept, 1, 4099);
+    memset(given, 1, 4099);
+    slab_give(&slab, given);
+    slab_clear(&slab);
+    TEST_ASSERT_EQUAL_UINT8(1, kept[4098]); /* it is in use */
+    uint8_t *fresh = slab_take(&slab);
+    for (int i = 0; i < 4099; i++)
+        TEST_ASSERT_EQUAL_UINT8(0, fresh[i]);
+    slab_give(&slab, fresh);
+    slab_give(&slab, kept);
+    slab_clear(&slab);
+}
+
 static struct slab shared = SLAB(sizeof(int));
 
 /* Counts the rounds in which another thread wrote to the block. */
@@ -91,6 +108,7 @@ int main(void)
     RUN_TEST(test_a_new_block_is_zero_and_aligned);
     RUN_TEST(test_a_block_that_is_used_again_has_its_old_contents);
     RUN_TEST(test_the_last_block_given_is_taken_first);
+    RUN_TEST(test_a_cleared_slab_gives_new_blocks);
     RUN_TEST(test_two_threads_never_have_the_same_block);
     RUN_TEST(test_refused_memory_is_null);
     return UNITY_END();

@@ -52,7 +52,7 @@ static uint64_t digest(triptych_device *of)
 {
     size_t bytes = triptych_contents_bytes(of);
     void *data = malloc(bytes + 1);
-    TEST_ASSERT_EQUAL_INT(TRIPTYCH_OK, bytes ? triptych_read_contents(of, data) : TRIPTYCH_OK);
+    TEST_ASSERT_EQUAL_INT(TRIPTYCH_OK, bytes ? triptych_read_contents(of, data, bytes) : TRIPTYCH_OK);
     uint64_t hash = XXH3_64bits(data, bytes);
     free(data);
     return hash;
@@ -149,11 +149,11 @@ static triptych_buffer *begin_scene(unsigned samples)
 {
     triptych_buffer *buffer;
     const struct triptych_target_description target = {
-        .width = 33, .height = 17, .depth_format = TRIPTYCH_DEPTH_d24s8, .samples = samples};
+        .width = 33, .height = 17, .depth_format = TRIPTYCH_DEPTH_D24S8, .samples = samples};
     good(triptych_set_target_description(device, &target));
     good(triptych_buffer_create(device, corners, sizeof corners, &buffer));
-    good(triptych_set_state(device, TRIPTYCH_STATE_lighting, 0));
-    good(triptych_set_state(device, TRIPTYCH_STATE_cullmode, 1));
+    good(triptych_set_state(device, TRIPTYCH_STATE_LIGHTING, 0));
+    good(triptych_set_state(device, TRIPTYCH_STATE_CULLMODE, 1));
     good(triptych_set_element(device, TRIPTYCH_POSITION,
                               &(struct triptych_element){TRIPTYCH_FORMAT_FLOAT3, buffer, 0, 12}));
     return buffer;
@@ -161,7 +161,7 @@ static triptych_buffer *begin_scene(unsigned samples)
 
 static void end_frame(uint64_t *expected)
 {
-    good(triptych_finish(device));
+    good(triptych_end_frame(device));
     *expected = digest(device);
 }
 
@@ -179,8 +179,8 @@ static void a_recording_may_begin_between_two_draws(void)
     good(triptych_texture_update(device, texture, 0, 0, NULL, dxt, 8, 8));
     good(triptych_texture_generate_mips(device, texture));
     good(triptych_set_texture(device, 0, texture));
-    good(triptych_set_state(device, TRIPTYCH_STATE_stencilenable, 1));
-    good(triptych_set_state(device, TRIPTYCH_STATE_stencilpass, 7));
+    good(triptych_set_state(device, TRIPTYCH_STATE_STENCILENABLE, 1));
+    good(triptych_set_state(device, TRIPTYCH_STATE_STENCILPASS, 7));
     good(triptych_clear_buffers(device, 7, black, 0.75f, 3));
     good(triptych_draw(device, TRIPTYCH_TRIANGLE_LIST, 0, 1));
     good(triptych_record_start(device, file));

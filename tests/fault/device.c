@@ -103,13 +103,13 @@ static void read_target(bool stencil)
     static uint32_t color[PIXELS];
     static float depth[PIXELS];
     static uint8_t stencils[PIXELS];
-    TRY(triptych_read_color(device, color));
-    TRY(triptych_read_depth(device, depth));
+    TRY(triptych_read_color(device, color, sizeof color));
+    TRY(triptych_read_depth(device, depth, sizeof depth));
     add_to_digest(color, sizeof color);
     add_to_digest(depth, sizeof depth);
     if (!stencil)
         return;
-    TRY(triptych_read_stencil(device, stencils));
+    TRY(triptych_read_stencil(device, stencils, sizeof stencils));
     add_to_digest(stencils, sizeof stencils);
 }
 
@@ -184,9 +184,9 @@ static triptych_texture *make_texture(enum triptych_texture_type type, enum trip
 static void sample(unsigned stage, triptych_texture *texture, uint32_t filter)
 {
     TRY(triptych_set_texture(device, stage, texture));
-    TRY(triptych_set_sampler_state(device, stage, TRIPTYCH_SAMPLER_minfilter, filter));
-    TRY(triptych_set_sampler_state(device, stage, TRIPTYCH_SAMPLER_magfilter, filter));
-    TRY(triptych_set_sampler_state(device, stage, TRIPTYCH_SAMPLER_mipfilter, filter));
+    TRY(triptych_set_sampler_state(device, stage, TRIPTYCH_SAMPLER_MINFILTER, filter));
+    TRY(triptych_set_sampler_state(device, stage, TRIPTYCH_SAMPLER_MAGFILTER, filter));
+    TRY(triptych_set_sampler_state(device, stage, TRIPTYCH_SAMPLER_MIPFILTER, filter));
 }
 
 /* A scene with textures of three kinds, several samples a pixel, indices, a query, and a texture that
@@ -195,7 +195,7 @@ static void draw_fixed_function(unsigned threads)
 {
     static const uint16_t indices[] = {0, 5, 9, 14, 3, 8, 21, 30, 2, 11, 17, 26};
     struct triptych_target_description target = {
-        .width = WIDTH, .height = HEIGHT, .depth_format = TRIPTYCH_DEPTH_d24s8, .samples = 4};
+        .width = WIDTH, .height = HEIGHT, .depth_format = TRIPTYCH_DEPTH_D24S8, .samples = 4};
     triptych_query *query;
     triptych_buffer *order;
     uint64_t passed;
@@ -203,9 +203,9 @@ static void draw_fixed_function(unsigned threads)
     TRY(triptych_set_target_description(device, &target));
     clear();
     use_vertices(false);
-    use_state(TRIPTYCH_STATE_cullmode, 1);
-    use_state(TRIPTYCH_STATE_lighting, 1);
-    use_state(TRIPTYCH_STATE_ambient, 0xff404040);
+    use_state(TRIPTYCH_STATE_CULLMODE, 1);
+    use_state(TRIPTYCH_STATE_LIGHTING, 1);
+    use_state(TRIPTYCH_STATE_AMBIENT, 0xff404040);
     TRY(triptych_set_light(device, 0,
                            &(struct triptych_light){.diffuse = {1, 1, 1, 1}, .direction = {0, 0, 1}}));
     TRY(triptych_enable_light(device, 0, 1));
@@ -217,7 +217,7 @@ static void draw_fixed_function(unsigned threads)
     TRY(triptych_set_indices(device, order, 16));
     sample(0, make_texture(TRIPTYCH_TEXTURE_2D, TRIPTYCH_SURFACE_A8R8G8B8), 2);
     sample(1, make_texture(TRIPTYCH_TEXTURE_CUBE, TRIPTYCH_SURFACE_X8R8G8B8), 2);
-    TRY(triptych_set_stage_state(device, 1, TRIPTYCH_STAGE_colorop, 4));
+    TRY(triptych_set_stage_state(device, 1, TRIPTYCH_STAGE_COLOROP, 4));
     TRY(triptych_draw_indexed(device, TRIPTYCH_TRIANGLE_STRIP, 0, 0, 10));
     TRY(triptych_query_result(device, query, &passed));
     add_to_digest(&passed, sizeof passed);
@@ -237,23 +237,23 @@ static void draw_to_textures(unsigned threads)
     TRY(triptych_set_target(device, WIDTH, HEIGHT));
     clear();
     use_vertices(true);
-    use_state(TRIPTYCH_STATE_cullmode, 1);
-    use_state(TRIPTYCH_STATE_lighting, 0);
-    use_state(TRIPTYCH_STATE_vertexblend, 1);
-    use_state(TRIPTYCH_STATE_indexedvertexblendenable, 1);
+    use_state(TRIPTYCH_STATE_CULLMODE, 1);
+    use_state(TRIPTYCH_STATE_LIGHTING, 0);
+    use_state(TRIPTYCH_STATE_VERTEXBLEND, 1);
+    use_state(TRIPTYCH_STATE_INDEXEDVERTEXBLENDENABLE, 1);
     TRY(triptych_set_transform(device, TRIPTYCH_TRANSFORM_WORLD1, matrix));
     for (int i = 0; i < 2; i++)
         TRY(triptych_texture_define(device, &description, &texture[i]));
     TRY(triptych_set_target_textures(device,
                                      &(struct triptych_target_textures){.color = {{texture[0], 0, 0}},
-                                                                        .depth_format = TRIPTYCH_DEPTH_d16}));
+                                                                        .depth_format = TRIPTYCH_DEPTH_D16}));
     clear();
     TRY(triptych_draw(device, TRIPTYCH_TRIANGLE_LIST, 0, 12));
     TRY(triptych_set_target_textures(device, NULL));
     struct triptych_surface from = {texture[0], 0, 0}, to = {texture[1], 0, 0};
     TRY(triptych_copy(device, &from, &(struct triptych_rectangle){0, 0, 32, 32}, &to,
                       &(struct triptych_rectangle){3, 5, 50, 41}, TRIPTYCH_COPY_LINEAR));
-    TRY(triptych_read_surface(device, &to, read));
+    TRY(triptych_read_surface(device, &to, read, sizeof read));
     add_to_digest(read, sizeof read);
     sample(0, texture[1], 1);
     TRY(triptych_draw(device, TRIPTYCH_TRIANGLE_FAN, 0, 20));
@@ -283,7 +283,7 @@ static void draw_with_shaders(unsigned threads)
     TRY(triptych_set_target(device, WIDTH, HEIGHT));
     clear();
     use_vertices(false);
-    use_state(TRIPTYCH_STATE_cullmode, 1);
+    use_state(TRIPTYCH_STATE_CULLMODE, 1);
     shade(
         "vs_3_0\ndef c9, 0.5, 1, 0, 0\ndcl_position v0\ndcl_color v1\ndcl_texcoord v2\ndcl_position o0\n"
         "dcl_color o1\ndcl_texcoord o2\nmov r0, v1\nloop aL, i0\nadd r0, r0, c[aL]\nendloop\nif b1\ncall l0\n"
@@ -316,16 +316,16 @@ static void draw_lines_and_points(unsigned threads)
     TRY(triptych_set_target(device, WIDTH, HEIGHT));
     clear();
     use_vertices(false);
-    use_state(TRIPTYCH_STATE_cullmode, 1);
-    use_state(TRIPTYCH_STATE_lighting, 0);
-    use_state(TRIPTYCH_STATE_clipplaneenable, 1);
-    use_state(TRIPTYCH_STATE_pointsize, triptych_float_bits(5));
+    use_state(TRIPTYCH_STATE_CULLMODE, 1);
+    use_state(TRIPTYCH_STATE_LIGHTING, 0);
+    use_state(TRIPTYCH_STATE_CLIPPLANEENABLE, 1);
+    use_state(TRIPTYCH_STATE_POINTSIZE, triptych_float_bits(5));
     TRY(triptych_set_clip_plane(device, 0, (const float[4]){1, 0.3f, 0, 0.4f}));
     TRY(triptych_set_transform(device, TRIPTYCH_TRANSFORM_PROJECTION, perspective));
     TRY(triptych_draw(device, TRIPTYCH_TRIANGLE_LIST, 0, 12));
     TRY(triptych_draw(device, TRIPTYCH_POINT_LIST, 0, 36));
     TRY(triptych_draw(device, TRIPTYCH_LINE_STRIP, 0, 30));
-    use_state(TRIPTYCH_STATE_fillmode, 2);
+    use_state(TRIPTYCH_STATE_FILLMODE, 2);
     TRY(triptych_draw(device, TRIPTYCH_TRIANGLE_STRIP, 2, 20));
     read_target(false);
 }
@@ -352,11 +352,11 @@ static void draw_instances(unsigned threads)
     TRY(triptych_set_stream(device, 1, place, 0, 16));
     TRY(triptych_set_stream_frequency(device, 0, TRIPTYCH_FREQUENCY_INDEXED, 3));
     TRY(triptych_set_stream_frequency(device, 1, TRIPTYCH_FREQUENCY_INSTANCE, 1));
-    use_state(TRIPTYCH_STATE_cullmode, 1);
-    use_state(TRIPTYCH_STATE_zenable, 0);
-    use_state(TRIPTYCH_STATE_alphablendenable, 1);
-    use_state(TRIPTYCH_STATE_srcblend, 2);
-    use_state(TRIPTYCH_STATE_destblend, 2);
+    use_state(TRIPTYCH_STATE_CULLMODE, 1);
+    use_state(TRIPTYCH_STATE_ZENABLE, 0);
+    use_state(TRIPTYCH_STATE_ALPHABLENDENABLE, 1);
+    use_state(TRIPTYCH_STATE_SRCBLEND, 2);
+    use_state(TRIPTYCH_STATE_DESTBLEND, 2);
     shade("vs_2_0\ndcl_position v0\ndcl_color v1\ndcl_texcoord v2\nmov r0, v2\nadd r0, r0, v0\nmov oPos, "
           "r0\nmov oD0, v1\n",
           "ps_2_0\ndcl v0\nmov r0, v0\nmov oC0, r0\n");
@@ -371,11 +371,11 @@ static void draw_with_many_states(unsigned threads)
     TRY(triptych_set_target(device, WIDTH, HEIGHT));
     clear();
     use_vertices(false);
-    use_state(TRIPTYCH_STATE_cullmode, 1);
-    use_state(TRIPTYCH_STATE_alphablendenable, 1);
+    use_state(TRIPTYCH_STATE_CULLMODE, 1);
+    use_state(TRIPTYCH_STATE_ALPHABLENDENABLE, 1);
     for (uint32_t i = 0; i < 70; i++) {
-        use_state(TRIPTYCH_STATE_srcblend, 1 + i % 10);
-        use_state(TRIPTYCH_STATE_destblend, 3 + i / 10);
+        use_state(TRIPTYCH_STATE_SRCBLEND, 1 + i % 10);
+        use_state(TRIPTYCH_STATE_DESTBLEND, 3 + i / 10);
         TRY(triptych_draw(device, TRIPTYCH_TRIANGLE_LIST, i % 30, 1));
     }
     read_target(false);

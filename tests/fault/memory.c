@@ -78,8 +78,8 @@ static void open_device(void)
     struct triptych_options options = {.engine = engine, .threads = threads, .cache_bytes = cache_bytes};
     OK(triptych_device_create(&options, &device, NULL, 0));
     OK(triptych_set_target(device, SIDE, SIDE));
-    OK(triptych_set_state(device, TRIPTYCH_STATE_lighting, 0));
-    OK(triptych_set_state(device, TRIPTYCH_STATE_cullmode, 1));
+    OK(triptych_set_state(device, TRIPTYCH_STATE_LIGHTING, 0));
+    OK(triptych_set_state(device, TRIPTYCH_STATE_CULLMODE, 1));
     OK(triptych_clear(device, (const float[4]){0}, 1));
 }
 
@@ -204,20 +204,20 @@ static unsigned digit(unsigned long *number, unsigned base)
 /* Nearly all numbers below 151,200 give different keys. The test requires five of six. */
 static void set_state(unsigned long number)
 {
-    OK(triptych_set_state(device, TRIPTYCH_STATE_srcblend, 1 + digit(&number, 10)));
-    OK(triptych_set_state(device, TRIPTYCH_STATE_destblend, 1 + digit(&number, 10)));
-    OK(triptych_set_state(device, TRIPTYCH_STATE_blendop, 1 + digit(&number, 3)));
-    OK(triptych_set_state(device, TRIPTYCH_STATE_zfunc, 2 + digit(&number, 6)));
-    OK(triptych_set_state(device, TRIPTYCH_STATE_alphafunc, 2 + digit(&number, 6)));
-    OK(triptych_set_state(device, TRIPTYCH_STATE_colorwriteenable, 1 + digit(&number, 14)));
+    OK(triptych_set_state(device, TRIPTYCH_STATE_SRCBLEND, 1 + digit(&number, 10)));
+    OK(triptych_set_state(device, TRIPTYCH_STATE_DESTBLEND, 1 + digit(&number, 10)));
+    OK(triptych_set_state(device, TRIPTYCH_STATE_BLENDOP, 1 + digit(&number, 3)));
+    OK(triptych_set_state(device, TRIPTYCH_STATE_ZFUNC, 2 + digit(&number, 6)));
+    OK(triptych_set_state(device, TRIPTYCH_STATE_ALPHAFUNC, 2 + digit(&number, 6)));
+    OK(triptych_set_state(device, TRIPTYCH_STATE_COLORWRITEENABLE, 1 + digit(&number, 14)));
 }
 
 static void draw_with_states(unsigned long states)
 {
     struct triptych_statistics statistics;
     use_grid();
-    OK(triptych_set_state(device, TRIPTYCH_STATE_alphablendenable, 1));
-    OK(triptych_set_state(device, TRIPTYCH_STATE_alphatestenable, 1));
+    OK(triptych_set_state(device, TRIPTYCH_STATE_ALPHABLENDENABLE, 1));
+    OK(triptych_set_state(device, TRIPTYCH_STATE_ALPHATESTENABLE, 1));
     for (unsigned long i = 0; i < states; i++) {
         set_state(i);
         OK(triptych_draw(device, TRIPTYCH_TRIANGLE_LIST, 0, 1));

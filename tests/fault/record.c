@@ -74,7 +74,7 @@ static enum triptych_result draw(enum triptych_result *started)
     if (triptych_device_create(&options, &device, NULL, 0))
         TEST_ASSERT_EQUAL_INT(TRIPTYCH_OK, triptych_device_create(&options, &device, NULL, 0));
     DO(triptych_set_target(device, SIDE, SIDE));
-    DO(triptych_set_state(device, TRIPTYCH_STATE_cullmode, 1));
+    DO(triptych_set_state(device, TRIPTYCH_STATE_CULLMODE, 1));
     DO(triptych_texture_create(device, texels, TEXELS, TEXELS, &texture));
     DO(triptych_set_texture(device, 0, texture));
     DO(triptych_shader_assemble(device, "shader", text, strlen(text), &shader));
@@ -92,14 +92,14 @@ static enum triptych_result draw(enum triptych_result *started)
     draw_once(0.01f);
     DO(triptych_query_result(device, query, &passed));
     DO(triptych_finish(device));
-    DO(triptych_read_color(device, got));
+    DO(triptych_read_color(device, got, sizeof got));
     return *started ? TRIPTYCH_OK : triptych_record_stop(device);
 }
 
 static int read_back(void *user, uint32_t frame, triptych_device *of, struct error *error)
 {
     (void)user, (void)frame, (void)error;
-    return triptych_read_color(of, got);
+    return triptych_read_color(of, got, sizeof got);
 }
 
 /* The recording's last frame is the picture. */

@@ -42,13 +42,13 @@ static unsigned draw(const char *engine, unsigned long at, bool onwards, uint32_
     fault_only_threads(false);
     unsigned workers = pool_workers(device->pool);
     TEST_ASSERT_EQUAL_INT(TRIPTYCH_OK, triptych_set_target(device, SIDE, SIDE));
-    TEST_ASSERT_EQUAL_INT(TRIPTYCH_OK, triptych_set_state(device, TRIPTYCH_STATE_cullmode, 1));
-    TEST_ASSERT_EQUAL_INT(TRIPTYCH_OK, triptych_set_state(device, TRIPTYCH_STATE_ambient, 0xff4080c0));
+    TEST_ASSERT_EQUAL_INT(TRIPTYCH_OK, triptych_set_state(device, TRIPTYCH_STATE_CULLMODE, 1));
+    TEST_ASSERT_EQUAL_INT(TRIPTYCH_OK, triptych_set_state(device, TRIPTYCH_STATE_AMBIENT, 0xff4080c0));
     TEST_ASSERT_EQUAL_INT(TRIPTYCH_OK,
                           triptych_buffer_create(device, corners, sizeof corners, &element.buffer));
     TEST_ASSERT_EQUAL_INT(TRIPTYCH_OK, triptych_set_element(device, TRIPTYCH_POSITION, &element));
     TEST_ASSERT_EQUAL_INT(TRIPTYCH_OK, triptych_draw(device, TRIPTYCH_TRIANGLE_LIST, 0, 2));
-    TEST_ASSERT_EQUAL_INT(TRIPTYCH_OK, triptych_read_color(device, image));
+    TEST_ASSERT_EQUAL_INT(TRIPTYCH_OK, triptych_read_color(device, image, sizeof got));
     triptych_device_destroy(device);
     return workers;
 }

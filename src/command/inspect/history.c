@@ -86,7 +86,7 @@ static cJSON *words_of(const struct target *target, const struct pixel_words *wo
 /* The words of comparisons are those of the state zfunc. */
 static const char *compare_word(unsigned function)
 {
-    const struct triptych_state_row *row = triptych_state_at(TRIPTYCH_RENDER_STATES, TRIPTYCH_STATE_zfunc);
+    const struct triptych_state_row *row = triptych_state_at(TRIPTYCH_RENDER_STATES, TRIPTYCH_STATE_ZFUNC);
     return triptych_value_word(row->kind, function + 1);
 }
 

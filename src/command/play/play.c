@@ -219,7 +219,7 @@ static int perform(struct player *player, uint32_t frame, struct error *error)
         player->handles[i].frame = NOWHERE;
     if (execute_range(player, stream->frames[frame], stream->frames[frame + 1], true, error))
         return -1;
-    if (triptych_finish(player->device))
+    if (triptych_end_frame(player->device))
         return error_set(error, "%s: frame %" PRIu32 ": %s", stream->path, frame,
                          triptych_error(player->device));
     player->next = frame + 1;

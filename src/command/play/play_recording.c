@@ -119,7 +119,7 @@ int player_recorded_frame(struct player *player, uint32_t frame, struct error *e
         player->handles[i].frame = NOWHERE;
     if (play_frame(player, true, error))
         return -1;
-    if (triptych_finish(player->device))
+    if (triptych_end_frame(player->device))
         return fail(player, "finishing", error);
     player->next = frame + 1;
     return 0;

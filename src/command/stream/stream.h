@@ -106,7 +106,7 @@ int stream_prepare(const struct stream *stream, triptych_device *device, struct 
 /* Null is allowed. Frees the stream's resources on the device too. */
 void player_free(struct player *player);
 
-/* Plays frame `frame`, 0 to frame_count - 1, and finishes it (triptych_finish). If the previous call played
+/* Plays frame `frame`, 0 to frame_count - 1, and ends it (triptych_end_frame). If the previous call played
  * frame - 1, only the calls of the frame are executed. Otherwise the states, bindings and targets of all
  * earlier frames are executed first, from the defaults on, without draws and clears. */
 int player_frame(struct player *player, uint32_t frame, struct error *error);

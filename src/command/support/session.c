@@ -122,7 +122,7 @@ static int read_numbers(const struct command *self, const struct session *sessio
     readback->targets = targets;
     int status = one && readback->numbers ? STATUS_OK : tool_fail(self, "no memory for %zu pixels", pixels);
     for (unsigned t = 0; t < targets && !status; t++) {
-        if (triptych_read_target_numbers(session->device, t, one))
+        if (triptych_read_target_numbers(session->device, t, one, pixels * 4 * sizeof *one))
             status = tool_fail(self, "%s: %s", session->stream->path, triptych_error(session->device));
         for (size_t i = 0; i < all && !status; i++)
             memcpy(readback->numbers + (i * targets + t) * 4, one + i % pixels * 4, 4 * sizeof *one);
@@ -133,9 +133,11 @@ static int read_numbers(const struct command *self, const struct session *sessio
 
 static int read_pixels(triptych_device *device, struct readback *readback)
 {
-    return triptych_read_color(device, readback->color) ||
-           (readback->has_depth && triptych_read_depth(device, readback->depth)) ||
-           (readback->has_stencil && triptych_read_stencil(device, readback->stencil));
+    size_t pixels = (size_t)readback->width * readback->height;
+    return triptych_read_color(device, readback->color, pixels * sizeof *readback->color) ||
+           (readback->has_depth &&
+            triptych_read_depth(device, readback->depth, pixels * sizeof *readback->depth)) ||
+           (readback->has_stencil && triptych_read_stencil(device, readback->stencil, pixels));
 }
 
 static int read_samples(triptych_device *device, unsigned samples, struct readback *readback)
@@ -143,9 +145,10 @@ static int read_samples(triptych_device *device, unsigned samples, struct readba
     size_t pixels = (size_t)readback->width * readback->height / samples;
     int bad = 0;
     for (unsigned i = 0; i < samples && !bad; i++)
-        bad = triptych_read_sample(device, i, readback->color + i * pixels,
+        bad = triptych_read_sample(device, i, readback->color + i * pixels, pixels * sizeof *readback->color,
                                    readback->has_depth ? readback->depth + i * pixels : NULL,
-                                   readback->has_stencil ? readback->stencil + i * pixels : NULL);
+                                   pixels * sizeof *readback->depth,
+                                   readback->has_stencil ? readback->stencil + i * pixels : NULL, pixels);
     return bad;
 }
 

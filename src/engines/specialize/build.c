@@ -6,6 +6,7 @@
 
 /* The emitter's table of literals is zero in a new builder and after each build. */
 static struct slab builders = SLAB(sizeof(struct builder));
+SLAB_CLEAR_AT_UNLOAD(builders)
 
 struct builder *specialize_take(struct error *error)
 {

@@ -9,6 +9,12 @@
 /* A plan that is not in use, or null. Simultaneous builds, which are rare, allocate their own. */
 static _Atomic(struct plan *) spare;
 
+/* When the library is unloaded or the process ends. */
+__attribute__((destructor)) static void free_spare(void)
+{
+    free(atomic_exchange(&spare, NULL));
+}
+
 struct plan *plan_take(struct error *error)
 {
     struct plan *plan = atomic_exchange(&spare, NULL);
@@ -32,7 +38,7 @@ static int exceeds(struct error *error, const char *what, unsigned more, unsigne
 int plan_complete(const struct plan *plan, struct error *error)
 {
     if (plan->missing)
-        return error_set(error, "the stitcher has no fragment for an operation of a texture stage");
+        return error_set(error, "the stitcher lacks a fragment for a part of the plan");
     if (plan->dropped)
         return exceeds(error, "parts", plan->dropped, PART_CAPACITY);
     if (plan->unrecorded)

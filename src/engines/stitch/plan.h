@@ -73,10 +73,15 @@ struct plan {
 struct plan *plan_take(struct error *error);
 void plan_give(struct plan *plan);
 
-/* Appends a part and returns its number, or the last part's when there is no room. */
+/* Appends a part and returns its number, or the last part's when there is no room. A planner's table may have
+ * no fragment, which makes the plan unusable. */
 static inline unsigned plan_append(struct plan *plan, const struct fragment *fragment,
                                    union arguments arguments)
 {
+    if (!fragment) {
+        plan->missing++;
+        return plan->count;
+    }
     if (plan->count == PART_CAPACITY) {
         plan->dropped++;
         return PART_CAPACITY - 1;

@@ -143,12 +143,8 @@ static void plan_half_stage(struct plan *plan, int stage, enum stage operation,
         [STAGE_DOT] = &fragment_stage_dot};
     for (int i = 0; i < stage_arguments[operation]; i++)
         plan_argument(plan, stage, i, argument[i]);
-    if (operation == STAGE_SELECT)
-        return;
-    if (combine[operation])
+    if (operation != STAGE_SELECT)
         plan_append_plain(plan, combine[operation]);
-    else
-        plan->missing++;
 }
 
 static bool argument_is(unsigned argument, enum origin origin)

@@ -76,6 +76,15 @@ struct routine *plan_routine(struct plan *plan, const struct engine *engine, str
     return routine;
 }
 
+/* A row of def/engine/cover.def promises stage fragments that a planner's table does not have. */
+static void refuse_key(enum unit unit, const union key *key, struct error *error)
+{
+    char text[KEY_TEXT_CAPACITY];
+    error_set(error,
+              "the stitcher lacks a stage fragment that def/engine/cover.def promises for the %s key %s",
+              unit_name[unit], key_print(unit, key, text));
+}
+
 static struct routine *build(const struct engine *self, struct code_arena *arena, enum unit unit,
                              const union key *key, struct error *error)
 {
@@ -83,6 +92,8 @@ static struct routine *build(const struct engine *self, struct code_arena *arena
     if (!plan)
         return NULL;
     make_plan(plan, self, unit, key);
+    if (plan->missing)
+        refuse_key(unit, key, error);
     struct routine *routine = plan_routine(plan, self, arena, unit, key, error);
     plan_give(plan);
     return routine;

@@ -12,16 +12,6 @@ struct room {
     bool below_zero, alpha;
 };
 
-/* Direct3D's numbers up to INVDESTCOLOR are ours and 1; the later ones are in another order. */
-static uint8_t derive_factor(uint32_t factor)
-{
-    if (factor <= SRCBLEND_invdestcolor)
-        return (uint8_t)(factor - SRCBLEND_zero);
-    if (factor == SRCBLEND_srcalphasat)
-        return FACTOR_SATURATED_ALPHA;
-    return (uint8_t)(factor - SRCBLEND_blendfactor + FACTOR_CONSTANT);
-}
-
 /* A difference with a zero term is a sum or, where targets do not store negative values, zero. A sum of
  * only the new colour is a copy. */
 static struct blending reduce_blending(struct blending b, struct room room)
@@ -61,8 +51,7 @@ static struct blending make_blending(uint32_t operation, uint32_t source, uint32
         source = inverse ? SRCBLEND_invsrcalpha : SRCBLEND_srcalpha;
         target = inverse ? SRCBLEND_srcalpha : SRCBLEND_invsrcalpha;
     }
-    struct blending b = {(uint8_t)(operation - BLENDOP_add + BLEND_ADD),
-                         known_factor(derive_factor(source), room),
+    struct blending b = {derive_blend_operation(operation), known_factor(derive_factor(source), room),
                          known_factor(derive_factor(target), room)};
     return reduce_blending(b, room);
 }

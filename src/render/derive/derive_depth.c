@@ -11,7 +11,7 @@ static void derive_depth_test(const struct state *state, struct pixel_key *key)
     key->depth_function = COMPARE_ALWAYS;
     if (!GET(state, zenable) || !depth_formats[state->depth_format].depth_bits)
         return;
-    key->depth_function = (uint8_t)(GET(state, zfunc) - COMPARE_never);
+    key->depth_function = derive_compare(GET(state, zfunc));
     key->depth_write = GET(state, zwriteenable) && key->depth_function != COMPARE_EQUAL;
 }
 
@@ -22,8 +22,8 @@ struct side {
 
 static struct side make_side(uint32_t function, uint32_t fail, uint32_t depth_fail, uint32_t pass)
 {
-    return (struct side){(uint8_t)(function - COMPARE_never), (uint8_t)(fail - STENCILOP_keep),
-                         (uint8_t)(depth_fail - STENCILOP_keep), (uint8_t)(pass - STENCILOP_keep)};
+    return (struct side){derive_compare(function), derive_stencil_operation(fail),
+                         derive_stencil_operation(depth_fail), derive_stencil_operation(pass)};
 }
 
 /* Equal operations need no decision between them: what cannot happen is made equal to what can. */

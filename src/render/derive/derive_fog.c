@@ -15,14 +15,10 @@ static bool fog_by_w(const struct state *state)
 
 void derive_fog(const struct state *state, struct pixel_key *key)
 {
-    static const uint8_t by_depth[] = {[FOGMODE_none] = FOG_VARYING,
-                                       [FOGMODE_exp] = FOG_EXP_Z,
-                                       [FOGMODE_exp2] = FOG_EXP2_Z,
-                                       [FOGMODE_linear] = FOG_LINEAR_Z};
     if (!GET(state, fogenable))
         return;
     const struct program *vertex = derive_vertex_program(state);
-    key->fog = by_depth[GET(state, fogtablemode)];
+    key->fog = derive_table_fog(GET(state, fogtablemode));
     if (key->fog == FOG_VARYING && vertex && !derive_shader_gives(vertex, USAGE_FOG))
         key->fog = FOG_NONE;
     if (key->fog == FOG_VARYING)
@@ -37,14 +33,14 @@ void derive_fog_formula(const struct state *state, uint32_t mode, float *scale, 
     double start = (double)GET_FLOAT(state, fogstart), end = (double)GET_FLOAT(state, fogend),
            density = (double)GET_FLOAT(state, fogdensity);
     double log2_e = 1.4426950408889634;
-    *offset = 0;
-    switch (mode) {
-    case FOGMODE_exp: *scale = derive_narrow(-density * log2_e); return;
-    case FOGMODE_exp2: *scale = derive_narrow(density * sqrt(log2_e)); return;
-    case FOGMODE_linear:
+    *scale = *offset = 0;
+    switch ((enum triptych_fog)mode) {
+    case TRIPTYCH_FOG_NONE: return;
+    case TRIPTYCH_FOG_EXP: *scale = derive_narrow(-density * log2_e); return;
+    case TRIPTYCH_FOG_EXP2: *scale = derive_narrow(density * sqrt(log2_e)); return;
+    case TRIPTYCH_FOG_LINEAR:
         *scale = derive_narrow(end != start ? -1 / (end - start) : -0x1p64);
         *offset = derive_narrow(end != start ? end / (end - start) : end * 0x1p64);
         return;
-    default: *scale = 0;
     }
 }

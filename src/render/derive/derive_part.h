@@ -11,6 +11,7 @@
 #include "contract/arguments.h"
 #include "render/target/depth.h"
 #include "render/derive/derive.h"
+#include "render/derive/translate.h"
 
 #include <string.h>
 
@@ -22,9 +23,9 @@ enum {
 };
 
 /* Values of `state`: a render state's, sampler i's, stage i's. */
-#define GET(state, name)        ((state)->value[TRIPTYCH_STATE_##name])
-#define SAMPLER(state, i, name) ((state)->sampler[i][TRIPTYCH_SAMPLER_##name])
-#define STAGE(state, i, name)   ((state)->stage[i][TRIPTYCH_STAGE_##name])
+#define GET(state, name)        ((state)->value[STATE_##name])
+#define SAMPLER(state, i, name) ((state)->sampler[i][SAMPLER_##name])
+#define STAGE(state, i, name)   ((state)->stage[i][STAGE_##name])
 
 #define GET_FLOAT(state, name)      bits_to_float(GET(state, name))
 #define STAGE_FLOAT(state, i, name) bits_to_float(STAGE(state, i, name))

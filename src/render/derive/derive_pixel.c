@@ -9,7 +9,9 @@
 /* The test discards the opposite of what it keeps. */
 static uint8_t derive_alpha_discard(const struct state *state)
 {
-    return GET(state, alphatestenable) ? (uint8_t)(COMPARE_always - GET(state, alphafunc)) : COMPARE_NEVER;
+    if (!GET(state, alphatestenable))
+        return COMPARE_NEVER;
+    return (uint8_t)(COMPARE_ALWAYS - derive_compare(GET(state, alphafunc)));
 }
 
 /* Diffuse is read as such, as the current colour that no stage has written yet, or as the result. */

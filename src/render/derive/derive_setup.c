@@ -16,13 +16,17 @@ enum primitive derive_primitive(const struct state *state, enum triptych_primiti
     case TRIPTYCH_POINT_LIST: return PRIMITIVE_POINT;
     case TRIPTYCH_LINE_LIST:
     case TRIPTYCH_LINE_STRIP: return PRIMITIVE_LINE;
-    default: break;
+    case TRIPTYCH_TRIANGLE_LIST:
+    case TRIPTYCH_TRIANGLE_STRIP:
+    case TRIPTYCH_TRIANGLE_FAN:
+    case TRIPTYCH_PRIMITIVE_COUNT: break;
     }
-    switch (GET(state, fillmode)) {
-    case FILLMODE_point: return PRIMITIVE_CORNER;
-    case FILLMODE_wireframe: return PRIMITIVE_EDGE;
-    default: return PRIMITIVE_TRIANGLE;
+    switch ((enum triptych_fill)GET(state, fillmode)) {
+    case TRIPTYCH_FILL_POINT: return PRIMITIVE_CORNER;
+    case TRIPTYCH_FILL_WIREFRAME: return PRIMITIVE_EDGE;
+    case TRIPTYCH_FILL_SOLID: return PRIMITIVE_TRIANGLE;
     }
+    derive_impossible("fill mode", GET(state, fillmode));
 }
 
 enum raster_shape derive_shape(enum primitive primitive)
@@ -48,7 +52,12 @@ bool derive_last_pixel(const struct state *state)
 /* Phong shading is Gouraud shading in Direct3D 9. */
 bool derive_flat(const struct state *state)
 {
-    return GET(state, shademode) == SHADEMODE_flat;
+    switch ((enum triptych_shade)GET(state, shademode)) {
+    case TRIPTYCH_SHADE_FLAT: return true;
+    case TRIPTYCH_SHADE_GOURAUD:
+    case TRIPTYCH_SHADE_PHONG: return false;
+    }
+    derive_impossible("shade mode", GET(state, shademode));
 }
 
 static uint8_t derive_depth_bias(const struct state *state)
@@ -95,7 +104,7 @@ void derive_setup(const struct state *state, enum primitive primitive, const str
     key->point_size = derive_point_size(state, primitive) != POINT_SIZE_CONSTANT;
     if (!primitive_has_area(primitive))
         return;
-    key->cull = (uint8_t)(GET(state, cullmode) - CULLMODE_none);
+    key->cull = derive_cull(GET(state, cullmode));
     key->facing = pixel->stencil == STENCIL_TWO || reads_face(state, pixel);
     if (key->depth)
         key->depth_bias = derive_depth_bias(state);

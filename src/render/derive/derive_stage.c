@@ -1,4 +1,4 @@
-/* Texture stages: Direct3D 9's 26 operations are reduced to the 11 of spec/pixel/stage.h, and the stages
+/* Texture stages: Direct3D 9's 26 operations are reduced to those of def/stage.def, and the stages
  * to those that affect the result. */
 #include "render/derive/derive_part.h"
 #include "contract/key_query.h"
@@ -19,14 +19,16 @@ enum {
 
 static uint8_t derive_argument(uint32_t argument)
 {
-    static const uint8_t source[] = {
-        [ARGUMENT_diffuse] = SOURCE_DIFFUSE,   [ARGUMENT_current] = SOURCE_CURRENT,
-        [ARGUMENT_texture] = SOURCE_TEXTURE,   [ARGUMENT_tfactor] = SOURCE_FACTOR,
-        [ARGUMENT_specular] = SOURCE_SPECULAR, [ARGUMENT_temp] = SOURCE_TEMPORARY,
-        [ARGUMENT_constant] = SOURCE_CONSTANT};
+    static const uint8_t source[SELECTED + 1] = {
+        [ARGUMENT_diffuse] = SOURCE_DIFFUSE + 1,   [ARGUMENT_current] = SOURCE_CURRENT + 1,
+        [ARGUMENT_texture] = SOURCE_TEXTURE + 1,   [ARGUMENT_tfactor] = SOURCE_FACTOR + 1,
+        [ARGUMENT_specular] = SOURCE_SPECULAR + 1, [ARGUMENT_temp] = SOURCE_TEMPORARY + 1,
+        [ARGUMENT_constant] = SOURCE_CONSTANT + 1};
     unsigned flags =
         (argument & COMPLEMENT ? ARGUMENT_COMPLEMENT : 0) + (argument & REPLICATE ? ARGUMENT_REPLICATE : 0);
-    return (uint8_t)(source[argument & SELECTED] + flags);
+    if (!source[argument & SELECTED])
+        derive_impossible("argument of a texture stage", argument);
+    return (uint8_t)(source[argument & SELECTED] - 1 + flags);
 }
 
 /* Where an argument of a reduced operation comes from: argument 1, 2 or 0 of the state, or a source; with
@@ -35,39 +37,50 @@ enum { FIRST, SECOND, THIRD, DIFFUSE, CURRENT, TEXTURE, FACTOR, ORIGIN = 7 };
 
 /* Operations that are others with particular arguments: blends are interpolations by an alpha, and all that
  * end in an addition of a product are one. ADDSMOOTH, a + b - a * b, is a + (1 - a) * b, and rounds alike. */
-static const struct reduction {
+struct reduction {
     uint8_t stage;
     uint8_t argument[STAGE_ARGUMENTS];
-} reductions[] = {
-    [TEXTUREOP_disable] = {STAGE_SELECT, {CURRENT}},
-    [TEXTUREOP_selectarg1] = {STAGE_SELECT, {FIRST}},
-    [TEXTUREOP_selectarg2] = {STAGE_SELECT, {SECOND}},
-    [TEXTUREOP_premodulate] = {STAGE_SELECT, {FIRST}},
-    [TEXTUREOP_modulate] = {STAGE_MODULATE, {FIRST, SECOND}},
-    [TEXTUREOP_modulate2x] = {STAGE_MODULATE_2X, {FIRST, SECOND}},
-    [TEXTUREOP_modulate4x] = {STAGE_MODULATE_4X, {FIRST, SECOND}},
-    [TEXTUREOP_add] = {STAGE_ADD, {FIRST, SECOND}},
-    [TEXTUREOP_addsigned] = {STAGE_ADD_SIGNED, {FIRST, SECOND}},
-    [TEXTUREOP_addsigned2x] = {STAGE_ADD_SIGNED_2X, {FIRST, SECOND}},
-    [TEXTUREOP_subtract] = {STAGE_SUBTRACT, {FIRST, SECOND}},
-    [TEXTUREOP_addsmooth] = {STAGE_MULTIPLY_ADD, {FIRST | COMPLEMENT, SECOND, FIRST}},
-    [TEXTUREOP_blenddiffusealpha] = {STAGE_LERP, {FIRST, SECOND, DIFFUSE | REPLICATE}},
-    [TEXTUREOP_blendtexturealpha] = {STAGE_LERP, {FIRST, SECOND, TEXTURE | REPLICATE}},
-    [TEXTUREOP_blendfactoralpha] = {STAGE_LERP, {FIRST, SECOND, FACTOR | REPLICATE}},
-    [TEXTUREOP_blendcurrentalpha] = {STAGE_LERP, {FIRST, SECOND, CURRENT | REPLICATE}},
-    [TEXTUREOP_blendtexturealphapm] = {STAGE_MULTIPLY_ADD, {TEXTURE | COMPLEMENT | REPLICATE, SECOND, FIRST}},
-    [TEXTUREOP_modulatealpha_addcolor] = {STAGE_MULTIPLY_ADD, {FIRST | REPLICATE, SECOND, FIRST}},
-    [TEXTUREOP_modulatecolor_addalpha] = {STAGE_MULTIPLY_ADD, {FIRST, SECOND, FIRST | REPLICATE}},
-    [TEXTUREOP_modulateinvalpha_addcolor] = {STAGE_MULTIPLY_ADD,
-                                             {FIRST | COMPLEMENT | REPLICATE, SECOND, FIRST}},
-    [TEXTUREOP_modulateinvcolor_addalpha] = {STAGE_MULTIPLY_ADD,
-                                             {FIRST | COMPLEMENT, SECOND, FIRST | REPLICATE}},
-    [TEXTUREOP_bumpenvmap] = {STAGE_SELECT, {CURRENT}}, /* what it does it does to the next stage */
-    [TEXTUREOP_bumpenvmapluminance] = {STAGE_SELECT, {CURRENT}},
-    [TEXTUREOP_dotproduct3] = {STAGE_DOT, {FIRST, SECOND}},
-    [TEXTUREOP_multiplyadd] = {STAGE_MULTIPLY_ADD, {FIRST, SECOND, THIRD}},
-    [TEXTUREOP_lerp] = {STAGE_LERP, {FIRST, SECOND, THIRD}},
 };
+
+/* There is no default, so an operation without a row does not compile. Other numbers cannot be set. */
+static const struct reduction *reduction_of(uint32_t operation)
+{
+#define CASE(operation, ...)                                                                                 \
+    case TRIPTYCH_TEXTUREOP_##operation: {                                                                   \
+        static const struct reduction reduction = {__VA_ARGS__};                                             \
+        return &reduction;                                                                                   \
+    }
+    switch ((enum triptych_textureop)operation) {
+        CASE(DISABLE, STAGE_SELECT, {CURRENT})
+        CASE(SELECTARG1, STAGE_SELECT, {FIRST})
+        CASE(SELECTARG2, STAGE_SELECT, {SECOND})
+        CASE(PREMODULATE, STAGE_SELECT, {FIRST})
+        CASE(MODULATE, STAGE_MODULATE, {FIRST, SECOND})
+        CASE(MODULATE2X, STAGE_MODULATE_2X, {FIRST, SECOND})
+        CASE(MODULATE4X, STAGE_MODULATE_4X, {FIRST, SECOND})
+        CASE(ADD, STAGE_ADD, {FIRST, SECOND})
+        CASE(ADDSIGNED, STAGE_ADD_SIGNED, {FIRST, SECOND})
+        CASE(ADDSIGNED2X, STAGE_ADD_SIGNED_2X, {FIRST, SECOND})
+        CASE(SUBTRACT, STAGE_SUBTRACT, {FIRST, SECOND})
+        CASE(ADDSMOOTH, STAGE_MULTIPLY_ADD, {FIRST | COMPLEMENT, SECOND, FIRST})
+        CASE(BLENDDIFFUSEALPHA, STAGE_LERP, {FIRST, SECOND, DIFFUSE | REPLICATE})
+        CASE(BLENDTEXTUREALPHA, STAGE_LERP, {FIRST, SECOND, TEXTURE | REPLICATE})
+        CASE(BLENDFACTORALPHA, STAGE_LERP, {FIRST, SECOND, FACTOR | REPLICATE})
+        CASE(BLENDCURRENTALPHA, STAGE_LERP, {FIRST, SECOND, CURRENT | REPLICATE})
+        CASE(BLENDTEXTUREALPHAPM, STAGE_MULTIPLY_ADD, {TEXTURE | COMPLEMENT | REPLICATE, SECOND, FIRST})
+        CASE(MODULATEALPHA_ADDCOLOR, STAGE_MULTIPLY_ADD, {FIRST | REPLICATE, SECOND, FIRST})
+        CASE(MODULATECOLOR_ADDALPHA, STAGE_MULTIPLY_ADD, {FIRST, SECOND, FIRST | REPLICATE})
+        CASE(MODULATEINVALPHA_ADDCOLOR, STAGE_MULTIPLY_ADD, {FIRST | COMPLEMENT | REPLICATE, SECOND, FIRST})
+        CASE(MODULATEINVCOLOR_ADDALPHA, STAGE_MULTIPLY_ADD, {FIRST | COMPLEMENT, SECOND, FIRST | REPLICATE})
+        CASE(BUMPENVMAP, STAGE_SELECT, {CURRENT}) /* it affects only the next stage */
+        CASE(BUMPENVMAPLUMINANCE, STAGE_SELECT, {CURRENT})
+        CASE(DOTPRODUCT3, STAGE_DOT, {FIRST, SECOND})
+        CASE(MULTIPLYADD, STAGE_MULTIPLY_ADD, {FIRST, SECOND, THIRD})
+        CASE(LERP, STAGE_LERP, {FIRST, SECOND, THIRD})
+    }
+#undef CASE
+    derive_impossible("texture operation", operation);
+}
 
 static uint32_t reduced_argument(const struct half_stage *half, unsigned which)
 {
@@ -80,7 +93,7 @@ static uint32_t reduced_argument(const struct half_stage *half, unsigned which)
  * current colour, as drivers do; Direct3D 9 leaves it undefined. */
 static bool lacks_texture(const struct half_stage *half, bool bound)
 {
-    const struct reduction *reduction = &reductions[half->operation];
+    const struct reduction *reduction = reduction_of(half->operation);
     for (int i = 0; i < stage_arguments[reduction->stage] && !bound; i++)
         if ((reduced_argument(half, reduction->argument[i]) & SELECTED) == ARGUMENT_texture)
             return true;
@@ -90,7 +103,7 @@ static bool lacks_texture(const struct half_stage *half, bool bound)
 /* `flags` are those that mean something: alpha replicated is alpha. */
 static uint8_t derive_half(const struct half_stage *half, uint32_t flags, uint8_t argument[STAGE_ARGUMENTS])
 {
-    const struct reduction *reduction = &reductions[half->operation];
+    const struct reduction *reduction = reduction_of(half->operation);
     for (int i = 0; i < stage_arguments[reduction->stage]; i++) {
         uint32_t reduced = reduced_argument(half, reduction->argument[i]);
         argument[i] = derive_argument(reduced & (SELECTED | flags));

@@ -3,24 +3,6 @@
 #include "render/derive/derive_part.h"
 #include "contract/key_query.h"
 
-static uint8_t derive_address(uint32_t address, uint32_t size)
-{
-    int power = !(size & (size - 1));
-    switch (address) {
-    case ADDRESS_mirror: return power ? ADDRESS_MIRROR_POWER : ADDRESS_MIRROR;
-    case ADDRESS_clamp: return ADDRESS_CLAMP;
-    case ADDRESS_border: return ADDRESS_BORDER;
-    case ADDRESS_mirroronce: return ADDRESS_MIRROR_ONCE;
-    default: return power ? ADDRESS_WRAP_POWER : ADDRESS_WRAP;
-    }
-}
-
-/* Anisotropic magnification is linear. */
-static uint8_t derive_filter(uint32_t filter)
-{
-    return filter == FILTER_linear || filter == FILTER_anisotropic ? FILTER_LINEAR : FILTER_POINT;
-}
-
 static void derive_minify(const struct state *state, struct sampler_key *key)
 {
     uint32_t taps = SAMPLER(state, key->number, maxanisotropy);
@@ -37,7 +19,7 @@ static uint8_t derive_mip(const struct state *state, int number)
 {
     if (derive_first_level(state, number) + 1 == state->texture[number]->levels)
         return MIP_NONE;
-    return (uint8_t)(MIP_NONE + SAMPLER(state, number, mipfilter) - MIPFILTER_none);
+    return derive_mip_filter(SAMPLER(state, number, mipfilter));
 }
 
 static void derive_addresses(const struct state *state, struct sampler_key *key)
@@ -194,10 +176,10 @@ int derive_channel_stage(const struct pixel_key *key, int channel)
 static uint32_t wrapped_coordinates(const struct state *state, uint32_t set)
 {
     static const uint8_t row[TRIPTYCH_USAGE_INDICES] = {
-        TRIPTYCH_STATE_wrap0,  TRIPTYCH_STATE_wrap1,  TRIPTYCH_STATE_wrap2,  TRIPTYCH_STATE_wrap3,
-        TRIPTYCH_STATE_wrap4,  TRIPTYCH_STATE_wrap5,  TRIPTYCH_STATE_wrap6,  TRIPTYCH_STATE_wrap7,
-        TRIPTYCH_STATE_wrap8,  TRIPTYCH_STATE_wrap9,  TRIPTYCH_STATE_wrap10, TRIPTYCH_STATE_wrap11,
-        TRIPTYCH_STATE_wrap12, TRIPTYCH_STATE_wrap13, TRIPTYCH_STATE_wrap14, TRIPTYCH_STATE_wrap15};
+        TRIPTYCH_STATE_WRAP0,  TRIPTYCH_STATE_WRAP1,  TRIPTYCH_STATE_WRAP2,  TRIPTYCH_STATE_WRAP3,
+        TRIPTYCH_STATE_WRAP4,  TRIPTYCH_STATE_WRAP5,  TRIPTYCH_STATE_WRAP6,  TRIPTYCH_STATE_WRAP7,
+        TRIPTYCH_STATE_WRAP8,  TRIPTYCH_STATE_WRAP9,  TRIPTYCH_STATE_WRAP10, TRIPTYCH_STATE_WRAP11,
+        TRIPTYCH_STATE_WRAP12, TRIPTYCH_STATE_WRAP13, TRIPTYCH_STATE_WRAP14, TRIPTYCH_STATE_WRAP15};
     return state->value[row[set % TRIPTYCH_USAGE_INDICES]];
 }
 

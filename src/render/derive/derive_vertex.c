@@ -31,15 +31,18 @@ static bool in_window(const struct vertex_key *key)
 /* One matrix with weight 1 is the first world matrix, unless vertices have indices. */
 static void derive_blending(const struct state *state, struct vertex_key *key)
 {
-    uint32_t blend = GET(state, vertexblend);
-    if (blend == VERTEXBLEND_disable)
-        return;
-    if (blend == VERTEXBLEND_tweening) {
+    int weights = 0;
+    switch ((enum triptych_vertexblend)GET(state, vertexblend)) {
+    case TRIPTYCH_VERTEXBLEND_DISABLE: return;
+    case TRIPTYCH_VERTEXBLEND_TWEENING:
         key->tween = 1;
         need(state, key, ATTRIBUTE_POSITION1, 4);
         return;
+    case TRIPTYCH_VERTEXBLEND_0WEIGHTS: weights = 0; break;
+    case TRIPTYCH_VERTEXBLEND_1WEIGHTS: weights = 1; break;
+    case TRIPTYCH_VERTEXBLEND_2WEIGHTS: weights = 2; break;
+    case TRIPTYCH_VERTEXBLEND_3WEIGHTS: weights = 3; break;
     }
-    int weights = blend == VERTEXBLEND_0weights ? 0 : (int)blend;
     key->indexed_matrices = GET(state, indexedvertexblendenable) != 0;
     if (!weights && !key->indexed_matrices)
         return;
@@ -65,12 +68,17 @@ static void derive_position(const struct state *state, struct vertex_key *key)
 /* A colour that the vertex does not have is the material's (Direct3D 9, D3DRS_DIFFUSEMATERIALSOURCE). */
 static uint8_t derive_source(const struct state *state, uint32_t source)
 {
-    static const enum attribute attribute[] = {
-        [MATERIALSOURCE_color1] = ATTRIBUTE_DIFFUSE, [MATERIALSOURCE_color2] = ATTRIBUTE_SPECULAR};
-    if (!GET(state, colorvertex) || source == MATERIALSOURCE_material ||
-        !is_declared(state, attribute[source]))
-        return REFLECTANCE_MATERIAL;
-    return (uint8_t)(source - MATERIALSOURCE_color1 + REFLECTANCE_DIFFUSE_COLOR);
+    bool follows = GET(state, colorvertex);
+    switch ((enum triptych_materialsource)source) {
+    case TRIPTYCH_MATERIALSOURCE_MATERIAL: return REFLECTANCE_MATERIAL;
+    case TRIPTYCH_MATERIALSOURCE_COLOR1:
+        return follows && is_declared(state, ATTRIBUTE_DIFFUSE) ? REFLECTANCE_DIFFUSE_COLOR
+                                                                : REFLECTANCE_MATERIAL;
+    case TRIPTYCH_MATERIALSOURCE_COLOR2:
+        return follows && is_declared(state, ATTRIBUTE_SPECULAR) ? REFLECTANCE_SPECULAR_COLOR
+                                                                 : REFLECTANCE_MATERIAL;
+    }
+    derive_impossible("material source", source);
 }
 
 static void derive_reflectances(const struct state *state, struct vertex_key *key)
@@ -154,13 +162,9 @@ static void derive_colors(const struct state *state, struct vertex_key *key)
 
 static void derive_vertex_fog(const struct state *state, struct vertex_key *key)
 {
-    static const uint8_t mode[] = {[FOGMODE_none] = VERTEX_FOG_SPECULAR_ALPHA,
-                                   [FOGMODE_exp] = VERTEX_FOG_EXP,
-                                   [FOGMODE_exp2] = VERTEX_FOG_EXP2,
-                                   [FOGMODE_linear] = VERTEX_FOG_LINEAR};
     if (!key->varying[VARYING_fog])
         return;
-    key->fog = in_window(key) ? VERTEX_FOG_SPECULAR_ALPHA : mode[GET(state, fogvertexmode)];
+    key->fog = in_window(key) ? VERTEX_FOG_SPECULAR_ALPHA : derive_fog_mode(GET(state, fogvertexmode));
     if (key->fog == VERTEX_FOG_SPECULAR_ALPHA)
         need(state, key, ATTRIBUTE_SPECULAR, 4);
     else

@@ -11,9 +11,12 @@ size_t device_contents_bytes(const struct triptych_device *device)
     return target_contents_bytes(&description);
 }
 
-enum triptych_result device_read_contents(struct triptych_device *device, void *data, struct error *error)
+enum triptych_result device_read_contents(struct triptych_device *device, void *data, size_t bytes,
+                                          struct error *error)
 {
     enum triptych_result result = device_has_target(device, error);
+    if (result == TRIPTYCH_OK)
+        result = device_check_room("contents", bytes, device_contents_bytes(device), error);
     if (result != TRIPTYCH_OK)
         return result;
     device_finish(device);

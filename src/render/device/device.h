@@ -61,6 +61,12 @@ struct device_counts {
     uint64_t draws, triangles;
 };
 
+/* The receiver of events (triptych_log_function). */
+struct device_log {
+    triptych_log_function *function; /* null: none */
+    void *user;
+};
+
 struct device_hook {
     device_draw_callback *on_draw; /* null: none */
     void *user;
@@ -100,6 +106,7 @@ struct triptych_device {
     struct device_counts counts;
     struct recorder *recorder; /* of calls (capture/record.h), or null */
     struct device_hook hook;
+    struct device_log log;
     struct device_errors errors;
     char key_text[KEY_TEXT_CAPACITY]; /* of the last routine reported */
 };
@@ -123,8 +130,8 @@ device_drawn_textures(const struct triptych_device *device)
     return device->binding.draws_to_textures ? &device->binding.textures : NULL;
 }
 
-/* What a recording of a running device reads: the state, the constants and the shader of a stage (or null), and the
- * first of the objects that exist, which are linked by `next`. */
+/* What a recording of a running device reads: the state, the constants and the shader of a stage (or null),
+ * and the first of the objects that exist, which are linked by `next`. */
 static inline const struct state *device_state(const struct triptych_device *device)
 {
     return &device->state;
@@ -161,6 +168,20 @@ static inline struct recorder *device_recorder(const struct triptych_device *dev
 static inline void device_set_recorder(struct triptych_device *device, struct recorder *recorder)
 {
     device->recorder = recorder;
+}
+
+/* Reports an event to the application's log function, if there is one. */
+static inline void device_report(const struct triptych_device *device, enum triptych_log_level level,
+                                 const char *text)
+{
+    if (device->log.function)
+        device->log.function(device->log.user, level, text);
+}
+
+/* Returns true if the application has a log function. */
+static inline bool device_has_log(const struct triptych_device *device)
+{
+    return device->log.function != NULL;
 }
 
 struct device_options {
@@ -209,15 +230,16 @@ void device_load_texture(struct triptych_device *device, const struct triptych_t
 enum triptych_result device_copy(struct triptych_device *device, const struct surface_copy *copy,
                                  struct error *error);
 enum triptych_result device_read_surface(struct triptych_device *device,
-                                         const struct triptych_surface *surface, uint32_t *rgba,
+                                         const struct triptych_surface *surface, uint32_t *rgba, size_t bytes,
                                          struct error *error);
 enum triptych_result device_read_surface_numbers(struct triptych_device *device,
                                                  const struct triptych_surface *surface, float *numbers,
-                                                 struct error *error);
+                                                 size_t bytes, struct error *error);
 
 /* The contents of the target and of a texture, as they are stored (render/device/contents.c). */
 size_t device_contents_bytes(const struct triptych_device *device);
-enum triptych_result device_read_contents(struct triptych_device *device, void *data, struct error *error);
+enum triptych_result device_read_contents(struct triptych_device *device, void *data, size_t bytes,
+                                          struct error *error);
 enum triptych_result device_write_contents(struct triptych_device *device, const void *data, size_t bytes,
                                            struct error *error);
 void device_read_texels(struct triptych_device *device, struct triptych_texture *texture, void *data);
@@ -284,14 +306,17 @@ uint32_t device_commands(const struct triptych_device *device);
 /* Drops everything that is queued. */
 void device_forget(struct triptych_device *device);
 
-/* Finishes and copies the target, if there is one. */
+/* Finishes and copies the target, if there is one, to an array of `bytes` bytes. */
 enum triptych_result device_read_target(struct triptych_device *device, unsigned t, uint32_t *rgba,
-                                        struct error *error);
+                                        size_t bytes, struct error *error);
 enum triptych_result device_read_target_numbers(struct triptych_device *device, unsigned t, float *numbers,
-                                                struct error *error);
-enum triptych_result device_read_depth(struct triptych_device *device, float *depth, struct error *error);
-enum triptych_result device_read_stencil(struct triptych_device *device, uint8_t *stencil,
+                                                size_t bytes, struct error *error);
+enum triptych_result device_read_depth(struct triptych_device *device, float *depth, size_t bytes,
+                                       struct error *error);
+enum triptych_result device_read_stencil(struct triptych_device *device, uint8_t *stencil, size_t bytes,
                                          struct error *error);
+/* Fails if an array of the caller for `what` has fewer bytes than needed. */
+enum triptych_result device_check_room(const char *what, size_t bytes, size_t needed, struct error *error);
 
 /* Changes a texture, after rendering what is recorded if some of that reads it. Arguments are not null, but
  * for the box. */
@@ -342,9 +367,19 @@ enum triptych_result device_set_booleans(struct triptych_device *device, enum tr
 /* Fails if draws must not run with the current integer constants. */
 enum triptych_result device_check_integers(struct triptych_device *device, struct error *error);
 
+/* Arrays for one sample of each pixel, and their bytes. */
+struct sample_images {
+    uint32_t *color;
+    size_t color_bytes;
+    float *depth;
+    size_t depth_bytes;
+    uint8_t *stencil;
+    size_t stencil_bytes;
+};
+
 /* One sample's of colour target 0 and of depth and stencil; what is null is not read. */
-enum triptych_result device_read_sample(struct triptych_device *device, unsigned sample, uint32_t *rgba,
-                                        float *depth, uint8_t *stencil, struct error *error);
+enum triptych_result device_read_sample(struct triptych_device *device, unsigned sample,
+                                        const struct sample_images *images, struct error *error);
 
 /* The first reason why an option of options.debug has no effect; empty when all have. */
 void device_debug_error(struct triptych_device *device, struct error *error);

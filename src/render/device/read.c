@@ -3,7 +3,8 @@
 
 #include <stdatomic.h>
 
-/* Rows of tiles are read by several threads, into those of the images that are not null. */
+/* Rows of tiles are read by several threads, into those of the images that are not null. `room` has the sizes
+ * of the caller's arrays in bytes. */
 struct reading {
     const struct target *target;
     unsigned t; /* which colour */
@@ -12,6 +13,9 @@ struct reading {
     float *numbers;
     float *depth;
     uint8_t *stencil;
+    struct {
+        size_t color, numbers, depth, stencil;
+    } room;
     _Atomic uint32_t next_row;
 };
 
@@ -39,6 +43,30 @@ static enum triptych_result lacks(const struct target *target, const char *what,
     return TRIPTYCH_BAD_CALL;
 }
 
+enum triptych_result device_check_room(const char *what, size_t bytes, size_t needed, struct error *error)
+{
+    if (bytes >= needed)
+        return TRIPTYCH_OK;
+    error_set(error, "an array of %zu bytes for %s: expected at least %zu", bytes, what, needed);
+    return TRIPTYCH_BAD_ARGUMENT;
+}
+
+static enum triptych_result check_room(const struct target *target, const struct reading *r,
+                                       struct error *error)
+{
+    size_t pixels = (size_t)target->width * target->height;
+    enum triptych_result result = TRIPTYCH_OK;
+    if (r->color)
+        result = device_check_room("colours", r->room.color, 4 * pixels, error);
+    if (r->numbers && result == TRIPTYCH_OK)
+        result = device_check_room("numbers", r->room.numbers, 16 * pixels, error);
+    if (r->depth && result == TRIPTYCH_OK)
+        result = device_check_room("depth", r->room.depth, 4 * pixels, error);
+    if (r->stencil && result == TRIPTYCH_OK)
+        result = device_check_room("stencil", r->room.stencil, pixels, error);
+    return result;
+}
+
 static enum triptych_result check_reading(const struct target *target, const struct reading *r,
                                           struct error *error)
 {
@@ -54,7 +82,7 @@ static enum triptych_result check_reading(const struct target *target, const str
         return lacks(target, "depth", error);
     if (r->stencil && !stencil_mask(target->depth_format))
         return lacks(target, "stencil", error);
-    return TRIPTYCH_OK;
+    return check_room(target, r, error);
 }
 
 static enum triptych_result read_target(struct triptych_device *device, struct reading *reading,
@@ -72,36 +100,42 @@ static enum triptych_result read_target(struct triptych_device *device, struct r
 }
 
 enum triptych_result device_read_target(struct triptych_device *device, unsigned t, uint32_t *rgba,
-                                        struct error *error)
+                                        size_t bytes, struct error *error)
 {
-    struct reading reading = {.t = t, .sample = SAMPLE_RESOLVED, .color = rgba};
+    struct reading reading = {.t = t, .sample = SAMPLE_RESOLVED, .color = rgba, .room.color = bytes};
     return read_target(device, &reading, error);
 }
 
 enum triptych_result device_read_target_numbers(struct triptych_device *device, unsigned t, float *numbers,
-                                                struct error *error)
+                                                size_t bytes, struct error *error)
 {
-    struct reading reading = {.t = t, .sample = SAMPLE_RESOLVED, .numbers = numbers};
+    struct reading reading = {.t = t, .sample = SAMPLE_RESOLVED, .numbers = numbers, .room.numbers = bytes};
     return read_target(device, &reading, error);
 }
 
-enum triptych_result device_read_depth(struct triptych_device *device, float *depth, struct error *error)
+enum triptych_result device_read_depth(struct triptych_device *device, float *depth, size_t bytes,
+                                       struct error *error)
 {
-    struct reading reading = {.sample = SAMPLE_RESOLVED, .depth = depth};
+    struct reading reading = {.sample = SAMPLE_RESOLVED, .depth = depth, .room.depth = bytes};
     return read_target(device, &reading, error);
 }
 
-enum triptych_result device_read_stencil(struct triptych_device *device, uint8_t *stencil,
+enum triptych_result device_read_stencil(struct triptych_device *device, uint8_t *stencil, size_t bytes,
                                          struct error *error)
 {
-    struct reading reading = {.sample = SAMPLE_RESOLVED, .stencil = stencil};
+    struct reading reading = {.sample = SAMPLE_RESOLVED, .stencil = stencil, .room.stencil = bytes};
     return read_target(device, &reading, error);
 }
 
-enum triptych_result device_read_sample(struct triptych_device *device, unsigned sample, uint32_t *rgba,
-                                        float *depth, uint8_t *stencil, struct error *error)
+enum triptych_result device_read_sample(struct triptych_device *device, unsigned sample,
+                                        const struct sample_images *images, struct error *error)
 {
-    int number = sample < INT32_MAX ? (int)sample : INT32_MAX;
-    struct reading reading = {.sample = number, .color = rgba, .depth = depth, .stencil = stencil};
+    struct reading reading = {.sample = sample < INT32_MAX ? (int)sample : INT32_MAX,
+                              .color = images->color,
+                              .depth = images->depth,
+                              .stencil = images->stencil,
+                              .room.color = images->color_bytes,
+                              .room.depth = images->depth_bytes,
+                              .room.stencil = images->stencil_bytes};
     return read_target(device, &reading, error);
 }

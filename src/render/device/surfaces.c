@@ -201,21 +201,25 @@ enum triptych_result device_copy(struct triptych_device *device, const struct su
 
 enum triptych_result device_read_surface_numbers(struct triptych_device *device,
                                                  const struct triptych_surface *surface, float *numbers,
-                                                 struct error *error)
+                                                 size_t bytes, struct error *error)
 {
     struct image image;
     enum triptych_result result = find_image(device, surface, &image, error);
+    if (result == TRIPTYCH_OK)
+        result = device_check_room("numbers", bytes, 16 * (size_t)image.width * image.height, error);
     if (result == TRIPTYCH_OK)
         read_image(device, &image, numbers);
     return result;
 }
 
 enum triptych_result device_read_surface(struct triptych_device *device,
-                                         const struct triptych_surface *surface, uint32_t *rgba,
+                                         const struct triptych_surface *surface, uint32_t *rgba, size_t bytes,
                                          struct error *error)
 {
     struct image image;
     enum triptych_result result = find_image(device, surface, &image, error);
+    if (result == TRIPTYCH_OK)
+        result = device_check_room("colours", bytes, 4 * (size_t)image.width * image.height, error);
     if (result != TRIPTYCH_OK)
         return result;
     size_t pixels = (size_t)image.width * image.height;

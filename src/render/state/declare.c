@@ -93,6 +93,26 @@ enum triptych_result state_set_declaration(struct state *state,
     return TRIPTYCH_OK;
 }
 
+static struct triptych_declaration_element declared(const struct state_element *element, unsigned usage,
+                                                    unsigned usage_index)
+{
+    return (struct triptych_declaration_element){element->stream, element->offset, element->format,
+                                                 (enum triptych_usage)usage, usage_index};
+}
+
+unsigned state_declaration(const struct state *state, struct triptych_declaration_element *elements)
+{
+    unsigned count = 0;
+    for (int a = 0; a < TRIPTYCH_ATTRIBUTE_COUNT; a++)
+        if (state->element[a].format && state->element[a].stream < TRIPTYCH_STREAMS)
+            elements[count++] =
+                declared(&state->element[a], attribute_usage[a].usage, attribute_usage[a].index);
+    for (unsigned i = 0; i < state->others; i++)
+        elements[count++] =
+            declared(&state->other[i].element, state->other[i].usage, state->other[i].usage_index);
+    return count;
+}
+
 const struct state_element *state_find_element(const struct state *state, unsigned usage,
                                                unsigned usage_index)
 {

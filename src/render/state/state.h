@@ -14,6 +14,27 @@
 
 struct program;
 
+/* The rows of the three tables, by the names of the states. The public enumerations have the same rows with
+ * names in capitals. */
+enum {
+#define STATE(number, name, ...) STATE_##name,
+#include "def/state/state.def"
+#undef STATE
+    STATE_ROWS
+};
+enum {
+#define SAMPLER_STATE(number, name, ...) SAMPLER_##name,
+#include "def/state/sampler_state.def"
+#undef SAMPLER_STATE
+    SAMPLER_STATE_ROWS
+};
+enum {
+#define STAGE_STATE(number, name, ...) STAGE_##name,
+#include "def/state/stage_state.def"
+#undef STAGE_STATE
+    STAGE_STATE_ROWS
+};
+
 /* The streams of a declaration, then one for each attribute that is set by itself. */
 enum { STREAM_COUNT = TRIPTYCH_STREAMS + TRIPTYCH_ATTRIBUTE_COUNT };
 
@@ -131,6 +152,9 @@ enum triptych_result state_set_declaration(struct state *state,
                                            const struct triptych_declaration_element *elements,
                                            unsigned count, struct error *error);
 enum triptych_result state_set_fvf(struct state *state, uint32_t fvf, struct error *error);
+/* Writes the elements that a declaration has set, at most TRIPTYCH_DECLARATION_ELEMENTS: attributes, then
+ * others. Returns their number. */
+unsigned state_declaration(const struct state *state, struct triptych_declaration_element *elements);
 enum triptych_result state_set_stream(struct state *state, unsigned stream, struct triptych_buffer *buffer,
                                       size_t offset, size_t stride, struct error *error);
 enum triptych_result state_set_frequency(struct state *state, unsigned stream,

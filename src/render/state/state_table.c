@@ -1,19 +1,19 @@
 /* The tables of states, of their kinds and of the words of values, as the interface shows them. */
-#include "triptych.h"
+#include "render/state/state.h"
 
 #include <stdatomic.h>
 #include <stdbool.h>
 #include <string.h>
 
 enum {
-#define KIND(name, notation, first, last) KIND_##name,
+#define KIND(name, ...) KIND_##name,
 #include "def/state/kind.def"
 #undef KIND
     KIND_COUNT
 };
 
 static const struct triptych_kind kinds[] = {
-#define KIND(name, notation, first, last) {#name, TRIPTYCH_NOTATION_##notation, first, last},
+#define KIND(name, notation, prefix, first, last) {#name, TRIPTYCH_NOTATION_##notation, first, last, #prefix},
 #include "def/state/kind.def"
 #undef KIND
 };
@@ -26,6 +26,10 @@ static const struct triptych_value values[] = {
 };
 
 enum { VALUE_COUNT = sizeof values / sizeof *values };
+
+_Static_assert(STATE_ROWS == (int)TRIPTYCH_STATE_COUNT, "the public header has the rows of state.def");
+_Static_assert(SAMPLER_STATE_ROWS == (int)TRIPTYCH_SAMPLER_STATE_COUNT, "and those of sampler_state.def");
+_Static_assert(STAGE_STATE_ROWS == (int)TRIPTYCH_STAGE_STATE_COUNT, "and those of stage_state.def");
 
 #define ROW(number, name, kind, initial, units, change, support, test, meaning)                              \
     {number, #name, &kinds[KIND_##kind], units, TRIPTYCH_SUPPORT_##support, test, meaning},
@@ -88,12 +92,12 @@ static uint32_t render_default(unsigned row)
     return initial[row];
 }
 
-static uint32_t sampler_default(enum triptych_sampler_state row, unsigned i)
+static uint32_t sampler_default(unsigned row, unsigned i)
 {
     (void)i;
     switch (row) {
 #define SAMPLER_STATE(number, name, kind, initial, ...)                                                      \
-    case TRIPTYCH_SAMPLER_##name:                                                                            \
+    case SAMPLER_##name:                                                                                     \
         return initial;
 #include "def/state/sampler_state.def"
 #undef SAMPLER_STATE
@@ -101,11 +105,11 @@ static uint32_t sampler_default(enum triptych_sampler_state row, unsigned i)
     }
 }
 
-static uint32_t stage_default(enum triptych_stage_state row, unsigned i)
+static uint32_t stage_default(unsigned row, unsigned i)
 {
     switch (row) {
 #define STAGE_STATE(number, name, kind, initial, ...)                                                        \
-    case TRIPTYCH_STAGE_##name:                                                                              \
+    case STAGE_##name:                                                                                       \
         return initial;
 #include "def/state/stage_state.def"
 #undef STAGE_STATE
@@ -118,9 +122,8 @@ uint32_t triptych_state_default(enum triptych_state_table table, unsigned row, u
     if (!triptych_state_at(table, row))
         return 0;
     if (table == TRIPTYCH_SAMPLER_STATES)
-        return sampler_default((enum triptych_sampler_state)row, i);
-    return table == TRIPTYCH_STAGE_STATES ? stage_default((enum triptych_stage_state)row, i)
-                                          : render_default(row);
+        return sampler_default(row, i);
+    return table == TRIPTYCH_STAGE_STATES ? stage_default(row, i) : render_default(row);
 }
 
 const struct triptych_kind *triptych_kind_at(unsigned i)
@@ -128,9 +131,11 @@ const struct triptych_kind *triptych_kind_at(unsigned i)
     return i < KIND_COUNT ? &kinds[i] : NULL;
 }
 
-/* The first of a kind's values, which follow one another; VALUE_COUNT if it has none. Looked for once. */
+/* The first of a kind's values, which follow one another; VALUE_COUNT if it has none. Searched once. */
 static unsigned first_value(const struct triptych_kind *kind)
 {
+    if (!kind)
+        return VALUE_COUNT;
     static _Atomic uint16_t found[KIND_COUNT]; /* and 1 */
     unsigned first = atomic_load_explicit(&found[kind - kinds], memory_order_relaxed);
     if (first)
@@ -163,7 +168,7 @@ const char *triptych_value_word(const struct triptych_kind *kind, uint32_t numbe
 
 int triptych_value_number(const struct triptych_kind *kind, const char *word, uint32_t *number)
 {
-    for (unsigned i = 0; i < VALUE_COUNT && word; i++)
+    for (unsigned i = 0; i < VALUE_COUNT && word && number; i++)
         if (values[i].kind == kind && !strcmp(values[i].word, word)) {
             *number = values[i].number;
             return 0;

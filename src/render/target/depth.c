@@ -6,7 +6,7 @@
 enum { STENCIL_BITS = 8, FRACTION_BITS = 20, FRACTION_SHIFT = 23 - FRACTION_BITS };
 
 const struct depth_format depth_formats[TRIPTYCH_DEPTH_COUNT] = {
-#define DEPTH_FORMAT(name, storage, depth, stencil, meaning) {DEPTH_##storage, depth, stencil, #name},
+#define DEPTH_FORMAT(name, word, storage, depth, stencil, meaning) {DEPTH_##storage, depth, stencil, #word},
 #include "def/state/depth_format.def"
 #undef DEPTH_FORMAT
 };

@@ -17,9 +17,9 @@
 #define COLOR_OF_COLOR(storage) TARGET_##storage
 #define COLOR_OF_DEPTH(format)  0
 #define COLOR_OF_NOTHING        0
-#define DEPTH_OF_COLOR(storage) TRIPTYCH_DEPTH_none
+#define DEPTH_OF_COLOR(storage) TRIPTYCH_DEPTH_NONE
 #define DEPTH_OF_DEPTH(format)  TRIPTYCH_DEPTH_##format
-#define DEPTH_OF_NOTHING        TRIPTYCH_DEPTH_none
+#define DEPTH_OF_NOTHING        TRIPTYCH_DEPTH_NONE
 
 /* clang-format off */
 #define U(shift, count) {CHANNEL_UNSIGNED, shift, count}

@@ -25,7 +25,7 @@ struct float_values {
 static inline struct float_color float_source(struct env *e, int stage, int source,
                                               const struct float_values *v)
 {
-    switch (source) {
+    switch ((enum source)source) {
     case SOURCE_DIFFUSE: return v->diffuse;
     case SOURCE_TEXTURE: return v->texture;
     case SOURCE_CURRENT: return v->current;
@@ -33,6 +33,8 @@ static inline struct float_color float_source(struct env *e, int stage, int sour
     case SOURCE_TEMPORARY: return v->temporary;
     case SOURCE_CONSTANT:
         return float_packed(E, offsetof(struct job, stage_constant) + sizeof(uint32_t) * (size_t)stage);
+    case SOURCE_FACTOR:
+    case SOURCE_COUNT: break;
     }
     return float_packed(E, offsetof(struct job, texture_factor));
 }

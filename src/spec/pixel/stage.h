@@ -32,7 +32,7 @@ struct stage_values {
 
 static inline struct color stage_source(struct env *e, int stage, int source, const struct stage_values *v)
 {
-    switch (source) {
+    switch ((enum source)source) {
     case SOURCE_DIFFUSE: return v->diffuse;
     case SOURCE_TEXTURE: return v->texture;
     case SOURCE_CURRENT: return v->current;
@@ -40,6 +40,8 @@ static inline struct color stage_source(struct env *e, int stage, int source, co
     case SOURCE_TEMPORARY: return v->temporary;
     case SOURCE_CONSTANT:
         return packed_color(E, offsetof(struct job, stage_constant) + sizeof(uint32_t) * (size_t)stage);
+    case SOURCE_FACTOR:
+    case SOURCE_COUNT: break;
     }
     return packed_color(E, offsetof(struct job, texture_factor));
 }

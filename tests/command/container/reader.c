@@ -50,7 +50,7 @@ static void good(enum triptych_result result)
 static uint64_t digest(triptych_device *of)
 {
     uint32_t pixels[SIDE * SIDE];
-    TEST_ASSERT_EQUAL_INT(TRIPTYCH_OK, triptych_read_color(of, pixels));
+    TEST_ASSERT_EQUAL_INT(TRIPTYCH_OK, triptych_read_color(of, pixels, sizeof pixels));
     return XXH3_64bits(pixels, sizeof pixels);
 }
 
@@ -62,8 +62,8 @@ static void record_frames(uint64_t expected[FRAMES])
     triptych_texture *texture = NULL;
     good(triptych_record_start(device, file));
     good(triptych_set_target(device, SIDE, SIDE));
-    good(triptych_set_state(device, TRIPTYCH_STATE_lighting, 0));
-    good(triptych_set_state(device, TRIPTYCH_STATE_cullmode, 1));
+    good(triptych_set_state(device, TRIPTYCH_STATE_LIGHTING, 0));
+    good(triptych_set_state(device, TRIPTYCH_STATE_CULLMODE, 1));
     for (int frame = 0; frame < FRAMES; frame++) {
         const float x = (float)frame / FRAMES, corners[3][3] = {{-1, -1, 0}, {1, -1, 0}, {x, 1 - x, 0}};
         const uint32_t texels[4] = {0xff0000ff, 0xff00ffff, 0xffffff00, 0xff004080u + (unsigned)frame};
@@ -80,7 +80,7 @@ static void record_frames(uint64_t expected[FRAMES])
                                            12}));
         good(triptych_clear(device, black, 1));
         good(triptych_draw(device, TRIPTYCH_TRIANGLE_LIST, 0, 1));
-        good(triptych_finish(device));
+        good(triptych_end_frame(device));
         expected[frame] = digest(device);
         good(triptych_buffer_destroy(device, buffer));
         if (frame % 2) {
@@ -132,7 +132,7 @@ static void memory_does_not_grow_with_the_length(void)
             data[word] = word / 64 * i;
         good(triptych_buffer_create(device, data, MEGABYTE, &buffer));
         good(triptych_clear(device, (const float[4]){0}, 1));
-        good(triptych_finish(device));
+        good(triptych_end_frame(device));
         good(triptych_buffer_destroy(device, buffer));
     }
     good(triptych_record_stop(device));

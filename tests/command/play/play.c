@@ -54,7 +54,7 @@ static void play(uint32_t frame, uint32_t picture[PIXELS])
     TEST_ASSERT_EQUAL_INT_MESSAGE(0, player_frame(player, frame, &error), error.text);
     triptych_target_size(device, &width, &height);
     TEST_ASSERT_EQUAL_UINT(PIXELS, width * height);
-    TEST_ASSERT_EQUAL_INT(0, triptych_read_color(device, picture));
+    TEST_ASSERT_EQUAL_INT(0, triptych_read_color(device, picture, PIXELS * sizeof *picture));
 }
 
 static int holds(const uint32_t picture[PIXELS], uint32_t color)
@@ -143,7 +143,7 @@ static void a_replayed_target_is_empty_unless_it_is_cleared_as_a_whole(void)
     for (int round = 0; round < 3; round++) {
         play(0, picture);
         TEST_ASSERT_EQUAL_INT(PIXELS, holds(picture, 0xffff0000));
-        TEST_ASSERT_EQUAL_INT(0, triptych_read_depth(device, depth));
+        TEST_ASSERT_EQUAL_INT(0, triptych_read_depth(device, depth, sizeof depth));
         for (int p = 0; p < PIXELS; p++)
             TEST_ASSERT_EQUAL_FLOAT(0.25f, depth[p]);
     }
@@ -158,8 +158,8 @@ static void a_stream_starts_from_the_defaults(void)
     load(standing);
     play(0, expected);
     unload();
-    triptych_set_state(device, TRIPTYCH_STATE_cullmode, 2);
-    triptych_set_state(device, TRIPTYCH_STATE_colorwriteenable, 0);
+    triptych_set_state(device, TRIPTYCH_STATE_CULLMODE, 2);
+    triptych_set_state(device, TRIPTYCH_STATE_COLORWRITEENABLE, 0);
     triptych_set_transform(device, TRIPTYCH_TRANSFORM_VIEW, matrix);
     triptych_set_material(device, &material);
     triptych_enable_light(device, 3, 1);
@@ -335,7 +335,7 @@ static void test_a_frame_continues_from_the_contents_of_the_target(void)
     play(1, once);
     TEST_ASSERT_GREATER_THAN_INT(0, holds(once, 0xff202020));
     TEST_ASSERT_EQUAL_INT_MESSAGE(0, player_go_on(player, 1, &error), error.text);
-    TEST_ASSERT_EQUAL_INT(0, triptych_read_color(device, again));
+    TEST_ASSERT_EQUAL_INT(0, triptych_read_color(device, again, sizeof again));
     TEST_ASSERT_EQUAL_INT(holds(once, 0xff202020), holds(again, 0xff404040));
 }
 

@@ -43,7 +43,7 @@ static int hash_target(triptych_device *device, uint64_t *hash)
     triptych_get_target(device, &target);
     size_t bytes = (size_t)target.width * target.height * sizeof(uint32_t);
     uint32_t *colors = malloc(bytes);
-    int bad = !colors || triptych_read_color(device, colors);
+    int bad = !colors || triptych_read_color(device, colors, bytes);
     if (!bad)
         *hash = XXH3_64bits(colors, bytes);
     free(colors);

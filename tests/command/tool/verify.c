@@ -22,36 +22,36 @@ static struct {
     bool stencil_plant, number_plant; /* if true, the next read is changed */
 } planted;
 
-enum triptych_result __real_triptych_read_color(triptych_device *device, uint32_t *rgba);
-enum triptych_result __real_triptych_read_depth(triptych_device *device, float *depth);
-enum triptych_result __real_triptych_read_stencil(triptych_device *device, uint8_t *stencil);
+enum triptych_result __real_triptych_read_color(triptych_device *device, uint32_t *rgba, size_t bytes);
+enum triptych_result __real_triptych_read_depth(triptych_device *device, float *depth, size_t bytes);
+enum triptych_result __real_triptych_read_stencil(triptych_device *device, uint8_t *stencil, size_t bytes);
 enum triptych_result __real_triptych_read_target_numbers(triptych_device *device, unsigned target,
-                                                         float *numbers);
-enum triptych_result __wrap_triptych_read_stencil(triptych_device *device, uint8_t *stencil);
+                                                         float *numbers, size_t bytes);
+enum triptych_result __wrap_triptych_read_stencil(triptych_device *device, uint8_t *stencil, size_t bytes);
 enum triptych_result __wrap_triptych_read_target_numbers(triptych_device *device, unsigned target,
-                                                         float *numbers);
-enum triptych_result __wrap_triptych_read_color(triptych_device *device, uint32_t *rgba);
-enum triptych_result __wrap_triptych_read_depth(triptych_device *device, float *depth);
+                                                         float *numbers, size_t bytes);
+enum triptych_result __wrap_triptych_read_color(triptych_device *device, uint32_t *rgba, size_t bytes);
+enum triptych_result __wrap_triptych_read_depth(triptych_device *device, float *depth, size_t bytes);
 
-enum triptych_result __wrap_triptych_read_color(triptych_device *device, uint32_t *rgba)
+enum triptych_result __wrap_triptych_read_color(triptych_device *device, uint32_t *rgba, size_t bytes)
 {
-    enum triptych_result result = __real_triptych_read_color(device, rgba);
+    enum triptych_result result = __real_triptych_read_color(device, rgba, bytes);
     if (planted.color_read++ == planted.color_plant)
         rgba[Y * WIDTH + X] ^= 0x100;
     return result;
 }
 
-enum triptych_result __wrap_triptych_read_depth(triptych_device *device, float *depth)
+enum triptych_result __wrap_triptych_read_depth(triptych_device *device, float *depth, size_t bytes)
 {
-    enum triptych_result result = __real_triptych_read_depth(device, depth);
+    enum triptych_result result = __real_triptych_read_depth(device, depth, bytes);
     if (planted.depth_read++ == planted.depth_plant)
         ((uint32_t *)depth)[Y * WIDTH + X] ^= 1;
     return result;
 }
 
-enum triptych_result __wrap_triptych_read_stencil(triptych_device *device, uint8_t *stencil)
+enum triptych_result __wrap_triptych_read_stencil(triptych_device *device, uint8_t *stencil, size_t bytes)
 {
-    enum triptych_result result = __real_triptych_read_stencil(device, stencil);
+    enum triptych_result result = __real_triptych_read_stencil(device, stencil, bytes);
     if (planted.stencil_plant)
         stencil[Y] ^= 1;
     planted.stencil_plant = false;
@@ -59,9 +59,9 @@ enum triptych_result __wrap_triptych_read_stencil(triptych_device *device, uint8
 }
 
 enum triptych_result __wrap_triptych_read_target_numbers(triptych_device *device, unsigned target,
-                                                         float *numbers)
+                                                         float *numbers, size_t bytes)
 {
-    enum triptych_result result = __real_triptych_read_target_numbers(device, target, numbers);
+    enum triptych_result result = __real_triptych_read_target_numbers(device, target, numbers, bytes);
     if (planted.number_plant)
         ((uint32_t *)numbers)[4 * Y + 1] ^= 1;
     planted.number_plant = false;

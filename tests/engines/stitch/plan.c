@@ -260,6 +260,27 @@ static void plans_of_many_stages_keep_the_contract(void)
     }
 }
 
+/* A coverage that promises stage fragments for every key. */
+static const char *lack_nothing(enum unit unit, const union key *key)
+{
+    (void)unit;
+    (void)key;
+    return NULL;
+}
+
+static void a_missing_stage_fragment_is_refused_with_its_key(void)
+{
+    struct engine promising = engine_stitch;
+    union key key = no_state;
+    struct error error = {{0}};
+    promising.options = &(const struct stitch_options){lack_nothing};
+    key.vertex.attribute[ATTRIBUTE_POSITION] = ATTRIBUTE_FORMAT_DEC3N;
+    TEST_ASSERT_NULL(promising.build(&promising, arena, UNIT_VERTEX, &key, &error));
+    TEST_ASSERT_EQUAL_STRING("the stitcher lacks a stage fragment that def/engine/cover.def promises for the "
+                             "vertex key attribute=15",
+                             error.text);
+}
+
 static void operation_plans_keep_the_contract(void)
 {
     union key most = no_state;
@@ -396,6 +417,7 @@ int main(void)
     RUN_TEST(pixel_plans_keep_the_contract);
     RUN_TEST(stage_plans_keep_the_contract);
     RUN_TEST(plans_of_many_stages_keep_the_contract);
+    RUN_TEST(a_missing_stage_fragment_is_refused_with_its_key);
     RUN_TEST(operation_plans_keep_the_contract);
     RUN_TEST(every_fragment_is_planned_by_some_key);
     RUN_TEST(broken_plans_are_reported);

@@ -47,7 +47,7 @@ static void without_colour_writes_nothing_colours(void)
 {
     state.texture[0] = &texture;
     state.light_enabled[0] = 1;
-    set_value(TRIPTYCH_STATE_colorwriteenable, 0);
+    set_value(TRIPTYCH_STATE_COLORWRITEENABLE, 0);
     expect_same_keys(change_everything_that_colours);
     TEST_ASSERT_EQUAL_INT(INTERPOLATION_NONE, key[UNIT_SETUP].setup.varying[VARYING_diffuse]);
     TEST_ASSERT_EQUAL_INT(0, key[UNIT_VERTEX].vertex.lighting);
@@ -123,7 +123,7 @@ static void draws_without_effect_are_recognised(void)
     TEST_ASSERT_FALSE(derive_effective(&key[UNIT_PIXEL].pixel));
     SET(zfunc, "less");
     SET(zwriteenable, "false");
-    set_value(TRIPTYCH_STATE_colorwriteenable, 0);
+    set_value(TRIPTYCH_STATE_COLORWRITEENABLE, 0);
     derive();
     TEST_ASSERT_FALSE(derive_effective(&key[UNIT_PIXEL].pixel));
 }
@@ -131,7 +131,7 @@ static void draws_without_effect_are_recognised(void)
 static void change_alpha_test(void)
 {
     SET(alphafunc, "less");
-    set_value(TRIPTYCH_STATE_alpharef, 77);
+    set_value(TRIPTYCH_STATE_ALPHAREF, 77);
 }
 
 static void an_alpha_test_that_is_off_has_no_function(void)
@@ -153,7 +153,7 @@ static void an_alpha_test_that_always_passes_is_off(void)
 
 static void change_alpha_reference(void)
 {
-    set_value(TRIPTYCH_STATE_alpharef, 200);
+    set_value(TRIPTYCH_STATE_ALPHAREF, 200);
 }
 
 static void the_alpha_reference_is_only_in_the_job(void)
@@ -188,7 +188,7 @@ static void depth_after_an_alpha_test_needs_colours(void)
 {
     state.texture[0] = &texture;
     SET(alphablendenable, "true");
-    set_value(TRIPTYCH_STATE_colorwriteenable, 0);
+    set_value(TRIPTYCH_STATE_COLORWRITEENABLE, 0);
     derive();
     TEST_ASSERT_EQUAL_INT(0, key[UNIT_PIXEL].pixel.texture[0]);
     SET(alphatestenable, "true");
@@ -212,7 +212,7 @@ static void change_colour_stage(void)
 static void where_only_alpha_is_read_the_colour_stage_is_dead(void)
 {
     state.texture[0] = &texture;
-    set_value(TRIPTYCH_STATE_colorwriteenable, 0);
+    set_value(TRIPTYCH_STATE_COLORWRITEENABLE, 0);
     SET(alphatestenable, "true");
     SET(alphafunc, "greater");
     expect_same_keys(change_colour_stage);
@@ -276,7 +276,7 @@ static void change_unread_arguments(void)
     SET_STAGE(0, colorarg2, "tfactor");
     SET_STAGE(0, alphaarg0, "tfactor");
     SET_STAGE(0, alphaarg1, "texture_alphareplicate");
-    set_value(TRIPTYCH_STATE_texturefactor, 0x12345678);
+    set_value(TRIPTYCH_STATE_TEXTUREFACTOR, 0x12345678);
 }
 
 static void arguments_that_are_not_read_are_dead(void)
@@ -344,7 +344,7 @@ static void a_disabled_stage_passes_diffuse(void)
 
 static void change_border_colour(void)
 {
-    state_set_value(&state, TRIPTYCH_SAMPLER_STATES, 0, TRIPTYCH_SAMPLER_bordercolor, 0x11223344, NULL);
+    state_set_value(&state, TRIPTYCH_SAMPLER_STATES, 0, TRIPTYCH_SAMPLER_BORDERCOLOR, 0x11223344, NULL);
 }
 
 static void the_border_colour_is_the_jobs(void)

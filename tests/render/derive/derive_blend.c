@@ -115,11 +115,11 @@ static void change_colour_blending(void)
 static void channels_that_are_not_written_are_blended_like_the_others(void)
 {
     set_blending("add", "srcalpha", "one");
-    set_value(TRIPTYCH_STATE_colorwriteenable, 7);
+    set_value(TRIPTYCH_STATE_COLORWRITEENABLE, 7);
     expect_same_keys(change_alpha_blending);
-    set_value(TRIPTYCH_STATE_colorwriteenable, 8);
+    set_value(TRIPTYCH_STATE_COLORWRITEENABLE, 8);
     expect_same_keys(change_colour_blending);
-    set_value(TRIPTYCH_STATE_colorwriteenable, 0);
+    set_value(TRIPTYCH_STATE_COLORWRITEENABLE, 0);
     expect_same_keys(separate_own_colour);
 }
 
@@ -139,7 +139,7 @@ static void channels_that_keep_the_stored_value_are_not_written(void)
 
 static void change_blend_factor(void)
 {
-    set_value(TRIPTYCH_STATE_blendfactor, 0x80402010);
+    set_value(TRIPTYCH_STATE_BLENDFACTOR, 0x80402010);
 }
 
 static void the_blend_factor_is_only_in_the_job(void)
@@ -181,7 +181,7 @@ static void differences_below_zero_stay_in_formats_with_negative_values(void)
     expect_blending(BLEND_COLOR, BLEND_ADD, FACTOR_ZERO, FACTOR_ZERO);
     set_targets(TRIPTYCH_SURFACE_A8R8G8B8, TRIPTYCH_SURFACE_A16B16G16R16F);
     expect_blending(BLEND_COLOR, BLEND_SUBTRACT, FACTOR_ZERO, FACTOR_ONE);
-    set_value(TRIPTYCH_STATE_colorwriteenable1, 0);
+    set_value(TRIPTYCH_STATE_COLORWRITEENABLE1, 0);
     expect_blending(BLEND_COLOR, BLEND_ADD, FACTOR_ZERO, FACTOR_ZERO);
 }
 
@@ -197,13 +197,13 @@ static void targets_that_are_not_written_have_only_their_planes_in_the_key(void)
     TEST_ASSERT_EQUAL_INT(TARGET_HALF, pixel->target[1]);
     TEST_ASSERT_EQUAL_INT(7, pixel->write_mask[0]);
     TEST_ASSERT_TRUE(pixel->float_color && pixel->dither);
-    set_value(TRIPTYCH_STATE_colorwriteenable, 8);
+    set_value(TRIPTYCH_STATE_COLORWRITEENABLE, 8);
     derive();
     TEST_ASSERT_EQUAL_INT(TARGET_8888, pixel->target[0]);
     TEST_ASSERT_EQUAL_INT(0, pixel->write_mask[0]);
     TEST_ASSERT_TRUE(pixel->float_color && !pixel->dither);
-    set_value(TRIPTYCH_STATE_colorwriteenable, 1);
-    set_value(TRIPTYCH_STATE_colorwriteenable1, 0);
+    set_value(TRIPTYCH_STATE_COLORWRITEENABLE, 1);
+    set_value(TRIPTYCH_STATE_COLORWRITEENABLE1, 0);
     derive();
     TEST_ASSERT_EQUAL_INT(TARGET_565, pixel->target[0]);
     TEST_ASSERT_EQUAL_INT(0, pixel->target[1]);
@@ -217,7 +217,7 @@ static void only_colour_is_encoded(void)
     derive();
     TEST_ASSERT_EQUAL_INT(TARGET_SRGB, pixel->target[0]);
     TEST_ASSERT_TRUE(pixel->float_color);
-    set_value(TRIPTYCH_STATE_colorwriteenable, 8);
+    set_value(TRIPTYCH_STATE_COLORWRITEENABLE, 8);
     derive();
     TEST_ASSERT_EQUAL_INT(TARGET_8888, pixel->target[0]);
     TEST_ASSERT_FALSE(pixel->float_color);

@@ -20,7 +20,7 @@ static void set_number(enum triptych_state which, uint32_t value)
                           state_set_value(&state, TRIPTYCH_RENDER_STATES, 0, which, value, NULL));
 }
 
-#define SET(name, word) set(TRIPTYCH_STATE_##name, word)
+#define SET(name, word) set((enum triptych_state)STATE_##name, word)
 
 static void set(enum triptych_state which, const char *word)
 {
@@ -43,7 +43,7 @@ void setUp(void)
     struct triptych_element element = {TRIPTYCH_FORMAT_FLOAT3, &buffer, 0, 32};
     buffer.data = bytes;
     state_initialize(&state);
-    set_target(TRIPTYCH_DEPTH_d24s8, 0);
+    set_target(TRIPTYCH_DEPTH_D24S8, 0);
     TEST_ASSERT_EQUAL_INT(TRIPTYCH_OK, state_set_element(&state, TRIPTYCH_POSITION, &element, NULL));
     SET(cullmode, "none");
 }
@@ -96,11 +96,11 @@ static void a_test_that_passes_and_keeps_everything_is_disabled_in_the_key(void)
     TEST_ASSERT_EQUAL_INT(STENCIL_OFF, pixel->stencil);
     expect_side(SIDE_CLOCKWISE, 0, 0, 0, 0);
     set_side("always", "keep", "keep", "incr");
-    set_number(TRIPTYCH_STATE_stencilwritemask, 0xffffff00);
+    set_number(TRIPTYCH_STATE_STENCILWRITEMASK, 0xffffff00);
     derive();
     TEST_ASSERT_EQUAL_INT(STENCIL_OFF, pixel->stencil);
     set_side("lessequal", "zero", "keep", "keep");
-    set_number(TRIPTYCH_STATE_stencilmask, 0xffffff00);
+    set_number(TRIPTYCH_STATE_STENCILMASK, 0xffffff00);
     derive();
     TEST_ASSERT_EQUAL_INT(STENCIL_OFF, pixel->stencil);
 }
@@ -182,7 +182,7 @@ static void culling_leaves_one_side(void)
 
 static void a_draw_that_only_changes_stencil_has_an_effect(void)
 {
-    set_number(TRIPTYCH_STATE_colorwriteenable, 0);
+    set_number(TRIPTYCH_STATE_COLORWRITEENABLE, 0);
     SET(zwriteenable, "false");
     derive();
     TEST_ASSERT_FALSE(derive_effective(pixel));
@@ -217,12 +217,12 @@ static void the_format_is_in_the_key_where_it_is_read(void)
     derive();
     TEST_ASSERT_EQUAL_INT(DEPTH_FLOAT, pixel->depth_format);
     TEST_ASSERT_EQUAL_INT(0, pixel->depth_w);
-    set_target(TRIPTYCH_DEPTH_none, 0);
+    set_target(TRIPTYCH_DEPTH_NONE, 0);
     SET(zenable, "true");
     derive();
     TEST_ASSERT_EQUAL_INT(COMPARE_ALWAYS, pixel->depth_function);
     TEST_ASSERT_EQUAL_INT(0, pixel->depth_write);
-    set_target(TRIPTYCH_DEPTH_d16, 0);
+    set_target(TRIPTYCH_DEPTH_D16, 0);
     derive();
     TEST_ASSERT_EQUAL_INT(DEPTH_UNORM, pixel->depth_format); /* the number of bits is the job's */
     TEST_ASSERT_EQUAL_FLOAT(65535, job.depth_maximum);
@@ -232,11 +232,11 @@ static void reference_and_masks_are_in_the_job_with_the_bits_of_the_stencil(void
 {
     union key before[UNIT_COUNT];
     set_side("less", "zero", "incr", "decr");
-    set_target(TRIPTYCH_DEPTH_d24x4s4, 0);
+    set_target(TRIPTYCH_DEPTH_D24X4S4, 0);
     derive_keys(&state, PRIMITIVE_TRIANGLE, before);
-    set_number(TRIPTYCH_STATE_stencilref, 0x57);
-    set_number(TRIPTYCH_STATE_stencilmask, 0x1236);
-    set_number(TRIPTYCH_STATE_stencilwritemask, 0xfffffff9);
+    set_number(TRIPTYCH_STATE_STENCILREF, 0x57);
+    set_number(TRIPTYCH_STATE_STENCILMASK, 0x1236);
+    set_number(TRIPTYCH_STATE_STENCILWRITEMASK, 0xfffffff9);
     derive();
     TEST_ASSERT_EQUAL_MEMORY(before, key, sizeof before);
     TEST_ASSERT_EQUAL_INT(15, job.stencil_maximum);
@@ -248,9 +248,9 @@ static void reference_and_masks_are_in_the_job_with_the_bits_of_the_stencil(void
 static void samples_come_from_the_target(void)
 {
     for (unsigned n = 0; n < SAMPLES_RADIX; n++) {
-        set_target(TRIPTYCH_DEPTH_d24s8, 1u << n);
+        set_target(TRIPTYCH_DEPTH_D24S8, 1u << n);
         SET(multisampleantialias, "true");
-        set_number(TRIPTYCH_STATE_multisamplemask, 0xffffff5a);
+        set_number(TRIPTYCH_STATE_MULTISAMPLEMASK, 0xffffff5a);
         derive();
         struct sampling sampling = derive_sampling(&state);
         TEST_ASSERT_EQUAL_INT(n, pixel->samples);

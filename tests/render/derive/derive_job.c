@@ -145,7 +145,7 @@ static void directional_lights_point_to_the_light_in_camera_space(void)
 
 static void base_colour_is_the_sum_of_constant_terms(void)
 {
-    state.value[TRIPTYCH_STATE_ambient] = 0x00ff8000;
+    state.value[TRIPTYCH_STATE_AMBIENT] = 0x00ff8000;
     SET(colorvertex, "false");
     state.material = (struct triptych_material){
         .diffuse = {.5f, 1, 1, .25f}, .ambient = {.5f, .5f, .5f, 1}, .emissive = {.125f, 0, 0, 1}};

@@ -36,7 +36,7 @@ static void fill_modes_are_for_triangles(void)
 static void culling_and_depth_bias_are_for_triangles_and_their_parts(void)
 {
     SET(cullmode, "cw");
-    set_value(TRIPTYCH_STATE_depthbias, 0x3a000000);
+    set_value(TRIPTYCH_STATE_DEPTHBIAS, 0x3a000000);
     for (int p = 0; p < PRIMITIVE_COUNT; p++) {
         derive_as((enum primitive)p);
         int has_area = p != PRIMITIVE_LINE && p != PRIMITIVE_POINT;
@@ -51,11 +51,11 @@ static void depth_bias_has_only_the_terms_that_are_needed(void)
 {
     derive_as(PRIMITIVE_TRIANGLE);
     TEST_ASSERT_EQUAL_INT(DEPTH_BIAS_NONE, key[UNIT_SETUP].setup.depth_bias);
-    set_value(TRIPTYCH_STATE_depthbias, 0x80000000); /* -0 */
-    set_value(TRIPTYCH_STATE_slopescaledepthbias, 0x80000000);
+    set_value(TRIPTYCH_STATE_DEPTHBIAS, 0x80000000); /* -0 */
+    set_value(TRIPTYCH_STATE_SLOPESCALEDEPTHBIAS, 0x80000000);
     derive_as(PRIMITIVE_TRIANGLE);
     TEST_ASSERT_EQUAL_INT(DEPTH_BIAS_NONE, key[UNIT_SETUP].setup.depth_bias);
-    set_value(TRIPTYCH_STATE_slopescaledepthbias, 0x3f800000);
+    set_value(TRIPTYCH_STATE_SLOPESCALEDEPTHBIAS, 0x3f800000);
     derive_as(PRIMITIVE_TRIANGLE);
     TEST_ASSERT_EQUAL_INT(DEPTH_BIAS_SLOPE, key[UNIT_SETUP].setup.depth_bias);
     TEST_ASSERT_EQUAL_FLOAT(1, job.depth_bias_slope);
@@ -93,7 +93,7 @@ static void clip_planes_are_packed_and_in_clip_space(void)
     state_set_transform(&state, TRIPTYCH_TRANSFORM_PROJECTION, project, NULL);
     state_set_clip_plane(&state, 1, planes[0], NULL);
     state_set_clip_plane(&state, 4, planes[1], NULL);
-    set_value(TRIPTYCH_STATE_clipplaneenable, 1 << 1 | 1 << 4);
+    set_value(TRIPTYCH_STATE_CLIPPLANEENABLE, 1 << 1 | 1 << 4);
     derive_as(PRIMITIVE_TRIANGLE);
     TEST_ASSERT_EQUAL_INT(2, key[UNIT_VERTEX].vertex.clip_planes);
     double ratio[2] = {0};

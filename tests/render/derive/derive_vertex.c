@@ -19,7 +19,7 @@ static void set(enum triptych_state which, uint32_t value)
                           state_set_value(&state, TRIPTYCH_RENDER_STATES, 0, which, value, NULL));
 }
 
-#define SET(name, value) set(TRIPTYCH_STATE_##name, value)
+#define SET(name, value) set((enum triptych_state)STATE_##name, value)
 
 static const struct vertex_key *derive(void)
 {

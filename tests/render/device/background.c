@@ -45,7 +45,7 @@ static void open_device(const struct engine *engine, const struct device_options
     close_device();
     TEST_ASSERT_EQUAL_INT(TRIPTYCH_OK, device_create(engine, options, &device, NULL));
     OK(triptych_set_target(device, SIZE, SIZE));
-    OK(triptych_set_state(device, TRIPTYCH_STATE_cullmode, 1));
+    OK(triptych_set_state(device, TRIPTYCH_STATE_CULLMODE, 1));
     OK(triptych_shader_assemble(device, "place", shader_text, sizeof shader_text - 1, &shader));
     OK(triptych_set_vertex_shader(device, shader));
     OK(triptych_buffer_create(device, corner, sizeof corner, &buffer));
@@ -89,11 +89,11 @@ static void place(uint32_t *seed)
 /* Changes states so that keys change, and earlier keys occur again. */
 static void change_states(uint32_t *seed)
 {
-    OK(triptych_set_state(device, TRIPTYCH_STATE_alphablendenable, 1));
-    OK(triptych_set_state(device, TRIPTYCH_STATE_srcblend, 2 + next_random(seed) % 7));
-    OK(triptych_set_state(device, TRIPTYCH_STATE_destblend, 2 + next_random(seed) % 7));
-    OK(triptych_set_state(device, TRIPTYCH_STATE_zfunc, 2 + next_random(seed) % 7));
-    OK(triptych_set_state(device, TRIPTYCH_STATE_colorwriteenable, 1 + next_random(seed) % 15));
+    OK(triptych_set_state(device, TRIPTYCH_STATE_ALPHABLENDENABLE, 1));
+    OK(triptych_set_state(device, TRIPTYCH_STATE_SRCBLEND, 2 + next_random(seed) % 7));
+    OK(triptych_set_state(device, TRIPTYCH_STATE_DESTBLEND, 2 + next_random(seed) % 7));
+    OK(triptych_set_state(device, TRIPTYCH_STATE_ZFUNC, 2 + next_random(seed) % 7));
+    OK(triptych_set_state(device, TRIPTYCH_STATE_COLORWRITEENABLE, 1 + next_random(seed) % 15));
 }
 
 static void fill_texture(triptych_texture *texture, uint32_t *seed)
@@ -151,8 +151,8 @@ static void draw_scene(struct result *result)
         OK(triptych_draw(device, TRIPTYCH_TRIANGLE_LIST, 0, 2));
         in_background += device->rendered.commands != 0;
     }
-    OK(triptych_read_color(device, result->image));
-    OK(triptych_read_depth(device, result->depth));
+    OK(triptych_read_color(device, result->image, sizeof result->image));
+    OK(triptych_read_depth(device, result->depth, sizeof result->depth));
     for (int q = 0; q < QUERIES; q++)
         OK(triptych_query_result(device, query[q], &result->passed[q]));
 }

@@ -21,8 +21,8 @@ void setUp(void)
     TEST_ASSERT_EQUAL_INT(TRIPTYCH_OK, device_create(&engine_emulate, &options, &device, NULL));
     OK(triptych_set_target(device, SIZE, SIZE));
     OK(triptych_clear(device, (float[]){0, 0, 0, 1}, 1));
-    OK(triptych_set_state(device, TRIPTYCH_STATE_lighting, 0));
-    OK(triptych_set_state(device, TRIPTYCH_STATE_cullmode, 1));
+    OK(triptych_set_state(device, TRIPTYCH_STATE_LIGHTING, 0));
+    OK(triptych_set_state(device, TRIPTYCH_STATE_CULLMODE, 1));
 }
 
 void tearDown(void)
@@ -49,7 +49,7 @@ static triptych_texture *bind_red(void)
 
 static void expect_all(uint32_t color)
 {
-    OK(triptych_read_color(device, image));
+    OK(triptych_read_color(device, image, sizeof image));
     for (int i = 0; i < SIZE * SIZE; i++)
         TEST_ASSERT_EQUAL_HEX32(color, image[i]);
 }
@@ -84,7 +84,7 @@ static void drawing_goes_back_to_the_target(void)
 {
     struct triptych_texture_description description = {
         TRIPTYCH_TEXTURE_2D, TRIPTYCH_SURFACE_A8R8G8B8, SIZE / 2, SIZE / 2, 1, 1};
-    struct triptych_target_textures surfaces = {.depth_format = TRIPTYCH_DEPTH_none};
+    struct triptych_target_textures surfaces = {.depth_format = TRIPTYCH_DEPTH_NONE};
     triptych_texture *texture;
     OK(triptych_texture_define(device, &description, &texture));
     surfaces.color[0].texture = texture;

@@ -22,8 +22,8 @@ static void open_engine(const struct engine *engine, const struct device_options
 {
     TEST_ASSERT_EQUAL_INT(TRIPTYCH_OK, device_create(engine, options, &device, NULL));
     OK(triptych_set_target(device, SIZE, SIZE));
-    OK(triptych_set_state(device, TRIPTYCH_STATE_lighting, 0));
-    OK(triptych_set_state(device, TRIPTYCH_STATE_cullmode, 1));
+    OK(triptych_set_state(device, TRIPTYCH_STATE_LIGHTING, 0));
+    OK(triptych_set_state(device, TRIPTYCH_STATE_CULLMODE, 1));
 }
 
 static void open_device_with(const struct device_options *options)
@@ -94,8 +94,8 @@ static void draw_rectangle(float x0, float y0, float x1, float y1, float z, uint
 
 static void read_image(void)
 {
-    OK(triptych_read_color(device, image));
-    OK(triptych_read_depth(device, depth));
+    OK(triptych_read_color(device, image, sizeof image));
+    OK(triptych_read_depth(device, depth, sizeof depth));
 }
 
 static uint32_t count_color(uint32_t color)
@@ -143,7 +143,7 @@ static void draws_need_a_target_a_position_and_indices(void)
     TEST_ASSERT_EQUAL_INT(TRIPTYCH_OK, device_create(&engine_emulate, &options, &device, NULL));
     expect_refused(TRIPTYCH_BAD_CALL, triptych_draw(device, TRIPTYCH_TRIANGLE_LIST, 0, 1),
                    "no target: expected set_target first");
-    expect_refused(TRIPTYCH_BAD_CALL, triptych_read_color(device, image),
+    expect_refused(TRIPTYCH_BAD_CALL, triptych_read_color(device, image, sizeof image),
                    "no target: expected set_target first");
     expect_refused(TRIPTYCH_BAD_CALL, triptych_clear(device, NULL, 1),
                    "no target: expected set_target first");
@@ -177,7 +177,7 @@ static void attributes_that_are_not_read_are_not_checked(void)
     struct triptych_element element = {TRIPTYCH_FORMAT_FLOAT3, buffer_of(normal, sizeof normal), 0, 12};
     OK(triptych_set_element(device, TRIPTYCH_NORMAL, &element));
     draw_rectangle(0, 0, 10, 10, 0, RED_ARGB);
-    OK(triptych_set_state(device, TRIPTYCH_STATE_lighting, 1));
+    OK(triptych_set_state(device, TRIPTYCH_STATE_LIGHTING, 1));
     OK(triptych_enable_light(device, 0, 1));
     expect_refused(TRIPTYCH_BAD_CALL, triptych_draw(device, TRIPTYCH_TRIANGLE_LIST, 0, 2),
                    "vertex 5: normal lies past its buffer, which ends with vertex 0");
@@ -187,7 +187,7 @@ static void null_arguments_are_refused(void)
 {
     triptych_buffer *buffer;
     expect_refused(TRIPTYCH_BAD_ARGUMENT, triptych_buffer_create(device, NULL, 4, &buffer), "data is null");
-    expect_refused(TRIPTYCH_BAD_ARGUMENT, triptych_read_color(device, NULL), "image is null");
+    expect_refused(TRIPTYCH_BAD_ARGUMENT, triptych_read_color(device, NULL, 0), "image is null");
     expect_refused(TRIPTYCH_BAD_ARGUMENT, triptych_set_material(device, NULL), "material is null");
     expect_refused(TRIPTYCH_BAD_ARGUMENT, triptych_buffer_create(device, image, 0, &buffer),
                    "buffer of 0 bytes: expected 1 to 2^31 - 1");
@@ -246,7 +246,7 @@ static void hooks_receive_each_draw_and_its_keys(void)
     heard = 0;
     device_on_draw(device, hear, &heard);
     draw_rectangle(0, 0, 10, 10, 0, RED_ARGB);
-    OK(triptych_set_state(device, TRIPTYCH_STATE_zenable, 0));
+    OK(triptych_set_state(device, TRIPTYCH_STATE_ZENABLE, 0));
     draw_rectangle(0, 0, 10, 10, 0, RED_ARGB);
     TEST_ASSERT_EQUAL_UINT64(2, heard);
     TEST_ASSERT_EQUAL_INT(COMPARE_ALWAYS, heard_key[UNIT_PIXEL].pixel.depth_function);
@@ -291,7 +291,7 @@ static void calls_are_measured_where_enabled(void)
 
 static void draws_without_effect_build_nothing(void)
 {
-    OK(triptych_set_state(device, TRIPTYCH_STATE_zfunc, 1));
+    OK(triptych_set_state(device, TRIPTYCH_STATE_ZFUNC, 1));
     draw_rectangle(0, 0, 100, 100, 0.5f, RED_ARGB);
     struct triptych_routine_info info;
     TEST_ASSERT_EQUAL_INT(0, triptych_get_routine(device, 0, &info));
@@ -301,21 +301,21 @@ static void draws_without_effect_build_nothing(void)
 
 static void states_are_set_by_table(void)
 {
-    OK(triptych_set_sampler_state(device, 0, TRIPTYCH_SAMPLER_addressv, 3));
-    OK(triptych_set_stage_state(device, 0, TRIPTYCH_STAGE_colorop, 7));
-    OK(triptych_set_state(device, TRIPTYCH_STATE_fogend, triptych_float_bits(1)));
-    TEST_ASSERT_EQUAL_UINT32(3, device->state.sampler[0][TRIPTYCH_SAMPLER_addressv]);
-    TEST_ASSERT_EQUAL_UINT32(7, device->state.stage[0][TRIPTYCH_STAGE_colorop]);
-    expect_refused(TRIPTYCH_BAD_ARGUMENT, triptych_set_sampler_state(device, 0, TRIPTYCH_SAMPLER_addressv, 6),
+    OK(triptych_set_sampler_state(device, 0, TRIPTYCH_SAMPLER_ADDRESSV, 3));
+    OK(triptych_set_stage_state(device, 0, TRIPTYCH_STAGE_COLOROP, 7));
+    OK(triptych_set_state(device, TRIPTYCH_STATE_FOGEND, triptych_float_bits(1)));
+    TEST_ASSERT_EQUAL_UINT32(3, device->state.sampler[0][TRIPTYCH_SAMPLER_ADDRESSV]);
+    TEST_ASSERT_EQUAL_UINT32(7, device->state.stage[0][TRIPTYCH_STAGE_COLOROP]);
+    expect_refused(TRIPTYCH_BAD_ARGUMENT, triptych_set_sampler_state(device, 0, TRIPTYCH_SAMPLER_ADDRESSV, 6),
                    "sampler 0 addressv: value 6 does not exist, expected wrap (1), mirror (2), clamp (3), "
                    "border (4), mirroronce (5)");
-    expect_refused(TRIPTYCH_BAD_ARGUMENT, triptych_set_stage_state(device, 8, TRIPTYCH_STAGE_colorop, 1),
+    expect_refused(TRIPTYCH_BAD_ARGUMENT, triptych_set_stage_state(device, 8, TRIPTYCH_STAGE_COLOROP, 1),
                    "stage 8: expected 0 to 7");
     TEST_ASSERT_EQUAL_INT(TRIPTYCH_BAD_ARGUMENT,
-                          triptych_set_sampler_state(NULL, 0, TRIPTYCH_SAMPLER_addressv, 3));
+                          triptych_set_sampler_state(NULL, 0, TRIPTYCH_SAMPLER_ADDRESSV, 3));
     TEST_ASSERT_EQUAL_INT(TRIPTYCH_BAD_ARGUMENT,
-                          triptych_set_stage_state(NULL, 0, TRIPTYCH_STAGE_colorop, 1));
-    TEST_ASSERT_EQUAL_UINT32(3, device->state.sampler[0][TRIPTYCH_SAMPLER_addressv]);
+                          triptych_set_stage_state(NULL, 0, TRIPTYCH_STAGE_COLOROP, 1));
+    TEST_ASSERT_EQUAL_UINT32(3, device->state.sampler[0][TRIPTYCH_SAMPLER_ADDRESSV]);
 }
 
 int main(void)

@@ -23,8 +23,8 @@ static void open_engine(const struct engine *engine, const struct device_options
 {
     TEST_ASSERT_EQUAL_INT(TRIPTYCH_OK, device_create(engine, options, &device, NULL));
     OK(triptych_set_target(device, SIZE, SIZE));
-    OK(triptych_set_state(device, TRIPTYCH_STATE_lighting, 0));
-    OK(triptych_set_state(device, TRIPTYCH_STATE_cullmode, 1));
+    OK(triptych_set_state(device, TRIPTYCH_STATE_LIGHTING, 0));
+    OK(triptych_set_state(device, TRIPTYCH_STATE_CULLMODE, 1));
 }
 
 static void open_device_with(const struct device_options *options)
@@ -95,8 +95,8 @@ static void draw_rectangle(float x0, float y0, float x1, float y1, float z, uint
 
 static void read_image(void)
 {
-    OK(triptych_read_color(device, image));
-    OK(triptych_read_depth(device, depth));
+    OK(triptych_read_color(device, image, sizeof image));
+    OK(triptych_read_depth(device, depth, sizeof depth));
 }
 
 static uint32_t count_color(uint32_t color)
@@ -132,9 +132,9 @@ static float random_float(uint32_t *seed, float low, float high)
 static void draw_scene(bool finish_each)
 {
     uint32_t seed = 5;
-    OK(triptych_set_state(device, TRIPTYCH_STATE_alphablendenable, 1));
-    OK(triptych_set_state(device, TRIPTYCH_STATE_srcblend, 5));
-    OK(triptych_set_state(device, TRIPTYCH_STATE_destblend, 6));
+    OK(triptych_set_state(device, TRIPTYCH_STATE_ALPHABLENDENABLE, 1));
+    OK(triptych_set_state(device, TRIPTYCH_STATE_SRCBLEND, 5));
+    OK(triptych_set_state(device, TRIPTYCH_STATE_DESTBLEND, 6));
     for (int d = 0; d < 30; d++) {
         struct vertex vertex[3 * 300];
         for (int i = 0; i < 900; i++) {
@@ -251,7 +251,7 @@ static void a_starved_chunk_is_rendered_in_a_round_of_its_own(void)
     lingered = false;
     close_device();
     open_engine(&lingering, &(struct device_options){.threads = 2, .arena_bytes = ARENA_BLOCK * 5 / 4});
-    OK(triptych_set_state(device, TRIPTYCH_STATE_zfunc, 8));
+    OK(triptych_set_state(device, TRIPTYCH_STATE_ZFUNC, 8));
     draw_list(vertex, TRIANGLES);
     free(vertex);
     read_image();
@@ -302,7 +302,7 @@ static void one_huge_draw_is_rendered_in_rounds(void)
     close_device();
     open_device(2);
     OK(triptych_set_viewport(device, &corner));
-    OK(triptych_set_state(device, TRIPTYCH_STATE_zenable, 0));
+    OK(triptych_set_state(device, TRIPTYCH_STATE_ZENABLE, 0));
     bind(buffer_of(v, sizeof v));
     OK(triptych_set_indices(device, buffer_of(index, TRIANGLES * 3 * sizeof *index), 32));
     free(index);
@@ -323,8 +323,8 @@ static void more_draws_than_the_queue_holds_are_all_drawn(void)
     struct vertex v[3] = {
         {{-1, 1, 0, 1}, 0x01010101}, {{3, 1, 0, 1}, 0x01010101}, {{-1, -3, 0, 1}, 0x01010101}};
     OK(triptych_set_viewport(device, &(struct triptych_viewport){0, 0, 1, 1, 0, 1}));
-    OK(triptych_set_state(device, TRIPTYCH_STATE_zenable, 0));
-    OK(triptych_set_state(device, TRIPTYCH_STATE_shademode, 1));
+    OK(triptych_set_state(device, TRIPTYCH_STATE_ZENABLE, 0));
+    OK(triptych_set_state(device, TRIPTYCH_STATE_SHADEMODE, 1));
     bind(buffer_of(v, sizeof v));
     for (int i = 0; i < QUEUE_COMMANDS + 100; i++)
         OK(triptych_draw(device, TRIPTYCH_TRIANGLE_LIST, 0, 1));

@@ -256,10 +256,10 @@ static void a_routine_larger_than_the_arena_is_refused_and_nothing_is_drawn(void
             continue;
         TEST_ASSERT_EQUAL_INT(TRIPTYCH_OK, device_create(engine, &options, &device, &error));
         varied_begin(device);
-        TEST_ASSERT_EQUAL_INT(TRIPTYCH_OK, triptych_set_state(device, TRIPTYCH_STATE_lighting, 1));
+        TEST_ASSERT_EQUAL_INT(TRIPTYCH_OK, triptych_set_state(device, TRIPTYCH_STATE_LIGHTING, 1));
         varied_read(device, &before);
-        TEST_ASSERT_EQUAL_INT(TRIPTYCH_OK, triptych_set_state(device, TRIPTYCH_STATE_fogenable, 1));
-        TEST_ASSERT_EQUAL_INT(TRIPTYCH_OK, triptych_set_state(device, TRIPTYCH_STATE_fogvertexmode, 1));
+        TEST_ASSERT_EQUAL_INT(TRIPTYCH_OK, triptych_set_state(device, TRIPTYCH_STATE_FOGENABLE, 1));
+        TEST_ASSERT_EQUAL_INT(TRIPTYCH_OK, triptych_set_state(device, TRIPTYCH_STATE_FOGVERTEXMODE, 1));
         for (unsigned light = 0; light < 8; light++)
             TEST_ASSERT_EQUAL_INT(TRIPTYCH_OK, triptych_enable_light(device, light, 1));
         TEST_ASSERT_EQUAL_INT_MESSAGE(TRIPTYCH_ENGINE_FAILED,

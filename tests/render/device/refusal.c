@@ -26,7 +26,7 @@ void setUp(void)
     TEST_ASSERT_EQUAL_INT(TRIPTYCH_OK, triptych_device_create(&options, &device, NULL, 0));
     OK(triptych_set_target(device, 8, 8));
     OK(triptych_buffer_create(device, corners, sizeof corners, &buffer));
-    OK(triptych_set_state(device, TRIPTYCH_STATE_lighting, 0));
+    OK(triptych_set_state(device, TRIPTYCH_STATE_LIGHTING, 0));
     struct triptych_element position = {TRIPTYCH_FORMAT_FLOAT4, buffer, 0, STRIDE};
     OK(triptych_set_element(device, TRIPTYCH_POSITION, &position));
 }
@@ -42,7 +42,7 @@ static void expect_unchanged(void)
     uint32_t image[64];
     OK(triptych_clear(device, (const float[4]){0, 0, 0, 0}, 1));
     OK(triptych_draw(device, TRIPTYCH_TRIANGLE_LIST, 0, 1));
-    OK(triptych_read_color(device, image));
+    OK(triptych_read_color(device, image, sizeof image));
     for (int i = 0; i < 64; i++)
         TEST_ASSERT_EQUAL_HEX32(0xffffffff, image[i]);
 }

@@ -31,7 +31,7 @@ void setUp(void)
     OK(triptych_set_target(device, 4, 4));
     OK(triptych_buffer_create(device, triangle, sizeof triangle, &position.buffer));
     OK(triptych_set_element(device, TRIPTYCH_POSITION, &position));
-    OK(triptych_set_state(device, TRIPTYCH_STATE_lighting, 0));
+    OK(triptych_set_state(device, TRIPTYCH_STATE_LIGHTING, 0));
 }
 
 void tearDown(void)
@@ -246,7 +246,7 @@ static void a_hundred_thousand_draws_stay_within_the_memory_of_constants(void)
 {
     size_t most = 0;
     set_vertex(add_text);
-    OK(triptych_set_state(device, TRIPTYCH_STATE_cullmode, 2)); /* the draws cover no pixels, to be quick */
+    OK(triptych_set_state(device, TRIPTYCH_STATE_CULLMODE, 2)); /* the draws cover no pixels, to be quick */
     for (int i = 0; i < 100000; i++) {
         set_float(3, (float)i);
         draw();

@@ -96,8 +96,8 @@ static void create_drawing(const struct engine *engine)
     TEST_ASSERT_EQUAL_INT(TRIPTYCH_OK, device_create(engine, &options, &drawing->device, NULL));
     triptych_device *device = drawing->device;
     OK(triptych_set_target_description(device, &target));
-    OK(triptych_set_state(device, TRIPTYCH_STATE_lighting, 0));
-    OK(triptych_set_state(device, TRIPTYCH_STATE_cullmode, 1));
+    OK(triptych_set_state(device, TRIPTYCH_STATE_LIGHTING, 0));
+    OK(triptych_set_state(device, TRIPTYCH_STATE_CULLMODE, 1));
     create_textures(drawing);
     create_vertices(device);
 }
@@ -167,7 +167,7 @@ static bool draw(struct drawing *drawing, const struct shader *shader)
     if (!drawn)
         expect_one_line(triptych_error(device));
     OK(triptych_shader_destroy(device, made));
-    OK(triptych_read_target_numbers(device, 0, picture[0]));
+    OK(triptych_read_target_numbers(device, 0, picture[0], sizeof picture));
     return drawn;
 }
 
@@ -312,7 +312,7 @@ static void set_random_states(void)
             chosen++;
         }
     }
-    set_everywhere(TRIPTYCH_RENDER_STATES, 0, TRIPTYCH_STATE_cullmode, 1);
+    set_everywhere(TRIPTYCH_RENDER_STATES, 0, TRIPTYCH_STATE_CULLMODE, 1);
     for (unsigned e = 0; e < engines; e++)
         triptych_set_convention(drawings[e].device, TRIPTYCH_MULTIPLY, (unsigned)(seed & 1));
 }
@@ -325,7 +325,7 @@ static void set_random_target(void)
     struct triptych_target_description target = {.width = SIZE, .height = SIZE};
     do
         target.depth_format = shader_random(&seed, TRIPTYCH_DEPTH_COUNT);
-    while (target.depth_format == TRIPTYCH_DEPTH_none);
+    while (target.depth_format == TRIPTYCH_DEPTH_NONE);
     unsigned targets = shader_random(&seed, 3) ? 1 : 2;
     for (unsigned t = 0; t < targets; t++)
         target.color_format[t] = formats[shader_random(&seed, 4)];
@@ -353,7 +353,7 @@ static bool draw_pair(const struct shader *vertex, const struct shader *pixel)
         }
         OK(triptych_clear(device, black, 1));
         results[e] = triptych_draw(device, TRIPTYCH_TRIANGLE_STRIP, 0, 2);
-        OK(triptych_read_target_numbers(device, 0, picture[0]));
+        OK(triptych_read_target_numbers(device, 0, picture[0], sizeof picture));
         OK(triptych_shader_destroy(device, made[0]));
         OK(triptych_shader_destroy(device, made[1]));
         if (!e)

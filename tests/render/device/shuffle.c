@@ -42,11 +42,11 @@ static void open_device(unsigned threads, uint32_t arena_bytes, uint64_t seed)
                                    &device, NULL));
     device_shuffle(device, seed);
     OK(triptych_set_target(device, SIZE, SIZE));
-    OK(triptych_set_state(device, TRIPTYCH_STATE_lighting, 0));
-    OK(triptych_set_state(device, TRIPTYCH_STATE_cullmode, 1));
-    OK(triptych_set_state(device, TRIPTYCH_STATE_alphablendenable, 1));
-    OK(triptych_set_state(device, TRIPTYCH_STATE_srcblend, 5));
-    OK(triptych_set_state(device, TRIPTYCH_STATE_destblend, 6));
+    OK(triptych_set_state(device, TRIPTYCH_STATE_LIGHTING, 0));
+    OK(triptych_set_state(device, TRIPTYCH_STATE_CULLMODE, 1));
+    OK(triptych_set_state(device, TRIPTYCH_STATE_ALPHABLENDENABLE, 1));
+    OK(triptych_set_state(device, TRIPTYCH_STATE_SRCBLEND, 5));
+    OK(triptych_set_state(device, TRIPTYCH_STATE_DESTBLEND, 6));
 }
 
 void setUp(void)
@@ -107,8 +107,8 @@ static void draw_scene(struct result *result)
         if (d == 3)
             OK(triptych_clear(device, NULL, 0.6f));
     }
-    OK(triptych_read_color(device, result->image));
-    OK(triptych_read_depth(device, result->depth));
+    OK(triptych_read_color(device, result->image, sizeof result->image));
+    OK(triptych_read_depth(device, result->depth, sizeof result->depth));
     for (int d = 0; d < DRAWS; d++)
         OK(triptych_query_result(device, query[d], &result->passed[d]));
 }

@@ -35,8 +35,8 @@ static void set_sampler(unsigned row, const char *word)
     set_number(row, value);
 }
 
-#define SET_NUMBER(name, value) set_number(TRIPTYCH_SAMPLER_##name, value)
-#define SET(name, word)         set_sampler(TRIPTYCH_SAMPLER_##name, word)
+#define SET_NUMBER(name, value) set_number(SAMPLER_##name, value)
+#define SET(name, word)         set_sampler(SAMPLER_##name, word)
 
 static const struct pixel_key *derive(void)
 {

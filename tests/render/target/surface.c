@@ -45,8 +45,8 @@ static void draw_to_target(void)
 static void sample(triptych_texture *texture)
 {
     OK(triptych_set_texture(device, 0, texture));
-    set_stage(0, TRIPTYCH_STAGE_colorop, "selectarg1");
-    set_stage(0, TRIPTYCH_STAGE_alphaop, "selectarg1");
+    set_stage(0, TRIPTYCH_STAGE_COLOROP, "selectarg1");
+    set_stage(0, TRIPTYCH_STAGE_ALPHAOP, "selectarg1");
 }
 
 static void expect_image(const uint32_t *expected, const char *what)
@@ -70,12 +70,12 @@ static void check_chain(void)
     sample(first);
     draw_square(0, 0xffffffff, NULL, 0, 1, 1, 0); /* upside down */
     draw_to_target();
-    OK(triptych_read_color(device, image));
+    OK(triptych_read_color(device, image, sizeof image));
     for (int p = 0; p < SIZE * SIZE; p++)
         expect_pixel(p % SIZE, p / SIZE, 0x12345678, "the target");
     sample(second);
     draw_square(0, 0xffffffff, NULL, 0, 1, 1, 0);
-    OK(triptych_read_color(device, image));
+    OK(triptych_read_color(device, image, sizeof image));
     expect_image(texel, "through two textures");
 }
 
@@ -97,14 +97,14 @@ static void check_order(void)
     draw_square(0, 0xffffffff, NULL, 0, 0, 1, 1);
     draw_to(texture, 0, 0);
     OK(triptych_set_scissor(device, 0, 0, SIZE, SIZE / 2));
-    set(TRIPTYCH_STATE_scissortestenable, "true");
+    set(TRIPTYCH_STATE_SCISSORTESTENABLE, "true");
     OK(triptych_clear(device, (const float[4]){1, 1, 1, 1}, 1));
-    set(TRIPTYCH_STATE_scissortestenable, "false");
+    set(TRIPTYCH_STATE_SCISSORTESTENABLE, "false");
     draw_to_target();
-    OK(triptych_read_color(device, image));
+    OK(triptych_read_color(device, image, sizeof image));
     expect_image(texel, "before the clear");
     draw_square(0, 0xffffffff, NULL, 0, 0, 1, 1);
-    OK(triptych_read_color(device, image));
+    OK(triptych_read_color(device, image, sizeof image));
     for (int p = 0; p < SIZE * SIZE; p++)
         expect_pixel(p % SIZE, p / SIZE, p < SIZE * SIZE / 2 ? 0xffffffff : texel[p], "after it");
 }
@@ -138,7 +138,7 @@ static void check_slices(void)
         for (unsigned level = 0; level < 3; level++)
             for (unsigned slice = 0; slice < slices[type][level]; slice++) {
                 struct triptych_surface surface = {texture[type], level, slice};
-                OK(triptych_read_surface_numbers(device, &surface, numbers[0]));
+                OK(triptych_read_surface_numbers(device, &surface, numbers[0], sizeof numbers));
                 for (unsigned i = 0; i < (16u >> level) * (16u >> level); i++)
                     TEST_ASSERT_TRUE(numbers[i][0] == shade(type, level, slice));
             }
@@ -159,7 +159,7 @@ static void check_several(void)
     struct triptych_target_textures textures = {.color = {{bytes, 0, 0}, {halves, 0, 0}},
                                                 .depth = {depth, 0, 0}};
     OK(triptych_set_target_textures(device, &textures));
-    set(TRIPTYCH_STATE_zenable, "true");
+    set(TRIPTYCH_STATE_ZENABLE, "true");
     OK(triptych_clear(device, (const float[4]){0, 0, 0, 0}, 1));
     OK(triptych_set_viewport(device, &(struct triptych_viewport){0, 0, SIZE, SIZE / 2, 0, 1}));
     draw_square(0.25f, 0xffff0000, NULL, 0, 0, 1, 1);
@@ -167,14 +167,14 @@ static void check_several(void)
     OK(triptych_set_target_textures(device, &textures));
     draw_square(0.5f, 0xff00ff00, NULL, 0, 0, 1, 1);
     for (int t = 0; t < 2; t++) {
-        OK(triptych_read_target_numbers(device, (unsigned)t, numbers[0]));
+        OK(triptych_read_target_numbers(device, (unsigned)t, numbers[0], sizeof numbers));
         for (int p = 0; p < SIZE * SIZE; p++) {
             TEST_ASSERT_TRUE(numbers[p][0] == (p < SIZE * SIZE / 2 ? 1 : 0));
             TEST_ASSERT_TRUE(numbers[p][1] == (p < SIZE * SIZE / 2 ? 0 : 1));
         }
     }
     struct triptych_surface surface = {depth, 0, 0};
-    OK(triptych_read_surface_numbers(device, &surface, numbers[0]));
+    OK(triptych_read_surface_numbers(device, &surface, numbers[0], sizeof numbers));
     for (int p = 0; p < SIZE * SIZE; p++)
         for (int c = 0; c < 4; c++)
             TEST_ASSERT_TRUE(fabsf(numbers[p][c] - (p < SIZE * SIZE / 2 ? 0.25f : 0.5f)) < 1e-7f);
@@ -193,11 +193,11 @@ static void check_only_depth(void)
     struct triptych_target_textures textures = {.depth = {depth, 0, 0}};
     struct triptych_surface surface = {depth, 0, 0};
     OK(triptych_set_target_textures(device, &textures));
-    set(TRIPTYCH_STATE_zenable, "true");
+    set(TRIPTYCH_STATE_ZENABLE, "true");
     OK(triptych_clear(device, NULL, 1));
     draw_square(0.75f, 0xffffffff, NULL, 0, 0, 1, 1);
     draw_to_target();
-    OK(triptych_read_surface_numbers(device, &surface, numbers[0]));
+    OK(triptych_read_surface_numbers(device, &surface, numbers[0], sizeof numbers));
     for (int p = 0; p < SIZE * SIZE; p++)
         TEST_ASSERT_TRUE(fabsf(numbers[p][0] - 0.75f) < 1e-7f);
 }
@@ -220,9 +220,9 @@ static void check_update(void)
     OK(triptych_clear(device, (const float[4]){0, 0, 1, 1}, 1));
     OK(triptych_texture_update(device, texture, 0, 0, &box, row, sizeof row, 0));
     OK(triptych_set_scissor(device, 0, 0, SIZE / 2, SIZE));
-    set(TRIPTYCH_STATE_scissortestenable, "true");
+    set(TRIPTYCH_STATE_SCISSORTESTENABLE, "true");
     OK(triptych_clear(device, (const float[4]){1, 0, 0, 1}, 1));
-    OK(triptych_read_surface(device, &surface, image));
+    OK(triptych_read_surface(device, &surface, image, sizeof image));
     for (int y = 0; y < SIZE; y++)
         for (int x = 0; x < SIZE; x++)
             expect_pixel(x, y, x < SIZE / 2 ? 0xff0000ff : y == 3 ? row[x] : 0xffff0000, "updated");
@@ -250,11 +250,11 @@ static void check_copies(void)
     struct triptych_surface surface = {texture, 0, 0};
     draw_random();
     OK(triptych_copy(device, &the_target, NULL, &surface, NULL, TRIPTYCH_COPY_POINT));
-    OK(triptych_read_surface(device, &surface, image));
+    OK(triptych_read_surface(device, &surface, image, sizeof image));
     expect_image(texel, "the target's copy");
     const struct triptych_rectangle from = {5, 6, 20, 10}, to = {30, 40, 20, 10};
     OK(triptych_copy(device, &surface, &from, &the_target, &to, TRIPTYCH_COPY_LINEAR));
-    OK(triptych_read_color(device, image));
+    OK(triptych_read_color(device, image, sizeof image));
     for (unsigned y = 0; y < SIZE; y++)
         for (unsigned x = 0; x < SIZE; x++) {
             int inside = x >= 30 && x < 50 && y >= 40 && y < 50;
@@ -277,11 +277,11 @@ static void check_scaling(void)
     const struct triptych_rectangle quarter = {0, 0, SIZE / 2, SIZE / 2};
     draw_random();
     OK(triptych_copy(device, &the_target, &quarter, &surface, NULL, TRIPTYCH_COPY_POINT));
-    OK(triptych_read_surface(device, &surface, image));
+    OK(triptych_read_surface(device, &surface, image, sizeof image));
     for (int p = 0; p < SIZE * SIZE; p++)
         expect_pixel(p % SIZE, p / SIZE, texel[p / SIZE / 2 * SIZE + p % SIZE / 2], "twice as large");
     OK(triptych_copy(device, &the_target, NULL, &surface, &quarter, TRIPTYCH_COPY_LINEAR));
-    OK(triptych_read_surface_numbers(device, &surface, numbers[0]));
+    OK(triptych_read_surface_numbers(device, &surface, numbers[0], sizeof numbers));
     for (int y = 0; y < SIZE / 2; y++)
         for (int x = 0; x < SIZE / 2; x++)
             for (int c = 0; c < 4; c++) {
@@ -303,7 +303,7 @@ static void check_conversion(void)
     struct triptych_surface surface = {texture, 0, 0};
     draw_random();
     OK(triptych_copy(device, &the_target, NULL, &surface, NULL, TRIPTYCH_COPY_POINT));
-    OK(triptych_read_surface(device, &surface, other));
+    OK(triptych_read_surface(device, &surface, other, sizeof other));
     for (int p = 0; p < SIZE * SIZE; p++) {
         uint32_t word = 0xff000000;
         for (int c = 0; c < 3; c++)

@@ -26,7 +26,7 @@ static void open_target_of(const uint32_t size[2], enum triptych_depth_format fo
 
 static void open_target(const uint32_t size[2])
 {
-    open_target_of(size, TRIPTYCH_DEPTH_d32f_lockable);
+    open_target_of(size, TRIPTYCH_DEPTH_D32F_LOCKABLE);
 }
 
 static void close_target(void)
@@ -140,7 +140,7 @@ static void clears_set_their_pixels_and_no_others(void)
 static void depth_and_stencil_are_cleared_apart(void)
 {
     uint32_t seed = 5;
-    open_target_of((uint32_t[2]){130, 70}, TRIPTYCH_DEPTH_d24s8);
+    open_target_of((uint32_t[2]){130, 70}, TRIPTYCH_DEPTH_D24S8);
     uint32_t pixels = target.width * target.height;
     uint8_t *stencil = calloc(pixels, 1), *got = malloc(pixels);
     float *z = malloc(pixels * sizeof *z);
@@ -185,11 +185,11 @@ static void depth_codes_survive_reading(void)
     static const struct {
         enum triptych_depth_format format;
         uint32_t last, step;
-    } rows[] = {{TRIPTYCH_DEPTH_d16, 0xffff, 1},
-                {TRIPTYCH_DEPTH_d15s1, 0x7fff, 1},
-                {TRIPTYCH_DEPTH_d24s8, 0xffffff, 97},
-                {TRIPTYCH_DEPTH_d24x4s4, 0xffffff, 89},
-                {TRIPTYCH_DEPTH_d24fs8, 0xf00000, 13}};
+    } rows[] = {{TRIPTYCH_DEPTH_D16, 0xffff, 1},
+                {TRIPTYCH_DEPTH_D15S1, 0x7fff, 1},
+                {TRIPTYCH_DEPTH_D24S8, 0xffffff, 97},
+                {TRIPTYCH_DEPTH_D24X4S4, 0xffffff, 89},
+                {TRIPTYCH_DEPTH_D24FS8, 0xf00000, 13}};
     for (size_t r = 0; r < sizeof rows / sizeof *rows; r++) {
         float before = -1;
         for (uint32_t code = 0;;
@@ -204,12 +204,12 @@ static void depth_codes_survive_reading(void)
         }
         TEST_ASSERT_EQUAL_FLOAT(1, before);
     }
-    TEST_ASSERT_EQUAL_HEX32(0xffffffff, depth_encode(TRIPTYCH_DEPTH_d32, 1));
-    TEST_ASSERT_EQUAL_HEX32(0x80000000, depth_encode(TRIPTYCH_DEPTH_d32, 0.5f));
-    TEST_ASSERT_EQUAL_HEX32(0x7fffff80, depth_encode(TRIPTYCH_DEPTH_d32, 0x0.ffffffp-1f));
-    TEST_ASSERT_EQUAL_HEX32(0xbfffffff, depth_encode(TRIPTYCH_DEPTH_d32, 0.75f));
-    TEST_ASSERT_EQUAL_HEX32(0, depth_encode(TRIPTYCH_DEPTH_d32, 0));
-    TEST_ASSERT_EQUAL_FLOAT(1, depth_decode(TRIPTYCH_DEPTH_d32, 0xffffffff));
+    TEST_ASSERT_EQUAL_HEX32(0xffffffff, depth_encode(TRIPTYCH_DEPTH_D32, 1));
+    TEST_ASSERT_EQUAL_HEX32(0x80000000, depth_encode(TRIPTYCH_DEPTH_D32, 0.5f));
+    TEST_ASSERT_EQUAL_HEX32(0x7fffff80, depth_encode(TRIPTYCH_DEPTH_D32, 0x0.ffffffp-1f));
+    TEST_ASSERT_EQUAL_HEX32(0xbfffffff, depth_encode(TRIPTYCH_DEPTH_D32, 0.75f));
+    TEST_ASSERT_EQUAL_HEX32(0, depth_encode(TRIPTYCH_DEPTH_D32, 0));
+    TEST_ASSERT_EQUAL_FLOAT(1, depth_decode(TRIPTYCH_DEPTH_D32, 0xffffffff));
 }
 
 static void whole_clears_touch_no_pixel_until_one_is_needed(void)

@@ -318,8 +318,8 @@ static void check_order(void)
     OK(triptych_texture_create(device, &before, 1, 1, &drawn));
     OK(triptych_texture_create(device, &before, 1, 1, &other));
     OK(triptych_set_texture(device, 0, drawn));
-    set_stage(0, TRIPTYCH_STAGE_colorop, "selectarg1");
-    set_stage(0, TRIPTYCH_STAGE_alphaop, "selectarg1");
+    set_stage(0, TRIPTYCH_STAGE_COLOROP, "selectarg1");
+    set_stage(0, TRIPTYCH_STAGE_ALPHAOP, "selectarg1");
     clear_to(0);
     draw_square(0, 0xffffffff, NULL, 0, 0, 1, 1);
     OK(triptych_set_texture(device, 0, other)); /* unbound when it changes */
@@ -328,7 +328,7 @@ static void check_order(void)
     extent = 0.5f;
     draw_square(0, 0xffffffff, NULL, 0, 0, 1, 1);
     extent = 1;
-    OK(triptych_read_color(device, image));
+    OK(triptych_read_color(device, image, sizeof image));
     expect_pixel(0, 0, before, "drawn before the change");
     expect_pixel(SIZE / 2, SIZE / 2, after, "drawn after the change");
 }

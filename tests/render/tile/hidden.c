@@ -69,7 +69,7 @@ static void every_pixels_depth_lies_in_the_range(void)
         struct plane plane = {.dx = between(-across, across), .dy = between(-down, down)};
         plane.value =
             between(-0.5f, 1.5f) - plane.dx * (500 - head.origin_x) - plane.dy * (500 - head.origin_y);
-        check_plane(&head, &plane, (enum triptych_depth_format)below(TRIPTYCH_DEPTH_none));
+        check_plane(&head, &plane, (enum triptych_depth_format)below(TRIPTYCH_DEPTH_NONE));
     }
 }
 
@@ -80,7 +80,7 @@ static void a_depth_that_is_not_a_number_may_be_anything(void)
     const struct plane planes[] = {{NAN, 0, 0}, {0, NAN, 0}, {0.5f, 0, INFINITY}, {INFINITY, 0, 0}};
     for (int i = 0; i < 4; i++) {
         bool constant;
-        struct depth_range range = hidden_depths(&head, &planes[i], &area, TRIPTYCH_DEPTH_d24s8, &constant);
+        struct depth_range range = hidden_depths(&head, &planes[i], &area, TRIPTYCH_DEPTH_D24S8, &constant);
         TEST_ASSERT_FALSE(constant);
         TEST_ASSERT_EQUAL_HEX32(0, range.least);
         TEST_ASSERT_EQUAL_HEX32(0xffffff00, range.most);
@@ -162,9 +162,9 @@ static void open_devices(enum triptych_depth_format format)
         TEST_ASSERT_EQUAL_INT(TRIPTYCH_OK, device_create(&engine_emulate, &options, &device[i], NULL));
     }
     BOTH(triptych_set_target_description(device[which], &target));
-    BOTH(triptych_set_state(device[which], TRIPTYCH_STATE_lighting, 0));
-    BOTH(triptych_set_state(device[which], TRIPTYCH_STATE_cullmode, 1));
-    BOTH(triptych_set_state(device[which], TRIPTYCH_STATE_scissortestenable, 1));
+    BOTH(triptych_set_state(device[which], TRIPTYCH_STATE_LIGHTING, 0));
+    BOTH(triptych_set_state(device[which], TRIPTYCH_STATE_CULLMODE, 1));
+    BOTH(triptych_set_state(device[which], TRIPTYCH_STATE_SCISSORTESTENABLE, 1));
     BOTH(triptych_query_create(device[which], TRIPTYCH_QUERY_OCCLUSION, &query[which]));
 }
 
@@ -182,20 +182,20 @@ static void set(enum triptych_state state, uint32_t value)
 /* Sets random states on which skipping depends. Most of them allow it. */
 static void set_states(bool stencil)
 {
-    set(TRIPTYCH_STATE_zenable, below(4) > 0);
-    set(TRIPTYCH_STATE_zfunc, 1 + (below(2) ? 1 + 2 * below(2) : below(8)));
-    set(TRIPTYCH_STATE_zwriteenable, below(3) > 0);
-    set(TRIPTYCH_STATE_shademode, 1 + (below(3) == 0));
-    set(TRIPTYCH_STATE_alphablendenable, below(5) == 0);
-    set(TRIPTYCH_STATE_destblend, 2);
-    set(TRIPTYCH_STATE_colorwriteenable, below(6) ? 15 : below(16));
-    set(TRIPTYCH_STATE_colorwriteenable1, 15 * below(2));
-    set(TRIPTYCH_STATE_alphatestenable, below(6) == 0);
-    set(TRIPTYCH_STATE_alphafunc, 5);
-    set(TRIPTYCH_STATE_alpharef, 128);
+    set(TRIPTYCH_STATE_ZENABLE, below(4) > 0);
+    set(TRIPTYCH_STATE_ZFUNC, 1 + (below(2) ? 1 + 2 * below(2) : below(8)));
+    set(TRIPTYCH_STATE_ZWRITEENABLE, below(3) > 0);
+    set(TRIPTYCH_STATE_SHADEMODE, 1 + (below(3) == 0));
+    set(TRIPTYCH_STATE_ALPHABLENDENABLE, below(5) == 0);
+    set(TRIPTYCH_STATE_DESTBLEND, 2);
+    set(TRIPTYCH_STATE_COLORWRITEENABLE, below(6) ? 15 : below(16));
+    set(TRIPTYCH_STATE_COLORWRITEENABLE1, 15 * below(2));
+    set(TRIPTYCH_STATE_ALPHATESTENABLE, below(6) == 0);
+    set(TRIPTYCH_STATE_ALPHAFUNC, 5);
+    set(TRIPTYCH_STATE_ALPHAREF, 128);
     if (stencil) {
-        set(TRIPTYCH_STATE_stencilenable, below(6) == 0);
-        set(TRIPTYCH_STATE_stencilpass, 1 + below(8));
+        set(TRIPTYCH_STATE_STENCILENABLE, below(6) == 0);
+        set(TRIPTYCH_STATE_STENCILPASS, 1 + below(8));
     }
 }
 
@@ -266,12 +266,12 @@ static void expect_equal_pixels(void)
     static uint8_t stencil[2][WIDTH * HEIGHT];
     uint64_t counted[2];
     for (int i = 0; i < 2; i++) {
-        OK(i, triptych_read_target(device[i], 0, color[i][0]));
+        OK(i, triptych_read_target(device[i], 0, color[i][0], sizeof color[i][0]));
         if (device_target(device[i])->colors[1].format)
-            OK(i, triptych_read_target(device[i], 1, color[i][1]));
-        OK(i, triptych_read_depth(device[i], depth[i]));
+            OK(i, triptych_read_target(device[i], 1, color[i][1], sizeof color[i][1]));
+        OK(i, triptych_read_depth(device[i], depth[i], sizeof depth[i]));
         if (depth_formats[device_target(device[i])->depth_format].stencil_bits)
-            OK(i, triptych_read_stencil(device[i], stencil[i]));
+            OK(i, triptych_read_stencil(device[i], stencil[i], sizeof stencil[i]));
         OK(i, triptych_query_result(device[i], query[i], &counted[i]));
     }
     TEST_ASSERT_EQUAL_MEMORY(color[0], color[1], sizeof color[0]);
@@ -307,9 +307,9 @@ static void draw_scene(bool stencil)
 
 static void large_triangles_draw_what_strips_of_them_draw(void)
 {
-    static const enum triptych_depth_format formats[] = {TRIPTYCH_DEPTH_d32f_lockable, TRIPTYCH_DEPTH_d16,
-                                                         TRIPTYCH_DEPTH_d24s8,         TRIPTYCH_DEPTH_d24x8,
-                                                         TRIPTYCH_DEPTH_d24fs8,        TRIPTYCH_DEPTH_d32};
+    static const enum triptych_depth_format formats[] = {TRIPTYCH_DEPTH_D32F_LOCKABLE, TRIPTYCH_DEPTH_D16,
+                                                         TRIPTYCH_DEPTH_D24S8,         TRIPTYCH_DEPTH_D24X8,
+                                                         TRIPTYCH_DEPTH_D24FS8,        TRIPTYCH_DEPTH_D32};
     for (unsigned i = 0; i < SCENES; i++) {
         enum triptych_depth_format format = formats[i % 6];
         open_devices(format);
@@ -346,8 +346,8 @@ static void open_tiles(void)
     const struct device_options options = {.threads = 1};
     TEST_ASSERT_EQUAL_INT(TRIPTYCH_OK, device_create(&engine_emulate, &options, &device[0], NULL));
     OK(0, triptych_set_target(device[0], 192, 128));
-    OK(0, triptych_set_state(device[0], TRIPTYCH_STATE_lighting, 0));
-    OK(0, triptych_set_state(device[0], TRIPTYCH_STATE_cullmode, 1));
+    OK(0, triptych_set_state(device[0], TRIPTYCH_STATE_LIGHTING, 0));
+    OK(0, triptych_set_state(device[0], TRIPTYCH_STATE_CULLMODE, 1));
 }
 
 static void hidden_tiles_are_not_shaded(void)
@@ -366,7 +366,7 @@ static void hidden_tiles_are_not_shaded(void)
 static void uniform_tiles_shade_one_block(void)
 {
     open_tiles();
-    OK(0, triptych_set_state(device[0], TRIPTYCH_STATE_shademode, 1));
+    OK(0, triptych_set_state(device[0], TRIPTYCH_STATE_SHADEMODE, 1));
     fill(0.5f);
     TEST_ASSERT_EQUAL_UINT64(6 * 16, pixels_shaded());
     triptych_device_destroy(device[0]);
@@ -375,7 +375,7 @@ static void uniform_tiles_shade_one_block(void)
 static void overwritten_pixels_are_not_shaded(void)
 {
     open_tiles();
-    OK(0, triptych_set_state(device[0], TRIPTYCH_STATE_zenable, 0));
+    OK(0, triptych_set_state(device[0], TRIPTYCH_STATE_ZENABLE, 0));
     const struct vertex vertex[3] = {{{-1, 5, 0, 1}, 1}, {{5, -1, 0, 1}, 2}, {{-1, -1, 0, 1}, 3}};
     triptych_buffer *buffer;
     OK(0, triptych_buffer_create(device[0], vertex, sizeof vertex, &buffer));

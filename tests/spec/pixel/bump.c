@@ -24,8 +24,8 @@ static void set_stage_float(unsigned stage, enum triptych_stage_state state, flo
 static void set_matrix(unsigned stage, const float m[4])
 {
     static const enum triptych_stage_state state[4] = {
-        TRIPTYCH_STAGE_bumpenvmat00, TRIPTYCH_STAGE_bumpenvmat01, TRIPTYCH_STAGE_bumpenvmat10,
-        TRIPTYCH_STAGE_bumpenvmat11};
+        TRIPTYCH_STAGE_BUMPENVMAT00, TRIPTYCH_STAGE_BUMPENVMAT01, TRIPTYCH_STAGE_BUMPENVMAT10,
+        TRIPTYCH_STAGE_BUMPENVMAT11};
     for (int i = 0; i < 4; i++)
         set_stage_float(stage, state[i], m[i]);
 }
@@ -53,10 +53,10 @@ static void bind_stages(const char *operation, triptych_texture *bump)
     OK(triptych_texture_create(device, texel, SIZE, SIZE, &texture));
     OK(triptych_set_texture(device, 0, bump));
     OK(triptych_set_texture(device, 1, texture));
-    set_stage(0, TRIPTYCH_STAGE_colorop, operation);
-    set_stage(1, TRIPTYCH_STAGE_colorop, "selectarg1");
-    set_stage(1, TRIPTYCH_STAGE_alphaop, "selectarg1");
-    set_stage(1, TRIPTYCH_STAGE_texcoordindex, "0");
+    set_stage(0, TRIPTYCH_STAGE_COLOROP, operation);
+    set_stage(1, TRIPTYCH_STAGE_COLOROP, "selectarg1");
+    set_stage(1, TRIPTYCH_STAGE_ALPHAOP, "selectarg1");
+    set_stage(1, TRIPTYCH_STAGE_TEXCOORDINDEX, "0");
 }
 
 static void make_bumps(void)
@@ -75,7 +75,7 @@ static uint32_t displaced(int p, const float m[4], float du, float dv)
 static void expect_displaced(const float m[4])
 {
     draw_square(0, 0xffffffff, NULL, 0, 0, 1, 1);
-    OK(triptych_read_color(device, image));
+    OK(triptych_read_color(device, image, sizeof image));
     for (int p = 0; p < SIZE * SIZE; p++)
         expect_pixel(p % SIZE, p / SIZE, displaced(p, m, bumps[p][0], bumps[p][1]), "displaced");
 }
@@ -123,10 +123,10 @@ static void check_luminance(void)
     make_bumps();
     bind_stages("bumpenvmapluminance", make(TRIPTYCH_SURFACE_A32B32G32R32F, bumps, sizeof *bumps * SIZE));
     set_matrix(0, identity);
-    set_stage_float(0, TRIPTYCH_STAGE_bumpenvlscale, 0.75f);
-    set_stage_float(0, TRIPTYCH_STAGE_bumpenvloffset, 0.5f);
+    set_stage_float(0, TRIPTYCH_STAGE_BUMPENVLSCALE, 0.75f);
+    set_stage_float(0, TRIPTYCH_STAGE_BUMPENVLOFFSET, 0.5f);
     draw_square(0, 0xffffffff, NULL, 0, 0, 1, 1);
-    OK(triptych_read_color(device, image));
+    OK(triptych_read_color(device, image, sizeof image));
     for (int p = 0; p < SIZE * SIZE; p++) {
         uint32_t sampled = displaced(p, identity, bumps[p][0], bumps[p][1]), expected = 0;
         float luminance = fmaxf(0, fminf(1, bumps[p][2] * 0.75f + 0.5f));
@@ -155,14 +155,14 @@ static void check_chain(void)
     OK(triptych_texture_create(device, texel, SIZE, SIZE, &texture));
     OK(triptych_set_texture(device, 1, bump));
     OK(triptych_set_texture(device, 2, texture));
-    set_stage(1, TRIPTYCH_STAGE_colorop, "bumpenvmap");
-    set_stage(2, TRIPTYCH_STAGE_colorop, "modulate");
-    set_stage(2, TRIPTYCH_STAGE_alphaop, "selectarg2");
-    set_stage(2, TRIPTYCH_STAGE_texcoordindex, "0");
+    set_stage(1, TRIPTYCH_STAGE_COLOROP, "bumpenvmap");
+    set_stage(2, TRIPTYCH_STAGE_COLOROP, "modulate");
+    set_stage(2, TRIPTYCH_STAGE_ALPHAOP, "selectarg2");
+    set_stage(2, TRIPTYCH_STAGE_TEXCOORDINDEX, "0");
     set_matrix(0, identity);
     set_matrix(1, identity);
     draw_square(0, 0x80ffffff, NULL, 0, 0, 1, 1);
-    OK(triptych_read_color(device, image));
+    OK(triptych_read_color(device, image, sizeof image));
     for (int p = 0; p < SIZE * SIZE; p++) {
         int x = (p % SIZE + whole(bumps[p][0])) & (SIZE - 1),
             y = (p / SIZE + whole(bumps[p][1])) & (SIZE - 1);
@@ -185,13 +185,13 @@ static void check_missing(void)
     set_matrix(0, (const float[4]){1, 0, 0, 1});
     OK(triptych_set_texture(device, 0, NULL));
     draw_square(0, 0xffffffff, NULL, 0, 0, 1, 1);
-    OK(triptych_read_color(device, image));
+    OK(triptych_read_color(device, image, sizeof image));
     for (int p = 0; p < SIZE * SIZE; p++)
         expect_pixel(p % SIZE, p / SIZE, texel[p], "no bump map");
     OK(triptych_set_texture(device, 0, bump));
     OK(triptych_set_texture(device, 1, NULL));
     draw_square(0, 0x80402010, NULL, 0, 0, 1, 1);
-    OK(triptych_read_color(device, image));
+    OK(triptych_read_color(device, image, sizeof image));
     for (int p = 0; p < SIZE * SIZE; p++)
         expect_pixel(p % SIZE, p / SIZE, image_word(0x80402010), "nothing to displace");
 }

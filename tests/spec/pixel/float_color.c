@@ -29,7 +29,7 @@ static void open_target(enum triptych_surface_format format)
 
 static void read_numbers(void)
 {
-    OK(triptych_read_target_numbers(device, 0, numbers[0]));
+    OK(triptych_read_target_numbers(device, 0, numbers[0], sizeof numbers));
 }
 
 static void expect_number(int p, int c, float expected, const char *what)
@@ -116,14 +116,14 @@ static void check_operations(void)
         "dotproduct3", "blendfactoralpha", "blendtexturealphapm"};
     open_target(TRIPTYCH_SURFACE_A32B32G32R32F);
     bind_random_texture(SIZE, SIZE);
-    set_stage(0, TRIPTYCH_STAGE_colorarg1, "texture");
-    set_stage(0, TRIPTYCH_STAGE_colorarg2, "tfactor");
-    set_stage(0, TRIPTYCH_STAGE_colorarg0, "tfactor_complement");
+    set_stage(0, TRIPTYCH_STAGE_COLORARG1, "texture");
+    set_stage(0, TRIPTYCH_STAGE_COLORARG2, "tfactor");
+    set_stage(0, TRIPTYCH_STAGE_COLORARG0, "tfactor_complement");
     for (unsigned i = 0; i < sizeof words / sizeof *words; i++) {
         uint32_t packed = random_word();
         factor = image_word(packed);
-        OK(triptych_set_state(device, TRIPTYCH_STATE_texturefactor, packed));
-        set_stage(0, TRIPTYCH_STAGE_colorop, words[i]);
+        OK(triptych_set_state(device, TRIPTYCH_STATE_TEXTUREFACTOR, packed));
+        set_stage(0, TRIPTYCH_STAGE_COLOROP, words[i]);
         draw_square(0, 0xffffffff, NULL, 0, 0, 1, 1);
         expect_operation(words[i]);
     }
@@ -146,7 +146,7 @@ static void check_specular(void)
     bind_random_texture(SIZE, SIZE);
     OK(triptych_buffer_create(device, specular, sizeof specular, &element.buffer));
     OK(triptych_set_element(device, TRIPTYCH_SPECULAR, &element));
-    set(TRIPTYCH_STATE_specularenable, "true");
+    set(TRIPTYCH_STATE_SPECULARENABLE, "true");
     draw_square(0, 0xffffffff, NULL, 0, 0, 1, 1);
     read_numbers();
     for (int p = 0; p < SIZE * SIZE; p++)
@@ -168,11 +168,11 @@ static void check_alpha_test(void)
 {
     open_target(TRIPTYCH_SURFACE_A32B32G32R32F);
     bind_random_texture(SIZE, SIZE);
-    set(TRIPTYCH_STATE_alphatestenable, "true");
+    set(TRIPTYCH_STATE_ALPHATESTENABLE, "true");
     for (uint32_t function = 1; function <= 8; function++) {
         uint32_t reference = texel[random_word() % (SIZE * SIZE)] >> 24;
-        OK(triptych_set_state(device, TRIPTYCH_STATE_alphafunc, function));
-        OK(triptych_set_state(device, TRIPTYCH_STATE_alpharef, reference));
+        OK(triptych_set_state(device, TRIPTYCH_STATE_ALPHAFUNC, function));
+        OK(triptych_set_state(device, TRIPTYCH_STATE_ALPHAREF, reference));
         OK(triptych_clear(device, (const float[4]){-7, -7, -7, -7}, 1));
         draw_square(0, 0xffffffff, NULL, 0, 0, 1, 1);
         read_numbers();
@@ -195,9 +195,9 @@ static void check_fog(void)
     open_target(TRIPTYCH_SURFACE_A32B32G32R32F);
     bind_random_texture(SIZE, SIZE);
     uint32_t packed = random_word(), fog = image_word(packed);
-    set(TRIPTYCH_STATE_fogenable, "true");
-    set(TRIPTYCH_STATE_fogtablemode, "linear");
-    OK(triptych_set_state(device, TRIPTYCH_STATE_fogcolor, packed));
+    set(TRIPTYCH_STATE_FOGENABLE, "true");
+    set(TRIPTYCH_STATE_FOGTABLEMODE, "linear");
+    OK(triptych_set_state(device, TRIPTYCH_STATE_FOGCOLOR, packed));
     draw_square(0.25f, 0xffffffff, NULL, 0, 0, 1, 1);
     read_numbers();
     for (int p = 0; p < SIZE * SIZE; p++)
@@ -291,8 +291,8 @@ static void check_blending_of(enum triptych_surface_format format, const int bit
 {
     open_target(format);
     triptych_texture *first = make_texture(under), *second = make_texture(texel);
-    set_stage(0, TRIPTYCH_STAGE_colorop, "selectarg1");
-    set_stage(0, TRIPTYCH_STAGE_alphaop, "selectarg1");
+    set_stage(0, TRIPTYCH_STAGE_COLOROP, "selectarg1");
+    set_stage(0, TRIPTYCH_STAGE_ALPHAOP, "selectarg1");
     for (int i = 0; i < 120; i++) {
         uint32_t operation = 1 + random_word() % 5, source = 1 + random_word() % 13;
         uint32_t target = 1 + random_word() % 13, packed = random_word();
@@ -300,15 +300,15 @@ static void check_blending_of(enum triptych_surface_format format, const int bit
         target += target > 11 ? 2 : 0;
         constant = image_word(packed);
         OK(triptych_set_texture(device, 0, first));
-        set(TRIPTYCH_STATE_alphablendenable, "false");
+        set(TRIPTYCH_STATE_ALPHABLENDENABLE, "false");
         draw_square(0, 0xffffffff, NULL, 0, 0, 1, 1);
-        OK(triptych_read_target_numbers(device, 0, stored[0]));
+        OK(triptych_read_target_numbers(device, 0, stored[0], sizeof stored));
         OK(triptych_set_texture(device, 0, second));
-        set(TRIPTYCH_STATE_alphablendenable, "true");
-        OK(triptych_set_state(device, TRIPTYCH_STATE_blendfactor, packed));
-        OK(triptych_set_state(device, TRIPTYCH_STATE_blendop, operation));
-        OK(triptych_set_state(device, TRIPTYCH_STATE_srcblend, source));
-        OK(triptych_set_state(device, TRIPTYCH_STATE_destblend, target));
+        set(TRIPTYCH_STATE_ALPHABLENDENABLE, "true");
+        OK(triptych_set_state(device, TRIPTYCH_STATE_BLENDFACTOR, packed));
+        OK(triptych_set_state(device, TRIPTYCH_STATE_BLENDOP, operation));
+        OK(triptych_set_state(device, TRIPTYCH_STATE_SRCBLEND, source));
+        OK(triptych_set_state(device, TRIPTYCH_STATE_DESTBLEND, target));
         draw_square(0, 0xffffffff, NULL, 0, 0, 1, 1);
         expect_blended(bits, operation, source, target);
     }
@@ -334,13 +334,13 @@ static void check_range(void)
     static const float start[4] = {60000, -3, 0.25f, 65504};
     open_target(TRIPTYCH_SURFACE_A16B16G16R16F);
     OK(triptych_clear(device, start, 1));
-    set(TRIPTYCH_STATE_alphablendenable, "true");
-    set(TRIPTYCH_STATE_destblend, "one");
+    set(TRIPTYCH_STATE_ALPHABLENDENABLE, "true");
+    set(TRIPTYCH_STATE_DESTBLEND, "one");
     draw_square(0, 0xffffffff, NULL, 0, 0, 1, 1);
     read_numbers();
     for (int c = 0; c < 4; c++)
         expect_number(0, c, kept(-16, start[c] + 1), "one more");
-    set(TRIPTYCH_STATE_srcblend, "destcolor");
+    set(TRIPTYCH_STATE_SRCBLEND, "destcolor");
     OK(triptych_clear(device, (const float[4]){40000, 8, 8, 8}, 1));
     draw_square(0, 0xffffffff, NULL, 0, 0, 1, 1);
     read_numbers();

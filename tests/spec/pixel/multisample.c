@@ -44,7 +44,7 @@ static void use_samples(unsigned which)
 {
     struct triptych_target_description description = {.width = SIZE,
                                                       .height = SIZE,
-                                                      .depth_format = TRIPTYCH_DEPTH_d24s8,
+                                                      .depth_format = TRIPTYCH_DEPTH_D24S8,
                                                       .samples = patterns[which].count};
     pattern = which;
     OK(triptych_set_target_description(device, &description));
@@ -58,7 +58,8 @@ static unsigned samples(void)
 static void read_all(void)
 {
     for (unsigned i = 0; i < samples(); i++)
-        OK(triptych_read_sample(device, i, color[i], depth[i], stencil[i]));
+        OK(triptych_read_sample(device, i, color[i], sizeof color[i], depth[i], sizeof depth[i], stencil[i],
+                                sizeof stencil[i]));
 }
 
 struct vertex {
@@ -170,8 +171,8 @@ static void check_coverage(void)
         use_samples(which);
         memset(expected, 0, sizeof expected);
         memset(count, 0, sizeof count);
-        set(TRIPTYCH_STATE_stencilenable, "true");
-        set(TRIPTYCH_STATE_stencilpass, "incr");
+        set(TRIPTYCH_STATE_STENCILENABLE, "true");
+        set(TRIPTYCH_STATE_STENCILPASS, "incr");
         OK(triptych_query_create(device, TRIPTYCH_QUERY_OCCLUSION, &query));
         OK(triptych_query_begin(device, query));
         for (int round = 0; round < 40; round++) {
@@ -195,7 +196,7 @@ static void check_coverage(void)
         }
         OK(triptych_query_result(device, query, &result));
         TEST_ASSERT_EQUAL_UINT64(passed, result);
-        set(TRIPTYCH_STATE_stencilenable, "false");
+        set(TRIPTYCH_STATE_STENCILENABLE, "false");
     }
 }
 
@@ -213,8 +214,8 @@ static void check_masks(void)
         uint32_t mask = round < 4 ? 0 : random_word();
         int centres = (int)(round & 1);
         use_samples(round % PATTERNS);
-        OK(triptych_set_state(device, TRIPTYCH_STATE_multisamplemask, mask));
-        set(TRIPTYCH_STATE_multisampleantialias, centres ? "false" : "true");
+        OK(triptych_set_state(device, TRIPTYCH_STATE_MULTISAMPLEMASK, mask));
+        set(TRIPTYCH_STATE_MULTISAMPLEANTIALIAS, centres ? "false" : "true");
         random_triangle(t);
         draw_triangle(t);
         read_all();
@@ -248,9 +249,9 @@ static void check_depths(void)
             struct corner t[3] = {
                 {-200, -300, 0, 0xffffffff}, {3000, 100, 1, 0xffffffff}, {300, 3000, 0.5f, 0xffffffff}};
             use_samples(which);
-            set(TRIPTYCH_STATE_zenable, "true");
-            set(TRIPTYCH_STATE_zfunc, "less");
-            set(TRIPTYCH_STATE_multisampleantialias, centres ? "false" : "true");
+            set(TRIPTYCH_STATE_ZENABLE, "true");
+            set(TRIPTYCH_STATE_ZFUNC, "less");
+            set(TRIPTYCH_STATE_MULTISAMPLEANTIALIAS, centres ? "false" : "true");
             OK(triptych_clear_buffers(device, TRIPTYCH_CLEAR_DEPTH | TRIPTYCH_CLEAR_COLOR,
                                       (const float[4]){0, 0, 0, 0}, 0.25f, 0));
             draw_triangle(t);
@@ -270,7 +271,7 @@ static void check_depths(void)
                     TEST_ASSERT_FLOAT_WITHIN(0x1p-22f, covered && z < 0.25 ? z : 0.25, depth[i][p]);
                     expect_color(i, p, covered && z < 0.25 ? 0xffffffff : 0, "depth");
                 }
-            set(TRIPTYCH_STATE_zenable, "false");
+            set(TRIPTYCH_STATE_ZENABLE, "false");
         }
 }
 
@@ -289,7 +290,7 @@ static void check_centroids(void)
             struct corner t[3] = {
                 {5, 9, 0, 0xff000000}, {EXTENT - 3, 300, 1, 0xffff0000}, {200, EXTENT - 7, 0, 0xff000000}};
             use_samples(which);
-            set(TRIPTYCH_STATE_multisampleantialias, centres ? "false" : "true");
+            set(TRIPTYCH_STATE_MULTISAMPLEANTIALIAS, centres ? "false" : "true");
             draw_triangle(t);
             read_all();
             for (int p = 0; p < SIZE * SIZE; p++) {
@@ -331,12 +332,12 @@ static void check_blending(void)
         static uint32_t expected[SAMPLES][SIZE * SIZE];
         use_samples(which);
         memset(expected, 0, sizeof expected);
-        set(TRIPTYCH_STATE_alphablendenable, "true");
-        set(TRIPTYCH_STATE_srcblend, "srcalpha");
-        set(TRIPTYCH_STATE_destblend, "one");
-        set(TRIPTYCH_STATE_alphatestenable, "true");
-        set(TRIPTYCH_STATE_alphafunc, "greaterequal");
-        OK(triptych_set_state(device, TRIPTYCH_STATE_alpharef, 64));
+        set(TRIPTYCH_STATE_ALPHABLENDENABLE, "true");
+        set(TRIPTYCH_STATE_SRCBLEND, "srcalpha");
+        set(TRIPTYCH_STATE_DESTBLEND, "one");
+        set(TRIPTYCH_STATE_ALPHATESTENABLE, "true");
+        set(TRIPTYCH_STATE_ALPHAFUNC, "greaterequal");
+        OK(triptych_set_state(device, TRIPTYCH_STATE_ALPHAREF, 64));
         for (int round = 0; round < 12; round++) {
             struct corner t[3];
             random_triangle(t);
@@ -353,7 +354,7 @@ static void check_blending(void)
                 }
         }
         read_all();
-        OK(triptych_read_color(device, image));
+        OK(triptych_read_color(device, image, sizeof image));
         for (int p = 0; p < SIZE * SIZE; p++) {
             uint32_t average = 0;
             for (unsigned i = 0; i < samples(); i++)
@@ -379,9 +380,9 @@ static void check_shared_edges(void)
 {
     struct corner a = {0, 0, 0, 0x01010101}, b = {EXTENT, 0, 0, 0x01010101}, c = {0, EXTENT, 0, 0x01010101},
                   d = {EXTENT, EXTENT, 0, 0x01010101};
-    set(TRIPTYCH_STATE_alphablendenable, "true");
-    set(TRIPTYCH_STATE_srcblend, "one");
-    set(TRIPTYCH_STATE_destblend, "one");
+    set(TRIPTYCH_STATE_ALPHABLENDENABLE, "true");
+    set(TRIPTYCH_STATE_SRCBLEND, "one");
+    set(TRIPTYCH_STATE_DESTBLEND, "one");
     for (unsigned which = 0; which < PATTERNS; which++) {
         use_samples(which);
         for (int round = 0; round < 4; round++) {
@@ -418,15 +419,18 @@ static void check_refusals(void)
     TEST_ASSERT_EQUAL_STRING("colour target 1: expected only one with several samples per pixel",
                              triptych_error(device));
     use_samples(0);
-    TEST_ASSERT_EQUAL_INT(TRIPTYCH_BAD_ARGUMENT, triptych_read_sample(device, 2, color[0], NULL, NULL));
-    TEST_ASSERT_EQUAL_STRING("sample 2: the target has 2 per pixel", triptych_error(device));
     TEST_ASSERT_EQUAL_INT(TRIPTYCH_BAD_ARGUMENT,
-                          triptych_read_sample(device, UINT_MAX, color[0], NULL, NULL));
+                          triptych_read_sample(device, 2, color[0], sizeof color[0], NULL, 0, NULL, 0));
+    TEST_ASSERT_EQUAL_STRING("sample 2: the target has 2 per pixel", triptych_error(device));
+    TEST_ASSERT_EQUAL_INT(TRIPTYCH_BAD_ARGUMENT, triptych_read_sample(device, UINT_MAX, color[0],
+                                                                      sizeof color[0], NULL, 0, NULL, 0));
     OK(triptych_set_target_description(
         device, &(struct triptych_target_description){
-                    .width = 1, .height = 1, .samples = 2, .depth_format = TRIPTYCH_DEPTH_d16}));
+                    .width = 1, .height = 1, .samples = 2, .depth_format = TRIPTYCH_DEPTH_D16}));
     depth[0][0] = 7;
-    TEST_ASSERT_EQUAL_INT(TRIPTYCH_BAD_CALL, triptych_read_sample(device, 0, NULL, depth[0], stencil[0]));
+    TEST_ASSERT_EQUAL_INT(
+        TRIPTYCH_BAD_CALL,
+        triptych_read_sample(device, 0, NULL, 0, depth[0], sizeof depth[0], stencil[0], sizeof stencil[0]));
     TEST_ASSERT_EQUAL_STRING("the target's depth format is d16: expected one with stencil",
                              triptych_error(device));
     TEST_ASSERT_EQUAL_FLOAT(7, depth[0][0]);

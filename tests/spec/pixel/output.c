@@ -30,8 +30,8 @@ static void bind_every_alpha(void)
         texel[i] = (i % 256) << 24 | (random_word() & 0xffffff);
     OK(triptych_texture_create(device, texel, SIZE, SIZE, &texture));
     OK(triptych_set_texture(device, 0, texture));
-    set_stage(0, TRIPTYCH_STAGE_colorop, "selectarg1");
-    set_stage(0, TRIPTYCH_STAGE_alphaop, "selectarg1");
+    set_stage(0, TRIPTYCH_STAGE_COLOROP, "selectarg1");
+    set_stage(0, TRIPTYCH_STAGE_ALPHAOP, "selectarg1");
 }
 
 static void expect_alpha_tested(uint32_t function, unsigned reference, uint32_t background, int writes_color,
@@ -40,8 +40,8 @@ static void expect_alpha_tested(uint32_t function, unsigned reference, uint32_t 
     static float depth[SIZE * SIZE];
     char what[64];
     snprintf(what, sizeof what, "alpha function %u against %u", (unsigned)function, reference);
-    OK(triptych_read_color(device, image));
-    OK(triptych_read_depth(device, depth));
+    OK(triptych_read_color(device, image, sizeof image));
+    OK(triptych_read_depth(device, depth, sizeof depth));
     for (int p = 0; p < SIZE * SIZE; p++) {
         int kept = passes(function, texel[p] >> 24, reference);
         expect_pixel(p % SIZE, p / SIZE, kept && writes_color ? texel[p] : background, what);
@@ -53,16 +53,16 @@ static void check_alpha_test(void)
 {
     static const uint8_t references[] = {0, 1, 127, 128, 254, 255};
     bind_every_alpha();
-    set(TRIPTYCH_STATE_zenable, "true");
-    set(TRIPTYCH_STATE_alphatestenable, "true");
+    set(TRIPTYCH_STATE_ZENABLE, "true");
+    set(TRIPTYCH_STATE_ALPHATESTENABLE, "true");
     for (uint32_t function = 1; function <= 8; function++)
         for (unsigned r = 0; r < sizeof references; r++)
             for (int writes = 0; writes < 4; writes++) {
                 uint32_t background = random_word();
-                OK(triptych_set_state(device, TRIPTYCH_STATE_alphafunc, function));
-                OK(triptych_set_state(device, TRIPTYCH_STATE_alpharef, references[r]));
-                OK(triptych_set_state(device, TRIPTYCH_STATE_colorwriteenable, writes & 1 ? 15 : 0));
-                set(TRIPTYCH_STATE_zwriteenable, writes & 2 ? "true" : "false");
+                OK(triptych_set_state(device, TRIPTYCH_STATE_ALPHAFUNC, function));
+                OK(triptych_set_state(device, TRIPTYCH_STATE_ALPHAREF, references[r]));
+                OK(triptych_set_state(device, TRIPTYCH_STATE_COLORWRITEENABLE, writes & 1 ? 15 : 0));
+                set(TRIPTYCH_STATE_ZWRITEENABLE, writes & 2 ? "true" : "false");
                 clear_to(background);
                 draw_square(0.25f, 0xffffffff, NULL, 0, 0, 1, 1);
                 expect_alpha_tested(function, references[r], background, writes & 1, writes & 2);
@@ -79,21 +79,21 @@ static void check_depth_with_alpha_test(void)
 {
     static float depth[SIZE * SIZE];
     bind_every_alpha();
-    set(TRIPTYCH_STATE_zenable, "true");
+    set(TRIPTYCH_STATE_ZENABLE, "true");
     clear_to(0);
-    set_sampler(0, TRIPTYCH_SAMPLER_magfilter, "linear");
-    set_sampler(0, TRIPTYCH_SAMPLER_minfilter, "linear");
+    set_sampler(0, TRIPTYCH_SAMPLER_MAGFILTER, "linear");
+    set_sampler(0, TRIPTYCH_SAMPLER_MINFILTER, "linear");
     draw_square(0.5f, 0xffffffff, NULL, 0, 0, 1, 1);
-    OK(triptych_read_color(device, texel));
-    set(TRIPTYCH_STATE_alphatestenable, "true");
-    set(TRIPTYCH_STATE_alphafunc, "greaterequal");
-    OK(triptych_set_state(device, TRIPTYCH_STATE_alpharef, 100));
+    OK(triptych_read_color(device, texel, sizeof texel));
+    set(TRIPTYCH_STATE_ALPHATESTENABLE, "true");
+    set(TRIPTYCH_STATE_ALPHAFUNC, "greaterequal");
+    OK(triptych_set_state(device, TRIPTYCH_STATE_ALPHAREF, 100));
     draw_square(0.75f, 0xffffffff, NULL, 0, 0, 1, 1);
-    OK(triptych_read_depth(device, depth));
+    OK(triptych_read_depth(device, depth, sizeof depth));
     for (int p = 0; p < SIZE * SIZE; p++)
         TEST_ASSERT_EQUAL_FLOAT(0.5f, depth[p]);
     draw_square(0.25f, 0xffffffff, NULL, 0, 0, 1, 1);
-    OK(triptych_read_depth(device, depth));
+    OK(triptych_read_depth(device, depth, sizeof depth));
     for (int p = 0; p < SIZE * SIZE; p++)
         TEST_ASSERT_EQUAL_FLOAT(texel[p] >> 24 >= 100 ? 0.25f : 0.5f, depth[p]);
 }
@@ -108,7 +108,7 @@ static void test_the_depth_comparison_comes_before_the_alpha_test(void)
 static void expect_scissored(unsigned x, unsigned y, unsigned width, unsigned height, uint32_t inside,
                              uint32_t outside, const char *what)
 {
-    OK(triptych_read_color(device, image));
+    OK(triptych_read_color(device, image, sizeof image));
     for (unsigned row = 0; row < SIZE; row++)
         for (unsigned column = 0; column < SIZE; column++) {
             int in = column - x < width && row - y < height;
@@ -123,15 +123,15 @@ static void check_scissor(void)
         unsigned x = random_word() % (SIZE + 1), y = random_word() % (SIZE + 1);
         unsigned width = random_word() % (SIZE + 1 - x), height = random_word() % (SIZE + 1 - y);
         OK(triptych_set_scissor(device, x, y, width, height));
-        set(TRIPTYCH_STATE_scissortestenable, "false");
+        set(TRIPTYCH_STATE_SCISSORTESTENABLE, "false");
         clear_to(background);
         expect_scissored(0, 0, SIZE, SIZE, background, background, "a clear without the test");
-        set(TRIPTYCH_STATE_scissortestenable, "true");
+        set(TRIPTYCH_STATE_SCISSORTESTENABLE, "true");
         clear_to(clear);
         expect_scissored(x, y, width, height, clear, background, "a clear with the test");
         draw_square(0, color, NULL, 0, 0, 1, 1);
         expect_scissored(x, y, width, height, image_word(color), background, "a draw with the test");
-        set(TRIPTYCH_STATE_scissortestenable, "false");
+        set(TRIPTYCH_STATE_SCISSORTESTENABLE, "false");
         draw_square(0, color, NULL, 0, 0, 1, 1);
         expect_scissored(0, 0, SIZE, SIZE, image_word(color), color, "a draw without the test");
     }
@@ -140,7 +140,7 @@ static void check_scissor(void)
 static void check_new_target(void)
 {
     OK(triptych_set_scissor(device, 10, 10, 5, 5));
-    set(TRIPTYCH_STATE_scissortestenable, "true");
+    set(TRIPTYCH_STATE_SCISSORTESTENABLE, "true");
     OK(triptych_set_target(device, SIZE, SIZE));
     clear_to(0x12345678);
     expect_scissored(0, 0, SIZE, SIZE, 0x12345678, 0, "a clear of a new target");
@@ -223,7 +223,7 @@ static void expect_blended(struct blending color, struct blending alpha)
     char what[96];
     snprintf(what, sizeof what, "operation %u of %u and %u, alpha %u of %u and %u", color.operation,
              color.source, color.target, alpha.operation, alpha.source, alpha.target);
-    OK(triptych_read_color(device, image));
+    OK(triptych_read_color(device, image, sizeof image));
     for (int p = 0; p < SIZE * SIZE; p++) {
         uint32_t word = 0;
         for (int c = 0; c < 4; c++)
@@ -234,16 +234,16 @@ static void expect_blended(struct blending color, struct blending alpha)
 
 static void set_blending(struct blending b)
 {
-    OK(triptych_set_state(device, TRIPTYCH_STATE_blendop, b.operation));
-    OK(triptych_set_state(device, TRIPTYCH_STATE_srcblend, b.source));
-    OK(triptych_set_state(device, TRIPTYCH_STATE_destblend, b.target));
+    OK(triptych_set_state(device, TRIPTYCH_STATE_BLENDOP, b.operation));
+    OK(triptych_set_state(device, TRIPTYCH_STATE_SRCBLEND, b.source));
+    OK(triptych_set_state(device, TRIPTYCH_STATE_DESTBLEND, b.target));
 }
 
 static void set_alpha_blending(struct blending b)
 {
-    OK(triptych_set_state(device, TRIPTYCH_STATE_blendopalpha, b.operation));
-    OK(triptych_set_state(device, TRIPTYCH_STATE_srcblendalpha, b.source));
-    OK(triptych_set_state(device, TRIPTYCH_STATE_destblendalpha, b.target));
+    OK(triptych_set_state(device, TRIPTYCH_STATE_BLENDOPALPHA, b.operation));
+    OK(triptych_set_state(device, TRIPTYCH_STATE_SRCBLENDALPHA, b.source));
+    OK(triptych_set_state(device, TRIPTYCH_STATE_DESTBLENDALPHA, b.target));
 }
 
 /* Makes blending number i. Returns 0 if its target factor is allowed only as a source factor. */
@@ -268,10 +268,10 @@ static void make_texture(uint32_t *words, triptych_texture **texture)
 
 static void draw_over_stored(triptych_texture *under, triptych_texture *over)
 {
-    set(TRIPTYCH_STATE_alphablendenable, "false");
+    set(TRIPTYCH_STATE_ALPHABLENDENABLE, "false");
     OK(triptych_set_texture(device, 0, under));
     draw_square(0, 0xffffffff, NULL, 0, 0, 1, 1);
-    set(TRIPTYCH_STATE_alphablendenable, "true");
+    set(TRIPTYCH_STATE_ALPHABLENDENABLE, "true");
     OK(triptych_set_texture(device, 0, over));
     draw_square(0, 0xffffffff, NULL, 0, 0, 1, 1);
 }
@@ -281,9 +281,9 @@ static void check_blending(int separate)
     triptych_texture *under, *over;
     make_texture(stored, &under);
     make_texture(texel, &over);
-    set_stage(0, TRIPTYCH_STAGE_colorop, "selectarg1");
-    set_stage(0, TRIPTYCH_STAGE_alphaop, "selectarg1");
-    set(TRIPTYCH_STATE_separatealphablendenable, separate ? "true" : "false");
+    set_stage(0, TRIPTYCH_STAGE_COLOROP, "selectarg1");
+    set_stage(0, TRIPTYCH_STAGE_ALPHAOP, "selectarg1");
+    set(TRIPTYCH_STATE_SEPARATEALPHABLENDENABLE, separate ? "true" : "false");
     for (unsigned i = 0; i < BLENDINGS; i += BLENDINGS / test_share(BLENDINGS)) {
         struct blending color, alpha;
         if (!make_blending(i, &color))
@@ -292,7 +292,7 @@ static void check_blending(int separate)
             ;
         uint32_t packed = random_word();
         constant = image_word(packed);
-        OK(triptych_set_state(device, TRIPTYCH_STATE_blendfactor, packed));
+        OK(triptych_set_state(device, TRIPTYCH_STATE_BLENDFACTOR, packed));
         set_blending(color);
         set_alpha_blending(alpha);
         draw_over_stored(under, over);

@@ -93,8 +93,8 @@ static uint32_t expected_bilinear(const struct sampled *s, int px, int py)
 
 static void set_filter(const char *word)
 {
-    set_sampler(0, TRIPTYCH_SAMPLER_magfilter, word);
-    set_sampler(0, TRIPTYCH_SAMPLER_minfilter, word);
+    set_sampler(0, TRIPTYCH_SAMPLER_MAGFILTER, word);
+    set_sampler(0, TRIPTYCH_SAMPLER_MINFILTER, word);
 }
 
 static void check_texture(const struct sampled *s, double low, double high, int linear)
@@ -103,14 +103,14 @@ static void check_texture(const struct sampled *s, double low, double high, int 
     snprintf(what, sizeof what, "%dx%d texels from %g to %g, %s %s, %s", s->width, s->height, low, high,
              addressing_word[s->u], addressing_word[s->v], linear ? "linear" : "point");
     bind_random_texture((unsigned)s->width, (unsigned)s->height);
-    set_sampler(0, TRIPTYCH_SAMPLER_addressu, addressing_word[s->u]);
-    set_sampler(0, TRIPTYCH_SAMPLER_addressv, addressing_word[s->v]);
+    set_sampler(0, TRIPTYCH_SAMPLER_ADDRESSU, addressing_word[s->u]);
+    set_sampler(0, TRIPTYCH_SAMPLER_ADDRESSV, addressing_word[s->v]);
     set_filter(linear ? "linear" : "point");
     uint32_t color = random_word();
     border = image_word(color);
-    OK(triptych_set_sampler_state(device, 0, TRIPTYCH_SAMPLER_bordercolor, color));
+    OK(triptych_set_sampler_state(device, 0, TRIPTYCH_SAMPLER_BORDERCOLOR, color));
     draw_square(0, 0xffffffff, NULL, (float)low, (float)low, (float)high, (float)high);
-    OK(triptych_read_color(device, image));
+    OK(triptych_read_color(device, image, sizeof image));
     for (int y = 0; y < SIZE; y++)
         for (int x = 0; x < SIZE; x++) {
             int px = texel_position(x, low, high, s->width), py = texel_position(y, low, high, s->height);
@@ -124,7 +124,7 @@ static void check_texel_grid(void)
 {
     bind_random_texture(SIZE, SIZE);
     draw_square(0, 0xffffffff, NULL, 0, 0, 1, 1);
-    OK(triptych_read_color(device, image));
+    OK(triptych_read_color(device, image, sizeof image));
     TEST_ASSERT_EQUAL_HEX32_ARRAY(texel, image, SIZE * SIZE);
 }
 
@@ -150,7 +150,7 @@ static void check_extreme_coordinates(void)
 {
     static const float extremes[] = {3e9f, -3e9f, 1e38f, -1e38f};
     static uint32_t first[ADDRESSINGS][2][4][2];
-    OK(triptych_set_sampler_state(device, 0, TRIPTYCH_SAMPLER_bordercolor, 0x80604020));
+    OK(triptych_set_sampler_state(device, 0, TRIPTYCH_SAMPLER_BORDERCOLOR, 0x80604020));
     for (int mode = 0; mode < ADDRESSINGS; mode++)
         for (int linear = 0; linear < 2; linear++)
             for (int i = 0; i < 4; i++)
@@ -158,10 +158,10 @@ static void check_extreme_coordinates(void)
                     uint32_t *expected = &first[mode][linear][i][odd];
                     float at = extremes[i];
                     bind_random_texture(odd ? 6 : 8, 1);
-                    set_sampler(0, TRIPTYCH_SAMPLER_addressu, addressing_word[mode]);
+                    set_sampler(0, TRIPTYCH_SAMPLER_ADDRESSU, addressing_word[mode]);
                     set_filter(linear ? "linear" : "point");
                     draw_square(0, 0xffffffff, NULL, at, 0.5f, at, 0.5f);
-                    OK(triptych_read_color(device, image));
+                    OK(triptych_read_color(device, image, sizeof image));
                     if (!extremes_seen)
                         *expected = mode == BORDER ? image_word(0x80604020) : image[0];
                     for (int p = 0; p < SIZE * SIZE; p++)
@@ -209,17 +209,17 @@ static unsigned blended(unsigned s, unsigned d, unsigned alpha, int source_alpha
 
 static void check_blending(void)
 {
-    set(TRIPTYCH_STATE_alphablendenable, "true");
+    set(TRIPTYCH_STATE_ALPHABLENDENABLE, "true");
     for (int factors = 0; factors < 4; factors++) {
         int source_alpha = factors & 1, inverse = factors >> 1;
-        set(TRIPTYCH_STATE_srcblend, source_alpha ? "srcalpha" : "one");
-        set(TRIPTYCH_STATE_destblend, inverse ? "invsrcalpha" : "zero");
+        set(TRIPTYCH_STATE_SRCBLEND, source_alpha ? "srcalpha" : "one");
+        set(TRIPTYCH_STATE_DESTBLEND, inverse ? "invsrcalpha" : "zero");
         for (int round = 0; round < 24; round++) {
             uint32_t d = random_word();
             bind_random_texture(SIZE, SIZE);
             clear_to(d);
             draw_square(0, 0xffffffff, NULL, 0, 0, 1, 1);
-            OK(triptych_read_color(device, image));
+            OK(triptych_read_color(device, image, sizeof image));
             for (int p = 0; p < SIZE * SIZE; p++) {
                 uint32_t word = 0, s = texel[p];
                 for (int c = 0; c < 4; c++)
@@ -236,10 +236,10 @@ static void check_write_masks(void)
         uint32_t new = random_word(), old = random_word(), kept = 0;
         for (int c = 0; c < 4; c++)
             kept |= mask >> c & 1 ? 0 : 255u << 8 * c;
-        OK(triptych_set_state(device, TRIPTYCH_STATE_colorwriteenable, mask));
+        OK(triptych_set_state(device, TRIPTYCH_STATE_COLORWRITEENABLE, mask));
         clear_to(old);
         draw_square(0, new, NULL, 0, 0, 1, 1);
-        OK(triptych_read_color(device, image));
+        OK(triptych_read_color(device, image, sizeof image));
         for (int p = 0; p < SIZE * SIZE; p++)
             expect_pixel(p % SIZE, p / SIZE, (old & kept) | (image_word(new) & ~kept), "write mask");
     }
@@ -268,16 +268,16 @@ static void check_depth(void)
     static const float stored = 0.5f, new[3] = {0.25f, 0.5f, 0.75f};
     static const float black[4] = {0, 0, 0, 1};
     static float depth[SIZE * SIZE];
-    set(TRIPTYCH_STATE_zenable, "true");
+    set(TRIPTYCH_STATE_ZENABLE, "true");
     for (unsigned f = 0; f < 8; f++)
         for (int i = 0; i < 6; i++) {
             int writes = i / 3, passes = functions[f].passes[i % 3];
-            set(TRIPTYCH_STATE_zfunc, functions[f].word);
-            set(TRIPTYCH_STATE_zwriteenable, writes ? "true" : "false");
+            set(TRIPTYCH_STATE_ZFUNC, functions[f].word);
+            set(TRIPTYCH_STATE_ZWRITEENABLE, writes ? "true" : "false");
             OK(triptych_clear(device, black, stored));
             draw_square(new[i % 3], 0xffffffff, NULL, 0, 0, 1, 1);
-            OK(triptych_read_color(device, image));
-            OK(triptych_read_depth(device, depth));
+            OK(triptych_read_color(device, image, sizeof image));
+            OK(triptych_read_depth(device, depth, sizeof depth));
             for (int p = 0; p < SIZE * SIZE; p++) {
                 expect_pixel(p % SIZE, p / SIZE, passes ? 0xffffffff : 0xff000000, functions[f].word);
                 TEST_ASSERT_EQUAL_FLOAT(passes && writes ? new[i % 3] : stored, depth[p]);
@@ -366,11 +366,11 @@ static void check_one_lighting(unsigned lights, int normalize)
         OK(triptych_set_light(device, i, &light[i]));
         OK(triptych_enable_light(device, i, i < lights));
     }
-    set(TRIPTYCH_STATE_normalizenormals, normalize ? "true" : "false");
-    set(TRIPTYCH_STATE_colorvertex, "false");
-    OK(triptych_set_state(device, TRIPTYCH_STATE_ambient, 0xff204060));
+    set(TRIPTYCH_STATE_NORMALIZENORMALS, normalize ? "true" : "false");
+    set(TRIPTYCH_STATE_COLORVERTEX, "false");
+    OK(triptych_set_state(device, TRIPTYCH_STATE_AMBIENT, 0xff204060));
     draw_square(0, 0, given, 0, 0, 1, 1);
-    OK(triptych_read_color(device, image));
+    OK(triptych_read_color(device, image, sizeof image));
     for (int c = 0; c < 4; c++) {
         static const double origin[3], scene[3] = {0x20 / 255.0, 0x40 / 255.0, 0x60 / 255.0};
         double expected = material.diffuse[3];
@@ -390,7 +390,7 @@ static void check_lighting(void)
     const float large[4][4] = {{0x1p20f}, {0, 0x1p20f}, {0, 0, 1}, {0, 0, 0.5f, 1}};
     extent = 0x1p-20f;
     OK(triptych_set_transform(device, TRIPTYCH_TRANSFORM_PROJECTION, large));
-    set(TRIPTYCH_STATE_lighting, "true");
+    set(TRIPTYCH_STATE_LIGHTING, "true");
     for (int round = 0; round < 40; round++)
         for (unsigned lights = 0; lights <= TRIPTYCH_LIGHTS; lights++)
             check_one_lighting(lights, round & 1);

@@ -29,16 +29,16 @@ static unsigned result_of(triptych_query *query)
 
 static void draw_part(float z, unsigned x, unsigned y, unsigned width, unsigned height)
 {
-    set(TRIPTYCH_STATE_scissortestenable, "true");
+    set(TRIPTYCH_STATE_SCISSORTESTENABLE, "true");
     OK(triptych_set_scissor(device, x, y, width, height));
     draw_square(z, random_word(), NULL, 0, 0, 1, 1);
-    set(TRIPTYCH_STATE_scissortestenable, "false");
+    set(TRIPTYCH_STATE_SCISSORTESTENABLE, "false");
 }
 
 static void use_stencil(void)
 {
     struct triptych_target_description description = {
-        .width = SIZE, .height = SIZE, .depth_format = TRIPTYCH_DEPTH_d24s8};
+        .width = SIZE, .height = SIZE, .depth_format = TRIPTYCH_DEPTH_D24S8};
     OK(triptych_set_target_description(device, &description));
 }
 
@@ -46,7 +46,7 @@ static void check_counts(void)
 {
     triptych_query *whole = make_query(), *first = make_query(), *second = make_query();
     use_stencil();
-    set(TRIPTYCH_STATE_zenable, "true");
+    set(TRIPTYCH_STATE_ZENABLE, "true");
     OK(triptych_query_begin(device, whole));
     OK(triptych_query_begin(device, first));
     draw_part(0.5f, 3, 5, 20, 30); /* 600 */
@@ -55,8 +55,8 @@ static void check_counts(void)
     draw_part(0.75f, 3, 5, 20, 31); /* 20: the rest is hidden */
     draw_part(0.25f, 0, 0, 7, 7);   /* 49 */
     OK(triptych_query_end(device, second));
-    OK(triptych_set_state(device, TRIPTYCH_STATE_colorwriteenable, 0));
-    set(TRIPTYCH_STATE_zwriteenable, "false");
+    OK(triptych_set_state(device, TRIPTYCH_STATE_COLORWRITEENABLE, 0));
+    set(TRIPTYCH_STATE_ZWRITEENABLE, "false");
     draw_part(0.125f, 10, 10, 11, 11); /* 121 */
     OK(triptych_query_end(device, whole));
     draw_part(0.125f, 0, 0, 11, 11);
@@ -81,25 +81,25 @@ static void check_tests(void)
     unsigned expected = 0;
     use_stencil();
     OK(triptych_clear_buffers(device, TRIPTYCH_CLEAR_DEPTH | TRIPTYCH_CLEAR_STENCIL, NULL, 1, 0));
-    set(TRIPTYCH_STATE_zenable, "true");
-    set(TRIPTYCH_STATE_stencilenable, "true");
-    set(TRIPTYCH_STATE_stencilpass, "replace");
-    OK(triptych_set_state(device, TRIPTYCH_STATE_stencilref, 3));
+    set(TRIPTYCH_STATE_ZENABLE, "true");
+    set(TRIPTYCH_STATE_STENCILENABLE, "true");
+    set(TRIPTYCH_STATE_STENCILPASS, "replace");
+    OK(triptych_set_state(device, TRIPTYCH_STATE_STENCILREF, 3));
     draw_part(0.875f, 0, 0, SIZE / 2, SIZE);
-    set(TRIPTYCH_STATE_stencilenable, "false");
+    set(TRIPTYCH_STATE_STENCILENABLE, "false");
     draw_part(0.25f, 0, 0, SIZE, SIZE / 2);
     for (int writes = 0; writes < 2; writes++) {
         bind_random_texture(SIZE, SIZE);
         expected = 0;
         for (unsigned p = 0; p < SIZE * SIZE; p++)
             expected += (texel[p] >> 24) > 100 && p % SIZE < SIZE / 2 && p / SIZE >= SIZE / 2;
-        set(TRIPTYCH_STATE_alphatestenable, "true");
-        set(TRIPTYCH_STATE_alphafunc, "greater");
-        OK(triptych_set_state(device, TRIPTYCH_STATE_alpharef, 100));
-        set(TRIPTYCH_STATE_stencilenable, "true");
-        set(TRIPTYCH_STATE_stencilfunc, "equal");
-        set(TRIPTYCH_STATE_stencilpass, writes ? "incr" : "keep");
-        set(TRIPTYCH_STATE_zwriteenable, "false");
+        set(TRIPTYCH_STATE_ALPHATESTENABLE, "true");
+        set(TRIPTYCH_STATE_ALPHAFUNC, "greater");
+        OK(triptych_set_state(device, TRIPTYCH_STATE_ALPHAREF, 100));
+        set(TRIPTYCH_STATE_STENCILENABLE, "true");
+        set(TRIPTYCH_STATE_STENCILFUNC, "equal");
+        set(TRIPTYCH_STATE_STENCILPASS, writes ? "incr" : "keep");
+        set(TRIPTYCH_STATE_ZWRITEENABLE, "false");
         OK(triptych_query_begin(device, query));
         draw_square(0.5f, 0xffffffff, NULL, 0, 0, 1, 1);
         OK(triptych_query_end(device, query));
@@ -120,8 +120,8 @@ static void test_queries_span_any_number_of_draws(void)
         struct triptych_options options = {.engine = "emulate", .threads = threads};
         TEST_ASSERT_EQUAL_INT(TRIPTYCH_OK, triptych_device_create(&options, &device, NULL, 0));
         OK(triptych_set_target(device, 200, 150));
-        set(TRIPTYCH_STATE_lighting, "false");
-        set(TRIPTYCH_STATE_zenable, "false");
+        set(TRIPTYCH_STATE_LIGHTING, "false");
+        set(TRIPTYCH_STATE_ZENABLE, "false");
         triptych_query *whole = make_query(), *part = make_query();
         OK(triptych_query_begin(device, whole));
         for (unsigned i = 0; i < DRAWS; i++) {

@@ -64,9 +64,9 @@ static void test_encoding_is_correctly_rounded(void)
 static void check_encoded_channels(void)
 {
     bind_random_texture(SIZE, SIZE);
-    set(TRIPTYCH_STATE_srgbwriteenable, "true");
+    set(TRIPTYCH_STATE_SRGBWRITEENABLE, "true");
     draw_square(0, 0xffffffff, NULL, 0, 0, 1, 1);
-    OK(triptych_read_color(device, image));
+    OK(triptych_read_color(device, image, sizeof image));
     for (int p = 0; p < SIZE * SIZE; p++) {
         uint32_t expected = texel[p] & 0xff000000;
         for (int c = 0; c < 3; c++)
@@ -86,14 +86,14 @@ static void check_blending(void)
     static uint32_t under[SIZE * SIZE];
     bind_random_texture(SIZE, SIZE);
     draw_square(0, 0xffffffff, NULL, 0, 0, 1, 1);
-    OK(triptych_read_color(device, under));
+    OK(triptych_read_color(device, under, sizeof under));
     bind_random_texture(SIZE, SIZE);
-    set(TRIPTYCH_STATE_srgbwriteenable, "true");
-    set(TRIPTYCH_STATE_alphablendenable, "true");
-    set(TRIPTYCH_STATE_srcblend, "srcalpha");
-    set(TRIPTYCH_STATE_destblend, "invsrcalpha");
+    set(TRIPTYCH_STATE_SRGBWRITEENABLE, "true");
+    set(TRIPTYCH_STATE_ALPHABLENDENABLE, "true");
+    set(TRIPTYCH_STATE_SRCBLEND, "srcalpha");
+    set(TRIPTYCH_STATE_DESTBLEND, "invsrcalpha");
     draw_square(0, 0xffffffff, NULL, 0, 0, 1, 1);
-    OK(triptych_read_color(device, image));
+    OK(triptych_read_color(device, image, sizeof image));
     for (int p = 0; p < SIZE * SIZE; p++) {
         uint32_t expected = 0;
         float alpha = (float)(texel[p] >> 24) / 255.0f, inverse = 1 - alpha;
@@ -116,13 +116,13 @@ static void test_blending_is_linear(void)
 static void check_masks(void)
 {
     bind_random_texture(SIZE, SIZE);
-    set(TRIPTYCH_STATE_srgbwriteenable, "true");
+    set(TRIPTYCH_STATE_SRGBWRITEENABLE, "true");
     for (uint32_t mask = 0; mask < 16; mask++) {
         uint32_t background = random_word();
-        OK(triptych_set_state(device, TRIPTYCH_STATE_colorwriteenable, mask));
+        OK(triptych_set_state(device, TRIPTYCH_STATE_COLORWRITEENABLE, mask));
         clear_to(background);
         draw_square(0, 0xffffffff, NULL, 0, 0, 1, 1);
-        OK(triptych_read_color(device, image));
+        OK(triptych_read_color(device, image, sizeof image));
         for (int p = 0; p < SIZE * SIZE; p++) {
             uint32_t expected = background;
             for (int c = 0; c < 4; c++)

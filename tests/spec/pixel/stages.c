@@ -153,14 +153,14 @@ static void make_textures(void)
 static void set_whole(unsigned i, const struct whole_stage *stage)
 {
     static const enum triptych_stage_state color_arguments[3] = {
-        TRIPTYCH_STAGE_colorarg0, TRIPTYCH_STAGE_colorarg1, TRIPTYCH_STAGE_colorarg2};
+        TRIPTYCH_STAGE_COLORARG0, TRIPTYCH_STAGE_COLORARG1, TRIPTYCH_STAGE_COLORARG2};
     static const enum triptych_stage_state alpha_arguments[3] = {
-        TRIPTYCH_STAGE_alphaarg0, TRIPTYCH_STAGE_alphaarg1, TRIPTYCH_STAGE_alphaarg2};
-    set_half(i, &stage->color, TRIPTYCH_STAGE_colorop, color_arguments);
-    set_half(i, &stage->alpha, TRIPTYCH_STAGE_alphaop, alpha_arguments);
-    set_stage(i, TRIPTYCH_STAGE_resultarg, stage->temporary ? "temp" : "current");
-    set_stage(i, TRIPTYCH_STAGE_texcoordindex, "0");
-    OK(triptych_set_stage_state(device, i, TRIPTYCH_STAGE_constant, stage->constant));
+        TRIPTYCH_STAGE_ALPHAARG0, TRIPTYCH_STAGE_ALPHAARG1, TRIPTYCH_STAGE_ALPHAARG2};
+    set_half(i, &stage->color, TRIPTYCH_STAGE_COLOROP, color_arguments);
+    set_half(i, &stage->alpha, TRIPTYCH_STAGE_ALPHAOP, alpha_arguments);
+    set_stage(i, TRIPTYCH_STAGE_RESULTARG, stage->temporary ? "temp" : "current");
+    set_stage(i, TRIPTYCH_STAGE_TEXCOORDINDEX, "0");
+    OK(triptych_set_stage_state(device, i, TRIPTYCH_STAGE_CONSTANT, stage->constant));
     OK(triptych_set_texture(device, i, textures[stage->texture]));
 }
 
@@ -200,12 +200,12 @@ static void check_chain(const struct whole_stage *stage, unsigned count)
     for (unsigned i = 0; i < count; i++)
         set_whole(i, &stage[i]);
     if (count < TRIPTYCH_STAGES)
-        set_stage(count, TRIPTYCH_STAGE_colorop, "disable");
+        set_stage(count, TRIPTYCH_STAGE_COLOROP, "disable");
     snprintf(what, sizeof what, "%u stages, the last %s and %s", count, stage[count - 1].color.word,
              stage[count - 1].alpha.word);
-    OK(triptych_set_state(device, TRIPTYCH_STATE_texturefactor, factor));
+    OK(triptych_set_state(device, TRIPTYCH_STATE_TEXTUREFACTOR, factor));
     draw_square(0, diffuse, NULL, 0, 0, 1, 1);
-    OK(triptych_read_color(device, image));
+    OK(triptych_read_color(device, image, sizeof image));
     for (int p = 0; p < SIZE * SIZE; p++)
         expect_pixel(p % SIZE, p / SIZE,
                      expected_chain(stage, count, image_word(diffuse), image_word(factor), p), what);
@@ -313,14 +313,14 @@ static void check_stages_without_texture(void)
                  {"disable", "tfactor", 0x40302010},
                  {"selectarg1", "tfactor", 0x80706050},
                  {"add", "tfactor", 0xc0a08060}};
-    OK(triptych_set_state(device, TRIPTYCH_STATE_texturefactor, 0x80706050));
-    set_stage(0, TRIPTYCH_STAGE_alphaarg1, "tfactor");
+    OK(triptych_set_state(device, TRIPTYCH_STATE_TEXTUREFACTOR, 0x80706050));
+    set_stage(0, TRIPTYCH_STAGE_ALPHAARG1, "tfactor");
     for (unsigned i = 0; i < sizeof cases / sizeof cases[0]; i++) {
-        set_stage(0, TRIPTYCH_STAGE_colorop, cases[i].operation);
-        set_stage(0, TRIPTYCH_STAGE_alphaop, cases[i].operation);
-        set_stage(0, TRIPTYCH_STAGE_colorarg1, cases[i].argument);
+        set_stage(0, TRIPTYCH_STAGE_COLOROP, cases[i].operation);
+        set_stage(0, TRIPTYCH_STAGE_ALPHAOP, cases[i].operation);
+        set_stage(0, TRIPTYCH_STAGE_COLORARG1, cases[i].argument);
         draw_square(0, 0x40302010, NULL, 0, 0, 1, 1);
-        OK(triptych_read_color(device, image));
+        OK(triptych_read_color(device, image, sizeof image));
         for (int p = 0; p < SIZE * SIZE; p++)
             expect_pixel(p % SIZE, p / SIZE, image_word(cases[i].expected), cases[i].operation);
     }

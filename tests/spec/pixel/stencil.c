@@ -48,7 +48,7 @@ static void use_format(enum triptych_depth_format format)
 /* Fills every cell of the target with its own stencil, depth (0.25, 0.5 or 0.75) and colour. */
 static void fill_cells(void)
 {
-    put(TRIPTYCH_STATE_scissortestenable, 1);
+    put(TRIPTYCH_STATE_SCISSORTESTENABLE, 1);
     for (unsigned y = 0; y < CELLS; y++)
         for (unsigned x = 0; x < CELLS; x++) {
             uint32_t value = random_word() % 300, word = random_word() & 0x00ffffff;
@@ -64,7 +64,7 @@ static void fill_cells(void)
                 color[p] = word;
             }
         }
-    put(TRIPTYCH_STATE_scissortestenable, 0);
+    put(TRIPTYCH_STATE_SCISSORTESTENABLE, 0);
 }
 
 static int compares(uint32_t function, double a, double b)
@@ -109,8 +109,8 @@ static void expect_drawn(const struct setting *s, uint32_t word, float z, int p)
 /* Unbinds the texture, so that pixels have the diffuse colour. */
 static void unbind_texture(void)
 {
-    set_stage(0, TRIPTYCH_STAGE_colorop, "selectarg2");
-    set_stage(0, TRIPTYCH_STAGE_alphaop, "selectarg2");
+    set_stage(0, TRIPTYCH_STAGE_COLOROP, "selectarg2");
+    set_stage(0, TRIPTYCH_STAGE_ALPHAOP, "selectarg2");
 }
 
 static struct side random_side(void)
@@ -143,26 +143,26 @@ static void apply(const struct setting *s)
 {
     float mirror[4][4] = {{s->counterclockwise ? -1 : 1}, {[1] = 1}, {[2] = 1}, {[3] = 1}};
     OK(triptych_set_transform(device, TRIPTYCH_TRANSFORM_WORLD, (const float(*)[4])mirror));
-    put(TRIPTYCH_STATE_stencilenable, 1);
-    put(TRIPTYCH_STATE_stencilfunc, s->side[0].function);
-    put(TRIPTYCH_STATE_stencilfail, s->side[0].fail);
-    put(TRIPTYCH_STATE_stencilzfail, s->side[0].depth_fail);
-    put(TRIPTYCH_STATE_stencilpass, s->side[0].pass);
-    put(TRIPTYCH_STATE_ccw_stencilfunc, s->side[1].function);
-    put(TRIPTYCH_STATE_ccw_stencilfail, s->side[1].fail);
-    put(TRIPTYCH_STATE_ccw_stencilzfail, s->side[1].depth_fail);
-    put(TRIPTYCH_STATE_ccw_stencilpass, s->side[1].pass);
-    put(TRIPTYCH_STATE_twosidedstencilmode, (uint32_t)s->two_sided);
-    put(TRIPTYCH_STATE_stencilref, s->reference);
-    put(TRIPTYCH_STATE_stencilmask, s->mask);
-    put(TRIPTYCH_STATE_stencilwritemask, s->write_mask);
-    put(TRIPTYCH_STATE_zenable, (uint32_t)s->depth_on);
-    put(TRIPTYCH_STATE_zfunc, s->depth_function);
-    put(TRIPTYCH_STATE_zwriteenable, (uint32_t)s->depth_writes);
-    put(TRIPTYCH_STATE_alphatestenable, (uint32_t)s->alpha_test);
-    put(TRIPTYCH_STATE_alphafunc, 7);
-    put(TRIPTYCH_STATE_alpharef, 128);
-    put(TRIPTYCH_STATE_colorwriteenable, s->color_writes ? 15 : 0);
+    put(TRIPTYCH_STATE_STENCILENABLE, 1);
+    put(TRIPTYCH_STATE_STENCILFUNC, s->side[0].function);
+    put(TRIPTYCH_STATE_STENCILFAIL, s->side[0].fail);
+    put(TRIPTYCH_STATE_STENCILZFAIL, s->side[0].depth_fail);
+    put(TRIPTYCH_STATE_STENCILPASS, s->side[0].pass);
+    put(TRIPTYCH_STATE_CCW_STENCILFUNC, s->side[1].function);
+    put(TRIPTYCH_STATE_CCW_STENCILFAIL, s->side[1].fail);
+    put(TRIPTYCH_STATE_CCW_STENCILZFAIL, s->side[1].depth_fail);
+    put(TRIPTYCH_STATE_CCW_STENCILPASS, s->side[1].pass);
+    put(TRIPTYCH_STATE_TWOSIDEDSTENCILMODE, (uint32_t)s->two_sided);
+    put(TRIPTYCH_STATE_STENCILREF, s->reference);
+    put(TRIPTYCH_STATE_STENCILMASK, s->mask);
+    put(TRIPTYCH_STATE_STENCILWRITEMASK, s->write_mask);
+    put(TRIPTYCH_STATE_ZENABLE, (uint32_t)s->depth_on);
+    put(TRIPTYCH_STATE_ZFUNC, s->depth_function);
+    put(TRIPTYCH_STATE_ZWRITEENABLE, (uint32_t)s->depth_writes);
+    put(TRIPTYCH_STATE_ALPHATESTENABLE, (uint32_t)s->alpha_test);
+    put(TRIPTYCH_STATE_ALPHAFUNC, 7);
+    put(TRIPTYCH_STATE_ALPHAREF, 128);
+    put(TRIPTYCH_STATE_COLORWRITEENABLE, s->color_writes ? 15 : 0);
     if (s->alpha_test)
         bind_random_texture(SIZE, SIZE);
     else
@@ -181,9 +181,9 @@ static void expect_contents(const struct setting *s, const char *format)
         format, s->side[0].function, s->side[1].function, s->side[0].fail, s->side[1].fail,
         s->side[0].depth_fail, s->side[1].depth_fail, s->side[0].pass, s->side[1].pass, s->reference, s->mask,
         s->write_mask, s->two_sided, s->counterclockwise, s->depth_on, s->depth_function, s->alpha_test);
-    OK(triptych_read_stencil(device, got));
-    OK(triptych_read_depth(device, got_depth));
-    OK(triptych_read_color(device, image));
+    OK(triptych_read_stencil(device, got, sizeof got));
+    OK(triptych_read_depth(device, got_depth, sizeof got_depth));
+    OK(triptych_read_color(device, image, sizeof image));
     for (int p = 0; p < SIZE * SIZE; p++) {
         if (stencil[p] != got[p])
             TEST_ASSERT_EQUAL_UINT8_MESSAGE(stencil[p], got[p], what);
@@ -208,8 +208,8 @@ static void draw_and_follow(const struct setting *s)
 
 static void check_operations(void)
 {
-    static const enum triptych_depth_format formats[] = {TRIPTYCH_DEPTH_d24s8, TRIPTYCH_DEPTH_d24x4s4,
-                                                         TRIPTYCH_DEPTH_d15s1, TRIPTYCH_DEPTH_d24fs8};
+    static const enum triptych_depth_format formats[] = {TRIPTYCH_DEPTH_D24S8, TRIPTYCH_DEPTH_D24X4S4,
+                                                         TRIPTYCH_DEPTH_D15S1, TRIPTYCH_DEPTH_D24FS8};
     for (int round = 0; round < ROUNDS; round++) {
         enum triptych_depth_format format = formats[round % 9 < 6 ? 0 : round % 9 - 5];
         use_format(format);
@@ -239,16 +239,16 @@ static void check_culled(void)
                                   .counterclockwise = counterclockwise,
                                   .color_writes = 1};
         setting.side[1].pass = 8; /* decr */
-        use_format(TRIPTYCH_DEPTH_d24s8);
+        use_format(TRIPTYCH_DEPTH_D24S8);
         fill_cells();
-        set(TRIPTYCH_STATE_cullmode, counterclockwise ? "cw" : "ccw");
+        set(TRIPTYCH_STATE_CULLMODE, counterclockwise ? "cw" : "ccw");
         draw_and_follow(&setting);
         expect_contents(&setting, "culled");
-        set(TRIPTYCH_STATE_cullmode, counterclockwise ? "ccw" : "cw");
+        set(TRIPTYCH_STATE_CULLMODE, counterclockwise ? "ccw" : "cw");
         apply(&setting);
         draw_square(0.25f, 0xffffffff, NULL, 0, 0, 1, 1);
         expect_contents(&setting, "culled away");
-        set(TRIPTYCH_STATE_cullmode, "none");
+        set(TRIPTYCH_STATE_CULLMODE, "none");
     }
 }
 
@@ -260,19 +260,19 @@ static void test_culling_leaves_one_windings_states(void)
 /* Formats without stencil ignore the stencil states. */
 static void check_without(void)
 {
-    static const enum triptych_depth_format formats[] = {TRIPTYCH_DEPTH_d16, TRIPTYCH_DEPTH_d32,
-                                                         TRIPTYCH_DEPTH_d24x8, TRIPTYCH_DEPTH_d32f_lockable,
-                                                         TRIPTYCH_DEPTH_none};
+    static const enum triptych_depth_format formats[] = {TRIPTYCH_DEPTH_D16, TRIPTYCH_DEPTH_D32,
+                                                         TRIPTYCH_DEPTH_D24X8, TRIPTYCH_DEPTH_D32F_LOCKABLE,
+                                                         TRIPTYCH_DEPTH_NONE};
     for (size_t i = 0; i < sizeof formats / sizeof *formats; i++) {
         use_format(formats[i]);
-        put(TRIPTYCH_STATE_stencilenable, 1);
-        put(TRIPTYCH_STATE_stencilfunc, 1);
+        put(TRIPTYCH_STATE_STENCILENABLE, 1);
+        put(TRIPTYCH_STATE_STENCILFUNC, 1);
         OK(triptych_clear_buffers(device, TRIPTYCH_CLEAR_COLOR, (const float[4]){0, 0, 0, 0}, 0, 0));
         draw_square(0.5f, 0xff336699, NULL, 0, 0, 1, 1);
-        OK(triptych_read_color(device, image));
+        OK(triptych_read_color(device, image, sizeof image));
         for (int p = 0; p < SIZE * SIZE; p++)
             expect_pixel(p % SIZE, p / SIZE, image_word(0xff336699), "a target without stencil");
-        TEST_ASSERT_EQUAL_INT(TRIPTYCH_BAD_CALL, triptych_read_stencil(device, got));
+        TEST_ASSERT_EQUAL_INT(TRIPTYCH_BAD_CALL, triptych_read_stencil(device, got, sizeof got));
         TEST_ASSERT_NOT_NULL(strstr(triptych_error(device), "expected one with stencil"));
         TEST_ASSERT_EQUAL_INT(TRIPTYCH_BAD_CALL,
                               triptych_clear_buffers(device, TRIPTYCH_CLEAR_STENCIL, NULL, 0, 0));

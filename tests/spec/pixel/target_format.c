@@ -95,7 +95,7 @@ static void expect_number(unsigned t, int p, int c, float expected, const char *
 static void expect_pixels(unsigned t, const struct kind *kind, uint32_t mask, const float background[4],
                           const char *what)
 {
-    OK(triptych_read_target_numbers(device, t, numbers[0]));
+    OK(triptych_read_target_numbers(device, t, numbers[0], sizeof numbers));
     for (int p = 0; p < SIZE * SIZE; p++)
         for (int c = 0; c < 4; c++) {
             float value = mask >> c & 1 ? (float)channel(texel[p], c) / 255.0f : background[c];
@@ -106,7 +106,7 @@ static void expect_pixels(unsigned t, const struct kind *kind, uint32_t mask, co
 /* Compares the same values as bytes. */
 static void expect_bytes(const char *what)
 {
-    OK(triptych_read_target(device, 0, image));
+    OK(triptych_read_target(device, 0, image, sizeof image));
     for (int p = 0; p < SIZE * SIZE; p++) {
         uint32_t word = 0;
         for (int c = 0; c < 4; c++)
@@ -143,10 +143,10 @@ static void check_clears(void)
         open_target(&kinds[i]);
         OK(triptych_clear(device, color, 1));
         OK(triptych_set_scissor(device, 5, 7, 30, 20));
-        set(TRIPTYCH_STATE_scissortestenable, "true");
+        set(TRIPTYCH_STATE_SCISSORTESTENABLE, "true");
         OK(triptych_clear(device, (const float[4]){0, 0, 0, 0}, 1));
-        set(TRIPTYCH_STATE_scissortestenable, "false");
-        OK(triptych_read_target_numbers(device, 0, numbers[0]));
+        set(TRIPTYCH_STATE_SCISSORTESTENABLE, "false");
+        OK(triptych_read_target_numbers(device, 0, numbers[0], sizeof numbers));
         for (int p = 0; p < SIZE * SIZE; p++) {
             int x = p % SIZE, y = p / SIZE, inside = x >= 5 && x < 35 && y >= 7 && y < 27;
             for (int c = 0; c < 4; c++)
@@ -164,16 +164,16 @@ static void test_clears_are_converted_to_the_format(void)
 static void check_missing_alpha(void)
 {
     static const float black[4];
-    set(TRIPTYCH_STATE_srcblend, "destalpha");
-    set(TRIPTYCH_STATE_destblend, "invdestalpha");
+    set(TRIPTYCH_STATE_SRCBLEND, "destalpha");
+    set(TRIPTYCH_STATE_DESTBLEND, "invdestalpha");
     for (int i = 0; i < KINDS; i++) {
         if (kinds[i].bits[3] != NONE)
             continue;
         open_target(&kinds[i]);
         bind_random_texture(SIZE, SIZE);
-        set(TRIPTYCH_STATE_alphablendenable, "true");
+        set(TRIPTYCH_STATE_ALPHABLENDENABLE, "true");
         draw_square(0, 0xffffffff, NULL, 0, 0, 1, 1);
-        set(TRIPTYCH_STATE_alphablendenable, "false");
+        set(TRIPTYCH_STATE_ALPHABLENDENABLE, "false");
         expect_pixels(0, &kinds[i], 15, black, "destination alpha");
     }
 }
@@ -188,8 +188,8 @@ static void test_alpha_that_is_not_stored_is_one(void)
 static void set_masks(const uint32_t mask[4])
 {
     static const enum triptych_state state[4] = {
-        TRIPTYCH_STATE_colorwriteenable, TRIPTYCH_STATE_colorwriteenable1, TRIPTYCH_STATE_colorwriteenable2,
-        TRIPTYCH_STATE_colorwriteenable3};
+        TRIPTYCH_STATE_COLORWRITEENABLE, TRIPTYCH_STATE_COLORWRITEENABLE1, TRIPTYCH_STATE_COLORWRITEENABLE2,
+        TRIPTYCH_STATE_COLORWRITEENABLE3};
     for (int t = 0; t < 4; t++)
         OK(triptych_set_state(device, state[t], mask[t]));
 }
@@ -227,20 +227,20 @@ static void check_blended_targets(void)
     const struct kind *kind[4] = {&kinds[0], &kinds[18], &kinds[12], NULL};
     open_targets(kind);
     OK(triptych_clear(device, (const float[4]){0, 0, 0, 0}, 1));
-    set(TRIPTYCH_STATE_alphablendenable, "true");
-    set(TRIPTYCH_STATE_srcblend, "blendfactor");
-    set(TRIPTYCH_STATE_destblend, "invblendfactor");
-    OK(triptych_set_state(device, TRIPTYCH_STATE_blendfactor, 0x33333333)); /* 0.2 */
+    set(TRIPTYCH_STATE_ALPHABLENDENABLE, "true");
+    set(TRIPTYCH_STATE_SRCBLEND, "blendfactor");
+    set(TRIPTYCH_STATE_DESTBLEND, "invblendfactor");
+    OK(triptych_set_state(device, TRIPTYCH_STATE_BLENDFACTOR, 0x33333333)); /* 0.2 */
     for (int i = 0; i < 2; i++)
         draw_square(0, 0xffffffff, NULL, 0, 0, 1, 1);
     for (unsigned t = 0; t < 3; t++) {
         float value = 0, fifth = 51.0f / 255.0f;
         for (int i = 0; i < 2; i++)
             value = kept(kind[t]->bits[0], fifth + value * (1 - fifth));
-        OK(triptych_read_target_numbers(device, t, numbers[0]));
+        OK(triptych_read_target_numbers(device, t, numbers[0], sizeof numbers));
         expect_number(t, 0, 0, value, "blended");
     }
-    TEST_ASSERT_EQUAL_INT(TRIPTYCH_BAD_ARGUMENT, triptych_read_target(device, 3, image));
+    TEST_ASSERT_EQUAL_INT(TRIPTYCH_BAD_ARGUMENT, triptych_read_target(device, 3, image, sizeof image));
 }
 
 static void test_every_target_is_blended_with_its_own(void)
@@ -260,9 +260,9 @@ static void check_dither(const struct kind *const kind[4])
 {
     open_targets(kind);
     bind_random_texture(SIZE, SIZE);
-    set(TRIPTYCH_STATE_ditherenable, "true");
+    set(TRIPTYCH_STATE_DITHERENABLE, "true");
     draw_square(0, 0xffffffff, NULL, 0, 0, 1, 1);
-    OK(triptych_read_target_numbers(device, 0, numbers[0]));
+    OK(triptych_read_target_numbers(device, 0, numbers[0], sizeof numbers));
     for (int p = 0; p < SIZE * SIZE; p++)
         for (int c = 0; c < 3; c++) {
             int byte = (int)channel(texel[p], c), levels = (1 << kind[0]->bits[c]) - 1;
@@ -293,10 +293,10 @@ static void test_few_bits_are_dithered_by_place(void)
 static void check_dither_of_levels(void)
 {
     open_target(&kinds[7]);
-    set(TRIPTYCH_STATE_ditherenable, "true");
+    set(TRIPTYCH_STATE_DITHERENABLE, "true");
     for (uint32_t level = 0; level < 16; level++) {
         draw_square(0, level * 0x11111111, NULL, 0, 0, 1, 1);
-        OK(triptych_read_color(device, image));
+        OK(triptych_read_color(device, image, sizeof image));
         for (int p = 0; p < SIZE * SIZE; p++)
             expect_pixel(p % SIZE, p / SIZE, level * 0x11111111, "a level");
     }
@@ -321,7 +321,7 @@ static void check_refusals(void)
     TEST_ASSERT_EQUAL_INT(TRIPTYCH_BAD_ARGUMENT, triptych_set_target_description(device, &unknown));
     TEST_ASSERT_EQUAL_STRING("format 12345 of colour target 0: expected one of Direct3D 9's",
                              triptych_error(device));
-    OK(triptych_read_color(device, image)); /* the target of before is there */
+    OK(triptych_read_color(device, image, sizeof image)); /* the target of before is there */
 }
 
 static void test_surfaces_that_cannot_be_targets_are_refused(void)

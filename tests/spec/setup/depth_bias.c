@@ -29,12 +29,12 @@ static void check_offsets(void)
 {
     static const float gradient[] = {0, 0x1p-9f, -0x1p-9f, 0x1p-8f, -0x1p-10f};
     static const float bias[] = {0, 0.125f, -0.125f, 0x1p-20f}, slope[] = {0, 1, -2, 16};
-    set(TRIPTYCH_STATE_zenable, "true");
+    set(TRIPTYCH_STATE_ZENABLE, "true");
     for (int i = 0; i < 25 * 16; i++) {
         float dx = gradient[i % 5], dy = gradient[i / 5 % 5], b = bias[i / 25 % 4], s = slope[i / 100];
         float m = fmaxf(fabsf(dx), fabsf(dy));
-        set_real(TRIPTYCH_STATE_depthbias, b);
-        set_real(TRIPTYCH_STATE_slopescaledepthbias, s);
+        set_real(TRIPTYCH_STATE_DEPTHBIAS, b);
+        set_real(TRIPTYCH_STATE_SLOPESCALEDEPTHBIAS, s);
         clear_shapes();
         draw_slope(0.5f, dx, dy);
         read_shapes();
@@ -54,15 +54,15 @@ static void test_the_offset_is_added_to_every_depth(void)
 /* The usual application: a decal on a surface, which a depth test of "less" would hide. */
 static void check_decal(void)
 {
-    set(TRIPTYCH_STATE_zenable, "true");
-    set(TRIPTYCH_STATE_zfunc, "less");
+    set(TRIPTYCH_STATE_ZENABLE, "true");
+    set(TRIPTYCH_STATE_ZFUNC, "less");
     for (int biased = 0; biased < 2; biased++) {
         static const float black[4];
-        set_real(TRIPTYCH_STATE_depthbias, 0);
+        set_real(TRIPTYCH_STATE_DEPTHBIAS, 0);
         clear_shapes();
         draw_slope(0.5f, 0x1p-9f, 0);
         OK(triptych_clear(device, black, -1));
-        set_real(TRIPTYCH_STATE_depthbias, biased ? -0x1p-16f : 0);
+        set_real(TRIPTYCH_STATE_DEPTHBIAS, biased ? -0x1p-16f : 0);
         draw_slope(0.5f, 0x1p-9f, 0);
         read_shapes();
         for (int p = 0; p < SIZE * SIZE; p++)

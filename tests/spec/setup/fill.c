@@ -53,13 +53,13 @@ static int on_outline(const struct shape_vertex v[3], int last, int x, int y)
 static void check_wireframe(void)
 {
     static const char *const cull[] = {"none", "cw", "ccw"};
-    set(TRIPTYCH_STATE_fillmode, "wireframe");
+    set(TRIPTYCH_STATE_FILLMODE, "wireframe");
     for (int i = 0; i < 60; i++) {
         struct shape_vertex v[3];
         for (int k = 0; k < 3; k++)
             v[k] = random_vertex(0xff8090a0);
-        set(TRIPTYCH_STATE_cullmode, cull[i % 3]);
-        set(TRIPTYCH_STATE_lastpixel, i & 1 ? "true" : "false");
+        set(TRIPTYCH_STATE_CULLMODE, cull[i % 3]);
+        set(TRIPTYCH_STATE_LASTPIXEL, i & 1 ? "true" : "false");
         clear_shapes();
         draw_shape(TRIPTYCH_TRIANGLE_LIST, v, 3);
         read_shapes();
@@ -81,7 +81,7 @@ static void check_colours(void)
     struct shape_vertex v[3] = {{4.5f, 4.5f, 0.5f, 0xffff0000, 0, 0},
                                 {54.5f, 4.5f, 0.5f, 0xff0000ff, 0, 0},
                                 {4.5f, 54.5f, 0.5f, 0xff00ff00, 0, 0}};
-    set(TRIPTYCH_STATE_fillmode, "wireframe");
+    set(TRIPTYCH_STATE_FILLMODE, "wireframe");
     clear_shapes();
     draw_shape(TRIPTYCH_TRIANGLE_LIST, v, 3);
     read_shapes();
@@ -92,7 +92,7 @@ static void check_colours(void)
         TEST_ASSERT_UINT8_WITHIN(1, 255 * i / 50, channel(image[(4 + i) * SIZE + 54 - i], 1));
         TEST_ASSERT_UINT8_WITHIN(1, 255 - 255 * i / 50, channel(image[(4 + i) * SIZE + 54 - i], 2));
     }
-    set(TRIPTYCH_STATE_shademode, "flat");
+    set(TRIPTYCH_STATE_SHADEMODE, "flat");
     clear_shapes();
     draw_shape(TRIPTYCH_TRIANGLE_LIST, v, 3);
     read_shapes();
@@ -123,8 +123,8 @@ static void expect_corners(const struct shape_vertex v[3], const uint32_t color[
 static void check_points(void)
 {
     static const uint32_t none[3];
-    set(TRIPTYCH_STATE_fillmode, "point");
-    set_real(TRIPTYCH_STATE_pointsize, 3);
+    set(TRIPTYCH_STATE_FILLMODE, "point");
+    set_real(TRIPTYCH_STATE_POINTSIZE, 3);
     for (int i = 0; i < 30; i++) {
         struct shape_vertex v[3];
         uint32_t color[3];
@@ -132,8 +132,8 @@ static void check_points(void)
             v[k] = random_vertex(random_word() | 0xff000000);
             color[k] = i & 1 ? v[0].color : v[k].color;
         }
-        set(TRIPTYCH_STATE_shademode, i & 1 ? "flat" : "gouraud");
-        set(TRIPTYCH_STATE_cullmode, i & 2 ? "ccw" : "none");
+        set(TRIPTYCH_STATE_SHADEMODE, i & 1 ? "flat" : "gouraud");
+        set(TRIPTYCH_STATE_CULLMODE, i & 2 ? "ccw" : "none");
         clear_shapes();
         draw_shape(TRIPTYCH_TRIANGLE_LIST, v, 3);
         read_shapes();
@@ -155,7 +155,7 @@ static void check_clipping(void)
     struct shape_vertex half[2] = {{32.5f, 32.5f, 0, 0, 0, 0}, {8.5f, 32.5f, 0, 0, 0, 0}};
     struct diamond_line left[3] = {edge(&v[0], &v[1], 1), edge(&v[1], &half[0], 1), edge(&half[1], &v[0], 1)};
     uint32_t corners[3] = {~0u, ~0u, 0};
-    set(TRIPTYCH_STATE_fillmode, "wireframe");
+    set(TRIPTYCH_STATE_FILLMODE, "wireframe");
     clear_shapes();
     draw_shape(TRIPTYCH_TRIANGLE_LIST, v, 3);
     read_shapes();
@@ -165,7 +165,7 @@ static void check_clipping(void)
             drawn |= diamond_covers(&left[i], p % SIZE, p / SIZE);
         expect_pixel(p % SIZE, p / SIZE, drawn ? ~0u : 0, "a clipped wireframe");
     }
-    set(TRIPTYCH_STATE_fillmode, "point");
+    set(TRIPTYCH_STATE_FILLMODE, "point");
     clear_shapes();
     draw_shape(TRIPTYCH_TRIANGLE_LIST, v, 3);
     read_shapes();
@@ -183,11 +183,11 @@ static void check_depth_bias(void)
     static const char *const mode[] = {"solid", "wireframe", "point"};
     struct shape_vertex v[3] = {
         {8.5f, 8.5f, 0, ~0u, 0, 0}, {40.5f, 8.5f, 1, ~0u, 0, 0}, {8.5f, 40.5f, 0, ~0u, 0, 0}};
-    set(TRIPTYCH_STATE_zenable, "true");
-    set_real(TRIPTYCH_STATE_depthbias, 0.125f);
-    set_real(TRIPTYCH_STATE_slopescaledepthbias, 2);
+    set(TRIPTYCH_STATE_ZENABLE, "true");
+    set_real(TRIPTYCH_STATE_DEPTHBIAS, 0.125f);
+    set_real(TRIPTYCH_STATE_SLOPESCALEDEPTHBIAS, 2);
     for (int i = 0; i < 3; i++) {
-        set(TRIPTYCH_STATE_fillmode, mode[i]);
+        set(TRIPTYCH_STATE_FILLMODE, mode[i]);
         clear_shapes();
         draw_shape(TRIPTYCH_TRIANGLE_LIST, v, 3);
         read_shapes();
@@ -208,11 +208,11 @@ static void check_many(void)
     static struct shape_vertex v[63];
     static uint32_t count[SIZE * SIZE];
     memset(count, 0, sizeof count);
-    set(TRIPTYCH_STATE_fillmode, "wireframe");
-    set(TRIPTYCH_STATE_alphablendenable, "true");
-    set(TRIPTYCH_STATE_srcblend, "one");
-    set(TRIPTYCH_STATE_destblend, "one");
-    set(TRIPTYCH_STATE_lastpixel, "false");
+    set(TRIPTYCH_STATE_FILLMODE, "wireframe");
+    set(TRIPTYCH_STATE_ALPHABLENDENABLE, "true");
+    set(TRIPTYCH_STATE_SRCBLEND, "one");
+    set(TRIPTYCH_STATE_DESTBLEND, "one");
+    set(TRIPTYCH_STATE_LASTPIXEL, "false");
     clear_shapes();
     for (int round = 0; round < 8; round++) {
         for (int i = 0; i < 63; i++)

@@ -76,14 +76,14 @@ static void expect_line(const struct shape_vertex v[2], int last, int flat)
 
 static void check_lines(void)
 {
-    set(TRIPTYCH_STATE_zenable, "true");
+    set(TRIPTYCH_STATE_ZENABLE, "true");
     for (int i = 0; i < 60; i++) {
         struct shape_vertex v[2] = {random_vertex(), random_vertex()};
         if (hypot((double)(v[1].x - v[0].x), (double)(v[1].y - v[0].y)) < 2)
             continue;
-        set(TRIPTYCH_STATE_lastpixel, i & 1 ? "true" : "false");
-        set(TRIPTYCH_STATE_shademode, i & 2 ? "flat" : i & 4 ? "phong" : "gouraud");
-        set(TRIPTYCH_STATE_zfunc, "always");
+        set(TRIPTYCH_STATE_LASTPIXEL, i & 1 ? "true" : "false");
+        set(TRIPTYCH_STATE_SHADEMODE, i & 2 ? "flat" : i & 4 ? "phong" : "gouraud");
+        set(TRIPTYCH_STATE_ZFUNC, "always");
         clear_shapes();
         draw_shape(TRIPTYCH_LINE_LIST, v, 2);
         read_shapes();
@@ -100,9 +100,9 @@ static void test_lines_are_as_defined(void)
  * last pixel. */
 static void check_strips_and_lists(void)
 {
-    set(TRIPTYCH_STATE_alphablendenable, "true");
-    set(TRIPTYCH_STATE_srcblend, "one");
-    set(TRIPTYCH_STATE_destblend, "one");
+    set(TRIPTYCH_STATE_ALPHABLENDENABLE, "true");
+    set(TRIPTYCH_STATE_SRCBLEND, "one");
+    set(TRIPTYCH_STATE_DESTBLEND, "one");
     for (int i = 0; i < 24; i++) {
         struct shape_vertex v[12];
         enum triptych_primitive primitive = i & 2 ? TRIPTYCH_LINE_STRIP : TRIPTYCH_LINE_LIST;
@@ -111,7 +111,7 @@ static void check_strips_and_lists(void)
             v[k] = random_vertex();
             v[k].color = 0x01010101;
         }
-        set(TRIPTYCH_STATE_lastpixel, i & 1 ? "true" : "false");
+        set(TRIPTYCH_STATE_LASTPIXEL, i & 1 ? "true" : "false");
         clear_shapes();
         draw_shape(primitive, v, 12);
         read_shapes();
@@ -143,7 +143,7 @@ static void check_clipping(void)
 {
     struct shape_vertex v[2] = {{8.5f, 10.5f, -0.25f, ~0u, 0, 0}, {40.5f, 10.5f, 0.75f, ~0u, 0, 0}};
     struct shape_vertex back[2] = {v[1], v[0]};
-    set(TRIPTYCH_STATE_lastpixel, "false");
+    set(TRIPTYCH_STATE_LASTPIXEL, "false");
     clear_shapes();
     draw_shape(TRIPTYCH_LINE_LIST, v, 2);
     read_shapes();
@@ -175,12 +175,12 @@ static void check_triangles_states(void)
 {
     struct shape_vertex v[2] = {{8.5f, 10.5f, 0.25f, ~0u, 0, 0}, {40.5f, 10.5f, 0.25f, ~0u, 0, 0}};
     static const char *const cull[] = {"cw", "ccw"}, *const fill[] = {"point", "wireframe"};
-    set(TRIPTYCH_STATE_zenable, "true");
-    set_real(TRIPTYCH_STATE_depthbias, 0.5f);
-    set_real(TRIPTYCH_STATE_slopescaledepthbias, 2);
+    set(TRIPTYCH_STATE_ZENABLE, "true");
+    set_real(TRIPTYCH_STATE_DEPTHBIAS, 0.5f);
+    set_real(TRIPTYCH_STATE_SLOPESCALEDEPTHBIAS, 2);
     for (int i = 0; i < 4; i++) {
-        set(TRIPTYCH_STATE_cullmode, cull[i & 1]);
-        set(TRIPTYCH_STATE_fillmode, fill[i >> 1]);
+        set(TRIPTYCH_STATE_CULLMODE, cull[i & 1]);
+        set(TRIPTYCH_STATE_FILLMODE, fill[i >> 1]);
         clear_shapes();
         draw_shape(TRIPTYCH_LINE_STRIP, v, 2);
         read_shapes();

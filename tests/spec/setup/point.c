@@ -39,15 +39,15 @@ static void expect_square(double x, double y, double size, uint32_t color, const
 static void check_squares(void)
 {
     char what[80];
-    set(TRIPTYCH_STATE_zenable, "true");
+    set(TRIPTYCH_STATE_ZENABLE, "true");
     for (int i = 0; i < 100; i++) {
         int step = i & 1 ? 128 : 1;
         float x = (float)((int)random_between(-10 * 256, (SIZE + 10) * 256) / step * step) / 256;
         float y = (float)((int)random_between(-10 * 256, (SIZE + 10) * 256) / step * step) / 256;
         float size = i & 2 ? (float)(int)random_between(1, 20) : (float)random_between(0, 40);
         uint32_t color = random_word();
-        set_real(TRIPTYCH_STATE_pointsize_min, 0);
-        set_real(TRIPTYCH_STATE_pointsize, size);
+        set_real(TRIPTYCH_STATE_POINTSIZE_MIN, 0);
+        set_real(TRIPTYCH_STATE_POINTSIZE, size);
         snprintf(what, sizeof what, "a point of size %g at (%g, %g)", (double)size, (double)x, (double)y);
         draw_point(x, y, 0.25f, color, 0, 0);
         expect_square((double)x, (double)y, (double)size, color, what);
@@ -69,9 +69,9 @@ static void check_size_limits(void)
     } cases[] = {{5, 1, 64, 5}, {5, 8, 64, 8},    {5, 1, 4, 4}, {70, 1, 64, 64},
                  {0, 0, 64, 0}, {0.5f, 1, 64, 1}, {5, 8, 4, 4}, {30000, 0, 1e30f, 8192}};
     for (unsigned i = 0; i < sizeof cases / sizeof *cases; i++) {
-        set_real(TRIPTYCH_STATE_pointsize, cases[i].size);
-        set_real(TRIPTYCH_STATE_pointsize_min, cases[i].least);
-        set_real(TRIPTYCH_STATE_pointsize_max, cases[i].most);
+        set_real(TRIPTYCH_STATE_POINTSIZE, cases[i].size);
+        set_real(TRIPTYCH_STATE_POINTSIZE_MIN, cases[i].least);
+        set_real(TRIPTYCH_STATE_POINTSIZE_MAX, cases[i].most);
         draw_point(20, 30, 0.5f, 0xff123456, 0, 0);
         expect_square(20, 30, (double)cases[i].expected, 0xff123456, "a limited size");
     }
@@ -91,8 +91,8 @@ static void check_sprites(void)
     bind_random_texture(8, 8);
     for (int size = 8; size <= 16; size += 8)
         for (int sprite = 0; sprite < 2; sprite++) {
-            set_real(TRIPTYCH_STATE_pointsize, (float)size);
-            set(TRIPTYCH_STATE_pointspriteenable, sprite ? "true" : "false");
+            set_real(TRIPTYCH_STATE_POINTSIZE, (float)size);
+            set(TRIPTYCH_STATE_POINTSPRITEENABLE, sprite ? "true" : "false");
             draw_point(30, 20, 0.5f, ~0u, 0.8f, 0.3f);
             for (int y = 0; y < size; y++)
                 for (int x = 0; x < size; x++) {
@@ -115,12 +115,12 @@ static void check_sprites_in_fog(void)
     static const float projection[4][4] = {{1, 0, 0, 0}, {0, 1, 0, 0}, {0, 0, 1, 1}, {0, 0, 0, 0}};
     bind_random_texture(8, 8);
     OK(triptych_set_transform(device, TRIPTYCH_TRANSFORM_PROJECTION, projection));
-    set(TRIPTYCH_STATE_pointspriteenable, "true");
-    set(TRIPTYCH_STATE_fogenable, "true");
-    set(TRIPTYCH_STATE_fogtablemode, "linear");
-    set_number(TRIPTYCH_STATE_fogcolor, 0xff40c020);
-    set_real(TRIPTYCH_STATE_fogend, 4);
-    set_real(TRIPTYCH_STATE_pointsize, 8);
+    set(TRIPTYCH_STATE_POINTSPRITEENABLE, "true");
+    set(TRIPTYCH_STATE_FOGENABLE, "true");
+    set(TRIPTYCH_STATE_FOGTABLEMODE, "linear");
+    set_number(TRIPTYCH_STATE_FOGCOLOR, 0xff40c020);
+    set_real(TRIPTYCH_STATE_FOGEND, 4);
+    set_real(TRIPTYCH_STATE_POINTSIZE, 8);
     draw_point(28, 16, 2, ~0u, 0, 0);
     for (int y = 0; y < 8; y++)
         for (int x = 0; x < 8; x++)
@@ -140,7 +140,7 @@ static void test_sprites_keep_their_coordinates_in_perspective(void)
 static void check_clipping(void)
 {
     static const float outside[] = {-0.01f, 1.01f, -3, 7};
-    set_real(TRIPTYCH_STATE_pointsize, 8);
+    set_real(TRIPTYCH_STATE_POINTSIZE, 8);
     for (int i = 0; i < 4; i++) {
         draw_point(20, 30, outside[i], 0xffffffff, 0, 0);
         expect_square(20, 30, 0, 0xffffffff, "a point outside of the depth range");
@@ -159,7 +159,7 @@ static void test_points_are_clipped_by_depth_and_cut_by_the_viewport(void)
 static void check_lists(void)
 {
     struct shape_vertex v[40];
-    set_real(TRIPTYCH_STATE_pointsize, 3);
+    set_real(TRIPTYCH_STATE_POINTSIZE, 3);
     for (int i = 0; i < 40; i++)
         v[i] = (struct shape_vertex){
             (float)(i % 8 * 8 + 4), (float)(i / 8 * 8 + 4), 0.5f, random_word() | 0xff000000, 0, 0};
@@ -183,12 +183,12 @@ static void test_every_point_of_a_list_is_drawn(void)
 /* Culling, fill modes, depth bias and flat shading do not change points. */
 static void check_triangles_states(void)
 {
-    set(TRIPTYCH_STATE_zenable, "true");
-    set(TRIPTYCH_STATE_cullmode, "ccw");
-    set(TRIPTYCH_STATE_fillmode, "wireframe");
-    set(TRIPTYCH_STATE_shademode, "flat");
-    set_real(TRIPTYCH_STATE_depthbias, 0.5f);
-    set_real(TRIPTYCH_STATE_pointsize, 5);
+    set(TRIPTYCH_STATE_ZENABLE, "true");
+    set(TRIPTYCH_STATE_CULLMODE, "ccw");
+    set(TRIPTYCH_STATE_FILLMODE, "wireframe");
+    set(TRIPTYCH_STATE_SHADEMODE, "flat");
+    set_real(TRIPTYCH_STATE_DEPTHBIAS, 0.5f);
+    set_real(TRIPTYCH_STATE_POINTSIZE, 5);
     draw_point(20, 30, 0.25f, 0xff445566, 0, 0);
     expect_square(20, 30, 5, 0xff445566, "a point with a triangle's states");
     TEST_ASSERT_EQUAL_FLOAT(0.25f, shape_depth[30 * SIZE + 20]);

@@ -43,14 +43,14 @@ static const char *const killers[] = {kills_1_1, kills_1_4, kills_2_0, kills_3_0
 static void use_tests(unsigned samples)
 {
     struct triptych_target_description description = {
-        .width = SIZE, .height = SIZE, .depth_format = TRIPTYCH_DEPTH_d24s8, .samples = samples};
+        .width = SIZE, .height = SIZE, .depth_format = TRIPTYCH_DEPTH_D24S8, .samples = samples};
     static const struct {
         enum triptych_state state;
         const char *word;
-    } states[] = {{TRIPTYCH_STATE_zenable, "true"},
-                  {TRIPTYCH_STATE_stencilenable, "true"},
-                  {TRIPTYCH_STATE_stencilpass, "incr"},
-                  {TRIPTYCH_STATE_stencilzfail, "invert"}};
+    } states[] = {{TRIPTYCH_STATE_ZENABLE, "true"},
+                  {TRIPTYCH_STATE_STENCILENABLE, "true"},
+                  {TRIPTYCH_STATE_STENCILPASS, "incr"},
+                  {TRIPTYCH_STATE_STENCILZFAIL, "invert"}};
     OK(triptych_set_target_description(device, &description));
     for (unsigned i = 0; i < COUNT(states); i++)
         set(states[i].state, states[i].word);
@@ -65,9 +65,9 @@ static void clear_all(float to)
 
 static void expect_halves(const char *what)
 {
-    OK(triptych_read_color(device, image));
-    OK(triptych_read_depth(device, depth));
-    OK(triptych_read_stencil(device, stencil));
+    OK(triptych_read_color(device, image, sizeof image));
+    OK(triptych_read_depth(device, depth, sizeof depth));
+    OK(triptych_read_stencil(device, stencil, sizeof stencil));
     for (int p = 0; p < SIZE * SIZE; p++) {
         int kept = p % SIZE >= SIZE / 2;
         expect_pixel(p % SIZE, p / SIZE, kept ? 0xff0000ff : 0, what);
@@ -94,7 +94,7 @@ static void check_kill(void)
             TEST_ASSERT_EQUAL_UINT64(SIZE * SIZE / 2 * samples, passed);
             clear_all(0.25f);
             draw_declared(TRIPTYCH_USAGE_POSITION, &sides, 1);
-            OK(triptych_read_stencil(device, stencil));
+            OK(triptych_read_stencil(device, stencil, sizeof stencil));
             TEST_ASSERT_EQUAL_UINT8(7, stencil[0]);
             TEST_ASSERT_EQUAL_UINT8(248, stencil[SIZE - 1]);
         }
@@ -109,24 +109,24 @@ static void test_discarded_pixels_write_nothing(void)
 /* Only depth is written, and pixels are discarded too. */
 static void check_only_kill(void)
 {
-    set(TRIPTYCH_STATE_zenable, "true");
-    OK(triptych_set_state(device, TRIPTYCH_STATE_colorwriteenable, 0));
+    set(TRIPTYCH_STATE_ZENABLE, "true");
+    OK(triptych_set_state(device, TRIPTYCH_STATE_COLORWRITEENABLE, 0));
     use_shaders(with_sides, kills_2_0);
     clear_to(0);
     draw_declared(TRIPTYCH_USAGE_POSITION, &sides, 1);
-    OK(triptych_read_depth(device, depth));
+    OK(triptych_read_depth(device, depth, sizeof depth));
     TEST_ASSERT_EQUAL_FLOAT(1, depth[5]);
     TEST_ASSERT_EQUAL_FLOAT(0.5f, depth[SIZE - 5]);
-    OK(triptych_set_state(device, TRIPTYCH_STATE_colorwriteenable, 15));
-    set(TRIPTYCH_STATE_zenable, "false");
-    set(TRIPTYCH_STATE_alphatestenable, "true");
-    set(TRIPTYCH_STATE_alphafunc, "less");
-    OK(triptych_set_state(device, TRIPTYCH_STATE_alpharef, 128));
+    OK(triptych_set_state(device, TRIPTYCH_STATE_COLORWRITEENABLE, 15));
+    set(TRIPTYCH_STATE_ZENABLE, "false");
+    set(TRIPTYCH_STATE_ALPHATESTENABLE, "true");
+    set(TRIPTYCH_STATE_ALPHAFUNC, "less");
+    OK(triptych_set_state(device, TRIPTYCH_STATE_ALPHAREF, 128));
     use_shaders(with_sides, "ps_2_0\ndcl t0\ndef c0, 0.5, 0.25, 1, 0\ntexkill t0\nmov r0, t0\nmov r1, c0.z\n"
                             "mad r1.w, r0.x, c0.x, c0.y\nmov oC0, r1\n");
     clear_to(0);
     draw_declared(TRIPTYCH_USAGE_POSITION, &sides, 1);
-    OK(triptych_read_color(device, image));
+    OK(triptych_read_color(device, image, sizeof image));
     TEST_ASSERT_EQUAL_HEX32(0, image[SIZE / 2 - 1]);               /* discarded */
     TEST_ASSERT_EQUAL_HEX32(0xffffff, image[SIZE / 2] & 0xffffff); /* alpha 0.25 */
     TEST_ASSERT_EQUAL_HEX32(0xffffff, image[SIZE / 2 + 15] & 0xffffff);
@@ -156,13 +156,14 @@ static void expect_depths(unsigned samples, const char *what)
 {
     static float each[SIZE * SIZE];
     static uint8_t passed[SIZE * SIZE];
-    OK(triptych_read_color(device, image));
+    OK(triptych_read_color(device, image, sizeof image));
     for (unsigned s = 0; s < samples; s++) {
         if (samples > 1)
-            OK(triptych_read_sample(device, s, image, each, passed));
+            OK(triptych_read_sample(device, s, image, sizeof image, each, sizeof each, passed,
+                                    sizeof passed));
         else {
-            OK(triptych_read_depth(device, each));
-            OK(triptych_read_stencil(device, passed));
+            OK(triptych_read_depth(device, each, sizeof each));
+            OK(triptych_read_stencil(device, passed, sizeof passed));
         }
         for (int p = 0; p < SIZE * SIZE; p++) {
             float expected = shaded_depth(p % SIZE);
@@ -179,8 +180,8 @@ static void check_depth(void)
     triptych_query *query;
     uint64_t passed;
     OK(triptych_query_create(device, TRIPTYCH_QUERY_OCCLUSION, &query));
-    set(TRIPTYCH_STATE_zfunc, "less");
-    OK(triptych_set_state(device, TRIPTYCH_STATE_depthbias, triptych_float_bits(0.25f))); /* of no account */
+    set(TRIPTYCH_STATE_ZFUNC, "less");
+    OK(triptych_set_state(device, TRIPTYCH_STATE_DEPTHBIAS, triptych_float_bits(0.25f))); /* of no account */
     for (unsigned samples = 1; samples <= 4; samples *= 4) {
         use_tests(samples);
         for (unsigned i = 0; i < COUNT(deep); i++) {
@@ -204,9 +205,9 @@ static void test_depth_that_a_shader_writes_is_tested_and_stored(void)
 /* Targets with depth formats without stencil, and a depth of NaN. */
 static void check_only_depth(void)
 {
-    static const enum triptych_depth_format formats[] = {TRIPTYCH_DEPTH_d16, TRIPTYCH_DEPTH_d32f_lockable,
-                                                         TRIPTYCH_DEPTH_d24fs8, TRIPTYCH_DEPTH_d32};
-    set(TRIPTYCH_STATE_zenable, "true");
+    static const enum triptych_depth_format formats[] = {TRIPTYCH_DEPTH_D16, TRIPTYCH_DEPTH_D32F_LOCKABLE,
+                                                         TRIPTYCH_DEPTH_D24FS8, TRIPTYCH_DEPTH_D32};
+    set(TRIPTYCH_STATE_ZENABLE, "true");
     for (unsigned f = 0; f < COUNT(formats); f++) {
         struct triptych_target_description description = {
             .width = SIZE, .height = SIZE, .depth_format = formats[f]};
@@ -214,7 +215,7 @@ static void check_only_depth(void)
         use_shaders(with_sides, deep[0]);
         clear_to(0);
         draw_declared(TRIPTYCH_USAGE_POSITION, &slope, 1);
-        OK(triptych_read_depth(device, depth));
+        OK(triptych_read_depth(device, depth, sizeof depth));
         for (int p = 0; p < SIZE; p++)
             TEST_ASSERT_FLOAT_WITHIN(1e-4f, shaded_depth(p), depth[p]);
     }
@@ -222,7 +223,7 @@ static void check_only_depth(void)
                        "c0.x\nmov oDepth, r0.x\nmov oC0, c0\n");
     clear_to(0);
     draw(); /* infinity times 0 */
-    OK(triptych_read_depth(device, depth));
+    OK(triptych_read_depth(device, depth, sizeof depth));
     TEST_ASSERT_EQUAL_FLOAT(0, depth[0]);
 }
 

@@ -225,14 +225,14 @@ static void check_depths(void)
                                      {-1, -4, 0.25f},     {0, 5, 0},      {5, 0.25f, 1}};
     struct triptych_target_description description = {.width = SIZE,
                                                       .height = SIZE,
-                                                      .depth_format = TRIPTYCH_DEPTH_d32f_lockable,
+                                                      .depth_format = TRIPTYCH_DEPTH_D32F_LOCKABLE,
                                                       .color_format = {TRIPTYCH_SURFACE_A8R8G8B8}};
     static float depth[SIZE * SIZE];
     OK(triptych_set_target_description(device, &description));
     part_place();
-    set(TRIPTYCH_STATE_zenable, "true");
-    set(TRIPTYCH_STATE_zfunc, "always");
-    OK(triptych_set_state(device, TRIPTYCH_STATE_depthbias, bits_of_float(0.125f)));
+    set(TRIPTYCH_STATE_ZENABLE, "true");
+    set(TRIPTYCH_STATE_ZFUNC, "always");
+    OK(triptych_set_state(device, TRIPTYCH_STATE_DEPTHBIAS, bits_of_float(0.125f)));
     for (unsigned t = 0; t < COUNT(texts); t++) {
         use_shaders(vertex, texts[t]);
         for (unsigned i = 0; i < COUNT(cases); i++) {
@@ -240,7 +240,7 @@ static void check_depths(void)
                 drawn_constant(TRIPTYCH_USAGE_TEXCOORD, 0, cases[i][0], cases[i][1], 0, 1);
             char what[100];
             draw_declared(TRIPTYCH_USAGE_POSITION, &quotient, 1);
-            OK(triptych_read_depth(device, depth));
+            OK(triptych_read_depth(device, depth, sizeof depth));
             snprintf(what, sizeof what, "%.6s: %g by %g", texts[t], (double)cases[i][0], (double)cases[i][1]);
             TEST_ASSERT_EQUAL_FLOAT_MESSAGE(cases[i][2], depth[PART / 2 * SIZE + PART / 2], what);
         }
@@ -347,12 +347,12 @@ static void check_nan_in(unsigned format, unsigned samples)
     draw_declared(TRIPTYCH_USAGE_POSITION, NULL, 0);
     expect_one_nan(format, samples, "computed");
     TEST_ASSERT_EQUAL_INT(TRIPTYCH_BAD_ARGUMENT, triptych_clear(device, nans, 1));
-    set(TRIPTYCH_STATE_alphablendenable, "true");
-    set(TRIPTYCH_STATE_srcblend, "zero");
-    set(TRIPTYCH_STATE_destblend, "one");
+    set(TRIPTYCH_STATE_ALPHABLENDENABLE, "true");
+    set(TRIPTYCH_STATE_SRCBLEND, "zero");
+    set(TRIPTYCH_STATE_DESTBLEND, "one");
     draw_declared(TRIPTYCH_USAGE_POSITION, NULL, 0);
     expect_one_nan(format, samples, "blended");
-    set(TRIPTYCH_STATE_alphablendenable, "false");
+    set(TRIPTYCH_STATE_ALPHABLENDENABLE, "false");
 }
 
 static void check_nan(void)

@@ -48,9 +48,9 @@ static void bind_levels(unsigned sampler)
                                    0));
     }
     OK(triptych_set_texture(device, sampler, levels));
-    set_sampler(sampler, TRIPTYCH_SAMPLER_magfilter, "point");
-    set_sampler(sampler, TRIPTYCH_SAMPLER_minfilter, "point");
-    set_sampler(sampler, TRIPTYCH_SAMPLER_mipfilter, "point");
+    set_sampler(sampler, TRIPTYCH_SAMPLER_MAGFILTER, "point");
+    set_sampler(sampler, TRIPTYCH_SAMPLER_MINFILTER, "point");
+    set_sampler(sampler, TRIPTYCH_SAMPLER_MIPFILTER, "point");
 }
 
 static void expect_level(float level, const char *what)
@@ -120,8 +120,8 @@ static void check_levels_at(unsigned sampler, enum triptych_shader_stage stage, 
         char what[100];
         snprintf(what, sizeof what, "sampler %u, level %g, first %u, bias %g", sampler,
                  (double)levels[i].given, levels[i].first, (double)levels[i].bias);
-        OK(triptych_set_sampler_state(device, sampler, TRIPTYCH_SAMPLER_maxmiplevel, levels[i].first));
-        OK(triptych_set_sampler_state(device, sampler, TRIPTYCH_SAMPLER_mipmaplodbias,
+        OK(triptych_set_sampler_state(device, sampler, TRIPTYCH_SAMPLER_MAXMIPLEVEL, levels[i].first));
+        OK(triptych_set_sampler_state(device, sampler, TRIPTYCH_SAMPLER_MIPMAPLODBIAS,
                                       bits_of_float(levels[i].bias)));
         OK(triptych_set_shader_floats(device, stage, 0, (const float[4]){0.5f, 0.25f, 0, levels[i].given},
                                       1));
@@ -173,8 +173,8 @@ static void check_changes(void)
             ramp.value[2][1] = ramp.value[3][1] = 7;
             model_make(&texture, device, 2, t ? TRIPTYCH_TEXTURE_VOLUME : TRIPTYCH_TEXTURE_2D, 1);
             model_set(device, 2, &sampler);
-            set_sampler(2, TRIPTYCH_SAMPLER_minfilter, minification[filter]);
-            OK(triptych_set_sampler_state(device, 2, TRIPTYCH_SAMPLER_maxanisotropy, 4));
+            set_sampler(2, TRIPTYCH_SAMPLER_MINFILTER, minification[filter]);
+            OK(triptych_set_sampler_state(device, 2, TRIPTYCH_SAMPLER_MAXANISOTROPY, 4));
             use_shaders(t ? first : third, texts[t]);
             draw_declared(TRIPTYCH_USAGE_POSITION, &ramp, 1);
             read_numbers(0);
@@ -225,8 +225,8 @@ static void check_divisors(void)
     part_begin();
     model_make(&texture, device, 3, TRIPTYCH_TEXTURE_2D, 1);
     model_set(device, 3, &nearest);
-    set_sampler(3, TRIPTYCH_SAMPLER_addressu, "clamp");
-    set_sampler(3, TRIPTYCH_SAMPLER_addressv, "clamp");
+    set_sampler(3, TRIPTYCH_SAMPLER_ADDRESSU, "clamp");
+    set_sampler(3, TRIPTYCH_SAMPLER_ADDRESSV, "clamp");
     for (unsigned t = 0; t < COUNT(texts); t++) {
         use_shaders(t == 1 ? third : first, texts[t]);
         for (unsigned i = 0; i < COUNT(cases); i++) {

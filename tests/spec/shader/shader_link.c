@@ -93,20 +93,20 @@ static void check_stage_coordinates(void)
                 NULL);
     for (unsigned i = 0; i < 3; i++) {
         OK(triptych_set_texture(device, i, texture));
-        set_stage(i, TRIPTYCH_STAGE_colorop, i ? "add" : "selectarg1");
-        set_stage(i, TRIPTYCH_STAGE_colorarg1, "texture");
-        OK(triptych_set_stage_state(device, i, TRIPTYCH_STAGE_texcoordindex, 1));
-        set_stage(i, TRIPTYCH_STAGE_texturetransformflags, "count2");
+        set_stage(i, TRIPTYCH_STAGE_COLOROP, i ? "add" : "selectarg1");
+        set_stage(i, TRIPTYCH_STAGE_COLORARG1, "texture");
+        OK(triptych_set_stage_state(device, i, TRIPTYCH_STAGE_TEXCOORDINDEX, 1));
+        set_stage(i, TRIPTYCH_STAGE_TEXTURETRANSFORMFLAGS, "count2");
         OK(triptych_set_transform(device, TRIPTYCH_TRANSFORM_TEXTURE0 + i, turned));
     }
     draw_declared(TRIPTYCH_USAGE_POSITION, NULL, 0);
-    OK(triptych_read_color(device, image));
+    OK(triptych_read_color(device, image, sizeof image));
     expect_pixel(3, 3, 0xff404040, "three stages");
     OK(triptych_set_texture(device, 1, NULL));
     OK(triptych_set_texture(device, 2, NULL));
-    set_stage(1, TRIPTYCH_STAGE_colorop, "disable");
+    set_stage(1, TRIPTYCH_STAGE_COLOROP, "disable");
     draw_declared(TRIPTYCH_USAGE_POSITION, NULL, 0);
-    OK(triptych_read_color(device, image));
+    OK(triptych_read_color(device, image, sizeof image));
     expect_pixel(3, 3, 0xff400000, "the first stage");
 }
 
@@ -122,21 +122,21 @@ static void check_projected_stage(void)
     triptych_texture *texture;
     OK(triptych_texture_create(device, words, 4, 1, &texture));
     OK(triptych_set_texture(device, 0, texture));
-    set_stage(0, TRIPTYCH_STAGE_colorop, "selectarg1");
+    set_stage(0, TRIPTYCH_STAGE_COLOROP, "selectarg1");
     for (int shader = 0; shader < 2; shader++) {
         use_shaders("vs_1_1\ndcl_position v0\ndef c0, 0.75, 0.5, 2, 6\nmov oPos, v0\nmov oT0, c0\n",
                     shader ? "ps_1_1\ntex t0\nmov r0, t0\n" : NULL);
-        OK(triptych_set_stage_state(device, 0, TRIPTYCH_STAGE_texturetransformflags, 0));
+        OK(triptych_set_stage_state(device, 0, TRIPTYCH_STAGE_TEXTURETRANSFORMFLAGS, 0));
         draw_declared(TRIPTYCH_USAGE_POSITION, NULL, 0);
-        OK(triptych_read_color(device, image));
+        OK(triptych_read_color(device, image, sizeof image));
         expect_pixel(3, 3, words[3], "not divided");
-        OK(triptych_set_stage_state(device, 0, TRIPTYCH_STAGE_texturetransformflags, 256 | 3));
+        OK(triptych_set_stage_state(device, 0, TRIPTYCH_STAGE_TEXTURETRANSFORMFLAGS, 256 | 3));
         draw_declared(TRIPTYCH_USAGE_POSITION, NULL, 0);
-        OK(triptych_read_color(device, image));
+        OK(triptych_read_color(device, image, sizeof image));
         expect_pixel(3, 3, words[1], "divided by the third");
-        OK(triptych_set_stage_state(device, 0, TRIPTYCH_STAGE_texturetransformflags, 256));
+        OK(triptych_set_stage_state(device, 0, TRIPTYCH_STAGE_TEXTURETRANSFORMFLAGS, 256));
         draw_declared(TRIPTYCH_USAGE_POSITION, NULL, 0);
-        OK(triptych_read_color(device, image));
+        OK(triptych_read_color(device, image, sizeof image));
         expect_pixel(3, 3, words[0], "divided by the fourth");
     }
 }
@@ -190,7 +190,7 @@ static void check_unlike_fixed(void)
 {
     struct drawn_element specular = drawn_constant(TRIPTYCH_USAGE_COLOR, 1, 0.5f, 0.25f, 0.125f, 1);
     use_float_target();
-    set(TRIPTYCH_STATE_specularenable, "true");
+    set(TRIPTYCH_STATE_SPECULARENABLE, "true");
     use_shaders(two_colours, NULL);
     draw_declared(TRIPTYCH_USAGE_POSITION, &specular, 1);
     read_numbers(0);
@@ -354,7 +354,7 @@ static void check_flat(void)
         "ps_2_0\ndcl v0\ndcl t0\nmov r0.x, v0.x\nmov r0.yzw, t0.y\nmov oC0, r0\n",
         "ps_3_0\ndcl_color v8\ndcl_texcoord v1\nmov oC0.x, v8.x\nmov oC0.yzw, v1.y\n"};
     use_float_target();
-    set(TRIPTYCH_STATE_shademode, "flat");
+    set(TRIPTYCH_STATE_SHADEMODE, "flat");
     for (int i = 0; i < 2; i++) {
         use_shaders(third, pixel[i]);
         draw_declared(TRIPTYCH_USAGE_POSITION, elements, 2);
@@ -378,7 +378,7 @@ static void check_sprites(void)
     static const float middle[4] = {0, 0, 0.5f, 1};
     memcpy(drawn_position[0], middle, sizeof middle);
     use_float_target();
-    OK(triptych_set_state(device, TRIPTYCH_STATE_pointsize, triptych_float_bits(32)));
+    OK(triptych_set_state(device, TRIPTYCH_STATE_POINTSIZE, triptych_float_bits(32)));
     for (int sprite = 0; sprite < 2; sprite++)
         for (int tangent = 0; tangent < 2; tangent++) {
             use_shaders(tangent ? "vs_3_0\ndcl_position v0\ndcl_texcoord2 v1\ndcl_position o0\ndcl_tangent "
@@ -386,7 +386,7 @@ static void check_sprites(void)
                                 : "vs_2_0\ndcl_position v0\ndcl_texcoord2 v1\nmov oPos, v0\nmov oT2, v1\n",
                         tangent ? "ps_3_0\ndcl_tangent v0\nmov oC0, v0\n"
                                 : "ps_2_0\ndcl t2\nmov r0, t2\nmov oC0, r0\n");
-            set(TRIPTYCH_STATE_pointspriteenable, sprite ? "true" : "false");
+            set(TRIPTYCH_STATE_POINTSPRITEENABLE, sprite ? "true" : "false");
             draw_points(elements, 2);
             read_numbers(0);
             if (sprite && !tangent)
@@ -416,7 +416,7 @@ static void check_wrap(void)
                 "v0\nmov o1, v1\n",
                 "ps_3_0\ndcl_texcoord11 v0\nmov oC0, v0\n");
     for (uint32_t bits = 0; bits < 16; bits++) {
-        OK(triptych_set_state(device, TRIPTYCH_STATE_wrap11, bits));
+        OK(triptych_set_state(device, TRIPTYCH_STATE_WRAP11, bits));
         draw_declared(TRIPTYCH_USAGE_POSITION, &ends, 1);
         read_numbers(0);
         for (int c = 0; c < 4; c++) {

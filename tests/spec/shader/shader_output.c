@@ -30,7 +30,7 @@ static void draw(void)
 static unsigned count_words(uint32_t word)
 {
     unsigned r = 0;
-    OK(triptych_read_color(device, image));
+    OK(triptych_read_color(device, image, sizeof image));
     for (int p = 0; p < SIZE * SIZE; p++)
         r += image[p] == word;
     return r;
@@ -43,7 +43,7 @@ static void check_clip_planes(void)
 {
     static const float turned[4][4] = {{0, 1, 0, 0}, {1, 0, 0, 0}, {0, 0, 1, 0}, {0, 0, 0, 1}};
     OK(triptych_set_transform(device, TRIPTYCH_TRANSFORM_VIEW, turned));
-    OK(triptych_set_state(device, TRIPTYCH_STATE_clipplaneenable, 1));
+    OK(triptych_set_state(device, TRIPTYCH_STATE_CLIPPLANEENABLE, 1));
     use_shaders(plain, red);
     OK(triptych_set_clip_plane(device, 0, (float[4]){1, 0, 0, 0}));
     clear_to(0);
@@ -71,18 +71,18 @@ static void test_clip_planes_are_in_clip_space(void)
 static void check_depth_range(void)
 {
     OK(triptych_set_convention(device, TRIPTYCH_DEPTH_RANGE, TRIPTYCH_DEPTH_RANGE_MINUS));
-    set(TRIPTYCH_STATE_zenable, "true");
+    set(TRIPTYCH_STATE_ZENABLE, "true");
     use_shaders(plain, red);
     clear_to(0);
     draw();
-    OK(triptych_read_depth(device, depth));
+    OK(triptych_read_depth(device, depth, sizeof depth));
     TEST_ASSERT_EQUAL_FLOAT(0.75f, depth[77]);
     for (int i = 0; i < 4; i++)
         drawn_position[i][2] = -1;
     draw();
-    OK(triptych_read_depth(device, depth));
+    OK(triptych_read_depth(device, depth, sizeof depth));
     TEST_ASSERT_EQUAL_FLOAT(0, depth[77]);
-    OK(triptych_set_state(device, TRIPTYCH_STATE_clipplaneenable, 4));
+    OK(triptych_set_state(device, TRIPTYCH_STATE_CLIPPLANEENABLE, 4));
     OK(triptych_set_clip_plane(device, 2, (float[4]){0, 0, -1, -0.75f}));
     clear_to(0);
     draw();
@@ -113,13 +113,13 @@ static void check_point_size(void)
     memcpy(drawn_position[0], (float[4]){0, 0, 0.5f, 1}, sizeof drawn_position[0]);
     use_shaders("vs_2_0\ndcl_position v0\ndcl_psize v1\nmov oPos, v0\nmov oPts, v1.x\n", red);
     TEST_ASSERT_EQUAL_UINT(100, point_pixels(10));
-    OK(triptych_set_state(device, TRIPTYCH_STATE_pointsize_max, triptych_float_bits(6)));
+    OK(triptych_set_state(device, TRIPTYCH_STATE_POINTSIZE_MAX, triptych_float_bits(6)));
     TEST_ASSERT_EQUAL_UINT(36, point_pixels(10));
-    OK(triptych_set_state(device, TRIPTYCH_STATE_pointsize_min, triptych_float_bits(4)));
+    OK(triptych_set_state(device, TRIPTYCH_STATE_POINTSIZE_MIN, triptych_float_bits(4)));
     TEST_ASSERT_EQUAL_UINT(16, point_pixels(1));
-    OK(triptych_set_state(device, TRIPTYCH_STATE_pointsize_max, triptych_float_bits(64)));
-    OK(triptych_set_state(device, TRIPTYCH_STATE_pointsize, triptych_float_bits(8)));
-    set(TRIPTYCH_STATE_pointscaleenable, "true");
+    OK(triptych_set_state(device, TRIPTYCH_STATE_POINTSIZE_MAX, triptych_float_bits(64)));
+    OK(triptych_set_state(device, TRIPTYCH_STATE_POINTSIZE, triptych_float_bits(8)));
+    set(TRIPTYCH_STATE_POINTSCALEENABLE, "true");
     use_shaders("vs_3_0\ndcl_position v0\ndcl_psize v1\ndcl_position o0\ndcl_psize o4.x\nmov o0, v0\nadd "
                 "o4.x, v1.x, v1.x\n",
                 red);
@@ -146,7 +146,7 @@ static void expect_fog(const char *vertex, const char *pixel, float factor, uint
     struct drawn_element given = drawn_constant(TRIPTYCH_USAGE_TEXCOORD, 0, factor, 0, 0, 0);
     use_shaders(vertex, pixel);
     draw_declared(TRIPTYCH_USAGE_POSITION, &given, 1);
-    OK(triptych_read_color(device, image));
+    OK(triptych_read_color(device, image, sizeof image));
     expect_pixel(9, 9, expected, what);
 }
 
@@ -156,8 +156,8 @@ static void check_fog(void)
                                          "ps_1_4\ndef c0, 1, 0, 0, 1\nmov r0, c0\n", red};
     static const char third[] = "ps_3_0\ndef c0, 1, 0, 0, 1\nmov oC0, c0\n";
     uint32_t whole = 0xff0000ff, none = 0xff00ff00, part = 0xff00cc33; /* fog of 4/5 green */
-    set(TRIPTYCH_STATE_fogenable, "true");
-    OK(triptych_set_state(device, TRIPTYCH_STATE_fogcolor, 0xff00ff00));
+    set(TRIPTYCH_STATE_FOGENABLE, "true");
+    OK(triptych_set_state(device, TRIPTYCH_STATE_FOGCOLOR, 0xff00ff00));
     for (unsigned i = 0; i < COUNT(pixels); i++) {
         expect_fog(fogged, pixels[i], 0.2f, part, "a factor");
         expect_fog(fogged_3, pixels[i], 0.2f, part, "a factor of vs_3_0");
@@ -167,11 +167,11 @@ static void check_fog(void)
         expect_fog(plain, pixels[i], 0, whole, "no factor");
     }
     expect_fog(fogged_3, third, 0.2f, whole, "ps_3_0");
-    OK(triptych_set_state(device, TRIPTYCH_STATE_fogvertexmode, 3)); /* the shader's fog replaces it */
+    OK(triptych_set_state(device, TRIPTYCH_STATE_FOGVERTEXMODE, 3)); /* the shader's fog replaces it */
     expect_fog(fogged, red, 0.2f, part, "a mode of vertices");
-    set(TRIPTYCH_STATE_fogtablemode, "linear");
-    OK(triptych_set_state(device, TRIPTYCH_STATE_fogstart, triptych_float_bits(0)));
-    OK(triptych_set_state(device, TRIPTYCH_STATE_fogend, triptych_float_bits(0.625f)));
+    set(TRIPTYCH_STATE_FOGTABLEMODE, "linear");
+    OK(triptych_set_state(device, TRIPTYCH_STATE_FOGSTART, triptych_float_bits(0)));
+    OK(triptych_set_state(device, TRIPTYCH_STATE_FOGEND, triptych_float_bits(0.625f)));
     expect_fog(fogged, red, 1, part, "a table, at depth 0.5");
     expect_fog(plain, red, 1, part, "only a table");
     expect_fog(plain, third, 1, whole, "a table in ps_3_0");
@@ -210,7 +210,7 @@ static void check_targets(void)
         .color_format = {TRIPTYCH_SURFACE_A8R8G8B8, TRIPTYCH_SURFACE_A32B32G32R32F, TRIPTYCH_SURFACE_R5G6B5,
                          TRIPTYCH_SURFACE_A16B16G16R16F}};
     OK(triptych_set_target_description(device, &description));
-    OK(triptych_set_state(device, TRIPTYCH_STATE_colorwriteenable1, 11));
+    OK(triptych_set_state(device, TRIPTYCH_STATE_COLORWRITEENABLE1, 11));
     use_shaders(plain, four);
     clear_to(0xffffffff);
     draw();
@@ -233,27 +233,27 @@ static void check_packed_targets(void)
         .height = SIZE,
         .color_format = {TRIPTYCH_SURFACE_A8R8G8B8, TRIPTYCH_SURFACE_A8R8G8B8, TRIPTYCH_SURFACE_X8R8G8B8}};
     OK(triptych_set_target_description(device, &description));
-    set(TRIPTYCH_STATE_alphablendenable, "true");
-    set(TRIPTYCH_STATE_srcblend, "srcalpha");
-    set(TRIPTYCH_STATE_destblend, "zero");
+    set(TRIPTYCH_STATE_ALPHABLENDENABLE, "true");
+    set(TRIPTYCH_STATE_SRCBLEND, "srcalpha");
+    set(TRIPTYCH_STATE_DESTBLEND, "zero");
     use_shaders(plain, four);
     clear_to(0xffffffff);
     draw();
-    OK(triptych_read_target(device, 0, image));
+    OK(triptych_read_target(device, 0, image, sizeof image));
     TEST_ASSERT_EQUAL_HEX32(0xffbf8040, image[0]);
-    OK(triptych_read_target(device, 1, image));
+    OK(triptych_read_target(device, 1, image, sizeof image));
     TEST_ASSERT_EQUAL_HEX32(0x10200040, image[0]); /* 1 0 1/2 1/4, times 1/4 */
-    OK(triptych_read_target(device, 2, image));
+    OK(triptych_read_target(device, 2, image, sizeof image));
     TEST_ASSERT_EQUAL_HEX32(0xff000000, image[0]);
-    set(TRIPTYCH_STATE_alphablendenable, "false");
-    set(TRIPTYCH_STATE_fogenable, "true");
-    OK(triptych_set_state(device, TRIPTYCH_STATE_fogcolor, 0xff00ff00));
-    set(TRIPTYCH_STATE_fogtablemode, "linear");
-    OK(triptych_set_state(device, TRIPTYCH_STATE_fogend, triptych_float_bits(0.25f)));
+    set(TRIPTYCH_STATE_ALPHABLENDENABLE, "false");
+    set(TRIPTYCH_STATE_FOGENABLE, "true");
+    OK(triptych_set_state(device, TRIPTYCH_STATE_FOGCOLOR, 0xff00ff00));
+    set(TRIPTYCH_STATE_FOGTABLEMODE, "linear");
+    OK(triptych_set_state(device, TRIPTYCH_STATE_FOGEND, triptych_float_bits(0.25f)));
     draw();
-    OK(triptych_read_target(device, 0, image));
+    OK(triptych_read_target(device, 0, image, sizeof image));
     TEST_ASSERT_EQUAL_HEX32(0xff00ff00, image[0]);
-    OK(triptych_read_target(device, 2, image));
+    OK(triptych_read_target(device, 2, image, sizeof image));
     TEST_ASSERT_EQUAL_HEX32(0xff00ffff, image[0]);
 }
 
@@ -299,13 +299,13 @@ static void check_face(void)
     draw();
     read_numbers(0);
     EXPECT_CENTRE("a back", -1, -1, -1, -1);
-    set(TRIPTYCH_STATE_cullmode, "cw");
+    set(TRIPTYCH_STATE_CULLMODE, "cw");
     use_shaders(vertex, face);
     draw();
     read_numbers(0);
     EXPECT_CENTRE("a back, the only face drawn", -1, -1, -1, -1);
     memcpy(drawn_position[0], (float[4]){0, 0, 0.5f, 1}, sizeof drawn_position[0]);
-    OK(triptych_set_state(device, TRIPTYCH_STATE_pointsize, triptych_float_bits(16)));
+    OK(triptych_set_state(device, TRIPTYCH_STATE_POINTSIZE, triptych_float_bits(16)));
     draw_points(NULL, 0);
     read_numbers(0);
     EXPECT_CENTRE("a point", 1, 1, 1, 1);
@@ -342,7 +342,7 @@ static void check_centroid(void)
         clear_to(0);
         draw_declared(TRIPTYCH_USAGE_POSITION, &ramp, 1);
         for (unsigned s = 0; s < 4; s++) {
-            OK(triptych_read_sample(device, s, image, NULL, NULL));
+            OK(triptych_read_sample(device, s, image, sizeof image, NULL, 0, NULL, 0));
             for (int p = 0; p < SIZE * SIZE; p++)
                 negative += (image[p] & 255) == 255;
         }

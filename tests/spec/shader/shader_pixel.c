@@ -109,13 +109,13 @@ static float depth_for(const char *text, float value)
     static float depth[SIZE * SIZE];
     static const float black[4];
     const float constant[4] = {value, 1, 2, 3};
-    set(TRIPTYCH_STATE_zenable, "true");
-    set(TRIPTYCH_STATE_zfunc, "less");
+    set(TRIPTYCH_STATE_ZENABLE, "true");
+    set(TRIPTYCH_STATE_ZFUNC, "less");
     OK(triptych_clear(device, black, 0.75f));
     OK(triptych_set_shader_floats(device, TRIPTYCH_SHADER_PIXEL, 0, constant, 1));
     use_shaders(text[3] == '2' ? "vs_2_0\ndcl_position v0\nmov oPos, v0\n" : THROUGH, text);
     draw_declared(TRIPTYCH_USAGE_POSITION, NULL, 0);
-    OK(triptych_read_depth(device, depth));
+    OK(triptych_read_depth(device, depth, sizeof depth));
     return depth[SIZE / 2 * SIZE + SIZE / 2];
 }
 
@@ -132,7 +132,7 @@ static void check_depth(void)
             struct triptych_target_description description = {
                 .width = SIZE,
                 .height = SIZE,
-                .depth_format = TRIPTYCH_DEPTH_d32f_lockable,
+                .depth_format = TRIPTYCH_DEPTH_D32F_LOCKABLE,
                 .color_format = {TRIPTYCH_SURFACE_A32B32G32R32F}};
             OK(triptych_set_target_description(device, &description));
             TEST_ASSERT_EQUAL_FLOAT(cases[i][1], depth_for(texts[t], cases[i][0]));

@@ -202,20 +202,20 @@ static enum triptych_texture_type bind_any_texture(unsigned number)
 static void set_any_states(unsigned number)
 {
     static const enum triptych_sampler_state address[] = {
-        TRIPTYCH_SAMPLER_addressu, TRIPTYCH_SAMPLER_addressv, TRIPTYCH_SAMPLER_addressw};
+        TRIPTYCH_SAMPLER_ADDRESSU, TRIPTYCH_SAMPLER_ADDRESSV, TRIPTYCH_SAMPLER_ADDRESSW};
     static const char *const modes[] = {"wrap", "mirror", "clamp", "border", "mirroronce"},
                              *const filters[] = {"point", "linear", "anisotropic"},
                              *const mips[] = {"none", "point", "linear"};
     for (int a = 0; a < 3; a++)
         set_sampler(number, address[a], modes[random_word() % 5]);
-    set_sampler(number, TRIPTYCH_SAMPLER_magfilter, filters[random_word() % 2]);
-    set_sampler(number, TRIPTYCH_SAMPLER_minfilter, filters[random_word() % 3]);
-    set_sampler(number, TRIPTYCH_SAMPLER_mipfilter, mips[random_word() % 3]);
-    set_sampler(number, TRIPTYCH_SAMPLER_srgbtexture, random_word() % 4 ? "false" : "true");
-    set_number(number, TRIPTYCH_SAMPLER_bordercolor, random_word());
-    set_number(number, TRIPTYCH_SAMPLER_maxanisotropy, 1 + random_word() % 4);
-    set_number(number, TRIPTYCH_SAMPLER_maxmiplevel, random_word() % 8 < 6 ? 0 : random_word() % 6);
-    set_number(number, TRIPTYCH_SAMPLER_mipmaplodbias,
+    set_sampler(number, TRIPTYCH_SAMPLER_MAGFILTER, filters[random_word() % 2]);
+    set_sampler(number, TRIPTYCH_SAMPLER_MINFILTER, filters[random_word() % 3]);
+    set_sampler(number, TRIPTYCH_SAMPLER_MIPFILTER, mips[random_word() % 3]);
+    set_sampler(number, TRIPTYCH_SAMPLER_SRGBTEXTURE, random_word() % 4 ? "false" : "true");
+    set_number(number, TRIPTYCH_SAMPLER_BORDERCOLOR, random_word());
+    set_number(number, TRIPTYCH_SAMPLER_MAXANISOTROPY, 1 + random_word() % 4);
+    set_number(number, TRIPTYCH_SAMPLER_MAXMIPLEVEL, random_word() % 8 < 6 ? 0 : random_word() % 6);
+    set_number(number, TRIPTYCH_SAMPLER_MIPMAPLODBIAS,
                bits_of_float(random_word() % 2 ? 0 : (float)random_between(-2, 2)));
 }
 
@@ -390,7 +390,7 @@ static void check_feedback(void)
 {
     const struct triptych_texture_description description = {
         TRIPTYCH_TEXTURE_2D, TRIPTYCH_SURFACE_A32B32G32R32F, SIZE, SIZE, 1, 1};
-    struct triptych_target_textures target = {.depth_format = TRIPTYCH_DEPTH_d24s8};
+    struct triptych_target_textures target = {.depth_format = TRIPTYCH_DEPTH_D24S8};
     OK(triptych_texture_define(device, &description, &target.color[0].texture));
     OK(triptych_set_texture(device, TRIPTYCH_VERTEX_SAMPLER, target.color[0].texture));
     use_shaders(displaced, given);

@@ -86,10 +86,10 @@ static void make_stages(void)
     model_make(&cube, device, 3, TRIPTYCH_TEXTURE_CUBE, 0);
     for (unsigned stage = 0; stage < 4; stage++) {
         model_set(device, stage, &linear);
-        for (int state = TRIPTYCH_STAGE_bumpenvmat00; state <= TRIPTYCH_STAGE_bumpenvmat11; state++)
+        for (int state = TRIPTYCH_STAGE_BUMPENVMAT00; state <= TRIPTYCH_STAGE_BUMPENVMAT11; state++)
             set_real(stage, (enum triptych_stage_state)state, random_between(-1, 1));
-        set_real(stage, TRIPTYCH_STAGE_bumpenvlscale, random_between(-1, 1));
-        set_real(stage, TRIPTYCH_STAGE_bumpenvloffset, random_between(0, 1));
+        set_real(stage, TRIPTYCH_STAGE_BUMPENVLSCALE, random_between(-1, 1));
+        set_real(stage, TRIPTYCH_STAGE_BUMPENVLOFFSET, random_between(0, 1));
     }
 }
 
@@ -113,7 +113,7 @@ static void draw_quad(const char *text, struct quad *quad)
                 quad->v[t][c][lane] = v[c];
         }
         element[t] = drawn_constant(TRIPTYCH_USAGE_TEXCOORD, t, v[0], v[1], v[2], v[3]);
-        set_stage(t, TRIPTYCH_STAGE_texturetransformflags, flags[flag]);
+        set_stage(t, TRIPTYCH_STAGE_TEXTURETRANSFORMFLAGS, flags[flag]);
         quad->projected[t] = flag == 1 ? PROJECTED_THIRD : flag ? PROJECTED_FOURTH : PROJECTED_NONE;
     }
     for (int c = 0; c < 4; c++)
@@ -229,8 +229,8 @@ static void check_depth(void)
         "ps_1_3\ntexcoord t0\ntexm3x2pad t1, t0\ntexm3x2depth t2, t0\nmov r0, t0\n"};
     static const float depth[][3] = {{0.25f, 0.5f, 0.5f}, {1, 0, 1}, {3, 2, 1}, {-1, 2, 0}};
     begin_part();
-    set(TRIPTYCH_STATE_zenable, "true");
-    set(TRIPTYCH_STATE_zfunc, "always");
+    set(TRIPTYCH_STATE_ZENABLE, "true");
+    set(TRIPTYCH_STATE_ZFUNC, "always");
     for (unsigned i = 0; i < 8; i++) {
         static float got[SIZE * SIZE];
         const float *d = depth[i / 2];
@@ -240,7 +240,7 @@ static void check_depth(void)
                                                 drawn_constant(TRIPTYCH_USAGE_TEXCOORD, 3, d[0], d[1], 0, 1)};
         use_shaders(pass, text[i % 2]);
         draw_declared(TRIPTYCH_USAGE_POSITION, element, 4);
-        OK(triptych_read_depth(device, got));
+        OK(triptych_read_depth(device, got, sizeof got));
         TEST_ASSERT_EQUAL_FLOAT_MESSAGE(d[2], got[PART / 2 * SIZE + PART / 2], text[i % 2]);
     }
 }

@@ -306,8 +306,8 @@ static void test_given_levels_are_not_anisotropic(void)
 {
     const struct model_sampler sampler = {.min = 1, .mip = MODEL_MIP_LINEAR};
     make_plane(&sampler);
-    set_sampler(2, TRIPTYCH_SAMPLER_minfilter, "anisotropic");
-    OK(triptych_set_sampler_state(device, 2, TRIPTYCH_SAMPLER_maxanisotropy, 8));
+    set_sampler(2, TRIPTYCH_SAMPLER_MINFILTER, "anisotropic");
+    OK(triptych_set_sampler_state(device, 2, TRIPTYCH_SAMPLER_MAXANISOTROPY, 8));
     for (int lane = 0; lane < QUAD_LANES; lane++)
         quad.v[0][1][lane] = 0.8125f + (lane / 2 ? 0.5f : 0);
     quad_set_lanes(&quad, 0, 3, 1.25f);
@@ -320,8 +320,8 @@ static void test_given_changes_can_be_anisotropic(void)
     const struct model_sampler sampler = {.min = 1, .mip = MODEL_MIP_LINEAR};
     float first[4], second[4], expected[4];
     make_plane(&sampler);
-    set_sampler(2, TRIPTYCH_SAMPLER_minfilter, "anisotropic");
-    OK(triptych_set_sampler_state(device, 2, TRIPTYCH_SAMPLER_maxanisotropy, 8));
+    set_sampler(2, TRIPTYCH_SAMPLER_MINFILTER, "anisotropic");
+    OK(triptych_set_sampler_state(device, 2, TRIPTYCH_SAMPLER_MAXANISOTROPY, 8));
     quad_set(&quad, 1, 0.75f, 0, 0, 0);
     quad_set(&quad, 2, 0, 0.375f, 0, 0);
     int lambda = (int)rint(256 * log2(3));

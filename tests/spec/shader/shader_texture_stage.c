@@ -178,8 +178,8 @@ static void test_stages_divide_their_coordinates_where_they_are_projected(void)
 static void set_matrix(unsigned stage, float m00, float m01, float m10, float m11, float scale, float offset)
 {
     static const enum triptych_stage_state state[] = {
-        TRIPTYCH_STAGE_bumpenvmat00, TRIPTYCH_STAGE_bumpenvmat01,  TRIPTYCH_STAGE_bumpenvmat10,
-        TRIPTYCH_STAGE_bumpenvmat11, TRIPTYCH_STAGE_bumpenvlscale, TRIPTYCH_STAGE_bumpenvloffset};
+        TRIPTYCH_STAGE_BUMPENVMAT00, TRIPTYCH_STAGE_BUMPENVMAT01,  TRIPTYCH_STAGE_BUMPENVMAT10,
+        TRIPTYCH_STAGE_BUMPENVMAT11, TRIPTYCH_STAGE_BUMPENVLSCALE, TRIPTYCH_STAGE_BUMPENVLOFFSET};
     const float value[] = {m00, m01, m10, m11, scale, offset};
     for (int i = 0; i < 6; i++) {
         uint32_t bits;

@@ -25,8 +25,8 @@ static triptych_texture *make_texture(enum triptych_texture_type type, unsigned 
     triptych_texture *texture;
     OK(triptych_texture_define(device, &description, &texture));
     OK(triptych_set_texture(device, 0, texture));
-    set_stage(0, TRIPTYCH_STAGE_colorop, "selectarg1");
-    set_stage(0, TRIPTYCH_STAGE_alphaop, "selectarg1");
+    set_stage(0, TRIPTYCH_STAGE_COLOROP, "selectarg1");
+    set_stage(0, TRIPTYCH_STAGE_ALPHAOP, "selectarg1");
     return texture;
 }
 
@@ -55,9 +55,9 @@ static void draw_third(const float low[3], const float high[3])
 
 static void set_filters(const char *min, const char *mag, const char *mip)
 {
-    set_sampler(0, TRIPTYCH_SAMPLER_minfilter, min);
-    set_sampler(0, TRIPTYCH_SAMPLER_magfilter, mag);
-    set_sampler(0, TRIPTYCH_SAMPLER_mipfilter, mip);
+    set_sampler(0, TRIPTYCH_SAMPLER_MINFILTER, min);
+    set_sampler(0, TRIPTYCH_SAMPLER_MAGFILTER, mag);
+    set_sampler(0, TRIPTYCH_SAMPLER_MIPFILTER, mip);
 }
 
 /* Returns the byte that stores a value; NaN is 0. */
@@ -96,7 +96,7 @@ static void check_format(const struct format *format)
     OK(triptych_texture_update(device, texture, 0, 0, NULL, data, row, 0));
     format_decode(format, data, row, SIZE, SIZE, bytes ? (void *)words : (void *)numbers, SIZE);
     draw_square(0, 0xffffffff, NULL, 0, 0, 1, 1);
-    OK(triptych_read_color(device, image));
+    OK(triptych_read_color(device, image, sizeof image));
     for (int i = 0; i < SIZE * SIZE; i++) {
         uint32_t expected = words[i];
         if (!bytes)
@@ -138,7 +138,7 @@ static void check_linear(void)
     OK(triptych_texture_update(device, texture, 0, 0, NULL, numbers, sizeof numbers[0] * SIDE, 0));
     set_filters("linear", "linear", "none");
     draw_square(0, 0xffffffff, NULL, -0.25f, 0, 0.5f, 1.5f);
-    OK(triptych_read_color(device, image));
+    OK(triptych_read_color(device, image, sizeof image));
     for (int y = 0; y < SIZE; y++)
         for (int x = 0; x < SIZE; x++) {
             double u = ((x + 0.5) * 0.75 / SIZE - 0.25) * SIDE - 0.5, v = (y + 0.5) * 1.5 / SIZE * SIDE - 0.5;
@@ -169,7 +169,7 @@ static void check_weights_of_nothing(void)
     set_filters("linear", "linear", "none");
     float centre = 1.5f / 4; /* of the second texel, all over the target */
     draw_square(0, 0xffffffff, NULL, centre, 0.5f, centre, 0.5f);
-    OK(triptych_read_color(device, image));
+    OK(triptych_read_color(device, image, sizeof image));
     expect_pixel(3, 3, 0x40404040, "beside infinity");
 }
 
@@ -204,10 +204,10 @@ static void compare_both(triptych_texture *of_8, triptych_texture *of_16)
     static const float low[3] = {-0.5f, -1, 0.25f}, high[3] = {2, 3, 1.75f};
     OK(triptych_set_texture(device, 0, of_8));
     draw_third(low, high);
-    OK(triptych_read_color(device, first));
+    OK(triptych_read_color(device, first, sizeof first));
     OK(triptych_set_texture(device, 0, of_16));
     draw_third(low, high);
-    OK(triptych_read_color(device, image));
+    OK(triptych_read_color(device, image, sizeof image));
     for (int i = 0; i < SIZE * SIZE; i++)
         for (int c = 0; c < 4; c++)
             TEST_ASSERT_INT_WITHIN(3, channel(first[i], c), channel(image[i], c));
@@ -219,7 +219,7 @@ static void check_types(void)
                                              {"linear", "point", "linear"},
                                              {"point", "linear", "none"},
                                              {"anisotropic", "linear", "linear"}};
-    OK(triptych_set_sampler_state(device, 0, TRIPTYCH_SAMPLER_maxanisotropy, 4));
+    OK(triptych_set_sampler_state(device, 0, TRIPTYCH_SAMPLER_MAXANISOTROPY, 4));
     for (int type = 0; type < TRIPTYCH_TEXTURE_TYPE_COUNT; type++) {
         unsigned faces = type == TRIPTYCH_TEXTURE_CUBE ? 6 : 1,
                  depth = type == TRIPTYCH_TEXTURE_VOLUME ? SIDE : 1;
@@ -229,10 +229,10 @@ static void check_types(void)
         for (int address = 0; address < 5; address++)
             for (int f = 0; f < 4; f++) {
                 static const char *const words_of[] = {"wrap", "mirror", "clamp", "border", "mirroronce"};
-                set_sampler(0, TRIPTYCH_SAMPLER_addressu, words_of[address]);
-                set_sampler(0, TRIPTYCH_SAMPLER_addressv, words_of[(address + 2) % 5]);
-                set_sampler(0, TRIPTYCH_SAMPLER_addressw, words_of[(address + 3) % 5]);
-                OK(triptych_set_sampler_state(device, 0, TRIPTYCH_SAMPLER_bordercolor, 0x80c01020));
+                set_sampler(0, TRIPTYCH_SAMPLER_ADDRESSU, words_of[address]);
+                set_sampler(0, TRIPTYCH_SAMPLER_ADDRESSV, words_of[(address + 2) % 5]);
+                set_sampler(0, TRIPTYCH_SAMPLER_ADDRESSW, words_of[(address + 3) % 5]);
+                OK(triptych_set_sampler_state(device, 0, TRIPTYCH_SAMPLER_BORDERCOLOR, 0x80c01020));
                 set_filters(filters[f][0], filters[f][1], filters[f][2]);
                 compare_both(of_8, of_16);
             }
@@ -260,13 +260,13 @@ static void check_srgb(void)
         codes[0][i] = i * 0x01010101u;
     triptych_texture *texture = make_texture(TRIPTYCH_TEXTURE_2D, TRIPTYCH_SURFACE_A8R8G8B8, 256, 2, 1, 1);
     OK(triptych_texture_update(device, texture, 0, 0, NULL, codes, sizeof codes[0], 0));
-    set_sampler(0, TRIPTYCH_SAMPLER_srgbtexture, "true");
+    set_sampler(0, TRIPTYCH_SAMPLER_SRGBTEXTURE, "true");
     for (int half = 0; half < 2; half++) {
         set_filters(half ? "linear" : "point", half ? "linear" : "point", "none");
         for (int part = 0; part < 4; part++) {
             float low = (float)part / 4, v = half ? 0.5f : 0.25f;
             draw_square(0, 0xffffffff, NULL, low, v, low + 0.25f, v);
-            OK(triptych_read_color(device, image));
+            OK(triptych_read_color(device, image, sizeof image));
             for (int x = 0; x < SIZE; x++) {
                 double color = linear(64 * part + x) / (1 + half),
                        alpha = (64 * part + x) / 255.0 / (1 + half);
@@ -279,7 +279,7 @@ static void check_srgb(void)
     texture = make_texture(TRIPTYCH_TEXTURE_2D, TRIPTYCH_SURFACE_R32F, 1, 1, 1, 1);
     OK(triptych_texture_update(device, texture, 0, 0, NULL, &(float){0.5f}, 4, 0));
     draw_square(0, 0xffffffff, NULL, 0, 0, 1, 1);
-    OK(triptych_read_color(device, image));
+    OK(triptych_read_color(device, image, sizeof image));
     expect_pixel(0, 0, 0xffffff80, "R32F with srgbtexture");
 }
 
@@ -310,10 +310,10 @@ static void check_depth(unsigned format, int smooth)
 {
     triptych_texture *texture = make_texture(TRIPTYCH_TEXTURE_2D, format, 1, 4, 1, 1);
     fill_depths(texture, format);
-    set_sampler(0, TRIPTYCH_SAMPLER_addressv, "clamp");
+    set_sampler(0, TRIPTYCH_SAMPLER_ADDRESSV, "clamp");
     set_filters(smooth ? "linear" : "point", smooth ? "linear" : "point", "none");
     draw_third((const float[]){0, 0, -0.5f}, (const float[]){1, 1, 1.5f});
-    OK(triptych_read_color(device, image));
+    OK(triptych_read_color(device, image, sizeof image));
     for (int y = 0; y < SIZE; y++)
         for (int x = 0; x < SIZE; x++) {
             double reference = fmin(fmax((x + 0.5) / SIZE * 2 - 0.5, 0), 1),
@@ -337,7 +337,7 @@ static void check_depths(void)
     fill_depths(texture, TRIPTYCH_SURFACE_INTZ);
     set_filters("point", "point", "none");
     draw_third((const float[]){0, 0, 1}, (const float[]){1, 1, 1});
-    OK(triptych_read_color(device, image));
+    OK(triptych_read_color(device, image, sizeof image));
     for (int i = 0; i < 4; i++)
         expect_pixel(7, 16 * i + 8, stored(depths[i]) * 0x01010101u, "INTZ");
 }

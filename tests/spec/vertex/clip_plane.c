@@ -28,7 +28,7 @@ static void set_planes(const float plane[][4], unsigned enabled)
 {
     for (unsigned i = 0; i < TRIPTYCH_CLIP_PLANES; i++)
         OK(triptych_set_clip_plane(device, i, plane[i]));
-    OK(triptych_set_state(device, TRIPTYCH_STATE_clipplaneenable, enabled));
+    OK(triptych_set_state(device, TRIPTYCH_STATE_CLIPPLANEENABLE, enabled));
 }
 
 static void random_planes(float plane[TRIPTYCH_CLIP_PLANES][4])
@@ -128,7 +128,7 @@ static void check_lines_and_points(void)
     struct shape_vertex line[2] = {{4.5f, 10.5f, 0.5f, ~0u, 0, 0}, {60.5f, 10.5f, 0.5f, ~0u, 0, 0}};
     struct shape_vertex point[2] = {{31.5f, 20, 0.5f, ~0u, 0, 0}, {32, 40, 0.5f, ~0u, 0, 0}};
     set_planes(plane, 1);
-    set_real(TRIPTYCH_STATE_pointsize, 8);
+    set_real(TRIPTYCH_STATE_POINTSIZE, 8);
     clear_shapes();
     draw_shape(TRIPTYCH_LINE_LIST, line, 2);
     draw_shape(TRIPTYCH_POINT_LIST, point, 2);
@@ -153,14 +153,14 @@ static void check_clipping_off(void)
     static const float plane[TRIPTYCH_CLIP_PLANES][4] = {{0, 0, 0, -1}};
     static const float depths[] = {-3, 0.5f, 7};
     set_planes(plane, 1);
-    set(TRIPTYCH_STATE_zenable, "true");
-    set(TRIPTYCH_STATE_zfunc, "always");
+    set(TRIPTYCH_STATE_ZENABLE, "true");
+    set(TRIPTYCH_STATE_ZFUNC, "always");
     clear_shapes();
     draw_square(0.5f, ~0u, NULL, 0, 0, 1, 1);
     read_shapes();
     for (int p = 0; p < SIZE * SIZE; p++)
         expect_pixel(p % SIZE, p / SIZE, 0, "everything cut away");
-    set(TRIPTYCH_STATE_clipping, "false");
+    set(TRIPTYCH_STATE_CLIPPING, "false");
     for (int i = 0; i < 3; i++) {
         clear_shapes();
         draw_square(depths[i], ~0u, NULL, 0, 0, 1, 1);
@@ -197,7 +197,7 @@ static void check_errors(void)
     TEST_ASSERT_EQUAL_INT(TRIPTYCH_BAD_ARGUMENT, triptych_set_clip_plane(device, 0, infinite));
     TEST_ASSERT_EQUAL_INT(TRIPTYCH_BAD_ARGUMENT, triptych_set_clip_plane(device, 0, NULL));
     TEST_ASSERT_EQUAL_INT(TRIPTYCH_BAD_ARGUMENT,
-                          triptych_set_state(device, TRIPTYCH_STATE_clipplaneenable, 64));
+                          triptych_set_state(device, TRIPTYCH_STATE_CLIPPLANEENABLE, 64));
 }
 
 static void test_bad_planes_are_refused(void)

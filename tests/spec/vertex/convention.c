@@ -80,8 +80,8 @@ static void check_texels(void)
                                 {-0.5f, SIZE - 0.5f, 0, ~0u, 0, 1},
                                 {SIZE - 0.5f, SIZE - 0.5f, 0, ~0u, 1, 1}};
     bind_random_texture(SIZE, SIZE);
-    set_sampler(0, TRIPTYCH_SAMPLER_magfilter, "linear");
-    set_sampler(0, TRIPTYCH_SAMPLER_minfilter, "linear");
+    set_sampler(0, TRIPTYCH_SAMPLER_MAGFILTER, "linear");
+    set_sampler(0, TRIPTYCH_SAMPLER_MINFILTER, "linear");
     OK(triptych_set_convention(device, TRIPTYCH_PIXEL_CENTER, TRIPTYCH_PIXEL_CENTER_INTEGER));
     clear_shapes();
     draw_shape(TRIPTYCH_TRIANGLE_STRIP, v, 4);
@@ -125,8 +125,8 @@ static void expect_depth(float z, float expected)
 
 static void check_depth_ranges(void)
 {
-    set(TRIPTYCH_STATE_zenable, "true");
-    set(TRIPTYCH_STATE_zfunc, "always");
+    set(TRIPTYCH_STATE_ZENABLE, "true");
+    set(TRIPTYCH_STATE_ZFUNC, "always");
     OK(triptych_set_convention(device, TRIPTYCH_DEPTH_RANGE, TRIPTYCH_DEPTH_RANGE_MINUS));
     expect_depth(-1, 0);
     expect_depth(-0.5f, 0.25f);

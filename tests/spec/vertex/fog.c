@@ -57,13 +57,13 @@ static void check_square(const struct fog *fog, double distance, float z)
     uint32_t color = random_word(), fog_color = random_word();
     char what[96];
     snprintf(what, sizeof what, "%s fog at %g", mode_words[fog->mode], distance);
-    set(TRIPTYCH_STATE_fogtablemode, mode_words[fog->mode]);
-    set_float(TRIPTYCH_STATE_fogstart, fog->start);
-    set_float(TRIPTYCH_STATE_fogend, fog->end);
-    set_float(TRIPTYCH_STATE_fogdensity, fog->density);
-    OK(triptych_set_state(device, TRIPTYCH_STATE_fogcolor, fog_color));
+    set(TRIPTYCH_STATE_FOGTABLEMODE, mode_words[fog->mode]);
+    set_float(TRIPTYCH_STATE_FOGSTART, fog->start);
+    set_float(TRIPTYCH_STATE_FOGEND, fog->end);
+    set_float(TRIPTYCH_STATE_FOGDENSITY, fog->density);
+    OK(triptych_set_state(device, TRIPTYCH_STATE_FOGCOLOR, fog_color));
     draw_square(z, color, NULL, 0, 0, 1, 1);
-    OK(triptych_read_color(device, image));
+    OK(triptych_read_color(device, image, sizeof image));
     uint32_t expected = fogged(image_word(color), image_word(fog_color), (int)floor(scaled + 0.5));
     for (int p = 0; p < SIZE * SIZE; p += 37)
         expect_pixel(p % SIZE, p / SIZE, expected, what);
@@ -79,7 +79,7 @@ static struct fog random_fog(int mode, double range)
 /* Without perspective the distance is depth. */
 static void check_depth_fog(void)
 {
-    set(TRIPTYCH_STATE_fogenable, "true");
+    set(TRIPTYCH_STATE_FOGENABLE, "true");
     for (int i = 0; i < 120; i++) {
         struct fog fog = random_fog(i % 3, 1);
         float z = (float)random_between(0, 1);
@@ -90,7 +90,7 @@ static void check_depth_fog(void)
 /* A square at distance w fills the target, whatever w is. */
 static void check_distance_fog(void)
 {
-    set(TRIPTYCH_STATE_fogenable, "true");
+    set(TRIPTYCH_STATE_FOGENABLE, "true");
     for (int i = 0; i < 120; i++) {
         struct fog fog = random_fog(i % 3, 60);
         float w = (float)random_between(1, 100);
@@ -104,11 +104,11 @@ static void check_distance_fog(void)
 static void check_no_fog(void)
 {
     struct fog fog = {0, 0, 0.0001f, 1};
-    OK(triptych_set_state(device, TRIPTYCH_STATE_fogcolor, 0xff00ff00));
-    set_float(TRIPTYCH_STATE_fogend, fog.end);
-    set(TRIPTYCH_STATE_fogtablemode, "linear");
+    OK(triptych_set_state(device, TRIPTYCH_STATE_FOGCOLOR, 0xff00ff00));
+    set_float(TRIPTYCH_STATE_FOGEND, fog.end);
+    set(TRIPTYCH_STATE_FOGTABLEMODE, "linear");
     draw_square(0.5f, 0x80402010, NULL, 0, 0, 1, 1);
-    OK(triptych_read_color(device, image));
+    OK(triptych_read_color(device, image, sizeof image));
     expect_pixel(0, 0, image_word(0x80402010), "fog that is off");
 }
 

@@ -264,8 +264,8 @@ static void check_palettes(void)
                             &(struct triptych_element){TRIPTYCH_FORMAT_FLOAT2, corners, 0, 8}));
     OK(triptych_set_element(device, TRIPTYCH_INDICES,
                             &(struct triptych_element){TRIPTYCH_FORMAT_FLOAT1, index, 0, 0}));
-    set(TRIPTYCH_STATE_vertexblend, "0weights");
-    set(TRIPTYCH_STATE_indexedvertexblendenable, "true");
+    set(TRIPTYCH_STATE_VERTEXBLEND, "0weights");
+    set(TRIPTYCH_STATE_INDEXEDVERTEXBLENDENABLE, "true");
     clear_to(0xff000000);
     for (int i = 0; i < 8; i++) { /* column i, every second row */
         float matrix[4][4] = {{0.25f, 0, 0, 0}, {0, 1, 0, 0}, {0, 0, 1, 0}, {0, 0, 0, 1}};
@@ -274,7 +274,7 @@ static void check_palettes(void)
         OK(triptych_set_transform(device, TRIPTYCH_TRANSFORM_WORLD1 + 6, matrix));
         OK(triptych_draw(device, TRIPTYCH_TRIANGLE_STRIP, 0, 2));
     }
-    OK(triptych_read_color(device, image));
+    OK(triptych_read_color(device, image, sizeof image));
     for (int y = 0; y < SIZE; y++)
         for (int x = 0; x < SIZE; x++)
             expect_pixel(x, y, (y < SIZE / 2) == (x / 8 % 2) ? 0xffffffff : 0xff000000, "palette");

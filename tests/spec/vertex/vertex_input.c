@@ -190,7 +190,7 @@ static void draw_window(const struct window_vertex *vertices, uint32_t count)
     OK(triptych_set_fvf(device, XYZRHW_DIFFUSE));
     OK(triptych_set_stream(device, 0, buffer_of(vertices, count * sizeof *vertices), 0, sizeof *vertices));
     OK(triptych_draw(device, TRIPTYCH_TRIANGLE_STRIP, 0, count - 2));
-    OK(triptych_read_color(device, image));
+    OK(triptych_read_color(device, image, sizeof image));
 }
 
 static void draw_rectangle(float x0, float y0, float x1, float y1, float z, float reciprocal_w)
@@ -216,14 +216,14 @@ static void check_window_positions(void)
 {
     float matrix[4][4] = {{3, 1, 4, 1}, {5, 9, 2, 6}, {5, 3, 5, 8}, {9, 7, 9, 3}};
     float depth[SIZE * SIZE];
-    set(TRIPTYCH_STATE_lighting, "true");
-    set(TRIPTYCH_STATE_zenable, "true");
+    set(TRIPTYCH_STATE_LIGHTING, "true");
+    set(TRIPTYCH_STATE_ZENABLE, "true");
     OK(triptych_set_transform(device, TRIPTYCH_TRANSFORM_WORLD, matrix));
     OK(triptych_set_transform(device, TRIPTYCH_TRANSFORM_PROJECTION, matrix));
     clear_to(0xff000000);
     draw_rectangle(7, 11, 33, 50, 0.375f, 0.3f);
     expect_rectangle(7, 11, 33, 50, "window");
-    OK(triptych_read_depth(device, depth));
+    OK(triptych_read_depth(device, depth, sizeof depth));
     TEST_ASSERT_EQUAL_FLOAT(0.375f, depth[20 * SIZE + 20]);
     TEST_ASSERT_EQUAL_FLOAT(1, depth[5 * SIZE + 5]);
     OK(triptych_set_viewport(device, &(struct triptych_viewport){16, 16, 32, 32, 0.5f, 0.6f}));
@@ -232,7 +232,7 @@ static void check_window_positions(void)
     for (int y = 16; y < 48; y++)
         for (int x = 16; x < 48; x++)
             expect_pixel(x, y, x >= 20 ? image_word(0xff204060) : 0xff000000, "viewport");
-    OK(triptych_read_depth(device, depth));
+    OK(triptych_read_depth(device, depth, sizeof depth));
     TEST_ASSERT_EQUAL_FLOAT(0.25f, depth[20 * SIZE + 20]);
 }
 
@@ -313,12 +313,12 @@ static void check_instances(void)
     OK(triptych_set_stream_frequency(device, 0, TRIPTYCH_FREQUENCY_INDEXED, INSTANCES));
     OK(triptych_set_stream_frequency(device, 1, TRIPTYCH_FREQUENCY_INSTANCE, 2));
     OK(triptych_set_indices(device, buffer_of(index, sizeof index), 16));
-    set(TRIPTYCH_STATE_alphablendenable, "true");
-    set(TRIPTYCH_STATE_srcblend, "one");
-    set(TRIPTYCH_STATE_destblend, "one");
+    set(TRIPTYCH_STATE_ALPHABLENDENABLE, "true");
+    set(TRIPTYCH_STATE_SRCBLEND, "one");
+    set(TRIPTYCH_STATE_DESTBLEND, "one");
     clear_to(0xff000000);
     OK(triptych_draw_indexed(device, TRIPTYCH_TRIANGLE_STRIP, 0, 0, 2));
-    OK(triptych_read_color(device, image));
+    OK(triptych_read_color(device, image, sizeof image));
     uint32_t expected = 0xff000000;
     for (int c = 0; c < 3; c++) {
         unsigned sum = 0;
@@ -363,7 +363,7 @@ static void check_instance_positions(void)
     OK(triptych_set_indices(device, buffer_of(index, sizeof index), 16));
     clear_to(0xff000000);
     OK(triptych_draw_indexed(device, TRIPTYCH_TRIANGLE_LIST, 0, 0, 1));
-    OK(triptych_read_color(device, image));
+    OK(triptych_read_color(device, image, sizeof image));
     expect_rectangle(0, 0, 0, 0, "three corners at one place");
     OK(triptych_set_stream_frequency(device, 3, TRIPTYCH_FREQUENCY_VERTEX, 1));
     OK(triptych_set_stream_frequency(device, 0, TRIPTYCH_FREQUENCY_VERTEX, 1));

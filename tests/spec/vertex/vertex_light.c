@@ -160,7 +160,7 @@ static void normal_to_camera(const float normal[3], double out[3])
         for (int c = 0; c < 3; c++)
             out[c] += n[i] * cross[c] / determinant;
     }
-    if (shading_state.value[TRIPTYCH_STATE_normalizenormals])
+    if (shading_state.value[TRIPTYCH_STATE_NORMALIZENORMALS])
         unit(out);
 }
 
@@ -197,7 +197,7 @@ static double strength(const struct triptych_light *light, const double position
 static double shine(const double normal[3], const double to_light[3], const double position[3])
 {
     double half[3], view[3] = {0, 0, -1};
-    if (shading_state.value[TRIPTYCH_STATE_localviewer]) {
+    if (shading_state.value[TRIPTYCH_STATE_LOCALVIEWER]) {
         for (int c = 0; c < 3; c++)
             view[c] = -position[c];
         unit(view);
@@ -212,7 +212,7 @@ static double shine(const double normal[3], const double to_light[3], const doub
 /* Returns the reflectance from its source: the material or a colour of the vertex. */
 static const float *reflectance(enum triptych_state source, const float *material, const struct vertex *v)
 {
-    if (!shading_state.value[TRIPTYCH_STATE_colorvertex])
+    if (!shading_state.value[TRIPTYCH_STATE_COLORVERTEX])
         return material;
     const float *const from[3] = {material, v->diffuse, v->specular};
     return from[shading_state.value[source]];
@@ -221,14 +221,14 @@ static const float *reflectance(enum triptych_state source, const float *materia
 static void expected_colors(const struct vertex *v, double diffuse[4], double specular[4])
 {
     const struct triptych_material *m = &shading_state.material;
-    const float *kd = reflectance(TRIPTYCH_STATE_diffusematerialsource, m->diffuse, v);
-    const float *ka = reflectance(TRIPTYCH_STATE_ambientmaterialsource, m->ambient, v);
-    const float *ks = reflectance(TRIPTYCH_STATE_specularmaterialsource, m->specular, v);
-    const float *ke = reflectance(TRIPTYCH_STATE_emissivematerialsource, m->emissive, v);
+    const float *kd = reflectance(TRIPTYCH_STATE_DIFFUSEMATERIALSOURCE, m->diffuse, v);
+    const float *ka = reflectance(TRIPTYCH_STATE_AMBIENTMATERIALSOURCE, m->ambient, v);
+    const float *ks = reflectance(TRIPTYCH_STATE_SPECULARMATERIALSOURCE, m->specular, v);
+    const float *ke = reflectance(TRIPTYCH_STATE_EMISSIVEMATERIALSOURCE, m->emissive, v);
     double position[3], normal[3];
     to_camera(v->position, position);
     normal_to_camera(v->normal, normal);
-    uint32_t scene = shading_state.value[TRIPTYCH_STATE_ambient];
+    uint32_t scene = shading_state.value[TRIPTYCH_STATE_AMBIENT];
     for (int c = 0; c < 3; c++) {
         diffuse[c] = (double)ke[c] + (double)ka[c] * (scene >> (16 - 8 * c) & 255) / 255;
         specular[c] = 0;
@@ -248,7 +248,7 @@ static void expected_colors(const struct vertex *v, double diffuse[4], double sp
             specular[c] += share * (double)ks[c] * (double)light->specular[c] * glint;
         }
     }
-    int shown = lit && shading_state.value[TRIPTYCH_STATE_specularenable];
+    int shown = lit && shading_state.value[TRIPTYCH_STATE_SPECULARENABLE];
     diffuse[3] = (double)kd[3];
     specular[3] = shown ? (double)ks[3] : 0;
     for (int c = 0; c < 3 && !shown; c++)
@@ -350,15 +350,15 @@ static double fog_distance(const struct vertex *v)
 {
     double p[3];
     to_camera(v->position, p);
-    return shading_state.value[TRIPTYCH_STATE_rangefogenable] ? sqrt(dot(p, p)) : fabs(p[2]);
+    return shading_state.value[TRIPTYCH_STATE_RANGEFOGENABLE] ? sqrt(dot(p, p)) : fabs(p[2]);
 }
 
 static void check_fog_mode(const char *mode, double start, double end, double density)
 {
     SHADING_SET(fogvertexmode, mode);
-    shading_state.value[TRIPTYCH_STATE_fogstart] = bits_of_float((float)start);
-    shading_state.value[TRIPTYCH_STATE_fogend] = bits_of_float((float)end);
-    shading_state.value[TRIPTYCH_STATE_fogdensity] = bits_of_float((float)density);
+    shading_state.value[TRIPTYCH_STATE_FOGSTART] = bits_of_float((float)start);
+    shading_state.value[TRIPTYCH_STATE_FOGEND] = bits_of_float((float)end);
+    shading_state.value[TRIPTYCH_STATE_FOGDENSITY] = bits_of_float((float)density);
     shade(VERTICES);
     for (uint32_t i = 0; i < VERTICES; i++) {
         double d = fog_distance(&vertex[i]), expected = (double)vertex[i].specular[3];

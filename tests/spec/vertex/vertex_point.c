@@ -122,11 +122,11 @@ static void check_picture(void)
     OK(triptych_buffer_create(device, points, sizeof points, &buffer));
     OK(triptych_set_fvf(device, XYZRHW_PSIZE_DIFFUSE));
     OK(triptych_set_stream(device, 0, buffer, 0, sizeof *points));
-    OK(triptych_set_state(device, TRIPTYCH_STATE_pointsize_min, bits_of_float(6)));
-    set(TRIPTYCH_STATE_pointscaleenable, "true");
+    OK(triptych_set_state(device, TRIPTYCH_STATE_POINTSIZE_MIN, bits_of_float(6)));
+    set(TRIPTYCH_STATE_POINTSCALEENABLE, "true");
     clear_to(0xff000000);
     OK(triptych_draw(device, TRIPTYCH_POINT_LIST, 0, 3));
-    OK(triptych_read_color(device, image));
+    OK(triptych_read_color(device, image, sizeof image));
     for (int y = 0; y < SIZE; y++)
         for (int x = 0; x < SIZE; x++) {
             uint32_t expected = 0xff000000;

@@ -105,8 +105,8 @@ static void generated(const struct vertex *v, int generator, double out[4])
 /* The result of a stage: its coordinates before and after its matrix, and the divisor's number. */
 static void expected_coordinates(const struct vertex *v, int stage, int components, double out[4])
 {
-    uint32_t index = shading_state.stage[stage][TRIPTYCH_STAGE_texcoordindex];
-    uint32_t count = shading_state.stage[stage][TRIPTYCH_STAGE_texturetransformflags] & 7;
+    uint32_t index = shading_state.stage[stage][TRIPTYCH_STAGE_TEXCOORDINDEX];
+    uint32_t count = shading_state.stage[stage][TRIPTYCH_STAGE_TEXTURETRANSFORMFLAGS] & 7;
     float(*m)[4] = shading_state.transform[TRIPTYCH_TRANSFORM_TEXTURE0 + stage];
     double from[4] = {0, 0, 0, 1};
     if (index >> 16) {
@@ -129,7 +129,7 @@ static void expected_coordinates(const struct vertex *v, int stage, int componen
 
 static void check_channel(int stage, int channel, int components)
 {
-    uint32_t flags = shading_state.stage[stage][TRIPTYCH_STAGE_texturetransformflags], count = flags & 7;
+    uint32_t flags = shading_state.stage[stage][TRIPTYCH_STAGE_TEXTURETRANSFORMFLAGS], count = flags & 7;
     int projected = (flags & 256) && (!count || count > 2);
     TEST_ASSERT_EQUAL_INT(projected, shading_key[UNIT_VERTEX].vertex.varying[varying_divisor(channel)]);
     for (uint32_t i = 0; i < VERTICES; i++) {
@@ -153,15 +153,15 @@ static void check_all(void)
 {
     static const uint32_t indices[] = {0, 3, 0x10000, 0x20001, 0x30002, 0x40003};
     bind_vertices();
-    shading_set(TRIPTYCH_STAGE_STATES, 1, TRIPTYCH_STAGE_colorop, "modulate");
+    shading_set(TRIPTYCH_STAGE_STATES, 1, TRIPTYCH_STAGE_COLOROP, "modulate");
     for (int components = 1; components <= 4; components++)
         for (unsigned i = 0; i < sizeof indices / sizeof *indices; i++)
             for (uint32_t flags = 0; flags < 10; flags++) {
                 bind_sets(components);
-                set_stage_number(0, TRIPTYCH_STAGE_texcoordindex, indices[i]);
-                set_stage_number(0, TRIPTYCH_STAGE_texturetransformflags, flags % 5 + (flags < 5 ? 0 : 256));
-                set_stage_number(1, TRIPTYCH_STAGE_texcoordindex, indices[(i + 1) % 6]);
-                set_stage_number(1, TRIPTYCH_STAGE_texturetransformflags, (flags + 2) % 5);
+                set_stage_number(0, TRIPTYCH_STAGE_TEXCOORDINDEX, indices[i]);
+                set_stage_number(0, TRIPTYCH_STAGE_TEXTURETRANSFORMFLAGS, flags % 5 + (flags < 5 ? 0 : 256));
+                set_stage_number(1, TRIPTYCH_STAGE_TEXCOORDINDEX, indices[(i + 1) % 6]);
+                set_stage_number(1, TRIPTYCH_STAGE_TEXTURETRANSFORMFLAGS, (flags + 2) % 5);
                 shading_varying[VARYING_third0] = flags & 1 ? INTERPOLATION_SMOOTH : INTERPOLATION_NONE;
                 shade(VERTICES);
                 check_channel(0, 0, components);
@@ -179,12 +179,12 @@ static void check_sharing(void)
 {
     bind_vertices();
     bind_sets(2);
-    shading_set(TRIPTYCH_STAGE_STATES, 1, TRIPTYCH_STAGE_colorop, "modulate");
-    set_stage_number(1, TRIPTYCH_STAGE_texcoordindex, 0);
+    shading_set(TRIPTYCH_STAGE_STATES, 1, TRIPTYCH_STAGE_COLOROP, "modulate");
+    set_stage_number(1, TRIPTYCH_STAGE_TEXCOORDINDEX, 0);
     shade(1);
     TEST_ASSERT_EQUAL_INT(0, shading_key[UNIT_PIXEL].pixel.coordinates[1]);
-    set_stage_number(0, TRIPTYCH_STAGE_texturetransformflags, 2);
-    set_stage_number(1, TRIPTYCH_STAGE_texturetransformflags, 2);
+    set_stage_number(0, TRIPTYCH_STAGE_TEXTURETRANSFORMFLAGS, 2);
+    set_stage_number(1, TRIPTYCH_STAGE_TEXTURETRANSFORMFLAGS, 2);
     shade(1);
     TEST_ASSERT_EQUAL_INT(1, shading_key[UNIT_PIXEL].pixel.coordinates[1]);
 }
@@ -198,7 +198,7 @@ static void test_stages_with_matrices_have_coordinates_of_their_own(void)
 static void check_none(void)
 {
     bind_vertices();
-    set_stage_number(0, TRIPTYCH_STAGE_texturetransformflags, 256);
+    set_stage_number(0, TRIPTYCH_STAGE_TEXTURETRANSFORMFLAGS, 256);
     shade(VERTICES);
     for (uint32_t i = 0; i < VERTICES; i++) {
         TEST_ASSERT_EQUAL_FLOAT(0, shaded_slot(SLOT_texcoord0, i));
@@ -206,8 +206,8 @@ static void check_none(void)
     }
     bind_sets(3);
     shading_bind(TRIPTYCH_POSITIONT, TRIPTYCH_FORMAT_FLOAT4, vertex, sizeof *vertex);
-    set_stage_number(0, TRIPTYCH_STAGE_texturetransformflags, 256 + 3);
-    set_stage_number(0, TRIPTYCH_STAGE_texcoordindex, 0x20000);
+    set_stage_number(0, TRIPTYCH_STAGE_TEXTURETRANSFORMFLAGS, 256 + 3);
+    set_stage_number(0, TRIPTYCH_STAGE_TEXCOORDINDEX, 0x20000);
     shade(VERTICES);
     for (uint32_t i = 0; i < VERTICES; i++) {
         TEST_ASSERT_EQUAL_FLOAT(vertex[i].set[0][0], shaded_slot(SLOT_texcoord0, i));
@@ -228,7 +228,7 @@ static void check_projection(void)
     triptych_buffer *buffer;
     bind_random_texture(SIZE, SIZE);
     draw_square(0, 0xffffffff, NULL, 0, 0, 1, 1);
-    OK(triptych_read_color(device, image));
+    OK(triptych_read_color(device, image, sizeof image));
     TEST_ASSERT_EQUAL_HEX32_ARRAY(texel, image, SIZE * SIZE);
     for (int i = 0; i < 4; i++) {
         float q = i & 1 ? 3 : 0.5f;
@@ -241,10 +241,10 @@ static void check_projection(void)
                             &(struct triptych_element){TRIPTYCH_FORMAT_FLOAT3, buffer, 0, 12}));
     float identity[4][4] = {{1, 0, 0, 0}, {0, 1, 0, 0}, {0, 0, 1, 0}, {0, 0, 0, 1}};
     OK(triptych_set_transform(device, TRIPTYCH_TRANSFORM_TEXTURE0, identity));
-    set_stage(0, TRIPTYCH_STAGE_texturetransformflags, "count3_projected");
+    set_stage(0, TRIPTYCH_STAGE_TEXTURETRANSFORMFLAGS, "count3_projected");
     clear_to(0);
     OK(triptych_draw(device, TRIPTYCH_TRIANGLE_STRIP, 0, 2));
-    OK(triptych_read_color(device, image));
+    OK(triptych_read_color(device, image, sizeof image));
     for (int y = 0; y < SIZE; y++)
         for (int x = 0; x + y < SIZE - 1;
              x++) { /* in the first triangle u q = 3 x, v q = y / 2, q = 1/2 + 5/2 x */

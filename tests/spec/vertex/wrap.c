@@ -26,9 +26,9 @@ static void bind_row(unsigned set)
         row[i] = random_word() | 1; /* not the background */
     OK(triptych_texture_create(device, row, WIDTH, 1, &texture));
     OK(triptych_set_texture(device, 0, texture));
-    set_stage(0, TRIPTYCH_STAGE_colorop, "selectarg1");
-    set_stage(0, TRIPTYCH_STAGE_alphaop, "selectarg1");
-    OK(triptych_set_stage_state(device, 0, TRIPTYCH_STAGE_texcoordindex, set));
+    set_stage(0, TRIPTYCH_STAGE_COLOROP, "selectarg1");
+    set_stage(0, TRIPTYCH_STAGE_ALPHAOP, "selectarg1");
+    OK(triptych_set_stage_state(device, 0, TRIPTYCH_STAGE_TEXCOORDINDEX, set));
 }
 
 static uint32_t expected_texel(int x, int wraps)
@@ -38,7 +38,7 @@ static uint32_t expected_texel(int x, int wraps)
 
 static void expect_columns(int first, int last, int wraps, const char *what)
 {
-    OK(triptych_read_color(device, image));
+    OK(triptych_read_color(device, image, sizeof image));
     for (int p = 0; p < SIZE * SIZE; p++) {
         int x = p % SIZE;
         if (x >= first && x < last)
@@ -52,8 +52,8 @@ static void check_triangles(void)
 {
     bind_row(0);
     for (uint32_t wrap = 0; wrap < 16; wrap++) {
-        OK(triptych_set_state(device, TRIPTYCH_STATE_wrap0, wrap));
-        OK(triptych_set_state(device, TRIPTYCH_STATE_wrap1, 15)); /* of another set */
+        OK(triptych_set_state(device, TRIPTYCH_STATE_WRAP0, wrap));
+        OK(triptych_set_state(device, TRIPTYCH_STATE_WRAP1, 15)); /* of another set */
         clear_to(0);
         draw_square(0.5f, 0, NULL, 0.875f, 0, 0.125f, 0);
         expect_columns(0, SIZE, wrap & 1, "a triangle");
@@ -68,9 +68,9 @@ static void check_second_coordinate(void)
     OK(triptych_texture_create(device, row, 1, WIDTH, &texture));
     OK(triptych_set_texture(device, 0, texture));
     for (uint32_t wrap = 0; wrap < 4; wrap++) {
-        OK(triptych_set_state(device, TRIPTYCH_STATE_wrap0, wrap));
+        OK(triptych_set_state(device, TRIPTYCH_STATE_WRAP0, wrap));
         draw_square(0.5f, 0, NULL, 0, 0.875f, 0, 0.125f);
-        OK(triptych_read_color(device, image));
+        OK(triptych_read_color(device, image, sizeof image));
         for (int p = 0; p < SIZE * SIZE; p++)
             expect_pixel(p % SIZE, p / SIZE, expected_texel(p / SIZE, wrap >> 1), "the second coordinate");
     }
@@ -81,8 +81,8 @@ static void check_cut_triangles(void)
 {
     static const float left[4] = {-1, 0, 0, 0}, right[4] = {1, 0, 0, 0.5f};
     bind_row(0);
-    OK(triptych_set_state(device, TRIPTYCH_STATE_wrap0, 1));
-    OK(triptych_set_state(device, TRIPTYCH_STATE_clipplaneenable, 3));
+    OK(triptych_set_state(device, TRIPTYCH_STATE_WRAP0, 1));
+    OK(triptych_set_state(device, TRIPTYCH_STATE_CLIPPLANEENABLE, 3));
     OK(triptych_set_clip_plane(device, 0, left));
     OK(triptych_set_clip_plane(device, 1, right));
     clear_to(0);
@@ -91,10 +91,10 @@ static void check_cut_triangles(void)
 }
 
 static const enum triptych_state wraps[16] = {
-    TRIPTYCH_STATE_wrap0,  TRIPTYCH_STATE_wrap1,  TRIPTYCH_STATE_wrap2,  TRIPTYCH_STATE_wrap3,
-    TRIPTYCH_STATE_wrap4,  TRIPTYCH_STATE_wrap5,  TRIPTYCH_STATE_wrap6,  TRIPTYCH_STATE_wrap7,
-    TRIPTYCH_STATE_wrap8,  TRIPTYCH_STATE_wrap9,  TRIPTYCH_STATE_wrap10, TRIPTYCH_STATE_wrap11,
-    TRIPTYCH_STATE_wrap12, TRIPTYCH_STATE_wrap13, TRIPTYCH_STATE_wrap14, TRIPTYCH_STATE_wrap15};
+    TRIPTYCH_STATE_WRAP0,  TRIPTYCH_STATE_WRAP1,  TRIPTYCH_STATE_WRAP2,  TRIPTYCH_STATE_WRAP3,
+    TRIPTYCH_STATE_WRAP4,  TRIPTYCH_STATE_WRAP5,  TRIPTYCH_STATE_WRAP6,  TRIPTYCH_STATE_WRAP7,
+    TRIPTYCH_STATE_WRAP8,  TRIPTYCH_STATE_WRAP9,  TRIPTYCH_STATE_WRAP10, TRIPTYCH_STATE_WRAP11,
+    TRIPTYCH_STATE_WRAP12, TRIPTYCH_STATE_WRAP13, TRIPTYCH_STATE_WRAP14, TRIPTYCH_STATE_WRAP15};
 
 /* The whole target with the coordinates in another set. */
 static void draw_with_set(unsigned set)
@@ -139,11 +139,11 @@ static void check_further_sets(void)
 static void check_outlines(void)
 {
     bind_row(0);
-    OK(triptych_set_state(device, TRIPTYCH_STATE_wrap0, 1));
-    set(TRIPTYCH_STATE_fillmode, "wireframe");
+    OK(triptych_set_state(device, TRIPTYCH_STATE_WRAP0, 1));
+    set(TRIPTYCH_STATE_FILLMODE, "wireframe");
     clear_to(0);
     draw_square(0.5f, 0, NULL, 0.875f, 0, 0.125f, 0);
-    OK(triptych_read_color(device, image));
+    OK(triptych_read_color(device, image, sizeof image));
     for (int x = 0, drawn = 0; x < SIZE; x++) {
         uint32_t word = image[(SIZE - 1) * SIZE + x];
         drawn += word != 0;
@@ -162,13 +162,13 @@ static void check_lines(void)
     bind_row(0);
     OK(triptych_texture_create(device, row, 64, 1, &texture));
     OK(triptych_set_texture(device, 0, texture));
-    OK(triptych_set_state(device, TRIPTYCH_STATE_wrap0, 1));
+    OK(triptych_set_state(device, TRIPTYCH_STATE_WRAP0, 1));
     extent = 0.5f;
     draw_square(0.5f, 0, NULL, 0.875f, 0, 0.125f, 0);
     extent = 1;
     clear_to(0);
     OK(triptych_draw(device, TRIPTYCH_LINE_LIST, 0, 2));
-    OK(triptych_read_color(device, image));
+    OK(triptych_read_color(device, image, sizeof image));
     for (int p = 0; p < SIZE * SIZE; p++) {
         int x = p % SIZE;
         if (!image[p])

@@ -59,9 +59,9 @@ static void open_device(const char *engine)
     TEST_ASSERT_EQUAL_INT_MESSAGE(TRIPTYCH_OK,
                                   triptych_device_create(&options, &device, reason, sizeof reason), reason);
     OK(triptych_set_target(device, SIZE, SIZE));
-    set(TRIPTYCH_STATE_lighting, "false");
-    set(TRIPTYCH_STATE_cullmode, "none");
-    set(TRIPTYCH_STATE_zenable, "false");
+    set(TRIPTYCH_STATE_LIGHTING, "false");
+    set(TRIPTYCH_STATE_CULLMODE, "none");
+    set(TRIPTYCH_STATE_ZENABLE, "false");
 }
 
 void on_every_engine(void (*test)(void))
@@ -146,8 +146,8 @@ void bind_random_texture(unsigned width, unsigned height)
         texel[i] = random_word();
     OK(triptych_texture_create(device, texel, width, height, &texture));
     OK(triptych_set_texture(device, 0, texture));
-    set_stage(0, TRIPTYCH_STAGE_colorop, "selectarg1");
-    set_stage(0, TRIPTYCH_STAGE_alphaop, "selectarg1");
+    set_stage(0, TRIPTYCH_STAGE_COLOROP, "selectarg1");
+    set_stage(0, TRIPTYCH_STAGE_ALPHAOP, "selectarg1");
 }
 
 void expect_pixel(int x, int y, uint32_t expected, const char *what)

@@ -19,9 +19,9 @@ void derivation_begin(void);
 /* Binds an attribute at offset 16 of vertices of 32 bytes. */
 void bind_attribute(enum triptych_attribute attribute, enum triptych_format format);
 
-#define SET(name, word)            set_word(TRIPTYCH_RENDER_STATES, 0, TRIPTYCH_STATE_##name, word)
-#define SET_SAMPLER(i, name, word) set_word(TRIPTYCH_SAMPLER_STATES, i, TRIPTYCH_SAMPLER_##name, word)
-#define SET_STAGE(i, name, word)   set_word(TRIPTYCH_STAGE_STATES, i, TRIPTYCH_STAGE_##name, word)
+#define SET(name, word)            set_word(TRIPTYCH_RENDER_STATES, 0, STATE_##name, word)
+#define SET_SAMPLER(i, name, word) set_word(TRIPTYCH_SAMPLER_STATES, i, SAMPLER_##name, word)
+#define SET_STAGE(i, name, word)   set_word(TRIPTYCH_STAGE_STATES, i, STAGE_##name, word)
 
 void set_word(enum triptych_state_table table, unsigned i, unsigned row, const char *word);
 void set_value(enum triptych_state which, uint32_t value);

@@ -75,7 +75,7 @@ void use_float_target(void)
 
 void read_numbers(unsigned t)
 {
-    OK(triptych_read_target_numbers(device, t, drawn[0]));
+    OK(triptych_read_target_numbers(device, t, drawn[0], sizeof drawn));
 }
 
 void expect_numbers(int x, int y, const float expected[4], const char *what)

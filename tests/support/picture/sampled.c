@@ -45,27 +45,27 @@ static void bind_texture(void)
                                        slice));
         }
     OK(triptych_set_texture(device, 0, texture));
-    set_stage(0, TRIPTYCH_STAGE_colorop, "selectarg1");
-    set_stage(0, TRIPTYCH_STAGE_alphaop, "selectarg1");
+    set_stage(0, TRIPTYCH_STAGE_COLOROP, "selectarg1");
+    set_stage(0, TRIPTYCH_STAGE_ALPHAOP, "selectarg1");
 }
 
 static void set_sampling(void)
 {
-    const enum triptych_sampler_state address[3] = {TRIPTYCH_SAMPLER_addressu, TRIPTYCH_SAMPLER_addressv,
-                                                    TRIPTYCH_SAMPLER_addressw};
+    const enum triptych_sampler_state address[3] = {TRIPTYCH_SAMPLER_ADDRESSU, TRIPTYCH_SAMPLER_ADDRESSV,
+                                                    TRIPTYCH_SAMPLER_ADDRESSW};
     float bias = (float)sampled.bias;
     uint32_t bits, color = random_word();
     for (int a = 0; a < 3; a++)
         set_sampler(0, address[a], address_word[sampled.address[a]]);
-    set_sampler(0, TRIPTYCH_SAMPLER_magfilter, filter_word[sampled.mag]);
-    set_sampler(0, TRIPTYCH_SAMPLER_minfilter, filter_word[sampled.min]);
-    set_sampler(0, TRIPTYCH_SAMPLER_mipfilter, mip_word[sampled.mip]);
+    set_sampler(0, TRIPTYCH_SAMPLER_MAGFILTER, filter_word[sampled.mag]);
+    set_sampler(0, TRIPTYCH_SAMPLER_MINFILTER, filter_word[sampled.min]);
+    set_sampler(0, TRIPTYCH_SAMPLER_MIPFILTER, mip_word[sampled.mip]);
     memcpy(&bits, &bias, sizeof bits);
-    OK(triptych_set_sampler_state(device, 0, TRIPTYCH_SAMPLER_mipmaplodbias, bits));
-    OK(triptych_set_sampler_state(device, 0, TRIPTYCH_SAMPLER_maxmiplevel, (uint32_t)sampled.first));
-    OK(triptych_set_sampler_state(device, 0, TRIPTYCH_SAMPLER_maxanisotropy,
+    OK(triptych_set_sampler_state(device, 0, TRIPTYCH_SAMPLER_MIPMAPLODBIAS, bits));
+    OK(triptych_set_sampler_state(device, 0, TRIPTYCH_SAMPLER_MAXMIPLEVEL, (uint32_t)sampled.first));
+    OK(triptych_set_sampler_state(device, 0, TRIPTYCH_SAMPLER_MAXANISOTROPY,
                                   (uint32_t)(sampled.taps ? sampled.taps : 1)));
-    OK(triptych_set_sampler_state(device, 0, TRIPTYCH_SAMPLER_bordercolor, color));
+    OK(triptych_set_sampler_state(device, 0, TRIPTYCH_SAMPLER_BORDERCOLOR, color));
     border = image_word(color);
 }
 
@@ -309,7 +309,7 @@ void sampled_show(const struct sampled_coordinates *c)
 {
     set_sampling();
     draw_coordinates(c);
-    OK(triptych_read_color(device, image));
+    OK(triptych_read_color(device, image, sizeof image));
 }
 
 void sampled_check(const struct sampled_coordinates *c)

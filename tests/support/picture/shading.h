@@ -41,10 +41,10 @@ void shading_bind(enum triptych_attribute attribute, enum triptych_format format
                   size_t stride);
 
 /* Set a state to a word, a number or a real number. */
-#define SHADING_SET(name, word)     shading_set(TRIPTYCH_RENDER_STATES, 0, TRIPTYCH_STATE_##name, word)
-#define SHADING_NUMBER(name, value) shading_number(TRIPTYCH_RENDER_STATES, 0, TRIPTYCH_STATE_##name, value)
+#define SHADING_SET(name, word)     shading_set(TRIPTYCH_RENDER_STATES, 0, STATE_##name, word)
+#define SHADING_NUMBER(name, value) shading_number(TRIPTYCH_RENDER_STATES, 0, STATE_##name, value)
 #define SHADING_REAL(name, value)                                                                            \
-    shading_number(TRIPTYCH_RENDER_STATES, 0, TRIPTYCH_STATE_##name, bits_of_float(value))
+    shading_number(TRIPTYCH_RENDER_STATES, 0, STATE_##name, bits_of_float(value))
 void shading_set(enum triptych_state_table table, unsigned i, unsigned row, const char *word);
 void shading_number(enum triptych_state_table table, unsigned i, unsigned row, uint32_t value);
 

@@ -59,6 +59,6 @@ void clear_shapes(void)
 
 void read_shapes(void)
 {
-    OK(triptych_read_color(device, image));
-    OK(triptych_read_depth(device, shape_depth));
+    OK(triptych_read_color(device, image, sizeof image));
+    OK(triptych_read_depth(device, shape_depth, sizeof shape_depth));
 }

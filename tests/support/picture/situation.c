@@ -205,7 +205,7 @@ static enum triptych_result set_target(struct reader *r)
 static enum triptych_result set_depth(struct reader *r)
 {
     static const char *const format[] = {
-#define DEPTH_FORMAT(name, storage, depth_bits, stencil_bits, meaning) #name,
+#define DEPTH_FORMAT(name, word, storage, depth_bits, stencil_bits, meaning) #word,
 #include "def/state/depth_format.def"
 #undef DEPTH_FORMAT
     };

@@ -77,11 +77,11 @@ void model_set(triptych_device *to, unsigned number, const struct model_sampler 
     static const char *const filter[] = {"point", "linear"}, *const mip[] = {"none", "point", "linear"};
     float bias = (float)s->bias;
     uint32_t bits = bits_of_float(bias);
-    set_word(to, number, TRIPTYCH_SAMPLER_magfilter, filter[s->mag]);
-    set_word(to, number, TRIPTYCH_SAMPLER_minfilter, filter[s->min]);
-    set_word(to, number, TRIPTYCH_SAMPLER_mipfilter, mip[s->mip]);
-    OK(triptych_set_sampler_state(to, number, TRIPTYCH_SAMPLER_maxmiplevel, (uint32_t)s->first));
-    OK(triptych_set_sampler_state(to, number, TRIPTYCH_SAMPLER_mipmaplodbias, bits));
+    set_word(to, number, TRIPTYCH_SAMPLER_MAGFILTER, filter[s->mag]);
+    set_word(to, number, TRIPTYCH_SAMPLER_MINFILTER, filter[s->min]);
+    set_word(to, number, TRIPTYCH_SAMPLER_MIPFILTER, mip[s->mip]);
+    OK(triptych_set_sampler_state(to, number, TRIPTYCH_SAMPLER_MAXMIPLEVEL, (uint32_t)s->first));
+    OK(triptych_set_sampler_state(to, number, TRIPTYCH_SAMPLER_MIPMAPLODBIAS, bits));
 }
 
 /* --- Levels -------------------------------------------------------------------------------------------- */

@@ -27,11 +27,11 @@ void varied_begin(triptych_device *device)
     static const float gray[4] = {0.4f, 0.6f, 0.3f, 0.7f};
     triptych_buffer *buffer;
     OK(triptych_set_target(device, VARIED_SIZE, VARIED_SIZE));
-    OK(triptych_set_state(device, TRIPTYCH_STATE_lighting, 0));
-    OK(triptych_set_state(device, TRIPTYCH_STATE_cullmode, 1));
-    OK(triptych_set_state(device, TRIPTYCH_STATE_alphablendenable, 1));
-    OK(triptych_set_state(device, TRIPTYCH_STATE_alphatestenable, 1));
-    OK(triptych_set_state(device, TRIPTYCH_STATE_alpharef, 0x80));
+    OK(triptych_set_state(device, TRIPTYCH_STATE_LIGHTING, 0));
+    OK(triptych_set_state(device, TRIPTYCH_STATE_CULLMODE, 1));
+    OK(triptych_set_state(device, TRIPTYCH_STATE_ALPHABLENDENABLE, 1));
+    OK(triptych_set_state(device, TRIPTYCH_STATE_ALPHATESTENABLE, 1));
+    OK(triptych_set_state(device, TRIPTYCH_STATE_ALPHAREF, 0x80));
     OK(triptych_clear(device, gray, 0.5f));
     OK(triptych_buffer_create(device, vertex, sizeof vertex, &buffer));
     bind(device, buffer);
@@ -40,17 +40,17 @@ void varied_begin(triptych_device *device)
 /* State 0 and the states next to it cover pixels. */
 void varied_draw(triptych_device *device, unsigned n)
 {
-    OK(triptych_set_state(device, TRIPTYCH_STATE_srcblend, 1 + (n + 4) % 9));
-    OK(triptych_set_state(device, TRIPTYCH_STATE_destblend, 1 + (n / 9 + 5) % 9));
-    OK(triptych_set_state(device, TRIPTYCH_STATE_alphafunc, 1 + (n / 81 + 4) % 8));
-    OK(triptych_set_state(device, TRIPTYCH_STATE_zfunc, 1 + (n / 648 + 3) % 8));
+    OK(triptych_set_state(device, TRIPTYCH_STATE_SRCBLEND, 1 + (n + 4) % 9));
+    OK(triptych_set_state(device, TRIPTYCH_STATE_DESTBLEND, 1 + (n / 9 + 5) % 9));
+    OK(triptych_set_state(device, TRIPTYCH_STATE_ALPHAFUNC, 1 + (n / 81 + 4) % 8));
+    OK(triptych_set_state(device, TRIPTYCH_STATE_ZFUNC, 1 + (n / 648 + 3) % 8));
     OK(triptych_draw(device, TRIPTYCH_TRIANGLE_LIST, 0, 1));
 }
 
 void varied_read(triptych_device *device, struct varied_image *image)
 {
-    OK(triptych_read_color(device, image->color));
-    OK(triptych_read_depth(device, image->depth));
+    OK(triptych_read_color(device, image->color, sizeof image->color));
+    OK(triptych_read_depth(device, image->depth, sizeof image->depth));
 }
 
 void varied_render(const struct engine *engine, const struct device_options *options, unsigned n,

@@ -207,7 +207,7 @@ static void make_fog(struct differential *d, const struct pixel_key *key)
 static uint32_t depth_word(struct differential *d, const struct pixel_key *key, float depth)
 {
     static const enum triptych_depth_format format[DEPTH_STORAGE_COUNT] = {
-        TRIPTYCH_DEPTH_d32f_lockable, TRIPTYCH_DEPTH_d24s8, TRIPTYCH_DEPTH_d24fs8, TRIPTYCH_DEPTH_d32};
+        TRIPTYCH_DEPTH_D32F_LOCKABLE, TRIPTYCH_DEPTH_D24S8, TRIPTYCH_DEPTH_D24FS8, TRIPTYCH_DEPTH_D32};
     int limited = depth >= 0 && depth <= 1;
     uint32_t stencil = key->depth_format == DEPTH_UNORM || key->depth_format == DEPTH_FLOAT24
                            ? differential_below(d, 256)

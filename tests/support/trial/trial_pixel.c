@@ -37,8 +37,8 @@ static void open_painter(struct painter *painter, const char *engine)
     for (int t = 0; t < TARGETS_USED; t++)
         target.color_format[t] = TRIPTYCH_SURFACE_A32B32G32R32F;
     OK(triptych_set_target_description(device, &target));
-    set(TRIPTYCH_STATE_cullmode, "none");
-    set(TRIPTYCH_STATE_zenable, "false");
+    set(TRIPTYCH_STATE_CULLMODE, "none");
+    set(TRIPTYCH_STATE_ZENABLE, "false");
     for (unsigned o = 0; o < TRIAL_OPERANDS; o++) {
         struct triptych_texture_description texture = {.type = TRIPTYCH_TEXTURE_2D,
                                                        .format = TRIPTYCH_SURFACE_A32B32G32R32F,
@@ -48,10 +48,10 @@ static void open_painter(struct painter *painter, const char *engine)
                                                        .levels = 1};
         OK(triptych_texture_define(device, &texture, &painter->operand[o]));
         OK(triptych_set_texture(device, o + 1, painter->operand[o]));
-        set_sampler(o + 1, TRIPTYCH_SAMPLER_minfilter, "point");
-        set_sampler(o + 1, TRIPTYCH_SAMPLER_magfilter, "point");
-        set_sampler(o + 1, TRIPTYCH_SAMPLER_addressu, "clamp");
-        set_sampler(o + 1, TRIPTYCH_SAMPLER_addressv, "clamp");
+        set_sampler(o + 1, TRIPTYCH_SAMPLER_MINFILTER, "point");
+        set_sampler(o + 1, TRIPTYCH_SAMPLER_MAGFILTER, "point");
+        set_sampler(o + 1, TRIPTYCH_SAMPLER_ADDRESSU, "clamp");
+        set_sampler(o + 1, TRIPTYCH_SAMPLER_ADDRESSV, "clamp");
     }
 }
 
@@ -114,7 +114,7 @@ static void take_results(const struct trial *trial, struct trial_results *result
 {
     static float numbers[SIZE * SIZE][4];
     for (unsigned r = 0; r < trial->results; r++) {
-        OK(triptych_read_target_numbers(device, r, numbers[0]));
+        OK(triptych_read_target_numbers(device, r, numbers[0], sizeof numbers));
         for (unsigned set = 0; set < trial->sets; set++)
             memcpy(results[set].v[r], numbers[set], sizeof *numbers);
     }

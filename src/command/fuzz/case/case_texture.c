@@ -44,7 +44,7 @@ void case_target(struct maker *maker)
 {
     unsigned depth = random_below(&maker->random, TRIPTYCH_DEPTH_COUNT);
     static const char *const name[] = {
-#define DEPTH_FORMAT(name, storage, depth_bits, stencil_bits, meaning) #name,
+#define DEPTH_FORMAT(name, word, storage, depth_bits, stencil_bits, meaning) #word,
 #include "def/state/depth_format.def"
 #undef DEPTH_FORMAT
     };
