@@ -1,6 +1,7 @@
 #!/bin/bash
 # Manual pages and completions of shells that the command writes: `triptych help --as FORM`.
-# Given BUILD, TRIPTYCH and SANITIZE by tests/support/scripts/run.sh.
+# Given TRIPTYCH by tests/support/scripts/run.sh. One build suffices.
+# Runs once.
 set -uo pipefail
 cd "$(dirname "$0")/.."
 

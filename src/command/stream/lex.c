@@ -247,6 +247,11 @@ int lex_rest(struct lexer *lexer, const char *at, struct token *rest)
     return lex_next(lexer);
 }
 
+bool lex_ends_line(const struct lexer *lexer)
+{
+    return lexer->token.type == TOKEN_LINE_END || lexer->token.type == TOKEN_END;
+}
+
 int lex_line_end(struct lexer *lexer)
 {
     if (lexer->token.type == TOKEN_END)

@@ -64,6 +64,9 @@ int lex_fail(struct lexer *lexer, const struct token *place, const char *reason,
 
 bool lex_is(const struct lexer *lexer, const char *word);
 
+/* Returns true if the current token is the end of the line or of the text. */
+bool lex_ends_line(const struct lexer *lexer);
+
 /* Returns true if the current token can be a number: a word or an expression. */
 bool lex_is_value(const struct lexer *lexer);
 

@@ -32,7 +32,7 @@ int parse_fields(struct parser *parser, struct parse_field *fields, size_t count
 {
     struct lexer *lex = &parser->lex;
     const struct words words = {words_row, fields, (unsigned)count, sizeof *fields};
-    while (lex->token.type != TOKEN_LINE_END && lex->token.type != TOKEN_END) {
+    while (!lex_ends_line(lex)) {
         char choices[128] = "";
         size_t at = 0, i = 0;
         while (i < count && (fields[i].given || !lex_is(lex, fields[i].word)))
@@ -121,6 +121,7 @@ static int parse_target_formats(struct parser *parser, struct triptych_target_de
 
 int parse_target(struct parser *parser, struct call *call, unsigned word)
 {
+    static const char *const words[] = {"depth", "samples", "color"};
     int64_t width, height;
     (void)word;
     if (lex_integer(&parser->lex, "target width", 1, TRIPTYCH_TARGET_MAXIMUM, &width) ||
@@ -128,7 +129,11 @@ int parse_target(struct parser *parser, struct call *call, unsigned word)
         return -1;
     call->target.width = (unsigned)width;
     call->target.height = (unsigned)height;
-    return parse_target_formats(parser, &call->target);
+    if (parse_target_formats(parser, &call->target))
+        return -1;
+    return lex_ends_line(&parser->lex)
+               ? 0
+               : lex_expected_word(&parser->lex, WORDS_OF_ROWS(words), "the end of the line");
 }
 
 int parse_name_or_none(struct parser *parser, unsigned types, const char *what, uint32_t *resource)

@@ -135,12 +135,13 @@ static int parse_cells(struct parser *parser, struct mesh_options *out)
 
 static int parse_shadow(struct parser *parser, struct mesh_options *out)
 {
+    static const char *const words[] = {"directional", "point"};
     struct lexer *lex = &parser->lex;
     if (parse_name(parser, 1 << RESOURCE_MESH, "a mesh", &out->caster))
         return -1;
     out->light_is_point = lex_is(lex, "point");
     if (!out->light_is_point && !lex_is(lex, "directional"))
-        return lex_expected(lex, "directional or point");
+        return lex_expected_word(lex, WORDS_OF_ROWS(words), "directional or point");
     return lex_next(lex) || lex_numbers(lex, "the light", out->light, 3) ||
                    parse_positive(parser, "length", &out->length)
                ? -1

@@ -72,15 +72,11 @@ int parse_set_shader(struct parser *parser, struct call *call, unsigned word)
 
 /* --- Constants of matrices ------------------------------------------------------------------------------ */
 
-static bool at_line_end(const struct parser *parser)
-{
-    return parser->lex.token.type == TOKEN_LINE_END || parser->lex.token.type == TOKEN_END;
-}
-
 /* Reads the modifiers of a matrix. */
 static int parse_columns(struct parser *parser, uint32_t first, bool *inverse, bool *transposed,
                          uint32_t *count)
 {
+    static const char *const words[] = {"inverse", "transposed", "count"};
     struct lexer *lex = &parser->lex;
     struct token place = lex->token;
     int64_t columns = CONSTANTS_PER_CALL;
@@ -94,13 +90,16 @@ static int parse_columns(struct parser *parser, uint32_t first, bool *inverse, b
         return lex_fail(lex, &place, "found constants up to %d, expected at most %d",
                         (int)(first + columns - 1), TRIPTYCH_SHADER_FLOATS - 1);
     *count = (uint32_t)columns;
-    return at_line_end(parser) ? 0 : lex_expected(lex, "inverse, transposed, count N, in that order");
+    return lex_ends_line(lex)
+               ? 0
+               : lex_expected_word(lex, WORDS_OF_ROWS(words), "inverse, transposed, count N, in that order");
 }
 
 static bool is_end_of_factors(const struct parser *parser)
 {
     const struct lexer *lex = &parser->lex;
-    return at_line_end(parser) || lex_is(lex, "inverse") || lex_is(lex, "transposed") || lex_is(lex, "count");
+    return lex_ends_line(&parser->lex) || lex_is(lex, "inverse") || lex_is(lex, "transposed") ||
+           lex_is(lex, "count");
 }
 
 /* Reads transforms whose values are computed when the call is executed. */
@@ -201,7 +200,7 @@ static int parse_floats(struct parser *parser, enum triptych_shader_stage stage,
                                &call->constants.floats[call->constants.count][i]))
                 return -1;
         call->constants.count++;
-    } while (!at_line_end(parser));
+    } while (!lex_ends_line(&parser->lex));
     return 0;
 }
 
@@ -212,7 +211,7 @@ static int parse_integers(struct parser *parser, enum triptych_shader_stage stag
         return -1;
     for (int i = 0; i < 4; i++) {
         int64_t value = 0;
-        if (i == 3 && at_line_end(parser))
+        if (i == 3 && lex_ends_line(&parser->lex))
             break;
         if (lex_integer(&parser->lex, "constant COUNT START STEP", INT32_MIN, INT32_MAX, &value))
             return -1;
@@ -224,19 +223,20 @@ static int parse_integers(struct parser *parser, enum triptych_shader_stage stag
 
 static int parse_booleans(struct parser *parser, enum triptych_shader_stage stage, struct call *call)
 {
+    static const char *const words[] = {"true", "false"};
     if (parse_first(parser, stage, CONSTANTS_BOOLEAN, call))
         return -1;
     do {
         int value = lex_is(&parser->lex, "true");
         if (!value && !lex_is(&parser->lex, "false"))
-            return lex_expected(&parser->lex, "true or false");
+            return lex_expected_word(&parser->lex, WORDS_OF_ROWS(words), "true or false");
         if (call->constants.first + call->constants.count == TRIPTYCH_SHADER_BOOLEANS)
             return lex_expected(&parser->lex, "the end of the line after constant %d",
                                 TRIPTYCH_SHADER_BOOLEANS - 1);
         call->constants.booleans[call->constants.count++] = value;
         if (lex_next(&parser->lex))
             return -1;
-    } while (!at_line_end(parser));
+    } while (!lex_ends_line(&parser->lex));
     return 0;
 }
 

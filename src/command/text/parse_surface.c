@@ -37,6 +37,7 @@ static int parse_color(struct parser *parser, struct call_surface *surface)
 /* attach none, or attach [color SURFACE]... [depth SURFACE | depthformat FORMAT] */
 int parse_attach(struct parser *parser, struct call *call, unsigned word)
 {
+    static const char *const words[] = {"none", "color", "depth"};
     struct lexer *lex = &parser->lex;
     unsigned colors = 0, format;
     (void)word;
@@ -52,7 +53,7 @@ int parse_attach(struct parser *parser, struct call *call, unsigned word)
     if (lex_is(lex, "depth"))
         return lex_next(lex) ? -1 : parse_surface(parser, &call->attach.depth);
     if (!colors)
-        return lex_expected(lex, "none, color TEXTURE or depth TEXTURE");
+        return lex_expected_word(lex, WORDS_OF_ROWS(words), "none, color TEXTURE or depth TEXTURE");
     if (!lex_is(lex, "depthformat"))
         return 0;
     if (lex_next(lex) || parse_word(parser, WORDS_DEPTH, "a depth format", &format))
@@ -92,12 +93,13 @@ static int parse_copy_end(struct parser *parser, struct call_surface *surface,
 
 int parse_copy(struct parser *parser, struct call *call, unsigned word)
 {
+    static const char *const words[] = {"level", "slice", "part", "to"};
     struct lexer *lex = &parser->lex;
     (void)word;
     if (parse_copy_end(parser, &call->copy.surface[0], &call->copy.part[0]))
         return -1;
     if (!lex_is(lex, "to"))
-        return lex_expected(lex, "level, slice, part, or to");
+        return lex_expected_word(lex, WORDS_OF_ROWS(words), "level, slice, part, or to");
     if (lex_next(lex) || parse_copy_end(parser, &call->copy.surface[1], &call->copy.part[1]))
         return -1;
     call->copy.filter = lex_is(lex, "linear") ? TRIPTYCH_COPY_LINEAR : TRIPTYCH_COPY_POINT;
