@@ -46,6 +46,12 @@ struct stream {
     uint32_t frame_count;
 };
 
+/* Returns true if the call draws primitives. */
+static inline bool stream_is_draw(const struct call *call)
+{
+    return call->type == CALL_DRAW || call->type == CALL_DRAW_INDEXED || call->type == CALL_DRAW_MESH;
+}
+
 /* Makes the declaration of a CALL_DECLARE. Returns the number of elements. */
 unsigned stream_declaration(const struct call *call,
                             struct triptych_declaration_element elements[TRIPTYCH_DECLARATION_ELEMENTS]);

@@ -78,8 +78,7 @@ int session_play(const struct command *self, struct session *session, unsigned f
 
 bool session_is_draw(const struct stream *stream, uint32_t position)
 {
-    enum call_type type = stream->calls[stream->executed[position]].type;
-    return type == CALL_DRAW || type == CALL_DRAW_INDEXED || type == CALL_DRAW_MESH;
+    return stream_is_draw(&stream->calls[stream->executed[position]]);
 }
 
 unsigned session_spread(unsigned i, unsigned count, unsigned all)

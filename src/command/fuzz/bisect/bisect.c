@@ -408,8 +408,7 @@ static int examine(struct search *search, const struct pair *pair)
 
 static bool is_draw(const struct stream *stream, uint32_t position)
 {
-    enum call_type type = stream->calls[stream->executed[position]].type;
-    return type == CALL_DRAW || type == CALL_DRAW_INDEXED || type == CALL_DRAW_MESH;
+    return stream_is_draw(&stream->calls[stream->executed[position]]);
 }
 
 /* The stream with a frame for each draw: `frames` has room for all of its calls and two more. */
