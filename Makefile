@@ -30,7 +30,7 @@ MAKEFLAGS += --no-builtin-rules --no-print-directory
 find = $(sort $(shell find $(1) -name '$(2)' 2>/dev/null))
 
 C_SOURCES       := $(call find,src emu,*.c)
-TOOL_SOURCES    := $(filter src/command/% src/image/%,$(C_SOURCES))
+TOOL_SOURCES    := $(filter src/command/% src/image/%,$(C_SOURCES)) $(call find,src/command,*.asm)
 LIBRARY_SOURCES := $(filter-out $(TOOL_SOURCES),$(C_SOURCES)) $(call find,asm,*.asm)
 TEST_SOURCES    := $(call find,tests,*.c)
 SUPPORT_SOURCES := $(filter tests/support/%,$(TEST_SOURCES))
@@ -194,6 +194,17 @@ $(BUILD)/object/src/command/import/assimp.o: private CPPFLAGS += -DASSIMP_LIBRAR
 # The whole specification with a hook after each operation. It runs only for a few pixels of a failing case.
 $(BUILD)/object/src/command/fuzz/bisect/trace.o: private override CFLAGS += -O0
 
+# The specification with a hook that finds its callers, so that no function may be inlined.
+$(BUILD)/object/src/command/explore/record.o: private override CFLAGS += -O0
+
+# The specification as text, for the pages of the command explore.
+SPEC_SOURCES := $(call find,src/spec,*.h)
+$(BUILD)/asm/spec.texts: $(SPEC_SOURCES) $(BUILD)/spec.list
+	@mkdir -p $(@D)
+	$(call say,GEN)for f in $(SPEC_SOURCES:src/%=%); do printf '%s\0' $$f && cat src/$$f && printf '\0'; done >$@
+
+$(BUILD)/object/src/command/explore/embed.o: $(BUILD)/asm/spec.texts $(wildcard $(addprefix src/command/explore/,*.html *.css *.js))
+
 $(SUPPORT_OBJECTS) $(PROGRAM_OBJECTS): private CPPFLAGS += $(unity_flags)
 $(SUPPORT_OBJECTS) $(PROGRAM_OBJECTS): | $(UNITY_SOURCE)
 
@@ -292,8 +303,9 @@ $(BUILD)/flags: text = $(subst -I$(BUILD)/,-I,$(compile) $(unity_flags) $(link) 
 $(BUILD)/library.list: text = $(LIBRARY_OBJECTS:$(BUILD)/%=%)
 $(BUILD)/command.list: text = $(TOOL_OBJECTS:$(BUILD)/%=%)
 $(BUILD)/support.list: text = $(SUPPORT_OBJECTS:$(BUILD)/%=%)
+$(BUILD)/spec.list: text = $(SPEC_SOURCES)
 $(BUILD)/commit: text = $(COMMIT)
-$(BUILD)/flags $(addprefix $(BUILD)/,library.list command.list support.list commit): FORCE
+$(BUILD)/flags $(addprefix $(BUILD)/,library.list command.list support.list spec.list commit): FORCE
 	@mkdir -p $(@D)
 	@printf '%s\n' "$(text)" | cmp -s - $@ || printf '%s\n' "$(text)" >$@
 

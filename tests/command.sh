@@ -410,6 +410,13 @@ refuses 'bisect of a missing stream' 'none.tri' bisect "$work/none.tri" --engine
 refuses 'dump of an engine without code' 'emulate makes no code' dump "$work/good.tri" --engine emulate
 if "$TRIPTYCH" list engines | grep -q '^specialize .* available '; then
     answers 'dump of every stage' '== asm' dump "$work/good.tri" --show all
+    answers 'a pass that changes nothing is reported' '^nothing changed' dump "$work/good.tri" --show phi
+    answers 'a pass that an engine leaves out is reported' '^== hoist: this engine does not run it' \
+        dump "$work/good.tri" --show hoist --engine specialize-thesis
+    for stage in record dead asm; do
+        answers "lines of a shader precede what they become, $stage" '^; shader:[0-9]+: mad r1.y, r1.y, c28.w, r0.y$' \
+            dump tests/data/shading/fractals.tri --show $stage
+    done
     refuses 'dump of a missing draw' 'frame 0 has no draw 1, it has 1' dump "$work/good.tri" --draw 1
     refuses 'dump of a missing frame' 'no frame 7, its last is 1' dump "$work/good.tri" --frame 7
     refuses 'dump of an unknown unit' '--unit is "texel", expected one of: vertex, setup, pixel' \

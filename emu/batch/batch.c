@@ -137,7 +137,7 @@ struct routine *batch_routine(const struct ir *ir, unsigned lanes, enum unit uni
         error_set(error, "out of memory for a routine");
         return NULL;
     }
-    batch->schedule = schedule_create(ir, lanes, error);
+    batch->schedule = schedule_create(ir, lanes, NULL, error);
     bool held = batch->schedule && batch_scratch_hold();
     if (!held) {
         if (batch->schedule)

@@ -292,7 +292,8 @@ static struct schedule_step make_step(const struct scheduler *p, const struct la
     return step;
 }
 
-static void make_steps(struct scheduler *p, const struct layout *layout, struct schedule *schedule)
+static void make_steps(struct scheduler *p, const struct layout *layout, struct schedule *schedule,
+                       uint16_t *numbers)
 {
     for (uint32_t number = 1; number < p->ir->count; number++) {
         const struct ir_instruction *i = &p->ir->instruction[number];
@@ -304,6 +305,8 @@ static void make_steps(struct scheduler *p, const struct layout *layout, struct 
         struct schedule_step *step = &schedule->step[schedule->count];
         if (has_step(i)) {
             *step = make_step(p, layout, (uint16_t)number);
+            if (numbers)
+                numbers[schedule->count] = (uint16_t)number;
             schedule->count++;
         }
         if (i->op == IR_again)
@@ -318,7 +321,7 @@ static void make_steps(struct scheduler *p, const struct layout *layout, struct 
     schedule->step[schedule->count++] = (struct schedule_step){.run = schedule_step_end};
 }
 
-static struct schedule *make_schedule(struct scheduler *p, unsigned lanes)
+static struct schedule *make_schedule(struct scheduler *p, unsigned lanes, uint16_t *numbers)
 {
     struct layout layout = lay_out(p, lanes);
     while (layout.bytes > SCRATCH_LIMIT && lanes > GROUP_LANES)
@@ -331,7 +334,7 @@ static struct schedule *make_schedule(struct scheduler *p, unsigned lanes)
     if (!schedule)
         return NULL;
     *schedule = (struct schedule){.lanes = lanes, .scratch_bytes = layout.bytes, .literals = p->literals};
-    make_steps(p, &layout, schedule);
+    make_steps(p, &layout, schedule, numbers);
     schedule->literal = (int32_t *)(void *)(schedule->step + schedule->count);
     memcpy(schedule->literal, p->literal, p->literals * sizeof(int32_t));
     return schedule;
@@ -361,7 +364,7 @@ static void scheduler_close(struct scheduler *p)
     free(p->literal_table.slot);
 }
 
-struct schedule *schedule_create(const struct ir *ir, unsigned lanes, struct error *error)
+struct schedule *schedule_create(const struct ir *ir, unsigned lanes, uint16_t *numbers, struct error *error)
 {
     struct scheduler p = {0};
     struct schedule *schedule = NULL;
@@ -370,7 +373,7 @@ struct schedule *schedule_create(const struct ir *ir, unsigned lanes, struct err
         match_regions(&p);
         find_last_uses(&p);
         locate_values(&p);
-        schedule = make_schedule(&p, lanes);
+        schedule = make_schedule(&p, lanes, numbers);
     }
     scheduler_close(&p);
     if (!schedule)

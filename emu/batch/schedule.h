@@ -65,8 +65,9 @@ struct schedule {
     struct schedule_step step[];
 };
 
-/* Schedules a recording for batches of at most `lanes` lanes. Returns null with the reason. */
-struct schedule *schedule_create(const struct ir *ir, unsigned lanes, struct error *error);
+/* Schedules a recording for batches of at most `lanes` lanes. `numbers`, unless null, has room for a number
+ * for each instruction, and receives the instruction of each step. Returns null with the reason. */
+struct schedule *schedule_create(const struct ir *ir, unsigned lanes, uint16_t *numbers, struct error *error);
 void schedule_free(struct schedule *schedule);
 
 /* Writes the literals to the beginning of the scratch memory. */

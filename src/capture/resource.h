@@ -124,6 +124,7 @@ struct resource {
             char *code; /* canonical text */
             size_t code_bytes;
             const struct program *program; /* the program of the text */
+            char *written;                 /* the text as it is in the stream's text; else null */
         };
         /* Sequences. */
         struct {

@@ -31,6 +31,9 @@ enum {
  * a LOOP to the next, in variables only. */
 enum { VARIABLES = 512 };
 
+/* As the step of NOTE_STEP: the operations belong to no step of the shader. */
+enum { NO_STEP = 0x7fffffff };
+
 /* As the `field` of a gather: the gather starts from the base itself, not from a pointer in it. */
 enum { GATHER_DIRECT = -1 };
 

@@ -16,6 +16,8 @@
  *   OBSERVE (E, name, number, value)
  *                        names a value by a row of def/observed.def; most bindings leave it out, and it then
  *                        does nothing
+ *   NOTE_STEP (E, step)  the following operations belong to a step of the shader, or to NO_STEP; most
+ *                        bindings leave it out, and it then does nothing
  *
  * This file defines a binding that does nothing, if none was included before. With it each header of the
  * specification compiles by itself, so an editor can open it. */
@@ -141,5 +143,9 @@ static inline flt permute_f(UNUSED struct env *e, flt a, UNUSED int lanes)
 
 #ifndef OBSERVE
 #define OBSERVE(e, name, number, value)
+#endif
+
+#ifndef NOTE_STEP
+#define NOTE_STEP(e, step)
 #endif
 #endif

@@ -44,7 +44,7 @@ static const char *const base_name[BASE_COUNT] = {
 void ir_start(struct ir *ir)
 {
     ir->count = 1;
-    ir->file_count = ir->constant_count = ir->loops = ir->variables = ir->phis = 0;
+    ir->file_count = ir->constant_count = ir->loops = ir->variables = ir->phis = ir->steps = 0;
     ir->overflow = false;
     memset(&ir->instruction[0], 0, sizeof ir->instruction[0]);
 }
@@ -52,6 +52,8 @@ void ir_start(struct ir *ir)
 void ir_duplicate(struct ir *ir, const struct ir *from)
 {
     memcpy(ir, from, offsetof(struct ir, instruction) + from->count * sizeof *from->instruction);
+    memcpy(ir->step, from->step, from->steps * sizeof *from->step);
+    ir->steps = from->steps;
 }
 
 static void count_control(struct ir *ir, const struct ir_instruction *i)
@@ -70,8 +72,31 @@ uint16_t ir_append(struct ir *ir, struct ir_instruction instruction)
     }
     if (ir_properties(&instruction) & (IR_OPENS | IR_VARIABLE))
         count_control(ir, &instruction);
+    instruction.origin = (uint16_t)ir->count;
     ir->instruction[ir->count] = instruction;
     return (uint16_t)ir->count++;
+}
+
+/* A step without instructions is replaced by the next one, so there are fewer steps than instructions. */
+void ir_note_step(struct ir *ir, uint32_t step)
+{
+    if (ir->steps && ir->step[ir->steps - 1].first == ir->count)
+        ir->steps--;
+    if (ir->count < IR_CAPACITY)
+        ir->step[ir->steps++] = (struct ir_step){ir->count, step};
+}
+
+uint32_t ir_step_of(const struct ir *ir, uint32_t origin)
+{
+    uint32_t low = 0, high = ir->steps;
+    while (low < high) {
+        uint32_t middle = (low + high) / 2;
+        if (ir->step[middle].first <= origin)
+            low = middle + 1;
+        else
+            high = middle;
+    }
+    return origin && low ? ir->step[low - 1].step : NO_STEP;
 }
 
 bool ir_is_invariant_read(const struct ir_instruction *instruction)
@@ -131,11 +156,11 @@ static void print_memory(const struct ir_instruction *i, FILE *out)
         fprintf(out, " stride %d", (int)i->field);
 }
 
-static void ir_print_instruction(const struct ir *ir, uint32_t number, FILE *out)
+void ir_print_instruction(const struct ir *ir, uint32_t number, FILE *out)
 {
     const struct ir_instruction *i = &ir->instruction[number];
     const struct ir_op_information *information = &ir_op_information[i->op];
-    fprintf(out, "%5u  %s  %-9s", number, type_name[i->type], information->name);
+    fprintf(out, "%s  %-9s", type_name[i->type], information->name);
     for (int o = 0; o < information->operands; o++)
         fprintf(out, " %%%u", i->operand[o]);
     if (i->op == IR_literal)
@@ -148,14 +173,30 @@ static void ir_print_instruction(const struct ir *ir, uint32_t number, FILE *out
         fprintf(out, " variable %d", (int)i->k);
     else if (i->op == IR_window)
         fprintf(out, " %s[%d]-> pitch +%d", base_name[i->base], (int)i->field, (int)i->k);
-    if (i->line)
-        fprintf(out, "    ; %s:%u", ir->file[i->file], i->line);
-    fputc('\n', out);
 }
 
-void ir_print(const struct ir *ir, FILE *out)
+void ir_print_source(const struct ir *ir, const struct program_text *text, uint32_t origin, uint32_t *last,
+                     FILE *out)
 {
-    for (uint32_t number = 1; number < ir->count; number++)
-        if (ir->instruction[number].op != IR_nop)
-            ir_print_instruction(ir, number, out);
+    uint32_t step = ir_step_of(ir, origin);
+    if (!text || step >= text->steps || text->line_of_step[step] == *last)
+        return;
+    *last = text->line_of_step[step];
+    fprintf(out, "; shader:%u: %s\n", *last, text->line[*last - 1]);
+}
+
+void ir_print(const struct ir *ir, const struct program_text *text, FILE *out)
+{
+    uint32_t last = 0;
+    for (uint32_t number = 1; number < ir->count; number++) {
+        const struct ir_instruction *i = &ir->instruction[number];
+        if (i->op == IR_nop)
+            continue;
+        ir_print_source(ir, text, i->origin, &last, out);
+        fprintf(out, "%5u  ", number);
+        ir_print_instruction(ir, number, out);
+        if (i->line)
+            fprintf(out, "    ; %s:%u", ir->file[i->file], i->line);
+        fputc('\n', out);
+    }
 }

@@ -84,6 +84,9 @@ struct ir_instruction {
     uint16_t operand[3];
     uint16_t line; /* of the file of the specification that recorded it; 0: none */
     uint8_t file;  /* index in `file` of struct ir */
+    /* The number of the recorded instruction that it was made from; 0: none. Passes keep it, so that listings
+     * can relate the code to the recording. */
+    uint16_t origin;
     int32_t k;
     int32_t field;
 };
@@ -102,6 +105,12 @@ static inline unsigned ir_operands(const struct ir_instruction *instruction)
  * address space only: pages that a routine does not reach are never touched. */
 enum { IR_CAPACITY = 65535, IR_FILES = 64, IR_CONSTANTS = 512 };
 
+/* The recorded instructions from `first` on belong to a step of the shader (struct program), or to
+ * NO_STEP. */
+struct ir_step {
+    uint32_t first, step;
+};
+
 /* A slot of the routine's constant table: the word at base + offset, broadcast to all lanes. */
 struct ir_constant {
     uint8_t base;
@@ -119,6 +128,8 @@ struct ir {
     const char *file[IR_FILES];
     struct ir_constant constant[IR_CONSTANTS];
     struct ir_instruction instruction[IR_CAPACITY];
+    uint32_t steps;
+    struct ir_step step[IR_CAPACITY]; /* in order of `first` */
 };
 
 /* Makes `ir` an empty program. */
@@ -127,8 +138,15 @@ void ir_start(struct ir *ir);
 /* Copies the program `from` to `ir`. */
 void ir_duplicate(struct ir *ir, const struct ir *from);
 
-/* Appends an instruction and returns its number; past the capacity sets `overflow` and returns 0. */
+/* Appends an instruction, whose number becomes its origin, and returns the number; past the capacity sets
+ * `overflow` and returns 0. */
 uint16_t ir_append(struct ir *ir, struct ir_instruction instruction);
+
+/* Notes that the next recorded instructions belong to a step of the shader, or to NO_STEP. */
+void ir_note_step(struct ir *ir, uint32_t step);
+
+/* Returns the step of the shader that recorded instruction `origin`, or NO_STEP. */
+uint32_t ir_step_of(const struct ir *ir, uint32_t origin);
 
 /* Returns true if the instruction only reads memory that no routine writes, so that it may move. */
 bool ir_is_invariant_read(const struct ir_instruction *instruction);
@@ -163,8 +181,17 @@ enum {
 #endif
 };
 
-/* Prints one line per instruction: number, type, operation, operands, line of the specification. */
-void ir_print(const struct ir *ir, FILE *out);
+/* Prints an instruction: type, operation, operands. */
+void ir_print_instruction(const struct ir *ir, uint32_t number, FILE *out);
+
+/* Prints one line per instruction: number, type, operation, operands, line of the specification. If `text` is
+ * not null, the lines of the shader are printed before the instructions that they record. */
+void ir_print(const struct ir *ir, const struct program_text *text, FILE *out);
+
+/* Prints the shader's line of recorded instruction `origin` if it is not line *last, which it becomes. */
+void ir_print_source(const struct ir *ir, const struct program_text *text, uint32_t origin, uint32_t *last,
+                     FILE *out);
+
 /* Records the specification of a unit for a key (record.c). */
 void ir_record(struct ir *ir, enum unit unit, const union key *key);
 

@@ -134,6 +134,7 @@ void asset_free(struct resource *resource)
     }
     if (resource->type == RESOURCE_SHADER) {
         free(resource->code);
+        free(resource->written);
         program_release(resource->program);
     }
     *resource = (struct resource){.type = resource->type};

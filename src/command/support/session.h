@@ -5,6 +5,7 @@
 #include "image/compare.h"
 #include "command/stream/stream.h"
 #include "command/support/tool.h"
+#include "contract/key.h"
 
 #include <stdbool.h>
 
@@ -38,6 +39,17 @@ int session_play(const struct command *self, struct session *session, unsigned f
 
 /* Returns true if executed[position] draws primitives. */
 bool session_is_draw(const struct stream *stream, uint32_t position);
+
+/* Finds a draw of a frame, both numbered from 0: its position in `executed`. Returns 0, or STATUS_BAD after
+ * printing the reason (draw.c). */
+int session_find_draw(const struct command *self, const struct stream *stream, unsigned frame, unsigned draw,
+                      uint32_t *position);
+
+/* The key of a unit's routine at the draw of that position, in a device with the engine of that number. The
+ * program of a shader in the key is valid until the stream is freed. Returns 0, or STATUS_BAD after
+ * printing the reason. */
+int session_read_key(const struct command *self, const struct stream *stream, uint32_t draw, unsigned engine,
+                     enum unit unit, union key *key);
 
 /* The i-th of `count` frames spread evenly over `all` frames, the first and the last included. */
 unsigned session_spread(unsigned i, unsigned count, unsigned all);

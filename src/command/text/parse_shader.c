@@ -1,5 +1,5 @@
 /* Shaders in the text: definitions, bindings and constants. A shader is kept as a program and as canonical
- * text, from which the device creates it. */
+ * text, from which the device creates it. The text between braces is kept too, for listings. */
 #include "shader/program/program.h"
 #include "command/assets/asset.h"
 #include "command/text/parse.h"
@@ -29,6 +29,9 @@ static int parse_text(struct parser *parser, struct resource *resource)
     if (shader_assemble(resource->name, text, bytes, &shader, &reason) ||
         asset_keep_shader(resource, shader, &reason))
         return lex_fail(lex, &place, "%s", reason.text);
+    resource->written = strndup(text, bytes);
+    if (!resource->written)
+        return lex_fail(lex, &place, "out of memory for the text of a shader");
     return lex_next(lex);
 }
 

@@ -1,7 +1,4 @@
-/* `triptych dump`: how an engine makes the routine of one draw call.
- *
- * The key comes from the renderer: a device executes the states that precede the draw, and the draw itself,
- * but no other draws. The only routines that it builds are then those of the draw. */
+/* `triptych dump`: how an engine makes the routine of one draw call. */
 #include "machine/code.h"
 #include "contract/key.h"
 #include "engines/external/external.h"
@@ -82,96 +79,21 @@ static const struct dumper *find_dumper(const struct command *self, unsigned eng
            NULL;
 }
 
-static bool is_clear(const struct stream *stream, uint32_t position)
-{
-    return stream->calls[stream->executed[position]].type == CALL_CLEAR;
-}
-
-/* The index in `executed` of that draw of the frame. */
-static int find_draw(const struct command *self, const struct stream *stream, const struct settings *settings,
-                     uint32_t *position)
-{
-    if (settings->frame >= stream->frame_count)
-        return tool_fail(self, "%s has no frame %u, its last is %u", stream->path, settings->frame,
-                         stream->frame_count - 1);
-    unsigned draws = 0;
-    for (uint32_t i = stream->frames[settings->frame]; i < stream->frames[settings->frame + 1]; i++)
-        if (session_is_draw(stream, i) && draws++ == settings->draw)
-            return *position = i, STATUS_OK;
-    return tool_fail(self, "%s: frame %u has no draw %u, it has %u, from 0", stream->path, settings->frame,
-                     settings->draw, draws);
-}
-
-/* A copy of the stream with one frame: all calls up to the draw, without other draws and clears. The arrays
- * `executed` and `frames` belong to the copy; the rest is shared. */
-static struct stream single_draw(const struct stream *stream, uint32_t draw, uint32_t *executed,
-                                 uint32_t frames[static 2])
-{
-    struct stream view = *stream;
-    view.executed = executed;
-    view.executed_count = 0;
-    for (uint32_t i = 0; i <= draw; i++)
-        if (i == draw || (!session_is_draw(stream, i) && !is_clear(stream, i)))
-            executed[view.executed_count++] = stream->executed[i];
-    view.frames = frames;
-    view.frame_count = 1;
-    frames[0] = 0;
-    frames[1] = view.executed_count;
-    return view;
-}
-
-/* The key of the unit's routine, among those that the session's device has built. */
-static int find_key(const struct command *self, const struct session *session, enum unit unit, union key *key)
-{
-    struct triptych_routine_info info;
-    for (unsigned i = 0; triptych_get_routine(session->device, i, &info); i++) {
-        const char *where;
-        if (strcmp(info.unit, unit_name[unit]))
-            continue;
-        if (key_parse(unit, info.key, key, &where))
-            return tool_fail(self, "the key of routine %u cannot be read at \"%s\"", info.number, where);
-        return STATUS_OK;
-    }
-    return tool_fail(self, "the draw has no %s routine: it covers no pixels", unit_name[unit]);
-}
-
-static int read_key(const struct command *self, const struct stream *stream, uint32_t draw, unsigned engine,
-                    enum unit unit, union key *key)
-{
-    uint32_t frames[2], *executed = malloc((draw + 1) * sizeof *executed);
-    if (!executed)
-        return tool_fail(self, "no memory for %u calls", draw + 1);
-    struct stream view = single_draw(stream, draw, executed, frames);
-    struct session session = {0};
-    int status = session_open(self, &view, engine, 1, &session);
-    if (!status)
-        status = session_play(self, &session, 0);
-    if (!status)
-        status = find_key(self, &session, unit, key);
-    session_close(&session);
-    free(executed);
-    return status;
-}
-
-/* Prints the shader that the key numbers, if there is one. */
+/* Prints the shader that the key numbers, if there is one, with the numbers of its lines. */
 static int print_shader(enum unit unit, const union key *key, struct error *error)
 {
     const struct program *program = key_shader(unit, key);
-    struct shader *shader = NULL;
-    char *text = NULL;
-    size_t bytes;
+    struct program_text text;
     if (!program)
         return 0;
-    if (shader_read("shader", program->tokens, program->token_count * sizeof *program->tokens, &shader,
-                    error))
+    if (program_text_open(program, &text, error))
         return -1;
-    int bad = shader_print(shader, &text, &bytes, error);
-    if (!bad)
-        printf("shader %u, %u instruction slots, %u steps:\n%s\n", program->number, program->slots,
-               program->steps, text);
-    free(text);
-    shader_free(shader);
-    return bad;
+    printf("shader %u, %u instruction slots, %u steps:\n", program->number, program->slots, program->steps);
+    for (uint32_t line = 0; line < text.lines; line++)
+        printf("%5u  %s\n", line + 1, text.line[line]);
+    putchar('\n');
+    program_text_free(&text);
+    return 0;
 }
 
 static int dump_key(const struct command *self, const struct dumper *dumper, enum unit unit,
@@ -195,22 +117,21 @@ static int dump(const struct command *self, const char *path, const struct setti
         return STATUS_BAD;
     uint32_t draw = 0;
     union key key;
-    int status = find_draw(self, stream, settings, &draw);
+    int status = session_find_draw(self, stream, settings->frame, settings->draw, &draw);
     if (!status)
-        status = read_key(self, stream, draw, engine, unit, &key);
+        status = session_read_key(self, stream, draw, engine, unit, &key);
     if (!status)
         status = dump_key(self, dumper, unit, &key, settings->show);
     stream_free(stream);
     return status;
 }
 
-static const char notes[] = "The text of the draw's shader comes first. Stages of specialize: key, record "
-                            "(the operations as recorded), the\n"
-                            "name of a pass (the operations after it; triptych list passes), intervals "
-                            "(registers), asm (the code), all.\n"
-                            "Stages of external: key, vector (the operations that the text is made from), "
-                            "text (C), asm, all. The stitching\n"
-                            "engines show their fragments, holes and code.";
+static const char notes[] =
+    "The text of the draw's shader comes first, and each of its lines again before what it becomes.\n"
+    "Stages of specialize: key, record (the operations as recorded), the name of a pass (the operations\n"
+    "after it; triptych list passes), intervals (registers), asm (the code), all.\n"
+    "Stages of external: key, vector (the operations that the text is made from), text (C), asm, all.\n"
+    "The stitching engines show their fragments, holes and code.";
 
 static int run(const struct command *self, void *data, const struct operands *operands)
 {

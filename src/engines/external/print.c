@@ -1,4 +1,5 @@
-/* Prints the recording as C: one statement for each instruction, with its line of the specification.
+/* Prints the recording as C: one statement for each instruction, with its number and its line of the
+ * specification.
  *
  * The function is the loop of engines/specialize/emit/frame.c around the body. Values are named v and
  * their number, variables x and theirs. Literals and words of the draw are loaded once before the loop,
@@ -32,7 +33,7 @@ static void begin_line(const struct printer *p)
 static void end_line(const struct printer *p, const struct ir_instruction *i)
 {
     if (i->line)
-        fprintf(p->out, " // %s:%u", p->ir->file[i->file], i->line);
+        fprintf(p->out, " // %%%u %s:%u", (unsigned)(i - p->ir->instruction), p->ir->file[i->file], i->line);
     fputc('\n', p->out);
 }
 

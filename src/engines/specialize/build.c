@@ -29,15 +29,15 @@ struct check {
     bool failed;
 };
 
-static void check_pass(void *context, enum pass pass, const struct ir *ir)
+static void check_pass(void *context, enum pass pass, unsigned changed, const struct ir *ir)
 {
     struct check *check = context;
     char name[48];
     snprintf(name, sizeof name, "the result of pass %s", pass_name(pass));
-    if (!check->failed)
+    if (changed && !check->failed)
         check->failed = ir_check(ir, name, check->error) != 0;
     if (check->observer)
-        check->observer(check->context, pass, ir);
+        check->observer(check->context, pass, changed, ir);
 }
 
 /* Returns 0, or -1 with the reason if the program is verified (IR_CHECKED) and not valid. */

@@ -1,5 +1,6 @@
-/* Prints the phases of a build: the key, the recording, the program after each pass that changed it, the live
- * intervals, and the machine code with the line of the specification of each instruction. */
+/* Prints the phases of a build: the key, the recording, the program after each run of a pass, the live
+ * intervals, and the machine code with the line of the specification of each instruction. The lines of a
+ * shader are repeated before the instructions that they become. */
 #include "base/bits.h"
 #include "base/words.h"
 #include "machine/code.h"
@@ -14,7 +15,10 @@ struct dump {
     const char *show;
     FILE *out;
     struct builder *builder;
-    uint32_t line; /* the next entry of the emitter's line table */
+    const struct program_text *text; /* of the shader, or null */
+    uint32_t line;                   /* the next entry of the emitter's line table */
+    uint32_t shader_line;            /* the line of the shader that was printed last */
+    uint32_t ran;                    /* bit p: pass p has run */
 };
 
 /* Returns true if `name` is one of the comma-separated words of `show`, or if `all` is. */
@@ -57,13 +61,24 @@ static int check_words(const char *show, struct error *error)
     return 0;
 }
 
-static void after_pass(void *context, enum pass pass, const struct ir *ir)
+static void after_pass(void *context, enum pass pass, unsigned changed, const struct ir *ir)
 {
     struct dump *dump = context;
+    dump->ran |= 1u << pass;
     if (!shows(dump->show, pass_name(pass)))
         return;
     fprintf(dump->out, "\n== after %s: %s\n", pass_name(pass), pass_description(pass));
-    ir_print(ir, dump->out);
+    if (changed)
+        ir_print(ir, dump->text, dump->out);
+    else
+        fputs("nothing changed\n", dump->out);
+}
+
+static void print_absent_passes(const struct dump *dump)
+{
+    for (unsigned p = 0; p < PASS_COUNT; p++)
+        if (!(dump->ran >> p & 1) && shows(dump->show, pass_name(p)))
+            fprintf(dump->out, "\n== %s: this engine does not run it\n", pass_name(p));
 }
 
 /* Prints an instruction, and the line of the specification if it is not that of the instruction before. */
@@ -75,6 +90,8 @@ static void print_line(void *context, size_t offset, size_t length, const char *
     while (dump->line < m->lines && m->line[dump->line].offset <= offset)
         i = &m->ir->instruction[m->line[dump->line++].instruction];
     (void)length;
+    if (i)
+        ir_print_source(m->ir, dump->text, i->origin, &dump->shader_line, dump->out);
     fprintf(dump->out, "%6zx  %-58s", offset, text);
     if (i && i->line)
         fprintf(dump->out, " ; %%%u %s %s:%u", (unsigned)(i - m->ir->instruction),
@@ -106,11 +123,12 @@ static int dump_phases(struct dump *dump, const struct build_options *options, e
     if (shows(dump->show, "record")) {
         ir_record(&b->ir, unit, key);
         fprintf(dump->out, "\n== record: the spec's operations for this key\n");
-        ir_print(&b->ir, dump->out);
+        ir_print(&b->ir, dump->text, dump->out);
     }
     size_t bytes = specialize_code(b, options, unit, key, after_pass, dump, error);
     if (!bytes)
         return -1;
+    print_absent_passes(dump);
     if (shows(dump->show, "intervals")) {
         fprintf(dump->out, "\n== intervals: from definition to last use; = in a register, . in memory\n");
         allocate_print(&b->ir, &b->allocation, dump->out);
@@ -131,8 +149,13 @@ int specialize_dump(const struct engine *engine, enum unit unit, const union key
     if (!b)
         return -1;
     const struct build_options options = specialize_options(engine, unit);
-    struct dump dump = {.show = show, .out = out, .builder = b};
-    int result = dump_phases(&dump, &options, unit, key, error);
+    const struct program *program = key_shader(unit, key);
+    struct program_text text = {0};
+    struct dump dump = {.show = show, .out = out, .builder = b, .text = program ? &text : NULL};
+    int result = program ? program_text_open(program, &text, error) : 0;
+    if (!result)
+        result = dump_phases(&dump, &options, unit, key, error);
+    program_text_free(&text);
     specialize_give(b);
     return result;
 }

@@ -158,6 +158,9 @@ int plan_join(struct plan *plan, struct code_arena *arena, struct code_span *spa
 struct routine *plan_routine(struct plan *plan, const struct engine *engine, struct code_arena *arena,
                              enum unit unit, const union key *key, struct error *error);
 
+/* Writes a part: its fragment's name, and its arguments with their names. */
+void plan_print_part(const struct part *part, FILE *out);
+
 /* Writes each part: its fragment, arguments, line of the specification and instructions. The plan must be
  * joined to `span`. */
 void plan_print(const struct plan *plan, const struct code_span *span, FILE *out);

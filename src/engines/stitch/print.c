@@ -70,8 +70,10 @@ static void print_argument(const struct part *part, unsigned n, const char *name
         fprintf(out, !strncmp(name, "value", 5) && length == 5 ? "0x%x" : "%d", value);
 }
 
-static void print_arguments(const struct part *part, const char *name, FILE *out)
+void plan_print_part(const struct part *part, FILE *out)
 {
+    const char *name = stitch_fragment_text(part->fragment).arguments;
+    fputs(part->fragment->name, out);
     for (unsigned n = 0; *name; n++) {
         int length = (int)strcspn(name, ",");
         print_argument(part, n, name, length, out);
@@ -97,10 +99,9 @@ void plan_print(const struct plan *plan, const struct code_span *span, FILE *out
     for (unsigned i = 0; i < plan->count; i++) {
         const struct part *part = plan->part + i;
         struct listing listing = {out, part->offset};
-        struct fragment_text text = stitch_fragment_text(part->fragment);
-        fprintf(out, "%u %s", i, part->fragment->name);
-        print_arguments(part, text.arguments, out);
-        fprintf(out, "  ; %s", text.meaning);
+        fprintf(out, "%u ", i);
+        plan_print_part(part, out);
+        fprintf(out, "  ; %s", stitch_fragment_text(part->fragment).meaning);
         if (part->file)
             fprintf(out, ", %s:%d", part->file, part->line);
         fputc('\n', out);

@@ -28,10 +28,7 @@ static const char *want_operations(enum unit unit, const union key *key)
     return "";
 }
 
-/* Plans with the granularity that the engine chooses. Returns null for stages, else the reason for
- * operations. */
-static const char *make_plan(struct plan *plan, const struct engine *engine, enum unit unit,
-                             const union key *key)
+const char *stitch_plan(struct plan *plan, const struct engine *engine, enum unit unit, const union key *key)
 {
     const struct stitch_options *options = engine->options;
     const char *reason = options->lack(unit, key);
@@ -91,7 +88,7 @@ static struct routine *build(const struct engine *self, struct code_arena *arena
     struct plan *plan = plan_take(error);
     if (!plan)
         return NULL;
-    make_plan(plan, self, unit, key);
+    stitch_plan(plan, self, unit, key);
     if (plan->missing)
         refuse_key(unit, key, error);
     struct routine *routine = plan_routine(plan, self, arena, unit, key, error);
@@ -132,7 +129,7 @@ static int describe(const struct routine *routine, struct debug_code *code, stru
     struct plan *plan = plan_take(error);
     if (!plan)
         return -1;
-    make_plan(plan, routine->engine, routine->unit, &routine->key);
+    stitch_plan(plan, routine->engine, routine->unit, &routine->key);
     int result = plan_lay_out(plan, error);
     if (!result && (plan->bytes != routine->code_bytes || plan->count != routine->parts))
         result =
@@ -166,6 +163,11 @@ const struct engine engine_stitch_operation = {
     .describe = describe,
 };
 
+bool stitch_is_engine(const struct engine *engine)
+{
+    return engine->build == build;
+}
+
 static int print_plan(struct plan *plan, struct code_arena *arena, FILE *out, struct error *error)
 {
     struct code_span span;
@@ -180,12 +182,12 @@ int stitch_dump(const struct engine *engine, struct code_arena *arena, enum unit
                 FILE *out, struct error *error)
 {
     char text[KEY_TEXT_CAPACITY];
-    if (engine->build != build)
+    if (!stitch_is_engine(engine))
         return error_set(error, "engine %s does not stitch", engine->name);
     struct plan *plan = plan_take(error);
     if (!plan)
         return -1;
-    const char *reason = make_plan(plan, engine, unit, key);
+    const char *reason = stitch_plan(plan, engine, unit, key);
     fprintf(out, "%s %s %s\n", engine->name, unit_name[unit], key_print(unit, key, text));
     fprintf(out, "granularity: %s", reason ? "operation" : "stage");
     if (reason && *reason)

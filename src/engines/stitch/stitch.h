@@ -18,6 +18,14 @@ struct stitch_options {
     stitch_coverage *lack;
 };
 
+/* Plans a routine with the granularity that the engine chooses. Returns null for stage fragments, else the
+ * reason for operation fragments, which may be empty. */
+struct plan;
+const char *stitch_plan(struct plan *plan, const struct engine *engine, enum unit unit, const union key *key);
+
+/* Returns true if an engine is one of these. */
+bool stitch_is_engine(const struct engine *engine);
+
 /* Writes a routine's granularity and the reason for it, the fragments it is joined from with the values of
  * their holes, and its disassembly. Returns 0, or -1 with the reason. */
 int stitch_dump(const struct engine *engine, struct code_arena *arena, enum unit unit, const union key *key,

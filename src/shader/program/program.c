@@ -123,7 +123,7 @@ static int fill(struct program *program, const struct shader *shader, struct err
     }
     for (uint32_t n = 0; n < shader->count; n++) {
         const struct shader_instruction *i = &shader->instructions[n];
-        if (i->opcode != SHADER_PHASE && shader_operations[i->opcode].flags & IS_SETUP)
+        if (!program_has_step(i))
             continue;
         program->step[program->steps++].instruction = *i;
         if (note_instruction(program, i, error))

@@ -131,6 +131,12 @@ enum {
     PROGRAM_LOOPS = 16          /* the most loops around an instruction, those around calls included */
 };
 
+/* Returns true for an instruction that is a step of its program: no declaration and no definition. */
+static inline bool program_has_step(const struct shader_instruction *instruction)
+{
+    return instruction->opcode == SHADER_PHASE || !(shader_operations[instruction->opcode].flags & IS_SETUP);
+}
+
 /* The program of a valid shader, with one more user. Returns null with the reason if the shader exceeds the
  * bounds or memory is short. The shader may be freed. */
 const struct program *program_acquire(const struct shader *shader, struct error *error);
@@ -177,6 +183,24 @@ static inline int program_integer_offset(const struct program *program, unsigned
 {
     return (int)(16 * (program->constants + 1 + index));
 }
+
+/* A text of a program, and where each step is in it. */
+struct program_text {
+    char *text;  /* the lines, each ended by a zero byte */
+    char **line; /* line n is line[n - 1] */
+    uint32_t lines;
+    uint32_t *line_of_step;
+    uint32_t steps;
+};
+
+/* Fills `text` with the written text of a shader that is this program: `bytes` bytes and a zero byte, which
+ * it frees in any case. Returns 0, or -1 with the reason; `text` is then empty. */
+int program_text_read(const struct program *program, char *written, size_t bytes, struct program_text *text,
+                      struct error *error);
+
+/* The same with the canonical text. */
+int program_text_open(const struct program *program, struct program_text *text, struct error *error);
+void program_text_free(struct program_text *text);
 
 /* --- For the parts ------------------------------------------------------------------------------------- */
 

@@ -61,6 +61,7 @@ static inline void execute_where(struct env *e, struct machine *m, const struct 
         if (step->leaves)
             set_m(E, live, m->live);
     }
+    NOTE_STEP(E, (uint32_t)(step - m->program->step));
     load_cells(E, m, &step->written);
     m->masked = masked;
     m->mask = mask;
@@ -167,6 +168,7 @@ static inline void execute_pass(struct env *e, struct machine *m, uint32_t at, i
     m->masked = partly;
     m->mask = m->live;
     execute_steps(E, m, at + 1, step->match);
+    NOTE_STEP(E, step->match);
     settle(E, m);
     save_cells(E, m, &step->written);
     msk more = gt_i(E, fewer, lit_i(E, 0));
@@ -239,6 +241,7 @@ static inline void execute_steps(struct env *e, struct machine *m, uint32_t from
 {
     const struct program_step *step = m->program->step;
     for (uint32_t at = from; at < to;) {
+        NOTE_STEP(E, at);
         if (at + 1 < to && step[at + 1].instruction.coissue) {
             execute_pair(E, m, &step[at].instruction, &step[at + 1].instruction);
             at += 2;
@@ -276,6 +279,7 @@ static inline void machine_begin(struct env *e, struct machine *m, const uint8_t
 static inline void machine_run(struct env *e, struct machine *m)
 {
     execute_steps(E, m, 0, m->program->main);
+    NOTE_STEP(E, NO_STEP);
 }
 
 #endif

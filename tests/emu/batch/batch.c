@@ -216,7 +216,7 @@ static void test_values_with_separate_lifetimes_share_a_row(void)
         last = ir_append(ir,
                          (struct ir_instruction){.op = IR_mul_i, .type = TYPE_itg, .operand = {last, first}});
     ir_append(ir, (struct ir_instruction){.op = IR_store, .base = BASE_OUTPUT, .operand = {last}});
-    struct schedule *schedule = schedule_create(ir, 64, &error);
+    struct schedule *schedule = schedule_create(ir, 64, NULL, &error);
     TEST_ASSERT_NOT_NULL_MESSAGE(schedule, error.text);
     TEST_ASSERT_EQUAL(2 * 64 * 4, schedule->scratch_bytes);
     schedule_free(schedule);
@@ -230,7 +230,7 @@ static void test_values_that_are_not_stored_have_no_steps(void)
         ir_append(ir, (struct ir_instruction){.op = IR_load, .type = TYPE_flt, .base = BASE_INPUT});
     ir_append(ir, (struct ir_instruction){.op = IR_sqrt_f, .type = TYPE_flt, .operand = {value}});
     ir_append(ir, (struct ir_instruction){.op = IR_set, .type = TYPE_flt, .operand = {value}, .k = 7});
-    struct schedule *schedule = schedule_create(ir, 64, &error);
+    struct schedule *schedule = schedule_create(ir, 64, NULL, &error);
     TEST_ASSERT_NOT_NULL_MESSAGE(schedule, error.text);
     TEST_ASSERT_EQUAL(1, schedule->count); /* the end */
     schedule_free(schedule);

@@ -34,8 +34,9 @@ void tearDown(void)
     code_destroy(arena);
 }
 
-static void verify_after(void *context, enum pass pass, const struct ir *ir)
+static void verify_after(void *context, enum pass pass, unsigned changed, const struct ir *ir)
 {
+    (void)changed;
     const char *wrong = ir_verify(ir);
     if (!wrong)
         return;

@@ -23,9 +23,9 @@ static void verify(const struct ir *ir)
     TEST_ASSERT_NULL_MESSAGE(wrong, wrong);
 }
 
-static void verify_after(void *context, enum pass pass, const struct ir *ir)
+static void verify_after(void *context, enum pass pass, unsigned changed, const struct ir *ir)
 {
-    (void)context, (void)pass;
+    (void)context, (void)pass, (void)changed;
     verify(ir);
 }
 

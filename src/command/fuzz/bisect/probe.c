@@ -33,10 +33,11 @@ struct teller {
     const struct probe_options *options;
 };
 
-static void tell(void *context, enum pass pass, const struct ir *ir)
+static void tell(void *context, enum pass pass, unsigned changed, const struct ir *ir)
 {
     const struct probe_options *options = ((struct teller *)context)->options;
-    options->observer(options->context, pass, ir);
+    if (changed)
+        options->observer(options->context, pass, ir);
 }
 
 struct routine *probe_build(const struct routine *like, struct code_arena *arena, const struct ir *ir,

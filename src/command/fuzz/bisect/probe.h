@@ -20,7 +20,8 @@ enum reading {
 enum reading probe_reading(const struct routine *routine);
 
 /* Builds a routine for a recording with the engine that made `like`. If the engine has passes, those in
- * `disabled` are left out and each of the others is reported to the observer. Null with the reason. */
+ * `disabled` are left out, and each run of another that changes something is reported to the observer. Null
+ * with the reason. */
 struct probe_options {
     uint32_t disabled;
     void (*observer)(void *context, unsigned pass, const struct ir *ir);

@@ -101,8 +101,12 @@ unsigned pass_common(struct ir *ir, struct pass_memory *memory)
         /* A value whose region is closed gives up its slot: no region opens again. */
         if (earlier && m->open[m->region[earlier]]) {
             m->replacement[number] = earlier;
-            *i = (struct ir_instruction){
-                .op = IR_copy, .type = i->type, .operand = {earlier}, .line = i->line, .file = i->file};
+            *i = (struct ir_instruction){.op = IR_copy,
+                                         .type = i->type,
+                                         .operand = {earlier},
+                                         .line = i->line,
+                                         .file = i->file,
+                                         .origin = i->origin};
             changes++;
         } else {
             hash_set(table, slot, number);

@@ -84,11 +84,11 @@ static uint32_t run_round(const struct run *run, uint32_t waiting, uint32_t repe
         if (!(waiting >> p & 1))
             continue;
         waiting &= ~(1u << p);
-        if (!passes[p].run(run->ir, run->memory))
-            continue;
-        waiting |= woken(p, repeated);
+        unsigned changed = passes[p].run(run->ir, run->memory);
+        if (changed)
+            waiting |= woken(p, repeated);
         if (run->observer)
-            run->observer(run->context, p, run->ir);
+            run->observer(run->context, p, changed, run->ir);
     }
     return waiting;
 }

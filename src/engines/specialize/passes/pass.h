@@ -67,8 +67,8 @@ typedef unsigned pass_function(struct ir *ir, struct pass_memory *memory);
 const char *pass_name(unsigned i);
 const char *pass_description(unsigned i);
 
-/* Called after each pass that changed something. */
-typedef void pass_observer(void *context, enum pass pass, const struct ir *ir);
+/* Called after each run of a pass, with the number of instructions that it changed. */
+typedef void pass_observer(void *context, enum pass pass, unsigned changed, const struct ir *ir);
 
 /* Runs the profile's passes except those whose bit is set in `disabled`, and compacts the program. Returns
  * the number of rounds. */

@@ -58,10 +58,12 @@ static uint16_t append_phi(struct construction *c, const struct ir_instruction *
                            unsigned type, uint16_t a, uint16_t b)
 {
     c->phis += op != IR_next;
-    return append(
-        c,
-        (struct ir_instruction){
-            .op = (uint8_t)op, .type = (uint8_t)type, .operand = {a, b}, .line = at->line, .file = at->file});
+    return append(c, (struct ir_instruction){.op = (uint8_t)op,
+                                             .type = (uint8_t)type,
+                                             .operand = {a, b},
+                                             .line = at->line,
+                                             .file = at->file,
+                                             .origin = at->origin});
 }
 
 /* --- Variables that loops set -------------------------------------------------------------------------- */

@@ -98,7 +98,8 @@ static void append_copies(struct preload *p, unsigned loop)
                                                                .type = source->type,
                                                                .operand = {p->pass->map[m->source[copy]]},
                                                                .line = source->line,
-                                                               .file = source->file};
+                                                               .file = source->file,
+                                                               .origin = source->origin};
     }
 }
 

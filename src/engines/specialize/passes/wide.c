@@ -54,7 +54,8 @@ static bool become_coverage(const struct ir *ir, struct ir_instruction *i)
                                      .base = BASE_ENTRY,
                                      .k = bits->k,
                                      .line = i->line,
-                                     .file = i->file};
+                                     .file = i->file,
+                                     .origin = i->origin};
         return true;
     }
     return false;
@@ -137,7 +138,8 @@ static bool become_reciprocal(const struct ir *ir, struct ir_instruction *i)
                                  .operand = {column->operand[x], row->operand[y]},
                                  .k = plane,
                                  .line = i->line,
-                                 .file = i->file};
+                                 .file = i->file,
+                                 .origin = i->origin};
     return true;
 }
 

@@ -92,7 +92,8 @@ static struct ir_instruction window_at(const struct ir *ir, uint32_t number)
                                     .k = upper.pitch,
                                     .operand = {upper.x, upper.y, upper.y},
                                     .line = i->line,
-                                    .file = i->file};
+                                    .file = i->file,
+                                    .origin = i->origin};
     if (number + 1 == ir->count || !reads(i + 1, i, i->operand[0], 1))
         return window;
     unsigned below = number + 2 < ir->count ? i[2].operand[0] : 0;
