@@ -1,6 +1,7 @@
 #!/bin/bash
 # Many pictures in one process: frames, draws, animations, contact sheets; standard streams as files;
-# comparison with tolerance and with goldens. Given BUILD, TRIPTYCH and SANITIZE by tests/support/scripts/run.sh.
+# comparison with tolerance and with goldens.
+# Given BUILD, TRIPTYCH and SANITIZE by tests/support/scripts/run.sh.
 set -uo pipefail
 cd "$(dirname "$0")/.."
 
@@ -88,6 +89,9 @@ holds 'draws of a container' bash -c "'$TRIPTYCH' convert '$work/four.tri' '$wor
 holds 'the draws of a shadow volume' "$TRIPTYCH" render tests/data/scenes/shadow-volume.tri --engine emulate --draws all \
     --sheet 5 --out "$work/draws.png"
 holds 'are those of the page: make gallery writes it' "$TRIPTYCH" compare "$work/draws.png" docs/images/draws.png
+holds 'frames of a recording' bash -c "TRIPTYCH_RECORD='$work/recorded.trib' '$TRIPTYCH' render '$work/four.tri' --engine emulate \
+    --frames all --out '$work/recording-%d.png' && '$TRIPTYCH' render '$work/recorded.trib' --engine emulate --frames 1-3 \
+    --out '$work/again-%d.png' && cmp '$work/again-3.png' '$work/one-3.png'"
 "$TRIPTYCH" render tests/data/streams/queries.tri --engine emulate --frames all --out "$work/q%d.png" >"$work/queries"
 holds 'results of queries name their frames' grep -q '^frame 0: .* samples passed$' "$work/queries"
 
