@@ -90,10 +90,6 @@ char *key_print(enum unit unit, const union key *key, char text[KEY_TEXT_CAPACIT
 /* Reads the text that key_print writes. Returns 0, or -1 with *where at the offending character. */
 int key_parse(enum unit unit, const char *text, union key *key, const char **where);
 
-/* A key with every field drawn uniformly from its radix; *seed advances (xorshift64*, non-zero). For tests:
- * random keys. */
-void key_random(enum unit unit, uint64_t *seed, union key *key);
-
 /* The program of a unit's key, or null if it has none. */
 const struct program *key_shader(enum unit unit, const union key *key);
 

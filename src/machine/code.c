@@ -345,11 +345,6 @@ void *code_writable(const struct code_arena *arena, const void *executable)
     return arena->writable + ((const uint8_t *)executable - arena->executable);
 }
 
-bool code_contains(const struct code_arena *arena, const void *executable)
-{
-    return (uintptr_t)executable - (uintptr_t)arena->executable < arena->capacity;
-}
-
 struct code_statistics code_statistics(struct code_arena *arena)
 {
     pthread_mutex_lock(&arena->mutex);

@@ -97,10 +97,6 @@ void code_free(struct code_arena *arena, struct code_span *span);
 const void *code_executable(const struct code_arena *arena, const void *writable);
 void *code_writable(const struct code_arena *arena, const void *executable);
 
-/* Returns true if `executable` is in the arena, as the address of a profile or a crash may be. For tests:
- * which arena an address belongs to. */
-bool code_contains(const struct code_arena *arena, const void *executable);
-
 struct code_statistics code_statistics(struct code_arena *arena);
 
 #endif

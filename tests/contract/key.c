@@ -1,5 +1,6 @@
 /* Keys: packed and textual forms keep every field, and refuse input that is not a key. */
 #include "contract/key.h"
+#include "tests/support/shader/random_key.h"
 
 #include <stdio.h>
 #include <string.h>

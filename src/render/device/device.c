@@ -271,8 +271,3 @@ const struct engine *device_engine(const struct triptych_device *device)
 {
     return device->engine;
 }
-
-struct code_arena *device_arena(const struct triptych_device *device)
-{
-    return device->arena;
-}

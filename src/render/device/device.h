@@ -386,12 +386,8 @@ void device_debug_error(struct triptych_device *device, struct error *error);
 
 void device_get_statistics(const struct triptych_device *device, struct triptych_statistics *statistics);
 
-/* For tools: a function that is called for each draw (null: none), and the parts that the device works
- * with. */
+/* For tools: a function that is called for each draw; null: none. */
 void device_on_draw(struct triptych_device *device, device_draw_callback *callback, void *user);
-/* For tests: the engine of a device. */
 const struct engine *device_engine(const struct triptych_device *device);
-/* For tests: the arena of a device. */
-struct code_arena *device_arena(const struct triptych_device *device);
 
 #endif

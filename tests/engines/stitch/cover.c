@@ -8,6 +8,7 @@
 #include "emu/emulate/emulate.h"
 #include "engines/stitch/stitch.h"
 #include "tests/support/routine/differential.h"
+#include "tests/support/shader/random_key.h"
 
 #include <stdlib.h>
 #include <string.h>

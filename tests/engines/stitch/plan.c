@@ -6,6 +6,7 @@
 #include "engines/stitch/cover.h"
 #include "engines/stitch/plan.h"
 #include "engines/stitch/stitch.h"
+#include "tests/support/shader/random_key.h"
 #include "tests/support/routine/stitched.h"
 
 #include <stdlib.h>

@@ -252,7 +252,7 @@ static void hooks_receive_each_draw_and_its_keys(void)
     TEST_ASSERT_EQUAL_INT(COMPARE_ALWAYS, heard_key[UNIT_PIXEL].pixel.depth_function);
     TEST_ASSERT_EQUAL_INT(ATTRIBUTE_FORMAT_COLOR, heard_key[UNIT_VERTEX].vertex.attribute[ATTRIBUTE_DIFFUSE]);
     TEST_ASSERT_EQUAL_PTR(&engine_emulate, device_engine(device));
-    TEST_ASSERT_NULL(device_arena(device));
+    TEST_ASSERT_NULL(device->arena);
 }
 
 static void routines_report_their_identity(void)

@@ -11,7 +11,6 @@ extern triptych_device *setting_device;
 struct setting {
     const char *name;
     void (*set)(unsigned variant);
-    unsigned never_needed; /* bits of parts that the setter changes but that no situation needs */
 };
 
 extern const struct setting settings[SETTINGS];

@@ -1,5 +1,6 @@
 /* Random keys that resemble those of draws more often than uniformly random ones. */
 #include "differential.h"
+#include "tests/support/shader/random_key.h"
 
 #include "tests/support/shader/programs.h"
 
