@@ -41,7 +41,8 @@ entries()
     find "$work/home" -type f 2>/dev/null | wc -l
 }
 
-XDG_CACHE_HOME=/dev/null "$TRIPTYCH" render "$stream" --engine emulate --out "$work/expected.png"
+"$TRIPTYCH" render "$stream" --engine emulate --out "$work/expected.png" --no-cache
+verdict 'the option --no-cache writes nothing' "$([[ ! -e $work/home ]] || ls -R "$work/home")"
 
 draws 'without an entry'
 verdict 'one entry is kept' "$([[ $(entries) == 1 ]] || entries)"
@@ -57,6 +58,13 @@ for change in 'truncate -s 100' 'truncate -s 0' 'truncate -s +1' 'sed -i s/TRI/T
 done
 printf x | dd of="$entry" bs=1 seek=20000 conv=notrunc status=none
 draws 'with an entry that has a wrong byte'
+printf 'not an entry' >"$entry"
+draws 'with the option --no-cache' --no-cache
+verdict 'which leaves a damaged entry' "$([[ $(<"$entry") == 'not an entry' ]] || echo changed)"
+for subcommand in bench bisect convert dump render verify; do
+    verdict "$subcommand has the option --no-cache" \
+        "$("$TRIPTYCH" "$subcommand" --help | grep -q -e --no-cache || echo "not in the help")"
+done
 
 rm -rf "$folder"
 for i in 1 2 3 4 5 6; do

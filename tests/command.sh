@@ -432,6 +432,25 @@ if "$TRIPTYCH" list engines | grep -q '^specialize .* available '; then
         dump "$work/good.tri" --engine stitch --show asm
 fi
 
+# --- Compression --------------------------------------------------------------------------------------------
+
+for level in 0 1 9; do
+    does "render with --compression $level" \
+        render "$work/good.tri" --engine emulate --compression $level --out "$work/level-$level.png"
+    holds 'the picture is the same' "$TRIPTYCH" compare "$picture" "$work/level-$level.png"
+done
+holds 'level 1 is the default' cmp "$picture" "$work/level-1.png"
+holds 'level 0 stores' test "$(stat -c %s "$work/level-0.png")" -gt $((40 * 30 * 4))
+holds 'level 9 is smaller' test "$(stat -c %s "$work/level-9.png")" -lt "$(stat -c %s "$work/level-0.png")"
+does 'an animation has a level too' \
+    render "$work/good.tri" --frames all --engine emulate --compression 0 --out "$work/level-0.apng"
+holds 'which stores its frames' test "$(stat -c %s "$work/level-0.apng")" -gt $((2 * 40 * 30 * 4))
+for subcommand in render verify compare; do
+    answers "$subcommand has the option --compression" '--compression LEVEL' "$subcommand" --help
+done
+refuses 'a level beyond the last' '--compression is "10", expected a whole number from 0 to 9' \
+    render "$work/good.tri" --compression 10 --out "$work/out/a.png"
+
 # --- Conversion ---------------------------------------------------------------------------------------------
 
 does 'convert' convert "$work/good.tri" "$work/canonical.tri"

@@ -23,7 +23,7 @@ golden_of() # STREAM
 if [[ ${GOLDENS-} == write ]]; then
     mkdir -p tests/data/goldens docs/images/gallery docs/images/shaders
     for stream in "$@"; do
-        "$TRIPTYCH" render "$stream" --engine emulate --out "$(golden_of "$stream")" || exit
+        "$TRIPTYCH" render "$stream" --engine emulate --compression 9 --out "$(golden_of "$stream")" || exit
     done
     exit
 fi

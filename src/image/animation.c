@@ -1,11 +1,13 @@
 #include "image/animation_part.h"
+#include "image/png.h"
 
 #include <stdlib.h>
 
 int animation_begin(struct animation *animation, enum animation_form form, const char *path, unsigned frames,
                     unsigned rate, struct error *error)
 {
-    *animation = (struct animation){.path = path, .form = form, .frames = frames, .rate = rate};
+    *animation = (struct animation){
+        .path = path, .form = form, .frames = frames, .rate = rate, .level = PNG_LEVEL_DEFAULT};
     return file_begin(&animation->output, path, error);
 }
 

@@ -21,6 +21,7 @@ struct animation {
     const char *path;
     enum animation_form form;
     unsigned frames, rate; /* the number of frames in all, and how many are shown in a second */
+    unsigned level;        /* of APNG (image/png.h); may be changed after animation_begin */
     unsigned added;
     unsigned width, height; /* of the first frame, which all others must have */
     uint32_t sequence;      /* of APNG: the number of the next chunk */

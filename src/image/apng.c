@@ -103,7 +103,7 @@ int apng_frame(struct animation *animation, const uint32_t *rgba, struct error *
     enum { HEADER = SIGNATURE + LENGTH + TYPE + 13 + CHECK };
     void *encoded;
     size_t bytes;
-    if (png_encode(animation->path, animation->width, animation->height, rgba, PNG_LEVEL_DEFAULT, &encoded,
+    if (png_encode(animation->path, animation->width, animation->height, rgba, animation->level, &encoded,
                    &bytes, error))
         return -1;
     const uint8_t *png = encoded;

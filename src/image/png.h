@@ -32,7 +32,7 @@ int png_encode(const char *path, unsigned width, unsigned height, const uint32_t
 /* Writes an RGBA8 PNG of the default level, atomically (base/file.h). Returns 0, or -1 with the reason. */
 int png_save(const char *path, unsigned width, unsigned height, const uint32_t *rgba, struct error *error);
 
-/* The same with a level from 0 to PNG_LEVEL_MAXIMUM. For tests: levels. */
+/* The same with a level from 0 to PNG_LEVEL_MAXIMUM. */
 int png_save_level(const char *path, unsigned width, unsigned height, const uint32_t *rgba, unsigned level,
                    struct error *error);
 

@@ -19,6 +19,8 @@
 #include "command/support/choose.h"
 #include "command/support/interrupt.h"
 #include "command/support/option.h"
+#include "command/support/shared.h"
+#include "command/store/store.h"
 #include "triptych.h"
 
 #include <stdio.h>
@@ -36,6 +38,7 @@ struct settings {
     bool shaders; /* a table of each shader */
     bool builds;  /* routines are built, no picture is drawn */
     bool cold;    /* frames whose routines are not built yet */
+    bool no_cache;
     bool compare; /* the operands are two files of earlier results */
 };
 
@@ -240,6 +243,7 @@ static int run(const struct command *self, void *data, const struct operands *op
     const struct settings *settings = data;
     struct choice engines;
     unsigned count = (unsigned)operands->count;
+    store_off |= settings->no_cache;
     if (settings->compare && count != 2)
         return tool_fail(self, "--compare has %u operands, expected two files that --json wrote", count);
     if (settings->compare)
@@ -282,6 +286,7 @@ static const struct option options[] = {
      OPTION_IS_FILE(struct settings, chart), .extension = "svg png"},
     {"compare", NULL, "measure nothing, compare two files of --json: A.json B.json",
      OPTION_IS_FLAG(struct settings, compare)},
+    OPTION_NO_CACHE(struct settings, no_cache),
     {0},
 };
 

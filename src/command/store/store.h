@@ -20,7 +20,7 @@
 /* The bounds of the folder, and of one entry. */
 enum { STORE_BYTES = 256 << 20, STORE_FILES = 4096, STORE_ENTRY_BYTES = 64 << 20 };
 
-/* Disables the cache for this process. For tests: they compare with and without. */
+/* Disables the cache for this process: the option --no-cache. */
 extern bool store_off;
 
 /* Writes the path of the folder. It need not exist. Returns false if there is no cache. */

@@ -45,14 +45,14 @@ char *difference_describe(const struct picture *picture, const struct difference
 }
 
 int difference_save(const struct command *self, const char *path, const struct picture *first,
-                    const struct picture *second)
+                    const struct picture *second, unsigned compression)
 {
     struct error error = {""};
     uint32_t *painting = malloc((size_t)first->width * first->height * sizeof *painting);
     if (!painting)
         return tool_fail(self, "no memory for a picture of %u x %u", first->width, first->height);
     compare_paint(first, second, painting);
-    int bad = png_save(path, first->width, first->height, painting, &error);
+    int bad = png_save_level(path, first->width, first->height, painting, compression, &error);
     free(painting);
     return bad ? tool_fail(self, "%s", error.text) : STATUS_OK;
 }

@@ -12,9 +12,9 @@ enum { DIFFERENCE_TEXT = 320 };
 char *difference_describe(const struct picture *picture, const struct difference *difference,
                           char text[DIFFERENCE_TEXT]);
 
-/* Writes a picture of the differences (image/compare.h) as a PNG. Returns 0, or STATUS_BAD after printing the
- * reason. */
+/* Writes a picture of the differences (image/compare.h) as a PNG of that level of compression (image/png.h).
+ * Returns 0, or STATUS_BAD after printing the reason. */
 int difference_save(const struct command *self, const char *path, const struct picture *first,
-                    const struct picture *second);
+                    const struct picture *second, unsigned compression);
 
 #endif

@@ -13,9 +13,10 @@ enum { CHANNELS = 4, COLORS = CHANNELS * TRIPTYCH_TARGETS, NAME_CAPACITY = 24, P
 
 /* --- Pictures as single files --------------------------------------------------------------------------- */
 
-static int save_png(const char *path, const struct readback *readback, struct error *error)
+static int save_png(const char *path, const struct readback *readback, unsigned compression,
+                    struct error *error)
 {
-    return png_save(path, readback->width, readback->height, readback->color, error);
+    return png_save_level(path, readback->width, readback->height, readback->color, compression, error);
 }
 
 /* Bytes become numbers from 0 to 1 in binary16, from which they can be recovered. Numbers and depth keep
@@ -37,8 +38,10 @@ static size_t color_channels(const struct readback *readback, const float *value
 }
 
 /* Stencil is a channel of numbers from 0 to 255. */
-static int save_exr(const char *path, const struct readback *readback, struct error *error)
+static int save_exr(const char *path, const struct readback *readback, unsigned compression,
+                    struct error *error)
 {
+    (void)compression; /* is of PNG */
     size_t pixels = (size_t)readback->width * readback->height;
     float *values = malloc(pixels * (CHANNELS + 1) * sizeof *values);
     if (!values)
@@ -66,7 +69,7 @@ static int save_exr(const char *path, const struct readback *readback, struct er
 /* `save` writes one picture; without it, the form holds all. */
 static const struct sink_form {
     const char *name; /* its extension is the same */
-    int (*save)(const char *path, const struct readback *readback, struct error *error);
+    int (*save)(const char *path, const struct readback *readback, unsigned compression, struct error *error);
     enum animation_form animation;
 } forms[] = {
     {"png", save_png, 0}, /* colour and alpha */
@@ -190,13 +193,15 @@ int sink_open(const struct command *self, const struct sink_options *options, st
     else if (!sink->form->save && animation_begin(&sink->animation, sink->form->animation, options->path,
                                                   options->count, options->rate, &error))
         return tool_fail(self, "%s", error.text);
+    sink->animation.level = options->compression;
     return STATUS_OK;
 }
 
 static int save_next(struct sink *sink, const struct readback *readback, struct error *error)
 {
     char name[PATH_CAPACITY];
-    return name_picture(sink, sink->options.first++, name, error) || sink->form->save(name, readback, error);
+    return name_picture(sink, sink->options.first++, name, error) ||
+           sink->form->save(name, readback, sink->options.compression, error);
 }
 
 int sink_add(struct sink *sink, const struct readback *readback)
@@ -215,8 +220,8 @@ int sink_close(struct sink *sink, int status)
     struct error error = {""};
     int bad = 0;
     if (sink->options.columns && !status)
-        bad = png_save(sink->options.path, sheet_width(&sink->sheet), sheet_height(&sink->sheet),
-                       sink->sheet.rgba, &error);
+        bad = png_save_level(sink->options.path, sheet_width(&sink->sheet), sheet_height(&sink->sheet),
+                             sink->sheet.rgba, sink->options.compression, &error);
     else if (!sink->form->save && !status)
         bad = animation_end(&sink->animation, &error);
     else if (!sink->form->save)

@@ -18,6 +18,7 @@ struct sink_options {
     unsigned form;         /* an index of sink_form_name, or SINK_BY_NAME: by the extension of the path */
     unsigned columns;      /* of a contact sheet; 0: none */
     unsigned rate;         /* frames a second of an animation */
+    unsigned compression;  /* of PNG and APNG (image/png.h) */
     unsigned first, count; /* the pictures' numbers */
     bool numbered;         /* the path may contain %d */
 };

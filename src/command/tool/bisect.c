@@ -5,6 +5,8 @@
 #include "command/support/choose.h"
 #include "command/support/json.h"
 #include "command/support/option.h"
+#include "command/support/shared.h"
+#include "command/store/store.h"
 #include "command/support/session.h"
 #include "triptych.h"
 
@@ -134,6 +136,7 @@ static const char notes[] = "The routines of both engines run on the same inputs
 struct settings {
     const char *engines, *pixel, *json;
     unsigned draw;
+    bool no_cache;
 };
 
 static int run(const struct command *self, void *data, const struct operands *operands)
@@ -142,6 +145,7 @@ static int run(const struct command *self, void *data, const struct operands *op
     struct bisect_options wanted = {
         .draw = BISECT_ANY, .x = BISECT_ANY, .y = BISECT_ANY, .progress = show_progress};
     struct choice engines;
+    store_off |= settings->no_cache;
     if (choose_engines(self, settings->engines, &engines) || tool_check_output(self, settings->json) ||
         (settings->pixel && read_pixel(self, settings->pixel, &wanted)))
         return STATUS_BAD;
@@ -162,6 +166,7 @@ static const struct option options[] = {
     {"pixel", "X,Y", "examine only this pixel", OPTION_IS_TEXT(struct settings, pixel)},
     {"json", "FILE", "also write the report to FILE", OPTION_IS_FILE(struct settings, json),
      .extension = "json"},
+    OPTION_NO_CACHE(struct settings, no_cache),
     {0},
 };
 

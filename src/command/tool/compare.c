@@ -3,6 +3,7 @@
 #include "command/support/difference.h"
 #include "command/support/json.h"
 #include "command/support/option.h"
+#include "command/support/shared.h"
 
 #include <inttypes.h>
 #include <math.h>
@@ -11,7 +12,7 @@
 
 struct settings {
     const char *painting, *json;
-    unsigned tolerance, allowed;
+    unsigned tolerance, allowed, compression;
 };
 
 enum outcome { IDENTICAL, SIMILAR, DIFFERENT, DIFFERENT_SIZES };
@@ -104,7 +105,7 @@ static int report(const struct command *self, char **paths, const struct picture
     if (settings->json && write_json(self, paths, picture, settings, &result))
         return STATUS_BAD;
     if (settings->painting && has_distance(&result) &&
-        difference_save(self, settings->painting, picture, picture + 1))
+        difference_save(self, settings->painting, picture, picture + 1, settings->compression))
         return STATUS_BAD;
     return result.outcome == IDENTICAL || result.outcome == SIMILAR ? STATUS_OK : STATUS_DIFFERENT;
 }
@@ -130,6 +131,8 @@ static int run(const struct command *self, void *data, const struct operands *op
     return status;
 }
 
+static const struct settings defaults = {.compression = PNG_LEVEL_DEFAULT};
+
 static const struct option options[] = {
     {"difference", "FILE", "a PNG picture to write of the differences, in red",
      OPTION_IS_FILE(struct settings, painting), .extension = "png"},
@@ -137,6 +140,7 @@ static const struct option options[] = {
      OPTION_IS_NUMBER(struct settings, tolerance), .most = 255},
     {"allow", "N", "the number of pixels that may differ by more; 0",
      OPTION_IS_NUMBER(struct settings, allowed), .most = 1 << 26},
+    OPTION_COMPRESSION(struct settings, compression),
     {"json", "FILE", "write the result", OPTION_IS_FILE(struct settings, json), .extension = "json"},
     {0},
 };
@@ -158,6 +162,7 @@ const struct command command_compare = {
     .options = options,
     .operands = operands,
     .notes = notes,
+    .defaults = &defaults,
     .settings_bytes = sizeof(struct settings),
     .run = run,
 };

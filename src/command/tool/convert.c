@@ -3,6 +3,8 @@
 #include "base/file.h"
 #include "command/container/container.h"
 #include "command/support/option.h"
+#include "command/support/shared.h"
+#include "command/store/store.h"
 
 #include <stdio.h>
 #include <string.h>
@@ -11,7 +13,7 @@
 enum { FORM_BY_NAME = 0xffff };
 
 struct settings {
-    bool salvage;
+    bool salvage, no_cache;
     unsigned form;
 };
 
@@ -56,6 +58,7 @@ static int run(const struct command *self, void *data, const struct operands *op
 {
     const struct settings *settings = data;
     const char *input = operands->value[0], *output = operands->value[1];
+    store_off |= settings->no_cache;
     const struct form *to = find_form(self, output, settings->form);
     if (!to || check_output(self, output, to))
         return STATUS_BAD;
@@ -78,6 +81,7 @@ static const struct option options[] = {
      OPTION_IS_INDEX(struct settings, form), .words = form_at},
     {"salvage", NULL, "keep the complete frames before the damage in a container",
      OPTION_IS_FLAG(struct settings, salvage)},
+    OPTION_NO_CACHE(struct settings, no_cache),
     {0},
 };
 

@@ -8,6 +8,8 @@
 #include "engines/tiered/tiered.h"
 #include "command/support/choose.h"
 #include "command/support/option.h"
+#include "command/support/shared.h"
+#include "command/store/store.h"
 #include "command/support/session.h"
 #include "triptych.h"
 
@@ -19,6 +21,7 @@ enum { NUMBER_MAXIMUM = 4194304, WIDTH_MAXIMUM = 256, ARENA_BYTES = 8 << 20 };
 struct settings {
     const char *engine, *show;
     unsigned frame, draw, width, unit;
+    bool no_cache;
 };
 
 static int dump_jit(const struct engine *engine, struct code_arena *arena, enum unit unit,
@@ -137,6 +140,7 @@ static int run(const struct command *self, void *data, const struct operands *op
 {
     const struct settings *settings = data;
     unsigned engine;
+    store_off |= settings->no_cache;
     if (choose_engine(self, settings->engine, settings->width, &engine))
         return STATUS_BAD;
     return dump(self, operands->value[0], settings, engine, (enum unit)settings->unit);
@@ -162,6 +166,7 @@ static const struct option options[] = {
      .words = triptych_engine_name},
     {"width", "LANES", "lanes of the engine's variant", OPTION_IS_NUMBER(struct settings, width), .least = 1,
      .most = WIDTH_MAXIMUM},
+    OPTION_NO_CACHE(struct settings, no_cache),
     {0},
 };
 

@@ -28,7 +28,7 @@ static int update(const struct command *self, const struct golden *golden, const
     if (!single)
         snprintf(number, sizeof number, "-%u", frame);
     snprintf(path, sizeof path, "%s/%s%s.png", golden->folder, name, number);
-    return png_save(path, picture->width, picture->height, picture->color, &error)
+    return png_save_level(path, picture->width, picture->height, picture->color, golden->compression, &error)
                ? tool_fail(self, "%s", error.text)
                : STATUS_OK;
 }
@@ -62,7 +62,7 @@ static int save_difference(const struct command *self, const struct golden *gold
 {
     char path[PATH_CAPACITY];
     snprintf(path, sizeof path, "%s/%s-golden-frame-%u.png", golden->differences, name, frame);
-    return difference_save(self, path, picture, picture + 1);
+    return difference_save(self, path, picture, picture + 1, golden->compression);
 }
 
 static int compare(const struct command *self, struct golden *golden, const char *name, unsigned frame,

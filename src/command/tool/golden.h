@@ -14,6 +14,7 @@ struct golden {
     const char *differences; /* the folder for pictures of differences */
     unsigned tolerance;      /* the difference of a channel that is allowed */
     bool update;             /* write the pictures instead */
+    unsigned compression;    /* of pictures that are written (image/png.h) */
     struct readback readback;
     unsigned compared, different; /* so far */
 };

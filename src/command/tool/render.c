@@ -4,6 +4,8 @@
  * each draw, so the player continues from one to the next. */
 #include "command/support/choose.h"
 #include "command/support/option.h"
+#include "command/support/shared.h"
+#include "command/store/store.h"
 #include "command/support/session.h"
 #include "command/support/sink.h"
 #include "triptych.h"
@@ -19,7 +21,8 @@ enum { UNSET = UINT32_MAX };
 
 struct settings {
     const char *engine, *out, *frames, *draws;
-    unsigned frame, threads, width, form, columns, rate;
+    unsigned frame, threads, width, form, columns, rate, compression;
+    bool no_cache;
 };
 
 /* The pictures to draw: frames `first` to `last` of the stream, which may be a view (view_draws). The files
@@ -112,6 +115,7 @@ static int draw_task(const struct command *self, const struct task *task, const 
                                          .form = settings->form,
                                          .columns = settings->columns,
                                          .rate = settings->rate,
+                                         .compression = settings->compression,
                                          .first = task->number,
                                          .count = task->last - task->first + 1,
                                          .numbered = task->several};
@@ -185,6 +189,7 @@ static int run(const struct command *self, void *data, const struct operands *op
 {
     const struct settings *settings = data;
     unsigned engine;
+    store_off |= settings->no_cache;
     if (check_settings(self, settings) || choose_engine(self, settings->engine, settings->width, &engine))
         return STATUS_BAD;
     const char *path = operands->value[0];
@@ -197,8 +202,11 @@ static int run(const struct command *self, void *data, const struct operands *op
     return status;
 }
 
-static const struct settings defaults = {
-    .engine = "specialize", .frame = UNSET, .form = SINK_BY_NAME, .rate = RATE_DEFAULT};
+static const struct settings defaults = {.engine = "specialize",
+                                         .frame = UNSET,
+                                         .form = SINK_BY_NAME,
+                                         .rate = RATE_DEFAULT,
+                                         .compression = PNG_LEVEL_DEFAULT};
 
 static const struct option options[] = {
     {"engine", "NAME", "engine (triptych list engines); specialize", OPTION_IS_WORD(struct settings, engine),
@@ -219,6 +227,8 @@ static const struct option options[] = {
      OPTION_IS_NUMBER(struct settings, columns), .least = 1, .most = 1024},
     {"rate", "N", "frames a second of an animation; 30", OPTION_IS_NUMBER(struct settings, rate), .least = 1,
      .most = ANIMATION_RATE_MAXIMUM},
+    OPTION_COMPRESSION(struct settings, compression),
+    OPTION_NO_CACHE(struct settings, no_cache),
     {"threads", "N", "rendering threads; one per core", OPTION_IS_NUMBER(struct settings, threads),
      .least = 1, .most = THREADS_MAXIMUM},
     {0},

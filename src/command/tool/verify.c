@@ -14,6 +14,8 @@
 #include "command/bench/execution.h"
 #include "command/bench/machine.h"
 #include "command/support/option.h"
+#include "command/support/shared.h"
+#include "command/store/store.h"
 #include "command/support/session.h"
 #include "command/tool/golden.h"
 #include "triptych.h"
@@ -40,7 +42,7 @@ struct settings {
     struct golden golden; /* without a folder: none */
     struct choice engines, threads;
     const char *folder; /* for pictures of differences, or null */
-    bool all_frames;
+    bool all_frames, no_cache;
     unsigned frames;  /* the number to draw, spread over a longer stream */
     unsigned shuffle; /* seed of the order of tasks in all configurations but the reference; 0: in order */
     cJSON *report;    /* an array of the streams, or null */
@@ -149,7 +151,7 @@ static int save_picture(const struct command *self, const struct settings *setti
              triptych_engine_name(configuration->engine), configuration->threads, frame);
     struct picture expected = readback_picture(&verification->expected),
                    got = readback_picture(&verification->got);
-    return difference_save(self, path, &expected, &got);
+    return difference_save(self, path, &expected, &got, settings->golden.compression);
 }
 
 /* Describes the first query whose count differs. */
@@ -427,6 +429,7 @@ static int run(const struct command *self, void *data, const struct operands *op
     struct settings *settings = data;
     struct execution executions[CHOICE_CAPACITY] = {0};
     bool made, made_goldens, identical;
+    store_off |= settings->no_cache;
     if (read_settings(self, settings) || check_goldens(self, settings, &made_goldens) ||
         tool_make_folder(self, settings->folder, &made))
         return STATUS_BAD;
@@ -445,7 +448,8 @@ static int run(const struct command *self, void *data, const struct operands *op
     return status;
 }
 
-static const struct settings defaults = {.frames = FRAMES_DEFAULT, .thread_list = "1,2"};
+static const struct settings defaults = {
+    .frames = FRAMES_DEFAULT, .thread_list = "1,2", .golden.compression = PNG_LEVEL_DEFAULT};
 
 static const struct option options[] = {
     {"engines", "LIST", "engines, separated by commas; all that can run here",
@@ -463,6 +467,8 @@ static const struct option options[] = {
      OPTION_IS_NUMBER(struct settings, golden.tolerance), .most = 255},
     {"update", NULL, "write the pictures of --golden instead of comparing them",
      OPTION_IS_FLAG(struct settings, golden.update)},
+    OPTION_COMPRESSION(struct settings, golden.compression),
+    OPTION_NO_CACHE(struct settings, no_cache),
     {"json", "FILE", "write the results", OPTION_IS_FILE(struct settings, json), .extension = "json"},
     {0},
 };

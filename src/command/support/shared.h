@@ -1,0 +1,21 @@
+/* Options that several commands have. The rows have a member of the command's settings. */
+#ifndef COMMAND_SUPPORT_SHARED_H
+#define COMMAND_SUPPORT_SHARED_H
+
+#include "command/support/command.h"
+#include "image/png.h"
+
+/* unsigned: the level of PNG files; PNG_LEVEL_DEFAULT is its default. */
+#define OPTION_COMPRESSION(structure, member)                                                                \
+    {                                                                                                        \
+        "compression", "LEVEL", "of PNG files: 0 stores, 1 is fast, 9 is small; 1",                          \
+            OPTION_IS_NUMBER(structure, member), .most = PNG_LEVEL_MAXIMUM                                   \
+    }
+
+/* bool: sets store_off (command/store/store.h). */
+#define OPTION_NO_CACHE(structure, member)                                                                   \
+    {                                                                                                        \
+        "no-cache", NULL, "read models again, and keep no mesh", OPTION_IS_FLAG(structure, member)           \
+    }
+
+#endif
