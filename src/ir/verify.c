@@ -1,4 +1,5 @@
 /* Verifies a program, in one walk from front to back (ir.h lists the rules). */
+#include "base/slab.h"
 #include "ir/ir.h"
 
 #include <pthread.h>
@@ -29,17 +30,21 @@ struct walk {
     uint16_t ended;   /* the `when` that ended last */
     uint16_t waiting; /* phis without a loop yet */
     uint8_t previous; /* operation */
-    char text[128];
 };
+
+/* Almost a megabyte, and only checked builds and tests verify. */
+static struct slab walks = SLAB(sizeof(struct walk));
+SLAB_CLEAR_AT_UNLOAD(walks)
 
 __attribute__((format(printf, 2, 3))) static const char *wrong(struct walk *walk, const char *format, ...)
 {
-    int length = snprintf(walk->text, sizeof walk->text, "instruction %u: ", walk->number);
+    static _Thread_local char text[128];
+    int length = snprintf(text, sizeof text, "instruction %u: ", walk->number);
     va_list arguments;
     va_start(arguments, format);
-    vsnprintf(walk->text + length, sizeof walk->text - (size_t)length, format, arguments);
+    vsnprintf(text + length, sizeof text - (size_t)length, format, arguments);
     va_end(arguments);
-    return walk->text;
+    return text;
 }
 
 static const struct ir_instruction *instruction(const struct walk *walk, unsigned number)
@@ -186,22 +191,31 @@ static const char *verify_instruction(struct walk *walk, const struct ir_instruc
     return what;
 }
 
-const char *ir_verify(const struct ir *ir)
+static const char *verify(struct walk *walk, const struct ir *ir)
 {
-    static _Thread_local struct walk walk;
-    memset(walk.type, 0, sizeof walk.type);
-    memset(walk.holds, 0, sizeof walk.holds);
-    walk.ir = ir;
-    walk.open[0] = 1;
-    walk.region = walk.when = walk.ended = walk.holding_count = walk.waiting = 0;
-    walk.previous = IR_nop;
-    for (walk.number = 1; walk.number < ir->count; walk.number++) {
-        const struct ir_instruction *i = instruction(&walk, walk.number);
-        const char *what = i->op == IR_nop ? NULL : verify_instruction(&walk, i);
+    memset(walk->type, 0, sizeof walk->type);
+    memset(walk->holds, 0, sizeof walk->holds);
+    walk->ir = ir;
+    walk->open[0] = 1;
+    walk->region = walk->when = walk->ended = walk->holding_count = walk->waiting = 0;
+    walk->previous = IR_nop;
+    for (walk->number = 1; walk->number < ir->count; walk->number++) {
+        const struct ir_instruction *i = instruction(walk, walk->number);
+        const char *what = i->op == IR_nop ? NULL : verify_instruction(walk, i);
         if (what)
             return what;
     }
-    return walk.region || walk.waiting ? "a region is not ended" : NULL;
+    return walk->region || walk->waiting ? "a region is not ended" : NULL;
+}
+
+const char *ir_verify(const struct ir *ir)
+{
+    struct walk *walk = slab_take(&walks);
+    if (!walk)
+        return "out of memory for its verification";
+    const char *what = verify(walk, ir);
+    slab_give(&walks, walk);
+    return what;
 }
 
 int ir_check(const struct ir *ir, const char *name, struct error *error)

@@ -29,6 +29,7 @@ zsh                test    reads and executes its completion
 fish               test    the same for its own
 gdb                test    debugs generated code: names, lines and callers of every instruction
 clang              test    compiles everything a second time, for its warnings
+cmake              test    builds and runs the example of a golden-image test
 hyperfine          bench   measures whole processes
 gnuplot-nox        test,bench draws the charts
 libegl-dev         peers  headers of EGL, for the renderers that are measured against
