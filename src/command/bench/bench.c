@@ -273,7 +273,7 @@ static const struct option options[] = {
      .most = SECONDS_MAXIMUM},
     {"frames", "N", "frames of a run, spread over the stream; all", OPTION_IS_NUMBER(struct settings, frames),
      .least = 1, .most = FRAMES_MAXIMUM},
-    {"shaders", NULL, "measure each routine's calls; tables by shader and by length",
+    {"shaders", NULL, "measure each routine's calls, with tables by shader and by length",
      OPTION_IS_FLAG(struct settings, shaders)},
     {"builds", NULL, "measure instead the time to build the streams' routines",
      OPTION_IS_FLAG(struct settings, builds)},

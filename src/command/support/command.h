@@ -30,7 +30,7 @@ enum option_kind {
 struct option {
     const char *name;     /* without dashes */
     const char *argument; /* the name of its value in the help; null for a flag */
-    const char *meaning;  /* one phrase; the default follows a semicolon */
+    const char *meaning;  /* one phrase; a default follows a semicolon: "which frame, from 0; 0" */
     enum option_kind kind;
     size_t value;          /* offset in the settings; the last occurrence of the option sets it */
     unsigned least, most;  /* of numbers and seconds */

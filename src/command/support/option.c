@@ -52,9 +52,20 @@ const char *options_usage(const struct command *self, char text[OPTIONS_USAGE])
     return text;
 }
 
+const char *options_meaning(const struct option *option, char text[OPTIONS_MEANING])
+{
+    const char *semicolon = strrchr(option->meaning, ';');
+    if (semicolon)
+        snprintf(text, OPTIONS_MEANING, "%.*s (default: %s)", (int)(semicolon - option->meaning),
+                 option->meaning, semicolon + 2);
+    else
+        snprintf(text, OPTIONS_MEANING, "%s", option->meaning);
+    return text;
+}
+
 void options_print_help(const struct command *self, FILE *out)
 {
-    char usage[OPTIONS_USAGE];
+    char usage[OPTIONS_USAGE], meaning[OPTIONS_MEANING];
     options_usage(self, usage);
     fprintf(out, "usage: triptych %s [OPTIONS]%s%s\n\n%s\n\n", self->name, *usage ? " " : "", usage,
             self->summary);
@@ -62,7 +73,7 @@ void options_print_help(const struct command *self, FILE *out)
         char left[64];
         snprintf(left, sizeof left, "--%s%s%s", option->name, option->argument ? " " : "",
                  option->argument ? option->argument : "");
-        fprintf(out, "  %-22s %s\n", left, option->meaning);
+        fprintf(out, "  %-22s %s\n", left, options_meaning(option, meaning));
     }
     fprintf(out, "  %-22s %s\n", "-h, --help", "this text");
     if (self->notes)

@@ -25,6 +25,10 @@ enum options_result options_read(const struct command *self, int count, char **a
 enum { OPTIONS_USAGE = 64 };
 const char *options_usage(const struct command *self, char text[OPTIONS_USAGE]);
 
+/* The meaning of an option for people: "which frame, from 0 (default: 0)". */
+enum { OPTIONS_MEANING = 256 };
+const char *options_meaning(const struct option *option, char text[OPTIONS_MEANING]);
+
 void options_print_help(const struct command *self, FILE *out);
 
 /* Copies the next item of a comma-separated list to `piece`, or an empty string if it does not fit. Returns

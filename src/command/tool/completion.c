@@ -198,8 +198,9 @@ static void put_zsh_value(const struct option *option, FILE *out)
 
 static void put_zsh_option(const struct option *option, FILE *out)
 {
+    char meaning[OPTIONS_MEANING];
     fprintf(out, "                '--%s%s[", option->name, option->kind == OPTION_FLAG ? "" : "=");
-    put_quoted(option->meaning, "[]:", false, out);
+    put_quoted(options_meaning(option, meaning), "[]:", false, out);
     putc(']', out);
     if (option->kind != OPTION_FLAG)
         put_zsh_value(option, out);
@@ -274,6 +275,7 @@ static void put_fish_meaning(const char *meaning, FILE *out)
 
 static void put_fish_option(const struct command *command, const struct option *option, FILE *out)
 {
+    char meaning[OPTIONS_MEANING];
     begin_fish(command, out);
     fprintf(out, " -l %s", option->name);
     if (is_path(option))
@@ -287,7 +289,7 @@ static void put_fish_option(const struct command *command, const struct option *
         put_words(option->words, out);
         fputs(option->kind == OPTION_LIST ? ")'" : "'", out);
     }
-    put_fish_meaning(option->meaning, out);
+    put_fish_meaning(options_meaning(option, meaning), out);
 }
 
 static void put_fish_operand(const struct command *command, const struct operand *operand, FILE *out)

@@ -77,7 +77,7 @@ static int run(const struct command *self, void *data, const struct operands *op
 static const struct settings defaults = {.form = FORM_BY_NAME};
 
 static const struct option options[] = {
-    {"format", "FORM", "tri or trib; by the extension of OUTPUT, tri for -",
+    {"format", "FORM", "tri or trib; that of the extension of OUTPUT, tri for -",
      OPTION_IS_INDEX(struct settings, form), .words = form_at},
     {"salvage", NULL, "keep the complete frames before the damage in a container",
      OPTION_IS_FLAG(struct settings, salvage)},

@@ -108,6 +108,7 @@ static void put_words(option_words *words, FILE *out)
 
 static void put_option(const struct option *option, FILE *out)
 {
+    char meaning[OPTIONS_MEANING];
     fputs(".TP\n\\fB\\-\\-", out);
     put(option->name, out);
     fputs("\\fR", out);
@@ -117,7 +118,7 @@ static void put_option(const struct option *option, FILE *out)
         fputs("\\fR", out);
     }
     putc('\n', out);
-    put(option->meaning, out);
+    put(options_meaning(option, meaning), out);
     putc('\n', out);
     if (option->words)
         put_words(option->words, out);

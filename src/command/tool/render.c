@@ -209,13 +209,13 @@ static const struct settings defaults = {.engine = "specialize",
                                          .compression = PNG_LEVEL_DEFAULT};
 
 static const struct option options[] = {
-    {"engine", "NAME", "engine (triptych list engines); specialize", OPTION_IS_WORD(struct settings, engine),
-     .words = triptych_engine_name},
+    {"engine", "NAME", "the engine, one of triptych list engines; specialize",
+     OPTION_IS_WORD(struct settings, engine), .words = triptych_engine_name},
     {"width", "LANES", "lanes of the engine's variant", OPTION_IS_NUMBER(struct settings, width), .least = 1,
      .most = WIDTH_MAXIMUM},
-    {"out", "FILE", "FILE.png: colour; FILE.exr: colour, depth and stencil; FILE.apng or FILE.y4m: animation",
+    {"out", "FILE", "FILE.png: colour, FILE.exr: also depth and stencil, FILE.apng or FILE.y4m: an animation",
      OPTION_IS_FILE(struct settings, out), .extension = "png exr apng y4m"},
-    {"format", "FORM", "png, exr, apng or y4m; by the extension of --out, png for -",
+    {"format", "FORM", "png, exr, apng or y4m; that of the extension of --out, png for -",
      OPTION_IS_INDEX(struct settings, form), .words = sink_form_name},
     {"frame", "N", "which frame, from 0; 0", OPTION_IS_NUMBER(struct settings, frame),
      .most = NUMBER_MAXIMUM},

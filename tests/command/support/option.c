@@ -153,6 +153,14 @@ static void test_a_misspelled_word_is_answered_with_the_nearest(void)
     TEST_ASSERT_NOT_NULL_MESSAGE(strstr(printed, "; did you mean --number?\n"), printed);
 }
 
+static void test_a_default_follows_the_last_semicolon(void)
+{
+    static const struct option two[] = {{.meaning = "which frame; from 0; 0"}, {.meaning = "a file"}};
+    char text[OPTIONS_MEANING];
+    TEST_ASSERT_EQUAL_STRING("which frame; from 0 (default: 0)", options_meaning(two, text));
+    TEST_ASSERT_EQUAL_STRING("a file", options_meaning(two + 1, text));
+}
+
 static void test_help_is_requested_by_two_names(void)
 {
     TEST_ASSERT_EQUAL(OPTIONS_HELP, READ("--help"));
@@ -232,6 +240,7 @@ int main(void)
     RUN_TEST(test_a_dash_is_a_standard_stream);
     RUN_TEST(test_a_standard_stream_has_one_use);
     RUN_TEST(test_a_misspelled_word_is_answered_with_the_nearest);
+    RUN_TEST(test_a_default_follows_the_last_semicolon);
     RUN_TEST(test_help_is_requested_by_two_names);
     RUN_TEST(test_the_number_of_operands_is_checked);
     RUN_TEST(test_arguments_after_two_dashes_are_operands);
