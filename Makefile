@@ -494,12 +494,13 @@ docs: all
 	@for page in states shaders; do $(COMMAND) list $$page --markdown >$(BUILD)/$$page.md && mv $(BUILD)/$$page.md docs/$$page.md || exit; done
 	@LISTINGS=write TRIPTYCH=$(COMMAND) tests/pages.sh
 
-# Renders the pictures of docs/gallery.md, docs/shader-gallery.md and docs/inspecting.md, which are goldens:
-# look at them before a commit.
+# Renders the pictures of docs/gallery.md, docs/shader-gallery.md and docs/inspecting.md, which are goldens,
+# and those of docs/viewer.md: look at them before a commit.
 gallery: all
 	@GOLDENS=write TRIPTYCH=$(COMMAND) tests/goldens.sh $(wildcard tests/data/scenes/*.tri tests/data/shading/*.tri)
 	@$(COMMAND) render tests/data/scenes/shadow-volume.tri --engine emulate --draws all --sheet 5 --out docs/images/draws.png
 	@GOLDENS=write TRIPTYCH=$(COMMAND) tests/inspect.sh
+	@GOLDENS=write TRIPTYCH=$(COMMAND) tests/view.sh
 
 installed = $(DESTDIR)$(PREFIX)
 
@@ -561,7 +562,7 @@ make coverage        lists lines that the tests execute, results/coverage.txt; f
 make mutations       plants bugs in a copy of the tree and checks that the tests find them: results/mutations.md
 make verify-external every stream with the external engine: minutes of compiling
 make docs            writes the measured figures of the pages from results/, their listings, and docs/states.md
-make gallery         renders the pictures of docs/gallery.md, docs/shader-gallery.md and docs/inspecting.md
+make gallery         renders the pictures of docs/gallery.md, docs/shader-gallery.md, docs/inspecting.md and docs/viewer.md
 make install         PREFIX=$(PREFIX) DESTDIR=$(DESTDIR)
 make dependencies    install every Debian package that any target needs
 make packages        lists those packages and their purpose

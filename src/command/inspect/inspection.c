@@ -50,6 +50,11 @@ void inspection_close(struct trail *trail)
     free(trail);
 }
 
+const struct watch_owner *inspection_owners(const struct trail *trail)
+{
+    return inspection_canvas(trail)->owner;
+}
+
 bool inspection_is_starved(const struct trail *trail)
 {
     return trail->starved;

@@ -29,6 +29,9 @@ cJSON *inspection_history(struct trail *trail, struct error *error);
 /* How often each pixel of the canvas of the draw was counted. */
 const uint32_t *inspection_counts(const struct trail *trail, unsigned *width, unsigned *height);
 
+/* The primitive that each pixel of the canvas shows, in the same rows. */
+const struct watch_owner *inspection_owners(const struct trail *trail);
+
 /* Returns true if other memory than cJSON's was refused: the reports are incomplete. */
 bool inspection_is_starved(const struct trail *trail);
 

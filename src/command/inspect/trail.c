@@ -103,6 +103,16 @@ static void read_now(const struct trail *trail, struct pixel_words *words)
     pixel_read(device_target(trail->device), (uint32_t)trail->options.x, (uint32_t)trail->options.y, words);
 }
 
+static int allocate(const struct trail *trail, struct trail_canvas *canvas)
+{
+    size_t pixels = (size_t)canvas->width * canvas->height;
+    if (trail->options.counts)
+        canvas->count = calloc(pixels, sizeof *canvas->count);
+    if (trail->options.owners)
+        canvas->owner = calloc(pixels, sizeof *canvas->owner);
+    return (trail->options.counts && !canvas->count) || (trail->options.owners && !canvas->owner) ? -1 : 0;
+}
+
 /* The number of the current canvas, which may be new; -1 if there is no room for it. */
 static int64_t find_canvas(struct trail *trail, struct error *error)
 {
@@ -112,14 +122,13 @@ static int64_t find_canvas(struct trail *trail, struct error *error)
             return i;
     if (trail->canvases == CANVASES_MAXIMUM)
         return error_set(error, "the frame draws to more than %d targets", CANVASES_MAXIMUM);
-    if (trail->options.counts)
-        now.count = calloc((size_t)now.width * now.height, sizeof *now.count);
-    if (trail->options.counts && !now.count)
-        return error_set(error, "out of memory for %u x %u pixels", now.width, now.height);
-    if (has_pixel(trail, &now))
-        read_now(trail, &now.last);
     *found = now;
-    return trail->canvases++;
+    trail->canvases++;
+    if (allocate(trail, found))
+        return error_set(error, "out of memory for %u x %u pixels", now.width, now.height);
+    if (has_pixel(trail, found))
+        read_now(trail, &found->last);
+    return found - trail->canvas;
 }
 
 /* --- Calls ---------------------------------------------------------------------------------------------- */
@@ -180,6 +189,13 @@ static int add_other(struct trail *trail, uint32_t position, uint32_t canvas, st
     return add_event(trail, position, canvas, TRAIL_LAST, error);
 }
 
+/* After a clear of colours no primitive is seen. */
+static void disown(struct trail_canvas *canvas)
+{
+    if (canvas->owner)
+        memset(canvas->owner, 0, (size_t)canvas->width * canvas->height * sizeof *canvas->owner);
+}
+
 /* Plays frame `i` of the view, whose last call is the only one that may change pixels. */
 static int play(struct trail *trail, uint32_t i, struct error *error)
 {
@@ -188,8 +204,9 @@ static int play(struct trail *trail, uint32_t i, struct error *error)
     int64_t before = device_target(trail->device)->width ? find_canvas(trail, error) : 0;
     if (before < 0)
         return -1;
-    watch_begin(trail->watch);
+    watch_begin(trail->watch, trail->draws);
     watch_count(trail->watch, trail->canvases ? trail->canvas[before].count : NULL, trail->options.what);
+    watch_owners(trail->watch, trail->canvases ? trail->canvas[before].owner : NULL);
     if (player_frame(trail->player, i, error))
         return -1;
     trail->generation += call->type == CALL_TARGET;
@@ -198,6 +215,8 @@ static int play(struct trail *trail, uint32_t i, struct error *error)
     int64_t canvas = find_canvas(trail, error);
     if (canvas < 0)
         return -1;
+    if (call->type == CALL_CLEAR && call->clear.flags & TRIPTYCH_CLEAR_COLOR)
+        disown(trail->canvas + canvas);
     return is_draw(call) ? add_draw(trail, position, (uint32_t)canvas, error)
                          : add_other(trail, position, (uint32_t)canvas, error);
 }
@@ -238,8 +257,10 @@ void trail_close(struct trail *trail)
     if (trail->device)
         device_destroy(trail->device);
     watch_free(trail->watch);
-    for (uint32_t i = 0; i < trail->canvases; i++)
+    for (uint32_t i = 0; i < trail->canvases; i++) {
         free(trail->canvas[i].count);
+        free(trail->canvas[i].owner);
+    }
     free(trail->canvas);
     free(trail->draw);
     free(trail->event);

@@ -12,7 +12,8 @@ struct trail_canvas {
     struct triptych_target_textures textures; /* zero: a target */
     uint32_t generation;                      /* of a target: how many the frame has set before it */
     uint32_t width, height;
-    uint32_t *count;         /* how often each pixel was counted; null: not */
+    uint32_t *count; /* how often each pixel was counted; null: not */
+    struct watch_owner *owner;
     struct pixel_words last; /* of the pixel, if it is within the canvas */
 };
 

@@ -22,6 +22,8 @@ struct watch {
     int32_t x, y; /* the pixel; x < 0: none */
     uint32_t *count;
     enum watch_what what;
+    struct watch_owner *owner;
+    uint32_t draw;
 
     /* Geometry of the draw. */
     const struct job *job;                     /* of the instance */
@@ -291,6 +293,13 @@ static bool lane_passes(const struct sight *sight, unsigned lane)
     return false;
 }
 
+static void own(struct watch *watch, const struct quad *quad, size_t pixel)
+{
+    const struct placed *placed = find_placed(watch, quad->call->triangles + quad->entry->triangle);
+    if (placed)
+        watch->owner[pixel] = (struct watch_owner){watch->draw + 1, placed->primitive};
+}
+
 static void count_lane(struct watch *watch, const struct quad *quad, unsigned lane)
 {
     const struct sight *sight = &watch->sight;
@@ -304,6 +313,8 @@ static void count_lane(struct watch *watch, const struct quad *quad, unsigned la
     watch->counts.passed += passed;
     if (watch->count)
         watch->count[(size_t)y * device_target(watch->device)->width + x] += counted;
+    if (watch->owner && passed && pixel_write_mask(&quad->self->routine.key.pixel))
+        own(watch, quad, (size_t)y * device_target(watch->device)->width + x);
 }
 
 static struct touch_tests tests_of(const struct quad *quad, bool clockwise)
@@ -466,10 +477,16 @@ void watch_count(struct watch *watch, uint32_t *count, enum watch_what what)
     watch->what = what;
 }
 
+void watch_owners(struct watch *watch, struct watch_owner *owner)
+{
+    watch->owner = owner;
+}
+
 /* --- Draws ---------------------------------------------------------------------------------------------- */
 
-void watch_begin(struct watch *watch)
+void watch_begin(struct watch *watch, uint32_t draw)
 {
+    watch->draw = draw;
     watch->job = NULL;
     watch->instances = watch->placed_count = watch->touch_count = 0;
     watch->incomplete = false;

@@ -63,8 +63,11 @@ void watch_pixel(struct watch *watch, int32_t x, int32_t y);
  * null: none. */
 void watch_count(struct watch *watch, uint32_t *count, enum watch_what what);
 
-/* Before a draw: forgets touches and counts. */
-void watch_begin(struct watch *watch);
+/* From now on notes the owner of each pixel in `owner`, in the same rows; null: none. */
+void watch_owners(struct watch *watch, struct watch_owner *owner);
+
+/* Before the draw of that number: forgets touches and counts. */
+void watch_begin(struct watch *watch, uint32_t draw);
 
 /* After the draw is rendered: its touches, by instance and primitive, and its counts. */
 const struct touch *watch_touches(struct watch *watch, uint32_t *count);

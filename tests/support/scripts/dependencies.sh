@@ -30,6 +30,9 @@ fish               test    the same for its own
 gdb                test    debugs generated code: names, lines and callers of every instruction
 clang              test    compiles everything a second time, for its warnings
 cmake              test    builds and runs the example of a golden-image test
+libsdl2-2.0-0      test    the window of `triptych view`, which loads it when it runs
+xvfb               test    a display without a screen, for a window of `triptych view`
+xdotool            test    presses keys in that window
 hyperfine          bench   measures whole processes
 gnuplot-nox        test,bench draws the charts
 libegl-dev         peers  headers of EGL, for the renderers that are measured against
