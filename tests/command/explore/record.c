@@ -3,6 +3,7 @@
 #include "command/explore/embed.h"
 #include "command/explore/record.h"
 #include "shader/shader.h"
+#include "tests/support/shader/random_key.h"
 
 #include <unity.h>
 
