@@ -1,46 +1,8 @@
 /* The public interface of a device, with the emulator: refusals, the arguments of hooks, and reports. */
-#include "render/device/device.h"
+#include "tests/render/device/screen.h"
 
-#include "emu/emulate/emulate.h"
-
-#include <errno.h>
 #include <math.h>
 #include <string.h>
-#include <sys/resource.h>
-#include <time.h>
-#include <unity.h>
-
-enum { SIZE = 200 };
-
-static triptych_device *device;
-static uint32_t image[SIZE * SIZE];
-static float depth[SIZE * SIZE];
-
-#define OK(call) TEST_ASSERT_EQUAL_INT_MESSAGE(TRIPTYCH_OK, call, triptych_error(device))
-
-static void open_engine(const struct engine *engine, const struct device_options *options)
-{
-    TEST_ASSERT_EQUAL_INT(TRIPTYCH_OK, device_create(engine, options, &device, NULL));
-    OK(triptych_set_target(device, SIZE, SIZE));
-    OK(triptych_set_state(device, TRIPTYCH_STATE_LIGHTING, 0));
-    OK(triptych_set_state(device, TRIPTYCH_STATE_CULLMODE, 1));
-}
-
-static void open_device_with(const struct device_options *options)
-{
-    open_engine(&engine_emulate, options);
-}
-
-static void open_device(unsigned threads)
-{
-    open_device_with(&(struct device_options){.threads = threads});
-}
-
-static void close_device(void)
-{
-    triptych_device_destroy(device);
-    device = NULL;
-}
 
 void setUp(void)
 {
@@ -51,68 +13,6 @@ void tearDown(void)
 {
     close_device();
 }
-
-struct vertex {
-    float position[4]; /* clip space: the transforms are identities */
-    uint32_t color;    /* 0xAARRGGBB */
-};
-
-/* Window pixels to clip space with w = 1. */
-static struct vertex at(float x, float y, float z, uint32_t color)
-{
-    return (struct vertex){{2 * x / SIZE - 1, 1 - 2 * y / SIZE, z, 1}, color};
-}
-
-static triptych_buffer *buffer_of(const void *data, size_t bytes)
-{
-    triptych_buffer *buffer;
-    OK(triptych_buffer_create(device, data, bytes, &buffer));
-    return buffer;
-}
-
-static void bind(triptych_buffer *buffer)
-{
-    struct triptych_element position = {TRIPTYCH_FORMAT_FLOAT4, buffer, 0, sizeof(struct vertex)};
-    struct triptych_element color = {TRIPTYCH_FORMAT_COLOR, buffer, 16, sizeof(struct vertex)};
-    OK(triptych_set_element(device, TRIPTYCH_POSITION, &position));
-    OK(triptych_set_element(device, TRIPTYCH_DIFFUSE, &color));
-}
-
-static void draw_list(const struct vertex *vertex, uint32_t triangles)
-{
-    bind(buffer_of(vertex, 3 * triangles * sizeof *vertex));
-    OK(triptych_draw(device, TRIPTYCH_TRIANGLE_LIST, 0, triangles));
-}
-
-/* The pixels x0 <= x < x1, y0 <= y < y1 as two triangles. */
-static void draw_rectangle(float x0, float y0, float x1, float y1, float z, uint32_t color)
-{
-    struct vertex vertex[6] = {at(x0, y0, z, color), at(x1, y0, z, color), at(x0, y1, z, color),
-                               at(x1, y0, z, color), at(x1, y1, z, color), at(x0, y1, z, color)};
-    draw_list(vertex, 2);
-}
-
-static void read_image(void)
-{
-    OK(triptych_read_color(device, image, sizeof image));
-    OK(triptych_read_depth(device, depth, sizeof depth));
-}
-
-static uint32_t count_color(uint32_t color)
-{
-    uint32_t count = 0;
-    for (int i = 0; i < SIZE * SIZE; i++)
-        count += image[i] == color;
-    return count;
-}
-
-enum {
-    RED = 0xff0000ff,
-    GREEN = 0xff00ff00,
-    BLUE = 0xffff0000,
-    RED_ARGB = 0xffff0000,
-    GREEN_ARGB = 0xff00ff00
-};
 
 /* --- Refusals --- */
 

@@ -1,6 +1,7 @@
 /* Lines are compared with their definition (tests/support/picture/diamond.h): short and long lines, lines at
  * and near positions of ties, lines in parts, and lines that the binner's tests accept. */
 #include "render/raster/raster.h"
+#include "tests/render/raster/random.h"
 #include "tests/support/picture/diamond.h"
 
 #include <stdio.h>
@@ -8,30 +9,15 @@
 #include <string.h>
 #include <unity.h>
 
-enum { SEED = 20240117, WINDOW_MAXIMUM = 4194303, AREA = 160, TILES = TARGET_SIZE_MAXIMUM / TILE_SIZE };
-
-static uint64_t state;
+enum { WINDOW_MAXIMUM = 4194303, AREA = 160, TILES = TARGET_SIZE_MAXIMUM / TILE_SIZE };
 
 void setUp(void)
 {
-    state = SEED;
+    random_begin();
 }
 
 void tearDown(void)
 {
-}
-
-static uint32_t draw(void) /* xorshift64* */
-{
-    state ^= state >> 12;
-    state ^= state << 25;
-    state ^= state >> 27;
-    return (uint32_t)(state * 0x2545F4914F6CDD1DULL >> 32);
-}
-
-static int32_t between(int32_t low, int32_t high) /* both included */
-{
-    return low + (int32_t)(draw() % ((uint32_t)(high - low) + 1));
 }
 
 static bool covers(const struct triangle_head *h, int32_t x, int32_t y)

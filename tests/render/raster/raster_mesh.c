@@ -1,40 +1,21 @@
 /* The rasterizer and meshes: exactly one triangle covers each centre inside of a closed mesh. */
 #include "render/raster/raster.h"
+#include "tests/render/raster/random.h"
 #include "tests/support/geometry/covered.h"
 
 #include <stdio.h>
 #include <stdlib.h>
 #include <unity.h>
 
-enum {
-    WINDOW_MAXIMUM = 4194303,
-    TARGET = TARGET_SIZE_MAXIMUM,
-    TARGET_TILES = TARGET / TILE_SIZE,
-    SEED = 20240117
-};
-
-static uint64_t state;
+enum { WINDOW_MAXIMUM = 4194303, TARGET = TARGET_SIZE_MAXIMUM, TARGET_TILES = TARGET / TILE_SIZE };
 
 void setUp(void)
 {
-    state = SEED;
+    random_begin();
 }
 
 void tearDown(void)
 {
-}
-
-static uint32_t draw(void) /* xorshift64* */
-{
-    state ^= state >> 12;
-    state ^= state << 25;
-    state ^= state >> 27;
-    return (uint32_t)(state * 0x2545F4914F6CDD1DULL >> 32);
-}
-
-static int32_t between(int32_t low, int32_t high) /* both included */
-{
-    return low + (int32_t)(draw() % ((uint32_t)(high - low) + 1));
 }
 
 /* --- Meshes --- */

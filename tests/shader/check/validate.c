@@ -1,12 +1,10 @@
 /* The validator accepts shaders that follow the rules of their models. It refuses others with the position of
  * the broken rule. */
-#include "shader/shader.h"
+#include "tests/shader/check/reason.h"
 
 #include <stdio.h>
 #include <string.h>
 #include <unity.h>
-
-static struct error error;
 
 void setUp(void)
 {
@@ -15,19 +13,6 @@ void setUp(void)
 
 void tearDown(void)
 {
-}
-
-/* Returns the reason for which the text is refused, or "" if it is valid. */
-static const char *reason_of(const char *text)
-{
-    struct shader *shader;
-    error_clear(&error);
-    if (!shader_assemble("t", text, strlen(text), &shader, &error)) {
-        int bad = shader_validate(shader, NULL, &error);
-        TEST_ASSERT_EQUAL_INT_MESSAGE(bad, error.text[0] ? -1 : 0, text);
-        shader_free(shader);
-    }
-    return error.text;
 }
 
 #define END_2 "mov oPos, r0\n"

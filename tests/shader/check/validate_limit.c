@@ -1,12 +1,10 @@
 /* The limits of the validator: it counts instruction slots, nesting and the registers that a shader uses. For
  * bytecode, its reasons name the token. */
-#include "shader/shader.h"
+#include "tests/shader/check/reason.h"
 
 #include <stdlib.h>
 #include <string.h>
 #include <unity.h>
-
-static struct error error;
 
 void setUp(void)
 {
@@ -15,19 +13,6 @@ void setUp(void)
 
 void tearDown(void)
 {
-}
-
-/* Returns the reason for which the text is refused, or "" if it is valid. */
-static const char *reason_of(const char *text)
-{
-    struct shader *shader;
-    error_clear(&error);
-    if (!shader_assemble("t", text, strlen(text), &shader, &error)) {
-        int bad = shader_validate(shader, NULL, &error);
-        TEST_ASSERT_EQUAL_INT_MESSAGE(bad, error.text[0] ? -1 : 0, text);
-        shader_free(shader);
-    }
-    return error.text;
 }
 
 /* The line `count` times after the head. */

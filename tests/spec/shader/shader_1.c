@@ -1,7 +1,7 @@
 /* The arithmetic of ps_1_1 to ps_1_4: the same instructions with registers of a limited range. Constants are
  * limited to
  * -1 to 1, and results to -8 to 8. */
-#include "tests/support/trial/trial.h"
+#include "tests/spec/shader/operand.h"
 
 #include <math.h>
 #include <stdio.h>
@@ -15,14 +15,7 @@ void tearDown(void)
 {
 }
 
-typedef const struct trial_operands *operands;
-
 static const float constants[2][4] = {{0.75f, 3, -0.625f, -5}, {-1, 0.25f, 1.5f, -0.0f}};
-
-static double at(operands o, int operand, int c)
-{
-    return trial_flush(o->v[operand][c]);
-}
 
 /* Returns a constant as the shader reads it, limited to -1 to 1. */
 static double constant(int row, int c)
@@ -33,11 +26,6 @@ static double constant(int row, int c)
 static double within(double value)
 {
     return value > -8 ? value < 8 ? value : 8 : -8;
-}
-
-static double rounded(double value)
-{
-    return (double)trial_round(value);
 }
 
 /* The shift and saturation of the trial's result, and the modifier of the first operand. */

@@ -1,6 +1,7 @@
 /* The results of the arithmetic instructions of shaders, in models of every generation. Each instruction is
  * tried with all pairs of edge values of binary32 and with ordinary numbers, and compared with its definition
  * in docs/shader-semantics.md in double precision. */
+#include "tests/spec/shader/operand.h"
 #include "tests/support/trial/trial_arithmetic.h"
 
 #include <float.h>
@@ -12,13 +13,6 @@ void setUp(void)
 
 void tearDown(void)
 {
-}
-
-typedef const struct trial_operands *operands;
-
-static double at(operands o, int operand, int c)
-{
-    return trial_flush(o->v[operand][c]);
 }
 
 #define A(c) at(o, 0, c)

@@ -1,5 +1,6 @@
 /* The arithmetic instructions of shaders under masks of their results and under every modifier, in models of
  * every generation, against the definitions of docs/shader-semantics.md in double precision. */
+#include "tests/spec/shader/operand.h"
 #include "tests/support/trial/trial_arithmetic.h"
 
 #include <math.h>
@@ -12,13 +13,6 @@ void setUp(void)
 
 void tearDown(void)
 {
-}
-
-typedef const struct trial_operands *operands;
-
-static double at(operands o, int operand, int c)
-{
-    return trial_flush(o->v[operand][c]);
 }
 
 #define B(c) at(o, 1, c)

@@ -1,7 +1,7 @@
 /* Edge cases of textures in pixel shaders, in whole draws on every engine: levels and biases at their limits,
  * divisors of zero, and samplers without a texture. The expected values are computed by hand. */
 #include "base/bits.h"
-#include "tests/support/picture/part.h"
+#include "tests/spec/shader/edges.h"
 #include "tests/support/picture/texture_model.h"
 
 #include <float.h>
@@ -17,18 +17,6 @@ void setUp(void)
 void tearDown(void)
 {
     close_canvas();
-}
-
-#define COUNT(array) (sizeof(array) / sizeof *(array))
-
-static const char first[] = "vs_1_1\ndcl_position v0\ndcl_texcoord0 v1\ndcl_texcoord1 v2\nmov oPos, v0\n"
-                            "mov oT0, v1\nmov oT1, v2\n";
-static const char third[] = "vs_3_0\ndcl_position v0\ndcl_texcoord v1\ndcl_position o0\ndcl_texcoord o1\n"
-                            "mov o0, v0\nmov o1, v1\n";
-
-static void set_pixel_constant(unsigned number, float x, float y, float z, float w)
-{
-    OK(triptych_set_shader_floats(device, TRIPTYCH_SHADER_PIXEL, number, (const float[4]){x, y, z, w}, 1));
 }
 
 /* --- Levels -------------------------------------------------------------------------------------------- */

@@ -1,5 +1,6 @@
 /* Loops of shaders: the numbers of passes, counters, and lanes that leave a loop before others. The results
  * are compared with the same decisions in C for each set of operands. */
+#include "tests/spec/shader/operand.h"
 #include "tests/support/trial/trial_flow.h"
 
 #include <stdio.h>
@@ -11,24 +12,6 @@ void setUp(void)
 
 void tearDown(void)
 {
-}
-
-typedef const struct trial_operands *operands;
-
-static double at(operands o, int operand, int c)
-{
-    return trial_flush(o->v[operand][c]);
-}
-
-static double rounded(double value)
-{
-    return (double)trial_round(value);
-}
-
-static void copy(operands o, int operand, double r[4])
-{
-    for (int c = 0; c < 4; c++)
-        r[c] = at(o, operand, c);
 }
 
 /* --- Conditions ---------------------------------------------------------------------------------------- */

@@ -1,6 +1,6 @@
 /* Operations on the sources and results of instructions: modifiers, swizzles, masks, shifts, saturation,
  * predication and instructions issued in pairs. */
-#include "tests/support/trial/trial.h"
+#include "tests/spec/shader/operand.h"
 
 #include <math.h>
 #include <stdio.h>
@@ -12,13 +12,6 @@ void setUp(void)
 
 void tearDown(void)
 {
-}
-
-typedef const struct trial_operands *operands;
-
-static double at(operands o, int operand, int c)
-{
-    return trial_flush(o->v[operand][c]);
 }
 
 static int is_first(const char *model)

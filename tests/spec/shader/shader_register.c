@@ -1,5 +1,5 @@
 /* Relative addresses of registers, and the instructions that compute them. */
-#include "tests/support/trial/trial.h"
+#include "tests/spec/shader/operand.h"
 
 #include <float.h>
 #include <math.h>
@@ -19,13 +19,6 @@ void setUp(void)
 
 void tearDown(void)
 {
-}
-
-typedef const struct trial_operands *operands;
-
-static double at(operands o, int operand, int c)
-{
-    return trial_flush(o->v[operand][c]);
 }
 
 /* The values of addresses: halves to round, the ends of the file and of integers, and values that are not

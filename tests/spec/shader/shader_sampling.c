@@ -1,16 +1,13 @@
 /* Shaders that sample, in whole draws on every engine. Lookups in pixel and vertex shaders are compared with
  * a second implementation of samplers. Targets are binary32, so that they contain the shader's results. */
 #include "base/bits.h"
-#include "tests/support/picture/drawn.h"
+#include "tests/spec/shader/sampling.h"
 #include "tests/support/picture/quad.h"
-#include "tests/support/picture/texture_model.h"
 
 #include <limits.h>
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
-
-enum { PART = 16 }; /* pixels at the upper left that are drawn */
 
 void setUp(void)
 {
@@ -22,28 +19,11 @@ void tearDown(void)
     close_canvas();
 }
 
-static struct model_texture texture;
-
 static const char *kind_name(void)
 {
     return texture.type == TRIPTYCH_TEXTURE_2D     ? "2d"
            : texture.type == TRIPTYCH_TEXTURE_CUBE ? "cube"
                                                    : "volume";
-}
-
-static double dyadic(double low, double high)
-{
-    return floor(random_between(low, high) * 1024) / 1024;
-}
-
-/* Sets a small part of a binary32 target, because engines without generated code are slow. */
-static void begin_part(void)
-{
-    use_float_target();
-    for (int i = 0; i < 4; i++) {
-        drawn_position[i][0] = i % 2 ? -1 + 2.0f * PART / SIZE : -1;
-        drawn_position[i][1] = i / 2 ? 1 - 2.0f * PART / SIZE : 1;
-    }
 }
 
 static struct model_sampler random_sampler(void)

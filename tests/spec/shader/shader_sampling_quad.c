@@ -4,14 +4,11 @@
  * contain the shader's results. */
 #include "base/bits.h"
 #include "contract/key.h"
-#include "tests/support/picture/drawn.h"
+#include "tests/spec/shader/sampling.h"
 #include "tests/support/picture/quad.h"
-#include "tests/support/picture/texture_model.h"
 
 #include <math.h>
 #include <string.h>
-
-enum { PART = 16 }; /* pixels at the upper left that are drawn */
 
 void setUp(void)
 {
@@ -21,23 +18,6 @@ void setUp(void)
 void tearDown(void)
 {
     close_canvas();
-}
-
-static struct model_texture texture;
-
-static double dyadic(double low, double high)
-{
-    return floor(random_between(low, high) * 1024) / 1024;
-}
-
-/* Sets a small part of a binary32 target, because engines without generated code are slow. */
-static void begin_part(void)
-{
-    use_float_target();
-    for (int i = 0; i < 4; i++) {
-        drawn_position[i][0] = i % 2 ? -1 + 2.0f * PART / SIZE : -1;
-        drawn_position[i][1] = i / 2 ? 1 - 2.0f * PART / SIZE : 1;
-    }
 }
 
 /* --- ps_1_x -------------------------------------------------------------------------------------------- */

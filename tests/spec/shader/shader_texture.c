@@ -37,12 +37,6 @@ static double lane_value(int r, int c, int lane)
     return (double)quad.v[r][c][lane];
 }
 
-/* A multiple of 1/1024. */
-static double dyadic(double low, double high)
-{
-    return floor(random_between(low, high) * 1024) / 1024;
-}
-
 /* --- Lookups ------------------------------------------------------------------------------------------- */
 
 enum load { LOAD, LOAD_PROJECTED, LOAD_BIASED, LOAD_LEVEL, LOAD_CHANGES, LOADS };

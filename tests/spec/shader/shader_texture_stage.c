@@ -32,12 +32,6 @@ static void shade(const char *text)
     quad_shade(device, text, &quad, &result);
 }
 
-/* A multiple of 1/1024. */
-static double dyadic(double low, double high)
-{
-    return floor(random_between(low, high) * 1024) / 1024;
-}
-
 /* --- Neighbours and discarded pixels ------------------------------------------------------------------- */
 
 static void test_differences_are_those_of_the_quad(void)

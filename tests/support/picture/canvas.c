@@ -3,6 +3,7 @@
 #include "engines/list.h"
 
 #include <stdio.h>
+#include <math.h>
 #include <string.h>
 
 triptych_device *device;
@@ -25,6 +26,11 @@ uint32_t random_word(void)
 double random_between(double low, double high)
 {
     return low + (high - low) * random_word() / 4294967296.0;
+}
+
+double dyadic(double low, double high)
+{
+    return floor(random_between(low, high) * 1024) / 1024;
 }
 
 static uint32_t value_of(enum triptych_state_table table, unsigned row, const char *word)

@@ -26,6 +26,8 @@ void close_canvas(void);
 void random_begin(void);
 uint32_t random_word(void);
 double random_between(double low, double high);
+/* A random multiple of 1/1024. */
+double dyadic(double low, double high);
 
 void set(enum triptych_state state, const char *word);
 void set_sampler(unsigned sampler, enum triptych_sampler_state state, const char *word);
