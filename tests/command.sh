@@ -390,6 +390,32 @@ holds 'the JSON has lanes and instruction set of each engine' \
     test "$(grep -c '"lanes":' "$work/bench.json")" = "$(grep -c '"instruction_set":' "$work/bench.json")"
 holds 'the JSON names the machine' grep -q '"commit":' "$work/bench.json"
 
+# --- Models -------------------------------------------------------------------------------------------------
+
+cat >"$work/model.obj" <<'END'
+mtllib model.mtl
+v 0 0 0
+v 2 0 0
+v 0 1 -3
+usemtl red
+f 1 2 3
+usemtl blue
+f 1 3 2
+END
+printf 'newmtl red\nKd 1 0 0\nnewmtl blue\nKd 0 0 1\nmap_Kd none.png\n' >"$work/model.mtl"
+printf 'v 0 0 0\nv 1 0 0\nf 1 2 3\n' >"$work/short.obj"
+answers 'mesh counts vertices and triangles' '^  [0-9]+ vertices, 2 triangles$' mesh --info "$work/model.obj"
+answers 'mesh prints bounds' '^  x 0 to 2, y 0 to 1, z -3 to 0$' mesh "$work/model.obj" --json "$work/mesh.json"
+answers 'mesh prints materials and missing textures' '^  blue +1 +0 +0 +1 +1 +.*/none.png .missing.$' mesh "$work/model.obj"
+holds 'mesh writes JSON' python3 -c 'import json, sys
+mesh = json.load(open(sys.argv[1]))["meshes"][0]
+assert mesh["triangles"] == 2 and mesh["low"] == [0, 0, -3] and mesh["high"] == [2, 1, 0]
+assert [m["name"] for m in mesh["materials"]] == ["red", "blue"]
+assert mesh["materials"][0]["diffuse"] == [1, 0, 0, 1] and mesh["materials"][1]["exists"] is False' "$work/mesh.json"
+answers 'mesh counts patches' '^  128 vertices, 56 triangles, 28 patches$' mesh bench/streams/assets/teapot.bez
+refuses 'mesh of a bad model' 'short.obj:3:7: found .3., expected the number of a vertex from 1 to 2' mesh "$work/short.obj"
+refuses 'mesh of a missing file' 'none.obj: cannot open' mesh "$work/none.obj"
+
 # --- Dumps --------------------------------------------------------------------------------------------------
 
 for engine in $("$TRIPTYCH" list engines | awk 'NR > 1 && $1 !~ /^(emulate|batch)/ && $3 == "available" { print $1 }'); do

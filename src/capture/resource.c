@@ -210,7 +210,7 @@ static void code_buffer(struct codec *codec, struct resource *resource)
 static bool has_data(const struct resource *resource)
 {
     enum mesh_source source = resource->options.source;
-    return source == MESH_FILE || source == MESH_BEZIER || source == MESH_DATA;
+    return source == MESH_FILE || source == MESH_BEZIER || source == MESH_DATA || source == MESH_MODEL;
 }
 
 static void code_shadow(struct codec *codec, struct mesh_options *options)
@@ -224,7 +224,7 @@ static void code_shadow(struct codec *codec, struct mesh_options *options)
 static void code_mesh(struct codec *codec, struct resource *resource)
 {
     struct mesh_options *options = &resource->options;
-    options->source = codec_u8(codec, options->source, MESH_DATA, "source of a mesh");
+    options->source = codec_u8(codec, options->source, MESH_SOURCES - 1, "source of a mesh");
     options->normals = codec_u8(codec, options->normals, NORMALS_FLAT, "normals");
     options->texcoords = codec_u8(codec, options->texcoords, TEXCOORDS_CYLINDRICAL, "projection");
     options->subdivisions = codec_u8(codec, options->subdivisions, 255, "subdivisions");

@@ -12,6 +12,7 @@
 struct codec;
 struct program;
 struct skeleton;
+struct materials;
 
 enum value_type { VALUE_FLOAT, VALUE_U16, VALUE_U32, VALUE_COLOR, VALUE_BYTES };
 enum normals { NORMALS_SMOOTH, NORMALS_FLAT };
@@ -25,7 +26,9 @@ enum mesh_source {
     MESH_CYLINDER,
     MESH_TORUS,
     MESH_SHADOW,
-    MESH_DATA /* its vertices and indices are given */
+    MESH_DATA,   /* its vertices and indices are given */
+    MESH_MODEL,  /* as MESH_FILE, its triangles by material */
+    MESH_SOURCES /* their number */
 };
 
 /* Options of a mesh. */
@@ -118,6 +121,7 @@ struct resource {
             uint32_t index_least, index_most;
             struct mesh_options options; /* mesh */
             struct skeleton *skeleton;   /* mesh with bones */
+            struct materials *materials; /* mesh of a model, while its text is read; or null */
         };
         /* Shaders. */
         struct {

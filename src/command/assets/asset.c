@@ -59,17 +59,23 @@ static int load_dds(struct resource *resource, const char *path, char *data, siz
     return 0;
 }
 
+int asset_decode_texture(struct resource *resource, const char *path, char *data, size_t bytes,
+                         struct error *error)
+{
+    if (dds_is(data, bytes))
+        return load_dds(resource, path, data, bytes, error);
+    int result = load_png(resource, path, data, bytes, error);
+    free(data);
+    return result;
+}
+
 int asset_load_texture(struct resource *resource, const char *path, struct error *error)
 {
     char *data;
     size_t bytes;
     if (asset_check_path(path, error) || file_read(path, LIMIT_FILE_BYTES, &data, &bytes, error))
         return -1;
-    if (dds_is(data, bytes))
-        return load_dds(resource, path, data, bytes, error);
-    int result = load_png(resource, path, data, bytes, error);
-    free(data);
-    return result;
+    return asset_decode_texture(resource, path, data, bytes, error);
 }
 
 /* Each picture is stored in `colors` while it is encoded into its face. */
@@ -121,6 +127,14 @@ static void free_texture(struct resource *resource)
         free(resource->face_path[face]);
 }
 
+void asset_free_materials(struct resource *resource)
+{
+    if (resource->materials)
+        material_free_all(resource->materials);
+    free(resource->materials);
+    resource->materials = NULL;
+}
+
 void asset_free(struct resource *resource)
 {
     free(resource->name);
@@ -131,6 +145,7 @@ void asset_free(struct resource *resource)
         free(resource->vertices);
         free(resource->indices);
         skeleton_free(resource->skeleton);
+        asset_free_materials(resource);
     }
     if (resource->type == RESOURCE_SHADER) {
         free(resource->code);

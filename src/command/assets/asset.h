@@ -20,6 +20,13 @@ int asset_check_path(const char *path, struct error *error);
 typedef int resource_loader(struct resource *resource, const char *path, struct error *error);
 resource_loader asset_load_texture, asset_load_shader; /* and mesh_load (mesh.h) */
 
+/* Fills a texture from the bytes of a PNG or DDS file, and frees them. `path` is for the reason. */
+int asset_decode_texture(struct resource *resource, const char *path, char *data, size_t bytes,
+                         struct error *error);
+
+/* Frees the materials of a mesh, which are needed only while a text is read. */
+void asset_free_materials(struct resource *resource);
+
 /* Reads a PNG into one face of the given level, in the texture's format. */
 int asset_load_face(struct resource *resource, const struct triptych_texture *shape, unsigned number,
                     const char *path, struct error *error);

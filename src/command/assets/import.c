@@ -13,22 +13,22 @@
 
 struct request {
     const char *path;
-    bool bones;
+    unsigned parts;
 };
 
 static int import(void *user, struct answer *answer, struct error *error)
 {
     const struct request *request = user;
     struct mesh mesh = {0};
-    if (mesh_import_model(&mesh, request->path, request->bones, error))
+    if (mesh_import_model(&mesh, request->path, request->parts, error))
         return -1;
     return transfer_write(&mesh, answer) ? error_set(error, "%s: not enough memory", request->path) : 0;
 }
 
-int mesh_read_model_within(struct mesh *mesh, const char *path, bool bones,
+int mesh_read_model_within(struct mesh *mesh, const char *path, unsigned parts,
                            const struct isolate_limits *limits, struct error *error)
 {
-    struct request request = {path, bones};
+    struct request request = {path, parts};
     struct answer answer;
     if (isolate_run(path, limits, import, &request, &answer, error))
         return -1;
@@ -37,9 +37,9 @@ int mesh_read_model_within(struct mesh *mesh, const char *path, bool bones,
     return result;
 }
 
-int mesh_read_model(struct mesh *mesh, const char *path, bool bones, struct error *error)
+int mesh_read_model(struct mesh *mesh, const char *path, unsigned parts, struct error *error)
 {
     static const struct isolate_limits limits = {
         .memory = (uint64_t)4 << 30, .seconds = 120, .milliseconds = 600000, .answer = LIMIT_STREAM_BYTES};
-    return mesh_read_model_within(mesh, path, bones, &limits, error);
+    return mesh_read_model_within(mesh, path, parts, &limits, error);
 }

@@ -25,6 +25,7 @@ void mesh_free(struct mesh *mesh)
     free(mesh->vertices);
     free(mesh->indices);
     skeleton_free(mesh->skeleton);
+    material_free_all(&mesh->materials);
     store_free_files(&mesh->files);
     *mesh = (struct mesh){0};
 }
@@ -185,6 +186,8 @@ static int make_flat_normals(struct mesh *mesh, const char *path, struct error *
     free(moved);
     made.skeleton = mesh->skeleton;
     made.files = mesh->files;
+    made.materials = mesh->materials;
+    mesh->materials = (struct materials){0};
     mesh->skeleton = NULL;
     mesh->files = (struct store_files){0};
     mesh_free(mesh);
@@ -374,6 +377,12 @@ static int pack(struct resource *resource, const struct mesh *mesh)
     for (uint32_t v = 0; v < mesh->vertex_count; v++)
         pack_vertex(resource->vertices + (size_t)v * layout->stride, layout, &mesh->vertices[v]);
     pack_indices(resource, mesh);
+    if (mesh->materials.count) {
+        resource->materials = malloc(sizeof *resource->materials);
+        if (!resource->materials)
+            return -1;
+        *resource->materials = mesh->materials;
+    }
     resource->skeleton = mesh->skeleton;
     return 0;
 }
@@ -386,6 +395,8 @@ static int take(struct resource *resource, struct mesh *mesh, const char *path, 
         result = no_memory(path, error);
     if (resource->skeleton)
         mesh->skeleton = NULL;
+    if (resource->materials)
+        mesh->materials = (struct materials){0};
     mesh_free(mesh);
     return result;
 }
@@ -393,8 +404,10 @@ static int take(struct resource *resource, struct mesh *mesh, const char *path, 
 static int read_and_finish(struct mesh *mesh, const char *path, const struct mesh_options *options,
                            struct error *error)
 {
+    unsigned parts =
+        (options->bones ? MODEL_BONES : 0) | (options->source == MESH_MODEL ? MODEL_MATERIALS : 0);
     int result = options->source == MESH_BEZIER ? mesh_read_bezier(mesh, path, options->subdivisions, error)
-                                                : mesh_read_model(mesh, path, options->bones, error);
+                                                : mesh_read_model(mesh, path, parts, error);
     return result ? result : mesh_finish(mesh, path, options, error);
 }
 

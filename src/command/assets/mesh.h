@@ -8,6 +8,7 @@
 #define COMMAND_ASSETS_MESH_H
 
 #include "command/assets/skeleton.h"
+#include "command/import/material.h"
 #include "command/store/files.h"
 #include "command/stream/stream.h"
 
@@ -26,8 +27,9 @@ struct mesh {
     uint32_t vertex_count, vertex_capacity;
     uint32_t index_count, index_capacity;
     bool has_color, has_texcoord;
-    struct skeleton *skeleton; /* or null */
-    struct store_files files;  /* all that determine it */
+    struct skeleton *skeleton;  /* or null */
+    struct materials materials; /* of all triangles, in their order; or none */
+    struct store_files files;   /* all that determine it */
 };
 
 void mesh_free(struct mesh *mesh);
@@ -38,18 +40,22 @@ int mesh_add_vertex(struct mesh *mesh, const char *path, const struct mesh_verte
 int mesh_add_triangle(struct mesh *mesh, const char *path, uint32_t a, uint32_t b, uint32_t c,
                       struct error *error);
 
-/* The importers. mesh_read_model reads all triangles of a model file that Assimp supports and, if `bones` is
- * set, its skeleton. It runs in a separate process (import.c), within the limits if they are given.
- * mesh_read_bezier reads the patches of a BEZ file. */
+/* Parts of a model that are read on request: its skeleton; its materials, which also determine the order of
+ * the triangles. */
+enum model_part { MODEL_BONES = 1, MODEL_MATERIALS = 2 };
+
+/* The importers. mesh_read_model reads all triangles of a model file that Assimp supports and the given
+ * parts, a mask of enum model_part. It runs in a separate process (import.c), within the limits if they are
+ * given. mesh_read_bezier reads the patches of a BEZ file. */
 struct isolate_limits;
-int mesh_read_model(struct mesh *mesh, const char *path, bool bones, struct error *error);
+int mesh_read_model(struct mesh *mesh, const char *path, unsigned parts, struct error *error);
 /* For tests: small limits. */
-int mesh_read_model_within(struct mesh *mesh, const char *path, bool bones,
+int mesh_read_model_within(struct mesh *mesh, const char *path, unsigned parts,
                            const struct isolate_limits *limits, struct error *error);
 int mesh_read_bezier(struct mesh *mesh, const char *path, unsigned subdivisions, struct error *error);
 
 /* The import itself, in that process: a damaged file can crash it. */
-int mesh_import_model(struct mesh *mesh, const char *path, bool bones, struct error *error);
+int mesh_import_model(struct mesh *mesh, const char *path, unsigned parts, struct error *error);
 
 /* Meshes without a file: the shapes of shape.c, and the shadow volume of a mesh. `name` begins reasons. */
 int mesh_make_shape(struct mesh *mesh, const char *name, const struct mesh_options *options,

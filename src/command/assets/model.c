@@ -7,7 +7,9 @@
 #include "command/import/assimp.h"
 #include "command/assets/bones.h"
 #include "command/assets/mesh.h"
+#include "command/import/locate.h"
 #include "command/import/reading.h"
+#include "base/file.h"
 
 #include <assimp/config.h>
 #include <assimp/postprocess.h>
@@ -121,21 +123,69 @@ static void multiply(struct aiMatrix4x4 *a, const struct aiMatrix4x4 *b)
     memcpy(a, product, sizeof product);
 }
 
-static int add_node(struct mesh *mesh, const char *path, const struct aiScene *scene,
-                    const struct aiNode *node, const struct aiMatrix4x4 *parent, struct error *error)
+/* A mesh to which the meshes of a scene are added: those of one material, or of all. */
+struct addition {
+    struct mesh *mesh;
+    const char *path;
+    const struct aiScene *scene;
+    unsigned material; /* the number of materials: of meshes without one */
+    bool all;
+};
+
+static bool is_wanted(const struct addition *addition, const struct aiMesh *source)
+{
+    unsigned count = addition->scene->mNumMaterials;
+    unsigned material = source->mMaterialIndex < count ? source->mMaterialIndex : count;
+    return addition->all || material == addition->material;
+}
+
+static int add_node(const struct addition *to, const struct aiNode *node, const struct aiMatrix4x4 *parent,
+                    struct error *error)
 {
     struct aiMatrix4x4 matrix = *parent;
     if (!node)
         return 0;
     multiply(&matrix, &node->mTransformation);
     struct placement placement = make_placement(&matrix);
-    for (unsigned i = 0; i < node->mNumMeshes; i++)
-        if (node->mMeshes[i] < scene->mNumMeshes &&
-            add_mesh(mesh, path, scene->mMeshes[node->mMeshes[i]], node, &placement, error))
+    for (unsigned i = 0; i < node->mNumMeshes; i++) {
+        unsigned number = node->mMeshes[i];
+        if (number < to->scene->mNumMeshes && is_wanted(to, to->scene->mMeshes[number]) &&
+            add_mesh(to->mesh, to->path, to->scene->mMeshes[number], node, &placement, error))
             return -1;
+    }
     for (unsigned i = 0; i < node->mNumChildren; i++)
-        if (add_node(mesh, path, scene, node->mChildren[i], &matrix, error))
+        if (add_node(to, node->mChildren[i], &matrix, error))
             return -1;
+    return 0;
+}
+
+static bool is_used(const struct addition *to)
+{
+    for (unsigned i = 0; i < to->scene->mNumMeshes; i++)
+        if (is_wanted(to, to->scene->mMeshes[i]))
+            return true;
+    return false;
+}
+
+/* Adds the triangles of one material after the other. */
+static int add_by_material(struct addition *to, const struct aiMatrix4x4 *identity, struct error *error)
+{
+    struct materials *materials = &to->mesh->materials;
+    for (to->material = 0; to->material <= to->scene->mNumMaterials; to->material++) {
+        uint32_t first = to->mesh->index_count;
+        if (!is_used(to))
+            continue;
+        if (add_node(to, to->scene->mRootNode, identity, error))
+            return -1;
+        if (to->mesh->index_count == first)
+            continue;
+        if (materials->count == MATERIALS_MAXIMUM)
+            return error_set(error, "%s: more than %d materials", to->path, MATERIALS_MAXIMUM);
+        if (material_add(materials, to->scene, to->material))
+            return error_set(error, "%s: not enough memory", to->path);
+        materials->of[materials->count - 1].first = first;
+        materials->of[materials->count - 1].count = to->mesh->index_count - first;
+    }
     return 0;
 }
 
@@ -148,6 +198,19 @@ static int fail_import(const struct assimp *assimp, const char *path, struct err
         if ((unsigned char)*c < ' ')
             *c = ' ';
     return error_set(error, "%s: %s", path, *reason ? reason : "Assimp cannot read it");
+}
+
+/* Replaces the reason by one with a line, if the file is text that has a fault. */
+static void locate_in_file(const char *path, struct error *error)
+{
+    struct error found = {{0}};
+    char *text;
+    size_t bytes;
+    if (file_read(path, LIMIT_FILE_BYTES, &text, &bytes, &found))
+        return;
+    if (error && locate_fault(path, text, bytes, &found))
+        *error = found;
+    free(text);
 }
 
 /* Assimp allocates and reads the sizes that a PLY header claims. A count larger than the file's bytes is
@@ -196,22 +259,23 @@ static int check_depth(const struct aiNode *node, int depth)
 }
 
 /* Adds all meshes of all nodes. */
-static int add_scene(struct mesh *mesh, const char *path, const struct aiScene *scene, bool bones,
+static int add_scene(struct mesh *mesh, const char *path, const struct aiScene *scene, unsigned parts,
                      struct error *error)
 {
+    struct addition to = {mesh, path, scene, 0, !(parts & MODEL_MATERIALS)};
     const struct aiMatrix4x4 identity = {.a1 = 1, .b2 = 1, .c3 = 1, .d4 = 1};
     if (!scene->mRootNode)
         return error_set(error, "%s: no meshes", path);
     if (check_depth(scene->mRootNode, 0))
         return error_set(error, "%s: nodes nested more than %d deep", path, NODE_DEPTH_MAXIMUM);
-    if (bones && !(mesh->skeleton = bones_read(scene, path, error)))
+    if ((parts & MODEL_BONES) && !(mesh->skeleton = bones_read(scene, path, error)))
         return -1;
-    if (add_node(mesh, path, scene, scene->mRootNode, &identity, error))
+    if (to.all ? add_node(&to, scene->mRootNode, &identity, error) : add_by_material(&to, &identity, error))
         return -1;
     return mesh->index_count ? 0 : error_set(error, "%s: no triangles", path);
 }
 
-int mesh_import_model(struct mesh *mesh, const char *path, bool bones, struct error *error)
+int mesh_import_model(struct mesh *mesh, const char *path, unsigned parts, struct error *error)
 {
     static const unsigned steps = aiProcess_Triangulate | aiProcess_JoinIdenticalVertices |
                                   aiProcess_SortByPType | aiProcess_FlipUVs | aiProcess_ImproveCacheLocality |
@@ -227,11 +291,14 @@ int mesh_import_model(struct mesh *mesh, const char *path, bool bones, struct er
         assimp->aiSetImportPropertyInteger(properties, AI_CONFIG_PP_SBP_REMOVE,
                                            aiPrimitiveType_POINT | aiPrimitiveType_LINE);
         scene = assimp_import(assimp, path, steps, reading_functions(reading), properties);
-        if (reading_was_short_of_memory(reading))
+        bool starved = reading_was_short_of_memory(reading);
+        if (starved)
             error_set(error, "%s: not enough memory", path);
         else
-            result = scene ? add_scene(mesh, path, scene, bones, error) : fail_import(assimp, path, error);
+            result = scene ? add_scene(mesh, path, scene, parts, error) : fail_import(assimp, path, error);
         reading_end(reading, assimp->path, &mesh->files);
+        if (result && !starved)
+            locate_in_file(path, error);
     } else {
         error_set(error, "%s: not enough memory", path);
     }

@@ -1,5 +1,5 @@
-/* The format: head, vertices, indices, files; for a skeleton its head, then joints, bones and animations one
- * by one. A name is its length and its bytes. */
+/* The format: head, vertices, indices, files, materials; for a skeleton its head, then joints, bones and
+ * animations one by one. A name is its length and its bytes. */
 #include "command/assets/transfer.h"
 
 #include <math.h>
@@ -9,12 +9,17 @@
 enum { MAGIC = 0x6873656d, NAME_BYTES = 4096 };
 
 struct head {
-    uint32_t magic, vertices, indices, has_color, has_texcoord, has_skeleton, files;
+    uint32_t magic, vertices, indices, has_color, has_texcoord, has_skeleton, files, materials;
 };
 
 struct file_head {
     uint32_t beside, part;
     struct digest digest;
+};
+
+struct material_head {
+    float diffuse[4];
+    uint32_t count, has_texture, picture_bytes;
 };
 
 struct skeleton_head {
@@ -37,6 +42,22 @@ static int add_files(struct answer *answer, const struct mesh *mesh)
         const struct store_file *file = &mesh->files.file[i];
         struct file_head head = {file->beside, file->part, file->digest};
         bad = isolate_append(answer, &head, sizeof head) || add_name(answer, file->name);
+    }
+    return bad;
+}
+
+static int add_materials(struct answer *answer, const struct materials *materials)
+{
+    int bad = 0;
+    for (uint32_t i = 0; !bad && i < materials->count; i++) {
+        const struct material *material = &materials->of[i];
+        struct material_head head = {.count = material->count,
+                                     .has_texture = material->texture != NULL,
+                                     .picture_bytes = (uint32_t)material->picture_bytes};
+        memcpy(head.diffuse, material->diffuse, sizeof head.diffuse);
+        bad = isolate_append(answer, &head, sizeof head) || add_name(answer, material->name) ||
+              add_name(answer, material->texture ? material->texture : "") ||
+              isolate_append(answer, material->picture, material->picture_bytes);
     }
     return bad;
 }
@@ -82,11 +103,13 @@ int transfer_write(const struct mesh *mesh, struct answer *answer)
                         mesh->has_color != 0,
                         mesh->has_texcoord != 0,
                         mesh->skeleton != NULL,
-                        mesh->files.count};
+                        mesh->files.count,
+                        mesh->materials.count};
     int bad = isolate_append(answer, &head, sizeof head) ||
               isolate_append(answer, mesh->vertices, mesh->vertex_count * sizeof *mesh->vertices) ||
               isolate_append(answer, mesh->indices, mesh->index_count * sizeof *mesh->indices) ||
-              add_files(answer, mesh) || (mesh->skeleton && add_skeleton(answer, mesh->skeleton));
+              add_files(answer, mesh) || add_materials(answer, &mesh->materials) ||
+              (mesh->skeleton && add_skeleton(answer, mesh->skeleton));
     return bad ? -1 : 0;
 }
 
@@ -283,6 +306,49 @@ static int take_files(struct reader *reader, struct mesh *mesh, uint32_t count)
     return 0;
 }
 
+static int take_material(struct reader *reader, struct material *material)
+{
+    struct material_head head;
+    if (take(reader, &head, sizeof head) || take_name(reader, &material->name) ||
+        take_name(reader, &material->texture))
+        return -1;
+    for (int i = 0; i < 4; i++)
+        if (!(head.diffuse[i] >= 0 && head.diffuse[i] <= 1))
+            return damaged(reader, "a colour beyond 0 to 1");
+    memcpy(material->diffuse, head.diffuse, sizeof head.diffuse);
+    material->count = head.count;
+    if (!head.has_texture) {
+        free(material->texture);
+        material->texture = NULL;
+    }
+    if (!head.picture_bytes)
+        return 0;
+    material->picture_bytes = head.picture_bytes;
+    return take_array(reader, head.picture_bytes, 1, &material->picture);
+}
+
+/* The materials have all triangles, each its own. */
+static int take_materials(struct reader *reader, struct mesh *mesh, uint32_t count)
+{
+    struct materials *materials = &mesh->materials;
+    uint32_t first = 0;
+    if (count > MATERIALS_MAXIMUM)
+        return damaged(reader, "too many materials");
+    if (count &&
+        make_room(reader, count, sizeof *materials->of, sizeof(struct material_head), &materials->of))
+        return -1;
+    while (materials->count < count) {
+        struct material *material = &materials->of[materials->count++];
+        if (take_material(reader, material))
+            return -1;
+        material->first = first;
+        if (!material->count || material->count % 3 || material->count > mesh->index_count - first)
+            return damaged(reader, "a material with a wrong number of triangles");
+        first += material->count;
+    }
+    return !count || first == mesh->index_count ? 0 : damaged(reader, "triangles without a material");
+}
+
 static int take_mesh(struct reader *reader, struct mesh *mesh)
 {
     struct head head;
@@ -299,7 +365,7 @@ static int take_mesh(struct reader *reader, struct mesh *mesh)
     if (take_array(reader, head.indices, sizeof *mesh->indices, &mesh->indices))
         return -1;
     mesh->index_count = mesh->index_capacity = head.indices;
-    if (take_files(reader, mesh, head.files))
+    if (take_files(reader, mesh, head.files) || take_materials(reader, mesh, head.materials))
         return -1;
     if (head.has_skeleton && take_skeleton(reader, mesh))
         return -1;

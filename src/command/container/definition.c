@@ -58,11 +58,12 @@ static int check_mesh(const struct resource *resource, struct error *error)
 static int check_more_mesh(const struct resource *resource, struct error *error)
 {
     const struct mesh_options *o = &resource->options;
-    bool file = o->source == MESH_FILE || o->source == MESH_BEZIER;
+    bool model = o->source == MESH_FILE || o->source == MESH_MODEL;
+    bool file = model || o->source == MESH_BEZIER;
     if (file != (resource->path != NULL))
         return error_set(error, "found a mesh %s path, expected one only for meshes from files",
                          file ? "without a" : "with a");
-    if ((o->normals || o->bones) && o->source != MESH_FILE)
+    if ((o->normals || o->bones) && !model)
         return error_set(error, "found options of a model, expected them of one");
     if ((o->texcoords || o->center || o->fit != 0) && !file)
         return error_set(error, "found options of a file, expected them of one");

@@ -124,5 +124,15 @@ int parse_buffer(struct parser *parser);
 int parse_shader(struct parser *parser);
 int parse_query(struct parser *parser);
 int parse_mesh(struct parser *parser);
+int parse_model(struct parser *parser);
+
+/* Reads a mesh from the token after the word of its source, which its options have. */
+int parse_mesh_source(struct parser *parser, struct resource *resource);
+
+/* Loads a texture from its file, resource->path. A failure is reported at `place`. */
+int parse_texture_file(struct parser *parser, struct resource *resource, const struct token *place);
+
+/* Adds the calls that draw a model, from the token after `model`; the last remains in `call`. */
+int parse_draw_model(struct parser *parser, struct call *call);
 
 #endif

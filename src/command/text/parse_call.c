@@ -332,7 +332,7 @@ int parse_clear(struct parser *parser, struct call *call, unsigned word)
     return 0;
 }
 
-/* draw PRIMITIVE FIRST COUNT, or draw mesh NAME */
+/* draw PRIMITIVE FIRST COUNT, draw mesh NAME, or draw model NAME */
 int parse_draw(struct parser *parser, struct call *call, unsigned word)
 {
     unsigned primitive;
@@ -341,7 +341,9 @@ int parse_draw(struct parser *parser, struct call *call, unsigned word)
         call->type = CALL_DRAW_MESH;
         return lex_next(&parser->lex) ? -1 : parse_regular(parser, call, 0);
     }
-    if (parse_word(parser, WORDS_PRIMITIVE, "a primitive, or mesh NAME", &primitive))
+    if (lex_is(&parser->lex, "model"))
+        return lex_next(&parser->lex) ? -1 : parse_draw_model(parser, call);
+    if (parse_word(parser, WORDS_PRIMITIVE, "a primitive, mesh NAME, or model NAME", &primitive))
         return -1;
     call->draw.primitive = primitive;
     return parse_regular(parser, call, 1);

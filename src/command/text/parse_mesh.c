@@ -70,7 +70,8 @@ static int parse_tiling(struct parser *parser, struct mesh_options *options)
 }
 
 enum {
-    FILES = 1 << MESH_FILE | 1 << MESH_BEZIER,
+    MODELS = 1 << MESH_FILE | 1 << MESH_MODEL,
+    FILES = MODELS | 1 << MESH_BEZIER,
     SHAPES = 1 << MESH_BOX | 1 << MESH_GRID | 1 << MESH_SPHERE | 1 << MESH_CYLINDER | 1 << MESH_TORUS
 };
 
@@ -79,11 +80,11 @@ static const struct option {
     unsigned sources; /* that have it: a mask of 1 << source */
     int (*parse)(struct parser *parser, struct mesh_options *options);
 } options[] = {
-    {"normals", 1 << MESH_FILE, parse_normals},
+    {"normals", MODELS, parse_normals},
     {"subdivisions", 1 << MESH_BEZIER, parse_subdivisions},
     {"texcoords", FILES, parse_texcoords},
     {"repeat", FILES | SHAPES, parse_tiling},
-    {"bones", 1 << MESH_FILE, parse_bones},
+    {"bones", MODELS, parse_bones},
     {"center", FILES, parse_center},
     {"fit", FILES, parse_fit},
 };
@@ -183,6 +184,17 @@ static int make(struct parser *parser, struct resource *resource, const struct t
     return 0;
 }
 
+int parse_mesh_source(struct parser *parser, struct resource *resource)
+{
+    struct token place = parser->lex.token;
+    if (assemble_source(parser, resource) || parse_options(parser, &resource->options) ||
+        make(parser, resource, &place))
+        return -1;
+    stream_build_extremes(resource);
+    return parse_account(parser, &place,
+                         resource->vertex_bytes + (size_t)resource->index_count * resource->index_bits / 8);
+}
+
 int parse_mesh(struct parser *parser)
 {
     struct resource *resource;
@@ -192,11 +204,8 @@ int parse_mesh(struct parser *parser)
     resource->options.source = (enum mesh_source)source;
     if (source == MESH_DATA)
         return parse_given(parser, resource);
-    struct token place = parser->lex.token;
-    if (assemble_source(parser, resource) || parse_options(parser, &resource->options) ||
-        make(parser, resource, &place))
+    if (parse_mesh_source(parser, resource))
         return -1;
-    stream_build_extremes(resource);
-    return parse_account(parser, &place,
-                         resource->vertex_bytes + (size_t)resource->index_count * resource->index_bits / 8);
+    asset_free_materials(resource);
+    return 0;
 }

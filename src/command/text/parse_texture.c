@@ -60,15 +60,19 @@ static int parse_image(struct parser *parser, struct resource *resource)
     return result;
 }
 
+int parse_texture_file(struct parser *parser, struct resource *resource, const struct token *place)
+{
+    struct triptych_texture shape;
+    if (parse_load(parser, resource, resource->path, place, asset_load_texture))
+        return -1;
+    texture_describe(&resource->texture, &shape, NULL);
+    return parse_account(parser, place, texture_storage_bytes(&shape));
+}
+
 static int parse_file(struct parser *parser, struct resource *resource)
 {
     struct token place = parser->lex.token;
-    struct triptych_texture shape;
-    if (parse_path(parser, &resource->path) ||
-        parse_load(parser, resource, resource->path, &place, asset_load_texture))
-        return -1;
-    texture_describe(&resource->texture, &shape, NULL);
-    return parse_account(parser, &place, texture_storage_bytes(&shape));
+    return parse_path(parser, &resource->path) ? -1 : parse_texture_file(parser, resource, &place);
 }
 
 /* --- Sources -------------------------------------------------------------------------------------------- */

@@ -39,7 +39,8 @@ enum {
 
 struct exchange {
     volatile int in_assimp;
-    int bones, failed;
+    unsigned parts;
+    int failed;
     char path[64];
     struct error reason;
     size_t bytes;
@@ -157,7 +158,7 @@ static void import(void)
     struct answer answer = {0};
     struct error error = {{0}};
     exchange->failed =
-        mesh_import_model(&mesh, exchange->path, exchange->bones, &error) ||
+        mesh_import_model(&mesh, exchange->path, exchange->parts, &error) ||
         (transfer_write(&mesh, &answer) && error_set(&error, "%s: not enough memory", exchange->path)) ||
         (answer.bytes > ANSWER && error_set(&error, "%s: a long answer", exchange->path));
     exchange->reason = error;
@@ -288,10 +289,10 @@ static enum import_end fail_end(const char *path, int status, struct error *erro
     return IMPORT_DIED;
 }
 
-enum import_end importer_run(const char *path, bool bones, struct answer *answer, struct error *error)
+enum import_end importer_run(const char *path, unsigned parts, struct answer *answer, struct error *error)
 {
     snprintf(exchange->path, sizeof exchange->path, "%s", path);
-    exchange->bones = bones;
+    exchange->parts = parts;
     enum import_end end = ask();
     if (end == IMPORT_DIED)
         return fail_end(path, end_importer(), error);

@@ -17,7 +17,7 @@ void importer_prepare(void);
 
 /* Imports a file as its own process does (command/assets/import.c), in a process that has imported other
  * files before. */
-enum import_end importer_run(const char *path, bool bones, struct answer *answer, struct error *error);
+enum import_end importer_run(const char *path, unsigned parts, struct answer *answer, struct error *error);
 
 /* Returns 1 if the last process that died, one of this file or of isolate.h, was executing Assimp. Otherwise
  * the code of this repository crashed. */

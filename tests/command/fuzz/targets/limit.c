@@ -23,7 +23,7 @@ int __wrap_container_next(struct chunk_reader *reader, size_t room, struct recor
                           struct error *error);
 int __wrap_mesh_make(struct resource *resource, const struct resource *caster, struct error *error);
 int __wrap_file_read(const char *path, size_t limit, char **data, size_t *bytes, struct error *error);
-int __wrap_mesh_read_model(struct mesh *mesh, const char *path, bool bones, struct error *error);
+int __wrap_mesh_read_model(struct mesh *mesh, const char *path, unsigned parts, struct error *error);
 
 int __wrap_stream_build_account(struct builder *builder, size_t bytes, struct error *error)
 {
@@ -59,9 +59,9 @@ int __wrap_file_read(const char *path, size_t limit, char **data, size_t *bytes,
 }
 
 /* Models of other formats have a target that limits an import. */
-int __wrap_mesh_read_model(struct mesh *mesh, const char *path, bool bones, struct error *error)
+int __wrap_mesh_read_model(struct mesh *mesh, const char *path, unsigned parts, struct error *error)
 {
     (void)mesh;
-    (void)bones;
+    (void)parts;
     return error_set(error, "%s: no model for a fuzzer", path);
 }
