@@ -130,7 +130,7 @@ unity_flags = -isystem $(dir $(UNITY_SOURCE)) -DUNITY_INCLUDE_DOUBLE -DUNITY_USE
 
 # --- What to build ------------------------------------------------------------------------------------------
 
-.PHONY: all programs objects check test check-threads matrix coverage soak soak-faults soak-memory bench peers bench-shaders bench-draws mutations gallery verify-external docs fuzzers fuzz-input fuzz-input-smoke dependencies packages install clean format format-check compile_commands.json help FORCE
+.PHONY: all programs objects check test check-threads check-explore matrix coverage soak soak-faults soak-memory bench peers bench-shaders bench-draws mutations gallery verify-external docs fuzzers fuzz-input fuzz-input-smoke dependencies packages install clean format format-check compile_commands.json help FORCE
 
 all: $(BUILD)/libtriptych.a $(if $(SANITIZE),,$(BUILD)/libtriptych.so $(PKGCONFIG) \
   $(BUILD)/include/triptych/triptych.h) $(COMMAND) build/glmark2 \
@@ -390,6 +390,13 @@ test:
 threaded = $(patsubst %.c,$(BUILD)/thread/%,$(call only,$(call tests,machine/code render/device/background \
   render/device/cache render/device/shuffle render/queue/pool command/stream/threads)))
 
+# Uses pages of the command explore in a headless Chromium. PICTURES=folder takes the pictures of
+# docs/explorer.md instead.
+check-explore:
+	@tests/support/scripts/dependencies.sh build browser
+	+@$(MAKE) $(jobs) all
+	@python3 tests/explore/browse.py $(COMMAND) $(PICTURES)
+
 # `make test` runs ThreadSanitizer on small streams. This target runs it on all streams, with more threads.
 check-threads:
 	@tests/support/scripts/dependencies.sh build test
@@ -558,6 +565,7 @@ make fuzz-input      readers of untrusted input under libFuzzer, half an hour (D
 make fuzz-input-smoke  the same in ten minutes
 make matrix          compares builds of gcc and clang at -O0, -O2, -O3, with and without AVX-512: results/matrix.txt
 make check-threads   all streams with several threads in random orders under ThreadSanitizer
+make check-explore   the pages of triptych explore in a headless Chromium; PICTURES=folder: their pictures
 make coverage        lists lines that the tests execute, results/coverage.txt; fails below 90 %
 make mutations       plants bugs in a copy of the tree and checks that the tests find them: results/mutations.md
 make verify-external every stream with the external engine: minutes of compiling

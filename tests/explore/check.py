@@ -77,7 +77,6 @@ def check_sources(model):
     if "shader" in model:
         expect(len(model["shader"]["line"]) == operations, "not every operation has a line of the shader, or 0")
         expect(all(0 <= line <= len(model["shader"]["lines"]) for line in model["shader"]["line"]), "a line")
-        expect(any(model["shader"]["line"]), "the shader records nothing")
 
 
 def expand(model):
@@ -110,12 +109,13 @@ def kin_of(pane):
         elif pane["kind"] == "intervals":
             yield line[6]
         elif pane["kind"] in ("code", "text"):
-            yield from line[0] if isinstance(line[0], list) else [line[0]]
+            yield line[0]["own"] if isinstance(line[0], dict) else line[0]
 
 
 def check_kin(model):
     """A number below that of recorded operations is one of them; another belongs to a line of the same pane."""
     operations = len(model["place"])
+    recorded = {f"{model['files'][file]['path']}:{line}" for file, line, _, _ in model["places"]}
     for pane in model["panes"]:
         numbers = set(kin_of(pane)) - {0}
         expect(all(0 < number < model["kin"] for number in numbers), f"{pane['id']}: a kin that does not exist")
@@ -123,6 +123,9 @@ def check_kin(model):
             expect(all(number < operations for number in numbers), f"{pane['id']}: a kin of its own")
         if pane["kind"] in ("ir", "intervals", "code", "text") and pane["id"] != "external/code":
             expect(numbers, f"{pane['id']}: no line has kin")
+        lines = {line[0]["line"] for line in pane["lines"] if isinstance(line[0], dict) and "line" in line[0]}
+        expect(lines <= recorded, f"{pane['id']}: lines that record nothing: {lines - recorded}")
+        expect(lines or pane["engine"] != "stitch-operation", f"{pane['id']}: no part has a line")
     expect({line[3] for line in panes(model)["record"]["program"]} == set(range(1, operations)),
            "the recording has other operations than the data")
 

@@ -19,7 +19,8 @@
  *   runs       [round, pass, changed, removed, added, altered, instructions left, meaning]
  *   intervals  [number, last use, last position in the register or -1, register, slot or -1, operation, origin,
  *              type]; also `positions` and `loops`
- *   code       [kin, offset or -1, bytes, text, comment]: kin is a number, 0: none, or a list
+ *   code       [kin, offset or -1, bytes, text, comment]: kin is a number, 0: none; or own, a number, and line,
+ *              a path and a line of the specification, whose operations are kin too
  *   text       [kin, text] */
 const model = JSON.parse(document.getElementById("model").textContent);
 
@@ -52,7 +53,7 @@ expandPrograms();
 
 const recording = new Map(panes.get("record").program.map((line) => [line.number, line]));
 
-/* By "file:line" of the specification: the instructions that it records, and those recorded by functions that
+/* By "path:line" of the specification: the instructions that it records, and those recorded by functions that
  * it calls. */
 const recordedAt = new Map(), recordedVia = new Map();
 
@@ -75,7 +76,7 @@ function chainOf(origin) {
 model.place.forEach((place, origin) => {
   if (!place) return;
   chainOf(origin).forEach((at, depth) =>
-    addTo(depth ? recordedVia : recordedAt, at.file + ":" + at.line, origin));
+    addTo(depth ? recordedVia : recordedAt, at.path + ":" + at.line, origin));
 });
 
 const shaderLine = (origin) => (model.shader ? model.shader.line[origin] || 0 : 0);
@@ -88,7 +89,7 @@ function shortPlace(origin) {
   return chain.length ? chain[0].path.replace(/^.*\//, "") + ":" + chain[0].line : "";
 }
 
-const kinList = (kin) => (Array.isArray(kin) ? kin : kin ? [kin] : []);
+const kinList = (kin) => (typeof kin === "object" ? [...(recordedAt.get(kin.line) || []), kin.own] : kin ? [kin] : []);
 
 function rangeList(ranges) {
   const list = [];

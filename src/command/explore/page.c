@@ -181,14 +181,11 @@ uint32_t page_own_kin(struct page *page, uint32_t count)
 
 void page_kin_of_line(struct page *page, const char *file, unsigned line, uint32_t own)
 {
-    const struct ir *ir = page->recording->ir;
-    fputc('[', page->out);
-    for (uint32_t number = 1; file && number < ir->count; number++) {
-        const struct ir_instruction *i = &ir->instruction[number];
-        if (i->line == line && !strcmp(ir->file[i->file], file))
-            fprintf(page->out, "%u,", number);
-    }
-    fprintf(page->out, "%u]", own);
+    const char *path = file ? strstr(file, "spec/") : NULL;
+    fprintf(page->out, "{\"own\":%u", own);
+    if (path)
+        fprintf(page->out, ",\"line\":\"%s:%u\"", path, line);
+    fputc('}', page->out);
 }
 
 /* --- The whole page ------------------------------------------------------------------------------------ */

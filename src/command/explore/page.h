@@ -62,7 +62,8 @@ void page_end_pane(struct page *page);
 /* Reserves `count` numbers for kin besides the recorded instructions, and returns the first. */
 uint32_t page_own_kin(struct page *page, uint32_t count);
 
-/* Prints the list of the instructions that a line of the specification recorded, and then `own`. */
+/* Prints kin: the instructions that a line of the specification recorded, and the pane's own number `own`.
+ * The path of the file may begin with folders; null means no line. */
 void page_kin_of_line(struct page *page, const char *file, unsigned line, uint32_t own);
 
 /* Prints an engine's panes. Return 0, or -1 with the reason. */

@@ -45,10 +45,11 @@ function describe(line) {
   const numbers = numbersOf(line).filter((number) => recording.has(number));
   if (!numbers.length) return "This line comes from no recorded operation.";
   const origin = numbers[0], first = recording.get(origin), shader = shaderLine(origin);
-  const parts = [`${numbers.length > 1 ? numbers.length + " recorded operations, the first: " : "recorded as "}%${origin} ${first.text.trim().replace(/\s+/g, " ")}`,
-    "by " + chainOf(origin).map((at) => `${at.name} (${at.path.replace(/^spec\//, "")}:${at.line})`).join(" \u2190 ")];
-  if (shader) parts.push(`shader line ${shader}: ${model.shader.lines[shader - 1]}`);
-  return parts.join("\n");
+  const calls = chainOf(origin).map((at) => `${at.name} (${at.path.replace(/^spec\//, "")}:${at.line})`);
+  const what = numbers.length > 1 ? `${numbers.length} recorded operations, the first: ` : "recorded as ";
+  const parts = [`${what}%${origin} ${first.text.trim().replace(/\s+/g, " ")}`];
+  if (shader) parts[0] += `, shader line ${shader}: ${model.shader.lines[shader - 1].trim()}`;
+  return parts.concat("by " + calls.join(" \u2190 ")).join("\n");
 }
 
 function pin(line) {
@@ -75,7 +76,7 @@ class Column {
     this.element = make("section", "column");
     this.bar = make("div", "bar");
     this.select = this.makeSelect();
-    this.controls = make("span");
+    this.controls = make("span", "controls");
     this.count = make("span", "count");
     this.note = make("div", "note");
     this.body = make("div", "body");
@@ -153,6 +154,7 @@ class Column {
     this.body.setAttribute("aria-label", choices.find((choice) => choice.id === id).title);
     this.controls.replaceChildren(...this.view.controls);
     this.note.textContent = this.view.note;
+    if (this.view.center) this.view.center.scrollIntoView({ block: "center", inline: "center" });
     if (own) { focused = null; pinned = false; clearMarks(); }
     else if (focused && columns.includes(this)) { markColumn(this, numbers); if (pinned) this.scrollTo(this.kin[0]); }
   }

@@ -124,7 +124,7 @@ function shaderView() {
 
 /* The lines of a file in blocks, which end with a brace or a # in the first column: functions with their
  * comments. Neighbours that record nothing are one block. */
-function blocksOf(file, texts) {
+function blocksOf(path, texts) {
   const blocks = [];
   let block = { first: 0, count: 0, used: false };
   const end = () => {
@@ -134,7 +134,7 @@ function blocksOf(file, texts) {
     block = { first: block.first + block.count, count: 0, used: false };
   };
   texts.forEach((text, at) => {
-    const key = file + ":" + (at + 1);
+    const key = path + ":" + (at + 1);
     block.count++;
     block.used ||= recordedAt.has(key) || recordedVia.has(key);
     if (text[0] === "}" || text[0] === "#") end();
@@ -143,8 +143,8 @@ function blocksOf(file, texts) {
   return blocks;
 }
 
-function specLine(view, parent, file, at, text, open) {
-  const key = file + ":" + (at + 1);
+function specLine(view, parent, path, at, text, open) {
+  const key = path + ":" + (at + 1);
   const kin = recordedAt.get(key) || [], via = recordedVia.get(key) || [];
   const count = kin.length + via.length, line = lineOf(count ? "" : "unused", at + 1);
   const span = make("span", "t");
@@ -165,11 +165,11 @@ function gapOf(block, hidden) {
 function specView() {
   const view = new View({ id: "spec" });
   view.note = "The functions that recorded the routine. Beside a line: the operations that it recorded, itself or in calls.";
-  model.files.forEach((file, number) => {
+  for (const file of model.files) {
     const section = make("section"), texts = file.text.split("\n");
     section.append(make("div", "file", "src/" + file.path));
     let open = false;
-    for (const block of blocksOf(number, texts)) {
+    for (const block of blocksOf(file.path, texts)) {
       const parent = make("div");
       if (!block.used) {
         parent.hidden = true;
@@ -177,10 +177,10 @@ function specView() {
       }
       section.append(parent);
       for (let at = block.first; at < block.first + block.count; at++)
-        open = specLine(view, parent, number, at, texts[at], open);
+        open = specLine(view, parent, file.path, at, texts[at], open);
     }
     view.element.append(section);
-  });
+  }
   return view;
 }
 

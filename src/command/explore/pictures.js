@@ -137,30 +137,36 @@ function layersOf(program, numbers) {
   return layers;
 }
 
+/* The places nearest to the wishes at which no two nodes of the layer overlap: the mean of those that result from
+ * the left and from the right. */
+function spread(layer, wish, widthOf, x) {
+  const left = new Map();
+  let least = -Infinity, most = Infinity;
+  for (const number of layer) {
+    const half = widthOf(number) / 2;
+    left.set(number, Math.max(wish.get(number), least + half));
+    least = left.get(number) + half + NODE_GAP;
+  }
+  for (const number of [...layer].reverse()) {
+    const half = widthOf(number) / 2, right = Math.min(wish.get(number), most - half);
+    x.set(number, (left.get(number) + right) / 2);
+    most = right - half - NODE_GAP;
+  }
+}
+
+/* In turns from the users up and from the operands down, each node moves towards the mean of its neighbours. */
 function placeNodes(program, layers, widthOf) {
-  const x = new Map(), near = (number, edge) => program.get(number)[edge].filter((other) => x.has(other));
-  const pack = (layer) => {
-    let at = 0;
-    for (const number of layer) {
-      x.set(number, at + widthOf(number) / 2);
-      at += widthOf(number) + NODE_GAP;
-    }
-  };
-  layers.forEach(pack);
-  for (let sweep = 0; sweep < 6; sweep++) {
+  const x = new Map();
+  for (const layer of layers) spread(layer, new Map(layer.map((number) => [number, 0])), widthOf, x);
+  for (let sweep = 0; sweep < 8; sweep++) {
     const edge = sweep % 2 ? "operands" : "uses";
     for (const layer of sweep % 2 ? layers : [...layers].reverse()) {
       const wish = new Map(layer.map((number) => {
-        const others = near(number, edge);
-        return [number, others.length ? others.reduce((sum, other) => sum + x.get(other), 0) / others.length : x.get(number)];
+        const others = program.get(number)[edge].filter((other) => x.has(other)).map((other) => x.get(other));
+        return [number, others.length ? others.reduce((sum, at) => sum + at, 0) / others.length : x.get(number)];
       }));
       layer.sort((a, b) => wish.get(a) - wish.get(b));
-      let least = -Infinity;
-      for (const number of layer) {
-        const half = widthOf(number) / 2, at = Math.max(wish.get(number), least + half);
-        x.set(number, at);
-        least = at + half + NODE_GAP;
-      }
+      spread(layer, wish, widthOf, x);
     }
   }
   const left = Math.min(...[...x].map(([number, at]) => at - widthOf(number) / 2));
@@ -198,6 +204,7 @@ function drawGraph(view, program, center, up, down) {
     svg("text", { x: 7, y: 14 }, node, label(number));
     svg("title", {}, node, `%${number} ${line.text.trim()}\n${shortPlace(line.origin)}`);
     view.add(node, kinList(line.origin)).node = number;
+    if (number === center) view.center = node;
   }
   view.element.append(picture);
   return { picture, shown: numbers.length };
@@ -206,7 +213,7 @@ function drawGraph(view, program, center, up, down) {
 /* The last store or scatter: what the routine is for. */
 function lastEffect(program) {
   const numbers = [...program.keys()].reverse();
-  return numbers.find((number) => /\b(store|scatter)\b/.test(program.get(number).line.text)) || numbers[0];
+  return numbers.find((number) => /\b(store|scatter)/.test(program.get(number).line.text)) || numbers[0];
 }
 
 function graphControls(view, column, state) {
@@ -222,6 +229,7 @@ function graphControls(view, column, state) {
   const levels = (name, key) => [["\u2212", -1], ["+", 1]].map(([sign, by]) => {
     const button = make("button", "", name + sign);
     button.type = "button";
+    button.title = by > 0 ? "One level more" : "One level less";
     button.onclick = () => { state[key] = Math.max(0, state[key] + by); column.show("graph"); };
     return button;
   });

@@ -1,7 +1,7 @@
 #!/bin/bash
 # Makes sure that the Debian packages a target needs are installed, and installs those that are not.
 #
-#   tests/support/scripts/dependencies.sh GROUP...    groups: build test bench peers format fuzz
+#   tests/support/scripts/dependencies.sh GROUP...    groups: build test bench peers format fuzz browser
 #   tests/support/scripts/dependencies.sh --list
 #
 # Silent when there is nothing to do. Ends non-zero, after naming the packages and their reasons, when a
@@ -42,6 +42,7 @@ libegl-mesa0       peers  EGL of Mesa
 libgl1-mesa-dri    peers  softpipe and llvmpipe of Mesa
 libclang-rt-14-dev fuzz    libFuzzer and the sanitizers of clang, for readers of untrusted input
 clang-format       format  formats the C sources
+chromium           browser opens the pages of the command explore
 '
 
 describe() # PACKAGE... : their rows of the table, without the group
