@@ -629,8 +629,8 @@ static const char notes[] = "The window needs SDL 2, which is loaded when the co
                             "the camera, its wheel moves\n"
                             "it. When a file of the stream changes, it is read again. Keys, with their "
                             "actions as words of --keys (which\n"
-                            "also has wait):\n\n"
-#define KEY(action, label, code, meaning) label "  " meaning " (" #action ")\n"
+                            "also has wait):"
+#define KEY(action, label, code, meaning) "\n" label "  " meaning " (" #action ")"
 #include "command/view/key.def"
 #undef KEY
     ;
