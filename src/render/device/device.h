@@ -130,7 +130,7 @@ device_drawn_textures(const struct triptych_device *device)
     return device->binding.draws_to_textures ? &device->binding.textures : NULL;
 }
 
-/* What a recording of a running device reads: the state, the constants and the shader of a stage (or null),
+/* For a recording of a running device: the state, the constants and the shader of a stage (or null),
  * and the first of the objects that exist, which are linked by `next`. */
 static inline const struct state *device_state(const struct triptych_device *device)
 {
