@@ -10,17 +10,13 @@ static const struct call *call_at(const struct stream *stream, uint32_t position
     return &stream->calls[stream->executed[position]];
 }
 
-static bool is_draw(const struct call *call)
-{
-    return call->type == CALL_DRAW || call->type == CALL_DRAW_INDEXED || call->type == CALL_DRAW_MESH;
-}
-
 /* --- The view ------------------------------------------------------------------------------------------- */
 
 /* Returns true if the call may change pixels, or what draws go to. */
 static bool stops(const struct call *call)
 {
-    return is_draw(call) || call_row(call->type)->traits & (CALL_USES_TARGET | CALL_DRAWS | CALL_CHANGES);
+    return stream_is_draw(call) ||
+           call_row(call->type)->traits & (CALL_USES_TARGET | CALL_DRAWS | CALL_CHANGES);
 }
 
 /* The frames of the view. The first has all calls before the frame, the second is empty: playing it brings
@@ -36,7 +32,7 @@ static uint32_t list_stops(const struct stream *stream, const struct trail_optio
         if (!stops(call_at(stream, i)))
             continue;
         frames[count++] = i + 1;
-        if (is_draw(call_at(stream, i)) && draws++ == options->draw)
+        if (stream_is_draw(call_at(stream, i)) && draws++ == options->draw)
             break;
     }
     return count;
@@ -50,7 +46,7 @@ static int make_view(struct trail *trail, struct error *error)
         return error_set(error, "%s has no frame %u, its last is %u", stream->path, options->frame,
                          stream->frame_count - 1);
     for (uint32_t i = stream->frames[options->frame]; i < stream->frames[options->frame + 1]; i++)
-        trail->frame_draws += is_draw(call_at(stream, i));
+        trail->frame_draws += stream_is_draw(call_at(stream, i));
     if (options->draw == TRAIL_LAST && trail->frame_draws)
         options->draw = trail->frame_draws - 1;
     if (options->draw >= trail->frame_draws)
@@ -217,8 +213,8 @@ static int play(struct trail *trail, uint32_t i, struct error *error)
         return -1;
     if (call->type == CALL_CLEAR && call->clear.flags & TRIPTYCH_CLEAR_COLOR)
         disown(trail->canvas + canvas);
-    return is_draw(call) ? add_draw(trail, position, (uint32_t)canvas, error)
-                         : add_other(trail, position, (uint32_t)canvas, error);
+    return stream_is_draw(call) ? add_draw(trail, position, (uint32_t)canvas, error)
+                                : add_other(trail, position, (uint32_t)canvas, error);
 }
 
 static int prepare(struct trail *trail, struct error *error)

@@ -52,6 +52,12 @@ static inline bool stream_is_draw(const struct call *call)
     return call->type == CALL_DRAW || call->type == CALL_DRAW_INDEXED || call->type == CALL_DRAW_MESH;
 }
 
+/* The same for executed[position]. */
+static inline bool stream_draws_at(const struct stream *stream, uint32_t position)
+{
+    return stream_is_draw(&stream->calls[stream->executed[position]]);
+}
+
 /* Makes the declaration of a CALL_DECLARE. Returns the number of elements. */
 unsigned stream_declaration(const struct call *call,
                             struct triptych_declaration_element elements[TRIPTYCH_DECLARATION_ELEMENTS]);

@@ -18,7 +18,7 @@ int session_find_draw(const struct command *self, const struct stream *stream, u
                          stream->frame_count - 1);
     unsigned draws = 0;
     for (uint32_t i = stream->frames[frame]; i < stream->frames[frame + 1]; i++)
-        if (session_is_draw(stream, i) && draws++ == draw)
+        if (stream_draws_at(stream, i) && draws++ == draw)
             return *position = i, STATUS_OK;
     return tool_fail(self, "%s: frame %u has no draw %u, it has %u, from 0", stream->path, frame, draw,
                      draws);
@@ -33,7 +33,7 @@ static struct stream single_draw(const struct stream *stream, uint32_t draw, uin
     view.executed = executed;
     view.executed_count = 0;
     for (uint32_t i = 0; i <= draw; i++)
-        if (i == draw || (!session_is_draw(stream, i) && !is_clear(stream, i)))
+        if (i == draw || (!stream_draws_at(stream, i) && !is_clear(stream, i)))
             executed[view.executed_count++] = stream->executed[i];
     view.frames = frames;
     view.frame_count = 1;

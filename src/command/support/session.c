@@ -76,11 +76,6 @@ int session_play(const struct command *self, struct session *session, unsigned f
     return player_frame(session->player, frame, &error) ? tool_fail(self, "%s", error.text) : STATUS_OK;
 }
 
-bool session_is_draw(const struct stream *stream, uint32_t position)
-{
-    return stream_is_draw(&stream->calls[stream->executed[position]]);
-}
-
 unsigned session_spread(unsigned i, unsigned count, unsigned all)
 {
     return count < 2 ? 0 : (unsigned)((uint64_t)i * (all - 1) / (count - 1));

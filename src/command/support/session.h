@@ -37,9 +37,6 @@ void session_close(struct session *session);
 /* Plays a frame, numbered from 0, and waits until it is drawn. */
 int session_play(const struct command *self, struct session *session, unsigned frame);
 
-/* Returns true if executed[position] draws primitives. */
-bool session_is_draw(const struct stream *stream, uint32_t position);
-
 /* Finds a draw of a frame, both numbered from 0: its position in `executed`. Returns 0, or STATUS_BAD after
  * printing the reason (draw.c). */
 int session_find_draw(const struct command *self, const struct stream *stream, unsigned frame, unsigned draw,

@@ -68,7 +68,7 @@ static struct stream view_draws(const struct stream *stream, unsigned frame, uin
     memcpy(ends, stream->frames, (frame + 1) * sizeof *ends);
     *draws = 0;
     for (uint32_t i = stream->frames[frame]; i < stream->frames[frame + 1]; i++)
-        if (session_is_draw(stream, i))
+        if (stream_draws_at(stream, i))
             ends[frame + ++*draws] = i + 1;
     view.frames = ends;
     view.frame_count = frame + *draws;

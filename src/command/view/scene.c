@@ -172,17 +172,11 @@ uint32_t scene_frames(const struct scene *scene)
     return scene->stream->frame_count;
 }
 
-static bool is_draw(const struct stream *stream, uint32_t position)
-{
-    enum call_type type = stream->calls[stream->executed[position]].type;
-    return type == CALL_DRAW || type == CALL_DRAW_INDEXED || type == CALL_DRAW_MESH;
-}
-
 uint32_t scene_draws(const struct scene *scene, uint32_t frame)
 {
     uint32_t draws = 0;
     for (uint32_t i = scene->stream->frames[frame]; i < scene->stream->frames[frame + 1]; i++)
-        draws += is_draw(scene->stream, i);
+        draws += stream_draws_at(scene->stream, i);
     return draws;
 }
 
@@ -196,7 +190,7 @@ static uint32_t end_of(const struct scene *scene, const struct scene_choice *cho
 {
     uint32_t draws = 0, end = scene->stream->frames[choice->frame + 1];
     for (uint32_t i = scene->stream->frames[choice->frame]; i < end; i++)
-        if (is_draw(scene->stream, i) && draws++ == choice->draw)
+        if (stream_draws_at(scene->stream, i) && draws++ == choice->draw)
             return i + 1;
     return end;
 }

@@ -406,11 +406,6 @@ static int examine(struct search *search, const struct pair *pair)
 
 /* --- The stream ----------------------------------------------------------------------------------------- */
 
-static bool is_draw(const struct stream *stream, uint32_t position)
-{
-    return stream_is_draw(&stream->calls[stream->executed[position]]);
-}
-
 /* The stream with a frame for each draw: `frames` has room for all of its calls and two more. */
 static struct stream draw_by_draw(const struct stream *stream, uint32_t *frames)
 {
@@ -419,7 +414,7 @@ static struct stream draw_by_draw(const struct stream *stream, uint32_t *frames)
     view.frame_count = 0;
     frames[0] = 0;
     for (uint32_t i = 0; i < stream->executed_count; i++)
-        if (is_draw(stream, i))
+        if (stream_draws_at(stream, i))
             frames[++view.frame_count] = i + 1;
     return view;
 }
@@ -430,7 +425,7 @@ static void number_draw(const struct stream *stream, uint32_t position, struct b
     while (b->frame + 1 < stream->frame_count && stream->frames[b->frame + 1] <= position)
         b->frame++;
     for (uint32_t i = stream->frames[b->frame]; i < position; i++)
-        b->draw_of_frame += is_draw(stream, i);
+        b->draw_of_frame += stream_draws_at(stream, i);
 }
 
 static int play(struct search *search, const struct stream *stream, struct stream *view, struct error *error)
