@@ -1,5 +1,4 @@
 /* `triptych mesh`: describes models and Bézier patches as the streams that use them will read them. */
-#include "base/file.h"
 #include "command/assets/asset.h"
 #include "command/assets/mesh.h"
 #include "command/support/json.h"
@@ -208,7 +207,7 @@ static int run(const struct command *self, void *data, const struct operands *op
         status = read_mesh(self, operands->value[i], &mesh);
         if (!status && settings->json)
             cJSON_AddItemToArray(meshes, json_mesh(operands->value[i], &mesh));
-        if (!status && !(settings->json && file_is_standard(settings->json)))
+        if (!status)
             print_mesh(operands->value[i], &mesh);
         mesh_free(&mesh);
     }
@@ -223,7 +222,7 @@ static const char notes[] = "Bounds are those of the file, before center and fit
                             "the model, PNG or DDS. Bézier patches are counted as two triangles each.";
 
 static const struct option options[] = {
-    {"info", NULL, "counts, bounds, materials and textures; the default",
+    {"info", NULL, "counts, bounds, materials and textures, as without it",
      OPTION_IS_FLAG(struct settings, info)},
     {"json", "FILE", "write the same as JSON", OPTION_IS_FILE(struct settings, json), .extension = "json"},
     {0},
