@@ -13,7 +13,7 @@
 # Runs once.
 set -u
 cd "$(dirname "$0")/.." || exit 1
-kinds=(api-call render-state texture-format shader-instruction ir-operation pass engine)
+kinds=(api-call state-value render-state texture-format shader-instruction ir-operation pass engine)
 
 if [[ -n ${SLOW:-} ]]; then
     echo "ok extend: not in an instrumented build, which would compile the same additions"
