@@ -36,34 +36,38 @@ static size_t column_of(const char *line, size_t length)
     return length;
 }
 
-/* Prints a line of notes: a row of a table becomes an indented paragraph, others are filled. A line never
- * begins with a sign of the language. */
-static void put_note(const char *line, size_t length, FILE *out)
+/* Prints a row of a table as an indented paragraph. Its tag is not a sign of the language. */
+static void put_row(const char *line, size_t column, size_t length, FILE *out)
 {
-    size_t column = column_of(line, length), rest = column;
-    if (column < length) {
-        fputs(".TP\n", out);
-        put_bytes(line, column, out);
-        putc('\n', out);
-        while (rest < length && line[rest] == ' ')
-            rest++;
-        line += rest;
-        length -= rest;
-    }
+    fputs(".TP\n\\&", out);
+    put_bytes(line, column, out);
+    putc('\n', out);
+    while (column < length && line[column] == ' ')
+        column++;
     fputs("\\&", out);
-    put_bytes(line, length, out);
+    put_bytes(line + column, length - column, out);
     putc('\n', out);
 }
 
+/* Rows of tables become indented paragraphs, other lines are filled. */
 static void put_notes(const char *notes, FILE *out)
 {
+    bool in_table = false;
     for (const char *line = notes; line; line = strchr(line, '\n')) {
         line += *line == '\n';
-        size_t length = strcspn(line, "\n");
-        if (length)
-            put_note(line, length, out);
-        else
+        size_t length = strcspn(line, "\n"), column = column_of(line, length);
+        bool is_row = column && column < length;
+        if (!length || (in_table && column == length))
             fputs(".PP\n", out);
+        if (is_row) {
+            put_row(line, column, length, out);
+        } else if (length) {
+            size_t spaces = strspn(line, " ");
+            fputs("\\&", out);
+            put_bytes(line + spaces, length - spaces, out);
+            putc('\n', out);
+        }
+        in_table = length && (is_row || (in_table && !column));
     }
 }
 
