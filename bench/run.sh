@@ -5,8 +5,8 @@
 #
 #   bench.json, bench.csv   every stream with every engine, inside one process (triptych bench)
 #   bench.svg, bench.png    the table as a chart
-#   hyperfine.json          one stream with every engine, as whole processes, which start, read, build, draw
-# and write
+#   hyperfine.json          all frames of one stream with some engines, as whole processes. There are enough
+#                           frames that the engines determine the time, not the start of the process
 #   baselines.json, .csv    the engines that run only if named: other batch sizes and the system's compiler
 #                           (docs/baselines.md)
 #   builds.json             the time to build each routine, over the states of all streams of the project
@@ -46,16 +46,17 @@ baselines=$("$triptych" list engines |
 mapfile -t measured < <(awk -F, '
     NR == 1 { for (i = 1; i <= NF; i++) if ($i == "engine") column = i; next }
     column && !seen[$column]++ { print $column }' "$results/bench.csv")
+all_frames='--frames all --format y4m --out /dev/null'
 processes=()
 for engine in emulate stitch specialize; do
     if [[ " ${measured[*]} " == *" $engine "* ]]; then
         processes+=(--command-name "$engine"
-            "$triptych render $process_stream --engine $engine --threads 1 --out $build/bench/$engine.png")
+            "$triptych render $process_stream $all_frames --engine $engine --threads 1")
     fi
 done
 ((${#processes[@]})) || { echo "bench: $results/bench.csv names no engine" >&2 && exit 1; }
 
-hyperfine --shell=none --style=basic --warmup 1 --min-runs 5 --export-json "$results/hyperfine.json" \
+hyperfine --shell=none --style=basic --warmup 1 --min-runs 3 --export-json "$results/hyperfine.json" \
     "${processes[@]}"
 
 "$triptych" verify "${streams[@]}" --frames all --json "$results/verify.json"

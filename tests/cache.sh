@@ -107,4 +107,37 @@ if mkdir -p "$work/full" && unshare --mount --map-root-user true 2>/dev/null; th
     [[ $problem == ok* && $problem != *left:* ]] || failures=1
 fi
 
+# --- Time -----------------------------------------------------------------------------------------------------
+
+milliseconds() # COMMAND... : the least processor time of five runs
+{
+    local TIMEFORMAT='%U %S' least=999999 now
+    for _ in 1 2 3 4 5; do
+        now=$({ time "$@" >/dev/null 2>&1; } 2>&1 | awk '{ print int(1000 * ($1 + $2)) }')
+        ((now >= least)) || least=$now
+    done
+    echo "$least"
+}
+
+# The whole process takes at most as long as some frames and a constant time.
+takes() # STREAM FRAMES MILLISECONDS COMMAND...
+{
+    local stream=$1 frames=$2 more=$3 frame spent most
+    shift 3
+    frame=$("$TRIPTYCH" bench "$stream" --engines specialize --frames 1 --seconds 0.3 --json - 2>/dev/null |
+        awk -F '[:,]' '/"frame_ms"/ { print $2; exit }')
+    spent=$(milliseconds "$TRIPTYCH" "$@")
+    most=$(awk "BEGIN { print int($frames * $frame + $more) }")
+    verdict "$1 of ${stream##*/} takes at most $frames frames and $more ms" \
+        "$( ((spent <= most)) || echo "$spent ms, a frame takes $frame ms")"
+}
+
+if [[ ! ${SLOW-} ]] && "$TRIPTYCH" list engines | grep -q '^specialize .* available'; then
+    export XDG_CACHE_HOME=$work/again
+    for name in bunny teapot-bilinear; do
+        takes bench/streams/$name.tri 12 30 render bench/streams/$name.tri --threads 1 --out "$work/$name.png"
+    done
+    takes bench/streams/bunny.tri 4 20 dump bench/streams/bunny.tri
+fi
+
 exit $failures

@@ -38,14 +38,10 @@ static bool make_key(const char *path, const struct mesh_options *options, const
 
 static bool make_key_of_file(const char *path, const struct mesh_options *options, struct digest *key)
 {
-    char *data;
-    size_t bytes;
+    struct digest contents;
     char folder[STORE_PATH];
-    if (!store_folder(folder) || store_read_file(path, &data, &bytes))
-        return false;
-    struct digest contents = digest_of(data, bytes);
-    free(data);
-    return make_key(path, options, &contents, key);
+    return store_folder(folder) && store_digest_file(path, &contents) &&
+           make_key(path, options, &contents, key);
 }
 
 bool kept_find(const char *path, const struct mesh_options *options, struct mesh *mesh)

@@ -10,7 +10,7 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
-enum { HEAD_BYTES = 4096 };
+enum { HEAD_BYTES = 4096, PIECE_BYTES = 32768 };
 
 int store_add_file(struct store_files *files, const struct store_file *file)
 {
@@ -43,31 +43,49 @@ int store_add_main_file(struct store_files *files, const char *path, const void 
 
 /* --- Comparing --- */
 
+/* Opens a regular file. Other files might never end, or never begin. */
+static int open_regular(const char *path)
+{
+    struct stat status;
+    int file = open(path, O_RDONLY | O_CLOEXEC | O_NONBLOCK | O_NOCTTY);
+    if (file >= 0 && (fstat(file, &status) || !S_ISREG(status.st_mode))) {
+        close(file);
+        return -1;
+    }
+    return file;
+}
+
 /* Reads at most HEAD_BYTES. The name can be from an entry of the cache, which is untrusted, so only a regular
  * file is read. */
 static bool read_head(const char *path, struct digest *digest)
 {
     char data[HEAD_BYTES];
-    struct stat status;
-    int file = open(path, O_RDONLY | O_CLOEXEC | O_NONBLOCK | O_NOCTTY);
+    int file = open_regular(path);
     if (file < 0)
         return false;
-    ssize_t got = fstat(file, &status) || !S_ISREG(status.st_mode) ? -1 : read(file, data, sizeof data);
+    ssize_t got = read(file, data, sizeof data);
     close(file);
     if (got >= 0)
         *digest = digest_of(data, (size_t)got);
     return got >= 0;
 }
 
-static bool read_whole(const char *path, struct digest *digest)
+bool store_digest_file(const char *path, struct digest *digest)
 {
-    char *data;
-    size_t bytes;
-    if (store_read_file(path, &data, &bytes))
-        return false;
-    *digest = digest_of(data, bytes);
-    free(data);
-    return true;
+    struct digest_state state;
+    char piece[PIECE_BYTES];
+    size_t bytes = 0;
+    ssize_t got = -1;
+    int file = open_regular(path);
+    digest_begin(&state);
+    while (file >= 0 && bytes <= LIMIT_FILE_BYTES && (got = read(file, piece, sizeof piece)) > 0) {
+        digest_add(&state, piece, (size_t)got);
+        bytes += (size_t)got;
+    }
+    if (file >= 0)
+        close(file);
+    *digest = digest_end(&state);
+    return got == 0;
 }
 
 int store_read_file(const char *path, char **data, size_t *bytes)
@@ -94,7 +112,8 @@ static bool is_unchanged(const struct store_file *file, const char *path)
 {
     struct digest digest;
     char *whole = path_of(file, path);
-    bool read = whole && (file->part == PART_HEAD ? read_head(whole, &digest) : read_whole(whole, &digest));
+    bool read =
+        whole && (file->part == PART_HEAD ? read_head(whole, &digest) : store_digest_file(whole, &digest));
     free(whole);
     if (file->part == PART_NONE)
         return whole && !read;

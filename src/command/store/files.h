@@ -41,6 +41,9 @@ int store_add_head(struct store_files *files, const char *path);
 
 void store_free_files(struct store_files *files);
 
+/* Computes the digest of a file that store_read_file can read. Returns true if it did. */
+bool store_digest_file(const char *path, struct digest *digest);
+
 /* Reads a regular file within the limit of a stream's files; the caller frees *data. Returns 0, or -1 with
  * *data null. */
 int store_read_file(const char *path, char **data, size_t *bytes);

@@ -176,8 +176,8 @@ int readback_take(const struct command *self, const struct session *session, enu
         return STATUS_BAD;
     readback->width = target.width;
     readback->height = target.height * samples;
-    readback->has_depth = triptych_depth_bits(target.depth_format);
-    readback->has_stencil = triptych_stencil_bits(target.depth_format);
+    readback->has_depth = what != READBACK_COLORS && triptych_depth_bits(target.depth_format);
+    readback->has_stencil = what != READBACK_COLORS && triptych_stencil_bits(target.depth_format);
     if (samples > 1 ? read_samples(session->device, samples, readback)
                     : read_pixels(session->device, readback))
         return tool_fail(self, "%s: %s", session->stream->path, triptych_error(session->device));

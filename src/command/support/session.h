@@ -66,7 +66,8 @@ struct readback {
     unsigned query_count;
 };
 
-enum readback_what { READBACK_PIXELS, READBACK_SAMPLES };
+/* Colours of pixels; or also depth and stencil; or all of them for each sample. */
+enum readback_what { READBACK_COLORS, READBACK_PIXELS, READBACK_SAMPLES };
 int readback_take(const struct command *self, const struct session *session, enum readback_what what,
                   struct readback *readback);
 void readback_free(struct readback *readback);

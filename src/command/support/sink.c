@@ -197,6 +197,11 @@ int sink_open(const struct command *self, const struct sink_options *options, st
     return STATUS_OK;
 }
 
+enum readback_what sink_needs(const struct sink *sink)
+{
+    return sink->form->save == save_exr ? READBACK_PIXELS : READBACK_COLORS;
+}
+
 static int save_next(struct sink *sink, const struct readback *readback, struct error *error)
 {
     char name[PATH_CAPACITY];

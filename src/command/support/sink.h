@@ -37,6 +37,9 @@ struct sink {
  * before anything is drawn. A sink that is open must be closed. */
 int sink_open(const struct command *self, const struct sink_options *options, struct sink *sink);
 
+/* What the form needs of a picture. */
+enum readback_what sink_needs(const struct sink *sink);
+
 /* Adds the next picture. */
 int sink_add(struct sink *sink, const struct readback *readback);
 

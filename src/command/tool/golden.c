@@ -111,7 +111,7 @@ int golden_check(const struct command *self, struct golden *golden, const struct
         add_report(report, path, frame, "missing", &none);
         return STATUS_OK;
     }
-    if (readback_take(self, session, READBACK_PIXELS, &golden->readback))
+    if (readback_take(self, session, READBACK_COLORS, &golden->readback))
         return STATUS_BAD;
     if (golden->update)
         return update(self, golden, name, frame, single);

@@ -99,7 +99,7 @@ static int draw_all(const struct command *self, const struct task *task, struct 
             tool_progress("%s %u, of %u to %u", task->what, number, task->number,
                           task->number + task->last - task->first);
         status = session_play(self, session, frame) ||
-                 readback_take(self, session, READBACK_PIXELS, &readback) || sink_add(sink, &readback);
+                 readback_take(self, session, sink_needs(sink), &readback) || sink_add(sink, &readback);
         if (!status)
             print_queries(task, number, &readback);
     }

@@ -3,17 +3,23 @@
 #include <stdlib.h>
 #include <string.h>
 
+static size_t round_up(size_t bytes)
+{
+    return (bytes + 63) & ~(size_t)63;
+}
+
 void *queue_allocate(size_t bytes)
 {
-    size_t rounded = (bytes + 63) & ~(size_t)63;
+    size_t rounded = round_up(bytes);
     void *memory = aligned_alloc(64, rounded);
     return memory ? memset(memory, 0, rounded) : NULL;
 }
 
+/* Jobs are written before they are read. They are 4 MiB, whose pages most programs never touch. */
 static int create_buffer(struct queue_buffer *buffer)
 {
     buffer->command = queue_allocate(QUEUE_COMMANDS * sizeof *buffer->command);
-    buffer->job = queue_allocate(QUEUE_COMMANDS * sizeof *buffer->job);
+    buffer->job = aligned_alloc(64, round_up(QUEUE_COMMANDS * sizeof *buffer->job));
     return buffer->command && buffer->job ? 0 : -1;
 }
 
