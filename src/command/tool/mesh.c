@@ -217,9 +217,11 @@ static int run(const struct command *self, void *data, const struct operands *op
     return status;
 }
 
-static const char notes[] = "Bounds are those of the file, before center and fit. Textures are those that "
-                            "`model` loads: files beside\n"
-                            "the model, PNG or DDS. Bézier patches are counted as two triangles each.";
+static const char notes[] =
+    "Bounds are those of the file, before center and fit. Textures are those that "
+    "`model` loads: files beside\n"
+    "the model, PNG or DDS. A node that shows a part without bones counts as a bone. Bézier patches are\n"
+    "counted as two triangles each.";
 
 static const struct option options[] = {
     {"info", NULL, "counts, bounds, materials and textures, as without it",

@@ -60,13 +60,13 @@ bytecode)
     ;;
 png) copy $(find tests bench -name "*.png") ;;
 dds) copy $(find tests bench -name '*.dds') ;;
-model) # the format's number and whether there are bones, then the file
+model) # the format's number, the request for bones and materials, then the file
     formats=($(sed -n '/formats\[\] = {/,/};/p' tests/command/fuzz/targets/model.c | grep -oE '"[a-z0-9]+"' |
         tr -d '"'))
     for number in "${!formats[@]}"; do
         for file in $(find -L build/assimp/models -iname "*.${formats[number]}" -size -8k | sort |
             head -n 8); do
-            { printf "\\x$(printf %02x "$number")\\1" && cat "$file"; } >"$folder/$(basename "$file")"
+            { printf "\\x$(printf %02x "$number")\\3" && cat "$file"; } >"$folder/$(basename "$file")"
         done
     done
     ;;
