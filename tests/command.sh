@@ -374,6 +374,10 @@ answers 'half the time is faster' '^good +emulate +1[.]200 +0[.]600 +2[.]000 +1[
     bench --compare "$work/a.json" "$work/half.json"
 answers 'twice the time is slower' '^B is faster 0 times, slower 2 times, no difference is shown 0 times' \
     bench --compare "$work/half.json" "$work/a.json"
+answers 'twice the time is slower, with an interval' '^crate +stitch +1[.]150 +2[.]150 +0[.]535 +0[.]4[0-9]+ +0[.]6[0-9]+ +slower$' \
+    bench --compare tests/data/measurements/before.json tests/data/measurements/after.json
+answers 'two runs are too few' '^crate +specialize +0[.]550 +0[.]550 +1[.]000 +- +- +too few runs$' \
+    bench --compare tests/data/measurements/before.json tests/data/measurements/after.json
 refuses 'comparison of other work' 'stream good: another frames, expected the same in both files' \
     bench --compare "$work/a.json" "$work/frames.json"
 refuses 'comparison of one file' '[-]-compare has 1 operands, expected two files' bench --compare "$work/a.json"

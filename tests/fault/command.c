@@ -383,6 +383,10 @@ static void test_verifying_and_measuring(void)
     refuse_each(
         "bench tests/data/streams/shaders.tri --builds --engines stitch --repetitions 3 --json OUT.json",
         MEASURES, 0);
+    refuse_each(
+        "bench --compare tests/data/measurements/before.json tests/data/measurements/after.json --json "
+        "OUT.json",
+        EXACT, 0);
     refuse_each("bench tests/data/streams/frames.tri --cold --engines emulate --repetitions 3 --frames 1",
                 MEASURES, 0);
 }
@@ -392,6 +396,9 @@ static void test_dumps_lists_and_shaders(void)
     refuse_each("dump tests/data/streams/shaders.tri --show all", MEASURES, 0);
     refuse_each("dump tests/data/streams/frames.tri --engine stitch --unit vertex", MEASURES, 0);
     refuse_each("dump tests/data/streams/frames.tri --engine external --show text", EXACT, 0);
+    refuse_each(
+        "mesh bench/streams/assets/teapot.bez build/assimp/models/OBJ/cube_usemtl.obj --json OUT.json", EXACT,
+        0);
     refuse_each("list states --json", EXACT, 0);
     refuse_each("list shaders --markdown", EXACT, 0);
     refuse_each("list formats", EXACT, 0);

@@ -44,6 +44,8 @@ static int load(const struct command *self, const char *path, cJSON **json)
         return tool_fail(self, "%s", error.text);
     *json = cJSON_ParseWithLength(text, bytes);
     free(text);
+    if (!tool_report_is_complete())
+        return tool_fail(self, "no memory for %s", path);
     if (!cJSON_IsArray(cJSON_GetObjectItem(*json, "streams")))
         return tool_fail(self, "%s: has no streams, expected a file that triptych bench --json wrote", path);
     return STATUS_OK;
