@@ -245,8 +245,8 @@ static void test_a_measurement_without_a_result_writes_a_whole_report(void)
     static const char *const lines[] = {
         "bench STREAM --engines emulate --seconds 1000 --json REPORT",
         "bench --cold STREAM --engines emulate --repetitions 1000 --json REPORT",
-        "bench --builds tests/data/streams/lights.tri tests/data/streams/texture-operations.tri "
-        "--engines specialize --repetitions 1000 --json REPORT"};
+        ("bench --builds tests/data/streams/lights.tri tests/data/streams/texture-operations.tri "
+         "--engines specialize --repetitions 1000 --json REPORT")};
     for (size_t i = 0; i < sizeof lines / sizeof *lines; i++) {
         pid_t process = start(lines[i]);
         sleep_ms(500);
