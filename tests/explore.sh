@@ -40,14 +40,22 @@ agree() # NAME ENGINE STREAM OPTION... : compares the page with the dump
 
 teapot=bench/streams/teapot-bilinear.tri
 shaded=tests/data/shading/fractals.tri
-for engine in $("$TRIPTYCH" list engines | awk '$1 ~ /^specialize(-|$)/ && $3 == "available" { print $1 }'); do
+engines() # PATTERN: the available ones whose names match
+{
+    "$TRIPTYCH" list engines | awk -v pattern="$1" '$1 ~ pattern && $3 == "available" { print $1 }'
+}
+
+# Instrumented builds are slow: one engine of each kind.
+specializers='^specialize(-|$)'
+[[ -z ${SLOW-} ]] || specializers='^specialize-8$'
+for engine in $(engines "$specializers"); do
     for unit in vertex setup pixel; do
         agree "the page of $engine has the programs and the code of the dump, $unit" "$engine" "$teapot" \
             --unit "$unit"
     done
     agree "also of a shader with loops, $engine" "$engine" "$shaded"
 done
-for engine in $("$TRIPTYCH" list engines | awk '$1 ~ /^(stitch|batch|external|tiered)/ && $3 == "available" { print $1 }'); do
+for engine in $(engines '^(stitch|stitch-operation|batch|batch-4|external|tiered)$'); do
     check "a page of $engine" "$teapot" --engines "$engine"
 done
 check 'a page of two engines' "$teapot" --engines stitch-operation,batch

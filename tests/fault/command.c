@@ -399,6 +399,10 @@ static void test_dumps_lists_and_shaders(void)
     refuse_each(
         "mesh bench/streams/assets/teapot.bez build/assimp/models/OBJ/cube_usemtl.obj --json OUT.json", EXACT,
         0);
+    refuse_each(
+        "explore tests/data/shading/fractals.tri --engines specialize,stitch-operation --out OUT.html",
+        MEASURES, 0);
+    refuse_each("explore tests/data/streams/shaders.tri --engines batch --out OUT.html", MEASURES, 0);
     refuse_each("list states --json", EXACT, 0);
     refuse_each("list shaders --markdown", EXACT, 0);
     refuse_each("list formats", EXACT, 0);

@@ -13,6 +13,7 @@
 #include "engines/tiered/tiered.h"
 #include "triptych.h"
 
+#include <errno.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -130,11 +131,13 @@ static char *read_written(const struct stream *stream, const struct resource *re
     return text;
 }
 
-/* Fills `text` with the first written text of the program, else with the canonical one. */
+/* Fills `text` with the first written text of the program, else with the canonical one. A file that is
+ * missing or has changed does not matter, but refused memory is a failure. */
 static int read_shader(const struct stream *stream, const struct program *program, struct program_text *text,
                        struct error *error)
 {
-    for (uint32_t r = 0; r < stream->resource_count; r++) {
+    errno = 0;
+    for (uint32_t r = 0; r < stream->resource_count && errno != ENOMEM; r++) {
         const struct resource *resource = &stream->resources[r];
         struct error ignored = {""};
         size_t bytes;
@@ -144,7 +147,8 @@ static int read_shader(const struct stream *stream, const struct program *progra
         if (written && !program_text_read(program, written, bytes, text, &ignored))
             return 0;
     }
-    return program_text_open(program, text, error);
+    return errno == ENOMEM ? error_set(error, "out of memory for the text of a shader")
+                           : program_text_open(program, text, error);
 }
 
 /* The subject of a page. */

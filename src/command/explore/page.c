@@ -221,17 +221,24 @@ static void print_page(FILE *out, const char *model)
     fputs(at, out);
 }
 
+/* Closes the data and returns them; null if memory was refused. */
+static char *take_model(struct page *page)
+{
+    FILE *out = page->out;
+    char *model;
+    size_t bytes;
+    print_texts(page);
+    page->out = NULL;
+    return memory_file_close(out, &model, &bytes) ? NULL : model;
+}
+
 int page_close(struct page *page, char **html, size_t *bytes, struct error *error)
 {
-    char *model = NULL;
-    print_texts(page);
-    bool failed = page->failed || memory_file_close(page->out, &model, bytes);
-    FILE *out = failed ? NULL : memory_file_open();
-    if (!failed)
-        page->out = NULL;
+    char *model = page->failed ? NULL : take_model(page);
+    FILE *out = model ? memory_file_open() : NULL;
     if (out)
         print_page(out, model);
-    failed = !out || memory_file_close(out, html, bytes);
+    bool failed = !out || memory_file_close(out, html, bytes);
     free(model);
     page_discard(page);
     return failed ? error_set(error, "out of memory for a page") : 0;

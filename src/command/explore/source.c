@@ -98,20 +98,21 @@ static void print_missing(struct page *page, const struct labelled *all, uint32_
     free(number);
 }
 
-/* Prints the instructions that exist because of the field. A key that cannot be recorded has none. */
+/* Prints the instructions that exist because of the field; none if the other recording is too long. */
 static void print_caused(struct page *page, const struct key_field *field, const struct labelled *all)
 {
     union key without = *page->key;
     struct explore_recording other;
+    struct labelled *labelled = NULL;
     struct error ignored = {""};
     memset((uint8_t *)&without + field->offset, 0, field->count);
-    if (!explore_record(&other, page->unit, &without, &ignored)) {
-        struct labelled *labelled = label_recording(&other);
-        if (labelled)
-            print_missing(page, all, page->recording->ir->count, labelled, other.ir->count);
-        page->failed |= !labelled;
-        free(labelled);
-    }
+    bool recorded = !explore_record(&other, page->unit, &without, &ignored);
+    if (recorded)
+        labelled = label_recording(&other);
+    if (labelled)
+        print_missing(page, all, page->recording->ir->count, labelled, other.ir->count);
+    page->failed |= !labelled && (recorded || !other.ir || !other.ir->overflow);
+    free(labelled);
     explore_record_free(&other);
 }
 
