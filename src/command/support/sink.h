@@ -37,7 +37,7 @@ struct sink {
  * before anything is drawn. A sink that is open must be closed. */
 int sink_open(const struct command *self, const struct sink_options *options, struct sink *sink);
 
-/* What the form needs of a picture. */
+/* The parts of a picture that the form needs. */
 enum readback_what sink_needs(const struct sink *sink);
 
 /* Adds the next picture. */
