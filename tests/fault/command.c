@@ -414,6 +414,12 @@ static void test_dumps_lists_and_shaders(void)
     refuse_each("shader validate tests/data/shaders/common/color.psa --json", EXACT, 0);
 }
 
+static void test_inspection(void)
+{
+    refuse_each("inspect tests/data/streams/stencil-shadow.tri --pixel 150,110 --overdraw OUT.png", EXACT, 0);
+    refuse_each("inspect tests/data/streams/shaders.tri --draw 2 --json OUT.json", EXACT, 0);
+}
+
 /* Meshes that are kept and found. */
 static void test_the_cache(void)
 {
@@ -453,6 +459,7 @@ int main(void)
     RUN_TEST(test_pictures);
     RUN_TEST(test_verifying_and_measuring);
     RUN_TEST(test_dumps_lists_and_shaders);
+    RUN_TEST(test_inspection);
     RUN_TEST(test_the_cache);
     rmdir(folder);
     printf("%lu runs, %lu requests refused at %u places\n", runs, fault.total, fault_sites->count);

@@ -46,10 +46,11 @@ static const char *what_at(unsigned index)
     return index < sizeof words / sizeof *words ? words[index] : NULL;
 }
 
-static int save_overdraw(const struct command *self, const char *path, const uint32_t *count, unsigned width,
-                         unsigned height)
+static int save_overdraw(const struct command *self, const char *path, const struct trail *trail)
 {
     struct error error = {""};
+    unsigned width, height;
+    const uint32_t *count = inspection_counts(trail, &width, &height);
     size_t pixels = (size_t)width * height;
     uint32_t *picture = malloc(pixels * sizeof *picture);
     if (!picture)
@@ -61,26 +62,30 @@ static int save_overdraw(const struct command *self, const char *path, const uin
     return bad ? tool_fail(self, "%s", error.text) : STATUS_OK;
 }
 
-static int add_overdraw(const struct command *self, struct trail *trail, const char *path, cJSON *report)
+static void add_overdraw(struct trail *trail, cJSON *report)
 {
     unsigned width, height;
     const uint32_t *count = inspection_counts(trail, &width, &height);
     cJSON_AddItemToObject(report, "overdraw", overdraw_report(count, width, height));
-    return save_overdraw(self, path, count, width, height);
 }
 
 static int add_history(const struct command *self, struct trail *trail, const char *path, cJSON *report)
 {
     struct error error = {""};
     cJSON *history = inspection_history(trail, &error);
-    if (!history)
+    if (*error.text)
         return tool_fail(self, "%s: %s", path, error.text);
     cJSON_AddItemToObject(report, "pixel", history);
     return STATUS_OK;
 }
 
+static int check_complete(const struct command *self)
+{
+    return tool_report_is_complete() ? STATUS_OK : tool_fail(self, "out of memory: the report is incomplete");
+}
+
 /* Text for people: the list of draws if nothing else is requested. */
-static void print(const struct settings *settings, const cJSON *report)
+static int print(const struct command *self, const struct settings *settings, const cJSON *report)
 {
     const cJSON *pixel = cJSON_GetObjectItem(report, "pixel");
     const cJSON *overdraw = cJSON_GetObjectItem(report, "overdraw");
@@ -93,25 +98,36 @@ static void print(const struct settings *settings, const cJSON *report)
         overdraw_print(overdraw);
     if (pixel)
         print_history(pixel);
+    return check_complete(self);
 }
 
-static int report(const struct command *self, const struct settings *settings, struct trail *trail,
-                  const char *path)
+/* Makes the whole report before anything is printed or written. */
+static int make(const struct command *self, const struct settings *settings, struct trail *trail,
+                const char *path, cJSON *json)
 {
-    cJSON *json = cJSON_CreateObject();
     int status = STATUS_OK;
     cJSON_AddItemToObject(json, "draws", inspection_draws(trail));
     cJSON_AddItemToObject(json, "state", inspection_state(trail));
     if (settings->pixel)
         status = add_history(self, trail, path, json);
     if (settings->overdraw && !status)
-        status = add_overdraw(self, trail, settings->overdraw, json);
+        add_overdraw(trail, json);
     if (inspection_is_starved(trail))
         tool_report_mark_incomplete();
-    if (!status && settings->json)
-        status = json_write(self, json, settings->json);
+    return status ? status : check_complete(self);
+}
+
+static int report(const struct command *self, const struct settings *settings, struct trail *trail,
+                  const char *path)
+{
+    cJSON *json = cJSON_CreateObject();
+    int status = make(self, settings, trail, path, json);
     if (!status)
-        print(settings, json);
+        status = print(self, settings, json);
+    if (settings->overdraw && !status)
+        status = save_overdraw(self, settings->overdraw, trail);
+    if (settings->json && !status)
+        status = json_write(self, json, settings->json);
     cJSON_Delete(json);
     return status;
 }

@@ -22,7 +22,7 @@ cJSON *inspection_draws(struct trail *trail);
 /* The draw: its number, call, targets, states that differ from the default, textures, buffers, shaders. */
 cJSON *inspection_state(struct trail *trail);
 
-/* The history of the pixel in the canvas of the draw (history.c). Null with the reason if the pixel is
+/* The history of the pixel in the canvas of the draw (history.c). The reason is set if the pixel is
  * outside. */
 cJSON *inspection_history(struct trail *trail, struct error *error);
 

@@ -168,6 +168,8 @@ static int add_draw(struct trail *trail, uint32_t position, uint32_t canvas, str
     uint32_t count;
     trail->draw[trail->draws++] = (struct trail_draw){position, canvas, watch_totals(trail->watch)};
     trail->incomplete |= watch_is_incomplete(trail->watch);
+    if (watch_is_starved(trail->watch))
+        return error_set(error, "out of memory for the primitives of a draw");
     watch_touches(trail->watch, &count);
     if (!count)
         return 0;

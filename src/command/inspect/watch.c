@@ -40,7 +40,7 @@ struct watch {
     struct watch_counts counts;
     struct touch *touch;
     uint32_t touch_count, touch_capacity;
-    bool incomplete;
+    bool incomplete, starved;
 
     struct sight sight;
 };
@@ -74,7 +74,8 @@ static struct touch *new_touch(struct watch *watch, const struct placed *placed,
         struct touch *larger =
             capacity <= TOUCHES_MAXIMUM ? realloc(watch->touch, capacity * sizeof *larger) : NULL;
         if (!larger) {
-            watch->incomplete = true;
+            watch->incomplete |= capacity > TOUCHES_MAXIMUM;
+            watch->starved |= capacity <= TOUCHES_MAXIMUM;
             return NULL;
         }
         watch->touch = larger;
@@ -144,7 +145,7 @@ static struct placed *place(struct watch *watch, const struct setup_arguments *c
         uint32_t capacity = watch->placed_capacity ? 2 * watch->placed_capacity : 1024;
         struct placed *larger = realloc(watch->placed, capacity * sizeof *larger);
         if (!larger) {
-            watch->incomplete = true;
+            watch->starved = true;
             return NULL;
         }
         watch->placed = larger;
@@ -489,7 +490,7 @@ void watch_begin(struct watch *watch, uint32_t draw)
     watch->draw = draw;
     watch->job = NULL;
     watch->instances = watch->placed_count = watch->touch_count = 0;
-    watch->incomplete = false;
+    watch->incomplete = watch->starved = false;
     watch->triangles_before = watch->device->counts.triangles;
     watch->counts = (struct watch_counts){0};
 }
@@ -528,6 +529,11 @@ struct watch_counts watch_totals(const struct watch *watch)
     struct watch_counts counts = watch->counts;
     counts.primitives = watch->device->counts.triangles - watch->triangles_before;
     return counts;
+}
+
+bool watch_is_starved(const struct watch *watch)
+{
+    return watch->starved;
 }
 
 bool watch_is_incomplete(const struct watch *watch)

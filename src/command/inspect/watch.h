@@ -73,7 +73,10 @@ void watch_begin(struct watch *watch, uint32_t draw);
 const struct touch *watch_touches(struct watch *watch, uint32_t *count);
 struct watch_counts watch_totals(const struct watch *watch);
 
-/* Returns true if touches are missing: there were more than TOUCHES_MAXIMUM, or memory was refused. */
+/* Returns true if memory was refused: touches and owners are missing. */
+bool watch_is_starved(const struct watch *watch);
+
+/* Returns true if touches are missing because there were more than TOUCHES_MAXIMUM. */
 bool watch_is_incomplete(const struct watch *watch);
 
 #endif
