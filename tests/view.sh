@@ -1,6 +1,6 @@
 #!/bin/bash
-# `triptych view`: its pictures are those of `render` with every engine, files are read again, and the keys of a
-# real window do what --keys does. Most tests use SDL's driver without a display, one uses Xvfb and xdotool.
+# `triptych view`: its pictures are those of `render` with every engine, files are read again, and the keys of
+# a real window do what --keys does. Most tests use SDL's driver without a display, one uses Xvfb and xdotool.
 # GOLDENS=write only writes the pictures of docs/viewer.md.
 # Given BUILD, TRIPTYCH and SLOW by tests/support/scripts/run.sh.
 set -uo pipefail

@@ -1,9 +1,9 @@
 /* The camera of the viewer: it turns the view of a stream around a point on the view's axis.
  *
- * The streams' own matrices stay the beginning: each view transform is followed by a rotation around the point
- * that is as far from the camera as the origin of the world, and by a movement along the axis. A stream without
- * a view transform is turned by its projections. Constants of shaders that the stream computes from transforms
- * follow; matrices that it gives as numbers do not. */
+ * The camera follows the stream's own matrices: each view transform is followed by a rotation around the
+ * point that is as far from the camera as the origin of the world, and by a movement along the axis. In a stream
+ * without a view transform, the projections are turned. Shader constants that the stream computes from
+ * transforms follow; matrices that it gives as numbers do not. */
 #ifndef COMMAND_VIEW_CAMERA_H
 #define COMMAND_VIEW_CAMERA_H
 
@@ -27,8 +27,8 @@ struct camera_originals {
     uint32_t count;
 };
 
-/* Remembers the transforms of the stream. Returns 0, or -1 when there is no memory. Without transforms the camera
- * cannot be moved. The caller frees `original`. */
+/* Remembers the transforms of the stream. Returns 0, or -1 when there is no memory. Without transforms the
+ * camera cannot be moved. The caller frees `original`. */
 int camera_remember(const struct stream *stream, struct camera_originals *originals);
 
 /* Sets the transforms of the stream for the camera. */

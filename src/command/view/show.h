@@ -1,5 +1,5 @@
-/* The contents of the window as a picture: the picture of the scene or a result of its analysis, enlarged, with
- * tiles and text. */
+/* The contents of the window as a picture: the picture of the scene or a result of its analysis, enlarged,
+ * with tiles and text. */
 #ifndef COMMAND_VIEW_SHOW_H
 #define COMMAND_VIEW_SHOW_H
 
@@ -29,8 +29,8 @@ struct show {
 
 void show_line(struct show_text *text, const char *format, ...) __attribute__((format(printf, 2, 3)));
 
-/* Makes the picture. Without an analysis of the picture's size, the mode is that of the picture. Returns 0, or
- * -1 with the reason. */
+/* Makes the picture. Without an analysis of the picture's size, the mode is that of the picture. Returns 0,
+ * or -1 with the reason. */
 int show_make(struct show *show, const struct scene *scene, struct error *error);
 
 #endif

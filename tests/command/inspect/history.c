@@ -108,8 +108,8 @@ static void find_pixel(struct trail_options *options)
     options->y = (int32_t)(best / canvas()->width);
 }
 
-/* Of the last frame that draws, at the pixels that are covered and that pass most often. Returns false if nothing
- * is covered. */
+/* Of the last frame that draws, at the pixels that are covered and that pass most often. Returns false if
+ * nothing is covered. */
 static bool check_last_frame(const char *name)
 {
     struct trail_options options = {
