@@ -679,9 +679,11 @@ TRIPTYCH_API enum triptych_result triptych_get_shader_booleans(triptych_device *
                                                                unsigned first, int32_t *values,
                                                                unsigned count);
 /* The elements of the declaration or of the vertex format code, attributes first, without those that
- * triptych_set_element has set. The array has room for TRIPTYCH_DECLARATION_ELEMENTS. */
-TRIPTYCH_API enum triptych_result
-triptych_get_declaration(triptych_device *, struct triptych_declaration_element *elements, unsigned *count);
+ * triptych_set_element has set. The array has room for `room` elements; fewer than there are is an error.
+ * TRIPTYCH_DECLARATION_ELEMENTS is enough. */
+TRIPTYCH_API enum triptych_result triptych_get_declaration(triptych_device *,
+                                                           struct triptych_declaration_element *elements,
+                                                           unsigned room, unsigned *count);
 TRIPTYCH_API enum triptych_result triptych_get_stream(triptych_device *, unsigned stream,
                                                       triptych_buffer **buffer, size_t *offset,
                                                       size_t *stride);

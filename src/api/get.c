@@ -219,11 +219,21 @@ enum triptych_result triptych_get_shader_booleans(triptych_device *device, enum 
 /* --- Vertices ------------------------------------------------------------------------------------------- */
 
 enum triptych_result triptych_get_declaration(triptych_device *device,
-                                              struct triptych_declaration_element *elements, unsigned *count)
+                                              struct triptych_declaration_element *elements, unsigned room,
+                                              unsigned *count)
 {
-    if (!api_begin_with_both(device, elements, "elements", count, "count"))
+    struct triptych_declaration_element all[TRIPTYCH_DECLARATION_ELEMENTS];
+    struct error *error = api_begin_with_both(device, elements || !room, "elements", count, "count");
+    if (!error)
         return TRIPTYCH_BAD_ARGUMENT;
-    *count = state_declaration(&device->state, elements);
+    unsigned found = state_declaration(&device->state, all);
+    if (found > room) {
+        error_set(error, "an array of %u elements: expected at least %u", room, found);
+        return api_finish(device, TRIPTYCH_BAD_ARGUMENT);
+    }
+    if (found)
+        memcpy(elements, all, found * sizeof *elements);
+    *count = found;
     return TRIPTYCH_OK;
 }
 

@@ -177,7 +177,9 @@ static void vertices_are_what_was_set(void)
     good(triptych_set_declaration(device, declared, 2));
     good(triptych_set_element(device, TRIPTYCH_NORMAL,
                               &(struct triptych_element){TRIPTYCH_FORMAT_FLOAT3, buffer, 1, 13}));
-    good(triptych_get_declaration(device, found, &count));
+    refused(triptych_get_declaration(device, found, 1, &count),
+            "an array of 1 elements: expected at least 2");
+    good(triptych_get_declaration(device, found, 2, &count));
     TEST_ASSERT_EQUAL_UINT(2, count);
     for (unsigned i = 0; i < count; i++) {
         TEST_ASSERT_EQUAL_UINT(declared[i].stream, found[i].stream);
@@ -217,7 +219,7 @@ static void a_vertex_format_code_is_a_declaration(void)
     struct triptych_declaration_element found[TRIPTYCH_DECLARATION_ELEMENTS];
     unsigned count;
     good(triptych_set_fvf(device, TRIPTYCH_FVF_XYZ | TRIPTYCH_FVF_NORMAL | TRIPTYCH_FVF_TEX1));
-    good(triptych_get_declaration(device, found, &count));
+    good(triptych_get_declaration(device, found, TRIPTYCH_DECLARATION_ELEMENTS, &count));
     TEST_ASSERT_EQUAL_UINT(3, count);
     TEST_ASSERT_EQUAL_INT(TRIPTYCH_USAGE_NORMAL, found[1].usage);
     TEST_ASSERT_EQUAL_UINT(12, found[1].offset);

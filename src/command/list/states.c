@@ -4,6 +4,7 @@
 #include "command/support/table.h"
 #include "triptych.h"
 
+#include <ctype.h>
 #include <string.h>
 
 static const char *const support_word[] = {"yes", "not yet", "no"};
@@ -212,6 +213,10 @@ static const char introduction[] =
     "`sampler_state.def`, `stage_state.def`, `kind.def` and `value.def` in `src/def/state/`. The\n"
     "API's validation and the [stream](streams.md) parser use the same tables.\n"
     "\n"
+    "In C the state `cullmode` is `TRIPTYCH_STATE_CULLMODE`, the sampler state `minfilter`\n"
+    "`TRIPTYCH_SAMPLER_MINFILTER`, and the stage state `colorop` `TRIPTYCH_STAGE_COLOROP`. The names of\n"
+    "values are [below](#values). [library.md](library.md) describes the interface.\n"
+    "\n"
     "- *Values*: the kind of value, listed [below](#values).\n"
     "- *Keys*: the routines whose code the state can change: V vertex, S setup, P pixel. *job* means\n"
     "  that routines read the value when they run. - means that the state has no effect. A change of\n"
@@ -248,18 +253,28 @@ static void print_states_markdown(enum triptych_state_table t, FILE *out)
     }
 }
 
+/* The name of a value in the header. */
+static const char *header_name(const struct triptych_value *value, char text[TEXT])
+{
+    int length = snprintf(text, TEXT, "TRIPTYCH_%s_%s", value->kind->prefix, value->word);
+    for (int i = 0; i < length && i < TEXT; i++)
+        text[i] = (char)toupper((unsigned char)text[i]);
+    return text;
+}
+
 static void print_kinds_markdown(FILE *out)
 {
     const struct triptych_kind *kind;
     const struct triptych_value *value;
     char text[TEXT];
-    fputs("\n## Values\n\n| Kind | Value | Number | Supported |\n| --- | --- | --- | --- |\n", out);
+    fputs("\n## Values\n\n| Kind | Value | Number | Supported | In C |\n| --- | --- | --- | --- | --- |\n",
+          out);
     for (unsigned k = 0; (kind = triptych_kind_at(k)); k++) {
         if (!triptych_value_at(kind, 0))
-            fprintf(out, "| %s | %s | | |\n", kind->name, range_text(kind, text));
+            fprintf(out, "| %s | %s | | | |\n", kind->name, range_text(kind, text));
         for (unsigned i = 0; (value = triptych_value_at(kind, i)); i++)
-            fprintf(out, "| %s | `%s` | %u | %s |\n", i ? "" : kind->name, value->word, value->number,
-                    support_word[value->support]);
+            fprintf(out, "| %s | `%s` | %u | %s | `%s` |\n", i ? "" : kind->name, value->word, value->number,
+                    support_word[value->support], header_name(value, text));
     }
 }
 

@@ -5,7 +5,7 @@ set -eu
 work=$(mktemp -d)
 trap 'rm -rf "$work"' EXIT
 
-# stream NAME FORMAT OPERATION FACTOR CONSTANT: two triangles cover the target with the operation of two colours
+# stream NAME FORMAT OPERATION FACTOR CONSTANT: covers the target with the operation of two colours
 stream()
 {
     cat >"$work/$1.tri" <<END
