@@ -1,8 +1,8 @@
 /* The camera of the viewer: it turns the view of a stream around a point on the view's axis.
  *
  * The camera follows the stream's own matrices: each view transform is followed by a rotation around the
- * point that is as far from the camera as the origin of the world, and by a movement along the axis. In a stream
- * without a view transform, the projections are turned. Shader constants that the stream computes from
+ * point that is as far from the camera as the origin of the world, and by a movement along the axis. In a
+ * stream without a view transform, the projections are turned. Shader constants that the stream computes from
  * transforms follow; matrices that it gives as numbers do not. */
 #ifndef COMMAND_VIEW_CAMERA_H
 #define COMMAND_VIEW_CAMERA_H
