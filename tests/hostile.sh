@@ -88,7 +88,7 @@ verdict 'standard output beyond it' "$(((status == 2)) && grep -q 'cannot write 
 # A sanitizer's process does not start on such a stack.
 if [[ ! ${SANITIZE-} ]]; then
     within=(bash -c 'limited -s 64 "$@"' limited)
-    for subcommand in 'verify' 'bench --frames 1 --seconds 0.01' "render --out $work/a.png" 'dump'; do
+    for subcommand in 'verify' 'bench --frames 1 --seconds 0.01' "render --out $work/a.png" 'dump' 'bisect'; do
         succeeds "${subcommand%% *} on a stack of 64 KiB" "${within[@]}" "$TRIPTYCH" $subcommand "$stream"
     done
     XDG_CACHE_HOME=/dev/null succeeds 'a model on a stack of 64 KiB' "${within[@]}" \
