@@ -205,6 +205,16 @@ def the_graph_moves_to_the_operation_that_is_clicked(browser, pages):
     same("kin in the program", text_of(browser, f"{column(1)} .line.kin .n"), after.split()[0][1:])
 
 
+def nothing_moves_under_the_pointer(browser, pages):
+    for panes in ("specialize/final,graph", "record,spec,specialize/code,specialize/run-2"):
+        browser.open(pages.path(TEAPOT), "#show=" + panes)
+        tops = "columns.map((column) => column.body.getBoundingClientRect().top).join()"
+        before = browser.evaluate(tops)
+        browser.point(f"{column(1)} .line:nth-child(20)")
+        expect(count(browser, ".kin") > 0, "nothing is marked")
+        same("the columns' tops", browser.evaluate(tops), before)
+
+
 def everything_can_be_reached_with_keys(browser, pages):
     browser.open(pages.path(TEAPOT))
     browser.press("2")
@@ -290,7 +300,7 @@ TESTS = [value for value in list(globals().values()) if callable(value) and geta
 
 def run_tests(pages):
     failures = 0
-    with Browser() as browser:
+    with Browser(1280, 640) as browser:
         for test in TESTS:
             name = test.__name__.replace("_", " ")
             try:

@@ -13,14 +13,14 @@
  * Lines, by the kind of their pane:
  *   key        [field, value, meaning, [first, last, first, last ...]]: recorded instructions that it causes
  *   ir         [mark, number, text, origin, ...], or [first, count]: the same lines as those of the program
- *              before, whose removed lines do not count. The mark is one of MARK; an altered line also has its
- *              old text, a removed one the number of the instruction that replaces it, or 0. The program before
- *              is the result of the engine's last pane of this kind, else the recording.
+ *              before, whose removed lines do not count. The mark is one of MARK; an altered line also has
+ *              its old text, a removed one the number of the instruction that replaces it, or 0. The program
+ *              before is the result of the engine's last pane of this kind, else the recording.
  *   runs       [round, pass, changed, removed, added, altered, instructions left, meaning]
- *   intervals  [number, last use, last position in the register or -1, register, slot or -1, operation, origin,
- *              type]; also `positions` and `loops`
- *   code       [kin, offset or -1, bytes, text, comment]: kin is a number, 0: none; or own, a number, and line,
- *              a path and a line of the specification, whose operations are kin too
+ *   intervals  [number, last use, last position in the register or -1, register, slot or -1, operation,
+ *              origin, type]; also `positions` and `loops`
+ *   code       [kin, offset or -1, bytes, text, comment]: kin is a number, 0: none; or own, a number, and
+ *              line, a path and a line of the specification, whose operations are kin too
  *   text       [kin, text] */
 const model = JSON.parse(document.getElementById("model").textContent);
 
@@ -39,7 +39,8 @@ function expandPrograms() {
     pane.program = [];
     for (const line of pane.lines) {
       if (line.length === 2) {
-        for (let i = 0; i < line[1]; i++) pane.program.push({ ...before[line[0] + i], mark: MARK.same, old: null });
+        for (const kept of before.slice(line[0], line[0] + line[1]))
+          pane.program.push({ ...kept, mark: MARK.same, old: null });
         continue;
       }
       const [mark, number, text, origin, more] = line;
@@ -81,7 +82,8 @@ model.place.forEach((place, origin) => {
 
 const shaderLine = (origin) => (model.shader ? model.shader.line[origin] || 0 : 0);
 const recordedByShader = new Map();
-if (model.shader) model.shader.line.forEach((line, origin) => { if (line) addTo(recordedByShader, line, origin); });
+for (const [origin, line] of (model.shader ? model.shader.line : []).entries())
+  if (line) addTo(recordedByShader, line, origin);
 
 /* "color.h:67" */
 function shortPlace(origin) {
@@ -89,7 +91,10 @@ function shortPlace(origin) {
   return chain.length ? chain[0].path.replace(/^.*\//, "") + ":" + chain[0].line : "";
 }
 
-const kinList = (kin) => (typeof kin === "object" ? [...(recordedAt.get(kin.line) || []), kin.own] : kin ? [kin] : []);
+function kinList(kin) {
+  if (typeof kin === "object") return [...(recordedAt.get(kin.line) || []), kin.own];
+  return kin ? [kin] : [];
+}
 
 function rangeList(ranges) {
   const list = [];
@@ -108,6 +113,6 @@ const choices = [
   ...(model.shader ? [{ id: "shader", group: "Sources", title: "Shader" }] : []),
   { id: "record", group: "Sources", title: "Recording" },
   ...model.panes.filter((pane) => pane.engine)
-    .map((pane) => ({ id: pane.id, group: pane.engine, title: pane.title })),
+    .map((pane) => ({ id: pane.id, group: pane.engine, engine: pane.engine, title: pane.title })),
   { id: "graph", group: "Pictures", title: "Graph" },
 ];

@@ -2,7 +2,8 @@
 
 const byId = (id) => document.getElementById(id);
 const COLUMNS_MAXIMUM = 6, TICKS_MAXIMUM = 400;
-const HINT = "Point at a line, or move to it with the arrow keys: its kin in all columns are marked. ? lists the keys.";
+const HINT = "Point at a line, or move to it with the arrow keys: its kin in all columns are marked.\n" +
+  "? lists the keys.";
 
 /* The line whose kin are marked, and whether it stays when the pointer moves. */
 let focused = null, pinned = false;
@@ -11,7 +12,8 @@ const columns = [];
 /* --- Marks --- */
 
 function clearMarks() {
-  for (const element of document.querySelectorAll(".kin, .via, .cursor")) element.classList.remove("kin", "via", "cursor");
+  for (const element of document.querySelectorAll(".kin, .via, .cursor"))
+    element.classList.remove("kin", "via", "cursor");
   for (const column of columns) { column.ruler.replaceChildren(); column.count.textContent = ""; }
 }
 
@@ -96,7 +98,7 @@ class Column {
       const element = make("optgroup");
       element.label = group;
       for (const choice of choices.filter((other) => other.group === group)) {
-        const option = make("option", "", choice.group === "Sources" || choice.group === "Pictures" ? choice.title : `${choice.group}: ${choice.title}`);
+        const option = make("option", "", choice.engine ? `${choice.engine}: ${choice.title}` : choice.title);
         option.value = choice.id;
         element.append(option);
       }
@@ -156,7 +158,10 @@ class Column {
     this.note.textContent = this.view.note;
     if (this.view.center) this.view.center.scrollIntoView({ block: "center", inline: "center" });
     if (own) { focused = null; pinned = false; clearMarks(); }
-    else if (focused && columns.includes(this)) { markColumn(this, numbers); if (pinned) this.scrollTo(this.kin[0]); }
+    else if (focused && columns.includes(this)) {
+      markColumn(this, numbers);
+      if (pinned) this.scrollTo(this.kin[0]);
+    }
   }
 
   scrollTo(line) {
@@ -209,7 +214,8 @@ function layout(ids) {
 
 function presetsOf() {
   const list = [], sources = model.shader ? "shader" : "key";
-  const of = (engine, kind) => model.panes.filter((pane) => pane.engine === engine.name && pane.kind === kind);
+  const of = (engine, kind) =>
+    model.panes.filter((pane) => pane.engine === engine.name && pane.kind === kind);
   const listing = (engine) => (of(engine, "code")[0] || of(engine, "text")[0]).id;
   const [first, second] = model.engines;
   list.push(["Overview", [sources, "spec", listing(first)]]);
@@ -217,7 +223,8 @@ function presetsOf() {
   const passes = of(first, "runs")[0], programs = of(first, "ir");
   if (passes) {
     list.push(["Passes", [passes.id, "record", programs[0].id]]);
-    list.push(["Registers", [programs[programs.length - 1].id, of(first, "intervals")[0].id, listing(first)]]);
+    const last = programs[programs.length - 1].id;
+    list.push(["Registers", [last, of(first, "intervals")[0].id, listing(first)]]);
   }
   list.push(["Graph", [programs.length ? programs[programs.length - 1].id : "record", "graph"]]);
   if (second) list.push(["Engines", [listing(first), "record", listing(second)]]);
@@ -239,13 +246,15 @@ function showPresets() {
 /* The address keeps the layout and the line, so that a link to the page shows them. */
 function remember() {
   const parts = ["show=" + columns.map((column) => column.id).join(",")];
-  if (pinned && focused && columnOf(focused)) parts.push(`line=${columns.indexOf(columnOf(focused))}.${focused.index}`);
+  const column = pinned && focused ? columns.indexOf(columnOf(focused)) : -1;
+  if (column >= 0) parts.push(`line=${column}.${focused.index}`);
   try { history.replaceState(null, "", "#" + parts.join("&")); } catch (refused) { /* as in some viewers */ }
 }
 
 function recall() {
   const wanted = new URLSearchParams(location.hash.slice(1));
-  const ids = (wanted.get("show") || "").split(",").filter((id) => choices.some((choice) => choice.id === id));
+  const ids = (wanted.get("show") || "").split(",")
+    .filter((id) => choices.some((choice) => choice.id === id));
   layout(ids.length ? ids.slice(0, COLUMNS_MAXIMUM) : presets[0][1].slice(0, innerWidth < 1100 ? 2 : 3));
   const [column, index] = (wanted.get("line") || "").split(".").map(Number);
   const line = columns[column] && columns[column].view.lines[index];
@@ -260,9 +269,9 @@ function find(text) {
   for (const element of document.querySelectorAll(".found")) element.classList.remove("found");
   foundAt = -1;
   if (!text) return;
-  for (const column of columns)
-    for (const line of column.view.lines)
-      if (line.element.textContent.toLowerCase().includes(text.toLowerCase())) line.element.classList.add("found");
+  const sought = text.toLowerCase();
+  for (const { element } of columns.flatMap((column) => column.view.lines))
+    if (element.textContent.toLowerCase().includes(sought)) element.classList.add("found");
 }
 
 function findNext(by) {
@@ -288,8 +297,10 @@ function moveTo(column, line) {
 }
 
 function moveBy(by) {
-  const column = columns[active], visible = column.view.lines.filter((line) => line.element.getClientRects().length);
-  const at = focused && focused.view === column.view ? visible.indexOf(focused) : by > 0 ? -1 : visible.length;
+  const column = columns[active];
+  const visible = column.view.lines.filter((line) => line.element.getClientRects().length);
+  const outside = by > 0 ? -1 : visible.length;
+  const at = focused && focused.view === column.view ? visible.indexOf(focused) : outside;
   moveTo(column, visible[Math.max(0, Math.min(visible.length - 1, at + by))]);
 }
 
@@ -327,7 +338,8 @@ function openGraph() {
 const KEYS = {
   ArrowDown: () => moveBy(1), j: () => moveBy(1), ArrowUp: () => moveBy(-1), k: () => moveBy(-1),
   PageDown: () => moveBy(20), PageUp: () => moveBy(-20), Home: () => moveBy(-1e9), End: () => moveBy(1e9),
-  ArrowLeft: () => moveAside(-1), h: () => moveAside(-1), ArrowRight: () => moveAside(1), l: () => moveAside(1),
+  ArrowLeft: () => moveAside(-1), h: () => moveAside(-1),
+  ArrowRight: () => moveAside(1), l: () => moveAside(1),
   n: () => moveToKin(1), p: () => moveToKin(-1), "[": () => changePane(-1), "]": () => changePane(1),
   Enter: () => { if (focused) columnOf(focused).choose(focused); }, Escape: unpin, g: openGraph,
   "/": () => byId("find").focus(), "?": () => byId("help").showModal(),
@@ -357,7 +369,9 @@ byId("more").onclick = KEYS["+"];
 byId("fewer").onclick = KEYS["-"];
 byId("keys").onclick = KEYS["?"];
 byId("find").addEventListener("input", (event) => find(event.target.value));
-byId("find").addEventListener("keydown", (event) => { if (event.key === "Enter") findNext(event.shiftKey ? -1 : 1); });
+byId("find").addEventListener("keydown", (event) => {
+  if (event.key === "Enter") findNext(event.shiftKey ? -1 : 1);
+});
 addEventListener("keydown", onKey);
 addEventListener("resize", () => columns.forEach((column) => column.drawRuler()));
 recall();

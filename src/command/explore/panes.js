@@ -1,6 +1,7 @@
 /* The panes as elements. Text of streams, shaders and listings is only ever set as textContent. */
 
-/* The contents of a column: lines that can be pointed at, each with its kin, and `via`, kin of a calling line. */
+/* The contents of a column: lines that can be pointed at, each with its kin, and `via`: the kin of the calls in
+ * a line. */
 class View {
   constructor(pane) {
     this.pane = pane;
@@ -32,7 +33,10 @@ function make(name, className, text) {
 
 /* --- Colours of text --- */
 
-const C_TOKEN = /(\/\*.*?(?:\*\/|$)|\/\/.*$|"(?:[^"\\]|\\.)*")|\b(static|inline|const|struct|enum|int|unsigned|void|float|return|if|else|for|while|switch|case|default|break|continue|uint\d+_t|int\d+_t|flt|itg|fix|msk)\b|\b(0x[0-9a-fA-F]+|\d[\d.]*f?)\b/g;
+const KEYWORDS = "static|inline|const|struct|enum|int|unsigned|void|float|return|if|else|for|while|" +
+  "switch|case|default|break|continue|u?int\\d+_t|flt|itg|fix|msk";
+const C_TOKEN = new RegExp([/(\/\*.*?(?:\*\/|$)|\/\/.*$|"(?:[^"\\]|\\.)*")/.source,
+  `\\b(${KEYWORDS})\\b`, /\b(0x[0-9a-fA-F]+|\d[\d.]*f?)\b/.source].join("|"), "g");
 const IR_TOKEN = /(;.*$)|\b(flt|itg|fix|msk)\b|(%\d+)|\b(0x[0-9a-fA-F]+|-?\d+(?:\.\d+)?(?:e[+-]?\d+)?)\b/g;
 const IR_CLASS = ["c", "k", "o", "l"], C_CLASS = ["c", "k", "l"];
 
@@ -110,7 +114,8 @@ function keyView(pane) {
 
 function shaderView() {
   const view = new View({ id: "shader" });
-  view.note = `${model.shader.name}, ${model.shader.slots} instruction slots. Beside a line: the operations that it recorded.`;
+  view.note = `${model.shader.name}, ${model.shader.slots} instruction slots. ` +
+    "Beside a line: the operations that it recorded.";
   model.shader.lines.forEach((text, at) => {
     const kin = recordedByShader.get(at + 1) || [], line = lineOf(kin.length ? "" : "unused", at + 1);
     const span = make("span", "t");
@@ -164,7 +169,8 @@ function gapOf(block, hidden) {
 
 function specView() {
   const view = new View({ id: "spec" });
-  view.note = "The functions that recorded the routine. Beside a line: the operations that it recorded, itself or in calls.";
+  view.note = "The functions that recorded the routine. Beside a line: the operations that it recorded, " +
+    "itself or in calls.";
   for (const file of model.files) {
     const section = make("section"), texts = file.text.split("\n");
     section.append(make("div", "file", "src/" + file.path));

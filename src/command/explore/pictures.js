@@ -11,13 +11,15 @@ function svg(name, attributes, parent, text) {
 /* --- Live intervals ---
  *
  * A row for each register that is used, and one for each spill slot; a value whose register is taken away and
- * that has no slot is read again from where it was ("again"). Above them, the number of values in registers. */
+ * that has no slot is read again from where it was ("again"). Above them, the number of values in vector
+ * registers. */
 
 const ROW = 15, LEFT = 56, TOP = 64, CURVE = 44;
 
 function intervalRows(lines) {
   const registers = [...new Set(lines.map((line) => line[3]))].sort((a, b) => a - b);
-  const slots = [...new Set(lines.filter((line) => line[2] >= 0).map((line) => line[4]))].sort((a, b) => a - b);
+  const spilled = lines.filter((line) => line[2] >= 0);
+  const slots = [...new Set(spilled.map((line) => line[4]))].sort((a, b) => a - b);
   return [...registers.map((reg) => ({ key: "r" + reg, name: registerName(reg) })),
     ...slots.map((slot) => ({ key: "s" + slot, name: slot < 0 ? "again" : "slot " + slot }))];
 }
@@ -32,15 +34,17 @@ function pressure(pane, scale) {
   }
   let live = 0, most = 0;
   const counts = [...change].map((by) => { live += by; most = Math.max(most, live); return live; });
+  const yOf = (count) => TOP - 14 - count * CURVE / Math.max(most, 1);
   const points = counts.slice(0, pane.positions + 1)
-    .map((count, at) => `${(LEFT + at * scale).toFixed(1)},${(TOP - 14 - count * CURVE / Math.max(most, 1)).toFixed(1)}`);
+    .map((count, at) => `${(LEFT + at * scale).toFixed(1)},${yOf(count).toFixed(1)}`);
   return { most, points: points.join(" ") };
 }
 
 function drawAxis(picture, pane, rows, scale, width, height) {
   const step = [1, 2, 5, 10, 20, 50, 100, 200, 500, 1000, 2000, 5000].find((n) => n * scale >= 40) || 10000;
   for (const [head, again] of pane.loops)
-    svg("rect", { class: "loop", x: LEFT + head * scale, y: TOP, width: (again - head) * scale, height: height - TOP }, picture);
+    svg("rect", { class: "loop", x: LEFT + head * scale, y: TOP, width: (again - head) * scale,
+      height: height - TOP }, picture);
   for (let at = 0; at <= pane.positions; at += step) {
     const x = LEFT + at * scale;
     svg("line", { class: "grid", x1: x, x2: x, y1: TOP - 4, y2: height }, picture);
@@ -56,8 +60,9 @@ function drawInterval(picture, line, rowOf, scale) {
   const [number, last, split, reg, slot, name, , type] = line;
   const group = svg("g", { class: "span " + type }, picture), end = Math.max(last, number + 0.6);
   const until = split >= 0 ? Math.min(split + 0.5, end) : end;
-  const bar = (key, from, to, className) => svg("rect", { x: LEFT + from * scale, y: TOP + rowOf.get(key) * ROW + 2,
-    width: Math.max((to - from) * scale, 1.5), height: ROW - 4, rx: 2, class: className }, group);
+  const bar = (key, from, to, className) => svg("rect", { class: className, x: LEFT + from * scale,
+    y: TOP + rowOf.get(key) * ROW + 2, width: Math.max((to - from) * scale, 1.5), height: ROW - 4,
+    rx: 2 }, group);
   bar("r" + reg, number, until, "");
   if (split >= 0) bar("s" + slot, until, end, "spilled");
   let text = `%${number} ${name} in ${registerName(reg)}, to ${last}`;
@@ -72,7 +77,8 @@ function intervalsView(pane) {
   const scale = Math.min(8, Math.max(1.6, 1000 / pane.positions));
   const width = LEFT + pane.positions * scale + 20, height = TOP + rows.length * ROW + 4;
   const legend = make("div", "legend words");
-  for (const [type, meaning] of [["flt", "float"], ["itg", "integer"], ["fix", "pair of 16 bits"], ["msk", "mask"], ["memory", "spilled"]]) {
+  for (const [type, meaning] of [["flt", "float"], ["itg", "integer"], ["fix", "pair of 16 bits"],
+    ["msk", "mask"], ["memory", "spilled"]]) {
     const item = make("span", "", meaning), box = make("i");
     box.style.background = `var(--${type})`;
     item.prepend(box);
@@ -137,8 +143,8 @@ function layersOf(program, numbers) {
   return layers;
 }
 
-/* The places nearest to the wishes at which no two nodes of the layer overlap: the mean of those that result from
- * the left and from the right. */
+/* The places nearest to the wishes at which no two nodes of the layer overlap: the mean of those that result
+ * from the left and from the right. */
 function spread(layer, wish, widthOf, x) {
   const left = new Map();
   let least = -Infinity, most = Infinity;
@@ -163,7 +169,8 @@ function placeNodes(program, layers, widthOf) {
     for (const layer of sweep % 2 ? layers : [...layers].reverse()) {
       const wish = new Map(layer.map((number) => {
         const others = program.get(number)[edge].filter((other) => x.has(other)).map((other) => x.get(other));
-        return [number, others.length ? others.reduce((sum, at) => sum + at, 0) / others.length : x.get(number)];
+        const sum = others.reduce((total, at) => total + at, 0);
+        return [number, others.length ? sum / others.length : x.get(number)];
       }));
       layer.sort((a, b) => wish.get(a) - wish.get(b));
       spread(layer, wish, widthOf, x);
@@ -185,29 +192,45 @@ function drawEdges(picture, program, numbers, x, y) {
     }
 }
 
+/* The number, the operation and its immediates. */
+function labelOf(number, text) {
+  const short = text.trim().replace(/^(flt|itg|fix|msk)\s+/, "").replace(/\s*%\d+/g, "").replace(/\s+/g, " ");
+  return `%${number} ${short.slice(0, 28)}`;
+}
+
+function drawNode(picture, line, type, x, y, width, label) {
+  const node = svg("g", { class: `node ${type}`, transform: `translate(${x - width / 2},${y})` }, picture);
+  svg("rect", { width, height: NODE_HEIGHT, rx: 4 }, node);
+  svg("text", { x: 7, y: 14 }, node, label);
+  svg("title", {}, node, `%${line.number} ${line.text.trim()}\n${shortPlace(line.origin)}`);
+  return node;
+}
+
+function makePicture(width, height) {
+  const picture = svg("svg", { width, height, role: "img", "aria-label": "Graph of the program" });
+  const arrow = svg("marker", { id: "arrow", viewBox: "0 0 6 6", refX: 5, refY: 3, markerWidth: 6,
+    markerHeight: 6, orient: "auto" }, svg("defs", {}, picture));
+  svg("path", { d: "M0 0L6 3L0 6z", fill: "currentColor" }, arrow);
+  return picture;
+}
+
 function drawGraph(view, program, center, up, down) {
-  const numbers = neighbourhood(program, center, up, down), layers = layersOf(program, numbers), y = new Map();
-  const label = (number) => `%${number} ${program.get(number).line.text.trim().replace(/^(flt|itg|fix|msk)\s+/, "").replace(/\s*%\d+/g, "").replace(/\s+/g, " ").slice(0, 28)}`;
+  const numbers = neighbourhood(program, center, up, down), layers = layersOf(program, numbers);
+  const y = new Map(), label = (number) => labelOf(number, program.get(number).line.text);
   const widthOf = (number) => label(number).length * 6.7 + 14;
   const x = placeNodes(program, layers, widthOf);
   layers.forEach((layer, at) => layer.forEach((number) => y.set(number, 10 + at * LAYER)));
   const width = Math.max(...numbers.map((number) => x.get(number) + widthOf(number) / 2)) + 10;
-  const picture = svg("svg", { width, height: layers.length * LAYER + 10, role: "img", "aria-label": "Graph of the program" });
-  const arrow = svg("marker", { id: "arrow", viewBox: "0 0 6 6", refX: 5, refY: 3, markerWidth: 6, markerHeight: 6, orient: "auto" },
-    svg("defs", {}, picture));
-  svg("path", { d: "M0 0L6 3L0 6z", fill: "currentColor" }, arrow);
+  const picture = makePicture(width, layers.length * LAYER + 10);
   drawEdges(picture, program, numbers, x, y);
   for (const number of numbers) {
-    const line = program.get(number).line, type = line.text.slice(0, 3).trim(), wide = widthOf(number);
-    const node = svg("g", { class: `node ${type} ${number === center ? "center" : ""}`, transform: `translate(${x.get(number) - wide / 2},${y.get(number)})` }, picture);
-    svg("rect", { width: wide, height: NODE_HEIGHT, rx: 4 }, node);
-    svg("text", { x: 7, y: 14 }, node, label(number));
-    svg("title", {}, node, `%${number} ${line.text.trim()}\n${shortPlace(line.origin)}`);
+    const line = program.get(number).line, type = line.text.slice(0, 3).trim();
+    const node = drawNode(picture, line, type, x.get(number), y.get(number), widthOf(number), label(number));
     view.add(node, kinList(line.origin)).node = number;
-    if (number === center) view.center = node;
+    if (number === center) (view.center = node).classList.add("center");
   }
   view.element.append(picture);
-  return { picture, shown: numbers.length };
+  return numbers.length;
 }
 
 /* The last store or scatter: what the routine is for. */
@@ -243,12 +266,15 @@ function lastProgram() {
 }
 
 function graphView(column) {
-  const view = new View({ id: "graph" }), state = column.graph ||= { program: lastProgram(), center: 0, up: 5, down: 2 };
+  const view = new View({ id: "graph" });
+  const state = column.graph ||= { program: lastProgram(), center: 0, up: 5, down: 2 };
   const program = programOf(state.program);
   if (!program.has(state.center)) state.center = lastEffect(program);
   if (program.size) {
-    const { shown } = drawGraph(view, program, state.center, state.up, state.down);
-    view.note = `The instructions around %${state.center}: ${shown}${shown === NODES_MAXIMUM ? ", which is the most that are drawn" : ""}. Click on another one to move there.`;
+    const shown = drawGraph(view, program, state.center, state.up, state.down);
+    const limit = shown === NODES_MAXIMUM ? ", which is the most that are drawn" : "";
+    view.note = `The instructions around %${state.center}: ${shown}${limit}. ` +
+      "Click on another one to move there.";
   }
   view.controls = graphControls(view, column, state);
   return view;
