@@ -15,27 +15,6 @@ void tearDown(void)
 {
 }
 
-/* Vector rows. */
-
-struct vector_expectation {
-    enum x86_vector id;
-    const char *name, *mnemonic, *form, *prefix, *map, *lengths, *reg, *vvvv, *rm, *memory, *broadcast,
-        *masking;
-    unsigned w, opcode;
-    bool evex;
-};
-
-/* One choice of all operands; a form uses some of them. */
-struct vector_choice {
-    const struct vector_expectation *row;
-    enum vector_length length;
-    unsigned reg, vvvv, rm, third, immediate;
-    unsigned mask; /* 0: none */
-    bool zero, broadcast;
-    bool memory;
-    struct address address;
-};
-
 static bool is(const char *text, const char *other)
 {
     return !strcmp(text, other);
