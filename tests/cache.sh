@@ -107,7 +107,7 @@ if mkdir -p "$work/full" && unshare --mount --map-root-user true 2>/dev/null; th
     [[ $problem == ok* && $problem != *left:* ]] || failures=1
 fi
 
-# --- Time -----------------------------------------------------------------------------------------------------
+# --- Time -------------------------------------------------------------------------------------------------
 
 milliseconds() # COMMAND... : the least processor time of five runs
 {

@@ -24,7 +24,8 @@ static const struct command program = {.name = ""};
 const char command_line_notes[] =
     "triptych COMMAND --help lists the options of a command; triptych --version prints the version.\n"
     "TRIPTYCH_CPU=-avx512f,... hides processor features (triptych list cpu); TRIPTYCH_CC is the compiler\n"
-    "of the engine external.\n"
+    "of the engine external. Meshes of model files are kept in XDG_CACHE_HOME/triptych or "
+    "~/.cache/triptych.\n"
     "Exit status: 0 success; 1 a difference was found; 2 bad input or usage, or a refusal by the system;\n"
     "128 + N: stopped by signal N (130: SIGINT) after a report of the work done.";
 
