@@ -236,7 +236,7 @@ $(BUILD)/triptych: $(TOOL_OBJECTS) $(BUILD)/libtriptych.a $(BUILD)/command.list
 # shared object calls its own functions, and tests that use symbols of assembly, because a shared object hides
 # these.
 apart    := $(patsubst %.c,$(BUILD)/%,$(call tests,render/device/cache render/raster/tiny contract/convention \
-  contract/stack command/fuzz/bisect command/fuzz/inputs command/tool/verify)) $(BUILD)/tests/engines/stitch/%
+  contract/stack command/explore/record command/fuzz/bisect command/fuzz/inputs command/tool/verify)) $(BUILD)/tests/engines/stitch/%
 archives := $(addprefix $(BUILD)/,support.a command.a libtriptych.a)
 found_beside = '-Wl,-rpath,$$ORIGIN/..'
 
