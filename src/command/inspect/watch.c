@@ -1,247 +1,10 @@
-#include "command/inspect/watch.h"
+#include "command/inspect/watch_part.h"
 
 #include "emu/emulate/emulate.h"
 #include "machine/mxcsr.h"
 
 #include <stdlib.h>
 #include <string.h>
-
-enum { ALIGNMENT = 64, SCRATCH_BYTES = SETUP_CAPACITY * 1024 };
-
-/* The primitive of a setup call, and where its records begin. */
-struct placed {
-    const uint8_t *address;
-    uint32_t instance, primitive;
-    uint32_t vertices, vertex[TOUCH_VERTICES];
-    bool clipped;
-};
-
-struct watch {
-    struct engine engine;
-    struct triptych_device *device;
-    int32_t x, y; /* the pixel; x < 0: none */
-    uint32_t *count;
-    enum watch_what what;
-    struct watch_owner *owner;
-    uint32_t draw;
-
-    /* Geometry of the draw. */
-    const struct job *job;                     /* of the instance */
-    uint32_t instances;                        /* that have begun */
-    uint32_t vertices, vertex[TOUCH_VERTICES]; /* of the primitive */
-    bool in_tiles;                             /* the records of the round are complete */
-    struct placed *placed;                     /* of the round, by address */
-    uint32_t placed_count, placed_capacity;
-    alignas(ALIGNMENT) uint8_t scratch[SCRATCH_BYTES]; /* records without culling */
-    struct entry_list entries;
-
-    /* Results of the draw. */
-    uint64_t triangles_before;
-    struct watch_counts counts;
-    struct touch *touch;
-    uint32_t touch_count, touch_capacity;
-    bool incomplete, starved;
-
-    struct sight sight;
-};
-
-/* A routine of the watch's engine. */
-struct watched {
-    struct routine routine;
-    struct routine *inner;    /* the emulator's */
-    struct routine *unculled; /* setup: the same without culling; null if nothing is culled */
-    const struct program *program;
-    struct triangle_layout layout;
-};
-
-static struct watch *watch_of(const struct routine *routine)
-{
-    return (struct watch *)(uintptr_t)routine->engine->options;
-}
-
-static const struct watched *watched(const struct routine *routine)
-{
-    return (const struct watched *)(const void *)routine;
-}
-
-/* --- Touches -------------------------------------------------------------------------------------------- */
-
-/* Null after TOUCHES_MAXIMUM, or when there is no memory. */
-static struct touch *new_touch(struct watch *watch, const struct placed *placed, enum touch_kind kind)
-{
-    if (watch->touch_count == watch->touch_capacity) {
-        uint32_t capacity = watch->touch_capacity ? 2 * watch->touch_capacity : 16;
-        struct touch *larger =
-            capacity <= TOUCHES_MAXIMUM ? realloc(watch->touch, capacity * sizeof *larger) : NULL;
-        if (!larger) {
-            watch->incomplete |= capacity > TOUCHES_MAXIMUM;
-            watch->starved |= capacity <= TOUCHES_MAXIMUM;
-            return NULL;
-        }
-        watch->touch = larger;
-        watch->touch_capacity = capacity;
-    }
-    struct touch *touch = watch->touch + watch->touch_count++;
-    *touch = (struct touch){.kind = kind,
-                            .order = watch->touch_count,
-                            .instance = placed->instance,
-                            .primitive = placed->primitive,
-                            .vertices = placed->vertices,
-                            .clipped = placed->clipped};
-    memcpy(touch->vertex, placed->vertex, sizeof touch->vertex);
-    return touch;
-}
-
-/* --- Vertices ------------------------------------------------------------------------------------------- */
-
-/* A batch is one primitive. Lanes up to the end of the routine's step repeat its last vertex. */
-static void run_vertex(const void *arguments, const struct routine *routine)
-{
-    const struct vertex_arguments *call = arguments;
-    struct watch *watch = watch_of(routine);
-    watched(routine)->inner->run(arguments, watched(routine)->inner);
-    watch->vertices = 0;
-    for (uint32_t i = 0; i < call->count && watch->vertices < TOUCH_VERTICES; i++)
-        if (!i || call->index[i] != watch->vertex[watch->vertices - 1])
-            watch->vertex[watch->vertices++] = call->index[i];
-    if (call->job == watch->job)
-        return;
-    watch->job = call->job;
-    watch->instances++;
-}
-
-/* --- Setup ---------------------------------------------------------------------------------------------- */
-
-/* Lanes up to the end of the routine's step repeat the last record. */
-static bool repeats(const struct setup_arguments *call, uint32_t i)
-{
-    const uint32_t *index = call->index + i;
-    for (int row = 0; row < 3 && i; row++)
-        if (index[row * SETUP_CAPACITY] != index[row * SETUP_CAPACITY - 1])
-            return false;
-    return i;
-}
-
-/* Returns true if any record of the call has a vertex that the clipper made. */
-static bool is_clipped(const struct watch *watch, const struct setup_arguments *call)
-{
-    for (uint32_t i = 0; i < call->count; i++)
-        for (int row = 0; row < 3; row++)
-            if (call->index[row * SETUP_CAPACITY + i] / 4 >= watch->vertices)
-                return true;
-    return false;
-}
-
-/* Notes where the records of the call are. The addresses of a round increase. Records that are dropped, or
- * set up again because the arena was full, leave their addresses to later ones. */
-static struct placed *place(struct watch *watch, const struct setup_arguments *call)
-{
-    if (watch->in_tiles)
-        watch->placed_count = 0;
-    watch->in_tiles = false;
-    while (watch->placed_count && watch->placed[watch->placed_count - 1].address >= call->out)
-        watch->placed_count--;
-    if (watch->placed_count == watch->placed_capacity) {
-        uint32_t capacity = watch->placed_capacity ? 2 * watch->placed_capacity : 1024;
-        struct placed *larger = realloc(watch->placed, capacity * sizeof *larger);
-        if (!larger) {
-            watch->starved = true;
-            return NULL;
-        }
-        watch->placed = larger;
-        watch->placed_capacity = capacity;
-    }
-    struct placed *placed = watch->placed + watch->placed_count++;
-    *placed = (struct placed){.address = call->out,
-                              .instance = watch->instances - 1,
-                              .primitive = call->primitive,
-                              .vertices = watch->vertices,
-                              .clipped = is_clipped(watch, call)};
-    memcpy(placed->vertex, watch->vertex, sizeof placed->vertex);
-    return placed;
-}
-
-/* The primitive of a record, or null if it was not noted. */
-static const struct placed *find_placed(const struct watch *watch, const uint8_t *record)
-{
-    uint32_t low = 0, high = watch->placed_count;
-    while (low < high) {
-        uint32_t middle = (low + high) / 2;
-        if (watch->placed[middle].address <= record)
-            low = middle + 1;
-        else
-            high = middle;
-    }
-    return low ? watch->placed + low - 1 : NULL;
-}
-
-/* Returns true if the record covers any sample of the pixel within the rectangle. */
-static bool covers(struct watch *watch, const struct triangle_head *head, const struct rectangle *within)
-{
-    const struct draw *draw = &watch->device->derived.draw;
-    uint32_t x = (uint32_t)watch->x, y = (uint32_t)watch->y;
-    uint32_t word = pixel_word(x % TILE_SIZE, y % TILE_SIZE);
-    struct rectangle bounds;
-    if (!raster_sampled_bounds(&draw->sampling, draw->shape, head, within, &bounds) || watch->x < bounds.x0 ||
-        watch->x >= bounds.x1 || watch->y < bounds.y0 || watch->y >= bounds.y1)
-        return false;
-    uint32_t count = raster_sampled_tile(&draw->sampling, draw->shape, head, within, (int)(x / TILE_SIZE),
-                                         (int)(y / TILE_SIZE), 0, &watch->entries, 0);
-    for (uint32_t i = 0; i < count; i++)
-        if (watch->entries.entry[i].block == word / BLOCK_PIXELS)
-            return watch->entries.entry[i].coverage >> word % BLOCK_PIXELS & 1;
-    return false;
-}
-
-static bool in_rectangle(const struct rectangle *r, int32_t x, int32_t y)
-{
-    return x >= r->x0 && x < r->x1 && y >= r->y0 && y < r->y1;
-}
-
-/* Why a record does not reach the pixel; TOUCH_DRAWN: for no reason that is looked for, or it does. */
-static enum touch_kind absence(struct watch *watch, const struct triangle_head *drawn,
-                               const struct triangle_head *unculled)
-{
-    const struct target *target = device_target(watch->device);
-    const struct rectangle *scissor = &watch->device->derived.draw.scissor;
-    const struct rectangle whole = {0, 0, (int32_t)target->width, (int32_t)target->height};
-    bool inside = in_rectangle(scissor, watch->x, watch->y);
-    if (drawn->visible && !inside && covers(watch, drawn, &whole))
-        return TOUCH_SCISSORED;
-    if (!drawn->visible && unculled && unculled->visible && inside && covers(watch, unculled, scissor))
-        return TOUCH_CULLED;
-    return TOUCH_DRAWN;
-}
-
-static void note_absent(struct watch *watch, const struct watched *self, const struct setup_arguments *call,
-                        const struct placed *placed)
-{
-    size_t stride = self->layout.stride;
-    struct setup_arguments again = *call;
-    again.out = watch->scratch;
-    bool unculled = self->unculled && call->count * stride <= sizeof watch->scratch;
-    if (unculled)
-        self->unculled->run(&again, self->unculled);
-    for (uint32_t i = 0; i < call->count; i++) {
-        const void *drawn = call->out + i * stride, *other = watch->scratch + i * stride;
-        if (repeats(call, i))
-            continue;
-        enum touch_kind kind = absence(watch, drawn, unculled ? other : NULL);
-        if (kind != TOUCH_DRAWN)
-            new_touch(watch, placed, kind);
-    }
-}
-
-static void run_setup(const void *arguments, const struct routine *routine)
-{
-    const struct setup_arguments *call = arguments;
-    const struct watched *self = watched(routine);
-    struct watch *watch = watch_of(routine);
-    self->inner->run(arguments, self->inner);
-    const struct placed *placed = place(watch, call);
-    if (placed && watch->x >= 0)
-        note_absent(watch, self, call, placed);
-}
 
 /* --- Pixels --------------------------------------------------------------------------------------------- */
 
@@ -296,7 +59,8 @@ static bool lane_passes(const struct sight *sight, unsigned lane)
 
 static void own(struct watch *watch, const struct quad *quad, size_t pixel)
 {
-    const struct placed *placed = find_placed(watch, quad->call->triangles + quad->entry->triangle);
+    const struct watch_placed *placed =
+        watch_find_placed(watch, quad->call->triangles + quad->entry->triangle);
     if (placed)
         watch->owner[pixel] = (struct watch_owner){watch->draw + 1, placed->primitive};
 }
@@ -345,9 +109,9 @@ static void touch_quad(struct watch *watch, const struct quad *quad, unsigned la
 {
     const uint8_t *record = quad->call->triangles + quad->entry->triangle;
     const struct triangle_head *head = (const struct triangle_head *)(const void *)record;
-    const struct placed *placed = find_placed(watch, record);
+    const struct watch_placed *placed = watch_find_placed(watch, record);
     struct target *target = device_target(watch->device);
-    struct touch *touch = placed ? new_touch(watch, placed, TOUCH_DRAWN) : NULL;
+    struct touch *touch = placed ? watch_new_touch(watch, placed, TOUCH_DRAWN) : NULL;
     if (touch)
         pixel_read(target, (uint32_t)watch->x, (uint32_t)watch->y, &touch->before);
     observe_quad(watch, quad);
@@ -388,7 +152,7 @@ static void run_pixel(const void *arguments, const struct routine *routine)
     unsigned saved = mxcsr_enter();
     watch->in_tiles = true;
     for (uint32_t i = 0; i < call->count; i++) {
-        struct quad quad = {watched(routine), call, call->entries + i, 0};
+        struct quad quad = {watch_routine(routine), call, call->entries + i, 0};
         for (; quad.lane < BLOCK_PIXELS; quad.lane += OBSERVED_LANES)
             if (quad.entry->coverage >> quad.lane & ((1 << OBSERVED_LANES) - 1))
                 run_quad(watch, &quad);
@@ -411,7 +175,7 @@ static void free_watched(struct code_arena *arena, struct routine *routine)
 static struct routine *build(const struct engine *self, struct code_arena *arena, enum unit unit,
                              const union key *key, struct error *error)
 {
-    static routine_function *const run[UNIT_COUNT] = {run_vertex, run_setup, run_pixel};
+    static routine_function *const run[UNIT_COUNT] = {watch_vertices, watch_setup, run_pixel};
     struct watched *made = calloc(1, sizeof *made);
     union key unculled = *key;
     if (!made) {
@@ -434,8 +198,8 @@ static struct routine *build(const struct engine *self, struct code_arena *arena
 
 struct watch *watch_create(void)
 {
-    size_t bytes = (sizeof(struct watch) + ALIGNMENT - 1) & -(size_t)ALIGNMENT;
-    struct watch *watch = aligned_alloc(ALIGNMENT, bytes);
+    size_t bytes = (sizeof(struct watch) + WATCH_ALIGNMENT - 1) & -(size_t)WATCH_ALIGNMENT;
+    struct watch *watch = aligned_alloc(WATCH_ALIGNMENT, bytes);
     if (!watch)
         return NULL;
     memset(watch, 0, bytes);
