@@ -1,5 +1,5 @@
-/* The parts of the viewer: its state and actions (view_action.c), the text over the picture (view_text.c), the
- * window and its events (view_window.c), keys of the command line (view_keys.c), the command (view.c).
+/* The parts of the viewer: its state and actions (view_action.c), the text over the picture (view_text.c),
+ * the window and its events (view_window.c), keys of the command line (view_keys.c), the command (view.c).
  *
  * Functions that return int return a status and print the reason of a failure. */
 #ifndef COMMAND_VIEW_VIEW_PART_H
