@@ -53,7 +53,7 @@ def check_frame(name, caller, stack_pointer, values, step):
            "instruction %d: the caller's stack pointer" % step)
     expect(registers(older) == values, "instruction %d: a register of the caller" % step)
     if step % WHOLE_STACK_EACH == 0:
-        expect("command_render" in stack_names(),
+        expect("command_line_run" in stack_names(),
                "instruction %d: the stack ends at %s" % (step, stack_names()[-1]))
 
 
