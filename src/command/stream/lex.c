@@ -347,22 +347,32 @@ static int read_whole(struct lexer *lexer, const char *what, int64_t low, int64_
     return lex_next(lexer);
 }
 
+/* Reads a number that is finite in binary32. A word is rounded to binary32 if `single`, else to binary64. */
+static int read_number(struct lexer *lexer, const char *what, bool single, double *number)
+{
+    char word[NUMBER_BYTES], *end;
+    if (lexer->token.type == TOKEN_EXPRESSION)
+        return read_real(lexer, what, number);
+    if (copy_word(lexer, word) || !looks_like_number(word))
+        return lex_expected(lexer, "a number (%s)", what);
+    *number = single ? (double)strtof(word, &end) : strtod(word, &end);
+    if (*end || !isfinite((float)*number))
+        return lex_expected(lexer, "a number (%s) in the range of binary32", what);
+    return lex_next(lexer);
+}
+
 int lex_number(struct lexer *lexer, const char *what, float *number)
 {
     double value;
-    if (lexer->token.type == TOKEN_EXPRESSION) {
-        if (read_real(lexer, what, &value))
-            return -1;
-        *number = (float)value;
-        return 0;
-    }
-    char word[NUMBER_BYTES], *end;
-    if (copy_word(lexer, word) || !looks_like_number(word))
-        return lex_expected(lexer, "a number (%s)", what);
-    *number = strtof(word, &end);
-    if (*end || !isfinite(*number))
-        return lex_expected(lexer, "a number (%s) in the range of binary32", what);
-    return lex_next(lexer);
+    if (read_number(lexer, what, true, &value))
+        return -1;
+    *number = (float)value;
+    return 0;
+}
+
+int lex_double(struct lexer *lexer, const char *what, double *number)
+{
+    return read_number(lexer, what, false, number);
 }
 
 int lex_any_number(struct lexer *lexer, const char *what, float *number)
@@ -394,19 +404,6 @@ bool lex_half_bits(const struct lexer *lexer, int64_t *bits)
         *bits = *bits << 4 | digit;
     }
     return true;
-}
-
-int lex_double(struct lexer *lexer, const char *what, double *number)
-{
-    if (lexer->token.type == TOKEN_EXPRESSION)
-        return read_real(lexer, what, number);
-    char word[NUMBER_BYTES], *end;
-    if (copy_word(lexer, word) || !looks_like_number(word))
-        return lex_expected(lexer, "a number (%s)", what);
-    *number = strtod(word, &end);
-    if (*end || !isfinite((float)*number))
-        return lex_expected(lexer, "a number (%s) in the range of binary32", what);
-    return lex_next(lexer);
 }
 
 int lex_numbers(struct lexer *lexer, const char *what, float *numbers, size_t count)
