@@ -94,8 +94,10 @@ void tearDown(void)
     arena_destroy(&arena);
 }
 
+/* Counts begin at 0. Returns the number of primitives that are finished. */
 static uint32_t run(uint32_t first, uint32_t count)
 {
+    batch->counts = (struct batch_counts){0};
     bin_begin_round(bins, &arena, 2, 1);
     bin_begin_chunk(bins, 7);
     uint32_t done = batch_primitives(batch, &draw, first, count, bins);
@@ -178,13 +180,11 @@ static void lines_and_points_take_two_vertices_and_one(void)
         expect_line(i, 2 * i, 2 * i + 1, true);
         TEST_ASSERT_EQUAL_UINT32(2 * i, other_log[i].provoking);
     }
-    batch->counts = (struct batch_counts){0};
     draw_as(TRIPTYCH_LINE_STRIP, PRIMITIVE_LINE, SHAPE_LINE);
     TEST_ASSERT_EQUAL_UINT32(4, run(0, 4));
     TEST_ASSERT_EQUAL_UINT64(5, batch->counts.vertices_shaded);
     for (uint32_t i = 0; i < 4; i++)
         expect_line(i, i, i + 1, i == 3);
-    batch->counts = (struct batch_counts){0};
     draw_as(TRIPTYCH_POINT_LIST, PRIMITIVE_POINT, SHAPE_POINT);
     TEST_ASSERT_EQUAL_UINT32(4, run(0, 4));
     TEST_ASSERT_EQUAL_UINT64(4, batch->counts.triangles_set_up);
@@ -200,7 +200,6 @@ static void parts_of_triangles_come_with_their_triangle(void)
 {
     draw_as(TRIPTYCH_TRIANGLE_STRIP, PRIMITIVE_EDGE, SHAPE_LINE);
     for (int corners = 0; corners < 3; corners++) {
-        batch->counts = (struct batch_counts){0};
         draw.flat = corners == 2;
         if (corners)
             draw_as(TRIPTYCH_TRIANGLE_STRIP, PRIMITIVE_CORNER, SHAPE_POINT);
@@ -241,16 +240,13 @@ static void clip_codes_drop_lines_and_points(void)
     TEST_ASSERT_EQUAL_UINT64(2, batch->counts.triangles_set_up);
     expect_line(0, 0, 1, false);
     expect_line(1, 12, 13, false);
-    batch->counts = (struct batch_counts){0};
     draw_as(TRIPTYCH_POINT_LIST, PRIMITIVE_POINT, SHAPE_POINT);
     TEST_ASSERT_EQUAL_UINT32(14, run(0, 14));
     TEST_ASSERT_EQUAL_UINT64(5, batch->counts.triangles_set_up);
     TEST_ASSERT_EQUAL_UINT32(7, triangle_log[2][0]);
-    batch->counts = (struct batch_counts){0};
     draw.clip_ignored = CLIP_DEPTH | CLIP_USER_ALL;
     TEST_ASSERT_EQUAL_UINT32(14, run(0, 14));
     TEST_ASSERT_EQUAL_UINT64(11, batch->counts.triangles_set_up);
-    batch->counts = (struct batch_counts){0};
     draw_as(TRIPTYCH_TRIANGLE_LIST, PRIMITIVE_TRIANGLE, SHAPE_TRIANGLE);
     codes[0] = codes[1] = codes[2] = CLIP_NEAR | CLIP_USER;
     TEST_ASSERT_EQUAL_UINT32(1, run(0, 1));
@@ -274,7 +270,6 @@ static void indices_of_16_and_32_bits_are_moved_by_the_base(void)
     draw.base = (uint32_t)-5;
     run(0, 1);
     expect_triangle(0, 0, 65530, 2);
-    batch->counts = (struct batch_counts){0};
     draw.indices = long_index;
     draw.index_bits = 32;
     draw.base = (uint32_t)-3;
@@ -302,7 +297,6 @@ static void shared_vertices_are_shaded_once_a_batch(void)
     TEST_ASSERT_EQUAL_UINT32(240, vertices_padded);
     for (uint32_t i = 0; i < 392; i++)
         expect_triangle(i, index[3 * i], index[3 * i + 1], index[3 * i + 2]);
-    batch->counts = (struct batch_counts){0};
     run(0, 392);
     TEST_ASSERT_EQUAL_UINT64(225, batch->counts.vertices_shaded);
 }
@@ -314,7 +308,6 @@ static void calls_are_padded_to_the_lanes_of_a_routine(void)
     for (uint32_t lanes = 1; lanes <= LANES_MAXIMUM; lanes *= 2) {
         vertices_padded = triangles_padded = 0;
         vertex_routine.lanes = setup_routine.lanes = lanes;
-        batch->counts = (struct batch_counts){0};
         TEST_ASSERT_EQUAL_UINT32(3, run(0, 3));
         TEST_ASSERT_EQUAL_UINT32((9 + lanes - 1) / lanes * lanes, vertices_padded);
         TEST_ASSERT_EQUAL_UINT32((3 + lanes - 1) / lanes * lanes, triangles_padded);
@@ -348,24 +341,14 @@ static void many_triangles_of_few_vertices_are_cut_too(void)
 
 static void clip_codes_drop_invisible_triangles(void)
 {
-    uint32_t codes[15] = {
-        CLIP_LEFT,
-        CLIP_LEFT,
-        CLIP_LEFT | CLIP_TOP, /* all left: dropped */
-        CLIP_LEFT,
-        CLIP_RIGHT,
-        CLIP_TOP, /* nothing in common: kept */
-        CLIP_INVALID,
-        0,
-        0, /* not a number: dropped */
-        0,
-        0,
-        0, /* inside */
-        CLIP_EYE | CLIP_NEAR,
-        CLIP_NEAR,
-        CLIP_NEAR, /* all outside: dropped */
+    uint32_t codes[5][3] = {
+        {CLIP_LEFT, CLIP_LEFT, CLIP_LEFT | CLIP_TOP}, /* all left: dropped */
+        {CLIP_LEFT, CLIP_RIGHT, CLIP_TOP},            /* nothing in common: kept */
+        {CLIP_INVALID, 0, 0},                         /* not a number: dropped */
+        {0, 0, 0},                                    /* inside */
+        {CLIP_EYE | CLIP_NEAR, CLIP_NEAR, CLIP_NEAR}, /* all outside: dropped */
     };
-    clip_codes = codes;
+    clip_codes = &codes[0][0];
     TEST_ASSERT_EQUAL_UINT32(5, run(0, 5));
     TEST_ASSERT_EQUAL_UINT64(2, batch->counts.triangles_set_up);
     expect_triangle(0, 3, 4, 5);
@@ -379,39 +362,38 @@ static uint32_t random_below(uint32_t bound) /* Park and Miller */
     return state % bound;
 }
 
+static bool is_dropped(uint32_t a, uint32_t b, uint32_t c) /* clip codes */
+{
+    return (a & b & c & CLIP_FRUSTUM) || ((a | b | c) & CLIP_INVALID);
+}
+
 /* The vertices of lists with and without indices are inside, outside of one or another plane, or invalid. The
  * triangles that are set up are the same, in the same order, as if each was in a batch of its own. */
 static void triangles_are_dropped_as_in_batches_of_one(void)
 {
-    enum { VERTICES = 3000, TRIANGLES = VERTICES / 3, BASE = 7 };
+    enum { VERTICES = 3000, TRIANGLES = VERTICES / 3, FIRST = 7 };
     static const uint32_t side[] = {CLIP_LEFT, CLIP_RIGHT, CLIP_TOP, CLIP_BOTTOM | CLIP_LEFT, CLIP_INVALID};
-    static uint32_t codes[BASE + VERTICES], index[VERTICES];
+    static uint32_t codes[FIRST + VERTICES], *const moved = codes + FIRST, index[VERTICES];
     static uint16_t short_index[VERTICES];
     uint32_t dropped = 0;
     clip_codes = codes;
-    draw.base = BASE;
+    draw.base = FIRST;
     for (uint32_t round = 0; round < 60; round++) {
         uint32_t kinds = round % 6, reach = 1 + random_below(400), expected = 0;
         draw.index_bits = round / 6 % 3 * 16;
         draw.indices = draw.index_bits == 16 ? (const void *)short_index : draw.index_bits ? index : NULL;
         for (uint32_t i = 0; i < VERTICES; i++) {
-            codes[BASE + i] = kinds && random_below(4) ? side[random_below(kinds)] : 0;
+            moved[i] = kinds && random_below(4) ? side[random_below(kinds)] : 0;
             if (round % 6 == 1 && i % 1024 < 512)
-                codes[BASE + i] = CLIP_LEFT; /* whole batches */
+                moved[i] = CLIP_LEFT; /* whole batches */
             index[i] = draw.index_bits ? (i / 2 + random_below(reach)) % VERTICES : i;
             short_index[i] = (uint16_t)index[i];
         }
-        batch->counts = (struct batch_counts){0};
         TEST_ASSERT_EQUAL_UINT32(TRIANGLES, run(0, TRIANGLES));
         for (uint32_t i = 0; i < TRIANGLES; i++) {
-            uint32_t a = BASE
-            +index[3 * i], b = BASE
-            +index[3 * i + 1], c = BASE
-            +index[3 * i + 2];
-            if ((codes[a] & codes[b] & codes[c] & CLIP_FRUSTUM) ||
-                ((codes[a] | codes[b] | codes[c]) & CLIP_INVALID))
-                continue;
-            expect_triangle(expected++, a, b, c);
+            const uint32_t *corner = index + 3 * i;
+            if (!is_dropped(moved[corner[0]], moved[corner[1]], moved[corner[2]]))
+                expect_triangle(expected++, FIRST + corner[0], FIRST + corner[1], FIRST + corner[2]);
         }
         TEST_ASSERT_EQUAL_UINT64(expected, batch->counts.triangles_set_up);
         dropped += TRIANGLES - expected;
