@@ -443,50 +443,6 @@ static void test_a_disk_that_is_really_full(void)
     TEST_ASSERT_TRUE(WIFEXITED(status));
 }
 
-/* Every command reports output that it could not write. */
-static void test_standard_output_that_is_full(void)
-{
-    static const char *const lines[] = {
-#define COMMAND(name) #name " --help",
-#include "command/support/command.def"
-#undef COMMAND
-        "--help",
-        "--version",
-        "render tests/data/streams/queries.tri --engine emulate --out OUT",
-        "verify tests/data/streams/odd-target.tri --engines batch --threads 1",
-        "bench tests/data/streams/odd-target.tri --engines specialize --repetitions 3 --seconds 0",
-        "fuzz --print 1",
-        "dump tests/data/streams/odd-target.tri",
-        "shader disassemble tests/data/shaders/common/color.psa",
-        "compare tests/data/goldens/odd-target.png tests/data/goldens/odd-target.png",
-        "list states",
-    };
-    snprintf(path, sizeof path, "%s/picture.png", folder);
-    for (unsigned i = 0; i < sizeof lines / sizeof *lines; i++) {
-        char words[256], *arguments[ARGUMENTS] = {"triptych"};
-        int count = 1;
-        snprintf(words, sizeof words, "%s", lines[i]);
-        for (char *word = strtok(words, " "); word; word = strtok(NULL, " "))
-            arguments[count++] = strcmp(word, "OUT") ? word : path;
-        fflush(NULL);
-        pid_t process = fork();
-        TEST_ASSERT_GREATER_OR_EQUAL(0, process);
-        FILE *telling = process ? NULL : tmpfile();
-        if (!process) {
-            freopen("/dev/full", "w", stdout);
-            dup2(fileno(telling), STDERR_FILENO);
-            int status = command_line_run(count, arguments);
-            rewind(telling);
-            said[fread(said, 1, sizeof said - 1, telling)] = 0;
-            const char *end = strchr(said, '\n');
-            _exit(status == 2 && strstr(said, "cannot write to standard output") && end && !end[1] ? 0 : 1);
-        }
-        int status;
-        TEST_ASSERT_EQUAL_INT(process, waitpid(process, &status, 0));
-        TEST_ASSERT_EQUAL_INT_MESSAGE(0, status, lines[i]);
-    }
-}
-
 int main(void)
 {
     store_off = true; /* what it writes is not what is tested here */
@@ -498,6 +454,5 @@ int main(void)
     RUN_TEST(test_killed_at_each_call_leaves_the_old_file_or_the_new_one);
     RUN_TEST(test_killed_at_any_time_leaves_one_of_two_files);
     RUN_TEST(test_a_disk_that_is_really_full);
-    RUN_TEST(test_standard_output_that_is_full);
     return UNITY_END();
 }
