@@ -30,6 +30,19 @@ static struct {
     const char *text, *text_becomes; /* of the external engine */
 } plant;
 
+static void plant_step(enum ir_op op, enum ir_op becomes)
+{
+    plant.batch_op = op;
+    plant.batch_becomes = becomes;
+}
+
+static void plant_fragment(const struct fragment *fragment, const struct fragment *becomes, int32_t argument)
+{
+    plant.fragment = fragment;
+    plant.fragment_becomes = becomes;
+    plant.argument = argument;
+}
+
 /* As in emu/batch/schedule.h. */
 struct schedule_step;
 typedef const struct schedule_step *step_function(void *batch, const struct schedule_step *step);
@@ -211,8 +224,7 @@ static void engines_that_agree_are_reported_as_such(void)
 
 static void an_operation_of_the_batch_interpreter(void)
 {
-    plant.batch_op = IR_mul_x;
-    plant.batch_becomes = IR_add_x;
+    plant_step(IR_mul_x, IR_add_x);
     run(modulate, "emulate", "batch", NULL);
     names("mul_x", "spec/math/color.h:");
     TEST_ASSERT_EQUAL_INT(UNIT_PIXEL, found.unit);
@@ -224,8 +236,7 @@ static void an_operation_of_the_batch_interpreter(void)
 
 static void in_a_vertex_routine(void)
 {
-    plant.batch_op = IR_mad_f;
-    plant.batch_becomes = IR_select_f; /* three operands */
+    plant_step(IR_mad_f, IR_select_f); /* three operands */
     run(modulate, "emulate", "batch", NULL);
     names("mad_f", "spec/");
     TEST_ASSERT_EQUAL_INT(UNIT_VERTEX, found.unit);
@@ -234,8 +245,7 @@ static void in_a_vertex_routine(void)
 
 static void in_a_setup_routine(void)
 {
-    plant.batch_op = IR_div_f;
-    plant.batch_becomes = IR_sub_f;
+    plant_step(IR_div_f, IR_sub_f);
     run(modulate, "emulate", "batch-16", NULL);
     names("div_f", "spec/");
     TEST_ASSERT_EQUAL_INT(UNIT_SETUP, found.unit);
@@ -244,8 +254,7 @@ static void in_a_setup_routine(void)
 static void only_the_selected_pixel_is_compared(void)
 {
     const struct bisect_options options = {.draw = BISECT_ANY, .x = 7, .y = 20};
-    plant.batch_op = IR_mul_x;
-    plant.batch_becomes = IR_add_x;
+    plant_step(IR_mul_x, IR_add_x);
     run(modulate, "emulate", "batch", &options);
     names("mul_x", "spec/math/color.h:");
     TEST_ASSERT_EQUAL_INT(7, found.x);
@@ -255,16 +264,14 @@ static void only_the_selected_pixel_is_compared(void)
 static void only_the_selected_draw_is_compared(void)
 {
     const struct bisect_options options = {.draw = 0, .x = BISECT_ANY, .y = BISECT_ANY};
-    plant.batch_op = IR_mul_x;
-    plant.batch_becomes = IR_add_x;
+    plant_step(IR_mul_x, IR_add_x);
     run(modulate, "emulate", "batch", &options);
     TEST_ASSERT_EQUAL_INT(BISECT_SAME, found.outcome);
 }
 
 static void the_first_pass_of_a_loop_in_which_it_differs(void)
 {
-    plant.batch_op = IR_floor_f;
-    plant.batch_becomes = IR_half_f;
+    plant_step(IR_floor_f, IR_half_f);
     run(looping, "emulate", "batch", NULL);
     names("floor_f", "spec/shader");
     TEST_ASSERT_TRUE(found.in_loop);
@@ -338,8 +345,7 @@ static void code_that_is_right_when_its_recording_is_probed(void)
 static void against_stage_fragments(void)
 {
     NEEDS("stitch");
-    plant.batch_op = IR_mul_x;
-    plant.batch_becomes = IR_add_x;
+    plant_step(IR_mul_x, IR_add_x);
     run(modulate, "stitch", "batch", NULL);
     names("mul_x", "spec/math/color.h:");
     TEST_ASSERT_EQUAL_STRING("", found.fragment);
@@ -348,8 +354,7 @@ static void against_stage_fragments(void)
 static void an_operation_fragment(void)
 {
     NEEDS("stitch-operation");
-    plant.fragment = &fragment_mul_x;
-    plant.fragment_becomes = &fragment_add_x;
+    plant_fragment(&fragment_mul_x, &fragment_add_x, 0);
     run(modulate, "emulate", "stitch-operation", NULL);
     names("mul_x", "spec/math/color.h:");
 }
@@ -357,8 +362,7 @@ static void an_operation_fragment(void)
 static void the_specializer_against_the_stitcher(void)
 {
     NEEDS("specialize");
-    plant.fragment = &fragment_mul_x;
-    plant.fragment_becomes = &fragment_add_x;
+    plant_fragment(&fragment_mul_x, &fragment_add_x, 0);
     run(modulate, "specialize", "stitch-operation", NULL);
     names("mul_x", "spec/math/color.h:");
     TEST_ASSERT_EQUAL_STRING("", found.pass);
@@ -382,8 +386,7 @@ static void names_fragment(const char *name)
 static void a_stage_fragment_in_the_middle_of_a_routine(void)
 {
     NEEDS("stitch");
-    plant.fragment = &fragment_stage_two_modulate;
-    plant.fragment_becomes = &fragment_stage_two_add;
+    plant_fragment(&fragment_stage_two_modulate, &fragment_stage_two_add, 0);
     run(modulate, "emulate", "stitch", NULL);
     names_fragment("stage_two_modulate, ");
     TEST_ASSERT_EQUAL_STRING_LEN_MESSAGE("spec/", found.place, 5, printed.data);
@@ -392,9 +395,8 @@ static void a_stage_fragment_in_the_middle_of_a_routine(void)
 static void a_stage_fragment_whose_result_is_compared(void)
 {
     NEEDS("stitch");
-    plant.fragment = &fragment_depth_new;
-    plant.fragment_becomes = &fragment_depth_new;
-    plant.argument = sizeof(float); /* the plane begins a word too late */
+    /* the plane begins a word too late */
+    plant_fragment(&fragment_depth_new, &fragment_depth_new, sizeof(float));
     run(modulate, "emulate", "stitch", NULL);
     names_fragment("depth_new, ");
 }
@@ -402,9 +404,7 @@ static void a_stage_fragment_whose_result_is_compared(void)
 static void a_stage_fragment_of_the_vertex_routine(void)
 {
     NEEDS("stitch");
-    plant.fragment = &fragment_clip_position_w;
-    plant.fragment_becomes = &fragment_clip_position_w;
-    plant.argument = 4;
+    plant_fragment(&fragment_clip_position_w, &fragment_clip_position_w, 4);
     run(modulate, "emulate", "stitch", NULL);
     names_fragment("clip_position_w, ");
     TEST_ASSERT_EQUAL_INT(UNIT_VERTEX, found.unit);
@@ -413,9 +413,7 @@ static void a_stage_fragment_of_the_vertex_routine(void)
 static void a_stage_fragment_of_the_setup_routine(void)
 {
     NEEDS("stitch");
-    plant.fragment = &fragment_smooth_plane;
-    plant.fragment_becomes = &fragment_smooth_plane;
-    plant.argument = VERTEX_SLOT_BYTES;
+    plant_fragment(&fragment_smooth_plane, &fragment_smooth_plane, VERTEX_SLOT_BYTES);
     run(modulate, "emulate", "stitch", NULL);
     names_fragment("smooth_plane, ");
     TEST_ASSERT_EQUAL_INT(UNIT_SETUP, found.unit);
@@ -423,8 +421,7 @@ static void a_stage_fragment_of_the_setup_routine(void)
 
 static void the_report_begins_with_the_line(void)
 {
-    plant.batch_op = IR_mul_x;
-    plant.batch_becomes = IR_add_x;
+    plant_step(IR_mul_x, IR_add_x);
     run(modulate, "emulate", "batch", NULL);
     TEST_ASSERT_EQUAL_STRING_LEN("spec/math/color.h:", printed.data, 13);
     TEST_ASSERT_NOT_NULL(strstr(printed.data, ": mul_x: emulate "));
@@ -445,8 +442,7 @@ static void the_command_writes_a_report(void)
     fflush(stdout);
     int kept = dup(STDOUT_FILENO), nowhere = open("/dev/null", O_WRONLY);
     dup2(nowhere, STDOUT_FILENO);
-    plant.batch_op = IR_mul_x;
-    plant.batch_becomes = IR_add_x;
+    plant_step(IR_mul_x, IR_add_x);
     char *arguments[] = {"triptych", "bisect", stream,   "--engines", "emulate,batch",
                          "--pixel",  "7,20",   "--json", report};
     int status = command_line_run(sizeof arguments / sizeof *arguments, arguments);
