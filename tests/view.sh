@@ -183,6 +183,12 @@ real_window()
     verdict 'the mouse works' "$(wait_for "$work/window-4.png")"
     "$TRIPTYCH" compare "$work/window-3.png" "$work/window-4.png" >"$work/compare" 2>&1
     verdict 'the mouse turns the camera' "$( (($? == 1)) || echo 'the same picture')"
+    kill -STOP "$viewer"
+    key Home s
+    kill -CONT "$viewer"
+    wait_for "$work/window-5.png" >/dev/null
+    "$TRIPTYCH" compare "$work/window-3.png" "$work/window-5.png" >"$work/compare" 2>&1
+    verdict 'a picture contains the effect of keys that came with its own' "$( (($? == 0)) || head -n 1 "$work/compare")"
     key q
     wait "$viewer"
     verdict 'a key quits' "$( (($? == 0)) || echo "exit status $?")"

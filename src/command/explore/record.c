@@ -107,6 +107,8 @@ int explore_record(struct explore_recording *recording, enum unit unit, const un
 {
     *recording = (struct explore_recording){.ir = malloc(sizeof *recording->ir),
                                             .place = malloc(IR_CAPACITY * sizeof *recording->place)};
+    if (recording->ir)
+        recording->ir->overflow = false;
     noting = (struct noting){.recording = recording, .current = EXPLORE_NO_PLACE};
     add_place(recording, (struct explore_place){.file = "", .function = "", .caller = EXPLORE_NO_PLACE});
     if (!recording->ir || !recording->place || noting.failed)

@@ -111,6 +111,7 @@ static void save_shot(struct view *view)
     struct error error = {""};
     char path[VIEW_PATH_CAPACITY];
     snprintf(path, sizeof path, "%s-%u.png", view->settings->shots, ++view->shots);
+    view_draw(view); /* events before this one may have changed the scene */
     if (view_make(view))
         return;
     if (png_save(path, view->show.width, view->show.height, view->show.color, &error))
