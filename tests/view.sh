@@ -117,6 +117,7 @@ END
 # Waits in the middle of a list of keys: the first line of output is the sign to change the file.
 changes() # FILE TEXT : views $work/live.tri, replaces the file's text meanwhile
 {
+    : >"$work/out" # the loop below must not find the lines of an earlier call
     timeout 60 "$TRIPTYCH" view "$work/live.tri" --plain --keys wait,wait,wait,wait,wait,wait >"$work/out" 2>"$work/err" </dev/null &
     local pid=$!
     for ((i = 0; i < 200; i++)); do
@@ -223,6 +224,7 @@ refuses 'an unknown key' '--keys has "spin", expected one of: engine, ' $scene -
 refuses 'no such frame' 'has no frame 7, its last is 0' $scene --frame 7
 refuses 'no such stream' 'missing.tri: cannot' "$work/missing.tri"
 refuses 'a stream that is wrong' 'wrong.tri:1:' "$work/wrong.tri"
+refuses 'a window without a display' 'no display for a window' $scene
 SDL_VIDEODRIVER=none refuses 'no display' 'SDL cannot open a display' $scene --keys wait
 : >"$work/libSDL2-2.0.so.0"
 LD_LIBRARY_PATH=$work refuses 'no SDL' 'libSDL2-2.0.so.0 cannot be loaded, expected SDL 2 \(the Debian package libsdl2-2.0-0\)' \

@@ -1,7 +1,15 @@
 /* The window and its events. */
 #include "command/view/view_part.h"
 
+#include <string.h>
+
 static const float drag_step = 0.008f, wheel_step = 0.1f;
+
+/* Without a display, SDL chooses a driver whose windows exist only in memory. */
+static bool is_invisible(const char *driver)
+{
+    return driver && (!strcmp(driver, "offscreen") || !strcmp(driver, "dummy"));
+}
 
 int view_open_window(struct view *view)
 {
@@ -12,6 +20,9 @@ int view_open_window(struct view *view)
         return tool_fail(view->self, "%s", error.text);
     if (sdl->Init(SDL_VIDEO))
         return tool_fail(view->self, "SDL cannot open a display: %s", sdl->GetError());
+    if (!view->settings->keys && is_invisible(sdl->GetCurrentVideoDriver()))
+        return tool_fail(view->self, "no display for a window (SDL's driver is %s), expected one, or --keys",
+                         sdl->GetCurrentVideoDriver());
     tool_path_stem(view->path, title, sizeof title);
     view->window = sdl->CreateWindow(title, SDL_UNDEFINED, SDL_UNDEFINED, (int)view->show.width,
                                      (int)view->show.height, SDL_RESIZABLE);
