@@ -19,7 +19,7 @@ static bool find_golden(const struct golden *golden, const char *name, unsigned 
     return !access(path, F_OK);
 }
 
-static int update(const struct command *self, const struct golden *golden, const char *name, unsigned frame,
+static int update(const struct command *self, struct golden *golden, const char *name, unsigned frame,
                   bool single)
 {
     const struct readback *picture = &golden->readback;
@@ -28,9 +28,10 @@ static int update(const struct command *self, const struct golden *golden, const
     if (!single)
         snprintf(number, sizeof number, "-%u", frame);
     snprintf(path, sizeof path, "%s/%s%s.png", golden->folder, name, number);
-    return png_save_level(path, picture->width, picture->height, picture->color, golden->compression, &error)
-               ? tool_fail(self, "%s", error.text)
-               : STATUS_OK;
+    if (png_save_level(path, picture->width, picture->height, picture->color, golden->compression, &error))
+        return tool_fail(self, "%s", error.text);
+    golden->written++;
+    return STATUS_OK;
 }
 
 static void add_report(cJSON *report, const char *path, unsigned frame, const char *result,

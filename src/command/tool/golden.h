@@ -16,7 +16,7 @@ struct golden {
     bool update;             /* write the pictures instead */
     unsigned compression;    /* of pictures that are written (image/png.h) */
     struct readback readback;
-    unsigned compared, different; /* so far */
+    unsigned compared, different, written; /* so far */
 };
 
 /* Compares the frame that the session drew last. `single` is true if it is the only one of its stream that is

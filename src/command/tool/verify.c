@@ -341,7 +341,9 @@ static void summarize(const struct operands *operands, const struct settings *se
 {
     if (interrupt_signal())
         printf("interrupted by %s: %u of ", interrupt_name(), totals->complete);
-    if (settings->golden.folder && !settings->golden.update)
+    if (settings->golden.update)
+        printf("%u goldens written to %s\n", settings->golden.written, settings->golden.folder);
+    else if (settings->golden.folder)
         printf("%u goldens, %u differ or are missing\n", settings->golden.compared,
                settings->golden.different);
     printf("%d streams, %u engines, ", operands->count, settings->engines.count);
