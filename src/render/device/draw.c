@@ -93,7 +93,7 @@ static enum triptych_result check_draw(struct triptych_device *device, enum trip
     if (result == TRIPTYCH_OK && !device->state.program[STAGE_VERTEX] &&
         !device->state.element[ATTRIBUTE_POSITION].format &&
         !device->state.element[ATTRIBUTE_POSITIONT].format) {
-        error_set(error, "no position: expected an element for it");
+        error_set(error, "no position: expected a vertex declaration or an element with one");
         return TRIPTYCH_BAD_CALL;
     }
     return result == TRIPTYCH_OK ? device_check_integers(device, error) : result;

@@ -35,7 +35,7 @@ static void draws_need_a_target_a_position_and_indices(void)
 {
     struct device_options options = {.threads = 1};
     expect_refused(TRIPTYCH_BAD_CALL, triptych_draw(device, TRIPTYCH_TRIANGLE_LIST, 0, 1),
-                   "no position: expected an element for it");
+                   "no position: expected a vertex declaration or an element with one");
     draw_rectangle(0, 0, 1, 1, 0, 0);
     expect_refused(TRIPTYCH_BAD_CALL, triptych_draw_indexed(device, TRIPTYCH_TRIANGLE_LIST, 0, 0, 1),
                    "no indices: expected set_indices first");
