@@ -31,35 +31,37 @@ expect_refused()
     fi
 }
 
-# add_value KIND NUMBER: writes the public enumerations with one more value.
+# add_value KIND: writes the public enumerations with one more value, whose number is free.
 add_value()
 {
     mkdir -p "$work/tables"
     cp src/def/state/*.def "$work/tables/"
-    printf 'VALUE(%s, novel, %s, YES)\n' "$1" "$2" >>"$work/tables/value.def"
+    local last
+    last=$(sed -nE "s/^VALUE\($1,.*, *([0-9]+), *[A-Z]+\)$/\1/p" src/def/state/value.def | sort -n | tail -n 1)
+    printf 'VALUE(%s, novel, %s, YES)\n' "$1" "$((last + 1))" >>"$work/tables/value.def"
     (cd "$work/tables" && awk -f "$OLDPWD/src/words.awk" kind.def state.def sampler_state.def stage_state.def \
         value.def fvf.def attribute.def vertex_type.def format.def depth_format.def) >"$work/triptych_words.h"
 }
 
 derive=src/render/derive
-while read -r kind number file word; do
-    add_value "$kind" "$number"
+while read -r kind file word; do
+    add_value "$kind"
     expect_refused "a value of $kind without a meaning" "$derive/$file" "TRIPTYCH_${word}_NOVEL.*not handled"
 done <<'END'
-TEXTUREOP 27 derive_stage.c TEXTUREOP
-ALPHAOP 27 derive_stage.c TEXTUREOP
-COMPARE 9 translate.c COMPARE
-STENCILOP 9 translate.c STENCILOP
-SRCBLEND 18 translate.c BLEND
-BLENDOP 6 translate.c BLENDOP
-CULLMODE 4 translate.c CULL
-FILTER 4 translate.c FILTER
-ADDRESS 6 translate.c ADDRESS
-FOGMODE 4 translate.c FOG
-FILLMODE 4 derive_setup.c FILL
-SHADEMODE 4 derive_setup.c SHADE
-VERTEXBLEND 4 derive_vertex.c VERTEXBLEND
-MATERIALSOURCE 3 derive_vertex.c MATERIALSOURCE
+TEXTUREOP derive_stage.c TEXTUREOP
+ALPHAOP derive_stage.c TEXTUREOP
+COMPARE translate.c COMPARE
+STENCILOP translate.c STENCILOP
+SRCBLEND translate.c BLEND
+BLENDOP translate.c BLENDOP
+CULLMODE translate.c CULL
+FILTER translate.c FILTER
+ADDRESS translate.c ADDRESS
+FOGMODE translate.c FOG
+FILLMODE derive_setup.c FILL
+SHADEMODE derive_setup.c SHADE
+VERTEXBLEND derive_vertex.c VERTEXBLEND
+MATERIALSOURCE derive_vertex.c MATERIALSOURCE
 END
 rm -f "$work/triptych_words.h"
 

@@ -69,6 +69,7 @@ static void fill_cells(void)
 
 static int compares(uint32_t function, double a, double b)
 {
+    TEST_ASSERT_LESS_OR_EQUAL_UINT32_MESSAGE(8, function, "a comparison without an expected value");
     int order = a < b ? 1 : a == b ? 2 : 4;
     return (function - 1) & order ? 1 : 0;
 }
@@ -83,8 +84,10 @@ static uint32_t operated(uint32_t operation, uint32_t s, uint32_t reference)
     case 5: return s ? s - 1 : 0;
     case 6: return maximum - s;
     case 7: return s == maximum ? 0 : s + 1;
-    default: return s ? s - 1 : maximum;
+    case 8: return s ? s - 1 : maximum;
     }
+    TEST_FAIL_MESSAGE("a stencil operation without an expected value");
+    return 0;
 }
 
 static void expect_drawn(const struct setting *s, uint32_t word, float z, int p)
@@ -113,10 +116,20 @@ static void unbind_texture(void)
     set_stage(0, TRIPTYCH_STAGE_ALPHAOP, "selectarg2");
 }
 
+/* One of the state's words, also one that was added to the table. */
+static uint32_t random_value(enum triptych_state state)
+{
+    const struct triptych_kind *kind = triptych_state_at(TRIPTYCH_RENDER_STATES, state)->kind;
+    unsigned count = 0;
+    while (triptych_value_at(kind, count))
+        count++;
+    return triptych_value_at(kind, random_word() % count)->number;
+}
+
 static struct side random_side(void)
 {
-    return (struct side){1 + random_word() % 8, 1 + random_word() % 8, 1 + random_word() % 8,
-                         1 + random_word() % 8};
+    return (struct side){random_value(TRIPTYCH_STATE_STENCILFUNC), random_value(TRIPTYCH_STATE_STENCILFAIL),
+                         random_value(TRIPTYCH_STATE_STENCILZFAIL), random_value(TRIPTYCH_STATE_STENCILPASS)};
 }
 
 static uint32_t random_mask(void)
@@ -130,7 +143,7 @@ static struct setting random_setting(void)
                             .reference = random_word() % 3 ? random_word() % 16 : random_word() % 256,
                             .mask = random_mask(),
                             .write_mask = random_mask(),
-                            .depth_function = 1 + random_word() % 8,
+                            .depth_function = random_value(TRIPTYCH_STATE_ZFUNC),
                             .two_sided = (int)(random_word() & 1),
                             .depth_on = random_word() % 4 != 0,
                             .depth_writes = (int)(random_word() & 1),
