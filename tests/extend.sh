@@ -8,8 +8,8 @@
 #   limit          the most files that the patch may touch, and the folder whose files do not count, if there
 #                  is one
 #
-# The sources are built once without optimization, in BUILD/extend; each copy begins with those objects, so it
-# compiles only what its patch affects.
+# One copy gets all additions, so it is built once; their parts must not disturb each other. With EXTEND=each,
+# every addition has a copy of its own, which names the one that is wrong when the copy of all does not build.
 # Runs once.
 set -u
 cd "$(dirname "$0")/.." || exit 1
@@ -25,15 +25,9 @@ trap 'rm -rf "$work"' EXIT
 build=${BUILD:-build}
 build=${build#"$PWD"/}
 [[ $build != /* ]] || build=build
-export objects=$build/extend work
+objects=$build/extend
 
-if ! nice make -j"$(nproc)" BUILD="$objects" CFLAGS=-O0 all >"$work/log" 2>&1; then
-    echo "FAIL extend: the sources do not build without optimization"
-    grep -v '^  ' "$work/log" | tail -20 >&2
-    exit 1
-fi
-
-# Copies the sources with their times, so that make finds them older than the objects.
+# The files of a copy.
 if [[ -e .git ]]; then
     git ls-files -z
 else
@@ -48,34 +42,64 @@ touched() # PATCH
     sed -nE 's/^(---|\+\+\+) [^/]+\/([^\t]+).*/\2/p' "$1" | grep -v '^dev/null$' | sort -u
 }
 
-try() # KIND
+# Checks the number of files that the patch of a kind touches.
+count_files() # KIND
 {
-    local kind=$1 from=$PWD/tests/extend/$1 copy=$work/$1 most apart count
-    fail() { printf 'FAIL extend %s: %s\n' "$kind" "$1"; tail -n 30 "$work/$kind.log" >&2; return 1; }
-    : >"$work/$kind.log"
+    local from=tests/extend/$1 most apart count file
     for file in change.patch check.sh limit; do
-        [[ -f $from/$file ]] || { fail "expected tests/extend/$kind/$file"; return 1; }
+        [[ -f $from/$file ]] || { echo "expected tests/extend/$1/$file" >"$work/reason"; return 1; }
     done
     read -r most apart <"$from/limit"
     count=$(touched "$from/change.patch" | grep -cv "^${apart:-/}")
-    ((count <= most)) || { fail "touches $count files, expected at most $most"; return 1; }
+    counted="$count files, at most $most"
+    ((count <= most)) || { echo "touches $count files, expected at most $most" >"$work/reason"; return 1; }
+}
 
-    mkdir "$copy"
+# Makes a copy with the additions and builds it. Leaves the kind and the reason if one fails.
+grow() # COPY KIND...
+{
+    local copy=$1 kind
+    shift
+    rm -rf "$copy" && mkdir -p "$copy"
     xargs -0 cp -a --parents -t "$copy" <"$work/files"
     mkdir -p "$copy/$objects" "$copy/build"
-    cp -a "$objects/." "$copy/$objects"
-    patch -d "$copy" -p1 --no-backup-if-mismatch <"$from/change.patch" >"$work/$kind.log" 2>&1 ||
-        { fail 'the patch does not apply'; return 1; }
-    make -C "$copy" BUILD="$objects" CFLAGS=-O0 all >"$work/$kind.log" 2>&1 || { fail 'does not build'; return 1; }
-    (cd "$copy" && TRIPTYCH=$copy/$objects/triptych BUILD=$copy/$objects bash "$from/check.sh") \
-        >"$work/$kind.log" 2>&1 || { fail 'its check fails'; return 1; }
-    rm -rf "$copy"
-    printf 'ok extend %s: %d files, at most %d\n' "$kind" "$count" "$most"
+    for kind; do
+        patch -d "$copy" -p1 --no-backup-if-mismatch <"tests/extend/$kind/change.patch" >"$work/reason" 2>&1 ||
+            { failing=$kind; echo 'the patch does not apply' >>"$work/reason"; return 1; }
+    done
+    failing=${kinds[*]}
+    (($# > 1)) || failing=$1
+    nice make -C "$copy" -j"$(nproc)" BUILD="$objects" CFLAGS=-O0 all >"$work/reason" 2>&1 || {
+        (($# == 1)) || echo 'the copy with all additions does not build; EXTEND=each tests/extend.sh builds one copy each' \
+            >>"$work/reason"
+        return 1
+    }
 }
-export -f try touched
 
-failed=0
-printf '%s\0' "${kinds[@]}" | nice xargs -0 -n 1 -P "$(nproc)" bash -c 'try "$1"' try || failed=1
+check() # COPY KIND
+{
+    (cd "$1" && TRIPTYCH=$1/$objects/triptych BUILD=$1/$objects nice bash "tests/extend/$2/check.sh") >"$work/reason" 2>&1
+}
+
+report() # KIND: fails with the reason
+{
+    printf 'FAIL extend %s\n' "$1"
+    tail -n 30 "$work/reason" >&2
+    failed=1
+}
+
+failed=0 grown=
+if [[ ${EXTEND-} != each ]]; then
+    grow "$work/all" "${kinds[@]}" || { report "$failing"; exit 1; }
+    grown=$work/all
+fi
+for kind in "${kinds[@]}"; do
+    if count_files "$kind" && { [[ $grown ]] || grow "$work/one" "$kind"; } && check "${grown:-$work/one}" "$kind"; then
+        echo "ok extend $kind: $counted"
+    else
+        report "$kind"
+    fi
+done
 for folder in tests/extend/*/; do
     kind=$(basename "$folder")
     [[ ! -d $folder || " ${kinds[*]} " == *" $kind "* ]] || { echo "FAIL extend $kind: not in the list of tests/extend.sh"; failed=1; }
