@@ -1,6 +1,22 @@
 /* States, transforms, lights, textures and vertex declarations. */
 #include "api/api.h"
 
+#include <stdio.h>
+
+/* Warns of a number instead of the bits of a float: such bits are a subnormal float, almost 0. */
+static void warn_of_bits(const triptych_device *device, enum triptych_state_table table, unsigned row,
+                         uint32_t value)
+{
+    const struct triptych_state_row *state = triptych_state_at(table, row);
+    char text[ERROR_CAPACITY];
+    if (state->kind->notation != TRIPTYCH_NOTATION_REAL || value & 0x7f800000 || !(value & 0x7fffff))
+        return;
+    snprintf(text, sizeof text,
+             "%s %s: value %u is the bits of a float near 0, expected triptych_float_bits()",
+             triptych_table_name(table), state->name, value);
+    device_report(device, TRIPTYCH_LOG_WARNING, text);
+}
+
 static enum triptych_result set_value(triptych_device *device, enum triptych_state_table table, unsigned i,
                                       unsigned row, uint32_t value)
 {
@@ -12,8 +28,10 @@ static enum triptych_result set_value(triptych_device *device, enum triptych_sta
         change ? state_set_value(&device->state, table, i, row, value, error) : TRIPTYCH_OK;
     if (result == TRIPTYCH_OK)
         record_value(device, table, i, row, value);
-    if (change && result == TRIPTYCH_OK)
+    if (change && result == TRIPTYCH_OK) {
         change = change_of_value(table, row);
+        warn_of_bits(device, table, row, value);
+    }
     return api_changed(device, result, change);
 }
 

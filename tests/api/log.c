@@ -62,6 +62,19 @@ static void a_failed_call_is_logged_with_its_reason(void)
     TEST_ASSERT_EQUAL_PTR(folder, event.user);
 }
 
+static void a_number_that_is_not_the_bits_of_a_float_is_a_warning(void)
+{
+    good(triptych_set_state(device, TRIPTYCH_STATE_FOGEND, triptych_float_bits(2)));
+    good(triptych_set_state(device, TRIPTYCH_STATE_FOGEND, triptych_float_bits(0)));
+    good(triptych_set_state(device, TRIPTYCH_STATE_ALPHAREF, 1));
+    TEST_ASSERT_EQUAL_UINT(0, event.count);
+    good(triptych_set_state(device, TRIPTYCH_STATE_FOGEND, 1));
+    TEST_ASSERT_EQUAL_UINT(1, event.count);
+    TEST_ASSERT_EQUAL_INT(TRIPTYCH_LOG_WARNING, event.level);
+    TEST_ASSERT_EQUAL_STRING(
+        "state fogend: value 1 is the bits of a float near 0, expected triptych_float_bits()", event.text);
+}
+
 static void the_log_function_can_be_changed_and_removed(void)
 {
     triptych_set_log(device, NULL, NULL);
@@ -136,6 +149,7 @@ int main(void)
 {
     UNITY_BEGIN();
     RUN_TEST(a_failed_call_is_logged_with_its_reason);
+    RUN_TEST(a_number_that_is_not_the_bits_of_a_float_is_a_warning);
     RUN_TEST(the_log_function_can_be_changed_and_removed);
     RUN_TEST(a_recording_without_ends_of_frames_is_a_warning);
     RUN_TEST(a_recording_with_ends_of_frames_has_no_warning);
