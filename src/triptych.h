@@ -387,7 +387,7 @@ struct triptych_routine_info {
 TRIPTYCH_API const char *triptych_version(void);
 
 /* Creates a device. On failure *device is null, and `reason`, which may be null, receives the reason in at
- * most `size` bytes. */
+ * most `size` bytes; 512 are enough for any. */
 TRIPTYCH_API enum triptych_result triptych_device_create(const struct triptych_options *options,
                                                          triptych_device **device, char *reason, size_t size);
 /* Frees the device and all its objects. Null is allowed. */

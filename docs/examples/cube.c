@@ -58,7 +58,7 @@ static triptych_device *create_device(const char *engine)
 {
     const struct triptych_options options = {.engine = engine, .log = report};
     triptych_device *device;
-    char reason[256];
+    char reason[512];
     if (triptych_device_create(&options, &device, reason, sizeof reason) == TRIPTYCH_OK)
         return device;
     fprintf(stderr, "cube: %s\n", reason);

@@ -202,9 +202,9 @@ def write_png(path, pixels):
 
 def main():
     engine, path = (sys.argv + ["specialize", "cube.png"][len(sys.argv) - 1:])[1:3]
-    reason = ctypes.create_string_buffer(256)
+    reason = ctypes.create_string_buffer(512)
     options = Options(engine=engine.encode())
-    if library.triptych_device_create(byref(options), byref(device), reason, c_size_t(256)):
+    if library.triptych_device_create(byref(options), byref(device), reason, c_size_t(512)):
         sys.exit("cube.py: " + reason.value.decode())
     call("set_target", SIDE, SIDE)
     set_geometry()
