@@ -138,7 +138,11 @@ enum triptych_result state_set_value(struct state *state, enum triptych_state_ta
         return TRIPTYCH_BAD_ARGUMENT;
     }
     if (!place.state) {
-        error_set(error, "table of %ss without a row %u", name, row);
+        unsigned rows = 0;
+        while (triptych_state_at(table, rows))
+            rows++;
+        error_set(error, "%s%s %u: expected 0 to %u", table == TRIPTYCH_RENDER_STATES ? "" : name,
+                  table == TRIPTYCH_RENDER_STATES ? "state" : " state", row, rows - 1);
         return TRIPTYCH_BAD_ARGUMENT;
     }
     if (!exists(place.state->kind, value) || !is_supported(&place, value))
