@@ -31,6 +31,7 @@ __attribute__((target("avx2,fma"))) static double sums_avx2(void)
     __m256 sum[CHAINS], factor = _mm256_set1_ps(0.5f), term = _mm256_set1_ps(0.25f);
     HIDE(factor);
     HIDE(term);
+#pragma GCC unroll 16 /* all loops over sums: otherwise they are stored in memory, not in registers */
     for (int i = 0; i < CHAINS; i++)
         sum[i] = term;
     double start = now();
@@ -50,6 +51,7 @@ __attribute__((target("avx512f"))) static double sums_avx512(void)
     __m512 sum[CHAINS], factor = _mm512_set1_ps(0.5f), term = _mm512_set1_ps(0.25f);
     HIDE_512(factor);
     HIDE_512(term);
+#pragma GCC unroll 16
     for (int i = 0; i < CHAINS; i++)
         sum[i] = term;
     double start = now();
