@@ -3,6 +3,7 @@
 
 #include <errno.h>
 #include <fcntl.h>
+#include <limits.h>
 #include <pthread.h>
 #include <signal.h>
 #include <stdatomic.h>
@@ -11,6 +12,7 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+#include <sys/auxv.h>
 #include <sys/stat.h>
 #include <time.h>
 #include <unistd.h>
@@ -288,4 +290,28 @@ int file_write(const char *path, const void *data, size_t bytes, struct error *e
         return file_commit(&output, error);
     file_discard(&output);
     return -1;
+}
+
+/* --- Programs --- */
+
+/* Returns true if the file NAME of a folder can be executed. An empty folder is the current one. */
+static bool is_program_of(const char *folder, int length, const char *name)
+{
+    char path[PATH_MAX];
+    int bytes = snprintf(path, sizeof path, "%.*s%s%s", length, folder, length ? "/" : "", name);
+    return bytes < (int)sizeof path && !access(path, X_OK);
+}
+
+bool file_is_program(const char *name)
+{
+    const char *folders = getauxval(AT_SECURE) ? NULL : getenv("PATH");
+    if (strchr(name, '/'))
+        return !access(name, X_OK);
+    for (folders = folders ? folders : ""; *folders; folders += *folders == ':') {
+        int length = (int)strcspn(folders, ":");
+        if (is_program_of(folders, length, name))
+            return true;
+        folders += length;
+    }
+    return false;
 }

@@ -48,6 +48,10 @@ int file_append(struct file_output *output, const void *data, size_t bytes, stru
 int file_commit(struct file_output *output, struct error *error);
 void file_discard(struct file_output *output);
 
+/* Returns true if posix_spawnp will find the program: an executable file, in a folder of PATH unless the name
+ * has a slash. A process with more rights than its user (setuid) searches no folder. */
+bool file_is_program(const char *name);
+
 /* Writes all bytes to a descriptor. At a limit on file sizes (RLIMIT_FSIZE) errno is EFBIG, and the calling
  * thread does not get the signal SIGXFSZ. Returns 0, or -1 with the reason in errno. */
 int file_put(int descriptor, const void *data, size_t bytes);

@@ -177,6 +177,22 @@ static void a_missing_folder_is_reported(void)
     TEST_ASSERT_EQUAL_STRING("/nonexistent/x: cannot write: No such file or directory", error.text);
 }
 
+static void programs_are_found_in_the_path_and_by_their_own(void)
+{
+    char *before = strdup(getenv("PATH"));
+    setenv("PATH", "/nonexistent::/bin", 1);
+    TEST_ASSERT_TRUE(file_is_program("sh"));
+    TEST_ASSERT_TRUE(file_is_program("/bin/sh"));
+    TEST_ASSERT_FALSE(file_is_program("/bin/no-such-program"));
+    TEST_ASSERT_FALSE(file_is_program("no-such-program"));
+    setenv("PATH", "/nonexistent", 1);
+    TEST_ASSERT_FALSE(file_is_program("sh"));
+    unsetenv("PATH");
+    TEST_ASSERT_FALSE(file_is_program("sh"));
+    setenv("PATH", before, 1);
+    free(before);
+}
+
 int main(void)
 {
     UNITY_BEGIN();
@@ -191,5 +207,6 @@ int main(void)
     RUN_TEST(a_full_device_is_reported);
     RUN_TEST(a_device_is_written_to_and_not_replaced);
     RUN_TEST(a_missing_folder_is_reported);
+    RUN_TEST(programs_are_found_in_the_path_and_by_their_own);
     return UNITY_END();
 }

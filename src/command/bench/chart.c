@@ -116,21 +116,6 @@ static void print_script(FILE *out, const struct bench *bench, const struct term
 
 /* --- gnuplot -------------------------------------------------------------------------------------------- */
 
-static bool is_in_path(const char *name)
-{
-    char path[PATH_CAPACITY];
-    const char *folders = getenv("PATH");
-    for (folders = folders ? folders : ""; *folders; folders += *folders == ':') {
-        int length = (int)strcspn(folders, ":");
-        if (snprintf(path, sizeof path, "%.*s%s%s", length, folders, length ? "/" : "", name) <
-                (int)sizeof path &&
-            !access(path, X_OK))
-            return true;
-        folders += length;
-    }
-    return false;
-}
-
 /* Starts gnuplot with these files as its standard streams, and default signals. */
 static int start(const int files[3], pid_t *process)
 {
@@ -252,7 +237,7 @@ int chart_check(const struct command *self, const char *paths)
     if (getauxval(AT_SECURE))
         return tool_fail(self,
                          "--chart runs gnuplot, which is refused with rights that the user does not have");
-    if (!is_in_path("gnuplot"))
+    if (!file_is_program("gnuplot"))
         return tool_fail(self,
                          "--chart needs gnuplot, which is not in PATH (Debian: apt-get install gnuplot-nox)");
     return STATUS_OK;

@@ -53,22 +53,6 @@ static const char *compiler(void)
     return name && *name ? name : "cc";
 }
 
-/* Returns true if posix_spawnp will find the program. */
-static bool is_in_path(const char *name)
-{
-    char path[PATH_CAPACITY];
-    const char *folders = secure_getenv("PATH");
-    for (folders = folders ? folders : ""; *folders; folders += *folders == ':') {
-        int length = (int)strcspn(folders, ":");
-        if (snprintf(path, sizeof path, "%.*s%s%s", length, folders, length ? "/" : "", name) <
-                (int)sizeof path &&
-            !access(path, X_OK))
-            return true;
-        folders += length;
-    }
-    return false;
-}
-
 static const char no_rights[] =
     "needs to start a C compiler, which a process with more rights than its user (setuid) does not";
 
@@ -76,9 +60,8 @@ const char *external_no_compiler(void)
 {
     const char *name = compiler();
     if (getauxval(AT_SECURE))
-        return "needs to start a C compiler, which a process with more rights than its user (setuid) does "
-               "not";
-    if (strchr(name, '/') ? !access(name, X_OK) : is_in_path(name))
+        return no_rights;
+    if (file_is_program(name))
         return NULL;
     return "needs a C compiler at run time: cc, or the program that TRIPTYCH_CC names";
 }
