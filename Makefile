@@ -1,7 +1,7 @@
 # Triptych's build: `make help` lists the targets.
 #
-# Sources are found, never listed. src/command and src/image are the command. All other sources in src, emu
-# and asm are the library. Each tests/**/*.c outside tests/support/ and tests/command/fuzz/targets/ is a Unity
+# Sources are found, never listed. src/command and src/image are the command, src/front has the front ends. All
+# other sources in src, emu and asm are the library. Each tests/**/*.c outside tests/support/ and tests/command/fuzz/targets/ is a Unity
 # program with its own main. Everything built is in $(BUILD). The Unity sources and links to the models of
 # glmark2 and Assimp are always in build/, because draw streams name their models by paths that begin with
 # build/glmark2.
@@ -31,7 +31,9 @@ find = $(sort $(shell find $(1) -name '$(2)' 2>/dev/null))
 
 C_SOURCES       := $(call find,src emu,*.c)
 TOOL_SOURCES    := $(filter src/command/% src/image/%,$(C_SOURCES)) $(call find,src/command,*.asm)
-LIBRARY_SOURCES := $(filter-out $(TOOL_SOURCES),$(C_SOURCES)) $(call find,asm,*.asm)
+# The Linux side of the front ends. Their Windows side has another compiler.
+FRONT_SOURCES   := $(filter-out src/front/d3d9/pe/%,$(filter src/front/%,$(C_SOURCES)))
+LIBRARY_SOURCES := $(filter-out $(TOOL_SOURCES) src/front/%,$(C_SOURCES)) $(call find,asm,*.asm)
 TEST_SOURCES    := $(call find,tests,*.c)
 SUPPORT_SOURCES := $(filter tests/support/%,$(TEST_SOURCES))
 TARGET_SOURCES  := $(filter tests/command/fuzz/targets/%,$(TEST_SOURCES))
@@ -42,11 +44,12 @@ object = $(patsubst %,$(BUILD)/object/%.o,$(basename $(1)))
 
 LIBRARY_OBJECTS := $(call object,$(LIBRARY_SOURCES))
 TOOL_OBJECTS    := $(call object,$(TOOL_SOURCES))
+FRONT_OBJECTS   := $(call object,$(FRONT_SOURCES))
 SUPPORT_OBJECTS := $(call object,$(SUPPORT_SOURCES))
 TARGET_OBJECTS  := $(call object,$(TARGET_SOURCES))
 PROGRAM_OBJECTS := $(call object,$(PROGRAM_SOURCES))
 BENCH_OBJECTS   := $(call object,$(call find,bench,*.c))
-OBJECTS         := $(LIBRARY_OBJECTS) $(TOOL_OBJECTS) $(SUPPORT_OBJECTS) $(TARGET_OBJECTS) $(PROGRAM_OBJECTS) $(BENCH_OBJECTS)
+OBJECTS         := $(LIBRARY_OBJECTS) $(TOOL_OBJECTS) $(FRONT_OBJECTS) $(SUPPORT_OBJECTS) $(TARGET_OBJECTS) $(PROGRAM_OBJECTS) $(BENCH_OBJECTS)
 
 # ONLY=text selects the tests whose path contains the text.
 only = $(if $(ONLY),$(foreach t,$(1),$(if $(findstring $(ONLY),$(t)),$(t))),$(1))
@@ -216,8 +219,9 @@ $(BUILD)/object/unity.o: $(UNITY_SOURCE) $(BUILD)/flags
 # is removed.
 $(BUILD)/libtriptych.a: $(LIBRARY_OBJECTS) $(BUILD)/library.list
 $(BUILD)/command.a: $(TOOL_OBJECTS) $(BUILD)/command.list
+$(BUILD)/front.a: $(FRONT_OBJECTS) $(BUILD)/front.list
 $(BUILD)/support.a: $(SUPPORT_OBJECTS) $(BUILD)/support.list
-$(BUILD)/libtriptych.a $(BUILD)/command.a $(BUILD)/support.a:
+$(BUILD)/libtriptych.a $(BUILD)/command.a $(BUILD)/front.a $(BUILD)/support.a:
 	$(call say,AR)rm -f $@ && $(AR) rcs $@ $(filter %.o,$^)
 
 # The version script hides the symbols of assembly. -z,text refuses code that needs relocation when loaded.
@@ -237,7 +241,7 @@ $(BUILD)/triptych: $(TOOL_OBJECTS) $(BUILD)/libtriptych.a $(BUILD)/command.list
 # these.
 apart    := $(patsubst %.c,$(BUILD)/%,$(call tests,render/device/cache render/raster/tiny contract/convention \
   contract/stack command/explore/record command/fuzz/bisect command/fuzz/inputs command/tool/verify)) $(BUILD)/tests/engines/stitch/%
-archives := $(addprefix $(BUILD)/,support.a command.a libtriptych.a)
+archives := $(addprefix $(BUILD)/,support.a front.a command.a libtriptych.a)
 found_beside = '-Wl,-rpath,$$ORIGIN/..'
 
 $(if $(SHARED),$(filter $(apart),$(PROGRAMS)),$(PROGRAMS)): $(archives)
@@ -248,8 +252,8 @@ $(PROGRAMS): $(BUILD)/tests/%: $(BUILD)/object/tests/%.o $(BUILD)/object/unity.o
 	$(call say,LD)$(link) $(compressed) $(filter %.o,$^) $(or $(filter %.so,$^),$(archives)) \
 	  $(if $(filter %.so,$^),$(found_beside)) $(tool_libraries) -o $@
 
-$(BUILD)/tests/shared.so: $(filter-out %/main.o,$(TOOL_OBJECTS)) $(LIBRARY_OBJECTS) $(SUPPORT_OBJECTS) \
-  $(addprefix $(BUILD)/,library.list command.list support.list)
+$(BUILD)/tests/shared.so: $(filter-out %/main.o,$(TOOL_OBJECTS)) $(FRONT_OBJECTS) $(LIBRARY_OBJECTS) \
+  $(SUPPORT_OBJECTS) $(addprefix $(BUILD)/,library.list command.list front.list support.list)
 	@mkdir -p $(@D)
 	$(call say,LD)$(link) $(compressed) -shared -Wl,-Bsymbolic $(filter %.o,$^) $(tool_libraries) -o $@
 
@@ -302,10 +306,11 @@ $(addprefix $(BUILD)/fuzz/,$(FUZZERS)): $(BUILD)/fuzz/inputs
 $(BUILD)/flags: text = $(subst -I$(BUILD)/,-I,$(compile) $(unity_flags) $(link) $(assemble))
 $(BUILD)/library.list: text = $(LIBRARY_OBJECTS:$(BUILD)/%=%)
 $(BUILD)/command.list: text = $(TOOL_OBJECTS:$(BUILD)/%=%)
+$(BUILD)/front.list: text = $(FRONT_OBJECTS:$(BUILD)/%=%)
 $(BUILD)/support.list: text = $(SUPPORT_OBJECTS:$(BUILD)/%=%)
 $(BUILD)/spec.list: text = $(SPEC_SOURCES)
 $(BUILD)/commit: text = $(COMMIT)
-$(BUILD)/flags $(addprefix $(BUILD)/,library.list command.list support.list spec.list commit): FORCE
+$(BUILD)/flags $(addprefix $(BUILD)/,library.list command.list front.list support.list spec.list commit): FORCE
 	@mkdir -p $(@D)
 	@printf '%s\n' "$(text)" | cmp -s - $@ || printf '%s\n' "$(text)" >$@
 
