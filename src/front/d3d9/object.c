@@ -54,7 +54,7 @@ void *d3d9_object_make(size_t bytes, enum d3d9_interface interface, struct d3d9_
         return NULL;
     object->references = 1; /* which has the hold */
     if (parent)
-        d3d9_object_add_reference(parent);
+        d3d9_object_add_ref(parent);
     return object;
 }
 
@@ -88,14 +88,14 @@ static struct d3d9_object *counted(struct d3d9_object *object)
     return object->owner ? object->owner : object;
 }
 
-uint32_t d3d9_object_add_reference(struct d3d9_object *of)
+uint32_t d3d9_object_add_ref(struct d3d9_object *of)
 {
     struct d3d9_object *object = counted(of);
     if (object->references++)
         return object->references;
     d3d9_object_hold(object);
     if (object->parent)
-        d3d9_object_add_reference(object->parent);
+        d3d9_object_add_ref(object->parent);
     return 1;
 }
 
@@ -137,7 +137,8 @@ void d3d9_object_exchange(struct d3d9_object **slot, struct d3d9_object *with)
     d3d9_object_drop(old);
 }
 
-int32_t d3d9_object_query(struct d3d9_object *object, const struct d3d9_guid *identifier, void **out)
+int32_t d3d9_object_query_interface(struct d3d9_object *object, const struct d3d9_guid *identifier,
+                                    void **out)
 {
     if (!out)
         return D3D9_BAD_POINTER;
@@ -147,7 +148,7 @@ int32_t d3d9_object_query(struct d3d9_object *object, const struct d3d9_guid *id
         i = rows[i].base;
     if (i == D3D9_INTERFACE_NONE)
         return D3D9_NO_INTERFACE;
-    d3d9_object_add_reference(object);
+    d3d9_object_add_ref(object);
     *out = object;
     return D3D9_OK;
 }
@@ -158,21 +159,22 @@ int32_t d3d9_object_query_container(struct d3d9_object *object, const struct d3d
     if (!out)
         return D3D9_BAD_POINTER;
     *out = NULL;
-    return object->container ? d3d9_object_query(object->container, identifier, out) : D3D9_NO_INTERFACE;
+    return object->container ? d3d9_object_query_interface(object->container, identifier, out)
+                             : D3D9_NO_INTERFACE;
 }
 
-int32_t d3d9_unknown_query_interface(struct d3d9_object *object, const struct d3d9_guid *identifier,
-                                     void **out)
+int32_t d3d9_object_query_interface(struct d3d9_object *object, const struct d3d9_guid *identifier,
+                                    void **out)
 {
-    return d3d9_object_query(object, identifier, out);
+    return d3d9_object_query_interface(object, identifier, out);
 }
 
-uint32_t d3d9_unknown_add_ref(struct d3d9_object *object)
+uint32_t d3d9_object_add_ref(struct d3d9_object *object)
 {
-    return d3d9_object_add_reference(object);
+    return d3d9_object_add_ref(object);
 }
 
-uint32_t d3d9_unknown_release(struct d3d9_object *object)
+uint32_t d3d9_object_release_x(struct d3d9_object *object)
 {
     return d3d9_object_release(object);
 }

@@ -67,7 +67,7 @@ void d3d9_object_free_part(struct d3d9_object *part);
 
 /* AddRef and Release: return the new number of references. Release of an object without references returns 0
  * and changes nothing. */
-uint32_t d3d9_object_add_reference(struct d3d9_object *);
+uint32_t d3d9_object_add_ref(struct d3d9_object *);
 uint32_t d3d9_object_release(struct d3d9_object *);
 /* Holds of other objects. Null is allowed. */
 void d3d9_object_hold(struct d3d9_object *);
@@ -77,7 +77,7 @@ void d3d9_object_exchange(struct d3d9_object **slot, struct d3d9_object *with);
 
 /* QueryInterface: *out is the object, with one more reference; null and D3D9_NO_INTERFACE if it has no such
  * interface. */
-int32_t d3d9_object_query(struct d3d9_object *, const struct d3d9_guid *, void **out);
+int32_t d3d9_object_query_interface(struct d3d9_object *, const struct d3d9_guid *, void **out);
 /* GetContainer: the container's QueryInterface. */
 int32_t d3d9_object_query_container(struct d3d9_object *, const struct d3d9_guid *, void **out);
 
@@ -98,10 +98,5 @@ bool d3d9_object_private_data_is_interface(struct d3d9_object *, const struct d3
 /* Interfaces of the program that private data contained and no longer contains. Moves at most `room` of them to
  * the array, and returns their number. */
 uint32_t d3d9_foreign_take(uint64_t *interfaces, uint32_t room);
-
-/* IUnknown. */
-int32_t d3d9_unknown_query_interface(struct d3d9_object *, const struct d3d9_guid *, void **out);
-uint32_t d3d9_unknown_add_ref(struct d3d9_object *);
-uint32_t d3d9_unknown_release(struct d3d9_object *);
 
 #endif

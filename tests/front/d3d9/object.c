@@ -47,7 +47,7 @@ static void an_object_references_its_parent_while_it_has_references(void)
 {
     struct d3d9_object *surface = make(D3D9_INTERFACE_SURFACE);
     TEST_ASSERT_EQUAL_UINT32(2, device->references);
-    TEST_ASSERT_EQUAL_UINT32(2, d3d9_object_add_reference(surface));
+    TEST_ASSERT_EQUAL_UINT32(2, d3d9_object_add_ref(surface));
     TEST_ASSERT_EQUAL_UINT32(2, device->references);
     TEST_ASSERT_EQUAL_UINT32(1, d3d9_object_release(surface));
     TEST_ASSERT_EQUAL_INT(0, destroyed);
@@ -56,14 +56,14 @@ static void an_object_references_its_parent_while_it_has_references(void)
     TEST_ASSERT_EQUAL_INT(1, destroyed);
 }
 
-static void a_held_object_lives_without_references(void)
+static void a_held_object_remains_without_references(void)
 {
     struct d3d9_object *slot = NULL, *surface = make(D3D9_INTERFACE_SURFACE);
     d3d9_object_exchange(&slot, surface);
     TEST_ASSERT_EQUAL_UINT32(0, d3d9_object_release(surface));
     TEST_ASSERT_EQUAL_INT(0, destroyed);
     TEST_ASSERT_EQUAL_UINT32(1, device->references);
-    TEST_ASSERT_EQUAL_UINT32(1, d3d9_object_add_reference(surface));
+    TEST_ASSERT_EQUAL_UINT32(1, d3d9_object_add_ref(surface));
     TEST_ASSERT_EQUAL_UINT32(2, device->references);
     TEST_ASSERT_EQUAL_UINT32(0, d3d9_object_release(surface));
     d3d9_object_exchange(&slot, surface);
@@ -78,7 +78,7 @@ static void an_implicit_object_can_be_referenced_again(void)
         d3d9_object_make_implicit(sizeof(struct thing), D3D9_INTERFACE_SURFACE, device, count_destroyed);
     TEST_ASSERT_EQUAL_UINT32(1, device->references);
     for (int round = 0; round < 2; round++) {
-        TEST_ASSERT_EQUAL_UINT32(1, d3d9_object_add_reference(surface));
+        TEST_ASSERT_EQUAL_UINT32(1, d3d9_object_add_ref(surface));
         TEST_ASSERT_EQUAL_UINT32(2, device->references);
         TEST_ASSERT_EQUAL_UINT32(0, d3d9_object_release(surface));
         TEST_ASSERT_EQUAL_UINT32(1, device->references);
@@ -94,7 +94,7 @@ static void a_part_has_the_counts_of_its_owner(void)
 {
     struct d3d9_object *texture = make(D3D9_INTERFACE_TEXTURE);
     struct d3d9_object *level = d3d9_object_make_part(sizeof(struct thing), D3D9_INTERFACE_SURFACE, texture);
-    TEST_ASSERT_EQUAL_UINT32(2, d3d9_object_add_reference(level));
+    TEST_ASSERT_EQUAL_UINT32(2, d3d9_object_add_ref(level));
     TEST_ASSERT_EQUAL_UINT32(2, texture->references);
     TEST_ASSERT_EQUAL_UINT32(1, d3d9_object_release(texture));
     void *container;
@@ -116,14 +116,14 @@ static void an_object_answers_to_its_interface_and_to_the_bases(void)
     const struct d3d9_guid *yes[] = {&surface_guid, &resource_guid, &unknown_guid};
     for (unsigned i = 0; i < 3; i++) {
         void *out = NULL;
-        TEST_ASSERT_EQUAL_INT32(D3D9_OK, d3d9_object_query(surface, yes[i], &out));
+        TEST_ASSERT_EQUAL_INT32(D3D9_OK, d3d9_object_query_interface(surface, yes[i], &out));
         TEST_ASSERT_EQUAL_PTR(surface, out);
         TEST_ASSERT_EQUAL_UINT32(1, d3d9_object_release(surface));
     }
     void *out = surface;
-    TEST_ASSERT_EQUAL_INT32(D3D9_NO_INTERFACE, d3d9_object_query(device, &device_ex_guid, &out));
+    TEST_ASSERT_EQUAL_INT32(D3D9_NO_INTERFACE, d3d9_object_query_interface(device, &device_ex_guid, &out));
     TEST_ASSERT_NULL(out);
-    TEST_ASSERT_EQUAL_INT32(D3D9_BAD_POINTER, d3d9_object_query(device, &unknown_guid, NULL));
+    TEST_ASSERT_EQUAL_INT32(D3D9_BAD_POINTER, d3d9_object_query_interface(device, &unknown_guid, NULL));
     d3d9_object_release(surface);
 }
 
@@ -181,7 +181,7 @@ int main(void)
 {
     UNITY_BEGIN();
     RUN_TEST(an_object_references_its_parent_while_it_has_references);
-    RUN_TEST(a_held_object_lives_without_references);
+    RUN_TEST(a_held_object_remains_without_references);
     RUN_TEST(an_implicit_object_can_be_referenced_again);
     RUN_TEST(a_part_has_the_counts_of_its_owner);
     RUN_TEST(an_object_answers_to_its_interface_and_to_the_bases);
