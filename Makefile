@@ -1,10 +1,10 @@
 # Triptych's build: `make help` lists the targets.
 #
-# Sources are found, never listed. src/command and src/image are the command, src/front has the front ends, and
-# all other sources in src, emu and asm are the library. Each tests/**/*.c outside tests/support/ and
-# tests/command/fuzz/targets/ is a Unity program with its own main. Everything built is in $(BUILD). The Unity
-# sources and links to the models of glmark2 and Assimp are always in build/, because draw streams name their
-# models by paths that begin with build/glmark2.
+# Sources are found, never listed. src/command and src/image are the command, src/front has the front ends,
+# and all other sources in src, emu and asm are the library. Each tests/**/*.c outside tests/support/ and
+# tests/command/fuzz/targets/ is a Unity program with its own main. Everything built is in $(BUILD). The
+# Unity sources and links to the models of glmark2 and Assimp are always in build/, because draw streams name
+# their models by paths that begin with build/glmark2.
 # `make test` runs this file again for each variant: plain, clang (CC=clang), sanitize (SANITIZE=address) and
 # thread (SANITIZE=thread). `make matrix` and `make coverage` run it for their own variants.
 

@@ -1,5 +1,5 @@
-/* The memory that a program can reach: objects, whose addresses are COM pointers, and what Lock returns. The
- * host provides it, because a program in another process reaches it by the same addresses. */
+/* The memory that a program can reach: objects, whose addresses are COM pointers, and what Lock returns.
+ * The host provides it, because a program in another process reaches it by the same addresses. */
 #ifndef D3D9_MEMORY_H
 #define D3D9_MEMORY_H
 

@@ -162,19 +162,3 @@ int32_t d3d9_object_query_container(struct d3d9_object *object, const struct d3d
     return object->container ? d3d9_object_query_interface(object->container, identifier, out)
                              : D3D9_NO_INTERFACE;
 }
-
-int32_t d3d9_object_query_interface(struct d3d9_object *object, const struct d3d9_guid *identifier,
-                                    void **out)
-{
-    return d3d9_object_query_interface(object, identifier, out);
-}
-
-uint32_t d3d9_object_add_ref(struct d3d9_object *object)
-{
-    return d3d9_object_add_ref(object);
-}
-
-uint32_t d3d9_object_release_x(struct d3d9_object *object)
-{
-    return d3d9_object_release(object);
-}

@@ -2,20 +2,21 @@
  *
  * An object's address is its COM pointer: its first word is the address of the vtable that the host has
  * registered for its interface. Objects have two counts:
- * - references: those of the program, which AddRef and Release change and return. While there is at least one,
- *   the object holds itself and references its parent. The parent of a device is its factory; the parent of
- *   everything else is its device.
- * - holds: those of other objects, such as of the device on a bound texture. The program does not notice them.
+ * - references: those of the program, which AddRef and Release change and return. While there is at least
+ *   one, the object holds itself and references its parent. The parent of a device is its factory; the
+ *   parent of everything else is its device.
+ * - holds: those of other objects, such as of the device on a bound texture. The program does not notice
+ *   them.
  * An object is freed when it has no holds. There are three sorts of objects:
  * - ordinary ones are created with one reference,
  * - implicit ones with no reference and one hold of their creator, which frees them by dropping it: back
- *   buffers and what else a device creates for itself. They reference the device when the program references
- *   them, and can be referenced again after the last Release.
+ *   buffers and what else a device creates for itself. They reference the device when the program
+ *   references them, and can be referenced again after the last Release.
  * - parts: surfaces and volumes of a texture. Their counts are those of their owner, which frees them.
  *
- * Private data of the program belongs to the object. It can contain an interface of the program. Only the host
- * can call such an interface: it adds the reference before the call that stores it, and releases the interfaces
- * that d3d9_foreign_take returns. */
+ * Private data of the program belongs to the object. It can contain an interface of the program. Only the
+ * host can call such an interface: it adds the reference before the call that stores it, and releases the
+ * interfaces that d3d9_foreign_take returns. */
 #ifndef D3D9_OBJECT_H
 #define D3D9_OBJECT_H
 
@@ -65,8 +66,8 @@ void *d3d9_object_make_part(size_t bytes, enum d3d9_interface, struct d3d9_objec
 /* Frees a part, whatever its counts. Null is allowed. */
 void d3d9_object_free_part(struct d3d9_object *part);
 
-/* AddRef and Release: return the new number of references. Release of an object without references returns 0
- * and changes nothing. */
+/* AddRef and Release: return the new number of references. Release of an object without references returns
+ * 0 and changes nothing. */
 uint32_t d3d9_object_add_ref(struct d3d9_object *);
 uint32_t d3d9_object_release(struct d3d9_object *);
 /* Holds of other objects. Null is allowed. */
@@ -86,8 +87,8 @@ enum { D3D9_PRIVATE_INTERFACE = 1 }; /* D3DSPD_IUNKNOWN: `data` is an interface,
 /* Replaces the data with this identifier. A failure keeps the old data. */
 int32_t d3d9_object_set_private_data(struct d3d9_object *, const struct d3d9_guid *, const void *data,
                                      uint32_t bytes, uint32_t flags);
-/* Copies data. *bytes is the size of the array, then of the data. A null array only returns the size. If the
- * array is too small, the result is D3D9_MORE_DATA. */
+/* Copies data. *bytes is the size of the array, then of the data. A null array only returns the size. If
+ * the array is too small, the result is D3D9_MORE_DATA. */
 int32_t d3d9_object_get_private_data(struct d3d9_object *, const struct d3d9_guid *, void *data,
                                      uint32_t *bytes);
 int32_t d3d9_object_free_private_data(struct d3d9_object *, const struct d3d9_guid *);
@@ -95,8 +96,8 @@ int32_t d3d9_object_free_private_data(struct d3d9_object *, const struct d3d9_gu
  * d3d9_object_get_private_data has copied. */
 bool d3d9_object_private_data_is_interface(struct d3d9_object *, const struct d3d9_guid *);
 
-/* Interfaces of the program that private data contained and no longer contains. Moves at most `room` of them to
- * the array, and returns their number. */
+/* Interfaces of the program that private data contained and no longer contains. Moves at most `room` of
+ * them to the array, and returns their number. */
 uint32_t d3d9_foreign_take(uint64_t *interfaces, uint32_t room);
 
 #endif

@@ -1,5 +1,5 @@
-/* Private data of objects: a list by identifier. A node of an interface that is no longer used moves to a list
- * of the process, until the host takes it, so freeing needs no memory. */
+/* Private data of objects: a list by identifier. A node of an interface that is no longer used moves to a
+ * list of the process, until the host takes it, so freeing needs no memory. */
 #include "object.h"
 #include <stdlib.h>
 
