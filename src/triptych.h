@@ -463,6 +463,15 @@ TRIPTYCH_API enum triptych_result triptych_texture_update(triptych_device *, tri
                                                           unsigned face, unsigned level,
                                                           const struct triptych_box *box, const void *data,
                                                           size_t row_pitch, size_t slice_pitch);
+/* Copies a part of a level to texels in the format of the texture: the inverse of triptych_texture_update, with
+ * the same arguments. The result are the bytes of the updates, compressed blocks included. Three things differ:
+ * bits that belong to no channel are 0, a signed channel's second bit pattern for -1 becomes the first one, and a
+ * depth format's stencil is 0. Texels of compressed formats that did not come from an update, such as those of
+ * computed levels, are compressed. Renders pending draws to the texture first. */
+TRIPTYCH_API enum triptych_result triptych_texture_read(triptych_device *, triptych_texture *texture,
+                                                        unsigned face, unsigned level,
+                                                        const struct triptych_box *box, void *data,
+                                                        size_t row_pitch, size_t slice_pitch);
 /* Computes every level but the first from the previous one. Each texel is the mean of the texels that it
  * covers. Formats with more than 8 bits per channel are averaged in binary32. */
 TRIPTYCH_API enum triptych_result triptych_texture_generate_mips(triptych_device *,

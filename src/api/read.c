@@ -123,6 +123,17 @@ enum triptych_result triptych_texture_read_texels(triptych_device *device, tript
     return api_finish(device, result);
 }
 
+enum triptych_result triptych_texture_read(triptych_device *device, triptych_texture *texture, unsigned face,
+                                           unsigned level, const struct triptych_box *box, void *data,
+                                           size_t row_pitch, size_t slice_pitch)
+{
+    struct error *error = api_begin_with_both(device, texture, "texture", data, "data");
+    if (!error)
+        return TRIPTYCH_BAD_ARGUMENT;
+    return api_finish(
+        device, device_texture_read(device, texture, face, level, box, data, row_pitch, slice_pitch, error));
+}
+
 enum triptych_result triptych_texture_write_texels(triptych_device *device, triptych_texture *texture,
                                                    const void *data, size_t bytes)
 {

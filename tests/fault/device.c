@@ -224,6 +224,17 @@ static void draw_fixed_function(unsigned threads)
     read_target(true);
 }
 
+/* A compressed texture: its blocks, and those of a computed level. */
+static void read_compressed(void)
+{
+    uint8_t blocks[16];
+    triptych_texture *texture = make_texture(TRIPTYCH_TEXTURE_2D, TRIPTYCH_SURFACE_DXT5);
+    for (unsigned level = 0; level < 2; level++) {
+        TRY(triptych_texture_read(device, texture, 0, level, NULL, blocks, 16, 0));
+        add_to_digest(blocks, sizeof blocks);
+    }
+}
+
 /* A scene that draws to a texture, copies it and samples it; vertices that choose matrices; and many draws
  * with a small cache of routines. */
 static void draw_to_textures(unsigned threads)
@@ -255,6 +266,7 @@ static void draw_to_textures(unsigned threads)
                       &(struct triptych_rectangle){3, 5, 50, 41}, TRIPTYCH_COPY_LINEAR));
     TRY(triptych_read_surface(device, &to, read, sizeof read));
     add_to_digest(read, sizeof read);
+    read_compressed();
     sample(0, texture[1], 1);
     TRY(triptych_draw(device, TRIPTYCH_TRIANGLE_FAN, 0, 20));
     read_target(false);

@@ -227,6 +227,20 @@ enum triptych_result device_texture_update(struct triptych_device *device, struc
     return TRIPTYCH_OK;
 }
 
+enum triptych_result device_texture_read(struct triptych_device *device, struct triptych_texture *texture,
+                                         unsigned face, unsigned level, const struct triptych_box *box,
+                                         void *data, size_t row_pitch, size_t slice_pitch,
+                                         struct error *error)
+{
+    enum triptych_result result =
+        texture_check_update(texture, face, level, box, row_pitch, slice_pitch, error);
+    if (result != TRIPTYCH_OK)
+        return result;
+    device_store_texture(device, texture);
+    texture_read(texture, face, level, box, data, row_pitch, slice_pitch);
+    return TRIPTYCH_OK;
+}
+
 void device_texture_generate_mips(struct triptych_device *device, struct triptych_texture *texture)
 {
     device_store_texture(device, texture);

@@ -327,6 +327,10 @@ enum triptych_result device_texture_update(struct triptych_device *device, struc
                                            unsigned face, unsigned level, const struct triptych_box *box,
                                            const void *data, size_t row_pitch, size_t slice_pitch,
                                            struct error *error);
+enum triptych_result device_texture_read(struct triptych_device *device, struct triptych_texture *texture,
+                                         unsigned face, unsigned level, const struct triptych_box *box,
+                                         void *data, size_t row_pitch, size_t slice_pitch,
+                                         struct error *error);
 void device_texture_generate_mips(struct triptych_device *device, struct triptych_texture *texture);
 
 /* Return true if the object is one of the device's. */

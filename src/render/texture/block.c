@@ -31,15 +31,15 @@ static void expand_565(uint32_t word, unsigned channel[3])
     channel[2] = ((word & 31) * 510 + 31) / 62;
 }
 
-/* `punch`: DXT1, where the order of the colours determines whether code 3 is transparent. */
-static void decode_colors(const uint8_t *block, bool punch, uint32_t texels[16])
+void block_colors(const uint8_t *block, bool punch, uint32_t color[4])
 {
-    uint32_t word[2] = {read_16(block), read_16(block + 2)}, codes = read_32(block + 4);
-    uint32_t color[4] = {0xff000000, 0xff000000, 0xff000000, 0xff000000};
+    uint32_t word[2] = {read_16(block), read_16(block + 2)};
     unsigned a[3], b[3];
     bool three = punch && word[0] <= word[1];
     expand_565(word[0], a);
     expand_565(word[1], b);
+    for (int i = 0; i < 4; i++)
+        color[i] = 0xff000000;
     for (int c = 0; c < 3; c++) {
         color[0] |= a[c] << 8 * c;
         color[1] |= b[c] << 8 * c;
@@ -48,6 +48,12 @@ static void decode_colors(const uint8_t *block, bool punch, uint32_t texels[16])
     }
     if (three)
         color[3] = 0;
+}
+
+static void decode_colors(const uint8_t *block, bool punch, uint32_t texels[16])
+{
+    uint32_t color[4], codes = read_32(block + 4);
+    block_colors(block, punch, color);
     for (int i = 0; i < 16; i++)
         texels[i] = color[codes >> 2 * i & 3];
 }
@@ -60,17 +66,24 @@ static void decode_explicit(const uint8_t *block, uint32_t texels[16])
     }
 }
 
-static void decode_interpolated(const uint8_t *block, uint8_t values[16])
+void block_values(unsigned a, unsigned b, unsigned value[8])
 {
-    unsigned a = block[0], b = block[1], value[8] = {a, b};
-    uint64_t codes = (uint64_t)read_16(block + 2) | (uint64_t)read_32(block + 4) << 16;
     unsigned steps = a > b ? 7 : 5;
+    value[0] = a;
+    value[1] = b;
     for (unsigned i = 2; i <= steps; i++)
         value[i] = ((steps + 1 - i) * a + (i - 1) * b + steps / 2) / steps;
     if (steps == 5) {
         value[6] = 0;
         value[7] = 255;
     }
+}
+
+static void decode_interpolated(const uint8_t *block, uint8_t values[16])
+{
+    unsigned value[8];
+    uint64_t codes = (uint64_t)read_16(block + 2) | (uint64_t)read_32(block + 4) << 16;
+    block_values(block[0], block[1], value);
     for (int i = 0; i < 16; i++)
         values[i] = (uint8_t)value[codes >> 3 * i & 7];
 }

@@ -8,13 +8,14 @@
  * bits is v / (2^n - 1), of n signed bits v / (2^(n-1) - 1) but at least -1; to 8 bits that is round(v *
  * 255 / (2^n - 1)), to binary32 the quotient in binary64, rounded. Encoding is the nearest value that the
  * format has, and encoding what was decoded gives the same bits back, except that a channel's second -1
- * becomes the first one and NaNs become one NaN. */
+ * becomes the first one, and that bits of no channel become 0. */
 #ifndef RENDER_TEXTURE_FORMAT_H
 #define RENDER_TEXTURE_FORMAT_H
 
 #include "contract/key.h"
 #include "triptych.h"
 
+#include <stdbool.h>
 #include <stddef.h>
 #include <stdint.h>
 
@@ -84,11 +85,22 @@ static inline size_t format_blocks(const struct format *format, uint32_t size)
 void format_decode(const struct format *format, const void *data, size_t pitch, uint32_t width,
                    uint32_t height, void *texels, size_t texels_stride);
 
-/* The way back, for formats whose coding is CODING_PACKED. Bits that belong to no channel are zero. */
+/* The way back. Bits that belong to no channel are zero. Compressed blocks are approximations, the same ones on
+ * every machine (render/texture/block_encode.c); texels of blocks beyond the width and height count as copies of
+ * the last ones. */
 void format_encode(const struct format *format, const void *texels, size_t texels_stride, uint32_t width,
                    uint32_t height, void *data, size_t pitch);
 
-/* One block of compressed texels (render/texture/block.c), row by row. */
+/* Returns true if the channel is stored in bits of its own, not in those of an earlier channel. */
+bool format_channel_is_stored(const struct format *format, unsigned c);
+
+/* One block of compressed texels, row by row (render/texture/block.c, render/texture/block_encode.c). */
 void block_decode(enum coding coding, const uint8_t *block, uint32_t texels[16]);
+void block_encode(enum coding coding, const uint32_t texels[16], uint8_t *block);
+
+/* The four colours that the two words at the start of a block of colours mean, and the eight values that two
+ * bytes mean. `punch`: DXT1, where the order of the colours determines whether code 3 is transparent. */
+void block_colors(const uint8_t *block, bool punch, uint32_t color[4]);
+void block_values(unsigned a, unsigned b, unsigned value[8]);
 
 #endif

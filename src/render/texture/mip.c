@@ -108,4 +108,5 @@ void texture_generate_mips(struct triptych_texture *texture)
     for (unsigned face = 0; face < texture->faces; face++)
         for (unsigned level = 1; level < texture->levels; level++)
             shrink(texture, face, level);
+    texture_blocks_all_stale(texture, 1);
 }

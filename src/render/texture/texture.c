@@ -111,7 +111,8 @@ static enum triptych_result allocate(struct triptych_texture *texture, struct er
     size_t room = bytes + margin * format_texel_bytes(texture->format);
     size_t rounded = (room + TEXTURE_ALIGNMENT - 1) & ~(size_t)(TEXTURE_ALIGNMENT - 1);
     texture->texels = aligned_alloc(TEXTURE_ALIGNMENT, rounded);
-    if (!texture->texels) {
+    if (!texture->texels || texture_blocks_create(texture)) {
+        free(texture->texels);
         error_set(error, "out of memory for a texture of %u x %u texels", texture->width, texture->height);
         return TRIPTYCH_NO_MEMORY;
     }
@@ -167,6 +168,7 @@ enum triptych_result texture_create(const struct triptych_texture_description *d
 void texture_destroy(struct triptych_texture *texture)
 {
     free(texture->texels);
+    free(texture->blocks);
     free(texture);
 }
 
@@ -189,7 +191,7 @@ size_t texture_storage_bytes(const struct triptych_texture *texture)
     return (size_t)texture->face_texels * texture->faces * format_texel_bytes(texture->format);
 }
 
-static struct triptych_box whole_level(const struct triptych_texture *texture, unsigned level)
+struct triptych_box texture_whole_level(const struct triptych_texture *texture, unsigned level)
 {
     const struct texture_level *l = &texture->level[level];
     return (struct triptych_box){
@@ -228,7 +230,7 @@ enum triptych_result texture_check_update(const struct triptych_texture *texture
                   texture->levels - 1);
         return TRIPTYCH_BAD_ARGUMENT;
     }
-    struct triptych_box whole = whole_level(texture, level);
+    struct triptych_box whole = texture_whole_level(texture, level);
     box = box ? box : &whole;
     enum triptych_result result = check_box(texture, level, box, error);
     if (result != TRIPTYCH_OK)
@@ -248,7 +250,7 @@ void texture_update(struct triptych_texture *texture, unsigned face, unsigned le
                     const struct triptych_box *box, const void *data, size_t row_pitch, size_t slice_pitch)
 {
     const struct texture_level *l = &texture->level[level];
-    struct triptych_box whole = whole_level(texture, level);
+    struct triptych_box whole = texture_whole_level(texture, level);
     box = box ? box : &whole;
     uint8_t *texels = texture_level_texels(texture, face, level);
     size_t stride = (size_t)l->pitch, size = format_texel_bytes(texture->format);
@@ -258,6 +260,7 @@ void texture_update(struct triptych_texture *texture, unsigned face, unsigned le
                       box->height, texels + (first + box->x) * size, stride);
         texture_close_rows(texture, l, texels + first * size, box->height);
     }
+    texture_blocks_update(texture, face, level, box, data, row_pitch, slice_pitch);
 }
 
 void texture_close_rows(const struct triptych_texture *texture, const struct texture_level *level,
@@ -331,4 +334,5 @@ void texture_write_texels(struct triptych_texture *texture, const void *data)
 {
     const uint8_t *at = data;
     visit_rows(texture, write_row, &at);
+    texture_blocks_all_stale(texture, 0);
 }

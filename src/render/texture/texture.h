@@ -32,6 +32,8 @@ struct triptych_texture {
     uint32_t levels, faces;
     uint32_t face_texels; /* from a face to the next, rows' ends included */
     uint32_t *texels;     /* 64-byte aligned */
+    uint8_t *blocks;      /* of a compressed format, as they were given (texture_blocks.c); otherwise null */
+    uint16_t stale[CUBE_FACES]; /* bit l: the blocks of level l are not those of the texels */
     struct texture_level level[TEXTURE_LEVELS];
     uint32_t recorded; /* its number while calls are recorded */
     uint64_t epoch;    /* the device's, when a draw was last queued that may read it */
@@ -77,6 +79,23 @@ enum triptych_result texture_check_update(const struct triptych_texture *texture
                                           size_t slice_pitch, struct error *error);
 void texture_update(struct triptych_texture *texture, unsigned face, unsigned level,
                     const struct triptych_box *box, const void *data, size_t row_pitch, size_t slice_pitch);
+
+/* A level as a box. */
+struct triptych_box texture_whole_level(const struct triptych_texture *texture, unsigned level);
+
+/* The inverse of texture_update, checked by texture_check_update too (render/texture/texture_blocks.c). Texels
+ * are the bytes of the updates, except for bits that the storage does not have (render/texture/format.h).
+ * Blocks of texels that did not come from an update are compressed again. */
+void texture_read(struct triptych_texture *texture, unsigned face, unsigned level,
+                  const struct triptych_box *box, void *data, size_t row_pitch, size_t slice_pitch);
+
+/* The blocks of a compressed texture: allocated with zeros, returns -1 without memory; updated; and
+ * those of all levels from the first one on, which no longer belong to the texels. */
+int texture_blocks_create(struct triptych_texture *texture);
+void texture_blocks_update(struct triptych_texture *texture, unsigned face, unsigned level,
+                           const struct triptych_box *box, const void *data, size_t row_pitch,
+                           size_t slice_pitch);
+void texture_blocks_all_stale(struct triptych_texture *texture, unsigned first_level);
 
 /* Makes every level but the first from the one above it (render/texture/mip.c). */
 void texture_generate_mips(struct triptych_texture *texture);
