@@ -1,4 +1,5 @@
 #include "object.h"
+#include "host.h"
 
 static uint64_t faces[D3D9_INTERFACE_COUNT];
 
@@ -74,6 +75,8 @@ static void free_object(struct d3d9_object *object)
         object->destroy(object);
     while (object->private_data)
         d3d9_object_free_private_data(object, NULL);
+    if (object->host)
+        d3d9_host_event(D3D9_EVENT_FORGET, object->host);
     d3d9_memory_free(object);
 }
 

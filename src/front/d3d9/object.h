@@ -38,6 +38,7 @@ struct d3d9_private_data;
 
 struct d3d9_object {
     uint64_t face; /* the address of the vtable; the low half in a process with 32-bit pointers */
+    uint64_t host; /* data of the Windows side (host.h) */
     enum d3d9_interface interface;
     uint32_t references, holds;
     struct d3d9_object *parent;    /* referenced by an object with references; null for a factory */
@@ -94,10 +95,12 @@ int32_t d3d9_object_get_private_data(struct d3d9_object *, const struct d3d9_gui
 int32_t d3d9_object_free_private_data(struct d3d9_object *, const struct d3d9_guid *);
 /* Returns true if the data with this identifier is an interface, so the host adds a reference to what
  * d3d9_object_get_private_data has copied. */
-bool d3d9_object_private_data_is_interface(struct d3d9_object *, const struct d3d9_guid *);
+int32_t d3d9_object_private_data_is_interface(struct d3d9_object *, const struct d3d9_guid *);
 
 /* Interfaces of the program that private data contained and no longer contains. Moves at most `room` of
  * them to the array, and returns their number. */
 uint32_t d3d9_foreign_take(uint64_t *interfaces, uint32_t room);
+/* Returns true if there is one to take. */
+bool d3d9_foreign_waits(void);
 
 #endif

@@ -93,10 +93,15 @@ int32_t d3d9_object_free_private_data(struct d3d9_object *object, const struct d
     return D3D9_OK;
 }
 
-bool d3d9_object_private_data_is_interface(struct d3d9_object *object, const struct d3d9_guid *identifier)
+int32_t d3d9_object_private_data_is_interface(struct d3d9_object *object, const struct d3d9_guid *identifier)
 {
     const struct d3d9_private_data *found = *find(object, identifier);
     return found && found->is_interface;
+}
+
+bool d3d9_foreign_waits(void)
+{
+    return unused;
 }
 
 uint32_t d3d9_foreign_take(uint64_t *interfaces, uint32_t room)

@@ -1,0 +1,62 @@
+#include "dispatch.h"
+#include <pthread.h>
+
+static pthread_mutex_t lock = PTHREAD_MUTEX_INITIALIZER;
+
+#define ARGUMENT(kind, ...)                     ARGUMENT_##kind(__VA_ARGS__)
+#define ARGUMENT_VALUE(type, name)              , b->name
+#define ARGUMENT_HANDLE(type, name)             , b->name
+#define ARGUMENT_POINTER(type, name)            , (void *)(uintptr_t)b->name
+#define ARGUMENT_OBJECT(type, name)             , (void *)(uintptr_t)b->name
+#define ARGUMENT_OBJECTS(type, name, count)     , (void *)(uintptr_t)b->name
+#define ARGUMENT_NEW(type, name)                , (void *)(uintptr_t)b->name
+#define ARGUMENT_IN(type, name, count)          , (void *)(uintptr_t)b->name
+#define ARGUMENT_OUT(type, name, count)         , (void *)(uintptr_t)b->name
+#define ARGUMENT_IN_OUT(type, name, count)      , (void *)(uintptr_t)b->name
+#define ARGUMENT_HOST_IN(type, name, count)     , (void *)(uintptr_t)b->name
+#define ARGUMENT_HOST_OUT(type, name, count)    , (void *)(uintptr_t)b->name
+#define ARGUMENT_HOST_IN_OUT(type, name, count) , (void *)(uintptr_t)b->name
+
+#define METHOD(class, method, name, type, ...)                                                               \
+    static void run_##class##_##name(void *block)                                                            \
+    {                                                                                                        \
+        struct d3d9_block_##class##_##name *b = block;                                                       \
+        b->result =                                                                                          \
+            d3d9_##class##_##name((void *)(uintptr_t)b->self D3D9_EACH(ARGUMENT, __VA_ARGS__));              \
+    }
+#define HOSTED METHOD
+#define PROCEDURE(class, method, name, ...)                                                                  \
+    static void run_##class##_##name(void *block)                                                            \
+    {                                                                                                        \
+        struct d3d9_block_##class##_##name *b = block;                                                       \
+        d3d9_##class##_##name((void *)(uintptr_t)b->self D3D9_EACH(ARGUMENT, __VA_ARGS__));                  \
+    }
+#define LOCAL(class, method)
+#define FUNCTION(class, name, type, ...)                                                                     \
+    static void run_##class##_##name(void *block)                                                            \
+    {                                                                                                        \
+        struct d3d9_block_##class##_##name *b = block;                                                       \
+        b->result = d3d9_##class##_##name(D3D9_WITHOUT_COMMA(D3D9_EACH(ARGUMENT, __VA_ARGS__)));             \
+    }
+#include "calls/calls.def"
+#undef METHOD
+#undef PROCEDURE
+#undef FUNCTION
+
+static void (*const runs[D3D9_CODE_COUNT])(void *) = {
+#define METHOD(class, method, name, type, ...) [D3D9_CODE_##class##_##name] = run_##class##_##name,
+#define PROCEDURE(class, method, name, ...)    [D3D9_CODE_##class##_##name] = run_##class##_##name,
+#define FUNCTION(class, name, type, ...)       [D3D9_CODE_##class##_##name] = run_##class##_##name,
+#include "calls/calls.def"
+};
+
+int d3d9_dispatch(unsigned code, void *block)
+{
+    if (code >= D3D9_CODE_COUNT)
+        return D3D9_BAD_CODE;
+    pthread_mutex_lock(&lock);
+    runs[code](block);
+    int result = d3d9_host_has_events() ? D3D9_EVENTS : D3D9_DONE;
+    pthread_mutex_unlock(&lock);
+    return result;
+}
