@@ -3,8 +3,8 @@
 #
 # A name belongs to the row with the longest prefix that it begins with. That row must be the row of the
 # folder that defines it. Exceptions: engine_NAME objects are engines, command_NAME objects are subcommands,
-# names that triptych.h declares are the public interface, and names with two underscores belong to the
-# system's interfaces.
+# names that triptych.h declares are the public interface, Direct3D 9's methods are in the front end's table of
+# calls, and names with two underscores belong to the system's interfaces.
 set -u
 cd "$(dirname "$0")/.." || exit 1
 build=${BUILD:-build}
@@ -42,6 +42,13 @@ find src emu asm -type f \( -name '*.c' -o -name '*.asm' \) | sort | while read 
         awk -v folder="${source%/*}" -v source="$source" 'NF == 3 { print folder, $3, source }'
 done >"$work/names"
 
+# Direct3D 9's methods, in whichever folder of the front end they are: d3d9_CLASS_NAME.
+methods()
+{
+    sed -nE -e 's/^(METHOD|HOSTED|PROCEDURE)\(([a-z0-9_]+), [A-Za-z0-9]+, ([a-z0-9_]+)[,)].*/d3d9_\2_\3/p' \
+        -e 's/^FUNCTION\(([a-z0-9_]+), ([a-z0-9_]+),.*/d3d9_\1_\2/p' src/front/d3d9/calls/*.def
+}
+
 awk '
 FILENAME == ARGV[1] { for (i = 2; i <= NF; i++) owner[$i] = $1; next }
 FILENAME == ARGV[2] { public[$1] = 1; next }
@@ -51,7 +58,7 @@ $2 ~ /^__/ || $2 == "main" || $2 ~ /^(engine|command)_/ || $2 in public { next }
     found = n ? owner[substr($2, 1, n)] : ""
     if (found != $1)
         print $3 ": " $2 (found ? ", whose prefix belongs to " found : ", which has no prefix of the map")
-}' "$work/rows" <(grep -oE '\btriptych_[a-z0-9_]+' src/triptych.h | sort -u) "$work/names" >"$work/strange"
+}' "$work/rows" <(grep -oE '\btriptych_[a-z0-9_]+' src/triptych.h | sort -u; methods) "$work/names" >"$work/strange"
 [[ -s $work/names ]] || echo "no object has a name: is $build built?" >"$work/strange"
 report "every extern name begins with a prefix of its folder" "$work/strange"
 exit $failed

@@ -1,4 +1,5 @@
-/* Calls as data: a code and a block of parameters for each row of calls/calls.def. A block has the same layout in
+/* Calls as data: a code and a block of parameters for each row of calls/calls.def. A block has the same
+ * layout in
  * 32- and 64-bit processes: addresses and handles are uint64_t. */
 #ifndef D3D9_BLOCK_H
 #define D3D9_BLOCK_H
@@ -20,19 +21,22 @@
 #define D3D9_FIELD_HOST_IN_OUT(type, name, count) uint64_t name;
 
 #define METHOD(class, method, name, type, ...)                                                               \
-    struct d3d9_block_##class##_##name {                                                                     \
+    struct d3d9_block_##class##_##name                                                                       \
+    {                                                                                                        \
         uint64_t self;                                                                                       \
         D3D9_EACH(D3D9_FIELD, __VA_ARGS__) d3d9_type_##type result;                                          \
     };
 #define HOSTED METHOD
 #define PROCEDURE(class, method, name, ...)                                                                  \
-    struct d3d9_block_##class##_##name {                                                                     \
+    struct d3d9_block_##class##_##name                                                                       \
+    {                                                                                                        \
         uint64_t self;                                                                                       \
         D3D9_EACH(D3D9_FIELD, __VA_ARGS__)                                                                   \
     };
 #define LOCAL(class, method)
 #define FUNCTION(class, name, type, ...)                                                                     \
-    struct d3d9_block_##class##_##name {                                                                     \
+    struct d3d9_block_##class##_##name                                                                       \
+    {                                                                                                        \
         D3D9_EACH(D3D9_FIELD, __VA_ARGS__) d3d9_type_##type result;                                          \
     };
 #include "calls/calls.def"

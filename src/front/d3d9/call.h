@@ -92,18 +92,18 @@ typedef struct d3d9_state_block d3d9_type_IDirect3DStateBlock9;
 typedef struct d3d9_query d3d9_type_IDirect3DQuery9;
 
 /* The parameters of a function. Each begins with a comma, because the object is first. */
-#define D3D9_PARAMETER(kind, ...)                   D3D9_PARAMETER_##kind(__VA_ARGS__)
-#define D3D9_PARAMETER_VALUE(type, name)            , d3d9_type_##type name
-#define D3D9_PARAMETER_HANDLE(type, name)           , uint64_t name
-#define D3D9_PARAMETER_POINTER(type, name)          , d3d9_type_##type *name
-#define D3D9_PARAMETER_OBJECT(type, name)           , d3d9_type_##type *name
-#define D3D9_PARAMETER_OBJECTS(type, name, count)   , d3d9_type_##type **name
-#define D3D9_PARAMETER_NEW(type, name)              , d3d9_type_##type **name
-#define D3D9_PARAMETER_IN(type, name, count)        , const d3d9_type_##type *name
-#define D3D9_PARAMETER_OUT(type, name, count)       , d3d9_type_##type *name
-#define D3D9_PARAMETER_IN_OUT(type, name, count)    , d3d9_type_##type *name
-#define D3D9_PARAMETER_HOST_IN(type, name, count)   , const struct d3d9_##type *name
-#define D3D9_PARAMETER_HOST_OUT(type, name, count)  , struct d3d9_##type *name
+#define D3D9_PARAMETER(kind, ...)                     D3D9_PARAMETER_##kind(__VA_ARGS__)
+#define D3D9_PARAMETER_VALUE(type, name)              , d3d9_type_##type name
+#define D3D9_PARAMETER_HANDLE(type, name)             , uint64_t name
+#define D3D9_PARAMETER_POINTER(type, name)            , d3d9_type_##type *name
+#define D3D9_PARAMETER_OBJECT(type, name)             , d3d9_type_##type *name
+#define D3D9_PARAMETER_OBJECTS(type, name, count)     , d3d9_type_##type **name
+#define D3D9_PARAMETER_NEW(type, name)                , d3d9_type_##type **name
+#define D3D9_PARAMETER_IN(type, name, count)          , const d3d9_type_##type *name
+#define D3D9_PARAMETER_OUT(type, name, count)         , d3d9_type_##type *name
+#define D3D9_PARAMETER_IN_OUT(type, name, count)      , d3d9_type_##type *name
+#define D3D9_PARAMETER_HOST_IN(type, name, count)     , const struct d3d9_##type *name
+#define D3D9_PARAMETER_HOST_OUT(type, name, count)    , struct d3d9_##type *name
 #define D3D9_PARAMETER_HOST_IN_OUT(type, name, count) , struct d3d9_##type *name
 
 /* A function without an object has no parameter before the first comma. */
@@ -111,7 +111,8 @@ typedef struct d3d9_query d3d9_type_IDirect3DQuery9;
 #define D3D9_WITHOUT_COMMA_(first, ...) __VA_ARGS__
 
 #define METHOD(class, method, name, result, ...)                                                             \
-    d3d9_type_##result d3d9_##class##_##name(struct d3d9_##class *self D3D9_EACH(D3D9_PARAMETER, __VA_ARGS__));
+    d3d9_type_##result d3d9_##class##_##name(                                                                \
+        struct d3d9_##class *self D3D9_EACH(D3D9_PARAMETER, __VA_ARGS__));
 #define HOSTED METHOD
 #define PROCEDURE(class, method, name, ...)                                                                  \
     void d3d9_##class##_##name(struct d3d9_##class *self D3D9_EACH(D3D9_PARAMETER, __VA_ARGS__));

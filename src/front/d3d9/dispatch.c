@@ -21,8 +21,7 @@ static pthread_mutex_t lock = PTHREAD_MUTEX_INITIALIZER;
     static void run_##class##_##name(void *block)                                                            \
     {                                                                                                        \
         struct d3d9_block_##class##_##name *b = block;                                                       \
-        b->result =                                                                                          \
-            d3d9_##class##_##name((void *)(uintptr_t)b->self D3D9_EACH(ARGUMENT, __VA_ARGS__));              \
+        b->result = d3d9_##class##_##name((void *)(uintptr_t)b->self D3D9_EACH(ARGUMENT, __VA_ARGS__));      \
     }
 #define HOSTED METHOD
 #define PROCEDURE(class, method, name, ...)                                                                  \

@@ -1,5 +1,5 @@
-/* D3D9_EACH(f, (a, b), (c, d), ...) is f(a, b) f(c, d) ..., for up to 12 lists in parentheses. The arguments of
- * the methods in the folder calls are such lists. */
+/* D3D9_EACH(f, (a, b), (c, d), ...) is f(a, b) f(c, d) ..., for up to 12 lists in parentheses. The arguments
+ * of the methods in the folder calls are such lists. */
 #ifndef D3D9_EACH_H
 #define D3D9_EACH_H
 

@@ -1,7 +1,7 @@
-/* What the two sides of the front end exchange besides Direct3D's own structures. The Windows side (pe) has the
- * vtables, windows and display modes; the Linux side has everything else. Linux never calls Windows: what it
- * needs is an argument of the call or was handed over before it, and what it leaves for Windows to do is in the
- * arguments that it fills or in the list of events.
+/* What the two sides of the front end exchange besides Direct3D's own structures. The Windows side (pe) has
+ * the vtables, windows and display modes; the Linux side has everything else. Linux never calls Windows: what
+ * it needs is an argument of the call or was handed over before it, and what it leaves for Windows to do is
+ * in the arguments that it fills or in the list of events.
  *
  * All structures have the same layout in processes with 32- and 64-bit pointers: pointers and handles are
  * uint64_t. */
@@ -30,9 +30,9 @@ struct d3d9_host_mode {
 };
 
 struct d3d9_host_adapter {
-    uint64_t monitor;  /* HMONITOR */
+    uint64_t monitor; /* HMONITOR */
     uint64_t luid;
-    char name[32];     /* of the display device, such as \\.\DISPLAY1 */
+    char name[32];                          /* of the display device, such as \\.\DISPLAY1 */
     struct d3d9_host_mode current, desktop; /* now, and in the registry */
 };
 
@@ -50,9 +50,9 @@ struct d3d9_host_bits {
 };
 
 /* A presented back buffer. In: a bitmap of at least the size of the buffer, as D3DFMT_X8R8G8B8 with rows from
- * the top; bits 0: there is none yet. Out: which buffer was presented, and 1 in `filled` if the bitmap was large
- * enough and has its pixels, with the gamma ramp applied in full screen. Where in the window it is drawn is the
- * Windows side's work. */
+ * the top; bits 0: there is none yet. Out: which buffer was presented, and 1 in `filled` if the bitmap was
+ * large enough and has its pixels, with the gamma ramp applied in full screen. Where in the window it is
+ * drawn is the Windows side's work. */
 struct d3d9_host_picture {
     uint64_t bits;
     uint32_t pitch, room_width, room_height, filled;
@@ -78,8 +78,8 @@ enum { D3D9_HOST_ADAPTERS = 16 };
 
 /* The number of adapters, at least 1 after the start. */
 uint32_t d3d9_host_adapter_count(void);
-/* An adapter; null if there is none with this number. The current mode is that of the last call that depends on
- * it. `modes` gets the address of its modes, which stays valid until the adapters are set again. */
+/* An adapter; null if there is none with this number. The current mode is that of the last call that depends
+ * on it. `modes` gets the address of its modes, which stays valid until the adapters are set again. */
 const struct d3d9_host_adapter *d3d9_host_adapter(uint32_t index);
 const struct d3d9_host_mode *d3d9_host_modes(uint32_t index, uint32_t *count);
 

@@ -1,5 +1,5 @@
-/* Bodies of the methods that are not written yet. A weak function gives way to the real one. tests/front/missing.sh
- * lists those that are left. */
+/* Bodies of the methods that are not written yet. A weak function gives way to the real one.
+ * tests/front/missing.sh lists those that are left. */
 #include "call.h"
 #pragma GCC diagnostic ignored "-Wunused-parameter"
 
@@ -14,8 +14,8 @@
 #define NOTHING_D3DQUERYTYPE         0
 
 #define METHOD(class, method, name, type, ...)                                                               \
-    __attribute__((weak)) d3d9_type_##type d3d9_##class##_##name(                                            \
-        struct d3d9_##class *self D3D9_EACH(D3D9_PARAMETER, __VA_ARGS__))                                    \
+    __attribute__((weak))                                                                                    \
+    d3d9_type_##type d3d9_##class##_##name(struct d3d9_##class *self D3D9_EACH(D3D9_PARAMETER, __VA_ARGS__)) \
     {                                                                                                        \
         return NOTHING_##type;                                                                               \
     }
@@ -27,8 +27,8 @@
     }
 #define LOCAL(class, method)
 #define FUNCTION(class, name, type, ...)                                                                     \
-    __attribute__((weak)) d3d9_type_##type d3d9_##class##_##name(                                            \
-        D3D9_WITHOUT_COMMA(D3D9_EACH(D3D9_PARAMETER, __VA_ARGS__)))                                          \
+    __attribute__((weak))                                                                                    \
+    d3d9_type_##type d3d9_##class##_##name(D3D9_WITHOUT_COMMA(D3D9_EACH(D3D9_PARAMETER, __VA_ARGS__)))       \
     {                                                                                                        \
         return NOTHING_##type;                                                                               \
     }
