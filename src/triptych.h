@@ -278,8 +278,8 @@ struct triptych_box {
 };
 
 struct triptych_viewport {
-    float x, y, width, height;   /* pixels, inside the target */
-    float depth_near, depth_far; /* 0 to 1 */
+    float x, y, width, height;   /* pixels: any finite numbers, the sides 0 or more */
+    float depth_near, depth_far; /* 0 to 1, in any order */
 };
 
 struct triptych_material {
@@ -513,8 +513,8 @@ static inline uint32_t triptych_float_bits(float number)
 TRIPTYCH_API enum triptych_result triptych_set_transform(triptych_device *, enum triptych_transform,
                                                          const float matrix[4][4]);
 TRIPTYCH_API enum triptych_result triptych_set_viewport(triptych_device *, const struct triptych_viewport *);
-/* Sets the scissor rectangle, in pixels inside the target. While the state scissortestenable is on, it limits
- * draws and clears. An empty rectangle excludes everything. */
+/* Sets the scissor rectangle, in pixels. It may lie outside of the target. While the state scissortestenable
+ * is on, it limits draws and clears. An empty rectangle excludes everything. */
 TRIPTYCH_API enum triptych_result triptych_set_scissor(triptych_device *, unsigned x, unsigned y,
                                                        unsigned width, unsigned height);
 /* Sets plane `i`, 0 to 5, of world space. While bit i of the state clipplaneenable is on, primitives are

@@ -30,7 +30,7 @@
                 outside         bound, %1
 %endmacro
 
-; Arguments: guard_x and guard_y of the job, slot of the code.
+; Arguments: the bounds of the job's guard band, slot of the code.
 fragment clip_code, JOB | OUTPUT | CONSTANTS | M_TO(8, 11), NOTHING, M(7) | M_TO(12, 15)
                 vmovaps         sign, [constants + SIGN]
                 vsubps          m12, x, x                   ; +0, or NaN where x is not finite
@@ -43,12 +43,18 @@ fragment clip_code, JOB | OUTPUT | CONSTANTS | M_TO(8, 11), NOTHING, M(7) | M_TO
                 vxorps          m7, m7, m7
                 vcmpnleps       outer, m13, m7
                 vpsrld          code, outer, 31             ; CLIP_INVALID
-    fill .guard_y,   vbroadcastss    bound, [at_job]
+    fill .guard_top, vbroadcastss    bound, [at_job]
                 vmulps          bound, bound, w
-                outside_pair    y                           ; CLIP_GUARD_TOP, CLIP_GUARD_BOTTOM
-    fill .guard_x,   vbroadcastss    bound, [at_job]
+                outside         y, bound                    ; CLIP_GUARD_TOP
+    fill .guard_bottom, vbroadcastss bound, [at_job]
                 vmulps          bound, bound, w
-                outside_pair    x                           ; CLIP_GUARD_RIGHT, CLIP_GUARD_LEFT
+                outside         bound, y                    ; CLIP_GUARD_BOTTOM
+    fill .guard_right, vbroadcastss  bound, [at_job]
+                vmulps          bound, bound, w
+                outside         x, bound                    ; CLIP_GUARD_RIGHT
+    fill .guard_left, vbroadcastss   bound, [at_job]
+                vmulps          bound, bound, w
+                outside         bound, x                    ; CLIP_GUARD_LEFT
                 vmovaps         bound, [constants + EYE_W_F]
                 outside         bound, w                    ; CLIP_EYE
                 outside         z, w                        ; CLIP_FAR

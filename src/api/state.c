@@ -73,8 +73,7 @@ enum triptych_result triptych_set_viewport(triptych_device *device, const struct
         error_set(error, "no target: expected set_target before a viewport");
         return api_finish(device, TRIPTYCH_BAD_CALL);
     }
-    enum triptych_result result = state_set_viewport(&device->state, viewport, device_target(device)->width,
-                                                     device_target(device)->height, error);
+    enum triptych_result result = state_set_viewport(&device->state, viewport, error);
     if (result == TRIPTYCH_OK)
         record_viewport(device, viewport);
     return api_changed(device, result, CHANGE_OF_VIEWPORT);
@@ -90,12 +89,9 @@ enum triptych_result triptych_set_scissor(triptych_device *device, unsigned x, u
         error_set(error, "no target: expected set_target before a scissor rectangle");
         return api_finish(device, TRIPTYCH_BAD_CALL);
     }
-    enum triptych_result result =
-        state_set_scissor(&device->state, (struct scissor){x, y, width, height}, device_target(device)->width,
-                          device_target(device)->height, error);
-    if (result == TRIPTYCH_OK)
-        record_scissor(device, x, y, width, height);
-    return api_changed(device, result, CHANGE_OF_SCISSOR);
+    state_set_scissor(&device->state, (struct scissor){x, y, width, height});
+    record_scissor(device, x, y, width, height);
+    return api_changed(device, TRIPTYCH_OK, CHANGE_OF_SCISSOR);
 }
 
 enum triptych_result triptych_set_clip_plane(triptych_device *device, unsigned i, const float plane[4])

@@ -1,5 +1,6 @@
 /* Calls of the interface as calls of a stream. */
 #include "capture/record_part.h"
+#include "base/minmax.h"
 #include "render/target/surface.h"
 
 #include <locale.h>
@@ -175,12 +176,23 @@ void record_viewport(struct triptych_device *device, const struct triptych_viewp
                     &(struct call){.type = CALL_VIEWPORT, .resource = NO_RESOURCE, .viewport = *viewport});
 }
 
+/* The part from `from` on of a side of the scissor rectangle that a target can have. */
+static unsigned part_of_side(unsigned from, unsigned length)
+{
+    return min_u32(length, TRIPTYCH_TARGET_MAXIMUM - min_u32(from, TRIPTYCH_TARGET_MAXIMUM));
+}
+
+/* A recording has what no target can have cut off. */
 void record_scissor(struct triptych_device *device, unsigned x, unsigned y, unsigned width, unsigned height)
 {
-    if (device_recorder(device))
-        record_call(
-            device,
-            &(struct call){.type = CALL_SCISSOR, .resource = NO_RESOURCE, .scissor = {x, y, width, height}});
+    struct call call = {.type = CALL_SCISSOR, .resource = NO_RESOURCE};
+    if (!device_recorder(device))
+        return;
+    call.scissor.x = min_u32(x, TRIPTYCH_TARGET_MAXIMUM);
+    call.scissor.y = min_u32(y, TRIPTYCH_TARGET_MAXIMUM);
+    call.scissor.width = part_of_side(x, width);
+    call.scissor.height = part_of_side(y, height);
+    record_call(device, &call);
 }
 
 /* Values of surfaces that are not cleared are ignored. The stencil of a stream is one byte: no format has

@@ -100,8 +100,9 @@ struct job {
 
     const struct palette_entry *palette; /* all world matrices, if vertices have matrix indices */
 
-    /* Guard band: |x| <= guard_x * w keeps projected vertices within +-16383 pixels. */
-    float guard_x, guard_y;
+    /* Guard band: guard_left * w <= x <= guard_right * w and guard_bottom * w <= y <= guard_top * w keep
+     * projected vertices within +-16383 pixels. */
+    float guard_left, guard_right, guard_bottom, guard_top;
 
     /* Viewport: window position in 1/256 pixel = ndc * scale + offset; depth = ndc z * depth_scale +
      * depth_offset. */

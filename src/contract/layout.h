@@ -68,7 +68,7 @@ enum clip_bit {
     CLIP_NEAR = 16,        /* z < 0 */
     CLIP_FAR = 32,         /* z > w */
     CLIP_EYE = 64,         /* w < CLIP_EYE_W */
-    CLIP_GUARD_LEFT = 128, /* x < -guard_x * w */
+    CLIP_GUARD_LEFT = 128, /* x < guard_left * w */
     CLIP_GUARD_RIGHT = 256,
     CLIP_GUARD_BOTTOM = 512,
     CLIP_GUARD_TOP = 1024,

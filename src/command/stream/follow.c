@@ -30,15 +30,16 @@ int follow_target(struct follower *follower, const struct call *call, struct err
 
 int follow_viewport(struct follower *follower, const struct call *call, struct error *error)
 {
-    return state_set_viewport(&follower->state, &call->viewport, follower->width, follower->height, error)
-               ? -1
-               : 0;
+    return state_set_viewport(&follower->state, &call->viewport, error) ? -1 : 0;
 }
 
 int follow_scissor(struct follower *follower, const struct call *call, struct error *error)
 {
-    struct scissor scissor = {call->scissor.x, call->scissor.y, call->scissor.width, call->scissor.height};
-    return state_set_scissor(&follower->state, scissor, follower->width, follower->height, error) ? -1 : 0;
+    const struct scissor scissor = {call->scissor.x, call->scissor.y, call->scissor.width,
+                                    call->scissor.height};
+    (void)error;
+    state_set_scissor(&follower->state, scissor);
+    return 0;
 }
 
 int follow_set(struct follower *follower, const struct call *call, struct error *error)

@@ -79,8 +79,11 @@ static void plan_transform(struct plan *plan, const struct vertex_key *key)
                                                     .z = SLOT(Z),
                                                     .w = SLOT(W)}});
     plan_append(plan, &fragment_clip_code,
-                (union arguments){
-                    .clip_code = {.guard_x = JOB(guard_x), .guard_y = JOB(guard_y), .code = SLOT(CODE)}});
+                (union arguments){.clip_code = {.guard_left = JOB(guard_left),
+                                                .guard_right = JOB(guard_right),
+                                                .guard_bottom = JOB(guard_bottom),
+                                                .guard_top = JOB(guard_top),
+                                                .code = SLOT(CODE)}});
     for (int i = 0; i < key->clip_planes; i++)
         plan_append(plan, &fragment_clip_plane,
                     (union arguments){.clip_plane = {.plane = JOB(clip_plane) + i * (int32_t)sizeof(float[4]),

@@ -36,24 +36,35 @@ void derive_keys(const struct state *state, enum primitive primitive, union key 
     derive_vertex(state, &key[UNIT_PIXEL].pixel, &key[UNIT_SETUP].setup, &key[UNIT_VERTEX].vertex);
 }
 
-/* The first column whose centre is at `edge` or after it. */
-static int32_t first_centre(const struct state *state, double edge)
+/* The first of `side` columns whose centre is at `edge` or after it; `side` if there is none. */
+static int32_t first_centre(const struct state *state, double edge, uint32_t side)
 {
-    return (int32_t)ceil(edge - pixel_centre(state));
+    return (int32_t)fmin(fmax(ceil(edge - pixel_centre(state)), 0), side);
+}
+
+static struct rectangle viewport_centres(const struct state *state)
+{
+    const struct triptych_viewport *v = &state->viewport;
+    double x = (double)v->x, y = (double)v->y;
+    return (struct rectangle){first_centre(state, x, state->width), first_centre(state, y, state->height),
+                              first_centre(state, x + (double)v->width, state->width),
+                              first_centre(state, y + (double)v->height, state->height)};
+}
+
+static uint64_t min_u64(uint64_t a, uint64_t b)
+{
+    return a < b ? a : b;
 }
 
 struct rectangle derive_scissor(const struct state *state)
 {
-    double x = (double)state->viewport.x, y = (double)state->viewport.y;
-    struct rectangle r = {first_centre(state, x), first_centre(state, y),
-                          first_centre(state, x + (double)state->viewport.width),
-                          first_centre(state, y + (double)state->viewport.height)};
+    struct rectangle r = viewport_centres(state);
     if (!GET(state, scissortestenable))
         return r;
     const struct scissor *s = &state->scissor;
-    r.x0 = max_i32((int32_t)s->x, r.x0);
-    r.y0 = max_i32((int32_t)s->y, r.y0);
-    r.x1 = max_i32(r.x0, min_i32((int32_t)(s->x + s->width), r.x1));
-    r.y1 = max_i32(r.y0, min_i32((int32_t)(s->y + s->height), r.y1));
+    r.x0 = max_i32((int32_t)min_u64(s->x, state->width), r.x0);
+    r.y0 = max_i32((int32_t)min_u64(s->y, state->height), r.y0);
+    r.x1 = max_i32(r.x0, (int32_t)min_u64((uint64_t)s->x + s->width, (uint64_t)r.x1));
+    r.y1 = max_i32(r.y0, (int32_t)min_u64((uint64_t)s->y + s->height, (uint64_t)r.y1));
     return r;
 }

@@ -8,6 +8,7 @@
 #include "render/derive/matrix.h"
 #include "shader/program/program.h"
 
+#include <float.h>
 #include <math.h>
 #include <string.h>
 
@@ -19,11 +20,18 @@ static void fold_depth_range(const struct state *state, struct matrix *projectio
             projection->m[i][2] = projection->m[i][2] / 2 + projection->m[i][3] / 2;
 }
 
-/* |x| <= guard * w keeps |x / w * half + centre| <= GUARD_BAND_PIXELS. The bound on guard only matters for
- * viewports of a fraction of a pixel; it keeps guard * w from overflowing where w does not. */
-static float guard_band(double half, double centre)
+static float bounded(double value, double most)
 {
-    return (float)fmin((GUARD_BAND_PIXELS - centre) / half, 0x1p20);
+    return (float)fmin(fmax(value, -most), most);
+}
+
+/* The factors of w that keep x / w * half + centre within +-GUARD_BAND_PIXELS. Their own bound only matters
+ * for viewports of a fraction of a pixel, or none; it keeps the products with w from overflowing where w does
+ * not. */
+static void guard_band(double half, double centre, float *least, float *most)
+{
+    *least = bounded((-GUARD_BAND_PIXELS - centre) / half, 0x1p20);
+    *most = bounded((GUARD_BAND_PIXELS - centre) / half, 0x1p20);
 }
 
 static void fill_viewport(const struct state *state, struct job *job)
@@ -34,12 +42,12 @@ static void fill_viewport(const struct state *state, struct job *job)
     double centre_x = (double)viewport->x + half_width + shift;
     double centre_y = (double)viewport->y + half_height + shift;
     double subpixels = 1 << SUBPIXEL_BITS;
-    job->guard_x = guard_band(half_width, centre_x);
-    job->guard_y = guard_band(half_height, centre_y);
-    job->scale_x = (float)(half_width * subpixels);
-    job->offset_x = (float)(centre_x * subpixels);
-    job->scale_y = (float)(-half_height * subpixels);
-    job->offset_y = (float)(centre_y * subpixels);
+    guard_band(half_width, centre_x, &job->guard_left, &job->guard_right);
+    guard_band(half_height, -centre_y, &job->guard_bottom, &job->guard_top); /* y points up in clip space */
+    job->scale_x = bounded(half_width * subpixels, (double)FLT_MAX);
+    job->offset_x = bounded(centre_x * subpixels, (double)FLT_MAX);
+    job->scale_y = bounded(-half_height * subpixels, (double)FLT_MAX);
+    job->offset_y = bounded(centre_y * subpixels, (double)FLT_MAX);
     job->depth_scale = viewport->depth_far - viewport->depth_near;
     job->depth_offset = viewport->depth_near;
 }
@@ -48,7 +56,8 @@ static void fill_viewport(const struct state *state, struct job *job)
 static void fill_window(const struct state *state, struct job *job)
 {
     job->offset_x = job->offset_y = (float)((0.5 - pixel_centre(state)) * (1 << SUBPIXEL_BITS));
-    job->guard_x = job->guard_y = (float)GUARD_BAND_PIXELS;
+    job->guard_left = job->guard_bottom = (float)-GUARD_BAND_PIXELS;
+    job->guard_right = job->guard_top = (float)GUARD_BAND_PIXELS;
     job->scale_x = job->scale_y = 1 << SUBPIXEL_BITS;
     job->depth_scale = 1;
 }

@@ -162,7 +162,9 @@ static enum triptych_result enqueue(struct triptych_device *device, const struct
     uint32_t instances = source->indices ? state_instances(&device->state) : 1;
     if (check_feedback(device, error) != TRIPTYCH_OK)
         return TRIPTYCH_BAD_CALL;
-    if (source->count && derive_effective(&device->derived.key[UNIT_PIXEL].pixel)) {
+    const struct rectangle *visible = &device->derived.draw.scissor;
+    bool reaches = visible->x0 < visible->x1 && visible->y0 < visible->y1;
+    if (source->count && reaches && derive_effective(&device->derived.key[UNIT_PIXEL].pixel)) {
         enum triptych_result result = device_enqueue(device, source, instances, error);
         if (result != TRIPTYCH_OK)
             return result;

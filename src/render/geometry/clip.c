@@ -109,10 +109,10 @@ static double distance(const struct clipper *c, enum clip_plane plane, const str
     case EYE: return w - CLIP_EYE_W;
     case NEAR: return z;
     case FAR: return w - z;
-    case GUARD_LEFT: return c->job->guard_x * w + x;
-    case GUARD_RIGHT: return c->job->guard_x * w - x;
-    case GUARD_BOTTOM: return c->job->guard_y * w + y;
-    case GUARD_TOP: return c->job->guard_y * w - y;
+    case GUARD_LEFT: return x - c->job->guard_left * w;
+    case GUARD_RIGHT: return c->job->guard_right * w - x;
+    case GUARD_BOTTOM: return y - c->job->guard_bottom * w;
+    case GUARD_TOP: return c->job->guard_top * w - y;
     default: __builtin_unreachable();
     }
 }
@@ -120,8 +120,7 @@ static double distance(const struct clipper *c, enum clip_plane plane, const str
 /* The product may round to infinity where the coordinate itself is next to the largest float. */
 static float guard_limit(float guard, float w)
 {
-    float limit = guard * w;
-    return limit < FLT_MAX ? limit : FLT_MAX;
+    return fminf(fmaxf(guard * w, -FLT_MAX), FLT_MAX);
 }
 
 static void put_on_plane(const struct clipper *c, enum clip_plane plane, float slot[SLOT_COUNT])
@@ -131,10 +130,10 @@ static void put_on_plane(const struct clipper *c, enum clip_plane plane, float s
     case EYE: slot[SLOT_W] = CLIP_EYE_W; break;
     case NEAR: slot[SLOT_Z] = 0; break;
     case FAR: slot[SLOT_Z] = slot[SLOT_W]; break;
-    case GUARD_LEFT: slot[SLOT_X] = -guard_limit(c->job->guard_x, w); break;
-    case GUARD_RIGHT: slot[SLOT_X] = guard_limit(c->job->guard_x, w); break;
-    case GUARD_BOTTOM: slot[SLOT_Y] = -guard_limit(c->job->guard_y, w); break;
-    case GUARD_TOP: slot[SLOT_Y] = guard_limit(c->job->guard_y, w); break;
+    case GUARD_LEFT: slot[SLOT_X] = guard_limit(c->job->guard_left, w); break;
+    case GUARD_RIGHT: slot[SLOT_X] = guard_limit(c->job->guard_right, w); break;
+    case GUARD_BOTTOM: slot[SLOT_Y] = guard_limit(c->job->guard_bottom, w); break;
+    case GUARD_TOP: slot[SLOT_Y] = guard_limit(c->job->guard_top, w); break;
     default:; /* no coordinate is a user plane's own */
     }
 }

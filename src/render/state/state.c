@@ -228,14 +228,13 @@ enum triptych_result state_set_transform(struct state *state, enum triptych_tran
 }
 
 enum triptych_result state_set_viewport(struct state *state, const struct triptych_viewport *viewport,
-                                        uint32_t target_width, uint32_t target_height, struct error *error)
+                                        struct error *error)
 {
     const struct triptych_viewport *v = viewport;
-    if (!(v->width > 0 && within(0, v->x, target_width) && (double)v->x + v->width <= target_width) ||
-        !(v->height > 0 && within(0, v->y, target_height) && (double)v->y + v->height <= target_height)) {
-        error_set(error, "viewport %g x %g at %g, %g: expected a part of the target of %u x %u pixels",
-                  (double)v->width, (double)v->height, (double)v->x, (double)v->y, target_width,
-                  target_height);
+    if (!isfinite(v->x) || !isfinite(v->y) || !isfinite(v->width) || !isfinite(v->height) || v->width < 0 ||
+        v->height < 0) {
+        error_set(error, "viewport %g x %g at %g, %g: expected finite numbers, and sides of 0 or more",
+                  (double)v->width, (double)v->height, (double)v->x, (double)v->y);
         return TRIPTYCH_BAD_ARGUMENT;
     }
     if (!within(0, v->depth_near, 1) || !within(0, v->depth_far, 1)) {
@@ -247,18 +246,9 @@ enum triptych_result state_set_viewport(struct state *state, const struct tripty
     return TRIPTYCH_OK;
 }
 
-enum triptych_result state_set_scissor(struct state *state, struct scissor scissor, uint32_t target_width,
-                                       uint32_t target_height, struct error *error)
+void state_set_scissor(struct state *state, struct scissor scissor)
 {
-    const struct scissor *s = &scissor;
-    if ((uint64_t)s->x + s->width > target_width || (uint64_t)s->y + s->height > target_height) {
-        error_set(error,
-                  "scissor rectangle %u x %u at %u, %u: expected a part of the target of %u x %u pixels",
-                  s->width, s->height, s->x, s->y, target_width, target_height);
-        return TRIPTYCH_BAD_ARGUMENT;
-    }
     state->scissor = scissor;
-    return TRIPTYCH_OK;
 }
 
 enum triptych_result state_set_clip_plane(struct state *state, unsigned i, const float plane[4],
@@ -423,6 +413,8 @@ enum triptych_result state_set_light(struct state *state, unsigned index, const 
 void state_set_target(struct state *state, const struct triptych_target_description *description)
 {
     uint32_t width = description->width, height = description->height;
+    state->width = width;
+    state->height = height;
     state->viewport = (struct triptych_viewport){0, 0, (float)width, (float)height, 0, 1};
     state->scissor = (struct scissor){0, 0, width, height};
     state->depth_format = description->depth_format;

@@ -96,7 +96,8 @@ struct state {
     unsigned others;
     struct state_stream stream[STREAM_COUNT];
     struct triptych_buffer *indices;
-    uint32_t index_bits; /* 16 or 32 while indices are bound */
+    uint32_t index_bits;    /* 16 or 32 while indices are bound */
+    uint32_t width, height; /* of the target, in pixels */
     struct target_channels target[TARGETS];
     enum triptych_depth_format depth_format;           /* of the target */
     uint8_t samples;                                   /* 2^samples per pixel of the target */
@@ -111,8 +112,8 @@ extern const char *const state_attribute_name[TRIPTYCH_ATTRIBUTE_COUNT];
 /* Direct3D 9's defaults; identity transforms, nothing bound, an empty viewport and scissor rectangle. */
 void state_initialize(struct state *state);
 
-/* Sets the state that a new target determines: its formats, and viewport and scissor rectangle that cover
- * all of it. */
+/* Sets the state that a new target determines: its size and formats, and viewport and scissor rectangle that
+ * cover all of it. */
 void state_set_target(struct state *state, const struct triptych_target_description *description);
 
 /* Fails if a target with that depth format cannot be cleared to these values (triptych_clear_buffers). */
@@ -129,9 +130,8 @@ bool state_has_value(const struct state *state, enum triptych_state_table table,
 enum triptych_result state_set_transform(struct state *state, enum triptych_transform which,
                                          const float matrix[4][4], struct error *error);
 enum triptych_result state_set_viewport(struct state *state, const struct triptych_viewport *viewport,
-                                        uint32_t target_width, uint32_t target_height, struct error *error);
-enum triptych_result state_set_scissor(struct state *state, struct scissor scissor, uint32_t target_width,
-                                       uint32_t target_height, struct error *error);
+                                        struct error *error);
+void state_set_scissor(struct state *state, struct scissor scissor);
 enum triptych_result state_set_clip_plane(struct state *state, unsigned i, const float plane[4],
                                           struct error *error);
 enum triptych_result state_set_convention(struct state *state, enum triptych_convention which, unsigned value,

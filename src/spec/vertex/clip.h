@@ -28,6 +28,34 @@ static inline itg clip_pair(struct env *e, flt value, flt limit, int low_bit, in
     return or_i(E, low, high);
 }
 
+/* The same for the bounds of the guard band, in the job. `scale` is w, or null in the window, where the
+ * factor is 1. */
+static inline itg clip_guard(struct env *e, flt value, const flt *scale, int low, int high, int low_bit,
+                             int high_bit)
+{
+    flt least = uniform_f(E, BASE_JOB, low);
+    flt most = uniform_f(E, BASE_JOB, high);
+    if (scale) {
+        least = mul_f(E, least, *scale);
+        most = mul_f(E, most, *scale);
+    }
+    itg below = clip_outside(E, least, value, low_bit);
+    itg above = clip_outside(E, value, most, high_bit);
+    return or_i(E, below, above);
+}
+
+static inline itg clip_guard_x(struct env *e, flt x, const flt *scale)
+{
+    return clip_guard(E, x, scale, (int)offsetof(struct job, guard_left),
+                      (int)offsetof(struct job, guard_right), CLIP_GUARD_LEFT, CLIP_GUARD_RIGHT);
+}
+
+static inline itg clip_guard_y(struct env *e, flt y, const flt *scale)
+{
+    return clip_guard(E, y, scale, (int)offsetof(struct job, guard_bottom),
+                      (int)offsetof(struct job, guard_top), CLIP_GUARD_BOTTOM, CLIP_GUARD_TOP);
+}
+
 static inline itg clip_invalid(struct env *e, const flt p[4])
 {
     flt sum = sub_f(E, p[0], p[0]);
@@ -53,18 +81,14 @@ static inline itg clip_user(struct env *e, const flt p[4], int plane)
 
 static inline itg clip_code(struct env *e, const struct vertex_key *k, const flt p[4])
 {
-    flt guard_x = uniform_f(E, BASE_JOB, (int)offsetof(struct job, guard_x));
-    flt guard_y = uniform_f(E, BASE_JOB, (int)offsetof(struct job, guard_y));
-    flt far_x = mul_f(E, guard_x, p[3]);
-    flt far_y = mul_f(E, guard_y, p[3]);
     itg part[7];
     part[0] = clip_pair(E, p[0], p[3], CLIP_LEFT, CLIP_RIGHT);
     part[1] = clip_pair(E, p[1], p[3], CLIP_BOTTOM, CLIP_TOP);
     part[2] = clip_outside(E, lit_f(E, 0.0f), p[2], CLIP_NEAR);
     part[3] = clip_outside(E, p[2], p[3], CLIP_FAR);
     part[4] = clip_outside(E, lit_f(E, CLIP_EYE_W), p[3], CLIP_EYE);
-    part[5] = clip_pair(E, p[0], far_x, CLIP_GUARD_LEFT, CLIP_GUARD_RIGHT);
-    part[6] = clip_pair(E, p[1], far_y, CLIP_GUARD_BOTTOM, CLIP_GUARD_TOP);
+    part[5] = clip_guard_x(E, p[0], &p[3]);
+    part[6] = clip_guard_y(E, p[1], &p[3]);
     itg code = clip_invalid(E, p);
     for (int i = 0; i < 7; i++)
         code = or_i(E, code, part[i]);
@@ -78,10 +102,8 @@ static inline itg clip_code(struct env *e, const struct vertex_key *k, const flt
 /* The clip code of a vertex in the window (x, y, depth and 1/w), which is clipped at the guard band only. */
 static inline itg clip_code_window(struct env *e, const flt p[4])
 {
-    flt guard_x = uniform_f(E, BASE_JOB, (int)offsetof(struct job, guard_x));
-    flt guard_y = uniform_f(E, BASE_JOB, (int)offsetof(struct job, guard_y));
-    itg x = clip_pair(E, p[0], guard_x, CLIP_GUARD_LEFT, CLIP_GUARD_RIGHT);
-    itg y = clip_pair(E, p[1], guard_y, CLIP_GUARD_BOTTOM, CLIP_GUARD_TOP);
+    itg x = clip_guard_x(E, p[0], NULL);
+    itg y = clip_guard_y(E, p[1], NULL);
     itg invalid = clip_invalid(E, p);
     itg outside = or_i(E, x, y);
     return or_i(E, invalid, outside);

@@ -24,7 +24,7 @@ static void attributes_point_at_the_first_vertex(void)
 
 static void the_viewport_maps_ndc_to_subpixels(void)
 {
-    state_set_viewport(&state, &(struct triptych_viewport){100, 20, 300, 200, 0.25f, 0.75f}, 640, 480, NULL);
+    state_set_viewport(&state, &(struct triptych_viewport){100, 20, 300, 200, 0.25f, 0.75f}, NULL);
     derive();
     TEST_ASSERT_EQUAL_FLOAT(100 * 256, -job.scale_x + job.offset_x);
     TEST_ASSERT_EQUAL_FLOAT(400 * 256, job.scale_x + job.offset_x);
@@ -34,17 +34,30 @@ static void the_viewport_maps_ndc_to_subpixels(void)
     TEST_ASSERT_EQUAL_FLOAT(0.5f, job.depth_scale);
 }
 
+/* A bound of the band is that many pixels away, or 2^20 halves of the viewport. */
+static void expect_band(float guard, float scale, float offset, double pixels)
+{
+    double window = ((double)guard * (double)scale + (double)offset) / 256;
+    TEST_ASSERT_TRUE(fabs((double)guard) == 0x1p20 || fabs(window - pixels) < 0.01);
+    TEST_ASSERT_TRUE(fabs(window) <= 16383.5);
+}
+
 static void the_guard_band_stays_within_its_limit_and_outside_the_frustum(void)
 {
     static const struct triptych_viewport cases[] = {
-        {0, 0, 8192, 8192, 0, 1}, {8191, 0, 1, 8192, 0, 1}, {0, 0, 1, 1, 0, 1}, {8191.5f, 3, .5f, 7, 0, 1}};
+        {0, 0, 8192, 8192, 0, 1},     {8191, 0, 1, 8192, 0, 1}, {0, 0, 1, 1, 0, 1},
+        {8191.5f, 3, .5f, 7, 0, 1},   {-8192, -1, 9, 99, 0, 1}, {-8000, -8000, 16000, 16000, 0, 1},
+        {0, -16000, 50, 16000, 0, 1},
+    };
     for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
-        TEST_ASSERT_EQUAL_INT(TRIPTYCH_OK, state_set_viewport(&state, &cases[i], 8192, 8192, NULL));
+        TEST_ASSERT_EQUAL_INT(TRIPTYCH_OK, state_set_viewport(&state, &cases[i], NULL));
         derive();
-        double x = (double)job.guard_x * (double)job.scale_x + (double)job.offset_x;
-        double y = (double)job.guard_y * -(double)job.scale_y + (double)job.offset_y;
-        TEST_ASSERT_TRUE(x <= 16383.5 * 256 && y <= 16383.5 * 256);
-        TEST_ASSERT_TRUE(job.guard_x >= 2 && job.guard_y >= 2);
+        expect_band(job.guard_left, job.scale_x, job.offset_x, -16383);
+        expect_band(job.guard_right, job.scale_x, job.offset_x, 16383);
+        expect_band(job.guard_bottom, job.scale_y, job.offset_y, 16383);
+        expect_band(job.guard_top, job.scale_y, job.offset_y, -16383);
+        TEST_ASSERT_TRUE(job.guard_left <= -1 && job.guard_right >= 1);
+        TEST_ASSERT_TRUE(job.guard_bottom <= -1 && job.guard_top >= 1);
     }
 }
 
@@ -59,8 +72,7 @@ static void expect_rectangle(int x0, int y0, int x1, int y1)
 
 static void set_scissor(uint32_t x, uint32_t y, uint32_t width, uint32_t height)
 {
-    TEST_ASSERT_EQUAL_INT(TRIPTYCH_OK,
-                          state_set_scissor(&state, (struct scissor){x, y, width, height}, 640, 480, NULL));
+    state_set_scissor(&state, (struct scissor){x, y, width, height});
 }
 
 static void the_scissor_rectangle_cuts_the_viewport_while_its_test_is_on(void)
@@ -82,6 +94,8 @@ static void a_rectangle_beside_the_viewport_leaves_nothing(void)
     expect_rectangle(10, 20, 10, 60);
     set_scissor(100, 25, 0, 10);
     expect_rectangle(100, 25, 100, 35);
+    set_scissor(UINT32_MAX, 3, UINT32_MAX, UINT32_MAX);
+    expect_rectangle(640, 20, 640, 60);
 }
 
 static void the_scissor_is_the_viewports_pixel_centres(void)

@@ -39,7 +39,7 @@ void setUp(void)
     static uint8_t bytes[1024];
     buffer.data = bytes;
     state_initialize(&state);
-    state_set_viewport(&state, &(struct triptych_viewport){0, 0, 64, 64, 0, 1}, 64, 64, NULL);
+    state_set_viewport(&state, &(struct triptych_viewport){0, 0, 64, 64, 0, 1}, NULL);
     bind(TRIPTYCH_POSITION, TRIPTYCH_FORMAT_FLOAT3);
     bind(TRIPTYCH_NORMAL, TRIPTYCH_FORMAT_FLOAT3);
     bind(TRIPTYCH_DIFFUSE, TRIPTYCH_FORMAT_COLOR);

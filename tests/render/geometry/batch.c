@@ -75,7 +75,8 @@ void setUp(void)
     memset(batch, 0, sizeof *batch);
     memset(&draw, 0, sizeof draw);
     draw.job = &job;
-    job.guard_x = job.guard_y = 10;
+    job.guard_left = job.guard_bottom = -10;
+    job.guard_right = job.guard_top = 10;
     draw.routine[UNIT_VERTEX] = &vertex_routine;
     draw.routine[UNIT_SETUP] = &setup_routine;
     draw.scissor = (struct rectangle){0, 0, 128, 64};

@@ -33,7 +33,7 @@ static uint32_t code_at(uint32_t lane)
 static void put_inside_top_guard(uint32_t lane)
 {
     float w = clipping_uniform(0.1f, 5);
-    clipping_put(lane, clipping_uniform(-3, 3), nextafterf(clipping_job.guard_y * w, 0),
+    clipping_put(lane, clipping_uniform(-3, 3), nextafterf(clipping_job.guard_top * w, 0),
                  clipping_uniform(-1, 1), w);
 }
 
@@ -48,9 +48,15 @@ struct reference {
 
 static double reference_distance(int plane, const double p[SLOT_COUNT])
 {
-    double w = p[SLOT_W], gx = clipping_job.guard_x * w, gy = clipping_job.guard_y * w;
-    const double d[] = {w - CLIP_EYE_W, p[SLOT_Z],      w - p[SLOT_Z], gx + p[SLOT_X],
-                        gx - p[SLOT_X], gy + p[SLOT_Y], gy - p[SLOT_Y]};
+    const struct job *job = &clipping_job;
+    double w = p[SLOT_W];
+    const double d[] = {w - CLIP_EYE_W,
+                        p[SLOT_Z],
+                        w - p[SLOT_Z],
+                        p[SLOT_X] - (double)job->guard_left * w,
+                        (double)job->guard_right * w - p[SLOT_X],
+                        p[SLOT_Y] - (double)job->guard_bottom * w,
+                        (double)job->guard_top * w - p[SLOT_Y]};
     if (plane < CLIPPING_FIRST_USER)
         return d[plane];
     const float *u = clipping_job.clip_plane[plane - CLIPPING_FIRST_USER];
@@ -214,8 +220,10 @@ static void expect_inside(uint32_t lane)
     TEST_ASSERT_TRUE(w >= CLIP_EYE_W);
     TEST_ASSERT_TRUE(z >= 0 && z <= w);
     double slack = 1 + 4 * 0x1p-24;
-    TEST_ASSERT_TRUE(fabs((double)x) <= (double)clipping_job.guard_x * w * slack);
-    TEST_ASSERT_TRUE(fabs((double)y) <= (double)clipping_job.guard_y * w * slack);
+    TEST_ASSERT_TRUE((double)x >= (double)clipping_job.guard_left * w * slack);
+    TEST_ASSERT_TRUE((double)x <= (double)clipping_job.guard_right * w * slack);
+    TEST_ASSERT_TRUE((double)y >= (double)clipping_job.guard_bottom * w * slack);
+    TEST_ASSERT_TRUE((double)y <= (double)clipping_job.guard_top * w * slack);
     TEST_ASSERT_EQUAL_HEX32(0, code_at(lane) & CLIP_NEEDED);
 }
 

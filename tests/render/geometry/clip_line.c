@@ -24,9 +24,15 @@ static const uint8_t flat_diffuse[VARYING_COUNT] = {INTERPOLATION_FLAT,
 
 static double reference_distance(int plane, const double p[SLOT_COUNT])
 {
-    double w = p[SLOT_W], gx = clipping_job.guard_x * w, gy = clipping_job.guard_y * w;
-    const double d[] = {w - CLIP_EYE_W, p[SLOT_Z],      w - p[SLOT_Z], gx + p[SLOT_X],
-                        gx - p[SLOT_X], gy + p[SLOT_Y], gy - p[SLOT_Y]};
+    const struct job *job = &clipping_job;
+    double w = p[SLOT_W];
+    const double d[] = {w - CLIP_EYE_W,
+                        p[SLOT_Z],
+                        w - p[SLOT_Z],
+                        p[SLOT_X] - (double)job->guard_left * w,
+                        (double)job->guard_right * w - p[SLOT_X],
+                        p[SLOT_Y] - (double)job->guard_bottom * w,
+                        (double)job->guard_top * w - p[SLOT_Y]};
     if (plane < CLIPPING_FIRST_USER)
         return d[plane];
     const float *u = clipping_job.clip_plane[plane - CLIPPING_FIRST_USER];

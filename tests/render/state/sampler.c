@@ -52,7 +52,7 @@ void setUp(void)
     const struct triptych_element texcoord = {TRIPTYCH_FORMAT_FLOAT4, &buffer, 16, 32};
     buffer.data = bytes;
     state_initialize(&state);
-    state_set_viewport(&state, &(struct triptych_viewport){0, 0, 64, 64, 0, 1}, 64, 64, NULL);
+    state_set_viewport(&state, &(struct triptych_viewport){0, 0, 64, 64, 0, 1}, NULL);
     TEST_ASSERT_EQUAL_INT(TRIPTYCH_OK, state_set_element(&state, TRIPTYCH_POSITION, &position, NULL));
     TEST_ASSERT_EQUAL_INT(TRIPTYCH_OK, state_set_element(&state, TRIPTYCH_TEXCOORD, &texcoord, NULL));
     describe(TRIPTYCH_TEXTURE_2D, TRIPTYCH_SURFACE_A8R8G8B8, 64, 48, 1, 0);

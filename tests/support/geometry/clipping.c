@@ -20,8 +20,10 @@ void clipping_begin(void)
     clipping_state = CLIPPING_SEED;
     clipping_saved = mxcsr_enter();
     memset(clipping_batch, 0xff, sizeof clipping_batch); /* so that no lane is correct by chance */
-    clipping_job.guard_x = 16.0f;
-    clipping_job.guard_y = 12.5f;
+    clipping_job.guard_left = -16.0f;
+    clipping_job.guard_right = 15.0f;
+    clipping_job.guard_bottom = -12.5f;
+    clipping_job.guard_top = 13.5f;
     memset(clipping_job.clip_plane, 0, sizeof clipping_job.clip_plane);
     clipping_user_planes = 0;
 }
@@ -51,7 +53,6 @@ float *clipping_word(int slot, uint32_t lane)
 
 uint32_t clipping_code_of(float x, float y, float z, float w)
 {
-    float gx = clipping_job.guard_x * w, gy = clipping_job.guard_y * w;
     uint32_t code = 0;
     code |= -w <= x ? 0 : CLIP_LEFT;
     code |= x <= w ? 0 : CLIP_RIGHT;
@@ -60,10 +61,10 @@ uint32_t clipping_code_of(float x, float y, float z, float w)
     code |= 0 <= z ? 0 : CLIP_NEAR;
     code |= z <= w ? 0 : CLIP_FAR;
     code |= CLIP_EYE_W <= w ? 0 : CLIP_EYE;
-    code |= -gx <= x ? 0 : CLIP_GUARD_LEFT;
-    code |= x <= gx ? 0 : CLIP_GUARD_RIGHT;
-    code |= -gy <= y ? 0 : CLIP_GUARD_BOTTOM;
-    code |= y <= gy ? 0 : CLIP_GUARD_TOP;
+    code |= clipping_job.guard_left * w <= x ? 0 : CLIP_GUARD_LEFT;
+    code |= x <= clipping_job.guard_right * w ? 0 : CLIP_GUARD_RIGHT;
+    code |= clipping_job.guard_bottom * w <= y ? 0 : CLIP_GUARD_BOTTOM;
+    code |= y <= clipping_job.guard_top * w ? 0 : CLIP_GUARD_TOP;
     for (int i = 0; i < clipping_user_planes; i++) {
         const float *p = clipping_job.clip_plane[i];
         code |= fmaf(x, p[0], fmaf(y, p[1], fmaf(z, p[2], w * p[3]))) >= 0 ? 0 : CLIP_USER << i;
@@ -96,7 +97,7 @@ float clipping_power(int low, int high)
 
 void clipping_put_random(uint32_t lane, enum clipping_spread spread)
 {
-    static const float on[] = {0, 1, -1, 2, 16, -16, 12.5f, -12.5f, CLIP_EYE_W, 0.5f};
+    static const float on[] = {0, 1, -1, 2, 15, -16, 13.5f, -12.5f, CLIP_EYE_W, 0.5f};
     switch (spread) {
     case CLIPPING_MODERATE:
         clipping_put(lane, clipping_uniform(-3, 3), clipping_uniform(-3, 3), clipping_uniform(-1, 3),

@@ -40,7 +40,9 @@ void derivation_begin(void)
     describe_texture(TRIPTYCH_TEXTURE_2D, 64, 48, 1, 1);
     buffer.data = bytes;
     state_initialize(&state);
-    state_set_viewport(&state, &(struct triptych_viewport){0, 0, 640, 480, 0, 1}, 640, 480, NULL);
+    state.width = 640;
+    state.height = 480;
+    state_set_viewport(&state, &(struct triptych_viewport){0, 0, 640, 480, 0, 1}, NULL);
     bind_attribute(TRIPTYCH_POSITION, TRIPTYCH_FORMAT_FLOAT3);
     bind_attribute(TRIPTYCH_NORMAL, TRIPTYCH_FORMAT_FLOAT3);
     bind_attribute(TRIPTYCH_DIFFUSE, TRIPTYCH_FORMAT_COLOR);

@@ -97,7 +97,7 @@ void shading_on_every_engine(void (*test)(void))
         state_initialize(&shading_state);
         memset(shading_varying, 0, sizeof shading_varying);
         struct triptych_viewport viewport = {0, 0, 64, 64, 0, 1};
-        TEST_ASSERT_EQUAL_INT(TRIPTYCH_OK, state_set_viewport(&shading_state, &viewport, 64, 64, &error));
+        TEST_ASSERT_EQUAL_INT(TRIPTYCH_OK, state_set_viewport(&shading_state, &viewport, &error));
         test();
         shading_close();
         run++;

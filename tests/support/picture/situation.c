@@ -299,8 +299,10 @@ void situation_start(struct situation *situation)
     struct state *state = &situation->state;
     situation->drawn = TRIPTYCH_TRIANGLE_LIST;
     state_initialize(state);
-    state_set_viewport(state, &(struct triptych_viewport){10, 20, 600, 400, .25f, .75f}, 640, 480, NULL);
-    state_set_scissor(state, (struct scissor){100, 50, 300, 200}, 640, 480, NULL);
+    state->width = 640;
+    state->height = 480;
+    state_set_viewport(state, &(struct triptych_viewport){10, 20, 600, 400, .25f, .75f}, NULL);
+    state_set_scissor(state, (struct scissor){100, 50, 300, 200});
     state->target[0] = (struct target_channels){TARGET_8888, 15};
     for (unsigned i = 0; i < TRIPTYCH_CLIP_PLANES; i++)
         state_set_clip_plane(state, i, (float[]){1, (float)i, .5f, 2}, NULL);

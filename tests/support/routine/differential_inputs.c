@@ -127,8 +127,10 @@ static void make_job(struct differential *d)
     make_skin(d);
     if (!differential_below(d, 8))
         put_lights_at_their_range(d);
-    job->guard_x = differential_between(d, 1, 50);
-    job->guard_y = differential_between(d, 1, 50);
+    job->guard_left = differential_between(d, -50, 1);
+    job->guard_right = differential_between(d, -1, 50);
+    job->guard_bottom = differential_between(d, -50, 1);
+    job->guard_top = differential_between(d, -1, 50);
     job->scale_x = differential_number(d, 1, 100000);
     job->scale_y = differential_number(d, -100000, -1);
     job->offset_x = differential_number(d, 0, 100000);

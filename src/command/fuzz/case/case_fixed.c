@@ -119,19 +119,51 @@ static void add_rectangle(struct maker *maker, const char *name)
              1 + random_below(&maker->random, maker->height - y));
 }
 
+/* A side of a viewport that may lie outside of the target: often near its edges, sometimes far away. */
+static void add_side(struct maker *maker, unsigned length, float *from, float *side)
+{
+    struct random *random = &maker->random;
+    float scale = random_chance(random, 8) ? random_float(random, 1, 1e5f) : 1;
+    *from = random_float(random, -1, 1) * (float)length * scale;
+    *side = random_chance(random, 16) ? 0 : random_float(random, 0, 3) * (float)length * scale;
+}
+
+static void add_viewport(struct maker *maker)
+{
+    struct random *random = &maker->random;
+    float near = random_float(random, 0, 1), x, y, width, height;
+    if (random_chance(random, 2)) {
+        add_rectangle(maker, "viewport");
+    } else {
+        add_side(maker, maker->width, &x, &width);
+        add_side(maker, maker->height, &y, &height);
+        text_add(maker->text, "viewport %.9g %.9g %.9g %.9g", (double)x, (double)y, (double)width,
+                 (double)height);
+    }
+    text_add(maker->text, " %.9g %.9g\n", (double)near,
+             (double)(random_chance(random, 8) ? near : random_float(random, 0, 1)));
+}
+
+static void add_scissor(struct maker *maker)
+{
+    struct random *random = &maker->random;
+    text_add(maker->text, "state scissortestenable true\n");
+    if (random_chance(random, 3))
+        text_add(maker->text, "scissor %u %u %u %u", random_below(random, 2 * maker->width),
+                 random_below(random, 2 * maker->height), random_below(random, TRIPTYCH_TARGET_MAXIMUM + 1),
+                 random_below(random, 2 * maker->height));
+    else
+        add_rectangle(maker, "scissor");
+    text_add(maker->text, "\n");
+}
+
 void case_window(struct maker *maker)
 {
     struct random *random = &maker->random;
-    if (random_chance(random, 5)) {
-        float near = random_float(random, 0, 0.5f);
-        add_rectangle(maker, "viewport");
-        text_add(maker->text, " %.9g %.9g\n", (double)near, (double)random_float(random, near, 1));
-    }
-    if (random_chance(random, 5)) {
-        text_add(maker->text, "state scissortestenable true\n");
-        add_rectangle(maker, "scissor");
-        text_add(maker->text, "\n");
-    }
+    if (random_chance(random, 5))
+        add_viewport(maker);
+    if (random_chance(random, 5))
+        add_scissor(maker);
     if (random_chance(random, 8))
         text_add(maker->text, "convention pixelcenter integer\n");
     if (random_chance(random, 8))
