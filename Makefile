@@ -48,7 +48,9 @@ FRONT_OBJECTS   := $(call object,$(FRONT_SOURCES))
 SUPPORT_OBJECTS := $(call object,$(SUPPORT_SOURCES))
 TARGET_OBJECTS  := $(call object,$(TARGET_SOURCES))
 PROGRAM_OBJECTS := $(call object,$(PROGRAM_SOURCES))
-BENCH_OBJECTS   := $(call object,$(call find,bench,*.c))
+# Programs for Windows are built by the scripts of bench/d3d9.
+BENCH_SOURCES   := $(filter-out bench/d3d9/%,$(call find,bench,*.c))
+BENCH_OBJECTS   := $(call object,$(BENCH_SOURCES))
 OBJECTS         := $(LIBRARY_OBJECTS) $(TOOL_OBJECTS) $(FRONT_OBJECTS) $(SUPPORT_OBJECTS) $(TARGET_OBJECTS) $(PROGRAM_OBJECTS) $(BENCH_OBJECTS)
 
 # ONLY=text selects the tests whose path contains the text.
@@ -133,7 +135,7 @@ unity_flags = -isystem $(dir $(UNITY_SOURCE)) -DUNITY_INCLUDE_DOUBLE -DUNITY_USE
 
 # --- What to build ------------------------------------------------------------------------------------------
 
-.PHONY: all programs objects check test check-threads check-explore matrix coverage soak soak-faults soak-memory bench peers bench-shaders bench-draws mutations gallery verify-external docs fuzzers fuzz-input fuzz-input-smoke dependencies packages install clean format format-check compile_commands.json help FORCE
+.PHONY: all programs objects check test check-threads check-explore matrix coverage soak soak-faults soak-memory bench peers bench-shaders bench-draws conformance-d3d9 mutations gallery verify-external docs fuzzers fuzz-input fuzz-input-smoke dependencies packages install clean format format-check compile_commands.json help FORCE
 
 all: $(BUILD)/libtriptych.a $(if $(SANITIZE),,$(BUILD)/libtriptych.so $(PKGCONFIG) \
   $(BUILD)/include/triptych/triptych.h) $(COMMAND) build/glmark2 \
@@ -452,6 +454,13 @@ bench-draws:
 	+@$(MAKE) $(jobs) $(BUILD)/bench/draws
 	@$(BUILD)/bench/draws
 
+# Wine's Direct3D 9 tests on Triptych and on Wine's own Direct3D 9: results/conformance.md.
+# bench/conformance-d3d9.sh describes ENGINE=name THREADS=n SUITES="name ..." LIMIT=seconds.
+conformance-d3d9:
+	@tests/support/scripts/dependencies.sh build d3d9 suites
+	+@$(MAKE) $(jobs) d3d9
+	@BUILD=$(BUILD) bench/conformance-d3d9.sh
+
 # `make check` draws a few streams with the external engine. This target draws all: each routine is one
 # compilation.
 verify-external: all
@@ -531,7 +540,7 @@ clean:
 
 # The compilation database, for clangd and other tools: every C source, and every header of the specification,
 # because each header compiles by itself.
-DATABASE_FILES = $(C_SOURCES) $(TEST_SOURCES) $(call find,bench,*.c) $(call find,src/spec,*.h)
+DATABASE_FILES = $(C_SOURCES) $(TEST_SOURCES) $(BENCH_SOURCES) $(call find,src/spec,*.h)
 comma := ,
 database_entry = {"directory": "$(CURDIR)", "file": "$(1)", \
   "command": "$(compile) $(if $(filter tests/%,$(1)),$(unity_flags)) -x c -c $(1)"}
@@ -563,6 +572,7 @@ make soak-faults     refuses every request to the system, one at a time: half an
 make soak-memory     measures the memory of 10 million triangles and 100,000 states: minutes
 make peers           measures Mesa's softpipe and llvmpipe, SwiftShader and every engine on the same work: results/peers.txt
                      (WORKLOAD=glob PEERS="name..." PASSES=n QUICK=1 CLOCK=time)
+make conformance-d3d9  Wine's Direct3D 9 tests, on Triptych and on Wine's own Direct3D 9: results/conformance.md
 make bench-shaders   measures every shader in tests/data/shading, by shader and by length
 make bench-draws     draws per second of one small triangle, one change of the state before each
 make soak            random cases and tests with new seeds, half an hour (DURATION=1800 SEED=1), then a summary

@@ -40,6 +40,16 @@ libgles-dev        peers  the headers of GLES2, and its library
 libegl1            peers  finds the EGL of a vendor
 libegl-mesa0       peers  EGL of Mesa
 libgl1-mesa-dri    peers  softpipe and llvmpipe of Mesa
+wine               d3d9    starts Windows programs
+wine64             d3d9    Wine for 64-bit programs
+libwine            d3d9    the libraries of Wine
+gcc-mingw-w64-x86-64 d3d9  compiles for Windows
+dpkg-dev           suites  unpacks source packages
+xserver-xorg-core  suites  an X server with several display modes
+xserver-xorg-video-dummy suites its driver without a screen
+x11-xserver-utils  suites  changes the display mode
+fvwm3              suites  manages the windows of Windows programs
+libgl1-mesa-dri    suites  llvmpipe, on which Wine's own Direct3D 9 draws
 libclang-rt-14-dev fuzz    libFuzzer and the sanitizers of clang, for readers of untrusted input
 clang-format       format  formats the C sources
 chromium           browser opens the pages of the command explore
