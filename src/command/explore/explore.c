@@ -4,6 +4,7 @@
 #include "command/explore/page.h"
 #include "command/support/choose.h"
 #include "command/support/option.h"
+#include "command/support/shared.h"
 #include "command/support/session.h"
 #include "emu/batch/batch.h"
 #include "engines/external/external.h"
@@ -17,7 +18,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-enum { NUMBER_MAXIMUM = 4194304, ENGINES_MAXIMUM = 2 * CHOICE_CAPACITY };
+enum { ENGINES_MAXIMUM = 2 * CHOICE_CAPACITY };
 
 struct settings {
     const char *engines, *out;
@@ -247,10 +248,8 @@ static const char *unit_at(unsigned index)
 static const struct settings defaults = {.engines = "specialize", .unit = UNIT_PIXEL, .out = "explore.html"};
 
 static const struct option options[] = {
-    {"draw", "N", "which draw of the frame, from 0; 0", OPTION_IS_NUMBER(struct settings, draw),
-     .most = NUMBER_MAXIMUM},
-    {"frame", "N", "which frame, from 0; 0", OPTION_IS_NUMBER(struct settings, frame),
-     .most = NUMBER_MAXIMUM},
+    OPTION_DRAW(struct settings, draw),
+    OPTION_FRAME(struct settings, frame),
     {"unit", "UNIT", "vertex, setup or pixel; pixel", OPTION_IS_INDEX(struct settings, unit),
      .words = unit_at},
     {"engines", "LIST", "engines, separated by commas; specialize", OPTION_IS_LIST(struct settings, engines),

@@ -6,6 +6,7 @@
 #include "command/inspect/inspection.h"
 #include "command/support/json.h"
 #include "command/support/option.h"
+#include "command/support/shared.h"
 #include "command/support/session.h"
 #include "image/png.h"
 
@@ -13,7 +14,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-enum { NUMBER_MAXIMUM = 4194304, NONE = NUMBER_MAXIMUM + 1, PIXEL_MAXIMUM = 8192, NAME_CAPACITY = 16 };
+enum { NONE = OPTION_STREAM_MAXIMUM + 1, PIXEL_MAXIMUM = 8192, NAME_CAPACITY = 16 };
 
 struct settings {
     unsigned frame, draw, count;
@@ -175,9 +176,8 @@ static const struct settings defaults = {.draw = NONE};
 
 static const struct option options[] = {
     {"draw", "N", "show the state at this draw of the frame, from 0", OPTION_IS_NUMBER(struct settings, draw),
-     .most = NUMBER_MAXIMUM},
-    {"frame", "N", "which frame, from 0; 0", OPTION_IS_NUMBER(struct settings, frame),
-     .most = NUMBER_MAXIMUM},
+     .most = OPTION_STREAM_MAXIMUM},
+    OPTION_FRAME(struct settings, frame),
     {"pixel", "X,Y", "show the history of this pixel", OPTION_IS_TEXT(struct settings, pixel)},
     {"overdraw", "FILE", "draw how often each pixel is covered as a heat map, a PNG",
      OPTION_IS_FILE(struct settings, overdraw), .extension = "png"},

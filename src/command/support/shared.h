@@ -2,6 +2,7 @@
 #ifndef COMMAND_SUPPORT_SHARED_H
 #define COMMAND_SUPPORT_SHARED_H
 
+#include "command/stream/stream.h"
 #include "command/support/command.h"
 #include "image/png.h"
 
@@ -16,6 +17,19 @@
 #define OPTION_NO_CACHE(structure, member)                                                                   \
     {                                                                                                        \
         "no-cache", NULL, "read models again, and keep no mesh", OPTION_IS_FLAG(structure, member)           \
+    }
+
+/* unsigned: a frame or a draw of the stream, from 0, and the greatest that can be asked for. */
+enum { OPTION_STREAM_MAXIMUM = LIMIT_EXECUTED };
+#define OPTION_FRAME(structure, member)                                                                      \
+    {                                                                                                        \
+        "frame", "N", "which frame, from 0; 0", OPTION_IS_NUMBER(structure, member),                         \
+            .most = OPTION_STREAM_MAXIMUM                                                                    \
+    }
+#define OPTION_DRAW(structure, member)                                                                       \
+    {                                                                                                        \
+        "draw", "N", "which draw of the frame, from 0; 0", OPTION_IS_NUMBER(structure, member),              \
+            .most = OPTION_STREAM_MAXIMUM                                                                    \
     }
 
 #endif

@@ -15,7 +15,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-enum { NUMBER_MAXIMUM = 4194304, NONE = NUMBER_MAXIMUM + 1, PIXEL_MAXIMUM = 8192, NAME_CAPACITY = 16 };
+enum { NONE = OPTION_STREAM_MAXIMUM + 1, PIXEL_MAXIMUM = 8192, NAME_CAPACITY = 16 };
 
 /* Reads `X,Y`. */
 static int read_pixel(const struct command *self, const char *text, struct bisect_options *options)
@@ -162,7 +162,7 @@ static const struct option options[] = {
     {"engines", "A,B", "the two engines; emulate,specialize", OPTION_IS_LIST(struct settings, engines),
      .words = triptych_engine_name},
     {"draw", "N", "examine only this draw of the stream, numbered from 0",
-     OPTION_IS_NUMBER(struct settings, draw), .most = NUMBER_MAXIMUM},
+     OPTION_IS_NUMBER(struct settings, draw), .most = OPTION_STREAM_MAXIMUM},
     {"pixel", "X,Y", "examine only this pixel", OPTION_IS_TEXT(struct settings, pixel)},
     {"json", "FILE", "also write the report to FILE", OPTION_IS_FILE(struct settings, json),
      .extension = "json"},

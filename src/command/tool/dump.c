@@ -16,7 +16,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-enum { NUMBER_MAXIMUM = 4194304, WIDTH_MAXIMUM = 256, ARENA_BYTES = 8 << 20 };
+enum { WIDTH_MAXIMUM = 256, ARENA_BYTES = 8 << 20 };
 
 struct settings {
     const char *engine, *show;
@@ -154,10 +154,8 @@ static const char *unit_at(unsigned index)
 static const struct settings defaults = {.engine = "specialize", .unit = UNIT_PIXEL};
 
 static const struct option options[] = {
-    {"draw", "N", "which draw of the frame, from 0; 0", OPTION_IS_NUMBER(struct settings, draw),
-     .most = NUMBER_MAXIMUM},
-    {"frame", "N", "which frame, from 0; 0", OPTION_IS_NUMBER(struct settings, frame),
-     .most = NUMBER_MAXIMUM},
+    OPTION_DRAW(struct settings, draw),
+    OPTION_FRAME(struct settings, frame),
     {"unit", "UNIT", "vertex, setup or pixel; pixel", OPTION_IS_INDEX(struct settings, unit),
      .words = unit_at},
     {"show", "LIST", "stages, separated by commas; key,asm", OPTION_IS_LIST(struct settings, show),

@@ -15,7 +15,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-enum { NUMBER_MAXIMUM = 4194304, THREADS_MAXIMUM = 256, WIDTH_MAXIMUM = 256, RATE_DEFAULT = 30 };
+enum { THREADS_MAXIMUM = 256, WIDTH_MAXIMUM = 256, RATE_DEFAULT = 30 };
 
 enum { UNSET = UINT32_MAX };
 
@@ -217,8 +217,7 @@ static const struct option options[] = {
      OPTION_IS_FILE(struct settings, out), .extension = "png exr apng y4m"},
     {"format", "FORM", "png, exr, apng or y4m; that of the extension of --out, png for -",
      OPTION_IS_INDEX(struct settings, form), .words = sink_form_name},
-    {"frame", "N", "which frame, from 0; 0", OPTION_IS_NUMBER(struct settings, frame),
-     .most = NUMBER_MAXIMUM},
+    OPTION_FRAME(struct settings, frame),
     {"frames", "A-B|all", "several frames, to files named like f%04d.png",
      OPTION_IS_TEXT(struct settings, frames)},
     {"draws", "A-B|all", "a picture after each of these draws of the frame, from 0",
