@@ -1,0 +1,24 @@
+/* Vertex and pixel shaders. */
+#ifndef D3D9_STATE_SHADER_H
+#define D3D9_STATE_SHADER_H
+
+#include "front/d3d9/state.h"
+
+struct d3d9_shader {
+    struct d3d9_object object;
+    struct d3d9_device *device;
+    triptych_shader *shader;
+    uint32_t *code;
+    uint32_t bytes;
+    bool software; /* needs software vertex processing */
+};
+
+/* The types of the two interfaces. */
+struct d3d9_vertex_shader {
+    struct d3d9_shader shader;
+};
+struct d3d9_pixel_shader {
+    struct d3d9_shader shader;
+};
+
+#endif
