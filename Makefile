@@ -162,7 +162,7 @@ $(BUILD)/object/%.o: %.asm $(BUILD)/flags
 # The enumerations of the public header that follow from tables.
 WORDS       := $(BUILD)/include/triptych_words.h
 WORD_TABLES := $(patsubst %,src/def/state/%.def,kind state sampler_state stage_state value fvf attribute vertex_type \
-  format depth_format)
+  format depth_format primitive)
 
 $(WORDS): src/words.awk $(WORD_TABLES)
 	@mkdir -p $(@D)

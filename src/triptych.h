@@ -140,16 +140,6 @@ enum triptych_query_type {
     TRIPTYCH_QUERY_COUNT
 };
 
-enum triptych_primitive {
-    TRIPTYCH_TRIANGLE_LIST,
-    TRIPTYCH_TRIANGLE_STRIP,
-    TRIPTYCH_TRIANGLE_FAN,
-    TRIPTYCH_POINT_LIST,
-    TRIPTYCH_LINE_LIST,
-    TRIPTYCH_LINE_STRIP,
-    TRIPTYCH_PRIMITIVE_COUNT
-};
-
 /* Conventions that differ between graphics interfaces. The first value of each is the default. */
 enum triptych_convention {
     TRIPTYCH_PIXEL_CENTER,
@@ -570,7 +560,7 @@ TRIPTYCH_API enum triptych_result triptych_set_stream_frequency(triptych_device 
 /* Declares one attribute, with its own stream. */
 TRIPTYCH_API enum triptych_result triptych_set_element(triptych_device *, enum triptych_attribute,
                                                        const struct triptych_element *);
-/* Binds a buffer of indices. `bits` is 16 or 32. Null unbinds. */
+/* Binds a buffer of indices. `bits` is 8, 16 or 32. Null unbinds. */
 TRIPTYCH_API enum triptych_result triptych_set_indices(triptych_device *, triptych_buffer *, unsigned bits);
 
 /* Draws `count` primitives from vertex `first` on. */

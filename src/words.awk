@@ -113,6 +113,11 @@ BEGIN {
     add("depth_format", "DEPTH_" column[1], "", meaning(column[6]))
 }
 
+/^PRIMITIVE\(/ {
+    begin("primitive", "Primitives: each with the vertices of primitive p of a draw, the provoking vertex first.")
+    add("primitive", column[1], "", meaning(column[7]))
+}
+
 END {
     last["state"] = "STATE_COUNT"
     last["sampler_state"] = "SAMPLER_STATE_COUNT"
@@ -120,6 +125,7 @@ END {
     last["attribute"] = "ATTRIBUTE_COUNT"
     last["format"] = "FORMAT_COUNT"
     last["depth_format"] = "DEPTH_COUNT"
+    last["primitive"] = "PRIMITIVE_COUNT"
     print "/* Written by src/words.awk from the tables in src/def/state. */"
     for (i = 1; i <= enumerations; i++) {
         name = order[i]

@@ -237,8 +237,8 @@ enum triptych_result triptych_set_indices(triptych_device *device, triptych_buff
     struct error *error = api_begin(device);
     if (!error)
         return TRIPTYCH_BAD_ARGUMENT;
-    if (buffer && bits != 16 && bits != 32) {
-        error_set(error, "indices of %u bits: expected 16 or 32", bits);
+    if (buffer && bits != 8 && bits != 16 && bits != 32) {
+        error_set(error, "indices of %u bits: expected 8, 16 or 32", bits);
         return api_finish(device, TRIPTYCH_BAD_ARGUMENT);
     }
     device->state.indices = buffer;

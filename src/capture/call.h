@@ -53,7 +53,7 @@ struct call_light {
     struct triptych_light value;
 };
 
-/* 16 or 32 for a buffer of bytes; 0: the resource's own. */
+/* 8, 16 or 32 for a buffer of bytes; 0: the resource's own. */
 struct call_bind_indices {
     uint32_t bits;
 };

@@ -170,8 +170,8 @@ static void code_bind_indices(struct codec *codec, struct call *call)
     uint32_t bits;
     call_code_fields(codec, call);
     bits = call->bind_indices.bits;
-    if (codec->reading && bits != 0 && bits != 16 && bits != 32)
-        codec_fail(codec, "found indices of %u bits, expected 16 or 32", bits);
+    if (codec->reading && bits != 0 && bits != 8 && bits != 16 && bits != 32)
+        codec_fail(codec, "found indices of %u bits, expected 8, 16 or 32", bits);
 }
 
 void call_code(struct codec *codec, struct call *call)

@@ -12,6 +12,9 @@ static const struct row {
 #define WORD(list, word, value) {WORDS_##list, #word, value},
 #include "capture/word.def"
 #undef WORD
+#define PRIMITIVE(name, word, ...) {WORDS_PRIMITIVE, #word, TRIPTYCH_##name},
+#include "def/state/primitive.def"
+#undef PRIMITIVE
 #define ATTRIBUTE(name, word, usage, index, meaning) {WORDS_ATTRIBUTE, #word, TRIPTYCH_##name},
 #include "def/state/attribute.def"
 #undef ATTRIBUTE

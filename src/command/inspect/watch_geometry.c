@@ -90,10 +90,11 @@ static struct watch_placed *place(struct watch *watch, const struct setup_argume
         watch->placed = larger;
         watch->placed_capacity = capacity;
     }
+    uint32_t parts = device_parts(watch->device->derived.draw.primitive);
     struct watch_placed *placed = watch->placed + watch->placed_count++;
     *placed = (struct watch_placed){.address = call->out,
                                     .instance = watch->instances - 1,
-                                    .primitive = call->primitive,
+                                    .primitive = call->primitive / parts,
                                     .vertices = watch->vertices,
                                     .clipped = is_clipped(watch, call)};
     memcpy(placed->vertex, watch->vertex, sizeof placed->vertex);

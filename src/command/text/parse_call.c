@@ -220,9 +220,9 @@ static int bind_vertices(struct parser *parser, struct call *call)
 /* The width of indices in a buffer of bytes. */
 static int parse_bits(struct parser *parser, uint32_t *bits)
 {
-    *bits = lex_is(&parser->lex, "16") ? 16 : 32;
+    *bits = lex_is(&parser->lex, "8") ? 8 : lex_is(&parser->lex, "16") ? 16 : 32;
     if (*bits == 32 && !lex_is(&parser->lex, "32"))
-        return lex_expected(&parser->lex, "16 or 32 bits");
+        return lex_expected(&parser->lex, "8, 16 or 32 bits");
     return lex_next(&parser->lex);
 }
 

@@ -5,6 +5,7 @@
  * removed from the keys of lines and points, but not from the keys of a triangle's edges and corners. */
 #include "base/bits.h"
 #include "render/derive/derive_part.h"
+#include "render/state/primitive.h"
 #include "contract/key_query.h"
 #include "shader/program/program.h"
 
@@ -12,15 +13,8 @@
 
 enum primitive derive_primitive(const struct state *state, enum triptych_primitive primitive)
 {
-    switch (primitive) {
-    case TRIPTYCH_POINT_LIST: return PRIMITIVE_POINT;
-    case TRIPTYCH_LINE_LIST:
-    case TRIPTYCH_LINE_STRIP: return PRIMITIVE_LINE;
-    case TRIPTYCH_TRIANGLE_LIST:
-    case TRIPTYCH_TRIANGLE_STRIP:
-    case TRIPTYCH_TRIANGLE_FAN:
-    case TRIPTYCH_PRIMITIVE_COUNT: break;
-    }
+    if (state_primitives[primitive].kind != PRIMITIVE_TRIANGLE)
+        return state_primitives[primitive].kind;
     switch ((enum triptych_fill)GET(state, fillmode)) {
     case TRIPTYCH_FILL_POINT: return PRIMITIVE_CORNER;
     case TRIPTYCH_FILL_WIREFRAME: return PRIMITIVE_EDGE;

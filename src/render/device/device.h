@@ -266,6 +266,8 @@ void device_count_hits(struct triptych_device *device);
 
 /* Vertices or indices that `count` primitives take; count is not 0. */
 uint64_t device_corners(enum triptych_primitive primitive, uint32_t count);
+/* Triangles, lines or points of one primitive. */
+uint32_t device_parts(enum triptych_primitive primitive);
 
 /* Records `count` primitives: from vertex `first` on, or with the bound indices from `first` on, plus base.
  */

@@ -4,6 +4,7 @@
 #include "contract/lane.h"
 #include "render/derive/derive.h"
 #include "render/device/device.h"
+#include "render/state/primitive.h"
 
 #include <float.h>
 #include <inttypes.h>
@@ -15,16 +16,12 @@
 
 uint64_t device_corners(enum triptych_primitive primitive, uint32_t count)
 {
-    switch (primitive) {
-    case TRIPTYCH_TRIANGLE_LIST: return 3 * (uint64_t)count;
-    case TRIPTYCH_LINE_LIST: return 2 * (uint64_t)count;
-    case TRIPTYCH_LINE_STRIP: return (uint64_t)count + 1;
-    case TRIPTYCH_POINT_LIST: return count;
-    case TRIPTYCH_TRIANGLE_STRIP:
-    case TRIPTYCH_TRIANGLE_FAN:
-    case TRIPTYCH_PRIMITIVE_COUNT: break;
-    }
-    return (uint64_t)count + 2;
+    return state_corners(primitive, count);
+}
+
+uint32_t device_parts(enum triptych_primitive primitive)
+{
+    return state_primitives[primitive].parts;
 }
 
 /* Fails if vertices of a draw lie outside of the buffer of an element: those up to `last`, or one for each
@@ -82,11 +79,8 @@ static enum triptych_result check_draw(struct triptych_device *device, enum trip
                                        struct error *error)
 {
     if ((unsigned)primitive >= TRIPTYCH_PRIMITIVE_COUNT) {
-        error_set(
-            error,
-            "primitive %u: expected a triangle list (0), strip (1) or fan (2), a point list (3), a line "
-            "list (4) or strip (5)",
-            (unsigned)primitive);
+        error_set(error, "primitive %u: expected one of Triptych's, 0 to %d", (unsigned)primitive,
+                  TRIPTYCH_PRIMITIVE_COUNT - 1);
         return TRIPTYCH_BAD_ARGUMENT;
     }
     enum triptych_result result = device_has_target(device, error);
@@ -187,7 +181,7 @@ enum triptych_result device_draw(struct triptych_device *device, enum triptych_p
         result = check_no_instances(device, error);
     if (count && result == TRIPTYCH_OK)
         result = check_sequence(device, first, device_corners(primitive, count), error);
-    struct draw draw = {.primitive = primitive, .count = count, .base = first};
+    struct draw draw = {.primitive = primitive, .count = count * device_parts(primitive), .base = first};
     return result == TRIPTYCH_OK ? enqueue(device, &draw, error) : result;
 }
 
@@ -205,7 +199,8 @@ enum triptych_result device_draw_indexed(struct triptych_device *device, enum tr
     result = device_derived_update(&device->derived, &device->state, primitive, error);
     if (count && result == TRIPTYCH_OK)
         result = check_indices(device, base, first, device_corners(primitive, count), error);
-    struct draw draw = {.primitive = primitive, .count = count, .base = (uint32_t)base};
+    struct draw draw = {
+        .primitive = primitive, .count = count * device_parts(primitive), .base = (uint32_t)base};
     draw.index_bits = state->index_bits;
     draw.indices = count ? state->indices->data + (size_t)first * (state->index_bits / 8) : NULL;
     return result == TRIPTYCH_OK ? enqueue(device, &draw, error) : result;

@@ -153,7 +153,6 @@ static void enqueue_instance(struct triptych_device *device, const struct draw *
     command->kind = COMMAND_DRAW;
     command->draw = device->derived.draw;
     command->draw.job = make_job(device, instance); /* which may be new to device->derived.draw, too */
-    command->draw.primitive = source->primitive;
     command->draw.count = source->count;
     command->draw.indices = source->indices;
     command->draw.index_bits = source->index_bits;
@@ -168,6 +167,7 @@ enum triptych_result device_enqueue(struct triptych_device *device, const struct
         abort();
     if (prepare_routines(device, error))
         return device_refusal(TRIPTYCH_ENGINE_FAILED);
+    device->derived.draw.primitive = source->primitive;
     for (uint32_t i = 0; i < instances; i++)
         enqueue_instance(device, source, i);
     return TRIPTYCH_OK;

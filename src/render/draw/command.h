@@ -15,9 +15,9 @@ struct draw {
     const struct routine *routine[UNIT_COUNT];
     struct rectangle scissor;
     enum triptych_primitive primitive;
-    uint32_t count;      /* primitives */
+    uint32_t count;      /* parts of primitives (def/state/primitive.def): records before clipping */
     const void *indices; /* the first one; null: vertices in order */
-    uint32_t index_bits; /* 16 or 32; 0: vertices in order */
+    uint32_t index_bits; /* 8, 16 or 32; 0: vertices in order */
     uint32_t base;       /* added to each index, modulo 2^32 */
     uint32_t stride;     /* bytes of a record */
     enum raster_shape shape;

@@ -12,21 +12,33 @@ enum { NUMBER_LIMIT = 1 << 24 };
 struct index_source {
     enum triptych_primitive primitive;
     uint32_t bits, base;
+    uint32_t count; /* parts of the draw */
     const void *indices;
 };
 
 static inline uint32_t vertex_at(const struct index_source *source, uint32_t i)
 {
     switch (source->bits) {
+    case 8: return source->base + ((const uint8_t *)source->indices)[i];
     case 16: return source->base + ((const uint16_t *)source->indices)[i];
     case 32: return source->base + ((const uint32_t *)source->indices)[i];
     default: return source->base + i;
     }
 }
 
-/* The vertices of primitive p, in an order that keeps the winding of the first and begins with the vertex
- * that gives a flat triangle its colour (Direct3D 9: the strip's vertex p, the fan's vertex p + 1; the line's
- * first). */
+/* The first corner of triangle p of quads, and the two others of the triangle's quad that are on it: a, b, c
+ * and a, c, d of the quad a, b, c, d. */
+static inline void quad_vertices(const struct index_source *source, uint32_t p, const uint32_t quad[4],
+                                 uint32_t vertex[3])
+{
+    uint32_t first = p / 2 * (source->primitive == TRIPTYCH_QUAD_LIST ? 4 : 2);
+    vertex[0] = vertex_at(source, first + quad[0]);
+    vertex[1] = vertex_at(source, first + quad[1 + (p & 1)]);
+    vertex[2] = vertex_at(source, first + quad[2 + (p & 1)]);
+}
+
+/* The vertices of part p, in an order that keeps the winding of the first and begins with the vertex that
+ * gives a flat triangle its colour (def/state/primitive.def). */
 static inline void primitive_vertices(const struct index_source *source, uint32_t p, uint32_t vertex[3])
 {
     uint32_t odd = p & 1;
@@ -49,6 +61,17 @@ static inline void primitive_vertices(const struct index_source *source, uint32_
     case TRIPTYCH_LINE_STRIP:
         vertex[0] = vertex_at(source, p);
         vertex[1] = vertex[2] = vertex_at(source, p + 1);
+        break;
+    case TRIPTYCH_LINE_LOOP:
+        vertex[0] = vertex_at(source, p);
+        vertex[1] = vertex[2] = vertex_at(source, p + 1 == source->count ? 0 : p + 1);
+        break;
+    case TRIPTYCH_QUAD_LIST: quad_vertices(source, p, (const uint32_t[4]){0, 1, 2, 3}, vertex); break;
+    case TRIPTYCH_QUAD_STRIP: quad_vertices(source, p, (const uint32_t[4]){0, 1, 3, 2}, vertex); break;
+    case TRIPTYCH_POLYGON:
+        vertex[0] = vertex_at(source, 0);
+        vertex[1] = vertex_at(source, p + 1);
+        vertex[2] = vertex_at(source, p + 2);
         break;
     default:
         vertex[0] = vertex_at(source, 3 * p);
@@ -133,16 +156,19 @@ uint32_t batch_assemble(struct batch *batch, uint32_t p, uint32_t end)
 {
     const struct draw *draw = batch->draw;
     begin_batch(batch, p);
-    struct index_source source = {draw->primitive, draw->index_bits, draw->base, draw->indices};
+    struct index_source source = {draw->primitive, draw->index_bits, draw->base, draw->count, draw->indices};
     if (draw->primitive != TRIPTYCH_TRIANGLE_LIST)
         return assemble_from(batch, p, end, source);
     switch (draw->index_bits) {
+    case 8: return assemble_from(batch, p, end, source);
     case 16:
-        return assemble_from(batch, p, end,
-                             (struct index_source){TRIPTYCH_TRIANGLE_LIST, 16, source.base, source.indices});
+        return assemble_from(
+            batch, p, end,
+            (struct index_source){TRIPTYCH_TRIANGLE_LIST, 16, source.base, source.count, source.indices});
     case 32:
-        return assemble_from(batch, p, end,
-                             (struct index_source){TRIPTYCH_TRIANGLE_LIST, 32, source.base, source.indices});
+        return assemble_from(
+            batch, p, end,
+            (struct index_source){TRIPTYCH_TRIANGLE_LIST, 32, source.base, source.count, source.indices});
     default: return assemble_list(batch, p, end);
     }
 }

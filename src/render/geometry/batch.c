@@ -177,7 +177,8 @@ static bool add_line(struct batch *batch, struct clipper *clipper, const uint8_t
             return false;
         count = clip_line(clipper, lane, left);
     }
-    bool last = draw->primitive == TRIPTYCH_LINE_LIST || primitive + 1 == draw->count;
+    bool last = draw->primitive == TRIPTYCH_LINE_LIST ||
+                (draw->primitive == TRIPTYCH_LINE_STRIP && primitive + 1 == draw->count);
     bool cut = b & CLIP_NEEDED; /* the line goes on after its end */
     if (count)
         add_record(batch,
@@ -210,9 +211,24 @@ static void add_outline(struct batch *batch, const struct clipped *clipped, uint
         struct record record = {{clipped->lane[i], clipped->lane[next], clipped->lane[third]},
                                 draw->flat || !corners ? provoking : clipped->lane[i],
                                 draw->last_pixel || !(clipped->corners >> next & 1)};
-        if ((corners ? clipped->corners : clipped->edges) >> i & 1)
+        if ((corners ? clipped->points : clipped->edges) >> i & 1)
             add_record(batch, &record);
     }
+}
+
+/* The corners and edges of a part that are those of its quad or polygon, too. */
+static void choose_outline(const struct draw *draw, uint32_t part, struct clipper *clipper)
+{
+    enum { AB = 1, BC = 2, CA = 4, ALL = 7, ONLY_C = 4 };
+    bool first = part == 0, last = part + 1 == draw->count;
+    if (draw->primitive == TRIPTYCH_QUAD_LIST || draw->primitive == TRIPTYCH_QUAD_STRIP) {
+        first = !(part & 1);
+        last = !first;
+    } else if (draw->primitive != TRIPTYCH_POLYGON) {
+        first = last = true;
+    }
+    clipper->points = first ? ALL : ONLY_C;
+    clipper->edges = BC | (first ? AB : 0u) | (last ? CA : 0u);
 }
 
 static bool add_parts(struct batch *batch, struct clipper *clipper, const uint8_t corner[3],
@@ -230,7 +246,8 @@ static bool add_parts(struct batch *batch, struct clipper *clipper, const uint8_
         return true;
     if (!make_room(batch, clipper, primitive, false))
         return false;
-    struct clipped clipped = {.count = 3, .lane = {lane[0], lane[1], lane[2]}, .corners = 7, .edges = 7};
+    choose_outline(draw, primitive, clipper);
+    struct clipped clipped = {3, {lane[0], lane[1], lane[2]}, 7, clipper->points, clipper->edges};
     if (((any & CLIP_NEEDED) || clipper->wrapped) && clip_polygon(clipper, lane, &clipped)) {
         if (!make_room(batch, clipper, primitive, true))
             return false;

@@ -55,8 +55,9 @@ struct point {
     float slot[SLOT_COUNT]; /* position and smooth slots are valid */
     uint32_t code;          /* CLIP_NEEDED bits of the planes that are still to come */
     uint32_t lane;          /* in the batch, or NO_LANE if new */
-    bool corner;            /* it is one of the triangle's */
-    bool edge;              /* the polygon's edge from here to the next point lies on one of the triangle's */
+    bool corner;            /* it is one of the triangle's, */
+    bool drawn;             /* and drawn as a point */
+    bool edge; /* the polygon's edge from here to the next point lies on one of those that are drawn */
 };
 
 struct polygon {
@@ -67,7 +68,7 @@ struct polygon {
 struct clipper clipper_create(const struct job *job, const uint8_t varying[VARYING_COUNT], float *vertices,
                               uint32_t next)
 {
-    struct clipper r = {.vertices = vertices, .next = next, .job = job};
+    struct clipper r = {.vertices = vertices, .next = next, .points = 7, .edges = 7, .job = job};
     for (int v = 0; v < VARYING_COUNT; v++) {
         uint64_t slots = ((UINT64_C(1) << varying_components[v]) - 1) << varying_slot[v];
         if (varying[v] == INTERPOLATION_SMOOTH)
@@ -220,7 +221,7 @@ static void cut(const struct clipper *c, enum clip_plane plane, const struct pol
 
 static struct point load_point(const struct clipper *c, uint32_t lane)
 {
-    struct point p = {.code = needed_code(c, lane), .lane = lane, .corner = true, .edge = true};
+    struct point p = {.code = needed_code(c, lane), .lane = lane, .corner = true};
     for (uint64_t slots = c->smooth; slots; slots &= slots - 1) {
         int s = __builtin_ctzll(slots);
         p.slot[s] = *batch_word(c, s, lane);
@@ -275,8 +276,11 @@ int clip_polygon(struct clipper *c, const uint32_t lane[3], struct clipped *clip
 {
     struct polygon polygon[2];
     struct polygon *from = &polygon[0], *to = &polygon[1];
-    for (int i = 0; i < 3; i++)
+    for (int i = 0; i < 3; i++) {
         from->point[i] = load_point(c, lane[i]);
+        from->point[i].drawn = c->points >> i & 1;
+        from->point[i].edge = c->edges >> i & 1;
+    }
     wrap_point(c, &from->point[0], &from->point[1]);
     wrap_point(c, &from->point[0], &from->point[2]);
     from->count = 3;
@@ -292,6 +296,7 @@ int clip_polygon(struct clipper *c, const uint32_t lane[3], struct clipped *clip
     *clipped = (struct clipped){.count = from->count < 3 ? 0 : from->count};
     for (int i = 0; i < clipped->count; i++) {
         clipped->corners |= (uint32_t)from->point[i].corner << i;
+        clipped->points |= (uint32_t)from->point[i].drawn << i;
         clipped->edges |= (uint32_t)from->point[i].edge << i;
     }
     if (store_points(c, from->point, clipped->count, lane[0]))

@@ -21,6 +21,8 @@ struct clipper {
     uint64_t flat;    /* bit s: slot s is copied from the triangle's vertex 0 */
     uint64_t wrapped; /* bit s: slot s takes the shorter way around (render/draw/command.h) */
     uint32_t ignored; /* bits of clip codes whose planes do not clip */
+    uint32_t points;  /* bit i: corner i of a triangle is drawn as a point, */
+    uint32_t edges;   /* and the edge from corner i to the next as a line */
     const struct job *job;
     bool window; /* vertices are in the window: x, y, depth, 1/w */
 };
@@ -30,7 +32,9 @@ struct clipped {
     int count; /* of vertices: 0, or 3 to CLIP_VERTICES_MAXIMUM */
     uint32_t lane[CLIP_VERTICES_MAXIMUM];
     uint32_t corners; /* bit i: vertex i is one of the triangle's */
-    uint32_t edges;   /* bit i: the edge from vertex i to the next lies on one of the triangle's */
+    uint32_t points;  /* bit i: that corner is drawn as a point */
+    uint32_t
+        edges; /* bit i: the edge from vertex i to the next lies on one of the triangle's that are drawn */
 };
 
 /* A clipper for the batch of one draw, whose job it keeps. `varying` holds an enum interpolation for each

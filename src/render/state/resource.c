@@ -34,6 +34,14 @@ void buffer_destroy(struct triptych_buffer *buffer)
     free(buffer);
 }
 
+static void scan_8(struct index_range *range, const uint8_t *index)
+{
+    for (uint32_t i = 0; i < range->count; i++) {
+        range->minimum = index[i] < range->minimum ? index[i] : range->minimum;
+        range->maximum = index[i] > range->maximum ? index[i] : range->maximum;
+    }
+}
+
 static void scan_16(struct index_range *range, const uint16_t *index)
 {
     for (uint32_t i = 0; i < range->count; i++) {
@@ -58,7 +66,9 @@ const struct index_range *buffer_index_range(struct triptych_buffer *buffer, uin
     if (range->bits == bits && range->first == first && range->count == count)
         return range;
     *range = (struct index_range){first, count, bits, UINT32_MAX, 0};
-    if (bits == 16)
+    if (bits == 8)
+        scan_8(range, buffer->data + first);
+    else if (bits == 16)
         scan_16(range, (const uint16_t *)(const void *)buffer->data + first);
     else
         scan_32(range, (const uint32_t *)(const void *)buffer->data + first);

@@ -10,7 +10,7 @@
  * of the same mesh would cost more than drawing it. */
 struct index_range {
     uint32_t first, count; /* in indices */
-    uint32_t bits;         /* 16 or 32; 0: nothing remembered here */
+    uint32_t bits;         /* 8, 16 or 32; 0: nothing remembered here */
     uint32_t minimum, maximum;
 };
 
@@ -28,8 +28,8 @@ struct triptych_buffer {
 struct triptych_buffer *buffer_create(const void *data, size_t bytes);
 void buffer_destroy(struct triptych_buffer *buffer);
 
-/* The extremes of indices first to first + count - 1, which must lie in the buffer; count > 0, bits 16 or 32.
- */
+/* The extremes of indices first to first + count - 1, which must lie in the buffer; count > 0, bits 8, 16 or
+ * 32. */
 const struct index_range *buffer_index_range(struct triptych_buffer *buffer, uint32_t bits, uint32_t first,
                                              uint32_t count);
 

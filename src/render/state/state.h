@@ -96,7 +96,7 @@ struct state {
     unsigned others;
     struct state_stream stream[STREAM_COUNT];
     struct triptych_buffer *indices;
-    uint32_t index_bits;    /* 16 or 32 while indices are bound */
+    uint32_t index_bits;    /* 8, 16 or 32 while indices are bound */
     uint32_t width, height; /* of the target, in pixels */
     struct target_channels target[TARGETS];
     enum triptych_depth_format depth_format;           /* of the target */

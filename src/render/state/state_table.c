@@ -1,9 +1,17 @@
 /* The tables of states, of their kinds and of the words of values, as the interface shows them. */
 #include "render/state/state.h"
+#include "render/state/primitive.h"
 
 #include <stdatomic.h>
 #include <stdbool.h>
 #include <string.h>
+
+const struct state_primitive state_primitives[TRIPTYCH_PRIMITIVE_COUNT] = {
+#define PRIMITIVE(name, word, kind, parts, each, more, meaning)                                              \
+    [TRIPTYCH_##name] = {PRIMITIVE_##kind, parts, each, more},
+#include "def/state/primitive.def"
+#undef PRIMITIVE
+};
 
 enum {
 #define KIND(name, ...) KIND_##name,

@@ -61,7 +61,7 @@ static void the_animation_with_repeats_has_24_frames_of_two_teapots(void)
 static void every_name_of_expressions_is_described(void)
 {
     static const char *const names[] = {
-#define BUILTIN(name, where, meaning) "`" #name "`",
+#define BUILTIN(name, where, meaning)              "`" #name "`",
 #define FUNCTION(name, arguments, result, meaning) "`" #name "(",
 #include "command/stream/expression.def"
     };
@@ -104,6 +104,8 @@ static void every_word_is_mentioned(void)
     };
     for (size_t i = 0; i < sizeof words / sizeof *words; i++)
         TEST_ASSERT_NOT_NULL_MESSAGE(strstr(page, words[i]), words[i]);
+    for (unsigned p = 0; p < TRIPTYCH_PRIMITIVE_COUNT; p++)
+        TEST_ASSERT_NOT_NULL(strstr(page, word_text(WORDS_PRIMITIVE, p)));
 }
 
 int main(void)

@@ -72,7 +72,7 @@ static void kinds_of_lights_clears_primitives_and_copies(void)
     refuses(triptych_clear_buffers(device, 8, black, 1, 0), TRIPTYCH_BAD_ARGUMENT,
             "clear flags 0x8: expected a sum");
     refuses(triptych_draw(device, TRIPTYCH_PRIMITIVE_COUNT, 0, 1), TRIPTYCH_BAD_ARGUMENT,
-            "primitive 6: expected a triangle list (0)");
+            "primitive 10: expected one of Triptych's, 0 to 9");
     refuses(triptych_copy(device, &surface[0], NULL, &surface[1], NULL, TRIPTYCH_COPY_COUNT),
             TRIPTYCH_BAD_ARGUMENT, "filter 2 of a copy: expected point (0) or linear (1)");
     expect_unchanged();

@@ -36,11 +36,12 @@ enum { PRIMITIVES = TRIPTYCH_PRIMITIVE_COUNT };
 
 static const struct {
     const char *word;
-    unsigned first, each; /* vertices of the first primitive, of each other */
+    unsigned each, more; /* n primitives have n * each + more vertices */
 } primitives[PRIMITIVES] = {
-    [TRIPTYCH_TRIANGLE_LIST] = {"triangles", 3, 3}, [TRIPTYCH_TRIANGLE_STRIP] = {"strip", 3, 1},
-    [TRIPTYCH_TRIANGLE_FAN] = {"fan", 3, 1},        [TRIPTYCH_POINT_LIST] = {"points", 1, 1},
-    [TRIPTYCH_LINE_LIST] = {"lines", 2, 2},         [TRIPTYCH_LINE_STRIP] = {"linestrip", 2, 1}};
+#define PRIMITIVE(name, word, kind, parts, each, more, meaning) {#word, each, more},
+#include "def/state/primitive.def"
+#undef PRIMITIVE
+};
 
 static void add_draw(struct maker *maker)
 {
@@ -48,7 +49,7 @@ static void add_draw(struct maker *maker)
     unsigned p = random_chance(random, 3) ? random_below(random, PRIMITIVES) : random_below(random, 3);
     bool indexed = maker->indices && (maker->instanced || !random_chance(random, 4));
     unsigned corners = indexed ? maker->indices : maker->vertices;
-    unsigned most = (corners - primitives[p].first) / primitives[p].each + 1;
+    unsigned most = (corners - primitives[p].more) / primitives[p].each;
     text_add(maker->text, indexed ? "draw-indexed %s 0 0 %u\n" : "draw %s 0 %u\n", primitives[p].word,
              random_chance(random, 3) ? 1 + random_below(random, most) : most);
 }
