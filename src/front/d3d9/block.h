@@ -6,19 +6,19 @@
 
 #include "call.h"
 
-#define D3D9_FIELD(kind, ...)                     D3D9_FIELD_##kind(__VA_ARGS__)
-#define D3D9_FIELD_VALUE(type, name)              d3d9_type_##type name;
-#define D3D9_FIELD_HANDLE(type, name)             uint64_t name;
-#define D3D9_FIELD_POINTER(type, name)            uint64_t name;
-#define D3D9_FIELD_OBJECT(type, name)             uint64_t name;
-#define D3D9_FIELD_OBJECTS(type, name, count)     uint64_t name;
-#define D3D9_FIELD_NEW(type, name)                uint64_t name;
-#define D3D9_FIELD_IN(type, name, count)          uint64_t name;
-#define D3D9_FIELD_OUT(type, name, count)         uint64_t name;
-#define D3D9_FIELD_IN_OUT(type, name, count)      uint64_t name;
-#define D3D9_FIELD_HOST_IN(type, name, count)     uint64_t name;
-#define D3D9_FIELD_HOST_OUT(type, name, count)    uint64_t name;
-#define D3D9_FIELD_HOST_IN_OUT(type, name, count) uint64_t name;
+#define D3D9_FIELD(kind, ...)                      D3D9_FIELD_##kind(__VA_ARGS__)
+#define D3D9_FIELD_VALUE(type, name)               d3d9_type_##type name;
+#define D3D9_FIELD_HANDLE(type, name)              uint64_t name;
+#define D3D9_FIELD_POINTER(type, name)             uint64_t name;
+#define D3D9_FIELD_OBJECT(type, name)              uint64_t name;
+#define D3D9_FIELD_OBJECTS(type, name, count)      uint64_t name;
+#define D3D9_FIELD_NEW(type, name)                 uint64_t name;
+#define D3D9_FIELD_READS(type, name, count)        uint64_t name;
+#define D3D9_FIELD_WRITES(type, name, count)       uint64_t name;
+#define D3D9_FIELD_CHANGES(type, name, count)      uint64_t name;
+#define D3D9_FIELD_HOST_READS(type, name, count)   uint64_t name;
+#define D3D9_FIELD_HOST_WRITES(type, name, count)  uint64_t name;
+#define D3D9_FIELD_HOST_CHANGES(type, name, count) uint64_t name;
 
 #define METHOD(class, method, name, type, ...)                                                               \
     struct d3d9_block_##class##_##name                                                                       \

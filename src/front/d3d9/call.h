@@ -92,19 +92,19 @@ typedef struct d3d9_state_block d3d9_type_IDirect3DStateBlock9;
 typedef struct d3d9_query d3d9_type_IDirect3DQuery9;
 
 /* The parameters of a function. Each begins with a comma, because the object is first. */
-#define D3D9_PARAMETER(kind, ...)                     D3D9_PARAMETER_##kind(__VA_ARGS__)
-#define D3D9_PARAMETER_VALUE(type, name)              , d3d9_type_##type name
-#define D3D9_PARAMETER_HANDLE(type, name)             , uint64_t name
-#define D3D9_PARAMETER_POINTER(type, name)            , d3d9_type_##type *name
-#define D3D9_PARAMETER_OBJECT(type, name)             , d3d9_type_##type *name
-#define D3D9_PARAMETER_OBJECTS(type, name, count)     , d3d9_type_##type **name
-#define D3D9_PARAMETER_NEW(type, name)                , d3d9_type_##type **name
-#define D3D9_PARAMETER_IN(type, name, count)          , const d3d9_type_##type *name
-#define D3D9_PARAMETER_OUT(type, name, count)         , d3d9_type_##type *name
-#define D3D9_PARAMETER_IN_OUT(type, name, count)      , d3d9_type_##type *name
-#define D3D9_PARAMETER_HOST_IN(type, name, count)     , const struct d3d9_##type *name
-#define D3D9_PARAMETER_HOST_OUT(type, name, count)    , struct d3d9_##type *name
-#define D3D9_PARAMETER_HOST_IN_OUT(type, name, count) , struct d3d9_##type *name
+#define D3D9_PARAMETER(kind, ...)                      D3D9_PARAMETER_##kind(__VA_ARGS__)
+#define D3D9_PARAMETER_VALUE(type, name)               , d3d9_type_##type name
+#define D3D9_PARAMETER_HANDLE(type, name)              , uint64_t name
+#define D3D9_PARAMETER_POINTER(type, name)             , d3d9_type_##type *name
+#define D3D9_PARAMETER_OBJECT(type, name)              , d3d9_type_##type *name
+#define D3D9_PARAMETER_OBJECTS(type, name, count)      , d3d9_type_##type **name
+#define D3D9_PARAMETER_NEW(type, name)                 , d3d9_type_##type **name
+#define D3D9_PARAMETER_READS(type, name, count)        , const d3d9_type_##type *name
+#define D3D9_PARAMETER_WRITES(type, name, count)       , d3d9_type_##type *name
+#define D3D9_PARAMETER_CHANGES(type, name, count)      , d3d9_type_##type *name
+#define D3D9_PARAMETER_HOST_READS(type, name, count)   , const struct d3d9_##type *name
+#define D3D9_PARAMETER_HOST_WRITES(type, name, count)  , struct d3d9_##type *name
+#define D3D9_PARAMETER_HOST_CHANGES(type, name, count) , struct d3d9_##type *name
 
 /* A function without an object has no parameter before the first comma. */
 #define D3D9_WITHOUT_COMMA(...)         D3D9_WITHOUT_COMMA_(__VA_ARGS__)

@@ -3,19 +3,19 @@
 
 static pthread_mutex_t lock = PTHREAD_MUTEX_INITIALIZER;
 
-#define ARGUMENT(kind, ...)                     ARGUMENT_##kind(__VA_ARGS__)
-#define ARGUMENT_VALUE(type, name)              , b->name
-#define ARGUMENT_HANDLE(type, name)             , b->name
-#define ARGUMENT_POINTER(type, name)            , (void *)(uintptr_t)b->name
-#define ARGUMENT_OBJECT(type, name)             , (void *)(uintptr_t)b->name
-#define ARGUMENT_OBJECTS(type, name, count)     , (void *)(uintptr_t)b->name
-#define ARGUMENT_NEW(type, name)                , (void *)(uintptr_t)b->name
-#define ARGUMENT_IN(type, name, count)          , (void *)(uintptr_t)b->name
-#define ARGUMENT_OUT(type, name, count)         , (void *)(uintptr_t)b->name
-#define ARGUMENT_IN_OUT(type, name, count)      , (void *)(uintptr_t)b->name
-#define ARGUMENT_HOST_IN(type, name, count)     , (void *)(uintptr_t)b->name
-#define ARGUMENT_HOST_OUT(type, name, count)    , (void *)(uintptr_t)b->name
-#define ARGUMENT_HOST_IN_OUT(type, name, count) , (void *)(uintptr_t)b->name
+#define ARGUMENT(kind, ...)                      ARGUMENT_##kind(__VA_ARGS__)
+#define ARGUMENT_VALUE(type, name)               , b->name
+#define ARGUMENT_HANDLE(type, name)              , b->name
+#define ARGUMENT_POINTER(type, name)             , (void *)(uintptr_t)b->name
+#define ARGUMENT_OBJECT(type, name)              , (void *)(uintptr_t)b->name
+#define ARGUMENT_OBJECTS(type, name, count)      , (void *)(uintptr_t)b->name
+#define ARGUMENT_NEW(type, name)                 , (void *)(uintptr_t)b->name
+#define ARGUMENT_READS(type, name, count)        , (void *)(uintptr_t)b->name
+#define ARGUMENT_WRITES(type, name, count)       , (void *)(uintptr_t)b->name
+#define ARGUMENT_CHANGES(type, name, count)      , (void *)(uintptr_t)b->name
+#define ARGUMENT_HOST_READS(type, name, count)   , (void *)(uintptr_t)b->name
+#define ARGUMENT_HOST_WRITES(type, name, count)  , (void *)(uintptr_t)b->name
+#define ARGUMENT_HOST_CHANGES(type, name, count) , (void *)(uintptr_t)b->name
 
 #define METHOD(class, method, name, type, ...)                                                               \
     static void run_##class##_##name(void *block)                                                            \

@@ -22,8 +22,8 @@ static struct event *events; /* the last one first */
 int32_t d3d9_host_start(const struct d3d9_host_face *faces, uint32_t count)
 {
     for (uint32_t i = 0; i < count; i++)
-        if (faces[i].interface < D3D9_INTERFACE_COUNT)
-            d3d9_object_set_face(faces[i].interface, faces[i].vtable);
+        if (faces[i].number < D3D9_INTERFACE_COUNT)
+            d3d9_object_set_face(faces[i].number, faces[i].vtable);
     return D3D9_OK;
 }
 

@@ -17,9 +17,9 @@ struct d3d9_head {
     uint64_t face, host;
 };
 
-/* The vtable of an interface (enum d3d9_interface). */
+/* The vtable of an interface; `number` is of enum d3d9_interface. Windows' headers define "interface". */
 struct d3d9_host_face {
-    uint32_t interface, reserved;
+    uint32_t number, reserved;
     uint64_t vtable;
 };
 

@@ -1,0 +1,66 @@
+/* The exports of d3d9.dll. */
+#include "factory.h"
+
+IDirect3D9 *WINAPI Direct3DCreate9(UINT version)
+{
+    HRESULT result;
+    return (IDirect3D9 *)factory_make(version, FALSE, &result);
+}
+
+HRESULT WINAPI Direct3DCreate9Ex(UINT version, IDirect3D9Ex **factory)
+{
+    HRESULT result;
+    IDirect3D9Ex *made = factory_make(version, TRUE, &result);
+    if (factory)
+        *factory = made;
+    return result;
+}
+
+/* Marks for profilers of graphics, of which there is none here. */
+int WINAPI D3DPERF_BeginEvent(D3DCOLOR color, const WCHAR *name)
+{
+    (void)color, (void)name;
+    return -1;
+}
+
+int WINAPI D3DPERF_EndEvent(void)
+{
+    return -1;
+}
+
+DWORD WINAPI D3DPERF_GetStatus(void)
+{
+    return 0;
+}
+
+BOOL WINAPI D3DPERF_QueryRepeatFrame(void)
+{
+    return FALSE;
+}
+
+void WINAPI D3DPERF_SetMarker(D3DCOLOR color, const WCHAR *name)
+{
+    (void)color, (void)name;
+}
+
+void WINAPI D3DPERF_SetOptions(DWORD options)
+{
+    (void)options;
+}
+
+void WINAPI D3DPERF_SetRegion(D3DCOLOR color, const WCHAR *name)
+{
+    (void)color, (void)name;
+}
+
+void WINAPI DebugSetMute(void)
+{
+}
+
+BOOL WINAPI DllMain(HINSTANCE instance, DWORD reason, void *reserved)
+{
+    (void)reserved;
+    if (reason == DLL_PROCESS_ATTACH)
+        DisableThreadLibraryCalls(instance);
+    return TRUE;
+}
