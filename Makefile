@@ -37,7 +37,7 @@ LIBRARY_SOURCES := $(filter-out $(TOOL_SOURCES) src/front/%,$(C_SOURCES)) $(call
 TEST_SOURCES    := $(call find,tests,*.c)
 SUPPORT_SOURCES := $(filter tests/support/%,$(TEST_SOURCES))
 TARGET_SOURCES  := $(filter tests/command/fuzz/targets/%,$(TEST_SOURCES))
-PROGRAM_SOURCES := $(filter-out $(SUPPORT_SOURCES) $(TARGET_SOURCES),$(TEST_SOURCES))
+PROGRAM_SOURCES := $(filter-out $(SUPPORT_SOURCES) $(TARGET_SOURCES) tests/front/d3d9/pe/%,$(TEST_SOURCES))
 UNITY_SOURCE    := $(or $(firstword $(wildcard $(UNITY_DIR)/unity.c)),$(UNITY_DIR)/src/unity.c)
 
 object = $(patsubst %,$(BUILD)/object/%.o,$(basename $(1)))
@@ -135,7 +135,7 @@ unity_flags = -isystem $(dir $(UNITY_SOURCE)) -DUNITY_INCLUDE_DOUBLE -DUNITY_USE
 
 # --- What to build ------------------------------------------------------------------------------------------
 
-.PHONY: all programs objects check test check-threads check-explore matrix coverage soak soak-faults soak-memory bench peers bench-shaders bench-draws conformance-d3d9 mutations gallery verify-external docs fuzzers fuzz-input fuzz-input-smoke dependencies packages install clean format format-check compile_commands.json help FORCE
+.PHONY: all programs objects check test check-threads check-explore matrix coverage soak soak-faults soak-memory bench peers bench-shaders bench-draws conformance-d3d9 mutations gallery verify-external docs fuzzers fuzz-input fuzz-input-smoke dependencies packages install clean format format-check compile_commands.json d3d9 help FORCE
 
 all: $(BUILD)/libtriptych.a $(if $(SANITIZE),,$(BUILD)/libtriptych.so $(PKGCONFIG) \
   $(BUILD)/include/triptych/triptych.h) $(COMMAND) build/glmark2 \
@@ -320,6 +320,43 @@ $(BUILD)/commit: text = $(COMMIT)
 $(BUILD)/flags $(addprefix $(BUILD)/,library.list command.list front.list support.list spec.list commit): FORCE
 	@mkdir -p $(@D)
 	@printf '%s\n' "$(text)" | cmp -s - $@ || printf '%s\n' "$(text)" >$@
+
+# --- Direct3D 9 for programs of Windows -----------------------------------------------------------------------
+
+# A DLL of Wine's builtin form: a Windows side, and a Unix library that Wine loads with it. d3d9.dll forwards to it.
+# Windows' headers define what they declare, so that the Windows side has warnings of its own.
+MINGW  ?= x86_64-w64-mingw32-gcc
+WINE_IMPORTS = $(firstword $(wildcard $(addsuffix /libntdll.a,/usr/lib/x86_64-linux-gnu/wine/x86_64-windows)))
+D3D9 := $(BUILD)/d3d9
+PE_SOURCES := $(call find,src/front/d3d9/pe,*.c)
+PE_OBJECTS := $(PE_SOURCES:%.c=$(BUILD)/object/%.obj)
+PE_PROGRAMS := $(patsubst tests/front/d3d9/pe/%.c,$(D3D9)/%.exe,$(wildcard tests/front/d3d9/pe/*.c))
+
+d3d9:
+	@tests/support/scripts/dependencies.sh build d3d9
+	+@$(MAKE) $(jobs) $(D3D9)/x86_64-windows/d3d9.dll $(D3D9)/x86_64-unix/triptych9.so $(PE_PROGRAMS)
+
+$(BUILD)/object/%.obj: %.c
+	@mkdir -p $(@D)
+	$(call say,MINGW,$<)$(MINGW) -std=gnu17 -O2 -g -Wall -Wextra -Werror -Wno-cast-function-type -Isrc -MMD -MP -c $< -o $@
+
+$(D3D9)/x86_64-windows/triptych9.dll: $(PE_OBJECTS) src/front/d3d9/pe/triptych9.def
+	@mkdir -p $(@D)
+	$(call say,LD)$(MINGW) -shared -static-libgcc -Wl,--build-id -o $@ $^ $(WINE_IMPORTS) -lgdi32 -luser32 && \
+	  winebuild --builtin $@
+
+$(D3D9)/x86_64-windows/d3d9.dll: src/front/d3d9/pe/d3d9.def $(D3D9)/x86_64-windows/triptych9.dll
+	@mkdir -p $(@D)
+	$(call say,LD)$(MINGW) -shared -nostdlib -Wl,--entry=0 -o $@ $<
+
+$(D3D9)/x86_64-unix/triptych9.so: $(FRONT_OBJECTS) $(BUILD)/libtriptych.a $(BUILD)/front.list
+	@mkdir -p $(@D)
+	$(call say,LD)$(link) -shared -Wl,-z,defs,-z,text,--exclude-libs,ALL $(FRONT_OBJECTS) $(BUILD)/libtriptych.a \
+	  $(library_libraries) -o $@
+
+$(D3D9)/%.exe: tests/front/d3d9/pe/%.c
+	@mkdir -p $(@D)
+	$(call say,MINGW,$<)$(MINGW) -std=gnu17 -O2 -g -Wall -Wextra -Werror -o $@ $< -ld3d9 -lgdi32 -luser32
 
 define pkgconfig
 prefix=$(PREFIX)
@@ -545,7 +582,7 @@ clean:
 
 # The compilation database, for clangd and other tools: every C source, and every header of the specification,
 # because each header compiles by itself.
-DATABASE_FILES = $(C_SOURCES) $(TEST_SOURCES) $(BENCH_SOURCES) $(call find,src/spec,*.h)
+DATABASE_FILES = $(filter-out src/front/d3d9/pe/%,$(C_SOURCES)) $(filter-out tests/front/d3d9/pe/%,$(TEST_SOURCES)) $(BENCH_SOURCES) $(call find,src/spec,*.h)
 comma := ,
 database_entry = {"directory": "$(CURDIR)", "file": "$(1)", \
   "command": "$(compile) $(if $(filter tests/%,$(1)),$(unity_flags)) -x c -c $(1)"}
@@ -591,6 +628,7 @@ make mutations       plants bugs in a copy of the tree and checks that the tests
 make verify-external every stream with the external engine: minutes of compiling
 make docs            writes the measured figures of the pages from results/, their listings, and docs/states.md
 make gallery         renders the pictures of docs/gallery.md, docs/shader-gallery.md, docs/inspecting.md and docs/viewer.md
+make d3d9            Direct3D 9 for programs of Windows under Wine: $(BUILD)/d3d9; installs mingw-w64 and Wine
 make install         PREFIX=$(PREFIX) DESTDIR=$(DESTDIR)
 make dependencies    install every Debian package that any target needs
 make packages        lists those packages and their purpose
@@ -606,4 +644,4 @@ endef
 help:
 	@$(info $(help)):
 
--include $(OBJECTS:.o=.d) $(wildcard $(ASM_INCLUDES:.inc=.d))
+-include $(OBJECTS:.o=.d) $(PE_OBJECTS:.obj=.d) $(wildcard $(ASM_INCLUDES:.inc=.d))

@@ -1,7 +1,7 @@
 #!/bin/bash
 # Makes sure that the Debian packages a target needs are installed, and installs those that are not.
 #
-#   tests/support/scripts/dependencies.sh GROUP...    groups: build test bench peers format fuzz browser
+#   tests/support/scripts/dependencies.sh GROUP...    groups: build test bench peers format fuzz browser d3d9
 #   tests/support/scripts/dependencies.sh --list
 #
 # Silent when there is nothing to do. Ends non-zero, after naming the packages and their reasons, when a
@@ -52,6 +52,10 @@ fvwm3              suites  manages the windows of Windows programs
 libgl1-mesa-dri    suites  llvmpipe, on which Wine's own Direct3D 9 draws
 libclang-rt-14-dev fuzz    libFuzzer and the sanitizers of clang, for readers of untrusted input
 clang-format       format  formats the C sources
+gcc-mingw-w64-x86-64 d3d9  compiles the Windows side of d3d9.dll
+wine64             d3d9    runs programs of Windows
+wine64-tools       d3d9    marks a DLL as Wine's builtin form
+libwine-dev        d3d9    the import library of Wine's ntdll
 chromium           browser opens the pages of the command explore
 '
 

@@ -1,16 +1,24 @@
 /* The exports of d3d9.dll. */
-#include "factory.h"
+#include "vtable.h"
+#include "bridge/bridge.h"
+#include "window/factory.h"
+
+static IDirect3D9Ex *make(UINT version, BOOL extended, HRESULT *result)
+{
+    *result = D3DERR_NOTAVAILABLE;
+    return bridge_start(vtable_register) ? factory_make(version, extended, result) : NULL;
+}
 
 IDirect3D9 *WINAPI Direct3DCreate9(UINT version)
 {
     HRESULT result;
-    return (IDirect3D9 *)factory_make(version, FALSE, &result);
+    return (IDirect3D9 *)make(version, FALSE, &result);
 }
 
 HRESULT WINAPI Direct3DCreate9Ex(UINT version, IDirect3D9Ex **factory)
 {
     HRESULT result;
-    IDirect3D9Ex *made = factory_make(version, TRUE, &result);
+    IDirect3D9Ex *made = make(version, TRUE, &result);
     if (factory)
         *factory = made;
     return result;

@@ -3,8 +3,8 @@
 #include <windows.h>
 #include <d3d9.h>
 #include "vtable.h"
-#include "bridge.h"
-#include "hosted.h"
+#include "front/d3d9/call.h"
+#include "window/hosted.h"
 #include "private_data.h"
 #undef interface
 #include "front/d3d9/object.h"

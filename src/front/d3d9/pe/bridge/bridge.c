@@ -1,7 +1,6 @@
 #define COBJMACROS
 #include "bridge.h"
 #include "object_data.h"
-#include "vtable.h"
 #include "front/d3d9/unix/entry.h"
 #include <windows.h>
 #include <winternl.h>
@@ -53,15 +52,16 @@ void bridge_call(unsigned code, void *block)
 static BOOL CALLBACK start(INIT_ONCE *self, void *context, void **data)
 {
     extern IMAGE_DOS_HEADER __ImageBase;
-    (void)self, (void)context, (void)data;
+    void (*then)(void) = context;
+    (void)self, (void)data;
     if (NtQueryVirtualMemory(GetCurrentProcess(), &__ImageBase, MEMORY_WINE_UNIX_FUNCTIONS, &library,
                              sizeof library, NULL))
         return FALSE;
-    vtable_register();
+    then();
     return TRUE;
 }
 
-int bridge_start(void)
+int bridge_start(void (*then)(void))
 {
-    return InitOnceExecuteOnce(&once, start, NULL, NULL);
+    return InitOnceExecuteOnce(&once, start, (void *)then, NULL);
 }

@@ -7,7 +7,7 @@
 #define D3D9_PE_FULLSCREEN_H
 
 #include "bitmap.h"
-#include "object_data.h"
+#include "front/d3d9/pe/bridge/object_data.h"
 #include <windows.h>
 #include <d3d9.h>
 

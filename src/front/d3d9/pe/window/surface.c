@@ -1,7 +1,7 @@
 /* GetDC: the memory of a surface as a bitmap of GDI. */
 #include "hosted.h"
-#include "bridge.h"
-#include "object_data.h"
+#include "front/d3d9/call.h"
+#include "front/d3d9/pe/bridge/object_data.h"
 #include <stdlib.h>
 
 /* Windows' functions for bitmaps in given memory (d3dkmthk.h). */

@@ -1,7 +1,7 @@
 /* Present: the Linux side copies the back buffer into a bitmap, which is drawn into the window. */
 #include "hosted.h"
 #include "bitmap.h"
-#include "bridge.h"
+#include "front/d3d9/call.h"
 #include "fullscreen.h"
 #include <stdlib.h>
 

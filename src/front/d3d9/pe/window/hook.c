@@ -32,7 +32,7 @@ static LRESULT CALLBACK procedure(HWND window, UINT message, WPARAM wparam, LPAR
     ReleaseSRWLockShared(&lock);
 
     BOOL unicode = hook.previous ? hook.unicode : IsWindowUnicode(window);
-    LRESULT (*WINAPI default_procedure)
+    LRESULT(*WINAPI default_procedure)
     (HWND, UINT, WPARAM, LPARAM) = unicode ? DefWindowProcW : DefWindowProcA;
     if (!hook.previous || (hook.device && hook.device->filter && message != WM_DISPLAYCHANGE))
         return default_procedure(window, message, wparam, lparam);

@@ -1,7 +1,7 @@
 /* Methods of the device that depend on its windows or on the display. */
 #include "hosted.h"
 #include "adapter.h"
-#include "bridge.h"
+#include "front/d3d9/call.h"
 #include "factory.h"
 #include "fullscreen.h"
 

@@ -1,7 +1,7 @@
 #define COBJMACROS
 #include "hosted.h"
 #include "adapter.h"
-#include "bridge.h"
+#include "front/d3d9/call.h"
 #include "factory.h"
 #include "fullscreen.h"
 
@@ -9,7 +9,7 @@ IDirect3D9Ex *factory_make(UINT version, BOOL extended, HRESULT *result)
 {
     struct d3d9_factory *factory = NULL;
     *result = D3DERR_NOTAVAILABLE;
-    if (bridge_start() && adapter_register())
+    if (adapter_register())
         *result = d3d9_factory_create(version, extended, &factory);
     return (IDirect3D9Ex *)factory;
 }

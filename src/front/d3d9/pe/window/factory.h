@@ -6,8 +6,7 @@
 #include <windows.h>
 #include <d3d9.h>
 
-/* Direct3DCreate9 and Direct3DCreate9Ex: null and the error if the Unix library, a display or the version is
- * missing. */
+/* Direct3DCreate9 and Direct3DCreate9Ex: null and the error without a display or for another version. */
 IDirect3D9Ex *factory_make(UINT version, BOOL extended, HRESULT *result);
 /* A window now. */
 struct d3d9_host_window factory_window(HWND);

@@ -6,9 +6,8 @@
 
 #include "front/d3d9/block.h"
 
-/* Connects to the Unix library and registers the vtables. Returns 0 if the library is missing. May be called
- * again. */
-int bridge_start(void);
+/* Connects to the Unix library, and executes `then` the first time. Returns 0 if the library is missing. */
+int bridge_start(void (*then)(void));
 
 /* Executes the call of this code, then the events that it left. */
 void bridge_call(unsigned code, void *block);

@@ -1,6 +1,6 @@
 /* The cursor of a device is a cursor of Windows. */
 #include "hosted.h"
-#include "bridge.h"
+#include "front/d3d9/call.h"
 #include "fullscreen.h"
 
 static HCURSOR make_cursor(const struct d3d9_host_bits *bits, UINT x, UINT y)
