@@ -68,7 +68,8 @@ struct d3d9_device {
     /* Draws (draw/). */
     bool in_scene;
     uint32_t sampled;       /* samplers with a texture, bit i sampler i */
-    bool buffers_changed;   /* a buffer has bytes that the renderer does not have */
+    unsigned passed;        /* D3D9_NEEDS_... of the streams that were passed on (draw/draw.h) */
+    bool instances;         /* a stream's frequency is not that of vertices */
     triptych_buffer *zeros; /* what streams without a buffer read; null until it is needed */
 };
 

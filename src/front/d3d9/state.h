@@ -1,7 +1,7 @@
 /* The values that a program sets on a device, as it set them. A device has one set of values, and each state
  * block has one of its own with a mask of the values that belong to it.
  *
- * Values are cells in groups (state/group.def). A group is an array in struct d3d9_state; a cell is one of its
+ * Values are cells in groups (group.def). A group is an array in struct d3d9_state; a cell is one of its
  * elements. Cells are numbered across all groups: D3D9_CELL_GROUP + index. Lights are not cells, because there
  * can be any number of them (light.h). */
 #ifndef D3D9_STATE_H
@@ -62,7 +62,7 @@ struct d3d9_state {
 
 enum d3d9_group {
 #define GROUP(NAME, ...) D3D9_GROUP_##NAME,
-#include "state/group.def"
+#include "group.def"
 #undef GROUP
     D3D9_GROUPS
 };
@@ -71,7 +71,7 @@ enum d3d9_group {
 enum {
 #define GROUP(NAME, member, count, ...)                                                                      \
     D3D9_CELL_##NAME, D3D9_CELL_##NAME##_LAST = D3D9_CELL_##NAME + (count)-1,
-#include "state/group.def"
+#include "group.def"
 #undef GROUP
     D3D9_CELLS
 };

@@ -9,7 +9,7 @@ const struct d3d9_state_group d3d9_state_group[D3D9_GROUPS] = {
 #define GROUP(NAME, member, count, content, all)                                                             \
     {offsetof(struct d3d9_state, member), sizeof(((struct d3d9_state *)NULL)->member[0]), D3D9_CELL_##NAME,  \
      count, STATE_##content},
-#include "group.def"
+#include "front/d3d9/group.def"
 #undef GROUP
 };
 
