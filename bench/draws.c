@@ -2,7 +2,8 @@
  *
  *   draws [--engine NAME] [--threads N] [--draws N] [--passes N] [MODE]...
  *
- * Each mode is a way of changing the state between two draws (the table below). A pass makes all its draws
+ * Each mode is a way of changing the state between two draws, or of providing the vertices of each draw (the
+ * table below). A pass makes all its draws
  * through the public interface and finishes, so the time includes everything: the set call, the draw call,
  * geometry, tiles, and the flushes of the queue. The modes take turns pass by pass, and the result is the
  * median of a mode's passes. The first pass, which builds the routines, is not counted. On a busy machine
@@ -16,12 +17,18 @@
 #include <stdlib.h>
 #include <string.h>
 
-enum { SIZE = 256, TRIANGLES = 1024, PASSES_MAXIMUM = 101 };
+enum { SIZE = 256, RING = 4096, TRIANGLES = 1024, PASSES_MAXIMUM = 101 };
+
+struct vertex {
+    float position[3], normal[3];
+};
 
 /* The objects that the modes share. */
 struct bench {
     triptych_device *device;
     triptych_buffer *vertices;
+    triptych_buffer *changing; /* room for RING triangles */
+    struct vertex vertex[3 * (TRIANGLES + 1)];
     triptych_texture *texture[2];
     triptych_shader *vertex_shader, *pixel_shader;
 };
@@ -93,23 +100,97 @@ static void change_stream(struct bench *bench, uint32_t i)
     check(bench->device, triptych_set_stream(bench->device, 0, bench->vertices, i & 1 ? 72 : 0, 24));
 }
 
+/* --- Draws of triangle i -------------------------------------------------------------------------------- */
+
+static void draw_bound(struct bench *bench, uint32_t i)
+{
+    check(bench->device, triptych_draw(bench->device, TRIPTYCH_TRIANGLE_LIST, 3 * (i % TRIANGLES), 1));
+}
+
+static void draw_user(struct bench *bench, uint32_t i)
+{
+    check(bench->device, triptych_draw_user(bench->device, TRIPTYCH_TRIANGLE_LIST, 1,
+                                            bench->vertex + 3 * (i % TRIANGLES), sizeof *bench->vertex));
+}
+
+static void draw_indexed_user(struct bench *bench, uint32_t i)
+{
+    static const uint16_t index[3] = {0, 1, 2};
+    check(bench->device,
+          triptych_draw_indexed_user(bench->device, TRIPTYCH_TRIANGLE_LIST, 1, index, 16, 3,
+                                     bench->vertex + 3 * (i % TRIANGLES), sizeof *bench->vertex));
+}
+
+static void draw_new_buffer(struct bench *bench, uint32_t i)
+{
+    triptych_device *device = bench->device;
+    triptych_buffer *buffer;
+    check(device, triptych_buffer_create(device, bench->vertex + 3 * (i % TRIANGLES),
+                                         3 * sizeof *bench->vertex, &buffer));
+    check(device, triptych_set_stream(device, 0, buffer, 0, sizeof *bench->vertex));
+    check(device, triptych_draw(device, TRIPTYCH_TRIANGLE_LIST, 0, 1));
+    check(device, triptych_buffer_destroy(device, buffer));
+}
+
+/* Writes a triangle to the changing buffer and draws it. */
+static void draw_changed(struct bench *bench, uint32_t i, uint32_t to, enum triptych_map mode)
+{
+    triptych_device *device = bench->device;
+    const size_t bytes = 3 * sizeof *bench->vertex;
+    void *data;
+    check(device, triptych_buffer_map(device, bench->changing, to * bytes, bytes, mode, &data));
+    memcpy(data, bench->vertex + 3 * (i % TRIANGLES), bytes);
+    check(device, triptych_buffer_unmap(device, bench->changing));
+    if (!i)
+        check(device, triptych_set_stream(device, 0, bench->changing, 0, sizeof *bench->vertex));
+    check(device, triptych_draw(device, TRIPTYCH_TRIANGLE_LIST, 3 * to, 1));
+}
+
+static void draw_appended(struct bench *bench, uint32_t i)
+{
+    draw_changed(bench, i, i % RING, i % RING ? TRIPTYCH_MAP_NO_OVERWRITE : TRIPTYCH_MAP_DISCARD);
+}
+
+static void draw_discarded(struct bench *bench, uint32_t i)
+{
+    draw_changed(bench, i, 0, TRIPTYCH_MAP_DISCARD);
+}
+
+static void draw_updated(struct bench *bench, uint32_t i)
+{
+    triptych_device *device = bench->device;
+    const size_t bytes = 3 * sizeof *bench->vertex;
+    check(device, triptych_buffer_update(device, bench->changing, i % RING * bytes,
+                                         bench->vertex + 3 * (i % TRIANGLES), bytes));
+    if (!i)
+        check(device, triptych_set_stream(device, 0, bench->changing, 0, sizeof *bench->vertex));
+    check(device, triptych_draw(device, TRIPTYCH_TRIANGLE_LIST, 3 * (i % RING), 1));
+}
+
 static const struct mode {
     const char *name;
     void (*change)(struct bench *, uint32_t i);
     int shaders, textured, lit;
     const char *meaning;
+    void (*draw)(struct bench *, uint32_t i); /* null: draw_bound */
 } modes[] = {
-    {"nothing", change_nothing, 0, 0, 0, "nothing"},
-    {"factor", change_factor, 0, 0, 0, "the texture factor"},
-    {"world", change_world, 0, 0, 0, "the world matrix"},
-    {"material", change_material, 0, 0, 1, "the material, lit by one light"},
-    {"texture", change_texture, 0, 1, 0, "the texture, one of two"},
-    {"state", change_state, 0, 0, 0, "alphablendenable, off and on"},
-    {"stream", change_stream, 0, 0, 0, "the offset into the vertices' buffer"},
-    {"shaders", change_nothing, 1, 0, 0, "nothing, with shaders"},
-    {"vertex", change_vertex_constant, 1, 0, 0, "a constant of the vertex shader"},
-    {"pixel", change_pixel_constant, 1, 0, 0, "a constant of the pixel shader"},
-    {"two", change_two_constants, 1, 0, 0, "a constant of each shader"},
+    {"nothing", change_nothing, 0, 0, 0, "nothing", NULL},
+    {"factor", change_factor, 0, 0, 0, "the texture factor", NULL},
+    {"world", change_world, 0, 0, 0, "the world matrix", NULL},
+    {"material", change_material, 0, 0, 1, "the material, lit by one light", NULL},
+    {"texture", change_texture, 0, 1, 0, "the texture, one of two", NULL},
+    {"state", change_state, 0, 0, 0, "alphablendenable, off and on", NULL},
+    {"stream", change_stream, 0, 0, 0, "the offset into the vertices' buffer", NULL},
+    {"shaders", change_nothing, 1, 0, 0, "nothing, with shaders", NULL},
+    {"vertex", change_vertex_constant, 1, 0, 0, "a constant of the vertex shader", NULL},
+    {"pixel", change_pixel_constant, 1, 0, 0, "a constant of the pixel shader", NULL},
+    {"two", change_two_constants, 1, 0, 0, "a constant of each shader", NULL},
+    {"user", change_nothing, 0, 0, 0, "nothing; vertices in memory of the caller", draw_user},
+    {"indexed", change_nothing, 0, 0, 0, "nothing; the same with indices", draw_indexed_user},
+    {"buffer", change_nothing, 0, 0, 0, "a buffer is created, bound and destroyed", draw_new_buffer},
+    {"append", change_nothing, 0, 0, 0, "vertices are appended to a buffer of 288 KiB", draw_appended},
+    {"discard", change_nothing, 0, 0, 0, "the same buffer is discarded", draw_discarded},
+    {"update", change_nothing, 0, 0, 0, "vertices of the same buffer are updated", draw_updated},
 };
 
 enum { MODES = sizeof modes / sizeof *modes };
@@ -128,10 +209,6 @@ static const char pixel_code[] = "ps_2_0\n"
                                  "mov r0, c0\n"
                                  "mov oC0, r0\n";
 
-struct vertex {
-    float position[3], normal[3];
-};
-
 /* Triangles that cover the centres of 3 + 2 + 2 + 1 pixels, all over the target. */
 static void make_vertices(struct vertex vertex[3 * (TRIANGLES + 1)])
 {
@@ -146,7 +223,6 @@ static void make_vertices(struct vertex vertex[3 * (TRIANGLES + 1)])
 
 static void make(struct bench *bench, const struct triptych_options *options)
 {
-    static struct vertex vertex[3 * (TRIANGLES + 1)];
     static const uint32_t image[2][4] = {{0xff0000ff, 0xff00ff00, 0xffff0000, 0xffffffff}, {0xff808080}};
     char reason[256];
     if (triptych_device_create(options, &bench->device, reason, sizeof reason) != TRIPTYCH_OK) {
@@ -154,9 +230,10 @@ static void make(struct bench *bench, const struct triptych_options *options)
         exit(1);
     }
     triptych_device *device = bench->device;
-    make_vertices(vertex);
+    make_vertices(bench->vertex);
     check(device, triptych_set_target(device, SIZE, SIZE));
-    check(device, triptych_buffer_create(device, vertex, sizeof vertex, &bench->vertices));
+    check(device, triptych_buffer_create(device, bench->vertex, sizeof bench->vertex, &bench->vertices));
+    check(device, triptych_buffer_create(device, NULL, RING * 3 * sizeof *bench->vertex, &bench->changing));
     for (int i = 0; i < 2; i++)
         check(device, triptych_texture_create(device, image[i], 2, 2, &bench->texture[i]));
     check(device, triptych_shader_assemble(device, "vertex", vertex_code, strlen(vertex_code),
@@ -206,12 +283,13 @@ struct duration {
 
 static struct duration run(struct bench *bench, const struct mode *mode, uint32_t draws)
 {
+    void (*draw)(struct bench *, uint32_t) = mode->draw ? mode->draw : draw_bound;
     prepare(bench, mode);
     check(bench->device, triptych_finish(bench->device));
     double start = clock_seconds_of(CLOCK_MONOTONIC), used = clock_seconds_of(CLOCK_PROCESS_CPUTIME_ID);
     for (uint32_t i = 0; i < draws; i++) {
         mode->change(bench, i);
-        check(bench->device, triptych_draw(bench->device, TRIPTYCH_TRIANGLE_LIST, 3 * (i % TRIANGLES), 1));
+        draw(bench, i);
     }
     check(bench->device, triptych_finish(bench->device));
     return (struct duration){clock_seconds_of(CLOCK_MONOTONIC) - start,
@@ -322,7 +400,7 @@ int main(int count, char **argument)
     }
     if (!any)
         memset(chosen, 1, sizeof chosen);
-    struct bench bench;
+    static struct bench bench;
     make(&bench, &options);
     measure(&bench, chosen, draws, passes, row);
     printf("engine %s, %u thread%s, %u draws a pass, median of %u passes\n\n", options.engine,

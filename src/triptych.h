@@ -140,6 +140,15 @@ enum triptych_query_type {
     TRIPTYCH_QUERY_COUNT
 };
 
+/* The use of mapped bytes of a buffer (triptych_buffer_map). */
+enum triptych_map {
+    TRIPTYCH_MAP_WRITE,        /* they are read and written; earlier draws read the old bytes */
+    TRIPTYCH_MAP_DISCARD,      /* they are written, and may initially have any values; all others become 0 */
+    TRIPTYCH_MAP_NO_OVERWRITE, /* they are read and written, but not those that earlier draws read */
+    TRIPTYCH_MAP_READ,         /* they are read */
+    TRIPTYCH_MAP_COUNT
+};
+
 /* Conventions that differ between graphics interfaces. The first value of each is the default. */
 enum triptych_convention {
     TRIPTYCH_PIXEL_CENTER,
@@ -431,11 +440,21 @@ TRIPTYCH_API enum triptych_result triptych_read_surface(triptych_device *, const
 TRIPTYCH_API enum triptych_result
 triptych_read_surface_numbers(triptych_device *, const struct triptych_surface *, float *rgba, size_t bytes);
 
-/* Creates a buffer with a copy of `bytes` bytes, 1 to 2^31 - 1. Its contents never change. */
+/* Creates a buffer with a copy of `bytes` bytes, 1 to 2^31 - 1, or with zeros if `data` is null. */
 TRIPTYCH_API enum triptych_result triptych_buffer_create(triptych_device *, const void *data, size_t bytes,
                                                          triptych_buffer **buffer);
-/* Frees a buffer. Pending draws are rendered first. Bindings of the buffer become unbound. Null is
- * allowed. */
+/* Changes bytes of a buffer, which must not be mapped. Earlier draws read the old bytes; the call does not
+ * wait for them. */
+TRIPTYCH_API enum triptych_result triptych_buffer_update(triptych_device *, triptych_buffer *, size_t offset,
+                                                         const void *data, size_t bytes);
+/* Gives access to bytes of a buffer, at least one, until triptych_buffer_unmap. A buffer can be mapped once
+ * at a time. Draws may read a mapped buffer: they read the bytes that were written before the draw, and bytes
+ * that are written after it must not be those that it reads. Neither call waits for draws. */
+TRIPTYCH_API enum triptych_result triptych_buffer_map(triptych_device *, triptych_buffer *, size_t offset,
+                                                      size_t bytes, enum triptych_map, void **data);
+TRIPTYCH_API enum triptych_result triptych_buffer_unmap(triptych_device *, triptych_buffer *);
+/* Frees a buffer, also a mapped one. Earlier draws still read it; the call does not wait for them. Bindings
+ * of the buffer become unbound. Null is allowed. */
 TRIPTYCH_API enum triptych_result triptych_buffer_destroy(triptych_device *, triptych_buffer *);
 /* Creates a 2D texture with a copy of width x height RGBA8 texels, 1 to 8192 per side. */
 TRIPTYCH_API enum triptych_result triptych_texture_create(triptych_device *, const void *rgba, unsigned width,
@@ -569,6 +588,18 @@ TRIPTYCH_API enum triptych_result triptych_draw(triptych_device *, enum triptych
 /* Draws `count` primitives from index `first` on. `base` is added to each index. */
 TRIPTYCH_API enum triptych_result triptych_draw_indexed(triptych_device *, enum triptych_primitive,
                                                         int32_t base, uint32_t first, uint32_t count);
+
+/* Draw vertices and indices that are in memory of the caller and are copied. Vertex i begins at i * `stride`
+ * bytes, a multiple of 4 from 4 to 65536. It replaces the vertex of stream 0 for this draw; bindings do not
+ * change. Other streams are read as they are bound. Elements of stream 0 must end within the stride.
+ * triptych_draw_indexed_user draws from the first index on. There are `vertex_count` vertices, and indices
+ * are below this number. `bits` is 8, 16 or 32. */
+TRIPTYCH_API enum triptych_result triptych_draw_user(triptych_device *, enum triptych_primitive,
+                                                     uint32_t count, const void *vertices, size_t stride);
+TRIPTYCH_API enum triptych_result triptych_draw_indexed_user(triptych_device *, enum triptych_primitive,
+                                                             uint32_t count, const void *indices,
+                                                             unsigned bits, uint32_t vertex_count,
+                                                             const void *vertices, size_t stride);
 
 /* Clears the pixels of the viewport, inside the scissor rectangle if its test is on. A null color and a
  * negative depth are not cleared. Depth is 0 to 1. */

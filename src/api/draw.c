@@ -25,6 +25,33 @@ enum triptych_result triptych_draw_indexed(triptych_device *device, enum triptyc
     return api_finish(device, result);
 }
 
+enum triptych_result triptych_draw_user(triptych_device *device, enum triptych_primitive primitive,
+                                        uint32_t count, const void *vertices, size_t stride)
+{
+    struct user_draw draw = {.primitive = primitive, .count = count, .vertices = vertices, .stride = stride};
+    struct error *error = api_begin_with(device, vertices || !count, "vertices");
+    if (!error)
+        return TRIPTYCH_BAD_ARGUMENT;
+    enum triptych_result result = device_draw_user(device, &draw, error);
+    if (result == TRIPTYCH_OK)
+        record_draw_user(device, &draw);
+    return api_finish(device, result);
+}
+
+enum triptych_result triptych_draw_indexed_user(triptych_device *device, enum triptych_primitive primitive,
+                                                uint32_t count, const void *indices, unsigned bits,
+                                                uint32_t vertex_count, const void *vertices, size_t stride)
+{
+    struct user_draw draw = {primitive, count, indices, bits, vertex_count, vertices, stride};
+    struct error *error = api_begin_with_both(device, vertices || !count, "vertices", indices, "indices");
+    if (!error)
+        return TRIPTYCH_BAD_ARGUMENT;
+    enum triptych_result result = device_draw_user(device, &draw, error);
+    if (result == TRIPTYCH_OK)
+        record_draw_user(device, &draw);
+    return api_finish(device, result);
+}
+
 enum triptych_result triptych_clear(triptych_device *device, const float color[4], float depth)
 {
     struct error *error = api_begin(device);

@@ -28,23 +28,48 @@ enum triptych_result triptych_set_target_description(triptych_device *device,
 enum triptych_result triptych_buffer_create(triptych_device *device, const void *data, size_t bytes,
                                             triptych_buffer **buffer)
 {
-    struct error *error = api_begin_with_both(device, data, "data", buffer, "buffer");
+    struct error *error = api_begin_with(device, buffer, "buffer");
     if (!error)
         return TRIPTYCH_BAD_ARGUMENT;
-    *buffer = NULL;
-    if (!bytes || bytes > INT32_MAX) {
-        error_set(error, "buffer of %zu bytes: expected 1 to 2^31 - 1", bytes);
-        return api_finish(device, TRIPTYCH_BAD_ARGUMENT);
-    }
-    *buffer = buffer_create(data, bytes);
-    if (!*buffer) {
-        error_set(error, "out of memory for a buffer of %zu bytes", bytes);
-        return api_finish(device, TRIPTYCH_NO_MEMORY);
-    }
-    (*buffer)->next = device->resources.buffers;
-    device->resources.buffers = *buffer;
-    record_new_buffer(device, *buffer);
-    return TRIPTYCH_OK;
+    enum triptych_result result = device_buffer_create(device, data, bytes, buffer, error);
+    if (result == TRIPTYCH_OK)
+        record_new_buffer(device, *buffer);
+    return api_finish(device, result);
+}
+
+enum triptych_result triptych_buffer_update(triptych_device *device, triptych_buffer *buffer, size_t offset,
+                                            const void *data, size_t bytes)
+{
+    struct error *error = api_begin_with_both(device, buffer, "buffer", data || !bytes, "data");
+    if (!error)
+        return TRIPTYCH_BAD_ARGUMENT;
+    enum triptych_result result = device_buffer_update(device, buffer, offset, data, bytes, error);
+    if (result == TRIPTYCH_OK && bytes)
+        record_write(device, buffer, (struct buffer_span){offset, offset + bytes});
+    return api_finish(device, result);
+}
+
+enum triptych_result triptych_buffer_map(triptych_device *device, triptych_buffer *buffer, size_t offset,
+                                         size_t bytes, enum triptych_map mode, void **data)
+{
+    struct error *error = api_begin_with_both(device, buffer, "buffer", data, "data");
+    if (!error)
+        return TRIPTYCH_BAD_ARGUMENT;
+    enum triptych_result result = device_buffer_map(device, buffer, offset, bytes, mode, data, error);
+    if (result == TRIPTYCH_OK && mode == TRIPTYCH_MAP_DISCARD)
+        record_discard(device, buffer);
+    return api_finish(device, result);
+}
+
+enum triptych_result triptych_buffer_unmap(triptych_device *device, triptych_buffer *buffer)
+{
+    struct error *error = api_begin_with(device, buffer, "buffer");
+    if (!error)
+        return TRIPTYCH_BAD_ARGUMENT;
+    enum triptych_result result = device_buffer_unmap(device, buffer, error);
+    if (result == TRIPTYCH_OK)
+        record_mapped(device, buffer);
+    return api_finish(device, result);
 }
 
 enum triptych_result triptych_buffer_destroy(triptych_device *device, triptych_buffer *buffer)

@@ -89,6 +89,13 @@ void record_draw(struct triptych_device *device, enum triptych_primitive primiti
                  uint32_t count);
 void record_draw_indexed(struct triptych_device *device, enum triptych_primitive primitive, int32_t base,
                          uint32_t first, uint32_t count);
+void record_draw_user(struct triptych_device *device, const struct user_draw *draw);
+/* Bytes of a buffer that the application has written. */
+void record_write(struct triptych_device *device, const triptych_buffer *buffer, struct buffer_span span);
+/* All bytes become 0. */
+void record_discard(struct triptych_device *device, const triptych_buffer *buffer);
+/* The bytes that the application may have written in a mapped buffer. */
+void record_mapped(struct triptych_device *device, const triptych_buffer *buffer);
 void record_update(struct triptych_device *device, const triptych_texture *texture, unsigned face,
                    unsigned level, const struct triptych_box *box, const void *data, size_t row_pitch,
                    size_t slice_pitch);

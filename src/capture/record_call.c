@@ -339,6 +339,40 @@ void record_booleans(struct triptych_device *device, enum triptych_shader_stage 
     record_call(device, &call);
 }
 
+/* --- Buffers -------------------------------------------------------------------------------------------- */
+
+static void refuse(struct triptych_device *device)
+{
+    if (device_recorder(device))
+        record_write_fail(&device_recorder(device)->write,
+                          "buffers that change and immediate draws cannot be recorded yet");
+}
+
+void record_write(struct triptych_device *device, const triptych_buffer *buffer, struct buffer_span span)
+{
+    (void)buffer;
+    (void)span;
+    refuse(device);
+}
+
+void record_discard(struct triptych_device *device, const triptych_buffer *buffer)
+{
+    (void)buffer;
+    refuse(device);
+}
+
+void record_mapped(struct triptych_device *device, const triptych_buffer *buffer)
+{
+    if (buffer->map_mode != TRIPTYCH_MAP_READ)
+        refuse(device);
+}
+
+void record_draw_user(struct triptych_device *device, const struct user_draw *draw)
+{
+    (void)draw;
+    refuse(device);
+}
+
 /* --- Textures ------------------------------------------------------------------------------------------- */
 
 /* Copies the rows of a change without padding. The caller frees them. Null if memory is short. */

@@ -179,7 +179,7 @@ static void fill_fog(const struct state *state, const struct vertex_key *vertex,
 static void fill_element(const struct state *state, const struct state_element *element,
                          struct attribute_job *job)
 {
-    const struct state_stream *stream = state->stream + element->stream;
+    const struct state_stream *stream = state_source(state, element);
     if (!stream->buffer)
         return;
     job->data = stream->buffer->data + stream->offset + element->offset;

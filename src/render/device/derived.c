@@ -49,7 +49,7 @@ static void derive_setting(struct device_derived *derived, const struct state *s
  * it has one for each instance. */
 static uint64_t element_vertices(const struct state *state, const struct state_element *element)
 {
-    const struct state_stream *stream = state->stream + element->stream;
+    const struct state_stream *stream = state_source(state, element);
     size_t begin = stream->offset + element->offset, bytes = key_vertex_types[element->format].bytes;
     if (!stream->buffer || begin + bytes > stream->buffer->bytes)
         return 0;
@@ -67,20 +67,35 @@ static bool derive_steps(const struct state *state)
     return steps;
 }
 
-static uint64_t derive_vertices(const struct state *state, const struct vertex_key *key)
+/* Takes account of an element that is read. Immediate vertices are checked when they are drawn. */
+static void add_element(struct device_derived *derived, const struct state *state,
+                        const struct state_element *element)
 {
-    uint64_t least = UINT64_MAX;
+    uint32_t *extent = derived->extent + element->stream;
+    uint64_t bit = (uint64_t)1 << element->stream;
+    uint32_t end = (uint32_t)element->offset + key_vertex_types[element->format].bytes;
+    *extent = derived->streams & bit && *extent > end ? *extent : end;
+    derived->streams |= bit;
+    if (state->immediate && !element->stream)
+        return;
+    uint64_t vertices = element_vertices(state, element);
+    derived->vertices = vertices < derived->vertices ? vertices : derived->vertices;
+}
+
+static void derive_vertices(struct device_derived *derived, const struct state *state,
+                            const struct vertex_key *key)
+{
+    _Static_assert(STREAM_COUNT <= 64, "a set of streams has a bit for each");
+    derived->vertices = UINT64_MAX;
+    derived->streams = 0;
     for (unsigned i = key_next(key->attribute, 0, ATTRIBUTE_COUNT); i < ATTRIBUTE_COUNT;
-         i = key_next(key->attribute, i + 1, ATTRIBUTE_COUNT)) {
-        uint64_t vertices = element_vertices(state, state->element + i);
-        least = vertices < least ? vertices : least;
-    }
+         i = key_next(key->attribute, i + 1, ATTRIBUTE_COUNT))
+        add_element(derived, state, state->element + i);
     for (unsigned i = 0; i < INPUTS; i++) {
         const struct state_element *element = derive_input(state, key, i);
-        uint64_t vertices = element ? element_vertices(state, element) : UINT64_MAX;
-        least = vertices < least ? vertices : least;
+        if (element)
+            add_element(derived, state, element);
     }
-    return least;
 }
 
 /* The newest palette is that of the job; recorded draws may use the others. */
@@ -115,7 +130,7 @@ enum triptych_result device_derived_update(struct device_derived *derived, const
         derive_setting(derived, state);
     if (stale & PARTS(VERTICES)) {
         derived->steps = derive_steps(state);
-        derived->vertices = derive_vertices(state, vertex);
+        derive_vertices(derived, state, vertex);
     }
     if (stale & PARTS_OF_JOB)
         derived->draw.job = NULL;
@@ -129,6 +144,16 @@ enum triptych_result device_derived_update(struct device_derived *derived, const
     if (result == TRIPTYCH_OK)
         derived->stale = 0;
     return result;
+}
+
+void device_derived_update_streams(struct device_derived *derived, const struct state *state)
+{
+    const union key *key = derived->key;
+    derived->draw.job = NULL;
+    derive_vertices(derived, state, &key[UNIT_VERTEX].vertex);
+    derive_job_parts(state, &key[UNIT_VERTEX].vertex, &key[UNIT_PIXEL].pixel, PARTS(ATTRIBUTES),
+                     &derived->job);
+    derived->stale = 0;
 }
 
 bool device_derived_samples(const struct device_derived *derived, int i)

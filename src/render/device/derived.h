@@ -21,7 +21,10 @@ struct device_derived {
     struct live_job live;     /* the bytes of the job that the routines read */
     struct palette *palettes; /* the newest is the job's; queued draws use the others */
     bool steps;               /* some stream advances with the instance */
-    uint64_t vertices;        /* how many vertices every element has that is read; 0 if one has no buffer */
+    uint64_t vertices; /* how many vertices every element has that is read; 0 if one has no buffer. Elements
+                          of immediate vertices do not count */
+    uint64_t streams;  /* a bit for each stream that is read */
+    uint32_t extent[STREAM_COUNT]; /* of those: bytes from the start of a vertex to the end of its elements */
     struct draw draw; /* what does not depend on the call. Its routines are null unless they are held for
                                  these keys; its job is null unless it is queued */
 };
@@ -29,6 +32,9 @@ struct device_derived {
 /* Derives the stale parts, for draws of a primitive. */
 enum triptych_result device_derived_update(struct device_derived *derived, const struct state *state,
                                            enum triptych_primitive primitive, struct error *error);
+
+/* Derives the stale parts if only streams have changed since device_derived_update. */
+void device_derived_update_streams(struct device_derived *derived, const struct state *state);
 
 /* Returns true if deriving everything from scratch gives the same, byte by byte: a check of builds that check
  * themselves. For checks: builds with JOBS_CHECKED compare what is derived. */

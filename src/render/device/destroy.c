@@ -1,5 +1,5 @@
-/* Destruction of buffers, textures and queries. Queued draws that may read them are rendered first, and
- * they are unbound. */
+/* Destruction of buffers, textures and queries, which are unbound. The storage of a buffer that queued draws
+ * may read is retired (render/device/storage.c); for a texture they are rendered first. */
 #include "render/device/device.h"
 
 #include <stdlib.h>
@@ -53,11 +53,14 @@ bool device_has_query(struct triptych_device *device, const struct triptych_quer
     return *find_query(device, query);
 }
 
-static void unbind_buffer(struct state *state, const struct triptych_buffer *buffer)
+static void unbind_buffer(struct triptych_device *device, const struct triptych_buffer *buffer)
 {
+    struct state *state = &device->state;
     for (unsigned i = 0; i < STREAM_COUNT; i++)
-        if (state->stream[i].buffer == buffer)
+        if (state->stream[i].buffer == buffer) {
             state->stream[i].buffer = NULL;
+            device_state_changed(device, CHANGE_OF_STREAM);
+        }
     if (state->indices == buffer) {
         state->indices = NULL;
         state->index_bits = 0;
@@ -70,11 +73,13 @@ enum triptych_result device_buffer_destroy(struct triptych_device *device, struc
     struct triptych_buffer **at = find_buffer(device, buffer);
     if (!*at)
         return not_ours(error, "buffer");
-    device_finish(device);
-    unbind_buffer(&device->state, buffer);
-    device_state_changed(device, PARTS_ALL);
+    unbind_buffer(device, buffer);
     *at = buffer->next;
+    device->resources.mapped -= buffer->is_mapped;
+    device_retire(device, buffer->data, buffer->epoch);
+    buffer->data = NULL;
     buffer_destroy(buffer);
+    device_limit_retired(device);
     return TRIPTYCH_OK;
 }
 

@@ -104,6 +104,7 @@ void device_destroy(struct triptych_device *device)
     code_destroy(device->arena);
     target_destroy(&device->binding.target);
     target_destroy(&device->binding.parked);
+    transient_destroy(&device->transient);
     queries_destroy(&device->queries);
     for (struct triptych_buffer *buffer = device->resources.buffers, *next; buffer; buffer = next) {
         next = buffer->next;
@@ -114,6 +115,7 @@ void device_destroy(struct triptych_device *device)
         texture_destroy(texture);
     }
     device_free_shaders(device);
+    device_free_storage(device);
     free(device);
 }
 

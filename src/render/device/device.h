@@ -6,6 +6,7 @@
 #ifndef RENDER_DEVICE_DEVICE_H
 #define RENDER_DEVICE_DEVICE_H
 
+#include "memory/extent.h"
 #include "render/device/cache.h"
 #include "render/derive/change.h"
 #include "render/draw/constant.h"
@@ -13,6 +14,7 @@
 #include "render/device/routines.h"
 #include "render/queue/queue.h"
 #include "render/draw/query.h"
+#include "render/draw/transient.h"
 #include "render/device/shuffle.h"
 #include "render/state/state.h"
 #include "render/target/surface.h"
@@ -46,6 +48,9 @@ struct device_resources {
     struct triptych_buffer *buffers;
     struct triptych_texture *textures;
     struct triptych_shader *shaders;
+    struct extents retired; /* that only queued draws use */
+    struct extents spare;   /* for storage of the same size */
+    uint32_t mapped;        /* buffers */
 };
 
 /* The resources of the draws that are rendered in the background. */
@@ -53,7 +58,8 @@ struct device_background {
     struct held *held;
     uint32_t held_count;
     struct palette *palettes;
-    uint32_t commands; /* 0: nothing is rendered in the background */
+    struct extents retired; /* that only these draws use */
+    uint32_t commands;      /* 0: nothing is rendered in the background */
 };
 
 /* Draw calls, and the triangles in them. */
@@ -100,6 +106,7 @@ struct triptych_device {
     /* The parts that draws are built from. */
     struct device_derived derived;
     struct constants constants; /* of queued draws */
+    struct transient transient; /* the same */
     bool integers_checked;      /* state_check_integers has passed since shaders and integers have changed */
     struct device_routines routines;
 
@@ -253,10 +260,34 @@ static inline void device_state_changed(struct triptych_device *device, unsigned
     device->derived.stale |= parts;
 }
 
-/* Queues a checked draw of what is derived, all instances one after the other; `source` has what depends
- * on the call. */
-enum triptych_result device_enqueue(struct triptych_device *device, const struct draw *source,
+/* The part of a draw that depends on the call. */
+struct drawn {
+    enum triptych_primitive primitive;
+    uint32_t count;
+    const void *indices; /* null: none */
+    uint32_t index_bits;
+    uint32_t base;                     /* as in struct draw */
+    uint64_t lowest, highest;          /* the vertices that it reads, if count is not 0 */
+    struct buffer_span index_span;     /* the bytes of the bound indices that it reads */
+    const struct immediate *immediate; /* null: all vertices and indices are in buffers */
+};
+
+/* Queues a checked draw of what is derived, all instances one after the other. */
+enum triptych_result device_enqueue(struct triptych_device *device, const struct drawn *drawn,
                                     uint32_t instances, struct error *error);
+
+/* The steps of a draw call (render/device/draw.c). Checks that do not depend on its vertices, and the
+ * derivation of what it needs. */
+enum triptych_result device_prepare_draw(struct triptych_device *device, enum triptych_primitive primitive,
+                                         struct error *error);
+/* Checks that it is without instances. */
+enum triptych_result device_check_no_instances(const struct triptych_device *device, struct error *error);
+/* Checks that the buffers that it reads have vertices up to `last`. */
+enum triptych_result device_check_vertices(const struct triptych_device *device, uint64_t last,
+                                           struct error *error);
+/* Queues a checked draw, if it has an effect, and counts it. */
+enum triptych_result device_count_draw(struct triptych_device *device, const struct drawn *drawn,
+                                       struct error *error);
 
 /* The place of the next command; renders what is recorded if there is no other. */
 struct command *device_next_command(struct triptych_device *device);
@@ -275,6 +306,21 @@ enum triptych_result device_draw(struct triptych_device *device, enum triptych_p
                                  uint32_t first, uint32_t count, struct error *error);
 enum triptych_result device_draw_indexed(struct triptych_device *device, enum triptych_primitive primitive,
                                          int32_t base, uint32_t first, uint32_t count, struct error *error);
+
+/* The same with vertices and indices in memory of the caller (render/device/draw_user.c). Indices are null,
+ * or there is one for each corner. */
+struct user_draw {
+    enum triptych_primitive primitive;
+    uint32_t count;
+    const void *indices;
+    unsigned index_bits;   /* with indices */
+    uint32_t vertex_count; /* with indices */
+    const void *vertices;
+    size_t stride;
+};
+enum triptych_result device_draw_user(struct triptych_device *device, const struct user_draw *draw,
+                                      struct error *error);
+
 /* The arguments of a clear: flags as in triptych.h, and the values that they name. */
 struct clear_values {
     unsigned flags;
@@ -301,6 +347,12 @@ void device_finish(struct triptych_device *device);
 /* The same, but where there are threads it may only have begun when this returns: what is recorded next
  * does not wait. */
 void device_start(struct triptych_device *device);
+/* Returns true if draws of an epoch may not be rendered yet. A resource has the epoch of the last draw that
+ * uses it. */
+static inline bool device_epoch_is_queued(const struct triptych_device *device, uint64_t epoch)
+{
+    return epoch == device->epoch || (device->rendered.commands && epoch == device->epoch - 1);
+}
 /* Returns true if draws that are not rendered yet sample the texture. */
 bool device_uses(const struct triptych_device *device, const struct triptych_texture *texture);
 /* The number of queued commands that are not known to be rendered. */
@@ -340,6 +392,28 @@ bool device_has_buffer(struct triptych_device *device, const struct triptych_buf
 bool device_has_texture(struct triptych_device *device, const struct triptych_texture *texture);
 bool device_has_query(struct triptych_device *device, const struct triptych_query *query);
 bool device_has_shader(struct triptych_device *device, const struct triptych_shader *shader);
+
+/* Storage of resources (render/device/storage.c). New storage has any contents; null if memory is short.
+ * Storage that is retired is kept until the draws up to an epoch are rendered. */
+void *device_new_storage(struct triptych_device *device, size_t bytes);
+void device_retire(struct triptych_device *device, void *storage, uint64_t epoch);
+/* The draws of a list are rendered. */
+void device_reuse_storage(struct triptych_device *device, struct extents *retired);
+/* Starts rendering if much storage is retired. To be called after device_retire, when no draw is being
+ * built. */
+void device_limit_retired(struct triptych_device *device);
+void device_free_storage(struct triptych_device *device);
+
+/* Buffers (render/device/buffer.c). A buffer is created with zeros if `data` is null. */
+enum triptych_result device_buffer_create(struct triptych_device *device, const void *data, size_t bytes,
+                                          struct triptych_buffer **buffer, struct error *error);
+enum triptych_result device_buffer_update(struct triptych_device *device, struct triptych_buffer *buffer,
+                                          size_t offset, const void *data, size_t bytes, struct error *error);
+enum triptych_result device_buffer_map(struct triptych_device *device, struct triptych_buffer *buffer,
+                                       size_t offset, size_t bytes, enum triptych_map mode, void **data,
+                                       struct error *error);
+enum triptych_result device_buffer_unmap(struct triptych_device *device, struct triptych_buffer *buffer,
+                                         struct error *error);
 
 /* render/device/destroy.c; arguments are not null. */
 enum triptych_result device_buffer_destroy(struct triptych_device *device, struct triptych_buffer *buffer,

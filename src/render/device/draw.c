@@ -29,7 +29,7 @@ uint32_t device_parts(enum triptych_primitive primitive)
 static enum triptych_result check_element(const struct state *state, const struct state_element *element,
                                           const char *name, uint64_t last, struct error *error)
 {
-    const struct state_stream *stream = state->stream + element->stream;
+    const struct state_stream *stream = state_source(state, element);
     if (stream->frequency == TRIPTYCH_FREQUENCY_INSTANCE)
         last = (state_instances(state) - 1) / stream->count;
     if (!stream->buffer) {
@@ -37,6 +37,8 @@ static enum triptych_result check_element(const struct state *state, const struc
         return TRIPTYCH_BAD_CALL;
     }
     size_t begin = stream->offset + element->offset, bytes = key_vertex_types[element->format].bytes;
+    if (stream == &state->immediate_stream)
+        return TRIPTYCH_OK;
     if (begin + bytes > stream->buffer->bytes) {
         error_set(error, "%s: lies at byte %zu past its buffer of %zu bytes", name, begin,
                   stream->buffer->bytes);
@@ -51,9 +53,8 @@ static enum triptych_result check_element(const struct state *state, const struc
     return TRIPTYCH_OK;
 }
 
-/* The same for everything that the vertex routine reads. device->derived.vertices decides most cases; the
- * search for the element that is too short is slower. */
-static enum triptych_result check_vertices(const struct triptych_device *device, uint64_t last,
+/* device->derived.vertices decides most cases; the search for the element that is too short is slower. */
+enum triptych_result device_check_vertices(const struct triptych_device *device, uint64_t last,
                                            struct error *error)
 {
     const struct state *state = &device->state;
@@ -93,8 +94,17 @@ static enum triptych_result check_draw(struct triptych_device *device, enum trip
     return result == TRIPTYCH_OK ? device_check_integers(device, error) : result;
 }
 
+enum triptych_result device_prepare_draw(struct triptych_device *device, enum triptych_primitive primitive,
+                                         struct error *error)
+{
+    enum triptych_result result = check_draw(device, primitive, error);
+    if (result == TRIPTYCH_OK)
+        result = device_derived_update(&device->derived, &device->state, primitive, error);
+    return result;
+}
+
 /* Direct3D 9 steps by instances in indexed draws only. */
-static enum triptych_result check_no_instances(const struct triptych_device *device, struct error *error)
+enum triptych_result device_check_no_instances(const struct triptych_device *device, struct error *error)
 {
     for (unsigned i = 0; i < TRIPTYCH_STREAMS && device->derived.steps; i++)
         if (device->state.stream[i].frequency != TRIPTYCH_FREQUENCY_VERTEX) {
@@ -105,22 +115,24 @@ static enum triptych_result check_no_instances(const struct triptych_device *dev
 }
 
 static enum triptych_result check_sequence(const struct triptych_device *device, uint64_t first,
-                                           uint64_t corners, struct error *error)
+                                           uint64_t corners, struct drawn *drawn, struct error *error)
 {
-    if (first + corners - 1 > UINT32_MAX) {
-        error_set(error, "vertices %" PRIu64 " to %" PRIu64 ": expected them below 2^32", first,
-                  first + corners - 1);
+    drawn->lowest = first;
+    drawn->highest = first + corners - 1;
+    if (drawn->highest > UINT32_MAX) {
+        error_set(error, "vertices %" PRIu64 " to %" PRIu64 ": expected them below 2^32", drawn->lowest,
+                  drawn->highest);
         return TRIPTYCH_BAD_CALL;
     }
-    return check_vertices(device, first + corners - 1, error);
+    return device_check_vertices(device, drawn->highest, error);
 }
 
 static enum triptych_result check_indices(const struct triptych_device *device, int32_t base, uint64_t first,
-                                          uint64_t corners, struct error *error)
+                                          uint64_t corners, struct drawn *drawn, struct error *error)
 {
     struct triptych_buffer *buffer = device->state.indices;
-    uint32_t bits = device->state.index_bits;
-    uint64_t room = buffer->bytes / (bits / 8);
+    uint32_t bits = device->state.index_bits, bytes = bits / 8;
+    uint64_t room = buffer->bytes / bytes;
     if (first + corners > room) {
         error_set(error,
                   "indices %" PRIu64 " to %" PRIu64 ": expected them in the buffer of %" PRIu64 " indices",
@@ -134,7 +146,12 @@ static enum triptych_result check_indices(const struct triptych_device *device, 
                   highest);
         return TRIPTYCH_BAD_CALL;
     }
-    return check_vertices(device, (uint64_t)highest, error);
+    drawn->lowest = (uint64_t)lowest;
+    drawn->highest = (uint64_t)highest;
+    drawn->index_bits = bits;
+    drawn->index_span = (struct buffer_span){(size_t)first * bytes, (size_t)(first + corners) * bytes};
+    drawn->indices = buffer->data + drawn->index_span.begin;
+    return device_check_vertices(device, drawn->highest, error);
 }
 /* A texture that is drawn to cannot be sampled: its current texels are in the tiles. */
 static enum triptych_result check_feedback(const struct triptych_device *device, struct error *error)
@@ -149,61 +166,65 @@ static enum triptych_result check_feedback(const struct triptych_device *device,
 }
 /* --- Draws --- */
 
-/* Records a checked draw. The source's primitive, count, indices and base are filled in. */
-static enum triptych_result enqueue(struct triptych_device *device, const struct draw *source,
-                                    struct error *error)
+enum triptych_result device_count_draw(struct triptych_device *device, const struct drawn *drawn,
+                                       struct error *error)
 {
-    uint32_t instances = source->indices ? state_instances(&device->state) : 1;
+    uint32_t instances = drawn->index_bits ? state_instances(&device->state) : 1;
     if (check_feedback(device, error) != TRIPTYCH_OK)
         return TRIPTYCH_BAD_CALL;
     const struct rectangle *visible = &device->derived.draw.scissor;
     bool reaches = visible->x0 < visible->x1 && visible->y0 < visible->y1;
-    if (source->count && reaches && derive_effective(&device->derived.key[UNIT_PIXEL].pixel)) {
-        enum triptych_result result = device_enqueue(device, source, instances, error);
+    if (drawn->count && reaches && derive_effective(&device->derived.key[UNIT_PIXEL].pixel)) {
+        enum triptych_result result = device_enqueue(device, drawn, instances, error);
         if (result != TRIPTYCH_OK)
             return result;
     }
     if (device->hook.on_draw)
         device->hook.on_draw(device->hook.user, device->counts.draws, device->derived.key);
     device->counts.draws++;
-    device->counts.triangles += (uint64_t)source->count * instances;
+    device->counts.triangles += (uint64_t)drawn->count * instances;
     return TRIPTYCH_OK;
+}
+
+/* The draw reads stream 0, not immediate vertices. */
+static void use_streams(struct triptych_device *device)
+{
+    if (!device->state.immediate)
+        return;
+    device->state.immediate = false;
+    device_state_changed(device, CHANGE_OF_STREAM);
 }
 
 enum triptych_result device_draw(struct triptych_device *device, enum triptych_primitive primitive,
                                  uint32_t first, uint32_t count, struct error *error)
 {
-    enum triptych_result result = check_draw(device, primitive, error);
-    if (result != TRIPTYCH_OK)
-        return result;
-    result = device_derived_update(&device->derived, &device->state, primitive, error);
+    struct drawn drawn = {.primitive = primitive, .count = count, .base = first};
+    use_streams(device);
+    enum triptych_result result = device_prepare_draw(device, primitive, error);
     if (result == TRIPTYCH_OK)
-        result = check_no_instances(device, error);
+        result = device_check_no_instances(device, error);
     if (count && result == TRIPTYCH_OK)
-        result = check_sequence(device, first, device_corners(primitive, count), error);
-    struct draw draw = {.primitive = primitive, .count = count * device_parts(primitive), .base = first};
-    return result == TRIPTYCH_OK ? enqueue(device, &draw, error) : result;
+        result = check_sequence(device, first, device_corners(primitive, count), &drawn, error);
+    if (result == TRIPTYCH_OK)
+        drawn.count *= device_parts(primitive);
+    return result == TRIPTYCH_OK ? device_count_draw(device, &drawn, error) : result;
 }
 
 enum triptych_result device_draw_indexed(struct triptych_device *device, enum triptych_primitive primitive,
                                          int32_t base, uint32_t first, uint32_t count, struct error *error)
 {
-    const struct state *state = &device->state;
-    enum triptych_result result = check_draw(device, primitive, error);
-    if (result == TRIPTYCH_OK && !state->indices) {
+    struct drawn drawn = {.primitive = primitive, .count = count, .base = (uint32_t)base};
+    use_streams(device);
+    enum triptych_result result = device_prepare_draw(device, primitive, error);
+    if (result == TRIPTYCH_OK && !device->state.indices) {
         error_set(error, "no indices: expected set_indices first");
         result = TRIPTYCH_BAD_CALL;
     }
-    if (result != TRIPTYCH_OK)
-        return result;
-    result = device_derived_update(&device->derived, &device->state, primitive, error);
     if (count && result == TRIPTYCH_OK)
-        result = check_indices(device, base, first, device_corners(primitive, count), error);
-    struct draw draw = {
-        .primitive = primitive, .count = count * device_parts(primitive), .base = (uint32_t)base};
-    draw.index_bits = state->index_bits;
-    draw.indices = count ? state->indices->data + (size_t)first * (state->index_bits / 8) : NULL;
-    return result == TRIPTYCH_OK ? enqueue(device, &draw, error) : result;
+        result = check_indices(device, base, first, device_corners(primitive, count), &drawn, error);
+    if (result == TRIPTYCH_OK)
+        drawn.count *= device_parts(primitive);
+    return result == TRIPTYCH_OK ? device_count_draw(device, &drawn, error) : result;
 }
 
 enum triptych_result device_clear(struct triptych_device *device, const struct clear_values *values,

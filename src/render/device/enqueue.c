@@ -65,11 +65,43 @@ static void mark_textures(struct triptych_device *device)
             device->state.texture[i]->epoch = device->epoch;
 }
 
+/* Adds a span to what queued draws read of a buffer. */
+static void use_buffer(const struct triptych_device *device, struct triptych_buffer *buffer,
+                       struct buffer_span span)
+{
+    if (buffer->epoch != device->epoch) {
+        if (!device_epoch_is_queued(device, buffer->epoch))
+            buffer->used = span;
+        buffer->epoch = device->epoch;
+    }
+    buffer_add_used(buffer, span);
+}
+
+/* The bytes of buffers that a draw reads must not change before it is rendered. */
+static void mark_buffers(struct triptych_device *device, const struct drawn *drawn)
+{
+    const struct state *state = &device->state;
+    for (uint64_t left = device->derived.streams; left; left &= left - 1) {
+        unsigned i = (unsigned)__builtin_ctzll(left);
+        const struct state_stream *stream = state->stream + i;
+        struct buffer_span span = {0, stream->buffer ? stream->buffer->bytes : 0};
+        if (!i && state->immediate)
+            continue;
+        if (stream->stride && stream->frequency != TRIPTYCH_FREQUENCY_INSTANCE) {
+            span.begin = stream->offset + (size_t)drawn->lowest * stream->stride;
+            span.end = stream->offset + (size_t)drawn->highest * stream->stride + device->derived.extent[i];
+        }
+        use_buffer(device, stream->buffer, span);
+    }
+    if (drawn->indices && !state->immediate)
+        use_buffer(device, state->indices, drawn->index_span);
+}
+
 /* Elements of streams that step with the instance: the same vertex for the whole of it. */
 static void step_element(const struct state *state, const struct state_element *element, uint32_t instance,
                          struct attribute_job *job)
 {
-    const struct state_stream *stream = state->stream + element->stream;
+    const struct state_stream *stream = state_source(state, element);
     if (job->data && stream->frequency == TRIPTYCH_FREQUENCY_INSTANCE)
         job->data += (size_t)(instance / stream->count) * stream->stride;
 }
@@ -144,31 +176,62 @@ struct command *device_next_command(struct triptych_device *device)
     return queue_next(device->queue);
 }
 
-static void enqueue_instance(struct triptych_device *device, const struct draw *source, uint32_t instance)
+/* The data of an immediate draw in transient memory. */
+struct placed {
+    uint64_t epoch; /* the device's */
+    uint32_t first; /* vertex of the stream */
+    const void *indices;
+};
+
+static bool has_room(const struct triptych_device *device, const struct immediate *immediate)
 {
-    if (!queue_next(device->queue) || !constants_fit(&device->constants, &device->state))
+    return queue_next(device->queue) && constants_fit(&device->constants, &device->state) &&
+           (!immediate || transient_fits(&device->transient, immediate));
+}
+
+static void place(struct triptych_device *device, const struct immediate *immediate, struct placed *placed)
+{
+    struct state_stream *stream = &device->state.immediate_stream;
+    size_t before = stream->offset;
+    placed->epoch = device->epoch;
+    placed->first = transient_place(&device->transient, immediate, stream, &placed->indices);
+    if (stream->offset != before)
+        device_state_changed(device, CHANGE_OF_STREAM);
+    if (device->derived.stale)
+        device_derived_update_streams(&device->derived, &device->state);
+}
+
+static void enqueue_instance(struct triptych_device *device, const struct drawn *drawn, uint32_t instance,
+                             struct placed *placed)
+{
+    const struct immediate *immediate = drawn->immediate;
+    if (!has_room(device, immediate))
         render_before(device, device_start);
+    if (immediate && (!instance || placed->epoch != device->epoch))
+        place(device, immediate, placed);
+    mark_buffers(device, drawn);
     struct command *command = queue_next(device->queue);
     prefetch_to_write(command + COMMANDS_AHEAD, sizeof *command);
     command->kind = COMMAND_DRAW;
     command->draw = device->derived.draw;
     command->draw.job = make_job(device, instance); /* which may be new to device->derived.draw, too */
-    command->draw.count = source->count;
-    command->draw.indices = source->indices;
-    command->draw.index_bits = source->index_bits;
-    command->draw.base = source->base;
+    command->draw.count = drawn->count;
+    command->draw.indices = immediate ? placed->indices : drawn->indices;
+    command->draw.index_bits = drawn->index_bits;
+    command->draw.base = drawn->base + placed->first;
     device->queue->commands.count++;
 }
 
-enum triptych_result device_enqueue(struct triptych_device *device, const struct draw *source,
+enum triptych_result device_enqueue(struct triptych_device *device, const struct drawn *drawn,
                                     uint32_t instances, struct error *error)
 {
+    struct placed placed = {0};
     if (JOBS_CHECKED && !device_derived_is_exact(&device->derived, &device->state))
         abort();
     if (prepare_routines(device, error))
         return device_refusal(TRIPTYCH_ENGINE_FAILED);
-    device->derived.draw.primitive = source->primitive;
+    device->derived.draw.primitive = drawn->primitive;
     for (uint32_t i = 0; i < instances; i++)
-        enqueue_instance(device, source, i);
+        enqueue_instance(device, drawn, i, &placed);
     return TRIPTYCH_OK;
 }

@@ -4,9 +4,9 @@
  *   device_start    from now on, in the background, because the buffer is full; the other one is filled
  *                   meanwhile
  *
- * At most one buffer is rendered at a time. The routines, constants and palettes of its draws are released
- * when it is known to be rendered: when the next one begins, or when the device's thread waits for it.
- * Only the device's thread does this. */
+ * At most one buffer is rendered at a time. The routines, constants, palettes and retired storage of its
+ * draws are released when it is known to be rendered: when the next one begins, or when the device's thread
+ * waits for it. Only the device's thread does this. */
 #include "render/device/device.h"
 
 #include <stdlib.h>
@@ -22,6 +22,7 @@ static void await_rendered(struct triptych_device *device)
     for (uint32_t i = 0; i < device->rendered.held_count; i++)
         cache_release(device->cache, device->rendered.held[i].routine);
     device_free_palettes(device->rendered.palettes);
+    device_reuse_storage(device, &device->rendered.retired);
     device->rendered.palettes = NULL;
     device->rendered.held_count = device->rendered.commands = 0;
 }
@@ -33,6 +34,8 @@ static void empty(struct triptych_device *device)
     device->derived.draw.job = NULL;
     device->queue->commands.count = device->queue->commands.jobs = 0;
     constants_reset(&device->constants);
+    transient_reset(&device->transient);
+    device_reuse_storage(device, &device->resources.retired);
     device_free_palettes(device_derived_take_palettes(&device->derived));
     device->epoch++;
 }
@@ -72,13 +75,16 @@ void device_start(struct triptych_device *device)
     memset(device->derived.draw.routine, 0, sizeof device->derived.draw.routine);
     device->derived.draw.job = NULL;
     constants_exchange(&device->constants);
+    transient_exchange(&device->transient);
+    if (device->state.immediate)
+        device_state_changed(device, CHANGE_OF_STREAM);
+    extents_move(&device->rendered.retired, &device->resources.retired);
     device->epoch++;
 }
 
 bool device_uses(const struct triptych_device *device, const struct triptych_texture *texture)
 {
-    return texture->epoch == device->epoch ||
-           (device->rendered.commands && texture->epoch == device->epoch - 1);
+    return device_epoch_is_queued(device, texture->epoch);
 }
 
 uint32_t device_commands(const struct triptych_device *device)

@@ -300,7 +300,7 @@ enum triptych_result state_set_frequency(struct state *state, unsigned stream,
 
 uint64_t state_last_vertex(const struct state *state, const struct state_element *element)
 {
-    const struct state_stream *stream = state->stream + element->stream;
+    const struct state_stream *stream = state_source(state, element);
     size_t taken = stream->offset + element->offset + key_vertex_types[element->format].bytes;
     if (!stream->stride)
         return UINT64_MAX;

@@ -95,6 +95,8 @@ struct state {
     struct state_other other[TRIPTYCH_DECLARATION_ELEMENTS];
     unsigned others;
     struct state_stream stream[STREAM_COUNT];
+    bool immediate; /* draws read immediate_stream instead of stream 0 */
+    struct state_stream immediate_stream;
     struct triptych_buffer *indices;
     uint32_t index_bits;    /* 8, 16 or 32 while indices are bound */
     uint32_t width, height; /* of the target, in pixels */
@@ -172,6 +174,14 @@ static inline const struct state_stream *state_stream_of(const struct state *sta
                                                          enum triptych_attribute attribute)
 {
     return state->stream + state->element[attribute].stream;
+}
+
+/* The stream that draws read for an element. */
+static inline const struct state_stream *state_source(const struct state *state,
+                                                      const struct state_element *element)
+{
+    bool immediate = state->immediate && !element->stream;
+    return immediate ? &state->immediate_stream : state->stream + element->stream;
 }
 
 /* How often an indexed draw is drawn. */

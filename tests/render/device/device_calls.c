@@ -86,7 +86,7 @@ static void attributes_that_are_not_read_are_not_checked(void)
 static void null_arguments_are_refused(void)
 {
     triptych_buffer *buffer;
-    expect_refused(TRIPTYCH_BAD_ARGUMENT, triptych_buffer_create(device, NULL, 4, &buffer), "data is null");
+    expect_refused(TRIPTYCH_BAD_ARGUMENT, triptych_buffer_create(device, NULL, 4, NULL), "buffer is null");
     expect_refused(TRIPTYCH_BAD_ARGUMENT, triptych_read_color(device, NULL, 0), "image is null");
     expect_refused(TRIPTYCH_BAD_ARGUMENT, triptych_set_material(device, NULL), "material is null");
     expect_refused(TRIPTYCH_BAD_ARGUMENT, triptych_buffer_create(device, image, 0, &buffer),
