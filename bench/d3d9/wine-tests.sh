@@ -4,34 +4,18 @@
 #
 #   bench/d3d9/wine-tests.sh FOLDER    FOLDER/d3d9_test.exe and FOLDER/version
 #
-# The source package is fetched once, through lists of its own, so that the system's stay as they are. Only the
-# tests and three headers are unpacked. Needs x86_64-w64-mingw32-gcc and dpkg-dev.
+# Only the tests and three headers of the source package are unpacked. Needs x86_64-w64-mingw32-gcc and dpkg-dev.
 set -euo pipefail
 here=$(cd "$(dirname "$0")" && pwd)
 mkdir -p "$1"
 out=$(cd "$1" && pwd)
 
-fetch()
-{
-    local apt=$out/apt file options
-    mkdir -p "$apt/lists/partial" "$apt/cache/archives/partial" "$apt/parts"
-    : >"$apt/sources.list"
-    [[ ! -f /etc/apt/sources.list ]] || sed -n 's/^deb /deb-src /p' /etc/apt/sources.list >"$apt/sources.list"
-    for file in /etc/apt/sources.list.d/*.sources; do
-        [[ ! -f $file ]] || sed 's/^Types:.*/Types: deb-src/' "$file" >"$apt/parts/$(basename "$file")"
-    done
-    options=(-qq -o Dir::Etc::SourceList="$apt/sources.list" -o Dir::Etc::SourceParts="$apt/parts"
-        -o Dir::State::Lists="$apt/lists" -o Dir::Cache="$apt/cache" -o APT::Sandbox::User=root)
-    apt-get "${options[@]}" update
-    (cd "$apt" && apt-get "${options[@]}" source --download-only wine >/dev/null)
-    basename "$(echo "$apt"/wine_*.dsc)" .dsc >"$out/version"
-}
-
 unpack()
 {
     mkdir -p "$out/source"
-    tar -xf "$(echo "$out"/apt/wine_*.orig.tar.*)" -C "$out/source" --strip-components=1 --wildcards \
+    tar -xf "$("$here/source.sh" wine "$out/packages")" -C "$out/source" --strip-components=1 --wildcards \
         '*/dlls/d3d9/tests/*' '*/include/wine/test.h' '*/include/wine/debug.h' '*/include/wine/heap.h'
+    cp "$out/packages/wine/version" "$out/version"
 }
 
 # Each call of a test function in START_TEST goes through filter_run.
@@ -40,7 +24,6 @@ filtered() # FILE
     sed -E '/^START_TEST/,/^\}/ s/^    (test_\w+|\w+_test)\(\);/    filter_run("\1", \1);/' "$1"
 }
 
-[[ -f $out/version ]] || fetch
 [[ -d $out/source/dlls ]] || unpack
 mkdir -p "$out/object" "$out/include/wine"
 cp "$out"/source/include/wine/*.h "$out/include/wine/"

@@ -1,7 +1,7 @@
 #!/bin/bash
 # Makes sure that the Debian packages a target needs are installed, and installs those that are not.
 #
-#   tests/support/scripts/dependencies.sh GROUP...    groups: build test bench peers format fuzz browser d3d9
+#   tests/support/scripts/dependencies.sh GROUP...    groups: build test bench peers format fuzz browser d3d9 suites
 #   tests/support/scripts/dependencies.sh --list
 #
 # Silent when there is nothing to do. Ends non-zero, after naming the packages and their reasons, when a
@@ -39,23 +39,19 @@ libegl-dev         peers  headers of EGL, for the renderers that are measured ag
 libgles-dev        peers  the headers of GLES2, and its library
 libegl1            peers  finds the EGL of a vendor
 libegl-mesa0       peers  EGL of Mesa
-libgl1-mesa-dri    peers  softpipe and llvmpipe of Mesa
-wine               d3d9    starts Windows programs
-wine64             d3d9    Wine for 64-bit programs
-libwine            d3d9    the libraries of Wine
-gcc-mingw-w64-x86-64 d3d9  compiles for Windows
+libgl1-mesa-dri    peers,suites softpipe and llvmpipe of Mesa
 dpkg-dev           suites  unpacks source packages
 xserver-xorg-core  suites  an X server with several display modes
-xserver-xorg-video-dummy suites its driver without a screen
+xserver-xorg-video-dummy suites the driver without a screen for it
 x11-xserver-utils  suites  changes the display mode
 fvwm3              suites  manages the windows of Windows programs
-libgl1-mesa-dri    suites  llvmpipe, on which Wine's own Direct3D 9 draws
 libclang-rt-14-dev fuzz    libFuzzer and the sanitizers of clang, for readers of untrusted input
 clang-format       format  formats the C sources
 gcc-mingw-w64-x86-64 d3d9  compiles the Windows side of d3d9.dll
+wine               d3d9    the command that starts programs of Windows
 wine64             d3d9    runs programs of Windows
-wine64-tools       d3d9    marks a DLL as Wine's builtin form
-libwine-dev        d3d9    the import library of Wine's ntdll
+wine64-tools       d3d9    marks a DLL as a builtin one of Wine
+libwine-dev        d3d9    the import library of ntdll of Wine
 chromium           browser opens the pages of the command explore
 '
 
