@@ -1,0 +1,115 @@
+/* The file of TRIPTYCH_STATISTICS (front/d3d9/statistics.h). */
+#include "front/d3d9/statistics.h"
+
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <unistd.h>
+#include <unity.h>
+
+static triptych_device *renderer;
+static char path[64], text[4096];
+
+void setUp(void)
+{
+    snprintf(path, sizeof path, "/tmp/statistics-%d", (int)getpid());
+    remove(path);
+    const struct triptych_options options = {.engine = "emulate"};
+    TEST_ASSERT_EQUAL_INT(TRIPTYCH_OK, triptych_device_create(&options, &renderer, NULL, 0));
+    setenv("TRIPTYCH_STATISTICS", path, 1);
+}
+
+void tearDown(void)
+{
+    triptych_device_destroy(renderer);
+    remove(path);
+}
+
+static int read_text(void)
+{
+    FILE *file = fopen(path, "r");
+    if (!file)
+        return 0;
+    text[fread(text, 1, sizeof text - 1, file)] = 0;
+    fclose(file);
+    return 1;
+}
+
+/* The number after the name. */
+static double number(const char *name)
+{
+    char quoted[64];
+    snprintf(quoted, sizeof quoted, "\"%s\": ", name);
+    const char *at = strstr(text, quoted);
+    TEST_ASSERT_NOT_NULL_MESSAGE(at, name);
+    return strtod(at + strlen(quoted), NULL);
+}
+
+static void frames_and_their_times_are_written_at_the_end(void)
+{
+    struct d3d9_statistics statistics;
+    d3d9_statistics_begin(&statistics);
+    d3d9_statistics_frame(&statistics, renderer);
+    usleep(20000);
+    d3d9_statistics_frame(&statistics, renderer);
+    d3d9_statistics_frame(&statistics, renderer);
+    TEST_ASSERT_FALSE(read_text());
+    d3d9_statistics_end(&statistics, renderer);
+    TEST_ASSERT_TRUE(read_text());
+    TEST_ASSERT_NOT_NULL(strstr(text, "\"engine\": \"emulate\""));
+    TEST_ASSERT_EQUAL_DOUBLE(3, number("frames"));
+    TEST_ASSERT_TRUE(number("longest_frame_ms") >= 20);
+    TEST_ASSERT_TRUE(number("total_ms") >= number("longest_frame_ms"));
+    TEST_ASSERT_EQUAL_DOUBLE(0, number("draws"));
+    TEST_ASSERT_EQUAL_DOUBLE(0, number("pixel"));
+}
+
+static void a_frame_after_a_second_writes_the_file(void)
+{
+    struct d3d9_statistics statistics;
+    d3d9_statistics_begin(&statistics);
+    d3d9_statistics_frame(&statistics, renderer);
+    statistics.written_ns -= 2000000000u;
+    d3d9_statistics_frame(&statistics, renderer);
+    TEST_ASSERT_TRUE(read_text());
+    TEST_ASSERT_EQUAL_DOUBLE(2, number("frames"));
+}
+
+static void a_device_without_frames_writes_nothing(void)
+{
+    struct d3d9_statistics statistics;
+    d3d9_statistics_begin(&statistics);
+    d3d9_statistics_end(&statistics, renderer);
+    TEST_ASSERT_FALSE(read_text());
+}
+
+static void without_a_file_nothing_is_measured(void)
+{
+    struct d3d9_statistics statistics;
+    setenv("TRIPTYCH_STATISTICS", "", 1);
+    d3d9_statistics_begin(&statistics);
+    d3d9_statistics_frame(&statistics, renderer);
+    d3d9_statistics_end(&statistics, renderer);
+    TEST_ASSERT_EQUAL_UINT64(0, statistics.frames);
+}
+
+static void a_file_that_cannot_be_written_ends_the_measurement(void)
+{
+    struct d3d9_statistics statistics;
+    setenv("TRIPTYCH_STATISTICS", "/nonexistent/statistics", 1);
+    d3d9_statistics_begin(&statistics);
+    d3d9_statistics_frame(&statistics, renderer);
+    d3d9_statistics_end(&statistics, renderer);
+    TEST_ASSERT_NULL(statistics.path);
+}
+
+int main(void)
+{
+    UNITY_BEGIN();
+    RUN_TEST(frames_and_their_times_are_written_at_the_end);
+    RUN_TEST(a_frame_after_a_second_writes_the_file);
+    RUN_TEST(a_device_without_frames_writes_nothing);
+    RUN_TEST(without_a_file_nothing_is_measured);
+    RUN_TEST(a_file_that_cannot_be_written_ends_the_measurement);
+    return UNITY_END();
+}
