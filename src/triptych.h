@@ -50,6 +50,7 @@ enum triptych_result {
 typedef struct triptych_device triptych_device;
 typedef struct triptych_buffer triptych_buffer;   /* vertices or indices */
 typedef struct triptych_texture triptych_texture; /* 2D, cube or volume, with levels */
+typedef struct triptych_image triptych_image;     /* a surface that is drawn to and not sampled */
 typedef struct triptych_shader triptych_shader;   /* of vertices or pixels */
 typedef struct triptych_query triptych_query;     /* a measurement during rendering */
 
@@ -220,20 +221,30 @@ struct triptych_target_description {
     unsigned samples; /* samples per pixel: 0 or 1; with one colour also 2, 4 or 8 */
 };
 
-/* One image of a texture: a level and, for a cube or volume, the face or slice `slice`. Functions that accept
- * the target take a null texture as colour number `slice` of the target that triptych_set_target made. For
- * other functions a null texture means no surface. */
+/* An image: a colour or depth that is drawn to, read and copied, but not sampled. */
+struct triptych_image_description {
+    enum triptych_surface_format format;     /* valid for targets (`triptych list formats`); 0: depth */
+    enum triptych_depth_format depth_format; /* only of depth; not TRIPTYCH_DEPTH_NONE */
+    unsigned width, height;                  /* pixels, 1 to 8192 */
+    unsigned samples;                        /* samples per pixel: 0 or 1, 2, 4 or 8 */
+};
+
+/* An image, or one of a texture: a level and, for a cube or volume, the face or slice `slice`. At most one of
+ * the pointers is set. Functions that accept the target take a surface without either as colour number `slice`
+ * of the target that triptych_set_target made. For other functions it means no surface. */
 struct triptych_surface {
     triptych_texture *texture;
     unsigned level, slice;
+    triptych_image *image;
 };
 
-/* Surfaces to draw to. They have one size, and all are different. Without a depth texture the target has its
- * own depth surface, which is cleared first. A depth texture provides its contents, with stencil 0. */
-struct triptych_target_textures {
+/* Surfaces to draw to: textures and images, with the same number of samples. All are different. Colours can be
+ * absent. The target has the pixels that all colours have; depth must have at least these. Without a depth
+ * surface the target has its own one of the depth format, which is cleared first. */
+struct triptych_target_surfaces {
     struct triptych_surface color[TRIPTYCH_TARGETS];
     struct triptych_surface depth;
-    enum triptych_depth_format depth_format; /* only without a depth texture */
+    enum triptych_depth_format depth_format; /* only without a depth surface */
 };
 
 /* A part of an image, in pixels. */
@@ -419,11 +430,22 @@ TRIPTYCH_API enum triptych_result triptych_set_target(triptych_device *, unsigne
 TRIPTYCH_API enum triptych_result triptych_set_target_description(triptych_device *,
                                                                   const struct triptych_target_description *);
 
-/* Draws to textures instead of the target. Null returns to the target, whose contents have not changed. Both
- * set the viewport and the scissor rectangle like triptych_set_target, which also ends drawing to textures. A
- * texture cannot be a target and be sampled in one draw. */
-TRIPTYCH_API enum triptych_result triptych_set_target_textures(triptych_device *,
-                                                               const struct triptych_target_textures *);
+/* Draws to textures and images instead of the target. Null returns to the target, whose contents have not
+ * changed. Both set the viewport and the scissor rectangle like triptych_set_target, which also ends drawing to
+ * surfaces. Surfaces keep their contents, depth and stencil too, while they are not drawn to. A change neither
+ * waits nor copies pixels.
+ *
+ * A texture can be sampled while it is drawn to: each draw samples it as it was before this draw. That costs a
+ * copy of the surface for each draw that samples it after another one has changed it. */
+TRIPTYCH_API enum triptych_result triptych_set_target_surfaces(triptych_device *,
+                                                               const struct triptych_target_surfaces *);
+
+/* Creates an image: colour 0, depth 1, stencil 0. */
+TRIPTYCH_API enum triptych_result
+triptych_image_create(triptych_device *, const struct triptych_image_description *, triptych_image **image);
+/* Frees an image. If it is a target, drawing returns to the target that triptych_set_target made. Null is
+ * allowed. */
+TRIPTYCH_API enum triptych_result triptych_image_destroy(triptych_device *, triptych_image *);
 
 /* Copies a part of a surface to a part of another surface. A null part, or one of width 0, is the whole
  * surface. Scales if the sizes differ, and converts to the format of the destination, which must be valid for
@@ -725,10 +747,11 @@ TRIPTYCH_API enum triptych_result triptych_get_element(triptych_device *, enum t
 /* `bits` is 0 without a buffer. */
 TRIPTYCH_API enum triptych_result triptych_get_indices(triptych_device *, triptych_buffer **buffer,
                                                        unsigned *bits);
-/* All textures are null while the target is not textures. */
-TRIPTYCH_API enum triptych_result triptych_get_target_textures(triptych_device *,
-                                                               struct triptych_target_textures *);
-/* The bytes of a buffer, and the description of a texture; 0 without an object. */
+/* All surfaces are absent while the target is that of triptych_set_target. */
+TRIPTYCH_API enum triptych_result triptych_get_target_surfaces(triptych_device *,
+                                                               struct triptych_target_surfaces *);
+/* The bytes of a buffer, and the description of a texture or an image; 0 without an object. */
+TRIPTYCH_API void triptych_image_get_description(const triptych_image *, struct triptych_image_description *);
 TRIPTYCH_API size_t triptych_buffer_get_bytes(const triptych_buffer *);
 TRIPTYCH_API void triptych_texture_get_description(const triptych_texture *,
                                                    struct triptych_texture_description *);

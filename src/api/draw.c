@@ -78,16 +78,16 @@ enum triptych_result triptych_clear_buffers(triptych_device *device, unsigned fl
     return api_finish(device, result);
 }
 
-enum triptych_result triptych_set_target_textures(triptych_device *device,
-                                                  const struct triptych_target_textures *textures)
+enum triptych_result triptych_set_target_surfaces(triptych_device *device,
+                                                  const struct triptych_target_surfaces *surfaces)
 {
     struct error *error = api_begin(device);
     if (!error)
         return TRIPTYCH_BAD_ARGUMENT;
-    bool changes = textures || device_drawn_textures(device);
-    enum triptych_result result = device_set_target_textures(device, textures, error);
+    bool changes = surfaces || device_drawn_surfaces(device);
+    enum triptych_result result = device_set_target_surfaces(device, surfaces, error);
     if (result == TRIPTYCH_OK && changes)
-        record_attach(device, textures);
+        record_attach(device, surfaces);
     return api_finish(device, result);
 }
 

@@ -143,14 +143,21 @@ enum triptych_result triptych_get_pixel_shader(triptych_device *device, triptych
     return get_shader(device, STAGE_PIXEL, shader);
 }
 
-enum triptych_result triptych_get_target_textures(triptych_device *device,
-                                                  struct triptych_target_textures *textures)
+enum triptych_result triptych_get_target_surfaces(triptych_device *device,
+                                                  struct triptych_target_surfaces *surfaces)
 {
-    if (!api_begin_with(device, textures, "result"))
+    if (!api_begin_with(device, surfaces, "result"))
         return TRIPTYCH_BAD_ARGUMENT;
-    const struct triptych_target_textures *drawn = device_drawn_textures(device);
-    *textures = drawn ? *drawn : (struct triptych_target_textures){0};
+    const struct triptych_target_surfaces *drawn = device_drawn_surfaces(device);
+    *surfaces = drawn ? *drawn : (struct triptych_target_surfaces){0};
     return TRIPTYCH_OK;
+}
+
+void triptych_image_get_description(const triptych_image *image,
+                                    struct triptych_image_description *description)
+{
+    if (description)
+        *description = image ? image->description : (struct triptych_image_description){0};
 }
 
 size_t triptych_buffer_get_bytes(const triptych_buffer *buffer)

@@ -153,14 +153,14 @@ void triptych_get_target(const triptych_device *device, struct triptych_target_d
     if (!description)
         return;
     *description = (struct triptych_target_description){0};
-    if (device && device->binding.target.width)
-        target_describe(&device->binding.target, description);
+    if (device && device->binding.target->width)
+        target_describe(device->binding.target, description);
 }
 
 void triptych_target_size(const triptych_device *device, unsigned *width, unsigned *height)
 {
     if (width)
-        *width = device ? device->binding.target.width : 0;
+        *width = device ? device->binding.target->width : 0;
     if (height)
-        *height = device ? device->binding.target.height : 0;
+        *height = device ? device->binding.target->height : 0;
 }

@@ -1,4 +1,4 @@
-/* Targets, buffers and textures. */
+/* Targets, buffers, textures and images. */
 #include "api/api.h"
 
 enum triptych_result triptych_set_target(triptych_device *device, unsigned width, unsigned height)
@@ -146,4 +146,28 @@ enum triptych_result triptych_texture_destroy(triptych_device *device, triptych_
         return TRIPTYCH_OK;
     record_end_texture(device, texture);
     return api_finish(device, device_texture_destroy(device, texture, error));
+}
+
+enum triptych_result triptych_image_create(triptych_device *device,
+                                           const struct triptych_image_description *description,
+                                           triptych_image **image)
+{
+    struct error *error = api_begin_with_both(device, description, "description", image, "image");
+    if (!error)
+        return TRIPTYCH_BAD_ARGUMENT;
+    enum triptych_result result = device_image_create(device, description, image, error);
+    if (result == TRIPTYCH_OK)
+        record_new_image(device, *image);
+    return api_finish(device, result);
+}
+
+enum triptych_result triptych_image_destroy(triptych_device *device, triptych_image *image)
+{
+    struct error *error = api_begin(device);
+    if (!error)
+        return TRIPTYCH_BAD_ARGUMENT;
+    if (!image)
+        return TRIPTYCH_OK;
+    record_end_image(device, image);
+    return api_finish(device, device_image_destroy(device, image, error));
 }

@@ -224,7 +224,8 @@ enum {
     CALL_DRAWABLES = 1 << RESOURCE_VERTICES | CALL_MESHES,
     CALL_INDICES = 1 << RESOURCE_INDICES | CALL_BUFFERS | CALL_MESHES,
     CALL_ELEMENTS = 1 << RESOURCE_VERTICES | CALL_BUFFERS | CALL_MESHES,
-    CALL_RELEASABLE = (1 << RESOURCE_SEQUENCE) - 1
+    CALL_SURFACES = CALL_TEXTURES | 1 << RESOURCE_IMAGE,
+    CALL_RELEASABLE = ((1 << RESOURCE_TYPES) - 1) & ~(1 << RESOURCE_SEQUENCE)
 };
 
 /* The next field of the call, from `field` on, that names a resource; null if there is none. */

@@ -54,7 +54,7 @@ void record_call(struct triptych_device *device, const struct call *call);
 /* Calls that are translated. */
 
 void record_target(struct triptych_device *device, const struct triptych_target_description *description);
-void record_attach(struct triptych_device *device, const struct triptych_target_textures *textures);
+void record_attach(struct triptych_device *device, const struct triptych_target_surfaces *surfaces);
 void record_copy(struct triptych_device *device, const struct surface_copy *copy);
 void record_viewport(struct triptych_device *device, const struct triptych_viewport *viewport);
 void record_scissor(struct triptych_device *device, unsigned x, unsigned y, unsigned width, unsigned height);
@@ -111,10 +111,12 @@ void record_wait(struct triptych_device *device);
  * them. */
 void record_new_buffer(struct triptych_device *device, triptych_buffer *buffer);
 void record_new_texture(struct triptych_device *device, triptych_texture *texture);
+void record_new_image(struct triptych_device *device, triptych_image *image);
 void record_new_shader(struct triptych_device *device, triptych_shader *shader);
 void record_new_query(struct triptych_device *device, triptych_query *query);
 void record_end_buffer(struct triptych_device *device, const triptych_buffer *buffer);
 void record_end_texture(struct triptych_device *device, const triptych_texture *texture);
+void record_end_image(struct triptych_device *device, const triptych_image *image);
 void record_end_shader(struct triptych_device *device, const triptych_shader *shader);
 void record_end_query(struct triptych_device *device, const triptych_query *query);
 

@@ -27,6 +27,13 @@ void record_new_texture(struct triptych_device *device, triptych_texture *textur
     texture->recorded = record_define(device, &resource);
 }
 
+void record_new_image(struct triptych_device *device, triptych_image *image)
+{
+    struct resource resource = {.type = RESOURCE_IMAGE, .image = image->description};
+    if (device_recorder(device))
+        image->recorded = record_define(device, &resource);
+}
+
 /* Prints canonical text. The front end needs a locale whose numbers have a decimal point. */
 static int print_shader(const triptych_shader *made, struct resource *resource)
 {
@@ -95,6 +102,15 @@ void record_end_texture(struct triptych_device *device, const triptych_texture *
     record_release(device, texture->recorded);
 }
 
+void record_end_image(struct triptych_device *device, const triptych_image *image)
+{
+    if (!device_recorder(device) || !device_has_image(device, image))
+        return;
+    if (device_draws_to_image(device, image))
+        record_attach(device, NULL);
+    record_release(device, image->recorded);
+}
+
 void record_end_shader(struct triptych_device *device, const triptych_shader *shader)
 {
     if (!device_recorder(device) || !device_has_shader(device, shader))
@@ -134,23 +150,25 @@ void record_target(struct triptych_device *device, const struct triptych_target_
 
 static struct call_surface surface_of(const struct triptych_surface *surface)
 {
+    if (surface->image)
+        return (struct call_surface){surface->image->recorded, 0, 0};
     return (struct call_surface){surface->texture ? surface->texture->recorded : NO_RESOURCE,
                                  surface->texture ? surface->level : 0,
                                  surface->texture ? surface->slice : 0};
 }
 
-void record_attach(struct triptych_device *device, const struct triptych_target_textures *textures)
+void record_attach(struct triptych_device *device, const struct triptych_target_surfaces *surfaces)
 {
     static const struct triptych_surface none;
     if (!device_recorder(device))
         return;
     struct call call = {.type = CALL_ATTACH, .resource = NO_RESOURCE};
-    call.attach.some = textures != NULL;
+    call.attach.some = surfaces != NULL;
     for (int t = 0; t < TRIPTYCH_TARGETS; t++)
-        call.attach.color[t] = surface_of(textures ? &textures->color[t] : &none);
-    call.attach.depth = surface_of(textures ? &textures->depth : &none);
-    if (textures && !textures->depth.texture)
-        call.attach.depth_format = textures->depth_format;
+        call.attach.color[t] = surface_of(surfaces ? &surfaces->color[t] : &none);
+    call.attach.depth = surface_of(surfaces ? &surfaces->depth : &none);
+    if (surfaces && !surface_is_given(&surfaces->depth))
+        call.attach.depth_format = surfaces->depth_format;
     record_call(device, &call);
 }
 
@@ -161,7 +179,7 @@ void record_copy(struct triptych_device *device, const struct surface_copy *copy
     struct call call = {.type = CALL_COPY, .resource = NO_RESOURCE, .copy.filter = copy->filter};
     for (int i = 0; i < 2; i++) {
         call.copy.surface[i] = surface_of(copy->surface[i]);
-        if (!copy->surface[i]->texture)
+        if (!surface_is_given(copy->surface[i]))
             call.copy.surface[i].slice = copy->surface[i]->slice;
         if (copy->part[i].width)
             call.copy.part[i] = copy->part[i];

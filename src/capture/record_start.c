@@ -1,6 +1,6 @@
 /* The beginning of a recording: calls that bring a new device into the state of this one. */
 #include "capture/record_part.h"
-#include "render/target/target.h"
+#include "render/target/surface.h"
 
 #include <stdlib.h>
 #include <string.h>
@@ -21,6 +21,57 @@ static void write_texture(struct triptych_device *device, triptych_texture *text
     free(data);
 }
 
+static void write_contents(struct triptych_device *device, struct target *target)
+{
+    struct triptych_target_description description;
+    target_describe(target, &description);
+    size_t bytes = target_contents_bytes(&description);
+    void *data = malloc(bytes);
+    if (!data) {
+        record_memory_is_short(device);
+        return;
+    }
+    target_read_contents(target, data);
+    record_contents(device, data, bytes);
+    free(data);
+}
+
+/* The contents of a surface with tiles, as the target. */
+static void write_surface(struct triptych_device *device, const struct triptych_surface *surface)
+{
+    struct triptych_target_surfaces surfaces = {.depth_format = TRIPTYCH_DEPTH_NONE};
+    struct target target = {.width = 0};
+    const struct attachment *attachment = surface_attachment(surface);
+    if (!attachment)
+        return;
+    *(attachment->format ? &surfaces.color[0] : &surfaces.depth) = *surface;
+    record_attach(device, &surfaces);
+    if (device_view(device, surface, &target, NULL) == TRIPTYCH_OK)
+        write_contents(device, &target);
+    else
+        record_memory_is_short(device);
+    target_destroy(&target);
+}
+
+/* Only tiles have stencil. */
+static void write_stencil(struct triptych_device *device, triptych_texture *texture)
+{
+    for (const struct drawn_surface *drawn = texture->drawn; drawn; drawn = drawn->next)
+        if (stencil_mask(drawn->attachment->depth_format) && !drawn->attachment->texels_newer)
+            write_surface(device, &(struct triptych_surface){texture, drawn->level, drawn->slice, NULL});
+}
+
+static void write_surfaces(struct triptych_device *device)
+{
+    for (triptych_image *image = device_resources(device)->images; image; image = image->next) {
+        record_new_image(device, image);
+        write_surface(device, &(struct triptych_surface){.image = image});
+    }
+    for (triptych_texture *texture = device_resources(device)->textures; texture; texture = texture->next)
+        write_stencil(device, texture);
+    record_attach(device, NULL);
+}
+
 static void write_resources(struct triptych_device *device)
 {
     for (triptych_buffer *buffer = device_resources(device)->buffers; buffer; buffer = buffer->next)
@@ -35,20 +86,6 @@ static void write_resources(struct triptych_device *device)
 
 /* --- Targets -------------------------------------------------------------------------------------------- */
 
-static void write_contents(struct triptych_device *device, struct target *target,
-                           const struct triptych_target_description *description)
-{
-    size_t bytes = target_contents_bytes(description);
-    void *data = malloc(bytes);
-    if (!data) {
-        record_memory_is_short(device);
-        return;
-    }
-    target_read_contents(target, data);
-    record_contents(device, data, bytes);
-    free(data);
-}
-
 static void write_main_target(struct triptych_device *device)
 {
     struct target *target = device_main_target(device);
@@ -57,18 +94,17 @@ static void write_main_target(struct triptych_device *device)
         return;
     target_describe(target, &description);
     record_target(device, &description);
-    write_contents(device, target, &description);
+    write_contents(device, target);
 }
 
 static void write_targets(struct triptych_device *device)
 {
-    struct triptych_target_description description;
     const struct scissor *scissor = &device_state(device)->scissor;
     write_main_target(device);
-    if (device_drawn_textures(device)) {
-        record_attach(device, device_drawn_textures(device));
-        target_describe(device_target(device), &description);
-        write_contents(device, device_target(device), &description);
+    write_surfaces(device);
+    if (device_drawn_surfaces(device)) {
+        record_attach(device, device_drawn_surfaces(device));
+        write_contents(device, device_target(device));
     }
     if (!device_target(device)->width)
         return;
@@ -250,7 +286,7 @@ static void write_bindings(struct triptych_device *device)
 
 void record_beginning(struct triptych_device *device)
 {
-    device_finish(device);
+    device_finish_target(device);
     write_resources(device);
     write_targets(device);
     record_differences(device, append, device);

@@ -5,7 +5,7 @@
  * files are stored in the container, and their path is only a remark. */
 #include "capture/codec.h"
 #include "capture/layout.h"
-#include "render/texture/texture.h"
+#include "render/target/surface.h"
 
 #include <string.h>
 
@@ -254,6 +254,18 @@ static void code_shader(struct codec *codec, struct resource *resource)
         codec_fail(codec, "found a shader without text, expected some");
 }
 
+static void code_image(struct codec *codec, struct resource *resource)
+{
+    struct triptych_image_description *image = &resource->image;
+    image->format = codec_u32(codec, image->format, UINT32_MAX, "format");
+    image->depth_format = codec_u8(codec, image->depth_format, TRIPTYCH_DEPTH_COUNT - 1, "depth format");
+    image->width = codec_u16(codec, image->width, TRIPTYCH_TARGET_MAXIMUM, "width");
+    image->height = codec_u16(codec, image->height, TRIPTYCH_TARGET_MAXIMUM, "height");
+    image->samples = codec_u8(codec, image->samples, 8, "samples per pixel");
+    if (codec->reading && !codec->failed && image_check(image, &codec->error) != TRIPTYCH_OK)
+        codec->failed = true;
+}
+
 void resource_code(struct codec *codec, struct resource *resource)
 {
     codec_string(codec, &resource->name, NAME_BYTES, "name");
@@ -264,6 +276,7 @@ void resource_code(struct codec *codec, struct resource *resource)
     case RESOURCE_BUFFER: code_buffer(codec, resource); break;
     case RESOURCE_MESH: code_mesh(codec, resource); break;
     case RESOURCE_SHADER: code_shader(codec, resource); break;
+    case RESOURCE_IMAGE: code_image(codec, resource); break;
     case RESOURCE_QUERY:
     case RESOURCE_SEQUENCE: break;
     }
@@ -304,7 +317,8 @@ unsigned resource_parts(const struct resource *resource, struct resource_part pa
         return has_data(resource) ? 2 : 0;
     case RESOURCE_SHADER: parts[0] = (struct resource_part){resource->code, resource->code_bytes}; return 1;
     case RESOURCE_QUERY:
-    case RESOURCE_SEQUENCE: return 0;
+    case RESOURCE_SEQUENCE:
+    case RESOURCE_IMAGE: return 0;
     }
     return 0;
 }
@@ -350,6 +364,8 @@ size_t resource_cost(const struct resource *resource)
             return 0;
         return texture_storage_bytes(&shape);
     }
+    if (resource->type == RESOURCE_IMAGE)
+        return image_bytes(&resource->image);
     if (resource_has_geometry(resource))
         return resource->vertex_bytes + (size_t)resource->index_count * resource->index_bits / 8;
     return resource->type == RESOURCE_SHADER ? resource->code_bytes : 0;

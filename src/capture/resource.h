@@ -78,6 +78,8 @@ struct layout {
     uint32_t stride;
 };
 
+enum { RESOURCE_TYPES = 9 };
+
 enum resource_type {
     RESOURCE_TEXTURE,
     RESOURCE_VERTICES,
@@ -86,7 +88,8 @@ enum resource_type {
     RESOURCE_MESH,
     RESOURCE_SHADER,
     RESOURCE_QUERY,
-    RESOURCE_SEQUENCE
+    RESOURCE_SEQUENCE,
+    RESOURCE_IMAGE
 };
 
 /* The members that all types have, then those of the type. Queries have no more. */
@@ -109,6 +112,7 @@ struct resource {
             uint32_t color_count, cell;
             char *face_path[6]; /* TEXTURE_FILES */
         };
+        struct triptych_image_description image;
         /* Vertices, indices, buffers, meshes (resource_has_geometry). */
         struct {
             enum value_type value_type; /* buffer */

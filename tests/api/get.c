@@ -231,16 +231,16 @@ static void textures_that_are_targets_are_found(void)
     const struct triptych_texture_description description = {
         TRIPTYCH_TEXTURE_2D, TRIPTYCH_SURFACE_A8R8G8B8, 16, 8, 1, 0};
     struct triptych_texture_description described;
-    struct triptych_target_textures textures = {.depth_format = TRIPTYCH_DEPTH_NONE}, found;
+    struct triptych_target_surfaces textures = {.depth_format = TRIPTYCH_DEPTH_NONE}, found;
     good(triptych_texture_define(device, &description, &textures.color[0].texture));
     triptych_texture_get_description(textures.color[0].texture, &described);
     TEST_ASSERT_EQUAL_UINT(16, described.width);
     TEST_ASSERT_EQUAL_UINT(5, described.levels);
     TEST_ASSERT_EQUAL_INT(TRIPTYCH_SURFACE_A8R8G8B8, described.format);
-    good(triptych_get_target_textures(device, &found));
+    good(triptych_get_target_surfaces(device, &found));
     TEST_ASSERT_NULL(found.color[0].texture);
-    good(triptych_set_target_textures(device, &textures));
-    good(triptych_get_target_textures(device, &found));
+    good(triptych_set_target_surfaces(device, &textures));
+    good(triptych_get_target_surfaces(device, &found));
     TEST_ASSERT_EQUAL_PTR(textures.color[0].texture, found.color[0].texture);
     TEST_ASSERT_EQUAL_INT(TRIPTYCH_DEPTH_NONE, found.depth_format);
 }

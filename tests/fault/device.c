@@ -255,13 +255,13 @@ static void draw_to_textures(unsigned threads)
     TRY(triptych_set_transform(device, TRIPTYCH_TRANSFORM_WORLD1, matrix));
     for (int i = 0; i < 2; i++)
         TRY(triptych_texture_define(device, &description, &texture[i]));
-    TRY(triptych_set_target_textures(device,
-                                     &(struct triptych_target_textures){.color = {{texture[0], 0, 0}},
+    TRY(triptych_set_target_surfaces(device,
+                                     &(struct triptych_target_surfaces){.color = {{texture[0], 0, 0}},
                                                                         .depth_format = TRIPTYCH_DEPTH_D16}));
     clear();
     TRY(triptych_draw(device, TRIPTYCH_TRIANGLE_LIST, 0, 12));
-    TRY(triptych_set_target_textures(device, NULL));
-    struct triptych_surface from = {texture[0], 0, 0}, to = {texture[1], 0, 0};
+    TRY(triptych_set_target_surfaces(device, NULL));
+    struct triptych_surface from = {texture[0], 0, 0, NULL}, to = {texture[1], 0, 0, NULL};
     TRY(triptych_copy(device, &from, &(struct triptych_rectangle){0, 0, 32, 32}, &to,
                       &(struct triptych_rectangle){3, 5, 50, 41}, TRIPTYCH_COPY_LINEAR));
     TRY(triptych_read_surface(device, &to, read, sizeof read));

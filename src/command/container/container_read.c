@@ -95,7 +95,7 @@ static int read_definition(struct chunk_reader *reader, struct codec *codec, siz
     size_t begin = reader->at;
     record->type = RECORD_IS_RESOURCE;
     record->number = codec_u32(codec, 0, NO_RESOURCE - 1, "resource");
-    *resource = (struct resource){.type = codec_u8(codec, 0, RESOURCE_SEQUENCE, "type of resource")};
+    *resource = (struct resource){.type = codec_u8(codec, 0, RESOURCE_TYPES - 1, "type of resource")};
     if (!codec->failed)
         resource_code(codec, resource);
     if (!codec->failed && container_check_definition(resource, room, &codec->error))
@@ -215,7 +215,7 @@ const char *container_type_name(enum resource_type type)
     static const char *const name[] = {
         [RESOURCE_TEXTURE] = "texture", [RESOURCE_VERTICES] = "vertices", [RESOURCE_INDICES] = "indices",
         [RESOURCE_BUFFER] = "buffer",   [RESOURCE_MESH] = "mesh",         [RESOURCE_SHADER] = "shader",
-        [RESOURCE_QUERY] = "query",     [RESOURCE_SEQUENCE] = "sequence"};
+        [RESOURCE_QUERY] = "query",     [RESOURCE_SEQUENCE] = "sequence", [RESOURCE_IMAGE] = "image"};
     return name[type];
 }
 

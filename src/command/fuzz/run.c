@@ -89,6 +89,18 @@ struct section {
 
 typedef int section_visitor(void *user, const struct section *section);
 
+/* Colours of targets with several samples are alone. */
+static int visit_color(struct target *target, unsigned t, uint32_t tile, section_visitor *visit, void *user)
+{
+    const struct target_color *color = &target->colors[t];
+    if (!color->attachment)
+        return 0;
+    uint32_t planes = storage_planes[color->storage];
+    struct section section = {"colour", target_fill_color(target, tile) + color->plane * TILE_PIXELS,
+                              (size_t)target->samples * planes * TILE_PIXELS, tile, planes};
+    return visit(user, &section);
+}
+
 /* Visits the words of a device, in an order that depends only on the stream. Stops at a result that is not
  * 0. */
 static int visit_sections(struct triptych_device *device, section_visitor *visit, void *user)
@@ -96,10 +108,8 @@ static int visit_sections(struct triptych_device *device, section_visitor *visit
     struct target *target = device_target(device);
     int stop = 0;
     for (uint32_t tile = 0; tile < target->columns * target->rows && !stop; tile++) {
-        struct section color = {"colour", target_fill_color(target, tile),
-                                (size_t)target->samples * target->planes * TILE_PIXELS, tile, target->planes};
-        if (target->planes)
-            stop = visit(user, &color);
+        for (unsigned t = 0; t < TARGETS && !stop; t++)
+            stop = visit_color(target, t, tile, visit, user);
         if (target->depth && !stop) {
             struct section depth = {"depth and stencil", target_fill_depth(target, tile),
                                     (size_t)target->samples * TILE_PIXELS, tile, 1};
@@ -224,12 +234,12 @@ static enum outcome play_other(struct runner *runner, uint32_t frame, unsigned e
 {
     struct error error = {{0}};
     struct triptych_device *device = runner->device[engine];
-    struct comparison comparison = {runner, device_target(device), 0, finding};
     finding->engine = runner->options.engine[engine];
     finding->threads = threads;
     device_limit_threads(device, threads);
     if (player_frame(runner->player[engine], frame, &error))
         return find(finding, is_limit(error.text) ? OUTCOME_LIMITED : OUTCOME_FAILED, "%s", error.text);
+    struct comparison comparison = {runner, device_target(device), 0, finding};
     if (visit_sections(device, compare_section, &comparison))
         return OUTCOME_DIFFERENT;
     if (comparison.at != runner->count)

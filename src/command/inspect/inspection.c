@@ -123,6 +123,8 @@ static const char *resource_name(struct trail *trail, const void *object)
 
 static void add_surface(struct trail *trail, cJSON *object, const struct triptych_surface *surface)
 {
+    if (surface->image)
+        add_text(object, "image", resource_name(trail, surface->image));
     if (!surface->texture)
         return;
     add_text(object, "texture", resource_name(trail, surface->texture));
@@ -133,7 +135,7 @@ static void add_surface(struct trail *trail, cJSON *object, const struct triptyc
 static cJSON *targets(struct trail *trail)
 {
     const struct target *target = device_target(trail->device);
-    const struct triptych_target_textures *textures = &inspection_canvas(trail)->textures;
+    const struct triptych_target_surfaces *surfaces = &inspection_canvas(trail)->surfaces;
     cJSON *object = cJSON_CreateObject();
     add_number(object, "width", target->width);
     add_number(object, "height", target->height);
@@ -145,13 +147,13 @@ static cJSON *targets(struct trail *trail)
         cJSON *color = add_object(colors);
         add_number(color, "target", t);
         add_text(color, "format", target->colors[t].format->name);
-        add_surface(trail, color, &textures->color[t]);
+        add_surface(trail, color, &surfaces->color[t]);
     }
     if (!target->depth)
         return object;
     cJSON *depth = cJSON_AddObjectToObject(object, "depth");
     add_text(depth, "format", depth_formats[target->depth_format].name);
-    add_surface(trail, depth, &textures->depth);
+    add_surface(trail, depth, &surfaces->depth);
     return object;
 }
 

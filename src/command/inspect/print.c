@@ -68,12 +68,14 @@ void print_draws(const cJSON *draws)
 
 /* --- State ---------------------------------------------------------------------------------------------- */
 
-/* The texture that a target is a surface of. */
+/* The image that a target is, or the texture that it is a surface of. */
 static void print_surface(const cJSON *object)
 {
     if (cJSON_HasObjectItem(object, "texture"))
         printf(", level %.0f of texture %s, slice %.0f", number_of(object, "level"),
                text_of(object, "texture"), number_of(object, "slice"));
+    if (cJSON_HasObjectItem(object, "image"))
+        printf(", image %s", text_of(object, "image"));
     putchar('\n');
 }
 

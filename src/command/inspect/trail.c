@@ -65,11 +65,11 @@ static int make_view(struct trail *trail, struct error *error)
 /* The current canvas, without its pixels. */
 static struct trail_canvas current(const struct trail *trail)
 {
-    const struct triptych_target_textures *textures = device_drawn_textures(trail->device);
+    const struct triptych_target_surfaces *surfaces = device_drawn_surfaces(trail->device);
     const struct target *target = device_target(trail->device);
     struct trail_canvas r = {.width = target->width, .height = target->height};
-    if (textures)
-        r.textures = *textures;
+    if (surfaces)
+        r.surfaces = *surfaces;
     else
         r.generation = trail->generation;
     return r;
@@ -77,15 +77,15 @@ static struct trail_canvas current(const struct trail *trail)
 
 static bool same_surface(const struct triptych_surface *a, const struct triptych_surface *b)
 {
-    return a->texture == b->texture && a->level == b->level && a->slice == b->slice;
+    return a->texture == b->texture && a->image == b->image && a->level == b->level && a->slice == b->slice;
 }
 
 static bool same_canvas(const struct trail_canvas *a, const struct trail_canvas *b)
 {
     for (int t = 0; t < TRIPTYCH_TARGETS; t++)
-        if (!same_surface(&a->textures.color[t], &b->textures.color[t]))
+        if (!same_surface(&a->surfaces.color[t], &b->surfaces.color[t]))
             return false;
-    return same_surface(&a->textures.depth, &b->textures.depth) && a->generation == b->generation;
+    return same_surface(&a->surfaces.depth, &b->surfaces.depth) && a->generation == b->generation;
 }
 
 static bool has_pixel(const struct trail *trail, const struct trail_canvas *canvas)
@@ -96,6 +96,7 @@ static bool has_pixel(const struct trail *trail, const struct trail_canvas *canv
 
 static void read_now(const struct trail *trail, struct pixel_words *words)
 {
+    device_finish_target(trail->device);
     pixel_read(device_target(trail->device), (uint32_t)trail->options.x, (uint32_t)trail->options.y, words);
 }
 

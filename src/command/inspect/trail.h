@@ -9,7 +9,7 @@
 #include "command/stream/stream.h"
 
 struct trail_canvas {
-    struct triptych_target_textures textures; /* zero: a target */
+    struct triptych_target_surfaces surfaces; /* zero: a target */
     uint32_t generation;                      /* of a target: how many the frame has set before it */
     uint32_t width, height;
     uint32_t *count; /* how often each pixel was counted; null: not */

@@ -77,9 +77,9 @@ static void count_lane(struct watch *watch, const struct quad *quad, unsigned la
     watch->counts.shaded += shaded;
     watch->counts.passed += passed;
     if (watch->count)
-        watch->count[(size_t)y * device_target(watch->device)->width + x] += counted;
+        watch->count[(size_t)y * device_rendered_target(watch->device)->width + x] += counted;
     if (watch->owner && passed && pixel_write_mask(&quad->self->routine.key.pixel))
-        own(watch, quad, (size_t)y * device_target(watch->device)->width + x);
+        own(watch, quad, (size_t)y * device_rendered_target(watch->device)->width + x);
 }
 
 static struct touch_tests tests_of(const struct quad *quad, bool clockwise)
@@ -110,7 +110,7 @@ static void touch_quad(struct watch *watch, const struct quad *quad, unsigned la
     const uint8_t *record = quad->call->triangles + quad->entry->triangle;
     const struct triangle_head *head = (const struct triangle_head *)(const void *)record;
     const struct watch_placed *placed = watch_find_placed(watch, record);
-    struct target *target = device_target(watch->device);
+    struct target *target = device_rendered_target(watch->device);
     struct touch *touch = placed ? watch_new_touch(watch, placed, TOUCH_DRAWN) : NULL;
     if (touch)
         pixel_read(target, (uint32_t)watch->x, (uint32_t)watch->y, &touch->before);

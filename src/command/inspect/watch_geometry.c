@@ -141,7 +141,7 @@ static bool in_rectangle(const struct rectangle *r, int32_t x, int32_t y)
 static enum touch_kind absence(struct watch *watch, const struct triangle_head *drawn,
                                const struct triangle_head *unculled)
 {
-    const struct target *target = device_target(watch->device);
+    const struct target *target = device_rendered_target(watch->device);
     const struct rectangle *scissor = &watch->device->derived.draw.scissor;
     const struct rectangle whole = {0, 0, (int32_t)target->width, (int32_t)target->height};
     bool inside = in_rectangle(scissor, watch->x, watch->y);

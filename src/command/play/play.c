@@ -54,6 +54,8 @@ enum triptych_result player_create(triptych_device *device, const struct resourc
     if (!result && resource->type == RESOURCE_SHADER)
         result = triptych_shader_assemble(device, resource->name, resource->code, resource->code_bytes,
                                           &handles->shader);
+    if (!result && resource->type == RESOURCE_IMAGE)
+        result = triptych_image_create(device, &resource->image, &handles->image);
     handles->frame = NOWHERE;
     if (!result && resource->type == RESOURCE_QUERY)
         result = triptych_query_create(device, TRIPTYCH_QUERY_OCCLUSION, &handles->query);
@@ -66,6 +68,7 @@ void player_destroy(triptych_device *device, const struct handles *handles)
     triptych_buffer_destroy(device, handles->vertices);
     triptych_buffer_destroy(device, handles->indices);
     triptych_texture_destroy(device, handles->texture);
+    triptych_image_destroy(device, handles->image);
     triptych_shader_destroy(device, handles->shader);
     triptych_query_destroy(device, handles->query);
 }
@@ -157,7 +160,7 @@ static bool same_colors(const struct triptych_target_description *got,
 static enum triptych_result keep_target(struct player *player, const struct call *call, bool *kept)
 {
     struct triptych_target_description target;
-    enum triptych_result result = triptych_set_target_textures(player->device, NULL);
+    enum triptych_result result = triptych_set_target_surfaces(player->device, NULL);
     triptych_get_target(player->device, &target);
     *kept = target.width == call->target.width && target.height == call->target.height &&
             target.depth_format == call->target.depth_format &&
@@ -251,7 +254,7 @@ uint32_t player_resource(const struct player *player, const void *object)
     for (uint32_t i = 0; i < player->handle_count && object; i++) {
         const struct handles *h = &player->handles[i];
         if (object == h->vertices || object == h->indices || object == h->texture || object == h->shader ||
-            object == h->query)
+            object == h->query || object == h->image)
             return i;
     }
     return NO_RESOURCE;

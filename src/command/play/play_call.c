@@ -209,19 +209,21 @@ enum triptych_result play_contents(struct player *player, const struct call *cal
 
 static struct triptych_surface surface_of(const struct player *player, const struct call_surface *surface)
 {
+    triptych_image *image =
+        surface->resource == NO_RESOURCE ? NULL : player->handles[surface->resource].image;
     return (struct triptych_surface){handle_texture(player, surface->resource), surface->level,
-                                     surface->slice};
+                                     surface->slice, image};
 }
 
 enum triptych_result play_attach(struct player *player, const struct call *call)
 {
-    struct triptych_target_textures textures = {.depth_format = call->attach.depth_format};
+    struct triptych_target_surfaces surfaces = {.depth_format = call->attach.depth_format};
     if (!call->attach.some)
-        return triptych_set_target_textures(player->device, NULL);
+        return triptych_set_target_surfaces(player->device, NULL);
     for (int t = 0; t < TRIPTYCH_TARGETS; t++)
-        textures.color[t] = surface_of(player, &call->attach.color[t]);
-    textures.depth = surface_of(player, &call->attach.depth);
-    return triptych_set_target_textures(player->device, &textures);
+        surfaces.color[t] = surface_of(player, &call->attach.color[t]);
+    surfaces.depth = surface_of(player, &call->attach.depth);
+    return triptych_set_target_surfaces(player->device, &surfaces);
 }
 
 enum triptych_result play_copy(struct player *player, const struct call *call)

@@ -10,6 +10,7 @@ enum { NOWHERE = UINT32_MAX };
 struct handles {
     triptych_buffer *vertices, *indices;
     triptych_texture *texture;
+    triptych_image *image;
     triptych_shader *shader;
     triptych_query *query;
     uint32_t frame; /* the frame in which the query ended last, or NOWHERE */

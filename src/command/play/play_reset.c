@@ -64,7 +64,7 @@ static enum triptych_result reset_shaders(triptych_device *device)
 enum triptych_result player_reset(struct player *player)
 {
     static const float identity[4][4] = {{1, 0, 0, 0}, {0, 1, 0, 0}, {0, 0, 1, 0}, {0, 0, 0, 1}};
-    enum triptych_result result = triptych_set_target_textures(player->device, NULL);
+    enum triptych_result result = triptych_set_target_surfaces(player->device, NULL);
     if (!result)
         result = reset_lights(player->device);
     if (!result)

@@ -41,37 +41,49 @@ struct triptych_buffer *follower_buffer(struct follower *follower, uint32_t reso
 
 /* --- Surfaces ------------------------------------------------------------------------------------------- */
 
-/* Returns a surface of a texture without texels, for checks. It is null for the target. */
+/* A texture without texels or an image without pixels. */
+struct shape {
+    struct triptych_texture texture;
+    struct triptych_image image;
+};
+
+/* Returns a surface of the shape, for checks. It is null for the target. */
 static struct triptych_surface shape_of(const struct stream *stream, const struct call_surface *surface,
-                                        struct triptych_texture *shape)
+                                        struct shape *shape)
 {
-    struct triptych_surface r = {NULL, surface->level, surface->slice};
+    struct triptych_surface r = {NULL, surface->level, surface->slice, NULL};
     if (surface->resource == NO_RESOURCE)
         return r;
-    texture_describe(&stream->resources[surface->resource].texture, shape, NULL);
-    r.texture = shape;
+    const struct resource *resource = &stream->resources[surface->resource];
+    if (resource->type == RESOURCE_IMAGE) {
+        shape->image.description = resource->image;
+        r.image = &shape->image;
+        return r;
+    }
+    texture_describe(&resource->texture, &shape->texture, NULL);
+    r.texture = &shape->texture;
     return r;
 }
 
 static int check_attach(const struct stream *stream, const struct call *call,
                         struct triptych_target_description *description, struct error *error)
 {
-    struct triptych_texture shape[TRIPTYCH_TARGETS + 1];
-    struct triptych_target_textures textures = {.depth_format = call->attach.depth_format};
+    struct shape shape[TRIPTYCH_TARGETS + 1];
+    struct triptych_target_surfaces surfaces = {.depth_format = call->attach.depth_format};
     for (int t = 0; t < TRIPTYCH_TARGETS; t++) {
         const struct call_surface *color = call->attach.color;
-        int first = 0; /* of the same texture */
+        int first = 0; /* of the same texture or image */
         while (color[first].resource != color[t].resource)
             first++;
-        textures.color[t] = shape_of(stream, &color[t], &shape[first]);
+        surfaces.color[t] = shape_of(stream, &color[t], &shape[first]);
     }
-    textures.depth = shape_of(stream, &call->attach.depth, &shape[TRIPTYCH_TARGETS]);
-    return surfaces_describe(&textures, description, error) ? -1 : 0;
+    surfaces.depth = shape_of(stream, &call->attach.depth, &shape[TRIPTYCH_TARGETS]);
+    return surfaces_describe(&surfaces, description, error) ? -1 : 0;
 }
 
 int follow_copy(struct follower *follower, const struct call *call, struct error *error)
 {
-    struct triptych_texture shape[2];
+    struct shape shape[2];
     struct triptych_surface surface[2];
     struct surface_copy copy = {.filter = call->copy.filter};
     for (int i = 0; i < 2; i++) {

@@ -110,10 +110,10 @@ int valid_attach(const struct stream *stream, const struct call *call, struct er
         given |= call->attach.color[t].resource != NO_RESOURCE;
     if (given != call->attach.some)
         return error_set(error, "found %s, expected %s",
-                         given ? "attach none with textures" : "attach without a texture",
+                         given ? "attach none with surfaces" : "attach without a surface",
                          given ? "none" : "at least one, or attach none");
     if (format && (!call->attach.some || call->attach.depth.resource != NO_RESOURCE))
-        return error_set(error, "found a depth format beside a depth texture, expected one of them");
+        return error_set(error, "found a depth format beside a depth surface, expected one of them");
     return 0;
 }
 

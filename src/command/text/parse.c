@@ -98,12 +98,12 @@ static const struct definition {
     enum place place;
     int (*parse)(struct parser *parser);
 } definitions[] = {
-    {"texture", OUTSIDE, parse_texture}, {"vertices", OUTSIDE, parse_vertices},
-    {"indices", OUTSIDE, parse_indices}, {"buffer", OUTSIDE, parse_buffer},
-    {"mesh", OUTSIDE, parse_mesh},       {"model", OUTSIDE, parse_model},
-    {"shader", OUTSIDE, parse_shader},   {"query", OUTSIDE, parse_query},
-    {"let", EVERYWHERE, parse_let},      {"repeat", EVERYWHERE, parse_repeat},
-    {"end", INSIDE, parse_end},
+    {"texture", OUTSIDE, parse_texture},  {"vertices", OUTSIDE, parse_vertices},
+    {"indices", OUTSIDE, parse_indices},  {"buffer", OUTSIDE, parse_buffer},
+    {"mesh", OUTSIDE, parse_mesh},        {"model", OUTSIDE, parse_model},
+    {"shader", OUTSIDE, parse_shader},    {"query", OUTSIDE, parse_query},
+    {"image", OUTSIDE, parse_new_image},  {"let", EVERYWHERE, parse_let},
+    {"repeat", EVERYWHERE, parse_repeat}, {"end", INSIDE, parse_end},
 };
 
 enum { DEFINITIONS = sizeof definitions / sizeof *definitions };

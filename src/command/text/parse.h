@@ -66,6 +66,9 @@ int parse_transform_name(struct parser *parser, enum triptych_transform *which);
  * stream_element. */
 int parse_attribute(struct parser *parser, size_t length, unsigned *element, enum triptych_format *format);
 
+/* Reads the name of a format that can be a target. */
+int parse_color_format(struct parser *parser, enum triptych_surface_format *format);
+
 /* Reads an integer from 0 to `high`. */
 int parse_integer(struct parser *parser, const char *what, int64_t high, uint32_t *value);
 /* Counts a resource's bytes against the stream's limit. */
@@ -123,6 +126,7 @@ int parse_indices(struct parser *parser);
 int parse_buffer(struct parser *parser);
 int parse_shader(struct parser *parser);
 int parse_query(struct parser *parser);
+int parse_new_image(struct parser *parser);
 int parse_mesh(struct parser *parser);
 int parse_model(struct parser *parser);
 

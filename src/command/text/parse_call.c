@@ -72,6 +72,17 @@ static int parse_depth_format(struct parser *parser, struct triptych_target_desc
     return 0;
 }
 
+int parse_color_format(struct parser *parser, enum triptych_surface_format *result)
+{
+    struct lexer *lex = &parser->lex;
+    const struct format *format =
+        lex->token.type == TOKEN_WORD ? format_named(lex->token.text, lex->token.length) : NULL;
+    if (!format || !(format->roles & ROLE_TARGET))
+        return parse_expect_format(parser, ROLE_TARGET, "the name of a format that can be a target");
+    *result = (enum triptych_surface_format)format->number;
+    return lex_next(lex);
+}
+
 /* One to four formats. */
 static int parse_color_formats(struct parser *parser, struct triptych_target_description *target)
 {
@@ -83,10 +94,7 @@ static int parse_color_formats(struct parser *parser, struct triptych_target_des
             lex->token.type == TOKEN_WORD ? format_named(lex->token.text, lex->token.length) : NULL;
         if (!format && t)
             return 0;
-        if (!format || !(format->roles & ROLE_TARGET))
-            return parse_expect_format(parser, ROLE_TARGET, "the name of a format that can be a target");
-        target->color_format[t] = (enum triptych_surface_format)format->number;
-        if (lex_next(lex))
+        if (parse_color_format(parser, &target->color_format[t]))
             return -1;
     }
     return 0;

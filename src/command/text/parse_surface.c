@@ -1,7 +1,55 @@
-/* Calls that name surfaces of textures: attach and copy. */
+/* Images, and calls that name surfaces: attach and copy. */
 #include "command/text/parse.h"
 
+#include "render/target/surface.h"
+
 #include <string.h>
+
+/* --- Images --------------------------------------------------------------------------------------------- */
+
+static int parse_image_samples(struct parser *parser, unsigned *samples)
+{
+    int64_t value;
+    if (!lex_is(&parser->lex, "samples"))
+        return 0;
+    if (lex_next(&parser->lex) || lex_integer(&parser->lex, "samples per pixel", 1, 8, &value))
+        return -1;
+    *samples = (unsigned)value;
+    return 0;
+}
+
+/* image NAME WIDTH HEIGHT FORMAT | depth FORMAT [samples N] */
+int parse_new_image(struct parser *parser)
+{
+    struct triptych_image_description image = {.depth_format = TRIPTYCH_DEPTH_D32F_LOCKABLE};
+    struct resource *resource;
+    struct error reason = {""};
+    int64_t width, height;
+    unsigned depth;
+    if (parse_new_name(parser, RESOURCE_IMAGE, &resource))
+        return -1;
+    struct token place = parser->lex.token;
+    if (lex_integer(&parser->lex, "image width", 1, TRIPTYCH_TARGET_MAXIMUM, &width) ||
+        lex_integer(&parser->lex, "image height", 1, TRIPTYCH_TARGET_MAXIMUM, &height))
+        return -1;
+    image.width = (unsigned)width;
+    image.height = (unsigned)height;
+    if (lex_is(&parser->lex, "depth")) {
+        if (lex_next(&parser->lex) || parse_word(parser, WORDS_DEPTH, "a depth format", &depth))
+            return -1;
+        image.depth_format = (enum triptych_depth_format)depth;
+    } else if (parse_color_format(parser, &image.format)) {
+        return -1;
+    }
+    if (parse_image_samples(parser, &image.samples))
+        return -1;
+    if (image_check(&image, &reason) != TRIPTYCH_OK)
+        return lex_fail(&parser->lex, &place, "%s", reason.text);
+    resource->image = image;
+    return parse_account(parser, &place, image_bytes(&image));
+}
+
+/* --- Calls ----------------------------------------------------------------------------------------------- */
 
 static int parse_option(struct parser *parser, const char *word, uint32_t *number)
 {
@@ -14,10 +62,10 @@ static int parse_option(struct parser *parser, const char *word, uint32_t *numbe
     return 0;
 }
 
-/* Reads TEXTURE [level L] [slice S]. */
+/* Reads TEXTURE [level L] [slice S], or IMAGE. */
 static int parse_surface(struct parser *parser, struct call_surface *surface)
 {
-    if (parse_name(parser, 1 << RESOURCE_TEXTURE, "a texture", &surface->resource))
+    if (parse_name(parser, CALL_SURFACES, "a texture or an image", &surface->resource))
         return -1;
     return parse_option(parser, "level", &surface->level) || parse_option(parser, "slice", &surface->slice)
                ? -1
@@ -53,7 +101,7 @@ int parse_attach(struct parser *parser, struct call *call, unsigned word)
     if (lex_is(lex, "depth"))
         return lex_next(lex) ? -1 : parse_surface(parser, &call->attach.depth);
     if (!colors)
-        return lex_expected_word(lex, WORDS_OF_ROWS(words), "none, color TEXTURE or depth TEXTURE");
+        return lex_expected_word(lex, WORDS_OF_ROWS(words), "none, color SURFACE or depth SURFACE");
     if (!lex_is(lex, "depthformat"))
         return 0;
     if (lex_next(lex) || parse_word(parser, WORDS_DEPTH, "a depth format", &format))

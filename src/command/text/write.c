@@ -229,6 +229,18 @@ static void write_values(struct writer *writer, const struct resource *resource)
     fputs("\n}", writer->out);
 }
 
+static void write_target_image(struct writer *writer, const struct resource *resource)
+{
+    const struct triptych_image_description *image = &resource->image;
+    fprintf(writer->out, "image %s %u %u", resource->name, image->width, image->height);
+    if (image->format)
+        fprintf(writer->out, " %s", format_find(image->format)->name);
+    else
+        fprintf(writer->out, " depth %s", word_text(WORDS_DEPTH, image->depth_format));
+    if (image->samples)
+        fprintf(writer->out, " samples %u", image->samples);
+}
+
 static void write_mesh(struct writer *writer, const struct resource *resource)
 {
     const struct mesh_options *options = &resource->options;
@@ -321,6 +333,7 @@ static void write_resource(struct writer *writer, const struct resource *resourc
         write_shader(writer, resource);
         break;
     case RESOURCE_QUERY: fprintf(writer->out, "query %s", resource->name); break;
+    case RESOURCE_IMAGE: write_target_image(writer, resource); break;
     case RESOURCE_SEQUENCE: return;
     }
     fputc('\n', writer->out);

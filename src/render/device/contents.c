@@ -2,12 +2,14 @@
  * (render/target/contents.c). */
 #include "render/device/device.h"
 
+#include <limits.h>
+
 size_t device_contents_bytes(const struct triptych_device *device)
 {
     struct triptych_target_description description;
-    if (!device->binding.target.width)
+    if (!device->binding.target->width)
         return 0;
-    target_describe(&device->binding.target, &description);
+    target_describe(device->binding.target, &description);
     return target_contents_bytes(&description);
 }
 
@@ -19,8 +21,8 @@ enum triptych_result device_read_contents(struct triptych_device *device, void *
         result = device_check_room("contents", bytes, device_contents_bytes(device), error);
     if (result != TRIPTYCH_OK)
         return result;
-    device_finish(device);
-    target_read_contents(&device->binding.target, data);
+    device_finish_target(device);
+    target_read_contents(device->binding.target, data);
     return TRIPTYCH_OK;
 }
 
@@ -34,8 +36,9 @@ enum triptych_result device_write_contents(struct triptych_device *device, const
         error_set(error, "contents of %zu bytes: expected %zu", bytes, device_contents_bytes(device));
         return TRIPTYCH_BAD_ARGUMENT;
     }
-    device_finish(device);
-    target_write_contents(&device->binding.target, data);
+    device_finish_target(device);
+    target_write_contents(device->binding.target, data);
+    device_note_drawn(device, UINT_MAX);
     return TRIPTYCH_OK;
 }
 

@@ -1,4 +1,4 @@
-/* Destruction of buffers, textures and queries, which are unbound. The storage of a buffer that queued draws
+/* Destruction of buffers, textures, images and queries, which are unbound. The storage of a buffer that queued draws
  * may read is retired (render/device/storage.c); for a texture they are rendered first. */
 #include "render/device/device.h"
 
@@ -30,6 +30,14 @@ static struct triptych_texture **find_texture(struct triptych_device *device,
     return at;
 }
 
+static struct triptych_image **find_image(struct triptych_device *device, const struct triptych_image *image)
+{
+    struct triptych_image **at = &device->resources.images;
+    while (*at && *at != image)
+        at = &(*at)->next;
+    return at;
+}
+
 static struct triptych_query **find_query(struct triptych_device *device, const struct triptych_query *query)
 {
     struct triptych_query **at = &device->queries.first;
@@ -46,6 +54,11 @@ bool device_has_buffer(struct triptych_device *device, const struct triptych_buf
 bool device_has_texture(struct triptych_device *device, const struct triptych_texture *texture)
 {
     return *find_texture(device, texture);
+}
+
+bool device_has_image(struct triptych_device *device, const struct triptych_image *image)
+{
+    return *find_image(device, image);
 }
 
 bool device_has_query(struct triptych_device *device, const struct triptych_query *query)
@@ -89,15 +102,34 @@ enum triptych_result device_texture_destroy(struct triptych_device *device, stru
     struct triptych_texture **at = find_texture(device, texture);
     if (!*at)
         return not_ours(error, "texture");
+    if (device_draws_to(device, texture) && device_set_target_surfaces(device, NULL, error) != TRIPTYCH_OK)
+        return TRIPTYCH_NO_MEMORY;
     device_finish(device);
-    if (device_draws_to(device, texture))
-        device_set_target_textures(device, NULL, error);
+    for (struct drawn_surface *drawn = texture->drawn; drawn; drawn = drawn->next)
+        device->binding.newer -= drawn->attachment->tiles_newer;
+    surface_free_attachments(texture);
     for (unsigned i = 0; i < TRIPTYCH_SAMPLERS; i++)
         if (device->state.texture[i] == texture)
             device->state.texture[i] = NULL;
     device_state_changed(device, PARTS_ALL);
     *at = texture->next;
     texture_destroy(texture);
+    return TRIPTYCH_OK;
+}
+
+/* Queued commands hold what they need. */
+enum triptych_result device_image_destroy(struct triptych_device *device, struct triptych_image *image,
+                                          struct error *error)
+{
+    struct triptych_image **at = find_image(device, image);
+    if (!*at)
+        return not_ours(error, "image");
+    if (device_draws_to_image(device, image) &&
+        device_set_target_surfaces(device, NULL, error) != TRIPTYCH_OK)
+        return TRIPTYCH_NO_MEMORY;
+    *at = image->next;
+    attachment_release(image->attachment);
+    free(image);
     return TRIPTYCH_OK;
 }
 

@@ -77,6 +77,7 @@ enum triptych_result device_create(const struct engine *engine, const struct dev
         return TRIPTYCH_NO_MEMORY;
     }
     device->engine = engine;
+    device->binding.target = device->binding.main = &device->binding.none;
     device->derived.stale = PARTS_ALL;
     device_routines_initialize(&device->routines);
     debug_open(listeners, &device->errors.debug);
@@ -102,8 +103,7 @@ void device_destroy(struct triptych_device *device)
     pool_destroy(device->pool);
     cache_destroy(device->cache);
     code_destroy(device->arena);
-    target_destroy(&device->binding.target);
-    target_destroy(&device->binding.parked);
+    device_free_targets(device);
     transient_destroy(&device->transient);
     queries_destroy(&device->queries);
     for (struct triptych_buffer *buffer = device->resources.buffers, *next; buffer; buffer = next) {
@@ -112,7 +112,13 @@ void device_destroy(struct triptych_device *device)
     }
     for (struct triptych_texture *texture = device->resources.textures, *next; texture; texture = next) {
         next = texture->next;
+        surface_free_attachments(texture);
         texture_destroy(texture);
+    }
+    for (struct triptych_image *image = device->resources.images, *next; image; image = next) {
+        next = image->next;
+        attachment_release(image->attachment);
+        free(image);
     }
     device_free_shaders(device);
     device_free_storage(device);
@@ -130,7 +136,7 @@ void device_debug_error(struct triptych_device *device, struct error *error)
 
 enum triptych_result device_has_target(const struct triptych_device *device, struct error *error)
 {
-    if (device->binding.target.width)
+    if (device->binding.target->width)
         return TRIPTYCH_OK;
     error_set(error, "no target: expected set_target first");
     return TRIPTYCH_BAD_CALL;
@@ -181,24 +187,6 @@ enum triptych_result device_check_target(const struct triptych_target_descriptio
     return check_color_formats(description, error);
 }
 
-enum triptych_result device_set_target(struct triptych_device *device,
-                                       const struct triptych_target_description *description,
-                                       struct error *error)
-{
-    struct target target;
-    enum triptych_result result = device_check_target(description, error);
-    if (result != TRIPTYCH_OK)
-        return result;
-    if (target_create(&target, description, error))
-        return TRIPTYCH_NO_MEMORY;
-    device_finish(device);
-    device_leave_textures(device);
-    target_destroy(&device->binding.target);
-    device->binding.target = target;
-    state_set_target(&device->state, description);
-    device_state_changed(device, PARTS_ALL);
-    return TRIPTYCH_OK;
-}
 /* --- Textures --- */
 
 enum triptych_result device_texture_create(struct triptych_device *device,

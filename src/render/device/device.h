@@ -35,18 +35,32 @@ struct triptych_shader {
     uint32_t recorded; /* its number while calls are recorded */
 };
 
-/* The target. While textures are drawn to, the target that was set is parked. */
+/* The target. While surfaces are drawn to, `main` is the target that was set before. */
 struct device_binding {
-    struct target target;
-    struct target parked;
-    struct triptych_target_textures textures; /* valid while draws_to_textures is set */
-    bool draws_to_textures;
+    struct target *target, *main;             /* never null */
+    struct target none;                       /* of width 0 */
+    struct triptych_target_surfaces surfaces; /* valid while draws_to_surfaces is set */
+    bool draws_to_surfaces;
+    unsigned textured; /* the parts of the target (enum target_part) that are surfaces of textures */
+    bool stale;        /* some of these may have newer texels than tiles */
+    uint32_t newer;    /* surfaces of textures, of this target or not, whose tiles are newer than texels */
+};
+
+/* Parts of a target: bit t is colour t. */
+enum target_part { TARGET_DEPTH = 1 << TARGETS };
+
+/* What the commands of a buffer refer to, to be released when they are rendered. */
+struct released {
+    struct released *next;
+    struct target *target; /* or null */
+    struct surface_transfer transfer;
 };
 
 /* Objects that the application has created and not destroyed: lists, linked by `next`. */
 struct device_resources {
     struct triptych_buffer *buffers;
     struct triptych_texture *textures;
+    struct triptych_image *images;
     struct triptych_shader *shaders;
     struct extents retired; /* that only queued draws use */
     struct extents spare;   /* for storage of the same size */
@@ -59,7 +73,8 @@ struct device_background {
     uint32_t held_count;
     struct palette *palettes;
     struct extents retired; /* that only these draws use */
-    uint32_t commands;      /* 0: nothing is rendered in the background */
+    struct released *released;
+    uint32_t commands; /* 0: nothing is rendered in the background */
 };
 
 /* Draw calls, and the triangles in them. */
@@ -95,6 +110,7 @@ struct triptych_device {
     struct device_background rendered;
 
     struct device_binding binding;
+    struct released *released; /* by the buffer that is filled */
 
     /* State and objects of the application. */
     struct state state;
@@ -118,23 +134,29 @@ struct triptych_device {
     char key_text[KEY_TEXT_CAPACITY]; /* of the last routine reported */
 };
 
-/* The target, or the target of the textures that are drawn to; its width is 0 when there is none. */
+/* The current target; its width is 0 when there is none. */
 static inline struct target *device_target(struct triptych_device *device)
 {
-    return &device->binding.target;
+    return device->binding.target;
 }
 
-/* The target that was set, even while textures are drawn to. */
+/* The target of the commands that are rendered, for observers of routines (struct engine). */
+static inline struct target *device_rendered_target(struct triptych_device *device)
+{
+    return device->queue->round.target;
+}
+
+/* The target that was set, even while surfaces are drawn to. */
 static inline struct target *device_main_target(struct triptych_device *device)
 {
-    return device->binding.draws_to_textures ? &device->binding.parked : &device->binding.target;
+    return device->binding.main;
 }
 
-/* The textures that are drawn to; null: none. */
-static inline const struct triptych_target_textures *
-device_drawn_textures(const struct triptych_device *device)
+/* The surfaces that are drawn to; null: none. */
+static inline const struct triptych_target_surfaces *
+device_drawn_surfaces(const struct triptych_device *device)
 {
-    return device->binding.draws_to_textures ? &device->binding.textures : NULL;
+    return device->binding.draws_to_surfaces ? &device->binding.surfaces : NULL;
 }
 
 /* For a recording of a running device: the state, the constants and the shader of a stage (or null),
@@ -222,17 +244,52 @@ enum triptych_result device_has_target(const struct triptych_device *device, str
 enum triptych_result device_check_target(const struct triptych_target_description *description,
                                          struct error *error);
 
-/* Drawing to textures (render/device/surfaces.c); null goes back. */
-enum triptych_result device_set_target_textures(struct triptych_device *device,
-                                                const struct triptych_target_textures *textures,
+/* Drawing to surfaces (render/device/surfaces.c); null goes back. */
+enum triptych_result device_set_target_surfaces(struct triptych_device *device,
+                                                const struct triptych_target_surfaces *surfaces,
                                                 struct error *error);
-void device_leave_textures(struct triptych_device *device);
+/* Frees all targets, when the queue is empty. */
+void device_free_targets(struct triptych_device *device);
 bool device_draws_to(const struct triptych_device *device, const struct triptych_texture *texture);
+bool device_draws_to_image(const struct triptych_device *device, const struct triptych_image *image);
 
-/* Before texels are read or changed by others than draws: renders what is recorded if it may use or draw the
- * texture, and stores what was drawn. After a change: what is drawn to begins with it. */
-void device_store_texture(struct triptych_device *device, const struct triptych_texture *texture);
-void device_load_texture(struct triptych_device *device, const struct triptych_texture *texture);
+enum triptych_result device_image_create(struct triptych_device *device,
+                                         const struct triptych_image_description *description,
+                                         struct triptych_image **image, struct error *error);
+enum triptych_result device_image_destroy(struct triptych_device *device, struct triptych_image *image,
+                                          struct error *error);
+
+/* Before texels are read or changed by others than draws: stores what was drawn to the texture, and renders
+ * what is recorded if it may use the texture. After a change: what is drawn to begins with it. */
+void device_store_texture(struct triptych_device *device, struct triptych_texture *texture);
+void device_load_texture(struct triptych_device *device, struct triptych_texture *texture);
+
+/* Before a draw or a clear is queued: brings the tiles of the target up to date. */
+void device_load_target(struct triptych_device *device);
+static inline void device_prepare_target(struct triptych_device *device)
+{
+    if (device->binding.stale)
+        device_load_target(device);
+}
+/* Before a draw is queued: brings the texels up to date that it samples. */
+void device_prepare_textures(struct triptych_device *device);
+/* The command that is queued next may change these parts of the target (enum target_part). */
+void device_note_newer(struct triptych_device *device, unsigned parts);
+static inline void device_note_drawn(struct triptych_device *device, unsigned parts)
+{
+    if (parts & device->binding.textured)
+        device_note_newer(device, parts & device->binding.textured);
+}
+/* Renders what is recorded and brings the tiles of the target up to date. */
+void device_finish_target(struct triptych_device *device);
+/* Frees what commands that are rendered have referred to. */
+void device_free_released(struct released *released);
+
+/* The tiles of an image, of a surface of a texture that has tiles, or, without both, of colour `slice` of the
+ * main target: a target of one colour, or of depth. The caller finishes before it reads or changes pixels, and
+ * destroys the view. */
+enum triptych_result device_view(struct triptych_device *device, const struct triptych_surface *surface,
+                                 struct target *view, struct error *error);
 
 enum triptych_result device_copy(struct triptych_device *device, const struct surface_copy *copy,
                                  struct error *error);
@@ -390,6 +447,7 @@ void device_texture_generate_mips(struct triptych_device *device, struct triptyc
 /* Return true if the object is one of the device's. */
 bool device_has_buffer(struct triptych_device *device, const struct triptych_buffer *buffer);
 bool device_has_texture(struct triptych_device *device, const struct triptych_texture *texture);
+bool device_has_image(struct triptych_device *device, const struct triptych_image *image);
 bool device_has_query(struct triptych_device *device, const struct triptych_query *query);
 bool device_has_shader(struct triptych_device *device, const struct triptych_shader *shader);
 

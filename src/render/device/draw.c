@@ -153,31 +153,32 @@ static enum triptych_result check_indices(const struct triptych_device *device, 
     drawn->indices = buffer->data + drawn->index_span.begin;
     return device_check_vertices(device, drawn->highest, error);
 }
-/* A texture that is drawn to cannot be sampled: its current texels are in the tiles. */
-static enum triptych_result check_feedback(const struct triptych_device *device, struct error *error)
+
+/* The parts of the target that the pixel routine changes. */
+static unsigned drawn_parts(const struct pixel_key *key)
 {
-    for (int i = 0; i < SAMPLERS && device->binding.draws_to_textures; i++)
-        if (device_derived_samples(&device->derived, i) &&
-            device_draws_to(device, device->state.texture[i])) {
-            error_set(error, "texture of sampler %d is drawn to: expected another one, or none", i);
-            return TRIPTYCH_BAD_CALL;
-        }
-    return TRIPTYCH_OK;
+    unsigned parts = key->depth_write || pixel_stencil(key) ? TARGET_DEPTH : 0;
+    for (unsigned t = 0; t < TARGETS; t++)
+        parts |= key->write_mask[t] ? 1u << t : 0;
+    return parts;
 }
+
 /* --- Draws --- */
 
 enum triptych_result device_count_draw(struct triptych_device *device, const struct drawn *drawn,
                                        struct error *error)
 {
     uint32_t instances = drawn->index_bits ? state_instances(&device->state) : 1;
-    if (check_feedback(device, error) != TRIPTYCH_OK)
-        return TRIPTYCH_BAD_CALL;
+    const struct pixel_key *key = &device->derived.key[UNIT_PIXEL].pixel;
     const struct rectangle *visible = &device->derived.draw.scissor;
     bool reaches = visible->x0 < visible->x1 && visible->y0 < visible->y1;
-    if (drawn->count && reaches && derive_effective(&device->derived.key[UNIT_PIXEL].pixel)) {
+    if (drawn->count && reaches && derive_effective(key)) {
+        device_prepare_target(device);
+        device_prepare_textures(device);
         enum triptych_result result = device_enqueue(device, drawn, instances, error);
         if (result != TRIPTYCH_OK)
             return result;
+        device_note_drawn(device, drawn_parts(key));
     }
     if (device->hook.on_draw)
         device->hook.on_draw(device->hook.user, device->counts.draws, device->derived.key);
@@ -230,12 +231,15 @@ enum triptych_result device_draw_indexed(struct triptych_device *device, enum tr
 enum triptych_result device_clear(struct triptych_device *device, const struct clear_values *values,
                                   struct error *error)
 {
-    enum triptych_depth_format format = device->binding.target.depth_format;
+    enum triptych_depth_format format = device->binding.target->depth_format;
     enum triptych_result result = device_has_target(device, error);
     if (result == TRIPTYCH_OK)
         result = state_check_clear(format, values->flags, values->color, values->depth, error);
     if (result != TRIPTYCH_OK || !values->flags)
         return result;
+    device_prepare_target(device);
+    device_note_drawn(device, (values->flags & TRIPTYCH_CLEAR_COLOR ? TARGET_DEPTH - 1 : 0) |
+                                  (values->flags & ~TRIPTYCH_CLEAR_COLOR ? TARGET_DEPTH : 0));
     struct command *command = device_next_command(device);
     struct clear *clear = &command->clear;
     command->kind = COMMAND_CLEAR;
@@ -243,7 +247,7 @@ enum triptych_result device_clear(struct triptych_device *device, const struct c
                             .set_color = values->flags & TRIPTYCH_CLEAR_COLOR};
     unsigned saved = mxcsr_enter();
     if (clear->set_color)
-        target_clear_words(&device->binding.target, values->color, clear->color);
+        target_clear_words(device->binding.target, values->color, clear->color);
     if (values->flags & TRIPTYCH_CLEAR_DEPTH) {
         /* The pipeline has neither denormals nor -0 in depth. */
         clear->depth = depth_encode(format, values->depth >= FLT_MIN ? values->depth : 0);

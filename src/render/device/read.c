@@ -90,12 +90,12 @@ static enum triptych_result read_target(struct triptych_device *device, struct r
 {
     enum triptych_result result = device_has_target(device, error);
     if (result == TRIPTYCH_OK)
-        result = check_reading(&device->binding.target, reading, error);
+        result = check_reading(device->binding.target, reading, error);
     if (result != TRIPTYCH_OK)
         return result;
-    device_finish(device);
-    reading->target = &device->binding.target;
-    pool_run(device->pool, 0, device->binding.target.rows, POOL_ALL, read_task, reading);
+    device_finish_target(device);
+    reading->target = device->binding.target;
+    pool_run(device->pool, 0, device->binding.target->rows, POOL_ALL, read_task, reading);
     return TRIPTYCH_OK;
 }
 

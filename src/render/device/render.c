@@ -24,6 +24,8 @@ static void await_rendered(struct triptych_device *device)
     device_free_palettes(device->rendered.palettes);
     device_reuse_storage(device, &device->rendered.retired);
     device->rendered.palettes = NULL;
+    device_free_released(device->rendered.released);
+    device->rendered.released = NULL;
     device->rendered.held_count = device->rendered.commands = 0;
 }
 
@@ -37,6 +39,8 @@ static void empty(struct triptych_device *device)
     transient_reset(&device->transient);
     device_reuse_storage(device, &device->resources.retired);
     device_free_palettes(device_derived_take_palettes(&device->derived));
+    device_free_released(device->released);
+    device->released = NULL;
     device->epoch++;
 }
 
@@ -46,7 +50,7 @@ void device_finish(struct triptych_device *device)
     uint32_t commands = queue->commands.count;
     await_rendered(device);
     if (commands)
-        queue_render(queue, &device->binding.target);
+        queue_render(queue);
     queries_rendered(&device->queries, queue->round.passed, commands);
     empty(device);
 }
@@ -66,12 +70,14 @@ void device_start(struct triptych_device *device)
         return;
     }
     await_rendered(device);
-    queue_start(queue, &device->binding.target);
+    queue_start(queue);
     device_routines_count_hits(&device->routines, device->cache);
     device->rendered.held_count = device->routines.count;
     device->rendered.held = device_routines_exchange(&device->routines);
     device->rendered.commands = commands;
     device->rendered.palettes = device_derived_take_palettes(&device->derived);
+    device->rendered.released = device->released;
+    device->released = NULL;
     memset(device->derived.draw.routine, 0, sizeof device->derived.draw.routine);
     device->derived.draw.job = NULL;
     constants_exchange(&device->constants);

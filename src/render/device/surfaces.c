@@ -1,8 +1,4 @@
-/* The device's surfaces: drawing to textures, copies, reading.
- *
- * While textures are drawn to, a target of their own replaces the one that was set, which is parked. Their
- * texels are valid again once the surfaces are stored: when the textures are left, or when texels are read
- * before. */
+/* The device's surfaces as images: copies and reading (render/device/attach.c draws to them). */
 #include "machine/mxcsr.h"
 #include "render/target/copy.h"
 #include "render/device/device.h"
@@ -13,13 +9,6 @@
 #include <string.h>
 
 /* Not inlined: the compiler may move arithmetic over a change of MXCSR, but not a call. */
-__attribute__((noinline)) static void load(struct triptych_device *device)
-{
-    unsigned saved = mxcsr_enter();
-    surfaces_load(&device->binding.textures, &device->binding.target);
-    mxcsr_leave(saved);
-}
-
 __attribute__((noinline)) static void
 write_to_target(struct target *target, unsigned t, const struct triptych_rectangle *part, const float *image)
 {
@@ -39,81 +28,9 @@ __attribute__((noinline)) static void write_to_surface(const struct triptych_sur
     mxcsr_leave(saved);
 }
 
-/* --- Drawing to textures --- */
-
-bool device_draws_to(const struct triptych_device *device, const struct triptych_texture *texture)
-{
-    return device->binding.draws_to_textures && surfaces_include(&device->binding.textures, texture);
-}
-
-void device_store_texture(struct triptych_device *device, const struct triptych_texture *texture)
-{
-    if (device_uses(device, texture) || device_draws_to(device, texture))
-        device_finish(device);
-    if (device_draws_to(device, texture))
-        surfaces_store(&device->binding.textures, &device->binding.target);
-}
-
-void device_load_texture(struct triptych_device *device, const struct triptych_texture *texture)
-{
-    if (device_draws_to(device, texture))
-        load(device);
-}
-
-void device_leave_textures(struct triptych_device *device)
-{
-    if (!device->binding.draws_to_textures)
-        return;
-    device_finish(device);
-    surfaces_store(&device->binding.textures, &device->binding.target);
-    target_destroy(&device->binding.target);
-    device->binding.target = device->binding.parked;
-    device->binding.parked = (struct target){0};
-    device->binding.draws_to_textures = false;
-}
-
-static void target_changed(struct triptych_device *device)
-{
-    struct triptych_target_description description;
-    target_describe(&device->binding.target, &description);
-    state_set_target(&device->state, &description);
-    device_state_changed(device, PARTS_ALL);
-}
-
-enum triptych_result device_set_target_textures(struct triptych_device *device,
-                                                const struct triptych_target_textures *textures,
-                                                struct error *error)
-{
-    struct triptych_target_description description;
-    struct target target;
-    if (!textures && !device->binding.draws_to_textures)
-        return TRIPTYCH_OK;
-    if (!textures) {
-        device_leave_textures(device);
-        target_changed(device);
-        return TRIPTYCH_OK;
-    }
-    enum triptych_result result = surfaces_describe(textures, &description, error);
-    if (result == TRIPTYCH_OK)
-        result = device_check_target(&description, error);
-    if (result != TRIPTYCH_OK)
-        return result;
-    if (target_create(&target, &description, error))
-        return TRIPTYCH_NO_MEMORY;
-    device_finish(device);
-    device_leave_textures(device);
-    device->binding.parked = device->binding.target;
-    device->binding.target = target;
-    device->binding.textures = *textures;
-    device->binding.draws_to_textures = true;
-    load(device);
-    target_changed(device);
-    return TRIPTYCH_OK;
-}
-
 /* --- Images of four numbers a pixel --- */
 
-/* A surface of a texture, or a colour of the target. */
+/* A surface, or a colour of the target. */
 struct image {
     const struct triptych_surface *surface;
     uint32_t width, height;
@@ -130,29 +47,59 @@ static enum triptych_result find_image(struct triptych_device *device, const str
     return result;
 }
 
-static void read_image(struct triptych_device *device, const struct image *image, float *numbers)
+/* Reads depth as surfaces of textures have it: the same number in all channels. */
+static void read_depth_numbers(const struct target *view, float *numbers)
 {
-    const struct target *target = device_main_target(device);
-    device_finish(device);
+    size_t pixels = (size_t)view->width * view->height;
+    float *depth = numbers + 3 * pixels; /* read by the numbers of earlier pixels only */
+    for (uint32_t row = 0; row < view->rows; row++)
+        target_read_depth(view, SAMPLE_RESOLVED, row, depth);
+    for (size_t p = 0; p < pixels; p++) {
+        float value = depth[p];
+        for (int c = 0; c < 4; c++)
+            numbers[4 * p + (size_t)c] = value;
+    }
+}
+
+static enum triptych_result read_image(struct triptych_device *device, const struct image *image,
+                                       float *numbers, struct error *error)
+{
+    struct target view;
     if (image->surface->texture) {
         device_store_texture(device, image->surface->texture);
         surface_read_numbers(image->surface, numbers);
-        return;
+        return TRIPTYCH_OK;
     }
-    for (uint32_t row = 0; row < target->rows; row++)
-        target_read_numbers(target, image->surface->slice, SAMPLE_RESOLVED, row, numbers, target->width);
+    enum triptych_result result = device_view(device, image->surface, &view, error);
+    if (result != TRIPTYCH_OK)
+        return result;
+    device_finish(device);
+    if (view.depth)
+        read_depth_numbers(&view, numbers);
+    for (uint32_t row = 0; row < view.rows && !view.depth; row++)
+        target_read_numbers(&view, 0, SAMPLE_RESOLVED, row, numbers, view.width);
+    target_destroy(&view);
+    return TRIPTYCH_OK;
 }
 
-static void write_image(struct triptych_device *device, const struct image *image,
-                        const struct triptych_rectangle *part, const float *numbers)
+static enum triptych_result write_image(struct triptych_device *device, const struct image *image,
+                                        const struct triptych_rectangle *part, const float *numbers,
+                                        struct error *error)
 {
-    if (!image->surface->texture) {
-        write_to_target(device_main_target(device), image->surface->slice, part, numbers);
-        return;
+    struct target view;
+    if (image->surface->texture) {
+        device_store_texture(device, image->surface->texture);
+        write_to_surface(image->surface, part, numbers);
+        device_load_texture(device, image->surface->texture);
+        return TRIPTYCH_OK;
     }
-    device_store_texture(device, image->surface->texture);
-    write_to_surface(image->surface, part, numbers);
-    device_load_texture(device, image->surface->texture);
+    enum triptych_result result = device_view(device, image->surface, &view, error);
+    if (result != TRIPTYCH_OK)
+        return result;
+    device_finish(device);
+    write_to_target(&view, 0, part, numbers);
+    target_destroy(&view);
+    return TRIPTYCH_OK;
 }
 
 static float *allocate_numbers(uint64_t pixels, struct error *error)
@@ -171,12 +118,11 @@ static enum triptych_result copy(struct triptych_device *device, const struct im
 {
     float *whole = allocate_numbers((uint64_t)image[0].width * image[0].height, error);
     float *rows = whole ? allocate_numbers((uint64_t)part[1].width * part[1].height, error) : NULL;
-    if (rows) {
-        read_image(device, &image[0], whole);
+    enum triptych_result result = rows ? read_image(device, &image[0], whole, error) : TRIPTYCH_NO_MEMORY;
+    if (result == TRIPTYCH_OK) {
         copy_scaled(whole, image[0].width, &part[0], &part[1], filter, rows);
-        write_image(device, &image[1], &part[1], rows);
+        result = write_image(device, &image[1], &part[1], rows, error);
     }
-    enum triptych_result result = rows ? TRIPTYCH_OK : TRIPTYCH_NO_MEMORY;
     free(whole);
     free(rows);
     return result;
@@ -208,7 +154,7 @@ enum triptych_result device_read_surface_numbers(struct triptych_device *device,
     if (result == TRIPTYCH_OK)
         result = device_check_room("numbers", bytes, 16 * (size_t)image.width * image.height, error);
     if (result == TRIPTYCH_OK)
-        read_image(device, &image, numbers);
+        result = read_image(device, &image, numbers, error);
     return result;
 }
 
@@ -226,12 +172,12 @@ enum triptych_result device_read_surface(struct triptych_device *device,
     float *numbers = allocate_numbers(pixels, error);
     if (!numbers)
         return TRIPTYCH_NO_MEMORY;
-    read_image(device, &image, numbers);
-    for (size_t i = 0; i < pixels; i++) {
+    result = read_image(device, &image, numbers, error);
+    for (size_t i = 0; i < pixels && result == TRIPTYCH_OK; i++) {
         uint32_t words[4];
         memcpy(words, numbers + 4 * i, sizeof words);
         rgba[i] = color_bytes(TARGET_FLOAT, words);
     }
     free(numbers);
-    return TRIPTYCH_OK;
+    return result;
 }

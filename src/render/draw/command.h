@@ -1,4 +1,5 @@
-/* The commands of a device that are not rendered yet: draws and clears, self-contained.
+/* The commands of a device that are not rendered yet: draws, clears, changes of the target, and transfers
+ * between its tiles and textures, self-contained.
  *
  * A draw is a snapshot: the data that it refers to does not change until it is rendered. Draws between
  * which nothing has changed share their job. */
@@ -30,12 +31,22 @@ struct draw {
     bool flat;       /* of edges and corners: colours are the triangle's first vertex' */
 };
 
+struct surface_transfer;
+
 struct command {
-    enum { COMMAND_DRAW, COMMAND_CLEAR } kind;
+    enum { COMMAND_DRAW, COMMAND_CLEAR, COMMAND_TARGET, COMMAND_TRANSFER } kind;
     union {
         struct draw draw;
         struct clear clear;
+        struct target *target; /* of the commands that follow */
+        const struct surface_transfer *transfer;
     };
 };
+
+/* Returns true if commands of the kind change pixels of the target, so that a round can have several. */
+static inline bool command_draws(const struct command *command)
+{
+    return command->kind == COMMAND_DRAW || command->kind == COMMAND_CLEAR;
+}
 
 #endif

@@ -37,10 +37,8 @@ void queue_destroy(struct queue *queue)
     free(queue);
 }
 
-static void begin_rendering(struct queue *queue, struct target *target)
+static void begin_rendering(struct queue *queue)
 {
-    queue->round.target = target;
-    queue->round.farthest = depth_encode(target->depth_format, 1);
     queue->round.command = queue->commands.command;
     queue->rendered_commands = queue->commands.count;
     memset(queue->round.passed, 0, queue->commands.count * sizeof *queue->round.passed);
@@ -65,9 +63,9 @@ static void add_statistics(struct queue *queue)
     *unseen = (struct queue_statistics){0};
 }
 
-void queue_render(struct queue *queue, struct target *target)
+void queue_render(struct queue *queue)
 {
-    begin_rendering(queue, target);
+    begin_rendering(queue);
     queue_render_rounds(queue, 0);
     add_statistics(queue);
 }
@@ -77,9 +75,9 @@ bool queue_has_threads(const struct queue *queue)
     return queue->commands.other.command && pool_limited(queue->phase.pool) > 1;
 }
 
-void queue_start(struct queue *queue, struct target *target)
+void queue_start(struct queue *queue)
 {
-    begin_rendering(queue, target);
+    begin_rendering(queue);
     queue_commands_exchange(&queue->commands);
     queue->rendering = true;
     pool_start(queue->phase.pool, queue_render_rounds, queue);

@@ -3,6 +3,9 @@
  * With threads there are two buffers of commands: one is rendered in the background while the other is
  * filled.
  *
+ * Changes of the target and transfers between tiles and texels end a round. They are phases of their own, in
+ * which threads take tiles. The target stays the same from one buffer to the next.
+ *
  * A round takes commands from the queue in order, cuts draws into chunks of primitives, and runs two phases
  * on the pool (render/queue/phase.h). Geometry: threads take chunks in any order, and write each into its own
  * bins in the arena. Tiles: the bins of the chunks are linked, tile by tile, in the order of the chunks
@@ -21,6 +24,7 @@
 #include "render/queue/commands.h"
 #include "render/queue/phase.h"
 #include "render/queue/pool.h"
+#include "render/target/surface.h"
 #include "render/tile/tile.h"
 
 enum { CHUNK_PRIMITIVES = 2048 };
@@ -85,16 +89,20 @@ static inline struct command *queue_next(struct queue *queue)
     return commands->count < QUEUE_COMMANDS ? commands->command + commands->count : NULL;
 }
 
-/* Renders all queued commands, in order, into the target, and empties the queue. queue->round.passed then
- * has the counts of these commands. Nothing may be rendered in the background. */
-void queue_render(struct queue *queue, struct target *target);
+/* Renders all queued commands, in order, and empties the queue. queue->round.passed then has the counts of
+ * these commands. Nothing may be rendered in the background. */
+void queue_render(struct queue *queue);
 
-/* The same in the background. Until queue_wait the caller must not access the target, nor change what the
- * commands refer to. queue_has_threads must be true. */
-void queue_start(struct queue *queue, struct target *target);
+/* The same in the background. Until queue_wait the caller must not access what the commands refer to, nor
+ * change it. queue_has_threads must be true. */
+void queue_start(struct queue *queue);
 bool queue_has_threads(const struct queue *queue);
 /* Returns when what was started is rendered. */
 void queue_wait(struct queue *queue);
+
+/* Make a change of the target or a transfer immediately. Nothing may be rendered in the background. */
+void queue_change_target(struct queue *queue, struct target *target);
+void queue_transfer(struct queue *queue, const struct surface_transfer *transfer);
 
 /* Renders all rounds, as worker `number` of the pool (render/queue/rounds.c); `user` is the queue. */
 void queue_render_rounds(void *user, unsigned number);

@@ -66,6 +66,8 @@ static void make_chunks(struct queue *queue, struct cursor at, uint32_t limit)
     queue->round.chunks = queue->chunks.tasks = queue->chunks.primitives = 0;
     while (at.command < queue->rendered_commands && queue->round.chunks < limit) {
         const struct command *command = queue->round.command + at.command;
+        if (!command_draws(command))
+            break;
         uint32_t left = command->kind == COMMAND_DRAW ? command->draw.count - at.primitive : 0;
         prefetch_command(queue, at.command + COMMANDS_AHEAD);
         uint32_t count = left < CHUNK_PRIMITIVES ? left : CHUNK_PRIMITIVES;
@@ -163,6 +165,64 @@ static void tiles_task(void *user, unsigned number)
     queue->worker[number].tiles_ns += phase_end_stint(&stint);
 }
 
+/* --- Targets and transfers --- */
+
+enum { MOVE_NS = 2000 }; /* of a tile's words, or of its texels */
+
+/* A phase whose tasks are the tiles of an attachment. */
+struct tile_work {
+    struct queue *queue;
+    const struct tile_move *move; /* or null: */
+    const struct surface_transfer *transfer;
+};
+
+static void work_task(void *user, unsigned number)
+{
+    const struct tile_work *work = user;
+    uint32_t first, count;
+    while ((count = phase_take(&work->queue->phase, number, &first)))
+        for (uint32_t i = first; i < first + count; i++) {
+            uint32_t tile = phase_task(&work->queue->phase, i);
+            if (work->move)
+                target_move_tile(work->move, tile);
+            else
+                surface_transfer_tile(work->transfer, tile);
+        }
+}
+
+static void run_work(struct queue *queue, struct tile_work work, const struct attachment *attachment)
+{
+    uint32_t tiles = attachment->columns * attachment->rows;
+    uint64_t ns = (uint64_t)tiles * MOVE_NS;
+    phase_make_parts(&queue->phase, tiles, ns);
+    phase_run(&queue->phase, tiles, ns, work_task, &work);
+}
+
+static void make_transfer(struct queue *queue, const struct surface_transfer *transfer)
+{
+    run_work(queue, (struct tile_work){queue, NULL, transfer}, transfer->attachment);
+}
+
+static void change_target(struct queue *queue, struct target *target)
+{
+    for (uint32_t i = 0; i < target->moves; i++)
+        run_work(queue, (struct tile_work){queue, &target->move[i], NULL}, target->move[i].attachment);
+    queue->round.target = target;
+    queue->round.farthest = depth_encode(target->depth_format, 1);
+}
+
+void queue_change_target(struct queue *queue, struct target *target)
+{
+    queue->phase.leader = 0;
+    change_target(queue, target);
+}
+
+void queue_transfer(struct queue *queue, const struct surface_transfer *transfer)
+{
+    queue->phase.leader = 0;
+    make_transfer(queue, transfer);
+}
+
 /* --- Rounds --- */
 
 static void count_round(struct queue *queue)
@@ -173,9 +233,21 @@ static void count_round(struct queue *queue)
     queue->unseen.rounds++;
 }
 
+static struct cursor execute(struct queue *queue, struct cursor at)
+{
+    const struct command *command = queue->round.command + at.command;
+    if (command->kind == COMMAND_TARGET)
+        change_target(queue, command->target);
+    else
+        make_transfer(queue, command->transfer);
+    return (struct cursor){at.command + 1, 0};
+}
+
 static struct cursor render_round(struct queue *queue, struct cursor at, uint32_t limit)
 {
     struct round *round = &queue->round;
+    if (!command_draws(queue->round.command + at.command))
+        return execute(queue, at);
     make_chunks(queue, at, limit);
     arena_reset(&round->arena);
     round->arena.shared = pool_limited(queue->phase.pool) > 1;

@@ -27,17 +27,22 @@ size_t target_contents_bytes(const struct triptych_target_description *descripti
     return (size_t)description->width * description->height * samples * words * sizeof(uint32_t);
 }
 
-/* The words of a pixel: a colour's planes, and depth's, each once for every sample. */
+/* The words of a pixel in a tile: a colour's first plane and depth's, each once for every sample; null if they
+ * are not stored. */
 struct pixel {
-    uint32_t *color, *depth;
+    uint32_t *color[TARGETS], *depth;
 };
 
 static struct pixel find_pixel(struct target *target, uint32_t x, uint32_t y)
 {
     uint32_t tile = y / TILE_SIZE * target->columns + x / TILE_SIZE;
     uint32_t word = pixel_word(x % TILE_SIZE, y % TILE_SIZE);
-    return (struct pixel){target_fill_color(target, tile) + word,
-                          target->depth ? target_fill_depth(target, tile) + word : NULL};
+    struct pixel pixel = {{NULL}, target->depth ? target_fill_depth(target, tile) + word : NULL};
+    uint32_t *color = target->color ? target_fill_color(target, tile) + word : NULL;
+    for (unsigned t = 0; t < TARGETS; t++)
+        if (target->colors[t].attachment)
+            pixel.color[t] = color + target->colors[t].plane * TILE_PIXELS;
+    return pixel;
 }
 
 static uint32_t valid_depth(enum triptych_depth_format format, uint32_t word)
@@ -51,13 +56,24 @@ static uint32_t valid_depth(enum triptych_depth_format format, uint32_t word)
     return (kept & stencil_mask(format)) | depth_encode(format, depth > 1 ? 1 : 0);
 }
 
+/* Words of colours that are not stored have all bits set. */
+static void write_color(const struct target *target, unsigned t, uint32_t *words, const uint8_t **data)
+{
+    int planes = target->colors[t].format ? storage_planes[target->colors[t].storage] : 0;
+    for (int plane = 0; plane < planes; plane++, *data += sizeof(uint32_t))
+        if (words)
+            memcpy(words + plane * TILE_PIXELS, *data, sizeof(uint32_t));
+}
+
 static void write_pixel(struct target *target, uint32_t x, uint32_t y, const uint8_t **data)
 {
     struct pixel pixel = find_pixel(target, x, y);
-    target_forget_depth(target, y / TILE_SIZE * target->columns + x / TILE_SIZE);
+    if (pixel.depth)
+        target_forget_depth(target, y / TILE_SIZE * target->columns + x / TILE_SIZE);
     for (uint32_t sample = 0; sample < target->samples; sample++) {
-        for (uint32_t plane = 0; plane < target->planes; plane++, *data += sizeof(uint32_t))
-            memcpy(pixel.color + (sample * target->planes + plane) * TILE_PIXELS, *data, sizeof(uint32_t));
+        size_t next = (size_t)sample * target->planes * TILE_PIXELS;
+        for (unsigned t = 0; t < TARGETS; t++)
+            write_color(target, t, pixel.color[t] ? pixel.color[t] + next : NULL, data);
         if (!pixel.depth)
             continue;
         uint32_t word;
@@ -75,12 +91,21 @@ __attribute__((noinline)) static void write_pixels(struct target *target, const 
             write_pixel(target, x, y, &data);
 }
 
+static void read_color(const struct target *target, unsigned t, const uint32_t *words, uint8_t **data)
+{
+    static const uint32_t ones = UINT32_MAX;
+    int planes = target->colors[t].format ? storage_planes[target->colors[t].storage] : 0;
+    for (int plane = 0; plane < planes; plane++, *data += sizeof(uint32_t))
+        memcpy(*data, words ? words + plane * TILE_PIXELS : &ones, sizeof(uint32_t));
+}
+
 static void read_pixel(struct target *target, uint32_t x, uint32_t y, uint8_t **data)
 {
     struct pixel pixel = find_pixel(target, x, y);
     for (uint32_t sample = 0; sample < target->samples; sample++) {
-        for (uint32_t plane = 0; plane < target->planes; plane++, *data += sizeof(uint32_t))
-            memcpy(*data, pixel.color + (sample * target->planes + plane) * TILE_PIXELS, sizeof(uint32_t));
+        size_t next = (size_t)sample * target->planes * TILE_PIXELS;
+        for (unsigned t = 0; t < TARGETS; t++)
+            read_color(target, t, pixel.color[t] ? pixel.color[t] + next : NULL, data);
         if (!pixel.depth)
             continue;
         memcpy(*data, pixel.depth + sample * TILE_PIXELS, sizeof(uint32_t));

@@ -1,6 +1,10 @@
 #include "render/target/surface.h"
 
+#include "base/bits.h"
+#include "base/minmax.h"
+
 #include <stdio.h>
+#include <stdlib.h>
 #include <string.h>
 
 /* The level of the surface's texture. */
@@ -15,11 +19,16 @@ static unsigned slices(const struct triptych_surface *surface)
                                                            : (unsigned)surface_level(surface)->depth;
 }
 
-/* Fails if the texture does not have the surface's level and slice. The reason names it `what`. */
+/* Fails if the surface is a texture's and an image, or if the texture does not have the level and slice. The
+ * reason names it `what`. */
 static enum triptych_result surface_check(const struct triptych_surface *surface, const char *what,
                                           struct error *error)
 {
-    if (surface->level >= surface->texture->levels)
+    if (surface->image && surface->texture)
+        error_set(error, "%s: a texture and an image, expected one of them", what);
+    else if (surface->image)
+        return TRIPTYCH_OK;
+    else if (surface->level >= surface->texture->levels)
         error_set(error, "%s: level %u of a texture with %u", what, surface->level, surface->texture->levels);
     else if (surface->slice >= slices(surface))
         error_set(error, "%s: slice %u of a level with %u", what, surface->slice, slices(surface));
@@ -38,94 +47,234 @@ static void *surface_texels(const struct triptych_surface *surface)
     return first + slice * format_texel_bytes(texture->format);
 }
 
-/* --- A target's description --- */
+/* --- Shapes --- */
 
-static enum triptych_result match_size(const struct triptych_surface *surface, const char *what,
-                                       struct triptych_target_description *description, struct error *error)
+/* What a target needs of a surface. */
+struct shape {
+    const struct format *format;             /* null: depth that is not a texture's */
+    enum triptych_depth_format depth_format; /* NONE: a colour */
+    uint32_t width, height, samples;
+};
+
+static struct shape shape_of(const struct triptych_surface *surface)
 {
-    const struct texture_level *level = surface_level(surface);
-    if (!description->width) {
-        description->width = (unsigned)level->width;
-        description->height = (unsigned)level->height;
+    if (surface->image) {
+        const struct triptych_image_description *d = &surface->image->description;
+        return (struct shape){format_find(d->format), d->format ? TRIPTYCH_DEPTH_NONE : d->depth_format,
+                              d->width, d->height, d->samples ? d->samples : 1};
     }
-    if ((unsigned)level->width == description->width && (unsigned)level->height == description->height)
+    const struct texture_level *level = surface_level(surface);
+    const struct format *format = surface->texture->format;
+    enum triptych_depth_format depth =
+        format->roles & ROLE_DEPTH ? (enum triptych_depth_format)format->depth : TRIPTYCH_DEPTH_NONE;
+    return (struct shape){format, depth, (uint32_t)level->width, (uint32_t)level->height, 1};
+}
+
+enum triptych_result image_check(const struct triptych_image_description *d, struct error *error)
+{
+    const struct format *format = format_find(d->format);
+    if (!d->width || !d->height || d->width > TARGET_SIZE_MAXIMUM || d->height > TARGET_SIZE_MAXIMUM)
+        error_set(error, "image of %u x %u pixels: expected 1 to %d a side", d->width, d->height,
+                  TARGET_SIZE_MAXIMUM);
+    else if (samples_exponent(d->samples) < 0)
+        error_set(error, "%u samples per pixel: expected 1, 2, 4 or 8", d->samples);
+    else if (!d->format && (unsigned)d->depth_format >= TRIPTYCH_DEPTH_COUNT)
+        error_set(error, "depth format %u: expected 0 to %u", (unsigned)d->depth_format,
+                  TRIPTYCH_DEPTH_COUNT - 1);
+    else if (!d->format && !depth_formats[d->depth_format].depth_bits)
+        error_set(error, "image without a format: expected one of a colour or one of depth");
+    else if (d->format && !format)
+        error_set(error, "format %u of an image: expected one of Direct3D 9's", (unsigned)d->format);
+    else if (!d->format || format->roles & ROLE_TARGET)
         return TRIPTYCH_OK;
-    error_set(error, "%s of %d x %d texels: expected %u x %u, the size of the others", what, level->width,
-              level->height, description->width, description->height);
+    else {
+        error_set(error, "format %s of an image: expected one that can be a target", format->name);
+        return TRIPTYCH_UNSUPPORTED;
+    }
     return TRIPTYCH_BAD_ARGUMENT;
 }
 
-static enum triptych_result describe_one(const struct triptych_surface *surface, const char *what, int role,
-                                         struct triptych_target_description *description, struct error *error)
+size_t image_bytes(const struct triptych_image_description *d)
 {
+    const struct format *format = format_find(d->format);
+    size_t words = format ? storage_planes[format->target] : 1;
+    return words * sizeof(uint32_t) * d->width * d->height * (d->samples ? d->samples : 1);
+}
+
+/* --- A target's description --- */
+
+/* The target has the pixels that all colours have. */
+static enum triptych_result match(const struct shape *shape, const char *what,
+                                  struct triptych_target_description *description, struct error *error)
+{
+    if (!description->width) {
+        description->width = shape->width;
+        description->height = shape->height;
+        description->samples = shape->samples;
+    }
+    if (shape->samples != description->samples) {
+        error_set(error, "%s with %u samples per pixel: expected %u, the number of the others", what,
+                  shape->samples, description->samples);
+        return TRIPTYCH_BAD_ARGUMENT;
+    }
+    description->width = min_u32(description->width, shape->width);
+    description->height = min_u32(description->height, shape->height);
+    return TRIPTYCH_OK;
+}
+
+static enum triptych_result check_role(const struct shape *shape, const char *what, bool depth,
+                                       struct error *error)
+{
+    if (depth ? shape->depth_format != TRIPTYCH_DEPTH_NONE
+              : shape->format && shape->format->roles & ROLE_TARGET)
+        return TRIPTYCH_OK;
+    error_set(error, "%s: format %s cannot be drawn to", what,
+              shape->format ? shape->format->name : depth_formats[shape->depth_format].name);
+    return TRIPTYCH_UNSUPPORTED;
+}
+
+static enum triptych_result describe_color(const struct triptych_surface *surface, unsigned t,
+                                           struct triptych_target_description *description,
+                                           struct error *error)
+{
+    char what[32];
+    snprintf(what, sizeof what, "colour target %u", t);
     enum triptych_result result = surface_check(surface, what, error);
     if (result != TRIPTYCH_OK)
         return result;
-    if (!(surface->texture->format->roles & role)) {
-        error_set(error, "%s: format %s cannot be drawn to", what, surface->texture->format->name);
-        return TRIPTYCH_UNSUPPORTED;
-    }
-    return match_size(surface, what, description, error);
+    struct shape shape = shape_of(surface);
+    result = check_role(&shape, what, false, error);
+    if (result != TRIPTYCH_OK)
+        return result;
+    description->color_format[t] = (enum triptych_surface_format)shape.format->number;
+    return match(&shape, what, description, error);
 }
 
-static enum triptych_result describe_colors(const struct triptych_target_textures *textures,
-                                            struct triptych_target_description *description,
-                                            struct error *error)
-{
-    enum triptych_result result = TRIPTYCH_OK;
-    for (unsigned t = 0; t < TARGETS && result == TRIPTYCH_OK; t++) {
-        const struct triptych_surface *surface = textures->color + t;
-        char what[32];
-        snprintf(what, sizeof what, "colour target %u", t);
-        if (!surface->texture)
-            continue;
-        result = describe_one(surface, what, ROLE_TARGET, description, error);
-        description->color_format[t] = (enum triptych_surface_format)surface->texture->format->number;
-    }
-    if (!textures->color[0].texture)
-        description->color_format[0] = TRIPTYCH_SURFACE_NULL;
-    return result;
-}
-
-/* A texel that is drawn to in two tiles would keep what one of them has. */
-static enum triptych_result check_distinct(const struct triptych_target_textures *textures,
+/* Depth has at least the pixels of the colours. */
+static enum triptych_result describe_depth(const struct triptych_surface *surface,
+                                           struct triptych_target_description *description,
                                            struct error *error)
 {
-    const struct triptych_surface *color = textures->color;
+    enum triptych_result result = surface_check(surface, "depth target", error);
+    if (result != TRIPTYCH_OK)
+        return result;
+    struct shape shape = shape_of(surface);
+    result = check_role(&shape, "depth target", true, error);
+    if (result != TRIPTYCH_OK)
+        return result;
+    description->depth_format = shape.depth_format;
+    if (shape.width >= description->width && shape.height >= description->height)
+        return match(&shape, "depth target", description, error);
+    error_set(error, "depth target of %u x %u pixels: expected at least %u x %u, the size of the colours",
+              shape.width, shape.height, description->width, description->height);
+    return TRIPTYCH_BAD_ARGUMENT;
+}
+
+static bool same_surface(const struct triptych_surface *a, const struct triptych_surface *b)
+{
+    return surface_is_given(a) && a->image == b->image && a->texture == b->texture &&
+           (a->image || (a->level == b->level && a->slice == b->slice));
+}
+
+/* A pixel that is drawn to in two tiles would keep what one of them has. */
+static enum triptych_result check_distinct(const struct triptych_surface *color, struct error *error)
+{
     for (unsigned b = 1; b < TARGETS; b++)
         for (unsigned a = 0; a < b; a++)
-            if (color[b].texture && color[a].texture == color[b].texture &&
-                color[a].level == color[b].level && color[a].slice == color[b].slice) {
+            if (same_surface(&color[a], &color[b])) {
                 error_set(error, "colour targets %u and %u: the same surface, expected another one", a, b);
                 return TRIPTYCH_BAD_ARGUMENT;
             }
     return TRIPTYCH_OK;
 }
 
-enum triptych_result surfaces_describe(const struct triptych_target_textures *textures,
+enum triptych_result surfaces_describe(const struct triptych_target_surfaces *surfaces,
                                        struct triptych_target_description *description, struct error *error)
 {
-    *description = (struct triptych_target_description){.depth_format = textures->depth_format};
-    enum triptych_result result = describe_colors(textures, description, error);
+    enum triptych_result result = TRIPTYCH_OK;
+    *description = (struct triptych_target_description){.depth_format = surfaces->depth_format,
+                                                        .color_format = {TRIPTYCH_SURFACE_NULL}};
+    for (unsigned t = 0; t < TARGETS && result == TRIPTYCH_OK; t++)
+        if (surface_is_given(&surfaces->color[t]))
+            result = describe_color(&surfaces->color[t], t, description, error);
     if (result == TRIPTYCH_OK)
-        result = check_distinct(textures, error);
-    if (result == TRIPTYCH_OK && textures->depth.texture) {
-        result = describe_one(&textures->depth, "depth target", ROLE_DEPTH, description, error);
-        description->depth_format = (enum triptych_depth_format)textures->depth.texture->format->depth;
-    }
+        result = check_distinct(surfaces->color, error);
+    if (result == TRIPTYCH_OK && surface_is_given(&surfaces->depth))
+        result = describe_depth(&surfaces->depth, description, error);
     if (result == TRIPTYCH_OK && !description->width) {
-        error_set(error, "no texture to draw to: expected at least one");
+        error_set(error, "no surface to draw to: expected at least one");
         return TRIPTYCH_BAD_ARGUMENT;
     }
     return result;
 }
 
-bool surfaces_include(const struct triptych_target_textures *textures, const struct triptych_texture *texture)
+bool surfaces_include(const struct triptych_target_surfaces *surfaces, const struct triptych_texture *texture)
 {
-    bool includes = textures->depth.texture == texture;
+    bool includes = surfaces->depth.texture == texture;
     for (unsigned t = 0; t < TARGETS; t++)
-        includes |= textures->color[t].texture == texture;
+        includes |= surfaces->color[t].texture == texture;
     return texture && includes;
+}
+
+bool surfaces_include_image(const struct triptych_target_surfaces *surfaces,
+                            const struct triptych_image *image)
+{
+    bool includes = surfaces->depth.image == image;
+    for (unsigned t = 0; t < TARGETS; t++)
+        includes |= surfaces->color[t].image == image;
+    return image && includes;
+}
+
+/* --- Attachments --- */
+
+static struct drawn_surface *find_drawn(const struct triptych_surface *surface)
+{
+    struct drawn_surface *drawn = surface->texture->drawn;
+    while (drawn && (drawn->level != surface->level || drawn->slice != surface->slice))
+        drawn = drawn->next;
+    return drawn;
+}
+
+struct attachment *surface_attachment(const struct triptych_surface *surface)
+{
+    if (surface->image)
+        return surface->image->attachment;
+    const struct drawn_surface *drawn = find_drawn(surface);
+    return drawn ? drawn->attachment : NULL;
+}
+
+struct attachment *surface_make_attachment(const struct triptych_surface *surface, struct error *error)
+{
+    struct attachment *a = surface_attachment(surface);
+    if (a || surface->image)
+        return a;
+    struct drawn_surface *drawn = malloc(sizeof *drawn);
+    if (!drawn) {
+        error_set(error, "out of memory for a target");
+        return NULL;
+    }
+    struct shape s = shape_of(surface);
+    a = s.depth_format != TRIPTYCH_DEPTH_NONE
+            ? attachment_create_depth(s.depth_format, s.width, s.height, 1, error)
+            : attachment_create_color(s.format, s.width, s.height, 1, error);
+    if (!a) {
+        free(drawn);
+        return NULL;
+    }
+    a->texels_newer = true;
+    *drawn = (struct drawn_surface){surface->texture->drawn, surface->level, surface->slice, a};
+    surface->texture->drawn = drawn;
+    return a;
+}
+
+void surface_free_attachments(struct triptych_texture *texture)
+{
+    for (struct drawn_surface *drawn = texture->drawn, *next; drawn; drawn = next) {
+        next = drawn->next;
+        attachment_release(drawn->attachment);
+        free(drawn);
+    }
+    texture->drawn = NULL;
 }
 
 /* --- Copies --- */
@@ -136,12 +285,13 @@ enum triptych_result surface_size(const struct triptych_surface *surface, const 
 {
     size[0] = target->width;
     size[1] = target->height;
-    if (surface->texture) {
+    if (surface_is_given(surface)) {
         enum triptych_result result = surface_check(surface, what, error);
         if (result != TRIPTYCH_OK)
             return result;
-        size[0] = (uint32_t)surface_level(surface)->width;
-        size[1] = (uint32_t)surface_level(surface)->height;
+        struct shape shape = shape_of(surface);
+        size[0] = shape.width;
+        size[1] = shape.height;
         return TRIPTYCH_OK;
     }
     if (target->width && surface->slice < TARGETS && target_format(target, surface->slice))
@@ -164,14 +314,17 @@ static enum triptych_result check_part(const char *what, const uint32_t size[2],
 /* Only colour is copied, and only to surfaces that can be drawn to. */
 static enum triptych_result check_copied_formats(const struct surface_copy *copy, struct error *error)
 {
-    const struct triptych_texture *from = copy->surface[0]->texture, *to = copy->surface[1]->texture;
-    if (from && from->format->roles & ROLE_DEPTH)
-        error_set(error, "source of a copy: format %s is one of depth", from->format->name);
-    else if (to && !(to->format->roles & ROLE_TARGET))
-        error_set(error, "target of a copy: format %s cannot be drawn to", to->format->name);
-    else
-        return TRIPTYCH_OK;
-    return TRIPTYCH_UNSUPPORTED;
+    struct shape shape[2] = {{.depth_format = TRIPTYCH_DEPTH_NONE}};
+    for (int i = 0; i < 2; i++)
+        if (surface_is_given(copy->surface[i]))
+            shape[i] = shape_of(copy->surface[i]);
+    if (shape[0].depth_format != TRIPTYCH_DEPTH_NONE) {
+        error_set(error, "source of a copy: format %s is one of depth",
+                  shape[0].format ? shape[0].format->name : depth_formats[shape[0].depth_format].name);
+        return TRIPTYCH_UNSUPPORTED;
+    }
+    return surface_is_given(copy->surface[1]) ? check_role(&shape[1], "target of a copy", false, error)
+                                              : TRIPTYCH_OK;
 }
 
 enum triptych_result surface_check_copy(const struct surface_copy *copy,
@@ -195,56 +348,166 @@ enum triptych_result surface_check_copy(const struct surface_copy *copy,
 
 /* --- Texels and tiles --- */
 
-static void load_depth(const struct triptych_surface *surface, struct target *target)
+void surface_begin_transfer(const struct triptych_surface *surface, bool store,
+                            struct surface_transfer *transfer)
 {
-    const float *texel = surface_texels(surface);
-    size_t gap = 4 * (size_t)(surface_level(surface)->pitch - surface_level(surface)->width);
-    for (uint32_t y = 0; y < target->height; y++, texel += gap)
-        for (uint32_t x = 0; x < target->width; x++, texel += 4)
-            *target_depth_word(target, x, y) = depth_encode(target->depth_format, *texel);
+    struct attachment *a = surface_attachment(surface);
+    *transfer = (struct surface_transfer){
+        .store = store,
+        .attachment = attachment_retain(a),
+        .memory = attachment_memory_retain(a->memory),
+        .plane = a->plane,
+        .texels = surface_texels(surface),
+        .pitch = (size_t)surface_level(surface)->pitch,
+    };
 }
 
-static void store_depth(const struct triptych_surface *surface, const struct target *target)
+void surface_end_transfer(struct surface_transfer *transfer)
 {
-    const struct texture_level *level = surface_level(surface);
-    float *first = surface_texels(surface), *texel = first;
-    for (uint32_t y = 0; y < target->height; y++, texel += 4 * (level->pitch - level->width))
-        for (uint32_t x = 0; x < target->width; x++, texel += 4) {
-            float depth = depth_decode(target->depth_format, target_depth_at(target, x, y));
+    attachment_release(transfer->attachment);
+    attachment_memory_release(transfer->memory);
+}
+
+/* A tile of a transfer. */
+struct part {
+    struct rectangle area;
+    uint32_t *words;  /* its first plane */
+    uint32_t *texels; /* the area's first */
+    size_t pitch;     /* words of a row of texels */
+};
+
+static struct part part_of(const struct surface_transfer *transfer, uint32_t tile)
+{
+    const struct attachment *a = transfer->attachment;
+    const struct tile_memory *memory = transfer->memory;
+    size_t texel = attachment_planes(a) == 1 && a->format ? 1 : 4;
+    struct rectangle area = target_attachment_area(a, tile);
+    size_t place = (size_t)(tile / a->columns * memory->columns + tile % a->columns) * memory->stride;
+    size_t first = (size_t)area.y0 * transfer->pitch + (size_t)area.x0;
+    return (struct part){area, memory->words + place + transfer->plane * TILE_PIXELS,
+                         (uint32_t *)(void *)transfer->texels + first * texel, transfer->pitch * texel};
+}
+
+/* The words of four numbers per texel at x, y of the part, and the word in the tile. */
+static uint32_t *texel_at(const struct part *part, int32_t x, int32_t y, uint32_t *word)
+{
+    *word = pixel_word((uint32_t)x, (uint32_t)y);
+    return part->texels + (size_t)y * part->pitch + 4 * (size_t)x;
+}
+
+static void load_words(const struct part *part)
+{
+    for (int32_t y = 0; y < part->area.y1 - part->area.y0; y++)
+        for (int32_t x = 0; x < part->area.x1 - part->area.x0; x++)
+            part->words[pixel_word((uint32_t)x, (uint32_t)y)] =
+                part->texels[(size_t)y * part->pitch + (size_t)x];
+}
+
+static void load_numbers(const struct part *part)
+{
+    for (int32_t y = 0; y < part->area.y1 - part->area.y0; y++)
+        for (int32_t x = 0; x < part->area.x1 - part->area.x0; x++) {
+            uint32_t word;
+            const uint32_t *texel = texel_at(part, x, y, &word);
+            for (int c = 0; c < 4; c++)
+                part->words[c * TILE_PIXELS + word] = texel[c];
+        }
+}
+
+/* Stencil stays. */
+static void load_depth(const struct part *part, enum triptych_depth_format format, struct depth_clear *clear)
+{
+    uint32_t stencil = stencil_mask(format);
+    for (int32_t y = 0; y < part->area.y1 - part->area.y0; y++)
+        for (int32_t x = 0; x < part->area.x1 - part->area.x0; x++) {
+            uint32_t word;
+            const uint32_t *texel = texel_at(part, x, y, &word);
+            uint32_t old = clear->pending ? clear->word : part->words[word];
+            part->words[word] = depth_encode(format, bits_to_float(*texel)) | (old & stencil);
+        }
+    clear->range = (struct depth_range){0, depth_mask(format)};
+    clear->pending = false;
+}
+
+static void store_numbers(const struct part *part, const struct color_clear *clear)
+{
+    for (int32_t y = 0; y < part->area.y1 - part->area.y0; y++)
+        for (int32_t x = 0; x < part->area.x1 - part->area.x0; x++) {
+            uint32_t word, *texel = texel_at(part, x, y, &word);
+            for (int c = 0; c < 4; c++)
+                texel[c] = clear->pending ? clear->word[c] : part->words[c * TILE_PIXELS + word];
+        }
+}
+
+static void store_depth(const struct part *part, enum triptych_depth_format format,
+                        const struct depth_clear *clear)
+{
+    for (int32_t y = 0; y < part->area.y1 - part->area.y0; y++)
+        for (int32_t x = 0; x < part->area.x1 - part->area.x0; x++) {
+            uint32_t word, *texel = texel_at(part, x, y, &word);
+            uint32_t depth =
+                bits_of_float(depth_decode(format, clear->pending ? clear->word : part->words[word]));
             texel[0] = texel[1] = texel[2] = texel[3] = depth;
         }
-    texture_close_rows(surface->texture, level, first, target->height);
 }
 
-void surfaces_load(const struct triptych_target_textures *textures, struct target *target)
+static void store_words(const struct part *part, const struct color_clear *clear)
 {
-    for (unsigned t = 0; t < TARGETS; t++)
-        if (textures->color[t].texture)
-            target_write_texels(target, t, surface_texels(&textures->color[t]),
-                                (size_t)surface_level(&textures->color[t])->pitch);
-    if (textures->depth.texture)
-        load_depth(&textures->depth, target);
+    struct rectangle area = {0, 0, part->area.x1 - part->area.x0, part->area.y1 - part->area.y0};
+    if (clear->pending)
+        target_read_constant(clear->word[0], &area, part->texels, part->pitch);
+    else
+        target_read_tile(part->words, &area, part->texels, part->pitch);
 }
 
-static void store_color(const struct triptych_surface *surface, const struct target *target, unsigned t)
+/* The padding of rows of texels (render/texture/texture.h), by the tiles that have their first texels. */
+static void close_rows(const struct surface_transfer *transfer, const struct part *part)
 {
-    void *texels = surface_texels(surface);
-    size_t pitch = (size_t)surface_level(surface)->pitch;
-    for (uint32_t row = 0; row < target->rows; row++)
-        if (surface->texture->format->storage == STORAGE_RGBA8)
-            target_read_color(target, t, SAMPLE_RESOLVED, row, texels, pitch);
-        else
-            target_read_numbers(target, t, SAMPLE_RESOLVED, row, texels, pitch);
-    texture_close_rows(surface->texture, surface_level(surface), texels, target->height);
+    size_t words = part->pitch / transfer->pitch;
+    for (int32_t y = part->area.y0; y < part->area.y1 && !part->area.x0; y++) {
+        uint32_t *row = part->texels + (size_t)(y - part->area.y0) * part->pitch;
+        memcpy(row + transfer->attachment->width * words, row, words * sizeof *row);
+    }
 }
 
-void surfaces_store(const struct triptych_target_textures *textures, const struct target *target)
+static void store_tile(const struct surface_transfer *transfer, const struct part *part, uint32_t tile)
 {
-    for (unsigned t = 0; t < TARGETS; t++)
-        if (textures->color[t].texture)
-            store_color(&textures->color[t], target, t);
-    if (textures->depth.texture)
-        store_depth(&textures->depth, target);
+    const struct attachment *a = transfer->attachment;
+    if (!a->format)
+        store_depth(part, a->depth_format, &a->depth_clear[tile]);
+    else if (attachment_planes(a) == 1)
+        store_words(part, &a->color_clear[tile]);
+    else
+        store_numbers(part, &a->color_clear[tile]);
+    close_rows(transfer, part);
+}
+
+/* Words beyond the surface's edges have a value too: tools compare whole tiles. */
+static void fill_partial(const struct attachment *a, const struct part *part, uint32_t tile)
+{
+    bool pending = a->format ? a->color_clear[tile].pending : a->depth_clear[tile].pending;
+    bool whole = part->area.x1 - part->area.x0 == TILE_SIZE && part->area.y1 - part->area.y0 == TILE_SIZE;
+    if (pending && !whole)
+        memset(part->words, 0, attachment_planes(a) * TILE_PLANE_BYTES);
+}
+
+void surface_transfer_tile(const struct surface_transfer *transfer, uint32_t tile)
+{
+    const struct attachment *a = transfer->attachment;
+    struct part part = part_of(transfer, tile);
+    if (transfer->store) {
+        store_tile(transfer, &part, tile);
+        return;
+    }
+    fill_partial(a, &part, tile);
+    if (!a->format)
+        load_depth(&part, a->depth_format, &a->depth_clear[tile]);
+    else if (attachment_planes(a) == 1)
+        load_words(&part);
+    else
+        load_numbers(&part);
+    if (a->format)
+        a->color_clear[tile].pending = false;
 }
 
 /* --- Numbers --- */

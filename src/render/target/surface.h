@@ -1,27 +1,82 @@
-/* Surfaces: single images of textures that are drawn to, read and copied.
+/* Surfaces: what is drawn to, read and copied: images, and single levels, faces and slices of textures.
  *
- * A texture's texels and a target's pixels hold the same values: words where the format has 8 bits a
- * channel, four numbers otherwise (render/texture/format.h, def/state/target.def). So drawing to a texture
- * is drawing to tiles that begin with its texels and end as them. Depth is the same number in all four
- * channels of a texel; stencil has no place there and begins as zero. */
+ * An image is an attachment (render/target/attachment.h) and has no other storage. A texture has texels, which
+ * are sampled; each of its surfaces that has been drawn to has an attachment too. Both hold the same values:
+ * words where the format has 8 bits a channel, four numbers otherwise (render/texture/format.h,
+ * def/state/target.def). Depth is the same number in all four channels of a texel; stencil has no place there
+ * and stays in the tiles.
+ *
+ * Drawing makes the tiles newer than the texels, and changes of texels make these newer. A transfer brings one
+ * of both up to date. Which one is newer is decided in the order of the calls, when these are queued. */
 #ifndef RENDER_TARGET_SURFACE_H
 #define RENDER_TARGET_SURFACE_H
 
 #include "render/target/target.h"
 #include "render/texture/texture.h"
 
+struct triptych_image {
+    struct triptych_image *next; /* of the device's */
+    struct triptych_image_description description;
+    struct attachment *attachment; /* null: its format stores nothing */
+    uint32_t recorded;             /* its number while calls are recorded */
+};
+
+/* A surface of a texture that has been drawn to. */
+struct drawn_surface {
+    struct drawn_surface *next; /* of the texture's */
+    unsigned level, slice;
+    struct attachment *attachment;
+};
+
+/* Fails if the description is not valid. */
+enum triptych_result image_check(const struct triptych_image_description *description, struct error *error);
+
+/* Bytes of the pixels of a valid description. */
+size_t image_bytes(const struct triptych_image_description *description);
+
 /* Describes a target that draws to the surfaces. Checks formats and sizes, and that there is at least one
- * surface. */
-enum triptych_result surfaces_describe(const struct triptych_target_textures *textures,
+ * surface. Images need only their descriptions, textures only what texture_describe makes. */
+enum triptych_result surfaces_describe(const struct triptych_target_surfaces *surfaces,
                                        struct triptych_target_description *description, struct error *error);
 
-/* Returns true if one of the surfaces belongs to the texture. */
-bool surfaces_include(const struct triptych_target_textures *textures,
+/* Returns true if one of the surfaces belongs to the texture, or is the image. */
+bool surfaces_include(const struct triptych_target_surfaces *surfaces,
                       const struct triptych_texture *texture);
+bool surfaces_include_image(const struct triptych_target_surfaces *surfaces,
+                            const struct triptych_image *image);
 
-/* All texels of the surfaces to the target's tiles, and back. */
-void surfaces_load(const struct triptych_target_textures *textures, struct target *target);
-void surfaces_store(const struct triptych_target_textures *textures, const struct target *target);
+/* Returns true if the argument is a surface: a texture or an image. */
+static inline bool surface_is_given(const struct triptych_surface *surface)
+{
+    return surface->texture || surface->image;
+}
+
+/* The tiles of a valid surface; null: it is a texture's that has not been drawn to, or stores nothing. */
+struct attachment *surface_attachment(const struct triptych_surface *surface);
+/* The same, made if it is missing: a texture's tiles are then older than its texels. Null with the reason
+ * if memory is short, or without a reason if the format stores nothing. */
+struct attachment *surface_make_attachment(const struct triptych_surface *surface, struct error *error);
+/* Frees what a texture holds; before it is destroyed. */
+void surface_free_attachments(struct triptych_texture *texture);
+
+/* A transfer between the tiles and the texels of one surface of a texture. It holds the attachment and its
+ * memory, not the texels. */
+struct surface_transfer {
+    bool store; /* from tiles to texels; false: the other way */
+    struct attachment *attachment;
+    struct tile_memory *memory;
+    uint32_t plane;
+    uint8_t *texels; /* the first */
+    size_t pitch;    /* texels of a row */
+};
+
+/* The surface has an attachment with memory. The transfer takes place when all of the attachment's tiles
+ * have been transferred, by any threads, in the contract's floating-point environment. Then it must be
+ * ended. */
+void surface_begin_transfer(const struct triptych_surface *surface, bool store,
+                            struct surface_transfer *transfer);
+void surface_transfer_tile(const struct surface_transfer *transfer, uint32_t tile);
+void surface_end_transfer(struct surface_transfer *transfer);
 
 /* A copy from the first surface to the second one; parts of width 0 are all of them. */
 struct surface_copy {
@@ -30,7 +85,7 @@ struct surface_copy {
     enum triptych_copy_filter filter;
 };
 
-/* The size of a surface, be it of a texture or a colour of the target. */
+/* The size of a surface: an image, a surface of a texture, or a colour of the target. */
 enum triptych_result surface_size(const struct triptych_surface *surface, const char *what,
                                   const struct triptych_target_description *target, uint32_t size[2],
                                   struct error *error);
@@ -38,8 +93,8 @@ enum triptych_result surface_check_copy(const struct surface_copy *copy,
                                         const struct triptych_target_description *target,
                                         struct error *error);
 
-/* Numbers of texels: all of a surface read; a part written, converted to the format. The writer is called in
- * the contract's floating-point environment. */
+/* Numbers of texels: all of a texture's surface read; a part written, converted to the format. The writer is
+ * called in the contract's floating-point environment. */
 void surface_read_numbers(const struct triptych_surface *surface, float *image);
 void surface_write_numbers(const struct triptych_surface *surface, const struct triptych_rectangle *part,
                            const float *image);

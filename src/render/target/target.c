@@ -15,56 +15,211 @@ const struct format *target_format(const struct triptych_target_description *des
     return format_find(number || t ? number : TRIPTYCH_SURFACE_A8R8G8B8);
 }
 
-static void place_colors(struct target *target, const struct triptych_target_description *description)
+/* --- Attachments --- */
+
+/* Absent colours take the room that the pixel routine's key gives them (spec/pixel/target.h). */
+static void place_colors(struct target *target, const struct triptych_target_description *description,
+                         const struct target_parts *parts)
 {
+    uint32_t plane = 0;
     for (unsigned t = 0; t < TARGETS; t++) {
         const struct format *format = target_format(description, t);
-        if (!format)
+        struct attachment *a = parts->color[t];
+        struct target_color *color = target->colors + t;
+        *color = (struct target_color){.format = format, .attachment = a, .plane = plane};
+        if (format)
+            color->storage = (enum target_storage)format->target;
+        plane += storage_planes[color->storage];
+        if (!a)
             continue;
-        target->colors[t] =
-            (struct target_color){format, (enum target_storage)format->target, target->planes};
-        target->planes += storage_planes[target->colors[t].storage];
+        color->clear = a->color_clear;
+        color->columns = a->columns;
+        target->planes = plane;
     }
 }
 
-int target_create(struct target *target, const struct triptych_target_description *description,
-                  struct error *error)
+/* Returns true if the colours that are stored have memory where a pixel routine finds them. */
+static bool lie_together(const struct target *target)
+{
+    const struct tile_memory *memory = NULL;
+    uint32_t before = 0; /* planes of the memory before those of the target */
+    for (unsigned t = 0; t < TARGETS; t++) {
+        const struct target_color *color = target->colors + t;
+        const struct attachment *a = color->attachment;
+        if (!a)
+            continue;
+        if (!a->memory || a->plane < color->plane || (memory && memory != a->memory) ||
+            (memory && a->plane - color->plane != before))
+            return false;
+        memory = a->memory;
+        before = a->plane - color->plane;
+    }
+    return true;
+}
+
+static struct attachment *first_color(const struct target *target)
+{
+    for (unsigned t = 0; t < TARGETS; t++)
+        if (target->colors[t].attachment)
+            return target->colors[t].attachment;
+    return NULL;
+}
+
+/* New memory for all colours, of which those with words have to move. */
+static int gather_colors(struct target *target, struct error *error)
+{
+    uint32_t columns = 0, rows = 0;
+    for (unsigned t = 0; t < TARGETS; t++)
+        if (target->colors[t].attachment) {
+            columns = max_u32(columns, target->colors[t].attachment->columns);
+            rows = max_u32(rows, target->colors[t].attachment->rows);
+        }
+    uint32_t stride = target->planes * target->samples * TILE_PIXELS;
+    struct tile_memory *memory = attachment_memory_create(columns, rows, stride, error);
+    if (!memory)
+        return -1;
+    for (unsigned t = 0; t < TARGETS; t++) {
+        struct attachment *a = target->colors[t].attachment;
+        uint32_t plane = target->colors[t].plane;
+        if (!a)
+            continue;
+        if (a->memory)
+            target->move[target->moves++] = (struct tile_move){
+                attachment_retain(a), a->memory, attachment_memory_retain(memory), a->plane, plane};
+        a->memory = attachment_memory_retain(memory);
+        a->plane = plane;
+    }
+    attachment_memory_release(memory);
+    return 0;
+}
+
+static int give_depth_memory(struct attachment *a, struct error *error)
+{
+    if (a && !a->memory)
+        a->memory = attachment_memory_create(a->columns, a->rows, a->samples * TILE_PIXELS, error);
+    return !a || a->memory ? 0 : -1;
+}
+
+static void note_size(struct target *target, const struct attachment *a)
+{
+    if (a && a->width > target->width)
+        target->whole_columns = min_u32(target->whole_columns, target->width / TILE_SIZE);
+    if (a && a->height > target->height)
+        target->whole_rows = min_u32(target->whole_rows, target->height / TILE_SIZE);
+}
+
+/* Holds the attachments and their memory, and takes the addresses. */
+static void hold_parts(struct target *target, const struct target_parts *parts)
+{
+    const struct attachment *first = first_color(target);
+    for (unsigned t = 0; t < TARGETS; t++)
+        note_size(target, attachment_retain(parts->color[t]));
+    if (first) {
+        target->memory[0] = attachment_memory_retain(first->memory);
+        target->color_columns = first->memory->columns;
+        target->color_stride = first->memory->stride;
+        for (unsigned t = 0; t < TARGETS && !target->color; t++)
+            if (target->colors[t].attachment)
+                target->color =
+                    first->memory->words + (size_t)(first->plane - target->colors[t].plane) * TILE_PIXELS;
+    }
+    if (!parts->depth)
+        return;
+    note_size(target, attachment_retain(parts->depth));
+    target->depth_attachment = parts->depth;
+    target->memory[1] = attachment_memory_retain(parts->depth->memory);
+    target->depth = parts->depth->memory->words;
+    target->depth_columns = parts->depth->columns;
+    target->depth_clear = parts->depth->depth_clear;
+}
+
+int target_bind(struct target *target, const struct triptych_target_description *description,
+                const struct target_parts *parts, struct error *error)
 {
     struct target t = {.width = description->width,
                        .height = description->height,
                        .samples = 1u << samples_exponent(description->samples),
                        .depth_format = description->depth_format};
-    bool has_depth = depth_formats[t.depth_format].depth_bits;
-    t.columns = (t.width + TILE_SIZE - 1) / TILE_SIZE;
-    t.rows = (t.height + TILE_SIZE - 1) / TILE_SIZE;
-    size_t tiles = (size_t)t.columns * t.rows;
-    place_colors(&t, description);
-    size_t planes = tiles * t.samples;
-    t.color = large_allocate(planes * t.planes * TILE_PLANE_BYTES);
-    t.depth = has_depth ? large_allocate(planes * TILE_PLANE_BYTES) : NULL;
-    t.clear = malloc(tiles * sizeof *t.clear);
-    if (!t.color || (has_depth && !t.depth) || !t.clear) {
-        target_destroy(&t);
-        return error_set(error, "out of memory for a target of %u x %u pixels (%zu MiB)", description->width,
-                         description->height, planes * TILE_PLANE_BYTES * (t.planes + has_depth) >> 20);
-    }
-    struct tile_clear clear = {
-        .depth = depth_encode(t.depth_format, 1), .color_pending = true, .depth_pending = true};
-    clear.range = (struct depth_range){clear.depth, clear.depth};
-    target_clear_words(&t, (const float[4]){0}, clear.color);
-    for (size_t i = 0; i < tiles; i++)
-        t.clear[i] = clear;
+    t.columns = t.whole_columns = (t.width + TILE_SIZE - 1) / TILE_SIZE;
+    t.rows = t.whole_rows = (t.height + TILE_SIZE - 1) / TILE_SIZE;
+    place_colors(&t, description, parts);
+    if (give_depth_memory(parts->depth, error) || (!lie_together(&t) && gather_colors(&t, error)))
+        return -1;
+    hold_parts(&t, parts);
     *target = t;
     return 0;
 }
 
+/* Colours of the format NULL store nothing. */
+static int create_parts(const struct triptych_target_description *description, struct target_parts *parts,
+                        struct error *error)
+{
+    uint32_t width = description->width, height = description->height;
+    uint32_t samples = 1u << samples_exponent(description->samples);
+    for (unsigned t = 0; t < TARGETS; t++) {
+        const struct format *format = target_format(description, t);
+        if (!format || format->number == TRIPTYCH_SURFACE_NULL)
+            continue;
+        parts->color[t] = attachment_create_color(format, width, height, samples, error);
+        if (!parts->color[t])
+            return -1;
+    }
+    if (!depth_formats[description->depth_format].depth_bits)
+        return 0;
+    parts->depth = attachment_create_depth(description->depth_format, width, height, samples, error);
+    return parts->depth ? 0 : -1;
+}
+
+int target_create(struct target *target, const struct triptych_target_description *description,
+                  struct error *error)
+{
+    struct target_parts parts = {{NULL}, NULL};
+    int result = create_parts(description, &parts, error);
+    if (!result)
+        result = target_bind(target, description, &parts, error);
+    for (unsigned t = 0; t < TARGETS; t++)
+        attachment_release(parts.color[t]);
+    attachment_release(parts.depth);
+    return result;
+}
+
 void target_destroy(struct target *target)
 {
-    free(target->color);
-    free(target->depth);
-    free(target->clear);
+    for (uint32_t i = 0; i < target->moves; i++) {
+        attachment_release(target->move[i].attachment);
+        attachment_memory_release(target->move[i].from);
+        attachment_memory_release(target->move[i].to);
+    }
+    for (unsigned t = 0; t < TARGETS; t++)
+        attachment_release(target->colors[t].attachment);
+    attachment_release(target->depth_attachment);
+    attachment_memory_release(target->memory[0]);
+    attachment_memory_release(target->memory[1]);
     memset(target, 0, sizeof *target);
 }
+
+void target_move_tile(const struct tile_move *move, uint32_t tile)
+{
+    const struct attachment *a = move->attachment;
+    const struct tile_memory *from = move->from, *to = move->to;
+    uint32_t column = tile % a->columns, row = tile / a->columns;
+    if (a->color_clear[tile].pending)
+        return;
+    memcpy(to->words + (size_t)(row * to->columns + column) * to->stride + move->to_plane * TILE_PIXELS,
+           from->words + (size_t)(row * from->columns + column) * from->stride +
+               move->from_plane * TILE_PIXELS,
+           (size_t)attachment_planes(a) * a->samples * TILE_PLANE_BYTES);
+}
+
+void target_move_all(struct target *target)
+{
+    for (uint32_t i = 0; i < target->moves; i++)
+        for (uint32_t tile = 0; tile < target->move[i].attachment->columns * target->move[i].attachment->rows;
+             tile++)
+            target_move_tile(&target->move[i], tile);
+}
+
+/* --- The whole --- */
 
 void target_describe(const struct target *target, struct triptych_target_description *description)
 {
@@ -89,16 +244,25 @@ void target_clear_words(const struct target *target, const float color[4], uint3
         }
 }
 
-/* The tile's pixels as columns and rows of the target, the last tiles cut. */
+/* The pixels of a tile of an image, the last tiles cut. */
+static struct rectangle area_in(uint32_t width, uint32_t height, uint32_t column, uint32_t row)
+{
+    int32_t x = (int32_t)column * TILE_SIZE, y = (int32_t)row * TILE_SIZE;
+    return (struct rectangle){x, y, min_i32(x + TILE_SIZE, (int32_t)width),
+                              min_i32(y + TILE_SIZE, (int32_t)height)};
+}
+
 static struct rectangle tile_area(const struct target *target, uint32_t tile)
 {
-    int32_t x = (int32_t)(tile % target->columns) * TILE_SIZE,
-            y = (int32_t)(tile / target->columns) * TILE_SIZE;
-    int32_t right = (int32_t)target->width, bottom = (int32_t)target->height;
-    struct rectangle r = {x, y, x + TILE_SIZE < right ? x + TILE_SIZE : right,
-                          y + TILE_SIZE < bottom ? y + TILE_SIZE : bottom};
-    return r;
+    return area_in(target->width, target->height, tile % target->columns, tile / target->columns);
 }
+
+struct rectangle target_attachment_area(const struct attachment *a, uint32_t tile)
+{
+    return area_in(a->width, a->height, tile % a->columns, tile / a->columns);
+}
+
+/* --- Clears --- */
 
 static void fill(void *words, uint32_t value)
 {
@@ -107,45 +271,72 @@ static void fill(void *words, uint32_t value)
         _mm_store_si128((__m128i *)((uint32_t *)words + i), v);
 }
 
+/* The first plane of a colour in a tile. */
+static uint32_t *color_words(const struct target *target, const struct target_color *color, uint32_t tile)
+{
+    return target_tile_color(target, tile) + color->plane * TILE_PIXELS;
+}
+
+static uint32_t *fill_one(struct target *target, unsigned t, uint32_t tile)
+{
+    const struct target_color *color = target->colors + t;
+    struct color_clear *clear = target_color_clear(target, t, tile);
+    uint32_t *words = color_words(target, color, tile);
+    uint32_t planes = storage_planes[color->storage];
+    for (uint32_t p = 0; p < planes * target->samples && clear->pending; p++)
+        fill(words + (p / planes * target->planes + p % planes) * TILE_PIXELS, clear->word[p % planes]);
+    clear->pending = false;
+    return words;
+}
+
 uint32_t *target_fill_color(struct target *target, uint32_t tile)
 {
-    uint32_t *words = target_tile_color(target, tile);
-    uint32_t planes = target->clear[tile].color_pending ? target->samples * target->planes : 0;
-    for (uint32_t p = 0; p < planes; p++)
-        fill(words + p * TILE_PIXELS, target->clear[tile].color[p % target->planes]);
-    target->clear[tile].color_pending = false;
-    return words;
+    for (unsigned t = 0; t < TARGETS; t++)
+        if (target->colors[t].clear && target_color_clear(target, t, tile)->pending)
+            fill_one(target, t, tile);
+    return target_tile_color(target, tile);
 }
 
 uint32_t *target_fill_depth(struct target *target, uint32_t tile)
 {
     uint32_t *words = target_tile_depth(target, tile);
-    uint32_t planes = target->clear[tile].depth_pending ? target->samples : 0;
+    struct depth_clear *clear = target_depth_clear(target, tile);
+    uint32_t planes = clear->pending ? target->samples : 0;
     for (uint32_t p = 0; p < planes; p++)
-        fill(words + p * TILE_PIXELS, target->clear[tile].depth);
-    target->clear[tile].depth_pending = false;
+        fill(words + p * TILE_PIXELS, clear->word);
+    clear->pending = false;
     return words;
 }
 
 void target_forget_depth(struct target *target, uint32_t tile)
 {
-    target->clear[tile].range = (struct depth_range){0, depth_mask(target->depth_format)};
+    target_depth_clear(target, tile)->range = (struct depth_range){0, depth_mask(target->depth_format)};
 }
 
-static void clear_part(struct target *target, uint32_t tile, const struct clear *clear,
-                       const struct rectangle *part, const struct rectangle *whole)
+static bool same_area(const struct rectangle *a, const struct rectangle *b)
 {
-    uint32_t *color = clear->set_color ? target_fill_color(target, tile) : NULL;
-    uint32_t *depth = clear->depth_mask ? target_fill_depth(target, tile) : NULL;
+    return !memcmp(a, b, sizeof *a);
+}
+
+/* Clears a colour's pixels of `part`. */
+static void clear_color(struct target *target, unsigned t, uint32_t tile, const struct clear *clear,
+                        const struct rectangle *part)
+{
+    const struct target_color *color = target->colors + t;
+    uint32_t planes = storage_planes[color->storage], number = target_tile_in(target, color->columns, tile);
+    struct rectangle whole = target_attachment_area(color->attachment, number);
+    const uint32_t *value = clear->color + color->plane;
+    if (same_area(part, &whole)) {
+        memcpy(color->clear[number].word, value, planes * sizeof *value);
+        color->clear[number].pending = true;
+        return;
+    }
+    uint32_t *words = fill_one(target, t, tile);
     for (int32_t y = part->y0; y < part->y1; y++)
         for (int32_t x = part->x0; x < part->x1; x++) {
-            uint32_t word = pixel_word((uint32_t)(x - whole->x0), (uint32_t)(y - whole->y0));
-            for (uint32_t p = 0; color && p < target->samples * target->planes; p++)
-                color[p * TILE_PIXELS + word] = clear->color[p % target->planes];
-            for (uint32_t p = 0; depth && p < target->samples; p++) {
-                uint32_t *at = depth + p * TILE_PIXELS + word;
-                *at = (*at & ~clear->depth_mask) | clear->depth;
-            }
+            uint32_t word = pixel_word((uint32_t)(x - whole.x0), (uint32_t)(y - whole.y0));
+            for (uint32_t p = 0; p < target->samples * planes; p++)
+                words[(p / planes * target->planes + p % planes) * TILE_PIXELS + word] = value[p % planes];
         }
 }
 
@@ -156,46 +347,59 @@ static bool sets_whole_word(const struct target *target, const struct clear *cle
     return clear->depth_mask == (depth_mask(format) | stencil_mask(format));
 }
 
-/* Updates the bounds of a tile's depth for a clear. The clear sets the bits `left` only in a part of the
- * tile, or pixel by pixel, and the others everywhere. */
+/* Updates the bounds of a tile's depth for a clear, of the whole tile or of a part. */
 static void note_cleared_depth(const struct target *target, const struct clear *clear,
-                               struct tile_clear *tile, uint32_t left)
+                               struct depth_clear *tile, bool whole)
 {
     uint32_t mask = depth_mask(target->depth_format), depth = clear->depth & mask;
     if (!(clear->depth_mask & mask))
         return;
-    if (!(left & mask))
+    if (whole)
         tile->range = (struct depth_range){depth, depth};
-    tile->range.least = depth < tile->range.least ? depth : tile->range.least;
-    tile->range.most = depth > tile->range.most ? depth : tile->range.most;
+    tile->range.least = min_u32(depth, tile->range.least);
+    tile->range.most = max_u32(depth, tile->range.most);
+}
+
+static void clear_depth(struct target *target, uint32_t tile, const struct clear *clear,
+                        const struct rectangle *part)
+{
+    uint32_t number = target_tile_in(target, target->depth_columns, tile);
+    struct rectangle whole = target_attachment_area(target->depth_attachment, number);
+    struct depth_clear *pending = target->depth_clear + number;
+    bool all = same_area(part, &whole) && (pending->pending || sets_whole_word(target, clear));
+    note_cleared_depth(target, clear, pending, all);
+    if (all) {
+        pending->word = (pending->word & ~clear->depth_mask) | clear->depth;
+        pending->pending = true;
+        return;
+    }
+    uint32_t *words = target_fill_depth(target, tile);
+    for (int32_t y = part->y0; y < part->y1; y++)
+        for (int32_t x = part->x0; x < part->x1; x++) {
+            uint32_t word = pixel_word((uint32_t)(x - whole.x0), (uint32_t)(y - whole.y0));
+            for (uint32_t p = 0; p < target->samples; p++) {
+                uint32_t *at = words + p * TILE_PIXELS + word;
+                *at = (*at & ~clear->depth_mask) | clear->depth;
+            }
+        }
 }
 
 void target_clear_tile(struct target *target, uint32_t tile, const struct clear *clear)
 {
-    struct rectangle whole = tile_area(target, tile);
+    struct rectangle has = tile_area(target, tile);
     const struct rectangle *area = &clear->area;
-    struct rectangle part = {max_i32(whole.x0, area->x0), max_i32(whole.y0, area->y0),
-                             min_i32(whole.x1, area->x1), min_i32(whole.y1, area->y1)};
-    struct tile_clear *pending = target->clear + tile;
-    struct clear rest = *clear;
+    struct rectangle part = {max_i32(has.x0, area->x0), max_i32(has.y0, area->y0), min_i32(has.x1, area->x1),
+                             min_i32(has.y1, area->y1)};
     if (part.x0 >= part.x1 || part.y0 >= part.y1)
         return;
-    if (!memcmp(&part, &whole, sizeof part)) {
-        if (clear->set_color) {
-            memcpy(pending->color, clear->color, sizeof pending->color);
-            pending->color_pending = true;
-            rest.set_color = false;
-        }
-        if (clear->depth_mask && (pending->depth_pending || sets_whole_word(target, clear))) {
-            pending->depth = (pending->depth & ~clear->depth_mask) | clear->depth;
-            pending->depth_pending = true;
-            rest.depth_mask = 0;
-        }
-    }
-    note_cleared_depth(target, clear, pending, rest.depth_mask);
-    if (rest.set_color || rest.depth_mask)
-        clear_part(target, tile, &rest, &part, &whole);
+    for (unsigned t = 0; t < TARGETS && clear->set_color; t++)
+        if (target->colors[t].clear)
+            clear_color(target, t, tile, clear, &part);
+    if (clear->depth_mask && target->depth)
+        clear_depth(target, tile, clear, &part);
 }
+
+/* --- Reading --- */
 
 /* Quad order to rows:  0 1 4 5 | 2 3 6 7 | 8 9 12 13 | 10 11 14 15 */
 static void block_rows(const uint32_t *block, __m128i row[BLOCK_SIZE])
@@ -230,7 +434,7 @@ static uint32_t block_part(int32_t edge, int32_t start)
     return (uint32_t)min_i32(edge - start, BLOCK_SIZE);
 }
 
-static void read_tile(const uint32_t *words, const struct rectangle *area, uint32_t *image, size_t pitch)
+void target_read_tile(const uint32_t *words, const struct rectangle *area, uint32_t *image, size_t pitch)
 {
     for (int32_t y = area->y0; y < area->y1; y += BLOCK_SIZE)
         for (int32_t x = area->x0; x < area->x1; x += BLOCK_SIZE) {
@@ -240,7 +444,7 @@ static void read_tile(const uint32_t *words, const struct rectangle *area, uint3
         }
 }
 
-static void read_cleared(uint32_t value, const struct rectangle *area, uint32_t *image, size_t pitch)
+void target_read_constant(uint32_t value, const struct rectangle *area, uint32_t *image, size_t pitch)
 {
     __m128i row = _mm_set1_epi32((int)value);
     for (int32_t y = area->y0; y < area->y1; y++)
@@ -248,19 +452,27 @@ static void read_cleared(uint32_t value, const struct rectangle *area, uint32_t 
             store_row(image + (size_t)y * pitch + (size_t)x, row, block_part(area->x1, x));
 }
 
-/* A sample's plane of a row of tiles. */
-static void read_plane(const struct target *target, uint32_t sample, uint32_t plane, uint32_t tile_row,
-                       uint32_t *image, size_t pitch)
+/* What is remembered of a colour's tile. Colours of the format NULL have all channels 1. */
+static const struct color_clear *remembered(const struct target *target, const struct target_color *color,
+                                            uint32_t tile)
+{
+    static const struct color_clear nothing = {{UINT32_MAX}, true};
+    return color->clear ? color->clear + target_tile_in(target, color->columns, tile) : &nothing;
+}
+
+/* A sample of a colour with one plane, in a row of tiles. */
+static void read_plane(const struct target *target, uint32_t sample, const struct target_color *color,
+                       uint32_t tile_row, uint32_t *image, size_t pitch)
 {
     for (uint32_t i = 0; i < target->columns; i++) {
         uint32_t tile = tile_row * target->columns + i;
         struct rectangle area = tile_area(target, tile);
-        const uint32_t *words =
-            target_tile_color(target, tile) + (sample * target->planes + plane) * TILE_PIXELS;
-        if (target->clear[tile].color_pending)
-            read_cleared(target->clear[tile].color[plane], &area, image, pitch);
+        const struct color_clear *clear = remembered(target, color, tile);
+        if (clear->pending)
+            target_read_constant(clear->word[0], &area, image, pitch);
         else
-            read_tile(words, &area, image, pitch);
+            target_read_tile(color_words(target, color, tile) + sample * target->planes * TILE_PIXELS, &area,
+                             image, pitch);
     }
 }
 
@@ -269,12 +481,15 @@ static void pixel_words(const struct target *target, const struct target_color *
                         uint32_t x, uint32_t y, uint32_t words[4])
 {
     uint32_t tile = y / TILE_SIZE * target->columns + x / TILE_SIZE;
-    const struct tile_clear *clear = target->clear + tile;
-    const uint32_t *place = target_tile_color(target, tile) + pixel_word(x % TILE_SIZE, y % TILE_SIZE) +
+    const struct color_clear *clear = remembered(target, color, tile);
+    if (clear->pending) {
+        memcpy(words, clear->word, storage_planes[color->storage] * sizeof *words);
+        return;
+    }
+    const uint32_t *place = color_words(target, color, tile) + pixel_word(x % TILE_SIZE, y % TILE_SIZE) +
                             sample * target->planes * TILE_PIXELS;
     for (int p = 0; p < storage_planes[color->storage]; p++)
-        words[p] = clear->color_pending ? clear->color[color->plane + (uint32_t)p]
-                                        : place[(color->plane + (uint32_t)p) * TILE_PIXELS];
+        words[p] = place[p * TILE_PIXELS];
 }
 
 static void resolve_bytes(const struct target *target, const struct target_color *color, uint32_t x,
@@ -328,7 +543,7 @@ void target_read_color(const struct target *target, unsigned t, int sample, uint
     const struct target_color *color = target->colors + t;
     bool single = sample != SAMPLE_RESOLVED || target->samples == 1;
     if (storage_planes[color->storage] == 1 && single) {
-        read_plane(target, sample < 0 ? 0 : (uint32_t)sample, color->plane, tile_row, image, pitch);
+        read_plane(target, sample < 0 ? 0 : (uint32_t)sample, color, tile_row, image, pitch);
         return;
     }
     for (uint32_t y = tile_row * TILE_SIZE; y < row_end(target, tile_row); y++)
@@ -362,10 +577,11 @@ void target_read_depth(const struct target *target, int sample, uint32_t tile_ro
     for (uint32_t i = 0; i < target->columns; i++) {
         uint32_t tile = tile_row * target->columns + i;
         struct rectangle area = tile_area(target, tile);
-        if (target->clear[tile].depth_pending)
-            read_cleared(target->clear[tile].depth, &area, words, target->width);
+        const struct depth_clear *clear = target_depth_clear(target, tile);
+        if (clear->pending)
+            target_read_constant(clear->word, &area, words, target->width);
         else
-            read_tile(depth_plane(target, tile, sample), &area, words, target->width);
+            target_read_tile(depth_plane(target, tile, sample), &area, words, target->width);
     }
     if (depth_formats[target->depth_format].storage == DEPTH_FLOAT)
         return;
@@ -381,38 +597,27 @@ void target_read_stencil(const struct target *target, int sample, uint32_t tile_
         uint32_t tile = tile_row * target->columns + i;
         struct rectangle area = tile_area(target, tile);
         const uint32_t *words = depth_plane(target, tile, sample);
-        const struct tile_clear *clear = target->clear + tile;
+        const struct depth_clear *clear = target_depth_clear(target, tile);
         for (int32_t y = area.y0; y < area.y1; y++)
             for (int32_t x = area.x0; x < area.x1; x++) {
                 uint32_t at = pixel_word((uint32_t)(x - area.x0), (uint32_t)(y - area.y0));
-                uint32_t word = clear->depth_pending ? clear->depth : words[at];
+                uint32_t word = clear->pending ? clear->word : words[at];
                 image[(size_t)y * target->width + (size_t)x] = (uint8_t)(word & mask);
             }
     }
 }
 
 /* Sets the words of all of a pixel's samples of one colour. */
-static void write_words(struct target *target, const struct target_color *color, uint32_t x, uint32_t y,
-                        const uint32_t words[4])
-{
-    uint32_t tile = y / TILE_SIZE * target->columns + x / TILE_SIZE;
-    uint32_t *place = target_fill_color(target, tile) + pixel_word(x % TILE_SIZE, y % TILE_SIZE);
-    for (uint32_t sample = 0; sample < target->samples; sample++)
-        for (int p = 0; p < storage_planes[color->storage]; p++)
-            place[(sample * target->planes + color->plane + (uint32_t)p) * TILE_PIXELS] = words[p];
-}
-
-void target_write_texels(struct target *target, unsigned t, const void *texels, size_t pitch)
+static void write_words(struct target *target, unsigned t, uint32_t x, uint32_t y, const uint32_t words[4])
 {
     const struct target_color *color = target->colors + t;
-    size_t bytes = storage_planes[color->storage] * sizeof(uint32_t);
-    const uint8_t *texel = texels;
-    for (uint32_t y = 0; y < target->height; y++, texel += (pitch - target->width) * bytes)
-        for (uint32_t x = 0; x < target->width; x++, texel += bytes) {
-            uint32_t words[4];
-            memcpy(words, texel, bytes);
-            write_words(target, color, x, y, words);
-        }
+    uint32_t tile = y / TILE_SIZE * target->columns + x / TILE_SIZE;
+    if (!color->clear)
+        return;
+    uint32_t *place = fill_one(target, t, tile) + pixel_word(x % TILE_SIZE, y % TILE_SIZE);
+    for (uint32_t sample = 0; sample < target->samples; sample++)
+        for (int p = 0; p < storage_planes[color->storage]; p++)
+            place[(sample * target->planes + (uint32_t)p) * TILE_PIXELS] = words[p];
 }
 
 void target_write_numbers(struct target *target, unsigned t, const struct rectangle *part, const float *image)
@@ -422,28 +627,6 @@ void target_write_numbers(struct target *target, unsigned t, const struct rectan
         for (int32_t x = part->x0; x < part->x1; x++, image += 4) {
             uint32_t words[4];
             color_encode(color->format, image, words);
-            write_words(target, color, (uint32_t)x, (uint32_t)y, words);
+            write_words(target, t, (uint32_t)x, (uint32_t)y, words);
         }
-}
-
-static size_t depth_place(const struct target *target, uint32_t x, uint32_t y, uint32_t *tile)
-{
-    *tile = y / TILE_SIZE * target->columns + x / TILE_SIZE;
-    return pixel_word(x % TILE_SIZE, y % TILE_SIZE);
-}
-
-uint32_t *target_depth_word(struct target *target, uint32_t x, uint32_t y)
-{
-    uint32_t tile;
-    size_t place = depth_place(target, x, y, &tile);
-    target_forget_depth(target, tile);
-    return target_fill_depth(target, tile) + place;
-}
-
-uint32_t target_depth_at(const struct target *target, uint32_t x, uint32_t y)
-{
-    uint32_t tile;
-    size_t place = depth_place(target, x, y, &tile);
-    const struct tile_clear *clear = target->clear + tile;
-    return clear->depth_pending ? clear->depth : target_tile_depth(target, tile)[place];
 }

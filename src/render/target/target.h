@@ -1,52 +1,54 @@
-/* The render target: up to four colours and depth in tiles (contract/layout.h), cleared lazily, made linear
- * when read.
+/* The target: up to four colours and depth that are drawn to together. It is a set of attachments
+ * (render/target/attachment.h), whose tiles are cleared lazily and made linear when they are read.
  *
- * A tile that has been cleared as a whole only remembers the value; its words are written when something
- * else needs them. So a clear costs nothing where nothing is drawn, and elsewhere it fills a cache that is
- * about to be used. Each tile is touched by one thread at a time; different tiles by any. */
+ * The target's pixels are those that all its colours have; without colours, those that depth has. Depth has
+ * at least these. Tiles are numbered by the target's columns; attachments that are wider number theirs by
+ * their own. */
 #ifndef RENDER_TARGET_TARGET_H
 #define RENDER_TARGET_TARGET_H
 
-#include "base/error.h"
 #include "contract/arguments.h"
-#include "render/target/color.h"
-#include "render/target/depth.h"
+#include "render/target/attachment.h"
 #include "render/raster/raster.h"
-
-#include <stdbool.h>
 
 enum { TARGET_PLANES = 4 * TARGETS };
 
-/* Depths, as words without the stencil: their order is that of the depths. */
-struct depth_range {
-    uint32_t least, most;
-};
-
-struct tile_clear {
-    uint32_t color[TARGET_PLANES];     /* each plane's word */
-    uint32_t depth;                    /* the word, stencil included */
-    struct depth_range range;          /* no stored depth is outside of it; of one sample per pixel */
-    bool color_pending, depth_pending; /* the words are not valid: every one has this value */
-};
-
 /* A colour of the target. A tile has one or four planes for it (def/state/target.def). */
 struct target_color {
-    const struct format *format; /* null: there is none */
+    const struct format *format;   /* null: there is none */
+    struct attachment *attachment; /* null: there is none, or its format stores nothing */
+    struct color_clear *clear;     /* the attachment's, by its own columns */
+    uint32_t columns;
     enum target_storage storage;
     uint32_t plane; /* its first */
 };
 
+/* Words of an attachment that must move to other memory before the target is drawn to. */
+struct tile_move {
+    struct attachment *attachment;
+    struct tile_memory *from, *to;
+    uint32_t from_plane, to_plane;
+};
+
 struct target {
-    uint32_t width, height; /* pixels, 0 when there is no target */
-    uint32_t columns, rows; /* tiles */
-    uint32_t samples;       /* per pixel */
-    uint32_t *color; /* `planes` planes of TILE_PIXELS words per tile and sample, in turn, tiles in row order,
-                        64-byte aligned */
-    uint32_t planes; /* of all colours */
+    uint32_t width, height;             /* pixels, 0 when there is no target */
+    uint32_t columns, rows;             /* tiles */
+    uint32_t whole_columns, whole_rows; /* tiles left of and above these have no pixels of an attachment that
+                                           the target has not */
+    uint32_t samples;                   /* per pixel */
+    uint32_t *color; /* the first plane of the first colour: a tile has `planes` planes of TILE_PIXELS
+                               words per sample, in turn; null: no colour is stored */
+    uint32_t planes; /* from the first colour to the last that is stored; absent ones have gaps */
+    uint32_t color_stride, color_columns; /* from a tile to the next in words; tiles of a row in memory */
     struct target_color colors[TARGETS];
     uint32_t *depth; /* a plane per tile and sample (render/target/depth.h); null in a target without */
+    uint32_t depth_columns;
+    struct attachment *depth_attachment;
     enum triptych_depth_format depth_format;
-    struct tile_clear *clear; /* per tile */
+    struct depth_clear *depth_clear; /* by depth_columns */
+    struct tile_memory *memory[2];   /* that of colours and that of depth, which the target holds */
+    struct tile_move move[TARGETS];  /* to do before anything is drawn */
+    uint32_t moves;
 };
 
 /* The values and the area of a clear. */
@@ -58,11 +60,24 @@ struct clear {
     bool set_color;
 };
 
-/* A target of 1 to TARGET_SIZE_MAXIMUM pixels a side: colour and stencil zero, depth 1. Returns 0 or -1 with
- * the reason. */
+/* A target of 1 to TARGET_SIZE_MAXIMUM pixels a side with attachments of its own: colour and stencil zero,
+ * depth 1. Returns 0 or -1 with the reason. */
 int target_create(struct target *target, const struct triptych_target_description *description,
                   struct error *error);
+
+/* A target of existing attachments, which it holds. The description has its size, its number of samples and
+ * the attachments' formats; a colour of format NULL has no attachment. Their words may have to move before
+ * the target is drawn to (target_move_tile). Returns 0, or -1 with the reason and nothing changed. */
+struct target_parts {
+    struct attachment *color[TARGETS], *depth;
+};
+int target_bind(struct target *target, const struct triptych_target_description *description,
+                const struct target_parts *parts, struct error *error);
 void target_destroy(struct target *target);
+
+/* Moves the words of one of the attachment's tiles, from 0 to columns * rows - 1; all words of all moves. */
+void target_move_tile(const struct tile_move *move, uint32_t tile);
+void target_move_all(struct target *target);
 
 /* The format that a description has for colour target t; null: none. Its number is a format's. */
 const struct format *target_format(const struct triptych_target_description *description, unsigned t);
@@ -81,32 +96,58 @@ static inline uint32_t pixel_word(uint32_t x, uint32_t y)
     return block * BLOCK_PIXELS + lane;
 }
 
-/* The first of a tile's planes. */
+/* A tile of the target by the numbers of memory or an attachment with other columns. */
+static inline uint32_t target_tile_in(const struct target *target, uint32_t columns, uint32_t tile)
+{
+    return columns == target->columns ? tile : tile / target->columns * columns + tile % target->columns;
+}
+
+/* The first of a tile's planes. The target has a colour that is stored. */
 static inline uint32_t *target_tile_color(const struct target *target, uint32_t tile)
 {
-    return target->color + (size_t)tile * target->samples * target->planes * TILE_PIXELS;
+    return target->color + (size_t)target_tile_in(target, target->color_columns, tile) * target->color_stride;
 }
 
 static inline uint32_t *target_tile_depth(const struct target *target, uint32_t tile)
 {
-    return target->depth + (size_t)tile * target->samples * TILE_PIXELS;
+    return target->depth +
+           (size_t)target_tile_in(target, target->depth_columns, tile) * target->samples * TILE_PIXELS;
+}
+
+/* What is remembered of a tile. The colour is stored; the target has depth. */
+static inline struct color_clear *target_color_clear(const struct target *target, unsigned t, uint32_t tile)
+{
+    return target->colors[t].clear + target_tile_in(target, target->colors[t].columns, tile);
+}
+
+static inline struct depth_clear *target_depth_clear(const struct target *target, uint32_t tile)
+{
+    return target->depth_clear + target_tile_in(target, target->depth_columns, tile);
+}
+
+/* Returns true if the target has all pixels of the tile that its attachments have. */
+static inline bool target_has_whole(const struct target *target, uint32_t tile)
+{
+    return tile % target->columns < target->whole_columns && tile / target->columns < target->whole_rows;
 }
 
 /* Applies the clear's part in one tile. */
 void target_clear_tile(struct target *target, uint32_t tile, const struct clear *clear);
 
 /* Makes the tile's words valid before they are read or changed; returns them. A caller that changes depth
- * then updates the known bounds, or calls target_forget_depth. */
+ * then updates the known bounds, or calls target_forget_depth. The target has colours that are stored, or
+ * depth. */
 uint32_t *target_fill_color(struct target *target, uint32_t tile);
 uint32_t *target_fill_depth(struct target *target, uint32_t tile);
 void target_forget_depth(struct target *target, uint32_t tile);
 
-/* All pixels of colour target t from texels, words or four numbers each, in rows that are `pitch` apart. */
-void target_write_texels(struct target *target, unsigned t, const void *texels, size_t pitch);
+/* The part of a tile of an attachment, by its own numbers, that has pixels. */
+struct rectangle target_attachment_area(const struct attachment *attachment, uint32_t tile);
 
-/* The place of a pixel's depth, made valid, and its word. */
-uint32_t *target_depth_word(struct target *target, uint32_t x, uint32_t y);
-uint32_t target_depth_at(const struct target *target, uint32_t x, uint32_t y);
+/* Copies a plane of a tile to rows of an image that are `pitch` words apart; and a constant. `area` is the part
+ * of the tile that is copied, in pixels of the image: it begins at the tile's corner. */
+void target_read_tile(const uint32_t *words, const struct rectangle *area, uint32_t *image, size_t pitch);
+void target_read_constant(uint32_t value, const struct rectangle *area, uint32_t *image, size_t pitch);
 
 /* Sets the pixels of a part from four numbers each, converted to the format. Called in the contract's
  * floating-point environment. */

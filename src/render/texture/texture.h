@@ -24,6 +24,8 @@
 
 enum { TEXTURE_LEVELS = 14, CUBE_FACES = 6 };
 
+struct drawn_surface;
+
 struct triptych_texture {
     struct triptych_texture *next;
     const struct format *format;
@@ -35,8 +37,9 @@ struct triptych_texture {
     uint8_t *blocks;      /* of a compressed format, as they were given (texture_blocks.c); otherwise null */
     uint16_t stale[CUBE_FACES]; /* bit l: the blocks of level l are not those of the texels */
     struct texture_level level[TEXTURE_LEVELS];
-    uint32_t recorded; /* its number while calls are recorded */
-    uint64_t epoch;    /* the device's, when a draw was last queued that may read it */
+    struct drawn_surface *drawn; /* its surfaces that have been drawn to (render/target/surface.h) */
+    uint32_t recorded;           /* its number while calls are recorded */
+    uint64_t epoch;              /* the device's, when a draw was last queued that may read it */
 };
 
 /* Everything of a texture but its texels: what a description means, without the memory. */

@@ -58,7 +58,7 @@ unsigned hidden_traits(const struct pixel_key *key)
 bool hidden_writes_all_targets(const struct pixel_key *key, const struct target *target)
 {
     for (int t = 0; t < TARGETS; t++)
-        if (target->colors[t].format && !key->write_mask[t])
+        if (target->colors[t].attachment && !key->write_mask[t])
             return false;
     return true;
 }

@@ -5,7 +5,7 @@
  * image, and they are part of the renderer, the same for every engine.
  *
  * Depth. For each tile two words are kept, a lower and an upper bound of all stored depths (struct
- * tile_clear). A triangle whose depths within the tile fail the test against both bounds is not rasterized. A
+ * depth_clear). A triangle whose depths within the tile fail the test against both bounds is not rasterized. A
  * draw that writes depth widens the bounds; a clear, or a triangle that covers the whole tile, narrows them.
  * (Greene, Kass and Miller, Hierarchical Z-Buffer Visibility, 1993, with one level: tiles are small enough to
  * be the coarse one.)
@@ -38,7 +38,7 @@ enum pixel_trait {
 /* PIXEL_... of the key. */
 unsigned hidden_traits(const struct pixel_key *key);
 
-/* Returns true if each of the target's colours is written. */
+/* Returns true if each of the target's colours that are stored is written. */
 bool hidden_writes_all_targets(const struct pixel_key *key, const struct target *target);
 
 /* The range of depths of the record's pixels, within `area`; *constant is true if they are all equal. */

@@ -39,6 +39,9 @@ static void take_count(struct tile_worker *worker, const struct round *round)
     atomic_fetch_add_explicit(round->passed + worker->command, sum, memory_order_relaxed);
 }
 
+/* The planes that a target lacks: routines do not read them, but take the address. */
+alignas(64) static uint32_t nowhere[TILE_PIXELS];
+
 /* Runs the pixel routine over the entries. */
 static void run_pixels(struct tile_worker *worker, const struct round *round, uint32_t tile)
 {
@@ -48,11 +51,10 @@ static void run_pixels(struct tile_worker *worker, const struct round *round, ui
         .entries = worker->entries.entry,
         .triangles = round->arena.base,
         .lanes = &worker->lanes,
-        .color = target_tile_color(target, tile),
+        .color = target->color ? target_tile_color(target, tile) : nowhere,
+        .depth = target->depth ? target_tile_depth(target, tile) : nowhere,
         .count = worker->count,
     };
-    /* Without depth the routine does not read this, but the address must be valid. */
-    call.depth = target->depth ? target_tile_depth(target, tile) : call.color;
     uint64_t pixels = count_pixels(worker->entries.entry, worker->count);
     routine_run(worker->draw->routine[UNIT_PIXEL], &call, pixels);
     worker->pixels_shaded += pixels;
@@ -64,9 +66,9 @@ static void shade(struct tile_worker *worker, const struct round *round, uint32_
     if (!worker->count)
         return;
     const struct pixel_key *key = &worker->draw->routine[UNIT_PIXEL]->key.pixel;
-    if (pixel_write_mask(key))
+    if (pixel_write_mask(key) && round->target->color)
         target_fill_color(round->target, tile);
-    if (pixel_tests_depth(key) || pixel_stencil(key))
+    if ((pixel_tests_depth(key) || pixel_stencil(key)) && round->target->depth)
         target_fill_depth(round->target, tile);
     run_pixels(worker, round, tile);
     if (key->count)
@@ -107,17 +109,31 @@ static void compare_depths(struct meeting *m, const struct round *round, uint32_
     struct rectangle area = meeting_area(round, tile, draw, m->head);
     m->depths = hidden_depths(m->head, (const struct plane *)(const void *)plane, &area,
                               round->target->depth_format, &m->constant);
-    m->verdict =
-        hidden_verdict(routine->key.pixel.depth_function, m->depths, round->target->clear[tile].range);
+    m->verdict = hidden_verdict(routine->key.pixel.depth_function, m->depths,
+                                target_depth_clear(round->target, tile)->range);
 }
 
 /* Returns true if the tile can store one value instead of its words: no word that is not written must
  * survive. */
-static bool can_be_uniform(const struct target *target, const struct tile_clear *clear,
-                           const struct pixel_key *key)
+static bool can_be_uniform(const struct target *target, uint32_t tile, const struct pixel_key *key)
 {
     return hidden_writes_all_targets(key, target) &&
-           (!key->depth_write || clear->depth_pending || !stencil_mask(target->depth_format));
+           (!key->depth_write || target_depth_clear(target, tile)->pending ||
+            !stencil_mask(target->depth_format));
+}
+
+static void note_uniform_color(const struct target *target, uint32_t tile)
+{
+    const uint32_t *words = target_tile_color(target, tile);
+    for (unsigned t = 0; t < TARGETS; t++) {
+        const struct target_color *color = target->colors + t;
+        if (!color->clear)
+            continue;
+        struct color_clear *clear = target_color_clear(target, t, tile);
+        for (uint32_t p = 0; p < storage_planes[color->storage]; p++)
+            clear->word[p] = words[(color->plane + p) * TILE_PIXELS];
+        clear->pending = true;
+    }
 }
 
 /* Shades one block of a triangle whose pixels are all equal, and stores its words for the whole tile. */
@@ -125,26 +141,22 @@ static void shade_uniform(struct tile_worker *worker, const struct round *round,
                           const struct meeting *m)
 {
     struct target *target = round->target;
-    struct tile_clear *clear = target->clear + tile;
     const struct pixel_key *key = &worker->draw->routine[UNIT_PIXEL]->key.pixel;
-    const uint32_t *color = target_tile_color(target, tile);
-    uint32_t *depth = pixel_tests_depth(key) ? target_tile_depth(target, tile) : NULL;
-    for (int i = 0; depth && clear->depth_pending && i < BLOCK_PIXELS; i++)
-        depth[i] = clear->depth;
+    bool tests = pixel_tests_depth(key) && target->depth;
+    uint32_t *depth = tests ? target_tile_depth(target, tile) : NULL;
+    struct depth_clear *clear = tests ? target_depth_clear(target, tile) : NULL;
+    for (int i = 0; depth && clear->pending && i < BLOCK_PIXELS; i++)
+        depth[i] = clear->word;
     worker->entries.entry[0] = (struct entry){.x = (float)tile_start(tile % target->columns),
                                               .y = (float)tile_start(tile / target->columns),
                                               .coverage = UINT16_MAX,
                                               .triangle = m->triangle};
     worker->count = 1;
     run_pixels(worker, round, tile);
-    for (uint32_t p = 0; p < target->planes; p++)
-        clear->color[p] = color[p * TILE_PIXELS];
-    clear->color_pending = true;
+    note_uniform_color(target, tile);
     if (!key->depth_write)
         return;
-    clear->depth = depth[0];
-    clear->depth_pending = true;
-    clear->range = m->depths;
+    *clear = (struct depth_clear){.word = depth[0], .range = m->depths, .pending = true};
 }
 
 /* Updates the bounds of the tile's depth for the triangle. */
@@ -153,9 +165,9 @@ static void note_depths(struct tile_worker *worker, const struct round *round, u
 {
     const struct routine *routine = worker->draw->routine[UNIT_PIXEL];
     int function = routine->key.pixel.depth_function;
-    struct depth_range *range = &round->target->clear[tile].range;
     if (!(routine->traits & PIXEL_WRITES_DEPTH))
         return;
+    struct depth_range *range = &target_depth_clear(round->target, tile)->range;
     if (m->covers && routine->traits & PIXEL_DEPTH_KNOWN && !pixel_waits(&routine->key.pixel)) {
         *range = hidden_narrowed(function, *range, m->depths);
     } else if (!worker->widened) {
@@ -169,7 +181,6 @@ static bool is_dealt_with(struct tile_worker *worker, const struct round *round,
                           struct meeting *m)
 {
     const struct routine *routine = worker->draw->routine[UNIT_PIXEL];
-    const struct tile_clear *clear = round->target->clear + tile;
     bool tests = pixel_tests_depth(&routine->key.pixel);
     m->verdict = tests ? DEPTH_UNDECIDED : DEPTH_PASSES;
     m->constant = true;
@@ -179,7 +190,7 @@ static bool is_dealt_with(struct tile_worker *worker, const struct round *round,
         return true;
     bool uniform = m->covers && routine->traits & PIXEL_UNIFORM && m->verdict == DEPTH_PASSES &&
                    (m->constant || !routine->key.pixel.depth_write) &&
-                   can_be_uniform(round->target, clear, &routine->key.pixel);
+                   can_be_uniform(round->target, tile, &routine->key.pixel);
     if (uniform) {
         shade(worker, round, tile);
         shade_uniform(worker, round, tile, m);
@@ -191,10 +202,10 @@ static bool is_dealt_with(struct tile_worker *worker, const struct round *round,
  * narrower than at first. */
 static bool asks(const struct tile_worker *worker, const struct round *round, uint32_t tile, bool covers)
 {
-    const struct depth_range *range = &round->target->clear[tile].range;
     const struct routine *routine = worker->draw->routine[UNIT_PIXEL];
     if (covers || !(routine->traits & PIXEL_DEPTH_KNOWN))
         return covers;
+    const struct depth_range *range = &target_depth_clear(round->target, tile)->range;
     switch (routine->key.pixel.depth_function) {
     case COMPARE_LESS:
     case COMPARE_LESS_EQUAL: return range->most < round->farthest;
@@ -261,7 +272,7 @@ static void rasterize_seen(struct tile_worker *worker, const struct round *round
         struct meeting m = {.head =
                                 (const struct triangle_head *)(const void *)(round->arena.base + triangle),
                             .triangle = triangle,
-                            .covers = cell->triangle[i] & BIN_COVERS};
+                            .covers = cell->triangle[i] & BIN_COVERS && worker->whole};
         if (m.covers) {
             rasterize_triangles(worker, round, tile, seen, count);
             count = 0;
@@ -439,6 +450,7 @@ void tile_render(struct tile_worker *worker, const struct round *round, uint32_t
     worker->count = 0;
     worker->draw = NULL;
     worker->entered = false;
+    worker->whole = target_has_whole(round->target, tile);
     if (round->tile_first[tile])
         prefetch_cell(&round->arena, round->tile_first[tile]);
     for (uint32_t head = round->tile_first[tile]; head; head = bin_cell(&round->arena, head)->later) {

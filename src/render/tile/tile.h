@@ -13,6 +13,7 @@ struct tile_worker {
     const struct draw *draw; /* whose entries these are */
     struct raster_site site; /* the tile in the draw's scissor rectangle, once anything is rasterized */
     bool entered;            /* that it is so */
+    bool whole;              /* the target has all pixels of the tile that its attachments have */
     uint32_t command;        /* its number */
     bool widened;            /* what is known of the tile's depth allows for what the draw writes */
     uint64_t pixels_shaded;

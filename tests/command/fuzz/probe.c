@@ -61,7 +61,7 @@ static void look_with(const struct probing *p, const struct engine *engine, cons
 
 static void look(const struct routine *routine, const void *call)
 {
-    const struct target *target = device_target(device);
+    const struct target *target = device_rendered_target(device);
     struct replay_target planes = {target->planes * target->samples, target->depth ? target->samples : 0};
     struct replay replay;
     struct error error = {""};

@@ -84,11 +84,11 @@ static void drawing_goes_back_to_the_target(void)
 {
     struct triptych_texture_description description = {
         TRIPTYCH_TEXTURE_2D, TRIPTYCH_SURFACE_A8R8G8B8, SIZE / 2, SIZE / 2, 1, 1};
-    struct triptych_target_textures surfaces = {.depth_format = TRIPTYCH_DEPTH_NONE};
+    struct triptych_target_surfaces surfaces = {.depth_format = TRIPTYCH_DEPTH_NONE};
     triptych_texture *texture;
     OK(triptych_texture_define(device, &description, &texture));
     surfaces.color[0].texture = texture;
-    OK(triptych_set_target_textures(device, &surfaces));
+    OK(triptych_set_target_surfaces(device, &surfaces));
     bind_square();
     OK(triptych_draw(device, TRIPTYCH_TRIANGLE_STRIP, 0, 2));
     OK(triptych_texture_destroy(device, texture));

@@ -370,11 +370,11 @@ static void check_feedback(void)
 {
     const struct triptych_texture_description description = {
         TRIPTYCH_TEXTURE_2D, TRIPTYCH_SURFACE_A32B32G32R32F, SIZE, SIZE, 1, 1};
-    struct triptych_target_textures target = {.depth_format = TRIPTYCH_DEPTH_D24S8};
+    struct triptych_target_surfaces target = {.depth_format = TRIPTYCH_DEPTH_D24S8};
     OK(triptych_texture_define(device, &description, &target.color[0].texture));
     OK(triptych_set_texture(device, TRIPTYCH_VERTEX_SAMPLER, target.color[0].texture));
     use_shaders(displaced, given);
-    OK(triptych_set_target_textures(device, &target));
+    OK(triptych_set_target_surfaces(device, &target));
     TEST_ASSERT_EQUAL_INT(TRIPTYCH_BAD_CALL, triptych_draw(device, TRIPTYCH_TRIANGLE_STRIP, 0, 2));
     TEST_ASSERT_EQUAL_STRING("texture of sampler 16 is drawn to: expected another one, or none",
                              triptych_error(device));

@@ -56,7 +56,7 @@ static void forget_replay(struct search *search)
 /* Returns true if the two routines differ on the call, within the pixel or draw that the options select. */
 static bool differs(struct search *search, const struct pair *pair, const void *call)
 {
-    const struct target *target = device_target(search->device);
+    const struct target *target = device_rendered_target(search->device);
     struct replay_target planes = {target->planes * target->samples, target->depth ? target->samples : 0};
     struct replay *replay = &search->replay;
     bool out_of_memory = replay_take(replay, pair->side[0], call, &planes) != 0;

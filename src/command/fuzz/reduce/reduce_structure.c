@@ -66,7 +66,7 @@ void reduce_inline(struct reduction *r)
 static bool defines_name(const struct reduction *r, const struct statement *statement)
 {
     static const char *const kinds[] = {"texture", "vertices", "indices", "buffer",
-                                        "shader",  "mesh",     "query"};
+                                        "shader",  "mesh",     "query",   "image"};
     if (statement->end - statement->first < 2 || statement->depth)
         return false;
     for (unsigned i = 0; i < sizeof kinds / sizeof *kinds; i++)
