@@ -261,7 +261,8 @@ static void read_drawn(void)
     triptych_texture *made;
     uint16_t back[64];
     OK(triptych_texture_define(device, &description, &made));
-    OK(triptych_set_target_textures(device, &(struct triptych_target_textures){.color = {{made, 0, 0}}}));
+    OK(triptych_set_target_surfaces(device,
+                                    &(struct triptych_target_surfaces){.color = {{made, 0, 0, NULL}}}));
     OK(triptych_clear(device, (const float[4]){1, 0, 1, 1}, -1));
     OK(triptych_texture_read(device, made, 0, 0, NULL, back, 16, 0));
     for (int i = 0; i < 64; i++)
