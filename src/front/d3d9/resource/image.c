@@ -86,25 +86,27 @@ static struct triptych_box inside(const struct d3d9_image *image, const struct d
 static uint8_t *first_texel(const struct d3d9_image *image, const struct d3d9_box *box)
 {
     int64_t side = image->format->side, x = (int32_t)box->left / side, y = (int32_t)box->top / side;
-    int64_t row = image->pitch == image->row_bytes ? image->row_bytes : (int64_t)image->pitch * side;
-    return image->memory + (int64_t)box->front * image->slice_bytes + y * row + x * image->format->bytes;
+    return image->memory + (int64_t)box->front * image->slice_bytes + y * image->row_bytes +
+           x * image->format->bytes;
 }
 
-static int32_t fetch(struct d3d9_image *image)
+static int32_t fetch(struct d3d9_image *image, uint32_t flags)
 {
     if (!d3d9_image_allocate(image)) return D3D9_OUT_OF_MEMORY;
-    return image->home == D3D9_HOME_RENDERER ? d3d9_image_download(image, image) : D3D9_OK;
+    if (image->home == D3D9_HOME_MEMORY || flags & D3D9_LOCK_DISCARD) return D3D9_OK;
+    return d3d9_image_download(image, image);
 }
 
 int32_t d3d9_image_lock(struct d3d9_image *image, const struct d3d9_box *box, enum d3d9_box_check check,
                         uint32_t flags, void **bits)
 {
     const struct d3d9_box whole = {0, 0, image->width, image->height, 0, image->depth};
-    if (image->locked || image->in_use_by_dc) return D3D9_INVALID_CALL;
+    if (image->locked || image->use->context) return D3D9_INVALID_CALL;
     if (box && check == D3D9_BOX_STRICT && !d3d9_image_box_fits(image, box)) return D3D9_INVALID_CALL;
-    int32_t result = fetch(image);
+    int32_t result = fetch(image, flags);
     if (result < 0) return result;
     image->locked = true;
+    image->use->locks++;
     image->lock_flags = flags;
     image->locked_box = inside(image, box ? box : &whole);
     *bits = first_texel(image, box ? box : &whole);
@@ -123,14 +125,36 @@ static int32_t store(struct d3d9_image *image)
     return result;
 }
 
-int32_t d3d9_image_unlock(struct d3d9_image *image)
+static int32_t finish(struct d3d9_image *image)
 {
-    if (!image->locked) return D3D9_INVALID_CALL;
     image->locked = false;
+    image->use->locks--;
+    image->stale = true;
     if (image->home == D3D9_HOME_RENDERER) return store(image);
     if (!(image->lock_flags & (D3D9_LOCK_READ_ONLY | D3D9_LOCK_NO_DIRTY_UPDATE)))
         d3d9_image_add_dirty(image, &image->locked_box);
     return D3D9_OK;
+}
+
+int32_t d3d9_image_unlock(struct d3d9_image *image)
+{
+    if (image->use->context) return D3D9_OK;
+    return image->locked ? finish(image) : D3D9_INVALID_CALL;
+}
+
+int32_t d3d9_image_begin_context(struct d3d9_image *image, void **bits)
+{
+    if (image->use->context || image->use->locks) return D3D9_INVALID_CALL;
+    int32_t result = d3d9_image_lock(image, NULL, D3D9_BOX_ANY, 0, bits);
+    if (result >= 0) image->use->context = image;
+    return result;
+}
+
+int32_t d3d9_image_end_context(struct d3d9_image *image)
+{
+    if (image->use->context != image) return D3D9_INVALID_CALL;
+    image->use->context = NULL;
+    return finish(image);
 }
 
 /* The least interval that has both. An interval is a first element and a length. */

@@ -19,6 +19,12 @@
 
 enum d3d9_home { D3D9_HOME_MEMORY, D3D9_HOME_RENDERER };
 
+/* What the images of one resource share: while one of them has a device context of Windows, none can be locked. */
+struct d3d9_image_use {
+    const struct d3d9_image *context; /* the image that has it; null: none */
+    unsigned locks;
+};
+
 struct d3d9_image {
     struct d3d9_device *device;
     const struct d3d9_format *format;
@@ -31,13 +37,16 @@ struct d3d9_image {
     uint8_t *memory;
     bool borrowed; /* `memory` belongs to the texture or to the program */
 
-    struct triptych_surface surface; /* in the renderer; all zeros: none */
+    struct triptych_surface surface; /* in the renderer */
+    bool has_surface, is_texture;    /* it exists; it is a level of a texture */
     uint32_t face;                   /* of a cube */
 
-    bool locked, in_use_by_dc;
+    struct d3d9_image_use *use; /* of the resource */
+    bool locked;
     uint32_t lock_flags;
     struct triptych_box locked_box;
     struct triptych_box dirty; /* width 0: none */
+    bool stale;                /* of the system pool: memory has changed since the last upload */
 };
 
 /* Sets the size and the layout. Does not allocate. */
@@ -68,13 +77,16 @@ int32_t d3d9_image_lock(struct d3d9_image *, const struct d3d9_box *, enum d3d9_
                         void **bits);
 /* Ends a lock. D3D9_INVALID_CALL if there is none. */
 int32_t d3d9_image_unlock(struct d3d9_image *);
+/* Locks the whole image for a device context, and unlocks it. */
+int32_t d3d9_image_begin_context(struct d3d9_image *, void **bits);
+int32_t d3d9_image_end_context(struct d3d9_image *);
 
 /* Extends the dirty box; null: all of the image. Parts outside of the image are ignored. */
 void d3d9_image_add_dirty(struct d3d9_image *, const struct triptych_box *);
 
 /* --- Transfer (transfer.c) --- */
 
-/* Upload what is dirty, if the image has a surface in the renderer. */
+/* Uploads what is dirty, if the image has a surface in the renderer. */
 int32_t d3d9_image_upload(struct d3d9_image *);
 /* Copies a box of texels from memory with the layout of `from` to the renderer's surface of `to`, at x, y, z of
  * it. Both have the same format. */
