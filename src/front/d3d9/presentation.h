@@ -14,8 +14,8 @@ struct d3d9_swapchain;
 struct d3d9_presentation {
     struct d3d9_swapchain *chain;    /* the implicit one; held */
     struct d3d9_surface *depth;      /* made for EnableAutoDepthStencil; held; null: none */
-    struct d3d9_resource *resources; /* in the default pool, in no order */
-    uint64_t resource_bytes;         /* of these */
+    struct d3d9_resource *resources; /* all but surfaces of textures, in no order */
+    uint64_t resource_bytes;         /* of those in the default pool */
     bool inactive;                   /* full screen without the focus */
     bool lost;                       /* lost until the window is active again */
     bool not_reset;                  /* a Reset is necessary, or has failed */

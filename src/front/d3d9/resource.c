@@ -9,7 +9,6 @@ void d3d9_resource_begin(struct d3d9_resource *resource, struct d3d9_device *dev
     resource->type = type;
     resource->usage = usage;
     resource->pool = pool;
-    if (pool != D3D9_POOL_DEFAULT) return;
     struct d3d9_resource **first = &device->presentation.resources;
     resource->next = *first;
     if (*first) (*first)->last = resource;
@@ -19,7 +18,7 @@ void d3d9_resource_begin(struct d3d9_resource *resource, struct d3d9_device *dev
 void d3d9_resource_end(struct d3d9_resource *resource)
 {
     struct d3d9_device *device = resource->device;
-    if (!device || resource->pool != D3D9_POOL_DEFAULT) return;
+    if (!device) return;
     if (resource->next) resource->next->last = resource->last;
     if (resource->last)
         resource->last->next = resource->next;
@@ -38,7 +37,8 @@ void d3d9_resource_count_bytes(struct d3d9_resource *resource, uint64_t bytes)
 bool d3d9_resource_prevents_reset(const struct d3d9_device *device)
 {
     const struct d3d9_resource *resource = device->presentation.resources;
-    while (resource && !resource->object.references) resource = resource->next;
+    while (resource && !(resource->pool == D3D9_POOL_DEFAULT && resource->object.references))
+        resource = resource->next;
     return resource;
 }
 

@@ -64,7 +64,7 @@ struct d3d9_resource {
     uint32_t usage;
     uint32_t priority;
     uint64_t bytes;                    /* in the default pool */
-    struct d3d9_resource *next, *last; /* in the device's list of resources in the default pool */
+    struct d3d9_resource *next, *last; /* in the device's list */
 };
 
 /* Completes a new object of this type: it is now one of the device's resources. */

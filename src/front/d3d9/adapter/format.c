@@ -67,9 +67,11 @@ bool d3d9_format_is_display(uint32_t number)
            number == TRIPTYCH_SURFACE_X1R5G5B5;
 }
 
-bool d3d9_format_is_supported(const struct d3d9_format *format)
+bool d3d9_format_is_depth(const struct d3d9_format *format)
 {
-    return format->sampled || format->drawn != D3D9_DRAWN_NOTHING;
+    const struct d3d9_channel *red = &format->channel[0], *alpha = &format->channel[3];
+    return format->drawn == D3D9_DRAWN_DEPTH || format->number == TRIPTYCH_SURFACE_D24FS8 ||
+           (red->bits && alpha->bits && red->shift == alpha->shift);
 }
 
 uint32_t d3d9_format_row_bytes(const struct d3d9_format *format, uint32_t width)

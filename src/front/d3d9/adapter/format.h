@@ -62,8 +62,8 @@ const struct d3d9_format *d3d9_format_at(unsigned i);
 
 /* Returns true if a display can have the format: 16 or 32 bits without alpha. */
 bool d3d9_format_is_display(uint32_t number);
-/* Returns true if a surface of this format can be sampled, drawn to, or both. */
-bool d3d9_format_is_supported(const struct d3d9_format *);
+/* Returns true if the texels are depth values, whether or not the renderer supports the format. */
+bool d3d9_format_is_depth(const struct d3d9_format *);
 /* The bytes of a row of blocks without padding, and the rows of blocks of an image. */
 uint32_t d3d9_format_row_bytes(const struct d3d9_format *, uint32_t width);
 uint32_t d3d9_format_rows(const struct d3d9_format *, uint32_t height);

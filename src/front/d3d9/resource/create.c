@@ -6,11 +6,6 @@
 
 enum { USAGE_OF_FORMAT = D3D9_USAGE_RENDER_TARGET | D3D9_USAGE_DEPTH_STENCIL | D3D9_USAGE_AUTOMATIC_MIPS };
 
-static bool is_depth(const struct d3d9_format *format)
-{
-    return format->drawn == D3D9_DRAWN_DEPTH || format->channel[0].kind == format->channel[3].kind;
-}
-
 /* Whole blocks, for the formats whose blocks Direct3D itself knows. */
 static bool blocks_fit(const struct d3d9_format *format, uint32_t width, uint32_t height)
 {
@@ -55,7 +50,7 @@ static int32_t check_texture(const struct d3d9_device *device, const struct d3d9
     if (!usage_fits_pool(c->usage, c->pool)) return D3D9_INVALID_CALL;
     if (c->type == D3D9_TYPE_VOLUME_TEXTURE && c->usage & USAGE_OF_FORMAT) return D3D9_INVALID_CALL;
     if (!blocks_fit(format, c->width, c->height)) return D3D9_INVALID_CALL;
-    if (c->pool != D3D9_POOL_DEFAULT && is_depth(format)) return D3D9_INVALID_CALL;
+    if (c->pool != D3D9_POOL_DEFAULT && d3d9_format_is_depth(format)) return D3D9_INVALID_CALL;
     if (c->pool == D3D9_POOL_SCRATCH) return D3D9_OK;
     return d3d9_check_format(c->usage & USAGE_OF_FORMAT, c->type, c->format) < 0 ? D3D9_INVALID_CALL : D3D9_OK;
 }
@@ -106,7 +101,7 @@ static int32_t check_surface(const struct d3d9_surface_creation *c)
 {
     const struct d3d9_format *format = d3d9_format_find(c->format);
     uint32_t drawn = c->usage & (D3D9_USAGE_RENDER_TARGET | D3D9_USAGE_DEPTH_STENCIL);
-    uint32_t samples = d3d9_surface_samples(c->multi_sample_type, c->multi_sample_quality);
+    uint32_t samples = d3d9_check_samples(c->multi_sample_type, c->multi_sample_quality);
     uint32_t most = TRIPTYCH_TARGET_MAXIMUM;
     if (!format || !c->width || !c->height || c->width > most || c->height > most) return D3D9_INVALID_CALL;
     if (c->pool >= D3D9_POOL_COUNT || c->pool == D3D9_POOL_MANAGED) return D3D9_INVALID_CALL;

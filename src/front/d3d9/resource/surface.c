@@ -1,29 +1,9 @@
 #include "surface.h"
+#include "front/d3d9/adapter/check.h"
 #include "front/d3d9/call.h"
 #include "front/d3d9/device.h"
 #include "renderer.h"
 #include "texture.h"
-
-enum { MULTISAMPLE_NONE = 0, MULTISAMPLE_BY_QUALITY = 1, QUALITY_LEVELS = 3 };
-
-/* The type D3DMULTISAMPLE_NONMASKABLE has 2, 4 and 8 samples for its qualities. */
-uint32_t d3d9_surface_samples(uint32_t type, uint32_t quality)
-{
-    if (quality >= d3d9_surface_quality_levels(type)) return 0;
-    return type == MULTISAMPLE_BY_QUALITY ? 2u << quality : type == MULTISAMPLE_NONE ? 1 : type;
-}
-
-uint32_t d3d9_surface_quality_levels(uint32_t type)
-{
-    switch (type) {
-    case MULTISAMPLE_NONE:
-    case 2:
-    case 4:
-    case 8: return 1;
-    case MULTISAMPLE_BY_QUALITY: return QUALITY_LEVELS;
-    default: return 0;
-    }
-}
 
 static void destroy(struct d3d9_object *object)
 {
@@ -52,7 +32,7 @@ static int32_t begin_image(struct d3d9_surface *surface, const struct d3d9_surfa
     d3d9_image_begin(image, device, format, c->width, c->height, 1);
     image->use = &surface->use;
     image->lockable = c->lockable;
-    image->samples = d3d9_surface_samples(c->multi_sample_type, c->multi_sample_quality);
+    image->samples = d3d9_check_samples(c->multi_sample_type, c->multi_sample_quality);
     if (c->user_memory) borrow(image, c->user_memory);
     if (c->pool != D3D9_POOL_DEFAULT || format->drawn == D3D9_DRAWN_NOTHING)
         return d3d9_image_allocate(image) ? D3D9_OK : D3D9_OUT_OF_MEMORY;

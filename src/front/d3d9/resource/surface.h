@@ -47,9 +47,4 @@ static inline bool d3d9_surface_is_depth(const struct d3d9_surface *surface)
  * generates are old from now on. Returns false if it has none. */
 bool d3d9_surface_as_target(struct d3d9_surface *, struct triptych_surface *);
 
-/* The number of samples of a D3DMULTISAMPLE_TYPE and quality; 0: not supported. */
-uint32_t d3d9_surface_samples(uint32_t type, uint32_t quality);
-/* The number of quality levels of a type; 0: the type is not supported. */
-uint32_t d3d9_surface_quality_levels(uint32_t type);
-
 #endif
