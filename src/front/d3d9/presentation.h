@@ -1,4 +1,4 @@
-/* What a device has for adapters, windows and presenting: the part of struct d3d9_device that the folders
+/* Adapters, windows and presenting: the part of struct d3d9_device that the folders
  * adapter, resource and present use. */
 #ifndef D3D9_PRESENTATION_H
 #define D3D9_PRESENTATION_H

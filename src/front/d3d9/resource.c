@@ -11,15 +11,18 @@ void d3d9_resource_begin(struct d3d9_resource *resource, struct d3d9_device *dev
     resource->pool = pool;
     struct d3d9_resource **first = &device->presentation.resources;
     resource->next = *first;
-    if (*first) (*first)->last = resource;
+    if (*first)
+        (*first)->last = resource;
     *first = resource;
 }
 
 void d3d9_resource_end(struct d3d9_resource *resource)
 {
     struct d3d9_device *device = resource->device;
-    if (!device) return;
-    if (resource->next) resource->next->last = resource->last;
+    if (!device)
+        return;
+    if (resource->next)
+        resource->next->last = resource->last;
     if (resource->last)
         resource->last->next = resource->next;
     else
@@ -29,7 +32,8 @@ void d3d9_resource_end(struct d3d9_resource *resource)
 
 void d3d9_resource_count_bytes(struct d3d9_resource *resource, uint64_t bytes)
 {
-    if (resource->pool != D3D9_POOL_DEFAULT) return;
+    if (resource->pool != D3D9_POOL_DEFAULT)
+        return;
     resource->bytes += bytes;
     resource->device->presentation.resource_bytes += bytes;
 }
@@ -64,7 +68,8 @@ uint32_t d3d9_object_get_type(struct d3d9_object *object)
 
 int32_t d3d9_object_get_device(struct d3d9_object *object, struct d3d9_device **device)
 {
-    if (!device) return D3D9_INVALID_CALL;
+    if (!device)
+        return D3D9_INVALID_CALL;
     d3d9_object_add_ref(object->parent);
     *device = (struct d3d9_device *)object->parent;
     return D3D9_OK;

@@ -1,4 +1,4 @@
-/* What surfaces, textures and buffers share: their pool, usage and priority. Volumes are not resources in
+/* The base of surfaces, textures and buffers: their pool, usage and priority. Volumes are not resources in
  * Direct3D, and have these too.
  *
  * Numbers are Direct3D's. */

@@ -17,22 +17,26 @@ void d3d9_presentation_end(struct d3d9_device *device)
 
 static void drop_targets(struct d3d9_device *device)
 {
-    for (unsigned i = 0; i < TRIPTYCH_TARGETS; i++) d3d9_device_bind_target(device, i, NULL);
+    for (unsigned i = 0; i < TRIPTYCH_TARGETS; i++)
+        d3d9_device_bind_target(device, i, NULL);
     d3d9_device_bind_depth(device, NULL);
 }
 
 static void destroy(struct d3d9_object *object)
 {
     struct d3d9_device *device = (struct d3d9_device *)object;
-    if (device->state) drop_targets(device);
-    if (device->state) d3d9_device_free_state(device);
+    if (device->state)
+        drop_targets(device);
+    if (device->state)
+        d3d9_device_free_state(device);
     d3d9_presentation_end(device);
     triptych_device_destroy(device->renderer);
 }
 
 static void make_gamma(struct d3d9_gamma_ramp *ramp)
 {
-    for (unsigned i = 0; i < 256; i++) ramp->red[i] = ramp->green[i] = ramp->blue[i] = (uint16_t)(i << 8 | i);
+    for (unsigned i = 0; i < 256; i++)
+        ramp->red[i] = ramp->green[i] = ramp->blue[i] = (uint16_t)(i << 8 | i);
 }
 
 /* Engine and threads are those of the environment: TRIPTYCH_ENGINE, TRIPTYCH_THREADS. */
@@ -44,12 +48,10 @@ static int32_t make_renderer(struct d3d9_device *device)
         .engine = getenv("TRIPTYCH_ENGINE"),
         .threads = threads ? (unsigned)strtoul(threads, NULL, 10) : 0,
     };
-    enum triptych_result result =
-        triptych_device_create(&options, &device->renderer, reason, sizeof reason);
-    if (result) fprintf(stderr, "triptych: %s\n", reason);
-    return !result                         ? D3D9_OK
-           : result == TRIPTYCH_NO_MEMORY ? D3D9_OUT_OF_MEMORY
-                                          : D3D9_NOT_AVAILABLE;
+    enum triptych_result result = triptych_device_create(&options, &device->renderer, reason, sizeof reason);
+    if (result)
+        fprintf(stderr, "triptych: %s\n", reason);
+    return !result ? D3D9_OK : result == TRIPTYCH_NO_MEMORY ? D3D9_OUT_OF_MEMORY : D3D9_NOT_AVAILABLE;
 }
 
 static int32_t make_depth(struct d3d9_device *device, const struct d3d9_present_parameters *p)
@@ -64,7 +66,8 @@ static int32_t make_depth(struct d3d9_device *device, const struct d3d9_present_
         .multi_sample_quality = p->multi_sample_quality,
         .implicit = true,
     };
-    if (!p->enable_auto_depth_stencil) return D3D9_OK;
+    if (!p->enable_auto_depth_stencil)
+        return D3D9_OK;
     return d3d9_surface_make(device, &creation, &device->presentation.depth);
 }
 
@@ -84,13 +87,17 @@ static int32_t begin(struct d3d9_device *device, const struct d3d9_present_param
 {
     make_gamma(&device->presentation.gamma);
     int32_t result = make_renderer(device);
-    if (result < 0) return result;
+    if (result < 0)
+        return result;
     result = d3d9_device_make_state(device, p->enable_auto_depth_stencil);
-    if (result < 0) return result;
+    if (result < 0)
+        return result;
     result = d3d9_swapchain_make(device, p, true, &device->presentation.chain);
-    if (result < 0) return result;
+    if (result < 0)
+        return result;
     result = make_depth(device, p);
-    if (result < 0) return result;
+    if (result < 0)
+        return result;
     bind_targets(device);
     return D3D9_OK;
 }
@@ -106,7 +113,8 @@ static bool flags_are_valid(uint32_t flags)
 /* The window of a swap chain without one is the focus window. */
 static int32_t choose_window(struct d3d9_present_parameters *p, uint64_t focus)
 {
-    if (!p->device_window) p->device_window = focus;
+    if (!p->device_window)
+        p->device_window = focus;
     return p->device_window ? D3D9_OK : D3D9_INVALID_CALL;
 }
 
@@ -115,21 +123,30 @@ int32_t d3d9_factory_create_device(struct d3d9_factory *factory, uint32_t adapte
                                    struct d3d9_device **out, const struct d3d9_host_window *window)
 {
     enum d3d9_interface interface = factory->extended ? D3D9_INTERFACE_DEVICE_EX : D3D9_INTERFACE_DEVICE;
-    if (!out) return D3D9_INVALID_CALL;
+    if (!out)
+        return D3D9_INVALID_CALL;
     *out = NULL;
     if (!parameters || !flags_are_valid(flags) || adapter >= d3d9_host_adapter_count())
         return D3D9_INVALID_CALL;
-    if (type != DEVICE_HARDWARE) return D3D9_NOT_AVAILABLE;
-    if (!parameters->windowed && !focus) return D3D9_INVALID_CALL;
+    if (type != DEVICE_HARDWARE)
+        return D3D9_NOT_AVAILABLE;
+    if (!parameters->windowed && !focus)
+        return D3D9_INVALID_CALL;
     int32_t result = d3d9_parameters_complete(parameters, adapter, window, factory->extended);
     struct d3d9_present_parameters complete = *parameters;
-    if (result >= 0) result = choose_window(&complete, focus);
-    if (result < 0) return result;
+    if (result >= 0)
+        result = choose_window(&complete, focus);
+    if (result < 0)
+        return result;
     struct d3d9_device *device = d3d9_object_make(sizeof *device, interface, &factory->object, destroy);
-    if (!device) return D3D9_OUT_OF_MEMORY;
+    if (!device)
+        return D3D9_OUT_OF_MEMORY;
     device->extended = factory->extended;
     device->creation = (struct d3d9_creation_parameters){
-        adapter, type, focus ? focus : complete.device_window, flags,
+        adapter,
+        type,
+        focus ? focus : complete.device_window,
+        flags,
     };
     result = begin(device, &complete);
     if (result < 0)
@@ -145,18 +162,21 @@ int32_t d3d9_factory_create_device_ex(struct d3d9_factory *factory, uint32_t ada
                                       struct d3d9_display_mode_ex *mode, struct d3d9_device **out,
                                       const struct d3d9_host_window *window)
 {
-    if (!out) return D3D9_INVALID_CALL;
+    if (!out)
+        return D3D9_INVALID_CALL;
     *out = NULL;
-    if (!parameters || d3d9_parameters_check_mode(parameters, mode) < 0) return D3D9_INVALID_CALL;
+    if (!parameters || d3d9_parameters_check_mode(parameters, mode) < 0)
+        return D3D9_INVALID_CALL;
     return d3d9_factory_create_device(factory, adapter, type, focus, flags, parameters, out, window);
 }
 
-/* --- Reset ------------------------------------------------------------------------------------------------ */
+/* --- Reset --- */
 
 /* A failed Reset of a device that is not extended leaves it without use until the next one. */
 static int32_t refuse(struct d3d9_device *device, int32_t result)
 {
-    if (!device->extended) device->presentation.not_reset = true;
+    if (!device->extended)
+        device->presentation.not_reset = true;
     return result;
 }
 
@@ -166,10 +186,13 @@ static int32_t renew(struct d3d9_device *device, const struct d3d9_present_param
     drop_targets(device);
     d3d9_object_exchange((struct d3d9_object **)&state->depth, NULL);
     int32_t result = d3d9_swapchain_renew(state->chain, p);
-    if (result < 0) return result;
+    if (result < 0)
+        return result;
     result = make_depth(device, p);
-    if (result < 0) return result;
-    if (!device->extended) d3d9_device_reset_state(device, p->enable_auto_depth_stencil);
+    if (result < 0)
+        return result;
+    if (!device->extended)
+        d3d9_device_reset_state(device, p->enable_auto_depth_stencil);
     bind_targets(device);
     device->in_scene = false;
     state->lost = state->not_reset = state->inactive = false;
@@ -180,20 +203,25 @@ int32_t d3d9_device_reset(struct d3d9_device *device, struct d3d9_present_parame
                           const struct d3d9_host_window *window)
 {
     const struct d3d9_presentation *state = &device->presentation;
-    if (!parameters) return D3D9_INVALID_CALL;
-    if (state->lost && state->inactive) return D3D9_DEVICE_LOST;
-    if (!device->extended && d3d9_resource_prevents_reset(device)) return refuse(device, D3D9_INVALID_CALL);
-    int32_t result =
-        d3d9_parameters_complete(parameters, device->creation.adapter, window, device->extended);
+    if (!parameters)
+        return D3D9_INVALID_CALL;
+    if (state->lost && state->inactive)
+        return D3D9_DEVICE_LOST;
+    if (!device->extended && d3d9_resource_prevents_reset(device))
+        return refuse(device, D3D9_INVALID_CALL);
+    int32_t result = d3d9_parameters_complete(parameters, device->creation.adapter, window, device->extended);
     struct d3d9_present_parameters complete = *parameters;
-    if (result >= 0) result = choose_window(&complete, device->creation.focus_window);
-    if (result >= 0) result = renew(device, &complete);
+    if (result >= 0)
+        result = choose_window(&complete, device->creation.focus_window);
+    if (result >= 0)
+        result = renew(device, &complete);
     return result < 0 ? refuse(device, result) : D3D9_OK;
 }
 
 int32_t d3d9_device_reset_ex(struct d3d9_device *device, struct d3d9_present_parameters *parameters,
                              struct d3d9_display_mode_ex *mode, const struct d3d9_host_window *window)
 {
-    if (!parameters || d3d9_parameters_check_mode(parameters, mode) < 0) return D3D9_INVALID_CALL;
+    if (!parameters || d3d9_parameters_check_mode(parameters, mode) < 0)
+        return D3D9_INVALID_CALL;
     return d3d9_device_reset(device, parameters, window);
 }

@@ -17,9 +17,9 @@ enum {
     D3D9_MOST_BACK_BUFFERS = 30
 };
 
-/* Checks the parameters of a device or a swap chain on an adapter. Fills in the count, the size and the format
- * of the back buffers. `window` is the one of the parameters, or the focus window. `extended`: the rules of
- * Direct3D 9Ex. D3D9_INVALID_CALL if they are refused. */
+/* Checks the parameters of a device or a swap chain on an adapter. Fills in the count, the size and the
+ * format of the back buffers. `window` is the one of the parameters, or the focus window. `extended`: the
+ * rules of Direct3D 9Ex. D3D9_INVALID_CALL if they are refused. */
 int32_t d3d9_parameters_complete(struct d3d9_present_parameters *, uint32_t adapter,
                                  const struct d3d9_host_window *window, bool extended);
 /* Checks the mode of CreateDeviceEx and ResetEx, which full screen needs and a window cannot have. */

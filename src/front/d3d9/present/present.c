@@ -22,7 +22,8 @@ static void apply_gamma(const struct d3d9_gamma_ramp *ramp, const struct d3d9_ho
 static bool gamma_is_identity(const struct d3d9_gamma_ramp *ramp)
 {
     for (int i = 0; i < 256; i++)
-        if (ramp->red[i] >> 8 != i || ramp->green[i] >> 8 != i || ramp->blue[i] >> 8 != i) return false;
+        if (ramp->red[i] >> 8 != i || ramp->green[i] >> 8 != i || ramp->blue[i] >> 8 != i)
+            return false;
     return true;
 }
 
@@ -34,8 +35,10 @@ static int32_t fill(struct d3d9_swapchain *chain, struct d3d9_host_picture *pict
     int32_t result = d3d9_renderer_read(chain->device->renderer, &image->surface,
                                         d3d9_format_find(TRIPTYCH_SURFACE_X8R8G8B8), &all,
                                         (void *)(uintptr_t)picture->bits, picture->pitch);
-    if (result < 0) return result;
-    if (!chain->parameters.windowed && !gamma_is_identity(ramp)) apply_gamma(ramp, picture);
+    if (result < 0)
+        return result;
+    if (!chain->parameters.windowed && !gamma_is_identity(ramp))
+        apply_gamma(ramp, picture);
     picture->filled = 1;
     return D3D9_OK;
 }
@@ -56,7 +59,8 @@ static void flip(struct d3d9_swapchain *chain)
 {
     uint32_t count = chain->parameters.back_buffer_count;
     chain->presented = 0;
-    if (count < 2 || chain->parameters.swap_effect == D3D9_SWAP_COPY) return;
+    if (count < 2 || chain->parameters.swap_effect == D3D9_SWAP_COPY)
+        return;
     struct triptych_surface first = chain->buffer[0]->image.surface;
     for (uint32_t i = 0; i + 1 < count; i++)
         chain->buffer[i]->image.surface = chain->buffer[i + 1]->image.surface;
@@ -86,10 +90,13 @@ int32_t d3d9_swapchain_present(struct d3d9_swapchain *chain, const struct d3d9_r
     struct d3d9_device *device = chain->device;
     const struct d3d9_presentation *state = &device->presentation;
     describe(chain, window, picture);
-    if (!device->extended && (state->lost || state->not_reset)) return D3D9_DEVICE_LOST;
-    if (device->extended && state->inactive && !chain->parameters.windowed) return D3D9_PRESENT_OCCLUDED;
+    if (!device->extended && (state->lost || state->not_reset))
+        return D3D9_DEVICE_LOST;
+    if (device->extended && state->inactive && !chain->parameters.windowed)
+        return D3D9_PRESENT_OCCLUDED;
     chain->present_count++;
-    if (!(flags & PRESENT_DO_NOT_FLIP)) flip(chain);
+    if (!(flags & PRESENT_DO_NOT_FLIP))
+        flip(chain);
     int32_t result = d3d9_swapchain_read_picture(chain, picture);
     picture->shown = result >= 0 && !(flags & PRESENT_DO_NOT_FLIP);
     enum triptych_result ended = triptych_end_frame(device->renderer);
@@ -112,19 +119,22 @@ int32_t d3d9_device_present_ex(struct d3d9_device *device, const struct d3d9_rec
                                   picture);
 }
 
-/* Copies what was presented last to the corner of a surface of the system pool. In a window Direct3D copies the
- * screen around it too, which the Linux side does not have. */
+/* Copies what was presented last to the corner of a surface of the system pool. In a window Direct3D copies
+ * the screen around it too, which the Linux side does not have. */
 int32_t d3d9_swapchain_get_front_buffer_data(struct d3d9_swapchain *chain, struct d3d9_surface *destination)
 {
     const struct d3d9_image *from = &chain->buffer[chain->presented]->image;
-    if (!destination || destination->resource.pool == D3D9_POOL_DEFAULT) return D3D9_INVALID_CALL;
+    if (!destination || destination->resource.pool == D3D9_POOL_DEFAULT)
+        return D3D9_INVALID_CALL;
     struct d3d9_image *to = &destination->image;
-    if (to->format->number != TRIPTYCH_SURFACE_A8R8G8B8 || to->locked) return D3D9_INVALID_CALL;
+    if (to->format->number != TRIPTYCH_SURFACE_A8R8G8B8 || to->locked)
+        return D3D9_INVALID_CALL;
     const struct triptych_rectangle part = {0, 0, from->width < to->width ? from->width : to->width,
                                             from->height < to->height ? from->height : to->height};
-    if (!d3d9_image_allocate(to)) return D3D9_OUT_OF_MEMORY;
-    int32_t result = d3d9_renderer_read(chain->device->renderer, &from->surface, to->format, &part, to->memory,
-                                        to->row_bytes);
+    if (!d3d9_image_allocate(to))
+        return D3D9_OUT_OF_MEMORY;
+    int32_t result = d3d9_renderer_read(chain->device->renderer, &from->surface, to->format, &part,
+                                        to->memory, to->row_bytes);
     to->stale = true;
     d3d9_image_add_dirty(to, NULL);
     return result;

@@ -50,7 +50,8 @@ int32_t d3d9_swapchain_make(struct d3d9_device *device, const struct d3d9_presen
     *out = NULL;
     struct d3d9_swapchain *chain = (implicit ? d3d9_object_make_implicit : d3d9_object_make)(
         sizeof *chain, interface, &device->object, destroy);
-    if (!chain) return D3D9_OUT_OF_MEMORY;
+    if (!chain)
+        return D3D9_OUT_OF_MEMORY;
     chain->device = device;
     int32_t result = d3d9_swapchain_renew(chain, parameters);
     if (result >= 0)
@@ -62,13 +63,14 @@ int32_t d3d9_swapchain_make(struct d3d9_device *device, const struct d3d9_presen
     return result;
 }
 
-/* --- IDirect3DSwapChain9Ex -------------------------------------------------------------------------------- */
+/* --- IDirect3DSwapChain9Ex --- */
 
 int32_t d3d9_swapchain_get_back_buffer(struct d3d9_swapchain *chain, uint32_t index, uint32_t type,
                                        struct d3d9_surface **surface)
 {
     (void)type;
-    if (!surface || index >= chain->parameters.back_buffer_count) return D3D9_INVALID_CALL;
+    if (!surface || index >= chain->parameters.back_buffer_count)
+        return D3D9_INVALID_CALL;
     *surface = chain->buffer[index];
     d3d9_object_add_ref(&(*surface)->resource.object);
     return D3D9_OK;
@@ -77,7 +79,8 @@ int32_t d3d9_swapchain_get_back_buffer(struct d3d9_swapchain *chain, uint32_t in
 int32_t d3d9_swapchain_get_present_parameters(struct d3d9_swapchain *chain,
                                               struct d3d9_present_parameters *parameters)
 {
-    if (!parameters) return D3D9_INVALID_CALL;
+    if (!parameters)
+        return D3D9_INVALID_CALL;
     *parameters = chain->parameters;
     return D3D9_OK;
 }
@@ -85,7 +88,8 @@ int32_t d3d9_swapchain_get_present_parameters(struct d3d9_swapchain *chain,
 int32_t d3d9_swapchain_get_raster_status(struct d3d9_swapchain *chain, struct d3d9_raster_status *status)
 {
     (void)chain;
-    if (!status) return D3D9_INVALID_CALL;
+    if (!status)
+        return D3D9_INVALID_CALL;
     *status = (struct d3d9_raster_status){.in_vblank = true};
     return D3D9_OK;
 }
@@ -109,14 +113,16 @@ int32_t d3d9_swapchain_get_display_mode_ex(struct d3d9_swapchain *chain, struct 
 
 int32_t d3d9_swapchain_get_last_present_count(struct d3d9_swapchain *chain, uint32_t *count)
 {
-    if (!count) return D3D9_INVALID_CALL;
+    if (!count)
+        return D3D9_INVALID_CALL;
     *count = chain->present_count;
     return D3D9_OK;
 }
 
 int32_t d3d9_swapchain_get_present_stats(struct d3d9_swapchain *chain, struct d3d9_present_stats *statistics)
 {
-    if (!statistics) return D3D9_INVALID_CALL;
+    if (!statistics)
+        return D3D9_INVALID_CALL;
     *statistics = (struct d3d9_present_stats){.present_count = chain->present_count,
                                               .present_refresh_count = chain->present_count};
     return D3D9_OK;

@@ -8,9 +8,9 @@
 struct d3d9_swapchain {
     struct d3d9_object object;
     struct d3d9_device *device;
-    struct d3d9_present_parameters parameters;              /* complete; `device_window` is never 0 */
-    struct d3d9_surface *buffer[D3D9_MOST_BACK_BUFFERS];    /* implicit, held */
-    uint32_t presented;                                     /* the buffer that was presented last */
+    struct d3d9_present_parameters parameters;           /* complete; `device_window` is never 0 */
+    struct d3d9_surface *buffer[D3D9_MOST_BACK_BUFFERS]; /* implicit, held */
+    uint32_t presented;                                  /* the buffer that was presented last */
     uint32_t present_count;
 };
 

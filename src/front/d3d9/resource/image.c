@@ -34,13 +34,15 @@ size_t d3d9_image_bytes(const struct d3d9_image *image)
 
 void d3d9_image_end(struct d3d9_image *image)
 {
-    if (!image->borrowed) d3d9_memory_free(image->memory);
+    if (!image->borrowed)
+        d3d9_memory_free(image->memory);
     image->memory = NULL;
 }
 
 bool d3d9_image_allocate(struct d3d9_image *image)
 {
-    if (!image->memory) image->memory = d3d9_memory_allocate(d3d9_image_bytes(image));
+    if (!image->memory)
+        image->memory = d3d9_memory_allocate(d3d9_image_bytes(image));
     return image->memory;
 }
 
@@ -92,8 +94,10 @@ static uint8_t *first_texel(const struct d3d9_image *image, const struct d3d9_bo
 
 static int32_t fetch(struct d3d9_image *image, uint32_t flags)
 {
-    if (!d3d9_image_allocate(image)) return D3D9_OUT_OF_MEMORY;
-    if (image->home == D3D9_HOME_MEMORY || flags & D3D9_LOCK_DISCARD) return D3D9_OK;
+    if (!d3d9_image_allocate(image))
+        return D3D9_OUT_OF_MEMORY;
+    if (image->home == D3D9_HOME_MEMORY || flags & D3D9_LOCK_DISCARD)
+        return D3D9_OK;
     return d3d9_image_download(image, image);
 }
 
@@ -101,10 +105,13 @@ int32_t d3d9_image_lock(struct d3d9_image *image, const struct d3d9_box *box, en
                         uint32_t flags, void **bits)
 {
     const struct d3d9_box whole = {0, 0, image->width, image->height, 0, image->depth};
-    if (image->locked || image->use->context) return D3D9_INVALID_CALL;
-    if (box && check == D3D9_BOX_STRICT && !d3d9_image_box_fits(image, box)) return D3D9_INVALID_CALL;
+    if (image->locked || image->use->context)
+        return D3D9_INVALID_CALL;
+    if (box && check == D3D9_BOX_STRICT && !d3d9_image_box_fits(image, box))
+        return D3D9_INVALID_CALL;
     int32_t result = fetch(image, flags);
-    if (result < 0) return result;
+    if (result < 0)
+        return result;
     image->locked = true;
     image->use->locks++;
     image->lock_flags = flags;
@@ -120,8 +127,10 @@ static int32_t store(struct d3d9_image *image)
         const struct triptych_box *box = &image->locked_box;
         result = d3d9_image_upload_box(image, box->x, box->y, box->z, image, box);
     }
-    if (!image->borrowed) d3d9_memory_free(image->memory);
-    if (!image->borrowed) image->memory = NULL;
+    if (!image->borrowed)
+        d3d9_memory_free(image->memory);
+    if (!image->borrowed)
+        image->memory = NULL;
     return result;
 }
 
@@ -130,7 +139,8 @@ static int32_t finish(struct d3d9_image *image)
     image->locked = false;
     image->use->locks--;
     image->stale = true;
-    if (image->home == D3D9_HOME_RENDERER) return store(image);
+    if (image->home == D3D9_HOME_RENDERER)
+        return store(image);
     if (!(image->lock_flags & (D3D9_LOCK_READ_ONLY | D3D9_LOCK_NO_DIRTY_UPDATE)))
         d3d9_image_add_dirty(image, &image->locked_box);
     return D3D9_OK;
@@ -138,21 +148,25 @@ static int32_t finish(struct d3d9_image *image)
 
 int32_t d3d9_image_unlock(struct d3d9_image *image)
 {
-    if (image->use->context) return D3D9_OK;
+    if (image->use->context)
+        return D3D9_OK;
     return image->locked ? finish(image) : D3D9_INVALID_CALL;
 }
 
 int32_t d3d9_image_begin_context(struct d3d9_image *image, void **bits)
 {
-    if (image->use->context || image->use->locks) return D3D9_INVALID_CALL;
+    if (image->use->context || image->use->locks)
+        return D3D9_INVALID_CALL;
     int32_t result = d3d9_image_lock(image, NULL, D3D9_BOX_ANY, 0, bits);
-    if (result >= 0) image->use->context = image;
+    if (result >= 0)
+        image->use->context = image;
     return result;
 }
 
 int32_t d3d9_image_end_context(struct d3d9_image *image)
 {
-    if (image->use->context != image) return D3D9_INVALID_CALL;
+    if (image->use->context != image)
+        return D3D9_INVALID_CALL;
     image->use->context = NULL;
     return finish(image);
 }
@@ -168,8 +182,10 @@ static void join(unsigned *first, unsigned *length, unsigned with, unsigned with
 
 static bool clip(unsigned *first, unsigned *length, unsigned size)
 {
-    if (*first >= size) return false;
-    if (*length > size - *first) *length = size - *first;
+    if (*first >= size)
+        return false;
+    if (*length > size - *first)
+        *length = size - *first;
     return *length;
 }
 

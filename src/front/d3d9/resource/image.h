@@ -1,14 +1,14 @@
-/* One image of a resource: a surface by itself, or a level of a texture (of a cube: of one face; of a volume:
- * all slices).
+/* One image of a resource: a surface by itself, or a level of a texture (of a cube: of one face; of a
+ * volume: all slices).
  *
  * An image has its texels in one of two places, its home:
- * - memory: the front end's memory, which Lock returns. Images that the renderer samples also have a level of
- *   a texture there. `dirty` is the box of texels that are newer in memory; they are uploaded before the
+ * - memory: the front end's memory, which Lock returns. Images that the renderer samples also have a level
+ *   of a texture there. `dirty` is the box of texels that are newer in memory; they are uploaded before the
  *   texture is used. In the system pool it is the box that UpdateTexture copies.
  * - the renderer: what is drawn to or copied by the renderer. Its memory exists only while it is locked.
  *
- * Rows of blocks are `row_bytes` apart in memory. What Lock returns as the pitch is the same, except for ATI1
- * and ATI2: there it is a size that gives the size of the image when it is multiplied by its height. */
+ * Rows of blocks are `row_bytes` apart in memory. The pitch that Lock returns is the same, except for
+ * ATI1 and ATI2: there it is a size that gives the size of the image when it is multiplied by its height. */
 #ifndef D3D9_IMAGE_H
 #define D3D9_IMAGE_H
 
@@ -19,7 +19,8 @@
 
 enum d3d9_home { D3D9_HOME_MEMORY, D3D9_HOME_RENDERER };
 
-/* What the images of one resource share: while one of them has a device context of Windows, none can be locked. */
+/* Shared by the images of one resource: while one of them has a device context of Windows, none can be
+ * locked. */
 struct d3d9_image_use {
     const struct d3d9_image *context; /* the image that has it; null: none */
     unsigned locks;
@@ -28,10 +29,10 @@ struct d3d9_image_use {
 struct d3d9_image {
     struct d3d9_device *device;
     const struct d3d9_format *format;
-    uint32_t width, height, depth;  /* texels */
-    uint32_t samples;               /* a pixel; 1 without multisampling */
+    uint32_t width, height, depth;   /* texels */
+    uint32_t samples;                /* a pixel; 1 without multisampling */
     uint32_t row_bytes, slice_bytes; /* of memory */
-    uint32_t pitch;                 /* as Lock returns it */
+    uint32_t pitch;                  /* as Lock returns it */
     enum d3d9_home home;
     bool lockable;
     uint8_t *memory;
@@ -88,8 +89,8 @@ void d3d9_image_add_dirty(struct d3d9_image *, const struct triptych_box *);
 
 /* Uploads what is dirty, if the image has a surface in the renderer. */
 int32_t d3d9_image_upload(struct d3d9_image *);
-/* Copies a box of texels from memory with the layout of `from` to the renderer's surface of `to`, at x, y, z of
- * it. Both have the same format. */
+/* Copies a box of texels from memory with the layout of `from` to the renderer's surface of `to`, at x, y,
+ * z of it. Both have the same format. */
 int32_t d3d9_image_upload_box(struct d3d9_image *to, uint32_t x, uint32_t y, uint32_t z,
                               const struct d3d9_image *from, const struct triptych_box *box);
 /* Copies the renderer's surface of `from`, multisampled ones resolved, to the memory of `to`, which has the

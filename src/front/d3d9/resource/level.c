@@ -3,12 +3,13 @@
 #include "front/d3d9/call.h"
 #include "texture.h"
 
-/* --- All textures ----------------------------------------------------------------------------------------- */
+/* --- All textures --- */
 
 uint32_t d3d9_base_texture_set_lod(struct d3d9_base_texture *texture, uint32_t lod)
 {
     uint32_t old = texture->lod;
-    if (texture->resource.pool != D3D9_POOL_MANAGED) return 0;
+    if (texture->resource.pool != D3D9_POOL_MANAGED)
+        return 0;
     texture->lod = lod < texture->levels ? lod : texture->levels - 1;
     return old;
 }
@@ -26,7 +27,8 @@ uint32_t d3d9_base_texture_get_level_count(struct d3d9_base_texture *texture)
 int32_t d3d9_base_texture_set_auto_gen_filter_type(struct d3d9_base_texture *texture, uint32_t filter)
 {
     enum { FILTER_NONE = 0 };
-    if (filter == FILTER_NONE) return D3D9_INVALID_CALL;
+    if (filter == FILTER_NONE)
+        return D3D9_INVALID_CALL;
     texture->mip_filter = filter;
     return D3D9_OK;
 }
@@ -52,10 +54,12 @@ void d3d9_object_pre_load(struct d3d9_object *object)
 
 static int32_t get_part(struct d3d9_base_texture *texture, uint32_t face, uint32_t level, void **out)
 {
-    if (!out) return D3D9_INVALID_CALL;
+    if (!out)
+        return D3D9_INVALID_CALL;
     struct d3d9_surface *part = d3d9_base_texture_part(texture, face, level);
     *out = part;
-    if (!part) return D3D9_INVALID_CALL;
+    if (!part)
+        return D3D9_INVALID_CALL;
     d3d9_object_add_ref(&part->resource.object);
     return D3D9_OK;
 }
@@ -74,16 +78,18 @@ static int32_t lock_rect(struct d3d9_base_texture *texture, uint32_t face, uint3
     return part ? d3d9_surface_lock_rect(part, locked, rectangle, flags) : D3D9_INVALID_CALL;
 }
 
-/* Adds a part of level 0 of a face, and what it covers of the other levels. Only textures that the program can
- * write outside of the default pool have dirty boxes. */
+/* Adds a part of level 0 of a face, and what it covers of the other levels. Only textures that the program
+ * can write outside of the default pool have dirty boxes. */
 static int32_t add_dirty(struct d3d9_base_texture *texture, uint32_t face, const struct d3d9_box *box)
 {
     struct d3d9_surface *first = d3d9_base_texture_part(texture, face, 0);
-    if (!first) return D3D9_INVALID_CALL;
+    if (!first)
+        return D3D9_INVALID_CALL;
     if (box && (box->left >= box->right || box->top >= box->bottom || box->front >= box->back ||
                 box->right > texture->width || box->bottom > texture->height || box->back > texture->depth))
         return D3D9_INVALID_CALL;
-    if (texture->resource.pool == D3D9_POOL_DEFAULT) return D3D9_OK;
+    if (texture->resource.pool == D3D9_POOL_DEFAULT)
+        return D3D9_OK;
     for (uint32_t level = 0; level < texture->visible_levels; level++) {
         struct d3d9_image *image = &texture->part[face * texture->levels + level]->image;
         if (!box) {
@@ -104,15 +110,18 @@ static int32_t add_dirty(struct d3d9_base_texture *texture, uint32_t face, const
     return D3D9_OK;
 }
 
-static int32_t add_dirty_rectangle(struct d3d9_base_texture *texture, uint32_t face, const struct d3d9_rect *r)
+static int32_t add_dirty_rectangle(struct d3d9_base_texture *texture, uint32_t face,
+                                   const struct d3d9_rect *r)
 {
-    if (!r) return add_dirty(texture, face, NULL);
-    if (r->left < 0 || r->top < 0 || r->right < 0 || r->bottom < 0) return D3D9_INVALID_CALL;
+    if (!r)
+        return add_dirty(texture, face, NULL);
+    if (r->left < 0 || r->top < 0 || r->right < 0 || r->bottom < 0)
+        return D3D9_INVALID_CALL;
     const struct d3d9_box box = {r->left, r->top, r->right, r->bottom, 0, 1};
     return add_dirty(texture, face, &box);
 }
 
-/* --- 2D --------------------------------------------------------------------------------------------------- */
+/* --- 2D --- */
 
 int32_t d3d9_texture_get_level_desc(struct d3d9_texture *texture, uint32_t level,
                                     struct d3d9_surface_desc *desc)
@@ -143,7 +152,7 @@ int32_t d3d9_texture_add_dirty_rect(struct d3d9_texture *texture, const struct d
     return add_dirty_rectangle(&texture->base, 0, rectangle);
 }
 
-/* --- Cube ------------------------------------------------------------------------------------------------- */
+/* --- Cube --- */
 
 int32_t d3d9_cube_get_level_desc(struct d3d9_cube *texture, uint32_t level, struct d3d9_surface_desc *desc)
 {
@@ -157,7 +166,8 @@ int32_t d3d9_cube_get_cube_map_surface(struct d3d9_cube *texture, uint32_t face,
 }
 
 int32_t d3d9_cube_lock_rect(struct d3d9_cube *texture, uint32_t face, uint32_t level,
-                            struct d3d9_locked_rect *locked, const struct d3d9_rect *rectangle, uint32_t flags)
+                            struct d3d9_locked_rect *locked, const struct d3d9_rect *rectangle,
+                            uint32_t flags)
 {
     return lock_rect(&texture->base, face, level, locked, rectangle, flags);
 }
@@ -166,7 +176,8 @@ int32_t d3d9_cube_lock_rect(struct d3d9_cube *texture, uint32_t face, uint32_t l
 int32_t d3d9_cube_unlock_rect(struct d3d9_cube *texture, uint32_t face, uint32_t level)
 {
     struct d3d9_surface *part = d3d9_base_texture_part(&texture->base, face, level);
-    if (!part) return D3D9_INVALID_CALL;
+    if (!part)
+        return D3D9_INVALID_CALL;
     return part->image.lockable && !part->image.locked ? D3D9_OK : d3d9_surface_unlock_rect(part);
 }
 
@@ -175,7 +186,7 @@ int32_t d3d9_cube_add_dirty_rect(struct d3d9_cube *texture, uint32_t face, const
     return add_dirty_rectangle(&texture->base, face, rectangle);
 }
 
-/* --- Volume ----------------------------------------------------------------------------------------------- */
+/* --- Volume --- */
 
 int32_t d3d9_volume_texture_get_level_desc(struct d3d9_volume_texture *texture, uint32_t level,
                                            struct d3d9_volume_desc *desc)
@@ -191,7 +202,8 @@ int32_t d3d9_volume_texture_get_volume_level(struct d3d9_volume_texture *texture
 }
 
 int32_t d3d9_volume_texture_lock_box(struct d3d9_volume_texture *texture, uint32_t level,
-                                     struct d3d9_locked_box *locked, const struct d3d9_box *box, uint32_t flags)
+                                     struct d3d9_locked_box *locked, const struct d3d9_box *box,
+                                     uint32_t flags)
 {
     struct d3d9_surface *part = d3d9_base_texture_part(&texture->base, 0, level);
     return part ? d3d9_volume_lock_box((struct d3d9_volume *)part, locked, box, flags) : D3D9_INVALID_CALL;
@@ -216,7 +228,8 @@ int32_t d3d9_volume_get_container(struct d3d9_volume *volume, const struct d3d9_
 int32_t d3d9_volume_get_desc(struct d3d9_volume *volume, struct d3d9_volume_desc *desc)
 {
     const struct d3d9_surface *part = &volume->base;
-    if (!desc) return D3D9_INVALID_CALL;
+    if (!desc)
+        return D3D9_INVALID_CALL;
     *desc = (struct d3d9_volume_desc){
         .format = part->image.format->number,
         .type = D3D9_TYPE_VOLUME,
@@ -233,15 +246,18 @@ int32_t d3d9_volume_lock_box(struct d3d9_volume *volume, struct d3d9_locked_box 
                              const struct d3d9_box *box, uint32_t flags)
 {
     struct d3d9_image *image = &volume->base.image;
-    if (!locked) return D3D9_INVALID_CALL;
+    if (!locked)
+        return D3D9_INVALID_CALL;
     if (!image->lockable) {
         *locked = (struct d3d9_locked_box){0};
         return D3D9_INVALID_CALL;
     }
-    if (volume->base.resource.usage & D3D9_USAGE_DYNAMIC) flags &= ~(uint32_t)D3D9_LOCK_NO_DIRTY_UPDATE;
+    if (volume->base.resource.usage & D3D9_USAGE_DYNAMIC)
+        flags &= ~(uint32_t)D3D9_LOCK_NO_DIRTY_UPDATE;
     void *bits;
     int32_t result = d3d9_image_lock(image, box, D3D9_BOX_STRICT, flags, &bits);
-    if (result < 0) return result;
+    if (result < 0)
+        return result;
     *locked = (struct d3d9_locked_box){(int32_t)image->pitch, (int32_t)image->slice_bytes, bits};
     return D3D9_OK;
 }

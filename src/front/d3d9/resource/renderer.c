@@ -17,7 +17,7 @@ int32_t d3d9_renderer_result(enum triptych_result result)
 static enum triptych_surface_format stored(const struct d3d9_format *format)
 {
     if (format->drawn == D3D9_DRAWN_DEPTH)
-        return triptych_stencil_bits(format->depth_format)      ? TRIPTYCH_SURFACE_D24S8
+        return triptych_stencil_bits(format->depth_format)       ? TRIPTYCH_SURFACE_D24S8
                : triptych_depth_bits(format->depth_format) == 16 ? TRIPTYCH_SURFACE_D16
                                                                  : TRIPTYCH_SURFACE_D24X8;
     return format->sampled ? (enum triptych_surface_format)format->number : TRIPTYCH_SURFACE_A8R8G8B8;
@@ -60,13 +60,15 @@ int32_t d3d9_renderer_read(triptych_device *device, const struct triptych_surfac
     uint32_t height = d.height >> surface->level ? d.height >> surface->level : 1;
     size_t bytes = (size_t)width * height * 16;
     float *numbers = malloc(bytes);
-    if (!numbers) return D3D9_OUT_OF_MEMORY;
+    if (!numbers)
+        return D3D9_OUT_OF_MEMORY;
     enum triptych_result result = triptych_read_surface_numbers(device, surface, numbers, bytes);
     for (uint32_t y = 0; !result && y < r->height; y++)
         for (uint32_t x = 0; x < r->width; x++) {
             const float *texel = numbers + ((size_t)(r->y + y) * width + r->x + x) * 4;
             uint64_t word = 0;
-            for (unsigned c = 0; c < 4; c++) word |= encode(&format->channel[c], texel[c]);
+            for (unsigned c = 0; c < 4; c++)
+                word |= encode(&format->channel[c], texel[c]);
             memcpy((char *)data + y * pitch + (size_t)x * format->bytes, &word,
                    format->bytes < 8 ? format->bytes : 8);
         }
@@ -90,9 +92,11 @@ int32_t d3d9_renderer_fill(triptych_device *device, const struct triptych_surfac
 {
     size_t pitch = (size_t)r->width * format->bytes;
     char *data = malloc(pitch * r->height);
-    if (!data) return D3D9_OUT_OF_MEMORY;
+    if (!data)
+        return D3D9_OUT_OF_MEMORY;
     uint64_t word = 0;
-    for (unsigned c = 0; c < 4; c++) word |= encode(&format->channel[c], color[c]);
+    for (unsigned c = 0; c < 4; c++)
+        word |= encode(&format->channel[c], color[c]);
     for (size_t i = 0; i < (size_t)r->width * r->height; i++)
         memcpy(data + i * format->bytes, &word, format->bytes < 8 ? format->bytes : 8);
     int32_t result = d3d9_renderer_write(device, surface, format, r, data, pitch);

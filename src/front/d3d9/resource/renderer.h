@@ -8,8 +8,8 @@
 /* D3D9_OK, or Direct3D's result for a failure of the renderer. */
 int32_t d3d9_renderer_result(enum triptych_result);
 
-/* Creates a surface that is drawn to or copied: an image. `samples` is 1 or more. Contents are undefined for
- * the program. */
+/* Creates a surface that is drawn to or copied: an image. `samples` is 1 or more. Contents are undefined
+ * for the program. */
 int32_t d3d9_renderer_create_image(triptych_device *, const struct d3d9_format *, uint32_t width,
                                    uint32_t height, uint32_t samples, struct triptych_surface *surface);
 /* Frees the image of a surface. Nothing without one. */

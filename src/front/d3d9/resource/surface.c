@@ -10,7 +10,8 @@ static void destroy(struct d3d9_object *object)
     struct d3d9_surface *surface = (struct d3d9_surface *)object;
     struct d3d9_device *device = surface->resource.device;
     d3d9_resource_end(&surface->resource);
-    if (surface->image.has_surface) d3d9_renderer_destroy_image(device->renderer, &surface->image.surface);
+    if (surface->image.has_surface)
+        d3d9_renderer_destroy_image(device->renderer, &surface->image.surface);
     d3d9_image_end(&surface->image);
 }
 
@@ -33,7 +34,8 @@ static int32_t begin_image(struct d3d9_surface *surface, const struct d3d9_surfa
     image->use = &surface->use;
     image->lockable = c->lockable;
     image->samples = d3d9_check_samples(c->multi_sample_type, c->multi_sample_quality);
-    if (c->user_memory) borrow(image, c->user_memory);
+    if (c->user_memory)
+        borrow(image, c->user_memory);
     if (c->pool != D3D9_POOL_DEFAULT || format->drawn == D3D9_DRAWN_NOTHING)
         return d3d9_image_allocate(image) ? D3D9_OK : D3D9_OUT_OF_MEMORY;
     image->home = D3D9_HOME_RENDERER;
@@ -48,10 +50,10 @@ int32_t d3d9_surface_make(struct d3d9_device *device, const struct d3d9_surface_
 {
     struct d3d9_object *parent = &device->object;
     *out = NULL;
-    struct d3d9_surface *surface =
-        (c->implicit ? d3d9_object_make_implicit : d3d9_object_make)(sizeof *surface, D3D9_INTERFACE_SURFACE,
-                                                                     parent, destroy);
-    if (!surface) return D3D9_OUT_OF_MEMORY;
+    struct d3d9_surface *surface = (c->implicit ? d3d9_object_make_implicit : d3d9_object_make)(
+        sizeof *surface, D3D9_INTERFACE_SURFACE, parent, destroy);
+    if (!surface)
+        return D3D9_OUT_OF_MEMORY;
     surface->resource.object.container = c->container ? c->container : parent;
     surface->multi_sample_type = c->multi_sample_type;
     surface->multi_sample_quality = c->multi_sample_quality;
@@ -71,22 +73,26 @@ int32_t d3d9_surface_make(struct d3d9_device *device, const struct d3d9_surface_
 
 bool d3d9_surface_as_target(struct d3d9_surface *surface, struct triptych_surface *out)
 {
-    if (!surface->image.has_surface) return false;
-    if (surface->texture) d3d9_base_texture_drawn(surface->texture);
+    if (!surface->image.has_surface)
+        return false;
+    if (surface->texture)
+        d3d9_base_texture_drawn(surface->texture);
     *out = surface->image.surface;
     return true;
 }
 
-/* --- IDirect3DSurface9 ------------------------------------------------------------------------------------ */
+/* --- IDirect3DSurface9 --- */
 
-int32_t d3d9_surface_get_container(struct d3d9_surface *surface, const struct d3d9_guid *iid, void **container)
+int32_t d3d9_surface_get_container(struct d3d9_surface *surface, const struct d3d9_guid *iid,
+                                   void **container)
 {
     return d3d9_object_query_container(&surface->resource.object, iid, container);
 }
 
 int32_t d3d9_surface_get_desc(struct d3d9_surface *surface, struct d3d9_surface_desc *desc)
 {
-    if (!desc) return D3D9_INVALID_CALL;
+    if (!desc)
+        return D3D9_INVALID_CALL;
     *desc = (struct d3d9_surface_desc){
         .format = surface->image.format->number,
         .type = D3D9_TYPE_SURFACE,
@@ -104,15 +110,19 @@ int32_t d3d9_surface_lock_rect(struct d3d9_surface *surface, struct d3d9_locked_
                                const struct d3d9_rect *r, uint32_t flags)
 {
     struct d3d9_image *image = &surface->image;
-    if (!locked || !image->lockable) return D3D9_INVALID_CALL;
+    if (!locked || !image->lockable)
+        return D3D9_INVALID_CALL;
     struct d3d9_box box = {0, 0, 0, 0, 0, 1};
-    if (r) box = (struct d3d9_box){r->left, r->top, r->right, r->bottom, 0, 1};
+    if (r)
+        box = (struct d3d9_box){r->left, r->top, r->right, r->bottom, 0, 1};
     bool strict = surface->resource.pool == D3D9_POOL_DEFAULT;
-    if (surface->resource.usage & D3D9_USAGE_DYNAMIC) flags &= ~(uint32_t)D3D9_LOCK_NO_DIRTY_UPDATE;
+    if (surface->resource.usage & D3D9_USAGE_DYNAMIC)
+        flags &= ~(uint32_t)D3D9_LOCK_NO_DIRTY_UPDATE;
     void *bits;
     int32_t result =
         d3d9_image_lock(image, r ? &box : NULL, strict ? D3D9_BOX_STRICT : D3D9_BOX_ANY, flags, &bits);
-    if (result < 0) return result;
+    if (result < 0)
+        return result;
     locked->pitch = (int32_t)image->pitch;
     locked->bits = bits;
     return D3D9_OK;
@@ -122,11 +132,14 @@ int32_t d3d9_surface_lock_rect(struct d3d9_surface *surface, struct d3d9_locked_
 int32_t d3d9_surface_unlock_rect(struct d3d9_surface *surface)
 {
     struct d3d9_image *image = &surface->image;
-    if (!image->lockable) return D3D9_INVALID_CALL;
+    if (!image->lockable)
+        return D3D9_INVALID_CALL;
     bool is_level = surface->texture && surface->texture->resource.type == D3D9_TYPE_TEXTURE;
-    if (!image->locked && !image->use->context && is_level) return D3D9_OK;
+    if (!image->locked && !image->use->context && is_level)
+        return D3D9_OK;
     int32_t result = d3d9_image_unlock(image);
-    if (surface->texture) d3d9_base_texture_changed(surface->texture);
+    if (surface->texture)
+        d3d9_base_texture_changed(surface->texture);
     return result;
 }
 
@@ -147,10 +160,12 @@ static bool has_context(uint32_t format)
 int32_t d3d9_surface_get_dc(struct d3d9_surface *surface, struct d3d9_host_bits *out)
 {
     struct d3d9_image *image = &surface->image;
-    if (!image->lockable || !has_context(image->format->number)) return D3D9_INVALID_CALL;
+    if (!image->lockable || !has_context(image->format->number))
+        return D3D9_INVALID_CALL;
     void *bits;
     int32_t result = d3d9_image_begin_context(image, &bits);
-    if (result < 0) return result;
+    if (result < 0)
+        return result;
     *out = (struct d3d9_host_bits){(uintptr_t)bits, image->pitch, image->width, image->height,
                                    image->format->number};
     return D3D9_OK;
@@ -159,6 +174,7 @@ int32_t d3d9_surface_get_dc(struct d3d9_surface *surface, struct d3d9_host_bits 
 int32_t d3d9_surface_release_dc(struct d3d9_surface *surface)
 {
     int32_t result = d3d9_image_end_context(&surface->image);
-    if (surface->texture) d3d9_base_texture_changed(surface->texture);
+    if (surface->texture)
+        d3d9_base_texture_changed(surface->texture);
     return result;
 }

@@ -19,7 +19,7 @@ struct d3d9_volume {
     struct d3d9_surface base;
 };
 
-/* What a surface by itself is made of. */
+/* The description of a surface by itself. */
 struct d3d9_surface_creation {
     uint32_t width, height, format, usage;
     enum d3d9_pool pool;

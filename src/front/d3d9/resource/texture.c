@@ -12,9 +12,11 @@ static void destroy(struct d3d9_object *object)
 {
     struct d3d9_base_texture *texture = (struct d3d9_base_texture *)object;
     for (uint32_t i = 0; texture->part && i < texture->faces * texture->levels; i++)
-        if (texture->part[i]) d3d9_object_free_part(&texture->part[i]->resource.object);
+        if (texture->part[i])
+            d3d9_object_free_part(&texture->part[i]->resource.object);
     d3d9_resource_end(&texture->resource);
-    if (texture->renderer) triptych_texture_destroy(texture->resource.device->renderer, texture->renderer);
+    if (texture->renderer)
+        triptych_texture_destroy(texture->resource.device->renderer, texture->renderer);
     d3d9_memory_free(texture->part);
     d3d9_memory_free(texture->memory);
 }
@@ -57,13 +59,17 @@ static int32_t make_memory(struct d3d9_base_texture *texture)
         bytes = 0;
         for (uint32_t i = 0; i < texture->faces * texture->levels; i++) {
             struct d3d9_image *image = &texture->part[i]->image;
-            if (i % texture->levels == 0) bytes = (bytes + ALIGNMENT - 1) / ALIGNMENT * ALIGNMENT;
-            if (pass) image->memory = texture->memory + bytes;
+            if (i % texture->levels == 0)
+                bytes = (bytes + ALIGNMENT - 1) / ALIGNMENT * ALIGNMENT;
+            if (pass)
+                image->memory = texture->memory + bytes;
             image->borrowed = true;
             bytes += d3d9_image_bytes(image);
         }
-        if (!pass) texture->memory = d3d9_memory_allocate(bytes);
-        if (!texture->memory) return D3D9_OUT_OF_MEMORY;
+        if (!pass)
+            texture->memory = d3d9_memory_allocate(bytes);
+        if (!texture->memory)
+            return D3D9_OUT_OF_MEMORY;
     }
     return D3D9_OK;
 }
@@ -79,10 +85,10 @@ static bool is_lockable(const struct d3d9_base_texture *texture)
 static struct d3d9_surface *make_part(struct d3d9_base_texture *texture, uint32_t level)
 {
     bool volume = texture->resource.type == D3D9_TYPE_VOLUME_TEXTURE;
-    struct d3d9_surface *part =
-        d3d9_object_make_part(sizeof *part, volume ? D3D9_INTERFACE_VOLUME : D3D9_INTERFACE_SURFACE,
-                              &texture->resource.object);
-    if (!part) return NULL;
+    struct d3d9_surface *part = d3d9_object_make_part(
+        sizeof *part, volume ? D3D9_INTERFACE_VOLUME : D3D9_INTERFACE_SURFACE, &texture->resource.object);
+    if (!part)
+        return NULL;
     part->resource.type = volume ? D3D9_TYPE_VOLUME : D3D9_TYPE_SURFACE;
     part->resource.device = texture->resource.device;
     part->resource.pool = texture->resource.pool;
@@ -101,10 +107,12 @@ static int32_t make_parts(struct d3d9_base_texture *texture)
 {
     uint32_t count = texture->faces * texture->levels;
     texture->part = d3d9_memory_allocate(count * sizeof *texture->part);
-    if (!texture->part) return D3D9_OUT_OF_MEMORY;
+    if (!texture->part)
+        return D3D9_OUT_OF_MEMORY;
     for (uint32_t i = 0; i < count; i++) {
         texture->part[i] = make_part(texture, i % texture->levels);
-        if (!texture->part[i]) return D3D9_OUT_OF_MEMORY;
+        if (!texture->part[i])
+            return D3D9_OUT_OF_MEMORY;
     }
     return D3D9_OK;
 }
@@ -122,7 +130,8 @@ static int32_t make_contents(struct d3d9_base_texture *texture, void *user_memor
 {
     uint64_t bytes = 0;
     int32_t result = make_parts(texture);
-    if (result < 0) return result;
+    if (result < 0)
+        return result;
     for (uint32_t i = 0; i < texture->faces * texture->levels; i++) {
         d3d9_image_add_dirty(&texture->part[i]->image, NULL);
         texture->part[i]->image.stale = true;
@@ -132,7 +141,8 @@ static int32_t make_contents(struct d3d9_base_texture *texture, void *user_memor
         borrow(&texture->part[0]->image, user_memory);
     else if (is_lockable(texture))
         result = make_memory(texture);
-    if (result < 0) return result;
+    if (result < 0)
+        return result;
     d3d9_resource_count_bytes(&texture->resource, bytes);
     texture->pending = true;
     return texture->resource.pool == D3D9_POOL_DEFAULT ? make_renderer(texture) : D3D9_OK;
@@ -141,8 +151,10 @@ static int32_t make_contents(struct d3d9_base_texture *texture, void *user_memor
 static uint32_t level_count(const struct d3d9_texture_creation *c)
 {
     uint32_t size = c->width > c->height ? c->width : c->height, count = 1;
-    if (c->depth > size) size = c->depth;
-    while (size >>= 1) count++;
+    if (c->depth > size)
+        size = c->depth;
+    while (size >>= 1)
+        count++;
     bool all = !c->levels || c->usage & D3D9_USAGE_AUTOMATIC_MIPS;
     return all ? count : c->levels;
 }
@@ -159,7 +171,8 @@ int32_t d3d9_base_texture_make(struct d3d9_device *device, const struct d3d9_tex
     *out = NULL;
     struct d3d9_base_texture *texture =
         d3d9_object_make(sizeof *texture, interfaces[c->type], &device->object, destroy);
-    if (!texture) return D3D9_OUT_OF_MEMORY;
+    if (!texture)
+        return D3D9_OUT_OF_MEMORY;
     d3d9_resource_begin(&texture->resource, device, c->type, c->usage, c->pool);
     texture->format = d3d9_format_find(c->format);
     texture->width = c->width;
@@ -179,13 +192,15 @@ int32_t d3d9_base_texture_make(struct d3d9_device *device, const struct d3d9_tex
 
 struct d3d9_surface *d3d9_base_texture_part(struct d3d9_base_texture *texture, uint32_t face, uint32_t level)
 {
-    if (face >= texture->faces || level >= texture->visible_levels) return NULL;
+    if (face >= texture->faces || level >= texture->visible_levels)
+        return NULL;
     return texture->part[face * texture->levels + level];
 }
 
 void d3d9_base_texture_drawn(struct d3d9_base_texture *texture)
 {
-    if (!(texture->resource.usage & D3D9_USAGE_AUTOMATIC_MIPS)) return;
+    if (!(texture->resource.usage & D3D9_USAGE_AUTOMATIC_MIPS))
+        return;
     texture->old_levels = true;
     texture->pending = true;
 }
@@ -193,7 +208,8 @@ void d3d9_base_texture_drawn(struct d3d9_base_texture *texture)
 void d3d9_base_texture_changed(struct d3d9_base_texture *texture)
 {
     texture->pending = true;
-    if (texture->resource.usage & D3D9_USAGE_AUTOMATIC_MIPS) texture->old_levels = true;
+    if (texture->resource.usage & D3D9_USAGE_AUTOMATIC_MIPS)
+        texture->old_levels = true;
 }
 
 void d3d9_base_texture_evict(struct d3d9_base_texture *texture)
@@ -210,7 +226,8 @@ static int32_t upload(struct d3d9_base_texture *texture)
     for (uint32_t i = 0; result >= 0 && i < texture->faces * texture->levels; i++) {
         struct d3d9_image *image = &texture->part[i]->image;
         const struct triptych_box whole = d3d9_image_box(image);
-        if (image->home == D3D9_HOME_RENDERER || i % texture->levels >= texture->visible_levels) continue;
+        if (image->home == D3D9_HOME_RENDERER || i % texture->levels >= texture->visible_levels)
+            continue;
         if (texture->resource.pool != D3D9_POOL_SYSTEM)
             result = d3d9_image_upload(image);
         else if (image->stale)
@@ -222,10 +239,14 @@ static int32_t upload(struct d3d9_base_texture *texture)
 
 triptych_texture *d3d9_base_texture_use(struct d3d9_base_texture *texture)
 {
-    if (!texture->pending) return texture->renderer;
-    if (texture->resource.pool == D3D9_POOL_SCRATCH) return NULL;
-    if (!texture->renderer && make_renderer(texture) < 0) return NULL;
-    if (upload(texture) < 0) return NULL;
+    if (!texture->pending)
+        return texture->renderer;
+    if (texture->resource.pool == D3D9_POOL_SCRATCH)
+        return NULL;
+    if (!texture->renderer && make_renderer(texture) < 0)
+        return NULL;
+    if (upload(texture) < 0)
+        return NULL;
     if (texture->old_levels && texture->levels > 1)
         triptych_texture_generate_mips(texture->resource.device->renderer, texture->renderer);
     texture->old_levels = false;

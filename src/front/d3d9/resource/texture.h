@@ -17,8 +17,8 @@ struct d3d9_base_texture {
     struct d3d9_surface **part; /* [face * levels + level] */
     bool pending;               /* an image was changed in memory, or the generated levels are old */
     bool old_levels;
-    uint32_t lod;               /* the first level that is sampled; of the managed pool */
-    uint32_t mip_filter;        /* D3DTEXTUREFILTERTYPE of generated levels */
+    uint32_t lod;        /* the first level that is sampled; of the managed pool */
+    uint32_t mip_filter; /* D3DTEXTUREFILTERTYPE of generated levels */
 };
 
 struct d3d9_texture {
@@ -42,8 +42,8 @@ struct d3d9_texture_creation {
 int32_t d3d9_base_texture_make(struct d3d9_device *, const struct d3d9_texture_creation *,
                                struct d3d9_base_texture **out);
 
-/* The renderer's texture with the current contents, before a draw samples it: uploads what is newer in memory
- * and generates levels. Null if it cannot be sampled. It is cheap while `pending` is false. */
+/* The renderer's texture with the current contents, before a draw samples it: uploads what is newer in
+ * memory and generates levels. Null if it cannot be sampled. It is cheap while `pending` is false. */
 triptych_texture *d3d9_base_texture_use(struct d3d9_base_texture *);
 /* A surface of it is drawn to, or written by the renderer. */
 void d3d9_base_texture_drawn(struct d3d9_base_texture *);

@@ -21,7 +21,8 @@ int32_t d3d9_image_upload_box(struct d3d9_image *to, uint32_t x, uint32_t y, uin
 int32_t d3d9_image_upload(struct d3d9_image *image)
 {
     struct triptych_box box = image->dirty;
-    if (!box.width || !image->has_surface || !image->memory) return D3D9_OK;
+    if (!box.width || !image->has_surface || !image->memory)
+        return D3D9_OK;
     image->dirty.width = 0;
     return d3d9_image_upload_box(image, box.x, box.y, box.z, image, &box);
 }
@@ -29,7 +30,8 @@ int32_t d3d9_image_upload(struct d3d9_image *image)
 int32_t d3d9_image_download(struct d3d9_image *to, const struct d3d9_image *from)
 {
     const struct triptych_rectangle part = {0, 0, from->width, from->height};
-    if (!d3d9_image_allocate(to)) return D3D9_OUT_OF_MEMORY;
+    if (!d3d9_image_allocate(to))
+        return D3D9_OUT_OF_MEMORY;
     return d3d9_renderer_read(from->device->renderer, &from->surface, from->format, &part, to->memory,
                               to->row_bytes);
 }
