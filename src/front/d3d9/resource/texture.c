@@ -50,7 +50,7 @@ static int32_t make_renderer(struct d3d9_base_texture *texture)
     return d3d9_renderer_result(result);
 }
 
-/* Images are in the memory of the texture, face by face, level by level. A face begins at a multiple of 16. */
+/* Images are in the memory of the texture, by faces, then by levels. A face begins at a multiple of 16. */
 static int32_t make_memory(struct d3d9_base_texture *texture)
 {
     enum { ALIGNMENT = 16 };

@@ -146,7 +146,7 @@ static void capabilities_follow_from_the_tables(void)
     TEST_ASSERT_EQUAL_INT32(D3D9_OK, d3d9_factory_get_device_caps(factory, 0, HARDWARE, &caps));
     TEST_ASSERT_EQUAL_HEX32(0xff, caps.z_cmp_caps);
     TEST_ASSERT_EQUAL_HEX32(0x3fff, caps.src_blend_caps);
-    TEST_ASSERT_EQUAL_HEX32(0x3fff, caps.dest_blend_caps);
+    TEST_ASSERT_EQUAL_HEX32(0x27ff, caps.dest_blend_caps); /* not the two for both factors */
     TEST_ASSERT_EQUAL_HEX32(0x1ff, caps.stencil_caps);
     TEST_ASSERT_EQUAL_HEX32(0x3f, caps.texture_address_caps);
     TEST_ASSERT_EQUAL_HEX32(0x7030700, caps.texture_filter_caps);

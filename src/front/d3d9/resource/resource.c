@@ -1,6 +1,6 @@
-#include "resource.h"
-#include "call.h"
-#include "device.h"
+#include "front/d3d9/resource.h"
+#include "front/d3d9/call.h"
+#include "front/d3d9/device.h"
 
 void d3d9_resource_begin(struct d3d9_resource *resource, struct d3d9_device *device,
                          enum d3d9_resource_type type, uint32_t usage, enum d3d9_pool pool)
