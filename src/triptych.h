@@ -252,6 +252,17 @@ struct triptych_rectangle {
     unsigned x, y, width, height;
 };
 
+/* The values of a clear, for triptych_clear_rectangles. */
+struct triptych_clear_values {
+    unsigned flags; /* TRIPTYCH_CLEAR_...: the surfaces; values of others are ignored */
+    float color[4];
+    float depth;           /* 0 to 1 */
+    unsigned stencil;      /* truncated to the bits of the surface */
+    unsigned color_mask;   /* the channels that are written: 1 red, 2 green, 4 blue, 8 alpha; 15 for all */
+    unsigned stencil_mask; /* the bits of the stencil that are written; 0xff for all */
+    int everywhere;        /* nonzero: the viewport does not limit the clear */
+};
+
 enum triptych_copy_filter { TRIPTYCH_COPY_POINT, TRIPTYCH_COPY_LINEAR, TRIPTYCH_COPY_COUNT };
 
 /* One element of a vertex declaration. */
@@ -632,6 +643,13 @@ TRIPTYCH_API enum triptych_result triptych_clear(triptych_device *, const float 
  * cleared. */
 TRIPTYCH_API enum triptych_result triptych_clear_buffers(triptych_device *, unsigned flags,
                                                          const float color[4], float depth, unsigned stencil);
+/* Clears rectangles, or with a count of 0 everything, with masks: only pixels of the viewport, unless
+ * values->everywhere is set, and of the scissor rectangle if its test is on. Rectangles may overlap, be empty,
+ * and lie outside of the target. */
+TRIPTYCH_API enum triptych_result triptych_clear_rectangles(triptych_device *,
+                                                            const struct triptych_clear_values *values,
+                                                            const struct triptych_rectangle *rectangles,
+                                                            unsigned count);
 
 /* Queries. A query can begin and end again. Events and timestamps have no begin. For other types an end
  * without a begin fails. */

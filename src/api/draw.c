@@ -1,6 +1,9 @@
 /* Draws, clears, copies, what is drawn to, and queries. */
 #include "api/api.h"
 
+#include <limits.h>
+#include <string.h>
+
 enum triptych_result triptych_draw(triptych_device *device, enum triptych_primitive primitive, uint32_t first,
                                    uint32_t count)
 {
@@ -52,17 +55,34 @@ enum triptych_result triptych_draw_indexed_user(triptych_device *device, enum tr
     return api_finish(device, result);
 }
 
+static enum triptych_result clear(triptych_device *device, struct error *error,
+                                  struct triptych_clear_values values,
+                                  const struct triptych_rectangle *rectangles, unsigned count)
+{
+    enum triptych_result result = device_clear(device, &values, rectangles, count, error);
+    if (result == TRIPTYCH_OK)
+        record_clear(device, &values, rectangles, count);
+    return api_finish(device, result);
+}
+
+/* The values of a clear without masks; the colour only if it is cleared. */
+static struct triptych_clear_values plain_values(unsigned flags, const float *color, float depth,
+                                                 unsigned stencil)
+{
+    struct triptych_clear_values values = {
+        .flags = flags, .depth = depth, .stencil = stencil, .color_mask = 15, .stencil_mask = UINT_MAX};
+    if (flags & TRIPTYCH_CLEAR_COLOR)
+        memcpy(values.color, color, sizeof values.color);
+    return values;
+}
+
 enum triptych_result triptych_clear(triptych_device *device, const float color[4], float depth)
 {
     struct error *error = api_begin(device);
     if (!error)
         return TRIPTYCH_BAD_ARGUMENT;
-    struct clear_values values = {(color ? TRIPTYCH_CLEAR_COLOR : 0) | (depth < 0 ? 0 : TRIPTYCH_CLEAR_DEPTH),
-                                  color, depth, 0};
-    enum triptych_result result = device_clear(device, &values, error);
-    if (result == TRIPTYCH_OK)
-        record_clear(device, &values);
-    return api_finish(device, result);
+    unsigned flags = (color ? TRIPTYCH_CLEAR_COLOR : 0) | (depth < 0 ? 0 : TRIPTYCH_CLEAR_DEPTH);
+    return clear(device, error, plain_values(flags, color, depth, 0), NULL, 0);
 }
 
 enum triptych_result triptych_clear_buffers(triptych_device *device, unsigned flags, const float color[4],
@@ -71,11 +91,18 @@ enum triptych_result triptych_clear_buffers(triptych_device *device, unsigned fl
     struct error *error = api_begin_with(device, !(flags & TRIPTYCH_CLEAR_COLOR) || color, "color");
     if (!error)
         return TRIPTYCH_BAD_ARGUMENT;
-    struct clear_values values = {flags, color, depth, stencil};
-    enum triptych_result result = device_clear(device, &values, error);
-    if (result == TRIPTYCH_OK)
-        record_clear(device, &values);
-    return api_finish(device, result);
+    return clear(device, error, plain_values(flags, color, depth, stencil), NULL, 0);
+}
+
+enum triptych_result triptych_clear_rectangles(triptych_device *device,
+                                               const struct triptych_clear_values *values,
+                                               const struct triptych_rectangle *rectangles, unsigned count)
+{
+    struct error *error =
+        api_begin_with(device, values && (rectangles || !count), values ? "rectangles" : "values");
+    if (!error)
+        return TRIPTYCH_BAD_ARGUMENT;
+    return clear(device, error, *values, rectangles, count);
 }
 
 enum triptych_result triptych_set_target_surfaces(triptych_device *device,

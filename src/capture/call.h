@@ -35,7 +35,7 @@ enum call_trait {
 
 /* Constants of shaders. A longer list becomes several calls. */
 enum call_constant_type { CONSTANTS_FLOAT, CONSTANTS_INTEGER, CONSTANTS_BOOLEAN };
-enum { CONSTANTS_PER_CALL = 4, MATRICES_PER_CALL = 4 };
+enum { CONSTANTS_PER_CALL = 4, MATRICES_PER_CALL = 4, PARTS_PER_CALL = 24 };
 
 struct call_set {
     enum triptych_state_table table;
@@ -137,6 +137,20 @@ struct call_clear {
     uint32_t stencil;
 };
 
+/* A rectangle inside the largest target. */
+struct call_part {
+    uint16_t x, y, width, height;
+};
+
+/* A clear with masks, of rectangles or with a count of 0 of everything. */
+struct call_clear_parts {
+    struct call_clear clear;
+    uint32_t color_mask, stencil_mask;
+    bool everywhere; /* the viewport does not limit it */
+    uint32_t count;
+    struct call_part part[PARTS_PER_CALL];
+};
+
 struct call_sequence {
     uint32_t count;
 };
@@ -180,6 +194,14 @@ struct call {
 #include "capture/call_undefine.h"
     };
 };
+
+/* The values of a clear of either kind; null: it is another call. */
+static inline const struct call_clear *call_clear_values(const struct call *call)
+{
+    if (call->type == CALL_CLEAR_PARTS)
+        return &call->clear_parts.clear;
+    return call->type == CALL_CLEAR ? &call->clear : NULL;
+}
 
 /* --- Rows ----------------------------------------------------------------------------------------------- */
 

@@ -152,17 +152,38 @@ static void code_constant_matrix(struct codec *codec, struct call *call)
         codec_fail(codec, "found constants of no transform, expected at least one of one");
 }
 
+static void code_values(struct codec *codec, struct call_clear *clear)
+{
+    clear->flags = codec_u8(codec, clear->flags, 7, "what is cleared");
+    if (clear->flags & TRIPTYCH_CLEAR_COLOR)
+        codec_floats(codec, clear->color, 4);
+    if (clear->flags & TRIPTYCH_CLEAR_DEPTH)
+        codec_floats(codec, &clear->depth, 1);
+    if (clear->flags & TRIPTYCH_CLEAR_STENCIL)
+        clear->stencil = codec_u8(codec, clear->stencil, 255, "stencil");
+    if (codec->reading && !clear->flags)
+        codec_fail(codec, "found a clear of nothing, expected color, depth or stencil");
+}
+
 static void code_clear(struct codec *codec, struct call *call)
 {
-    call->clear.flags = codec_u8(codec, call->clear.flags, 7, "what is cleared");
-    if (call->clear.flags & TRIPTYCH_CLEAR_COLOR)
-        codec_floats(codec, call->clear.color, 4);
-    if (call->clear.flags & TRIPTYCH_CLEAR_DEPTH)
-        codec_floats(codec, &call->clear.depth, 1);
-    if (call->clear.flags & TRIPTYCH_CLEAR_STENCIL)
-        call->clear.stencil = codec_u8(codec, call->clear.stencil, 255, "stencil");
-    if (codec->reading && !call->clear.flags)
-        codec_fail(codec, "found a clear of nothing, expected color, depth or stencil");
+    code_values(codec, &call->clear);
+}
+
+static void code_clear_parts(struct codec *codec, struct call *call)
+{
+    struct call_clear_parts *parts = &call->clear_parts;
+    code_values(codec, &parts->clear);
+    parts->color_mask = codec_u8(codec, parts->color_mask, 15, "colour mask");
+    parts->stencil_mask = codec_u8(codec, parts->stencil_mask, 255, "stencil mask");
+    parts->everywhere = codec_u8(codec, parts->everywhere, 1, "everywhere");
+    parts->count = codec_u8(codec, parts->count, PARTS_PER_CALL, "count of rectangles");
+    for (uint32_t i = 0; i < parts->count; i++) {
+        uint16_t *side[4] = {&parts->part[i].x, &parts->part[i].y, &parts->part[i].width,
+                             &parts->part[i].height};
+        for (int k = 0; k < 4; k++)
+            *side[k] = (uint16_t)codec_u16(codec, *side[k], TRIPTYCH_TARGET_MAXIMUM, "rectangle");
+    }
 }
 
 static void code_bind_indices(struct codec *codec, struct call *call)
@@ -186,6 +207,7 @@ void call_code(struct codec *codec, struct call *call)
         [CALL_CONSTANTS] = code_constants,
         [CALL_CONSTANT_MATRIX] = code_constant_matrix,
         [CALL_CLEAR] = code_clear,
+        [CALL_CLEAR_PARTS] = code_clear_parts,
     };
     if (codec->reading)
         *call = (struct call){.type = call->type, .resource = NO_RESOURCE, .position = call->position};

@@ -84,7 +84,8 @@ void record_integers(struct triptych_device *device, enum triptych_shader_stage 
                      const int32_t *values, unsigned count);
 void record_booleans(struct triptych_device *device, enum triptych_shader_stage stage, unsigned first,
                      const int32_t *values, unsigned count);
-void record_clear(struct triptych_device *device, const struct clear_values *values);
+void record_clear(struct triptych_device *device, const struct triptych_clear_values *values,
+                  const struct triptych_rectangle *rectangles, unsigned count);
 void record_draw(struct triptych_device *device, enum triptych_primitive primitive, uint32_t first,
                  uint32_t count);
 void record_draw_indexed(struct triptych_device *device, enum triptych_primitive primitive, int32_t base,

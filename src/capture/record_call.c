@@ -213,17 +213,55 @@ void record_scissor(struct triptych_device *device, unsigned x, unsigned y, unsi
     record_call(device, &call);
 }
 
-/* Values of surfaces that are not cleared are ignored. The stencil of a stream is one byte: no format has
- * more. */
-void record_clear(struct triptych_device *device, const struct clear_values *values)
+/* Values of surfaces that are not cleared are ignored. */
+static struct call_clear clear_of(const struct triptych_clear_values *values)
 {
-    struct call call = {.type = CALL_CLEAR, .resource = NO_RESOURCE, .clear.flags = values->flags};
+    struct call_clear clear = {.flags = values->flags, .depth = values->depth};
+    if (values->flags & TRIPTYCH_CLEAR_COLOR)
+        memcpy(clear.color, values->color, sizeof clear.color);
+    clear.stencil = values->stencil & 255;
+    return clear;
+}
+
+static struct call_part part_of(const struct triptych_rectangle *r)
+{
+    return (struct call_part){
+        (uint16_t)min_u32(r->x, TRIPTYCH_TARGET_MAXIMUM), (uint16_t)min_u32(r->y, TRIPTYCH_TARGET_MAXIMUM),
+        (uint16_t)part_of_side(r->x, r->width), (uint16_t)part_of_side(r->y, r->height)};
+}
+
+/* A call for every PARTS_PER_CALL rectangles. A call without rectangles clears everything. */
+static void record_clear_parts(struct triptych_device *device, const struct triptych_clear_values *values,
+                               const struct triptych_rectangle *rectangles, unsigned count)
+{
+    struct call call = {.type = CALL_CLEAR_PARTS, .resource = NO_RESOURCE};
+    struct call_clear_parts *parts = &call.clear_parts;
+    parts->clear = clear_of(values);
+    parts->color_mask = values->color_mask;
+    parts->stencil_mask = values->stencil_mask & 255;
+    parts->everywhere = values->everywhere;
+    for (unsigned i = 0; i < count; i++) {
+        if (parts->count == PARTS_PER_CALL) {
+            record_call(device, &call);
+            parts->count = 0;
+        }
+        parts->part[parts->count++] = part_of(rectangles + i);
+    }
+    record_call(device, &call);
+}
+
+/* Streams have a byte for the stencil and its mask: no format has more. */
+void record_clear(struct triptych_device *device, const struct triptych_clear_values *values,
+                  const struct triptych_rectangle *rectangles, unsigned count)
+{
+    struct call call = {.type = CALL_CLEAR, .resource = NO_RESOURCE};
     if (!device_recorder(device) || !values->flags)
         return;
-    if (values->flags & TRIPTYCH_CLEAR_COLOR)
-        memcpy(call.clear.color, values->color, sizeof call.clear.color);
-    call.clear.depth = values->depth;
-    call.clear.stencil = values->stencil & 255;
+    if (count || values->everywhere || values->color_mask != 15 || (values->stencil_mask & 255) != 255) {
+        record_clear_parts(device, values, rectangles, count);
+        return;
+    }
+    call.clear = clear_of(values);
     record_call(device, &call);
 }
 

@@ -214,7 +214,8 @@ static int play(struct trail *trail, uint32_t i, struct error *error)
     int64_t canvas = find_canvas(trail, error);
     if (canvas < 0)
         return -1;
-    if (call->type == CALL_CLEAR && call->clear.flags & TRIPTYCH_CLEAR_COLOR)
+    const struct call_clear *clear = call_clear_values(call);
+    if (clear && clear->flags & TRIPTYCH_CLEAR_COLOR)
         disown(trail->canvas + canvas);
     return stream_is_draw(call) ? add_draw(trail, position, (uint32_t)canvas, error)
                                 : add_other(trail, position, (uint32_t)canvas, error);

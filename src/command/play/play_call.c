@@ -239,6 +239,23 @@ enum triptych_result play_copy(struct player *player, const struct call *call)
 
 /* --- Pixels --------------------------------------------------------------------------------------------- */
 
+enum triptych_result play_clear_parts(struct player *player, const struct call *call)
+{
+    const struct call_clear_parts *parts = &call->clear_parts;
+    struct triptych_rectangle rectangle[PARTS_PER_CALL];
+    struct triptych_clear_values values = {.flags = parts->clear.flags,
+                                           .depth = parts->clear.depth,
+                                           .stencil = parts->clear.stencil,
+                                           .color_mask = parts->color_mask,
+                                           .stencil_mask = parts->stencil_mask,
+                                           .everywhere = parts->everywhere};
+    memcpy(values.color, parts->clear.color, sizeof values.color);
+    for (uint32_t i = 0; i < parts->count; i++)
+        rectangle[i] = (struct triptych_rectangle){parts->part[i].x, parts->part[i].y, parts->part[i].width,
+                                                   parts->part[i].height};
+    return triptych_clear_rectangles(player->device, &values, rectangle, parts->count);
+}
+
 enum triptych_result play_clear(struct player *player, const struct call *call)
 {
     return triptych_clear_buffers(player->device, call->clear.flags, call->clear.color, call->clear.depth,

@@ -69,6 +69,7 @@ enum triptych_result play_texels(struct player *player, const struct call *call)
 enum triptych_result play_contents(struct player *player, const struct call *call);
 enum triptych_result play_attach(struct player *player, const struct call *call);
 enum triptych_result play_copy(struct player *player, const struct call *call);
+enum triptych_result play_clear_parts(struct player *player, const struct call *call);
 enum triptych_result play_clear(struct player *player, const struct call *call);
 enum triptych_result play_draw_mesh(struct player *player, const struct call *call);
 enum triptych_result play_end_query(struct player *player, const struct call *call);

@@ -141,10 +141,10 @@ int follow_contents(struct follower *follower, const struct call *call, struct e
 
 int follow_clear(struct follower *follower, const struct call *call, struct error *error)
 {
-    return state_check_clear(follower->state.depth_format, call->clear.flags, call->clear.color,
-                             call->clear.depth, error)
-               ? -1
-               : 0;
+    const struct call_clear *clear = call_clear_values(call);
+    struct triptych_clear_values values = {.flags = clear->flags, .depth = clear->depth};
+    memcpy(values.color, clear->color, sizeof values.color);
+    return state_check_clear(follower->state.depth_format, &values, error) ? -1 : 0;
 }
 
 /* --- Calls ---------------------------------------------------------------------------------------------- */

@@ -31,12 +31,13 @@ static int check_finite(const float *numbers, size_t count, struct error *error)
     return 0;
 }
 
+/* Of both kinds: the values come first. */
 int valid_clear(const struct stream *stream, const struct call *call, struct error *error)
 {
     (void)stream;
-    unsigned flags = call->clear.flags;
-    return check_finite(call->clear.color, flags & TRIPTYCH_CLEAR_COLOR ? 4 : 0, error) ||
-                   check_finite(&call->clear.depth, flags & TRIPTYCH_CLEAR_DEPTH ? 1 : 0, error)
+    const struct call_clear *clear = call_clear_values(call);
+    return check_finite(clear->color, clear->flags & TRIPTYCH_CLEAR_COLOR ? 4 : 0, error) ||
+                   check_finite(&clear->depth, clear->flags & TRIPTYCH_CLEAR_DEPTH ? 1 : 0, error)
                ? -1
                : 0;
 }

@@ -7,7 +7,7 @@
 
 static bool is_clear(const struct stream *stream, uint32_t position)
 {
-    return stream->calls[stream->executed[position]].type == CALL_CLEAR;
+    return call_clear_values(&stream->calls[stream->executed[position]]) != NULL;
 }
 
 int session_find_draw(const struct command *self, const struct stream *stream, unsigned frame, unsigned draw,

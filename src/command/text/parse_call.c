@@ -3,6 +3,7 @@
 #include "render/texture/format.h"
 #include "command/text/parse.h"
 
+#include <inttypes.h>
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
@@ -28,24 +29,28 @@ int parse_integer(struct parser *parser, const char *what, int64_t high, uint32_
     return 0;
 }
 
-int parse_fields(struct parser *parser, struct parse_field *fields, size_t count)
+static int parse_field(struct parser *parser, struct parse_field *fields, size_t count)
 {
     struct lexer *lex = &parser->lex;
     const struct words words = {words_row, fields, (unsigned)count, sizeof *fields};
-    while (!lex_ends_line(lex)) {
-        char choices[128] = "";
-        size_t at = 0, i = 0;
-        while (i < count && (fields[i].given || !lex_is(lex, fields[i].word)))
-            i++;
-        for (size_t j = 0; i == count && j < count; j++)
-            if (!fields[j].given)
-                at += (size_t)snprintf(choices + at, sizeof choices - at, "%s, ", fields[j].word);
-        if (i == count)
-            return lex_expected_word(lex, words, "%sor the end of the line", choices);
-        fields[i].given = true;
-        if (lex_next(lex) || lex_numbers(lex, fields[i].word, fields[i].numbers, fields[i].count))
+    char choices[128] = "";
+    size_t at = 0, i = 0;
+    while (i < count && (fields[i].given || !lex_is(lex, fields[i].word)))
+        i++;
+    for (size_t j = 0; i == count && j < count; j++)
+        if (!fields[j].given)
+            at += (size_t)snprintf(choices + at, sizeof choices - at, "%s, ", fields[j].word);
+    if (i == count)
+        return lex_expected_word(lex, words, "%sor the end of the line", choices);
+    fields[i].given = true;
+    return lex_next(lex) || lex_numbers(lex, fields[i].word, fields[i].numbers, fields[i].count) ? -1 : 0;
+}
+
+int parse_fields(struct parser *parser, struct parse_field *fields, size_t count)
+{
+    while (!lex_ends_line(&parser->lex))
+        if (parse_field(parser, fields, count))
             return -1;
-    }
     return 0;
 }
 
@@ -317,26 +322,89 @@ int parse_bind(struct parser *parser, struct call *call, unsigned word)
                              "texture, vertices, indices, element or stream");
 }
 
-/* All values are read as numbers. The stencil must be an integer. */
+/* part X Y WIDTH HEIGHT */
+static int parse_part(struct parser *parser, struct call_clear_parts *parts)
+{
+    uint32_t side[4];
+    if (parts->count == PARTS_PER_CALL)
+        return lex_expected(&parser->lex, "at most 24 parts");
+    if (lex_next(&parser->lex))
+        return -1;
+    for (int i = 0; i < 4; i++)
+        if (parse_integer(parser, "part X Y WIDTH HEIGHT", TRIPTYCH_TARGET_MAXIMUM, &side[i]))
+            return -1;
+    parts->part[parts->count++] =
+        (struct call_part){(uint16_t)side[0], (uint16_t)side[1], (uint16_t)side[2], (uint16_t)side[3]};
+    return 0;
+}
+
+/* A value of a clear that must be an integer. */
+static int whole_number(struct parser *parser, const struct token *place, const struct parse_field *field,
+                        uint32_t most, uint32_t *value)
+{
+    float number = *field->numbers;
+    if (!(number >= 0 && number <= (float)most && number == floorf(number)))
+        return lex_fail(&parser->lex, place, "found %s %g, expected an integer from 0 to %" PRIu32,
+                        field->word, (double)number, most);
+    *value = (uint32_t)number;
+    return 0;
+}
+
+enum clear_field {
+    CLEAR_FIELD_COLOR,
+    CLEAR_FIELD_DEPTH,
+    CLEAR_FIELD_STENCIL,
+    CLEAR_FIELD_COLOR_MASK,
+    CLEAR_FIELD_STENCIL_MASK,
+    CLEAR_FIELD_EVERYWHERE,
+    CLEAR_FIELD_PART,
+    CLEAR_FIELDS
+};
+
+/* Turns a clear without masks and parts into a plain one. */
+static void choose_clear(const struct parse_field fields[CLEAR_FIELDS], const struct call_clear_parts *parts,
+                         struct call *call)
+{
+    bool plain = !parts->count;
+    for (int i = CLEAR_FIELD_COLOR_MASK; i < CLEAR_FIELDS; i++)
+        plain &= !fields[i].given;
+    call->type = plain ? CALL_CLEAR : CALL_CLEAR_PARTS;
+    if (plain)
+        call->clear = parts->clear;
+    else
+        call->clear_parts = *parts;
+}
+
+/* All values but those of parts are read as numbers. */
 int parse_clear(struct parser *parser, struct call *call, unsigned word)
 {
-    float stencil = 0;
+    struct call_clear_parts parts = {.count = 0};
+    struct call_clear *clear = &parts.clear;
+    float stencil = 0, color_mask = 15, stencil_mask = 255;
     struct token place = parser->lex.token;
-    struct parse_field fields[] = {{"color", call->clear.color, 4, false},
-                                   {"depth", &call->clear.depth, 1, false},
-                                   {"stencil", &stencil, 1, false}};
+    struct parse_field fields[CLEAR_FIELDS] = {{"color", clear->color, 4, false},
+                                               {"depth", &clear->depth, 1, false},
+                                               {"stencil", &stencil, 1, false},
+                                               {"colormask", &color_mask, 1, false},
+                                               {"stencilmask", &stencil_mask, 1, false},
+                                               {"everywhere", NULL, 0, false},
+                                               {"part", NULL, 0, false}};
     (void)word;
-    if (parse_fields(parser, fields, 3))
-        return -1;
-    call->clear.flags = (fields[0].given ? TRIPTYCH_CLEAR_COLOR : 0) |
-                        (fields[1].given ? TRIPTYCH_CLEAR_DEPTH : 0) |
-                        (fields[2].given ? TRIPTYCH_CLEAR_STENCIL : 0);
-    if (!call->clear.flags)
+    while (!lex_ends_line(&parser->lex))
+        if (lex_is(&parser->lex, "part") ? parse_part(parser, &parts)
+                                         : parse_field(parser, fields, CLEAR_FIELDS))
+            return -1;
+    clear->flags = (fields[CLEAR_FIELD_COLOR].given ? TRIPTYCH_CLEAR_COLOR : 0) |
+                   (fields[CLEAR_FIELD_DEPTH].given ? TRIPTYCH_CLEAR_DEPTH : 0) |
+                   (fields[CLEAR_FIELD_STENCIL].given ? TRIPTYCH_CLEAR_STENCIL : 0);
+    if (!clear->flags)
         return lex_expected(&parser->lex, "color R G B A, depth D, stencil S, or several of them");
-    if (!(stencil >= 0 && stencil <= 255 && stencil == floorf(stencil)))
-        return lex_fail(&parser->lex, &place, "found stencil %g, expected an integer from 0 to 255",
-                        (double)stencil);
-    call->clear.stencil = (uint32_t)stencil;
+    parts.everywhere = fields[CLEAR_FIELD_EVERYWHERE].given;
+    if (whole_number(parser, &place, &fields[CLEAR_FIELD_STENCIL], 255, &clear->stencil) ||
+        whole_number(parser, &place, &fields[CLEAR_FIELD_COLOR_MASK], 15, &parts.color_mask) ||
+        whole_number(parser, &place, &fields[CLEAR_FIELD_STENCIL_MASK], 255, &parts.stencil_mask))
+        return -1;
+    choose_clear(fields, &parts, call);
     return 0;
 }
 

@@ -226,15 +226,35 @@ void write_update(struct writer *writer, const struct call *call)
     fprintf(writer->out, " %s", resource_name(writer, call->update.source));
 }
 
-void write_clear(struct writer *writer, const struct call *call)
+static void write_clear_values(struct writer *writer, const struct call_clear *clear)
 {
     fputs("clear", writer->out);
-    if (call->clear.flags & TRIPTYCH_CLEAR_COLOR)
-        write_field(writer, "color", call->clear.color, NULL, 4);
-    if (call->clear.flags & TRIPTYCH_CLEAR_DEPTH)
-        write_field(writer, "depth", &call->clear.depth, NULL, 1);
-    if (call->clear.flags & TRIPTYCH_CLEAR_STENCIL)
-        fprintf(writer->out, " stencil %" PRIu32, call->clear.stencil);
+    if (clear->flags & TRIPTYCH_CLEAR_COLOR)
+        write_field(writer, "color", clear->color, NULL, 4);
+    if (clear->flags & TRIPTYCH_CLEAR_DEPTH)
+        write_field(writer, "depth", &clear->depth, NULL, 1);
+    if (clear->flags & TRIPTYCH_CLEAR_STENCIL)
+        fprintf(writer->out, " stencil %" PRIu32, clear->stencil);
+}
+
+void write_clear(struct writer *writer, const struct call *call)
+{
+    write_clear_values(writer, &call->clear);
+}
+
+/* The mask of the stencil is always written: without any other word the line would be a plain clear. */
+void write_clear_parts(struct writer *writer, const struct call *call)
+{
+    const struct call_clear_parts *parts = &call->clear_parts;
+    write_clear_values(writer, &parts->clear);
+    if (parts->color_mask != 15)
+        fprintf(writer->out, " colormask %" PRIu32, parts->color_mask);
+    fprintf(writer->out, " stencilmask %" PRIu32, parts->stencil_mask);
+    if (parts->everywhere)
+        fputs(" everywhere", writer->out);
+    for (uint32_t i = 0; i < parts->count; i++)
+        fprintf(writer->out, " part %u %u %u %u", parts->part[i].x, parts->part[i].y, parts->part[i].width,
+                parts->part[i].height);
 }
 
 static void write_color_formats(struct writer *writer, const struct triptych_target_description *target)

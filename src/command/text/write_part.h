@@ -47,5 +47,6 @@ void write_update(struct writer *writer, const struct call *call);
 void write_attach(struct writer *writer, const struct call *call);
 void write_copy(struct writer *writer, const struct call *call);
 void write_clear(struct writer *writer, const struct call *call);
+void write_clear_parts(struct writer *writer, const struct call *call);
 
 #endif

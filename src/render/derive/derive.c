@@ -58,7 +58,13 @@ static uint64_t min_u64(uint64_t a, uint64_t b)
 
 struct rectangle derive_scissor(const struct state *state)
 {
-    struct rectangle r = viewport_centres(state);
+    return derive_area(state, false);
+}
+
+struct rectangle derive_area(const struct state *state, bool everywhere)
+{
+    const struct rectangle whole = {0, 0, (int32_t)state->width, (int32_t)state->height};
+    struct rectangle r = everywhere ? whole : viewport_centres(state);
     if (!GET(state, scissortestenable))
         return r;
     const struct scissor *s = &state->scissor;

@@ -88,5 +88,7 @@ struct sampling derive_sampling(const struct state *state);
 
 /* The pixels whose centres lie inside the viewport and, if its test is on, the scissor rectangle. */
 struct rectangle derive_scissor(const struct state *state);
+/* The same; with `everywhere` the viewport does not limit it. */
+struct rectangle derive_area(const struct state *state, bool everywhere);
 
 #endif

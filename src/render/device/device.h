@@ -378,14 +378,9 @@ struct user_draw {
 enum triptych_result device_draw_user(struct triptych_device *device, const struct user_draw *draw,
                                       struct error *error);
 
-/* The arguments of a clear: flags as in triptych.h, and the values that they name. */
-struct clear_values {
-    unsigned flags;
-    const float *color; /* four */
-    float depth;
-    unsigned stencil;
-};
-enum triptych_result device_clear(struct triptych_device *device, const struct clear_values *values,
+/* Records a clear of rectangles, or with count 0 of everything. */
+enum triptych_result device_clear(struct triptych_device *device, const struct triptych_clear_values *values,
+                                  const struct triptych_rectangle *rectangles, unsigned count,
                                   struct error *error);
 
 enum triptych_result device_query_begin(struct triptych_device *device, struct triptych_query *query,

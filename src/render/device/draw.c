@@ -1,12 +1,10 @@
-/* The device's draws and clears: what they need is checked, then they are recorded as they are, with the
+/* The device's draws: what they need is checked, then they are recorded as they are, with the
  * routines and the job that the state derives to. Queries count what lies between. */
-#include "machine/mxcsr.h"
 #include "contract/lane.h"
 #include "render/derive/derive.h"
 #include "render/device/device.h"
 #include "render/state/primitive.h"
 
-#include <float.h>
 #include <inttypes.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -228,39 +226,6 @@ enum triptych_result device_draw_indexed(struct triptych_device *device, enum tr
     return result == TRIPTYCH_OK ? device_count_draw(device, &drawn, error) : result;
 }
 
-enum triptych_result device_clear(struct triptych_device *device, const struct clear_values *values,
-                                  struct error *error)
-{
-    enum triptych_depth_format format = device->binding.target->depth_format;
-    enum triptych_result result = device_has_target(device, error);
-    if (result == TRIPTYCH_OK)
-        result = state_check_clear(format, values->flags, values->color, values->depth, error);
-    if (result != TRIPTYCH_OK || !values->flags)
-        return result;
-    device_prepare_target(device);
-    device_note_drawn(device, (values->flags & TRIPTYCH_CLEAR_COLOR ? TARGET_DEPTH - 1 : 0) |
-                                  (values->flags & ~TRIPTYCH_CLEAR_COLOR ? TARGET_DEPTH : 0));
-    struct command *command = device_next_command(device);
-    struct clear *clear = &command->clear;
-    command->kind = COMMAND_CLEAR;
-    *clear = (struct clear){.area = derive_scissor(&device->state),
-                            .set_color = values->flags & TRIPTYCH_CLEAR_COLOR};
-    unsigned saved = mxcsr_enter();
-    if (clear->set_color)
-        target_clear_words(device->binding.target, values->color, clear->color);
-    if (values->flags & TRIPTYCH_CLEAR_DEPTH) {
-        /* The pipeline has neither denormals nor -0 in depth. */
-        clear->depth = depth_encode(format, values->depth >= FLT_MIN ? values->depth : 0);
-        clear->depth_mask = depth_mask(format);
-    }
-    mxcsr_leave(saved);
-    if (values->flags & TRIPTYCH_CLEAR_STENCIL) {
-        clear->depth |= values->stencil & stencil_mask(format);
-        clear->depth_mask |= stencil_mask(format);
-    }
-    device->queue->commands.count++;
-    return TRIPTYCH_OK;
-}
 /* --- Queries --- */
 
 /* Draws count pixels while any query needs it. */

@@ -34,7 +34,7 @@ bool constants_fit(const struct constants *constants, const struct state *state)
 
 /* Blocks are prefetched this many bytes ahead of writing: the cache of the core that rendered the old
  * contents may still hold the lines. */
-enum { BYTES_AHEAD = 1024 };
+enum { BYTES_AHEAD = 1024, BLOCK_ALIGNMENT = 16 };
 
 static void write_block(struct constants *constants, const struct state *state, int stage)
 {
@@ -56,6 +56,15 @@ const float *constants_block(struct constants *constants, const struct state *st
     if (!is_right(constants, state, stage))
         write_block(constants, state, stage);
     return constants->block[stage];
+}
+
+void *constants_take(struct constants *constants, size_t bytes)
+{
+    size_t padded = (bytes + BLOCK_ALIGNMENT - 1) & -(size_t)BLOCK_ALIGNMENT;
+    if (padded > CONSTANT_BYTES - constants->used)
+        return NULL;
+    constants->used += padded;
+    return constants->memory + constants->half + constants->used - padded;
 }
 
 void constants_changed(struct constants *constants, unsigned stage)

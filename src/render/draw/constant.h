@@ -35,6 +35,10 @@ bool constants_fit(const struct constants *constants, const struct state *state)
  * shader. */
 const float *constants_block(struct constants *constants, const struct state *state, int stage);
 
+/* Room for other data of the draws, aligned as the blocks are; null if it does not fit. After constants_reset
+ * CONSTANT_BYTES fit. */
+void *constants_take(struct constants *constants, size_t bytes);
+
 /* A constant of that stage has changed: its newest block is not that of later draws. */
 void constants_changed(struct constants *constants, unsigned stage);
 

@@ -427,19 +427,25 @@ void state_set_target(struct state *state, const struct triptych_target_descript
     }
 }
 
-enum triptych_result state_check_clear(enum triptych_depth_format format, unsigned flags,
-                                       const float color[4], float depth, struct error *error)
+enum triptych_result state_check_clear(enum triptych_depth_format format,
+                                       const struct triptych_clear_values *values, struct error *error)
 {
+    unsigned flags = values->flags;
+    float depth = values->depth;
     unsigned all = TRIPTYCH_CLEAR_COLOR | TRIPTYCH_CLEAR_DEPTH | TRIPTYCH_CLEAR_STENCIL;
     if (flags & ~all) {
         error_set(error, "clear flags 0x%x: expected a sum of 1, 2 and 4", flags);
         return TRIPTYCH_BAD_ARGUMENT;
     }
     for (int c = 0; c < 4 && flags & TRIPTYCH_CLEAR_COLOR; c++)
-        if (!isfinite(color[c])) {
-            error_set(error, "clear colour %d is %f, expected a finite number", c, (double)color[c]);
+        if (!isfinite(values->color[c])) {
+            error_set(error, "clear colour %d is %f, expected a finite number", c, (double)values->color[c]);
             return TRIPTYCH_BAD_ARGUMENT;
         }
+    if (values->color_mask > 15) {
+        error_set(error, "colour mask 0x%x of a clear: expected 0 to 15", values->color_mask);
+        return TRIPTYCH_BAD_ARGUMENT;
+    }
     if (flags & TRIPTYCH_CLEAR_DEPTH && !(depth >= 0 && depth <= 1)) {
         error_set(error, "clear depth %g: expected 0 to 1", (double)depth);
         return TRIPTYCH_BAD_ARGUMENT;

@@ -118,9 +118,9 @@ void state_initialize(struct state *state);
  * cover all of it. */
 void state_set_target(struct state *state, const struct triptych_target_description *description);
 
-/* Fails if a target with that depth format cannot be cleared to these values (triptych_clear_buffers). */
-enum triptych_result state_check_clear(enum triptych_depth_format format, unsigned flags,
-                                       const float color[4], float depth, struct error *error);
+/* Fails if a target with that depth format cannot be cleared to these values (triptych_clear_rectangles). */
+enum triptych_result state_check_clear(enum triptych_depth_format format,
+                                       const struct triptych_clear_values *values, struct error *error);
 
 /* Each function checks its argument and sets it, or leaves the state unchanged and gives the reason.
  * state_set_value takes sampler or stage `i` (0 for render states) and the row's number in the table. */

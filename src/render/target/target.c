@@ -9,6 +9,8 @@
 #include <stdlib.h>
 #include <string.h>
 
+enum { ALL_CHANNELS = 15 };
+
 const struct format *target_format(const struct triptych_target_description *description, unsigned t)
 {
     enum triptych_surface_format number = description->color_format[t];
@@ -318,6 +320,35 @@ static bool same_area(const struct rectangle *a, const struct rectangle *b)
     return !memcmp(a, b, sizeof *a);
 }
 
+static uint32_t merged(uint32_t old, uint32_t new, uint32_t mask)
+{
+    return (old & ~mask) | (new &mask);
+}
+
+/* Sets the bits of the mask in a plane's words of the part of a tile. */
+static void merge_part(uint32_t *plane, const struct rectangle *part, uint32_t value, uint32_t mask)
+{
+    uint32_t first = (uint32_t)part->x0 % TILE_SIZE, count = (uint32_t)(part->x1 - part->x0);
+    uint32_t column[TILE_SIZE];
+    for (uint32_t i = 0; i < count; i++)
+        column[i] = pixel_word(first + i, 0);
+    for (int32_t y = part->y0; y < part->y1; y++) {
+        uint32_t *row = plane + pixel_word(0, (uint32_t)y % TILE_SIZE);
+        for (uint32_t i = 0; i < count; i++)
+            row[column[i]] = merged(row[column[i]], value, mask);
+    }
+}
+
+/* The bits of the words of each of a colour's planes that belong to the channels. */
+static void channel_masks(const struct target_color *color, uint32_t channels, uint32_t masks[4])
+{
+    bool packed = storage_planes[color->storage] == 1;
+    memset(masks, 0, 4 * sizeof *masks);
+    for (unsigned c = 0; c < 4; c++)
+        if (channels >> c & 1)
+            masks[packed ? 0 : c] |= packed ? 0xffu << 8 * c : UINT32_MAX;
+}
+
 /* Clears a colour's pixels of `part`. */
 static void clear_color(struct target *target, unsigned t, uint32_t tile, const struct clear *clear,
                         const struct rectangle *part)
@@ -326,18 +357,19 @@ static void clear_color(struct target *target, unsigned t, uint32_t tile, const 
     uint32_t planes = storage_planes[color->storage], number = target_tile_in(target, color->columns, tile);
     struct rectangle whole = target_attachment_area(color->attachment, number);
     const uint32_t *value = clear->color + color->plane;
-    if (same_area(part, &whole)) {
-        memcpy(color->clear[number].word, value, planes * sizeof *value);
-        color->clear[number].pending = true;
+    struct color_clear *pending = color->clear + number;
+    uint32_t masks[4];
+    channel_masks(color, ALL_CHANNELS & ~clear->kept_channels, masks);
+    if (same_area(part, &whole) && (pending->pending || !clear->kept_channels)) {
+        for (uint32_t p = 0; p < planes; p++)
+            pending->word[p] = merged(pending->word[p], value[p], masks[p]);
+        pending->pending = true;
         return;
     }
     uint32_t *words = fill_one(target, t, tile);
-    for (int32_t y = part->y0; y < part->y1; y++)
-        for (int32_t x = part->x0; x < part->x1; x++) {
-            uint32_t word = pixel_word((uint32_t)(x - whole.x0), (uint32_t)(y - whole.y0));
-            for (uint32_t p = 0; p < target->samples * planes; p++)
-                words[(p / planes * target->planes + p % planes) * TILE_PIXELS + word] = value[p % planes];
-        }
+    for (uint32_t p = 0; p < target->samples * planes; p++)
+        merge_part(words + (p / planes * target->planes + p % planes) * TILE_PIXELS, part, value[p % planes],
+                   masks[p % planes]);
 }
 
 /* Returns true if every used bit of the words is set, so their old values do not matter. */
@@ -374,20 +406,14 @@ static void clear_depth(struct target *target, uint32_t tile, const struct clear
         return;
     }
     uint32_t *words = target_fill_depth(target, tile);
-    for (int32_t y = part->y0; y < part->y1; y++)
-        for (int32_t x = part->x0; x < part->x1; x++) {
-            uint32_t word = pixel_word((uint32_t)(x - whole.x0), (uint32_t)(y - whole.y0));
-            for (uint32_t p = 0; p < target->samples; p++) {
-                uint32_t *at = words + p * TILE_PIXELS + word;
-                *at = (*at & ~clear->depth_mask) | clear->depth;
-            }
-        }
+    for (uint32_t p = 0; p < target->samples; p++)
+        merge_part(words + p * TILE_PIXELS, part, clear->depth, clear->depth_mask);
 }
 
-void target_clear_tile(struct target *target, uint32_t tile, const struct clear *clear)
+static void clear_area(struct target *target, uint32_t tile, const struct clear *clear,
+                       const struct rectangle *area)
 {
     struct rectangle has = tile_area(target, tile);
-    const struct rectangle *area = &clear->area;
     struct rectangle part = {max_i32(has.x0, area->x0), max_i32(has.y0, area->y0), min_i32(has.x1, area->x1),
                              min_i32(has.y1, area->y1)};
     if (part.x0 >= part.x1 || part.y0 >= part.y1)
@@ -397,6 +423,20 @@ void target_clear_tile(struct target *target, uint32_t tile, const struct clear 
             clear_color(target, t, tile, clear, &part);
     if (clear->depth_mask && target->depth)
         clear_depth(target, tile, clear, &part);
+}
+
+void target_clear_tile(struct target *target, uint32_t tile, const struct clear *clear)
+{
+    const struct clear_parts *parts = clear->parts;
+    uint32_t row = tile / target->columns;
+    if (!parts) {
+        clear_area(target, tile, clear, &clear->area);
+        return;
+    }
+    for (uint32_t i = parts->begin[row]; i < parts->begin[row + 1]; i++) {
+        const struct clear_part *part = parts->part + i;
+        clear_area(target, tile, clear, &(struct rectangle){part->x0, part->y0, part->x1, part->y1});
+    }
 }
 
 /* --- Reading --- */

@@ -51,9 +51,24 @@ struct target {
     uint32_t moves;
 };
 
+/* A rectangle of a clear in one row of tiles, as struct rectangle has it. */
+struct clear_part {
+    uint16_t x0, y0, x1, y1;
+};
+
+enum { CLEAR_PARTS = 256, TARGET_ROWS_MAXIMUM = TARGET_SIZE_MAXIMUM / TILE_SIZE };
+
+/* The rectangles of a clear, by rows of tiles: those of row r are part[begin[r]] to part[begin[r + 1] - 1]. */
+struct clear_parts {
+    uint32_t begin[TARGET_ROWS_MAXIMUM + 1];
+    struct clear_part part[];
+};
+
 /* The values and the area of a clear. */
 struct clear {
     struct rectangle area;
+    const struct clear_parts *parts; /* of the area; null: all of it */
+    uint32_t kept_channels;          /* of the colours: bits as in a write mask */
     uint32_t color[TARGET_PLANES];
     uint32_t depth;      /* new bits of the word */
     uint32_t depth_mask; /* which of them are set: depth's, stencil's, both or none */
@@ -130,6 +145,11 @@ static inline bool target_has_whole(const struct target *target, uint32_t tile)
 {
     return tile % target->columns < target->whole_columns && tile / target->columns < target->whole_rows;
 }
+
+/* Sorts up to CLEAR_PARTS rectangles inside the target, none of them empty (render/target/clear.c): the number
+ * of bytes, and the result. */
+size_t target_clear_bytes(const struct rectangle *rectangles, uint32_t count);
+void target_clear_sort(const struct rectangle *rectangles, uint32_t count, struct clear_parts *parts);
 
 /* Applies the clear's part in one tile. */
 void target_clear_tile(struct target *target, uint32_t tile, const struct clear *clear);

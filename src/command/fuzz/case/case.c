@@ -30,6 +30,28 @@ static void add_clear(struct maker *maker)
     text_add(maker->text, "\n");
 }
 
+/* Masks and parts, also outside of the target. */
+static void add_clear_of_parts(struct maker *maker)
+{
+    struct random *random = &maker->random;
+    text_add(maker->text, "clear color");
+    case_numbers(maker, 4, 0, 1);
+    if (maker->has_depth && random_chance(random, 2))
+        text_add(maker->text, " depth %.9g", (double)random_float(random, 0, 1));
+    if (maker->has_stencil && random_chance(random, 2))
+        text_add(maker->text, " stencil %u stencilmask %u", random_below(random, 256),
+                 random_below(random, 256));
+    if (random_chance(random, 2))
+        text_add(maker->text, " colormask %u", random_below(random, 16));
+    if (random_chance(random, 3))
+        text_add(maker->text, " everywhere");
+    for (unsigned i = random_below(random, 6); i; i--)
+        text_add(maker->text, " part %u %u %u %u", random_below(random, maker->width + 8),
+                 random_below(random, maker->height + 8), random_below(random, maker->width + 8),
+                 random_below(random, maker->height + 8));
+    text_add(maker->text, "\n");
+}
+
 /* --- Draws ---------------------------------------------------------------------------------------------- */
 
 enum { PRIMITIVES = TRIPTYCH_PRIMITIVE_COUNT };
@@ -51,7 +73,7 @@ static void add_draw(struct maker *maker)
     unsigned corners = indexed ? maker->indices : maker->vertices;
     unsigned most = (corners - primitives[p].more) / primitives[p].each;
     text_add(maker->text, indexed ? "draw-indexed %s 0 0 %u\n" : "draw %s 0 %u\n", primitives[p].word,
-             random_chance(random, 3) ? 1 + random_below(random, most) : most);
+             most && random_chance(random, 3) ? 1 + random_below(random, most) : most);
 }
 
 static void change_something(struct maker *maker)
@@ -59,6 +81,8 @@ static void change_something(struct maker *maker)
     case_states(maker, random_below(&maker->random, 6));
     if (random_chance(&maker->random, 6))
         case_copy(maker);
+    if (random_chance(&maker->random, 6))
+        add_clear_of_parts(maker);
     if (random_chance(&maker->random, 6))
         case_change(maker);
     if (random_chance(&maker->random, 8))
@@ -132,6 +156,8 @@ void case_write(struct random *random, struct text *text)
     case_states(&maker, random_chance(&maker.random, 4) ? 0 : random_below(&maker.random, 24));
     add_pass(&maker);
     add_clear(&maker);
+    if (random_chance(&maker.random, 8))
+        add_clear_of_parts(&maker);
     add_draws(&maker);
     *random = maker.random;
 }
