@@ -1,0 +1,19 @@
+/* What the draws of a device share. */
+#ifndef D3D9_DRAW_DRAW_H
+#define D3D9_DRAW_DRAW_H
+
+#include "front/d3d9/device.h"
+
+/* What a draw needs of the device's bindings. */
+enum {
+    D3D9_NEEDS_STREAMS = 1, /* all streams of the declaration; otherwise all but stream 0 */
+    D3D9_NEEDS_INDICES = 2,
+    D3D9_NEEDS_INSTANCES = 4 /* stream frequencies count */
+};
+
+/* Passes on what the renderer lacks before a draw or before a clear. Returns false if nothing can be drawn:
+ * there is no target, or no memory. */
+bool d3d9_draw_prepare(struct d3d9_device *, unsigned needs);
+bool d3d9_draw_prepare_targets(struct d3d9_device *);
+
+#endif
