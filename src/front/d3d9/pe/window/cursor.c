@@ -4,14 +4,16 @@
 #include "front/d3d9/call.h"
 #include "fullscreen.h"
 
-static void copy_rows(char *pixels, const struct d3d9_locked_rect *locked, const struct d3d9_surface_desc *size)
+static void copy_rows(char *pixels, const struct d3d9_locked_rect *locked,
+                      const struct d3d9_surface_desc *size)
 {
     for (UINT row = 0; row < size->height; row++)
         memcpy(pixels + row * size->width * 4, (const char *)locked->bits + (INT)row * locked->pitch,
                size->width * 4);
 }
 
-static HCURSOR make_cursor(const struct d3d9_locked_rect *locked, const struct d3d9_surface_desc *size, UINT x, UINT y)
+static HCURSOR make_cursor(const struct d3d9_locked_rect *locked, const struct d3d9_surface_desc *size,
+                           UINT x, UINT y)
 {
     BITMAPV5HEADER header = {.bV5Size = sizeof header,
                              .bV5Width = (LONG)size->width,
@@ -50,7 +52,8 @@ static HCURSOR cursor_of(struct d3d9_surface *surface, UINT x, UINT y)
     return cursor;
 }
 
-HRESULT WINAPI hosted_device_SetCursorProperties(IDirect3DDevice9Ex *self, UINT x, UINT y, IDirect3DSurface9 *surface)
+HRESULT WINAPI hosted_device_SetCursorProperties(IDirect3DDevice9Ex *self, UINT x, UINT y,
+                                                 IDirect3DSurface9 *surface)
 {
     struct device_data *data = device_data_of(self);
     adapter_renew_all();
