@@ -1,7 +1,6 @@
 /* Clear. */
 #include "front/d3d9/call.h"
 #include "front/d3d9/draw/draw.h"
-#include "front/d3d9/draw/interim.h"
 #include "front/d3d9/resource/surface.h"
 
 #include <stdlib.h>
@@ -31,7 +30,7 @@ static int32_t clear_rectangles(struct d3d9_device *device, const struct triptyc
         used += list[used].width && list[used].height;
     }
     if (used)
-        d3d9_interim_clear(device, values, list, used);
+        triptych_clear_rectangles(device->renderer, values, list, used);
     free(list);
     return D3D9_OK;
 }
@@ -76,6 +75,6 @@ int32_t d3d9_device_clear(struct d3d9_device *device, uint32_t count, const stru
                                            .stencil_mask = UINT32_MAX};
     if (rectangles)
         return clear_rectangles(device, &values, rectangles, count);
-    d3d9_interim_clear(device, &values, NULL, 0);
+    triptych_clear_rectangles(device->renderer, &values, NULL, 0);
     return D3D9_OK;
 }
