@@ -27,7 +27,7 @@ enum call_trait {
     CALL_PIXELS = 1 << 2,       /* a regular call that is skipped while frames are skipped */
     CALL_DRAWS = 1 << 3,        /* it begins a frame that a recording has to end */
     CALL_OUTSIDE = 1 << 4,      /* it must not be in a sequence */
-    CALL_CHANGES = 1 << 6,      /* it may change the textures that it names */
+    CALL_CHANGES = 1 << 6,      /* it may change `resource` and the textures that it names */
     CALL_SHARES_LINE = 1 << 5   /* its lines in the text begin like those of another call, which reads them */
 };
 
@@ -151,6 +151,23 @@ struct call_clear_parts {
     struct call_part part[PARTS_PER_CALL];
 };
 
+struct call_write {
+    uint32_t offset; /* bytes */
+    uint32_t source; /* the resource with the bytes */
+};
+
+/* `resource` has the vertices. */
+struct call_draw_user {
+    uint32_t primitive, count;
+    uint32_t stride; /* bytes of a vertex */
+};
+
+struct call_draw_indexed_user {
+    uint32_t primitive, count, stride;
+    uint32_t indices; /* a resource */
+    uint32_t bits;    /* of an index: 8, 16 or 32 */
+};
+
 struct call_sequence {
     uint32_t count;
 };
@@ -247,6 +264,8 @@ enum {
     CALL_INDICES = 1 << RESOURCE_INDICES | CALL_BUFFERS | CALL_MESHES,
     CALL_ELEMENTS = 1 << RESOURCE_VERTICES | CALL_BUFFERS | CALL_MESHES,
     CALL_SURFACES = CALL_TEXTURES | 1 << RESOURCE_IMAGE,
+    CALL_WRITABLE = 1 << RESOURCE_VERTICES | 1 << RESOURCE_INDICES | CALL_BUFFERS,
+    CALL_INDICES_ALONE = 1 << RESOURCE_INDICES | CALL_BUFFERS,
     CALL_RELEASABLE = ((1 << RESOURCE_TYPES) - 1) & ~(1 << RESOURCE_SEQUENCE)
 };
 

@@ -195,6 +195,14 @@ static void code_bind_indices(struct codec *codec, struct call *call)
         codec_fail(codec, "found indices of %u bits, expected 8, 16 or 32", bits);
 }
 
+static void code_draw_indexed_user(struct codec *codec, struct call *call)
+{
+    call_code_fields(codec, call);
+    uint32_t bits = call->draw_indexed_user.bits;
+    if (codec->reading && bits != 8 && bits != 16 && bits != 32)
+        codec_fail(codec, "found indices of %u bits, expected 8, 16 or 32", bits);
+}
+
 void call_code(struct codec *codec, struct call *call)
 {
     static void (*const special[CALL_TYPES])(struct codec *, struct call *) = {
@@ -207,6 +215,7 @@ void call_code(struct codec *codec, struct call *call)
         [CALL_CONSTANTS] = code_constants,
         [CALL_CONSTANT_MATRIX] = code_constant_matrix,
         [CALL_CLEAR] = code_clear,
+        [CALL_DRAW_INDEXED_USER] = code_draw_indexed_user,
         [CALL_CLEAR_PARTS] = code_clear_parts,
     };
     if (codec->reading)

@@ -397,36 +397,36 @@ void record_booleans(struct triptych_device *device, enum triptych_shader_stage 
 
 /* --- Buffers -------------------------------------------------------------------------------------------- */
 
-static void refuse(struct triptych_device *device)
-{
-    if (device_recorder(device))
-        record_write_fail(&device_recorder(device)->write,
-                          "buffers that change and immediate draws cannot be recorded yet");
-}
-
 void record_write(struct triptych_device *device, const triptych_buffer *buffer, struct buffer_span span)
 {
-    (void)buffer;
-    (void)span;
-    refuse(device);
+    if (!device_recorder(device))
+        return;
+    struct call call = {.type = CALL_WRITE, .resource = buffer->recorded};
+    call.write.offset = (uint32_t)span.begin;
+    call.write.source = record_bytes(device, buffer->data + span.begin, span.end - span.begin);
+    record_call(device, &call);
+    record_release(device, call.write.source);
 }
 
 void record_discard(struct triptych_device *device, const triptych_buffer *buffer)
 {
-    (void)buffer;
-    refuse(device);
+    if (device_recorder(device))
+        record_call(device, &(struct call){.type = CALL_DISCARD, .resource = buffer->recorded});
 }
 
 void record_mapped(struct triptych_device *device, const triptych_buffer *buffer)
 {
     if (buffer->map_mode != TRIPTYCH_MAP_READ)
-        refuse(device);
+        record_write(device, buffer, buffer->mapped);
 }
 
-void record_draw_user(struct triptych_device *device, const struct user_draw *draw)
+void record_all_mapped(struct triptych_device *device)
 {
-    (void)draw;
-    refuse(device);
+    const struct device_resources *resources = device_resources(device);
+    for (const triptych_buffer *buffer = resources->buffers; buffer && resources->mapped;
+         buffer = buffer->next)
+        if (buffer->is_mapped)
+            record_mapped(device, buffer);
 }
 
 /* --- Textures ------------------------------------------------------------------------------------------- */

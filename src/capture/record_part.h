@@ -29,6 +29,9 @@ void record_release(struct triptych_device *device, uint32_t number);
 /* Writes a buffer of bytes. The caller releases it. Returns its number. */
 uint32_t record_bytes(struct triptych_device *device, const void *data, size_t bytes);
 
+/* Writes the bytes of all mapped buffers, which the next draw may read. */
+void record_all_mapped(struct triptych_device *device);
+
 /* Makes the recording fail because memory for a call is missing. */
 void record_memory_is_short(struct triptych_device *device);
 

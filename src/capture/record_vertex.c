@@ -138,22 +138,37 @@ static bool lies_within(const struct state *state, const struct state_element *e
     return last <= state_last_vertex(state, element);
 }
 
-static struct left_out find_left_out(const struct state *state, uint64_t last)
+/* The vertices of a draw. */
+struct reach {
+    uint64_t last; /* that it reads */
+    size_t stride; /* of immediate vertices; 0: stream 0 is bound */
+};
+
+static bool fits(const struct state *state, const struct state_element *element, const struct reach *reach)
+{
+    if (reach->stride && !element->stream)
+        return element->offset + key_vertex_types[element->format].bytes <= reach->stride;
+    return lies_within(state, element, reach->last);
+}
+
+static struct left_out find_left_out(const struct state *state, const struct reach *reach)
 {
     struct left_out left_out = {0};
     for (unsigned a = 0; a < TRIPTYCH_ATTRIBUTE_COUNT; a++)
-        if (state->element[a].format && !lies_within(state, &state->element[a], last))
+        if (state->element[a].format && !fits(state, &state->element[a], reach))
             left_out.attributes |= (uint64_t)1 << a;
     for (unsigned i = 0; i < state->others; i++)
-        if (!lies_within(state, &state->other[i].element, last))
+        if (!fits(state, &state->other[i].element, reach))
             left_out.others |= (uint64_t)1 << i;
     return left_out;
 }
 
-static void add_draw(struct triptych_device *device, const struct call *call, uint32_t count, uint64_t last)
+static void add_draw(struct triptych_device *device, const struct call *call, uint32_t count,
+                     const struct reach *reach)
 {
     static const struct left_out none;
-    struct left_out left_out = count ? find_left_out(device_state(device), last) : none;
+    struct left_out left_out = count ? find_left_out(device_state(device), reach) : none;
+    record_all_mapped(device);
     bool some = left_out.attributes || left_out.others;
     if (some)
         record_vertex_input(device, &left_out);
@@ -171,7 +186,8 @@ void record_draw(struct triptych_device *device, enum triptych_primitive primiti
     call.draw.primitive = primitive;
     call.draw.first = first;
     call.draw.count = count;
-    add_draw(device, &call, count, count ? first + device_corners(primitive, count) - 1 : 0);
+    uint64_t last = count ? first + device_corners(primitive, count) - 1 : 0;
+    add_draw(device, &call, count, &(struct reach){.last = last});
 }
 
 void record_draw_indexed(struct triptych_device *device, enum triptych_primitive primitive, int32_t base,
@@ -191,5 +207,30 @@ void record_draw_indexed(struct triptych_device *device, enum triptych_primitive
                                (uint32_t)device_corners(primitive, count));
         last = (uint64_t)((int64_t)base + range->maximum);
     }
-    add_draw(device, &call, count, last);
+    add_draw(device, &call, count, &(struct reach){.last = last});
+}
+
+/* Vertices and indices become buffers, which are released after the draw. Without primitives there may be no
+ * vertices. */
+void record_draw_user(struct triptych_device *device, const struct user_draw *draw)
+{
+    if (!device_recorder(device) || !draw->count)
+        return;
+    struct call call = {.type = draw->indices ? CALL_DRAW_INDEXED_USER : CALL_DRAW_USER};
+    uint64_t corners = device_corners(draw->primitive, draw->count), last = corners - 1;
+    uint32_t indices = NO_RESOURCE;
+    size_t count = draw->indices ? draw->vertex_count : (size_t)corners;
+    call.resource = record_bytes(device, draw->vertices, count * draw->stride);
+    if (draw->indices) {
+        last = buffer_scan_indices(draw->indices, draw->index_bits, (uint32_t)corners).maximum;
+        indices = record_bytes(device, draw->indices, (size_t)corners * draw->index_bits / 8);
+        call.draw_indexed_user = (struct call_draw_indexed_user){
+            draw->primitive, draw->count, (uint32_t)draw->stride, indices, draw->index_bits};
+    } else {
+        call.draw_user = (struct call_draw_user){draw->primitive, draw->count, (uint32_t)draw->stride};
+    }
+    add_draw(device, &call, draw->count, &(struct reach){last, draw->stride});
+    record_release(device, call.resource);
+    if (indices != NO_RESOURCE)
+        record_release(device, indices);
 }

@@ -96,6 +96,7 @@ enum resource_type {
 struct resource {
     enum resource_type type;
     bool embedded; /* the data are from a container; the file may differ */
+    bool changes;  /* a call of the stream changes it */
     char *name;
     char *path; /* as written; null if the data are in the text */
     union {
@@ -104,8 +105,7 @@ struct resource {
         struct {
             struct triptych_texture_description texture;
             enum texture_source source;
-            bool mips;    /* the other levels are computed from the first */
-            bool changes; /* a call of the stream changes it */
+            bool mips; /* the other levels are computed from the first */
             uint8_t *texels;
             size_t texel_bytes;
             uint32_t *colors; /* colours of the source, as written */

@@ -114,6 +114,7 @@ static const char *const streams[] = {
     "tests/data/streams/depth-formats.tri",  "tests/data/streams/multisampling.tri",
     "tests/data/streams/scissors.tri",       "tests/data/streams/render-to-texture.tri",
     "tests/data/streams/target-formats.tri", "tests/data/streams/shaders.tri",
+    "tests/data/streams/buffer-changes.tri",
 };
 
 static void recordings_of_streams_draw_the_same(void)
@@ -190,6 +191,58 @@ static void a_recording_may_begin_between_two_draws(void)
     end_frame(&expected[1]);
     good(triptych_record_stop(device));
     expect_frames(expected, 2);
+}
+
+/* Draws a triangle of a mapped buffer, and the next one before the buffer is unmapped. */
+static void draw_mapped(triptych_buffer *buffer, enum triptych_map mode)
+{
+    float *at;
+    void *data;
+    good(triptych_buffer_map(device, buffer, 0, sizeof corners, mode, &data));
+    memcpy(data, corners, sizeof corners);
+    at = data;
+    at[0] = -0.5f;
+    good(triptych_draw(device, TRIPTYCH_TRIANGLE_LIST, 0, 1));
+    at[2 * 3] = (float)mode / 4;
+    if (mode != TRIPTYCH_MAP_NO_OVERWRITE)
+        good(triptych_finish(device));
+    good(triptych_draw(device, TRIPTYCH_TRIANGLE_LIST, 0, 1));
+    good(triptych_buffer_unmap(device, buffer));
+}
+
+/* The recording begins while a buffer is mapped. */
+static void changes_of_buffers_are_recorded(void)
+{
+    static const struct triptych_declaration_element declaration[] = {
+        {0, 0, TRIPTYCH_FORMAT_FLOAT3, TRIPTYCH_USAGE_POSITION, 0},
+        {0, 12, TRIPTYCH_FORMAT_COLOR, TRIPTYCH_USAGE_COLOR, 0},
+        {0, 400, TRIPTYCH_FORMAT_FLOAT2, TRIPTYCH_USAGE_NORMAL, 9}};
+    const struct {
+        float position[3];
+        uint32_t color;
+    } vertex[3] = {{{-1, 1, 0}, 0xff00ff00}, {{1, 1, 0}, 0xff0000ff}, {{0, 0, 0}, 0xffff0000}};
+    uint64_t expected[3];
+    void *data;
+    triptych_buffer *buffer = begin_scene(0), *others;
+    good(triptych_buffer_create(device, NULL, 30, &others));
+    good(triptych_clear_buffers(device, 7, black, 1, 0));
+    good(triptych_buffer_map(device, others, 10, 20, TRIPTYCH_MAP_WRITE, &data));
+    good(triptych_record_start(device, file));
+    memset(data, 1, 20);
+    good(triptych_buffer_unmap(device, others));
+    draw_mapped(buffer, TRIPTYCH_MAP_WRITE);
+    end_frame(&expected[0]);
+    draw_mapped(buffer, TRIPTYCH_MAP_DISCARD);
+    good(triptych_buffer_update(device, buffer, 4, &vertex[0].position[1], 4));
+    good(triptych_draw(device, TRIPTYCH_TRIANGLE_LIST, 0, 1));
+    end_frame(&expected[1]);
+    good(triptych_set_declaration(device, declaration, 3));
+    good(triptych_draw_user(device, TRIPTYCH_TRIANGLE_LIST, 1, vertex, sizeof *vertex));
+    good(triptych_draw_indexed_user(device, TRIPTYCH_LINE_LIST, 1, (uint8_t[]){2, 0}, 8, 3, vertex,
+                                    sizeof *vertex));
+    end_frame(&expected[2]);
+    good(triptych_record_stop(device));
+    expect_frames(expected, 3);
 }
 
 static void unread_attributes_may_exceed_their_buffers(void)
@@ -304,6 +357,7 @@ int main(void)
     RUN_TEST(recordings_of_streams_draw_the_same);
     RUN_TEST(recordings_may_begin_late);
     RUN_TEST(a_recording_may_begin_between_two_draws);
+    RUN_TEST(changes_of_buffers_are_recorded);
     RUN_TEST(unread_attributes_may_exceed_their_buffers);
     RUN_TEST(numbers_of_destroyed_resources_are_used_again);
     RUN_TEST(there_is_no_file_before_the_end);

@@ -98,6 +98,10 @@ const struct stream_functions calls_functions[CALL_TYPES] = {
     [CALL_BEGIN_QUERY] = {.follow = follow_begin_query},
     [CALL_END_QUERY] = {.follow = follow_end_query, .draw = play_end_query},
     [CALL_RELEASE] = {.follow = follow_release},
+    [CALL_WRITE] = {.follow = follow_write, .play = play_write},
+    [CALL_DISCARD] = {.follow = follow_discard, .play = play_discard},
+    [CALL_DRAW_USER] = {.follow = follow_draw_user, .draw = play_draw_user},
+    [CALL_DRAW_INDEXED_USER] = {.follow = follow_draw_indexed_user, .draw = play_draw_indexed_user},
     [CALL_PLAY] = {.parse = parse_play},
     [CALL_SEQUENCE] = {.parse = parse_sequence},
 };

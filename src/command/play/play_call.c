@@ -175,6 +175,29 @@ enum triptych_result play_bind_mesh(struct player *player, const struct call *ca
     return result ? result : player_bind_indices(player, call->resource, 0);
 }
 
+/* --- Changes of buffers --------------------------------------------------------------------------------- */
+
+enum triptych_result play_write(struct player *player, const struct call *call)
+{
+    size_t bytes;
+    const void *data = resource_data(&player->stream->resources[call->write.source], &bytes);
+    return triptych_buffer_update(player->device, handle_buffer(player, call->resource), call->write.offset,
+                                  data, bytes);
+}
+
+/* A discard clears all bytes but those that it maps. */
+enum triptych_result play_discard(struct player *player, const struct call *call)
+{
+    triptych_buffer *buffer = handle_buffer(player, call->resource);
+    void *data;
+    enum triptych_result result =
+        triptych_buffer_map(player->device, buffer, 0, 1, TRIPTYCH_MAP_DISCARD, &data);
+    if (result)
+        return result;
+    memset(data, 0, 1);
+    return triptych_buffer_unmap(player->device, buffer);
+}
+
 /* --- Textures ------------------------------------------------------------------------------------------- */
 
 enum triptych_result play_update(struct player *player, const struct call *call)
@@ -266,6 +289,27 @@ enum triptych_result play_draw_mesh(struct player *player, const struct call *ca
 {
     return triptych_draw_indexed(player->device, TRIPTYCH_TRIANGLE_LIST, 0, 0,
                                  player->stream->resources[call->resource].index_count / 3);
+}
+
+enum triptych_result play_draw_user(struct player *player, const struct call *call)
+{
+    size_t bytes;
+    const void *vertices = resource_data(&player->stream->resources[call->resource], &bytes);
+    return triptych_draw_user(player->device, (enum triptych_primitive)call->draw_user.primitive,
+                              call->draw_user.count, vertices, call->draw_user.stride);
+}
+
+enum triptych_result play_draw_indexed_user(struct player *player, const struct call *call)
+{
+    const struct resource *resources = player->stream->resources;
+    uint32_t stride = call->draw_indexed_user.stride;
+    size_t bytes, index_bytes;
+    const void *vertices = resource_data(&resources[call->resource], &bytes);
+    const void *indices = resource_data(&resources[call->draw_indexed_user.indices], &index_bytes);
+    return triptych_draw_indexed_user(player->device,
+                                      (enum triptych_primitive)call->draw_indexed_user.primitive,
+                                      call->draw_indexed_user.count, indices, call->draw_indexed_user.bits,
+                                      (uint32_t)(bytes / stride), vertices, stride);
 }
 
 enum triptych_result play_end_query(struct player *player, const struct call *call)

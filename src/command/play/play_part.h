@@ -72,6 +72,10 @@ enum triptych_result play_copy(struct player *player, const struct call *call);
 enum triptych_result play_clear_parts(struct player *player, const struct call *call);
 enum triptych_result play_clear(struct player *player, const struct call *call);
 enum triptych_result play_draw_mesh(struct player *player, const struct call *call);
+enum triptych_result play_write(struct player *player, const struct call *call);
+enum triptych_result play_discard(struct player *player, const struct call *call);
+enum triptych_result play_draw_user(struct player *player, const struct call *call);
+enum triptych_result play_draw_indexed_user(struct player *player, const struct call *call);
 enum triptych_result play_end_query(struct player *player, const struct call *call);
 
 /* Sets the state in which streams begin. */

@@ -48,12 +48,12 @@ static void release(struct player *player, uint32_t number)
     reader_release(player->reader, number);
 }
 
-/* Creates the buffer that the call binds, if it does not exist yet. */
+/* Creates the buffer that the call binds or changes, if it does not exist yet. */
 static int make_buffer(struct player *player, const struct call *call, struct error *error)
 {
-    bool binds =
-        call->type == CALL_BIND_INDICES || call->type == CALL_BIND_ELEMENT || call->type == CALL_BIND_STREAM;
-    if (!binds || call->resource == NO_RESOURCE)
+    bool uses = call->type == CALL_BIND_INDICES || call->type == CALL_BIND_ELEMENT ||
+                call->type == CALL_BIND_STREAM || call->type == CALL_WRITE || call->type == CALL_DISCARD;
+    if (!uses || call->resource == NO_RESOURCE)
         return 0;
     struct handles *handles = &player->handles[call->resource];
     const struct resource *resource = &player->stream->resources[call->resource];

@@ -43,6 +43,24 @@ static enum triptych_result reset_textures(struct player *player)
     return result;
 }
 
+/* The same for vertices, indices and buffers. */
+static enum triptych_result reset_buffers(struct player *player)
+{
+    const struct stream *stream = player->stream;
+    enum triptych_result result = TRIPTYCH_OK;
+    for (uint32_t i = 0; i < stream->resource_count && !result; i++) {
+        const struct handles *handles = &player->handles[i];
+        const struct resource *resource = &stream->resources[i];
+        triptych_buffer *buffer = handles->vertices ? handles->vertices : handles->indices;
+        size_t bytes;
+        if (resource->changes && buffer) {
+            const void *data = resource_data(resource, &bytes);
+            result = triptych_buffer_update(player->device, buffer, 0, data, bytes);
+        }
+    }
+    return result;
+}
+
 static enum triptych_result reset_shaders(triptych_device *device)
 {
     static const float floats[TRIPTYCH_SHADER_FLOATS][4];
@@ -69,6 +87,8 @@ enum triptych_result player_reset(struct player *player)
         result = reset_lights(player->device);
     if (!result)
         result = reset_textures(player);
+    if (!result)
+        result = reset_buffers(player);
     for (unsigned t = 0; t < TRIPTYCH_STATE_TABLE_COUNT && !result; t++)
         result = reset_table(player->device, (enum triptych_state_table)t);
     for (unsigned i = 0; i < TRIPTYCH_TRANSFORM_COUNT && !result; i++)

@@ -172,7 +172,7 @@ static void note_changes(struct stream *stream, struct call *call)
 {
     for (const struct call_field *f = call_row(call->type)->fields; (f = call_next_resource(f)); f++) {
         uint32_t number = *call_resource(call, f);
-        if (f->types == CALL_TEXTURES && number != NO_RESOURCE)
+        if ((f->types & CALL_TEXTURES || number == call->resource) && number != NO_RESOURCE)
             stream->resources[number].changes = true;
     }
 }

@@ -192,7 +192,7 @@ struct follower *follower_create(const struct stream *stream)
 void follower_free(struct follower *follower)
 {
     for (uint32_t i = 0; follower && i < follower->resource_count; i++)
-        free(follower->resources[i].stand_in);
+        follower_free_buffer(&follower->resources[i]);
     if (follower)
         free(follower->resources);
     free(follower);

@@ -10,6 +10,7 @@
 struct stand_in {
     struct triptych_buffer buffer; /* first: the state points to it */
     uint32_t resource;
+    uint8_t *changed; /* its bytes, once a call has changed them; null: those of the resource */
 };
 
 struct followed {
@@ -34,6 +35,9 @@ struct follower {
 
 /* Returns the resource as a buffer; null with the reason. */
 struct triptych_buffer *follower_buffer(struct follower *follower, uint32_t resource, struct error *error);
+
+/* Frees the buffer of a resource. */
+void follower_free_buffer(struct followed *entry);
 
 /* Sets the current target. */
 void follower_draw_to(struct follower *follower, const struct triptych_target_description *target);
@@ -68,6 +72,10 @@ int follow_clear(struct follower *follower, const struct call *call, struct erro
 int follow_draw(struct follower *follower, const struct call *call, struct error *error);
 int follow_draw_indexed(struct follower *follower, const struct call *call, struct error *error);
 int follow_draw_mesh(struct follower *follower, const struct call *call, struct error *error);
+int follow_draw_user(struct follower *follower, const struct call *call, struct error *error);
+int follow_draw_indexed_user(struct follower *follower, const struct call *call, struct error *error);
+int follow_write(struct follower *follower, const struct call *call, struct error *error);
+int follow_discard(struct follower *follower, const struct call *call, struct error *error);
 int follow_begin_query(struct follower *follower, const struct call *call, struct error *error);
 int follow_end_query(struct follower *follower, const struct call *call, struct error *error);
 int follow_release(struct follower *follower, const struct call *call, struct error *error);

@@ -39,6 +39,57 @@ struct triptych_buffer *follower_buffer(struct follower *follower, uint32_t reso
     return NULL;
 }
 
+void follower_free_buffer(struct followed *entry)
+{
+    if (entry->stand_in)
+        free(entry->stand_in->changed);
+    free(entry->stand_in);
+    entry->stand_in = NULL;
+}
+
+/* Returns the bytes of a buffer, which are about to change; null with the reason. */
+static uint8_t *changing_bytes(struct follower *follower, uint32_t resource, struct error *error)
+{
+    struct triptych_buffer *buffer = follower_buffer(follower, resource, error);
+    if (!buffer)
+        return NULL;
+    struct stand_in *stand_in = follower->resources[resource].stand_in;
+    if (!stand_in->changed) {
+        stand_in->changed = malloc(buffer->bytes);
+        if (!stand_in->changed) {
+            error_set(error, "not enough memory");
+            return NULL;
+        }
+        memcpy(stand_in->changed, buffer->data, buffer->bytes);
+    }
+    buffer->data = stand_in->changed;
+    buffer->version++;
+    return buffer->data;
+}
+
+int follow_write(struct follower *follower, const struct call *call, struct error *error)
+{
+    const struct resource *resources = follower->stream->resources;
+    size_t bytes, room;
+    const void *data = resource_data(&resources[call->write.source], &bytes);
+    resource_data(&resources[call->resource], &room);
+    if (call->write.offset > room || bytes > room - call->write.offset)
+        return error_set(error, "found %zu bytes at offset %u, expected them within the %zu bytes of %s",
+                         bytes, call->write.offset, room, resources[call->resource].name);
+    uint8_t *to = changing_bytes(follower, call->resource, error);
+    if (to)
+        memcpy(to + call->write.offset, data, bytes);
+    return to ? 0 : -1;
+}
+
+int follow_discard(struct follower *follower, const struct call *call, struct error *error)
+{
+    uint8_t *to = changing_bytes(follower, call->resource, error);
+    if (to)
+        memset(to, 0, follower->resources[call->resource].stand_in->buffer.bytes);
+    return to ? 0 : -1;
+}
+
 /* --- Surfaces ------------------------------------------------------------------------------------------- */
 
 /* A texture without texels or an image without pixels. */
@@ -183,7 +234,7 @@ int follow_release(struct follower *follower, const struct call *call, struct er
     if (held)
         return error_set(error, "found '%s' %s, expected a resource that nothing uses",
                          follower->stream->resources[call->resource].name, held);
-    free(entry->stand_in);
+    follower_free_buffer(entry);
     *entry = (struct followed){.released = true};
     return 0;
 }

@@ -112,7 +112,7 @@ static int check_element(const struct follower *follower, unsigned number, uint6
 {
     const struct state *state = &follower->state;
     const struct state_element *element = element_at(state, number);
-    const struct state_stream *stream = &state->stream[element->stream];
+    const struct state_stream *stream = state_source(state, element);
     if (stream->frequency == TRIPTYCH_FREQUENCY_INSTANCE)
         last = (state_instances(state) - 1) / stream->count;
     if (!stream->buffer)
@@ -123,6 +123,9 @@ static int check_element(const struct follower *follower, unsigned number, uint6
     if (end > stream->buffer->bytes)
         return error_set(error, "found %s at bytes up to %zu, expected at most %zu, those of %s",
                          element_word(state, number), end, stream->buffer->bytes, name);
+    if (stream == &state->immediate_stream && end > stream->stride)
+        return error_set(error, "found %s at bytes up to %zu, expected at most the stride of %zu",
+                         element_word(state, number), end, stream->stride);
     uint64_t most = state_last_vertex(state, element);
     if (last > most)
         return error_set(error,
@@ -173,7 +176,10 @@ static int check_indices(struct follower *follower, int32_t base, uint64_t first
                          struct error *error)
 {
     const struct resource *resource = &follower->stream->resources[follower->indices];
+    const struct triptych_buffer *buffer = follower_buffer(follower, follower->indices, error);
     uint32_t least = resource->index_least, most = resource->index_most;
+    if (!buffer)
+        return -1;
     size_t bytes;
     resource_data(resource, &bytes);
     uint64_t room = bytes / (follower->index_bits / 8);
@@ -182,7 +188,7 @@ static int check_indices(struct follower *follower, int32_t base, uint64_t first
                          first + count - 1, room - 1, resource->name);
     struct error ignored;
     error_clear(&ignored);
-    if (!resource->indices || (int64_t)base + least < 0 ||
+    if (!resource->indices || buffer->version || (int64_t)base + least < 0 ||
         check_vertices(follower, (uint64_t)((int64_t)base + most), &ignored))
         if (index_extremes(follower, first, count, &least, &most, error))
             return -1;
@@ -230,6 +236,57 @@ int follow_draw_indexed(struct follower *follower, const struct call *call, stru
         return 0;
     uint64_t count = device_corners(call->draw_indexed.primitive, call->draw_indexed.count);
     return check_indices(follower, call->draw_indexed.base, call->draw_indexed.first, count, error);
+}
+
+/* --- Immediate draws ------------------------------------------------------------------------------------ */
+
+/* Checks vertices up to `last`, stream 0 being a resource with its first vertex at the start. */
+static int check_immediate(struct follower *follower, uint32_t resource, uint32_t stride, uint64_t last,
+                           struct error *error)
+{
+    struct triptych_buffer *buffer = follower_buffer(follower, resource, error);
+    if (!buffer)
+        return -1;
+    if (!stride || stride % 4)
+        return error_set(error, "found a stride of %u, expected a multiple of 4", stride);
+    if (last >= buffer->bytes / stride)
+        return error_set(error, "found vertex %" PRIu64 " drawn, expected less than %zu, the vertices of %s",
+                         last, buffer->bytes / stride, buffer_name(follower, buffer));
+    follower->state.immediate_stream = (struct state_stream){.buffer = buffer, .stride = stride};
+    follower->state.immediate = true;
+    int result = check_vertices(follower, last, error);
+    follower->state.immediate = false;
+    return result;
+}
+
+int follow_draw_user(struct follower *follower, const struct call *call, struct error *error)
+{
+    if (check_state(follower, error) || check_no_instances(follower, error))
+        return -1;
+    uint64_t corners =
+        call->draw_user.count
+            ? device_corners((enum triptych_primitive)call->draw_user.primitive, call->draw_user.count)
+            : 1;
+    return check_immediate(follower, call->resource, call->draw_user.stride, corners - 1, error);
+}
+
+int follow_draw_indexed_user(struct follower *follower, const struct call *call, struct error *error)
+{
+    const struct resource *indices = &follower->stream->resources[call->draw_indexed_user.indices];
+    uint32_t bits = call->draw_indexed_user.bits, count = call->draw_indexed_user.count;
+    size_t bytes;
+    const void *data = resource_data(indices, &bytes);
+    if (check_state(follower, error))
+        return -1;
+    if (bits != 8 && bits != 16 && bits != 32)
+        return error_set(error, "found indices of %u bits, expected 8, 16 or 32", bits);
+    uint64_t corners =
+        count ? device_corners((enum triptych_primitive)call->draw_indexed_user.primitive, count) : 0;
+    if (corners > bytes / (bits / 8))
+        return error_set(error, "found index %" PRIu64 " drawn, expected at most %zu, the last in %s",
+                         corners - 1, bytes / (bits / 8) - 1, indices->name);
+    uint32_t last = corners ? buffer_scan_indices(data, bits, (uint32_t)corners).maximum : 0;
+    return check_immediate(follower, call->resource, call->draw_indexed_user.stride, last, error);
 }
 
 int follow_draw_mesh(struct follower *follower, const struct call *call, struct error *error)

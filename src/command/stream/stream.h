@@ -49,7 +49,8 @@ struct stream {
 /* Returns true if the call draws primitives. */
 static inline bool stream_is_draw(const struct call *call)
 {
-    return call->type == CALL_DRAW || call->type == CALL_DRAW_INDEXED || call->type == CALL_DRAW_MESH;
+    return call->type == CALL_DRAW || call->type == CALL_DRAW_INDEXED || call->type == CALL_DRAW_MESH ||
+           call->type == CALL_DRAW_USER || call->type == CALL_DRAW_INDEXED_USER;
 }
 
 /* The same for executed[position]. */

@@ -76,6 +76,18 @@ static void add_draw(struct maker *maker)
              most && random_chance(random, 3) ? 1 + random_below(random, most) : most);
 }
 
+/* The vertices of v0 as an immediate draw. */
+static void add_user_draw(struct maker *maker)
+{
+    struct random *random = &maker->random;
+    unsigned p = random_below(random, PRIMITIVES);
+    bool indexed = maker->indices && (maker->instanced || random_chance(random, 2));
+    unsigned corners = indexed ? maker->indices : maker->vertices;
+    unsigned most = (corners - primitives[p].more) / primitives[p].each;
+    text_add(maker->text, indexed ? "draw-indexed-user %s %u v0 %u i0 %u\n" : "draw-user %s %u v0 %u\n",
+             primitives[p].word, most, maker->stride, maker->index_bits);
+}
+
 static void change_something(struct maker *maker)
 {
     case_states(maker, random_below(&maker->random, 6));
@@ -85,6 +97,8 @@ static void change_something(struct maker *maker)
         add_clear_of_parts(maker);
     if (random_chance(&maker->random, 6))
         case_change(maker);
+    if (random_chance(&maker->random, 6))
+        case_change_buffer(maker);
     if (random_chance(&maker->random, 8))
         case_samplers(maker);
     if (random_chance(&maker->random, 8))
@@ -94,14 +108,18 @@ static void change_something(struct maker *maker)
 /* The target is read where it is drawn to: what one draw leaves the next ones blend with and compare with. */
 static void add_draws(struct maker *maker)
 {
-    unsigned draws = 1 + random_below(&maker->random, 3);
-    bool query = random_chance(&maker->random, 4);
+    struct random *random = &maker->random;
+    unsigned draws = 1 + random_below(random, 3);
+    bool query = random_chance(random, 4);
     if (query)
         text_add(maker->text, "begin-query q0\n");
     for (unsigned d = 0; d < draws; d++) {
         if (d)
             change_something(maker);
-        add_draw(maker);
+        if (maker->stride && (maker->indices || !maker->instanced) && random_chance(random, 3))
+            add_user_draw(maker);
+        else
+            add_draw(maker);
     }
     if (query)
         text_add(maker->text, "end-query q0\n");

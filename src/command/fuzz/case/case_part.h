@@ -26,8 +26,10 @@ struct maker {
     unsigned targets, samples;
     bool wild;   /* vertices and matrices hold anything */
     bool window; /* vertices are in pixels of the target */
-    unsigned vertices, indices;
-    bool instanced; /* which only draws with indices can be */
+    unsigned vertices, indices, index_bits;
+    unsigned bytes;  /* of a vertex of v0 */
+    unsigned stride; /* the same if v0 is stream 0; otherwise 0 */
+    bool instanced;  /* which only draws with indices can be */
     struct case_texture texture[CASE_TEXTURES];
     unsigned textures;
     uint64_t elements; /* of vertices that a shader needs: enum stream_element, a bit each */
@@ -55,6 +57,7 @@ void case_stages(struct maker *);
 bool case_attach(struct maker *);
 void case_copy(struct maker *);
 void case_change(struct maker *);
+void case_change_buffer(struct maker *);
 void case_switch_shaders(struct maker *);
 
 /* Forms of values: " 0.25", four of them, " 0xAARRGGBB". */

@@ -9,7 +9,7 @@
 
 #include <math.h>
 
-enum { VERTICES = 12, ELEMENTS = 24 };
+enum { VERTICES = 12, ELEMENTS = 24, CHANGE_WORDS = 3 };
 
 struct element {
     unsigned number; /* enum stream_element */
@@ -173,7 +173,8 @@ static void bind_streams(struct maker *maker, const struct element *elements, co
     if (part[1])
         text_add(maker->text, " 1");
     add_elements(maker, elements + part[0], part[1]);
-    text_add(maker->text, "\nbind stream 0 v0 0 %u\n", stride_of(elements, part[0]));
+    maker->stride = stride_of(elements, part[0]);
+    text_add(maker->text, "\nbind stream 0 v0 0 %u\n", maker->stride);
     if (part[1])
         text_add(maker->text, "bind stream 1 v1 0 %u\n", stride_of(elements + part[0], part[1]));
 }
@@ -181,10 +182,32 @@ static void bind_streams(struct maker *maker, const struct element *elements, co
 static void add_indices(struct maker *maker)
 {
     maker->indices = 3 * (1 + random_below(&maker->random, 4));
-    text_add(maker->text, "indices i0 %u {", random_chance(&maker->random, 2) ? 16 : 32);
+    maker->index_bits = random_chance(&maker->random, 2) ? 16 : 32;
+    text_add(maker->text, "indices i0 %u {", maker->index_bits);
     for (unsigned i = 0; i < maker->indices; i++)
         text_add(maker->text, " %u", random_below(&maker->random, maker->vertices));
     text_add(maker->text, " }\nbind indices i0\n");
+}
+
+/* The bytes that later replace some of the vertices. */
+static void add_source(struct maker *maker)
+{
+    text_add(maker->text, "buffer c0 u32 {");
+    for (unsigned i = 0; i < CHANGE_WORDS; i++) {
+        float value = random_float(&maker->random, -2, 2);
+        text_add(maker->text, " %u", maker->wild ? random_wild_bits(&maker->random) : bits_of_float(value));
+    }
+    text_add(maker->text, " }\n");
+}
+
+void case_change_buffer(struct maker *maker)
+{
+    unsigned room = maker->vertices * maker->bytes;
+    if (random_chance(&maker->random, 12))
+        text_add(maker->text, "discard v0\n");
+    else if (room >= CHANGE_WORDS * 4)
+        text_add(maker->text, "write v0 %u c0\n",
+                 4 * random_below(&maker->random, (room - CHANGE_WORDS * 4) / 4 + 1));
 }
 
 /* The second stream steps with instances. There are no more instances than vertices. */
@@ -206,6 +229,8 @@ void case_vertices(struct maker *maker)
         part[1] = count - part[0];
     }
     add_resource(maker, 0, elements, part[0]);
+    add_source(maker);
+    maker->bytes = stride_of(elements, part[0]);
     if (part[1])
         add_resource(maker, 1, elements + part[0], part[1]);
     if (part[1] || maker->wild)

@@ -111,6 +111,8 @@ int is_small_call(const struct stream *stream, const struct call *call)
                PIXELS;
     case CALL_DRAW: return call->draw.count <= VERTICES;
     case CALL_DRAW_INDEXED: return call->draw_indexed.count <= VERTICES;
+    case CALL_DRAW_USER: return call->draw_user.count <= VERTICES;
+    case CALL_DRAW_INDEXED_USER: return call->draw_indexed_user.count <= VERTICES;
     case CALL_DRAW_MESH: return stream->resources[call->resource].index_count <= VERTICES;
     case CALL_FREQUENCY: return 0;
     default: return 1;
