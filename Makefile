@@ -32,7 +32,7 @@ find = $(sort $(shell find $(1) -name '$(2)' 2>/dev/null))
 C_SOURCES       := $(call find,src emu,*.c)
 TOOL_SOURCES    := $(filter src/command/% src/image/%,$(C_SOURCES)) $(call find,src/command,*.asm)
 # The Linux side of the front ends. Their Windows side has another compiler.
-FRONT_SOURCES   := $(filter-out src/front/d3d9/pe/%,$(filter src/front/%,$(C_SOURCES)))
+FRONT_SOURCES   := $(filter-out src/front/d3d9/pe/% src/front/d3d9/server/%,$(filter src/front/%,$(C_SOURCES)))
 LIBRARY_SOURCES := $(filter-out $(TOOL_SOURCES) src/front/%,$(C_SOURCES)) $(call find,asm,*.asm)
 TEST_SOURCES    := $(call find,tests,*.c)
 SUPPORT_SOURCES := $(filter tests/support/%,$(TEST_SOURCES))
