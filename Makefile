@@ -32,7 +32,7 @@ find = $(sort $(shell find $(1) -name '$(2)' 2>/dev/null))
 C_SOURCES       := $(call find,src emu,*.c)
 TOOL_SOURCES    := $(filter src/command/% src/image/%,$(C_SOURCES)) $(call find,src/command,*.asm)
 # The Linux side of the front ends. Their Windows side has another compiler.
-FRONT_SOURCES   := $(filter-out src/front/d3d9/pe/% src/front/d3d9/server/%,$(filter src/front/%,$(C_SOURCES)))
+FRONT_SOURCES   := $(filter-out $(addprefix src/front/d3d9/,pe/% unix32/% server/%),$(filter src/front/%,$(C_SOURCES)))
 LIBRARY_SOURCES := $(filter-out $(TOOL_SOURCES) src/front/%,$(C_SOURCES)) $(call find,asm,*.asm)
 TEST_SOURCES    := $(call find,tests,*.c)
 SUPPORT_SOURCES := $(filter tests/support/%,$(TEST_SOURCES))
@@ -329,30 +329,71 @@ MINGW  ?= x86_64-w64-mingw32-gcc
 WINE_IMPORTS = $(firstword $(wildcard $(addsuffix /libntdll.a,/usr/lib/x86_64-linux-gnu/wine/x86_64-windows)))
 D3D9 := $(BUILD)/d3d9
 PE_SOURCES := $(call find,src/front/d3d9/pe,*.c)
-PE_OBJECTS := $(PE_SOURCES:%.c=$(BUILD)/object/%.obj)
-PE_PROGRAMS := $(patsubst tests/front/d3d9/pe/%.c,$(D3D9)/%.exe,$(wildcard tests/front/d3d9/pe/*.c))
+PE_PROGRAMS := $(patsubst tests/front/d3d9/pe/%.c,%,$(wildcard tests/front/d3d9/pe/*.c))
+pe_flags = -std=gnu17 -O2 -g -Wall -Wextra -Werror -Wno-cast-function-type -Isrc -MMD -MP
+
+# Programs of 32 bits, where Wine and the compilers for them are installed: the Unix library only passes calls on to a
+# 64-bit process, so that there is one Linux side. It is built without a C library's folder of this width.
+MINGW32 ?= i686-w64-mingw32-gcc
+REMOTE   = $(addprefix src/front/d3d9/,remote/packing.c remote/narrow.c size.c)
+WIDE_OBJECTS   := $(patsubst %.c,$(BUILD)/object/%.obj,$(filter-out %/shared.c,$(PE_SOURCES)))
+NARROW_OBJECTS := $(patsubst %.c,$(BUILD)/object/%.obj32,$(filter-out %/direct.c,$(PE_SOURCES)) $(REMOTE))
+NARROW_UNIX    := $(addprefix src/front/d3d9/,unix32/entry.c remote/client.c remote/channel.c)
 
 d3d9:
 	@tests/support/scripts/dependencies.sh build d3d9
-	+@$(MAKE) $(jobs) $(D3D9)/x86_64-windows/d3d9.dll $(D3D9)/x86_64-unix/triptych9.so $(PE_PROGRAMS)
+	+@$(MAKE) $(jobs) $(D3D9)/x86_64-windows/d3d9.dll $(D3D9)/x86_64-unix/triptych9.so $(D3D9)/i386-windows/d3d9.dll \
+	  $(D3D9)/i386-unix/triptych9.so $(D3D9)/triptych-d3d9-server $(foreach p,$(PE_PROGRAMS),$(D3D9)/$(p).exe $(D3D9)/$(p)32.exe)
 
 $(BUILD)/object/%.obj: %.c
 	@mkdir -p $(@D)
-	$(call say,MINGW,$<)$(MINGW) -std=gnu17 -O2 -g -Wall -Wextra -Werror -Wno-cast-function-type -Isrc -MMD -MP -c $< -o $@
+	$(call say,MINGW,$<)$(MINGW) $(pe_flags) -c $< -o $@
 
-$(D3D9)/x86_64-windows/triptych9.dll: $(PE_OBJECTS) src/front/d3d9/pe/triptych9.def
+$(BUILD)/object/%.obj32: %.c
+	@mkdir -p $(@D)
+	$(call say,MINGW32,$<)$(MINGW32) $(pe_flags) -MF $(@:.obj32=.32.d) -c $< -o $@
+
+$(D3D9)/x86_64-windows/triptych9.dll: $(WIDE_OBJECTS) src/front/d3d9/pe/triptych9.def
 	@mkdir -p $(@D)
 	$(call say,LD)$(MINGW) -shared -static-libgcc -Wl,--build-id -o $@ $^ $(WINE_IMPORTS) -lgdi32 -luser32 && \
 	  winebuild --builtin $@
+
+# Names without @BYTES, as in Windows' d3d9.dll.
+$(D3D9)/i386-windows/triptych9.dll: $(NARROW_OBJECTS) src/front/d3d9/pe/triptych9.def $(D3D9)/ntdll32.a
+	@mkdir -p $(@D)
+	$(call say,LD)$(MINGW32) -shared -static-libgcc -Wl,--build-id,--kill-at,--enable-stdcall-fixup -o $@ $^ -lgdi32 -luser32 && \
+	  winebuild --builtin $@
+
+$(D3D9)/ntdll32.a: src/front/d3d9/pe/ntdll32.def
+	@mkdir -p $(@D)
+	$(call say,LD)i686-w64-mingw32-dlltool --kill-at --input-def $< --output-lib $@
 
 $(D3D9)/x86_64-windows/d3d9.dll: src/front/d3d9/pe/d3d9.def $(D3D9)/x86_64-windows/triptych9.dll
 	@mkdir -p $(@D)
 	$(call say,LD)$(MINGW) -shared -nostdlib -Wl,--entry=0 -o $@ $<
 
+$(D3D9)/i386-windows/d3d9.dll: src/front/d3d9/pe/d3d9.def $(D3D9)/i386-windows/triptych9.dll
+	@mkdir -p $(@D)
+	$(call say,LD)$(MINGW32) -shared -nostdlib -Wl,--entry=0 -o $@ $<
+
 $(D3D9)/x86_64-unix/triptych9.so: $(FRONT_OBJECTS) $(BUILD)/libtriptych.a $(BUILD)/front.list
 	@mkdir -p $(@D)
 	$(call say,LD)$(link) -shared -Wl,-z,defs,-z,text,--exclude-libs,ALL $(FRONT_OBJECTS) $(BUILD)/libtriptych.a \
 	  $(library_libraries) -o $@
+
+$(D3D9)/i386-unix/triptych9.so: $(NARROW_UNIX) $(wildcard src/front/d3d9/remote/*.h) src/front/d3d9/unix/entry.h
+	@mkdir -p $(@D)
+	$(call say,LD)$(CC) -m32 -std=gnu17 -O2 -g -Wall -Wextra -Werror -fPIC -fvisibility=hidden -Isrc -shared -Wl,-z,defs -o $@ \
+	  $(NARROW_UNIX) -ldl
+
+$(D3D9)/triptych-d3d9-server: $(BUILD)/object/src/front/d3d9/server/main.o $(BUILD)/front.a $(BUILD)/libtriptych.a
+	@mkdir -p $(@D)
+	$(call say,LD)$(link) $< -Wl,--whole-archive $(BUILD)/front.a -Wl,--no-whole-archive $(BUILD)/libtriptych.a \
+	  $(library_libraries) -o $@
+
+$(D3D9)/%32.exe: tests/front/d3d9/pe/%.c
+	@mkdir -p $(@D)
+	$(call say,MINGW32,$<)$(MINGW32) -std=gnu17 -O2 -g -Wall -Wextra -Werror -o $@ $< -ld3d9 -lgdi32 -luser32
 
 $(D3D9)/%.exe: tests/front/d3d9/pe/%.c
 	@mkdir -p $(@D)
@@ -644,4 +685,4 @@ endef
 help:
 	@$(info $(help)):
 
--include $(OBJECTS:.o=.d) $(PE_OBJECTS:.obj=.d) $(wildcard $(ASM_INCLUDES:.inc=.d))
+-include $(OBJECTS:.o=.d) $(WIDE_OBJECTS:.obj=.d) $(NARROW_OBJECTS:.obj32=.32.d) $(wildcard $(ASM_INCLUDES:.inc=.d))

@@ -48,6 +48,8 @@ fvwm3              suites  manages the windows of Windows programs
 libclang-rt-14-dev fuzz    libFuzzer and the sanitizers of clang, for readers of untrusted input
 clang-format       format  formats the C sources
 gcc-mingw-w64-x86-64 d3d9  compiles the Windows side of d3d9.dll
+gcc-mingw-w64-i686 d3d9 the same for programs of 32 bits
+gcc-multilib       d3d9    compiles the Unix library of 32 bits
 wine               d3d9    the command that starts programs of Windows
 wine64             d3d9    runs programs of Windows
 wine64-tools       d3d9    marks a DLL as a builtin one of Wine

@@ -5,13 +5,15 @@
 #include "vtable.h"
 #include "front/d3d9/call.h"
 #include "window/hosted.h"
+#include "declaration.h"
 #include "private_data.h"
 #undef interface
 #include "front/d3d9/object.h"
 
 /* Private data can be the program's own interfaces, which the Linux side cannot count. */
-#define d3d9_object_set_private_data private_data_set
-#define d3d9_object_get_private_data private_data_get
+#define d3d9_object_set_private_data     private_data_set
+#define d3d9_object_get_private_data     private_data_get
+#define d3d9_declaration_get_declaration declaration_get
 
 #define JOIN(a, b)    JOIN_(a, b)
 #define JOIN_(a, b)   a##b

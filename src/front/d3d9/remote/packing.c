@@ -81,6 +81,8 @@ static void unpack_array(const struct d3d9_narrow *type, uint64_t shared, uint64
         struct d3d9_locked_box *: &d3d9_narrow_locked_box,                                                             \
         struct d3d9_present_parameters *: &d3d9_narrow_present_parameters,                                             \
         struct d3d9_creation_parameters *: &d3d9_narrow_creation_parameters,                                           \
+        struct d3d9_present_stats *: &d3d9_narrow_present_stats,                                           \
+        struct d3d9_adapter_identifier *: &d3d9_narrow_adapter_identifier,                                           \
         struct d3d9_region *: SAME(1),                                                                                 \
         void *: SAME(1),                                                                                               \
         default: SAME(sizeof *(pointer)))
@@ -98,17 +100,17 @@ static void unpack_array(const struct d3d9_narrow *type, uint64_t shared, uint64
 #define NAME_ARRAY(type, name)                                                                               \
     type *const name = pointer(b->name);                                                                     \
     (void)name;
-#define NAME_VALUE(type, name)              NAME_NUMBER(d3d9_type_##type, name)
-#define NAME_HANDLE(type, name)             NAME_NUMBER(uint64_t, name)
-#define NAME_POINTER(type, name)            NAME_NUMBER(uint64_t, name)
-#define NAME_OBJECT(type, name)             NAME_NUMBER(uint64_t, name)
-#define NAME_OBJECTS(type, name, count)     NAME_NUMBER(uint64_t, name)
-#define NAME_NEW(type, name)                NAME_NUMBER(uint64_t, name)
-#define NAME_READS(type, name, count)          NAME_ARRAY(d3d9_type_##type, name)
-#define NAME_WRITES(type, name, count)         NAME_ARRAY(d3d9_type_##type, name)
+#define NAME_VALUE(type, name)               NAME_NUMBER(d3d9_type_##type, name)
+#define NAME_HANDLE(type, name)              NAME_NUMBER(uint64_t, name)
+#define NAME_POINTER(type, name)             NAME_NUMBER(uint64_t, name)
+#define NAME_OBJECT(type, name)              NAME_NUMBER(uint64_t, name)
+#define NAME_OBJECTS(type, name, count)      NAME_NUMBER(uint64_t, name)
+#define NAME_NEW(type, name)                 NAME_NUMBER(uint64_t, name)
+#define NAME_READS(type, name, count)        NAME_ARRAY(d3d9_type_##type, name)
+#define NAME_WRITES(type, name, count)       NAME_ARRAY(d3d9_type_##type, name)
 #define NAME_CHANGES(type, name, count)      NAME_ARRAY(d3d9_type_##type, name)
-#define NAME_HOST_READS(type, name, count)     NAME_ARRAY(struct d3d9_##type, name)
-#define NAME_HOST_WRITES(type, name, count)    NAME_ARRAY(struct d3d9_##type, name)
+#define NAME_HOST_READS(type, name, count)   NAME_ARRAY(struct d3d9_##type, name)
+#define NAME_HOST_WRITES(type, name, count)  NAME_ARRAY(struct d3d9_##type, name)
 #define NAME_HOST_CHANGES(type, name, count) NAME_ARRAY(struct d3d9_##type, name)
 
 /* --- Before the call --- */
@@ -118,14 +120,14 @@ static void unpack_array(const struct d3d9_narrow *type, uint64_t shared, uint64
 #define PACK_HANDLE(type, name)
 #define PACK_POINTER(type, name)
 #define PACK_OBJECT(type, name)
-#define PACK_ARRAY(layout, name, count)     to->name = pack_array(packing, layout, b->name, count);
-#define PACK_OBJECTS(type, name, count)     PACK_ARRAY(&d3d9_narrow_address, name, count)
-#define PACK_NEW(type, name)                PACK_ARRAY(&d3d9_narrow_address, name, 1)
-#define PACK_READS(type, name, count)          PACK_ARRAY(LAYOUT(type, name), name, count)
-#define PACK_WRITES(type, name, count)         PACK_ARRAY(LAYOUT(type, name), name, count)
+#define PACK_ARRAY(layout, name, count)      to->name = pack_array(packing, layout, b->name, count);
+#define PACK_OBJECTS(type, name, count)      PACK_ARRAY(&d3d9_narrow_address, name, count)
+#define PACK_NEW(type, name)                 PACK_ARRAY(&d3d9_narrow_address, name, 1)
+#define PACK_READS(type, name, count)        PACK_ARRAY(LAYOUT(type, name), name, count)
+#define PACK_WRITES(type, name, count)       PACK_ARRAY(LAYOUT(type, name), name, count)
 #define PACK_CHANGES(type, name, count)      PACK_ARRAY(LAYOUT(type, name), name, count)
-#define PACK_HOST_READS(type, name, count)     PACK_ARRAY(HOST_LAYOUT(type, name), name, count)
-#define PACK_HOST_WRITES(type, name, count)    PACK_ARRAY(HOST_LAYOUT(type, name), name, count)
+#define PACK_HOST_READS(type, name, count)   PACK_ARRAY(HOST_LAYOUT(type, name), name, count)
+#define PACK_HOST_WRITES(type, name, count)  PACK_ARRAY(HOST_LAYOUT(type, name), name, count)
 #define PACK_HOST_CHANGES(type, name, count) PACK_ARRAY(HOST_LAYOUT(type, name), name, count)
 
 #define METHOD(class, method, name, type, ...)                                                               \
@@ -157,11 +159,11 @@ static void unpack_array(const struct d3d9_narrow *type, uint64_t shared, uint64
 #define UNPACK_OBJECTS(type, name, count)
 #define UNPACK_READS(type, name, count)
 #define UNPACK_HOST_READS(type, name, count)
-#define UNPACK_ARRAY(layout, name, count)     unpack_array(layout, from->name, b->name, count);
-#define UNPACK_NEW(type, name)                UNPACK_ARRAY(&d3d9_narrow_address, name, 1)
-#define UNPACK_WRITES(type, name, count)         UNPACK_ARRAY(LAYOUT(type, name), name, count)
+#define UNPACK_ARRAY(layout, name, count)      unpack_array(layout, from->name, b->name, count);
+#define UNPACK_NEW(type, name)                 UNPACK_ARRAY(&d3d9_narrow_address, name, 1)
+#define UNPACK_WRITES(type, name, count)       UNPACK_ARRAY(LAYOUT(type, name), name, count)
 #define UNPACK_CHANGES(type, name, count)      UNPACK_ARRAY(LAYOUT(type, name), name, count)
-#define UNPACK_HOST_WRITES(type, name, count)    UNPACK_ARRAY(HOST_LAYOUT(type, name), name, count)
+#define UNPACK_HOST_WRITES(type, name, count)  UNPACK_ARRAY(HOST_LAYOUT(type, name), name, count)
 #define UNPACK_HOST_CHANGES(type, name, count) UNPACK_ARRAY(HOST_LAYOUT(type, name), name, count)
 
 #define PROCEDURE(class, method, name, ...)                                                                  \
@@ -188,17 +190,36 @@ static void unpack_array(const struct d3d9_narrow *type, uint64_t shared, uint64
 /* --- All calls --- */
 
 struct form {
-    size_t bytes; /* of the block */
+    size_t bytes;  /* of the block */
+    size_t result; /* where its result is */
+    bool can_fail; /* the result is a HRESULT */
     void (*pack)(struct d3d9_packing *, const void *block, void *shared);
     void (*unpack)(void *block, void *shared);
 };
 
+/* The types of results: whether they can say that a call has failed. */
+enum {
+    CAN_FAIL_HRESULT = 1,
+    CAN_FAIL_UINT = 0,
+    CAN_FAIL_BOOL = 0,
+    CAN_FAIL_DWORD = 0,
+    CAN_FAIL_ULONG = 0,
+    CAN_FAIL_float = 0,
+    CAN_FAIL_D3DRESOURCETYPE = 0,
+    CAN_FAIL_D3DQUERYTYPE = 0,
+    CAN_FAIL_D3DTEXTUREFILTERTYPE = 0
+};
+
+#define FORM(class, name, result, can_fail)                                                                  \
+    [D3D9_CODE_##class##_##name] = {sizeof(struct d3d9_block_##class##_##name), result, can_fail,            \
+                                    pack_##class##_##name, unpack_##class##_##name},
+
 static const struct form forms[D3D9_CODE_COUNT] = {
 #define METHOD(class, method, name, type, ...)                                                               \
-    [D3D9_CODE_##class##_##name] = {sizeof(struct d3d9_block_##class##_##name), pack_##class##_##name,       \
-                                    unpack_##class##_##name},
-#define PROCEDURE(class, method, name, ...) METHOD(class, method, name, void, __VA_ARGS__)
-#define FUNCTION(class, name, type, ...)    METHOD(class, name, name, type, __VA_ARGS__)
+    FORM(class, name, offsetof(struct d3d9_block_##class##_##name, result), CAN_FAIL_##type)
+#define PROCEDURE(class, method, name, ...)                                                                  \
+    FORM(class, name, sizeof(struct d3d9_block_##class##_##name), false)
+#define FUNCTION(class, name, type, ...) METHOD(class, name, name, type, __VA_ARGS__)
 #include "front/d3d9/calls/calls.def"
 };
 
@@ -217,4 +238,12 @@ void *d3d9_pack(struct d3d9_packing *packing, unsigned code, const void *block)
 void d3d9_unpack(unsigned code, void *block, void *shared)
 {
     forms[code].unpack(block, shared);
+}
+
+void d3d9_fail(unsigned code, void *block, int32_t result)
+{
+    const struct form *form = &forms[code];
+    int32_t failure = form->can_fail ? result : 0;
+    if (form->result + sizeof failure <= form->bytes)
+        memcpy((uint8_t *)block + form->result, &failure, sizeof failure);
 }

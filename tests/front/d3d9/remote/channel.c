@@ -55,7 +55,7 @@ static void make_factory(void)
 
 static void objects_have_one_address_in_both(void)
 {
-    struct d3d9_host_face faces[] = {{.interface = 0, .vtable = 0x1234}, {.interface = 1, .vtable = 0x5678}};
+    struct d3d9_host_face faces[] = {{.number = 0, .vtable = 0x1234}, {.number = 1, .vtable = 0x5678}};
     struct d3d9_block_host_start start = {.faces = (uintptr_t)faces, .count = 2};
     open_it();
     TEST_ASSERT_EQUAL_INT(D3D9_DONE, call(D3D9_CODE_host_start, &start));

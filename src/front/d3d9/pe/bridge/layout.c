@@ -1,6 +1,7 @@
 /* Compares the structures of types.h with those of Windows' headers: sizes, and the offsets of all members. */
 #include <windows.h>
 #include <d3d9.h>
+#include "front/d3d9/remote/narrow.h"
 #include "front/d3d9/types.h"
 #include <stddef.h>
 
@@ -56,9 +57,6 @@ SAME(D3DDISPLAYMODE, Format, d3d9_display_mode, format);
 SAME_SIZE(D3DDISPLAYMODEEX, d3d9_display_mode_ex);
 SAME(D3DDISPLAYMODEEX, ScanLineOrdering, d3d9_display_mode_ex, scan_line_ordering);
 SAME_SIZE(D3DDISPLAYMODEFILTER, d3d9_display_mode_filter);
-SAME_SIZE(D3DPRESENTSTATS, d3d9_present_stats);
-SAME(D3DPRESENTSTATS, SyncQPCTime, d3d9_present_stats, sync_qpc_time);
-SAME_SIZE(D3DADAPTER_IDENTIFIER9, d3d9_adapter_identifier);
 SAME(D3DADAPTER_IDENTIFIER9, DriverVersion, d3d9_adapter_identifier, driver_version);
 SAME(D3DADAPTER_IDENTIFIER9, DeviceIdentifier, d3d9_adapter_identifier, device_identifier);
 SAME(D3DADAPTER_IDENTIFIER9, WHQLLevel, d3d9_adapter_identifier, whql_level);
@@ -72,7 +70,7 @@ SAME(D3DCAPS9, DeclTypes, d3d9_caps, decl_types);
 SAME(D3DCAPS9, PS20Caps, d3d9_caps, ps20_caps);
 SAME(D3DCAPS9, MaxPixelShader30InstructionSlots, d3d9_caps, max_pixel_shader30_instruction_slots);
 
-/* Structures with addresses or handles have the layout of 64-bit processes. */
+/* Structures with addresses, handles or 64-bit numbers have another layout in 32-bit programs (remote/narrow.h). */
 #ifdef _WIN64
 SAME_SIZE(D3DLOCKED_RECT, d3d9_locked_rect);
 SAME(D3DLOCKED_RECT, pBits, d3d9_locked_rect, bits);
@@ -84,4 +82,18 @@ SAME(D3DPRESENT_PARAMETERS, Windowed, d3d9_present_parameters, windowed);
 SAME(D3DPRESENT_PARAMETERS, PresentationInterval, d3d9_present_parameters, presentation_interval);
 SAME_SIZE(D3DDEVICE_CREATION_PARAMETERS, d3d9_creation_parameters);
 SAME(D3DDEVICE_CREATION_PARAMETERS, hFocusWindow, d3d9_creation_parameters, focus_window);
+SAME_SIZE(D3DPRESENTSTATS, d3d9_present_stats);
+SAME(D3DPRESENTSTATS, SyncQPCTime, d3d9_present_stats, sync_qpc_time);
+SAME_SIZE(D3DADAPTER_IDENTIFIER9, d3d9_adapter_identifier);
+#else
+SAME_SIZE(D3DPRESENTSTATS, d3d9_narrow_present_stats);
+SAME_SIZE(D3DADAPTER_IDENTIFIER9, d3d9_narrow_adapter_identifier);
+SAME_SIZE(D3DLOCKED_RECT, d3d9_narrow_locked_rect);
+SAME(D3DLOCKED_RECT, pBits, d3d9_narrow_locked_rect, bits);
+SAME_SIZE(D3DLOCKED_BOX, d3d9_narrow_locked_box);
+SAME(D3DLOCKED_BOX, pBits, d3d9_narrow_locked_box, bits);
+SAME_SIZE(D3DPRESENT_PARAMETERS, d3d9_narrow_present_parameters);
+SAME(D3DPRESENT_PARAMETERS, hDeviceWindow, d3d9_narrow_present_parameters, device_window);
+SAME_SIZE(D3DDEVICE_CREATION_PARAMETERS, d3d9_narrow_creation_parameters);
+SAME(D3DDEVICE_CREATION_PARAMETERS, hFocusWindow, d3d9_narrow_creation_parameters, focus_window);
 #endif
