@@ -1,4 +1,5 @@
 /* Calls of a program in another process (front/d3d9/remote). This program is also the server that its tests start. */
+#include "front/d3d9/object.h"
 #include "front/d3d9/remote/channel.h"
 #include "front/d3d9/remote/packing.h"
 
@@ -55,14 +56,14 @@ static void make_factory(void)
 
 static void objects_have_one_address_in_both(void)
 {
-    struct d3d9_host_face faces[] = {{.number = 0, .vtable = 0x1234}, {.number = 1, .vtable = 0x5678}};
-    struct d3d9_block_host_start start = {.faces = (uintptr_t)faces, .count = 2};
+    struct d3d9_host_face faces[] = {{.number = D3D9_INTERFACE_FACTORY, .vtable = 0x1234}};
+    struct d3d9_block_host_start start = {.faces = (uintptr_t)faces, .count = 1};
     open_it();
     TEST_ASSERT_EQUAL_INT(D3D9_DONE, call(D3D9_CODE_host_start, &start));
     make_factory();
     TEST_ASSERT_GREATER_OR_EQUAL_UINT32((uint32_t)(uintptr_t)client.channel + D3D9_CHANNEL_ARENA, factory);
     struct d3d9_head *head = (void *)(uintptr_t)factory;
-    TEST_ASSERT_TRUE(head->face == 0x1234 || head->face == 0x5678);
+    TEST_ASSERT_EQUAL_HEX64(0x1234, head->face);
 }
 
 static void a_null_pointer_stays_one(void)
@@ -74,9 +75,22 @@ static void a_null_pointer_stays_one(void)
     TEST_ASSERT_EQUAL_INT32(D3D9_INVALID_CALL, block.result);
 }
 
+static void add_adapter(void)
+{
+    struct d3d9_host_adapter adapter = {.monitor = 1, .name = "\\\\.\\DISPLAY1"};
+    struct d3d9_host_mode mode = {640, 480, 60, 22, 1};
+    struct d3d9_block_host_set_adapter_count count = {.count = 1};
+    struct d3d9_block_host_set_adapter set = {
+        .adapter = (uintptr_t)&adapter, .modes = (uintptr_t)&mode, .count = 1};
+    TEST_ASSERT_EQUAL_INT(D3D9_DONE, call(D3D9_CODE_host_set_adapter_count, &count));
+    TEST_ASSERT_EQUAL_INT(D3D9_DONE, call(D3D9_CODE_host_set_adapter, &set));
+    TEST_ASSERT_EQUAL_INT32(D3D9_OK, set.result);
+}
+
 static void results_come_back(void)
 {
     open_it();
+    add_adapter();
     make_factory();
     struct d3d9_caps caps;
     memset(&caps, 0xcd, sizeof caps);

@@ -27,13 +27,13 @@ static int run(unsigned code, void *block)
     struct d3d9_packing packing = {memory + D3D9_CHANNEL_HEADER, memory + D3D9_CHANNEL_ARENA, false};
     void *shared = d3d9_pack(&packing, code, block);
     if (!shared) {
-        d3d9_fail(code, block, packing.full ? D3D9_OUT_OF_MEMORY : D3D9_FAIL);
+        d3d9_pack_failure(code, block, packing.full ? D3D9_OUT_OF_MEMORY : D3D9_FAIL);
         return D3D9_DONE;
     }
     channel->code = code;
     channel->block = (uint32_t)(uintptr_t)shared;
     if (unixlib_call(D3D9_UNIX_SEND, NULL)) {
-        d3d9_fail(code, block, D3D9_DEVICE_LOST);
+        d3d9_pack_failure(code, block, D3D9_DEVICE_LOST);
         return D3D9_DONE;
     }
     d3d9_unpack(code, block, shared);
