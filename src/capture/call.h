@@ -18,7 +18,7 @@ enum call_type {
 #undef CALL
 #undef CALL_OF
 #undef CALL_BARE
-    CALL_TYPES /* one past the largest number; numbers begin at 1 */
+    CALL_TYPES = 64 /* above all numbers, which begin at 1 */
 };
 
 enum call_trait {
