@@ -1,4 +1,4 @@
-/* What a device has drawn, as a file for measurements of programs: TRIPTYCH_STATISTICS=FILE.
+/* Frames, times, draws and routines of a device, as a file for measurements of programs: TRIPTYCH_STATISTICS=FILE.
  *
  * The file is one JSON object:
  *   "engine"                   the engine's name
