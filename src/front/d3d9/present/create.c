@@ -30,6 +30,7 @@ static void destroy(struct d3d9_object *object)
     if (device->state)
         d3d9_device_free_state(device);
     d3d9_presentation_end(device);
+    d3d9_statistics_end(&device->statistics, device->renderer);
     triptych_device_destroy(device->renderer);
 }
 
@@ -51,6 +52,8 @@ static int32_t make_renderer(struct d3d9_device *device)
     enum triptych_result result = triptych_device_create(&options, &device->renderer, reason, sizeof reason);
     if (result)
         fprintf(stderr, "triptych: %s\n", reason);
+    else
+        d3d9_statistics_begin(&device->statistics);
     return !result ? D3D9_OK : result == TRIPTYCH_NO_MEMORY ? D3D9_OUT_OF_MEMORY : D3D9_NOT_AVAILABLE;
 }
 
