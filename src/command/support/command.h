@@ -70,11 +70,13 @@ struct operand {
         OPERAND_INPUT,  /* the path of a file that is read; - is standard input */
         OPERAND_OUTPUT, /* the path of a file that is written; - is standard output */
         OPERAND_WORD,   /* one of `words` */
+        OPERAND_TEXT,   /* anything */
     } kind;
     option_words *words;
     const char *extension; /* as in struct option */
     bool optional;
-    bool repeated; /* any number of times; only the last operand can be */
+    bool repeated;     /* any number of times; only the last operand can be */
+    bool ends_options; /* of the first operand: all arguments after it are operands */
 };
 
 /* The operands of a command line. Those that are -, and are files, have been replaced by the paths of the

@@ -230,6 +230,8 @@ static int check_operand(struct reading *reading, const struct operand *operand,
     snprintf(what, sizeof what, "%s is", operand->name);
     if (operand->kind == OPERAND_WORD)
         return find_word(reading->self, what, operand->words, *value, &operands->word);
+    if (operand->kind == OPERAND_TEXT)
+        return STATUS_OK;
     if (!strcmp(path, "-") && take_standard(reading, operand->name, operand->kind == OPERAND_OUTPUT, &path))
         return STATUS_BAD;
     *value = (char *)(uintptr_t)path; /* arguments of main are not const */
@@ -263,14 +265,16 @@ enum options_result options_read(const struct command *self, int count, char **a
     *operands = (struct operands){.value = arguments};
     for (int i = 0; i < count; i++) {
         char *given = arguments[i];
-        if (all_operands || given[0] != '-' || !given[1])
+        if (all_operands || given[0] != '-' || !given[1]) {
             arguments[operands->count++] = given;
-        else if (!strcmp(given, "--"))
+            all_operands |= self->operands && self->operands->ends_options;
+        } else if (!strcmp(given, "--")) {
             all_operands = true;
-        else if (!strcmp(given, "--help") || !strcmp(given, "-h"))
+        } else if (!strcmp(given, "--help") || !strcmp(given, "-h")) {
             return OPTIONS_HELP;
-        else if (read_option(&reading, count, arguments, &i))
+        } else if (read_option(&reading, count, arguments, &i)) {
             return OPTIONS_BAD;
+        }
     }
     return check_operands(&reading, operands) ? OPTIONS_BAD : OPTIONS_GO;
 }
