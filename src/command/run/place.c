@@ -81,7 +81,7 @@ int place_prefix(const char *given, char prefix[PATH_MAX], struct error *error)
 
 static const char system_dlls[] = "drive_c/windows/system32";
 
-/* wineboot makes it. Wine would ask to download what the two overrides disable. */
+/* wineboot makes it. The two overrides disable questions about downloads. */
 static int boot(const char *wine, const char *prefix, struct error *error)
 {
     char *arguments[] = {(char *)wine, "wineboot", "-i", NULL};
@@ -90,7 +90,7 @@ static int boot(const char *wine, const char *prefix, struct error *error)
     pid_t process;
     int status = 0;
     if ((old && !kept) || setenv("WINEPREFIX", prefix, 1) ||
-        setenv("WINEDLLOVERRIDES", "mscoree=;mshtml=", 1)) {
+        setenv("WINEDLLOVERRIDES", "mscoree=;mshtml=", 1) || setenv("WINEDEBUG", "-all", 0)) {
         free(kept);
         return error_set(error, "no memory for the environment");
     }

@@ -57,7 +57,7 @@ enum d3d9_code {
     D3D9_CODE_COUNT
 };
 
-/* What d3d9_dispatch returns. */
+/* The results of d3d9_dispatch. */
 enum { D3D9_DONE, D3D9_EVENTS /* done; d3d9_host_take_events has something to return */, D3D9_BAD_CODE = -1 };
 
 #endif

@@ -1,7 +1,7 @@
-/* What the two sides of the front end exchange besides Direct3D's own structures. The Windows side (pe) has
- * the vtables, windows and display modes; the Linux side has everything else. Linux never calls Windows: what
- * it needs is an argument of the call or was handed over before it, and what it leaves for Windows to do is
- * in the arguments that it fills or in the list of events.
+/* The data that the two sides of the front end exchange besides Direct3D's own structures. The Windows side
+ * (pe) has the vtables, windows and display modes; the Linux side has everything else. Linux never calls
+ * Windows. The data that it needs are arguments of the call, or were handed over before it. The work that it
+ * leaves for Windows is in the arguments that it fills, or in the list of events.
  *
  * All structures have the same layout in processes with 32- and 64-bit pointers: pointers and handles are
  * uint64_t. */
@@ -11,8 +11,8 @@
 #include "types.h"
 #include <stdbool.h>
 
-/* What the Windows side reads and writes of every object: its first two members. `host` is the Windows side's
- * own data of this object, 0 at first. */
+/* The members of every object that the Windows side reads and writes, which are the first ones. `host` is the
+ * Windows side's own data of this object, 0 at first. */
 struct d3d9_head {
     uint64_t face, host;
 };
@@ -62,7 +62,7 @@ struct d3d9_host_picture {
     uint32_t shown; /* 0: nothing is to be drawn (an error, an occluded window, D3DPRESENT_DONOTFLIP) */
 };
 
-/* What is left to do for the Windows side after a call. */
+/* Work for the Windows side after a call. */
 enum d3d9_host_event_kind {
     D3D9_EVENT_RELEASE = 1, /* call Release of the program's COM object `pointer` */
     D3D9_EVENT_FORGET       /* free the Windows side's data `pointer` (struct d3d9_head) */

@@ -1,5 +1,5 @@
 /* Direct3D 9's structures as Windows lays them out in a 64-bit process. pe/layout.c compares them with
- * Windows' headers. Enumerations are uint32_t, because programs pass numbers that are no enumerators.
+ * Windows' headers. Enumerations are uint32_t, because programs also pass other numbers.
  *
  * call.h maps the names in the folder calls to these types. */
 #ifndef D3D9_TYPES_H

@@ -24,7 +24,7 @@ HRESULT WINAPI Direct3DCreate9Ex(UINT version, IDirect3D9Ex **factory)
     return result;
 }
 
-/* Marks for profilers of graphics, of which there is none here. */
+/* Marks for a profiler of graphics. There is none. */
 int WINAPI D3DPERF_BeginEvent(D3DCOLOR color, const WCHAR *name)
 {
     (void)color, (void)name;

@@ -1,6 +1,6 @@
-/* Direct3DShaderValidatorCreate9: an object through which the shader compiler of the DirectX SDK checks its output.
- * It accepts every instruction: CreateVertexShader and CreatePixelShader check shaders. There is one, which lives as
- * long as the DLL, so that its references are not counted. */
+/* Direct3DShaderValidatorCreate9: an object through which the shader compiler of the DirectX SDK checks its
+ * output. It accepts every instruction: CreateVertexShader and CreatePixelShader check shaders. There is one,
+ * which exists as long as the DLL, so that its references are not counted. */
 #include <windows.h>
 #include <d3d9.h>
 

@@ -1,5 +1,5 @@
-/* The functions of call.h for the Windows side: the arguments become a block, the Linux side's function of the same
- * name is called, and its result is returned. */
+/* The functions of call.h for the Windows side: the arguments become a block, the Linux side's function of
+ * the same name is called, and its result is returned. */
 #include "bridge.h"
 
 #define SET(kind, ...)                      SET_##kind(__VA_ARGS__)

@@ -1,4 +1,5 @@
-/* Compares the structures of types.h with those of Windows' headers: sizes, and the offsets of all members. */
+/* Compares the structures of types.h with those of Windows' headers: sizes, and the offsets of all members.
+ * */
 #include <windows.h>
 #include <d3d9.h>
 #include "front/d3d9/remote/narrow.h"

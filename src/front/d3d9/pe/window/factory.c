@@ -46,7 +46,7 @@ static struct d3d9_host_window target_of(const D3DPRESENT_PARAMETERS *parameters
     return factory_window(parameters && parameters->hDeviceWindow ? parameters->hDeviceWindow : focus);
 }
 
-/* What Windows has to do for a device that the Linux side has made. */
+/* The work in Windows for a device that the Linux side has made. */
 static HRESULT begin(IDirect3DDevice9Ex **device, UINT adapter, HWND focus, DWORD flags, BOOL extended,
                      const D3DPRESENT_PARAMETERS *parameters)
 {

@@ -38,7 +38,7 @@ static inline struct device_data *device_data_of(IDirect3DDevice9Ex *device)
     return object_data_of(device);
 }
 
-/* Makes windows and the display what the parameters of a successful CreateDevice or Reset ask for. Returns
+/* Makes windows and the display what the parameters of a successful CreateDevice or Reset specify. Returns
  * FALSE if the display refuses the mode. */
 BOOL fullscreen_apply(struct device_data *, const D3DPRESENT_PARAMETERS *);
 /* Back to the desktop, at the device's end. */
