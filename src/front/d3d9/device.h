@@ -69,10 +69,13 @@ struct d3d9_device {
 
     /* Draws (draw/). */
     bool in_scene;
-    uint32_t sampled;       /* samplers with a texture, bit i sampler i */
-    unsigned passed;        /* D3D9_NEEDS_... of the streams that were passed on (draw/draw.h) */
-    bool instances;         /* a stream's frequency is not that of vertices */
-    triptych_buffer *zeros; /* what streams without a buffer read; null until it is needed */
+    uint32_t sampled;                /* samplers with a texture, bit i sampler i */
+    uint32_t first_level;            /* of these: those whose texture has a first level (SetLOD) */
+    uint32_t lod[TRIPTYCH_SAMPLERS]; /* the first level that the renderer has */
+    struct d3d9_shader *refused; /* of software vertex processing, for which a draw has failed; not held */
+    unsigned passed;             /* D3D9_NEEDS_... of the streams that were passed on (draw/draw.h) */
+    bool instances;              /* a stream's frequency is not that of vertices */
+    triptych_buffer *zeros;      /* what streams without a buffer read; null until it is needed */
 };
 
 /* Make the values of a device whose `renderer`, `creation` and `object` are set, and set the renderer's

@@ -27,7 +27,7 @@ void derive_fog(const struct state *state, struct pixel_key *key)
         key->fog += FOG_LINEAR_W - FOG_LINEAR_Z;
 }
 
-/* Distances at which fog starts and ends; the same for both ends: all beyond is fog. */
+/* Distances at which fog starts and ends; the same for both: everything is fog. */
 void derive_fog_formula(const struct state *state, uint32_t mode, float *scale, float *offset)
 {
     double start = (double)GET_FLOAT(state, fogstart), end = (double)GET_FLOAT(state, fogend),
@@ -39,8 +39,8 @@ void derive_fog_formula(const struct state *state, uint32_t mode, float *scale, 
     case TRIPTYCH_FOG_EXP: *scale = derive_narrow(-density * log2_e); return;
     case TRIPTYCH_FOG_EXP2: *scale = derive_narrow(density * sqrt(log2_e)); return;
     case TRIPTYCH_FOG_LINEAR:
-        *scale = derive_narrow(end != start ? -1 / (end - start) : -0x1p64);
-        *offset = derive_narrow(end != start ? end / (end - start) : end * 0x1p64);
+        *scale = derive_narrow(end != start ? -1 / (end - start) : 0);
+        *offset = derive_narrow(end != start ? end / (end - start) : 0);
         return;
     }
 }

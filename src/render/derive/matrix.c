@@ -3,6 +3,7 @@
 #include "render/derive/derive_part.h"
 
 #include <math.h>
+#include <stdbool.h>
 
 struct matrix matrix_of(const float source[4][4])
 {
@@ -41,15 +42,35 @@ static double cofactor(const struct matrix *m, int row, int column)
     return m->m[r1][c1] * m->m[r2][c2] - m->m[r1][c2] * m->m[r2][c1];
 }
 
+/* The cofactor of an element among all four rows and columns. */
+static double cofactor4(const struct matrix *m, int row, int column)
+{
+    struct matrix minor;
+    double sum = 0;
+    for (int i = 0; i < 3; i++)
+        for (int j = 0; j < 3; j++)
+            minor.m[i][j] = m->m[i + (i >= row)][j + (j >= column)];
+    for (int c = 0; c < 3; c++)
+        sum += minor.m[0][c] * cofactor(&minor, 0, c);
+    return (row + column) % 2 ? -sum : sum;
+}
+
+static bool is_affine(const struct matrix *m)
+{
+    return m->m[0][3] == 0 && m->m[1][3] == 0 && m->m[2][3] == 0 && m->m[3][3] == 1;
+}
+
+/* The inverse transpose of an affine matrix has that of its 3x3 part. */
 void matrix_store_normal(const struct matrix *source, float target[3][4])
 {
+    bool affine = is_affine(source);
     double determinant = 0;
-    for (int c = 0; c < 3; c++)
-        determinant += source->m[0][c] * cofactor(source, 0, c);
+    for (int c = 0; c < (affine ? 3 : 4); c++)
+        determinant += source->m[0][c] * (affine ? cofactor(source, 0, c) : cofactor4(source, 0, c));
     double scale = determinant != 0 ? 1 / determinant : 1;
     for (int i = 0; i < 3; i++)
         for (int j = 0; j < 3; j++)
-            target[i][j] = derive_narrow(cofactor(source, i, j) * scale);
+            target[i][j] = derive_narrow((affine ? cofactor(source, i, j) : cofactor4(source, i, j)) * scale);
 }
 
 void matrix_transform(const float source[3], double w, const struct matrix *matrix, double target[3])

@@ -141,6 +141,19 @@ static void the_normal_matrix_keeps_normals_perpendicular(void)
     TEST_ASSERT_TRUE(fabsf(n[0]) + fabsf(n[1]) + fabsf(n[2]) > 0.1f);
 }
 
+/* A matrix with a fourth column: the inverse transpose of all of it. This one takes the normal 0 0 1 to 0. */
+static void the_normal_matrix_is_the_inverse_transpose_of_four_columns(void)
+{
+    static const float matrix[4][4] = {{1, 0, 0, 0}, {0, 1, 0, 0}, {0, 0, 1, -1}, {10, 10, 10, 0}};
+    static const float expected[3][3] = {{1, 0, -1}, {0, 1, -1}, {0, 0, 0}};
+    memcpy(state.transform[TRIPTYCH_TRANSFORM_WORLD], matrix, sizeof matrix);
+    state.light_enabled[0] = 1;
+    derive();
+    for (int i = 0; i < 3; i++)
+        for (int j = 0; j < 3; j++)
+            TEST_ASSERT_FLOAT_WITHIN(1e-6f, expected[i][j], job.normal[i][j]);
+}
+
 static void directional_lights_point_to_the_light_in_camera_space(void)
 {
     state.light_enabled[0] = 1;
@@ -204,6 +217,7 @@ int main(void)
     RUN_TEST(the_scissor_is_the_viewports_pixel_centres);
     RUN_TEST(matrices_multiply_in_row_order);
     RUN_TEST(the_normal_matrix_keeps_normals_perpendicular);
+    RUN_TEST(the_normal_matrix_is_the_inverse_transpose_of_four_columns);
     RUN_TEST(directional_lights_point_to_the_light_in_camera_space);
     RUN_TEST(base_colour_is_the_sum_of_constant_terms);
     RUN_TEST(the_job_does_not_depend_on_the_callers_rounding);

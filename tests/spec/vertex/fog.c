@@ -112,6 +112,22 @@ static void check_no_fog(void)
     expect_pixel(0, 0, image_word(0x80402010), "fog that is off");
 }
 
+/* Linear fog that starts where it is complete covers everything, also what is nearer. */
+static void check_fog_without_range(void)
+{
+    const float distances[] = {0, 0.25f, 0.5f, 0.75f};
+    OK(triptych_set_state(device, TRIPTYCH_STATE_FOGCOLOR, 0xff00ff00));
+    OK(triptych_set_state(device, TRIPTYCH_STATE_FOGENABLE, 1));
+    set(TRIPTYCH_STATE_FOGTABLEMODE, "linear");
+    set_float(TRIPTYCH_STATE_FOGSTART, 0.5f);
+    set_float(TRIPTYCH_STATE_FOGEND, 0.5f);
+    for (unsigned i = 0; i < 4; i++) {
+        draw_square(distances[i], 0x80402010, NULL, 0, 0, 1, 1);
+        OK(triptych_read_color(device, image, sizeof image));
+        expect_pixel(0, 0, image_word(0x8000ff00), "fog without range");
+    }
+}
+
 static void test_fog_by_depth(void)
 {
     on_every_engine(check_depth_fog);
@@ -127,11 +143,17 @@ static void test_fog_that_is_off(void)
     on_every_engine(check_no_fog);
 }
 
+static void test_fog_without_range(void)
+{
+    on_every_engine(check_fog_without_range);
+}
+
 int main(void)
 {
     UNITY_BEGIN();
     RUN_TEST(test_fog_by_depth);
     RUN_TEST(test_fog_by_distance);
     RUN_TEST(test_fog_that_is_off);
+    RUN_TEST(test_fog_without_range);
     return UNITY_END();
 }

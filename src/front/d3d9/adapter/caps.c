@@ -91,8 +91,8 @@ static void fill_device(struct d3d9_caps *caps)
 static void fill_states(struct d3d9_caps *caps)
 {
     enum {
-        /* all culling modes, clipping of transformed vertices, the argument temp, null reference */
-        MISC = 0x10 | 0x20 | 0x40 | 0x200 | 0x400,
+        /* all culling modes, the argument temp */
+        MISC = 0x10 | 0x20 | 0x40 | 0x400,
         /* depth tests, fog of vertices and pixels by z and w, anisotropy, perspective colours */
         RASTER = 0x10 | 0x80 | 0x100 | 0x2000 | 0x20000 | 0x100000 | 0x200000 | 0x400000,
         SHADE_GOURAUD = 0x8 | 0x200 | 0x4000 | 0x80000,

@@ -3,6 +3,7 @@
 #include "front/d3d9/draw/draw.h"
 #include "front/d3d9/resource/surface.h"
 
+#include <math.h>
 #include <stdlib.h>
 
 /* D3DCLEAR. */
@@ -18,21 +19,76 @@ static struct triptych_rectangle rectangle_of(const struct d3d9_rect *from)
                                        bottom > top ? bottom - top : 0};
 }
 
-static int32_t clear_rectangles(struct d3d9_device *device, const struct triptych_clear_values *values,
-                                const struct d3d9_rect *rectangles, uint32_t count)
+/* A clear as the renderer takes it. */
+struct clear {
+    struct triptych_clear_values values;
+    struct triptych_rectangle *list;
+    uint32_t count;
+    bool srgb; /* colours are converted for targets that can be written in sRGB */
+};
+
+/* Direct3D converts the colour of a clear as that of a pixel. */
+static float to_srgb(float linear)
 {
-    struct triptych_rectangle *list = calloc(count, sizeof *list);
-    if (!list)
-        return D3D9_OUT_OF_MEMORY;
-    uint32_t used = 0;
-    for (uint32_t i = 0; i < count; i++) {
-        list[used] = rectangle_of(rectangles + i);
-        used += list[used].width && list[used].height;
+    return linear <= 0.0031308F ? 12.92F * linear : 1.055F * powf(linear, 1 / 2.4F) - 0.055F;
+}
+
+static bool has_bytes(const struct d3d9_surface *target)
+{
+    return target && triptych_format_is_bytes((enum triptych_surface_format)target->image.format->number);
+}
+
+static void pass_clear(struct d3d9_device *device, const struct clear *clear,
+                       const struct d3d9_surface *target)
+{
+    struct triptych_clear_values values = clear->values;
+    for (int c = 0; c < 3 && clear->srgb && has_bytes(target); c++)
+        values.color[c] = to_srgb(values.color[c]);
+    triptych_clear_rectangles(device->renderer, &values, clear->list, clear->count);
+}
+
+/* Direct3D clears each surface in its own size; the renderer clears what all have. */
+static bool sizes_differ(const struct d3d9_device *device)
+{
+    const struct d3d9_surface *first = device->target[0];
+    for (unsigned i = 1; first && i <= TRIPTYCH_TARGETS; i++) {
+        const struct d3d9_surface *other = i < TRIPTYCH_TARGETS ? device->target[i] : device->depth;
+        if (other && (other->image.width != first->image.width || other->image.height != first->image.height))
+            return true;
     }
-    if (used)
-        triptych_clear_rectangles(device->renderer, values, list, used);
-    free(list);
-    return D3D9_OK;
+    return false;
+}
+
+static void clear_surface(struct d3d9_device *device, const struct clear *clear, struct d3d9_surface *target,
+                          unsigned flags)
+{
+    struct triptych_target_surfaces targets = {.depth_format = TRIPTYCH_DEPTH_NONE};
+    struct clear one = *clear;
+    one.values.flags &= flags;
+    if (!target || !one.values.flags ||
+        !d3d9_surface_as_target(target, flags & TRIPTYCH_CLEAR_COLOR ? &targets.color[0] : &targets.depth) ||
+        triptych_set_target_surfaces(device->renderer, &targets) != TRIPTYCH_OK)
+        return;
+    d3d9_draw_pass_areas(device);
+    pass_clear(device, &one, target);
+    device->late |= D3D9_LATE_TARGETS;
+}
+
+static void clear_each(struct d3d9_device *device, const struct clear *clear)
+{
+    for (unsigned i = 0; i < TRIPTYCH_TARGETS; i++)
+        clear_surface(device, clear, device->target[i], TRIPTYCH_CLEAR_COLOR);
+    clear_surface(device, clear, device->depth, TRIPTYCH_CLEAR_DEPTH | TRIPTYCH_CLEAR_STENCIL);
+}
+
+static bool list_rectangles(struct clear *clear, const struct d3d9_rect *rectangles, uint32_t count)
+{
+    clear->list = calloc(count, sizeof *clear->list);
+    for (uint32_t i = 0; i < count && clear->list; i++) {
+        clear->list[clear->count] = rectangle_of(rectangles + i);
+        clear->count += clear->list[clear->count].width && clear->list[clear->count].height;
+    }
+    return clear->list;
 }
 
 static int32_t check_clear(const struct d3d9_device *device, uint32_t flags)
@@ -58,23 +114,39 @@ static unsigned renderer_flags(const struct d3d9_device *device, uint32_t flags)
     return clear;
 }
 
+static struct clear clear_of(const struct d3d9_device *device, uint32_t flags, uint32_t color, float z,
+                             uint32_t stencil)
+{
+    enum { SRGB_WRITE = 194 }; /* D3DRS_SRGBWRITEENABLE */
+    return (struct clear){
+        .values = {.flags = renderer_flags(device, flags),
+                   .color = {(float)(color >> 16 & 255) / 255, (float)(color >> 8 & 255) / 255,
+                             (float)(color & 255) / 255, (float)(color >> 24) / 255},
+                   .depth = z > 0 ? z < 1 ? z : 1 : 0,
+                   .stencil = stencil,
+                   .color_mask = 15,
+                   .stencil_mask = UINT32_MAX},
+        .srgb = device->state->render[SRGB_WRITE]};
+}
+
 /* An array without rectangles clears nothing, a number without array everything. */
 int32_t d3d9_device_clear(struct d3d9_device *device, uint32_t count, const struct d3d9_rect *rectangles,
                           uint32_t flags, uint32_t color, float z, uint32_t stencil)
 {
     int32_t result = check_clear(device, flags);
-    if (result != D3D9_OK || (rectangles && !count) || !d3d9_draw_prepare_targets(device))
+    if (result != D3D9_OK || (rectangles && !count))
         return result;
-    struct triptych_clear_values values = {.flags = renderer_flags(device, flags),
-                                           .color = {(float)(color >> 16 & 255) / 255,
-                                                     (float)(color >> 8 & 255) / 255,
-                                                     (float)(color & 255) / 255, (float)(color >> 24) / 255},
-                                           .depth = z > 0 ? z < 1 ? z : 1 : 0,
-                                           .stencil = stencil,
-                                           .color_mask = 15,
-                                           .stencil_mask = UINT32_MAX};
-    if (rectangles)
-        return clear_rectangles(device, &values, rectangles, count);
-    triptych_clear_rectangles(device->renderer, &values, NULL, 0);
+    struct clear clear = clear_of(device, flags, color, z, stencil);
+    if (rectangles && !list_rectangles(&clear, rectangles, count))
+        return D3D9_OUT_OF_MEMORY;
+    if (rectangles && !clear.count) {
+        free(clear.list);
+        return D3D9_OK;
+    }
+    if (sizes_differ(device))
+        clear_each(device, &clear);
+    else if (d3d9_draw_prepare_targets(device))
+        pass_clear(device, &clear, device->target[0]);
+    free(clear.list);
     return D3D9_OK;
 }

@@ -22,13 +22,24 @@ static int primitive_of(uint32_t type)
     return type < sizeof primitives / sizeof *primitives ? primitives[type] : -1;
 }
 
-/* What every draw needs. A shader for software vertex processing runs only there. */
-static int32_t check_draw(const struct d3d9_device *device, uint32_t type)
+/* A shader for software vertex processing that is used without: the first draw fails, and further ones use the
+ * fixed function, as by Direct3D's runtime. */
+static int32_t check_shader(struct d3d9_device *device)
 {
-    const struct d3d9_shader *shader = device->state->vertex_shader[0];
+    struct d3d9_shader *shader = device->state->vertex_shader[0];
+    bool fits = !shader || !shader->software || device->software_vertices || device->refused == shader;
+    if (!fits)
+        device->refused = shader;
+    else if (device->refused != shader)
+        device->refused = NULL;
+    return fits ? D3D9_OK : D3D9_INVALID_CALL;
+}
+
+static int32_t check_draw(struct d3d9_device *device, uint32_t type)
+{
     if (!device->state->declaration[0] || primitive_of(type) < 0 || !device->in_scene)
         return D3D9_INVALID_CALL;
-    return shader && shader->software && !device->software_vertices ? D3D9_INVALID_CALL : D3D9_OK;
+    return check_shader(device);
 }
 
 int32_t d3d9_device_draw_primitive(struct d3d9_device *device, uint32_t type, uint32_t first, uint32_t count)

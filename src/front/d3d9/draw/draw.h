@@ -15,5 +15,7 @@ enum {
  * there is no target, or no memory. */
 bool d3d9_draw_prepare(struct d3d9_device *, unsigned needs);
 bool d3d9_draw_prepare_targets(struct d3d9_device *);
+/* Passes on the viewport and the scissor rectangle. */
+void d3d9_draw_pass_areas(struct d3d9_device *);
 
 #endif

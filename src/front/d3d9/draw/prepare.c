@@ -5,7 +5,8 @@
 #include "front/d3d9/state/declaration.h"
 #include "front/d3d9/state/shader.h"
 
-enum { MAXMIPLEVEL = 9 }; /* D3DSAMP_MAXMIPLEVEL */
+/* D3DSAMPLERSTATETYPE. */
+enum { MIPFILTER = 7, LODBIAS = 8, MAXMIPLEVEL = 9 };
 
 /* --- Targets and areas --- */
 
@@ -27,16 +28,19 @@ static float clamp(float number)
     return number > 0 ? number < 1 ? number : 1 : 0;
 }
 
-static void pass_areas(struct d3d9_device *device)
+/* An empty range of depth is one of 0.001. */
+void d3d9_draw_pass_areas(struct d3d9_device *device)
 {
     const struct d3d9_viewport *from = device->state->viewport;
+    const float least = 0.001F;
+    float max_z = from->max_z < from->min_z + least ? from->min_z + least : from->max_z;
     const struct d3d9_rect *s = device->state->scissor;
     struct triptych_viewport viewport = {.x = (float)from->x,
                                          .y = (float)from->y,
                                          .width = (float)from->width,
                                          .height = (float)from->height,
                                          .depth_near = clamp(from->min_z),
-                                         .depth_far = clamp(from->max_z)};
+                                         .depth_far = clamp(max_z)};
     uint32_t left = s->left > 0 ? (uint32_t)s->left : 0, top = s->top > 0 ? (uint32_t)s->top : 0;
     triptych_set_viewport(device->renderer, &viewport);
     triptych_set_scissor(device->renderer, left, top,
@@ -53,27 +57,43 @@ bool d3d9_draw_prepare_targets(struct d3d9_device *device)
         device->late = (device->late & ~(unsigned)D3D9_LATE_TARGETS) | D3D9_LATE_AREA;
     }
     if (device->late & D3D9_LATE_AREA)
-        pass_areas(device);
+        d3d9_draw_pass_areas(device);
     device->late &= ~(unsigned)D3D9_LATE_AREA;
     return true;
 }
 
 /* --- Textures --- */
 
-/* The first level that is sampled: the sampler's, or that of the texture's SetLOD. */
-static void pass_first_level(struct d3d9_device *device, unsigned i)
+static void pass_state(struct d3d9_device *device, unsigned i, enum triptych_sampler_state row,
+                       uint32_t value)
 {
-    uint32_t level = device->state->sampler[i * D3D9_SAMPLER_STATES + MAXMIPLEVEL];
-    uint32_t lod = device->state->texture[i]->lod;
-    triptych_set_sampler_state(device->renderer, i, TRIPTYCH_SAMPLER_MAXMIPLEVEL, lod > level ? lod : level);
+    triptych_set_sampler_state(device->renderer, i, row,
+                               d3d9_state_sanitize(TRIPTYCH_SAMPLER_STATES, row, i, value));
+}
+
+/* A texture with a first level (SetLOD): larger levels do not exist. Without mipmaps only this level is
+ * sampled, otherwise this one or that of the sampler. */
+static void pass_first_level(struct d3d9_device *device, unsigned i, uint32_t lod)
+{
+    const uint32_t *sampler = device->state->sampler + i * D3D9_SAMPLER_STATES;
+    const float nearest = -1000;
+    bool mipmaps = !lod || sampler[MIPFILTER] != TRIPTYCH_FILTER_NONE;
+    uint32_t level = lod > sampler[MAXMIPLEVEL] || !mipmaps ? lod : sampler[MAXMIPLEVEL];
+    pass_state(device, i, TRIPTYCH_SAMPLER_MIPFILTER, mipmaps ? sampler[MIPFILTER] : TRIPTYCH_FILTER_POINT);
+    pass_state(device, i, TRIPTYCH_SAMPLER_MIPMAPLODBIAS,
+               mipmaps ? sampler[LODBIAS] : triptych_float_bits(nearest));
+    pass_state(device, i, TRIPTYCH_SAMPLER_MAXMIPLEVEL, level);
+    device->lod[i] = lod;
+    device->first_level = (device->first_level & ~(1u << i)) | (lod ? 1u << i : 0);
 }
 
 static void pass_texture(struct d3d9_device *device, unsigned i)
 {
     struct d3d9_base_texture *texture = device->state->texture[i];
+    uint32_t lod = texture ? texture->lod : 0;
     triptych_set_texture(device->renderer, i, texture ? d3d9_base_texture_use(texture) : NULL);
-    if (texture)
-        pass_first_level(device, i);
+    if (lod || device->first_level >> i & 1)
+        pass_first_level(device, i, lod);
 }
 
 static void pass_textures(struct d3d9_device *device)
@@ -90,14 +110,16 @@ static void refresh_textures(struct d3d9_device *device)
 {
     for (uint32_t left = device->sampled; left; left &= left - 1) {
         unsigned i = (unsigned)__builtin_ctz(left);
-        if (device->state->texture[i]->pending)
+        const struct d3d9_base_texture *texture = device->state->texture[i];
+        if (texture->pending || texture->lod != device->lod[i])
             pass_texture(device, i);
     }
 }
 
 /* --- Vertices --- */
 
-/* Vertices in the window have passed the vertex shader. */
+/* Vertices in the window have passed the vertex shader. A shader for software vertex processing runs only
+ * there (draw/draw.c). */
 static bool is_transformed(const struct d3d9_declaration *declaration)
 {
     for (unsigned i = 0; declaration && i < declaration->translated; i++)
@@ -110,7 +132,8 @@ static void pass_shaders(struct d3d9_device *device)
 {
     const struct d3d9_state *state = device->state;
     const struct d3d9_shader *vertex = state->vertex_shader[0], *pixel = state->pixel_shader[0];
-    bool used = vertex && !is_transformed(state->declaration[0]);
+    bool used =
+        vertex && !is_transformed(state->declaration[0]) && (!vertex->software || device->software_vertices);
     triptych_set_vertex_shader(device->renderer, used ? vertex->shader : NULL);
     triptych_set_pixel_shader(device->renderer, pixel ? pixel->shader : NULL);
 }

@@ -88,10 +88,11 @@ int32_t d3d9_device_get_creation_parameters(struct d3d9_device *device,
 
 int32_t d3d9_device_set_software_vertex_processing(struct d3d9_device *device, int32_t software)
 {
-    if (device->creation.behavior_flags & D3D9_CREATE_MIXED_VERTICES)
-        device->software_vertices = software != 0;
-    else if (device->software_vertices != (software != 0))
+    bool mixed = device->creation.behavior_flags & D3D9_CREATE_MIXED_VERTICES;
+    if (!mixed && device->software_vertices != (software != 0))
         return D3D9_INVALID_CALL;
+    device->software_vertices = software != 0;
+    device->late |= D3D9_LATE_SHADERS;
     return D3D9_OK;
 }
 

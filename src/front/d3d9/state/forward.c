@@ -21,8 +21,12 @@ static void forward_value(struct d3d9_device *device, enum triptych_state_table 
         triptych_set_stage_state(device->renderer, i, (enum triptych_stage_state)row, value);
 }
 
+/* Graphics chips of Direct3D 9 clip always; the state is a promise of the program that allows them not to. */
 static void forward_render(struct d3d9_device *device, unsigned number)
 {
+    enum { CLIPPING = 136 };
+    if (number == CLIPPING)
+        return;
     forward_value(device, TRIPTYCH_RENDER_STATES, 0, d3d9_state_render_row(number),
                   device->state->render[number]);
 }
@@ -30,7 +34,9 @@ static void forward_render(struct d3d9_device *device, unsigned number)
 static void forward_sampler(struct d3d9_device *device, unsigned index)
 {
     unsigned sampler = index / D3D9_SAMPLER_STATES;
-    if (sampler < TRIPTYCH_SAMPLERS)
+    if (device->first_level >> sampler & 1)
+        device->late |= D3D9_LATE_TEXTURES; /* draw/prepare.c changes states of such samplers */
+    else if (sampler < TRIPTYCH_SAMPLERS)
         forward_value(device, TRIPTYCH_SAMPLER_STATES, sampler,
                       d3d9_state_sampler_row(index % D3D9_SAMPLER_STATES), device->state->sampler[index]);
 }

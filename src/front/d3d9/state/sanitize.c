@@ -42,6 +42,8 @@ static bool works(const struct triptych_kind *kind, uint32_t value)
 static uint32_t sanitize_word(enum triptych_state_table table, unsigned row, unsigned i, uint32_t value)
 {
     const struct triptych_kind *kind = triptych_state_at(table, row)->kind;
+    if (table == TRIPTYCH_SAMPLER_STATES && row == TRIPTYCH_SAMPLER_SRGBTEXTURE)
+        return value & 1;
     if (works(kind, 1) && works(kind, 0) && !works(kind, 2))
         return value != 0;
     if (table == TRIPTYCH_SAMPLER_STATES && value > TRIPTYCH_FILTER_LINEAR &&
