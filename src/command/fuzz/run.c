@@ -101,11 +101,8 @@ static int visit_color(struct target *target, unsigned t, uint32_t tile, section
     return visit(user, &section);
 }
 
-/* Visits the words of a device, in an order that depends only on the stream. Stops at a result that is not
- * 0. */
-static int visit_sections(struct triptych_device *device, section_visitor *visit, void *user)
+static int visit_target(struct target *target, section_visitor *visit, void *user)
 {
-    struct target *target = device_target(device);
     int stop = 0;
     for (uint32_t tile = 0; tile < target->columns * target->rows && !stop; tile++) {
         for (unsigned t = 0; t < TARGETS && !stop; t++)
@@ -116,6 +113,43 @@ static int visit_sections(struct triptych_device *device, section_visitor *visit
             stop = visit(user, &depth);
         }
     }
+    return stop;
+}
+
+static int visit_surface(struct triptych_device *device, const struct triptych_surface *surface,
+                         section_visitor *visit, void *user)
+{
+    struct target view;
+    if (!surface_attachment(surface))
+        return 0;
+    if (device_view(device, surface, &view, NULL) != TRIPTYCH_OK)
+        return -1;
+    int stop = visit_target(&view, visit, user);
+    target_destroy(&view);
+    return stop;
+}
+
+/* The tiles of images, and of textures that have been drawn to. */
+static int visit_surfaces(struct triptych_device *device, section_visitor *visit, void *user)
+{
+    int stop = 0;
+    for (struct triptych_image *image = device->resources.images; image && !stop; image = image->next)
+        stop = visit_surface(device, &(struct triptych_surface){.image = image}, visit, user);
+    for (struct triptych_texture *texture = device->resources.textures; texture && !stop;
+         texture = texture->next)
+        for (struct drawn_surface *drawn = texture->drawn; drawn && !stop; drawn = drawn->next)
+            stop = visit_surface(
+                device, &(struct triptych_surface){texture, drawn->level, drawn->slice, NULL}, visit, user);
+    return stop;
+}
+
+/* Visits the words of a device, in an order that depends only on the stream. Stops at a result that is not
+ * 0. */
+static int visit_sections(struct triptych_device *device, section_visitor *visit, void *user)
+{
+    int stop = visit_target(device_target(device), visit, user);
+    if (!stop)
+        stop = visit_surfaces(device, visit, user);
     uint32_t number = 0;
     for (struct triptych_texture *texture = device->resources.textures; texture && !stop;
          texture = texture->next) {

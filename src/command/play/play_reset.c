@@ -32,14 +32,19 @@ static enum triptych_result reset_vertices(triptych_device *device)
     return result;
 }
 
-/* Textures that calls have changed, or will, as they were defined. */
-static enum triptych_result reset_textures(struct player *player)
+/* Images, and textures that calls have changed, or will, as they were defined: made anew. */
+static enum triptych_result reset_surfaces(struct player *player)
 {
     const struct stream *stream = player->stream;
     enum triptych_result result = TRIPTYCH_OK;
-    for (uint32_t i = 0; i < stream->resource_count && !result; i++)
-        if (stream->resources[i].type == RESOURCE_TEXTURE && stream->resources[i].changes)
-            result = player_fill(player->device, &stream->resources[i], player->handles[i].texture);
+    for (uint32_t i = 0; i < stream->resource_count && !result; i++) {
+        const struct resource *resource = &stream->resources[i];
+        if (resource->type != RESOURCE_IMAGE && (resource->type != RESOURCE_TEXTURE || !resource->changes))
+            continue;
+        player_destroy(player->device, &player->handles[i]);
+        player->handles[i] = (struct handles){.frame = NOWHERE};
+        result = player_create(player->device, resource, &player->handles[i]);
+    }
     return result;
 }
 
@@ -86,7 +91,7 @@ enum triptych_result player_reset(struct player *player)
     if (!result)
         result = reset_lights(player->device);
     if (!result)
-        result = reset_textures(player);
+        result = reset_surfaces(player);
     if (!result)
         result = reset_buffers(player);
     for (unsigned t = 0; t < TRIPTYCH_STATE_TABLE_COUNT && !result; t++)

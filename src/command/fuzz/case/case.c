@@ -19,13 +19,13 @@ void case_color(struct maker *maker)
     text_add(maker->text, " 0x%08x", (uint32_t)random_u64(&maker->random));
 }
 
-static void add_clear(struct maker *maker)
+void case_clear(struct maker *maker, bool depth, bool stencil)
 {
     text_add(maker->text, "clear color");
     case_numbers(maker, 4, 0, 1);
-    if (maker->has_depth)
+    if (depth)
         text_add(maker->text, " depth %.9g", (double)random_float(&maker->random, 0.5f, 1));
-    if (maker->has_stencil)
+    if (stencil)
         text_add(maker->text, " stencil %u", random_below(&maker->random, 256));
     text_add(maker->text, "\n");
 }
@@ -99,6 +99,8 @@ static void change_something(struct maker *maker)
         case_change(maker);
     if (random_chance(&maker->random, 6))
         case_change_buffer(maker);
+    if (maker->images && random_chance(&maker->random, 3))
+        case_switch_target(maker);
     if (random_chance(&maker->random, 8))
         case_samplers(maker);
     if (random_chance(&maker->random, 8))
@@ -134,7 +136,9 @@ static void add_pass(struct maker *maker)
     case_numbers(maker, 4, 0, 1);
     text_add(maker->text, "\n");
     add_draw(maker);
-    text_add(maker->text, "attach none\n");
+    if (maker->images && random_chance(&maker->random, 2))
+        case_switch_target(maker);
+    case_detach(maker);
     case_samplers(maker);
 }
 
@@ -162,6 +166,7 @@ void case_write(struct random *random, struct text *text)
     case_target(&maker);
     case_shaders(&maker, made);
     case_textures(&maker);
+    case_images(&maker);
     text_add(text, "query q0\n");
     case_vertices(&maker);
     case_window(&maker);
@@ -173,7 +178,7 @@ void case_write(struct random *random, struct text *text)
     case_features(&maker);
     case_states(&maker, random_chance(&maker.random, 4) ? 0 : random_below(&maker.random, 24));
     add_pass(&maker);
-    add_clear(&maker);
+    case_clear(&maker, maker.has_depth, maker.has_stencil);
     if (random_chance(&maker.random, 8))
         add_clear_of_parts(&maker);
     add_draws(&maker);

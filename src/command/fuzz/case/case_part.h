@@ -6,7 +6,7 @@
 #include "command/fuzz/case/text.h"
 #include "triptych.h"
 
-enum { CASE_TEXTURES = 6, ANY_TEXTURE = TRIPTYCH_TEXTURE_TYPE_COUNT };
+enum { CASE_TEXTURES = 6, CASE_IMAGES = 5, ANY_TEXTURE = TRIPTYCH_TEXTURE_TYPE_COUNT };
 
 struct fuzz_shader;
 
@@ -18,11 +18,17 @@ struct case_texture {
     unsigned update_words; /* of the buffer that can replace a face's first level; 0: there is none */
 };
 
+struct case_image {
+    unsigned width, height, samples;
+    bool depth, stencil; /* it is not a colour; it has stencil */
+};
+
 struct maker {
     struct random random;
     struct text *text;
-    unsigned width, height; /* of the target */
-    bool has_depth, has_stencil;
+    unsigned width, height;            /* of the target */
+    bool has_depth, has_stencil;       /* what is drawn to */
+    bool target_depth, target_stencil; /* the target that is drawn to while nothing is attached */
     unsigned targets, samples;
     bool wild;   /* vertices and matrices hold anything */
     bool window; /* vertices are in pixels of the target */
@@ -32,6 +38,9 @@ struct maker {
     bool instanced;  /* which only draws with indices can be */
     struct case_texture texture[CASE_TEXTURES];
     unsigned textures;
+    struct case_image image[CASE_IMAGES];
+    unsigned images;
+    bool attached;     /* the target is one of surfaces */
     uint64_t elements; /* of vertices that a shader needs: enum stream_element, a bit each */
     const struct fuzz_shader *shader[TRIPTYCH_SHADER_STAGE_COUNT]; /* null: the fixed function */
     unsigned stages;                                               /* texture stages in use */
@@ -43,6 +52,7 @@ struct maker {
 void case_target(struct maker *);
 void case_shaders(struct maker *, struct fuzz_shader *made); /* one per stage */
 void case_textures(struct maker *);
+void case_images(struct maker *);
 void case_vertices(struct maker *);
 void case_transforms(struct maker *);
 void case_lights(struct maker *);
@@ -55,10 +65,19 @@ void case_stages(struct maker *);
 
 /* Changes between draws. case_attach returns true if draws go to a texture from here on. */
 bool case_attach(struct maker *);
+/* Draws go to other surfaces from here on, or to the target again; to the target. */
+void case_switch_target(struct maker *);
+void case_detach(struct maker *);
+/* The clear of a target with these. */
+void case_clear(struct maker *, bool depth, bool stencil);
 void case_copy(struct maker *);
 void case_change(struct maker *);
 void case_change_buffer(struct maker *);
 void case_switch_shaders(struct maker *);
+
+/* The names of a depth format, and of a random format that can be a target. */
+const char *case_depth_format(unsigned format);
+const char *case_target_format(struct maker *);
 
 /* Forms of values: " 0.25", four of them, " 0xAARRGGBB". */
 void case_number(struct maker *, float least, float most);

@@ -40,19 +40,29 @@ static void add_color_formats(struct maker *maker)
         text_add(maker->text, " %s", random_format(maker, ROLE_TARGET)->name);
 }
 
-void case_target(struct maker *maker)
+const char *case_depth_format(unsigned format)
 {
-    unsigned depth = random_below(&maker->random, TRIPTYCH_DEPTH_COUNT);
     static const char *const name[] = {
 #define DEPTH_FORMAT(name, word, storage, depth_bits, stencil_bits, meaning) #word,
 #include "def/state/depth_format.def"
 #undef DEPTH_FORMAT
     };
+    return name[format];
+}
+
+const char *case_target_format(struct maker *maker)
+{
+    return random_format(maker, ROLE_TARGET)->name;
+}
+
+void case_target(struct maker *maker)
+{
+    unsigned depth = random_below(&maker->random, TRIPTYCH_DEPTH_COUNT);
     choose_size(maker);
-    maker->has_depth = triptych_depth_bits(depth) > 0;
-    maker->has_stencil = triptych_stencil_bits(depth) > 0;
+    maker->has_depth = maker->target_depth = triptych_depth_bits(depth) > 0;
+    maker->has_stencil = maker->target_stencil = triptych_stencil_bits(depth) > 0;
     maker->samples = random_chance(&maker->random, 8) ? 2u << random_below(&maker->random, 3) : 1;
-    text_add(maker->text, "target %u %u depth %s", maker->width, maker->height, name[depth]);
+    text_add(maker->text, "target %u %u depth %s", maker->width, maker->height, case_depth_format(depth));
     if (maker->samples > 1)
         text_add(maker->text, " samples %u", maker->samples);
     add_color_formats(maker);
