@@ -53,7 +53,11 @@ int d3d9_dispatch(unsigned code, void *block)
 {
     if (code >= D3D9_CODE_COUNT)
         return D3D9_BAD_CODE;
-    pthread_mutex_lock(&lock);
+    /* At the end of a process a thread may have been ended that had the lock. */
+    if (code == D3D9_CODE_host_end && pthread_mutex_trylock(&lock))
+        return D3D9_DONE;
+    if (code != D3D9_CODE_host_end)
+        pthread_mutex_lock(&lock);
     runs[code](block);
     int result = d3d9_host_has_events() ? D3D9_EVENTS : D3D9_DONE;
     pthread_mutex_unlock(&lock);

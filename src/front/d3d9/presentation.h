@@ -20,6 +20,7 @@ struct d3d9_presentation {
     bool lost;                       /* lost until the window is active again */
     bool not_reset;                  /* a Reset is necessary, or has failed */
     struct d3d9_gamma_ramp gamma;
+    struct d3d9_device *next; /* of all devices of the process */
 };
 
 /* Drops what the presentation holds, when the device is destroyed. */

@@ -67,8 +67,9 @@ void WINAPI DebugSetMute(void)
 
 BOOL WINAPI DllMain(HINSTANCE instance, DWORD reason, void *reserved)
 {
-    (void)reserved;
     if (reason == DLL_PROCESS_ATTACH)
         DisableThreadLibraryCalls(instance);
+    if (reason == DLL_PROCESS_DETACH && reserved && bridge_has_started())
+        d3d9_host_end();
     return TRUE;
 }

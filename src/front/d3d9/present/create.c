@@ -8,6 +8,27 @@
 
 enum { DEVICE_HARDWARE = 1 };
 
+static struct d3d9_device *devices; /* of the process, the newest first */
+
+static void unlink_device(struct d3d9_device *device)
+{
+    struct d3d9_device **link = &devices;
+    while (*link && *link != device)
+        link = &(*link)->presentation.next;
+    if (*link)
+        *link = device->presentation.next;
+}
+
+int32_t d3d9_host_end(void)
+{
+    for (struct d3d9_device *device = devices; device; device = device->presentation.next) {
+        d3d9_statistics_end(&device->statistics, device->renderer);
+        if (device->renderer)
+            triptych_record_stop(device->renderer);
+    }
+    return D3D9_OK;
+}
+
 void d3d9_presentation_end(struct d3d9_device *device)
 {
     struct d3d9_presentation *state = &device->presentation;
@@ -25,6 +46,7 @@ static void drop_targets(struct d3d9_device *device)
 static void destroy(struct d3d9_object *object)
 {
     struct d3d9_device *device = (struct d3d9_device *)object;
+    unlink_device(device);
     if (device->state)
         drop_targets(device);
     if (device->state)
@@ -144,6 +166,8 @@ int32_t d3d9_factory_create_device(struct d3d9_factory *factory, uint32_t adapte
     struct d3d9_device *device = d3d9_object_make(sizeof *device, interface, &factory->object, destroy);
     if (!device)
         return D3D9_OUT_OF_MEMORY;
+    device->presentation.next = devices;
+    devices = device;
     device->extended = factory->extended;
     device->creation = (struct d3d9_creation_parameters){
         adapter,

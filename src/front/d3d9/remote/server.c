@@ -66,5 +66,6 @@ int d3d9_serve(int descriptor, uint32_t address, int parent)
     d3d9_arena_create(&arena, (uint8_t *)channel + channel->arena, channel->bytes - channel->arena);
     d3d9_memory_set_host(&host);
     serve(channel, parent);
+    d3d9_host_end();
     return 0;
 }

@@ -6,6 +6,7 @@
 #include <unknwn.h>
 
 static INIT_ONCE once = INIT_ONCE_STATIC_INIT;
+static int started;
 
 static void execute(const struct d3d9_host_event *event)
 {
@@ -41,10 +42,16 @@ static BOOL CALLBACK start(INIT_ONCE *self, void *context, void **data)
     if (!transport_start())
         return FALSE;
     then();
+    started = 1;
     return TRUE;
 }
 
 int bridge_start(void (*then)(void))
 {
     return InitOnceExecuteOnce(&once, start, (void *)then, NULL);
+}
+
+int bridge_has_started(void)
+{
+    return started;
 }

@@ -9,6 +9,9 @@
 /* Connects to the Unix library, and executes `then` the first time. Returns 0 if the library is missing. */
 int bridge_start(void (*then)(void));
 
+/* Returns nonzero after a successful bridge_start. */
+int bridge_has_started(void);
+
 /* Executes the call of this code, then the events that it left. */
 void bridge_call(unsigned code, void *block);
 
