@@ -19,9 +19,10 @@ void derive_fog(const struct state *state, struct pixel_key *key)
         return;
     const struct program *vertex = derive_vertex_program(state);
     key->fog = derive_table_fog(GET(state, fogtablemode));
+    /* A vertex shader without fog gives the factor 0, which is linear fog without a table's formula. */
     if (key->fog == FOG_VARYING && vertex && !derive_shader_gives(vertex, USAGE_FOG))
-        key->fog = FOG_NONE;
-    if (key->fog == FOG_VARYING)
+        key->fog = FOG_LINEAR_Z;
+    else if (key->fog == FOG_VARYING)
         key->varying[VARYING_fog] = INTERPOLATION_SMOOTH;
     else if (fog_by_w(state))
         key->fog += FOG_LINEAR_W - FOG_LINEAR_Z;
