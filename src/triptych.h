@@ -263,6 +263,16 @@ struct triptych_clear_values {
     int everywhere;        /* nonzero: the viewport does not limit the clear */
 };
 
+/* A vertex after transformation and lighting or the vertex shader, before clipping. */
+struct triptych_processed_vertex {
+    float position[4];    /* x and y of the window in pixels, depth, 1/w: as `positiont` has them */
+    float clip[4];        /* clip coordinates: z from 0 to w; of vertices that are in the window, the same */
+    float color[2][4];    /* diffuse and specular */
+    float texcoord[8][4]; /* of the stages: generated and transformed; u, v, third coordinate, divisor */
+    float point_size;     /* pixels */
+    float fog;            /* the weight of the colour against the fog, from 0 to 1; 1 without fog by vertex */
+};
+
 enum triptych_copy_filter { TRIPTYCH_COPY_POINT, TRIPTYCH_COPY_LINEAR, TRIPTYCH_COPY_COUNT };
 
 /* One element of a vertex declaration. */
@@ -633,6 +643,12 @@ TRIPTYCH_API enum triptych_result triptych_draw_indexed_user(triptych_device *, 
                                                              uint32_t count, const void *indices,
                                                              unsigned bits, uint32_t vertex_count,
                                                              const void *vertices, size_t stride);
+
+/* Runs the vertex routine of the current state, fixed function or shader, for vertices `first` to first + count
+ * - 1 of the streams, and returns its outputs. Outputs that it does not compute are 0 0 0 1. Draws nothing. A
+ * texture's fourth coordinate is the divisor: after a matrix of three columns it is the third. */
+TRIPTYCH_API enum triptych_result triptych_process_vertices(triptych_device *, uint32_t first, uint32_t count,
+                                                            struct triptych_processed_vertex *out);
 
 /* Clears the pixels of the viewport, inside the scissor rectangle if its test is on. A null color and a
  * negative depth are not cleared. Depth is 0 to 1. */

@@ -55,6 +55,15 @@ enum triptych_result triptych_draw_indexed_user(triptych_device *device, enum tr
     return api_finish(device, result);
 }
 
+enum triptych_result triptych_process_vertices(triptych_device *device, uint32_t first, uint32_t count,
+                                               struct triptych_processed_vertex *out)
+{
+    struct error *error = api_begin_with(device, out || !count, "vertices");
+    if (!error)
+        return TRIPTYCH_BAD_ARGUMENT;
+    return api_finish(device, device_process_vertices(device, first, count, out, error));
+}
+
 static enum triptych_result clear(triptych_device *device, struct error *error,
                                   struct triptych_clear_values values,
                                   const struct triptych_rectangle *rectangles, unsigned count)

@@ -339,7 +339,14 @@ enum triptych_result device_prepare_draw(struct triptych_device *device, enum tr
                                          struct error *error);
 /* Checks that it is without instances. */
 enum triptych_result device_check_no_instances(const struct triptych_device *device, struct error *error);
-/* Checks that the buffers that it reads have vertices up to `last`. */
+/* Fails if there is no target, no position, or constants that shaders must not run with. */
+enum triptych_result device_check_vertex_input(struct triptych_device *device, struct error *error);
+/* What is read next is stream 0, not immediate vertices. */
+void device_use_streams(struct triptych_device *device);
+/* Checks that the elements that a vertex routine reads have vertices up to `last`. */
+enum triptych_result device_check_elements(const struct state *state, const struct vertex_key *key,
+                                           uint64_t last, struct error *error);
+/* The same for the routine of the draw. */
 enum triptych_result device_check_vertices(const struct triptych_device *device, uint64_t last,
                                            struct error *error);
 /* Queues a checked draw, if it has an effect, and counts it. */
@@ -377,6 +384,10 @@ struct user_draw {
 };
 enum triptych_result device_draw_user(struct triptych_device *device, const struct user_draw *draw,
                                       struct error *error);
+
+/* Runs the vertex routine (render/device/process.c). */
+enum triptych_result device_process_vertices(struct triptych_device *device, uint32_t first, uint32_t count,
+                                             struct triptych_processed_vertex *out, struct error *error);
 
 /* Records a clear of rectangles, or with count 0 of everything. */
 enum triptych_result device_clear(struct triptych_device *device, const struct triptych_clear_values *values,

@@ -55,11 +55,15 @@ static enum triptych_result check_element(const struct state *state, const struc
 enum triptych_result device_check_vertices(const struct triptych_device *device, uint64_t last,
                                            struct error *error)
 {
-    const struct state *state = &device->state;
-    const struct vertex_key *key = &device->derived.key[UNIT_VERTEX].vertex;
-    enum triptych_result result = TRIPTYCH_OK;
     if (last < device->derived.vertices)
-        return result;
+        return TRIPTYCH_OK;
+    return device_check_elements(&device->state, &device->derived.key[UNIT_VERTEX].vertex, last, error);
+}
+
+enum triptych_result device_check_elements(const struct state *state, const struct vertex_key *key,
+                                           uint64_t last, struct error *error)
+{
+    enum triptych_result result = TRIPTYCH_OK;
     for (int i = 0; i < ATTRIBUTE_COUNT && result == TRIPTYCH_OK; i++)
         if (key->attribute[i] != ATTRIBUTE_FORMAT_NONE)
             result = check_element(state, state->element + i, state_attribute_name[i], last, error);
@@ -74,14 +78,8 @@ enum triptych_result device_check_vertices(const struct triptych_device *device,
     return result;
 }
 
-static enum triptych_result check_draw(struct triptych_device *device, enum triptych_primitive primitive,
-                                       struct error *error)
+enum triptych_result device_check_vertex_input(struct triptych_device *device, struct error *error)
 {
-    if ((unsigned)primitive >= TRIPTYCH_PRIMITIVE_COUNT) {
-        error_set(error, "primitive %u: expected one of Triptych's, 0 to %d", (unsigned)primitive,
-                  TRIPTYCH_PRIMITIVE_COUNT - 1);
-        return TRIPTYCH_BAD_ARGUMENT;
-    }
     enum triptych_result result = device_has_target(device, error);
     if (result == TRIPTYCH_OK && !device->state.program[STAGE_VERTEX] &&
         !device->state.element[ATTRIBUTE_POSITION].format &&
@@ -90,6 +88,17 @@ static enum triptych_result check_draw(struct triptych_device *device, enum trip
         return TRIPTYCH_BAD_CALL;
     }
     return result == TRIPTYCH_OK ? device_check_integers(device, error) : result;
+}
+
+static enum triptych_result check_draw(struct triptych_device *device, enum triptych_primitive primitive,
+                                       struct error *error)
+{
+    if ((unsigned)primitive >= TRIPTYCH_PRIMITIVE_COUNT) {
+        error_set(error, "primitive %u: expected one of Triptych's, 0 to %d", (unsigned)primitive,
+                  TRIPTYCH_PRIMITIVE_COUNT - 1);
+        return TRIPTYCH_BAD_ARGUMENT;
+    }
+    return device_check_vertex_input(device, error);
 }
 
 enum triptych_result device_prepare_draw(struct triptych_device *device, enum triptych_primitive primitive,
@@ -185,8 +194,7 @@ enum triptych_result device_count_draw(struct triptych_device *device, const str
     return TRIPTYCH_OK;
 }
 
-/* The draw reads stream 0, not immediate vertices. */
-static void use_streams(struct triptych_device *device)
+void device_use_streams(struct triptych_device *device)
 {
     if (!device->state.immediate)
         return;
@@ -198,7 +206,7 @@ enum triptych_result device_draw(struct triptych_device *device, enum triptych_p
                                  uint32_t first, uint32_t count, struct error *error)
 {
     struct drawn drawn = {.primitive = primitive, .count = count, .base = first};
-    use_streams(device);
+    device_use_streams(device);
     enum triptych_result result = device_prepare_draw(device, primitive, error);
     if (result == TRIPTYCH_OK)
         result = device_check_no_instances(device, error);
@@ -213,7 +221,7 @@ enum triptych_result device_draw_indexed(struct triptych_device *device, enum tr
                                          int32_t base, uint32_t first, uint32_t count, struct error *error)
 {
     struct drawn drawn = {.primitive = primitive, .count = count, .base = (uint32_t)base};
-    use_streams(device);
+    device_use_streams(device);
     enum triptych_result result = device_prepare_draw(device, primitive, error);
     if (result == TRIPTYCH_OK && !device->state.indices) {
         error_set(error, "no indices: expected set_indices first");
