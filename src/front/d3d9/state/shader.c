@@ -23,22 +23,33 @@ static uint32_t software_version(uint32_t version)
     return major == 2 || major == 3 ? (version & ~UINT32_C(0xff)) | SOFTWARE_MINOR : 0;
 }
 
+/* The program gets its own tokens back, so that the renderer's are a copy. */
+static enum triptych_result pass_on(struct d3d9_shader *shader, uint32_t version)
+{
+    uint32_t *code = malloc(shader->bytes);
+    if (!code)
+        return TRIPTYCH_NO_MEMORY;
+    memcpy(code, shader->code, shader->bytes);
+    code[0] = version;
+    d3d9_state_tolerate(code, shader->bytes / sizeof *code);
+    enum triptych_result result =
+        triptych_shader_create(shader->device->renderer, NULL, code, shader->bytes, &shader->shader);
+    free(code);
+    return result;
+}
+
 /* A vertex shader that exceeds its model is one for software vertex processing. */
 static int32_t compile(struct d3d9_shader *shader)
 {
-    triptych_device *renderer = shader->device->renderer;
     bool vertex = shader->object.interface == D3D9_INTERFACE_VERTEX_SHADER;
     bool software_device = shader->device->vertex_floats > D3D9_VERTEX_FLOATS;
     uint32_t version = shader->code[0];
     shader->software = vertex && (version & 0xff) == SOFTWARE_MINOR;
     if (shader->software && !software_device)
         return D3D9_INVALID_CALL;
-    enum triptych_result result =
-        triptych_shader_create(renderer, NULL, shader->code, shader->bytes, &shader->shader);
+    enum triptych_result result = pass_on(shader, version);
     if (result == TRIPTYCH_BAD_ARGUMENT && vertex && software_device && software_version(version)) {
-        shader->code[0] = software_version(version);
-        result = triptych_shader_create(renderer, NULL, shader->code, shader->bytes, &shader->shader);
-        shader->code[0] = version;
+        result = pass_on(shader, software_version(version));
         shader->software = true;
     }
     if (result == TRIPTYCH_OK)
