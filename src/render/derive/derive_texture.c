@@ -109,14 +109,27 @@ static bool same_coordinates(const struct state *state, int a, int b)
            flags == STAGE(state, b, texturetransformflags) && !(flags & TEXTURETRANSFORM_COUNT_MASK);
 }
 
-/* The last of three or four coordinates divides the others (Direct3D 9, D3DTTFF_PROJECTED); without a count
- * it is the fourth, and with one or two coordinates nothing is left to be divided. */
+/* Returns true if the coordinates of a stage are the three numbers of an attribute. */
+static bool has_three(const struct state *state, int stage)
+{
+    uint32_t index = STAGE(state, stage, texcoordindex);
+    return index < TEXCOORD_SETS &&
+           state->element[ATTRIBUTE_TEXCOORD + index].format == TRIPTYCH_FORMAT_FLOAT3;
+}
+
+/* The last of three or four coordinates divides the others (Direct3D 9, D3DTTFF_PROJECTED); without a count it
+ * is the last that vertices have, after a vertex shader always the fourth. With one or two coordinates nothing
+ * is left to be divided. */
 uint8_t derive_projection(const struct state *state, int stage)
 {
     uint32_t flags = STAGE(state, stage, texturetransformflags), count = flags & TEXTURETRANSFORM_COUNT_MASK;
-    if (!(flags & TEXTURETRANSFORM_disable_projected) || (count && count < 3))
+    if (!(flags & TEXTURETRANSFORM_disable_projected))
         return PROJECTED_NONE;
-    return count == 3 ? PROJECTED_THIRD : PROJECTED_FOURTH;
+    if (derive_vertex_program(state))
+        return PROJECTED_FOURTH;
+    if (count && count < 3)
+        return PROJECTED_NONE;
+    return count == 3 || (!count && has_three(state, stage)) ? PROJECTED_THIRD : PROJECTED_FOURTH;
 }
 
 /* Stages with the same coordinates share a channel; channels are numbered in the order of their first stages.

@@ -94,7 +94,7 @@ static void draw_quad(const char *text, struct quad *quad)
         }
         element[t] = drawn_constant(TRIPTYCH_USAGE_TEXCOORD, t, v[0], v[1], v[2], v[3]);
         set_stage(t, TRIPTYCH_STAGE_TEXTURETRANSFORMFLAGS, flags[flag]);
-        quad->projected[t] = flag == 1 ? PROJECTED_THIRD : flag ? PROJECTED_FOURTH : PROJECTED_NONE;
+        quad->projected[t] = flag ? PROJECTED_FOURTH : PROJECTED_NONE;
     }
     for (int c = 0; c < 4; c++)
         quad->constant[1][c] = (float)dyadic(-1, 1);

@@ -38,6 +38,14 @@ static bool works(const struct triptych_kind *kind, uint32_t value)
     return row && row->support == TRIPTYCH_SUPPORT_YES;
 }
 
+/* One coordinate is transformed as two are. A count that does not exist is none. */
+static uint32_t sanitize_transform(uint32_t value)
+{
+    enum { PROJECTED = 0x100, COUNT = 0xff };
+    uint32_t count = value & COUNT;
+    return (value & PROJECTED) | (count > 4 ? 0 : count == 1 ? 2 : count);
+}
+
 /* A word by its number, for a number that does not exist or is not supported. */
 static uint32_t sanitize_word(enum triptych_state_table table, unsigned row, unsigned i, uint32_t value)
 {
@@ -69,5 +77,7 @@ uint32_t d3d9_state_sanitize(enum triptych_state_table table, unsigned row, unsi
     case TRIPTYCH_NOTATION_HEXADECIMAL: return sanitize_number(state->kind, value);
     case TRIPTYCH_NOTATION_WORDS: break;
     }
+    if (table == TRIPTYCH_STAGE_STATES && row == TRIPTYCH_STAGE_TEXTURETRANSFORMFLAGS)
+        return sanitize_transform(value);
     return works(state->kind, value) ? value : sanitize_word(table, row, i, value);
 }
