@@ -50,7 +50,7 @@ static int32_t check_texture(const struct d3d9_format *format, uint32_t usage, u
         return D3D9_NOT_AVAILABLE;
     if (drawn && volume)
         return D3D9_NOT_AVAILABLE;
-    if (volume && d3d9_format_is_depth(format))
+    if (type != D3D9_TYPE_TEXTURE && d3d9_format_is_depth(format))
         return D3D9_NOT_AVAILABLE;
     if (usage & D3D9_USAGE_RENDER_TARGET && format->drawn != D3D9_DRAWN_COLOR)
         return D3D9_NOT_AVAILABLE;

@@ -38,9 +38,17 @@ enum { DEPTH_FORMAT_NOT_DRAWN = TRIPTYCH_DEPTH_NONE };
 #define ATI1          0
 #define ATI2          0
 
+/* Formats that share colours between two texels have blocks of 2 x 1 texels. The renderer has none of them. */
+#define ACROSS(number, side)                                                                                 \
+    ((number) == TRIPTYCH_SURFACE_UYVY || (number) == TRIPTYCH_SURFACE_YUY2 ||                               \
+             (number) == TRIPTYCH_SURFACE_R8G8_B8G8 || (number) == TRIPTYCH_SURFACE_G8R8_G8B8                \
+         ? 2                                                                                                 \
+         : (side))
+
 /* `drawn` expands to three values. */
 #define FORMAT(name, number, bytes, side, storage, sampled, drawn, coding, red, green, blue, alpha)          \
-    {#name, number, bytes, side, sampled, storage, coding, drawn, {red, green, blue, alpha}},
+    {#name,   number,  bytes,  side,  ACROSS(number, side),                                                  \
+     sampled, storage, coding, drawn, {red, green, blue, alpha}},
 
 static const struct d3d9_format formats[] = {
 #include "def/state/format.def"
@@ -76,7 +84,7 @@ bool d3d9_format_is_depth(const struct d3d9_format *format)
 
 uint32_t d3d9_format_row_bytes(const struct d3d9_format *format, uint32_t width)
 {
-    return (width + format->side - 1) / format->side * format->bytes;
+    return (width + format->across - 1) / format->across * format->bytes;
 }
 
 uint32_t d3d9_format_rows(const struct d3d9_format *format, uint32_t height)

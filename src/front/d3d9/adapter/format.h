@@ -29,8 +29,9 @@ struct d3d9_channel {
 struct d3d9_format {
     const char *name;
     uint32_t number;
-    uint8_t bytes; /* of a block */
-    uint8_t side;  /* of a block, in texels: 1 or 4 */
+    uint8_t bytes;  /* of a block */
+    uint8_t side;   /* height of a block, in texels: 1 or 4 */
+    uint8_t across; /* width of a block, in texels: 1, 2 or 4 */
     bool sampled;
     bool floats; /* more than 8 bits a channel, signed or floating point */
     bool packed; /* the channels define the texel */

@@ -10,7 +10,7 @@ enum { USAGE_OF_FORMAT = D3D9_USAGE_RENDER_TARGET | D3D9_USAGE_DEPTH_STENCIL | D
 static bool blocks_fit(const struct d3d9_format *format, uint32_t width, uint32_t height)
 {
     bool ati = format->number == TRIPTYCH_SURFACE_ATI1 || format->number == TRIPTYCH_SURFACE_ATI2;
-    return ati || (width % format->side == 0 && height % format->side == 0);
+    return ati || format->across < 4 || (width % format->across == 0 && height % format->side == 0);
 }
 
 static int32_t check_shared(const struct d3d9_device *device, enum d3d9_pool pool, bool user_memory_allowed)
@@ -131,7 +131,7 @@ static int32_t check_surface(const struct d3d9_surface_creation *c)
     if (!blocks_fit(format, c->width, c->height))
         return D3D9_INVALID_CALL;
     if (c->pool == D3D9_POOL_SCRATCH)
-        return D3D9_OK;
+        return d3d9_format_is_depth(format) ? D3D9_INVALID_CALL : D3D9_OK;
     return d3d9_check_format(drawn, D3D9_TYPE_SURFACE, c->format) < 0 ? D3D9_INVALID_CALL : D3D9_OK;
 }
 

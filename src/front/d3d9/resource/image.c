@@ -22,6 +22,8 @@ void d3d9_image_begin(struct d3d9_image *image, struct d3d9_device *device, cons
     image->pitch = image->row_bytes;
     if (has_texel_pitch(format)) {
         uint32_t row = (image->slice_bytes + height - 1) / height;
+        if (row < width)
+            row = width;
         image->pitch = (row + ALIGNMENT - 1) / ALIGNMENT * ALIGNMENT;
         image->slice_bytes = image->pitch * height;
     }
@@ -55,7 +57,7 @@ uint8_t *d3d9_image_at(const struct d3d9_image *image, uint32_t x, uint32_t y, u
 {
     const struct d3d9_format *format = image->format;
     return image->memory + (size_t)z * image->slice_bytes + (size_t)(y / format->side) * image->row_bytes +
-           (size_t)(x / format->side) * format->bytes;
+           (size_t)(x / format->across) * format->bytes;
 }
 
 static bool part_fits(uint32_t first, uint32_t end, uint32_t size, uint32_t side)
@@ -66,7 +68,7 @@ static bool part_fits(uint32_t first, uint32_t end, uint32_t size, uint32_t side
 bool d3d9_image_box_fits(const struct d3d9_image *image, const struct d3d9_box *box)
 {
     uint32_t side = image->format->side;
-    return part_fits(box->left, box->right, image->width, side) &&
+    return part_fits(box->left, box->right, image->width, image->format->across) &&
            part_fits(box->top, box->bottom, image->height, side) &&
            part_fits(box->front, box->back, image->depth, 1);
 }
@@ -77,17 +79,21 @@ static struct triptych_box inside(const struct d3d9_image *image, const struct d
 {
     struct triptych_box whole = d3d9_image_box(image);
     int64_t left = (int32_t)box->left, top = (int32_t)box->top, right = (int32_t)box->right;
-    int64_t bottom = (int32_t)box->bottom, side = image->format->side;
+    int64_t bottom = (int32_t)box->bottom, side = image->format->side, across = image->format->across;
     if (left < 0 || top < 0 || right > image->width || bottom > image->height || left >= right ||
-        top >= bottom || left % side || top % side)
+        top >= bottom || left % across || top % side)
         return whole;
     return (struct triptych_box){left, top, box->front, right - left, bottom - top, box->back - box->front};
 }
 
-/* The first texel of a rectangle, which may be outside of the image. */
+/* The first texel of a rectangle, which may be outside of the image. Direct3D computes it as if ATI1 and ATI2
+ * had a byte for each texel. */
 static uint8_t *first_texel(const struct d3d9_image *image, const struct d3d9_box *box)
 {
-    int64_t side = image->format->side, x = (int32_t)box->left / side, y = (int32_t)box->top / side;
+    int64_t x = (int32_t)box->left / image->format->across, y = (int32_t)box->top / image->format->side;
+    if (has_texel_pitch(image->format))
+        return image->memory + (int64_t)box->front * image->slice_bytes +
+               (int64_t)(int32_t)box->top * image->pitch + (int32_t)box->left;
     return image->memory + (int64_t)box->front * image->slice_bytes + y * image->row_bytes +
            x * image->format->bytes;
 }
@@ -204,7 +210,7 @@ void d3d9_image_add_dirty(struct d3d9_image *image, const struct triptych_box *w
     if (!clip(&box.x, &box.width, image->width) || !clip(&box.y, &box.height, image->height) ||
         !clip(&box.z, &box.depth, image->depth))
         return;
-    align(&box.x, &box.width, image->width, side);
+    align(&box.x, &box.width, image->width, image->format->across);
     align(&box.y, &box.height, image->height, side);
     if (!dirty->width) {
         *dirty = box;
