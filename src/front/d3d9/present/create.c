@@ -135,12 +135,12 @@ static bool flags_are_valid(uint32_t flags)
     return one && !(flags & D3D9_CREATE_PURE_DEVICE && vertices != D3D9_CREATE_HARDWARE_VERTICES);
 }
 
-/* The window of a swap chain without one is the focus window. */
-static int32_t choose_window(struct d3d9_present_parameters *p, uint64_t focus)
+/* The window of a swap chain without one is the focus window. An extended device needs none. */
+static int32_t choose_window(struct d3d9_present_parameters *p, uint64_t focus, bool extended)
 {
     if (!p->device_window)
         p->device_window = focus;
-    return p->device_window ? D3D9_OK : D3D9_INVALID_CALL;
+    return p->device_window || extended ? D3D9_OK : D3D9_INVALID_CALL;
 }
 
 int32_t d3d9_factory_create_device(struct d3d9_factory *factory, uint32_t adapter, uint32_t type,
@@ -160,7 +160,7 @@ int32_t d3d9_factory_create_device(struct d3d9_factory *factory, uint32_t adapte
     int32_t result = d3d9_parameters_complete(parameters, adapter, window, factory->extended);
     struct d3d9_present_parameters complete = *parameters;
     if (result >= 0)
-        result = choose_window(&complete, focus);
+        result = choose_window(&complete, focus, factory->extended);
     if (result < 0)
         return result;
     struct d3d9_device *device = d3d9_object_make(sizeof *device, interface, &factory->object, destroy);
@@ -239,7 +239,7 @@ int32_t d3d9_device_reset(struct d3d9_device *device, struct d3d9_present_parame
     int32_t result = d3d9_parameters_complete(parameters, device->creation.adapter, window, device->extended);
     struct d3d9_present_parameters complete = *parameters;
     if (result >= 0)
-        result = choose_window(&complete, device->creation.focus_window);
+        result = choose_window(&complete, device->creation.focus_window, device->extended);
     if (result >= 0)
         result = renew(device, &complete);
     return result < 0 ? refuse(device, result) : D3D9_OK;
