@@ -478,7 +478,8 @@ test:
 # Programs that run under ThreadSanitizer, besides tests/threads.sh: those that test threads or data that
 # threads share.
 threaded = $(patsubst %.c,$(BUILD)/thread/%,$(call only,$(call tests,machine/code render/device/background \
-  render/device/buffer render/device/cache render/device/shuffle render/queue/pool command/stream/threads)))
+  render/device/buffer render/device/texture render/device/cache render/device/shuffle render/queue/pool \
+  command/stream/threads)))
 
 # Uses pages of the command explore in a headless Chromium. PICTURES=folder takes the pictures of
 # docs/explorer.md instead.

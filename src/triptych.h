@@ -510,7 +510,8 @@ triptych_texture_define(triptych_device *, const struct triptych_texture_descrip
 /* Copies texels in the format of the texture to a part of a level; null: the whole level. `face` is 0 except
  * for cubes. For compressed formats the part starts at multiples of 4 texels, and ends at multiples of 4 or
  * at the end of the level. Rows of texels or blocks are `row_pitch` bytes apart, slices of a volume
- * `slice_pitch` bytes. Earlier draws read the old texels, so they may have to be rendered first. */
+ * `slice_pitch` bytes. Earlier draws read the old texels. The call waits for them only if they draw to the
+ * texture, or if it has more than 64 MiB. */
 TRIPTYCH_API enum triptych_result triptych_texture_update(triptych_device *, triptych_texture *texture,
                                                           unsigned face, unsigned level,
                                                           const struct triptych_box *box, const void *data,
@@ -528,7 +529,7 @@ TRIPTYCH_API enum triptych_result triptych_texture_read(triptych_device *, tript
  * covers. Formats with more than 8 bits per channel are averaged in binary32. */
 TRIPTYCH_API enum triptych_result triptych_texture_generate_mips(triptych_device *,
                                                                  triptych_texture *texture);
-/* Frees a texture. Pending draws are rendered first. Samplers with this texture become unbound. If it is a
+/* Frees a texture. Earlier draws still read it. Samplers with this texture become unbound. If it is a
  * target, drawing returns to the target that triptych_set_target made. Null is allowed. */
 TRIPTYCH_API enum triptych_result triptych_texture_destroy(triptych_device *, triptych_texture *);
 

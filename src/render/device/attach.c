@@ -65,11 +65,13 @@ static void transfer(struct triptych_device *device, const struct triptych_surfa
     command->transfer = made;
     device->queue->commands.count++;
     surface->texture->epoch = device->epoch;
+    if (store)
+        surface->texture->written = device->epoch;
     release_later(device, released);
 }
 
 /* Stores the texture's surfaces whose tiles are newer than the texels. */
-static void store(struct triptych_device *device, struct triptych_texture *texture)
+void device_store_surfaces(struct triptych_device *device, struct triptych_texture *texture)
 {
     for (struct drawn_surface *drawn = texture->drawn; drawn; drawn = drawn->next)
         if (drawn->attachment->tiles_newer) {
@@ -80,7 +82,7 @@ static void store(struct triptych_device *device, struct triptych_texture *textu
 
 void device_store_texture(struct triptych_device *device, struct triptych_texture *texture)
 {
-    store(device, texture);
+    device_store_surfaces(device, texture);
     if (device_uses(device, texture))
         device_finish(device);
 }
@@ -123,7 +125,7 @@ void device_prepare_textures(struct triptych_device *device)
 {
     for (int i = 0; i < SAMPLERS && device->binding.newer; i++)
         if (device_derived_samples(&device->derived, i))
-            store(device, device->state.texture[i]);
+            device_store_surfaces(device, device->state.texture[i]);
 }
 
 /* --- The target --- */

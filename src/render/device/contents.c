@@ -55,7 +55,7 @@ enum triptych_result device_write_texels(struct triptych_device *device, struct 
         error_set(error, "texels of %zu bytes: expected %zu", bytes, texture_texel_bytes(texture));
         return TRIPTYCH_BAD_ARGUMENT;
     }
-    device_store_texture(device, texture);
+    device_change_texture(device, texture, (struct texture_span){0, texture_storage_bytes(texture)});
     texture_write_texels(texture, data);
     device_load_texture(device, texture);
     return TRIPTYCH_OK;

@@ -1,5 +1,5 @@
-/* Destruction of buffers, textures, images and queries, which are unbound. The storage of a buffer that queued draws
- * may read is retired (render/device/storage.c); for a texture they are rendered first. */
+/* Destruction of buffers, textures, images and queries, which are unbound. What queued draws may read is retired
+ * (render/device/storage.c). */
 #include "render/device/device.h"
 
 #include <stdlib.h>
@@ -104,16 +104,19 @@ enum triptych_result device_texture_destroy(struct triptych_device *device, stru
         return not_ours(error, "texture");
     if (device_draws_to(device, texture) && device_set_target_surfaces(device, NULL, error) != TRIPTYCH_OK)
         return TRIPTYCH_NO_MEMORY;
-    device_finish(device);
     for (struct drawn_surface *drawn = texture->drawn; drawn; drawn = drawn->next)
         device->binding.newer -= drawn->attachment->tiles_newer;
     surface_free_attachments(texture);
     for (unsigned i = 0; i < TRIPTYCH_SAMPLERS; i++)
-        if (device->state.texture[i] == texture)
+        if (device->state.texture[i] == texture) {
             device->state.texture[i] = NULL;
-    device_state_changed(device, PARTS_ALL);
+            device_state_changed(device, PARTS_ALL);
+        }
     *at = texture->next;
-    texture_destroy(texture);
+    free(texture->blocks); /* which draws do not read */
+    device_retire(device, texture->texels, texture->epoch);
+    device_retire(device, texture, texture->epoch);
+    device_limit_retired(device);
     return TRIPTYCH_OK;
 }
 

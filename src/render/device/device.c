@@ -196,7 +196,7 @@ enum triptych_result device_texture_create(struct triptych_device *device,
     enum triptych_result result = texture_create(description, texture, error);
     if (result != TRIPTYCH_OK)
         return result;
-    (*texture)->epoch = UINT64_MAX;
+    (*texture)->epoch = (*texture)->written = UINT64_MAX;
     (*texture)->next = device->resources.textures;
     device->resources.textures = *texture;
     return TRIPTYCH_OK;
@@ -211,7 +211,10 @@ enum triptych_result device_texture_update(struct triptych_device *device, struc
         texture_check_update(texture, face, level, box, row_pitch, slice_pitch, error);
     if (result != TRIPTYCH_OK)
         return result;
-    device_store_texture(device, texture);
+    struct texture_span span = texture_level_span(texture, face, level);
+    if (box)
+        span.begin = span.end;
+    device_change_texture(device, texture, span);
     texture_update(texture, face, level, box, data, row_pitch, slice_pitch);
     device_load_texture(device, texture);
     return TRIPTYCH_OK;
@@ -233,7 +236,7 @@ enum triptych_result device_texture_read(struct triptych_device *device, struct 
 
 void device_texture_generate_mips(struct triptych_device *device, struct triptych_texture *texture)
 {
-    device_store_texture(device, texture);
+    device_change_texture(device, texture, texture_mip_span(texture));
     texture_generate_mips(texture);
     device_load_texture(device, texture);
 }

@@ -1,10 +1,11 @@
 #include "render/texture/texture.h"
 
+#include "memory/extent.h"
+
 #include <inttypes.h>
 #include <stdlib.h>
 #include <string.h>
 
-enum { TEXTURE_ALIGNMENT = 64 };
 #define STORAGE_MAXIMUM ((uint64_t)1 << 32)
 
 static const char *const type_name[TRIPTYCH_TEXTURE_TYPE_COUNT] = {"2d", "cube", "volume"};
@@ -109,10 +110,9 @@ static enum triptych_result allocate(struct triptych_texture *texture, struct er
     size_t bytes = texture_storage_bytes(texture);
     size_t margin = TEXTURE_MARGIN_ROWS * (size_t)texture->level[0].pitch + TEXTURE_MARGIN_TEXELS;
     size_t room = bytes + margin * format_texel_bytes(texture->format);
-    size_t rounded = (room + TEXTURE_ALIGNMENT - 1) & ~(size_t)(TEXTURE_ALIGNMENT - 1);
-    texture->texels = aligned_alloc(TEXTURE_ALIGNMENT, rounded);
+    texture->texels = extent_allocate(room);
     if (!texture->texels || texture_blocks_create(texture)) {
-        free(texture->texels);
+        extent_free(texture->texels);
         error_set(error, "out of memory for a texture of %u x %u texels", texture->width, texture->height);
         return TRIPTYCH_NO_MEMORY;
     }
@@ -150,7 +150,7 @@ enum triptych_result texture_create(const struct triptych_texture_description *d
                                     struct triptych_texture **texture, struct error *error)
 {
     *texture = NULL;
-    struct triptych_texture *made = malloc(sizeof *made);
+    struct triptych_texture *made = extent_allocate(sizeof *made);
     if (!made) {
         error_set(error, "out of memory for a texture");
         return TRIPTYCH_NO_MEMORY;
@@ -161,15 +161,42 @@ enum triptych_result texture_create(const struct triptych_texture_description *d
     if (result == TRIPTYCH_OK)
         *texture = made;
     else
-        free(made);
+        extent_free(made);
     return result;
 }
 
 void texture_destroy(struct triptych_texture *texture)
 {
-    free(texture->texels);
+    extent_free(texture->texels);
     free(texture->blocks);
-    free(texture);
+    extent_free(texture);
+}
+
+/* --- Moving --- */
+
+struct texture_span texture_level_span(const struct triptych_texture *texture, unsigned face, unsigned level)
+{
+    const struct texture_level *l = &texture->level[level];
+    size_t size = format_texel_bytes(texture->format);
+    size_t begin = ((size_t)face * texture->face_texels + (size_t)l->offset) * size;
+    return (struct texture_span){begin, begin + (size_t)l->slice_texels * (size_t)l->depth * size};
+}
+
+struct texture_span texture_mip_span(const struct triptych_texture *texture)
+{
+    size_t end = texture_storage_bytes(texture);
+    bool any = texture->faces == 1 && texture->levels > 1;
+    return (struct texture_span){any ? texture_level_span(texture, 0, 1).begin : end, end};
+}
+
+void *texture_move(struct triptych_texture *texture, void *texels, struct texture_span lost)
+{
+    uint32_t *old = texture->texels;
+    memcpy(texels, old, lost.begin);
+    memcpy((uint8_t *)texels + lost.end, (const uint8_t *)old + lost.end,
+           texture_storage_bytes(texture) - lost.end);
+    texture->texels = texels;
+    return old;
 }
 
 /* --- Changing --- */

@@ -13,7 +13,7 @@
  * The size of level l is that of level 0 divided by 2^l, rounded down, at least 1. Every texel's index within
  * the allocation is below 2^30, so that generated code addresses words with 32 bits.
  *
- * Contents change only while no queued draw reads them: see render/device/device.h. */
+ * Texels change only while no queued draw reads them. If one does, they move: see render/device/storage.c. */
 #ifndef RENDER_TEXTURE_TEXTURE_H
 #define RENDER_TEXTURE_TEXTURE_H
 
@@ -33,13 +33,14 @@ struct triptych_texture {
     uint32_t width, height, depth; /* of level 0 */
     uint32_t levels, faces;
     uint32_t face_texels; /* from a face to the next, rows' ends included */
-    uint32_t *texels;     /* 64-byte aligned */
+    uint32_t *texels;     /* 64-byte aligned: an extent (memory/extent.h), like the texture itself */
     uint8_t *blocks;      /* of a compressed format, as they were given (texture_blocks.c); otherwise null */
     uint16_t stale[CUBE_FACES]; /* bit l: the blocks of level l are not those of the texels */
     struct texture_level level[TEXTURE_LEVELS];
     struct drawn_surface *drawn; /* its surfaces that have been drawn to (render/target/surface.h) */
     uint32_t recorded;           /* its number while calls are recorded */
-    uint64_t epoch;              /* the device's, when a draw was last queued that may read it */
+    uint64_t epoch;              /* the device's, when a command was last queued that may use the texels */
+    uint64_t written;            /* the same of a command that writes them */
 };
 
 /* Everything of a texture but its texels: what a description means, without the memory. */
@@ -70,6 +71,17 @@ void texture_write_texels(struct triptych_texture *texture, const void *data);
 
 /* Bytes that the texels take. */
 size_t texture_storage_bytes(const struct triptych_texture *texture);
+
+/* A part of these bytes: a level of one face, or of a texture of one face the levels after the first. */
+struct texture_span {
+    size_t begin, end;
+};
+struct texture_span texture_level_span(const struct triptych_texture *texture, unsigned face, unsigned level);
+struct texture_span texture_mip_span(const struct triptych_texture *texture);
+
+/* Moves the texels to another extent of the same size, and copies all but a part of them. Returns the old
+ * extent. */
+void *texture_move(struct triptych_texture *texture, void *texels, struct texture_span lost);
 
 /* Writes the padding of `rows` rows of a level: a copy of each row's first texel, after its last. The
  * first row begins at `texels`. */
