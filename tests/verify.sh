@@ -24,7 +24,7 @@ for stream in "${streams[@]}"; do
 done
 
 # These engines are left out above because they are slow. They run only if they are named.
-few=(bench/streams/teapot-bilinear.tri tests/data/streams/{lights,multisampling,queries,render-to-texture}.tri
+few=(bench/streams/teapot-bilinear.tri tests/data/streams/{lights,multisampling,queries,rectangles,render-to-texture}.tri
     tests/data/scenes/cube-map.tri tests/data/streams/shaders.tri tests/data/shading/light-loop.tri
     tests/data/regressions/anisotropic-words-and-numbers.tri)
 for engine in $("$TRIPTYCH" list engines | awk '$1 ~ /^(batch-4|batch-256|external)$/ && $3 == "available" { print $1 }'); do

@@ -147,6 +147,34 @@ enum triptych_result triptych_copy(triptych_device *device, const struct triptyc
     return api_finish(device, result);
 }
 
+enum triptych_result triptych_write_rectangle(triptych_device *device, const struct triptych_surface *surface,
+                                              const struct triptych_rectangle *part,
+                                              enum triptych_surface_format format, const void *data,
+                                              size_t pitch)
+{
+    struct error *error = api_begin_with_both(device, surface, "surface", data, "data");
+    struct surface_memory memory;
+    if (!error)
+        return TRIPTYCH_BAD_ARGUMENT;
+    enum triptych_result result =
+        device_write_rectangle(device, surface, part, format, data, pitch, &memory, error);
+    if (result == TRIPTYCH_OK)
+        record_write_rectangle(device, surface, &memory, data, pitch);
+    return api_finish(device, result);
+}
+
+enum triptych_result triptych_fill(triptych_device *device, const struct triptych_surface *surface,
+                                   const struct triptych_rectangle *part, const float color[4])
+{
+    struct error *error = api_begin_with_both(device, surface, "surface", color, "color");
+    if (!error)
+        return TRIPTYCH_BAD_ARGUMENT;
+    enum triptych_result result = device_fill(device, surface, part, color, error);
+    if (result == TRIPTYCH_OK)
+        record_fill(device, surface, part, color);
+    return api_finish(device, result);
+}
+
 /* --- Queries -------------------------------------------------------------------------------------------- */
 
 enum triptych_result triptych_query_create(triptych_device *device, enum triptych_query_type type,

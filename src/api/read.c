@@ -53,6 +53,16 @@ enum triptych_result triptych_read_surface_numbers(triptych_device *device,
     return finish_reading(device, device_read_surface_numbers(device, surface, rgba, bytes, error));
 }
 
+enum triptych_result triptych_read_rectangle(triptych_device *device, const struct triptych_surface *surface,
+                                             const struct triptych_rectangle *part,
+                                             enum triptych_surface_format format, void *data, size_t pitch)
+{
+    struct error *error = api_begin_with_both(device, surface, "surface", data, "data");
+    if (!error)
+        return TRIPTYCH_BAD_ARGUMENT;
+    return finish_reading(device, device_read_rectangle(device, surface, part, format, data, pitch, error));
+}
+
 enum triptych_result triptych_read_depth(triptych_device *device, float *depth, size_t bytes)
 {
     struct error *error = api_begin_with(device, depth, "image");

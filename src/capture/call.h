@@ -131,6 +131,20 @@ struct call_copy {
     enum triptych_copy_filter filter;
 };
 
+/* Pixels of a part of a surface, in a format (0: its own) without gaps between rows. */
+struct call_set_pixels {
+    struct call_surface surface;
+    struct triptych_rectangle part; /* not empty */
+    enum triptych_surface_format format;
+    uint32_t source; /* a buffer */
+};
+
+struct call_fill {
+    struct call_surface surface;
+    struct triptych_rectangle part; /* width 0: the whole surface */
+    float color[4];
+};
+
 struct call_clear {
     unsigned flags; /* TRIPTYCH_CLEAR_... */
     float color[4], depth;

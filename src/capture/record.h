@@ -56,6 +56,10 @@ void record_call(struct triptych_device *device, const struct call *call);
 void record_target(struct triptych_device *device, const struct triptych_target_description *description);
 void record_attach(struct triptych_device *device, const struct triptych_target_surfaces *surfaces);
 void record_copy(struct triptych_device *device, const struct surface_copy *copy);
+void record_write_rectangle(struct triptych_device *device, const struct triptych_surface *surface,
+                            const struct surface_memory *memory, const void *data, size_t pitch);
+void record_fill(struct triptych_device *device, const struct triptych_surface *surface,
+                 const struct triptych_rectangle *part, const float color[4]);
 void record_viewport(struct triptych_device *device, const struct triptych_viewport *viewport);
 void record_scissor(struct triptych_device *device, unsigned x, unsigned y, unsigned width, unsigned height);
 void record_value(struct triptych_device *device, enum triptych_state_table table, unsigned i, unsigned row,

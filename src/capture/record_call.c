@@ -148,45 +148,6 @@ void record_target(struct triptych_device *device, const struct triptych_target_
     record_call(device, &call);
 }
 
-static struct call_surface surface_of(const struct triptych_surface *surface)
-{
-    if (surface->image)
-        return (struct call_surface){surface->image->recorded, 0, 0};
-    return (struct call_surface){surface->texture ? surface->texture->recorded : NO_RESOURCE,
-                                 surface->texture ? surface->level : 0,
-                                 surface->texture ? surface->slice : 0};
-}
-
-void record_attach(struct triptych_device *device, const struct triptych_target_surfaces *surfaces)
-{
-    static const struct triptych_surface none;
-    if (!device_recorder(device))
-        return;
-    struct call call = {.type = CALL_ATTACH, .resource = NO_RESOURCE};
-    call.attach.some = surfaces != NULL;
-    for (int t = 0; t < TRIPTYCH_TARGETS; t++)
-        call.attach.color[t] = surface_of(surfaces ? &surfaces->color[t] : &none);
-    call.attach.depth = surface_of(surfaces ? &surfaces->depth : &none);
-    if (surfaces && !surface_is_given(&surfaces->depth))
-        call.attach.depth_format = surfaces->depth_format;
-    record_call(device, &call);
-}
-
-void record_copy(struct triptych_device *device, const struct surface_copy *copy)
-{
-    if (!device_recorder(device))
-        return;
-    struct call call = {.type = CALL_COPY, .resource = NO_RESOURCE, .copy.filter = copy->filter};
-    for (int i = 0; i < 2; i++) {
-        call.copy.surface[i] = surface_of(copy->surface[i]);
-        if (!surface_is_given(copy->surface[i]))
-            call.copy.surface[i].slice = copy->surface[i]->slice;
-        if (copy->part[i].width)
-            call.copy.part[i] = copy->part[i];
-    }
-    record_call(device, &call);
-}
-
 void record_viewport(struct triptych_device *device, const struct triptych_viewport *viewport)
 {
     if (device_recorder(device))

@@ -19,10 +19,12 @@ void *large_allocate(size_t bytes)
     if (bytes < LARGE)
         return aligned_alloc(LINE, (bytes + LINE - 1) & ~(size_t)(LINE - 1));
     size_t size = rounded(bytes);
-    void *memory = aligned_alloc(LARGE, size);
-    int reason = errno;
-    if (memory) /* advice, which the kernel may reject */
-        madvise(memory, size & ~(size_t)(LARGE - 1), MADV_HUGEPAGE);
+    void *memory;
+    int reason = posix_memalign(&memory, LARGE, size); /* any size, unlike aligned_alloc */
+    if (reason)
+        memory = NULL;
+    else
+        madvise(memory, size & ~(size_t)(LARGE - 1), MADV_HUGEPAGE); /* the kernel may reject this advice */
     errno = reason;
     return memory;
 }

@@ -1,6 +1,7 @@
 /* Calls of a stream executed on a device. */
 #include "command/play/play_part.h"
 #include "command/stream/functions.h"
+#include "command/stream/valid.h"
 #include "render/texture/texture.h"
 
 #include <string.h>
@@ -258,6 +259,22 @@ enum triptych_result play_copy(struct player *player, const struct call *call)
         part[i] = call->copy.part[i].width ? &call->copy.part[i] : NULL;
     }
     return triptych_copy(player->device, &surface[0], part[0], &surface[1], part[1], call->copy.filter);
+}
+
+enum triptych_result play_set_pixels(struct player *player, const struct call *call)
+{
+    size_t rows, bytes, pitch = valid_set_pixels_row(player->stream, &call->set_pixels, &rows);
+    struct triptych_surface surface = surface_of(player, &call->set_pixels.surface);
+    const void *data = resource_data(&player->stream->resources[call->set_pixels.source], &bytes);
+    return triptych_write_rectangle(player->device, &surface, &call->set_pixels.part, call->set_pixels.format,
+                                    data, pitch);
+}
+
+enum triptych_result play_fill(struct player *player, const struct call *call)
+{
+    struct triptych_surface surface = surface_of(player, &call->fill.surface);
+    return triptych_fill(player->device, &surface, call->fill.part.width ? &call->fill.part : NULL,
+                         call->fill.color);
 }
 
 /* --- Pixels --------------------------------------------------------------------------------------------- */

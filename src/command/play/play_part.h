@@ -70,6 +70,8 @@ enum triptych_result play_contents(struct player *player, const struct call *cal
 enum triptych_result play_attach(struct player *player, const struct call *call);
 enum triptych_result play_copy(struct player *player, const struct call *call);
 enum triptych_result play_clear_parts(struct player *player, const struct call *call);
+enum triptych_result play_set_pixels(struct player *player, const struct call *call);
+enum triptych_result play_fill(struct player *player, const struct call *call);
 enum triptych_result play_clear(struct player *player, const struct call *call);
 enum triptych_result play_draw_mesh(struct player *player, const struct call *call);
 enum triptych_result play_write(struct player *player, const struct call *call);

@@ -68,6 +68,8 @@ int follow_texels(struct follower *follower, const struct call *call, struct err
 int follow_contents(struct follower *follower, const struct call *call, struct error *error);
 int follow_attach(struct follower *follower, const struct call *call, struct error *error);
 int follow_copy(struct follower *follower, const struct call *call, struct error *error);
+int follow_set_pixels(struct follower *follower, const struct call *call, struct error *error);
+int follow_fill(struct follower *follower, const struct call *call, struct error *error);
 int follow_clear(struct follower *follower, const struct call *call, struct error *error);
 int follow_draw(struct follower *follower, const struct call *call, struct error *error);
 int follow_draw_indexed(struct follower *follower, const struct call *call, struct error *error);

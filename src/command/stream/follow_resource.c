@@ -136,13 +136,33 @@ int follow_copy(struct follower *follower, const struct call *call, struct error
 {
     struct shape shape[2];
     struct triptych_surface surface[2];
+    struct surface_copy_plan plan;
     struct surface_copy copy = {.filter = call->copy.filter};
     for (int i = 0; i < 2; i++) {
         surface[i] = shape_of(follower->stream, &call->copy.surface[i], &shape[i]);
         copy.surface[i] = &surface[i];
         copy.part[i] = call->copy.part[i];
     }
-    return surface_check_copy(&copy, &follower->target, error) ? -1 : 0;
+    return surface_check_copy(&copy, &follower->target, &plan, error) ? -1 : 0;
+}
+
+int follow_set_pixels(struct follower *follower, const struct call *call, struct error *error)
+{
+    struct shape shape;
+    struct surface_memory memory;
+    struct triptych_surface surface = shape_of(follower->stream, &call->set_pixels.surface, &shape);
+    return surface_check_memory(&surface, &call->set_pixels.part, call->set_pixels.format, &follower->target,
+                                &memory, error)
+               ? -1
+               : 0;
+}
+
+int follow_fill(struct follower *follower, const struct call *call, struct error *error)
+{
+    struct shape shape;
+    struct surface_memory memory;
+    struct triptych_surface surface = shape_of(follower->stream, &call->fill.surface, &shape);
+    return surface_check_fill(&surface, &call->fill.part, &follower->target, &memory, error) ? -1 : 0;
 }
 
 int follow_attach(struct follower *follower, const struct call *call, struct error *error)

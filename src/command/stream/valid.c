@@ -2,6 +2,7 @@
  * already checked enumerations and array indices. Afterwards calls are followed like those of any stream
  * (follow.c). */
 #include "render/device/device.h"
+#include "render/target/rectangle.h"
 #include "shader/program/program.h"
 #include "command/stream/valid.h"
 #include "command/stream/functions.h"
@@ -118,14 +119,72 @@ int valid_attach(const struct stream *stream, const struct call *call, struct er
     return 0;
 }
 
+static int valid_part(const struct triptych_rectangle *part, struct error *error)
+{
+    if (part->width ? !part->height : part->x || part->y || part->height)
+        return error_set(error, "found a part without pixels, expected at least one, or all zeros");
+    return 0;
+}
+
 int valid_copy(const struct stream *stream, const struct call *call, struct error *error)
 {
     (void)stream;
-    for (int i = 0; i < 2; i++) {
-        const struct triptych_rectangle *part = &call->copy.part[i];
-        if (part->width ? !part->height : part->x || part->y || part->height)
-            return error_set(error, "found a part without pixels, expected at least one, or all zeros");
-    }
+    return valid_part(&call->copy.part[0], error) || valid_part(&call->copy.part[1], error) ? -1 : 0;
+}
+
+int valid_fill(const struct stream *stream, const struct call *call, struct error *error)
+{
+    (void)stream;
+    return valid_part(&call->fill.part, error);
+}
+
+/* The depth format of a write to depth; NONE: a colour. */
+static enum triptych_depth_format written_depth(const struct stream *stream,
+                                                const struct call_set_pixels *write)
+{
+    if (write->surface.resource == NO_RESOURCE)
+        return TRIPTYCH_DEPTH_NONE;
+    const struct resource *resource = &stream->resources[write->surface.resource];
+    if (resource->type == RESOURCE_IMAGE)
+        return resource->image.format ? TRIPTYCH_DEPTH_NONE : resource->image.depth_format;
+    return (enum triptych_depth_format)format_find(resource->texture.format)->depth;
+}
+
+/* The surface's own format if the write has none. */
+static const struct format *written_format(const struct stream *stream, const struct call_set_pixels *write)
+{
+    if (write->format || write->surface.resource == NO_RESOURCE)
+        return format_find(write->format);
+    const struct resource *resource = &stream->resources[write->surface.resource];
+    return format_find(resource->type == RESOURCE_IMAGE ? resource->image.format : resource->texture.format);
+}
+
+size_t valid_set_pixels_row(const struct stream *stream, const struct call_set_pixels *write, size_t *rows)
+{
+    const struct pixels depth = {.depth_format = written_depth(stream, write)};
+    const struct format *format = written_format(stream, write);
+    *rows = write->part.height;
+    if (depth.depth_format != TRIPTYCH_DEPTH_NONE)
+        return write->part.width * pixels_memory_bytes(&depth, NULL);
+    *rows = format_blocks(format, write->part.height);
+    return texture_row_bytes(format, write->part.width);
+}
+
+int valid_set_pixels(const struct stream *stream, const struct call *call, struct error *error)
+{
+    const struct call_set_pixels *write = &call->set_pixels;
+    size_t rows, bytes;
+    if (!write->part.width || !write->part.height)
+        return error_set(error, "found a part without pixels, expected at least one");
+    if (!write->format && write->surface.resource == NO_RESOURCE)
+        return error_set(error, "found no format of pixels of the target, expected one");
+    if (write->format && !format_find(write->format))
+        return error_set(error, "found format %u, expected one of Direct3D 9's", (unsigned)write->format);
+    size_t expected = valid_set_pixels_row(stream, write, &rows) * rows;
+    resource_data(&stream->resources[write->source], &bytes);
+    if (bytes < expected || bytes >= expected + 4) /* a value's bytes cannot always be divided */
+        return error_set(error, "found %zu bytes in %s, expected %zu", bytes,
+                         stream->resources[write->source].name, expected);
     return 0;
 }
 

@@ -24,6 +24,11 @@ int valid_shader(const struct stream *stream, const struct call *call, struct er
 int valid_update(const struct stream *stream, const struct call *call, struct error *error);
 int valid_attach(const struct stream *stream, const struct call *call, struct error *error);
 int valid_copy(const struct stream *stream, const struct call *call, struct error *error);
+int valid_set_pixels(const struct stream *stream, const struct call *call, struct error *error);
+int valid_fill(const struct stream *stream, const struct call *call, struct error *error);
+
+/* The bytes of a row of a checked write, and its rows: of pixels or, if the format is compressed, of blocks. */
+size_t valid_set_pixels_row(const struct stream *stream, const struct call_set_pixels *write, size_t *rows);
 int valid_clear(const struct stream *stream, const struct call *call, struct error *error);
 
 #endif

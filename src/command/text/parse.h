@@ -104,6 +104,8 @@ int parse_constants(struct parser *parser, struct call *call, unsigned word);
 int parse_update(struct parser *parser, struct call *call, unsigned word);
 int parse_attach(struct parser *parser, struct call *call, unsigned word);
 int parse_copy(struct parser *parser, struct call *call, unsigned word);
+int parse_set_pixels(struct parser *parser, struct call *call, unsigned word);
+int parse_fill_surface(struct parser *parser, struct call *call, unsigned word);
 int parse_clear(struct parser *parser, struct call *call, unsigned word);
 int parse_draw(struct parser *parser, struct call *call, unsigned word);
 int parse_play(struct parser *parser, struct call *call, unsigned word);

@@ -1,6 +1,7 @@
 /* Images, and calls that name surfaces: attach and copy. */
 #include "command/text/parse.h"
 
+#include "command/stream/valid.h"
 #include "render/target/surface.h"
 
 #include <string.h>
@@ -125,9 +126,9 @@ static int parse_part(struct parser *parser, struct triptych_rectangle *part)
     return 0;
 }
 
-/* Reads a surface, or `target [slice N]`, colour N of the target. */
-static int parse_copy_end(struct parser *parser, struct call_surface *surface,
-                          struct triptych_rectangle *part)
+/* Reads a surface, or `target [slice N]`, colour N of the target, and a part of it. */
+static int parse_surface_part(struct parser *parser, struct call_surface *surface,
+                              struct triptych_rectangle *part)
 {
     surface->resource = NO_RESOURCE;
     if (lex_is(&parser->lex, "target")) {
@@ -144,12 +145,56 @@ int parse_copy(struct parser *parser, struct call *call, unsigned word)
     static const char *const words[] = {"level", "slice", "part", "to"};
     struct lexer *lex = &parser->lex;
     (void)word;
-    if (parse_copy_end(parser, &call->copy.surface[0], &call->copy.part[0]))
+    if (parse_surface_part(parser, &call->copy.surface[0], &call->copy.part[0]))
         return -1;
     if (!lex_is(lex, "to"))
         return lex_expected_word(lex, WORDS_OF_ROWS(words), "level, slice, part, or to");
-    if (lex_next(lex) || parse_copy_end(parser, &call->copy.surface[1], &call->copy.part[1]))
+    if (lex_next(lex) || parse_surface_part(parser, &call->copy.surface[1], &call->copy.part[1]))
         return -1;
     call->copy.filter = lex_is(lex, "linear") ? TRIPTYCH_COPY_LINEAR : TRIPTYCH_COPY_POINT;
     return call->copy.filter == TRIPTYCH_COPY_LINEAR ? lex_next(lex) : 0;
+}
+
+/* format FORMAT */
+static int parse_memory_format(struct parser *parser, enum triptych_surface_format *result)
+{
+    struct lexer *lex = &parser->lex;
+    if (!lex_is(lex, "format"))
+        return 0;
+    if (lex_next(lex))
+        return -1;
+    const struct format *format =
+        lex->token.type == TOKEN_WORD ? format_named(lex->token.text, lex->token.length) : NULL;
+    if (!format)
+        return parse_expect_format(parser, 0, "the name of a format of Direct3D 9, without D3DFMT_");
+    *result = (enum triptych_surface_format)format->number;
+    return lex_next(lex);
+}
+
+/* pixels SURFACE part X Y WIDTH HEIGHT [format FORMAT] BUFFER */
+int parse_set_pixels(struct parser *parser, struct call *call, unsigned word)
+{
+    struct token place = parser->lex.token;
+    struct error reason = {""};
+    (void)word;
+    if (parse_surface_part(parser, &call->set_pixels.surface, &call->set_pixels.part) ||
+        parse_memory_format(parser, &call->set_pixels.format) ||
+        parse_name(parser, CALL_BUFFERS, "level, slice, part, format, or a buffer", &call->set_pixels.source))
+        return -1;
+    if (valid_set_pixels(parser->stream, call, &reason))
+        return lex_fail(&parser->lex, &place, "%s", reason.text);
+    return 0;
+}
+
+/* fill SURFACE [part X Y WIDTH HEIGHT] color R G B A */
+int parse_fill_surface(struct parser *parser, struct call *call, unsigned word)
+{
+    static const char *const words[] = {"level", "slice", "part", "color"};
+    struct parse_field fields[] = {{"color", call->fill.color, 4, false}};
+    (void)word;
+    if (parse_surface_part(parser, &call->fill.surface, &call->fill.part) || parse_fields(parser, fields, 1))
+        return -1;
+    if (!fields[0].given)
+        return lex_expected_word(&parser->lex, WORDS_OF_ROWS(words), "level, slice, part, or color");
+    return 0;
 }

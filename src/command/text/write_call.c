@@ -301,16 +301,38 @@ void write_attach(struct writer *writer, const struct call *call)
         fprintf(writer->out, " depthformat %s", word_text(WORDS_DEPTH, call->attach.depth_format));
 }
 
+static void write_part(struct writer *writer, const struct triptych_rectangle *part)
+{
+    if (part->width)
+        fprintf(writer->out, " part %u %u %u %u", part->x, part->y, part->width, part->height);
+}
+
 void write_copy(struct writer *writer, const struct call *call)
 {
     fputs("copy", writer->out);
     for (int i = 0; i < 2; i++) {
-        const struct triptych_rectangle *part = &call->copy.part[i];
         write_surface(writer, i ? "to " : "", &call->copy.surface[i]);
-        if (part->width)
-            fprintf(writer->out, " part %u %u %u %u", part->x, part->y, part->width, part->height);
+        write_part(writer, &call->copy.part[i]);
     }
     fputs(call->copy.filter == TRIPTYCH_COPY_LINEAR ? " linear" : "", writer->out);
+}
+
+void write_set_pixels(struct writer *writer, const struct call *call)
+{
+    fputs("pixels", writer->out);
+    write_surface(writer, "", &call->set_pixels.surface);
+    write_part(writer, &call->set_pixels.part);
+    if (call->set_pixels.format)
+        fprintf(writer->out, " format %s", format_find(call->set_pixels.format)->name);
+    fprintf(writer->out, " %s", resource_name(writer, call->set_pixels.source));
+}
+
+void write_fill(struct writer *writer, const struct call *call)
+{
+    fputs("fill", writer->out);
+    write_surface(writer, "", &call->fill.surface);
+    write_part(writer, &call->fill.part);
+    write_field(writer, "color", call->fill.color, NULL, 4);
 }
 
 /* --- Lines ---------------------------------------------------------------------------------------------- */

@@ -46,6 +46,8 @@ void write_constant_matrix(struct writer *writer, const struct call *call);
 void write_update(struct writer *writer, const struct call *call);
 void write_attach(struct writer *writer, const struct call *call);
 void write_copy(struct writer *writer, const struct call *call);
+void write_set_pixels(struct writer *writer, const struct call *call);
+void write_fill(struct writer *writer, const struct call *call);
 void write_clear(struct writer *writer, const struct call *call);
 void write_clear_parts(struct writer *writer, const struct call *call);
 

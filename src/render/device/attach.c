@@ -94,6 +94,27 @@ void device_load_texture(struct triptych_device *device, struct triptych_texture
     device->binding.stale |= device_draws_to(device, texture);
 }
 
+void device_load_surface(struct triptych_device *device, const struct triptych_surface *surface)
+{
+    struct attachment *attachment = surface_attachment(surface);
+    struct surface_transfer now;
+    surface_begin_transfer(surface, false, &now);
+    queue_transfer(device->queue, &now);
+    surface_end_transfer(&now);
+    attachment->texels_newer = false;
+}
+
+void device_note_written(struct triptych_device *device, const struct triptych_surface *surface, bool tiles)
+{
+    struct attachment *attachment = surface_attachment(surface);
+    if (tiles) {
+        set_newer(device, attachment, true);
+    } else if (attachment) {
+        attachment->texels_newer = true;
+        device->binding.stale |= device_draws_to(device, surface->texture);
+    }
+}
+
 /* The surface that is a part of the target. */
 static const struct triptych_surface *part_of(const struct triptych_device *device, unsigned part)
 {

@@ -291,6 +291,11 @@ void device_finish_target(struct triptych_device *device);
 /* Frees what commands that are rendered have referred to. */
 void device_free_released(struct released *released);
 
+/* The queue is empty: brings the tiles of a texture's surface up to date, whose attachment has memory. */
+void device_load_surface(struct triptych_device *device, const struct triptych_surface *surface);
+/* A surface of a texture has been written, in its tiles or as texels. */
+void device_note_written(struct triptych_device *device, const struct triptych_surface *surface, bool tiles);
+
 /* The tiles of an image, of a surface of a texture that has tiles, or, without both, of colour `slice` of the
  * main target: a target of one colour, or of depth. The caller finishes before it reads or changes pixels, and
  * destroys the view. */
@@ -298,6 +303,20 @@ enum triptych_result device_view(struct triptych_device *device, const struct tr
                                  struct target *view, struct error *error);
 
 enum triptych_result device_copy(struct triptych_device *device, const struct surface_copy *copy,
+                                 struct error *error);
+/* Rectangles of pixels in memory, rows `pitch` bytes apart; `found` receives what was written. */
+enum triptych_result device_read_rectangle(struct triptych_device *device,
+                                           const struct triptych_surface *surface,
+                                           const struct triptych_rectangle *rectangle,
+                                           enum triptych_surface_format format, void *data, size_t pitch,
+                                           struct error *error);
+enum triptych_result device_write_rectangle(struct triptych_device *device,
+                                            const struct triptych_surface *surface,
+                                            const struct triptych_rectangle *rectangle,
+                                            enum triptych_surface_format format, const void *data,
+                                            size_t pitch, struct surface_memory *found, struct error *error);
+enum triptych_result device_fill(struct triptych_device *device, const struct triptych_surface *surface,
+                                 const struct triptych_rectangle *rectangle, const float color[4],
                                  struct error *error);
 enum triptych_result device_read_surface(struct triptych_device *device,
                                          const struct triptych_surface *surface, uint32_t *rgba, size_t bytes,

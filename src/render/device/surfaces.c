@@ -1,183 +1,375 @@
-/* The device's surfaces as images: copies and reading (render/device/attach.c draws to them). */
+/* Pixels of the device's surfaces: rectangles in memory, copies, fills (render/device/attach.c draws to surfaces).
+ *
+ * What is recorded is rendered first. The pixels are then found where they are newest, in tiles or as texels
+ * (render/target/surface.h), and read or written there, by several threads. */
 #include "machine/mxcsr.h"
-#include "render/target/copy.h"
 #include "render/device/device.h"
-#include "render/target/surface.h"
 
 #include <inttypes.h>
+#include <stdatomic.h>
 #include <stdlib.h>
 #include <string.h>
 
-/* Not inlined: the compiler may move arithmetic over a change of MXCSR, but not a call. */
-__attribute__((noinline)) static void
-write_to_target(struct target *target, unsigned t, const struct triptych_rectangle *part, const float *image)
+/* --- Opening surfaces --- */
+
+static void describe_main(struct triptych_device *device, struct triptych_target_description *target)
 {
-    struct rectangle area = {(int32_t)part->x, (int32_t)part->y, (int32_t)(part->x + part->width),
-                             (int32_t)(part->y + part->height)};
-    unsigned saved = mxcsr_enter();
-    target_write_numbers(target, t, &area, image);
-    mxcsr_leave(saved);
+    target_describe(device->binding.main, target);
 }
 
-__attribute__((noinline)) static void write_to_surface(const struct triptych_surface *surface,
-                                                       const struct triptych_rectangle *part,
-                                                       const float *image)
+static struct attachment *main_attachment(const struct triptych_device *device,
+                                          const struct triptych_surface *surface)
 {
-    unsigned saved = mxcsr_enter();
-    surface_write_numbers(surface, part, image);
-    mxcsr_leave(saved);
+    return device->binding.main->colors[surface->slice].attachment;
 }
 
-/* --- Images of four numbers a pixel --- */
+/* The tiles of a texture's surface if they have its newest pixels. Only tiles have stencil, so depth is always
+ * written there, and read there if there are any. */
+static enum triptych_result find_tiles(struct triptych_device *device, const struct triptych_surface *surface,
+                                       const struct surface_form *form, bool writes,
+                                       struct attachment **tiles, struct error *error)
+{
+    bool makes = writes && !form->format;
+    struct attachment *a = makes ? surface_make_attachment(surface, error) : surface_attachment(surface);
+    *tiles = a && (a->tiles_newer || !form->format) ? a : NULL;
+    if (makes && !a)
+        return TRIPTYCH_NO_MEMORY;
+    if (!*tiles)
+        return TRIPTYCH_OK;
+    struct pixels pixels = surface_pixels(surface, form, a);
+    if (pixels_prepare(&pixels, error))
+        return TRIPTYCH_NO_MEMORY;
+    if (a->texels_newer)
+        device_load_surface(device, surface);
+    return TRIPTYCH_OK;
+}
 
-/* A surface, or a colour of the target. */
-struct image {
-    const struct triptych_surface *surface;
-    uint32_t width, height;
+/* Finds the pixels of a surface. What is recorded is rendered. */
+static enum triptych_result open_surface(struct triptych_device *device,
+                                         const struct triptych_surface *surface,
+                                         const struct surface_form *form, bool writes, struct pixels *pixels,
+                                         struct error *error)
+{
+    struct attachment *tiles = NULL;
+    enum triptych_result result = TRIPTYCH_OK;
+    device_finish(device);
+    if (surface->texture)
+        result = find_tiles(device, surface, form, writes, &tiles, error);
+    else
+        tiles = surface->image ? surface->image->attachment : main_attachment(device, surface);
+    if (result != TRIPTYCH_OK)
+        return result;
+    *pixels = surface_pixels(surface, form, tiles);
+    return writes && pixels_prepare(pixels, error) ? TRIPTYCH_NO_MEMORY : TRIPTYCH_OK;
+}
+
+/* After pixels of a surface have been written. */
+static void close_surface(struct triptych_device *device, const struct triptych_surface *surface,
+                          const struct pixels *pixels, const struct triptych_rectangle *part)
+{
+    if (!surface->texture)
+        return;
+    if (!pixels->tiles)
+        surface_close_texels(surface, part);
+    device_note_written(device, surface, pixels->tiles != NULL);
+}
+
+/* --- Work on parts --- */
+
+enum { PIXELS_ALONE = 1 << 14 }; /* at most this number is not worth another thread */
+
+typedef void part_function(const void *user, uint32_t part);
+
+struct part_work {
+    part_function *function;
+    const void *user;
+    uint32_t count;
+    _Atomic uint32_t next;
 };
 
-static enum triptych_result find_image(struct triptych_device *device, const struct triptych_surface *surface,
-                                       struct image *image, struct error *error)
+static void part_task(void *user, unsigned worker)
+{
+    struct part_work *work = user;
+    uint32_t part;
+    (void)worker;
+    while ((part = atomic_fetch_add(&work->next, 1)) < work->count)
+        work->function(work->user, part);
+}
+
+static void run_parts(struct triptych_device *device, const struct triptych_rectangle *rectangle,
+                      part_function *function, const void *user)
+{
+    struct part_work work = {function, user, pixels_parts(rectangle), 0};
+    bool alone = (uint64_t)rectangle->width * rectangle->height <= PIXELS_ALONE;
+    pool_run(device->pool, 0, alone ? 1 : work.count, alone ? POOL_ALONE : POOL_ALL, part_task, &work);
+}
+
+static void read_part(const void *memory, uint32_t part)
+{
+    pixels_read_part(memory, part);
+}
+
+static void write_part(const void *memory, uint32_t part)
+{
+    pixels_write_part(memory, part);
+}
+
+static void copy_part(const void *copy, uint32_t part)
+{
+    pixels_copy_part(copy, part);
+}
+
+/* --- Memory --- */
+
+static enum triptych_result check_memory(struct triptych_device *device,
+                                         const struct triptych_surface *surface,
+                                         const struct triptych_rectangle *rectangle,
+                                         enum triptych_surface_format format, size_t pitch,
+                                         struct surface_memory *memory, struct error *error)
 {
     struct triptych_target_description target;
-    uint32_t size[2];
-    target_describe(device_main_target(device), &target);
-    enum triptych_result result = surface_size(surface, "surface", &target, size, error);
-    *image = (struct image){surface, size[0], size[1]};
-    return result;
+    describe_main(device, &target);
+    enum triptych_result result = surface_check_memory(surface, rectangle, format, &target, memory, error);
+    if (result != TRIPTYCH_OK || pitch >= memory->row_bytes)
+        return result;
+    error_set(error, "pitch of %zu bytes: expected at least %zu", pitch, memory->row_bytes);
+    return TRIPTYCH_BAD_ARGUMENT;
 }
 
-/* Reads depth as surfaces of textures have it: the same number in all channels. */
-static void read_depth_numbers(const struct target *view, float *numbers)
+/* The part of a compressed texture, and its face. */
+static struct triptych_box box_of(const struct triptych_surface *surface, const struct surface_memory *memory,
+                                  unsigned *face)
 {
-    size_t pixels = (size_t)view->width * view->height;
-    float *depth = numbers + 3 * pixels; /* read by the numbers of earlier pixels only */
-    for (uint32_t row = 0; row < view->rows; row++)
-        target_read_depth(view, SAMPLE_RESOLVED, row, depth);
-    for (size_t p = 0; p < pixels; p++) {
-        float value = depth[p];
-        for (int c = 0; c < 4; c++)
-            numbers[4 * p + (size_t)c] = value;
-    }
+    const struct triptych_rectangle *part = &memory->part;
+    bool cube = surface->texture->type == TRIPTYCH_TEXTURE_CUBE;
+    *face = cube ? surface->slice : 0;
+    return (struct triptych_box){part->x, part->y, cube ? 0 : surface->slice, part->width, part->height, 1};
 }
 
-static enum triptych_result read_image(struct triptych_device *device, const struct image *image,
-                                       float *numbers, struct error *error)
+enum triptych_result device_read_rectangle(struct triptych_device *device,
+                                           const struct triptych_surface *surface,
+                                           const struct triptych_rectangle *rectangle,
+                                           enum triptych_surface_format format, void *data, size_t pitch,
+                                           struct error *error)
 {
-    struct target view;
-    if (image->surface->texture) {
-        device_store_texture(device, image->surface->texture);
-        surface_read_numbers(image->surface, numbers);
-        return TRIPTYCH_OK;
+    struct surface_memory found;
+    struct pixels_memory memory;
+    unsigned face;
+    enum triptych_result result = check_memory(device, surface, rectangle, format, pitch, &found, error);
+    if (result == TRIPTYCH_OK && found.format && found.format->side > 1) {
+        struct triptych_box box = box_of(surface, &found, &face);
+        return device_texture_read(device, surface->texture, face, surface->level, &box, data, pitch, 0,
+                                   error);
     }
-    enum triptych_result result = device_view(device, image->surface, &view, error);
+    if (result == TRIPTYCH_OK)
+        result = open_surface(device, surface, &found.form, false, &memory.pixels, error);
     if (result != TRIPTYCH_OK)
         return result;
-    device_finish(device);
-    if (view.depth)
-        read_depth_numbers(&view, numbers);
-    for (uint32_t row = 0; row < view.rows && !view.depth; row++)
-        target_read_numbers(&view, 0, SAMPLE_RESOLVED, row, numbers, view.width);
-    target_destroy(&view);
+    memory = (struct pixels_memory){memory.pixels, found.part, found.format, data, pitch};
+    run_parts(device, &found.part, read_part, &memory);
     return TRIPTYCH_OK;
 }
 
-static enum triptych_result write_image(struct triptych_device *device, const struct image *image,
-                                        const struct triptych_rectangle *part, const float *numbers,
-                                        struct error *error)
+enum triptych_result device_write_rectangle(struct triptych_device *device,
+                                            const struct triptych_surface *surface,
+                                            const struct triptych_rectangle *rectangle,
+                                            enum triptych_surface_format format, const void *data,
+                                            size_t pitch, struct surface_memory *found, struct error *error)
 {
-    struct target view;
-    if (image->surface->texture) {
-        device_store_texture(device, image->surface->texture);
-        write_to_surface(image->surface, part, numbers);
-        device_load_texture(device, image->surface->texture);
-        return TRIPTYCH_OK;
+    struct pixels_memory memory;
+    unsigned face;
+    enum triptych_result result = check_memory(device, surface, rectangle, format, pitch, found, error);
+    if (result == TRIPTYCH_OK && found->format && found->format->side > 1) {
+        struct triptych_box box = box_of(surface, found, &face);
+        return device_texture_update(device, surface->texture, face, surface->level, &box, data, pitch, 0,
+                                     error);
     }
-    enum triptych_result result = device_view(device, image->surface, &view, error);
+    if (result == TRIPTYCH_OK)
+        result = open_surface(device, surface, &found->form, true, &memory.pixels, error);
     if (result != TRIPTYCH_OK)
         return result;
-    device_finish(device);
-    write_to_target(&view, 0, part, numbers);
-    target_destroy(&view);
+    memory = (struct pixels_memory){memory.pixels, found->part, found->format, (uint8_t *)data, pitch};
+    run_parts(device, &found->part, write_part, &memory);
+    close_surface(device, surface, &memory.pixels, &found->part);
     return TRIPTYCH_OK;
 }
 
-static float *allocate_numbers(uint64_t pixels, struct error *error)
+/* --- Fills --- */
+
+struct fill {
+    struct pixels pixels;
+    struct triptych_rectangle part;
+    uint32_t words[4];
+};
+
+static void fill_part(const void *user, uint32_t i)
 {
-    float *numbers = malloc((size_t)pixels * 4 * sizeof *numbers);
-    if (!numbers)
-        error_set(error, "out of memory for %" PRIu64 " pixels", pixels);
-    return numbers;
+    const struct fill *fill = user;
+    struct triptych_rectangle part = pixels_part(&fill->part, i);
+    pixels_fill(&fill->pixels, &part, fill->words);
 }
 
-/* --- Copies and reading --- */
+/* Not inlined: the compiler may move arithmetic over a change of MXCSR, but not a call. */
+__attribute__((noinline)) static void find_words(const struct format *format, const float color[4],
+                                                 uint32_t words[4])
+{
+    unsigned saved = mxcsr_enter();
+    pixels_convert_numbers(format, color, 1, words);
+    mxcsr_leave(saved);
+}
 
-static enum triptych_result copy(struct triptych_device *device, const struct image image[2],
-                                 const struct triptych_rectangle part[2], enum triptych_copy_filter filter,
+enum triptych_result device_fill(struct triptych_device *device, const struct triptych_surface *surface,
+                                 const struct triptych_rectangle *rectangle, const float color[4],
                                  struct error *error)
 {
-    float *whole = allocate_numbers((uint64_t)image[0].width * image[0].height, error);
-    float *rows = whole ? allocate_numbers((uint64_t)part[1].width * part[1].height, error) : NULL;
-    enum triptych_result result = rows ? read_image(device, &image[0], whole, error) : TRIPTYCH_NO_MEMORY;
-    if (result == TRIPTYCH_OK) {
-        copy_scaled(whole, image[0].width, &part[0], &part[1], filter, rows);
-        result = write_image(device, &image[1], &part[1], rows, error);
+    struct triptych_target_description target;
+    struct surface_memory found;
+    struct fill fill;
+    describe_main(device, &target);
+    enum triptych_result result = surface_check_fill(surface, rectangle, &target, &found, error);
+    if (result == TRIPTYCH_OK)
+        result = open_surface(device, surface, &found.form, true, &fill.pixels, error);
+    if (result != TRIPTYCH_OK)
+        return result;
+    fill.part = found.part;
+    find_words(found.form.format, color, fill.words);
+    run_parts(device, &found.part, fill_part, &fill);
+    close_surface(device, surface, &fill.pixels, &found.part);
+    return TRIPTYCH_OK;
+}
+
+/* --- Copies --- */
+
+static bool same_pixels(const struct pixels *a, const struct pixels *b)
+{
+    return a->tiles ? a->tiles == b->tiles : a->texels == b->texels;
+}
+
+/* A copy of the source's part, for a copy within one surface: tiles or texels, as the surface has them. */
+static enum triptych_result separate(struct triptych_device *device, struct pixels_copy *copy,
+                                     struct error *error)
+{
+    const struct triptych_rectangle part = {0, 0, copy->source.width, copy->source.height};
+    struct pixels_copy first = {copy->from, copy->from, copy->source, part, false};
+    struct pixels *to = &first.to;
+    to->width = part.width;
+    to->height = part.height;
+    to->texels = NULL;
+    if (copy->from.tiles && copy->from.format)
+        to->tiles = attachment_create_color(copy->from.format, part.width, part.height, 1, error);
+    else if (copy->from.tiles)
+        to->tiles = attachment_create_depth(copy->from.depth_format, part.width, part.height, 1, error);
+    else
+        to->texels = malloc((size_t)part.width * part.height * format_texel_bytes(copy->from.format));
+    if (!copy->from.tiles && !to->texels)
+        error_set(error, "out of memory for %" PRIu64 " pixels", (uint64_t)part.width * part.height);
+    to->pitch = part.width;
+    if ((!to->tiles && !to->texels) || pixels_prepare(to, error)) {
+        attachment_release(to->tiles);
+        return TRIPTYCH_NO_MEMORY;
     }
-    free(whole);
-    free(rows);
-    return result;
+    run_parts(device, &part, copy_part, &first);
+    copy->from = *to;
+    copy->source = part;
+    return TRIPTYCH_OK;
+}
+
+static void drop_separate(const struct pixels *pixels)
+{
+    attachment_release(pixels->tiles);
+    free(pixels->texels);
 }
 
 enum triptych_result device_copy(struct triptych_device *device, const struct surface_copy *asked,
                                  struct error *error)
 {
     struct triptych_target_description target;
-    struct triptych_rectangle part[2];
-    struct image image[2];
-    target_describe(device_main_target(device), &target);
-    enum triptych_result result = surface_check_copy(asked, &target, error);
-    for (int i = 0; i < 2 && result == TRIPTYCH_OK; i++) {
-        result = find_image(device, asked->surface[i], &image[i], error);
-        part[i] = asked->part[i];
-        if (!part[i].width)
-            part[i] = (struct triptych_rectangle){0, 0, image[i].width, image[i].height};
-    }
-    return result == TRIPTYCH_OK ? copy(device, image, part, asked->filter, error) : result;
+    struct surface_copy_plan plan;
+    struct pixels_copy copy = {.linear = asked->filter == TRIPTYCH_COPY_LINEAR};
+    describe_main(device, &target);
+    enum triptych_result result = surface_check_copy(asked, &target, &plan, error);
+    if (result == TRIPTYCH_OK)
+        result = open_surface(device, asked->surface[1], &plan.form[1], true, &copy.to, error);
+    if (result == TRIPTYCH_OK)
+        result = open_surface(device, asked->surface[0], &plan.form[0], false, &copy.from, error);
+    copy.source = plan.part[0];
+    copy.target = plan.part[1];
+    bool within =
+        result == TRIPTYCH_OK && (copy.from.tiles || copy.from.texels) && same_pixels(&copy.from, &copy.to);
+    if (within)
+        result = separate(device, &copy, error);
+    if (result != TRIPTYCH_OK)
+        return result;
+    run_parts(device, &copy.target, copy_part, &copy);
+    if (within)
+        drop_separate(&copy.from);
+    close_surface(device, asked->surface[1], &copy.to, &copy.target);
+    return TRIPTYCH_OK;
+}
+
+/* --- Numbers and bytes --- */
+
+/* All pixels of a surface as numbers or as RGBA8; depth is the same number in all channels. */
+struct image {
+    struct pixels pixels;
+    struct triptych_rectangle whole;
+    float *numbers;
+    uint32_t *rgba;
+};
+
+static void read_row(const struct image *image, uint32_t x, uint32_t y, uint32_t count)
+{
+    const struct pixels *pixels = &image->pixels;
+    uint32_t row[4 * PIXELS_ROW], numbers[4 * PIXELS_ROW];
+    size_t place = (size_t)y * pixels->width + x;
+    pixels_read_row(pixels, x, y, count, row);
+    pixels_row_numbers(pixels, row, count, (float *)(void *)numbers);
+    if (image->numbers)
+        memcpy(image->numbers + 4 * place, numbers, count * sizeof(float[4]));
+    for (uint32_t i = 0; i < count && image->rgba; i++)
+        image->rgba[place + i] = color_bytes(TARGET_FLOAT, numbers + 4 * i);
+}
+
+static void image_part(const void *user, uint32_t i)
+{
+    const struct image *image = user;
+    struct triptych_rectangle part = pixels_part(&image->whole, i);
+    for (uint32_t y = part.y; y < part.y + part.height; y++)
+        read_row(image, part.x, y, part.width);
+}
+
+static enum triptych_result read_image(struct triptych_device *device, const struct triptych_surface *surface,
+                                       struct image *image, size_t bytes, struct error *error)
+{
+    struct triptych_target_description target;
+    struct surface_form form;
+    describe_main(device, &target);
+    enum triptych_result result = surface_find_form(surface, "surface", &target, &form, error);
+    if (result != TRIPTYCH_OK)
+        return result;
+    size_t pixels = (size_t)form.width * form.height;
+    image->whole = (struct triptych_rectangle){0, 0, form.width, form.height};
+    result = image->numbers ? device_check_room("numbers", bytes, 16 * pixels, error)
+                            : device_check_room("colours", bytes, 4 * pixels, error);
+    if (result == TRIPTYCH_OK)
+        result = open_surface(device, surface, &form, false, &image->pixels, error);
+    if (result == TRIPTYCH_OK)
+        run_parts(device, &image->whole, image_part, image);
+    return result;
 }
 
 enum triptych_result device_read_surface_numbers(struct triptych_device *device,
                                                  const struct triptych_surface *surface, float *numbers,
                                                  size_t bytes, struct error *error)
 {
-    struct image image;
-    enum triptych_result result = find_image(device, surface, &image, error);
-    if (result == TRIPTYCH_OK)
-        result = device_check_room("numbers", bytes, 16 * (size_t)image.width * image.height, error);
-    if (result == TRIPTYCH_OK)
-        result = read_image(device, &image, numbers, error);
-    return result;
+    struct image image = {.numbers = numbers};
+    return read_image(device, surface, &image, bytes, error);
 }
 
 enum triptych_result device_read_surface(struct triptych_device *device,
                                          const struct triptych_surface *surface, uint32_t *rgba, size_t bytes,
                                          struct error *error)
 {
-    struct image image;
-    enum triptych_result result = find_image(device, surface, &image, error);
-    if (result == TRIPTYCH_OK)
-        result = device_check_room("colours", bytes, 4 * (size_t)image.width * image.height, error);
-    if (result != TRIPTYCH_OK)
-        return result;
-    size_t pixels = (size_t)image.width * image.height;
-    float *numbers = allocate_numbers(pixels, error);
-    if (!numbers)
-        return TRIPTYCH_NO_MEMORY;
-    result = read_image(device, &image, numbers, error);
-    for (size_t i = 0; i < pixels && result == TRIPTYCH_OK; i++) {
-        uint32_t words[4];
-        memcpy(words, numbers + 4 * i, sizeof words);
-        rgba[i] = color_bytes(TARGET_FLOAT, words);
-    }
-    free(numbers);
-    return result;
+    struct image image = {.rgba = rgba};
+    return read_image(device, surface, &image, bytes, error);
 }

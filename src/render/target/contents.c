@@ -45,17 +45,6 @@ static struct pixel find_pixel(struct target *target, uint32_t x, uint32_t y)
     return pixel;
 }
 
-static uint32_t valid_depth(enum triptych_depth_format format, uint32_t word)
-{
-    uint32_t kept = word & (depth_mask(format) | stencil_mask(format));
-    float depth = depth_decode(format, kept);
-    if (depth_formats[format].storage != DEPTH_FLOAT && depth_formats[format].storage != DEPTH_FLOAT24)
-        return kept;
-    if (depth > 0 && depth <= 1)
-        return kept;
-    return (kept & stencil_mask(format)) | depth_encode(format, depth > 1 ? 1 : 0);
-}
-
 /* Words of colours that are not stored have all bits set. */
 static void write_color(const struct target *target, unsigned t, uint32_t *words, const uint8_t **data)
 {
@@ -78,7 +67,7 @@ static void write_pixel(struct target *target, uint32_t x, uint32_t y, const uin
             continue;
         uint32_t word;
         memcpy(&word, *data, sizeof word);
-        pixel.depth[sample * TILE_PIXELS] = valid_depth(target->depth_format, word);
+        pixel.depth[sample * TILE_PIXELS] = depth_valid(target->depth_format, word);
         *data += sizeof word;
     }
 }

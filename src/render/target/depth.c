@@ -77,3 +77,14 @@ float depth_decode(enum triptych_depth_format format, uint32_t word)
     }
     return bits_to_float(word);
 }
+
+uint32_t depth_valid(enum triptych_depth_format format, uint32_t word)
+{
+    uint32_t kept = word & (depth_mask(format) | stencil_mask(format));
+    float depth = depth_decode(format, kept);
+    if (depth_formats[format].storage != DEPTH_FLOAT && depth_formats[format].storage != DEPTH_FLOAT24)
+        return kept;
+    if (depth > 0 && depth <= 1)
+        return kept;
+    return (kept & stencil_mask(format)) | depth_encode(format, depth > 1 ? 1 : 0);
+}

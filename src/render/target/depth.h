@@ -44,4 +44,7 @@ static inline int samples_exponent(unsigned samples)
 /* A word's depth, rounded to nearest. */
 float depth_decode(enum triptych_depth_format format, uint32_t word);
 
+/* A word as drawing can write it: without bits that the format lacks, and depth from 0 to 1. */
+uint32_t depth_valid(enum triptych_depth_format format, uint32_t word);
+
 #endif

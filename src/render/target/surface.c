@@ -277,73 +277,66 @@ void surface_free_attachments(struct triptych_texture *texture)
     texture->drawn = NULL;
 }
 
-/* --- Copies --- */
+/* --- Pixels --- */
 
-enum triptych_result surface_size(const struct triptych_surface *surface, const char *what,
-                                  const struct triptych_target_description *target, uint32_t size[2],
-                                  struct error *error)
+enum triptych_result surface_find_form(const struct triptych_surface *surface, const char *what,
+                                       const struct triptych_target_description *target,
+                                       struct surface_form *form, struct error *error)
 {
-    size[0] = target->width;
-    size[1] = target->height;
     if (surface_is_given(surface)) {
         enum triptych_result result = surface_check(surface, what, error);
         if (result != TRIPTYCH_OK)
             return result;
         struct shape shape = shape_of(surface);
-        size[0] = shape.width;
-        size[1] = shape.height;
+        bool depth = shape.depth_format != TRIPTYCH_DEPTH_NONE;
+        *form =
+            (struct surface_form){depth ? NULL : shape.format, shape.depth_format, shape.width, shape.height};
         return TRIPTYCH_OK;
     }
-    if (target->width && surface->slice < TARGETS && target_format(target, surface->slice))
+    if (target->width && surface->slice < TARGETS && target_format(target, surface->slice)) {
+        *form = (struct surface_form){target_format(target, surface->slice), TRIPTYCH_DEPTH_NONE,
+                                      target->width, target->height};
         return TRIPTYCH_OK;
+    }
     error_set(error, "%s: colour target %u: the target has none of that number", what, surface->slice);
     return TRIPTYCH_BAD_ARGUMENT;
 }
 
-static enum triptych_result check_part(const char *what, const uint32_t size[2],
-                                       const struct triptych_rectangle *part, struct error *error)
+struct pixels surface_pixels(const struct triptych_surface *surface, const struct surface_form *form,
+                             struct attachment *tiles)
 {
-    if (!part->width || (part->height && part->x < size[0] && part->y < size[1] &&
-                         part->width <= size[0] - part->x && part->height <= size[1] - part->y))
-        return TRIPTYCH_OK;
-    error_set(error, "%s: %u x %u pixels at %u, %u: expected a part of %u x %u", what, part->width,
-              part->height, part->x, part->y, size[0], size[1]);
-    return TRIPTYCH_BAD_ARGUMENT;
+    struct pixels pixels = {form->format, form->depth_format, form->width, form->height, tiles, NULL, 0};
+    if (!surface->texture || tiles)
+        return pixels;
+    pixels.texels = surface_texels(surface);
+    pixels.pitch = (size_t)surface_level(surface)->pitch;
+    return pixels;
 }
 
-/* Only colour is copied, and only to surfaces that can be drawn to. */
-static enum triptych_result check_copied_formats(const struct surface_copy *copy, struct error *error)
+/* The blocks of a compressed texture that contain texels of the part. */
+static struct triptych_box block_box(const struct triptych_surface *surface,
+                                     const struct triptych_rectangle *part)
 {
-    struct shape shape[2] = {{.depth_format = TRIPTYCH_DEPTH_NONE}};
-    for (int i = 0; i < 2; i++)
-        if (surface_is_given(copy->surface[i]))
-            shape[i] = shape_of(copy->surface[i]);
-    if (shape[0].depth_format != TRIPTYCH_DEPTH_NONE) {
-        error_set(error, "source of a copy: format %s is one of depth",
-                  shape[0].format ? shape[0].format->name : depth_formats[shape[0].depth_format].name);
-        return TRIPTYCH_UNSUPPORTED;
-    }
-    return surface_is_given(copy->surface[1]) ? check_role(&shape[1], "target of a copy", false, error)
-                                              : TRIPTYCH_OK;
+    const struct texture_level *level = surface_level(surface);
+    unsigned side = surface->texture->format->side;
+    struct triptych_box box = {.x = part->x / side * side, .y = part->y / side * side, .depth = 1};
+    box.z = surface->texture->type == TRIPTYCH_TEXTURE_CUBE ? 0 : surface->slice;
+    box.width = min_u32((part->x + part->width + side - 1) / side * side, (uint32_t)level->width) - box.x;
+    box.height = min_u32((part->y + part->height + side - 1) / side * side, (uint32_t)level->height) - box.y;
+    return box;
 }
 
-enum triptych_result surface_check_copy(const struct surface_copy *copy,
-                                        const struct triptych_target_description *target, struct error *error)
+void surface_close_texels(const struct triptych_surface *surface, const struct triptych_rectangle *part)
 {
-    static const char *const what[2] = {"source of a copy", "target of a copy"};
-    if ((unsigned)copy->filter >= TRIPTYCH_COPY_COUNT) {
-        error_set(error, "filter %u of a copy: expected point (0) or linear (1)", (unsigned)copy->filter);
-        return TRIPTYCH_BAD_ARGUMENT;
-    }
-    for (int i = 0; i < 2; i++) {
-        uint32_t size[2];
-        enum triptych_result result = surface_size(copy->surface[i], what[i], target, size, error);
-        if (result == TRIPTYCH_OK)
-            result = check_part(what[i], size, &copy->part[i], error);
-        if (result != TRIPTYCH_OK)
-            return result;
-    }
-    return check_copied_formats(copy, error);
+    struct triptych_texture *texture = surface->texture;
+    const struct texture_level *level = surface_level(surface);
+    uint8_t *texels = surface_texels(surface);
+    struct triptych_box box = block_box(surface, part);
+    if (texture->blocks)
+        texture_compress(texture, texture->type == TRIPTYCH_TEXTURE_CUBE ? surface->slice : 0, surface->level,
+                         &box);
+    texels += (size_t)box.y * (size_t)level->pitch * format_texel_bytes(texture->format);
+    texture_close_rows(texture, level, texels, box.height);
 }
 
 /* --- Texels and tiles --- */
@@ -508,35 +501,4 @@ void surface_transfer_tile(const struct surface_transfer *transfer, uint32_t til
         load_numbers(&part);
     if (a->format)
         a->color_clear[tile].pending = false;
-}
-
-/* --- Numbers --- */
-
-void surface_read_numbers(const struct triptych_surface *surface, float *image)
-{
-    const struct texture_level *level = surface_level(surface);
-    size_t bytes = format_texel_bytes(surface->texture->format), width = (size_t)level->width;
-    const uint8_t *row = surface_texels(surface);
-    for (int y = 0; y < level->height; y++, row += (size_t)level->pitch * bytes, image += 4 * width)
-        if (surface->texture->format->storage == STORAGE_FLOAT4)
-            memcpy(image, row, width * bytes);
-        else
-            for (size_t x = 0; x < width; x++)
-                color_numbers(TARGET_8888, (const uint32_t *)(const void *)row + x, image + 4 * x);
-}
-
-void surface_write_numbers(const struct triptych_surface *surface, const struct triptych_rectangle *part,
-                           const float *image)
-{
-    const struct format *format = surface->texture->format;
-    const struct texture_level *level = surface_level(surface);
-    size_t bytes = format_texel_bytes(format), pitch = (size_t)level->pitch;
-    uint8_t *texels = surface_texels(surface);
-    for (size_t y = part->y; y < (size_t)part->y + part->height; y++)
-        for (size_t x = part->x; x < (size_t)part->x + part->width; x++, image += 4) {
-            uint32_t words[4];
-            color_encode(format, image, words);
-            memcpy(texels + (y * pitch + x) * bytes, words, bytes);
-        }
-    texture_close_rows(surface->texture, level, texels + part->y * pitch * bytes, part->height);
 }

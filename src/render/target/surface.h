@@ -11,6 +11,7 @@
 #ifndef RENDER_TARGET_SURFACE_H
 #define RENDER_TARGET_SURFACE_H
 
+#include "render/target/rectangle.h"
 #include "render/target/target.h"
 #include "render/texture/texture.h"
 
@@ -85,18 +86,54 @@ struct surface_copy {
     enum triptych_copy_filter filter;
 };
 
-/* The size of a surface: an image, a surface of a texture, or a colour of the target. */
-enum triptych_result surface_size(const struct triptych_surface *surface, const char *what,
-                                  const struct triptych_target_description *target, uint32_t size[2],
-                                  struct error *error);
+/* What a surface consists of: an image, a surface of a texture, or a colour of the target. */
+struct surface_form {
+    const struct format *format;             /* of a colour; null: depth */
+    enum triptych_depth_format depth_format; /* of depth */
+    uint32_t width, height;
+};
+enum triptych_result surface_find_form(const struct triptych_surface *surface, const char *what,
+                                       const struct triptych_target_description *target,
+                                       struct surface_form *form, struct error *error);
+
+/* The pixels of a surface in the tiles; null: those of a texture as texels, of a format that stores nothing
+ * none. */
+struct pixels surface_pixels(const struct triptych_surface *surface, const struct surface_form *form,
+                             struct attachment *tiles);
+
+/* After texels of a part have changed: compresses the blocks of a compressed texture, and writes the padding of
+ * rows. */
+void surface_close_texels(const struct triptych_surface *surface, const struct triptych_rectangle *part);
+
+/* --- Checks (render/target/surface_use.c) --- */
+
+/* Fails if the copy is not valid; otherwise finds both forms, and the parts that are meant. */
+struct surface_copy_plan {
+    struct surface_form form[2];
+    struct triptych_rectangle part[2];
+};
 enum triptych_result surface_check_copy(const struct surface_copy *copy,
                                         const struct triptych_target_description *target,
-                                        struct error *error);
+                                        struct surface_copy_plan *plan, struct error *error);
 
-/* Numbers of texels: all of a texture's surface read; a part written, converted to the format. The writer is
- * called in the contract's floating-point environment. */
-void surface_read_numbers(const struct triptych_surface *surface, float *image);
-void surface_write_numbers(const struct triptych_surface *surface, const struct triptych_rectangle *part,
-                           const float *image);
+/* Pixels of a part of a surface in memory. */
+struct surface_memory {
+    struct surface_form form;
+    struct triptych_rectangle part; /* not empty */
+    const struct format *format;    /* of the memory; null: depth */
+    size_t row_bytes, rows;         /* of pixels or, if the format is compressed, of blocks */
+};
+/* Fails if the part (null, or of width 0: all) or the format (0: the surface's own) is not valid. */
+enum triptych_result surface_check_memory(const struct triptych_surface *surface,
+                                          const struct triptych_rectangle *part,
+                                          enum triptych_surface_format format,
+                                          const struct triptych_target_description *target,
+                                          struct surface_memory *memory, struct error *error);
+
+/* The same, for a part that is filled with a colour. */
+enum triptych_result surface_check_fill(const struct triptych_surface *surface,
+                                        const struct triptych_rectangle *part,
+                                        const struct triptych_target_description *target,
+                                        struct surface_memory *memory, struct error *error);
 
 #endif

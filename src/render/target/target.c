@@ -646,27 +646,3 @@ void target_read_stencil(const struct target *target, int sample, uint32_t tile_
             }
     }
 }
-
-/* Sets the words of all of a pixel's samples of one colour. */
-static void write_words(struct target *target, unsigned t, uint32_t x, uint32_t y, const uint32_t words[4])
-{
-    const struct target_color *color = target->colors + t;
-    uint32_t tile = y / TILE_SIZE * target->columns + x / TILE_SIZE;
-    if (!color->clear)
-        return;
-    uint32_t *place = fill_one(target, t, tile) + pixel_word(x % TILE_SIZE, y % TILE_SIZE);
-    for (uint32_t sample = 0; sample < target->samples; sample++)
-        for (int p = 0; p < storage_planes[color->storage]; p++)
-            place[(sample * target->planes + (uint32_t)p) * TILE_PIXELS] = words[p];
-}
-
-void target_write_numbers(struct target *target, unsigned t, const struct rectangle *part, const float *image)
-{
-    const struct target_color *color = target->colors + t;
-    for (int32_t y = part->y0; y < part->y1; y++)
-        for (int32_t x = part->x0; x < part->x1; x++, image += 4) {
-            uint32_t words[4];
-            color_encode(color->format, image, words);
-            write_words(target, t, (uint32_t)x, (uint32_t)y, words);
-        }
-}

@@ -169,11 +169,6 @@ struct rectangle target_attachment_area(const struct attachment *attachment, uin
 void target_read_tile(const uint32_t *words, const struct rectangle *area, uint32_t *image, size_t pitch);
 void target_read_constant(uint32_t value, const struct rectangle *area, uint32_t *image, size_t pitch);
 
-/* Sets the pixels of a part from four numbers each, converted to the format. Called in the contract's
- * floating-point environment. */
-void target_write_numbers(struct target *target, unsigned t, const struct rectangle *part,
-                          const float *image);
-
 /* Everything that the target holds, as it is stored (render/target/contents.c): the number of bytes, a
  * copy of them, and the way back. */
 size_t target_contents_bytes(const struct triptych_target_description *description);

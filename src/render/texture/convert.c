@@ -130,14 +130,14 @@ static void convert_bytes(const struct paths *paths, const uint8_t *from, unsign
 /* Exchanges red and blue of words, keeps the bits `kept` and sets the bits `set`. */
 static void exchange_words(const uint8_t *from, uint8_t *to, uint32_t count, uint32_t kept, uint32_t set)
 {
-    const __m128i middle = _mm_set1_epi32((int)(0xff00ff00 & kept)), low = _mm_set1_epi32(0xff);
+    const __m128i middle = _mm_set1_epi32((int)(0xff00ff00 & kept)), outer = _mm_set1_epi32(0x00ff00ff);
     const __m128i ones = _mm_set1_epi32((int)set);
     uint32_t i = 0;
     for (; i + 4 <= count; i += 4) {
         __m128i w = _mm_loadu_si128((const __m128i *)(const void *)(from + 4 * i));
-        __m128i red = _mm_slli_epi32(_mm_and_si128(w, low), 16);
-        __m128i blue = _mm_and_si128(_mm_srli_epi32(w, 16), low);
-        w = _mm_or_si128(_mm_or_si128(_mm_and_si128(w, middle), ones), _mm_or_si128(red, blue));
+        __m128i exchanged = _mm_and_si128(w, outer);
+        exchanged = _mm_shufflehi_epi16(_mm_shufflelo_epi16(exchanged, 0xb1), 0xb1); /* halves of words */
+        w = _mm_or_si128(_mm_or_si128(_mm_and_si128(w, middle), ones), exchanged);
         _mm_storeu_si128((__m128i *)(void *)(to + 4 * i), w);
     }
     for (; i < count; i++) {

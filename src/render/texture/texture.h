@@ -110,6 +110,9 @@ int texture_blocks_create(struct triptych_texture *texture);
 void texture_blocks_update(struct triptych_texture *texture, unsigned face, unsigned level,
                            const struct triptych_box *box, const void *data, size_t row_pitch,
                            size_t slice_pitch);
+/* Compresses the texels of whole blocks, and replaces them by what the blocks mean. */
+void texture_compress(struct triptych_texture *texture, unsigned face, unsigned level,
+                      const struct triptych_box *box);
 void texture_blocks_all_stale(struct triptych_texture *texture, unsigned first_level);
 
 /* Makes every level but the first from the one above it (render/texture/mip.c). */

@@ -105,6 +105,25 @@ void texture_blocks_update(struct triptych_texture *texture, unsigned face, unsi
     copy_blocks(texture, level, box, level_blocks(texture, face, level), data, NULL, row_pitch, slice_pitch);
 }
 
+void texture_compress(struct triptych_texture *texture, unsigned face, unsigned level,
+                      const struct triptych_box *box)
+{
+    const struct texture_level *l = &texture->level[level];
+    const struct format *format = texture->format;
+    size_t pitch = texture_row_bytes(format, (uint32_t)l->width);
+    size_t slice = pitch * format_blocks(format, (uint32_t)l->height);
+    refresh(texture, face, level);
+    uint8_t *blocks = level_blocks(texture, face, level) + box->z * slice + box->y / format->side * pitch +
+                      box->x / format->side * (size_t)format->bytes;
+    encode_part(texture, face, level, box, blocks, pitch, slice);
+    uint8_t *texels = texture_level_texels(texture, face, level);
+    size_t stride = (size_t)l->pitch, size = format_texel_bytes(format);
+    for (unsigned z = 0; z < box->depth; z++, blocks += slice) {
+        size_t first = ((size_t)(box->z + z) * (size_t)l->height + box->y) * stride + box->x;
+        format_decode(format, blocks, pitch, box->width, box->height, texels + first * size, stride);
+    }
+}
+
 void texture_read(struct triptych_texture *texture, unsigned face, unsigned level,
                   const struct triptych_box *box, void *data, size_t row_pitch, size_t slice_pitch)
 {

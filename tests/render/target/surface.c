@@ -354,12 +354,15 @@ static void check_refusals(void)
     expect_refused(TRIPTYCH_BAD_ARGUMENT,
                    triptych_copy(device, &surface, &outside, &the_target, NULL, TRIPTYCH_COPY_POINT),
                    "source of a copy: 5 x 1 pixels at 60, 0: expected a part of 64 x 64");
-    expect_refused(TRIPTYCH_UNSUPPORTED,
+    expect_refused(TRIPTYCH_BAD_ARGUMENT,
                    triptych_copy(device, &deep, NULL, &surface, NULL, TRIPTYCH_COPY_POINT),
-                   "source of a copy: format D16 is one of depth");
-    expect_refused(TRIPTYCH_UNSUPPORTED,
-                   triptych_copy(device, &surface, NULL, &grey, NULL, TRIPTYCH_COPY_POINT),
-                   "target of a copy: format L8 cannot be drawn to");
+                   "copy of format d16 to format A8R8G8B8: expected two formats of colours, or one of depth");
+    expect_refused(TRIPTYCH_BAD_ARGUMENT,
+                   triptych_copy(device, &deep, NULL, &deep, NULL, TRIPTYCH_COPY_LINEAR),
+                   "copy of depth with a linear filter: expected point");
+    expect_refused(TRIPTYCH_BAD_ARGUMENT,
+                   triptych_copy(device, &surface, NULL, &grey, NULL, (enum triptych_copy_filter)2),
+                   "filter 2 of a copy: expected point (0) or linear (1)");
 }
 
 static void test_invalid_surfaces_and_copies_are_refused(void)

@@ -80,6 +80,8 @@ static const char everything[] =
     "attach color a1\nattach color none color a1\nattach color a1 depth d1\nattach depth d1\n"
     "attach color a1 depthformat d16\nattach none\n"
     "copy a1 level 1 part 0 0 2 2 to target part 1 1 4 4 linear\ncopy target to a1\n"
+    "pixels a1 level 1 part 0 1 2 1 format R5G6B5 o1\npixels target part 1 2 4 1 format A8R8G8B8 o4\n"
+    "pixels d1 part 0 0 1 1 o1\nfill target color 0.25 0.5 -1 2\nfill a1 level 1 part 1 0 1 2 color 0 0 0 1\n"
     "texels one px4\ntarget 1 1 depth d24s8 color A8R8G8B8\ncontents px\n"
     "clear color 0 0 0 0 stencil 0\nclear depth 1 stencil 255\ndeclare\nbind texture 19 one\n"
     "draw mesh mb\nclipplane 5 1 2 3 4\nbind texture 19 none\nrelease one\nrelease q\n";

@@ -93,6 +93,10 @@ static void change_something(struct maker *maker)
     case_states(maker, random_below(&maker->random, 6));
     if (random_chance(&maker->random, 6))
         case_copy(maker);
+    if (random_chance(&maker->random, 8))
+        case_fill(maker);
+    if (random_chance(&maker->random, 8))
+        case_write_pixels(maker);
     if (random_chance(&maker->random, 6))
         add_clear_of_parts(maker);
     if (random_chance(&maker->random, 6))

@@ -14,6 +14,7 @@ struct case_texture {
     enum triptych_texture_type type;
     unsigned size; /* of a side */
     bool target;   /* can be drawn to */
+    bool depth;    /* has depth, not colours */
     bool mips;
     unsigned update_words; /* of the buffer that can replace a face's first level; 0: there is none */
 };
@@ -71,6 +72,8 @@ void case_detach(struct maker *);
 /* The clear of a target with these. */
 void case_clear(struct maker *, bool depth, bool stencil);
 void case_copy(struct maker *);
+void case_fill(struct maker *);
+void case_write_pixels(struct maker *);
 void case_change(struct maker *);
 void case_change_buffer(struct maker *);
 void case_switch_shaders(struct maker *);

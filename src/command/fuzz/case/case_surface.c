@@ -3,6 +3,8 @@
 
 #include "render/texture/format.h"
 
+#include <string.h>
+
 /* A texture that can be drawn to; -1: none. */
 static int find_target(struct maker *maker)
 {
@@ -196,7 +198,7 @@ void case_copy(struct maker *maker)
 {
     int surface[2] = {-1, find_target(maker)};
     bool back = random_chance(&maker->random, 3);
-    if (surface[1] < 0 || maker->samples > 1)
+    if (surface[1] < 0)
         return;
     text_add(maker->text, "copy");
     add_surface(maker, surface[back]);
@@ -217,4 +219,46 @@ void case_change(struct maker *maker)
         text_add(maker->text, "update t%u u%u\n", t, t);
     if (maker->texture[t].mips)
         text_add(maker->text, "mips t%u\n", t);
+}
+
+/* A colour for a part of the target or of any texture. */
+void case_fill(struct maker *maker)
+{
+    int texture = (int)random_below(&maker->random, maker->textures + 1) - 1;
+    if (texture >= 0 && maker->texture[texture].depth)
+        return;
+    text_add(maker->text, "fill");
+    add_surface(maker, texture);
+    add_part(maker, texture);
+    text_add(maker->text, " color");
+    case_numbers(maker, 4, -0.5f, 1.5f);
+    text_add(maker->text, "\n");
+}
+
+/* A format of at most four bytes that pixels in memory can have. */
+static const char *memory_format(struct maker *maker)
+{
+    static const char *const formats[] = {"A8R8G8B8", "R5G6B5",      "L8",       "A8B8G8R8",
+                                          "R8G8B8",   "A2R10G10B10", "G16R16",   "R16F",
+                                          "G16R16F",  "A4L4",        "Q8W8V8U8", "A1R5G5B5"};
+    return formats[random_below(&maker->random, sizeof formats / sizeof *formats)];
+}
+
+/* Texels of a texture's update as pixels: as many as the buffer has in the format. */
+void case_write_pixels(struct maker *maker)
+{
+    int texture = maker->textures ? (int)random_below(&maker->random, maker->textures) : -1;
+    if (texture < 0 || !maker->texture[texture].update_words || maker->texture[texture].depth)
+        return;
+    int to = random_chance(&maker->random, 2) ? -1 : texture;
+    const char *name = memory_format(maker);
+    unsigned bytes = format_named(name, strlen(name))->bytes,
+             most = to < 0 ? maker->width : maker->texture[to].size;
+    unsigned pixels = maker->texture[texture].update_words * 4 / bytes;
+    if (pixels > most)
+        return;
+    text_add(maker->text, "pixels");
+    add_surface(maker, to);
+    text_add(maker->text, " part %u 0 %u 1 format %s u%d\n", random_below(&maker->random, most - pixels + 1),
+             pixels, name, texture);
 }

@@ -140,6 +140,7 @@ static void add_texture(struct maker *maker)
     unsigned depth = texture->type == TRIPTYCH_TEXTURE_VOLUME ? 1 + random_below(&maker->random, 4) : 1;
     /* whole blocks of compressed formats */
     texture->size = format->side * (1 + random_below(&maker->random, 8 / format->side + 1));
+    texture->depth = format->roles & ROLE_DEPTH;
     texture->target = format->roles & ROLE_TARGET && texture->type != TRIPTYCH_TEXTURE_VOLUME;
     text_add(maker->text, "texture t%u %s %s %u", number, type[texture->type], format->name, texture->size);
     if (texture->type != TRIPTYCH_TEXTURE_CUBE)

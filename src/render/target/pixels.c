@@ -1,0 +1,313 @@
+#include "render/target/pixels.h"
+
+#include "base/bits.h"
+#include "base/minmax.h"
+
+#include <emmintrin.h>
+#include <string.h>
+
+static uint32_t tile_of(const struct attachment *a, uint32_t x, uint32_t y)
+{
+    return y / TILE_SIZE * a->columns + x / TILE_SIZE;
+}
+
+/* The first of a tile's planes. */
+static uint32_t *tile_words(const struct attachment *a, uint32_t tile)
+{
+    const struct tile_memory *memory = a->memory;
+    size_t index = (size_t)(tile / a->columns) * memory->columns + tile % a->columns;
+    return memory->words + index * memory->stride + a->plane * TILE_PIXELS;
+}
+
+/* The words that all pixels of a tile have; null: its words in memory are valid. */
+static const uint32_t *pending_words(const struct attachment *a, uint32_t tile)
+{
+    if (a->format)
+        return a->color_clear[tile].pending ? a->color_clear[tile].word : NULL;
+    return a->depth_clear[tile].pending ? &a->depth_clear[tile].word : NULL;
+}
+
+/* --- Rows of planes --- */
+
+/* The first word of row y of a tile in a plane. Each four pixels are two pairs, which begin four words apart. */
+static uint32_t row_start(uint32_t y)
+{
+    return y / BLOCK_SIZE * (TILE_SIZE / BLOCK_SIZE) * BLOCK_PIXELS + (y & 2) * 4 + (y & 1) * 2;
+}
+
+static void gather_blocks(const uint32_t *words, uint32_t blocks, uint32_t *row)
+{
+    for (uint32_t i = 0; i < blocks; i++, words += BLOCK_PIXELS, row += BLOCK_SIZE) {
+        __m128i left = _mm_loadl_epi64((const __m128i *)words);
+        __m128i right = _mm_loadl_epi64((const __m128i *)(words + BLOCK_SIZE));
+        _mm_storeu_si128((__m128i *)row, _mm_unpacklo_epi64(left, right));
+    }
+}
+
+static void scatter_blocks(const uint32_t *row, uint32_t blocks, uint32_t *words)
+{
+    for (uint32_t i = 0; i < blocks; i++, words += BLOCK_PIXELS, row += BLOCK_SIZE) {
+        __m128i four = _mm_loadu_si128((const __m128i *)row);
+        _mm_storel_epi64((__m128i *)words, four);
+        _mm_storel_epi64((__m128i *)(words + BLOCK_SIZE), _mm_unpackhi_epi64(four, four));
+    }
+}
+
+/* A part of a row of a tile, and of its blocks. */
+struct part {
+    uint32_t start; /* the first block's word in a plane */
+    uint32_t skipped, count, blocks;
+};
+
+static struct part part_of(uint32_t x, uint32_t y, uint32_t count)
+{
+    x %= TILE_SIZE;
+    uint32_t skipped = x % BLOCK_SIZE;
+    return (struct part){row_start(y % TILE_SIZE) + x / BLOCK_SIZE * BLOCK_PIXELS, skipped, count,
+                         (skipped + count + BLOCK_SIZE - 1) / BLOCK_SIZE};
+}
+
+static void read_plane(const uint32_t *plane, const struct part *part, uint32_t *row)
+{
+    uint32_t whole[TILE_SIZE];
+    if (part->blocks * BLOCK_SIZE == part->count) {
+        gather_blocks(plane + part->start, part->blocks, row);
+        return;
+    }
+    gather_blocks(plane + part->start, part->blocks, whole);
+    memcpy(row, whole + part->skipped, part->count * sizeof *row);
+}
+
+static void write_plane(uint32_t *plane, const struct part *part, const uint32_t *row)
+{
+    uint32_t whole[TILE_SIZE];
+    if (part->blocks * BLOCK_SIZE == part->count) {
+        scatter_blocks(row, part->blocks, plane + part->start);
+        return;
+    }
+    gather_blocks(plane + part->start, part->blocks, whole);
+    memcpy(whole + part->skipped, row, part->count * sizeof *row);
+    scatter_blocks(whole, part->blocks, plane + part->start);
+}
+
+/* Four planes and a row of four words a pixel. */
+static void interleave(uint32_t plane[4][TILE_SIZE], uint32_t count, uint32_t *row)
+{
+    for (uint32_t i = 0; i < count; i++)
+        for (uint32_t p = 0; p < 4; p++)
+            row[4 * i + p] = plane[p][i];
+}
+
+static void separate(const uint32_t *row, uint32_t count, uint32_t plane[4][TILE_SIZE])
+{
+    for (uint32_t i = 0; i < count; i++)
+        for (uint32_t p = 0; p < 4; p++)
+            plane[p][i] = row[4 * i + p];
+}
+
+/* --- Reading --- */
+
+static void fill_row(const uint32_t *words, uint32_t planes, uint32_t count, uint32_t *row)
+{
+    for (uint32_t i = 0; i < count; i++)
+        for (uint32_t p = 0; p < planes; p++)
+            row[i * planes + p] = words[p];
+}
+
+/* Sums of the bytes of four pixels, in 16 bits: rounded averages of 2^shift samples. */
+static __m128i average(__m128i low, __m128i high, int shift)
+{
+    const __m128i half = _mm_set1_epi16((short)(1 << shift >> 1)), count = _mm_cvtsi32_si128(shift);
+    low = _mm_srl_epi16(_mm_add_epi16(low, half), count);
+    high = _mm_srl_epi16(_mm_add_epi16(high, half), count);
+    return _mm_packus_epi16(low, high);
+}
+
+static void resolve_bytes(const uint32_t *words, uint32_t samples, const struct part *part, uint32_t *row)
+{
+    const __m128i zero = _mm_setzero_si128();
+    uint32_t whole[TILE_SIZE];
+    words += part->start;
+    for (uint32_t i = 0; i < part->blocks; i++, words += BLOCK_PIXELS) {
+        __m128i low = zero, high = zero;
+        for (uint32_t s = 0; s < samples; s++) {
+            const uint32_t *four = words + s * TILE_PIXELS;
+            __m128i left = _mm_loadl_epi64((const __m128i *)four);
+            __m128i right = _mm_loadl_epi64((const __m128i *)(four + BLOCK_SIZE));
+            low = _mm_add_epi16(low, _mm_unpacklo_epi8(left, zero));
+            high = _mm_add_epi16(high, _mm_unpacklo_epi8(right, zero));
+        }
+        _mm_storeu_si128((__m128i *)(whole + i * BLOCK_SIZE), average(low, high, samples_exponent(samples)));
+    }
+    memcpy(row, whole + part->skipped, part->count * sizeof *row);
+}
+
+/* One plane of numbers. */
+static void resolve_numbers(const uint32_t *words, uint32_t samples, const struct part *part, uint32_t *row)
+{
+    uint32_t sample[TILE_SIZE];
+    float sum[TILE_SIZE] = {0};
+    for (uint32_t s = 0; s < samples; s++, words += 4 * TILE_PIXELS) {
+        read_plane(words, part, sample);
+        for (uint32_t i = 0; i < part->count; i++)
+            sum[i] += bits_to_float(sample[i]);
+    }
+    for (uint32_t i = 0; i < part->count; i++)
+        row[i] = bits_of_float(sum[i] / (float)samples);
+}
+
+static void read_words(const struct attachment *a, const uint32_t *words, const struct part *part,
+                       uint32_t *row)
+{
+    uint32_t plane[4][TILE_SIZE];
+    bool resolves = a->format && a->samples > 1;
+    if (attachment_planes(a) == 1) {
+        if (resolves)
+            resolve_bytes(words, a->samples, part, row);
+        else
+            read_plane(words, part, row);
+        return;
+    }
+    for (uint32_t p = 0; p < 4; p++)
+        if (resolves)
+            resolve_numbers(words + p * TILE_PIXELS, a->samples, part, plane[p]);
+        else
+            read_plane(words + p * TILE_PIXELS, part, plane[p]);
+    interleave(plane, part->count, row);
+}
+
+static void read_tiles(const struct attachment *a, uint32_t x, uint32_t y, uint32_t count, uint32_t *row)
+{
+    uint32_t tile = tile_of(a, x, y);
+    const uint32_t *pending = pending_words(a, tile);
+    struct part part = part_of(x, y, count);
+    if (pending)
+        fill_row(pending, attachment_planes(a), count, row);
+    else
+        read_words(a, tile_words(a, tile), &part, row);
+}
+
+/* The first texel of a row. */
+static uint8_t *find_texel(const struct pixels *pixels, uint32_t x, uint32_t y)
+{
+    size_t bytes = pixels->format ? format_texel_bytes(pixels->format) : 4 * sizeof(float);
+    return pixels->texels + (y * pixels->pitch + x) * bytes;
+}
+
+static void read_texels(const struct pixels *pixels, uint32_t x, uint32_t y, uint32_t count, uint32_t *row)
+{
+    const uint8_t *texel = find_texel(pixels, x, y);
+    if (pixels->format) {
+        memcpy(row, texel, count * format_texel_bytes(pixels->format));
+        return;
+    }
+    for (uint32_t i = 0; i < count; i++, texel += 4 * sizeof(float)) {
+        float depth;
+        memcpy(&depth, texel, sizeof depth);
+        row[i] = depth_encode(pixels->depth_format, depth);
+    }
+}
+
+void pixels_read_row(const struct pixels *pixels, uint32_t x, uint32_t y, uint32_t count, uint32_t *row)
+{
+    if (pixels->tiles)
+        read_tiles(pixels->tiles, x, y, count, row);
+    else if (pixels->texels)
+        read_texels(pixels, x, y, count, row);
+    else
+        memset(row, 0xff, count * sizeof *row);
+}
+
+/* --- Writing --- */
+
+/* Makes a tile's words valid, with what its clear has left. */
+static uint32_t *open_tile(const struct attachment *a, uint32_t tile)
+{
+    uint32_t *words = tile_words(a, tile), planes = attachment_planes(a);
+    const uint32_t *pending = pending_words(a, tile);
+    for (uint32_t p = 0; pending && p < a->samples * planes; p++)
+        for (uint32_t i = 0; i < TILE_PIXELS; i++)
+            words[p * TILE_PIXELS + i] = pending[p % planes];
+    if (a->format) {
+        a->color_clear[tile].pending = false;
+    } else {
+        a->depth_clear[tile].pending = false;
+        a->depth_clear[tile].range = (struct depth_range){0, depth_mask(a->depth_format)};
+    }
+    return words;
+}
+
+static void write_tiles(const struct attachment *a, uint32_t x, uint32_t y, uint32_t count,
+                        const uint32_t *row)
+{
+    struct part part = part_of(x, y, count);
+    uint32_t *words = open_tile(a, tile_of(a, x, y)), planes = attachment_planes(a), plane[4][TILE_SIZE];
+    if (planes > 1)
+        separate(row, count, plane);
+    for (uint32_t p = 0; p < a->samples * planes; p++)
+        write_plane(words + p * TILE_PIXELS, &part, planes > 1 ? plane[p % planes] : row);
+}
+
+static void write_texels(const struct pixels *pixels, uint32_t x, uint32_t y, uint32_t count,
+                         const uint32_t *row)
+{
+    uint8_t *texel = find_texel(pixels, x, y);
+    if (pixels->format) {
+        memcpy(texel, row, count * format_texel_bytes(pixels->format));
+        return;
+    }
+    for (uint32_t i = 0; i < count; i++, texel += 4 * sizeof(float)) {
+        float depth = depth_decode(pixels->depth_format, row[i]);
+        memcpy(texel, (float[4]){depth, depth, depth, depth}, 4 * sizeof depth);
+    }
+}
+
+void pixels_write_row(const struct pixels *pixels, uint32_t x, uint32_t y, uint32_t count,
+                      const uint32_t *row)
+{
+    if (pixels->tiles)
+        write_tiles(pixels->tiles, x, y, count, row);
+    else if (pixels->texels)
+        write_texels(pixels, x, y, count, row);
+}
+
+/* Returns true if the part has all pixels of the tile that the attachment has. */
+static bool is_whole_tile(const struct attachment *a, const struct triptych_rectangle *part)
+{
+    return part->x % TILE_SIZE == 0 && part->y % TILE_SIZE == 0 &&
+           part->width == min_u32(TILE_SIZE, a->width - part->x) &&
+           part->height == min_u32(TILE_SIZE, a->height - part->y);
+}
+
+/* The tile remembers the words, which are written when they are needed. */
+static void clear_tile(const struct attachment *a, uint32_t tile, const uint32_t *words)
+{
+    if (a->format) {
+        a->color_clear[tile].pending = true;
+        memcpy(a->color_clear[tile].word, words, attachment_planes(a) * sizeof *words);
+        return;
+    }
+    uint32_t depth = *words & depth_mask(a->depth_format);
+    a->depth_clear[tile] = (struct depth_clear){*words, {depth, depth}, true};
+}
+
+void pixels_fill(const struct pixels *pixels, const struct triptych_rectangle *part, const uint32_t *words)
+{
+    uint32_t row[4 * PIXELS_ROW];
+    if (pixels->tiles && is_whole_tile(pixels->tiles, part)) {
+        clear_tile(pixels->tiles, tile_of(pixels->tiles, part->x, part->y), words);
+        return;
+    }
+    fill_row(words, pixels_words(pixels), part->width, row);
+    for (uint32_t y = part->y; y < part->y + part->height; y++)
+        pixels_write_row(pixels, part->x, y, part->width, row);
+}
+
+int pixels_prepare(const struct pixels *pixels, struct error *error)
+{
+    struct attachment *a = pixels->tiles;
+    if (a && !a->memory)
+        a->memory = attachment_memory_create(a->columns, a->rows,
+                                             attachment_planes(a) * a->samples * TILE_PIXELS, error);
+    return !a || a->memory ? 0 : -1;
+}

@@ -1,0 +1,54 @@
+/* Pixels of a surface in rows, wherever they are stored: in the tiles of an attachment, or as texels of a
+ * texture (render/target/surface.h).
+ *
+ * A row of a colour has the storage of its format: a word or four numbers a pixel (def/state/target.def), so it
+ * is also a row of texels (render/texture/format.h). A row of depth has one word a pixel (render/target/depth.h).
+ * Reading resolves samples: the average of all colours, of bytes channel by channel to nearest and halves up, of
+ * numbers in binary32, summed in order; sample 0 of depth and stencil. Writing sets all samples.
+ *
+ * Nothing is queued that draws to the pixels. Functions are called in the contract's floating-point environment.
+ * Each tile is touched by one thread at a time; different tiles by any. */
+#ifndef RENDER_TARGET_PIXELS_H
+#define RENDER_TARGET_PIXELS_H
+
+#include "render/target/attachment.h"
+#include "triptych.h"
+
+/* The most pixels of a row that are read or written together; they are in one column of tiles. */
+enum { PIXELS_ROW = TILE_SIZE };
+
+struct pixels {
+    const struct format *format;             /* of a colour; null: depth */
+    enum triptych_depth_format depth_format; /* of depth */
+    uint32_t width, height;
+    struct attachment *tiles; /* null: texels */
+    uint8_t *texels; /* the first; null with null tiles: a format that stores nothing, which reads 1 */
+    size_t pitch;    /* texels from a row to the next */
+};
+
+/* Words of a pixel in a row. */
+static inline uint32_t pixels_words(const struct pixels *pixels)
+{
+    return pixels->format && pixels->format->storage == STORAGE_FLOAT4 ? 4 : 1;
+}
+
+/* The storage of a row of a colour. */
+static inline enum storage pixels_storage(const struct pixels *pixels)
+{
+    return (enum storage)pixels->format->storage;
+}
+
+/* `count` pixels of row y from x on, all in one column of tiles. */
+void pixels_read_row(const struct pixels *pixels, uint32_t x, uint32_t y, uint32_t count, uint32_t *row);
+/* The pixels have tiles with memory, or texels. Texels that follow a row as its padding are not written. */
+void pixels_write_row(const struct pixels *pixels, uint32_t x, uint32_t y, uint32_t count,
+                      const uint32_t *row);
+
+/* Sets all pixels of a part of one tile to the same words. The part begins and ends within the tile. */
+void pixels_fill(const struct pixels *pixels, const struct triptych_rectangle *part, const uint32_t *words);
+
+/* Gives memory to an attachment that was never drawn to, before it is written. Returns 0, or -1 with the
+ * reason. */
+int pixels_prepare(const struct pixels *pixels, struct error *error);
+
+#endif

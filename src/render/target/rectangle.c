@@ -1,0 +1,201 @@
+#include "render/target/rectangle.h"
+
+#include "base/bits.h"
+#include "base/minmax.h"
+#include "render/texture/convert.h"
+
+#include <string.h>
+
+enum { DEPTH_SHIFT = 8, TEXEL_BYTES_MAXIMUM = 16 };
+
+bool pixels_is_memory_format(const struct format *format)
+{
+    return format->side == 1 && format->roles & (ROLE_TEXTURE | ROLE_TARGET) &&
+           !(format->roles & ROLE_DEPTH) && format->number != TRIPTYCH_SURFACE_NULL;
+}
+
+/* Bytes of a word of depth and stencil. */
+static size_t depth_bytes(enum triptych_depth_format format)
+{
+    return depth_formats[format].depth_bits <= 16 ? 2 : 4;
+}
+
+size_t pixels_memory_bytes(const struct pixels *pixels, const struct format *format)
+{
+    return format ? format->bytes : depth_bytes(pixels->depth_format);
+}
+
+/* --- Rows of colours --- */
+
+/* Texels of compressed formats are words of bytes until they are compressed. */
+static bool is_plain_word(const struct format *format)
+{
+    return format->side > 1 || (format->roles & ROLE_TARGET && format->target == TARGET_8888);
+}
+
+static void encode_numbers(const struct format *to, const float *numbers, uint32_t count, uint32_t *result)
+{
+    uint32_t planes = to->storage == STORAGE_RGBA8 ? 1 : 4;
+    for (uint32_t i = 0; i < count; i++) {
+        uint32_t words[4];
+        color_encode(to, numbers + 4 * i, words);
+        memcpy(result + i * planes, words, planes * sizeof *words);
+    }
+}
+
+/* To the values that a format of textures has. */
+static void convert_by_format(const struct format *to, enum storage storage, const void *row, uint32_t count,
+                              uint32_t *result)
+{
+    uint8_t data[TEXEL_BYTES_MAXIMUM * PIXELS_ROW];
+    format_encode_row(to, storage, row, count, data);
+    format_decode_row(to, data, count, result);
+}
+
+void pixels_convert_numbers(const struct format *to, const float *numbers, uint32_t count, uint32_t *result)
+{
+    if (to->side > 1)
+        encode_numbers(format_find(TRIPTYCH_SURFACE_A8B8G8R8), numbers, count, result);
+    else if (to->roles & ROLE_TARGET)
+        encode_numbers(to, numbers, count, result);
+    else
+        convert_by_format(to, STORAGE_FLOAT4, numbers, count, result);
+}
+
+static void convert_bytes(const struct format *to, const uint32_t *row, uint32_t count, uint32_t *result)
+{
+    if (!is_plain_word(to)) {
+        convert_by_format(to, STORAGE_RGBA8, row, count, result);
+        return;
+    }
+    uint32_t missing = to->side == 1 && to->channel[3].type == CHANNEL_ONE ? 0xff000000 : 0;
+    for (uint32_t i = 0; i < count; i++)
+        result[i] = row[i] | missing;
+}
+
+void pixels_convert_row(const struct format *from, const struct format *to, const uint32_t *row,
+                        uint32_t count, uint32_t *result)
+{
+    float numbers[4 * PIXELS_ROW];
+    if (from == to) {
+        memcpy(result, row, count * format_texel_bytes(from));
+    } else if (from->storage == STORAGE_RGBA8 && to->storage == STORAGE_RGBA8) {
+        convert_bytes(to, row, count, result);
+    } else if (from->storage == STORAGE_RGBA8) {
+        format_numbers_of_bytes(row, count, numbers);
+        pixels_convert_numbers(to, numbers, count, result);
+    } else {
+        memcpy(numbers, row, count * sizeof(float[4]));
+        pixels_convert_numbers(to, numbers, count, result);
+    }
+}
+
+/* --- Rows of depth --- */
+
+void pixels_row_numbers(const struct pixels *pixels, const uint32_t *row, uint32_t count, float *numbers)
+{
+    if (pixels->format && pixels_storage(pixels) == STORAGE_RGBA8)
+        format_numbers_of_bytes(row, count, numbers);
+    else if (pixels->format)
+        memcpy(numbers, row, count * sizeof(float[4]));
+    for (uint32_t i = 0; i < 4 * count && !pixels->format; i++)
+        numbers[i] = depth_decode(pixels->depth_format, row[i / 4]);
+}
+
+static void encode_depth(enum triptych_depth_format format, const uint32_t *row, uint32_t count,
+                         uint8_t *data)
+{
+    unsigned stencil = depth_formats[format].stencil_bits;
+    if (depth_bytes(format) == 4) {
+        memcpy(data, row, count * sizeof *row);
+        return;
+    }
+    for (uint32_t i = 0; i < count; i++) {
+        uint16_t word = (uint16_t)(row[i] >> DEPTH_SHIFT << stencil | (row[i] & stencil_mask(format)));
+        memcpy(data + 2 * i, &word, sizeof word);
+    }
+}
+
+/* Words that no drawing writes become words that drawing can write. */
+static void decode_depth(enum triptych_depth_format format, const uint8_t *data, uint32_t count,
+                         uint32_t *row)
+{
+    unsigned stencil = depth_formats[format].stencil_bits;
+    for (uint32_t i = 0; i < count; i++) {
+        uint16_t word;
+        if (depth_bytes(format) == 4) {
+            memcpy(row + i, data + 4 * i, sizeof *row);
+        } else {
+            memcpy(&word, data + 2 * i, sizeof word);
+            row[i] = (uint32_t)word >> stencil << DEPTH_SHIFT | (word & stencil_mask(format));
+        }
+        row[i] = depth_valid(format, row[i]);
+    }
+}
+
+/* --- Parts --- */
+
+static uint32_t tiles_across(uint32_t first, uint32_t size)
+{
+    return (first + size + TILE_SIZE - 1) / TILE_SIZE - first / TILE_SIZE;
+}
+
+uint32_t pixels_parts(const struct triptych_rectangle *rectangle)
+{
+    return tiles_across(rectangle->x, rectangle->width) * tiles_across(rectangle->y, rectangle->height);
+}
+
+/* The part of first .. first + size - 1 in its i-th tile. */
+static void cut(uint32_t first, uint32_t size, uint32_t i, unsigned *from, unsigned *length)
+{
+    uint32_t start = (first / TILE_SIZE + i) * TILE_SIZE;
+    *from = max_u32(first, start);
+    *length = min_u32(first + size, start + TILE_SIZE) - *from;
+}
+
+struct triptych_rectangle pixels_part(const struct triptych_rectangle *rectangle, uint32_t i)
+{
+    struct triptych_rectangle part;
+    uint32_t columns = tiles_across(rectangle->x, rectangle->width);
+    cut(rectangle->x, rectangle->width, i % columns, &part.x, &part.width);
+    cut(rectangle->y, rectangle->height, i / columns, &part.y, &part.height);
+    return part;
+}
+
+static uint8_t *memory_of(const struct pixels_memory *memory, uint32_t x, uint32_t y)
+{
+    return memory->data + (y - memory->rectangle.y) * memory->pitch +
+           (x - memory->rectangle.x) * pixels_memory_bytes(&memory->pixels, memory->format);
+}
+
+void pixels_read_part(const struct pixels_memory *memory, uint32_t i)
+{
+    const struct pixels *pixels = &memory->pixels;
+    struct triptych_rectangle part = pixels_part(&memory->rectangle, i);
+    uint32_t row[4 * PIXELS_ROW];
+    for (uint32_t y = part.y; y < part.y + part.height; y++) {
+        uint8_t *data = memory_of(memory, part.x, y);
+        pixels_read_row(pixels, part.x, y, part.width, row);
+        if (memory->format)
+            format_encode_row(memory->format, pixels_storage(pixels), row, part.width, data);
+        else
+            encode_depth(pixels->depth_format, row, part.width, data);
+    }
+}
+
+void pixels_write_part(const struct pixels_memory *memory, uint32_t i)
+{
+    const struct pixels *pixels = &memory->pixels;
+    struct triptych_rectangle part = pixels_part(&memory->rectangle, i);
+    uint32_t row[4 * PIXELS_ROW], converted[4 * PIXELS_ROW];
+    for (uint32_t y = part.y; y < part.y + part.height; y++) {
+        const uint8_t *data = memory_of(memory, part.x, y);
+        if (memory->format) {
+            format_decode_row(memory->format, data, part.width, row);
+            pixels_convert_row(memory->format, pixels->format, row, part.width, converted);
+        } else {
+            decode_depth(pixels->depth_format, data, part.width, converted);
+        }
+        pixels_write_row(pixels, part.x, y, part.width, converted);
+    }
+}

@@ -1,0 +1,656 @@
+/* Rectangles of pixels in tiles and in texels, compared with pixels that the test finds one by one: rows, samples,
+ * memory in every format, conversions, and copies of any scale. */
+#include "render/target/rectangle.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+#include <unity.h>
+
+enum { WIDTH = 150, HEIGHT = 70 };
+
+static struct error reason;
+static struct pixels pixels, other;
+
+void setUp(void)
+{
+    error_clear(&reason);
+}
+
+static void drop(struct pixels *dropped)
+{
+    attachment_release(dropped->tiles);
+    if (!dropped->tiles)
+        free(dropped->texels);
+    *dropped = (struct pixels){0};
+}
+
+void tearDown(void)
+{
+    drop(&pixels);
+    drop(&other);
+}
+
+static uint64_t seed = 1;
+
+static uint32_t random_word(void)
+{
+    seed ^= seed >> 12;
+    seed ^= seed << 25;
+    seed ^= seed >> 27;
+    return (uint32_t)(seed * 0x2545f4914f6cdd1dull >> 32);
+}
+
+/* A word that a target of the format can have. */
+static uint32_t random_value(const struct format *format)
+{
+    if (!format || format->storage == STORAGE_RGBA8)
+        return random_word();
+    uint32_t bits;
+    memcpy(&bits, &(float){(float)(random_word() % 1025) / 1024}, sizeof bits);
+    return bits;
+}
+
+/* --- Surfaces --- */
+
+static void make_color(struct pixels *made, enum triptych_surface_format number, uint32_t samples)
+{
+    drop(made);
+    const struct format *format = format_find(number);
+    *made = (struct pixels){.format = format, .width = WIDTH, .height = HEIGHT};
+    made->tiles = attachment_create_color(format, WIDTH, HEIGHT, samples, &reason);
+    TEST_ASSERT_NOT_NULL_MESSAGE(made->tiles, reason.text);
+}
+
+static void make_depth(struct pixels *made, enum triptych_depth_format format)
+{
+    drop(made);
+    *made = (struct pixels){.depth_format = format, .width = WIDTH, .height = HEIGHT};
+    made->tiles = attachment_create_depth(format, WIDTH, HEIGHT, 1, &reason);
+    TEST_ASSERT_NOT_NULL_MESSAGE(made->tiles, reason.text);
+}
+
+static void make_texels(struct pixels *made, enum triptych_surface_format number)
+{
+    drop(made);
+    const struct format *format = format_find(number);
+    *made = (struct pixels){.format = format, .width = WIDTH, .height = HEIGHT, .pitch = WIDTH + 1};
+    made->texels = calloc(HEIGHT * (WIDTH + 1), format_texel_bytes(format));
+}
+
+/* A word of a sample of a pixel, by the layout of tiles (contract/layout.h) or of rows. */
+static uint32_t *word_at(const struct pixels *p, uint32_t x, uint32_t y, uint32_t sample, uint32_t plane)
+{
+    static const uint32_t lane[4][4] = {{0, 1, 4, 5}, {2, 3, 6, 7}, {8, 9, 12, 13}, {10, 11, 14, 15}};
+    const struct attachment *a = p->tiles;
+    uint32_t planes = pixels_words(p);
+    if (!a)
+        return (uint32_t *)(void *)p->texels + (y * p->pitch + x) * planes + plane;
+    size_t tile = y / 64 * a->columns + x / 64;
+    size_t block = y % 64 / 4 * 16 + x % 64 / 4;
+    return a->memory->words + tile * a->memory->stride + (sample * planes + plane) * 4096 + block * 16 +
+           lane[y % 4][x % 4];
+}
+
+static void fill_random(struct pixels *p)
+{
+    uint32_t samples = p->tiles ? p->tiles->samples : 1, zero[4] = {0};
+    TEST_ASSERT_EQUAL_INT(0, pixels_prepare(p, &reason));
+    for (uint32_t y = 0; y < HEIGHT; y++)
+        for (uint32_t x = 0; x < WIDTH; x++) {
+            pixels_write_row(p, x, y, 1, zero);
+            for (uint32_t s = 0; s < samples; s++)
+                for (uint32_t plane = 0; plane < pixels_words(p); plane++)
+                    *word_at(p, x, y, s, plane) = random_value(p->format);
+        }
+}
+
+static const enum triptych_surface_format drawn[] = {TRIPTYCH_SURFACE_A8R8G8B8, TRIPTYCH_SURFACE_R5G6B5,
+                                                     TRIPTYCH_SURFACE_A16B16G16R16F, TRIPTYCH_SURFACE_G16R16};
+
+/* --- Rows --- */
+
+static uint32_t averaged_byte_word(const struct pixels *p, uint32_t x, uint32_t y)
+{
+    uint32_t word = 0, samples = p->tiles->samples;
+    for (int c = 0; c < 4; c++) {
+        uint32_t sum = 0;
+        for (uint32_t s = 0; s < samples; s++)
+            sum += *word_at(p, x, y, s, 0) >> 8 * c & 255;
+        word |= (sum + samples / 2) / samples << 8 * c;
+    }
+    return word;
+}
+
+static uint32_t averaged_number(const struct pixels *p, uint32_t x, uint32_t y, uint32_t plane)
+{
+    float sum = 0, number;
+    uint32_t bits;
+    for (uint32_t s = 0; s < p->tiles->samples; s++) {
+        memcpy(&number, word_at(p, x, y, s, plane), sizeof number);
+        sum += number;
+    }
+    sum /= (float)p->tiles->samples;
+    memcpy(&bits, &sum, sizeof bits);
+    return bits;
+}
+
+static void expect_rows(const struct pixels *p)
+{
+    uint32_t row[4 * PIXELS_ROW], words = pixels_words(p);
+    for (int n = 0; n < 500; n++) {
+        uint32_t x = random_word() % WIDTH, y = random_word() % HEIGHT;
+        uint32_t most = 64 - x % 64 < WIDTH - x ? 64 - x % 64 : WIDTH - x;
+        uint32_t count = 1 + random_word() % most;
+        pixels_read_row(p, x, y, count, row);
+        for (uint32_t i = 0; i < count * words; i++) {
+            uint32_t at = x + i / words;
+            uint32_t expected = *word_at(p, at, y, 0, i % words);
+            if (p->tiles && p->tiles->samples > 1)
+                expected = words == 1 ? averaged_byte_word(p, at, y) : averaged_number(p, at, y, i % words);
+            TEST_ASSERT_EQUAL_HEX32(expected, row[i]);
+        }
+    }
+}
+
+static void test_rows_are_read_from_tiles_and_samples_are_averaged(void)
+{
+    for (int f = 0; f < 4; f++)
+        for (uint32_t samples = 1; samples <= 8; samples *= 2) {
+            make_color(&pixels, drawn[f], samples);
+            fill_random(&pixels);
+            expect_rows(&pixels);
+        }
+}
+
+static void test_rows_are_read_from_texels_and_from_depth(void)
+{
+    make_texels(&pixels, TRIPTYCH_SURFACE_A8R8G8B8);
+    fill_random(&pixels);
+    expect_rows(&pixels);
+    make_texels(&pixels, TRIPTYCH_SURFACE_G16R16);
+    fill_random(&pixels);
+    expect_rows(&pixels);
+    make_depth(&pixels, TRIPTYCH_DEPTH_D24S8);
+    fill_random(&pixels);
+    expect_rows(&pixels);
+}
+
+/* Writes parts of rows with all samples, and nothing else. */
+static void test_rows_are_written_to_all_samples_and_nowhere_else(void)
+{
+    for (uint32_t samples = 1; samples <= 4; samples *= 4)
+        for (int f = 0; f < 4; f++) {
+            static uint32_t before[4][HEIGHT][WIDTH][4];
+            make_color(&pixels, drawn[f], samples);
+            fill_random(&pixels);
+            uint32_t words = pixels_words(&pixels), row[4 * PIXELS_ROW];
+            for (uint32_t y = 0; y < HEIGHT; y++)
+                for (uint32_t x = 0; x < WIDTH; x++)
+                    for (uint32_t i = 0; i < samples * words; i++)
+                        before[i / words][y][x][i % words] = *word_at(&pixels, x, y, i / words, i % words);
+            for (int n = 0; n < 50; n++) {
+                uint32_t x = random_word() % WIDTH, y = random_word() % HEIGHT;
+                uint32_t most = 64 - x % 64 < WIDTH - x ? 64 - x % 64 : WIDTH - x;
+                uint32_t count = 1 + random_word() % most;
+                for (uint32_t i = 0; i < count * words; i++) {
+                    row[i] = random_word();
+                    for (uint32_t s = 0; s < samples; s++)
+                        before[s][y][x + i / words][i % words] = row[i];
+                }
+                pixels_write_row(&pixels, x, y, count, row);
+            }
+            for (uint32_t y = 0; y < HEIGHT; y++)
+                for (uint32_t x = 0; x < WIDTH; x++)
+                    for (uint32_t i = 0; i < samples * words; i++)
+                        TEST_ASSERT_EQUAL_HEX32(before[i / words][y][x][i % words],
+                                                *word_at(&pixels, x, y, i / words, i % words));
+        }
+}
+
+static void test_a_clear_is_read_and_remains_around_what_is_written(void)
+{
+    uint32_t row[4 * PIXELS_ROW];
+    make_color(&pixels, TRIPTYCH_SURFACE_G16R16, 2);
+    for (int i = 0; i < 6; i++)
+        memcpy(pixels.tiles->color_clear[i].word, ((uint32_t[]){1, 2, 3, 4}), 16);
+    pixels_read_row(&pixels, 10, 10, 2, row);
+    TEST_ASSERT_EQUAL_HEX32_ARRAY(((uint32_t[]){1, 2, 3, 4, 1, 2, 3, 4}), row, 8);
+    TEST_ASSERT_EQUAL_INT(0, pixels_prepare(&pixels, &reason));
+    pixels_write_row(&pixels, 70, 10, 1, (uint32_t[]){5, 6, 7, 8});
+    for (uint32_t s = 0; s < 2; s++)
+        for (uint32_t p = 0; p < 4; p++) {
+            TEST_ASSERT_EQUAL_HEX32(5 + p, *word_at(&pixels, 70, 10, s, p));
+            TEST_ASSERT_EQUAL_HEX32(1 + p, *word_at(&pixels, 71, 10, s, p));
+            TEST_ASSERT_EQUAL_HEX32(1 + p, *word_at(&pixels, 64, 63, s, p));
+        }
+    TEST_ASSERT_TRUE(pixels.tiles->color_clear[0].pending);
+    TEST_ASSERT_FALSE(pixels.tiles->color_clear[1].pending);
+}
+
+static void test_fills_of_whole_tiles_are_remembered_and_others_are_written(void)
+{
+    const uint32_t word = 0x12345678;
+    uint32_t row[PIXELS_ROW];
+    make_color(&pixels, TRIPTYCH_SURFACE_A8R8G8B8, 1);
+    fill_random(&pixels);
+    uint32_t kept = *word_at(&pixels, 9, 3, 0, 0);
+    pixels_fill(&pixels, &(struct triptych_rectangle){128, 64, 22, 6}, &word);
+    pixels_fill(&pixels, &(struct triptych_rectangle){10, 3, 50, 2}, &word);
+    TEST_ASSERT_TRUE(pixels.tiles->color_clear[5].pending);
+    TEST_ASSERT_FALSE(pixels.tiles->color_clear[0].pending);
+    pixels_read_row(&pixels, 149, 69, 1, row);
+    TEST_ASSERT_EQUAL_HEX32(word, row[0]);
+    pixels_read_row(&pixels, 9, 3, 52, row);
+    TEST_ASSERT_EQUAL_HEX32(kept, row[0]);
+    TEST_ASSERT_EACH_EQUAL_HEX32(word, row + 1, 50);
+    TEST_ASSERT_TRUE(row[51] != word);
+}
+
+static void test_written_depth_forgets_its_bounds(void)
+{
+    const uint32_t word = 0x80000003;
+    make_depth(&pixels, TRIPTYCH_DEPTH_D24S8);
+    TEST_ASSERT_EQUAL_INT(0, pixels_prepare(&pixels, &reason));
+    TEST_ASSERT_EQUAL_HEX32(0xffffff00, pixels.tiles->depth_clear[0].range.least);
+    pixels_write_row(&pixels, 1, 1, 1, &word);
+    TEST_ASSERT_EQUAL_HEX32(0, pixels.tiles->depth_clear[0].range.least);
+    TEST_ASSERT_EQUAL_HEX32(0xffffff00, *word_at(&pixels, 2, 1, 0, 0));
+    pixels_fill(&pixels, &(struct triptych_rectangle){0, 0, 64, 64}, &word);
+    TEST_ASSERT_EQUAL_HEX32(0x80000000, pixels.tiles->depth_clear[0].range.least);
+    TEST_ASSERT_EQUAL_HEX32(0x80000000, pixels.tiles->depth_clear[0].range.most);
+    TEST_ASSERT_EQUAL_HEX32(word, pixels.tiles->depth_clear[0].word);
+}
+
+/* --- Memory --- */
+
+static void test_parts_cover_a_rectangle_once(void)
+{
+    static uint8_t covered[HEIGHT][WIDTH];
+    for (int n = 0; n < 200; n++) {
+        struct triptych_rectangle r = {random_word() % WIDTH, random_word() % HEIGHT, 0, 0};
+        r.width = 1 + random_word() % (WIDTH - r.x);
+        r.height = 1 + random_word() % (HEIGHT - r.y);
+        memset(covered, 0, sizeof covered);
+        for (uint32_t i = 0; i < pixels_parts(&r); i++) {
+            struct triptych_rectangle part = pixels_part(&r, i);
+            TEST_ASSERT_EQUAL_UINT(part.x / 64, (part.x + part.width - 1) / 64);
+            TEST_ASSERT_EQUAL_UINT(part.y / 64, (part.y + part.height - 1) / 64);
+            for (uint32_t y = part.y; y < part.y + part.height; y++)
+                for (uint32_t x = part.x; x < part.x + part.width; x++)
+                    covered[y][x]++;
+        }
+        for (uint32_t y = 0; y < HEIGHT; y++)
+            for (uint32_t x = 0; x < WIDTH; x++)
+                TEST_ASSERT_EQUAL_UINT8(x - r.x < r.width && y - r.y < r.height, covered[y][x]);
+    }
+}
+
+enum { PITCH = 16 * WIDTH + 5, GUARD = 0x5a };
+
+static uint8_t memory[HEIGHT][PITCH], back[HEIGHT][PITCH];
+
+static struct pixels_memory memory_of(const struct pixels *p, const struct triptych_rectangle *r,
+                                      const struct format *format, void *data)
+{
+    return (struct pixels_memory){*p, *r, format, data, PITCH};
+}
+
+static void read_all(const struct pixels_memory *m)
+{
+    for (uint32_t i = 0; i < pixels_parts(&m->rectangle); i++)
+        pixels_read_part(m, i);
+}
+
+static void write_all(const struct pixels_memory *m)
+{
+    TEST_ASSERT_EQUAL_INT(0, pixels_prepare(&m->pixels, &reason));
+    for (uint32_t i = 0; i < pixels_parts(&m->rectangle); i++)
+        pixels_write_part(m, i);
+}
+
+/* Pixels of every format of targets, written from memory of the same format, are the same bytes in memory; other
+ * bytes do not change. Bits of no channel are 0, and numbers are of the format. */
+static void test_memory_of_the_same_format_comes_back(void)
+{
+    const struct triptych_rectangle r = {13, 5, 125, 62};
+    for (unsigned f = 0; format_at(f); f++) {
+        const struct format *format = format_at(f);
+        if (!(format->roles & ROLE_TARGET) || !pixels_is_memory_format(format))
+            continue;
+        make_color(&pixels, (enum triptych_surface_format)format->number, 1);
+        for (uint32_t y = 0; y < r.height; y++)
+            for (uint32_t x = 0; x < r.width; x++) {
+                float number[4];
+                uint8_t texel[16];
+                for (int c = 0; c < 4; c++)
+                    number[c] = (float)(random_word() % 256) / 255;
+                format_encode(format_find(TRIPTYCH_SURFACE_A32B32G32R32F), number, 1, 1, 1, texel, 16);
+                uint32_t word = random_word();
+                format_encode(format, format->storage == STORAGE_RGBA8 ? (void *)&word : (void *)number, 1, 1,
+                              1, memory[y] + x * format->bytes, 16);
+            }
+        memset(back, GUARD, sizeof back);
+        struct pixels_memory in = memory_of(&pixels, &r, format, memory),
+                             out = memory_of(&pixels, &r, format, back);
+        write_all(&in);
+        read_all(&out);
+        for (uint32_t y = 0; y < r.height; y++) {
+            TEST_ASSERT_EQUAL_HEX8_ARRAY_MESSAGE(memory[y], back[y], r.width * format->bytes, format->name);
+            TEST_ASSERT_EACH_EQUAL_HEX8_MESSAGE(GUARD, back[y] + r.width * format->bytes,
+                                                PITCH - r.width * format->bytes, format->name);
+        }
+        TEST_ASSERT_EACH_EQUAL_HEX8(GUARD, back[r.height], PITCH);
+    }
+}
+
+static void test_pixels_are_read_in_other_formats(void)
+{
+    const struct triptych_rectangle r = {70, 3, 1, 1};
+    make_color(&pixels, TRIPTYCH_SURFACE_A8R8G8B8, 1);
+    TEST_ASSERT_EQUAL_INT(0, pixels_prepare(&pixels, &reason));
+    pixels_write_row(&pixels, 70, 3, 1, &(uint32_t){0x80ff3311});
+    struct pixels_memory m = memory_of(&pixels, &r, format_find(TRIPTYCH_SURFACE_A8R8G8B8), back);
+    read_all(&m);
+    TEST_ASSERT_EQUAL_HEX8_ARRAY(((uint8_t[]){0xff, 0x33, 0x11, 0x80}), back[0], 4);
+    m.format = format_find(TRIPTYCH_SURFACE_R5G6B5);
+    read_all(&m); /* 17 * 31 / 255 = 2.07, 51 * 63 / 255 = 12.6 */
+    TEST_ASSERT_EQUAL_HEX8_ARRAY(((uint8_t[]){(13 & 7) << 5 | 31, 2 << 3 | 13 >> 3}), back[0], 2);
+    m.format = format_find(TRIPTYCH_SURFACE_L8);
+    read_all(&m);
+    TEST_ASSERT_EQUAL_HEX8(0x11, back[0][0]);
+    m.format = format_find(TRIPTYCH_SURFACE_L16);
+    read_all(&m);
+    TEST_ASSERT_EQUAL_HEX8_ARRAY(((uint8_t[]){0x11, 0x11}), back[0], 2);
+    m.format = format_find(TRIPTYCH_SURFACE_R8G8B8);
+    read_all(&m);
+    TEST_ASSERT_EQUAL_HEX8_ARRAY(((uint8_t[]){0xff, 0x33, 0x11}), back[0], 3);
+}
+
+static const struct depth_case {
+    enum triptych_depth_format format;
+    uint8_t bytes;
+    uint32_t memory, word; /* in memory, and as stored */
+} depth_cases[] = {
+    {TRIPTYCH_DEPTH_D16, 2, 0x1234, 0x123400},
+    {TRIPTYCH_DEPTH_D16_LOCKABLE, 2, 0xffff, 0xffff00},
+    {TRIPTYCH_DEPTH_D15S1, 2, 0x8003, 0x400101},
+    {TRIPTYCH_DEPTH_D24S8, 4, 0x123456ab, 0x123456ab},
+    {TRIPTYCH_DEPTH_D24X8, 4, 0x12345600, 0x12345600},
+    {TRIPTYCH_DEPTH_D24X4S4, 4, 0x12345609, 0x12345609},
+    {TRIPTYCH_DEPTH_D24FS8, 4, 0x12345607, 0x12345607},
+    {TRIPTYCH_DEPTH_D32, 4, 0x12345678, 0x12345678},
+    {TRIPTYCH_DEPTH_D32F_LOCKABLE, 4, 0x3f123456, 0x3f123456},
+};
+
+static void test_depth_is_in_memory_as_in_direct3d(void)
+{
+    const struct triptych_rectangle r = {3, 1, 1, 1};
+    for (unsigned i = 0; i < sizeof depth_cases / sizeof *depth_cases; i++) {
+        const struct depth_case *c = depth_cases + i;
+        uint32_t read = 0, written = c->memory;
+        make_depth(&pixels, c->format);
+        struct pixels_memory in = memory_of(&pixels, &r, NULL, &written);
+        struct pixels_memory out = memory_of(&pixels, &r, NULL, &read);
+        TEST_ASSERT_EQUAL_UINT(c->bytes, pixels_memory_bytes(&pixels, NULL));
+        write_all(&in);
+        TEST_ASSERT_EQUAL_HEX32_MESSAGE(c->word, *word_at(&pixels, 3, 1, 0, 0),
+                                        depth_formats[c->format].name);
+        read_all(&out);
+        TEST_ASSERT_EQUAL_HEX32_MESSAGE(c->memory, read, depth_formats[c->format].name);
+    }
+}
+
+static void test_depth_that_drawing_cannot_write_is_limited(void)
+{
+    static const uint32_t words[][2] = {{0x7fc00000, 0},
+                                        {0x40000000, 0x3f800000},
+                                        {0xbf800000, 0},
+                                        {0x80000000, 0},
+                                        {0x3f800000, 0x3f800000}};
+    make_depth(&pixels, TRIPTYCH_DEPTH_D32F_LOCKABLE);
+    for (int i = 0; i < 5; i++) {
+        uint32_t word = words[i][0];
+        struct pixels_memory in = memory_of(&pixels, &(struct triptych_rectangle){0, 0, 1, 1}, NULL, &word);
+        write_all(&in);
+        TEST_ASSERT_EQUAL_HEX32(words[i][1], *word_at(&pixels, 0, 0, 0, 0));
+    }
+}
+
+/* --- Conversion --- */
+
+static void test_bytes_become_what_a_draw_writes(void)
+{
+    for (unsigned f = 0; format_at(f); f++) {
+        const struct format *format = format_at(f), *source = format_find(TRIPTYCH_SURFACE_A8B8G8R8);
+        for (uint32_t byte = 0; format->roles & ROLE_TARGET && pixels_is_memory_format(format) && byte < 256;
+             byte++) {
+            uint32_t word[4] = {byte * 0x01010101}, converted[4], drawn_words[4];
+            float color[4];
+            color_numbers(TARGET_8888, word, color);
+            color_encode(format, color, drawn_words);
+            pixels_convert_row(source, format, word, 1, converted);
+            TEST_ASSERT_EQUAL_HEX32_ARRAY_MESSAGE(drawn_words, converted,
+                                                  format->storage == STORAGE_RGBA8 ? 1 : 4, format->name);
+        }
+    }
+}
+
+static void test_formats_that_are_not_drawn_to_get_their_own_values(void)
+{
+    const float numbers[4] = {0.5f, 0.25f, 1, 0.75f};
+    const struct format *source = format_find(TRIPTYCH_SURFACE_A32B32G32R32F);
+    uint32_t row[4], result[4];
+    memcpy(row, numbers, sizeof row);
+    pixels_convert_row(source, format_find(TRIPTYCH_SURFACE_L8), row, 1, result);
+    TEST_ASSERT_EQUAL_HEX32(0xff808080, result[0]);
+    pixels_convert_row(source, format_find(TRIPTYCH_SURFACE_A8), row, 1, result);
+    TEST_ASSERT_EQUAL_HEX32(0xbf000000, result[0]);
+    pixels_convert_row(source, format_find(TRIPTYCH_SURFACE_L16), row, 1, result);
+    float luminance[4];
+    memcpy(luminance, result, sizeof luminance);
+    TEST_ASSERT_TRUE(luminance[0] == 32768.0f / 65535 && luminance[2] == luminance[0] && luminance[3] == 1);
+    pixels_convert_row(source, format_find(TRIPTYCH_SURFACE_DXT1), row, 1, result);
+    TEST_ASSERT_EQUAL_HEX32(0xbfff4080, result[0]);
+}
+
+/* --- Copies --- */
+
+static void copy_all(const struct pixels_copy *copy)
+{
+    TEST_ASSERT_EQUAL_INT(0, pixels_prepare(&copy->to, &reason));
+    for (uint32_t i = 0; i < pixels_parts(&copy->target); i++)
+        pixels_copy_part(copy, i);
+}
+
+/* The nearest pixel of the source, by the definition. */
+static void expect_points(const struct pixels_copy *copy)
+{
+    for (uint32_t y = 0; y < copy->target.height; y++)
+        for (uint32_t x = 0; x < copy->target.width; x++) {
+            uint32_t u = (uint32_t)floor((x + 0.5) * copy->source.width / copy->target.width);
+            uint32_t v = (uint32_t)floor((y + 0.5) * copy->source.height / copy->target.height);
+            for (uint32_t p = 0; p < pixels_words(&copy->to); p++)
+                TEST_ASSERT_EQUAL_HEX32(*word_at(&copy->from, copy->source.x + u, copy->source.y + v, 0, p),
+                                        *word_at(&copy->to, copy->target.x + x, copy->target.y + y, 0, p));
+        }
+}
+
+enum { SENTINEL = 0x3e800000 };
+
+static void fill_with_sentinels(const struct pixels *p)
+{
+    const struct triptych_rectangle whole = {0, 0, WIDTH, HEIGHT};
+    const uint32_t words[4] = {SENTINEL, SENTINEL, SENTINEL, SENTINEL};
+    TEST_ASSERT_EQUAL_INT(0, pixels_prepare(p, &reason));
+    for (uint32_t i = 0; i < pixels_parts(&whole); i++) {
+        struct triptych_rectangle part = pixels_part(&whole, i);
+        pixels_fill(p, &part, words);
+    }
+}
+
+/* Pixels outside of the copy are still those of the fill. */
+static void expect_untouched(const struct pixels_copy *copy)
+{
+    for (uint32_t y = 0; y < HEIGHT; y++)
+        for (uint32_t x = 0; x < WIDTH; x++) {
+            uint32_t row[4];
+            pixels_read_row(&copy->to, x, y, 1, row);
+            if (x - copy->target.x >= copy->target.width || y - copy->target.y >= copy->target.height)
+                TEST_ASSERT_EQUAL_HEX32(SENTINEL, row[0]);
+        }
+}
+
+static void test_points_are_copied_at_any_place_and_scale(void)
+{
+    for (int n = 0; n < 120; n++) {
+        struct pixels_copy copy = {.source = {random_word() % 64, random_word() % 30, 0, 0},
+                                   .target = {random_word() % 64, random_word() % 30, 0, 0}};
+        make_color(&pixels, drawn[n % 4], 1);
+        if (n % 3)
+            make_color(&other, drawn[n % 4], 1);
+        else
+            make_texels(&other, drawn[n % 4]);
+        fill_random(&pixels);
+        fill_with_sentinels(&other);
+        copy.from = pixels;
+        copy.to = other;
+        copy.source.width = 1 + random_word() % (WIDTH - copy.source.x);
+        copy.source.height = 1 + random_word() % (HEIGHT - copy.source.y);
+        copy.target.width = 1 + random_word() % (WIDTH - copy.target.x);
+        copy.target.height = 1 + random_word() % (HEIGHT - copy.target.y);
+        if (n % 5 == 0) {
+            copy.target.width = copy.source.width = 64;
+            copy.target.height = copy.source.height = 33;
+            copy.linear = n % 2; /* the same size */
+        }
+        copy_all(&copy);
+        expect_points(&copy);
+        expect_untouched(&copy);
+    }
+}
+
+static double clamped(double low, double most)
+{
+    return fmin(fmax(low, 0), most);
+}
+
+/* One channel of a blend of four texels of a float format. */
+static double blended(const struct pixels_copy *copy, uint32_t x, uint32_t y, uint32_t p)
+{
+    double u = (x + 0.5) * copy->source.width / copy->target.width - 0.5;
+    double v = (y + 0.5) * copy->source.height / copy->target.height - 0.5;
+    double sum = 0;
+    for (int n = 0; n < 4; n++) {
+        uint32_t s = (uint32_t)clamped(floor(u) + n % 2, copy->source.width - 1);
+        uint32_t t = (uint32_t)clamped(floor(v) + n / 2, copy->source.height - 1);
+        float number;
+        memcpy(&number, word_at(&copy->from, copy->source.x + s, copy->source.y + t, 0, p), sizeof number);
+        sum += (double)number * (n % 2 ? u - floor(u) : 1 - (u - floor(u))) *
+               (n / 2 ? v - floor(v) : 1 - (v - floor(v)));
+    }
+    return sum;
+}
+
+static void test_linear_copies_blend_the_four_pixels_around(void)
+{
+    for (int n = 0; n < 20; n++) {
+        struct pixels_copy copy = {.source = {random_word() % 64, random_word() % 30, 0, 0},
+                                   .target = {random_word() % 64, random_word() % 30, 0, 0},
+                                   .linear = true};
+        make_color(&pixels, TRIPTYCH_SURFACE_A32B32G32R32F, 1);
+        make_color(&other, TRIPTYCH_SURFACE_A32B32G32R32F, 1);
+        fill_random(&pixels);
+        copy.from = pixels;
+        copy.to = other;
+        copy.source.width = 1 + random_word() % (WIDTH - copy.source.x);
+        copy.source.height = 1 + random_word() % (HEIGHT - copy.source.y);
+        copy.target.width = 1 + random_word() % (WIDTH - copy.target.x);
+        copy.target.height = 1 + random_word() % (HEIGHT - copy.target.y);
+        copy_all(&copy);
+        for (uint32_t y = 0; y < copy.target.height; y++)
+            for (uint32_t x = 0; x < copy.target.width; x++)
+                for (uint32_t p = 0; p < 4; p++) {
+                    float number;
+                    memcpy(&number, word_at(&other, copy.target.x + x, copy.target.y + y, 0, p),
+                           sizeof number);
+                    TEST_ASSERT_TRUE(fabs(number - blended(&copy, x, y, p)) < 1e-6);
+                }
+    }
+}
+
+/* 4000 pixels to 7: the source of neighbours is too long to be read together. */
+static void test_long_rows_shrink_to_a_few_pixels(void)
+{
+    enum { LONG = 4000 };
+    static uint32_t row[LONG + 1];
+    for (uint32_t i = 0; i < LONG; i++)
+        row[i] = i;
+    make_color(&other, TRIPTYCH_SURFACE_A8R8G8B8, 1);
+    for (int linear = 0; linear < 2; linear++) {
+        struct pixels_copy copy = {.from = {.format = other.format,
+                                            .width = LONG,
+                                            .height = 1,
+                                            .texels = (uint8_t *)row,
+                                            .pitch = LONG + 1},
+                                   .to = other,
+                                   .source = {0, 0, LONG, 1},
+                                   .target = {60, 1, 7, 1},
+                                   .linear = linear};
+        copy_all(&copy);
+        for (uint32_t x = 0; x < 7; x++) {
+            double place = (x + 0.5) * LONG / 7;
+            uint32_t found = *word_at(&other, 60 + x, 1, 0, 0);
+            if (!linear)
+                TEST_ASSERT_EQUAL_UINT((uint32_t)place, found);
+            else
+                TEST_ASSERT_TRUE((found & 0xff00) == ((uint32_t)(place - 0.5) & 0xff00));
+        }
+    }
+}
+
+static void test_samples_are_resolved_by_a_copy(void)
+{
+    make_color(&pixels, TRIPTYCH_SURFACE_A8R8G8B8, 4);
+    make_color(&other, TRIPTYCH_SURFACE_A8R8G8B8, 1);
+    fill_random(&pixels);
+    struct pixels_copy copy = {pixels, other, {0, 0, WIDTH, HEIGHT}, {0, 0, WIDTH, HEIGHT}, false};
+    copy_all(&copy);
+    for (uint32_t y = 0; y < HEIGHT; y++)
+        for (uint32_t x = 0; x < WIDTH; x++)
+            TEST_ASSERT_EQUAL_HEX32(averaged_byte_word(&pixels, x, y), *word_at(&other, x, y, 0, 0));
+}
+
+static void test_depth_and_stencil_are_copied(void)
+{
+    make_depth(&pixels, TRIPTYCH_DEPTH_D24S8);
+    make_depth(&other, TRIPTYCH_DEPTH_D24S8);
+    fill_random(&pixels);
+    struct pixels_copy copy = {pixels, other, {3, 5, 90, 40}, {7, 9, 90, 40}, false};
+    copy_all(&copy);
+    expect_points(&copy);
+}
+
+int main(void)
+{
+    UNITY_BEGIN();
+    RUN_TEST(test_rows_are_read_from_tiles_and_samples_are_averaged);
+    RUN_TEST(test_rows_are_read_from_texels_and_from_depth);
+    RUN_TEST(test_rows_are_written_to_all_samples_and_nowhere_else);
+    RUN_TEST(test_a_clear_is_read_and_remains_around_what_is_written);
+    RUN_TEST(test_fills_of_whole_tiles_are_remembered_and_others_are_written);
+    RUN_TEST(test_written_depth_forgets_its_bounds);
+    RUN_TEST(test_parts_cover_a_rectangle_once);
+    RUN_TEST(test_memory_of_the_same_format_comes_back);
+    RUN_TEST(test_pixels_are_read_in_other_formats);
+    RUN_TEST(test_depth_is_in_memory_as_in_direct3d);
+    RUN_TEST(test_depth_that_drawing_cannot_write_is_limited);
+    RUN_TEST(test_bytes_become_what_a_draw_writes);
+    RUN_TEST(test_formats_that_are_not_drawn_to_get_their_own_values);
+    RUN_TEST(test_points_are_copied_at_any_place_and_scale);
+    RUN_TEST(test_linear_copies_blend_the_four_pixels_around);
+    RUN_TEST(test_long_rows_shrink_to_a_few_pixels);
+    RUN_TEST(test_samples_are_resolved_by_a_copy);
+    RUN_TEST(test_depth_and_stencil_are_copied);
+    return UNITY_END();
+}
