@@ -114,8 +114,7 @@ static const char *const streams[] = {
     "tests/data/streams/depth-formats.tri",  "tests/data/streams/multisampling.tri",
     "tests/data/streams/scissors.tri",       "tests/data/streams/render-to-texture.tri",
     "tests/data/streams/target-formats.tri", "tests/data/streams/shaders.tri",
-    "tests/data/streams/buffer-changes.tri",
-    "tests/data/streams/rectangles.tri",
+    "tests/data/streams/buffer-changes.tri", "tests/data/streams/rectangles.tri",
 };
 
 static void recordings_of_streams_draw_the_same(void)

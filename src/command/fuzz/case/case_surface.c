@@ -244,7 +244,7 @@ static const char *memory_format(struct maker *maker)
     return formats[random_below(&maker->random, sizeof formats / sizeof *formats)];
 }
 
-/* Texels of a texture's update as pixels: as many as the buffer has in the format. */
+/* The bytes of a texture's update as one row of pixels. */
 void case_write_pixels(struct maker *maker)
 {
     int texture = maker->textures ? (int)random_below(&maker->random, maker->textures) : -1;
