@@ -468,11 +468,11 @@ triptych_image_create(triptych_device *, const struct triptych_image_description
  * allowed. */
 TRIPTYCH_API enum triptych_result triptych_image_destroy(triptych_device *, triptych_image *);
 
-/* Copies a part of a surface to a part of another surface, or of the same one. A null part, or one of width 0,
- * is the whole surface. Scales if the sizes differ, averages samples, and converts to the format of the
+/* Copies a part of a surface to a part of another surface, or of the same one. A null part, or one of width
+ * 0, is the whole surface. Scales if the sizes differ, averages samples, and converts to the format of the
  * destination: to a format of targets as a draw does, to another one to the nearest value. Compressed
- * destinations are compressed again. sRGB is not decoded. Depth and stencil are copied between surfaces of one
- * format, by points. Pending draws are rendered first. */
+ * destinations are compressed again. sRGB is not decoded. Depth and stencil are copied between surfaces of
+ * one format, by points. Pending draws are rendered first. */
 TRIPTYCH_API enum triptych_result triptych_copy(triptych_device *, const struct triptych_surface *source,
                                                 const struct triptych_rectangle *source_part,
                                                 const struct triptych_surface *target,
@@ -483,12 +483,12 @@ TRIPTYCH_API enum triptych_result triptych_copy(triptych_device *, const struct 
 TRIPTYCH_API enum triptych_result triptych_fill(triptych_device *, const struct triptych_surface *,
                                                 const struct triptych_rectangle *part, const float color[4]);
 
-/* Read and write pixels of a part of a surface, as for triptych_copy, in memory. A row begins `pitch` bytes after
- * the one before. The format is uncompressed and one of colours. 0 is the surface's own format, which can also be
- * compressed (then the part is of whole blocks), and is the only one for depth: words as Direct3D 9 has them, in
- * two bytes for D16, D16_LOCKABLE and D15S1 and in four for the others, stencil in the low bits. Samples are
- * averaged when they are read, and all are written. Bits of no channel are 0. The luminance of colours is their
- * red. Depth outside of 0 to 1 is limited. Pending draws are rendered first. */
+/* Read and write pixels of a part of a surface, as for triptych_copy, in memory. A row begins `pitch` bytes
+ * after the one before. The format is uncompressed and one of colours. 0 is the surface's own format, which
+ * can also be compressed (then the part is of whole blocks), and is the only one for depth: words as Direct3D
+ * 9 has them, in two bytes for D16, D16_LOCKABLE and D15S1 and in four for the others, stencil in the low
+ * bits. Samples are averaged when they are read, and all are written. Bits of no channel are 0. The luminance
+ * of colours is their red. Depth outside of 0 to 1 is limited. Pending draws are rendered first. */
 TRIPTYCH_API enum triptych_result triptych_read_rectangle(triptych_device *, const struct triptych_surface *,
                                                           const struct triptych_rectangle *part,
                                                           enum triptych_surface_format, void *data,
@@ -537,11 +537,11 @@ TRIPTYCH_API enum triptych_result triptych_texture_update(triptych_device *, tri
                                                           unsigned face, unsigned level,
                                                           const struct triptych_box *box, const void *data,
                                                           size_t row_pitch, size_t slice_pitch);
-/* Copies a part of a level to texels in the format of the texture: the inverse of triptych_texture_update, with
- * the same arguments. The result are the bytes of the updates, compressed blocks included. Three things differ:
- * bits that belong to no channel are 0, a signed channel's second bit pattern for -1 becomes the first one, and a
- * depth format's stencil is 0. Texels of compressed formats that did not come from an update, such as those of
- * computed levels, are compressed. Renders pending draws to the texture first. */
+/* Copies a part of a level to texels in the format of the texture: the inverse of triptych_texture_update,
+ * with the same arguments. The result are the bytes of the updates, compressed blocks included. Three things
+ * differ: bits that belong to no channel are 0, a signed channel's second bit pattern for -1 becomes the
+ * first one, and a depth format's stencil is 0. Texels of compressed formats that did not come from an
+ * update, such as those of computed levels, are compressed. Renders pending draws to the texture first. */
 TRIPTYCH_API enum triptych_result triptych_texture_read(triptych_device *, triptych_texture *texture,
                                                         unsigned face, unsigned level,
                                                         const struct triptych_box *box, void *data,

@@ -27,7 +27,8 @@ int valid_copy(const struct stream *stream, const struct call *call, struct erro
 int valid_set_pixels(const struct stream *stream, const struct call *call, struct error *error);
 int valid_fill(const struct stream *stream, const struct call *call, struct error *error);
 
-/* The bytes of a row of checked pixels, and the rows: of pixels or, if the format is compressed, of blocks. */
+/* The bytes of a row of checked pixels, and the rows: of pixels or, if the format is compressed, of blocks.
+ */
 size_t valid_set_pixels_row(const struct stream *stream, const struct call_set_pixels *write, size_t *rows);
 int valid_clear(const struct stream *stream, const struct call *call, struct error *error);
 

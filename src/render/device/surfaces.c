@@ -1,4 +1,5 @@
-/* Pixels of the device's surfaces: rectangles in memory, copies, fills (render/device/attach.c draws to surfaces).
+/* Pixels of the device's surfaces: rectangles in memory, copies, fills (render/device/attach.c draws to
+ * surfaces).
  *
  * What is recorded is rendered first. The pixels are then found where they are newest, in tiles or as texels
  * (render/target/surface.h), and read or written there, by several threads. */
@@ -23,8 +24,8 @@ static struct attachment *main_attachment(const struct triptych_device *device,
     return device->binding.main->colors[surface->slice].attachment;
 }
 
-/* The tiles of a texture's surface if they have its newest pixels. Only tiles have stencil, so depth is always
- * written there, and read there if there are any. */
+/* The tiles of a texture's surface if they have its newest pixels. Only tiles have stencil, so depth is
+ * always written there, and read there if there are any. */
 static enum triptych_result find_tiles(struct triptych_device *device, const struct triptych_surface *surface,
                                        const struct surface_form *form, bool writes,
                                        struct attachment **tiles, struct error *error)

@@ -29,7 +29,8 @@ static const uint32_t *pending_words(const struct attachment *a, uint32_t tile)
 
 /* --- Rows of planes --- */
 
-/* The first word of row y of a tile in a plane. Each four pixels are two pairs, which begin four words apart. */
+/* The first word of row y of a tile in a plane. Each four pixels are two pairs, which begin four words apart.
+ */
 static uint32_t row_start(uint32_t y)
 {
     return y / BLOCK_SIZE * (TILE_SIZE / BLOCK_SIZE) * BLOCK_PIXELS + (y & 2) * 4 + (y & 1) * 2;

@@ -1,15 +1,15 @@
 /* Rectangles of pixels: to and from the application's memory, and from one surface to another.
  *
  * A row of pixels is converted while it is in the first cache; there is no copy of a whole image, except for
- * copies within one surface. Work is split along the tiles of the surface that is written, or that is read into
- * memory, so that several threads can share it.
+ * copies within one surface. Work is split along the tiles of the surface that is written, or that is read
+ * into memory, so that several threads can share it.
  *
- * Conversion. Between bytes, a value is rounded to the nearest one that the format has, halves up. A byte b is the
- * number b / 255. Numbers are written to a format of targets as a draw writes them (render/target/color.h), and
- * to another format as render/texture/format.h defines it. sRGB is not decoded.
+ * Conversion. Between bytes, a value is rounded to the nearest one that the format has, halves up. A byte b
+ * is the number b / 255. Numbers are written to a format of targets as a draw writes them
+ * (render/target/color.h), and to another format as render/texture/format.h defines it. sRGB is not decoded.
  *
- * Words of depth surfaces in memory are little-endian and have the form that Direct3D 9 documents: depth in the
- * high bits, stencil in the low ones, in two bytes for D16 and D15S1 and four for the others. */
+ * Words of depth surfaces in memory are little-endian and have the form that Direct3D 9 documents: depth in
+ * the high bits, stencil in the low ones, in two bytes for D16 and D15S1 and four for the others. */
 #ifndef RENDER_TARGET_RECTANGLE_H
 #define RENDER_TARGET_RECTANGLE_H
 
@@ -27,7 +27,8 @@ size_t pixels_memory_bytes(const struct pixels *pixels, const struct format *for
 void pixels_convert_row(const struct format *from, const struct format *to, const uint32_t *row,
                         uint32_t count, uint32_t *result);
 
-/* A row of pixels as four numbers each; depth is the same number in all of them. At most PIXELS_ROW pixels. */
+/* A row of pixels as four numbers each; depth is the same number in all of them. At most PIXELS_ROW pixels.
+ */
 void pixels_row_numbers(const struct pixels *pixels, const uint32_t *row, uint32_t count, float *numbers);
 
 /* Parts of a rectangle along the grid of tiles: their number, and part i. */
@@ -45,11 +46,12 @@ struct pixels_memory {
 void pixels_read_part(const struct pixels_memory *memory, uint32_t i);
 void pixels_write_part(const struct pixels_memory *memory, uint32_t i);
 
-/* A copy of a rectangle, scaled to the size of the other one (render/target/copy.c). A pixel's centre lies in the
- * source where its own lies in the rectangle that is copied to: at ((x + 1/2) * source width / width, ...). Point
- * takes the pixel around that place; linear blends the four around it, none from outside of the source rectangle,
- * weighted in binary32 by their distances, horizontally then vertically. Depth has the same format in both, and is
- * copied by point. The pixels do not overlap. Part i is one of the rectangle that is written. */
+/* A copy of a rectangle, scaled to the size of the other one (render/target/copy.c). A pixel's centre lies in
+ * the source where its own lies in the rectangle that is copied to: at ((x + 1/2) * source width / width,
+ * ...). Point takes the pixel around that place; linear blends the four around it, none from outside of the
+ * source rectangle, weighted in binary32 by their distances, horizontally then vertically. Depth has the same
+ * format in both, and is copied by point. The pixels do not overlap. Part i is one of the rectangle that is
+ * written. */
 struct pixels_copy {
     struct pixels from, to;
     struct triptych_rectangle source, target;

@@ -101,8 +101,8 @@ enum triptych_result surface_find_form(const struct triptych_surface *surface, c
 struct pixels surface_pixels(const struct triptych_surface *surface, const struct surface_form *form,
                              struct attachment *tiles);
 
-/* After texels of a part have changed: compresses the blocks of a compressed texture, and writes the padding of
- * rows. */
+/* After texels of a part have changed: compresses the blocks of a compressed texture, and writes the padding
+ * of rows. */
 void surface_close_texels(const struct triptych_surface *surface, const struct triptych_rectangle *part);
 
 /* --- Checks (render/target/surface_use.c) --- */

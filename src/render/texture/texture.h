@@ -98,9 +98,9 @@ void texture_update(struct triptych_texture *texture, unsigned face, unsigned le
 /* A level as a box. */
 struct triptych_box texture_whole_level(const struct triptych_texture *texture, unsigned level);
 
-/* The inverse of texture_update, checked by texture_check_update too (render/texture/texture_blocks.c). Texels
- * are the bytes of the updates, except for bits that the storage does not have (render/texture/format.h).
- * Blocks of texels that did not come from an update are compressed again. */
+/* The inverse of texture_update, checked by texture_check_update too (render/texture/texture_blocks.c).
+ * Texels are the bytes of the updates, except for bits that the storage does not have
+ * (render/texture/format.h). Blocks of texels that did not come from an update are compressed again. */
 void texture_read(struct triptych_texture *texture, unsigned face, unsigned level,
                   const struct triptych_box *box, void *data, size_t row_pitch, size_t slice_pitch);
 

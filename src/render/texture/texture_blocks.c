@@ -1,8 +1,8 @@
 /* Reading texels in their own format, and the blocks of compressed textures.
  *
- * Decoding loses how a compressed block was coded, so a compressed texture also keeps the blocks of its updates.
- * Texels that came from elsewhere, such as computed levels, make the blocks of their level stale. A stale level
- * is compressed again when it is read, or when a part of it is updated. */
+ * Decoding loses how a compressed block was coded, so a compressed texture also keeps the blocks of its
+ * updates. Texels that came from elsewhere, such as computed levels, make the blocks of their level stale. A
+ * stale level is compressed again when it is read, or when a part of it is updated. */
 #include "render/texture/texture.h"
 
 #include <stdlib.h>

@@ -1,5 +1,5 @@
-/* Rectangles of surfaces, fills and copies on a device: the main target, images, and textures with newest pixels in
- * tiles or as texels, before and after draws. */
+/* Rectangles of surfaces, fills and copies on a device: the main target, images, and textures with newest
+ * pixels in tiles or as texels, before and after draws. */
 #include "tests/support/picture/canvas.h"
 
 #include <stdbool.h>

@@ -1,5 +1,5 @@
-/* Rectangles of pixels in tiles and in texels, compared with pixels that the test finds one by one: rows, samples,
- * memory in every format, conversions, and copies of any scale. */
+/* Rectangles of pixels in tiles and in texels, compared with pixels that the test finds one by one: rows,
+ * samples, memory in every format, conversions, and copies of any scale. */
 #include "render/target/rectangle.h"
 
 #include <math.h>
@@ -309,8 +309,8 @@ static void write_all(const struct pixels_memory *m)
         pixels_write_part(m, i);
 }
 
-/* Pixels of every format of targets, written from memory of the same format, are the same bytes in memory; other
- * bytes do not change. Bits of no channel are 0, and numbers are of the format. */
+/* Pixels of every format of targets, written from memory of the same format, are the same bytes in memory;
+ * other bytes do not change. Bits of no channel are 0, and numbers are of the format. */
 static void test_memory_of_the_same_format_comes_back(void)
 {
     const struct triptych_rectangle r = {13, 5, 125, 62};
