@@ -87,7 +87,8 @@ static void take_vertex(const struct process *process, const struct state *state
         }
     bool sized = key->point_size != POINT_SIZE_CONSTANT || key->size_link >= LINK_OUTPUT;
     out->point_size = sized ? process->slot[SLOT_POINT_SIZE][lane] : process->job.point_size;
-    out->fog = key->varying[VARYING_fog] ? process->slot[SLOT_fog][lane] : 1;
+    bool without = key_program(key->shader) && state->value[STATE_fogenable]; /* the shader gives no fog */
+    out->fog = key->varying[VARYING_fog] ? process->slot[SLOT_fog][lane] : !without;
     if (key->attribute[ATTRIBUTE_POSITIONT] == ATTRIBUTE_FORMAT_NONE)
         project_vertex(state, out->clip, out->position);
 }
