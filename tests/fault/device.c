@@ -342,6 +342,41 @@ static void draw_lines_and_points(unsigned threads)
     read_target(false);
 }
 
+/* A scene with buffers and textures that change between draws, and with immediate draws, of which one exceeds the
+ * memory for immediate vertices. */
+static void draw_with_changes(unsigned threads)
+{
+    static const uint16_t indices[3] = {0, 5, 9};
+    static const uint32_t texels[19] = {0xff00ff00};
+    enum { MANY = (5 << 20) / sizeof(struct vertex) };
+    static struct vertex vertices[MANY];
+    triptych_buffer *buffer;
+    size_t offset, stride;
+    void *data;
+    open_device(threads, 0);
+    TRY(triptych_set_target(device, WIDTH, HEIGHT));
+    clear();
+    use_state(TRIPTYCH_STATE_CULLMODE, 1);
+    use_vertices(false);
+    TRY(triptych_get_stream(device, 0, &buffer, &offset, &stride));
+    triptych_texture *texture = make_texture(TRIPTYCH_TEXTURE_2D, TRIPTYCH_SURFACE_A8R8G8B8);
+    sample(0, texture, 1);
+    for (int i = 0; i < 3; i++) {
+        TRY(triptych_draw(device, TRIPTYCH_TRIANGLE_STRIP, (uint32_t)i, 8));
+        TRY(triptych_buffer_update(device, buffer, 40 * (size_t)i + 4, &(float){0.25f}, 4));
+        TRY(triptych_texture_update(device, texture, 0, 0, NULL, texels + i, 16, 0));
+        TRY(triptych_texture_generate_mips(device, texture));
+    }
+    TRY(triptych_buffer_map(device, buffer, 0, 6 * stride, TRIPTYCH_MAP_WRITE, &data));
+    memcpy(vertices, data, 6 * stride);
+    TRY(triptych_buffer_unmap(device, buffer));
+    TRY(triptych_draw_user(device, TRIPTYCH_TRIANGLE_STRIP, 4, vertices, stride));
+    TRY(triptych_draw_indexed_user(device, TRIPTYCH_TRIANGLE_LIST, 1, indices, 16, MANY, vertices, stride));
+    TRY(triptych_texture_destroy(device, texture));
+    TRY(triptych_buffer_destroy(device, buffer));
+    read_target(false);
+}
+
 /* A scene with instances. The cache has no room, so routines are evicted while the draws are recorded. */
 static void draw_instances(unsigned threads)
 {
@@ -470,6 +505,11 @@ static void test_lines_points_and_clipping(void)
     on_engines(draw_lines_and_points);
 }
 
+static void test_buffers_and_textures_that_change(void)
+{
+    on_engines(draw_with_changes);
+}
+
 static void test_a_draw_of_instances_is_recorded_whole_or_not_at_all(void)
 {
     on_engines(draw_instances);
@@ -489,6 +529,7 @@ int main(void)
     RUN_TEST(test_drawing_to_textures_and_copies);
     RUN_TEST(test_shaders_with_loops_and_constants);
     RUN_TEST(test_lines_points_and_clipping);
+    RUN_TEST(test_buffers_and_textures_that_change);
     RUN_TEST(test_a_draw_of_instances_is_recorded_whole_or_not_at_all);
     RUN_TEST(test_a_table_of_routines_that_cannot_grow);
     printf("%lu requests refused at %u places\n", fault.total, fault_sites->count);
