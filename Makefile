@@ -135,7 +135,7 @@ unity_flags = -isystem $(dir $(UNITY_SOURCE)) -DUNITY_INCLUDE_DOUBLE -DUNITY_USE
 
 # --- What to build ------------------------------------------------------------------------------------------
 
-.PHONY: all programs objects check test check-threads check-explore matrix coverage soak soak-faults soak-memory bench peers bench-shaders bench-draws conformance-d3d9 mutations gallery verify-external docs fuzzers fuzz-input fuzz-input-smoke dependencies packages install clean format format-check compile_commands.json d3d9 help FORCE
+.PHONY: all programs objects check test check-threads check-explore matrix coverage soak soak-faults soak-memory bench peers bench-shaders bench-draws conformance-d3d9 programs-d3d9 mutations gallery verify-external docs fuzzers fuzz-input fuzz-input-smoke dependencies packages install clean format format-check compile_commands.json d3d9 help FORCE
 
 all: $(BUILD)/libtriptych.a $(if $(SANITIZE),,$(BUILD)/libtriptych.so $(PKGCONFIG) \
   $(BUILD)/include/triptych/triptych.h) $(COMMAND) build/glmark2 \
@@ -542,8 +542,15 @@ bench-draws:
 # bench/conformance-d3d9.sh describes ENGINE=name THREADS=n SUITES="name ..." LIMIT=seconds.
 conformance-d3d9:
 	@tests/support/scripts/dependencies.sh build d3d9 suites
-	+@$(MAKE) $(jobs) d3d9
+	+@$(MAKE) $(jobs) all d3d9
 	@BUILD=$(BUILD) bench/conformance-d3d9.sh
+
+# Programs for Windows on Triptych and on Wine's own Direct3D 9: results/programs.json. bench/programs-d3d9.sh describes
+# ENGINE=name PROGRAMS="name ..." PASSES=n SIDES=name.
+programs-d3d9:
+	@tests/support/scripts/dependencies.sh build d3d9 suites programs
+	+@$(MAKE) $(jobs) all d3d9
+	@BUILD=$(BUILD) bench/programs-d3d9.sh
 
 # `make check` draws a few streams with the external engine. This target draws all: each routine is one
 # compilation.
@@ -658,6 +665,7 @@ make soak-memory     measures the memory of 10 million triangles and 100,000 sta
 make peers           measures Mesa's softpipe and llvmpipe, SwiftShader and every engine on the same work: results/peers.txt
                      (WORKLOAD=glob PEERS="name..." PASSES=n QUICK=1 CLOCK=time)
 make conformance-d3d9  Wine's Direct3D 9 tests, on Triptych and on Wine's own Direct3D 9: results/conformance.md
+make programs-d3d9   programs for Windows, on Triptych and on Wine's own Direct3D 9: results/programs.json
 make bench-shaders   measures every shader in tests/data/shading, by shader and by length
 make bench-draws     draws per second of one small triangle, one change of the state before each
 make soak            random cases and tests with new seeds, half an hour (DURATION=1800 SEED=1), then a summary

@@ -44,10 +44,10 @@ def reset_desktop():
 def commands(options):
     """The command without the suite, and its environment, of each side."""
     program = os.path.abspath(os.path.join(options.tests, "d3d9_test.exe"))
-    ours = [os.path.abspath(options.triptych), "run", "--engine", options.engine, program]
     threads = str(options.threads)
+    ours = [os.path.abspath(options.triptych), "run", "--engine", options.engine, "--threads", threads, program]
     return {
-        "triptych": (ours, {"TRIPTYCH_THREADS": threads}),
+        "triptych": (ours, {}),
         "wine": (["wine", program], {"WINEDLLOVERRIDES": "d3d9=b", "LP_NUM_THREADS": threads}),
     }
 

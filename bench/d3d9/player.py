@@ -35,8 +35,7 @@ class Player:
         command = [*program.command, *arguments]
         variables = {**os.environ, **program.environment, **(environment or {})}
         if side == "triptych":
-            command = [self.triptych, "run", "--engine", self.engine, *command]
-            variables["TRIPTYCH_THREADS"] = str(threads)
+            command = [self.triptych, "run", "--engine", self.engine, "--threads", str(threads), *command]
         else:
             command = ["wine", *command]
             # llvmpipe draws on the calling thread if it has no threads of its own.

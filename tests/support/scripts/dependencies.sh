@@ -1,7 +1,7 @@
 #!/bin/bash
 # Makes sure that the Debian packages a target needs are installed, and installs those that are not.
 #
-#   tests/support/scripts/dependencies.sh GROUP...    groups: build test bench peers format fuzz browser d3d9 suites
+#   tests/support/scripts/dependencies.sh GROUP...    groups: build test bench peers format fuzz browser d3d9 suites programs
 #   tests/support/scripts/dependencies.sh --list
 #
 # Silent when there is nothing to do. Ends non-zero, after naming the packages and their reasons, when a
@@ -31,12 +31,12 @@ gdb                test    debugs generated code: names, lines and callers of ev
 clang              test    compiles everything a second time, for its warnings
 cmake              test    builds and runs the example of a golden-image test
 libsdl2-2.0-0      test    the window of `triptych view`, which loads it when it runs
-xvfb               test    a display without a screen, for a window of `triptych view`
-xdotool            test    presses keys in that window
+xvfb               test,programs a display without a screen, for a window of `triptych view`
+xdotool            test,programs presses keys in that window
 hyperfine          bench   measures whole processes
 gnuplot-nox        test,bench draws the charts
-libegl-dev         peers  headers of EGL, for the renderers that are measured against
-libgles-dev        peers  the headers of GLES2, and its library
+libegl-dev         peers,programs headers of EGL, for the renderers that are measured against
+libgles-dev        peers,programs the headers of GLES2, and its library
 libegl1            peers  finds the EGL of a vendor
 libegl-mesa0       peers  EGL of Mesa
 libgl1-mesa-dri    peers,suites softpipe and llvmpipe of Mesa
@@ -45,6 +45,11 @@ xserver-xorg-core  suites  an X server with several display modes
 xserver-xorg-video-dummy suites the driver without a screen for it
 x11-xserver-utils  suites  changes the display mode
 fvwm3              suites  manages the windows of Windows programs
+g++-mingw-w64-x86-64 programs compiles Irrlicht for Windows
+python3-pip        programs fetches the wheels of SDL, Panda3D and ANGLE
+unzip              programs unpacks them
+zip                programs packs the map of Irrlicht again
+imagemagick        programs takes pictures of the screen, converts those of Irrlicht
 libclang-rt-14-dev fuzz    libFuzzer and the sanitizers of clang, for readers of untrusted input
 clang-format       format  formats the C sources
 gcc-mingw-w64-x86-64 d3d9  compiles the Windows side of d3d9.dll
