@@ -342,8 +342,8 @@ static void draw_lines_and_points(unsigned threads)
     read_target(false);
 }
 
-/* A scene with buffers and textures that change between draws, and with immediate draws, of which one exceeds the
- * memory for immediate vertices. */
+/* A scene with buffers and textures that change between draws, and with immediate draws. The data of one
+ * exceed the memory for immediate vertices. */
 static void draw_with_changes(unsigned threads)
 {
     static const uint16_t indices[3] = {0, 5, 9};

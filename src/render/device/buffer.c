@@ -1,8 +1,8 @@
 /* Buffers that change.
  *
  * Queued draws read what a buffer contained when they were queued. A change of bytes that they may read
- * replaces the storage of the buffer by a copy; the old storage is retired (render/device/storage.c). If there is
- * no memory for a copy, the draws are rendered first. All other changes are made in place. */
+ * replaces the storage of the buffer by a copy; the old storage is retired (render/device/storage.c). If
+ * there is no memory for a copy, the draws are rendered first. All other changes are made in place. */
 #include "render/device/device.h"
 
 #include <string.h>
@@ -50,8 +50,8 @@ static bool is_queued(const struct triptych_device *device, const struct triptyc
     return device_epoch_is_queued(device, buffer->epoch) && buffer_span_is_used(buffer, span);
 }
 
-/* Gives the buffer other storage, whose contents are any bytes. Returns the old one, which the caller retires;
- * null if memory is short. Then nothing is queued any more, and the buffer keeps its storage. */
+/* Gives the buffer other storage, whose contents are any bytes. Returns the old one, which the caller
+ * retires; null if memory is short. Then nothing is queued any more, and the buffer keeps its storage. */
 static uint8_t *replace_storage(struct triptych_device *device, struct triptych_buffer *buffer)
 {
     uint8_t *old = buffer->data, *storage = device_new_storage(device, buffer->bytes);

@@ -264,8 +264,8 @@ enum triptych_result device_image_destroy(struct triptych_device *device, struct
 void device_store_texture(struct triptych_device *device, struct triptych_texture *texture);
 /* Stores what was drawn, in the queue. */
 void device_store_surfaces(struct triptych_device *device, struct triptych_texture *texture);
-/* Before texels are changed by others than draws, instead of device_store_texture: waits for draws only if they
- * write the texture. The texels of `lost` may get any values. */
+/* Before texels are changed by others than draws, instead of device_store_texture: waits for draws only if
+ * they write the texture. The texels of `lost` may get any values. */
 void device_change_texture(struct triptych_device *device, struct triptych_texture *texture,
                            struct texture_span lost);
 void device_load_texture(struct triptych_device *device, struct triptych_texture *texture);
@@ -296,9 +296,9 @@ void device_load_surface(struct triptych_device *device, const struct triptych_s
 /* A surface of a texture has been written, in its tiles or as texels. */
 void device_note_written(struct triptych_device *device, const struct triptych_surface *surface, bool tiles);
 
-/* The tiles of an image, of a surface of a texture that has tiles, or, without both, of colour `slice` of the
- * main target: a target of one colour, or of depth. The caller finishes before it reads or changes pixels, and
- * destroys the view. */
+/* The tiles of an image, of a surface of a texture that has tiles, or, without both, of colour `slice` of
+ * the main target: a target of one colour, or of depth. The caller finishes before it reads or changes
+ * pixels, and destroys the view. */
 enum triptych_result device_view(struct triptych_device *device, const struct triptych_surface *surface,
                                  struct target *view, struct error *error);
 

@@ -1,7 +1,8 @@
-/* Immediate draws: their vertices and indices are in memory of the caller, which may change after the call.
+/* Immediate draws: their vertices and indices are in memory of the caller, which may change after the
+ * call.
  *
- * The data are copied to transient memory (render/draw/transient.h) when the draw is queued. Stream 0 of the draw
- * is a stream of that memory. Data that do not fit there are storage that is retired immediately. */
+ * The data are copied to transient memory (render/draw/transient.h) when the draw is queued. Stream 0 of
+ * the draw is a stream of that memory. Data that do not fit there are storage that is retired immediately. */
 #include "render/device/device.h"
 
 #include <inttypes.h>

@@ -1,9 +1,9 @@
 /* Storage of resources: what draws read is kept until they are rendered.
  *
- * Storage that is replaced or destroyed is retired: it moves to a list of its queue, whose extents are reused
- * when the draws of the queue are rendered. The texels of a texture that queued draws read move before they
- * change, unless queued commands write them, too: then these are rendered first. If much storage is retired, rendering starts, so that the memory
- * is bounded. */
+ * Storage that is replaced or destroyed is retired: it moves to a list of its queue, whose extents are
+ * reused when the draws of the queue are rendered. The texels of a texture that queued draws read move
+ * before they change, unless queued commands write them, too: then these are rendered first. If much
+ * storage is retired, rendering starts, so that the memory is bounded. */
 #include "render/device/device.h"
 
 /* Retired storage of one queue, and storage that is kept for reuse: enough for all that is retired, if it is
