@@ -39,6 +39,12 @@ static bool queries_fit(const struct d3d9_format *format, uint32_t usage)
     return true;
 }
 
+/* Programs take these for a sign of AMD's extension fetch4, which the device does not have. */
+static bool is_fetch4(const struct d3d9_format *format)
+{
+    return format->number == TRIPTYCH_SURFACE_DF16 || format->number == TRIPTYCH_SURFACE_DF24;
+}
+
 static int32_t check_texture(const struct d3d9_format *format, uint32_t usage, uint32_t type)
 {
     bool volume = type == D3D9_TYPE_VOLUME_TEXTURE || type == D3D9_TYPE_VOLUME;
@@ -46,7 +52,7 @@ static int32_t check_texture(const struct d3d9_format *format, uint32_t usage, u
     bool nothing = format->number == TRIPTYCH_SURFACE_NULL && drawn == D3D9_USAGE_RENDER_TARGET;
     if (usage & ~(uint32_t)USAGE_OF_TEXTURES)
         return D3D9_NOT_AVAILABLE;
-    if (!format->sampled && !nothing)
+    if ((!format->sampled && !nothing) || is_fetch4(format))
         return D3D9_NOT_AVAILABLE;
     if (drawn && volume)
         return D3D9_NOT_AVAILABLE;
@@ -75,7 +81,7 @@ static int32_t check_surface(const struct d3d9_format *format, uint32_t usage)
     if (usage & D3D9_USAGE_RENDER_TARGET)
         return format->drawn == D3D9_DRAWN_COLOR && queries_fit(format, usage) ? D3D9_OK : D3D9_NOT_AVAILABLE;
     if (usage & D3D9_USAGE_DEPTH_STENCIL)
-        return format->drawn == D3D9_DRAWN_DEPTH ? D3D9_OK : D3D9_NOT_AVAILABLE;
+        return format->drawn == D3D9_DRAWN_DEPTH && !is_fetch4(format) ? D3D9_OK : D3D9_NOT_AVAILABLE;
     if (usage & (D3D9_USAGE_QUERY_SRGB_WRITE | D3D9_USAGE_QUERY_BLENDING))
         return D3D9_NOT_AVAILABLE;
     return format->sampled && !d3d9_format_is_depth(format) && !ati ? D3D9_OK : D3D9_NOT_AVAILABLE;

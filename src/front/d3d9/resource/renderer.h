@@ -22,7 +22,7 @@ int32_t d3d9_renderer_read(triptych_device *, const struct triptych_surface *, c
 int32_t d3d9_renderer_write(triptych_device *, const struct triptych_surface *, const struct d3d9_format *,
                             const struct triptych_rectangle *, const void *data, size_t pitch);
 /* Gives all pixels of a rectangle one colour. */
-int32_t d3d9_renderer_fill(triptych_device *, const struct triptych_surface *, const struct d3d9_format *,
+int32_t d3d9_renderer_fill(triptych_device *, const struct triptych_surface *,
                            const struct triptych_rectangle *, const float color[4]);
 
 #endif

@@ -17,7 +17,7 @@ static bool is_whole(const struct d3d9_surface *surface, const struct d3d9_rect 
                   (uint32_t)r->bottom == surface->image.height);
 }
 
-/* Returns false for a rectangle that is empty, mirrored or not inside the surface. */
+/* Returns false for a rectangle that is empty, mirrored, not inside the surface, or not of whole blocks. */
 static bool make_rectangle(const struct d3d9_surface *surface, const struct d3d9_rect *r,
                            struct triptych_rectangle *out)
 {
@@ -29,8 +29,9 @@ static bool make_rectangle(const struct d3d9_surface *surface, const struct d3d9
         return false;
     if ((uint32_t)r->right > image->width || (uint32_t)r->bottom > image->height)
         return false;
+    const struct d3d9_box box = {r->left, r->top, r->right, r->bottom, 0, 1};
     *out = (struct triptych_rectangle){r->left, r->top, r->right - r->left, r->bottom - r->top};
-    return true;
+    return d3d9_image_box_fits(image, &box);
 }
 
 /* Depth surfaces are copied whole, outside of scenes, to a surface of the same format and size. */
@@ -57,26 +58,14 @@ static int32_t check_color(const struct d3d9_surface *source, const struct tript
         return D3D9_INVALID_CALL;
     if (!is_plain(target) && !d3d9_surface_is_target(target))
         return D3D9_INVALID_CALL;
-    if (from->format != to->format && to->format->drawn != D3D9_DRAWN_COLOR)
-        return D3D9_INVALID_CALL;
-    return D3D9_OK;
-}
-
-/* Both surfaces have the same format and are in memory. */
-static int32_t copy_memory(struct d3d9_image *from, const struct triptych_rectangle *part,
-                           struct d3d9_image *to, const struct triptych_rectangle *target_part)
-{
-    const struct triptych_box box = {part->x, part->y, 0, part->width, part->height, 1};
-    d3d9_image_copy(to, target_part->x, target_part->y, 0, from, &box);
-    return D3D9_OK;
+    bool convertible = from->format == to->format || to->format->drawn == D3D9_DRAWN_COLOR;
+    return convertible ? D3D9_OK : D3D9_INVALID_CALL;
 }
 
 static int32_t copy(struct d3d9_device *device, struct d3d9_surface *source,
                     const struct triptych_rectangle *part, struct d3d9_surface *target,
                     const struct triptych_rectangle *target_part, uint32_t filter)
 {
-    if (target->image.home == D3D9_HOME_MEMORY)
-        return copy_memory(&source->image, part, &target->image, target_part);
     if (source->texture)
         d3d9_base_texture_use(source->texture);
     if (!source->image.has_surface)
@@ -126,8 +115,7 @@ int32_t d3d9_device_color_fill(struct d3d9_device *device, struct d3d9_surface *
         return D3D9_INVALID_CALL;
     if (!make_rectangle(surface, rectangle, &part))
         return D3D9_INVALID_CALL;
-    int32_t result =
-        d3d9_renderer_fill(device->renderer, &surface->image.surface, surface->image.format, &part, rgba);
+    int32_t result = d3d9_renderer_fill(device->renderer, &surface->image.surface, &part, rgba);
     if (surface->texture)
         d3d9_base_texture_drawn(surface->texture);
     return result;

@@ -36,7 +36,7 @@ static int32_t begin_image(struct d3d9_surface *surface, const struct d3d9_surfa
     image->samples = d3d9_check_samples(c->multi_sample_type, c->multi_sample_quality);
     if (c->user_memory)
         borrow(image, c->user_memory);
-    if (c->pool != D3D9_POOL_DEFAULT || format->drawn == D3D9_DRAWN_NOTHING)
+    if (c->pool != D3D9_POOL_DEFAULT)
         return d3d9_image_allocate(image) ? D3D9_OK : D3D9_OUT_OF_MEMORY;
     image->home = D3D9_HOME_RENDERER;
     int32_t result = d3d9_renderer_create_image(device->renderer, format, c->width, c->height, image->samples,

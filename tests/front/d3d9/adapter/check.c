@@ -25,7 +25,7 @@ static int32_t check(uint32_t usage, uint32_t type, uint32_t format)
     return d3d9_factory_check_device_format(factory, 0, HARDWARE, X8, usage, type, format);
 }
 
-/* A texture can be made with a format if and only if the renderer can. */
+/* A texture can be made with a format if and only if the renderer can, except for those of AMD's fetch4. */
 static void formats_of_textures_are_those_of_the_renderer(void)
 {
     struct triptych_options options = {.engine = "emulate", .threads = 1};
@@ -35,7 +35,7 @@ static void formats_of_textures_are_those_of_the_renderer(void)
     for (unsigned i = 0; (format = d3d9_format_at(i)); i++) {
         const struct triptych_texture_description d = {TRIPTYCH_TEXTURE_2D, format->number, 4, 4, 1, 1};
         triptych_texture *texture = NULL;
-        bool made = triptych_texture_define(device, &d, &texture) == TRIPTYCH_OK;
+        bool made = triptych_texture_define(device, &d, &texture) == TRIPTYCH_OK && strncmp(format->name, "DF", 2);
         TEST_ASSERT_EQUAL_INT_MESSAGE(made, check(0, D3D9_TYPE_TEXTURE, format->number) == D3D9_OK,
                                       format->name);
         triptych_texture_destroy(device, texture);
