@@ -66,13 +66,14 @@ static int32_t copy(struct d3d9_device *device, struct d3d9_surface *source,
                     const struct triptych_rectangle *part, struct d3d9_surface *target,
                     const struct triptych_rectangle *target_part, uint32_t filter)
 {
+    bool linear = filter == FILTER_LINEAR && !d3d9_surface_is_depth(source);
     if (source->texture)
         d3d9_base_texture_use(source->texture);
     if (!source->image.has_surface)
         return D3D9_INVALID_CALL;
     enum triptych_result result =
         triptych_copy(device->renderer, &source->image.surface, part, &target->image.surface, target_part,
-                      filter == FILTER_LINEAR ? TRIPTYCH_COPY_LINEAR : TRIPTYCH_COPY_POINT);
+                      linear ? TRIPTYCH_COPY_LINEAR : TRIPTYCH_COPY_POINT);
     if (target->texture)
         d3d9_base_texture_drawn(target->texture);
     return d3d9_renderer_result(result);

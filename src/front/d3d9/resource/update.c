@@ -71,19 +71,31 @@ static uint32_t first_level(const struct d3d9_base_texture *source, const struct
     return level;
 }
 
-/* Copies the dirty box of a face and level. Formats with equal texels in memory differ in what their bits
- * mean, and the bits are copied. */
+/* Converts a box to another format. Drivers differ in what they do; some only copy the bits. */
+static int32_t convert_box(struct d3d9_image *to, const struct d3d9_image *from,
+                           const struct triptych_box *box)
+{
+    const struct triptych_rectangle part = {box->x, box->y, box->width, box->height};
+    int32_t result = D3D9_OK;
+    if (to->format->side > 1 || from->format->side > 1 || !to->has_surface || to->home == D3D9_HOME_MEMORY)
+        return D3D9_OK;
+    for (uint32_t z = box->z; result >= 0 && z < box->z + box->depth; z++) {
+        struct triptych_surface surface = to->surface;
+        surface.slice += z;
+        result = d3d9_renderer_write(to->device->renderer, &surface, from->format, &part,
+                                     d3d9_image_at(from, box->x, box->y, z), from->row_bytes);
+    }
+    return result;
+}
+
+/* Copies the dirty box of a face and level. */
 static int32_t update_level(struct d3d9_image *to, struct d3d9_image *from)
 {
     struct triptych_box box = from->dirty;
     if (!box.width)
         return D3D9_OK;
-    return copy_box(to, box.x, box.y, box.z, from, &box);
-}
-
-static bool texels_are_equal(const struct d3d9_format *a, const struct d3d9_format *b)
-{
-    return a == b || (a->bytes == b->bytes && a->side == b->side && a->floats == b->floats);
+    return to->format == from->format ? copy_box(to, box.x, box.y, box.z, from, &box)
+                                      : convert_box(to, from, &box);
 }
 
 int32_t d3d9_device_update_texture(struct d3d9_device *device, struct d3d9_base_texture *source,
@@ -97,8 +109,6 @@ int32_t d3d9_device_update_texture(struct d3d9_device *device, struct d3d9_base_
         return D3D9_INVALID_CALL;
     if (source->resource.type != destination->resource.type)
         return D3D9_INVALID_CALL;
-    if (!texels_are_equal(source->format, destination->format))
-        return D3D9_OK;
     uint32_t skipped = first_level(source, destination);
     int32_t result = D3D9_OK;
     for (uint32_t face = 0; face < source->faces; face++)
