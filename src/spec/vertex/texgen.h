@@ -6,9 +6,9 @@
  *   reflection         p - 2 (p . n) n of the unit vector p from the camera to the vertex, 1
  *   sphere             r / m + 1/2 of the reflection r, x and y, with m = 2 |r + (0 0 1)|; 0, 1
  *
- * Before the matrix, a set of fewer than four components is followed by a 1 and then by zeros: u v 1 0. The
- * matrix gives `count` coordinates; those after them are 0. The divisor is the third of three, else the
- * fourth. Vertices in the window have neither generators nor matrices. */
+ * Before the matrix, a set of fewer than four components is followed by a 1 and then by zeros: u v 1 0. A set
+ * that vertices do not have is 0 0 0 1. The matrix gives `count` coordinates; those after them are 0. The
+ * divisor is the third of three, else the fourth. Vertices in the window have neither generators nor matrices. */
 #ifndef SPEC_VERTEX_TEXGEN_H
 #define SPEC_VERTEX_TEXGEN_H
 
@@ -81,7 +81,7 @@ static inline struct coordinates texgen_set(struct env *e, const struct vertex_k
 static inline flt texgen_transform(struct env *e, int channel, const struct coordinates *from, int c)
 {
     int matrix = (int)(offsetof(struct job, texture_matrix) + 64 * (size_t)channel);
-    int last = from->components ? from->components : 2;
+    int last = from->components ? from->components : 3;
     flt sum = last == 4 ? lit_f(E, 0.0f) : matrix_element(E, matrix, last, c);
     for (int row = last - 1; row >= 0; row--) {
         flt m = matrix_element(E, matrix, row, c);

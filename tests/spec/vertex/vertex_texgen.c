@@ -194,7 +194,7 @@ static void test_stages_with_matrices_have_coordinates_of_their_own(void)
     shading_on_every_engine(check_sharing);
 }
 
-/* A vertex without coordinates has 0 0. A vertex in window coordinates is not transformed. */
+/* A vertex without coordinates has 0 0 0 1. A vertex in window coordinates is not transformed. */
 static void check_none(void)
 {
     bind_vertices();
@@ -204,6 +204,11 @@ static void check_none(void)
         TEST_ASSERT_EQUAL_FLOAT(0, shaded_slot(SLOT_texcoord0, i));
         TEST_ASSERT_EQUAL_FLOAT(1, shaded_slot(SLOT_divisor0, i));
     }
+    shading_state.transform[TRIPTYCH_TRANSFORM_TEXTURE0][2][0] = 3;
+    shading_state.transform[TRIPTYCH_TRANSFORM_TEXTURE0][3][0] = 5; /* 0 0 0 1 times the matrix */
+    set_stage_number(0, TRIPTYCH_STAGE_TEXTURETRANSFORMFLAGS, 3);
+    shade(VERTICES);
+    TEST_ASSERT_EQUAL_FLOAT(5, shaded_slot(SLOT_texcoord0, 0));
     bind_sets(3);
     shading_bind(TRIPTYCH_POSITIONT, TRIPTYCH_FORMAT_FLOAT4, vertex, sizeof *vertex);
     set_stage_number(0, TRIPTYCH_STAGE_TEXTURETRANSFORMFLAGS, 256 + 3);

@@ -50,11 +50,13 @@ static void pass_clear(struct d3d9_device *device, const struct clear *clear,
 /* Direct3D clears each surface in its own size; the renderer clears what all have. */
 static bool sizes_differ(const struct d3d9_device *device)
 {
-    const struct d3d9_surface *first = device->target[0];
-    for (unsigned i = 1; first && i <= TRIPTYCH_TARGETS; i++) {
-        const struct d3d9_surface *other = i < TRIPTYCH_TARGETS ? device->target[i] : device->depth;
-        if (other && (other->image.width != first->image.width || other->image.height != first->image.height))
+    const struct d3d9_surface *first = device->depth;
+    for (unsigned i = 0; i < TRIPTYCH_TARGETS; i++) {
+        const struct d3d9_surface *other = d3d9_draw_target(device, i);
+        if (first && other &&
+            (other->image.width != first->image.width || other->image.height != first->image.height))
             return true;
+        first = first ? first : other;
     }
     return false;
 }
@@ -77,7 +79,7 @@ static void clear_surface(struct d3d9_device *device, const struct clear *clear,
 static void clear_each(struct d3d9_device *device, const struct clear *clear)
 {
     for (unsigned i = 0; i < TRIPTYCH_TARGETS; i++)
-        clear_surface(device, clear, device->target[i], TRIPTYCH_CLEAR_COLOR);
+        clear_surface(device, clear, d3d9_draw_target(device, i), TRIPTYCH_CLEAR_COLOR);
     clear_surface(device, clear, device->depth, TRIPTYCH_CLEAR_DEPTH | TRIPTYCH_CLEAR_STENCIL);
 }
 
@@ -146,7 +148,7 @@ int32_t d3d9_device_clear(struct d3d9_device *device, uint32_t count, const stru
     if (sizes_differ(device))
         clear_each(device, &clear);
     else if (d3d9_draw_prepare_targets(device))
-        pass_clear(device, &clear, device->target[0]);
+        pass_clear(device, &clear, d3d9_draw_target(device, 0));
     free(clear.list);
     return D3D9_OK;
 }

@@ -15,6 +15,10 @@ enum {
  * there is no target, or no memory. */
 bool d3d9_draw_prepare(struct d3d9_device *, unsigned needs);
 bool d3d9_draw_prepare_targets(struct d3d9_device *);
+/* The format of targets that keep nothing (NULL). */
+enum { D3D9_DRAW_NOTHING = 0x4c4c554e };
+/* The target with this number; null if there is none or it keeps nothing. */
+struct d3d9_surface *d3d9_draw_target(const struct d3d9_device *, unsigned index);
 /* Passes on the viewport and the scissor rectangle. */
 void d3d9_draw_pass_areas(struct d3d9_device *);
 

@@ -10,16 +10,38 @@ enum { MIPFILTER = 7, LODBIAS = 8, MAXMIPLEVEL = 9 };
 
 /* --- Targets and areas --- */
 
+static bool is_smaller(const struct d3d9_surface *depth, const struct d3d9_surface *target)
+{
+    return depth->image.width < target->image.width || depth->image.height < target->image.height ||
+           depth->image.samples != target->image.samples;
+}
+
+struct d3d9_surface *d3d9_draw_target(const struct d3d9_device *device, unsigned index)
+{
+    struct d3d9_surface *target = device->target[index];
+    return target && target->image.format->number != D3D9_DRAW_NOTHING ? target : NULL;
+}
+
+/* A depth surface that does not fit to a target is left out: Direct3D allows it while nothing needs it. */
+static struct d3d9_surface *depth_to_draw(const struct d3d9_device *device)
+{
+    for (unsigned i = 0; i < TRIPTYCH_TARGETS && device->depth; i++)
+        if (d3d9_draw_target(device, i) && is_smaller(device->depth, d3d9_draw_target(device, i)))
+            return NULL;
+    return device->depth;
+}
+
 /* A device without a depth surface has none to test. */
 static bool pass_targets(struct d3d9_device *device)
 {
     struct triptych_target_surfaces targets = {.depth_format = TRIPTYCH_DEPTH_NONE};
+    struct d3d9_surface *depth = depth_to_draw(device);
     bool any = false;
     for (unsigned i = 0; i < TRIPTYCH_TARGETS; i++)
-        if (device->target[i])
+        if (d3d9_draw_target(device, i))
             any |= d3d9_surface_as_target(device->target[i], &targets.color[i]);
-    if (device->depth)
-        any |= d3d9_surface_as_target(device->depth, &targets.depth);
+    if (depth)
+        any |= d3d9_surface_as_target(depth, &targets.depth);
     return any && triptych_set_target_surfaces(device->renderer, &targets) == TRIPTYCH_OK;
 }
 

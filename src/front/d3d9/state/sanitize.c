@@ -38,12 +38,12 @@ static bool works(const struct triptych_kind *kind, uint32_t value)
     return row && row->support == TRIPTYCH_SUPPORT_YES;
 }
 
-/* One coordinate is transformed as two are. A count that does not exist is none. */
+/* One coordinate is none, as on the chips of one maker, and so is a count that does not exist. */
 static uint32_t sanitize_transform(uint32_t value)
 {
     enum { PROJECTED = 0x100, COUNT = 0xff };
     uint32_t count = value & COUNT;
-    return (value & PROJECTED) | (count > 4 ? 0 : count == 1 ? 2 : count);
+    return (value & PROJECTED) | (count > 4 || count == 1 ? 0 : count);
 }
 
 /* A word by its number, for a number that does not exist or is not supported. */
