@@ -28,8 +28,14 @@ void derive_fog(const struct state *state, struct pixel_key *key)
         key->fog += FOG_LINEAR_W - FOG_LINEAR_Z;
 }
 
-/* Distances at which fog starts and ends; the same for both: everything is fog. */
-void derive_fog_formula(const struct state *state, uint32_t mode, float *scale, float *offset)
+/* Linear fog that starts where it ends: of a table, everything from there on is fog; of vertices, everything. */
+static void fog_without_range(double end, bool table, float *scale, float *offset)
+{
+    *scale = table ? -0x1p64f : 0;
+    *offset = table ? derive_narrow(end * 0x1p64) : 0;
+}
+
+void derive_fog_formula(const struct state *state, uint32_t mode, bool table, float *scale, float *offset)
 {
     double start = (double)GET_FLOAT(state, fogstart), end = (double)GET_FLOAT(state, fogend),
            density = (double)GET_FLOAT(state, fogdensity);
@@ -40,8 +46,12 @@ void derive_fog_formula(const struct state *state, uint32_t mode, float *scale, 
     case TRIPTYCH_FOG_EXP: *scale = derive_narrow(-density * log2_e); return;
     case TRIPTYCH_FOG_EXP2: *scale = derive_narrow(density * sqrt(log2_e)); return;
     case TRIPTYCH_FOG_LINEAR:
-        *scale = derive_narrow(end != start ? -1 / (end - start) : 0);
-        *offset = derive_narrow(end != start ? end / (end - start) : 0);
+        if (end == start) {
+            fog_without_range(end, table, scale, offset);
+            return;
+        }
+        *scale = derive_narrow(-1 / (end - start));
+        *offset = derive_narrow(end / (end - start));
         return;
     }
 }

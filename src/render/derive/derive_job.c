@@ -173,7 +173,7 @@ static void fill_fog(const struct state *state, const struct vertex_key *vertex,
                     : key_program(vertex->shader) || vertex->fog == VERTEX_FOG_SPECULAR_ALPHA
                         ? FOGMODE_none
                         : GET(state, fogvertexmode);
-    derive_fog_formula(state, mode, &job->fog_scale, &job->fog_offset);
+    derive_fog_formula(state, mode, key->fog != FOG_VARYING, &job->fog_scale, &job->fog_offset);
 }
 
 static void fill_element(const struct state *state, const struct state_element *element,

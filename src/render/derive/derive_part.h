@@ -99,7 +99,7 @@ int derive_channel_stage(const struct pixel_key *key, int channel);
 bool derive_stage_passes(const struct pixel_key *key, int i);
 
 /* Scale and offset of a fog formula for its mode, a value of kind FOGMODE. */
-void derive_fog_formula(const struct state *state, uint32_t mode, float *scale, float *offset);
+void derive_fog_formula(const struct state *state, uint32_t mode, bool table, float *scale, float *offset);
 
 /* The nearest finite float: an element that overflowed must not turn zeros into NaNs. */
 float derive_narrow(double value);

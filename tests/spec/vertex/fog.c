@@ -2,6 +2,7 @@
 #include "tests/support/picture/canvas.h"
 
 #include <math.h>
+#include <stdbool.h>
 #include <stdio.h>
 
 void setUp(void)
@@ -112,19 +113,21 @@ static void check_no_fog(void)
     expect_pixel(0, 0, image_word(0x80402010), "fog that is off");
 }
 
-/* Linear fog that starts where it is complete covers everything, also what is nearer. */
+/* Linear fog that starts where it is complete: of a table it covers what is not nearer, of vertices everything. */
 static void check_fog_without_range(void)
 {
     const float distances[] = {0, 0.25f, 0.5f, 0.75f};
     OK(triptych_set_state(device, TRIPTYCH_STATE_FOGCOLOR, 0xff00ff00));
     OK(triptych_set_state(device, TRIPTYCH_STATE_FOGENABLE, 1));
-    set(TRIPTYCH_STATE_FOGTABLEMODE, "linear");
     set_float(TRIPTYCH_STATE_FOGSTART, 0.5f);
     set_float(TRIPTYCH_STATE_FOGEND, 0.5f);
-    for (unsigned i = 0; i < 4; i++) {
-        draw_square(distances[i], 0x80402010, NULL, 0, 0, 1, 1);
+    for (unsigned i = 0; i < 8; i++) {
+        bool vertices = i >= 4, nearer = distances[i % 4] < 0.5f;
+        set(TRIPTYCH_STATE_FOGTABLEMODE, vertices ? "none" : "linear");
+        set(TRIPTYCH_STATE_FOGVERTEXMODE, vertices ? "linear" : "none");
+        draw_square(distances[i % 4], 0x80402010, NULL, 0, 0, 1, 1);
         OK(triptych_read_color(device, image, sizeof image));
-        expect_pixel(0, 0, image_word(0x8000ff00), "fog without range");
+        expect_pixel(0, 0, image_word(nearer && !vertices ? 0x80402010 : 0x8000ff00), "fog without range");
     }
 }
 
