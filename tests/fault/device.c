@@ -235,6 +235,25 @@ static void read_compressed(void)
     }
 }
 
+/* Rectangles: a copy within a surface, depth of a texture, and a fill of an image. */
+static void change_rectangles(triptych_texture *texture)
+{
+    uint32_t read[16] = {0x40000001, 0x80000002};
+    const struct triptych_rectangle part[2] = {{0, 0, 20, 20}, {3, 5, 20, 20}}, corner = {0, 0, 4, 4};
+    const struct triptych_image_description description = {
+        .format = TRIPTYCH_SURFACE_A8R8G8B8, .width = 8, .height = 8, .samples = 2};
+    triptych_texture *depth = make_texture(TRIPTYCH_TEXTURE_2D, TRIPTYCH_SURFACE_INTZ);
+    struct triptych_surface surface[3] = {{.texture = texture}, {.texture = depth}};
+    TRY(triptych_image_create(device, &description, &surface[2].image));
+    TRY(triptych_copy(device, &surface[0], &part[0], &surface[0], &part[1], TRIPTYCH_COPY_POINT));
+    TRY(triptych_write_rectangle(device, &surface[1], &corner, 0, read, 16));
+    TRY(triptych_fill(device, &surface[2], &corner, (const float[4]){0, 1, 0, 1}));
+    for (int i = 0; i < 3; i++) {
+        TRY(triptych_read_rectangle(device, &surface[i], &corner, 0, read, 16));
+        add_to_digest(read, sizeof read);
+    }
+}
+
 /* A scene that draws to a texture, copies it and samples it; vertices that choose matrices; and many draws
  * with a small cache of routines. */
 static void draw_to_textures(unsigned threads)
@@ -267,6 +286,7 @@ static void draw_to_textures(unsigned threads)
     TRY(triptych_read_surface(device, &to, read, sizeof read));
     add_to_digest(read, sizeof read);
     read_compressed();
+    change_rectangles(texture[1]);
     sample(0, texture[1], 1);
     TRY(triptych_draw(device, TRIPTYCH_TRIANGLE_FAN, 0, 20));
     read_target(false);

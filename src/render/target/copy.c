@@ -128,17 +128,25 @@ static void copy_linear(const struct pixels_copy *copy, const struct piece *piec
     pixels_convert_numbers(copy->to.format, numbers, piece->width, result);
 }
 
+static bool is_scaled(const struct pixels_copy *copy)
+{
+    return copy->source.width != copy->target.width || copy->source.height != copy->target.height;
+}
+
 /* Returns true if pixels are blended: equal sizes take each pixel itself. */
 static bool blends(const struct pixels_copy *copy)
 {
-    return copy->linear &&
-           (copy->source.width != copy->target.width || copy->source.height != copy->target.height);
+    return copy->linear && is_scaled(copy);
 }
 
 void pixels_copy_part(const struct pixels_copy *copy, uint32_t i)
 {
     struct triptych_rectangle part = pixels_part(&copy->target, i);
     uint32_t result[4 * PIXELS_ROW];
+    uint32_t from_x = copy->source.x + part.x - copy->target.x;
+    uint32_t from_y = copy->source.y + part.y - copy->target.y;
+    if (!is_scaled(copy) && pixels_copy_tile(&copy->from, from_x, from_y, &copy->to, &part))
+        return;
     for (uint32_t done = 0; done < part.width;) {
         struct piece piece;
         find_piece(copy, part.x + done, part.width - done, &piece);

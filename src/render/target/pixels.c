@@ -304,6 +304,31 @@ void pixels_fill(const struct pixels *pixels, const struct triptych_rectangle *p
         pixels_write_row(pixels, part->x, y, part->width, row);
 }
 
+static bool is_same_kind(const struct attachment *a, const struct attachment *b)
+{
+    return a->format == b->format && a->depth_format == b->depth_format && a->samples == 1 && b->samples == 1;
+}
+
+bool pixels_copy_tile(const struct pixels *from, uint32_t from_x, uint32_t from_y, const struct pixels *to,
+                      const struct triptych_rectangle *part)
+{
+    const struct attachment *a = from->tiles, *b = to->tiles;
+    if (!a || !b || !is_same_kind(a, b) || from_x % TILE_SIZE || from_y % TILE_SIZE ||
+        part->width < TILE_SIZE || part->height < TILE_SIZE)
+        return false;
+    uint32_t source = tile_of(a, from_x, from_y), target = tile_of(b, part->x, part->y);
+    const uint32_t *pending = pending_words(a, source);
+    if (a->format)
+        b->color_clear[target].pending = false;
+    else
+        b->depth_clear[target] = a->depth_clear[source];
+    if (pending)
+        clear_tile(b, target, pending);
+    else
+        memcpy(tile_words(b, target), tile_words(a, source), attachment_planes(a) * TILE_PLANE_BYTES);
+    return true;
+}
+
 int pixels_prepare(const struct pixels *pixels, struct error *error)
 {
     struct attachment *a = pixels->tiles;

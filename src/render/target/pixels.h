@@ -48,6 +48,12 @@ void pixels_write_row(const struct pixels *pixels, uint32_t x, uint32_t y, uint3
 /* Sets all pixels of a part of one tile to the same words. The part begins and ends within the tile. */
 void pixels_fill(const struct pixels *pixels, const struct triptych_rectangle *part, const uint32_t *words);
 
+/* Copies a whole tile of one attachment to another one of the same format, or returns false: the places are
+ * not corners of tiles, a tile is not whole, or samples are averaged. A tile that only remembers its clear
+ * gives another one that does. */
+bool pixels_copy_tile(const struct pixels *from, uint32_t from_x, uint32_t from_y, const struct pixels *to,
+                      const struct triptych_rectangle *part);
+
 /* Gives memory to an attachment that was never drawn to, before it is written. Returns 0, or -1 with the
  * reason. */
 int pixels_prepare(const struct pixels *pixels, struct error *error);

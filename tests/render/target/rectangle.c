@@ -631,6 +631,54 @@ static void test_depth_and_stencil_are_copied(void)
     expect_points(&copy);
 }
 
+/* Whole tiles: words, and a clear that is only remembered. Depth keeps its bounds. */
+static void test_whole_tiles_are_copied_with_their_clears(void)
+{
+    const uint32_t word = 0x12345678;
+    make_color(&pixels, TRIPTYCH_SURFACE_G16R16, 1);
+    make_color(&other, TRIPTYCH_SURFACE_G16R16, 1);
+    fill_random(&pixels);
+    fill_random(&other);
+    struct pixels_copy copy = {pixels, other, {0, 0, 64, 70}, {64, 0, 64, 70}, true};
+    copy_all(&copy);
+    expect_points(&copy);
+    pixels_fill(&pixels, &(struct triptych_rectangle){0, 0, 64, 64}, (uint32_t[]){1, 2, 3, 4});
+    copy_all(&copy);
+    TEST_ASSERT_TRUE(other.tiles->color_clear[1].pending);
+    TEST_ASSERT_EQUAL_HEX32_ARRAY(((uint32_t[]){1, 2, 3, 4}), other.tiles->color_clear[1].word, 4);
+    make_depth(&pixels, TRIPTYCH_DEPTH_D24S8);
+    make_depth(&other, TRIPTYCH_DEPTH_D24S8);
+    fill_random(&pixels);
+    pixels_fill(&pixels, &(struct triptych_rectangle){64, 0, 64, 64}, &word);
+    copy = (struct pixels_copy){pixels, other, {0, 0, 128, 64}, {0, 0, 128, 64}, false};
+    copy_all(&copy);
+    TEST_ASSERT_TRUE(other.tiles->depth_clear[1].pending);
+    TEST_ASSERT_EQUAL_HEX32(word, other.tiles->depth_clear[1].word);
+    TEST_ASSERT_EQUAL_HEX32(0x12345600, other.tiles->depth_clear[1].range.most);
+    TEST_ASSERT_EQUAL_HEX32(0, other.tiles->depth_clear[0].range.least);
+    copy.source.width = copy.target.width = 64;
+    expect_points(&copy);
+}
+
+static void test_numbers_become_the_words_that_a_draw_writes(void)
+{
+    static const enum triptych_surface_format formats[] = {TRIPTYCH_SURFACE_A8R8G8B8,
+                                                           TRIPTYCH_SURFACE_X8B8G8R8};
+    for (int n = 0; n < 20000; n++) {
+        const struct format *format = format_find(formats[n % 2]);
+        float numbers[4];
+        uint32_t expected[4], word;
+        for (int c = 0; c < 4; c++)
+            numbers[c] = n % 5 ? (float)(random_word() % 4096) / 2048 - 0.5f
+                               : (float)(random_word() % 511) / 510; /* halves between bytes */
+        if (n % 7 == 0)
+            numbers[n % 4] = n % 2 ? NAN : -INFINITY;
+        color_encode(format, numbers, expected);
+        pixels_convert_numbers(format, numbers, 1, &word);
+        TEST_ASSERT_EQUAL_HEX32(expected[0], word);
+    }
+}
+
 int main(void)
 {
     UNITY_BEGIN();
@@ -652,5 +700,7 @@ int main(void)
     RUN_TEST(test_long_rows_shrink_to_a_few_pixels);
     RUN_TEST(test_samples_are_resolved_by_a_copy);
     RUN_TEST(test_depth_and_stencil_are_copied);
+    RUN_TEST(test_whole_tiles_are_copied_with_their_clears);
+    RUN_TEST(test_numbers_become_the_words_that_a_draw_writes);
     return UNITY_END();
 }
