@@ -135,7 +135,7 @@ unity_flags = -isystem $(dir $(UNITY_SOURCE)) -DUNITY_INCLUDE_DOUBLE -DUNITY_USE
 
 # --- What to build ------------------------------------------------------------------------------------------
 
-.PHONY: all programs objects check test check-threads check-explore matrix coverage soak soak-faults soak-memory bench peers bench-shaders bench-draws conformance-d3d9 programs-d3d9 mutations gallery verify-external docs fuzzers fuzz-input fuzz-input-smoke dependencies packages install clean format format-check compile_commands.json d3d9 help FORCE
+.PHONY: all programs objects check test check-threads check-explore matrix coverage soak soak-faults soak-memory bench peers bench-shaders bench-draws bench-targets conformance-d3d9 programs-d3d9 mutations gallery verify-external docs fuzzers fuzz-input fuzz-input-smoke dependencies packages install clean format format-check compile_commands.json d3d9 help FORCE
 
 all: $(BUILD)/libtriptych.a $(if $(SANITIZE),,$(BUILD)/libtriptych.so $(PKGCONFIG) \
   $(BUILD)/include/triptych/triptych.h) $(COMMAND) build/glmark2 \
@@ -538,6 +538,16 @@ bench-draws:
 	+@$(MAKE) $(jobs) $(BUILD)/bench/draws
 	@$(BUILD)/bench/draws
 
+# Measures changes of the target (bench/targets.c).
+$(BUILD)/bench/targets: $(BUILD)/object/bench/targets.o $(BUILD)/libtriptych.a
+	@mkdir -p $(@D)
+	$(call say,LD)$(link) $^ $(library_libraries) -o $@
+
+bench-targets:
+	@tests/support/scripts/dependencies.sh build
+	+@$(MAKE) $(jobs) $(BUILD)/bench/targets
+	@$(BUILD)/bench/targets
+
 # Wine's Direct3D 9 tests on Triptych and on Wine's own Direct3D 9: results/conformance.md.
 # bench/conformance-d3d9.sh describes ENGINE=name THREADS=n SUITES="name ..." LIMIT=seconds.
 conformance-d3d9:
@@ -668,6 +678,7 @@ make conformance-d3d9  Wine's Direct3D 9 tests, on Triptych and on Wine's own Di
 make programs-d3d9   programs for Windows, on Triptych and on Wine's own Direct3D 9: results/programs.json
 make bench-shaders   measures every shader in tests/data/shading, by shader and by length
 make bench-draws     draws per second of one small triangle, one change of the state before each
+make bench-targets   the time to draw to a texture and return to the target
 make soak            random cases and tests with new seeds, half an hour (DURATION=1800 SEED=1), then a summary
 make fuzz-input      readers of untrusted input under libFuzzer, half an hour (DURATION=1800) each TARGET, JOBS at a time
 make fuzz-input-smoke  the same in ten minutes

@@ -89,7 +89,7 @@ struct section {
 
 typedef int section_visitor(void *user, const struct section *section);
 
-/* Colours of targets with several samples are alone. */
+/* A target with several samples has one colour. */
 static int visit_color(struct target *target, unsigned t, uint32_t tile, section_visitor *visit, void *user)
 {
     const struct target_color *color = &target->colors[t];

@@ -1,8 +1,8 @@
-/* What the device draws to: targets of surfaces, and the main target.
+/* The targets of the device: those of surfaces, and the main target.
  *
  * A change of the target is a command of the queue, and so are the transfers between tiles and texels of
- * textures (render/target/surface.h). Whether a transfer is needed is known when calls are made: the queue
- * renders in their order. Targets and transfers that commands refer to are released when the buffer of the
+ * textures (render/target/surface.h). A call decides which transfers are needed, because the queue renders
+ * in the order of the calls. Targets and transfers that commands refer to are released when the buffer of the
  * command is rendered. */
 #include "render/device/device.h"
 
@@ -145,7 +145,8 @@ void device_note_newer(struct triptych_device *device, unsigned parts)
 void device_prepare_textures(struct triptych_device *device)
 {
     for (int i = 0; i < SAMPLERS && device->binding.newer; i++)
-        if (device_derived_samples(&device->derived, i))
+        if (device->state.texture[i] && device->state.texture[i]->drawn &&
+            device_derived_samples(&device->derived, i))
             device_store_surfaces(device, device->state.texture[i]);
 }
 

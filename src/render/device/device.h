@@ -49,7 +49,7 @@ struct device_binding {
 /* Parts of a target: bit t is colour t. */
 enum target_part { TARGET_DEPTH = 1 << TARGETS };
 
-/* What the commands of a buffer refer to, to be released when they are rendered. */
+/* Objects that the commands of a buffer refer to, to be released when these are rendered. */
 struct released {
     struct released *next;
     struct target *target; /* or null */

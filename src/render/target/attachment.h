@@ -4,7 +4,7 @@
  *
  * A pixel routine finds the colours of a tile one after the other (struct pixel_arguments). So colours that
  * are drawn to together share memory: each tile of that memory has the planes of all of them in turn. An
- * attachment that is drawn to alone uses its planes of the same memory, at the same place. Its words move
+ * attachment that is drawn to by itself uses its planes of the same memory, at the same place. Its words move
  * only if it is drawn to together with other colours than before (struct tile_move).
  *
  * A tile that has been cleared as a whole only remembers the value; its words are written when something
@@ -28,17 +28,18 @@ struct depth_range {
     uint32_t least, most;
 };
 
-/* What is remembered of a tile of a colour: each plane's word. */
+/* The last clear of a tile of a colour: each plane's word. */
 struct color_clear {
     uint32_t word[4];
     bool pending; /* the words are not valid: all have these values */
+    bool changed; /* the tile may have changed since the last transfer (render/target/surface.h) */
 };
 
 /* The same of depth: the word, stencil included. */
 struct depth_clear {
     uint32_t word;
     struct depth_range range; /* no stored depth is outside of it; of one sample per pixel */
-    bool pending;
+    bool pending, changed;
 };
 
 /* Words of tiles. */

@@ -231,9 +231,11 @@ static uint32_t *open_tile(const struct attachment *a, uint32_t tile)
             words[p * TILE_PIXELS + i] = pending[p % planes];
     if (a->format) {
         a->color_clear[tile].pending = false;
+        a->color_clear[tile].changed = true;
     } else {
         a->depth_clear[tile].pending = false;
         a->depth_clear[tile].range = (struct depth_range){0, depth_mask(a->depth_format)};
+        a->depth_clear[tile].changed = true;
     }
     return words;
 }
@@ -284,12 +286,12 @@ static bool is_whole_tile(const struct attachment *a, const struct triptych_rect
 static void clear_tile(const struct attachment *a, uint32_t tile, const uint32_t *words)
 {
     if (a->format) {
-        a->color_clear[tile].pending = true;
+        a->color_clear[tile].pending = a->color_clear[tile].changed = true;
         memcpy(a->color_clear[tile].word, words, attachment_planes(a) * sizeof *words);
         return;
     }
     uint32_t depth = *words & depth_mask(a->depth_format);
-    a->depth_clear[tile] = (struct depth_clear){*words, {depth, depth}, true};
+    a->depth_clear[tile] = (struct depth_clear){*words, {depth, depth}, .pending = true, .changed = true};
 }
 
 void pixels_fill(const struct pixels *pixels, const struct triptych_rectangle *part, const uint32_t *words)

@@ -49,7 +49,7 @@ static void *surface_texels(const struct triptych_surface *surface)
 
 /* --- Shapes --- */
 
-/* What a target needs of a surface. */
+/* The properties of a surface that a target depends on. */
 struct shape {
     const struct format *format;             /* null: depth that is not a texture's */
     enum triptych_depth_format depth_format; /* NONE: a colour */
@@ -484,21 +484,28 @@ static void fill_partial(const struct attachment *a, const struct part *part, ui
         memset(part->words, 0, attachment_planes(a) * TILE_PLANE_BYTES);
 }
 
+static void load_tile(const struct attachment *a, const struct part *part, uint32_t tile)
+{
+    fill_partial(a, part, tile);
+    if (!a->format)
+        load_depth(part, a->depth_format, &a->depth_clear[tile]);
+    else if (attachment_planes(a) == 1)
+        load_words(part);
+    else
+        load_numbers(part);
+    if (a->format)
+        a->color_clear[tile].pending = false;
+}
+
+/* Tiles that have not changed are the same as their texels. */
 void surface_transfer_tile(const struct surface_transfer *transfer, uint32_t tile)
 {
     const struct attachment *a = transfer->attachment;
+    bool *changed = a->format ? &a->color_clear[tile].changed : &a->depth_clear[tile].changed;
     struct part part = part_of(transfer, tile);
-    if (transfer->store) {
+    if (!transfer->store)
+        load_tile(a, &part, tile);
+    else if (*changed)
         store_tile(transfer, &part, tile);
-        return;
-    }
-    fill_partial(a, &part, tile);
-    if (!a->format)
-        load_depth(&part, a->depth_format, &a->depth_clear[tile]);
-    else if (attachment_planes(a) == 1)
-        load_words(&part);
-    else
-        load_numbers(&part);
-    if (a->format)
-        a->color_clear[tile].pending = false;
+    *changed = false;
 }

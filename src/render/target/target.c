@@ -67,7 +67,7 @@ static struct attachment *first_color(const struct target *target)
     return NULL;
 }
 
-/* New memory for all colours, of which those with words have to move. */
+/* New memory for all colours. Those with words have to move. */
 static int gather_colors(struct target *target, struct error *error)
 {
     uint32_t columns = 0, rows = 0;
@@ -288,13 +288,14 @@ static uint32_t *fill_one(struct target *target, unsigned t, uint32_t tile)
     for (uint32_t p = 0; p < planes * target->samples && clear->pending; p++)
         fill(words + (p / planes * target->planes + p % planes) * TILE_PIXELS, clear->word[p % planes]);
     clear->pending = false;
+    clear->changed = true;
     return words;
 }
 
 uint32_t *target_fill_color(struct target *target, uint32_t tile)
 {
     for (unsigned t = 0; t < TARGETS; t++)
-        if (target->colors[t].clear && target_color_clear(target, t, tile)->pending)
+        if (target->colors[t].clear)
             fill_one(target, t, tile);
     return target_tile_color(target, tile);
 }
@@ -307,6 +308,7 @@ uint32_t *target_fill_depth(struct target *target, uint32_t tile)
     for (uint32_t p = 0; p < planes; p++)
         fill(words + p * TILE_PIXELS, clear->word);
     clear->pending = false;
+    clear->changed = true;
     return words;
 }
 
@@ -363,7 +365,7 @@ static void clear_color(struct target *target, unsigned t, uint32_t tile, const 
     if (same_area(part, &whole) && (pending->pending || !clear->kept_channels)) {
         for (uint32_t p = 0; p < planes; p++)
             pending->word[p] = merged(pending->word[p], value[p], masks[p]);
-        pending->pending = true;
+        pending->pending = pending->changed = true;
         return;
     }
     uint32_t *words = fill_one(target, t, tile);
@@ -402,7 +404,7 @@ static void clear_depth(struct target *target, uint32_t tile, const struct clear
     note_cleared_depth(target, clear, pending, all);
     if (all) {
         pending->word = (pending->word & ~clear->depth_mask) | clear->depth;
-        pending->pending = true;
+        pending->pending = pending->changed = true;
         return;
     }
     uint32_t *words = target_fill_depth(target, tile);
@@ -492,11 +494,11 @@ void target_read_constant(uint32_t value, const struct rectangle *area, uint32_t
             store_row(image + (size_t)y * pitch + (size_t)x, row, block_part(area->x1, x));
 }
 
-/* What is remembered of a colour's tile. Colours of the format NULL have all channels 1. */
+/* The record of a colour's tile. Colours of the format NULL have all channels 1. */
 static const struct color_clear *remembered(const struct target *target, const struct target_color *color,
                                             uint32_t tile)
 {
-    static const struct color_clear nothing = {{UINT32_MAX}, true};
+    static const struct color_clear nothing = {.word = {UINT32_MAX}, .pending = true};
     return color->clear ? color->clear + target_tile_in(target, color->columns, tile) : &nothing;
 }
 

@@ -129,7 +129,7 @@ static inline uint32_t *target_tile_depth(const struct target *target, uint32_t 
            (size_t)target_tile_in(target, target->depth_columns, tile) * target->samples * TILE_PIXELS;
 }
 
-/* What is remembered of a tile. The colour is stored; the target has depth. */
+/* The record of a tile. The colour is stored; the target has depth. */
 static inline struct color_clear *target_color_clear(const struct target *target, unsigned t, uint32_t tile)
 {
     return target->colors[t].clear + target_tile_in(target, target->colors[t].columns, tile);

@@ -132,7 +132,7 @@ static void note_uniform_color(const struct target *target, uint32_t tile)
         struct color_clear *clear = target_color_clear(target, t, tile);
         for (uint32_t p = 0; p < storage_planes[color->storage]; p++)
             clear->word[p] = words[(color->plane + p) * TILE_PIXELS];
-        clear->pending = true;
+        clear->pending = clear->changed = true;
     }
 }
 
@@ -156,7 +156,7 @@ static void shade_uniform(struct tile_worker *worker, const struct round *round,
     note_uniform_color(target, tile);
     if (!key->depth_write)
         return;
-    *clear = (struct depth_clear){.word = depth[0], .range = m->depths, .pending = true};
+    *clear = (struct depth_clear){.word = depth[0], .range = m->depths, .pending = true, .changed = true};
 }
 
 /* Updates the bounds of the tile's depth for the triangle. */
