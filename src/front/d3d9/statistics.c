@@ -5,7 +5,7 @@
 #include <string.h>
 #include <time.h>
 
-enum { SECOND_NS = 1000000000 };
+enum { SECOND_NS = 1000000000, COUNTED_FRAME = 64, MOST_ROUTINES = 4096 };
 
 static uint64_t clock_ns(void)
 {
@@ -25,7 +25,37 @@ void d3d9_statistics_begin(struct d3d9_statistics *statistics)
     statistics->path = getenv("TRIPTYCH_STATISTICS");
     if (statistics->path && !*statistics->path)
         statistics->path = NULL;
-    statistics->created_ns = statistics->path ? clock_ns() : 0;
+    if (!statistics->path)
+        return;
+    statistics->hits = malloc(MOST_ROUTINES * sizeof *statistics->hits);
+    statistics->created_ns = clock_ns();
+}
+
+static void remember_hits(struct d3d9_statistics *statistics, triptych_device *renderer)
+{
+    struct triptych_routine_info routine;
+    for (statistics->known = 0;
+         statistics->known < MOST_ROUTINES && triptych_get_routine(renderer, statistics->known, &routine);)
+        statistics->hits[statistics->known++] = routine.hits;
+}
+
+/* A routine that was not known before the frame was built for it. */
+static void count_used(struct d3d9_statistics *statistics, triptych_device *renderer)
+{
+    struct triptych_routine_info routine;
+    for (unsigned i = 0; i < MOST_ROUTINES && triptych_get_routine(renderer, i, &routine); i++)
+        statistics->used += i >= statistics->known || routine.hits != statistics->hits[i];
+    statistics->counted++;
+}
+
+static void count_routines(struct d3d9_statistics *statistics, triptych_device *renderer)
+{
+    if (!statistics->hits)
+        return;
+    if (statistics->frames % COUNTED_FRAME == 1)
+        remember_hits(statistics, renderer);
+    else if (statistics->frames % COUNTED_FRAME == 2)
+        count_used(statistics, renderer);
 }
 
 static void write_routines(FILE *file, triptych_device *renderer)
@@ -57,6 +87,8 @@ static void write_numbers(FILE *file, const struct d3d9_statistics *statistics, 
     fprintf(file, " \"cache_hits\": %llu,\n \"cache_misses\": %llu,\n \"cache_evictions\": %llu,\n",
             (unsigned long long)drawn.cache_hits, (unsigned long long)drawn.cache_misses,
             (unsigned long long)drawn.cache_evictions);
+    const uint64_t counted = statistics->counted ? statistics->counted : 1;
+    fprintf(file, " \"routines_of_a_frame\": %.1f,\n", (double)statistics->used / (double)counted);
     write_routines(file, renderer);
 }
 
@@ -82,17 +114,20 @@ void d3d9_statistics_frame(struct d3d9_statistics *statistics, triptych_device *
         statistics->first_ns = statistics->written_ns = now;
     else if (now - statistics->last_ns > statistics->longest_ns)
         statistics->longest_ns = now - statistics->last_ns;
-    statistics->last_ns = now;
-    if (now - statistics->written_ns < SECOND_NS)
-        return;
-    write_file(statistics, renderer);
-    /* The time of writing belongs to no frame. */
-    statistics->written_ns = statistics->last_ns = clock_ns();
+    count_routines(statistics, renderer);
+    if (now - statistics->written_ns >= SECOND_NS) {
+        write_file(statistics, renderer);
+        statistics->written_ns = now;
+    }
+    /* The time of counting and writing belongs to no frame. */
+    statistics->last_ns = clock_ns();
 }
 
 void d3d9_statistics_end(struct d3d9_statistics *statistics, triptych_device *renderer)
 {
     if (statistics->path && statistics->frames)
         write_file(statistics, renderer);
+    free(statistics->hits);
+    statistics->hits = NULL;
     statistics->path = NULL;
 }

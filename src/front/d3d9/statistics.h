@@ -9,7 +9,8 @@
  *   "draws", "triangles"       of all frames
  *   "cache_hits", "cache_misses", "cache_evictions"    of the cache of routines
  *   "routines"                 routines in the cache by unit: "vertex", "setup", "pixel"
- *   "build_ms"                 the time that building them took
+ *   "routines_of_a_frame"      routines that the draws of one frame use, the mean over every 64th frame
+ *   "build_ms"                 the time that building the routines took
  * It is written at the end of the device, and once a second, because many programs are ended before they destroy
  * their device. A device without frames writes nothing. */
 #ifndef D3D9_STATISTICS_H
@@ -23,6 +24,9 @@ struct d3d9_statistics {
     const char *path; /* null: nothing is measured */
     uint64_t created_ns, first_ns, last_ns, longest_ns, written_ns;
     uint64_t frames;
+    uint64_t *hits;         /* of each routine before a frame whose routines are counted */
+    unsigned known;         /* entries of `hits` */
+    uint64_t used, counted; /* routines that counted frames used, counted frames */
 };
 
 /* Begins to measure if the environment names a file. */

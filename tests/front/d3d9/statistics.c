@@ -75,6 +75,40 @@ static void a_frame_after_a_second_writes_the_file(void)
     TEST_ASSERT_EQUAL_DOUBLE(2, number("frames"));
 }
 
+static void draw_triangle(void)
+{
+    static const struct triptych_declaration_element elements[] = {
+        {0, 0, TRIPTYCH_FORMAT_FLOAT4, TRIPTYCH_USAGE_POSITION, 0}};
+    static const float corners[3][4] = {{0, 0, 0, 1}, {1, 0, 0, 1}, {0, 1, 0, 1}};
+    TEST_ASSERT_EQUAL_INT(TRIPTYCH_OK, triptych_set_target(renderer, 8, 8));
+    TEST_ASSERT_EQUAL_INT(TRIPTYCH_OK, triptych_set_state(renderer, TRIPTYCH_STATE_LIGHTING, 0));
+    TEST_ASSERT_EQUAL_INT(TRIPTYCH_OK, triptych_set_state(renderer, TRIPTYCH_STATE_CULLMODE, 1));
+    TEST_ASSERT_EQUAL_INT(TRIPTYCH_OK, triptych_set_declaration(renderer, elements, 1));
+    TEST_ASSERT_EQUAL_INT(
+        TRIPTYCH_OK, triptych_draw_user(renderer, TRIPTYCH_TRIANGLE_LIST, 1, corners, sizeof corners[0]));
+    TEST_ASSERT_EQUAL_INT(TRIPTYCH_OK, triptych_end_frame(renderer));
+}
+
+/* The second frame draws with the routines of one state, which the first frame built; the third frame is not
+ * counted. */
+static void routines_of_a_counted_frame_are_those_that_its_draws_use(void)
+{
+    struct d3d9_statistics statistics;
+    d3d9_statistics_begin(&statistics);
+    draw_triangle();
+    d3d9_statistics_frame(&statistics, renderer);
+    draw_triangle();
+    d3d9_statistics_frame(&statistics, renderer);
+    TEST_ASSERT_EQUAL_INT(TRIPTYCH_OK, triptych_set_state(renderer, TRIPTYCH_STATE_COLORWRITEENABLE, 7));
+    draw_triangle();
+    d3d9_statistics_frame(&statistics, renderer);
+    d3d9_statistics_end(&statistics, renderer);
+    TEST_ASSERT_TRUE(read_text());
+    TEST_ASSERT_EQUAL_DOUBLE(3, number("draws"));
+    TEST_ASSERT_EQUAL_DOUBLE(3, number("routines_of_a_frame"));
+    TEST_ASSERT_EQUAL_DOUBLE(2, number("pixel"));
+}
+
 static void a_device_without_frames_writes_nothing(void)
 {
     struct d3d9_statistics statistics;
@@ -108,6 +142,7 @@ int main(void)
     UNITY_BEGIN();
     RUN_TEST(frames_and_their_times_are_written_at_the_end);
     RUN_TEST(a_frame_after_a_second_writes_the_file);
+    RUN_TEST(routines_of_a_counted_frame_are_those_that_its_draws_use);
     RUN_TEST(a_device_without_frames_writes_nothing);
     RUN_TEST(without_a_file_nothing_is_measured);
     RUN_TEST(a_file_that_cannot_be_written_ends_the_measurement);
