@@ -321,9 +321,11 @@ bool pixels_copy_tile(const struct pixels *from, uint32_t from_x, uint32_t from_
     uint32_t source = tile_of(a, from_x, from_y), target = tile_of(b, part->x, part->y);
     const uint32_t *pending = pending_words(a, source);
     if (a->format)
-        b->color_clear[target].pending = false;
+        b->color_clear[target] = (struct color_clear){.changed = true};
     else
         b->depth_clear[target] = a->depth_clear[source];
+    if (!a->format)
+        b->depth_clear[target].changed = true;
     if (pending)
         clear_tile(b, target, pending);
     else
