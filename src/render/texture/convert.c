@@ -88,7 +88,7 @@ static inline __m128i follow(const struct paths *paths, __m128i words)
     return result;
 }
 
-/* Four texels of 1 to 4 bytes as words, and back. */
+/* Four texels of `bytes` bytes, 1 to 4, as words, and back. */
 static inline __m128i gather(const uint8_t *data, unsigned bytes)
 {
     __m128i zero = _mm_setzero_si128();
@@ -97,8 +97,12 @@ static inline __m128i gather(const uint8_t *data, unsigned bytes)
         return _mm_loadu_si128((const __m128i *)(const void *)data);
     if (bytes == 2)
         return _mm_unpacklo_epi16(_mm_loadl_epi64((const __m128i *)(const void *)data), zero);
+    if (bytes == 1) {
+        memcpy(word, data, 4);
+        return _mm_unpacklo_epi16(_mm_unpacklo_epi8(_mm_cvtsi32_si128((int)word[0]), zero), zero);
+    }
     for (unsigned i = 0; i < 4; i++)
-        memcpy(word + i, data + i * bytes, bytes);
+        memcpy(word + i, data + 3 * i, 3);
     return _mm_loadu_si128((const __m128i *)word);
 }
 
@@ -109,9 +113,20 @@ static inline void scatter(uint8_t *data, unsigned bytes, __m128i words)
         _mm_storeu_si128((__m128i *)(void *)data, words);
         return;
     }
+    /* Packing saturates signed words, so those of 16 bits get their highest bit as their sign. */
+    __m128i pairs = _mm_packs_epi32(_mm_srai_epi32(_mm_slli_epi32(words, 16), 16), words);
+    if (bytes == 2) {
+        _mm_storel_epi64((__m128i *)(void *)data, pairs);
+        return;
+    }
+    if (bytes == 1) {
+        int four = _mm_cvtsi128_si32(_mm_packus_epi16(pairs, pairs));
+        memcpy(data, &four, sizeof four);
+        return;
+    }
     _mm_storeu_si128((__m128i *)word, words);
     for (unsigned i = 0; i < 4; i++)
-        memcpy(data + i * bytes, word + i, bytes);
+        memcpy(data + 3 * i, word + i, 3);
 }
 
 static void convert_bytes(const struct paths *paths, const uint8_t *from, unsigned from_bytes, uint8_t *to,
