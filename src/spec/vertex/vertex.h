@@ -20,9 +20,12 @@
 #include "spec/vertex/vertex_fog.h"
 #include "spec/vertex/vertex_shader.h"
 
+/* A 1/w of 0 is 1: such vertices are interpolated without perspective. */
 static inline void window_position_of(struct env *e, const struct vertex_key *k)
 {
     struct vector4 position = fetch(E, k, ATTRIBUTE_POSITIONT, 0.0f);
+    msk given = ne_f(E, position.v[3], lit_f(E, 0.0f));
+    position.v[3] = select_f(E, given, position.v[3], lit_f(E, 1.0f));
     for (int c = 0; c < 4; c++)
         store_slot(E, SLOT_X + c, position.v[c]);
     store_position(E, k, position.v);

@@ -30,6 +30,7 @@ struct vertex {
 static struct vertex vertex[VERTICES];
 static struct triptych_processed_vertex out[VERTICES + 1], kept[VERTICES];
 static unsigned engines;
+static uint32_t direct[SIZE * SIZE];
 
 static triptych_buffer *buffer_of(const void *data, size_t bytes)
 {
@@ -254,12 +255,35 @@ static void check_window(void)
     TEST_ASSERT_EQUAL_FLOAT(0, out[0].color[1][0]);
 }
 
+/* Direct3D 9's vertices with a 1/w of 0 have the colours and texels of those with 1. */
+static void check_window_without_w(void)
+{
+    static const uint32_t colors[4] = {0xff0000ff, 0xff00ff00, 0xffff0000, 0xffffffff};
+    float given[4][4] = {{5, 5, 0.5f, 1}, {60, 5, 0.5f, 1}, {5, 60, 0.5f, 1}, {60, 60, 0.5f, 1}};
+    struct triptych_element color = {TRIPTYCH_FORMAT_COLOR, buffer_of(colors, sizeof colors), 0, 4};
+    OK(triptych_set_element(device, TRIPTYCH_DIFFUSE, &color));
+    for (int i = 0; i < 2; i++) {
+        struct triptych_element position = {TRIPTYCH_FORMAT_FLOAT4, buffer_of(given, sizeof given), 0, 16};
+        OK(triptych_set_element(device, TRIPTYCH_POSITIONT, &position));
+        clear_to(0);
+        OK(triptych_draw(device, TRIPTYCH_TRIANGLE_STRIP, 0, 2));
+        OK(triptych_read_color(device, i ? image : direct, sizeof image));
+        for (int v = 0; v < 4; v++)
+            given[v][3] = 0;
+    }
+    TEST_ASSERT_NOT_EQUAL(direct[10 * SIZE + 10], direct[50 * SIZE + 50]);
+    TEST_ASSERT_EQUAL_MEMORY(direct, image, sizeof image);
+}
+
+static void test_vertices_in_the_window_without_w(void)
+{
+    on_every_engine(check_window_without_w);
+}
+
 static void test_vertices_in_the_window_stay(void)
 {
     on_every_engine(check_window);
 }
-
-static uint32_t direct[SIZE * SIZE];
 
 /* The projected vertices are snapped to 1/256 pixel again: edges of this square are far from pixel centres. */
 static void check_drawn_again(void)
@@ -316,6 +340,7 @@ int main(void)
     RUN_TEST(test_light_and_fog);
     RUN_TEST(test_shader_outputs);
     RUN_TEST(test_vertices_in_the_window_stay);
+    RUN_TEST(test_vertices_in_the_window_without_w);
     RUN_TEST(test_processed_vertices_drawn_in_the_window_give_the_same_picture);
     RUN_TEST(test_vertices_outside_of_buffers_are_refused);
     return UNITY_END();
