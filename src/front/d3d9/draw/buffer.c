@@ -52,13 +52,21 @@ static int32_t make_buffer(struct d3d9_device *device, enum d3d9_interface inter
     return D3D9_OK;
 }
 
+/* Only IDirect3DDevice9Ex knows shared memory, and no buffer has it. */
+static int32_t refuse_shared(const struct d3d9_device *device, const uint64_t *shared)
+{
+    if (!shared)
+        return D3D9_INVALID_CALL;
+    return device->extended ? D3D9_NOT_AVAILABLE : D3D9_NOT_IMPLEMENTED;
+}
+
 int32_t d3d9_device_create_vertex_buffer(struct d3d9_device *device, uint32_t bytes, uint32_t usage,
                                          uint32_t fvf, uint32_t pool, struct d3d9_vertex_buffer **out,
                                          uint64_t *shared)
 {
     struct d3d9_buffer *buffer;
     if (!out || shared)
-        return shared && device->extended ? D3D9_NOT_AVAILABLE : D3D9_INVALID_CALL;
+        return refuse_shared(device, shared);
     int32_t result = make_buffer(device, D3D9_INTERFACE_VERTEX_BUFFER, bytes, usage, pool, &buffer);
     if (result != D3D9_OK)
         return result;
@@ -74,7 +82,7 @@ int32_t d3d9_device_create_index_buffer(struct d3d9_device *device, uint32_t byt
 {
     struct d3d9_buffer *buffer;
     if (!out || shared || (format != INDEX16 && format != INDEX32))
-        return shared && device->extended ? D3D9_NOT_AVAILABLE : D3D9_INVALID_CALL;
+        return refuse_shared(device, shared);
     int32_t result = make_buffer(device, D3D9_INTERFACE_INDEX_BUFFER, bytes, usage, pool, &buffer);
     if (result != D3D9_OK)
         return result;

@@ -7,7 +7,13 @@
 #include <stdlib.h>
 #include <string.h>
 
-enum { VERTEX_VERSION = 0xfffe0000, PIXEL_VERSION = 0xffff0000, TOKEN_END = 0xffff, SOFTWARE_MINOR = 0xff };
+enum {
+    VERTEX_VERSION = 0xfffe0000,
+    PIXEL_VERSION = 0xffff0000,
+    TOKEN_END = 0xffff,
+    TOKEN_COMMENT = 0xfffe,
+    SOFTWARE_MINOR = 0xff
+};
 
 static void destroy_shader(struct d3d9_object *object)
 {
@@ -57,13 +63,27 @@ static int32_t compile(struct d3d9_shader *shader)
     return result == TRIPTYCH_NO_MEMORY ? D3D9_OUT_OF_MEMORY : D3D9_INVALID_CALL;
 }
 
+/* Direct3D refuses pixel shaders that read the position that vertex shaders give. Model 3.0 has lengths in its
+ * tokens. */
+static bool reads_position(const uint32_t *code, uint64_t tokens)
+{
+    enum { VERSION = 0xffff0300, DECLARE = 0x1f, USAGE = 0xf001f, INPUT = 0x10000000, REGISTER = 0x70001800 };
+    for (uint64_t i = 1; code[0] >> 8 == (uint32_t)VERSION >> 8 && i + 2 < tokens;) {
+        uint32_t opcode = code[i] & 0xffff;
+        if (opcode == DECLARE && !(code[i + 1] & USAGE) && (code[i + 2] & REGISTER) == INPUT)
+            return true;
+        i += 1 + (opcode == TOKEN_COMMENT ? code[i] >> 16 & 0x7fff : code[i] >> 24 & 15);
+    }
+    return false;
+}
+
 static int32_t create_shader(struct d3d9_device *device, enum d3d9_interface interface, uint32_t version,
                              const uint32_t *code, struct d3d9_shader **out)
 {
     if (!code || !out)
         return D3D9_INVALID_CALL;
     uint64_t tokens = d3d9_size_code(code);
-    if ((code[0] & 0xffff0000) != version || code[tokens - 1] != TOKEN_END)
+    if ((code[0] & 0xffff0000) != version || code[tokens - 1] != TOKEN_END || reads_position(code, tokens))
         return D3D9_INVALID_CALL;
     struct d3d9_shader *shader = d3d9_object_make(sizeof *shader, interface, &device->object, destroy_shader);
     if (!shader)
