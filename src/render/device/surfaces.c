@@ -45,7 +45,7 @@ static enum triptych_result find_tiles(struct triptych_device *device, const str
     return TRIPTYCH_OK;
 }
 
-/* Finds the pixels of a surface. What is recorded is rendered. */
+/* Renders the queue, and finds the pixels of a surface. */
 static enum triptych_result open_surface(struct triptych_device *device,
                                          const struct triptych_surface *surface,
                                          const struct surface_form *form, bool writes, struct pixels *pixels,

@@ -86,7 +86,7 @@ struct surface_copy {
     enum triptych_copy_filter filter;
 };
 
-/* What a surface consists of: an image, a surface of a texture, or a colour of the target. */
+/* The format and the size of a surface: an image, a surface of a texture, or a colour of the target. */
 struct surface_form {
     const struct format *format;             /* of a colour; null: depth */
     enum triptych_depth_format depth_format; /* of depth */

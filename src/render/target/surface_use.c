@@ -1,4 +1,4 @@
-/* What copies, reads, writes and fills of surfaces are refused for. */
+/* The rules for copies, reads, writes and fills of surfaces. */
 #include "render/target/surface.h"
 
 /* A part of width 0 is all of the surface. */
