@@ -38,7 +38,7 @@ enum { DEPTH_FORMAT_NOT_DRAWN = TRIPTYCH_DEPTH_NONE };
 #define ATI1          0
 #define ATI2          0
 
-/* Formats that share colours between two texels have blocks of 2 x 1 texels. The renderer has none of them. */
+/* Formats that share colours between two texels have blocks of 2 x 1 texels. The renderer has none. */
 #define ACROSS(number, side)                                                                                 \
     ((number) == TRIPTYCH_SURFACE_UYVY || (number) == TRIPTYCH_SURFACE_YUY2 ||                               \
              (number) == TRIPTYCH_SURFACE_R8G8_B8G8 || (number) == TRIPTYCH_SURFACE_G8R8_G8B8                \
