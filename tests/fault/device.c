@@ -275,7 +275,7 @@ static void draw_to_textures(unsigned threads)
     for (int i = 0; i < 2; i++)
         TRY(triptych_texture_define(device, &description, &texture[i]));
     TRY(triptych_set_target_surfaces(device,
-                                     &(struct triptych_target_surfaces){.color = {{texture[0], 0, 0}},
+                                     &(struct triptych_target_surfaces){.color = {{.texture = texture[0]}},
                                                                         .depth_format = TRIPTYCH_DEPTH_D16}));
     clear();
     TRY(triptych_draw(device, TRIPTYCH_TRIANGLE_LIST, 0, 12));

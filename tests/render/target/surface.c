@@ -33,7 +33,8 @@ static triptych_texture *make_flat(enum triptych_surface_format format)
 
 static void draw_to(triptych_texture *texture, unsigned level, unsigned slice)
 {
-    struct triptych_target_surfaces textures = {.color = {{texture, level, slice}}};
+    struct triptych_target_surfaces textures = {
+        .color = {{.texture = texture, .level = level, .slice = slice}}};
     OK(triptych_set_target_surfaces(device, &textures));
 }
 
@@ -156,8 +157,8 @@ static void check_several(void)
     triptych_texture *bytes = make_flat(TRIPTYCH_SURFACE_R5G6B5),
                      *halves = make_flat(TRIPTYCH_SURFACE_A16B16G16R16F),
                      *depth = make_flat(TRIPTYCH_SURFACE_D24S8);
-    struct triptych_target_surfaces textures = {.color = {{bytes, 0, 0}, {halves, 0, 0}},
-                                                .depth = {depth, 0, 0}};
+    struct triptych_target_surfaces textures = {.color = {{.texture = bytes}, {.texture = halves}},
+                                                .depth = {.texture = depth}};
     OK(triptych_set_target_surfaces(device, &textures));
     set(TRIPTYCH_STATE_ZENABLE, "true");
     OK(triptych_clear(device, (const float[4]){0, 0, 0, 0}, 1));
@@ -190,7 +191,7 @@ static void test_colours_and_depth_stay_in_their_textures(void)
 static void check_only_depth(void)
 {
     triptych_texture *depth = make_flat(TRIPTYCH_SURFACE_D24X8);
-    struct triptych_target_surfaces textures = {.depth = {depth, 0, 0}};
+    struct triptych_target_surfaces textures = {.depth = {.texture = depth}};
     struct triptych_surface surface = {depth, 0, 0, NULL};
     OK(triptych_set_target_surfaces(device, &textures));
     set(TRIPTYCH_STATE_ZENABLE, "true");
@@ -333,9 +334,11 @@ static void check_refusals(void)
                      *luminance = make_flat(TRIPTYCH_SURFACE_L8), *depth = make_flat(TRIPTYCH_SURFACE_D16);
     struct triptych_target_surfaces none = {0},
                                     shallow = {.color = {{flat, 0, 0, NULL}}, .depth = {small, 0, 0, NULL}},
-                                    level = {.color = {{flat, 1, 0}}}, slice = {.color = {{flat, 0, 1}}},
-                                    format = {.color = {{luminance, 0, 0}}},
-                                    twice = {.color = {{flat, 0, 0}, {NULL, 0, 0}, {flat, 0, 0}}};
+                                    level = {.color = {{.texture = flat, .level = 1}}},
+                                    slice = {.color = {{.texture = flat, .slice = 1}}},
+                                    format = {.color = {{.texture = luminance}}},
+                                    twice = {
+                                        .color = {{.texture = flat}, {.texture = NULL}, {.texture = flat}}};
     expect_refused(TRIPTYCH_BAD_ARGUMENT, triptych_set_target_surfaces(device, &none),
                    "no surface to draw to: expected at least one");
     expect_refused(TRIPTYCH_BAD_ARGUMENT, triptych_set_target_surfaces(device, &shallow),
