@@ -117,9 +117,11 @@ bool d3d9_check_back_buffer(uint32_t display, uint32_t back_buffer, bool windowe
 /* The type D3DMULTISAMPLE_NONMASKABLE has 2, 4 and 8 samples for its qualities. */
 uint32_t d3d9_check_samples(uint32_t type, uint32_t quality)
 {
+    if (type == MULTISAMPLE_NONE)
+        return 1; /* of any quality */
     if (quality >= d3d9_check_quality_levels(type))
         return 0;
-    return type == MULTISAMPLE_BY_QUALITY ? 2u << quality : type == MULTISAMPLE_NONE ? 1 : type;
+    return type == MULTISAMPLE_BY_QUALITY ? 2u << quality : type;
 }
 
 uint32_t d3d9_check_quality_levels(uint32_t type)

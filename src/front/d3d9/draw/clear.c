@@ -47,14 +47,15 @@ static void pass_clear(struct d3d9_device *device, const struct clear *clear,
     triptych_clear_rectangles(device->renderer, &values, clear->list, clear->count);
 }
 
-/* Direct3D clears each surface in its own size; the renderer clears what all have. */
-static bool sizes_differ(const struct d3d9_device *device)
+/* Direct3D clears each surface by itself; the renderer clears what all have. */
+static bool surfaces_differ(const struct d3d9_device *device)
 {
     const struct d3d9_surface *first = device->depth;
     for (unsigned i = 0; i < TRIPTYCH_TARGETS; i++) {
         const struct d3d9_surface *other = d3d9_draw_target(device, i);
         if (first && other &&
-            (other->image.width != first->image.width || other->image.height != first->image.height))
+            (other->image.width != first->image.width || other->image.height != first->image.height ||
+             other->image.samples != first->image.samples))
             return true;
         first = first ? first : other;
     }
@@ -76,11 +77,14 @@ static void clear_surface(struct d3d9_device *device, const struct clear *clear,
     device->late |= D3D9_LATE_TARGETS;
 }
 
+/* A depth surface with another number of samples than the target is not cleared. */
 static void clear_each(struct d3d9_device *device, const struct clear *clear)
 {
+    const struct d3d9_surface *first = d3d9_draw_target(device, 0);
     for (unsigned i = 0; i < TRIPTYCH_TARGETS; i++)
         clear_surface(device, clear, d3d9_draw_target(device, i), TRIPTYCH_CLEAR_COLOR);
-    clear_surface(device, clear, device->depth, TRIPTYCH_CLEAR_DEPTH | TRIPTYCH_CLEAR_STENCIL);
+    if (!first || !device->depth || first->image.samples == device->depth->image.samples)
+        clear_surface(device, clear, device->depth, TRIPTYCH_CLEAR_DEPTH | TRIPTYCH_CLEAR_STENCIL);
 }
 
 static bool list_rectangles(struct clear *clear, const struct d3d9_rect *rectangles, uint32_t count)
@@ -145,7 +149,7 @@ int32_t d3d9_device_clear(struct d3d9_device *device, uint32_t count, const stru
         free(clear.list);
         return D3D9_OK;
     }
-    if (sizes_differ(device))
+    if (surfaces_differ(device))
         clear_each(device, &clear);
     else if (d3d9_draw_prepare_targets(device))
         pass_clear(device, &clear, d3d9_draw_target(device, 0));

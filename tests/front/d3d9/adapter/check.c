@@ -35,7 +35,8 @@ static void formats_of_textures_are_those_of_the_renderer(void)
     for (unsigned i = 0; (format = d3d9_format_at(i)); i++) {
         const struct triptych_texture_description d = {TRIPTYCH_TEXTURE_2D, format->number, 4, 4, 1, 1};
         triptych_texture *texture = NULL;
-        bool made = triptych_texture_define(device, &d, &texture) == TRIPTYCH_OK && strncmp(format->name, "DF", 2);
+        bool made =
+            triptych_texture_define(device, &d, &texture) == TRIPTYCH_OK && strncmp(format->name, "DF", 2);
         TEST_ASSERT_EQUAL_INT_MESSAGE(made, check(0, D3D9_TYPE_TEXTURE, format->number) == D3D9_OK,
                                       format->name);
         triptych_texture_destroy(device, texture);
@@ -110,6 +111,7 @@ static void samples_have_quality_levels(void)
     TEST_ASSERT_EQUAL_UINT32(8, d3d9_check_samples(1, 2));
     TEST_ASSERT_EQUAL_UINT32(0, d3d9_check_samples(1, 3));
     TEST_ASSERT_EQUAL_UINT32(4, d3d9_check_samples(4, 0));
+    TEST_ASSERT_EQUAL_UINT32(1, d3d9_check_samples(0, 1));
     TEST_ASSERT_EQUAL_INT32(D3D9_NOT_AVAILABLE, d3d9_factory_check_device_multi_sample_type(
                                                     factory, 0, HARDWARE, X8, 1, 15, &levels));
     TEST_ASSERT_EQUAL_UINT32(1, levels);
