@@ -117,6 +117,19 @@ holds 'the prefix was made without questions' grep -qx 'mscoree=;mshtml=' "$work
 holds 'the prefix has the DLLs' cmp "$work/build/d3d9/x86_64-windows/triptych9.dll" "$work/p/drive_c/windows/system32/triptych9.dll"
 holds 'they replace those of Wine' cmp "$work/build/d3d9/x86_64-windows/d3d9.dll" "$work/p/drive_c/windows/system32/d3d9.dll"
 
+mkdir -p "$work/build/d3d9/i386-windows" "$work/p/drive_c/windows/syswow64"
+echo narrow >"$work/build/d3d9/i386-windows/d3d9.dll"
+echo narrow >"$work/build/d3d9/i386-windows/triptych9.dll"
+starts 'a prefix for programs of 64 and 32 bits is used' build --prefix p --wine ./wine program.exe
+holds 'programs of 32 bits have DLLs of their own' grep -qx narrow "$work/p/drive_c/windows/syswow64/d3d9.dll"
+holds 'those of 64 bits are the same' grep -qx one "$work/p/drive_c/windows/system32/d3d9.dll"
+mkdir -p "$work/old/drive_c/windows/system32"
+printf 'WINE REGISTRY Version 2\n\n#arch=win32\n' >"$work/old/system.reg"
+starts 'a prefix for programs of 32 bits is used' build --prefix old --wine ./wine program.exe
+holds 'it has the DLLs of 32 bits' grep -qx narrow "$work/old/drive_c/windows/system32/d3d9.dll"
+refuses 'a prefix of 32 bits needs files of 32 bits' 'old: has only programs of 32 bits, expected i386-windows' \
+    usr/bin --prefix old --wine ./wine program.exe
+
 rm "$work/wine.boot"
 echo newer >"$work/build/d3d9/x86_64-windows/triptych9.dll"
 export WINEPREFIX=$work/p WINEDLLPATH=/there WINEDLLOVERRIDES='a=n;d3d9=b' WINEDEBUG=+loaddll

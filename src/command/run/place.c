@@ -14,7 +14,7 @@
 
 extern char **environ;
 
-enum { DLL_BYTES = 64 << 20 };
+enum { DLL_BYTES = 64 << 20, REGISTRY_LINES = 8 };
 
 static const char *const dlls[] = {"d3d9.dll", "triptych9.dll"};
 
@@ -79,7 +79,7 @@ int place_prefix(const char *given, char prefix[PATH_MAX], struct error *error)
 
 /* --- The prefix ----------------------------------------------------------------------------------------- */
 
-static const char system_dlls[] = "drive_c/windows/system32";
+static const char system_dlls[] = "drive_c/windows/system32", narrow_dlls[] = "drive_c/windows/syswow64";
 
 /* wineboot makes it. The two overrides disable questions about downloads. */
 static int boot(const char *wine, const char *prefix, struct error *error)
@@ -150,13 +150,44 @@ static int copy(const char *from, const char *to, struct error *error)
     return status;
 }
 
-int place_install(const char *folder, const char *prefix, struct error *error)
+static int install(const char *from_folder, const char *to_folder, struct error *error)
 {
-    char system[PATH_MAX], windows[PATH_MAX], from[PATH_MAX], to[PATH_MAX];
-    if (join(system, prefix, system_dlls, error) || join(windows, folder, "x86_64-windows", error))
-        return -1;
+    char from[PATH_MAX], to[PATH_MAX];
     for (size_t i = 0; i < sizeof dlls / sizeof *dlls; i++)
-        if (join(from, windows, dlls[i], error) || join(to, system, dlls[i], error) || copy(from, to, error))
+        if (join(from, from_folder, dlls[i], error) || join(to, to_folder, dlls[i], error) ||
+            copy(from, to, error))
             return -1;
     return 0;
+}
+
+/* A prefix of 64 bits has the DLLs of 32-bit programs in syswow64. The registry of one of 32 bits has a
+ * line of it at its beginning. */
+static bool is_narrow(const char *prefix)
+{
+    char path[PATH_MAX], line[256];
+    struct error error = {""};
+    bool narrow = false;
+    FILE *file = join(path, prefix, "system.reg", &error) ? NULL : fopen(path, "r");
+    for (int i = 0; file && i < REGISTRY_LINES && fgets(line, sizeof line, file); i++)
+        narrow |= !strncmp(line, "#arch=win32", strlen("#arch=win32"));
+    if (file)
+        fclose(file);
+    return narrow;
+}
+
+int place_install(const char *folder, const char *prefix, struct error *error)
+{
+    char system[PATH_MAX], system32[PATH_MAX], wide[PATH_MAX], narrow[PATH_MAX];
+    if (join(system, prefix, system_dlls, error) || join(system32, prefix, narrow_dlls, error) ||
+        join(wide, folder, "x86_64-windows", error) || join(narrow, folder, "i386-windows", error))
+        return -1;
+    bool has_narrow = !access(narrow, F_OK);
+    if (is_narrow(prefix))
+        return has_narrow
+                   ? install(narrow, system, error)
+                   : error_set(error, "%s: has only programs of 32 bits, expected i386-windows in %s for it",
+                               prefix, folder);
+    if (has_narrow && !access(system32, F_OK) && install(narrow, system32, error))
+        return -1;
+    return install(wide, system, error);
 }

@@ -12,7 +12,8 @@
  * folder, as `make install` leaves it. Returns 0, or -1 with a reason. */
 int place_files(char folder[PATH_MAX], struct error *error);
 
-/* Copies the two DLLs from there to the folder of system DLLs of the prefix, unless it has them. Wine uses them only
+/* Copies the two DLLs from there to the folders of system DLLs of the prefix, for programs of 64 and, if they are
+ * built, of 32 bits, unless it has them. Wine uses them only
  * with the override d3d9=n: other programs of this prefix get Wine's own d3d9.dll. Returns 0, or -1 with a reason.
  */
 int place_install(const char *folder, const char *prefix, struct error *error);
