@@ -54,8 +54,16 @@ static LONG screen_extended_style(LONG style)
     return style & ~(WS_EX_CLIENTEDGE | WS_EX_WINDOWEDGE);
 }
 
+/* A minimized window cannot cover the screen. */
+static void unminimize(const struct device_data *data)
+{
+    if (may_change_window(data) && IsIconic(data->window))
+        ShowWindow(data->window, SW_SHOWNOACTIVATE);
+}
+
 static void cover_screen(struct device_data *data)
 {
+    unminimize(data);
     RECT r = screen(data);
     UINT flags =
         SWP_FRAMECHANGED | SWP_NOACTIVATE | (may_change_window(data) ? SWP_SHOWWINDOW : SWP_NOZORDER);
@@ -66,7 +74,16 @@ static void cover_screen(struct device_data *data)
     SetWindowPos(data->window, HWND_TOPMOST, r.left, r.top, r.right - r.left, r.bottom - r.top, flags);
 }
 
-/* A style that the program has changed in the meantime stays. Visible and topmost stay as they are. */
+/* How the window is shown after full screen. Devices of Direct3D 9 leave it visible and topmost; those of Direct3D
+ * 9Ex restore what it was. */
+static UINT shown_flags(const struct device_data *data)
+{
+    if (!data->extended || !may_change_window(data))
+        return SWP_NOZORDER;
+    return data->style & WS_VISIBLE ? SWP_SHOWWINDOW : SWP_HIDEWINDOW;
+}
+
+/* A style that the program has changed in the meantime stays. */
 static void uncover_screen(const struct device_data *data)
 {
     LONG style = GetWindowLongW(data->window, GWL_STYLE);
@@ -79,8 +96,8 @@ static void uncover_screen(const struct device_data *data)
         SetWindowLongW(data->window, GWL_STYLE, (data->style & ~WS_VISIBLE) | visible);
         SetWindowLongW(data->window, GWL_EXSTYLE, (data->extended_style & ~WS_EX_TOPMOST) | topmost);
     }
-    SetWindowPos(data->window, NULL, 0, 0, 0, 0,
-                 SWP_FRAMECHANGED | SWP_NOMOVE | SWP_NOSIZE | SWP_NOZORDER | SWP_NOACTIVATE);
+    SetWindowPos(data->window, data->extended_style & WS_EX_TOPMOST ? HWND_TOPMOST : HWND_NOTOPMOST, 0, 0, 0,
+                 0, SWP_FRAMECHANGED | SWP_NOMOVE | SWP_NOSIZE | SWP_NOACTIVATE | shown_flags(data));
 }
 
 /* A window that is in full screen already. */
@@ -89,6 +106,7 @@ static void refit_screen(struct device_data *data)
     RECT r = screen(data);
     if (!may_change_window(data))
         return;
+    unminimize(data);
     MoveWindow(data->window, r.left, r.top, r.right - r.left, r.bottom - r.top, TRUE);
     ShowWindow(data->window, SW_SHOW);
 }
