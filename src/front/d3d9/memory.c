@@ -17,6 +17,11 @@ void d3d9_memory_set_host(const struct d3d9_memory_host *with)
     host = *with;
 }
 
+bool d3d9_memory_is_shared(void)
+{
+    return host.allocate != allocate;
+}
+
 void *d3d9_memory_allocate(size_t bytes)
 {
     return host.allocate(bytes);

@@ -45,6 +45,8 @@ static int32_t fill(struct d3d9_swapchain *chain, struct d3d9_host_picture *pict
 
 int32_t d3d9_swapchain_read_picture(struct d3d9_swapchain *chain, struct d3d9_host_picture *picture)
 {
+    if (!chain->buffer[chain->presented])
+        return D3D9_DEVICE_LOST;
     const struct d3d9_image *image = &chain->buffer[chain->presented]->image;
     picture->filled = 0;
     picture->width = image->width;
@@ -59,7 +61,7 @@ static void flip(struct d3d9_swapchain *chain)
 {
     uint32_t count = chain->parameters.back_buffer_count;
     chain->presented = 0;
-    if (count < 2 || chain->parameters.swap_effect == D3D9_SWAP_COPY)
+    if (count < 2 || !chain->buffer[0] || chain->parameters.swap_effect == D3D9_SWAP_COPY)
         return;
     struct triptych_surface first = chain->buffer[0]->image.surface;
     for (uint32_t i = 0; i + 1 < count; i++)
@@ -124,9 +126,11 @@ int32_t d3d9_device_present_ex(struct d3d9_device *device, const struct d3d9_rec
  * the screen around it too, which the Linux side does not have. */
 int32_t d3d9_swapchain_get_front_buffer_data(struct d3d9_swapchain *chain, struct d3d9_surface *destination)
 {
-    const struct d3d9_image *from = &chain->buffer[chain->presented]->image;
     if (!destination || destination->resource.pool == D3D9_POOL_DEFAULT)
         return D3D9_INVALID_CALL;
+    if (!chain->buffer[chain->presented])
+        return D3D9_DEVICE_LOST;
+    const struct d3d9_image *from = &chain->buffer[chain->presented]->image;
     struct d3d9_image *to = &destination->image;
     if (to->format->number != TRIPTYCH_SURFACE_A8R8G8B8 || to->locked)
         return D3D9_INVALID_CALL;

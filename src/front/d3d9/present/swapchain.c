@@ -32,6 +32,8 @@ static int32_t make_buffers(struct d3d9_swapchain *chain)
     int32_t result = D3D9_OK;
     for (uint32_t i = 0; result >= 0 && i < p->back_buffer_count; i++)
         result = d3d9_surface_make(chain->device, &creation, &chain->buffer[i]);
+    if (result < 0)
+        drop_buffers(chain);
     return result;
 }
 
@@ -69,7 +71,7 @@ int32_t d3d9_swapchain_get_back_buffer(struct d3d9_swapchain *chain, uint32_t in
                                        struct d3d9_surface **surface)
 {
     (void)type;
-    if (!surface || index >= chain->parameters.back_buffer_count)
+    if (!surface || index >= chain->parameters.back_buffer_count || !chain->buffer[index])
         return D3D9_INVALID_CALL;
     *surface = chain->buffer[index];
     d3d9_object_add_ref(&(*surface)->resource.object);

@@ -17,7 +17,7 @@ struct d3d9_swapchain {
 /* Makes a swap chain of complete parameters: the device's implicit one, or one with a reference. */
 int32_t d3d9_swapchain_make(struct d3d9_device *, const struct d3d9_present_parameters *, bool implicit,
                             struct d3d9_swapchain **out);
-/* Replaces the back buffers by those of other parameters (Reset). */
+/* Replaces the back buffers by those of other parameters (Reset). After a failure it has none. */
 int32_t d3d9_swapchain_renew(struct d3d9_swapchain *, const struct d3d9_present_parameters *);
 
 #endif

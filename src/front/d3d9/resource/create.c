@@ -19,6 +19,8 @@ static int32_t check_shared(const struct d3d9_device *device, enum d3d9_pool poo
         return D3D9_NOT_IMPLEMENTED;
     if (pool == D3D9_POOL_DEFAULT)
         return D3D9_NOT_AVAILABLE; /* resources of several devices */
+    if (d3d9_memory_is_shared())
+        return D3D9_NOT_AVAILABLE;
     return pool == D3D9_POOL_SYSTEM && user_memory_allowed ? D3D9_OK : D3D9_INVALID_CALL;
 }
 

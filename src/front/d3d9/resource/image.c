@@ -34,6 +34,15 @@ size_t d3d9_image_bytes(const struct d3d9_image *image)
     return (size_t)image->slice_bytes * image->depth;
 }
 
+void d3d9_image_borrow(struct d3d9_image *image, void *memory)
+{
+    image->row_bytes = d3d9_format_row_bytes(image->format, image->width);
+    image->pitch = image->row_bytes;
+    image->slice_bytes = image->row_bytes * d3d9_format_rows(image->format, image->height);
+    image->memory = memory;
+    image->borrowed = true;
+}
+
 void d3d9_image_end(struct d3d9_image *image)
 {
     if (!image->borrowed)

@@ -55,6 +55,8 @@ void d3d9_image_begin(struct d3d9_image *, struct d3d9_device *, const struct d3
                       uint32_t height, uint32_t depth);
 /* Returns the bytes of its memory. */
 size_t d3d9_image_bytes(const struct d3d9_image *);
+/* Makes memory of the program the image's, whose rows have no padding. */
+void d3d9_image_borrow(struct d3d9_image *, void *memory);
 /* Frees its memory, unless it is borrowed. */
 void d3d9_image_end(struct d3d9_image *);
 /* Returns false without memory. */

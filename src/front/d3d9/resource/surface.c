@@ -15,16 +15,6 @@ static void destroy(struct d3d9_object *object)
     d3d9_image_end(&surface->image);
 }
 
-/* The program's memory has rows without padding. */
-static void borrow(struct d3d9_image *image, void *memory)
-{
-    image->row_bytes = d3d9_format_row_bytes(image->format, image->width);
-    image->pitch = image->row_bytes;
-    image->slice_bytes = image->row_bytes * d3d9_format_rows(image->format, image->height);
-    image->memory = memory;
-    image->borrowed = true;
-}
-
 static int32_t begin_image(struct d3d9_surface *surface, const struct d3d9_surface_creation *c)
 {
     struct d3d9_device *device = surface->resource.device;
@@ -35,7 +25,7 @@ static int32_t begin_image(struct d3d9_surface *surface, const struct d3d9_surfa
     image->lockable = c->lockable;
     image->samples = d3d9_check_samples(c->multi_sample_type, c->multi_sample_quality);
     if (c->user_memory)
-        borrow(image, c->user_memory);
+        d3d9_image_borrow(image, c->user_memory);
     if (c->pool != D3D9_POOL_DEFAULT)
         return d3d9_image_allocate(image) ? D3D9_OK : D3D9_OUT_OF_MEMORY;
     image->home = D3D9_HOME_RENDERER;

@@ -117,15 +117,6 @@ static int32_t make_parts(struct d3d9_base_texture *texture)
     return D3D9_OK;
 }
 
-static void borrow(struct d3d9_image *image, void *memory)
-{
-    image->row_bytes = d3d9_format_row_bytes(image->format, image->width);
-    image->pitch = image->row_bytes;
-    image->slice_bytes = image->row_bytes * d3d9_format_rows(image->format, image->height);
-    image->memory = memory;
-    image->borrowed = true;
-}
-
 static int32_t make_contents(struct d3d9_base_texture *texture, void *user_memory)
 {
     uint64_t bytes = 0;
@@ -138,7 +129,7 @@ static int32_t make_contents(struct d3d9_base_texture *texture, void *user_memor
         bytes += d3d9_image_bytes(&texture->part[i]->image);
     }
     if (user_memory)
-        borrow(&texture->part[0]->image, user_memory);
+        d3d9_image_borrow(&texture->part[0]->image, user_memory);
     else if (is_lockable(texture))
         result = make_memory(texture);
     if (result < 0)
