@@ -222,6 +222,43 @@ static void transformed_vertices_pass_the_vertex_shader(void)
     expect(RED);
 }
 
+/* Positions in the window, with the pixel's centre at whole numbers, and colours. */
+static void processed_vertices_are_written_to_a_buffer(void)
+{
+    static const struct {
+        float x, y, z;
+        uint32_t color;
+    } source[2] = {{-1, 1, 0.25F, 0x80ff8040}, {0.5F, 0, 0.5F, GREEN}};
+    struct d3d9_vertex_buffer *from, *to;
+    struct vertex *got;
+    void *data;
+    d3d9_device_create_vertex_buffer(device, sizeof source, 0, XYZ_DIFFUSE, D3D9_POOL_SYSTEM, &from, NULL);
+    d3d9_device_create_vertex_buffer(device, 3 * sizeof *got, 0, XYZRHW_DIFFUSE, D3D9_POOL_SYSTEM, &to, NULL);
+    d3d9_vertex_buffer_lock(from, 0, 0, &data, 0);
+    memcpy(data, source, sizeof source);
+    d3d9_vertex_buffer_unlock(from);
+    d3d9_device_set_fvf(device, XYZ_DIFFUSE);
+    d3d9_device_set_stream_source(device, 0, from, 0, sizeof *source);
+    TEST_ASSERT_EQUAL_INT32(D3D9_OK, d3d9_device_process_vertices(device, 0, 1, 2, to, NULL, 0));
+    TEST_ASSERT_EQUAL_INT32(INVALID, d3d9_device_process_vertices(device, 0, 2, 2, to, NULL, 0));
+    TEST_ASSERT_EQUAL_INT32(INVALID, d3d9_device_process_vertices(device, 0, 0, 2, NULL, NULL, 0));
+    d3d9_vertex_buffer_lock(to, 0, 0, &data, D3D9_LOCK_READ_ONLY);
+    got = data;
+    TEST_ASSERT_EQUAL_HEX32(0, got[0].color);
+    TEST_ASSERT_EQUAL_FLOAT(0, got[1].x);
+    TEST_ASSERT_EQUAL_FLOAT(0, got[1].y);
+    TEST_ASSERT_EQUAL_FLOAT(0.25F, got[1].z);
+    TEST_ASSERT_EQUAL_FLOAT(1, got[1].w);
+    TEST_ASSERT_EQUAL_HEX32(0x80ff8040, got[1].color);
+    TEST_ASSERT_EQUAL_FLOAT(BARE_WIDTH * 0.75F, got[2].x);
+    TEST_ASSERT_EQUAL_FLOAT(BARE_HEIGHT * 0.5F, got[2].y);
+    TEST_ASSERT_EQUAL_HEX32(GREEN, got[2].color);
+    d3d9_vertex_buffer_unlock(to);
+    d3d9_device_set_stream_source(device, 0, NULL, 0, 0);
+    d3d9_object_release((struct d3d9_object *)from);
+    d3d9_object_release((struct d3d9_object *)to);
+}
+
 static void without_target_nothing_is_drawn(void)
 {
     TEST_ASSERT_EQUAL_INT32(INVALID, d3d9_device_set_render_target(device, 0, NULL));
@@ -243,6 +280,7 @@ int main(void)
     RUN_TEST(vertices_outside_of_a_buffer_are_not_drawn);
     RUN_TEST(a_stream_without_buffer_is_zeros);
     RUN_TEST(transformed_vertices_pass_the_vertex_shader);
+    RUN_TEST(processed_vertices_are_written_to_a_buffer);
     RUN_TEST(without_target_nothing_is_drawn);
     return UNITY_END();
 }
