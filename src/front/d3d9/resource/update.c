@@ -71,7 +71,8 @@ static uint32_t first_level(const struct d3d9_base_texture *source, const struct
     return level;
 }
 
-/* Converts a box to another format. Drivers differ in what they do; some only copy the bits. */
+/* Converts a box to another format. Direct3D documents equal formats only, and drivers accept others with
+ * as many bits. */
 static int32_t convert_box(struct d3d9_image *to, const struct d3d9_image *from,
                            const struct triptych_box *box)
 {
@@ -108,6 +109,8 @@ int32_t d3d9_device_update_texture(struct d3d9_device *device, struct d3d9_base_
     if (source->resource.pool != D3D9_POOL_SYSTEM || destination->resource.pool != D3D9_POOL_DEFAULT)
         return D3D9_INVALID_CALL;
     if (source->resource.type != destination->resource.type)
+        return D3D9_INVALID_CALL;
+    if (source->format->floats != destination->format->floats)
         return D3D9_INVALID_CALL;
     uint32_t skipped = first_level(source, destination);
     int32_t result = D3D9_OK;

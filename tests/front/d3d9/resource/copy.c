@@ -141,6 +141,9 @@ static void update_texture_converts_formats(void)
     write_words(from, 0, NULL, 0xffff00ff, 0);
     TEST_ASSERT_EQUAL_INT32(OK, d3d9_device_update_texture(device, from, to));
     TEST_ASSERT_EQUAL_HEX32(0xffff00ff, sampled(to, 0, 5, 5));
+    struct d3d9_base_texture *floats = texture(1, 0, TRIPTYCH_SURFACE_R32F, D3D9_POOL_DEFAULT);
+    TEST_ASSERT_EQUAL_INT32(INVALID, d3d9_device_update_texture(device, from, floats));
+    release(floats);
     release(from);
     release(to);
 }
