@@ -244,19 +244,14 @@ $(BUILD)/triptych: $(TOOL_OBJECTS) $(BUILD)/libtriptych.a $(BUILD)/command.list
 apart    := $(patsubst %.c,$(BUILD)/%,$(call tests,render/device/cache render/raster/tiny contract/convention \
   contract/stack command/explore/record command/fuzz/bisect command/fuzz/inputs command/tool/verify)) $(BUILD)/tests/engines/stitch/%
 archives := $(addprefix $(BUILD)/,support.a front.a command.a libtriptych.a)
-linked   = $(archives)
 found_beside = '-Wl,-rpath,$$ORIGIN/..'
 
 $(if $(SHARED),$(filter $(apart),$(PROGRAMS)),$(PROGRAMS)): $(archives)
 $(if $(SHARED),$(filter-out $(apart),$(PROGRAMS))): $(SHARED)
 
-# The whole front end: its weak functions stand for those that are missing (src/front/d3d9/missing.c).
-$(BUILD)/tests/front/%: private linked = $(BUILD)/support.a -Wl,--whole-archive $(BUILD)/front.a -Wl,--no-whole-archive \
-  $(BUILD)/command.a $(BUILD)/libtriptych.a
-
 $(PROGRAMS): $(BUILD)/tests/%: $(BUILD)/object/tests/%.o $(BUILD)/object/unity.o
 	@mkdir -p $(@D)
-	$(call say,LD)$(link) $(compressed) $(filter %.o,$^) $(or $(filter %.so,$^),$(linked)) \
+	$(call say,LD)$(link) $(compressed) $(filter %.o,$^) $(or $(filter %.so,$^),$(archives)) \
 	  $(if $(filter %.so,$^),$(found_beside)) $(tool_libraries) -o $@
 
 $(BUILD)/tests/shared.so: $(filter-out %/main.o,$(TOOL_OBJECTS)) $(FRONT_OBJECTS) $(LIBRARY_OBJECTS) \
