@@ -4,12 +4,12 @@ import json
 import os
 import re
 import signal
-import statistics
 import subprocess
 import time
 
 FRAMES = re.compile(r"^@frames (\d+) start ([\d.]+) first ([\d.]+) longest ([\d.]+) total ([\d.]+)")
-PRESENTS = re.compile(r"trace:fps:wined3d_cs_exec_present \S+ @ approx ([\d.]+)fps")
+# Printed by Panda3D's viewer at its end.
+AVERAGE = re.compile(r"^([\d.]+) fps average", re.M)
 SIDES = ("triptych", "wine")
 
 
@@ -55,12 +55,13 @@ class Player:
 
     @staticmethod
     def end(process):
-        """Ends a program that does not end by itself. Returns its output."""
+        """Ends a program that does not end by itself, and all that its prefix runs."""
         if process.poll() is None:
             os.killpg(process.pid, signal.SIGKILL)
         subprocess.run(["wineserver", "-k"], check=False, capture_output=True)
         subprocess.run(["wineserver", "-w"], check=False, capture_output=True)
-        return process.communicate()[0]
+        process.stdout.close()
+        process.wait()
 
     def picture(self, program, side, path, limit=120):
         """Takes a picture of the screen while the program shows one frame."""
@@ -110,26 +111,25 @@ class Player:
         return None
 
     def timed(self, program, side, threads, statistics_path, environment):
-        """A program without a number of frames runs for some seconds. Its frames are counted by the statistics of
-        the front end, or by Wine's trace of presented frames."""
-        if side == "wine":
-            environment = {"WINEDEBUG": "-all,+fps"}
-        elif statistics_path is None:
+        """A program without a number of frames runs for some seconds, then its window is closed. It prints its mean
+        frames per second; the times of single frames are those of the front end."""
+        if side == "triptych" and statistics_path is None:
             environment["TRIPTYCH_STATISTICS"] = statistics_path = os.path.join(self.folder, "timed.json")
         process = self.start(program, side, threads, (), environment)
         time.sleep(program.frames)
-        output = self.end(process)
-        if side == "wine":
-            presents = [float(each) for each in PRESENTS.findall(output)][3:]
-            return {"fps": statistics.mean(presents)} if presents else None
-        measured = load(statistics_path)
-        if not measured or measured["frames"] < 2:
+        subprocess.run(["wine", "taskkill", "/im", os.path.basename(program.command[0])], check=False, capture_output=True)
+        try:
+            output, _ = process.communicate(timeout=60)
+        except subprocess.TimeoutExpired:
+            output = ""
+        finally:
+            self.end(process)
+        average = AVERAGE.search(output)
+        if not average:
             return None
-        return {
-            "fps": 1000 * (measured["frames"] - 1) / measured["total_ms"],
-            "first_ms": measured["first_frame_ms"],
-            "longest_ms": measured["longest_frame_ms"],
-        }
+        measured = (load(statistics_path) if side == "triptych" else None) or {}
+        names = {"first_frame_ms": "first_ms", "longest_frame_ms": "longest_ms"}
+        return {"fps": float(average[1]), **{names[name]: measured[name] for name in names if name in measured}}
 
 
 def load(path):
