@@ -629,7 +629,7 @@ install: all $(PAGES) $(COMPLETIONS)
 	install -m 755 $(BUILD)/$(SONAME) $(installed)/lib/
 	ln -sf $(SONAME) $(installed)/lib/libtriptych.so
 	install -m 644 $(PKGCONFIG) $(installed)/lib/pkgconfig/
-	for file in $(patsubst $(BUILD)/%,%,$(wildcard $(D3D9)/*/*.dll $(D3D9)/*/*.so)); do install -D -m 755 $(BUILD)/$$file $(installed)/lib/triptych/$$file || exit; done
+	for file in $(patsubst $(BUILD)/%,%,$(wildcard $(D3D9)/*/*.dll $(D3D9)/*/*.so $(D3D9)/triptych-d3d9-server)); do install -D -m 755 $(BUILD)/$$file $(installed)/lib/triptych/$$file || exit; done
 	for file in $(patsubst $(BUILD)/%,%,$(PAGES) $(COMPLETIONS)); do install -D -m 644 $(BUILD)/$$file $(installed)/$$file || exit; done
 
 clean:
