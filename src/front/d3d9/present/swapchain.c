@@ -87,15 +87,6 @@ int32_t d3d9_swapchain_get_present_parameters(struct d3d9_swapchain *chain,
     return D3D9_OK;
 }
 
-int32_t d3d9_swapchain_get_raster_status(struct d3d9_swapchain *chain, struct d3d9_raster_status *status)
-{
-    (void)chain;
-    if (!status)
-        return D3D9_INVALID_CALL;
-    *status = (struct d3d9_raster_status){.in_vblank = true};
-    return D3D9_OK;
-}
-
 static struct d3d9_factory *factory_of(const struct d3d9_swapchain *chain)
 {
     return (struct d3d9_factory *)chain->device->object.parent;

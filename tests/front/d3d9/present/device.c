@@ -1,4 +1,5 @@
 /* Devices and swap chains (front/d3d9/present): present parameters, Reset, lost devices, presenting. */
+#include "base/clock.h"
 #include "front/d3d9/present/swapchain.h"
 #include "tests/support/front/factory.h"
 
@@ -270,6 +271,25 @@ static void creation_is_refused(void)
     TEST_ASSERT_EQUAL_UINT32(0, d3d9_object_release((struct d3d9_object *)factory));
 }
 
+/* Programs wait until it changes. The period is a sixtieth of a second. */
+static void the_raster_is_in_the_blank_and_out_of_it(void)
+{
+    struct d3d9_device *device = factory_device(false, factory_parameters());
+    struct d3d9_raster_status status;
+    bool seen[2] = {false, false};
+    const uint64_t begin = clock_ns();
+    TEST_ASSERT_EQUAL_INT32(INVALID, d3d9_device_get_raster_status(device, 0, NULL));
+    TEST_ASSERT_EQUAL_INT32(INVALID, d3d9_device_get_raster_status(device, 1, &status));
+    while (!(seen[0] && seen[1]) && clock_ns() - begin < 10000000000u) {
+        TEST_ASSERT_EQUAL_INT32(OK, d3d9_device_get_raster_status(device, 0, &status));
+        TEST_ASSERT_TRUE(status.scan_line < 480);
+        TEST_ASSERT_TRUE(!status.in_vblank || !status.scan_line);
+        seen[status.in_vblank != 0] = true;
+    }
+    TEST_ASSERT_TRUE(seen[0] && seen[1]);
+    factory_device_free(device);
+}
+
 int main(void)
 {
     UNITY_BEGIN();
@@ -284,5 +304,6 @@ int main(void)
     RUN_TEST(flipped_buffers_rotate);
     RUN_TEST(gamma_changes_pictures_in_full_screen_only);
     RUN_TEST(creation_is_refused);
+    RUN_TEST(the_raster_is_in_the_blank_and_out_of_it);
     return UNITY_END();
 }
