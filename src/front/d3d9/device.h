@@ -13,7 +13,7 @@ struct d3d9_factory;
 struct d3d9_state_block;
 struct d3d9_surface;
 
-/* What is passed on to the renderer before the next draw (draw/prepare.c). */
+/* Groups of values that are passed on to the renderer before the next draw (draw/prepare.c). */
 enum {
     D3D9_LATE_TARGETS = 1,
     D3D9_LATE_AREA = 2, /* viewport, scissor rectangle */
@@ -63,7 +63,7 @@ struct d3d9_device {
     int32_t gpu_priority;
     uint32_t frame_latency; /* frames; 0: not set */
 
-    /* What is drawn to (draw/target.c). Held. */
+    /* Targets (draw/target.c). Held. */
     struct d3d9_surface *target[TRIPTYCH_TARGETS];
     struct d3d9_surface *depth;
 

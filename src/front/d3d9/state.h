@@ -57,7 +57,7 @@ struct d3d9_state {
     float pixel_float[D3D9_PIXEL_FLOATS][4];
     int32_t pixel_integer[D3D9_INTEGERS][4];
     int32_t pixel_boolean[D3D9_BOOLEANS];
-    float vertex_float[][4]; /* as many as the device has */
+    float vertex_float[][4]; /* the number is that of the device */
 };
 
 enum d3d9_group {
@@ -111,7 +111,8 @@ void d3d9_state_set(struct d3d9_device *, enum d3d9_group group, unsigned index,
 /* The same, never recorded. */
 void d3d9_state_set_now(struct d3d9_device *, enum d3d9_group group, unsigned index, const void *value);
 
-/* Returns the index in TRIPTYCH_RENDER_STATES of a state with Direct3D's number, or -1; likewise the others. */
+/* Returns the index in TRIPTYCH_RENDER_STATES of a state with Direct3D's number, or -1; the
+ * other two are for the tables of their names. */
 int d3d9_state_render_row(uint32_t number);
 int d3d9_state_sampler_row(uint32_t number);
 int d3d9_state_stage_row(uint32_t number);

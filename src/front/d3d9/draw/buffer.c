@@ -52,7 +52,7 @@ static int32_t make_buffer(struct d3d9_device *device, enum d3d9_interface inter
     return D3D9_OK;
 }
 
-/* Only IDirect3DDevice9Ex knows shared memory, and no buffer has it. */
+/* Only IDirect3DDevice9Ex has shared memory, and no buffer has it. */
 static int32_t refuse_shared(const struct d3d9_device *device, const uint64_t *shared)
 {
     if (!shared)

@@ -10,7 +10,7 @@
 #include "front/d3d9/resource.h"
 #include "triptych.h"
 
-/* What was written since the renderer has got the bytes; a larger one includes the smaller ones. */
+/* Writes since the renderer has got the bytes; a larger one includes the smaller ones. */
 enum d3d9_buffer_change {
     D3D9_BUFFER_UNCHANGED,
     D3D9_BUFFER_APPENDED, /* bytes that no earlier draw reads */

@@ -1,10 +1,10 @@
-/* What the draws of a device share. */
+/* Functions that the draws of a device share. */
 #ifndef D3D9_DRAW_DRAW_H
 #define D3D9_DRAW_DRAW_H
 
 #include "front/d3d9/device.h"
 
-/* What a draw needs of the device's bindings. */
+/* The needs of a draw among the device's bindings. */
 enum {
     D3D9_NEEDS_STREAMS = 1, /* all streams of the declaration; otherwise all but stream 0 */
     D3D9_NEEDS_INDICES = 2,

@@ -1,4 +1,4 @@
-/* What is passed on to the renderer before a draw: see device->late. */
+/* Values that are passed on to the renderer before a draw: see device->late. */
 #include "front/d3d9/draw/buffer.h"
 #include "front/d3d9/draw/draw.h"
 #include "front/d3d9/resource/texture.h"
@@ -167,7 +167,7 @@ static void pass_declaration(struct d3d9_device *device)
         triptych_set_declaration(device->renderer, declaration->translation, declaration->translated);
 }
 
-/* What vertices of a stream without a buffer consist of. */
+/* The bytes of a stream without a buffer. */
 static triptych_buffer *zeros(struct d3d9_device *device)
 {
     enum { BYTES = 65536 }; /* the largest offset of an element, and its bytes */

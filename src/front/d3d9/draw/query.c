@@ -53,7 +53,7 @@ static bool make_renderer(struct d3d9_query *query)
     return triptych_query_create(query->device->renderer, type, &query->query) == TRIPTYCH_OK;
 }
 
-/* Without `out` it tells whether there are such queries. */
+/* Without `out` the result is that of a creation, and nothing is created. */
 int32_t d3d9_device_create_query(struct d3d9_device *device, uint32_t type, struct d3d9_query **out)
 {
     if (!bytes_of(type))

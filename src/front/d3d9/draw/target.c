@@ -1,4 +1,4 @@
-/* What a device draws to. */
+/* The targets of a device, and scenes. */
 #include "front/d3d9/call.h"
 #include "front/d3d9/device.h"
 #include "front/d3d9/draw/draw.h"

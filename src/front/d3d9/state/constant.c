@@ -31,7 +31,7 @@ static int32_t get_each(struct d3d9_device *device, enum d3d9_group group, uint3
     return D3D9_OK;
 }
 
-/* Floats are passed on at once: most constants are floats. */
+/* Floats are passed on immediately: most constants are floats. */
 static int32_t set_floats(struct d3d9_device *device, enum triptych_shader_stage stage, enum d3d9_group group,
                           uint32_t limit, uint32_t first, const float *values, uint32_t count)
 {

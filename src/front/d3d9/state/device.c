@@ -123,7 +123,7 @@ int32_t d3d9_device_set_dialog_box_mode(struct d3d9_device *device, int32_t enab
     return D3D9_OK;
 }
 
-/* Every state that a draw accepts takes one pass. A filter of none is no filter. */
+/* Every state that a draw accepts takes one pass. Textures need filters. */
 int32_t d3d9_device_validate_device(struct d3d9_device *device, uint32_t *passes)
 {
     enum { MAGNIFY = 5, MINIFY = 6 }; /* D3DSAMP_MAGFILTER, D3DSAMP_MINFILTER */

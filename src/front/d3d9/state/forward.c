@@ -1,7 +1,8 @@
 /* How values reach the renderer.
  *
- * Most are passed on when they change: the renderer itself only remembers them until a draw. What depends on
- * other objects is passed on before the next draw or clear (draw/prepare.c): device->late says what. */
+ * Most are passed on when they change: the renderer itself only remembers them until a draw. Values
+ * that depend on other objects are passed on before the next draw or clear (draw/prepare.c): device->late has
+ * their groups. */
 #include "front/d3d9/device.h"
 #include "front/d3d9/state/group.h"
 

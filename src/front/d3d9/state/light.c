@@ -144,7 +144,7 @@ void d3d9_lights_forward(struct d3d9_device *device)
 
 /* --- Methods --- */
 
-/* What a method changes: the block that is being recorded, or the device. */
+/* The lights that a method changes: those of the block that is being recorded, or of the device. */
 static struct d3d9_lights *lights_to_change(struct d3d9_device *device)
 {
     if (device->recording)
