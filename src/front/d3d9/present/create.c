@@ -135,12 +135,13 @@ static bool flags_are_valid(uint32_t flags)
     return one && !(flags & D3D9_CREATE_PURE_DEVICE && vertices != D3D9_CREATE_HARDWARE_VERTICES);
 }
 
-/* The window of a swap chain without one is the focus window. An extended device needs none. */
+/* The window of a swap chain without one is the focus window. A device in a window needs none: its pictures are
+ * not shown. */
 static int32_t choose_window(struct d3d9_present_parameters *p, uint64_t focus, bool extended)
 {
     if (!p->device_window)
         p->device_window = focus;
-    return p->device_window || extended ? D3D9_OK : D3D9_INVALID_CALL;
+    return p->device_window || extended || p->windowed ? D3D9_OK : D3D9_INVALID_CALL;
 }
 
 int32_t d3d9_factory_create_device(struct d3d9_factory *factory, uint32_t adapter, uint32_t type,
