@@ -316,9 +316,10 @@ $(BUILD)/flags $(addprefix $(BUILD)/,library.list command.list front.list suppor
 	@mkdir -p $(@D)
 	@printf '%s\n' "$(text)" | cmp -s - $@ || printf '%s\n' "$(text)" >$@
 
-# --- Direct3D 9 for programs of Windows -----------------------------------------------------------------------
+# --- Direct3D 9 for programs of Windows ----------------------------------------------------------------------
 
-# A DLL of Wine's builtin form: a Windows side, and a Unix library that Wine loads with it. d3d9.dll forwards to it.
+# A DLL of Wine's builtin form: a Windows side, and a Unix library that Wine loads with it. d3d9.dll forwards
+# to it.
 # Windows' headers define what they declare, so that the Windows side has warnings of its own.
 MINGW  ?= x86_64-w64-mingw32-gcc
 WINE_IMPORTS = $(firstword $(wildcard $(addsuffix /libntdll.a,/usr/lib/x86_64-linux-gnu/wine/x86_64-windows)))
@@ -327,8 +328,9 @@ PE_SOURCES := $(call find,src/front/d3d9/pe,*.c)
 PE_PROGRAMS := $(patsubst tests/front/d3d9/pe/%.c,%,$(wildcard tests/front/d3d9/pe/*.c))
 pe_flags = -std=gnu17 -O2 -g -Wall -Wextra -Werror -Wno-cast-function-type -Isrc -MMD -MP
 
-# Programs of 32 bits, where Wine and the compilers for them are installed: the Unix library only passes calls on to a
-# 64-bit process, so that there is one Linux side. It is built without a C library's folder of this width.
+# Programs of 32 bits, where Wine and the compilers for them are installed: the Unix library only passes
+# calls on to a 64-bit process, so that there is one Linux side. It is built without a C library's folder of
+# this width.
 MINGW32 ?= i686-w64-mingw32-gcc
 REMOTE   = $(addprefix src/front/d3d9/,remote/packing.c remote/narrow.c size.c)
 WIDE_OBJECTS   := $(patsubst %.c,$(BUILD)/object/%.obj,$(filter-out %/shared.c,$(PE_SOURCES)))

@@ -3,8 +3,8 @@
 #
 # A name belongs to the row with the longest prefix that it begins with. That row must be the row of the
 # folder that defines it. Exceptions: engine_NAME objects are engines, command_NAME objects are subcommands,
-# names that triptych.h declares are the public interface, Direct3D 9's methods are in the front end's table of
-# calls, and names with two underscores belong to the system's interfaces.
+# names that triptych.h declares are the public interface, Direct3D 9's methods are in the front end's table
+# of calls, and names with two underscores belong to the system's interfaces.
 set -u
 cd "$(dirname "$0")/.." || exit 1
 build=${BUILD:-build}

@@ -8,24 +8,25 @@
 
 #include <limits.h>
 
-/* Finds the folder of the files that `make d3d9` builds: d3d9 beside the command, or ../lib/triptych/d3d9 from its
- * folder, as `make install` leaves it. Returns 0, or -1 with a reason. */
+/* Finds the folder of the files that `make d3d9` builds: d3d9 beside the command, or ../lib/triptych/d3d9
+ * from its folder, as `make install` leaves it. Returns 0, or -1 with a reason. */
 int place_files(char folder[PATH_MAX], struct error *error);
 
-/* Copies the two DLLs from there to the folders of system DLLs of the prefix, for programs of 64 and, if they are
- * built, of 32 bits, unless it has them. Wine uses them only
- * with the override d3d9=n: other programs of this prefix get Wine's own d3d9.dll. Returns 0, or -1 with a reason.
- */
+/* Copies the two DLLs from there to the folders of system DLLs of the prefix, for programs of 64 and, if
+ * they are built, of 32 bits, unless it has them. Wine uses them only with the override d3d9=n: other
+ * programs of this prefix get Wine's own d3d9.dll. Returns 0, or -1 with a reason. */
 int place_install(const char *folder, const char *prefix, struct error *error);
 
-/* The prefix: the argument, else WINEPREFIX, else ~/.wine. Relative paths become absolute. Returns 0, or -1 with a
- * reason. */
+/* The prefix: the argument, else WINEPREFIX, else ~/.wine. Relative paths become absolute. Returns 0, or
+ * -1 with a reason. */
 int place_prefix(const char *given, char prefix[PATH_MAX], struct error *error);
 
-/* Makes the prefix if it is missing, with the program `wine`: about 20 seconds. Returns 0, or -1 with a reason. */
+/* Makes the prefix if it is missing, with the program `wine`: about 20 seconds. Returns 0, or -1 with a
+ * reason. */
 int place_make_prefix(const char *wine, const char *prefix, struct error *error);
 
-/* An absolute path for a file that another process opens in another folder. Returns 0, or -1 with a reason. */
+/* An absolute path for a file that another process opens in another folder. Returns 0, or -1 with a
+ * reason. */
 int place_absolute(const char *path, char absolute[PATH_MAX], struct error *error);
 
 #endif

@@ -1,5 +1,6 @@
-/* The raster of a display, by the clock. Windows' displays have one, and programs wait until it is in the vertical
- * blank or out of it. Its period is that of the refresh rate. The last twentieth of the period is blank. */
+/* The raster of a display, by the clock. Windows' displays have one, and programs wait until it is in the
+ * vertical blank or out of it. Its period is that of the refresh rate. The last twentieth of the period
+ * is blank. */
 #include "base/clock.h"
 #include "front/d3d9/call.h"
 #include "swapchain.h"

@@ -1,5 +1,5 @@
-/* The functions of the Unix library, by number, and their parameters. A 64-bit program has the first one; a 32-bit program
- * the others. All members have the same layout in Windows and Linux. */
+/* The functions of the Unix library, by number, and their parameters. A 64-bit program has the first one;
+ * a 32-bit program the others. All members have the same layout in Windows and Linux. */
 #ifndef D3D9_UNIX_ENTRY_H
 #define D3D9_UNIX_ENTRY_H
 
@@ -14,14 +14,14 @@ struct d3d9_unix_call {
     uint64_t block;
 };
 
-/* D3D9_UNIX_OPEN: starts the server and returns the address of the shared memory (remote/channel.h); fails with a line on
- * standard error. */
+/* D3D9_UNIX_OPEN: starts the server and returns the address of the shared memory (remote/channel.h);
+ * fails with a line on standard error. */
 struct d3d9_unix_open {
     uint32_t codes; /* D3D9_CODE_COUNT */
     uint32_t memory;
 };
 
-/* D3D9_UNIX_SEND has no parameters: it executes the call that is described in the shared memory. It fails if the server
- * has ended. */
+/* D3D9_UNIX_SEND has no parameters: it executes the call that is described in the shared memory. It fails
+ * if the server has ended. */
 
 #endif

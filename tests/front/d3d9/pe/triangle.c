@@ -1,9 +1,9 @@
 /* A program of Windows that opens a window, makes a Direct3D 9 device, draws a triangle and presents it.
  *
- *     wine triangle.exe [FRAMES [MILLISECONDS]]
+ * wine triangle.exe [FRAMES [MILLISECONDS]]
  *
- * It draws FRAMES frames, 1 by default, shows the last one for MILLISECONDS, and prints what it did. It ends with 0 if
- * the window has the triangle's color in its middle and the background's in its corner. */
+ * It draws FRAMES frames, 1 by default, shows the last one for MILLISECONDS, and prints what it did. It
+ * ends with 0 if the window has the triangle's color in its middle and the background's in its corner. */
 #define COBJMACROS
 #include <windows.h>
 #include <d3d9.h>

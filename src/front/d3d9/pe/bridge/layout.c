@@ -71,7 +71,8 @@ SAME(D3DCAPS9, DeclTypes, d3d9_caps, decl_types);
 SAME(D3DCAPS9, PS20Caps, d3d9_caps, ps20_caps);
 SAME(D3DCAPS9, MaxPixelShader30InstructionSlots, d3d9_caps, max_pixel_shader30_instruction_slots);
 
-/* Structures with addresses, handles or 64-bit numbers have another layout in 32-bit programs (remote/narrow.h). */
+/* Structures with addresses, handles or 64-bit numbers have another layout in 32-bit programs
+ * (remote/narrow.h). */
 #ifdef _WIN64
 SAME_SIZE(D3DLOCKED_RECT, d3d9_locked_rect);
 SAME(D3DLOCKED_RECT, pBits, d3d9_locked_rect, bits);

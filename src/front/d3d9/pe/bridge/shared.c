@@ -19,8 +19,9 @@ int transport_start(void)
     return memory != NULL;
 }
 
-/* A call that cannot be made has failed without any effect, as the results of its block show: those of the Linux
- * side's functions are results of COM, counts or addresses, and 0 or a failure are all of these. */
+/* A call that cannot be made has failed without any effect, as the results of its block show: those of
+ * the Linux side's functions are results of COM, counts or addresses, and 0 or a failure are all of
+ * these. */
 static int run(unsigned code, void *block)
 {
     struct d3d9_channel *channel = (void *)memory;

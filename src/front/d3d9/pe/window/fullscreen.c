@@ -74,8 +74,8 @@ static void cover_screen(struct device_data *data)
     SetWindowPos(data->window, HWND_TOPMOST, r.left, r.top, r.right - r.left, r.bottom - r.top, flags);
 }
 
-/* How the window is shown after full screen. Devices of Direct3D 9 leave it visible and topmost; those of Direct3D
- * 9Ex restore what it was. */
+/* How the window is shown after full screen. Devices of Direct3D 9 leave it visible and topmost; those of
+ * Direct3D 9Ex restore what it was. */
 static UINT shown_flags(const struct device_data *data)
 {
     if (!data->extended || !may_change_window(data))
