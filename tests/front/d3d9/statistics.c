@@ -73,6 +73,7 @@ static void a_frame_after_a_second_writes_the_file(void)
     d3d9_statistics_frame(&statistics, renderer);
     TEST_ASSERT_TRUE(read_text());
     TEST_ASSERT_EQUAL_DOUBLE(2, number("frames"));
+    d3d9_statistics_end(&statistics, renderer);
 }
 
 static void draw_triangle(void)
