@@ -316,7 +316,7 @@ $(BUILD)/flags $(addprefix $(BUILD)/,library.list command.list front.list suppor
 	@mkdir -p $(@D)
 	@printf '%s\n' "$(text)" | cmp -s - $@ || printf '%s\n' "$(text)" >$@
 
-# --- Direct3D 9 for programs of Windows ----------------------------------------------------------------------
+# --- Direct3D 9 for programs of Windows -------------------------------------------------------------------
 
 # A DLL of Wine's builtin form: a Windows side, and a Unix library that Wine loads with it. d3d9.dll forwards
 # to it.
@@ -552,8 +552,8 @@ conformance-d3d9:
 	+@$(MAKE) $(jobs) all d3d9
 	@BUILD=$(BUILD) bench/conformance-d3d9.sh
 
-# Programs for Windows on Triptych and on Wine's own Direct3D 9: results/programs.json. bench/programs-d3d9.sh describes
-# ENGINE=name PROGRAMS="name ..." PASSES=n SIDES=name.
+# Programs for Windows on Triptych and on Wine's own Direct3D 9: results/programs.json. bench/programs-d3d9.sh
+# describes ENGINE=name PROGRAMS="name ..." PASSES=n SIDES=name.
 programs-d3d9:
 	@tests/support/scripts/dependencies.sh build d3d9 suites programs
 	+@$(MAKE) $(jobs) all d3d9

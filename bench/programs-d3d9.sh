@@ -1,7 +1,7 @@
 #!/bin/bash
 # Programs for Windows that use Direct3D 9, on Triptych and on Wine's own Direct3D 9 over llvmpipe, for
-# `make programs-d3d9`: SDL, Panda3D and ANGLE from wheels of the Python package index, Irrlicht from Debian's source
-# package. Nothing of them is kept in the repository.
+# `make programs-d3d9`: SDL, Panda3D and ANGLE from wheels of the Python package index, Irrlicht from Debian's
+# source package. Nothing of them is kept in the repository.
 #
 # In the environment:
 #   ENGINE=name      the engine. Default: specialize
@@ -9,8 +9,8 @@
 #   PASSES=n         measurements of each program. Default: 3
 #   SIDES=name       triptych or wine. Default: both
 #
-# Writes results/programs.json (RESULTS) and in build/programs the pictures and recordings. Ends with 1 if a program
-# fails, its picture differs, or Triptych is not ahead (bench/d3d9/programs.py, problems).
+# Writes results/programs.json (RESULTS) and in build/programs the pictures and recordings. Ends with 1 if a
+# program fails, its picture differs, or Triptych is not ahead (bench/d3d9/programs.py, problems).
 set -euo pipefail
 cd "$(dirname "$0")/.."
 

@@ -230,16 +230,16 @@ struct triptych_image_description {
 };
 
 /* An image, or one of a texture: a level and, for a cube or volume, the face or slice `slice`. At most one of
- * the pointers is set. Functions that accept the target take a surface without either as colour number `slice`
- * of the target that triptych_set_target made. For other functions it means no surface. */
+ * the pointers is set. Functions that accept the target take a surface without either as colour number
+ * `slice` of the target that triptych_set_target made. For other functions it means no surface. */
 struct triptych_surface {
     triptych_texture *texture;
     unsigned level, slice;
     triptych_image *image;
 };
 
-/* Surfaces to draw to: textures and images, with the same number of samples. All are different. Colours can be
- * absent. The target has the pixels that all colours have; depth must have at least these. Without a depth
+/* Surfaces to draw to: textures and images, with the same number of samples. All are different. Colours can
+ * be absent. The target has the pixels that all colours have; depth must have at least these. Without a depth
  * surface the target has its own one of the depth format, which is cleared first. */
 struct triptych_target_surfaces {
     struct triptych_surface color[TRIPTYCH_TARGETS];
@@ -271,7 +271,7 @@ struct triptych_processed_vertex {
     float texcoord[8][4]; /* of the stages: generated and transformed; u, v, third coordinate, divisor */
     float point_size;     /* pixels */
     float
-        fog; /* the weight of the colour against the fog, 0 to 1; 1 without fog, 0 of a shader that gives none */
+        fog; /* the weight of the colour against the fog, 0 to 1; 1 without fog, 0 of a shader without it */
 };
 
 enum triptych_copy_filter { TRIPTYCH_COPY_POINT, TRIPTYCH_COPY_LINEAR, TRIPTYCH_COPY_COUNT };
@@ -453,12 +453,12 @@ TRIPTYCH_API enum triptych_result triptych_set_target_description(triptych_devic
                                                                   const struct triptych_target_description *);
 
 /* Draws to textures and images instead of the target. Null returns to the target, whose contents have not
- * changed. Both set the viewport and the scissor rectangle like triptych_set_target, which also ends drawing to
- * surfaces. Surfaces keep their contents, depth and stencil too, while they are not drawn to. A change neither
- * waits nor copies pixels.
+ * changed. Both set the viewport and the scissor rectangle like triptych_set_target, which also ends drawing
+ * to surfaces. Surfaces keep their contents, depth and stencil too, while they are not drawn to. A change
+ * neither waits nor copies pixels.
  *
- * A texture can be sampled while it is drawn to: each draw samples it as it was before this draw. That costs a
- * copy of the surface for each draw that samples it after another one has changed it. */
+ * A texture can be sampled while it is drawn to: each draw samples it as it was before this draw. That costs
+ * a copy of the surface for each draw that samples it after another one has changed it. */
 TRIPTYCH_API enum triptych_result triptych_set_target_surfaces(triptych_device *,
                                                                const struct triptych_target_surfaces *);
 
@@ -667,9 +667,9 @@ TRIPTYCH_API enum triptych_result triptych_draw_indexed_user(triptych_device *, 
                                                              unsigned bits, uint32_t vertex_count,
                                                              const void *vertices, size_t stride);
 
-/* Runs the vertex routine of the current state, fixed function or shader, for vertices `first` to first + count
- * - 1 of the streams, and returns its outputs. Outputs that it does not compute are 0 0 0 1. Draws nothing. A
- * texture's fourth coordinate is the divisor: after a matrix of three columns it is the third. */
+/* Runs the vertex routine of the current state, fixed function or shader, for vertices `first` to first +
+ * count - 1 of the streams, and returns its outputs. Outputs that it does not compute are 0 0 0 1. Draws
+ * nothing. A texture's fourth coordinate is the divisor: after a matrix of three columns it is the third. */
 TRIPTYCH_API enum triptych_result triptych_process_vertices(triptych_device *, uint32_t first, uint32_t count,
                                                             struct triptych_processed_vertex *out);
 
@@ -683,8 +683,8 @@ TRIPTYCH_API enum triptych_result triptych_clear(triptych_device *, const float 
 TRIPTYCH_API enum triptych_result triptych_clear_buffers(triptych_device *, unsigned flags,
                                                          const float color[4], float depth, unsigned stencil);
 /* Clears rectangles, or with a count of 0 everything, with masks: only pixels of the viewport, unless
- * values->everywhere is set, and of the scissor rectangle if its test is on. Rectangles may overlap, be empty,
- * and lie outside of the target. */
+ * values->everywhere is set, and of the scissor rectangle if its test is on. Rectangles may overlap, be
+ * empty, and lie outside of the target. */
 TRIPTYCH_API enum triptych_result triptych_clear_rectangles(triptych_device *,
                                                             const struct triptych_clear_values *values,
                                                             const struct triptych_rectangle *rectangles,

@@ -7,8 +7,8 @@
  * For each function it prints
  *   @begin NAME
  *   @end NAME checks N passed N failures N todo N better N unstable N skipped N milliseconds N
- * passed + failures + todo + better + unstable = checks. "todo" are checks that the test expects to fail on Wine
- * and that fail, "better" those that it expects to fail and that hold. */
+ * passed + failures + todo + better + unstable = checks. "todo" are checks that the test expects to fail on
+ * Wine and that fail, "better" those that it expects to fail and that hold. */
 #define WIN32_LEAN_AND_MEAN
 #include <windows.h>
 #define STANDALONE

@@ -1,6 +1,6 @@
 #!/bin/bash
-# Fetches Windows builds of SDL, ANGLE and Panda3D from the Python package index, and builds the programs that use
-# them.
+# Fetches Windows builds of SDL, ANGLE and Panda3D from the Python package index, and builds the programs that
+# use them.
 #
 #   bench/d3d9/wheels.sh FOLDER    FOLDER/sdl/, FOLDER/gles/ and FOLDER/panda/ with their programs
 #

@@ -1,10 +1,11 @@
 #!/bin/bash
-# Builds Wine's Direct3D 9 tests (visual, device, stateblock, d3d9ex) of Debian's source package of Wine as one
-# 64-bit Windows program whose test functions can be selected (bench/d3d9/filter.c).
+# Builds Wine's Direct3D 9 tests (visual, device, stateblock, d3d9ex) of Debian's source package of Wine as
+# one 64-bit Windows program whose test functions can be selected (bench/d3d9/filter.c).
 #
 #   bench/d3d9/wine-tests.sh FOLDER    FOLDER/d3d9_test.exe and FOLDER/version
 #
-# Only the tests and three headers of the source package are unpacked. Needs x86_64-w64-mingw32-gcc and dpkg-dev.
+# Only the tests and three headers of the source package are unpacked. Needs x86_64-w64-mingw32-gcc and
+# dpkg-dev.
 set -euo pipefail
 here=$(cd "$(dirname "$0")" && pwd)
 mkdir -p "$1"

@@ -68,8 +68,8 @@ static inline long frames_next(struct frames *frames)
     }
     if (frames->drawn < frames->last)
         return frames->drawn++;
-    printf("@frames %ld start %.3f first %.3f longest %.3f total %.3f\n", frames->last, frames->start, frames->first,
-           frames->longest, frames->total);
+    printf("@frames %ld start %.3f first %.3f longest %.3f total %.3f\n", frames->last, frames->start,
+           frames->first, frames->longest, frames->total);
     fflush(stdout);
     return -1;
 }

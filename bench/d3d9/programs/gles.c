@@ -1,6 +1,6 @@
-/* A GLES2 program on ANGLE's Direct3D 9 renderer (libEGL.dll and libGLESv2.dll of kivy-deps.angle): lit, textured
- * tori by shaders, a picture drawn to a framebuffer object, mip levels, blending, stencil and scissor.
- * frames.h defines the arguments. */
+/* A GLES2 program on ANGLE's Direct3D 9 renderer (libEGL.dll and libGLESv2.dll of kivy-deps.angle): lit,
+ * textured tori by shaders, a picture drawn to a framebuffer object, mip levels, blending, stencil and
+ * scissor. frames.h defines the arguments. */
 #include "frames.h"
 #include <math.h>
 #define EGL_EGLEXT_PROTOTYPES
@@ -15,7 +15,8 @@ enum { PLATFORM_ANGLE = 0x3202, PLATFORM_ANGLE_TYPE = 0x3203, PLATFORM_ANGLE_TYP
 static const char vertex_text[] =
     "attribute vec3 position; attribute vec3 normal; attribute vec2 texcoord;"
     "uniform mat4 model; uniform mat4 projection; varying vec3 n; varying vec3 p; varying vec2 uv;"
-    "void main() { vec4 world = model * vec4(position, 1.0); p = world.xyz; n = mat3(model) * normal; uv = texcoord;"
+    "void main() { vec4 world = model * vec4(position, 1.0); p = world.xyz; n = mat3(model) * normal; uv = "
+    "texcoord;"
     "  gl_Position = projection * world; }";
 static const char lit_text[] =
     "precision highp float; uniform sampler2D picture; uniform vec4 color; uniform vec3 light;"
@@ -66,8 +67,9 @@ static HWND open_window(void)
 static void open_context(struct scene *scene)
 {
     static const EGLint platform[] = {PLATFORM_ANGLE_TYPE, PLATFORM_ANGLE_TYPE_D3D9, EGL_NONE};
-    static const EGLint wanted[] = {EGL_RED_SIZE, 8, EGL_GREEN_SIZE,   8, EGL_BLUE_SIZE,   8, EGL_ALPHA_SIZE,
-                                    8,            EGL_DEPTH_SIZE, 24, EGL_STENCIL_SIZE, 8, EGL_NONE};
+    static const EGLint wanted[] = {EGL_RED_SIZE,   8, EGL_GREEN_SIZE, 8,  EGL_BLUE_SIZE,    8,
+                                    EGL_ALPHA_SIZE, 8, EGL_DEPTH_SIZE, 24, EGL_STENCIL_SIZE, 8,
+                                    EGL_NONE};
     static const EGLint version[] = {EGL_CONTEXT_CLIENT_VERSION, 2, EGL_NONE};
     const PFNEGLGETPLATFORMDISPLAYEXTPROC get_display =
         (PFNEGLGETPLATFORMDISPLAYEXTPROC)(void *)eglGetProcAddress("eglGetPlatformDisplayEXT");
@@ -138,7 +140,7 @@ static void make_torus(struct scene *scene)
         for (int j = 0; j <= SIDES; j++) {
             const float a = 6.2831853f * (float)i / RINGS, b = 6.2831853f * (float)j / SIDES;
             const float x = cosf(b) * cosf(a), y = cosf(b) * sinf(a), z = sinf(b);
-            const float vertex[8] = {cosf(a) + 0.4f * x,       sinf(a) + 0.4f * y,       0.4f * z, x, y, z,
+            const float vertex[8] = {cosf(a) + 0.4f * x,      sinf(a) + 0.4f * y,     0.4f * z, x, y, z,
                                      6.0f * (float)i / RINGS, 2.0f * (float)j / SIDES};
             memcpy(vertices[i * (SIDES + 1) + j], vertex, sizeof vertex);
         }
@@ -201,7 +203,8 @@ static void make_textures(struct scene *scene)
 static void use_program(const struct program *program, float width_of_height)
 {
     /* Depth 1 to 40. */
-    const float matrix[16] = {1.5f / width_of_height, 0, 0, 0, 0, 1.5f, 0, 0, 0, 0, -41.0f / 39, -1, 0, 0, -80.0f / 39, 0};
+    const float matrix[16] = {
+        1.5f / width_of_height, 0, 0, 0, 0, 1.5f, 0, 0, 0, 0, -41.0f / 39, -1, 0, 0, -80.0f / 39, 0};
     glUseProgram(program->name);
     glUniformMatrix4fv(program->projection, 1, GL_FALSE, matrix);
     glUniform3f(program->light, 4, 5, 2);
@@ -211,8 +214,22 @@ static void use_program(const struct program *program, float width_of_height)
 static void place(const struct program *program, float angle, float scale, float x, float y, float z)
 {
     const float c = cosf(angle), s = sinf(angle), d = cosf(0.7f * angle), t = sinf(0.7f * angle);
-    const float matrix[16] = {scale * d,      0, scale * -t,     0, scale * s * t, scale * c, scale * s * d, 0,
-                              scale * c * t, scale * -s, scale * c * d, 0, x,             y,         z,             1};
+    const float matrix[16] = {scale * d,
+                              0,
+                              scale * -t,
+                              0,
+                              scale * s * t,
+                              scale * c,
+                              scale * s * d,
+                              0,
+                              scale * c * t,
+                              scale * -s,
+                              scale * c * d,
+                              0,
+                              x,
+                              y,
+                              z,
+                              1};
     glUniformMatrix4fv(program->model, 1, GL_FALSE, matrix);
 }
 
@@ -233,7 +250,8 @@ static void draw_tori(const struct scene *scene, long frame, int count, float as
     glBindBuffer(GL_ELEMENT_ARRAY_BUFFER, scene->torus_indices);
     for (int i = 0; i < count; i++) {
         const float turn = 0.02f * (float)frame + 0.9f * (float)i;
-        place(&scene->lit, turn, 0.8f, 3.2f * sinf(1.3f * (float)i), 2.2f * cosf(2.1f * (float)i), -6 - (float)(i % 5));
+        place(&scene->lit, turn, 0.8f, 3.2f * sinf(1.3f * (float)i), 2.2f * cosf(2.1f * (float)i),
+              -6 - (float)(i % 5));
         glUniform4f(scene->lit.color, 0.5f + 0.5f * sinf((float)i), 0.9f, 0.5f + 0.5f * cosf((float)i), 1);
         glDrawElements(GL_TRIANGLES, RINGS * SIDES * 6, GL_UNSIGNED_SHORT, NULL);
     }

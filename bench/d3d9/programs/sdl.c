@@ -105,15 +105,17 @@ static void draw_sprites(const struct scene *scene, long frame)
     static const SDL_BlendMode modes[] = {SDL_BLENDMODE_BLEND, SDL_BLENDMODE_ADD, SDL_BLENDMODE_MOD,
                                           SDL_BLENDMODE_MUL};
     for (int i = 0; i < SPRITES; i++) {
-        const float a = 0.013f * (float)frame + 0.71f * (float)i, b = 0.017f * (float)frame + 0.37f * (float)i;
+        const float a = 0.013f * (float)frame + 0.71f * (float)i,
+                    b = 0.017f * (float)frame + 0.37f * (float)i;
         const float size = 16 + (float)(i % 7) * 8;
-        const SDL_FRect place = {(WIDTH - size) * (0.5f + 0.5f * sinf(a)), (HEIGHT - size) * (0.5f + 0.5f * cosf(b)),
-                                 size, size};
+        const SDL_FRect place = {(WIDTH - size) * (0.5f + 0.5f * sinf(a)),
+                                 (HEIGHT - size) * (0.5f + 0.5f * cosf(b)), size, size};
         SDL_Texture *texture = i % 16 ? scene->sprite : scene->checker;
         SDL_SetTextureBlendMode(texture, modes[i / (SPRITES / 4) % 4]);
         SDL_SetTextureColorMod(texture, (Uint8)(i * 37), (Uint8)(i * 91), (Uint8)(255 - i * 53));
         SDL_SetTextureAlphaMod(texture, (Uint8)(128 + i % 128));
-        SDL_RenderCopyExF(scene->renderer, texture, NULL, &place, i % 3 ? a * 57.2957795f : 0, NULL, SDL_FLIP_NONE);
+        SDL_RenderCopyExF(scene->renderer, texture, NULL, &place, i % 3 ? a * 57.2957795f : 0, NULL,
+                          SDL_FLIP_NONE);
     }
 }
 

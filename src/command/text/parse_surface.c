@@ -50,7 +50,7 @@ int parse_new_image(struct parser *parser)
     return parse_account(parser, &place, image_bytes(&image));
 }
 
-/* --- Calls ----------------------------------------------------------------------------------------------- */
+/* --- Calls --- */
 
 static int parse_option(struct parser *parser, const char *word, uint32_t *number)
 {

@@ -79,8 +79,8 @@ struct d3d9_device {
 };
 
 /* Make the values of a device whose `renderer`, `creation` and `object` are set, and set the renderer's
- * conventions; free them. Reset gives all values their defaults, and sets no target. `depth`: the device has a
- * depth surface of its own, so the depth test is on. */
+ * conventions; free them. Reset gives all values their defaults, and sets no target. `depth`: the device has
+ * a depth surface of its own, so the depth test is on. */
 int32_t d3d9_device_make_state(struct d3d9_device *, bool depth);
 void d3d9_device_reset_state(struct d3d9_device *, bool depth);
 void d3d9_device_free_state(struct d3d9_device *);

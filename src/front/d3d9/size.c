@@ -13,8 +13,8 @@ uint64_t d3d9_size_elements(const struct d3d9_vertex_element *elements)
     return count;
 }
 
-/* The tokens that follow an instruction's first one and need not be looked at. From model 2.0 on instructions have
- * their length, and operands may look like an end. */
+/* The tokens that follow an instruction's first one and need not be looked at. From model 2.0 on instructions
+ * have their length, and operands may look like an end. */
 static uint32_t tokens_after(uint32_t version, uint32_t token)
 {
     if (token >> 31 == 0 && (token & 0xffff) == TOKEN_COMMENT)

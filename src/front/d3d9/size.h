@@ -1,5 +1,5 @@
-/* How much memory an argument refers to: the counts of elements in the folder calls, where they do not follow from a
- * number of the call alone. Pointers may be null; the answer then is 0. */
+/* How much memory an argument refers to: the counts of elements in the folder calls, where they do not follow
+ * from a number of the call alone. Pointers may be null; the answer then is 0. */
 #ifndef D3D9_SIZE_H
 #define D3D9_SIZE_H
 
@@ -48,7 +48,8 @@ static inline uint64_t d3d9_size_index(uint32_t format)
 enum { D3D9_SIZE_ELEMENTS = 65 };
 uint64_t d3d9_size_elements(const struct d3d9_vertex_element *elements);
 
-/* Tokens of a shader's bytecode, with its end. Without an end it is cut off at a limit above that of any model. */
+/* Tokens of a shader's bytecode, with its end. Without an end it is cut off at a limit above that of any
+ * model. */
 uint64_t d3d9_size_code(const uint32_t *code);
 
 /* Bytes of a region. */

@@ -2,8 +2,8 @@
  * block has one of its own with a mask of the values that belong to it.
  *
  * Values are cells in groups (group.def). A group is an array in struct d3d9_state; a cell is one of its
- * elements. Cells are numbered across all groups: D3D9_CELL_GROUP + index. Lights are not cells, because there
- * can be any number of them (light.h). */
+ * elements. Cells are numbered across all groups: D3D9_CELL_GROUP + index. Lights are not cells, because
+ * there can be any number of them (light.h). */
 #ifndef D3D9_STATE_H
 #define D3D9_STATE_H
 

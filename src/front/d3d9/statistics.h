@@ -1,4 +1,5 @@
-/* Frames, times, draws and routines of a device, as a file for measurements of programs: TRIPTYCH_STATISTICS=FILE.
+/* Frames, times, draws and routines of a device, as a file for measurements of programs:
+ * TRIPTYCH_STATISTICS=FILE.
  *
  * The file is one JSON object:
  *   "engine"                   the engine's name
@@ -11,8 +12,8 @@
  *   "routines"                 routines in the cache by unit: "vertex", "setup", "pixel"
  *   "routines_of_a_frame"      routines that the draws of one frame use, the mean over every 64th frame
  *   "build_ms"                 the time that building the routines took
- * It is written at the end of the device, and once a second, because many programs are ended before they destroy
- * their device. A device without frames writes nothing. */
+ * It is written at the end of the device, and once a second, because many programs are ended before they
+ * destroy their device. A device without frames writes nothing. */
 #ifndef D3D9_STATISTICS_H
 #define D3D9_STATISTICS_H
 

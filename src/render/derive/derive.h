@@ -80,8 +80,8 @@ struct live_job {
 };
 void derive_live(const struct vertex_key *vertex, const struct pixel_key *pixel, struct live_job *live);
 
-/* The key of a vertex routine that computes all its outputs, whatever the pixel routine reads, and its job but
- * for the palette and the constants of the shader. */
+/* The key of a vertex routine that computes all its outputs, whatever the pixel routine reads, and its job
+ * but for the palette and the constants of the shader. */
 void derive_process_key(const struct state *state, struct vertex_key *key);
 void derive_process_job(const struct state *state, const struct vertex_key *key, struct job *job);
 

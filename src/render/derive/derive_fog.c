@@ -28,7 +28,8 @@ void derive_fog(const struct state *state, struct pixel_key *key)
         key->fog += FOG_LINEAR_W - FOG_LINEAR_Z;
 }
 
-/* Linear fog that starts where it ends: of a table, everything from there on is fog; of vertices, everything. */
+/* Linear fog that starts where it ends: of a table, everything from there on is fog; of vertices, everything.
+ */
 static void fog_without_range(double end, bool table, float *scale, float *offset)
 {
     *scale = table ? -0x1p64f : 0;

@@ -1,4 +1,5 @@
-/* The vertex routine of triptych_process_vertices: it computes everything that any pixel routine could read. */
+/* The vertex routine of triptych_process_vertices: it computes everything that any pixel routine could read.
+ */
 #include "contract/key_query.h"
 #include "render/derive/derive_part.h"
 #include "shader/program/program.h"

@@ -117,9 +117,9 @@ static bool has_three(const struct state *state, int stage)
            state->element[ATTRIBUTE_TEXCOORD + index].format == TRIPTYCH_FORMAT_FLOAT3;
 }
 
-/* The last of three or four coordinates divides the others (Direct3D 9, D3DTTFF_PROJECTED); without a count it
- * is the last that vertices have, after a vertex shader always the fourth. With one or two coordinates nothing
- * is left to be divided. */
+/* The last of three or four coordinates divides the others (Direct3D 9, D3DTTFF_PROJECTED); without a count
+ * it is the last that vertices have, after a vertex shader always the fourth. With one or two coordinates
+ * nothing is left to be divided. */
 uint8_t derive_projection(const struct state *state, int stage)
 {
     uint32_t flags = STAGE(state, stage, texturetransformflags), count = flags & TEXTURETRANSFORM_COUNT_MASK;

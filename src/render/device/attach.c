@@ -10,7 +10,8 @@
 
 /* --- Releasing --- */
 
-/* Room for what the buffer that is filled will have referred to; null with the reason when memory is short. */
+/* Room for what the buffer that is filled will have referred to; null with the reason when memory is short.
+ */
 static struct released *make_released(struct error *error)
 {
     struct released *released = calloc(1, sizeof *released);

@@ -28,8 +28,8 @@ static struct rectangle cut(const struct triptych_rectangle *r, const struct rec
                               cut_side(r->x, r->width, area->x1), cut_side(r->y, r->height, area->y1)};
 }
 
-/* Moves up to CLEAR_PARTS of the rectangles to `parts`, cut to the area and without those that are empty then.
- * Returns their number. */
+/* Moves up to CLEAR_PARTS of the rectangles to `parts`, cut to the area and without those that are empty
+ * then. Returns their number. */
 static uint32_t take_parts(const struct triptych_rectangle **next, const struct triptych_rectangle *end,
                            const struct rectangle *area, struct rectangle parts[CLEAR_PARTS])
 {

@@ -1,15 +1,15 @@
 /* Attachments: what a target consists of. An attachment is one colour, or depth with stencil, in tiles
- * (contract/layout.h). It belongs to an image or to a surface of a texture, and keeps its contents while it is
- * not drawn to.
+ * (contract/layout.h). It belongs to an image or to a surface of a texture, and keeps its contents while it
+ * is not drawn to.
  *
  * A pixel routine finds the colours of a tile one after the other (struct pixel_arguments). So colours that
  * are drawn to together share memory: each tile of that memory has the planes of all of them in turn. An
  * attachment that is drawn to by itself uses its planes of the same memory, at the same place. Its words move
  * only if it is drawn to together with other colours than before (struct tile_move).
  *
- * A tile that has been cleared as a whole only remembers the value; its words are written when something
- * else needs them. So a clear costs nothing where nothing is drawn, and elsewhere it fills a cache that is
- * about to be used. Each tile is touched by one thread at a time; different tiles by any.
+ * A tile that has been cleared as a whole only remembers the value; its words are written when something else
+ * needs them. So a clear costs nothing where nothing is drawn, and elsewhere it fills a cache that is about
+ * to be used. Each tile is touched by one thread at a time; different tiles by any.
  *
  * Attachments and their memory are counted: images, surfaces of textures and targets hold them. The device's
  * thread counts. */

@@ -1,4 +1,5 @@
-/* The rectangles of a clear, sorted by rows of tiles, so that a tile does not go through those of other rows. */
+/* The rectangles of a clear, sorted by rows of tiles, so that a tile does not go through those of other rows.
+ */
 #include "base/minmax.h"
 #include "render/target/target.h"
 
@@ -22,8 +23,8 @@ size_t target_clear_bytes(const struct rectangle *rectangles, uint32_t count)
     return sizeof(struct clear_parts) + parts * sizeof(struct clear_part);
 }
 
-/* Counts the parts of each row, then places them: begin[r + 1] is where the next part of row r is placed until
- * all are. */
+/* Counts the parts of each row, then places them: begin[r + 1] is where the next part of row r is placed
+ * until all are. */
 void target_clear_sort(const struct rectangle *rectangles, uint32_t count, struct clear_parts *parts)
 {
     uint32_t *next = parts->begin + 1, sum = 0;

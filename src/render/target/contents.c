@@ -27,8 +27,8 @@ size_t target_contents_bytes(const struct triptych_target_description *descripti
     return (size_t)description->width * description->height * samples * words * sizeof(uint32_t);
 }
 
-/* The words of a pixel in a tile: a colour's first plane and depth's, each once for every sample; null if they
- * are not stored. */
+/* The words of a pixel in a tile: a colour's first plane and depth's, each once for every sample; null if
+ * they are not stored. */
 struct pixel {
     uint32_t *color[TARGETS], *depth;
 };

@@ -1,13 +1,13 @@
 /* Surfaces: what is drawn to, read and copied: images, and single levels, faces and slices of textures.
  *
- * An image is an attachment (render/target/attachment.h) and has no other storage. A texture has texels, which
- * are sampled; each of its surfaces that has been drawn to has an attachment too. Both hold the same values:
- * words where the format has 8 bits a channel, four numbers otherwise (render/texture/format.h,
+ * An image is an attachment (render/target/attachment.h) and has no other storage. A texture has texels,
+ * which are sampled; each of its surfaces that has been drawn to has an attachment too. Both hold the same
+ * values: words where the format has 8 bits a channel, four numbers otherwise (render/texture/format.h,
  * def/state/target.def). Depth is the same number in all four channels of a texel; stencil has no place there
  * and stays in the tiles.
  *
- * Drawing makes the tiles newer than the texels, and changes of texels make these newer. A transfer brings one
- * of both up to date. Which one is newer is decided in the order of the calls, when these are queued. */
+ * Drawing makes the tiles newer than the texels, and changes of texels make these newer. A transfer brings
+ * one of both up to date. Which one is newer is decided in the order of the calls, when these are queued. */
 #ifndef RENDER_TARGET_SURFACE_H
 #define RENDER_TARGET_SURFACE_H
 

@@ -58,7 +58,8 @@ struct clear_part {
 
 enum { CLEAR_PARTS = 256, TARGET_ROWS_MAXIMUM = TARGET_SIZE_MAXIMUM / TILE_SIZE };
 
-/* The rectangles of a clear, by rows of tiles: those of row r are part[begin[r]] to part[begin[r + 1] - 1]. */
+/* The rectangles of a clear, by rows of tiles: those of row r are part[begin[r]] to part[begin[r + 1] - 1].
+ */
 struct clear_parts {
     uint32_t begin[TARGET_ROWS_MAXIMUM + 1];
     struct clear_part part[];
@@ -146,8 +147,8 @@ static inline bool target_has_whole(const struct target *target, uint32_t tile)
     return tile % target->columns < target->whole_columns && tile / target->columns < target->whole_rows;
 }
 
-/* Sorts up to CLEAR_PARTS rectangles inside the target, none of them empty (render/target/clear.c): the number
- * of bytes, and the result. */
+/* Sorts up to CLEAR_PARTS rectangles inside the target, none of them empty (render/target/clear.c): the
+ * number of bytes, and the result. */
 size_t target_clear_bytes(const struct rectangle *rectangles, uint32_t count);
 void target_clear_sort(const struct rectangle *rectangles, uint32_t count, struct clear_parts *parts);
 
@@ -164,8 +165,8 @@ void target_forget_depth(struct target *target, uint32_t tile);
 /* The part of a tile of an attachment, by its own numbers, that has pixels. */
 struct rectangle target_attachment_area(const struct attachment *attachment, uint32_t tile);
 
-/* Copies a plane of a tile to rows of an image that are `pitch` words apart; and a constant. `area` is the part
- * of the tile that is copied, in pixels of the image: it begins at the tile's corner. */
+/* Copies a plane of a tile to rows of an image that are `pitch` words apart; and a constant. `area` is the
+ * part of the tile that is copied, in pixels of the image: it begins at the tile's corner. */
 void target_read_tile(const uint32_t *words, const struct rectangle *area, uint32_t *image, size_t pitch);
 void target_read_constant(uint32_t value, const struct rectangle *area, uint32_t *image, size_t pitch);
 

@@ -1,11 +1,11 @@
 /* Compression of blocks, for texels that did not come from blocks, such as computed levels. Integers only, so
  * the result is the same on every machine.
  *
- * A block of colours has two end points and a code for each texel. Three pairs of end points are compared: the
- * corners of the texels' bounding box, the two texels that are farthest apart, and the same two moved apart so
- * that they become the thirds between the ends. Each texel gets the nearest colour. The pair with the least sum
- * of squared differences is the result, the first one of equal pairs. DXT1 compares both orders of the ends, and
- * uses transparent black for texels with alpha below 128.
+ * A block of colours has two end points and a code for each texel. Three pairs of end points are compared:
+ * the corners of the texels' bounding box, the two texels that are farthest apart, and the same two moved
+ * apart so that they become the thirds between the ends. Each texel gets the nearest colour. The pair with
+ * the least sum of squared differences is the result, the first one of equal pairs. DXT1 compares both orders
+ * of the ends, and uses transparent black for texels with alpha below 128.
  *
  * A block of values has two end bytes: the largest and the smallest value, or the smallest and largest ones
  * other than 0 and 255, which have codes of their own then. */

@@ -85,9 +85,9 @@ static inline size_t format_blocks(const struct format *format, uint32_t size)
 void format_decode(const struct format *format, const void *data, size_t pitch, uint32_t width,
                    uint32_t height, void *texels, size_t texels_stride);
 
-/* The way back. Bits that belong to no channel are zero. Compressed blocks are approximations, the same ones on
- * every machine (render/texture/block_encode.c); texels of blocks beyond the width and height count as copies of
- * the last ones. */
+/* The way back. Bits that belong to no channel are zero. Compressed blocks are approximations, the same ones
+ * on every machine (render/texture/block_encode.c); texels of blocks beyond the width and height count as
+ * copies of the last ones. */
 void format_encode(const struct format *format, const void *texels, size_t texels_stride, uint32_t width,
                    uint32_t height, void *data, size_t pitch);
 

@@ -5,10 +5,10 @@
  * image, and they are part of the renderer, the same for every engine.
  *
  * Depth. For each tile two words are kept, a lower and an upper bound of all stored depths (struct
- * depth_clear). A triangle whose depths within the tile fail the test against both bounds is not rasterized. A
- * draw that writes depth widens the bounds; a clear, or a triangle that covers the whole tile, narrows them.
- * (Greene, Kass and Miller, Hierarchical Z-Buffer Visibility, 1993, with one level: tiles are small enough to
- * be the coarse one.)
+ * depth_clear). A triangle whose depths within the tile fail the test against both bounds is not rasterized.
+ * A draw that writes depth widens the bounds; a clear, or a triangle that covers the whole tile, narrows
+ * them. (Greene, Kass and Miller, Hierarchical Z-Buffer Visibility, 1993, with one level: tiles are small
+ * enough to be the coarse one.)
  *
  * Overwriting. A triangle that covers a whole tile, and whose draw writes every channel without reading it,
  * leaves nothing of earlier draws that wrote only colour. Those draws are skipped in this tile.

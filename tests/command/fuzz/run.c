@@ -1,5 +1,5 @@
-/* The runner: a device draws a case once for each number of threads, so a case whose draws read what its later
- * calls change is the same again only if all of it is made as it was. */
+/* The runner: a device draws a case once for each number of threads, so a case whose draws read what its
+ * later calls change is the same again only if all of it is made as it was. */
 #include "command/fuzz/run.h"
 #include "engines/list.h"
 

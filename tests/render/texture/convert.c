@@ -1,5 +1,5 @@
-/* Rows of texels: every bit pattern of every channel goes to the storage and back, bytes and numbers are rounded
- * to nearest, and nothing beyond a row is written. */
+/* Rows of texels: every bit pattern of every channel goes to the storage and back, bytes and numbers are
+ * rounded to nearest, and nothing beyond a row is written. */
 #include "render/texture/convert.h"
 
 #include <math.h>

@@ -1,5 +1,5 @@
-/* Texels in their own format: the bytes of updates come back, also from compressed textures, whose other texels
- * are compressed. */
+/* Texels in their own format: the bytes of updates come back, also from compressed textures, whose other
+ * texels are compressed. */
 #include "render/texture/texture.h"
 #include "tests/support/picture/canvas.h"
 
@@ -157,8 +157,8 @@ static int difference(uint32_t a, uint32_t b)
     return most;
 }
 
-/* Four steps are 21 apart along a ramp of 64, and eight steps of alpha 18 along a ramp of 128. Red and green of
- * the second ramp grow in opposite directions. */
+/* Four steps are 21 apart along a ramp of 64, and eight steps of alpha 18 along a ramp of 128. Red and green
+ * of the second ramp grow in opposite directions. */
 static void test_ramps_are_compressed_to_the_nearest_step(void)
 {
     for (int opposite = 0; opposite < 2; opposite++) {

@@ -1,5 +1,5 @@
-/* Clears of rectangles with masks, in every format of targets. A pixel in any of the rectangles has the channels
- * that are written of a picture that is cleared as a whole, and the others of the picture before. */
+/* Clears of rectangles with masks, in every format of targets. A pixel in any of the rectangles has the
+ * channels that are written of a picture that is cleared as a whole, and the others of the picture before. */
 #include "tests/support/picture/canvas.h"
 
 #include <stdbool.h>

@@ -1,6 +1,6 @@
 /* Primitives, on every engine. Each is drawn a second time as a list of triangles, lines or points with the
- * vertices that def/state/primitive.def defines: both pictures are equal, in all shade and fill modes, clipped
- * or not, with vertices in order and with indices of all sizes. */
+ * vertices that def/state/primitive.def defines: both pictures are equal, in all shade and fill modes,
+ * clipped or not, with vertices in order and with indices of all sizes. */
 #include "tests/support/picture/shape.h"
 
 #include <stdbool.h>
@@ -31,7 +31,8 @@ static void add(struct corner_list *list, unsigned a, unsigned b, unsigned c, un
         list->vertex[list->count++] = vertex[i];
 }
 
-/* The vertices of primitive p of a draw of n primitives, in the order of its winding. Returns their number. */
+/* The vertices of primitive p of a draw of n primitives, in the order of its winding. Returns their number.
+ */
 static unsigned vertices_of(enum triptych_primitive primitive, unsigned p, unsigned n, unsigned vertex[4])
 {
     switch (primitive) {

@@ -113,7 +113,8 @@ static void check_no_fog(void)
     expect_pixel(0, 0, image_word(0x80402010), "fog that is off");
 }
 
-/* Linear fog that starts where it is complete: of a table it covers what is not nearer, of vertices everything. */
+/* Linear fog that starts where it is complete: of a table it covers what is not nearer, of vertices
+ * everything. */
 static void check_fog_without_range(void)
 {
     const float distances[] = {0, 0.25f, 0.5f, 0.75f};

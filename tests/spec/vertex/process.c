@@ -285,7 +285,8 @@ static void test_vertices_in_the_window_stay(void)
     on_every_engine(check_window);
 }
 
-/* The projected vertices are snapped to 1/256 pixel again: edges of this square are far from pixel centres. */
+/* The projected vertices are snapped to 1/256 pixel again: edges of this square are far from pixel centres.
+ */
 static void check_drawn_again(void)
 {
     OK(triptych_set_viewport(device, &(struct triptych_viewport){-10, 5, 66, 51, 0, 1}));

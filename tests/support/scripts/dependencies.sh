@@ -1,7 +1,8 @@
 #!/bin/bash
 # Makes sure that the Debian packages a target needs are installed, and installs those that are not.
 #
-#   tests/support/scripts/dependencies.sh GROUP...    groups: build test bench peers format fuzz browser d3d9 suites programs
+#   tests/support/scripts/dependencies.sh GROUP...    groups: build test bench peers format fuzz browser d3d9
+#                                                     suites programs
 #   tests/support/scripts/dependencies.sh --list
 #
 # Silent when there is nothing to do. Ends non-zero, after naming the packages and their reasons, when a

@@ -1,5 +1,5 @@
-/* The draws. Vertices and indices outside of their buffers do not stop a program: the draw is left out, as far
- * as the renderer refuses it. */
+/* The draws. Vertices and indices outside of their buffers do not stop a program: the draw is left out, as
+ * far as the renderer refuses it. */
 #include "front/d3d9/draw/draw.h"
 #include "front/d3d9/call.h"
 #include "front/d3d9/draw/buffer.h"
@@ -22,8 +22,8 @@ static int primitive_of(uint32_t type)
     return type < sizeof primitives / sizeof *primitives ? primitives[type] : -1;
 }
 
-/* A shader for software vertex processing that is used without: the first draw fails, and further ones use the
- * fixed function, as by Direct3D's runtime. */
+/* A shader for software vertex processing that is used without: the first draw fails, and further ones use
+ * the fixed function, as by Direct3D's runtime. */
 static int32_t check_shader(struct d3d9_device *device)
 {
     struct d3d9_shader *shader = device->state->vertex_shader[0];

@@ -135,8 +135,8 @@ static bool flags_are_valid(uint32_t flags)
     return one && !(flags & D3D9_CREATE_PURE_DEVICE && vertices != D3D9_CREATE_HARDWARE_VERTICES);
 }
 
-/* The window of a swap chain without one is the focus window. A device in a window needs none: its pictures are
- * not shown. */
+/* The window of a swap chain without one is the focus window. A device in a window needs none: its pictures
+ * are not shown. */
 static int32_t choose_window(struct d3d9_present_parameters *p, uint64_t focus, bool extended)
 {
     if (!p->device_window)

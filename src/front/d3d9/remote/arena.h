@@ -1,10 +1,10 @@
-/* An allocator in one given range of memory: the memory that the server shares with a 32-bit program, from which
- * objects and lockable memory are allocated.
+/* An allocator in one given range of memory: the memory that the server shares with a 32-bit program, from
+ * which objects and lockable memory are allocated.
  *
- * The range is a row of blocks, each a header of 64 bytes and its contents. Neighbours are found by sizes in headers
- * (boundary tags: Knuth, The Art of Computer Programming 1, 2.5), so that free neighbours are joined at once. Free
- * blocks are in lists by the power of two of their size. All bookkeeping is in the range; offsets in it are in units of
- * 64 bytes, so a range has at most 2^32 - 1 of them. One thread at a time. */
+ * The range is a row of blocks, each a header of 64 bytes and its contents. Neighbours are found by sizes in
+ * headers (boundary tags: Knuth, The Art of Computer Programming 1, 2.5), so that free neighbours are joined
+ * at once. Free blocks are in lists by the power of two of their size. All bookkeeping is in the range;
+ * offsets in it are in units of 64 bytes, so a range has at most 2^32 - 1 of them. One thread at a time. */
 #ifndef D3D9_REMOTE_ARENA_H
 #define D3D9_REMOTE_ARENA_H
 

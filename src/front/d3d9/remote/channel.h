@@ -1,11 +1,12 @@
-/* Calls from one process to another through shared memory: the program (32-bit) is the client, the server executes.
+/* Calls from one process to another through shared memory: the program (32-bit) is the client, the server
+ * executes.
  *
- * The memory begins with a struct d3d9_channel. The rest of its first part is the client's, for the block of a call and
- * its arguments (packing.h). The second part is the server's arena (arena.h). Both processes map it at the same
- * address, below 2^32.
+ * The memory begins with a struct d3d9_channel. The rest of its first part is the client's, for the block of
+ * a call and its arguments (packing.h). The second part is the server's arena (arena.h). Both processes map
+ * it at the same address, below 2^32.
  *
- * One call is under way at a time. `turn` says who may write; whoever waits for it spins for a short time, then sleeps
- * on it as a futex. */
+ * One call is under way at a time. `turn` says who may write; whoever waits for it spins for a short time,
+ * then sleeps on it as a futex. */
 #ifndef D3D9_REMOTE_CHANNEL_H
 #define D3D9_REMOTE_CHANNEL_H
 
@@ -35,7 +36,8 @@ enum {
     D3D9_CHANNEL_HEADER = 4096 /* from here on the client may use the first part */
 };
 
-/* What both processes wait with: until `turn` is no longer `turn`, or for about a second. Returns the turn. */
+/* What both processes wait with: until `turn` is no longer `turn`, or for about a second. Returns the turn.
+ */
 uint32_t d3d9_channel_wait(struct d3d9_channel *channel, uint32_t turn);
 /* Sets the turn and wakes the other process. */
 void d3d9_channel_pass(struct d3d9_channel *channel, uint32_t turn);
@@ -57,8 +59,9 @@ void d3d9_client_close(struct d3d9_client *client);
 
 /* --- The server --- */
 
-/* Executes calls in the memory of this descriptor until the client or its process, `parent`, has ended. Returns the
- * exit status: 0, or 2 with a line on standard error if the memory cannot be mapped or is not that of a client. */
+/* Executes calls in the memory of this descriptor until the client or its process, `parent`, has ended.
+ * Returns the exit status: 0, or 2 with a line on standard error if the memory cannot be mapped or is not
+ * that of a client. */
 int d3d9_serve(int descriptor, uint32_t address, int parent);
 
 #endif

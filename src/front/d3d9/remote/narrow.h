@@ -1,5 +1,5 @@
-/* Direct3D 9's structures with pointers or handles, as a 32-bit program lays them out, and how they are converted.
- * All other structures have one layout in 32- and 64-bit programs of Windows. */
+/* Direct3D 9's structures with pointers or handles, as a 32-bit program lays them out, and how they are
+ * converted. All other structures have one layout in 32- and 64-bit programs of Windows. */
 #ifndef D3D9_REMOTE_NARROW_H
 #define D3D9_REMOTE_NARROW_H
 

@@ -1,6 +1,6 @@
-/* Two functions for each row of the table of calls. Arguments of the row are local variables in them, so that counts,
- * which are expressions of arguments, can be computed. What a call writes is copied in both directions: then it is
- * unchanged where the call does not write. */
+/* Two functions for each row of the table of calls. Arguments of the row are local variables in them, so that
+ * counts, which are expressions of arguments, can be computed. What a call writes is copied in both
+ * directions: then it is unchanged where the call does not write. */
 #include "packing.h"
 #include "front/d3d9/size.h"
 #include "narrow.h"
@@ -75,16 +75,16 @@ static void unpack_array(const struct d3d9_narrow *type, uint64_t shared, uint64
 /* The layout of the elements that a pointer refers to. Regions are counted in bytes. */
 #define SAME(bytes) (&(const struct d3d9_narrow){bytes, bytes, NULL, NULL, NULL, NULL})
 #define LAYOUT(type, pointer)                                                                                \
-    _Generic((d3d9_type_##type *)0,                                                                                    \
-        uint64_t *: &d3d9_narrow_address,                                                                              \
-        struct d3d9_locked_rect *: &d3d9_narrow_locked_rect,                                                           \
-        struct d3d9_locked_box *: &d3d9_narrow_locked_box,                                                             \
-        struct d3d9_present_parameters *: &d3d9_narrow_present_parameters,                                             \
-        struct d3d9_creation_parameters *: &d3d9_narrow_creation_parameters,                                           \
+    _Generic((d3d9_type_##type *)0,                                                                          \
+        uint64_t *: &d3d9_narrow_address,                                                                    \
+        struct d3d9_locked_rect *: &d3d9_narrow_locked_rect,                                                 \
+        struct d3d9_locked_box *: &d3d9_narrow_locked_box,                                                   \
+        struct d3d9_present_parameters *: &d3d9_narrow_present_parameters,                                   \
+        struct d3d9_creation_parameters *: &d3d9_narrow_creation_parameters,                                 \
         struct d3d9_present_stats *: &d3d9_narrow_present_stats,                                           \
-        struct d3d9_adapter_identifier *: &d3d9_narrow_adapter_identifier,                                           \
-        struct d3d9_region *: SAME(1),                                                                                 \
-        void *: SAME(1),                                                                                               \
+        struct d3d9_adapter_identifier *: &d3d9_narrow_adapter_identifier,                                   \
+        struct d3d9_region *: SAME(1),                                                                       \
+        void *: SAME(1),                                                                                     \
         default: SAME(sizeof *(pointer)))
 #define HOST_LAYOUT(type, pointer)                                                                           \
     _Generic((struct d3d9_##type *)0, struct d3d9_host_picture *                                             \

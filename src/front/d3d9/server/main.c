@@ -1,5 +1,5 @@
-/* triptych-d3d9-server ADDRESS PARENT: executes the calls of a 32-bit program's d3d9.dll, which starts it with the shared
- * memory as descriptor 3 (front/d3d9/remote/channel.h). */
+/* triptych-d3d9-server ADDRESS PARENT: executes the calls of a 32-bit program's d3d9.dll, which starts it
+ * with the shared memory as descriptor 3 (front/d3d9/remote/channel.h). */
 #include "front/d3d9/remote/channel.h"
 
 #include <stdio.h>

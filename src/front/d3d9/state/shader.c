@@ -63,8 +63,8 @@ static int32_t compile(struct d3d9_shader *shader)
     return result == TRIPTYCH_NO_MEMORY ? D3D9_OUT_OF_MEMORY : D3D9_INVALID_CALL;
 }
 
-/* Direct3D refuses pixel shaders that read the position that vertex shaders give. Model 3.0 has lengths in its
- * tokens. */
+/* Direct3D refuses pixel shaders that read the position that vertex shaders give. Model 3.0 has lengths in
+ * its tokens. */
 static bool reads_position(const uint32_t *code, uint64_t tokens)
 {
     enum { VERSION = 0xffff0300, DECLARE = 0x1f, USAGE = 0xf001f, INPUT = 0x10000000, REGISTER = 0x70001800 };

@@ -21,8 +21,8 @@ struct d3d9_pixel_shader {
     struct d3d9_shader shader;
 };
 
-/* Changes what drivers accept although the shader's model forbids it into what the model allows. `tokens` is their
- * number, with the end. M3x3, M4x3 and M3x2 may have a mask with components that they do not write. */
+/* Changes what drivers accept although the shader's model forbids it into what the model allows. `tokens` is
+ * their number, with the end. M3x3, M4x3 and M3x2 may have a mask with components that they do not write. */
 void d3d9_state_tolerate(uint32_t *code, uint64_t tokens);
 
 #endif

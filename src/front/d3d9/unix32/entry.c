@@ -1,4 +1,5 @@
-/* The Unix library of a 32-bit program: it starts the server, a 64-bit program beside it, and sends calls to it. */
+/* The Unix library of a 32-bit program: it starts the server, a 64-bit program beside it, and sends calls to
+ * it. */
 #define _GNU_SOURCE /* dladdr */
 #include "front/d3d9/remote/channel.h"
 #include "front/d3d9/unix/entry.h"

@@ -1,4 +1,5 @@
-/* The allocator of shared memory (front/d3d9/remote/arena.h): random allocations, against a list of what is in use. */
+/* The allocator of shared memory (front/d3d9/remote/arena.h): random allocations, against a list of what is
+ * in use. */
 #include "front/d3d9/remote/arena.h"
 
 #include <stdlib.h>

@@ -1,4 +1,5 @@
-/* Calls of a program in another process (front/d3d9/remote). This program is also the server that its tests start. */
+/* Calls of a program in another process (front/d3d9/remote). This program is also the server that its tests
+ * start. */
 #include "front/d3d9/object.h"
 #include "front/d3d9/remote/channel.h"
 #include "front/d3d9/remote/packing.h"

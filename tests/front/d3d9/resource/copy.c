@@ -1,5 +1,5 @@
-/* Copies between resources (front/d3d9/resource): dirty boxes, uploads, UpdateSurface, UpdateTexture, StretchRect,
- * ColorFill. */
+/* Copies between resources (front/d3d9/resource): dirty boxes, uploads, UpdateSurface, UpdateTexture,
+ * StretchRect, ColorFill. */
 #include "front/d3d9/resource/texture.h"
 #include "tests/support/front/factory.h"
 
