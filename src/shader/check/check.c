@@ -58,6 +58,17 @@ static int declare_output(struct check *check, const struct shader_operand *decl
     return declare_components(check, &check->declared_output[declared->index]);
 }
 
+/* In model 3, a pixel shader reads its place as vPos. The position that the vertex shader writes is no input. */
+static int declare_input(struct check *check, const struct shader_operand *declared)
+{
+    bool vertex = check->model->stage == STAGE_VERTEX;
+    if (vertex && check_usage(check))
+        return -1;
+    if (!vertex && shader_major(check->model) == 3 && check->at->usage == 0 && check->at->usage_index == 0)
+        return refuse_declared(check, "another usage than the position, or vPos");
+    return declare_components(check, &check->declared_input[declared->index]);
+}
+
 static int declare_flag(struct check *check, bool *declared)
 {
     if (*declared)
@@ -69,17 +80,13 @@ static int declare_flag(struct check *check, bool *declared)
 static int check_declaration(struct check *check)
 {
     const struct shader_operand *declared = &check->at->destination;
-    bool vertex = check->model->stage == STAGE_VERTEX;
     if (declared->relative)
         return REFUSE(check, declared, "found a relative index, expected none of dcl");
     if (shader_registers[declared->file].index == NUMBERED &&
         declared->index >= shader_register_count(declared->file, check->model))
         return refuse_declared(check, "a register that the model has");
     switch (declared->file) {
-    case FILE_INPUT:
-        if (vertex && check_usage(check))
-            return -1;
-        return declare_components(check, &check->declared_input[declared->index]);
+    case FILE_INPUT: return declare_input(check, declared);
     case FILE_TEXTURE: return declare_components(check, &check->declared_texture[declared->index]);
     case FILE_SAMPLER: return declare_sampler(check, declared);
     case FILE_OUTPUT: return declare_output(check, declared);

@@ -148,6 +148,8 @@ static const struct {
     {ps20, "mov oC4, r0", "t:5:5: found oC4, expected oC0 to oC3"},
     {ps20, "mov r0, v0", "t:5:9: found v0, expected a dcl of it before"},
     {"ps_2_a\n%s\nmov oC0, r0\n", "mov r22, c0", "t:2:5: found r22, expected r0 to r21"},
+    {"ps_3_0\ndcl_position v0\nmov oC0, v0\n%s", "",
+     "t:2:14: found v0, expected another usage than the position, or vPos"},
     {ps30, "mov r0, vPos", "t:5:9: found vPos, expected a dcl of it before"},
     {ps30, "texkill c0", "t:5:9: found c as the destination of texkill, expected r or v"},
     /* relative addressing */
