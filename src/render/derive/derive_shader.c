@@ -104,17 +104,15 @@ static struct question shader_asks(const struct program *program, int port, unsi
                 : (struct question){.asked = false};
 }
 
-/* The usage that stages request: the divisor can be the third coordinate. */
-static struct question stages_ask(const struct state *state, const struct pixel_key *pixel, int port,
-                                  unsigned c)
+/* The usage that stages request. After vertex shaders the fourth coordinate is the divisor. */
+static struct question stages_ask(const struct pixel_key *pixel, int port, unsigned c)
 {
     if (port < PORT_CHANNEL)
         return (struct question){true, USAGE_COLOR, (unsigned)port, c};
     int stage = derive_channel_stage(pixel, port - PORT_CHANNEL);
     if (stage < 0)
         return (struct question){.asked = false};
-    bool third = c == 3 && derive_projection(state, stage) == PROJECTED_THIRD;
-    return (struct question){true, USAGE_TEXCOORD, (unsigned)stage, third ? 2 : c};
+    return (struct question){true, USAGE_TEXCOORD, (unsigned)stage, c};
 }
 
 /* The fixed function fills a register by its first declaration. */
@@ -139,7 +137,7 @@ void derive_links(const struct state *state, const struct pixel_key *pixel, stru
             continue;
         struct question q = key_program(pixel->shader)
                                 ? shader_asks(derive_pixel_program(state), port, (unsigned)i % 4)
-                                : stages_ask(state, pixel, port, (unsigned)i % 4);
+                                : stages_ask(pixel, port, (unsigned)i % 4);
         if (!q.asked)
             key->link[i] = LINK_NONE;
         else if (program)

@@ -115,29 +115,37 @@ static void test_stages_have_the_coordinates_of_their_number(void)
     on_every_engine(check_stage_coordinates);
 }
 
-/* With `projected`, the outputs of a vertex shader are divided too, by the third or the fourth component. */
+static void expect_projected(uint32_t flags, const struct drawn_element *coordinates, uint32_t expected,
+                             const char *what)
+{
+    OK(triptych_set_stage_state(device, 0, TRIPTYCH_STAGE_TEXTURETRANSFORMFLAGS, flags));
+    draw_declared(TRIPTYCH_USAGE_POSITION, coordinates, coordinates ? 1 : 0);
+    OK(triptych_read_color(device, image, sizeof image));
+    expect_pixel(3, 3, expected, what);
+}
+
+/* With `projected`, coordinates are divided: the fixed function's by the last of their count, the outputs of a
+ * vertex shader by the fourth, whatever the count. Each divisor selects another texel. */
 static void check_projected_stage(void)
 {
+    enum { PROJECTED = TRIPTYCH_TEXTURETRANSFORM_DISABLE_PROJECTED };
     uint32_t words[4] = {0xff000010, 0xff000020, 0xff000030, 0xff000040};
+    struct drawn_element coordinates = drawn_constant(TRIPTYCH_USAGE_TEXCOORD, 0, 0.75f, 0.5f, 2, 6);
     triptych_texture *texture;
     OK(triptych_texture_create(device, words, 4, 1, &texture));
     OK(triptych_set_texture(device, 0, texture));
     set_stage(0, TRIPTYCH_STAGE_COLOROP, "selectarg1");
     for (int shader = 0; shader < 2; shader++) {
-        use_shaders("vs_1_1\ndcl_position v0\ndef c0, 0.75, 0.5, 2, 6\nmov oPos, v0\nmov oT0, c0\n",
-                    shader ? "ps_1_1\ntex t0\nmov r0, t0\n" : NULL);
-        OK(triptych_set_stage_state(device, 0, TRIPTYCH_STAGE_TEXTURETRANSFORMFLAGS, 0));
-        draw_declared(TRIPTYCH_USAGE_POSITION, NULL, 0);
-        OK(triptych_read_color(device, image, sizeof image));
-        expect_pixel(3, 3, words[3], "not divided");
-        OK(triptych_set_stage_state(device, 0, TRIPTYCH_STAGE_TEXTURETRANSFORMFLAGS, 256 | 3));
-        draw_declared(TRIPTYCH_USAGE_POSITION, NULL, 0);
-        OK(triptych_read_color(device, image, sizeof image));
-        expect_pixel(3, 3, words[1], "divided by the third");
-        OK(triptych_set_stage_state(device, 0, TRIPTYCH_STAGE_TEXTURETRANSFORMFLAGS, 256));
-        draw_declared(TRIPTYCH_USAGE_POSITION, NULL, 0);
-        OK(triptych_read_color(device, image, sizeof image));
-        expect_pixel(3, 3, words[0], "divided by the fourth");
+        const char *pixel = shader ? "ps_1_1\ntex t0\nmov r0, t0\n" : NULL;
+        use_shaders("vs_1_1\ndcl_position v0\ndef c0, 0.75, 0.5, 2, 6\nmov oPos, v0\nmov oT0, c0\n", pixel);
+        expect_projected(0, NULL, words[3], "not divided");
+        for (uint32_t count = 0; count <= 4; count++)
+            expect_projected(PROJECTED | count, NULL, words[0], "a shader's, divided by the fourth");
+        use_shaders(NULL, pixel);
+        expect_projected(PROJECTED | 2, &coordinates, words[3], "two are not divided");
+        expect_projected(PROJECTED | 3, &coordinates, words[1], "divided by the third");
+        expect_projected(PROJECTED | 4, &coordinates, words[0], "divided by the fourth");
+        expect_projected(PROJECTED, &coordinates, words[0], "without a count, divided by the fourth");
     }
 }
 
