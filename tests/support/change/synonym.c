@@ -14,8 +14,6 @@ static const struct {
     {"srcblendalpha", "one", "srcalphasat", "for alpha, the factor is 1"},
     {"destblendalpha", "one", "srcalphasat", "for alpha, the factor is 1"},
     {"alphaarg", "", "_alphareplicate", "alpha replicated is alpha"},
-    {"texturetransformflags", "", "_projected",
-     "the last of three or four coordinates divides, not of fewer"},
     {"magfilter", "none", "point", "no filter is the nearest texel"},
     {"minfilter", "none", "point", "no filter is the nearest texel"},
     {"magfilter", "linear", "anisotropic", "a magnified texel has no long side"},
