@@ -22,24 +22,29 @@ static void destroy_shader(struct d3d9_object *object)
     free(shader->code);
 }
 
-/* The software model that has everything of a model, or 0. Instructions of shader model 1 are shorter. */
-static uint32_t software_version(uint32_t version)
+/* Gives a vertex shader the software model that has everything of its own. Returns false if there is none. */
+static bool make_software(uint32_t *code, uint64_t tokens)
 {
-    uint32_t major = version >> 8 & 0xff;
-    return major == 2 || major == 3 ? (version & ~UINT32_C(0xff)) | SOFTWARE_MINOR : 0;
+    enum { FIRST_VERSION = 0xfffe0101 };
+    uint32_t major = code[0] >> 8 & 0xff;
+    if (code[0] == (uint32_t)FIRST_VERSION)
+        return d3d9_state_lengthen(code, tokens);
+    code[0] |= SOFTWARE_MINOR;
+    return major == 2 || major == 3;
 }
 
 /* The program gets its own tokens back, so that the renderer's are a copy. */
-static enum triptych_result pass_on(struct d3d9_shader *shader, uint32_t version)
+static enum triptych_result pass_on(struct d3d9_shader *shader, bool software)
 {
+    uint64_t tokens = shader->bytes / sizeof *shader->code;
+    enum triptych_result result = TRIPTYCH_BAD_ARGUMENT;
     uint32_t *code = malloc(shader->bytes);
     if (!code)
         return TRIPTYCH_NO_MEMORY;
     memcpy(code, shader->code, shader->bytes);
-    code[0] = version;
-    d3d9_state_tolerate(code, shader->bytes / sizeof *code);
-    enum triptych_result result =
-        triptych_shader_create(shader->device->renderer, NULL, code, shader->bytes, &shader->shader);
+    d3d9_state_tolerate(code, tokens);
+    if (!software || make_software(code, tokens))
+        result = triptych_shader_create(shader->device->renderer, NULL, code, shader->bytes, &shader->shader);
     free(code);
     return result;
 }
@@ -49,13 +54,12 @@ static int32_t compile(struct d3d9_shader *shader)
 {
     bool vertex = shader->object.interface == D3D9_INTERFACE_VERTEX_SHADER;
     bool software_device = shader->device->vertex_floats > D3D9_VERTEX_FLOATS;
-    uint32_t version = shader->code[0];
-    shader->software = vertex && (version & 0xff) == SOFTWARE_MINOR;
+    shader->software = vertex && (shader->code[0] & 0xff) == SOFTWARE_MINOR;
     if (shader->software && !software_device)
         return D3D9_INVALID_CALL;
-    enum triptych_result result = pass_on(shader, version);
-    if (result == TRIPTYCH_BAD_ARGUMENT && vertex && software_device && software_version(version)) {
-        result = pass_on(shader, software_version(version));
+    enum triptych_result result = pass_on(shader, false);
+    if (result == TRIPTYCH_BAD_ARGUMENT && vertex && software_device) {
+        result = pass_on(shader, true);
         shader->software = true;
     }
     if (result == TRIPTYCH_OK)

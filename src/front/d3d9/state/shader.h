@@ -25,4 +25,9 @@ struct d3d9_pixel_shader {
  * their number, with the end. M3x3, M4x3 and M3x2 may have a mask with components that they do not write. */
 void d3d9_state_tolerate(uint32_t *code, uint64_t tokens);
 
+/* Changes a vertex shader of model 1.1 into one of model 2 for software vertex processing, which has more
+ * constants: instructions get their lengths. Returns false if it cannot, because an instruction means
+ * something else in model 2 (expp, logp, mov to a0); the code is then only partly changed. */
+bool d3d9_state_lengthen(uint32_t *code, uint64_t tokens);
+
 #endif

@@ -2,7 +2,14 @@
 #include "front/d3d9/state/shader.h"
 
 enum { OPCODE_M4X3 = 21, OPCODE_M3X3 = 23, OPCODE_M3X2 = 24, OPCODE_DEFINE = 81, OPCODE_COMMENT = 0xfffe };
-enum { MASK_SHIFT = 16, DEFINE_TOKENS = 5 };
+enum { OPCODE_MOV = 1, OPCODE_EXPP = 78, OPCODE_LOGP = 79 };
+enum {
+    MASK_SHIFT = 16,
+    LENGTH_SHIFT = 24,
+    DEFINE_TOKENS = 5,
+    MOST_OPERANDS = 15,
+    SOFTWARE_VERSION = 0xfffe02ff
+};
 
 /* The components that a matrix instruction with fewer than four rows writes; 0: another instruction. */
 static uint32_t rows_mask(uint32_t opcode)
@@ -39,4 +46,30 @@ void d3d9_state_tolerate(uint32_t *code, uint64_t tokens)
         if (mask && (written & mask) == mask)
             code[at + 1] = (code[at + 1] & ~(UINT32_C(15) << MASK_SHIFT)) | mask << MASK_SHIFT;
     }
+}
+
+/* expp and logp of model 1 give other components, and its mov rounds an address to the number below. */
+static bool changes_with_model(const uint32_t *instruction)
+{
+    enum { REGISTER = 0x70001800, ADDRESS = 3 << 28 };
+    const uint32_t opcode = instruction[0] & 0xffff;
+    return opcode == OPCODE_EXPP || opcode == OPCODE_LOGP ||
+           (opcode == OPCODE_MOV && (instruction[1] & REGISTER) == ADDRESS);
+}
+
+bool d3d9_state_lengthen(uint32_t *code, uint64_t tokens)
+{
+    for (uint64_t at = 1; at + 1 < tokens;) {
+        const bool comment = (code[at] & 0xffff) == OPCODE_COMMENT;
+        const uint64_t count = operands(code, at, tokens);
+        if (at + 1 + count >= tokens || (!comment && count > MOST_OPERANDS))
+            return false;
+        if (!comment && (code[at] >> MASK_SHIFT || changes_with_model(code + at)))
+            return false;
+        if (!comment)
+            code[at] |= (uint32_t)count << LENGTH_SHIFT;
+        at += 1 + count;
+    }
+    code[0] = SOFTWARE_VERSION;
+    return true;
 }

@@ -259,6 +259,28 @@ static void processed_vertices_are_written_to_a_buffer(void)
     d3d9_object_release((struct d3d9_object *)to);
 }
 
+/* vs_1_1 with the colour c256, which only software vertex processing has. */
+static void a_shader_of_model_1_draws_with_constants_of_software_devices(void)
+{
+    static const uint32_t code[] = {0xfffe0101, 0x0000001f, 0x80000000, 0x900f0000, 0x00000051, 0xa00f0100,
+                                    0,          0x3f800000, 0,          0x3f800000, 0x00000001, 0xd00f0000,
+                                    0xa0e40100, 0x00000001, 0xc00f0000, 0x90e40000, 0x0000ffff};
+    struct d3d9_device *other = device;
+    struct d3d9_vertex_shader *shader = NULL;
+    struct vertex v[4];
+    device = bare_device_make(D3D9_CREATE_SOFTWARE_VERTICES);
+    bare_device_begin(device);
+    TEST_ASSERT_EQUAL_INT32(D3D9_OK, d3d9_device_create_vertex_shader(device, code, &shader));
+    TEST_ASSERT_EQUAL_INT32(D3D9_OK, d3d9_device_set_vertex_shader(device, shader));
+    d3d9_device_set_fvf(device, 0x002);
+    quad(v, RED);
+    TEST_ASSERT_EQUAL_INT32(D3D9_OK, d3d9_device_draw_primitive_up(device, STRIP, 2, v, sizeof v[0]));
+    expect(GREEN);
+    d3d9_object_release((struct d3d9_object *)shader);
+    bare_device_free(device);
+    device = other;
+}
+
 static void without_target_nothing_is_drawn(void)
 {
     TEST_ASSERT_EQUAL_INT32(INVALID, d3d9_device_set_render_target(device, 0, NULL));
@@ -281,6 +303,7 @@ int main(void)
     RUN_TEST(a_stream_without_buffer_is_zeros);
     RUN_TEST(transformed_vertices_pass_the_vertex_shader);
     RUN_TEST(processed_vertices_are_written_to_a_buffer);
+    RUN_TEST(a_shader_of_model_1_draws_with_constants_of_software_devices);
     RUN_TEST(without_target_nothing_is_drawn);
     return UNITY_END();
 }

@@ -195,6 +195,11 @@ static const uint32_t constant_256[] = {0xfffe0200, 0x0200001f, 0x80000000, 0x90
                                         0x02000001, 0xd00f0000, 0xa0e40100, 0x02000001, 0xc00f0000,
                                         0x90e40000, 0x0000ffff};
 
+static const uint32_t first_model_256[] = {0xfffe0101, 0x0000001f, 0x80000000, 0x900f0000, 0x00000051,
+                                           0xa00f0100, 0x3f800000, 0x3f800000, 0x3f800000, 0x3f800000,
+                                           0x00000002, 0x800f0000, 0x90e40000, 0xa0e40100, 0x00000001,
+                                           0xc00f0000, 0x80e40000, 0x0000ffff};
+
 static void shaders_return_their_code(void)
 {
     struct d3d9_vertex_shader *shader = NULL, *bound = NULL;
@@ -221,6 +226,7 @@ static void shaders_that_are_not_valid_are_refused(void)
     TEST_ASSERT_EQUAL_INT32(INVALID, d3d9_device_create_vertex_shader(device, wrong, &vertex));
     TEST_ASSERT_EQUAL_INT32(INVALID, d3d9_device_create_pixel_shader(device, vertex_code, &pixel));
     TEST_ASSERT_EQUAL_INT32(INVALID, d3d9_device_create_vertex_shader(device, constant_256, &vertex));
+    TEST_ASSERT_EQUAL_INT32(INVALID, d3d9_device_create_vertex_shader(device, first_model_256, &vertex));
     TEST_ASSERT_NULL(vertex);
 }
 
@@ -238,6 +244,19 @@ static void software_devices_have_more_constants(void)
     TEST_ASSERT_EQUAL_MEMORY(four, got, sizeof got);
     TEST_ASSERT_EQUAL_INT32(INVALID, d3d9_device_set_vertex_shader_constant_f(device, 8192, four, 1));
     TEST_ASSERT_EQUAL_INT32(D3D9_OK, d3d9_device_create_vertex_shader(device, constant_256, &shader));
+    d3d9_object_release((struct d3d9_object *)shader);
+}
+
+/* A shader of model 1 has them too. The program gets back the code that it gave. */
+static void software_devices_have_more_constants_in_model_1(void)
+{
+    struct d3d9_vertex_shader *shader = NULL;
+    uint32_t code[sizeof first_model_256 / sizeof *first_model_256], bytes = sizeof code;
+    bare_device_free(device);
+    device = bare_device_make(D3D9_CREATE_SOFTWARE_VERTICES);
+    TEST_ASSERT_EQUAL_INT32(D3D9_OK, d3d9_device_create_vertex_shader(device, first_model_256, &shader));
+    TEST_ASSERT_EQUAL_INT32(D3D9_OK, d3d9_vertex_shader_get_function(shader, code, &bytes));
+    TEST_ASSERT_EQUAL_MEMORY(first_model_256, code, sizeof code);
     d3d9_object_release((struct d3d9_object *)shader);
 }
 
@@ -271,6 +290,7 @@ int main(void)
     RUN_TEST(shaders_return_their_code);
     RUN_TEST(shaders_that_are_not_valid_are_refused);
     RUN_TEST(software_devices_have_more_constants);
+    RUN_TEST(software_devices_have_more_constants_in_model_1);
     RUN_TEST(frequencies_that_no_device_has_are_refused);
     return UNITY_END();
 }

@@ -1,10 +1,22 @@
 /* Shaders that their models forbid and drivers accept (front/d3d9/state/tolerate.c). */
 #include "front/d3d9/state/shader.h"
 
+#include <string.h>
 #include <unity.h>
 
 enum { XYZW = 0x800f0005, XYZ = 0x80070005, XY = 0x80030005, X = 0x80010005, SOURCE = 0x90e40000 };
-enum { M4X4 = 20, M4X3 = 21, M3X3 = 23, M3X2 = 24, DEF = 81, END = 0xffff };
+enum {
+    M4X4 = 20,
+    M4X3 = 21,
+    M3X3 = 23,
+    M3X2 = 24,
+    EXPP = 78,
+    LOGP = 79,
+    DEF = 81,
+    NOP = 0,
+    MOV = 1,
+    END = 0xffff
+};
 
 void setUp(void)
 {
@@ -53,6 +65,37 @@ static void an_instruction_after_a_constant_is_found(void)
     TEST_ASSERT_EQUAL_HEX32(XYZ, code[8]);
 }
 
+/* The words of a constant and of a comment stay, and so do operands. */
+static void software_shaders_have_the_lengths_of_instructions(void)
+{
+    uint32_t code[] = {0xfffe0101, 31,         0x80000000, 0x900f0000, DEF, 0xa00f0100, MOV,        XYZW, 0,
+                       0,          0x0001fffe, MOV,        NOP,        MOV, 0xc00f0000, 0xa0e40100, END};
+    uint32_t expected[sizeof code / sizeof *code];
+    memcpy(expected, code, sizeof code);
+    expected[0] = 0xfffe02ff;
+    expected[1] |= 2 << 24;
+    expected[4] |= 5 << 24;
+    expected[13] |= 2 << 24;
+    TEST_ASSERT_TRUE(d3d9_state_lengthen(code, sizeof code / sizeof *code));
+    TEST_ASSERT_EQUAL_HEX32_ARRAY(expected, code, sizeof code / sizeof *code);
+}
+
+static void expect_no_software(uint32_t opcode, uint32_t result)
+{
+    uint32_t code[] = {0xfffe0101, opcode, result, SOURCE, END};
+    TEST_ASSERT_FALSE(d3d9_state_lengthen(code, sizeof code / sizeof *code));
+}
+
+static void instructions_with_another_meaning_in_model_2_stay_in_model_1(void)
+{
+    expect_no_software(EXPP, XYZW);
+    expect_no_software(LOGP, XYZW);
+    expect_no_software(MOV, 0xb0010000);
+    expect_no_software(MOV | 2 << 24, XYZW);
+    expect_no_software(DEF, XYZW);
+    expect_no_software(0x7ffffffe, XYZW);
+}
+
 int main(void)
 {
     UNITY_BEGIN();
@@ -60,5 +103,7 @@ int main(void)
     RUN_TEST(other_masks_stay);
     RUN_TEST(constants_and_comments_are_not_instructions);
     RUN_TEST(an_instruction_after_a_constant_is_found);
+    RUN_TEST(software_shaders_have_the_lengths_of_instructions);
+    RUN_TEST(instructions_with_another_meaning_in_model_2_stay_in_model_1);
     return UNITY_END();
 }
