@@ -363,7 +363,7 @@ static void check_fog_mode(const char *mode, double start, double end, double de
     for (uint32_t i = 0; i < VERTICES; i++) {
         double d = fog_distance(&vertex[i]), expected = (double)vertex[i].specular[3];
         if (!strcmp(mode, "linear"))
-            expected = start != end ? (end - d) / (end - start) : d < end;
+            expected = start != end ? (end - d) / (end - start) : 0;
         else if (!strcmp(mode, "exp"))
             expected = exp(-d * density);
         else if (!strcmp(mode, "exp2"))
