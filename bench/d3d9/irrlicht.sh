@@ -3,9 +3,9 @@
 #
 #   bench/d3d9/irrlicht.sh FOLDER    FOLDER/irrlicht/: *.exe, and media/
 #
-# Debian's package has none of the libraries that Irrlicht would unpack JPEG, PNG and compressed archives with.
-# The pictures are converted to BMP (with alpha: TGA) under their own names, and the map's archive is packed again
-# without compression: Irrlicht finds a picture's format from its contents.
+# Debian's package has none of the libraries that Irrlicht would unpack JPEG, PNG and compressed archives
+# with. The pictures are converted to BMP (with alpha: TGA) under their own names, and the map's archive is
+# packed again without compression: Irrlicht finds a picture's format from its contents.
 set -euo pipefail
 here=$(cd "$(dirname "$0")" && pwd)
 mkdir -p "$1/irrlicht"

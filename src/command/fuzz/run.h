@@ -1,6 +1,7 @@
 /* The runner: draws a case with every engine, width and number of threads, and compares every bit that was
  * drawn: the tiles of the target, of images and of surfaces of textures with all their samples, depth and
- * stencil words, the texels of every texture, the counts of queries. The first engine with the first number of threads is the reference.
+ * stencil words, the texels of every texture, the counts of queries. The first engine with the first number
+ * of threads is the reference.
  *
  * Devices are made once and draw all cases, so that the remains of one case in a device can show in another.
  * A device draws a case once for each number of threads, with the routines that it already has. */

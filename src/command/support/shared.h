@@ -19,7 +19,7 @@
         "no-cache", NULL, "read models again, and keep no mesh", OPTION_IS_FLAG(structure, member)           \
     }
 
-/* unsigned: a frame or a draw of the stream, from 0, and the greatest that can be asked for. */
+/* unsigned: a frame or a draw of the stream, from 0, and the greatest number of one. */
 enum { OPTION_STREAM_MAXIMUM = LIMIT_EXECUTED };
 #define OPTION_FRAME(structure, member)                                                                      \
     {                                                                                                        \

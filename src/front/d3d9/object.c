@@ -180,13 +180,10 @@ struct d3d9_private_data {
     uint8_t data[];
 };
 
-static unsigned pointer_bytes = sizeof(void *);
-static struct d3d9_private_data *unused; /* interfaces for d3d9_foreign_take */
+/* Of the program's interfaces: the Windows side passes them as uint64_t, also for a program of 32 bits. */
+enum { POINTER_BYTES = sizeof(uint64_t) };
 
-void d3d9_object_set_pointer_bytes(unsigned bytes)
-{
-    pointer_bytes = bytes;
-}
+static struct d3d9_private_data *unused; /* interfaces for d3d9_foreign_take */
 
 /* Returns the link to the data with this identifier; null: the first one. */
 static struct d3d9_private_data **find(struct d3d9_object *object, const struct d3d9_guid *identifier)
@@ -216,7 +213,7 @@ int32_t d3d9_object_set_private_data(struct d3d9_object *object, const struct d3
                                      const void *data, uint32_t bytes, uint32_t flags)
 {
     bool is_interface = flags & D3D9_PRIVATE_INTERFACE;
-    if (is_interface && bytes != pointer_bytes)
+    if (is_interface && bytes != POINTER_BYTES)
         return D3D9_INVALID_CALL;
     if (bytes && !data)
         return D3D9_INVALID_CALL;

@@ -50,8 +50,6 @@ struct d3d9_object {
 
 /* Registers the vtable of an interface, at the start of the process. */
 void d3d9_object_set_face(enum d3d9_interface, uint64_t face);
-/* The bytes of a pointer of the program, 4 or 8. It is 8 without a call. */
-void d3d9_object_set_pointer_bytes(unsigned bytes);
 /* The name in Direct3D's headers. */
 const char *d3d9_object_interface_name(enum d3d9_interface);
 /* Returns true if an interface is `base` or extends it. */

@@ -23,7 +23,4 @@ struct d3d9_presentation {
     struct d3d9_device *next; /* of all devices of the process */
 };
 
-/* Drops what the presentation holds, when the device is destroyed. */
-void d3d9_presentation_end(struct d3d9_device *);
-
 #endif

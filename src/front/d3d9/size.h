@@ -1,5 +1,5 @@
 /* How much memory an argument refers to: the counts of elements in the folder calls, where they do not follow
- * from a number of the call alone. Pointers may be null; the answer then is 0. */
+ * from one number of the call. Pointers may be null; the answer then is 0. */
 #ifndef D3D9_SIZE_H
 #define D3D9_SIZE_H
 
@@ -16,7 +16,7 @@ enum {
 };
 enum { D3D9_SIZE_INDEX32 = 102 };
 
-/* A number that the program has put where it wants the actual one. */
+/* A number that the program has put where the actual one is written. */
 static inline uint64_t d3d9_size_given(const uint32_t *count)
 {
     return count ? *count : 0;

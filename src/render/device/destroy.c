@@ -1,5 +1,5 @@
-/* Destruction of buffers, textures, images and queries, which are unbound. What queued draws may read is
- * retired (render/device/storage.c). */
+/* Destruction of buffers, textures, images and queries, which are unbound. Memory that queued draws may
+ * read is retired (render/device/storage.c). */
 #include "render/device/device.h"
 
 #include <stdlib.h>

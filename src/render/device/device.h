@@ -366,7 +366,7 @@ enum triptych_result device_prepare_draw(struct triptych_device *device, enum tr
 enum triptych_result device_check_no_instances(const struct triptych_device *device, struct error *error);
 /* Fails if there is no target, no position, or constants that shaders must not run with. */
 enum triptych_result device_check_vertex_input(struct triptych_device *device, struct error *error);
-/* What is read next is stream 0, not immediate vertices. */
+/* The next draw reads stream 0, not immediate vertices. */
 void device_use_streams(struct triptych_device *device);
 /* Checks that the elements that a vertex routine reads have vertices up to `last`. */
 enum triptych_result device_check_elements(const struct state *state, const struct vertex_key *key,

@@ -213,14 +213,6 @@ void target_move_tile(const struct tile_move *move, uint32_t tile)
            (size_t)attachment_planes(a) * a->samples * TILE_PLANE_BYTES);
 }
 
-void target_move_all(struct target *target)
-{
-    for (uint32_t i = 0; i < target->moves; i++)
-        for (uint32_t tile = 0; tile < target->move[i].attachment->columns * target->move[i].attachment->rows;
-             tile++)
-            target_move_tile(&target->move[i], tile);
-}
-
 /* --- The whole --- */
 
 void target_describe(const struct target *target, struct triptych_target_description *description)

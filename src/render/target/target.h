@@ -91,9 +91,8 @@ int target_bind(struct target *target, const struct triptych_target_description 
                 const struct target_parts *parts, struct error *error);
 void target_destroy(struct target *target);
 
-/* Moves the words of one of the attachment's tiles, from 0 to columns * rows - 1; all words of all moves. */
+/* Moves the words of one of the attachment's tiles, from 0 to columns * rows - 1. */
 void target_move_tile(const struct tile_move *move, uint32_t tile);
-void target_move_all(struct target *target);
 
 /* The format that a description has for colour target t; null: none. Its number is a format's. */
 const struct format *target_format(const struct triptych_target_description *description, unsigned t);

@@ -58,7 +58,8 @@ static int declare_output(struct check *check, const struct shader_operand *decl
     return declare_components(check, &check->declared_output[declared->index]);
 }
 
-/* In model 3, a pixel shader reads its place as vPos. The position that the vertex shader writes is no input. */
+/* In model 3, a pixel shader reads its place as vPos. The position that the vertex shader writes is not
+ * an input. */
 static int declare_input(struct check *check, const struct shader_operand *declared)
 {
     bool vertex = check->model->stage == STAGE_VERTEX;

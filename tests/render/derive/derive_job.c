@@ -34,7 +34,7 @@ static void the_viewport_maps_ndc_to_subpixels(void)
     TEST_ASSERT_EQUAL_FLOAT(0.5f, job.depth_scale);
 }
 
-/* A bound of the band is that many pixels away, or 2^20 halves of the viewport. */
+/* A bound of the band is `pixels` away, or 2^20 halves of the viewport. */
 static void expect_band(float guard, float scale, float offset, double pixels)
 {
     double window = ((double)guard * (double)scale + (double)offset) / 256;

@@ -114,17 +114,8 @@ bool d3d9_check_back_buffer(uint32_t display, uint32_t back_buffer, bool windowe
            (display == TRIPTYCH_SURFACE_X1R5G5B5 && back_buffer == TRIPTYCH_SURFACE_A1R5G5B5);
 }
 
-/* The type D3DMULTISAMPLE_NONMASKABLE has 2, 4 and 8 samples for its qualities. */
-uint32_t d3d9_check_samples(uint32_t type, uint32_t quality)
-{
-    if (type == MULTISAMPLE_NONE)
-        return 1; /* of any quality */
-    if (quality >= d3d9_check_quality_levels(type))
-        return 0;
-    return type == MULTISAMPLE_BY_QUALITY ? 2u << quality : type;
-}
-
-uint32_t d3d9_check_quality_levels(uint32_t type)
+/* The number of quality levels of a type; 0: the type is not supported. */
+static uint32_t quality_levels(uint32_t type)
 {
     switch (type) {
     case MULTISAMPLE_NONE:
@@ -134,6 +125,16 @@ uint32_t d3d9_check_quality_levels(uint32_t type)
     case MULTISAMPLE_BY_QUALITY: return QUALITY_LEVELS;
     default: return 0;
     }
+}
+
+/* The type D3DMULTISAMPLE_NONMASKABLE has 2, 4 and 8 samples for its qualities. */
+uint32_t d3d9_check_samples(uint32_t type, uint32_t quality)
+{
+    if (type == MULTISAMPLE_NONE)
+        return 1; /* of any quality */
+    if (quality >= quality_levels(type))
+        return 0;
+    return type == MULTISAMPLE_BY_QUALITY ? 2u << quality : type;
 }
 
 uint32_t d3d9_check_mode_count(uint32_t adapter, uint32_t format)
@@ -195,7 +196,7 @@ int32_t d3d9_factory_check_device_multi_sample_type(struct d3d9_factory *self, u
         return result;
     if (samples > MOST_SAMPLES || number == D3D9_FORMAT_UNKNOWN)
         return D3D9_INVALID_CALL;
-    uint32_t found = d3d9_check_quality_levels(samples);
+    uint32_t found = quality_levels(samples);
     if (levels)
         *levels = found ? found : 1;
     if (samples == MULTISAMPLE_NONE)

@@ -16,7 +16,5 @@ uint32_t d3d9_check_mode_count(uint32_t adapter, uint32_t format);
 
 /* The number of samples of a D3DMULTISAMPLE_TYPE and quality; 0: not supported. */
 uint32_t d3d9_check_samples(uint32_t type, uint32_t quality);
-/* The number of quality levels of a type; 0: the type is not supported. */
-uint32_t d3d9_check_quality_levels(uint32_t type);
 
 #endif

@@ -91,11 +91,3 @@ uint32_t d3d9_format_rows(const struct d3d9_format *format, uint32_t height)
 {
     return (height + format->side - 1) / format->side;
 }
-
-uint32_t d3d9_format_mask(const struct d3d9_format *format, unsigned channel)
-{
-    const struct d3d9_channel *c = &format->channel[channel];
-    if (!c->bits || c->shift >= 32)
-        return 0;
-    return (c->bits >= 32 ? 0xffffffffu : (1u << c->bits) - 1) << c->shift;
-}

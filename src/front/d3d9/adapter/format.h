@@ -68,7 +68,5 @@ bool d3d9_format_is_depth(const struct d3d9_format *);
 /* The bytes of a row of blocks without padding, and the rows of blocks of an image. */
 uint32_t d3d9_format_row_bytes(const struct d3d9_format *, uint32_t width);
 uint32_t d3d9_format_rows(const struct d3d9_format *, uint32_t height);
-/* The bits of the mask of a channel in a word of the texel. */
-uint32_t d3d9_format_mask(const struct d3d9_format *, unsigned channel);
 
 #endif

@@ -1,5 +1,5 @@
-/* GetDeclaration: the call copies as many elements as its count says, which a program does not have to
- * set. The function has the type of that of call.h. */
+/* GetDeclaration: the call copies `count` elements, a number that a program does not have to set. The
+ * function has the type of that of call.h. */
 #ifndef D3D9_PE_DECLARATION_H
 #define D3D9_PE_DECLARATION_H
 

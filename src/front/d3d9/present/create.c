@@ -29,7 +29,8 @@ int32_t d3d9_host_end(void)
     return D3D9_OK;
 }
 
-void d3d9_presentation_end(struct d3d9_device *device)
+/* Drops what the presentation holds, when the device is destroyed. */
+static void end_presentation(struct d3d9_device *device)
 {
     struct d3d9_presentation *state = &device->presentation;
     d3d9_object_exchange((struct d3d9_object **)&state->depth, NULL);
@@ -51,7 +52,7 @@ static void destroy(struct d3d9_object *object)
         drop_targets(device);
     if (device->state)
         d3d9_device_free_state(device);
-    d3d9_presentation_end(device);
+    end_presentation(device);
     d3d9_statistics_end(&device->statistics, device->renderer);
     triptych_device_destroy(device->renderer);
 }

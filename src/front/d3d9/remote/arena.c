@@ -65,7 +65,7 @@ static uint32_t find(const struct d3d9_arena *arena, uint32_t units)
 
 /* --- Blocks --- */
 
-/* Writes a block's size, and tells it to the block after it. */
+/* Writes a block's size, also to the block after it. */
 static void set_size(struct d3d9_arena *arena, uint32_t at, uint32_t units)
 {
     header_at(arena, at)->units = units;

@@ -3,7 +3,7 @@
  *
  * The range is a row of blocks, each a header of 64 bytes and its contents. Neighbours are found by sizes in
  * headers (boundary tags: Knuth, The Art of Computer Programming 1, 2.5), so that free neighbours are joined
- * at once. Free blocks are in lists by the power of two of their size. All bookkeeping is in the range;
+ * immediately. Free blocks are in lists by the power of two of their size. All bookkeeping is in the range;
  * offsets in it are in units of 64 bytes, so a range has at most 2^32 - 1 of them. One thread at a time. */
 #ifndef D3D9_REMOTE_ARENA_H
 #define D3D9_REMOTE_ARENA_H
@@ -27,7 +27,7 @@ void d3d9_arena_create(struct d3d9_arena *arena, void *base, size_t bytes);
 void *d3d9_arena_allocate(struct d3d9_arena *arena, size_t bytes);
 void d3d9_arena_free(struct d3d9_arena *arena, void *memory);
 
-/* Bytes that are not free, with headers. */
+/* For tests: bytes that are not free, with headers. After all memory is freed there must be none. */
 size_t d3d9_arena_used(const struct d3d9_arena *arena);
 
 #endif

@@ -5,8 +5,8 @@
  * a call and its arguments (packing.h). The second part is the server's arena (arena.h). Both processes map
  * it at the same address, below 2^32.
  *
- * One call is under way at a time. `turn` says who may write; whoever waits for it spins for a short time,
- * then sleeps on it as a futex. */
+ * One call is under way at a time. `turn` is the process that may write; the other one spins for a short
+ * time, then sleeps on `turn` as a futex. */
 #ifndef D3D9_REMOTE_CHANNEL_H
 #define D3D9_REMOTE_CHANNEL_H
 
@@ -25,7 +25,7 @@ struct d3d9_channel {
     uint32_t codes;        /* D3D9_CODE_COUNT of the client: both must have the same table of calls */
     uint32_t bytes, arena; /* of the memory; where its second part begins */
     _Atomic uint32_t turn;
-    _Atomic uint32_t sleepers; /* who sleeps on `turn` */
+    _Atomic uint32_t sleepers; /* processes that sleep on `turn` */
     uint32_t code, block;      /* the call, and the address of its block */
     int32_t result;            /* of d3d9_dispatch */
 };
@@ -36,8 +36,8 @@ enum {
     D3D9_CHANNEL_HEADER = 4096 /* from here on the client may use the first part */
 };
 
-/* What both processes wait with: until `turn` is no longer `turn`, or for about a second. Returns the turn.
- */
+/* Both processes wait with this: until the turn is no longer `turn`, or for about a second. Returns the
+ * turn. */
 uint32_t d3d9_channel_wait(struct d3d9_channel *channel, uint32_t turn);
 /* Sets the turn and wakes the other process. */
 void d3d9_channel_pass(struct d3d9_channel *channel, uint32_t turn);

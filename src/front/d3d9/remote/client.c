@@ -18,7 +18,7 @@ static int fail(char *reason, size_t bytes, const char *server, const char *doin
     return -1;
 }
 
-/* Maps the memory where the system wants it; a 64-bit client has to ask for an address below 2^32. */
+/* Maps the memory at an address that the system chooses; a 64-bit client needs one below 2^32. */
 static void *map(int descriptor)
 {
 #ifdef MAP_32BIT

@@ -1,6 +1,6 @@
 /* Two functions for each row of the table of calls. Arguments of the row are local variables in them, so that
- * counts, which are expressions of arguments, can be computed. What a call writes is copied in both
- * directions: then it is unchanged where the call does not write. */
+ * counts, which are expressions of arguments, can be computed. Memory that a call writes is copied in
+ * both directions: then it is unchanged where the call does not write. */
 #include "packing.h"
 #include "front/d3d9/size.h"
 #include "narrow.h"
@@ -197,7 +197,7 @@ struct form {
     void (*unpack)(void *block, void *shared);
 };
 
-/* The types of results: whether they can say that a call has failed. */
+/* The types of results: whether they can report that a call has failed. */
 enum {
     CAN_FAIL_HRESULT = 1,
     CAN_FAIL_UINT = 0,

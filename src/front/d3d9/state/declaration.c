@@ -47,8 +47,10 @@ static uint32_t code_of(const struct d3d9_vertex_element *elements, unsigned cou
     return elements->usage == TRIPTYCH_USAGE_POSITIONT && elements->type == FLOAT4 ? FVF_XYZRHW : 0;
 }
 
-int32_t d3d9_state_make_declaration(struct d3d9_device *device, const struct d3d9_vertex_element *elements,
-                                    unsigned count, struct d3d9_declaration **out)
+/* Makes a declaration of `count` elements, which ends are not part of, with one reference. D3D9_FAIL for
+ * elements that no device accepts. */
+static int32_t make(struct d3d9_device *device, const struct d3d9_vertex_element *elements, unsigned count,
+                    struct d3d9_declaration **out)
 {
     for (unsigned i = 0; i < count; i++)
         if (check_element(elements + i) != D3D9_OK)
@@ -78,7 +80,7 @@ int32_t d3d9_device_create_vertex_declaration(struct d3d9_device *device,
     while (elements[count].stream != END_STREAM)
         if (++count > TRIPTYCH_DECLARATION_ELEMENTS)
             return D3D9_FAIL;
-    return d3d9_state_make_declaration(device, elements, count, out);
+    return make(device, elements, count, out);
 }
 
 int32_t d3d9_declaration_get_declaration(struct d3d9_declaration *declaration,
@@ -120,7 +122,7 @@ static struct d3d9_declaration *declaration_of(struct d3d9_device *device, uint3
     if (made)
         return made;
     unsigned count = d3d9_state_fvf_elements(fvf, elements);
-    if (d3d9_state_make_declaration(device, elements, count, &made) != D3D9_OK)
+    if (make(device, elements, count, &made) != D3D9_OK)
         return NULL;
     made->fvf = fvf;
     made->next = device->declarations;

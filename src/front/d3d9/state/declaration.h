@@ -16,10 +16,6 @@ struct d3d9_declaration {
     uint16_t streams; /* those that it names, bit i stream i */
 };
 
-/* Makes a declaration of `count` elements, which ends are not part of, with one reference. D3D9_FAIL for
- * elements that no device accepts. */
-int32_t d3d9_state_make_declaration(struct d3d9_device *, const struct d3d9_vertex_element *elements,
-                                    unsigned count, struct d3d9_declaration **out);
 /* The elements of a vertex format code, at most TRIPTYCH_DECLARATION_ELEMENTS. Returns their number. */
 unsigned d3d9_state_fvf_elements(uint32_t fvf, struct d3d9_vertex_element *elements);
 
