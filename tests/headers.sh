@@ -2,8 +2,8 @@
 # Every header of src/ and emu/ compiles by itself, with gcc and clang, so it includes everything that it
 # uses. Headers of the specification are compiled with the binding that does nothing (contract/language.h).
 # Two headers are exceptions: emu/emulate/quad.h is the middle of bind.h, and src/engines/external/vector.h is
-# a text for the system's compiler. src/front/d3d9/pe is for Windows' compiler. The compilation database has an
-# entry for every other C source and every header of the specification.
+# a text for the system's compiler. src/front/d3d9/pe is for Windows' compiler. The compilation database has
+# an entry for every other C source and every header of the specification.
 # Runs once.
 set -u
 cd "$(dirname "$0")/.." || exit 1

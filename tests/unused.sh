@@ -4,7 +4,7 @@
 # The public interface is exempt, as are the variants of fragments with an operand in memory: the stitcher
 # finds them by their position after the first variant. A name that only tests or checked builds use is an
 # error, unless its declaration or the comment above it has "For tests:" or "For checks:" and the reason.
-# Patches of tests/extend and the Windows side of Direct3D 9, which has another compiler, count as sources.
+# Patches of tests/extend and the sides of Direct3D 9 that have other compilers count as sources.
 set -u
 cd "$(dirname "$0")/.." || exit 1
 build=${BUILD:-build}
@@ -62,7 +62,7 @@ has_reason() # NAME
 for kind in none tests; do
     : >"$work/$kind"
     while read -r name source; do
-        grep -qrw "$name" tests/extend/*/change.patch src/front/d3d9/pe 2>/dev/null || has_reason "$name" || echo "$source: $name"
+        grep -qrw "$name" tests/extend/*/change.patch src/front/d3d9/{pe,unix32} 2>/dev/null || has_reason "$name" || echo "$source: $name"
     done < <(awk -v kind=$kind '$1 == kind { print $2, $3 }' "$work/unused") >"$work/$kind"
 done
 [[ -s $work/sources ]] || echo "no object has a name: is $build built?" >"$work/none"

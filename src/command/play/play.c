@@ -13,7 +13,7 @@
 
 /* --- Resources ------------------------------------------------------------------------------------------ */
 
-enum triptych_result player_fill(triptych_device *device, const struct resource *resource,
+static enum triptych_result fill(triptych_device *device, const struct resource *resource,
                                  triptych_texture *texture)
 {
     struct triptych_texture shape;
@@ -34,7 +34,7 @@ static enum triptych_result create_texture(triptych_device *device, const struct
                                            triptych_texture **texture)
 {
     enum triptych_result result = triptych_texture_define(device, &resource->texture, texture);
-    return result ? result : player_fill(device, resource, *texture);
+    return result ? result : fill(device, resource, *texture);
 }
 
 enum triptych_result player_create(triptych_device *device, const struct resource *resource,

@@ -33,10 +33,6 @@ enum triptych_result player_create(triptych_device *device, const struct resourc
                                    struct handles *handles);
 void player_destroy(triptych_device *device, const struct handles *handles);
 
-/* Sets the contents of a texture as the stream defines them. */
-enum triptych_result player_fill(triptych_device *device, const struct resource *resource,
-                                 triptych_texture *texture);
-
 /* Execute a call: changes of state; changes of pixels and query results. */
 enum triptych_result player_execute_state(struct player *player, const struct call *call);
 enum triptych_result player_execute_pixels(struct player *player, const struct call *call);

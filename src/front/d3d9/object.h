@@ -50,7 +50,7 @@ struct d3d9_object {
 
 /* Registers the vtable of an interface, at the start of the process. */
 void d3d9_object_set_face(enum d3d9_interface, uint64_t face);
-/* The name in Direct3D's headers. */
+/* For tests: the name in Direct3D's headers, which a failure shows. */
 const char *d3d9_object_interface_name(enum d3d9_interface);
 /* Returns true if an interface is `base` or extends it. */
 bool d3d9_object_interface_is(enum d3d9_interface, enum d3d9_interface base);

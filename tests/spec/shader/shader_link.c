@@ -124,8 +124,8 @@ static void expect_projected(uint32_t flags, const struct drawn_element *coordin
     expect_pixel(3, 3, expected, what);
 }
 
-/* With `projected`, coordinates are divided: the fixed function's by the last of their count, the outputs of a
- * vertex shader by the fourth, whatever the count. Each divisor selects another texel. */
+/* With `projected`, coordinates are divided: the fixed function's by the last of their count, the outputs of
+ * a vertex shader by the fourth, whatever the count. Each divisor selects another texel. */
 static void check_projected_stage(void)
 {
     enum { PROJECTED = TRIPTYCH_TEXTURETRANSFORM_DISABLE_PROJECTED };

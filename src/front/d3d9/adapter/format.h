@@ -58,7 +58,7 @@ enum {
 
 /* Returns null if the table has no such format. */
 const struct d3d9_format *d3d9_format_find(uint32_t number);
-/* Format `i` of the table; null past the last. */
+/* For tests: format `i` of the table, so that all are tried; null past the last. */
 const struct d3d9_format *d3d9_format_at(unsigned i);
 
 /* Returns true if a display can have the format: 16 or 32 bits without alpha. */

@@ -54,7 +54,7 @@ int d3d9_client_open(struct d3d9_client *client, const char *server, uint32_t co
                      size_t bytes);
 /* Executes the call in channel->code and channel->block. Returns 0, or -1 if the server has ended. */
 int d3d9_client_call(struct d3d9_client *client);
-/* Ends the server and unmaps the memory. */
+/* Ends the server and unmaps the memory. For tests: a program that ends leaves this to the server. */
 void d3d9_client_close(struct d3d9_client *client);
 
 /* --- The server --- */
