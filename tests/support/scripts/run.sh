@@ -4,7 +4,7 @@
 #   tests/support/scripts/run.sh FILTER BUILD...
 #
 # A build's tests are its Unity programs, BUILD/tests/**, one for every source tests/**/*.c outside
-# tests/support/ and tests/command/fuzz/targets/, and the executable scripts tests/*.sh, which print a line
+# tests/support/, tests/command/fuzz/targets/ and tests/front/d3d9/pe/, and the executable scripts tests/*.sh, which print a line
 # "ok NAME" or "FAIL NAME" for each test. Their environment contains TRIPTYCH (the command), BUILD (the
 # build), SANITIZE=1 if the build is instrumented for sanitizers, and SLOW=1 if it is instrumented in any way.
 # A script that uses no build has the line "# Runs once." and runs only for the first build. A build with the
@@ -83,8 +83,8 @@ tests=()
 while IFS= read -r test; do
     [[ $test != *"$filter"* ]] || tests+=("$test")
 done < <(find tests -maxdepth 1 -name '*.sh' -perm -u+x -print | sort
-    find tests \( -path tests/support -o -path tests/command/fuzz/targets \) -prune -o -name '*.c' -print |
-        sort)
+    find tests \( -path tests/support -o -path tests/command/fuzz/targets -o -path tests/front/d3d9/pe \) \
+        -prune -o -name '*.c' -print | sort)
 
 count=0
 for test in "${tests[@]}"; do
