@@ -4,11 +4,11 @@
 #   tests/support/scripts/run.sh FILTER BUILD...
 #
 # A build's tests are its Unity programs, BUILD/tests/**, one for every source tests/**/*.c outside
-# tests/support/, tests/command/fuzz/targets/ and tests/front/d3d9/pe/, and the executable scripts tests/*.sh, which print a line
-# "ok NAME" or "FAIL NAME" for each test. Their environment contains TRIPTYCH (the command), BUILD (the
-# build), SANITIZE=1 if the build is instrumented for sanitizers, and SLOW=1 if it is instrumented in any way.
-# A script that uses no build has the line "# Runs once." and runs only for the first build. A build with the
-# thread sanitizer has only some programs; these and threads.sh are run.
+# tests/support/, tests/command/fuzz/targets/ and tests/front/d3d9/pe/, and the executable scripts
+# tests/*.sh, which print a line "ok NAME" or "FAIL NAME" for each test. Their environment contains TRIPTYCH
+# (the command), BUILD (the build), SANITIZE=1 if the build is instrumented for sanitizers, and SLOW=1 if it
+# is instrumented in any way. A script that uses no build has the line "# Runs once." and runs only for the
+# first build. A build with the thread sanitizer has only some programs; these and threads.sh are run.
 # FILTER keeps the tests whose path contains it.
 #
 # Prints a line when a program ends, the output of failing programs, and at the end "N passed, N failed". A
