@@ -62,7 +62,7 @@ has_reason() # NAME
 for kind in none tests; do
     : >"$work/$kind"
     while read -r name source; do
-        grep -qrw "$name" tests/extend/*/change.patch src/front/d3d9/{pe,unix32} 2>/dev/null || has_reason "$name" || echo "$source: $name"
+        grep -qrw "$name" tests/extend/*/change.patch src/front/d3d9/{pe,unix32,server} 2>/dev/null || has_reason "$name" || echo "$source: $name"
     done < <(awk -v kind=$kind '$1 == kind { print $2, $3 }' "$work/unused") >"$work/$kind"
 done
 [[ -s $work/sources ]] || echo "no object has a name: is $build built?" >"$work/none"
