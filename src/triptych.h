@@ -270,8 +270,7 @@ struct triptych_processed_vertex {
     float color[2][4];    /* diffuse and specular */
     float texcoord[8][4]; /* of the stages: generated and transformed; u, v, third coordinate, divisor */
     float point_size;     /* pixels */
-    float
-        fog; /* the weight of the colour against the fog, 0 to 1; 1 without fog, 0 of a shader without it */
+    float fog; /* the weight of the colour against the fog, 0 to 1; 1 without fog, 0 from a shader without */
 };
 
 enum triptych_copy_filter { TRIPTYCH_COPY_POINT, TRIPTYCH_COPY_LINEAR, TRIPTYCH_COPY_COUNT };
