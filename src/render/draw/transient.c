@@ -68,8 +68,8 @@ uint32_t transient_place(struct transient *transient, const struct immediate *im
 {
     if (immediate->moves || stream->offset > transient->used)
         stream->offset = aligned(transient->used);
-    uint32_t behind = transient->used > stream->offset ? (uint32_t)(transient->used - stream->offset) : 0;
-    uint32_t first = (behind + immediate->stride - 1) / immediate->stride;
+    uint32_t filled = transient->used > stream->offset ? (uint32_t)(transient->used - stream->offset) : 0;
+    uint32_t first = (filled + immediate->stride - 1) / immediate->stride;
     copy(transient, stream->offset + (size_t)first * immediate->stride, immediate->vertices,
          immediate->vertex_bytes);
     *indices = NULL;
