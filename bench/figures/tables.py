@@ -17,6 +17,7 @@ COMMANDS = {
     "flow": "make bench-shaders",
     "peers": "make peers",
     "fuzz": "triptych fuzz",
+    "programs": "make programs-d3d9",
 }
 
 
@@ -52,6 +53,10 @@ def engine_fields(file):
         for run in each.get("engines", []):
             if isinstance(run, dict):
                 found.setdefault(run["engine"], run)
+    if isinstance(report.get("engine"), dict):
+        found[report["engine"]["engine"]] = report["engine"]
+    if isinstance(report.get("renderers"), dict):
+        return found
     for each in report.get("renderers", []) + report.get("builds", []) + report.get("cold", []):
         found.setdefault(each.get("name", each.get("engine")), each)
     return found
@@ -358,6 +363,78 @@ def means():
 
 
 # --- Checks and history ------------------------------------------------------------------------------------------------
+
+
+# --- Programs of others ------------------------------------------------------------------------------------------
+
+
+def programs():
+    return load("programs")["programs"]
+
+
+@text
+def programs_pictures():
+    """How the pictures differ from those of Wine's own Direct3D 9."""
+    rows = []
+    for each in programs():
+        picture = each["picture"]
+        rows.append(
+            [each["program"], f"{picture['pixels']:,}", f"{picture['mean']:.2f}", f"{picture['far_percent']:.3f} %"]
+            + ["yes" if picture["agrees"] else "no"]
+        )
+    return markdown(["program", "pixels", "mean difference", "differ by more than 16", "agrees"], rows)
+
+
+def program_times(times):
+    if not times:
+        return ["", "", ""]
+    shown = [f"{times[name]:,.0f}" if name in times else "" for name in ("first_ms", "longest_ms")]
+    return [significant(times["fps"])] + shown
+
+
+@text
+def programs_speed():
+    """Frames per second, first and longest frame of both sides, by number of threads."""
+    rows = []
+    for each in programs():
+        for row in each["speed"]:
+            ours, wines = row["triptych"], row["wine"]
+            ratio = f"{ours['fps'] / wines['fps']:.2f}" if ours and wines else ""
+            rows.append([each["program"], row["threads"], *program_times(ours), *program_times(wines), ratio])
+    heads = ["program", "threads", "frames/s", "first, ms", "longest, ms"]
+    return markdown(heads + ["Wine frames/s", "Wine first, ms", "Wine longest, ms", "times"], rows)
+
+
+@text
+def programs_caches():
+    """Draws, routines and hits of a run."""
+    rows = []
+    for each in programs():
+        found = each["statistics"]
+        routines = found["routines"]
+        looked_up = found["cache_hits"] + found["cache_misses"]
+        rows.append(
+            [each["program"], f"{found['draws'] / found['frames']:,.0f}", f"{found['routines_of_a_frame']:.1f}"]
+            + [routines["vertex"], routines["setup"], routines["pixel"]]
+            + [f"{100 * found['cache_hits'] / looked_up:.3f} %", f"{found['build_ms']:.1f}"]
+        )
+    heads = ["program", "draws of a frame", "routines of a frame", "vertex", "setup", "pixel", "hits", "built in ms"]
+    return markdown(heads, rows)
+
+
+@text
+def programs_recordings():
+    """Size of each recording, and milliseconds of a frame by engine."""
+    names = [row["engine"] for row in programs()[0]["recording"]["engines"]]
+    rows = []
+    for each in programs():
+        recording = each["recording"]
+        times = {row["engine"]: row["frame_ms"] for row in recording["engines"]}
+        rows.append(
+            [each["program"], f"{recording['bytes'] / 1000:,.0f} kB", "identical" if recording["verified"] else "differs"]
+            + [significant(times[name]) if name in times else "" for name in names]
+        )
+    return markdown(["program", "recording", "engines"] + [f"`{name}`, ms" for name in names], rows)
 
 
 @text
