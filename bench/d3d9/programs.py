@@ -117,7 +117,7 @@ def recording(player, program):
     verified = subprocess.run([player.triptych, "verify", *options, path], capture_output=True, text=True, check=False)
     report["verified"] = verified.returncode == 0
     report["verify"] = (verified.stdout + verified.stderr).strip().splitlines()[-1:]
-    options = ["--seconds", "3", "--json", path + ".bench.json"]
+    options = ["--seconds", "3", "--frames", "20", "--json", path + ".bench.json"]
     subprocess.run([player.triptych, "bench", *options, path], capture_output=True, check=False)
     bench = load(path + ".bench.json")
     if bench:
