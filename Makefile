@@ -135,7 +135,7 @@ unity_flags = -isystem $(dir $(UNITY_SOURCE)) -DUNITY_INCLUDE_DOUBLE -DUNITY_USE
 
 # --- What to build ------------------------------------------------------------------------------------------
 
-.PHONY: all programs objects check test check-threads check-explore matrix coverage soak soak-faults soak-memory bench peers bench-shaders bench-draws bench-targets conformance-d3d9 programs-d3d9 mutations gallery verify-external docs fuzzers fuzz-input fuzz-input-smoke dependencies packages install clean format format-check compile_commands.json d3d9 help FORCE
+.PHONY: all programs objects check test check-threads check-explore matrix coverage soak soak-faults soak-memory bench peers bench-shaders bench-draws bench-targets conformance-d3d9 programs-d3d9 mutations gallery verify-external docs fuzzers fuzz-input fuzz-input-smoke dependencies packages install clean format format-check compile_commands.json d3d9 lab labs help FORCE
 
 all: $(BUILD)/libtriptych.a $(if $(SANITIZE),,$(BUILD)/libtriptych.so $(PKGCONFIG) \
   $(BUILD)/include/triptych/triptych.h) $(COMMAND) build/glmark2 \
@@ -485,6 +485,22 @@ check-explore:
 	+@$(MAKE) $(jobs) all
 	@python3 tests/explore/browse.py $(COMMAND) $(PICTURES)
 
+# `make lab N`: the folder of lab N of the course, or its check (docs/course/README.md); LAB=folder: that one.
+ifeq ($(firstword $(MAKECMDGOALS)),lab)
+$(wordlist 2,9,$(MAKECMDGOALS)):
+	@:
+endif
+lab:
+	@tests/support/scripts/dependencies.sh build course
+	+@$(MAKE) $(jobs) all
+	@BUILD=$(BUILD) CC=$(CC) docs/course/lab.sh '$(wordlist 2,9,$(MAKECMDGOALS))' $(LAB)
+
+# The checks of all labs, on solutions, starting files and planted mistakes. `make test` runs the quick ones.
+labs:
+	@tests/support/scripts/dependencies.sh build course
+	+@$(MAKE) $(jobs) all
+	@BUILD=$(BUILD) CC=$(CC) LABS=all tests/course.sh
+
 # `make test` runs ThreadSanitizer on small streams. This target runs it on all streams, with more threads.
 check-threads:
 	@tests/support/scripts/dependencies.sh build test
@@ -680,6 +696,8 @@ make soak            random cases and tests with new seeds, half an hour (DURATI
 make fuzz-input      readers of untrusted input under libFuzzer, half an hour (DURATION=1800) each TARGET, JOBS at a time
 make fuzz-input-smoke  the same in ten minutes
 make matrix          compares builds of gcc and clang at -O0, -O2, -O3, with and without AVX-512: results/matrix.txt
+make lab N           lab N of the course: its starting files in labs/, then its check (docs/course/README.md)
+make labs            the checks of all labs, on their solutions, starting files and planted mistakes
 make check-threads   all streams with several threads in random orders under ThreadSanitizer
 make check-explore   the pages of triptych explore in a headless Chromium; PICTURES=folder: their pictures
 make coverage        lists lines that the tests execute, results/coverage.txt; fails below 90 %

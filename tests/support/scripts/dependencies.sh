@@ -2,7 +2,7 @@
 # Makes sure that the Debian packages a target needs are installed, and installs those that are not.
 #
 #   tests/support/scripts/dependencies.sh GROUP...    groups: build test bench peers format fuzz browser d3d9
-#                                                     suites programs
+#                                                     suites programs course
 #   tests/support/scripts/dependencies.sh --list
 #
 # Silent when there is nothing to do. Ends non-zero, after naming the packages and their reasons, when a
@@ -24,7 +24,7 @@ libassimp-dev      build   imports 3D models into draw streams
 glmark2-data       build   the models and textures of the draw streams
 assimp-testmodels  test    the animated model of a scene
 python3            test    writes measured figures into the pages, and checks them
-patch              test    applies the additions of tests/extend to copies
+patch              test,course applies additions and planted mistakes to copies
 mandoc             test    checks the manual pages
 zsh                test    reads and executes its completion
 fish               test    the same for its own
@@ -34,6 +34,7 @@ cmake              test    builds and runs the example of a golden-image test
 libsdl2-2.0-0      test    the window of `triptych view`, which loads it when it runs
 xvfb               test,programs a display without a screen, for a window of `triptych view`
 xdotool            test,programs presses keys in that window
+valgrind           test,course counts executed instructions, for the labs of the course
 hyperfine          bench   measures whole processes
 gnuplot-nox        test,bench draws the charts
 libegl-dev         peers,programs headers of EGL, for the renderers that are measured against
