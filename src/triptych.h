@@ -278,7 +278,7 @@ enum triptych_copy_filter { TRIPTYCH_COPY_POINT, TRIPTYCH_COPY_LINEAR, TRIPTYCH_
 /* One element of a vertex declaration. */
 struct triptych_declaration_element {
     unsigned stream; /* 0 to 15 */
-    size_t offset;   /* bytes from the start of the vertex, a multiple of 4, at most 65532 */
+    size_t offset;   /* bytes from the start of the vertex, 0 to 65535 */
     enum triptych_format format;
     enum triptych_usage usage;
     unsigned usage_index; /* 0 to 15 */
@@ -633,8 +633,8 @@ triptych_set_declaration(triptych_device *, const struct triptych_declaration_el
                          unsigned count);
 /* Sets the declaration of a code of Direct3D 9's D3DFVF values, with all elements in stream 0. */
 TRIPTYCH_API enum triptych_result triptych_set_fvf(triptych_device *, uint32_t fvf);
-/* Binds a buffer to a stream, 0 to 15. Its vertices of `stride` bytes start at `offset`; both are multiples
- * of 4. The stride is 0 to 65536; 0: all vertices are equal. Null unbinds. */
+/* Binds a buffer to a stream, 0 to 15. Its vertices of `stride` bytes start at `offset`, at any byte. The
+ * stride is 0 to 65536; 0: all vertices are equal. Null unbinds. */
 TRIPTYCH_API enum triptych_result triptych_set_stream(triptych_device *, unsigned stream, triptych_buffer *,
                                                       size_t offset, size_t stride);
 /* `count` is 1 with TRIPTYCH_FREQUENCY_VERTEX, otherwise 1 to 2^30 - 1. Stream 0 cannot have
@@ -655,8 +655,8 @@ TRIPTYCH_API enum triptych_result triptych_draw_indexed(triptych_device *, enum 
                                                         int32_t base, uint32_t first, uint32_t count);
 
 /* Draw vertices and indices that are in memory of the caller and are copied. Vertex i begins at i * `stride`
- * bytes, a multiple of 4 from 4 to 65536. It replaces the vertex of stream 0 for this draw; bindings do not
- * change. Other streams are read as they are bound. Elements of stream 0 must end within the stride.
+ * bytes, 1 to 65536. It replaces the vertex of stream 0 for this draw; bindings do not change. Other streams
+ * are read as they are bound. Elements of stream 0 must end within the stride.
  * triptych_draw_indexed_user draws from the first index on. There are `vertex_count` vertices, and indices
  * are below this number. `bits` is 8, 16 or 32. */
 TRIPTYCH_API enum triptych_result triptych_draw_user(triptych_device *, enum triptych_primitive,

@@ -97,7 +97,7 @@ BEGIN {
 
 /^VERTEX_TYPE\(/ {
     if (!("format" in body)) {
-        begin("format", "Memory formats of vertex attributes: Direct3D 9's D3DDECLTYPE, plus 1.")
+        begin("format", "Memory formats of vertex attributes: Direct3D 9's D3DDECLTYPE, plus 1; then others.")
         add("format", "FORMAT_NONE", "", "the attribute is absent")
     }
     add("format", "FORMAT_" column[1], "", meaning(column[7]))

@@ -70,7 +70,8 @@ struct call_bind_stream {
 };
 
 struct call_declared {
-    uint32_t usage : 4, usage_index : 4, format : 5, stream : 4, words : 14; /* its offset in words */
+    uint8_t usage, usage_index, format, stream;
+    uint16_t offset; /* bytes */
 };
 
 struct call_declare {
@@ -225,6 +226,15 @@ struct call {
 #include "capture/call_undefine.h"
     };
 };
+
+/* The type of a call that has the declaration, in `declare`: CALL_DECLARE if all offsets are whole words. */
+static inline enum call_type call_declare_type(const struct call_declare *declare)
+{
+    uint32_t offsets = 0;
+    for (uint32_t i = 0; i < declare->count; i++)
+        offsets |= declare->element[i].offset;
+    return offsets % 4 ? CALL_DECLARE_BYTES : CALL_DECLARE;
+}
 
 /* The values of a clear of either kind; null: it is another call. */
 static inline const struct call_clear *call_clear_values(const struct call *call)

@@ -82,11 +82,14 @@ static void code_declare(struct codec *codec, struct call *call)
         codec_u8(codec, call->declare.count, TRIPTYCH_DECLARATION_ELEMENTS, "count of elements");
     for (uint32_t i = 0; i < call->declare.count; i++) {
         struct call_declared *e = &call->declare.element[i];
-        e->usage = codec_u8(codec, e->usage, TRIPTYCH_USAGE_COUNT - 1, "usage");
-        e->usage_index = codec_u8(codec, e->usage_index, TRIPTYCH_USAGE_INDICES - 1, "usage index");
-        e->format = codec_u8(codec, e->format, TRIPTYCH_FORMAT_COUNT - 1, "vertex format");
-        e->stream = codec_u8(codec, e->stream, TRIPTYCH_STREAMS - 1, "stream");
-        e->words = codec_u16(codec, e->words, 65532 / 4, "offset in words");
+        e->usage = (uint8_t)codec_u8(codec, e->usage, TRIPTYCH_USAGE_COUNT - 1, "usage");
+        e->usage_index = (uint8_t)codec_u8(codec, e->usage_index, TRIPTYCH_USAGE_INDICES - 1, "usage index");
+        e->format = (uint8_t)codec_u8(codec, e->format, TRIPTYCH_FORMAT_COUNT - 1, "vertex format");
+        e->stream = (uint8_t)codec_u8(codec, e->stream, TRIPTYCH_STREAMS - 1, "stream");
+        if (call->type == CALL_DECLARE)
+            e->offset = (uint16_t)(4 * codec_u16(codec, e->offset / 4, UINT16_MAX / 4, "offset in words"));
+        else
+            e->offset = (uint16_t)codec_u16(codec, e->offset, UINT16_MAX, "offset");
     }
 }
 
@@ -212,6 +215,7 @@ void call_code(struct codec *codec, struct call *call)
         [CALL_BIND_ELEMENT] = code_element,
         [CALL_BIND_STREAM] = code_bind_stream,
         [CALL_DECLARE] = code_declare,
+        [CALL_DECLARE_BYTES] = code_declare,
         [CALL_CONSTANTS] = code_constants,
         [CALL_CONSTANT_MATRIX] = code_constant_matrix,
         [CALL_CLEAR] = code_clear,

@@ -30,13 +30,15 @@ void record_declaration(struct triptych_device *device, const struct triptych_de
 {
     struct call call = {.type = CALL_DECLARE, .resource = NO_RESOURCE, .declare.count = count};
     for (unsigned i = 0; i < count && device_recorder(device); i++)
-        call.declare.element[i] = (struct call_declared){.usage = elements[i].usage & 15,
-                                                         .usage_index = elements[i].usage_index & 15,
-                                                         .format = elements[i].format & 31,
-                                                         .stream = elements[i].stream & 15,
-                                                         .words = elements[i].offset / 4 & 0x3fff};
-    if (device_recorder(device))
+        call.declare.element[i] = (struct call_declared){.usage = (uint8_t)elements[i].usage,
+                                                         .usage_index = (uint8_t)elements[i].usage_index,
+                                                         .format = (uint8_t)elements[i].format,
+                                                         .stream = (uint8_t)elements[i].stream,
+                                                         .offset = (uint16_t)elements[i].offset};
+    if (device_recorder(device)) {
+        call.type = call_declare_type(&call.declare);
         record_call(device, &call);
+    }
 }
 
 void record_stream(struct triptych_device *device, unsigned stream, const triptych_buffer *buffer,
@@ -79,11 +81,11 @@ void record_indices(struct triptych_device *device, const triptych_buffer *buffe
 static struct call_declared declared_of(unsigned usage, unsigned usage_index,
                                         const struct state_element *element)
 {
-    return (struct call_declared){.usage = usage & 15,
-                                  .usage_index = usage_index & 15,
-                                  .format = element->format & 31,
-                                  .stream = element->stream & 15,
-                                  .words = element->offset / 4 & 0x3fff};
+    return (struct call_declared){.usage = (uint8_t)usage,
+                                  .usage_index = (uint8_t)usage_index,
+                                  .format = (uint8_t)element->format,
+                                  .stream = (uint8_t)element->stream,
+                                  .offset = (uint16_t)element->offset};
 }
 
 static void write_declaration(struct triptych_device *device, const struct left_out *left_out)
@@ -100,6 +102,7 @@ static void write_declaration(struct triptych_device *device, const struct left_
         if (!(left_out->others >> i & 1))
             call.declare.element[call.declare.count++] =
                 declared_of(state->other[i].usage, state->other[i].usage_index, &state->other[i].element);
+    call.type = call_declare_type(&call.declare);
     record_call(device, &call);
 }
 

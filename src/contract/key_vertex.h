@@ -36,7 +36,7 @@ struct vertex_type {
     uint8_t components;
     uint8_t encoding; /* enum vertex_encoding */
     uint8_t bits;     /* of a component */
-    uint8_t bytes;    /* of all components, in whole 32-bit words */
+    uint8_t bytes;    /* of all components */
     float scale;      /* an integer component is multiplied by this */
 };
 

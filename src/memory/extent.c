@@ -5,8 +5,8 @@
 
 void *extent_allocate(size_t bytes)
 {
-    const size_t most = SIZE_MAX - sizeof(struct extent) - EXTENT_ALIGNMENT;
-    size_t rounded = (bytes + EXTENT_ALIGNMENT - 1) & ~(size_t)(EXTENT_ALIGNMENT - 1);
+    const size_t most = SIZE_MAX - sizeof(struct extent) - EXTENT_ALIGNMENT - EXTENT_READABLE;
+    size_t rounded = (bytes + EXTENT_READABLE + EXTENT_ALIGNMENT - 1) & ~(size_t)(EXTENT_ALIGNMENT - 1);
     if (bytes > most)
         return NULL;
     struct extent *extent = aligned_alloc(EXTENT_ALIGNMENT, sizeof *extent + rounded);

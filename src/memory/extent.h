@@ -27,6 +27,9 @@ static inline struct extent *extent_of(void *data)
     return (struct extent *)data - 1;
 }
 
+/* Bytes after the data of an extent that can be read, and have any values. */
+enum { EXTENT_READABLE = 3 };
+
 /* Returns the data of a new extent, aligned to EXTENT_ALIGNMENT: any bytes. Null if memory is short. */
 void *extent_allocate(size_t bytes);
 /* Frees an extent, which is in no list. Null is allowed. */

@@ -245,6 +245,51 @@ static void changes_of_buffers_are_recorded(void)
     expect_frames(expected, 3);
 }
 
+/* How many calls of the recording have the type. */
+static unsigned calls_of(enum call_type type)
+{
+    unsigned count = 0;
+    struct stream *stream = read_stream(file);
+    for (uint32_t i = 0; i < stream->call_count; i++)
+        count += stream->calls[i].type == type;
+    stream_free(stream);
+    return count;
+}
+
+/* Offsets that are whole words have the older form. */
+static void declarations_of_any_alignment_are_recorded(void)
+{
+    static const struct triptych_declaration_element odd[] = {
+        {0, 3, TRIPTYCH_FORMAT_BYTE3, TRIPTYCH_USAGE_POSITION, 0},
+        {0, 0, TRIPTYCH_FORMAT_UBYTE3N, TRIPTYCH_USAGE_COLOR, 0}};
+    static const struct triptych_declaration_element even[] = {
+        {0, 4, TRIPTYCH_FORMAT_INT2, TRIPTYCH_USAGE_POSITION, 0},
+        {0, 0, TRIPTYCH_FORMAT_UBYTE3N, TRIPTYCH_USAGE_COLOR, 0}};
+    static const uint8_t vertex[3][6] = {
+        {255, 128, 0, 255, 1, 0}, {0, 128, 255, 1, 1, 0}, {255, 255, 255, 0, 255, 0}};
+    static const int32_t whole[3][3] = {{255, -1, 1}, {255, 1, 1}, {255, 0, -1}};
+    uint64_t expected[2];
+    triptych_buffer *buffer;
+    begin_scene(0);
+    good(triptych_buffer_create(device, vertex, sizeof vertex, &buffer));
+    good(triptych_record_start(device, file));
+    good(triptych_clear(device, black, 1));
+    good(triptych_set_declaration(device, odd, 2));
+    good(triptych_set_stream(device, 0, buffer, 0, sizeof *vertex));
+    good(triptych_draw(device, TRIPTYCH_TRIANGLE_LIST, 0, 1));
+    good(triptych_draw_user(device, TRIPTYCH_TRIANGLE_LIST, 1, vertex, sizeof *vertex));
+    end_frame(&expected[0]);
+    good(triptych_clear(device, black, 1));
+    good(triptych_set_declaration(device, even, 2));
+    good(triptych_draw_user(device, TRIPTYCH_TRIANGLE_LIST, 1, whole, sizeof *whole));
+    end_frame(&expected[1]);
+    good(triptych_record_stop(device));
+    TEST_ASSERT_TRUE(expected[0] != expected[1]);
+    expect_frames(expected, 2);
+    TEST_ASSERT_EQUAL_UINT(1, calls_of(CALL_DECLARE_BYTES));
+    TEST_ASSERT_TRUE(calls_of(CALL_DECLARE) >= 1);
+}
+
 static void unread_attributes_may_exceed_their_buffers(void)
 {
     static const struct triptych_declaration_element declaration[] = {
@@ -358,6 +403,7 @@ int main(void)
     RUN_TEST(recordings_may_begin_late);
     RUN_TEST(a_recording_may_begin_between_two_draws);
     RUN_TEST(changes_of_buffers_are_recorded);
+    RUN_TEST(declarations_of_any_alignment_are_recorded);
     RUN_TEST(unread_attributes_may_exceed_their_buffers);
     RUN_TEST(numbers_of_destroyed_resources_are_used_again);
     RUN_TEST(there_is_no_file_before_the_end);

@@ -24,11 +24,13 @@ struct edge {
     int way;
 };
 
-static const float *position_of(const struct caster *caster, uint32_t vertex)
+/* A position, which can begin at any byte of the vertices. */
+static void get_position(const struct caster *caster, uint32_t vertex, float position[3])
 {
     const struct layout *layout = &caster->mesh->layout;
-    return (const float *)(caster->mesh->vertices + (size_t)vertex * layout->stride +
-                           layout->offset[TRIPTYCH_POSITION]);
+    memcpy(position,
+           caster->mesh->vertices + (size_t)vertex * layout->stride + layout->offset[TRIPTYCH_POSITION],
+           3 * sizeof *position);
 }
 
 static uint32_t index_of(const struct caster *caster, uint32_t i)
@@ -45,7 +47,7 @@ static int join_corners(struct caster *caster)
     if (!places)
         return -1;
     for (uint32_t v = 0; v < count; v++) {
-        memcpy(places[v].position, position_of(caster, v), sizeof places->position);
+        get_position(caster, v, places[v].position);
         places[v].vertex = v;
     }
     weld_positions(places, count, caster->corner);
@@ -66,13 +68,14 @@ static void away(const struct mesh_options *options, const float position[3], do
 
 static bool is_lit(const struct caster *caster, const struct mesh_options *options, uint32_t triangle)
 {
-    const float *a = position_of(caster, index_of(caster, 3 * triangle)), *corner[2];
+    float a[3], corner[3];
     double edge[2][3], from_light[3], sum = 0;
+    get_position(caster, index_of(caster, 3 * triangle), a);
     away(options, a, from_light);
     for (int e = 0; e < 2; e++) {
-        corner[e] = position_of(caster, index_of(caster, 3 * triangle + 1 + (uint32_t)e));
+        get_position(caster, index_of(caster, 3 * triangle + 1 + (uint32_t)e), corner);
         for (int i = 0; i < 3; i++)
-            edge[e][i] = (double)corner[e][i] - (double)a[i];
+            edge[e][i] = (double)corner[i] - (double)a[i];
     }
     for (int i = 0; i < 3; i++) {
         int j = (i + 1) % 3, k = (i + 2) % 3;
@@ -95,8 +98,9 @@ static int add_vertices(struct mesh *mesh, const struct caster *caster, const ch
 {
     for (uint32_t v = 0; v < caster->mesh->vertex_count; v++) {
         struct mesh_vertex vertex = {.color = 0xffffffff};
-        const float *from = position_of(caster, v);
+        float from[3];
         double direction[3];
+        get_position(caster, v, from);
         away(options, from, direction);
         memcpy(vertex.position, from, sizeof vertex.position);
         if (mesh_add_vertex(mesh, name, &vertex, error))

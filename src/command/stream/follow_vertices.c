@@ -247,8 +247,8 @@ static int check_immediate(struct follower *follower, uint32_t resource, uint32_
     struct triptych_buffer *buffer = follower_buffer(follower, resource, error);
     if (!buffer)
         return -1;
-    if (!stride || stride % 4)
-        return error_set(error, "found a stride of %u, expected a multiple of 4", stride);
+    if (!stride)
+        return error_set(error, "found a stride of 0, expected 1 to 65536");
     if (last >= buffer->bytes / stride)
         return error_set(error, "found vertex %" PRIu64 " drawn, expected less than %zu, the vertices of %s",
                          last, buffer->bytes / stride, buffer_name(follower, buffer));

@@ -25,7 +25,7 @@ unsigned stream_declaration(const struct call *call,
 {
     for (uint32_t i = 0; i < call->declare.count; i++) {
         const struct call_declared *from = &call->declare.element[i];
-        elements[i] = (struct triptych_declaration_element){from->stream, 4 * from->words, from->format,
+        elements[i] = (struct triptych_declaration_element){from->stream, from->offset, from->format,
                                                             from->usage, from->usage_index};
     }
     return call->declare.count;

@@ -254,7 +254,7 @@ int valid_vertex_bits(const struct resource *resource, struct error *error)
 {
     for (unsigned e = 0; e < STREAM_ELEMENTS; e++) {
         const struct vertex_type *type = &key_vertex_types[resource->layout.format[e]];
-        unsigned used = (unsigned)type->bits * type->components % 32;
+        unsigned bits = (unsigned)type->bits * type->components, used = bits % 8 ? bits % 32 : 0;
         for (uint32_t v = 0; used && v < resource->vertex_count; v++) {
             const uint8_t *vertex = resource->vertices + (size_t)v * resource->layout.stride;
             uint32_t word;

@@ -255,19 +255,12 @@ static int bind_indices(struct parser *parser, struct call *call)
     return 0;
 }
 
-/* OFFSET STRIDE, multiples of `step`. */
-static int parse_place(struct parser *parser, uint32_t step, uint32_t *offset, uint32_t *stride)
+/* OFFSET STRIDE */
+static int parse_place(struct parser *parser, uint32_t *offset, uint32_t *stride)
 {
-    struct lexer *lex = &parser->lex;
-    for (int i = 0; i < 2; i++) {
-        struct token place = lex->token;
-        uint32_t *value = i ? stride : offset;
-        if (parse_integer(parser, i ? "stride" : "offset", i ? 65536 : INT32_MAX, value))
-            return -1;
-        if (*value % step)
-            return lex_fail(lex, &place, "found '%u', expected a multiple of %u", *value, step);
-    }
-    return 0;
+    if (parse_integer(parser, "offset", INT32_MAX, offset))
+        return -1;
+    return parse_integer(parser, "stride", 65536, stride);
 }
 
 static int bind_stream(struct parser *parser, struct call *call)
@@ -277,7 +270,7 @@ static int bind_stream(struct parser *parser, struct call *call)
         return -1;
     if (call->resource == NO_RESOURCE)
         return 0;
-    return parse_place(parser, 4, &call->bind_stream.offset, &call->bind_stream.stride);
+    return parse_place(parser, &call->bind_stream.offset, &call->bind_stream.stride);
 }
 
 static int bind_element(struct parser *parser, struct call *call)
@@ -298,7 +291,7 @@ static int bind_element(struct parser *parser, struct call *call)
         parse_name(parser, CALL_ELEMENTS, "a buffer, vertices or a mesh", &call->resource))
         return -1;
     call->element.format = (enum triptych_format)format;
-    return parse_place(parser, 1, &call->element.offset, &call->element.stride);
+    return parse_place(parser, &call->element.offset, &call->element.stride);
 }
 
 int parse_bind(struct parser *parser, struct call *call, unsigned word)

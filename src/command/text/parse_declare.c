@@ -5,6 +5,8 @@
 #include <stdio.h>
 #include <string.h>
 
+enum { OFFSET_MAXIMUM = 65535 };
+
 static int parse_format(struct parser *parser, const char *text, size_t length, enum triptych_format *format)
 {
     unsigned type;
@@ -63,12 +65,12 @@ static int parse_offset(struct parser *parser, const char *at, uint32_t *offset)
     uint32_t value = 0;
     const char *end = token->text + token->length;
     for (const char *c = at + 1; c < end; c++) {
-        if (*c < '0' || *c > '9' || value > 65532)
-            return lex_expected(&parser->lex, "an offset up to 65532 after @");
+        if (*c < '0' || *c > '9' || value > OFFSET_MAXIMUM)
+            return lex_expected(&parser->lex, "an offset up to %d after @", OFFSET_MAXIMUM);
         value = 10 * value + (uint32_t)(*c - '0');
     }
-    if (at + 1 == end || value % 4 || value > 65532)
-        return lex_expected(&parser->lex, "a multiple of 4 up to 65532 after @");
+    if (at + 1 == end || value > OFFSET_MAXIMUM)
+        return lex_expected(&parser->lex, "an offset up to %d after @", OFFSET_MAXIMUM);
     *offset = value;
     return 0;
 }
@@ -89,9 +91,9 @@ static int parse_what(struct parser *parser, size_t length, struct call_declared
         return expect_attribute(parser);
     if (parse_format(parser, colon + 1, length - before - 1, &format))
         return -1;
-    declared->usage = usage & 15;
-    declared->usage_index = index & 15;
-    declared->format = format & 31;
+    declared->usage = (uint8_t)usage;
+    declared->usage_index = (uint8_t)index;
+    declared->format = (uint8_t)format;
     return 0;
 }
 
@@ -101,7 +103,7 @@ static int parse_declared(struct parser *parser, struct call *call, unsigned str
     const struct token *token = &parser->lex.token;
     const char *at = token->type == TOKEN_WORD ? memchr(token->text, '@', token->length) : NULL;
     size_t length = at ? (size_t)(at - token->text) : token->length;
-    struct call_declared made = {.stream = stream & 15};
+    struct call_declared made = {.stream = (uint8_t)stream};
     if (parse_what(parser, length, &made))
         return -1;
     for (uint32_t i = 0; i < call->declare.count; i++)
@@ -112,9 +114,9 @@ static int parse_declared(struct parser *parser, struct call *call, unsigned str
         return lex_expected(&parser->lex, "at most %d elements", TRIPTYCH_DECLARATION_ELEMENTS);
     if (at && parse_offset(parser, at, offset))
         return -1;
-    if (*offset > 65532)
+    if (*offset > OFFSET_MAXIMUM)
         return lex_expected(&parser->lex, "@OFFSET after it: the element does not fit after the one before");
-    made.words = *offset / 4 & 0x3fff;
+    made.offset = (uint16_t)*offset;
     call->declare.element[call->declare.count++] = made;
     *offset += key_vertex_types[made.format].bytes;
     return lex_next(&parser->lex);
@@ -132,6 +134,7 @@ int parse_declare(struct parser *parser, struct call *call, unsigned word)
         } else if (parse_declared(parser, call, stream, &next[stream])) {
             return -1;
         }
+    call->type = call_declare_type(&call->declare);
     return 0;
 }
 

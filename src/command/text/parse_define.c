@@ -180,12 +180,15 @@ static int parse_typed(struct parser *parser, enum triptych_format format, const
 static int parse_vertex(struct parser *parser, const struct layout *layout, const unsigned *order,
                         struct block *block)
 {
-    uint32_t vertex[4 * STREAM_ELEMENTS] = {0}, word = 0, values = 0;
-    for (int i = 0; word < layout->stride / 4; i++) {
+    uint8_t vertex[4 * sizeof(float) * STREAM_ELEMENTS];
+    uint32_t bytes = 0, values = 0;
+    for (int i = 0; bytes < layout->stride; i++) {
         enum triptych_format format = layout->format[order[i]];
-        if (parse_typed(parser, format, word_text(WORDS_ATTRIBUTE, order[i]), &vertex[word]))
+        uint32_t words[4] = {0};
+        if (parse_typed(parser, format, word_text(WORDS_ATTRIBUTE, order[i]), words))
             return -1;
-        word += key_vertex_types[format].bytes / 4;
+        memcpy(vertex + bytes, words, key_vertex_types[format].bytes);
+        bytes += key_vertex_types[format].bytes;
         values += format_values(format);
     }
     if (append(parser, block, vertex))

@@ -156,9 +156,10 @@ static void write_texture(struct writer *writer, const struct resource *resource
 static void write_packed(struct writer *writer, const struct vertex_type *type, const uint8_t *data,
                          unsigned c)
 {
-    uint32_t word, bit = c * type->bits;
-    memcpy(&word, data + bit / 32 * 4, sizeof word);
-    uint32_t field = word >> bit % 32 & ((1u << type->bits) - 1), sign = 1u << (type->bits - 1);
+    uint32_t words[4] = {0}, bit = c * type->bits;
+    memcpy(words, data, type->bytes);
+    uint32_t sign = 1u << (type->bits - 1);
+    uint32_t field = words[bit / 32] >> bit % 32 & (sign | (sign - 1));
     if (type->encoding == ENCODING_HALF && (field & 0x7c00) == 0x7c00)
         fprintf(writer->out, " bits:%04" PRIx32, field);
     else if (type->encoding == ENCODING_HALF)
@@ -174,10 +175,10 @@ static void write_typed(struct writer *writer, enum triptych_format format, cons
     const struct vertex_type *type = &key_vertex_types[format];
     uint32_t color;
     float number;
-    memcpy(&color, data, sizeof color);
-    if (type->encoding == ENCODING_COLOR)
+    if (type->encoding == ENCODING_COLOR) {
+        memcpy(&color, data, sizeof color);
         fprintf(writer->out, " 0x%08" PRIx32, color);
-    else if (type->encoding != ENCODING_FLOAT)
+    } else if (type->encoding != ENCODING_FLOAT)
         for (unsigned c = 0; c < type->components; c++)
             write_packed(writer, type, data, c);
     else

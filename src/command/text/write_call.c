@@ -152,7 +152,7 @@ void write_declare(struct writer *writer, const struct call *call)
         if (!i || element->stream != element[-1].stream)
             fprintf(writer->out, " %u", element->stream);
         fprintf(writer->out, " %s:%s@%u", stream_element_word(element->usage, element->usage_index),
-                word_text(WORDS_FORMAT, element->format), 4u * element->words);
+                word_text(WORDS_FORMAT, element->format), (unsigned)element->offset);
     }
 }
 

@@ -76,6 +76,8 @@ static void add_element(struct device_derived *derived, const struct state *stat
     uint32_t end = (uint32_t)element->offset + key_vertex_types[element->format].bytes;
     *extent = derived->streams & bit && *extent > end ? *extent : end;
     derived->streams |= bit;
+    if (key_vertex_types[element->format].bytes % 4)
+        derived->overread |= bit;
     if (state->immediate && !element->stream)
         return;
     uint64_t vertices = element_vertices(state, element);
@@ -88,6 +90,7 @@ static void derive_vertices(struct device_derived *derived, const struct state *
     _Static_assert(STREAM_COUNT <= 64, "a set of streams has a bit for each");
     derived->vertices = UINT64_MAX;
     derived->streams = 0;
+    derived->overread = 0;
     for (unsigned i = key_next(key->attribute, 0, ATTRIBUTE_COUNT); i < ATTRIBUTE_COUNT;
          i = key_next(key->attribute, i + 1, ATTRIBUTE_COUNT))
         add_element(derived, state, state->element + i);

@@ -24,6 +24,8 @@ struct device_derived {
     uint64_t vertices; /* how many vertices every element has that is read; 0 if one has no buffer. Elements
                           of immediate vertices do not count */
     uint64_t streams;  /* a bit for each stream that is read */
+    uint64_t
+        overread; /* a bit for each of those with elements after which routines may read (contract/job.h) */
     uint32_t extent[STREAM_COUNT]; /* of those: bytes from the start of a vertex to the end of its elements */
     struct draw draw; /* what does not depend on the call. Its routines are null unless they are held for
                                  these keys; its job is null unless it is queued */

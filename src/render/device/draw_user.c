@@ -70,7 +70,8 @@ static enum triptych_result draw_large(struct triptych_device *device, const str
                                        struct drawn *drawn, struct error *error)
 {
     struct state *state = &device->state;
-    size_t bytes = immediate->vertex_bytes + immediate->index_bytes;
+    size_t index_offset = (immediate->vertex_bytes + sizeof(uint32_t) - 1) & -sizeof(uint32_t);
+    size_t bytes = index_offset + immediate->index_bytes;
     uint8_t *storage = device_new_storage(device, bytes);
     if (!storage) {
         error_set(error, "out of memory for %zu bytes of immediate vertices", bytes);
@@ -78,7 +79,7 @@ static enum triptych_result draw_large(struct triptych_device *device, const str
     }
     memcpy(storage, immediate->vertices, immediate->vertex_bytes);
     if (immediate->index_bytes)
-        memcpy(storage + immediate->vertex_bytes, immediate->indices, immediate->index_bytes);
+        memcpy(storage + index_offset, immediate->indices, immediate->index_bytes);
     device->transient.large.data = storage;
     device->transient.large.bytes = immediate->vertex_bytes;
     state->immediate_stream =
@@ -87,7 +88,7 @@ static enum triptych_result draw_large(struct triptych_device *device, const str
     device_derived_update_streams(&device->derived, state);
     drawn->immediate = NULL;
     if (drawn->index_bits)
-        drawn->indices = storage + immediate->vertex_bytes;
+        drawn->indices = storage + index_offset;
     enum triptych_result result = device_count_draw(device, drawn, error);
     state->immediate = false;
     device_state_changed(device, CHANGE_OF_STREAM);
@@ -141,9 +142,8 @@ static enum triptych_result check_types(const struct user_draw *draw, struct err
         error_set(error, "indices of %u bits: expected 8, 16 or 32", draw->index_bits);
         return TRIPTYCH_BAD_ARGUMENT;
     }
-    if (!draw->stride || draw->stride % 4 || draw->stride > USER_STRIDE_MAXIMUM) {
-        error_set(error, "vertices of %zu bytes: expected a multiple of 4 up to %d", draw->stride,
-                  USER_STRIDE_MAXIMUM);
+    if (!draw->stride || draw->stride > USER_STRIDE_MAXIMUM) {
+        error_set(error, "vertices of %zu bytes: expected 1 to %d", draw->stride, USER_STRIDE_MAXIMUM);
         return TRIPTYCH_BAD_ARGUMENT;
     }
     return TRIPTYCH_OK;

@@ -1,6 +1,7 @@
 /* From a checked draw to the queue: the routines of its keys, its job, its command.
  *
  * A job is shared by all draws between which neither a part of it nor a constant has changed. */
+#include "base/minmax.h"
 #include "machine/prefetch.h"
 #include "render/device/device.h"
 
@@ -90,6 +91,8 @@ static void mark_buffers(struct triptych_device *device, const struct drawn *dra
         if (stream->stride && stream->frequency != TRIPTYCH_FREQUENCY_INSTANCE) {
             span.begin = stream->offset + (size_t)drawn->lowest * stream->stride;
             span.end = stream->offset + (size_t)drawn->highest * stream->stride + device->derived.extent[i];
+            if (device->derived.overread >> i & 1)
+                span.end = min_size(span.end + FETCH_OVERREAD, stream->buffer->bytes);
         }
         use_buffer(device, stream->buffer, span);
     }

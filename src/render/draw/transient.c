@@ -29,7 +29,8 @@ static size_t aligned(size_t position)
     return (position + TRANSIENT_ALIGNMENT - 1) & ~(size_t)(TRANSIENT_ALIGNMENT - 1);
 }
 
-/* Bytes that a draw takes at most: its vertices begin at a multiple of the stride, its indices aligned. */
+/* Bytes that a draw takes at most: its vertices begin at a multiple of the stride, its indices aligned. After
+ * them at least TRANSIENT_ALIGNMENT bytes are left in the half, more than routines read (FETCH_OVERREAD). */
 static size_t most_bytes(const struct immediate *immediate)
 {
     return immediate->vertex_bytes + immediate->index_bytes + immediate->stride + 2 * TRANSIENT_ALIGNMENT;

@@ -23,7 +23,7 @@ static const struct {
 #undef ATTRIBUTE
 };
 
-enum { OFFSET_MAXIMUM = 65532, STRIDE_MAXIMUM = 65536, FREQUENCY_MAXIMUM = (1 << 30) - 1 };
+enum { OFFSET_MAXIMUM = 65535, STRIDE_MAXIMUM = 65536, FREQUENCY_MAXIMUM = (1 << 30) - 1 };
 
 /* --- Declarations --- */
 
@@ -32,9 +32,9 @@ static int check_element(const struct triptych_declaration_element *element, uns
     if (element->stream >= TRIPTYCH_STREAMS)
         return error_set(error, "element %u: stream %u, expected 0 to %u", i, element->stream,
                          TRIPTYCH_STREAMS - 1);
-    if (element->offset % 4 || element->offset > OFFSET_MAXIMUM)
-        return error_set(error, "element %u: offset %zu, expected a multiple of 4 up to %d", i,
-                         element->offset, OFFSET_MAXIMUM);
+    if (element->offset > OFFSET_MAXIMUM)
+        return error_set(error, "element %u: offset %zu, expected 0 to %d", i, element->offset,
+                         OFFSET_MAXIMUM);
     if ((unsigned)element->format >= TRIPTYCH_FORMAT_COUNT || !element->format)
         return error_set(error, "element %u: format %u, expected 1 to %u", i, (unsigned)element->format,
                          TRIPTYCH_FORMAT_COUNT - 1);
@@ -255,14 +255,13 @@ enum triptych_result state_set_stream(struct state *state, unsigned stream, stru
     if (check_stream(stream, error))
         return TRIPTYCH_BAD_ARGUMENT;
     struct state_stream *s = state->stream + stream;
-    if (buffer && (stride % 4 || stride > STRIDE_MAXIMUM)) {
-        error_set(error, "stream %u: stride %zu, expected a multiple of 4 up to %d", stream, stride,
-                  STRIDE_MAXIMUM);
+    if (buffer && stride > STRIDE_MAXIMUM) {
+        error_set(error, "stream %u: stride %zu, expected 0 to %d", stream, stride, STRIDE_MAXIMUM);
         return TRIPTYCH_BAD_ARGUMENT;
     }
-    if (buffer && (offset % 4 || offset >= buffer->bytes)) {
-        error_set(error, "stream %u: offset %zu, expected a multiple of 4 inside the buffer of %zu bytes",
-                  stream, offset, buffer->bytes);
+    if (buffer && offset >= buffer->bytes) {
+        error_set(error, "stream %u: offset %zu, expected one inside the buffer of %zu bytes", stream, offset,
+                  buffer->bytes);
         return TRIPTYCH_BAD_ARGUMENT;
     }
     s->buffer = buffer;

@@ -1,9 +1,12 @@
 #include "render/state/resource.h"
 
+#include "contract/job.h"
 #include "memory/extent.h"
 
 #include <stdlib.h>
 #include <string.h>
+
+_Static_assert((int)EXTENT_READABLE >= (int)FETCH_OVERREAD, "routines may read after the last attribute");
 
 struct triptych_buffer *buffer_create(const void *data, size_t bytes)
 {

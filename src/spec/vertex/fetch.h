@@ -1,8 +1,9 @@
 /* Vertex fetch: attributes of W vertices from the application's buffers into lanes.
  *
- * A vertex index times the stream's stride is the byte offset. Indices were checked against the buffers when
- * the draw was recorded. def/state/vertex_type.def defines the types; components that a type does not have
- * are those of (0, 0, 0, 1) (Direct3D 9, vertex declarations). A missing attribute is `absent` in every
+ * A vertex index times the stream's stride is the byte offset, of any alignment. Indices were checked against
+ * the buffers when the draw was recorded. Memory is read in words of 32 bits; the last one may extend past
+ * the attribute (contract/job.h). def/state/vertex_type.def defines the types; components that it does not
+ * have are those of (0, 0, 0, 1) (Direct3D 9, vertex declarations). A missing attribute is `absent` in every
  * component: a missing normal is (0, 0, 0), a missing diffuse colour opaque white, missing texture
  * coordinates are (0, 0). */
 #ifndef SPEC_VERTEX_FETCH_H
@@ -38,7 +39,18 @@ static inline itg fetch_signed(struct env *e, itg packed, int shift, int bits)
 {
     int above = 32 - bits - shift;
     itg up = above ? shl_i(E, packed, above) : packed;
-    return shr_i(E, up, 32 - bits);
+    return bits < 32 ? shr_i(E, up, 32 - bits) : up;
+}
+
+/* An unsigned integer of 32 bits as the nearest binary32. Only the sum is rounded. */
+static inline flt wide_to_float(struct env *e, itg word)
+{
+    itg high = ushr_i(E, word, 16);
+    itg low = and_i(E, word, lit_i(E, 0xffff));
+    flt high_count = float_f(E, high);
+    flt low_count = float_f(E, low);
+    flt scaled = mul_f(E, high_count, lit_f(E, 0x1p16f));
+    return add_f(E, scaled, low_count);
 }
 
 /* A binary16 as binary32, exactly. Denormals become normal numbers; a NaN stays a NaN. The exponent's bias is
@@ -69,7 +81,8 @@ static inline flt fetch_field(struct env *e, const struct vertex_type *type, itg
                                                   : fetch_unsigned(E, packed, shift, type->bits);
     if (type->encoding == ENCODING_HALF)
         return half_to_float(E, field);
-    flt value = float_f(E, field);
+    bool wide = type->encoding == ENCODING_UNSIGNED && type->bits == 32;
+    flt value = wide ? wide_to_float(E, field) : float_f(E, field);
     return type->scale != 1 ? mul_f(E, value, lit_f(E, type->scale)) : value;
 }
 
@@ -90,8 +103,8 @@ static inline void fetch_packed(struct env *e, const struct fetched *from, itg o
     itg packed = fetch_word(E, from, offset, 0);
     for (int c = 0; c < type->components; c++) {
         int bit = type->bits * c;
-        if (bit == 32)
-            packed = fetch_word(E, from, offset, 1);
+        if (bit && bit % 32 == 0)
+            packed = fetch_word(E, from, offset, bit / 32);
         r->v[c] = fetch_field(E, type, packed, bit % 32);
     }
 }

@@ -34,7 +34,7 @@ static void a_declaration_determines_the_position_of_each_attribute(void)
     static const struct triptych_declaration_element elements[] = {
         {0, 0, TRIPTYCH_FORMAT_FLOAT3, TRIPTYCH_USAGE_POSITION, 0},
         {0, 12, TRIPTYCH_FORMAT_DEC3N, TRIPTYCH_USAGE_NORMAL, 0},
-        {15, 65532, TRIPTYCH_FORMAT_COLOR, TRIPTYCH_USAGE_COLOR, 1},
+        {15, 65535, TRIPTYCH_FORMAT_COLOR, TRIPTYCH_USAGE_COLOR, 1},
         {3, 8, TRIPTYCH_FORMAT_FLOAT16_2, TRIPTYCH_USAGE_TEXCOORD, 7},
         {3, 12, TRIPTYCH_FORMAT_FLOAT3, TRIPTYCH_USAGE_TANGENT, 0},
         {4, 0, TRIPTYCH_FORMAT_FLOAT3, TRIPTYCH_USAGE_POSITION, 1},
@@ -42,7 +42,7 @@ static void a_declaration_determines_the_position_of_each_attribute(void)
     TEST_ASSERT_EQUAL_INT(TRIPTYCH_OK, state_set_declaration(&state, elements, 7, &error));
     expect_element(TRIPTYCH_POSITION, TRIPTYCH_FORMAT_FLOAT3, 0, 0);
     expect_element(TRIPTYCH_NORMAL, TRIPTYCH_FORMAT_DEC3N, 0, 12);
-    expect_element(TRIPTYCH_SPECULAR, TRIPTYCH_FORMAT_COLOR, 15, 65532);
+    expect_element(TRIPTYCH_SPECULAR, TRIPTYCH_FORMAT_COLOR, 15, 65535);
     expect_element(TRIPTYCH_TEXCOORD7, TRIPTYCH_FORMAT_FLOAT16_2, 3, 8);
     expect_element(TRIPTYCH_POSITION1, TRIPTYCH_FORMAT_FLOAT3, 4, 0);
     expect_element(TRIPTYCH_DIFFUSE, TRIPTYCH_FORMAT_NONE, 0, 0);
@@ -57,11 +57,10 @@ static void a_bad_declaration_changes_nothing(void)
         const char *part;
     } cases[] = {
         {{16, 0, TRIPTYCH_FORMAT_FLOAT1, TRIPTYCH_USAGE_NORMAL, 0}, "element 1: stream 16, expected 0 to 15"},
-        {{0, 2, TRIPTYCH_FORMAT_FLOAT1, TRIPTYCH_USAGE_NORMAL, 0},
-         "element 1: offset 2, expected a multiple of 4"},
-        {{0, 65536, TRIPTYCH_FORMAT_FLOAT1, TRIPTYCH_USAGE_NORMAL, 0}, "element 1: offset 65536"},
-        {{0, 0, TRIPTYCH_FORMAT_NONE, TRIPTYCH_USAGE_NORMAL, 0}, "element 1: format 0, expected 1 to 17"},
-        {{0, 0, TRIPTYCH_FORMAT_COUNT, TRIPTYCH_USAGE_NORMAL, 0}, "element 1: format 18"},
+        {{0, 65536, TRIPTYCH_FORMAT_FLOAT1, TRIPTYCH_USAGE_NORMAL, 0},
+         "element 1: offset 65536, expected 0 to 65535"},
+        {{0, 0, TRIPTYCH_FORMAT_NONE, TRIPTYCH_USAGE_NORMAL, 0}, "element 1: format 0, expected 1 to 57"},
+        {{0, 0, TRIPTYCH_FORMAT_COUNT, TRIPTYCH_USAGE_NORMAL, 0}, "element 1: format 58"},
         {{0, 0, TRIPTYCH_FORMAT_FLOAT1, TRIPTYCH_USAGE_COUNT, 0}, "element 1: usage 14, expected 0 to 13"},
         {{0, 0, TRIPTYCH_FORMAT_FLOAT1, TRIPTYCH_USAGE_NORMAL, 16}, "element 1: usage index 16"},
         {{0, 0, TRIPTYCH_FORMAT_FLOAT1, TRIPTYCH_USAGE_POSITION, 0},
@@ -139,12 +138,23 @@ static void streams_are_checked(void)
     TEST_ASSERT_EQUAL_PTR(&buffer, state.stream[15].buffer);
     TEST_ASSERT_EQUAL_INT(TRIPTYCH_BAD_ARGUMENT, state_set_stream(&state, 16, &buffer, 0, 4, &error));
     TEST_ASSERT_EQUAL_INT(TRIPTYCH_BAD_ARGUMENT, state_set_stream(&state, 0, &buffer, 1024, 4, &error));
-    TEST_ASSERT_EQUAL_INT(TRIPTYCH_BAD_ARGUMENT, state_set_stream(&state, 0, &buffer, 2, 4, &error));
-    TEST_ASSERT_EQUAL_INT(TRIPTYCH_BAD_ARGUMENT, state_set_stream(&state, 0, &buffer, 0, 6, &error));
-    TEST_ASSERT_EQUAL_INT(TRIPTYCH_BAD_ARGUMENT, state_set_stream(&state, 0, &buffer, 0, 65540, &error));
+    TEST_ASSERT_EQUAL_INT(TRIPTYCH_BAD_ARGUMENT, state_set_stream(&state, 0, &buffer, 0, 65537, &error));
     TEST_ASSERT_NULL(state.stream[0].buffer);
     TEST_ASSERT_EQUAL_INT(TRIPTYCH_OK, state_set_stream(&state, 15, NULL, 0, 0, &error));
     TEST_ASSERT_NULL(state.stream[15].buffer);
+}
+
+static void streams_begin_at_any_byte(void)
+{
+    static const struct triptych_declaration_element element = {3, 5, TRIPTYCH_FORMAT_UBYTE3,
+                                                                TRIPTYCH_USAGE_COLOR, 0};
+    TEST_ASSERT_EQUAL_INT(TRIPTYCH_OK, state_set_declaration(&state, &element, 1, &error));
+    TEST_ASSERT_EQUAL_INT(TRIPTYCH_OK, state_set_stream(&state, 3, &buffer, 1023, 7, &error));
+    TEST_ASSERT_EQUAL_INT(TRIPTYCH_OK, state_set_stream(&state, 3, &buffer, 1, 7, &error));
+    TEST_ASSERT_EQUAL_UINT64(1, state.stream[3].offset);
+    TEST_ASSERT_EQUAL_UINT64(7, state.stream[3].stride);
+    TEST_ASSERT_EQUAL_UINT64((1024 - 1 - 5 - 3) / 7,
+                             state_last_vertex(&state, &state.element[TRIPTYCH_DIFFUSE]));
 }
 
 static void frequencies_are_checked(void)
@@ -187,6 +197,7 @@ int main(void)
     RUN_TEST(weights_and_indices_share_the_betas);
     RUN_TEST(bad_vertex_formats_are_refused);
     RUN_TEST(streams_are_checked);
+    RUN_TEST(streams_begin_at_any_byte);
     RUN_TEST(frequencies_are_checked);
     RUN_TEST(the_last_vertex_is_the_last_whole_one);
     return UNITY_END();

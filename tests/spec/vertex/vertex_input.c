@@ -22,9 +22,10 @@ void tearDown(void)
 
 /* --- Types --------------------------------------------------------------------------------------------- */
 
-enum { VERTICES = 64, WORDS = 4 };
+enum { VERTICES = 64, WORDS = 4, BYTES = WORDS * 4 };
 
-static uint32_t memory[VERTICES * WORDS];
+/* Three more bytes can be read after the last vertex. */
+static uint8_t memory[VERTICES * (BYTES + 1) + 3 + 3];
 
 static double binary16(unsigned half)
 {
@@ -35,95 +36,180 @@ static double binary16(unsigned half)
     return sign * (exponent ? ldexp(1024 + mantissa, exponent - 25) : ldexp(mantissa, -24));
 }
 
-static int sixteen(const uint32_t *words, int i)
+static uint32_t bits_at(const uint8_t *at, unsigned bit, unsigned bits)
 {
-    return (int)(words[i / 2] >> 16 * (i % 2) & 0xffff);
+    uint64_t value = 0;
+    for (unsigned i = bit / 8; i <= (bit + bits - 1) / 8; i++)
+        value |= (uint64_t)at[i] << 8 * (i - bit / 8);
+    return (uint32_t)(value >> bit % 8 & (((uint64_t)1 << bits) - 1));
 }
 
-static int as_signed(int value, int bits)
+static int64_t as_signed(uint32_t value, unsigned bits)
 {
-    return value >= 1 << (bits - 1) ? value - (1 << bits) : value;
+    return value >> (bits - 1) ? (int64_t)value - ((int64_t)1 << bits) : (int64_t)value;
 }
 
-static int ten(const uint32_t *words, int i)
+/* What the name of a type of integers says, such as ushort3n. */
+struct named {
+    const char *name;
+    unsigned bits;
+    bool is_signed;
+};
+
+static const struct named names[] = {{"byte", 8, true},     {"ubyte", 8, false}, {"short", 16, true},
+                                     {"ushort", 16, false}, {"int", 32, true},   {"uint", 32, false},
+                                     {"fixed", 32, true},   {"udec", 10, false}, {"dec", 10, true}};
+
+/* The integer before the division, as a binary32. */
+static double integer_at(const struct named *named, const uint8_t *at, unsigned c)
 {
-    return (int)(words[0] >> 10 * i & 1023);
+    uint32_t field = bits_at(at, c * named->bits, named->bits);
+    return (double)(named->is_signed ? (float)as_signed(field, named->bits) : (float)field);
 }
 
-static int byte(const uint32_t *words, int i)
+/* Component c of a type of integers, by its name: with "n" the largest integer is 1. */
+static double integer(const struct named *named, const char *rest, const uint8_t *at, unsigned c)
 {
-    return (int)(words[0] >> 8 * i & 255);
+    double value = integer_at(named, at, c), most = ldexp(1, (int)named->bits - named->is_signed) - 1;
+    return !strcmp(named->name, "fixed") ? value / 65536 : rest[1] == 'n' ? value / most : value;
 }
 
-/* Component c as Direct3D 9's D3DDECLTYPE defines it. */
-static double component(enum triptych_format format, const uint32_t *w, int c)
+/* Component c as Direct3D 9's D3DDECLTYPE, or the name of the type, defines it. */
+static double component(enum triptych_format format, const uint8_t *at, int c)
 {
     static const uint8_t color_byte[4] = {2, 1, 0, 3};
+    const char *word = key_vertex_types[format].word;
+    size_t letters = strcspn(word, "0123456789");
     float number;
-    int count = key_vertex_types[format].components;
-    if (c >= count)
+    if (format == TRIPTYCH_FORMAT_COLOR)
+        return at[color_byte[c]] / 255.0;
+    bool half = !strncmp(word, "float16_", 8);
+    if (c >= word[half ? 8 : letters] - '0')
         return c == 3;
-    switch (format) {
-    case TRIPTYCH_FORMAT_COLOR: return byte(w, color_byte[c]) / 255.0;
-    case TRIPTYCH_FORMAT_UBYTE4: return byte(w, c);
-    case TRIPTYCH_FORMAT_UBYTE4N: return byte(w, c) / 255.0;
-    case TRIPTYCH_FORMAT_SHORT2:
-    case TRIPTYCH_FORMAT_SHORT4: return as_signed(sixteen(w, c), 16);
-    case TRIPTYCH_FORMAT_SHORT2N:
-    case TRIPTYCH_FORMAT_SHORT4N: return as_signed(sixteen(w, c), 16) / 32767.0;
-    case TRIPTYCH_FORMAT_USHORT2N:
-    case TRIPTYCH_FORMAT_USHORT4N: return sixteen(w, c) / 65535.0;
-    case TRIPTYCH_FORMAT_UDEC3: return ten(w, c);
-    case TRIPTYCH_FORMAT_DEC3N: return as_signed(ten(w, c), 10) / 511.0;
-    case TRIPTYCH_FORMAT_FLOAT16_2:
-    case TRIPTYCH_FORMAT_FLOAT16_4: return binary16((unsigned)sixteen(w, c));
-    default: memcpy(&number, w + c, sizeof number); return (double)number;
-    }
+    if (half)
+        return binary16(bits_at(at, 16 * (unsigned)c, 16));
+    for (size_t i = 0; i < sizeof names / sizeof *names; i++)
+        if (strlen(names[i].name) == letters && !strncmp(names[i].name, word, letters))
+            return integer(&names[i], word + letters, at, (unsigned)c);
+    memcpy(&number, at + 4 * c, sizeof number);
+    return (double)number;
 }
 
-/* Within one unit in the last place; integers, binary16 and the ends of ranges are exact. A fourth component
- * of 0 is 1, because it is 1/w. */
-static void expect_component(enum triptych_format format, const uint32_t *w, int c, float got)
+/* A vertex in the window: a 1/w of 0 is 1. */
+static double in_window(double value, int c)
 {
-    double fetched = component(format, w, c), expected = c == 3 && fetched == 0 ? 1 : fetched;
+    return c == 3 && value == 0 ? 1 : value;
+}
+
+/* Within one unit in the last place; integers, binary16 and the ends of ranges are exact. */
+static void expect_component(enum triptych_format format, const uint8_t *at, int c, float got)
+{
+    double expected = in_window(component(format, at, c), c);
     int normalised = key_vertex_types[format].scale != 1;
     double tolerance = normalised && expected != 0 && fabs(expected) != 1 ? fabs(expected) * 0x1p-23 : 0;
     char message[128];
     snprintf(message, sizeof message, "%s component %d of %08x %08x: expected %.9g, got %.9g",
-             key_vertex_types[format].word, c, (unsigned)w[0], (unsigned)w[1], expected, (double)got);
+             key_vertex_types[format].word, c, (unsigned)bits_at(at, 0, 32), (unsigned)bits_at(at, 32, 32),
+             expected, (double)got);
     if (isnan(expected) ? !isnan(got)
                         : !(fabs(expected - (double)got) <= tolerance) && expected != (double)got)
         TEST_FAIL_MESSAGE(message);
 }
 
-static void fill_memory(enum triptych_format format)
+static void fill_vertex(enum triptych_format format, int v, uint8_t *vertex)
 {
-    static const uint32_t edges[] = {0,          0xffffffff, 0x80008000, 0x7fff7fff, 0x80018001,
-                                     0x00010001, 0x7c007bff, 0xfc00fbff, 0x04000001, 0x03ff83ff,
-                                     0x3c00bc00, 0x1ff7fdff, 0x20080200, 0x3fffffff, 0x7e017c01};
+    static const uint32_t edges[] = {0,          0xffffffff, 0x80008000, 0x7fff7fff, 0x80018001, 0x80000000,
+                                     0x00010001, 0x7c007bff, 0xfc00fbff, 0x04000001, 0x03ff83ff, 0x7fffffff,
+                                     0x3c00bc00, 0x1ff7fdff, 0x20080200, 0x3fffffff, 0x7e017c01, 0x80807f7f,
+                                     0x01000001, 0x01000003, 0xff000080, 0xff000180, 0xff00017f, 0x81000001};
     enum { EDGES = sizeof edges / sizeof *edges };
-    for (int i = 0; i < VERTICES * WORDS; i++) {
+    for (int w = 0; w < WORDS; w++) {
+        uint32_t word = v < EDGES ? edges[(v + w) % EDGES] : random_word();
         float number = (float)random_between(-100, 100);
-        memory[i] = i / WORDS < EDGES ? edges[(i / WORDS + i % WORDS) % EDGES] : random_word();
         if (key_vertex_types[format].encoding == ENCODING_FLOAT)
-            memcpy(&memory[i], &number, sizeof number);
+            memcpy(&word, &number, sizeof number);
+        memcpy(vertex + 4 * w, &word, sizeof word);
     }
 }
 
-/* Vertices in the window pass through as they were fetched, but for a 1/w of 0. */
+/* Vertices in the window pass through as they were fetched. They begin at this byte. */
+static void check_type(enum triptych_format format, size_t begin, size_t stride)
+{
+    for (int v = 0; v < VERTICES; v++)
+        fill_vertex(format, v, memory + begin + (size_t)v * stride);
+    shading_bind(TRIPTYCH_POSITIONT, format, memory + begin, stride);
+    shade(VERTICES);
+    for (uint32_t v = 0; v < VERTICES; v++)
+        for (int c = 0; c < 4; c++)
+            expect_component(format, memory + begin + v * stride, c, shaded_slot(SLOT_X + c, v));
+}
+
 static void check_types(void)
 {
+    for (int format = 1; format < TRIPTYCH_FORMAT_COUNT; format++)
+        check_type((enum triptych_format)format, 0, BYTES);
+}
+
+/* Every byte of a word, with vertices that begin at different ones. */
+static void check_alignments(void)
+{
+    for (int format = 1; format < TRIPTYCH_FORMAT_COUNT; format++)
+        for (size_t begin = 0; begin < 4; begin++)
+            check_type((enum triptych_format)format, begin, BYTES + begin % 2);
+}
+
+static void test_attributes_begin_at_any_byte(void)
+{
+    shading_on_every_engine(check_alignments);
+}
+
+/* Vertices without gaps: those of a byte are a byte apart. */
+static void check_packed(void)
+{
     for (int format = 1; format < TRIPTYCH_FORMAT_COUNT; format++) {
-        fill_memory(format);
-        shading_bind(TRIPTYCH_POSITIONT, format, memory, WORDS * 4);
+        size_t stride = key_vertex_types[format].bytes;
+        for (size_t i = 0; i < VERTICES * stride + 3; i++)
+            memory[i] = key_vertex_types[format].encoding == ENCODING_FLOAT ? 0x3f : (uint8_t)random_word();
+        shading_bind(TRIPTYCH_POSITIONT, (enum triptych_format)format, memory, stride);
         shade(VERTICES);
         for (uint32_t v = 0; v < VERTICES; v++)
             for (int c = 0; c < 4; c++)
-                expect_component(format, memory + v * WORDS, c, shaded_slot(SLOT_X + c, v));
+                expect_component((enum triptych_format)format, memory + v * stride, c,
+                                 shaded_slot(SLOT_X + c, v));
     }
 }
 
-static void test_each_type_has_the_values_of_direct3d(void)
+static void test_vertices_need_no_gaps(void)
+{
+    shading_on_every_engine(check_packed);
+}
+
+/* Sums of two powers of two that are halfway between two binary32: the even one is taken. */
+static void check_rounding(void)
+{
+    static const uint32_t words[] = {0x01000001, 0x01000003, 0x80000080, 0x80000180,
+                                     0xfffffeff, 0xffffff7f, 0xffffff80, 0xffffffff};
+    static const double unsigned_value[] = {0x1.0p24,      0x1.000004p24, 0x1.0p31, 0x1.000004p31,
+                                            0x1.fffffep31, 0x1.fffffep31, 0x1p32,   0x1p32};
+    static const double signed_value[] = {0x1.0p24, 0x1.000004p24, -0x1.fffffep30, -0x1.fffffap30,
+                                          -257,     -129,          -128,           -1};
+    enum { COUNT = sizeof words / sizeof *words };
+    shading_bind(TRIPTYCH_POSITIONT, TRIPTYCH_FORMAT_UINT1, words, 4);
+    shade(COUNT);
+    for (uint32_t v = 0; v < COUNT; v++)
+        TEST_ASSERT_TRUE(unsigned_value[v] == (double)shaded_slot(SLOT_X, v));
+    shading_bind(TRIPTYCH_POSITIONT, TRIPTYCH_FORMAT_INT1, words, 4);
+    shade(COUNT);
+    for (uint32_t v = 0; v < COUNT; v++)
+        TEST_ASSERT_TRUE(signed_value[v] == (double)shaded_slot(SLOT_X, v));
+}
+
+static void test_wide_integers_are_rounded_to_the_nearest(void)
+{
+    shading_on_every_engine(check_rounding);
+}
+
+static void test_each_type_has_the_values_of_its_name(void)
 {
     shading_on_every_engine(check_types);
 }
@@ -138,13 +224,12 @@ static void check_halves(void)
         shading_bind(TRIPTYCH_POSITIONT, TRIPTYCH_FORMAT_FLOAT16_4, half, 8);
         shade(VERTEX_CAPACITY);
         for (uint32_t i = 0; i < VERTEX_CAPACITY * 4; i++) {
-            float got = shaded_slot(SLOT_X + (int)(i % 4), i / 4), expected = half_to_float(half[i]);
-            double exact = binary16(half[i]);
-            if (i % 4 == 3 && exact == 0) /* a 1/w of 0 is 1 */
-                got = got == 1 ? expected : NAN;
+            float got = shaded_slot(SLOT_X + (int)(i % 4), i / 4);
+            float expected = (float)in_window((double)half_to_float(half[i]), (int)(i % 4));
+            double exact = in_window(binary16(half[i]), (int)(i % 4));
             TEST_ASSERT_EQUAL_HEX32_MESSAGE(0, memcmp(&got, &expected, sizeof got), "binary16");
             TEST_ASSERT_TRUE(isnan(exact) ? isnan(got) : exact == (double)got);
-            TEST_ASSERT_TRUE(isnan(exact) || float_to_half(got) == half[i]);
+            TEST_ASSERT_TRUE(isnan(exact) || exact != binary16(half[i]) || float_to_half(got) == half[i]);
         }
     }
 }
@@ -381,7 +466,10 @@ static void test_an_instances_position_is_the_same_for_all_its_corners(void)
 int main(void)
 {
     UNITY_BEGIN();
-    RUN_TEST(test_each_type_has_the_values_of_direct3d);
+    RUN_TEST(test_each_type_has_the_values_of_its_name);
+    RUN_TEST(test_attributes_begin_at_any_byte);
+    RUN_TEST(test_vertices_need_no_gaps);
+    RUN_TEST(test_wide_integers_are_rounded_to_the_nearest);
     RUN_TEST(test_every_binary16_is_converted_exactly);
     RUN_TEST(test_positions_of_four_components_have_a_w);
     RUN_TEST(test_vertices_in_window_coordinates_are_not_moved);

@@ -183,12 +183,14 @@ static void make_constants(struct differential *d, enum unit unit, const union k
 
 /* --- Vertices --- */
 
-/* The last vertex that is fetched ends at the fence, or up to three bytes before it. */
+/* The last word of the last vertex that is fetched ends at the fence, or up to three bytes before it: so far
+ * routines may read. Vertices are any number of bytes apart. */
 static void make_stream(struct differential *d, uint8_t *stream, struct attribute_job *job, int format,
                         uint32_t last)
 {
-    job->stride = 4 * (int32_t)differential_below(d, STRIDE_MAXIMUM / 4 + 1);
-    job->data = stream + STREAM_BYTES - last * (uint32_t)job->stride - key_vertex_types[format].bytes;
+    job->stride = (int32_t)differential_below(d, STRIDE_MAXIMUM + 1);
+    uint32_t words = (key_vertex_types[format].bytes + 3u) / 4;
+    job->data = stream + STREAM_BYTES - last * (uint32_t)job->stride - 4 * words;
     if (!differential_below(d, 4))
         job->data -= differential_below(d, 4);
     if (key_vertex_types[format].encoding != ENCODING_FLOAT)

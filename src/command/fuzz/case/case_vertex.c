@@ -1,5 +1,6 @@
 /* Vertices and indices of random kinds: any elements in any types that a declaration can have, values from
- * plausible to anything. Wild ones lie in a buffer of words, since text has no NaN. */
+ * plausible to anything. Elements follow each other without gaps, so that they begin at any byte. Wild ones
+ * lie in a buffer of words, since text has no NaN; up to three bytes complete the last word of a vertex. */
 #include "base/bits.h"
 #include "command/fuzz/case/case_part.h"
 
@@ -8,6 +9,7 @@
 #include "capture/word.h"
 
 #include <math.h>
+#include <string.h>
 
 enum { VERTICES = 12, ELEMENTS = 24, CHANGE_WORDS = 3 };
 
@@ -84,15 +86,16 @@ static float element_value(struct maker *maker, unsigned element, unsigned c, co
  * transforms. */
 static void add_field(struct maker *maker, unsigned element, const struct vertex_type *type)
 {
-    int32_t half = 1 << (type->bits - 1);
+    int64_t half = (int64_t)1 << (type->bits - 1);
+    uint32_t most = (uint32_t)(2 * half - 1);
     if (type->encoding == ENCODING_HALF)
         case_number(maker, -2, 2);
     else if (type->encoding == ENCODING_SIGNED)
-        text_add(maker->text, " %d", random_between(&maker->random, -half, half - 1));
+        text_add(maker->text, " %d", (int)((int64_t)((uint32_t)random_u64(&maker->random) & most) - half));
     else if (element == TRIPTYCH_INDICES)
         text_add(maker->text, " %u", random_below(&maker->random, 4));
     else
-        text_add(maker->text, " %u", random_below(&maker->random, 2u * (uint32_t)half));
+        text_add(maker->text, " %u", (uint32_t)random_u64(&maker->random) & most);
 }
 
 static void add_typed(struct maker *maker, const struct element *element, const float position[4])
@@ -109,18 +112,35 @@ static void add_typed(struct maker *maker, const struct element *element, const 
             add_field(maker, element->number, type);
 }
 
-static void add_words(struct maker *maker, const struct element *element, const float position[4])
+/* Returns the element's bytes. */
+static unsigned make_wild(struct maker *maker, const struct element *element, const float position[4],
+                          uint8_t *bytes)
 {
     const struct vertex_type *type = &key_vertex_types[element->format];
-    for (unsigned w = 0; w < type->bytes / 4u; w++) {
+    uint32_t words[4];
+    for (unsigned w = 0; 4 * w < type->bytes; w++) {
         float value = element_value(maker, element->number, w, position);
         uint32_t bits = bits_of_float(value);
         if (type->encoding != ENCODING_FLOAT)
             bits = (uint32_t)random_u64(&maker->random);
         else if (random_chance(&maker->random, 8))
             bits = random_wild_bits(&maker->random);
-        text_add(maker->text, " %u", bits);
+        words[w] = bits;
     }
+    memcpy(bytes, words, type->bytes);
+    return type->bytes;
+}
+
+/* A vertex of elements in any types. */
+static void add_wild(struct maker *maker, const struct element *elements, unsigned count,
+                     const float position[4])
+{
+    uint32_t vertex[4 * ELEMENTS] = {0};
+    unsigned bytes = 0;
+    for (unsigned e = 0; e < count; e++)
+        bytes += make_wild(maker, &elements[e], position, (uint8_t *)vertex + bytes);
+    for (unsigned w = 0; 4 * w < bytes; w++)
+        text_add(maker->text, " %u", vertex[w]);
 }
 
 /* --- Resources ------------------------------------------------------------------------------------------ */
@@ -138,19 +158,21 @@ static void add_block(struct maker *maker, const struct element *elements, unsig
     for (unsigned v = 0; v < maker->vertices; v++) {
         float position[4];
         random_position(maker, position);
-        for (unsigned e = 0; e < count; e++)
-            (maker->wild ? add_words : add_typed)(maker, &elements[e], position);
+        for (unsigned e = 0; e < count && !maker->wild; e++)
+            add_typed(maker, &elements[e], position);
+        if (maker->wild)
+            add_wild(maker, elements, count, position);
         text_add(maker->text, "\n");
     }
     text_add(maker->text, "}\n");
 }
 
-static unsigned stride_of(const struct element *elements, unsigned count)
+static unsigned stride_of(const struct maker *maker, const struct element *elements, unsigned count)
 {
     unsigned bytes = 0;
     for (unsigned e = 0; e < count; e++)
         bytes += key_vertex_types[elements[e].format].bytes;
-    return bytes;
+    return maker->wild ? (bytes + 3) & -4u : bytes;
 }
 
 /* Elements first to first + count - 1 as a resource of their own. */
@@ -173,10 +195,10 @@ static void bind_streams(struct maker *maker, const struct element *elements, co
     if (part[1])
         text_add(maker->text, " 1");
     add_elements(maker, elements + part[0], part[1]);
-    maker->stride = stride_of(elements, part[0]);
+    maker->stride = stride_of(maker, elements, part[0]);
     text_add(maker->text, "\nbind stream 0 v0 0 %u\n", maker->stride);
     if (part[1])
-        text_add(maker->text, "bind stream 1 v1 0 %u\n", stride_of(elements + part[0], part[1]));
+        text_add(maker->text, "bind stream 1 v1 0 %u\n", stride_of(maker, elements + part[0], part[1]));
 }
 
 static void add_indices(struct maker *maker)
@@ -206,8 +228,7 @@ void case_change_buffer(struct maker *maker)
     if (random_chance(&maker->random, 12))
         text_add(maker->text, "discard v0\n");
     else if (room >= CHANGE_WORDS * 4)
-        text_add(maker->text, "write v0 %u c0\n",
-                 4 * random_below(&maker->random, (room - CHANGE_WORDS * 4) / 4 + 1));
+        text_add(maker->text, "write v0 %u c0\n", random_below(&maker->random, room - CHANGE_WORDS * 4 + 1));
 }
 
 /* The second stream steps with instances. There are no more instances than vertices. */
@@ -230,7 +251,7 @@ void case_vertices(struct maker *maker)
     }
     add_resource(maker, 0, elements, part[0]);
     add_source(maker);
-    maker->bytes = stride_of(elements, part[0]);
+    maker->bytes = stride_of(maker, elements, part[0]);
     if (part[1])
         add_resource(maker, 1, elements + part[0], part[1]);
     if (part[1] || maker->wild)
