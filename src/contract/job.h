@@ -15,7 +15,7 @@
 #include <stdint.h>
 
 /* Vertex i's attribute begins at data + i * stride, any byte. `data` includes the offsets of the stream and
- * the element. Routines read whole words: after an attribute whose size is no multiple of four, up to
+ * the element. Routines read whole words: after an attribute whose size is not a multiple of four, up to
  * FETCH_OVERREAD bytes, whose values do not matter, must be readable. */
 enum { FETCH_OVERREAD = 3 };
 struct attribute_job {

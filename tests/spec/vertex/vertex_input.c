@@ -49,7 +49,7 @@ static int64_t as_signed(uint32_t value, unsigned bits)
     return value >> (bits - 1) ? (int64_t)value - ((int64_t)1 << bits) : (int64_t)value;
 }
 
-/* What the name of a type of integers says, such as ushort3n. */
+/* The meaning of the name of a type of integers, such as ushort3n. */
 struct named {
     const char *name;
     unsigned bits;
