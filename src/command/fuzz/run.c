@@ -16,16 +16,18 @@ const char *const outcome_name[OUTCOME_COUNT] = {
     [OUTCOME_FAILED] = "failed",   [OUTCOME_CRASHED] = "crashed",
     [OUTCOME_HUNG] = "hung"};
 
-enum { QUERIES = 64, CACHE_BYTES_FUZZ = 4 << 20 };
+/* Vertices that are processed without a draw after each frame: those that every case has. */
+enum { PROCESSED = 3, CACHE_BYTES_FUZZ = 4 << 20 };
 
 struct runner {
     struct runner_options options;
     struct triptych_device *device[RUNNER_ENGINES];
     struct player *player[RUNNER_ENGINES]; /* of the case */
-    uint32_t *words;                       /* what the reference drew: tiles, depths, texels, in that order */
+    uint32_t *words; /* what the reference drew, frame after frame: tiles, depths, texels, counts of queries,
+                        processed vertices, in that order */
     size_t capacity, count;
-    uint64_t queries[QUERIES];
-    unsigned query_count;
+    enum triptych_result result; /* of processing the vertices */
+    struct triptych_processed_vertex processed[PROCESSED];
 };
 
 static enum outcome find(struct finding *finding, enum outcome outcome, const char *format, ...)
@@ -84,7 +86,7 @@ struct section {
     const char *what;
     const uint32_t *words;
     size_t count;
-    uint32_t item, planes; /* tile or texture number, planes of a tile and sample */
+    uint32_t item, planes; /* the number of the tile or of another item; planes of a tile and sample */
 };
 
 typedef int section_visitor(void *user, const struct section *section);
@@ -143,20 +145,56 @@ static int visit_surfaces(struct triptych_device *device, section_visitor *visit
     return stop;
 }
 
-/* Visits the words of a device, in an order that depends only on the stream. Stops at a result that is not
- * 0. */
-static int visit_sections(struct triptych_device *device, section_visitor *visit, void *user)
+static int visit_textures(struct triptych_device *device, section_visitor *visit, void *user)
 {
-    int stop = visit_target(device_target(device), visit, user);
-    if (!stop)
-        stop = visit_surfaces(device, visit, user);
     uint32_t number = 0;
+    int stop = 0;
     for (struct triptych_texture *texture = device->resources.textures; texture && !stop;
          texture = texture->next) {
-        struct section texels = {"texture", texture->texels, texture_storage_bytes(texture) / 4, number++, 0};
+        struct section texels = {"texture, from the last,", texture->texels,
+                                 texture_storage_bytes(texture) / 4, number++, 0};
         stop = visit(user, &texels);
     }
     return stop;
+}
+
+static int visit_queries(struct player *player, section_visitor *visit, void *user)
+{
+    struct query_count count;
+    int stop = 0;
+    for (uint32_t i = 0; !stop && player_query(player, i, &count); i++) {
+        const uint32_t words[2] = {(uint32_t)count.passed, (uint32_t)(count.passed >> 32)};
+        stop = visit(user, &(struct section){"query", words, 2, i, 0});
+    }
+    return stop;
+}
+
+/* The result, and if it is good the vertices. */
+static int visit_vertices(const struct runner *runner, section_visitor *visit, void *user)
+{
+    const uint32_t result = (uint32_t)runner->result;
+    int stop = visit(user, &(struct section){"result of processing vertices,", &result, 1, 0, 0});
+    for (uint32_t i = 0; i < PROCESSED && !result && !stop; i++) {
+        uint32_t words[sizeof *runner->processed / sizeof(uint32_t)];
+        memcpy(words, &runner->processed[i], sizeof words);
+        stop = visit(user, &(struct section){"processed vertex", words, sizeof words / sizeof *words, i, 0});
+    }
+    return stop;
+}
+
+/* Visits the words of a device and its player, in an order that depends only on the stream. Stops at a result
+ * that is not 0. */
+static int visit_sections(const struct runner *runner, unsigned engine, section_visitor *visit, void *user)
+{
+    struct triptych_device *device = runner->device[engine];
+    int stop = visit_target(device_target(device), visit, user);
+    if (!stop)
+        stop = visit_surfaces(device, visit, user);
+    if (!stop)
+        stop = visit_textures(device, visit, user);
+    if (!stop)
+        stop = visit_queries(runner->player[engine], visit, user);
+    return stop ? stop : visit_vertices(runner, visit, user);
 }
 
 static int keep_section(void *user, const struct section *section)
@@ -215,31 +253,13 @@ static int compare_section(void *user, const struct section *section)
     if (section->planes)
         describe_pixel(comparison, section, i, place);
     else
-        snprintf(place, sizeof place, "word %zu of texture %u from the last", i, section->item);
+        snprintf(place, sizeof place, "word %zu of %s number %u", i, section->what, section->item);
     find(comparison->finding, OUTCOME_DIFFERENT, "%s: %08x, expected %08x", place, section->words[i],
          expected[i]);
     return 1;
 }
 
 /* --- One configuration ---------------------------------------------------------------------------------- */
-
-static void keep_queries(struct runner *runner)
-{
-    struct query_count count;
-    runner->query_count = 0;
-    while (runner->query_count < QUERIES && player_query(runner->player[0], runner->query_count, &count))
-        runner->queries[runner->query_count++] = count.passed;
-}
-
-static enum outcome compare_queries(const struct runner *runner, unsigned engine, struct finding *finding)
-{
-    struct query_count count;
-    for (unsigned i = 0; i < runner->query_count; i++)
-        if (!player_query(runner->player[engine], i, &count) || count.passed != runner->queries[i])
-            return find(finding, OUTCOME_DIFFERENT, "query %s counted %" PRIu64 ", expected %" PRIu64,
-                        count.name, count.passed, runner->queries[i]);
-    return OUTCOME_SAME;
-}
 
 /* Recordings and plans have a largest size (ir/pool.c, engines/stitch/plan.c), each its own, and the
  * emulator has none. */
@@ -248,48 +268,63 @@ static bool is_limit(const char *reason)
     return strstr(reason, "routine takes more than") || strstr(reason, "exceeds its room of");
 }
 
-static enum outcome play_reference(struct runner *runner, uint32_t frame, struct finding *finding)
+/* Plays a frame and processes vertices in the state that it leaves. */
+static int play_frame(struct runner *runner, unsigned engine, uint32_t frame, struct error *error)
+{
+    if (player_frame(runner->player[engine], frame, error))
+        return -1;
+    memset(runner->processed, 0, sizeof runner->processed);
+    runner->result = device_process_vertices(runner->device[engine], 0, PROCESSED, runner->processed, error);
+    return runner->result == TRIPTYCH_ENGINE_FAILED ? -1 : 0;
+}
+
+static enum outcome play_reference(struct runner *runner, uint32_t frames, struct finding *finding)
 {
     struct error error = {{0}};
     finding->engine = runner->options.engine[0];
     finding->threads = runner->options.thread[0];
     device_limit_threads(runner->device[0], finding->threads);
-    if (player_frame(runner->player[0], frame, &error))
-        return find(finding, OUTCOME_REFUSED, "%s", error.text);
     runner->count = 0;
-    if (visit_sections(runner->device[0], keep_section, runner))
-        return find(finding, OUTCOME_REFUSED, "out of memory for the picture");
-    keep_queries(runner);
+    for (uint32_t frame = 0; frame < frames; frame++) {
+        if (play_frame(runner, 0, frame, &error))
+            return find(finding, OUTCOME_REFUSED, "%s", error.text);
+        if (visit_sections(runner, 0, keep_section, runner))
+            return find(finding, OUTCOME_REFUSED, "out of memory for the picture");
+    }
     return OUTCOME_SAME;
 }
 
-static enum outcome play_other(struct runner *runner, uint32_t frame, unsigned engine, unsigned threads,
+static enum outcome play_other(struct runner *runner, uint32_t frames, unsigned engine, unsigned threads,
                                struct finding *finding)
 {
     struct error error = {{0}};
     struct triptych_device *device = runner->device[engine];
+    struct comparison comparison = {.runner = runner, .finding = finding};
     finding->engine = runner->options.engine[engine];
     finding->threads = threads;
     device_limit_threads(device, threads);
-    if (player_frame(runner->player[engine], frame, &error))
-        return find(finding, is_limit(error.text) ? OUTCOME_LIMITED : OUTCOME_FAILED, "%s", error.text);
-    struct comparison comparison = {runner, device_target(device), 0, finding};
-    if (visit_sections(device, compare_section, &comparison))
-        return OUTCOME_DIFFERENT;
+    for (uint32_t frame = 0; frame < frames; frame++) {
+        if (play_frame(runner, engine, frame, &error))
+            return find(finding, is_limit(error.text) ? OUTCOME_LIMITED : OUTCOME_FAILED, "%s", error.text);
+        comparison.target = device_target(device);
+        if (visit_sections(runner, engine, compare_section, &comparison))
+            return OUTCOME_DIFFERENT;
+    }
     if (comparison.at != runner->count)
         return find(finding, OUTCOME_DIFFERENT, "%zu words, expected %zu", comparison.at, runner->count);
-    return compare_queries(runner, engine, finding);
+    return OUTCOME_SAME;
 }
 
 /* --- One case ------------------------------------------------------------------------------------------- */
 
-static enum outcome play_frame(struct runner *runner, uint32_t frame, struct finding *finding)
+/* An engine plays all frames with each number of threads. The reference has done so with the first. */
+static enum outcome play_all(struct runner *runner, uint32_t frames, struct finding *finding)
 {
     const struct runner_options *options = &runner->options;
-    enum outcome outcome = play_reference(runner, frame, finding), limited = OUTCOME_SAME;
+    enum outcome outcome = play_reference(runner, frames, finding), limited = OUTCOME_SAME;
     for (unsigned e = 0; e < options->engines && !outcome; e++)
         for (unsigned t = e ? 0 : 1; t < options->threads && !outcome; t++) {
-            outcome = play_other(runner, frame, e, options->thread[t], finding);
+            outcome = play_other(runner, frames, e, options->thread[t], finding);
             if (outcome == OUTCOME_LIMITED) {
                 limited = outcome;
                 outcome = OUTCOME_SAME;
@@ -302,18 +337,10 @@ static enum outcome play_frame(struct runner *runner, uint32_t frame, struct fin
 static enum outcome play(struct runner *runner, const struct stream *stream, struct finding *finding)
 {
     struct error error = {{0}};
-    enum outcome outcome = OUTCOME_SAME, limited = OUTCOME_SAME;
     for (unsigned e = 0; e < runner->options.engines; e++)
         if (stream_prepare(stream, runner->device[e], &runner->player[e], &error))
             return find(finding, OUTCOME_REFUSED, "%s", error.text);
-    for (uint32_t frame = 0; frame < stream->frame_count && !outcome; frame++) {
-        outcome = play_frame(runner, frame, finding);
-        if (outcome == OUTCOME_LIMITED) {
-            limited = outcome;
-            outcome = OUTCOME_SAME;
-        }
-    }
-    return outcome ? outcome : limited;
+    return play_all(runner, stream->frame_count, finding);
 }
 
 enum outcome runner_run(struct runner *runner, const char *path, const char *text, size_t bytes,

@@ -2,6 +2,7 @@
 
 #include "command/fuzz/case/case_part.h"
 #include "command/fuzz/case/shader.h"
+#include "render/target/target.h"
 
 void case_number(struct maker *maker, float least, float most)
 {
@@ -52,6 +53,44 @@ static void add_clear_of_parts(struct maker *maker)
     text_add(maker->text, "\n");
 }
 
+/* --- Meshes and contents of the target ------------------------------------------------------------------ */
+
+enum { CONTENTS_BYTES = 16384 };
+
+static void add_mesh(struct maker *maker)
+{
+    static const char *const shapes[] = {"box", "grid 2 1", "sphere 4 3", "cylinder 5 1", "torus 0.25 4 3"};
+    maker->mesh = true;
+    text_add(maker->text, "mesh m0 %s\n",
+             shapes[random_below(&maker->random, sizeof shapes / sizeof *shapes)]);
+}
+
+/* Words of any bits for all pixels of the target. */
+static void add_contents(struct maker *maker)
+{
+    size_t bytes = target_contents_bytes(&maker->target);
+    if (!bytes || bytes > CONTENTS_BYTES)
+        return;
+    maker->contents = true;
+    text_add(maker->text, "buffer k0 u32");
+    case_words(maker, bytes / sizeof(uint32_t));
+}
+
+static void add_resources(struct maker *maker)
+{
+    if (random_chance(&maker->random, 24))
+        add_mesh(maker);
+    if (random_chance(&maker->random, 24))
+        add_contents(maker);
+}
+
+/* They are those of the target, not of attached surfaces. */
+static void write_contents(struct maker *maker)
+{
+    if (maker->contents && !maker->attached)
+        text_add(maker->text, "contents k0\n");
+}
+
 /* --- Draws ---------------------------------------------------------------------------------------------- */
 
 enum { PRIMITIVES = TRIPTYCH_PRIMITIVE_COUNT };
@@ -88,6 +127,23 @@ static void add_user_draw(struct maker *maker)
              primitives[p].word, most, maker->stride, maker->index_bits);
 }
 
+/* States and a draw, which are also correct if they are played again. */
+static void add_sequence(struct maker *maker)
+{
+    text_add(maker->text, "sequence s0\n");
+    case_states(maker, random_below(&maker->random, 6));
+    add_draw(maker);
+    text_add(maker->text, random_chance(&maker->random, 2) ? "end\nplay s0\n" : "end\nplay s0\nplay s0\n");
+}
+
+/* It replaces the vertices, so it is the last draw. The elements of instances belong to a stream, which a mesh
+ * does not have. */
+static void draw_mesh(struct maker *maker)
+{
+    if (maker->mesh && !maker->instanced)
+        text_add(maker->text, "draw mesh m0\n");
+}
+
 static void change_something(struct maker *maker)
 {
     case_states(maker, random_below(&maker->random, 6));
@@ -109,9 +165,25 @@ static void change_something(struct maker *maker)
         case_samplers(maker);
     if (random_chance(&maker->random, 8))
         case_switch_shaders(maker);
+    if (random_chance(&maker->random, 8))
+        write_contents(maker);
+    if (random_chance(&maker->random, 8))
+        case_lights_off(maker);
 }
 
-/* The target is read where it is drawn to: what one draw leaves the next ones blend with and compare with. */
+static void add_any_draw(struct maker *maker, bool first)
+{
+    struct random *random = &maker->random;
+    if (first && random_chance(random, 16))
+        add_sequence(maker);
+    else if (maker->stride && (maker->indices || !maker->instanced) && random_chance(random, 3))
+        add_user_draw(maker);
+    else
+        add_draw(maker);
+}
+
+/* The target is read where it is drawn to: what one draw leaves the next ones blend with and compare with.
+ * Queries begin and end in one frame. */
 static void add_draws(struct maker *maker)
 {
     struct random *random = &maker->random;
@@ -120,15 +192,24 @@ static void add_draws(struct maker *maker)
     if (query)
         text_add(maker->text, "begin-query q0\n");
     for (unsigned d = 0; d < draws; d++) {
+        if (d && !query && random_chance(random, 6))
+            text_add(maker->text, "frame\n");
         if (d)
             change_something(maker);
-        if (maker->stride && (maker->indices || !maker->instanced) && random_chance(random, 3))
-            add_user_draw(maker);
-        else
-            add_draw(maker);
+        add_any_draw(maker, d == 0);
     }
+    draw_mesh(maker);
     if (query)
         text_add(maker->text, "end-query q0\n");
+}
+
+/* The bytes of buffers are copied when they are used. */
+static void add_releases(struct maker *maker)
+{
+    if (random_chance(&maker->random, 12))
+        text_add(maker->text, "release c0\n");
+    if (maker->contents && random_chance(&maker->random, 2))
+        text_add(maker->text, "release k0\n");
 }
 
 /* Draws to a texture, which later draws may sample. */
@@ -173,6 +254,7 @@ void case_write(struct random *random, struct text *text)
     case_images(&maker);
     text_add(text, "query q0\n");
     case_vertices(&maker);
+    add_resources(&maker);
     case_window(&maker);
     case_transforms(&maker);
     case_lights(&maker);
@@ -186,5 +268,6 @@ void case_write(struct random *random, struct text *text)
     if (random_chance(&maker.random, 8))
         add_clear_of_parts(&maker);
     add_draws(&maker);
+    add_releases(&maker);
     *random = maker.random;
 }

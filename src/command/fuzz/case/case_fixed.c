@@ -1,11 +1,12 @@
 /* The inputs of the fixed function: transforms, material, lights, clip planes, conventions. */
 #include "command/fuzz/case/case_part.h"
 
-static void add_matrix(struct maker *maker)
+/* Returns true if the matrix holds anything. */
+static bool add_matrix(struct maker *maker)
 {
     struct random *random = &maker->random;
     switch (random_below(random, maker->wild ? 6 : 5)) {
-    case 0: text_add(maker->text, " identity\n"); return;
+    case 0: text_add(maker->text, " identity\n"); return false;
     case 1: text_add(maker->text, " rotate %d 0 0 1 translate", random_between(random, -180, 180)); break;
     case 2:
         text_add(maker->text, " scale %.9g 0.75 1 translate", (double)random_float(random, 0.5f, 1.5f));
@@ -14,7 +15,7 @@ static void add_matrix(struct maker *maker)
         text_add(maker->text, " rotate %d", random_between(random, -60, 60));
         case_numbers(maker, 2, -1, 1);
         text_add(maker->text, " 1\n");
-        return;
+        return false;
     case 4: text_add(maker->text, " translate"); break;
     default:
         text_add(maker->text, " matrix");
@@ -24,10 +25,11 @@ static void add_matrix(struct maker *maker)
             else
                 case_number(maker, -1, 1);
         text_add(maker->text, "\n");
-        return;
+        return true;
     }
     case_numbers(maker, 3, -0.25f, 0.25f);
     text_add(maker->text, "\n");
+    return false;
 }
 
 void case_transforms(struct maker *maker)
@@ -37,7 +39,7 @@ void case_transforms(struct maker *maker)
     for (unsigned i = 0; i < sizeof common / sizeof *common; i++)
         if (random_chance(random, 4)) {
             text_add(maker->text, "transform %s", common[i]);
-            add_matrix(maker);
+            maker->huge |= add_matrix(maker) && i < 2;
         }
     for (unsigned i = 0; i < maker->stages; i++)
         if (random_chance(random, 3)) {
@@ -108,6 +110,11 @@ void case_lights(struct maker *maker)
     for (unsigned i = 0; i < TRIPTYCH_LIGHTS; i++)
         if (random_chance(&maker->random, 4))
             add_light(maker, i);
+}
+
+void case_lights_off(struct maker *maker)
+{
+    text_add(maker->text, "light %u off\n", random_below(&maker->random, TRIPTYCH_LIGHTS));
 }
 
 /* --- Clip planes, conventions, parts of the target ------------------------------------------------------ */

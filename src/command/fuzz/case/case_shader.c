@@ -80,7 +80,7 @@ static void add_bumps(struct maker *maker, const struct fuzz_shader *shader)
                      (double)random_float(&maker->random, -1, 1));
 }
 
-/* After the transforms, whose product is the matrix of a vertex shader. */
+/* After the transforms, whose product is the matrix of a vertex shader. It must be finite. */
 void case_constants(struct maker *maker)
 {
     const struct fuzz_shader *vertex = maker->shader[TRIPTYCH_SHADER_VERTEX],
@@ -88,7 +88,7 @@ void case_constants(struct maker *maker)
     if (vertex) {
         add_floats(maker, "vertex", vertex);
         add_others(maker, "vertex", vertex);
-        if (vertex->matrix >= 0 && !random_chance(&maker->random, 16))
+        if (vertex->matrix >= 0 && !maker->huge && !random_chance(&maker->random, 16))
             text_add(maker->text, "vertexconstant %d transform world view projection\n", vertex->matrix);
     }
     if (pixel) {

@@ -1,12 +1,7 @@
-/* Images, and changes of surfaces between draws: other targets, copies, new texels. */
+/* Images, and surfaces that are drawn to: attached ones, other targets between draws. */
 #include "command/fuzz/case/case_part.h"
 
-#include "render/texture/format.h"
-
-#include <string.h>
-
-/* A texture that can be drawn to; -1: none. */
-static int find_target(struct maker *maker)
+int case_find_target(struct maker *maker)
 {
     unsigned first = maker->textures ? random_below(&maker->random, maker->textures) : 0;
     for (unsigned i = 0; i < maker->textures; i++)
@@ -23,16 +18,28 @@ static void unbind_textures(struct maker *maker)
             text_add(maker->text, "bind texture %u none\n", i);
 }
 
+unsigned case_level(struct maker *maker, int texture)
+{
+    const struct case_texture *from = &maker->texture[texture];
+    unsigned level = random_chance(&maker->random, 3) ? random_below(&maker->random, from->levels) : 0;
+    unsigned slices = from->type == TRIPTYCH_TEXTURE_VOLUME ? from->slices >> level : from->slices;
+    unsigned slice = slices ? random_below(&maker->random, slices) : 0;
+    if (level)
+        text_add(maker->text, " level %u", level);
+    if (slice)
+        text_add(maker->text, " slice %u", slice);
+    return from->size >> level ? from->size >> level : 1;
+}
+
 bool case_attach(struct maker *maker)
 {
-    int texture = find_target(maker);
+    int texture = case_find_target(maker);
     if (texture < 0)
         return false;
     if (random_chance(&maker->random, 2))
         unbind_textures(maker);
     text_add(maker->text, "attach color t%d", texture);
-    if (maker->texture[texture].type == TRIPTYCH_TEXTURE_CUBE)
-        text_add(maker->text, " slice %u", random_below(&maker->random, 6));
+    case_level(maker, texture);
     if (random_chance(&maker->random, 2))
         text_add(maker->text, " depthformat %s", random_chance(&maker->random, 2) ? "d24s8" : "d16");
     text_add(maker->text, "\n");
@@ -52,8 +59,12 @@ static void add_image(struct maker *maker)
 {
     struct case_image *image = &maker->image[maker->images];
     bool several = maker->samples > 1 && !random_chance(&maker->random, 4);
-    *image = (struct case_image){near(maker, maker->width), near(maker, maker->height),
-                                 several ? maker->samples : 1, random_chance(&maker->random, 3), false};
+    *image = (struct case_image){near(maker, maker->width),
+                                 near(maker, maker->height),
+                                 several ? maker->samples : 1,
+                                 random_chance(&maker->random, 3),
+                                 false,
+                                 TRIPTYCH_DEPTH_NONE};
     text_add(maker->text, "image im%u %u %u", maker->images++, image->width, image->height);
     if (image->depth) {
         unsigned format = 0;
@@ -61,6 +72,7 @@ static void add_image(struct maker *maker)
             format = random_below(&maker->random, TRIPTYCH_DEPTH_COUNT);
         while (!triptych_depth_bits(format));
         image->stencil = triptych_stencil_bits(format) > 0;
+        image->depth_format = format;
         text_add(maker->text, " depth %s", case_depth_format(format));
     } else {
         text_add(maker->text, " %s", case_target_format(maker));
@@ -99,11 +111,12 @@ static void join(struct together *all, unsigned width, unsigned height, unsigned
 
 static void attach_colors(struct maker *maker, struct together *all)
 {
-    int texture = random_chance(&maker->random, 3) ? find_target(maker) : -1;
+    int texture = random_chance(&maker->random, 3) ? case_find_target(maker) : -1;
     unsigned most = 1 + random_below(&maker->random, 3);
-    if (texture >= 0 && maker->texture[texture].type == TRIPTYCH_TEXTURE_2D) {
+    if (texture >= 0) {
         text_add(maker->text, " color t%d", texture);
-        join(all, maker->texture[texture].size, maker->texture[texture].size, 1);
+        unsigned size = case_level(maker, texture);
+        join(all, size, size, 1);
     }
     for (unsigned tries = 0; tries < 6 && all->colors < most; tries++) {
         unsigned i = random_below(&maker->random, maker->images);
@@ -168,97 +181,4 @@ void case_switch_target(struct maker *maker)
         case_detach(maker);
     else if (attach(maker) && random_chance(&maker->random, 3))
         case_clear(maker, maker->has_depth, maker->has_stencil);
-}
-
-/* --- Copies --------------------------------------------------------------------------------------------- */
-
-static void add_surface(struct maker *maker, int texture)
-{
-    if (texture < 0) {
-        text_add(maker->text, " target");
-        return;
-    }
-    text_add(maker->text, " t%d", texture);
-    if (maker->texture[texture].type == TRIPTYCH_TEXTURE_CUBE)
-        text_add(maker->text, " slice %u", random_below(&maker->random, 6));
-}
-
-static void add_part(struct maker *maker, int texture)
-{
-    unsigned width = texture < 0 ? maker->width : maker->texture[texture].size;
-    unsigned height = texture < 0 ? maker->height : maker->texture[texture].size;
-    unsigned x = random_below(&maker->random, width), y = random_below(&maker->random, height);
-    if (random_chance(&maker->random, 2))
-        text_add(maker->text, " part %u %u %u %u", x, y, 1 + random_below(&maker->random, width - x),
-                 1 + random_below(&maker->random, height - y));
-}
-
-/* Between the target and a texture that can be one, either way. */
-void case_copy(struct maker *maker)
-{
-    int surface[2] = {-1, find_target(maker)};
-    bool back = random_chance(&maker->random, 3);
-    if (surface[1] < 0)
-        return;
-    text_add(maker->text, "copy");
-    add_surface(maker, surface[back]);
-    add_part(maker, surface[back]);
-    text_add(maker->text, " to");
-    add_surface(maker, surface[!back]);
-    add_part(maker, surface[!back]);
-    text_add(maker->text, random_chance(&maker->random, 2) ? " linear\n" : "\n");
-}
-
-/* New texels for the first level, and what is made of it. */
-void case_change(struct maker *maker)
-{
-    if (!maker->textures)
-        return;
-    unsigned t = random_below(&maker->random, maker->textures);
-    if (maker->texture[t].update_words)
-        text_add(maker->text, "update t%u u%u\n", t, t);
-    if (maker->texture[t].mips)
-        text_add(maker->text, "mips t%u\n", t);
-}
-
-/* A colour for a part of the target or of any texture. */
-void case_fill(struct maker *maker)
-{
-    int texture = (int)random_below(&maker->random, maker->textures + 1) - 1;
-    if (texture >= 0 && maker->texture[texture].depth)
-        return;
-    text_add(maker->text, "fill");
-    add_surface(maker, texture);
-    add_part(maker, texture);
-    text_add(maker->text, " color");
-    case_numbers(maker, 4, -0.5f, 1.5f);
-    text_add(maker->text, "\n");
-}
-
-/* A format of at most four bytes that pixels in memory can have. */
-static const char *memory_format(struct maker *maker)
-{
-    static const char *const formats[] = {"A8R8G8B8", "R5G6B5",      "L8",       "A8B8G8R8",
-                                          "R8G8B8",   "A2R10G10B10", "G16R16",   "R16F",
-                                          "G16R16F",  "A4L4",        "Q8W8V8U8", "A1R5G5B5"};
-    return formats[random_below(&maker->random, sizeof formats / sizeof *formats)];
-}
-
-/* The bytes of a texture's update as one row of pixels. */
-void case_write_pixels(struct maker *maker)
-{
-    int texture = maker->textures ? (int)random_below(&maker->random, maker->textures) : -1;
-    if (texture < 0 || !maker->texture[texture].update_words || maker->texture[texture].depth)
-        return;
-    int to = random_chance(&maker->random, 2) ? -1 : texture;
-    const char *name = memory_format(maker);
-    unsigned bytes = format_named(name, strlen(name))->bytes,
-             most = to < 0 ? maker->width : maker->texture[to].size;
-    unsigned pixels = maker->texture[texture].update_words * 4 / bytes;
-    if (pixels > most)
-        return;
-    text_add(maker->text, "pixels");
-    add_surface(maker, to);
-    text_add(maker->text, " part %u 0 %u 1 format %s u%d\n", random_below(&maker->random, most - pixels + 1),
-             pixels, name, texture);
 }

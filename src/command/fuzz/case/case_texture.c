@@ -2,6 +2,7 @@
 #include "command/fuzz/case/case_part.h"
 
 #include "render/texture/format.h"
+#include "render/texture/texture.h"
 
 static unsigned format_count(void)
 {
@@ -36,8 +37,11 @@ static void add_color_formats(struct maker *maker)
     if (maker->targets == 1 && random_chance(&maker->random, 2))
         return;
     text_add(maker->text, " color");
-    for (unsigned t = 0; t < maker->targets; t++)
-        text_add(maker->text, " %s", random_format(maker, ROLE_TARGET)->name);
+    for (unsigned t = 0; t < maker->targets; t++) {
+        const struct format *format = random_format(maker, ROLE_TARGET);
+        maker->target.color_format[t] = format->number;
+        text_add(maker->text, " %s", format->name);
+    }
 }
 
 const char *case_depth_format(unsigned format)
@@ -65,11 +69,24 @@ void case_target(struct maker *maker)
     text_add(maker->text, "target %u %u depth %s", maker->width, maker->height, case_depth_format(depth));
     if (maker->samples > 1)
         text_add(maker->text, " samples %u", maker->samples);
+    maker->target = (struct triptych_target_description){.width = maker->width,
+                                                         .height = maker->height,
+                                                         .depth_format = (enum triptych_depth_format)depth,
+                                                         .samples = maker->samples,
+                                                         .color_format = {TRIPTYCH_SURFACE_A8R8G8B8}};
     add_color_formats(maker);
     text_add(maker->text, "\n");
 }
 
 /* --- Textures ------------------------------------------------------------------------------------------- */
+
+void case_words(struct maker *maker, size_t count)
+{
+    text_add(maker->text, " {");
+    for (size_t i = 0; i < count; i++)
+        text_add(maker->text, "%s%u", i % 8 ? " " : "\n    ", (uint32_t)random_u64(&maker->random));
+    text_add(maker->text, "\n}\n");
+}
 
 static void add_bytes(struct maker *maker, size_t count)
 {
@@ -111,10 +128,26 @@ static void add_update(struct maker *maker, unsigned number, const struct format
     struct case_texture *texture = &maker->texture[number];
     struct case_texture face = {.type = TRIPTYCH_TEXTURE_2D, .size = texture->size};
     texture->update_words = (unsigned)((texel_blocks(&face, format, depth) * format->bytes + 3) / 4);
-    text_add(maker->text, "buffer u%u u32 {", number);
-    for (unsigned i = 0; i < texture->update_words; i++)
-        text_add(maker->text, "%s%u", i % 8 ? " " : "\n    ", (uint32_t)random_u64(&maker->random));
-    text_add(maker->text, "\n}\n");
+    text_add(maker->text, "buffer u%u u32", number);
+    case_words(maker, texture->update_words);
+}
+
+/* A buffer with other texels for the whole texture, as the renderer has them. */
+static void add_whole(struct maker *maker, unsigned number, const struct format *format, unsigned depth)
+{
+    struct case_texture *texture = &maker->texture[number];
+    struct triptych_texture_description description = {.type = texture->type,
+                                                       .format = (enum triptych_surface_format)format->number,
+                                                       .width = texture->size,
+                                                       .height = texture->size,
+                                                       .depth = depth,
+                                                       .levels = texture->levels};
+    struct triptych_texture shape;
+    if (texture_describe(&description, &shape, NULL) != TRIPTYCH_OK)
+        return;
+    texture->whole = true;
+    text_add(maker->text, "buffer w%u u32", number);
+    case_words(maker, texture_texel_bytes(&shape) / sizeof(uint32_t));
 }
 
 static enum triptych_texture_type choose_type(struct maker *maker)
@@ -148,12 +181,18 @@ static void add_texture(struct maker *maker)
     if (texture->type == TRIPTYCH_TEXTURE_VOLUME)
         text_add(maker->text, " %u", depth);
     texture->mips = random_chance(&maker->random, 2) && format->coding == CODING_PACKED;
+    texture->slices = texture->type == TRIPTYCH_TEXTURE_CUBE ? 6 : depth;
+    texture->levels = 1;
+    while (texture->mips && (texture->size | depth) >> texture->levels)
+        texture->levels++;
     if (texture->mips)
         text_add(maker->text, " mips");
     add_contents(maker, texture, format, depth);
     text_add(maker->text, "\n");
     if (random_chance(&maker->random, 8))
         add_update(maker, number, format, depth);
+    if (random_chance(&maker->random, 24))
+        add_whole(maker, number, format, depth);
 }
 
 /* A shader's samplers find textures of their kind as a rule. */

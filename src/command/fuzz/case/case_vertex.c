@@ -11,12 +11,7 @@
 #include <math.h>
 #include <string.h>
 
-enum { VERTICES = 12, ELEMENTS = 24, CHANGE_WORDS = 3 };
-
-struct element {
-    unsigned number; /* enum stream_element */
-    enum triptych_format format;
-};
+enum { VERTICES = 12, CHANGE_WORDS = 3 };
 
 /* --- Which elements ------------------------------------------------------------------------------------- */
 
@@ -28,26 +23,26 @@ static enum triptych_format random_type(struct maker *maker)
 }
 
 /* Positions are of four components as a rule: what has fewer cannot be behind the eye. */
-static struct element position_element(struct maker *maker)
+static struct case_element position_element(struct maker *maker)
 {
     if (maker->window)
-        return (struct element){TRIPTYCH_POSITIONT, TRIPTYCH_FORMAT_FLOAT4};
+        return (struct case_element){TRIPTYCH_POSITIONT, TRIPTYCH_FORMAT_FLOAT4};
     enum triptych_format usual =
         random_chance(&maker->random, 3) ? TRIPTYCH_FORMAT_FLOAT3 : TRIPTYCH_FORMAT_FLOAT4;
-    return (struct element){TRIPTYCH_POSITION,
-                            random_chance(&maker->random, 12) ? random_type(maker) : usual};
+    return (struct case_element){TRIPTYCH_POSITION,
+                                 random_chance(&maker->random, 12) ? random_type(maker) : usual};
 }
 
-static unsigned choose_elements(struct maker *maker, struct element elements[ELEMENTS])
+static unsigned choose_elements(struct maker *maker, struct case_element elements[CASE_ELEMENTS])
 {
     unsigned count = 0, one_in = 2 + random_below(&maker->random, 3);
     elements[count++] = position_element(maker);
-    for (unsigned e = 0; e < STREAM_ELEMENTS && count < ELEMENTS; e++) {
+    for (unsigned e = 0; e < STREAM_ELEMENTS && count < CASE_ELEMENTS; e++) {
         bool common = e == TRIPTYCH_DIFFUSE || e == TRIPTYCH_TEXCOORD || e == TRIPTYCH_NORMAL;
         bool wanted = maker->elements >> e & 1 ? !random_chance(&maker->random, 12)
                                                : random_chance(&maker->random, common ? 2 : 4 * one_in);
         if (wanted && e != TRIPTYCH_POSITION && e != TRIPTYCH_POSITIONT)
-            elements[count++] = (struct element){e, random_type(maker)};
+            elements[count++] = (struct case_element){e, random_type(maker)};
     }
     return count;
 }
@@ -98,7 +93,7 @@ static void add_field(struct maker *maker, unsigned element, const struct vertex
         text_add(maker->text, " %u", (uint32_t)random_u64(&maker->random) & most);
 }
 
-static void add_typed(struct maker *maker, const struct element *element, const float position[4])
+static void add_typed(struct maker *maker, const struct case_element *element, const float position[4])
 {
     const struct vertex_type *type = &key_vertex_types[element->format];
     if (type->encoding == ENCODING_COLOR) {
@@ -113,7 +108,7 @@ static void add_typed(struct maker *maker, const struct element *element, const 
 }
 
 /* Returns the element's bytes. */
-static unsigned make_wild(struct maker *maker, const struct element *element, const float position[4],
+static unsigned make_wild(struct maker *maker, const struct case_element *element, const float position[4],
                           uint8_t *bytes)
 {
     const struct vertex_type *type = &key_vertex_types[element->format];
@@ -132,10 +127,10 @@ static unsigned make_wild(struct maker *maker, const struct element *element, co
 }
 
 /* A vertex of elements in any types. */
-static void add_wild(struct maker *maker, const struct element *elements, unsigned count,
+static void add_wild(struct maker *maker, const struct case_element *elements, unsigned count,
                      const float position[4])
 {
-    uint32_t vertex[4 * ELEMENTS] = {0};
+    uint32_t vertex[4 * CASE_ELEMENTS] = {0};
     unsigned bytes = 0;
     for (unsigned e = 0; e < count; e++)
         bytes += make_wild(maker, &elements[e], position, (uint8_t *)vertex + bytes);
@@ -145,17 +140,11 @@ static void add_wild(struct maker *maker, const struct element *elements, unsign
 
 /* --- Resources ------------------------------------------------------------------------------------------ */
 
-static void add_elements(struct maker *maker, const struct element *elements, unsigned count)
-{
-    for (unsigned e = 0; e < count; e++)
-        text_add(maker->text, " %s:%s", word_text(WORDS_ATTRIBUTE, elements[e].number),
-                 word_text(WORDS_FORMAT, elements[e].format));
-}
-
-static void add_block(struct maker *maker, const struct element *elements, unsigned count)
+static void add_block(struct maker *maker, const struct case_element *elements, unsigned count,
+                      unsigned vertices)
 {
     text_add(maker->text, " {\n");
-    for (unsigned v = 0; v < maker->vertices; v++) {
+    for (unsigned v = 0; v < vertices; v++) {
         float position[4];
         random_position(maker, position);
         for (unsigned e = 0; e < count && !maker->wild; e++)
@@ -167,38 +156,17 @@ static void add_block(struct maker *maker, const struct element *elements, unsig
     text_add(maker->text, "}\n");
 }
 
-static unsigned stride_of(const struct maker *maker, const struct element *elements, unsigned count)
-{
-    unsigned bytes = 0;
-    for (unsigned e = 0; e < count; e++)
-        bytes += key_vertex_types[elements[e].format].bytes;
-    return maker->wild ? (bytes + 3) & -4u : bytes;
-}
-
-/* Elements first to first + count - 1 as a resource of their own. */
-static void add_resource(struct maker *maker, unsigned number, const struct element *elements, unsigned count)
+/* `count` elements as a resource of their own. */
+static void add_resource(struct maker *maker, unsigned number, const struct case_element *elements,
+                         unsigned count, unsigned vertices)
 {
     if (maker->wild) {
         text_add(maker->text, "buffer v%u u32", number);
     } else {
         text_add(maker->text, "vertices v%u", number);
-        add_elements(maker, elements, count);
+        case_add_elements(maker, elements, count);
     }
-    add_block(maker, elements, count);
-}
-
-/* Each part of the elements in a stream of its own. */
-static void bind_streams(struct maker *maker, const struct element *elements, const unsigned part[2])
-{
-    text_add(maker->text, "declare");
-    add_elements(maker, elements, part[0]);
-    if (part[1])
-        text_add(maker->text, " 1");
-    add_elements(maker, elements + part[0], part[1]);
-    maker->stride = stride_of(maker, elements, part[0]);
-    text_add(maker->text, "\nbind stream 0 v0 0 %u\n", maker->stride);
-    if (part[1])
-        text_add(maker->text, "bind stream 1 v1 0 %u\n", stride_of(maker, elements + part[0], part[1]));
+    add_block(maker, elements, count, vertices);
 }
 
 static void add_indices(struct maker *maker)
@@ -240,24 +208,33 @@ static void add_instances(struct maker *maker)
              1 + random_below(&maker->random, 2));
 }
 
-void case_vertices(struct maker *maker)
+/* The elements, in one part or two. */
+static void divide_elements(struct maker *maker, struct case_element elements[CASE_ELEMENTS],
+                            unsigned part[2])
 {
-    struct element elements[ELEMENTS];
-    maker->vertices = 3 + random_below(&maker->random, VERTICES - 2);
-    unsigned count = choose_elements(maker, elements), part[2] = {count, 0};
-    if (count > 1 && random_chance(&maker->random, 5)) {
+    maker->coded = !maker->wild && !maker->elements && random_chance(&maker->random, 8);
+    unsigned count = maker->coded ? case_coded_elements(maker, elements) : choose_elements(maker, elements);
+    part[0] = count;
+    part[1] = 0;
+    if (count > 1 && !maker->coded && random_chance(&maker->random, 5)) {
         part[0] = 1 + random_below(&maker->random, count - 1);
         part[1] = count - part[0];
     }
-    add_resource(maker, 0, elements, part[0]);
+}
+
+void case_vertices(struct maker *maker)
+{
+    struct case_element elements[CASE_ELEMENTS];
+    unsigned part[2];
+    maker->vertices = 3 + random_below(&maker->random, VERTICES - 2);
+    divide_elements(maker, elements, part);
+    unsigned skip = case_bind_skip(maker, part);
+    add_resource(maker, 0, elements, part[0], maker->vertices + skip);
     add_source(maker);
-    maker->bytes = stride_of(maker, elements, part[0]);
+    maker->bytes = case_stride(maker, elements, part[0]);
     if (part[1])
-        add_resource(maker, 1, elements + part[0], part[1]);
-    if (part[1] || maker->wild)
-        bind_streams(maker, elements, part);
-    else
-        text_add(maker->text, "bind vertices v0\n");
+        add_resource(maker, 1, elements + part[0], part[1], maker->vertices);
+    case_bind(maker, elements, part, skip);
     maker->indices = 0;
     if (random_chance(&maker->random, 3))
         add_indices(maker);
