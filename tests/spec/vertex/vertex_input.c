@@ -225,7 +225,9 @@ static void check_halves(void)
         shade(VERTEX_CAPACITY);
         for (uint32_t i = 0; i < VERTEX_CAPACITY * 4; i++) {
             float got = shaded_slot(SLOT_X + (int)(i % 4), i / 4);
-            float expected = (float)in_window((double)half_to_float(half[i]), (int)(i % 4));
+            float expected = half_to_float(half[i]); /* not converted: a signalling NaN would become quiet */
+            if (i % 4 == 3 && expected == 0)
+                expected = 1;
             double exact = in_window(binary16(half[i]), (int)(i % 4));
             TEST_ASSERT_EQUAL_HEX32_MESSAGE(0, memcmp(&got, &expected, sizeof got), "binary16");
             TEST_ASSERT_TRUE(isnan(exact) ? isnan(got) : exact == (double)got);
