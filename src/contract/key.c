@@ -58,7 +58,7 @@ bool stage_reads(const struct pixel_key *key, int stage, enum source source)
 const struct vertex_type key_vertex_types[ATTRIBUTE_FORMAT_COUNT] = {
     {NULL, 0, ENCODING_NONE, 0, 0, 0},
 #define VERTEX_TYPE(name, word, components, encoding, bits, divisor, meaning)                                \
-    {#word, components, ENCODING_##encoding, bits, ((components) * (bits) + 7) / 8, 1.0f / (divisor)},
+    {#word, components, ENCODING_##encoding, bits, ((components) * (bits) + 7) / 8, 1.0f / (float)(divisor)},
 #include "def/state/vertex_type.def"
 #undef VERTEX_TYPE
 };

@@ -1,4 +1,5 @@
 /* Vertices after transformation: the vertex routine is run by itself, and its outputs are returned. */
+#include "base/bits.h"
 #include "contract/lane.h"
 #include "machine/mxcsr.h"
 #include "render/derive/derive.h"
@@ -6,6 +7,7 @@
 #include "shader/program/program.h"
 
 #include <inttypes.h>
+#include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -93,6 +95,18 @@ static void take_vertex(const struct process *process, const struct state *state
         project_vertex(state, out->clip, out->position);
 }
 
+/* The payload of NaN is not defined until it is stored (docs/shader-semantics.md). */
+static void store_nan(struct triptych_processed_vertex *vertex)
+{
+    enum { NAN_BITS = 0x7fc00000 };
+    float number[sizeof *vertex / sizeof(float)];
+    memcpy(number, vertex, sizeof number);
+    for (unsigned i = 0; i < sizeof number / sizeof *number; i++)
+        if (isnan(number[i]))
+            number[i] = bits_to_float(NAN_BITS);
+    memcpy(vertex, number, sizeof number);
+}
+
 /* --- Runs --- */
 
 /* Runs the routine for up to PROCESS_VERTICES vertices; lanes up to the end of its last step repeat the last
@@ -120,8 +134,10 @@ static enum triptych_result run_all(struct triptych_device *device, struct proce
     for (uint32_t done = 0; done < count;) {
         uint32_t some = count - done < PROCESS_VERTICES ? count - done : PROCESS_VERTICES;
         run(process, routine, first + done, some);
-        for (uint32_t i = 0; i < some; i++)
+        for (uint32_t i = 0; i < some; i++) {
             take_vertex(process, &device->state, i, out + done + i);
+            store_nan(out + done + i);
+        }
         done += some;
     }
     cache_release(device->cache, routine);

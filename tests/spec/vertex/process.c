@@ -150,6 +150,34 @@ static void check_fixed(void)
     expect_same_on_engines();
 }
 
+/* NaNs of both signs and of any payload, as they are and as operands. */
+static void check_nan(void)
+{
+    static const uint32_t nan[] = {0x7fc00000, 0xffc00000, 0x7fc00001, 0xffffffff};
+    bind_vertices();
+    for (int i = 0; i < VERTICES; i++) {
+        vertex[i].texcoord[0] = bits_to_float(nan[i % 4]);
+        vertex[i].position[1] = bits_to_float(nan[i / 4 % 4]);
+    }
+    triptych_buffer *buffer = buffer_of(vertex, sizeof vertex);
+    bind(TRIPTYCH_POSITION, TRIPTYCH_FORMAT_FLOAT3, buffer, offsetof(struct vertex, position));
+    bind(TRIPTYCH_TEXCOORD, TRIPTYCH_FORMAT_FLOAT4, buffer, offsetof(struct vertex, texcoord));
+    set_transforms();
+    OK(triptych_process_vertices(device, 0, VERTICES, out));
+    for (int i = 0; i < VERTICES; i++) {
+        TEST_ASSERT_EQUAL_HEX32(0x7fc00000, bits_of_float(out[i].texcoord[0][0]));
+        TEST_ASSERT_EQUAL_HEX32(0x7fc00000, bits_of_float(out[i].clip[1]));
+        TEST_ASSERT_EQUAL_HEX32(0x7fc00000, bits_of_float(out[i].position[1]));
+    }
+    expect_same_on_engines();
+}
+
+static void test_a_nan_has_one_form(void)
+{
+    engines = 0;
+    on_every_engine(check_nan);
+}
+
 static void test_fixed_function(void)
 {
     engines = 0;
@@ -338,6 +366,7 @@ int main(void)
 {
     UNITY_BEGIN();
     RUN_TEST(test_fixed_function);
+    RUN_TEST(test_a_nan_has_one_form);
     RUN_TEST(test_light_and_fog);
     RUN_TEST(test_shader_outputs);
     RUN_TEST(test_vertices_in_the_window_stay);

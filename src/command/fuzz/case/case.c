@@ -136,8 +136,8 @@ static void add_sequence(struct maker *maker)
     text_add(maker->text, random_chance(&maker->random, 2) ? "end\nplay s0\n" : "end\nplay s0\nplay s0\n");
 }
 
-/* It replaces the vertices, so it is the last draw. The elements of instances belong to a stream, which a mesh
- * does not have. */
+/* It replaces the vertices, so it is the last draw. The elements of instances belong to a stream, which a
+ * mesh does not have. */
 static void draw_mesh(struct maker *maker)
 {
     if (maker->mesh && !maker->instanced)

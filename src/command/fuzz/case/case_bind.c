@@ -1,5 +1,5 @@
-/* How vertices are bound: all of a resource, element by element, in streams by a declaration or by the code of
- * a vertex format. */
+/* How vertices are bound: all of a resource, element by element, in streams by a declaration or by the code
+ * of a vertex format. */
 #include "command/fuzz/case/case_part.h"
 
 #include "capture/word.h"
