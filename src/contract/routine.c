@@ -10,13 +10,15 @@ const char *routine_instruction_set(const struct routine *routine)
                          : "SSE2";
 }
 
-/* Calls are padded to LANES_MAXIMUM where the engine has no fixed width; a vector of AVX2 has half of these
+/* The routines of an engine with a fixed width may have other lanes, except those of the batch interpreter.
+ * Calls are padded to LANES_MAXIMUM where the engine has no fixed width; a vector of AVX2 has half of these
  * lanes. */
 uint32_t routine_lanes(const struct routine *routine)
 {
     enum { LANES_AVX2 = 8 };
-    if (routine->engine->width)
-        return (uint32_t)routine->engine->width;
+    uint32_t width = (uint32_t)routine->engine->width;
+    if (width)
+        return routine->lanes && width <= LANES_MAXIMUM ? routine->lanes : width;
     bool is_narrow = strcmp(routine_instruction_set(routine), "AVX-512") != 0;
     return is_narrow && routine->lanes > LANES_AVX2 ? LANES_AVX2 : routine->lanes;
 }

@@ -45,6 +45,7 @@ void ir_start(struct ir *ir)
 {
     ir->count = 1;
     ir->file_count = ir->constant_count = ir->loops = ir->variables = ir->phis = ir->steps = 0;
+    ir->parts = 1;
     ir->overflow = false;
     memset(&ir->instruction[0], 0, sizeof ir->instruction[0]);
 }

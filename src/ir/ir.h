@@ -13,9 +13,9 @@
  *
  * Other values that leave a region, or pass from one iteration of a loop to the next, go through a variable:
  * `set` stores all lanes of a value and `get` is a new value, the contents of the variable at that position.
- * Variables are numbered below VARIABLES. All sets and gets of a variable have its type. A variable has no
- * value until it is set, and keeps none from one group of lanes to the next. The specializer replaces
- * variables by phis and joins.
+ * Variables are numbered below VARIABLES, times `parts`. All sets and gets of a variable have its type. A
+ * variable has no value until it is set, and keeps none from one group of lanes to the next. The specializer
+ * replaces variables by phis and joins.
  *
  * The operations are the rows of three tables: def/op.def computes, def/ir.def is the rest of what is
  * recorded, and def/engine/lowered.def is what only the specializer's passes make. Each row has its types and
@@ -103,7 +103,7 @@ static inline unsigned ir_operands(const struct ir_instruction *instruction)
 
 /* Numbers have 16 bits and 0xffff is reserved. The arrays of a build have IR_CAPACITY entries. That costs
  * address space only: pages that a routine does not reach are never touched. */
-enum { IR_CAPACITY = 65535, IR_FILES = 64, IR_CONSTANTS = 512 };
+enum { IR_CAPACITY = 65535, IR_FILES = 64, IR_CONSTANTS = 512, IR_PARTS = 16 };
 
 /* The recorded instructions from `first` on belong to a step of the shader (struct program), or to
  * NO_STEP. */
@@ -124,7 +124,8 @@ struct ir {
     uint32_t phis;      /* at least the number of phis and joins */
     uint32_t file_count;
     uint32_t constant_count;
-    bool overflow; /* more than IR_CAPACITY - 1 instructions were recorded: the routine cannot be built */
+    uint32_t parts; /* of each value, up to IR_PARTS; 1 until the pass split */
+    bool overflow;  /* more than IR_CAPACITY - 1 instructions were recorded: the routine cannot be built */
     const char *file[IR_FILES];
     struct ir_constant constant[IR_CONSTANTS];
     struct ir_instruction instruction[IR_CAPACITY];

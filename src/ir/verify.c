@@ -21,9 +21,9 @@ struct walk {
     uint16_t owner[IR_CAPACITY];  /* of each phi: its loop until `next` gives it a value, then 0 */
     uint16_t phis[IR_CAPACITY];   /* of each loop: its phis that have no `next` yet */
     uint8_t open[IR_CAPACITY];
-    uint8_t type[VARIABLES];
-    uint8_t holds[VARIABLES];
-    uint16_t holding[VARIABLES]; /* variables with a value, in the order of their first set */
+    uint8_t type[VARIABLES * IR_PARTS];
+    uint8_t holds[VARIABLES * IR_PARTS];
+    uint16_t holding[VARIABLES * IR_PARTS]; /* variables with a value, in the order of their first set */
     uint16_t holding_count;
     uint16_t region;  /* the innermost */
     uint16_t when;    /* the innermost `when` */
@@ -86,7 +86,7 @@ static const char *verify_operands(struct walk *walk, const struct ir_instructio
 
 static const char *verify_variable(struct walk *walk, const struct ir_instruction *i)
 {
-    if (i->k < 0 || i->k >= VARIABLES || (uint32_t)i->k >= walk->ir->variables)
+    if (i->k < 0 || i->k >= VARIABLES * IR_PARTS || (uint32_t)i->k >= walk->ir->variables)
         return wrong(walk, "there is no variable %d", (int)i->k);
     if (i->type == TYPE_non || i->type == TYPE_fix || (walk->type[i->k] && walk->type[i->k] != i->type))
         return wrong(walk, "variable %d is of another type", (int)i->k);

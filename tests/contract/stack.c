@@ -144,8 +144,8 @@ static void check_engine(const struct engine *engine, const struct program *prog
 
 static void large_frames_run_into_the_guard_page(void)
 {
-    static const char *const names[] = {"stitch", "stitch-operation", "specialize", "specialize-4",
-                                        "specialize-16"};
+    static const char *const names[] = {"stitch",       "stitch-operation", "specialize",   "specialize-1",
+                                        "specialize-4", "specialize-8x2",   "specialize-16"};
     static alignas(64) float batch[SLOT_COUNT * VERTEX_CAPACITY];
     static const float vertices[16][4];
     static const uint32_t index[16];

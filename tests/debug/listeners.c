@@ -142,8 +142,9 @@ static bool has_file(const struct routine *routine)
 
 static void gdb_has_a_file_for_each_routine_until_it_is_freed(void)
 {
-    static const char *const engines[] = {"specialize",    "specialize-4", "specialize-8",
-                                          "specialize-16", "stitch",       "stitch-operation"};
+    static const char *const engines[] = {"specialize",   "specialize-1",    "specialize-4",
+                                          "specialize-8", "specialize-8x2",  "specialize-16",
+                                          "stitch",       "stitch-operation"};
     TEST_ASSERT_EQUAL_UINT(0, count_entries());
     for (size_t e = 0; e < sizeof engines / sizeof *engines; e++) {
         struct routine routine;

@@ -30,7 +30,7 @@ struct building {
 
 /* --- Passes -------------------------------------------------------------------------------------------- */
 
-enum group { THESIS, FULL, ONCE };
+enum group { THESIS, FULL, ONCE, LAST };
 
 /* Returns true if the pass is not repeated. */
 static bool runs_once(unsigned pass)
@@ -40,7 +40,7 @@ static bool runs_once(unsigned pass)
 #include "def/engine/pass.def"
 #undef PASS
     };
-    return groups[pass] == ONCE;
+    return groups[pass] >= ONCE;
 }
 
 /* The number of the round, 0 for a pass that is not repeated. */

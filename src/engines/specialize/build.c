@@ -55,18 +55,26 @@ static int optimize_checked(struct builder *b, const struct build_options *optio
     return check.failed ? -1 : ir_check(&b->ir, "the result of the passes", error);
 }
 
+static size_t too_long(enum unit unit, struct error *error)
+{
+    error_set(error, "the %s routine takes more than %d operations", unit_name[unit], IR_CAPACITY - 1);
+    return 0;
+}
+
 static size_t build_phases(struct builder *b, const struct build_options *options, enum unit unit,
                            const union key *key, pass_observer *observer, void *context, struct error *error)
 {
-    if (b->ir.overflow) {
-        error_set(error, "the %s routine takes more than %d operations", unit_name[unit], IR_CAPACITY - 1);
-        return 0;
-    }
+    if (b->ir.overflow)
+        return too_long(unit, error);
     b->pass.lanes = options->width;
+    b->pass.parts = options->parts;
     if (optimize_checked(b, options, observer, context, error))
         return 0;
+    if (b->ir.overflow)
+        return too_long(unit, error);
     struct register_file file = options->file;
     file.wide = options->width == 16;
+    file.scalar = options->width == 1;
     allocate_registers(&b->ir, &b->allocation, &file);
     b->emitter.ir = &b->ir;
     b->emitter.allocation = &b->allocation;

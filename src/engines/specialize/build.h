@@ -7,7 +7,8 @@
 #include "engines/specialize/passes/pass.h"
 
 struct build_options {
-    unsigned width; /* 4, 8 or 16 */
+    unsigned width; /* lanes of a register: 1, 4, 8 or 16 */
+    unsigned parts; /* registers of each value, a power of two; 0: 1. width * parts is at most 16. */
     enum profile profile;
     uint32_t disabled; /* bit p: pass p does not run */
     struct register_file file;

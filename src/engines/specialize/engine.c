@@ -1,5 +1,5 @@
-/* The specializer's engines: one code generator for 4, 8 and 16 lanes with the default profile, and for 8
- * lanes with only the passes of the thesis. */
+/* The specializer's engines (def/engine/specialize.def): one code generator for registers of 4, 8 and 16
+ * lanes and for one or more registers a value, with all passes or with only those of the thesis. */
 #include "machine/code.h"
 #include "machine/cpu.h"
 #include "debug/code.h"
@@ -25,6 +25,7 @@ static int install(struct code_arena *arena, const struct builder *b, size_t byt
     routine->constant_bytes = (uint32_t)bytes - b->emitter.code_bytes;
     routine->parts = b->ir.count - 1;
     routine->spills = b->allocation.spills;
+    routine->lanes = emit_lanes(&b->emitter);
     return 0;
 }
 
@@ -119,17 +120,15 @@ static const char *unavailable(const struct engine *self)
     const char *reason = cpu_lacks_avx2_fma();
     if (!reason)
         reason = code_unavailable();
-    return reason || self->width < 16 ? reason : cpu_lacks_avx512();
+    unsigned width = ((const struct build_options *)self->options)->width;
+    return reason || width < 16 ? reason : cpu_lacks_avx512();
 }
 
 static struct routine *build(const struct engine *self, struct code_arena *arena, enum unit unit,
                              const union key *key, struct error *error)
 {
     const struct order order = {.options = specialize_options(self, unit)};
-    struct routine *routine = build_with(self, &order, arena, unit, key, error);
-    if (routine)
-        routine->lanes = order.options.width;
-    return routine;
+    return build_with(self, &order, arena, unit, key, error);
 }
 
 bool specialize_is_engine(const struct engine *engine)
@@ -145,12 +144,16 @@ struct build_options specialize_options(const struct engine *engine, enum unit u
     return options;
 }
 
-#define SPECIALIZE(id, text, lanes, passes, meaning)                                                         \
+enum { ALWAYS, NAMED };
+
+#define SPECIALIZE(id, text, lanes, count, passes, runs, meaning)                                            \
     const struct engine engine_##id = {                                                                      \
         .name = text,                                                                                        \
         .description = meaning,                                                                              \
-        .width = lanes,                                                                                      \
-        .options = &(const struct build_options){.width = lanes, .profile = PROFILE_##passes},               \
+        .width = lanes * count,                                                                              \
+        .options =                                                                                           \
+            &(const struct build_options){.width = lanes, .parts = count, .profile = PROFILE_##passes},      \
+        .on_request = runs == NAMED,                                                                         \
         .unavailable = unavailable,                                                                          \
         .build = build,                                                                                      \
         .free = free_routine,                                                                                \

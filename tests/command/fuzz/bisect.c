@@ -208,8 +208,9 @@ static void names(const char *operation, const char *file)
 
 static void engines_that_agree_are_reported_as_such(void)
 {
-    static const char *const others[] = {"batch",      "stitch",       "stitch-operation",
-                                         "specialize", "specialize-4", "specialize-16"};
+    static const char *const others[] = {"batch",        "stitch",        "stitch-operation",
+                                         "specialize",   "specialize-4",  "specialize-16",
+                                         "specialize-1", "specialize-8x2"};
     for (unsigned i = 0; i < sizeof others / sizeof *others; i++) {
         if (!can_run(others[i]))
             continue;
@@ -281,7 +282,8 @@ static void the_first_pass_of_a_loop_in_which_it_differs(void)
 static void a_pass_that_is_wrong_is_named_with_the_operation(void)
 {
     NEEDS("specialize");
-    static const char *const engines[] = {"specialize", "specialize-4", "specialize-thesis", "specialize-16"};
+    static const char *const engines[] = {"specialize",    "specialize-4", "specialize-thesis",
+                                          "specialize-16", "specialize-1", "specialize-8x2"};
     for (unsigned i = 0; i < sizeof engines / sizeof *engines; i++) {
         if (!can_run(engines[i]))
             continue;

@@ -53,6 +53,26 @@ static void test_sixteen_lanes_equal_the_emulator(void)
     compare_units(&engine_specialize_16);
 }
 
+static void test_one_lane_equals_the_emulator(void)
+{
+    compare_units(&engine_specialize_1);
+}
+
+static void test_two_quads_in_two_registers_equal_the_emulator(void)
+{
+    compare_units(&engine_specialize_4x2);
+}
+
+static void test_four_quads_in_four_registers_equal_the_emulator(void)
+{
+    compare_units(&engine_specialize_4x4);
+}
+
+static void test_sixteen_lanes_in_two_registers_equal_the_emulator(void)
+{
+    compare_units(&engine_specialize_8x2);
+}
+
 static void test_automatic_lanes_equal_the_emulator(void)
 {
     compare_units(&engine_specialize);
@@ -69,6 +89,10 @@ int main(void)
     RUN_TEST(test_eight_lanes_equal_the_emulator);
     RUN_TEST(test_four_lanes_equal_the_emulator);
     RUN_TEST(test_sixteen_lanes_equal_the_emulator);
+    RUN_TEST(test_one_lane_equals_the_emulator);
+    RUN_TEST(test_two_quads_in_two_registers_equal_the_emulator);
+    RUN_TEST(test_four_quads_in_four_registers_equal_the_emulator);
+    RUN_TEST(test_sixteen_lanes_in_two_registers_equal_the_emulator);
     RUN_TEST(test_automatic_lanes_equal_the_emulator);
     RUN_TEST(test_thesis_profile_equals_the_emulator);
     return UNITY_END();

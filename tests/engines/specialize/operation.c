@@ -1,4 +1,4 @@
-/* Every row of def/op.def, compiled for 4, 8 and 16 lanes and compared with the row's expression, for all
+/* Every row of def/op.def, compiled for 1, 4, 8 and 16 lanes and compared with the row's expression, for all
  * combinations of edge values: operands in registers, in memory and literal, each in every position. */
 #include "machine/code.h"
 #include "machine/cpu.h"
@@ -32,6 +32,12 @@ void tearDown(void)
 static unsigned widest(void)
 {
     return cpu_lacks_avx512() ? 8 : 16;
+}
+
+/* The next number of lanes of a register. */
+static unsigned wider(unsigned width)
+{
+    return width == 1 ? 4 : 2 * width;
 }
 
 enum operand_form { FROM_REGISTER, FROM_MEMORY, FROM_LITERAL, FORMS };
@@ -87,7 +93,10 @@ static void check(enum ir_op op, unsigned width)
     struct error error = {{0}};
     char message[128];
     TEST_ASSERT_NULL(ir_verify(&builder->ir));
-    program_interpret(&builder->ir, &expected, width);
+    program_interpret(&builder->ir, &expected, program_lanes(&builder->ir, width, 1));
+    builder->pass.lanes = width;
+    builder->pass.parts = 1;
+    pass_split(&builder->ir, &builder->pass);
     TEST_ASSERT_EQUAL_MESSAGE(0, program_compile_and_run(builder, arena, width, ALLOCATABLE, &got, &error),
                               error.text);
     int at = program_difference(&expected, &got);
@@ -124,7 +133,7 @@ static void check_forms(enum ir_op op, int k)
         combinations *= FORMS;
     for (unsigned n = 0; n < combinations; n++) {
         enum operand_form form[3] = {n % FORMS, n / FORMS % FORMS, n / FORMS / FORMS};
-        for (unsigned width = 4; width <= widest(); width *= 2)
+        for (unsigned width = 1; width <= widest(); width = wider(width))
             check_values(op, form, k, width);
     }
 }
@@ -150,7 +159,7 @@ static void test_a_permutation_reads_the_lanes_of_its_immediate(void)
     for (int lanes = 0; lanes < 256; lanes++)
         for (enum operand_form from = 0; from < FORMS; from++) {
             const enum operand_form form[3] = {from};
-            for (unsigned width = 4; width <= widest(); width *= 2)
+            for (unsigned width = 1; width <= widest(); width = wider(width))
                 check_values(IR_permute, form, lanes, width);
         }
 }
@@ -161,7 +170,7 @@ static void test_operands_may_be_the_same_value(void)
     if (!cpu_has_avx2_fma())
         TEST_IGNORE_MESSAGE("needs AVX2 and FMA");
     for (unsigned sharing = 0; sharing < 8; sharing++)
-        for (unsigned width = 4; width <= widest(); width *= 2) {
+        for (unsigned width = 1; width <= widest(); width = wider(width)) {
             enum operand_form form[3] = {FROM_REGISTER, FROM_REGISTER, FROM_REGISTER};
             make_program(IR_mad_f, form, 0, 0);
             struct ir_instruction *mad = &builder->ir.instruction[builder->ir.count - 2];
@@ -210,7 +219,7 @@ static void test_scattered_words_are_in_their_records(void)
     for (unsigned n = 0; n < 6 * 8 * 16 * 3; n++) {
         unsigned words = 1 + n % 6;
         make_scatters(words, strides[n / 6 % 8], n / 48 % 16, (int)(n / 768));
-        for (unsigned width = 4; width <= widest(); width *= 2) {
+        for (unsigned width = 1; width <= widest(); width = wider(width)) {
             fill_inputs(IR_add_i, n);
             check(IR_scatter, width);
         }

@@ -25,6 +25,7 @@ enum { PROGRAMS = 1500 };
 static struct code_arena *arena;
 static struct builder *builder;
 static struct program_data given, expected, got;
+static struct ir made;
 static char message[700];
 
 void setUp(void)
@@ -63,7 +64,7 @@ static uint64_t random_registers(uint64_t registers, unsigned size, uint64_t *se
 static struct register_file random_file(unsigned width, uint64_t *seed)
 {
     static const uint8_t sizes[] = {13, 29, 8, 5, 3, 2, 1, 0}, masks[] = {6, 6, 3, 2, 1, 0};
-    struct register_file file = {.wide = width == 16};
+    struct register_file file = {.wide = width == 16, .scalar = width == 1};
     unsigned size = sizes[program_random(seed) % sizeof sizes];
     unsigned count = masks[program_random(seed) % sizeof masks];
     file.without = ~(random_registers(file.wide ? WIDE_REGISTERS : NARROW_REGISTERS, size, seed) |
@@ -91,25 +92,33 @@ static void expect_same(uint64_t number, unsigned width, const struct register_f
     fail(number, width, file, what);
 }
 
+/* Every fourth program has one lane. */
+static unsigned choose_width(uint64_t number)
+{
+    return number % 4 == 3 ? 1 : program_width(number);
+}
+
 typedef void generator(struct ir *, unsigned length, uint64_t *seed);
 
-/* Makes program `number`, optimises it with some set of passes, and computes its results. Returns the lanes.
- */
+/* Makes program `number`, optimises it with some set of passes, and computes its results. Returns the lanes
+ * of a register. */
 static unsigned prepare(generator *make, uint64_t number, unsigned longest, uint64_t *seed)
 {
     static const uint32_t disabled[] = {0, ~0u, 0, 1};
-    unsigned width = program_width(number);
+    unsigned width = choose_width(number), parts = program_parts(number, width);
     *seed = test_seed() + number * 0x9e3779b97f4a7c15ull;
     *seed |= !*seed;
     make(&builder->ir, 3 + program_random(seed) % longest, seed);
     TEST_ASSERT_NULL(ir_verify(&builder->ir));
     program_fill(&given, seed);
     expected = given;
-    program_interpret(&builder->ir, &expected, width);
+    ir_duplicate(&made, &builder->ir);
     unsigned saved = mxcsr_enter();
     builder->pass.lanes = width;
+    builder->pass.parts = parts;
     pass_run_all(&builder->ir, &builder->pass, PROFILE_FULL, disabled[program_random(seed) % 4], NULL, NULL);
     mxcsr_leave(saved);
+    program_interpret(&made, &expected, width * builder->ir.parts);
     return width;
 }
 
@@ -172,18 +181,22 @@ static void check_routine(void *context, enum unit unit, const union key *key)
     (void)context;
     pressed.name = "specialize under pressure";
     pressed.build = build_under_pressure;
-    options = (struct build_options){.width = program_width(visited), .profile = PROFILE_FULL};
+    unsigned width = choose_width(visited);
+    options = (struct build_options){
+        .width = width, .parts = program_parts(visited, width), .profile = PROFILE_FULL};
     for (int pressure = 0; pressure < 2; pressure++) {
         const char *wrong = error.text;
         if (specialize_code(builder, &options, unit, key, NULL, NULL, &error))
             wrong = placement_check(builder);
-        snprintf(complaint, sizeof complaint, "%u lanes, without registers 0x%llx, lots %llu: %s; %s key: %s",
-                 options.width, (unsigned long long)options.file.without,
+        snprintf(complaint, sizeof complaint,
+                 "%u lanes, %u parts, without registers 0x%llx, lots %llu: %s; %s key: %s", options.width,
+                 options.parts, (unsigned long long)options.file.without,
                  (unsigned long long)options.file.seed, wrong ? wrong : "", unit_name[unit],
                  key_print(unit, key, text));
         TEST_ASSERT_NULL_MESSAGE(wrong, complaint);
-        unsigned width = program_width(program_random(&lots));
+        width = choose_width(program_random(&lots));
         options = (struct build_options){.width = width,
+                                         .parts = program_parts(program_random(&lots), width),
                                          .profile = program_random(&lots) % 4 ? PROFILE_FULL : PROFILE_THESIS,
                                          .file = random_file(width, &lots)};
     }

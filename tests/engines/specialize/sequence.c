@@ -1,5 +1,6 @@
 /* Random sequences of passes on random programs. Any pass may follow any other and may be repeated, and the
- * final renumbering may occur anywhere. After each pass the program must be valid and have the same results.
+ * final renumbering may occur anywhere. Values are split into parts once at most. After each pass the program
+ * must be valid and have the same results.
  *
  * The first pass of a sequence depends on the program's number, so each pass is first equally often.
  * TRIPTYCH_SEED selects other programs and sequences. */
@@ -14,7 +15,7 @@
 #include <stdio.h>
 #include <string.h>
 
-enum { PROGRAMS = 3000, SEQUENCE = 10, COMPACT = PASS_COUNT, CHOICES, TRAIL = 200 };
+enum { PROGRAMS = 3000, SEQUENCE = 10, COMPACT = PASS_COUNT, CHOICES, TRAIL = 200, LANES = 8, PARTS = 2 };
 
 static pass_function *const passes[PASS_COUNT] = {
 #define PASS(name, ...) pass_##name,
@@ -55,6 +56,8 @@ static void run(unsigned choice)
 {
     unsigned saved = mxcsr_enter();
     uint32_t count = ir.count;
+    memory.lanes = choice == PASS_split ? LANES / PARTS : 16;
+    memory.parts = PARTS;
     note(choice);
     if (choice == COMPACT)
         ir_compact(&ir, memory.map);
@@ -66,7 +69,7 @@ static void compare(uint64_t number)
 {
     char what[120];
     got = given;
-    program_interpret(&ir, &got, 8);
+    program_interpret(&ir, &got, LANES / ir.parts);
     int at = program_difference(&expected, &got);
     if (at < 0)
         return;
@@ -95,7 +98,7 @@ static void try_sequence(generator *make, uint64_t number, unsigned longest)
     verify(number);
     program_fill(&given, &seed);
     expected = given;
-    program_interpret(&ir, &expected, 8);
+    program_interpret(&ir, &expected, LANES);
     for (unsigned length = 1 + program_random(&seed) % SEQUENCE, i = 0; i < length; i++) {
         run(i ? program_random(&seed) % CHOICES : (unsigned)(number % CHOICES));
         verify(number);
@@ -148,7 +151,6 @@ static void test_long_programs(void)
 int main(void)
 {
     UNITY_BEGIN();
-    memory.lanes = 16;
     RUN_TEST(test_straight_programs);
     RUN_TEST(test_programs_with_loops_and_variables);
     RUN_TEST(test_programs_with_forms_that_recordings_lack);

@@ -55,7 +55,7 @@ static struct content read_frame(struct check *c, int64_t displacement)
     if (displacement >= c->m->frame_variables)
         return (struct content){.origin = FROM_VARIABLE,
                                 .number = (int32_t)((displacement - c->m->frame_variables) / lane_bytes(c))};
-    if (from < 0 || from % lane_bytes(c) || emit_is_wide(c->m))
+    if (from < 0 || from % lane_bytes(c) || !emit_has_table(c->m))
         placement_wrong(c, "reads the frame at %lld", (long long)displacement);
     return (struct content){.origin = FROM_CONSTANT, .number = (int32_t)(from / lane_bytes(c))};
 }
@@ -65,16 +65,23 @@ static int general_number(ZydisRegister r)
     return r >= ZYDIS_REGISTER_RAX && r <= ZYDIS_REGISTER_R15 ? (int)(r - ZYDIS_REGISTER_RAX) : -1;
 }
 
-/* With 16 lanes, constants in the stack frame are read from their source. */
+/* With 16 lanes or one, constants are read from their source. */
 static bool find_constant(const struct check *c, int base, int64_t displacement, struct content *p)
 {
-    for (uint32_t n = 0; emit_is_wide(c->m) && n < c->ir->constant_count; n++)
+    for (uint32_t n = 0; !emit_has_table(c->m) && n < c->ir->constant_count; n++)
         if (emit_base_register[c->ir->constant[n].base] == base &&
             c->ir->constant[n].offset == displacement) {
             *p = (struct content){.origin = FROM_CONSTANT, .number = (int32_t)n};
             return true;
         }
     return false;
+}
+
+/* Returns true if one word is read for the only lane, not a pointer. */
+static bool is_only_word(const struct check *c)
+{
+    return emit_is_scalar(c->m) &&
+           !(c->instruction.mnemonic == ZYDIS_MNEMONIC_MOV && c->operand[0].size == 64);
 }
 
 /* A whole row of lanes, or one word that is broadcast. */
@@ -92,7 +99,9 @@ static struct content read_memory(struct check *c, const ZydisDecodedOperand *o,
             placement_wrong(c, "gathers");
         return (struct content){.origin = FROM_ELSEWHERE, .made_in = c->visit};
     }
-    if (is_broadcast(c))
+    if (is_only_word(c) && o->size > 32)
+        placement_wrong(c, "reads %u bits of memory", (unsigned)o->size);
+    if (is_broadcast(c) || is_only_word(c))
         origin = FROM_WORD;
     if (origin == FROM_WORD && find_constant(c, base, o->mem.disp.value, &constant))
         return constant;
@@ -207,7 +216,7 @@ static void write_register(struct check *c, unsigned reg, const struct content *
 
 static bool is_full(const struct check *c, const ZydisDecodedOperand *o)
 {
-    return o->size == c->m->width * 32;
+    return o->size == (emit_is_scalar(c->m) ? 128 : c->m->width * 32);
 }
 
 /* Moves of masks between locations, or to lanes and back. */
@@ -224,6 +233,8 @@ static bool is_copy(const struct check *c)
     if (c->mask)
         return false;
     if (copies_mask(c))
+        return true;
+    if (m == ZYDIS_MNEMONIC_VMOVSS && emit_is_scalar(c->m))
         return true;
     if (m == ZYDIS_MNEMONIC_VBROADCASTSS)
         return is_full(c, &c->operand[0]) && c->operand[1].type == ZYDIS_OPERAND_TYPE_MEMORY;

@@ -40,10 +40,11 @@ static void remove_value(struct content *p, unsigned value)
 /* Returns true if a location that was loaded from an address contains a value that can be read there. */
 static bool comes_from(const struct check *c, const struct content *p, const struct ir_instruction *i)
 {
+    bool word = i->op == IR_uniform || (emit_is_scalar(c->m) && i->op == IR_load);
     switch (p->origin) {
     case FROM_LITERAL: return i->op == IR_literal && i->k == p->number;
     case FROM_CONSTANT: return i->op == IR_constant && i->k == p->number;
-    case FROM_WORD: return i->op == IR_uniform && emit_base_register[i->base] == p->base && i->k == p->number;
+    case FROM_WORD: return word && emit_base_register[i->base] == p->base && i->k == p->number;
     case FROM_LANES: return i->op == IR_load && emit_base_register[i->base] == p->base && i->k == p->number;
     case FROM_VARIABLE: return i->op == IR_get && i->k == p->number && i == placement_operation(c, c->number);
     }

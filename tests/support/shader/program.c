@@ -24,6 +24,21 @@ unsigned program_width(uint64_t number)
     return width == 16 && cpu_lacks_avx512() ? 8 : width;
 }
 
+unsigned program_parts(uint64_t number, unsigned width)
+{
+    unsigned parts = 1u << number / 5 % 3;
+    return parts * width > LANES_MAXIMUM ? LANES_MAXIMUM / width : parts;
+}
+
+unsigned program_lanes(const struct ir *ir, unsigned width, unsigned parts)
+{
+    enum { QUAD = 4 };
+    for (uint32_t number = 1; number < ir->count; number++)
+        if (width * parts < QUAD && ir->instruction[number].op == IR_permute)
+            return QUAD;
+    return width * parts;
+}
+
 uint32_t program_word(uint64_t *seed)
 {
     if (program_random(seed) % 3 == 0)
@@ -52,7 +67,7 @@ struct interpreter {
     const struct ir *ir;
     struct program_data *data;
     uint32_t value[IR_CAPACITY][PROGRAM_LANES];
-    uint32_t variable[VARIABLES][PROGRAM_LANES];
+    uint32_t variable[VARIABLES * IR_PARTS][PROGRAM_LANES];
     uint32_t next[IR_CAPACITY][PROGRAM_LANES]; /* of each phi */
     uint8_t ran[IR_CAPACITY];                  /* of each `end`: whether its region ran the last time */
     unsigned first;                            /* lane */
@@ -198,7 +213,7 @@ void program_observe(const struct ir *ir, struct program_data *data, unsigned wi
     in.observer = observer;
     in.context = context;
     memset(in.value[0], 0, sizeof in.value[0]);
-    for (in.first = 0; in.first < PROGRAM_LANES; in.first += width)
+    for (in.first = 0; in.first < PROGRAM_LANES; in.first += width * ir->parts)
         interpret_group(&in);
     mxcsr_leave(saved);
 }
@@ -220,6 +235,7 @@ int program_compile_with(struct builder *b, struct code_arena *arena, unsigned w
 {
     struct register_file all = *file;
     all.wide = width == 16;
+    all.scalar = width == 1;
     allocate_registers(&b->ir, &b->allocation, &all);
     size_t bytes = program_emit(b, width, error);
     return bytes ? program_run(b, bytes, arena, data, error) : -1;

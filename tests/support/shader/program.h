@@ -23,6 +23,12 @@ uint32_t program_random(uint64_t *seed);
 /* Returns a number of lanes that this machine can execute; consecutive numbers choose them in turn. */
 unsigned program_width(uint64_t number);
 
+/* Returns a number of parts for values of `width` lanes (passes/split.c). */
+unsigned program_parts(uint64_t number, unsigned width);
+
+/* Returns the lanes that run together if the pass split makes `parts` parts of `width` lanes. */
+unsigned program_lanes(const struct ir *ir, unsigned width, unsigned parts);
+
 /* Returns the bits of an edge value of binary32 or of integers, or of an ordinary float. */
 uint32_t program_word(uint64_t *seed);
 
@@ -42,7 +48,8 @@ void program_make_loops(struct ir *ir, unsigned length, uint64_t *seed);
  * together. */
 void program_make_wild(struct ir *ir, unsigned length, uint64_t *seed);
 
-/* Executes the program with the expressions of def/op.def, under the contract's MXCSR. */
+/* Executes the program with the expressions of def/op.def, under the contract's MXCSR. `width` is the number
+ * of lanes of a value; of a program that the pass split has made, of a part. */
 void program_interpret(const struct ir *ir, struct program_data *data, unsigned width);
 
 /* The same. The observer receives every value of every lane, with the number of its instruction. */

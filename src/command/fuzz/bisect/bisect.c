@@ -217,14 +217,16 @@ static void compare_events(struct hunt *hunt, int wrong)
     const struct event_list *events = &hunt->probing.events;
     uint32_t unseen = 0;
     for (uint32_t n = 0; n < events->count; n++) {
-        if (!hunt->seen[0].known[n] || !hunt->seen[1].known[n]) {
+        unsigned seen = hunt->seen[0].known[n] & hunt->seen[1].known[n];
+        if (!seen) {
             unseen++;
             continue;
         }
         for (unsigned l = 0; l < QUAD_LANES; l++) {
             unsigned lane = (hunt->place.element + l) % QUAD_LANES; /* that of the output first */
             uint32_t value[2] = {hunt->seen[0].value[n][lane], hunt->seen[1].value[n][lane]};
-            if (hunt_agrees(hunt->ir, events->event[n].instruction, value[0], value[1]))
+            if (!(seen >> lane & 1) ||
+                hunt_agrees(hunt->ir, events->event[n].instruction, value[0], value[1]))
                 continue;
             hunt_note(hunt, hunt->ir, events, n, lane, value);
             if (unseen)
@@ -258,7 +260,7 @@ static void take_recorded(const struct hunt *hunt, struct observation *seen)
 {
     for (uint32_t n = 0; n < hunt->probing.events.count; n++) {
         memcpy(seen->value[n], hunt->probing.events.event[n].lane, sizeof *seen->value);
-        seen->known[n] = 1;
+        seen->known[n] = OBSERVED_ALL;
     }
 }
 

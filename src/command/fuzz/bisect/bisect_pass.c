@@ -52,10 +52,11 @@ static int probe_last_form(struct look *look, const struct routine *routine, str
     if (!result)
         result = probe_observe(&probing, routine, &seen, error);
     for (uint32_t n = 0; n < probing.events.count && !result && hunt->bisection->outcome != BISECT_FOUND; n++)
-        for (unsigned lane = 0; lane < QUAD_LANES && seen.known[n]; lane++) {
+        for (unsigned lane = 0; lane < QUAD_LANES; lane++) {
             uint32_t value[2] = {probing.events.event[n].lane[lane], probing.events.event[n].lane[lane]};
             value[routine == hunt->routine[1]] = seen.value[n][lane];
-            if (hunt_agrees(look->last, probing.events.event[n].instruction, value[0], value[1]))
+            if (!(seen.known[n] >> lane & 1) ||
+                hunt_agrees(look->last, probing.events.event[n].instruction, value[0], value[1]))
                 continue;
             hunt_note(hunt, look->last, &probing.events, n, lane, value);
             snprintf(hunt->bisection->reason, sizeof hunt->bisection->reason,

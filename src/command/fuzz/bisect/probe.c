@@ -261,7 +261,7 @@ static int observe_trace(const struct probing *p, struct observation *observatio
         if (p->ir->instruction[p->events.event[n].instruction].line != trace.value[n].line)
             break;
         memcpy(observation->value[n], trace.value[n].lane, sizeof *observation->value);
-        observation->known[n] = 1;
+        observation->known[n] = OBSERVED_ALL;
     }
     trace_free(&trace);
     free(image);
@@ -315,11 +315,12 @@ static void read_rows(const struct run *run, uint32_t visit, struct observation 
         if (!run->selected[instruction])
             continue;
         const uint32_t *row = replay_probe_row(p->replay, run->image, row_of(p->ir, instruction)) + p->lane;
-        bool seen = false;
+        unsigned seen = 0;
         for (int lane = 0; lane < QUAD_LANES; lane++)
-            seen |= row[lane] != NOT_SEEN;
+            seen |= (unsigned)(row[lane] != NOT_SEEN) << lane;
         memcpy(observation->value[n - 1], row, sizeof *observation->value);
-        observation->known[n - 1] = seen;
+        observation->known[n - 1] =
+            (uint8_t)(seen && routine_lanes(run->routine) >= QUAD_LANES ? OBSERVED_ALL : seen);
     }
 }
 

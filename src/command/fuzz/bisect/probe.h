@@ -33,10 +33,13 @@ void probe_free(const struct routine *like, struct code_arena *arena, struct rou
 
 uint32_t probe_rows(const struct ir *ir);
 
-/* Values of an engine at the events of a quad. */
+enum { OBSERVED_ALL = 15 };
+
+/* Values of an engine at the events of a quad. Code of one lane runs only for covered pixels, and in a region
+ * only for those that are in it; the other lanes are not seen. */
 struct observation {
     uint32_t (*value)[4]; /* by event */
-    uint8_t *known;       /* by event: 1 seen, 0 not seen */
+    uint8_t *known;       /* by event: bit l: lane l was seen */
 };
 
 int observation_start(struct observation *observation, const struct event_list *events);

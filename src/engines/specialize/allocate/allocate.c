@@ -185,13 +185,13 @@ static void chain_uses(const struct ir *ir, struct allocation *a)
 }
 
 /* Returns true if the value needs no register: a constant, or a load that is used once by an instruction that
- * can read this operand from memory. With 16 lanes that includes broadcast words. */
+ * can read this operand from memory. With 16 lanes or one that includes words for all lanes. */
 static bool stays_in_memory(const struct ir *ir, struct allocation *a, uint32_t number)
 {
     const struct ir_instruction *i = &ir->instruction[number];
     if (allocate_is_constant(i))
         return true;
-    if (i->op != IR_load && !(i->op == IR_uniform && a->wide))
+    if (i->op != IR_load && !(i->op == IR_uniform && (a->wide || a->scalar)))
         return false;
     if (!ir_is_invariant_read(i) || a->uses[number] != 1)
         return false;
@@ -451,6 +451,7 @@ void allocate_registers(const struct ir *ir, struct allocation *allocation, cons
         .ir = ir, .allocation = allocation, .registers = registers_of(file->wide) & ~file->without};
     allocation->lots = file->seed;
     allocation->wide = file->wide;
+    allocation->scalar = file->scalar;
     allocation->spills = 0;
     allocation->webs = ir->phis != 0;
     if (ir->loops || ir->phis) {

@@ -55,6 +55,7 @@ struct register_file {
     uint64_t without; /* bit r: register r is not available; this may be all of them */
     uint64_t seed;    /* not 0: free registers, victims, slots and what is coalesced are drawn by lot */
     bool wide;        /* there are 32 vector registers, and mask registers */
+    bool scalar;      /* there is one lane: a word of memory can be an operand */
 };
 
 /* The registers that are allocated, a bit each. */
@@ -65,6 +66,7 @@ struct register_file {
 struct allocation {
     uint64_t lots; /* the state of the generator of lots; 0: no lots are drawn */
     bool wide;
+    bool scalar;
     uint8_t residence[IR_CAPACITY];
     uint8_t reg[IR_CAPACITY];
     /* By value: */
@@ -129,7 +131,8 @@ static inline bool allocate_is_mask(const struct allocation *allocation,
 static inline struct register_file allocate_register_file(unsigned count, unsigned width)
 {
     uint64_t with = ((1ull << count) - 1) | ((2ull << count / 2) - 1) << MASKS;
-    return (struct register_file){.without = count < ALLOCATABLE ? ~with : 0, .wide = width == 16};
+    return (struct register_file){
+        .without = count < ALLOCATABLE ? ~with : 0, .wide = width == 16, .scalar = width == 1};
 }
 
 /* Returns a number below `limit` if lots are drawn, else 0. */

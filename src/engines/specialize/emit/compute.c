@@ -23,7 +23,11 @@ enum form {
     FORM_SELECT,
     FORM_BLEND,
     FORM_TEST,
-    FORM_MASKS
+    FORM_MASKS,
+    FORM_MERGE,
+    FORM_MERGE_ROUND,
+    FORM_TO_INTEGER,
+    FORM_FROM_INTEGER
 };
 
 struct rule {
@@ -40,6 +44,13 @@ static const struct rule rules[IR_OP_COUNT] = {
 /* The rules that replace those for 16 lanes. */
 static const struct rule wide_rules[IR_OP_COUNT] = {
 #define SELECT_WIDE(op, form, instruction, immediate) [IR_##op] = {X86_##instruction, FORM_##form, immediate},
+#include "def/engine/select.def"
+};
+
+/* The rules that replace those for one lane. */
+static const struct rule scalar_rules[IR_OP_COUNT] = {
+#define SELECT_SCALAR(op, form, instruction, immediate)                                                      \
+    [IR_##op] = {X86_##instruction, FORM_##form, immediate},
 #include "def/engine/select.def"
 };
 
@@ -174,7 +185,7 @@ static void select_select(struct emitter *m, const struct ir_instruction *i)
     if (zero_else || zero_then) {
         struct location other = emit_locate(m, i->operand[zero_else ? 1 : 2]);
         enum x86_vector operation = zero_else ? X86_vandps : X86_vandnps;
-        if (other.reg == NO_REGISTER && other.addressable)
+        if (emit_folds(m, operation, &other))
             encode_rrm(&m->encoder, operation, m->length, to, test, other.address);
         else
             encode_rrr(&m->encoder, operation, m->length, to, test,
@@ -183,7 +194,7 @@ static void select_select(struct emitter *m, const struct ir_instruction *i)
     }
     struct location then = emit_locate(m, i->operand[1]), otherwise = emit_locate(m, i->operand[2]);
     unsigned base = emit_need_register(m, &otherwise, SCRATCH_SECOND);
-    if (then.reg == NO_REGISTER && then.addressable)
+    if (emit_folds(m, X86_vblendvps, &then))
         encode_rrmr(&m->encoder, X86_vblendvps, m->length, to, base, then.address, test);
     else
         encode_rrrr(&m->encoder, X86_vblendvps, m->length, to, base,
@@ -232,21 +243,33 @@ static void select_blend(struct emitter *m, const struct ir_instruction *i)
     }
 }
 
+/* A form of the multiply-add for the number of lanes. */
+static enum x86_vector fused(const struct emitter *m, enum x86_vector packed)
+{
+    if (!emit_is_scalar(m))
+        return packed;
+    switch (packed) {
+    case X86_vfmadd132ps: return X86_vfmadd132ss;
+    case X86_vfmadd213ps: return X86_vfmadd213ss;
+    default: return X86_vfmadd231ss;
+    }
+}
+
 /* to = to * x + y: the result's register holds a factor. x or y may be in memory. */
 static void multiply_in_place(struct emitter *m, unsigned to, const struct location *x,
                               const struct location *y)
 {
     if (y->reg == NO_REGISTER && y->addressable) {
-        encode_rrm(&m->encoder, X86_vfmadd213ps, m->length, to, emit_need_register(m, x, SCRATCH_FIRST),
-                   y->address);
+        encode_rrm(&m->encoder, fused(m, X86_vfmadd213ps), m->length, to,
+                   emit_need_register(m, x, SCRATCH_FIRST), y->address);
         return;
     }
     unsigned addend = emit_need_register(m, y, SCRATCH_SECOND);
     if (x->reg == NO_REGISTER && x->addressable)
-        encode_rrm(&m->encoder, X86_vfmadd132ps, m->length, to, addend, x->address);
+        encode_rrm(&m->encoder, fused(m, X86_vfmadd132ps), m->length, to, addend, x->address);
     else
-        encode_rrr(&m->encoder, X86_vfmadd213ps, m->length, to, emit_need_register(m, x, SCRATCH_FIRST),
-                   addend);
+        encode_rrr(&m->encoder, fused(m, X86_vfmadd213ps), m->length, to,
+                   emit_need_register(m, x, SCRATCH_FIRST), addend);
 }
 
 /* to = a * b + to: the result's register holds the addend. a or b may be in memory. */
@@ -259,9 +282,9 @@ static void add_in_place(struct emitter *m, unsigned to, const struct location *
     }
     unsigned first = emit_need_register(m, a, SCRATCH_FIRST);
     if (b->reg == NO_REGISTER && b->addressable)
-        encode_rrm(&m->encoder, X86_vfmadd231ps, m->length, to, first, b->address);
+        encode_rrm(&m->encoder, fused(m, X86_vfmadd231ps), m->length, to, first, b->address);
     else
-        encode_rrr(&m->encoder, X86_vfmadd231ps, m->length, to, first,
+        encode_rrr(&m->encoder, fused(m, X86_vfmadd231ps), m->length, to, first,
                    emit_need_register(m, b, SCRATCH_SECOND));
 }
 
@@ -293,11 +316,44 @@ static void select_mad(struct emitter *m, const struct ir_instruction *i)
     }
 }
 
+/* --- One lane ------------------------------------------------------------------------------------------ */
+
+static void select_merge(struct emitter *m, const struct rule *rule, const struct ir_instruction *i)
+{
+    struct location a = emit_locate(m, i->operand[0]);
+    unsigned from = emit_need_register(m, &a, SCRATCH_FIRST), to = emit_result_register(m);
+    if (rule->form == FORM_MERGE_ROUND)
+        encode_rrri(&m->encoder, rule->instruction, m->length, to, from, from, rule->immediate);
+    else
+        encode_rrr(&m->encoder, rule->instruction, m->length, to, from, from);
+}
+
+static void select_to_integer(struct emitter *m, const struct rule *rule, const struct ir_instruction *i)
+{
+    struct location a = emit_locate(m, i->operand[0]);
+    if (emit_folds(m, rule->instruction, &a))
+        encode_rm(&m->encoder, rule->instruction, m->length, X86_RAX, a.address);
+    else
+        encode_rr(&m->encoder, rule->instruction, m->length, X86_RAX,
+                  emit_need_register(m, &a, SCRATCH_FIRST));
+    encode_rr(&m->encoder, X86_vmovd, m->length, emit_result_register(m), X86_RAX);
+}
+
+static void select_from_integer(struct emitter *m, const struct rule *rule, const struct ir_instruction *i)
+{
+    struct location a = emit_locate(m, i->operand[0]);
+    unsigned from = emit_need_register(m, &a, SCRATCH_FIRST);
+    encode_rr(&m->encoder, X86_vmovd_store, m->length, X86_RAX, from);
+    encode_rrr(&m->encoder, rule->instruction, m->length, emit_result_register(m), from, X86_RAX);
+}
+
 void emit_computed(struct emitter *m, const struct ir_instruction *i)
 {
-    const struct rule *rule = &rules[i->op], *wide = &wide_rules[i->op];
+    const struct rule *rule = &rules[i->op], *wide = &wide_rules[i->op], *scalar = &scalar_rules[i->op];
     if (emit_is_wide(m) && wide->form && (wide->form != FORM_MASKS || i->type == TYPE_msk))
         rule = wide;
+    if (emit_is_scalar(m) && scalar->form)
+        rule = scalar;
     bool commutes = ir_properties(i) & IR_COMMUTES;
     switch (rule->form) {
     case FORM_BINARY: select_binary(m, rule, i->operand[0], i->operand[1], commutes); break;
@@ -313,5 +369,9 @@ void emit_computed(struct emitter *m, const struct ir_instruction *i)
     case FORM_BLEND: select_blend(m, i); break;
     case FORM_TEST: select_compare_masks(m, rule, i); break;
     case FORM_MASKS: select_masks(m, rule, i); break;
+    case FORM_MERGE:
+    case FORM_MERGE_ROUND: select_merge(m, rule, i); break;
+    case FORM_TO_INTEGER: select_to_integer(m, rule, i); break;
+    case FORM_FROM_INTEGER: select_from_integer(m, rule, i); break;
     }
 }

@@ -66,7 +66,7 @@ struct emitter {
     const struct allocation *allocation;
     struct encoder encoder;
     enum vector_length length;
-    unsigned width;    /* lanes: 4, 8 or 16 */
+    unsigned width;    /* lanes of a register: 1, 4, 8 or 16 */
     uint32_t position; /* of the instruction whose code is written */
     uint32_t
         selected; /* the code of all instructions before this one is written; groups are written together */
@@ -87,7 +87,7 @@ struct emitter {
     uint32_t region_label[REGION_DEPTH];
     uint32_t region_depth;
     uint32_t moves; /* those that are not yet written */
-    struct move move[VARIABLES];
+    struct move move[VARIABLES * IR_PARTS];
     uint32_t unwinds;
     struct debug_unwind unwind[UNWIND_CAPACITY]; /* of the prologue and the epilogue */
     struct code_line line[IR_CAPACITY + 64];
@@ -122,16 +122,36 @@ void emit_store_spilled(struct emitter *emitter);
 /* The general-purpose register that holds each base (frame.c). */
 extern const uint8_t emit_base_register[BASE_COUNT];
 
-/* The vector length of a number of lanes: 4, 8 or 16. */
+/* The vector length of a number of lanes: 1, 4, 8 or 16. */
 static inline enum vector_length emit_length_of(unsigned width)
 {
-    return width == 4 ? X86_128 : width == 8 ? X86_256 : X86_512;
+    return width <= 4 ? X86_128 : width == 8 ? X86_256 : X86_512;
 }
 
 /* Returns true if there are 16 lanes: the code has EVEX encodings, mask registers and broadcast operands. */
 static inline bool emit_is_wide(const struct emitter *emitter)
 {
     return emitter->width == 16;
+}
+
+/* Returns true if there is one lane: floats are computed by scalar instructions, and a value in memory is one
+ * word. Of the 16 bytes of a register only the first four have a meaning. */
+static inline bool emit_is_scalar(const struct emitter *emitter)
+{
+    return emitter->width == 1;
+}
+
+/* Returns true if the constant table is in the stack frame. With 16 lanes and with one, instructions read the
+ * words of the job instead. */
+static inline bool emit_has_table(const struct emitter *emitter)
+{
+    return !emit_is_wide(emitter) && !emit_is_scalar(emitter);
+}
+
+/* The elements that one pass of the routine's loop computes: the lanes of all parts of a value. */
+static inline unsigned emit_lanes(const struct emitter *emitter)
+{
+    return emitter->width * emitter->ir->parts;
 }
 
 /* The layout of a literal after the code: one word to be broadcast; the same word for each lane; or for lane
@@ -164,7 +184,7 @@ bool emit_is_zero(const struct emitter *emitter, unsigned value);
 
 /* Returns true if an instruction can read the value from memory; `location` then has the address.
  * Instructions on 16-bit elements cannot broadcast, so the address becomes that of a literal with all lanes.
- */
+ * With one lane, instructions that read 16 bytes can read literals only. */
 bool emit_folds(struct emitter *emitter, enum x86_vector instruction, struct location *location);
 
 /* Write the code of the ends of regions and loops (region.c). */

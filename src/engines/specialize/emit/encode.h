@@ -223,6 +223,9 @@ void encode_nops(struct encoder *encoder, unsigned count);
 /* Returns true if an instruction has an encoding with a broadcast operand. */
 bool encode_broadcasts(enum x86_vector);
 
+/* Returns true if the instruction's memory operand has four bytes. */
+bool encode_reads_word(enum x86_vector);
+
 /* Vector instructions. A register operand is the number of a vector register, 0 to 31, or of a mask register
  * or a gpr if the row has one there. Each comment lists the forms of x86.def that the function accepts. */
 void encode_none(struct encoder *, enum x86_vector);                                               /* NONE */

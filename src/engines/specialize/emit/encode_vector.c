@@ -39,6 +39,7 @@ enum {
 enum {
     RM_REGISTER = 1,
     RM_MEMORY = 2,
+    RM_WORD = 4, /* memory of four bytes */
     REGISTER_V = RM_REGISTER,
     REGISTER_X = RM_REGISTER,
     REGISTER_Y = RM_REGISTER,
@@ -52,7 +53,7 @@ enum {
     MEMORY_MQ = RM_MEMORY,
     MEMORY_M8 = RM_MEMORY,
     MEMORY_M16 = RM_MEMORY,
-    MEMORY_M32 = RM_MEMORY,
+    MEMORY_M32 = RM_MEMORY | RM_WORD,
     MEMORY_M64 = RM_MEMORY,
     MEMORY_M128 = RM_MEMORY,
     MEMORY_M256 = RM_MEMORY,
@@ -269,6 +270,11 @@ static const struct vector_row *vector_row(enum x86_vector id, unsigned forms)
 bool encode_broadcasts(enum x86_vector id)
 {
     return evex_rows[id].broadcast != 0;
+}
+
+bool encode_reads_word(enum x86_vector id)
+{
+    return vector_rows[id].rm & RM_WORD;
 }
 
 void encode_none(struct encoder *encoder, enum x86_vector id)

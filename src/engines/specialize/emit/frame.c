@@ -6,11 +6,12 @@
  *
  * Stack frame, from rsp on, aligned to 64 bytes: the saved MXCSR, the contract's MXCSR, room for one value,
  * the constant table, the spill slots and the variables. Each entry has W words, one for each lane. With 16
- * lanes there is no constant table: instructions broadcast the words from the job. Literals follow the code
+ * lanes or one there is no constant table: instructions read the words of the job. Literals follow the code
  * and are addressed relative to rip, so a routine can be copied anywhere.
  *
- * The pixel loop iterates over entries, and in each 4x4 block over chunks of W lanes. Chunks without coverage
- * are skipped, and the block ends when no coverage is ahead. With 16 lanes a block is one chunk. */
+ * The pixel loop iterates over entries, and in each 4x4 block over chunks of the lanes of one pass: those of
+ * a register, times the parts of a value. Chunks without coverage are skipped, and the block ends when no
+ * coverage is ahead. With 16 pixels a pass, a block is one chunk. */
 #include "base/hash.h"
 #include "machine/mxcsr.h"
 #include "engines/specialize/emit/emit.h"
@@ -133,7 +134,7 @@ static void load(struct emitter *m, enum gpr to, size_t field)
 
 static void broadcast_constants(struct emitter *m)
 {
-    for (uint32_t c = 0; !emit_is_wide(m) && c < m->ir->constant_count; c++) {
+    for (uint32_t c = 0; emit_has_table(m) && c < m->ir->constant_count; c++) {
         const struct ir_constant *constant = &m->ir->constant[c];
         struct address slot = address_at(X86_RSP, m->frame_constants + (int32_t)(c * m->width * 4));
         encode_rm(&m->encoder, X86_vbroadcastss, m->length, 0,
@@ -190,7 +191,7 @@ static void prologue(struct emitter *m, size_t job_field)
     struct encoder *e = &m->encoder;
     m->frame_constants = FRAME_HEAD;
     m->frame_slots =
-        m->frame_constants + (int32_t)(emit_is_wide(m) ? 0 : m->ir->constant_count * m->width * 4);
+        m->frame_constants + (int32_t)(emit_has_table(m) ? m->ir->constant_count * m->width * 4 : 0);
     m->frame_variables = m->frame_slots + (int32_t)(m->allocation->slots * m->width * 4);
     int32_t bytes = m->frame_variables + (int32_t)(m->ir->variables * m->width * 4);
     emit_note_frame_line(m, __LINE__);
@@ -257,7 +258,7 @@ static void end_loop(struct emitter *m)
 
 static void vertex_loop(struct emitter *m)
 {
-    int32_t step = (int32_t)m->width * 4;
+    int32_t step = (int32_t)emit_lanes(m) * 4;
     emit_note_frame_line(m, __LINE__);
     load(m, INPUT, offsetof(struct vertex_arguments, index));
     load(m, OUTPUT, offsetof(struct vertex_arguments, out));
@@ -281,8 +282,8 @@ static void setup_loop(struct emitter *m, const struct setup_key *key)
     begin_loop(m);
     emit_body(m);
     emit_note_frame_line(m, __LINE__);
-    encode_gpr_ri(&m->encoder, X86_add, X86_64, INPUT, (int32_t)m->width * 4);
-    encode_gpr_ri(&m->encoder, X86_add, X86_64, OUTPUT, (int32_t)m->width * stride);
+    encode_gpr_ri(&m->encoder, X86_add, X86_64, INPUT, (int32_t)emit_lanes(m) * 4);
+    encode_gpr_ri(&m->encoder, X86_add, X86_64, OUTPUT, (int32_t)emit_lanes(m) * stride);
     end_loop(m);
 }
 
@@ -304,11 +305,11 @@ static void begin_block(struct emitter *m)
 static void walk_chunks(struct emitter *m)
 {
     struct encoder *e = &m->encoder;
-    int32_t step = (int32_t)m->width * 4;
+    int32_t step = (int32_t)emit_lanes(m) * 4;
     load(m, LANES, offsetof(struct pixel_arguments, lanes));
     encode_gpr_rm(e, X86_movzx16, X86_32, AHEAD, address_at(ENTRY, offsetof(struct entry, coverage)));
     encode_label(e, LABEL_CHUNK);
-    encode_gpr_ri(e, X86_test, X86_32, AHEAD, (1 << m->width) - 1);
+    encode_gpr_ri(e, X86_test, X86_32, AHEAD, (1 << emit_lanes(m)) - 1);
     encode_jump_if(e, X86_IF_z, LABEL_SKIP);
     emit_body(m);
     emit_note_frame_line(m, __LINE__);
@@ -316,21 +317,22 @@ static void walk_chunks(struct emitter *m)
     encode_gpr_ri(e, X86_add, X86_64, COLOR, step);
     encode_gpr_ri(e, X86_add, X86_64, DEPTH, step);
     encode_gpr_ri(e, X86_add, X86_64, LANES, step);
-    encode_gpr_ri(e, X86_shr, X86_32, AHEAD, (int32_t)m->width);
+    encode_gpr_ri(e, X86_shr, X86_32, AHEAD, (int32_t)emit_lanes(m));
     encode_jump_if(e, X86_IF_nz, LABEL_CHUNK);
 }
 
 /* Every entry has coverage. */
 static void pixel_loop(struct emitter *m)
 {
+    bool whole = emit_lanes(m) == BLOCK_PIXELS;
     emit_note_frame_line(m, __LINE__);
     load(m, ENTRY, offsetof(struct pixel_arguments, entries));
     load_limit(m, offsetof(struct pixel_arguments, count), 4);
-    if (emit_is_wide(m))
+    if (whole)
         load(m, LANES, offsetof(struct pixel_arguments, lanes));
     begin_loop(m);
     begin_block(m);
-    if (emit_is_wide(m)) {
+    if (whole) {
         emit_body(m);
         emit_note_frame_line(m, __LINE__);
     } else
@@ -339,19 +341,21 @@ static void pixel_loop(struct emitter *m)
     end_loop(m);
 }
 
-/* Writes the literals: first those with all lanes, which are aligned. */
+/* Writes the literals: first those with all lanes, which are aligned. Each has at least a register of 16
+ * bytes. */
 static void constant_pool(struct emitter *m)
 {
     int32_t lanes[LANES_MAXIMUM];
+    unsigned count = m->width < 4 ? 4 : m->width;
     for (unsigned once = 0; once < 2; once++)
         for (uint32_t i = 0; i < m->literals; i++) {
             if ((m->literal_lanes[i] == LITERAL_ONCE) != once)
                 continue;
-            for (unsigned lane = 0; lane < m->width; lane++)
+            for (unsigned lane = 0; lane < count; lane++)
                 lanes[lane] =
                     m->literal_bits[i] * (m->literal_lanes[i] == LITERAL_MULTIPLES ? (int32_t)lane : 1);
             encode_label(&m->encoder, m->literal_label[i]);
-            encode_data(&m->encoder, lanes, (once ? 1 : m->width) * sizeof lanes[0]);
+            encode_data(&m->encoder, lanes, (once ? 1 : count) * sizeof lanes[0]);
         }
 }
 

@@ -1,4 +1,4 @@
-/* Gathers, in four ways.
+/* Gathers, in four ways, and one by one with one lane.
  *
  * By the gather instruction, if one word is read and the indices are in a register. It merges by a mask,
  * which it clears, so the mask is set to all ones each time. The destination is zeroed first to remove its
@@ -245,10 +245,32 @@ static void select_gather_rows(struct emitter *m, const struct ir_instruction *i
     m->selected = m->position + words;
 }
 
+/* --- One lane ------------------------------------------------------------------------------------------ */
+
+/* The index is loaded once for all words of a row. */
+static void select_gather_lane(struct emitter *m, const struct ir_instruction *i, unsigned words)
+{
+    struct encoder *e = &m->encoder;
+    struct location index = emit_locate(m, i->operand[0]);
+    unsigned base = gather_base(m, i);
+    if (index.reg == NO_REGISTER)
+        encode_gpr_rm(e, X86_movsxd, X86_64, X86_R12, index.address);
+    else {
+        encode_rr(e, X86_vmovd_store, X86_128, X86_R12, index.reg);
+        encode_gpr_rr(e, X86_movsxd, X86_64, X86_R12, X86_R12);
+    }
+    for (unsigned n = 0; n < words; n++)
+        encode_rm(e, X86_vmovss, X86_128, m->allocation->reg[m->position + n],
+                  address_indexed(base, X86_R12, i->scale, i[n].k));
+    m->selected = m->position + words;
+}
+
 void emit_gather(struct emitter *m, const struct ir_instruction *i)
 {
     unsigned words = row_length(m, i);
-    if (words > 2)
+    if (emit_is_scalar(m))
+        select_gather_lane(m, i, words ? words : 1);
+    else if (words > 2)
         select_gather_rows(m, i, words);
     else if (words == 2)
         select_gather_pairs(m, i);

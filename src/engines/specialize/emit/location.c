@@ -3,7 +3,8 @@
  * A value is in its allocated register up to the position at which it is evicted. After it, and if it never
  * had a register, it is in memory: a literal after the code, a slot of the constant table, a spill slot, or
  * the word that it was loaded from. With 16 lanes a mask may be in a mask register, and a value that is the
- * same in all lanes is one word in memory. */
+ * same in all lanes is one word in memory. With one lane every value is one word, except literals: those have
+ * 16 bytes, for instructions that read a whole register. */
 #include "engines/specialize/emit/emit.h"
 
 struct address emit_frame_address(const struct emitter *m, int32_t start, unsigned slot)
@@ -16,14 +17,14 @@ struct address emit_slot_address(const struct emitter *m, unsigned slot)
     return emit_frame_address(m, m->frame_slots, slot);
 }
 
-/* A slot of the constant table; with 16 lanes, the word that the slot would be filled from. */
+/* A slot of the constant table; with 16 lanes or one, the word that the slot would be filled from. */
 static struct address constant_address(const struct emitter *m, unsigned slot)
 {
     const struct ir_constant *constant = &m->ir->constant[slot];
-    if (!emit_is_wide(m))
+    if (emit_has_table(m))
         return emit_frame_address(m, m->frame_constants, slot);
     struct address address = address_at(emit_base_register[constant->base], constant->offset);
-    address.broadcast = 1;
+    address.broadcast = emit_is_wide(m);
     return address;
 }
 
@@ -45,7 +46,7 @@ static struct location memory_location(struct emitter *m, unsigned value)
     } else {
         p.address = address_at(emit_base_register[i->base], i->k);
         p.address.broadcast = i->op == IR_uniform && emit_is_wide(m);
-        p.addressable = i->op == IR_load || emit_is_wide(m);
+        p.addressable = i->op == IR_load || !emit_has_table(m);
     }
     return p;
 }
@@ -79,7 +80,9 @@ static void bring_mask(struct emitter *m, unsigned to, const struct location *p)
 static void bring_memory(struct emitter *m, unsigned to, const struct location *p)
 {
     struct address from = p->address;
-    enum x86_vector how = p->addressable && !from.broadcast ? X86_vmovups : X86_vbroadcastss;
+    enum x86_vector how = emit_is_scalar(m)                   ? X86_vmovss
+                          : p->addressable && !from.broadcast ? X86_vmovups
+                                                              : X86_vbroadcastss;
     from.broadcast = 0;
     if (emit_is_zero(m, p->value))
         encode_rrr(&m->encoder, X86_vxorps, m->length, to, to, to);
@@ -120,13 +123,15 @@ void emit_store_register(struct emitter *m, struct address to, unsigned reg)
     if (reg >= MASKS)
         encode_mr(&m->encoder, X86_kmovw_store, X86_128, to, reg - MASKS);
     else
-        encode_mr(&m->encoder, X86_vmovaps_store, m->length, to, reg);
+        encode_mr(&m->encoder, emit_is_scalar(m) ? X86_vmovss_store : X86_vmovaps_store, m->length, to, reg);
 }
 
 bool emit_folds(struct emitter *m, enum x86_vector instruction, struct location *p)
 {
     if (p->reg != NO_REGISTER || !p->addressable)
         return false;
+    if (emit_is_scalar(m) && !encode_reads_word(instruction))
+        return m->ir->instruction[p->value].op == IR_literal;
     if (p->address.broadcast && !encode_broadcasts(instruction)) {
         const struct ir_instruction *i = &m->ir->instruction[p->value];
         if (i->op != IR_literal)

@@ -13,9 +13,23 @@ static bool open_region(struct emitter *m)
     return true;
 }
 
+/* One lane by its sign, as vtestps tests several. */
+static void test_lane(struct emitter *m, const struct location *mask)
+{
+    if (mask->reg == NO_REGISTER)
+        encode_gpr_rm(&m->encoder, X86_mov, X86_32, X86_RAX, mask->address);
+    else
+        encode_rr(&m->encoder, X86_vmovd_store, X86_128, X86_RAX, mask->reg);
+    encode_gpr_ri(&m->encoder, X86_test, X86_32, X86_RAX, INT32_MIN);
+}
+
 static void test_lanes(struct emitter *m, unsigned mask)
 {
     struct location location = emit_locate(m, mask);
+    if (emit_is_scalar(m)) {
+        test_lane(m, &location);
+        return;
+    }
     unsigned test = emit_is_wide(m) ? emit_need_mask(m, &location, MASK_SCRATCH)
                                     : emit_need_register(m, &location, SCRATCH_FIRST);
     if (emit_is_wide(m))

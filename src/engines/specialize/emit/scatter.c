@@ -9,7 +9,8 @@
  *   c  c0 c1 ..                     a2 b2 ..
  *   d  d0 d1 ..                     a3 b3 ..
  *
- * Three words are stored as four if the fourth is certainly overwritten later. */
+ * Three words are stored as four if the fourth is certainly overwritten later. With one lane, each word is
+ * stored by itself. */
 #include "engines/specialize/emit/emit.h"
 
 enum { ROW = 4 };
@@ -28,6 +29,10 @@ static void scatter_words(struct emitter *m, const struct ir_instruction *i)
     struct location value = emit_locate(m, i->operand[0]);
     unsigned from = emit_need_register(m, &value, SCRATCH_FIRST);
     struct address to = address_at(emit_base_register[i->base], i->k);
+    if (emit_is_scalar(m)) {
+        encode_mr(&m->encoder, X86_vmovss_store, X86_128, to, from);
+        return;
+    }
     scatter_four(m, from, to, i->field);
     for (unsigned four = 1; four < m->width / 4; four++) {
         to.displacement += 4 * i->field;
@@ -122,7 +127,7 @@ void emit_scatter(struct emitter *m, const struct ir_instruction *i)
     unsigned words = row_length(m, i);
     if (words == 3 && !is_stored_later(m, i, i->k + 12))
         words = 2;
-    if (i->field < 4 * ROW)
+    if (i->field < 4 * ROW || emit_is_scalar(m))
         words = 1;
     m->selected = m->position + words;
     if (words > 2)

@@ -12,23 +12,25 @@ static void select_variable(struct emitter *m, const struct ir_instruction *i)
     if (i->op == IR_get && mask)
         encode_rm(&m->encoder, X86_kmovw, X86_128, emit_result_register(m) - MASKS, variable);
     else if (i->op == IR_get)
-        encode_rm(&m->encoder, X86_vmovaps, m->length, emit_result_register(m), variable);
+        encode_rm(&m->encoder, emit_is_scalar(m) ? X86_vmovss : X86_vmovaps, m->length,
+                  emit_result_register(m), variable);
     else
         emit_store_register(m, variable,
                             mask ? MASKS + emit_need_mask(m, &value, MASK_SCRATCH)
                                  : emit_need_register(m, &value, SCRATCH_FIRST));
 }
 
+/* With one lane, all three are moves of a word. */
 static void select_memory(struct emitter *m, const struct ir_instruction *i)
 {
+    enum x86_vector load = i->op == IR_load ? X86_vmovups : X86_vbroadcastss;
     struct address at = address_at(emit_base_register[i->base], i->k);
     if (i->op == IR_store) {
         struct location value = emit_locate(m, i->operand[0]);
-        encode_mr(&m->encoder, X86_vmovups_store, m->length, at,
+        encode_mr(&m->encoder, emit_is_scalar(m) ? X86_vmovss_store : X86_vmovups_store, m->length, at,
                   emit_need_register(m, &value, SCRATCH_FIRST));
     } else
-        encode_rm(&m->encoder, i->op == IR_load ? X86_vmovups : X86_vbroadcastss, m->length,
-                  emit_result_register(m), at);
+        encode_rm(&m->encoder, emit_is_scalar(m) ? X86_vmovss : load, m->length, emit_result_register(m), at);
 }
 
 static void select_store_where(struct emitter *m, const struct ir_instruction *i)

@@ -7,7 +7,7 @@
 
 #include <string.h>
 
-enum group { THESIS, FULL, ONCE };
+enum group { THESIS, FULL, ONCE, LAST };
 enum wakes { NONE, OTHERS, ALL };
 
 static const struct {
@@ -47,15 +47,17 @@ void pass_replace(struct ir *ir, const struct pass_memory *memory, uint32_t coun
 
 static bool is_enabled(unsigned pass, enum profile profile, uint32_t disabled)
 {
+    if (passes[pass].group == LAST)
+        return true;
     return !(disabled >> pass & 1) && (passes[pass].group == THESIS || profile == PROFILE_FULL);
 }
 
-/* The enabled passes of the fixpoint, or the enabled ones that run once after it; bit p: pass p. */
-static uint32_t select_passes(bool once, enum profile profile, uint32_t disabled)
+/* The enabled passes of the fixpoint, or the enabled ones that run after it; bit p: pass p. */
+static uint32_t select_passes(bool after, enum profile profile, uint32_t disabled)
 {
     uint32_t selected = 0;
     for (unsigned p = 0; p < PASS_COUNT; p++)
-        selected |= (uint32_t)((passes[p].group == ONCE) == once && is_enabled(p, profile, disabled)) << p;
+        selected |= (uint32_t)((passes[p].group >= ONCE) == after && is_enabled(p, profile, disabled)) << p;
     return selected;
 }
 

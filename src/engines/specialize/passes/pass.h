@@ -27,7 +27,8 @@ enum {
 /* The memory of the passes, one for each build. Every pass keeps its working data in a structure of its own
  * in `scratch` (pass_scratch). */
 struct pass_memory {
-    unsigned lanes; /* of the routine: 4, 8 or 16; 0: unknown */
+    unsigned lanes; /* of a register: 1, 4, 8 or 16; 0: unknown */
+    unsigned parts; /* that each value is split into; 0 or 1: it is not split */
     struct ir_instruction
         rebuilt[IR_CAPACITY];  /* the new program, while a pass inserts or moves instructions */
     uint16_t map[IR_CAPACITY]; /* from old numbers to those of the new program */
