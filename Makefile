@@ -135,7 +135,7 @@ unity_flags = -isystem $(dir $(UNITY_SOURCE)) -DUNITY_INCLUDE_DOUBLE -DUNITY_USE
 
 # --- What to build ------------------------------------------------------------------------------------------
 
-.PHONY: all programs objects check test check-threads check-explore matrix coverage soak soak-faults soak-memory bench peers bench-shaders bench-draws bench-targets conformance-d3d9 programs-d3d9 mutations gallery verify-external docs fuzzers fuzz-input fuzz-input-smoke dependencies packages install clean format format-check compile_commands.json d3d9 lab labs help FORCE
+.PHONY: all programs objects check test check-threads check-explore matrix coverage soak soak-faults soak-memory bench peers bench-shaders bench-draws bench-targets claims conformance-d3d9 programs-d3d9 mutations gallery verify-external docs fuzzers fuzz-input fuzz-input-smoke dependencies packages install clean format format-check compile_commands.json d3d9 lab labs help FORCE
 
 all: $(BUILD)/libtriptych.a $(if $(SANITIZE),,$(BUILD)/libtriptych.so $(PKGCONFIG) \
   $(BUILD)/include/triptych/triptych.h) $(COMMAND) build/glmark2 \
@@ -561,6 +561,13 @@ bench-targets:
 	+@$(MAKE) $(jobs) $(BUILD)/bench/targets
 	@$(BUILD)/bench/targets
 
+# Tests the claims of the thesis and of other renderers (docs/claims.md): results/claims.json and
+# results/report. ONLY=C156,S9 selects claims; RESUME=1 continues after an interruption.
+claims:
+	@tests/support/scripts/dependencies.sh build test claims browser
+	+@$(MAKE) $(jobs) all $(UNITY_SOURCE)
+	@$(COMMAND) claims --pdf $(if $(ONLY),--only $(ONLY)) $(if $(RESUME),--resume)
+
 # Wine's Direct3D 9 tests on Triptych and on Wine's own Direct3D 9: results/conformance.md.
 # bench/conformance-d3d9.sh describes ENGINE=name THREADS=n SUITES="name ..." LIMIT=seconds.
 conformance-d3d9:
@@ -692,6 +699,8 @@ make programs-d3d9   programs for Windows, on Triptych and on Wine's own Direct3
 make bench-shaders   measures every shader in tests/data/shading, by shader and by length
 make bench-draws     draws per second of one small triangle, one change of the state before each
 make bench-targets   the time to draw to a texture and return to the target
+make claims          tests the claims of the thesis and of other renderers, an hour: results/claims.json, results/report
+                     (ONLY=C156,S9 RESUME=1)
 make soak            random cases and tests with new seeds, half an hour (DURATION=1800 SEED=1), then a summary
 make fuzz-input      readers of untrusted input under libFuzzer, half an hour (DURATION=1800) each TARGET, JOBS at a time
 make fuzz-input-smoke  the same in ten minutes

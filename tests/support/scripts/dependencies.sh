@@ -1,8 +1,8 @@
 #!/bin/bash
 # Makes sure that the Debian packages a target needs are installed, and installs those that are not.
 #
-#   tests/support/scripts/dependencies.sh GROUP...    groups: build test bench peers format fuzz browser d3d9
-#                                                     suites programs course
+#   tests/support/scripts/dependencies.sh GROUP...    groups: build test bench claims peers format fuzz
+#                                                     browser d3d9 suites programs course
 #   tests/support/scripts/dependencies.sh --list
 #
 # Silent when there is nothing to do. Ends non-zero, after naming the packages and their reasons, when a
@@ -34,9 +34,9 @@ cmake              test    builds and runs the example of a golden-image test
 libsdl2-2.0-0      test    the window of `triptych view`, which loads it when it runs
 xvfb               test,programs a display without a screen, for a window of `triptych view`
 xdotool            test,programs presses keys in that window
-valgrind           test,course counts executed instructions, for the labs of the course
+valgrind           test,course,claims counts executed instructions, for the labs of the course and the claims
 hyperfine          bench   measures whole processes
-gnuplot-nox        test,bench draws the charts
+gnuplot-nox        test,bench,claims draws the charts
 libegl-dev         peers,programs headers of EGL, for the renderers that are measured against
 libgles-dev        peers,programs the headers of GLES2, and its library
 libegl1            peers  finds the EGL of a vendor
@@ -61,7 +61,7 @@ wine               d3d9    the command that starts programs of Windows
 wine64             d3d9    runs programs of Windows
 wine64-tools       d3d9    marks a DLL as a builtin one of Wine
 libwine-dev        d3d9    the import library of ntdll of Wine
-chromium           browser opens the pages of the command explore
+chromium           browser opens the pages of the command explore, prints the report of the claims
 '
 
 describe() # PACKAGE... : their rows of the table, without the group
