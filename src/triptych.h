@@ -200,7 +200,9 @@ enum triptych_log_level {
 typedef void triptych_log_function(void *user, enum triptych_log_level level, const char *text);
 
 struct triptych_options {
-    const char *engine; /* a name that triptych_engine_name() returns; null: "specialize" */
+    /* A name that triptych_engine_name() returns; null: "specialize". Some engines take options after a colon
+     * each, as in "specialize-8:registers=6:without=fold" (docs/command.md). */
+    const char *engine;
     unsigned threads;   /* rendering threads, including the caller's; 0: one per available processor */
     size_t cache_bytes; /* budget of the routine cache, beyond which unused routines are evicted; 0: 16 MiB */
     int measure;        /* nonzero: measure the time of each routine (triptych_get_routine) */

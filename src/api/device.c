@@ -1,10 +1,10 @@
 /* Devices, engines, recordings, formats and statistics. */
 #define _GNU_SOURCE /* secure_getenv */
 #include "api/api.h"
-#include "base/words.h"
 #include "render/target/depth.h"
 #include "engines/list.h"
 
+#include <errno.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -13,29 +13,14 @@ static const char default_engine[] = "specialize";
 
 /* --- Devices and engines -------------------------------------------------------------------------------- */
 
-static const char *engine_choice(const struct words *words, unsigned index)
-{
-    (void)words;
-    return triptych_engine_name(index);
-}
-
-static enum triptych_result unknown_engine(const char *name, struct error *error)
-{
-    const struct words engines = {.at = engine_choice};
-    char choices[ERROR_CAPACITY];
-    words_join(engines, choices, sizeof choices);
-    error_set(error, "engine %.80s: there is none of that name, expected one of: %s", name, choices);
-    words_suggest_in(engines, name, strlen(name), error);
-    return TRIPTYCH_BAD_ARGUMENT;
-}
-
 static enum triptych_result create(const struct triptych_options *options, triptych_device **device,
                                    struct error *error)
 {
     const char *name = options && options->engine ? options->engine : default_engine;
-    const struct engine *engine = engine_find(name);
+    errno = 0;
+    const struct engine *engine = engine_named(name, error);
     if (!engine)
-        return unknown_engine(name, error);
+        return errno == ENOMEM ? TRIPTYCH_NO_MEMORY : TRIPTYCH_BAD_ARGUMENT;
     struct device_options device_options = {.debug = secure_getenv("TRIPTYCH_DEBUG")};
     if (options) {
         device_options.threads = options->threads;

@@ -16,6 +16,7 @@
 #include "command/bench/bench_report.h"
 #include "command/bench/bench_shaders.h"
 #include "command/bench/chart.h"
+#include "engines/specialize/passes/pass.h"
 #include "command/support/choose.h"
 #include "command/support/interrupt.h"
 #include "command/support/option.h"
@@ -39,6 +40,7 @@ struct settings {
     bool builds;  /* routines are built, no picture is drawn */
     bool cold;    /* frames whose routines are not built yet */
     bool no_cache;
+    struct variation variation;
     bool compare; /* the operands are two files of earlier results */
 };
 
@@ -248,7 +250,8 @@ static int run(const struct command *self, void *data, const struct operands *op
         return tool_fail(self, "--compare has %u operands, expected two files that --json wrote", count);
     if (settings->compare)
         return bench_compare(self, operands->value, settings->json);
-    if (choose_engines(self, settings->engines, &engines) || chart_check(self, settings->chart) ||
+    if (choose_engines(self, settings->engines, &engines) ||
+        choose_variants(self, &settings->variation, &engines) || chart_check(self, settings->chart) ||
         tool_check_output(self, settings->json) || tool_check_output(self, settings->csv))
         return STATUS_BAD;
     interrupt_defer();
@@ -265,6 +268,7 @@ static const struct settings defaults = {.threads = 1, .repetitions = 15, .secon
 static const struct option options[] = {
     {"engines", "LIST", "engines, separated by commas; all that can run here",
      OPTION_IS_LIST(struct settings, engines), .words = triptych_engine_name},
+    OPTIONS_OF_VARIATION(struct settings, variation),
     {"threads", "N", "rendering threads of each device; 1", OPTION_IS_NUMBER(struct settings, threads),
      .least = 1, .most = 256},
     {"repetitions", "N", "runs measured at most; 15", OPTION_IS_NUMBER(struct settings, repetitions),

@@ -30,7 +30,7 @@ struct building {
 
 /* --- Passes -------------------------------------------------------------------------------------------- */
 
-enum group { THESIS, FULL, ONCE, LAST };
+enum group { THESIS, FULL, OPTIONAL, ONCE, LAST };
 
 /* Returns true if the pass is not repeated. */
 static bool runs_once(unsigned pass)

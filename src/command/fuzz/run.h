@@ -26,7 +26,7 @@ enum outcome {
 
 extern const char *const outcome_name[OUTCOME_COUNT]; /* "same", "refused", ... */
 
-enum { RUNNER_ENGINES = 32, RUNNER_THREADS = 8, FINDING_TEXT = 320 };
+enum { RUNNER_ENGINES = 65, RUNNER_THREADS = 8, FINDING_TEXT = 320 };
 
 struct finding {
     enum outcome outcome;

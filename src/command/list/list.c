@@ -1,4 +1,5 @@
-/* `triptych list`: engines, states, shaders, formats and processor features, as tables or as JSON.
+/* `triptych list`: engines, their options, states, shaders, formats and processor features, as tables or as
+ * JSON.
  *
  * Each subject fills a JSON array of objects. The table for people is made from the same objects, one column
  * per member, so that the two agree. States and shaders do not fit one table and print themselves
@@ -6,6 +7,7 @@
 #include "machine/cpu.h"
 #include "render/texture/format.h"
 #include "engines/list.h"
+#include "engines/variant.h"
 #include "engines/specialize/passes/pass.h"
 #include "command/support/json.h"
 #include "command/support/option.h"
@@ -41,7 +43,26 @@ static void list_engines(cJSON *rows)
             add_text(row, "width", "chosen");
         add_text(row, "here", reason ? reason : "available");
         add_text(row, "runs", engine_at(i)->on_request ? "if named" : "always");
+        add_text(row, "options", engine_takes_options(engine_at(i)) ? "yes" : "no");
         add_text(row, "description", triptych_engine_description(i));
+    }
+}
+
+/* The options that names of engines can have. */
+static void list_options(cJSON *rows)
+{
+    const struct engine_option *option;
+    for (unsigned i = 0; (option = engine_option_at(i)); i++) {
+        char engines[512] = "";
+        for (unsigned e = 0; engine_at(e); e++)
+            if (option->takes(engine_at(e)))
+                snprintf(engines + strlen(engines), sizeof engines - strlen(engines), "%s%s",
+                         engines[0] ? " " : "", engine_at(e)->name);
+        cJSON *row = add_row(rows);
+        add_text(row, "option", option->name);
+        add_text(row, "values", *option->values ? option->values : "none is given");
+        add_text(row, "meaning", option->meaning);
+        add_text(row, "engines", engines);
     }
 }
 
@@ -101,6 +122,7 @@ static const struct subject {
     void (*print_markdown)(FILE *out);
 } subjects[] = {
     {"engines", list_engines, NULL, NULL},
+    {"options", list_options, NULL, NULL},
     {"states", states_list, states_print, states_print_markdown},
     {"shaders", shaders_list, shaders_print, shaders_print_markdown},
     {"formats", list_formats, NULL, NULL},
@@ -175,13 +197,14 @@ static const struct option options[] = {
 };
 
 static const struct operand operands[] = {
-    {"WHAT", "engines, states, shaders, formats, cpu or passes", .kind = OPERAND_WORD, .words = subject_at},
+    {"WHAT", "engines, options, states, shaders, formats, cpu or passes", .kind = OPERAND_WORD,
+     .words = subject_at},
     {0},
 };
 
 const struct command command_list = {
     .name = "list",
-    .summary = "engines, states, shaders, formats, cpu or passes",
+    .summary = "engines, their options, states, shaders, formats, cpu or passes",
     .options = options,
     .operands = operands,
     .settings_bytes = sizeof(struct settings),

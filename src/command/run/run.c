@@ -122,7 +122,7 @@ static const char notes[] =
 
 static const struct option options[] = {
     {"engine", "NAME", "the engine, one of triptych list engines; specialize",
-     OPTION_IS_WORD(struct settings, engine), .words = triptych_engine_name},
+     OPTION_IS_WORD(struct settings, engine), .words = triptych_engine_name, .suffixed = true},
     {"threads", "N", "threads that draw; 1", OPTION_IS_NUMBER(struct settings, threads), .least = 1,
      .most = THREADS_MAXIMUM},
     {"record", "FILE", "record what is drawn, as a container", OPTION_IS_FILE(struct settings, record),

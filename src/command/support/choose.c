@@ -1,12 +1,13 @@
 #include "command/support/choose.h"
 #include "engines/list.h"
+#include "engines/variant.h"
 #include "command/support/option.h"
 #include "triptych.h"
 
 #include <stdio.h>
 #include <string.h>
 
-enum { NAME_CAPACITY = 64, THREADS_MAXIMUM = 256 };
+enum { NAME_CAPACITY = ENGINE_NAME_CAPACITY, THREADS_MAXIMUM = 256 };
 
 static const char *engine_at_index(const struct words *words, unsigned index)
 {
@@ -54,11 +55,29 @@ static int find_variant(const struct command *self, const char *name, unsigned w
     return tool_fail(self, "engine %s has no width %u, expected one of: %s", name, width, widths);
 }
 
+/* Makes the variant of engine *index with the given options, each after a colon. */
+static int add_options(const struct command *self, const char *options, unsigned *index)
+{
+    struct error error = {""};
+    char name[2 * NAME_CAPACITY];
+    snprintf(name, sizeof name, "%s%s", triptych_engine_name(*index), options);
+    const struct engine *engine = engine_named(name, &error);
+    if (!engine)
+        return tool_fail(self, "%s", error.text);
+    *index = engine_number(engine);
+    return STATUS_OK;
+}
+
 int choose_engine(const struct command *self, const char *name, unsigned width, unsigned *index)
 {
-    if (!find_engine(name, index))
-        return tool_fail_word(self, "unknown engine", name, engine_names);
-    if (width && find_variant(self, name, width, index))
+    char plain[NAME_CAPACITY];
+    size_t length = strcspn(name, ":");
+    snprintf(plain, sizeof plain, "%.*s", (int)(length < sizeof plain ? length : 0), name);
+    if (!find_engine(plain, index))
+        return tool_fail_word(self, "unknown engine", plain, engine_names);
+    if (width && find_variant(self, plain, width, index))
+        return STATUS_BAD;
+    if (name[length] && add_options(self, name + length, index))
         return STATUS_BAD;
     const char *reason = triptych_engine_unavailable(*index);
     if (reason)
@@ -109,6 +128,39 @@ int choose_engines(const struct command *self, const char *list, struct choice *
             return STATUS_BAD;
     }
     return STATUS_OK;
+}
+
+/* Writes the options as a part of an engine's name. Returns false if they do not fit. */
+static bool write_variation(const struct variation *variation, char text[NAME_CAPACITY])
+{
+    int length = 0;
+    *text = 0;
+    if (variation->registers)
+        length = snprintf(text, NAME_CAPACITY, ":registers=%s", variation->registers);
+    for (unsigned i = 0; i < variation->without.count && length < NAME_CAPACITY; i++)
+        length += snprintf(text + length, NAME_CAPACITY - (size_t)length, ":without=%s",
+                           variation->without.word[i]);
+    return length < NAME_CAPACITY;
+}
+
+int choose_variants(const struct command *self, const struct variation *variation, struct choice *choice)
+{
+    char options[NAME_CAPACITY];
+    bool varied = false;
+    if (!write_variation(variation, options))
+        return tool_fail(self, "--registers and --without are too long");
+    if (!*options)
+        return STATUS_OK;
+    for (unsigned i = 0; i < choice->count; i++) {
+        if (!engine_takes_options(engine_at(choice->index[i])))
+            continue;
+        varied = true;
+        if (add_options(self, options, &choice->index[i]))
+            return STATUS_BAD;
+    }
+    return varied ? STATUS_OK
+                  : tool_fail(self, "none of the engines takes %s, expected specialize or one of its kind",
+                              variation->registers ? "--registers" : "--without");
 }
 
 int choose_threads(const struct command *self, const char *list, struct choice *threads)

@@ -20,6 +20,7 @@ enum option_kind {
     OPTION_INPUT,   /* the same: the path of a file that is read; - is standard input */
     OPTION_FOLDER,  /* the same: the path of a folder */
     OPTION_WORD,    /* const char *: one of `words` */
+    OPTION_WORDS,   /* struct option_given: one of `words`, which each occurrence of the option adds */
     OPTION_INDEX,   /* unsigned: the index of one of `words` */
     OPTION_NUMBER,  /* unsigned, from least to most */
     OPTION_SECONDS, /* double, from least to most */
@@ -32,10 +33,19 @@ struct option {
     const char *argument; /* the name of its value in the help; null for a flag */
     const char *meaning;  /* one phrase; a default follows a semicolon: "which frame, from 0; 0" */
     enum option_kind kind;
+    bool suffixed;         /* of a word: a colon and more may follow it, which the command checks */
     size_t value;          /* offset in the settings; the last occurrence of the option sets it */
     unsigned least, most;  /* of numbers and seconds */
     option_words *words;   /* of words, indices and lists; may be null for a list */
     const char *extension; /* of a file: the extensions that completion offers, such as "tri trib"; or null */
+};
+
+enum { OPTION_GIVEN = 32 };
+
+/* The words of an option that may be repeated. */
+struct option_given {
+    unsigned count;
+    const char *word[OPTION_GIVEN];
 };
 
 /* The offset of a member, if it has that type; otherwise the program does not compile. */
@@ -55,6 +65,8 @@ struct option {
     .kind = OPTION_FOLDER, .value = OPTION_OFFSET(structure, member, const char *)
 #define OPTION_IS_WORD(structure, member)                                                                    \
     .kind = OPTION_WORD, .value = OPTION_OFFSET(structure, member, const char *)
+#define OPTION_IS_WORDS(structure, member)                                                                   \
+    .kind = OPTION_WORDS, .value = OPTION_OFFSET(structure, member, struct option_given)
 #define OPTION_IS_INDEX(structure, member)                                                                   \
     .kind = OPTION_INDEX, .value = OPTION_OFFSET(structure, member, unsigned)
 #define OPTION_IS_NUMBER(structure, member)                                                                  \

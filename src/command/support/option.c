@@ -112,11 +112,10 @@ static int unknown_option(const struct command *self, const char *given)
 
 /* Finds the word, or prints the words. `what` is the option or operand, and a verb. */
 static int find_word(const struct command *self, const char *what, option_words *words, const char *given,
-                     unsigned *index)
+                     size_t length, unsigned *index)
 {
     struct words list = {word_at, .list = &words};
-    return words_find(list, given, strlen(given), index) ? STATUS_OK
-                                                         : tool_fail_word(self, what, given, list);
+    return words_find(list, given, length, index) ? STATUS_OK : tool_fail_word(self, what, given, list);
 }
 
 /* --- Values --------------------------------------------------------------------------------------------- */
@@ -150,13 +149,25 @@ static int store_path(struct reading *reading, const struct option *option, cons
     return strcmp(text, "-") ? STATUS_OK : take_standard(reading, what, option->kind == OPTION_FILE, path);
 }
 
+static int add_word(struct reading *reading, const struct option *option, const char *text)
+{
+    struct option_given *given = (struct option_given *)(void *)(reading->settings + option->value);
+    if (given->count == OPTION_GIVEN)
+        return tool_fail(reading->self, "--%s is given more than %d times", option->name, OPTION_GIVEN);
+    given->word[given->count++] = text;
+    return STATUS_OK;
+}
+
 static int store_word(struct reading *reading, const struct option *option, const char *text)
 {
     char what[64];
     unsigned index;
     snprintf(what, sizeof what, "--%s is", option->name);
-    if (find_word(reading->self, what, option->words, text, &index))
+    if (find_word(reading->self, what, option->words, text,
+                  option->suffixed ? strcspn(text, ":") : strlen(text), &index))
         return STATUS_BAD;
+    if (option->kind == OPTION_WORDS)
+        return add_word(reading, option, text);
     if (option->kind == OPTION_INDEX)
         *(unsigned *)(reading->settings + option->value) = index;
     else
@@ -187,6 +198,7 @@ static int store(struct reading *reading, const struct option *option, const cha
     case OPTION_FILE:
     case OPTION_INPUT: return store_path(reading, option, text);
     case OPTION_WORD:
+    case OPTION_WORDS:
     case OPTION_INDEX: return store_word(reading, option, text);
     case OPTION_NUMBER:
     case OPTION_SECONDS: return store_number(reading, option, text);
@@ -229,7 +241,7 @@ static int check_operand(struct reading *reading, const struct operand *operand,
     const char *path = *value;
     snprintf(what, sizeof what, "%s is", operand->name);
     if (operand->kind == OPERAND_WORD)
-        return find_word(reading->self, what, operand->words, *value, &operands->word);
+        return find_word(reading->self, what, operand->words, *value, strlen(*value), &operands->word);
     if (operand->kind == OPERAND_TEXT)
         return STATUS_OK;
     if (!strcmp(path, "-") && take_standard(reading, operand->name, operand->kind == OPERAND_OUTPUT, &path))

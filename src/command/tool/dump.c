@@ -6,6 +6,8 @@
 #include "shader/program/program.h"
 #include "engines/stitch/stitch.h"
 #include "engines/tiered/tiered.h"
+#include "engines/list.h"
+#include "engines/specialize/passes/pass.h"
 #include "command/support/choose.h"
 #include "command/support/option.h"
 #include "command/support/shared.h"
@@ -22,6 +24,7 @@ struct settings {
     const char *engine, *show;
     unsigned frame, draw, width, unit;
     bool no_cache;
+    struct variation variation;
 };
 
 static int dump_jit(const struct engine *engine, struct code_arena *arena, enum unit unit,
@@ -72,7 +75,7 @@ static const struct dumper *find_dumper(const struct command *self, unsigned eng
 {
     char names[256] = "";
     for (size_t i = 0; i < sizeof dumpers / sizeof *dumpers; i++) {
-        if (!strcmp(dumpers[i].engine->name, triptych_engine_name(engine)))
+        if (dumpers[i].engine->build == engine_at(engine)->build)
             return dumpers + i;
         snprintf(names + strlen(names), sizeof names - strlen(names), "%s%s", i ? ", " : "",
                  dumpers[i].engine->name);
@@ -99,14 +102,14 @@ static int print_shader(enum unit unit, const union key *key, struct error *erro
     return 0;
 }
 
-static int dump_key(const struct command *self, const struct dumper *dumper, enum unit unit,
-                    const union key *key, const char *show)
+static int dump_key(const struct command *self, const struct dumper *dumper, const struct engine *engine,
+                    enum unit unit, const union key *key, const char *show)
 {
     struct error error = {""};
     struct code_arena *arena = code_create(ARENA_BYTES, NULL, &error);
     tool_progress(NULL);
-    int bad = !arena || print_shader(unit, key, &error) ||
-              dumper->dump(dumper->engine, arena, unit, key, show, &error);
+    int bad =
+        !arena || print_shader(unit, key, &error) || dumper->dump(engine, arena, unit, key, show, &error);
     code_destroy(arena);
     return bad ? tool_fail(self, "%s", error.text) : STATUS_OK;
 }
@@ -124,7 +127,7 @@ static int dump(const struct command *self, const char *path, const struct setti
     if (!status)
         status = session_read_key(self, stream, draw, engine, unit, &key);
     if (!status)
-        status = dump_key(self, dumper, unit, &key, settings->show);
+        status = dump_key(self, dumper, engine_at(engine), unit, &key, settings->show);
     stream_free(stream);
     return status;
 }
@@ -143,7 +146,10 @@ static int run(const struct command *self, void *data, const struct operands *op
     store_off |= settings->no_cache;
     if (choose_engine(self, settings->engine, settings->width, &engine))
         return STATUS_BAD;
-    return dump(self, operands->value[0], settings, engine, (enum unit)settings->unit);
+    struct choice choice = {.count = 1, .index = {engine}};
+    if (choose_variants(self, &settings->variation, &choice))
+        return STATUS_BAD;
+    return dump(self, operands->value[0], settings, choice.index[0], (enum unit)settings->unit);
 }
 
 static const char *unit_at(unsigned index)
@@ -161,9 +167,10 @@ static const struct option options[] = {
     {"show", "LIST", "stages, separated by commas; key,asm", OPTION_IS_LIST(struct settings, show),
      .words = specialize_phase_name},
     {"engine", "NAME", "engine of the routine; specialize", OPTION_IS_WORD(struct settings, engine),
-     .words = triptych_engine_name},
+     .words = triptych_engine_name, .suffixed = true},
     {"width", "LANES", "lanes of the engine's variant", OPTION_IS_NUMBER(struct settings, width), .least = 1,
      .most = WIDTH_MAXIMUM},
+    OPTIONS_OF_VARIATION(struct settings, variation),
     OPTION_NO_CACHE(struct settings, no_cache),
     {0},
 };

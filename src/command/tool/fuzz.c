@@ -1,6 +1,7 @@
 /* `triptych fuzz`: draws random cases with every engine, width and number of threads (docs/fuzzing.md). */
 #include "base/file.h"
 #include "engines/list.h"
+#include "engines/specialize/passes/pass.h"
 #include "command/fuzz/bisect/bisect.h"
 #include "command/fuzz/campaign.h"
 #include "command/support/choose.h"
@@ -21,6 +22,7 @@ struct settings {
     unsigned seed, first, count, jobs, enough, print;
     double seconds, limit;
     const char *engines, *threads, *folder, *json;
+    struct variation variation;
 };
 
 static uint64_t drawn(const struct campaign *campaign)
@@ -42,6 +44,7 @@ static int choose(const struct command *self, const struct settings *settings, s
     struct choice engines, threads;
     unsigned reference;
     if (choose_engines(self, settings->engines, &engines) ||
+        choose_variants(self, &settings->variation, &engines) ||
         choose_threads(self, settings->threads, &threads) || choose_engine(self, "emulate", 0, &reference))
         return STATUS_BAD;
     run->engine[run->engines++] = engine_at(reference);
@@ -268,6 +271,7 @@ static const struct option options[] = {
     {"seconds", "T", "end after this time", OPTION_IS_SECONDS(struct settings, seconds), .most = 10000000},
     {"engines", "LIST", "engines, separated by commas; all that can run here",
      OPTION_IS_LIST(struct settings, engines), .words = triptych_engine_name},
+    OPTIONS_OF_VARIATION(struct settings, variation),
     {"threads", "LIST", "numbers of threads; 1,2", OPTION_IS_LIST(struct settings, threads)},
     {"jobs", "N", "processes; 1", OPTION_IS_NUMBER(struct settings, jobs), .least = 1, .most = CAMPAIGN_JOBS},
     {"limit", "T", "most seconds per case; 60", OPTION_IS_SECONDS(struct settings, limit), .least = 1,

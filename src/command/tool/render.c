@@ -210,7 +210,7 @@ static const struct settings defaults = {.engine = "specialize",
 
 static const struct option options[] = {
     {"engine", "NAME", "the engine, one of triptych list engines; specialize",
-     OPTION_IS_WORD(struct settings, engine), .words = triptych_engine_name},
+     OPTION_IS_WORD(struct settings, engine), .words = triptych_engine_name, .suffixed = true},
     {"width", "LANES", "lanes of the engine's variant", OPTION_IS_NUMBER(struct settings, width), .least = 1,
      .most = WIDTH_MAXIMUM},
     {"out", "FILE", "FILE.png: colour, FILE.exr: also depth and stencil, FILE.apng or FILE.y4m: an animation",

@@ -7,6 +7,7 @@
  *
  * After a signal (interrupt.h), it reports the frames that all configurations have drawn. */
 #include "render/device/shuffle.h"
+#include "engines/specialize/passes/pass.h"
 #include "command/support/choose.h"
 #include "command/support/difference.h"
 #include "command/support/interrupt.h"
@@ -40,6 +41,7 @@ struct configuration {
 struct settings {
     const char *engine_list, *thread_list, *frames_text, *json;
     struct golden golden; /* without a folder: none */
+    struct variation variation;
     struct choice engines, threads;
     const char *folder; /* for pictures of differences, or null */
     bool all_frames, no_cache;
@@ -405,6 +407,7 @@ static int read_settings(const struct command *self, struct settings *settings)
         return tool_fail(self, "--frames is \"%s\", expected all or a number from 1 to %d", frames,
                          FRAMES_MAXIMUM);
     if (choose_engines(self, settings->engine_list, &settings->engines) ||
+        choose_variants(self, &settings->variation, &settings->engines) ||
         choose_threads(self, settings->thread_list, &settings->threads) ||
         tool_check_output(self, settings->json))
         return STATUS_BAD;
@@ -456,6 +459,7 @@ static const struct settings defaults = {
 static const struct option options[] = {
     {"engines", "LIST", "engines, separated by commas; all that can run here",
      OPTION_IS_LIST(struct settings, engine_list), .words = triptych_engine_name},
+    OPTIONS_OF_VARIATION(struct settings, variation),
     {"threads", "LIST", "numbers of threads; 1,2", OPTION_IS_LIST(struct settings, thread_list)},
     {"frames", "N|all", "number of frames, spread over the stream; 8",
      OPTION_IS_TEXT(struct settings, frames_text)},

@@ -64,7 +64,7 @@ static const struct view_settings defaults = {.engine = "specialize", .shots = "
 
 static const struct option options[] = {
     {"engine", "NAME", "engine (triptych list engines); specialize",
-     OPTION_IS_WORD(struct view_settings, engine), .words = triptych_engine_name},
+     OPTION_IS_WORD(struct view_settings, engine), .words = triptych_engine_name, .suffixed = true},
     {"width", "LANES", "lanes of the engine's variant", OPTION_IS_NUMBER(struct view_settings, width),
      .least = 1, .most = WIDTH_MAXIMUM},
     {"threads", "N", "rendering threads; one per core", OPTION_IS_NUMBER(struct view_settings, threads),

@@ -45,13 +45,14 @@ static int optimize_checked(struct builder *b, const struct build_options *optio
                             void *context, struct error *error)
 {
     struct check check = {observer, context, error, false};
+    const uint32_t passes = pass_select(options->profile, options->enabled, options->disabled);
     if (!IR_CHECKED) {
-        pass_run_all(&b->ir, &b->pass, options->profile, options->disabled, observer, context);
+        pass_run_all(&b->ir, &b->pass, passes, observer, context);
         return 0;
     }
     if (ir_check(&b->ir, "the recording", error))
         return -1;
-    pass_run_all(&b->ir, &b->pass, options->profile, options->disabled, check_pass, &check);
+    pass_run_all(&b->ir, &b->pass, passes, check_pass, &check);
     return check.failed ? -1 : ir_check(&b->ir, "the result of the passes", error);
 }
 

@@ -10,7 +10,10 @@ struct build_options {
     unsigned width; /* lanes of a register: 1, 4, 8 or 16 */
     unsigned parts; /* registers of each value, a power of two; 0: 1. width * parts is at most 16. */
     enum profile profile;
-    uint32_t disabled; /* bit p: pass p does not run */
+    uint32_t enabled;   /* bit p: pass p runs although the profile is without it */
+    uint32_t disabled;  /* bit p: pass p does not run */
+    bool limited;       /* `registers` is a limit; specialize_options makes `file` of it */
+    unsigned registers; /* vector registers for values, and half as many mask registers */
     struct register_file file;
 };
 

@@ -1,5 +1,5 @@
 /* The specializer's engines (def/engine/specialize.def): one code generator for registers of 4, 8 and 16
- * lanes and for one or more registers a value, with all passes or with only those of the thesis. */
+ * lanes and for one or more registers a value, with all passes, only those of the thesis, or none. */
 #include "machine/code.h"
 #include "machine/cpu.h"
 #include "debug/code.h"
@@ -141,6 +141,8 @@ struct build_options specialize_options(const struct engine *engine, enum unit u
     struct build_options options = *(const struct build_options *)engine->options;
     if (!options.width)
         options.width = best_width(unit);
+    if (options.limited)
+        options.file = allocate_register_file(options.registers, options.width);
     return options;
 }
 

@@ -14,6 +14,16 @@
 /* Returns true if an engine is one of these. */
 bool specialize_is_engine(const struct engine *engine);
 
+/* The options of variants (engines/variant.h). Returns a copy of an engine's options, which is freed with
+ * free(), or null if memory is refused. */
+void *specialize_copy_options(const struct engine *engine);
+
+/* Each changes such a copy. `value` is null for an option without value. Returns 0, or -1 with the reason. */
+#define VARIANT(name, engines, ...)                                                                          \
+    int engines##_set_##name(void *options, const char *value, struct error *error);
+#include "def/engine/variant.def"
+#undef VARIANT
+
 /* The words of specialize_dump: the word of that index, null after the last. */
 const char *specialize_phase_name(unsigned index);
 

@@ -108,7 +108,7 @@ static void expect_equal_optimized(void)
     got = expected;
     program_interpret(&builder->ir, &expected, 8);
     unsigned saved = mxcsr_enter();
-    pass_run_all(&builder->ir, &builder->pass, PROFILE_FULL, 0, NULL, NULL);
+    pass_run_all(&builder->ir, &builder->pass, pass_select(PROFILE_FULL, 0, 0), NULL, NULL);
     mxcsr_leave(saved);
     TEST_ASSERT_NULL(ir_verify(&builder->ir));
     int result = program_compile_and_run(builder, arena, 8, ALLOCATABLE, &got, &error);
@@ -177,7 +177,7 @@ static void test_a_program_of_twenty_thousand_operations(void)
     got = expected;
     program_interpret(&builder->ir, &expected, 8);
     unsigned saved = mxcsr_enter();
-    pass_run_all(&builder->ir, &builder->pass, PROFILE_FULL, 0, NULL, NULL);
+    pass_run_all(&builder->ir, &builder->pass, pass_select(PROFILE_FULL, 0, 0), NULL, NULL);
     mxcsr_leave(saved);
     int result = program_compile_and_run(builder, arena, 8, ALLOCATABLE, &got, &error);
     TEST_ASSERT_EQUAL_MESSAGE(0, result, error.text);

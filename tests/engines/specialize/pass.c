@@ -40,7 +40,7 @@ static void optimize_under_contract(enum profile profile, uint32_t disabled)
 {
     unsigned saved = mxcsr_enter();
     builder->pass.lanes = lanes;
-    pass_run_all(&builder->ir, &builder->pass, profile, disabled, NULL, NULL);
+    pass_run_all(&builder->ir, &builder->pass, pass_select(profile, 0, disabled), NULL, NULL);
     mxcsr_leave(saved);
 }
 

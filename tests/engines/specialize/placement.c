@@ -104,7 +104,7 @@ typedef void generator(struct ir *, unsigned length, uint64_t *seed);
  * of a register. */
 static unsigned prepare(generator *make, uint64_t number, unsigned longest, uint64_t *seed)
 {
-    static const uint32_t disabled[] = {0, ~0u, 0, 1};
+    static const uint32_t disabled[] = {0, ~0u, 0, 1u << PASS_phi};
     unsigned width = choose_width(number), parts = program_parts(number, width);
     *seed = test_seed() + number * 0x9e3779b97f4a7c15ull;
     *seed |= !*seed;
@@ -116,7 +116,8 @@ static unsigned prepare(generator *make, uint64_t number, unsigned longest, uint
     unsigned saved = mxcsr_enter();
     builder->pass.lanes = width;
     builder->pass.parts = parts;
-    pass_run_all(&builder->ir, &builder->pass, PROFILE_FULL, disabled[program_random(seed) % 4], NULL, NULL);
+    pass_run_all(&builder->ir, &builder->pass,
+                 pass_select(PROFILE_FULL, 0, disabled[program_random(seed) % 4]), NULL, NULL);
     mxcsr_leave(saved);
     program_interpret(&made, &expected, width * builder->ir.parts);
     return width;

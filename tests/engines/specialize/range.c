@@ -268,7 +268,7 @@ static void test_reductions_keep_every_bit(void)
         reduced = data;
         program_interpret(&ir, &data, 8);
         unsigned saved = mxcsr_enter();
-        pass_run_all(&ir, &memory, PROFILE_THESIS, 0, NULL, NULL);
+        pass_run_all(&ir, &memory, pass_select(PROFILE_THESIS, 0, 0), NULL, NULL);
         mxcsr_leave(saved);
         program_interpret(&ir, &reduced, 8);
         snprintf(wrong, sizeof wrong, "program %d", program);

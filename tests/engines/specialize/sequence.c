@@ -121,13 +121,20 @@ static void test_straight_programs(void)
 {
     for (uint64_t n = 1; n <= PROGRAMS; n++)
         try_sequence(program_make, n, 100);
-    expect_changes(1u << PASS_phi | 1u << PASS_invariant | 1u << PASS_preload);
+    expect_changes(1u << PASS_unroll | 1u << PASS_phi | 1u << PASS_invariant | 1u << PASS_preload);
 }
 
 static void test_programs_with_loops_and_variables(void)
 {
     for (uint64_t n = 1; n <= PROGRAMS; n++)
         try_sequence(program_make_loops, n, 40);
+    expect_changes(1u << PASS_unroll);
+}
+
+static void test_programs_with_constant_loops(void)
+{
+    for (uint64_t n = 1; n <= PROGRAMS; n++)
+        try_sequence(program_make_counted, n, 40);
     expect_changes(0);
 }
 
@@ -135,7 +142,7 @@ static void test_programs_with_forms_that_recordings_lack(void)
 {
     for (uint64_t n = 1; n <= PROGRAMS; n++)
         try_sequence(program_make_wild, n, 50);
-    expect_changes(0);
+    expect_changes(1u << PASS_unroll);
 }
 
 /* The generator respects the capacity. */
@@ -153,6 +160,7 @@ int main(void)
     UNITY_BEGIN();
     RUN_TEST(test_straight_programs);
     RUN_TEST(test_programs_with_loops_and_variables);
+    RUN_TEST(test_programs_with_constant_loops);
     RUN_TEST(test_programs_with_forms_that_recordings_lack);
     RUN_TEST(test_long_programs);
     return UNITY_END();

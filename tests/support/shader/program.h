@@ -42,6 +42,9 @@ void program_make(struct ir *ir, unsigned length, uint64_t *seed);
 /* The same with nested regions, variables, and loops whose lanes end after up to three passes each. */
 void program_make_loops(struct ir *ir, unsigned length, uint64_t *seed);
 
+/* The same, and half of the loops begin to count from a literal. */
+void program_make_counted(struct ir *ir, unsigned length, uint64_t *seed);
+
 /* One of the two kinds, with operations that the IR allows and that recordings do not contain: values of
  * loops that are used after the loop, scattered stores to OUTPUT, broadcasts from it, and loads of OUTPUT at
  * other lanes than those that were stored. The results of such loads depend on the number of lanes that run

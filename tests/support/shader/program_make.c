@@ -13,6 +13,7 @@ struct maker {
     uint64_t *seed;
     uint32_t limit; /* no region is opened after this number of instructions */
     int wild;       /* operations that recordings do not contain are made too */
+    int counted;    /* half of the loops begin to count from a literal */
     uint16_t value[TYPE_msk + 1][IR_CAPACITY];
     unsigned count[TYPE_msk + 1];
 };
@@ -383,16 +384,18 @@ static void make_access(struct maker *maker)
 static void make_body(struct maker *maker, unsigned length, unsigned depth, unsigned loops);
 
 /* Makes a loop with a counter in each lane, at most 3: counter = bound; loop ... counter -= 1; again while
- * 0 < counter, and in some loops while another mask is set. */
+ * 0 < counter, and in some loops while another mask is set. In counted programs some bounds are literals. */
 static void make_loop(struct maker *maker, unsigned length, unsigned depth, unsigned loops)
 {
     struct ir_instruction three = {.op = IR_literal, .type = TYPE_itg, .k = 3};
     struct ir_instruction one = {.op = IR_literal, .type = TYPE_itg, .k = 1};
     struct ir_instruction zero = {.op = IR_literal, .type = TYPE_itg, .k = 0};
     struct ir_instruction mask = {.op = IR_and_i, .type = TYPE_itg};
+    bool constant = maker->counted && program_random(maker->seed) % 2;
+    three.k -= constant ? (int32_t)(program_random(maker->seed) % 4) : 0;
     mask.operand[0] = pick(maker, TYPE_itg);
     mask.operand[1] = ir_append(maker->ir, three);
-    make_set(maker, COUNTERS + loops, ir_append(maker->ir, mask));
+    make_set(maker, COUNTERS + loops, constant ? mask.operand[1] : ir_append(maker->ir, mask));
     ir_append(maker->ir, (struct ir_instruction){.op = IR_loop});
     make_body(maker, length, depth + 1, loops + 1);
     struct ir_instruction less = {.op = IR_sub_i, .type = TYPE_itg};
@@ -451,11 +454,12 @@ static void make_body(struct maker *maker, unsigned length, unsigned depth, unsi
         }
 }
 
-static void make_controlled(struct ir *ir, unsigned length, uint64_t *seed, int wild)
+static void make_controlled(struct ir *ir, unsigned length, uint64_t *seed, int wild, int counted)
 {
     enum { GROWTH = 64, ROOM = IR_CAPACITY / 2 };
     static struct maker maker;
     begin(&maker, ir, seed, wild);
+    maker.counted = counted;
     maker.limit = length < ROOM / GROWTH ? length * GROWTH : ROOM;
     for (int i = 0; i < 8; i++)
         make_operation(&maker);
@@ -469,7 +473,12 @@ static void make_controlled(struct ir *ir, unsigned length, uint64_t *seed, int 
 
 void program_make_loops(struct ir *ir, unsigned length, uint64_t *seed)
 {
-    make_controlled(ir, length, seed, 0);
+    make_controlled(ir, length, seed, 0, 0);
+}
+
+void program_make_counted(struct ir *ir, unsigned length, uint64_t *seed)
+{
+    make_controlled(ir, length, seed, 0, 1);
 }
 
 void program_make_wild(struct ir *ir, unsigned length, uint64_t *seed)
@@ -477,5 +486,5 @@ void program_make_wild(struct ir *ir, unsigned length, uint64_t *seed)
     if (program_random(seed) % 2)
         make_straight(ir, length, seed, 1);
     else
-        make_controlled(ir, length, seed, 1);
+        make_controlled(ir, length, seed, 1, 0);
 }

@@ -46,7 +46,7 @@ static const struct ir *record_trial(const struct trial_memory *memory, int opti
     TEST_ASSERT_FALSE_MESSAGE(ir->overflow, "too long a recording");
     verify(ir);
     if (optimizes)
-        pass_run_all(ir, &builder->pass, PROFILE_FULL, 0, verify_after, NULL);
+        pass_run_all(ir, &builder->pass, pass_select(PROFILE_FULL, 0, 0), verify_after, NULL);
     recorded = memory->number;
     optimized = optimizes;
     return ir;

@@ -126,13 +126,24 @@ static inline bool allocate_is_mask(const struct allocation *allocation,
     }
 }
 
-/* The file of vector registers 0 to count - 1 and half that number of mask registers, or all if `count` is
- * ALLOCATABLE. */
+/* The number of vector registers that values can have. */
+static inline unsigned allocate_most_registers(unsigned width)
+{
+    return (unsigned)__builtin_popcountll(width == 16 ? WIDE_REGISTERS : NARROW_REGISTERS);
+}
+
+/* The file of the first `count` vector registers, or of all if there are fewer. With 16 lanes, also of half
+ * as many mask registers. */
 static inline struct register_file allocate_register_file(unsigned count, unsigned width)
 {
-    uint64_t with = ((1ull << count) - 1) | ((2ull << count / 2) - 1) << MASKS;
-    return (struct register_file){
-        .without = count < ALLOCATABLE ? ~with : 0, .wide = width == 16, .scalar = width == 1};
+    unsigned above = count > ALLOCATABLE ? count - ALLOCATABLE : 0;
+    uint64_t with = (1ull << (count - above)) - 1;
+    if (above)
+        with |= WIDE_REGISTERS & ((1ull << (16 + above)) - 1);
+    with |= (count / 2 < 6 ? (2ull << count / 2) - 1 : MASK_REGISTERS >> MASKS) << MASKS;
+    return (struct register_file){.without = count < allocate_most_registers(width) ? ~with : 0,
+                                  .wide = width == 16,
+                                  .scalar = width == 1};
 }
 
 /* Returns a number below `limit` if lots are drawn, else 0. */

@@ -7,7 +7,7 @@
 
 #include <string.h>
 
-enum group { THESIS, FULL, ONCE, LAST };
+enum group { THESIS, FULL, OPTIONAL, ONCE, LAST };
 enum wakes { NONE, OTHERS, ALL };
 
 static const struct {
@@ -45,20 +45,33 @@ void pass_replace(struct ir *ir, const struct pass_memory *memory, uint32_t coun
     ir->count = count;
 }
 
-static bool is_enabled(unsigned pass, enum profile profile, uint32_t disabled)
+static bool is_in(unsigned pass, enum profile profile)
 {
-    if (passes[pass].group == LAST)
-        return true;
-    return !(disabled >> pass & 1) && (passes[pass].group == THESIS || profile == PROFILE_FULL);
+    if (profile == PROFILE_NONE || passes[pass].group == OPTIONAL)
+        return false;
+    return profile == PROFILE_FULL || passes[pass].group == THESIS;
 }
 
-/* The enabled passes of the fixpoint, or the enabled ones that run after it; bit p: pass p. */
-static uint32_t select_passes(bool after, enum profile profile, uint32_t disabled)
+/* Those that run once after the repeated ones, from a group on. */
+static uint32_t passes_from(enum group group)
+{
+    uint32_t once = 0;
+    for (unsigned p = 0; p < PASS_COUNT; p++)
+        once |= (uint32_t)(passes[p].group >= group) << p;
+    return once;
+}
+
+bool pass_is_required(unsigned i)
+{
+    return passes[i].group == LAST;
+}
+
+uint32_t pass_select(enum profile profile, uint32_t enabled, uint32_t disabled)
 {
     uint32_t selected = 0;
     for (unsigned p = 0; p < PASS_COUNT; p++)
-        selected |= (uint32_t)((passes[p].group >= ONCE) == after && is_enabled(p, profile, disabled)) << p;
-    return selected;
+        selected |= (uint32_t)is_in(p, profile) << p;
+    return ((selected | enabled) & ~disabled & ((1u << PASS_COUNT) - 1)) | passes_from(LAST);
 }
 
 /* The passes that `pass` wakes when it has changed something; bit p: pass p. */
@@ -95,15 +108,15 @@ static uint32_t run_round(const struct run *run, uint32_t waiting, uint32_t repe
     return waiting;
 }
 
-unsigned pass_run_all(struct ir *ir, struct pass_memory *memory, enum profile profile, uint32_t disabled,
-                      pass_observer *observer, void *context)
+unsigned pass_run_all(struct ir *ir, struct pass_memory *memory, uint32_t selected, pass_observer *observer,
+                      void *context)
 {
     const struct run run = {ir, memory, observer, context};
-    uint32_t repeated = select_passes(false, profile, disabled);
+    const uint32_t after = (selected & passes_from(ONCE)) | passes_from(LAST), repeated = selected & ~after;
     unsigned rounds = 0;
     for (uint32_t waiting = repeated; waiting; rounds++)
         waiting = run_round(&run, waiting, repeated);
-    run_round(&run, select_passes(true, profile, disabled), 0);
+    run_round(&run, after, 0);
     ir_compact(ir, memory->map);
     return rounds;
 }

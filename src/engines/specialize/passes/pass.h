@@ -17,7 +17,7 @@ enum pass {
     PASS_COUNT
 };
 
-enum profile { PROFILE_THESIS, PROFILE_FULL };
+enum profile { PROFILE_NONE, PROFILE_THESIS, PROFILE_FULL };
 
 enum {
     PASS_LOOPS = IR_CAPACITY / 2 + 1, /* more loops than any program has */
@@ -71,9 +71,15 @@ const char *pass_description(unsigned i);
 /* Called after each run of a pass, with the number of instructions that it changed. */
 typedef void pass_observer(void *context, enum pass pass, unsigned changed, const struct ir *ir);
 
-/* Runs the profile's passes except those whose bit is set in `disabled`, and compacts the program. Returns
- * the number of rounds. */
-unsigned pass_run_all(struct ir *ir, struct pass_memory *memory, enum profile profile, uint32_t disabled,
-                      pass_observer *observer, void *context);
+/* Returns true if a pass runs in every profile and cannot be disabled. */
+bool pass_is_required(unsigned i);
+
+/* The passes of the profile and those enabled, without those disabled; bit p: pass p. */
+uint32_t pass_select(enum profile profile, uint32_t enabled, uint32_t disabled);
+
+/* Runs the passes whose bit is set in `passes` and the required ones, and compacts the program. Returns the
+ * number of rounds. */
+unsigned pass_run_all(struct ir *ir, struct pass_memory *memory, uint32_t passes, pass_observer *observer,
+                      void *context);
 
 #endif

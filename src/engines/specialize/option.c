@@ -1,0 +1,91 @@
+/* The options of the specializer's engines: def/engine/variant.def. */
+#include "base/words.h"
+#include "engines/specialize/build.h"
+#include "engines/specialize/specialize.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+void *specialize_copy_options(const struct engine *engine)
+{
+    struct build_options *copy = malloc(sizeof *copy);
+    if (copy)
+        *copy = *(const struct build_options *)engine->options;
+    return copy;
+}
+
+static int set_unknown(const char *option, const char *value, struct words words, struct error *error)
+{
+    char choices[ERROR_CAPACITY / 2];
+    words_join(words, choices, sizeof choices);
+    error_set(error, "%s is \"%.40s\", expected one of: %s", option, value, choices);
+    return words_suggest_in(words, value, strlen(value), error);
+}
+
+int specialize_set_registers(void *options, const char *value, struct error *error)
+{
+    struct build_options *o = options;
+    unsigned most = allocate_most_registers(o->width ? o->width : 16), number = 0;
+    size_t digits = strspn(value, "0123456789");
+    for (size_t i = 0; i < digits && i < 3; i++)
+        number = number * 10 + (unsigned)(value[i] - '0');
+    if (!digits || digits > 3 || value[digits] || number > most)
+        return error_set(error, "registers is \"%.40s\", expected a whole number from 0 to %u", value, most);
+    o->limited = true;
+    o->registers = number;
+    return 0;
+}
+
+static const char *const profiles[] = {
+    [PROFILE_NONE] = "none", [PROFILE_THESIS] = "thesis", [PROFILE_FULL] = "all"};
+
+int specialize_set_passes(void *options, const char *value, struct error *error)
+{
+    struct build_options *o = options;
+    const struct words words = WORDS_OF_ROWS(profiles);
+    unsigned index;
+    if (!words_find(words, value, strlen(value), &index))
+        return set_unknown("passes", value, words, error);
+    o->profile = (enum profile)index;
+    return 0;
+}
+
+static const char *pass_choice(const struct words *words, unsigned i)
+{
+    (void)words;
+    return pass_name(i);
+}
+
+/* Sets or clears the bit of the pass, and does the opposite in `other`. */
+static int name_pass(const char *option, const char *value, uint32_t *passes, uint32_t *other,
+                     struct error *error)
+{
+    const struct words words = {.at = pass_choice};
+    unsigned index;
+    if (!words_find(words, value, strlen(value), &index))
+        return set_unknown(option, value, words, error);
+    *passes |= 1u << index;
+    *other &= ~(1u << index);
+    return 0;
+}
+
+int specialize_set_with(void *options, const char *value, struct error *error)
+{
+    struct build_options *o = options;
+    return name_pass("with", value, &o->enabled, &o->disabled, error);
+}
+
+int specialize_set_without(void *options, const char *value, struct error *error)
+{
+    struct build_options *o = options;
+    for (unsigned i = 0; pass_name(i); i++)
+        if (pass_is_required(i) && !strcmp(pass_name(i), value))
+            return error_set(error, "without is \"%s\", expected a pass that can be left out", value);
+    return name_pass("without", value, &o->disabled, &o->enabled, error);
+}
+
+int specialize_set_unroll(void *options, const char *value, struct error *error)
+{
+    (void)value;
+    return specialize_set_with(options, pass_name(PASS_unroll), error);
+}

@@ -1,0 +1,27 @@
+#!/bin/bash
+# Variants of engines draw the same bytes: with few registers, without each pass, with no pass, and with
+# unrolled loops, at each number of lanes. Given TRIPTYCH and SLOW by tests/support/scripts/run.sh.
+set -uo pipefail
+cd "$(dirname "$0")/.."
+
+streams=(tests/data/streams/{lights,multisampling,shaders}.tri tests/data/scenes/cube-map.tri
+    tests/data/shading/light-loop.tri tests/data/regressions/anisotropic-words-and-numbers.tri)
+[[ -z ${SLOW-} ]] || streams=(tests/data/streams/shaders.tri tests/data/shading/light-loop.tri)
+
+options=(registers={0,4,6,8} passes={none,thesis} passes=none:{unroll,with=fold} unroll registers=4:unroll)
+for pass in $("$TRIPTYCH" list passes --json | sed -n 's/.*"pass":[^"]*"\([^"]*\)".*/\1/p'); do
+    [[ $pass == split ]] || options+=("without=$pass")
+done
+failures=0
+for engine in $("$TRIPTYCH" list engines | awk '$1 ~ /^specialize-(1|4|8|16|8x2)$/ && $3 == "available" { print $1 }'); do
+    list=$(printf ",$engine:%s" "${options[@]}")
+    [[ $engine != specialize-16 ]] || list+=",$engine:registers=16,$engine:registers=28:unroll"
+    if said=$("$TRIPTYCH" verify "${streams[@]}" --engines "${list#,}" --frames 1 --threads 1 2>&1) &&
+        [[ ${said##*$'\n'} =~ ^"${#streams[@]} streams, "[0-9]+" engines, identical"$ ]]; then
+        printf 'ok %s with options\n' "$engine"
+    else
+        printf 'FAIL %s with options\n%s\n' "$engine" "$said"
+        failures=1
+    fi
+done
+exit $failures
