@@ -387,6 +387,9 @@ refuses 'comparison with a missing file' 'none.json: ' bench --compare "$work/a.
 answers 'bench of builds prints a row of sets for each engine' '^stitch +8 +AVX2 +set +1 ' bench "$work/good.tri" --builds \
     --engines stitch,emulate --repetitions 3 --json "$work/builds.json"
 holds 'and writes JSON' grep -q '"first_p99_us":' "$work/builds.json"
+answers 'bench of code prints the instructions of each unit' '^specialize-1 +pixel +1 +1[.]0 +[0-9.]+ +[1-9]' \
+    bench "$work/good.tri" --code --engines specialize-1,specialize-8,emulate --json "$work/code.json"
+holds 'and writes a row for each routine' test "$(grep -c '"frame":' "$work/code.json")" = 9
 answers 'bench of cold frames prints a row for each stream and engine' '^good +tiered +[0-9.]+ +[0-9.]+ ' \
     bench "$work/good.tri" --cold --engines tiered --repetitions 3 --json "$work/cold.json"
 holds 'and writes JSON too' grep -q '"thread_first":' "$work/cold.json"

@@ -42,6 +42,40 @@ const char *disassemble_set(const void *code, size_t count)
     return set;
 }
 
+/* Adds an operand: addresses that are only computed do not count, nor do pushes. */
+static void count_operand(struct disassemble_counts *counts, const ZydisDecodedOperand *operand)
+{
+    if (operand->type != ZYDIS_OPERAND_TYPE_MEMORY || operand->mem.type == ZYDIS_MEMOP_TYPE_AGEN)
+        return;
+    counts->reads += (operand->actions & ZYDIS_OPERAND_ACTION_MASK_READ) != 0;
+    counts->writes += (operand->actions & ZYDIS_OPERAND_ACTION_MASK_WRITE) != 0;
+    counts->frame += operand->mem.base == ZYDIS_REGISTER_RSP || operand->mem.base == ZYDIS_REGISTER_RBP;
+}
+
+struct disassemble_counts disassemble_count(const void *code, size_t count)
+{
+    ZydisDecoder decoder;
+    ZydisDecoderInit(&decoder, ZYDIS_MACHINE_MODE_LONG_64, ZYDIS_STACK_WIDTH_64);
+    const uint8_t *bytes = code;
+    struct disassemble_counts counts = {0};
+    for (size_t offset = 0; offset < count;) {
+        ZydisDecodedInstruction instruction;
+        ZydisDecodedOperand operands[ZYDIS_MAX_OPERAND_COUNT];
+        if (!ZYAN_SUCCESS(
+                ZydisDecoderDecodeFull(&decoder, bytes + offset, count - offset, &instruction, operands))) {
+            offset++;
+            continue;
+        }
+        offset += instruction.length;
+        if (instruction.mnemonic == ZYDIS_MNEMONIC_NOP)
+            continue;
+        counts.instructions++;
+        for (unsigned n = 0; n < instruction.operand_count_visible; n++)
+            count_operand(&counts, &operands[n]);
+    }
+    return counts;
+}
+
 size_t disassemble(const void *code, size_t count, uint64_t address, disassemble_line *line, void *context)
 {
     ZydisDecoder decoder;

@@ -20,4 +20,15 @@ size_t disassemble(const void *code, size_t count, uint64_t address, disassemble
  * "AVX2" if any has a VEX encoding, else "SSE2". Bytes that start no valid instruction are skipped. */
 const char *disassemble_set(const void *code, size_t count);
 
+/* The numbers of instructions of code. */
+struct disassemble_counts {
+    uint32_t instructions; /* without nops */
+    uint32_t reads;        /* instructions that read a memory operand */
+    uint32_t writes;       /* instructions that write one */
+    uint32_t frame;        /* of both, those in the stack frame: relative to rsp or rbp */
+};
+
+/* Counts the instructions of the code. Bytes that start no valid instruction are skipped. */
+struct disassemble_counts disassemble_count(const void *code, size_t count);
+
 #endif

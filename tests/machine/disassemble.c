@@ -68,6 +68,26 @@ static void an_empty_range_has_an_empty_listing(void)
     TEST_ASSERT_EQUAL_STRING("", listing);
 }
 
+/* A nop, a push and an address that is only computed do not count as accesses. */
+static void memory_operands_are_counted(void)
+{
+    static const uint8_t code[] = {
+        0x55,                         /* push rbp */
+        0x48, 0x8d, 0x44, 0x24, 0x08, /* lea rax, [rsp + 8] */
+        0x0f, 0x1f, 0x00,             /* nop [rax] */
+        0xc5, 0xfa, 0x10, 0x01,       /* vmovss xmm0, [rcx] */
+        0xc5, 0xfa, 0x11, 0x04, 0x24, /* vmovss [rsp], xmm0 */
+        0x01, 0x04, 0x24,             /* add [rsp], eax */
+        0x8b, 0x45, 0xf8,             /* mov eax, [rbp - 8] */
+        0xc3                          /* ret */
+    };
+    struct disassemble_counts counts = disassemble_count(code, sizeof code);
+    TEST_ASSERT_EQUAL_UINT32(7, counts.instructions);
+    TEST_ASSERT_EQUAL_UINT32(3, counts.reads);
+    TEST_ASSERT_EQUAL_UINT32(2, counts.writes);
+    TEST_ASSERT_EQUAL_UINT32(3, counts.frame);
+}
+
 int main(void)
 {
     UNITY_BEGIN();
@@ -76,5 +96,6 @@ int main(void)
     RUN_TEST(invalid_or_incomplete_instructions_become_data);
     RUN_TEST(the_instruction_set_is_the_largest_encoding);
     RUN_TEST(an_empty_range_has_an_empty_listing);
+    RUN_TEST(memory_operands_are_counted);
     return UNITY_END();
 }

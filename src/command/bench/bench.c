@@ -38,6 +38,7 @@ struct settings {
     double seconds;
     bool shaders; /* a table of each shader */
     bool builds;  /* routines are built, no picture is drawn */
+    bool code;    /* routines are built, and their instructions counted */
     bool cold;    /* frames whose routines are not built yet */
     bool no_cache;
     struct variation variation;
@@ -214,6 +215,9 @@ static const char notes[] =
     "between two commands a machine can change more.\n"
     "With --builds, each repetition builds every routine that the streams' draws need once. The report has\n"
     "the medians for single routines and for the three routines of a draw.\n"
+    "With --code, the report has the instructions of the routines, those that read and write memory, and "
+    "those\n"
+    "that do so in the stack frame; the file of --json has them for each routine.\n"
     "SIGINT or SIGTERM ends it with a report of the finished part, in the files too, and status 130 or 143.";
 
 /* The usual measurement: every engine in turns. */
@@ -257,6 +261,8 @@ static int run(const struct command *self, void *data, const struct operands *op
     interrupt_defer();
     if (settings->builds)
         return bench_builds(self, operands->value, count, &engines, settings->repetitions, settings->json);
+    if (settings->code)
+        return bench_code(self, operands->value, count, &engines, settings->json);
     if (settings->cold)
         return bench_cold(self, operands->value, count, &engines, settings->threads, settings->repetitions,
                           settings->frames, settings->json);
@@ -281,6 +287,8 @@ static const struct option options[] = {
      OPTION_IS_FLAG(struct settings, shaders)},
     {"builds", NULL, "measure instead the time to build the streams' routines",
      OPTION_IS_FLAG(struct settings, builds)},
+    {"code", NULL, "count instead the instructions and memory operands of the streams' routines",
+     OPTION_IS_FLAG(struct settings, code)},
     {"cold", NULL, "measure instead the first frames of a new device", OPTION_IS_FLAG(struct settings, cold)},
     {"json", "FILE", "write everything, each run included", OPTION_IS_FILE(struct settings, json),
      .extension = "json"},
