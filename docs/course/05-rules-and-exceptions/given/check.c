@@ -3,7 +3,7 @@
  *   check rule NAME none       tries a rule with all 2^32 inputs
  *   check rule NAME BITS       tries it with one input, in hexadecimal: it must break the rule
  *   check range                compares ranges of examples, and tests ranges with random values
- *   check reduce               counts what is replaced in examples, and compares random programs before and after
+ *   check reduce               counts what is replaced in examples; compares random programs before and after
  *
  * Ends with 1, after a line with what was expected, if something is wrong. */
 #include "rules.h"
