@@ -5,8 +5,8 @@
 
 #include <stdbool.h>
 
-/* The possible values of a result. It is a number from low to high (infinity is a number here), NaN if `nan` is
- * true, or -0 if `negative_zero` is true. +0 counts as a number. No value is denormal. */
+/* The possible values of a result. It is a number from low to high (infinity is a number here), NaN if
+ * `nan` is true, or -0 if `negative_zero` is true. +0 counts as a number. No value is denormal. */
 struct range {
     float low, high;
     bool nan, negative_zero;
