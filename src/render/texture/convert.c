@@ -251,10 +251,17 @@ static inline uint32_t channel_largest(const struct channel *channel)
     return channel_mask(channel) >> (channel->type == CHANNEL_SIGNED);
 }
 
+/* The integer that -1 is the negative of. */
+static inline uint32_t channel_lowest(const struct channel *channel)
+{
+    return channel_largest(channel) + (channel->bits < 8);
+}
+
 static inline float decode_signed(const struct channel *channel, uint32_t bits)
 {
     int unused = 32 - channel->bits;
-    double value = (double)((int32_t)(bits << unused) >> unused) / channel_largest(channel);
+    int32_t integer = (int32_t)(bits << unused) >> unused;
+    double value = (double)integer / (integer < 0 ? channel_lowest(channel) : channel_largest(channel));
     return value < -1 ? -1 : (float)value;
 }
 
@@ -298,7 +305,8 @@ static inline uint32_t encode_number(const struct channel *channel, float number
         return channel->bits == 16 ? encode_half(number) : bits_of_float(number);
     double low = channel->type == CHANNEL_SIGNED ? -1 : 0;
     double inside = number >= 1 ? 1 : number > low ? number : isnan(number) ? 0 : low;
-    return (uint32_t)_mm_cvtsd_si64(_mm_set_sd(inside * channel_largest(channel))) & channel_mask(channel);
+    double scale = inside < 0 ? channel_lowest(channel) : channel_largest(channel);
+    return (uint32_t)_mm_cvtsd_si64(_mm_set_sd(inside * scale)) & channel_mask(channel);
 }
 
 static void encode_numbers(const struct format *format, const float *numbers, uint32_t count, uint8_t *data)

@@ -6,9 +6,11 @@
  *
  * Decoding is exact where the format allows it and rounds to nearest otherwise: a channel of n unsigned
  * bits is v / (2^n - 1), of n signed bits v / (2^(n-1) - 1) but at least -1; to 8 bits that is round(v *
- * 255 / (2^n - 1)), to binary32 the quotient in binary64, rounded. Encoding is the nearest value that the
- * format has, and encoding what was decoded gives the same bits back, except that a channel's second -1
- * becomes the first one, and that bits of no channel become 0. */
+ * 255 / (2^n - 1)), to binary32 the quotient in binary64, rounded. Of fewer than 8 signed bits, negative
+ * numbers are v / 2^(n-1): Direct3D 9 documents only the range, -1 to 1, and graphics chips gave the 5 bits
+ * of L6V5U5 32 different values. Encoding is the nearest value that the format has, and encoding what was
+ * decoded gives the same bits back, except that a channel's second -1 becomes the first one, and that bits
+ * of no channel become 0. */
 #ifndef RENDER_TEXTURE_FORMAT_H
 #define RENDER_TEXTURE_FORMAT_H
 

@@ -35,11 +35,11 @@ static void put(const struct channel *channel, uint32_t value, uint8_t *block)
 
 /* --- There and back --- */
 
-/* A signed channel has two patterns for -1, and the first one is encoded. */
+/* A signed channel of 8 bits or more has two patterns for -1, and the first one is encoded. */
 static uint32_t canonical(const struct channel *channel, uint32_t value)
 {
     uint32_t lowest = 1u << (channel->bits - 1);
-    return channel->type == CHANNEL_SIGNED && value == lowest ? lowest + 1 : value;
+    return channel->type == CHANNEL_SIGNED && channel->bits >= 8 && value == lowest ? lowest + 1 : value;
 }
 
 static void expect_same(const struct format *format, const uint8_t *block, const uint8_t *expected)

@@ -83,7 +83,8 @@ static const struct number_case {
     {"V8U8", {0x7f, 0x80}, {1, -1, 1, 1}},
     {"V8U8", {0x81, 0x40}, {-1, 64.0f / 127, 1, 1}},
     {"L6V5U5", {0x0f, 0xfe}, {1, -1, 1, 1}}, /* u 15, v 16, l 63 */
-    {"L6V5U5", {0xff, 0x07}, {-1.0f / 15, -1.0f / 15, 1.0f / 63, 1}},
+    {"L6V5U5", {0xff, 0x07}, {-1.0f / 16, -1.0f / 16, 1.0f / 63, 1}},
+    {"L6V5U5", {0x11, 0x81}, {-15.0f / 16, 8.0f / 15, 32.0f / 63, 1}},
     {"X8L8V8U8", {0x00, 0x7f, 0x80, 0x55}, {0, 1, 128.0f / 255, 1}},
     {"Q8W8V8U8", {0x01, 0x7f, 0xff, 0x80}, {1.0f / 127, 1, -1.0f / 127, -1}},
     {"V16U16", {0xff, 0x7f, 0x00, 0x80}, {1, -1, 1, 1}},
@@ -240,6 +241,8 @@ static void test_encoding_rounds_to_nearest_and_limits(void)
     TEST_ASSERT_EQUAL_HEX8_ARRAY(((uint8_t[]){0x01, 0x80, 0xff, 0x7f}), data, 4);
     encode_floats("A2W10V10U10", -1, 0, 1, 1, data);
     TEST_ASSERT_EQUAL_HEX8_ARRAY(((uint8_t[]){0x01, 0x02, 0xf0, 0xdf}), data, 4);
+    encode_floats("L6V5U5", -2, -0.9f, 1, 0, data); /* -14.4 of 16 steps */
+    TEST_ASSERT_EQUAL_HEX8_ARRAY(((uint8_t[]){0x50, 0xfe}), data, 2);
     encode_floats("R16F", 65536, 0, 0, 0, data);
     TEST_ASSERT_EQUAL_HEX8_ARRAY(((uint8_t[]){0x00, 0x7c}), data, 2);
 }
