@@ -3,8 +3,9 @@
  *   colour' = round((factor * colour + (255 - factor) * fog colour) / 255), factor quantized to 0..255
  *
  * The factor is 1 without fog and 0 in full fog. It is interpolated from the vertex routine's, or computed at
- * the pixel (table fog) from its distance d: depth, 0 to 1, or w, the distance along the view in units of the
- * scene:
+ * the pixel (table fog) from its distance d: w, the distance along the view in units of the scene, or the
+ * triangle's depth. Start and end are then in the range of depth, 0 to 1. Depth is not clamped to this range:
+ * vertices in the window are not clipped to it, and have fog by the formula outside of it too.
  *
  *   LINEAR   (end - d) / (end - start)          as d * scale + offset
  *   EXP      2 ^ (d * scale)                    scale = -density * log2(e)
@@ -29,7 +30,7 @@ static inline flt fog_distance(struct env *e, const struct pixel_key *k, const s
         return interpolate(E, k, layout, at, w, VARYING_fog, 0);
     if (!fog_reads_depth(k->fog))
         return w;
-    return pixel_depth(E, at, layout);
+    return evaluate_plane(E, at, layout->depth);
 }
 
 /* The factor before it is clamped. */

@@ -4,6 +4,7 @@
 #include <math.h>
 #include <stdbool.h>
 #include <stdio.h>
+#include <string.h>
 
 void setUp(void)
 {
@@ -132,6 +133,32 @@ static void check_fog_without_range(void)
     }
 }
 
+/* Vertices in the window are not clipped to the depth range, and their fog follows the formula outside of
+ * it. */
+static void check_fog_outside_of_the_depth_range(void)
+{
+    const float depths[] = {-0.5f, -0.25f, 1.25f, 1.5f};
+    struct fog fog = {0, -1, 2.2f, 1};
+    OK(triptych_set_state(device, TRIPTYCH_STATE_FOGENABLE, 1));
+    OK(triptych_set_state(device, TRIPTYCH_STATE_FOGCOLOR, 0xff00ff00));
+    set(TRIPTYCH_STATE_FOGTABLEMODE, "linear");
+    set_float(TRIPTYCH_STATE_FOGSTART, fog.start);
+    set_float(TRIPTYCH_STATE_FOGEND, fog.end);
+    for (int i = 0; i < 4; i++) {
+        float corner[4][4];
+        triptych_buffer *buffer;
+        for (int c = 0; c < 4; c++)
+            memcpy(corner[c], (float[4]){c & 1 ? SIZE : 0, c & 2 ? SIZE : 0, depths[i], 1}, sizeof corner[c]);
+        OK(triptych_buffer_create(device, corner, sizeof corner, &buffer));
+        OK(triptych_set_element(device, TRIPTYCH_POSITIONT,
+                                &(struct triptych_element){TRIPTYCH_FORMAT_FLOAT4, buffer, 0, 16}));
+        OK(triptych_draw(device, TRIPTYCH_TRIANGLE_STRIP, 0, 2));
+        OK(triptych_read_color(device, image, sizeof image));
+        int factor = (int)floor(255 * fog_factor(&fog, (double)depths[i]) + 0.5);
+        expect_pixel(SIZE / 2, SIZE / 2, fogged(0xffffffff, 0xff00ff00, factor), "fog in the window");
+    }
+}
+
 static void test_fog_by_depth(void)
 {
     on_every_engine(check_depth_fog);
@@ -152,6 +179,11 @@ static void test_fog_without_range(void)
     on_every_engine(check_fog_without_range);
 }
 
+static void test_fog_outside_of_the_depth_range(void)
+{
+    on_every_engine(check_fog_outside_of_the_depth_range);
+}
+
 int main(void)
 {
     UNITY_BEGIN();
@@ -159,5 +191,6 @@ int main(void)
     RUN_TEST(test_fog_by_distance);
     RUN_TEST(test_fog_that_is_off);
     RUN_TEST(test_fog_without_range);
+    RUN_TEST(test_fog_outside_of_the_depth_range);
     return UNITY_END();
 }
