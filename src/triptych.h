@@ -670,7 +670,8 @@ TRIPTYCH_API enum triptych_result triptych_draw_indexed_user(triptych_device *, 
 
 /* Runs the vertex routine of the current state, fixed function or shader, for vertices `first` to first +
  * count - 1 of the streams, and returns its outputs: 0 0 0 1 where there are none, NaN as 7fc00000. Draws
- * nothing. A texture's fourth coordinate is the divisor: after a matrix of three columns it is the third. */
+ * nothing. A texture's fourth coordinate is the divisor: after a matrix of three columns, or of three numbers
+ * that are projected without a count, it is the third. */
 TRIPTYCH_API enum triptych_result triptych_process_vertices(triptych_device *, uint32_t first, uint32_t count,
                                                             struct triptych_processed_vertex *out);
 

@@ -109,12 +109,14 @@ static bool same_coordinates(const struct state *state, int a, int b)
            flags == STAGE(state, b, texturetransformflags) && !(flags & TEXTURETRANSFORM_COUNT_MASK);
 }
 
-/* Returns true if the coordinates of a stage are the three numbers of an attribute. */
+/* Returns true if the coordinates of a stage are the three numbers of an attribute. Vertices in the window
+ * have no generators. */
 static bool has_three(const struct state *state, int stage)
 {
     uint32_t index = STAGE(state, stage, texcoordindex);
-    return index < TEXCOORD_SETS &&
-           state->element[ATTRIBUTE_TEXCOORD + index].format == TRIPTYCH_FORMAT_FLOAT3;
+    const struct state_element *element = &state->element[ATTRIBUTE_TEXCOORD + (index & (TEXCOORD_SETS - 1))];
+    bool window = state->element[ATTRIBUTE_POSITIONT].format != TRIPTYCH_FORMAT_NONE;
+    return (window || !(index >> 16)) && key_vertex_types[element->format].components == 3;
 }
 
 /* The last of three or four coordinates divides the others (Direct3D 9, D3DTTFF_PROJECTED); without a count

@@ -187,23 +187,37 @@ static int coordinates_needed(const struct vertex_key *key, int channel)
     return key->varying[varying_third(channel)] ? 3 : 2;
 }
 
-/* The columns of the matrix that are read. Positions in the window are not transformed, but three columns
- * mean that the third coordinate is the divisor. */
+static uint32_t columns_of(const struct state *state, int stage)
+{
+    return STAGE(state, stage, texturetransformflags) & TEXTURETRANSFORM_COUNT_MASK;
+}
+
+/* The columns of the matrix that are read. Positions in the window are not transformed. */
 static uint8_t derive_columns(const struct state *state, int stage, int channel, const struct vertex_key *key)
 {
-    uint32_t columns = STAGE(state, stage, texturetransformflags) & TEXTURETRANSFORM_COUNT_MASK;
-    int divides = key->varying[varying_divisor(channel)];
-    uint32_t most = divides ? 4 : key->varying[varying_third(channel)] ? 3 : 2;
+    uint32_t columns = columns_of(state, stage);
+    uint32_t most = key->varying[varying_divisor(channel)] ? 4 : key->varying[varying_third(channel)] ? 3 : 2;
     if (in_window(key))
-        return divides && columns == 3 ? 3 : 0;
+        return 0;
     return (uint8_t)(columns < most ? columns : most);
 }
 
+/* Shaders divide by themselves; after a matrix of three columns they get the third as the fourth too. */
+static bool third_divides(const struct state *state, const struct pixel_key *pixel, int stage, int channel,
+                          const struct vertex_key *key)
+{
+    bool stages = !key_program(pixel->shader);
+    return key->varying[varying_divisor(channel)] &&
+           (columns_of(state, stage) == 3 || (stages && derive_projection(state, stage) == PROJECTED_THIRD));
+}
+
 /* The numbers of Direct3D 9's generators are the high half of the state, from 1. */
-static void derive_coordinates(const struct state *state, int stage, int channel, struct vertex_key *key)
+static void derive_coordinates(const struct state *state, const struct pixel_key *pixel, int stage,
+                               int channel, struct vertex_key *key)
 {
     uint32_t index = STAGE(state, stage, texcoordindex), generator = index >> 16;
     key->texture_matrix[channel] = derive_columns(state, stage, channel, key);
+    key->third_divides[channel] = third_divides(state, pixel, stage, channel, key);
     if (generator && !in_window(key)) {
         key->texcoord[channel] = (uint8_t)(COORDINATE_NORMAL + generator - 1);
         if (key->texcoord[channel] != COORDINATE_POSITION)
@@ -237,7 +251,7 @@ static void derive_fixed(const struct state *state, const struct pixel_key *pixe
     for (int channel = 0; channel < TEXTURE_STAGES; channel++) {
         int stage = derive_channel_set(state, pixel, channel);
         if (reads_channel(key, channel) && stage >= 0 && stage < TEXTURE_STAGES)
-            derive_coordinates(state, stage, channel, key);
+            derive_coordinates(state, pixel, stage, channel, key);
     }
 }
 

@@ -8,8 +8,8 @@
  *
  * Before the matrix, a set of fewer than four components is followed by a 1 and then by zeros: u v 1 0. A set
  * that vertices do not have is 0 0 0 1. The matrix gives `count` coordinates; those after them are 0. The
- * divisor is the third of three, else the fourth. Vertices in the window have neither generators nor
- * matrices. */
+ * divisor is the last coordinate: the third of three, which are the matrix's, or the vertex's if there is no
+ * count; else the fourth. Vertices in the window have neither generators nor matrices. */
 #ifndef SPEC_VERTEX_TEXGEN_H
 #define SPEC_VERTEX_TEXGEN_H
 

@@ -71,7 +71,7 @@ static inline void vertex_coordinates(struct env *e, const struct vertex_key *k,
                                       const struct camera *camera)
 {
     struct vector4 coordinates = texgen(E, k, channel, camera);
-    int divisor = k->texture_matrix[channel] == 3 ? 2 : 3;
+    int divisor = k->third_divides[channel] ? 2 : 3;
     for (int c = 0; c < 2; c++)
         if (k->varying[varying_texcoord(channel)])
             store_slot(E, varying_slot[varying_texcoord(channel)] + c, coordinates.v[c]);

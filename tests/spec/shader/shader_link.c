@@ -124,6 +124,18 @@ static void expect_projected(uint32_t flags, const struct drawn_element *coordin
     expect_pixel(3, 3, expected, what);
 }
 
+/* The same draw again, with the first three coordinates. */
+static void expect_three(uint32_t expected, const char *what)
+{
+    static const struct triptych_declaration_element declared[2] = {
+        {0, 0, TRIPTYCH_FORMAT_FLOAT4, TRIPTYCH_USAGE_POSITION, 0},
+        {0, 16, TRIPTYCH_FORMAT_FLOAT3, TRIPTYCH_USAGE_TEXCOORD, 0}};
+    OK(triptych_set_declaration(device, declared, 2));
+    OK(triptych_draw(device, TRIPTYCH_TRIANGLE_STRIP, 0, 2));
+    OK(triptych_read_color(device, image, sizeof image));
+    expect_pixel(3, 3, expected, what);
+}
+
 /* With `projected`, coordinates are divided: the fixed function's by the last of their count, the outputs of
  * a vertex shader by the fourth, whatever the count. Each divisor selects another texel. */
 static void check_projected_stage(void)
@@ -146,6 +158,7 @@ static void check_projected_stage(void)
         expect_projected(PROJECTED | 3, &coordinates, words[1], "divided by the third");
         expect_projected(PROJECTED | 4, &coordinates, words[0], "divided by the fourth");
         expect_projected(PROJECTED, &coordinates, words[0], "without a count, divided by the fourth");
+        expect_three(words[1], "without a count, three are divided by the third");
     }
 }
 

@@ -102,7 +102,7 @@ static void generated(const struct vertex *v, int generator, double out[4])
     out[3] = 1;
 }
 
-/* The result of a stage: its coordinates before and after its matrix, and the divisor's number. */
+/* The result of a stage: its coordinates after its matrix. */
 static void expected_coordinates(const struct vertex *v, int stage, int components, double out[4])
 {
     uint32_t index = shading_state.stage[stage][TRIPTYCH_STAGE_TEXCOORDINDEX];
@@ -130,7 +130,9 @@ static void expected_coordinates(const struct vertex *v, int stage, int componen
 static void check_channel(int stage, int channel, int components)
 {
     uint32_t flags = shading_state.stage[stage][TRIPTYCH_STAGE_TEXTURETRANSFORMFLAGS], count = flags & 7;
+    uint32_t index = shading_state.stage[stage][TRIPTYCH_STAGE_TEXCOORDINDEX];
     int projected = (flags & 256) && (!count || count > 2);
+    int last = count == 3 || (!count && !(index >> 16) && components == 3) ? 2 : 3;
     TEST_ASSERT_EQUAL_INT(projected, shading_key[UNIT_VERTEX].vertex.varying[varying_divisor(channel)]);
     for (uint32_t i = 0; i < VERTICES; i++) {
         double expected[4];
@@ -142,7 +144,7 @@ static void check_channel(int stage, int channel, int components)
             TEST_ASSERT_DOUBLE_WITHIN(1e-5, expected[2],
                                       (double)shaded_slot(varying_slot[varying_third(channel)], i));
         if (projected)
-            TEST_ASSERT_DOUBLE_WITHIN(1e-5, expected[count == 3 ? 2 : 3],
+            TEST_ASSERT_DOUBLE_WITHIN(1e-5, expected[last],
                                       (double)shaded_slot(varying_slot[varying_divisor(channel)], i));
     }
 }
@@ -218,6 +220,10 @@ static void check_none(void)
         TEST_ASSERT_EQUAL_FLOAT(vertex[i].set[0][0], shaded_slot(SLOT_texcoord0, i));
         TEST_ASSERT_EQUAL_FLOAT(vertex[i].set[0][2], shaded_slot(SLOT_divisor0, i));
     }
+    set_stage_number(0, TRIPTYCH_STAGE_TEXTURETRANSFORMFLAGS, 256);
+    shade(VERTICES);
+    for (uint32_t i = 0; i < VERTICES; i++)
+        TEST_ASSERT_EQUAL_FLOAT(vertex[i].set[0][2], shaded_slot(SLOT_divisor0, i));
 }
 
 static void test_missing_coordinates_are_zero_and_those_in_the_window_are_unchanged(void)
