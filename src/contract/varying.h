@@ -71,9 +71,9 @@ static inline int port_component(int port, int c)
     return port < PORT_CHANNEL || c < 2 ? c : 0;
 }
 
-/* The source of a port's component: the fixed function; none, so that it has its default; or component c of
- * the vertex shader's output o, as LINK_OUTPUT + 4 * o + c. */
+/* The source of a port's component: the fixed function; none, so that it has its default, 0 or 1; or
+ * component c of the vertex shader's output o, as LINK_OUTPUT + 4 * o + c. */
 enum { OUTPUTS = 16 };
-enum { LINK_FIXED, LINK_NONE, LINK_OUTPUT, LINK_COUNT = LINK_OUTPUT + 4 * OUTPUTS };
+enum { LINK_FIXED, LINK_ZERO, LINK_ONE, LINK_OUTPUT, LINK_COUNT = LINK_OUTPUT + 4 * OUTPUTS };
 
 #endif

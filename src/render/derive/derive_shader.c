@@ -15,8 +15,9 @@
  *   vs_1_1 to vs_2_x       oD0 and oD1, oT0 to oT7, oFog, oPts
  *   vs_3_0                 the usages that its outputs are declared with
  *
- * A component that is requested but not supplied has its default; the draw is not refused. Without a fog
- * factor there is no fog. A component that is supplied but not requested is dead code. A shader
+ * A component that is requested but not supplied has its default; the draw is not refused. Defaults are those
+ * of vertices without the element: color 0 is 1 1 1 1, color 1 is 0 0 0 0, all others are 0 0 0 1. Without a
+ * fog factor there is no fog. A component that is supplied but not requested is dead code. A shader
  * that is needed for nothing but tests and counts is removed from the key. */
 #include "render/derive/derive_part.h"
 #include "contract/key_query.h"
@@ -83,17 +84,30 @@ static void derive_inputs(const struct state *state, const struct program *progr
     }
 }
 
-static uint8_t link_to(const struct program *program, unsigned usage, unsigned usage_index, unsigned c)
-{
-    int output = program_gives(program, usage, usage_index, c);
-    return (uint8_t)(output < 0 ? (int)LINK_NONE : LINK_OUTPUT + 4 * output + (int)c);
-}
-
 /* Component c of a usage with its number. */
 struct question {
     bool asked;
     unsigned usage, usage_index, c;
 };
+
+static uint8_t default_link(struct question q)
+{
+    bool color = q.usage == USAGE_COLOR, diffuse = color && q.usage_index == 0,
+         specular = color && q.usage_index == 1;
+    return diffuse || (q.c == 3 && !specular) ? LINK_ONE : LINK_ZERO;
+}
+
+static uint8_t link_to(const struct program *program, struct question q)
+{
+    int output = program_gives(program, q.usage, q.usage_index, q.c);
+    return output < 0 ? default_link(q) : (uint8_t)(LINK_OUTPUT + 4 * output + (int)q.c);
+}
+
+/* A number of the vertex itself: the fog factor or the size of points. */
+static uint8_t link_to_number(const struct program *program, unsigned usage)
+{
+    return link_to(program, (struct question){true, usage, 0, 0});
+}
 
 /* The usage that a shader requests for component c of a port. */
 static struct question shader_asks(const struct program *program, int port, unsigned c)
@@ -125,7 +139,7 @@ static uint8_t fixed_link(const struct state *state, const struct pixel_key *pix
     else
         gives = q.usage == USAGE_TEXCOORD && q.usage_index < TEXTURE_STAGES &&
                 (int)q.usage_index == derive_channel_set(state, pixel, port - PORT_CHANNEL);
-    return gives ? LINK_FIXED : LINK_NONE;
+    return gives ? LINK_FIXED : default_link(q);
 }
 
 void derive_links(const struct state *state, const struct pixel_key *pixel, struct vertex_key *key)
@@ -139,9 +153,9 @@ void derive_links(const struct state *state, const struct pixel_key *pixel, stru
                                 ? shader_asks(derive_pixel_program(state), port, (unsigned)i % 4)
                                 : stages_ask(pixel, port, (unsigned)i % 4);
         if (!q.asked)
-            key->link[i] = LINK_NONE;
+            key->link[i] = LINK_ZERO;
         else if (program)
-            key->link[i] = link_to(program, q.usage, q.usage_index, q.c);
+            key->link[i] = link_to(program, q);
         else
             key->link[i] = fixed_link(state, pixel, port, q);
     }
@@ -164,9 +178,9 @@ void derive_vertex_shader(const struct state *state, const struct program *progr
         if (program->interface.sampled >> i & 1)
             derive_vertex_sampler(state, i, key);
     if (key->varying[VARYING_fog])
-        key->fog_link = link_to(program, USAGE_FOG, 0, 0);
+        key->fog_link = link_to_number(program, USAGE_FOG);
     if (setup->point_size)
-        key->size_link = link_to(program, USAGE_PSIZE, 0, 0);
+        key->size_link = link_to_number(program, USAGE_PSIZE);
 }
 
 /* --- Pixels --- */

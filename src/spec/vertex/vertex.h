@@ -86,9 +86,10 @@ static inline void vertex_defaults(struct env *e, const struct vertex_key *k)
 {
     for (int i = 0; i < 4 * PORTS; i++) {
         int varying = port_varying(i / 4, i % 4);
-        if (k->varying[varying] && k->link[i] == LINK_NONE)
-            store_slot(E, varying_slot[varying] + port_component(i / 4, i % 4),
-                       lit_f(E, i % 4 == 3 ? 1.0f : 0.0f));
+        if (!k->varying[varying] || k->link[i] == LINK_FIXED)
+            continue;
+        flt value = unlinked(E, k->link[i]);
+        store_slot(E, varying_slot[varying] + port_component(i / 4, i % 4), value);
     }
 }
 

@@ -3,7 +3,7 @@
  * Inputs are the attributes that the declaration names with their usage, or 0 0 0 1. Outputs are linked to
  * the pixel routine's ports, component by component (the key's links). Below model 3.0, colours and the fog
  * factor are clamped to 0..1; nothing else is. A component that the pixel routine reads and the shader never
- * writes is that of 0 0 0 1, and of white in the first colour. */
+ * writes is 0 or 1, by its link. */
 #ifndef SPEC_VERTEX_VERTEX_SHADER_H
 #define SPEC_VERTEX_VERTEX_SHADER_H
 
@@ -36,16 +36,17 @@ static inline bool is_clamped(const struct machine *m, int link)
     return shader_major(m->program->model) < 3 && (number < OUTPUT_COORDINATE || number == OUTPUT_FOG);
 }
 
-/* The value at a link. */
+/* The value at a link to an output. */
 static inline flt linked(struct env *e, const struct machine *m, int link)
 {
     flt value = m->cell[CELL_OUTPUT + link - LINK_OUTPUT];
     return is_clamped(m, link) ? clamp_unit(E, value) : value;
 }
 
-static inline flt unlinked(struct env *e, int port, int c)
+/* The value at a link that has no output. */
+static inline flt unlinked(struct env *e, int link)
 {
-    return lit_f(E, c == 3 || port == PORT_DIFFUSE ? 1.0f : 0.0f);
+    return lit_f(E, link == LINK_ONE ? 1.0f : 0.0f);
 }
 
 /* A clip depth from -w to w is moved to the range that is tested, 0 to w. */
@@ -77,7 +78,7 @@ static inline void vertex_by_shader(struct env *e, const struct vertex_key *k)
         int varying = port_varying(i / 4, i % 4);
         if (!k->varying[varying])
             continue;
-        flt value = k->link[i] >= LINK_OUTPUT ? linked(E, &m, k->link[i]) : unlinked(E, i / 4, i % 4);
+        flt value = k->link[i] >= LINK_OUTPUT ? linked(E, &m, k->link[i]) : unlinked(E, k->link[i]);
         store_slot(E, varying_slot[varying] + port_component(i / 4, i % 4), value);
     }
     if (k->varying[VARYING_fog] && k->fog_link >= LINK_OUTPUT) {

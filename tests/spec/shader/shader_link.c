@@ -171,6 +171,13 @@ static void test_projected_stages_divide_the_outputs_of_shaders(void)
 
 static const char position_only[] = "vs_2_0\ndcl_position v0\nmov oPos, v0\n";
 
+/* A shader has ports for ten inputs. Of ten other usages, two are in the ports of the colours. */
+static const char in_the_ports_of_colours[] =
+    "ps_3_0\ndcl_tangent v0\ndcl_tangent1 v1\ndcl_tangent2 v2\ndcl_tangent3 v3\ndcl_tangent4 v4\n"
+    "dcl_tangent5 v5\ndcl_tangent6 v6\ndcl_tangent7 v7\ndcl_tangent8 v8\ndcl_tangent9 v9\n"
+    "mov r0, v0\nadd r0, r0, v1\nadd r0, r0, v2\nadd r0, r0, v3\nadd r0, r0, v4\nadd r0, r0, v5\n"
+    "add r0, r0, v6\nadd r0, r0, v7\nadd r0, r0, v8\nadd oC0, r0, v9\n";
+
 static void check_defaults(void)
 {
     use_float_target();
@@ -181,7 +188,13 @@ static void check_defaults(void)
     use_shaders(position_only, "ps_2_0\ndcl v1\nmov oC0, v1\n");
     draw_declared(TRIPTYCH_USAGE_POSITION, NULL, 0);
     read_numbers(0);
-    EXPECT_CENTRE("the second colour", 0, 0, 0, 1);
+    EXPECT_CENTRE("the second colour", 0, 0, 0, 0);
+    use_shaders("vs_3_0\ndcl_position v0\ndcl_position o0\ndcl_color1 o1\ndef c0, 0.5, 0, 0, 0\n"
+                "mov o0, v0\nmov o1.x, c0\n",
+                "ps_3_0\ndcl_color1 v1\nmov oC0, v1\n");
+    draw_declared(TRIPTYCH_USAGE_POSITION, NULL, 0);
+    read_numbers(0);
+    EXPECT_CENTRE("a quarter of the second colour", 0.5f, 0, 0, 0);
     use_shaders("vs_2_0\ndcl_position v0\ndef c0, 3, 4, 5, 6\nmov oPos, v0\nmov oT3.xy, c0\n",
                 "ps_2_0\ndcl t3\nmov r0, t3\nmov oC0, r0\n");
     draw_declared(TRIPTYCH_USAGE_POSITION, NULL, 0);
@@ -196,6 +209,10 @@ static void check_defaults(void)
     draw_declared(TRIPTYCH_USAGE_POSITION, NULL, 0);
     read_numbers(0);
     EXPECT_CENTRE("what the fixed function does not have", 0, 0, 0, 2);
+    use_shaders(position_only, in_the_ports_of_colours);
+    draw_declared(TRIPTYCH_USAGE_POSITION, NULL, 0);
+    read_numbers(0);
+    EXPECT_CENTRE("ten inputs of other usages", 0, 0, 0, 10);
 }
 
 static void test_inputs_without_an_output_have_their_default(void)
