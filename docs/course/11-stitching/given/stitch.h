@@ -35,13 +35,13 @@ void product_record(struct recording *recording, int size);
 
 /* --- Fragments: fragments.asm ---
  *
- * The code of an operation. While it runs, rdi, rsi and rdx are the addresses of a, b and c, and rcx is that of
- * the frame: an array with a float for the result of each operation. A fragment reads its operands from the
- * frame or from a or b, and writes its result to the frame or to c. It may change xmm0 and xmm1, and no other
- * register. It ends without a jump: the next fragment follows.
+ * The code of an operation. While it runs, rdi, rsi and rdx are the addresses of a, b and c, and rcx is that
+ * of the frame: an array with a float for the result of each operation. A fragment reads its operands from
+ * the frame or from a or b, and writes its result to the frame or to c. It may change xmm0 and xmm1, and no
+ * other register. It ends without a jump: the next fragment follows.
  *
- * A hole is a displacement of four bytes, in bytes, that is filled when the fragment is copied. In the fragment
- * it has one of these values, which occur once each. */
+ * A hole is a displacement of four bytes, in bytes, that is filled when the fragment is copied. In the
+ * fragment it has one of these values, which occur once each. */
 enum hole { HOLE_LEFT, HOLE_RIGHT, HOLE_RESULT, HOLE_ELEMENT, HOLES };
 
 #define HOLE_VALUES                                                                                          \
@@ -64,8 +64,8 @@ extern const struct fragment fragments[OPERATIONS];
 /* Returns the offset of a hole in the fragment, or -1 if it has none. */
 int hole_offset(const struct fragment *fragment, enum hole hole);
 
-/* Joins the fragments of a recording, with their holes filled, and a ret (0xc3), at `code`, which has room for
- * `room` bytes. Returns the number of bytes, or 0 if there is not enough room. */
+/* Joins the fragments of a recording, with their holes filled, and a ret (0xc3), at `code`, which has room
+ * for `room` bytes. Returns the number of bytes, or 0 if there is not enough room. */
 size_t stitch(const struct recording *recording, uint8_t *code, size_t room);
 
 #endif
