@@ -120,12 +120,20 @@ static bool make_renderer(struct d3d9_buffer *buffer)
     return true;
 }
 
+/* Indices are checked when a draw is queued, so queued draws must read those of that time, whatever the
+ * program has promised. An update in place costs the same. */
+static bool keeps_queued(const struct d3d9_buffer *buffer)
+{
+    return buffer->change == D3D9_BUFFER_CHANGED ||
+           (buffer->change == D3D9_BUFFER_APPENDED && buffer->format != VERTEX_DATA);
+}
+
 static bool upload(struct d3d9_buffer *buffer)
 {
     triptych_device *renderer = buffer->resource.device->renderer;
     size_t bytes = buffer->last - buffer->first;
     void *data;
-    if (buffer->change == D3D9_BUFFER_CHANGED)
+    if (keeps_queued(buffer))
         return triptych_buffer_update(renderer, buffer->renderer, buffer->first,
                                       buffer->memory + buffer->first, bytes) == TRIPTYCH_OK;
     enum triptych_map map =
@@ -160,7 +168,7 @@ enum triptych_result d3d9_buffer_copy(triptych_device *renderer, const void *dat
 
 /* --- Methods --- */
 
-/* Hints are for dynamic buffers only. */
+/* Hints are for dynamic buffers only. Of both hints, NOOVERWRITE counts. */
 static int32_t lock(struct d3d9_buffer *buffer, uint32_t offset, uint32_t bytes, void **data, uint32_t flags)
 {
     bool dynamic = buffer->resource.usage & D3D9_USAGE_DYNAMIC;
@@ -172,18 +180,21 @@ static int32_t lock(struct d3d9_buffer *buffer, uint32_t offset, uint32_t bytes,
     if (flags & D3D9_LOCK_READ_ONLY || last == offset)
         return D3D9_OK;
     change(buffer,
-           dynamic && flags & D3D9_LOCK_DISCARD        ? D3D9_BUFFER_DISCARDED
-           : dynamic && flags & D3D9_LOCK_NO_OVERWRITE ? D3D9_BUFFER_APPENDED
-                                                       : D3D9_BUFFER_CHANGED,
+           dynamic && flags & D3D9_LOCK_NO_OVERWRITE ? D3D9_BUFFER_APPENDED
+           : dynamic && flags & D3D9_LOCK_DISCARD    ? D3D9_BUFFER_DISCARDED
+                                                     : D3D9_BUFFER_CHANGED,
            offset, last);
     return D3D9_OK;
 }
 
-/* Direct3D does not count: an Unlock without Lock succeeds. */
+/* Direct3D does not count: an Unlock without Lock succeeds. Appended bytes are passed on at once, since no
+ * draw that is rendered must wait for them. Where memory is short, the next draw tries again. */
 static int32_t unlock(struct d3d9_buffer *buffer)
 {
     if (buffer->locks)
         buffer->locks--;
+    if (!buffer->locks && buffer->change == D3D9_BUFFER_APPENDED && buffer->renderer)
+        d3d9_buffer_use(buffer);
     return D3D9_OK;
 }
 

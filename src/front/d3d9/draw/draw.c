@@ -35,9 +35,10 @@ static int32_t check_shader(struct d3d9_device *device)
     return fits ? D3D9_OK : D3D9_INVALID_CALL;
 }
 
+/* Programs that draw outside a scene exist, and drivers draw. */
 static int32_t check_draw(struct d3d9_device *device, uint32_t type)
 {
-    if (!device->state->declaration[0] || primitive_of(type) < 0 || !device->in_scene)
+    if (!device->state->declaration[0] || primitive_of(type) < 0)
         return D3D9_INVALID_CALL;
     return check_shader(device);
 }

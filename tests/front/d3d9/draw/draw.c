@@ -102,6 +102,43 @@ static void each_draw_has_the_bytes_of_its_time(void)
     }
 }
 
+/* The program promises not to write to what draws read; if it does, they may read it. */
+static void vertices_without_overwriting_reach_queued_draws(void)
+{
+    draw();
+    write(vertices, GREEN, D3D9_LOCK_NO_OVERWRITE);
+    expect(GREEN);
+    draw();
+    write(vertices, BLUE, D3D9_LOCK_NO_OVERWRITE | D3D9_LOCK_DISCARD);
+    expect(BLUE);
+    draw();
+    write(vertices, RED, D3D9_LOCK_DISCARD);
+    expect(BLUE);
+}
+
+/* Queued draws have the indices that were checked for them. */
+static void indices_never_reach_queued_draws(void)
+{
+    static const uint16_t order[6] = {0, 1, 2, 2, 1, 3}, outside[6] = {65535, 65534, 65533, 0, 0, 0};
+    struct d3d9_index_buffer *dynamic;
+    void *data;
+    TEST_ASSERT_EQUAL_INT32(D3D9_OK,
+                            d3d9_device_create_index_buffer(device, sizeof order, D3D9_USAGE_DYNAMIC, INDEX16,
+                                                            D3D9_POOL_DEFAULT, &dynamic, NULL));
+    d3d9_index_buffer_lock(dynamic, 0, 0, &data, D3D9_LOCK_NO_OVERWRITE);
+    memcpy(data, order, sizeof order);
+    d3d9_index_buffer_unlock(dynamic);
+    d3d9_device_set_indices(device, dynamic);
+    TEST_ASSERT_EQUAL_INT32(D3D9_OK, draw_indexed());
+    d3d9_index_buffer_lock(dynamic, 0, 0, &data, D3D9_LOCK_NO_OVERWRITE);
+    memcpy(data, outside, sizeof outside);
+    d3d9_index_buffer_unlock(dynamic);
+    TEST_ASSERT_EQUAL_INT32(D3D9_OK, draw_indexed());
+    expect(RED);
+    d3d9_device_set_indices(device, NULL);
+    TEST_ASSERT_EQUAL_UINT32(0, d3d9_object_release((struct d3d9_object *)dynamic));
+}
+
 static void a_locked_buffer_can_be_drawn(void)
 {
     void *data;
@@ -138,9 +175,18 @@ static void scenes_do_not_nest(void)
     TEST_ASSERT_EQUAL_INT32(INVALID, d3d9_device_begin_scene(device));
     TEST_ASSERT_EQUAL_INT32(D3D9_OK, d3d9_device_end_scene(device));
     TEST_ASSERT_EQUAL_INT32(INVALID, d3d9_device_end_scene(device));
-    TEST_ASSERT_EQUAL_INT32(INVALID, d3d9_device_draw_primitive(device, STRIP, 0, 2));
     TEST_ASSERT_EQUAL_INT32(D3D9_OK, d3d9_device_begin_scene(device));
+}
+
+static void draws_need_no_scene(void)
+{
+    struct vertex v[4];
+    d3d9_device_end_scene(device);
     draw();
+    expect(RED);
+    quad(v, GREEN);
+    TEST_ASSERT_EQUAL_INT32(D3D9_OK, d3d9_device_draw_primitive_up(device, STRIP, 2, v, sizeof *v));
+    expect(GREEN);
 }
 
 static void expect_stream(void *buffer, uint32_t stride)
@@ -294,9 +340,12 @@ int main(void)
     UNITY_BEGIN();
     RUN_TEST(vertices_and_indices_of_buffers_are_drawn);
     RUN_TEST(each_draw_has_the_bytes_of_its_time);
+    RUN_TEST(vertices_without_overwriting_reach_queued_draws);
+    RUN_TEST(indices_never_reach_queued_draws);
     RUN_TEST(a_locked_buffer_can_be_drawn);
     RUN_TEST(draws_that_are_not_valid_are_refused);
     RUN_TEST(scenes_do_not_nest);
+    RUN_TEST(draws_need_no_scene);
     RUN_TEST(a_draw_from_memory_unbinds_its_stream);
     RUN_TEST(a_refused_draw_from_memory_keeps_the_stride);
     RUN_TEST(vertices_outside_of_a_buffer_are_not_drawn);
