@@ -68,11 +68,12 @@ desktop_server() # [modes]
     export DISPLAY
 }
 
-# Windows get the decorations and the places that programs request.
+# Windows get the decorations and the places that programs request. The focus does not follow the pointer, as
+# in Windows.
 desktop_manager()
 {
     printf '%s\n' 'Style * MwmDecor' 'Style * UsePPosition' 'Style * !MinOverlapPlacement' \
-        >"$desktop_folder/fvwm"
+        'Style * ClickToFocus' >"$desktop_folder/fvwm"
     fvwm3 -f "$desktop_folder/fvwm" >/dev/null 2>&1 &
     desktop_processes+=($!)
 }

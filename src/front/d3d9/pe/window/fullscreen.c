@@ -126,11 +126,12 @@ static BOOL enter(struct device_data *data, const D3DPRESENT_PARAMETERS *paramet
     data->refresh_rate = parameters->FullScreen_RefreshRateInHz;
     data->format = parameters->BackBufferFormat;
     data->filter = TRUE;
+    /* The window's own style is read before the change of the mode, by which window managers change it. */
+    if (!covered)
+        cover_screen(data);
     BOOL set = adapter_set_mode(data->adapter, data->width, data->height, data->refresh_rate, data->format);
     if (covered)
         refit_screen(data);
-    else
-        cover_screen(data);
     data->filter = FALSE;
     return set;
 }
