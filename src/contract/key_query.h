@@ -90,10 +90,16 @@ static inline bool pixel_leaves_traces(const struct pixel_key *key)
     return key->depth_write || key->count || pixel_writes_stencil(key);
 }
 
-/* Returns true if shading discards pixels. */
+/* Returns true if the first colour's alpha decides what remains. */
+static inline bool pixel_tests_alpha(const struct pixel_key *key)
+{
+    return key->alpha_discard || key->alpha_coverage;
+}
+
+/* Returns true if shading discards pixels or samples. */
 static inline bool pixel_discards(const struct pixel_key *key)
 {
-    return key->alpha_discard || key->kills;
+    return pixel_tests_alpha(key) || key->kills;
 }
 
 /* Returns true if the depth and stencil tests must wait for shading. */

@@ -137,6 +137,8 @@ static cJSON *tests_of(const struct target *target, const struct touch *touch)
         cJSON_AddBoolToObject(sample, "covered", covered);
         if (!covered)
             continue;
+        if (is_seen(touch, OBSERVED_remaining, i))
+            cJSON_AddBoolToObject(sample, "remaining", passes(touch, OBSERVED_remaining, i));
         if (is_seen(touch, OBSERVED_stencil, i))
             add_stencil(sample, touch, word, i);
         if (is_seen(touch, OBSERVED_depth, i) && passes(touch, OBSERVED_stencil, i))
@@ -147,24 +149,28 @@ static cJSON *tests_of(const struct target *target, const struct touch *touch)
 
 static bool sample_passes(const struct touch *touch, unsigned sample)
 {
-    return touch->value[OBSERVED_covered][sample][0] && passes(touch, OBSERVED_stencil, sample) &&
-           passes(touch, OBSERVED_depth, sample);
+    return touch->value[OBSERVED_covered][sample][0] && passes(touch, OBSERVED_remaining, sample) &&
+           passes(touch, OBSERVED_stencil, sample) && passes(touch, OBSERVED_depth, sample);
 }
 
 /* The first test that leaves no sample. */
 static const char *result_of(const struct target *target, const struct touch *touch)
 {
-    bool stencil = false, all = false;
+    bool remaining = false, stencil = false, all = false;
     if (touch->kind != TOUCH_DRAWN)
         return touch->kind == TOUCH_CULLED ? "culled" : "scissored";
     for (uint32_t i = 0; i < target->samples; i++) {
-        stencil |= touch->value[OBSERVED_covered][i][0] && passes(touch, OBSERVED_stencil, i);
+        bool covered = touch->value[OBSERVED_covered][i][0] && passes(touch, OBSERVED_remaining, i);
+        remaining |= covered;
+        stencil |= covered && passes(touch, OBSERVED_stencil, i);
         all |= sample_passes(touch, i);
     }
     if (!passes(touch, OBSERVED_kept, 0))
         return "discarded by the shader";
     if (!passes(touch, OBSERVED_alpha, 0))
         return "failed alpha";
+    if (!remaining)
+        return "covers no sample by alpha";
     return !stencil ? "failed stencil" : !all ? "failed depth" : "passed";
 }
 

@@ -51,6 +51,7 @@ static bool lane_passes(const struct sight *sight, unsigned lane)
         return false;
     for (unsigned i = 0; i < OBSERVED_NUMBERS; i++)
         if (sight->seen[OBSERVED_covered] >> i & 1 && sight->value[OBSERVED_covered][i][0][lane] &&
+            observe_passes(sight, OBSERVED_remaining, i, lane) &&
             observe_passes(sight, OBSERVED_stencil, i, lane) &&
             observe_passes(sight, OBSERVED_depth, i, lane))
             return true;

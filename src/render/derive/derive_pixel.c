@@ -14,6 +14,12 @@ static uint8_t derive_alpha_discard(const struct state *state)
     return (uint8_t)(COMPARE_ALWAYS - derive_compare(GET(state, alphafunc)));
 }
 
+/* The vendors' extension, which needs the alpha test and several samples. */
+static bool derive_alpha_coverage(const struct state *state)
+{
+    return state->samples && GET(state, alphatestenable) && GET(state, adaptivetess_y) == TESSELLATION_atoc;
+}
+
 /* Diffuse is read as such, as the current colour that no stage has written yet, or as the result. */
 static bool reads_diffuse(const struct pixel_key *key)
 {
@@ -66,6 +72,7 @@ void derive_pixel(const struct state *state, enum primitive primitive, struct pi
     derive_depth(state, primitive, key);
     derive_targets(state, key);
     key->alpha_discard = derive_alpha_discard(state);
+    key->alpha_coverage = derive_alpha_coverage(state);
     key->kills = program && program->interface.kills;
     key->count = state->counting;
     derive_blend(state, key);
@@ -79,7 +86,7 @@ void derive_pixel(const struct state *state, enum primitive primitive, struct pi
         derive_no_stencil(key);
         key->depth_function = COMPARE_ALWAYS;
         key->alpha_discard = COMPARE_NEVER;
-        key->kills = 0;
+        key->alpha_coverage = key->kills = 0;
     }
     derive_depth_format(state, key);
     key->depth_output = program && program->interface.depth && pixel_tests_depth(key);

@@ -81,9 +81,9 @@ static inline void finish_float(struct env *e, const struct pixel_source *s, con
                                 int step, msk live)
 {
     const struct pixel_key *k = s->k;
-    if (k->alpha_discard) {
+    if (pixel_tests_alpha(k)) {
         itg alpha = quantize(E, color->channel[3]);
-        live = alpha_test(E, k->alpha_discard, alpha, live);
+        live = test_alpha(E, s, alpha, live);
     }
     finish_tests(E, s, live);
     for (int i = 0; i < s->samples->count; i++)

@@ -6,7 +6,9 @@
  * a live sample, and tested for alpha once. The diffuse and the specular colour are interpolated at the
  * centroid: the centre if all samples are covered, else the first covered sample. So no colour is
  * extrapolated beyond the triangle's edges. Blending and writing are done for each sample. A pixel without
- * multisampling has one sample, at the centre. */
+ * multisampling has one sample, at the centre.
+ *
+ * With alpha to coverage, only the first samples of a pixel remain: of n samples alpha * n, rounded. */
 #ifndef SPEC_PIXEL_MULTISAMPLE_H
 #define SPEC_PIXEL_MULTISAMPLE_H
 
@@ -70,6 +72,18 @@ static inline struct pixel_position centroid(struct env *e, const struct pixel_k
     r.x = select_f(E, all, at->x, r.x);
     r.y = select_f(E, all, at->y, r.y);
     return r;
+}
+
+/* Alpha to coverage: sample i of n remains if alpha, 0 to 255, is at least (2 i + 1) / 2 n of 255. */
+static inline void cover_by_alpha(struct env *e, struct samples *samples, itg alpha)
+{
+    int parts = 2 * samples->count;
+    for (int i = 0; i < samples->count; i++) {
+        itg least = lit_i(E, (255 * (2 * i + 1) + parts - 1) / parts);
+        msk less = gt_i(E, least, alpha);
+        samples->live[i] = andn_m(E, samples->live[i], less);
+        OBSERVE(E, remaining, i, samples->live[i]);
+    }
 }
 
 /* Lanes with any live sample. */

@@ -70,10 +70,10 @@ static inline void finish_packed(struct env *e, const struct pixel_source *s, co
                                  int step, msk live)
 {
     const struct pixel_key *k = s->k;
-    if (k->alpha_discard) {
+    if (pixel_tests_alpha(k)) {
         itg ga = int_of(E, color->ga);
         itg alpha = ushr_i(E, ga, 16);
-        live = alpha_test(E, k->alpha_discard, alpha, live);
+        live = test_alpha(E, s, alpha, live);
     }
     finish_tests(E, s, live);
     for (int i = 0; i < s->samples->count; i++)

@@ -91,7 +91,7 @@ static inline void finish_shader_packed(struct env *e, const struct pixel_source
     struct color color[TARGETS];
     for (int t = 0; t < TARGETS; t++) {
         struct float_color exact = shader_color(m, t);
-        if (!s->k->write_mask[t] && !(t == 0 && s->k->alpha_discard))
+        if (!s->k->write_mask[t] && !(t == 0 && pixel_tests_alpha(s->k)))
             continue;
         color[t] = color_quantize(E, exact.channel);
         if (t == 0)

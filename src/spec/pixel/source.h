@@ -3,7 +3,9 @@
 #ifndef SPEC_PIXEL_SOURCE_H
 #define SPEC_PIXEL_SOURCE_H
 
+#include "contract/key_query.h"
 #include "contract/language.h"
+#include "spec/pixel/alpha.h"
 #include "spec/pixel/interpolate.h"
 #include "spec/pixel/multisample.h"
 #include "spec/pixel/stencil.h"
@@ -35,6 +37,14 @@ static inline void stage_coordinates(struct env *e, const struct pixel_source *s
         v[2] = interpolate(E, s->k, s->layout, s->at, w, varying_third(channel), 0);
 }
 
+/* The alpha test and alpha to coverage. Alpha is 0 to 255. Returns the lanes of `live` that pass the test. */
+static inline msk test_alpha(struct env *e, const struct pixel_source *s, itg alpha, msk live)
+{
+    if (s->k->alpha_coverage)
+        cover_by_alpha(E, s->samples, alpha);
+    return s->k->alpha_discard ? alpha_test(E, s->k->alpha_discard, alpha, live) : live;
+}
+
 /* The tests that wait for shading, in the lanes that shading keeps. */
 static inline void finish_tests(struct env *e, const struct pixel_source *s, msk kept)
 {
@@ -42,7 +52,7 @@ static inline void finish_tests(struct env *e, const struct pixel_source *s, msk
     if (!pixel_waits(s->k))
         return;
     for (int i = 0; i < samples->count; i++) {
-        if (samples->count > 1)
+        if (samples->count > 1 || s->k->alpha_coverage)
             samples->live[i] = and_m(E, samples->live[i], kept);
         else
             samples->live[i] = kept;

@@ -262,6 +262,23 @@ static void samples_come_from_the_target(void)
     }
 }
 
+static void alpha_covers_samples_with_the_alpha_test(void)
+{
+    for (unsigned n = 0; n < SAMPLES_RADIX; n++) {
+        set_target(TRIPTYCH_DEPTH_D24S8, 1u << n);
+        SET(adaptivetess_y, "atoc");
+        SET(alphatestenable, "false");
+        derive();
+        TEST_ASSERT_EQUAL_INT(0, pixel->alpha_coverage);
+        SET(alphatestenable, "true");
+        derive();
+        TEST_ASSERT_EQUAL_INT(n > 0, pixel->alpha_coverage);
+        SET(adaptivetess_y, "none");
+        derive();
+        TEST_ASSERT_EQUAL_INT(0, pixel->alpha_coverage);
+    }
+}
+
 int main(void)
 {
     UNITY_BEGIN();
@@ -274,5 +291,6 @@ int main(void)
     RUN_TEST(the_format_is_in_the_key_where_it_is_read);
     RUN_TEST(reference_and_masks_are_in_the_job_with_the_bits_of_the_stencil);
     RUN_TEST(samples_come_from_the_target);
+    RUN_TEST(alpha_covers_samples_with_the_alpha_test);
     return UNITY_END();
 }

@@ -375,6 +375,63 @@ static void test_samples_are_blended_separately_and_averaged(void)
     on_every_engine(check_blending);
 }
 
+/* Alpha to coverage: of n samples the first round(alpha * n / 255) remain, in colour and in stencil. */
+static void check_alpha_to_coverage(void)
+{
+    struct corner t[3] = {{0, 0, 0, 0}, {2 * EXTENT, 0, 0, 0}, {0, 2 * EXTENT, 0, 0}};
+    for (unsigned which = 0; which < PATTERNS; which++)
+        for (unsigned alpha = 0; alpha < 256; alpha += which == 2 ? 1 : 3) {
+            use_samples(which);
+            set(TRIPTYCH_STATE_STENCILENABLE, "true");
+            set(TRIPTYCH_STATE_STENCILPASS, "incr");
+            set(TRIPTYCH_STATE_ADAPTIVETESS_Y, "atoc");
+            set(TRIPTYCH_STATE_ALPHATESTENABLE, alpha & 1 ? "true" : "false");
+            for (int i = 0; i < 3; i++)
+                t[i].color = alpha << 24 | 0x123456;
+            draw_triangle(t);
+            read_all();
+            unsigned all = samples(), remain = alpha & 1 ? (2 * alpha * all + 255) / 510 : all;
+            for (unsigned i = 0; i < all; i++) {
+                expect_color(i, 5, i < remain ? image_word(t[0].color) : 0, "alpha to coverage");
+                TEST_ASSERT_EQUAL_UINT8(i < remain, stencil[i][5]);
+            }
+        }
+}
+
+static void test_alpha_decides_how_many_samples_remain(void)
+{
+    on_every_engine(check_alpha_to_coverage);
+}
+
+/* The alpha test discards all samples; a target with one sample per pixel has no such coverage. */
+static void check_alpha_to_coverage_with_tests(void)
+{
+    struct corner t[3] = {
+        {0, 0, 0, 0x80ffffff}, {2 * EXTENT, 0, 0, 0x80ffffff}, {0, 2 * EXTENT, 0, 0x80ffffff}};
+    set(TRIPTYCH_STATE_ADAPTIVETESS_Y, "atoc");
+    set(TRIPTYCH_STATE_ALPHATESTENABLE, "true");
+    set(TRIPTYCH_STATE_ALPHAFUNC, "greater");
+    for (unsigned reference = 127; reference < 129; reference++) {
+        use_samples(1);
+        OK(triptych_set_state(device, TRIPTYCH_STATE_ALPHAREF, reference));
+        draw_triangle(t);
+        read_all();
+        for (unsigned i = 0; i < samples(); i++)
+            expect_color(i, 5, i < 2 && reference < 128 ? image_word(t[0].color) : 0, "the alpha test");
+    }
+    OK(triptych_set_target_description(device,
+                                       &(struct triptych_target_description){.width = SIZE, .height = SIZE}));
+    OK(triptych_set_state(device, TRIPTYCH_STATE_ALPHAREF, 0));
+    draw_triangle(t);
+    OK(triptych_read_color(device, image, sizeof image));
+    expect_pixel(5, 0, image_word(t[0].color), "one sample");
+}
+
+static void test_the_alpha_test_precedes_coverage(void)
+{
+    on_every_engine(check_alpha_to_coverage_with_tests);
+}
+
 /* Each sample on the diagonal of a square belongs to one of the square's two triangles. */
 static void check_shared_edges(void)
 {
@@ -449,6 +506,8 @@ int main(void)
     RUN_TEST(test_depth_is_each_samples_own);
     RUN_TEST(test_colours_are_the_centroids);
     RUN_TEST(test_samples_are_blended_separately_and_averaged);
+    RUN_TEST(test_alpha_decides_how_many_samples_remain);
+    RUN_TEST(test_the_alpha_test_precedes_coverage);
     RUN_TEST(test_each_sample_belongs_to_one_of_two_triangles);
     RUN_TEST(test_invalid_numbers_of_samples_and_formats_are_refused);
     return UNITY_END();

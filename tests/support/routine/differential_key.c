@@ -62,7 +62,7 @@ static void stage_usually(uint64_t chance, struct pixel_key *key)
 static void sample_usually(uint64_t chance, struct pixel_key *key)
 {
     if (chance >> 40 & 3)
-        key->samples = key->sample_centers = 0;
+        key->samples = key->sample_centers = key->alpha_coverage = 0;
     for (int t = 1; t < TARGETS && key->samples; t++)
         key->write_mask[t] = key->target[t] = 0;
 }

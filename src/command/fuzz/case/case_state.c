@@ -88,6 +88,7 @@ void case_features(struct maker *maker)
         const char *on, *states;
         uint8_t one_in;
     } features[] = {{"alphatestenable", "alpha", 8},
+                    {"alphatestenable", "adaptivetess_y", 16},
                     {"stencilenable", "stencil", 6},
                     {"alphablendenable", "blend", 6},
                     {"alphablendenable", "src", 6},

@@ -169,6 +169,13 @@ int32_t d3d9_factory_check_device_type(struct d3d9_factory *self, uint32_t adapt
     return d3d9_check_back_buffer(display, back_buffer, windowed) ? D3D9_OK : D3D9_NOT_AVAILABLE;
 }
 
+/* ATOC is not a format of resources: as a surface without usage it announces the vendors' extension alpha to
+ * coverage, which D3DRS_ADAPTIVETESS_Y enables. */
+static bool is_alpha_to_coverage(uint32_t usage, uint32_t type, uint32_t number)
+{
+    return number == TRIPTYCH_TESSELLATION_ATOC && type == D3D9_TYPE_SURFACE && !usage;
+}
+
 int32_t d3d9_factory_check_device_format(struct d3d9_factory *self, uint32_t adapter, uint32_t type,
                                          uint32_t adapter_format, uint32_t usage, uint32_t resource_type,
                                          uint32_t format)
@@ -181,6 +188,8 @@ int32_t d3d9_factory_check_device_format(struct d3d9_factory *self, uint32_t ada
         return result;
     if (!d3d9_format_is_display(adapter_format))
         return D3D9_NOT_AVAILABLE;
+    if (is_alpha_to_coverage(usage, resource_type, format))
+        return D3D9_OK;
     return d3d9_check_format(usage, resource_type, format);
 }
 

@@ -78,6 +78,17 @@ static void checks_of_formats_refuse_other_adapters_and_displays(void)
     TEST_ASSERT_EQUAL_INT32(D3D9_NOT_AVAILABLE, check(0, D3D9_TYPE_SURFACE, TRIPTYCH_SURFACE_D24S8));
 }
 
+/* The extension is announced by a format that no resource can have. */
+static void alpha_to_coverage_is_announced(void)
+{
+    TEST_ASSERT_EQUAL_INT32(D3D9_OK, check(0, D3D9_TYPE_SURFACE, TRIPTYCH_TESSELLATION_ATOC));
+    TEST_ASSERT_EQUAL_INT32(D3D9_NOT_AVAILABLE, check(0, D3D9_TYPE_TEXTURE, TRIPTYCH_TESSELLATION_ATOC));
+    TEST_ASSERT_EQUAL_INT32(D3D9_NOT_AVAILABLE,
+                            check(D3D9_USAGE_RENDER_TARGET, D3D9_TYPE_SURFACE, TRIPTYCH_TESSELLATION_ATOC));
+    TEST_ASSERT_EQUAL_INT32(D3D9_NOT_AVAILABLE,
+                            d3d9_check_format(0, D3D9_TYPE_SURFACE, TRIPTYCH_TESSELLATION_ATOC));
+}
+
 static void device_types_depend_on_displays_and_modes(void)
 {
     const struct {
@@ -177,6 +188,7 @@ int main(void)
     RUN_TEST(formats_of_textures_are_those_of_the_renderer);
     RUN_TEST(formats_of_targets_are_those_of_the_renderer);
     RUN_TEST(checks_of_formats_refuse_other_adapters_and_displays);
+    RUN_TEST(alpha_to_coverage_is_announced);
     RUN_TEST(device_types_depend_on_displays_and_modes);
     RUN_TEST(samples_have_quality_levels);
     RUN_TEST(modes_are_those_of_the_host);
