@@ -45,10 +45,18 @@ static enum triptych_surface_format memory_format(const struct d3d9_format *form
     return own ? 0 : (enum triptych_surface_format)format->number;
 }
 
+/* Texels of such an image can be locked, and have any values. */
+static bool keeps_nothing(const struct d3d9_format *format)
+{
+    return format->number == TRIPTYCH_SURFACE_NULL;
+}
+
 int32_t d3d9_renderer_read(triptych_device *device, const struct triptych_surface *surface,
                            const struct d3d9_format *format, const struct triptych_rectangle *part,
                            void *data, size_t pitch)
 {
+    if (keeps_nothing(format))
+        return D3D9_OK;
     return d3d9_renderer_result(
         triptych_read_rectangle(device, surface, part, memory_format(format), data, pitch));
 }
@@ -57,6 +65,8 @@ int32_t d3d9_renderer_write(triptych_device *device, const struct triptych_surfa
                             const struct d3d9_format *format, const struct triptych_rectangle *part,
                             const void *data, size_t pitch)
 {
+    if (keeps_nothing(format))
+        return D3D9_OK;
     return d3d9_renderer_result(
         triptych_write_rectangle(device, surface, part, memory_format(format), data, pitch));
 }

@@ -47,6 +47,19 @@ static struct d3d9_texture *texture(uint32_t levels, uint32_t usage, uint32_t fo
     return made;
 }
 
+static void a_target_that_keeps_nothing_can_be_locked(void)
+{
+    struct d3d9_surface *surface;
+    struct d3d9_locked_rect locked;
+    TEST_ASSERT_EQUAL_INT32(OK, d3d9_device_create_render_target(device, 16, 16, TRIPTYCH_SURFACE_NULL, 0, 0,
+                                                                 true, &surface, NULL));
+    TEST_ASSERT_EQUAL_INT32(OK, d3d9_surface_lock_rect(surface, &locked, NULL, 0));
+    TEST_ASSERT_EQUAL_INT32(64, locked.pitch);
+    memset(locked.bits, 7, 16 * 64);
+    TEST_ASSERT_EQUAL_INT32(OK, d3d9_surface_unlock_rect(surface));
+    release(surface);
+}
+
 static void rows_are_multiples_of_four_bytes(void)
 {
     struct d3d9_surface *surface = plain(5, 5, R5, D3D9_POOL_SYSTEM);
@@ -236,6 +249,7 @@ static void volumes_check_boxes_in_every_pool(void)
 int main(void)
 {
     UNITY_BEGIN();
+    RUN_TEST(a_target_that_keeps_nothing_can_be_locked);
     RUN_TEST(rows_are_multiples_of_four_bytes);
     RUN_TEST(a_second_lock_is_refused_and_changes_nothing);
     RUN_TEST(the_default_pool_refuses_bad_rectangles);
