@@ -187,8 +187,8 @@ static int32_t lock(struct d3d9_buffer *buffer, uint32_t offset, uint32_t bytes,
     return D3D9_OK;
 }
 
-/* Direct3D does not count: an Unlock without Lock succeeds. Appended bytes are passed on immediately, since no
- * draw that is rendered must wait for them. Where memory is short, the next draw tries again. */
+/* Direct3D does not count: an Unlock without Lock succeeds. Appended bytes are passed on immediately: no draw
+ * has to be preserved from them. If memory is short, the next draw tries again. */
 static int32_t unlock(struct d3d9_buffer *buffer)
 {
     if (buffer->locks)
