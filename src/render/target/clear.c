@@ -1,9 +1,15 @@
-/* The rectangles of a clear, sorted by rows of tiles, so that a tile does not go through those of other rows.
- */
+/* Clears. A tile that is cleared as a whole only remembers the values; its words are filled when they are
+ * needed. The rectangles of a clear are sorted by rows of tiles, so that a tile does not go through those of
+ * other rows. */
 #include "base/minmax.h"
 #include "render/target/target.h"
 
+#include <emmintrin.h>
 #include <string.h>
+
+enum { ALL_CHANNELS = 15 };
+
+/* --- Rectangles --- */
 
 static int32_t first_row(const struct rectangle *r)
 {
@@ -43,5 +49,176 @@ void target_clear_sort(const struct rectangle *rectangles, uint32_t count, struc
             parts->part[next[row]++] =
                 (struct clear_part){(uint16_t)r->x0, (uint16_t)max_i32(r->y0, row * TILE_SIZE),
                                     (uint16_t)r->x1, (uint16_t)min_i32(r->y1, (row + 1) * TILE_SIZE)};
+    }
+}
+
+/* --- Tiles --- */
+
+static void fill(void *words, uint32_t value)
+{
+    __m128i v = _mm_set1_epi32((int)value);
+    for (int i = 0; i < TILE_PIXELS; i += 4)
+        _mm_store_si128((__m128i *)((uint32_t *)words + i), v);
+}
+
+static uint32_t *fill_one(struct target *target, unsigned t, uint32_t tile)
+{
+    const struct target_color *color = target->colors + t;
+    struct color_clear *clear = target_color_clear(target, t, tile);
+    uint32_t *words = target_color_words(target, color, tile);
+    uint32_t planes = storage_planes[color->storage];
+    for (uint32_t p = 0; p < planes * target->samples && clear->pending; p++)
+        fill(words + (p / planes * target->planes + p % planes) * TILE_PIXELS, clear->word[p % planes]);
+    clear->pending = false;
+    clear->changed = true;
+    return words;
+}
+
+uint32_t *target_fill_color(struct target *target, uint32_t tile)
+{
+    for (unsigned t = 0; t < TARGETS; t++)
+        if (target->colors[t].clear)
+            fill_one(target, t, tile);
+    return target_tile_color(target, tile);
+}
+
+uint32_t *target_fill_depth(struct target *target, uint32_t tile)
+{
+    uint32_t *words = target_tile_depth(target, tile);
+    struct depth_clear *clear = target_depth_clear(target, tile);
+    uint32_t planes = clear->pending ? target->samples : 0;
+    for (uint32_t p = 0; p < planes; p++)
+        fill(words + p * TILE_PIXELS, clear->word);
+    clear->pending = false;
+    clear->changed = true;
+    return words;
+}
+
+void target_forget_depth(struct target *target, uint32_t tile)
+{
+    target_depth_clear(target, tile)->range = (struct depth_range){0, depth_mask(target->depth_format)};
+}
+
+static bool same_area(const struct rectangle *a, const struct rectangle *b)
+{
+    return !memcmp(a, b, sizeof *a);
+}
+
+static uint32_t merged(uint32_t old, uint32_t new, uint32_t mask)
+{
+    return (old & ~mask) | (new &mask);
+}
+
+/* Sets the bits of the mask in a plane's words of the part of a tile. */
+static void merge_part(uint32_t *plane, const struct rectangle *part, uint32_t value, uint32_t mask)
+{
+    uint32_t first = (uint32_t)part->x0 % TILE_SIZE, count = (uint32_t)(part->x1 - part->x0);
+    uint32_t column[TILE_SIZE];
+    for (uint32_t i = 0; i < count; i++)
+        column[i] = pixel_word(first + i, 0);
+    for (int32_t y = part->y0; y < part->y1; y++) {
+        uint32_t *row = plane + pixel_word(0, (uint32_t)y % TILE_SIZE);
+        for (uint32_t i = 0; i < count; i++)
+            row[column[i]] = merged(row[column[i]], value, mask);
+    }
+}
+
+/* The bits of the words of each of a colour's planes that belong to the channels. */
+static void channel_masks(const struct target_color *color, uint32_t channels, uint32_t masks[4])
+{
+    bool packed = storage_planes[color->storage] == 1;
+    memset(masks, 0, 4 * sizeof *masks);
+    for (unsigned c = 0; c < 4; c++)
+        if (channels >> c & 1)
+            masks[packed ? 0 : c] |= packed ? 0xffu << 8 * c : UINT32_MAX;
+}
+
+/* Clears a colour's pixels of `part`. */
+static void clear_color(struct target *target, unsigned t, uint32_t tile, const struct clear *clear,
+                        const struct rectangle *part)
+{
+    const struct target_color *color = target->colors + t;
+    uint32_t planes = storage_planes[color->storage], number = target_tile_in(target, color->columns, tile);
+    struct rectangle whole = target_attachment_area(color->attachment, number);
+    const uint32_t *value = clear->color + color->plane;
+    struct color_clear *pending = color->clear + number;
+    uint32_t masks[4];
+    channel_masks(color, ALL_CHANNELS & ~clear->kept_channels, masks);
+    if (same_area(part, &whole) && (pending->pending || !clear->kept_channels)) {
+        for (uint32_t p = 0; p < planes; p++)
+            pending->word[p] = merged(pending->word[p], value[p], masks[p]);
+        pending->pending = pending->changed = true;
+        return;
+    }
+    uint32_t *words = fill_one(target, t, tile);
+    for (uint32_t p = 0; p < target->samples * planes; p++)
+        merge_part(words + (p / planes * target->planes + p % planes) * TILE_PIXELS, part, value[p % planes],
+                   masks[p % planes]);
+}
+
+/* Returns true if every used bit of the words is set, so their old values do not matter. */
+static bool sets_whole_word(const struct target *target, const struct clear *clear)
+{
+    enum triptych_depth_format format = target->depth_format;
+    return clear->depth_mask == (depth_mask(format) | stencil_mask(format));
+}
+
+/* Updates the bounds of a tile's depth for a clear, of the whole tile or of a part. */
+static void note_cleared_depth(const struct target *target, const struct clear *clear,
+                               struct depth_clear *tile, bool whole)
+{
+    uint32_t mask = depth_mask(target->depth_format), depth = clear->depth & mask;
+    if (!(clear->depth_mask & mask))
+        return;
+    if (whole)
+        tile->range = (struct depth_range){depth, depth};
+    tile->range.least = min_u32(depth, tile->range.least);
+    tile->range.most = max_u32(depth, tile->range.most);
+}
+
+static void clear_depth(struct target *target, uint32_t tile, const struct clear *clear,
+                        const struct rectangle *part)
+{
+    uint32_t number = target_tile_in(target, target->depth_columns, tile);
+    struct rectangle whole = target_attachment_area(target->depth_attachment, number);
+    struct depth_clear *pending = target->depth_clear + number;
+    bool all = same_area(part, &whole) && (pending->pending || sets_whole_word(target, clear));
+    note_cleared_depth(target, clear, pending, all);
+    if (all) {
+        pending->word = (pending->word & ~clear->depth_mask) | clear->depth;
+        pending->pending = pending->changed = true;
+        return;
+    }
+    uint32_t *words = target_fill_depth(target, tile);
+    for (uint32_t p = 0; p < target->samples; p++)
+        merge_part(words + p * TILE_PIXELS, part, clear->depth, clear->depth_mask);
+}
+
+static void clear_area(struct target *target, uint32_t tile, const struct clear *clear,
+                       const struct rectangle *area)
+{
+    struct rectangle has = target_tile_area(target, tile);
+    struct rectangle part = {max_i32(has.x0, area->x0), max_i32(has.y0, area->y0), min_i32(has.x1, area->x1),
+                             min_i32(has.y1, area->y1)};
+    if (part.x0 >= part.x1 || part.y0 >= part.y1)
+        return;
+    for (unsigned t = 0; t < TARGETS && clear->set_color; t++)
+        if (target->colors[t].clear)
+            clear_color(target, t, tile, clear, &part);
+    if (clear->depth_mask && target->depth)
+        clear_depth(target, tile, clear, &part);
+}
+
+void target_clear_tile(struct target *target, uint32_t tile, const struct clear *clear)
+{
+    const struct clear_parts *parts = clear->parts;
+    uint32_t row = tile / target->columns;
+    if (!parts) {
+        clear_area(target, tile, clear, &clear->area);
+        return;
+    }
+    for (uint32_t i = parts->begin[row]; i < parts->begin[row + 1]; i++) {
+        const struct clear_part *part = parts->part + i;
+        clear_area(target, tile, clear, &(struct rectangle){part->x0, part->y0, part->x1, part->y1});
     }
 }

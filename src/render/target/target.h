@@ -123,6 +123,13 @@ static inline uint32_t *target_tile_color(const struct target *target, uint32_t 
     return target->color + (size_t)target_tile_in(target, target->color_columns, tile) * target->color_stride;
 }
 
+/* The first plane of one of the colours. */
+static inline uint32_t *target_color_words(const struct target *target, const struct target_color *color,
+                                           uint32_t tile)
+{
+    return target_tile_color(target, tile) + color->plane * TILE_PIXELS;
+}
+
 static inline uint32_t *target_tile_depth(const struct target *target, uint32_t tile)
 {
     return target->depth +
@@ -161,7 +168,8 @@ uint32_t *target_fill_color(struct target *target, uint32_t tile);
 uint32_t *target_fill_depth(struct target *target, uint32_t tile);
 void target_forget_depth(struct target *target, uint32_t tile);
 
-/* The part of a tile of an attachment, by its own numbers, that has pixels. */
+/* The part of a tile that has pixels of the target; of an attachment, by its own numbers. */
+struct rectangle target_tile_area(const struct target *target, uint32_t tile);
 struct rectangle target_attachment_area(const struct attachment *attachment, uint32_t tile);
 
 /* Copies a plane of a tile to rows of an image that are `pitch` words apart; and a constant. `area` is the
