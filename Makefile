@@ -135,7 +135,7 @@ unity_flags = -isystem $(dir $(UNITY_SOURCE)) -DUNITY_INCLUDE_DOUBLE -DUNITY_USE
 
 # --- What to build ------------------------------------------------------------------------------------------
 
-.PHONY: all programs objects check test check-threads check-explore matrix coverage soak soak-faults soak-memory bench peers bench-shaders bench-draws bench-targets claims conformance-d3d9 programs-d3d9 mutations gallery verify-external docs fuzzers fuzz-input fuzz-input-smoke dependencies packages install clean format format-check compile_commands.json d3d9 lab labs help FORCE
+.PHONY: all programs objects check test check-threads check-explore matrix coverage soak soak-faults soak-memory bench peers bench-shaders bench-passes bench-draws bench-targets claims conformance-d3d9 programs-d3d9 mutations gallery verify-external docs fuzzers fuzz-input fuzz-input-smoke dependencies packages install clean format format-check compile_commands.json d3d9 lab labs help FORCE
 
 all: $(BUILD)/libtriptych.a $(if $(SANITIZE),,$(BUILD)/libtriptych.so $(PKGCONFIG) \
   $(BUILD)/include/triptych/triptych.h) $(COMMAND) build/glmark2 \
@@ -540,6 +540,12 @@ bench-shaders:
 	+@$(MAKE) $(jobs) all
 	@BUILD=$(BUILD) bench/shaders.sh
 
+# Leaves passes of the specializer out, and measures the parts of a build (bench/passes.sh).
+bench-passes:
+	@tests/support/scripts/dependencies.sh build bench
+	+@$(MAKE) $(jobs) all
+	@BUILD=$(BUILD) bench/passes.sh
+
 # Measures draws of one small triangle per second, with one change of the state before each draw
 # (bench/draws.c).
 $(BUILD)/bench/draws: $(BUILD)/object/bench/draws.o $(BUILD)/libtriptych.a
@@ -697,6 +703,7 @@ make peers           measures Mesa's softpipe and llvmpipe, SwiftShader and ever
 make conformance-d3d9  Wine's Direct3D 9 tests, on Triptych and on Wine's own Direct3D 9: results/conformance.md
 make programs-d3d9   programs for Windows, on Triptych and on Wine's own Direct3D 9: results/programs.json
 make bench-shaders   measures every shader in tests/data/shading, by shader and by length
+make bench-passes    leaves passes of the specializer out, and measures the parts of a build
 make bench-draws     draws per second of one small triangle, one change of the state before each
 make bench-targets   the time to draw to a texture and return to the target
 make claims          tests the claims of the thesis and of other renderers, an hour: results/claims.json, results/report

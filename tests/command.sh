@@ -390,6 +390,22 @@ holds 'and writes JSON' grep -q '"first_p99_us":' "$work/builds.json"
 answers 'bench of code prints the instructions of each unit' '^specialize-1 +pixel +1 +1[.]0 +[0-9.]+ +[1-9]' \
     bench "$work/good.tri" --code --engines specialize-1,specialize-8,emulate --json "$work/code.json"
 holds 'and writes a row for each routine' test "$(grep -c '"frame":' "$work/code.json")" = 9
+answers 'bench of parts prints a row for each part' '^dead +[0-9.]+ +[0-9.]+ +[0-9.]+ +[1-9]' bench "$work/good.tri" --parts \
+    --engines specialize-8,specialize-8:unroll --repetitions 3 --json "$work/parts.json"
+holds 'and writes an object for each engine and unit' test "$(grep -c '"recorded":' "$work/parts.json")" = 8
+refuses 'parts of an engine without them' 'engine emulate has no parts, expected specialize' \
+    bench "$work/good.tri" --parts --engines emulate
+refuses 'an option that no engine has' 'engine specialize-8:unrol: found the option "unrol", .* did you mean "unroll"\?$' \
+    verify "$work/good.tri" --engines specialize-8:unrol
+refuses 'an engine without options' 'engine emulate:unroll: emulate takes no options$' verify "$work/good.tri" --engines emulate:unroll
+refuses 'registers that the engine does not have' 'registers is "14", expected a whole number from 0 to 13$' \
+    dump "$work/good.tri" --engine specialize-8 --registers 14
+refuses 'a misspelled pass' '[-]-without is "comon", .* did you mean "common"\?$' fuzz --count 1 --without comon
+refuses 'registers of engines without options' 'none of the engines takes --registers' \
+    verify "$work/good.tri" --engines emulate,batch --registers 4
+answers 'options apply to the engines that take them' '^1 streams, 3 engines, identical$' verify "$work/good.tri" --frames 1 \
+    --engines batch,specialize-8,specialize-4:unroll --registers 5 --without fold --without common
+answers 'options are listed' '^without +a pass ' list options
 answers 'bench of cold frames prints a row for each stream and engine' '^good +tiered +[0-9.]+ +[0-9.]+ ' \
     bench "$work/good.tri" --cold --engines tiered --repetitions 3 --json "$work/cold.json"
 holds 'and writes JSON too' grep -q '"thread_first":' "$work/cold.json"
@@ -444,6 +460,7 @@ refuses 'dump of an engine without code' 'emulate makes no code' dump "$work/goo
 if "$TRIPTYCH" list engines | grep -q '^specialize .* available '; then
     answers 'dump of every stage' '== asm' dump "$work/good.tri" --show all
     answers 'a pass that changes nothing is reported' '^nothing changed' dump "$work/good.tri" --show phi
+    answers 'dump of the parts of a build' '^encode +[0-9.]+ ' dump "$work/good.tri" --show parts
     answers 'a pass that an engine leaves out is reported' '^== hoist: this engine does not run it' \
         dump "$work/good.tri" --show hoist --engine specialize-thesis
     for stage in record dead asm; do

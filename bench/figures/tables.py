@@ -15,6 +15,8 @@ COMMANDS = {
     "verify": "make bench",
     "shaders": "make bench-shaders",
     "flow": "make bench-shaders",
+    "passes": "make bench-passes",
+    "parts": "make bench-passes",
     "peers": "make peers",
     "fuzz": "triptych fuzz",
     "programs": "make programs-d3d9",
@@ -230,6 +232,72 @@ def builds(*engines):
             times = [significant(entry[each + "_us"]) for each in ("median", "p90", "p99", "most")]
             rows.append([f"`{engine}`", what, f"{entry['count']:,.0f}"] + times)
     return markdown(headings, rows, 2)
+
+
+# The streams of bench/passes.sh by kind.
+PASS_STREAMS = {
+    "fixed function": ("bunny", "teapot-bilinear", "street"),
+    "shaders": ("bricks", "water", "solids"),
+    "loops": ("fractals", "rays", "defined"),
+}
+
+
+def parts_of(engine, unit="all"):
+    return only(load("parts")["engines"], "parts", engine=engine, unit=unit)
+
+
+@text
+def passes(base):
+    """Without each pass: instructions left, build time, and times of frames as quotients to all passes."""
+    engines = dict.fromkeys(each["engine"] for each in load("parts")["engines"])
+    rows = []
+    for engine in engines:
+        entry = parts_of(engine)
+        build = only(entry["parts"], engine, part="all")["median_us"]
+        quotients = [
+            results.geometric_mean(
+                results.stream("passes", name, engine, "frame_ms") / results.stream("passes", name, base, "frame_ms")
+                for name in names
+            )
+            for names in PASS_STREAMS.values()
+        ]
+        rows.append(
+            [f"`{engine}`", significant(entry["left"] / entry["routines"]), significant(entry["spills"] / entry["routines"])]
+            + [significant(build)]
+            + [f"{quotient:.2f}" for quotient in quotients]
+        )
+    return markdown(["", "instructions", "spills", "build, µs"] + list(PASS_STREAMS), rows)
+
+
+@text
+def build_parts(*engines):
+    """The parts of a build: medians, and the shares of the time of all builds."""
+    names = [each["part"] for each in parts_of(engines[0])["parts"]]
+    rows = []
+    for name in names:
+        row = [name]
+        for engine in engines:
+            part = only(parts_of(engine)["parts"], engine, part=name)
+            row += [significant(part["median_us"]), significant(part["p99_us"]), f"{100 * part['share']:.1f}"]
+        rows.append(row)
+    headings = [heading for engine in engines for heading in (f"`{engine}`: µs", "99 %", "share, %")]
+    return markdown([""] + headings, rows)
+
+
+@text
+def staircase(*engines):
+    """Instructions after the first run of each pass, over all routines, as quotients to those recorded."""
+    shown = [each["part"] for each in parts_of(engines[0])["parts"] if each["part"] not in ("allocate", "select", "encode", "all")]
+    rows = []
+    for name in shown:
+        row = ["all runs" if name == "compact" else name]
+        for engine in engines:
+            part = only(parts_of(engine)["parts"], engine, part=name)
+            row += [f"{100 * part['first_left'] / parts_of(engine)['recorded']:.1f}"]
+            row += [f"{part['removed']:,.0f}" if part["runs"] else ""]
+        rows.append(row)
+    headings = [heading for engine in engines for heading in (f"`{engine}`: left, %", "removed")]
+    return markdown([""] + headings, rows)
 
 
 @text

@@ -11,7 +11,6 @@
  * If interrupted (interrupt.h), the command reports the streams that are done, and the one at hand if each
  * engine has REPETITIONS_MINIMUM. */
 #include "command/bench/bench_builds.h"
-#include "command/bench/bench_cold.h"
 #include "command/bench/bench_compare.h"
 #include "command/bench/bench_report.h"
 #include "command/bench/bench_shaders.h"
@@ -38,6 +37,7 @@ struct settings {
     double seconds;
     bool shaders; /* a table of each shader */
     bool builds;  /* routines are built, no picture is drawn */
+    bool parts;   /* routines are built, and the parts of each build measured */
     bool code;    /* routines are built, and their instructions counted */
     bool cold;    /* frames whose routines are not built yet */
     bool no_cache;
@@ -215,6 +215,9 @@ static const char notes[] =
     "between two commands a machine can change more.\n"
     "With --builds, each repetition builds every routine that the streams' draws need once. The report has\n"
     "the medians for single routines and for the three routines of a draw.\n"
+    "With --parts, the report has the time of each part of a build by the specializer, over all routines, "
+    "and\n"
+    "of each pass its runs, the instructions that it removed and those left after its first run.\n"
     "With --code, the report has the instructions of the routines, those that read and write memory, and "
     "those\n"
     "that do so in the stack frame; the file of --json has them for each routine.\n"
@@ -261,6 +264,9 @@ static int run(const struct command *self, void *data, const struct operands *op
     interrupt_defer();
     if (settings->builds)
         return bench_builds(self, operands->value, count, &engines, settings->repetitions, settings->json);
+    if (settings->parts)
+        return bench_parts(self, operands->value, count, settings->engines, &engines, settings->repetitions,
+                           settings->json);
     if (settings->code)
         return bench_code(self, operands->value, count, &engines, settings->json);
     if (settings->cold)
@@ -287,6 +293,8 @@ static const struct option options[] = {
      OPTION_IS_FLAG(struct settings, shaders)},
     {"builds", NULL, "measure instead the time to build the streams' routines",
      OPTION_IS_FLAG(struct settings, builds)},
+    {"parts", NULL, "measure instead the parts of a build: recording, each pass, allocation, code",
+     OPTION_IS_FLAG(struct settings, parts)},
     {"code", NULL, "count instead the instructions and memory operands of the streams' routines",
      OPTION_IS_FLAG(struct settings, code)},
     {"cold", NULL, "measure instead the first frames of a new device", OPTION_IS_FLAG(struct settings, cold)},

@@ -7,7 +7,7 @@
  * changes the second clock less. It excludes background threads and other rendering threads. Engines take
  * turns; the results are medians over the repetitions. If interrupted, the command reports the repetitions
  * that all engines have done. */
-#include "command/bench/bench_cold.h"
+#include "command/bench/bench_builds.h"
 
 #include "base/clock.h"
 #include "command/bench/execution.h"

@@ -62,6 +62,18 @@ static size_t too_long(enum unit unit, struct error *error)
     return 0;
 }
 
+void specialize_allocate(struct builder *b, const struct build_options *options)
+{
+    struct register_file file = options->file;
+    file.wide = options->width == 16;
+    file.scalar = options->width == 1;
+    allocate_registers(&b->ir, &b->allocation, &file);
+    b->emitter.ir = &b->ir;
+    b->emitter.allocation = &b->allocation;
+    b->emitter.width = options->width;
+    b->emitter.length = emit_length_of(options->width);
+}
+
 static size_t build_phases(struct builder *b, const struct build_options *options, enum unit unit,
                            const union key *key, pass_observer *observer, void *context, struct error *error)
 {
@@ -73,14 +85,7 @@ static size_t build_phases(struct builder *b, const struct build_options *option
         return 0;
     if (b->ir.overflow)
         return too_long(unit, error);
-    struct register_file file = options->file;
-    file.wide = options->width == 16;
-    file.scalar = options->width == 1;
-    allocate_registers(&b->ir, &b->allocation, &file);
-    b->emitter.ir = &b->ir;
-    b->emitter.allocation = &b->allocation;
-    b->emitter.width = options->width;
-    b->emitter.length = emit_length_of(options->width);
+    specialize_allocate(b, options);
     return emit_routine(&b->emitter, unit, key, error);
 }
 

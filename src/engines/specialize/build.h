@@ -38,6 +38,9 @@ struct builder {
 struct builder *specialize_take(struct error *error);
 void specialize_give(struct builder *builder);
 
+/* Allocates registers for the program in builder->ir, and prepares the emission of its code. */
+void specialize_allocate(struct builder *builder, const struct build_options *options);
+
 /* Records, optimises, allocates and encodes to builder->emitter.code, under the contract's MXCSR. Returns the
  * number of bytes, or 0 with the reason. `observer` may be null. */
 size_t specialize_code(struct builder *builder, const struct build_options *options, enum unit unit,

@@ -6,6 +6,7 @@
 #include "machine/code.h"
 #include "machine/disassemble.h"
 #include "engines/specialize/build.h"
+#include "engines/specialize/parts.h"
 #include "engines/specialize/specialize.h"
 
 #include <stdlib.h>
@@ -21,21 +22,25 @@ struct dump {
     uint32_t ran;                    /* bit p: pass p has run */
 };
 
-/* Returns true if `name` is one of the comma-separated words of `show`, or if `all` is. */
-static bool shows(const char *show, const char *name)
+/* Returns true if `name` is one of the comma-separated words of `show`. */
+static bool names_word(const char *show, const char *name)
 {
     size_t length = strlen(name);
-    for (const char *at = show; *at; at += strcspn(at, ","), at += *at == ',') {
-        size_t word = strcspn(at, ",");
-        if ((word == length && !memcmp(at, name, length)) || (word == 3 && !memcmp(at, "all", 3)))
+    for (const char *at = show; *at; at += strcspn(at, ","), at += *at == ',')
+        if (strcspn(at, ",") == length && !memcmp(at, name, length))
             return true;
-    }
     return false;
+}
+
+/* The same, or `all` is. */
+static bool shows(const char *show, const char *name)
+{
+    return names_word(show, name) || names_word(show, "all");
 }
 
 const char *specialize_phase_name(unsigned index)
 {
-    static const char *const phases[] = {"all", "key", "record", "intervals", "asm"};
+    static const char *const phases[] = {"all", "key", "record", "intervals", "asm", "parts"};
     const unsigned count = sizeof phases / sizeof *phases;
     return index < count ? phases[index] : index - count < PASS_COUNT ? pass_name(index - count) : NULL;
 }
@@ -54,8 +59,8 @@ static int check_words(const char *show, struct error *error)
         unsigned index;
         if (words_find(phases, at, length, &index))
             continue;
-        error_set(error, "found `%.*s`, expected key, record, a pass, intervals, asm or all", (int)length,
-                  at);
+        error_set(error, "found `%.*s`, expected key, record, a pass, intervals, asm, parts or all",
+                  (int)length, at);
         return words_suggest_in(phases, at, length, error);
     }
     return 0;
@@ -138,6 +143,19 @@ static int dump_phases(struct dump *dump, const struct build_options *options, e
     return 0;
 }
 
+static int dump_parts(const struct engine *engine, enum unit unit, const union key *key, FILE *out,
+                      struct error *error)
+{
+    struct build_parts parts;
+    if (specialize_measure(engine, unit, key, &parts, error) ||
+        specialize_measure(engine, unit, key, &parts, error))
+        return -1;
+    fprintf(out,
+            "\n== parts: the time of each part of a second build, and what is left after its first run\n");
+    specialize_print_parts(&parts, out);
+    return 0;
+}
+
 int specialize_dump(const struct engine *engine, enum unit unit, const union key *key, const char *show,
                     FILE *out, struct error *error)
 {
@@ -155,6 +173,8 @@ int specialize_dump(const struct engine *engine, enum unit unit, const union key
     int result = program ? program_text_open(program, &text, error) : 0;
     if (!result)
         result = dump_phases(&dump, &options, unit, key, error);
+    if (!result && names_word(show, "parts"))
+        result = dump_parts(engine, unit, key, out, error);
     program_text_free(&text);
     specialize_give(b);
     return result;

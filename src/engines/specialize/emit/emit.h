@@ -66,7 +66,8 @@ struct emitter {
     const struct allocation *allocation;
     struct encoder encoder;
     enum vector_length length;
-    unsigned width;    /* lanes of a register: 1, 4, 8 or 16 */
+    bool silent;    /* no code is written, and the result is 0: only the choice of instructions is measured */
+    unsigned width; /* lanes of a register: 1, 4, 8 or 16 */
     uint32_t position; /* of the instruction whose code is written */
     uint32_t
         selected; /* the code of all instructions before this one is written; groups are written together */

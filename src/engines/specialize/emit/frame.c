@@ -376,7 +376,8 @@ static int32_t constants_field(enum unit unit, const union key *key)
 
 size_t emit_routine(struct emitter *m, enum unit unit, const union key *key, struct error *error)
 {
-    encode_start(&m->encoder, m->code, sizeof m->code, m->labels, LABEL_FREE, m->fixups, FIXUP_CAPACITY);
+    encode_start(&m->encoder, m->code, m->silent ? 0 : sizeof m->code, m->labels, LABEL_FREE, m->fixups,
+                 FIXUP_CAPACITY);
     m->literals = m->lines = m->unwinds = m->regions = m->region_depth = 0;
     m->exceeded = NULL;
     if (m->allocation->slots > SPILL_CAPACITY)

@@ -1,0 +1,154 @@
+#include "engines/specialize/parts.h"
+
+#include "engines/specialize/build.h"
+#include "engines/specialize/specialize.h"
+#include "machine/mxcsr.h"
+
+#include <string.h>
+
+const char *specialize_part_name(unsigned part)
+{
+    static const char *const names[] = {"compact", "allocate", "select", "encode"};
+    if (part == BUILD_RECORD)
+        return "record";
+    if (part < BUILD_COMPACT)
+        return pass_name(part - BUILD_PASSES);
+    return part < BUILD_PARTS ? names[part - BUILD_COMPACT] : NULL;
+}
+
+static uint32_t count_instructions(const struct ir *ir)
+{
+    uint32_t count = 0;
+    for (uint32_t n = 1; n < ir->count; n++)
+        count += ir->instruction[n].op != IR_nop;
+    return count;
+}
+
+/* The context of the observer. */
+struct measurement {
+    struct build_parts *parts;
+    uint64_t since; /* the end of the previous part */
+    uint32_t left;  /* instructions, at that time */
+};
+
+static void after_pass(void *context, enum pass pass, unsigned changed, const struct ir *ir)
+{
+    struct measurement *m = context;
+    struct build_part *part = &m->parts->part[BUILD_PASSES + pass];
+    part->ns += clock_ns() - m->since;
+    uint32_t left = changed ? count_instructions(ir) : m->left;
+    if (!part->runs++)
+        part->first_left = left;
+    part->removed += (int32_t)(m->left - left);
+    m->left = left;
+    m->since = clock_ns();
+}
+
+static void end_part(struct measurement *m, unsigned part)
+{
+    uint64_t now = clock_ns();
+    m->parts->part[part].ns = now - m->since;
+    m->since = clock_ns();
+}
+
+static void measure_passes(struct builder *b, const struct build_options *options, struct measurement *m)
+{
+    m->parts->recorded = m->left = count_instructions(&b->ir);
+    b->pass.lanes = options->width;
+    b->pass.parts = options->parts;
+    m->since = clock_ns();
+    pass_run_all(&b->ir, &b->pass, pass_select(options->profile, options->enabled, options->disabled),
+                 after_pass, m);
+    end_part(m, BUILD_COMPACT);
+    m->parts->left = m->left;
+}
+
+/* The first of the three rounds only loads caches. */
+static int measure_code(struct builder *b, enum unit unit, const union key *key, struct measurement *m,
+                        struct error *error)
+{
+    b->emitter.silent = true;
+    emit_routine(&b->emitter, unit, key, NULL);
+    m->since = clock_ns();
+    emit_routine(&b->emitter, unit, key, NULL);
+    end_part(m, BUILD_SELECT);
+    b->emitter.silent = false;
+    m->since = clock_ns();
+    m->parts->bytes = (uint32_t)emit_routine(&b->emitter, unit, key, error);
+    end_part(m, BUILD_ENCODE);
+    struct build_part *part = m->parts->part;
+    part[BUILD_ENCODE].ns -=
+        part[BUILD_ENCODE].ns < part[BUILD_SELECT].ns ? part[BUILD_ENCODE].ns : part[BUILD_SELECT].ns;
+    return m->parts->bytes ? 0 : -1;
+}
+
+static int measure(struct builder *b, const struct build_options *options, enum unit unit,
+                   const union key *key, struct build_parts *parts, struct error *error)
+{
+    struct measurement m = {.parts = parts, .since = clock_ns()};
+    ir_record(&b->ir, unit, key);
+    end_part(&m, BUILD_RECORD);
+    if (!b->ir.overflow)
+        measure_passes(b, options, &m);
+    if (b->ir.overflow)
+        return error_set(error, "the %s routine takes more than %d operations", unit_name[unit],
+                         IR_CAPACITY - 1);
+    m.since = clock_ns();
+    specialize_allocate(b, options);
+    end_part(&m, BUILD_ALLOCATE);
+    parts->spills = b->allocation.spills;
+    return measure_code(b, unit, key, &m, error);
+}
+
+/* Passes that did not run leave what the one before left. */
+static void fill_gaps(struct build_parts *parts)
+{
+    uint32_t left = parts->recorded;
+    for (unsigned p = BUILD_RECORD; p < BUILD_PARTS; p++) {
+        struct build_part *part = &parts->part[p];
+        if (p >= BUILD_COMPACT)
+            left = parts->left;
+        else if (part->runs)
+            left = part->first_left;
+        part->first_left = left;
+    }
+}
+
+int specialize_measure(const struct engine *engine, enum unit unit, const union key *key,
+                       struct build_parts *parts, struct error *error)
+{
+    memset(parts, 0, sizeof *parts);
+    struct builder *b = specialize_take(error);
+    if (!b)
+        return -1;
+    const struct build_options options = specialize_options(engine, unit);
+    unsigned saved = mxcsr_enter();
+    int result = measure(b, &options, unit, key, parts, error);
+    mxcsr_leave(saved);
+    specialize_give(b);
+    fill_gaps(parts);
+    return result;
+}
+
+void specialize_print_parts(const struct build_parts *parts, FILE *out)
+{
+    uint64_t total = 0;
+    for (unsigned p = 0; p < BUILD_PARTS; p++)
+        total += parts->part[p].ns;
+    fprintf(out, "%-10s %8s %6s %5s %8s %6s\n", "part", "us", "share", "runs", "removed", "left");
+    for (unsigned p = 0; p < BUILD_PARTS; p++) {
+        const struct build_part *part = &parts->part[p];
+        bool pass = p >= BUILD_PASSES && p < BUILD_COMPACT;
+        if (pass && !part->runs)
+            continue;
+        fprintf(out, "%-10s %8.1f %5.1f%%", specialize_part_name(p), (double)part->ns / 1e3,
+                total ? 100.0 * (double)part->ns / (double)total : 0.0);
+        if (pass)
+            fprintf(out, " %5u %8d %6u", part->runs, (int)part->removed, part->first_left);
+        else if (p == BUILD_RECORD)
+            fprintf(out, " %5s %8s %6u", "", "", part->first_left);
+        fputc('\n', out);
+    }
+    fprintf(out, "%-10s %8.1f; %u instructions become %u, %u bytes, %u spilled\n", "all", (double)total / 1e3,
+            parts->recorded, parts->left, parts->bytes, parts->spills);
+}
