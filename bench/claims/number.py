@@ -3,8 +3,8 @@
 A number has a value and the ends of an interval around it. A number that was counted has an interval without width. A number
 that was read from a list of runs keeps the runs: its value is their median, with the interval of the sign test. The
 quotient of two such numbers is that of Hodges and Lehmann with the interval of Mann and Whitney, as in
-src/command/bench/interval.h. With fewer runs than these tests need, the interval contains all values. Other operations combine
-the ends of the intervals.
+src/command/bench/interval.h. With fewer runs than these tests need, the interval contains all values. Means combine the intervals
+in quadrature; other operations combine their ends.
 """
 
 import functools
@@ -129,6 +129,29 @@ def monotone(function):
     return summary
 
 
+def averaged(function, scale, back):
+    """A mean. Its parts were measured independently, so the distances to their ends combine in quadrature: after `scale`, the mean's
+    distance to an end is the root of the sum of the squares, divided by the number of parts."""
+
+    def summary(numbers):
+        check_numbers(numbers)
+        value = function([each.value for each in numbers])
+        ends = []
+        for end in ("low", "high"):
+            distances = [scale(getattr(each, end)) - scale(each.value) for each in numbers]
+            distance = math.sqrt(sum(each * each for each in distances)) / len(numbers)
+            ends.append(back(scale(value) + (distance if end == "high" else -distance)) if distance else value)
+        return Number(value, *ends)
+
+    return summary
+
+
+def logarithm(value):
+    if value <= 0:
+        raise NoValue("a geometric mean needs positive numbers")
+    return math.log(value)
+
+
 def check_numbers(numbers):
     if not numbers:
         raise NoValue("a list is empty")
@@ -137,20 +160,14 @@ def check_numbers(numbers):
             raise NoValue(f"'{each}' is not a number")
 
 
-def geometric_mean(values):
-    if min(values) <= 0:
-        raise NoValue("a geometric mean needs positive numbers")
-    return math.exp(sum(map(math.log, values)) / len(values))
-
-
 def quantile(values, share):
     ordered = sorted(values)
     return ordered[min(int(share * len(ordered)), len(ordered) - 1)]
 
 
 SUMMARIES = {
-    "mean": monotone(lambda values: sum(values) / len(values)),
-    "geomean": monotone(geometric_mean),
+    "mean": averaged(lambda values: sum(values) / len(values), float, float),
+    "geomean": averaged(lambda values: math.exp(sum(map(logarithm, values)) / len(values)), logarithm, math.exp),
     "median": monotone(lambda values: middle(sorted(values))),
     "p90": monotone(lambda values: quantile(values, 0.9)),
     "p99": monotone(lambda values: quantile(values, 0.99)),

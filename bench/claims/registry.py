@@ -119,7 +119,7 @@ class Experiment:
             record.fail("two runs have the same name")
 
     def run(self, record, text):
-        match = RUN.fullmatch(text)
+        match = RUN.fullmatch(text.replace("\n", " "))
         if not match:
             record.fail(f"the run '{text}' is not NAME: COMMAND")
         return match.groups()

@@ -199,9 +199,7 @@ def experiments_section(registry, reports):
 
 
 def machine_table(machine):
-    lanes = ", ".join(
-        f"{each.get('name')} {each.get('lanes')}" for each in machine["engines"] if isinstance(each, dict) and each.get("lanes")
-    )
+    lanes = ", ".join(f"{each['engine']} {each['width']}" for each in machine["engines"] if each["runs"] == "always")
     rows = {
         "processor": f"{machine['cpu']}, {machine['cores']} threads of hardware",
         "kernel": machine["kernel"],

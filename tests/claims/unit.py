@@ -129,6 +129,16 @@ def test_ends_of_intervals_are_combined():
     assert (number.OPERATIONS["/"](a, b).low, number.OPERATIONS["/"](a, b).high) == (0.2, 1.5)
 
 
+def test_means_combine_independent_intervals_in_quadrature():
+    mean = number.SUMMARIES["mean"]([Number(10, 7, 13), Number(20, 16, 24)])
+    assert (mean.value, mean.low, mean.high) == (15, 12.5, 17.5)
+    geomean = number.SUMMARIES["geomean"]([Number(4, 2, 8)] * 4)
+    assert abs(geomean.value - 4) < 1e-12 and abs(geomean.low - 8**0.5) < 1e-12 and abs(geomean.high - 32**0.5) < 1e-12
+    exact = number.SUMMARIES["geomean"]([Number(2), Number(8)])
+    assert exact.exact() and abs(exact.value - 4) < 1e-12
+    assert refused(NoValue, lambda: number.SUMMARIES["geomean"]([Number(0)]), "positive")
+
+
 def test_division_by_an_interval_with_zero_has_no_value():
     assert refused(NoValue, lambda: number.OPERATIONS["/"](Number(1), Number(1, -1, 2)), "zero")
 

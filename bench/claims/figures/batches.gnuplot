@@ -1,3 +1,4 @@
+picture = ARG2
 load system("dirname ".ARG0)."/style.gnuplot"
 set key outside right center vertical
 set xlabel "elements of a batch"

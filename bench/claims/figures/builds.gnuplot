@@ -1,3 +1,4 @@
+picture = ARG2
 load system("dirname ".ARG0)."/style.gnuplot"
 set terminal svg size 860, 760 font "DejaVu Sans,13" background "white" dynamic
 set multiplot layout 2, 1

@@ -1,3 +1,4 @@
+picture = ARG2
 load system("dirname ".ARG0)."/style.gnuplot"
 set style data histograms
 set style histogram clustered gap 1

@@ -1,3 +1,4 @@
+picture = ARG2
 load system("dirname ".ARG0)."/style.gnuplot"
 set logscale xy
 set xlabel "slots of the shader"

@@ -1,6 +1,6 @@
-# Settings of all figures. Each template is called with ARG1, the table, and ARG2, the picture.
+# Settings of all figures. Each template is called with ARG1, the table, and ARG2, the picture, and sets `picture`.
 set terminal svg size 860, 460 font "DejaVu Sans,13" background "white" dynamic
-set output ARG2
+set output picture
 set datafile separator comma
 set datafile columnheaders
 set border 3 linecolor rgb "#5b6875"

@@ -1,3 +1,4 @@
+picture = ARG2
 load system("dirname ".ARG0)."/style.gnuplot"
 set style fill solid 0.9 noborder
 set boxwidth 0.6
