@@ -332,7 +332,7 @@ pe_flags = -std=gnu17 -O2 -g -Wall -Wextra -Werror -Wno-cast-function-type -Isrc
 # calls on to a 64-bit process, so that there is one Linux side. It is built without a C library's folder of
 # this width.
 MINGW32 ?= i686-w64-mingw32-gcc
-REMOTE   = $(addprefix src/front/d3d9/,remote/packing.c remote/narrow.c size.c)
+REMOTE   = $(addprefix src/front/d3d9/,remote/known.c remote/packing.c remote/narrow.c remote/queue.c size.c)
 WIDE_OBJECTS   := $(patsubst %.c,$(BUILD)/object/%.obj,$(filter-out %/shared.c,$(PE_SOURCES)))
 NARROW_OBJECTS := $(patsubst %.c,$(BUILD)/object/%.obj32,$(filter-out %/direct.c,$(PE_SOURCES)) $(REMOTE))
 NARROW_UNIX    := $(addprefix src/front/d3d9/,unix32/entry.c remote/client.c remote/channel.c)

@@ -85,6 +85,10 @@ int32_t d3d9_device_make_state(struct d3d9_device *, bool depth);
 void d3d9_device_reset_state(struct d3d9_device *, bool depth);
 void d3d9_device_free_state(struct d3d9_device *);
 
+/* Notes in `object.draws` whether draws with valid arguments succeed. Called after each change of
+ * the declaration, the vertex shader or the vertex processing. */
+void d3d9_device_note_draws(struct d3d9_device *);
+
 /* Make a surface the target or the depth surface, without checks and without a reference of the program;
  * target 0 sets the viewport and the scissor rectangle. */
 void d3d9_device_bind_target(struct d3d9_device *, unsigned index, struct d3d9_surface *);

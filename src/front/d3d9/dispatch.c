@@ -1,4 +1,5 @@
 #include "dispatch.h"
+#include "object.h"
 #include <pthread.h>
 
 static pthread_mutex_t lock = PTHREAD_MUTEX_INITIALIZER;
@@ -17,10 +18,36 @@ static pthread_mutex_t lock = PTHREAD_MUTEX_INITIALIZER;
 #define ARGUMENT_HOST_WRITES(type, name, count)  , (void *)(uintptr_t)b->name
 #define ARGUMENT_HOST_CHANGES(type, name, count) , (void *)(uintptr_t)b->name
 
+/* Methods do not accept objects of another device. All that have objects as arguments return a HRESULT. */
+static bool is_foreign(uint64_t self, uint64_t other)
+{
+    const struct d3d9_object *own = (void *)(uintptr_t)self, *object = (void *)(uintptr_t)other;
+    bool is_device = d3d9_object_interface_is(own->interface, D3D9_INTERFACE_DEVICE);
+    return object && object->parent != (is_device ? own : own->parent);
+}
+
+#define FOREIGN(kind, ...) FOREIGN_##kind(__VA_ARGS__)
+#define FOREIGN_VALUE(type, name)
+#define FOREIGN_HANDLE(type, name)
+#define FOREIGN_POINTER(type, name)
+#define FOREIGN_OBJECT(type, name) || is_foreign(b->self, b->name)
+#define FOREIGN_OBJECTS(type, name, count)
+#define FOREIGN_NEW(type, name)
+#define FOREIGN_READS(type, name, count)
+#define FOREIGN_WRITES(type, name, count)
+#define FOREIGN_CHANGES(type, name, count)
+#define FOREIGN_HOST_READS(type, name, count)
+#define FOREIGN_HOST_WRITES(type, name, count)
+#define FOREIGN_HOST_CHANGES(type, name, count)
+
 #define METHOD(class, method, name, type, ...)                                                               \
     static void run_##class##_##name(void *block)                                                            \
     {                                                                                                        \
         struct d3d9_block_##class##_##name *b = block;                                                       \
+        if (false D3D9_EACH(FOREIGN, __VA_ARGS__)) {                                                         \
+            b->result = D3D9_INVALID_CALL;                                                                   \
+            return;                                                                                          \
+        }                                                                                                    \
         b->result = d3d9_##class##_##name((void *)(uintptr_t)b->self D3D9_EACH(ARGUMENT, __VA_ARGS__));      \
     }
 #define HOSTED METHOD

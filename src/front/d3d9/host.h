@@ -12,9 +12,14 @@
 #include <stdbool.h>
 
 /* The members of every object that the Windows side reads and writes, which are the first ones. `host` is the
- * Windows side's own data of this object, 0 at first. */
+ * Windows side's own data of this object, 0 at first. `references` are those of the program; parts of
+ * textures have none of their own (object.h). `draws` is nonzero
+ * - for a device: if draws succeed whose arguments are valid,
+ * - for a vertex shader: if draws with it do not fail, whatever the device's vertex processing is. */
 struct d3d9_head {
     uint64_t face, host;
+    uint32_t references, draws;
+    uint64_t parent; /* of objects of a device: the device */
 };
 
 /* The vtable of an interface; `number` is of enum d3d9_interface. Windows' headers define "interface". */

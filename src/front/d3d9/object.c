@@ -34,6 +34,12 @@ bool d3d9_object_interface_is(enum d3d9_interface interface, enum d3d9_interface
     return interface == base;
 }
 
+_Static_assert(offsetof(struct d3d9_object, host) == offsetof(struct d3d9_head, host) &&
+                   offsetof(struct d3d9_object, references) == offsetof(struct d3d9_head, references) &&
+                   offsetof(struct d3d9_object, draws) == offsetof(struct d3d9_head, draws) &&
+                   offsetof(struct d3d9_object, parent) == offsetof(struct d3d9_head, parent),
+               "an object begins with a head");
+
 void *d3d9_object_make_implicit(size_t bytes, enum d3d9_interface interface, struct d3d9_object *parent,
                                 void (*destroy)(struct d3d9_object *))
 {
@@ -70,12 +76,14 @@ void *d3d9_object_make_part(size_t bytes, enum d3d9_interface interface, struct 
     return object;
 }
 
+static void remove_private_data(struct d3d9_private_data **link);
+
 static void free_object(struct d3d9_object *object)
 {
     if (object->destroy)
         object->destroy(object);
     while (object->private_data)
-        d3d9_object_free_private_data(object, NULL);
+        remove_private_data(&object->private_data);
     if (object->host)
         d3d9_host_event(D3D9_EVENT_FORGET, object->host);
     d3d9_memory_free(object);
@@ -147,6 +155,8 @@ int32_t d3d9_object_query_interface(struct d3d9_object *object, const struct d3d
     if (!out)
         return D3D9_BAD_POINTER;
     *out = NULL;
+    if (!identifier)
+        return D3D9_BAD_POINTER;
     enum d3d9_interface i = object->interface;
     while (i != D3D9_INTERFACE_NONE && !d3d9_guid_equal(&rows[i].identifier, identifier))
         i = rows[i].base;
@@ -185,11 +195,11 @@ enum { POINTER_BYTES = sizeof(uint64_t) };
 
 static struct d3d9_private_data *unused; /* interfaces for d3d9_foreign_take */
 
-/* Returns the link to the data with this identifier; null: the first one. */
+/* Returns the link to the data with this identifier. */
 static struct d3d9_private_data **find(struct d3d9_object *object, const struct d3d9_guid *identifier)
 {
     struct d3d9_private_data **link = &object->private_data;
-    while (*link && identifier && !d3d9_guid_equal(&(*link)->identifier, identifier))
+    while (*link && !d3d9_guid_equal(&(*link)->identifier, identifier))
         link = &(*link)->next;
     return link;
 }
@@ -197,7 +207,6 @@ static struct d3d9_private_data **find(struct d3d9_object *object, const struct 
 static struct d3d9_private_data *make(const struct d3d9_guid *identifier, const void *data, uint32_t bytes,
                                       bool is_interface)
 {
-    uint64_t interface = (uintptr_t)data;
     struct d3d9_private_data *made = malloc(sizeof *made + bytes);
     if (!made)
         return NULL;
@@ -205,7 +214,7 @@ static struct d3d9_private_data *make(const struct d3d9_guid *identifier, const 
     made->is_interface = is_interface;
     made->bytes = bytes;
     if (bytes)
-        memcpy(made->data, is_interface ? &interface : data, bytes);
+        memcpy(made->data, data, bytes);
     return made;
 }
 
@@ -213,6 +222,8 @@ int32_t d3d9_object_set_private_data(struct d3d9_object *object, const struct d3
                                      const void *data, uint32_t bytes, uint32_t flags)
 {
     bool is_interface = flags & D3D9_PRIVATE_INTERFACE;
+    if (!identifier)
+        return D3D9_INVALID_CALL;
     if (is_interface && bytes != POINTER_BYTES)
         return D3D9_INVALID_CALL;
     if (bytes && !data)
@@ -229,7 +240,9 @@ int32_t d3d9_object_set_private_data(struct d3d9_object *object, const struct d3
 int32_t d3d9_object_get_private_data(struct d3d9_object *object, const struct d3d9_guid *identifier,
                                      void *data, uint32_t *bytes)
 {
-    const struct d3d9_private_data *found = *find(object, identifier);
+    const struct d3d9_private_data *found = identifier ? *find(object, identifier) : NULL;
+    if (!identifier)
+        return D3D9_INVALID_CALL;
     if (!found)
         return D3D9_NOT_FOUND;
     if (!bytes)
@@ -244,11 +257,9 @@ int32_t d3d9_object_get_private_data(struct d3d9_object *object, const struct d3
     return D3D9_OK;
 }
 
-int32_t d3d9_object_free_private_data(struct d3d9_object *object, const struct d3d9_guid *identifier)
+static void remove_private_data(struct d3d9_private_data **link)
 {
-    struct d3d9_private_data **link = find(object, identifier), *found = *link;
-    if (!found)
-        return D3D9_NOT_FOUND;
+    struct d3d9_private_data *found = *link;
     *link = found->next;
     if (found->is_interface) {
         found->next = unused;
@@ -256,12 +267,22 @@ int32_t d3d9_object_free_private_data(struct d3d9_object *object, const struct d
     } else {
         free(found);
     }
+}
+
+int32_t d3d9_object_free_private_data(struct d3d9_object *object, const struct d3d9_guid *identifier)
+{
+    if (!identifier)
+        return D3D9_INVALID_CALL;
+    struct d3d9_private_data **link = find(object, identifier);
+    if (!*link)
+        return D3D9_NOT_FOUND;
+    remove_private_data(link);
     return D3D9_OK;
 }
 
 int32_t d3d9_object_private_data_is_interface(struct d3d9_object *object, const struct d3d9_guid *identifier)
 {
-    const struct d3d9_private_data *found = *find(object, identifier);
+    const struct d3d9_private_data *found = identifier ? *find(object, identifier) : NULL;
     return found && found->is_interface;
 }
 

@@ -38,10 +38,13 @@ struct d3d9_private_data;
 
 struct d3d9_object {
     uint64_t face; /* the address of the vtable; the low half in a process with 32-bit pointers */
-    uint64_t host; /* data of the Windows side (host.h) */
+    uint64_t host; /* data of the Windows side */
+    uint32_t references;
+    uint32_t draws;
+    struct d3d9_object *parent; /* referenced by an object with references; null for a factory */
+    /* All above are struct d3d9_head (host.h). */
     enum d3d9_interface interface;
-    uint32_t references, holds;
-    struct d3d9_object *parent;    /* referenced by an object with references; null for a factory */
+    uint32_t holds;
     struct d3d9_object *owner;     /* of a part; otherwise null */
     struct d3d9_object *container; /* the result of GetContainer; null: none */
     void (*destroy)(struct d3d9_object *);
@@ -81,7 +84,8 @@ int32_t d3d9_object_query_interface(struct d3d9_object *, const struct d3d9_guid
 /* GetContainer: the container's QueryInterface. */
 int32_t d3d9_object_query_container(struct d3d9_object *, const struct d3d9_guid *, void **out);
 
-enum { D3D9_PRIVATE_INTERFACE = 1 }; /* D3DSPD_IUNKNOWN: `data` is an interface, not the address of one */
+/* D3DSPD_IUNKNOWN: `data` is the address of a uint64_t with the interface, in a 32-bit program too. */
+enum { D3D9_PRIVATE_INTERFACE = 1 };
 
 /* Replaces the data with this identifier. A failure keeps the old data. */
 int32_t d3d9_object_set_private_data(struct d3d9_object *, const struct d3d9_guid *, const void *data,

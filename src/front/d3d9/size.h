@@ -16,6 +16,9 @@ enum {
 };
 enum { D3D9_SIZE_INDEX32 = 102 };
 
+/* MaxPrimitiveCount of the capabilities. Draws of more primitives fail. */
+enum { D3D9_MOST_PRIMITIVES = 0x555555 };
+
 /* A number that the program has put where the actual one is written. */
 static inline uint64_t d3d9_size_given(const uint32_t *count)
 {

@@ -72,6 +72,47 @@ static void members_of_blocks_have_fixed_offsets(void)
     TEST_ASSERT_EQUAL_UINT64(64, sizeof(struct d3d9_host_picture));
 }
 
+static void objects_of_another_device_are_refused(void)
+{
+    struct d3d9_device *other = factory_device(false, factory_parameters());
+    struct d3d9_texture *texture;
+    TEST_ASSERT_EQUAL_INT32(D3D9_OK, d3d9_device_create_texture(other, 4, 4, 1, 0, 21, 1, &texture, NULL));
+    struct d3d9_block_device_set_texture set = {(uintptr_t)device, 0, (uintptr_t)texture, 0};
+    TEST_ASSERT_EQUAL_INT(D3D9_DONE, d3d9_dispatch(D3D9_CODE_device_set_texture, &set));
+    TEST_ASSERT_EQUAL_INT32(D3D9_INVALID_CALL, set.result);
+    TEST_ASSERT_NULL(device->state->texture[0]);
+    set.self = (uintptr_t)other;
+    TEST_ASSERT_EQUAL_INT(D3D9_DONE, d3d9_dispatch(D3D9_CODE_device_set_texture, &set));
+    TEST_ASSERT_EQUAL_INT32(D3D9_OK, set.result);
+    d3d9_object_release((struct d3d9_object *)texture);
+    factory_device_free(other);
+}
+
+static void an_identifier_can_be_null(void)
+{
+    struct d3d9_object *object = &device->object;
+    uint32_t bytes = 0;
+    void *out = device;
+    TEST_ASSERT_EQUAL_INT32(D3D9_BAD_POINTER, d3d9_object_query_interface(object, NULL, &out));
+    TEST_ASSERT_NULL(out);
+    TEST_ASSERT_EQUAL_INT32(D3D9_INVALID_CALL, d3d9_object_set_private_data(object, NULL, &bytes, 4, 0));
+    TEST_ASSERT_EQUAL_INT32(D3D9_INVALID_CALL, d3d9_object_get_private_data(object, NULL, NULL, &bytes));
+    TEST_ASSERT_EQUAL_INT32(D3D9_INVALID_CALL, d3d9_object_free_private_data(object, NULL));
+    TEST_ASSERT_FALSE(d3d9_object_private_data_is_interface(object, NULL));
+}
+
+static void a_draw_has_a_largest_number_of_primitives(void)
+{
+    struct d3d9_caps caps;
+    TEST_ASSERT_EQUAL_INT32(D3D9_OK, d3d9_device_get_device_caps(device, &caps));
+    TEST_ASSERT_EQUAL_INT32(D3D9_OK, d3d9_device_set_fvf(device, 0x44));
+    TEST_ASSERT_EQUAL_INT32(D3D9_OK, d3d9_device_begin_scene(device));
+    TEST_ASSERT_EQUAL_INT32(D3D9_OK, d3d9_device_draw_primitive(device, 4, 0, 1));
+    TEST_ASSERT_EQUAL_INT32(D3D9_INVALID_CALL,
+                            d3d9_device_draw_primitive(device, 4, 0, caps.max_primitive_count + 1));
+    TEST_ASSERT_EQUAL_INT32(D3D9_INVALID_CALL, d3d9_device_draw_primitive(device, 4, 0, UINT32_MAX));
+}
+
 enum { CALLS = 2000, THREADS = 4 };
 
 static void *add_and_release(void *object)
@@ -128,7 +169,7 @@ static void interfaces_of_the_program_are_released_by_events(void)
     TEST_ASSERT_EQUAL_INT32(D3D9_OK, d3d9_device_get_back_buffer(device, 0, 0, 0, &surface));
     struct d3d9_object *object = (struct d3d9_object *)surface;
     for (int i = 0; i < 2; i++)
-        d3d9_object_set_private_data(object, &tags[i], (void *)(uintptr_t)(0x1000 + i), sizeof(uint64_t),
+        d3d9_object_set_private_data(object, &tags[i], &(uint64_t){0x1000 + (unsigned)i}, sizeof(uint64_t),
                                      D3D9_PRIVATE_INTERFACE);
     TEST_ASSERT_TRUE(d3d9_object_private_data_is_interface(object, &tags[1]));
     for (int i = 0; i < 2; i++)
@@ -218,6 +259,9 @@ int main(void)
     RUN_TEST(floats_and_signed_numbers_pass_a_block);
     RUN_TEST(an_unknown_code_executes_nothing);
     RUN_TEST(members_of_blocks_have_fixed_offsets);
+    RUN_TEST(objects_of_another_device_are_refused);
+    RUN_TEST(an_identifier_can_be_null);
+    RUN_TEST(a_draw_has_a_largest_number_of_primitives);
     RUN_TEST(calls_of_several_threads_are_one_after_another);
     RUN_TEST(the_end_of_an_object_leaves_the_data_of_the_windows_side);
     RUN_TEST(interfaces_of_the_program_are_released_by_events);

@@ -166,8 +166,8 @@ static void interfaces_in_private_data_are_returned_when_they_are_replaced_or_fr
     int32_t bad = d3d9_object_set_private_data(surface, &tag, &interfaces[0], 4, D3D9_PRIVATE_INTERFACE);
     TEST_ASSERT_EQUAL_INT32(D3D9_INVALID_CALL, bad);
     for (int i = 0; i < 3; i++)
-        d3d9_object_set_private_data(surface, i ? &tag : &other_tag, &interfaces[i], 8,
-                                     D3D9_PRIVATE_INTERFACE);
+        d3d9_object_set_private_data(surface, i ? &tag : &other_tag, &(uint64_t){(uintptr_t)&interfaces[i]},
+                                     8, D3D9_PRIVATE_INTERFACE);
     TEST_ASSERT_TRUE(d3d9_object_private_data_is_interface(surface, &tag));
     TEST_ASSERT_EQUAL_UINT32(1, d3d9_foreign_take(taken, 3));
     TEST_ASSERT_EQUAL_UINT64((uintptr_t)&interfaces[1], taken[0]);

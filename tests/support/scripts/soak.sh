@@ -15,7 +15,7 @@ set -uo pipefail
 cd "$(dirname "$0")/../../.."
 
 seconds=$1 build=$2 instrumented=$3 seed=${4:-1}
-mapfile -t programs < <(grep -l '^#include "tests/support/system/seed.h"' tests/*/*.c | sed 's/\.c$//')
+mapfile -t programs < <(grep -rl '^#include "tests/support/system/seed.h"' --include='*.c' tests --exclude-dir=support | sort | sed 's/\.c$//')
 ((${#programs[@]})) || { echo 'FAIL there are programs with seeds' && exit 1; }
 found=$instrumented/soak
 mkdir -p "$found"

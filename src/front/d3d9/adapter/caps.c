@@ -1,5 +1,6 @@
 #include "caps.h"
 #include "front/d3d9/host.h"
+#include "front/d3d9/size.h"
 #include "triptych.h"
 #include <string.h>
 
@@ -163,7 +164,6 @@ static void fill_vertices(struct d3d9_caps *caps)
         /* generated coordinates, sources of materials, all lights */
         PROCESSING = 0x1 | 0x2 | 0x8 | 0x10 | 0x100,
         BLEND_MATRICES = 4,
-        MOST_PRIMITIVES = 0x555555,
         MOST_VERTICES = 0xffffff,
         MOST_STRIDE = 65535,
         DECLARATION_TYPES = 0x3ff
@@ -179,7 +179,7 @@ static void fill_vertices(struct d3d9_caps *caps)
     caps->max_vertex_blend_matrices = BLEND_MATRICES;
     caps->max_vertex_blend_matrix_index = BITS_OF_STATES({255, TRIPTYCH_STATE_INDEXEDVERTEXBLENDENABLE});
     caps->max_point_size = default_float(TRIPTYCH_STATE_POINTSIZE_MAX);
-    caps->max_primitive_count = MOST_PRIMITIVES;
+    caps->max_primitive_count = D3D9_MOST_PRIMITIVES;
     caps->max_vertex_index = MOST_VERTICES;
     caps->max_streams = TRIPTYCH_STREAMS;
     caps->max_stream_stride = MOST_STRIDE;

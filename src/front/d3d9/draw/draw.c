@@ -36,16 +36,16 @@ static int32_t check_shader(struct d3d9_device *device)
 }
 
 /* Programs that draw outside a scene exist, and drivers draw. */
-static int32_t check_draw(struct d3d9_device *device, uint32_t type)
+static int32_t check_draw(struct d3d9_device *device, uint32_t type, uint32_t count)
 {
-    if (!device->state->declaration[0] || primitive_of(type) < 0)
+    if (!device->state->declaration[0] || primitive_of(type) < 0 || count > D3D9_MOST_PRIMITIVES)
         return D3D9_INVALID_CALL;
     return check_shader(device);
 }
 
 int32_t d3d9_device_draw_primitive(struct d3d9_device *device, uint32_t type, uint32_t first, uint32_t count)
 {
-    int32_t result = check_draw(device, type);
+    int32_t result = check_draw(device, type, count);
     if (result == D3D9_OK && count && d3d9_draw_prepare(device, D3D9_NEEDS_STREAMS))
         triptych_draw(device->renderer, (enum triptych_primitive)primitive_of(type), first, count);
     return result;
@@ -56,7 +56,7 @@ int32_t d3d9_device_draw_indexed_primitive(struct d3d9_device *device, uint32_t 
                                            uint32_t lowest, uint32_t vertices, uint32_t first, uint32_t count)
 {
     (void)lowest, (void)vertices;
-    int32_t result = check_draw(device, type);
+    int32_t result = check_draw(device, type, count);
     if (result == D3D9_OK && count && device->state->indices[0] &&
         d3d9_draw_prepare(device, D3D9_NEEDS_STREAMS | D3D9_NEEDS_INDICES | D3D9_NEEDS_INSTANCES))
         triptych_draw_indexed(device->renderer, (enum triptych_primitive)primitive_of(type), base, first,
@@ -113,7 +113,7 @@ static int32_t draw_user(struct d3d9_device *device, uint32_t type, struct user_
     enum triptych_result result;
     if (!draw->stride || !draw->vertices)
         return D3D9_INVALID_CALL;
-    if (check_draw(device, type) != D3D9_OK) {
+    if (check_draw(device, type, draw->count) != D3D9_OK) {
         unbind(device, draw->indices, false);
         return D3D9_INVALID_CALL;
     }

@@ -12,8 +12,9 @@ int32_t private_data_set(struct d3d9_object *object, const struct d3d9_guid *tag
         return D3DERR_INVALIDCALL;
     /* The new one is referenced before the old data are released, which may be the same. */
     IUnknown *program = (IUnknown *)data;
+    uint64_t number = (uintptr_t)program;
     IUnknown_AddRef(program);
-    int32_t result = d3d9_object_set_private_data(object, tag, data, sizeof(uint64_t), flags);
+    int32_t result = d3d9_object_set_private_data(object, tag, &number, sizeof number, flags);
     if (FAILED(result))
         IUnknown_Release(program);
     return result;

@@ -6,30 +6,32 @@
 #include <time.h>
 #include <unistd.h>
 
-/* A call takes about a microsecond, and waking a process some tens of them. */
-enum { SPINS = 4000 };
+/* A call takes about a microsecond, and waking a process some tens of them. Cycles of the time stamp counter:
+ * about 20 microseconds. */
+enum { SPIN_CYCLES = 50000 };
 
-/* The structure that the kernel expects of this process. */
-static void sleep_on(struct d3d9_channel *channel, uint32_t turn)
+static void spin(_Atomic uint32_t *word, uint32_t old)
 {
-    struct timespec second = {.tv_sec = 1};
-    channel->sleepers++;
-    syscall(SYS_futex, &channel->turn, FUTEX_WAIT, turn, &second, NULL, 0);
-    channel->sleepers--;
-}
-
-uint32_t d3d9_channel_wait(struct d3d9_channel *channel, uint32_t turn)
-{
-    for (int i = 0; i < SPINS && channel->turn == turn; i++)
+    uint64_t start = __builtin_ia32_rdtsc();
+    while (*word == old && __builtin_ia32_rdtsc() - start < SPIN_CYCLES)
         __builtin_ia32_pause();
-    if (channel->turn == turn)
-        sleep_on(channel, turn);
-    return channel->turn;
 }
 
-void d3d9_channel_pass(struct d3d9_channel *channel, uint32_t turn)
+void d3d9_channel_wait(_Atomic uint32_t *word, uint32_t old, _Atomic uint32_t *sleeps)
 {
-    channel->turn = turn;
-    if (channel->sleepers)
-        syscall(SYS_futex, &channel->turn, FUTEX_WAKE, 2, NULL, NULL, 0);
+    /* The structure that the kernel expects of this process. */
+    struct timespec limit = {.tv_nsec = 200000000};
+    spin(word, old);
+    if (*word != old)
+        return;
+    *sleeps = 1;
+    if (*word == old)
+        syscall(SYS_futex, word, FUTEX_WAIT, old, &limit, NULL, 0);
+    *sleeps = 0;
+}
+
+void d3d9_channel_wake(_Atomic uint32_t *word, const _Atomic uint32_t *sleeps)
+{
+    if (*sleeps)
+        syscall(SYS_futex, word, FUTEX_WAKE, 1, NULL, NULL, 0);
 }

@@ -10,7 +10,7 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
-enum { SERVER_DESCRIPTOR = 3, START_SECONDS = 30 };
+enum { SERVER_DESCRIPTOR = 3, START_WAITS = 150 /* of a fifth of a second */ };
 
 static int fail(char *reason, size_t bytes, const char *server, const char *doing)
 {
@@ -62,9 +62,11 @@ static bool runs(const struct d3d9_client *client)
 
 static int await_start(struct d3d9_client *client)
 {
-    for (int i = 0; i < START_SECONDS && runs(client); i++)
-        if (d3d9_channel_wait(client->channel, D3D9_TURN_SERVER) == D3D9_TURN_CLIENT)
-            return 0;
+    struct d3d9_channel *channel = client->channel;
+    for (int i = 0; i < START_WAITS && !channel->ready && runs(client); i++)
+        d3d9_channel_wait(&channel->ready, 0, &channel->client_sleeps);
+    if (channel->ready)
+        return 0;
     errno = ECHILD;
     return -1;
 }
@@ -76,8 +78,9 @@ static int open_with(struct d3d9_client *client, const char *server, int descrip
     if (memory == MAP_FAILED)
         return fail(reason, bytes, server, "cannot map shared memory");
     client->channel = memory;
-    *client->channel =
-        (struct d3d9_channel){.codes = codes, .bytes = D3D9_CHANNEL_BYTES, .arena = D3D9_CHANNEL_ARENA};
+    client->channel->codes = codes;
+    client->channel->bytes = D3D9_CHANNEL_BYTES;
+    client->channel->arena = D3D9_CHANNEL_ARENA;
     if (start(client, server, descriptor)) {
         client->process = 0;
         return fail(reason, bytes, server, "cannot start");
@@ -106,24 +109,36 @@ int d3d9_client_open(struct d3d9_client *client, const char *server, uint32_t co
 }
 
 /* After the server's end the memory stays mapped: the program may still read what it has locked. */
-int d3d9_client_call(struct d3d9_client *client)
+int d3d9_client_send(struct d3d9_client *client, bool wait)
 {
+    struct d3d9_channel *channel = client->channel;
+    uint32_t done;
     if (!client->process)
         return -1;
-    d3d9_channel_pass(client->channel, D3D9_TURN_SERVER);
-    while (d3d9_channel_wait(client->channel, D3D9_TURN_SERVER) != D3D9_TURN_CLIENT)
-        if (!runs(client)) {
+    d3d9_channel_wake(&channel->sent, &channel->server_sleeps);
+    while (wait && (done = channel->done) != channel->sent) {
+        d3d9_channel_wait(&channel->done, done, &channel->client_sleeps);
+        if (channel->done == done && !runs(client)) {
             client->process = 0;
             return -1;
         }
+    }
     return 0;
+}
+
+static void send_end(struct d3d9_channel *channel)
+{
+    uint32_t sent = channel->sent;
+    channel->message[sent % D3D9_CHANNEL_MESSAGES] = (struct d3d9_message){(uint32_t)D3D9_MESSAGE_END, 0};
+    channel->sent = sent + 1;
+    d3d9_channel_wake(&channel->sent, &channel->server_sleeps);
 }
 
 void d3d9_client_close(struct d3d9_client *client)
 {
     int status;
-    if (client->channel)
-        d3d9_channel_pass(client->channel, D3D9_TURN_END);
+    if (client->process && !d3d9_client_send(client, true))
+        send_end(client->channel);
     if (client->process)
         waitpid(client->process, &status, 0);
     if (client->channel)

@@ -240,7 +240,7 @@ void d3d9_unpack(unsigned code, void *block, void *shared)
     forms[code].unpack(block, shared);
 }
 
-void d3d9_pack_failure(unsigned code, void *block, int32_t result)
+void d3d9_pack_result(unsigned code, void *block, int32_t result)
 {
     const struct form *form = &forms[code];
     int32_t failure = form->can_fail ? result : 0;

@@ -27,7 +27,7 @@ void *d3d9_pack(struct d3d9_packing *packing, unsigned code, const void *block);
 
 /* Instead of the call: gives its block a result that reports that it has failed. A result that is a number or
  * an address is 0 then. */
-void d3d9_pack_failure(unsigned code, void *block, int32_t result);
+void d3d9_pack_result(unsigned code, void *block, int32_t result);
 
 /* After the call: copies its results to the program's block and to what this refers to. */
 void d3d9_unpack(unsigned code, void *block, void *shared);

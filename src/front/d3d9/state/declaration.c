@@ -86,7 +86,7 @@ int32_t d3d9_device_create_vertex_declaration(struct d3d9_device *device,
 int32_t d3d9_declaration_get_declaration(struct d3d9_declaration *declaration,
                                          struct d3d9_vertex_element *elements, uint32_t *count)
 {
-    if (!count)
+    if (!count || (elements && *count <= declaration->count))
         return D3D9_INVALID_CALL;
     *count = declaration->count + 1;
     if (elements)

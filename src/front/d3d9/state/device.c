@@ -3,6 +3,7 @@
 #include "front/d3d9/call.h"
 #include "front/d3d9/state/block.h"
 #include "front/d3d9/state/declaration.h"
+#include "front/d3d9/state/shader.h"
 
 #include <stdlib.h>
 
@@ -21,6 +22,13 @@ int32_t d3d9_device_make_state(struct d3d9_device *device, bool depth)
     triptych_set_convention(device->renderer, TRIPTYCH_MULTIPLY, TRIPTYCH_MULTIPLY_LEGACY);
     d3d9_device_reset_state(device, depth);
     return D3D9_OK;
+}
+
+void d3d9_device_note_draws(struct d3d9_device *device)
+{
+    const struct d3d9_shader *shader = device->state->vertex_shader[0];
+    bool fits = !shader || !shader->software || device->software_vertices;
+    device->object.draws = device->state->declaration[0] && fits;
 }
 
 void d3d9_device_reset_state(struct d3d9_device *device, bool depth)
@@ -93,6 +101,7 @@ int32_t d3d9_device_set_software_vertex_processing(struct d3d9_device *device, i
         return D3D9_INVALID_CALL;
     device->software_vertices = software != 0;
     device->late |= D3D9_LATE_SHADERS;
+    d3d9_device_note_draws(device);
     return D3D9_OK;
 }
 

@@ -117,8 +117,14 @@ void d3d9_state_forward(struct d3d9_device *device, enum d3d9_group group, unsig
     case D3D9_GROUP_STREAM:
     case D3D9_GROUP_FREQUENCY:
     case D3D9_GROUP_INDICES: device->late |= D3D9_LATE_STREAMS; break;
-    case D3D9_GROUP_DECLARATION: device->late |= D3D9_LATE_DECLARATION; break;
+    case D3D9_GROUP_DECLARATION:
+        device->late |= D3D9_LATE_DECLARATION;
+        d3d9_device_note_draws(device);
+        break;
     case D3D9_GROUP_VERTEX_SHADER:
+        device->late |= D3D9_LATE_SHADERS;
+        d3d9_device_note_draws(device);
+        break;
     case D3D9_GROUP_PIXEL_SHADER: device->late |= D3D9_LATE_SHADERS; break;
     case D3D9_GROUP_VERTEX_FLOAT:
         triptych_set_shader_floats(renderer, TRIPTYCH_SHADER_VERTEX, index, state->vertex_float[index], 1);

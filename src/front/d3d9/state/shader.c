@@ -100,6 +100,7 @@ static int32_t create_shader(struct d3d9_device *device, enum d3d9_interface int
         memcpy(shader->code, code, shader->bytes);
         result = compile(shader);
     }
+    shader->object.draws = !shader->software;
     if (result == D3D9_OK)
         *out = shader;
     else

@@ -5,7 +5,7 @@
 
 #include <stdint.h>
 
-enum { D3D9_UNIX_CALL, D3D9_UNIX_OPEN = 0, D3D9_UNIX_SEND };
+enum { D3D9_UNIX_CALL, D3D9_UNIX_OPEN = 0, D3D9_UNIX_WAIT, D3D9_UNIX_WAKE };
 
 /* D3D9_UNIX_CALL: executes a call (block.h). */
 struct d3d9_unix_call {
@@ -21,7 +21,7 @@ struct d3d9_unix_open {
     uint32_t memory;
 };
 
-/* D3D9_UNIX_SEND has no parameters: it executes the call that is described in the shared memory. It fails
- * if the server has ended. */
+/* D3D9_UNIX_WAIT and D3D9_UNIX_WAKE have no parameters: they wake the server if it sleeps; the first one
+ * waits until it has executed all messages. They fail if the server has ended. */
 
 #endif

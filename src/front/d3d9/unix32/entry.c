@@ -36,15 +36,22 @@ static int start(void *arguments)
     return 0;
 }
 
-static int send(void *arguments)
+static int wait(void *arguments)
 {
     (void)arguments;
-    return d3d9_client_call(&client);
+    return d3d9_client_send(&client, true);
+}
+
+static int wake(void *arguments)
+{
+    (void)arguments;
+    return d3d9_client_send(&client, false);
 }
 
 extern int (*const __wine_unix_call_funcs[])(void *);
 
 __attribute__((visibility("default"))) int (*const __wine_unix_call_funcs[])(void *) = {
     [D3D9_UNIX_OPEN] = start,
-    [D3D9_UNIX_SEND] = send,
+    [D3D9_UNIX_WAIT] = wait,
+    [D3D9_UNIX_WAKE] = wake,
 };
