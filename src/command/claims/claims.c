@@ -19,11 +19,9 @@ enum { ARGUMENTS = 16 };
 /* Appends the folder of the laboratory to a folder. Returns true if it is there. */
 static bool laboratory_in(const char *folder, char path[PATH_MAX])
 {
-    static const char name[] = "/bench/claims";
     char program[PATH_MAX];
-    if (strlen(folder) + sizeof name > PATH_MAX - sizeof "/__main__.py")
+    if (snprintf(path, PATH_MAX, "%s/bench/claims", folder) >= PATH_MAX)
         return false;
-    snprintf(path, PATH_MAX, "%s%s", folder, name);
     return snprintf(program, sizeof program, "%s/__main__.py", path) < PATH_MAX && !access(program, R_OK);
 }
 
