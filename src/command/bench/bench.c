@@ -32,7 +32,7 @@ enum { REPETITIONS_MINIMUM = 3, FRAMES_MAXIMUM = 65536, SECONDS_MAXIMUM = 86400 
 static const double warm_up_share = 0.1; /* of an engine's seconds */
 
 struct settings {
-    const char *engines, *json, *csv, *chart;
+    const char *engines, *json, *csv, *chart, *shard, *resume;
     unsigned threads, repetitions, frames; /* frames 0: all */
     double seconds;
     bool shaders; /* a table of each shader */
@@ -156,15 +156,35 @@ static void free_stream(struct bench_stream *stream)
     *stream = (struct bench_stream){0};
 }
 
-/* Measures the streams until all `count` are done or the command is interrupted. bench->stream_count is the
- * number of streams that are reported. */
-static int measure_all(const struct command *self, char **paths, unsigned count, const struct choice *engines,
-                       const struct settings *settings, struct bench *bench)
+/* Returns true if the shard has the stream, and the results that are continued do not. */
+static bool is_selected(const struct bench_campaign *campaign, unsigned number)
 {
-    while (bench->stream_count < count) {
+    uint64_t first, count;
+    shard_part(&campaign->shard, campaign->count, &first, &count);
+    return number >= first && number - first < count && !ranges_has(&campaign->earlier.done, number);
+}
+
+static unsigned count_selected(const struct bench_campaign *campaign)
+{
+    unsigned count = 0;
+    for (unsigned i = 0; i < campaign->count; i++)
+        count += is_selected(campaign, i);
+    return count;
+}
+
+/* Measures the selected streams until all are done or the command is interrupted. bench->stream_count is the
+ * number of streams that are reported. The file of --resume is written after each. */
+static int measure_all(const struct command *self, const struct settings *settings, struct bench *bench)
+{
+    const struct bench_campaign *campaign = bench->campaign;
+    int status = STATUS_OK;
+    for (unsigned i = 0; i < campaign->count && !status && !interrupt_signal(); i++) {
         bool done = false;
         struct bench_stream *stream = bench->streams + bench->stream_count;
-        int status = bench_one(self, paths[bench->stream_count], engines, settings, stream, &done);
+        if (!is_selected(campaign, i))
+            continue;
+        stream->number = i;
+        status = bench_one(self, campaign->inputs[i], campaign->engines, settings, stream, &done);
         tool_progress(NULL);
         if (status || !done)
             return free_stream(stream), status;
@@ -172,16 +192,15 @@ static int measure_all(const struct command *self, char **paths, unsigned count,
             bench_print_machine(bench);
         bench_print_stream(bench, stream);
         fflush(stdout);
-        if (interrupt_signal())
-            break;
+        if (settings->resume)
+            status = bench_write_json(self, bench, settings->resume);
     }
-    return STATUS_OK;
+    return status;
 }
 
-static int bench_all(const struct command *self, char **paths, unsigned count, const struct choice *engines,
-                     const struct settings *settings, struct bench *bench)
+static int bench_all(const struct command *self, const struct settings *settings, struct bench *bench)
 {
-    int status = measure_all(self, paths, count, engines, settings, bench);
+    int status = measure_all(self, settings, bench);
     if (status || !bench->stream_count)
         return status;
     bench_print_summary(bench);
@@ -221,24 +240,53 @@ static const char notes[] =
     "With --code, the report has the instructions of the routines, those that read and write memory, and "
     "those\n"
     "that do so in the stack frame; the file of --json has them for each routine.\n"
-    "SIGINT or SIGTERM ends it with a report of the finished part, in the files too, and status 130 or 143.";
+    "SIGINT or SIGTERM ends it with a report of the finished part, in the files too, and status 130 or 143.\n"
+    "A shard has some of the streams. With --shard or --resume, the JSON has the routines themselves and "
+    "not\n"
+    "\"builds\", their summary over all streams: triptych merge adds it.";
 
-/* The usual measurement: every engine in turns. */
-static int bench_frames(const struct command *self, const struct operands *operands,
-                        const struct choice *engines, const struct settings *settings)
+/* Writes the files of whole results, or of a part. */
+static int write_files(const struct command *self, const struct settings *settings, const struct bench *bench)
 {
-    struct bench bench = {machine_describe(), settings->threads, settings->shaders, 0, NULL};
-    unsigned count = (unsigned)operands->count;
-    bench.streams = calloc(count, sizeof *bench.streams);
+    int status = STATUS_OK;
+    if (settings->resume)
+        status = bench_write_json(self, bench, settings->resume);
+    if (!status && settings->json)
+        status = bench_write_json(self, bench, settings->json);
+    if (!status && settings->csv)
+        status = bench_write_csv(self, bench, settings->csv);
+    return status ? status : chart_write(self, bench, settings->chart);
+}
+
+/* Reads the shard and the results to continue. */
+static int begin_campaign(const struct command *self, const struct settings *settings,
+                          struct bench_campaign *campaign)
+{
+    struct results fresh = {0};
+    bool found;
+    if (shard_read(self, settings->shard, &campaign->shard))
+        return STATUS_BAD;
+    campaign->parts = shard_is_part(&campaign->shard) || settings->resume;
+    if (!settings->resume)
+        return STATUS_OK;
+    int status = results_take(self, "this campaign", bench_json_empty(campaign), &fresh);
+    if (!status)
+        status = results_resume(self, settings->resume, &fresh, &campaign->earlier, &found);
+    results_free(&fresh);
+    return status;
+}
+
+static int measure_campaign(const struct command *self, const struct settings *settings,
+                            const struct bench_campaign *campaign)
+{
+    struct bench bench = {machine_describe(), campaign, settings->threads, settings->shaders, 0, NULL};
+    unsigned count = count_selected(campaign);
+    bench.streams = calloc(count + 1, sizeof *bench.streams);
     if (!bench.streams)
         return tool_fail(self, "no memory for %u streams", count);
-    int status = bench_all(self, operands->value, count, engines, settings, &bench);
-    if (!status && settings->json)
-        status = bench_write_json(self, &bench, settings->json);
-    if (!status && settings->csv)
-        status = bench_write_csv(self, &bench, settings->csv);
-    if (!status)
-        status = chart_write(self, &bench, settings->chart);
+    int status = bench_all(self, settings, &bench);
+    if (!status && (bench.stream_count || campaign->parts))
+        status = write_files(self, settings, &bench);
     if (!status && interrupt_signal()) {
         printf("\ninterrupted by %s: %u of %u streams\n", interrupt_name(), count_whole(&bench), count);
         status = interrupt_status();
@@ -247,19 +295,59 @@ static int bench_frames(const struct command *self, const struct operands *opera
     return status;
 }
 
+/* The usual measurement: every engine in turns. */
+static int bench_frames(const struct command *self, const struct operands *operands,
+                        const struct choice *engines, const struct settings *settings)
+{
+    struct bench_campaign campaign = {.inputs = operands->value,
+                                      .count = (unsigned)operands->count,
+                                      .engines = engines,
+                                      .threads = settings->threads,
+                                      .repetitions = settings->repetitions,
+                                      .frames = settings->frames,
+                                      .seconds = settings->seconds};
+    int status = begin_campaign(self, settings, &campaign);
+    if (!status)
+        status = measure_campaign(self, settings, &campaign);
+    results_free(&campaign.earlier);
+    return status;
+}
+
+/* Results that summarize all streams cannot be made from parts. */
+static int check_parts(const struct command *self, const struct settings *settings)
+{
+    const struct {
+        bool given;
+        const char *name;
+    } whole[] = {{settings->compare, "compare"},    {settings->builds, "builds"},
+                 {settings->cold, "cold"},          {settings->shaders, "shaders"},
+                 {settings->code, "code"},          {settings->csv != NULL, "csv"},
+                 {settings->chart != NULL, "chart"}};
+    if (!settings->shard && !settings->resume)
+        return STATUS_OK;
+    for (size_t i = 0; i < sizeof whole / sizeof *whole; i++)
+        if (whole[i].given)
+            return tool_fail(self, "--%s and --%s are both given, expected one of them", whole[i].name,
+                             settings->shard ? "shard" : "resume");
+    return STATUS_OK;
+}
+
 static int run(const struct command *self, void *data, const struct operands *operands)
 {
     const struct settings *settings = data;
     struct choice engines;
     unsigned count = (unsigned)operands->count;
     store_off |= settings->no_cache;
+    if (check_parts(self, settings))
+        return STATUS_BAD;
     if (settings->compare && count != 2)
         return tool_fail(self, "--compare has %u operands, expected two files that --json wrote", count);
     if (settings->compare)
         return bench_compare(self, operands->value, settings->json);
     if (choose_engines(self, settings->engines, &engines) ||
         choose_variants(self, &settings->variation, &engines) || chart_check(self, settings->chart) ||
-        tool_check_output(self, settings->json) || tool_check_output(self, settings->csv))
+        tool_check_output(self, settings->json) || tool_check_output(self, settings->csv) ||
+        tool_check_output(self, settings->resume))
         return STATUS_BAD;
     interrupt_defer();
     if (settings->builds)
@@ -306,6 +394,8 @@ static const struct option options[] = {
      OPTION_IS_FILE(struct settings, chart), .extension = "svg png"},
     {"compare", NULL, "measure nothing, compare two files of --json: A.json B.json",
      OPTION_IS_FLAG(struct settings, compare)},
+    OPTION_SHARD(struct settings, shard),
+    OPTION_RESUME(struct settings, resume),
     OPTION_NO_CACHE(struct settings, no_cache),
     {0},
 };

@@ -22,6 +22,8 @@ static const struct {
 #undef COLUMN
 };
 
+enum { SHARD_NAME = 32 };
+
 /* A quotient; 0 is one that was not computed. */
 static void print_value(struct table *table, int decimals, double value)
 {
@@ -128,25 +130,37 @@ static size_t count_builds(const struct bench *bench, unsigned run)
     return count;
 }
 
-static struct unit_summary summarize_unit(const struct bench *bench, unsigned run, unsigned unit)
+/* The routines of an engine for a unit, of all streams. The arrays must be freed. Returns false, and marks
+ * the report incomplete, if memory is short. */
+static bool collect_unit(const struct bench *bench, unsigned run, struct bench_routines *routines)
 {
-    size_t all = count_builds(bench, run), count = 0, coded = 0, by_operation = 0;
-    double *us = calloc(all + 1, sizeof *us), *bytes = calloc(all + 1, sizeof *bytes);
-    for (unsigned i = 0; i < bench->stream_count && us && bytes; i++)
+    size_t all = count_builds(bench, run);
+    routines->us = calloc(all + 1, sizeof *routines->us);
+    routines->bytes = calloc(all + 1, sizeof *routines->bytes);
+    if (!routines->us || !routines->bytes)
+        return tool_report_mark_incomplete(), false;
+    for (unsigned i = 0; i < bench->stream_count; i++)
         for (size_t j = 0; j < bench->streams[i].runs[run].build_count; j++) {
             const struct build *build = bench->streams[i].runs[run].builds + j;
-            if (build->unit != unit)
+            if (build->unit != routines->unit)
                 continue;
-            us[count++] = build->us;
-            by_operation += build->by_operation;
+            routines->us[routines->routines++] = build->us;
+            routines->by_operation += build->by_operation;
             if (build->code_bytes > 0)
-                bytes[coded++] = build->code_bytes;
+                routines->bytes[routines->coded++] = build->code_bytes;
         }
-    if (!us || !bytes)
-        tool_report_mark_incomplete();
-    struct unit_summary summary = {summary_of(us, count), summary_of(bytes, coded), by_operation};
-    free(us);
-    free(bytes);
+    return true;
+}
+
+static struct unit_summary summarize_unit(const struct bench *bench, unsigned run, unsigned unit)
+{
+    struct bench_routines routines = {.unit = unit};
+    struct unit_summary summary = {0};
+    if (collect_unit(bench, run, &routines))
+        summary = (struct unit_summary){summary_of(routines.us, routines.routines),
+                                        summary_of(routines.bytes, routines.coded), routines.by_operation};
+    free(routines.us);
+    free(routines.bytes);
     return summary;
 }
 
@@ -187,7 +201,31 @@ void bench_print_summary(const struct bench *bench)
     print_builds(bench);
 }
 
-static cJSON *json_run(const struct bench_run *run)
+/* The times and sizes of all routines, by unit, to be summarized with those of other streams. */
+static cJSON *json_parts(const struct bench_run *run)
+{
+    cJSON *json = cJSON_CreateArray();
+    for (unsigned unit = 0; unit < UNIT_COUNT; unit++) {
+        unsigned by_operation = 0;
+        cJSON *part = cJSON_CreateObject();
+        cJSON_AddStringToObject(part, "unit", unit_name[unit]);
+        cJSON *us = cJSON_AddArrayToObject(part, "us"), *bytes = cJSON_AddArrayToObject(part, "bytes");
+        for (size_t i = 0; i < run->build_count; i++) {
+            const struct build *build = run->builds + i;
+            if (build->unit != unit)
+                continue;
+            by_operation += build->by_operation;
+            cJSON_AddItemToArray(us, cJSON_CreateNumber(build->us));
+            if (build->code_bytes > 0)
+                cJSON_AddItemToArray(bytes, cJSON_CreateNumber(build->code_bytes));
+        }
+        cJSON_AddNumberToObject(part, "by_operation", by_operation);
+        cJSON_AddItemToArray(json, part);
+    }
+    return json;
+}
+
+static cJSON *json_run(const struct bench_run *run, bool parts)
 {
     static const char *const names[MEASURE_COUNT] = {
         [MEASURE_FRAME_MS] = "frame_ms", [MEASURE_VERTEX_NS] = "vertex_ns", [MEASURE_PIXEL_NS] = "pixel_ns"};
@@ -204,12 +242,17 @@ static cJSON *json_run(const struct bench_run *run)
     for (int i = 0; i < MEASURE_COUNT; i++)
         cJSON_AddItemToObject(samples, names[i],
                               cJSON_CreateDoubleArray(run->samples[i], (int)run->repetitions));
+    if (parts) {
+        execution_json_units(&run->execution, json);
+        cJSON_AddItemToObject(json, "builds", json_parts(run));
+    }
     return json;
 }
 
-static cJSON *json_stream(const struct bench_stream *stream)
+static cJSON *json_stream(const struct bench_stream *stream, bool parts)
 {
     cJSON *json = cJSON_CreateObject();
+    cJSON_AddNumberToObject(json, "number", stream->number);
     cJSON_AddStringToObject(json, "stream", stream->name);
     cJSON_AddStringToObject(json, "path", stream->path);
     cJSON_AddNumberToObject(json, "width", stream->width);
@@ -220,7 +263,7 @@ static cJSON *json_stream(const struct bench_stream *stream)
     cJSON_AddStringToObject(json, "fastest", triptych_engine_name(stream->runs[stream->fastest].engine));
     cJSON *runs = cJSON_AddArrayToObject(json, "engines");
     for (unsigned i = 0; i < stream->run_count; i++)
-        cJSON_AddItemToArray(runs, json_run(stream->runs + i));
+        cJSON_AddItemToArray(runs, json_run(stream->runs + i, parts));
     return json;
 }
 
@@ -237,38 +280,99 @@ static cJSON *json_summary(const struct summary *summary)
     return json;
 }
 
+cJSON *bench_json_routines(const struct bench_routines *routines)
+{
+    const struct summary us = summary_of(routines->us, routines->routines);
+    const struct summary bytes = summary_of(routines->bytes, routines->coded);
+    cJSON *json = cJSON_CreateObject();
+    cJSON_AddStringToObject(json, "engine", routines->engine);
+    cJSON_AddStringToObject(json, "unit", unit_name[routines->unit]);
+    execution_json(&routines->execution, json);
+    cJSON_AddNumberToObject(json, "routines", (double)routines->routines);
+    cJSON_AddNumberToObject(json, "by_operation", (double)routines->by_operation);
+    cJSON_AddItemToObject(json, "build_us", json_summary(&us));
+    cJSON_AddItemToObject(json, "code_bytes", json_summary(&bytes));
+    return json;
+}
+
 static void add_builds(cJSON *builds, const struct bench *bench, unsigned run, unsigned unit)
 {
-    struct unit_summary summary = summarize_unit(bench, run, unit);
-    struct execution execution = {0};
+    struct bench_routines routines = {.engine = triptych_engine_name(bench->streams->runs[run].engine),
+                                      .unit = unit};
     for (unsigned i = 0; i < bench->stream_count; i++)
-        execution_add_all(&execution, &bench->streams[i].runs[run].execution);
+        execution_add_all(&routines.execution, &bench->streams[i].runs[run].execution);
+    if (collect_unit(bench, run, &routines))
+        cJSON_AddItemToArray(builds, bench_json_routines(&routines));
+    free(routines.us);
+    free(routines.bytes);
+}
+
+/* --- JSON ----------------------------------------------------------------------------------------------- */
+
+static void add_campaign(cJSON *json, const struct bench_campaign *campaign)
+{
+    char shard[SHARD_NAME];
+    if (shard_is_part(&campaign->shard)) {
+        snprintf(shard, sizeof shard, "%u/%u", campaign->shard.index, campaign->shard.count);
+        cJSON_AddStringToObject(json, "shard", shard);
+    }
+    cJSON *inputs = cJSON_AddArrayToObject(json, "inputs");
+    for (unsigned i = 0; i < campaign->count; i++)
+        cJSON_AddItemToArray(inputs, cJSON_CreateString(campaign->inputs[i]));
+    cJSON *engines = cJSON_AddArrayToObject(json, "engines");
+    for (unsigned i = 0; i < campaign->engines->count; i++)
+        cJSON_AddItemToArray(engines, cJSON_CreateString(triptych_engine_name(campaign->engines->index[i])));
+    cJSON_AddNumberToObject(json, "repetitions", campaign->repetitions);
+    cJSON_AddNumberToObject(json, "seconds", campaign->seconds);
+    if (campaign->frames)
+        cJSON_AddNumberToObject(json, "frames", campaign->frames);
+}
+
+static cJSON *json_head(const struct bench_campaign *campaign, const struct machine *machine)
+{
     cJSON *json = cJSON_CreateObject();
-    cJSON_AddStringToObject(json, "engine", triptych_engine_name(bench->streams->runs[run].engine));
-    cJSON_AddStringToObject(json, "unit", unit_name[unit]);
-    execution_json(&execution, json);
-    cJSON_AddNumberToObject(json, "routines", (double)summary.us.count);
-    cJSON_AddNumberToObject(json, "by_operation", (double)summary.by_operation);
-    cJSON_AddItemToObject(json, "build_us", json_summary(&summary.us));
-    cJSON_AddItemToObject(json, "code_bytes", json_summary(&summary.bytes));
-    cJSON_AddItemToArray(builds, json);
+    cJSON_AddStringToObject(json, "command", "bench");
+    cJSON_AddItemToObject(json, "machine", machine_json(machine));
+    cJSON_AddNumberToObject(json, "threads", campaign->threads);
+    cJSON_AddStringToObject(json, "interval", interval_method);
+    add_campaign(json, campaign);
+    return json;
+}
+
+cJSON *bench_json_empty(const struct bench_campaign *campaign)
+{
+    const struct machine machine = machine_describe();
+    cJSON *json = json_head(campaign, &machine);
+    cJSON_AddArrayToObject(json, "streams");
+    return json;
+}
+
+/* The streams of the results that are continued, then those of this command. */
+static void add_streams(cJSON *json, const struct bench *bench)
+{
+    const cJSON *entry, *earlier = bench->campaign->earlier.json;
+    cJSON *streams = cJSON_AddArrayToObject(json, "streams");
+    cJSON_ArrayForEach(entry, cJSON_GetObjectItemCaseSensitive(earlier, "streams"))
+    {
+        if (results_complete(entry))
+            cJSON_AddItemToArray(streams, cJSON_Duplicate(entry, true));
+    }
+    for (unsigned i = 0; i < bench->stream_count; i++)
+        cJSON_AddItemToArray(streams, json_stream(bench->streams + i, bench->campaign->parts));
 }
 
 int bench_write_json(const struct command *self, const struct bench *bench, const char *path)
 {
-    cJSON *json = cJSON_CreateObject();
-    cJSON_AddItemToObject(json, "machine", machine_json(&bench->machine));
-    cJSON_AddNumberToObject(json, "threads", bench->threads);
-    cJSON_AddStringToObject(json, "interval", interval_method);
+    cJSON *json = json_head(bench->campaign, &bench->machine);
     if (interrupt_signal())
         cJSON_AddStringToObject(json, "interrupted", interrupt_name());
-    cJSON *streams = cJSON_AddArrayToObject(json, "streams");
-    for (unsigned i = 0; i < bench->stream_count; i++)
-        cJSON_AddItemToArray(streams, json_stream(bench->streams + i));
-    cJSON *builds = cJSON_AddArrayToObject(json, "builds");
-    for (unsigned run = 0; run < bench->streams->run_count; run++)
-        for (unsigned unit = 0; unit < UNIT_COUNT; unit++)
-            add_builds(builds, bench, run, unit);
+    add_streams(json, bench);
+    if (!bench->campaign->parts) {
+        cJSON *builds = cJSON_AddArrayToObject(json, "builds");
+        for (unsigned run = 0; run < bench->streams->run_count; run++)
+            for (unsigned unit = 0; unit < UNIT_COUNT; unit++)
+                add_builds(builds, bench, run, unit);
+    }
     if (bench->shaders)
         cJSON_AddItemToObject(json, "shaders", bench_json_shaders(bench));
     int status = json_write(self, json, path);

@@ -3,6 +3,8 @@
 #include <stdio.h>
 #include <string.h>
 
+enum { LANES_MOST = 65536 }; /* of a routine; more is a damaged file */
+
 /* From the smallest to the largest, as triptych_get_routine() names them. */
 static int rank_of(const char *set)
 {
@@ -77,4 +79,21 @@ void execution_json(const struct execution *execution, cJSON *object)
     char text[EXECUTION_TEXT];
     cJSON_AddStringToObject(object, "lanes", execution_lanes(execution, text));
     cJSON_AddStringToObject(object, "instruction_set", execution_set(execution));
+}
+
+void execution_json_units(const struct execution *execution, cJSON *object)
+{
+    cJSON *lanes = cJSON_AddArrayToObject(object, "unit_lanes");
+    for (unsigned unit = 0; unit < UNIT_COUNT; unit++)
+        cJSON_AddItemToArray(lanes, cJSON_CreateNumber(execution->lanes[unit]));
+}
+
+void execution_units(const cJSON *object, unsigned lanes[UNIT_COUNT])
+{
+    const cJSON *list = cJSON_GetObjectItemCaseSensitive(object, "unit_lanes");
+    for (unsigned unit = 0; unit < UNIT_COUNT; unit++) {
+        const cJSON *value = cJSON_GetArrayItem(list, (int)unit);
+        bool is_lanes = cJSON_IsNumber(value) && value->valuedouble >= 0 && value->valuedouble <= LANES_MOST;
+        lanes[unit] = is_lanes ? (unsigned)value->valuedouble : 0;
+    }
 }

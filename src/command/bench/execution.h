@@ -33,4 +33,9 @@ const char *execution_set(const struct execution *execution);
 /* Adds the fields "lanes" and "instruction_set", both strings. */
 void execution_json(const struct execution *execution, cJSON *object);
 
+/* Adds the field "unit_lanes", the lanes of the units, so that executions can be joined. */
+void execution_json_units(const struct execution *execution, cJSON *object);
+/* Reads that field; lanes that are missing or not a possible number are 0. */
+void execution_units(const cJSON *object, unsigned lanes[UNIT_COUNT]);
+
 #endif

@@ -1,4 +1,5 @@
 /* `triptych fuzz`: draws random cases with every engine, width and number of threads (docs/fuzzing.md). */
+#include "base/clock.h"
 #include "base/file.h"
 #include "engines/list.h"
 #include "engines/specialize/passes/pass.h"
@@ -6,9 +7,8 @@
 #include "command/fuzz/campaign.h"
 #include "command/support/choose.h"
 #include "command/support/interrupt.h"
-#include "command/support/json.h"
-#include "command/bench/machine.h"
 #include "command/support/option.h"
+#include "command/tool/fuzz_results.h"
 #include "triptych.h"
 
 #include <inttypes.h>
@@ -20,9 +20,20 @@ enum { PATH_CAPACITY = 4096, NEVER = 0xffffffff };
 
 struct settings {
     unsigned seed, first, count, jobs, enough, print;
-    double seconds, limit;
-    const char *engines, *threads, *folder, *json;
+    double seconds, limit, checkpoint;
+    const char *engines, *threads, *folder, *json, *shard, *resume;
     struct variation variation;
+};
+
+/* A campaign while it runs. */
+struct watched {
+    const struct command *self;
+    const struct settings *settings;
+    struct fuzz_results results;
+    uint64_t part;    /* cases of the shard */
+    uint64_t written; /* cases that the file of --resume has */
+    double next;      /* when it is written again, in seconds */
+    int status;
 };
 
 static uint64_t drawn(const struct campaign *campaign)
@@ -30,12 +41,26 @@ static uint64_t drawn(const struct campaign *campaign)
     return campaign->cases - campaign->outcomes[OUTCOME_REFUSED];
 }
 
+/* Writes the results so far, as those of an interrupted campaign. */
+static void keep(struct watched *watched, const struct campaign *campaign)
+{
+    static struct campaign now;
+    if (!watched->settings->resume || campaign->cases == watched->written || clock_seconds() < watched->next)
+        return;
+    now = *campaign; /* shares `done` */
+    now.interrupted = true;
+    watched->status = fuzz_results_write(watched->self, &watched->results, &now, watched->settings->resume);
+    watched->written = campaign->cases;
+    watched->next = clock_seconds() + watched->settings->checkpoint;
+}
+
 static bool watch(void *user, const struct campaign *campaign)
 {
-    const struct settings *settings = user;
-    tool_progress("%" PRIu64 " of %u cases, %.0f a second, %u findings", campaign->cases, settings->count,
-                  (double)campaign->cases / campaign->seconds, campaign->findings);
-    return interrupt_signal();
+    struct watched *watched = user;
+    tool_progress("%" PRIu64 " of %" PRIu64 " cases, %.0f a second, %u findings", campaign->cases,
+                  watched->part, (double)campaign->cases / campaign->seconds, campaign->findings);
+    keep(watched, campaign);
+    return watched->status || interrupt_signal();
 }
 
 /* The reference of every comparison is the first engine, in whatever order the list is. */
@@ -72,6 +97,12 @@ static void describe(const struct settings *settings, const struct campaign_find
     snprintf(text + length, size - (size_t)length, ": %s", finding->what);
 }
 
+static void name_file(const struct settings *settings, const struct campaign_finding *found,
+                      char path[PATH_CAPACITY])
+{
+    snprintf(path, PATH_CAPACITY, "%s/%u-%" PRIu64 ".tri", settings->folder, settings->seed, found->number);
+}
+
 /* Saves the text as a stream whose first lines describe the failure. */
 static int save(const struct command *self, const struct settings *settings,
                 const struct campaign_finding *found, const char *description, const struct text *explanation,
@@ -81,7 +112,7 @@ static int save(const struct command *self, const struct settings *settings,
     struct text whole = {0};
     char path[PATH_CAPACITY];
     const char *rest = strchr(text->data, '\n');
-    snprintf(path, sizeof path, "%s/%u-%" PRIu64 ".tri", settings->folder, settings->seed, found->number);
+    name_file(settings, found, path);
     text_add(&whole, "triptych 1\n# %s\n", description);
     whole.failed |= explanation->failed;
     for (const char *line = explanation->data; line && *line && !whole.failed; line = strchr(line, '\n') + 1)
@@ -136,15 +167,24 @@ static int save_smallest(const struct command *self, const struct settings *sett
     return bad;
 }
 
+/* Returns true if a campaign that is continued has saved the case already. */
+static bool is_saved(const struct settings *settings, const struct campaign *earlier,
+                     const struct campaign_finding *found)
+{
+    char path[PATH_CAPACITY];
+    name_file(settings, found, path);
+    return ranges_has(&earlier->done, found->number) && !access(path, F_OK);
+}
+
 static int report_finding(const struct command *self, const struct settings *settings,
-                          const struct campaign_options *options, const struct campaign_finding *found,
-                          cJSON *list)
+                          const struct campaign_options *options, const struct campaign_finding *found)
 {
     char description[2 * FINDING_TEXT];
     struct text text = {0};
     describe(settings, found, description, sizeof description);
     printf("%s\n", description);
-    cJSON_AddItemToArray(list, cJSON_CreateString(description));
+    if (is_saved(settings, options->earlier, found))
+        return STATUS_OK;
     campaign_case(settings->seed, found->number, &text);
     int bad = text.failed ? tool_fail(self, "out of memory for a case")
                           : save_smallest(self, settings, options, found, description, &text);
@@ -165,44 +205,24 @@ static void summarize(const struct runner_options *run, const struct campaign *c
            campaign->interrupted ? ", interrupted" : "");
 }
 
-static cJSON *make_json(const struct settings *settings, const struct runner_options *run,
-                        const struct campaign *campaign, cJSON *findings)
+/* The files are written before the cases are reduced, which takes long. */
+static int write_results(const struct watched *watched, const struct campaign *campaign)
 {
-    struct machine machine = machine_describe();
-    cJSON *json = cJSON_CreateObject(), *engines;
-    cJSON_AddItemToObject(json, "machine", machine_json(&machine));
-    cJSON_AddNumberToObject(json, "seed", settings->seed);
-    cJSON_AddNumberToObject(json, "first", settings->first);
-    engines = cJSON_AddArrayToObject(json, "engines");
-    for (unsigned i = 0; i < run->engines; i++)
-        cJSON_AddItemToArray(engines, cJSON_CreateString(run->engine[i]->name));
-    cJSON_AddNumberToObject(json, "seconds", campaign->seconds);
-    cJSON_AddNumberToObject(json, "pixels", (double)campaign->pixels);
-    cJSON_AddNumberToObject(json, "cases", (double)campaign->cases);
-    for (unsigned o = 0; o < OUTCOME_COUNT; o++)
-        cJSON_AddNumberToObject(json, outcome_name[o], (double)campaign->outcomes[o]);
-    cJSON_AddBoolToObject(json, "interrupted", campaign->interrupted);
-    cJSON_AddItemReferenceToObject(json, "findings", findings);
-    return json;
+    const char *const paths[] = {watched->settings->resume, watched->settings->json};
+    for (size_t i = 0; i < sizeof paths / sizeof *paths; i++)
+        if (paths[i] && fuzz_results_write(watched->self, &watched->results, campaign, paths[i]))
+            return STATUS_BAD;
+    return STATUS_OK;
 }
 
-static int report(const struct command *self, const struct settings *settings,
-                  const struct campaign_options *options, const struct campaign *campaign)
+static int report(const struct watched *watched, const struct campaign_options *options,
+                  const struct campaign *campaign)
 {
-    cJSON *findings = cJSON_CreateArray();
-    int status = campaign->findings ? STATUS_DIFFERENT : STATUS_OK;
-    for (unsigned i = 0; i < campaign->findings && status != STATUS_BAD; i++)
-        if (report_finding(self, settings, options, &campaign->finding[i], findings))
-            status = STATUS_BAD;
-    if (settings->json && status != STATUS_BAD) {
-        cJSON *json = make_json(settings, &options->run, campaign, findings);
-        if (json_write(self, json, settings->json))
-            status = STATUS_BAD;
-        cJSON_Delete(json);
-    }
-    cJSON_Delete(findings);
+    int status = write_results(watched, campaign);
+    for (unsigned i = 0; i < campaign->findings && !status; i++)
+        status = report_finding(watched->self, watched->settings, options, &campaign->finding[i]);
     summarize(&options->run, campaign);
-    return status;
+    return status ? status : campaign->findings ? STATUS_DIFFERENT : STATUS_OK;
 }
 
 /* --- The command --- */
@@ -218,38 +238,65 @@ static int print_case(const struct command *self, const struct settings *setting
     return bad ? tool_fail(self, "out of memory for a case") : STATUS_OK;
 }
 
-static int fuzz(const struct command *self, struct settings *settings)
+/* Draws the cases of the shard that `earlier` does not have. */
+static int hold(struct watched *watched, struct campaign_options *options)
 {
     static struct campaign campaign;
+    const struct command *self = watched->self;
     struct error error = {{0}};
+    interrupt_defer();
+    int bad = campaign_run(options, watch, watched, &campaign, &error) ? tool_fail(self, "%s", error.text)
+                                                                       : watched->status;
+    int status = report(watched, options, &campaign);
+    if (!bad)
+        bad = campaign.interrupted && status != STATUS_BAD ? interrupt_status() : status;
+    campaign_free(&campaign);
+    return bad;
+}
+
+static int fuzz(const struct command *self, const struct settings *settings)
+{
+    static struct campaign earlier;
     struct campaign_options options = {.seed = settings->seed,
-                                       .first = settings->first,
-                                       .count = settings->count,
                                        .seconds = settings->seconds,
                                        .limit = settings->limit,
                                        .jobs = settings->jobs,
-                                       .enough = settings->enough};
+                                       .enough = settings->enough,
+                                       .earlier = &earlier};
+    struct watched watched = {
+        .self = self,
+        .settings = settings,
+        .results = {settings->seed, settings->first, settings->count, .run = &options.run}};
     bool made;
-    if (choose(self, settings, &options.run) || tool_check_output(self, settings->json) ||
+    if (choose(self, settings, &options.run) || shard_read(self, settings->shard, &watched.results.shard) ||
+        tool_check_output(self, settings->json) || tool_check_output(self, settings->resume) ||
+        (settings->resume && fuzz_results_read(self, &watched.results, settings->resume, &earlier)) ||
         tool_make_folder(self, settings->folder, &made))
-        return STATUS_BAD;
-    interrupt_defer();
-    int bad =
-        campaign_run(&options, watch, settings, &campaign, &error) ? tool_fail(self, "%s", error.text) : 0;
-    int status = report(self, settings, &options, &campaign);
+        return campaign_free(&earlier), STATUS_BAD;
+    shard_part(&watched.results.shard, settings->count, &options.first, &options.count);
+    options.first += settings->first;
+    watched.part = options.count;
+    watched.written = earlier.cases;
+    watched.next = clock_seconds() + settings->checkpoint;
+    int status = hold(&watched, &options);
     if (made)
         rmdir(settings->folder); /* succeeds only if nothing was found */
-    return bad ? bad : campaign.interrupted && status != STATUS_BAD ? interrupt_status() : status;
+    campaign_free(&earlier);
+    return status;
 }
 
 static const char notes[] = "Case N of seed S is always the same draw stream. Failing cases are reduced and "
                             "saved in the folder as streams.\n"
                             "Exit status 1: there are findings. After SIGINT or SIGTERM it reports its "
-                            "findings; the status is 130 or 143.";
+                            "findings; the status is 130 or 143.\n"
+                            "Shard I of N draws consecutive cases. The shards' results, merged by triptych "
+                            "merge, are those of one run.\n"
+                            "--shard auto is the task of the Slurm array times the rank of the MPI launcher. "
+                            "Without --shard,\nneither is read. With --resume, no case is drawn twice.";
 
 static int run(const struct command *self, void *data, const struct operands *operands)
 {
-    struct settings *settings = data;
+    const struct settings *settings = data;
     (void)operands;
     return settings->print != NEVER ? print_case(self, settings) : fuzz(self, settings);
 }
@@ -260,6 +307,7 @@ static const struct settings defaults = {.seed = 1,
                                          .enough = 10,
                                          .print = NEVER,
                                          .limit = 60,
+                                         .checkpoint = 30,
                                          .threads = "1,2",
                                          .folder = "findings"};
 
@@ -280,6 +328,10 @@ static const struct option options[] = {
      .least = 1, .most = CAMPAIGN_FINDINGS},
     {"output", "DIR", "folder for findings; findings", OPTION_IS_FOLDER(struct settings, folder)},
     {"json", "FILE", "write the results", OPTION_IS_FILE(struct settings, json), .extension = "json"},
+    OPTION_SHARD(struct settings, shard),
+    OPTION_RESUME(struct settings, resume),
+    {"checkpoint", "T", "seconds between two writes of --resume; 30",
+     OPTION_IS_SECONDS(struct settings, checkpoint), .most = 100000},
     {"print", "N", "write case N to standard output instead", OPTION_IS_NUMBER(struct settings, print),
      .most = NEVER},
     {0},

@@ -4,6 +4,7 @@
  * each draw, so the player continues from one to the next. */
 #include "command/support/choose.h"
 #include "command/support/option.h"
+#include "command/support/shard.h"
 #include "command/support/shared.h"
 #include "command/store/store.h"
 #include "command/support/session.h"
@@ -20,7 +21,7 @@ enum { THREADS_MAXIMUM = 256, WIDTH_MAXIMUM = 256, RATE_DEFAULT = 30 };
 enum { UNSET = UINT32_MAX };
 
 struct settings {
-    const char *engine, *out, *frames, *draws;
+    const char *engine, *out, *frames, *draws, *shard;
     unsigned frame, threads, width, form, columns, rate, compression;
     bool no_cache;
 };
@@ -137,6 +138,20 @@ static int check_frame(const struct command *self, const struct stream *stream, 
                                                    frame, stream->frame_count - 1);
 }
 
+/* Reduces the range to the shard's part. *empty is true if it has no frames. */
+static int cut_range(const struct command *self, const char *text, struct task *task, bool *empty)
+{
+    struct shard shard;
+    uint64_t first, count;
+    if (shard_read(self, text, &shard))
+        return STATUS_BAD;
+    shard_part(&shard, (uint64_t)task->last - task->first + 1, &first, &count);
+    *empty = !count;
+    task->first += (unsigned)first;
+    task->last = task->first + (unsigned)count - 1;
+    return STATUS_OK;
+}
+
 static int draw_frames(const struct command *self, const struct stream *stream,
                        const struct settings *settings, unsigned engine)
 {
@@ -145,8 +160,11 @@ static int draw_frames(const struct command *self, const struct stream *stream,
     if (settings->frames ? read_range(self, "frames", settings->frames, stream->frame_count, &task)
                          : check_frame(self, stream, frame))
         return STATUS_BAD;
+    bool empty;
+    if (cut_range(self, settings->shard, &task, &empty))
+        return STATUS_BAD;
     task.number = task.start = task.first;
-    return draw_task(self, &task, settings, engine);
+    return empty ? STATUS_OK : draw_task(self, &task, settings, engine);
 }
 
 static int draw_draws(const struct command *self, const struct stream *stream,
@@ -182,6 +200,9 @@ static int check_settings(const struct command *self, const struct settings *set
     if (settings->frames && (settings->draws || settings->frame != UNSET))
         return tool_fail(self, "--frames and --%s are both given, expected one of them",
                          settings->draws ? "draws" : "frame");
+    if (settings->shard && (!settings->frames || settings->columns || !strchr(settings->out, '%')))
+        return tool_fail(self, "--shard is given, expected --frames, and --out with a file for each picture, "
+                               "such as f%%04d.png");
     return STATUS_OK;
 }
 
@@ -222,6 +243,7 @@ static const struct option options[] = {
      OPTION_IS_TEXT(struct settings, frames)},
     {"draws", "A-B|all", "a picture after each of these draws of the frame, from 0",
      OPTION_IS_TEXT(struct settings, draws)},
+    OPTION_SHARD(struct settings, shard),
     {"sheet", "COLUMNS", "all pictures in one PNG, in rows of COLUMNS",
      OPTION_IS_NUMBER(struct settings, columns), .least = 1, .most = 1024},
     {"rate", "N", "frames a second of an animation; 30", OPTION_IS_NUMBER(struct settings, rate), .least = 1,

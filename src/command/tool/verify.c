@@ -11,14 +11,11 @@
 #include "command/support/choose.h"
 #include "command/support/difference.h"
 #include "command/support/interrupt.h"
-#include "command/support/json.h"
-#include "command/bench/execution.h"
-#include "command/bench/machine.h"
 #include "command/support/option.h"
 #include "command/support/shared.h"
 #include "command/store/store.h"
 #include "command/support/session.h"
-#include "command/tool/golden.h"
+#include "command/tool/verify_results.h"
 #include "triptych.h"
 
 #include <errno.h>
@@ -39,7 +36,7 @@ struct configuration {
 };
 
 struct settings {
-    const char *engine_list, *thread_list, *frames_text, *json;
+    const char *engine_list, *thread_list, *frames_text, *json, *shard, *resume;
     struct golden golden; /* without a folder: none */
     struct variation variation;
     struct choice engines, threads;
@@ -47,15 +44,16 @@ struct settings {
     bool all_frames, no_cache;
     unsigned frames;  /* the number to draw, spread over a longer stream */
     unsigned shuffle; /* seed of the order of tasks in all configurations but the reference; 0: in order */
-    cJSON *report;    /* an array of the streams, or null */
-    struct execution *executions; /* CHOICE_CAPACITY of them, indexed like `engines` */
+    struct verify_results results;
 };
 
 /* The verification of one stream. */
 struct verification {
     char name[STEM_CAPACITY];
     const char *path;
-    unsigned frames, all; /* to draw; in the stream */
+    unsigned number;                /* of the stream */
+    bool selected[CHOICE_CAPACITY]; /* the engines to compare, indexed like those of the settings */
+    unsigned frames, all;           /* to draw; in the stream */
     unsigned drawn;
     struct configuration reference;
     struct configuration *others;
@@ -88,7 +86,8 @@ static int open_all(const struct command *self, const struct stream *stream, con
         return STATUS_BAD;
     for (unsigned i = 0; i < settings->engines.count; i++)
         for (unsigned j = 0; j < settings->threads.count; j++) {
-            if (settings->engines.index[i] == engine && settings->threads.index[j] == 1)
+            if (!verification->selected[i] ||
+                (settings->engines.index[i] == engine && settings->threads.index[j] == 1))
                 continue;
             struct configuration *other = verification->others + verification->count++;
             if (open_configuration(self, stream, settings->engines.index[i], settings->threads.index[j],
@@ -96,10 +95,6 @@ static int open_all(const struct command *self, const struct stream *stream, con
                 return STATUS_BAD;
             device_shuffle(other->session.device, settings->shuffle);
         }
-    if (!verification->count && !settings->golden.folder)
-        return tool_fail(
-            self, "%s with 1 thread is the reference itself, expected another engine or number of threads",
-            reference_engine);
     return STATUS_OK;
 }
 
@@ -109,10 +104,11 @@ static void note_executions(const struct settings *settings, const struct verifi
     for (unsigned i = 0; i < settings->engines.count; i++) {
         const unsigned engine = settings->engines.index[i];
         if (verification->reference.engine == engine)
-            execution_add_device(&settings->executions[i], verification->reference.session.device);
+            execution_add_device(&settings->results.executions[i], verification->reference.session.device);
         for (unsigned j = 0; j < verification->count; j++)
             if (verification->others[j].engine == engine)
-                execution_add_device(&settings->executions[i], verification->others[j].session.device);
+                execution_add_device(&settings->results.executions[i],
+                                     verification->others[j].session.device);
     }
 }
 
@@ -125,23 +121,6 @@ static void close_all(struct verification *verification)
     XXH3_freeState(verification->digest);
     readback_free(&verification->expected);
     readback_free(&verification->got);
-}
-
-static void add_difference(cJSON *differences, const struct configuration *configuration, unsigned frame,
-                           const struct difference *difference, const char *text)
-{
-    cJSON *json = cJSON_CreateObject();
-    cJSON_AddStringToObject(json, "engine", triptych_engine_name(configuration->engine));
-    cJSON_AddNumberToObject(json, "threads", configuration->threads);
-    cJSON_AddNumberToObject(json, "frame", frame);
-    cJSON_AddNumberToObject(json, "x", difference->x);
-    cJSON_AddNumberToObject(json, "y", difference->y);
-    cJSON_AddNumberToObject(json, "color_pixels", (double)difference->color_pixels);
-    cJSON_AddNumberToObject(json, "depth_pixels", (double)difference->depth_pixels);
-    cJSON_AddNumberToObject(json, "stencil_pixels", (double)difference->stencil_pixels);
-    cJSON_AddNumberToObject(json, "number_pixels", (double)difference->number_pixels);
-    cJSON_AddStringToObject(json, "what", text);
-    cJSON_AddItemToArray(differences, json);
 }
 
 static int save_picture(const struct command *self, const struct settings *settings,
@@ -187,7 +166,8 @@ static int compare_frame(const struct command *self, const struct settings *sett
     printf("%s: frame %u: %s with 1 thread and %s with %u differ: %s\n", verification->name, frame,
            reference_engine, triptych_engine_name(configuration->engine), configuration->threads, text);
     if (verification->differences)
-        add_difference(verification->differences, configuration, frame, &difference, text);
+        verify_results_difference(verification->differences, triptych_engine_name(configuration->engine),
+                                  configuration->threads, frame, &difference, text);
     return settings->folder ? save_picture(self, settings, verification, configuration, frame) : STATUS_OK;
 }
 
@@ -250,11 +230,10 @@ static int verify_frame(const struct command *self, struct settings *settings,
     return STATUS_OK;
 }
 
-static void add_stream(const struct settings *settings, struct verification *verification, const char *digest)
+static void add_stream(struct settings *settings, struct verification *verification, const char *digest)
 {
-    cJSON *json = cJSON_CreateObject();
-    cJSON_AddStringToObject(json, "stream", verification->name);
-    cJSON_AddStringToObject(json, "path", verification->path);
+    cJSON *json = verify_results_add(&settings->results, verification->number, verification->name,
+                                     verification->selected);
     cJSON_AddNumberToObject(json, "frames", verification->drawn);
     cJSON_AddBoolToObject(json, "complete", verification->drawn == verification->frames);
     cJSON_AddNumberToObject(json, "configurations", verification->count + 1);
@@ -265,10 +244,9 @@ static void add_stream(const struct settings *settings, struct verification *ver
         cJSON_AddItemToObject(json, "goldens", verification->goldens);
     else
         cJSON_Delete(verification->goldens);
-    cJSON_AddItemToArray(settings->report, json);
 }
 
-static void report(const struct settings *settings, struct verification *verification)
+static void report(struct settings *settings, struct verification *verification)
 {
     char digest[24];
     snprintf(digest, sizeof digest, "%016llx", (unsigned long long)XXH3_64bits_digest(verification->digest));
@@ -278,7 +256,7 @@ static void report(const struct settings *settings, struct verification *verific
                verification->drawn, verification->all, verification->count + 1, verification->expected.width,
                verification->expected.height, digest);
     fflush(stdout);
-    if (!settings->report)
+    if (!settings->results.streams)
         return;
     note_executions(settings, verification);
     add_stream(settings, verification, digest);
@@ -298,21 +276,24 @@ static int verify_frames(const struct command *self, const struct stream *stream
 
 /* The number of streams so far. */
 struct totals {
-    unsigned complete, different;
+    unsigned streams, complete, different; /* with units in the shard; of these */
 };
 
-static int verify_stream(const struct command *self, const char *path, struct settings *settings,
-                         struct totals *totals)
+static int verify_stream(const struct command *self, const char *path, unsigned number,
+                         struct settings *settings, struct totals *totals)
 {
+    struct verification verification = {.path = path, .number = number};
+    if (!verify_results_select(&settings->results, number, verification.selected))
+        return STATUS_OK;
     struct stream *stream = session_load_frames(self, path);
     if (!stream)
         return STATUS_BAD;
-    struct verification verification = {.path = path, .all = stream->frame_count};
+    verification.all = stream->frame_count;
     tool_path_stem(path, verification.name, sizeof verification.name);
     verification.frames = verification.all;
     if (!settings->all_frames && settings->frames < verification.all)
         verification.frames = settings->frames;
-    if (settings->report) {
+    if (settings->results.streams) {
         verification.differences = cJSON_CreateArray();
         verification.goldens = cJSON_CreateArray();
     }
@@ -328,7 +309,8 @@ static int verify_stream(const struct command *self, const char *path, struct se
     }
     close_all(&verification);
     stream_free(stream);
-    return status;
+    return status || interrupt_signal() ? status
+                                        : verify_results_keep(&settings->results, !totals->different);
 }
 
 static void tell_left_out(const struct choice *engines)
@@ -338,8 +320,7 @@ static void tell_left_out(const struct choice *engines)
                engines->left_out[i].reason);
 }
 
-static void summarize(const struct operands *operands, const struct settings *settings,
-                      const struct totals *totals)
+static void summarize(const struct settings *settings, const struct totals *totals)
 {
     if (interrupt_signal())
         printf("interrupted by %s: %u of ", interrupt_name(), totals->complete);
@@ -348,48 +329,36 @@ static void summarize(const struct operands *operands, const struct settings *se
     else if (settings->golden.folder)
         printf("%u goldens, %u differ or are missing\n", settings->golden.compared,
                settings->golden.different);
-    printf("%d streams, %u engines, ", operands->count, settings->engines.count);
+    printf("%u streams, %u engines, ", totals->streams, settings->engines.count);
     if (totals->different)
         printf("%u differ\n", totals->different);
     else
         puts("identical");
 }
 
+static unsigned count_streams(const struct operands *operands, const struct settings *settings)
+{
+    bool selected[CHOICE_CAPACITY];
+    unsigned count = 0;
+    for (int i = 0; i < operands->count; i++)
+        count += verify_results_select(&settings->results, (unsigned)i, selected) > 0;
+    return count;
+}
+
 static int verify_all(const struct command *self, const struct operands *operands, struct settings *settings,
                       bool *identical)
 {
-    struct totals totals = {0};
+    struct totals totals = {.streams = count_streams(operands, settings),
+                            .different = settings->results.different};
     for (int i = 0; i < operands->count && !interrupt_signal(); i++)
-        if (verify_stream(self, operands->value[i], settings, &totals))
+        if (verify_stream(self, operands->value[i], (unsigned)i, settings, &totals))
             return STATUS_BAD;
     tell_left_out(&settings->engines);
-    summarize(operands, settings, &totals);
+    summarize(settings, &totals);
     *identical = !totals.different;
     if (interrupt_signal())
         return interrupt_status();
     return totals.different ? STATUS_DIFFERENT : STATUS_OK;
-}
-
-static int write_report(const struct command *self, const struct settings *settings, const char *path,
-                        bool identical, int status)
-{
-    struct machine machine = machine_describe();
-    cJSON *json = cJSON_CreateObject();
-    cJSON_AddItemToObject(json, "machine", machine_json(&machine));
-    cJSON_AddBoolToObject(json, "identical", identical);
-    if (interrupt_signal())
-        cJSON_AddStringToObject(json, "interrupted", interrupt_name());
-    cJSON *engines = cJSON_AddArrayToObject(json, "engines");
-    for (unsigned i = 0; i < settings->engines.count; i++) {
-        cJSON *engine = cJSON_CreateObject();
-        cJSON_AddStringToObject(engine, "engine", triptych_engine_name(settings->engines.index[i]));
-        execution_json(&settings->executions[i], engine);
-        cJSON_AddItemToArray(engines, engine);
-    }
-    cJSON_AddItemReferenceToObject(json, "streams", settings->report);
-    int bad = json_write(self, json, path);
-    cJSON_Delete(json);
-    return bad ? STATUS_BAD : status;
 }
 
 static const char notes[] =
@@ -397,7 +366,16 @@ static const char notes[] =
     "configuration\n"
     "must equal its bytes. Frames are numbered from 0. Last line: \"N streams, N engines, identical\", or "
     "the number\n"
-    "of streams that differ. After SIGINT or SIGTERM it reports what it has drawn; the status is 130 or 143.";
+    "of streams that differ. After SIGINT or SIGTERM it reports what it has drawn; the status is 130 or "
+    "143.\n"
+    "A shard has some of the pairs of a stream and an engine; triptych merge joins the results of all.";
+
+static bool is_only_reference(const struct settings *settings)
+{
+    return !settings->golden.folder && settings->engines.count == 1 && settings->threads.count == 1 &&
+           settings->threads.index[0] == 1 &&
+           !strcmp(triptych_engine_name(settings->engines.index[0]), reference_engine);
+}
 
 static int read_settings(const struct command *self, struct settings *settings)
 {
@@ -409,8 +387,12 @@ static int read_settings(const struct command *self, struct settings *settings)
     if (choose_engines(self, settings->engine_list, &settings->engines) ||
         choose_variants(self, &settings->variation, &settings->engines) ||
         choose_threads(self, settings->thread_list, &settings->threads) ||
-        tool_check_output(self, settings->json))
+        tool_check_output(self, settings->json) || tool_check_output(self, settings->resume))
         return STATUS_BAD;
+    if (is_only_reference(settings))
+        return tool_fail(
+            self, "%s with 1 thread is the reference itself, expected another engine or number of threads",
+            reference_engine);
     if (!settings->golden.folder && (settings->golden.update || settings->golden.tolerance))
         return tool_fail(self, "--%s is given without --golden",
                          settings->golden.update ? "update" : "tolerance");
@@ -429,22 +411,41 @@ static int check_goldens(const struct command *self, const struct settings *sett
                                    : tool_fail(self, "%s: cannot be read: %s", folder, strerror(errno));
 }
 
+static int begin_results(const struct command *self, struct settings *settings,
+                         const struct operands *operands)
+{
+    static struct execution executions[CHOICE_CAPACITY];
+    settings->results = (struct verify_results){.self = self,
+                                                .operands = operands,
+                                                .engines = &settings->engines,
+                                                .threads = &settings->threads,
+                                                .golden = &settings->golden,
+                                                .frames = settings->all_frames ? 0 : settings->frames,
+                                                .shuffle = settings->shuffle,
+                                                .path = settings->json,
+                                                .resume = settings->resume,
+                                                .executions = executions};
+    memset(executions, 0, sizeof executions);
+    if (shard_read(self, settings->shard, &settings->results.shard) ||
+        verify_results_begin(&settings->results))
+        return verify_results_free(&settings->results), STATUS_BAD;
+    return STATUS_OK;
+}
+
 static int run(const struct command *self, void *data, const struct operands *operands)
 {
     struct settings *settings = data;
-    struct execution executions[CHOICE_CAPACITY] = {0};
     bool made, made_goldens, identical;
     store_off |= settings->no_cache;
     if (read_settings(self, settings) || check_goldens(self, settings, &made_goldens) ||
-        tool_make_folder(self, settings->folder, &made))
+        tool_make_folder(self, settings->folder, &made) || begin_results(self, settings, operands))
         return STATUS_BAD;
-    settings->executions = executions;
-    settings->report = settings->json ? cJSON_CreateArray() : NULL;
     interrupt_defer();
     int status = verify_all(self, operands, settings, &identical);
-    if (settings->json && status != STATUS_BAD)
-        status = write_report(self, settings, settings->json, identical, status);
-    cJSON_Delete(settings->report);
+    if (settings->results.streams && status != STATUS_BAD &&
+        verify_results_write(&settings->results, identical, interrupt_name()))
+        status = STATUS_BAD;
+    verify_results_free(&settings->results);
     readback_free(&settings->golden.readback);
     if (made_goldens)
         rmdir(settings->golden.folder); /* succeeds only if nothing was drawn */
@@ -476,6 +477,8 @@ static const struct option options[] = {
     OPTION_COMPRESSION(struct settings, golden.compression),
     OPTION_NO_CACHE(struct settings, no_cache),
     {"json", "FILE", "write the results", OPTION_IS_FILE(struct settings, json), .extension = "json"},
+    OPTION_SHARD(struct settings, shard),
+    OPTION_RESUME(struct settings, resume),
     {0},
 };
 

@@ -140,6 +140,93 @@ static void found_cases_are_minimised(void)
     text_free(&smallest);
 }
 
+/* Interrupts a campaign after some cases. */
+static bool interrupt(void *user, const struct campaign *now)
+{
+    const uint64_t *cases = user;
+    return now->cases >= *cases;
+}
+
+static void expect_equal_results(const struct campaign *expected, const struct campaign *got)
+{
+    TEST_ASSERT_EQUAL_UINT64(expected->cases, got->cases);
+    TEST_ASSERT_EQUAL_UINT64_ARRAY(expected->outcomes, got->outcomes, OUTCOME_COUNT);
+    TEST_ASSERT_EQUAL_UINT64(expected->pixels, got->pixels);
+    TEST_ASSERT_EQUAL_UINT(expected->findings, got->findings);
+    for (unsigned i = 0; i < expected->findings; i++) {
+        TEST_ASSERT_EQUAL_UINT64(expected->finding[i].number, got->finding[i].number);
+        TEST_ASSERT_EQUAL_INT(expected->finding[i].finding.outcome, got->finding[i].finding.outcome);
+    }
+}
+
+/* Counts exactly the cases that are done. */
+static void expect_consistent(const struct campaign *now)
+{
+    uint64_t sum = 0;
+    for (unsigned o = 0; o < OUTCOME_COUNT; o++)
+        sum += now->outcomes[o];
+    TEST_ASSERT_EQUAL_UINT64(ranges_size(&now->done), now->cases);
+    TEST_ASSERT_EQUAL_UINT64(sum, now->cases);
+}
+
+/* Continues again and again, with another number of processes each time. */
+static void expect_continued(const struct campaign_options *options, const struct campaign *expected)
+{
+    static struct campaign parts[2];
+    struct campaign_options part = *options;
+    unsigned rounds = 0;
+    for (uint64_t cases = 40; parts[0].cases < options->count; cases += 40, rounds++) {
+        part.jobs = 1 + rounds % 3;
+        part.earlier = &parts[0];
+        TEST_ASSERT_EQUAL_INT_MESSAGE(0, campaign_run(&part, interrupt, &cases, &parts[1], &error),
+                                      error.text);
+        expect_consistent(&parts[1]);
+        struct campaign swapped = parts[0];
+        parts[0] = parts[1];
+        parts[1] = swapped;
+    }
+    TEST_ASSERT_GREATER_THAN_UINT(1, rounds);
+    expect_equal_results(expected, &parts[0]);
+    campaign_free(&parts[0]);
+    campaign_free(&parts[1]);
+}
+
+static void a_continued_campaign_has_the_results_of_one(void)
+{
+    struct campaign_options options = options_with(NULL);
+    options.first = 300;
+    options.count = 400;
+    run(&options);
+    TEST_ASSERT_EQUAL_UINT64(1, campaign.done.count);
+    TEST_ASSERT_EQUAL_UINT64(300, campaign.done.item[0].first);
+    TEST_ASSERT_EQUAL_UINT64(699, campaign.done.item[0].last);
+    expect_continued(&options, &campaign);
+}
+
+static void findings_and_crashes_are_continued_too(void)
+{
+    struct campaign_options options = options_with(wrong_engine(WRONG_CRASH));
+    options.count = 300;
+    options.enough = CAMPAIGN_FINDINGS;
+    run(&options);
+    TEST_ASSERT_GREATER_THAN_UINT32(0, campaign.findings);
+    expect_consistent(&campaign);
+    if (campaign.cases == options.count)
+        expect_continued(&options, &campaign);
+}
+
+static void nothing_is_drawn_twice(void)
+{
+    static struct campaign again;
+    struct campaign_options options = options_with(NULL);
+    options.count = 50;
+    run(&options);
+    options.earlier = &campaign;
+    TEST_ASSERT_EQUAL_INT_MESSAGE(0, campaign_run(&options, NULL, NULL, &again, &error), error.text);
+    expect_equal_results(&campaign, &again);
+    campaign_free(&again);
+}
+
 int main(void)
 {
     UNITY_BEGIN();
@@ -149,5 +236,9 @@ int main(void)
     RUN_TEST(wrong_colors_and_depths_are_found);
     RUN_TEST(crashes_and_hangs_are_found_and_the_campaign_goes_on);
     RUN_TEST(found_cases_are_minimised);
+    RUN_TEST(a_continued_campaign_has_the_results_of_one);
+    RUN_TEST(findings_and_crashes_are_continued_too);
+    RUN_TEST(nothing_is_drawn_twice);
+    campaign_free(&campaign);
     return UNITY_END();
 }
