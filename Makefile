@@ -135,7 +135,7 @@ unity_flags = -isystem $(dir $(UNITY_SOURCE)) -DUNITY_INCLUDE_DOUBLE -DUNITY_USE
 
 # --- What to build ------------------------------------------------------------------------------------------
 
-.PHONY: all programs objects check test check-threads check-explore matrix coverage soak soak-faults soak-memory bench peers bench-shaders bench-passes bench-draws bench-targets claims conformance-d3d9 programs-d3d9 mutations gallery verify-external docs fuzzers fuzz-input fuzz-input-smoke dependencies packages install clean format format-check compile_commands.json d3d9 lab labs help FORCE
+.PHONY: all programs objects check test check-threads check-explore matrix coverage soak soak-faults soak-memory bench peers bench-shaders bench-passes bench-draws bench-targets claims conformance-d3d9 programs-d3d9 mutations campaign-slurm-test gallery verify-external docs fuzzers fuzz-input fuzz-input-smoke dependencies packages install clean format format-check compile_commands.json d3d9 lab labs help FORCE
 
 all: $(BUILD)/libtriptych.a $(if $(SANITIZE),,$(BUILD)/libtriptych.so $(PKGCONFIG) \
   $(BUILD)/include/triptych/triptych.h) $(COMMAND) build/glmark2 \
@@ -617,6 +617,13 @@ fuzz-input:
 fuzz-input-smoke:
 	+@$(MAKE) fuzz-input DURATION=$$((600 / $(words $(FUZZERS)))) JOBS=1
 
+# Runs a campaign of CASES random cases on a Slurm with four nodes on this machine, and kills a node in the
+# middle. bench/slurm/test.sh describes SHARDS=n SEED=n OPTIONS="--engines ..." TIMEOUT=seconds.
+campaign-slurm-test:
+	@tests/support/scripts/dependencies.sh build slurm
+	+@$(MAKE) $(jobs) all
+	@BUILD=$(BUILD) bench/slurm/test.sh
+
 # Plants each bug of tests/mutations/table.txt in a copy of the tree and runs the tests: results/mutations.md.
 # This takes about half an hour. ONLY="text..." selects bugs whose name contains one of the texts.
 mutations:
@@ -711,6 +718,7 @@ make claims          tests the claims of the thesis and of other renderers, an h
 make soak            random cases and tests with new seeds, half an hour (DURATION=1800 SEED=1), then a summary
 make fuzz-input      readers of untrusted input under libFuzzer, half an hour (DURATION=1800) each TARGET, JOBS at a time
 make fuzz-input-smoke  the same in ten minutes
+make campaign-slurm-test  a campaign on a Slurm of this machine, a node killed in the middle (CASES=600 SHARDS=8)
 make matrix          compares builds of gcc and clang at -O0, -O2, -O3, with and without AVX-512: results/matrix.txt
 make lab N           lab N of the course: its starting files in labs/, then its check (docs/course/README.md)
 make labs            the checks of all labs, on their solutions, starting files and planted mistakes

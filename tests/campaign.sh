@@ -112,7 +112,7 @@ verdict 'of all streams' "$(grep -q '"code_bytes":.{' "$work/merged.json" || ech
 expect 'results of other commands are not merged' 2 'command is' merge "$work/gap.json" "$work/bench-1.json" "$work/verify-1.json"
 expect 'a summary of all streams is not for a shard' 2 'csv and --shard' "${bench[@]}" --shard 1/2 --csv "$work/a.csv"
 
-# --- Animations ----------------------------------------------------------------------------------------------
+# --- Animations ------------------------------------------------------------------------------------------
 
 render=(render tests/data/streams/frames.tri --engine emulate --frames all)
 mkdir "$work/one" "$work/parts"

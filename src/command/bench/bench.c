@@ -319,10 +319,10 @@ static int check_parts(const struct command *self, const struct settings *settin
     const struct {
         bool given;
         const char *name;
-    } whole[] = {{settings->compare, "compare"},    {settings->builds, "builds"},
-                 {settings->cold, "cold"},          {settings->shaders, "shaders"},
-                 {settings->code, "code"},          {settings->csv != NULL, "csv"},
-                 {settings->chart != NULL, "chart"}};
+    } whole[] = {{settings->compare, "compare"}, {settings->builds, "builds"},
+                 {settings->cold, "cold"},       {settings->shaders, "shaders"},
+                 {settings->code, "code"},       {settings->parts, "parts"},
+                 {settings->csv != NULL, "csv"}, {settings->chart != NULL, "chart"}};
     if (!settings->shard && !settings->resume)
         return STATUS_OK;
     for (size_t i = 0; i < sizeof whole / sizeof *whole; i++)

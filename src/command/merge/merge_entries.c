@@ -1,4 +1,4 @@
-/* Results with entries: those of all inputs in the order of "inputs", bench's as they are, verify's joined. */
+/* Results with entries: those of all inputs in the order of "inputs". Those of verify are joined. */
 #include "command/merge/merge.h"
 #include "command/bench/execution.h"
 

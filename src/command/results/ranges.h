@@ -1,7 +1,7 @@
 /* Sets of numbers as ranges: which units of a campaign are done.
  *
- * The ranges are in ascending order and no two of them touch, so a set has one form. As text: "0-49,60,62-70",
- * or "" for the empty set. */
+ * The ranges are in ascending order and no two of them touch, so a set has one form. As text:
+ * "0-49,60,62-70", or "" for the empty set. */
 #ifndef COMMAND_RESULTS_RANGES_H
 #define COMMAND_RESULTS_RANGES_H
 

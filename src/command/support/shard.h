@@ -41,11 +41,11 @@ struct shard {
  * rank 0, although it runs once. Of an array of A tasks with R ranks each, rank r of task a has part
  * (a - 1) R + r + 1 of A R, with a from 1 and r from 0.
  *
- * Returns 0, or STATUS_BAD after printing the reason: for "auto", that there is neither, or that the array has
- * tasks with irregular numbers or fewer than all of them. */
+ * Returns 0, or STATUS_BAD after printing the reason: for "auto", that there is neither, or that the array
+ * has tasks with irregular numbers or fewer than all of them. */
 int shard_read(const struct command *self, const char *text, struct shard *shard);
 
-/* The units of a shard, from *first on, of a campaign with the units 0 to all - 1. `all` is less than 2^44. */
+/* The units of a shard, from *first on. The campaign has the units 0 to all - 1, at most 2^44. */
 void shard_part(const struct shard *shard, uint64_t all, uint64_t *first, uint64_t *count);
 
 /* Returns true if the shard is not the whole campaign. */

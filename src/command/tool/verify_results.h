@@ -32,8 +32,8 @@ struct verify_results {
 int verify_results_begin(struct verify_results *results);
 void verify_results_free(struct verify_results *results);
 
-/* Sets selected[i] if the shard has that stream with engine i of `engines`, and no earlier result. Returns the
- * number of these engines. */
+/* Sets selected[i] if the shard has that stream with engine i of `engines`, and no earlier result. Returns
+ * the number of these engines. */
 unsigned verify_results_select(const struct verify_results *results, unsigned stream,
                                bool selected[CHOICE_CAPACITY]);
 

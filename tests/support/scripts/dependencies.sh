@@ -2,7 +2,7 @@
 # Makes sure that the Debian packages a target needs are installed, and installs those that are not.
 #
 #   tests/support/scripts/dependencies.sh GROUP...    groups: build test bench claims peers format fuzz
-#                                                     browser d3d9 suites programs course
+#                                                     browser d3d9 suites programs course slurm
 #   tests/support/scripts/dependencies.sh --list
 #
 # Silent when there is nothing to do. Ends non-zero, after naming the packages and their reasons, when a
@@ -62,6 +62,9 @@ wine64             d3d9    runs programs of Windows
 wine64-tools       d3d9    marks a DLL as a builtin one of Wine
 libwine-dev        d3d9    the import library of ntdll of Wine
 chromium           browser opens the pages of the command explore, prints the report of the claims
+slurmctld          slurm   the controller of a cluster on this machine
+slurmd             slurm   its nodes
+slurm-client       slurm   submits jobs, and lists them
 '
 
 describe() # PACKAGE... : their rows of the table, without the group
