@@ -27,7 +27,7 @@ expect() # NAME STATUS PATTERN ARGUMENT...
     timeout 300 "$TRIPTYCH" "$@" >"$work/said" 2>&1 </dev/null || status=$?
     if ((status != expected)); then
         problem="exit status $status, expected $expected"
-    elif ! grep -qE -- "$pattern" "$work/said"; then
+    elif [[ $pattern ]] && ! grep -qE -- "$pattern" "$work/said"; then
         problem="no \"$pattern\""
     fi
     verdict "$name" "$problem"

@@ -1,9 +1,9 @@
 /* The merging of results: the parts of `triptych merge` that differ by command.
  *
  * The merged results do not depend on the order of the inputs. Values that the campaign determines equal
- * those of one run: counts are added, entries are in the order of "inputs". Values that a machine determines, such
- * as times, are kept for each shard in "shards". The normal form, --canonical, has only the former, so the
- * normal forms of one run and of its shards are equal byte for byte. */
+ * those of one run: counts are added, entries are in the order of "inputs". Values that a machine
+ * determines, such as times, are kept for each shard in "shards". The normal form, --canonical, has only
+ * the former, so the normal forms of one run and of its shards are equal byte for byte. */
 #ifndef COMMAND_MERGE_MERGE_H
 #define COMMAND_MERGE_MERGE_H
 

@@ -8,8 +8,8 @@
  *
  * A file has "command", "machine" with the commit, the fields that determine the results (results_kind.same),
  * and the results of some units. Those of fuzz are counts, with the numbers of the cases in "done". The
- * others have an array of entries. Such a file has the names of all streams or claims in "inputs". An entry has its
- * position there as "number", or only its name. Entries that are incomplete, because the command was
+ * others have an array of entries. Such a file has the names of all streams or claims in "inputs". An entry
+ * has its position there as "number", or only its name. Entries that are incomplete, because the command was
  * interrupted, do not count.
  *
  * A file can contain anything: results_load checks every value that this module, the merging of results and
