@@ -114,7 +114,7 @@ expect 'a summary of all streams is not for a shard' 2 'csv and --shard' "${benc
 
 # --- Animations ------------------------------------------------------------------------------------------
 
-render=(render tests/data/streams/frames.tri --engine emulate --frames all)
+render=(render tests/data/streams/queries.tri --engine emulate --frames all)
 mkdir "$work/one" "$work/parts"
 expect 'one run renders' 0 '' "${render[@]}" --out "$work/one/%d.png"
 for i in 1 2 3; do
