@@ -26,8 +26,11 @@ static bool find_engine(const char *name, unsigned *index)
 static bool is_variant(unsigned engine, const char *name)
 {
     char variant[NAME_CAPACITY];
-    snprintf(variant, sizeof variant, "%s-%u", name, triptych_engine_width(engine));
-    return !strcmp(triptych_engine_name(engine), name) || !strcmp(triptych_engine_name(engine), variant);
+    if (!strcmp(triptych_engine_name(engine), name))
+        return true;
+    return snprintf(variant, sizeof variant, "%s-%u", name, triptych_engine_width(engine)) <
+               (int)sizeof variant &&
+           !strcmp(triptych_engine_name(engine), variant);
 }
 
 /* Returns true if the engine has no width in its name and another engine has the same name with the width. */
