@@ -1,7 +1,7 @@
 """The laboratory: runs the experiments of the claims, and writes verdicts and a report. docs/claims.md explains it.
 
-    python3 bench/claims [--triptych FILE] [--registry DIR] [--results DIR] [--only ID,...] [--resume] 
-        [--json] [--list] [--check] [--pdf]
+    python3 bench/claims [--triptych FILE] [--registry DIR] [--results DIR] [--only ID,...] [--resume]
+        [--shard I/N] [--json] [--list] [--check] [--pdf]
 
 `triptych claims` has the same options, and help for them.
 """
@@ -32,6 +32,7 @@ def arguments_of():
     parser.add_argument("--registry", default=HERE, metavar="DIR")
     parser.add_argument("--results", default=os.path.join(ROOT, "results"), metavar="DIR")
     parser.add_argument("--only", default="", metavar="ID,...")
+    parser.add_argument("--shard", default="", metavar="I/N")
     for flag in ("--resume", "--json", "--list", "--check", "--pdf"):
         parser.add_argument(flag, action="store_true")
     return parser.parse_args()
@@ -43,6 +44,17 @@ def selected(claims, only):
     if unknown:
         raise BadUsage(f"there is no claim {unknown[0]}, expected one of `triptych claims --list`")
     return [claim for name, claim in claims.claims.items() if name in names]
+
+
+def part_of(chosen, shard):
+    """The claims of part I of N, as triptych divides every campaign (docs/campaigns.md)."""
+    try:
+        index, count = (int(number) for number in shard.split("/"))
+    except ValueError:
+        index = count = 0
+    if not 1 <= index <= count:
+        raise BadUsage(f'--shard is "{shard}", expected I/N with I from 1 to N')
+    return chosen[len(chosen) * (index - 1) // count : len(chosen) * index // count]
 
 
 def status_now(claim):
@@ -78,7 +90,8 @@ def summary(laboratory, verdicts, claims, only):
     }
 
 
-def run(arguments, claims, chosen):
+def run(arguments, claims, whole):
+    chosen = part_of(whole, arguments.shard) if arguments.shard else whole
     laboratory = experiment.Laboratory(
         claims, experiment.Machine(arguments.triptych), arguments.results, arguments.resume, arguments.triptych
     )
@@ -86,7 +99,11 @@ def run(arguments, claims, chosen):
     laboratory.run_all([name for name in claims.experiments if name in needed])
     verdicts = [verdict.Verdict(claim, laboratory.read) for claim in chosen]
     results = summary(laboratory, verdicts, claims, arguments.only)
-    if arguments.only:
+    if arguments.shard:
+        results.update(command="claims", shard=arguments.shard, inputs=[claim.id for claim in whole])
+        index = arguments.shard.split("/")[0]
+        experiment.write_json(os.path.join(arguments.results, "claims", f"part-{index}.json"), results)
+    elif arguments.only:
         experiment.write_json(os.path.join(arguments.results, "claims", "only.json"), results)
     else:
         experiment.write_json(os.path.join(arguments.results, "claims.json"), results)

@@ -19,7 +19,15 @@ mapfile -d '' -t words <"$folder/command" || exit 2
 printf 'shard %d of %d: start %d, on %s\n' "$task" "$shards" "$((${SLURM_RESTART_COUNT-0} + 1))" \
     "${SLURMD_NODENAME-$HOSTNAME}"
 
-"${words[@]}" --shard "$task/$shards" --resume "$folder/part-$task.json" &
+# Claims are kept as the outputs of their experiments, in a folder.
+part=$folder/part-$task.json
+keep=(--resume "$part")
+if [[ ${words[1]} == claims ]]; then
+    mkdir -p "$folder/claims-$task/claims"
+    keep=(--resume --results "$folder/claims-$task")
+fi
+
+"${words[@]}" --shard "$task/$shards" "${keep[@]}" &
 child=$!
 trap 'kill -TERM "$child"' TERM
 wait "$child"
@@ -30,8 +38,9 @@ while kill -0 "$child" 2>/dev/null; do
     status=$?
 done
 
+[[ ${words[1]} == claims ]] && ((status <= 1)) && mv "$folder/claims-$task/claims/part-$task.json" "$part"
 case $status in
     0 | 1) exit 0 ;; # complete; 1: with findings or differences, which the merged results have
-    143) scontrol requeue "$SLURM_JOB_ID" ;;
+    130 | 143) scontrol requeue "$SLURM_JOB_ID" ;;
     *) exit "$status" ;;
 esac

@@ -1,5 +1,6 @@
 /* `triptych claims`: starts the laboratory of bench/claims, a program in Python. */
 #include "command/support/option.h"
+#include "command/support/shard.h"
 #include "command/support/tool.h"
 
 #include <errno.h>
@@ -10,11 +11,11 @@
 #include <unistd.h>
 
 struct settings {
-    const char *only, *results;
+    const char *only, *results, *shard;
     bool list, resume, json, check, pdf;
 };
 
-enum { ARGUMENTS = 16 };
+enum { ARGUMENTS = 20, SHARD_TEXT = 32 };
 
 /* Appends the folder of the laboratory to a folder. Returns true if it is there. */
 static bool laboratory_in(const char *folder, char path[PATH_MAX])
@@ -66,9 +67,13 @@ static void add_settings(char *arguments[ARGUMENTS], unsigned *count, const stru
 static int run(const struct command *self, void *data, const struct operands *operands)
 {
     char command[PATH_MAX], folder[PATH_MAX], laboratory[PATH_MAX];
+    char part[SHARD_TEXT];
+    struct shard shard;
     char *arguments[ARGUMENTS] = {"python3", laboratory, "--triptych", command};
     unsigned count = 4;
     (void)operands;
+    if (shard_read(self, ((const struct settings *)data)->shard, &shard))
+        return STATUS_BAD;
     ssize_t bytes = readlink("/proc/self/exe", command, sizeof command - 1);
     if (bytes < 0)
         return tool_fail(self, "/proc/self/exe: %s", strerror(errno));
@@ -77,6 +82,9 @@ static int run(const struct command *self, void *data, const struct operands *op
     if (find_laboratory(folder, laboratory))
         return tool_fail(self, "%s is in no source tree, expected one with bench/claims", command);
     add_settings(arguments, &count, data);
+    snprintf(part, sizeof part, "%u/%u", shard.index, shard.count);
+    if (((const struct settings *)data)->shard)
+        add(arguments, &count, "--shard", part);
     execvp(arguments[0], arguments);
     return tool_fail(self, "python3: cannot start: %s (Debian: apt-get install python3)", strerror(errno));
 }
@@ -95,6 +103,7 @@ static const struct option options[] = {
      OPTION_IS_LIST(struct settings, only)},
     {"list", NULL, "list the claims and their experiments, and run nothing",
      OPTION_IS_FLAG(struct settings, list)},
+    OPTION_SHARD(struct settings, shard),
     {"resume", NULL, "use kept outputs of experiments", OPTION_IS_FLAG(struct settings, resume)},
     {"json", NULL, "print the verdicts as JSON", OPTION_IS_FLAG(struct settings, json)},
     {"check", NULL, "only check the registry", OPTION_IS_FLAG(struct settings, check)},
