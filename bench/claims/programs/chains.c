@@ -1,5 +1,5 @@
-/* Figure 14 of the thesis on a processor of today: multiply-adds a ns of 1 to 12 independent chains, with vectors of eight
- * floats. Prints JSON. */
+/* Figure 14 of the thesis on a processor of today: multiply-adds a ns of 1 to 12 independent chains, with
+ * vectors of eight floats. Prints JSON. */
 #include "measure.h"
 
 #include <immintrin.h>

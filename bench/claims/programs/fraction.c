@@ -1,6 +1,6 @@
-/* Fragment 10 of the thesis: the fraction of four floats, by truncation to integers, subtraction, and one more
- * where the result is negative. Compares it with x - floor(x) for every 97th of all floats, and prints how many
- * differ as JSON, of all values and of those within 32-bit integers. */
+/* Fragment 10 of the thesis: the fraction of four floats, by truncation to integers, subtraction, and one
+ * more where the result is negative. Compares it with x - floor(x) for every 97th of all floats, and prints
+ * how many differ as JSON, of all values and of those within 32-bit integers. */
 #include <emmintrin.h>
 #include <math.h>
 #include <stdint.h>

@@ -1,5 +1,5 @@
-/* Counts the space of keys from the table of their fields: bits of all values, bytes of the packed form and of the
- * structures, for each unit. Prints JSON. */
+/* Counts the space of keys from the table of their fields: bits of all values, bytes of the packed form and
+ * of the structures, for each unit. Prints JSON. */
 #include "contract/key.h"
 
 #include <math.h>

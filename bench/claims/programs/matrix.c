@@ -1,5 +1,5 @@
-/* Fragments 1 and 2 of the thesis: a product of 2x2 matrices by a generic function of any size, and written out.
- * Prints the times of a product in ns as JSON, and whether both have the same result. */
+/* Fragments 1 and 2 of the thesis: a product of 2x2 matrices by a generic function of any size, and written
+ * out. Prints the times of a product in ns as JSON, and whether both have the same result. */
 #include "measure.h"
 
 #include <stdio.h>

@@ -1,5 +1,5 @@
-/* Errors of cheaper arithmetic: the approximate reciprocal, planes that are stepped, and depth as z, w and 1/z. Prints
- * JSON. */
+/* Errors of cheaper arithmetic: the approximate reciprocal, planes that are stepped, and depth as z, w and
+ * 1/z. Prints JSON. */
 #include <math.h>
 #include <stdio.h>
 #include <xmmintrin.h>
@@ -17,8 +17,8 @@ static double reciprocal_error(int refined)
     return most;
 }
 
-/* The largest error in texels of a coordinate that is stepped over `width` pixels, from a texture of 256 texels that is
- * repeated `repeats` times. */
+/* The largest error in texels of a coordinate that is stepped over `width` pixels, from a texture of 256
+ * texels that is repeated `repeats` times. */
 static double stepping_error(int width, int repeats)
 {
     float step = (float)repeats / (float)width, value = 0;
@@ -38,7 +38,8 @@ static double plane_error(int width, int repeats)
     return 256 * most;
 }
 
-/* The smallest difference of distance that 24 bits distinguish at a distance between the planes 1 and 1000. */
+/* The smallest difference of distance that 24 bits distinguish at a distance between the planes 1 and 1000.
+ */
 static double resolution_z(double distance)
 {
     double slope = 1000.0 / 999 / (distance * distance);

@@ -1,5 +1,5 @@
-/* Walks a texture of 32-bit texels in rows and in tiles of 4 x 4, along lines at 0, 45 and 90 degrees: ns a texel and
- * distinct cache lines of 64 bytes for each 1000 texels. Prints JSON. */
+/* Walks a texture of 32-bit texels in rows and in tiles of 4 x 4, along lines at 0, 45 and 90 degrees: ns a
+ * texel and distinct cache lines of 64 bytes for each 1000 texels. Prints JSON. */
 #include "measure.h"
 
 #include <math.h>
