@@ -570,7 +570,7 @@ bench-targets:
 # Tests the claims of the thesis and of other renderers (docs/claims.md): results/claims.json and
 # results/report. ONLY=C156,S9 selects claims; RESUME=1 continues after an interruption.
 claims:
-	@tests/support/scripts/dependencies.sh build test claims browser
+	@tests/support/scripts/dependencies.sh build test claims peers browser
 	+@$(MAKE) $(jobs) all $(UNITY_SOURCE)
 	@$(COMMAND) claims --pdf $(if $(ONLY),--only $(ONLY)) $(if $(RESUME),--resume)
 
