@@ -38,8 +38,7 @@ static double plane_error(int width, int repeats)
     return 256 * most;
 }
 
-/* The smallest difference of distance that 24 bits distinguish at a distance between the planes 1 and 1000.
- */
+/* The smallest difference of distance that 24 bits distinguish, between planes at 1 and 1000. */
 static double resolution_z(double distance)
 {
     double slope = 1000.0 / 999 / (distance * distance);
