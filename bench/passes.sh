@@ -30,5 +30,5 @@ mkdir -p "$results"
 
 "$triptych" verify "${streams[@]}" --engines "$engines" --frames 1 --threads 1 | tail -n 1
 "$triptych" bench --parts "${all[@]}" --engines "$engines" --repetitions 5 --json "$results/parts.json"
-"$triptych" bench "${streams[@]}" --engines "$engines" --frames 1 --repetitions 9 --seconds 1 \
+"$triptych" bench "${streams[@]}" --engines "$engines" --frames 1 --repetitions 25 --seconds 1.2 \
     --json "$results/passes.json" "$@"

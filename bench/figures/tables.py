@@ -234,39 +234,20 @@ def builds(*engines):
     return markdown(headings, rows, 2)
 
 
-# The streams of bench/passes.sh by kind.
-PASS_STREAMS = {
-    "fixed function": ("bunny", "teapot-bilinear", "street"),
-    "shaders": ("bricks", "water", "solids"),
-    "loops": ("fractals", "rays", "defined"),
-}
-
-
 def parts_of(engine, unit="all"):
     return only(load("parts")["engines"], "parts", engine=engine, unit=unit)
 
 
 @text
-def passes(base):
-    """Without each pass: instructions left, build time, and times of frames as quotients to all passes."""
-    engines = dict.fromkeys(each["engine"] for each in load("parts")["engines"])
+def passes():
+    """Without each pass: means of instructions and spills of a routine, and the median time to build one."""
     rows = []
-    for engine in engines:
+    for engine in dict.fromkeys(each["engine"] for each in load("parts")["engines"]):
         entry = parts_of(engine)
+        means = [entry[column] / entry["routines"] for column in ("left", "spills")]
         build = only(entry["parts"], engine, part="all")["median_us"]
-        quotients = [
-            results.geometric_mean(
-                results.stream("passes", name, engine, "frame_ms") / results.stream("passes", name, base, "frame_ms")
-                for name in names
-            )
-            for names in PASS_STREAMS.values()
-        ]
-        rows.append(
-            [f"`{engine}`", significant(entry["left"] / entry["routines"]), significant(entry["spills"] / entry["routines"])]
-            + [significant(build)]
-            + [f"{quotient:.2f}" for quotient in quotients]
-        )
-    return markdown(["", "instructions", "spills", "build, µs"] + list(PASS_STREAMS), rows)
+        rows.append([f"`{engine}`"] + [significant(value) for value in means + [build]])
+    return markdown(["", "instructions", "spills", "build, µs"], rows)
 
 
 @text
