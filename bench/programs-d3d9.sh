@@ -5,7 +5,7 @@
 #
 # In the environment:
 #   ENGINE=name      the engine. Default: specialize
-#   PROGRAMS="..."   some of sdl panda gles irrlicht. The report is then in build/programs.
+#   NAMES="..."   some of sdl panda gles irrlicht. The report is then in build/programs.
 #   PASSES=n         measurements of each program. Default: 3
 #   SIDES=name       triptych or wine. Default: both
 #
@@ -17,7 +17,7 @@ cd "$(dirname "$0")/.."
 build=${BUILD:-build}
 work=$build/programs
 results=${RESULTS:-results}
-[[ -z ${PROGRAMS-}${SIDES-} ]] || results=${RESULTS:-$work}
+[[ -z ${NAMES-}${SIDES-} ]] || results=${RESULTS:-$work}
 
 bench/d3d9/wheels.sh "$work"
 bench/d3d9/irrlicht.sh "$work"
@@ -27,4 +27,4 @@ desktop_begin "$work"
 # shellcheck disable=SC2086
 python3 bench/d3d9/programs.py --folder "$work" --triptych "${TRIPTYCH:-$build/triptych}" \
     --engine "${ENGINE:-specialize}" --passes "${PASSES:-3}" --sides "${SIDES:-triptych,wine}" --results "$results" \
-    ${PROGRAMS-}
+    ${NAMES-}

@@ -163,7 +163,11 @@ def problems(report):
 def main():
     options = arguments()
     player = Player(options.folder, options.triptych, options.engine)
-    chosen = [each for each in programs(options.folder) if not options.names or each.name in options.names]
+    known = programs(options.folder)
+    if unknown := set(options.names) - {each.name for each in known}:
+        print(f"programs: {' '.join(sorted(unknown))}: expected some of {' '.join(each.name for each in known)}", file=sys.stderr)
+        return 2
+    chosen = [each for each in known if not options.names or each.name in options.names]
     reports = [run(player, program, options) for program in chosen]
     document = {
         "machine": machine.machine(),
