@@ -54,10 +54,11 @@ instructions() # COMMAND...
     sed -n 's/.*Collected : *\([0-9]*\).*/\1/p' <<<"$report"
 }
 
-# Executed instructions of one repetition, for a command whose last argument is the number of repetitions.
+# Executed instructions of one repetition, for a command whose last argument is the number of repetitions:
+# the difference between REPETITIONS and three times as many, 1000 by default.
 instructions_each() # COMMAND...
 {
-    local few many
-    few=$(instructions "$@" 1000) && many=$(instructions "$@" 3000) || return 1
-    echo $(((many - few) / 2000))
+    local repetitions=${REPETITIONS:-1000} once thrice
+    once=$(instructions "$@" "$repetitions") && thrice=$(instructions "$@" $((3 * repetitions))) || return 1
+    echo $(((thrice - once) / (2 * repetitions)))
 }
