@@ -26,8 +26,8 @@ struct program {
  * input[i][e]; the result of element e is output[e]. */
 void naive_run(const struct program *program, const float *const input[INPUTS], float *output, size_t count);
 
-/* batch.c: the same for `batch` elements at a time, 1 to 4096. `frame` has room for REGISTERS * batch numbers.
- * The last batch is smaller if count is not a multiple of it. */
+/* batch.c: the same for `batch` elements at a time, 1 to 4096. `frame` has room for REGISTERS * batch
+ * numbers. The last batch is smaller if count is not a multiple of it. */
 void batch_run(const struct program *program, size_t batch, float *frame, const float *const input[INPUTS],
                float *output, size_t count);
 
