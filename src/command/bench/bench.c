@@ -285,7 +285,7 @@ static int measure_campaign(const struct command *self, const struct settings *s
     if (!bench.streams)
         return tool_fail(self, "no memory for %u streams", count);
     int status = bench_all(self, settings, &bench);
-    if (!status && (bench.stream_count || campaign->parts))
+    if (!status)
         status = write_files(self, settings, &bench);
     if (!status && interrupt_signal()) {
         printf("\ninterrupted by %s: %u of %u streams\n", interrupt_name(), count_whole(&bench), count);
