@@ -218,7 +218,8 @@ static void make_store(struct maker *maker)
 static void make_reload(struct maker *maker)
 {
     enum ir_type type = TYPE_flt + program_random(maker->seed) % 2;
-    unsigned first = type == TYPE_flt ? 0 : FLOAT_SLOTS, end = type == TYPE_flt ? FLOAT_SLOTS : PROGRAM_STORES;
+    unsigned first = type == TYPE_flt ? 0 : FLOAT_SLOTS,
+             end = type == TYPE_flt ? FLOAT_SLOTS : PROGRAM_STORES;
     struct ir_instruction i = {.op = IR_load, .type = (uint8_t)type, .base = BASE_OUTPUT};
     i.k = (int32_t)(first + program_random(maker->seed) % (end - first)) * VERTEX_SLOT_BYTES;
     if (maker->wild && program_random(maker->seed) % 3 == 0)
