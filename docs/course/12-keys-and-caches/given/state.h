@@ -32,14 +32,14 @@ struct pixel {
     unsigned diffuse, u, depth, target;
 };
 
-/* given/shade.c: the pipeline. Returns the new value of the target. Read it: its decisions decide what belongs
- * in a key. */
+/* given/shade.c: the pipeline. Returns the new value of the target. Read it: its decisions decide what
+ * belongs in a key. */
 unsigned shade(const struct state *state, const struct pixel *pixel);
 
 /* --- key.c ---
  *
- * A generated routine decides everything of `shade` that depends on values of few possibilities, and reads the
- * others, alpha_reference and fog_density, when it runs. Its key distinguishes routines. */
+ * A generated routine decides everything of `shade` that depends on values of few possibilities, and reads
+ * the others, alpha_reference and fog_density, when it runs. Its key distinguishes routines. */
 
 enum { KEY_BYTES = 2 };
 
@@ -47,14 +47,15 @@ struct key {
     uint8_t bytes[KEY_BYTES];
 };
 
-/* The key of the routine for a state. Two states have equal keys if, and only if, one routine can draw both. */
+/* The key of the routine for a state. Two states have equal keys if, and only if, one routine can draw
+ * both. */
 struct key key_of(const struct state *state);
 
 /* --- cache.c ---
  *
- * Plays a list of draws with a cache that has room for `room` routines, 1 to 64. Returns the number of misses:
- * draws whose routine is not in the cache, so that it must be generated. A miss replaces a routine if the
- * cache is full: */
+ * Plays a list of draws with a cache that has room for `room` routines, 1 to 64. Returns the number of
+ * misses: draws whose routine is not in the cache, so that it must be generated. A miss replaces a routine if
+ * the cache is full: */
 size_t misses_fifo(const struct key *draws, size_t count, size_t room); /* the one that was generated first */
 size_t misses_lru(const struct key *draws, size_t count,
                   size_t room); /* the one whose last use is longest ago */

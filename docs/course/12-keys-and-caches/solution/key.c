@@ -18,7 +18,8 @@ static int writes(const struct state *state)
     return !(state->blend && state->source_factor == 0 && state->destination_factor == 1);
 }
 
-/* The colour has an effect on what is written: a factor of 0 removes it, if the other factor does not read it. */
+/* The colour has an effect on what is written. A factor of 0 removes it, if the other factor does not read
+ * it. */
 static int color_matters(const struct state *state)
 {
     return !state->blend || state->source_factor != 0 || state->destination_factor == 2 ||
