@@ -299,6 +299,7 @@ static int run_compiler(const struct work *work, struct error *error)
                          "-mno-avx512f", /* even if the compiler's default is this machine */
                          "-ffp-contract=off",
                          "-fno-strict-aliasing",
+                         "-fno-tree-ter", /* gcc 12 moves loads past stores to the same place with it */
                          "-fno-stack-protector",
                          "-fno-asynchronous-unwind-tables",
                          "-w",
