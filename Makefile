@@ -618,7 +618,7 @@ fuzz-input-smoke:
 	+@$(MAKE) fuzz-input DURATION=$$((600 / $(words $(FUZZERS)))) JOBS=1
 
 # Runs a campaign of CASES random cases on a Slurm with four nodes on this machine, and kills a node in the
-# middle. bench/slurm/test.sh describes SHARDS=n SEED=n OPTIONS="--engines ..." TIMEOUT=seconds.
+# middle. bench/slurm/test.sh describes SHARDS=n SEED=n OPTIONS="--engines ..." TIMEOUT=seconds OUTPUT=folder.
 campaign-slurm-test:
 	@tests/support/scripts/dependencies.sh build slurm
 	+@$(MAKE) $(jobs) all

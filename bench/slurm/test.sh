@@ -3,8 +3,9 @@
 # 127.0.0.1; one slurmd and its jobs are killed in the middle and started again. The merged results must be
 # those of one run, byte for byte.
 #
-#   CASES=600 SHARDS=8 SEED=21 OPTIONS="--engines emulate,batch" TIMEOUT=1800 bench/slurm/test.sh
+#   CASES=600 SHARDS=8 SEED=21 OPTIONS="--engines emulate,batch" TIMEOUT=1800 OUTPUT=FOLDER bench/slurm/test.sh
 #
+# OUTPUT keeps the merged results, results.json and canonical.json, in that folder.
 # Every process that the script starts ends with it. It reads and changes no configuration of the system.
 set -uo pipefail
 cd "$(dirname "$0")/../.."
@@ -184,4 +185,6 @@ grep -q "$cases of $cases units" "$campaign/log-merge.txt" || fail 'the merged r
 (($? <= 1)) || fail 'the one run'
 "$triptych" merge --canonical "$work/one-canonical.json" "$work/one.json" || fail 'the normal form of the one run'
 cmp "$work/one-canonical.json" "$campaign/canonical.json" || fail 'the merged results are not those of one run'
+[[ -z ${OUTPUT-} ]] || { mkdir -p "$OUTPUT" && cp "$campaign/results.json" "$campaign/canonical.json" "$OUTPUT"; } ||
+    fail "the results are not in $OUTPUT"
 printf 'ok %d cases in %d shards, one node lost: the results of one run, byte for byte\n' "$cases" "$shards"
