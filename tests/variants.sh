@@ -8,7 +8,8 @@ streams=(tests/data/streams/{lights,multisampling,shaders}.tri tests/data/scenes
     tests/data/shading/light-loop.tri tests/data/regressions/anisotropic-words-and-numbers.tri)
 [[ -z ${SLOW-} ]] || streams=(tests/data/streams/shaders.tri tests/data/shading/light-loop.tri)
 
-options=(registers={0,4,6,8} passes={none,thesis} passes=none:{unroll,with=fold} unroll registers=4:unroll)
+options=(registers={0,4,6,8} passes={none,thesis} passes=none:{unroll,with=fold} unroll registers=4:unroll
+    allocate=none allocate=none:passes=none allocate=none:unroll)
 for pass in $("$TRIPTYCH" list passes --json | sed -n 's/.*"pass":[^"]*"\([^"]*\)".*/\1/p'); do
     [[ $pass == split ]] || options+=("without=$pass")
 done

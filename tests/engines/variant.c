@@ -103,6 +103,19 @@ static void passes_are_chosen(void)
     TEST_ASSERT_EQUAL_HEX32(all, passes_of("specialize:unroll:without=unroll"));
 }
 
+static enum allocator allocator_of(const char *name)
+{
+    return specialize_options(make(name), UNIT_PIXEL).allocator;
+}
+
+static void allocators_are_chosen(void)
+{
+    TEST_ASSERT_EQUAL(ALLOCATOR_scan, allocator_of("specialize"));
+    TEST_ASSERT_EQUAL(ALLOCATOR_none, allocator_of("specialize-simple"));
+    TEST_ASSERT_EQUAL(ALLOCATOR_none, allocator_of("specialize-16:allocate=none"));
+    TEST_ASSERT_EQUAL(ALLOCATOR_scan, allocator_of("specialize-simple:allocate=scan"));
+}
+
 static void wrong_names_are_refused(void)
 {
     static const char *const rows[][2] = {
@@ -120,6 +133,7 @@ static void wrong_names_are_refused(void)
         {"specialize:passes=most", "passes is \"most\", expected one of: none, thesis, all"},
         {"specialize:without=commn", "did you mean \"common\"?"},
         {"specialize:without=split", "without is \"split\", expected a pass that can be left out"},
+        {"specialize:allocate=scann", "did you mean \"scan\"?"},
         {"specialize:unroll=2", "unroll takes no value, found \"2\""},
     };
     for (size_t i = 0; i < sizeof rows / sizeof *rows; i++) {
@@ -231,6 +245,7 @@ int main(void)
     RUN_TEST(variants_are_not_listed);
     RUN_TEST(registers_are_limited);
     RUN_TEST(passes_are_chosen);
+    RUN_TEST(allocators_are_chosen);
     RUN_TEST(wrong_names_are_refused);
     RUN_TEST(long_names_are_refused);
     RUN_TEST(a_device_has_the_engine_that_is_named);

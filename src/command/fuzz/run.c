@@ -261,11 +261,12 @@ static int compare_section(void *user, const struct section *section)
 
 /* --- One configuration ---------------------------------------------------------------------------------- */
 
-/* Recordings and plans have a largest size (ir/pool.c, engines/stitch/plan.c), each its own, and the
- * emulator has none. */
+/* Recordings, plans and stack frames have a largest size (ir/pool.c, engines/stitch/plan.c, emit.h), each its
+ * own, and the emulator has none. */
 static bool is_limit(const char *reason)
 {
-    return strstr(reason, "routine takes more than") || strstr(reason, "exceeds its room of");
+    return strstr(reason, "routine takes more than") || strstr(reason, "exceeds its room of") ||
+           strstr(reason, "too many spill slots");
 }
 
 /* Plays a frame and processes vertices in the state that it leaves. */

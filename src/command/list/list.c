@@ -8,6 +8,7 @@
 #include "render/texture/format.h"
 #include "engines/list.h"
 #include "engines/variant.h"
+#include "engines/specialize/allocate/allocate.h"
 #include "engines/specialize/passes/pass.h"
 #include "command/support/json.h"
 #include "command/support/option.h"
@@ -90,6 +91,15 @@ static void list_passes(cJSON *rows)
     }
 }
 
+static void list_allocators(cJSON *rows)
+{
+    for (unsigned i = 0; allocate_name(i); i++) {
+        cJSON *row = add_row(rows);
+        add_text(row, "allocator", allocate_name(i));
+        add_text(row, "meaning", allocate_meaning(i));
+    }
+}
+
 static void list_formats(cJSON *rows)
 {
     static const struct {
@@ -128,6 +138,7 @@ static const struct subject {
     {"formats", list_formats, NULL, NULL},
     {"cpu", list_cpu, NULL, NULL},
     {"passes", list_passes, NULL, NULL},
+    {"allocators", list_allocators, NULL, NULL},
 };
 
 static void print_table(const cJSON *rows)
@@ -197,14 +208,14 @@ static const struct option options[] = {
 };
 
 static const struct operand operands[] = {
-    {"WHAT", "engines, options, states, shaders, formats, cpu or passes", .kind = OPERAND_WORD,
+    {"WHAT", "engines, options, states, shaders, formats, cpu, passes or allocators", .kind = OPERAND_WORD,
      .words = subject_at},
     {0},
 };
 
 const struct command command_list = {
     .name = "list",
-    .summary = "engines, their options, states, shaders, formats, cpu or passes",
+    .summary = "engines, their options, states, shaders, formats, cpu, passes or allocators",
     .options = options,
     .operands = operands,
     .settings_bytes = sizeof(struct settings),

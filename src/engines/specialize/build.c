@@ -67,6 +67,7 @@ void specialize_allocate(struct builder *b, const struct build_options *options)
     struct register_file file = options->file;
     file.wide = options->width == 16;
     file.scalar = options->width == 1;
+    file.allocator = options->allocator;
     allocate_registers(&b->ir, &b->allocation, &file);
     b->emitter.ir = &b->ir;
     b->emitter.allocation = &b->allocation;

@@ -14,6 +14,7 @@ struct build_options {
     uint32_t disabled;  /* bit p: pass p does not run */
     bool limited;       /* `registers` is a limit; specialize_options makes `file` of it */
     unsigned registers; /* vector registers for values, and half as many mask registers */
+    enum allocator allocator;
     struct register_file file;
 };
 

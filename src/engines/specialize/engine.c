@@ -148,13 +148,15 @@ struct build_options specialize_options(const struct engine *engine, enum unit u
 
 enum { ALWAYS, NAMED };
 
-#define SPECIALIZE(id, text, lanes, count, passes, runs, meaning)                                            \
+#define SPECIALIZE(id, text, lanes, count, passes, allocate, runs, meaning)                                  \
     const struct engine engine_##id = {                                                                      \
         .name = text,                                                                                        \
         .description = meaning,                                                                              \
         .width = lanes * count,                                                                              \
-        .options =                                                                                           \
-            &(const struct build_options){.width = lanes, .parts = count, .profile = PROFILE_##passes},      \
+        .options = &(const struct build_options){.width = lanes,                                             \
+                                                 .parts = count,                                             \
+                                                 .profile = PROFILE_##passes,                                \
+                                                 .allocator = ALLOCATOR_##allocate},                         \
         .on_request = runs == NAMED,                                                                         \
         .unavailable = unavailable,                                                                          \
         .build = build,                                                                                      \

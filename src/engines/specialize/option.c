@@ -89,3 +89,20 @@ int specialize_set_unroll(void *options, const char *value, struct error *error)
     (void)value;
     return specialize_set_with(options, pass_name(PASS_unroll), error);
 }
+
+static const char *allocator_choice(const struct words *words, unsigned i)
+{
+    (void)words;
+    return allocate_name(i);
+}
+
+int specialize_set_allocate(void *options, const char *value, struct error *error)
+{
+    struct build_options *o = options;
+    const struct words words = {.at = allocator_choice};
+    unsigned index;
+    if (!words_find(words, value, strlen(value), &index))
+        return set_unknown("allocate", value, words, error);
+    o->allocator = (enum allocator)index;
+    return 0;
+}

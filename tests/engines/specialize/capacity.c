@@ -153,7 +153,7 @@ static void test_twenty_thousand_values_can_be_alive_together(void)
 /* Each operation reads two values, so the program has the largest possible number of them. */
 static void test_too_many_spilled_values_are_refused(void)
 {
-    enum { ALIVE = SPILL_CAPACITY + 2 * ALLOCATABLE + 1 };
+    enum { LANES = 16, ALIVE = SPILL_BYTES / (LANES * 4) + 2 * ALLOCATABLE + 1 };
     static uint16_t alive[ALIVE];
     uint16_t sum = load(0), step = load(1);
     builder->ir.instruction[sum].type = builder->ir.instruction[step].type = TYPE_flt;
@@ -165,7 +165,25 @@ static void test_too_many_spilled_values_are_refused(void)
                                                               .type = TYPE_flt,
                                                               .operand = {alive[i], alive[i + 1], sum}});
     store(sum);
-    expect_refusal("spill slots");
+    TEST_ASSERT_EQUAL(-1, program_compile_and_run(builder, arena, LANES, ALLOCATABLE, &got, &error));
+    TEST_ASSERT_NOT_NULL_MESSAGE(strstr(error.text, "too many spill slots, expected at most 32768"),
+                                 error.text);
+}
+
+static void test_every_value_of_the_longest_program_has_a_home(void)
+{
+    const struct register_file file = {.allocator = ALLOCATOR_none};
+    uint64_t seed = 1;
+    uint16_t sum = load(0), step = load(1);
+    while (builder->ir.count + 2 < IR_CAPACITY)
+        sum = binary(IR_add_i, sum, step);
+    store(sum);
+    program_fill(&expected, &seed);
+    got = expected;
+    program_interpret(&builder->ir, &expected, 8);
+    TEST_ASSERT_EQUAL_MESSAGE(0, program_compile_with(builder, arena, 8, &file, &got, &error), error.text);
+    TEST_ASSERT_EQUAL(-1, program_difference(&expected, &got));
+    TEST_ASSERT_GREATER_THAN(IR_CAPACITY - 10, builder->allocation.slots);
 }
 
 static void test_a_program_of_twenty_thousand_operations(void)
@@ -316,6 +334,7 @@ int main(void)
     RUN_TEST(test_a_thousand_values_can_be_alive_together);
     RUN_TEST(test_twenty_thousand_values_can_be_alive_together);
     RUN_TEST(test_too_many_spilled_values_are_refused);
+    RUN_TEST(test_every_value_of_the_longest_program_has_a_home);
     RUN_TEST(test_a_program_of_twenty_thousand_operations);
     RUN_TEST(test_the_largest_number_of_literals);
     RUN_TEST(test_too_many_literals_are_refused);

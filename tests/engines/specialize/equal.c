@@ -83,6 +83,11 @@ static void test_thesis_profile_equals_the_emulator(void)
     compare_units(&engine_specialize_thesis);
 }
 
+static void test_code_without_allocation_equals_the_emulator(void)
+{
+    compare_units(&engine_specialize_simple);
+}
+
 int main(void)
 {
     UNITY_BEGIN();
@@ -95,5 +100,6 @@ int main(void)
     RUN_TEST(test_sixteen_lanes_in_two_registers_equal_the_emulator);
     RUN_TEST(test_automatic_lanes_equal_the_emulator);
     RUN_TEST(test_thesis_profile_equals_the_emulator);
+    RUN_TEST(test_code_without_allocation_equals_the_emulator);
     return UNITY_END();
 }

@@ -70,14 +70,16 @@ static struct register_file random_file(unsigned width, uint64_t *seed)
     file.without = ~(random_registers(file.wide ? WIDE_REGISTERS : NARROW_REGISTERS, size, seed) |
                      random_registers(MASK_REGISTERS, count, seed));
     file.seed = program_random(seed) % 4 ? program_random(seed) : 0;
+    file.allocator = program_random(seed) % 2 ? program_random(seed) % ALLOCATORS : ALLOCATOR_scan;
     return file;
 }
 
 static void fail(uint64_t number, unsigned width, const struct register_file *file, const char *what)
 {
-    snprintf(message, sizeof message, "program %llu, %u lanes, without registers 0x%llx, lots %llu: %s",
-             (unsigned long long)number, width, (unsigned long long)file->without,
-             (unsigned long long)file->seed, what);
+    snprintf(message, sizeof message,
+             "program %llu, %u lanes, allocator %s, without registers 0x%llx, lots %llu: %s",
+             (unsigned long long)number, width, allocate_name(file->allocator),
+             (unsigned long long)file->without, (unsigned long long)file->seed, what);
     TEST_FAIL_MESSAGE(message);
 }
 
@@ -190,16 +192,17 @@ static void check_routine(void *context, enum unit unit, const union key *key)
         if (specialize_code(builder, &options, unit, key, NULL, NULL, &error))
             wrong = placement_check(builder);
         snprintf(complaint, sizeof complaint,
-                 "%u lanes, %u parts, without registers 0x%llx, lots %llu: %s; %s key: %s", options.width,
-                 options.parts, (unsigned long long)options.file.without,
-                 (unsigned long long)options.file.seed, wrong ? wrong : "", unit_name[unit],
-                 key_print(unit, key, text));
+                 "%u lanes, %u parts, allocator %s, without registers 0x%llx, lots %llu: %s; %s key: %s",
+                 options.width, options.parts, allocate_name(options.allocator),
+                 (unsigned long long)options.file.without, (unsigned long long)options.file.seed,
+                 wrong ? wrong : "", unit_name[unit], key_print(unit, key, text));
         TEST_ASSERT_NULL_MESSAGE(wrong, complaint);
         width = choose_width(program_random(&lots));
         options = (struct build_options){.width = width,
                                          .parts = program_parts(program_random(&lots), width),
                                          .profile = program_random(&lots) % 4 ? PROFILE_FULL : PROFILE_THESIS,
                                          .file = random_file(width, &lots)};
+        options.allocator = options.file.allocator;
     }
     const char *found = visited++ % 3 ? NULL : differential_run(differential, engines, 2, unit, key, lots);
     if (found)

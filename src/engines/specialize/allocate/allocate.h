@@ -1,5 +1,6 @@
-/* Register allocation: linear scan over live intervals (Poletto and Sarkar 1999). The program is one sequence
- * of instructions, in which loops and regions are marks.
+/* Register allocation, in the ways of def/engine/allocator.def. The default is linear scan over live
+ * intervals (Poletto and Sarkar 1999). The program is one sequence of instructions, in which loops and
+ * regions are marks.
  *
  * The interval of a value runs from its definition to its last use. If the value is defined before a loop and
  * used in it, the interval runs at least to the loop's end. Values that phis and joins unite form a web: one
@@ -49,6 +50,13 @@ enum residence {
     RESIDENCE_MEMORY    /* in memory at every use */
 };
 
+enum allocator {
+#define ALLOCATOR(name, ...) ALLOCATOR_##name,
+#include "def/engine/allocator.def"
+#undef ALLOCATOR
+    ALLOCATORS
+};
+
 /* Which registers are available, and how to choose among them. All zero: all registers, by the rules above.
  * Tests remove registers and draw lots, because an allocation must be correct whatever is chosen. */
 struct register_file {
@@ -56,6 +64,7 @@ struct register_file {
     uint64_t seed;    /* not 0: free registers, victims, slots and what is coalesced are drawn by lot */
     bool wide;        /* there are 32 vector registers, and mask registers */
     bool scalar;      /* there is one lane: a word of memory can be an operand */
+    enum allocator allocator;
 };
 
 /* The registers that are allocated, a bit each. */
@@ -105,6 +114,15 @@ static inline bool allocate_is_constant(const struct ir_instruction *instruction
 {
     return instruction->op == IR_literal || instruction->op == IR_constant;
 }
+
+static inline bool allocate_defines_value(const struct ir_instruction *instruction)
+{
+    return instruction->op != IR_nop && !(ir_properties(instruction) & IR_EFFECT);
+}
+
+/* The name of allocator i and one line about it; null past the last. */
+const char *allocate_name(unsigned i);
+const char *allocate_meaning(unsigned i);
 
 /* Fills `allocation` for a valid, compacted program. */
 void allocate_registers(const struct ir *ir, struct allocation *allocation, const struct register_file *file);
@@ -171,6 +189,19 @@ unsigned allocate_entered_loop(const struct allocation *allocation, unsigned bir
 
 /* The position of the `end` that a join follows. */
 uint32_t allocate_joined_end(const struct ir *ir, uint32_t join);
+
+/* The allocators (scan.c, none.c): they fill residence, reg, split, slot, last and slots, and count spills.
+ * `registers` has a bit for each available register. Ends of regions and loops have been found. */
+#define ALLOCATOR(name, ...)                                                                                 \
+    void allocate_by_##name(const struct ir *ir, struct allocation *allocation, uint64_t registers);
+#include "def/engine/allocator.def"
+#undef ALLOCATOR
+
+/* For allocators: finds webs, the uses of each, and which values need a register. No value has one yet. */
+void allocate_find_lives(const struct ir *ir, struct allocation *allocation);
+
+/* For allocators: gives slots to the values that are not in a register everywhere (slot.c). */
+void allocate_slots(const struct ir *ir, struct allocation *allocation);
 
 /* Fills web, member and tail; loops and regions have been found (coalesce.c). */
 void allocate_coalesce(const struct ir *ir, struct allocation *allocation);

@@ -19,7 +19,7 @@ enum {
     LITERAL_TABLE = 2 * LITERAL_CAPACITY, /* a power of two */
     REGION_CAPACITY = 16384,
     REGION_DEPTH = 1024,
-    SPILL_CAPACITY = 32768 /* slots: with 16 lanes, 2 MiB of the stack */
+    SPILL_BYTES = 2 << 20 /* of the stack for spill slots: enough for IR_CAPACITY slots of 8 lanes */
 };
 
 static_assert((int)CODE_CAPACITY <= (int)ROUTINE_BYTES_MAXIMUM, "code that fits a build fits a routine");
@@ -140,6 +140,12 @@ static inline bool emit_is_wide(const struct emitter *emitter)
 static inline bool emit_is_scalar(const struct emitter *emitter)
 {
     return emitter->width == 1;
+}
+
+/* The number of spill slots that a routine can have. */
+static inline unsigned emit_most_slots(unsigned width)
+{
+    return SPILL_BYTES / (width * 4);
 }
 
 /* Returns true if the constant table is in the stack frame. With 16 lanes and with one, instructions read the

@@ -380,8 +380,8 @@ size_t emit_routine(struct emitter *m, enum unit unit, const union key *key, str
                  FIXUP_CAPACITY);
     m->literals = m->lines = m->unwinds = m->regions = m->region_depth = 0;
     m->exceeded = NULL;
-    if (m->allocation->slots > SPILL_CAPACITY)
-        emit_note_exceeded(m, "spill slots", SPILL_CAPACITY);
+    if (m->allocation->slots > emit_most_slots(m->width))
+        emit_note_exceeded(m, "spill slots", (int)emit_most_slots(m->width));
     m->constants = constants_field(unit, key);
     prologue(m, job_field(unit));
     switch (unit) {
