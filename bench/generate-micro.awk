@@ -283,6 +283,19 @@ function shader(text,   lines, n, i) {
 
 function repeated(text, count,   all) { while (count-- > 0) all = all "\n" text; return all }
 
+# A bilinear texel and dependent multiply-adds: the more of them, the smaller the share of sampling.
+function mixed(count) {
+    begin("mix-" count, "Texture and arithmetic: a bilinear texel, then " count " dependent multiply-adds of four " \
+              "components a pixel.",
+          "4 texels gathered and 12 linear interpolations a pixel, and " 4 * count " multiply-adds of one number.")
+    plain(); one_texture(); quad(0.001, 4.001); filter(0, "linear")
+    shader("ps_2_x\ndcl t0.xy\ndcl_2d s0\nmov r1, c1\ntexld r0, t0, s0" repeated("mad r0, r0, c0, r1", count) \
+           "\nmov oC0, r0")
+    emit("pixelconstant 0 0.99 0.985 0.99 1")
+    emit("pixelconstant 1 0.002 0.003 0.004 0")
+    layer("draw strip 0 2"); one_layer()
+}
+
 function arithmetic() {
     corners = " -1 1 0 1  -0.6 0.7 1 1  -1 1 0; 1 1 0 1  0.8 0.5 1 1  1 1 0; -1 -1 0 1  -0.5 -0.6 1 1  -1 " \
         "-1 0;" \
@@ -298,6 +311,8 @@ function arithmetic() {
     emit("pixelconstant 0 0.99 0.985 0.99 1")
     emit("pixelconstant 1 0.002 0.003 0.004 0")
     layer("draw strip 0 2"); one_layer()
+
+    mixed(4); mixed(16); mixed(64)
 
     begin("normalize", "Arithmetic: 16 times n = normalize(v + (exp2 n.y, sin n.x, pow n.z)).",
           "16 times a sine, three exponentials and logarithms, a square root and a division a pixel.")

@@ -97,6 +97,11 @@ wrong 'a rule that cannot be true' 'cannot be true' <<<"$beginning${claim/holds 
 wrong 'a claim with a rule and a reason not to test it' 'expected one of the fields' <<<"$beginning${claim}cannot It is late."
 wrong 'a claim without reasons' 'no field reasons' <<<"$beginning${claim/reasons It is./}"
 wrong 'a figure that is unknown' 'there is no figure f' <<<"$beginning${claim}shows f"
+wrong 'a figure with columns and pictures' 'expected columns' <<<"$beginning${claim}shows f
+figure f
+title F
+column n = {one.numbers: n}
+image F = {one.numbers}"
 wrong 'an experiment without use' 'no claim and no figure uses it' <<<"$beginning"
 wrong 'a run without a name' "the run 'true' is not NAME: COMMAND" <<<"${beginning/run numbers: echo*/run true}$claim"
 wrong 'a file without records' 'expected one of chapter, experiment' <<<"hello"
@@ -122,6 +127,8 @@ holds n > 4
 part n > 2
 reasons It is in between.
 shows bars
+shows rows
+shows square
 
 claim C3
 source 1.3
@@ -148,6 +155,20 @@ title Two bars.
 plot bars
 column name = {one.numbers: names[*].name}
 column x = {one.numbers: names[*].x}
+
+figure rows
+title A table of means.
+column name = names(list(\"a\", \"b\", \"a\"))
+column mean = geomeans(list(\"a\", \"b\", \"a\"), list(2, 5, 8))
+
+figure square
+title A picture.
+image a square = {square.svg}
+
+experiment square
+about Writes a picture.
+takes 1
+run svg: echo \"<svg xmlns='http://www.w3.org/2000/svg'/>\"
 "
 cat >"$work/registry/figures/bars.gnuplot" <<'GNUPLOT'
 set terminal svg
@@ -164,6 +185,8 @@ check 'a claim without means cannot be tested' verdict_is C4 'cannot be tested h
 check 'a claim that needs something is not yet tested' verdict_is C5 'not yet'
 check 'the report has every claim' test "$(grep -o '<article class="claim[^>]*>' "$work/results/report/index.html" | wc -l)" = 5
 check 'the report contains the figure' grep -q '<figure id="figure-bars"><svg' "$work/results/report/index.html"
+check 'the report contains the table' grep -q '<tr><td>a</td><td class="number">4</td></tr>' "$work/results/report/index.html"
+check 'the report contains the picture' grep -q 'src="data:image/svg+xml;base64,' "$work/results/report/index.html"
 check 'the report needs no other file' bash -c '! grep -oE "(src|href)=\"(https?:|[^#\"]*\.(css|js|svg|png))[^\"]*\"" "$1"' - "$work/results/report/index.html"
 check 'the data of a figure is beside it' diff <(printf 'name,x\na,1\nb,2\n') "$work/results/report/bars.csv"
 

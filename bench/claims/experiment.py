@@ -144,6 +144,22 @@ class Laboratory:
         return items_at(content, path)
 
 
+    def bytes(self, output):
+        """The content of an output that is a picture. Raises NoValue if the experiment failed."""
+        experiment, _, run = output.partition(".")
+        if experiment in self.failures:
+            raise NoValue(f"the experiment {experiment} failed: {self.failures[experiment]}")
+        path = os.path.join(self.folder, experiment, run)
+        try:
+            with open(path, "rb") as file:
+                content = file.read()
+        except OSError as error:
+            raise NoValue(f"{path}: {error.strerror}") from None
+        if content[:4] != b"\x89PNG" and not content.startswith(b"<svg"):
+            raise NoValue(f"{path} is not a PNG or SVG picture")
+        return content
+
+
 def wait(process, limit):
     """The status of a process, or None if it was ended after `limit` seconds, with all that it started."""
     try:

@@ -137,6 +137,33 @@ def only_text(items):
 TEXTS = {"lines": lines, "captured": captured}
 
 
+# --- Functions of groups ----------------------------------------------------------------------------------------
+
+
+def plain(item):
+    return item.value if isinstance(item, Number) else item
+
+
+def names(items):
+    """The different items, in the order of their first places."""
+    return list({plain(each): each for each in reversed(as_list(items))}.values())[::-1]
+
+
+def geomeans(items, values):
+    """The geometric mean of the values beside each different item, in the order of names()."""
+    items, values = as_list(items), as_list(values)
+    if len(items) != len(values):
+        raise NoValue(f"lists of {len(items)} and {len(values)} items, expected the same number")
+    groups = {plain(each): [] for each in items}
+    for item, value in zip(items, values):
+        groups[plain(item)].append(value)
+    return [SUMMARIES["geomean"](groups[plain(each)]) for each in names(items)]
+
+
+GROUPS = {"names": (names, 1), "geomeans": (geomeans, 2)}
+FUNCTIONS = [*SUMMARIES, *TEXTS, *GROUPS]
+
+
 # --- Expressions ------------------------------------------------------------------------------------------------
 
 
@@ -197,6 +224,8 @@ class Expression:
         name, arguments = node.func.id, [self.evaluate(each) for each in node.args]
         if name in TEXTS:
             return TEXTS[name](*arguments)
+        if name in GROUPS:
+            return GROUPS[name][0](*arguments)
         return SUMMARIES[name]([item for each in arguments for item in as_list(each)])
 
 
@@ -222,11 +251,13 @@ def pairwise(operation, left, right):
 def check(node, text):
     """Refuses everything that evaluate() does not have."""
     if isinstance(node, ast.Call):
-        if not isinstance(node.func, ast.Name) or node.func.id not in SUMMARIES | TEXTS or node.keywords:
-            raise BadExpression(f"{text}: unknown function, expected one of {', '.join(SUMMARIES | TEXTS)}")
+        if not isinstance(node.func, ast.Name) or node.func.id not in FUNCTIONS or node.keywords:
+            raise BadExpression(f"{text}: unknown function, expected one of {', '.join(FUNCTIONS)}")
         children = node.args
         if node.func.id in TEXTS and (len(children) != 2 or not isinstance(children[1], ast.Constant)):
             raise BadExpression(f"{text}: {node.func.id} has a text and a pattern")
+        if node.func.id in GROUPS and len(children) != GROUPS[node.func.id][1]:
+            raise BadExpression(f"{text}: {node.func.id} has {GROUPS[node.func.id][1]} lists")
     elif isinstance(node, ast.BinOp) and type(node.op) in SYMBOLS:
         children = [node.left, node.right]
     elif isinstance(node, ast.Compare) and len(node.ops) == 1 and type(node.ops[0]) in SYMBOLS:

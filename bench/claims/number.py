@@ -174,6 +174,7 @@ SUMMARIES = {
     "sum": monotone(sum),
     "least": monotone(min),
     "most": monotone(max),
+    "list": lambda items: items,
     "count": lambda items: Number(len(items)),
     "distinct": lambda items: Number(len({each.value if isinstance(each, Number) else each for each in items})),
 }

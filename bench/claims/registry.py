@@ -27,11 +27,12 @@ FIELDS = {  # of each record; + may be repeated, ! must be there
         "needs": "",
         "cannot": "",
     },
-    "figure": {"title": "!", "plot": "!", "column": "!+"},
+    "figure": {"title": "!", "plot": "", "column": "+", "image": "+"},
 }
 KINDS = ("speed", "size", "build", "qual", "listing", "design", "future")
 VALUE = re.compile(r"([a-z_]\w*)\s+(\S+)(?:\s+(-?[\d.]+)\.\.(-?[\d.]+)?)?\s*=\s*(.*)", re.S)
-NAMED = re.compile(r"([a-z_]\w*)\s*=\s*(.*)", re.S)
+NAMED = re.compile(r"([A-Za-z_]\w*)\s*=\s*(.*)", re.S)
+IMAGE = re.compile(r"(.*?)\s*=\s*\{\s*([\w.-]+)\s*\}")
 RUN = re.compile(r"([\w-]+):\s*(.*)", re.S)
 
 
@@ -162,15 +163,26 @@ class Claim:
 
 
 class Figure:
+    """A chart of columns by a template, columns as a table, or pictures that experiments have made."""
+
     def __init__(self, record):
         self.name, self.where = record.name, record.where
         self.title, self.plot = folded(record.one("title")), record.one("plot")
+        self.images = dict(self.image(record, text) for text in record.all("image"))
         self.columns = {}
+        if bool(self.images) == bool(record.all("column")) or self.images and self.plot:
+            record.fail("expected columns, with or without a plot, or images")
         for text in record.all("column"):
             match = NAMED.fullmatch(text)
             if not match:
                 record.fail(f"the column '{text}' is not NAME = EXPRESSION")
             self.columns[match[1]] = parse(record, match[2])
+
+    def image(self, record, text):
+        match = IMAGE.fullmatch(folded(text))
+        if not match:
+            record.fail(f"the image '{text}' is not TITLE = {{EXPERIMENT.RUN}}")
+        return match.groups()
 
 
 def parse(record, text):
@@ -220,6 +232,9 @@ class Registry:
             for output, _ in expression.references:
                 if not self.has_output(output):
                     record.fail(f"no experiment has the output {output}")
+        for output in self.figures[record.name].images.values() if record.kind == "figure" else ():
+            if not self.has_output(output):
+                record.fail(f"no experiment has the output {output}")
         for figure in record.all("shows"):
             if figure not in self.figures:
                 record.fail(f"there is no figure {figure}")
@@ -246,7 +261,9 @@ class Registry:
         """The experiments that a claim and its figures need, in the order of the registry."""
         columns = [each for name in claim.figures for each in self.figures[name].columns.values()]
         expressions = [each.expression for each in claim.values] + columns
-        names = {output.partition(".")[0] for each in expressions for output, _ in each.references}
+        outputs = [output for each in expressions for output, _ in each.references]
+        outputs += [output for name in claim.figures for output in self.figures[name].images.values()]
+        names = {output.partition(".")[0] for output in outputs}
         return [name for name in self.experiments if name in names]
 
 

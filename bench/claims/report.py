@@ -1,5 +1,6 @@
 """The report: RESULTS/report/index.html with everything in it, the figures' data beside it, and index.pdf if it is requested."""
 
+import base64
 import csv
 import html
 import os
@@ -51,8 +52,8 @@ def badge(verdict):
 # --- Figures --------------------------------------------------------------------------------------------------
 
 
-def write_table(path, figure, read):
-    """The figure's data as CSV. A number's ends are columns NAME_low and NAME_high if they differ from it."""
+def table_of(figure, read):
+    """The columns of a figure by name. A number's ends are columns NAME_low and NAME_high if they differ from it."""
     columns = {}
     for name, expression in figure.columns.items():
         items = expression.items(read)
@@ -63,28 +64,66 @@ def write_table(path, figure, read):
     lengths = {len(column) for column in columns.values()}
     if len(lengths) != 1:
         raise NoValue(f"the columns of the figure {figure.name} have {sorted(lengths)} items, expected the same number")
+    return columns
+
+
+def write_table(path, columns):
     with open(path, "w", encoding="utf-8", newline="") as file:
         writer = csv.writer(file, lineterminator="\n")
         writer.writerow(columns)
         writer.writerows(zip(*columns.values()))
 
 
-def draw(folder, registry, figure, read):
-    """The figure as SVG, or a line why there is none."""
+def draw(folder, registry, figure, laboratory):
+    """The figure as HTML, or a line why there is none."""
+    if figure.images:
+        return pictures_of(figure, laboratory)
+    try:
+        columns = table_of(figure, laboratory.read)
+    except (NoValue, BadExpression) as error:
+        return "", str(error)
     table = os.path.join(folder, figure.name + ".csv")
+    write_table(table, columns)
+    return plot(folder, registry, figure, table) if figure.plot else (data_table(columns), "")
+
+
+def plot(folder, registry, figure, table):
     picture = os.path.join(folder, figure.name + ".svg")
     template = os.path.join(registry.folder, "figures", figure.plot + ".gnuplot")
     try:
-        write_table(table, figure, read)
         run = subprocess.run(["gnuplot", "-c", template, table, picture], capture_output=True, text=True, check=False)
-    except (NoValue, BadExpression) as error:
-        return "", str(error)
     except FileNotFoundError:
         return "", "gnuplot is not installed"
     if run.returncode or not os.path.exists(picture):
         return "", f"gnuplot: {(run.stderr.strip().splitlines() or ['no picture'])[0]}"
     with open(picture, encoding="utf-8") as file:
         return inline(file.read(), figure.name), ""
+
+
+def pictures_of(figure, laboratory):
+    """The pictures of experiments, inside of the page."""
+    parts = []
+    for title, output in figure.images.items():
+        try:
+            content = laboratory.bytes(output)
+        except NoValue as error:
+            return "", str(error)
+        kind = "png" if content[:4] == b"\x89PNG" else "svg+xml"
+        data = base64.b64encode(content).decode()
+        parts.append(f'<div><img src="data:image/{kind};base64,{data}" alt="{html.escape(title)}"><p>{rich(title)}</p></div>')
+    return f'<div class="pictures">{"".join(parts)}</div>', ""
+
+
+def cell(item):
+    if isinstance(item, str):
+        return f"<td>{rich(item)}</td>"
+    return f'<td class="number">{item:,.4g}</td>' if abs(item) < 10000 else f'<td class="number">{item:,.0f}</td>'
+
+
+def data_table(columns):
+    head = "".join(f"<th>{text(name.replace('_', ' '))}</th>" for name in columns)
+    rows = ("".join(cell(item) for item in row) for row in zip(*columns.values()))
+    return f"<table><tr>{head}</tr>{''.join(f'<tr>{row}</tr>' for row in rows)}</table>"
 
 
 def inline(svg, name):
@@ -180,7 +219,8 @@ def chapter_section(registry, name, verdicts, pictures):
 
 def figure_block(figure, svg, problem):
     body = svg or f"<p>No figure: {text(problem)}.</p>"
-    caption = f'{rich(figure.title)} Data: <a href="{figure.name}.csv">{figure.name}.csv</a>.'
+    data = "" if figure.images else f' Data: <a href="{figure.name}.csv">{figure.name}.csv</a>.'
+    caption = rich(figure.title) + data
     return f'<figure id="figure-{figure.name}">{body}<figcaption>{caption}</figcaption></figure>'
 
 
@@ -242,7 +282,7 @@ def write(folder, registry, laboratory, verdicts):
     pictures = {}
     for name in dict.fromkeys(chosen):
         figure = registry.figures[name]
-        pictures[name] = figure_block(figure, *draw(folder, registry, figure, laboratory.read))
+        pictures[name] = figure_block(figure, *draw(folder, registry, figure, laboratory))
     path = os.path.join(folder, "index.html")
     with open(path + ".new", "w", encoding="utf-8") as file:
         file.write(page(registry, laboratory, verdicts, pictures))

@@ -112,7 +112,7 @@ def recording(player, program):
     player.speed(program, "triptych", 1, record=path, frames=20)
     if not os.path.exists(path):
         return None
-    report = {"path": path, "bytes": os.path.getsize(path)}
+    report = {"file": os.path.basename(path), "bytes": os.path.getsize(path)}
     options = ["--frames", "4", "--json", path + ".verify.json"]
     verified = subprocess.run([player.triptych, "verify", *options, path], capture_output=True, text=True, check=False)
     report["verified"] = verified.returncode == 0

@@ -108,7 +108,7 @@ static void set_lit(void)
 
 static void set_arithmetic(void)
 {
-    if (scene->pixel == MULTIPLY_ADD) {
+    if (scene->pixel >= MULTIPLY_ADD && scene->pixel <= MIX_64) {
         set4("factor", 0.99f, 0.985f, 0.99f, 1);
         set4("term", 0.002f, 0.003f, 0.004f, 0);
     }

@@ -51,12 +51,18 @@ const char *vertex_text(enum vertex_shader shader)
     return text;
 }
 
-static void add_multiply_add(void)
+/* `count` dependent multiply-adds of a varying, or of a texel. */
+static void add_multiply_add(const char *inputs, const char *first, int count)
 {
-    add("varying vec4 a; uniform vec4 factor, term;\nvoid main() {\n    vec4 r = a;\n");
-    for (int i = 0; i < 64; i++)
+    add("varying %s; uniform vec4 factor, term;\nvoid main() {\n    vec4 r = %s;\n", inputs, first);
+    for (int i = 0; i < count; i++)
         add("    r = r * factor + term;\n");
     add("    gl_FragColor = r;\n}\n");
+}
+
+static void add_mix(int count)
+{
+    add_multiply_add("vec2 uv; uniform sampler2D checker", "texture2D(checker, uv)", count);
 }
 
 static void add_normalize(void)
@@ -88,7 +94,10 @@ static void add_pixel(enum pixel_shader shader, unsigned number)
         add("varying vec2 uv; uniform sampler2D checker, gradient;\n"
             "void main() { gl_FragColor = texture2D(checker, uv) * texture2D(gradient, uv); }\n");
         return;
-    case MULTIPLY_ADD: add_multiply_add(); return;
+    case MULTIPLY_ADD: add_multiply_add("vec4 a", "a", 64); return;
+    case MIX_4: add_mix(4); return;
+    case MIX_16: add_mix(16); return;
+    case MIX_64: add_mix(64); return;
     case NORMALIZE: add_normalize(); return;
     case PHONG: add("%s", phong); return;
     case COLOR: add("varying vec4 color;\nvoid main() { gl_FragColor = color; }\n"); return;

@@ -3,7 +3,8 @@
 # 127.0.0.1; one slurmd and its jobs are killed in the middle and started again. The merged results must be
 # those of one run, byte for byte.
 #
-#   CASES=600 SHARDS=8 SEED=21 OPTIONS="--engines emulate,batch" TIMEOUT=1800 OUTPUT=FOLDER bench/slurm/test.sh
+#   CASES=600 SHARDS=8 SEED=21 OPTIONS="--engines emulate,batch" TIMEOUT=1800 OUTPUT=FOLDER \
+#       bench/slurm/test.sh
 #
 # OUTPUT keeps the merged results, results.json and canonical.json, in that folder.
 # Every process that the script starts ends with it. It reads and changes no configuration of the system.
