@@ -1,6 +1,7 @@
 #!/bin/bash
 # Variants of engines draw the same bytes: with few registers, without each pass, with no pass, and with
-# unrolled loops, at each number of lanes. Given TRIPTYCH and SLOW by tests/support/scripts/run.sh.
+# unrolled loops, at each number of lanes; and mixtures with an engine for each unit. Given TRIPTYCH and SLOW
+# by tests/support/scripts/run.sh.
 set -uo pipefail
 cd "$(dirname "$0")/.."
 
@@ -25,4 +26,15 @@ for engine in $("$TRIPTYCH" list engines | awk '$1 ~ /^specialize-(1|4|8|16|8x2)
         failures=1
     fi
 done
+
+mixtures=mixed,mixed:vertex=batch:setup=specialize-4:pixel=stitch,mixed:vertex=stitch-operation:setup=tiered
+mixtures+=,mixed:vertex=specialize-8+registers=4:setup=emulate:pixel=batch-16
+mixtures+=,mixed:vertex=emulate:setup=emulate:pixel=specialize-4+passes=none
+if said=$("$TRIPTYCH" verify "${streams[@]}" --engines "emulate,$mixtures" --frames 1 --threads 1 2>&1) &&
+    [[ ${said##*$'\n'} == "${#streams[@]} streams, 6 engines, identical" ]]; then
+    echo 'ok an engine for each unit'
+else
+    printf 'FAIL an engine for each unit\n%s\n' "$said"
+    failures=1
+fi
 exit $failures

@@ -4,6 +4,7 @@
 #include "emu/batch/batch.h"
 #include "emu/emulate/emulate.h"
 #include "engines/external/external.h"
+#include "engines/mixed.h"
 #include "engines/specialize/specialize.h"
 #include "engines/stitch/stitch.h"
 #include "engines/tiered/tiered.h"
@@ -26,6 +27,7 @@ static const struct engine *const engines[] = {
 #undef SPECIALIZE
     &engine_tiered,
     &engine_tiered_swap,
+    &engine_mixed,
     &engine_external,
 };
 /* clang-format on */

@@ -1,6 +1,7 @@
 #include "engines/variant.h"
 
 #include "base/words.h"
+#include "engines/mixed.h"
 #include "engines/specialize/specialize.h"
 
 #include <errno.h>
@@ -13,6 +14,7 @@ static const struct engine_option options[] = {
 #define VARIANT(name, engines, values, meaning)                                                              \
     {#name, values, meaning, engines##_is_engine, engines##_copy_options, engines##_set_##name},
 #include "def/engine/variant.def"
+#include "def/engine/mixed.def"
 #undef VARIANT
 };
 
@@ -51,6 +53,14 @@ bool engine_takes_options(const struct engine *engine)
 {
     for (unsigned i = 0; engine_option_at(i); i++)
         if (options[i].takes(engine))
+            return true;
+    return false;
+}
+
+bool engine_takes_option(const struct engine *engine, const char *name)
+{
+    for (unsigned i = 0; engine_option_at(i); i++)
+        if (!strcmp(options[i].name, name) && options[i].takes(engine))
             return true;
     return false;
 }
@@ -136,23 +146,41 @@ static const struct engine *find(const char *name)
     return NULL;
 }
 
-/* With the lock held: finds the variant or makes it. */
-static const struct engine *find_or_make(const struct engine *base, const char *name, size_t length,
-                                         struct error *error)
+static const struct engine *find_locked(const char *name)
 {
+    pthread_mutex_lock(&variants.lock);
     const struct engine *found = find(name);
+    pthread_mutex_unlock(&variants.lock);
+    return found;
+}
+
+/* With the lock held: adds the variant, or frees it if another thread has added one of its name. */
+static const struct engine *add(struct variant *variant, struct error *error)
+{
+    const struct engine *found = find(variant->name);
     if (found)
-        return found;
-    if (variants.count == ENGINE_VARIANTS)
-        return error_set(error, "there are %d variants of engines already, no more can be made",
-                         ENGINE_VARIANTS),
-               NULL;
-    struct variant *variant = make(base, name, length, error);
-    if (!variant)
-        return NULL;
+        return free_variant(variant), found;
+    if (variants.count == ENGINE_VARIANTS) {
+        error_set(error, "there are %d variants of engines already, no more can be made", ENGINE_VARIANTS);
+        return free_variant(variant), NULL;
+    }
     variants.variant[variants.count] = variant;
     __atomic_store_n(&variants.count, variants.count + 1, __ATOMIC_RELEASE);
     return &variant->engine;
+}
+
+/* Makes the variant without the lock: its options may name other variants. */
+static const struct engine *find_or_make(const struct engine *base, const char *name, size_t length,
+                                         struct error *error)
+{
+    const struct engine *found = find_locked(name);
+    struct variant *variant = found ? NULL : make(base, name, length, error);
+    if (!variant)
+        return found;
+    pthread_mutex_lock(&variants.lock);
+    found = add(variant, error);
+    pthread_mutex_unlock(&variants.lock);
+    return found;
 }
 
 const struct engine *engine_vary(const struct engine *base, const char *name, size_t length,
@@ -166,9 +194,7 @@ const struct engine *engine_vary(const struct engine *base, const char *name, si
         error_set(&reason, "the name has %zu bytes, expected at most %d", strlen(name),
                   ENGINE_NAME_CAPACITY - 1);
     } else {
-        pthread_mutex_lock(&variants.lock);
         variant = find_or_make(base, name, length, &reason);
-        pthread_mutex_unlock(&variants.lock);
     }
     if (!variant)
         error_set(error, "engine %.120s: %s", name, reason.text);

@@ -35,4 +35,7 @@ const struct engine_option *engine_option_at(unsigned i);
 /* Returns true if an engine takes at least one option. */
 bool engine_takes_options(const struct engine *engine);
 
+/* Returns true if an engine takes the option of that name. */
+bool engine_takes_option(const struct engine *engine, const char *name);
+
 #endif

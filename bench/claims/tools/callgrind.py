@@ -4,7 +4,7 @@
 
 Runs `triptych render` of the stream's first frame under callgrind, without AVX-512, which valgrind does not have. Generated code
 belongs to no file, so its counts are those of functions without one. The routines of emulate are its functions emulate_vertex,
-emulate_setup and emulate_pixel with all that they call. The number of shaded pixels comes from `triptych inspect`.
+emulate_setup and emulate_pixel with all that they call. An engine mixed can have both. The number of shaded pixels comes from `triptych inspect`.
 """
 
 import collections
@@ -65,9 +65,11 @@ def is_emulator(name):
 
 
 def routines(profile, engine):
-    if engine == "emulate":
-        return [cost for (caller, called), cost in profile.calls.items() if is_emulator(called) and not is_emulator(caller)]
-    return [cost for name, cost in profile.own.items() if profile.objects[name] in ("", "???")]
+    emulated = [cost for (caller, called), cost in profile.calls.items() if is_emulator(called) and not is_emulator(caller)]
+    generated = [cost for name, cost in profile.own.items() if profile.objects[name] in ("", "???")]
+    if engine.startswith("mixed"):
+        return emulated + generated
+    return emulated if engine == "emulate" else generated
 
 
 def pixels(stream, folder):

@@ -9,6 +9,7 @@
 #include "emu/batch/batch.h"
 #include "engines/external/external.h"
 #include "engines/list.h"
+#include "engines/mixed.h"
 #include "engines/specialize/specialize.h"
 #include "engines/stitch/stitch.h"
 #include "engines/tiered/tiered.h"
@@ -55,6 +56,9 @@ static pane_function *find_panes(const struct engine *engine)
 static int add_engine(const struct command *self, const struct engine *engine, struct engines *engines)
 {
     const struct engine *tier = tiered_engine(engine, 0);
+    if (mixed_is_engine(engine))
+        return tool_fail(self, "engine %s has nothing of its own to show, expected the engines of its units",
+                         engine->name);
     if (!tier && !find_panes(engine))
         return tool_fail(self, "engine %s has nothing to show, expected one that builds routines",
                          engine->name);

@@ -154,16 +154,17 @@ int choose_variants(const struct command *self, const struct variation *variatio
         return tool_fail(self, "--registers and --without are too long");
     if (!*options)
         return STATUS_OK;
+    const char *option = variation->registers ? "registers" : "without";
     for (unsigned i = 0; i < choice->count; i++) {
-        if (!engine_takes_options(engine_at(choice->index[i])))
+        if (!engine_takes_option(engine_at(choice->index[i]), option))
             continue;
         varied = true;
         if (add_options(self, options, &choice->index[i]))
             return STATUS_BAD;
     }
     return varied ? STATUS_OK
-                  : tool_fail(self, "none of the engines takes %s, expected specialize or one of its kind",
-                              variation->registers ? "--registers" : "--without");
+                  : tool_fail(self, "none of the engines takes --%s, expected specialize or one of its kind",
+                              option);
 }
 
 int choose_threads(const struct command *self, const char *list, struct choice *threads)

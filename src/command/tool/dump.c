@@ -7,6 +7,7 @@
 #include "engines/stitch/stitch.h"
 #include "engines/tiered/tiered.h"
 #include "engines/list.h"
+#include "engines/mixed.h"
 #include "engines/specialize/passes/pass.h"
 #include "command/support/choose.h"
 #include "command/support/option.h"
@@ -85,6 +86,13 @@ static const struct dumper *find_dumper(const struct command *self, unsigned eng
            NULL;
 }
 
+/* The engine that makes the unit's routines. */
+static unsigned engine_of_unit(unsigned engine, enum unit unit)
+{
+    const struct engine *own = mixed_engine(engine_at(engine), unit);
+    return own ? engine_number(own) : engine;
+}
+
 /* Prints the shader that the key numbers, if there is one, with the numbers of its lines. */
 static int print_shader(enum unit unit, const union key *key, struct error *error)
 {
@@ -150,7 +158,8 @@ static int run(const struct command *self, void *data, const struct operands *op
     struct choice choice = {.count = 1, .index = {engine}};
     if (choose_variants(self, &settings->variation, &choice))
         return STATUS_BAD;
-    return dump(self, operands->value[0], settings, choice.index[0], (enum unit)settings->unit);
+    enum unit unit = (enum unit)settings->unit;
+    return dump(self, operands->value[0], settings, engine_of_unit(choice.index[0], unit), unit);
 }
 
 static const char *unit_at(unsigned index)

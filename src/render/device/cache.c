@@ -116,14 +116,14 @@ static void tell(struct cache *cache, struct cache_entry *entry)
 {
     const struct routine *routine = entry->routine;
     struct debug_code code = {.code = routine->code};
-    if (!cache->listeners || !cache->engine->describe)
+    if (!cache->listeners || !routine->engine->describe)
         return;
     int length = snprintf(code.name, sizeof code.name, "triptych_%s_%u_%s_%016" PRIx64,
-                          unit_name[entry->unit], routine->number, cache->engine->name, entry->hash);
+                          unit_name[entry->unit], routine->number, routine->engine->name, entry->hash);
     for (int i = 0; i < length; i++)
         if (code.name[i] == '-')
             code.name[i] = '_';
-    if (!cache->engine->describe(routine, &code, &cache->debug_error))
+    if (!routine->engine->describe(routine, &code, &cache->debug_error))
         entry->record = debug_add(cache->listeners, &code, &cache->debug_error);
     debug_code_free(&code);
 }
@@ -267,7 +267,7 @@ static struct cache_entry *insert(struct cache *cache, enum unit unit, const uni
     }
     entry->routine->number = ++cache->next_number;
     if (!entry->routine->lanes)
-        entry->routine->lanes = padded_to(cache->engine);
+        entry->routine->lanes = padded_to(entry->routine->engine);
     entry->routine->hits = 0;
     entry->routine->entry = entry;
     if (unit == UNIT_PIXEL) {

@@ -27,7 +27,6 @@ uint64_t __wrap_key_hash(enum unit unit, const struct packed_key *packed)
 static struct routine *build(const struct engine *self, struct code_arena *arena, enum unit unit,
                              const union key *key, struct error *reason)
 {
-    (void)self;
     (void)arena;
     if (refuse || built - freed == capacity) {
         error_set(reason, "no room for the %s routine", unit_name[unit]);
@@ -35,6 +34,7 @@ static struct routine *build(const struct engine *self, struct code_arena *arena
     }
     struct routine *routine = calloc(1, sizeof *routine);
     TEST_ASSERT_NOT_NULL(routine);
+    routine->engine = self;
     routine->unit = unit;
     routine->key = *key;
     routine->code_bytes = CODE_BYTES;

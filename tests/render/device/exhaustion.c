@@ -40,7 +40,6 @@ static uint8_t pattern(const union key *key)
 static struct routine *build(const struct engine *self, struct code_arena *where, enum unit unit,
                              const union key *key, struct error *reason)
 {
-    (void)self;
     struct code_span span;
     struct routine *routine = calloc(1, sizeof *routine);
     TEST_ASSERT_NOT_NULL(routine);
@@ -49,6 +48,7 @@ static struct routine *build(const struct engine *self, struct code_arena *where
         return NULL;
     }
     memset(span.writable, pattern(key), next_bytes);
+    routine->engine = self;
     routine->unit = unit;
     routine->key = *key;
     routine->code = code_commit(where, &span, next_bytes);
