@@ -124,7 +124,7 @@ static void routines_of_mixed_engines_are_evicted(void)
     TEST_ASSERT_EQUAL_MEMORY(&expected, &found, sizeof found);
 }
 
-/* --- A faulty engine ------------------------------------------------------------------------------------- */
+/* --- A faulty engine -------------------------------------------------------------------------------- */
 
 /* Emulates, but culls the wrong side. */
 static struct routine *build_faulty(const struct engine *self, struct code_arena *arena, enum unit unit,
