@@ -1,7 +1,8 @@
 #!/usr/bin/env bash
 # The course: the check of each lab (docs/course/README.md) passes for its solution. It fails for the starting
 # files, and for each planted mistake with the words that its patch expects. A patch begins with the line
-# "expected: WORDS", and is applied to the solution.
+# "expected: WORDS", and is applied to the solution. A solution replaces starting files, and changes them by
+# change.patch if it has one.
 #
 #   tests/course.sh              the labs that take seconds: those without a file `slow`
 #   LABS="1 4" tests/course.sh   these; LABS=all: all of them
@@ -29,15 +30,25 @@ judge() # LAB FOLDER STATUS NAME [WORDS]
     failed=1
 }
 
+# Applies a patch to a folder.
+change() # LAB FOLDER PATCH
+{
+    patch -s -d "$2" -p1 <"$3" || { echo "not ok course $1: $3 does not apply" && failed=1; }
+}
+
 lab()
 {
     local lab=$1 from=$2 patch words
-    judge "$lab" "$PWD/$from/start" 1 'the starting files do not pass'
-    judge "$lab" "$PWD/$from/solution" 0 'the solution passes'
+    rm -rf "$work/start" "$work/solution"
+    docs/course/lab.sh "$lab" "$work/start" >/dev/null || { echo "not ok course $lab: no starting files" && failed=1; }
+    cp -r "$work/start" "$work/solution" && cp -r "$from/solution/." "$work/solution"
+    [[ ! -f $from/solution/change.patch ]] || change "$lab" "$work/solution" "$from/solution/change.patch"
+    judge "$lab" "$work/start" 1 'the starting files do not pass'
+    judge "$lab" "$work/solution" 0 'the solution passes'
     for patch in "$from"/mistakes/*.patch; do
-        rm -rf "$work/mistake" && cp -r "$from/solution" "$work/mistake"
+        rm -rf "$work/mistake" && cp -r "$work/solution" "$work/mistake"
         words=$(sed -n '1s/^expected: //p' "$patch")
-        patch -s -d "$work/mistake" -p1 <"$patch" || { echo "not ok course $lab: $patch does not apply" && failed=1; }
+        change "$lab" "$work/mistake" "$patch"
         judge "$lab" "$work/mistake" 1 "the mistake $(basename "$patch" .patch)" "${words:?$patch: expected a first line \"expected: WORDS\"}"
     done
 }

@@ -3,8 +3,9 @@
 #
 #   docs/course/lab.sh N [FOLDER]
 #
-# Without FOLDER it is labs/NN. If the folder does not exist, it is made with the starting files, and that is
-# all. Otherwise the lab's check judges its files. Status: 0 the check passes, or the folder was made; 1 a
+# Without FOLDER it is labs/NN-NAME. If the folder does not exist, it is made with the starting files, and that
+# is all: those of start/, and copies of the project's files that the lab's file `sources` names, changed by
+# start.patch. Otherwise the lab's check judges its files. Status: 0 the check passes, or the folder was made; 1 a
 # step of the check fails; 2 no such lab. The check builds in WORK, by default build/labs/NN-NAME.
 set -euo pipefail
 course=$(cd "$(dirname "$0")" && pwd)
@@ -20,12 +21,14 @@ export ROOT=${course%/docs/course} COURSE=$course GIVEN=$lab/given CC=${CC:-cc}
 BUILD=${BUILD:-build}
 [[ $BUILD == /* ]] || BUILD=$ROOT/$BUILD
 export BUILD TRIPTYCH=$BUILD/triptych
-folder=${2:-$ROOT/labs/$(basename "$lab")}
+folder=$(realpath -m "${2:-$ROOT/labs/$(basename "$lab")}")
 page=${lab#"$ROOT"/}/README.md
 
 if [[ ! -e $folder ]]; then
     mkdir -p "$(dirname "$folder")"
     cp -r "$lab/start" "$folder"
+    [[ ! -f $lab/sources ]] || (cd "$ROOT" && xargs cp --parents -t "$folder" <"$lab/sources")
+    [[ ! -f $lab/start.patch ]] || patch -s -p1 -d "$folder" <"$lab/start.patch"
     echo "$folder has the starting files. Follow $page, then run this command again."
     exit 0
 fi
