@@ -3,10 +3,10 @@
 #
 #   docs/course/lab.sh N [FOLDER]
 #
-# Without FOLDER it is labs/NN-NAME. If the folder does not exist, it is made with the starting files, and that
-# is all: those of start/, and copies of the project's files that the lab's file `sources` names, changed by
-# start.patch. Otherwise the lab's check judges its files. Status: 0 the check passes, or the folder was made; 1 a
-# step of the check fails; 2 no such lab. The check builds in WORK, by default build/labs/NN-NAME.
+# Without FOLDER it is labs/NN-NAME. If the folder does not exist, it is made with the starting files, and
+# that is all: those of start/, and copies of the project's files that the lab's file `sources` names, changed
+# by start.patch. Otherwise the lab's check judges its files. Status: 0 the check passes, or the folder was
+# made; 1 a step of the check fails; 2 no such lab. The check builds in WORK, by default build/labs/NN-NAME.
 set -euo pipefail
 course=$(cd "$(dirname "$0")" && pwd)
 number=${1-}
