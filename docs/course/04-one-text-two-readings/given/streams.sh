@@ -3,8 +3,8 @@
 #
 #   streams.sh picture OPERATION [FORMAT]   256 x 256 pixels; pixel (a, b) shows OPERATION of a and b.
 #                                           The target's format is FORMAT, by default A8R8G8B8.
-#   streams.sh expected FORMULA             the same picture, as a texture whose texels FORMULA computes. FORMULA is
-#                                           an expression of awk that reads a and b.
+#   streams.sh expected FORMULA             the same picture, as a texture whose texels FORMULA computes: an
+#                                           expression of awk that reads a and b
 #   streams.sh quad OPERATION               one draw with OPERATION, to look at its routine
 set -euo pipefail
 
