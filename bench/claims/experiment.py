@@ -29,8 +29,10 @@ class Machine:
             "cores": os.cpu_count(),
             "kernel": " ".join((os.uname().sysname, os.uname().release, os.uname().machine)),
             "commit": output_of("git", "-C", ROOT, "describe", "--always", "--dirty") or "unknown",
+            "compiler": "gcc " + output_of(os.environ.get("CC", "cc"), "-dumpfullversion"),
             "engines": engines(triptych),
         }
+        self.facts["widest"] = widest(self.facts["engines"])
 
     def digest(self, runs):
         facts = {key: self.facts[key] for key in ("cpu", "cores", "commit")}
@@ -59,6 +61,12 @@ def engines(triptych):
         return [each for each in json.loads(output_of(triptych, "list", "engines", "--json") or "[]")]
     except json.JSONDecodeError:
         return []
+
+
+def widest(found):
+    """The lanes and instruction set of specialize."""
+    wide = any(each["engine"] == "specialize-16" and each["here"] == "available" for each in found)
+    return {"lanes": "16/8/16", "instruction_set": "AVX-512"} if wide else {"lanes": "8", "instruction_set": "AVX2"}
 
 
 class Laboratory:

@@ -239,11 +239,13 @@ def experiments_section(registry, reports):
 
 
 def machine_table(machine):
-    lanes = ", ".join(f"{each['engine']} {each['width']}" for each in machine["engines"] if each["runs"] == "always")
+    usable = [each for each in machine["engines"] if each["runs"] == "always" and each["here"] == "available"]
+    lanes = ", ".join(f"{each['engine']} {each['width']}" for each in usable)
     rows = {
         "processor": f"{machine['cpu']}, {machine['cores']} threads of hardware",
         "kernel": machine["kernel"],
-        "lanes": lanes or "-",
+        "lanes": f"{lanes or '-'}; specialize {machine['widest']['lanes']} with {machine['widest']['instruction_set']}",
+        "compiler": machine["compiler"],
         "commit": machine["commit"],
         "date": time.strftime("%Y-%m-%d %H:%M UTC", time.gmtime()),
         "command": "make claims",

@@ -20,6 +20,7 @@ COMMANDS = {
     "peers": "make peers",
     "fuzz": "triptych fuzz",
     "programs": "make programs-d3d9",
+    "claims": "make claims",
 }
 
 
@@ -55,6 +56,8 @@ def engine_fields(file):
         for run in each.get("engines", []):
             if isinstance(run, dict):
                 found.setdefault(run["engine"], run)
+    if "widest" in report.get("machine", {}):
+        return {"specialize": report["machine"]["widest"]}
     if isinstance(report.get("engine"), dict):
         found[report["engine"]["engine"]] = report["engine"]
     if isinstance(report.get("renderers"), dict):
@@ -484,6 +487,60 @@ def programs_recordings():
             + [significant(times[name]) if name in times else "" for name in names]
         )
     return markdown(["program", "recording", "engines"] + [f"`{name}`, ms" for name in names], rows)
+
+
+# --- Claims ------------------------------------------------------------------------------------------------------------
+
+
+def claim(identifier):
+    return only(load("claims")["claims"], "claims", id=identifier)
+
+
+@text
+def verdict(identifier):
+    return f"**{claim(identifier)['verdict']}**"
+
+
+@text
+def measured(identifier, name):
+    """A value of a claim with its unit, and its interval if it has one."""
+    value = only(claim(identifier)["values"], identifier, name=name)
+    unit = {"-": "", "%": " %"}.get(value["unit"], " " + value["unit"].replace("_", " "))
+    interval = "" if value["low"] == value["high"] else f" [{claimed(value['low'])}, {claimed(value['high'])}]"
+    return claimed(value["value"]) + interval + unit
+
+
+def claimed(value):
+    return f"{value:,.0f}" if value == int(value) else significant(value)
+
+
+@text
+def verdicts(*prefixes):
+    """A row for each claim whose name is in a range such as C1-C18: the claim, its values, the verdict."""
+    rows = []
+    for each in load("claims")["claims"]:
+        if any(in_range(each["id"], prefix) for prefix in prefixes):
+            values = ", ".join(f"{value['name'].replace('_', ' ')} {measured(each['id'], value['name'])}" for value in each["values"])
+            words = each["words"].replace("|", "\\|")
+            rows.append([each["id"], words, values, each["verdict"]])
+    return markdown(["claim", "words", "measured", "verdict"], rows, left=4)
+
+
+def in_range(identifier, prefix):
+    first, _, last = prefix.partition("-")
+    number = lambda name: int(name[1:])  # noqa: E731
+    return identifier[0] == first[0] and number(first) <= number(identifier) <= number(last or first)
+
+
+@text
+def verdict_counts(*prefixes):
+    """The number of claims with each verdict."""
+    found = [each["verdict"] for each in load("claims")["claims"] if any(in_range(each["id"], prefix) for prefix in prefixes)]
+    parts = [f"{found.count(name)} {name}" for name in dict.fromkeys(sorted(found, key=ORDER.index))]
+    return f"{len(found)}: {', '.join(parts)}"
+
+
+ORDER = ["holds", "holds in part", "does not hold", "cannot be tested here", "not yet", "no verdict"]
 
 
 @text
