@@ -414,6 +414,10 @@ struct triptych_routine_info {
     /* The instruction set of its code: "SSE2", "AVX2" or "AVX-512". It is "SSE2" if the code is not
      * generated. A tiered routine has the lanes and the instruction set of its first tier. */
     const char *instruction_set;
+    /* Of a routine with addresses in its code (option `addresses`): how often they were written, how often a
+     * thread waited for that, and the copies of its code. All are 0 for others. */
+    uint64_t patches, waits;
+    uint32_t copies;
 };
 
 /* Returns the version of the library: "MAJOR.MINOR.PATCH". */

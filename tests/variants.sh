@@ -10,7 +10,8 @@ streams=(tests/data/streams/{lights,multisampling,shaders}.tri tests/data/scenes
 [[ -z ${SLOW-} ]] || streams=(tests/data/streams/shaders.tri tests/data/shading/light-loop.tri)
 
 options=(registers={0,4,6,8} passes={none,thesis} passes=none:{unroll,with=fold} unroll registers=4:unroll
-    allocate=none allocate=none:passes=none allocate=none:unroll)
+    allocate=none allocate=none:passes=none allocate=none:unroll
+    addresses={patched,shared} addresses=patched:registers=4)
 for pass in $("$TRIPTYCH" list passes --json | sed -n 's/.*"pass":[^"]*"\([^"]*\)".*/\1/p'); do
     [[ $pass == split ]] || options+=("without=$pass")
 done
@@ -37,4 +38,16 @@ else
     printf 'FAIL an engine for each unit\n%s\n' "$said"
     failures=1
 fi
+
+# Addresses in code: one copy, for which threads wait, and several copies.
+for engine in $("$TRIPTYCH" list engines | awk '$1 ~ /^specialize(-1|-4|-8|-16|-8x2)?$/ && $3 == "available" { print $1 }'); do
+    if said=$("$TRIPTYCH" verify "${streams[@]}" bench/streams/street.tri --frames 1 --threads 2 \
+        --engines "specialize-8,$engine:addresses=patched,$engine:addresses=shared" 2>&1) &&
+        [[ ${said##*$'\n'} =~ " streams, 3 engines, identical"$ ]]; then
+        printf 'ok %s with addresses in code, two threads\n' "$engine"
+    else
+        printf 'FAIL %s with addresses in code\n%s\n' "$engine" "$said"
+        failures=1
+    fi
+done
 exit $failures

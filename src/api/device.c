@@ -212,6 +212,12 @@ void triptych_get_statistics(const triptych_device *device, struct triptych_stat
         device_get_statistics(device, statistics);
 }
 
+/* A number that other threads may change; null: 0. */
+static uint64_t counter(const uint64_t *number)
+{
+    return number ? __atomic_load_n(number, __ATOMIC_RELAXED) : 0;
+}
+
 int triptych_get_routine(triptych_device *device, unsigned i, struct triptych_routine_info *info)
 {
     struct routine routine;
@@ -231,14 +237,17 @@ int triptych_get_routine(triptych_device *device, unsigned i, struct triptych_ro
         .spills = routine.spills,
         .fused = routine.fused,
         .carried = routine.carried,
-        .run_ns = routine.time ? __atomic_load_n(&routine.time->ns, __ATOMIC_RELAXED) : 0,
-        .elements = routine.time ? __atomic_load_n(&routine.time->elements, __ATOMIC_RELAXED) : 0,
+        .run_ns = counter(routine.time ? &routine.time->ns : NULL),
+        .elements = counter(routine.time ? &routine.time->elements : NULL),
         .shader = routine.unit == UNIT_VERTEX  ? key_program(routine.key.vertex.shader)
                   : routine.unit == UNIT_PIXEL ? key_program(routine.key.pixel.shader)
                                                : 0,
         .granularity = routine.granularity,
         .lanes = routine_lanes(&routine),
         .instruction_set = routine_instruction_set(&routine),
+        .patches = counter(routine.patches ? &routine.patches->writes : NULL),
+        .waits = counter(routine.patches ? &routine.patches->waits : NULL),
+        .copies = (uint32_t)counter(routine.patches ? &routine.patches->copies : NULL),
     };
     return 1;
 }

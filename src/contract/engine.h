@@ -29,6 +29,14 @@ struct routine_time {
     uint64_t elements; /* vertices, triangles or covered pixels */
 };
 
+/* The history of code that contains addresses (engines/specialize/pointers.h). Any thread that runs it
+ * changes these numbers. */
+struct routine_patches {
+    uint64_t writes; /* how often addresses were written to a copy */
+    uint64_t waits;  /* how often a thread waited for a copy */
+    uint64_t copies; /* of the code */
+};
+
 /* A built routine. The engine fills all fields except the cache's. */
 struct routine {
     routine_function *run;
@@ -44,7 +52,8 @@ struct routine {
     uint32_t carried;        /* operands of operation fragments that are already in a register */
     uint32_t data_bytes;     /* memory besides the code, for example an interpreter's schedule */
     const char *granularity; /* stitch: "stage" or "operation", the kind of its fragments; null elsewhere */
-    uint64_t build_ns;       /* set by the cache around build() */
+    const struct routine_patches *patches; /* null: its code never changes */
+    uint64_t build_ns;                     /* set by the cache around build() */
     uint32_t lanes;  /* Element counts are padded to a multiple of this. build() leaves 0 for the engine's
                                 width; the cache sets that, or LANES_MAXIMUM if it is 0 or larger. */
     uint32_t number; /* identity in dumps and reports, from 1; set by the cache */

@@ -165,6 +165,23 @@ const void *code_commit(struct code_arena *arena, struct code_span *span, size_t
     return span->executable;
 }
 
+bool code_can_patch(const struct code_arena *arena)
+{
+    return arena->can_serialize;
+}
+
+void code_patch(struct code_arena *arena, const struct code_span *span, const struct code_word *words,
+                size_t count)
+{
+    assert(arena->can_serialize);
+    for (size_t i = 0; i < count; i++) {
+        assert(words[i].offset + sizeof words[i].value <= span->bytes);
+        memcpy(span->writable + words[i].offset, &words[i].value, sizeof words[i].value);
+    }
+    forget_breakpoints(arena, span);
+    syscall(SYS_membarrier, MEMBARRIER_CMD_PRIVATE_EXPEDITED_SYNC_CORE, 0, 0);
+}
+
 void code_free(struct code_arena *arena, struct code_span *span)
 {
     if (!span->bytes)

@@ -90,6 +90,21 @@ size_t code_refused(struct code_arena *arena);
  * been written. Updates `span` to the final place of the code and returns its executable address. */
 const void *code_commit(struct code_arena *arena, struct code_span *span, size_t bytes);
 
+/* A 64-bit word of committed code, `offset` bytes from its start, and its new value. */
+struct code_word {
+    uint32_t offset;
+    uint64_t value;
+};
+
+/* Returns true if words of committed code can be replaced: the kernel serializes the processor's cores. */
+bool code_can_patch(const struct code_arena *arena);
+
+/* Replaces words of committed code, through its writable view. No thread may run the code from before the
+ * call until it returns; then every thread runs the new words. Needs code_can_patch. In an arena for
+ * debuggers, the code's pages lose their breakpoints. */
+void code_patch(struct code_arena *arena, const struct code_span *span, const struct code_word *words,
+                size_t count);
+
 /* Frees a span, reserved or committed, and empties `span`. An empty span is allowed. */
 void code_free(struct code_arena *arena, struct code_span *span);
 

@@ -115,6 +115,29 @@ static void poke(const uint8_t *code, uint8_t byte)
     TEST_ASSERT_EQUAL_INT(0, mprotect(start, page, PROT_READ | PROT_EXEC));
 }
 
+/* A function that returns a 64-bit constant: mov rax, value; ret. */
+static void words_of_code_are_replaced_and_views_keep_their_permissions(void)
+{
+    uint8_t bytes[] = {0x48, 0xb8, 1, 2, 3, 4, 5, 6, 7, 8, 0xc3};
+    char permissions[5];
+    if (!code_can_patch(arena))
+        TEST_IGNORE_MESSAGE("needs membarrier");
+    struct code_span span = reserve(sizeof bytes);
+    memcpy(span.writable, bytes, sizeof bytes);
+    code_commit(arena, &span, sizeof bytes);
+    uint64_t (*function)(void) = (uint64_t(*)(void))(uintptr_t)span.executable;
+    TEST_ASSERT_EQUAL_HEX64(0x0807060504030201, function());
+    for (uint64_t value = 1; value < 1000; value++) {
+        const struct code_word word = {2, value << 40 | value};
+        code_patch(arena, &span, &word, 1);
+        TEST_ASSERT_EQUAL_HEX64(value << 40 | value, function());
+    }
+    permissions_of(span.executable, permissions);
+    TEST_ASSERT_EQUAL_STRING("r-xs", permissions);
+    permissions_of(span.writable, permissions);
+    TEST_ASSERT_EQUAL_STRING("rw-s", permissions);
+}
+
 static void breakpoints_stay_in_their_routine_and_end_with_it(void)
 {
     code_destroy(arena);
@@ -478,6 +501,7 @@ int main(void)
     RUN_TEST(committed_code_runs_at_the_executable_address);
     RUN_TEST(views_translate_into_each_other);
     RUN_TEST(no_address_is_both_writable_and_executable);
+    RUN_TEST(words_of_code_are_replaced_and_views_keep_their_permissions);
     RUN_TEST(code_to_profile_is_in_no_file_and_never_writable_and_executable);
     RUN_TEST(breakpoints_stay_in_their_routine_and_end_with_it);
     RUN_TEST(the_wrong_view_faults_and_the_right_one_does_not);

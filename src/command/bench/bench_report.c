@@ -225,6 +225,41 @@ static cJSON *json_parts(const struct bench_run *run)
     return json;
 }
 
+/* A unit's code with addresses in it: routines, copies, and how often addresses were written. */
+static cJSON *json_patched(const struct bench_run *run, unsigned unit)
+{
+    double routines = 0, copies = 0, patches = 0, waits = 0;
+    for (size_t i = 0; i < run->build_count; i++) {
+        const struct build *build = run->builds + i;
+        if (build->unit != unit || !build->copies)
+            continue;
+        routines++;
+        copies += build->copies;
+        patches += build->patches;
+        waits += build->waits;
+    }
+    cJSON *json = cJSON_CreateObject();
+    cJSON_AddStringToObject(json, "unit", unit_name[unit]);
+    cJSON_AddNumberToObject(json, "routines", routines);
+    cJSON_AddNumberToObject(json, "copies", copies);
+    cJSON_AddNumberToObject(json, "draws", (double)run->draws);
+    cJSON_AddNumberToObject(json, "patches", patches);
+    cJSON_AddNumberToObject(json, "waits", waits);
+    return json;
+}
+
+static void json_addresses(const struct bench_run *run, cJSON *json)
+{
+    bool any = false;
+    for (size_t i = 0; i < run->build_count; i++)
+        any |= run->builds[i].copies > 0;
+    if (!any)
+        return;
+    cJSON *addresses = cJSON_AddArrayToObject(json, "addresses");
+    for (unsigned unit = 0; unit < UNIT_COUNT; unit++)
+        cJSON_AddItemToArray(addresses, json_patched(run, unit));
+}
+
 static cJSON *json_run(const struct bench_run *run, bool parts)
 {
     static const char *const names[MEASURE_COUNT] = {
@@ -238,6 +273,7 @@ static cJSON *json_run(const struct bench_run *run, bool parts)
     cJSON_AddNumberToObject(json, "slower_low", run->slower.low);
     cJSON_AddNumberToObject(json, "slower_high", run->slower.high);
     cJSON_AddBoolToObject(json, "difference_shown", interval_shows_difference(&run->slower));
+    json_addresses(run, json);
     cJSON *samples = cJSON_AddObjectToObject(json, "samples");
     for (int i = 0; i < MEASURE_COUNT; i++)
         cJSON_AddItemToObject(samples, names[i],

@@ -83,7 +83,10 @@ static struct build build_of(const struct triptych_routine_info *info)
                           .lanes = info->lanes,
                           .instruction_set = info->instruction_set,
                           .run_ns = (double)info->run_ns,
-                          .elements = (double)info->elements};
+                          .elements = (double)info->elements,
+                          .patches = (double)info->patches,
+                          .waits = (double)info->waits,
+                          .copies = info->copies};
     if (!program)
         return build;
     memcpy(build.shader, program->name, sizeof build.shader);
@@ -96,6 +99,7 @@ static struct build build_of(const struct triptych_routine_info *info)
 static int read_builds(const struct command *self, struct bench_run *run)
 {
     struct triptych_routine_info info;
+    struct triptych_statistics statistics;
     unsigned count = 0;
     while (triptych_get_routine(run->session.device, count, &info))
         count++;
@@ -106,6 +110,8 @@ static int read_builds(const struct command *self, struct bench_run *run)
          run->build_count++)
         run->builds[run->build_count] = build_of(&info);
     execution_add_device(&run->execution, run->session.device);
+    triptych_get_statistics(run->session.device, &statistics);
+    run->draws = statistics.draws;
     return STATUS_OK;
 }
 

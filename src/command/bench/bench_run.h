@@ -32,8 +32,9 @@ struct build {
     double run_ns, elements;        /* of all calls, where they are measured */
     char shader[SHADER_NAME_BYTES]; /* empty: none */
     const char *model;
-    unsigned slots; /* instruction slots of the shader */
-    uint64_t hash;  /* of its tokens: what it is */
+    unsigned slots;                /* instruction slots of the shader */
+    uint64_t hash;                 /* of its tokens: what it is */
+    double patches, waits, copies; /* of code with addresses, as the interface has them */
 };
 
 struct bench_run {
@@ -43,6 +44,7 @@ struct bench_run {
     double *samples[MEASURE_COUNT]; /* REPETITIONS_MAXIMUM each, in order of time */
     double spent, last;             /* seconds: all measured repetitions, the last one */
     uint64_t hits, misses;          /* of the routine cache, in all measured repetitions */
+    uint64_t draws;                 /* of all repetitions, and those before them */
     double value[BENCH_COLUMNS];    /* when finished */
     struct interval slower;         /* when rated: frame times against the fastest run of the stream */
     struct execution execution;     /* when finished */

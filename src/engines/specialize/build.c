@@ -72,6 +72,7 @@ void specialize_allocate(struct builder *b, const struct build_options *options)
     b->emitter.ir = &b->ir;
     b->emitter.allocation = &b->allocation;
     b->emitter.width = options->width;
+    b->emitter.literal_pointers = options->addresses != ADDRESSES_LOADED;
     b->emitter.length = emit_length_of(options->width);
 }
 

@@ -6,6 +6,10 @@
 #include "engines/specialize/emit/emit.h"
 #include "engines/specialize/passes/pass.h"
 
+/* Where a routine's code has the pointers that its gathers start from: it loads them from the job, or they
+ * are literals of the code, which threads take turns to change or have copies of (pointers.c). */
+enum addresses { ADDRESSES_LOADED, ADDRESSES_PATCHED, ADDRESSES_SHARED };
+
 struct build_options {
     unsigned width; /* lanes of a register: 1, 4, 8 or 16 */
     unsigned parts; /* registers of each value, a power of two; 0: 1. width * parts is at most 16. */
@@ -16,6 +20,7 @@ struct build_options {
     unsigned registers; /* vector registers for values, and half as many mask registers */
     enum allocator allocator;
     struct register_file file;
+    enum addresses addresses;
 };
 
 /* Returns the options of one of the specializer's engines, with the width that it chooses for the unit. */

@@ -4,29 +4,35 @@
 #include "machine/cpu.h"
 #include "debug/code.h"
 #include "engines/specialize/build.h"
+#include "engines/specialize/pointers.h"
 #include "engines/specialize/specialize.h"
 
 #include <stdlib.h>
 #include <string.h>
 
-/* Copies the built code into the arena. */
-static int install(struct code_arena *arena, const struct builder *b, size_t bytes, struct routine *routine,
-                   struct error *error)
+/* Makes a routine of the built code, which is copied into the arena. */
+static struct routine *install(struct code_arena *arena, const struct builder *b, size_t bytes,
+                               struct error *error)
 {
     struct code_span span;
-    if (!arena)
-        return error_set(error, "generated code needs executable memory");
+    struct routine *routine = calloc(1, sizeof *routine);
+    if (!routine)
+        return error_set(error, "out of memory for a routine"), NULL;
     if (code_reserve(arena, bytes, &span, error))
-        return -1;
+        return free(routine), NULL;
     memcpy(span.writable, b->emitter.code, bytes);
     routine->code = code_commit(arena, &span, bytes);
     memcpy(&routine->run, &routine->code, sizeof routine->run);
+    return routine;
+}
+
+static void describe_build(const struct builder *b, size_t bytes, struct routine *routine)
+{
     routine->code_bytes = (uint32_t)bytes;
     routine->constant_bytes = (uint32_t)bytes - b->emitter.code_bytes;
     routine->parts = b->ir.count - 1;
     routine->spills = b->allocation.spills;
     routine->lanes = emit_lanes(&b->emitter);
-    return 0;
 }
 
 /* An order for a routine, with the observer of its passes. */
@@ -37,35 +43,54 @@ struct order {
     void *context;
 };
 
+static struct routine *build_in(struct builder *b, const struct order *order, struct code_arena *arena,
+                                enum unit unit, const union key *key, struct error *error)
+{
+    enum addresses addresses = order->options.addresses;
+    size_t bytes = order->ir ? specialize_recording(b, order->ir, &order->options, unit, key, order->observer,
+                                                    order->context, error)
+                             : specialize_code(b, &order->options, unit, key, NULL, NULL, error);
+    if (!bytes)
+        return NULL;
+    struct routine *routine = !b->emitter.pointers
+                                  ? install(arena, b, bytes, error)
+                                  : specialize_pointers_routine(b, arena, bytes, addresses, error);
+    if (routine)
+        describe_build(b, bytes, routine);
+    return routine;
+}
+
 static struct routine *build_with(const struct engine *engine, const struct order *order,
                                   struct code_arena *arena, enum unit unit, const union key *key,
                                   struct error *error)
 {
+    if (!arena)
+        return error_set(error, "generated code needs executable memory"), NULL;
     struct builder *b = specialize_take(error);
-    struct routine *routine = b ? calloc(1, sizeof *routine) : NULL;
-    if (!routine) {
-        error_set(error, "out of memory for a routine");
-        goto failed;
+    if (!b)
+        return NULL;
+    struct routine *routine = build_in(b, order, arena, unit, key, error);
+    if (routine) {
+        routine->engine = engine;
+        routine->unit = unit;
+        routine->key = *key;
     }
-    routine->engine = engine;
-    routine->unit = unit;
-    routine->key = *key;
-    size_t bytes = order->ir ? specialize_recording(b, order->ir, &order->options, unit, key, order->observer,
-                                                    order->context, error)
-                             : specialize_code(b, &order->options, unit, key, NULL, NULL, error);
-    if (!bytes || install(arena, b, bytes, routine, error))
-        goto failed;
     specialize_give(b);
     return routine;
-failed:
-    if (b)
-        specialize_give(b);
-    free(routine);
-    return NULL;
+}
+
+/* True if the code contains pointers. */
+static bool has_pointers(const struct routine *routine)
+{
+    return routine->patches != NULL;
 }
 
 static void free_routine(struct code_arena *arena, struct routine *routine)
 {
+    if (has_pointers(routine)) {
+        specialize_pointers_free(routine);
+        return;
+    }
     struct code_span span = {.writable = code_writable(arena, routine->code),
                              .executable = routine->code,
                              .bytes = routine->code_bytes};
@@ -90,6 +115,13 @@ static void describe_code(const struct builder *b, struct debug_code *code)
         debug_add_unwind(code, m->unwind[i].offset, m->unwind[i].rule, m->unwind[i].reg, m->unwind[i].value);
 }
 
+/* Returns true if the code that was built last is the routine's. */
+static bool is_same(const struct builder *b, const struct routine *routine)
+{
+    return has_pointers(routine) ? specialize_pointers_match(b, routine)
+                                 : !memcmp(b->emitter.code, routine->code, routine->code_bytes);
+}
+
 static int describe(const struct routine *routine, struct debug_code *code, struct error *error)
 {
     struct builder *b = specialize_take(error);
@@ -98,7 +130,7 @@ static int describe(const struct routine *routine, struct debug_code *code, stru
     const struct build_options options = specialize_options(routine->engine, routine->unit);
     size_t bytes = specialize_code(b, &options, routine->unit, &routine->key, NULL, NULL, error);
     int result = bytes ? 0 : -1;
-    if (bytes && (bytes != routine->code_bytes || memcmp(b->emitter.code, routine->code, bytes)))
+    if (bytes && (bytes != routine->code_bytes || !is_same(b, routine)))
         result =
             error_set(error, "a %s routine was built twice and is not the same", unit_name[routine->unit]);
     if (!result)

@@ -50,6 +50,20 @@ int specialize_set_passes(void *options, const char *value, struct error *error)
     return 0;
 }
 
+static const char *const addresses[] = {
+    [ADDRESSES_LOADED] = "loaded", [ADDRESSES_PATCHED] = "patched", [ADDRESSES_SHARED] = "shared"};
+
+int specialize_set_addresses(void *options, const char *value, struct error *error)
+{
+    struct build_options *o = options;
+    const struct words words = WORDS_OF_ROWS(addresses);
+    unsigned index;
+    if (!words_find(words, value, strlen(value), &index))
+        return set_unknown("addresses", value, words, error);
+    o->addresses = (enum addresses)index;
+    return 0;
+}
+
 static const char *pass_choice(const struct words *words, unsigned i)
 {
     (void)words;

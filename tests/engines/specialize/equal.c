@@ -2,6 +2,7 @@
  * unit. TRIPTYCH_SEED selects others. */
 #include "machine/code.h"
 #include "emu/emulate/emulate.h"
+#include "engines/list.h"
 #include "engines/specialize/specialize.h"
 #include "tests/support/routine/differential.h"
 #include "tests/support/system/seed.h"
@@ -88,6 +89,26 @@ static void test_code_without_allocation_equals_the_emulator(void)
     compare_units(&engine_specialize_simple);
 }
 
+/* The inputs of each key are at other addresses, and routines are built again for each. */
+static void compare_variants(const char *const names[], unsigned count)
+{
+    for (unsigned n = 0; n < count; n++) {
+        struct error error = {""};
+        const struct engine *engine = engine_named(names[n], &error);
+        TEST_ASSERT_NOT_NULL_MESSAGE(engine, error.text);
+        if (!engine_unavailable(engine))
+            compare_units(engine);
+    }
+}
+
+static void test_addresses_in_code_equal_the_emulator(void)
+{
+    static const char *const names[] = {"specialize-1:addresses=patched", "specialize-4:addresses=shared",
+                                        "specialize-8:addresses=patched", "specialize-8x2:addresses=shared",
+                                        "specialize-16:addresses=patched"};
+    compare_variants(names, sizeof names / sizeof *names);
+}
+
 int main(void)
 {
     UNITY_BEGIN();
@@ -101,5 +122,6 @@ int main(void)
     RUN_TEST(test_automatic_lanes_equal_the_emulator);
     RUN_TEST(test_thesis_profile_equals_the_emulator);
     RUN_TEST(test_code_without_allocation_equals_the_emulator);
+    RUN_TEST(test_addresses_in_code_equal_the_emulator);
     return UNITY_END();
 }

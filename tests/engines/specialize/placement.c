@@ -203,6 +203,7 @@ static void check_routine(void *context, enum unit unit, const union key *key)
                                          .profile = program_random(&lots) % 4 ? PROFILE_FULL : PROFILE_THESIS,
                                          .file = random_file(width, &lots)};
         options.allocator = options.file.allocator;
+        options.addresses = (enum addresses)(program_random(&lots) % 3);
     }
     const char *found = visited++ % 3 ? NULL : differential_run(differential, engines, 2, unit, key, lots);
     if (found)

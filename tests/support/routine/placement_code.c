@@ -343,13 +343,32 @@ static void take_mask(struct check *c)
         place_expect(c, &c->now.at[MASKS + c->mask], "mask", c->mask);
 }
 
+/* A pointer that is a literal must be the one that the gather starts from, and be listed with its offset. */
+static void check_pointer(struct check *c)
+{
+    const struct ir_instruction *i = placement_operation(c, c->number);
+    uint32_t at = (uint32_t)c->offset + c->instruction.length - (uint32_t)sizeof(uint64_t);
+    for (uint32_t n = 0; n < c->m->pointers; n++)
+        if (c->m->pointer[n].offset == at && i->base == BASE_JOB && c->m->pointer[n].field == i->field)
+            return;
+    placement_wrong(c, "has a pointer that is not that of its operation");
+}
+
+static bool moves_pointer(const struct check *c)
+{
+    return c->instruction.mnemonic == ZYDIS_MNEMONIC_MOV &&
+           c->operand[1].type == ZYDIS_OPERAND_TYPE_IMMEDIATE && c->operand[1].size == 64;
+}
+
 static void run_instruction(struct check *c)
 {
     ZydisInstructionCategory category = c->instruction.meta.category;
     take_mask(c);
     if (c->instruction.mnemonic == ZYDIS_MNEMONIC_NOP)
         return;
-    if (category == ZYDIS_CATEGORY_COND_BR || category == ZYDIS_CATEGORY_UNCOND_BR)
+    if (moves_pointer(c))
+        check_pointer(c);
+    else if (category == ZYDIS_CATEGORY_COND_BR || category == ZYDIS_CATEGORY_UNCOND_BR)
         placement_run_jump(c);
     else if (is_copy(c))
         run_copy(c);

@@ -42,6 +42,18 @@ struct code_line {
 
 enum { UNWIND_CAPACITY = 32 };
 
+/* A pointer of the job that is a literal in the code: the 64-bit immediate of a move, at an offset of the
+ * code, is to become the pointer that is stored in the job at `field`. */
+struct code_pointer {
+    uint32_t offset;
+    int32_t field;
+};
+
+enum { POINTER_CAPACITY = 1024 };
+
+/* The immediate until a pointer is written there: no address, so that code without it faults. */
+enum { POINTER_PLACEHOLDER = 0x5c5c5c5c /* the high half; the field is the low half */ };
+
 /* Where a value is at the current position. */
 struct location {
     unsigned value;
@@ -89,6 +101,9 @@ struct emitter {
     uint32_t region_depth;
     uint32_t moves; /* those that are not yet written */
     struct move move[VARIABLES * IR_PARTS];
+    bool literal_pointers; /* pointers of the job are literals in the code, which are listed here */
+    uint32_t pointers;
+    struct code_pointer pointer[POINTER_CAPACITY];
     uint32_t unwinds;
     struct debug_unwind unwind[UNWIND_CAPACITY]; /* of the prologue and the epilogue */
     struct code_line line[IR_CAPACITY + 64];
@@ -207,6 +222,9 @@ void emit_note_join_moves(struct emitter *emitter, uint32_t end, int operand);
 
 /* Writes the noted moves, as if they were simultaneous. The code does not change flags. */
 void emit_write_moves(struct emitter *emitter);
+
+/* Loads the pointer at a field of a base to rax, or moves it there as a literal (pointer.c). */
+void emit_load_pointer(struct emitter *emitter, unsigned base, int32_t field);
 
 /* Writes the gather at the current position, together with the following ones that read the next words of the
  * same elements (gather.c). */

@@ -378,7 +378,7 @@ size_t emit_routine(struct emitter *m, enum unit unit, const union key *key, str
 {
     encode_start(&m->encoder, m->code, m->silent ? 0 : sizeof m->code, m->labels, LABEL_FREE, m->fixups,
                  FIXUP_CAPACITY);
-    m->literals = m->lines = m->unwinds = m->regions = m->region_depth = 0;
+    m->literals = m->lines = m->pointers = m->unwinds = m->regions = m->region_depth = 0;
     m->exceeded = NULL;
     if (m->allocation->slots > emit_most_slots(m->width))
         emit_note_exceeded(m, "spill slots", (int)emit_most_slots(m->width));

@@ -27,10 +27,9 @@ enum { ROWS = 4 };
 /* The register with the start of a gather: a base, or rax with the pointer in a field of it. */
 static unsigned gather_base(struct emitter *m, const struct ir_instruction *i)
 {
-    unsigned base = emit_base_register[i->base];
     if (i->field == GATHER_DIRECT)
-        return base;
-    encode_gpr_rm(&m->encoder, X86_mov, X86_64, X86_RAX, address_at(base, i->field));
+        return emit_base_register[i->base];
+    emit_load_pointer(m, i->base, i->field);
     return X86_RAX;
 }
 

@@ -118,7 +118,7 @@ static void find_window(struct emitter *m, const struct ir_instruction *window)
     encode_gpr_ri(e, X86_shr, X86_32, X86_R12, 16);
     encode_gpr_rm(e, X86_imul, X86_32, X86_R12, pitch);
     encode_gpr_rr(e, X86_add, X86_64, X86_R13, X86_R12);
-    encode_gpr_rm(e, X86_mov, X86_64, X86_RAX, address_at(emit_base_register[window->base], window->field));
+    emit_load_pointer(m, window->base, window->field);
     encode_gpr_rm(e, X86_lea, X86_64, X86_RAX, address_indexed(X86_RAX, X86_R13, 4, 0));
     encode_gpr_rm(e, X86_mov, X86_32, X86_R12, pitch);
     encode_gpr_rm(e, X86_lea, X86_64, X86_R13, address_indexed(X86_R12, X86_R12, 2, 0));
