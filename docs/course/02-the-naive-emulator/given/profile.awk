@@ -3,8 +3,8 @@
 #
 #   awk -v groups=N -f profile.awk FEW MANY
 #
-# N is the number of groups of four pixels. The profiles have the events Ir Dr Dw ... Bc Bcm Bi Bim, and neither
-# compressed names nor compressed positions.
+# N is the number of groups of four pixels. The profiles have the events Ir Dr Dw ... Bc Bcm Bi Bim, and no
+# compressed names or positions.
 BEGIN {
     part["shader_flow.h"] = part["shader_execute.h"] = "the walk and the switch"
     part["shader.h"] = part["table.c"] = part["program_flow.c"] = part["program.h"] = "operands and the result"

@@ -4,8 +4,8 @@
 #
 #   stream.sh COUNT INSTRUCTION
 #
-# INSTRUCTION writes r0 and reads r0 to r3, for example "lrp r0, r1, r2, r3". The numbers of r0 to r3 differ from
-# pixel to pixel. The target has binary32 numbers, so a picture contains every bit of the result.
+# INSTRUCTION writes r0 and reads r0 to r3, for example "lrp r0, r1, r2, r3". The numbers of r0 to r3 differ
+# from pixel to pixel. The target has binary32 numbers, so a picture contains every bit of the result.
 set -euo pipefail
 cat <<'END'
 triptych 1
