@@ -211,6 +211,9 @@ struct triptych_options {
     const char *debug;
     triptych_log_function *log; /* null: none */
     void *log_user;             /* its first argument */
+    /* Settings of the renderer, which never change a picture: "order=stripes,geometry=serial" (`triptych list
+     * settings`). Null: the value of the environment variable TRIPTYCH_SETTINGS. */
+    const char *settings;
 };
 
 /* A render target: one to four colours and depth. Each colour format must be valid for targets

@@ -21,13 +21,16 @@ static enum triptych_result create(const struct triptych_options *options, tript
     const struct engine *engine = engine_named(name, error);
     if (!engine)
         return errno == ENOMEM ? TRIPTYCH_NO_MEMORY : TRIPTYCH_BAD_ARGUMENT;
-    struct device_options device_options = {.debug = secure_getenv("TRIPTYCH_DEBUG")};
+    struct device_options device_options = {.debug = secure_getenv("TRIPTYCH_DEBUG"),
+                                            .settings = secure_getenv("TRIPTYCH_SETTINGS")};
     if (options) {
         device_options.threads = options->threads;
         device_options.cache_bytes = options->cache_bytes;
         device_options.measure = options->measure != 0;
         if (options->debug)
             device_options.debug = options->debug;
+        if (options->settings)
+            device_options.settings = options->settings;
     }
     enum triptych_result result = device_create(engine, &device_options, device, error);
     if (result == TRIPTYCH_OK && options)

@@ -42,6 +42,7 @@ struct settings {
     bool cold;    /* frames whose routines are not built yet */
     bool no_cache;
     struct variation variation;
+    struct option_given set;
     bool compare; /* the operands are two files of earlier results */
 };
 
@@ -54,6 +55,7 @@ static bool goes_on(const struct bench_run *run, const struct settings *settings
 static int start_runs(const struct command *self, const struct stream *stream, const struct choice *engines,
                       const struct settings *settings, struct bench_stream *result)
 {
+    const struct setting_values values = choose_settings(&settings->set);
     result->runs = calloc(engines->count, sizeof *result->runs);
     if (!result->runs)
         return tool_fail(self, "no memory for %u engines", engines->count);
@@ -63,7 +65,7 @@ static int start_runs(const struct command *self, const struct stream *stream, c
         if (!strcmp(name, "emulate"))
             result->baseline = result->run_count;
         struct bench_run *run = result->runs + result->run_count;
-        if (bench_run_start(self, stream, engines->index[result->run_count], settings->threads,
+        if (bench_run_start(self, stream, engines->index[result->run_count], settings->threads, &values,
                             settings->shaders, settings->seconds * warm_up_share, run))
             return bench_run_free(run), STATUS_BAD;
     }
@@ -303,6 +305,7 @@ static int bench_frames(const struct command *self, const struct operands *opera
                                       .count = (unsigned)operands->count,
                                       .engines = engines,
                                       .threads = settings->threads,
+                                      .settings = choose_settings(&settings->set),
                                       .repetitions = settings->repetitions,
                                       .frames = settings->frames,
                                       .seconds = settings->seconds};
@@ -358,8 +361,9 @@ static int run(const struct command *self, void *data, const struct operands *op
     if (settings->code)
         return bench_code(self, operands->value, count, &engines, settings->json);
     if (settings->cold)
-        return bench_cold(self, operands->value, count, &engines, settings->threads, settings->repetitions,
-                          settings->frames, settings->json);
+        return bench_cold(self, operands->value, count, &engines, settings->threads,
+                          choose_settings(&settings->set), settings->repetitions, settings->frames,
+                          settings->json);
     return bench_frames(self, operands, &engines, settings);
 }
 
@@ -371,6 +375,7 @@ static const struct option options[] = {
     OPTIONS_OF_VARIATION(struct settings, variation),
     {"threads", "N", "rendering threads of each device; 1", OPTION_IS_NUMBER(struct settings, threads),
      .least = 1, .most = 256},
+    OPTION_SET(struct settings, set),
     {"repetitions", "N", "runs measured at most; 15", OPTION_IS_NUMBER(struct settings, repetitions),
      .least = REPETITIONS_MINIMUM, .most = REPETITIONS_MAXIMUM},
     {"seconds", "S", "time of an engine on a stream; 10", OPTION_IS_SECONDS(struct settings, seconds),

@@ -13,7 +13,8 @@ int bench_builds(const struct command *self, char **paths, unsigned count, const
 /* Prints the cost of the first `frames` frames (0: all) of each stream on each engine, relative to the same
  * frames with all routines built. `json` may be null. Returns 0, or STATUS_BAD after a message. */
 int bench_cold(const struct command *self, char **paths, unsigned count, const struct choice *engines,
-               unsigned threads, unsigned repetitions, unsigned frames, const char *json);
+               unsigned threads, struct setting_values values, unsigned repetitions, unsigned frames,
+               const char *json);
 
 /* Builds the routines with each engine, and prints the means of their instructions, memory operands and
  * spills by engine and unit (bench_code.c). `json`, which may be null, receives a row for each routine.

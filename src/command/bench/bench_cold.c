@@ -32,6 +32,7 @@ struct cold {
 
 struct settings {
     unsigned threads, repetitions, frames;
+    struct setting_values values; /* of the renderer */
 };
 
 /* Where results go: a printed table and an array of JSON. */
@@ -86,7 +87,7 @@ static int repeat(const struct command *self, const struct stream *stream, unsig
                   struct execution *execution)
 {
     struct session session = {0};
-    int status = session_open(self, stream, engine, settings->threads, &session);
+    int status = session_open(self, stream, engine, settings->threads, &settings->values, &session);
     if (!status)
         status = play_passes(self, &session, settings->frames, ms);
     if (!status)
@@ -171,8 +172,10 @@ static void begin_table(struct table *table)
 }
 
 int bench_cold(const struct command *self, char **paths, unsigned count, const struct choice *engines,
-               unsigned threads, unsigned repetitions, unsigned frames, const char *json)
+               unsigned threads, struct setting_values values, unsigned repetitions, unsigned frames,
+               const char *json)
 {
+    char text[SETTING_TEXT];
     struct output output = {.rows = cJSON_CreateArray()};
     int status = STATUS_OK;
     begin_table(&output.table);
@@ -180,7 +183,7 @@ int bench_cold(const struct command *self, char **paths, unsigned count, const s
         struct stream *stream = session_load(self, paths[i]);
         if (!stream)
             return cJSON_Delete(output.rows), STATUS_BAD;
-        struct settings settings = {threads, repetitions, stream->frame_count};
+        struct settings settings = {threads, repetitions, stream->frame_count, values};
         if (frames && frames < settings.frames)
             settings.frames = frames;
         status = measure(self, stream, engines, &settings, &output);
@@ -191,6 +194,7 @@ int bench_cold(const struct command *self, char **paths, unsigned count, const s
     struct machine machine = machine_describe();
     cJSON_AddItemToObject(report, "machine", machine_json(&machine));
     cJSON_AddNumberToObject(report, "threads", threads);
+    cJSON_AddStringToObject(report, "settings", setting_write(&values, text));
     cJSON_AddItemToObject(report, "cold", output.rows);
     if (interrupt_signal())
         cJSON_AddStringToObject(report, "interrupted", interrupt_name());

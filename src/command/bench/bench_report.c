@@ -347,7 +347,7 @@ static void add_builds(cJSON *builds, const struct bench *bench, unsigned run, u
 
 static void add_campaign(cJSON *json, const struct bench_campaign *campaign)
 {
-    char shard[SHARD_NAME];
+    char shard[SHARD_NAME], settings[SETTING_TEXT];
     if (shard_is_part(&campaign->shard)) {
         snprintf(shard, sizeof shard, "%u/%u", campaign->shard.index, campaign->shard.count);
         cJSON_AddStringToObject(json, "shard", shard);
@@ -358,6 +358,7 @@ static void add_campaign(cJSON *json, const struct bench_campaign *campaign)
     cJSON *engines = cJSON_AddArrayToObject(json, "engines");
     for (unsigned i = 0; i < campaign->engines->count; i++)
         cJSON_AddItemToArray(engines, cJSON_CreateString(triptych_engine_name(campaign->engines->index[i])));
+    cJSON_AddStringToObject(json, "settings", setting_write(&campaign->settings, settings));
     cJSON_AddNumberToObject(json, "repetitions", campaign->repetitions);
     cJSON_AddNumberToObject(json, "seconds", campaign->seconds);
     if (campaign->frames)

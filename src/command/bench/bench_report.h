@@ -16,6 +16,7 @@ struct bench_campaign {
     unsigned count;
     const struct choice *engines;
     unsigned threads, repetitions, frames; /* frames 0: all */
+    struct setting_values settings;
     double seconds;
     struct shard shard;
     bool parts;             /* the results will be merged: they have every routine instead of summaries */

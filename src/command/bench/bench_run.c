@@ -11,13 +11,14 @@
 static const double shortest_repetition = 0.1;
 
 int bench_run_start(const struct command *self, const struct stream *stream, unsigned engine,
-                    unsigned threads, bool measure, double seconds, struct bench_run *run)
+                    unsigned threads, const struct setting_values *settings, bool measure, double seconds,
+                    struct bench_run *run)
 {
     *run = (struct bench_run){.engine = engine};
     for (int i = 0; i < MEASURE_COUNT; i++)
         if (!(run->samples[i] = malloc(REPETITIONS_MAXIMUM * sizeof *run->samples[i])))
             return tool_fail(self, "no memory for %d repetitions", REPETITIONS_MAXIMUM);
-    if (session_open_measured(self, stream, engine, threads, measure, &run->session))
+    if (session_open_measured(self, stream, engine, threads, settings, measure, &run->session))
         return STATUS_BAD;
     double end = clock_seconds() + seconds;
     unsigned frames = stream->frame_count;

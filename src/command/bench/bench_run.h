@@ -56,7 +56,8 @@ struct bench_run {
  * build routines and fill caches. With `measure` the calls of the routines are timed. Returns 0, or
  * STATUS_BAD after a message. */
 int bench_run_start(const struct command *self, const struct stream *stream, unsigned engine,
-                    unsigned threads, bool measure, double seconds, struct bench_run *run);
+                    unsigned threads, const struct setting_values *settings, bool measure, double seconds,
+                    struct bench_run *run);
 
 /* Plays `frames` frames, evenly spread over the stream, again and again for a tenth of a second at least, and
  * records one sample of each measure. If interrupted (interrupt.h), it records none. */

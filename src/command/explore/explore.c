@@ -224,7 +224,7 @@ static int explore(const struct command *self, const char *path, const struct se
     s.stream = stream;
     int status = session_find_draw(self, stream, settings->frame, settings->draw, &draw);
     if (!status)
-        status = session_read_key(self, stream, draw, 0, s.unit, &s.key);
+        status = session_read_key(self, stream, draw, 0, NULL, s.unit, &s.key);
     if (!status)
         status = write_page(self, &s);
     stream_free(stream);

@@ -102,14 +102,30 @@ void campaign_case(uint64_t seed, uint64_t number, struct text *text)
     case_write(&random, text);
 }
 
+/* The settings of the renderer that a case is drawn with; they depend on its seed and number only. */
+static struct setting_values settings_of(const struct campaign_options *options, uint64_t number)
+{
+    enum { OTHER = 0x5e77 }; /* the case itself is another sequence */
+    struct random random = random_start(options->seed ^ OTHER, number);
+    struct setting_values values = options->settings;
+    for (unsigned i = 0; options->vary && setting_name(i); i++) {
+        unsigned count = 0;
+        while (setting_value_name(i, count))
+            count++;
+        values.of[i] = (uint8_t)random_below(&random, count);
+    }
+    return values;
+}
+
 /* --- In a process --------------------------------------------------------------------------------------- */
 
-static void draw_case(struct runner *runner, struct worker *job, struct tally *tally, uint64_t pixels,
-                      uint64_t number, const struct text *text)
+static void draw_case(const struct campaign_options *options, struct runner *runner, struct worker *job,
+                      struct tally *tally, uint64_t pixels, uint64_t number, const struct text *text)
 {
     struct finding finding;
+    const struct setting_values settings = settings_of(options, number);
     atomic_store(&job->started, clock_ns());
-    enum outcome outcome = runner_run(runner, "case", text->data, text->length, &finding);
+    enum outcome outcome = runner_run(runner, "case", text->data, text->length, &settings, &finding);
     tally->pixels = pixels + runner_pixels(runner);
     add_case(job, tally, outcome, number, &finding);
     atomic_store(&job->started, 0);
@@ -136,7 +152,7 @@ static void work(const struct run *run, unsigned j)
         campaign_case(options->seed, number, &text);
         if (text.failed)
             _exit(1);
-        draw_case(runner, job, &tally, pixels, number, &text);
+        draw_case(options, runner, job, &tally, pixels, number, &text);
     }
     runner_destroy(runner);
     text_free(&text);
@@ -171,7 +187,8 @@ static int start(struct run *run, unsigned j, struct error *error)
 static void lose(struct run *run, unsigned j, struct tally *tally, enum outcome outcome, int status)
 {
     struct worker *job = &run->job[j];
-    struct finding finding = {.outcome = outcome};
+    uint64_t number = ranges_at(&run->list, next_position(run, j, tally));
+    struct finding finding = {.outcome = outcome, .settings = settings_of(run->options, number)};
     if (outcome == OUTCOME_HUNG)
         snprintf(finding.what, sizeof finding.what, "takes longer than %g seconds", run->options->limit);
     else if (WIFSIGNALED(status))
@@ -179,7 +196,7 @@ static void lose(struct run *run, unsigned j, struct tally *tally, enum outcome 
                  strsignal(WTERMSIG(status)));
     else
         snprintf(finding.what, sizeof finding.what, "ends with status %d", WEXITSTATUS(status));
-    add_case(job, tally, outcome, ranges_at(&run->list, next_position(run, j, tally)), &finding);
+    add_case(job, tally, outcome, number, &finding);
 }
 
 /* Looks after process j: it has ended well, is to be replaced, or goes on. A process that completes its case
@@ -390,15 +407,15 @@ void campaign_free(struct campaign *campaign)
 /* --- One text ------------------------------------------------------------------------------------------- */
 
 /* Does not return. */
-static void try_here(const struct runner_options *options, const char *path, const char *text, size_t bytes,
+static void try_here(const struct campaign_options *options, const char *path, const char *text, size_t bytes,
                      struct finding *finding)
 {
     struct error error = {{0}};
     struct finding own;
-    struct runner *runner = runner_create(options, &error);
+    struct runner *runner = runner_create(&options->run, &error);
     if (!runner)
         _exit(1);
-    runner_run(runner, path, text, bytes, &own);
+    runner_run(runner, path, text, bytes, &options->settings, &own);
     *finding = own;
     _exit(0);
 }
@@ -431,7 +448,7 @@ static enum outcome try_text(const struct campaign_options *options, const char 
     fflush(NULL);
     pid_t pid = fork();
     if (!pid)
-        try_here(&options->run, path, text, bytes, shared);
+        try_here(options, path, text, bytes, shared);
     if (pid > 0) {
         enum outcome end = await(pid, options->limit);
         *finding = end ? (struct finding){.outcome = end} : *shared;
@@ -458,6 +475,7 @@ int campaign_minimize(const struct campaign_options *options, const struct findi
 {
     struct failure failure = {*options, finding};
     struct runner_options *run = &failure.options.run;
+    failure.options.settings = finding->settings;
     if (finding->engine && finding->engine != run->engine[0]) {
         run->engine[1] = finding->engine;
         run->engines = 2;

@@ -23,6 +23,8 @@ enum { CAMPAIGN_JOBS = 64, CAMPAIGN_FINDINGS = 64 };
 
 struct campaign_options {
     struct runner_options run;
+    bool vary;                      /* each case has random settings of the renderer, or else: */
+    struct setting_values settings; /* those of all cases */
     uint64_t seed, first, count;
     double seconds;                 /* 0: until all cases are drawn */
     double limit;                   /* seconds that a case may take */
@@ -59,7 +61,7 @@ void campaign_free(struct campaign *campaign);
 /* The text of a case. */
 void campaign_case(uint64_t seed, uint64_t number, struct text *text);
 
-/* The smallest text that fails like `finding`: with the same outcome on the same engine. Returns 0, or -1
+/* The smallest text that fails like `finding`: with the same outcome, engine and settings. Returns 0, or -1
  * with the reason, for example that the case does not fail in its own process. */
 int campaign_minimize(const struct campaign_options *options, const struct finding *finding,
                       const struct text *text, struct text *smallest, struct error *error);

@@ -304,6 +304,7 @@ static enum outcome play_other(struct runner *runner, uint32_t frames, unsigned 
     finding->engine = runner->options.engine[engine];
     finding->threads = threads;
     device_limit_threads(device, threads);
+    device_set_settings(device, &finding->settings);
     for (uint32_t frame = 0; frame < frames; frame++) {
         if (play_frame(runner, engine, frame, &error))
             return find(finding, is_limit(error.text) ? OUTCOME_LIMITED : OUTCOME_FAILED, "%s", error.text);
@@ -337,19 +338,22 @@ static enum outcome play_all(struct runner *runner, uint32_t frames, struct find
 
 static enum outcome play(struct runner *runner, const struct stream *stream, struct finding *finding)
 {
+    static const struct setting_values defaults;
     struct error error = {{0}};
-    for (unsigned e = 0; e < runner->options.engines; e++)
+    for (unsigned e = 0; e < runner->options.engines; e++) {
+        device_set_settings(runner->device[e], e ? &finding->settings : &defaults);
         if (stream_prepare(stream, runner->device[e], &runner->player[e], &error))
             return find(finding, OUTCOME_REFUSED, "%s", error.text);
+    }
     return play_all(runner, stream->frame_count, finding);
 }
 
 enum outcome runner_run(struct runner *runner, const char *path, const char *text, size_t bytes,
-                        struct finding *finding)
+                        const struct setting_values *settings, struct finding *finding)
 {
     struct error error = {{0}};
     struct stream *stream;
-    *finding = (struct finding){.outcome = OUTCOME_SAME};
+    *finding = (struct finding){.outcome = OUTCOME_SAME, .settings = *settings};
     if (stream_parse(path, text, bytes, &stream, &error))
         return find(finding, OUTCOME_REFUSED, "%s", error.text);
     enum outcome outcome = play(runner, stream, finding);

@@ -6,6 +6,7 @@
 #include "command/inspect/inspection.h"
 #include "command/support/json.h"
 #include "command/support/option.h"
+#include "command/support/choose.h"
 #include "command/support/shared.h"
 #include "command/support/session.h"
 #include "image/png.h"
@@ -19,6 +20,7 @@ enum { NONE = OPTION_STREAM_MAXIMUM + 1, PIXEL_MAXIMUM = 8192, NAME_CAPACITY = 1
 struct settings {
     unsigned frame, draw, count;
     const char *pixel, *overdraw, *json;
+    struct option_given set;
 };
 
 /* Reads `X,Y`. */
@@ -107,6 +109,9 @@ static int make(const struct command *self, const struct settings *settings, str
                 const char *path, cJSON *json)
 {
     int status = STATUS_OK;
+    const struct setting_values values = choose_settings(&settings->set);
+    char text[SETTING_TEXT];
+    cJSON_AddStringToObject(json, "settings", setting_write(&values, text));
     cJSON_AddItemToObject(json, "draws", inspection_draws(trail));
     cJSON_AddItemToObject(json, "state", inspection_state(trail));
     if (settings->pixel)
@@ -165,6 +170,7 @@ static int run(const struct command *self, void *data, const struct operands *op
                                   .x = -1,
                                   .y = -1,
                                   .counts = settings->overdraw,
+                                  .settings = choose_settings(&settings->set),
                                   .what = (enum watch_what)settings->count};
     if ((settings->pixel && read_pixel(self, settings->pixel, &asked)) ||
         tool_check_output(self, settings->overdraw) || tool_check_output(self, settings->json))
@@ -183,6 +189,7 @@ static const struct option options[] = {
      OPTION_IS_FILE(struct settings, overdraw), .extension = "png"},
     {"count", "WHAT", "what --overdraw counts: pixels covered, shaded or passed; covered",
      OPTION_IS_INDEX(struct settings, count), .words = what_at},
+    OPTION_SET(struct settings, set),
     {"json", "FILE", "also write the report to FILE", OPTION_IS_FILE(struct settings, json),
      .extension = "json"},
     {0},

@@ -2,6 +2,8 @@
 #ifndef COMMAND_INSPECT_QUESTION_H
 #define COMMAND_INSPECT_QUESTION_H
 
+#include "setting/setting.h"
+
 #include <stdbool.h>
 #include <stdint.h>
 
@@ -23,6 +25,7 @@ struct trail_options {
     bool counts;          /* pixels are counted */
     bool owners;          /* the primitive that each pixel shows is noted */
     enum watch_what what; /* when */
+    struct setting_values settings;
 };
 
 #endif

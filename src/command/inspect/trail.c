@@ -230,7 +230,7 @@ static int prepare(struct trail *trail, struct error *error)
     trail->draw = calloc(trail->options.draw + 1, sizeof *trail->draw);
     if (!trail->watch || !trail->canvas || !trail->draw)
         return error_set(error, "out of memory for %u draws", trail->options.draw + 1);
-    trail->device = watch_device(trail->watch, error);
+    trail->device = watch_device(trail->watch, &trail->options.settings, error);
     if (!trail->device || stream_prepare(&trail->view, trail->device, &trail->player, error))
         return -1;
     watch_pixel(trail->watch, trail->options.x, trail->options.y);

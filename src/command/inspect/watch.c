@@ -225,10 +225,14 @@ void watch_free(struct watch *watch)
     free(watch);
 }
 
-struct triptych_device *watch_device(struct watch *watch, struct error *error)
+struct triptych_device *watch_device(struct watch *watch, const struct setting_values *settings,
+                                     struct error *error)
 {
     const struct device_options options = {.threads = 1};
-    return device_create(&watch->engine, &options, &watch->device, error) ? NULL : watch->device;
+    if (device_create(&watch->engine, &options, &watch->device, error))
+        return NULL;
+    device_set_settings(watch->device, settings);
+    return watch->device;
 }
 
 void watch_pixel(struct watch *watch, int32_t x, int32_t y)

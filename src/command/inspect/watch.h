@@ -53,8 +53,10 @@ struct watch;
 struct watch *watch_create(void);
 void watch_free(struct watch *watch);
 
-/* A device of one thread with the engine. It must be destroyed before the watch. Null with the reason. */
-struct triptych_device *watch_device(struct watch *watch, struct error *error);
+/* A device of one thread with the engine and these settings. It must be destroyed before the watch. Null with
+ * the reason. */
+struct triptych_device *watch_device(struct watch *watch, const struct setting_values *settings,
+                                     struct error *error);
 
 /* From now on watches a pixel; x < 0: none. */
 void watch_pixel(struct watch *watch, int32_t x, int32_t y);

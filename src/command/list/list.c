@@ -1,5 +1,5 @@
-/* `triptych list`: engines, their options, states, shaders, formats and processor features, as tables or as
- * JSON.
+/* `triptych list`: engines, their options, settings, states, shaders, formats and features of the processor, as
+ * tables or as JSON.
  *
  * Each subject fills a JSON array of objects. The table for people is made from the same objects, one column
  * per member, so that the two agree. States and shaders do not fit one table and print themselves
@@ -15,6 +15,7 @@
 #include "command/list/shaders.h"
 #include "command/list/states.h"
 #include "command/support/table.h"
+#include "setting/setting.h"
 #include "triptych.h"
 
 #include <stdlib.h>
@@ -65,6 +66,20 @@ static void list_options(cJSON *rows)
         add_text(row, "meaning", option->meaning);
         add_text(row, "engines", engines);
     }
+}
+
+/* A row for each value; the first of a setting is its default. */
+static void list_settings(cJSON *rows)
+{
+    for (unsigned i = 0; setting_name(i); i++)
+        for (unsigned value = 0; setting_value_name(i, value); value++) {
+            cJSON *row = add_row(rows);
+            add_text(row, "setting", setting_name(i));
+            add_text(row, "value", setting_value_name(i, value));
+            add_text(row, "default", value ? "" : "yes");
+            add_text(row, "meaning", setting_value_meaning(i, value));
+            add_text(row, "of", setting_meaning(i));
+        }
 }
 
 static void list_cpu(cJSON *rows)
@@ -133,6 +148,7 @@ static const struct subject {
 } subjects[] = {
     {"engines", list_engines, NULL, NULL},
     {"options", list_options, NULL, NULL},
+    {"settings", list_settings, NULL, NULL},
     {"states", states_list, states_print, states_print_markdown},
     {"shaders", shaders_list, shaders_print, shaders_print_markdown},
     {"formats", list_formats, NULL, NULL},
@@ -208,14 +224,14 @@ static const struct option options[] = {
 };
 
 static const struct operand operands[] = {
-    {"WHAT", "engines, options, states, shaders, formats, cpu, passes or allocators", .kind = OPERAND_WORD,
-     .words = subject_at},
+    {"WHAT", "engines, options, settings, states, shaders, formats, cpu, passes or allocators",
+     .kind = OPERAND_WORD, .words = subject_at},
     {0},
 };
 
 const struct command command_list = {
     .name = "list",
-    .summary = "engines, their options, states, shaders, formats, cpu, passes or allocators",
+    .summary = "engines, their options, settings, states, shaders, formats, cpu, passes or allocators",
     .options = options,
     .operands = operands,
     .settings_bytes = sizeof(struct settings),

@@ -33,8 +33,9 @@ static void print_finding(const struct merge *merge, const cJSON *finding)
     printf("seed %.0f case %.0f: %s", results_value(merge->input->json, "seed"),
            results_value(finding, "case"), results_text(finding, "outcome"));
     if (*engine)
-        printf(": %s with %.0f thread%s", engine, results_value(finding, "threads"),
-               results_value(finding, "threads") == 1 ? "" : "s");
+        printf(": %s with %.0f thread%s%s%s", engine, results_value(finding, "threads"),
+               results_value(finding, "threads") == 1 ? "" : "s",
+               *results_text(finding, "settings") ? " and " : "", results_text(finding, "settings"));
     printf(": %s\n", results_text(finding, "what"));
 }
 

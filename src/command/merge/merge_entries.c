@@ -131,7 +131,21 @@ static int compare_parts(const struct merge *merge, const struct parts *parts)
     return STATUS_OK;
 }
 
-/* The place of a difference in the report of one run: by frame, engine and number of threads. */
+/* The index of the settings that differ among those of the results. */
+static int rank_settings(const cJSON *json, const cJSON *difference)
+{
+    const cJSON *text;
+    int index = 0;
+    cJSON_ArrayForEach(text, cJSON_GetObjectItemCaseSensitive(json, "settings"))
+    {
+        if (cJSON_IsString(text) && !strcmp(text->valuestring, results_text(difference, "settings")))
+            break;
+        index++;
+    }
+    return index;
+}
+
+/* The place of a difference in the report of one run: by frame, engine, number of threads and settings. */
 static double rank_difference(const struct merge *merge, const cJSON *difference)
 {
     const cJSON *json = merge->input->json, *thread;
@@ -144,7 +158,8 @@ static double rank_difference(const struct merge *merge, const cJSON *difference
             break;
         index++;
     }
-    return (results_value(difference, "frame") * 64 + engine) * 64 + index;
+    return ((results_value(difference, "frame") * 64 + engine) * 64 + index) * 64 +
+           rank_settings(json, difference);
 }
 
 /* Adds all differences of the parts, the least rank first. */

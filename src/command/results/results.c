@@ -12,11 +12,11 @@ enum { FILE_MOST = 512 << 20, VALUE_TEXT = 120 };
 /* 2^53: greater numbers of JSON are not exact. */
 static const double most_exact = 9007199254740992.0;
 
-static const char *const same_fuzz[] = {"seed", "first", "count", "engines", "threads", NULL};
-static const char *const same_verify[] = {"inputs",  "engines", "threads",   "frames",
+static const char *const same_fuzz[] = {"seed", "first", "count", "engines", "threads", "settings", NULL};
+static const char *const same_verify[] = {"inputs",  "engines", "threads",   "settings", "frames",
                                           "shuffle", "golden",  "tolerance", NULL};
-static const char *const same_bench[] = {"inputs",  "engines", "threads", "repetitions",
-                                         "seconds", "frames",  NULL};
+static const char *const same_bench[] = {"inputs",      "engines", "threads", "settings",
+                                         "repetitions", "seconds", "frames",  NULL};
 static const char *const same_claims[] = {"inputs", NULL};
 
 static const struct results_kind kinds[] = {

@@ -167,6 +167,57 @@ int choose_variants(const struct command *self, const struct variation *variatio
                               option);
 }
 
+/* --- Settings of the renderer --- */
+
+struct setting_values choose_settings(const struct option_given *set)
+{
+    struct setting_values values = {{0}};
+    for (unsigned i = 0; i < set->count; i++)
+        setting_read(set->word[i], &values, NULL);
+    return values;
+}
+
+static const char *setting_at(const struct words *words, unsigned index)
+{
+    (void)words;
+    return setting_name(index);
+}
+
+/* Adds the first settings of the choice with each other value of one of them. */
+static int vary(const struct command *self, unsigned setting, struct settings_choice *choice)
+{
+    for (unsigned value = 0; setting_value_name(setting, value); value++) {
+        if (value == choice->values->of[setting])
+            continue;
+        if (choice->count == SETTINGS_CHOICE)
+            return tool_fail(self, "more than %d settings to compare", SETTINGS_CHOICE);
+        choice->values[choice->count] = *choice->values;
+        choice->values[choice->count++].of[setting] = (uint8_t)value;
+    }
+    return STATUS_OK;
+}
+
+int choose_varied_settings(const struct command *self, const struct option_given *set, const char *list,
+                           struct settings_choice *choice)
+{
+    const struct words names = {.at = setting_at};
+    char name[NAME_CAPACITY];
+    unsigned setting = 0;
+    choice->count = 1;
+    choice->values[0] = choose_settings(set);
+    for (; list && !strcmp(list, "all") && setting_name(setting); setting++)
+        if (vary(self, setting, choice))
+            return STATUS_BAD;
+    while (!setting && (list = option_next_item(list, name, sizeof name))) {
+        if (!words_find(names, name, strlen(name), &setting))
+            return tool_fail_word(self, "--settings has", name, names);
+        if (vary(self, setting, choice))
+            return STATUS_BAD;
+        setting = 0;
+    }
+    return STATUS_OK;
+}
+
 int choose_threads(const struct command *self, const char *list, struct choice *threads)
 {
     threads->count = 0;

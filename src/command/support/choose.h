@@ -5,6 +5,7 @@
 #include "base/error.h"
 #include "command/support/command.h"
 #include "command/support/tool.h"
+#include "setting/setting.h"
 
 enum { CHOICE_CAPACITY = 64 };
 
@@ -46,6 +47,23 @@ int choose_engines(const struct command *self, const char *list, struct choice *
 /* Replaces the chosen engines that take options by their variants, if any option is given. Returns 0, or
  * STATUS_BAD after printing the reason, also if no chosen engine takes an option. */
 int choose_variants(const struct command *self, const struct variation *variation, struct choice *choice);
+
+/* The settings with these pairs, words of setting_choice. */
+struct setting_values choose_settings(const struct option_given *set);
+
+enum { SETTINGS_CHOICE = 64 };
+
+/* Settings of the renderer that are compared with each other. */
+struct settings_choice {
+    unsigned count;
+    struct setting_values values[SETTINGS_CHOICE];
+};
+
+/* The settings with the pairs of `set`; and the same with each other value of each setting that the
+ * comma-separated list names, one at a time. "all" names every setting, null names none. Returns 0, or
+ * STATUS_BAD after printing the reason. */
+int choose_varied_settings(const struct command *self, const struct option_given *set, const char *list,
+                           struct settings_choice *choice);
 
 /* Reads a comma-separated list of thread counts. */
 int choose_threads(const struct command *self, const char *list, struct choice *threads);

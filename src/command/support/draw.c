@@ -58,14 +58,14 @@ static int find_key(const struct command *self, const struct session *session, e
 }
 
 int session_read_key(const struct command *self, const struct stream *stream, uint32_t draw, unsigned engine,
-                     enum unit unit, union key *key)
+                     const struct setting_values *settings, enum unit unit, union key *key)
 {
     uint32_t frames[2], *executed = malloc((draw + 1) * sizeof *executed);
     if (!executed)
         return tool_fail(self, "no memory for %u calls", draw + 1);
     struct stream view = single_draw(stream, draw, executed, frames);
     struct session session = {0};
-    int status = session_open(self, &view, engine, 1, &session);
+    int status = session_open(self, &view, engine, 1, settings, &session);
     if (!status)
         status = session_play(self, &session, 0);
     if (!status)

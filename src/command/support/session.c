@@ -25,9 +25,9 @@ struct stream *session_load(const struct command *self, const char *path)
 }
 
 int session_open(const struct command *self, const struct stream *stream, unsigned engine, unsigned threads,
-                 struct session *session)
+                 const struct setting_values *settings, struct session *session)
 {
-    return session_open_measured(self, stream, engine, threads, false, session);
+    return session_open_measured(self, stream, engine, threads, settings, false, session);
 }
 
 /* A request in TRIPTYCH_DEBUG that cannot be met is a warning, printed once, not a failure. */
@@ -40,11 +40,15 @@ static void tell_debug_error(struct session *session)
 }
 
 int session_open_measured(const struct command *self, const struct stream *stream, unsigned engine,
-                          unsigned threads, bool measure, struct session *session)
+                          unsigned threads, const struct setting_values *settings, bool measure,
+                          struct session *session)
 {
     struct error error = {""};
-    const struct triptych_options options = {
-        .engine = triptych_engine_name(engine), .threads = threads, .measure = measure};
+    char text[SETTING_TEXT] = "";
+    const struct triptych_options options = {.engine = triptych_engine_name(engine),
+                                             .threads = threads,
+                                             .measure = measure,
+                                             .settings = settings ? setting_write(settings, text) : text};
     *session = (struct session){.stream = stream, .self = self};
     if (triptych_device_create(&options, &session->device, error.text, sizeof error.text))
         return tool_fail(self, "engine %s: %s", options.engine, error.text);

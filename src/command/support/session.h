@@ -6,6 +6,7 @@
 #include "command/stream/stream.h"
 #include "command/support/tool.h"
 #include "contract/key.h"
+#include "setting/setting.h"
 
 #include <stdbool.h>
 
@@ -25,13 +26,15 @@ struct session {
     bool told; /* the warning about TRIPTYCH_DEBUG was printed */
 };
 
-/* Opens a session with the engine of that number (triptych_engine_name). Functions that return int return 0,
+/* Opens a session with the engine of that number (triptych_engine_name) and settings of the renderer; null:
+ * the defaults. Functions that return int return 0,
  * or STATUS_BAD after printing the reason. A session must be closed even after a failure. */
 int session_open(const struct command *self, const struct stream *stream, unsigned engine, unsigned threads,
-                 struct session *session);
+                 const struct setting_values *settings, struct session *session);
 /* The same with routine calls measured if `measure` is true (struct triptych_options). */
 int session_open_measured(const struct command *self, const struct stream *stream, unsigned engine,
-                          unsigned threads, bool measure, struct session *session);
+                          unsigned threads, const struct setting_values *settings, bool measure,
+                          struct session *session);
 void session_close(struct session *session);
 
 /* Plays a frame, numbered from 0, and waits until it is drawn. */
@@ -46,7 +49,7 @@ int session_find_draw(const struct command *self, const struct stream *stream, u
  * program of a shader in the key is valid until the stream is freed. Returns 0, or STATUS_BAD after
  * printing the reason. */
 int session_read_key(const struct command *self, const struct stream *stream, uint32_t draw, unsigned engine,
-                     enum unit unit, union key *key);
+                     const struct setting_values *settings, enum unit unit, union key *key);
 
 /* The i-th of `count` frames spread evenly over `all` frames, the first and the last included. */
 unsigned session_spread(unsigned i, unsigned count, unsigned all);

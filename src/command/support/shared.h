@@ -5,12 +5,20 @@
 #include "command/stream/stream.h"
 #include "command/support/command.h"
 #include "image/png.h"
+#include "setting/setting.h"
 
 /* unsigned: the level of PNG files; PNG_LEVEL_DEFAULT is its default. */
 #define OPTION_COMPRESSION(structure, member)                                                                \
     {                                                                                                        \
         "compression", "LEVEL", "of PNG files: 0 stores, 1 is fast, 9 is small; 1",                          \
             OPTION_IS_NUMBER(structure, member), .most = PNG_LEVEL_MAXIMUM                                   \
+    }
+
+/* struct option_given: pairs of a setting and a value (choose_settings). */
+#define OPTION_SET(structure, member)                                                                        \
+    {                                                                                                        \
+        "set", "NAME=VALUE", "a setting of the renderer (triptych list settings); may be repeated",          \
+            OPTION_IS_WORDS(structure, member), .words = setting_choice                                      \
     }
 
 /* bool: sets store_off (command/store/store.h). */

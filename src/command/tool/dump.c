@@ -26,6 +26,7 @@ struct settings {
     unsigned frame, draw, width, unit;
     bool no_cache;
     struct variation variation;
+    struct option_given set;
 };
 
 static int dump_jit(const struct engine *engine, struct code_arena *arena, enum unit unit,
@@ -129,11 +130,12 @@ static int dump(const struct command *self, const char *path, const struct setti
     struct stream *stream = dumper ? session_load(self, path) : NULL;
     if (!stream)
         return STATUS_BAD;
+    const struct setting_values values = choose_settings(&settings->set);
     uint32_t draw = 0;
     union key key;
     int status = session_find_draw(self, stream, settings->frame, settings->draw, &draw);
     if (!status)
-        status = session_read_key(self, stream, draw, engine, unit, &key);
+        status = session_read_key(self, stream, draw, engine, &values, unit, &key);
     if (!status)
         status = dump_key(self, dumper, engine_at(engine), unit, &key, settings->show);
     stream_free(stream);
@@ -181,6 +183,7 @@ static const struct option options[] = {
     {"width", "LANES", "lanes of the engine's variant", OPTION_IS_NUMBER(struct settings, width), .least = 1,
      .most = WIDTH_MAXIMUM},
     OPTIONS_OF_VARIATION(struct settings, variation),
+    OPTION_SET(struct settings, set),
     OPTION_NO_CACHE(struct settings, no_cache),
     {0},
 };

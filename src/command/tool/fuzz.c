@@ -23,6 +23,7 @@ struct settings {
     double seconds, limit, checkpoint;
     const char *engines, *threads, *folder, *json, *shard, *resume;
     struct variation variation;
+    struct option_given set;
 };
 
 /* A campaign while it runs. */
@@ -85,15 +86,22 @@ static int choose(const struct command *self, const struct settings *settings, s
 
 /* --- Findings --- */
 
+static const char *settings_of(const struct finding *finding, char text[SETTING_TEXT])
+{
+    return setting_write(&finding->settings, text);
+}
+
 static void describe(const struct settings *settings, const struct campaign_finding *found, char *text,
                      size_t size)
 {
     const struct finding *finding = &found->finding;
+    char renderer[SETTING_TEXT];
     int length = snprintf(text, size, "seed %u case %" PRIu64 ": %s", settings->seed, found->number,
                           outcome_name[finding->outcome]);
     if (finding->engine)
-        length += snprintf(text + length, size - (size_t)length, ": %s with %u thread%s",
-                           finding->engine->name, finding->threads, finding->threads == 1 ? "" : "s");
+        length += snprintf(text + length, size - (size_t)length, ": %s with %u thread%s%s%s",
+                           finding->engine->name, finding->threads, finding->threads == 1 ? "" : "s",
+                           *settings_of(finding, renderer) ? " and " : "", renderer);
     snprintf(text + length, size - (size_t)length, ": %s", finding->what);
 }
 
@@ -257,7 +265,9 @@ static int hold(struct watched *watched, struct campaign_options *options)
 static int fuzz(const struct command *self, const struct settings *settings)
 {
     static struct campaign earlier;
-    struct campaign_options options = {.seed = settings->seed,
+    struct campaign_options options = {.vary = !settings->set.count,
+                                       .settings = choose_settings(&settings->set),
+                                       .seed = settings->seed,
                                        .seconds = settings->seconds,
                                        .limit = settings->limit,
                                        .jobs = settings->jobs,
@@ -266,7 +276,7 @@ static int fuzz(const struct command *self, const struct settings *settings)
     struct watched watched = {
         .self = self,
         .settings = settings,
-        .results = {settings->seed, settings->first, settings->count, .run = &options.run}};
+        .results = {settings->seed, settings->first, settings->count, .options = &options}};
     bool made;
     if (choose(self, settings, &options.run) || shard_read(self, settings->shard, &watched.results.shard) ||
         tool_check_output(self, settings->json) || tool_check_output(self, settings->resume) ||
@@ -321,6 +331,8 @@ static const struct option options[] = {
      OPTION_IS_LIST(struct settings, engines), .words = triptych_engine_name},
     OPTIONS_OF_VARIATION(struct settings, variation),
     {"threads", "LIST", "numbers of threads; 1,2", OPTION_IS_LIST(struct settings, threads)},
+    {"set", "NAME=VALUE", "a setting of the renderer, for all cases; random ones for each",
+     OPTION_IS_WORDS(struct settings, set), .words = setting_choice},
     {"jobs", "N", "processes; 1", OPTION_IS_NUMBER(struct settings, jobs), .least = 1, .most = CAMPAIGN_JOBS},
     {"limit", "T", "most seconds per case; 60", OPTION_IS_SECONDS(struct settings, limit), .least = 1,
      .most = 100000},

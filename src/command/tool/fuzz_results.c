@@ -8,6 +8,12 @@
 
 /* --- Writing -------------------------------------------------------------------------------------------- */
 
+static void add_settings(cJSON *json, const struct setting_values *values)
+{
+    char text[SETTING_TEXT];
+    cJSON_AddStringToObject(json, "settings", setting_write(values, text));
+}
+
 static cJSON *json_finding(const struct campaign_finding *found)
 {
     cJSON *json = cJSON_CreateObject();
@@ -17,6 +23,7 @@ static cJSON *json_finding(const struct campaign_finding *found)
         cJSON_AddStringToObject(json, "engine", found->finding.engine->name);
         cJSON_AddNumberToObject(json, "threads", found->finding.threads);
     }
+    add_settings(json, &found->finding.settings);
     cJSON_AddStringToObject(json, "what", found->finding.what);
     return json;
 }
@@ -24,7 +31,7 @@ static cJSON *json_finding(const struct campaign_finding *found)
 /* The fields that determine the results. */
 static void add_campaign(cJSON *json, const struct fuzz_results *results)
 {
-    const struct runner_options *run = results->run;
+    const struct runner_options *run = &results->options->run;
     char shard[32];
     cJSON_AddNumberToObject(json, "seed", (double)results->seed);
     cJSON_AddNumberToObject(json, "first", (double)results->first);
@@ -39,6 +46,10 @@ static void add_campaign(cJSON *json, const struct fuzz_results *results)
     cJSON *threads = cJSON_AddArrayToObject(json, "threads");
     for (unsigned i = 0; i < run->threads; i++)
         cJSON_AddItemToArray(threads, cJSON_CreateNumber(run->thread[i]));
+    if (results->options->vary)
+        cJSON_AddStringToObject(json, "settings", "random");
+    else
+        add_settings(json, &results->options->settings);
 }
 
 static void add_results(cJSON *json, const struct campaign *campaign)
@@ -93,6 +104,7 @@ static void read_finding(const cJSON *json, const struct runner_options *run, st
     *found = (struct campaign_finding){.number = (uint64_t)results_value(json, "case")};
     found->finding.engine = find_engine(run, results_text(json, "engine"));
     found->finding.threads = found->finding.engine ? (unsigned)results_value(json, "threads") : 0;
+    setting_read(results_text(json, "settings"), &found->finding.settings, NULL);
     snprintf(found->finding.what, sizeof found->finding.what, "%.*s",
              (int)strcspn(results_text(json, "what"), "\n"), results_text(json, "what"));
     for (unsigned o = 0; o < OUTCOME_COUNT; o++)
@@ -127,7 +139,7 @@ int fuzz_results_read(const struct command *self, const struct fuzz_results *res
     if (!status)
         status = results_resume(self, path, &fresh, &file, &found);
     if (!status && found)
-        read_campaign(&file, results->run, earlier);
+        read_campaign(&file, &results->options->run, earlier);
     if (!status && earlier->done.failed)
         status = tool_fail(self, "no memory for %s", path);
     results_free(&fresh);

@@ -11,7 +11,7 @@
 struct fuzz_results {
     uint64_t seed, first, count; /* of the whole campaign */
     struct shard shard;
-    const struct runner_options *run;
+    const struct campaign_options *options; /* engines, threads and settings of the renderer */
 };
 
 /* Writes the file atomically. Returns 0, or STATUS_BAD after printing the reason. */

@@ -24,6 +24,7 @@ struct settings {
     const char *engine, *out, *frames, *draws, *shard;
     unsigned frame, threads, width, form, columns, rate, compression;
     bool no_cache;
+    struct option_given set;
 };
 
 /* The pictures to draw: frames `first` to `last` of the stream, which may be a view (view_draws). The files
@@ -120,11 +121,12 @@ static int draw_task(const struct command *self, const struct task *task, const 
                                          .first = task->number,
                                          .count = task->last - task->first + 1,
                                          .numbered = task->several};
+    const struct setting_values values = choose_settings(&settings->set);
     struct session session = {0};
     struct sink sink;
     if (sink_open(self, &options, &sink))
         return STATUS_BAD;
-    int status = session_open(self, task->stream, engine, settings->threads, &session);
+    int status = session_open(self, task->stream, engine, settings->threads, &values, &session);
     if (!status)
         status = draw_all(self, task, &session, &sink);
     session_close(&session);
@@ -252,6 +254,7 @@ static const struct option options[] = {
     OPTION_NO_CACHE(struct settings, no_cache),
     {"threads", "N", "rendering threads; one per core", OPTION_IS_NUMBER(struct settings, threads),
      .least = 1, .most = THREADS_MAXIMUM},
+    OPTION_SET(struct settings, set),
     {0},
 };
 

@@ -30,17 +30,19 @@ enum { STEM_CAPACITY = 64, PATH_CAPACITY = 4096, FRAMES_DEFAULT = 8, FRAMES_MAXI
 static const char reference_engine[] = "emulate";
 
 struct configuration {
-    unsigned engine, threads;
+    unsigned engine, threads, settings; /* the last of the choice of settings */
     struct session session;
     bool differs;
 };
 
 struct settings {
-    const char *engine_list, *thread_list, *frames_text, *json, *shard, *resume;
+    const char *engine_list, *thread_list, *setting_list, *frames_text, *json, *shard, *resume;
     struct golden golden; /* without a folder: none */
     struct variation variation;
+    struct option_given set;
     struct choice engines, threads;
-    const char *folder; /* for pictures of differences, or null */
+    struct settings_choice renderer; /* settings of all configurations but the reference */
+    const char *folder;              /* for pictures of differences, or null */
     bool all_frames, no_cache;
     unsigned frames;  /* the number to draw, spread over a longer stream */
     unsigned shuffle; /* seed of the order of tasks in all configurations but the reference; 0: in order */
@@ -64,37 +66,60 @@ struct verification {
     cJSON *goldens;       /* or null */
 };
 
-static int open_configuration(const struct command *self, const struct stream *stream, unsigned engine,
-                              unsigned threads, struct configuration *configuration)
+/* Opens the configuration, whose engine and number of threads are set. */
+static int open_configuration(const struct command *self, const struct stream *stream,
+                              const struct setting_values *values, struct configuration *configuration)
 {
-    *configuration = (struct configuration){.engine = engine, .threads = threads};
-    return session_open(self, stream, engine, threads, &configuration->session);
+    return session_open(self, stream, configuration->engine, configuration->threads, values,
+                        &configuration->session);
+}
+
+/* Returns true if the configuration is the reference itself. */
+static bool is_reference(const struct settings *settings, const struct configuration *configuration)
+{
+    static const struct setting_values none;
+    return !strcmp(triptych_engine_name(configuration->engine), reference_engine) &&
+           configuration->threads == 1 &&
+           !memcmp(&settings->renderer.values[configuration->settings], &none, sizeof none);
+}
+
+/* Opens an engine with all numbers of threads and all settings. */
+static int open_others(const struct command *self, const struct stream *stream,
+                       const struct settings *settings, unsigned engine, struct verification *verification)
+{
+    const struct settings_choice *renderer = &settings->renderer;
+    for (unsigned i = 0; i < settings->threads.count; i++)
+        for (unsigned j = 0; j < renderer->count; j++) {
+            const struct configuration made = {
+                .engine = engine, .threads = settings->threads.index[i], .settings = j};
+            if (is_reference(settings, &made))
+                continue;
+            struct configuration *other = verification->others + verification->count++;
+            *other = made;
+            if (open_configuration(self, stream, &renderer->values[j], other))
+                return STATUS_BAD;
+            device_shuffle(other->session.device, settings->shuffle);
+        }
+    return STATUS_OK;
 }
 
 static int open_all(const struct command *self, const struct stream *stream, const struct settings *settings,
                     struct verification *verification)
 {
-    unsigned engine;
-    verification->others =
-        calloc(settings->engines.count * settings->threads.count, sizeof *verification->others);
+    size_t most = (size_t)settings->engines.count * settings->threads.count * settings->renderer.count;
+    verification->others = calloc(most, sizeof *verification->others);
     verification->digest = XXH3_createState();
     if (!verification->others || !verification->digest)
         return tool_fail(self, "no memory to verify %s", verification->path);
     XXH3_64bits_reset(verification->digest);
-    if (choose_engine(self, reference_engine, 0, &engine) ||
-        open_configuration(self, stream, engine, 1, &verification->reference))
+    verification->reference.threads = 1;
+    if (choose_engine(self, reference_engine, 0, &verification->reference.engine) ||
+        open_configuration(self, stream, NULL, &verification->reference))
         return STATUS_BAD;
     for (unsigned i = 0; i < settings->engines.count; i++)
-        for (unsigned j = 0; j < settings->threads.count; j++) {
-            if (!verification->selected[i] ||
-                (settings->engines.index[i] == engine && settings->threads.index[j] == 1))
-                continue;
-            struct configuration *other = verification->others + verification->count++;
-            if (open_configuration(self, stream, settings->engines.index[i], settings->threads.index[j],
-                                   other))
-                return STATUS_BAD;
-            device_shuffle(other->session.device, settings->shuffle);
-        }
+        if (verification->selected[i] &&
+            open_others(self, stream, settings, settings->engines.index[i], verification))
+            return STATUS_BAD;
     return STATUS_OK;
 }
 
@@ -128,8 +153,11 @@ static int save_picture(const struct command *self, const struct settings *setti
                         unsigned frame)
 {
     char path[PATH_CAPACITY];
-    snprintf(path, sizeof path, "%s/%s-%s-%u-frame-%u.png", settings->folder, verification->name,
-             triptych_engine_name(configuration->engine), configuration->threads, frame);
+    char renderer[SETTING_TEXT];
+    setting_write(&settings->renderer.values[configuration->settings], renderer);
+    snprintf(path, sizeof path, "%s/%s-%s-%u%s%s-frame-%u.png", settings->folder, verification->name,
+             triptych_engine_name(configuration->engine), configuration->threads, *renderer ? "-" : "",
+             renderer, frame);
     struct picture expected = readback_picture(&verification->expected),
                    got = readback_picture(&verification->got);
     return difference_save(self, path, &expected, &got, settings->golden.compression);
@@ -156,18 +184,20 @@ static int compare_frame(const struct command *self, const struct settings *sett
     struct picture expected = readback_picture(&verification->expected),
                    got = readback_picture(&verification->got);
     struct difference difference;
-    char text[DIFFERENCE_TEXT];
+    char text[DIFFERENCE_TEXT], renderer[SETTING_TEXT];
     if (compare_pictures(&expected, &got, &difference))
         difference_describe(&expected, &difference, text);
     else if (!compare_queries(&verification->expected, &verification->got, text))
         return STATUS_OK;
     configuration->differs = true;
+    setting_write(&settings->renderer.values[configuration->settings], renderer);
     tool_progress(NULL);
-    printf("%s: frame %u: %s with 1 thread and %s with %u differ: %s\n", verification->name, frame,
-           reference_engine, triptych_engine_name(configuration->engine), configuration->threads, text);
+    printf("%s: frame %u: %s with 1 thread and %s with %u%s%s differ: %s\n", verification->name, frame,
+           reference_engine, triptych_engine_name(configuration->engine), configuration->threads,
+           *renderer ? " and " : "", renderer, text);
     if (verification->differences)
         verify_results_difference(verification->differences, triptych_engine_name(configuration->engine),
-                                  configuration->threads, frame, &difference, text);
+                                  configuration->threads, renderer, frame, &difference, text);
     return settings->folder ? save_picture(self, settings, verification, configuration, frame) : STATUS_OK;
 }
 
@@ -362,7 +392,8 @@ static int verify_all(const struct command *self, const struct operands *operand
 }
 
 static const char notes[] =
-    "The reference is emulate with 1 thread. Every colour, depth and stencil byte of every other "
+    "The reference is emulate with 1 thread and the default settings. Every colour, depth and stencil byte "
+    "of every other "
     "configuration\n"
     "must equal its bytes. Frames are numbered from 0. Last line: \"N streams, N engines, identical\", or "
     "the number\n"
@@ -373,7 +404,7 @@ static const char notes[] =
 static bool is_only_reference(const struct settings *settings)
 {
     return !settings->golden.folder && settings->engines.count == 1 && settings->threads.count == 1 &&
-           settings->threads.index[0] == 1 &&
+           settings->threads.index[0] == 1 && settings->renderer.count == 1 && !settings->set.count &&
            !strcmp(triptych_engine_name(settings->engines.index[0]), reference_engine);
 }
 
@@ -387,6 +418,7 @@ static int read_settings(const struct command *self, struct settings *settings)
     if (choose_engines(self, settings->engine_list, &settings->engines) ||
         choose_variants(self, &settings->variation, &settings->engines) ||
         choose_threads(self, settings->thread_list, &settings->threads) ||
+        choose_varied_settings(self, &settings->set, settings->setting_list, &settings->renderer) ||
         tool_check_output(self, settings->json) || tool_check_output(self, settings->resume))
         return STATUS_BAD;
     if (is_only_reference(settings))
@@ -422,6 +454,7 @@ static int begin_results(const struct command *self, struct settings *settings,
                                                 .golden = &settings->golden,
                                                 .frames = settings->all_frames ? 0 : settings->frames,
                                                 .shuffle = settings->shuffle,
+                                                .renderer = &settings->renderer,
                                                 .path = settings->json,
                                                 .resume = settings->resume,
                                                 .executions = executions};
@@ -462,6 +495,9 @@ static const struct option options[] = {
      OPTION_IS_LIST(struct settings, engine_list), .words = triptych_engine_name},
     OPTIONS_OF_VARIATION(struct settings, variation),
     {"threads", "LIST", "numbers of threads; 1,2", OPTION_IS_LIST(struct settings, thread_list)},
+    OPTION_SET(struct settings, set),
+    {"settings", "LIST|all", "also compare each value of these settings of the renderer",
+     OPTION_IS_LIST(struct settings, setting_list), .words = setting_name},
     {"frames", "N|all", "number of frames, spread over the stream; 8",
      OPTION_IS_TEXT(struct settings, frames_text)},
     {"shuffle", "SEED", "seed of random orders of batches and tiles in all but the reference; 0",

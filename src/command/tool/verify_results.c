@@ -23,6 +23,12 @@ static void add_campaign(const struct verify_results *results, cJSON *json)
     cJSON *threads = cJSON_AddArrayToObject(json, "threads");
     for (unsigned i = 0; i < results->threads->count; i++)
         cJSON_AddItemToArray(threads, cJSON_CreateNumber(results->threads->index[i]));
+    cJSON *renderer = cJSON_AddArrayToObject(json, "settings");
+    for (unsigned i = 0; i < results->renderer->count; i++) {
+        char text[SETTING_TEXT];
+        setting_write(&results->renderer->values[i], text);
+        cJSON_AddItemToArray(renderer, cJSON_CreateString(text));
+    }
     if (results->frames)
         cJSON_AddNumberToObject(json, "frames", results->frames);
     else
@@ -100,12 +106,13 @@ cJSON *verify_results_add(struct verify_results *results, unsigned stream, const
     return json;
 }
 
-void verify_results_difference(cJSON *differences, const char *engine, unsigned threads, unsigned frame,
-                               const struct difference *difference, const char *text)
+void verify_results_difference(cJSON *differences, const char *engine, unsigned threads, const char *settings,
+                               unsigned frame, const struct difference *difference, const char *text)
 {
     cJSON *json = cJSON_CreateObject();
     cJSON_AddStringToObject(json, "engine", engine);
     cJSON_AddNumberToObject(json, "threads", threads);
+    cJSON_AddStringToObject(json, "settings", settings);
     cJSON_AddNumberToObject(json, "frame", frame);
     cJSON_AddNumberToObject(json, "x", difference->x);
     cJSON_AddNumberToObject(json, "y", difference->y);

@@ -15,6 +15,7 @@ struct verify_results {
     const struct command *self;
     const struct operands *operands; /* all streams of the campaign */
     const struct choice *engines, *threads;
+    const struct settings_choice *renderer;
     const struct golden *golden;
     unsigned frames; /* 0: all */
     unsigned shuffle;
@@ -41,9 +42,9 @@ unsigned verify_results_select(const struct verify_results *results, unsigned st
 cJSON *verify_results_add(struct verify_results *results, unsigned stream, const char *name,
                           const bool selected[CHOICE_CAPACITY]);
 
-/* Adds the first difference of an engine with a number of threads. */
-void verify_results_difference(cJSON *differences, const char *engine, unsigned threads, unsigned frame,
-                               const struct difference *difference, const char *text);
+/* Adds the first difference of an engine with a number of threads and settings of the renderer. */
+void verify_results_difference(cJSON *differences, const char *engine, unsigned threads, const char *settings,
+                               unsigned frame, const struct difference *difference, const char *text);
 
 /* Writes the file of --resume, after each stream; and, at the end, both files. `interrupted` is the name of
  * the signal, or null. Both return 0, or STATUS_BAD after printing the reason. */

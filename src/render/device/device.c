@@ -53,8 +53,9 @@ enum triptych_result device_create(const struct engine *engine, const struct dev
                                    struct triptych_device **result, struct error *error)
 {
     unsigned listeners;
+    struct setting_values settings = {{0}};
     *result = NULL;
-    if (debug_read(options->debug, &listeners, error))
+    if (debug_read(options->debug, &listeners, error) || setting_read(options->settings, &settings, error))
         return TRIPTYCH_BAD_ARGUMENT;
     if (options->cache_bytes > CACHE_BYTES_MAXIMUM) {
         error_set(error, "cache of %zu bytes: expected at most %d", options->cache_bytes,
@@ -85,10 +86,12 @@ enum triptych_result device_create(const struct engine *engine, const struct dev
     for (int stage = 0; stage < SHADER_STAGES; stage++)
         device->state.registers[stage] = &device->registers[stage];
     enum triptych_result status = create_parts(device, options, listeners, error);
-    if (status == TRIPTYCH_OK)
+    if (status == TRIPTYCH_OK) {
+        device_set_settings(device, &settings);
         *result = device;
-    else
+    } else {
         device_destroy(device);
+    }
     return status;
 }
 

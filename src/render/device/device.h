@@ -214,11 +214,12 @@ static inline bool device_has_log(const struct triptych_device *device)
 }
 
 struct device_options {
-    unsigned threads;   /* 0: one for each processor */
-    size_t cache_bytes; /* 0: CACHE_BYTES */
-    size_t code_bytes;  /* of the code arena; 0: enough for the cache and the largest routines */
-    bool measure;       /* the calls of routines are timed */
-    const char *debug;  /* words of def/debug.def, comma-separated; null: none */
+    unsigned threads;     /* 0: one for each processor */
+    size_t cache_bytes;   /* 0: CACHE_BYTES */
+    size_t code_bytes;    /* of the code arena; 0: enough for the cache and the largest routines */
+    bool measure;         /* the calls of routines are timed */
+    const char *debug;    /* words of def/debug.def, comma-separated; null: none */
+    const char *settings; /* a list of setting/setting.h; null: the defaults */
     pool_create_thread *create_thread; /* null: pthread_create */
     uint32_t arena_bytes;              /* of the arena of the queue; 0: ARENA_BYTES */
 };
@@ -429,6 +430,9 @@ enum triptych_result device_query_result(struct triptych_device *device, struct 
 /* From now on rendering uses at most `threads` of the device's threads; 0: all. Tools compare numbers of
  * threads with it, without building routines again. */
 void device_limit_threads(struct triptych_device *device, unsigned threads);
+
+/* From now on the device has these settings. Tools compare settings with it, like numbers of threads. */
+void device_set_settings(struct triptych_device *device, const struct setting_values *settings);
 
 /* Renders everything recorded. Cannot fail. */
 void device_finish(struct triptych_device *device);

@@ -104,6 +104,12 @@ void device_limit_threads(struct triptych_device *device, unsigned threads)
     pool_limit(device->pool, threads);
 }
 
+void device_set_settings(struct triptych_device *device, const struct setting_values *settings)
+{
+    await_rendered(device);
+    queue_set_settings(device->queue, settings);
+}
+
 void device_shuffle(struct triptych_device *device, uint64_t seed)
 {
     await_rendered(device);

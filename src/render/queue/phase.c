@@ -35,7 +35,8 @@ static enum pool_call call_for(uint64_t ns)
 
 struct stint phase_begin_stint(const struct phase *phase, unsigned worker, uint64_t work)
 {
-    bool may_call = worker == phase->leader && phase->call != POOL_ALL && pool_limited(phase->pool) > 1;
+    bool may_call =
+        worker == phase->leader && phase->call != POOL_ALL && !phase->alone && pool_limited(phase->pool) > 1;
     return (struct stint){clock_ns(), work, may_call};
 }
 
@@ -56,12 +57,24 @@ uint64_t phase_end_stint(const struct stint *stint)
     return clock_ns() - stint->start;
 }
 
-void phase_run(struct phase *phase, uint32_t tasks, uint64_t ns, pool_task *task, void *user)
+static void run(struct phase *phase, uint32_t tasks, enum pool_call call, pool_task *task, void *user)
 {
     order_tasks(phase, tasks);
     atomic_store(&phase->next_task, 0);
-    phase->call = call_for(ns);
-    pool_run(phase->pool, phase->leader, tasks, phase->call, task, user);
+    phase->call = call;
+    pool_run(phase->pool, phase->leader, tasks, call, task, user);
+}
+
+void phase_run(struct phase *phase, uint32_t tasks, uint64_t ns, pool_task *task, void *user)
+{
+    phase->alone = false;
+    run(phase, tasks, call_for(ns), task, user);
+}
+
+void phase_run_alone(struct phase *phase, uint32_t tasks, pool_task *task, void *user)
+{
+    phase->alone = true;
+    run(phase, tasks, POOL_ALONE, task, user);
 }
 
 /* --- Parts --- */

@@ -23,6 +23,7 @@ struct phase {
     struct pool *pool;
     unsigned leader;                        /* the worker that starts phases */
     enum pool_call call;                    /* which threads are invited */
+    bool alone;                             /* none is, however long it takes */
     alignas(64) _Atomic uint32_t next_task; /* of a phase with one counter */
     uint32_t tasks;                         /* of a phase in parts */
     uint32_t parts;
@@ -38,6 +39,9 @@ struct phase {
 /* Runs a phase of `tasks` tasks, estimated to take `ns` nanoseconds on one thread. The threads call
  * `task`, which takes its tasks from next_task, or from the parts. */
 void phase_run(struct phase *phase, uint32_t tasks, uint64_t ns, pool_task *task, void *user);
+
+/* The same on the calling thread only. */
+void phase_run_alone(struct phase *phase, uint32_t tasks, pool_task *task, void *user);
 
 /* Cuts `tasks` tasks, estimated to take `ns`, into parts: one for each thread that may come. Precedes
  * phase_run. */

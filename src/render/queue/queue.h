@@ -113,4 +113,10 @@ static inline void queue_shuffle(struct queue *queue, uint64_t seed)
     queue->phase.shuffle = seed;
 }
 
+/* From now on rounds have these settings. Nothing may be rendered in the background. */
+static inline void queue_set_settings(struct queue *queue, const struct setting_values *settings)
+{
+    queue->round.settings = *settings;
+}
+
 #endif

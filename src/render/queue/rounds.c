@@ -148,18 +148,41 @@ static void geometry_task(void *user, unsigned number)
 
 /* --- Tiles --- */
 
+static bool has_stripes(const struct round *round)
+{
+    return round->settings.of[SETTING_order] == SETTING_order_stripes;
+}
+
+/* The number of tasks of the tile phase: tiles, or rows of them. */
+static uint32_t tile_tasks(const struct round *round)
+{
+    return has_stripes(round) && round->tiles ? round->target->rows : round->tiles;
+}
+
+static void render_stripe(struct tile_worker *worker, const struct round *round, uint32_t row)
+{
+    uint32_t columns = round->target->columns;
+    for (uint32_t tile = row * columns; tile < (row + 1) * columns; tile++)
+        if (round_has_tile(round, tile))
+            tile_render(worker, round, tile);
+}
+
 static void tiles_task(void *user, unsigned number)
 {
     struct queue *queue = user;
     const struct round *round = &queue->round;
     struct tile_worker *tile = &queue->worker[number].tile;
     struct stint stint = phase_begin_stint(&queue->phase, number, tile->pixels_shaded);
-    uint32_t first, count;
+    uint32_t first, count, tasks = tile_tasks(round);
     tile->lanes = lane_table;
     while ((count = phase_take(&queue->phase, number, &first))) {
         for (uint32_t i = first; i < first + count; i++) {
-            tile_render(tile, round, round_tile(round, phase_task(&queue->phase, i)));
-            phase_look_at_clock(&queue->phase, &stint, round->tiles - first - count, tile->pixels_shaded);
+            uint32_t task = phase_task(&queue->phase, i);
+            if (has_stripes(round))
+                render_stripe(tile, round, task);
+            else
+                tile_render(tile, round, round_tile(round, task));
+            phase_look_at_clock(&queue->phase, &stint, tasks - first - count, tile->pixels_shaded);
         }
     }
     queue->worker[number].tiles_ns += phase_end_stint(&stint);
@@ -252,10 +275,14 @@ static struct cursor render_round(struct queue *queue, struct cursor at, uint32_
     arena_reset(&round->arena);
     round->arena.shared = pool_limited(queue->phase.pool) > 1;
     atomic_store(&round->first_stopped, UINT32_MAX);
-    phase_run(&queue->phase, queue->chunks.tasks, geometry_ns(queue), geometry_task, queue);
+    if (round->settings.of[SETTING_geometry] == SETTING_geometry_serial)
+        phase_run_alone(&queue->phase, queue->chunks.tasks, geometry_task, queue);
+    else
+        phase_run(&queue->phase, queue->chunks.tasks, geometry_ns(queue), geometry_task, queue);
     struct cursor end = round_link(round);
-    phase_make_parts(&queue->phase, round->tiles, tiles_ns(round));
-    phase_run(&queue->phase, round->tiles, tiles_ns(round), tiles_task, queue);
+    uint32_t tasks = tile_tasks(round);
+    phase_make_parts(&queue->phase, tasks, tiles_ns(round));
+    phase_run(&queue->phase, tasks, tiles_ns(round), tiles_task, queue);
     count_round(queue);
     return end;
 }

@@ -9,6 +9,7 @@
 
 #include "render/draw/command.h"
 #include "render/geometry/batch.h"
+#include "setting/setting.h"
 
 #include <stdbool.h>
 
@@ -36,6 +37,7 @@ struct round {
     const struct command *command;
     struct target *target;
     uint32_t farthest; /* the word of the target's greatest depth */
+    struct setting_values settings;
     struct arena arena;
     _Atomic uint64_t *passed; /* for each command, samples that passed the tests if its key counts them */
 
@@ -72,6 +74,12 @@ void round_stop_at(struct round *round, uint32_t chunk);
 /* Makes the bins of the tiles from those of the chunks that are done. Returns the first primitive that is
  * not. */
 struct cursor round_link(struct round *round);
+
+/* Returns true if something may have to be rendered into the tile. */
+static inline bool round_has_tile(const struct round *round, uint32_t tile)
+{
+    return round->everywhere_count || round->tile_first[tile];
+}
 
 /* The tile that is rendered as number i of round->tiles. */
 static inline uint32_t round_tile(const struct round *round, uint32_t i)

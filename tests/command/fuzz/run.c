@@ -33,7 +33,8 @@ static void expect_same(const char *text)
 {
     struct finding finding;
     for (int again = 0; again < 2; again++) {
-        enum outcome outcome = runner_run(runner, "case.tri", text, strlen(text), &finding);
+        enum outcome outcome =
+            runner_run(runner, "case.tri", text, strlen(text), &(struct setting_values){{0}}, &finding);
         TEST_ASSERT_EQUAL_STRING_MESSAGE("same", outcome_name[outcome], finding.what);
     }
     TEST_ASSERT_TRUE(runner_pixels(runner) > 0);
@@ -102,7 +103,8 @@ static void processed_vertices_are_compared(void)
     wrong.build = build_wrongly;
     struct runner *both = runner_create(&options, &error);
     TEST_ASSERT_NOT_NULL_MESSAGE(both, error.text);
-    enum outcome outcome = runner_run(both, "case.tri", text, sizeof text - 1, &finding);
+    enum outcome outcome =
+        runner_run(both, "case.tri", text, sizeof text - 1, &(struct setting_values){{0}}, &finding);
     TEST_ASSERT_EQUAL_STRING_MESSAGE("different", outcome_name[outcome], finding.what);
     TEST_ASSERT_NOT_NULL_MESSAGE(strstr(finding.what, "processed vertex number 0"), finding.what);
     runner_destroy(both);

@@ -1,7 +1,7 @@
-/* Workers receive chunks and tiles in a random order, given by a seed. The image, the depths and the counts
- * of queries must be the same in any order. Every draw is blended over earlier ones, so that a wrong order of
- * a bin changes the image. An arena of little more than a block makes chunks fail in the middle of a
- * round. */
+/* Workers receive chunks and tiles in a random order, given by a seed, and work with any settings. The image,
+ * the depths and the counts of queries must always be the same. Every draw is blended over earlier ones, so
+ * that a wrong order of a bin changes the image. An arena of little more than a block makes chunks fail in
+ * the middle of a round. */
 #include "render/device/device.h"
 #include "emu/emulate/emulate.h"
 
@@ -143,6 +143,57 @@ static void any_order_of_tasks_gives_the_same_image_when_the_arena_fills_up(void
     }
 }
 
+static void open_with(unsigned threads, uint32_t arena_bytes, unsigned setting, unsigned value)
+{
+    struct setting_values settings = {{0}};
+    settings.of[setting] = (uint8_t)value;
+    open_device(threads, arena_bytes, 0);
+    device_set_settings(device, &settings);
+}
+
+static void every_value_of_every_setting_gives_the_same_image(void)
+{
+    static const uint32_t arenas[] = {0, ARENA_BLOCK * 5 / 4};
+    open_device(1, 0, 0);
+    draw_scene(&expected);
+    for (unsigned setting = 0; setting_name(setting); setting++)
+        for (unsigned value = 0; setting_value_name(setting, value); value++)
+            for (unsigned i = 0; i < 4; i++) {
+                open_with(i % 2 ? 3 : 1, arenas[i / 2], setting, value);
+                draw_scene(&got);
+                expect_the_same(setting_value_name(setting, value));
+            }
+}
+
+static void stripes_are_rows_of_tiles(void)
+{
+    open_with(2, 0, SETTING_order, SETTING_order_stripes);
+    OK(triptych_clear(device, NULL, 0.6f));
+    OK(triptych_finish(device));
+    TEST_ASSERT_EQUAL_UINT32(4, device->queue->phase.tasks);
+    open_with(2, 0, SETTING_order, SETTING_order_tiles);
+    OK(triptych_clear(device, NULL, 0.6f));
+    OK(triptych_finish(device));
+    TEST_ASSERT_EQUAL_UINT32(TILES, device->queue->phase.tasks);
+}
+
+static void settings_are_read_when_the_device_is_made(void)
+{
+    struct error error = {""};
+    close_device();
+    TEST_ASSERT_EQUAL_INT(TRIPTYCH_OK, device_create(&engine_emulate,
+                                                     &(struct device_options){.settings = "geometry=serial"},
+                                                     &device, &error));
+    TEST_ASSERT_EQUAL_UINT8(SETTING_geometry_serial, device->queue->round.settings.of[SETTING_geometry]);
+    close_device();
+    TEST_ASSERT_EQUAL_INT(TRIPTYCH_BAD_ARGUMENT,
+                          device_create(&engine_emulate,
+                                        &(struct device_options){.settings = "geometry=slow"}, &device,
+                                        &error));
+    TEST_ASSERT_NULL(device);
+    TEST_ASSERT_EQUAL_STRING("settings have \"slow\", expected one of: parallel, serial", error.text);
+}
+
 /* Copies the order in which the last phase processed tiles. */
 static void copy_order(uint16_t order[TILES])
 {
@@ -184,6 +235,9 @@ int main(void)
     UNITY_BEGIN();
     RUN_TEST(any_order_of_tasks_gives_the_same_image);
     RUN_TEST(any_order_of_tasks_gives_the_same_image_when_the_arena_fills_up);
+    RUN_TEST(every_value_of_every_setting_gives_the_same_image);
+    RUN_TEST(stripes_are_rows_of_tiles);
+    RUN_TEST(settings_are_read_when_the_device_is_made);
     RUN_TEST(orders_contain_every_task_once_and_change_with_seed_and_phase);
     return UNITY_END();
 }
