@@ -29,16 +29,16 @@ struct program {
 
 /* --- passes.c --- */
 
-/* Copy propagation: afterwards no operand is a copy, and copies are KIND_NOTHING. Returns the number of copies
- * that were removed. */
+/* Copy propagation: afterwards no operand is a copy, and copies are KIND_NOTHING. Returns the number of
+ * removed copies. */
 int pass_copy(struct program *program);
 
 /* Dead code: instructions whose values no store needs become KIND_NOTHING. One walk over the program. Returns
  * the number of instructions that were removed. */
 int pass_dead(struct program *program);
 
-/* Takes the colour out of the recording of a lit vertex: its stores become KIND_NOTHING. Returns the number of
- * stores that were removed. */
+/* Takes the colour out of the recording of a lit vertex: its stores become KIND_NOTHING. Returns the number
+ * of removed stores. */
 int remove_color(struct program *program);
 
 #endif
