@@ -34,7 +34,7 @@ TOOL_SOURCES    := $(filter src/command/% src/image/%,$(C_SOURCES)) $(call find,
 # The Linux side of the front ends. Their Windows side has another compiler.
 FRONT_SOURCES   := $(filter-out $(addprefix src/front/d3d9/,pe/% unix32/% server/%),$(filter src/front/%,$(C_SOURCES)))
 LIBRARY_SOURCES := $(filter-out $(TOOL_SOURCES) src/front/%,$(C_SOURCES)) $(call find,asm,*.asm)
-TEST_SOURCES    := $(call find,tests,*.c)
+TEST_SOURCES    := $(filter-out tests/support/portable/%,$(call find,tests,*.c))
 SUPPORT_SOURCES := $(filter tests/support/%,$(TEST_SOURCES))
 TARGET_SOURCES  := $(filter tests/command/fuzz/targets/%,$(TEST_SOURCES))
 PROGRAM_SOURCES := $(filter-out $(SUPPORT_SOURCES) $(TARGET_SOURCES) tests/front/d3d9/pe/%,$(TEST_SOURCES))
@@ -135,7 +135,7 @@ unity_flags = -isystem $(dir $(UNITY_SOURCE)) -DUNITY_INCLUDE_DOUBLE -DUNITY_USE
 
 # --- What to build ------------------------------------------------------------------------------------------
 
-.PHONY: all programs objects check test check-threads check-explore matrix coverage soak soak-faults soak-memory bench peers bench-shaders bench-passes bench-draws bench-targets claims conformance-d3d9 programs-d3d9 mutations campaign-slurm-test gallery verify-external docs fuzzers fuzz-input fuzz-input-smoke dependencies packages install clean format format-check compile_commands.json d3d9 lab labs help FORCE
+.PHONY: all programs objects check test check-cross check-threads check-explore matrix coverage soak soak-faults soak-memory bench peers bench-shaders bench-passes bench-draws bench-targets claims conformance-d3d9 programs-d3d9 mutations campaign-slurm-test gallery verify-external docs fuzzers fuzz-input fuzz-input-smoke dependencies packages install clean format format-check compile_commands.json d3d9 lab labs help FORCE
 
 all: $(BUILD)/libtriptych.a $(if $(SANITIZE),,$(BUILD)/libtriptych.so $(PKGCONFIG) \
   $(BUILD)/include/triptych/triptych.h) $(COMMAND) build/glmark2 \
@@ -588,6 +588,13 @@ programs-d3d9:
 	+@$(MAKE) $(jobs) all d3d9
 	@BUILD=$(BUILD) bench/programs-d3d9.sh
 
+# The text of external:c=portable on another machine.
+check-cross:
+	@tests/support/scripts/dependencies.sh build cross
+	+@$(MAKE) $(jobs) $(BUILD)/tests/engines/external/portable
+	@TRIPTYCH_CROSS=aarch64-linux-gnu-gcc TRIPTYCH_CROSS_RUN='qemu-aarch64 -L /usr/aarch64-linux-gnu' \
+	  $(BUILD)/tests/engines/external/portable
+
 # `make check` draws a few streams with the external engine. This target draws all: each routine is one
 # compilation.
 verify-external: all
@@ -722,6 +729,7 @@ make campaign-slurm-test  a campaign on a Slurm of this machine, a node killed i
 make matrix          compares builds of gcc and clang at -O0, -O2, -O3, with and without AVX-512: results/matrix.txt
 make lab N           lab N of the course: its starting files in labs/, then its check (docs/course/README.md)
 make labs            the checks of all labs, on their solutions, starting files and planted mistakes
+make check-cross     texts in portable C, compiled for ARM64 and run by QEMU, against the emulator; installs both
 make check-threads   all streams with several threads in random orders under ThreadSanitizer
 make check-explore   the pages of triptych explore in a headless Chromium; PICTURES=folder: their pictures
 make coverage        lists lines that the tests execute, results/coverage.txt; fails below 90 %

@@ -350,7 +350,7 @@ static pid_t start_compiling(unsigned others)
         setpgid(0, 0);
         signal(SIGINT, SIG_DFL);
         interrupt_catch();
-        external_compile("", 0, &error);
+        external_compile(external_options(&engine_external), "", 0, &error);
         _exit(1);
     }
     setpgid(process, process);

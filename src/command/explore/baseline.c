@@ -184,7 +184,7 @@ static void print_lines(struct page *page, const char *text)
 
 static int print_compiled_code(struct page *page, const struct engine *engine, struct error *error)
 {
-    struct routine *routine = external_routine(page->recording->ir, page->unit, page->key, error);
+    struct routine *routine = external_routine(engine, page->recording->ir, page->unit, page->key, error);
     char note[96];
     if (!routine)
         return -1;
@@ -202,7 +202,9 @@ int pane_external(struct page *page, const struct engine *engine, struct error *
     FILE *out = memory_file_open();
     char *text = NULL;
     size_t bytes;
-    int result = out ? external_print(page->recording->ir, page->unit, page->key, out) : -1;
+    int result = out ? external_print(external_options(engine)->language, page->recording->ir, page->unit,
+                                      page->key, out)
+                     : -1;
     if (out && memory_file_close(out, &text, &bytes))
         result = -1;
     if (result)

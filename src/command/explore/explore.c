@@ -48,7 +48,7 @@ static pane_function *find_panes(const struct engine *engine)
             return pane_batch;
     return specialize_is_engine(engine) ? pane_specialize
            : stitch_is_engine(engine)   ? pane_stitch
-           : engine == &engine_external ? pane_external
+           : external_is_engine(engine) ? pane_external
                                         : NULL;
 }
 

@@ -57,8 +57,8 @@ static int dump_tiered(const struct engine *engine, struct code_arena *arena, en
 static int dump_external(const struct engine *engine, struct code_arena *arena, enum unit unit,
                          const union key *key, const char *show, struct error *error)
 {
-    (void)engine, (void)arena;
-    return external_dump(unit, key, show ? show : "key,text,asm", stdout, error);
+    (void)arena;
+    return external_dump(engine, unit, key, show ? show : "key,text,asm", stdout, error);
 }
 
 static const struct dumper {
@@ -147,7 +147,8 @@ static const char notes[] =
     "Stages of specialize: key, record (the operations as recorded), the name of a pass (the operations\n"
     "after it; triptych list passes), intervals (registers), asm (the code), all; and parts (times of the\n"
     "parts of a build), which differ from run to run and are not in all.\n"
-    "Stages of external: key, vector (the operations that the text is made from), text (C), asm, all.\n"
+    "Stages of external: key, vector (the operations that the text is made from), text (C), asm, all; whole\n"
+    "(vector and text as one file of C).\n"
     "The stitching engines show their fragments, holes and code.";
 
 static int run(const struct command *self, void *data, const struct operands *operands)

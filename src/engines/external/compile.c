@@ -288,18 +288,29 @@ static int wait_for(pid_t process, int *status)
     return 0;
 }
 
-static int run_compiler(const struct work *work, struct error *error)
+/* The flags of the language's own. */
+enum { OWN_FLAGS = 3 };
+static const char *const own_flags[][OWN_FLAGS] = {
+    [EXTERNAL_VECTORS] = {"-std=gnu17", "-fno-strict-aliasing",
+                          "-fno-tree-ter"}, /* gcc 12 moves loads past stores to the same place with it */
+    [EXTERNAL_PLAIN] = {"-std=c11", "-fno-math-errno", "-fno-trapping-math"},
+    [EXTERNAL_PORTABLE] = {"-std=c11", "-fno-math-errno", "-fno-trapping-math"},
+};
+
+static int run_compiler(const struct external_options *options, const struct work *work, struct error *error)
 {
+    char level[] = {'-', 'O', options->optimize, 0};
+    const char *const *own = own_flags[options->language];
     char *arguments[] = {(char *)compiler(),
-                         "-std=gnu17",
-                         "-O2",
+                         level,
+                         (char *)own[0],
+                         (char *)own[1],
+                         (char *)own[2],
                          "-mavx2",
                          "-mfma",
                          "-mf16c",
                          "-mno-avx512f", /* even if the compiler's default is this machine */
                          "-ffp-contract=off",
-                         "-fno-strict-aliasing",
-                         "-fno-tree-ter", /* gcc 12 moves loads past stores to the same place with it */
                          "-fno-stack-protector",
                          "-fno-asynchronous-unwind-tables",
                          "-w",
@@ -310,6 +321,7 @@ static int run_compiler(const struct work *work, struct error *error)
                          "-o",
                          (char *)work->path[WORK_OBJECT],
                          (char *)work->path[WORK_TEXT],
+                         "-lm", /* plain C calls its functions where the machine has no instruction */
                          NULL};
     pid_t process;
     int status, result = spawn(work, arguments, &process);
@@ -329,7 +341,8 @@ static int run_compiler(const struct work *work, struct error *error)
                      line[0] ? line : "no message");
 }
 
-void *external_compile(const char *text, size_t bytes, struct error *error)
+void *external_compile(const struct external_options *options, const char *text, size_t bytes,
+                       struct error *error)
 {
     if (getauxval(AT_SECURE)) {
         error_set(error, "%s", no_rights);
@@ -343,7 +356,7 @@ void *external_compile(const char *text, size_t bytes, struct error *error)
         free(work);
         return NULL;
     }
-    if (!write_text(work, text, bytes, error) && !run_compiler(work, error)) {
+    if (!write_text(work, text, bytes, error) && !run_compiler(options, work, error)) {
         object = dlopen(work->path[WORK_OBJECT], RTLD_NOW | RTLD_LOCAL);
         if (!object) {
             const char *reason = dlerror();

@@ -29,22 +29,51 @@ static const char *unavailable(const struct engine *self)
     return reason ? reason : external_no_compiler();
 }
 
+/* Compilers end a function with vzeroupper only on the paths that use the upper halves, and trust that the
+ * caller's are zero. The convention of routines promises it on every path. */
+static void clear_upper_halves(void)
+{
+    __asm__ volatile("vzeroupper" ::
+                         : "xmm0", "xmm1", "xmm2", "xmm3", "xmm4", "xmm5", "xmm6", "xmm7", "xmm8", "xmm9",
+                           "xmm10", "xmm11", "xmm12", "xmm13", "xmm14", "xmm15");
+}
+
 static void run(const void *call, const struct routine *routine)
 {
     unsigned saved = mxcsr_enter();
     ((const struct external_routine *)(const void *)routine)->body(call);
+    clear_upper_halves();
     mxcsr_leave(saved);
 }
 
+/* Runs a text that needs no flags: with those that every C program starts with, which keep denormals. */
+static void run_portable(const void *call, const struct routine *routine)
+{
+    unsigned saved = mxcsr_enter();
+    _mm_setcsr(_MM_MASK_MASK);
+    ((const struct external_routine *)(const void *)routine)->body(call);
+    clear_upper_halves();
+    mxcsr_leave(saved);
+}
+
+void external_print_beginning(enum external_language language, FILE *out)
+{
+    if (language == EXTERNAL_PORTABLE)
+        fputs("#define FLUSHES 0\n", out);
+    fputs(language == EXTERNAL_VECTORS ? external_vector : external_plain, out);
+    if (language != EXTERNAL_VECTORS)
+        external_print_operations(language == EXTERNAL_PORTABLE, out);
+}
+
 /* Returns the whole text, or null with the reason. Free it. */
-static char *make_text(const struct ir *ir, enum unit unit, const union key *key, size_t *bytes,
-                       struct error *error)
+static char *make_text(const struct engine *engine, const struct ir *ir, enum unit unit, const union key *key,
+                       size_t *bytes, struct error *error)
 {
     char *text = NULL;
     FILE *out = memory_file_open();
     if (out) {
-        bool bad = fputs(external_vector, out) < 0;
-        bad |= external_print(ir, unit, key, out);
+        external_print_beginning(external_options(engine)->language, out);
+        bool bad = external_print(external_options(engine)->language, ir, unit, key, out) || ferror(out);
         bad |= memory_file_close(out, &text, bytes);
         if (!bad)
             return text;
@@ -69,16 +98,16 @@ static int find_function(struct external_routine *external)
     return 0;
 }
 
-struct routine *external_routine(const struct ir *ir, enum unit unit, const union key *key,
-                                 struct error *error)
+struct routine *external_routine(const struct engine *engine, const struct ir *ir, enum unit unit,
+                                 const union key *key, struct error *error)
 {
     struct external_routine *external = calloc(1, sizeof *external);
     size_t bytes;
-    char *text = external ? make_text(ir, unit, key, &bytes, error) : NULL;
+    char *text = external ? make_text(engine, ir, unit, key, &bytes, error) : NULL;
     if (!external)
         error_set(error, "out of memory for a routine");
     if (text)
-        external->object = external_compile(text, bytes, error);
+        external->object = external_compile(external_options(engine), text, bytes, error);
     free(text);
     if (!external || !external->object) {
         free(external);
@@ -90,8 +119,8 @@ struct routine *external_routine(const struct ir *ir, enum unit unit, const unio
         free(external);
         return NULL;
     }
-    external->routine.run = run;
-    external->routine.engine = &engine_external;
+    external->routine.run = external_options(engine)->language == EXTERNAL_PORTABLE ? run_portable : run;
+    external->routine.engine = engine;
     external->routine.unit = unit;
     external->routine.key = *key;
     external->routine.parts = ir->count - 1;
@@ -101,12 +130,11 @@ struct routine *external_routine(const struct ir *ir, enum unit unit, const unio
 static struct routine *build(const struct engine *self, struct code_arena *arena, enum unit unit,
                              const union key *key, struct error *error)
 {
-    (void)self;
     (void)arena;
     struct ir *ir = ir_take(unit, key, error);
     if (!ir)
         return NULL;
-    struct routine *routine = external_routine(ir, unit, key, error);
+    struct routine *routine = external_routine(self, ir, unit, key, error);
     ir_give(ir);
     return routine;
 }
@@ -118,6 +146,11 @@ static void free_routine(struct code_arena *arena, struct routine *routine)
     free(routine);
 }
 
+bool external_is_engine(const struct engine *engine)
+{
+    return engine->build == build;
+}
+
 const struct engine engine_external = {
     .name = "external",
     .description =
@@ -125,6 +158,7 @@ const struct engine engine_external = {
     .width = EXTERNAL_WIDTH,
     .without_arena = true,
     .on_request = true,
+    .options = &(const struct external_options){EXTERNAL_VECTORS, '2'},
     .unavailable = unavailable,
     .build = build,
     .free = free_routine,

@@ -4,9 +4,13 @@
  * The function is the loop of engines/specialize/emit/frame.c around the body. Values are named v and
  * their number, variables x and theirs. Literals and words of the draw are loaded once before the loop,
  * because the compiler cannot prove that the loop does not store to them. The values of a region are in a
- * block of their own. The recording has the same scopes as C. */
+ * block of their own. The recording has the same scopes as C.
+ *
+ * A value is all lanes in a text of vectors. In plain C it is one lane, and the statements are in loops over
+ * the lanes (lanes.h). A value that is used outside of its loop is an array there. */
 #include "base/bits.h"
 #include "engines/external/external.h"
+#include "engines/external/lanes.h"
 
 #include <stdlib.h>
 
@@ -23,6 +27,8 @@ struct printer {
     const struct ir *ir;
     FILE *out;
     int depth;
+    const struct lanes *lanes; /* null: a value is all lanes */
+    uint32_t group;            /* the open loop over lanes; 0: none */
 };
 
 static void begin_line(const struct printer *p)
@@ -46,7 +52,7 @@ static bool is_outside(const struct ir_instruction *i)
 /* --- Names
  * ------------------------------------------------------------------------------------------------ */
 
-static void print_operand(const struct printer *p, uint16_t number)
+static void print_name(const struct printer *p, uint16_t number)
 {
     const struct ir_instruction *i = &p->ir->instruction[number];
     const char *type = type_word[i->type];
@@ -58,9 +64,24 @@ static void print_operand(const struct printer *p, uint16_t number)
         fprintf(p->out, "v%u", number);
 }
 
+static void print_operand(const struct printer *p, uint16_t number)
+{
+    print_name(p, number);
+    if (p->lanes && p->lanes->crosses[number])
+        fputs("[i]", p->out);
+}
+
 static void print_address(const struct printer *p, const struct ir_instruction *i)
 {
     fprintf(p->out, "%s + %d", base_word[i->base], (int)i->k);
+}
+
+/* The address of the first lane, or of lane i in a loop over lanes. */
+static void print_lane_address(const struct printer *p, const struct ir_instruction *i, int stride)
+{
+    print_address(p, i);
+    if (p->lanes && i->op != IR_uniform)
+        fprintf(p->out, " + %d * i", stride);
 }
 
 /* --- Statements
@@ -80,21 +101,31 @@ static void print_call(const struct printer *p, const struct ir_instruction *i)
 
 static void print_copy(const struct printer *p, const struct ir_instruction *i)
 {
-    fprintf(p->out, "%s(%s)", i->type == TYPE_flt ? "hide_f(" : "", type_word[i->type]);
+    enum ir_type from = p->ir->instruction[i->operand[0]].type;
+    if (i->type != from)
+        fprintf(p->out, "%s_of_%s(", type_word[i->type], type_word[from]);
     print_operand(p, i->operand[0]);
-    fputs(i->type == TYPE_flt ? ")" : "", p->out);
+    if (i->type != from)
+        fputc(')', p->out);
 }
 
-/* Memory contains floats and integers. Values of other types are the bits of integers. */
-static void print_cast(const struct printer *p, const struct ir_instruction *i)
+/* Begins the conversion of a word in memory, which is a float or an integer, to a value of type `to`; then
+ * end_cast ends it. Values of other types are the bits of integers. */
+static void begin_cast(const struct printer *p, enum ir_type to)
 {
-    if (i->type != TYPE_flt && i->type != TYPE_itg)
-        fprintf(p->out, "(%s)", type_word[i->type]);
+    if (to != TYPE_flt && to != TYPE_itg)
+        fprintf(p->out, "%s_of_itg(", type_word[to]);
+}
+
+static void end_cast(const struct printer *p, enum ir_type to)
+{
+    if (to != TYPE_flt && to != TYPE_itg)
+        fputc(')', p->out);
 }
 
 static void print_gather(const struct printer *p, const struct ir_instruction *i)
 {
-    print_cast(p, i);
+    begin_cast(p, i->type);
     fprintf(p->out, "gather_%c(", type_letter[i->type]);
     if (i->field == GATHER_DIRECT)
         print_address(p, i);
@@ -103,6 +134,16 @@ static void print_gather(const struct printer *p, const struct ir_instruction *i
     fputs(", ", p->out);
     print_operand(p, i->operand[0]);
     fprintf(p->out, ", %d)", i->scale);
+    end_cast(p, i->type);
+}
+
+static void print_permute(const struct printer *p, const struct ir_instruction *i)
+{
+    bool one = p->lanes && external_is_one(&p->ir->instruction[i->operand[0]]);
+    fputs(one ? "" : "permute_f(", p->out);
+    print_name(p, i->operand[0]);
+    if (!one)
+        fprintf(p->out, ", %d)", (int)i->k);
 }
 
 static void print_value(const struct printer *p, const struct ir_instruction *i)
@@ -110,18 +151,15 @@ static void print_value(const struct printer *p, const struct ir_instruction *i)
     switch (i->op) {
     case IR_copy: print_copy(p, i); break;
     case IR_gather: print_gather(p, i); break;
-    case IR_get: fprintf(p->out, "x%d", (int)i->k); break;
-    case IR_permute:
-        fputs("permute_f(", p->out);
-        print_operand(p, i->operand[0]);
-        fprintf(p->out, ", %d)", (int)i->k);
-        break;
+    case IR_get: fprintf(p->out, "x%d%s", (int)i->k, p->lanes ? "[i]" : ""); break;
+    case IR_permute: print_permute(p, i); break;
     case IR_load:
     case IR_uniform:
-        print_cast(p, i);
+        begin_cast(p, i->type);
         fprintf(p->out, "%s_%c(", ir_op_information[i->op].name, type_letter[i->type]);
-        print_address(p, i);
+        print_lane_address(p, i, 4);
         fputc(')', p->out);
+        end_cast(p, i->type);
         break;
     default: print_call(p, i); break;
     }
@@ -131,13 +169,25 @@ static void print_value(const struct printer *p, const struct ir_instruction *i)
 static void print_write(const struct printer *p, const struct ir_instruction *i)
 {
     enum ir_type type = p->ir->instruction[i->operand[0]].type;
-    fprintf(p->out, "%s_%c(", ir_op_information[i->op].name, type_letter[type]);
-    print_address(p, i);
-    if (i->op == IR_scatter)
+    fprintf(p->out, "%s_%c(", p->lanes ? "store" : ir_op_information[i->op].name, type_letter[type]);
+    print_lane_address(p, i, i->op == IR_scatter ? i->field : 4);
+    if (i->op == IR_scatter && !p->lanes)
         fprintf(p->out, ", %d", (int)i->field);
-    fprintf(p->out, type == TYPE_flt ? ", " : ", (itg)");
+    bool casts = type != TYPE_flt && type != TYPE_itg;
+    fputs(", ", p->out);
+    if (casts)
+        fprintf(p->out, "itg_of_%s(", type_word[type]);
     print_operand(p, i->operand[0]);
-    fputs(");", p->out);
+    fputs(casts ? "));" : ");", p->out);
+}
+
+/* A condition: true if a lane of the mask is set. */
+static void print_any(const struct printer *p, uint16_t number)
+{
+    bool one = p->lanes && external_is_one(&p->ir->instruction[number]);
+    fputs(one ? "" : "any(", p->out);
+    print_name(p, number);
+    fputs(one ? "" : ")", p->out);
 }
 
 /* Prints the begin or the end of a region and changes the depth for the following statements. */
@@ -145,9 +195,9 @@ static void print_control(struct printer *p, const struct ir_instruction *i)
 {
     switch (i->op) {
     case IR_when:
-        fputs("if (any(", p->out);
-        print_operand(p, i->operand[0]);
-        fputs(")) {", p->out);
+        fputs("if (", p->out);
+        print_any(p, i->operand[0]);
+        fputs(") {", p->out);
         p->depth++;
         break;
     case IR_loop:
@@ -155,9 +205,9 @@ static void print_control(struct printer *p, const struct ir_instruction *i)
         p->depth++;
         break;
     case IR_again:
-        fputs("if (!any(", p->out);
-        print_operand(p, i->operand[0]);
-        fputs("))\n", p->out);
+        fputs("if (!", p->out);
+        print_any(p, i->operand[0]);
+        fputs(")\n", p->out);
         p->depth++;
         begin_line(p);
         p->depth -= 2;
@@ -166,7 +216,7 @@ static void print_control(struct printer *p, const struct ir_instruction *i)
         fputc('}', p->out);
         break;
     case IR_set:
-        fprintf(p->out, "x%d = ", (int)i->k);
+        fprintf(p->out, p->lanes ? "x%d[i] = " : "x%d = ", (int)i->k);
         print_operand(p, i->operand[0]);
         fputc(';', p->out);
         break;
@@ -187,11 +237,72 @@ static void print_instruction(struct printer *p, uint32_t number)
     else if (!i->type || i->op == IR_set)
         print_control(p, i);
     else {
-        fprintf(p->out, "%s v%u = ", type_word[i->type], number);
+        if (!p->lanes || !p->lanes->crosses[number])
+            fprintf(p->out, "%s ", type_word[i->type]);
+        print_operand(p, (uint16_t)number);
+        fputs(" = ", p->out);
         print_value(p, i);
         fputc(';', p->out);
     }
     end_line(p, i);
+}
+
+/* --- Loops over lanes ----------------------------------------------------------------------------------- */
+
+static bool is_in_loop(const struct ir_instruction *i)
+{
+    return i->op != IR_nop && !external_is_one(i) && !(ir_properties(i) & (IR_OPENS | IR_CLOSES));
+}
+
+/* Prints what precedes the loop of a group: values that are the same in all lanes, and arrays. Returns true
+ * if the group has anything else. */
+static bool print_before_loop(struct printer *p, uint32_t number)
+{
+    const uint32_t group = p->lanes->group[number];
+    bool loops = false;
+    for (; number < p->ir->count && p->lanes->group[number] == group; number++) {
+        const struct ir_instruction *i = &p->ir->instruction[number];
+        loops |= is_in_loop(i);
+        if (external_is_one(i))
+            print_instruction(p, number);
+        if (!p->lanes->crosses[number])
+            continue;
+        begin_line(p);
+        fprintf(p->out, "%s v%u[WIDTH];\n", type_word[i->type], number);
+    }
+    return loops;
+}
+
+static void end_loop(struct printer *p)
+{
+    if (!p->group)
+        return;
+    p->group = 0;
+    p->depth--;
+    begin_line(p);
+    fputs("}\n", p->out);
+}
+
+static void begin_loop(struct printer *p, uint32_t number)
+{
+    end_loop(p);
+    if (!print_before_loop(p, number))
+        return;
+    begin_line(p);
+    fputs("for (int i = 0; i < WIDTH; i++) {\n", p->out);
+    p->depth++;
+    p->group = p->lanes->group[number];
+}
+
+static void print_loops(struct printer *p)
+{
+    for (uint32_t number = 1; number < p->ir->count; number++) {
+        if (p->lanes->group[number] != p->lanes->group[number - 1])
+            begin_loop(p, number);
+        if (!external_is_one(&p->ir->instruction[number]))
+            print_instruction(p, number);
+    }
+    end_loop(p);
 }
 
 /* --- The function --------------------------------------------------------------------------------------- */
@@ -209,8 +320,12 @@ static void print_literal(const struct printer *p, const struct ir_instruction *
     float value = bits_to_float((uint32_t)i->k);
     if (i->type == TYPE_flt)
         fprintf(p->out, "literal_f(0x%08x); // %.9g\n", (unsigned)i->k, (double)value);
-    else
-        fprintf(p->out, "(%s)all_lanes(0x%08x);\n", type_word[i->type], (unsigned)i->k);
+    else {
+        begin_cast(p, i->type);
+        fprintf(p->out, "all_lanes(0x%08x)", (unsigned)i->k);
+        end_cast(p, i->type);
+        fputs(";\n", p->out);
+    }
 }
 
 static void print_outside(const struct printer *p, const struct ir_instruction **found, size_t count)
@@ -256,14 +371,16 @@ static void print_variables(const struct printer *p)
     for (uint32_t variable = 0; variable < p->ir->variables; variable++)
         if (type[variable]) {
             begin_line(p);
-            fprintf(p->out, "%s x%u;\n", type_word[type[variable]], variable);
+            fprintf(p->out, "%s x%u%s;\n", type_word[type[variable]], variable, p->lanes ? "[WIDTH]" : "");
         }
 }
 
 static void print_body(struct printer *p)
 {
     print_variables(p);
-    for (uint32_t number = 1; number < p->ir->count; number++)
+    if (p->lanes)
+        print_loops(p);
+    for (uint32_t number = 1; !p->lanes && number < p->ir->count; number++)
         print_instruction(p, number);
 }
 
@@ -280,11 +397,11 @@ static void print_list(struct printer *p, int index, int out, int count, int str
 {
     fprintf(p->out,
             "    char *INPUT = read_pointer(call + %d), *OUTPUT = read_pointer(call + %d);\n"
-            "    for (int left = read_int(call + %d); left > 0; left -= %d) {\n",
-            index, out, count, EXTERNAL_WIDTH);
+            "    for (int left = read_int(call + %d); left > 0; left -= WIDTH) {\n",
+            index, out, count);
     p->depth = 2;
     print_body(p);
-    fprintf(p->out, "        INPUT += %d;\n        OUTPUT += %d;\n    }\n", EXTERNAL_WIDTH * 4, stride);
+    fprintf(p->out, "        INPUT += 4 * WIDTH;\n        OUTPUT += %d * WIDTH;\n    }\n", stride);
 }
 
 static void print_blocks(struct printer *p)
@@ -297,41 +414,57 @@ static void print_blocks(struct printer *p)
         "        int block = read_short(ENTRY + %d) * %d, coverage = read_short(ENTRY + %d);\n"
         "        char *LANES = read_pointer(call + %d);\n"
         "        char *COLOR = read_pointer(call + %d) + block, *DEPTH = read_pointer(call + %d) + block;\n"
-        "        for (; coverage; coverage >>= %d, LANES += %d, COLOR += %d, DEPTH += %d) {\n"
-        "            if (!(coverage & %d))\n"
+        "        for (; coverage; coverage >>= WIDTH, LANES += 4 * WIDTH, COLOR += 4 * WIDTH, DEPTH += 4 * "
+        "WIDTH) {\n"
+        "            if (!(coverage & ((1 << WIDTH) - 1)))\n"
         "                continue;\n",
         FIELD(pixel_arguments, entries), FIELD(pixel_arguments, count), (int)sizeof(struct entry),
         FIELD(pixel_arguments, triangles), FIELD(entry, triangle), FIELD(entry, block), BLOCK_PIXELS * 4,
         FIELD(entry, coverage), FIELD(pixel_arguments, lanes), FIELD(pixel_arguments, color),
-        FIELD(pixel_arguments, depth), EXTERNAL_WIDTH, EXTERNAL_WIDTH * 4, EXTERNAL_WIDTH * 4,
-        EXTERNAL_WIDTH * 4, (1 << EXTERNAL_WIDTH) - 1);
+        FIELD(pixel_arguments, depth));
     p->depth = 3;
     print_body(p);
     fputs("        }\n    }\n", p->out);
 }
 
-int external_print(const struct ir *ir, enum unit unit, const union key *key, FILE *out)
+static int print_function(struct printer *p, enum unit unit, const union key *key)
 {
     static const int job_field[UNIT_COUNT] = {FIELD(vertex_arguments, job), FIELD(setup_arguments, job),
                                               FIELD(pixel_arguments, job)};
-    struct printer p = {.ir = ir, .out = out, .depth = 1};
+    FILE *out = p->out;
     fprintf(out, "void " EXTERNAL_FUNCTION "(const char *call)\n{\n");
-    print_job(&p, job_field[unit], unit == UNIT_PIXEL);
+    print_job(p, job_field[unit], unit == UNIT_PIXEL);
     if (unit == UNIT_SETUP)
         fprintf(out, "    char *VERTICES = read_pointer(call + %d);\n", FIELD(setup_arguments, vertices));
-    if (print_constants(&p))
+    if (print_constants(p))
         return -1;
     switch (unit) {
     case UNIT_VERTEX:
-        print_list(&p, FIELD(vertex_arguments, index), FIELD(vertex_arguments, out),
-                   FIELD(vertex_arguments, count), EXTERNAL_WIDTH * 4);
+        print_list(p, FIELD(vertex_arguments, index), FIELD(vertex_arguments, out),
+                   FIELD(vertex_arguments, count), 4);
         break;
     case UNIT_SETUP:
-        print_list(&p, FIELD(setup_arguments, index), FIELD(setup_arguments, out),
-                   FIELD(setup_arguments, count), EXTERNAL_WIDTH * layout_of_setup(&key->setup).stride);
+        print_list(p, FIELD(setup_arguments, index), FIELD(setup_arguments, out),
+                   FIELD(setup_arguments, count), layout_of_setup(&key->setup).stride);
         break;
-    default: print_blocks(&p); break;
+    default: print_blocks(p); break;
     }
     fputs("}\n", out);
     return 0;
+}
+
+int external_print(enum external_language language, const struct ir *ir, enum unit unit, const union key *key,
+                   FILE *out)
+{
+    struct printer p = {.ir = ir, .out = out, .depth = 1};
+    if (language == EXTERNAL_VECTORS)
+        return print_function(&p, unit, key);
+    struct lanes *lanes = malloc(sizeof *lanes);
+    if (!lanes)
+        return -1;
+    external_group_lanes(ir, lanes);
+    p.lanes = lanes;
+    int result = print_function(&p, unit, key);
+    free(lanes);
+    return result;
 }

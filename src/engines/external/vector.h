@@ -21,6 +21,8 @@ typedef char *pointer_memory __attribute__((aligned(1), may_alias));
 
 #define OPERATION static inline __attribute__((always_inline))
 
+enum { WIDTH = 8 };
+
 OPERATION flt hide_f(flt a)
 {
     __asm__("" : "+x"(a));
@@ -36,6 +38,20 @@ OPERATION flt literal_f(int bits)
 {
     return hide_f((flt)all_lanes(bits));
 }
+
+/* The same bits as another type: TO_of_FROM. */
+#define flt_of_itg(a) hide_f((flt)(a))
+#define flt_of_fix(a) hide_f((flt)(a))
+#define flt_of_msk(a) hide_f((flt)(a))
+#define itg_of_flt(a) ((itg)(a))
+#define itg_of_fix(a) ((itg)(a))
+#define itg_of_msk(a) ((itg)(a))
+#define fix_of_flt(a) ((fix)(a))
+#define fix_of_itg(a) ((fix)(a))
+#define fix_of_msk(a) ((fix)(a))
+#define msk_of_flt(a) ((msk)(a))
+#define msk_of_itg(a) ((msk)(a))
+#define msk_of_fix(a) ((msk)(a))
 
 /* binary32 */
 OPERATION flt add_f(flt a, flt b)

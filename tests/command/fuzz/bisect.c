@@ -55,7 +55,8 @@ typedef void encode_function(struct encoder *, enum x86_vector, enum vector_leng
 encode_function __real_encode_rrr, __wrap_encode_rrr;
 typedef int join_function(struct plan *, struct code_arena *, struct code_span *, struct error *);
 join_function __real_plan_join, __wrap_plan_join;
-typedef void *compile_function(const char *text, size_t bytes, struct error *error);
+typedef void *compile_function(const struct external_options *options, const char *text, size_t bytes,
+                               struct error *error);
 compile_function __real_external_compile, __wrap_external_compile;
 
 step_function *__wrap_schedule_step_of(enum ir_op op)
@@ -114,7 +115,8 @@ int __wrap_plan_join(struct plan *plan, struct code_arena *arena, struct code_sp
     return __real_plan_join(plan, arena, span, error);
 }
 
-void *__wrap_external_compile(const char *text, size_t bytes, struct error *error)
+void *__wrap_external_compile(const struct external_options *options, const char *text, size_t bytes,
+                              struct error *error)
 {
     char *changed = malloc(bytes + 1);
     TEST_ASSERT_NOT_NULL(changed);
@@ -123,7 +125,7 @@ void *__wrap_external_compile(const char *text, size_t bytes, struct error *erro
     char *routine = strstr(changed, "void routine(");
     for (char *at = routine; plant.text && (at = strstr(at, plant.text));)
         memcpy(at, plant.text_becomes, strlen(plant.text));
-    void *object = __real_external_compile(changed, bytes, error);
+    void *object = __real_external_compile(options, changed, bytes, error);
     free(changed);
     return object;
 }

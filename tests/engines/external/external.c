@@ -1,20 +1,28 @@
-/* The external engine: the operations of its text against the expressions of def/op.def, random programs
+/* The external engine, in each of its languages: the operations of its text against the expressions of def/op.def, random programs
  * with regions, loops and variables, and whole routines against the emulator; then a missing and a failing
  * compiler. Compilation is slow, so there are few routines, and each covers much. */
+#include "base/bits.h"
 #include "emu/emulate/emulate.h"
 #include "engines/external/external.h"
+#include "engines/list.h"
 #include "tests/support/routine/differential.h"
 #include "tests/support/shader/edges.h"
 #include "tests/support/shader/program.h"
 #include <unity.h>
 
 #include <dirent.h>
+#include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 #include <sys/stat.h>
 #include <unistd.h>
 
+static const char *const languages[] = {"external", "external:c=plain:optimize=1",
+                                        "external:c=portable:optimize=1"};
+enum { LANGUAGES = sizeof languages / sizeof *languages };
+
+static const struct engine *engine; /* that is tested */
 static const union key key;
 static struct ir *ir;
 static struct program_data expected, got;
@@ -38,6 +46,7 @@ void setUp(void)
     TEST_ASSERT_NOT_NULL(ir);
     setenv("TMPDIR", folder, 1);
     unsetenv("TRIPTYCH_CC");
+    engine = &engine_external;
     if (engine_unavailable(&engine_external))
         TEST_IGNORE_MESSAGE(engine_unavailable(&engine_external));
 }
@@ -53,9 +62,9 @@ static void fail_if_different(const char *what, unsigned number)
     int at = program_difference(&expected, &got);
     if (at < 0)
         return;
-    snprintf(message, sizeof message, "%s %u: lane %d of slot %d: expected %08x, got %08x", what, number,
-             at % VERTEX_CAPACITY, at / VERTEX_CAPACITY, ((unsigned *)(void *)expected.output)[at],
-             ((unsigned *)(void *)got.output)[at]);
+    snprintf(message, sizeof message, "%s: %s %u: lane %d of slot %d: expected %08x, got %08x", engine->name,
+             what, number, at % VERTEX_CAPACITY, at / VERTEX_CAPACITY,
+             ((unsigned *)(void *)expected.output)[at], ((unsigned *)(void *)got.output)[at]);
     TEST_FAIL_MESSAGE(message);
 }
 
@@ -63,7 +72,7 @@ static struct routine *build(void)
 {
     struct error error = {{0}};
     TEST_ASSERT_NULL(ir_verify(ir));
-    struct routine *routine = external_routine(ir, UNIT_VERTEX, &key, &error);
+    struct routine *routine = external_routine(engine, ir, UNIT_VERTEX, &key, &error);
     TEST_ASSERT_NOT_NULL_MESSAGE(routine, error.text);
     return routine;
 }
@@ -120,6 +129,16 @@ static void append_operation(struct operations *operations, enum ir_op op, int k
     TEST_ASSERT_LESS_OR_EQUAL(SLOT_COUNT, operations->slot);
 }
 
+/* Runs a test with each language. */
+static void with_each_language(void test(void))
+{
+    for (int n = 0; n < LANGUAGES; n++) {
+        engine = engine_find(languages[n]);
+        TEST_ASSERT_NOT_NULL(engine);
+        test();
+    }
+}
+
 /* Every combination of two edges, with the third in turn. */
 static void check_edges(const char *what)
 {
@@ -141,7 +160,7 @@ static void check_edges(const char *what)
     engine_external.free(NULL, routine);
 }
 
-static void test_every_operation_equals_its_expression(void)
+static void check_every_operation(void)
 {
     struct operations operations;
     start_operations(&operations);
@@ -153,7 +172,7 @@ static void test_every_operation_equals_its_expression(void)
     check_edges("edges");
 }
 
-static void test_shifts_by_any_number(void)
+static void check_shifts(void)
 {
     struct operations operations;
     for (int part = 0; part < 3; part++) {
@@ -168,8 +187,18 @@ static void test_shifts_by_any_number(void)
     }
 }
 
+static void test_every_operation_equals_its_expression(void)
+{
+    with_each_language(check_every_operation);
+}
+
+static void test_shifts_by_any_number(void)
+{
+    with_each_language(check_shifts);
+}
+
 /* Compilers fold constants without flushing denormals, so constants must be hidden from them. */
-static void test_constants_are_flushed(void)
+static void check_constants(void)
 {
     static const uint32_t literals[] = {0x00000001, 0x3f800000, 0x807fffff, 0x00000000, 0x40000000};
     static const uint8_t ops[] = {IR_add_f, IR_sub_f, IR_mul_f, IR_min_f, IR_max_f};
@@ -199,9 +228,62 @@ static void test_constants_are_flushed(void)
     check_edges("literals");
 }
 
+static void test_constants_are_flushed(void)
+{
+    with_each_language(check_constants);
+}
+
+/* A number of the size of 2^exponent, with 23 random bits below its first. */
+static uint32_t near(int exponent, uint64_t *seed)
+{
+    return bits_of_float(ldexpf(1 + (float)(program_random(seed) & 0x7fffff) * 0x1p-23f, exponent));
+}
+
+/* Operands whose product, quotient, sum and fused sum are near the least normal number. Results that are
+ * halfway to the next smaller number are rounded up to it and kept. */
+static void fill_near_least(uint64_t *seed)
+{
+    uint32_t *a = expected.input, *b = a + PROGRAM_LANES, *c = b + PROGRAM_LANES;
+    for (int lane = 0; lane < PROGRAM_LANES; lane++) {
+        float least = 0x1p-126f * (lane % 4 == 3 ? 1.5f : 1);
+        a[lane] = near(-63 + lane % 3, seed);
+        b[lane] = bits_of_float(least * 0x1p60f / bits_to_float(a[lane]) * 0x1p-60f) + lane % 7 - 3;
+        c[lane] = lane % 4 == 1 ? 0 : near(-126, seed) ^ (lane % 2 ? 0x80000000u : 0);
+    }
+    a[0] = bits_of_float((1 + 0x1p-12f) * 0x1p-75f);
+    b[0] = bits_of_float((1 - 0x1p-12f + 0x1p-24f) * -0x1p-76f);
+    c[0] = bits_of_float(0x1p-126f); /* the sum is 2^-187 below the half: zero */
+    a[1] = bits_of_float(0x1p-100f - 0x1p-124f);
+    b[1] = bits_of_float(0x1p-26f), c[1] = 0; /* at the half: kept */
+}
+
+static void check_least(void)
+{
+    uint64_t seed = 1;
+    struct operations operations;
+    start_operations(&operations);
+    for (unsigned op = IR_add_f; op <= IR_max_f; op++)
+        append_operation(&operations, (enum ir_op)op, 0);
+    struct routine *routine = build();
+    for (unsigned step = 0; step < 200; step++) {
+        memset(&expected, 0, sizeof expected);
+        fill_near_least(&seed);
+        got = expected;
+        program_interpret(ir, &expected, EXTERNAL_WIDTH);
+        run(routine);
+        fail_if_different("least", step);
+    }
+    engine->free(NULL, routine);
+}
+
+static void test_results_near_the_least_normal_number(void)
+{
+    with_each_language(check_least);
+}
+
 /* --- Programs and routines --------------------------------------------------------------------------- */
 
-static void test_random_programs_and_loops(void)
+static void check_programs(void)
 {
     for (unsigned n = 1; n <= 6; n++) {
         uint64_t seed = n * 0x9e3779b97f4a7c15ull | 1;
@@ -221,17 +303,26 @@ static void test_random_programs_and_loops(void)
     }
 }
 
-static void test_whole_routines_equal_the_emulator(void)
+static void test_random_programs_and_loops(void)
+{
+    with_each_language(check_programs);
+}
+
+static void check_routines(void)
 {
     struct differential *differential = differential_create(NULL);
     TEST_ASSERT_NOT_NULL(differential);
     for (int unit = 0; unit < UNIT_COUNT; unit++) {
-        const char *difference =
-            differential_rounds(differential, &engine_emulate, &engine_external, unit, NULL, 9, 4);
+        const char *difference = differential_rounds(differential, &engine_emulate, engine, unit, NULL, 9, 4);
         if (difference)
             TEST_FAIL_MESSAGE(difference);
     }
     differential_destroy(differential);
+}
+
+static void test_whole_routines_equal_the_emulator(void)
+{
+    with_each_language(check_routines);
 }
 
 static void test_a_routine_has_its_code(void)
@@ -254,7 +345,7 @@ static void expect_error(const char *what)
     struct operations operations;
     start_operations(&operations);
     append_operation(&operations, IR_add_f, 0);
-    struct routine *routine = external_routine(ir, UNIT_VERTEX, &key, &error);
+    struct routine *routine = external_routine(engine, ir, UNIT_VERTEX, &key, &error);
     TEST_ASSERT_NULL(routine);
     TEST_ASSERT_NOT_NULL_MESSAGE(strstr(error.text, what), error.text);
     TEST_ASSERT_NULL_MESSAGE(strchr(error.text, '\n'), error.text);
@@ -318,6 +409,7 @@ int main(void)
     RUN_TEST(test_every_operation_equals_its_expression);
     RUN_TEST(test_shifts_by_any_number);
     RUN_TEST(test_constants_are_flushed);
+    RUN_TEST(test_results_near_the_least_normal_number);
     RUN_TEST(test_random_programs_and_loops);
     RUN_TEST(test_whole_routines_equal_the_emulator);
     RUN_TEST(test_a_routine_has_its_code);

@@ -50,16 +50,21 @@ static const char *call_plainly(const struct routine *routine, const void *call,
     return (after ^ foreign) & ~flags ? "does not restore MXCSR" : NULL;
 }
 
+struct differential_arguments differential_arguments(struct differential *d, struct outputs *o)
+{
+    struct lane_table *lanes = (void *)(o->lanes + 4);
+    return (struct differential_arguments){
+        .vertex = {&d->job, differential_indices(d), o->vertices, d->count},
+        .setup = {&d->job, differential_indices(d), o->vertices, o->records, d->count, 0},
+        .pixel = {&d->job, d->entries.entry, d->triangles, lanes, o->color, o->depth, d->count}};
+}
+
 /* Runs generated code through the trampoline, with a foreign MXCSR: rounding toward zero, and denormals
  * kept or only results flushed. Returns null, or the violation. */
 static const char *run(struct differential *d, const struct routine *routine, struct outputs *o)
 {
-    struct lane_table *lanes = (void *)(o->lanes + 4);
-    struct vertex_arguments vertex = {&d->job, differential_indices(d), o->vertices, d->count};
-    struct setup_arguments setup = {&d->job, differential_indices(d), o->vertices, o->records, d->count, 0};
-    struct pixel_arguments pixel = {&d->job,  d->entries.entry, d->triangles, lanes,
-                                    o->color, o->depth,         d->count};
-    const void *calls[UNIT_COUNT] = {&vertex, &setup, &pixel}, *code;
+    struct differential_arguments arguments = differential_arguments(d, o);
+    const void *calls[UNIT_COUNT] = {&arguments.vertex, &arguments.setup, &arguments.pixel}, *code;
     const unsigned foreign = 0x7f80 ^ differential_word(d) % 2 << 15;
     memcpy(&code, &routine->run, sizeof code);
     memcpy(o, &d->initial, sizeof *o);
@@ -133,8 +138,8 @@ static const char *place(size_t at, size_t *word)
     return parts[part].name;
 }
 
-static const char *compare(struct differential *d, const struct engine *a, const struct engine *b,
-                           enum unit unit, const union key *key)
+const char *differential_results(struct differential *d, const struct engine *a, const struct engine *b,
+                                 enum unit unit, const union key *key)
 {
     const uint8_t *x = (const uint8_t *)&d->result[0], *y = (const uint8_t *)&d->result[1];
     if (!memcmp(x, y, sizeof d->result[0]))
@@ -181,7 +186,7 @@ const char *differential_compare(struct differential *d, const struct engine *a,
         if (offence)
             return complain(d, engines[i], unit, key, offence);
     }
-    return compare(d, a, b, unit, key);
+    return differential_results(d, a, b, unit, key);
 }
 
 const char *differential_rounds(struct differential *d, const struct engine *a, const struct engine *b,
@@ -246,7 +251,7 @@ static const char *run_one(struct differential *d, const struct engine *const *e
     engines[i]->free(d->arena, routine);
     if (found)
         return complain(d, engines[i], unit, key, found);
-    if (i && (found = compare(d, engines[0], engines[i], unit, key)))
+    if (i && (found = differential_results(d, engines[0], engines[i], unit, key)))
         return found;
     d->scratch = d->result[i ? 1 : 0];
     return check_written(d, engines[i], unit, key, &d->scratch);

@@ -62,6 +62,18 @@ struct differential {
 /* Fills everything that the call reads, and the outputs before the call (differential_inputs.c). */
 void differential_fill(struct differential *d, enum unit unit, const union key *key, uint64_t seed);
 
+/* The arguments of a call for each unit, with these outputs. */
+struct differential_arguments {
+    struct vertex_arguments vertex;
+    struct setup_arguments setup;
+    struct pixel_arguments pixel;
+};
+struct differential_arguments differential_arguments(struct differential *d, struct outputs *o);
+
+/* Compares the two results. Returns null if they agree, else a message. */
+const char *differential_results(struct differential *d, const struct engine *a, const struct engine *b,
+                                 enum unit unit, const union key *key);
+
 /* Random bytes for all memory that a routine may read. */
 uint64_t differential_hash(const struct differential *d);
 

@@ -2,7 +2,7 @@
 # Makes sure that the Debian packages a target needs are installed, and installs those that are not.
 #
 #   tests/support/scripts/dependencies.sh GROUP...    groups: build test bench claims peers format fuzz
-#                                                     browser d3d9 suites programs course slurm
+#                                                     browser d3d9 suites programs course slurm cross
 #   tests/support/scripts/dependencies.sh --list
 #
 # Silent when there is nothing to do. Ends non-zero, after naming the packages and their reasons, when a
@@ -52,6 +52,9 @@ python3-pip        programs fetches the wheels of SDL, Panda3D and ANGLE
 unzip              programs unpacks them
 zip                programs packs the map of Irrlicht again
 imagemagick        programs takes pictures of the screen, converts those of Irrlicht
+gcc-aarch64-linux-gnu cross compiles portable C for ARM64
+libc6-dev-arm64-cross cross its C library
+qemu-user          cross  runs programs for ARM64
 libclang-rt-14-dev fuzz    libFuzzer and the sanitizers of clang, for readers of untrusted input
 clang-format       format  formats the C sources
 gcc-mingw-w64-x86-64 d3d9  compiles the Windows side of d3d9.dll

@@ -49,8 +49,8 @@ struct routine *probe_build(const struct routine *like, struct code_arena *arena
         return specialize_routine_of(engine, ir, options ? options->disabled : 0,
                                      options && options->observer ? tell : NULL, &teller, arena, like->unit,
                                      &like->key, error);
-    if (engine == &engine_external)
-        return external_routine(ir, like->unit, &like->key, error);
+    if (external_is_engine(engine))
+        return external_routine(engine, ir, like->unit, &like->key, error);
     if (like->granularity)
         return probe_stitch(ir, arena, like, error);
     struct routine *routine = batch_routine(ir, (unsigned)engine->width, like->unit, &like->key, error);
@@ -382,7 +382,7 @@ static void observe_recorded(struct run *run, struct ir *probed, struct observat
     if (observe_selected(run, probed, observation, &ignored))
         return;
     forget(p, observation, 0);
-    if (run->routine->engine == &engine_external)
+    if (external_is_engine(run->routine->engine))
         return;
     for (uint32_t number = 1; number < p->ir->count && run->runs < RUNS_MAXIMUM; number++) {
         memset(run->selected, 0, p->ir->count);
