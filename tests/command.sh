@@ -473,7 +473,7 @@ if "$TRIPTYCH" list engines | grep -q '^specialize .* available '; then
     refuses 'dump of an unknown unit' '--unit is "texel", expected one of: vertex, setup, pixel' \
         dump "$work/good.tri" --unit texel
     refuses 'dump of an unknown stage' 'asm2' dump "$work/good.tri" --show asm2
-    refuses 'dump of an unknown stage of external' 'expected key, vector, text, asm or all' \
+    refuses 'dump of an unknown stage of external' 'expected key, vector, text, whole, asm or all' \
         dump "$work/good.tri" --engine external --show text,asm2
     answers 'dump of the text that is compiled' '^void routine\(const char \*call\)' \
         dump "$work/good.tri" --engine external --show text

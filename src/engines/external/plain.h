@@ -36,8 +36,8 @@ typedef int32_t itg;
 typedef int32_t msk;  /* 0 or -1 */
 typedef uint32_t fix; /* two integers of 16 bits */
 
-/* Compilers fold constants without flushing denormals, and replace x - 0 by x. What becomes a float therefore
- * passes through a variable that any other file could change, and none does. */
+/* Zero, but unknown to the compiler: another file could change it, and none does. Compilers fold constants
+ * without flushing denormals, and replace x - 0 by x. The bits of floats therefore pass through it. */
 uint32_t opaque_zero = 0;
 
 static inline uint32_t bits_of_float(float a)

@@ -1,6 +1,7 @@
-/* The external engine, in each of its languages: the operations of its text against the expressions of def/op.def, random programs
- * with regions, loops and variables, and whole routines against the emulator; then a missing and a failing
- * compiler. Compilation is slow, so there are few routines, and each covers much. */
+/* The external engine, in each of its languages: the operations of its text against the expressions of
+ * def/op.def, random programs with regions, loops and variables, and whole routines against the emulator;
+ * then a missing and a failing compiler. Compilation is slow, so there are few routines, and each covers
+ * much. */
 #include "base/bits.h"
 #include "emu/emulate/emulate.h"
 #include "engines/external/external.h"

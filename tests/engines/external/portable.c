@@ -1,5 +1,5 @@
-/* Texts of external:c=portable as programs of their own: each is compiled with the flags of strict C11, by gcc
- * and by clang, and runs on the same inputs as the emulator, in another process, without flags of the
+/* Texts of external:c=portable as programs of their own. Each is compiled with the flags of strict C11, by
+ * gcc and by clang, and runs on the same inputs as the emulator, in another process, without flags of the
  * processor. The results are equal.
  *
  * TRIPTYCH_CROSS names a compiler for another machine and TRIPTYCH_CROSS_RUN the command that runs its
