@@ -2,7 +2,7 @@
  *
  *   check split            the recording in two parts
  *   check same LANES       compares the outputs of the code with those of an interpreter, bit by bit
- *   check code LANES       prints the instructions of the code, its moves to and from the frame, and its bytes
+ *   check code LANES       prints the instructions of the code, its moves to and from the frame, its bytes
  *   check run LANES COUNT  computes COUNT blocks of 16 elements
  *
  * Ends with 1, after a line with what was expected, if something is wrong; with 3 if the processor has no

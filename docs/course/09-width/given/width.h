@@ -53,9 +53,9 @@ void encode_return(uint8_t **at);
 
 /* --- generate.c --- */
 
-/* The numbers of one input or output of 16 elements follow each other: input i of element e is in[16 * i + e].
- * A routine for fewer lanes is called for the first elements, then with moved pointers for the next. The frame
- * has room for 64 slots of 32 bytes. */
+/* The numbers of one input or output of 16 elements follow each other: input i of element e is
+ * in[16 * i + e]. A routine for fewer lanes is called for the first elements, then with moved pointers for
+ * the next. The frame has room for 64 slots of 32 bytes. */
 typedef void shader_function(const float *in, float *out, float *frame);
 enum { BLOCK = 16, FRAME_FLOATS = 64 * 8 };
 
@@ -63,8 +63,8 @@ enum { BLOCK = 16, FRAME_FLOATS = 64 * 8 };
  * 2 n + 1, whose operands are the same part of their operands. */
 void split(const struct recording *recording, struct recording *parts);
 
-/* Generates the code for 1, 4, 8 or 16 lanes, at most `room` bytes. A value of 16 lanes has two registers of 8
- * lanes each. Returns the size of the code, or 0 if the lanes are not supported or the room is too small. */
+/* Generates the code for 1, 4, 8 or 16 lanes, at most `room` bytes. A value of 16 lanes has two registers of
+ * 8 lanes each. Returns the size of the code, or 0 if the lanes are not supported or the room is too small. */
 size_t generate(const struct recording *recording, int lanes, uint8_t *code, size_t room);
 
 #endif
