@@ -64,7 +64,8 @@ enum { BLOCK = 16, FRAME_FLOATS = 64 * 8 };
 void split(const struct recording *recording, struct recording *parts);
 
 /* Generates the code for 1, 4, 8 or 16 lanes, at most `room` bytes. A value of 16 lanes has two registers of
- * 8 lanes each. Returns the size of the code, or 0 if the lanes are not supported or the room is too small. */
+ * 8 lanes each. Returns the size of the code, or 0 if the lanes are not supported or the room is too
+ * small. */
 size_t generate(const struct recording *recording, int lanes, uint8_t *code, size_t room);
 
 #endif
