@@ -37,6 +37,25 @@ struct routine_patches {
     uint64_t copies; /* of the code */
 };
 
+/* What one tier of a tiered routine has done. */
+struct routine_tier {
+    const char *engine;
+    uint64_t runs;
+    uint64_t elements; /* vertices, triangles, or blocks of pixels */
+    uint64_t build_ns; /* of all builds of this tier */
+    uint32_t builds, drops;
+    uint32_t code_bytes; /* of the code that exists */
+};
+
+/* The tiers of a routine, from the slowest to the fastest. They change while the routine is in use;
+ * read their numbers atomically. */
+enum { ROUTINE_TIERS = 4 };
+struct routine_tiers {
+    uint32_t count;
+    uint32_t current; /* the one that runs */
+    struct routine_tier tier[ROUTINE_TIERS];
+};
+
 /* A built routine. The engine fills all fields except the cache's. */
 struct routine {
     routine_function *run;
@@ -48,9 +67,10 @@ struct routine {
     uint32_t constant_bytes; /* the part of code_bytes, at its end, that is data */
     uint32_t parts;          /* instructions emitted (specialize), fragments joined (stitch) */
     uint32_t spills;
-    uint32_t fused;          /* operation fragments that do two or more operations */
-    uint32_t carried;        /* operands of operation fragments that are already in a register */
-    uint32_t data_bytes;     /* memory besides the code, for example an interpreter's schedule */
+    uint32_t fused;                    /* operation fragments that do two or more operations */
+    uint32_t carried;                  /* operands of operation fragments that are already in a register */
+    uint32_t data_bytes;               /* memory besides the code, for example an interpreter's schedule */
+    const struct routine_tiers *tiers; /* of a tiered routine, until it is freed; null elsewhere */
     const char *granularity; /* stitch: "stage" or "operation", the kind of its fragments; null elsewhere */
     const struct routine_patches *patches; /* null: its code never changes */
     uint64_t build_ns;                     /* set by the cache around build() */

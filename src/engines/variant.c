@@ -4,6 +4,7 @@
 #include "engines/external/external.h"
 #include "engines/mixed.h"
 #include "engines/specialize/specialize.h"
+#include "engines/tiered/tiered.h"
 
 #include <errno.h>
 #include <pthread.h>
@@ -17,6 +18,7 @@ static const struct engine_option options[] = {
 #include "def/engine/variant.def"
 #include "def/engine/mixed.def"
 #include "def/engine/external.def"
+#include "def/engine/tiered.def"
 #undef VARIANT
 };
 

@@ -19,7 +19,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-enum { ENGINES_MAXIMUM = 2 * CHOICE_CAPACITY };
+enum { ENGINES_MAXIMUM = ROUTINE_TIERS * CHOICE_CAPACITY };
 
 struct settings {
     const char *engines, *out;
@@ -52,7 +52,7 @@ static pane_function *find_panes(const struct engine *engine)
                                         : NULL;
 }
 
-/* Adds an engine; both tiers of a tiered one. */
+/* Adds an engine; all tiers of a tiered one. */
 static int add_engine(const struct command *self, const struct engine *engine, struct engines *engines)
 {
     const struct engine *tier = tiered_engine(engine, 0);
@@ -62,9 +62,11 @@ static int add_engine(const struct command *self, const struct engine *engine, s
     if (!tier && !find_panes(engine))
         return tool_fail(self, "engine %s has nothing to show, expected one that builds routines",
                          engine->name);
-    engines->engine[engines->count++] = tier ? tier : engine;
-    if (tier)
-        engines->engine[engines->count++] = tiered_engine(engine, 1);
+    if (!tier)
+        engines->engine[engines->count++] = engine;
+    for (unsigned i = 0; (tier = tiered_engine(engine, i)); i++)
+        if (find_panes(tier))
+            engines->engine[engines->count++] = tier;
     return STATUS_OK;
 }
 

@@ -46,12 +46,18 @@ static int dump_stitch(const struct engine *engine, struct code_arena *arena, en
     return stitch_dump(engine, arena, unit, key, stdout, error);
 }
 
-/* Shows both tiers in order. */
+/* Shows the tiers with code, in order. */
 static int dump_tiered(const struct engine *engine, struct code_arena *arena, enum unit unit,
                        const union key *key, const char *show, struct error *error)
 {
-    return dump_stitch(tiered_engine(engine, 0), arena, unit, key, NULL, error) ||
-           dump_jit(tiered_engine(engine, 1), arena, unit, key, show, error);
+    int bad = 0;
+    const struct engine *tier;
+    for (unsigned i = 0; !bad && (tier = tiered_engine(engine, i)); i++)
+        if (stitch_is_engine(tier))
+            bad = dump_stitch(tier, arena, unit, key, NULL, error);
+        else if (specialize_is_engine(tier))
+            bad = dump_jit(tier, arena, unit, key, show, error);
+    return bad;
 }
 
 static int dump_external(const struct engine *engine, struct code_arena *arena, enum unit unit,

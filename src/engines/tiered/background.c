@@ -184,7 +184,7 @@ bool background_accepts(void)
 void background_request(struct background_job *job)
 {
     pthread_mutex_lock(&b->lock);
-    if (background_accepts() && state_of(job) == JOB_IDLE) {
+    if (background_accepts() && state_of(job) != JOB_QUEUED) {
         set_state(job, JOB_QUEUED);
         append(job);
         if (b->waits)
@@ -212,6 +212,16 @@ void background_wait(struct background_job *job)
     pthread_mutex_lock(&b->lock);
     while (state_of(job) == JOB_QUEUED)
         pthread_cond_wait(&b->done, &b->lock);
+    pthread_mutex_unlock(&b->lock);
+}
+
+void background_lock(void)
+{
+    pthread_mutex_lock(&b->lock);
+}
+
+void background_unlock(void)
+{
     pthread_mutex_unlock(&b->lock);
 }
 

@@ -29,7 +29,7 @@ struct background_job {
 void background_begin(void);
 void background_end(void);
 
-/* Queues an idle job. If there is no thread or no room, it stays idle. */
+/* Queues a job that is idle or done. If there is no thread or no room, its state does not change. */
 void background_request(struct background_job *job);
 
 /* Returns true if an idle job would be accepted. The answer may be outdated. */
@@ -40,6 +40,11 @@ void background_cancel(struct background_job *job);
 
 /* Waits until a queued job is done. */
 void background_wait(struct background_job *job);
+
+/* Lock and unlock the queue. A fork waits for the lock. For data that users share with the thread, whose jobs
+ * run without the lock. */
+void background_lock(void);
+void background_unlock(void);
 
 /* Replaces pthread_create, for tests; null restores it. */
 typedef int background_create_thread(pthread_t *, const pthread_attr_t *, void *(*)(void *), void *);

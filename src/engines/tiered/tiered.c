@@ -1,106 +1,108 @@
 /* The two tiered engines.
  *
- * A routine's `run` is a function of this file. It runs the routine of the tier that `current` points to.
- * The pointer changes once, from the stitched routine to the specialized one. Both routines remain until
- * the tiered routine is freed, when no thread runs it. So the change does not wait for running threads,
- * and a thread inside the old code finishes there.
+ * A routine's `run` is a function of this file. It runs the routine of the tier whose number is `current`.
+ * Without the option keep all tiers that have been built remain until the tiered routine is freed, when no
+ * thread runs it. So a change of the tier does not wait for running threads, and a thread inside the old code
+ * finishes there. With keep, threads count themselves in and out of a tier, and heat.c frees code that no
+ * thread runs.
  *
  * Builds in the background use at most half of an arena; the rest is reserved for builds that draws wait
- * for. A routine holds its shader's program until it has been specialized, because the application may
+ * for. A routine holds its shader's program until no further tier is built, because the application may
  * release the shader earlier. */
-#include "engines/tiered/tiered.h"
-
-#include "machine/code.h"
+#include "base/clock.h"
 #include "engines/specialize/specialize.h"
-#include "shader/program/program.h"
 #include "engines/stitch/stitch.h"
-#include "engines/tiered/background.h"
+#include "engines/tiered/tier.h"
+#include "machine/code.h"
+#include "shader/program/program.h"
 
+#include <stddef.h>
 #include <stdlib.h>
 
-enum { TIERS = 2 };
-
-struct tiered_options {
-    const struct engine *tier[TIERS];
-    routine_function *run;
-};
-
-struct tiered {
-    struct routine routine; /* first: the engine interface's pointer is this structure's */
-    struct background_job job;
-    struct code_arena *arena;
-    struct routine *tier[TIERS]; /* the background thread sets the second one before it changes `current` */
-    _Atomic(struct routine *) current;
-    atomic_bool called;
-    const struct program *program; /* held; or null */
-};
-
-static struct tiered *tiered_of(const struct routine *routine)
-{
-    return (struct tiered *)(uintptr_t)routine;
-}
-
-static const struct tiered_options *options_of(const struct engine *engine)
-{
-    return engine->options;
-}
-
-static const struct routine *current(struct tiered *tiered)
+static unsigned current(struct tiered *tiered)
 {
     return atomic_load_explicit(&tiered->current, memory_order_acquire);
 }
 
 static const char *unavailable(const struct engine *self)
 {
-    for (int i = 0; i < TIERS; i++) {
-        const char *reason = engine_unavailable(options_of(self)->tier[i]);
+    for (unsigned i = 0; tiered_engine(self, i); i++) {
+        const char *reason = engine_unavailable(tiered_engine(self, i));
         if (reason)
             return reason;
     }
     return NULL;
 }
 
-/* --- Running
- * ------------------------------------------------------------------------------------------------------ */
+/* --- Running -------------------------------------------------------------------------------------------- */
 
-/* Requests the job again if it was not accepted. */
-static void request_again(struct tiered *tiered)
+/* Requests the build of the next tier, if there is one: again if it was not accepted before. */
+static void request_next(struct tiered *tiered)
 {
-    if (atomic_load_explicit(&tiered->job.state, memory_order_relaxed) == JOB_IDLE && background_accepts())
+    if (atomic_load(&tiered->current) >= atomic_load(&tiered->highest))
+        return;
+    if (atomic_load_explicit(&tiered->job.state, memory_order_relaxed) != JOB_QUEUED && background_accepts())
         background_request(&tiered->job);
 }
 
-static void run(const void *call, const struct routine *routine)
+/* Requests the next tiers that the routine has earned. Returns the tier to run. */
+static unsigned climb(struct tiered *tiered)
 {
-    struct tiered *tiered = tiered_of(routine);
-    const struct routine *tier = current(tiered);
-    if (tier == tiered->tier[0])
-        request_again(tiered);
-    tier->run(call, tier);
+    unsigned tier = current(tiered);
+    while (tiered_has_earned(tiered, tier)) {
+        request_next(tiered);
+        if (!tiered_options_of(tiered)->waits)
+            break;
+        background_wait(&tiered->job);
+        if (current(tiered) == tier)
+            break;
+        tier = current(tiered);
+    }
+    return tier;
 }
 
-static void run_swapping(const void *call, const struct routine *routine)
+static void run(const void *arguments, const struct routine *routine)
 {
     struct tiered *tiered = tiered_of(routine);
-    if (atomic_exchange(&tiered->called, true))
-        tiered_wait(routine);
-    const struct routine *tier = current(tiered);
-    tier->run(call, tier);
+    unsigned tier = climb(tiered);
+    tiered_count(tiered, tier, arguments);
+    tiered->tier[tier]->run(arguments, tiered->tier[tier]);
+}
+
+/* Counts the thread in. The second reading finds a tier that is not dropped (heat.c). */
+static unsigned enter(struct tiered *tiered)
+{
+    for (;;) {
+        unsigned tier = atomic_load(&tiered->current);
+        atomic_fetch_add(&tiered->inside[tier], 1);
+        if (atomic_load(&tiered->current) == tier)
+            return tier;
+        atomic_fetch_sub(&tiered->inside[tier], 1);
+    }
+}
+
+static void run_kept(const void *arguments, const struct routine *routine)
+{
+    struct tiered *tiered = tiered_of(routine);
+    climb(tiered);
+    unsigned tier = enter(tiered);
+    tiered_count(tiered, tier, arguments);
+    tiered->tier[tier]->run(arguments, tiered->tier[tier]);
+    atomic_fetch_sub(&tiered->inside[tier], 1);
 }
 
 void tiered_wait(const struct routine *routine)
 {
-    request_again(tiered_of(routine));
+    request_next(tiered_of(routine));
     background_wait(&tiered_of(routine)->job);
 }
 
 bool tiered_is_specialized(const struct routine *routine)
 {
-    return current(tiered_of(routine)) != tiered_of(routine)->tier[0];
+    return current(tiered_of(routine)) + 1 == tiered_options_of(tiered_of(routine))->count;
 }
 
-/* --- Building
- * ----------------------------------------------------------------------------------------------------- */
+/* --- Building ------------------------------------------------------------------------------------------- */
 
 static bool has_room(struct code_arena *arena)
 {
@@ -115,45 +117,76 @@ static void release_program(struct tiered *tiered)
     tiered->program = NULL;
 }
 
-/* Builds the second tier; null if that is not possible. */
-static struct routine *build_second(const struct tiered *tiered)
+/* Builds a tier; null if that is not possible. */
+static struct routine *build_tier(struct tiered *tiered, unsigned tier, struct error *error)
 {
-    const struct engine *engine = options_of(tiered->routine.engine)->tier[1];
-    struct error error = {{0}};
-    struct routine *second = NULL;
-    if (has_room(tiered->arena))
-        second = engine_build(engine, tiered->arena, tiered->routine.unit, &tiered->routine.key, &error);
-    if (second && !has_room(tiered->arena)) {
-        engine->free(tiered->arena, second);
-        second = NULL;
-    }
-    return second;
+    uint64_t start = clock_ns();
+    struct routine *built = engine_build(tiered_options_of(tiered)->tier[tier], tiered->arena,
+                                         tiered->routine.unit, &tiered->routine.key, error);
+    struct routine_tier *counts = tiered->tiers.tier + tier;
+    __atomic_fetch_add(&counts->build_ns, clock_ns() - start, __ATOMIC_RELAXED);
+    __atomic_fetch_add(&counts->builds, built != NULL, __ATOMIC_RELAXED);
+    __atomic_store_n(&counts->code_bytes, built ? built->code_bytes : 0, __ATOMIC_RELAXED);
+    return built;
 }
 
-static void specialize(struct background_job *job)
+/* Builds a later tier, if half of the arena is free. */
+static struct routine *build_later(struct tiered *tiered, unsigned tier)
+{
+    struct error error = {{0}};
+    struct routine *built = has_room(tiered->arena) ? build_tier(tiered, tier, &error) : NULL;
+    if (built && !has_room(tiered->arena)) {
+        built->engine->free(tiered->arena, built);
+        __atomic_store_n(&tiered->tiers.tier[tier].code_bytes, 0, __ATOMIC_RELAXED);
+        built = NULL;
+    }
+    return built;
+}
+
+/* In the background thread. No other thread changes the tiers of a routine. */
+static void build_next(struct background_job *job)
 {
     struct tiered *tiered = (struct tiered *)(void *)((char *)job - offsetof(struct tiered, job));
-    tiered->tier[1] = build_second(tiered);
-    if (tiered->tier[1])
-        atomic_store_explicit(&tiered->current, tiered->tier[1], memory_order_release);
-    release_program(tiered);
+    unsigned tier = atomic_load(&tiered->current) + 1;
+    if (!tiered->tier[tier])
+        tiered->tier[tier] = build_later(tiered, tier);
+    if (tiered->tier[tier]) {
+        tiered_raise(tiered, tier);
+        tiered_drop_coldest(tiered);
+    } else {
+        atomic_store(&tiered->highest, tier - 1);
+    }
+    if (tiered_options_of(tiered)->keep == KEEP_ALL &&
+        atomic_load(&tiered->current) >= atomic_load(&tiered->highest))
+        release_program(tiered);
 }
 
-/* The fields describe the first tier. data_bytes includes an estimate for the second tier: the size of the
- * first. */
+enum { TYPICAL_BYTES = 4096 };
+
+/* The fields describe the first tier, except that calls are padded for the widest tier. data_bytes includes
+ * an estimate for the code of later tiers: the bytes of the first tier, for each. */
 static void fill_in(struct tiered *tiered, const struct engine *engine)
 {
     const struct routine *first = tiered->tier[0];
     const struct program *program = key_shader(first->unit, &first->key);
+    const struct tiered_options *options = engine->options;
+    uint32_t typical = first->code_bytes ? first->code_bytes : TYPICAL_BYTES;
     tiered->routine = *first;
     tiered->routine.engine = engine;
-    tiered->routine.run = options_of(engine)->run;
-    tiered->routine.data_bytes += first->code_bytes;
+    tiered->routine.run = options->keep == KEEP_ALL ? run : run_kept;
+    tiered->routine.data_bytes += typical * (options->keep == KEEP_ALL ? options->count - 1 : 1);
+    tiered->routine.lanes = 0;
+    tiered->routine.tiers = &tiered->tiers;
     tiered->program = program ? program_hold(program->number) : NULL;
-    tiered->job.work = specialize;
-    atomic_init(&tiered->job.state, JOB_IDLE);
-    atomic_init(&tiered->current, tiered->tier[0]);
-    atomic_init(&tiered->called, false);
+    tiered->job.work = build_next;
+    tiered->highest = options->count - 1;
+}
+
+static void name_tiers(struct tiered *tiered, const struct tiered_options *options)
+{
+    tiered->tiers.count = options->count;
+    for (unsigned i = 0; i < options->count; i++)
+        tiered->tiers.tier[i].engine = options->tier[i]->name;
 }
 
 static struct routine *build(const struct engine *self, struct code_arena *arena, enum unit unit,
@@ -165,14 +198,17 @@ static struct routine *build(const struct engine *self, struct code_arena *arena
         return NULL;
     }
     tiered->arena = arena;
-    tiered->tier[0] = engine_build(options_of(self)->tier[0], arena, unit, key, error);
+    tiered->routine = (struct routine){.engine = self, .unit = unit, .key = *key};
+    name_tiers(tiered, self->options);
+    tiered->tier[0] = build_tier(tiered, 0, error);
     if (!tiered->tier[0]) {
         free(tiered);
         return NULL;
     }
     fill_in(tiered, self);
     background_begin();
-    background_request(&tiered->job);
+    if (tiered_has_earned(tiered, 0))
+        request_next(tiered);
     return &tiered->routine;
 }
 
@@ -182,6 +218,7 @@ static void free_routine(struct code_arena *arena, struct routine *routine)
     if (!tiered)
         return;
     background_cancel(&tiered->job);
+    tiered_forget(tiered);
     background_end();
     release_program(tiered);
     for (int i = 0; i < TIERS; i++)
@@ -197,11 +234,15 @@ static int describe(const struct routine *routine, struct debug_code *code, stru
     return first->engine->describe(first, code, error);
 }
 
+/* --- The engines ---------------------------------------------------------------------------------------- */
+
 const struct engine engine_tiered = {
     .name = "tiered",
     .description =
         "stitched first, specialized in the background; runs use the specialized routine when it is complete",
-    .options = &(const struct tiered_options){{&engine_stitch, &engine_specialize}, run},
+    .options = &(const struct tiered_options){.count = 2,
+                                              .tier = {&engine_stitch, &engine_specialize},
+                                              .hysteresis = 2},
     .unavailable = unavailable,
     .build = build,
     .free = free_routine,
@@ -212,14 +253,24 @@ const struct engine engine_tiered_swap = {
     .name = "tiered-swap",
     .description = "tiered without dependence on time: the first run is stitched, the second waits for the "
                    "specialized routine",
-    .options = &(const struct tiered_options){{&engine_stitch, &engine_specialize}, run_swapping},
+    .options = &(const struct tiered_options){.count = 2,
+                                              .tier = {&engine_stitch, &engine_specialize},
+                                              .runs = {1, {1}},
+                                              .hysteresis = 2,
+                                              .waits = true},
     .unavailable = unavailable,
     .build = build,
     .free = free_routine,
     .describe = describe,
 };
 
+bool tiered_is_engine(const struct engine *engine)
+{
+    return engine->build == build;
+}
+
 const struct engine *tiered_engine(const struct engine *engine, unsigned tier)
 {
-    return engine->build == build && tier < TIERS ? options_of(engine)->tier[tier] : NULL;
+    const struct tiered_options *options = engine->options;
+    return tiered_is_engine(engine) && tier < options->count ? options->tier[tier] : NULL;
 }

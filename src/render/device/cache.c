@@ -116,7 +116,7 @@ static void tell(struct cache *cache, struct cache_entry *entry)
 {
     const struct routine *routine = entry->routine;
     struct debug_code code = {.code = routine->code};
-    if (!cache->listeners || !routine->engine->describe)
+    if (!cache->listeners || !routine->engine->describe || !routine->code)
         return;
     int length = snprintf(code.name, sizeof code.name, "triptych_%s_%u_%s_%016" PRIx64,
                           unit_name[entry->unit], routine->number, routine->engine->name, entry->hash);

@@ -472,6 +472,19 @@ static int search_stream(struct search *search, const struct stream *stream, str
     return result;
 }
 
+static int refuse_tiers(const struct engine *engine, struct error *error)
+{
+    char names[ROUTINE_TIERS * 32] = "";
+    for (unsigned i = 0; tiered_engine(engine, i); i++)
+        snprintf(names + strlen(names), sizeof names - strlen(names), "%s%s",
+                 !i                             ? ""
+                 : tiered_engine(engine, i + 1) ? ", "
+                                                : " and ",
+                 tiered_engine(engine, i)->name);
+    return error_set(error, "engine %s: its routines are those of %s, which can be bisected", engine->name,
+                     names);
+}
+
 int bisect(const struct stream *stream, const struct engine *reference, const struct engine *other,
            const struct bisect_options *options, struct bisection *bisection, struct error *error)
 {
@@ -487,9 +500,7 @@ int bisect(const struct stream *stream, const struct engine *reference, const st
         if (why)
             return error_set(error, "engine %s: %s", search.engine[i]->name, why);
         if (tiered_engine(search.engine[i], 0))
-            return error_set(error, "engine %s: its routines are those of %s and %s, which can be bisected",
-                             search.engine[i]->name, tiered_engine(search.engine[i], 0)->name,
-                             tiered_engine(search.engine[i], 1)->name);
+            return refuse_tiers(search.engine[i], error);
     }
     return search_stream(&search, stream, error);
 }
