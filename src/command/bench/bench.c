@@ -16,8 +16,11 @@
 #include "command/bench/bench_shaders.h"
 #include "command/bench/chart.h"
 #include "engines/specialize/passes/pass.h"
+#include "command/bench/machine.h"
+#include "command/count/count.h"
 #include "command/support/choose.h"
 #include "command/support/interrupt.h"
+#include "command/support/json.h"
 #include "command/support/option.h"
 #include "command/support/shared.h"
 #include "command/store/store.h"
@@ -35,11 +38,13 @@ struct settings {
     const char *engines, *json, *csv, *chart, *shard, *resume;
     unsigned threads, repetitions, frames; /* frames 0: all */
     double seconds;
-    bool shaders; /* a table of each shader */
-    bool builds;  /* routines are built, no picture is drawn */
-    bool parts;   /* routines are built, and the parts of each build measured */
-    bool code;    /* routines are built, and their instructions counted */
-    bool cold;    /* frames whose routines are not built yet */
+    bool shaders;    /* a table of each shader */
+    bool builds;     /* routines are built, no picture is drawn */
+    bool parts;      /* routines are built, and the parts of each build measured */
+    bool code;       /* routines are built, and their instructions counted */
+    bool cold;       /* frames whose routines are not built yet */
+    bool counts;     /* what frames need of the cache and of tiers */
+    unsigned budget; /* KiB of the cache; 0: the usual */
     bool no_cache;
     struct variation variation;
     struct option_given set;
@@ -322,10 +327,10 @@ static int check_parts(const struct command *self, const struct settings *settin
     const struct {
         bool given;
         const char *name;
-    } whole[] = {{settings->compare, "compare"}, {settings->builds, "builds"},
-                 {settings->cold, "cold"},       {settings->shaders, "shaders"},
-                 {settings->code, "code"},       {settings->parts, "parts"},
-                 {settings->csv != NULL, "csv"}, {settings->chart != NULL, "chart"}};
+    } whole[] = {
+        {settings->compare, "compare"}, {settings->builds, "builds"},   {settings->cold, "cold"},
+        {settings->shaders, "shaders"}, {settings->code, "code"},       {settings->parts, "parts"},
+        {settings->counts, "counts"},   {settings->csv != NULL, "csv"}, {settings->chart != NULL, "chart"}};
     if (!settings->shard && !settings->resume)
         return STATUS_OK;
     for (size_t i = 0; i < sizeof whole / sizeof *whole; i++)
@@ -333,6 +338,22 @@ static int check_parts(const struct command *self, const struct settings *settin
             return tool_fail(self, "--%s and --%s are both given, expected one of them", whole[i].name,
                              settings->shard ? "shard" : "resume");
     return STATUS_OK;
+}
+
+static int bench_counts(const struct command *self, const struct operands *operands,
+                        const struct choice *engines, const struct settings *settings)
+{
+    const struct count_settings counts = {settings->threads, settings->frames, settings->budget};
+    struct machine machine = machine_describe();
+    cJSON *report = cJSON_CreateObject();
+    cJSON_AddItemToObject(report, "machine", machine_json(&machine));
+    int status = count_all(self, operands->value, (unsigned)operands->count, engines, &counts, report);
+    if (interrupt_signal())
+        cJSON_AddStringToObject(report, "interrupted", interrupt_name());
+    if (!status && settings->json)
+        status = json_write(self, report, settings->json);
+    cJSON_Delete(report);
+    return status || !interrupt_signal() ? status : interrupt_status();
 }
 
 static int run(const struct command *self, void *data, const struct operands *operands)
@@ -343,6 +364,8 @@ static int run(const struct command *self, void *data, const struct operands *op
     store_off |= settings->no_cache;
     if (check_parts(self, settings))
         return STATUS_BAD;
+    if (settings->budget && !settings->counts)
+        return tool_fail(self, "--budget is given without --counts, expected both");
     if (settings->compare && count != 2)
         return tool_fail(self, "--compare has %u operands, expected two files that --json wrote", count);
     if (settings->compare)
@@ -360,6 +383,8 @@ static int run(const struct command *self, void *data, const struct operands *op
                            settings->json);
     if (settings->code)
         return bench_code(self, operands->value, count, &engines, settings->json);
+    if (settings->counts)
+        return bench_counts(self, operands, &engines, settings);
     if (settings->cold)
         return bench_cold(self, operands->value, count, &engines, settings->threads,
                           choose_settings(&settings->set), settings->repetitions, settings->frames,
@@ -391,6 +416,10 @@ static const struct option options[] = {
     {"code", NULL, "count instead the instructions and memory operands of the streams' routines",
      OPTION_IS_FLAG(struct settings, code)},
     {"cold", NULL, "measure instead the first frames of a new device", OPTION_IS_FLAG(struct settings, cold)},
+    {"counts", NULL, "count instead keys, hits, misses, evictions, builds, states a frame and runs of tiers",
+     OPTION_IS_FLAG(struct settings, counts)},
+    {"budget", "KIB", "with --counts, the budget of the cache; 16 MiB",
+     OPTION_IS_NUMBER(struct settings, budget), .least = 1, .most = 1 << 20},
     {"json", "FILE", "write everything, each run included", OPTION_IS_FILE(struct settings, json),
      .extension = "json"},
     {"csv", "FILE", "write a row per stream and engine", OPTION_IS_FILE(struct settings, csv),

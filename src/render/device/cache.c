@@ -38,10 +38,13 @@ struct cache {
     struct code_arena *arena;
     size_t budget;
     bool measures;
+    enum cache_policy policy;
+    uint64_t random;
     unsigned listeners;
     struct error debug_error;
     uint32_t next_number;
-    struct link idle;            /* last used first */
+    struct link idle; /* last used first */
+    size_t idle_count;
     struct link numbered;        /* oldest first */
     struct cache_entry **bucket; /* bucket_count of them, a power of two */
     size_t bucket_count;
@@ -89,6 +92,7 @@ struct cache *cache_create(const struct engine *engine, struct code_arena *arena
     cache->budget = budget;
     cache->bucket = bucket;
     cache->bucket_count = FIRST_BUCKETS;
+    cache->random = 1;
     list_initialize(&cache->idle);
     list_initialize(&cache->numbered);
     return cache;
@@ -97,6 +101,11 @@ struct cache *cache_create(const struct engine *engine, struct code_arena *arena
 void cache_measure(struct cache *cache)
 {
     cache->measures = true;
+}
+
+void cache_evict_by(struct cache *cache, enum cache_policy policy)
+{
+    cache->policy = policy;
 }
 
 void cache_debug(struct cache *cache, unsigned listeners)
@@ -143,22 +152,91 @@ static struct cache_entry **find(struct cache *cache, enum unit unit, const stru
     return at;
 }
 
-/* Evicts the routine that has been idle for the longest time, if there is one. */
-static bool evict_oldest(struct cache *cache)
+static void add_idle(struct cache *cache, struct cache_entry *entry)
 {
-    if (cache->idle.previous == &cache->idle)
+    list_insert_after(&cache->idle, &entry->idle);
+    cache->idle_count++;
+}
+
+static void remove_idle(struct cache *cache, struct cache_entry *entry)
+{
+    list_remove(&entry->idle);
+    cache->idle_count--;
+}
+
+static struct cache_entry *first_built(struct cache *cache)
+{
+    struct link *link = cache->numbered.next;
+    while (ENTRY_OF(link, numbered)->references)
+        link = link->next;
+    return ENTRY_OF(link, numbered);
+}
+
+/* Knuth's linear congruential generator; its high bits are used. */
+static struct cache_entry *random_idle(struct cache *cache)
+{
+    cache->random = cache->random * 6364136223846793005u + 1442695040888963407u;
+    struct link *link = cache->idle.next;
+    for (uint64_t skip = (cache->random >> 33) % cache->idle_count; skip; skip--)
+        link = link->next;
+    return ENTRY_OF(link, idle);
+}
+
+/* The idle routine to evict; there is one. */
+static struct cache_entry *victim(struct cache *cache)
+{
+    switch (cache->policy) {
+    case CACHE_FIFO: return first_built(cache);
+    case CACHE_RANDOM: return random_idle(cache);
+    case CACHE_LRU: break;
+    }
+    return ENTRY_OF(cache->idle.previous, idle);
+}
+
+static void count_removed(struct cache *cache, const struct cache_entry *entry)
+{
+    struct cache_unit *unit = &cache->statistics.unit[entry->unit];
+    cache->statistics.bytes -= entry->price;
+    cache->statistics.routines--;
+    cache->statistics.evictions++;
+    unit->bytes -= entry->price;
+    unit->routines--;
+    unit->evictions++;
+}
+
+static void count_in(uint32_t classes[CACHE_CLASSES], uint64_t value)
+{
+    unsigned width = value ? 64 - (unsigned)__builtin_clzll(value) : 0;
+    classes[width < CACHE_CLASSES ? width : CACHE_CLASSES - 1]++;
+}
+
+static void count_added(struct cache *cache, const struct cache_entry *entry)
+{
+    struct cache_unit *unit = &cache->statistics.unit[entry->unit];
+    const struct routine *routine = entry->routine;
+    cache->statistics.bytes += entry->price;
+    cache->statistics.routines++;
+    unit->bytes += entry->price;
+    unit->routines++;
+    unit->build_ns += routine->build_ns;
+    count_in(unit->build_us, routine->build_ns / 1000);
+    count_in(unit->code_bytes, routine->code_bytes);
+}
+
+/* Evicts a routine that is idle, if there is one. */
+static bool evict_one(struct cache *cache)
+{
+    if (!cache->idle_count)
         return false;
     int reason = errno; /* of a failure for which this makes room */
-    struct cache_entry *entry = ENTRY_OF(cache->idle.previous, idle);
+    struct cache_entry *entry = victim(cache);
     struct cache_entry **at = bucket_of(cache, entry->hash);
     while (*at != entry)
         at = &(*at)->chain;
     *at = entry->chain;
-    list_remove(&entry->idle);
+    remove_idle(cache, entry);
     list_remove(&entry->numbered);
-    cache->statistics.bytes -= entry->price;
-    cache->statistics.routines--;
-    cache->statistics.evictions++;
+    count_removed(cache, entry);
     debug_remove(entry->record);
     cache->engine->free(cache->arena, entry->routine);
     free(entry);
@@ -168,13 +246,13 @@ static bool evict_oldest(struct cache *cache)
 
 static void evict_idle(struct cache *cache)
 {
-    while (evict_oldest(cache))
+    while (evict_one(cache))
         ;
 }
 
 static void evict_to_budget(struct cache *cache)
 {
-    while (cache->statistics.bytes > cache->budget && cache->statistics.routines > 1 && evict_oldest(cache))
+    while (cache->statistics.bytes > cache->budget && cache->statistics.routines > 1 && evict_one(cache))
         ;
 }
 
@@ -215,7 +293,7 @@ static bool make_room(struct cache *cache)
     if (!wanted)
         return false;
     do
-        if (!evict_oldest(cache))
+        if (!evict_one(cache))
             return false;
     while (code_statistics(cache->arena).largest_free < wanted);
     return true;
@@ -287,25 +365,45 @@ static struct cache_entry *insert(struct cache *cache, enum unit unit, const uni
     entry->chain = *at;
     *at = entry;
     list_insert_after(cache->numbered.previous, &entry->numbered);
-    cache->statistics.bytes += entry->price;
-    cache->statistics.routines++;
+    count_added(cache, entry);
     tell(cache, entry);
+    return entry;
+}
+
+static void count_hits(struct cache *cache, struct cache_entry *entry, uint64_t hits)
+{
+    cache->statistics.hits += hits;
+    cache->statistics.unit[entry->unit].hits += hits;
+    entry->routine->hits += hits;
+}
+
+/* Packs the key, hashes it and finds its entry, null if there is none. */
+static struct cache_entry *look_up(struct cache *cache, enum unit unit, const union key *key,
+                                   struct packed_key *packed, uint64_t *hash)
+{
+    struct cache_unit *counts = &cache->statistics.unit[unit];
+    uint64_t start = cache->measures ? clock_ns() : 0;
+    *packed = key_pack(unit, key);
+    *hash = key_hash(unit, packed);
+    struct cache_entry *entry = *find(cache, unit, packed, *hash);
+    counts->lookups++;
+    counts->lookup_ns += cache->measures ? clock_ns() - start : 0;
     return entry;
 }
 
 static struct cache_entry *acquire(struct cache *cache, enum unit unit, const union key *key,
                                    struct error *error)
 {
-    struct packed_key packed = key_pack(unit, key);
-    uint64_t hash = key_hash(unit, &packed);
-    struct cache_entry *entry = *find(cache, unit, &packed, hash);
+    struct packed_key packed;
+    uint64_t hash;
+    struct cache_entry *entry = look_up(cache, unit, key, &packed, &hash);
     if (entry) {
-        cache->statistics.hits++;
-        entry->routine->hits++;
+        count_hits(cache, entry, 1);
         if (!entry->references)
-            list_remove(&entry->idle);
+            remove_idle(cache, entry);
     } else {
         cache->statistics.misses++;
+        cache->statistics.unit[unit].misses++;
         entry = insert(cache, unit, key, &packed, hash, error);
     }
     if (entry)
@@ -335,7 +433,7 @@ void cache_release(struct cache *cache, const struct routine *routine)
     pthread_mutex_lock(&cache->lock);
     struct cache_entry *entry = routine->entry;
     if (!--entry->references)
-        list_insert_after(&cache->idle, &entry->idle);
+        add_idle(cache, entry);
     evict_to_budget(cache);
     pthread_mutex_unlock(&cache->lock);
 }
@@ -343,8 +441,7 @@ void cache_release(struct cache *cache, const struct routine *routine)
 void cache_add_hits(struct cache *cache, const struct routine *routine, uint64_t hits)
 {
     pthread_mutex_lock(&cache->lock);
-    cache->statistics.hits += hits;
-    routine->entry->routine->hits += hits;
+    count_hits(cache, routine->entry, hits);
     pthread_mutex_unlock(&cache->lock);
 }
 

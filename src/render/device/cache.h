@@ -1,5 +1,5 @@
-/* The routine cache: one routine for each unit and key. When there is no room, the least recently used
- * routines are evicted.
+/* The routine cache: one routine for each unit and key. When there is no room, idle routines are evicted: by
+ * default the least recently used ones.
  *
  * Lookup is exact: entries are found by hash and compared by unit and packed key, byte for byte. An acquired
  * routine is counted and never evicted while it is in use. Two limits apply. The budget: idle routines are
@@ -21,17 +21,41 @@
 
 struct cache;
 
+/* Histograms have a class for each bit width: class i counts values from 2^(i-1) to 2^i - 1, class 0 counts 0. */
+enum { CACHE_CLASSES = 24 };
+
+/* Of one unit's routines. */
+struct cache_unit {
+    uint64_t hits, misses, evictions;
+    size_t bytes;                 /* of the routines in the table */
+    size_t routines;              /* in the table */
+    uint64_t lookups;             /* of cache_acquire; hits of cache_add_hits need none */
+    uint64_t lookup_ns, build_ns; /* all lookups, if they are measured; all builds */
+    uint32_t build_us[CACHE_CLASSES], code_bytes[CACHE_CLASSES]; /* of all builds */
+};
+
+/* The first five members are the sums of the units. */
 struct cache_statistics {
     uint64_t hits, misses, evictions;
-    size_t bytes;    /* of the routines in the table */
-    size_t routines; /* in the table */
+    size_t bytes;
+    size_t routines;
+    struct cache_unit unit[UNIT_COUNT];
+};
+
+/* The idle routine that is evicted next. A draw counts as the use of a routine when the routine is released. */
+enum cache_policy {
+    CACHE_LRU,    /* the least recently used one */
+    CACHE_FIFO,   /* the one that was built first */
+    CACHE_RANDOM, /* any; the sequence is the same in each run */
 };
 
 /* A cache of `engine`'s routines, whose code is stored in `arena` (null when the engine needs none). */
 struct cache *cache_create(const struct engine *engine, struct code_arena *arena, size_t budget,
                            struct error *error);
-/* From now on the calls of routines that are built are measured. */
+/* From now on the calls of routines that are built are measured, and lookups. */
 void cache_measure(struct cache *cache);
+/* A new cache evicts by CACHE_LRU. */
+void cache_evict_by(struct cache *cache, enum cache_policy policy);
 /* From now on these listeners (debug/debug.h) are notified of routines that are built and freed. */
 void cache_debug(struct cache *cache, unsigned listeners);
 

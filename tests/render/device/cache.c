@@ -124,6 +124,95 @@ static void a_key_is_built_once(void)
     TEST_ASSERT_EQUAL_UINT64(4, statistics.routines);
 }
 
+/* --- Policies and counts ------------------------------------------------------------------------------ */
+
+static void the_oldest_is_evicted_first_in_first_out(void)
+{
+    start(3);
+    cache_evict_by(cache, CACHE_FIFO);
+    for (int n = 0; n < 3; n++)
+        touch(n);
+    touch(0);
+    touch(3);
+    TEST_ASSERT_FALSE(present(0));
+    TEST_ASSERT_TRUE(present(1) && present(2) && present(3));
+    const struct routine *held = acquire(1);
+    touch(4);
+    TEST_ASSERT_TRUE(present(1) && present(3) && present(4));
+    TEST_ASSERT_FALSE(present(2));
+    cache_release(cache, held);
+}
+
+/* The numbers that are left after 40 of them, as bits. */
+static uint64_t left_by(enum cache_policy policy)
+{
+    uint64_t left = 0;
+    start(8);
+    cache_evict_by(cache, policy);
+    for (int n = 0; n < 40; n++)
+        touch(n);
+    for (int n = 0; n < 40; n++)
+        left |= (uint64_t)present(n) << n;
+    TEST_ASSERT_EQUAL_UINT64(8, cache_statistics(cache).routines);
+    cache_destroy(cache);
+    cache = NULL;
+    return left;
+}
+
+static void random_eviction_is_the_same_in_each_run(void)
+{
+    uint64_t left = left_by(CACHE_RANDOM);
+    TEST_ASSERT_EQUAL_HEX64(left, left_by(CACHE_RANDOM));
+    TEST_ASSERT_EQUAL_HEX64(0xffull << 32, left_by(CACHE_LRU));
+    TEST_ASSERT_NOT_EQUAL(0xffull << 32, left);
+}
+
+static void routines_in_use_are_not_evicted_by_any_policy(void)
+{
+    static const enum cache_policy policies[] = {CACHE_LRU, CACHE_FIFO, CACHE_RANDOM};
+    for (size_t i = 0; i < sizeof policies / sizeof *policies; i++) {
+        start(2);
+        cache_evict_by(cache, policies[i]);
+        const struct routine *held = acquire(0);
+        for (int n = 1; n < 30; n++)
+            touch(n);
+        TEST_ASSERT_TRUE(present(0));
+        cache_release(cache, held);
+        cache_destroy(cache);
+        cache = NULL;
+    }
+}
+
+/* The classes of a histogram are the widths of its values in bits. */
+static void each_unit_has_its_counts(void)
+{
+    enum { CODE_CLASS = 64 - __builtin_clzll(CODE_BYTES) };
+    union key key;
+    memset(&key, 0, sizeof key);
+    start(3);
+    cache_release(cache, cache_acquire(cache, UNIT_SETUP, &key, &error));
+    for (int n = 0; n < 4; n++)
+        touch(n);
+    touch(3);
+    const struct cache_statistics all = cache_statistics(cache);
+    const struct cache_unit *pixel = &all.unit[UNIT_PIXEL], *setup = &all.unit[UNIT_SETUP];
+    TEST_ASSERT_EQUAL_UINT64(1, setup->misses);
+    TEST_ASSERT_EQUAL_UINT64(1, setup->evictions);
+    TEST_ASSERT_EQUAL_UINT64(0, setup->routines + setup->bytes);
+    TEST_ASSERT_EQUAL_UINT64(4, pixel->misses);
+    TEST_ASSERT_EQUAL_UINT64(1, pixel->hits);
+    TEST_ASSERT_EQUAL_UINT64(5, pixel->lookups);
+    TEST_ASSERT_EQUAL_UINT64(1, pixel->evictions);
+    TEST_ASSERT_EQUAL_UINT64(3, pixel->routines);
+    TEST_ASSERT_EQUAL_UINT64(all.bytes, pixel->bytes);
+    TEST_ASSERT_EQUAL_UINT32(4, pixel->code_bytes[CODE_CLASS]);
+    TEST_ASSERT_EQUAL_UINT64(0, pixel->lookup_ns);
+    uint32_t builds = 0;
+    for (int i = 0; i < CACHE_CLASSES; i++)
+        builds += pixel->build_us[i];
+    TEST_ASSERT_EQUAL_UINT32(4, builds);
+}
+
 static void units_with_equal_bytes_are_different(void)
 {
     union key key;
@@ -316,6 +405,10 @@ int main(void)
 {
     UNITY_BEGIN();
     RUN_TEST(a_key_is_built_once);
+    RUN_TEST(the_oldest_is_evicted_first_in_first_out);
+    RUN_TEST(random_eviction_is_the_same_in_each_run);
+    RUN_TEST(routines_in_use_are_not_evicted_by_any_policy);
+    RUN_TEST(each_unit_has_its_counts);
     RUN_TEST(units_with_equal_bytes_are_different_routines);
     RUN_TEST(keys_with_equal_hashes_are_different_routines);
     RUN_TEST(the_least_recently_used_leaves_first);

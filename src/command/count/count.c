@@ -1,0 +1,213 @@
+#include "command/count/count.h"
+
+#include "command/count/counted.h"
+#include "command/support/interrupt.h"
+#include "command/support/session.h"
+#include "command/support/table.h"
+#include "engines/list.h"
+
+#include <math.h>
+#include <stdlib.h>
+
+/* --- Reporting ------------------------------------------------------------------------------------------ */
+
+static void add_number(cJSON *json, const char *name, double value)
+{
+    cJSON_AddNumberToObject(json, name, value);
+}
+
+/* The bits that number all values of a unit's key. */
+static double key_bits(enum unit unit)
+{
+    double bits = 0;
+    size_t count;
+    const struct key_field *fields = key_fields(unit, &count);
+    for (size_t i = 0; i < count; i++)
+        bits += fields[i].count * log2(fields[i].radix);
+    return bits;
+}
+
+/* An array of the classes up to the last that is not empty. */
+static void add_classes(cJSON *json, const char *name, const uint32_t classes[CACHE_CLASSES])
+{
+    int last = CACHE_CLASSES - 1;
+    while (last >= 0 && !classes[last])
+        last--;
+    cJSON *array = cJSON_AddArrayToObject(json, name);
+    for (int i = 0; i <= last; i++)
+        cJSON_AddItemToArray(array, cJSON_CreateNumber(classes[i]));
+}
+
+static cJSON *json_unit(const struct counted *c, enum unit unit)
+{
+    const struct cache_unit *counts = &c->cache.unit[unit];
+    cJSON *json = cJSON_CreateObject();
+    cJSON_AddStringToObject(json, "unit", unit_name[unit]);
+    add_number(json, "key_bits", key_bits(unit));
+    add_number(json, "keys", (double)c->states.keys[unit].count);
+    add_number(json, "hits", (double)counts->hits);
+    add_number(json, "misses", (double)counts->misses);
+    add_number(json, "evictions", (double)counts->evictions);
+    add_number(json, "routines", (double)counts->routines);
+    add_number(json, "bytes", (double)counts->bytes);
+    add_number(json, "lookups", (double)counts->lookups);
+    add_number(json, "lookup_ns", (double)counts->lookup_ns);
+    add_number(json, "build_ns", (double)counts->build_ns);
+    add_classes(json, "builds_by_us", counts->build_us);
+    add_classes(json, "builds_by_bytes", counts->code_bytes);
+    return json;
+}
+
+static cJSON *json_tier(const struct routine_tier *tier)
+{
+    cJSON *json = cJSON_CreateObject();
+    cJSON_AddStringToObject(json, "engine", tier->engine);
+    add_number(json, "runs", (double)tier->runs);
+    add_number(json, "elements", (double)tier->elements);
+    add_number(json, "builds", tier->builds);
+    add_number(json, "drops", tier->drops);
+    add_number(json, "build_ns", (double)tier->build_ns);
+    add_number(json, "code_bytes", tier->code_bytes);
+    return json;
+}
+
+static cJSON *json_frame(const struct count_frame *frame)
+{
+    cJSON *json = cJSON_CreateObject();
+    add_number(json, "draws", frame->states.draws);
+    add_number(json, "states", frame->states.states);
+    add_number(json, "new", frame->states.fresh);
+    add_number(json, "changes", frame->states.changes);
+    add_number(json, "returns", frame->states.returns);
+    add_number(json, "ms", frame->ms);
+    return json;
+}
+
+static cJSON *json_of(const struct counted *c)
+{
+    cJSON *json = cJSON_CreateObject();
+    cJSON_AddStringToObject(json, "stream", c->name);
+    cJSON_AddStringToObject(json, "engine", c->engine->name);
+    add_number(json, "budget", (double)c->budget);
+    add_number(json, "states", (double)c->states.sets.count);
+    cJSON *units = cJSON_AddArrayToObject(json, "units");
+    for (enum unit unit = 0; unit < UNIT_COUNT; unit++)
+        cJSON_AddItemToArray(units, json_unit(c, unit));
+    cJSON *tiers = cJSON_AddArrayToObject(json, "tiers");
+    for (unsigned i = 0; i < c->tiers.count; i++)
+        cJSON_AddItemToArray(tiers, json_tier(c->tiers.tier + i));
+    cJSON *frames = cJSON_AddArrayToObject(json, "frames");
+    for (unsigned i = 0; i < c->frames; i++)
+        cJSON_AddItemToArray(frames, json_frame(c->frame + i));
+    return json;
+}
+
+static void begin_tables(struct table tables[2])
+{
+    static const char *const unit[] = {"keys",     "hits",  "misses",    "evictions",
+                                       "routines", "bytes", "lookup ns", "build us"};
+    static const char *const tier[] = {"runs", "elements", "builds", "drops", "build us", "bytes"};
+    for (int i = 0; i < 2; i++) {
+        table_column(&tables[i], "stream", TABLE_LEFT);
+        table_column(&tables[i], "engine", TABLE_LEFT);
+        table_column(&tables[i], i ? "tier" : "unit", TABLE_LEFT);
+    }
+    for (size_t i = 0; i < sizeof unit / sizeof *unit; i++)
+        table_column(&tables[0], unit[i], TABLE_RIGHT);
+    for (size_t i = 0; i < sizeof tier / sizeof *tier; i++)
+        table_column(&tables[1], tier[i], TABLE_RIGHT);
+}
+
+static double mean(double sum, uint64_t count)
+{
+    return count ? sum / (double)count : 0;
+}
+
+static void add_unit_row(const struct counted *c, enum unit unit, struct table *table)
+{
+    const struct cache_unit *counts = &c->cache.unit[unit];
+    table_cell(table, "%s", c->name);
+    table_cell(table, "%s", c->engine->name);
+    table_cell(table, "%s", unit_name[unit]);
+    table_cell(table, "%zu", c->states.keys[unit].count);
+    table_cell(table, "%llu", (unsigned long long)counts->hits);
+    table_cell(table, "%llu", (unsigned long long)counts->misses);
+    table_cell(table, "%llu", (unsigned long long)counts->evictions);
+    table_cell(table, "%zu", counts->routines);
+    table_cell(table, "%zu", counts->bytes);
+    table_cell(table, "%.0f", mean((double)counts->lookup_ns, counts->lookups));
+    table_cell(table, "%.1f", mean((double)counts->build_ns / 1e3, counts->misses));
+}
+
+static void add_tier_row(const struct counted *c, const struct routine_tier *tier, struct table *table)
+{
+    table_cell(table, "%s", c->name);
+    table_cell(table, "%s", c->engine->name);
+    table_cell(table, "%s", tier->engine);
+    table_cell(table, "%llu", (unsigned long long)tier->runs);
+    table_cell(table, "%llu", (unsigned long long)tier->elements);
+    table_cell(table, "%u", tier->builds);
+    table_cell(table, "%u", tier->drops);
+    table_cell(table, "%.1f", mean((double)tier->build_ns / 1e3, tier->builds));
+    table_cell(table, "%u", tier->code_bytes);
+}
+
+static void report(const struct counted *c, struct table tables[2], cJSON *rows)
+{
+    for (enum unit unit = 0; unit < UNIT_COUNT; unit++)
+        add_unit_row(c, unit, &tables[0]);
+    for (unsigned i = 0; i < c->tiers.count; i++)
+        add_tier_row(c, c->tiers.tier + i, &tables[1]);
+    cJSON_AddItemToArray(rows, json_of(c));
+}
+
+/* --- All of them ---------------------------------------------------------------------------------------- */
+
+static int count_one(const struct command *self, const struct stream *stream, const struct engine *engine,
+                     const struct count_settings *settings, struct table tables[2], cJSON *rows)
+{
+    char name[64];
+    struct counted c = {.stream = stream, .name = name, .engine = engine, .frames = stream->frame_count};
+    tool_path_stem(stream->path, name, sizeof name);
+    if (settings->frames && settings->frames < c.frames)
+        c.frames = settings->frames;
+    c.budget = (size_t)settings->budget_kib << 10;
+    c.frame = calloc(c.frames + 1, sizeof *c.frame);
+    if (!c.frame)
+        return tool_fail(self, "no memory for %u frames", c.frames);
+    struct error error = {""};
+    int status = count_play(&c, settings->threads, interrupt_signal, &error);
+    if (status)
+        status = tool_fail(self, "%s: %s", name, error.text);
+    if (!status && !interrupt_signal())
+        report(&c, tables, rows);
+    count_states_free(&c.states);
+    free(c.frame);
+    return status;
+}
+
+static int count_stream(const struct command *self, const char *path, const struct choice *engines,
+                        const struct count_settings *settings, struct table tables[2], cJSON *rows)
+{
+    struct stream *stream = session_load(self, path);
+    int status = stream ? STATUS_OK : STATUS_BAD;
+    for (unsigned i = 0; i < engines->count && !status && !interrupt_signal(); i++)
+        status = count_one(self, stream, engine_at(engines->index[i]), settings, tables, rows);
+    stream_free(stream);
+    return status;
+}
+
+int count_all(const struct command *self, char **paths, unsigned count, const struct choice *engines,
+              const struct count_settings *settings, cJSON *report)
+{
+    struct table tables[2] = {{0}};
+    cJSON *rows = cJSON_AddArrayToObject(report, "counts");
+    int status = STATUS_OK;
+    begin_tables(tables);
+    for (unsigned i = 0; i < count && !status && !interrupt_signal(); i++)
+        status = count_stream(self, paths[i], engines, settings, tables, rows);
+    table_print(&tables[0], 0, stdout);
+    if (tables[1].cells)
+        table_print(&tables[1], 0, stdout);
+    return status;
+}

@@ -1,0 +1,31 @@
+/* The counts of one stream on one engine. */
+#ifndef COMMAND_COUNT_COUNTED_H
+#define COMMAND_COUNT_COUNTED_H
+
+#include "command/count/states.h"
+#include "command/stream/stream.h"
+#include "render/device/cache.h"
+
+/* The needs of a frame. */
+struct count_frame {
+    struct count_states_frame states;
+    double ms; /* wall time */
+};
+
+struct counted {
+    const struct stream *stream;
+    const char *name;
+    const struct engine *engine;
+    unsigned frames;
+    struct count_frame *frame;
+    struct count_states states;
+    struct cache_statistics cache;
+    struct routine_tiers tiers; /* summed over the routines; count is 0 if there are none */
+    size_t budget;              /* of the cache, in bytes; 0 becomes the usual one */
+};
+
+/* Plays the first c->frames frames and fills in the counts. `stop` is called before each frame, and ends the
+ * count by returning non-zero. Returns 0, or -1 with the reason. */
+int count_play(struct counted *c, unsigned threads, int (*stop)(void), struct error *error);
+
+#endif
