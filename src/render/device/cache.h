@@ -21,7 +21,7 @@
 
 struct cache;
 
-/* Histograms have a class for each bit width: class i counts values from 2^(i-1) to 2^i - 1, class 0 counts 0. */
+/* Histograms have a class for each bit width: class i counts values from 2^(i-1) to 2^i - 1, class 0 zeros. */
 enum { CACHE_CLASSES = 24 };
 
 /* Of one unit's routines. */
@@ -42,7 +42,7 @@ struct cache_statistics {
     struct cache_unit unit[UNIT_COUNT];
 };
 
-/* The idle routine that is evicted next. A draw counts as the use of a routine when the routine is released. */
+/* The idle routine that is evicted next. A routine is used by a draw until it is released. */
 enum cache_policy {
     CACHE_LRU,    /* the least recently used one */
     CACHE_FIFO,   /* the one that was built first */
