@@ -21,7 +21,8 @@
 
 struct cache;
 
-/* Histograms have a class for each bit width: class i counts values from 2^(i-1) to 2^i - 1, class 0 zeros. */
+/* Histograms have a class for each bit width: class i counts values from 2^(i-1) to 2^i - 1, class 0
+ * zeros. */
 enum { CACHE_CLASSES = 24 };
 
 /* Of one unit's routines. */

@@ -82,7 +82,8 @@ static void play(const char *engine, size_t budget, struct counted *c)
     stream_free(stream);
 }
 
-/* With the usual budget each key is built once. With that of one routine, keys that return are built again. */
+/* With the usual budget each key is built once. With that of one routine, keys that return are built
+ * again. */
 static void a_small_budget_costs_evictions(void)
 {
     for (int small = 0; small < 2; small++) {
