@@ -51,6 +51,8 @@ PROGRAM_OBJECTS := $(call object,$(PROGRAM_SOURCES))
 # Programs for Windows are built by the scripts of bench/d3d9.
 BENCH_SOURCES   := $(filter-out bench/d3d9/%,$(call find,bench,*.c))
 BENCH_OBJECTS   := $(call object,$(BENCH_SOURCES))
+# The kernels of docs/clients.md, without the libraries that they are measured against.
+CLIENT_OBJECTS  := $(call object,$(filter-out bench/clients/run/%,$(call find,bench/clients,*.c)))
 OBJECTS         := $(LIBRARY_OBJECTS) $(TOOL_OBJECTS) $(FRONT_OBJECTS) $(SUPPORT_OBJECTS) $(TARGET_OBJECTS) $(PROGRAM_OBJECTS) $(BENCH_OBJECTS)
 
 # ONLY=text selects the tests whose path contains the text.
@@ -237,6 +239,9 @@ $(BUILD)/libtriptych.so: $(BUILD)/$(SONAME)
 # Tests link parts of the command, without its main, from this archive.
 $(BUILD)/triptych: $(TOOL_OBJECTS) $(BUILD)/libtriptych.a $(BUILD)/command.list
 	$(call say,LD)$(link) $(TOOL_OBJECTS) $(BUILD)/libtriptych.a $(tool_libraries) -o $@
+
+# The kernels' tests contain the kernels.
+$(filter $(BUILD)/tests/clients/%,$(PROGRAMS)): $(CLIENT_OBJECTS)
 
 # Two kinds of tests link archives in every build: tests that replace functions of the library, because a
 # shared object calls its own functions, and tests that use symbols of assembly, because a shared object hides

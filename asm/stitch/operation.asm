@@ -173,6 +173,18 @@ shift shl_i,  vpslld
 shift shr_i,  vpsrad
 shift ushr_i, vpsrld
 
+; Each word beside itself in 64 bits, shifted: the high half is the rotated word.
+fragment rotl_i, NOTHING, NOTHING, M(15)
+    vectors IS(RESULT), IS(A)
+    vector        NO_REG, A, A,  vpunpckhdq m15, m0, m0
+    vector        RESULT, A, A,  vpunpckldq m0, m0, m0
+                vpsllq          m15, m15, 0
+.high:          hole            .high - 1, HOLE_BYTE, B
+    vector        NO_REG, RESULT, RESULT,  vpsllq m0, m0, 0
+.low:           hole            .low - 1, HOLE_BYTE, B
+    vector        RESULT, RESULT, NO_FIELD,  vshufps m0, m0, m15, 0xdd
+end_fragment
+
 ; ---- pairs of 16-bit integers
 
 binary add_x, vpaddw

@@ -72,6 +72,18 @@ static void run_setup(struct batch *batch, const struct schedule *schedule,
     flush(batch, schedule);
 }
 
+static void run_kernel(struct batch *batch, const struct schedule *schedule,
+                       const struct kernel_arguments *call, size_t stride)
+{
+    set_common(batch, BASE_JOB, call->job);
+    for (uint32_t i = 0; i < call->count; i += GROUP_LANES) {
+        unsigned group = add_group(batch, schedule);
+        batch->base[BASE_INPUT][group] = (const uint8_t *)(call->index + i);
+        batch->base[BASE_OUTPUT][group] = call->out + i * stride;
+    }
+    flush(batch, schedule);
+}
+
 /* The quads in a batch of pixels, as masks of their positions: by block of the tile, and in all blocks. */
 struct held {
     uint8_t block[TILE_BLOCKS];
@@ -123,6 +135,7 @@ static void run(const void *call, const struct routine *routine)
     switch (routine->unit) {
     case UNIT_VERTEX: run_vertices(&batch, schedule, call); break;
     case UNIT_SETUP: run_setup(&batch, schedule, call, layout_of_setup(&routine->key.setup).stride); break;
+    case UNIT_KERNEL: run_kernel(&batch, schedule, call, routine->key.kernel.stride); break;
     default: run_pixels(&batch, schedule, call); break;
     }
     mxcsr_leave(saved);

@@ -46,4 +46,14 @@ struct pixel_arguments {
     uint32_t count;
 };
 
+/* For each element i < count (a multiple of the routine's lanes or of 16): the kernel reads index[i] at INPUT
+ * and writes from out + i * stride on at OUTPUT. `job` is a structure of the kernel, at JOB. No kernel has
+ * shader constants. */
+struct kernel_arguments {
+    const void *job;
+    const int32_t *index;
+    uint8_t *out;
+    uint32_t count;
+};
+
 #endif

@@ -9,7 +9,7 @@
 #include <string.h>
 #include <xxhash.h>
 
-const char *const unit_name[UNIT_COUNT] = {"vertex", "setup", "pixel"};
+const char *const unit_name[UNIT_COUNT + 1] = {"vertex", "setup", "pixel", "kernel"};
 
 const uint8_t stage_arguments[STAGE_COUNT] = {
 #define STAGE_OPERATION(name, arguments, meaning) arguments,

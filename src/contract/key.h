@@ -21,7 +21,9 @@
 #include <stdint.h>
 #include <string.h>
 
-enum unit { UNIT_VERTEX, UNIT_SETUP, UNIT_PIXEL, UNIT_COUNT };
+/* The units of the pipeline. A kernel is a routine of another program than the renderer (docs/clients.md): it
+ * has no specification in spec/ and no packed key, and is built from a recording. */
+enum unit { UNIT_VERTEX, UNIT_SETUP, UNIT_PIXEL, UNIT_COUNT, UNIT_KERNEL = UNIT_COUNT };
 
 #define KEY_FIELD(unit, field, radix, meaning)         uint8_t field;
 #define KEY_FIELDS(unit, field, count, radix, meaning) uint8_t field[count];
@@ -41,10 +43,15 @@ struct pixel_key {
 #undef KEY_FIELD
 #undef KEY_FIELDS
 
+struct kernel_key {
+    uint16_t stride; /* bytes from one element's output to the next */
+};
+
 union key {
     struct vertex_key vertex;
     struct setup_key setup;
     struct pixel_key pixel;
+    struct kernel_key kernel;
 };
 
 /* Enough for every key: key.c checks both against def/key.def when it is compiled. */
@@ -66,7 +73,7 @@ struct key_field {
     uint16_t radix;  /* values are 0 to radix - 1 */
 };
 
-extern const char *const unit_name[UNIT_COUNT]; /* "vertex", "setup", "pixel" */
+extern const char *const unit_name[UNIT_COUNT + 1]; /* "vertex", "setup", "pixel", "kernel" */
 
 /* The fields of a unit's key in packing order; *count receives their number. For tests: every field of a
  * key. */

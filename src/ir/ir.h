@@ -201,6 +201,10 @@ void ir_record(struct ir *ir, enum unit unit, const union key *key);
 struct ir *ir_take(enum unit unit, const union key *key, struct error *error);
 void ir_give(struct ir *ir);
 
+/* The same for what `record` records of `context`: kernels, which have no key. `name` is in the reason. */
+typedef void ir_recorder(struct ir *ir, const void *context);
+struct ir *ir_take_recording(ir_recorder *record, const void *context, const char *name, struct error *error);
+
 /* Evaluates an operation of def/op.def on one lane's bits (a pair: both halves), under the caller's MXCSR. */
 uint32_t ir_evaluate(enum ir_op op, uint32_t a, uint32_t b, uint32_t c, int32_t k);
 

@@ -386,9 +386,12 @@ static void print_body(struct printer *p)
 
 #define FIELD(structure, field) (int)offsetof(struct structure, field)
 
-static void print_job(const struct printer *p, int field, int stage)
+static void print_job(const struct printer *p, int field, enum unit unit)
 {
+    int stage = unit == UNIT_PIXEL;
     fprintf(p->out, "    char *JOB = read_pointer(call + %d);\n", field);
+    if (unit == UNIT_KERNEL)
+        return;
     fprintf(p->out, "    char *CONSTANT = read_pointer(JOB + %d);\n",
             FIELD(job, constants) + stage * (int)sizeof(float *));
 }
@@ -429,11 +432,11 @@ static void print_blocks(struct printer *p)
 
 static int print_function(struct printer *p, enum unit unit, const union key *key)
 {
-    static const int job_field[UNIT_COUNT] = {FIELD(vertex_arguments, job), FIELD(setup_arguments, job),
-                                              FIELD(pixel_arguments, job)};
+    static const int job_field[] = {FIELD(vertex_arguments, job), FIELD(setup_arguments, job),
+                                    FIELD(pixel_arguments, job), FIELD(kernel_arguments, job)};
     FILE *out = p->out;
     fprintf(out, "void " EXTERNAL_FUNCTION "(const char *call)\n{\n");
-    print_job(p, job_field[unit], unit == UNIT_PIXEL);
+    print_job(p, job_field[unit], unit);
     if (unit == UNIT_SETUP)
         fprintf(out, "    char *VERTICES = read_pointer(call + %d);\n", FIELD(setup_arguments, vertices));
     if (print_constants(p))
@@ -446,6 +449,10 @@ static int print_function(struct printer *p, enum unit unit, const union key *ke
     case UNIT_SETUP:
         print_list(p, FIELD(setup_arguments, index), FIELD(setup_arguments, out),
                    FIELD(setup_arguments, count), layout_of_setup(&key->setup).stride);
+        break;
+    case UNIT_KERNEL:
+        print_list(p, FIELD(kernel_arguments, index), FIELD(kernel_arguments, out),
+                   FIELD(kernel_arguments, count), key->kernel.stride);
         break;
     default: print_blocks(p); break;
     }

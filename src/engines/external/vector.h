@@ -236,6 +236,11 @@ OPERATION itg ushr_i(itg a, int k)
     return (itg)((word)a >> k);
 }
 
+OPERATION itg rotl_i(itg a, int k)
+{
+    return (itg)((word)a << k | (word)a >> (-k & 31));
+}
+
 /* pairs of 16-bit integers */
 OPERATION fix add_x(fix a, fix b)
 {

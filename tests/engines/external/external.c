@@ -176,12 +176,12 @@ static void check_every_operation(void)
 static void check_shifts(void)
 {
     struct operations operations;
-    for (int part = 0; part < 3; part++) {
+    for (int part = 0; part < 4; part++) {
         start_operations(&operations);
         for (unsigned op = 1; op <= IR_COMPUTED; op++) {
             const struct ir_op_information *information = &ir_op_information[op];
             if (information->properties & IR_SHIFTS)
-                for (int k = part; k < (information->result == TYPE_fix ? 16 : 32); k += 3)
+                for (int k = part; k < (information->result == TYPE_fix ? 16 : 32); k += 4)
                     append_operation(&operations, op, k);
         }
         check_edges("edges");

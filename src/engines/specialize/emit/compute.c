@@ -17,6 +17,7 @@ enum form {
     FORM_UNARY,
     FORM_ROUND,
     FORM_SHIFT,
+    FORM_ROTATE,
     FORM_NEGATE,
     FORM_HALF,
     FORM_MAD,
@@ -157,6 +158,23 @@ static void select_shift(struct emitter *m, const struct rule *rule, const struc
     struct location a = emit_locate(m, i->operand[0]);
     unsigned from = emit_need_register(m, &a, SCRATCH_FIRST);
     encode_rri(&m->encoder, rule->instruction, m->length, emit_result_register(m), from, (unsigned)i->k);
+}
+
+/* Rotations by whole bytes permute bytes. Each lane's literal has the places of its four bytes. */
+static void select_rotate(struct emitter *m, const struct rule *rule, const struct ir_instruction *i)
+{
+    struct encoder *e = &m->encoder;
+    struct location a = emit_locate(m, i->operand[0]);
+    unsigned to = emit_result_register(m), from = emit_need_register(m, &a, SCRATCH_FIRST);
+    if (i->k % 8 == 0) {
+        int32_t places = (int32_t)ir_evaluate(IR_rotl_i, 0x03020100, 0, 0, i->k);
+        encode_rrm(e, rule->instruction, m->length, to, from,
+                   emit_literal_address(m, places, LITERAL_PLACES));
+        return;
+    }
+    encode_rri(e, X86_vpslld_immediate, m->length, SCRATCH_SECOND, from, (unsigned)i->k);
+    encode_rri(e, X86_vpsrld_immediate, m->length, to, from, 32 - (unsigned)i->k);
+    encode_rrr(e, X86_vpor, m->length, to, to, SCRATCH_SECOND);
 }
 
 static void select_negate(struct emitter *m, const struct ir_instruction *i)
@@ -362,6 +380,7 @@ void emit_computed(struct emitter *m, const struct ir_instruction *i)
     case FORM_UNARY:
     case FORM_ROUND: select_unary(m, rule, i); break;
     case FORM_SHIFT: select_shift(m, rule, i); break;
+    case FORM_ROTATE: select_rotate(m, rule, i); break;
     case FORM_NEGATE: select_negate(m, i); break;
     case FORM_HALF: select_half(m, rule, i); break;
     case FORM_MAD: select_mad(m, i); break;

@@ -177,8 +177,8 @@ static inline unsigned emit_lanes(const struct emitter *emitter)
 }
 
 /* The layout of a literal after the code: one word to be broadcast; the same word for each lane; or for lane
- * l, l times the word. */
-enum literal_kind { LITERAL_ONCE, LITERAL_LANES, LITERAL_MULTIPLES };
+ * l, l times the word, or the word plus the place of the lane's first byte in each of its four bytes. */
+enum literal_kind { LITERAL_ONCE, LITERAL_LANES, LITERAL_MULTIPLES, LITERAL_PLACES };
 struct address emit_literal_address(struct emitter *emitter, int32_t bits, enum literal_kind kind);
 
 /* emit_locate returns where a value is at the current position; emit_need_register returns its vector

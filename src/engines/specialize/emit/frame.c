@@ -271,20 +271,34 @@ static void vertex_loop(struct emitter *m)
     end_loop(m);
 }
 
-static void setup_loop(struct emitter *m, const struct setup_key *key)
+/* A loop over elements that reads a word and writes a record of `stride` bytes for each. */
+static void record_loop(struct emitter *m, int32_t stride)
 {
-    int32_t stride = layout_of_setup(key).stride;
-    emit_note_frame_line(m, __LINE__);
-    load(m, INPUT, offsetof(struct setup_arguments, index));
-    load(m, OUTPUT, offsetof(struct setup_arguments, out));
-    load(m, VERTICES, offsetof(struct setup_arguments, vertices));
-    load_limit(m, offsetof(struct setup_arguments, count), 2);
     begin_loop(m);
     emit_body(m);
     emit_note_frame_line(m, __LINE__);
     encode_gpr_ri(&m->encoder, X86_add, X86_64, INPUT, (int32_t)emit_lanes(m) * 4);
     encode_gpr_ri(&m->encoder, X86_add, X86_64, OUTPUT, (int32_t)emit_lanes(m) * stride);
     end_loop(m);
+}
+
+static void kernel_loop(struct emitter *m, const struct kernel_key *key)
+{
+    emit_note_frame_line(m, __LINE__);
+    load(m, INPUT, offsetof(struct kernel_arguments, index));
+    load(m, OUTPUT, offsetof(struct kernel_arguments, out));
+    load_limit(m, offsetof(struct kernel_arguments, count), 2);
+    record_loop(m, key->stride);
+}
+
+static void setup_loop(struct emitter *m, const struct setup_key *key)
+{
+    emit_note_frame_line(m, __LINE__);
+    load(m, INPUT, offsetof(struct setup_arguments, index));
+    load(m, OUTPUT, offsetof(struct setup_arguments, out));
+    load(m, VERTICES, offsetof(struct setup_arguments, vertices));
+    load_limit(m, offsetof(struct setup_arguments, count), 2);
+    record_loop(m, layout_of_setup(key).stride);
 }
 
 /* Loads the bases of an entry's block. */
@@ -341,6 +355,16 @@ static void pixel_loop(struct emitter *m)
     end_loop(m);
 }
 
+static int32_t literal_word(const struct emitter *m, uint32_t literal, unsigned lane)
+{
+    uint32_t bits = (uint32_t)m->literal_bits[literal];
+    switch (m->literal_lanes[literal]) {
+    case LITERAL_MULTIPLES: return (int32_t)(bits * lane);
+    case LITERAL_PLACES: return (int32_t)(bits + lane % 4 * 0x04040404u);
+    default: return (int32_t)bits;
+    }
+}
+
 /* Writes the literals: first those with all lanes, which are aligned. Each has at least a register of 16
  * bytes. */
 static void constant_pool(struct emitter *m)
@@ -352,8 +376,7 @@ static void constant_pool(struct emitter *m)
             if ((m->literal_lanes[i] == LITERAL_ONCE) != once)
                 continue;
             for (unsigned lane = 0; lane < count; lane++)
-                lanes[lane] =
-                    m->literal_bits[i] * (m->literal_lanes[i] == LITERAL_MULTIPLES ? (int32_t)lane : 1);
+                lanes[lane] = literal_word(m, i, lane);
             encode_label(&m->encoder, m->literal_label[i]);
             encode_data(&m->encoder, lanes, (once ? 1 : count) * sizeof lanes[0]);
         }
@@ -361,9 +384,9 @@ static void constant_pool(struct emitter *m)
 
 static size_t job_field(enum unit unit)
 {
-    static const size_t field[UNIT_COUNT] = {offsetof(struct vertex_arguments, job),
-                                             offsetof(struct setup_arguments, job),
-                                             offsetof(struct pixel_arguments, job)};
+    static const size_t field[] = {
+        offsetof(struct vertex_arguments, job), offsetof(struct setup_arguments, job),
+        offsetof(struct pixel_arguments, job), offsetof(struct kernel_arguments, job)};
     return field[unit];
 }
 
@@ -387,6 +410,7 @@ size_t emit_routine(struct emitter *m, enum unit unit, const union key *key, str
     switch (unit) {
     case UNIT_VERTEX: vertex_loop(m); break;
     case UNIT_SETUP: setup_loop(m, &key->setup); break;
+    case UNIT_KERNEL: kernel_loop(m, &key->kernel); break;
     default: pixel_loop(m); break;
     }
     epilogue(m);

@@ -248,6 +248,7 @@ static bool reduce(const struct view *view, struct ir_instruction *i)
     case IR_shl_i:
     case IR_shr_i:
     case IR_ushr_i:
+    case IR_rotl_i:
     case IR_shl_x:
     case IR_ushr_x: return reduce_shift(view, i);
     default: return false;
