@@ -11,6 +11,7 @@ streams=(tests/data/streams/{lights,multisampling,shaders}.tri tests/data/scenes
 
 options=(registers={0,4,6,8} passes={none,thesis} passes=none:{unroll,with=fold} unroll registers=4:unroll
     allocate=none allocate=none:passes=none allocate=none:unroll
+    encode=text encode=text:passes=none encode=text:addresses=patched
     addresses={patched,shared} addresses=patched:registers=4)
 for pass in $("$TRIPTYCH" list passes --json | sed -n 's/.*"pass":[^"]*"\([^"]*\)".*/\1/p'); do
     [[ $pass == split ]] || options+=("without=$pass")

@@ -116,6 +116,13 @@ static void allocators_are_chosen(void)
     TEST_ASSERT_EQUAL(ALLOCATOR_scan, allocator_of("specialize-simple:allocate=scan"));
 }
 
+static void encodings_are_chosen(void)
+{
+    TEST_ASSERT_EQUAL(ENCODING_BYTES, specialize_options(make("specialize-8"), UNIT_PIXEL).encoding);
+    TEST_ASSERT_EQUAL(ENCODING_TEXT,
+                      specialize_options(make("specialize-8:encode=text"), UNIT_PIXEL).encoding);
+}
+
 static void wrong_names_are_refused(void)
 {
     static const char *const rows[][2] = {
@@ -134,6 +141,7 @@ static void wrong_names_are_refused(void)
         {"specialize:without=commn", "did you mean \"common\"?"},
         {"specialize:without=split", "without is \"split\", expected a pass that can be left out"},
         {"specialize:allocate=scann", "did you mean \"scan\"?"},
+        {"specialize:encode=binary", "encode is \"binary\", expected one of: bytes, text"},
         {"specialize:unroll=2", "unroll takes no value, found \"2\""},
     };
     for (size_t i = 0; i < sizeof rows / sizeof *rows; i++) {
@@ -246,6 +254,7 @@ int main(void)
     RUN_TEST(registers_are_limited);
     RUN_TEST(passes_are_chosen);
     RUN_TEST(allocators_are_chosen);
+    RUN_TEST(encodings_are_chosen);
     RUN_TEST(wrong_names_are_refused);
     RUN_TEST(long_names_are_refused);
     RUN_TEST(a_device_has_the_engine_that_is_named);

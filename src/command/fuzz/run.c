@@ -266,7 +266,7 @@ static int compare_section(void *user, const struct section *section)
 static bool is_limit(const char *reason)
 {
     return strstr(reason, "routine takes more than") || strstr(reason, "exceeds its room of") ||
-           strstr(reason, "too many spill slots");
+           strstr(reason, "too many spill slots") || strstr(reason, "too many pointers");
 }
 
 /* Plays a frame and processes vertices in the state that it leaves. */

@@ -151,8 +151,9 @@ static int dump(const struct command *self, const char *path, const struct setti
 static const char notes[] =
     "The text of the draw's shader comes first, and each of its lines again before what it becomes.\n"
     "Stages of specialize: key, record (the operations as recorded), the name of a pass (the operations\n"
-    "after it; triptych list passes), intervals (registers), asm (the code), all; and parts (times of the\n"
-    "parts of a build), which differ from run to run and are not in all.\n"
+    "after it; triptych list passes), intervals (registers), asm (the code), all; and, not in all, text "
+    "(the\n"
+    "code as assembly for NASM) and parts (times of the parts of a build, which differ from run to run).\n"
     "Stages of external: key, vector (the operations that the text is made from), text (C), asm, all; whole\n"
     "(vector and text as one file of C).\n"
     "The stitching engines show their fragments, holes and code.";

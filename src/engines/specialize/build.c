@@ -18,6 +18,7 @@ struct builder *specialize_take(struct error *error)
 
 void specialize_give(struct builder *builder)
 {
+    emit_give_text(&builder->emitter);
     slab_give(&builders, builder);
 }
 
@@ -62,7 +63,7 @@ static size_t too_long(enum unit unit, struct error *error)
     return 0;
 }
 
-void specialize_allocate(struct builder *b, const struct build_options *options)
+int specialize_allocate(struct builder *b, const struct build_options *options, struct error *error)
 {
     struct register_file file = options->file;
     file.wide = options->width == 16;
@@ -74,6 +75,8 @@ void specialize_allocate(struct builder *b, const struct build_options *options)
     b->emitter.width = options->width;
     b->emitter.literal_pointers = options->addresses != ADDRESSES_LOADED;
     b->emitter.length = emit_length_of(options->width);
+    b->emitter.textual = options->encoding == ENCODING_TEXT;
+    return b->emitter.textual ? emit_take_text(&b->emitter, error) : 0;
 }
 
 static size_t build_phases(struct builder *b, const struct build_options *options, enum unit unit,
@@ -87,7 +90,8 @@ static size_t build_phases(struct builder *b, const struct build_options *option
         return 0;
     if (b->ir.overflow)
         return too_long(unit, error);
-    specialize_allocate(b, options);
+    if (specialize_allocate(b, options, error))
+        return 0;
     return emit_routine(&b->emitter, unit, key, error);
 }
 

@@ -6,6 +6,8 @@
 #include "engines/specialize/emit/emit.h"
 #include "engines/specialize/passes/pass.h"
 
+enum encoding { ENCODING_BYTES, ENCODING_TEXT };
+
 /* Where a routine's code has the pointers that its gathers start from: it loads them from the job, or they
  * are literals of the code, which threads take turns to change or have copies of (pointers.c). */
 enum addresses { ADDRESSES_LOADED, ADDRESSES_PATCHED, ADDRESSES_SHARED };
@@ -19,6 +21,7 @@ struct build_options {
     bool limited;       /* `registers` is a limit; specialize_options makes `file` of it */
     unsigned registers; /* vector registers for values, and half as many mask registers */
     enum allocator allocator;
+    enum encoding encoding; /* how instructions become bytes: directly, or by way of text */
     struct register_file file;
     enum addresses addresses;
 };
@@ -44,8 +47,9 @@ struct builder {
 struct builder *specialize_take(struct error *error);
 void specialize_give(struct builder *builder);
 
-/* Allocates registers for the program in builder->ir, and prepares the emission of its code. */
-void specialize_allocate(struct builder *builder, const struct build_options *options);
+/* Allocates registers for the program in builder->ir, and prepares the emission of its code. Returns 0, or -1
+ * with the reason. */
+int specialize_allocate(struct builder *builder, const struct build_options *options, struct error *error);
 
 /* Records, optimises, allocates and encodes to builder->emitter.code, under the contract's MXCSR. Returns the
  * number of bytes, or 0 with the reason. `observer` may be null. */

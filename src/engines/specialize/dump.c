@@ -40,7 +40,7 @@ static bool shows(const char *show, const char *name)
 
 const char *specialize_phase_name(unsigned index)
 {
-    static const char *const phases[] = {"all", "key", "record", "intervals", "asm", "parts"};
+    static const char *const phases[] = {"all", "key", "record", "intervals", "asm", "text", "parts"};
     const unsigned count = sizeof phases / sizeof *phases;
     return index < count ? phases[index] : index - count < PASS_COUNT ? pass_name(index - count) : NULL;
 }
@@ -59,7 +59,7 @@ static int check_words(const char *show, struct error *error)
         unsigned index;
         if (words_find(phases, at, length, &index))
             continue;
-        error_set(error, "found `%.*s`, expected key, record, a pass, intervals, asm, parts or all",
+        error_set(error, "found `%.*s`, expected key, record, a pass, intervals, asm, text, parts or all",
                   (int)length, at);
         return words_suggest_in(phases, at, length, error);
     }
@@ -118,6 +118,20 @@ static void dump_code(struct dump *dump, size_t bytes)
     }
 }
 
+/* The text that an assembler makes the code of, whether or not the engine does it. */
+static int dump_text(struct dump *dump, const struct build_options *options, enum unit unit,
+                     const union key *key, struct error *error)
+{
+    struct build_options textual = *options;
+    textual.encoding = ENCODING_TEXT;
+    if (!specialize_code(dump->builder, &textual, unit, key, NULL, NULL, error))
+        return -1;
+    const struct encode_text *text = &dump->builder->emitter.text;
+    fprintf(dump->out, "\n== text: %zu characters\n", (size_t)(text->at - text->start));
+    fwrite(text->start, 1, (size_t)(text->at - text->start), dump->out);
+    return 0;
+}
+
 static int dump_phases(struct dump *dump, const struct build_options *options, enum unit unit,
                        const union key *key, struct error *error)
 {
@@ -173,6 +187,8 @@ int specialize_dump(const struct engine *engine, enum unit unit, const union key
     int result = program ? program_text_open(program, &text, error) : 0;
     if (!result)
         result = dump_phases(&dump, &options, unit, key, error);
+    if (!result && names_word(show, "text"))
+        result = dump_text(&dump, &options, unit, key, error);
     if (!result && names_word(show, "parts"))
         result = dump_parts(engine, unit, key, out, error);
     program_text_free(&text);

@@ -120,3 +120,16 @@ int specialize_set_allocate(void *options, const char *value, struct error *erro
     o->allocator = (enum allocator)index;
     return 0;
 }
+
+static const char *const encodings[] = {[ENCODING_BYTES] = "bytes", [ENCODING_TEXT] = "text"};
+
+int specialize_set_encode(void *options, const char *value, struct error *error)
+{
+    struct build_options *o = options;
+    const struct words words = WORDS_OF_ROWS(encodings);
+    unsigned index;
+    if (!words_find(words, value, strlen(value), &index))
+        return set_unknown("encode", value, words, error);
+    o->encoding = (enum encoding)index;
+    return 0;
+}

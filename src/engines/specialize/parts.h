@@ -16,6 +16,7 @@ enum {
     BUILD_ALLOCATE,
     BUILD_SELECT,
     BUILD_ENCODE,
+    BUILD_ASSEMBLE, /* by way of text: reading it; `encode` is then printing */
     BUILD_PARTS
 };
 
@@ -34,7 +35,7 @@ struct build_parts {
 };
 
 /* The name of a part, null past the last: "record", the names of passes, "compact", "allocate", "select",
- * "encode". */
+ * "encode", "assemble". */
 const char *specialize_part_name(unsigned part);
 
 /* Builds a routine of one of the specializer's engines and discards it. To distinguish selection from

@@ -28,7 +28,8 @@ void *specialize_copy_options(const struct engine *engine);
 const char *specialize_phase_name(unsigned index);
 
 /* Builds a routine with one of these engines and prints the phases that `show` lists, separated by commas:
- * key, record, a pass's name (pass_name), intervals, asm; or all. Returns 0, or -1 with the reason. */
+ * key, record, a pass's name (pass_name), intervals, asm; or all of these; and text, parts. Returns 0, or -1
+ * with the reason. */
 int specialize_dump(const struct engine *engine, enum unit unit, const union key *key, const char *show,
                     FILE *out, struct error *error);
 

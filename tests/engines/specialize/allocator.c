@@ -1,6 +1,6 @@
-/* The allocators of def/engine/allocator.def: for random keys, all shaders and all streams, the code reads the
- * right values at every number of lanes (tests/support/routine/placement.h). This needs no processor that can
- * run the code. placement.c runs code of all allocators with few registers. */
+/* The allocators of def/engine/allocator.def: for random keys, all shaders and all streams, the code reads
+ * the right values at every number of lanes (tests/support/routine/placement.h). This needs no processor that
+ * can run the code. placement.c runs code of all allocators with few registers. */
 #include "engines/specialize/specialize.h"
 #include "tests/support/routine/placement.h"
 #include "tests/support/routine/routines.h"

@@ -3,7 +3,8 @@
  * From a row's form and operand classes the test derives the instructions to encode (all combinations of
  * registers, all addressing modes) and the expected result of the disassembler: mnemonic, operands in order
  * with their registers, widths, addresses and immediates, and the length. It also checks that the encoding is
- * the shortest. A new row of the table is tested without a change here. */
+ * the shortest. A new row of the table is tested without a change here. Each test runs again by way of text,
+ * which the assembler reads, with every seventh choice of operands. */
 #include "engines/specialize/emit/encode.h"
 #include "tests/support/routine/decoded.h"
 
@@ -212,8 +213,11 @@ static void require_shortest_vex(const struct vector_choice *c, bool map_0f, boo
         return;
     }
     decoded_require(decoded_at.decoded.encoding == ZYDIS_INSTRUCTION_ENCODING_VEX, "encoding");
-    decoded_require(decoded_at.decoded.raw.vex.size == (map_0f && !w && !extended ? 2 : 3), "VEX size");
-    if (w)
+    /* The assembler may choose another row, with a shorter encoding of the same instruction. */
+    unsigned size = map_0f && !w && !extended ? 2 : 3;
+    decoded_require(decoded_at.decoded.raw.vex.size <= size, "VEX size");
+    decoded_require(decoded_at.decoded.raw.vex.size == size || decoded_at.by_text, "VEX size");
+    if (w && !decoded_at.by_text)
         require_w_has_meaning();
 }
 
@@ -264,7 +268,8 @@ static void check_vector(const struct vector_choice *c)
 {
     const struct vector_expectation *row = c->row;
     const char *letters = is(row->form, "NONE") ? "" : is(row->form, "GATHER") ? "RMV" : row->form;
-    if (row->evex && !needs_evex(c))
+    static unsigned turn;
+    if ((row->evex && !needs_evex(c)) || (decoded_at.by_text && turn++ % 7))
         return;
     decoded_at.row = row->name;
     struct encoder *encoder = decoded_begin();
@@ -461,10 +466,14 @@ int main(void)
 {
     ZydisDecoderInit(&decoded_at.decoder, ZYDIS_MACHINE_MODE_LONG_64, ZYDIS_STACK_WIDTH_64);
     UNITY_BEGIN();
-    RUN_TEST(vector_rows_take_all_registers);
-    RUN_TEST(vector_rows_take_all_addresses);
-    RUN_TEST(vector_rows_take_all_registers_with_memory);
-    RUN_TEST(vector_copy_is_the_shortest_vmovaps);
-    RUN_TEST(every_row_is_different);
+    decoded_run(vector_rows_take_all_registers, "vector_rows_take_all_registers",
+                "vector_rows_take_all_registers_by_text", __LINE__);
+    decoded_run(vector_rows_take_all_addresses, "vector_rows_take_all_addresses",
+                "vector_rows_take_all_addresses_by_text", __LINE__);
+    decoded_run(vector_rows_take_all_registers_with_memory, "vector_rows_take_all_registers_with_memory",
+                "vector_rows_take_all_registers_with_memory_by_text", __LINE__);
+    decoded_run(vector_copy_is_the_shortest_vmovaps, "vector_copy_is_the_shortest_vmovaps",
+                "vector_copy_is_the_shortest_vmovaps_by_text", __LINE__);
+    decoded_run(every_row_is_different, "every_row_is_different", "every_row_is_different_by_text", __LINE__);
     return UNITY_END();
 }

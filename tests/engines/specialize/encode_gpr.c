@@ -301,8 +301,11 @@ int main(void)
 {
     ZydisDecoderInit(&decoded_at.decoder, ZYDIS_MACHINE_MODE_LONG_64, ZYDIS_STACK_WIDTH_64);
     UNITY_BEGIN();
-    RUN_TEST(gpr_rows_take_all_registers);
-    RUN_TEST(gpr_rows_take_all_addresses);
-    RUN_TEST(constants_use_the_shortest_mov);
+    decoded_run(gpr_rows_take_all_registers, "gpr_rows_take_all_registers",
+                "gpr_rows_take_all_registers_by_text", __LINE__);
+    decoded_run(gpr_rows_take_all_addresses, "gpr_rows_take_all_addresses",
+                "gpr_rows_take_all_addresses_by_text", __LINE__);
+    decoded_run(constants_use_the_shortest_mov, "constants_use_the_shortest_mov",
+                "constants_use_the_shortest_mov_by_text", __LINE__);
     return UNITY_END();
 }

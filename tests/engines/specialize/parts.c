@@ -39,6 +39,7 @@ static void every_part_has_a_name(void)
     TEST_ASSERT_EQUAL_STRING("dead", specialize_part_name(BUILD_PASSES + PASS_dead));
     TEST_ASSERT_EQUAL_STRING("compact", specialize_part_name(BUILD_COMPACT));
     TEST_ASSERT_EQUAL_STRING("encode", specialize_part_name(BUILD_ENCODE));
+    TEST_ASSERT_EQUAL_STRING("assemble", specialize_part_name(BUILD_ASSEMBLE));
     TEST_ASSERT_NULL(specialize_part_name(BUILD_PARTS));
 }
 
@@ -78,7 +79,7 @@ static void check_sums(const struct build_parts *parts)
 static void what_passes_remove_adds_up(void)
 {
     static const char *const names[] = {"specialize-8", "specialize-8:unroll", "specialize-thesis",
-                                        "specialize-8:registers=4:without=dead"};
+                                        "specialize-8:registers=4:without=dead", "specialize-8:encode=text"};
     for (size_t i = 0; i < sizeof names / sizeof *names; i++)
         for (unsigned unit = 0; unit < UNIT_COUNT; unit++) {
             engine = engine_find(names[i]);
@@ -99,6 +100,16 @@ static void every_part_takes_time(void)
     TEST_ASSERT_GREATER_THAN(0, parts.part[BUILD_SELECT].ns);
 }
 
+static void only_text_is_assembled(void)
+{
+    const struct build_parts direct = measure(UNIT_VERTEX, plain_key());
+    engine = engine_find("specialize-8:encode=text");
+    const struct build_parts text = measure(UNIT_VERTEX, plain_key());
+    TEST_ASSERT_EQUAL(0, direct.part[BUILD_ASSEMBLE].ns);
+    TEST_ASSERT_GREATER_THAN(0, text.part[BUILD_ASSEMBLE].ns);
+    TEST_ASSERT_EQUAL(direct.bytes, text.bytes);
+}
+
 static void no_pass_removes_nothing(void)
 {
     engine = engine_find("specialize-none");
@@ -115,6 +126,7 @@ int main(void)
     RUN_TEST(the_build_is_the_one_that_others_make);
     RUN_TEST(what_passes_remove_adds_up);
     RUN_TEST(every_part_takes_time);
+    RUN_TEST(only_text_is_assembled);
     RUN_TEST(no_pass_removes_nothing);
     return UNITY_END();
 }

@@ -1,5 +1,7 @@
 #include "decoded.h"
 
+#include "engines/specialize/emit/assemble.h"
+
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -31,11 +33,39 @@ struct encoder *decoded_begin(void)
     decoded_at.encoder.at += DECODED_BEHIND_OFFSET;
     encode_label(&decoded_at.encoder, DECODED_BEHIND);
     decoded_at.encoder.at = decoded_at.encoder.start + DECODED_HERE;
+    decoded_at.line = (struct encode_text){decoded_at.text, decoded_at.text, decoded_at.text + DECODED_ROOM};
+    decoded_at.encoder.text = decoded_at.by_text ? &decoded_at.line : NULL;
     return &decoded_at.encoder;
+}
+
+static void assemble_text(void)
+{
+    static struct mnemonics mnemonics;
+    struct error error = {0};
+    struct assembler assembler = {.start = decoded_at.text,
+                                  .at = decoded_at.text,
+                                  .end = decoded_at.line.at,
+                                  .encoder = &decoded_at.encoder,
+                                  .mnemonics = &mnemonics,
+                                  .error = &error};
+    decoded_at.encoder.text = NULL;
+    if (encode_assemble_line(&assembler))
+        TEST_FAIL_MESSAGE(error.text);
+    TEST_ASSERT_EQUAL_PTR(assembler.end, assembler.at);
+}
+
+void decoded_run(void (*test)(void), const char *name, const char *name_by_text, int line)
+{
+    UnityDefaultTestRun(test, name, line);
+    decoded_at.by_text = true;
+    UnityDefaultTestRun(test, name_by_text, line);
+    decoded_at.by_text = false;
 }
 
 void decoded_finish(const char *mnemonic, unsigned operand_count)
 {
+    if (decoded_at.by_text)
+        assemble_text();
     decoded_at.length = (unsigned)encode_size(&decoded_at.encoder) - DECODED_HERE;
     memset(decoded_at.encoder.at, 0x06, 16);
     decoded_at.encoder.at = decoded_at.encoder.start + DECODED_AHEAD_OFFSET;

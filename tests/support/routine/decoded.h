@@ -29,6 +29,10 @@ extern struct decoded {
     ZydisDecoder decoder;
     ZydisDecodedInstruction decoded;
     ZydisDecodedOperand operands[ZYDIS_MAX_OPERAND_COUNT];
+    /* The encoder prints the instruction, and the assembler reads it. */
+    bool by_text;
+    char text[DECODED_ROOM];
+    struct encode_text line;
     int unit;        /* of a displacement of one byte */
     const char *row; /* its id, for messages */
 } decoded_at;
@@ -36,6 +40,9 @@ extern struct decoded {
 void decoded_require(bool condition, const char *what);
 
 struct encoder *decoded_begin(void);
+
+/* Runs a test of the encoder, and again by way of text. */
+void decoded_run(void (*test)(void), const char *name, const char *name_by_text, int line);
 
 /* Decodes the bytes since `begin`. The bytes after them are not an instruction, so a wrong length is
  * detected. */

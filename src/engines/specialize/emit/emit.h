@@ -6,6 +6,7 @@
 #include "debug/code.h"
 #include "contract/engine.h"
 #include "engines/specialize/allocate/allocate.h"
+#include "engines/specialize/emit/assemble.h"
 #include "engines/specialize/emit/encode.h"
 
 #include <assert.h>
@@ -79,6 +80,8 @@ struct emitter {
     struct encoder encoder;
     enum vector_length length;
     bool silent;    /* no code is written, and the result is 0: only the choice of instructions is measured */
+    bool textual;   /* the code is printed as text, which is then assembled */
+    bool unread;    /* the text is not assembled, and the result is 0: only printing is measured */
     unsigned width; /* lanes of a register: 1, 4, 8 or 16 */
     uint32_t position; /* of the instruction whose code is written */
     uint32_t
@@ -104,6 +107,8 @@ struct emitter {
     bool literal_pointers; /* pointers of the job are literals in the code, which are listed here */
     uint32_t pointers;
     struct code_pointer pointer[POINTER_CAPACITY];
+    struct encode_text text; /* of the last routine that was built by way of text */
+    struct mnemonics mnemonics;
     uint32_t unwinds;
     struct debug_unwind unwind[UNWIND_CAPACITY]; /* of the prologue and the epilogue */
     struct code_line line[IR_CAPACITY + 64];
@@ -114,6 +119,16 @@ struct emitter {
 
 /* Writes the routine of a unit into emitter->code. Returns the number of bytes, or 0 with the reason. */
 size_t emit_routine(struct emitter *emitter, enum unit unit, const union key *key, struct error *error);
+
+/* Take memory for the text of routines, unless there is one: returns 0, or -1 with the reason; and return it
+ * (text.c). */
+int emit_take_text(struct emitter *emitter, struct error *error);
+void emit_give_text(struct emitter *emitter);
+
+/* Begin a text; and assemble it to emitter->code: the positions that were noted in the text become those in
+ * the code. Returns 0, or -1 with the reason. */
+void emit_start_text(struct emitter *emitter);
+int emit_assemble(struct emitter *emitter, struct error *error);
 
 /* Notes that the routine has too many of something, so that it is not built. */
 static inline void emit_note_exceeded(struct emitter *emitter, const char *what, int limit)

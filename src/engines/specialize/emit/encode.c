@@ -1,4 +1,5 @@
 #include "engines/specialize/emit/encode_bytes.h"
+#include "engines/specialize/emit/operand.h"
 
 /* Addresses, control flow, data and padding. */
 
@@ -45,18 +46,35 @@ static void branch(struct encoder *encoder, unsigned short_opcode, uint32_t labe
     encoder->at = at + 4;
 }
 
+static const char *const conditions[] = {
+#define X86_CONDITION(name, code) [code] = #name,
+#include "def/engine/x86.def"
+};
+
 void encode_jump(struct encoder *encoder, uint32_t label)
 {
+    if (encoder->text) {
+        encode_print_jump(encoder, "mp", label);
+        return;
+    }
     branch(encoder, 0xEB, label);
 }
 
 void encode_jump_if(struct encoder *encoder, enum x86_condition condition, uint32_t label)
 {
+    if (encoder->text) {
+        encode_print_jump(encoder, conditions[condition], label);
+        return;
+    }
     branch(encoder, 0x70 | (unsigned)condition, label);
 }
 
 void encode_return(struct encoder *encoder)
 {
+    if (encoder->text) {
+        encode_print_directive(encoder, "ret", 0);
+        return;
+    }
     encode_data(encoder, &(uint8_t){0xC3}, 1);
 }
 
@@ -64,10 +82,16 @@ void encode_label(struct encoder *encoder, uint32_t label)
 {
     assert(label < encoder->label_count && encoder->labels[label] == LABEL_UNBOUND);
     encoder->labels[label] = (int32_t)encode_size(encoder);
+    if (encoder->text)
+        encode_print_label(encoder, label);
 }
 
 void encode_data(struct encoder *encoder, const void *bytes, size_t count)
 {
+    if (encoder->text) {
+        encode_print_words(encoder, bytes, count);
+        return;
+    }
     if (!encode_room(encoder, count))
         return;
     memcpy(encoder->at, bytes, count);
@@ -99,6 +123,10 @@ void encode_nops(struct encoder *encoder, unsigned count)
 void encode_align(struct encoder *encoder, unsigned alignment)
 {
     assert(alignment && !(alignment & (alignment - 1)));
+    if (encoder->text) {
+        encode_print_directive(encoder, "align", alignment);
+        return;
+    }
     encode_nops(encoder, (unsigned)-encode_size(encoder) & (alignment - 1));
 }
 
@@ -129,6 +157,9 @@ int encode_finish(struct encoder *encoder, struct error *error)
 {
     if (encoder->failure == ENCODER_OUT_OF_CODE)
         return error_set(error, "machine code does not fit: no room after %zu bytes", encode_size(encoder));
+    if (encoder->failure == ENCODER_OUT_OF_TEXT)
+        return error_set(error, "assembly text does not fit: no room after %zu characters",
+                         encode_size(encoder));
     if (encoder->failure == ENCODER_OUT_OF_FIXUPS)
         return error_set(error, "machine code has more than %u forward references", encoder->fixup_capacity);
     for (uint32_t i = 0; i < encoder->fixup_count; i++) {

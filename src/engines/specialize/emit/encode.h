@@ -17,6 +17,9 @@
  *
  * Labels are numbers below label_count, for basic blocks and literals. The caller's array has their offsets
  * from `start`. A reference to a label that is not yet bound becomes a fixup, which encode_finish patches.
+ * An encoder with a text prints instructions instead of encoding them, in the syntax of NASM (print.c).
+ * assemble.h reads such a text.
+ *
  * Code is position-independent: every reference is relative to rip, so code may be written through one
  * mapping and run through another. */
 #ifndef ENGINES_SPECIALIZE_EMIT_ENCODE_H
@@ -152,6 +155,12 @@ enum encoder_failure {
     ENCODER_OUT_OF_CODE,   /* the caller's memory is full */
     ENCODER_OUT_OF_FIXUPS, /* the caller's fixup table is full */
     ENCODER_UNBOUND_LABEL, /* a label was used and never bound: an error of the caller */
+    ENCODER_OUT_OF_TEXT,   /* the memory for text is full */
+};
+
+/* Memory for instructions as text, which has no zero at its end. */
+struct encode_text {
+    char *start, *at, *limit;
 };
 
 struct encoder {
@@ -164,6 +173,7 @@ struct encoder {
     uint32_t fixup_count;
     uint32_t fixup_capacity;
     enum encoder_failure failure;
+    struct encode_text *text; /* not null: instructions are printed there, and no bytes are written */
 };
 
 static inline struct address address_at(unsigned base, int32_t displacement)
@@ -202,10 +212,11 @@ uint32_t encode_add_label(struct encoder *encoder);
 /* Patches all forward references. Returns 0, or -1 with the reason and `failure` set. */
 int encode_finish(struct encoder *encoder, struct error *error);
 
-/* The number of bytes written, which is the offset of the next instruction. */
+/* The number of bytes written, which is the offset of the next instruction; of characters, if there is a
+ * text. */
 static inline size_t encode_size(const struct encoder *encoder)
 {
-    return (size_t)(encoder->at - encoder->start);
+    return (size_t)(encoder->text ? encoder->text->at - encoder->text->start : encoder->at - encoder->start);
 }
 
 /* Binds `label`, once, to the next byte. */
@@ -262,8 +273,13 @@ void encode_mrr(struct encoder *, enum x86_vector, enum vector_length, struct ad
 void encode_gather(struct encoder *, enum x86_vector, enum vector_length, unsigned to, struct address from,
                    unsigned mask); /* GATHER */
 
-/* Copies a whole register with vmovaps, by the opcode with the shorter encoding. */
-void encode_copy(struct encoder *, enum vector_length, unsigned to, unsigned from);
+/* Copies a whole register with vmovaps, by the opcode with the shorter encoding. With registers above 15, or
+ * 512 bits, both take six bytes, and it is the first row. */
+static inline void encode_copy(struct encoder *encoder, enum vector_length length, unsigned to, unsigned from)
+{
+    bool store = length != X86_512 && from >= 8 && from < 16 && to < 8;
+    encode_rr(encoder, store ? X86_vmovaps_store : X86_vmovaps, length, to, from);
+}
 
 /* General-register instructions. */
 void encode_gpr_rr(struct encoder *, enum x86_gpr, enum gpr_size, enum gpr to, enum gpr from);

@@ -1,5 +1,6 @@
 /* General-register instructions: [prefix] [REX] [0F] opcode ModRM ... */
 #include "engines/specialize/emit/encode_bytes.h"
+#include "engines/specialize/emit/operand.h"
 
 enum { LEGACY_NP = 0, LEGACY_66 = 0x66, LEGACY_F3 = 0xF3, LEGACY_F2 = 0xF2 };
 
@@ -34,6 +35,47 @@ static const struct gpr_row gpr_rows[X86_GPR_COUNT] = {
     [X86_##id] = {LEGACY_##prefix, MAP_##map, rm, mr, imm8, imm32, single, digit, TRAIT_##trait},
 #include "def/engine/x86.def"
 };
+
+const char *const encode_gpr_mnemonic[X86_GPR_COUNT] = {
+#define X86_GPR(id, mnemonic, ...) [X86_##id] = #mnemonic,
+#include "def/engine/x86.def"
+};
+
+void encode_gpr_bits(enum x86_gpr id, enum gpr_size size, unsigned *reg, unsigned *rm)
+{
+    *reg = *rm = size == X86_64 ? 64 : 32;
+    switch (gpr_rows[id].trait) {
+    case TRAIT_BYTE: *rm = 8; break;
+    case TRAIT_WORD: *rm = 16; break;
+    case TRAIT_DWORD: *rm = 32; break;
+    case TRAIT_BYTES: *reg = *rm = 8; break;
+    case TRAIT_WORDS: *reg = *rm = 16; break;
+    case TRAIT_ADDRESS: *rm = 0; break;
+    case TRAIT_WIDE:
+    case TRAIT_PLUS: *reg = *rm = 64; break;
+    default: break;
+    }
+}
+
+bool encode_gpr_counts(enum x86_gpr id)
+{
+    return gpr_rows[id].trait == TRAIT_COUNT;
+}
+
+bool encode_gpr_has_shape(enum x86_gpr id, const struct x86_operand operands[X86_OPERANDS], unsigned count)
+{
+    const struct gpr_row *row = &gpr_rows[id];
+    bool memory =
+        operands[0].kind == X86_OPERAND_MEMORY || (count > 1 && operands[1].kind == X86_OPERAND_MEMORY);
+    bool immediate = operands[count - 1].kind == X86_OPERAND_IMMEDIATE;
+    if (count == 1)
+        return row->single && !(memory && row->trait == TRAIT_PLUS);
+    if (immediate)
+        return (row->imm8 || row->imm32) && (row->trait == TRAIT_TRIPLE) == (count == 3);
+    if (count != 2 || (row->trait == TRAIT_ADDRESS && !memory))
+        return false;
+    return operands[0].kind == X86_OPERAND_MEMORY ? row->mr : memory ? row->rm : row->rm || row->mr;
+}
 
 static uint8_t *put_legacy(uint8_t *at, const struct gpr_row *row, unsigned opcode, unsigned rex)
 {
@@ -116,6 +158,12 @@ static struct immediate_shape immediate_shape(const struct gpr_row *row, int32_t
 
 void encode_gpr_rr(struct encoder *encoder, enum x86_gpr id, enum gpr_size size, enum gpr to, enum gpr from)
 {
+    if (encoder->text) {
+        encode_print_gpr(encoder, id, size,
+                         (const struct x86_operand[]){x86_operand_register(to), x86_operand_register(from)},
+                         2);
+        return;
+    }
     const struct gpr_row *row = &gpr_rows[id];
     assert(row->trait != TRAIT_ADDRESS);
     if (row->rm)
@@ -127,18 +175,34 @@ void encode_gpr_rr(struct encoder *encoder, enum x86_gpr id, enum gpr_size size,
 void encode_gpr_rm(struct encoder *encoder, enum x86_gpr id, enum gpr_size size, enum gpr to,
                    struct address from)
 {
+    if (encoder->text) {
+        encode_print_gpr(encoder, id, size,
+                         (const struct x86_operand[]){x86_operand_register(to), x86_operand_memory(from)}, 2);
+        return;
+    }
     legacy_memory(encoder, &gpr_rows[id], gpr_rows[id].rm, size, to, from, 0, 0);
 }
 
 void encode_gpr_mr(struct encoder *encoder, enum x86_gpr id, enum gpr_size size, struct address to,
                    enum gpr from)
 {
+    if (encoder->text) {
+        encode_print_gpr(encoder, id, size,
+                         (const struct x86_operand[]){x86_operand_memory(to), x86_operand_register(from)}, 2);
+        return;
+    }
     legacy_memory(encoder, &gpr_rows[id], gpr_rows[id].mr, size, from, to, 0, 0);
 }
 
 void encode_gpr_ri(struct encoder *encoder, enum x86_gpr id, enum gpr_size size, enum gpr to,
                    int32_t immediate)
 {
+    if (encoder->text) {
+        encode_print_gpr(
+            encoder, id, size,
+            (const struct x86_operand[]){x86_operand_register(to), x86_operand_immediate(immediate)}, 2);
+        return;
+    }
     const struct gpr_row *row = &gpr_rows[id];
     assert(row->trait != TRAIT_TRIPLE);
     if (id == X86_mov) {
@@ -152,6 +216,12 @@ void encode_gpr_ri(struct encoder *encoder, enum x86_gpr id, enum gpr_size size,
 void encode_gpr_mi(struct encoder *encoder, enum x86_gpr id, enum gpr_size size, struct address to,
                    int32_t immediate)
 {
+    if (encoder->text) {
+        encode_print_gpr(
+            encoder, id, size,
+            (const struct x86_operand[]){x86_operand_memory(to), x86_operand_immediate(immediate)}, 2);
+        return;
+    }
     const struct gpr_row *row = &gpr_rows[id];
     assert(row->trait != TRAIT_TRIPLE);
     struct immediate_shape shape = immediate_shape(row, immediate);
@@ -161,6 +231,13 @@ void encode_gpr_mi(struct encoder *encoder, enum x86_gpr id, enum gpr_size size,
 void encode_gpr_rri(struct encoder *encoder, enum x86_gpr id, enum gpr_size size, enum gpr to, enum gpr from,
                     int32_t immediate)
 {
+    if (encoder->text) {
+        encode_print_gpr(encoder, id, size,
+                         (const struct x86_operand[]){x86_operand_register(to), x86_operand_register(from),
+                                                      x86_operand_immediate(immediate)},
+                         3);
+        return;
+    }
     const struct gpr_row *row = &gpr_rows[id];
     assert(row->trait == TRAIT_TRIPLE);
     struct immediate_shape shape = immediate_shape(row, immediate);
@@ -170,6 +247,13 @@ void encode_gpr_rri(struct encoder *encoder, enum x86_gpr id, enum gpr_size size
 void encode_gpr_rmi(struct encoder *encoder, enum x86_gpr id, enum gpr_size size, enum gpr to,
                     struct address from, int32_t immediate)
 {
+    if (encoder->text) {
+        encode_print_gpr(encoder, id, size,
+                         (const struct x86_operand[]){x86_operand_register(to), x86_operand_memory(from),
+                                                      x86_operand_immediate(immediate)},
+                         3);
+        return;
+    }
     const struct gpr_row *row = &gpr_rows[id];
     assert(row->trait == TRAIT_TRIPLE);
     struct immediate_shape shape = immediate_shape(row, immediate);
@@ -178,6 +262,10 @@ void encode_gpr_rmi(struct encoder *encoder, enum x86_gpr id, enum gpr_size size
 
 void encode_gpr_r(struct encoder *encoder, enum x86_gpr id, enum gpr_size size, enum gpr operand)
 {
+    if (encoder->text) {
+        encode_print_gpr(encoder, id, size, (const struct x86_operand[]){x86_operand_register(operand)}, 1);
+        return;
+    }
     const struct gpr_row *row = &gpr_rows[id];
     if (row->trait != TRAIT_PLUS) {
         legacy_register(encoder, row, row->single, size, row->digit, operand, 0, 0);
@@ -189,6 +277,10 @@ void encode_gpr_r(struct encoder *encoder, enum x86_gpr id, enum gpr_size size, 
 
 void encode_gpr_m(struct encoder *encoder, enum x86_gpr id, enum gpr_size size, struct address operand)
 {
+    if (encoder->text) {
+        encode_print_gpr(encoder, id, size, (const struct x86_operand[]){x86_operand_memory(operand)}, 1);
+        return;
+    }
     const struct gpr_row *row = &gpr_rows[id];
     assert(row->trait != TRAIT_PLUS);
     legacy_memory(encoder, row, row->single, size, row->digit, operand, 0, 0);
@@ -196,6 +288,12 @@ void encode_gpr_m(struct encoder *encoder, enum x86_gpr id, enum gpr_size size, 
 
 void encode_gpr_constant(struct encoder *encoder, enum gpr to, uint64_t value)
 {
+    if (encoder->text) {
+        encode_print_gpr(
+            encoder, X86_mov, X86_64,
+            (const struct x86_operand[]){x86_operand_register(to), x86_operand_immediate((int64_t)value)}, 2);
+        return;
+    }
     if (!encode_room(encoder, ENCODER_SLACK))
         return;
     if (value > UINT32_MAX && (int64_t)value == (int32_t)value) {

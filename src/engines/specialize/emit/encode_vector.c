@@ -5,6 +5,7 @@
  * end of the instruction, within the slack that encode_room has checked; the next instruction overwrites
  * those bytes. */
 #include "engines/specialize/emit/encode_bytes.h"
+#include "engines/specialize/emit/operand.h"
 
 enum form {
     FORM_RM = 1 << 0,
@@ -279,6 +280,10 @@ bool encode_reads_word(enum x86_vector id)
 
 void encode_none(struct encoder *encoder, enum x86_vector id)
 {
+    if (encoder->text) {
+        encode_print_vector(encoder, id, X86_128, NULL);
+        return;
+    }
     const struct vector_row *row = vector_row(id, FORM_NONE);
     if (encode_room(encoder, ENCODER_SLACK))
         encoder->at = put_vex(encoder->at, row, X86_128, 0, 0, 0, 0);
@@ -286,6 +291,10 @@ void encode_none(struct encoder *encoder, enum x86_vector id)
 
 void encode_m(struct encoder *encoder, enum x86_vector id, struct address address)
 {
+    if (encoder->text) {
+        encode_print_vector(encoder, id, X86_128, (const struct x86_operand[]){x86_operand_memory(address)});
+        return;
+    }
     const struct vector_row *row = vector_row(id, FORM_M);
     vex_memory(encoder, row, X86_128, row->digit, 0, address, 0, 0);
 }
@@ -293,6 +302,12 @@ void encode_m(struct encoder *encoder, enum x86_vector id, struct address addres
 void encode_rr(struct encoder *encoder, enum x86_vector id, enum vector_length length, unsigned to,
                unsigned from)
 {
+    if (encoder->text) {
+        encode_print_vector(
+            encoder, id, length,
+            (const struct x86_operand[]){x86_operand_register(to), x86_operand_register(from)});
+        return;
+    }
     const struct vector_row *row = vector_row(id, FORM_RM | FORM_MR);
     if (row->form == FORM_RM)
         put_register(encoder, id, length, to, 0, from, 0, 0);
@@ -303,6 +318,11 @@ void encode_rr(struct encoder *encoder, enum x86_vector id, enum vector_length l
 void encode_rm(struct encoder *encoder, enum x86_vector id, enum vector_length length, unsigned to,
                struct address from)
 {
+    if (encoder->text) {
+        encode_print_vector(encoder, id, length,
+                            (const struct x86_operand[]){x86_operand_register(to), x86_operand_memory(from)});
+        return;
+    }
     vector_row(id, FORM_RM);
     put_memory(encoder, id, length, to, 0, from, 0, 0);
 }
@@ -310,6 +330,11 @@ void encode_rm(struct encoder *encoder, enum x86_vector id, enum vector_length l
 void encode_mr(struct encoder *encoder, enum x86_vector id, enum vector_length length, struct address to,
                unsigned from)
 {
+    if (encoder->text) {
+        encode_print_vector(encoder, id, length,
+                            (const struct x86_operand[]){x86_operand_memory(to), x86_operand_register(from)});
+        return;
+    }
     vector_row(id, FORM_MR);
     put_memory(encoder, id, length, from, 0, to, 0, 0);
 }
@@ -317,6 +342,12 @@ void encode_mr(struct encoder *encoder, enum x86_vector id, enum vector_length l
 void encode_rri(struct encoder *encoder, enum x86_vector id, enum vector_length length, unsigned to,
                 unsigned from, unsigned immediate)
 {
+    if (encoder->text) {
+        encode_print_vector(encoder, id, length,
+                            (const struct x86_operand[]){x86_operand_register(to), x86_operand_register(from),
+                                                         x86_operand_immediate(immediate)});
+        return;
+    }
     const struct vector_row *row = vector_row(id, FORM_RMI | FORM_MRI | FORM_VMI);
     if (row->form == FORM_RMI)
         put_register(encoder, id, length, to, 0, from, immediate, 1);
@@ -329,6 +360,12 @@ void encode_rri(struct encoder *encoder, enum x86_vector id, enum vector_length 
 void encode_rmi(struct encoder *encoder, enum x86_vector id, enum vector_length length, unsigned to,
                 struct address from, unsigned immediate)
 {
+    if (encoder->text) {
+        encode_print_vector(encoder, id, length,
+                            (const struct x86_operand[]){x86_operand_register(to), x86_operand_memory(from),
+                                                         x86_operand_immediate(immediate)});
+        return;
+    }
     const struct vector_row *row = vector_row(id, FORM_RMI | FORM_VMI);
     if (row->form == FORM_RMI)
         put_memory(encoder, id, length, to, 0, from, immediate, 1);
@@ -339,6 +376,12 @@ void encode_rmi(struct encoder *encoder, enum x86_vector id, enum vector_length 
 void encode_mri(struct encoder *encoder, enum x86_vector id, enum vector_length length, struct address to,
                 unsigned from, unsigned immediate)
 {
+    if (encoder->text) {
+        encode_print_vector(encoder, id, length,
+                            (const struct x86_operand[]){x86_operand_memory(to), x86_operand_register(from),
+                                                         x86_operand_immediate(immediate)});
+        return;
+    }
     vector_row(id, FORM_MRI);
     put_memory(encoder, id, length, from, 0, to, immediate, 1);
 }
@@ -346,6 +389,13 @@ void encode_mri(struct encoder *encoder, enum x86_vector id, enum vector_length 
 void encode_rrr(struct encoder *encoder, enum x86_vector id, enum vector_length length, unsigned to,
                 unsigned first, unsigned second)
 {
+    if (encoder->text) {
+        encode_print_vector(encoder, id, length,
+                            (const struct x86_operand[]){x86_operand_register(to),
+                                                         x86_operand_register(first),
+                                                         x86_operand_register(second)});
+        return;
+    }
     vector_row(id, FORM_RVM);
     put_register(encoder, id, length, to, first, second, 0, 0);
 }
@@ -353,6 +403,13 @@ void encode_rrr(struct encoder *encoder, enum x86_vector id, enum vector_length 
 void encode_rrm(struct encoder *encoder, enum x86_vector id, enum vector_length length, unsigned to,
                 unsigned first, struct address second)
 {
+    if (encoder->text) {
+        encode_print_vector(encoder, id, length,
+                            (const struct x86_operand[]){x86_operand_register(to),
+                                                         x86_operand_register(first),
+                                                         x86_operand_memory(second)});
+        return;
+    }
     vector_row(id, FORM_RVM);
     put_memory(encoder, id, length, to, first, second, 0, 0);
 }
@@ -360,6 +417,13 @@ void encode_rrm(struct encoder *encoder, enum x86_vector id, enum vector_length 
 void encode_rrri(struct encoder *encoder, enum x86_vector id, enum vector_length length, unsigned to,
                  unsigned first, unsigned second, unsigned immediate)
 {
+    if (encoder->text) {
+        encode_print_vector(
+            encoder, id, length,
+            (const struct x86_operand[]){x86_operand_register(to), x86_operand_register(first),
+                                         x86_operand_register(second), x86_operand_immediate(immediate)});
+        return;
+    }
     vector_row(id, FORM_RVMI);
     put_register(encoder, id, length, to, first, second, immediate, 1);
 }
@@ -367,6 +431,13 @@ void encode_rrri(struct encoder *encoder, enum x86_vector id, enum vector_length
 void encode_rrmi(struct encoder *encoder, enum x86_vector id, enum vector_length length, unsigned to,
                  unsigned first, struct address second, unsigned immediate)
 {
+    if (encoder->text) {
+        encode_print_vector(
+            encoder, id, length,
+            (const struct x86_operand[]){x86_operand_register(to), x86_operand_register(first),
+                                         x86_operand_memory(second), x86_operand_immediate(immediate)});
+        return;
+    }
     vector_row(id, FORM_RVMI);
     put_memory(encoder, id, length, to, first, second, immediate, 1);
 }
@@ -374,6 +445,13 @@ void encode_rrmi(struct encoder *encoder, enum x86_vector id, enum vector_length
 void encode_rrrr(struct encoder *encoder, enum x86_vector id, enum vector_length length, unsigned to,
                  unsigned first, unsigned second, unsigned third)
 {
+    if (encoder->text) {
+        encode_print_vector(
+            encoder, id, length,
+            (const struct x86_operand[]){x86_operand_register(to), x86_operand_register(first),
+                                         x86_operand_register(second), x86_operand_register(third)});
+        return;
+    }
     assert(third < 16);
     vex_register(encoder, vector_row(id, FORM_RVMS), length, to, first, second, third << 4, 1);
 }
@@ -381,6 +459,13 @@ void encode_rrrr(struct encoder *encoder, enum x86_vector id, enum vector_length
 void encode_rrmr(struct encoder *encoder, enum x86_vector id, enum vector_length length, unsigned to,
                  unsigned first, struct address second, unsigned third)
 {
+    if (encoder->text) {
+        encode_print_vector(
+            encoder, id, length,
+            (const struct x86_operand[]){x86_operand_register(to), x86_operand_register(first),
+                                         x86_operand_memory(second), x86_operand_register(third)});
+        return;
+    }
     assert(third < 16);
     vex_memory(encoder, vector_row(id, FORM_RVMS), length, to, first, second, third << 4, 1);
 }
@@ -388,18 +473,24 @@ void encode_rrmr(struct encoder *encoder, enum x86_vector id, enum vector_length
 void encode_mrr(struct encoder *encoder, enum x86_vector id, enum vector_length length, struct address to,
                 unsigned mask, unsigned from)
 {
+    if (encoder->text) {
+        encode_print_vector(encoder, id, length,
+                            (const struct x86_operand[]){x86_operand_memory(to), x86_operand_register(mask),
+                                                         x86_operand_register(from)});
+        return;
+    }
     vex_memory(encoder, vector_row(id, FORM_MVR), length, from, mask, to, 0, 0);
 }
 
 void encode_gather(struct encoder *encoder, enum x86_vector id, enum vector_length length, unsigned to,
                    struct address from, unsigned mask)
 {
+    if (encoder->text) {
+        encode_print_vector(encoder, id, length,
+                            (const struct x86_operand[]){x86_operand_register(to), x86_operand_memory(from),
+                                                         x86_operand_register(mask)});
+        return;
+    }
     assert(from.index < 16 && to != mask && to != from.index && mask != from.index);
     vex_memory(encoder, vector_row(id, FORM_GATHER), length, to, mask, from, 0, 0);
-}
-
-/* With registers above 15, or 512 bits, both directions take six bytes. */
-void encode_copy(struct encoder *encoder, enum vector_length length, unsigned to, unsigned from)
-{
-    encode_rr(encoder, from >= 8 && to < 8 ? X86_vmovaps_store : X86_vmovaps, length, to, from);
 }

@@ -401,6 +401,8 @@ size_t emit_routine(struct emitter *m, enum unit unit, const union key *key, str
 {
     encode_start(&m->encoder, m->code, m->silent ? 0 : sizeof m->code, m->labels, LABEL_FREE, m->fixups,
                  FIXUP_CAPACITY);
+    if (m->textual && !m->silent)
+        emit_start_text(m);
     m->literals = m->lines = m->pointers = m->unwinds = m->regions = m->region_depth = 0;
     m->exceeded = NULL;
     if (m->allocation->slots > emit_most_slots(m->width))
@@ -423,6 +425,9 @@ size_t emit_routine(struct emitter *m, enum unit unit, const union key *key, str
                   m->exceeded_limit);
         return 0;
     }
+    bool textual = m->encoder.text && !m->encoder.failure;
+    if (textual && (m->unread || emit_assemble(m, error)))
+        return 0;
     if (encode_finish(&m->encoder, error))
         return 0;
     return encode_size(&m->encoder);
