@@ -11,7 +11,7 @@ set -uo pipefail
 cd "$(dirname "$0")/.." || exit 1
 [[ -z ${SANITIZE-} ]] || { echo 'ok pages are checked by the plain build' && exit; }
 
-exec perl - README.md src/README.md docs/*.md <<'PERL'
+exec perl - README.md src/README.md docs/*.md docs/course/*.md docs/course/*/*.md <<'PERL'
 use strict;
 use warnings;
 
