@@ -343,7 +343,8 @@ static int check_parts(const struct command *self, const struct settings *settin
 static int bench_counts(const struct command *self, const struct operands *operands,
                         const struct choice *engines, const struct settings *settings)
 {
-    const struct count_settings counts = {settings->threads, settings->frames, settings->budget};
+    const struct count_settings counts = {settings->threads, settings->frames, settings->budget,
+                                          choose_settings(&settings->set)};
     struct machine machine = machine_describe();
     cJSON *report = cJSON_CreateObject();
     cJSON_AddItemToObject(report, "machine", machine_json(&machine));

@@ -83,11 +83,13 @@ static cJSON *json_frame(const struct count_frame *frame)
     return json;
 }
 
-static cJSON *json_of(const struct counted *c)
+static cJSON *json_of(const struct counted *c, const struct setting_values *settings)
 {
+    char text[SETTING_TEXT];
     cJSON *json = cJSON_CreateObject();
     cJSON_AddStringToObject(json, "stream", c->name);
     cJSON_AddStringToObject(json, "engine", c->engine->name);
+    cJSON_AddStringToObject(json, "settings", setting_write(settings, text));
     add_number(json, "budget", (double)c->budget);
     add_number(json, "states", (double)c->states.sets.count);
     cJSON *units = cJSON_AddArrayToObject(json, "units");
@@ -152,13 +154,14 @@ static void add_tier_row(const struct counted *c, const struct routine_tier *tie
     table_cell(table, "%u", tier->code_bytes);
 }
 
-static void report(const struct counted *c, struct table tables[2], cJSON *rows)
+static void report(const struct counted *c, const struct setting_values *settings, struct table tables[2],
+                   cJSON *rows)
 {
     for (enum unit unit = 0; unit < UNIT_COUNT; unit++)
         add_unit_row(c, unit, &tables[0]);
     for (unsigned i = 0; i < c->tiers.count; i++)
         add_tier_row(c, c->tiers.tier + i, &tables[1]);
-    cJSON_AddItemToArray(rows, json_of(c));
+    cJSON_AddItemToArray(rows, json_of(c, settings));
 }
 
 /* --- All of them ---------------------------------------------------------------------------------------- */
@@ -176,11 +179,11 @@ static int count_one(const struct command *self, const struct stream *stream, co
     if (!c.frame)
         return tool_fail(self, "no memory for %u frames", c.frames);
     struct error error = {""};
-    int status = count_play(&c, settings->threads, interrupt_signal, &error);
+    int status = count_play(&c, settings->threads, &settings->renderer, interrupt_signal, &error);
     if (status)
         status = tool_fail(self, "%s: %s", name, error.text);
     if (!status && !interrupt_signal())
-        report(&c, tables, rows);
+        report(&c, &settings->renderer, tables, rows);
     count_states_free(&c.states);
     free(c.frame);
     return status;

@@ -4,10 +4,12 @@
 
 #include "command/support/choose.h"
 #include "command/support/json.h"
+#include "setting/setting.h"
 
 struct count_settings {
     unsigned threads, frames; /* frames: 0 for all of a stream */
     unsigned budget_kib;      /* of the cache; 0: the usual one */
+    struct setting_values renderer;
 };
 
 /* Plays the first frames of each stream once on a new device of each engine, and prints by unit: keys, hits,

@@ -58,13 +58,15 @@ static void read_tiers(struct triptych_device *device, struct routine_tiers *sum
         }
 }
 
-int count_play(struct counted *c, unsigned threads, int (*stop)(void), struct error *error)
+int count_play(struct counted *c, unsigned threads, const struct setting_values *settings, int (*stop)(void),
+               struct error *error)
 {
     struct triptych_device *device;
     c->budget = c->budget ? c->budget : CACHE_BYTES;
     const struct device_options options = {.threads = threads, .cache_bytes = c->budget, .measure = true};
     if (device_create(c->engine, &options, &device, error) != TRIPTYCH_OK)
         return -1;
+    device_set_settings(device, settings);
     device_on_draw(device, note_draw, &c->states);
     int bad = play_frames(c, device, stop, error);
     device_count_hits(device);

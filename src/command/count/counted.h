@@ -26,6 +26,7 @@ struct counted {
 
 /* Plays the first c->frames frames and fills in the counts. `stop` is called before each frame, and ends the
  * count by returning non-zero. Returns 0, or -1 with the reason. */
-int count_play(struct counted *c, unsigned threads, int (*stop)(void), struct error *error);
+int count_play(struct counted *c, unsigned threads, const struct setting_values *settings, int (*stop)(void),
+               struct error *error);
 
 #endif

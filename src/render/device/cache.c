@@ -38,7 +38,7 @@ struct cache {
     struct code_arena *arena;
     size_t budget;
     bool measures;
-    enum cache_policy policy;
+    enum setting_replace policy;
     uint64_t random;
     unsigned listeners;
     struct error debug_error;
@@ -103,7 +103,7 @@ void cache_measure(struct cache *cache)
     cache->measures = true;
 }
 
-void cache_evict_by(struct cache *cache, enum cache_policy policy)
+void cache_evict_by(struct cache *cache, enum setting_replace policy)
 {
     cache->policy = policy;
 }
@@ -186,9 +186,9 @@ static struct cache_entry *random_idle(struct cache *cache)
 static struct cache_entry *victim(struct cache *cache)
 {
     switch (cache->policy) {
-    case CACHE_FIFO: return first_built(cache);
-    case CACHE_RANDOM: return random_idle(cache);
-    case CACHE_LRU: break;
+    case SETTING_replace_fifo: return first_built(cache);
+    case SETTING_replace_random: return random_idle(cache);
+    case SETTING_replace_lru: break;
     }
     return ENTRY_OF(cache->idle.previous, idle);
 }
@@ -428,14 +428,26 @@ void cache_retain(struct cache *cache, const struct routine *routine)
     pthread_mutex_unlock(&cache->lock);
 }
 
-void cache_release(struct cache *cache, const struct routine *routine)
+void cache_let_go(struct cache *cache, const struct routine *routine)
 {
     pthread_mutex_lock(&cache->lock);
     struct cache_entry *entry = routine->entry;
     if (!--entry->references)
         add_idle(cache, entry);
+    pthread_mutex_unlock(&cache->lock);
+}
+
+void cache_trim(struct cache *cache)
+{
+    pthread_mutex_lock(&cache->lock);
     evict_to_budget(cache);
     pthread_mutex_unlock(&cache->lock);
+}
+
+void cache_release(struct cache *cache, const struct routine *routine)
+{
+    cache_let_go(cache, routine);
+    cache_trim(cache);
 }
 
 void cache_add_hits(struct cache *cache, const struct routine *routine, uint64_t hits)

@@ -16,6 +16,7 @@
 #define RENDER_DEVICE_CACHE_H
 
 #include "contract/engine.h"
+#include "setting/setting.h"
 
 #include <stdbool.h>
 
@@ -43,20 +44,14 @@ struct cache_statistics {
     struct cache_unit unit[UNIT_COUNT];
 };
 
-/* The idle routine that is evicted next. A routine is used by a draw until it is released. */
-enum cache_policy {
-    CACHE_LRU,    /* the least recently used one */
-    CACHE_FIFO,   /* the one that was built first */
-    CACHE_RANDOM, /* any; the sequence is the same in each run */
-};
-
 /* A cache of `engine`'s routines, whose code is stored in `arena` (null when the engine needs none). */
 struct cache *cache_create(const struct engine *engine, struct code_arena *arena, size_t budget,
                            struct error *error);
 /* From now on the calls of routines that are built are measured, and lookups. */
 void cache_measure(struct cache *cache);
-/* A new cache evicts by CACHE_LRU. */
-void cache_evict_by(struct cache *cache, enum cache_policy policy);
+/* Selects the idle routine that is evicted next (def/setting.def). A routine is used until it is released. A new
+ * cache has SETTING_replace_lru. */
+void cache_evict_by(struct cache *cache, enum setting_replace policy);
 /* From now on these listeners (debug/debug.h) are notified of routines that are built and freed. */
 void cache_debug(struct cache *cache, unsigned listeners);
 
@@ -70,6 +65,10 @@ const struct routine *cache_acquire(struct cache *cache, enum unit unit, const u
 /* Acquires the same routine once more, for another holder. Cannot fail. */
 void cache_retain(struct cache *cache, const struct routine *routine);
 void cache_release(struct cache *cache, const struct routine *routine);
+/* Releases without eviction; and evicts to the budget, once for several releases, so that any of them can be the
+ * one that is evicted. */
+void cache_let_go(struct cache *cache, const struct routine *routine);
+void cache_trim(struct cache *cache);
 /* Counts `hits` lookups of a routine that is in use. */
 void cache_add_hits(struct cache *cache, const struct routine *routine, uint64_t hits);
 

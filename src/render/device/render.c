@@ -20,7 +20,8 @@ static void await_rendered(struct triptych_device *device)
     queue_wait(device->queue);
     queries_rendered(&device->queries, device->queue->round.passed, device->rendered.commands);
     for (uint32_t i = 0; i < device->rendered.held_count; i++)
-        cache_release(device->cache, device->rendered.held[i].routine);
+        cache_let_go(device->cache, device->rendered.held[i].routine);
+    cache_trim(device->cache);
     device_free_palettes(device->rendered.palettes);
     device_reuse_storage(device, &device->rendered.retired);
     device->rendered.palettes = NULL;
@@ -108,6 +109,7 @@ void device_set_settings(struct triptych_device *device, const struct setting_va
 {
     await_rendered(device);
     queue_set_settings(device->queue, settings);
+    cache_evict_by(device->cache, (enum setting_replace)settings->of[SETTING_replace]);
 }
 
 void device_shuffle(struct triptych_device *device, uint64_t seed)

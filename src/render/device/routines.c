@@ -37,11 +37,12 @@ void device_routines_hold(struct device_routines *routines, enum unit unit, cons
 void device_routines_let_go(struct device_routines *routines, struct cache *cache, uint32_t count,
                             const struct routine *routine[UNIT_COUNT])
 {
-    while (routines->count > count) {
-        const struct held *held = &routines->held[--routines->count];
-        cache_add_hits(cache, held->routine, held->hits);
-        cache_release(cache, held->routine);
+    for (uint32_t i = count; i < routines->count; i++) {
+        cache_add_hits(cache, routines->held[i].routine, routines->held[i].hits);
+        cache_let_go(cache, routines->held[i].routine);
     }
+    routines->count = count;
+    cache_trim(cache);
     for (int unit = 0; unit < UNIT_COUNT; unit++)
         if (routines->in_use[unit] >= count)
             routine[unit] = NULL;

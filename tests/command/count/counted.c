@@ -78,7 +78,8 @@ static void play(const char *engine, size_t budget, struct counted *c)
                           .frame = frames,
                           .budget = budget};
     TEST_ASSERT_NOT_NULL_MESSAGE(c->engine, error.text);
-    TEST_ASSERT_EQUAL_INT_MESSAGE(0, count_play(c, 1, go_on, &error), error.text);
+    TEST_ASSERT_EQUAL_INT_MESSAGE(0, count_play(c, 1, &(struct setting_values){{0}}, go_on, &error),
+                                  error.text);
     stream_free(stream);
 }
 

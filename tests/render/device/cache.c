@@ -129,7 +129,7 @@ static void a_key_is_built_once(void)
 static void the_oldest_is_evicted_first_in_first_out(void)
 {
     start(3);
-    cache_evict_by(cache, CACHE_FIFO);
+    cache_evict_by(cache, SETTING_replace_fifo);
     for (int n = 0; n < 3; n++)
         touch(n);
     touch(0);
@@ -144,7 +144,7 @@ static void the_oldest_is_evicted_first_in_first_out(void)
 }
 
 /* The numbers that are left after 40 of them, as bits. */
-static uint64_t left_by(enum cache_policy policy)
+static uint64_t left_by(enum setting_replace policy)
 {
     uint64_t left = 0;
     start(8);
@@ -161,15 +161,16 @@ static uint64_t left_by(enum cache_policy policy)
 
 static void random_eviction_is_the_same_in_each_run(void)
 {
-    uint64_t left = left_by(CACHE_RANDOM);
-    TEST_ASSERT_EQUAL_HEX64(left, left_by(CACHE_RANDOM));
-    TEST_ASSERT_EQUAL_HEX64(0xffull << 32, left_by(CACHE_LRU));
+    uint64_t left = left_by(SETTING_replace_random);
+    TEST_ASSERT_EQUAL_HEX64(left, left_by(SETTING_replace_random));
+    TEST_ASSERT_EQUAL_HEX64(0xffull << 32, left_by(SETTING_replace_lru));
     TEST_ASSERT_NOT_EQUAL(0xffull << 32, left);
 }
 
 static void routines_in_use_are_not_evicted_by_any_policy(void)
 {
-    static const enum cache_policy policies[] = {CACHE_LRU, CACHE_FIFO, CACHE_RANDOM};
+    static const enum setting_replace policies[] = {SETTING_replace_lru, SETTING_replace_fifo,
+                                                    SETTING_replace_random};
     for (size_t i = 0; i < sizeof policies / sizeof *policies; i++) {
         start(2);
         cache_evict_by(cache, policies[i]);

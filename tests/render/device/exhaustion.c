@@ -230,6 +230,19 @@ static void thousands_of_states_are_drawn_with_a_tiny_budget(void)
     check_engines(&(struct device_options){.threads = 2, .cache_bytes = 20000});
 }
 
+static void any_routine_may_be_the_one_that_is_evicted(void)
+{
+    static struct varied_image expected[STATES / STATES_EACH], found[STATES / STATES_EACH];
+    static const char *const settings[] = {"replace=lru", "replace=fifo", "replace=random"};
+    render_all(engine_find("emulate"), &(struct device_options){.threads = 1}, expected);
+    for (size_t i = 0; i < sizeof settings / sizeof *settings; i++) {
+        render_all(engine_find("batch"),
+                   &(struct device_options){.threads = 2, .cache_bytes = 20000, .settings = settings[i]},
+                   found);
+        TEST_ASSERT_EQUAL_MEMORY_MESSAGE(expected, found, sizeof found, settings[i]);
+    }
+}
+
 /* With a budget of one routine, 100 recorded draws do not use 300 routines simultaneously. */
 static void a_small_budget_bounds_the_routines_of_recorded_draws(void)
 {
@@ -280,6 +293,7 @@ int main(void)
     RUN_TEST(more_than_the_arena_is_refused_and_evicts_nothing);
     RUN_TEST(thousands_of_states_are_drawn_with_a_tiny_arena);
     RUN_TEST(thousands_of_states_are_drawn_with_a_tiny_budget);
+    RUN_TEST(any_routine_may_be_the_one_that_is_evicted);
     RUN_TEST(a_small_budget_bounds_the_routines_of_recorded_draws);
     RUN_TEST(a_routine_larger_than_the_arena_is_refused_and_nothing_is_drawn);
     return UNITY_END();
