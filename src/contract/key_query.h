@@ -105,7 +105,7 @@ static inline bool pixel_discards(const struct pixel_key *key)
 /* Returns true if the depth and stencil tests must wait for shading. */
 static inline bool pixel_waits(const struct pixel_key *key)
 {
-    return pixel_discards(key) || key->depth_output;
+    return pixel_discards(key) || key->depth_output || key->late;
 }
 
 /* Returns true if the pixel routine computes colours: to write them, or because they decide which pixels

@@ -91,6 +91,8 @@ void derive_pixel(const struct state *state, enum primitive primitive, struct pi
     derive_depth_format(state, key);
     key->depth_output = program && program->interface.depth && pixel_tests_depth(key);
     key->depth_w &= !key->depth_output;
+    key->late = state->late_tests && !key->depth_output && pixel_write_mask(key) &&
+                (pixel_tests_depth(key) || pixel_stencil(key));
     derive_storage(state, key);
     if (!pixel_write_mask(key))
         derive_no_blend(key);

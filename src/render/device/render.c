@@ -110,6 +110,8 @@ void device_set_settings(struct triptych_device *device, const struct setting_va
     await_rendered(device);
     queue_set_settings(device->queue, settings);
     cache_evict_by(device->cache, (enum setting_replace)settings->of[SETTING_replace]);
+    device->state.late_tests = settings->of[SETTING_depth] == SETTING_depth_late;
+    device_state_changed(device, PARTS_ALL);
 }
 
 void device_shuffle(struct triptych_device *device, uint64_t seed)

@@ -59,6 +59,13 @@ static void add_chunk(struct queue *queue, struct cursor at, uint32_t count, uin
     *of_task += count;
 }
 
+/* Returns true if the round has its only draw and ends before the next. */
+static bool ends_before(const struct queue *queue, uint32_t command)
+{
+    return queue->round.settings.of[SETTING_order] == SETTING_order_immediate && queue->round.chunks &&
+           queue->round.chunk->command != command;
+}
+
 /* Cuts the commands from the cursor on into up to `limit` chunks. */
 static void make_chunks(struct queue *queue, struct cursor at, uint32_t limit)
 {
@@ -66,7 +73,7 @@ static void make_chunks(struct queue *queue, struct cursor at, uint32_t limit)
     queue->round.chunks = queue->chunks.tasks = queue->chunks.primitives = 0;
     while (at.command < queue->rendered_commands && queue->round.chunks < limit) {
         const struct command *command = queue->round.command + at.command;
-        if (!command_draws(command))
+        if (!command_draws(command) || ends_before(queue, at.command))
             break;
         uint32_t left = command->kind == COMMAND_DRAW ? command->draw.count - at.primitive : 0;
         prefetch_command(queue, at.command + COMMANDS_AHEAD);

@@ -104,6 +104,7 @@ struct state {
     enum triptych_depth_format depth_format;           /* of the target */
     uint8_t samples;                                   /* 2^samples per pixel of the target */
     uint8_t counting;                                  /* an occlusion query counts what passes */
+    uint8_t late_tests;                                /* the setting `depth` is `late` */
     const struct program *program[SHADER_STAGES];      /* null: fixed function */
     struct shader_registers *registers[SHADER_STAGES]; /* the state's owner's */
     uint16_t booleans[SHADER_STAGES];                  /* constants: a bit each */

@@ -159,6 +159,16 @@ static void shade_uniform(struct tile_worker *worker, const struct round *round,
     *clear = (struct depth_clear){.word = depth[0], .range = m->depths, .pending = true, .changed = true};
 }
 
+static bool uses_ranges(const struct round *round)
+{
+    return round->settings.of[SETTING_range] == SETTING_range_on;
+}
+
+static bool uses_uniform(const struct round *round)
+{
+    return round->settings.of[SETTING_uniform] == SETTING_uniform_on;
+}
+
 /* Updates the bounds of the tile's depth for the triangle. */
 static void note_depths(struct tile_worker *worker, const struct round *round, uint32_t tile,
                         const struct meeting *m)
@@ -168,7 +178,8 @@ static void note_depths(struct tile_worker *worker, const struct round *round, u
     if (!(routine->traits & PIXEL_WRITES_DEPTH))
         return;
     struct depth_range *range = &target_depth_clear(round->target, tile)->range;
-    if (m->covers && routine->traits & PIXEL_DEPTH_KNOWN && !pixel_waits(&routine->key.pixel)) {
+    if (m->covers && uses_ranges(round) && routine->traits & PIXEL_DEPTH_KNOWN &&
+        !pixel_waits(&routine->key.pixel)) {
         *range = hidden_narrowed(function, *range, m->depths);
     } else if (!worker->widened) {
         *range = hidden_widened(function, *range, (struct depth_range){0, UINT32_MAX});
@@ -186,10 +197,10 @@ static bool is_dealt_with(struct tile_worker *worker, const struct round *round,
     m->constant = true;
     if (routine->traits & PIXEL_DEPTH_KNOWN)
         compare_depths(m, round, tile, worker->draw);
-    if (m->verdict == DEPTH_FAILS)
+    if (m->verdict == DEPTH_FAILS && uses_ranges(round))
         return true;
-    bool uniform = m->covers && routine->traits & PIXEL_UNIFORM && m->verdict == DEPTH_PASSES &&
-                   (m->constant || !routine->key.pixel.depth_write) &&
+    bool uniform = m->covers && uses_uniform(round) && routine->traits & PIXEL_UNIFORM &&
+                   m->verdict == DEPTH_PASSES && (m->constant || !routine->key.pixel.depth_write) &&
                    can_be_uniform(round->target, tile, &routine->key.pixel);
     if (uniform) {
         shade(worker, round, tile);
@@ -203,8 +214,10 @@ static bool is_dealt_with(struct tile_worker *worker, const struct round *round,
 static bool asks(const struct tile_worker *worker, const struct round *round, uint32_t tile, bool covers)
 {
     const struct routine *routine = worker->draw->routine[UNIT_PIXEL];
-    if (covers || !(routine->traits & PIXEL_DEPTH_KNOWN))
-        return covers;
+    if (covers)
+        return uses_ranges(round) || uses_uniform(round);
+    if (!uses_ranges(round) || !(routine->traits & PIXEL_DEPTH_KNOWN))
+        return false;
     const struct depth_range *range = &target_depth_clear(round->target, tile)->range;
     switch (routine->key.pixel.depth_function) {
     case COMPARE_LESS:
@@ -410,6 +423,8 @@ static void rasterize_wide(struct tile_worker *worker, const struct round *round
 static uint32_t find_start(const struct round *round, uint32_t tile)
 {
     uint32_t start = round->tile_start[tile];
+    if (!uses_uniform(round))
+        return 0;
     for (uint32_t i = round->wide_starts; i-- > 0 && round->wide_start[i] >= start;) {
         uint32_t number = round->wide_start[i];
         struct bin_cell cell;

@@ -142,7 +142,7 @@ static inline msk stencil_depth_test(struct env *e, const struct pixel_key *k,
 static inline msk early_tests(struct env *e, const struct pixel_key *k, const struct pixel_position *at,
                               const struct triangle_layout *layout, msk live)
 {
-    if (k->depth_output || (pixel_writes_stencil(k) && pixel_waits(k)))
+    if (k->depth_output || k->late || (pixel_writes_stencil(k) && pixel_waits(k)))
         return live;
     if (pixel_writes_stencil(k))
         return stencil_depth_write(E, k, at, layout, live);
@@ -150,13 +150,13 @@ static inline msk early_tests(struct env *e, const struct pixel_key *k, const st
 }
 
 /* The tests after shading. A pixel that shading discards changes no stencil, so if the stencil is written,
- * all tests wait for shading. */
+ * all tests wait for shading. So they do if the key says so, for measurements. */
 static inline msk late_tests(struct env *e, const struct pixel_key *k, const struct pixel_position *at,
                              const struct triangle_layout *layout, msk kept)
 {
     if (pixel_writes_stencil(k))
         return stencil_depth_write(E, k, at, layout, kept);
-    if (k->depth_output)
+    if (k->depth_output || k->late)
         return stencil_depth_test(E, k, at, layout, k->depth_write, kept);
     if (k->depth_write)
         depth_write_late(E, k, at, layout, kept);

@@ -177,6 +177,71 @@ static void stripes_are_rows_of_tiles(void)
     TEST_ASSERT_EQUAL_UINT32(TILES, device->queue->phase.tasks);
 }
 
+/* Covers the target with one depth and colour, by triangles that are 64 times as large: no edge meets it. */
+static void cover(float depth, uint32_t color)
+{
+    struct vertex vertex[3] = {
+        {{-64, -64, depth, 1}, color}, {{-64, 192, depth, 1}, color}, {{192, -64, depth, 1}, color}};
+    triptych_buffer *buffer;
+    OK(triptych_buffer_create(device, vertex, sizeof vertex, &buffer));
+    struct triptych_element position = {TRIPTYCH_FORMAT_FLOAT4, buffer, 0, sizeof *vertex};
+    struct triptych_element diffuse = {TRIPTYCH_FORMAT_COLOR, buffer, 16, sizeof *vertex};
+    OK(triptych_set_element(device, TRIPTYCH_POSITION, &position));
+    OK(triptych_set_element(device, TRIPTYCH_DIFFUSE, &diffuse));
+    OK(triptych_draw(device, TRIPTYCH_TRIANGLE_LIST, 0, 1));
+}
+
+/* The pixels that are shaded where a second triangle covers a first; with `behind` its depth fails the test. */
+static uint64_t count_shaded(unsigned setting, unsigned value, bool behind)
+{
+    open_with(1, 0, setting, value);
+    OK(triptych_set_state(device, TRIPTYCH_STATE_ALPHABLENDENABLE, 0));
+    OK(triptych_set_state(device, TRIPTYCH_STATE_ZENABLE, behind));
+    OK(triptych_clear(device, NULL, 1));
+    cover(0.25f, 0xff336699);
+    cover(0.75f, 0xff996633);
+    OK(triptych_finish(device));
+    return device->queue->statistics.pixels_shaded;
+}
+
+/* In the nine whole tiles. Of the others only a part belongs to the target, so nothing covers them. */
+static void expect_more(unsigned setting, unsigned on, unsigned off, bool behind)
+{
+    TEST_ASSERT_EQUAL_UINT64(count_shaded(setting, on, behind) + 9 * TILE_SIZE * TILE_SIZE,
+                             count_shaded(setting, off, behind));
+}
+
+static void without_ranges_hidden_pixels_are_tested(void)
+{
+    expect_more(SETTING_range, SETTING_range_on, SETTING_range_off, true);
+}
+
+static void without_uniform_tiles_overwritten_pixels_are_shaded(void)
+{
+    expect_more(SETTING_uniform, SETTING_uniform_on, SETTING_uniform_off, false);
+}
+
+static void each_draw_is_a_round_of_its_own_if_drawn_immediately(void)
+{
+    open_with(1, 0, SETTING_order, SETTING_order_tiles);
+    draw_scene(&got);
+    uint64_t rounds = device->queue->statistics.rounds;
+    open_with(1, 0, SETTING_order, SETTING_order_immediate);
+    draw_scene(&got);
+    TEST_ASSERT_TRUE(rounds < DRAWS);
+    TEST_ASSERT_TRUE(device->queue->statistics.rounds >= DRAWS + 1);
+}
+
+static void late_tests_are_a_key_of_their_own(void)
+{
+    open_with(1, 0, SETTING_depth, SETTING_depth_late);
+    cover(0.25f, 0);
+    TEST_ASSERT_EQUAL_INT(1, device->derived.key[UNIT_PIXEL].pixel.late);
+    OK(triptych_set_state(device, TRIPTYCH_STATE_ZENABLE, 0));
+    cover(0.25f, 0);
+    TEST_ASSERT_EQUAL_INT(0, device->derived.key[UNIT_PIXEL].pixel.late);
+}
+
 static void settings_are_read_when_the_device_is_made(void)
 {
     struct error error = {""};
@@ -237,6 +302,10 @@ int main(void)
     RUN_TEST(any_order_of_tasks_gives_the_same_image_when_the_arena_fills_up);
     RUN_TEST(every_value_of_every_setting_gives_the_same_image);
     RUN_TEST(stripes_are_rows_of_tiles);
+    RUN_TEST(without_ranges_hidden_pixels_are_tested);
+    RUN_TEST(without_uniform_tiles_overwritten_pixels_are_shaded);
+    RUN_TEST(each_draw_is_a_round_of_its_own_if_drawn_immediately);
+    RUN_TEST(late_tests_are_a_key_of_their_own);
     RUN_TEST(settings_are_read_when_the_device_is_made);
     RUN_TEST(orders_contain_every_task_once_and_change_with_seed_and_phase);
     return UNITY_END();
