@@ -191,12 +191,12 @@ static void cover(float depth, uint32_t color)
     OK(triptych_draw(device, TRIPTYCH_TRIANGLE_LIST, 0, 1));
 }
 
-/* The pixels that are shaded where a second triangle covers a first; with `behind` its depth fails the test. */
-static uint64_t count_shaded(unsigned setting, unsigned value, bool behind)
+/* The pixels that are shaded where a second triangle covers a first, or is hidden by it. */
+static uint64_t count_shaded(unsigned setting, unsigned value, bool hidden)
 {
     open_with(1, 0, setting, value);
     OK(triptych_set_state(device, TRIPTYCH_STATE_ALPHABLENDENABLE, 0));
-    OK(triptych_set_state(device, TRIPTYCH_STATE_ZENABLE, behind));
+    OK(triptych_set_state(device, TRIPTYCH_STATE_ZENABLE, hidden));
     OK(triptych_clear(device, NULL, 1));
     cover(0.25f, 0xff336699);
     cover(0.75f, 0xff996633);
@@ -205,10 +205,10 @@ static uint64_t count_shaded(unsigned setting, unsigned value, bool behind)
 }
 
 /* In the nine whole tiles. Of the others only a part belongs to the target, so nothing covers them. */
-static void expect_more(unsigned setting, unsigned on, unsigned off, bool behind)
+static void expect_more(unsigned setting, unsigned on, unsigned off, bool hidden)
 {
-    TEST_ASSERT_EQUAL_UINT64(count_shaded(setting, on, behind) + 9 * TILE_SIZE * TILE_SIZE,
-                             count_shaded(setting, off, behind));
+    TEST_ASSERT_EQUAL_UINT64(count_shaded(setting, on, hidden) + 9 * TILE_SIZE * TILE_SIZE,
+                             count_shaded(setting, off, hidden));
 }
 
 static void without_ranges_hidden_pixels_are_tested(void)
