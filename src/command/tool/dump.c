@@ -123,8 +123,9 @@ static int dump_key(const struct command *self, const struct dumper *dumper, con
     struct error error = {""};
     struct code_arena *arena = code_create(ARENA_BYTES, NULL, &error);
     tool_progress(NULL);
-    int bad =
-        !arena || print_shader(unit, key, &error) || dumper->dump(engine, arena, unit, key, show, &error);
+    bool is_file = show && !strcmp(show, "whole"); /* of C, and nothing else */
+    int bad = !arena || (!is_file && print_shader(unit, key, &error)) ||
+              dumper->dump(engine, arena, unit, key, show, &error);
     code_destroy(arena);
     return bad ? tool_fail(self, "%s", error.text) : STATUS_OK;
 }
