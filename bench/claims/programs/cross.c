@@ -1,5 +1,5 @@
-/* Fragment 12 of the thesis: calls the listing of cross.asm on random vectors. Prints as JSON how many results
- * of each version are those of the formula in binary32 and in binary64, and the bytes of each. */
+/* Fragment 12 of the thesis: calls the listing of cross.asm on random vectors. Prints as JSON how many
+ * results of each version are those of the formula in binary32 and in binary64, and the bytes of each. */
 #include <stdint.h>
 #include <stdio.h>
 
