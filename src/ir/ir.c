@@ -1,6 +1,7 @@
 #include "ir/ir.h"
 
 #include "base/bits.h"
+#include "ir/field.h"
 
 #include <string.h>
 
@@ -46,6 +47,8 @@ void ir_start(struct ir *ir)
     ir->count = 1;
     ir->file_count = ir->constant_count = ir->loops = ir->variables = ir->phis = ir->steps = 0;
     ir->parts = 1;
+    ir->typed = true;
+    ir->unit = UNIT_COUNT;
     ir->overflow = false;
     memset(&ir->instruction[0], 0, sizeof ir->instruction[0]);
 }
@@ -145,12 +148,31 @@ static void print_literal(const struct ir_instruction *i, FILE *out)
         fprintf(out, " 0x%x", (unsigned)i->k);
 }
 
-static void print_memory(const struct ir_instruction *i, FILE *out)
+/* Prints the fields by their names. Returns false if they have none. */
+static bool print_fields(const struct ir *ir, const struct ir_instruction *i, FILE *out)
+{
+    struct ir_field pointer, field;
+    if (ir->unit == UNIT_COUNT || ir_find_memory(ir, i, &pointer, &field) ||
+        !*pointer.name + !*field.name == 2)
+        return false;
+    fprintf(out, " %s %s%s%s", base_name[i->base], pointer.name, *pointer.name ? "->" : "", field.name);
+    if (!*field.name)
+        fprintf(out, "+%d", (int)i->k);
+    return true;
+}
+
+static void print_offsets(const struct ir_instruction *i, FILE *out)
 {
     fprintf(out, " %s", base_name[i->base]);
     if (i->op == IR_gather && i->field != GATHER_DIRECT)
         fprintf(out, "[%d]->", (int)i->field);
     fprintf(out, "+%d", (int)i->k);
+}
+
+static void print_memory(const struct ir *ir, const struct ir_instruction *i, FILE *out)
+{
+    if (!print_fields(ir, i, out))
+        print_offsets(i, out);
     if (i->op == IR_gather)
         fprintf(out, " scale %d", i->scale);
     if (i->op == IR_scatter)
@@ -167,7 +189,7 @@ void ir_print_instruction(const struct ir *ir, uint32_t number, FILE *out)
     if (i->op == IR_literal)
         print_literal(i, out);
     else if (information->properties & (IR_READS | IR_WRITES))
-        print_memory(i, out);
+        print_memory(ir, i, out);
     else if (information->properties & IR_SHIFTS || i->op == IR_constant)
         fprintf(out, " %d", (int)i->k);
     else if (information->properties & IR_VARIABLE)

@@ -125,7 +125,13 @@ struct ir {
     uint32_t file_count;
     uint32_t constant_count;
     uint32_t parts; /* of each value, up to IR_PARTS; 1 until the pass split */
-    bool overflow;  /* more than IR_CAPACITY - 1 instructions were recorded: the routine cannot be built */
+    /* Operands have exactly the types of the tables. Passes that use a value in place of another with the
+     * same bits clear it: afterwards only masks and words are distinguished, and literals are either. */
+    bool typed;
+    uint8_t unit; /* enum unit: whose records memory has (field.h); UNIT_COUNT: memory is words of any type */
+    struct triangle_layout layout;        /* of the unit's key */
+    uint8_t interpolation[VARYING_COUNT]; /* of the unit's key, except vertices: enum interpolation */
+    bool overflow; /* more than IR_CAPACITY - 1 instructions were recorded: the routine cannot be built */
     const char *file[IR_FILES];
     struct ir_constant constant[IR_CONSTANTS];
     struct ir_instruction instruction[IR_CAPACITY];
@@ -160,6 +166,8 @@ void ir_compact(struct ir *ir, uint16_t *map);
 
 /* Verifies that
  *   - operands are values, defined before their use in a region that is still open,
+ *   - operands and results have the types of the tables of operations,
+ *   - memory is read and written by fields, of their type, in programs of a unit (field.h),
  *   - regions nest,
  *   - all sets and gets of a variable have one type, and a set precedes every get on each path of control,
  *   - phis, next values and joins are at their positions.

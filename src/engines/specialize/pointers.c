@@ -53,7 +53,7 @@ static void count(uint64_t *counter)
     __atomic_store_n(counter, *counter + 1, __ATOMIC_RELAXED);
 }
 
-/* --- Pointers -------------------------------------------------------------------------------------------- */
+/* --- Pointers ------------------------------------------------------------------------------------------- */
 
 static uint64_t *values_of(const struct pointers *p, const struct pointer_copy *copy)
 {
@@ -88,7 +88,7 @@ static void write_pointers(struct pointers *p, struct pointer_copy *copy, const 
     count(&p->patches.writes);
 }
 
-/* --- Copies ---------------------------------------------------------------------------------------------- */
+/* --- Copies --------------------------------------------------------------------------------------------- */
 
 /* Returns 0, or -1 if the arena has no room. */
 static int make_copy(struct pointers *p, struct pointer_copy *copy, struct error *error)
@@ -169,7 +169,7 @@ static void run(const void *arguments, const struct routine *routine)
     give_copy(p, copy);
 }
 
-/* --- Making a routine ------------------------------------------------------------------------------------ */
+/* --- Making a routine ----------------------------------------------------------------------------------- */
 
 static uint16_t number_field(struct pointers *p, int32_t field)
 {

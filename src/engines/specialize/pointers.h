@@ -13,8 +13,9 @@
 
 enum { POINTER_COPIES = 64 };
 
-/* Makes a routine of the code that was built last, which has pointers, with its first copy in the arena. Returns null with the
- * reason. The members of struct routine that do not concern the code are the caller's. */
+/* Makes a routine of the code that was built last, which has pointers, with its first copy in the arena.
+ * Returns null with the reason. The members of struct routine that do not concern the code are the
+ * caller's. */
 struct routine *specialize_pointers_routine(const struct builder *builder, struct code_arena *arena,
                                             size_t bytes, enum addresses addresses, struct error *error);
 

@@ -130,7 +130,7 @@ static void more_addresses_than_copies_recycle_the_oldest(void)
     destroy(routine);
 }
 
-/* --- Two threads ----------------------------------------------------------------------------------------- */
+/* --- Two threads ---------------------------------------------------------------------------------------- */
 
 struct worker {
     const struct routine *routine;

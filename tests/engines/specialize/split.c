@@ -73,7 +73,8 @@ static void test_values_that_are_equal_in_all_lanes_have_one_part(void)
 
 static void test_a_region_runs_if_a_lane_of_any_part_is_set(void)
 {
-    uint16_t mask = append(IR_load, TYPE_msk, 0, 0, 0);
+    uint16_t word = append(IR_load, TYPE_itg, 0, 0, 0);
+    uint16_t mask = append(IR_gt_i, TYPE_msk, word, word, 0);
     append(IR_when, TYPE_non, mask, 0, 0);
     append(IR_store, TYPE_non, mask, 0, 0);
     append(IR_end, TYPE_non, 0, 0, 0);

@@ -101,6 +101,7 @@ unsigned pass_common(struct ir *ir, struct pass_memory *memory)
         /* A value whose region is closed gives up its slot: no region opens again. */
         if (earlier && m->open[m->region[earlier]]) {
             m->replacement[number] = earlier;
+            ir->typed &= i->type == ir->instruction[earlier].type;
             *i = (struct ir_instruction){.op = IR_copy,
                                          .type = i->type,
                                          .operand = {earlier},

@@ -1,4 +1,5 @@
-/* Copy propagation. Afterwards no instruction uses a copy, and the copies are nops. */
+/* Copy propagation. Afterwards no instruction uses a copy, and the copies are nops. Casts are copies, so
+ * operands are no longer of exactly the types of the tables (struct ir). */
 #include "engines/specialize/passes/pass.h"
 
 struct copy_memory {
@@ -20,6 +21,7 @@ unsigned pass_copy(struct ir *ir, struct pass_memory *memory)
         if (i->op != IR_copy)
             continue;
         m->source[number] = i->operand[0];
+        ir->typed &= i->type == ir->instruction[i->operand[0]].type;
         *i = (struct ir_instruction){0};
         changes++;
     }

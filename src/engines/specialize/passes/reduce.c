@@ -265,6 +265,7 @@ unsigned pass_reduce(struct ir *ir, struct pass_memory *memory)
         view.instruction = i;
         if (ir_properties(i) & IR_COMPUTES)
             changes += reduce(&view, i);
+        ir->typed &= i->op != IR_andn_m || i->type == TYPE_msk;
     }
     return changes;
 }
