@@ -137,7 +137,7 @@ unity_flags = -isystem $(dir $(UNITY_SOURCE)) -DUNITY_INCLUDE_DOUBLE -DUNITY_USE
 
 # --- What to build ------------------------------------------------------------------------------------------
 
-.PHONY: all programs objects check test check-cross check-threads check-explore matrix coverage soak soak-faults soak-memory bench peers bench-shaders bench-passes bench-draws bench-targets claims conformance-d3d9 programs-d3d9 mutations campaign-slurm-test gallery verify-external docs fuzzers fuzz-input fuzz-input-smoke dependencies packages install clean format format-check compile_commands.json d3d9 lab labs help FORCE
+.PHONY: all programs objects check test check-cross check-threads check-explore matrix coverage soak soak-faults soak-memory bench peers bench-shaders bench-passes bench-clients bench-draws bench-targets claims conformance-d3d9 programs-d3d9 mutations campaign-slurm-test gallery verify-external docs fuzzers fuzz-input fuzz-input-smoke dependencies packages install clean format format-check compile_commands.json d3d9 lab labs help FORCE
 
 all: $(BUILD)/libtriptych.a $(if $(SANITIZE),,$(BUILD)/libtriptych.so $(PKGCONFIG) \
   $(BUILD)/include/triptych/triptych.h) $(COMMAND) build/glmark2 \
@@ -147,7 +147,8 @@ programs: $(PROGRAMS) $(if $(filter tests/peers.sh,$(SCRIPTS)),$(BUILD)/peers/dr
 
 # Every object that the tests compile. The objects left out need the headers of GLES2, which the tests do not
 # install.
-objects: $(filter-out $(PROGRAM_OBJECTS) %/gles.o %/gles_library.o %/gles_shader.o,$(OBJECTS)) $(PROGRAMS:$(BUILD)/%=$(BUILD)/object/%.o)
+objects: $(filter-out $(PROGRAM_OBJECTS) %/gles.o %/gles_library.o %/gles_shader.o \
+  $(BUILD)/object/bench/clients/run/%,$(OBJECTS)) $(PROGRAMS:$(BUILD)/%=$(BUILD)/object/%.o)
 
 # Starts a recipe line: prints a short note instead of the command, or the command itself with V=1.
 say = $(if $(V),,@printf '  %-4s  %s\n' $(1) $(or $(2),$@);)
@@ -567,6 +568,17 @@ $(BUILD)/bench/targets: $(BUILD)/object/bench/targets.o $(BUILD)/libtriptych.a
 	@mkdir -p $(@D)
 	$(call say,LD)$(link) $^ $(library_libraries) -o $@
 
+# Programs that are not graphics, as kernels, in plain C and by libraries (docs/clients.md).
+$(BUILD)/bench/clients: $(CLIENT_OBJECTS) $(call object,$(call find,bench/clients/run,*.c)) $(BUILD)/command.a \
+  $(BUILD)/libtriptych.a
+	@mkdir -p $(@D)
+	$(call say,LD)$(link) $(filter %.o,$^) $(filter %.a,$^) $(tool_libraries) -lcrypto -lswscale -lavutil -lpcre2-8 -o $@
+
+bench-clients:
+	@tests/support/scripts/dependencies.sh build clients
+	+@$(MAKE) $(jobs) $(BUILD)/bench/clients
+	@BUILD=$(BUILD) bench/clients.sh
+
 bench-targets:
 	@tests/support/scripts/dependencies.sh build
 	+@$(MAKE) $(jobs) $(BUILD)/bench/targets
@@ -724,6 +736,7 @@ make programs-d3d9   programs for Windows, on Triptych and on Wine's own Direct3
 make bench-shaders   measures every shader in tests/data/shading, by shader and by length
 make bench-passes    leaves passes of the specializer out, and measures the parts of a build
 make bench-draws     draws per second of one small triangle, one change of the state before each
+make bench-clients   a cipher, a filter and a matcher: kernels, plain C and libraries
 make bench-targets   the time to draw to a texture and return to the target
 make claims          tests the claims of the thesis and of other renderers, an hour: results/claims.json, results/report
                      (ONLY=C156,S9 RESUME=1)

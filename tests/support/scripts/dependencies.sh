@@ -1,8 +1,8 @@
 #!/bin/bash
 # Makes sure that the Debian packages a target needs are installed, and installs those that are not.
 #
-#   tests/support/scripts/dependencies.sh GROUP...    groups: build test bench claims peers format fuzz
-#                                                     browser d3d9 suites programs course slurm cross
+#   tests/support/scripts/dependencies.sh GROUP...    groups: build test bench claims clients peers format
+#                                                     fuzz browser d3d9 suites programs course slurm cross
 #   tests/support/scripts/dependencies.sh --list
 #
 # Silent when there is nothing to do. Ends non-zero, after naming the packages and their reasons, when a
@@ -34,7 +34,7 @@ cmake              test    builds and runs the example of a golden-image test
 libsdl2-2.0-0      test    the window of `triptych view`, which loads it when it runs
 xvfb               test,programs a display without a screen, for a window of `triptych view`
 xdotool            test,programs presses keys in that window
-valgrind           test,course,claims counts executed instructions, for the labs of the course and the claims
+valgrind           test,course,claims,clients counts executed instructions, for the labs of the course and the claims
 hyperfine          bench   measures whole processes
 gnuplot-nox        test,bench,claims draws the charts
 libegl-dev         peers,programs headers of EGL, for the renderers that are measured against
@@ -42,6 +42,10 @@ libgles-dev        peers,programs the headers of GLES2, and its library
 libegl1            peers  finds the EGL of a vendor
 libegl-mesa0       peers  EGL of Mesa
 libgl1-mesa-dri    peers,suites softpipe and llvmpipe of Mesa
+libssl-dev         clients,claims encrypts with libcrypto, against the kernel of ChaCha20
+libswscale-dev     clients,claims converts video with libswscale, against the kernel of the conversion
+libavutil-dev      clients,claims the formats of libswscale
+libpcre2-dev       clients,claims matches with PCRE2, against the kernel of the matcher
 dpkg-dev           suites  unpacks source packages
 xserver-xorg-core  suites  an X server with several display modes
 xserver-xorg-video-dummy suites the driver without a screen for it
