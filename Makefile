@@ -285,6 +285,7 @@ $(BUILD)/tests/command/tool/verify: private override LDFLAGS += -Wl,--wrap=tript
 
 # This test gives all keys the same hash.
 $(BUILD)/tests/render/device/cache: private override LDFLAGS += -Wl,--wrap=key_hash
+$(BUILD)/tests/render/device/label: private override LDFLAGS += -Wl,--wrap=key_pack
 
 # This test replaces operations, passes and fragments by wrong ones, which the bisector must name.
 $(BUILD)/tests/command/fuzz/bisect: private override LDFLAGS += -Wl,--wrap=schedule_step_of,--wrap=pass_reduce,--wrap=pass_dead \

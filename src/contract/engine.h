@@ -127,6 +127,12 @@ struct engine {
     struct routine *(*build)(const struct engine *self, struct code_arena *arena, enum unit unit,
                              const union key *key, struct error *error);
 
+    /* Writes the label of a unit's routine, the hash of its recording before passes, and returns 1. Returns 0 if
+     * this engine's labels are the keys, or -1 with the reason. If `key` is null, it only answers 1 or 0. A null
+     * function: the keys. */
+    int (*label)(const struct engine *self, enum unit unit, const union key *key, struct packed_key *label,
+                 struct error *error);
+
     /* Frees a routine that no thread runs. */
     void (*free)(struct code_arena *arena, struct routine *routine);
 

@@ -51,6 +51,8 @@ static cJSON *json_unit(const struct counted *c, enum unit unit)
     add_number(json, "routines", (double)counts->routines);
     add_number(json, "bytes", (double)counts->bytes);
     add_number(json, "lookups", (double)counts->lookups);
+    add_number(json, "wrong_keys", (double)counts->wrong_keys);
+    add_number(json, "shared_keys", (double)counts->shared_keys);
     add_number(json, "lookup_ns", (double)counts->lookup_ns);
     add_number(json, "build_ns", (double)counts->build_ns);
     add_classes(json, "builds_by_us", counts->build_us);

@@ -12,6 +12,9 @@ enum encoding { ENCODING_BYTES, ENCODING_TEXT };
  * are literals of the code, which threads take turns to change or have copies of (pointers.c). */
 enum addresses { ADDRESSES_LOADED, ADDRESSES_PATCHED, ADDRESSES_SHARED };
 
+/* The label of a routine in the cache: its key, or the hash of its recording (label.c). */
+enum labels { LABELS_KEY, LABELS_RECORDING };
+
 struct build_options {
     unsigned width; /* lanes of a register: 1, 4, 8 or 16 */
     unsigned parts; /* registers of each value, a power of two; 0: 1. width * parts is at most 16. */
@@ -24,6 +27,7 @@ struct build_options {
     enum encoding encoding; /* how instructions become bytes: directly, or by way of text */
     struct register_file file;
     enum addresses addresses;
+    enum labels labels;
 };
 
 /* Returns the options of one of the specializer's engines, with the width that it chooses for the unit. */
@@ -34,6 +38,10 @@ struct build_options specialize_options(const struct engine *engine, enum unit u
 struct routine *specialize_routine(const struct engine *engine, const struct build_options *options,
                                    struct code_arena *arena, enum unit unit, const union key *key,
                                    struct error *error);
+
+/* As engine.label (label.c). */
+int specialize_label(const struct engine *engine, enum unit unit, const union key *key,
+                     struct packed_key *label, struct error *error);
 
 /* The memory of one build. It is reused; a build allocates nothing else. */
 struct builder {

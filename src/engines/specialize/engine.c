@@ -192,6 +192,7 @@ enum { ALWAYS, NAMED };
         .on_request = runs == NAMED,                                                                         \
         .unavailable = unavailable,                                                                          \
         .build = build,                                                                                      \
+        .label = specialize_label,                                                                           \
         .free = free_routine,                                                                                \
         .describe = describe,                                                                                \
     };

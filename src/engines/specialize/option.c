@@ -53,6 +53,18 @@ int specialize_set_passes(void *options, const char *value, struct error *error)
 static const char *const addresses[] = {
     [ADDRESSES_LOADED] = "loaded", [ADDRESSES_PATCHED] = "patched", [ADDRESSES_SHARED] = "shared"};
 
+static const char *const labels[] = {[LABELS_KEY] = "key", [LABELS_RECORDING] = "recording"};
+
+int specialize_set_labels(void *options, const char *value, struct error *error)
+{
+    const struct words words = WORDS_OF_ROWS(labels);
+    unsigned index;
+    if (!words_find(words, value, strlen(value), &index))
+        return set_unknown("labels", value, words, error);
+    ((struct build_options *)options)->labels = (enum labels)index;
+    return 0;
+}
+
 int specialize_set_addresses(void *options, const char *value, struct error *error)
 {
     struct build_options *o = options;

@@ -22,8 +22,9 @@ struct cache_entry {
     struct link idle;     /* while there are no references */
     struct link numbered; /* on cache.numbered */
     struct cache_entry *chain;
-    struct packed_key key;
-    uint64_t hash;
+    struct packed_key key; /* the label by which it is found: the packed key, unless the engine has others */
+    uint64_t hash;         /* of the label */
+    uint64_t key_hash;     /* of the packed key */
     size_t price;
     uint32_t references;
     enum unit unit;
@@ -37,7 +38,7 @@ struct cache {
     const struct engine *engine;
     struct code_arena *arena;
     size_t budget;
-    bool measures;
+    bool measures, has_labels;
     enum setting_replace policy;
     uint64_t random;
     unsigned listeners;
@@ -90,6 +91,7 @@ struct cache *cache_create(const struct engine *engine, struct code_arena *arena
     cache->engine = engine;
     cache->arena = arena;
     cache->budget = budget;
+    cache->has_labels = engine->label && engine->label(engine, UNIT_SETUP, NULL, NULL, NULL);
     cache->bucket = bucket;
     cache->bucket_count = FIRST_BUCKETS;
     cache->random = 1;
@@ -330,8 +332,14 @@ static uint32_t padded_to(const struct engine *engine)
     return engine->width && engine->width < LANES_MAXIMUM ? (uint32_t)engine->width : LANES_MAXIMUM;
 }
 
+/* What a routine is looked up by. */
+struct label {
+    struct packed_key packed; /* the packed key, or the engine's label */
+    uint64_t hash, key_hash;
+};
+
 static struct cache_entry *insert(struct cache *cache, enum unit unit, const union key *key,
-                                  const struct packed_key *packed, uint64_t hash, struct error *error)
+                                  const struct label *label, struct error *error)
 {
     struct cache_entry *entry = calloc(1, sizeof *entry);
     if (!entry) {
@@ -355,13 +363,14 @@ static struct cache_entry *insert(struct cache *cache, enum unit unit, const uni
     }
     entry->routine->time = cache->measures ? &entry->time : NULL;
     entry->unit = unit;
-    entry->key = *packed;
-    entry->hash = hash;
+    entry->key = label->packed;
+    entry->hash = label->hash;
+    entry->key_hash = label->key_hash;
     entry->price =
         entry->routine->code_bytes + entry->routine->data_bytes + sizeof *entry + sizeof *entry->routine;
     if (cache->statistics.routines >= cache->bucket_count)
         grow(cache);
-    struct cache_entry **at = bucket_of(cache, hash);
+    struct cache_entry **at = bucket_of(cache, label->hash);
     entry->chain = *at;
     *at = entry;
     list_insert_after(cache->numbered.previous, &entry->numbered);
@@ -377,34 +386,74 @@ static void count_hits(struct cache *cache, struct cache_entry *entry, uint64_t 
     entry->routine->hits += hits;
 }
 
-/* Packs the key, hashes it and finds its entry, null if there is none. */
-static struct cache_entry *look_up(struct cache *cache, enum unit unit, const union key *key,
-                                   struct packed_key *packed, uint64_t *hash)
+static int make_label(const struct cache *cache, enum unit unit, const union key *key, struct label *label,
+                      struct error *error)
+{
+    label->packed = key_pack(unit, key);
+    label->hash = label->key_hash = key_hash(unit, &label->packed);
+    if (!cache->has_labels)
+        return 0;
+    if (cache->engine->label(cache->engine, unit, key, &label->packed, error) < 0)
+        return -1;
+    label->hash = key_hash(unit, &label->packed);
+    return 0;
+}
+
+static bool has_key(struct cache *cache, enum unit unit, uint64_t key_hash)
+{
+    for (struct link *link = cache->numbered.next; link != &cache->numbered; link = link->next) {
+        const struct cache_entry *entry = ENTRY_OF(link, numbered);
+        if (entry->unit == unit && entry->key_hash == key_hash)
+            return true;
+    }
+    return false;
+}
+
+/* Compares what the key finds with what the label found. */
+static void compare_key(struct cache *cache, enum unit unit, const struct label *label,
+                        const struct cache_entry *found)
 {
     struct cache_unit *counts = &cache->statistics.unit[unit];
-    uint64_t start = cache->measures ? clock_ns() : 0;
-    *packed = key_pack(unit, key);
-    *hash = key_hash(unit, packed);
-    struct cache_entry *entry = *find(cache, unit, packed, *hash);
-    counts->lookups++;
-    counts->lookup_ns += cache->measures ? clock_ns() - start : 0;
+    if (found)
+        counts->shared_keys += found->key_hash != label->key_hash;
+    else
+        counts->wrong_keys += has_key(cache, unit, label->key_hash);
+}
+
+/* Finds the key's entry, null if there is none. */
+static struct cache_entry *look_up(struct cache *cache, enum unit unit, const struct label *label)
+{
+    struct cache_entry *entry = *find(cache, unit, &label->packed, label->hash);
+    cache->statistics.unit[unit].lookups++;
+    if (cache->has_labels)
+        compare_key(cache, unit, label, entry);
+    return entry;
+}
+
+static struct cache_entry *use_found(struct cache *cache, struct cache_entry *entry)
+{
+    count_hits(cache, entry, 1);
+    if (!entry->references)
+        remove_idle(cache, entry);
     return entry;
 }
 
 static struct cache_entry *acquire(struct cache *cache, enum unit unit, const union key *key,
                                    struct error *error)
 {
-    struct packed_key packed;
-    uint64_t hash;
-    struct cache_entry *entry = look_up(cache, unit, key, &packed, &hash);
+    struct cache_unit *counts = &cache->statistics.unit[unit];
+    struct label label;
+    uint64_t start = cache->measures ? clock_ns() : 0;
+    if (make_label(cache, unit, key, &label, error))
+        return NULL;
+    struct cache_entry *entry = look_up(cache, unit, &label);
+    counts->lookup_ns += cache->measures ? clock_ns() - start : 0;
     if (entry) {
-        count_hits(cache, entry, 1);
-        if (!entry->references)
-            remove_idle(cache, entry);
+        use_found(cache, entry);
     } else {
         cache->statistics.misses++;
-        cache->statistics.unit[unit].misses++;
-        entry = insert(cache, unit, key, &packed, hash, error);
+        counts->misses++;
+        entry = insert(cache, unit, key, &label, error);
     }
     if (entry)
         entry->references++;
@@ -455,6 +504,11 @@ void cache_add_hits(struct cache *cache, const struct routine *routine, uint64_t
     pthread_mutex_lock(&cache->lock);
     count_hits(cache, routine->entry, hits);
     pthread_mutex_unlock(&cache->lock);
+}
+
+bool cache_has_labels(const struct cache *cache)
+{
+    return cache->has_labels;
 }
 
 bool cache_is_crowded(struct cache *cache)

@@ -29,9 +29,11 @@ enum { CACHE_CLASSES = 24 };
 /* Of one unit's routines. */
 struct cache_unit {
     uint64_t hits, misses, evictions;
-    size_t bytes;                 /* of the routines in the table */
-    size_t routines;              /* in the table */
-    uint64_t lookups;             /* of cache_acquire; hits of cache_add_hits need none */
+    size_t bytes;         /* of the routines in the table */
+    size_t routines;      /* in the table */
+    uint64_t lookups;     /* of cache_acquire; hits of cache_add_hits need none */
+    uint64_t wrong_keys;  /* misses of a label although the key is in the table: the key lacks a field */
+    uint64_t shared_keys; /* hits of a label with another key: the keys have the same recording */
     uint64_t lookup_ns, build_ns; /* all lookups, if they are measured; all builds */
     uint32_t build_us[CACHE_CLASSES], code_bytes[CACHE_CLASSES]; /* of all builds */
 };
@@ -71,6 +73,10 @@ void cache_let_go(struct cache *cache, const struct routine *routine);
 void cache_trim(struct cache *cache);
 /* Counts `hits` lookups of a routine that is in use. */
 void cache_add_hits(struct cache *cache, const struct routine *routine, uint64_t hits);
+
+/* Returns true if the engine's labels are not its keys (engine.label). Then lookups are by label, and each
+ * draw should look its routines up: the counts wrong_keys and shared_keys are of these lookups. */
+bool cache_has_labels(const struct cache *cache);
 
 /* Returns true if the routines cost twice the budget. Then those in use are the cause: the caller should
  * release some. */

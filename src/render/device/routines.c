@@ -54,7 +54,7 @@ int device_routines_use(struct device_routines *routines, struct cache *cache,
 {
     uint32_t before = routines->count;
     for (int unit = 0; unit < UNIT_COUNT; unit++) {
-        if (routine[unit] || use_held(routines, unit, &key[unit], routine)) {
+        if (!cache_has_labels(cache) && (routine[unit] || use_held(routines, unit, &key[unit], routine))) {
             routines->held[routines->in_use[unit]].hits++;
             continue;
         }
@@ -63,7 +63,10 @@ int device_routines_use(struct device_routines *routines, struct cache *cache,
             device_routines_let_go(routines, cache, before, routine);
             return -1;
         }
-        device_routines_hold(routines, unit, found, routine);
+        if (found == routine[unit])
+            cache_let_go(cache, found);
+        else
+            device_routines_hold(routines, unit, found, routine);
     }
     return (int)(routines->count - before);
 }
