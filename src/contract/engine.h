@@ -37,7 +37,7 @@ struct routine_patches {
     uint64_t copies; /* of the code */
 };
 
-/* What one tier of a tiered routine has done. */
+/* The counts of one tier of a tiered routine. */
 struct routine_tier {
     const char *engine;
     uint64_t runs;
@@ -127,9 +127,9 @@ struct engine {
     struct routine *(*build)(const struct engine *self, struct code_arena *arena, enum unit unit,
                              const union key *key, struct error *error);
 
-    /* Writes the label of a unit's routine, the hash of its recording before passes, and returns 1. Returns 0 if
-     * this engine's labels are the keys, or -1 with the reason. If `key` is null, it only answers 1 or 0. A null
-     * function: the keys. */
+    /* Writes the label of a unit's routine, the hash of its recording before passes, and returns 1. Returns
+     * 0 if this engine's labels are the keys, or -1 with the reason. If `key` is null, it only answers 1 or
+     * 0. A null function: the keys. */
     int (*label)(const struct engine *self, enum unit unit, const union key *key, struct packed_key *label,
                  struct error *error);
 

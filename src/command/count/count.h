@@ -14,8 +14,8 @@ struct count_settings {
 
 /* Plays the first frames of each stream once on a new device of each engine, and prints by unit: keys, hits,
  * misses, evictions, what is left in the cache, the times of lookups and builds; and by tier of a tiered
- * engine: runs, builds, drops. `report` receives all of this, histograms, and the states of each frame, as its
- * member `counts`. Returns 0, or STATUS_BAD after a message. */
+ * engine: runs, builds, drops. `report` receives all of this, histograms, and the states of each frame, as
+ * its member `counts`. Returns 0, or STATUS_BAD after a message. */
 int count_all(const struct command *self, char **paths, unsigned count, const struct choice *engines,
               const struct count_settings *settings, cJSON *report);
 

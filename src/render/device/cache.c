@@ -332,7 +332,7 @@ static uint32_t padded_to(const struct engine *engine)
     return engine->width && engine->width < LANES_MAXIMUM ? (uint32_t)engine->width : LANES_MAXIMUM;
 }
 
-/* What a routine is looked up by. */
+/* Finds a routine in the table. */
 struct label {
     struct packed_key packed; /* the packed key, or the engine's label */
     uint64_t hash, key_hash;

@@ -51,8 +51,8 @@ struct cache *cache_create(const struct engine *engine, struct code_arena *arena
                            struct error *error);
 /* From now on the calls of routines that are built are measured, and lookups. */
 void cache_measure(struct cache *cache);
-/* Selects the idle routine that is evicted next (def/setting.def). A routine is used until it is released. A new
- * cache has SETTING_replace_lru. */
+/* Selects the idle routine that is evicted next (def/setting.def). A routine is used until it is released.
+ * A new cache has SETTING_replace_lru. */
 void cache_evict_by(struct cache *cache, enum setting_replace policy);
 /* From now on these listeners (debug/debug.h) are notified of routines that are built and freed. */
 void cache_debug(struct cache *cache, unsigned listeners);
@@ -67,8 +67,8 @@ const struct routine *cache_acquire(struct cache *cache, enum unit unit, const u
 /* Acquires the same routine once more, for another holder. Cannot fail. */
 void cache_retain(struct cache *cache, const struct routine *routine);
 void cache_release(struct cache *cache, const struct routine *routine);
-/* Releases without eviction; and evicts to the budget, once for several releases, so that any of them can be the
- * one that is evicted. */
+/* Releases without eviction; and evicts to the budget, once for several releases, so that any of them can
+ * be the one that is evicted. */
 void cache_let_go(struct cache *cache, const struct routine *routine);
 void cache_trim(struct cache *cache);
 /* Counts `hits` lookups of a routine that is in use. */
