@@ -708,6 +708,11 @@ TRIPTYCH_API enum triptych_result triptych_query_end(triptych_device *, triptych
 /* Returns the result of a query that has ended. Renders pending draws first. */
 TRIPTYCH_API enum triptych_result triptych_query_result(triptych_device *, triptych_query *,
                                                         uint64_t *result);
+/* The same without waiting: sets *ready to 0 if the end of the query is not rendered yet, and otherwise to 1
+ * and *result to the result. Pending draws begin to be rendered, as by triptych_flush, so repeated calls find
+ * the result in the end. */
+TRIPTYCH_API enum triptych_result triptych_query_poll(triptych_device *, triptych_query *, int *ready,
+                                                      uint64_t *result);
 /* Frees a query, also between begin and end. Null is allowed. */
 TRIPTYCH_API enum triptych_result triptych_query_destroy(triptych_device *, triptych_query *);
 
@@ -723,6 +728,9 @@ TRIPTYCH_API enum triptych_result triptych_query_destroy(triptych_device *, trip
 TRIPTYCH_API enum triptych_result triptych_record_start(triptych_device *, const char *path);
 TRIPTYCH_API enum triptych_result triptych_record_stop(triptych_device *);
 
+/* Begins to render pending draws and returns: threads of the device render them meanwhile. Does nothing while
+ * these render earlier draws. A device with one thread renders the pending draws before it returns. */
+TRIPTYCH_API enum triptych_result triptych_flush(triptych_device *);
 /* Renders all pending draws. */
 TRIPTYCH_API enum triptych_result triptych_finish(triptych_device *);
 /* Ends a frame: renders all pending draws, and marks the end of the frame in a recording. A program that

@@ -238,6 +238,23 @@ enum triptych_result triptych_query_result(triptych_device *device, triptych_que
     return api_finish(device, device_query_result(device, query, result, error));
 }
 
+enum triptych_result triptych_query_poll(triptych_device *device, triptych_query *query, int *ready,
+                                         uint64_t *result)
+{
+    struct error *error = api_begin_with_both(device, query, "query", ready && result, "ready or result");
+    if (!error)
+        return TRIPTYCH_BAD_ARGUMENT;
+    return api_finish(device, device_query_poll(device, query, ready, result, error));
+}
+
+enum triptych_result triptych_flush(triptych_device *device)
+{
+    if (!device)
+        return TRIPTYCH_BAD_ARGUMENT;
+    device_flush(device);
+    return TRIPTYCH_OK;
+}
+
 enum triptych_result triptych_finish(triptych_device *device)
 {
     if (!device)

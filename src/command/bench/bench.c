@@ -24,6 +24,7 @@
 #include "command/support/option.h"
 #include "command/support/shared.h"
 #include "command/store/store.h"
+#include "command/timing/timing.h"
 #include "triptych.h"
 
 #include <stdio.h>
@@ -43,6 +44,7 @@ struct settings {
     bool parts;      /* routines are built, and the parts of each build measured */
     bool code;       /* routines are built, and their instructions counted */
     bool cold;       /* frames whose routines are not built yet */
+    bool stages;     /* the time and the work of each stage */
     bool counts;     /* what frames need of the cache and of tiers */
     unsigned budget; /* KiB of the cache; 0: the usual */
     bool no_cache;
@@ -327,10 +329,11 @@ static int check_parts(const struct command *self, const struct settings *settin
     const struct {
         bool given;
         const char *name;
-    } whole[] = {
-        {settings->compare, "compare"}, {settings->builds, "builds"},   {settings->cold, "cold"},
-        {settings->shaders, "shaders"}, {settings->code, "code"},       {settings->parts, "parts"},
-        {settings->counts, "counts"},   {settings->csv != NULL, "csv"}, {settings->chart != NULL, "chart"}};
+    } whole[] = {{settings->compare, "compare"}, {settings->builds, "builds"},
+                 {settings->cold, "cold"},       {settings->shaders, "shaders"},
+                 {settings->code, "code"},       {settings->parts, "parts"},
+                 {settings->counts, "counts"},   {settings->stages, "stages"},
+                 {settings->csv != NULL, "csv"}, {settings->chart != NULL, "chart"}};
     if (!settings->shard && !settings->resume)
         return STATUS_OK;
     for (size_t i = 0; i < sizeof whole / sizeof *whole; i++)
@@ -349,6 +352,26 @@ static int bench_counts(const struct command *self, const struct operands *opera
     cJSON *report = cJSON_CreateObject();
     cJSON_AddItemToObject(report, "machine", machine_json(&machine));
     int status = count_all(self, operands->value, (unsigned)operands->count, engines, &counts, report);
+    if (interrupt_signal())
+        cJSON_AddStringToObject(report, "interrupted", interrupt_name());
+    if (!status && settings->json)
+        status = json_write(self, report, settings->json);
+    cJSON_Delete(report);
+    return status || !interrupt_signal() ? status : interrupt_status();
+}
+
+static int bench_stages(const struct command *self, const struct operands *operands,
+                        const struct choice *engines, const struct settings *settings)
+{
+    const struct timing_settings timing = {settings->threads, settings->frames, settings->seconds,
+                                           choose_settings(&settings->set)};
+    struct machine machine = machine_describe();
+    char text[SETTING_TEXT];
+    cJSON *report = cJSON_CreateObject();
+    cJSON_AddItemToObject(report, "machine", machine_json(&machine));
+    cJSON_AddNumberToObject(report, "threads", settings->threads);
+    cJSON_AddStringToObject(report, "settings", setting_write(&timing.values, text));
+    int status = timing_run(self, operands->value, (unsigned)operands->count, engines, &timing, report);
     if (interrupt_signal())
         cJSON_AddStringToObject(report, "interrupted", interrupt_name());
     if (!status && settings->json)
@@ -384,6 +407,8 @@ static int run(const struct command *self, void *data, const struct operands *op
                            settings->json);
     if (settings->code)
         return bench_code(self, operands->value, count, &engines, settings->json);
+    if (settings->stages)
+        return bench_stages(self, operands, &engines, settings);
     if (settings->counts)
         return bench_counts(self, operands, &engines, settings);
     if (settings->cold)
@@ -417,6 +442,8 @@ static const struct option options[] = {
     {"code", NULL, "count instead the instructions and memory operands of the streams' routines",
      OPTION_IS_FLAG(struct settings, code)},
     {"cold", NULL, "measure instead the first frames of a new device", OPTION_IS_FLAG(struct settings, cold)},
+    {"stages", NULL, "measure instead the time of each stage, idle threads, and the work of stages",
+     OPTION_IS_FLAG(struct settings, stages)},
     {"counts", NULL, "count instead keys, hits, misses, evictions, builds, states a frame and runs of tiers",
      OPTION_IS_FLAG(struct settings, counts)},
     {"budget", "KIB", "with --counts, the budget of the cache; 16 MiB",

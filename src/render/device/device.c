@@ -46,6 +46,8 @@ static enum triptych_result create_parts(struct triptych_device *device, const s
     device->pool = pool_create(options->threads, options->create_thread, error);
     if (device->cache && device->pool)
         device->queue = queue_create(device->pool, options->arena_bytes, error);
+    if (device->queue)
+        device->queue->measured = options->measure;
     return device->queue ? TRIPTYCH_OK : TRIPTYCH_NO_MEMORY;
 }
 

@@ -80,6 +80,7 @@ struct device_background {
 /* Draw calls, and the triangles in them. */
 struct device_counts {
     uint64_t draws, triangles;
+    uint64_t vertices; /* in the ranges of their numbers that draws read */
 };
 
 /* The receiver of events (triptych_log_function). */
@@ -424,6 +425,9 @@ enum triptych_result device_query_begin(struct triptych_device *device, struct t
                                         struct error *error);
 enum triptych_result device_query_end(struct triptych_device *device, struct triptych_query *query,
                                       struct error *error);
+/* Flushes. *ready is 1, and *result valid, if the query's end is rendered. */
+enum triptych_result device_query_poll(struct triptych_device *device, struct triptych_query *query,
+                                       int *ready, uint64_t *result, struct error *error);
 enum triptych_result device_query_result(struct triptych_device *device, struct triptych_query *query,
                                          uint64_t *result, struct error *error);
 
@@ -439,6 +443,8 @@ void device_finish(struct triptych_device *device);
 /* The same, but where there are threads it may only have begun when this returns: what is recorded next
  * does not wait. */
 void device_start(struct triptych_device *device);
+/* The same if nothing is being rendered. Waits only if there are no threads. */
+void device_flush(struct triptych_device *device);
 /* Returns true if draws of an epoch may not be rendered yet. A resource has the epoch of the last draw that
  * uses it. */
 static inline bool device_epoch_is_queued(const struct triptych_device *device, uint64_t epoch)

@@ -191,6 +191,8 @@ enum triptych_result device_count_draw(struct triptych_device *device, const str
         device->hook.on_draw(device->hook.user, device->counts.draws, device->derived.key);
     device->counts.draws++;
     device->counts.triangles += (uint64_t)drawn->count * instances;
+    if (drawn->count)
+        device->counts.vertices += (drawn->highest - drawn->lowest + 1) * instances;
     return TRIPTYCH_OK;
 }
 
@@ -261,14 +263,33 @@ enum triptych_result device_query_end(struct triptych_device *device, struct tri
     return result;
 }
 
+static enum triptych_result check_ended(const struct triptych_query *query, struct error *error)
+{
+    if (query->phase != QUERY_IDLE && query->phase != QUERY_BEGUN)
+        return TRIPTYCH_OK;
+    error_set(error, "result of a query that has not ended: expected its end first");
+    return TRIPTYCH_BAD_CALL;
+}
+
 enum triptych_result device_query_result(struct triptych_device *device, struct triptych_query *query,
                                          uint64_t *result, struct error *error)
 {
-    if (query->phase == QUERY_IDLE || query->phase == QUERY_BEGUN) {
-        error_set(error, "result of a query that has not ended: expected its end first");
+    if (check_ended(query, error))
         return TRIPTYCH_BAD_CALL;
-    }
     device_finish(device);
     *result = query->result;
+    return TRIPTYCH_OK;
+}
+
+enum triptych_result device_query_poll(struct triptych_device *device, struct triptych_query *query,
+                                       int *ready, uint64_t *result, struct error *error)
+{
+    if (check_ended(query, error))
+        return TRIPTYCH_BAD_CALL;
+    if (query->phase != QUERY_RESOLVED)
+        device_flush(device);
+    *ready = query->phase == QUERY_RESOLVED;
+    if (*ready)
+        *result = query->result;
     return TRIPTYCH_OK;
 }

@@ -89,6 +89,12 @@ void device_start(struct triptych_device *device)
     device->epoch++;
 }
 
+void device_flush(struct triptych_device *device)
+{
+    if (!device->rendered.commands || !pool_is_busy(device->pool))
+        device_start(device);
+}
+
 bool device_uses(const struct triptych_device *device, const struct triptych_texture *texture)
 {
     return device_epoch_is_queued(device, texture->epoch);

@@ -82,6 +82,12 @@ static inline void primitive_vertices(const struct index_source *source, uint32_
 
 /* --- Vertices to lanes --- */
 
+/* The most vertices of a batch. */
+static uint32_t batch_vertices(const struct batch *batch)
+{
+    return batch->limit ? batch->limit : BATCH_VERTICES;
+}
+
 static void begin_batch(struct batch *batch, uint32_t first)
 {
     batch->first = first;
@@ -116,8 +122,8 @@ static inline __attribute__((always_inline)) uint32_t assemble_from(struct batch
                                                                     uint32_t end, struct index_source source)
 {
     uint64_t number = (uint64_t)batch->number << 8;
-    uint32_t count = 0, most = min_u32(end - p, BATCH_TRIANGLES), i = 0;
-    for (; i < most && count + 3 <= BATCH_VERTICES; i++) {
+    uint32_t count = 0, most = min_u32(end - p, BATCH_TRIANGLES), i = 0, vertices = batch_vertices(batch);
+    for (; i < most && count + 3 <= vertices; i++) {
         uint32_t vertex[3], *corner = batch->corner[i / SETUP_CAPACITY][0] + i % SETUP_CAPACITY;
         primitive_vertices(&source, p + i, vertex);
         corner[0] = 4 * lane_of(batch, number, &count, vertex[0]);
@@ -143,7 +149,7 @@ static void write_sequence(uint32_t *to, uint32_t first, uint32_t step, uint32_t
 /* The same for a list without indices, which shares no vertices. */
 static uint32_t assemble_list(struct batch *batch, uint32_t p, uint32_t end)
 {
-    uint32_t count = min_u32(end - p, BATCH_VERTICES / 3);
+    uint32_t count = min_u32(end - p, batch_vertices(batch) / 3);
     write_sequence(batch->vertex, batch->draw->base + 3 * p, 1, 3 * count);
     for (uint32_t k = 0; k < 3; k++)
         write_sequence(batch->corner[0][k], 4 * k, 4 * 3, count);

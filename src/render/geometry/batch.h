@@ -34,6 +34,7 @@ struct batch {
     alignas(64) uint32_t vertex[VERTEX_CAPACITY]; /* index of the vertex in each lane */
     uint64_t map[BATCH_MAP]; /* by a vertex' low bits where it was placed: vertex << 32 | batch << 8 | lane */
     uint32_t number;         /* of the batch, 24 bits */
+    uint32_t limit;          /* of its vertices; 0: BATCH_VERTICES */
     uint32_t vertices_count, triangles_count, setup_count;
     uint32_t first; /* primitive of triangle 0 */
     uint32_t done;  /* primitives before this one are binned */

@@ -231,6 +231,11 @@ void pool_start(struct pool *pool, pool_task *task, void *user)
     wake(pool, BACKGROUND_WORKER);
 }
 
+bool pool_is_busy(const struct pool *pool)
+{
+    return pool->started;
+}
+
 void pool_wait(struct pool *pool)
 {
     struct pool_worker *self = pool->worker;

@@ -67,6 +67,8 @@ void pool_call(struct pool *pool, unsigned workers);
 /* Runs task(user, worker) as another worker until pool_wait. That worker may call pool_run. The limit must
  * allow other workers. */
 void pool_start(struct pool *pool, pool_task *task, void *user);
+/* Returns true while the background task runs. */
+bool pool_is_busy(const struct pool *pool);
 /* Helps until the background task has ended; returns immediately if there is none. */
 void pool_wait(struct pool *pool);
 

@@ -1,5 +1,7 @@
 #include "render/queue/queue.h"
 
+#include "base/minmax.h"
+
 #include <stdlib.h>
 #include <string.h>
 
@@ -53,13 +55,19 @@ static void add_statistics(struct queue *queue)
         all->pixels_shaded += worker->tile.pixels_shaded;
         all->geometry_ns += worker->geometry_ns;
         all->tiles_ns += worker->tiles_ns;
-        worker->tile.pixels_shaded = worker->geometry_ns = worker->tiles_ns = 0;
+        all->pixel_calls += worker->tile.pixel_calls;
+        worker->tile.pixels_shaded = worker->tile.pixel_calls = worker->geometry_ns = worker->tiles_ns = 0;
     }
     all->vertices_shaded += unseen->vertices_shaded;
     all->triangles_set_up += unseen->triangles_set_up;
     all->triangles_visible += unseen->triangles_visible;
     all->rounds += unseen->rounds;
     all->starved_rounds += unseen->starved_rounds;
+    all->geometry_wall_ns += unseen->geometry_wall_ns;
+    all->tiles_wall_ns += unseen->tiles_wall_ns;
+    all->tiles += unseen->tiles;
+    all->tile_triangles += unseen->tile_triangles;
+    all->records_bytes = max_u64(all->records_bytes, unseen->records_bytes);
     *unseen = (struct queue_statistics){0};
 }
 

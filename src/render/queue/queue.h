@@ -44,6 +44,12 @@ struct queue_statistics {
     uint64_t geometry_ns, tiles_ns; /* sums over all threads */
     uint64_t rounds;
     uint64_t starved_rounds; /* rounds that completed no primitive */
+    uint64_t pixel_calls;    /* of pixel routines */
+    /* Only if the queue is measured: */
+    uint64_t geometry_wall_ns, tiles_wall_ns; /* from the beginnings of phases to their ends */
+    uint64_t tiles;                           /* that were rendered, each as often as it was */
+    uint64_t tile_triangles;                  /* pairs of one of these and a triangle of its bin */
+    uint64_t records_bytes;                   /* the most that a round has in the arena */
 };
 
 /* The tasks of the geometry phase: runs of chunks. */
@@ -64,6 +70,7 @@ struct queue {
     struct round round;
     struct queue_chunks chunks;
     struct phase phase;
+    bool measured; /* phases are timed, and triangles in tiles counted */
 
     struct queue_statistics statistics; /* of all that queue_render and queue_wait have seen end */
     struct queue_statistics unseen;     /* of what they have not */

@@ -2,6 +2,9 @@
  * rendered. */
 #include "render/queue/queue.h"
 
+#include "base/clock.h"
+#include "base/minmax.h"
+
 #include <string.h>
 
 /* --- How long a phase takes ---
@@ -98,6 +101,10 @@ static inline uint64_t scalar(uint64_t x)
     return x;
 }
 
+/* Vertices of a batch; 0: all that have room. */
+static const uint32_t batch_limits[] = {
+    [SETTING_batch_whole] = 0, [SETTING_batch_96] = 96, [SETTING_batch_24] = 24, [SETTING_batch_6] = 6};
+
 static void process_chunk(struct queue *queue, struct queue_worker *worker, uint32_t number)
 {
     struct chunk *chunk = queue->round.chunk + number;
@@ -105,6 +112,7 @@ static void process_chunk(struct queue *queue, struct queue_worker *worker, uint
     if (command->kind != COMMAND_DRAW)
         return;
     memset(&worker->batch.counts, 0, sizeof worker->batch.counts);
+    worker->batch.limit = batch_limits[queue->round.settings.of[SETTING_batch]];
     bin_begin_chunk(&worker->bins, number);
     chunk->done = batch_primitives(&worker->batch, &command->draw, chunk->first, chunk->count, &worker->bins);
     chunk->heads = bin_end_chunk(&worker->bins);
@@ -255,8 +263,25 @@ void queue_transfer(struct queue *queue, const struct surface_transfer *transfer
 
 /* --- Rounds --- */
 
+/* 0 unless phases are timed. */
+static uint64_t look_at_clock(const struct queue *queue)
+{
+    return queue->measured ? clock_ns() : 0;
+}
+
+static void measure_round(struct queue *queue)
+{
+    const struct round *round = &queue->round;
+    uint32_t used = atomic_load(&round->arena.used);
+    queue->unseen.tiles += round->tiles;
+    queue->unseen.tile_triangles += round_tile_triangles(round);
+    queue->unseen.records_bytes = max_u64(queue->unseen.records_bytes, min_u32(used, round->arena.capacity));
+}
+
 static void count_round(struct queue *queue)
 {
+    if (queue->measured)
+        measure_round(queue);
     queue->unseen.vertices_shaded += queue->round.counts.vertices_shaded;
     queue->unseen.triangles_set_up += queue->round.counts.triangles_set_up;
     queue->unseen.triangles_visible += queue->round.counts.triangles_visible;
@@ -282,14 +307,18 @@ static struct cursor render_round(struct queue *queue, struct cursor at, uint32_
     arena_reset(&round->arena);
     round->arena.shared = pool_limited(queue->phase.pool) > 1;
     atomic_store(&round->first_stopped, UINT32_MAX);
+    uint64_t begin = look_at_clock(queue);
     if (round->settings.of[SETTING_geometry] == SETTING_geometry_serial)
         phase_run_alone(&queue->phase, queue->chunks.tasks, geometry_task, queue);
     else
         phase_run(&queue->phase, queue->chunks.tasks, geometry_ns(queue), geometry_task, queue);
+    queue->unseen.geometry_wall_ns += look_at_clock(queue) - begin;
     struct cursor end = round_link(round);
     uint32_t tasks = tile_tasks(round);
+    begin = look_at_clock(queue);
     phase_make_parts(&queue->phase, tasks, tiles_ns(round));
     phase_run(&queue->phase, tasks, tiles_ns(round), tiles_task, queue);
+    queue->unseen.tiles_wall_ns += look_at_clock(queue) - begin;
     count_round(queue);
     return end;
 }

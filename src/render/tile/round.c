@@ -99,3 +99,34 @@ struct cursor round_link(struct round *round)
     round->tiles = round->everywhere_count ? round->target->columns * round->target->rows : round->busy_count;
     return end;
 }
+
+static uint64_t count_bin(const struct round *round, uint32_t tile)
+{
+    uint64_t count = 0;
+    for (uint32_t head = round->tile_first[tile]; head; head = bin_cell(&round->arena, head)->later)
+        for (uint32_t at = head; at; at = bin_cell(&round->arena, at)->next)
+            count += bin_cell(&round->arena, at)->count;
+    return count;
+}
+
+static uint64_t count_wide(const struct round *round, uint32_t tile)
+{
+    uint64_t count = 0;
+    for (uint32_t i = 0; i < round->everywhere_count; i++) {
+        const struct chunk *chunk = round->chunk + round->everywhere[i];
+        struct bin_cell cell = {.count = 0};
+        if (chunk->wide)
+            bin_wide_cell(bin_wide(&round->arena, chunk->wide), tile % round->target->columns,
+                          tile / round->target->columns, &cell);
+        count += cell.count;
+    }
+    return count;
+}
+
+uint64_t round_tile_triangles(const struct round *round)
+{
+    uint64_t count = 0;
+    for (uint32_t i = 0; i < round->tiles; i++)
+        count += count_bin(round, round_tile(round, i)) + count_wide(round, round_tile(round, i));
+    return count;
+}

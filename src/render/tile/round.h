@@ -81,6 +81,9 @@ static inline bool round_has_tile(const struct round *round, uint32_t tile)
     return round->everywhere_count || round->tile_first[tile];
 }
 
+/* The triangles in the bins of all tiles that are rendered, each for every tile whose bin has it. */
+uint64_t round_tile_triangles(const struct round *round);
+
 /* The tile that is rendered as number i of round->tiles. */
 static inline uint32_t round_tile(const struct round *round, uint32_t i)
 {

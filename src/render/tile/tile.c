@@ -58,6 +58,7 @@ static void run_pixels(struct tile_worker *worker, const struct round *round, ui
     uint64_t pixels = count_pixels(worker->entries.entry, worker->count);
     routine_run(worker->draw->routine[UNIT_PIXEL], &call, pixels);
     worker->pixels_shaded += pixels;
+    worker->pixel_calls++;
     worker->count = 0;
 }
 

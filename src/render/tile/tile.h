@@ -16,7 +16,7 @@ struct tile_worker {
     bool whole;              /* the target has all pixels of the tile that its attachments have */
     uint32_t command;        /* its number */
     bool widened;            /* what is known of the tile's depth allows for what the draw writes */
-    uint64_t pixels_shaded;
+    uint64_t pixels_shaded, pixel_calls;
 };
 
 /* Renders the chunks of a linked round into tile number `tile`. */

@@ -215,6 +215,96 @@ static void a_device_may_be_destroyed_meanwhile(void)
     }
 }
 
+/* --- Without waiting --- */
+
+static void end_after_draws(triptych_query **query, uint32_t draws)
+{
+    uint32_t seed = 9;
+    OK(triptych_query_create(device, TRIPTYCH_QUERY_OCCLUSION, query));
+    OK(triptych_query_begin(device, *query));
+    for (uint32_t i = 0; i < draws; i++) {
+        place(&seed);
+        OK(triptych_draw(device, TRIPTYCH_TRIANGLE_LIST, 0, 2));
+    }
+    OK(triptych_query_end(device, *query));
+}
+
+static uint64_t passed_with_one_thread(uint32_t draws)
+{
+    triptych_query *query;
+    uint64_t passed;
+    open_device(&engine_emulate, &(struct device_options){.threads = 1});
+    end_after_draws(&query, draws);
+    OK(triptych_query_result(device, query, &passed));
+    TEST_ASSERT_GREATER_THAN_UINT64(0, passed);
+    return passed;
+}
+
+static void a_flush_begins_to_render_in_the_background(void)
+{
+    triptych_query *query;
+    open_device(&engine_emulate, &(struct device_options){.threads = 2});
+    end_after_draws(&query, 100);
+    OK(triptych_flush(device));
+    TEST_ASSERT_EQUAL_UINT32(100, device->rendered.commands);
+    TEST_ASSERT_EQUAL_UINT32(0, device->queue->commands.count);
+}
+
+static void a_flush_while_draws_are_rendered_leaves_later_ones_in_the_queue(void)
+{
+    triptych_query *query;
+    open_device(&engine_emulate, &(struct device_options){.threads = 2});
+    end_after_draws(&query, QUEUE_COMMANDS);
+    OK(triptych_flush(device));
+    OK(triptych_draw(device, TRIPTYCH_TRIANGLE_LIST, 0, 2));
+    OK(triptych_flush(device));
+    bool busy = pool_is_busy(device->pool); /* also before the second flush, then */
+    TEST_ASSERT_TRUE(!busy || device->queue->commands.count <= 1);
+    TEST_ASSERT_EQUAL_UINT32(device->queue->commands.count ? QUEUE_COMMANDS : 1, device->rendered.commands);
+}
+
+static void a_poll_finds_the_result_without_waiting(void)
+{
+    uint64_t passed = 0, expected_count = passed_with_one_thread(200);
+    triptych_query *query;
+    unsigned polls = 0;
+    int ready = 0;
+    open_device(&engine_emulate, &(struct device_options){.threads = 2});
+    end_after_draws(&query, 200);
+    while (!ready) {
+        OK(triptych_query_poll(device, query, &ready, &passed));
+        polls++;
+    }
+    TEST_ASSERT_GREATER_THAN_UINT32(1, polls); /* the first one only begins */
+    TEST_ASSERT_EQUAL_UINT64(expected_count, passed);
+}
+
+static void with_one_thread_a_poll_renders(void)
+{
+    uint64_t passed = 0, expected_count = passed_with_one_thread(30);
+    triptych_query *query;
+    int ready = 0;
+    open_device(&engine_emulate, &(struct device_options){.threads = 1});
+    end_after_draws(&query, 30);
+    OK(triptych_query_poll(device, query, &ready, &passed));
+    TEST_ASSERT_EQUAL_INT(1, ready);
+    TEST_ASSERT_EQUAL_UINT64(expected_count, passed);
+}
+
+static void a_poll_of_a_query_that_has_not_ended_is_refused(void)
+{
+    triptych_query *query;
+    uint64_t passed = 77;
+    int ready = 5;
+    open_device(&engine_emulate, &(struct device_options){.threads = 1});
+    OK(triptych_query_create(device, TRIPTYCH_QUERY_OCCLUSION, &query));
+    TEST_ASSERT_EQUAL_INT(TRIPTYCH_BAD_CALL, triptych_query_poll(device, query, &ready, &passed));
+    TEST_ASSERT_EQUAL_INT(TRIPTYCH_BAD_ARGUMENT, triptych_query_poll(device, query, NULL, &passed));
+    TEST_ASSERT_EQUAL_INT(TRIPTYCH_BAD_ARGUMENT, triptych_query_poll(device, NULL, &ready, &passed));
+    TEST_ASSERT_EQUAL_INT(TRIPTYCH_BAD_ARGUMENT, triptych_flush(NULL));
+    TEST_ASSERT_TRUE(passed == 77 && ready == 5);
+}
+
 static void limited_to_one_thread_nothing_is_in_the_background(void)
 {
     draw_expected();
@@ -271,6 +361,11 @@ int main(void)
     RUN_TEST(routines_that_are_used_in_the_background_stay);
     RUN_TEST(a_small_arena_takes_many_rounds_in_the_background);
     RUN_TEST(a_device_may_be_destroyed_meanwhile);
+    RUN_TEST(a_flush_begins_to_render_in_the_background);
+    RUN_TEST(a_flush_while_draws_are_rendered_leaves_later_ones_in_the_queue);
+    RUN_TEST(a_poll_finds_the_result_without_waiting);
+    RUN_TEST(with_one_thread_a_poll_renders);
+    RUN_TEST(a_poll_of_a_query_that_has_not_ended_is_refused);
     RUN_TEST(limited_to_one_thread_nothing_is_in_the_background);
     RUN_TEST(a_small_draw_wakes_no_thread);
     RUN_TEST(a_large_draw_wakes_threads);

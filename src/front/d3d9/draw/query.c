@@ -2,6 +2,7 @@
 #include "front/d3d9/call.h"
 #include "front/d3d9/device.h"
 
+#include <stdbool.h>
 #include <string.h>
 
 /* D3DQUERYTYPE, D3DISSUE. */
@@ -108,15 +109,17 @@ int32_t d3d9_query_issue(struct d3d9_query *query, uint32_t flags)
     return D3D9_OK;
 }
 
-static uint64_t result_of(struct d3d9_query *query)
+/* Returns false if there is no result yet. It is found without waiting. */
+static bool find_result(struct d3d9_query *query, uint64_t *result)
 {
     enum { NANOSECONDS = 1000000000 };
-    uint64_t result = 0;
-    if (query->type == QUERY_FREQUENCY)
-        return NANOSECONDS;
-    if (query->query)
-        triptych_query_result(query->device->renderer, query->query, &result);
-    return query->type == QUERY_OCCLUSION && result > UINT32_MAX ? UINT32_MAX : result;
+    int ready = 1;
+    *result = query->type == QUERY_FREQUENCY ? NANOSECONDS : 0;
+    if (query->query && query->type != QUERY_FREQUENCY)
+        triptych_query_poll(query->device->renderer, query->query, &ready, result);
+    if (query->type == QUERY_OCCLUSION && *result > UINT32_MAX)
+        *result = UINT32_MAX;
+    return ready;
 }
 
 /* The result of a query that was never issued is what Direct3D's runtime fills memory with. */
@@ -136,7 +139,9 @@ int32_t d3d9_query_get_data(struct d3d9_query *query, void *data, uint32_t bytes
             memcpy(data, &(uint64_t){1}, bytes < all ? bytes : all);
         return D3D9_OK;
     }
-    uint64_t result = result_of(query);
+    uint64_t result;
+    if (!find_result(query, &result))
+        return D3D9_FALSE;
     if (bytes)
         memcpy(data, &result, bytes < sizeof result ? bytes : sizeof result);
     return D3D9_OK;
