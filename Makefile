@@ -42,9 +42,13 @@ UNITY_SOURCE    := $(or $(firstword $(wildcard $(UNITY_DIR)/unity.c)),$(UNITY_DI
 
 object = $(patsubst %,$(BUILD)/object/%.o,$(basename $(1)))
 
+# The sources that Flex and Bison write for the grammar of shaders.
+GLSL_GENERATED  := $(addprefix $(BUILD)/front/glsl_,token.c grammar.c)
+D3D9_OBJECTS    := $(call object,$(filter src/front/d3d9/%,$(FRONT_SOURCES)))
 LIBRARY_OBJECTS := $(call object,$(LIBRARY_SOURCES))
 TOOL_OBJECTS    := $(call object,$(TOOL_SOURCES))
-FRONT_OBJECTS   := $(call object,$(FRONT_SOURCES))
+GLSL_OBJECTS    := $(call object,$(filter src/front/glsl/%,$(FRONT_SOURCES))) $(GLSL_GENERATED:$(BUILD)/%.c=$(BUILD)/object/%.o)
+FRONT_OBJECTS   := $(D3D9_OBJECTS) $(GLSL_OBJECTS)
 SUPPORT_OBJECTS := $(call object,$(SUPPORT_SOURCES))
 TARGET_OBJECTS  := $(call object,$(TARGET_SOURCES))
 PROGRAM_OBJECTS := $(call object,$(PROGRAM_SOURCES))
@@ -172,6 +176,21 @@ $(WORDS): src/words.awk $(WORD_TABLES)
 	$(call say,GEN)awk -f $< $(WORD_TABLES) >$@
 
 $(OBJECTS): | $(WORDS)
+
+$(BUILD)/front/glsl_grammar.c: src/front/glsl/compile/grammar.y
+	@mkdir -p $(@D) $(BUILD)/include
+	$(call say,GEN)bison -Wall -Werror --header=$(BUILD)/include/glsl_grammar.h -o $@ $<
+
+$(BUILD)/front/glsl_token.c: src/front/glsl/preprocess/token.l
+	@mkdir -p $(@D)
+	$(call say,GEN)flex -o $@ $<
+
+$(GLSL_OBJECTS): | $(GLSL_GENERATED)
+
+# Flex writes functions that a scanner without input functions does not call.
+$(GLSL_GENERATED:$(BUILD)/%.c=$(BUILD)/object/%.o): $(BUILD)/object/%.o: $(BUILD)/%.c $(BUILD)/flags
+	@mkdir -p $(@D)
+	$(call say,CC,$<)$(compile) -Wno-unused-function -Wno-sign-compare -MMD -MP -c $< -o $@
 
 # The header as it is installed: one file.
 $(BUILD)/include/triptych/triptych.h: src/triptych.h $(WORDS)
@@ -303,7 +322,7 @@ FUZZERS := $(filter-out target limit frame fuzzer importer sound survive,$(basen
 
 fuzzers: $(addprefix $(BUILD)/fuzz/,$(FUZZERS))
 
-$(BUILD)/fuzz/inputs: $(TARGET_OBJECTS) $(BUILD)/command.a $(BUILD)/libtriptych.a
+$(BUILD)/fuzz/inputs: $(TARGET_OBJECTS) $(BUILD)/front.a $(BUILD)/command.a $(BUILD)/libtriptych.a
 	@mkdir -p $(@D)
 	$(call say,LD)$(link) -fsanitize=fuzzer $(fuzz_wraps) $^ $(tool_libraries) -o $@
 
@@ -380,9 +399,9 @@ $(D3D9)/i386-windows/d3d9.dll: src/front/d3d9/pe/d3d9.def $(D3D9)/i386-windows/t
 	@mkdir -p $(@D)
 	$(call say,LD)$(MINGW32) -shared -nostdlib -Wl,--entry=0 -o $@ $<
 
-$(D3D9)/x86_64-unix/triptych9.so: $(FRONT_OBJECTS) $(BUILD)/libtriptych.a $(BUILD)/front.list
+$(D3D9)/x86_64-unix/triptych9.so: $(D3D9_OBJECTS) $(BUILD)/libtriptych.a $(BUILD)/front.list
 	@mkdir -p $(@D)
-	$(call say,LD)$(link) -shared -Wl,-z,defs,-z,text,--exclude-libs,ALL $(FRONT_OBJECTS) $(BUILD)/libtriptych.a \
+	$(call say,LD)$(link) -shared -Wl,-z,defs,-z,text,--exclude-libs,ALL $(D3D9_OBJECTS) $(BUILD)/libtriptych.a \
 	  $(library_libraries) -o $@
 
 $(D3D9)/i386-unix/triptych9.so: $(NARROW_UNIX) $(wildcard src/front/d3d9/remote/*.h) src/front/d3d9/unix/entry.h
@@ -390,10 +409,9 @@ $(D3D9)/i386-unix/triptych9.so: $(NARROW_UNIX) $(wildcard src/front/d3d9/remote/
 	$(call say,LD)$(CC) -m32 -std=gnu17 -O2 -g -Wall -Wextra -Werror -fPIC -fvisibility=hidden -Isrc -shared -Wl,-z,defs -o $@ \
 	  $(NARROW_UNIX) -ldl
 
-$(D3D9)/triptych-d3d9-server: $(BUILD)/object/src/front/d3d9/server/main.o $(BUILD)/front.a $(BUILD)/libtriptych.a
+$(D3D9)/triptych-d3d9-server: $(BUILD)/object/src/front/d3d9/server/main.o $(D3D9_OBJECTS) $(BUILD)/libtriptych.a
 	@mkdir -p $(@D)
-	$(call say,LD)$(link) $< -Wl,--whole-archive $(BUILD)/front.a -Wl,--no-whole-archive $(BUILD)/libtriptych.a \
-	  $(library_libraries) -o $@
+	$(call say,LD)$(link) $< $(D3D9_OBJECTS) $(BUILD)/libtriptych.a $(library_libraries) -o $@
 
 $(D3D9)/%32.exe: tests/front/d3d9/pe/%.c
 	@mkdir -p $(@D)

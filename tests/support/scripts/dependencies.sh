@@ -12,6 +12,8 @@ set -euo pipefail
 packages='
 gcc                build   compiles the project (and the external engine, at run time)
 libc6-dev          build   the C library, the mathematics library and threads
+flex               build   makes the scanner of the shading language
+bison              build   makes its parser
 nasm               build   assembles the fragments and kernels in asm/
 pkg-config         build   finds the compiler flags of the libraries below
 libpng-dev         build   reads and writes PNG pictures
